@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <memory>
+
+#include "core/mesh/triangle_mesh.h"
+#include "core/projection/penetration_metric.h"
+
+namespace phongpd {
+
+// Euclidean penetration depth: q_c is the point of C_cont closest to q_o
+// (paper, Eqs. 1 and 2), found in an AABB tree.  The baseline PhongPD is
+// compared with.  Its direction jumps across the medial axis; `previous` is
+// ignored, and `gradient` equals `direction` on both sides.
+class EuclideanMetric final : public PenetrationMetric {
+ public:
+  // `contact_mesh` closed, outward, edge-manifold.  Throws InputError.
+  explicit EuclideanMetric(const TriangleMesh& contact_mesh);
+  ~EuclideanMetric() override;
+  EuclideanMetric(EuclideanMetric&&) noexcept;
+  EuclideanMetric& operator=(EuclideanMetric&&) noexcept;
+
+  using PenetrationMetric::Query;
+  PenetrationResult Query(const Eigen::Vector3d& q_o,
+                          const Branch& previous) const override;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace phongpd

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+
+namespace phongpd {
+
+// What a query ran into.  Nothing falls back silently.
+enum class QueryStatus {
+  kOk,                 // the metric's own answer
+  kBranchEnded,        // the warm branch folded on the way: cold answer given
+  kEuclideanFallback,  // inside, but no Phong projection exists: Euclidean PD
+  kInvalid,            // q_o is not finite: no other member is meaningful
+};
+
+// The state of a continuous family of projections, carried by the caller from
+// query to query (the engine itself keeps no state).  It names the point
+// q_o = p(λ) + s·n(λ) of the offset prism of one triangle, so the
+// configuration it was made for can be recovered from it.
+struct Branch {
+  int triangle = -1;  // of the metric's field mesh
+  Eigen::Vector3d lambda = Eigen::Vector3d::Zero();  // barycentric, sums to 1
+  double s = 0.0;  // < 0 inside; units of length
+
+  bool IsValid() const { return triangle >= 0; }
+};
+
+// Answer to a query at q_o.  Lengths in the user's unit.
+struct PenetrationResult {
+  QueryStatus status = QueryStatus::kInvalid;
+  bool inside = false;           // exact: q_o strictly inside C_obj
+  double signed_distance = 0.0;  // −|q_c − q_o| inside, distance outside
+  Eigen::Vector3d contact = Eigen::Vector3d::Zero();  // q_c on C_cont
+  // Unit vector from q_o towards q_c inside, outward gradient outside.
+  Eigen::Vector3d direction = Eigen::Vector3d::Zero();
+  // Exact gradient of signed_distance; one-sided on edges.
+  Eigen::Vector3d gradient = Eigen::Vector3d::Zero();
+  int triangle = -1;  // of the contact-space mesh, holds q_c
+  Branch branch;      // hand it to the next query
+
+  // PD(q_o) = q_c − q_o (paper, Eq. 1) inside, zero outside.
+  Eigen::Vector3d PenetrationVector(const Eigen::Vector3d& q_o) const {
+    return inside ? Eigen::Vector3d(contact - q_o) : Eigen::Vector3d::Zero();
+  }
+};
+
+// A penetration metric over one contact space.  Queries are const,
+// thread-safe and do not allocate.
+class PenetrationMetric {
+ public:
+  virtual ~PenetrationMetric() = default;
+
+  // Metric value at q_o.  With a valid `previous` branch the metric continues
+  // that branch where it has branches (Euclidean PD ignores it); otherwise it
+  // answers cold: the least depth of all projections.
+  virtual PenetrationResult Query(const Eigen::Vector3d& q_o,
+                                  const Branch& previous) const = 0;
+  PenetrationResult Query(const Eigen::Vector3d& q_o) const {
+    return Query(q_o, Branch());
+  }
+};
+
+}  // namespace phongpd

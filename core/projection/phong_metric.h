@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "core/projection/penetration_metric.h"
+#include "core/projection/phong_field.h"
+
+namespace phongpd {
+
+// Which of the two Phong fields projects (engine: core/README.md).
+enum class FieldKind {
+  kNormal,        // closed form: one cubic per triangle, all projections
+  kTangentPlane,  // the paper's: Newton on Eqs. 7-11 from (⅓,⅓,⅓)
+};
+
+struct PhongMetricOptions {
+  FieldKind field = FieldKind::kNormal;
+  PhongFieldOptions field_options;
+
+  void Validate() const;  // throws InputError
+};
+
+// PhongPD over one contact space.
+//
+// Inside C_obj: −|q_c − q_o| with (q_c − q_o) × n(q_c) = 0 (paper, Eq. 3).
+// Outside: Euclidean distance and its gradient (there is no penetration; the
+// combination is continuous because both vanish on C_cont).
+//
+// Query without a branch is exact best-first search for the least depth; with
+// a branch it walks the branch from the branch's own configuration to q_o and
+// reports kBranchEnded where the branch folds.
+class PhongMetric final : public PenetrationMetric {
+ public:
+  // `contact_mesh` closed, outward, edge-manifold.  Throws InputError.
+  explicit PhongMetric(const TriangleMesh& contact_mesh,
+                       const PhongMetricOptions& options = {});
+  ~PhongMetric() override;
+  PhongMetric(PhongMetric&&) noexcept;
+  PhongMetric& operator=(PhongMetric&&) noexcept;
+
+  using PenetrationMetric::Query;
+  PenetrationResult Query(const Eigen::Vector3d& q_o,
+                          const Branch& previous) const override;
+
+  // All projections of an interior q_o with depth ≤ depth_bound (user's unit),
+  // sorted by depth, written to *results (cleared first; capacity is kept, so
+  // a reused vector does not allocate).  Empty outside C_obj.
+  // Only for FieldKind::kNormal; with kTangentPlane it gives the Newton hits.
+  void QueryAll(const Eigen::Vector3d& q_o, double depth_bound,
+                std::vector<PenetrationResult>* results) const;
+
+  // The paper's Algorithm 1 as reference: tries the triangles in the K rings
+  // around the previous one and takes the projection closest to the previous
+  // contact (section V.B).  Allocates; use Query for speed.
+  PenetrationResult QueryRing(const Eigen::Vector3d& q_o,
+                              const Branch& previous, int k) const;
+
+  // Exact: q_o strictly inside C_obj.  False for non-finite q_o.
+  bool IsInside(const Eigen::Vector3d& q_o) const;
+
+  const PhongField& field() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace phongpd
