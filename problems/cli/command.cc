@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "problems/cli/command.h"
+
+#include <unistd.h>
+
+#include <iostream>
+
+#include "core/mesh/mesh_io.h"
+#include "problems/text.h"
+
+namespace phongpd::cli {
+
+TriangleMesh LoadSolid(const std::string& path, MeshReport* report) {
+  MeshReport own;
+  MeshReport& found = report != nullptr ? *report : own;
+  TriangleMesh solid = MakeSolid(ReadMesh(path), path, &found);
+  for (const std::string& warning : found.warnings) {
+    const bool named = warning.find(path) != std::string::npos;
+    Warn(named ? warning : path + ": " + warning);
+  }
+  return solid;
+}
+
+TriangleMesh LoadContactSpace(const std::string& path) {
+  TriangleMesh mesh = ReadMesh(path);
+  const MeshReport report = ExamineMesh(mesh);
+  const auto refuse = [&](std::size_t count, const std::string& what) {
+    if (count == 0) return;
+    throw InputError(path + ": expected a contact space (closed, manifold, " +
+                     "outward), found " + std::to_string(count) + " " + what +
+                     "; build one with phongpd contact-space");
+  };
+  refuse(report.bad_indices, "triangle indices out of range");
+  refuse(report.boundary_edges, "boundary edges");
+  refuse(report.non_manifold_edges, "non-manifold edges");
+  if (!(SignedVolume(mesh) > 0.0)) refuse(1, "surface facing inwards");
+  return mesh;
+}
+
+void DeclareMesh(OutputFiles* outputs, const std::string& path) {
+  outputs->Declare(path);
+  WriteMeshTo(outputs, path,
+              {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {Triangle{0, 1, 2}}});
+}
+
+void WriteMeshTo(OutputFiles* outputs, const std::string& path,
+                 const TriangleMesh& mesh) {
+  const std::string& temporary = outputs->TemporaryPath(path);
+  try {
+    WriteMesh(mesh, temporary);
+  } catch (const InputError& error) {
+    // The user knows the file by its own name only.
+    std::string message = error.what();
+    const std::size_t place = message.find(temporary);
+    if (place != std::string::npos) {
+      message.replace(place, temporary.size(), path);
+    }
+    throw InputError(message);
+  }
+}
+
+Eigen::Vector3d ParsePoint(const std::vector<std::string>& cells,
+                           const std::string& flag) {
+  Eigen::Vector3d point;
+  for (int k = 0; k < 3; ++k) {
+    point[k] = ParseDouble(cells.at(static_cast<std::size_t>(k)), flag);
+  }
+  return point;
+}
+
+void Progress(const std::string& text) {
+  static const bool terminal = isatty(STDERR_FILENO) != 0;
+  if (terminal) std::cerr << text << '\n';
+}
+
+void Warn(const std::string& text) {
+  std::cerr << "phongpd: warning: " << text << '\n';
+}
+
+}  // namespace phongpd::cli

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <Eigen/Core>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "core/mesh/mesh_check.h"
+#include "core/mesh/mesh_error.h"
+#include "core/mesh/triangle_mesh.h"
+#include "problems/output_files.h"
+
+// What the commands of the phongpd program share.
+namespace phongpd::cli {
+
+enum ExitCode {
+  kDone = 0,           // ran and answered
+  kNoAnswer = 1,       // ran, found no answer
+  kBadInput = 2,       // InputError or bad arguments: one line, nothing written
+  kInternalError = 3,  // a fault of the program
+};
+
+// Runs a command whose flags have been parsed; returns an ExitCode.
+using Command = std::function<int()>;
+
+// Each declares its flags on `app` and returns what to run.
+Command AddContactSpace(CLI::App* app);
+Command AddQuery(CLI::App* app);
+Command AddMotion(CLI::App* app);
+Command AddScenes(CLI::App* app);
+
+// Reads an operand file as a solid.  What the user should know goes to
+// stderr, one line a warning.  Throws InputError naming the file.
+TriangleMesh LoadSolid(const std::string& path, MeshReport* report = nullptr);
+
+// Reads a contact space written by `phongpd contact-space`: closed,
+// edge-manifold, outward; rounding may have made some triangles meet.
+// Throws InputError naming the file.
+TriangleMesh LoadContactSpace(const std::string& path);
+
+// Declares a mesh output, and fails now if its extension means nothing.
+void DeclareMesh(OutputFiles* outputs, const std::string& path);
+
+// Writes the mesh to a declared output.
+void WriteMeshTo(OutputFiles* outputs, const std::string& path,
+                 const TriangleMesh& mesh);
+
+// The three numbers of a flag, e.g. --from X Y Z.
+Eigen::Vector3d ParsePoint(const std::vector<std::string>& cells,
+                           const std::string& flag);
+
+// One progress line on stderr, only when that is a terminal.
+void Progress(const std::string& text);
+
+// "phongpd: warning: ..." on stderr.
+void Warn(const std::string& text);
+
+}  // namespace phongpd::cli

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <iostream>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
+
+#include "core/contact_space/contact_space.h"
+#include "problems/cli/command.h"
+#include "problems/output_files.h"
+#include "problems/text.h"
+
+namespace phongpd::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct Flags {
+  std::string robot;
+  std::string obstacle;
+  std::string output;
+  std::string report;
+  bool outer_shell_only = false;
+};
+
+Json ToJson(const MeshReport& mesh, const std::string& file) {
+  return {{"file", file},
+          {"vertices", mesh.vertices},
+          {"triangles", mesh.triangles},
+          {"components", mesh.components},
+          {"degenerate_triangles", mesh.degenerate_triangles},
+          {"duplicate_vertices", mesh.duplicate_vertices},
+          {"duplicate_triangles", mesh.duplicate_triangles},
+          {"inverted_components", mesh.inverted_components},
+          {"volume", mesh.volume},
+          {"warnings", mesh.warnings}};
+}
+
+Json ToJson(const ContactSpaceReport& report) {
+  Json seconds = Json::object();
+  for (const auto& [stage, time] : report.seconds) seconds[stage] = time;
+  return {{"triangles", report.triangles},
+          {"vertices", report.vertices},
+          {"closed", report.closed},
+          {"manifold", report.manifold},
+          {"components", report.components},
+          {"genus", report.genus},
+          {"cavities", report.cavities},
+          {"volume", report.volume},
+          {"self_intersections", report.self_intersections},
+          {"seconds", seconds},
+          {"peak_mib", report.peak_mib},
+          {"method", report.method},
+          {"predicted_cost", nullptr},
+          {"approximation", {{"kind", "none"}, {"bound", report.grid_step}}},
+          {"convolution_triangles", report.convolution_triangles},
+          {"arrangement_triangles", report.arrangement_triangles},
+          {"cells", report.cells},
+          {"grid_step", report.grid_step},
+          {"warnings", report.warnings}};
+}
+
+std::string Plural(int count, const char* noun) {
+  return std::to_string(count) + ' ' + noun + (count == 1 ? "" : "s");
+}
+
+std::string Rounded(double value) {
+  std::ostringstream stream;
+  stream.precision(4);
+  stream << value;
+  return stream.str();
+}
+
+void PrintSummary(const Flags& flags, const ContactSpaceReport& report) {
+  double total = 0.0;
+  for (const auto& [stage, time] : report.seconds) total += time;
+  std::cout << flags.output << ": " << report.triangles << " triangles, "
+            << report.vertices << " vertices, "
+            << (report.closed ? "closed, " : "NOT CLOSED, ")
+            << (report.manifold ? "manifold, " : "NOT MANIFOLD, ")
+            << Plural(report.components, "component") << ", genus "
+            << report.genus << ", "
+            << (report.cavities == 1 ? "1 cavity"
+                                     : Plural(report.cavities, "cavitie"))
+            << ", volume " << FormatDouble(report.volume) << '\n'
+            << "built in " << Rounded(total) << " s, peak "
+            << Rounded(report.peak_mib) << " MiB, "
+            << report.convolution_triangles << " convolution and "
+            << report.arrangement_triangles << " arrangement triangles\n";
+}
+
+int BuildAndWrite(const Flags& flags) {
+  OutputFiles outputs;
+  DeclareMesh(&outputs, flags.output);
+  if (!flags.report.empty()) outputs.Declare(flags.report);
+  MeshReport robot_report;
+  MeshReport obstacle_report;
+  const TriangleMesh robot = LoadSolid(flags.robot, &robot_report);
+  const TriangleMesh obstacle = LoadSolid(flags.obstacle, &obstacle_report);
+
+  ContactSpaceOptions options;
+  options.outer_shell_only = flags.outer_shell_only;
+  options.robot_name = flags.robot;
+  options.obstacle_name = flags.obstacle;
+  Progress("building the contact space");
+  const ContactSpace space = BuildContactSpace(robot, obstacle, options);
+  for (const std::string& warning : space.report.warnings) Warn(warning);
+
+  WriteMeshTo(&outputs, flags.output, space.mesh);
+  if (!flags.report.empty()) {
+    Json report = ToJson(space.report);
+    report["robot"] = ToJson(robot_report, flags.robot);
+    report["obstacle"] = ToJson(obstacle_report, flags.obstacle);
+    outputs.Write(flags.report, report.dump(2) + '\n');
+  }
+  outputs.Commit();
+  PrintSummary(flags, space.report);
+  return kDone;
+}
+
+}  // namespace
+
+Command AddContactSpace(CLI::App* app) {
+  auto flags = std::make_shared<Flags>();
+  app->add_option("--robot", flags->robot,
+                  "Mesh of the translating robot (OFF, OBJ, STL, PLY)")
+      ->required()
+      ->type_name("FILE");
+  app->add_option("--obstacle", flags->obstacle, "Mesh of the fixed obstacle")
+      ->required()
+      ->type_name("FILE");
+  app->add_option("--output", flags->output,
+                  "Contact space, in the format of its extension")
+      ->required()
+      ->type_name("FILE");
+  app->add_option("--report", flags->report, "What was built, as JSON")
+      ->type_name("FILE");
+  app->add_flag("--outer-shell-only", flags->outer_shell_only,
+                "Leave out bounded free cavities");
+  return [flags] { return BuildAndWrite(*flags); };
+}
+
+}  // namespace phongpd::cli

@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <iostream>
+#include <memory>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "core/contact_space/contact_space.h"
+#include "core/projection/euclidean_metric.h"
+#include "core/projection/phong_metric.h"
+#include "problems/cli/command.h"
+#include "problems/gnuplot.h"
+#include "problems/motion.h"
+#include "problems/output_files.h"
+#include "problems/text.h"
+
+namespace phongpd::cli {
+namespace {
+
+// A change of PD between two frames that counts as a jump, in diagonals.
+constexpr double kJump = 0.05;
+
+struct Flags {
+  std::string contact_space;
+  std::string robot;
+  std::string obstacle;
+  std::vector<std::string> from;
+  std::vector<std::string> to;
+  int frames = 0;
+  std::vector<std::string> smoothing_lengths = {"0"};
+  std::string field = "normal";
+  std::string output;
+  std::string svg;
+};
+
+TriangleMesh ContactMesh(const Flags& flags) {
+  if (!flags.contact_space.empty()) {
+    return LoadContactSpace(flags.contact_space);
+  }
+  const TriangleMesh robot = LoadSolid(flags.robot);
+  const TriangleMesh obstacle = LoadSolid(flags.obstacle);
+  ContactSpaceOptions options;
+  options.robot_name = flags.robot;
+  options.obstacle_name = flags.obstacle;
+  Progress("building the contact space");
+  ContactSpace space = BuildContactSpace(robot, obstacle, options);
+  for (const std::string& warning : space.report.warnings) Warn(warning);
+  return std::move(space.mesh);
+}
+
+std::vector<double> SmoothingLengths(const Flags& flags) {
+  std::vector<double> lengths;
+  std::set<double> seen;
+  for (const std::string& text : flags.smoothing_lengths) {
+    lengths.push_back(ParseDouble(text, "--smoothing-length"));
+    if (!seen.insert(lengths.back()).second) {
+      throw InputError("--smoothing-length: expected different values, found " +
+                       text + " twice");
+    }
+  }
+  return lengths;
+}
+
+std::vector<MotionTrace> Trace(const Flags& flags, const TriangleMesh& contact,
+                               const std::vector<double>& lengths,
+                               const StraightMotion& motion) {
+  std::vector<MotionTrace> traces;
+  Progress("following euclidean");
+  traces.push_back(TraceMotion(EuclideanMetric(contact), motion, "euclidean",
+                               "Euclidean PD"));
+  for (const double length : lengths) {
+    PhongMetricOptions options;
+    options.field =
+        flags.field == "normal" ? FieldKind::kNormal : FieldKind::kTangentPlane;
+    options.field_options.smoothing_length = length;
+    options.Validate();
+    const std::string value = FormatDouble(length);
+    const std::string name = lengths.size() == 1 ? "phong" : "phong@" + value;
+    Progress("following " + name);
+    traces.push_back(TraceMotion(PhongMetric(contact, options), motion, name,
+                                 "PhongPD, ℓ = " + value));
+  }
+  return traces;
+}
+
+void PrintSummary(const Flags& flags, const std::vector<MotionTrace>& traces,
+                  double diagonal) {
+  for (const MotionTrace& trace : traces) {
+    const MotionSummary s = Summarize(trace, kJump * diagonal);
+    std::cout << trace.metric << ": " << s.inside << " of " << flags.frames
+              << " frames inside, |PD| up to " << FormatDouble(s.max_magnitude)
+              << ", largest change " << FormatDouble(s.largest_change) << ", "
+              << s.jumps << " jumps > 5 % of the diagonal, " << s.branch_ends
+              << " branch ends, " << s.fallbacks << " Euclidean fallbacks\n";
+  }
+}
+
+int Follow(const Flags& flags) {
+  const bool pair = !flags.robot.empty() && !flags.obstacle.empty();
+  const bool either = !flags.robot.empty() || !flags.obstacle.empty();
+  if (either != pair || either == !flags.contact_space.empty()) {
+    throw InputError(
+        "motion: expected --contact-space, or --robot and --obstacle");
+  }
+  if (flags.frames < 2) {
+    throw InputError("--frames: expected at least 2, found " +
+                     std::to_string(flags.frames));
+  }
+  StraightMotion motion;
+  motion.from = ParsePoint(flags.from, "--from");
+  motion.to = ParsePoint(flags.to, "--to");
+  motion.frames = flags.frames;
+  const std::vector<double> lengths = SmoothingLengths(flags);
+  OutputFiles outputs;
+  outputs.Declare(flags.output);
+  if (!flags.svg.empty()) {
+    outputs.Declare(flags.svg);
+    RequireGnuplot();
+  }
+
+  const TriangleMesh contact = ContactMesh(flags);
+  const std::vector<MotionTrace> traces =
+      Trace(flags, contact, lengths, motion);
+  outputs.Write(flags.output, MotionCsv(traces));
+  if (!flags.svg.empty()) {
+    outputs.Write(flags.svg,
+                  MotionPage(traces, "Penetration depth from (" +
+                                         FormatPoint(motion.from) + ") to (" +
+                                         FormatPoint(motion.to) + ")"));
+  }
+  outputs.Commit();
+  PrintSummary(flags, traces, ComputeBounds(contact).Diagonal());
+  return kDone;
+}
+
+}  // namespace
+
+Command AddMotion(CLI::App* app) {
+  auto flags = std::make_shared<Flags>();
+  app->add_option("--contact-space", flags->contact_space,
+                  "Mesh written by phongpd contact-space")
+      ->type_name("FILE");
+  app->add_option("--robot", flags->robot,
+                  "Or: mesh of the translating robot ...")
+      ->type_name("FILE");
+  app->add_option("--obstacle", flags->obstacle,
+                  "... and mesh of the fixed obstacle")
+      ->type_name("FILE");
+  app->add_option("--from", flags->from, "First robot position")
+      ->required()
+      ->expected(3)
+      ->type_name("X Y Z");
+  app->add_option("--to", flags->to, "Last robot position")
+      ->required()
+      ->expected(3)
+      ->type_name("X Y Z");
+  app->add_option("--frames", flags->frames, "Number of positions, at least 2")
+      ->required()
+      ->type_name("N");
+  app->add_option("--smoothing-length", flags->smoothing_lengths,
+                  "Of the Phong field, as a fraction of the contact space's "
+                  "diagonal; 0 is the paper. Several values give the metrics "
+                  "phong@VALUE instead of phong")
+      ->expected(1, -1)
+      ->type_name("F")
+      ->capture_default_str();
+  app->add_option("--field", flags->field,
+                  "Phong field: normals in closed form, or the paper's "
+                  "tangent planes by Newton")
+      ->check(CLI::IsMember({"normal", "tangent-plane"}))
+      ->capture_default_str();
+  app->add_option("--output", flags->output,
+                  "CSV file, one row a frame and metric")
+      ->required()
+      ->type_name("FILE");
+  app->add_option("--svg", flags->svg,
+                  "Plot of x, y, z and magnitude (needs gnuplot)")
+      ->type_name("FILE");
+  return [flags] { return Follow(*flags); };
+}
+
+}  // namespace phongpd::cli

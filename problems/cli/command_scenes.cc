@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <filesystem>
+#include <iostream>
+#include <map>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "problems/cli/command.h"
+#include "problems/output_files.h"
+#include "problems/scene_library.h"
+#include "problems/text.h"
+
+namespace phongpd::cli {
+namespace {
+
+struct Flags {
+  std::string name;
+  std::vector<std::string> settings;
+  std::string output;
+  std::string meshes;
+};
+
+int List() {
+  for (const SceneFamily& family : SceneFamilies()) {
+    std::cout << family.name << ": " << family.summary << '\n';
+    for (const SceneKnob& knob : family.knobs) {
+      std::cout << "    " << knob.key << '=' << FormatDouble(knob.value) << "  "
+                << knob.meaning << '\n';
+    }
+  }
+  return kDone;
+}
+
+std::map<std::string, double> Knobs(const std::vector<std::string>& settings) {
+  std::map<std::string, double> knobs;
+  for (const std::string& setting : settings) {
+    const std::size_t equals = setting.find('=');
+    if (equals == std::string::npos) {
+      throw InputError("--set: expected key=value, found '" + setting + "'");
+    }
+    const std::string key = setting.substr(0, equals);
+    knobs[key] = ParseDouble(setting.substr(equals + 1), "--set " + key);
+  }
+  return knobs;
+}
+
+int Write(const Flags& flags) {
+  if (flags.output.empty() && flags.meshes.empty()) {
+    throw InputError("scenes write: expected --output, --meshes or both");
+  }
+  const nlohmann::ordered_json scene =
+      MakeScene(flags.name, Knobs(flags.settings));
+  // Built in any case: a scene whose solids cannot be made is bad input.
+  const SceneMeshes meshes = BuildSceneMeshes(scene, "scene " + flags.name);
+
+  OutputFiles outputs;
+  if (!flags.output.empty()) {
+    outputs.Declare(flags.output);
+    outputs.Write(flags.output, scene.dump(2) + '\n');
+  }
+  const auto write = [&](const TriangleMesh& mesh, const std::string& path) {
+    outputs.Declare(path);
+    WriteMeshTo(&outputs, path, mesh);
+  };
+  if (!flags.meshes.empty()) {
+    std::error_code error;
+    std::filesystem::create_directories(flags.meshes, error);
+    write(meshes.robot, flags.meshes + "/robot.off");
+    write(meshes.obstacle, flags.meshes + "/obstacle.off");
+  }
+  outputs.Commit();
+  std::cout << flags.name << ": robot " << meshes.robot.triangles.size()
+            << ", obstacle " << meshes.obstacle.triangles.size()
+            << " triangles\n";
+  return kDone;
+}
+
+}  // namespace
+
+Command AddScenes(CLI::App* app) {
+  auto flags = std::make_shared<Flags>();
+  app->require_subcommand(1);
+  const CLI::App* const list =
+      app->add_subcommand("list", "Names and knobs with their defaults");
+  CLI::App* const write = app->add_subcommand("write", "Write one scene");
+  write->add_option("name", flags->name, "See scenes list")
+      ->required()
+      ->type_name("NAME");
+  write->add_option("--set", flags->settings, "Set a knob")
+      ->expected(1)
+      ->take_all()
+      ->type_name("KEY=VALUE");
+  write->add_option("--output", flags->output, "Scene file (JSON)")
+      ->type_name("FILE");
+  write
+      ->add_option("--meshes", flags->meshes,
+                   "Directory for robot.off and obstacle.off, which the "
+                   "other commands read")
+      ->type_name("DIR");
+  return [flags, list] { return list->parsed() ? List() : Write(*flags); };
+}
+
+}  // namespace phongpd::cli

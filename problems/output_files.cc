@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "problems/output_files.h"
+
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <stdexcept>
+#include <system_error>
+
+namespace phongpd {
+namespace fs = std::filesystem;
+
+namespace {
+
+[[noreturn]] void FailToWrite(const std::string& path,
+                              const std::string& reason) {
+  throw InputError(path + ": cannot be written (" + reason + ")");
+}
+
+}  // namespace
+
+OutputFiles::~OutputFiles() {
+  for (const File& file : files_) {
+    std::error_code ignored;
+    if (file.temporary != file.target) fs::remove(file.temporary, ignored);
+  }
+}
+
+void OutputFiles::Declare(const std::string& path) {
+  if (path.empty()) FailToWrite("''", "expected a file name");
+  std::error_code error;
+  File file;
+  file.path = path;
+  file.target = fs::weakly_canonical(fs::absolute(path), error).string();
+  if (error) FailToWrite(path, error.message());
+  for (const File& other : files_) {
+    if (other.target == file.target) {
+      FailToWrite(path, "named as two outputs of one command");
+    }
+  }
+  const fs::path target(file.target);
+  const fs::file_status status = fs::status(target, error);
+  if (fs::is_directory(status)) FailToWrite(path, "it is a directory");
+  if (fs::exists(status) && access(file.target.c_str(), W_OK) != 0) {
+    FailToWrite(path, std::strerror(errno));
+  }
+  if (fs::exists(status) && !fs::is_regular_file(status)) {
+    file.temporary = file.target;
+  } else {
+    const fs::path folder = target.parent_path();
+    if (!fs::is_directory(folder, error)) {
+      FailToWrite(path, "there is no directory " + folder.string());
+    }
+    if (access(folder.c_str(), W_OK) != 0) {
+      FailToWrite(path, std::strerror(errno));
+    }
+    const std::string name = "." + target.stem().string() + "." +
+                             std::to_string(getpid()) + ".part" +
+                             target.extension().string();
+    file.temporary = (folder / name).string();
+  }
+  files_.push_back(file);
+}
+
+const OutputFiles::File& OutputFiles::Find(const std::string& path) const {
+  for (const File& file : files_) {
+    if (file.path == path) return file;
+  }
+  throw std::logic_error("output file was not declared: " + path);
+}
+
+const std::string& OutputFiles::TemporaryPath(const std::string& path) const {
+  return Find(path).temporary;
+}
+
+void OutputFiles::Write(const std::string& path, const std::string& content) {
+  std::ofstream stream(Find(path).temporary, std::ios::binary);
+  stream.write(content.data(), static_cast<std::streamsize>(content.size()));
+  stream.close();
+  if (!stream) FailToWrite(path, std::strerror(errno));
+}
+
+void OutputFiles::Commit() {
+  for (const File& file : files_) {
+    if (file.temporary == file.target) continue;
+    std::error_code error;
+    fs::rename(file.temporary, file.target, error);
+    if (error) FailToWrite(file.path, error.message());
+  }
+  files_.clear();
+}
+
+}  // namespace phongpd

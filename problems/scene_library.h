@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <map>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "core/mesh/mesh_error.h"
+#include "core/mesh/triangle_mesh.h"
+
+// Procedural scenes, each with knobs: sizes in the scene's unit and counts.
+namespace phongpd {
+
+struct SceneKnob {
+  std::string key;
+  double value = 0.0;  // default
+  std::string meaning;
+};
+
+struct SceneFamily {
+  std::string name;
+  std::string summary;
+  std::vector<SceneKnob> knobs;
+};
+
+// All families, the paper's three first.
+const std::vector<SceneFamily>& SceneFamilies();
+
+// The scene file's content for the family `name` with some knobs set.  Start
+// and goal are free; obstacles are `shape` objects.  Throws InputError for an
+// unknown family or knob.
+nlohmann::ordered_json MakeScene(const std::string& name,
+                                 const std::map<std::string, double>& knobs);
+
+// The operands of a scene whose solids are all `shape` objects: the robot,
+// and all obstacles, each moved to its position, as one mesh.
+struct SceneMeshes {
+  TriangleMesh robot;
+  TriangleMesh obstacle;
+};
+
+// Throws InputError starting with `name` and a JSON pointer.
+SceneMeshes BuildSceneMeshes(const nlohmann::ordered_json& scene,
+                             const std::string& name);
+
+}  // namespace phongpd

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "problems/text.h"
+
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <cstdlib>
+#include <system_error>
+
+namespace phongpd {
+
+std::string FormatDouble(double value) {
+  std::array<char, 32> buffer;
+  const std::to_chars_result end =
+      std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
+  return std::string(buffer.data(), end.ptr);
+}
+
+std::string FormatPoint(const Eigen::Vector3d& point) {
+  return FormatDouble(point.x()) + ',' + FormatDouble(point.y()) + ',' +
+         FormatDouble(point.z());
+}
+
+double ParseDouble(std::string_view text, const std::string& what) {
+  std::string_view digits = text;
+  if (digits.size() > 1 && digits[0] == '+' && digits[1] != '-') {
+    digits.remove_prefix(1);
+  }
+  double value = 0.0;
+  const char* const end = digits.data() + digits.size();
+  const std::from_chars_result read =
+      std::from_chars(digits.data(), end, value);
+  bool good = read.ptr == end && !digits.empty();
+  if (good && read.ec == std::errc::result_out_of_range) {
+    // from_chars does not say whether it is too large or too small.
+    value = std::strtod(std::string(digits).c_str(), nullptr);
+  } else if (read.ec != std::errc()) {
+    good = false;
+  }
+  if (!good || !std::isfinite(value)) {
+    throw InputError(what + ": expected a finite number, found '" +
+                     std::string(text) + "'");
+  }
+  return value;
+}
+
+const char* StatusName(QueryStatus status) {
+  switch (status) {
+    case QueryStatus::kOk:
+      return "ok";
+    case QueryStatus::kBranchEnded:
+      return "branch_ended";
+    case QueryStatus::kEuclideanFallback:
+      return "euclidean_fallback";
+    case QueryStatus::kInvalid:
+      break;
+  }
+  return "invalid";
+}
+
+}  // namespace phongpd

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <string_view>
+
+#include "core/mesh/mesh_error.h"
+#include "core/projection/penetration_metric.h"
+
+// Numbers, points and statuses as text, the same in every file and message.
+namespace phongpd {
+
+// The shortest decimal text that reads back to exactly `value`.
+std::string FormatDouble(double value);
+
+// Three numbers separated by commas.
+std::string FormatPoint(const Eigen::Vector3d& point);
+
+// The finite number that `text` spells in full, correctly rounded.  Throws
+// InputError "<what>: expected a finite number, found '<text>'".
+double ParseDouble(std::string_view text, const std::string& what);
+
+// ok, branch_ended, euclidean_fallback or invalid.
+const char* StatusName(QueryStatus status);
+
+}  // namespace phongpd

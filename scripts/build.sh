@@ -1,0 +1,19 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
+# build.sh [TARGET...]: sets up, configures build/ and builds the targets
+# (everything when none is named).
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+
+scripts/setup.sh
+cmake --preset release
+
+# A translation unit that includes CGAL takes up to 1.5 GiB to compile.
+jobs=$(nproc)
+memory=$(awk '/MemAvailable/ { print int($2 / 1572864) }' /proc/meminfo)
+((memory >= 1)) || memory=1
+((jobs <= memory)) || jobs=$memory
+
+targets=()
+[[ $# -eq 0 ]] || targets=(--target "$@")
+cmake --build --preset release --parallel "$jobs" "${targets[@]}"

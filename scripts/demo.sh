@@ -1,0 +1,11 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Sets up, builds what it needs and runs the paper's three benchmarks into
+# build/demo/.
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+
+scripts/build.sh phongpd paper_benchmark
+build/paper_benchmark --output build/demo --motions 20 --points 2000
+echo
+echo "Look at build/demo/index.html"

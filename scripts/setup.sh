@@ -1,0 +1,38 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Installs the Debian packages PhongPD is built from, only those missing.
+# Needs the network only then; everything else works offline.
+set -euo pipefail
+
+packages=(
+  g++ cmake make
+  libeigen3-dev libcgal-dev libgmp-dev libmpfr-dev libtbb-dev libfcl-dev
+  libgtest-dev librapidcheck-dev libcli11-dev nlohmann-json3-dev
+  gnuplot-nox
+)
+
+missing=()
+for package in "${packages[@]}"; do
+  state=$(dpkg-query -W -f='${db:Status-Status}' "$package" 2>/dev/null || true)
+  [[ $state == installed ]] || missing+=("$package")
+done
+[[ ${#missing[@]} -eq 0 ]] && exit 0
+
+echo "setup: installing ${missing[*]}"
+as_root=()
+if [[ $(id -u) -ne 0 ]]; then
+  if ! command -v sudo >/dev/null; then
+    echo "setup: needs root or sudo to install: ${missing[*]}" >&2
+    exit 1
+  fi
+  as_root=(sudo)
+fi
+install_missing() {
+  "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install \
+    --yes --quiet --no-install-recommends "${missing[@]}"
+}
+# Package lists may be absent or too old; refresh them only if that shows.
+if ! install_missing; then
+  "${as_root[@]}" apt-get update --quiet
+  install_missing
+fi
