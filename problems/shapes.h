@@ -7,11 +7,14 @@
 
 // Procedural solids.  Every function returns a closed, outward,
 // edge-manifold mesh without self-intersections and throws InputError for
-// parameters that cannot give one.  Lengths in the caller's unit.
+// parameters that cannot give one: one line that names the shape and the
+// parameter, what it must be and what it was.  Lengths are in the caller's
+// unit, in [1e-80, 1e80]; counts of points on a curve are at most 10 000.
+// Same arguments, same bytes.  Circles start on +x and hit the axes exactly.
 namespace phongpd {
 
 // Ball of radius r: icosahedron subdivided `levels` times, 20·4^levels
-// triangles, vertices on the sphere.
+// triangles, vertices on the sphere; levels in [0, 10].
 TriangleMesh MakeIcoBall(double radius, int levels);
 
 // Ball of radius r with `meridians` × `parallels` quads: UV sphere,
@@ -23,60 +26,69 @@ TriangleMesh MakeUvBall(double radius, int meridians, int parallels);
 // 2·sides − 2 triangles (40 sides: the paper's 78).
 TriangleMesh MakeCone(double radius, double height, int sides);
 
-// Axis-aligned box between two corners, 12 triangles.
+// Axis-aligned box between two corners, min < max; 12 triangles, coordinates
+// exactly the given ones.
 TriangleMesh MakeBox(const Eigen::Vector3d& min, const Eigen::Vector3d& max);
 
 // Union of the three axis-aligned bars [−half_length, half_length] ×
 // [−half_width, half_width]², as one solid (60 triangles).
 TriangleMesh MakeAxes(double half_length, double half_width);
 
-// Flat open-ended wrench with a round hole at one end and a jaw at the other,
-// about 6 × 2.4 × 0.5 for scale 1, centred on its handle.  The four numbers
-// count the points on hole, ring, each jaw side and jaw throat;
-// 4·(hole + ring + 2·jaw + throat) triangles, less 4: the default gives the
-// paper-sized 772.
+// Flat open-ended wrench in the xy plane with a round hole at its −x end and
+// a jaw open towards +x, 7.07 × 2.4 × 0.5 for scale 1, origin half way
+// between the centres of hole and jaw.  The four numbers count the points on
+// the hole (at least 3), the ring (6), each jaw side (4) and the throat (3);
+// 4·(hole + ring + 2·jaw + throat) triangles: the default gives the paper's
+// 772.
 TriangleMesh MakeWrench(double scale = 1.0, int hole = 48, int ring = 45,
                         int jaw = 35, int throat = 30);
 
-// Torus around the z axis, 2·around·across triangles.
+// Torus around the z axis, minor radius < major radius, 2·around·across
+// triangles.
 TriangleMesh MakeTorus(double major_radius, double minor_radius, int around,
                        int across);
 
-// L-shaped prism in [0, size]² × [0, height] with legs of the given width.
+// L-shaped prism in [0, size]² × [0, height] with legs of the given width
+// along the x and y axes, 20 triangles.
 TriangleMesh MakeL(double size, double width, double height);
 
-// U-shaped trap: a box of outer `size` with walls of the given thickness,
-// open towards +x, closed elsewhere in x/y, extruded over [0, height].
+// U-shaped trap in [0, size]² × [0, height]: walls of the given thickness
+// along three sides, open towards +x and ±z; 28 triangles.
 TriangleMesh MakeU(double size, double wall, double height);
 
 // Square plate [−side/2, side/2]² × [−thickness/2, thickness/2] with a
-// centred square hole.
+// centred square hole of side `hole` through it along z, 32 triangles.
 TriangleMesh MakePlateWithHole(double side, double thickness, double hole);
 
-// As above with a round hole of `sides` corners.
+// As above with a hole over the regular polygon of `sides` corners inscribed
+// in the circle of that radius, 4·sides + 16 triangles.
 TriangleMesh MakePlateWithRoundHole(double side, double thickness,
                                     double radius, int sides);
 
 // Prism over a regular polygon of `sides` corners around the z axis,
-// z in [−height/2, height/2]: pegs and discs.
+// z in [−height/2, height/2]: pegs and discs.  4·sides − 4 triangles.
 TriangleMesh MakePrism(double radius, double height, int sides);
 
 // Hollow box: outer cube, inner cubic cavity, both centred (24 triangles in
-// two components).  With `window` > 0 a centred square opening of that side
-// goes through the +z wall and the solid is one component.
+// two components, the inner one facing the cavity).  With `window` > 0 a
+// centred square opening of that side goes through the +z wall and the solid
+// is one component of 412 triangles.
 TriangleMesh MakeVessel(double outer, double inner, double window);
 
-// Icosahedron of radius r0 with a pyramid of tip radius r1 on every face,
-// 60 triangles; r1 > r0 gives a spiky non-convex star.
+// Icosahedron of vertex radius r0 with a pyramid of tip radius r1 on every
+// face, 60 triangles; r1 > r0 gives a spiky non-convex star.
 TriangleMesh MakeStar(double inner_radius, double outer_radius);
 
-// Tube of radius `tube` along a trefoil-like knot, 2·around·across triangles.
+// Tube of radius `tube` < size/2 along the trefoil knot
+// size · (sin t + 2 sin 2t, cos t − 2 cos 2t, −sin 3t),
+// 2·around·across triangles, around ≥ 32.
 TriangleMesh MakeKnot(double size, double tube, int around, int across);
 
-// Both meshes as one, without touching either (components may overlap).
+// The triangles of both, nothing merged or cut (components may overlap).
 TriangleMesh Joined(const TriangleMesh& a, const TriangleMesh& b);
 
-// Rotation by no special angle, for tests that must not be axis-aligned.
+// Rotation by no special angle (0.7 rad about z, then 0.9 rad about y), for
+// meshes that must not be axis-aligned.
 Eigen::Matrix3d GenericRotation();
 
 }  // namespace phongpd

@@ -12,7 +12,8 @@ using Triangle = std::array<int, 3>;
 
 // An indexed triangle mesh: plain data, no invariant of its own.  What a
 // function needs of a mesh (closed, outward, ...) its contract says;
-// mesh_check.h establishes it.  Coordinates are in the user's unit.
+// mesh_check.h establishes it.  The functions below require valid indices
+// and finite coordinates.  Coordinates are in the user's unit.
 struct TriangleMesh {
   std::vector<Eigen::Vector3d> vertices;
   std::vector<Triangle> triangles;
@@ -45,8 +46,8 @@ double SurfaceArea(const TriangleMesh& mesh);
 // of components is written to *count.
 std::vector<int> LabelComponents(const TriangleMesh& mesh, int* count);
 
-// The neighbour across edge k = (v_k, v_{k+1 mod 3}) of each triangle, or -1
-// on a boundary.  Requires an edge-manifold, consistently oriented mesh.
+// The neighbour across edge k = (v_k, v_{k+1 mod 3}) of each triangle, or −1
+// on a boundary.  Requires an edge-manifold mesh.
 std::vector<std::array<int, 3>> TriangleNeighbors(const TriangleMesh& mesh);
 
 // The mesh with every vertex moved by `offset`.

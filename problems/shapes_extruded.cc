@@ -1,0 +1,312 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The shapes made of straight walls: prisms over polygons, unions of boxes.
+#include <CGAL/Constrained_Delaunay_triangulation_2.h>
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Triangulation_face_base_with_info_2.h>
+#include <CGAL/Triangulation_vertex_base_with_info_2.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <map>
+#include <vector>
+
+#include "core/mesh/mesh_error.h"
+#include "problems/shape_parameters.h"
+#include "problems/shapes.h"
+
+namespace phongpd {
+namespace {
+
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+using internal::RequireCount;
+using internal::RequireLength;
+using internal::RequireLengthBelow;
+using internal::UnitCircle;
+
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+enum class Side { kUnknown, kInside, kOutside };
+struct FaceInfo {
+  Side side = Side::kUnknown;
+};
+using VertexBase = CGAL::Triangulation_vertex_base_with_info_2<int, Kernel>;
+using FaceBase = CGAL::Constrained_triangulation_face_base_2<
+    Kernel, CGAL::Triangulation_face_base_with_info_2<FaceInfo, Kernel>>;
+using Cdt = CGAL::Constrained_Delaunay_triangulation_2<
+    Kernel, CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>,
+    CGAL::No_constraint_intersection_tag>;
+
+using Loop = std::vector<Vector2d>;
+
+// Marks the faces of a constrained triangulation inside or outside, crossing
+// from one to the other at every constraint.
+void MarkSides(Cdt* cdt) {
+  std::vector<Cdt::Face_handle> open = {cdt->infinite_face()};
+  open.back()->info().side = Side::kOutside;
+  while (!open.empty()) {
+    const Cdt::Face_handle face = open.back();
+    open.pop_back();
+    for (int i = 0; i < 3; ++i) {
+      Side& side = face->neighbor(i)->info().side;
+      if (side != Side::kUnknown) continue;
+      const bool was_inside = face->info().side == Side::kInside;
+      side = was_inside != face->is_constrained(i) ? Side::kInside
+                                                   : Side::kOutside;
+      open.push_back(face->neighbor(i));
+    }
+  }
+}
+
+// The solid over a polygon between z = bottom and z = top: the first loop is
+// the outline, counter-clockwise; the others are holes, clockwise.
+TriangleMesh Extrude(const std::vector<Loop>& loops, double bottom,
+                     double top) {
+  TriangleMesh mesh;
+  Cdt cdt;
+  for (const Loop& loop : loops) {
+    std::vector<Cdt::Vertex_handle> handles;
+    for (const Vector2d& p : loop) {
+      handles.push_back(cdt.insert({p.x(), p.y()}));
+      handles.back()->info() = static_cast<int>(mesh.vertices.size());
+      mesh.vertices.emplace_back(p.x(), p.y(), bottom);
+    }
+    for (std::size_t i = 0; i < handles.size(); ++i) {
+      cdt.insert_constraint(handles[i], handles[(i + 1) % handles.size()]);
+    }
+  }
+  const int n = static_cast<int>(mesh.vertices.size());
+  for (int i = 0; i < n; ++i) {
+    mesh.vertices.emplace_back(mesh.vertices[i].x(), mesh.vertices[i].y(), top);
+  }
+
+  MarkSides(&cdt);
+  for (const Cdt::Face_handle face : cdt.finite_face_handles()) {
+    if (face->info().side != Side::kInside) continue;
+    const int a = face->vertex(0)->info();
+    const int b = face->vertex(1)->info();
+    const int c = face->vertex(2)->info();
+    mesh.triangles.push_back({a + n, b + n, c + n});
+    mesh.triangles.push_back({a, c, b});
+  }
+  int first = 0;
+  for (const Loop& loop : loops) {
+    const int size = static_cast<int>(loop.size());
+    for (int i = 0; i < size; ++i) {
+      const int a = first + i, b = first + (i + 1) % size;
+      mesh.triangles.push_back({a, b, b + n});
+      mesh.triangles.push_back({a, b + n, a + n});
+    }
+    first += size;
+  }
+  return mesh;
+}
+
+Loop RegularPolygon(double radius, int sides) {
+  Loop loop;
+  for (int i = 0; i < sides; ++i) loop.push_back(radius * UnitCircle(i, sides));
+  return loop;
+}
+
+Loop CenteredSquare(double side) {
+  const double h = 0.5 * side;
+  return {{-h, -h}, {h, -h}, {h, h}, {-h, h}};
+}
+
+Loop Reversed(Loop loop) {
+  std::reverse(loop.begin(), loop.end());
+  return loop;
+}
+
+// Appends `count` points of the arc from angle `from` to `to`, both included.
+void AppendArc(const Vector2d& center, double radius, double from, double to,
+               int count, Loop* loop) {
+  for (int i = 0; i < count; ++i) {
+    const double angle = from + (to - from) * i / (count - 1);
+    loop->push_back(center +
+                    radius * Vector2d(std::cos(angle), std::sin(angle)));
+  }
+}
+
+// The union of the cells of a cubic grid with cuts at `cuts` on every axis
+// for which `is_solid(i, j, k)`; two triangles per exposed cell face, corners
+// shared.
+TriangleMesh UniteCells(const std::vector<double>& cuts,
+                        const std::function<bool(int, int, int)>& is_solid) {
+  using Cell = std::array<int, 3>;
+  const int n = static_cast<int>(cuts.size()) - 1;
+  const auto solid = [&](const Cell& c) {
+    const bool in_grid =
+        std::all_of(c.begin(), c.end(), [n](int i) { return i >= 0 && i < n; });
+    return in_grid && is_solid(c[0], c[1], c[2]);
+  };
+  TriangleMesh mesh;
+  std::map<Cell, int> index_of_corner;
+  const auto vertex = [&](const Cell& corner) {
+    const auto [at, is_new] =
+        index_of_corner.emplace(corner, static_cast<int>(mesh.vertices.size()));
+    if (is_new) {
+      mesh.vertices.emplace_back(cuts[corner[0]], cuts[corner[1]],
+                                 cuts[corner[2]]);
+    }
+    return at->second;
+  };
+  // The face of `cell` towards `step` = ±1 along `axis`.
+  const auto add_face = [&](const Cell& cell, int axis, int step) {
+    const int u = (axis + 1) % 3, v = (axis + 2) % 3;
+    Cell corner = cell;
+    if (step > 0) ++corner[axis];
+    std::array<int, 4> quad;
+    quad[0] = vertex(corner);
+    ++corner[u];
+    quad[1] = vertex(corner);
+    ++corner[v];
+    quad[2] = vertex(corner);
+    --corner[u];
+    quad[3] = vertex(corner);
+    if (step < 0) std::swap(quad[1], quad[3]);
+    mesh.triangles.push_back({quad[0], quad[1], quad[2]});
+    mesh.triangles.push_back({quad[0], quad[2], quad[3]});
+  };
+  for (int i = 0; i < n * n * n; ++i) {
+    const Cell cell = {i / (n * n), i / n % n, i % n};
+    if (!solid(cell)) continue;
+    for (int axis = 0; axis < 3; ++axis) {
+      for (const int step : {-1, 1}) {
+        Cell next = cell;
+        next[axis] += step;
+        if (!solid(next)) add_face(cell, axis, step);
+      }
+    }
+  }
+  return mesh;
+}
+
+}  // namespace
+
+TriangleMesh MakeBox(const Vector3d& min, const Vector3d& max) {
+  for (int axis = 0; axis < 3; ++axis) {
+    RequireLength("MakeBox", "max - min", max[axis] - min[axis]);
+  }
+  return Extrude({{{min.x(), min.y()},
+                   {max.x(), min.y()},
+                   {max.x(), max.y()},
+                   {min.x(), max.y()}}},
+                 min.z(), max.z());
+}
+
+TriangleMesh MakeAxes(double half_length, double half_width) {
+  RequireLength("MakeAxes", "half_length", half_length);
+  RequireLengthBelow("MakeAxes", "half_width", half_width, half_length,
+                     "half_length");
+  return UniteCells(
+      {-half_length, -half_width, half_width, half_length},
+      [](int i, int j, int k) { return (i == 1) + (j == 1) + (k == 1) >= 2; });
+}
+
+TriangleMesh MakeWrench(double scale, int hole, int ring, int jaw, int throat) {
+  RequireLength("MakeWrench", "scale", scale);
+  RequireCount("MakeWrench", "hole", hole, 3);
+  // With fewer points, chords of the ring would cut into the hole and chords
+  // of the jaw into its throat.
+  RequireCount("MakeWrench", "ring", ring, 6);
+  RequireCount("MakeWrench", "jaw", jaw, 4);
+  RequireCount("MakeWrench", "throat", throat, 3);
+
+  constexpr double kPi = 3.14159265358979323846;
+  constexpr double kRing = 1.0, kHole = 0.6, kHandle = 0.35, kLength = 5.0;
+  constexpr double kJaw = 1.2, kGap = 0.55, kThickness = 0.5, kDepth = 0.1;
+  const Vector2d ring_center(-0.5 * kLength, 0), jaw_center(0.5 * kLength, 0);
+  const double at_ring = std::asin(kHandle / kRing);
+  const double at_jaw = std::asin(kHandle / kJaw);
+  const double at_gap = std::asin(kGap / kJaw);
+  Loop outline;
+  AppendArc(ring_center, kRing, at_ring, 2 * kPi - at_ring, ring, &outline);
+  AppendArc(jaw_center, kJaw, at_jaw - kPi, -at_gap, jaw, &outline);
+  AppendArc(jaw_center - Vector2d(kDepth, 0), kGap, -0.5 * kPi, -1.5 * kPi,
+            throat, &outline);
+  AppendArc(jaw_center, kJaw, at_gap, kPi - at_jaw, jaw, &outline);
+  Loop bore = Reversed(RegularPolygon(kHole, hole));
+  for (Vector2d& p : bore) p += ring_center;
+  return Scaled(Extrude({outline, bore}, -0.5 * kThickness, 0.5 * kThickness),
+                scale);
+}
+
+TriangleMesh MakeL(double size, double width, double height) {
+  RequireLength("MakeL", "size", size);
+  RequireLengthBelow("MakeL", "width", width, size, "size");
+  RequireLength("MakeL", "height", height);
+  return Extrude({{{0, 0},
+                   {size, 0},
+                   {size, width},
+                   {width, width},
+                   {width, size},
+                   {0, size}}},
+                 0, height);
+}
+
+TriangleMesh MakeU(double size, double wall, double height) {
+  RequireLength("MakeU", "size", size);
+  RequireLengthBelow("MakeU", "wall", wall, 0.5 * size, "size / 2");
+  RequireLength("MakeU", "height", height);
+  const double far = size - wall;
+  return Extrude({{{0, 0},
+                   {size, 0},
+                   {size, wall},
+                   {wall, wall},
+                   {wall, far},
+                   {size, far},
+                   {size, size},
+                   {0, size}}},
+                 0, height);
+}
+
+TriangleMesh MakePlateWithHole(double side, double thickness, double hole) {
+  RequireLength("MakePlateWithHole", "side", side);
+  RequireLength("MakePlateWithHole", "thickness", thickness);
+  RequireLengthBelow("MakePlateWithHole", "hole", hole, side, "side");
+  return Extrude({CenteredSquare(side), Reversed(CenteredSquare(hole))},
+                 -0.5 * thickness, 0.5 * thickness);
+}
+
+TriangleMesh MakePlateWithRoundHole(double side, double thickness,
+                                    double radius, int sides) {
+  RequireLength("MakePlateWithRoundHole", "side", side);
+  RequireLength("MakePlateWithRoundHole", "thickness", thickness);
+  RequireLengthBelow("MakePlateWithRoundHole", "radius", radius, 0.5 * side,
+                     "side / 2");
+  RequireCount("MakePlateWithRoundHole", "sides", sides, 3);
+  return Extrude(
+      {CenteredSquare(side), Reversed(RegularPolygon(radius, sides))},
+      -0.5 * thickness, 0.5 * thickness);
+}
+
+TriangleMesh MakePrism(double radius, double height, int sides) {
+  RequireLength("MakePrism", "radius", radius);
+  RequireLength("MakePrism", "height", height);
+  RequireCount("MakePrism", "sides", sides, 3);
+  return Extrude({RegularPolygon(radius, sides)}, -0.5 * height, 0.5 * height);
+}
+
+TriangleMesh MakeVessel(double outer, double inner, double window) {
+  RequireLength("MakeVessel", "outer", outer);
+  RequireLengthBelow("MakeVessel", "inner", inner, outer, "outer");
+  const double a = 0.5 * outer, b = 0.5 * inner, c = 0.5 * window;
+  if (window == 0) {
+    TriangleMesh cavity =
+        MakeBox(Vector3d::Constant(-b), Vector3d::Constant(b));
+    for (Triangle& t : cavity.triangles) std::swap(t[1], t[2]);
+    return Joined(MakeBox(Vector3d::Constant(-a), Vector3d::Constant(a)),
+                  cavity);
+  }
+  RequireLengthBelow("MakeVessel", "window", window, inner, "inner");
+  return UniteCells({-a, -b, -c, c, b, a}, [](int i, int j, int k) {
+    const auto within = [](int x) { return x >= 1 && x <= 3; };
+    const bool cavity = within(i) && within(j) && within(k);
+    const bool opening = i == 2 && j == 2 && k == 4;
+    return !cavity && !opening;
+  });
+}
+
+}  // namespace phongpd
