@@ -8,7 +8,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <boost/multiprecision/gmp.hpp>
+#include <cmath>
 #include <set>
 #include <stdexcept>
 #include <unordered_map>
@@ -24,10 +24,18 @@ using Triangulation = CGAL::Constrained_Delaunay_triangulation_2<
     Kernel, CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>,
     CGAL::No_constraint_intersection_tag>;
 
-Kernel::FT ToExact(const Wide& numerator, const Wide& denominator) {
-  using Integer = boost::multiprecision::mpz_int;
-  using Rational = Kernel::FT::ET;
-  return Kernel::FT(Rational(Integer(numerator), Integer(denominator)));
+// An integer as a sum of doubles of one sign: exact, and with a tight interval.
+Kernel::FT ToExact(const Wide& value) {
+  const Wide magnitude = abs(value);
+  const Wide mask = (Wide(1) << 52) - 1;
+  Kernel::FT sum(0);
+  for (int shift = 0; (magnitude >> shift) != 0; shift += 52) {
+    const Wide digits = (magnitude >> shift) & mask;
+    if (digits == 0) continue;
+    const double part = std::ldexp(digits.convert_to<double>(), shift);
+    sum += Kernel::FT(value < 0 ? -part : part);
+  }
+  return sum;
 }
 
 class PatchTriangulator {
@@ -93,7 +101,8 @@ class PatchTriangulator {
       return {point.approximate[p.u], point.approximate[p.v]};
     }
     const Homogeneous h = Evaluate(point.definition);
-    return {ToExact(h.x[p.u], h.w), ToExact(h.x[p.v], h.w)};
+    const Kernel::FT w = ToExact(h.w);
+    return {ToExact(h.x[p.u]) / w, ToExact(h.x[p.v]) / w};
   }
 
   std::vector<Triangle> Triangulate(const PatchSurface::Patch& patch) const {
