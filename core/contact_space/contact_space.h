@@ -6,10 +6,17 @@
 #include <utility>
 #include <vector>
 
-#include "core/mesh/mesh_error.h"
+#include "core/mesh/mesh_check.h"
 #include "core/mesh/triangle_mesh.h"
 
 namespace phongpd {
+
+// What touches what on a piece of contact surface.
+enum class ContactKind {
+  kObstacleFacet,  // facet of the obstacle on a vertex of the robot
+  kRobotFacet,     // vertex of the obstacle on a facet of the robot
+  kEdges,          // an edge of each
+};
 
 struct ContactSpaceOptions {
   // Join exactly coplanar triangles and re-triangulate (most slivers vanish).
@@ -32,20 +39,27 @@ struct ContactSpaceReport {
   int genus = 0;          // summed over components
   int cavities = 0;       // bounded free cells
   double volume = 0.0;    // of C_obj, user's unit cubed
-  // Pairs of output triangles that meet after rounding to double (the exact
-  // result has none).
+  // Pairs of output triangles of one component that meet after rounding to
+  // double (the exact result has none, but a solid that touches itself
+  // counts), and triangles whose rounded area is zero.
   std::size_t self_intersections = 0;
+  std::size_t degenerate_triangles = 0;
   // Wall seconds per stage, in order of execution.
   std::vector<std::pair<std::string, double>> seconds;
   double peak_mib = 0.0;  // of the process so far
   std::string method = "reduced convolution, exact arrangement";
-  // Triangles of the reduced convolution and of its arrangement.
+  // Triangles of the reduced convolution and of its arrangement, cells of the
+  // arrangement, and collision tests that classified them.
   std::size_t convolution_triangles = 0;
   std::size_t arrangement_triangles = 0;
   std::size_t cells = 0;
+  std::size_t judged_cells = 0;
   // Input coordinates are rounded to a binary grid first; nothing else is
   // approximated.  Largest displacement, user's unit.
   double grid_step = 0.0;
+  // The operands as they were found.
+  MeshReport robot;
+  MeshReport obstacle;
   std::vector<std::string> warnings;
 };
 
@@ -58,6 +72,7 @@ struct ContactSpace {
   // Supporting plane of each triangle: triangles with equal id lie exactly in
   // one oriented plane.
   std::vector<int> plane;
+  std::vector<ContactKind> kind;  // of each triangle
   ContactSpaceReport report;
 };
 
@@ -67,9 +82,10 @@ struct ContactSpace {
 // (design and references: core/README.md).  Operands may have any genus and
 // several, even overlapping, components.
 //
-// Preconditions: both meshes as MakeSolid returns them.  Throws InputError
-// for operands MakeSolid refuses, and std::logic_error if the result leaks
-// (the outermost cell turns out occupied), which no valid input should cause.
+// Both operands go through MakeSolid first: inside-out components are turned
+// and said in the report, anything unusable throws InputError.  Throws
+// std::logic_error if the arrangement leaks (the unbounded cell turns out
+// occupied), which no valid input should cause.
 ContactSpace BuildContactSpace(const TriangleMesh& robot,
                                const TriangleMesh& obstacle,
                                const ContactSpaceOptions& options = {});

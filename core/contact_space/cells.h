@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <vector>
+
+#include "core/contact_space/edge_rings.h"
+#include "core/contact_space/solid_collision.h"
+
+namespace phongpd::internal {
+
+// Which sides of the arrangement look into free space.
+struct FreeCells {
+  std::vector<char> side_is_free;   // per side, see PlusSide
+  std::vector<char> side_is_outer;  // and belongs to the unbounded cell
+  int cells = 0;                    // of the arrangement
+  int cavities = 0;                 // bounded free cells
+  int judged = 0;                   // collision tests that were needed
+};
+
+// Joins the sides that face each other around every edge into cells.  Behind
+// (−) any convolution facet the operands overlap, so only cells made of +
+// sides alone can be free; each of them is judged by one collision test at a
+// point well inside it.  The unbounded cell is free by definition.
+// Throws std::logic_error when it is not (the arrangement leaks).
+FreeCells FindFreeCells(const Convolution& convolution,
+                        const std::vector<ArrangementFacet>& facets,
+                        const EdgeRings& rings, const ExactPoints& points,
+                        const SolidCollision& judge);
+
+}  // namespace phongpd::internal

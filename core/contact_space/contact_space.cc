@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/contact_space/contact_space.h"
+
+#include <sys/resource.h>
+
+#include <chrono>
+#include <cmath>
+#include <numeric>
+#include <unordered_map>
+
+#include "core/contact_space/cells.h"
+#include "core/contact_space/convolution.h"
+#include "core/contact_space/coplanar_merge.h"
+#include "core/contact_space/edge_rings.h"
+#include "core/contact_space/facet_intersections.h"
+#include "core/contact_space/grid_solid.h"
+#include "core/contact_space/plane_groups.h"
+#include "core/contact_space/plane_subdivision.h"
+#include "core/contact_space/solid_collision.h"
+#include "core/contact_space/surface_assembly.h"
+#include "core/contact_space/union_find.h"
+
+namespace phongpd {
+namespace {
+
+// Writes the wall time since the last call under the name of a stage.
+class StageClock {
+ public:
+  explicit StageClock(ContactSpaceReport* report) : report_(report) {}
+  void Finish(const std::string& stage) {
+    const auto now = std::chrono::steady_clock::now();
+    report_->seconds.emplace_back(
+        stage, std::chrono::duration<double>(now - last_).count());
+    last_ = now;
+  }
+
+ private:
+  ContactSpaceReport* report_;
+  std::chrono::steady_clock::time_point last_ =
+      std::chrono::steady_clock::now();
+};
+
+double PeakMib() {
+  rusage usage;
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<double>(usage.ru_maxrss) / 1024.0;
+}
+
+// Rounds the exact surface into the user's frame.
+void RoundSurface(const internal::ExactSurface& surface,
+                  const internal::ExactPoints& points,
+                  const internal::GridFrame& frame,
+                  const internal::Convolution& convolution,
+                  const internal::PlaneGroups& groups, ContactSpace* out) {
+  const Eigen::Vector3d origin = frame.Origin();
+  for (const int id : surface.vertex_points) {
+    out->mesh.vertices.push_back(origin + frame.step * points.Rounded(id));
+  }
+  out->mesh.triangles = surface.triangles;
+  // Planes that made it to the surface, numbered by first appearance.
+  std::unordered_map<int, int> plane_ids;
+  out->plane.reserve(surface.facet.size());
+  out->kind.reserve(surface.facet.size());
+  for (const int facet : surface.facet) {
+    const int key = 2 * groups.of_facet[facet] + groups.reversed[facet];
+    const int next = static_cast<int>(plane_ids.size());
+    out->plane.push_back(plane_ids.emplace(key, next).first->second);
+    out->kind.push_back(convolution.facets[facet].kind);
+  }
+}
+
+// Does every vertex of a closed, edge-manifold mesh have one fan of triangles?
+bool HasManifoldVertices(const TriangleMesh& mesh, std::size_t vertices) {
+  const auto neighbors = TriangleNeighbors(mesh);
+  internal::UnionFind fans(3 * mesh.triangles.size());
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    for (int k = 0; k < 3; ++k) {
+      const Triangle& other = mesh.triangles[neighbors[t][k]];
+      for (const int corner : {k, (k + 1) % 3}) {
+        for (int j = 0; j < 3; ++j) {
+          if (other[j] == mesh.triangles[t][corner]) {
+            fans.Join(static_cast<int>(3 * t) + corner,
+                      3 * neighbors[t][k] + j);
+          }
+        }
+      }
+    }
+  }
+  std::size_t count = 0;
+  for (std::size_t c = 0; c < 3 * mesh.triangles.size(); ++c) {
+    count += fans.Find(static_cast<int>(c)) == static_cast<int>(c);
+  }
+  return count == vertices;
+}
+
+// Fills in what can be said of the finished mesh, by looking at the mesh.
+void DescribeSurface(const TriangleMesh& mesh, ContactSpaceReport* report) {
+  const MeshReport found = ExamineMesh(mesh);
+  report->triangles = found.triangles;
+  report->vertices = found.vertices;
+  report->closed = found.boundary_edges == 0;
+  report->manifold = report->closed && found.non_manifold_edges == 0 &&
+                     HasManifoldVertices(mesh, found.vertices);
+  report->components = found.components;
+  report->volume = SignedVolume(mesh);
+  report->self_intersections = found.self_intersections;
+  report->degenerate_triangles = found.degenerate_triangles;
+  // χ = V − E + F = 2·components − 2·genus, with E = 3F/2 on a closed mesh.
+  const long euler = static_cast<long>(found.vertices) -
+                     static_cast<long>(found.triangles) / 2;
+  report->genus = static_cast<int>(found.components - euler / 2);
+  if (found.self_intersections > 0) {
+    report->warnings.push_back(
+        std::to_string(found.self_intersections) +
+        " pairs of triangles meet: the solid touches itself, or vertices "
+        "closer than the rounding to double");
+  }
+  if (found.degenerate_triangles > 0) {
+    report->warnings.push_back(std::to_string(found.degenerate_triangles) +
+                               " triangles have no area after rounding");
+  }
+}
+
+}  // namespace
+
+ContactSpace BuildContactSpace(const TriangleMesh& robot,
+                               const TriangleMesh& obstacle,
+                               const ContactSpaceOptions& options) {
+  ContactSpace out;
+  ContactSpaceReport& report = out.report;
+  StageClock clock(&report);
+
+  const TriangleMesh a = MakeSolid(robot, options.robot_name, &report.robot);
+  const TriangleMesh b =
+      MakeSolid(obstacle, options.obstacle_name, &report.obstacle);
+  for (const MeshReport* operand : {&report.robot, &report.obstacle}) {
+    report.warnings.insert(report.warnings.end(), operand->warnings.begin(),
+                           operand->warnings.end());
+  }
+  clock.Finish("check");
+
+  const internal::GridFrame frame = internal::ChooseGridFrame(a, b);
+  report.grid_step = frame.step;
+  const internal::GridSolid p = internal::MakeGridSolid(
+      b, frame.obstacle_center, frame.step, false, options.obstacle_name);
+  const internal::GridSolid q = internal::MakeGridSolid(
+      a, frame.robot_center, frame.step, true, options.robot_name);
+  const internal::Convolution convolution = internal::ReducedConvolution(p, q);
+  report.convolution_triangles = convolution.facets.size();
+  clock.Finish("convolution");
+
+  const internal::PlaneGroups groups = internal::GroupByPlane(convolution);
+  internal::ExactPoints points(std::ldexp(1.0, internal::kGridBits + 1));
+  std::vector<internal::ArrangementFacet> facets;
+  {
+    const internal::FacetIntersections intersections =
+        internal::IntersectFacets(convolution, groups, &points);
+    clock.Finish("intersection");
+    facets =
+        internal::SubdividePlanes(convolution, groups, intersections, &points);
+  }
+  report.arrangement_triangles = facets.size();
+  clock.Finish("subdivision");
+
+  const internal::EdgeRings rings =
+      internal::SortAroundEdges(convolution, facets, points);
+  const internal::SolidCollision judge(p, q);
+  const internal::FreeCells cells =
+      internal::FindFreeCells(convolution, facets, rings, points, judge);
+  report.cells = static_cast<std::size_t>(cells.cells);
+  report.judged_cells = static_cast<std::size_t>(cells.judged);
+  report.cavities = cells.cavities;
+  clock.Finish("cells");
+
+  internal::ExactSurface surface = internal::AssembleSurface(
+      facets, rings, cells, options.outer_shell_only, &points);
+  if (options.merge_coplanar) {
+    surface = internal::MergeCoplanar(surface, convolution, groups, points);
+  }
+  RoundSurface(surface, points, frame, convolution, groups, &out);
+  clock.Finish("surface");
+
+  DescribeSurface(out.mesh, &report);
+  report.peak_mib = PeakMib();
+  clock.Finish("report");
+  return out;
+}
+
+}  // namespace phongpd

@@ -1,0 +1,237 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/contact_space/grid_solid.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <utility>
+
+#include "core/mesh/mesh_error.h"
+
+namespace phongpd::internal {
+namespace {
+
+using HalfEdge = std::pair<int, int>;
+
+GridNormal FacetNormal(const std::vector<GridPoint>& vertices,
+                       const Triangle& t) {
+  return Cross(vertices[t[1]] - vertices[t[0]],
+               vertices[t[2]] - vertices[t[0]]);
+}
+
+// Joins the ends of edges whose ends fell onto one grid point, and drops the
+// facets that collapse with them.
+void JoinCoincidentEnds(std::vector<Triangle>* facets,
+                        const std::vector<GridPoint>& vertices) {
+  std::vector<int> root(vertices.size());
+  std::iota(root.begin(), root.end(), 0);
+  const auto find = [&root](int v) {
+    while (root[v] != v) v = root[v] = root[root[v]];
+    return v;
+  };
+  for (const Triangle& t : *facets) {
+    for (int k = 0; k < 3; ++k) {
+      const int a = t[k], b = t[(k + 1) % 3];
+      if (vertices[a] == vertices[b]) {
+        const auto [low, high] = std::minmax(find(a), find(b));
+        root[high] = low;
+      }
+    }
+  }
+  std::vector<Triangle> kept;
+  kept.reserve(facets->size());
+  for (const Triangle& t : *facets) {
+    const Triangle u = {find(t[0]), find(t[1]), find(t[2])};
+    if (u[0] != u[1] && u[1] != u[2] && u[2] != u[0]) kept.push_back(u);
+  }
+  *facets = std::move(kept);
+}
+
+// Gives the middle corner of every collinear facet to the neighbour across its
+// longest edge: (a,b,c) with b between a and c, and (a,c,d), become (a,b,d)
+// and (b,c,d).  The surface stays the same point set.
+void DissolveCollinearFacets(std::vector<Triangle>* facets,
+                             const std::vector<GridPoint>& vertices,
+                             const std::string& name) {
+  const auto is_flat = [&](const Triangle& t) {
+    return IsZero(FacetNormal(vertices, t));
+  };
+  if (std::none_of(facets->begin(), facets->end(), is_flat)) return;
+
+  std::multimap<HalfEdge, int> owner;
+  const auto attach = [&](int f) {
+    const Triangle& t = (*facets)[f];
+    for (int k = 0; k < 3; ++k)
+      owner.emplace(HalfEdge(t[k], t[(k + 1) % 3]), f);
+  };
+  const auto detach = [&](int f) {
+    const Triangle& t = (*facets)[f];
+    for (int k = 0; k < 3; ++k) {
+      auto range = owner.equal_range(HalfEdge(t[k], t[(k + 1) % 3]));
+      for (auto it = range.first; it != range.second; ++it) {
+        if (it->second == f) {
+          owner.erase(it);
+          break;
+        }
+      }
+    }
+  };
+  const int count = static_cast<int>(facets->size());
+  std::vector<char> alive(facets->size(), 1);
+  std::vector<int> queue;
+  for (int f = 0; f < count; ++f) {
+    attach(f);
+    if (is_flat((*facets)[f])) queue.push_back(f);
+  }
+  // Each step moves one corner off a flat facet; the bound only guards against
+  // an operand that is nothing but flat facets.
+  for (std::size_t steps = 0; !queue.empty(); ++steps) {
+    const int f = queue.back();
+    queue.pop_back();
+    if (!alive[f] || !is_flat((*facets)[f])) continue;
+    if (steps > 16 * facets->size()) {
+      throw InputError(name +
+                       ": expected facets with area, found a chain of "
+                       "zero-area triangles that cannot be dissolved; remesh "
+                       "the operand");
+    }
+    const Triangle t = (*facets)[f];
+    const auto length = [&](int k) {
+      return ToDouble(vertices[t[(k + 1) % 3]] - vertices[t[k]]).squaredNorm();
+    };
+    int longest = 0;
+    for (int k = 1; k < 3; ++k) {
+      if (length(k) > length(longest)) longest = k;
+    }
+    const int c = t[longest], a = t[(longest + 1) % 3];
+    const int b = t[(longest + 2) % 3];
+    const auto it = owner.find(HalfEdge(a, c));
+    if (it == owner.end()) {
+      throw InputError(name +
+                       ": expected a closed mesh, found a boundary edge "
+                       "beside a zero-area triangle");
+    }
+    const int g = it->second;
+    const Triangle& n = (*facets)[g];
+    const int d = n[0] != a && n[0] != c   ? n[0]
+                  : n[1] != a && n[1] != c ? n[1]
+                                           : n[2];
+    detach(f);
+    detach(g);
+    if (d == b) {  // The pair is a flat pocket: it vanishes.
+      alive[f] = alive[g] = 0;
+      continue;
+    }
+    (*facets)[f] = {a, b, d};
+    (*facets)[g] = {b, c, d};
+    for (const int h : {f, g}) {
+      attach(h);
+      if (is_flat((*facets)[h])) queue.push_back(h);
+    }
+  }
+  std::vector<Triangle> kept;
+  for (int f = 0; f < count; ++f) {
+    if (alive[f]) kept.push_back((*facets)[f]);
+  }
+  *facets = std::move(kept);
+}
+
+// Pairs half-edges a→b with b→a.  After joining coincident ends a pair of
+// vertices may carry several; any pairing keeps the surface a closed cycle.
+void BuildEdges(GridSolid* solid, const std::string& name) {
+  struct Half {
+    int a, b, apex, facet;
+  };
+  std::vector<Half> halves;
+  halves.reserve(3 * solid->facets.size());
+  for (std::size_t f = 0; f < solid->facets.size(); ++f) {
+    const Triangle& t = solid->facets[f];
+    for (int k = 0; k < 3; ++k) {
+      halves.push_back(
+          {t[k], t[(k + 1) % 3], t[(k + 2) % 3], static_cast<int>(f)});
+    }
+  }
+  const auto key = [](const Half& h) {
+    return std::make_tuple(std::min(h.a, h.b), std::max(h.a, h.b), h.a > h.b,
+                           h.facet);
+  };
+  std::sort(halves.begin(), halves.end(),
+            [&key](const Half& x, const Half& y) { return key(x) < key(y); });
+  solid->neighbors.assign(solid->vertices.size(), {});
+  for (std::size_t begin = 0, end = 0; begin < halves.size(); begin = end) {
+    const int low = std::min(halves[begin].a, halves[begin].b);
+    const int high = std::max(halves[begin].a, halves[begin].b);
+    std::size_t turn = begin;  // first half-edge high→low
+    while (end < halves.size() &&
+           std::min(halves[end].a, halves[end].b) == low &&
+           std::max(halves[end].a, halves[end].b) == high) {
+      if (halves[end].a == low) turn = end + 1;
+      ++end;
+    }
+    if (turn - begin != end - turn) {
+      throw InputError(name + ": expected a closed mesh, found an edge with " +
+                       std::to_string(end - begin) + " triangles");
+    }
+    for (std::size_t k = 0; begin + k < turn; ++k) {
+      const Half& forward = halves[begin + k];
+      const Half& backward = halves[turn + k];
+      solid->edges.push_back({low, high, forward.apex, backward.apex,
+                              forward.facet, backward.facet});
+    }
+    solid->neighbors[low].push_back(high);
+    solid->neighbors[high].push_back(low);
+  }
+}
+
+}  // namespace
+
+GridFrame ChooseGridFrame(const TriangleMesh& robot,
+                          const TriangleMesh& obstacle) {
+  GridFrame frame;
+  double reach = 0.0;
+  for (const TriangleMesh* mesh : {&robot, &obstacle}) {
+    const BoundingBox box = ComputeBounds(*mesh);
+    Eigen::Vector3d& center =
+        mesh == &robot ? frame.robot_center : frame.obstacle_center;
+    center = box.Center();
+    reach = std::max(reach, (box.max - center).cwiseAbs().maxCoeff());
+    reach = std::max(reach, (box.min - center).cwiseAbs().maxCoeff());
+  }
+  int exponent = 0;
+  std::frexp(reach, &exponent);
+  frame.step = std::ldexp(1.0, exponent - kGridBits);
+  return frame;
+}
+
+GridSolid MakeGridSolid(const TriangleMesh& mesh, const Eigen::Vector3d& center,
+                        double step, bool reflect, const std::string& name) {
+  GridSolid solid;
+  solid.vertices.reserve(mesh.vertices.size());
+  for (const Eigen::Vector3d& v : mesh.vertices) {
+    GridPoint p;
+    for (int k = 0; k < 3; ++k) {
+      p[k] = std::llrint((v[k] - center[k]) / step) * (reflect ? -1 : 1);
+    }
+    solid.vertices.push_back(p);
+  }
+  solid.facets = mesh.triangles;
+  if (reflect) {
+    for (Triangle& t : solid.facets) std::swap(t[1], t[2]);
+  }
+  JoinCoincidentEnds(&solid.facets, solid.vertices);
+  DissolveCollinearFacets(&solid.facets, solid.vertices, name);
+  if (solid.facets.empty()) {
+    throw InputError(name +
+                     ": expected a solid, found nothing thicker than "
+                     "the grid step (2^-38 of the larger operand)");
+  }
+  solid.normals.reserve(solid.facets.size());
+  for (const Triangle& t : solid.facets) {
+    solid.normals.push_back(FacetNormal(solid.vertices, t));
+  }
+  BuildEdges(&solid, name);
+  return solid;
+}
+
+}  // namespace phongpd::internal
