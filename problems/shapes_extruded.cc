@@ -1,9 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The shapes made of straight walls: prisms over polygons, unions of boxes.
-#include <CGAL/Constrained_Delaunay_triangulation_2.h>
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
-#include <CGAL/Triangulation_face_base_with_info_2.h>
-#include <CGAL/Triangulation_vertex_base_with_info_2.h>
 
 #include <algorithm>
 #include <array>
@@ -12,7 +8,7 @@
 #include <map>
 #include <vector>
 
-#include "core/mesh/mesh_error.h"
+#include "core/mesh/polygon_triangulation.h"
 #include "problems/shape_parameters.h"
 #include "problems/shapes.h"
 
@@ -26,67 +22,23 @@ using internal::RequireLength;
 using internal::RequireLengthBelow;
 using internal::UnitCircle;
 
-using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-enum class Side { kUnknown, kInside, kOutside };
-struct FaceInfo {
-  Side side = Side::kUnknown;
-};
-using VertexBase = CGAL::Triangulation_vertex_base_with_info_2<int, Kernel>;
-using FaceBase = CGAL::Constrained_triangulation_face_base_2<
-    Kernel, CGAL::Triangulation_face_base_with_info_2<FaceInfo, Kernel>>;
-using Cdt = CGAL::Constrained_Delaunay_triangulation_2<
-    Kernel, CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>,
-    CGAL::No_constraint_intersection_tag>;
-
 using Loop = std::vector<Vector2d>;
-
-// Marks the faces of a constrained triangulation inside or outside, crossing
-// from one to the other at every constraint.
-void MarkSides(Cdt* cdt) {
-  std::vector<Cdt::Face_handle> open = {cdt->infinite_face()};
-  open.back()->info().side = Side::kOutside;
-  while (!open.empty()) {
-    const Cdt::Face_handle face = open.back();
-    open.pop_back();
-    for (int i = 0; i < 3; ++i) {
-      Side& side = face->neighbor(i)->info().side;
-      if (side != Side::kUnknown) continue;
-      const bool was_inside = face->info().side == Side::kInside;
-      side = was_inside != face->is_constrained(i) ? Side::kInside
-                                                   : Side::kOutside;
-      open.push_back(face->neighbor(i));
-    }
-  }
-}
 
 // The solid over a polygon between z = bottom and z = top: the first loop is
 // the outline, counter-clockwise; the others are holes, clockwise.
 TriangleMesh Extrude(const std::vector<Loop>& loops, double bottom,
                      double top) {
   TriangleMesh mesh;
-  Cdt cdt;
   for (const Loop& loop : loops) {
-    std::vector<Cdt::Vertex_handle> handles;
     for (const Vector2d& p : loop) {
-      handles.push_back(cdt.insert({p.x(), p.y()}));
-      handles.back()->info() = static_cast<int>(mesh.vertices.size());
       mesh.vertices.emplace_back(p.x(), p.y(), bottom);
-    }
-    for (std::size_t i = 0; i < handles.size(); ++i) {
-      cdt.insert_constraint(handles[i], handles[(i + 1) % handles.size()]);
     }
   }
   const int n = static_cast<int>(mesh.vertices.size());
   for (int i = 0; i < n; ++i) {
     mesh.vertices.emplace_back(mesh.vertices[i].x(), mesh.vertices[i].y(), top);
   }
-
-  MarkSides(&cdt);
-  for (const Cdt::Face_handle face : cdt.finite_face_handles()) {
-    if (face->info().side != Side::kInside) continue;
-    const int a = face->vertex(0)->info();
-    const int b = face->vertex(1)->info();
-    const int c = face->vertex(2)->info();
+  for (const auto& [a, b, c] : internal::TriangulatePolygon(loops)) {
     mesh.triangles.push_back({a + n, b + n, c + n});
     mesh.triangles.push_back({a, c, b});
   }

@@ -15,17 +15,18 @@ struct MeshReport {
   std::size_t vertices = 0;  // used by a triangle
   std::size_t triangles = 0;
   int components = 0;                    // vertex-connected
-  std::size_t non_finite_vertices = 0;   // NaN or infinite
+  std::size_t non_finite_vertices = 0;   // NaN or infinite, used or not
   std::size_t bad_indices = 0;           // out of range
   std::size_t boundary_edges = 0;        // used by one triangle only
-  std::size_t non_manifold_edges = 0;    // used by three or more, or twice in
-                                         // the same direction
+  std::size_t non_manifold_edges = 0;    // used by three or more
+  std::size_t misoriented_edges = 0;     // used twice in the same direction
   std::size_t degenerate_triangles = 0;  // area exactly zero
   std::size_t duplicate_vertices = 0;    // same coordinates as an earlier one
   std::size_t duplicate_triangles = 0;   // same three vertices, any order
   std::size_t self_intersections = 0;    // pairs of triangles of ONE component
                                          // that meet outside shared features
-  int inverted_components = 0;           // turned outward by MakeSolid
+  std::size_t joined_vertices = 0;       // by MakeSolid
+  int inverted_components = 0;           // shells turned by MakeSolid
   double volume = 0.0;                   // after turning, mesh unit cubed
 
   // One sentence per thing a user should know although it is no error.
@@ -33,22 +34,37 @@ struct MeshReport {
 };
 
 // Counts everything above without changing the mesh or throwing.
-// Self-intersections are counted only for finite meshes with valid indices;
-// exact predicates.  Different components may overlap or touch: their union
-// is meant.
+//  - Invalid indices: only vertices, triangles and the first two defects.
+//  - Non-finite coordinates: no degenerate triangles, duplicate vertices,
+//    self-intersections or volume.
+//  - Edges of triangles that use a vertex twice do not count: such a triangle
+//    is a folded edge and closes nothing.
+//  - Non-manifold vertices, where parts touch in one point, are no defect.
+//  - Self-intersections: exact predicates.  Shared features are corners and
+//    edges with the same coordinates, so a part may touch itself along whole
+//    edges; two triangles of one plane folded over an edge do intersect, a
+//    corner on the inside of another triangle too.  Zero-area triangles
+//    intersect nothing.  Different components may overlap or touch: their
+//    union is meant.
 MeshReport ExamineMesh(const TriangleMesh& mesh);
 
 // Returns `mesh` as a solid that the contact-space builder accepts: finite,
-// valid indices, closed, edge-manifold, at least one non-degenerate triangle,
-// no self-intersection within a component, every component outward.  A
-// component is outward when its volume is positive, or negative while it is
-// enclosed by a positive one (a cavity).  Components facing the wrong way are
-// turned, counted in report->inverted_components and said in its warnings.
-// Vertices of exactly equal coordinates are NOT joined, except in triangle
-// soups (STL), which ReadMesh already joins.
+// valid indices, diagonal in [1e-80, 1e80], closed, edge-manifold,
+// consistently oriented, no self-intersection within a component, every shell
+// enclosing a volume and facing the right way.  What it does by itself:
+//  - Vertices with exactly equal coordinates are joined when that leaves
+//    fewer bad edges than before, as in files that repeat a vertex for every
+//    face or seam.  A mesh that is closed as it is keeps its duplicates.
+//  - Triangles that use a vertex twice and unused vertices are left out.
+//    Other zero-area triangles stay, because the surface needs them.
+//  - Shells (edge-connected parts) that face the wrong way are turned.  A
+//    shell faces outward when its volume is positive, or negative while it is
+//    a cavity of positive ones.  An outermost shell is turned together with
+//    what it encloses: a mirrored file gives the same solid.
+// Each is counted in the report and said in its warnings.
 //
-// Throws InputError, one line naming `name`, the first defect and its count.
-// `report` may be null.
+// Throws InputError, one line naming `name`, the defect and its count.
+// `report` may be null; otherwise it is filled before a throw too.
 TriangleMesh MakeSolid(const TriangleMesh& mesh, const std::string& name,
                        MeshReport* report = nullptr);
 

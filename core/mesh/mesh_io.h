@@ -8,20 +8,31 @@
 
 namespace phongpd {
 
-// Reads OFF, OBJ, STL (ASCII or binary) or PLY by the file's extension, in
-// double precision, through CGAL's polygon-soup readers.  Polygons with more
-// than three corners are triangulated as fans around their first corner.
-// STL vertices with identical coordinates are joined, because the format
-// cannot express sharing.  The result is NOT checked: see MakeSolid.
+// Reads OFF, OBJ, STL or PLY, chosen by the file's extension in any case,
+// through CGAL's readers, in double precision as far as the file goes: binary
+// OFF, binary STL and PLY with float properties hold floats.
+//  - OFF, PLY and STL may be text or binary, lines may end in CR LF.
+//  - OBJ: vertices and faces count, relative indices and v/vt/vn corners
+//    work; everything else (materials, groups, lines, curves) is skipped.
+//  - PLY needs float or double properties x, y, z of `vertex` and a list of
+//    32-bit vertex_indices or vertex_index of `face`.
+//  - Polygons with more corners are triangulated without new vertices, also
+//    if they are not convex; faces with fewer than three are skipped.
+//  - STL vertices with identical coordinates are joined, because the format
+//    cannot express sharing.  The other formats come as they are.
+// The result is a mesh with valid indices and finite coordinates, otherwise
+// NOT checked: see MakeSolid, which also joins vertices where that closes it.
 //
-// Throws InputError: missing file, unknown extension, unreadable content (or
-// no triangle), non-finite coordinates with their count.
+// Throws InputError, one line "FILE: what, expected, found": missing or empty
+// file, directory, unknown extension, unreadable or truncated content, no
+// face, and with their counts non-finite coordinates and bad indices.
 TriangleMesh ReadMesh(const std::string& path);
 
 // Writes the mesh in the format of the extension (OFF, OBJ, STL, PLY; text
-// with 17 significant digits, so that reading gives the same doubles).
-// Throws InputError when the file cannot be written or the extension is
-// unknown.
+// with 17 significant digits, so that reading gives the same doubles).  STL
+// keeps neither sharing nor unused vertices; the others keep every index.
+// Throws InputError, before it writes anything, for an unknown extension,
+// non-finite coordinates and bad indices, and when writing fails.
 void WriteMesh(const TriangleMesh& mesh, const std::string& path);
 
 }  // namespace phongpd

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/mesh/self_intersection.h"
+
+#include <CGAL/Bbox_3.h>
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/box_intersection_d.h>
+#include <CGAL/intersections.h>
+
+#include <array>
+#include <utility>
+
+namespace phongpd::internal {
+namespace {
+
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using Point = Kernel::Point_3;
+using Corners = std::array<Point, 3>;
+using Box = CGAL::Box_intersection_d::Box_with_info_d<double, 3, std::size_t>;
+
+Corners CornersOf(const TriangleMesh& mesh, const Triangle& triangle) {
+  const auto point = [&mesh](int v) {
+    const Eigen::Vector3d& p = mesh.vertices[v];
+    return Point(p.x(), p.y(), p.z());
+  };
+  return {point(triangle[0]), point(triangle[1]), point(triangle[2])};
+}
+
+Kernel::Triangle_3 ToTriangle(const Corners& c) { return {c[0], c[1], c[2]}; }
+
+// Rotates the equal corners of two triangles to the front; returns how many.
+int AlignCommonCorners(Corners* a, Corners* b) {
+  int common = 0;
+  for (int i = 0; i < 3; ++i) {
+    for (int j = common; j < 3; ++j) {
+      if ((*a)[i] != (*b)[j]) continue;
+      std::swap((*a)[i], (*a)[common]);
+      std::swap((*b)[j], (*b)[common]);
+      ++common;
+      break;
+    }
+  }
+  return common;
+}
+
+// Whether two proper triangles share a point beyond their common corners and
+// edges.
+bool MeetProperly(Corners a, Corners b) {
+  switch (AlignCommonCorners(&a, &b)) {
+    case 0:
+      return CGAL::do_intersect(ToTriangle(a), ToTriangle(b));
+    case 1:
+      // The common part is convex and holds the corner; any ray in it from
+      // there leaves one of the triangles through the opposite edge.
+      return CGAL::do_intersect(ToTriangle(a), Kernel::Segment_3(b[1], b[2])) ||
+             CGAL::do_intersect(ToTriangle(b), Kernel::Segment_3(a[1], a[2]));
+    case 2:
+      // Only triangles of one plane on the same side of the edge overlap.
+      return CGAL::orientation(a[0], a[1], a[2], b[2]) == CGAL::COPLANAR &&
+             CGAL::coplanar_orientation(a[0], a[1], a[2], b[2]) ==
+                 CGAL::POSITIVE;
+    default:
+      return true;
+  }
+}
+
+std::vector<Box> BoxesOf(const TriangleMesh& mesh,
+                         const std::vector<std::size_t>& triangles) {
+  std::vector<Box> boxes;
+  boxes.reserve(triangles.size());
+  for (const std::size_t t : triangles) {
+    const Corners c = CornersOf(mesh, mesh.triangles[t]);
+    boxes.emplace_back(c[0].bbox() + c[1].bbox() + c[2].bbox(), t);
+  }
+  return boxes;
+}
+
+// The triangles that have an area and whose own box meets `region`.
+std::vector<std::size_t> ProperTriangles(const TriangleMesh& mesh,
+                                         const BoundingBox& region) {
+  std::vector<std::size_t> proper;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const auto& [i, j, k] = mesh.triangles[t];
+    const Eigen::Vector3d& a = mesh.vertices[i];
+    const Eigen::Vector3d& b = mesh.vertices[j];
+    const Eigen::Vector3d& c = mesh.vertices[k];
+    const bool is_near =
+        (a.cwiseMin(b).cwiseMin(c).array() <= region.max.array()).all() &&
+        (a.cwiseMax(b).cwiseMax(c).array() >= region.min.array()).all();
+    if (is_near && !IsDegenerate(mesh, mesh.triangles[t])) proper.push_back(t);
+  }
+  return proper;
+}
+
+}  // namespace
+
+bool IsDegenerate(const TriangleMesh& mesh, const Triangle& triangle) {
+  const Corners c = CornersOf(mesh, triangle);
+  return CGAL::collinear(c[0], c[1], c[2]);
+}
+
+std::size_t CountSelfIntersections(const TriangleMesh& mesh,
+                                   const std::vector<int>& labels) {
+  std::vector<Box> boxes =
+      BoxesOf(mesh, ProperTriangles(mesh, ComputeBounds(mesh)));
+  std::size_t count = 0;
+  CGAL::box_self_intersection_d(
+      boxes.begin(), boxes.end(), [&](const Box& a, const Box& b) {
+        if (labels[a.info()] != labels[b.info()]) return;
+        count += MeetProperly(CornersOf(mesh, mesh.triangles[a.info()]),
+                              CornersOf(mesh, mesh.triangles[b.info()]));
+      });
+  return count;
+}
+
+bool Intersect(const TriangleMesh& a, const TriangleMesh& b) {
+  std::vector<Box> boxes_a = BoxesOf(a, ProperTriangles(a, ComputeBounds(b)));
+  std::vector<Box> boxes_b = BoxesOf(b, ProperTriangles(b, ComputeBounds(a)));
+  bool found = false;
+  CGAL::box_intersection_d(
+      boxes_a.begin(), boxes_a.end(), boxes_b.begin(), boxes_b.end(),
+      [&](const Box& s, const Box& t) {
+        found = found || MeetProperly(CornersOf(a, a.triangles[s.info()]),
+                                      CornersOf(b, b.triangles[t.info()]));
+      });
+  return found;
+}
+
+}  // namespace phongpd::internal
