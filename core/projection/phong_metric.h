@@ -25,12 +25,17 @@ struct PhongMetricOptions {
 // PhongPD over one contact space.
 //
 // Inside C_obj: −|q_c − q_o| with (q_c − q_o) × n(q_c) = 0 (paper, Eq. 3).
-// Outside: Euclidean distance and its gradient (there is no penetration; the
-// combination is continuous because both vanish on C_cont).
+// Outside and on C_cont: the answer of EuclideanMetric, bit for bit (there is
+// no penetration; the combination is continuous because both vanish on
+// C_cont).  It has no branch, so re-entering C_obj starts cold, at depth 0,
+// where the least projection is the only short one.
 //
-// Query without a branch is exact best-first search for the least depth; with
-// a branch it walks the branch from the branch's own configuration to q_o and
-// reports kBranchEnded where the branch folds.
+// Query without a branch is an exact search for the least depth (of equal
+// depths, the contact that comes first by x, y, z).  With a branch it follows
+// the branch from the branch's own configuration straight to q_o and reports
+// kBranchEnded, with the cold answer, where the branch folds or leaves C_obj.
+// Where no projection exists inside, the Euclidean answer without a branch
+// and status kEuclideanFallback.
 class PhongMetric final : public PenetrationMetric {
  public:
   // `contact_mesh` closed, outward, edge-manifold.  Throws InputError.
@@ -46,14 +51,17 @@ class PhongMetric final : public PenetrationMetric {
 
   // All projections of an interior q_o with depth ≤ depth_bound (user's unit),
   // sorted by depth, written to *results (cleared first; capacity is kept, so
-  // a reused vector does not allocate).  Empty outside C_obj.
-  // Only for FieldKind::kNormal; with kTangentPlane it gives the Newton hits.
+  // a reused vector does not allocate).  Empty outside C_obj.  A projection on
+  // an edge or vertex is listed once.
+  // kTangentPlane: the hits of Newton from (⅓,⅓,⅓), which need not be all.
   void QueryAll(const Eigen::Vector3d& q_o, double depth_bound,
                 std::vector<PenetrationResult>* results) const;
 
   // The paper's Algorithm 1 as reference: tries the triangles in the K rings
-  // around the previous one and takes the projection closest to the previous
-  // contact (section V.B).  Allocates; use Query for speed.
+  // around the previous one (ring 1: those that share a vertex with it) and
+  // takes the projection closest to the previous contact (section V.B).
+  // kBranchEnded with the cold answer if there is none.  It sees positions,
+  // not branches, so it may change sheet.  Allocates; use Query for speed.
   PenetrationResult QueryRing(const Eigen::Vector3d& q_o,
                               const Branch& previous, int k) const;
 
