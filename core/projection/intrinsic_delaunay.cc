@@ -15,6 +15,9 @@ constexpr double kSlack = 1e-10;
 // Cotangent sums above −kCocircular·(|cot α| + |cot β|) are cocircular up to
 // rounding: flipping those could go on for ever.
 constexpr double kCocircular = 1e-12;
+// Cotangents of larger modulus tie two vertices so closely that the difference
+// cannot be seen, while they would drown the masses in rounding.
+constexpr double kMaxCotangent = 1e6;
 // Flips per edge after which the rest is left as it is (never seen; the
 // remaining negative weights would be clamped).
 constexpr std::size_t kMaxFlipsPerEdge = 100;
@@ -108,7 +111,8 @@ class IntrinsicTriangulation {
         if (std::make_pair(other.triangle, other.side) < std::make_pair(t, k)) {
           continue;
         }
-        const double sum = Cotangent({t, k}) + Cotangent(other);
+        const double sum =
+            Bounded(Cotangent({t, k})) + Bounded(Cotangent(other));
         weights.push_back({triangles_[At(t)].vertex[At(k)],
                            triangles_[At(t)].vertex[At(Next(k))],
                            std::max(0.5 * sum, 0.0)});
@@ -130,6 +134,12 @@ class IntrinsicTriangulation {
     const double b = l[At(Next(Next(e.side)))];
     // a² + b² − c² with the cancellation in the product form.
     return ((a - c) * (a + c) + b * b) / (4.0 * Area(a, b, c));
+  }
+
+  // Coincident vertices make infinite cotangents, or 0/0.
+  static double Bounded(double cotangent) {
+    if (std::isnan(cotangent)) return 0.0;
+    return std::clamp(cotangent, -kMaxCotangent, kMaxCotangent);
   }
 
   bool IsDelaunay(Glue e) const {

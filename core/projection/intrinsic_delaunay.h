@@ -24,7 +24,8 @@ struct CotangentWeight {
 //
 // Lengths are first increased by one common amount such that every triangle
 // inequality has a slack of 1e-10 × the bounding box's diagonal ("intrinsic
-// mollification", Sharp and Crane 2020): degenerate triangles do no harm.
+// mollification", Sharp and Crane 2020) and cotangents are cut off at ±1e6, so
+// degenerate triangles and coincident vertices do no harm.
 std::vector<CotangentWeight> IntrinsicDelaunayWeights(const TriangleMesh& mesh);
 
 }  // namespace phongpd

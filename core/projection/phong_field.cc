@@ -10,6 +10,7 @@
 #include <string>
 
 #include "core/mesh/mesh_error.h"
+#include "core/projection/canonical_mesh.h"
 #include "core/projection/edge_split.h"
 #include "core/projection/normal_cone.h"
 #include "core/projection/vertex_normals.h"
@@ -31,8 +32,8 @@ constexpr int kObtuseRounds = 8;
 constexpr int kConfineRounds = 3;
 constexpr int kLengthRounds = 64;
 constexpr std::size_t kMaxTriangles = 4000000;
-// Edges are split to this multiple of ℓ, see MaxEdge.
-constexpr double kEdgePerEll = 1.0;
+// Edges are split to this multiple of ℓ (measured: see the header).
+constexpr double kEdgePerEll = 0.5;
 
 std::size_t At(int k) { return static_cast<std::size_t>(k); }
 
@@ -47,39 +48,18 @@ void CheckRange(const char* name, double value, bool ok, const char* range) {
   Refuse(out.str());
 }
 
-void CheckMesh(const TriangleMesh& mesh) {
-  if (mesh.triangles.empty()) Refuse("the contact mesh has no triangle");
-  std::size_t bad = 0;
-  const int n = static_cast<int>(mesh.vertices.size());
-  for (const Triangle& t : mesh.triangles) {
-    for (const int v : t) bad += v < 0 || v >= n ? 1 : 0;
-  }
-  if (bad > 0) {
-    Refuse("expected vertex indices below " + std::to_string(n) + ", found " +
-           std::to_string(bad) + " others");
-  }
-  for (const Triangle& t : mesh.triangles) {
-    for (const int v : t) bad += mesh.vertices[At(v)].allFinite() ? 0 : 1;
-  }
-  if (bad > 0) {
-    Refuse("expected finite vertices, found " + std::to_string(bad) +
-           " triangle corners that are not");
-  }
-  MakeEdgeTable(mesh.triangles, &bad);
-  if (bad > 0) {
-    Refuse("expected a closed, consistently oriented surface, found " +
-           std::to_string(bad) +
-           " edges that do not have one triangle on each side");
-  }
-}
-
 // Builds the field step by step; all coordinates in the field frame.
 class FieldBuilder {
  public:
   FieldBuilder(const TriangleMesh& contact_mesh,
                const PhongFieldOptions& options)
       : options_(options) {
-    EnterFrame(contact_mesh);
+    CanonicalMesh canonical = MakeCanonical(contact_mesh);
+    field_.center = canonical.center;
+    field_.scale = canonical.scale;
+    diagonal_ = canonical.diagonal;
+    contact_triangle_ = std::move(canonical.source);
+    field_.mesh = std::move(canonical.mesh);
     facets_ = FacetNormals(field_.mesh);
     source_.resize(field_.mesh.triangles.size());
     std::iota(source_.begin(), source_.end(), 0);
@@ -114,59 +94,6 @@ class FieldBuilder {
   }
 
  private:
-  // Moves the mesh into the field frame and into canonical order: vertices by
-  // coordinates, triangles by their vertices, smallest vertex first.
-  void EnterFrame(const TriangleMesh& mesh) {
-    const BoundingBox box = ComputeBounds(mesh);
-    const double diagonal = box.Diagonal();
-    int exponent = 0;
-    std::frexp(diagonal, &exponent);
-    field_.center = box.Center();
-    field_.scale = std::ldexp(1.0, 1 - exponent);
-    if (!std::isnormal(diagonal) || !std::isnormal(field_.scale)) {
-      Refuse("expected a bounding box of finite, positive diagonal");
-    }
-    diagonal_ = diagonal * field_.scale;
-
-    std::vector<Vector3d> points(mesh.vertices.size());
-    std::vector<char> used(mesh.vertices.size(), 0);
-    for (const Triangle& t : mesh.triangles) {
-      for (const int v : t) used[At(v)] = 1;
-    }
-    std::vector<int> order;
-    for (std::size_t v = 0; v < points.size(); ++v) {
-      if (!used[v]) continue;
-      points[v] = field_.ToField(mesh.vertices[v]);
-      order.push_back(static_cast<int>(v));
-    }
-    std::sort(order.begin(), order.end(), [&](int a, int b) {
-      const Vector3d& p = points[At(a)];
-      const Vector3d& q = points[At(b)];
-      for (int k = 0; k < 3; ++k) {
-        if (p[k] != q[k]) return p[k] < q[k];
-      }
-      return a < b;
-    });
-    std::vector<int> rank(points.size(), -1);
-    for (const int v : order) {
-      rank[At(v)] = static_cast<int>(field_.mesh.vertices.size());
-      field_.mesh.vertices.push_back(points[At(v)]);
-    }
-    std::vector<std::pair<Triangle, int>> triangles;
-    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-      Triangle tri = mesh.triangles[t];
-      for (int& v : tri) v = rank[At(v)];
-      std::rotate(tri.begin(), std::min_element(tri.begin(), tri.end()),
-                  tri.end());
-      triangles.emplace_back(tri, static_cast<int>(t));
-    }
-    std::sort(triangles.begin(), triangles.end());
-    for (const auto& [triangle, original] : triangles) {
-      field_.mesh.triangles.push_back(triangle);
-      contact_triangle_.push_back(original);
-    }
-  }
-
   // Normals of the facets around each vertex, without repetition of sources.
   std::vector<std::vector<Vector3d>> FacetFans() const {
     std::vector<std::vector<int>> sources(field_.mesh.vertices.size());
@@ -193,29 +120,43 @@ class FieldBuilder {
     const auto fans = FacetFans();
     for (std::size_t v = 0; v < base_.size(); ++v) {
       Vector3d& n = base_[v];
-      const bool vanishing = n.isZero(0.0);
-      if (!vanishing && MinFacetDot(n, fans[v]) >= options_.limiter) continue;
+      if (!n.isZero(0.0) && MinFacetDot(n, fans[v]) >= options_.limiter) {
+        continue;
+      }
       const Vector3d best = BestNormal(fans[v]);
       if (best.isZero(0.0)) {
         inadmissible_[v] = 1;
-        if (vanishing) n = AnyNormal(fans[v]);
       } else {
         limited_[v] = 1;
-        n = vanishing ? best : LimitNormal(n, best, fans[v], options_.limiter);
+        n = n.isZero(0.0) ? best
+                          : LimitNormal(n, best, fans[v], options_.limiter);
       }
     }
+    FillMissing();
   }
 
-  // The least bad of the facet normals themselves; z if there is none.
-  static Vector3d AnyNormal(const std::vector<Vector3d>& fan) {
-    Vector3d result = Vector3d::UnitZ();
-    double best = -std::numeric_limits<double>::infinity();
-    for (const Vector3d& facet : fan) {
-      if (facet.isZero(0.0) || MinFacetDot(facet, fan) <= best) continue;
-      best = MinFacetDot(facet, fan);
-      result = facet;
+  // Vertices without any direction of their own (degenerate facets only, or
+  // facets that cancel) take the mean of their neighbours', ring by ring.
+  void FillMissing() {
+    std::vector<Vector3d> sum(base_.size());
+    for (bool found = true; found;) {
+      std::fill(sum.begin(), sum.end(), Vector3d::Zero());
+      for (const Triangle& t : field_.mesh.triangles) {
+        for (const int v : t) {
+          if (!base_[At(v)].isZero(0.0)) continue;
+          for (const int w : t) sum[At(v)] += base_[At(w)];
+        }
+      }
+      found = false;
+      for (std::size_t v = 0; v < sum.size(); ++v) {
+        if (sum[v].norm() <= kObtuseDot) continue;
+        base_[v] = sum[v].normalized();
+        found = true;
+      }
     }
-    return result;
+    for (Vector3d& n : base_) {
+      if (n.isZero(0.0)) n = Vector3d::UnitZ();
+    }
   }
 
   EdgeTable Edges() const {
@@ -249,24 +190,26 @@ class FieldBuilder {
              std::vector<Vector3d>* normals) {
     for (std::size_t e = 0; e < marked.size(); ++e) {
       if (!marked[e]) continue;
-      normals->push_back(middle_normals[e]);
+      const bool knife = middle_normals[e].isZero(0.0);
+      const auto& [i, j] = edges.vertices[e];
+      normals->push_back(knife ? Vector3d((*normals)[At(i)])
+                               : middle_normals[e]);
       limited_.push_back(0);
-      inadmissible_.push_back(middle_normals[e].isZero(0.0) ? 1 : 0);
-      if (inadmissible_.back()) {
-        normals->back() = facets_[At(source_[At(edges.triangles[e][0])])];
-      }
+      inadmissible_.push_back(knife ? 1 : 0);
       ++field_.report.split_edges;
     }
     SplitEdges(edges, marked, &field_.mesh, &source_);
-    if (source_.size() > kMaxTriangles) {
-      std::ostringstream out;
-      out << "splitting needs more than " << kMaxTriangles
-          << " triangles; smoothing_length " << options_.smoothing_length
-          << " and max_edge " << options_.max_edge << " ask for edges below "
-          << MaxEdge() / diagonal_
-          << " of the diagonal; use larger values or 0";
-      Refuse(out.str());
-    }
+    CheckSize(static_cast<double>(source_.size()));
+  }
+
+  void CheckSize(double triangles) const {
+    if (triangles <= static_cast<double>(kMaxTriangles)) return;
+    std::ostringstream out;
+    out << "splitting needs more than " << kMaxTriangles
+        << " triangles; smoothing_length " << options_.smoothing_length
+        << " and max_edge " << options_.max_edge << " ask for edges below "
+        << MaxEdge() / diagonal_ << " of the diagonal; set a larger max_edge";
+    Refuse(out.str());
   }
 
   void ConfineInadmissible() {
@@ -296,6 +239,9 @@ class FieldBuilder {
   void SplitLongEdges() {
     const double longest = MaxEdge();
     if (longest <= 0.0) return;
+    // No triangle is larger than the equilateral one: refuse before trying.
+    CheckSize(SurfaceArea(field_.mesh) /
+              (0.25 * std::sqrt(3.0) * longest * longest));
     for (int round = 0; round < kLengthRounds; ++round) {
       const EdgeTable edges = Edges();
       std::vector<char> marked(edges.vertices.size(), 0);
@@ -330,7 +276,7 @@ class FieldBuilder {
       const double c =
           std::min(options_.limiter, MinFacetDot(base_[v], fans[v]));
       field_.normals[v] = LimitNormal(n, base_[v], fans[v], c);
-      if (field_.normals[v] != n) limited_[v] = 1;
+      limited_[v] = field_.normals[v] != n ? 1 : 0;
     }
   }
 
@@ -394,7 +340,6 @@ void PhongFieldOptions::Validate() const {
 PhongField BuildPhongField(const TriangleMesh& contact_mesh,
                            const PhongFieldOptions& options) {
   options.Validate();
-  CheckMesh(contact_mesh);
   return FieldBuilder(contact_mesh, options).Take();
 }
 

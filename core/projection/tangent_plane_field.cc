@@ -18,12 +18,16 @@ using Basis = TangentPlaneField::Basis;
 using Frames = TangentPlaneField::Frames;
 
 // Barycentric numbers, so relative to 1.
-constexpr double kOutside = 1e-9;    // λ ≥ −kOutside is on the triangle
-constexpr double kFarOutside = 2.0;  // Newton has left for good
+constexpr double kOutside = 1e-9;  // λ ≥ −kOutside is on the triangle
+// Newton has left for good.  Leaving at 2 misses twice as many projections
+// from the centroid, leaving at 1000 hardly fewer.
+constexpr double kFarOutside = 10.0;
 constexpr double kStep = 1e-13;      // Newton step that counts as none
 constexpr double kCorner = 1e-14;    // S below: λ is the corner, use the limit
 constexpr double kRounding = 1e-15;  // residual that no step can improve
 constexpr double kResidual = 1e-12;  // of Ψ r, relative to diagonal + |r|
+// Near a corner ∂Ψ is taken this far towards the centroid, see below.
+constexpr double kNudge = 1e-6;
 constexpr int kNewtonSteps = 30;
 constexpr int kProcrustesSteps = 50;
 constexpr double kProcrustesChange = 1e-15;
@@ -95,6 +99,10 @@ struct Plane {
   std::array<Basis, 3> slope;  // ∂Ψ/∂λ_m, λ taken as independent
 };
 
+double SymmetricSum(const Vector3d& l) {
+  return l[0] * l[1] + l[1] * l[2] + l[2] * l[0];
+}
+
 // Ψ = (1/S) Σ_(ijk) λ_i λ_j [(λ_i + ½ λ_k) A_ij + (λ_j + ½ λ_k) B_ij], with S
 // = λ_1 λ_2 + λ_2 λ_3 + λ_3 λ_1 and A, B the frames at the ends of the edge.
 Plane Evaluate(const Frames& frames, const Vector3d& lambda) {
@@ -136,6 +144,41 @@ Plane Evaluate(const Frames& frames, const Vector3d& lambda) {
   return plane;
 }
 
+// How Newton's iterates outside the triangle see the field.  Neither changes a
+// root with λ ≥ 0.
+enum class Outside {
+  kContinued,  // the formula as it stands; 1/S has poles through the corners
+  kClamped,    // the plane of the point max(λ, 0)/Σ max(λ, 0): no poles, but
+               // Newton can cycle across the edges
+};
+
+// Ψ and its derivatives along λ_2 − λ_1 and λ_3 − λ_1.
+struct PlaneJet {
+  Basis psi;
+  std::array<Basis, 2> along;
+};
+
+PlaneJet EvaluateJet(const Frames& frames, const Vector3d& lambda,
+                     Outside outside) {
+  const bool clamp = outside == Outside::kClamped && lambda.minCoeff() < 0.0;
+  const Vector3d positive = lambda.cwiseMax(0.0);
+  const double sum = clamp ? positive.sum() : 1.0;  // ≥ 1
+  const Vector3d inner = clamp ? Vector3d(positive / sum) : lambda;
+  const Plane plane = Evaluate(frames, inner);
+  PlaneJet jet;
+  jet.psi = plane.psi;
+  for (Eigen::Index k = 0; k < 2; ++k) {
+    Vector3d d = Vector3d::Unit(k + 1) - Vector3d::Unit(0);
+    if (clamp) {
+      d = (lambda.array() < 0.0).select(0.0, d);
+      d = Vector3d((d - inner * d.sum()) / sum);
+    }
+    jet.along[static_cast<std::size_t>(k)] =
+        d[0] * plane.slope[0] + d[1] * plane.slope[1] + d[2] * plane.slope[2];
+  }
+  return jet;
+}
+
 Vector3d Row(const Basis& basis, Eigen::Index k) {
   return basis.row(k).transpose();
 }
@@ -162,7 +205,7 @@ struct NormalJet {
   std::array<Vector3d, 2> slope;
 };
 
-NormalJet UnitNormal(const Plane& plane, const Vector3d& linear) {
+NormalJet UnitNormal(const PlaneJet& plane, const Vector3d& linear) {
   const Vector3d r = Row(plane.psi, 0);
   const Vector3d t = Row(plane.psi, 1);
   const Vector3d cross = r.cross(t);
@@ -171,12 +214,41 @@ NormalJet UnitNormal(const Plane& plane, const Vector3d& linear) {
   NormalJet jet;
   jet.normal = sign * cross / length;
   for (std::size_t k = 0; k < 2; ++k) {
-    const Basis d = plane.slope[k + 1] - plane.slope[0];
+    const Basis& d = plane.along[k];
     const Vector3d dc = Row(d, 0).cross(t) + r.cross(Row(d, 1));
     jet.slope[k] = sign / length *
                    (dc - (sign * jet.normal.dot(dc)) * (sign * jet.normal));
   }
   return jet;
+}
+
+// Newton on Ψ(λ)(p(λ) − x) = 0; true when it settles on λ ≥ −kOutside.
+bool Newton(const Corners& c, const Frames& frames, const Vector3d& x,
+            Outside outside, Vector3d* solution) {
+  const Vector3d e_1 = c.q[1] - c.q[0];
+  const Vector3d e_2 = c.q[2] - c.q[0];
+  Vector3d lambda = *solution;
+  bool settled = false;
+  for (int step = 0; step < kNewtonSteps && !settled; ++step) {
+    const PlaneJet plane = EvaluateJet(frames, lambda, outside);
+    const Vector3d r = Corners::Mix(c.q, lambda) - x;
+    Matrix2d jacobian;
+    jacobian.col(0) = plane.psi * e_1 + plane.along[0] * r;
+    jacobian.col(1) = plane.psi * e_2 + plane.along[1] * r;
+    const Vector2d residual = plane.psi * r;
+    const Vector2d delta = -jacobian.inverse() * residual;
+    lambda += Vector3d(-delta[0] - delta[1], delta[0], delta[1]);
+    // Written so that NaN, from a singular Jacobian, ends the search.
+    if (!(lambda.cwiseAbs().maxCoeff() <= kFarOutside)) return false;
+    settled = delta.cwiseAbs().maxCoeff() <= kStep ||
+              residual.norm() <= kRounding * (1.0 + r.norm());
+  }
+  if (lambda.minCoeff() < -kOutside) return false;
+  const Vector3d r = Corners::Mix(c.q, lambda) - x;
+  const PlaneJet plane = EvaluateJet(frames, lambda, Outside::kClamped);
+  if (!((plane.psi * r).norm() <= kResidual * (1.0 + r.norm()))) return false;
+  *solution = lambda;
+  return true;
 }
 
 // ∇s of x = p(λ) + s n̂(λ): the last row of J⁻¹, J = [e_1 + s ∂_1 n̂,
@@ -211,7 +283,8 @@ Vector3d TangentPlaneNormal(const PhongField& field,
                             const TangentPlaneField& planes, int triangle,
                             const Vector3d& lambda) noexcept {
   const Corners c(field, triangle);
-  const Plane plane = Evaluate(planes.frames[At(triangle)], lambda);
+  const PlaneJet plane =
+      EvaluateJet(planes.frames[At(triangle)], lambda, Outside::kClamped);
   return UnitNormal(plane, Corners::Mix(c.n, lambda)).normal;
 }
 
@@ -221,31 +294,22 @@ bool ProjectOnTangentPlanes(const PhongField& field,
                             TangentPlaneHit* hit) noexcept {
   const Corners c(field, triangle);
   const Frames& frames = planes.frames[At(triangle)];
-  const Vector3d e_1 = c.q[1] - c.q[0];
-  const Vector3d e_2 = c.q[2] - c.q[0];
   Vector3d lambda = start_lambda;
-  Plane plane;
-  Vector3d r;
-  bool settled = false;
-  for (int step = 0; step < kNewtonSteps && !settled; ++step) {
-    plane = Evaluate(frames, lambda);
-    r = Corners::Mix(c.q, lambda) - x;
-    Matrix2d jacobian;
-    jacobian.col(0) = plane.psi * e_1 + (plane.slope[1] - plane.slope[0]) * r;
-    jacobian.col(1) = plane.psi * e_2 + (plane.slope[2] - plane.slope[0]) * r;
-    const Vector2d residual = plane.psi * r;
-    const Vector2d delta = -jacobian.inverse() * residual;
-    lambda += Vector3d(-delta[0] - delta[1], delta[0], delta[1]);
-    // Written so that NaN, from a singular Jacobian, ends the search.
-    if (!(lambda.cwiseAbs().maxCoeff() <= kFarOutside)) return false;
-    settled = delta.cwiseAbs().maxCoeff() <= kStep ||
-              residual.norm() <= kRounding * (1.0 + r.norm());
+  if (!Newton(c, frames, x, Outside::kContinued, &lambda) &&
+      !Newton(c, frames, x, Outside::kClamped, &lambda)) {
+    return false;
   }
-  if (lambda.minCoeff() < -kOutside) return false;
-  plane = Evaluate(frames, lambda);
-  r = Corners::Mix(c.q, lambda) - x;
-  if (!((plane.psi * r).norm() <= kResidual * (1.0 + r.norm()))) return false;
+  const PlaneJet plane = EvaluateJet(frames, lambda, Outside::kClamped);
+  const Vector3d r = Corners::Mix(c.q, lambda) - x;
   NormalJet jet = UnitNormal(plane, Corners::Mix(c.n, lambda));
+  if (SymmetricSum(lambda) < kNudge) {
+    // At a corner the slope of the field depends on the direction of approach.
+    const Vector3d inner =
+        lambda + kNudge * (Vector3d::Constant(1.0 / 3.0) - lambda);
+    jet.slope = UnitNormal(EvaluateJet(frames, inner, Outside::kClamped),
+                           Corners::Mix(c.n, inner))
+                    .slope;
+  }
   hit->lambda = lambda;
   hit->normal = jet.normal;
   hit->s = -jet.normal.dot(r);
