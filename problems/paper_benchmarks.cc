@@ -45,7 +45,7 @@ std::vector<PaperBenchmark> PaperBenchmarks() {
 PaperMotion PaperMoment() {
   return {"moment",
           "Fig. 8's moment: pushed over the handle",
-          {{0.3, -0.1, 0.7}, {0.3, 0.1, -0.7}, 29}};
+          {{0.3, -0.25, 0.7}, {0.3, 0.25, -0.7}, 25}};
 }
 
 }  // namespace phongpd

@@ -66,8 +66,8 @@ std::string MomentFigure(const PaperBenchmark& benchmark,
             "frames (cut x = " +
             FormatDouble(x) +
             ")' font ',16'\n"
-            "set size ratio -1\nset xrange [-1.15:1.15]\n"
-            "set yrange [-1.15:1.15]\nset xlabel 'y [length]'\n"
+            "set size ratio -1\nset xrange [-1.13:1.13]\n"
+            "set yrange [-1.13:1.13]\nset xlabel 'y [length]'\n"
             "set ylabel 'z [length]'\nset key bottom center outside "
             "horizontal maxcols 2 samplen 3\n";
   for (std::size_t k = 0; k < traces.size(); ++k) {
@@ -85,7 +85,7 @@ std::string MomentFigure(const PaperBenchmark& benchmark,
               number +
               " u 1:2 w p pt 7 ps 0.35 lc rgb '#000000' t 'robot centre'\n";
   }
-  return RenderSvg(script + "unset multiplot\n", 1300, 540);
+  return RenderSvg(script + "unset multiplot\n", 1250, 520);
 }
 
 }  // namespace phongpd::bench

@@ -79,11 +79,13 @@ Table TimesTable(const std::vector<PaperResult>& results) {
   table.header = {"benchmark",      "metric",           "warm median [µs]",
                   "warm 99 % [µs]", "cold median [µs]", "Euclidean / warm"};
   for (const PaperResult& r : results) {
+    const double euclidean = r.totals.front().cold_median_us;
     for (const MotionTotals& t : r.totals) {
+      const bool warm = &t != &r.totals.front();
       table.rows.push_back(
-          {r.benchmark.title, t.label, Rounded(t.median_us), Rounded(t.p99_us),
-           Rounded(t.cold_median_us),
-           Rounded(r.totals.front().cold_median_us / t.median_us)});
+          {r.benchmark.title, t.label, warm ? Rounded(t.median_us) : "–",
+           warm ? Rounded(t.p99_us) : "–", Rounded(t.cold_median_us),
+           warm ? Rounded(euclidean / t.median_us) : "–"});
     }
   }
   return table;
@@ -140,7 +142,7 @@ std::string Findings(const std::vector<PaperResult>& results) {
 
 std::string Circumstances(const PaperOptions& options,
                           const std::string& command) {
-  return "Command: `" + command + "`. Seed: " + std::to_string(options.seed) +
+  return "Command: " + command + ". Seed: " + std::to_string(options.seed) +
          ". Machine: " + Machine() + ". Versions: " + VersionList() + ".";
 }
 
@@ -181,8 +183,8 @@ std::string PaperReadme(const std::vector<PaperResult>& results,
       "field, ℓ = 0.1 the field smoothed over a tenth of the contact space's "
       "diagonal) beside Euclidean PD on the same contact spaces. This file is "
       "written by the command below; do not edit it.\n\n" +
-      Circumstances(options, command) + "\n\n## What is won and lost\n\n" +
-      Findings(results) +
+      Circumstances(options, "`" + command + "`") +
+      "\n\n## What is won and lost\n\n" + Findings(results) +
       "\nA PD that is defined on all of a solid cannot be continuous "
       "everywhere: a Phong branch ends where its field folds. Every end is "
       "flagged (`branch_ended`), and the tables count them.\n\n## Tables\n\n";
@@ -217,7 +219,7 @@ std::string PaperPage(const std::vector<NamedTable>& tables,
       "<p>PhongPD (ℓ = 0 is the paper's field, ℓ = 0.1 the field smoothed "
       "over a tenth of the contact space's diagonal) beside Euclidean PD on "
       "the same contact spaces.</p>\n<p>" +
-      Circumstances(options, command) + "</p>\n";
+      Circumstances(options, "<code>" + command + "</code>") + "</p>\n";
   for (const NamedTable& named : tables) html += ToHtml(named.table);
   html += "<h2>Figures</h2>\n";
   for (const Figure& figure : figures) {

@@ -50,7 +50,7 @@ std::string FieldOf(const char* file, const std::string& key) {
     const std::size_t first = line.find_first_not_of(" \t", colon + 1);
     if (first != std::string::npos) return line.substr(first);
   }
-  return "unknown";
+  return "0 (unknown)";
 }
 
 }  // namespace
@@ -126,7 +126,8 @@ std::string Rounded(double value, int digits) {
 std::string Machine() {
   return FieldOf("/proc/cpuinfo", "model name") + ", " +
          std::to_string(std::thread::hardware_concurrency()) + " cores, " +
-         FieldOf("/proc/meminfo", "MemTotal") + " memory";
+         Rounded(std::stod(FieldOf("/proc/meminfo", "MemTotal")) / 1048576.0) +
+         " GiB memory";
 }
 
 std::string VersionList() {

@@ -23,7 +23,7 @@ std::string ToText(const Table& table);  // aligned columns
 // `value` with the given number of significant digits.
 std::string Rounded(double value, int digits = 3);
 
-// "CPU model, n cores, kernel's memory": nothing that names the host.
+// "CPU model, n cores, memory": nothing that names the host.
 std::string Machine();
 
 // "name version, name version, ..."
