@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <Eigen/Geometry>
 #include "core/mesh/surface_tree.h"
 
 #include <algorithm>

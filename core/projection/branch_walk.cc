@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <Eigen/Geometry>
 #include "core/projection/branch_walk.h"
 
 #include <algorithm>
