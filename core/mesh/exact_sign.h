@@ -5,12 +5,14 @@
 #include <cmath>
 
 // Signs of determinants of finite doubles, exact for every finite input
-// (denormals and scales 1e±300 included): a floating-point filter inline, and
-// rational arithmetic when the filter cannot decide.  Error bounds of the
-// filters: Shewchuk, Adaptive Precision Floating-Point Arithmetic and Fast
-// Robust Geometric Predicates, 1997.  They hold without underflow only, so a
-// determinant below kFilterFloor goes to the exact route as well; overflow
-// makes the comparisons false and ends there too.
+// (denormals and scales 1e±300 included), in three stages: a floating-point
+// filter, inline; floating-point expansions where it cannot decide; rational
+// numbers where even those could under- or overflow (a coordinate that is not
+// 0 and not between 1e-70 and 1e70) – only these allocate.  Filter bounds and
+// expansions: Shewchuk, Adaptive Precision Floating-Point Arithmetic and Fast
+// Robust Geometric Predicates, 1997.  The filter holds without underflow only,
+// so a determinant below kFilterFloor is passed on as well; overflow makes the
+// comparisons false and is passed on too.
 namespace phongpd {
 
 namespace internal {

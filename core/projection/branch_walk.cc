@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <Eigen/Geometry>
 #include "core/projection/branch_walk.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 

@@ -89,7 +89,7 @@ ContactSurface::ContactSurface(const TriangleMesh& mesh) : mesh_(mesh) {
     const double l1 = e1.squaredNorm(), l2 = e2.squaredNorm(),
                  l3 = e3.squaredNorm();
     const Vector3d n = l1 >= l2 && l1 >= l3   ? e3.cross(Vector3d(-e2))
-                       : l2 >= l1 && l2 >= l3 ? Vector3d(-e1).cross(e3)
+                       : l2 >= l1 && l2 >= l3 ? e1.cross(e3)
                                               : e1.cross(e2);
     facet_normals_.push_back(n.stableNormalized());
   }

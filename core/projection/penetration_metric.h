@@ -10,7 +10,7 @@ enum class QueryStatus {
   kOk,                 // the metric's own answer
   kBranchEnded,        // the warm branch folded on the way: cold answer given
   kEuclideanFallback,  // inside, but no Phong projection exists: Euclidean PD
-  kInvalid,            // q_o is not finite: no other member is meaningful
+  kInvalid,            // q_o is not finite: all other members are zero
 };
 
 // The state of a continuous family of projections, carried by the caller from
@@ -36,7 +36,9 @@ struct PenetrationResult {
   // Exact gradient of signed_distance; one-sided on edges.
   Eigen::Vector3d gradient = Eigen::Vector3d::Zero();
   int triangle = -1;  // of the contact-space mesh, holds q_c
-  Branch branch;      // hand it to the next query
+  // Hand it to the next query.  Not valid (the next query is then cold)
+  // outside, with kEuclideanFallback, and from metrics without branches.
+  Branch branch;
 
   // PD(q_o) = q_c − q_o (paper, Eq. 1) inside, zero outside.
   Eigen::Vector3d PenetrationVector(const Eigen::Vector3d& q_o) const {
@@ -45,7 +47,9 @@ struct PenetrationResult {
 };
 
 // A penetration metric over one contact space.  Queries are const,
-// thread-safe and do not allocate.
+// thread-safe and do not allocate (but for exact signs of coordinates beyond
+// 1e±70, exact_sign.h).  Nothing but NaN or Inf in q_o gives kInvalid, and no
+// result holds either.
 class PenetrationMetric {
  public:
   virtual ~PenetrationMetric() = default;

@@ -38,7 +38,7 @@ struct PhongMetricOptions {
 // and status kEuclideanFallback.
 class PhongMetric final : public PenetrationMetric {
  public:
-  // `contact_mesh` closed, outward, edge-manifold.  Throws InputError.
+  // `contact_mesh` as EuclideanMetric requires it.  Throws InputError.
   explicit PhongMetric(const TriangleMesh& contact_mesh,
                        const PhongMetricOptions& options = {});
   ~PhongMetric() override;

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Queries allocate nothing and may run in threads: promises of
+// penetration_metric.h, checked by counting every allocation of the process.
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cmath>
+#include <cstdlib>
+#include <new>
+#include <thread>
+#include <vector>
+
+#include "core/projection/euclidean_metric.h"
+#include "core/projection/phong_metric.h"
+#include "problems/shapes.h"
+
+namespace {
+std::atomic<long> allocations{0};
+}  // namespace
+
+void* operator new(std::size_t size) {
+  ++allocations;
+  if (void* memory = std::malloc(size > 0 ? size : 1)) return memory;
+  throw std::bad_alloc();
+}
+void operator delete(void* memory) noexcept { std::free(memory); }
+void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+
+namespace phongpd {
+namespace {
+
+using Eigen::Vector3d;
+
+Vector3d OnPath(int i) {
+  const double t = 1e-3 * i;
+  return {1.1 * std::cos(3.0 * t), 0.9 * std::sin(5.0 * t), 0.2 * std::sin(t)};
+}
+
+double Sum(const PenetrationMetric& metric, int first, int last) {
+  double sum = 0.0;
+  Branch branch;
+  for (int i = first; i < last; ++i) {
+    const PenetrationResult warm = metric.Query(OnPath(i), branch);
+    branch = warm.branch;
+    sum += warm.signed_distance + metric.Query(OnPath(i)).signed_distance;
+  }
+  return sum;
+}
+
+TEST(QueryCost, QueriesDoNotAllocate) {
+  const TriangleMesh mesh = MakeTorus(1.0, 0.35, 40, 16);
+  PhongMetricOptions planes;
+  planes.field = FieldKind::kTangentPlane;
+  const PhongMetric phong(mesh), newton(mesh, planes);
+  const EuclideanMetric euclidean(mesh);
+  std::vector<PenetrationResult> all;
+  all.reserve(4096);
+  const long before = allocations;
+  double sum = Sum(phong, 0, 2000) + Sum(euclidean, 0, 2000);
+  EXPECT_EQ(allocations, before);
+  sum += Sum(newton, 0, 500);
+  EXPECT_EQ(allocations, before);
+  for (int i = 0; i < 500; ++i) {
+    phong.QueryAll(OnPath(i), 1.0, &all);
+    sum += static_cast<double>(all.size());
+  }
+  EXPECT_EQ(allocations, before);
+  EXPECT_NE(sum, 0.0);
+}
+
+TEST(QueryCost, ThreadsGetTheSameBits) {
+  const PhongMetric metric(MakeTorus(1.0, 0.35, 40, 16));
+  const double alone = Sum(metric, 0, 3000);
+  double sums[2] = {0.0, 0.0};
+  std::thread first([&] { sums[0] = Sum(metric, 0, 3000); });
+  std::thread second([&] { sums[1] = Sum(metric, 0, 3000); });
+  first.join();
+  second.join();
+  EXPECT_EQ(sums[0], alone);
+  EXPECT_EQ(sums[1], alone);
+}
+
+}  // namespace
+}  // namespace phongpd
