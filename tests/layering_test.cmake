@@ -2,6 +2,8 @@
 # cmake -D SOURCE=... -P layering_test.cmake: who may include whom.
 #   core <- constraints <- planners <- problems <- tests, results
 #   core: mesh <- contact_space <- projection
+cmake_minimum_required(VERSION 3.23)
+
 set(failures "")
 
 # Complains about every file of `folder` that includes something matching

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # cmake -D BUILD=... -D SOURCE=... -P run.cmake: installs the built library,
 # builds this folder against it as an outsider would, and runs the result.
+cmake_minimum_required(VERSION 3.23)
+
 function(run)
   execute_process(COMMAND ${ARGV} COMMAND_ERROR_IS_FATAL ANY)
 endfunction()
