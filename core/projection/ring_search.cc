@@ -87,7 +87,7 @@ Projection FollowByNewton(const FieldProjector& projector,
                           const BranchWalk& walk, const Vector3d& x,
                           const Projection& previous) noexcept {
   // Lengths refer to the field frame, whose diagonal is in [1, 2).
-  constexpr double kLongestMove = 0.02;
+  constexpr double kLongestMove = 0.005;
   constexpr double kShortestMove = 1e-6;
   constexpr double kMagnification = 8.0;
   constexpr int kMaxSteps = 1024;
