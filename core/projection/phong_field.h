@@ -28,9 +28,10 @@ struct PhongFieldOptions {
   // are split at mid-points (which leaves the surface as it is).  0: ℓ/2, or
   // no bound for ℓ = 0.  A diffusion that edges longer than ℓ do not resolve
   // is a property of the tessellation, not of the shape: against a mesh of
-  // edges ℓ/8 the field is off by 3-25° (root mean square, box, U, wrench,
-  // cone/axes) without splitting, 1-9° with edges ≤ ℓ, 0.2-3° with ≤ ℓ/2 where
-  // ℓ is less than the thickness of the shape.  Must be in [0, 1].
+  // edges ℓ/8 the field is off by 3-25° (root mean square over box, U, wrench,
+  // cone/axes; ℓ = 0.05-0.2) without splitting, by 1-3° with edges ≤ ℓ and by
+  // 0.2-1° with edges ≤ ℓ/2; by up to 9° where parts are thinner than ℓ.
+  // Must be in [0, 1]; refused where it needs more than 4M triangles.
   double max_edge = 0.0;
 
   // Throws InputError naming the option, the range and the value.
