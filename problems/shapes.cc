@@ -217,7 +217,8 @@ TriangleMesh Joined(const TriangleMesh& a, const TriangleMesh& b) {
 }
 
 Eigen::Matrix3d GenericRotation() {
-  return (Eigen::AngleAxisd(0.9, Vector3d::UnitY()) *
+  return (Eigen::AngleAxisd(0.4, Vector3d::UnitX()) *
+          Eigen::AngleAxisd(0.9, Vector3d::UnitY()) *
           Eigen::AngleAxisd(0.7, Vector3d::UnitZ()))
       .toRotationMatrix();
 }

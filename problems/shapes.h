@@ -9,7 +9,7 @@
 // edge-manifold mesh without self-intersections and throws InputError for
 // parameters that cannot give one: one line that names the shape and the
 // parameter, what it must be and what it was.  Lengths are in the caller's
-// unit, in [1e-80, 1e80]; counts of points on a curve are at most 10 000.
+// unit, in [1e-70, 1e70]; counts of points on a curve are at most 10 000.
 // Same arguments, same bytes.  Circles start on +x and hit the axes exactly.
 namespace phongpd {
 
@@ -87,8 +87,8 @@ TriangleMesh MakeKnot(double size, double tube, int around, int across);
 // The triangles of both, nothing merged or cut (components may overlap).
 TriangleMesh Joined(const TriangleMesh& a, const TriangleMesh& b);
 
-// Rotation by no special angle (0.7 rad about z, then 0.9 rad about y), for
-// meshes that must not be axis-aligned.
+// Rotation by no special angle (0.7 rad about z, 0.9 about y, 0.4 about x),
+// for meshes that must not be axis-aligned.
 Eigen::Matrix3d GenericRotation();
 
 }  // namespace phongpd

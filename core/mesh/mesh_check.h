@@ -24,7 +24,7 @@ struct MeshReport {
   std::size_t duplicate_vertices = 0;    // same coordinates as an earlier one
   std::size_t duplicate_triangles = 0;   // same three vertices, any order
   std::size_t self_intersections = 0;    // pairs of triangles of ONE component
-                                         // that meet outside shared features
+                                         // of which one enters the other
   std::size_t joined_vertices = 0;       // by MakeSolid
   int inverted_components = 0;           // shells turned by MakeSolid
   double volume = 0.0;                   // after turning, mesh unit cubed
@@ -40,12 +40,11 @@ struct MeshReport {
 //  - Edges of triangles that use a vertex twice do not count: such a triangle
 //    is a folded edge and closes nothing.
 //  - Non-manifold vertices, where parts touch in one point, are no defect.
-//  - Self-intersections: exact predicates.  Shared features are corners and
-//    edges with the same coordinates, so a part may touch itself along whole
-//    edges; two triangles of one plane folded over an edge do intersect, a
-//    corner on the inside of another triangle too.  Zero-area triangles
-//    intersect nothing.  Different components may overlap or touch: their
-//    union is meant.
+//  - Self-intersections: exact.  A pair counts when one triangle has a point
+//    in the inside of the other: piercing, a corner on a face, areas of one
+//    plane that overlap.  A part may touch itself where edges meet edges.
+//    Zero-area triangles intersect nothing.  Different components may overlap
+//    or touch: their union is meant.
 MeshReport ExamineMesh(const TriangleMesh& mesh);
 
 // Returns `mesh` as a solid that the contact-space builder accepts: finite,

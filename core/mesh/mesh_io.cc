@@ -1,18 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/mesh/mesh_io.h"
 
-#include <CGAL/IO/OBJ.h>
-#include <CGAL/IO/OFF.h>
-#include <CGAL/IO/PLY.h>
-#include <CGAL/IO/STL.h>
-
 #include <algorithm>
 #include <cctype>
 #include <cstddef>
+#include <exception>
 #include <filesystem>
 #include <fstream>
-#include <stdexcept>
 #include <string>
+#include <system_error>
+#include <utility>
 #include <vector>
 
 #include "core/mesh/polygon_soup.h"
@@ -21,20 +18,18 @@
 namespace phongpd {
 namespace {
 
+using internal::MeshFormat;
 using internal::PolygonSoup;
-using internal::SoupPoint;
 
-enum class Format { kOff, kObj, kStl, kPly };
-
-Format FormatOf(const std::string& path) {
+MeshFormat FormatOf(const std::string& path) {
   std::string extension = std::filesystem::path(path).extension().string();
   for (char& c : extension) {
     c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   }
-  if (extension == ".off") return Format::kOff;
-  if (extension == ".obj") return Format::kObj;
-  if (extension == ".stl") return Format::kStl;
-  if (extension == ".ply") return Format::kPly;
+  if (extension == ".off") return MeshFormat::kOff;
+  if (extension == ".obj") return MeshFormat::kObj;
+  if (extension == ".stl") return MeshFormat::kStl;
+  if (extension == ".ply") return MeshFormat::kPly;
   throw InputError(path +
                    ": unknown mesh format; expected the extension .off, .obj, "
                    ".stl or .ply, found " +
@@ -64,23 +59,6 @@ std::ifstream Open(const std::string& path, std::size_t* size) {
   return in;
 }
 
-PolygonSoup ReadSoup(const std::string& path) {
-  const Format format = FormatOf(path);
-  std::size_t size = 0;
-  std::ifstream in = Open(path, &size);
-  switch (format) {
-    case Format::kOff:
-      return internal::ReadOff(in, size, path);
-    case Format::kObj:
-      return internal::ReadObj(in, path);
-    case Format::kStl:
-      return internal::ReadStl(in, path);
-    case Format::kPly:
-      return internal::ReadPly(in, size, path);
-  }
-  throw std::logic_error("unhandled mesh format");
-}
-
 // "what" with the count and the first of them, or nothing if there is none.
 class Complaint {
  public:
@@ -100,18 +78,14 @@ class Complaint {
   std::size_t first_ = 0;
 };
 
-std::vector<Eigen::Vector3d> CheckedVertices(const PolygonSoup& soup,
-                                             const std::string& path) {
-  std::vector<Eigen::Vector3d> vertices;
-  vertices.reserve(soup.points.size());
+void RequireValid(const PolygonSoup& soup, const std::string& path) {
   Complaint non_finite, bad_index;
-  for (const SoupPoint& p : soup.points) {
-    vertices.emplace_back(p.x(), p.y(), p.z());
-    if (!vertices.back().allFinite()) non_finite.Add(vertices.size() - 1);
+  for (std::size_t i = 0; i < soup.points.size(); ++i) {
+    if (!soup.points[i].allFinite()) non_finite.Add(i);
   }
   non_finite.ThrowIfAny(path, "finite coordinates",
                         "vertices with NaN or infinity");
-  const int n = static_cast<int>(vertices.size());
+  const int n = static_cast<int>(soup.points.size());
   for (std::size_t i = 0; i < soup.polygons.size(); ++i) {
     const std::vector<int>& polygon = soup.polygons[i];
     if (std::any_of(polygon.begin(), polygon.end(),
@@ -121,23 +95,29 @@ std::vector<Eigen::Vector3d> CheckedVertices(const PolygonSoup& soup,
   }
   bad_index.ThrowIfAny(path, "indices of existing vertices",
                        "faces with an index out of range");
-  return vertices;
 }
 
 }  // namespace
 
 TriangleMesh ReadMesh(const std::string& path) {
+  const MeshFormat format = FormatOf(path);
+  std::size_t size = 0;
+  std::ifstream in = Open(path, &size);
   PolygonSoup soup;
   try {
-    soup = ReadSoup(path);
+    soup = internal::ReadSoup(format, in, size, path);
   } catch (const InputError&) {
     throw;
   } catch (const std::exception& error) {
-    // CGAL and the standard library: a count that no memory can hold.
-    throw InputError(path + ": unreadable; " + error.what());
+    // A count that no memory can hold, or a broken expectation of CGAL's.
+    std::string what = error.what();
+    std::replace(what.begin(), what.end(), '\n', ' ');
+    throw InputError(path + ": unreadable; expected a complete mesh, found " +
+                     what + "; export it again");
   }
+  RequireValid(soup, path);
   TriangleMesh mesh;
-  mesh.vertices = CheckedVertices(soup, path);
+  mesh.vertices = std::move(soup.points);
   std::vector<Eigen::Vector3d> corners;
   for (const std::vector<int>& polygon : soup.polygons) {
     corners.clear();
@@ -155,32 +135,15 @@ TriangleMesh ReadMesh(const std::string& path) {
 }
 
 void WriteMesh(const TriangleMesh& mesh, const std::string& path) {
-  const Format format = FormatOf(path);
+  const MeshFormat format = FormatOf(path);
   PolygonSoup soup;
-  for (const Eigen::Vector3d& v : mesh.vertices) {
-    soup.points.emplace_back(v.x(), v.y(), v.z());
-  }
+  soup.points = mesh.vertices;
   for (const Triangle& t : mesh.triangles) {
     soup.polygons.emplace_back(t.begin(), t.end());
   }
-  CheckedVertices(soup, path);
+  RequireValid(soup, path);
   std::ofstream out(path, std::ios::binary);
-  out.precision(17);
-  bool is_written = out.good();
-  switch (format) {
-    case Format::kOff:
-      is_written &= CGAL::IO::write_OFF(out, soup.points, soup.polygons);
-      break;
-    case Format::kObj:
-      is_written &= CGAL::IO::write_OBJ(out, soup.points, soup.polygons);
-      break;
-    case Format::kStl:
-      is_written &= CGAL::IO::write_STL(out, soup.points, soup.polygons);
-      break;
-    case Format::kPly:
-      is_written &= CGAL::IO::write_PLY(out, soup.points, soup.polygons);
-      break;
-  }
+  const bool is_written = out && internal::WriteSoup(format, soup, out);
   if (!is_written || !out.flush()) {
     throw InputError(path +
                      ": cannot be written; expected a writable path "

@@ -5,15 +5,26 @@
 #include <CGAL/IO/OFF.h>
 #include <CGAL/IO/PLY.h>
 #include <CGAL/IO/STL.h>
+#include <CGAL/Simple_cartesian.h>
 
-#include <algorithm>
-#include <cstddef>
+#include <istream>
+#include <ostream>
 #include <sstream>
+#include <utility>
 
 #include "core/mesh/mesh_error.h"
 
 namespace phongpd::internal {
 namespace {
+
+// Plain doubles: a filtered kernel would compare points exactly while it
+// joins them, and NaN in an exact predicate kills the process.
+using Point = CGAL::Simple_cartesian<double>::Point_3;
+
+struct CgalSoup {
+  std::vector<Point> points;
+  std::vector<std::vector<int>> polygons;
+};
 
 [[noreturn]] void Refuse(const std::string& path, const std::string& what) {
   throw InputError(path + ": " + what);
@@ -33,8 +44,8 @@ void RequirePlausible(std::size_t count, const char* element, std::size_t size,
                    " bytes can hold; the file is truncated or damaged");
 }
 
-// Puts the position of `in` behind the header, ready for CGAL's reader again
-// by the caller's rewind, and checks what CGAL takes for granted.
+// Reads the header, which the caller rewinds, and checks in it what CGAL takes
+// for granted.
 void CheckPlyHeader(std::istream& in, std::size_t size,
                     const std::string& path) {
   std::string line, element;
@@ -110,10 +121,7 @@ ObjGeometry KeepObjGeometry(std::istream& in, const std::string& path) {
   return geometry;
 }
 
-}  // namespace
-
-PolygonSoup ReadOff(std::istream& in, std::size_t size,
-                    const std::string& path) {
+CgalSoup ReadOff(std::istream& in, std::size_t size, const std::string& path) {
   // CGAL's scanner, but not its read_OFF: that one allocates what the header
   // says and reads colours that a line may not have.
   CGAL::File_scanner_OFF scanner(in, false);
@@ -123,7 +131,7 @@ PolygonSoup ReadOff(std::istream& in, std::size_t size,
   }
   RequirePlausible(scanner.size_of_vertices(), "vertices", size, path);
   RequirePlausible(scanner.size_of_facets(), "faces", size, path);
-  PolygonSoup soup;
+  CgalSoup soup;
   soup.points.reserve(scanner.size_of_vertices());
   for (std::size_t i = 0; i < scanner.size_of_vertices(); ++i) {
     double x = 0, y = 0, z = 0;
@@ -154,12 +162,11 @@ PolygonSoup ReadOff(std::istream& in, std::size_t size,
   return soup;
 }
 
-PolygonSoup ReadPly(std::istream& in, std::size_t size,
-                    const std::string& path) {
+CgalSoup ReadPly(std::istream& in, std::size_t size, const std::string& path) {
   CheckPlyHeader(in, size, path);
   in.clear();
   in.seekg(0);
-  PolygonSoup soup;
+  CgalSoup soup;
   if (!CGAL::IO::read_PLY(in, soup.points, soup.polygons,
                           CGAL::parameters::verbose(false))) {
     RefuseContent(path, "PLY");
@@ -167,8 +174,8 @@ PolygonSoup ReadPly(std::istream& in, std::size_t size,
   return soup;
 }
 
-PolygonSoup ReadStl(std::istream& in, const std::string& path) {
-  PolygonSoup soup;
+CgalSoup ReadStl(std::istream& in, const std::string& path) {
+  CgalSoup soup;
   if (!CGAL::IO::read_STL(in, soup.points, soup.polygons,
                           CGAL::parameters::verbose(false))) {
     RefuseContent(path, "STL");
@@ -176,9 +183,11 @@ PolygonSoup ReadStl(std::istream& in, const std::string& path) {
   return soup;
 }
 
-PolygonSoup ReadObj(std::istream& in, const std::string& path) {
+// Keeps vertices and faces and leaves out every other statement of OBJ, some
+// of which CGAL refuses (lines, merging groups).  Joins continued lines.
+CgalSoup ReadObj(std::istream& in, const std::string& path) {
   const ObjGeometry geometry = KeepObjGeometry(in, path);
-  PolygonSoup soup;
+  CgalSoup soup;
   std::istringstream text(geometry.text);
   // False also for a file without faces or with bad indices, which ReadMesh
   // tells apart.
@@ -194,6 +203,53 @@ PolygonSoup ReadObj(std::istream& in, const std::string& path) {
                      " vertex indices, found one that is no 32-bit integer");
   }
   return soup;
+}
+
+CgalSoup ReadCgalSoup(MeshFormat format, std::istream& in, std::size_t size,
+                      const std::string& path) {
+  switch (format) {
+    case MeshFormat::kOff:
+      return ReadOff(in, size, path);
+    case MeshFormat::kObj:
+      return ReadObj(in, path);
+    case MeshFormat::kStl:
+      return ReadStl(in, path);
+    default:
+      return ReadPly(in, size, path);
+  }
+}
+
+}  // namespace
+
+PolygonSoup ReadSoup(MeshFormat format, std::istream& in, std::size_t size,
+                     const std::string& path) {
+  CgalSoup read = ReadCgalSoup(format, in, size, path);
+  PolygonSoup soup;
+  soup.points.reserve(read.points.size());
+  for (const Point& p : read.points) {
+    soup.points.emplace_back(p.x(), p.y(), p.z());
+  }
+  soup.polygons = std::move(read.polygons);
+  return soup;
+}
+
+bool WriteSoup(MeshFormat format, const PolygonSoup& soup, std::ostream& out) {
+  std::vector<Point> points;
+  points.reserve(soup.points.size());
+  for (const Eigen::Vector3d& p : soup.points) {
+    points.emplace_back(p.x(), p.y(), p.z());
+  }
+  out.precision(17);
+  switch (format) {
+    case MeshFormat::kOff:
+      return CGAL::IO::write_OFF(out, points, soup.polygons);
+    case MeshFormat::kObj:
+      return CGAL::IO::write_OBJ(out, points, soup.polygons);
+    case MeshFormat::kStl:
+      return CGAL::IO::write_STL(out, points, soup.polygons);
+    default:
+      return CGAL::IO::write_PLY(out, points, soup.polygons);
+  }
 }
 
 }  // namespace phongpd::internal

@@ -1,38 +1,34 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <CGAL/Simple_cartesian.h>
-
-#include <istream>
+#include <Eigen/Core>
+#include <cstddef>
+#include <iosfwd>
 #include <string>
 #include <vector>
 
-// How ReadMesh gets at the content of a file; included by .cc files only.
+// Mesh files as CGAL reads and writes them.
 namespace phongpd::internal {
 
-// Plain doubles: a filtered kernel would compare points exactly while it
-// joins them, and NaN in an exact predicate kills the process.
-using SoupPoint = CGAL::Simple_cartesian<double>::Point_3;
+enum class MeshFormat { kOff, kObj, kStl, kPly };
 
-// Points and polygons as a file holds them; indices are unchecked and
+// Points and polygons as a file holds them; indices are unchecked, and
 // negative where the file's did not fit.
 struct PolygonSoup {
-  std::vector<SoupPoint> points;
+  std::vector<Eigen::Vector3d> points;
   std::vector<std::vector<int>> polygons;
 };
 
-// Each reads `in`, which holds `size` bytes, and throws InputError naming
-// `path`.  They call CGAL's readers and keep away from them what those do not
-// survive (CGAL 5.5.1): OFF and PLY counts beyond the size of the file, OFF
-// lines with and without colours mixed, PLY coordinates that are no floating
-// point numbers or missing.
-PolygonSoup ReadOff(std::istream& in, std::size_t size,
-                    const std::string& path);
-PolygonSoup ReadPly(std::istream& in, std::size_t size,
-                    const std::string& path);
-PolygonSoup ReadStl(std::istream& in, const std::string& path);
-// Keeps vertices and faces and leaves out every other statement of OBJ, some
-// of which CGAL refuses (lines, merging groups).  Joins continued lines.
-PolygonSoup ReadObj(std::istream& in, const std::string& path);
+// Reads `in`, which holds `size` bytes; throws InputError naming `path`.
+// CGAL's readers do the work, behind checks for what those of CGAL 5.5.1 do
+// not survive: OFF and PLY counts beyond the size of the file, OFF lines with
+// and without colours mixed, PLY coordinates that are missing or no floating
+// point numbers, OBJ statements other than vertices and faces.
+PolygonSoup ReadSoup(MeshFormat format, std::istream& in, std::size_t size,
+                     const std::string& path);
+
+// Writes text with 17 significant digits; false when the stream failed.
+// Requires finite points and valid indices.
+bool WriteSoup(MeshFormat format, const PolygonSoup& soup, std::ostream& out);
 
 }  // namespace phongpd::internal

@@ -2,7 +2,10 @@
 #include "core/mesh/self_intersection.h"
 
 #include <CGAL/Bbox_3.h>
+#include <CGAL/Cartesian_converter.h>
+#include <CGAL/Exact_predicates_exact_constructions_kernel.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Object.h>
 #include <CGAL/box_intersection_d.h>
 #include <CGAL/intersections.h>
 
@@ -13,6 +16,7 @@ namespace phongpd::internal {
 namespace {
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using Exact = CGAL::Exact_predicates_exact_constructions_kernel;
 using Point = Kernel::Point_3;
 using Corners = std::array<Point, 3>;
 using Box = CGAL::Box_intersection_d::Box_with_info_d<double, 3, std::size_t>;
@@ -42,17 +46,47 @@ int AlignCommonCorners(Corners* a, Corners* b) {
   return common;
 }
 
-// Whether two proper triangles share a point beyond their common corners and
-// edges.
+// Whether both points lie on one edge of the triangle.
+bool AreOnOneEdge(const Exact::Triangle_3& triangle, const Exact::Point_3& p,
+                  const Exact::Point_3& q) {
+  for (int k = 0; k < 3; ++k) {
+    const Exact::Segment_3 edge(triangle[k], triangle[k + 1]);
+    if (edge.has_on(p) && edge.has_on(q)) return true;
+  }
+  return false;
+}
+
+// Whether the common part of two triangles, which is not empty, lies on an
+// edge of each.  Constructs it: slow, but needed for few pairs.
+bool TouchAlongEdges(const Corners& a, const Corners& b) {
+  const CGAL::Cartesian_converter<Kernel, Exact> to_exact;
+  const Exact::Triangle_3 s = to_exact(ToTriangle(a));
+  const Exact::Triangle_3 t = to_exact(ToTriangle(b));
+  const CGAL::Object part = CGAL::intersection(s, t);
+  if (const auto* p = CGAL::object_cast<Exact::Point_3>(&part)) {
+    return AreOnOneEdge(s, *p, *p) && AreOnOneEdge(t, *p, *p);
+  }
+  if (const auto* e = CGAL::object_cast<Exact::Segment_3>(&part)) {
+    return AreOnOneEdge(s, e->source(), e->target()) &&
+           AreOnOneEdge(t, e->source(), e->target());
+  }
+  return false;  // an area in a common plane
+}
+
+// Whether one of two proper triangles has a point inside the other.
 bool MeetProperly(Corners a, Corners b) {
   switch (AlignCommonCorners(&a, &b)) {
     case 0:
-      return CGAL::do_intersect(ToTriangle(a), ToTriangle(b));
+      return CGAL::do_intersect(ToTriangle(a), ToTriangle(b)) &&
+             !TouchAlongEdges(a, b);
     case 1:
       // The common part is convex and holds the corner; any ray in it from
       // there leaves one of the triangles through the opposite edge.
-      return CGAL::do_intersect(ToTriangle(a), Kernel::Segment_3(b[1], b[2])) ||
-             CGAL::do_intersect(ToTriangle(b), Kernel::Segment_3(a[1], a[2]));
+      return (CGAL::do_intersect(ToTriangle(a),
+                                 Kernel::Segment_3(b[1], b[2])) ||
+              CGAL::do_intersect(ToTriangle(b),
+                                 Kernel::Segment_3(a[1], a[2]))) &&
+             !TouchAlongEdges(a, b);
     case 2:
       // Only triangles of one plane on the same side of the edge overlap.
       return CGAL::orientation(a[0], a[1], a[2], b[2]) == CGAL::COPLANAR &&

@@ -7,10 +7,12 @@
 #include "core/mesh/triangle_mesh.h"
 
 // Exact intersection tests between the triangles of a mesh.  Two triangles
-// meet properly when they share a point that is on no corner and no edge they
-// have in common; corners are the same when their coordinates are, so surface
-// parts may touch along whole vertices and edges.  Zero-area triangles meet
-// nothing.  All functions require finite coordinates and valid indices.
+// meet properly when one of them has a point in the inside of the other, its
+// edges not included.  So neighbours do not meet properly unless they are
+// folded onto each other, and surfaces may touch where edges meet edges, also
+// along a part of an edge, as next to a zero-area triangle.  Zero-area
+// triangles meet nothing.  All functions require finite coordinates and valid
+// indices.
 namespace phongpd::internal {
 
 // Corners with identical coordinates or on one line.

@@ -66,7 +66,8 @@ double SurfaceArea(const TriangleMesh& mesh) {
     const Eigen::Vector3d& a = mesh.vertices[i];
     const Eigen::Vector3d ab = mesh.vertices[j] - a;
     const Eigen::Vector3d ac = mesh.vertices[k] - a;
-    twice_area += ab.cross(ac).norm();
+    // Plain norms of areas overflow from lengths of 1e77 on.
+    twice_area += ab.cross(ac).stableNorm();
   }
   return 0.5 * twice_area;
 }
