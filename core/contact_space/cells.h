@@ -23,8 +23,7 @@ struct FreeCells {
 // point well inside it.  The unbounded cell is free by definition.
 // Throws std::logic_error when it is not (the arrangement leaks).
 FreeCells FindFreeCells(const Convolution& convolution,
-                        const std::vector<ArrangementFacet>& facets,
-                        const EdgeRings& rings, const ExactPoints& points,
-                        const SolidCollision& judge);
+                        const Arrangement& arrangement, const EdgeRings& rings,
+                        const ExactPoints& points, const SolidCollision& judge);
 
 }  // namespace phongpd::internal

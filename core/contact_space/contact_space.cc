@@ -10,12 +10,12 @@
 
 #include "core/contact_space/cells.h"
 #include "core/contact_space/convolution.h"
-#include "core/contact_space/coplanar_merge.h"
 #include "core/contact_space/edge_rings.h"
 #include "core/contact_space/facet_intersections.h"
 #include "core/contact_space/grid_solid.h"
+#include "core/contact_space/patch_triangulation.h"
+#include "core/contact_space/plane_arrangement.h"
 #include "core/contact_space/plane_groups.h"
-#include "core/contact_space/plane_subdivision.h"
 #include "core/contact_space/solid_collision.h"
 #include "core/contact_space/surface_assembly.h"
 #include "core/contact_space/union_find.h"
@@ -54,7 +54,7 @@ void RoundSurface(const internal::ExactSurface& surface,
                   const internal::PlaneGroups& groups, ContactSpace* out) {
   const Eigen::Vector3d origin = frame.Origin();
   for (const int id : surface.vertex_points) {
-    out->mesh.vertices.push_back(origin + frame.step * points.Rounded(id));
+    out->mesh.vertices.push_back(origin + frame.step * points.Approximate(id));
   }
   out->mesh.triangles = surface.triangles;
   // Planes that made it to the surface, numbered by first appearance.
@@ -150,33 +150,33 @@ ContactSpace BuildContactSpace(const TriangleMesh& robot,
   clock.Finish("convolution");
 
   const internal::PlaneGroups groups = internal::GroupByPlane(convolution);
-  internal::ExactPoints points(std::ldexp(1.0, internal::kGridBits + 1));
-  std::vector<internal::ArrangementFacet> facets;
+  internal::ExactPoints points;
+  internal::Arrangement arrangement;
   {
     const internal::FacetIntersections intersections =
         internal::IntersectFacets(convolution, groups, &points);
     clock.Finish("intersection");
-    facets =
-        internal::SubdividePlanes(convolution, groups, intersections, &points);
+    arrangement =
+        internal::ArrangePlanes(convolution, groups, intersections, &points);
   }
-  report.arrangement_triangles = facets.size();
-  clock.Finish("subdivision");
+  report.arrangement_faces = arrangement.faces.size();
+  clock.Finish("arrangement");
 
   const internal::EdgeRings rings =
-      internal::SortAroundEdges(convolution, facets, points);
+      internal::SortAroundEdges(convolution, arrangement, points);
   const internal::SolidCollision judge(p, q);
   const internal::FreeCells cells =
-      internal::FindFreeCells(convolution, facets, rings, points, judge);
+      internal::FindFreeCells(convolution, arrangement, rings, points, judge);
   report.cells = static_cast<std::size_t>(cells.cells);
   report.judged_cells = static_cast<std::size_t>(cells.judged);
   report.cavities = cells.cavities;
   clock.Finish("cells");
 
-  internal::ExactSurface surface = internal::AssembleSurface(
-      facets, rings, cells, options.outer_shell_only, &points);
-  if (options.merge_coplanar) {
-    surface = internal::MergeCoplanar(surface, convolution, groups, points);
-  }
+  const internal::PatchSurface patches = internal::AssembleSurface(
+      arrangement, groups, rings, cells,
+      {options.merge_coplanar, options.outer_shell_only}, &points);
+  const internal::ExactSurface surface =
+      internal::TriangulatePatches(patches, convolution, points);
   RoundSurface(surface, points, frame, convolution, groups, &out);
   clock.Finish("surface");
 

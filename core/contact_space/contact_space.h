@@ -48,10 +48,10 @@ struct ContactSpaceReport {
   std::vector<std::pair<std::string, double>> seconds;
   double peak_mib = 0.0;  // of the process so far
   std::string method = "reduced convolution, exact arrangement";
-  // Triangles of the reduced convolution and of its arrangement, cells of the
-  // arrangement, and collision tests that classified them.
+  // Triangles of the reduced convolution, faces and cells of its arrangement,
+  // and collision tests that classified the cells.
   std::size_t convolution_triangles = 0;
-  std::size_t arrangement_triangles = 0;
+  std::size_t arrangement_faces = 0;
   std::size_t cells = 0;
   std::size_t judged_cells = 0;
   // Input coordinates are rounded to a binary grid first; nothing else is

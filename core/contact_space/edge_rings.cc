@@ -16,53 +16,45 @@ using Eigen::Vector3d;
 
 // Angles closer than this are told apart exactly (radians).
 constexpr double kAngleGap = 1e-6;
-// Shorter edges (grid steps) get their direction from exact points only.
-constexpr double kShortEdge = 64.0;
-
-// One facet at one edge; `apex` is its third corner.
-struct Spoke {
-  int low, high, apex, facet;
-  bool forward;
-};
-
-std::vector<Spoke> CollectSpokes(const std::vector<ArrangementFacet>& facets) {
-  std::vector<Spoke> spokes(3 * facets.size());
-  tbb::parallel_for(std::size_t{0}, facets.size(), [&](std::size_t f) {
-    const Triangle& t = facets[f].corners;
-    for (int k = 0; k < 3; ++k) {
-      const int a = t[k], b = t[(k + 1) % 3];
-      spokes[3 * f + k] = {std::min(a, b), std::max(a, b), t[(k + 2) % 3],
-                           static_cast<int>(f), a < b};
-    }
-  });
-  tbb::parallel_sort(spokes.begin(), spokes.end(),
-                     [](const Spoke& x, const Spoke& y) {
-                       return std::tie(x.low, x.high, x.facet) <
-                              std::tie(y.low, y.high, y.facet);
-                     });
-  return spokes;
-}
+// An edge this long (grid steps) shows which way it runs although its ends
+// are rounded.
+constexpr double kLongEdge = 1.0;
 
 class RingSorter {
  public:
-  RingSorter(const Convolution& convolution,
-             const std::vector<ArrangementFacet>& facets,
+  RingSorter(const Convolution& convolution, const Arrangement& arrangement,
              const ExactPoints& points)
-      : convolution_(convolution), facets_(facets), points_(points) {}
+      : convolution_(convolution), arrangement_(arrangement), points_(points) {}
 
-  void Sort(Spoke* begin, Spoke* end) const {
-    if (end - begin > 2 && !SortRounded(begin, end)) SortExactly(begin, end);
+  void Sort(const EdgeRing& ring, Spoke* begin, Spoke* end) const {
+    if (end - begin > 2 && !SortRounded(ring, begin, end)) {
+      SortExactly(ring, begin, end);
+    }
   }
 
  private:
+  const GridNormal& Normal(const Spoke& s) const {
+    return convolution_.facets[arrangement_.faces[s.face].facet].normal;
+  }
+
+  // +1 when low → high runs along `direction`, which is parallel to the edge.
+  int Orientation(const EdgeRing& ring, const Vector3d& direction) const {
+    const Vector3d edge =
+        points_.Approximate(ring.high) - points_.Approximate(ring.low);
+    if (edge.lpNorm<Eigen::Infinity>() > kLongEdge) {
+      return Sign(edge.dot(direction));
+    }
+    const int axis = LargestAxis(direction);
+    return CompareCoordinate(points_[ring.high], points_[ring.low], axis) *
+           Sign(direction[axis]);
+  }
+
   // By angle in double; false when some angles are too close to call.
-  bool SortRounded(Spoke* begin, Spoke* end) const {
+  bool SortRounded(const EdgeRing& ring, Spoke* begin, Spoke* end) const {
     const std::size_t count = static_cast<std::size_t>(end - begin);
     std::vector<Vector3d> normals;
     for (const Spoke* s = begin; s != end; ++s) {
-      const int source = facets_[s->facet].facet;
-      normals.push_back(
-          ToDouble(convolution_.facets[source].normal).normalized());
+      normals.push_back(ToDouble(Normal(*s)).normalized());
     }
     // The edge lies in all planes: the cross product of the two that differ
     // most from each other is its most reliable direction.
@@ -73,16 +65,9 @@ class RingSorter {
     }
     const double sine = direction.norm();
     if (sine < 1e-4) return false;
-    direction /= sine;
-    const Vector3d edge =
-        points_.Approximate(begin->high) - points_.Approximate(begin->low);
-    const double along = edge.dot(direction);
-    if (edge.norm() < kShortEdge || std::abs(along) < 0.5 * edge.norm()) {
-      return false;
-    }
-    if (along < 0) direction = -direction;
+    direction *= Orientation(ring, direction) / sine;
 
-    // A facet that contains low → high lies to the left of it: n × d.
+    // A face whose half-edge runs low → high lies to the left of it: n × d.
     const auto inward = [&](std::size_t k) -> Vector3d {
       const Vector3d u = normals[k].cross(direction);
       return begin[k].forward ? u : Vector3d(-u);
@@ -106,69 +91,97 @@ class RingSorter {
     return true;
   }
 
-  // Half-planes around low → high relative to the first facet: 0 the same
-  // half-plane, 1 counter-clockwise, 2 opposite, 3 clockwise.
-  void SortExactly(Spoke* begin, Spoke* end) const {
-    const ExactPoint& a = points_[begin->low];
-    const ExactPoint& b = points_[begin->high];
-    const ExactPoint& reference = points_[begin->apex];
-    const auto sector = [&](int apex) {
-      if (apex == begin->apex) return 0;
-      const ExactPoint& p = points_[apex];
-      switch (CGAL::orientation(a, b, reference, p)) {
-        case CGAL::POSITIVE:
-          return 1;
-        case CGAL::NEGATIVE:
-          return 3;
-        default:
-          return CGAL::coplanar_orientation(a, b, reference, p) ==
-                         CGAL::POSITIVE
-                     ? 0
-                     : 2;
-      }
+  // With u_k = ±n_k × d the inward directions, sin and cos of the angle from
+  // u_r to u_k have the signs of ±d·(n_r × n_k) and ±n_r·n_k, and
+  // d ∥ n_i × n_j gives d·(n_r × n_k) ∝ (n_i·n_r)(n_j·n_k) −
+  // (n_i·n_k)(n_j·n_r).
+  void SortExactly(const EdgeRing& ring, Spoke* begin, Spoke* end) const {
+    const GridNormal& ni = Normal(*begin);
+    const GridNormal* nj = nullptr;
+    int turn = 0;  // of n_i × n_j against low → high
+    for (const Spoke* s = begin + 1; s != end && turn == 0; ++s) {
+      const auto cross = WideCross(ni, Normal(*s));
+      const Vector3d direction(cross[0].convert_to<double>(),
+                               cross[1].convert_to<double>(),
+                               cross[2].convert_to<double>());
+      if (direction.isZero(0.0)) continue;
+      nj = &Normal(*s);
+      turn = Orientation(ring, direction);
+    }
+    if (turn == 0) return;  // one plane only: two spokes in any order
+    const auto sine = [&](const Spoke& r, const Spoke& k) {
+      const Wide value = WideDot(ni, Normal(r)) * WideDot(*nj, Normal(k)) -
+                         WideDot(ni, Normal(k)) * WideDot(*nj, Normal(r));
+      return value.sign() * turn * (r.forward == k.forward ? 1 : -1);
+    };
+    const auto cosine = [&](const Spoke& r, const Spoke& k) {
+      return WideDot(Normal(r), Normal(k)).sign() *
+             (r.forward == k.forward ? 1 : -1);
+    };
+    // Half-planes relative to the first: 0 the same, 1 counter-clockwise,
+    // 2 opposite, 3 clockwise.
+    const Spoke first = *begin;
+    const auto sector = [&](const Spoke& s) {
+      const int side = sine(first, s);
+      if (side != 0) return side > 0 ? 1 : 3;
+      return cosine(first, s) > 0 ? 0 : 2;
     };
     std::vector<std::pair<int, Spoke>> order;
     for (const Spoke* s = begin; s != end; ++s) {
-      order.emplace_back(sector(s->apex), *s);
+      order.emplace_back(sector(*s), *s);
     }
-    std::stable_sort(
-        order.begin(), order.end(), [&](const auto& x, const auto& y) {
-          if (x.first != y.first) return x.first < y.first;
-          if (x.first == 0 || x.first == 2) return false;
-          if (x.second.apex == y.second.apex) return false;
-          return CGAL::orientation(a, b, points_[x.second.apex],
-                                   points_[y.second.apex]) == CGAL::POSITIVE;
-        });
+    std::stable_sort(order.begin(), order.end(),
+                     [&](const auto& x, const auto& y) {
+                       if (x.first != y.first) return x.first < y.first;
+                       return x.first % 2 == 1 && sine(x.second, y.second) > 0;
+                     });
     for (const auto& entry : order) *begin++ = entry.second;
   }
 
   const Convolution& convolution_;
-  const std::vector<ArrangementFacet>& facets_;
+  const Arrangement& arrangement_;
   const ExactPoints& points_;
 };
 
 }  // namespace
 
 EdgeRings SortAroundEdges(const Convolution& convolution,
-                          const std::vector<ArrangementFacet>& facets,
+                          const Arrangement& arrangement,
                           const ExactPoints& points) {
-  std::vector<Spoke> spokes = CollectSpokes(facets);
-  EdgeRings out;
-  for (std::size_t begin = 0, end = 0; begin < spokes.size(); begin = end) {
-    while (end < spokes.size() && spokes[end].low == spokes[begin].low &&
-           spokes[end].high == spokes[begin].high) {
-      ++end;
-    }
-    out.rings.push_back({spokes[begin].low, spokes[begin].high,
-                         static_cast<int>(begin), static_cast<int>(end)});
-  }
-  const RingSorter sorter(convolution, facets, points);
-  tbb::parallel_for(std::size_t{0}, out.rings.size(), [&](std::size_t r) {
-    sorter.Sort(spokes.data() + out.rings[r].begin,
-                spokes.data() + out.rings[r].end);
+  struct Entry {
+    int low, high;
+    Spoke spoke;
+  };
+  const std::vector<HalfEdge>& edges = arrangement.half_edges;
+  std::vector<Entry> entries(edges.size());
+  tbb::parallel_for(std::size_t{0}, edges.size(), [&](std::size_t h) {
+    const HalfEdge& e = edges[h];
+    entries[h] = {std::min(e.from, e.to),
+                  std::max(e.from, e.to),
+                  {static_cast<int>(h), e.face, e.from < e.to}};
   });
-  out.facets.reserve(spokes.size());
-  for (const Spoke& s : spokes) out.facets.push_back({s.facet, s.forward});
+  tbb::parallel_sort(entries.begin(), entries.end(),
+                     [](const Entry& x, const Entry& y) {
+                       return std::tie(x.low, x.high, x.spoke.half_edge) <
+                              std::tie(y.low, y.high, y.spoke.half_edge);
+                     });
+  EdgeRings out;
+  out.spokes.reserve(entries.size());
+  for (const Entry& e : entries) {
+    const int at = static_cast<int>(out.spokes.size());
+    if (out.rings.empty() || out.rings.back().low != e.low ||
+        out.rings.back().high != e.high) {
+      out.rings.push_back({e.low, e.high, at, at});
+    }
+    out.spokes.push_back(e.spoke);
+    ++out.rings.back().end;
+  }
+  const RingSorter sorter(convolution, arrangement, points);
+  tbb::parallel_for(std::size_t{0}, out.rings.size(), [&](std::size_t r) {
+    const EdgeRing& ring = out.rings[r];
+    sorter.Sort(ring, out.spokes.data() + ring.begin,
+                out.spokes.data() + ring.end);
+  });
   return out;
 }
 

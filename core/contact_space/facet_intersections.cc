@@ -54,21 +54,6 @@ std::vector<FacetPair> CandidatePairs(const Convolution& convolution,
   return pairs;
 }
 
-// An exact integer below 2^126 as a lazy number with a tight interval: the
-// three parts have one sign, so nothing cancels.
-ExactNumber ToExact(Int128 value) {
-  const bool negative = value < 0;
-  Int128 rest = negative ? -value : value;
-  const Int128 mask = (Int128(1) << 42) - 1;
-  ExactNumber sum(0);
-  for (int part = 0; part < 3; ++part, rest >>= 42) {
-    const double digits =
-        std::ldexp(static_cast<double>(rest & mask), 42 * part);
-    if (digits != 0.0) sum += ExactNumber(negative ? -digits : digits);
-  }
-  return sum;
-}
-
 // Signed volumes of the corners of one facet over the plane of another; a
 // corner both facets share is exactly 0.
 struct Sides {
@@ -211,8 +196,7 @@ class Intersector {
     if (a->along > b->along + tolerance_) return 1;
     const int p = Materialize(a), q = Materialize(b);
     if (p == q) return 0;
-    return static_cast<int>(
-        CGAL::compare((*points_)[p][axis], (*points_)[q][axis]));
+    return CompareCoordinate((*points_)[p], (*points_)[q], axis);
   }
 
   int Materialize(Crossing* c) {
@@ -229,18 +213,22 @@ class Intersector {
     const EdgePlane key = {c.a, c.b, c.group};
     const auto it = edge_points_.find(key);
     if (it != edge_points_.end()) return it->second;
-    const ExactPoint& a = (*points_)[out_->point_ids[c.a]];
-    const ExactPoint& b = (*points_)[out_->point_ids[c.b]];
-    const ExactNumber s = ToExact(c.side_a) / ToExact(c.side_a - c.side_b);
-    const int id = points_->Add(a + s * (b - a));
+    PointDefinition edge;
+    edge.kind = PointDefinition::kEdge;
+    edge.a = convolution_.points[c.a];
+    edge.b = convolution_.points[c.b];
+    edge.side_a = c.side_a;
+    edge.side_b = c.side_b;
+    const int id = points_->Add(Locate(edge));
     edge_points_.emplace(key, id);
     return id;
   }
 
   void Emit(int t, int u, int from, int to) {
-    const PointPair segment(std::min(from, to), std::max(from, to));
-    out_->segments[groups_.of_facet[t]].push_back(segment);
-    out_->segments[groups_.of_facet[u]].push_back(segment);
+    const int g = groups_.of_facet[t], h = groups_.of_facet[u];
+    const auto [low, high] = std::minmax(from, to);
+    out_->segments[g].push_back({low, high, h});
+    out_->segments[h].push_back({low, high, g});
   }
 
   using EdgePlane = std::array<std::int64_t, 3>;
@@ -264,8 +252,9 @@ FacetIntersections IntersectFacets(const Convolution& convolution,
   for (const ConvolutionFacet& facet : convolution.facets) {
     for (const int v : facet.corners) {
       if (out.point_ids[v] >= 0) continue;
-      const Eigen::Vector3d p = ToDouble(convolution.points[v]);
-      out.point_ids[v] = points->Add(ExactPoint(p[0], p[1], p[2]));
+      PointDefinition vertex;
+      vertex.a = convolution.points[v];
+      out.point_ids[v] = points->Add(Locate(vertex));
     }
   }
   std::vector<FacetPair> pairs = CandidatePairs(convolution, groups);
@@ -278,9 +267,13 @@ FacetIntersections IntersectFacets(const Convolution& convolution,
     if (may_meet[i]) intersector.Intersect(pairs[i]);
   }
   tbb::parallel_for(std::size_t{0}, out.segments.size(), [&](std::size_t g) {
-    std::vector<PointPair>& s = out.segments[g];
+    std::vector<PlaneSegment>& s = out.segments[g];
     std::sort(s.begin(), s.end());
-    s.erase(std::unique(s.begin(), s.end()), s.end());
+    s.erase(std::unique(s.begin(), s.end(),
+                        [](const PlaneSegment& a, const PlaneSegment& b) {
+                          return a.from == b.from && a.to == b.to;
+                        }),
+            s.end());
   });
   return out;
 }

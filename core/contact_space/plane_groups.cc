@@ -11,26 +11,6 @@
 namespace phongpd::internal {
 namespace {
 
-// n·x = offset with coprime n whose first non-zero component is positive.
-struct PlaneKey {
-  std::array<Int128, 4> value;
-  bool operator==(const PlaneKey& o) const { return value == o.value; }
-};
-
-struct PlaneKeyHash {
-  std::size_t operator()(const PlaneKey& key) const {
-    std::uint64_t h = 0;
-    for (const Int128 x : key.value) {
-      for (const auto part : {static_cast<std::uint64_t>(x),
-                              static_cast<std::uint64_t>(x >> 64)}) {
-        h = (h ^ part) * 0x9E3779B97F4A7C15ULL;
-        h ^= h >> 31;
-      }
-    }
-    return static_cast<std::size_t>(h);
-  }
-};
-
 Int128 Gcd(Int128 a, Int128 b) {
   a = a < 0 ? -a : a;
   b = b < 0 ? -b : b;
@@ -46,14 +26,15 @@ Int128 Gcd(Int128 a, Int128 b) {
   return a;
 }
 
-PlaneKey KeyOf(const GridNormal& normal, const GridPoint& p, char* reversed) {
+GridPlane PlaneOf(const GridNormal& normal, const GridPoint& p,
+                  char* reversed) {
   GridNormal n = normal;
   const Int128 divisor = Gcd(Gcd(n[0], n[1]), n[2]);
   for (Int128& x : n) x /= divisor;
   const Int128 lead = n[0] != 0 ? n[0] : n[1] != 0 ? n[1] : n[2];
   *reversed = lead < 0;
   if (*reversed) n = Negated(n);
-  return {{n[0], n[1], n[2], Dot(n, p)}};
+  return {n, Dot(n, p)};
 }
 
 }  // namespace
@@ -63,17 +44,20 @@ PlaneGroups GroupByPlane(const Convolution& convolution) {
   PlaneGroups groups;
   groups.of_facet.resize(count);
   groups.reversed.resize(count);
-  std::vector<PlaneKey> keys(count);
+  std::vector<GridPlane> planes(count);
   tbb::parallel_for(std::size_t{0}, count, [&](std::size_t f) {
     const ConvolutionFacet& facet = convolution.facets[f];
-    keys[f] = KeyOf(facet.normal, convolution.points[facet.corners[0]],
-                    &groups.reversed[f]);
+    planes[f] = PlaneOf(facet.normal, convolution.points[facet.corners[0]],
+                        &groups.reversed[f]);
   });
-  std::unordered_map<PlaneKey, int, PlaneKeyHash> ids;
+  std::unordered_map<GridPlane, int, GridPlaneHash> ids;
   for (std::size_t f = 0; f < count; ++f) {
     const auto [it, is_new] =
-        ids.emplace(keys[f], static_cast<int>(groups.members.size()));
-    if (is_new) groups.members.emplace_back();
+        ids.emplace(planes[f], static_cast<int>(groups.members.size()));
+    if (is_new) {
+      groups.members.emplace_back();
+      groups.planes.push_back(planes[f]);
+    }
     groups.of_facet[f] = it->second;
     groups.members[it->second].push_back(static_cast<int>(f));
   }

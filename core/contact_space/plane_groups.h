@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/contact_space/convolution.h"
+#include "core/contact_space/exact_points.h"
 
 namespace phongpd::internal {
 
@@ -15,6 +16,8 @@ struct PlaneGroups {
   std::vector<int> of_facet;   // group of each facet
   std::vector<char> reversed;  // facet normal opposes the group's
   std::vector<std::vector<int>> members;
+  // Coprime coefficients, first non-zero component of the normal positive.
+  std::vector<GridPlane> planes;
 };
 
 // Exact: planes are compared by their reduced integer coefficients.  Groups

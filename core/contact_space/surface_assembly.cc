@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/contact_space/surface_assembly.h"
 
+#include <algorithm>
+#include <cmath>
 #include <map>
-#include <set>
 #include <stdexcept>
 
 #include "core/contact_space/union_find.h"
@@ -10,178 +11,257 @@
 namespace phongpd::internal {
 namespace {
 
-// Triangles with their neighbour across each edge k = (corner k, k + 1).
-struct Sheets {
-  std::vector<Triangle> corners;
-  std::vector<std::array<int, 3>> mates;
+// A half-edge of the surface; `mate` is its neighbour on the same sheet.
+struct SheetEdge {
+  int vertex = 0;  // where it starts
+  int face = 0;    // of the arrangement
+  int next = 0;
+  int mate = -1;
+  bool sealed = false;  // stays a border although both sides are coplanar
 };
 
-int FindCorner(const Triangle& t, int vertex) {
-  for (int k = 0; k < 3; ++k) {
-    if (t[k] == vertex) return k;
+class Assembler {
+ public:
+  Assembler(const Arrangement& arrangement, const PlaneGroups& groups,
+            const AssemblyOptions& options, ExactPoints* points)
+      : arrangement_(arrangement),
+        groups_(groups),
+        options_(options),
+        points_(points) {}
+
+  PatchSurface Run(const EdgeRings& rings, const FreeCells& cells) {
+    CollectEdges(cells);
+    PairEdges(rings);
+    NumberVertices();
+    SeparatePinchedEdges();
+    FormPatches();
+    return Collect();
   }
-  throw std::logic_error("contact space: ring facet without its edge");
-}
 
-// The edge of `t` between two of its corners, whichever way it runs.
-int FindEdge(const Triangle& t, int a, int b) {
-  const int k = FindCorner(t, a);
-  return t[(k + 1) % 3] == b ? k : FindCorner(t, b);
-}
+ private:
+  // Half-edges of all faces that separate free from occupied.
+  void CollectEdges(const FreeCells& cells) {
+    const std::vector<char>& wanted =
+        options_.outer_only ? cells.side_is_outer : cells.side_is_free;
+    sheet_of_.assign(arrangement_.half_edges.size(), -1);
+    for (int f = 0; f < static_cast<int>(arrangement_.faces.size()); ++f) {
+      // Only + sides can be free: behind a facet is occupied.
+      if (!wanted[PlusSide(f)] || cells.side_is_free[MinusSide(f)]) continue;
+      const ArrangementFace& face = arrangement_.faces[f];
+      for (int h = face.begin; h < face.end; ++h) {
+        sheet_of_[h] = static_cast<int>(edges_.size());
+        edges_.push_back({arrangement_.half_edges[h].from, f, 0, -1, false});
+      }
+    }
+    for (std::size_t h = 0; h < sheet_of_.size(); ++h) {
+      if (sheet_of_[h] < 0) continue;
+      edges_[sheet_of_[h]].next = sheet_of_[arrangement_.half_edges[h].next];
+    }
+  }
 
-// Pairs triangles across the occupied sectors of every ring.
-Sheets PairTriangles(const EdgeRings& rings, std::vector<Triangle> corners,
-                     const std::vector<int>& triangle_of) {
-  Sheets sheets{std::move(corners), {}};
-  sheets.mates.assign(sheets.corners.size(), {-1, -1, -1});
-  for (const EdgeRing& ring : rings.rings) {
-    const int size = ring.end - ring.begin;
-    const auto facet = [&](int k) -> const RingFacet& {
-      return rings.facets[ring.begin + k % size];
-    };
-    for (int k = 0; k < size; ++k) {
-      // A triangle that is free towards its predecessor opens an occupied
-      // sector; the next triangle free towards its successor closes it.
-      const int open = triangle_of[facet(k).SideToPrevious()];
-      if (open < 0) continue;
-      int closing = -1;
-      for (int j = k + 1; closing < 0 && j <= k + size; ++j) {
-        closing = triangle_of[facet(j).SideToNext()];
-      }
-      if (closing < 0) {
-        throw std::logic_error("contact space: surface is not closed");
-      }
-      const auto edge = [&](int t) {
-        return FindEdge(sheets.corners[t], ring.low, ring.high);
+  // Across the occupied sectors of every ring.
+  void PairEdges(const EdgeRings& rings) {
+    for (const EdgeRing& ring : rings.rings) {
+      const int size = ring.end - ring.begin;
+      const auto spoke = [&](int k) -> const Spoke& {
+        return rings.spokes[ring.begin + k % size];
       };
-      sheets.mates[open][edge(open)] = closing;
-      sheets.mates[closing][edge(closing)] = open;
-    }
-  }
-  return sheets;
-}
-
-// Gives every fan of triangles around a corner a vertex of its own.
-void NumberVertices(Sheets* sheets, ExactSurface* out) {
-  const std::size_t count = sheets->corners.size();
-  UnionFind fans(3 * count);
-  for (std::size_t t = 0; t < count; ++t) {
-    for (int k = 0; k < 3; ++k) {
-      const int mate = sheets->mates[t][k];
-      for (const int corner : {k, (k + 1) % 3}) {
-        const int other =
-            FindCorner(sheets->corners[mate], sheets->corners[t][corner]);
-        fans.Join(static_cast<int>(3 * t) + corner, 3 * mate + other);
+      for (int k = 0; k < size; ++k) {
+        // A face that is free towards its predecessor opens an occupied
+        // sector; the next face free towards its successor closes it.
+        const int open = sheet_of_[spoke(k).half_edge];
+        if (open < 0 || spoke(k).forward) continue;
+        int closing = -1;
+        for (int j = k + 1; closing < 0 && j <= k + size; ++j) {
+          if (spoke(j).forward) closing = sheet_of_[spoke(j).half_edge];
+        }
+        if (closing < 0) {
+          throw std::logic_error("contact space: surface is not closed");
+        }
+        edges_[open].mate = closing;
+        edges_[closing].mate = open;
       }
     }
   }
-  std::vector<int> vertex_of(3 * count, -1);
-  for (std::size_t t = 0; t < count; ++t) {
-    for (int k = 0; k < 3; ++k) {
-      int& vertex = vertex_of[fans.Find(static_cast<int>(3 * t) + k)];
+
+  int To(int e) const { return edges_[edges_[e].next].vertex; }
+
+  // Gives every fan of faces around a point a vertex of its own.
+  void NumberVertices() {
+    UnionFind fans(edges_.size());
+    for (std::size_t e = 0; e < edges_.size(); ++e) {
+      fans.Join(static_cast<int>(e), edges_[edges_[e].mate].next);
+    }
+    std::vector<int> vertex_of(edges_.size(), -1);
+    for (std::size_t e = 0; e < edges_.size(); ++e) {
+      int& vertex = vertex_of[fans.Find(static_cast<int>(e))];
       if (vertex < 0) {
-        vertex = static_cast<int>(out->vertex_points.size());
-        out->vertex_points.push_back(sheets->corners[t][k]);
+        vertex = static_cast<int>(vertex_points_.size());
+        vertex_points_.push_back(edges_[e].vertex);
       }
+      edges_[e].vertex = vertex;
     }
   }
-  for (std::size_t t = 0; t < count; ++t) {
-    for (int k = 0; k < 3; ++k) {
-      sheets->corners[t][k] = vertex_of[fans.Find(static_cast<int>(3 * t) + k)];
-    }
-  }
-  out->pinned.assign(out->vertex_points.size(), 0);
-}
 
-// Splits the sheet edge a→b between t = (a,b,c) and u = (b,a,d) at m.
-void SplitEdge(Sheets* sheets, std::vector<int>* facet, int t, int a, int b,
-               int m) {
-  const int u = sheets->mates[t][FindEdge(sheets->corners[t], a, b)];
-  const auto split = [&](int triangle, int from, int to) {
-    // (from, to, apex) keeps (from, m, apex); the new one is (m, to, apex).
-    const int k = FindCorner(sheets->corners[triangle], from);
-    const int apex = sheets->corners[triangle][(k + 2) % 3];
-    const std::array<int, 3> mates = sheets->mates[triangle];
-    const int fresh = static_cast<int>(sheets->corners.size());
-    const int outer = mates[(k + 1) % 3];  // across to → apex
-    sheets->corners[triangle] = {from, m, apex};
-    sheets->mates[triangle] = {-1, fresh, mates[(k + 2) % 3]};
-    sheets->corners.push_back({m, to, apex});
-    sheets->mates.push_back({-1, outer, triangle});
-    facet->push_back((*facet)[triangle]);
-    for (int j = 0; j < 3; ++j) {
-      if (sheets->mates[outer][j] == triangle &&
-          sheets->corners[outer][j] == apex &&
-          sheets->corners[outer][(j + 1) % 3] == to) {
-        sheets->mates[outer][j] = fresh;
-      }
-    }
-    return fresh;
-  };
-  const int t_far = split(t, a, b);
-  const int u_far = split(u, b, a);
-  sheets->mates[t][0] = u_far;
-  sheets->mates[u_far][0] = t;
-  sheets->mates[u][0] = t_far;
-  sheets->mates[t_far][0] = u;
-}
+  const GridPlane& PlaneOf(int e) const {
+    const int facet = arrangement_.faces[edges_[e].face].facet;
+    return groups_.planes[groups_.of_facet[facet]];
+  }
 
-// Half-edges that two sheets of one solid share.
-void SeparatePinchedEdges(Sheets* sheets, std::vector<int>* facet,
-                          ExactSurface* out, ExactPoints* points) {
-  std::map<std::pair<int, int>, std::vector<int>> owners;
-  for (std::size_t t = 0; t < sheets->corners.size(); ++t) {
-    for (int k = 0; k < 3; ++k) {
-      const Triangle& c = sheets->corners[t];
-      owners[{c[k], c[(k + 1) % 3]}].push_back(static_cast<int>(t));
+  // A point of the edge about half way: where its two planes meet a plane
+  // across it.  −1 when the edge is too short for one.
+  int MiddlePoint(int e, const GridPlane& other) {
+    const LocatedPoint a = (*points_)[vertex_points_[edges_[e].vertex]];
+    const LocatedPoint b = (*points_)[vertex_points_[To(e)]];
+    const int axis =
+        LargestAxis(Eigen::Vector3d(b.approximate - a.approximate));
+    GridPlane across;
+    across.normal[axis] = Int128(1) << 20;
+    across.offset = static_cast<Int128>(
+        std::ldexp(0.5 * (a.approximate[axis] + b.approximate[axis]), 20));
+    if (SideOf(across, a) * SideOf(across, b) >= 0) return -1;
+    PointDefinition middle;
+    middle.kind = PointDefinition::kPlanes;
+    middle.planes = {PlaneOf(e), other, across};
+    return points_->Add(Locate(middle));
+  }
+
+  // Half-edges that two sheets of one solid share.
+  void SeparatePinchedEdges() {
+    std::map<std::pair<int, int>, std::vector<int>> owners;
+    for (std::size_t e = 0; e < edges_.size(); ++e) {
+      const int from = edges_[e].vertex, to = To(static_cast<int>(e));
+      if (from < to) owners[{from, to}].push_back(static_cast<int>(e));
+    }
+    pinned_.assign(vertex_points_.size(), 0);
+    for (const auto& [ends, sheets] : owners) {
+      if (sheets.size() < 2) continue;
+      const GridPlane* other = nullptr;
+      for (const int e : sheets) {
+        for (const int f : {e, edges_[e].mate}) {
+          if (!(PlaneOf(f) == PlaneOf(sheets[0]))) other = &PlaneOf(f);
+        }
+      }
+      if (other == nullptr) continue;
+      const int middle = MiddlePoint(sheets[0], *other);
+      if (middle < 0) continue;
+      pinned_[ends.first] = pinned_[ends.second] = 1;
+      for (const int e : sheets) SplitSheet(e, middle);
     }
   }
-  std::set<std::pair<int, int>> pinched;  // undirected
-  for (const auto& [edge, triangles] : owners) {
-    if (triangles.size() > 1)
-      pinched.insert(std::minmax(edge.first, edge.second));
+
+  void SplitSheet(int e, int point) {
+    const int vertex = static_cast<int>(vertex_points_.size());
+    vertex_points_.push_back(point);
+    pinned_.push_back(1);
+    const int m = edges_[e].mate;
+    const int e2 = static_cast<int>(edges_.size()), m2 = e2 + 1;
+    edges_.push_back({vertex, edges_[e].face, edges_[e].next, m, true});
+    edges_.push_back({vertex, edges_[m].face, edges_[m].next, e, true});
+    edges_[e].next = e2;
+    edges_[m].next = m2;
+    edges_[e].mate = m2;
+    edges_[m].mate = e2;
+    edges_[e].sealed = edges_[m].sealed = true;
   }
-  for (const auto& [a, b] : pinched) {
-    const int middle = points->Add(CGAL::midpoint(
-        (*points)[out->vertex_points[a]], (*points)[out->vertex_points[b]]));
-    // Splitting one sheet renumbers the triangles beside it: search anew.
-    for (std::size_t t = 0; t < sheets->corners.size(); ++t) {
-      for (int k = 0; k < 3; ++k) {
-        const Triangle& c = sheets->corners[t];
-        if (c[k] != a || c[(k + 1) % 3] != b) continue;
-        const int m = static_cast<int>(out->vertex_points.size());
-        out->vertex_points.push_back(middle);
-        out->pinned.push_back(1);
-        SplitEdge(sheets, facet, static_cast<int>(t), a, b, m);
-        break;
+
+  // Plane and orientation as one number.
+  int OrientedPlane(int face) const {
+    const int facet = arrangement_.faces[face].facet;
+    return 2 * groups_.of_facet[facet] + groups_.reversed[facet];
+  }
+
+  void FormPatches() {
+    UnionFind sets(arrangement_.faces.size());
+    for (const SheetEdge& e : edges_) {
+      const int f = e.face, g = edges_[e.mate].face;
+      if (options_.merge_coplanar && !e.sealed &&
+          OrientedPlane(f) == OrientedPlane(g)) {
+        sets.Join(f, g);
       }
     }
-    out->pinned[a] = out->pinned[b] = 1;
+    is_border_.resize(edges_.size());
+    patch_of_.resize(edges_.size());
+    std::map<int, int> ids;
+    for (std::size_t e = 0; e < edges_.size(); ++e) {
+      const int patch = sets.Find(edges_[e].face);
+      is_border_[e] =
+          edges_[e].sealed || patch != sets.Find(edges_[edges_[e].mate].face);
+      patch_of_[e] =
+          ids.emplace(patch, static_cast<int>(ids.size())).first->second;
+    }
+    patch_count_ = ids.size();
   }
-}
+
+  // Border vertices between the same two planes on both sides.
+  std::vector<char> Removable() const {
+    std::vector<int> degree(vertex_points_.size(), 0);
+    std::vector<char> removable(vertex_points_.size(), 0);
+    if (!options_.merge_coplanar) return removable;
+    for (std::size_t e = 0; e < edges_.size(); ++e) {
+      if (!is_border_[e]) continue;
+      const int v = edges_[e].vertex;
+      ++degree[v];
+      removable[v] = OrientedPlane(edges_[e].face) / 2 !=
+                     OrientedPlane(edges_[edges_[e].mate].face) / 2;
+    }
+    for (std::size_t v = 0; v < degree.size(); ++v) {
+      removable[v] = removable[v] && degree[v] == 2 && !pinned_[v];
+    }
+    return removable;
+  }
+
+  PatchSurface Collect() const {
+    const std::vector<char> removable = Removable();
+    PatchSurface out;
+    out.patches.resize(patch_count_);
+    std::vector<int> id_of(vertex_points_.size(), -1);
+    std::vector<char> visited(edges_.size(), 0);
+    for (std::size_t e = 0; e < edges_.size(); ++e) {
+      PatchSurface::Patch& patch = out.patches[patch_of_[e]];
+      patch.facet = arrangement_.faces[edges_[e].face].facet;
+      if (!is_border_[e] || visited[e]) continue;
+      std::vector<int> loop;
+      int at = static_cast<int>(e);
+      do {
+        visited[at] = 1;
+        const int v = edges_[at].vertex;
+        if (!removable[v]) {
+          if (id_of[v] < 0) {
+            id_of[v] = static_cast<int>(out.vertex_points.size());
+            out.vertex_points.push_back(vertex_points_[v]);
+          }
+          loop.push_back(id_of[v]);
+        }
+        at = edges_[at].next;
+        while (!is_border_[at]) at = edges_[edges_[at].mate].next;
+      } while (at != static_cast<int>(e));
+      patch.loops.push_back(std::move(loop));
+    }
+    return out;
+  }
+
+  const Arrangement& arrangement_;
+  const PlaneGroups& groups_;
+  const AssemblyOptions& options_;
+  ExactPoints* points_;
+  std::vector<int> sheet_of_;  // per half-edge of the arrangement
+  std::vector<SheetEdge> edges_;
+  std::vector<int> vertex_points_;
+  std::vector<char> pinned_;  // vertices that must stay
+  std::vector<char> is_border_;
+  std::vector<int> patch_of_;
+  std::size_t patch_count_ = 0;
+};
 
 }  // namespace
 
-ExactSurface AssembleSurface(const std::vector<ArrangementFacet>& facets,
-                             const EdgeRings& rings, const FreeCells& cells,
-                             bool outer_only, ExactPoints* points) {
-  ExactSurface out;
-  std::vector<Triangle> corners;
-  std::vector<int> triangle_of(2 * facets.size(), -1);  // per side
-  const std::vector<char>& wanted =
-      outer_only ? cells.side_is_outer : cells.side_is_free;
-  for (int s = 0; s < static_cast<int>(triangle_of.size()); ++s) {
-    if (!wanted[s] || cells.side_is_free[OppositeSide(s)]) continue;
-    triangle_of[s] = static_cast<int>(corners.size());
-    // Only + sides can be free: behind a facet is occupied.
-    corners.push_back(facets[s / 2].corners);
-    out.facet.push_back(facets[s / 2].facet);
-  }
-  Sheets sheets = PairTriangles(rings, std::move(corners), triangle_of);
-  NumberVertices(&sheets, &out);
-  SeparatePinchedEdges(&sheets, &out.facet, &out, points);
-  out.triangles = std::move(sheets.corners);
-  return out;
+PatchSurface AssembleSurface(const Arrangement& arrangement,
+                             const PlaneGroups& groups, const EdgeRings& rings,
+                             const FreeCells& cells,
+                             const AssemblyOptions& options,
+                             ExactPoints* points) {
+  return Assembler(arrangement, groups, options, points).Run(rings, cells);
 }
 
 }  // namespace phongpd::internal

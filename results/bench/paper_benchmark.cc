@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Purpose: the paper's three benchmarks, PhongPD beside Euclidean PD on the
-// same contact spaces, in one binary and one run.  Writes CSV, SVG, README.md
-// and index.html into a directory.
+// same contact spaces, in one binary and one run.  Writes CSV, SVG and
+// README.md into a directory.
 #include <CLI/CLI.hpp>
 #include <exception>
 #include <filesystem>
@@ -59,6 +59,8 @@ int Run(int argc, char** argv) {
   app.add_option("--frames", options.frames)->capture_default_str();
   app.add_option("--points", options.points)->capture_default_str();
   app.add_option("--seed", options.seed)->capture_default_str();
+  bool page = false;
+  app.add_flag("--page", page, "Write index.html, everything on one page");
   CLI11_PARSE(app, argc, argv);
   RequireGnuplot();
 
@@ -97,7 +99,8 @@ int Run(int argc, char** argv) {
   for (const Figure& figure : figures) out.Write(figure.file, figure.svg);
   out.Write("README.md",
             PaperReadme(results, tables, figures, options, command));
-  out.Write("index.html", PaperPage(tables, figures, options, command));
+  if (page)
+    out.Write("index.html", PaperPage(tables, figures, options, command));
   out.Commit();
   std::cout << ToText(ShortTable(results));
   return 0;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 #include <memory>
+#include <numeric>
 #include <random>
 
 #include "core/projection/euclidean_metric.h"
@@ -80,27 +81,64 @@ void TimeQueries(const PenetrationMetric& metric, const StraightMotion& motion,
   }
 }
 
-// Mean and maximum of |PD| / Euclidean |PD|, frames on the surface left out.
-class Ratio {
+// |PD| / Euclidean |PD|; frames on the surface are left out.
+class Ratios {
  public:
-  explicit Ratio(double least) : least_(least) {}
+  explicit Ratios(double least) : least_(least) {}
 
   void Add(double depth, double euclidean) {
-    if (euclidean < least_) return;
-    const double ratio = depth / euclidean;
-    sum_ += ratio;
-    max_ = std::max(max_, ratio);
-    ++count_;
+    if (euclidean >= least_) ratios_.push_back(depth / euclidean);
   }
-  double Mean() const { return count_ == 0 ? 0.0 : sum_ / count_; }
-  double Max() const { return max_; }
+  double Mean() const {
+    const auto count = static_cast<double>(ratios_.size());
+    return std::accumulate(ratios_.begin(), ratios_.end(), 0.0) / count;
+  }
+  double At(double fraction) const { return Quantile(ratios_, fraction); }
 
  private:
   double least_;
-  double sum_ = 0.0;
-  double max_ = 0.0;
-  int count_ = 0;
+  std::vector<double> ratios_;
 };
+
+// Largest change of PD between two frames when the step between them is
+// divided by 1000 and the branch carried along.
+double LargestDividedChange(const PenetrationMetric& metric,
+                            const Eigen::Vector3d& from,
+                            const Eigen::Vector3d& to,
+                            const PenetrationResult& start) {
+  constexpr int kParts = 1000;
+  Branch branch = start.branch;
+  Eigen::Vector3d last = start.PenetrationVector(from);
+  double largest = 0.0;
+  for (int i = 1; i <= kParts; ++i) {
+    const Eigen::Vector3d q = from + (to - from) * i / kParts;
+    const PenetrationResult result = metric.Query(q, branch);
+    const Eigen::Vector3d pd = result.PenetrationVector(q);
+    largest = std::max(largest, (pd - last).norm());
+    last = pd;
+    branch = result.branch;
+  }
+  return largest;
+}
+
+void CountJump(const PenetrationMetric& metric, const StraightMotion& motion,
+               const MotionTrace& trace, std::size_t frame, double jump,
+               MotionTotals* totals) {
+  const PenetrationResult& before = trace.results[frame - 1];
+  const PenetrationResult& after = trace.results[frame];
+  ++totals->jumps;
+  if (after.status != QueryStatus::kOk) {
+    ++totals->flagged_jumps;
+  } else if (before.inside && !after.inside) {
+    ++totals->exit_jumps;
+  } else if (LargestDividedChange(
+                 metric, motion.At(static_cast<int>(frame) - 1),
+                 motion.At(static_cast<int>(frame)), before) < 0.1 * jump) {
+    ++totals->steep_jumps;
+  } else {
+    ++totals->silent_jumps;
+  }
+}
 
 MotionTotals Follow(const NamedMetric& named, const EuclideanMetric& euclidean,
                     const std::vector<StraightMotion>& motions, double diagonal,
@@ -108,27 +146,23 @@ MotionTotals Follow(const NamedMetric& named, const EuclideanMetric& euclidean,
   MotionTotals totals;
   totals.metric = named.name;
   totals.label = named.label;
-  Ratio warm(1e-6 * diagonal);
-  Ratio cold(1e-6 * diagonal);
+  Ratios warm(1e-6 * diagonal);
+  Ratios cold(1e-6 * diagonal);
   std::vector<double> warm_us;
   std::vector<double> cold_us;
   for (const StraightMotion& motion : motions) {
     const MotionTrace trace =
         TraceMotion(*named.metric, motion, named.name, named.label);
-    const MotionSummary summary = Summarize(trace, jump * diagonal);
+    const MotionSummary summary = Summarize(trace, jump);
     totals.frames_inside += summary.inside;
-    totals.jumps += summary.jumps;
     totals.branch_ends += summary.branch_ends;
     totals.fallbacks += summary.fallbacks;
     for (std::size_t i = 0; i < trace.pd.size(); ++i) {
-      const Eigen::Vector3d q = motion.At(static_cast<int>(i));
-      const PenetrationResult& result = trace.results[i];
-      if (i > 0 && result.status == QueryStatus::kOk &&
-          trace.results[i - 1].status == QueryStatus::kOk &&
-          (trace.pd[i] - trace.pd[i - 1]).norm() > jump * diagonal) {
-        ++totals.unflagged_jumps;
+      if (i > 0 && (trace.pd[i] - trace.pd[i - 1]).norm() > jump) {
+        CountJump(*named.metric, motion, trace, i, jump, &totals);
       }
-      if (!result.inside) continue;
+      if (!trace.results[i].inside) continue;
+      const Eigen::Vector3d q = motion.At(static_cast<int>(i));
       const double depth = -euclidean.Query(q).signed_distance;
       warm.Add(trace.pd[i].norm(), depth);
       cold.Add(-named.metric->Query(q).signed_distance, depth);
@@ -137,9 +171,10 @@ MotionTotals Follow(const NamedMetric& named, const EuclideanMetric& euclidean,
     TimeQueries(*named.metric, motion, false, &cold_us);
   }
   totals.ratio_mean = warm.Mean();
-  totals.ratio_max = warm.Max();
+  totals.ratio_p99 = warm.At(0.99);
+  totals.ratio_max = warm.At(1.0);
   totals.cold_ratio_mean = cold.Mean();
-  totals.cold_ratio_max = cold.Max();
+  totals.cold_ratio_max = cold.At(1.0);
   totals.median_us = Quantile(warm_us, 0.5);
   totals.p99_us = Quantile(warm_us, 0.99);
   totals.cold_median_us = Quantile(cold_us, 0.5);
@@ -195,8 +230,8 @@ PaperResult Measure(const PaperBenchmark& benchmark,
     motions.push_back({ends[i], ends[i + 1], options.frames});
   }
   for (const NamedMetric& named : metrics) {
-    result.totals.push_back(
-        Follow(named, euclidean, motions, result.diagonal, options.jump));
+    result.totals.push_back(Follow(named, euclidean, motions, result.diagonal,
+                                   options.jump * result.diagonal));
   }
   for (const PaperMotion& motion : benchmark.motions) {
     std::vector<MotionTrace>& traces = result.traces.emplace_back();

@@ -37,10 +37,16 @@ struct MotionTotals {
   std::string label;
   int frames_inside = 0;
   int jumps = 0;
-  int unflagged_jumps = 0;  // at frames whose status is ok before and after
+  // The kinds of jump: at a flagged frame; leaving C_obj on another side than
+  // the branch led to; none when the step is divided; none of these.
+  int flagged_jumps = 0;
+  int exit_jumps = 0;
+  int steep_jumps = 0;
+  int silent_jumps = 0;
   int branch_ends = 0;
   int fallbacks = 0;
   double ratio_mean = 0.0;  // |PD| / Euclidean |PD| over interior frames
+  double ratio_p99 = 0.0;
   double ratio_max = 0.0;
   double cold_ratio_mean = 0.0;  // the same, each frame asked cold
   double cold_ratio_max = 0.0;

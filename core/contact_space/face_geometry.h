@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+#include <limits>
+
+#include "core/contact_space/convolution.h"
+#include "core/contact_space/exact_points.h"
+#include "core/contact_space/plane_arrangement.h"
+
+namespace phongpd::internal {
+
+// The arrangement in double, to choose points that are then judged exactly.
+class FaceGeometry {
+ public:
+  FaceGeometry(const Convolution& convolution, const Arrangement& arrangement,
+               const ExactPoints& points)
+      : convolution_(convolution), arrangement_(arrangement), points_(points) {}
+
+  int FaceCount() const { return static_cast<int>(arrangement_.faces.size()); }
+  double Area(int face) const;
+  // Unit, of the face's facet.
+  Eigen::Vector3d Normal(int face) const;
+  // A point of the face well away from its border.
+  Eigen::Vector3d InteriorPoint(int face) const;
+
+  struct Hit {
+    double distance = std::numeric_limits<double>::infinity();
+    int face = -1;
+  };
+  // First face other than `self` on the ray from + t·direction, t > 0.
+  Hit FirstHit(const Eigen::Vector3d& from, const Eigen::Vector3d& direction,
+               int self) const;
+
+ private:
+  double Intersect(int face, const Eigen::Vector3d& from,
+                   const Eigen::Vector3d& direction) const;
+  const Eigen::Vector3d& From(int half_edge) const {
+    return points_.Approximate(arrangement_.half_edges[half_edge].from);
+  }
+  const Eigen::Vector3d& To(int half_edge) const {
+    return points_.Approximate(arrangement_.half_edges[half_edge].to);
+  }
+
+  const Convolution& convolution_;
+  const Arrangement& arrangement_;
+  const ExactPoints& points_;
+};
+
+}  // namespace phongpd::internal
