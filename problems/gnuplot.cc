@@ -63,7 +63,7 @@ void RequireGnuplot() {
     if (access((folder + "/gnuplot").c_str(), X_OK) == 0) return;
   }
   throw InputError(
-      "--svg: expected the program gnuplot on PATH, found none; install the "
+      "plots: expected the program gnuplot on PATH, found none; install the "
       "Debian package gnuplot-nox");
 }
 

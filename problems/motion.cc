@@ -14,7 +14,7 @@ namespace {
 // Colour-blind safe, and told apart by width and dash without any colour; thin
 // lines come later and stay visible on top of wide ones.
 constexpr std::array<const char*, 5> kLineStyles = {
-    "lc rgb '#F0A830' lw 5", "lc rgb '#0060B0' lw 2.2 dt (9,5)",
+    "lc rgb '#F0A830' lw 5", "lc rgb '#0060B0' lw 3 dt (9,5)",
     "lc rgb '#000000' lw 1.3", "lc rgb '#009E73' lw 1.8 dt (2,3)",
     "lc rgb '#B04080' lw 1.8 dt (12,4,2,4)"};
 

@@ -7,6 +7,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <iostream>
 #include <stdexcept>
 #include <system_error>
 
@@ -14,6 +15,8 @@ namespace phongpd {
 namespace fs = std::filesystem;
 
 namespace {
+
+constexpr const char* kStandardOutput = "/dev/stdout";
 
 [[noreturn]] void FailToWrite(const std::string& path,
                               const std::string& reason) {
@@ -34,7 +37,12 @@ void OutputFiles::Declare(const std::string& path) {
   std::error_code error;
   File file;
   file.path = path;
-  file.target = fs::weakly_canonical(fs::absolute(path), error).string();
+  // Behind a name in /dev or /proc there may be a file that somebody else has
+  // open; it must not be replaced by another.
+  const bool device =
+      path.rfind("/dev/", 0) == 0 || path.rfind("/proc/", 0) == 0;
+  file.target =
+      device ? path : fs::weakly_canonical(fs::absolute(path), error).string();
   if (error) FailToWrite(path, error.message());
   for (const File& other : files_) {
     if (other.target == file.target) {
@@ -47,7 +55,7 @@ void OutputFiles::Declare(const std::string& path) {
   if (fs::exists(status) && access(file.target.c_str(), W_OK) != 0) {
     FailToWrite(path, std::strerror(errno));
   }
-  if (fs::exists(status) && !fs::is_regular_file(status)) {
+  if (device || (fs::exists(status) && !fs::is_regular_file(status))) {
     file.temporary = file.target;
   } else {
     const fs::path folder = target.parent_path();
@@ -77,6 +85,11 @@ const std::string& OutputFiles::TemporaryPath(const std::string& path) const {
 }
 
 void OutputFiles::Write(const std::string& path, const std::string& content) {
+  if (path == kStandardOutput) {
+    std::cout << content << std::flush;
+    if (!std::cout) FailToWrite(path, std::strerror(errno));
+    return;
+  }
   std::ofstream stream(Find(path).temporary, std::ios::binary);
   stream.write(content.data(), static_cast<std::streamsize>(content.size()));
   stream.close();
@@ -91,6 +104,13 @@ void OutputFiles::Commit() {
     if (error) FailToWrite(file.path, error.message());
   }
   files_.clear();
+}
+
+bool OutputFiles::UseStandardOutput() const {
+  for (const File& file : files_) {
+    if (file.path == kStandardOutput) return true;
+  }
+  return false;
 }
 
 }  // namespace phongpd

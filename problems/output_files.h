@@ -10,8 +10,8 @@ namespace phongpd {
 
 // The files one command writes: all of them or none.  Contents go to a
 // temporary neighbour of each file first; Commit renames them when everything
-// has been written.  Targets that are no regular file (/dev/stdout, a pipe)
-// are written in place.
+// has been written.  Targets that are no regular file (a device, a pipe) are
+// written in place, and /dev/stdout through standard output.
 //
 //   OutputFiles outputs;
 //   outputs.Declare(path);          // fails now, not after hours of work
@@ -37,6 +37,9 @@ class OutputFiles {
   void Write(const std::string& path, const std::string& content);
 
   void Commit();
+
+  // One of them is standard output: nothing else should be printed there.
+  bool UseStandardOutput() const;
 
  private:
   struct File {

@@ -6,6 +6,6 @@ set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 scripts/build.sh phongpd paper_benchmark
-build/paper_benchmark --output build/demo --motions 20 --points 2000
+build/paper_benchmark --output build/demo --motions 20 --points 2000 --page
 echo
 echo "Look at build/demo/index.html"

@@ -231,9 +231,9 @@ void RequireClosed(const MeshReport& report, const std::string& name) {
 void RequireProper(const TriangleMesh& mesh, const MeshReport& report,
                    const std::string& name) {
   if (report.degenerate_triangles == report.triangles) {
-    Refuse(name,
-           "zero volume; expected a solid, found no triangle with an "
-           "area");
+    Refuse(name, "zero volume; expected a solid, found " +
+                     std::to_string(report.triangles) +
+                     " triangles, none of them with an area");
   }
   const double diagonal = ComputeBounds(mesh).Diagonal();
   if (!(diagonal >= kMinDiagonal && diagonal <= kMaxDiagonal)) {

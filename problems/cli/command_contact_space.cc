@@ -113,8 +113,9 @@ int BuildAndWrite(const Flags& flags) {
     report["obstacle"] = ToJson(obstacle_report, flags.obstacle);
     outputs.Write(flags.report, report.dump(2) + '\n');
   }
+  const bool silent = outputs.UseStandardOutput();
   outputs.Commit();
-  PrintSummary(flags, space.report);
+  if (!silent) PrintSummary(flags, space.report);
   return kDone;
 }
 

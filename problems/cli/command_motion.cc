@@ -128,7 +128,9 @@ int Follow(const Flags& flags) {
                                          FormatPoint(motion.from) + ") to (" +
                                          FormatPoint(motion.to) + ")"));
   }
+  const bool silent = outputs.UseStandardOutput();
   outputs.Commit();
+  if (silent) return kDone;
   PrintSummary(flags, traces, ComputeBounds(contact).Diagonal());
   return kDone;
 }

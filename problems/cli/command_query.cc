@@ -72,7 +72,9 @@ int Query(const Flags& flags) {
     csv += Row(q, result, flags.jacobian == "exact");
   }
   outputs.Write(flags.output, csv);
+  const bool silent = outputs.UseStandardOutput();
   outputs.Commit();
+  if (silent) return kDone;
   std::cout << flags.output << ": " << points.size() << " points, " << inside
             << " inside, " << not_ok << " with another status than ok\n";
   return kDone;

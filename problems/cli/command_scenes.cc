@@ -70,7 +70,9 @@ int Write(const Flags& flags) {
     write(meshes.robot, flags.meshes + "/robot.off");
     write(meshes.obstacle, flags.meshes + "/obstacle.off");
   }
+  const bool silent = outputs.UseStandardOutput();
   outputs.Commit();
+  if (silent) return kDone;
   std::cout << flags.name << ": robot " << meshes.robot.triangles.size()
             << ", obstacle " << meshes.obstacle.triangles.size()
             << " triangles\n";

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Purpose: the paper's three benchmarks, PhongPD beside Euclidean PD on the
+// same contact spaces, in one binary and one run.  Writes CSV, SVG and
+// README.md into a directory.
+#include <CLI/CLI.hpp>
+#include <exception>
+#include <filesystem>
+#include <iostream>
+
+#include "core/projection/euclidean_metric.h"
+#include "core/projection/phong_metric.h"
+#include "problems/gnuplot.h"
+#include "problems/output_files.h"
+#include "results/bench/moment_figure.h"
+#include "results/bench/paper_measure.h"
+#include "results/bench/paper_report.h"
+
+namespace phongpd::bench {
+namespace {
+
+// Files of one directory, written together at the end.
+class Directory {
+ public:
+  explicit Directory(const std::string& path) : path_(path) {
+    std::filesystem::create_directories(path);
+  }
+  void Write(const std::string& file, const std::string& content) {
+    const std::string path = path_ + "/" + file;
+    outputs_.Declare(path);
+    outputs_.Write(path, content);
+  }
+  void Commit() { outputs_.Commit(); }
+
+ private:
+  std::string path_;
+  OutputFiles outputs_;
+};
+
+std::vector<MotionTrace> TraceMoment(const TriangleMesh& contact,
+                                     const StraightMotion& motion) {
+  std::vector<MotionTrace> traces;
+  traces.push_back(TraceMotion(EuclideanMetric(contact), motion, "euclidean",
+                               "Euclidean PD"));
+  PhongMetricOptions options;
+  traces.push_back(TraceMotion(PhongMetric(contact, options), motion, "phong@0",
+                               "PhongPD, ℓ = 0"));
+  options.field_options.smoothing_length = 0.1;
+  traces.push_back(TraceMotion(PhongMetric(contact, options), motion,
+                               "phong@0.1", "PhongPD, ℓ = 0.1"));
+  return traces;
+}
+
+int Run(int argc, char** argv) {
+  CLI::App app("The paper's three benchmarks: tables and figures.");
+  std::string directory;
+  PaperOptions options;
+  app.add_option("--output", directory, "Directory to write into")->required();
+  app.add_option("--motions", options.motions)->capture_default_str();
+  app.add_option("--frames", options.frames)->capture_default_str();
+  app.add_option("--points", options.points)->capture_default_str();
+  app.add_option("--seed", options.seed)->capture_default_str();
+  bool page = false;
+  app.add_flag("--page", page, "Write index.html, everything on one page");
+  CLI11_PARSE(app, argc, argv);
+  RequireGnuplot();
+
+  std::string command = "build/paper_benchmark";
+  for (int i = 1; i < argc; ++i) command += std::string(" ") + argv[i];
+
+  std::vector<PaperResult> results;
+  std::vector<Figure> figures;
+  Directory out(directory);
+  for (const PaperBenchmark& benchmark : PaperBenchmarks()) {
+    std::cerr << benchmark.title << '\n';
+    results.push_back(Measure(benchmark, options));
+    const PaperResult& result = results.back();
+    for (std::size_t i = 0; i < benchmark.motions.size(); ++i) {
+      const PaperMotion& motion = benchmark.motions[i];
+      const std::string stem = benchmark.name + "_" + motion.name;
+      const std::string caption = benchmark.title + ": " + motion.summary;
+      out.Write(stem + ".csv", MotionCsv(result.traces[i]));
+      figures.push_back(
+          {stem + ".svg", caption, MotionPage(result.traces[i], caption)});
+    }
+  }
+  const PaperMotion moment = PaperMoment();
+  const PaperResult& wrench = results.back();
+  const std::vector<MotionTrace> traces =
+      TraceMoment(wrench.space.mesh, moment.motion);
+  out.Write("moment.csv", MotionCsv(traces));
+  figures.push_back({"moment.svg", moment.summary,
+                     MomentFigure(wrench.benchmark, wrench.space.mesh,
+                                  moment.motion, traces)});
+
+  const std::vector<NamedTable> tables = PaperTables(results, options);
+  for (const NamedTable& table : tables) {
+    out.Write(table.file, ToCsv(table.table));
+  }
+  for (const Figure& figure : figures) out.Write(figure.file, figure.svg);
+  out.Write("README.md",
+            PaperReadme(results, tables, figures, options, command));
+  if (page)
+    out.Write("index.html", PaperPage(tables, figures, options, command));
+  out.Commit();
+  std::cout << ToText(ShortTable(results));
+  return 0;
+}
+
+}  // namespace
+}  // namespace phongpd::bench
+
+int main(int argc, char** argv) {
+  try {
+    return phongpd::bench::Run(argc, argv);
+  } catch (const std::exception& error) {
+    std::cerr << "paper_benchmark: " << error.what() << '\n';
+    return 3;
+  }
+}

@@ -1,0 +1,244 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "results/bench/paper_report.h"
+
+#include <cstdio>
+
+namespace phongpd::bench {
+namespace {
+
+std::string Count(std::size_t value) { return std::to_string(value); }
+std::string Count(int value) { return std::to_string(value); }
+
+std::string Percent(int part, int whole) {
+  if (whole == 0) return "–";
+  char buffer[64];
+  std::snprintf(buffer, sizeof buffer, "%.2f %%", 100.0 * part / whole);
+  return buffer;
+}
+
+Table SizesTable(const std::vector<PaperResult>& results) {
+  Table table;
+  table.title = "Contact spaces";
+  table.note =
+      "The paper's meshes are unpublished. Of ours, cone (78 triangles) and "
+      "wrench (772) have exactly its sizes, the ball (1008) is its \"about "
+      "1K\", and the axes are a closed solid of 60 triangles (35, as printed, "
+      "cannot close). Seconds: median of all builds, one process; memory: "
+      "peak of the process up to there, so later rows include earlier ones.";
+  table.header = {"benchmark", "triangles", "paper",       "genus",
+                  "cavities",  "self-int.", "convolution", "arrangement",
+                  "build [s]", "peak [MiB]"};
+  for (const PaperResult& r : results) {
+    const ContactSpaceReport& report = r.space.report;
+    table.rows.push_back({r.benchmark.title, Count(report.triangles),
+                          r.benchmark.paper_triangles, Count(report.genus),
+                          Count(report.cavities),
+                          Count(report.self_intersections),
+                          Count(report.convolution_triangles),
+                          Count(report.arrangement_triangles),
+                          Rounded(r.build_seconds), Rounded(report.peak_mib)});
+  }
+  return table;
+}
+
+Table MotionsTable(const std::vector<PaperResult>& results,
+                   const PaperOptions& options) {
+  Table table;
+  table.title = "Continuity and depth along random motions";
+  table.note =
+      Count(options.motions) + " straight motions of " + Count(options.frames) +
+      " frames between random interior points of each benchmark. Jump: PD "
+      "changes by more than " +
+      Rounded(100.0 * options.jump) +
+      " % of the diagonal between two frames. Flagged: the frame's status "
+      "says so; far exit: the robot leaves the obstacle on another side than "
+      "its branch led to; steep: no jump when the step is divided by 1000; "
+      "silent: none of these. Ratio: depth over Euclidean depth, with the "
+      "branch carried along, and asked cold at every frame; it grows without "
+      "bound towards a far exit, where the Euclidean depth goes to 0.";
+  table.header = {"benchmark",   "metric",    "frames inside", "jumps",
+                  "flagged",     "far exit",  "steep",         "silent",
+                  "branch ends", "fallbacks", "ratio mean",    "ratio 99 %",
+                  "ratio max",   "cold mean", "cold max"};
+  for (const PaperResult& r : results) {
+    for (const MotionTotals& t : r.totals) {
+      table.rows.push_back(
+          {r.benchmark.title, t.label, Count(t.frames_inside), Count(t.jumps),
+           Count(t.flagged_jumps), Count(t.exit_jumps), Count(t.steep_jumps),
+           Count(t.silent_jumps), Count(t.branch_ends), Count(t.fallbacks),
+           Rounded(t.ratio_mean, 4), Rounded(t.ratio_p99, 4),
+           Rounded(t.ratio_max, 4), Rounded(t.cold_ratio_mean, 4),
+           Rounded(t.cold_ratio_max, 4)});
+    }
+  }
+  return table;
+}
+
+Table TimesTable(const std::vector<PaperResult>& results) {
+  Table table;
+  table.title = "Query times";
+  table.note =
+      "Per interior frame of the same random motions, single thread, all in "
+      "one run, each query timed alone (the clock's own cost included). Warm: "
+      "with the previous frame's branch; Euclidean PD has none. Last column: "
+      "Euclidean time over warm time.";
+  table.header = {"benchmark",      "metric",           "warm median [µs]",
+                  "warm 99 % [µs]", "cold median [µs]", "Euclidean / warm"};
+  for (const PaperResult& r : results) {
+    const double euclidean = r.totals.front().cold_median_us;
+    for (const MotionTotals& t : r.totals) {
+      const bool warm = &t != &r.totals.front();
+      table.rows.push_back(
+          {r.benchmark.title, t.label, warm ? Rounded(t.median_us) : "–",
+           warm ? Rounded(t.p99_us) : "–", Rounded(t.cold_median_us),
+           warm ? Rounded(euclidean / t.median_us) : "–"});
+    }
+  }
+  return table;
+}
+
+Table CoverageTable(const std::vector<PaperResult>& results,
+                    const PaperOptions& options) {
+  Table table;
+  table.title = "Interior points without a Phong projection";
+  table.note = "Share of " + Count(options.points) +
+               " random interior points at which a cold query finds no "
+               "projection, by fifths of the depth of the deepest point "
+               "(shallow to deep; points per fifth in brackets).";
+  table.header = {"benchmark", "method",  "all",     "0–20 %",
+                  "20–40 %",   "40–60 %", "60–80 %", "80–100 %"};
+  for (const PaperResult& r : results) {
+    for (const Coverage& c : r.coverage) {
+      std::vector<std::string> row = {r.benchmark.title, c.method, ""};
+      int missing = 0;
+      for (std::size_t k = 0; k < 5; ++k) {
+        missing += c.missing[k];
+        row.push_back(Percent(c.missing[k], c.points[k]) + " (" +
+                      Count(c.points[k]) + ")");
+      }
+      row[2] = Percent(missing, options.points);
+      table.rows.push_back(row);
+    }
+  }
+  return table;
+}
+
+// What the numbers say, in words that follow from them.
+std::string Findings(const std::vector<PaperResult>& results) {
+  std::string text;
+  for (const PaperResult& r : results) {
+    const int euclidean = r.totals.front().jumps;
+    text += "- " + r.benchmark.title + ": Euclidean PD jumps " +
+            Count(euclidean) + " times.";
+    for (std::size_t k = 1; k < r.totals.size(); ++k) {
+      const MotionTotals& t = r.totals[k];
+      text += " " + t.label + " jumps " + Count(t.jumps) + " times (" +
+              (t.jumps < euclidean   ? "a win"
+               : t.jumps > euclidean ? "a loss"
+                                     : "a draw") +
+              "), " + Count(t.silent_jumps) +
+              " of them silently, and pays with depths " +
+              Rounded(t.ratio_mean) + " times the Euclidean on average, " +
+              Rounded(t.ratio_p99) + " times at 1 % of the frames.";
+    }
+    text += '\n';
+  }
+  return text;
+}
+
+std::string Circumstances(const PaperOptions& options,
+                          const std::string& command) {
+  return "Command: " + command + ". Seed: " + std::to_string(options.seed) +
+         ". Machine: " + Machine() + ". Versions: " + VersionList() + ".";
+}
+
+}  // namespace
+
+std::vector<NamedTable> PaperTables(const std::vector<PaperResult>& results,
+                                    const PaperOptions& options) {
+  return {{"contact_spaces.csv", SizesTable(results)},
+          {"random_motions.csv", MotionsTable(results, options)},
+          {"query_times.csv", TimesTable(results)},
+          {"coverage.csv", CoverageTable(results, options)}};
+}
+
+Table ShortTable(const std::vector<PaperResult>& results) {
+  Table table;
+  table.title = "The paper's three benchmarks";
+  table.header = {"benchmark", "triangles",   "paper",
+                  "build [s]", "jumps Eucl.", "ℓ = 0",
+                  "ℓ = 0.1",   "warm [µs]",   "Eucl. [µs]"};
+  for (const PaperResult& r : results) {
+    table.rows.push_back({r.benchmark.title, Count(r.space.report.triangles),
+                          r.benchmark.paper_triangles, Rounded(r.build_seconds),
+                          Count(r.totals[0].jumps), Count(r.totals[1].jumps),
+                          Count(r.totals[2].jumps),
+                          Rounded(r.totals[1].median_us),
+                          Rounded(r.totals[0].cold_median_us)});
+  }
+  return table;
+}
+
+std::string PaperReadme(const std::vector<PaperResult>& results,
+                        const std::vector<NamedTable>& tables,
+                        const std::vector<Figure>& figures,
+                        const PaperOptions& options,
+                        const std::string& command) {
+  std::string text =
+      "# The paper's three benchmarks\n\nPhongPD (ℓ = 0 is the paper's "
+      "field, ℓ = 0.1 the field smoothed over a tenth of the contact space's "
+      "diagonal) beside Euclidean PD on the same contact spaces. This file is "
+      "written by the command below; do not edit it.\n\n" +
+      Circumstances(options, "`" + command + "`") +
+      "\n\n## What is won and lost\n\n" + Findings(results) +
+      "\nA PD that is defined on all of a solid cannot be continuous "
+      "everywhere: a Phong branch ends where its field folds, which the status "
+      "`branch_ended` says, or leads to another side than the one the robot "
+      "leaves by. The tables count both. Lost everywhere: depth (never less "
+      "than Euclidean) and the time of a cold query. Won everywhere: the time "
+      "of a warm one.\n\n## Tables\n\n";
+  for (const NamedTable& named : tables) {
+    text += ToMarkdown(named.table) + "Rows: [" + named.file + "](" +
+            named.file + ")\n\n";
+  }
+  text += "## Figures\n\n";
+  for (const Figure& figure : figures) {
+    text += "**" + figure.caption + "**\n\n![" + figure.caption + "](" +
+            figure.file + ")\n\n";
+  }
+  return text;
+}
+
+std::string PaperPage(const std::vector<NamedTable>& tables,
+                      const std::vector<Figure>& figures,
+                      const PaperOptions& options, const std::string& command) {
+  std::string html =
+      "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n"
+      "<meta name=\"viewport\" content=\"width=device-width\">\n"
+      "<title>PhongPD: the paper's three benchmarks</title>\n<style>\n"
+      "body{font:16px/1.5 sans-serif;max-width:70em;margin:2em auto;"
+      "padding:0 1em;color:#222}\n"
+      "table{border-collapse:collapse;font-size:14px}\n"
+      "th,td{border-bottom:1px solid #ccc;padding:.25em .6em;"
+      "text-align:right}\n"
+      "th:first-child,td:first-child{text-align:left}\n"
+      "figure{margin:2em 0}figure svg{max-width:100%;height:auto}\n"
+      "code{background:#f2f2f2;padding:0 .2em}\n</style></head><body>\n"
+      "<h1>PhongPD: the paper's three benchmarks</h1>\n"
+      "<p>PhongPD (ℓ = 0 is the paper's field, ℓ = 0.1 the field smoothed "
+      "over a tenth of the contact space's diagonal) beside Euclidean PD on "
+      "the same contact spaces.</p>\n<p>" +
+      Circumstances(options, "<code>" + command + "</code>") + "</p>\n";
+  for (const NamedTable& named : tables) html += ToHtml(named.table);
+  html += "<h2>Figures</h2>\n";
+  for (const Figure& figure : figures) {
+    // Without the XML prologue the picture is valid inside HTML.
+    const std::size_t start = figure.svg.find("<svg");
+    html += "<figure><figcaption>" + figure.caption + "</figcaption>\n" +
+            figure.svg.substr(start == std::string::npos ? 0 : start) +
+            "</figure>\n";
+  }
+  return html + "</body></html>\n";
+}
+
+}  // namespace phongpd::bench

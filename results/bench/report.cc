@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "results/bench/report.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <fstream>
+#include <thread>
+
+#include "problems/versions.h"
+
+namespace phongpd::bench {
+namespace {
+
+std::string Joined(const std::vector<std::string>& cells, const char* between) {
+  std::string line;
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    line += (i == 0 ? "" : between) + cells[i];
+  }
+  return line;
+}
+
+std::string Escaped(const std::string& text) {
+  std::string html;
+  for (const char c : text) {
+    if (c == '<') {
+      html += "&lt;";
+    } else if (c == '>') {
+      html += "&gt;";
+    } else if (c == '&') {
+      html += "&amp;";
+    } else {
+      html += c;
+    }
+  }
+  return html;
+}
+
+// Columns a terminal needs for UTF-8 text.
+std::size_t Width(const std::string& text) {
+  return static_cast<std::size_t>(std::count_if(
+      text.begin(), text.end(),
+      [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }));
+}
+
+std::string FieldOf(const char* file, const std::string& key) {
+  std::ifstream stream(file);
+  for (std::string line; std::getline(stream, line);) {
+    if (line.rfind(key, 0) != 0) continue;
+    const std::size_t colon = line.find(':');
+    const std::size_t first = line.find_first_not_of(" \t", colon + 1);
+    if (first != std::string::npos) return line.substr(first);
+  }
+  return "0 (unknown)";
+}
+
+}  // namespace
+
+std::string ToCsv(const Table& table) {
+  std::string csv;
+  const auto add = [&](std::vector<std::string> row) {
+    for (std::string& cell : row) {
+      if (cell.find(',') != std::string::npos) cell = '"' + cell + '"';
+    }
+    csv += Joined(row, ",") + '\n';
+  };
+  add(table.header);
+  for (const auto& row : table.rows) add(row);
+  return csv;
+}
+
+std::string ToMarkdown(const Table& table) {
+  std::string text = "### " + table.title + "\n\n";
+  if (!table.note.empty()) text += table.note + "\n\n";
+  text += "| " + Joined(table.header, " | ") + " |\n|";
+  for (std::size_t i = 0; i < table.header.size(); ++i) {
+    text += i == 0 ? "---|" : "---:|";
+  }
+  text += '\n';
+  for (const auto& row : table.rows) {
+    text += "| " + Joined(row, " | ") + " |\n";
+  }
+  return text + '\n';
+}
+
+std::string ToHtml(const Table& table) {
+  std::string html = "<h2>" + Escaped(table.title) + "</h2>\n";
+  if (!table.note.empty()) html += "<p>" + Escaped(table.note) + "</p>\n";
+  html += "<table>\n<tr>";
+  for (const auto& cell : table.header)
+    html += "<th>" + Escaped(cell) + "</th>";
+  html += "</tr>\n";
+  for (const auto& row : table.rows) {
+    html += "<tr>";
+    for (const auto& cell : row) html += "<td>" + Escaped(cell) + "</td>";
+    html += "</tr>\n";
+  }
+  return html + "</table>\n";
+}
+
+std::string ToText(const Table& table) {
+  std::vector<std::size_t> widths;
+  for (std::size_t c = 0; c < table.header.size(); ++c) {
+    std::size_t width = Width(table.header[c]);
+    for (const auto& row : table.rows) width = std::max(width, Width(row[c]));
+    widths.push_back(width);
+  }
+  std::string text = table.title + '\n';
+  const auto add = [&](const std::vector<std::string>& row) {
+    for (std::size_t c = 0; c < row.size(); ++c) {
+      const std::string padding(widths[c] - Width(row[c]), ' ');
+      text += "  " + (c == 0 ? row[c] + padding : padding + row[c]);
+    }
+    text += '\n';
+  };
+  add(table.header);
+  for (const auto& row : table.rows) add(row);
+  return text;
+}
+
+std::string Rounded(double value, int digits) {
+  char buffer[64];
+  std::snprintf(buffer, sizeof buffer, "%.*g", digits, value);
+  return buffer;
+}
+
+std::string Machine() {
+  return FieldOf("/proc/cpuinfo", "model name") + ", " +
+         std::to_string(std::thread::hardware_concurrency()) + " cores, " +
+         Rounded(std::stod(FieldOf("/proc/meminfo", "MemTotal")) / 1048576.0) +
+         " GiB memory";
+}
+
+std::string VersionList() {
+  std::string list;
+  for (const auto& [name, version] : Versions()) {
+    list += (list.empty() ? "" : ", ") + name + ' ' + version;
+  }
+  return list;
+}
+
+double Quantile(std::vector<double> values, double fraction) {
+  if (values.empty()) return 0.0;
+  const auto last = static_cast<double>(values.size() - 1);
+  const auto place =
+      values.begin() + static_cast<std::ptrdiff_t>(fraction * last);
+  std::nth_element(values.begin(), place, values.end());
+  return *place;
+}
+
+}  // namespace phongpd::bench

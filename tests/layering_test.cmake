@@ -1,0 +1,85 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# cmake -D SOURCE=... -P layering_test.cmake: who may include whom.
+#   core <- constraints <- planners <- problems <- tests, results
+#   core: mesh <- contact_space <- projection
+cmake_minimum_required(VERSION 3.23)
+
+set(failures "")
+
+# Complains about every file of `folder` that includes something matching
+# `forbidden`.
+function(forbid folder forbidden)
+  file(GLOB_RECURSE files ${SOURCE}/${folder}/*.h ${SOURCE}/${folder}/*.cc)
+  if(NOT files AND NOT folder MATCHES "^planners")
+    message(FATAL_ERROR "no sources in ${folder}: is the list out of date?")
+  endif()
+  foreach(file IN LISTS files)
+    file(STRINGS ${file} includes REGEX "^ *# *include")
+    foreach(line IN LISTS includes)
+      if(line MATCHES "[\"<](phongpd/)?(${forbidden})")
+        list(APPEND failures "${file}: ${line}")
+      endif()
+    endforeach()
+  endforeach()
+  set(failures ${failures} PARENT_SCOPE)
+endfunction()
+
+forbid(core "(constraints|planners|problems|tests|results)/")
+forbid(core "(fcl|ompl|CLI|nlohmann|coin)/|Ip[A-Z]")
+forbid(core/mesh "core/(contact_space|projection)/")
+forbid(core/contact_space "core/projection/")
+forbid(constraints "(planners|problems|tests|results)/")
+forbid(planners "(problems|tests|results)/")
+forbid(problems "(tests|results)/")
+
+# Heavy libraries stay out of what users include.
+file(STRINGS ${SOURCE}/core/CMakeLists.txt public REGEX "^    [a-z_/]+\\.h")
+if(NOT public)
+  message(FATAL_ERROR "core/CMakeLists.txt lists no public header")
+endif()
+foreach(header IN LISTS public)
+  string(REGEX REPLACE "[ )]" "" header ${header})
+  file(STRINGS ${SOURCE}/core/${header} includes REGEX "^ *# *include")
+  foreach(line IN LISTS includes)
+    if(line MATCHES "<(CGAL|boost|tbb|oneapi)/")
+      list(APPEND failures "core/${header}: ${line}")
+    endif()
+    if(line MATCHES "\"(core/([^\"]+))\"")
+      set(included "${CMAKE_MATCH_2}")
+      if(NOT "${public}" MATCHES "${included}")
+        list(APPEND failures
+             "core/${header} is public and includes the internal ${included}")
+      endif()
+    endif()
+  endforeach()
+endforeach()
+
+# One file knows FCL; anybody may ask for its version.
+file(GLOB_RECURSE files ${SOURCE}/constraints/* ${SOURCE}/problems/*
+     ${SOURCE}/tests/*.cc ${SOURCE}/results/*.cc)
+foreach(file IN LISTS files)
+  if(NOT file MATCHES "\\.(h|cc)$" OR file MATCHES "collision_oracle\\.cc$")
+    continue()
+  endif()
+  file(STRINGS ${file} includes REGEX "^ *# *include <fcl/")
+  list(REMOVE_ITEM includes "#include <fcl/config.h>")
+  if(includes)
+    list(APPEND failures "${file}: ${includes}")
+  endif()
+endforeach()
+
+# Every source names its licence.
+foreach(folder core constraints planners problems tests results)
+  file(GLOB_RECURSE files ${SOURCE}/${folder}/*.h ${SOURCE}/${folder}/*.cc)
+  foreach(file IN LISTS files)
+    file(STRINGS ${file} first LIMIT_COUNT 1)
+    if(NOT first MATCHES "SPDX-License-Identifier: GPL-3.0-or-later")
+      list(APPEND failures "${file}: the first line names no licence")
+    endif()
+  endforeach()
+endforeach()
+
+if(failures)
+  list(JOIN failures "\n  " text)
+  message(FATAL_ERROR "layering is broken:\n  ${text}")
+endif()
