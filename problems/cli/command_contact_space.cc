@@ -54,8 +54,9 @@ Json ToJson(const ContactSpaceReport& report) {
           {"predicted_cost", nullptr},
           {"approximation", {{"kind", "none"}, {"bound", report.grid_step}}},
           {"convolution_triangles", report.convolution_triangles},
-          {"arrangement_triangles", report.arrangement_triangles},
+          {"arrangement_faces", report.arrangement_faces},
           {"cells", report.cells},
+          {"judged_cells", report.judged_cells},
           {"grid_step", report.grid_step},
           {"warnings", report.warnings}};
 }
@@ -86,7 +87,7 @@ void PrintSummary(const Flags& flags, const ContactSpaceReport& report) {
             << "built in " << Rounded(total) << " s, peak "
             << Rounded(report.peak_mib) << " MiB, "
             << report.convolution_triangles << " convolution and "
-            << report.arrangement_triangles << " arrangement triangles\n";
+            << report.arrangement_faces << " arrangement faces\n";
 }
 
 int BuildAndWrite(const Flags& flags) {
