@@ -157,9 +157,9 @@ TEST(MakeSolid, RefusesPartsWithoutVolume) {
   ExpectRefused(sheet, "1 pairs of triangles");
   TriangleMesh needle = sheet;
   needle.vertices[2] = {0.5, 0, 0};
-  ExpectRefused(needle, "found no triangle with an area");
+  ExpectRefused(needle, "none of them with an area");
   needle.triangles = {{0, 0, 1}, {1, 1, 1}};
-  ExpectRefused(needle, "found no triangle with an area");
+  ExpectRefused(needle, "none of them with an area");
   // A solid flattened below what rounding can tell from a sheet.
   TriangleMesh flat = MakeIcoBall(1, 1);
   for (Vector3d& v : flat.vertices) v.z() *= 1e-17;
