@@ -9,7 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
+#include <map>
 #include <stdexcept>
 #include <unordered_map>
 
@@ -105,37 +105,40 @@ class PatchTriangulator {
     return {ToExact(h.x[p.u]) / w, ToExact(h.x[p.v]) / w};
   }
 
+  // Border edges by the points they join; a patch may touch itself in a
+  // point, where it has several vertices.
+  using Border = std::map<Edge, Edge>;
+
   std::vector<Triangle> Triangulate(const PatchSurface::Patch& patch) const {
     const Projection projection(convolution_.facets[patch.facet].normal);
     Triangulation cdt;
     std::unordered_map<int, Triangulation::Vertex_handle> handles;
-    std::set<Edge> border;
+    Border border;
     for (const std::vector<int>& loop : patch.loops) {
       for (std::size_t k = 0; k < loop.size(); ++k) {
-        border.emplace(loop[k], loop[(k + 1) % loop.size()]);
-        if (handles.count(loop[k])) continue;
-        const auto handle = cdt.insert(Exact(loop[k], projection));
-        handle->info() = loop[k];
-        handles.emplace(loop[k], handle);
+        const int v = loop[k], w = loop[(k + 1) % loop.size()];
+        const int from = surface_.vertex_points[v];
+        border[{from, surface_.vertex_points[w]}] = {v, w};
+        if (handles.count(from)) continue;
+        const auto handle = cdt.insert(Exact(v, projection));
+        handle->info() = from;
+        handles.emplace(from, handle);
       }
     }
-    for (const Edge& e : border) {
-      cdt.insert_constraint(handles.at(e.first), handles.at(e.second));
+    for (const auto& [points, vertices] : border) {
+      cdt.insert_constraint(handles.at(points.first),
+                            handles.at(points.second));
     }
     std::vector<Triangulation::Face_handle> stack;
-    for (const auto face : cdt.finite_face_handles()) face->info() = false;
-    const auto edge = [](Triangulation::Face_handle face, int k) {
-      return Edge(face->vertex(Triangulation::ccw(k))->info(),
-                  face->vertex(Triangulation::cw(k))->info());
-    };
     const auto enter = [&stack](Triangulation::Face_handle face) {
       if (face->info()) return;
       face->info() = true;
       stack.push_back(face);
     };
+    for (const auto face : cdt.all_face_handles()) face->info() = false;
     for (const auto face : cdt.finite_face_handles()) {
       for (int k = 0; k < 3; ++k) {
-        if (face->is_constrained(k) && border.count(edge(face, k))) enter(face);
+        if (border.count(EdgeOf(face, k))) enter(face);
       }
     }
     std::vector<Triangle> triangles;
@@ -143,23 +146,43 @@ class PatchTriangulator {
     while (!stack.empty()) {
       const auto face = stack.back();
       stack.pop_back();
-      triangles.push_back({face->vertex(0)->info(), face->vertex(1)->info(),
-                           face->vertex(2)->info()});
+      Triangle t;
       for (int k = 0; k < 3; ++k) {
+        t[k] = VertexOf(face, k, border);
         if (face->is_constrained(k)) {
-          border_edges += border.count(edge(face, k));
-          continue;
-        }
-        if (cdt.is_infinite(face->neighbor(k)))
-          border_edges = border.size() + 1;
-        else
+          border_edges += border.count(EdgeOf(face, k));
+        } else if (cdt.is_infinite(face->neighbor(k))) {
+          border_edges = border.size() + 1;  // leaked
+        } else {
           enter(face->neighbor(k));
+        }
       }
+      triangles.push_back(t);
     }
     if (border_edges != border.size()) {
       throw std::logic_error("contact space: a patch border bounds no area");
     }
     return triangles;
+  }
+
+  // The edge opposite corner k, with the face on its left.
+  static Edge EdgeOf(Triangulation::Face_handle face, int k) {
+    return {face->vertex(Triangulation::ccw(k))->info(),
+            face->vertex(Triangulation::cw(k))->info()};
+  }
+
+  // The vertex of a face's corner: that of the border edge met first when
+  // turning clockwise around the point.
+  static int VertexOf(Triangulation::Face_handle face, int k,
+                      const Border& border) {
+    const Triangulation::Vertex_handle point = face->vertex(k);
+    while (true) {
+      const int along = Triangulation::cw(k);  // the edge leaving the corner
+      const auto it = border.find(EdgeOf(face, along));
+      if (it != border.end()) return it->second.first;
+      face = face->neighbor(along);
+      k = face->index(point);
+    }
   }
 
   const PatchSurface& surface_;
