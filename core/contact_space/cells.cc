@@ -67,7 +67,7 @@ FreeCells FindFreeCells(const Convolution& convolution,
     if (faces[f].two_sided) occupied[sides.Find(PlusSide(f))] = 1;
   }
 
-  const FaceGeometry geometry(convolution, arrangement, points);
+  FaceGeometry geometry(convolution, arrangement, points);
   std::vector<double> area(faces.size());
   for (int f = 0; f < count; ++f) area[f] = geometry.Area(f);
   const int largest = static_cast<int>(
@@ -90,6 +90,7 @@ FreeCells FindFreeCells(const Convolution& convolution,
     if (cell == s) ++out.cells;
     if (!occupied[cell]) candidates[cell].push_back(s);
   }
+  if (candidates.size() > 4) geometry.BuildTree();
   std::vector<char> is_free(2 * faces.size(), 0);
   is_free[outer] = 1;
   for (auto& [cell, members] : candidates) {

@@ -7,6 +7,7 @@
 #include "core/contact_space/convolution.h"
 #include "core/contact_space/exact_points.h"
 #include "core/contact_space/plane_arrangement.h"
+#include "core/mesh/box_tree.h"
 
 namespace phongpd::internal {
 
@@ -28,6 +29,8 @@ class FaceGeometry {
     double distance = std::numeric_limits<double>::infinity();
     int face = -1;
   };
+  // Speeds up FirstHit; worth it for more than a few rays.
+  void BuildTree();
   // First face other than `self` on the ray from + t·direction, t > 0.
   Hit FirstHit(const Eigen::Vector3d& from, const Eigen::Vector3d& direction,
                int self) const;
@@ -45,6 +48,7 @@ class FaceGeometry {
   const Convolution& convolution_;
   const Arrangement& arrangement_;
   const ExactPoints& points_;
+  BoxTree tree_;
 };
 
 }  // namespace phongpd::internal
