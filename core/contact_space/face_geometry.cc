@@ -8,6 +8,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace phongpd::internal {
 
@@ -118,14 +119,14 @@ void FaceGeometry::BuildTree() {
 
 FaceGeometry::Hit FaceGeometry::FirstHit(const Vector3d& from,
                                          const Vector3d& direction,
-                                         int self) const {
+                                         double reach, int self) const {
   const auto better = [](const Hit& a, const Hit& b) {
     return a.distance != b.distance ? a.distance < b.distance : a.face < b.face;
   };
   if (!tree_.nodes().empty()) {
-    Hit best;
+    Hit best{reach, -1};
     tree_.NearestFirst(
-        best.distance,
+        reach,
         [&](int index) {
           const BoxTree::Node& node = tree_.nodes()[index];
           return EnterBox(node.min, node.max, from, direction);
@@ -141,7 +142,7 @@ FaceGeometry::Hit FaceGeometry::FirstHit(const Vector3d& from,
     return best;
   }
   return tbb::parallel_reduce(
-      tbb::blocked_range<int>(0, FaceCount(), 2048), Hit(),
+      tbb::blocked_range<int>(0, FaceCount(), 2048), Hit{reach, -1},
       [&](const tbb::blocked_range<int>& range, Hit best) {
         for (int f = range.begin(); f < range.end(); ++f) {
           if (f == self) continue;
