@@ -21,7 +21,7 @@ constexpr std::size_t kProbes = 4;
 int OuterSide(const FaceGeometry& geometry, int largest, double reach) {
   const Vector3d n = geometry.Normal(largest);
   const Vector3d start = geometry.InteriorPoint(largest) + 4.0 * reach * n;
-  const FaceGeometry::Hit hit = geometry.FirstHit(start, -n, -1);
+  const FaceGeometry::Hit hit = geometry.FirstHit(start, -n, 16.0 * reach, -1);
   const int face = hit.face >= 0 ? hit.face : largest;
   return geometry.Normal(face).dot(n) > 0 ? PlusSide(face) : MinusSide(face);
 }
@@ -35,8 +35,7 @@ Vector3d ProbePoint(const FaceGeometry& geometry, const std::vector<int>& sides,
     const int face = sides[k] / 2;  // candidate cells hold + sides only
     const Vector3d from = geometry.InteriorPoint(face);
     const Vector3d n = geometry.Normal(face);
-    const double gap =
-        std::min(geometry.FirstHit(from, n, face).distance, 0.02 * reach);
+    const double gap = geometry.FirstHit(from, n, 0.02 * reach, face).distance;
     if (gap > best) {
       best = gap;
       point = from + 0.5 * gap * n;
@@ -67,7 +66,7 @@ FreeCells FindFreeCells(const Convolution& convolution,
     if (faces[f].two_sided) occupied[sides.Find(PlusSide(f))] = 1;
   }
 
-  const FaceGeometry geometry(convolution, arrangement, points);
+  FaceGeometry geometry(convolution, arrangement, points);
   std::vector<double> area(faces.size());
   for (int f = 0; f < count; ++f) area[f] = geometry.Area(f);
   const int largest = static_cast<int>(
@@ -90,6 +89,7 @@ FreeCells FindFreeCells(const Convolution& convolution,
     if (cell == s) ++out.cells;
     if (!occupied[cell]) candidates[cell].push_back(s);
   }
+  if (candidates.size() > 4) geometry.BuildTree();
   std::vector<char> is_free(2 * faces.size(), 0);
   is_free[outer] = 1;
   for (auto& [cell, members] : candidates) {
