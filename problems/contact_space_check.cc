@@ -133,14 +133,17 @@ class Checker {
     if (pair_.is_exact && space_.report.self_intersections > 0) {
       Fail(space_.report.self_intersections, " self-intersections");
     }
+    // Slivers as thin as the grid have no reliable direction to separate in,
+    // so crossings are told from rounding at the grid's size only.
     const double rounding =
+        kGridSteps * space_.report.grid_step +
         kUlps * (LargestCoordinate(mesh) + LargestCoordinate(pair_.robot) +
                  LargestCoordinate(pair_.obstacle));
     result_.rounded_contacts = space_.report.self_intersections;
     result_.deepest_overlap = DeepestSelfOverlap(mesh) / rounding;
     if (result_.deepest_overlap > 1.0) {
       Fail("triangles overlap by ", result_.deepest_overlap * rounding,
-           ", more than rounding explains (", rounding, ")");
+           ", more than the grid explains (", rounding, ")");
     }
   }
 

@@ -28,9 +28,9 @@ struct CheckResult {
   std::size_t triangles = 0;
   double seconds = 0.0;  // of the slowest build
   // Pairs of triangles that meet because vertices were rounded to double: by
-  // less than the rounding itself.  More is a failure.
+  // less than a few grid steps.  More is a failure.
   std::size_t rounded_contacts = 0;
-  double deepest_overlap = 0.0;  // of two triangles, in roundings
+  double deepest_overlap = 0.0;  // of two triangles, in grid sizes
   // Points a step off the surface that lie behind another sheet of it, and
   // points too close to the surface for doubles to tell: no statement.
   int crevices = 0;

@@ -3,6 +3,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <vector>
 
@@ -65,7 +66,8 @@ double OverlapDepth(const Corners& a, const Corners& b) {
       directions.Try(directions.EdgeOfA(i).cross(directions.EdgeOfB(j)));
     }
   }
-  return directions.least();
+  // No direction at all: two points.
+  return std::isfinite(directions.least()) ? directions.least() : 0.0;
 }
 
 double DeepestSelfOverlap(const TriangleMesh& mesh) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tests/support/solid_tools.h"
 
+#include <Eigen/Geometry>
 #include <cmath>
 
 namespace phongpd::testing {
