@@ -8,6 +8,7 @@
 #include <numeric>
 #include <unordered_map>
 
+#include "core/contact_space/canonical_frame.h"
 #include "core/contact_space/cells.h"
 #include "core/contact_space/convolution.h"
 #include "core/contact_space/edge_rings.h"
@@ -130,15 +131,20 @@ ContactSpace BuildContactSpace(const TriangleMesh& robot,
   ContactSpaceReport& report = out.report;
   StageClock clock(&report);
 
-  const TriangleMesh a = MakeSolid(robot, options.robot_name, &report.robot);
-  const TriangleMesh b =
-      MakeSolid(obstacle, options.obstacle_name, &report.obstacle);
+  TriangleMesh a = MakeSolid(robot, options.robot_name, &report.robot);
+  TriangleMesh b = MakeSolid(obstacle, options.obstacle_name, &report.obstacle);
   for (const MeshReport* operand : {&report.robot, &report.obstacle}) {
     report.warnings.insert(report.warnings.end(), operand->warnings.begin(),
                            operand->warnings.end());
   }
   clock.Finish("check");
 
+  const internal::CanonicalFrame turned = internal::ChooseCanonicalFrame(a, b);
+  report.canonical_frame = turned.used;
+  if (turned.used) {
+    a = Rotated(std::move(a), turned.rotation);
+    b = Rotated(std::move(b), turned.rotation);
+  }
   const internal::GridFrame frame = internal::ChooseGridFrame(a, b);
   report.grid_step = frame.step;
   const internal::GridSolid p = internal::MakeGridSolid(
@@ -178,6 +184,9 @@ ContactSpace BuildContactSpace(const TriangleMesh& robot,
   const internal::ExactSurface surface =
       internal::TriangulatePatches(patches, convolution, points);
   RoundSurface(surface, points, frame, convolution, groups, &out);
+  if (turned.used) {
+    out.mesh = Rotated(std::move(out.mesh), turned.rotation.transpose());
+  }
   clock.Finish("surface");
 
   DescribeSurface(out.mesh, &report);

@@ -54,6 +54,8 @@ struct ContactSpaceReport {
   std::size_t arrangement_faces = 0;
   std::size_t cells = 0;
   std::size_t judged_cells = 0;
+  // The work was done in a turned frame in which more facets are axis-aligned.
+  bool canonical_frame = false;
   // Input coordinates are rounded to a binary grid first; nothing else is
   // approximated.  Largest displacement, user's unit.
   double grid_step = 0.0;
