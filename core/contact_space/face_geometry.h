@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <vector>
 
 #include "core/contact_space/convolution.h"
 #include "core/contact_space/exact_points.h"
@@ -34,6 +35,9 @@ class FaceGeometry {
   // distance is `reach` and the face −1 when there is none.
   Hit FirstHit(const Eigen::Vector3d& from, const Eigen::Vector3d& direction,
                double reach, int self) const;
+  // All faces other than `self` on from + t·direction, t > 0, by t.
+  std::vector<Hit> AllHits(const Eigen::Vector3d& from,
+                           const Eigen::Vector3d& direction, int self) const;
 
  private:
   double Intersect(int face, const Eigen::Vector3d& from,
