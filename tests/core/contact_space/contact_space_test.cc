@@ -304,6 +304,28 @@ TEST(ContactSpace, RefusesAnOpenOperandByNameAndCount) {
   }
 }
 
+TEST(ContactSpace, RefusesWhatIsPredictedToExceedALimit) {
+  const TriangleMesh a = MakeStar(0.5, 1.2), b = MakeTorus(2, 0.6, 24, 12);
+  const PredictedCost cost = BuildContactSpace(a, b).report.predicted;
+  EXPECT_GT(cost.seconds, 0.0);
+  ContactSpaceOptions options;
+  options.max_seconds = 0.5 * cost.seconds;
+  EXPECT_THROW(BuildContactSpace(a, b, options), InputError);
+  options.max_seconds = 2 * cost.seconds;
+  options.max_mib = 0.5 * cost.mib;
+  EXPECT_THROW(BuildContactSpace(a, b, options), InputError);
+  options.max_mib = 2 * cost.mib;
+  EXPECT_NO_THROW(BuildContactSpace(a, b, options));
+}
+
+TEST(ContactSpace, PredictsItsArrangementWithinAFactorOfTwo) {
+  const ContactSpaceReport report =
+      BuildContactSpace(MakeStar(0.5, 1.2), MakeTorus(2, 0.6, 24, 12)).report;
+  const double built = static_cast<double>(report.arrangement_faces);
+  EXPECT_LT(report.predicted.arrangement_faces, 2 * built);
+  EXPECT_GT(report.predicted.arrangement_faces, 0.5 * built);
+}
+
 TEST(ContactSpace, TurnsAnInsideOutOperandAndSaysSo) {
   TriangleMesh inverted = Cube(1);
   for (Triangle& t : inverted.triangles) std::swap(t[1], t[2]);
