@@ -21,6 +21,8 @@ struct Flags {
   std::string output;
   std::string report;
   bool outer_shell_only = false;
+  std::string refine = "0";
+  bool no_cache = false;
 };
 
 Json ToJson(const MeshReport& mesh, const std::string& file) {
@@ -48,6 +50,11 @@ Json ToJson(const ContactSpaceReport& report) {
           {"cavities", report.cavities},
           {"volume", report.volume},
           {"self_intersections", report.self_intersections},
+          {"triangle_quality",
+           {{"measure", "4 sqrt(3) area / sum of squared edges"},
+            {"worst", report.worst_quality},
+            {"median", report.median_quality}}},
+          {"from_cache", report.from_cache},
           {"seconds", seconds},
           {"peak_mib", report.peak_mib},
           {"method", report.method},
@@ -84,9 +91,11 @@ void PrintSummary(const Flags& flags, const ContactSpaceReport& report) {
             << (report.cavities == 1 ? "1 cavity"
                                      : Plural(report.cavities, "cavitie"))
             << ", volume " << FormatDouble(report.volume) << '\n'
-            << "built in " << Rounded(total) << " s, peak "
-            << Rounded(report.peak_mib) << " MiB, "
-            << report.convolution_triangles << " convolution and "
+            << "triangle quality: worst " << Rounded(report.worst_quality)
+            << ", median " << Rounded(report.median_quality) << '\n'
+            << (report.from_cache ? "from the cache; built in " : "built in ")
+            << Rounded(total) << " s, peak " << Rounded(report.peak_mib)
+            << " MiB, " << report.convolution_triangles << " convolution and "
             << report.arrangement_faces << " arrangement faces\n";
 }
 
@@ -103,9 +112,9 @@ int BuildAndWrite(const Flags& flags) {
   options.outer_shell_only = flags.outer_shell_only;
   options.robot_name = flags.robot;
   options.obstacle_name = flags.obstacle;
-  Progress("building the contact space");
-  const ContactSpace space = BuildContactSpace(robot, obstacle, options);
-  for (const std::string& warning : space.report.warnings) Warn(warning);
+  options.refine.target_edge = ParseDouble(flags.refine, "--refine");
+  const ContactSpace space =
+      LoadOrBuild(robot, obstacle, options, !flags.no_cache);
 
   WriteMeshTo(&outputs, flags.output, space.mesh);
   if (!flags.report.empty()) {
@@ -139,6 +148,13 @@ Command AddContactSpace(CLI::App* app) {
       ->type_name("FILE");
   app->add_flag("--outer-shell-only", flags->outer_shell_only,
                 "Leave out bounded free cavities");
+  app->add_option("--refine", flags->refine,
+                  "Longest edge as a fraction of the diagonal, a quarter of it "
+                  "at sharp edges; the surface stays as it is. 0: leave the "
+                  "triangles as they come")
+      ->type_name("FRACTION")
+      ->capture_default_str();
+  AddNoCache(app, &flags->no_cache);
   return [flags] { return BuildAndWrite(*flags); };
 }
 
