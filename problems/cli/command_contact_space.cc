@@ -23,6 +23,8 @@ struct Flags {
   bool outer_shell_only = false;
   double max_seconds = 0.0;
   double max_mib = 0.0;
+  std::string refine = "0";
+  bool no_cache = false;
 };
 
 Json ToJson(const MeshReport& mesh, const std::string& file) {
@@ -51,6 +53,11 @@ Json ToJson(const ContactSpaceReport& report) {
           {"volume", report.volume},
           {"self_intersections", report.self_intersections},
           {"degenerate_triangles", report.degenerate_triangles},
+          {"triangle_quality",
+           {{"measure", "4 sqrt(3) area / sum of squared edges"},
+            {"worst", report.worst_quality},
+            {"median", report.median_quality}}},
+          {"from_cache", report.from_cache},
           {"seconds", seconds},
           {"peak_mib", report.peak_mib},
           {"method", report.method},
@@ -92,9 +99,11 @@ void PrintSummary(const Flags& flags, const ContactSpaceReport& report) {
             << (report.cavities == 1 ? "1 cavity"
                                      : Plural(report.cavities, "cavitie"))
             << ", volume " << FormatDouble(report.volume) << '\n'
-            << "built in " << Rounded(total) << " s, peak "
-            << Rounded(report.peak_mib) << " MiB, "
-            << report.convolution_triangles << " convolution and "
+            << "triangle quality: worst " << Rounded(report.worst_quality)
+            << ", median " << Rounded(report.median_quality) << '\n'
+            << (report.from_cache ? "from the cache; built in " : "built in ")
+            << Rounded(total) << " s, peak " << Rounded(report.peak_mib)
+            << " MiB, " << report.convolution_triangles << " convolution and "
             << report.arrangement_faces << " arrangement faces\n";
 }
 
@@ -113,9 +122,9 @@ int BuildAndWrite(const Flags& flags) {
   options.max_mib = flags.max_mib;
   options.robot_name = flags.robot;
   options.obstacle_name = flags.obstacle;
-  Progress("building the contact space");
-  const ContactSpace space = BuildContactSpace(robot, obstacle, options);
-  for (const std::string& warning : space.report.warnings) Warn(warning);
+  options.refine.target_edge = ParseDouble(flags.refine, "--refine");
+  const ContactSpace space =
+      LoadOrBuild(robot, obstacle, options, !flags.no_cache);
 
   WriteMeshTo(&outputs, flags.output, space.mesh);
   if (!flags.report.empty()) {
@@ -157,6 +166,13 @@ Command AddContactSpace(CLI::App* app) {
                   "Refuse what is predicted to need more memory (0: never)")
       ->type_name("MIB")
       ->check(CLI::NonNegativeNumber);
+  app->add_option("--refine", flags->refine,
+                  "Longest edge as a fraction of the diagonal, a quarter of it "
+                  "at sharp edges; the surface stays as it is. 0: leave the "
+                  "triangles as they come")
+      ->type_name("FRACTION")
+      ->capture_default_str();
+  AddNoCache(app, &flags->no_cache);
   return [flags] { return BuildAndWrite(*flags); };
 }
 
