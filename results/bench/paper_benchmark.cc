@@ -4,37 +4,18 @@
 // README.md into a directory.
 #include <CLI/CLI.hpp>
 #include <exception>
-#include <filesystem>
 #include <iostream>
 
 #include "core/projection/euclidean_metric.h"
 #include "core/projection/phong_metric.h"
 #include "problems/gnuplot.h"
-#include "problems/output_files.h"
 #include "results/bench/moment_figure.h"
+#include "results/bench/output_directory.h"
 #include "results/bench/paper_measure.h"
 #include "results/bench/paper_report.h"
 
 namespace phongpd::bench {
 namespace {
-
-// Files of one directory, written together at the end.
-class Directory {
- public:
-  explicit Directory(const std::string& path) : path_(path) {
-    std::filesystem::create_directories(path);
-  }
-  void Write(const std::string& file, const std::string& content) {
-    const std::string path = path_ + "/" + file;
-    outputs_.Declare(path);
-    outputs_.Write(path, content);
-  }
-  void Commit() { outputs_.Commit(); }
-
- private:
-  std::string path_;
-  OutputFiles outputs_;
-};
 
 std::vector<MotionTrace> TraceMoment(const TriangleMesh& contact,
                                      const StraightMotion& motion) {
@@ -64,12 +45,11 @@ int Run(int argc, char** argv) {
   CLI11_PARSE(app, argc, argv);
   RequireGnuplot();
 
-  std::string command = "build/paper_benchmark";
-  for (int i = 1; i < argc; ++i) command += std::string(" ") + argv[i];
+  const std::string command = CommandLine("build/paper_benchmark", argc, argv);
 
   std::vector<PaperResult> results;
   std::vector<Figure> figures;
-  Directory out(directory);
+  OutputDirectory out(directory);
   for (const PaperBenchmark& benchmark : PaperBenchmarks()) {
     std::cerr << benchmark.title << '\n';
     results.push_back(Measure(benchmark, options));

@@ -165,12 +165,6 @@ std::string Findings(const std::vector<PaperResult>& results) {
   return text;
 }
 
-std::string Circumstances(const PaperOptions& options,
-                          const std::string& command) {
-  return "Command: " + command + ". Seed: " + std::to_string(options.seed) +
-         ". Machine: " + Machine() + ". Versions: " + VersionList() + ".";
-}
-
 }  // namespace
 
 std::vector<NamedTable> PaperTables(const std::vector<PaperResult>& results,
@@ -208,23 +202,14 @@ std::string PaperReadme(const std::vector<PaperResult>& results,
       "field, ℓ = 0.1 the field smoothed over a tenth of the contact space's "
       "diagonal) beside Euclidean PD on the same contact spaces. This file is "
       "written by the command below; do not edit it.\n\n" +
-      Circumstances(options, "`" + command + "`") +
+      Circumstances("`" + command + "`", options.seed) +
       "\n\n## What is won and lost\n\n" + Findings(results) +
       "\nA PD that is defined on all of a solid cannot be continuous "
       "everywhere: a Phong branch ends where its field folds, or leads to "
       "another side than the one the robot leaves by. The status "
       "`branch_ended` says both. " +
-      Speed(results) + "\n\n## Tables\n\n";
-  for (const NamedTable& named : tables) {
-    text += ToMarkdown(named.table) + "Rows: [" + named.file + "](" +
-            named.file + ")\n\n";
-  }
-  text += "## Figures\n\n";
-  for (const Figure& figure : figures) {
-    text += "**" + figure.caption + "**\n\n![" + figure.caption + "](" +
-            figure.file + ")\n\n";
-  }
-  return text;
+      Speed(results) + "\n\n";
+  return text + ToMarkdown(tables, figures);
 }
 
 std::string PaperPage(const std::vector<NamedTable>& tables,
@@ -246,7 +231,7 @@ std::string PaperPage(const std::vector<NamedTable>& tables,
       "<p>PhongPD (ℓ = 0 is the paper's field, ℓ = 0.1 the field smoothed "
       "over a tenth of the contact space's diagonal) beside Euclidean PD on "
       "the same contact spaces.</p>\n<p>" +
-      Circumstances(options, "<code>" + command + "</code>") + "</p>\n";
+      Circumstances("<code>" + command + "</code>", options.seed) + "</p>\n";
   for (const NamedTable& named : tables) html += ToHtml(named.table);
   html += "<h2>Figures</h2>\n";
   for (const Figure& figure : figures) {

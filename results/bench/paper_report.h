@@ -9,19 +9,6 @@
 
 namespace phongpd::bench {
 
-// A picture of the report.
-struct Figure {
-  std::string file;  // name in the output directory
-  std::string caption;
-  std::string svg;
-};
-
-// The report's tables; `file` is the CSV each is written to.
-struct NamedTable {
-  std::string file;
-  Table table;
-};
-
 std::vector<NamedTable> PaperTables(const std::vector<PaperResult>& results,
                                     const PaperOptions& options);
 

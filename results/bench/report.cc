@@ -138,6 +138,32 @@ std::string VersionList() {
   return list;
 }
 
+std::string Circumstances(const std::string& command, std::uint64_t seed) {
+  return "Command: " + command + ". Seed: " + std::to_string(seed) +
+         ". Machine: " + Machine() + ". Versions: " + VersionList() + ".";
+}
+
+std::string CommandLine(const std::string& program, int argc, char** argv) {
+  std::string command = program;
+  for (int i = 1; i < argc; ++i) command += std::string(" ") + argv[i];
+  return command;
+}
+
+std::string ToMarkdown(const std::vector<NamedTable>& tables,
+                       const std::vector<Figure>& figures) {
+  std::string text = "## Tables\n\n";
+  for (const NamedTable& named : tables) {
+    text += ToMarkdown(named.table) + "Rows: [" + named.file + "](" +
+            named.file + ")\n\n";
+  }
+  text += "## Figures\n\n";
+  for (const Figure& figure : figures) {
+    text += "**" + figure.caption + "**\n\n![" + figure.caption + "](" +
+            figure.file + ")\n\n";
+  }
+  return text;
+}
+
 double Quantile(std::vector<double> values, double fraction) {
   if (values.empty()) return 0.0;
   const auto last = static_cast<double>(values.size() - 1);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -13,6 +14,19 @@ struct Table {
   std::string note;  // one sentence under the title; may be empty
   std::vector<std::string> header;
   std::vector<std::vector<std::string>> rows;
+};
+
+// A table of a report and the CSV file its rows are written to.
+struct NamedTable {
+  std::string file;
+  Table table;
+};
+
+// A picture of a report.
+struct Figure {
+  std::string file;  // name in the output directory
+  std::string caption;
+  std::string svg;
 };
 
 std::string ToCsv(const Table& table);
@@ -28,6 +42,16 @@ std::string Machine();
 
 // "name version, name version, ..."
 std::string VersionList();
+
+// "Command: … Seed: … Machine: … Versions: …": under every report.
+std::string Circumstances(const std::string& command, std::uint64_t seed);
+
+// The program as it was called, without where it lies.
+std::string CommandLine(const std::string& program, int argc, char** argv);
+
+// All tables with links to their rows, and all figures, as Markdown.
+std::string ToMarkdown(const std::vector<NamedTable>& tables,
+                       const std::vector<Figure>& figures);
 
 // Value below which the given fraction of `values` lies; 0 when empty.
 double Quantile(std::vector<double> values, double fraction);

@@ -70,6 +70,40 @@ TEST_F(Cli, QueryWritesTheDoublesOfTheLibrary) {
   }
 }
 
+TEST_F(Cli, ContactSpaceReportsEveryField) {
+  const Outcome outcome =
+      Run("contact-space --robot ../cone.off --obstacle ../box.off "
+          "--output c.off --report r.json");
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const auto report = nlohmann::json::parse(Content(Output("r.json")));
+  for (const char* field :
+       {"triangles", "vertices", "closed", "manifold", "components", "genus",
+        "cavities", "volume", "self_intersections", "seconds", "peak_mib",
+        "method", "predicted_cost", "approximation", "warnings"}) {
+    EXPECT_TRUE(report.contains(field)) << field;
+  }
+  const TriangleMesh mesh = ReadMesh(Output("c.off"));
+  EXPECT_EQ(report["triangles"], mesh.triangles.size());
+  EXPECT_EQ(report["vertices"], mesh.vertices.size());
+  EXPECT_EQ(report["closed"], true);
+  EXPECT_EQ(report["manifold"], true);
+  EXPECT_EQ(report["components"], 1);
+  EXPECT_EQ(report["genus"], 0);
+  EXPECT_EQ(report["cavities"], 0);
+  EXPECT_EQ(report["self_intersections"], 0);
+  EXPECT_EQ(report["volume"].get<double>(), SignedVolume(mesh));
+  EXPECT_GT(report["peak_mib"].get<double>(), 0.0);
+  EXPECT_TRUE(report["method"].is_string());
+  EXPECT_TRUE(report["warnings"].is_array());
+  ASSERT_TRUE(report["seconds"].is_object());
+  EXPECT_TRUE(report["seconds"].contains("arrangement"));
+  for (const auto& [stage, seconds] : report["seconds"].items()) {
+    EXPECT_GE(seconds.get<double>(), 0.0) << stage;
+  }
+  EXPECT_TRUE(report["approximation"]["kind"].is_string());
+  EXPECT_GE(report["approximation"]["bound"].get<double>(), 0.0);
+}
+
 TEST_F(Cli, TrackedQueryFollowsTheBranch) {
   // A plate pushed through at its middle: cold answers flip sides, the
   // tracked one stays where it came from.

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstring>
@@ -162,6 +163,30 @@ TEST(Shapes, HitTheAxesExactly) {
   EXPECT_EQ(box.max, Vector3d(0.7, 1, 3));
 }
 
+TEST(Blob, IsABumpySolidOfItsSeed) {
+  const TriangleMesh ball = MakeIcoBall(2, 4);
+  EXPECT_EQ(MakeBlob(2, 4, 0.0, 1).vertices, ball.vertices);
+  const TriangleMesh blob = MakeBlob(2, 4, 0.35, 1);
+  EXPECT_EQ(blob.triangles, ball.triangles);
+  EXPECT_EQ(blob.triangles.size(), 5120u);
+  EXPECT_EQ(blob.vertices, MakeBlob(2, 4, 0.35, 1).vertices);
+  EXPECT_NE(blob.vertices, MakeBlob(2, 4, 0.35, 2).vertices);
+  double low = 4, high = 0;
+  for (std::size_t i = 0; i < blob.vertices.size(); ++i) {
+    const double radius = blob.vertices[i].norm();
+    low = std::min(low, radius);
+    high = std::max(high, radius);
+    EXPECT_NEAR(blob.vertices[i].dot(ball.vertices[i]), 2 * radius, 1e-14);
+  }
+  EXPECT_GT(low, 2 * 0.65);
+  EXPECT_LT(low, 2 * 0.85);
+  EXPECT_LT(high, 2 * 1.35);
+  EXPECT_GT(high, 2 * 1.15);
+  MeshReport report;
+  MakeSolid(MakeBlob(1e-9, 3, 0.99, 5), "blob", &report);
+  EXPECT_EQ(report.inverted_components, 0);
+}
+
 TEST(IcoBall, ConvergesToTheBallByAFactorOfFourALevel) {
   const double ball = 4.0 / 3.0 * kPi;
   double last = ball - SignedVolume(MakeIcoBall(1, 1));
@@ -259,6 +284,9 @@ TEST(Shapes, RefuseBadParametersByName) {
       {"MakeVessel: window", [] { MakeVessel(3, 2, -1); }},
       {"MakeVessel: window", [] { MakeVessel(3, 2, kNaN); }},
       {"MakeStar: outer_radius", [] { MakeStar(1, 0); }},
+      {"MakeBlob: radius", [] { MakeBlob(0, 2, 0.1, 1); }},
+      {"MakeBlob: roughness", [] { MakeBlob(1, 2, 1.0, 1); }},
+      {"MakeBlob: roughness", [] { MakeBlob(1, 2, kNaN, 1); }},
       {"MakeKnot: tube", [] { MakeKnot(1, 0.5, 64, 8); }},
       {"MakeKnot: around", [] { MakeKnot(1, 0.1, 31, 8); }},
   };
