@@ -32,9 +32,16 @@ void Fields(Stream* io, RefineOptions& options) {
 
 template <typename Stream>
 void Fields(Stream* io, ContactSpaceOptions& options) {
-  auto& [merge_coplanar, outer_shell_only, refine, robot_name, obstacle_name] =
-      options;
-  (*io)(merge_coplanar, outer_shell_only, refine, robot_name, obstacle_name);
+  auto& [merge_coplanar, outer_shell_only, max_seconds, max_mib, refine,
+         robot_name, obstacle_name] = options;
+  (*io)(merge_coplanar, outer_shell_only, max_seconds, max_mib, refine,
+        robot_name, obstacle_name);
+}
+
+template <typename Stream>
+void Fields(Stream* io, PredictedCost& cost) {
+  auto& [meetings, arrangement_faces, seconds, mib] = cost;
+  (*io)(meetings, arrangement_faces, seconds, mib);
 }
 
 template <typename Stream>
@@ -53,12 +60,13 @@ template <typename Stream>
 void Fields(Stream* io, ContactSpaceReport& report) {
   auto& [triangles, vertices, closed, manifold, components, genus, cavities,
          volume, self_intersections, degenerate, worst_quality, median_quality,
-         from_cache, seconds, peak_mib, method, convolution, faces, cells,
-         judged, grid_step, robot, obstacle, warnings] = report;
+         from_cache, seconds, peak_mib, predicted, method, convolution, faces,
+         cells, judged, canonical_frame, grid_step, robot, obstacle,
+         warnings] = report;
   (*io)(triangles, vertices, closed, manifold, components, genus, cavities,
         volume, self_intersections, degenerate, worst_quality, median_quality,
-        from_cache, seconds, peak_mib, method, convolution, faces, cells,
-        judged, grid_step, robot, obstacle, warnings);
+        from_cache, seconds, peak_mib, predicted, method, convolution, faces,
+        cells, judged, canonical_frame, grid_step, robot, obstacle, warnings);
 }
 
 template <typename Stream>

@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/contact_space/convolution.h"
 
+#include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <map>
 #include <unordered_map>
+#include <unordered_set>
 
 namespace phongpd::internal {
 namespace {
@@ -23,16 +25,34 @@ constexpr double kDotError = 1e-14;
 const Vector3d kAxis(0.37170913265849731, 0.56291826475183729,
                      0.73831572046135197);
 
-// n · (ω × d) = d · (n × ω), accurate enough to trust the sign: the true value
-// of a non-zero term is far above 2^-100 of its parts.
-int RotationTerm(const GridNormal& n, const GridPoint& d) {
-  Float128 sum = 0;
+// A first-order term is evaluated in double and trusted when it is above this
+// fraction of its parts; else in 113 bits, where the true value of a term that
+// is not zero is far above the rounding.
+constexpr double kClearTerm = 1e-12;
+
+// Component k of a × b for triples of any number type.
+template <typename Number, typename A, typename B>
+Number CrossComponent(const A& a, const B& b, int k) {
+  const int i = (k + 1) % 3, j = (k + 2) % 3;
+  return static_cast<Number>(a[i]) * static_cast<Number>(b[j]) -
+         static_cast<Number>(a[j]) * static_cast<Number>(b[i]);
+}
+
+// n · (ω × d) = d · (n × ω).
+template <typename Number>
+Number RotationValue(const GridNormal& n, const GridPoint& d) {
+  Number sum = 0;
   for (int k = 0; k < 3; ++k) {
-    const int i = (k + 1) % 3, j = (k + 2) % 3;
-    sum += Float128(d[k]) *
-           (Float128(n[i]) * kAxis[j] - Float128(n[j]) * kAxis[i]);
+    sum += static_cast<Number>(d[k]) * CrossComponent<Number>(n, kAxis, k);
   }
-  return Sign(sum);
+  return sum;
+}
+
+int RotationTerm(const GridNormal& n, const GridPoint& d) {
+  const double value = RotationValue<double>(n, d);
+  const double parts = ToDouble(n).lpNorm<1>() * ToDouble(d).lpNorm<1>();
+  if (std::abs(value) > kClearTerm * parts) return Sign(value);
+  return Sign(RotationValue<Float128>(n, d));
 }
 
 // Vectors from every vertex to its neighbours, contiguous for the inner loop.
@@ -57,24 +77,26 @@ struct VertexStars {
 // the stars belong to the turned operand Q, −1 when the facet does.
 std::vector<int> TouchedVertices(const GridNormal& n, const VertexStars& stars,
                                  int turn) {
-  std::vector<int> touched;
+  std::vector<int> touched, unclear;
   const Vector3d nd = ToDouble(n);
   const double bound = nd.lpNorm<1>() * kDotError;
   const int count = static_cast<int>(stars.begin.size()) - 1;
   for (int v = 0; v < count; ++v) {
-    const int end = stars.begin[v + 1];
-    bool below = stars.begin[v] < end;
-    for (int k = stars.begin[v]; below && k < end; ++k) {
+    const int begin = stars.begin[v], end = stars.begin[v + 1];
+    bool below = begin < end;
+    unclear.clear();
+    for (int k = begin; below && k < end; ++k) {
       const Vector3d& d = stars.rays[k];
       const double side = nd.dot(d);
       const double error = bound * d.lpNorm<1>();
-      if (side < -error) continue;
-      if (side > error) {
-        below = false;
-        break;
-      }
-      int sign = Sign(Dot(n, stars.exact[k]));
-      if (sign == 0) sign = turn * RotationTerm(n, stars.exact[k]);
+      if (side > error) below = false;
+      if (side >= -error) unclear.push_back(k);
+    }
+    // Exact arithmetic only where no clear sign has decided.
+    for (std::size_t i = 0; below && i < unclear.size(); ++i) {
+      const GridPoint& d = stars.exact[unclear[i]];
+      int sign = Sign(Dot(n, d));
+      if (sign == 0) sign = turn * RotationTerm(n, d);
       below = sign < 0;
     }
     if (below) touched.push_back(v);
@@ -82,11 +104,13 @@ std::vector<int> TouchedVertices(const GridNormal& n, const VertexStars& stars,
   return touched;
 }
 
-// A strictly convex edge: its direction and the two apex directions.
+// A strictly convex edge: its direction and the two apex directions, and for
+// the quick test the unit direction and unit normals of its facets.
 struct ConvexEdge {
   int a, b;
   GridPoint exact[3];
   Vector3d rounded[3];
+  Vector3d direction, left_normal, right_normal;
 };
 
 std::vector<ConvexEdge> ConvexEdges(const GridSolid& s) {
@@ -101,33 +125,79 @@ std::vector<ConvexEdge> ConvexEdges(const GridSolid& s) {
     c.exact[1] = s.vertices[e.left_apex] - a;
     c.exact[2] = s.vertices[e.right_apex] - a;
     for (int k = 0; k < 3; ++k) c.rounded[k] = ToDouble(c.exact[k]);
+    c.direction = c.rounded[0].normalized();
+    c.left_normal = ToDouble(s.normals[e.left]).normalized();
+    c.right_normal = ToDouble(s.normals[e.right]).normalized();
     edges.push_back(c);
   }
   return edges;
+}
+
+// Directions of many edges by coordinate, so that the quick test runs over
+// contiguous numbers.
+struct EdgeDirections {
+  explicit EdgeDirections(const std::vector<ConvexEdge>& edges) {
+    for (const ConvexEdge& e : edges) {
+      x.push_back(e.direction[0]);
+      y.push_back(e.direction[1]);
+      z.push_back(e.direction[2]);
+    }
+  }
+  std::vector<double> x, y, z;
+};
+
+// Edges g that may pass over e: the apices of e lie on one side of the plane
+// (e, g) just when g points above one facet of e and below the other.  Drops
+// only what clearly does not.
+void CandidateEdges(const ConvexEdge& e, const EdgeDirections& g,
+                    std::vector<int>* candidates) {
+  constexpr double kClear = 1e-13;  // unit vectors: far above their rounding
+  candidates->clear();
+  const Vector3d l = e.left_normal, r = e.right_normal;
+  constexpr std::size_t kBlock = 64;
+  for (std::size_t begin = 0; begin < g.x.size(); begin += kBlock) {
+    const std::size_t size = std::min(kBlock, g.x.size() - begin);
+    const double *x = g.x.data() + begin, *y = g.y.data() + begin,
+                 *z = g.z.data() + begin;
+    double low[kBlock], high[kBlock];
+    for (std::size_t j = 0; j < size; ++j) {
+      const double p = l[0] * x[j] + l[1] * y[j] + l[2] * z[j];
+      const double q = r[0] * x[j] + r[1] * y[j] + r[2] * z[j];
+      low[j] = p < q ? p : q;
+      high[j] = p < q ? q : p;
+    }
+    for (std::size_t j = 0; j < size; ++j) {
+      if (low[j] > kClear || high[j] < -kClear) continue;
+      candidates->push_back(static_cast<int>(begin + j));
+    }
+  }
+}
+
+// e × (ω × g) · o, and n · (ω × o) where the apex turns too.
+template <typename Number>
+Number TurnedValue(const ConvexEdge& e, const ConvexEdge& g,
+                   const GridNormal& n, const GridPoint& o, bool of_q) {
+  std::array<Number, 3> turned;
+  for (int k = 0; k < 3; ++k) {
+    turned[k] = CrossComponent<Number>(kAxis, g.exact[0], k);
+  }
+  Number sum = of_q ? RotationValue<Number>(n, o) : Number(0);
+  for (int k = 0; k < 3; ++k) {
+    sum += CrossComponent<Number>(e.exact[0], turned, k) *
+           static_cast<Number>(o[k]);
+  }
+  return sum;
 }
 
 // First-order side of apex `o` of the plane spanned by e and the turned g; the
 // apex turns too when it belongs to Q.
 int TurnedSide(const ConvexEdge& e, const ConvexEdge& g, const GridNormal& n,
                const GridPoint& o, bool of_q) {
-  // e × (ω × g) · o, with ω × g and the outer product expanded.
-  Float128 turned[3];
-  const GridPoint& gd = g.exact[0];
-  const GridPoint& ed = e.exact[0];
-  for (int k = 0; k < 3; ++k) {
-    const int i = (k + 1) % 3, j = (k + 2) % 3;
-    turned[k] = Float128(kAxis[i]) * gd[j] - Float128(kAxis[j]) * gd[i];
-  }
-  Float128 sum = 0;
-  for (int k = 0; k < 3; ++k) {
-    const int i = (k + 1) % 3, j = (k + 2) % 3;
-    sum += (Float128(ed[i]) * turned[j] - Float128(ed[j]) * turned[i]) * o[k];
-    if (of_q) {
-      sum += Float128(n[k]) *
-             (Float128(kAxis[i]) * o[j] - Float128(kAxis[j]) * o[i]);
-    }
-  }
-  return Sign(sum);
+  const double value = TurnedValue<double>(e, g, n, o, of_q);
+  const double parts = e.rounded[0].lpNorm<1>() * g.rounded[0].lpNorm<1>() *
+                       ToDouble(o).lpNorm<1>();
+  if (std::abs(value) > kClearTerm * parts) return Sign(value);
+  return Sign(TurnedValue<Float128>(e, g, n, o, of_q));
 }
 
 // Side of the plane spanned by e and g on which all four apices lie, or 0.
@@ -137,26 +207,37 @@ int CommonSide(const ConvexEdge& e, const ConvexEdge& g) {
       (n.lpNorm<1>() + e.rounded[0].lpNorm<Eigen::Infinity>() *
                            g.rounded[0].lpNorm<Eigen::Infinity>()) *
       kDotError;
-  int common = 0;
+  const Vector3d* apices[4] = {&e.rounded[1], &e.rounded[2], &g.rounded[1],
+                               &g.rounded[2]};
+  int signs[4], common = 0;
   for (int k = 0; k < 4; ++k) {
+    const double side = n.dot(*apices[k]);
+    const bool clear = std::abs(side) > error * apices[k]->lpNorm<1>();
+    signs[k] = clear ? Sign(side) : 0;
+    if (signs[k] == 0) continue;
+    if (common != 0 && signs[k] != common) return 0;
+    common = signs[k];
+  }
+  // Exact arithmetic only where no clear sign has decided.
+  const GridNormal exact = Cross(e.exact[0], g.exact[0]);
+  if (IsZero(exact)) return 0;  // parallel: a parallelogram without area
+  for (int k = 0; k < 4; ++k) {
+    if (signs[k] != 0) continue;
     const bool of_q = k >= 2;
-    const int apex = 1 + k % 2;
-    const Vector3d& o = of_q ? g.rounded[apex] : e.rounded[apex];
-    const double side = n.dot(o);
-    int sign = 0;
-    if (std::abs(side) > error * o.lpNorm<1>()) {
-      sign = Sign(side);
-    } else {
-      const GridNormal exact = Cross(e.exact[0], g.exact[0]);
-      const GridPoint& p = of_q ? g.exact[apex] : e.exact[apex];
-      sign = Sign(Dot(exact, p));
-      if (sign == 0) sign = TurnedSide(e, g, exact, p, of_q);
-    }
+    const GridPoint& apex = (of_q ? g : e).exact[1 + k % 2];
+    int sign = Sign(Dot(exact, apex));
+    if (sign == 0) sign = TurnedSide(e, g, exact, apex, of_q);
     if (sign == 0 || (common != 0 && sign != common)) return 0;
     common = sign;
   }
   return common;
 }
+
+struct TriangleHash {
+  std::size_t operator()(const Triangle& t) const {
+    return GridPointHash()({t[0], t[1], t[2]});
+  }
+};
 
 // Collects facets over shared, distinct points; a triangle generated twice
 // (several contacts at one place) is kept once.
@@ -174,14 +255,14 @@ class Collector {
     Triangle first = t;
     std::rotate(first.begin(), std::min_element(first.begin(), first.end()),
                 first.end());
-    if (!seen_.emplace(first, true).second) return;
+    if (!seen_.insert(first).second) return;
     out_->facets.push_back({t, n, source, kind});
   }
 
  private:
   Convolution* out_;
   std::unordered_map<GridPoint, int, GridPointHash> ids_;
-  std::map<Triangle, bool> seen_;
+  std::unordered_set<Triangle, TriangleHash> seen_;
 };
 
 }  // namespace
@@ -218,17 +299,22 @@ Convolution ReducedConvolution(const GridSolid& p, const GridSolid& q) {
     int edge, side;
   };
   std::vector<std::vector<Hit>> hits(pe.size());
-  tbb::parallel_for(std::size_t{0}, pe.size(), [&](std::size_t i) {
-    for (std::size_t j = 0; j < qe.size(); ++j) {
-      const int side = CommonSide(pe[i], qe[j]);
-      if (side != 0) hits[i].push_back({static_cast<int>(j), side});
+  const EdgeDirections directions(qe);
+  const tbb::blocked_range<std::size_t> all(0, pe.size());
+  tbb::parallel_for(all, [&](const tbb::blocked_range<std::size_t>& range) {
+    std::vector<int> candidates;
+    for (std::size_t i = range.begin(); i < range.end(); ++i) {
+      CandidateEdges(pe[i], directions, &candidates);
+      for (const int j : candidates) {
+        const int side = CommonSide(pe[i], qe[j]);
+        if (side != 0) hits[i].push_back({j, side});
+      }
     }
   });
   for (std::size_t i = 0; i < pe.size(); ++i) {
     for (const Hit& hit : hits[i]) {
       const ConvexEdge &e = pe[i], &g = qe[hit.edge];
       GridNormal n = Cross(e.exact[0], g.exact[0]);
-      if (IsZero(n)) continue;  // parallel: the parallelogram has no area
       const int c0 = collect.Point(p.vertices[e.a] + q.vertices[g.a]);
       int c1 = collect.Point(p.vertices[e.b] + q.vertices[g.a]);
       const int c2 = collect.Point(p.vertices[e.b] + q.vertices[g.b]);

@@ -2,14 +2,41 @@
 #include "core/contact_space/face_geometry.h"
 
 #include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
 #include <tbb/parallel_reduce.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace phongpd::internal {
 
 using Eigen::Vector3d;
+
+namespace {
+
+constexpr double kMiss = std::numeric_limits<double>::infinity();
+
+// Where the ray enters the box, or infinity.  A direction component of zero
+// is handled apart: 0 · ∞ is not a number.
+double EnterBox(const Vector3d& low, const Vector3d& high, const Vector3d& from,
+                const Vector3d& direction) {
+  double enter = 0.0, leave = kMiss;
+  for (int k = 0; k < 3; ++k) {
+    if (direction[k] == 0.0) {
+      if (from[k] < low[k] || from[k] > high[k]) return kMiss;
+      continue;
+    }
+    const double a = (low[k] - from[k]) / direction[k];
+    const double b = (high[k] - from[k]) / direction[k];
+    enter = std::max(enter, std::min(a, b));
+    leave = std::min(leave, std::max(a, b));
+  }
+  return enter <= leave ? enter : kMiss;
+}
+
+}  // namespace
 
 double FaceGeometry::Area(int face) const {
   const ArrangementFace& f = arrangement_.faces[face];
@@ -56,7 +83,6 @@ Vector3d FaceGeometry::InteriorPoint(int face) const {
 // the plane's dominant projection.
 double FaceGeometry::Intersect(int face, const Vector3d& from,
                                const Vector3d& direction) const {
-  constexpr double kMiss = std::numeric_limits<double>::infinity();
   const ArrangementFace& f = arrangement_.faces[face];
   const Vector3d n =
       ToDouble(convolution_.facets[arrangement_.faces[face].facet].normal);
@@ -77,25 +103,82 @@ double FaceGeometry::Intersect(int face, const Vector3d& from,
   return inside ? t : kMiss;
 }
 
+void FaceGeometry::BuildTree() {
+  std::vector<BoundingBox> boxes(arrangement_.faces.size());
+  tbb::parallel_for(std::size_t{0}, boxes.size(), [&](std::size_t f) {
+    const ArrangementFace& face = arrangement_.faces[f];
+    BoundingBox& box = boxes[f];
+    box.min = box.max = From(face.begin);
+    for (int h = face.begin; h < face.end; ++h) {
+      box.min = box.min.cwiseMin(From(h));
+      box.max = box.max.cwiseMax(From(h));
+    }
+  });
+  tree_ = BoxTree(boxes, 4);
+}
+
 FaceGeometry::Hit FaceGeometry::FirstHit(const Vector3d& from,
                                          const Vector3d& direction,
-                                         int self) const {
+                                         double reach, int self) const {
+  const auto better = [](const Hit& a, const Hit& b) {
+    return a.distance != b.distance ? a.distance < b.distance : a.face < b.face;
+  };
+  if (!tree_.nodes().empty()) {
+    Hit best{reach, -1};
+    tree_.NearestFirst(
+        reach,
+        [&](int index) {
+          const BoxTree::Node& node = tree_.nodes()[index];
+          return EnterBox(node.min, node.max, from, direction);
+        },
+        [&](int position) {
+          const int face = tree_.order()[position];
+          if (face != self) {
+            const Hit hit{Intersect(face, from, direction), face};
+            if (better(hit, best)) best = hit;
+          }
+          return best.distance;
+        });
+    return best;
+  }
   return tbb::parallel_reduce(
-      tbb::blocked_range<int>(0, FaceCount(), 2048), Hit(),
+      tbb::blocked_range<int>(0, FaceCount(), 2048), Hit{reach, -1},
       [&](const tbb::blocked_range<int>& range, Hit best) {
         for (int f = range.begin(); f < range.end(); ++f) {
           if (f == self) continue;
-          const double t = Intersect(f, from, direction);
-          if (t < best.distance) best = {t, f};
+          const Hit hit{Intersect(f, from, direction), f};
+          if (better(hit, best)) best = hit;
         }
         return best;
       },
-      [](const Hit& a, const Hit& b) {
-        return a.distance < b.distance ||
-                       (a.distance == b.distance && a.face < b.face)
-                   ? a
-                   : b;
-      });
+      [&](const Hit& a, const Hit& b) { return better(b, a) ? b : a; });
+}
+
+std::vector<FaceGeometry::Hit> FaceGeometry::AllHits(const Vector3d& from,
+                                                     const Vector3d& direction,
+                                                     int self) const {
+  std::vector<Hit> hits;
+  const auto visit = [&](int face) {
+    const double t = face == self ? kMiss : Intersect(face, from, direction);
+    if (t < kMiss) hits.push_back({t, face});
+  };
+  if (tree_.nodes().empty()) {
+    for (int f = 0; f < FaceCount(); ++f) visit(f);
+  } else {
+    tree_.ForEach(
+        [&](int index) {
+          const BoxTree::Node& node = tree_.nodes()[index];
+          return EnterBox(node.min, node.max, from, direction) < kMiss;
+        },
+        [&](int position) {
+          visit(tree_.order()[position]);
+          return true;
+        });
+  }
+  std::sort(hits.begin(), hits.end(), [](const Hit& a, const Hit& b) {
+    return a.distance != b.distance ? a.distance < b.distance : a.face < b.face;
+  });
+  return hits;
 }
 
 }  // namespace phongpd::internal

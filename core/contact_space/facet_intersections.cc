@@ -1,57 +1,52 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/contact_space/facet_intersections.h"
 
-#include <CGAL/Box_intersection_d/Box_d.h>
-#include <CGAL/box_intersection_d.h>
 #include <tbb/parallel_for.h>
-#include <tbb/parallel_sort.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <unordered_map>
 
 namespace phongpd::internal {
 namespace {
 
-struct FacetPair {
-  int first, second;
+// Facets handled between two passes that add points: bounds the memory held
+// by meetings that wait for their points.
+constexpr int kBlock = 8192;
+
+// Where a facet meets a plane: a corner in it (point ≥ 0 from the start) or
+// edge a–b crossing it, which becomes a point only if it is needed.
+struct Crossing {
+  int point = -1;
+  int a = 0, b = 0;  // convolution points
+  Int128 side_a = 0, side_b = 0;
+  int group = 0;
+  double along = 0.0;  // coordinate on the line's dominant axis
 };
 
-// Facets whose boxes meet and whose planes differ.
-std::vector<FacetPair> CandidatePairs(const Convolution& convolution,
-                                      const PlaneGroups& groups) {
-  using Box =
-      CGAL::Box_intersection_d::Box_d<double, 3,
-                                      CGAL::Box_intersection_d::ID_EXPLICIT>;
-  struct FacetBox : Box {
-    FacetBox(double* low, double* high, int facet_index)
-        : Box(low, high), facet(facet_index) {}
-    int facet;
-  };
-  std::vector<FacetBox> boxes;
+// Two facets and the segment they share, or one point (low = high).
+struct Meeting {
+  int first, second;
+  Crossing low, high;
+  bool is_point;
+};
+
+std::vector<BoundingBox> FacetBoxes(const Convolution& convolution) {
+  std::vector<BoundingBox> boxes;
   boxes.reserve(convolution.facets.size());
-  for (std::size_t f = 0; f < convolution.facets.size(); ++f) {
-    const Triangle& t = convolution.facets[f].corners;
-    Eigen::Array3d low = ToDouble(convolution.points[t[0]]), high = low;
+  for (const ConvolutionFacet& facet : convolution.facets) {
+    BoundingBox box;
+    box.min = box.max = ToDouble(convolution.points[facet.corners[0]]);
     for (int k = 1; k < 3; ++k) {
-      const Eigen::Array3d p = ToDouble(convolution.points[t[k]]);
-      low = low.min(p);
-      high = high.max(p);
+      const Eigen::Vector3d p = ToDouble(convolution.points[facet.corners[k]]);
+      box.min = box.min.cwiseMin(p);
+      box.max = box.max.cwiseMax(p);
     }
-    boxes.emplace_back(low.data(), high.data(), static_cast<int>(f));
+    boxes.push_back(box);
   }
-  std::vector<FacetPair> pairs;
-  CGAL::box_self_intersection_d(
-      boxes.begin(), boxes.end(), [&](const FacetBox& a, const FacetBox& b) {
-        if (groups.of_facet[a.facet] == groups.of_facet[b.facet]) return;
-        pairs.push_back(
-            {std::min(a.facet, b.facet), std::max(a.facet, b.facet)});
-      });
-  tbb::parallel_sort(
-      pairs.begin(), pairs.end(), [](const FacetPair& a, const FacetPair& b) {
-        return a.first != b.first ? a.first < b.first : a.second < b.second;
-      });
-  return pairs;
+  return boxes;
 }
 
 // Signed volumes of the corners of one facet over the plane of another; a
@@ -69,23 +64,65 @@ struct Sides {
   }
 };
 
+// Finds what two facets share; const and thread-safe.
 class Intersector {
  public:
   Intersector(const Convolution& convolution, const PlaneGroups& groups,
-              ExactPoints* points, FacetIntersections* out)
-      : convolution_(convolution),
-        groups_(groups),
-        points_(points),
-        out_(out),
-        // Far above the rounding of a point on a line, far below a grid step.
-        tolerance_(std::ldexp(1.0, kGridBits + 1) * 1e-12) {}
+              const std::vector<int>& point_ids)
+      : convolution_(convolution), groups_(groups), point_ids_(point_ids) {}
 
-  int SharedCorners(const FacetPair& pair) const {
-    int shared = 0;
-    for (const int a : Corners(pair.first)) {
-      for (const int b : Corners(pair.second)) shared += a == b;
+  bool Intersect(int t, int u, Meeting* meeting) const {
+    meeting->first = t;
+    meeting->second = u;
+    meeting->is_point = false;
+    Crossing shared[3];
+    int count = 0;
+    for (const int a : Corners(t)) {
+      for (const int b : Corners(u)) {
+        if (a == b) shared[count++].point = point_ids_[a];
+      }
     }
-    return shared;
+    if (count >= 2) {
+      // The common edge may be interior (cancelled) in either plane's group,
+      // where nothing else would put it.
+      meeting->low = shared[0];
+      meeting->high = shared[1];
+      return true;
+    }
+    const Sides of_u = SidesOf(u, t);
+    if (!of_u.Meets(count)) return false;
+    const Sides of_t = SidesOf(t, u);
+    if (!of_t.Meets(count)) return false;
+
+    const int axis = CommonLineAxis(t, u);
+    Crossing a[2], b[2];
+    const int na = Crossings(u, of_u, groups_.of_facet[t], axis, a);
+    const int nb = Crossings(t, of_t, groups_.of_facet[u], axis, b);
+    if (na == 0 || nb == 0) return false;
+    if (na == 1) a[1] = a[0];
+    if (nb == 1) b[1] = b[0];
+    if (Compare(a[0], a[1], axis) > 0) std::swap(a[0], a[1]);
+    if (Compare(b[0], b[1], axis) > 0) std::swap(b[0], b[1]);
+    meeting->low = Compare(a[0], b[0], axis) >= 0 ? a[0] : b[0];
+    meeting->high = Compare(a[1], b[1], axis) <= 0 ? a[1] : b[1];
+    const int order = Compare(meeting->low, meeting->high, axis);
+    meeting->is_point = order == 0;
+    return order <= 0;
+  }
+
+  LocatedPoint LocateCrossing(const Crossing& c) const {
+    PointDefinition edge;
+    edge.kind = PointDefinition::kEdge;
+    edge.a = convolution_.points[c.a];
+    edge.b = convolution_.points[c.b];
+    edge.side_a = c.side_a;
+    edge.side_b = c.side_b;
+    return internal::Locate(edge);
+  }
+
+ private:
+  const Triangle& Corners(int facet) const {
+    return convolution_.facets[facet].corners;
   }
 
   Sides SidesOf(int facet, int plane_facet) const {
@@ -103,71 +140,14 @@ class Intersector {
     return sides;
   }
 
-  // Might the two facets share more than corners?  Thread-safe.
-  bool MayMeet(const FacetPair& pair) const {
-    const int shared = SharedCorners(pair);
-    if (shared >= 2) return true;
-    return SidesOf(pair.second, pair.first).Meets(shared) &&
-           SidesOf(pair.first, pair.second).Meets(shared);
-  }
-
-  void Intersect(const FacetPair& pair) {
-    const int t = pair.first, u = pair.second;
-    if (SharedCorners(pair) >= 2) {
-      // The common edge may be interior (cancelled) in either plane's group,
-      // where nothing else would put it.
-      int ends[3], count = 0;
-      for (const int a : Corners(t)) {
-        for (const int b : Corners(u)) {
-          if (a == b) ends[count++] = out_->point_ids[a];
-        }
-      }
-      Emit(t, u, ends[0], ends[1]);
-      return;
-    }
-    const int axis = CommonLineAxis(t, u);
-    Crossing a[2], b[2];
-    const int na = Crossings(u, SidesOf(u, t), groups_.of_facet[t], axis, a);
-    const int nb = Crossings(t, SidesOf(t, u), groups_.of_facet[u], axis, b);
-    if (na == 0 || nb == 0) return;
-    if (na == 1) a[1] = a[0];
-    if (nb == 1) b[1] = b[0];
-    if (Compare(&a[0], &a[1], axis) > 0) std::swap(a[0], a[1]);
-    if (Compare(&b[0], &b[1], axis) > 0) std::swap(b[0], b[1]);
-    Crossing low = Compare(&a[0], &b[0], axis) >= 0 ? a[0] : b[0];
-    Crossing high = Compare(&a[1], &b[1], axis) <= 0 ? a[1] : b[1];
-    const int order = Compare(&low, &high, axis);
-    if (order > 0) return;
-    const int from = Materialize(&low);
-    Emit(t, u, from, order == 0 ? from : Materialize(&high));
-  }
-
- private:
-  // Where a facet meets a plane: a corner in it (point ≥ 0 from the start) or
-  // edge a–b crossing it, built only on demand.
-  struct Crossing {
-    int point = -1;
-    int a = 0, b = 0;  // convolution points
-    Int128 side_a = 0, side_b = 0;
-    int group = 0;
-    double along = 0.0;  // coordinate on the line's dominant axis
-  };
-
-  const Triangle& Corners(int facet) const {
-    return convolution_.facets[facet].corners;
-  }
-
-  // Coordinate in which the common line of two planes varies most.
+  // A coordinate that varies along the common line of two planes.
   int CommonLineAxis(int t, int u) const {
     const GridNormal& n = convolution_.facets[t].normal;
     const GridNormal& m = convolution_.facets[u].normal;
-    std::array<Float128, 3> direction;
-    for (int k = 0; k < 3; ++k) {
-      const int i = (k + 1) % 3, j = (k + 2) % 3;
-      direction[k] =
-          Float128(n[i]) * Float128(m[j]) - Float128(n[j]) * Float128(m[i]);
-    }
-    return LargestAxis(direction);
+    const Eigen::Vector3d rounded =
+        ToDouble(n).normalized().cross(ToDouble(m).normalized());
+    if (rounded.lpNorm<Eigen::Infinity>() > 1e-8) return LargestAxis(rounded);
+    return LargestAxis(WideCross(n, m));
   }
 
   int Crossings(int facet, const Sides& sides, int group, int axis,
@@ -177,74 +157,134 @@ class Intersector {
       const int a = Corners(facet)[k], b = Corners(facet)[(k + 1) % 3];
       const Int128 sa = sides.value[k], sb = sides.value[(k + 1) % 3];
       const double xa = static_cast<double>(convolution_.points[a][axis]);
-      const double xb = static_cast<double>(convolution_.points[b][axis]);
       if (sa == 0 && count < 2) {
-        out[count].point = out_->point_ids[a];
+        out[count].point = point_ids_[a];
+        out[count].a = a;
         out[count++].along = xa;
       } else if (Sign(sa) * Sign(sb) < 0 && count < 2) {
+        const double xb = static_cast<double>(convolution_.points[b][axis]);
         const double da = static_cast<double>(sa), db = static_cast<double>(sb);
-        out[count++] = {
-            -1, a, b, sa, sb, group, xa + (xb - xa) * (da / (da - db))};
+        const double along = xa + (xb - xa) * (da / (da - db));
+        // One name for the edge, whichever facet it is met from.
+        out[count++] = a < b ? Crossing{-1, a, b, sa, sb, group, along}
+                             : Crossing{-1, b, a, sb, sa, group, along};
       }
     }
     return count;
   }
 
-  int Compare(Crossing* a, Crossing* b, int axis) {
-    if (a->point >= 0 && a->point == b->point) return 0;
-    if (a->along < b->along - tolerance_) return -1;
-    if (a->along > b->along + tolerance_) return 1;
-    const int p = Materialize(a), q = Materialize(b);
-    if (p == q) return 0;
-    return CompareCoordinate((*points_)[p], (*points_)[q], axis);
+  int Compare(const Crossing& a, const Crossing& b, int axis) const {
+    if (a.point >= 0 && a.point == b.point) return 0;
+    const double difference = a.along - b.along;
+    if (std::abs(difference) > 2 * kPointError) return Sign(difference);
+    return CompareCoordinate(Locate(a), Locate(b), axis);
   }
 
-  int Materialize(Crossing* c) {
-    if (c->point < 0) c->point = EdgePlanePoint(*c);
-    return c->point;
+  LocatedPoint Locate(const Crossing& c) const {
+    if (c.point < 0) return LocateCrossing(c);
+    PointDefinition vertex;
+    vertex.a = convolution_.points[c.a];
+    return internal::Locate(vertex);
   }
+  const Convolution& convolution_;
+  const PlaneGroups& groups_;
+  const std::vector<int>& point_ids_;
+};
 
-  // p = a + (b − a)·s_a/(s_a − s_b), once per edge and plane.
-  int EdgePlanePoint(Crossing c) {
-    if (c.a > c.b) {
-      std::swap(c.a, c.b);
-      std::swap(c.side_a, c.side_b);
-    }
-    const EdgePlane key = {c.a, c.b, c.group};
-    const auto it = edge_points_.find(key);
-    if (it != edge_points_.end()) return it->second;
-    PointDefinition edge;
-    edge.kind = PointDefinition::kEdge;
-    edge.a = convolution_.points[c.a];
-    edge.b = convolution_.points[c.b];
-    edge.side_a = c.side_a;
-    edge.side_b = c.side_b;
-    const int id = points_->Add(Locate(edge));
-    edge_points_.emplace(key, id);
-    return id;
-  }
+// Turns meetings into segments of the planes, adding the points they need.
+class SegmentWriter {
+ public:
+  SegmentWriter(const PlaneGroups& groups, const Intersector& intersector,
+                ExactPoints* points, FacetIntersections* out)
+      : groups_(groups),
+        intersector_(intersector),
+        points_(points),
+        out_(out) {}
 
-  void Emit(int t, int u, int from, int to) {
-    const int g = groups_.of_facet[t], h = groups_.of_facet[u];
+  void Write(const Meeting& meeting) {
+    const int from = PointOf(meeting.low);
+    const int to = meeting.is_point ? from : PointOf(meeting.high);
+    const int g = groups_.of_facet[meeting.first];
+    const int h = groups_.of_facet[meeting.second];
     const auto [low, high] = std::minmax(from, to);
     out_->segments[g].push_back({low, high, h});
     out_->segments[h].push_back({low, high, g});
   }
 
+ private:
+  // Every edge meets every plane once.
+  int PointOf(const Crossing& c) {
+    if (c.point >= 0) return c.point;
+    const auto [it, is_new] = edge_points_.try_emplace({c.a, c.b, c.group}, -1);
+    if (is_new) it->second = points_->Add(intersector_.LocateCrossing(c));
+    return it->second;
+  }
+
   using EdgePlane = std::array<std::int64_t, 3>;
 
-  const Convolution& convolution_;
   const PlaneGroups& groups_;
+  const Intersector& intersector_;
   ExactPoints* points_;
   FacetIntersections* out_;
-  double tolerance_;
   std::unordered_map<EdgePlane, int, GridPointHash> edge_points_;
 };
 
+bool Overlap(const Eigen::Vector3d& low, const Eigen::Vector3d& high,
+             const BoundingBox& box) {
+  return (low.array() <= box.max.array()).all() &&
+         (high.array() >= box.min.array()).all();
+}
+
+// Calls visit(meeting) for every facet u > after that facet t meets.
+template <typename Visit>
+void ForEachMeeting(const PlaneGroups& groups, const FacetIndex& index,
+                    const Intersector& intersector, int t, int after,
+                    const Visit& visit) {
+  const BoundingBox& box = index.boxes[t];
+  index.tree.ForEach(
+      [&](int node) {
+        return Overlap(index.tree.nodes()[node].min,
+                       index.tree.nodes()[node].max, box);
+      },
+      [&](int position) {
+        const int u = index.tree.order()[position];
+        Meeting meeting;
+        if (u > after && groups.of_facet[u] != groups.of_facet[t] &&
+            Overlap(index.boxes[u].min, index.boxes[u].max, box) &&
+            intersector.Intersect(t, u, &meeting)) {
+          visit(meeting);
+        }
+        return true;
+      });
+}
+
 }  // namespace
+
+FacetIndex::FacetIndex(const Convolution& convolution)
+    : boxes(FacetBoxes(convolution)), tree(boxes, 4) {}
+
+double PredictMeetings(const Convolution& convolution,
+                       const PlaneGroups& groups, const FacetIndex& index) {
+  constexpr int kSample = 1024;
+  const int count = static_cast<int>(index.boxes.size());
+  const int stride = std::max(1, count / kSample);
+  const int samples = (count + stride - 1) / stride;
+  // Points do not matter here: their own numbers will do as ids.
+  std::vector<int> ids(convolution.points.size());
+  std::iota(ids.begin(), ids.end(), 0);
+  const Intersector intersector(convolution, groups, ids);
+  std::vector<int> found(static_cast<std::size_t>(samples), 0);
+  tbb::parallel_for(0, samples, [&](int i) {
+    ForEachMeeting(groups, index, intersector, i * stride, -1,
+                   [&](const Meeting&) { ++found[i]; });
+  });
+  const double sum = std::accumulate(found.begin(), found.end(), 0.0);
+  return 0.5 * sum * count / std::max(1, samples);
+}
 
 FacetIntersections IntersectFacets(const Convolution& convolution,
                                    const PlaneGroups& groups,
+                                   const FacetIndex& index,
                                    ExactPoints* points) {
   FacetIntersections out;
   out.segments.resize(groups.members.size());
@@ -257,14 +297,21 @@ FacetIntersections IntersectFacets(const Convolution& convolution,
       out.point_ids[v] = points->Add(Locate(vertex));
     }
   }
-  std::vector<FacetPair> pairs = CandidatePairs(convolution, groups);
-  Intersector intersector(convolution, groups, points, &out);
-  std::vector<char> may_meet(pairs.size());
-  tbb::parallel_for(std::size_t{0}, pairs.size(), [&](std::size_t i) {
-    may_meet[i] = intersector.MayMeet(pairs[i]);
-  });
-  for (std::size_t i = 0; i < pairs.size(); ++i) {
-    if (may_meet[i]) intersector.Intersect(pairs[i]);
+  const Intersector intersector(convolution, groups, out.point_ids);
+  SegmentWriter writer(groups, intersector, points, &out);
+  const int count = static_cast<int>(index.boxes.size());
+  std::vector<std::vector<Meeting>> meetings(std::min(count, kBlock));
+  for (int begin = 0; begin < count; begin += kBlock) {
+    const int end = std::min(count, begin + kBlock);
+    tbb::parallel_for(begin, end, [&](int t) {
+      std::vector<Meeting>& found = meetings[t - begin];
+      found.clear();
+      ForEachMeeting(groups, index, intersector, t, t,
+                     [&](const Meeting& m) { found.push_back(m); });
+    });
+    for (int t = begin; t < end; ++t) {
+      for (const Meeting& meeting : meetings[t - begin]) writer.Write(meeting);
+    }
   }
   tbb::parallel_for(std::size_t{0}, out.segments.size(), [&](std::size_t g) {
     std::vector<PlaneSegment>& s = out.segments[g];

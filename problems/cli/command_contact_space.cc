@@ -21,6 +21,8 @@ struct Flags {
   std::string output;
   std::string report;
   bool outer_shell_only = false;
+  double max_seconds = 0.0;
+  double max_mib = 0.0;
   std::string refine = "0";
   bool no_cache = false;
 };
@@ -50,6 +52,7 @@ Json ToJson(const ContactSpaceReport& report) {
           {"cavities", report.cavities},
           {"volume", report.volume},
           {"self_intersections", report.self_intersections},
+          {"degenerate_triangles", report.degenerate_triangles},
           {"triangle_quality",
            {{"measure", "4 sqrt(3) area / sum of squared edges"},
             {"worst", report.worst_quality},
@@ -58,12 +61,17 @@ Json ToJson(const ContactSpaceReport& report) {
           {"seconds", seconds},
           {"peak_mib", report.peak_mib},
           {"method", report.method},
-          {"predicted_cost", nullptr},
+          {"predicted_cost",
+           {{"meetings", report.predicted.meetings},
+            {"arrangement_faces", report.predicted.arrangement_faces},
+            {"seconds", report.predicted.seconds},
+            {"mib", report.predicted.mib}}},
           {"approximation", {{"kind", "none"}, {"bound", report.grid_step}}},
           {"convolution_triangles", report.convolution_triangles},
           {"arrangement_faces", report.arrangement_faces},
           {"cells", report.cells},
           {"judged_cells", report.judged_cells},
+          {"canonical_frame", report.canonical_frame},
           {"grid_step", report.grid_step},
           {"warnings", report.warnings}};
 }
@@ -110,6 +118,8 @@ int BuildAndWrite(const Flags& flags) {
 
   ContactSpaceOptions options;
   options.outer_shell_only = flags.outer_shell_only;
+  options.max_seconds = flags.max_seconds;
+  options.max_mib = flags.max_mib;
   options.robot_name = flags.robot;
   options.obstacle_name = flags.obstacle;
   options.refine.target_edge = ParseDouble(flags.refine, "--refine");
@@ -148,6 +158,14 @@ Command AddContactSpace(CLI::App* app) {
       ->type_name("FILE");
   app->add_flag("--outer-shell-only", flags->outer_shell_only,
                 "Leave out bounded free cavities");
+  app->add_option("--max-seconds", flags->max_seconds,
+                  "Refuse what is predicted to take longer (0: never)")
+      ->type_name("S")
+      ->check(CLI::NonNegativeNumber);
+  app->add_option("--max-mib", flags->max_mib,
+                  "Refuse what is predicted to need more memory (0: never)")
+      ->type_name("MIB")
+      ->check(CLI::NonNegativeNumber);
   app->add_option("--refine", flags->refine,
                   "Longest edge as a fraction of the diagonal, a quarter of it "
                   "at sharp edges; the surface stays as it is. 0: leave the "
