@@ -60,6 +60,8 @@ void ExpectEqual(const ContactSpace& a, const ContactSpace& b) {
   EXPECT_EQ(r.arrangement_faces, s.arrangement_faces);
   EXPECT_EQ(r.judged_cells, s.judged_cells);
   EXPECT_EQ(r.grid_step, s.grid_step);
+  EXPECT_EQ(r.predicted.seconds, s.predicted.seconds);
+  EXPECT_EQ(r.canonical_frame, s.canonical_frame);
   EXPECT_EQ(r.robot.inverted_components, s.robot.inverted_components);
   EXPECT_EQ(r.robot.warnings, s.robot.warnings);
   EXPECT_EQ(r.obstacle.volume, s.obstacle.volume);
@@ -146,12 +148,14 @@ TEST_F(ContactSpaceCacheTest, AnyChangedOptionMisses) {
   ContactSpaceOptions options;
   Build(options);
   // An option that is missing here does not compile.
-  auto& [merge_coplanar, outer_shell_only, refine, robot_name, obstacle_name] =
-      options;
+  auto& [merge_coplanar, outer_shell_only, max_seconds, max_mib, refine,
+         robot_name, obstacle_name] = options;
   auto& [target_edge, grading, sharp_angle_degrees] = refine;
   const std::vector<std::function<void()>> changes = {
       [&o = merge_coplanar] { o = !o; },
       [&o = outer_shell_only] { o = !o; },
+      [&o = max_seconds] { o = 1e6; },
+      [&o = max_mib] { o = 1e6; },
       [&o = target_edge] { o = 0.5; },
       [&o = grading] { o = std::nextafter(o, 1.0); },
       [&o = sharp_angle_degrees] { o = std::nextafter(o, 90.0); },
