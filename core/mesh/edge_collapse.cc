@@ -98,7 +98,7 @@ CollapseSequence::CollapseSequence(const TriangleMesh& mesh, std::size_t target)
   }
 }
 
-CollapseSequence::Prefix CollapseSequence::After(std::size_t steps) const {
+TriangleMesh CollapseSequence::After(std::size_t steps) const {
   std::vector<int> root(original_.vertices.size());
   std::iota(root.begin(), root.end(), 0);
   std::vector<Eigen::Vector3d> position = original_.vertices;
@@ -110,8 +110,7 @@ CollapseSequence::Prefix CollapseSequence::After(std::size_t steps) const {
     while (root[v] != v) v = root[v] = root[root[v]];
     return v;
   };
-  Prefix prefix;
-  prefix.images.reserve(root.size());
+  TriangleMesh mesh;
   std::vector<int> index(root.size(), -1);
   for (const Triangle& t : original_.triangles) {
     Triangle image;
@@ -121,17 +120,14 @@ CollapseSequence::Prefix CollapseSequence::After(std::size_t steps) const {
     }
     for (int& v : image) {
       if (index[v] < 0) {
-        index[v] = static_cast<int>(prefix.mesh.vertices.size());
-        prefix.mesh.vertices.push_back(position[v]);
+        index[v] = static_cast<int>(mesh.vertices.size());
+        mesh.vertices.push_back(position[v]);
       }
       v = index[v];
     }
-    prefix.mesh.triangles.push_back(image);
+    mesh.triangles.push_back(image);
   }
-  for (std::size_t v = 0; v < root.size(); ++v) {
-    prefix.images.push_back(position[find(static_cast<int>(v))]);
-  }
-  return prefix;
+  return mesh;
 }
 
 }  // namespace phongpd::internal

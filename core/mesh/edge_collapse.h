@@ -19,16 +19,8 @@ class CollapseSequence {
   CollapseSequence(const TriangleMesh& mesh, std::size_t target);
 
   std::size_t size() const { return steps_.size(); }
-  // The mesh the sequence starts from: as given, but with a vertex of its own
-  // for every fan of triangles.
-  const TriangleMesh& original() const { return original_; }
-
-  struct Prefix {
-    TriangleMesh mesh;  // used vertices only
-    // Where each vertex of original() went.
-    std::vector<Eigen::Vector3d> images;
-  };
-  Prefix After(std::size_t steps) const;
+  // The mesh after that many steps, used vertices only.
+  TriangleMesh After(std::size_t steps) const;
 
  private:
   struct Step {
@@ -36,7 +28,7 @@ class CollapseSequence {
     Eigen::Vector3d position;  // of the kept one from now on
   };
 
-  TriangleMesh original_;
+  TriangleMesh original_;  // with a vertex for every fan of triangles
   std::vector<Step> steps_;
 };
 

@@ -18,8 +18,7 @@ namespace {
 
 constexpr double kOffset = 0.1;  // of alpha
 
-// Decimation moves little, and its tracks are thin: search for a sharp bound
-// whatever its size.
+// Decimation moves little: search for a sharp bound whatever its size.
 DistanceSearch SharpSearch() {
   DistanceSearch search;
   search.relative = 0.25;
@@ -60,12 +59,12 @@ TriangleMesh Wrap(const TriangleMesh& mesh, double alpha) {
 
 // The shortest prefix of the sequence with at most `target` triangles, or all
 // of it.
-internal::CollapseSequence::Prefix Shortened(
-    const internal::CollapseSequence& sequence, std::size_t target) {
+TriangleMesh Shortened(const internal::CollapseSequence& sequence,
+                       std::size_t target) {
   std::size_t low = 0, high = sequence.size();
   while (low < high) {
     const std::size_t middle = low + (high - low) / 2;
-    if (sequence.After(middle).mesh.triangles.size() > target) {
+    if (sequence.After(middle).triangles.size() > target) {
       low = middle + 1;
     } else {
       high = middle;
@@ -95,7 +94,7 @@ ApproximateMesh Decimate(const TriangleMesh& solid, std::size_t target_faces) {
   if (solid.triangles.size() <= target_faces) return out;
   const internal::CollapseSequence sequence(solid, target_faces);
   // Fewer and fewer collapses until the mesh is a solid.
-  internal::CollapseSequence::Prefix best;
+  TriangleMesh best;
   const std::size_t faces = solid.triangles.size();
   constexpr std::size_t kTries = 8;
   bool found = false;
@@ -103,18 +102,16 @@ ApproximateMesh Decimate(const TriangleMesh& solid, std::size_t target_faces) {
     const std::size_t target =
         target_faces + (faces - target_faces) * i * i / (kTries * kTries);
     best = Shortened(sequence, target);
-    found = IsSolid(&best.mesh);
+    found = IsSolid(&best);
   }
   if (!found) {
     out.note = "not decimated: every collapse made the surface cross itself";
     return out;
   }
   const DistanceSearch search = SharpSearch();
-  const DistanceBounds removed = SweptDeviation(
-      sequence.original(), best.images, solid, best.mesh, search);
-  const DistanceBounds added = SweptDeviation(sequence.original(), best.images,
-                                              best.mesh, solid, search);
-  out.mesh = std::move(best.mesh);
+  const DistanceBounds removed = SolidDeviation(solid, best, search);
+  const DistanceBounds added = SolidDeviation(best, solid, search);
+  out.mesh = std::move(best);
   out.bound = std::max(removed.upper, added.upper);
   out.lower_bound = std::max(removed.lower, added.lower);
   out.is_conservative = false;

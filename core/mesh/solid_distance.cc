@@ -66,6 +66,20 @@ std::vector<Piece> BoxPieces(const BoundingBox& box) {
   return pieces;
 }
 
+std::vector<Piece> FacetPieces(const TriangleMesh& mesh) {
+  std::vector<Piece> pieces;
+  pieces.reserve(mesh.triangles.size());
+  for (const Triangle& t : mesh.triangles) {
+    Piece piece;
+    piece.count = 3;
+    for (std::size_t k = 0; k < 3; ++k) {
+      piece.corners[k] = mesh.vertices[t[k]];
+    }
+    pieces.push_back(piece);
+  }
+  return pieces;
+}
+
 // Upper bound of the distance of the points of a convex hull from the solid
 // it is the hull of, good where the two are nearly the same.  Let no point of
 // the solid's surface be deeper in the hull than ε.  The part H_ε of the hull
@@ -73,7 +87,7 @@ std::vector<Piece> BoxPieces(const BoundingBox& box) {
 // points is in the solid, all of it is.  With o ∈ H_ε of depth ρ, every
 // x ∈ H has o + (1 − ε/ρ)(x − o) ∈ H_ε, at a distance ≤ (ε/ρ) · |x − o|.
 double NearlyConvexBound(const TriangleMesh& hull, const TriangleMesh& solid,
-                         const DistanceTarget& to, const Vector3d& o) {
+                         const DistanceTarget& to) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   const SurfaceTree tree(hull);
   // With what the rounding of a sliver's normal can add, times `sign`.
@@ -97,6 +111,9 @@ double NearlyConvexBound(const TriangleMesh& hull, const TriangleMesh& solid,
       epsilon = std::max(epsilon, depth(facet, solid.vertices[v], 1));
     }
   }
+  Vector3d o = Vector3d::Zero();
+  for (const Vector3d& v : hull.vertices) o += v;
+  o /= static_cast<double>(hull.vertices.size());
   double rho = kInfinity, reach = 0.0;
   for (std::size_t f = 0; f < hull.triangles.size(); ++f) {
     rho = std::min(rho, depth(f, o, -1));
@@ -108,6 +125,21 @@ double NearlyConvexBound(const TriangleMesh& hull, const TriangleMesh& solid,
   return epsilon / rho * reach;
 }
 
+// sup d(·, target) over a solid: over its surface, and over its inner points
+// where the distance has a local maximum.
+DistanceBounds Deviation(const TriangleMesh& from, const DistanceTarget& target,
+                         const DistanceSearch& search, double diagonal) {
+  const DistanceBounds surface =
+      FarthestPoint(FacetPieces(from), target, nullptr, search, diagonal, 0.0);
+  const DistanceTarget domain(from, true);
+  DistanceBounds bounds =
+      FarthestPoint(BoxPieces(ComputeBounds(from)), target, &domain, search,
+                    diagonal, surface.lower);
+  bounds.upper = std::max(bounds.upper, surface.upper);
+  bounds.pieces += surface.pieces;
+  return bounds;
+}
+
 }  // namespace
 
 DistanceBounds SolidDeviation(const TriangleMesh& from, const TriangleMesh& to,
@@ -115,10 +147,7 @@ DistanceBounds SolidDeviation(const TriangleMesh& from, const TriangleMesh& to,
   const Frame frame(from, to);
   const DistanceTarget target(frame.Inside(to), true);
   const TriangleMesh inner = frame.Inside(from);
-  const DistanceTarget domain(inner, true);
-  return ToUser(FarthestPoint(BoxPieces(ComputeBounds(inner)), target, &domain,
-                              search, frame.diagonal),
-                frame);
+  return ToUser(Deviation(inner, target, search, frame.diagonal), frame);
 }
 
 DistanceBounds SurfaceDeviation(const TriangleMesh& from,
@@ -126,44 +155,9 @@ DistanceBounds SurfaceDeviation(const TriangleMesh& from,
                                 const DistanceSearch& search) {
   const Frame frame(from, to);
   const DistanceTarget target(frame.Inside(to), false);
-  std::vector<Piece> pieces;
-  for (const Triangle& t : from.triangles) {
-    Piece piece;
-    piece.count = 3;
-    for (int k = 0; k < 3; ++k) {
-      piece.corners[k] = frame.Inside(from.vertices[t[k]]);
-    }
-    pieces.push_back(piece);
-  }
-  return ToUser(
-      FarthestPoint(std::move(pieces), target, nullptr, search, frame.diagonal),
-      frame);
-}
-
-DistanceBounds SweptDeviation(const TriangleMesh& track,
-                              const std::vector<Vector3d>& images,
-                              const TriangleMesh& from, const TriangleMesh& to,
-                              const DistanceSearch& search) {
-  const Frame frame(from, to);
-  const DistanceTarget target(frame.Inside(to), true);
-  const DistanceTarget domain(frame.Inside(from), true);
-  std::vector<Piece> pieces;
-  pieces.reserve(3 * track.triangles.size());
-  for (Triangle t : track.triangles) {
-    // Prisms cut by the order of their vertices fit together.
-    std::sort(t.begin(), t.end());
-    for (int turn = 0; turn < 3; ++turn) {
-      Piece piece;
-      for (int k = 0; k < 4; ++k) {
-        const Vector3d& x = k <= turn ? track.vertices[t[k]] : images[t[k - 1]];
-        piece.corners[k] = frame.Inside(x);
-      }
-      pieces.push_back(piece);
-    }
-  }
-  return ToUser(
-      FarthestPoint(std::move(pieces), target, &domain, search, frame.diagonal),
-      frame);
+  return ToUser(FarthestPoint(FacetPieces(frame.Inside(from)), target, nullptr,
+                              search, frame.diagonal, 0.0),
+                frame);
 }
 
 DistanceBounds HullDeviation(const TriangleMesh& hull, const TriangleMesh& to,
@@ -172,24 +166,13 @@ DistanceBounds HullDeviation(const TriangleMesh& hull, const TriangleMesh& to,
   const TriangleMesh solid = frame.Inside(to);
   const DistanceTarget target(solid, true);
   const TriangleMesh outer = frame.Inside(hull);
-  Vector3d middle = Vector3d::Zero();  // of the vertices: inside
-  for (const Vector3d& v : outer.vertices) middle += v;
-  middle /= static_cast<double>(outer.vertices.size());
-  const double nearly = NearlyConvexBound(outer, solid, target, middle);
+  const double nearly = NearlyConvexBound(outer, solid, target);
   DistanceBounds bounds;
-  bounds.upper = nearly + kRounding * frame.diagonal;
   if (nearly > search.absolute * frame.diagonal) {
-    // The cones over the facets fill the hull.
-    std::vector<Piece> pieces;
-    for (const Triangle& t : outer.triangles) {
-      Piece piece;
-      piece.corners = {outer.vertices[t[0]], outer.vertices[t[1]],
-                       outer.vertices[t[2]], middle};
-      pieces.push_back(piece);
-    }
-    bounds = FarthestPoint(std::move(pieces), target, nullptr, search,
-                           frame.diagonal);
-    bounds.upper = std::min(bounds.upper, nearly + kRounding * frame.diagonal);
+    bounds = Deviation(outer, target, search, frame.diagonal);
+    bounds.upper = std::min(bounds.upper, nearly);
+  } else {
+    bounds.upper = nearly;
   }
   return ToUser(bounds, frame);
 }

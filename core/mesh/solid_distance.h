@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <Eigen/Core>
 #include <cstddef>
-#include <vector>
 
 #include "core/mesh/triangle_mesh.h"
 
@@ -26,13 +24,16 @@ struct DistanceBounds {
 };
 
 // All functions bound h = sup { d(x, Y) : x ∈ X }, one direction of a
-// Hausdorff distance, by branch and bound.  X is covered by tetrahedra or
-// triangles T with centre c and radius r; each is cut in two until
-//   sup { d(x, Y) : x ∈ T } ≤ min( d(c, Y) + r,  max_k d(v_k, S) )
-// is small enough, where S is the triangle of Y closest to c: the distance to
-// a point set has Lipschitz constant 1, that to a convex set is convex.
-// The bounds are proved up to the rounding of double, 1e-14 of the diagonal,
-// which is added.  Meshes: finite, at least one triangle.
+// Hausdorff distance, by branch and bound; proved up to the rounding of
+// double, 1e-14 of the diagonal, which is added.  Meshes: finite, at least
+// one triangle.
+//  - Triangles T of the surface of X, centre c, radius r, S the triangle of Y
+//    closest to c:  sup d(T, Y) ≤ min( d(c, Y) + r,  max_k d(v_k, S) ), as the
+//    distance to a set has Lipschitz constant 1 and to a convex set is convex.
+//  - A maximum inside X is a local one of d(·, Y), so its closest points on Y
+//    are seen on all sides.  A tetrahedron cannot hold it when all facets of
+//    Y that are near enough face one way, n·N > 0.  The others are cut until
+//    d(c, Y) + r is small enough.
 
 // X, Y: the solids bounded by two closed, outward meshes without
 // self-intersection within a component (MakeSolid gives such).  Components
@@ -45,16 +46,6 @@ DistanceBounds SolidDeviation(const TriangleMesh& from, const TriangleMesh& to,
 DistanceBounds SurfaceDeviation(const TriangleMesh& from,
                                 const TriangleMesh& to,
                                 const DistanceSearch& search = {});
-
-// As SolidDeviation, for two solids of which one surface moves onto the
-// other: `track` is closed, and its triangles with every vertex i moved to
-// images[i] make up the other surface (triangles may collapse).  The straight
-// tracks of all triangles, three tetrahedra each, sweep whatever the solids
-// differ in, so only those are searched: far tighter where little moves.
-DistanceBounds SweptDeviation(const TriangleMesh& track,
-                              const std::vector<Eigen::Vector3d>& images,
-                              const TriangleMesh& from, const TriangleMesh& to,
-                              const DistanceSearch& search = {});
 
 // X: the convex `hull` of the solid Y.  Tight also where hull and solid are
 // the same up to rounding.
