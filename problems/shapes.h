@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
 
 #include "core/mesh/triangle_mesh.h"
 
@@ -78,6 +79,14 @@ TriangleMesh MakeVessel(double outer, double inner, double window);
 // Icosahedron of vertex radius r0 with a pyramid of tip radius r1 on every
 // face, 60 triangles; r1 > r0 gives a spiky non-convex star.
 TriangleMesh MakeStar(double inner_radius, double outer_radius);
+
+// An organic body without symmetry: MakeIcoBall(radius, levels) with every
+// vertex moved along its ray by a factor between 1 − roughness and
+// 1 + roughness, a sum of smooth waves in random directions (2 to 6 radians a
+// radius, hence bumps and dents).  Star-shaped, so never self-intersecting;
+// roughness in [0, 1).
+TriangleMesh MakeBlob(double radius, int levels, double roughness,
+                      std::uint64_t seed);
 
 // Tube of radius `tube` < size/2 along the trefoil knot
 // size · (sin t + 2 sin 2t, cos t − 2 cos 2t, −sin 3t),

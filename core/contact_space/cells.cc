@@ -3,7 +3,10 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 #include <stdexcept>
+#include <utility>
+#include <vector>
 
 #include "core/contact_space/face_geometry.h"
 #include "core/contact_space/union_find.h"
@@ -21,7 +24,7 @@ constexpr std::size_t kProbes = 4;
 int OuterSide(const FaceGeometry& geometry, int largest, double reach) {
   const Vector3d n = geometry.Normal(largest);
   const Vector3d start = geometry.InteriorPoint(largest) + 4.0 * reach * n;
-  const FaceGeometry::Hit hit = geometry.FirstHit(start, -n, -1);
+  const FaceGeometry::Hit hit = geometry.FirstHit(start, -n, 16.0 * reach, -1);
   const int face = hit.face >= 0 ? hit.face : largest;
   return geometry.Normal(face).dot(n) > 0 ? PlusSide(face) : MinusSide(face);
 }
@@ -35,14 +38,38 @@ Vector3d ProbePoint(const FaceGeometry& geometry, const std::vector<int>& sides,
     const int face = sides[k] / 2;  // candidate cells hold + sides only
     const Vector3d from = geometry.InteriorPoint(face);
     const Vector3d n = geometry.Normal(face);
-    const double gap =
-        std::min(geometry.FirstHit(from, n, face).distance, 0.02 * reach);
+    const double gap = geometry.FirstHit(from, n, 0.02 * reach, face).distance;
     if (gap > best) {
       best = gap;
       point = from + 0.5 * gap * n;
     }
   }
   return point;
+}
+
+// Parts of the arrangement that share no edge, as the vertex-disjoint sums of
+// an obstacle's components do, have an outside each.  Returns the side that
+// `side` of a free cell sees across the gap to the next part, kUnbounded when
+// there is nothing beyond, or -1 when its cell is bounded by its own part.
+constexpr int kUnbounded = -2;
+int SideAcrossGap(const FaceGeometry& geometry, UnionFind* sides,
+                  UnionFind* parts, int side) {
+  const int face = side / 2;  // candidate cells hold + sides only
+  const Vector3d n = geometry.Normal(face);
+  const auto looking_back = [&](int f) {
+    return geometry.Normal(f).dot(n) > 0 ? MinusSide(f) : PlusSide(f);
+  };
+  const std::vector<FaceGeometry::Hit> hits =
+      geometry.AllHits(geometry.InteriorPoint(face), n, face);
+  int exit = side;  // the last side of this part, looking along n
+  int across = hits.empty() ? kUnbounded : looking_back(hits[0].face);
+  for (std::size_t i = 0; i < hits.size(); ++i) {
+    const int f = hits[i].face;
+    if (parts->Find(f) != parts->Find(face)) continue;
+    exit = OppositeSide(looking_back(f));
+    across = i + 1 < hits.size() ? looking_back(hits[i + 1].face) : kUnbounded;
+  }
+  return sides->Find(exit) == sides->Find(side) ? across : -1;
 }
 
 }  // namespace
@@ -53,12 +80,13 @@ FreeCells FindFreeCells(const Convolution& convolution,
                         const SolidCollision& judge) {
   const std::vector<ArrangementFace>& faces = arrangement.faces;
   const int count = static_cast<int>(faces.size());
-  UnionFind sides(2 * faces.size());
+  UnionFind sides(2 * faces.size()), parts(faces.size());
   for (const EdgeRing& ring : rings.rings) {
     for (int k = ring.begin; k < ring.end; ++k) {
       const int next = k + 1 < ring.end ? k + 1 : ring.begin;
       sides.Join(rings.spokes[k].SideToNext(),
                  rings.spokes[next].SideToPrevious());
+      parts.Join(rings.spokes[k].face, rings.spokes[next].face);
     }
   }
   std::vector<char> occupied(2 * faces.size(), 0);
@@ -93,6 +121,7 @@ FreeCells FindFreeCells(const Convolution& convolution,
   if (candidates.size() > 4) geometry.BuildTree();
   std::vector<char> is_free(2 * faces.size(), 0);
   is_free[outer] = 1;
+  std::vector<int> free_sides;  // one of each free cell but the unbounded
   for (auto& [cell, members] : candidates) {
     if (cell == outer) continue;
     const std::size_t probes = std::min(kProbes, members.size());
@@ -104,14 +133,30 @@ FreeCells FindFreeCells(const Convolution& convolution,
     ++out.judged;
     if (judge.Collide(ProbePoint(geometry, members, reach))) continue;
     is_free[cell] = 1;
-    ++out.cavities;
+    free_sides.push_back(members[0]);
   }
+  // Only now that all are judged, so that a ray can cause no leak.
+  std::vector<std::pair<int, int>> gaps;
+  for (const int side : free_sides) {
+    const int across = SideAcrossGap(geometry, &sides, &parts, side);
+    const int other = across == kUnbounded ? outer : across;
+    if (other >= 0 && is_free[sides.Find(other)]) gaps.push_back({side, other});
+  }
+  free_sides.push_back(outer);
+  for (const auto& [side, other] : gaps) {
+    out.cells -= sides.Find(side) != sides.Find(other);
+    sides.Join(side, other);
+  }
+  std::set<int> free_cells;
+  for (const int side : free_sides) free_cells.insert(sides.Find(side));
+  for (const int cell : free_cells) is_free[cell] = 1;
+  out.cavities = static_cast<int>(free_cells.size()) - 1;
   out.side_is_free.resize(2 * faces.size());
   out.side_is_outer.resize(2 * faces.size());
   for (int s = 0; s < 2 * count; ++s) {
     const int cell = sides.Find(s);
     out.side_is_free[s] = is_free[cell];
-    out.side_is_outer[s] = cell == outer;
+    out.side_is_outer[s] = cell == sides.Find(outer);
   }
   return out;
 }

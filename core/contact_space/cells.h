@@ -20,7 +20,9 @@ struct FreeCells {
 // Joins the sides that face each other around every edge into cells.  Behind
 // (−) any convolution facet the operands overlap, so only cells made of +
 // sides alone can be free; each of them is judged by one collision test at a
-// point well inside it.  The unbounded cell is free by definition.
+// point well inside it.  The unbounded cell is free by definition.  Free
+// cells that belong to edge-disjoint parts of the arrangement but to one
+// region of space count as one cell.
 // Throws std::logic_error when it is not (the arrangement leaks).
 FreeCells FindFreeCells(const Convolution& convolution,
                         const Arrangement& arrangement, const EdgeRings& rings,

@@ -36,9 +36,22 @@ struct ContactSpaceOptions {
   bool robot_hull = false;
   // Decimate each operand to about this many triangles; 0: none.
   std::size_t target_faces = 0;
+  // Refuse, with the predicted figure, a contact space that would take longer
+  // or more memory than this; 0: no limit.
+  double max_seconds = 0.0;
+  double max_mib = 0.0;
   // Names used in error messages, e.g. the files the operands came from.
   std::string robot_name = "robot";
   std::string obstacle_name = "obstacle";
+};
+
+// What the expensive stages were expected to cost, known after a few percent
+// of the time: seconds and memory within about a factor of two on two cores.
+struct PredictedCost {
+  double meetings = 0.0;  // pairs of convolution facets that cut each other
+  double arrangement_faces = 0.0;
+  double seconds = 0.0;
+  double mib = 0.0;
 };
 
 // What was built, how, and at what cost.
@@ -59,6 +72,7 @@ struct ContactSpaceReport {
   // Wall seconds per stage, in order of execution.
   std::vector<std::pair<std::string, double>> seconds;
   double peak_mib = 0.0;  // of the process so far
+  PredictedCost predicted;
   std::string method = "reduced convolution, exact arrangement";
   // Triangles of the reduced convolution, faces and cells of its arrangement,
   // and collision tests that classified the cells.
@@ -66,6 +80,8 @@ struct ContactSpaceReport {
   std::size_t arrangement_faces = 0;
   std::size_t cells = 0;
   std::size_t judged_cells = 0;
+  // The work was done in a turned frame in which more facets are axis-aligned.
+  bool canonical_frame = false;
   // Input coordinates are rounded to a binary grid first; nothing else is
   // approximated.  Largest displacement, user's unit.
   double grid_step = 0.0;

@@ -8,6 +8,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace phongpd::internal {
 
@@ -15,11 +16,12 @@ using Eigen::Vector3d;
 
 namespace {
 
+constexpr double kMiss = std::numeric_limits<double>::infinity();
+
 // Where the ray enters the box, or infinity.  A direction component of zero
 // is handled apart: 0 · ∞ is not a number.
 double EnterBox(const Vector3d& low, const Vector3d& high, const Vector3d& from,
                 const Vector3d& direction) {
-  constexpr double kMiss = std::numeric_limits<double>::infinity();
   double enter = 0.0, leave = kMiss;
   for (int k = 0; k < 3; ++k) {
     if (direction[k] == 0.0) {
@@ -81,7 +83,6 @@ Vector3d FaceGeometry::InteriorPoint(int face) const {
 // the plane's dominant projection.
 double FaceGeometry::Intersect(int face, const Vector3d& from,
                                const Vector3d& direction) const {
-  constexpr double kMiss = std::numeric_limits<double>::infinity();
   const ArrangementFace& f = arrangement_.faces[face];
   const Vector3d n =
       ToDouble(convolution_.facets[arrangement_.faces[face].facet].normal);
@@ -118,14 +119,14 @@ void FaceGeometry::BuildTree() {
 
 FaceGeometry::Hit FaceGeometry::FirstHit(const Vector3d& from,
                                          const Vector3d& direction,
-                                         int self) const {
+                                         double reach, int self) const {
   const auto better = [](const Hit& a, const Hit& b) {
     return a.distance != b.distance ? a.distance < b.distance : a.face < b.face;
   };
   if (!tree_.nodes().empty()) {
-    Hit best;
+    Hit best{reach, -1};
     tree_.NearestFirst(
-        best.distance,
+        reach,
         [&](int index) {
           const BoxTree::Node& node = tree_.nodes()[index];
           return EnterBox(node.min, node.max, from, direction);
@@ -141,7 +142,7 @@ FaceGeometry::Hit FaceGeometry::FirstHit(const Vector3d& from,
     return best;
   }
   return tbb::parallel_reduce(
-      tbb::blocked_range<int>(0, FaceCount(), 2048), Hit(),
+      tbb::blocked_range<int>(0, FaceCount(), 2048), Hit{reach, -1},
       [&](const tbb::blocked_range<int>& range, Hit best) {
         for (int f = range.begin(); f < range.end(); ++f) {
           if (f == self) continue;
@@ -151,6 +152,33 @@ FaceGeometry::Hit FaceGeometry::FirstHit(const Vector3d& from,
         return best;
       },
       [&](const Hit& a, const Hit& b) { return better(b, a) ? b : a; });
+}
+
+std::vector<FaceGeometry::Hit> FaceGeometry::AllHits(const Vector3d& from,
+                                                     const Vector3d& direction,
+                                                     int self) const {
+  std::vector<Hit> hits;
+  const auto visit = [&](int face) {
+    const double t = face == self ? kMiss : Intersect(face, from, direction);
+    if (t < kMiss) hits.push_back({t, face});
+  };
+  if (tree_.nodes().empty()) {
+    for (int f = 0; f < FaceCount(); ++f) visit(f);
+  } else {
+    tree_.ForEach(
+        [&](int index) {
+          const BoxTree::Node& node = tree_.nodes()[index];
+          return EnterBox(node.min, node.max, from, direction) < kMiss;
+        },
+        [&](int position) {
+          visit(tree_.order()[position]);
+          return true;
+        });
+  }
+  std::sort(hits.begin(), hits.end(), [](const Hit& a, const Hit& b) {
+    return a.distance != b.distance ? a.distance < b.distance : a.face < b.face;
+  });
+  return hits;
 }
 
 }  // namespace phongpd::internal

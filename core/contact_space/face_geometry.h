@@ -2,7 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <limits>
+#include <vector>
 
 #include "core/contact_space/convolution.h"
 #include "core/contact_space/exact_points.h"
@@ -26,14 +26,18 @@ class FaceGeometry {
   Eigen::Vector3d InteriorPoint(int face) const;
 
   struct Hit {
-    double distance = std::numeric_limits<double>::infinity();
+    double distance = 0.0;
     int face = -1;
   };
   // Speeds up FirstHit; worth it for more than a few rays.
   void BuildTree();
-  // First face other than `self` on the ray from + t·direction, t > 0.
+  // First face other than `self` on from + t·direction, 0 < t ≤ reach; the
+  // distance is `reach` and the face −1 when there is none.
   Hit FirstHit(const Eigen::Vector3d& from, const Eigen::Vector3d& direction,
-               int self) const;
+               double reach, int self) const;
+  // All faces other than `self` on from + t·direction, t > 0, by t.
+  std::vector<Hit> AllHits(const Eigen::Vector3d& from,
+                           const Eigen::Vector3d& direction, int self) const;
 
  private:
   double Intersect(int face, const Eigen::Vector3d& from,

@@ -6,9 +6,8 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <unordered_map>
-
-#include "core/mesh/box_tree.h"
 
 namespace phongpd::internal {
 namespace {
@@ -230,10 +229,62 @@ class SegmentWriter {
   std::unordered_map<EdgePlane, int, GridPointHash> edge_points_;
 };
 
+bool Overlap(const Eigen::Vector3d& low, const Eigen::Vector3d& high,
+             const BoundingBox& box) {
+  return (low.array() <= box.max.array()).all() &&
+         (high.array() >= box.min.array()).all();
+}
+
+// Calls visit(meeting) for every facet u > after that facet t meets.
+template <typename Visit>
+void ForEachMeeting(const PlaneGroups& groups, const FacetIndex& index,
+                    const Intersector& intersector, int t, int after,
+                    const Visit& visit) {
+  const BoundingBox& box = index.boxes[t];
+  index.tree.ForEach(
+      [&](int node) {
+        return Overlap(index.tree.nodes()[node].min,
+                       index.tree.nodes()[node].max, box);
+      },
+      [&](int position) {
+        const int u = index.tree.order()[position];
+        Meeting meeting;
+        if (u > after && groups.of_facet[u] != groups.of_facet[t] &&
+            Overlap(index.boxes[u].min, index.boxes[u].max, box) &&
+            intersector.Intersect(t, u, &meeting)) {
+          visit(meeting);
+        }
+        return true;
+      });
+}
+
 }  // namespace
+
+FacetIndex::FacetIndex(const Convolution& convolution)
+    : boxes(FacetBoxes(convolution)), tree(boxes, 4) {}
+
+double PredictMeetings(const Convolution& convolution,
+                       const PlaneGroups& groups, const FacetIndex& index) {
+  constexpr int kSample = 1024;
+  const int count = static_cast<int>(index.boxes.size());
+  const int stride = std::max(1, count / kSample);
+  const int samples = (count + stride - 1) / stride;
+  // Points do not matter here: their own numbers will do as ids.
+  std::vector<int> ids(convolution.points.size());
+  std::iota(ids.begin(), ids.end(), 0);
+  const Intersector intersector(convolution, groups, ids);
+  std::vector<int> found(static_cast<std::size_t>(samples), 0);
+  tbb::parallel_for(0, samples, [&](int i) {
+    ForEachMeeting(groups, index, intersector, i * stride, -1,
+                   [&](const Meeting&) { ++found[i]; });
+  });
+  const double sum = std::accumulate(found.begin(), found.end(), 0.0);
+  return 0.5 * sum * count / std::max(1, samples);
+}
 
 FacetIntersections IntersectFacets(const Convolution& convolution,
                                    const PlaneGroups& groups,
+                                   const FacetIndex& index,
                                    ExactPoints* points) {
   FacetIntersections out;
   out.segments.resize(groups.members.size());
@@ -246,37 +297,17 @@ FacetIntersections IntersectFacets(const Convolution& convolution,
       out.point_ids[v] = points->Add(Locate(vertex));
     }
   }
-  const std::vector<BoundingBox> boxes = FacetBoxes(convolution);
-  const BoxTree tree(boxes, 4);
   const Intersector intersector(convolution, groups, out.point_ids);
   SegmentWriter writer(groups, intersector, points, &out);
-  const int count = static_cast<int>(boxes.size());
+  const int count = static_cast<int>(index.boxes.size());
   std::vector<std::vector<Meeting>> meetings(std::min(count, kBlock));
   for (int begin = 0; begin < count; begin += kBlock) {
     const int end = std::min(count, begin + kBlock);
     tbb::parallel_for(begin, end, [&](int t) {
       std::vector<Meeting>& found = meetings[t - begin];
       found.clear();
-      const BoundingBox& box = boxes[t];
-      const auto overlaps = [&box](const Eigen::Vector3d& low,
-                                   const Eigen::Vector3d& high) {
-        return (low.array() <= box.max.array()).all() &&
-               (high.array() >= box.min.array()).all();
-      };
-      tree.ForEach(
-          [&](int node) {
-            return overlaps(tree.nodes()[node].min, tree.nodes()[node].max);
-          },
-          [&](int position) {
-            const int u = tree.order()[position];
-            Meeting meeting;
-            if (u > t && groups.of_facet[u] != groups.of_facet[t] &&
-                overlaps(boxes[u].min, boxes[u].max) &&
-                intersector.Intersect(t, u, &meeting)) {
-              found.push_back(meeting);
-            }
-            return true;
-          });
+      ForEachMeeting(groups, index, intersector, t, t,
+                     [&](const Meeting& m) { found.push_back(m); });
     });
     for (int t = begin; t < end; ++t) {
       for (const Meeting& meeting : meetings[t - begin]) writer.Write(meeting);

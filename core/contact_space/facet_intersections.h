@@ -7,6 +7,7 @@
 #include "core/contact_space/convolution.h"
 #include "core/contact_space/exact_points.h"
 #include "core/contact_space/plane_groups.h"
+#include "core/mesh/box_tree.h"
 
 namespace phongpd::internal {
 
@@ -29,11 +30,24 @@ struct FacetIntersections {
   std::vector<std::vector<PlaneSegment>> segments;
 };
 
+// Boxes of the convolution's facets in a tree.
+struct FacetIndex {
+  explicit FacetIndex(const Convolution& convolution);
+  std::vector<BoundingBox> boxes;
+  BoxTree tree;
+};
+
+// Expected number of facet pairs that IntersectFacets will cut, from an even
+// sample of the facets; what every later stage costs grows with it.
+double PredictMeetings(const Convolution& convolution,
+                       const PlaneGroups& groups, const FacetIndex& index);
+
 // Intersects all facets of different planes whose boxes meet.  Sides are
 // decided in 128-bit integers, overlaps along the common line in double with
 // an exact fallback, and only end points that survive are constructed.
 FacetIntersections IntersectFacets(const Convolution& convolution,
                                    const PlaneGroups& groups,
+                                   const FacetIndex& index,
                                    ExactPoints* points);
 
 }  // namespace phongpd::internal

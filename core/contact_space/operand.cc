@@ -82,6 +82,10 @@ void AddStep(const ApproximationStep& step, Approximation* approximation) {
 TriangleMesh PrepareOperand(const TriangleMesh& mesh, OperandRole role,
                             const ContactSpaceOptions& options,
                             ContactSpaceReport* report) {
+  if (!(options.wrap_alpha >= 0.0)) {
+    throw InputError("wrap alpha: expected a fraction of the diagonal, found " +
+                     Rounded(options.wrap_alpha));
+  }
   const bool is_robot = role == OperandRole::kRobot;
   const std::string& name =
       is_robot ? options.robot_name : options.obstacle_name;

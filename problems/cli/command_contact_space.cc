@@ -21,6 +21,8 @@ struct Flags {
   std::string output;
   std::string report;
   bool outer_shell_only = false;
+  double max_seconds = 0.0;
+  double max_mib = 0.0;
 };
 
 Json ToJson(const MeshReport& mesh, const std::string& file) {
@@ -48,15 +50,21 @@ Json ToJson(const ContactSpaceReport& report) {
           {"cavities", report.cavities},
           {"volume", report.volume},
           {"self_intersections", report.self_intersections},
+          {"degenerate_triangles", report.degenerate_triangles},
           {"seconds", seconds},
           {"peak_mib", report.peak_mib},
           {"method", report.method},
-          {"predicted_cost", nullptr},
+          {"predicted_cost",
+           {{"meetings", report.predicted.meetings},
+            {"arrangement_faces", report.predicted.arrangement_faces},
+            {"seconds", report.predicted.seconds},
+            {"mib", report.predicted.mib}}},
           {"approximation", {{"kind", "none"}, {"bound", report.grid_step}}},
           {"convolution_triangles", report.convolution_triangles},
           {"arrangement_faces", report.arrangement_faces},
           {"cells", report.cells},
           {"judged_cells", report.judged_cells},
+          {"canonical_frame", report.canonical_frame},
           {"grid_step", report.grid_step},
           {"warnings", report.warnings}};
 }
@@ -101,6 +109,8 @@ int BuildAndWrite(const Flags& flags) {
 
   ContactSpaceOptions options;
   options.outer_shell_only = flags.outer_shell_only;
+  options.max_seconds = flags.max_seconds;
+  options.max_mib = flags.max_mib;
   options.robot_name = flags.robot;
   options.obstacle_name = flags.obstacle;
   Progress("building the contact space");
@@ -139,6 +149,14 @@ Command AddContactSpace(CLI::App* app) {
       ->type_name("FILE");
   app->add_flag("--outer-shell-only", flags->outer_shell_only,
                 "Leave out bounded free cavities");
+  app->add_option("--max-seconds", flags->max_seconds,
+                  "Refuse what is predicted to take longer (0: never)")
+      ->type_name("S")
+      ->check(CLI::NonNegativeNumber);
+  app->add_option("--max-mib", flags->max_mib,
+                  "Refuse what is predicted to need more memory (0: never)")
+      ->type_name("MIB")
+      ->check(CLI::NonNegativeNumber);
   return [flags] { return BuildAndWrite(*flags); };
 }
 

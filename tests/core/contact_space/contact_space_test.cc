@@ -215,13 +215,26 @@ TEST(ContactSpace, KeepsItsVolumeWhereverTheOperandsAre) {
   EXPECT_LT((box.Center() + far).norm(), 10.0);
 }
 
-TEST(ContactSpace, KeepsItsVolumeWhenBothOperandsTurnAlike) {
+TEST(ContactSpace, IsTheTurnedOneWhenBothOperandsTurnAlike) {
   const TriangleMesh a = MakeWrench(0.5, 12, 12, 8, 8), b = MakeL(3, 1, 1);
-  const double volume = BuildContactSpace(a, b).report.volume;
+  const ContactSpace straight = BuildContactSpace(a, b);
   const Eigen::Matrix3d turn = GenericRotation();
   const ContactSpace c = BuildContactSpace(Rotated(a, turn), Rotated(b, turn));
   ExpectSound(c.report);
-  EXPECT_NEAR(c.report.volume, volume, 1e-9 * volume);
+  EXPECT_FALSE(straight.report.canonical_frame);
+  EXPECT_TRUE(c.report.canonical_frame);
+  EXPECT_NEAR(c.report.volume, straight.report.volume,
+              1e-9 * straight.report.volume);
+  EXPECT_EQ(c.report.triangles, straight.report.triangles);
+  const BoundingBox back = ComputeBounds(Rotated(c.mesh, turn.transpose()));
+  const BoundingBox box = ComputeBounds(straight.mesh);
+  EXPECT_LT((back.min - box.min).norm() + (back.max - box.max).norm(), 1e-9);
+}
+
+TEST(ContactSpace, LeavesSolidsWithoutCommonAxesWhereTheyAre) {
+  const ContactSpace c = BuildContactSpace(
+      MakeStar(0.5, 1.2), Rotated(MakeIcoBall(2, 2), GenericRotation()));
+  EXPECT_FALSE(c.report.canonical_frame);
 }
 
 TEST(ContactSpace, DoesNotDependOnTheNumberOfThreads) {
@@ -289,6 +302,28 @@ TEST(ContactSpace, RefusesAnOpenOperandByNameAndCount) {
     EXPECT_NE(what.find("gripper.stl"), std::string::npos) << what;
     EXPECT_NE(what.find("3"), std::string::npos) << what;
   }
+}
+
+TEST(ContactSpace, RefusesWhatIsPredictedToExceedALimit) {
+  const TriangleMesh a = MakeStar(0.5, 1.2), b = MakeTorus(2, 0.6, 24, 12);
+  const PredictedCost cost = BuildContactSpace(a, b).report.predicted;
+  EXPECT_GT(cost.seconds, 0.0);
+  ContactSpaceOptions options;
+  options.max_seconds = 0.5 * cost.seconds;
+  EXPECT_THROW(BuildContactSpace(a, b, options), InputError);
+  options.max_seconds = 2 * cost.seconds;
+  options.max_mib = 0.5 * cost.mib;
+  EXPECT_THROW(BuildContactSpace(a, b, options), InputError);
+  options.max_mib = 2 * cost.mib;
+  EXPECT_NO_THROW(BuildContactSpace(a, b, options));
+}
+
+TEST(ContactSpace, PredictsItsArrangementWithinAFactorOfTwo) {
+  const ContactSpaceReport report =
+      BuildContactSpace(MakeStar(0.5, 1.2), MakeTorus(2, 0.6, 24, 12)).report;
+  const double built = static_cast<double>(report.arrangement_faces);
+  EXPECT_LT(report.predicted.arrangement_faces, 2 * built);
+  EXPECT_GT(report.predicted.arrangement_faces, 0.5 * built);
 }
 
 TEST(ContactSpace, TurnsAnInsideOutOperandAndSaysSo) {
