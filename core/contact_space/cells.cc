@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <map>
+#include <numeric>
 #include <set>
 #include <stdexcept>
 #include <utility>
@@ -20,13 +21,32 @@ using Eigen::Vector3d;
 // best, and the point farthest from any other face wins.
 constexpr std::size_t kProbes = 4;
 
-// A side of the unbounded cell: what a ray from far away hits first.
-int OuterSide(const FaceGeometry& geometry, int largest, double reach) {
-  const Vector3d n = geometry.Normal(largest);
-  const Vector3d start = geometry.InteriorPoint(largest) + 4.0 * reach * n;
-  const FaceGeometry::Hit hit = geometry.FirstHit(start, -n, 16.0 * reach, -1);
-  const int face = hit.face >= 0 ? hit.face : largest;
-  return geometry.Normal(face).dot(n) > 0 ? PlusSide(face) : MinusSide(face);
+// Grid steps: far above the rounding of a ray's hits.
+constexpr double kClearGap = 16.0;
+// Rays tried to find the outside.
+constexpr std::size_t kOuterRays = 64;
+
+// A side of the unbounded cell: what a ray from far away hits first.  Rays
+// against the largest faces are tried until one tells its first two hits
+// clearly apart; sheets closer than rounding look alike.
+int OuterSide(const FaceGeometry& geometry, const std::vector<int>& largest,
+              double reach) {
+  double best = -1.0;
+  int side = 0;
+  for (const int target : largest) {
+    const Vector3d n = geometry.Normal(target);
+    const Vector3d start = geometry.InteriorPoint(target) + 4.0 * reach * n;
+    const std::vector<FaceGeometry::Hit> hits = geometry.AllHits(start, -n, -1);
+    if (hits.empty()) continue;
+    const double gap =
+        hits.size() > 1 ? hits[1].distance - hits[0].distance : reach;
+    if (gap <= best) continue;
+    best = gap;
+    const int face = hits[0].face;
+    side = geometry.Normal(face).dot(n) > 0 ? PlusSide(face) : MinusSide(face);
+    if (best > kClearGap) break;
+  }
+  return side;
 }
 
 // A point well inside the cell that `sides` (the largest first) look into.
@@ -98,12 +118,18 @@ FreeCells FindFreeCells(const Convolution& convolution,
   FaceGeometry geometry(convolution, arrangement, points);
   std::vector<double> area(faces.size());
   for (int f = 0; f < count; ++f) area[f] = geometry.Area(f);
-  const int largest = static_cast<int>(
-      std::max_element(area.begin(), area.end()) - area.begin());
   double reach = 0.0;
   for (const GridPoint& p : convolution.points) {
     reach = std::max(reach, ToDouble(p).lpNorm<Eigen::Infinity>());
   }
+  std::vector<int> largest(faces.size());
+  std::iota(largest.begin(), largest.end(), 0);
+  const std::size_t rays = std::min(kOuterRays, largest.size());
+  std::partial_sort(largest.begin(), largest.begin() + rays, largest.end(),
+                    [&area](int a, int b) {
+                      return area[a] != area[b] ? area[a] > area[b] : a < b;
+                    });
+  largest.resize(rays);
   const int outer = sides.Find(OuterSide(geometry, largest, reach));
   if (occupied[outer]) {
     throw std::logic_error(

@@ -21,7 +21,9 @@
 #include "core/contact_space/plane_groups.h"
 #include "core/contact_space/solid_collision.h"
 #include "core/contact_space/surface_assembly.h"
+#include "core/contact_space/surface_refinement.h"
 #include "core/contact_space/union_find.h"
+#include "core/mesh/triangle_quality.h"
 
 namespace phongpd {
 namespace {
@@ -137,6 +139,9 @@ void DescribeSurface(const TriangleMesh& mesh, ContactSpaceReport* report) {
   report->volume = SignedVolume(mesh);
   report->self_intersections = found.self_intersections;
   report->degenerate_triangles = found.degenerate_triangles;
+  const QualityFigures quality = MeasureQuality(mesh);
+  report->worst_quality = quality.worst;
+  report->median_quality = quality.median;
   // χ = V − E + F = 2·components − 2·genus, with E = 3F/2 on a closed mesh.
   const long euler = static_cast<long>(found.vertices) -
                      static_cast<long>(found.triangles) / 2;
@@ -158,6 +163,7 @@ void DescribeSurface(const TriangleMesh& mesh, ContactSpaceReport* report) {
 ContactSpace BuildContactSpace(const TriangleMesh& robot,
                                const TriangleMesh& obstacle,
                                const ContactSpaceOptions& options) {
+  options.refine.Validate();
   ContactSpace out;
   ContactSpaceReport& report = out.report;
   StageClock clock(&report);
@@ -231,6 +237,10 @@ ContactSpace BuildContactSpace(const TriangleMesh& robot,
     out.mesh = Rotated(std::move(out.mesh), turned.rotation.transpose());
   }
   clock.Finish("surface");
+  if (options.refine.target_edge > 0.0) {
+    internal::RefineSurface(options.refine, &out);
+    clock.Finish("refinement");
+  }
 
   DescribeSurface(out.mesh, &report);
   report.peak_mib = PeakMib();

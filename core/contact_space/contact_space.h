@@ -20,6 +20,22 @@ enum class ContactKind {
   kEdges,          // an edge of each
 };
 
+// Finer triangles inside the planar patches; the surface stays as it is
+// (surface_refinement.h says how exactly).
+struct RefineOptions {
+  // Longest edge, as a fraction of the surface's diagonal; 0: no refinement.
+  // In [0, 1].
+  double target_edge = 0.0;
+  // Longest edge at sharp edges, as a fraction of target_edge; it grows by half
+  // the distance from them.  1: the same everywhere.  In (0, 1].
+  double grading = 0.25;
+  // Edges between facets whose normals differ by this are sharp.  In [0, 180].
+  double sharp_angle_degrees = 20.0;
+
+  // Throws InputError naming the option, the range and the value.
+  void Validate() const;
+};
+
 struct ContactSpaceOptions {
   // Join exactly coplanar triangles and re-triangulate (most slivers vanish).
   bool merge_coplanar = true;
@@ -40,6 +56,7 @@ struct ContactSpaceOptions {
   // or more memory than this; 0: no limit.
   double max_seconds = 0.0;
   double max_mib = 0.0;
+  RefineOptions refine;
   // Names used in error messages, e.g. the files the operands came from.
   std::string robot_name = "robot";
   std::string obstacle_name = "obstacle";
@@ -69,6 +86,11 @@ struct ContactSpaceReport {
   // counts), and triangles whose rounded area is zero.
   std::size_t self_intersections = 0;
   std::size_t degenerate_triangles = 0;
+  // Triangle quality (mesh/triangle_quality.h): 1 equilateral, 0 degenerate.
+  double worst_quality = 0.0;
+  double median_quality = 0.0;
+  // Read from a cache (contact_space_cache.h): all else is of the first build.
+  bool from_cache = false;
   // Wall seconds per stage, in order of execution.
   std::vector<std::pair<std::string, double>> seconds;
   double peak_mib = 0.0;  // of the process so far

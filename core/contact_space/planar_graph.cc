@@ -16,6 +16,9 @@ using Eigen::Vector2d;
 
 // Directions closer than this are compared exactly (radians).
 constexpr double kAngleGap = 1e-9;
+// Where an edge passes is known in double up to this (grid steps), or else it
+// is too level to tell.
+constexpr double kSteepError = 1.0;
 
 }  // namespace
 
@@ -282,12 +285,21 @@ std::vector<PlanarGraph::Component> PlanarGraph::FindComponents() const {
 // f and the vertex?
 bool PlanarGraph::IsCloser(int e, int f, int vertex) const {
   const double height = Flat(vertex)[1];
-  const auto reach = [&](int edge) {
+  // Reach at that height, and how far rounding moves it: without bound on an
+  // almost level edge.
+  const auto reach = [&](int edge) -> std::pair<double, double> {
     const Vector2d a = Flat(edges_[edge].end[0]), b = Flat(edges_[edge].end[1]);
-    return a[0] + (b[0] - a[0]) * ((height - a[1]) / (b[1] - a[1]));
+    const double slope = (b[0] - a[0]) / (b[1] - a[1]);
+    return {a[0] + slope * (height - a[1]),
+            8 * kPointError * (1 + std::abs(slope))};
   };
-  const double difference = reach(e) - reach(f);
-  if (std::abs(difference) > 0.25) return difference > 0;
+  const auto [reach_e, error_e] = reach(e);
+  const auto [reach_f, error_f] = reach(f);
+  const auto steep = [](double error) { return error < kSteepError; };
+  if (steep(error_e) && steep(error_f) &&
+      std::abs(reach_e - reach_f) > error_e + error_f) {
+    return reach_e > reach_f;
+  }
   // Edges of the graph do not cross: an end of one that lies beside the other
   // tells.
   const auto right_of = [this](int vertex_of_other, int edge) {

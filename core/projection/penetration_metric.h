@@ -8,7 +8,9 @@ namespace phongpd {
 // What a query ran into.  Nothing falls back silently.
 enum class QueryStatus {
   kOk,                 // the metric's own answer
-  kBranchEnded,        // the warm branch folded on the way: cold answer given
+  kBranchEnded,        // the warm branch folded on the way, or the motion left
+                       // C_obj elsewhere than the branch leads: the answer,
+                       // cold or outside, does not continue it
   kEuclideanFallback,  // inside, but no Phong projection exists: Euclidean PD
   kInvalid,            // q_o is not finite: all other members are zero
 };

@@ -125,15 +125,26 @@ PenetrationResult PhongMetric::Query(const Vector3d& q_o,
   const Impl& impl = *impl_;
   if (!impl.surface.Accepts(q_o)) return {};
   const Location location = impl.surface.Locate(q_o);
-  if (location != Location::kInside) {
-    return impl.surface.Answer(q_o, location);
+  const bool is_inside = location == Location::kInside;
+  if (!impl.Knows(previous)) {
+    return is_inside ? impl.Cold(q_o, QueryStatus::kOk)
+                     : impl.surface.Answer(q_o, location);
   }
-  if (!impl.Knows(previous)) return impl.Cold(q_o, QueryStatus::kOk);
-  // Inside, a branch with s > 0 has left C_obj on the way and is another
-  // solution's continuation; depth 0 is what the field frame can resolve.
+  // Depth 0 is what the field frame can resolve.
   constexpr double kOnSurface = 1e-13;
   Projection now = impl.Follow(impl.ToProjection(previous),
                                impl.projector.field().ToField(q_o));
+  if (!is_inside) {
+    PenetrationResult result = impl.surface.Answer(q_o, location);
+    // Out where the branch leads, its depth goes through 0; out elsewhere, PD
+    // jumps from the branch's depth to 0.
+    if (!now.IsValid() || now.s < -kOnSurface) {
+      result.status = QueryStatus::kBranchEnded;
+    }
+    return result;
+  }
+  // Inside, a branch with s > 0 has left C_obj on the way and is another
+  // solution's continuation.
   if (!now.IsValid() || now.s > kOnSurface) {
     return impl.Cold(q_o, QueryStatus::kBranchEnded);
   }

@@ -33,7 +33,8 @@ struct PhongMetricOptions {
 // Query without a branch is an exact search for the least depth (of equal
 // depths, the contact that comes first by x, y, z).  With a branch it follows
 // the branch from the branch's own configuration straight to q_o and reports
-// kBranchEnded, with the cold answer, where the branch folds or leaves C_obj.
+// kBranchEnded where the branch folds, leaves C_obj, or is left behind because
+// q_o left C_obj elsewhere.
 // Where no projection exists inside, the Euclidean answer without a branch
 // and status kEuclideanFallback.
 class PhongMetric final : public PenetrationMetric {

@@ -5,6 +5,7 @@
 
 #include <iostream>
 
+#include "core/contact_space/contact_space_cache.h"
 #include "core/mesh/mesh_io.h"
 #include "problems/text.h"
 
@@ -35,6 +36,24 @@ TriangleMesh LoadContactSpace(const std::string& path) {
   refuse(report.non_manifold_edges, "non-manifold edges");
   if (!(SignedVolume(mesh) > 0.0)) refuse(1, "surface facing inwards");
   return mesh;
+}
+
+ContactSpace LoadOrBuild(const TriangleMesh& robot,
+                         const TriangleMesh& obstacle,
+                         const ContactSpaceOptions& options, bool use_cache) {
+  Progress("building the contact space");
+  ContactSpaceCache cache;
+  if (use_cache) cache.directory = DefaultCacheDirectory();
+  ContactSpace space = BuildContactSpaceCached(robot, obstacle, options, cache);
+  for (const std::string& warning : space.report.warnings) Warn(warning);
+  return space;
+}
+
+void AddNoCache(CLI::App* app, bool* no_cache) {
+  app->add_flag("--no-cache", *no_cache,
+                "Build anew, and do not keep the contact space for the next "
+                "time in $PHONGPD_CACHE_DIR, $XDG_CACHE_HOME/phongpd or "
+                "~/.cache/phongpd");
 }
 
 void DeclareMesh(OutputFiles* outputs, const std::string& path) {

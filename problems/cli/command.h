@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "core/contact_space/contact_space.h"
 #include "core/mesh/mesh_check.h"
 #include "core/mesh/mesh_error.h"
 #include "core/mesh/triangle_mesh.h"
@@ -39,6 +40,15 @@ TriangleMesh LoadSolid(const std::string& path, MeshReport* report = nullptr);
 // edge-manifold, outward; rounding may have made some triangles meet.
 // Throws InputError naming the file.
 TriangleMesh LoadContactSpace(const std::string& path);
+
+// The contact space of two solids, from the user's cache when `use_cache` and
+// it is there.  What the user should know goes to stderr.
+ContactSpace LoadOrBuild(const TriangleMesh& robot,
+                         const TriangleMesh& obstacle,
+                         const ContactSpaceOptions& options, bool use_cache);
+
+// Declares --no-cache.
+void AddNoCache(CLI::App* app, bool* no_cache);
 
 // Declares a mesh output, and fails now if its extension means nothing.
 void DeclareMesh(OutputFiles* outputs, const std::string& path);

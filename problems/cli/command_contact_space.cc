@@ -29,6 +29,8 @@ struct Flags {
   std::string repair = "reject";
   double max_seconds = 0.0;
   double max_mib = 0.0;
+  std::string refine = "0";
+  bool no_cache = false;
 };
 
 Json ToJson(const RepairReport& repair) {
@@ -92,6 +94,11 @@ Json ToJson(const ContactSpaceReport& report) {
           {"volume", report.volume},
           {"self_intersections", report.self_intersections},
           {"degenerate_triangles", report.degenerate_triangles},
+          {"triangle_quality",
+           {{"measure", "4 sqrt(3) area / sum of squared edges"},
+            {"worst", report.worst_quality},
+            {"median", report.median_quality}}},
+          {"from_cache", report.from_cache},
           {"seconds", seconds},
           {"peak_mib", report.peak_mib},
           {"method", report.method},
@@ -133,9 +140,11 @@ void PrintSummary(const Flags& flags, const ContactSpaceReport& report) {
             << (report.cavities == 1 ? "1 cavity"
                                      : Plural(report.cavities, "cavitie"))
             << ", volume " << FormatDouble(report.volume) << '\n'
-            << "built in " << Rounded(total) << " s, peak "
-            << Rounded(report.peak_mib) << " MiB, "
-            << report.convolution_triangles << " convolution and "
+            << "triangle quality: worst " << Rounded(report.worst_quality)
+            << ", median " << Rounded(report.median_quality) << '\n'
+            << (report.from_cache ? "from the cache; built in " : "built in ")
+            << Rounded(total) << " s, peak " << Rounded(report.peak_mib)
+            << " MiB, " << report.convolution_triangles << " convolution and "
             << report.arrangement_faces << " arrangement faces\n";
 }
 
@@ -168,6 +177,7 @@ ContactSpaceOptions OptionsOf(const Flags& flags) {
   options.max_mib = flags.max_mib;
   options.robot_name = flags.robot;
   options.obstacle_name = flags.obstacle;
+  options.refine.target_edge = ParseDouble(flags.refine, "--refine");
   return options;
 }
 
@@ -176,11 +186,9 @@ int BuildAndWrite(const Flags& flags) {
   DeclareMesh(&outputs, flags.output);
   if (!flags.report.empty()) outputs.Declare(flags.report);
   const ContactSpaceOptions options = OptionsOf(flags);
-  const TriangleMesh robot = ReadMesh(flags.robot);
-  const TriangleMesh obstacle = ReadMesh(flags.obstacle);
-  Progress("building the contact space");
-  const ContactSpace space = BuildContactSpace(robot, obstacle, options);
-  for (const std::string& warning : space.report.warnings) Warn(warning);
+  const ContactSpace space =
+      LoadOrBuild(ReadMesh(flags.robot), ReadMesh(flags.obstacle), options,
+                  !flags.no_cache);
 
   WriteMeshTo(&outputs, flags.output, space.mesh);
   if (!flags.report.empty()) {
@@ -238,6 +246,13 @@ Command AddContactSpace(CLI::App* app) {
                   "Refuse what is predicted to need more memory (0: never)")
       ->type_name("MIB")
       ->check(CLI::NonNegativeNumber);
+  app->add_option("--refine", flags->refine,
+                  "Longest edge as a fraction of the diagonal, a quarter of it "
+                  "at sharp edges; the surface stays as it is. 0: leave the "
+                  "triangles as they come")
+      ->type_name("FRACTION")
+      ->capture_default_str();
+  AddNoCache(app, &flags->no_cache);
   return [flags] { return BuildAndWrite(*flags); };
 }
 

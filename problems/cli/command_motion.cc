@@ -31,6 +31,7 @@ struct Flags {
   std::string field = "normal";
   std::string output;
   std::string svg;
+  bool no_cache = false;
 };
 
 TriangleMesh ContactMesh(const Flags& flags) {
@@ -42,10 +43,7 @@ TriangleMesh ContactMesh(const Flags& flags) {
   ContactSpaceOptions options;
   options.robot_name = flags.robot;
   options.obstacle_name = flags.obstacle;
-  Progress("building the contact space");
-  ContactSpace space = BuildContactSpace(robot, obstacle, options);
-  for (const std::string& warning : space.report.warnings) Warn(warning);
-  return std::move(space.mesh);
+  return LoadOrBuild(robot, obstacle, options, !flags.no_cache).mesh;
 }
 
 std::vector<double> SmoothingLengths(const Flags& flags) {
@@ -178,6 +176,7 @@ Command AddMotion(CLI::App* app) {
   app->add_option("--svg", flags->svg,
                   "Plot of x, y, z and magnitude (needs gnuplot)")
       ->type_name("FILE");
+  AddNoCache(app, &flags->no_cache);
   return [flags] { return Follow(*flags); };
 }
 

@@ -129,8 +129,6 @@ void CountJump(const PenetrationMetric& metric, const StraightMotion& motion,
   ++totals->jumps;
   if (after.status != QueryStatus::kOk) {
     ++totals->flagged_jumps;
-  } else if (before.inside && !after.inside) {
-    ++totals->exit_jumps;
   } else if (LargestDividedChange(
                  metric, motion.At(static_cast<int>(frame) - 1),
                  motion.At(static_cast<int>(frame)), before) < 0.1 * jump) {

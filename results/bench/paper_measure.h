@@ -40,7 +40,6 @@ struct MotionTotals {
   // The kinds of jump: at a flagged frame; leaving C_obj on another side than
   // the branch led to; none when the step is divided; none of these.
   int flagged_jumps = 0;
-  int exit_jumps = 0;
   int steep_jumps = 0;
   int silent_jumps = 0;
   int branch_ends = 0;

@@ -50,24 +50,24 @@ Table MotionsTable(const std::vector<PaperResult>& results,
       "changes by more than " +
       Rounded(100.0 * options.jump) +
       " % of the diagonal between two frames. Flagged: the frame's status "
-      "says so; far exit: the robot leaves the obstacle on another side than "
-      "its branch led to; steep: no jump when the step is divided by 1000; "
-      "silent: none of these. Ratio: depth over Euclidean depth, with the "
-      "branch carried along, and asked cold at every frame; it grows without "
-      "bound towards a far exit, where the Euclidean depth goes to 0.";
-  table.header = {"benchmark",   "metric",    "frames inside", "jumps",
-                  "flagged",     "far exit",  "steep",         "silent",
-                  "branch ends", "fallbacks", "ratio mean",    "ratio 99 %",
-                  "ratio max",   "cold mean", "cold max"};
+      "says so, because the branch folded or the robot left the obstacle on "
+      "another side than its branch led to; steep: no jump when the step is "
+      "divided by 1000; silent: none of these. Ratio: depth over Euclidean "
+      "depth, with the branch carried along, and asked cold at every frame; "
+      "it grows without bound towards an exit on another side, where the "
+      "Euclidean depth goes to 0.";
+  table.header = {"benchmark", "metric",     "frames inside", "jumps",
+                  "flagged",   "steep",      "silent",        "branch ends",
+                  "fallbacks", "ratio mean", "ratio 99 %",    "ratio max",
+                  "cold mean", "cold max"};
   for (const PaperResult& r : results) {
     for (const MotionTotals& t : r.totals) {
       table.rows.push_back(
           {r.benchmark.title, t.label, Count(t.frames_inside), Count(t.jumps),
-           Count(t.flagged_jumps), Count(t.exit_jumps), Count(t.steep_jumps),
-           Count(t.silent_jumps), Count(t.branch_ends), Count(t.fallbacks),
-           Rounded(t.ratio_mean, 4), Rounded(t.ratio_p99, 4),
-           Rounded(t.ratio_max, 4), Rounded(t.cold_ratio_mean, 4),
-           Rounded(t.cold_ratio_max, 4)});
+           Count(t.flagged_jumps), Count(t.steep_jumps), Count(t.silent_jumps),
+           Count(t.branch_ends), Count(t.fallbacks), Rounded(t.ratio_mean, 4),
+           Rounded(t.ratio_p99, 4), Rounded(t.ratio_max, 4),
+           Rounded(t.cold_ratio_mean, 4), Rounded(t.cold_ratio_max, 4)});
     }
   }
   return table;
@@ -211,9 +211,9 @@ std::string PaperReadme(const std::vector<PaperResult>& results,
       Circumstances(options, "`" + command + "`") +
       "\n\n## What is won and lost\n\n" + Findings(results) +
       "\nA PD that is defined on all of a solid cannot be continuous "
-      "everywhere: a Phong branch ends where its field folds, which the status "
-      "`branch_ended` says, or leads to another side than the one the robot "
-      "leaves by. The tables count both. " +
+      "everywhere: a Phong branch ends where its field folds, or leads to "
+      "another side than the one the robot leaves by. The status "
+      "`branch_ended` says both. " +
       Speed(results) + "\n\n## Tables\n\n";
   for (const NamedTable& named : tables) {
     text += ToMarkdown(named.table) + "Rows: [" + named.file + "](" +

@@ -277,6 +277,24 @@ TEST(BranchWalk, LeavingTheSolidIsAnOutsideAnswerAndReentryIsShallow) {
   EXPECT_NEAR(back.signed_distance, -0.001, 1e-4);
 }
 
+TEST(BranchWalk, LeavingElsewhereThanTheBranchLeadsIsSaid) {
+  // In at the left of a thick plate, out at the right: the branch keeps
+  // pointing left, and its depth of 2 drops to 0 in one frame.
+  const PhongMetric plate(MakeBox({-1, -50, -50}, {1, 50, 50}));
+  const auto across = Track(plate, {{-1.5, 0.3, 0.2}, {1.5, 0.3, 0.2}}, 61);
+  int ends = 0;
+  double last_depth = 0.0;
+  for (const Frame& frame : across) {
+    if (frame.result.status == QueryStatus::kBranchEnded) {
+      ++ends;
+      EXPECT_FALSE(frame.result.inside);
+      EXPECT_NEAR(last_depth, 2.0, 0.1);
+    }
+    if (frame.result.inside) last_depth = -frame.result.signed_distance;
+  }
+  EXPECT_EQ(ends, 1);
+}
+
 TEST(BranchWalk, GradientPredictsTheNextDepth) {
   for (const Scene& scene : Scenes()) {
     RandomMotions motions(scene, 20);

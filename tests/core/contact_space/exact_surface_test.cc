@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The surface before rounding: vertices and triangles in exact arithmetic.
+#include <CGAL/Bbox_3.h>
+#include <CGAL/Exact_predicates_exact_constructions_kernel.h>
+#include <CGAL/Object.h>
+#include <CGAL/box_intersection_d.h>
+#include <CGAL/intersections.h>
+#include <gtest/gtest.h>
+
+#include "core/contact_space/canonical_frame.h"
+#include "core/contact_space/cells.h"
+#include "core/contact_space/convolution.h"
+#include "core/contact_space/edge_rings.h"
+#include "core/contact_space/facet_intersections.h"
+#include "core/contact_space/patch_triangulation.h"
+#include "core/contact_space/plane_arrangement.h"
+#include "core/contact_space/solid_collision.h"
+#include "core/contact_space/surface_assembly.h"
+#include "problems/random_pairs.h"
+
+namespace phongpd {
+namespace {
+
+using Kernel = CGAL::Exact_predicates_exact_constructions_kernel;
+using Box = CGAL::Box_intersection_d::Box_with_info_d<double, 3, std::size_t>;
+
+Kernel::FT ToExact(const internal::Wide& value) {
+  return Kernel::FT(Kernel::FT::Exact_type(value.str()));
+}
+
+// All stages of BuildContactSpace up to rounding.
+std::vector<Kernel::Triangle_3> BuildExactly(SolidPair pair) {
+  const internal::CanonicalFrame turned =
+      internal::ChooseCanonicalFrame(pair.robot, pair.obstacle);
+  if (turned.used) {
+    pair.robot = Rotated(pair.robot, turned.rotation);
+    pair.obstacle = Rotated(pair.obstacle, turned.rotation);
+  }
+  const internal::GridFrame frame =
+      internal::ChooseGridFrame(pair.robot, pair.obstacle);
+  const internal::GridSolid p = internal::MakeGridSolid(
+      pair.obstacle, frame.obstacle_center, frame.step, false, "obstacle");
+  const internal::GridSolid q = internal::MakeGridSolid(
+      pair.robot, frame.robot_center, frame.step, true, "robot");
+  const internal::Convolution convolution = internal::ReducedConvolution(p, q);
+  const internal::PlaneGroups groups = internal::GroupByPlane(convolution);
+  internal::ExactPoints points;
+  const internal::FacetIndex index(convolution);
+  const internal::FacetIntersections intersections =
+      internal::IntersectFacets(convolution, groups, index, &points);
+  const internal::Arrangement arrangement =
+      internal::ArrangePlanes(convolution, groups, intersections, &points);
+  const internal::EdgeRings rings =
+      internal::SortAroundEdges(convolution, arrangement, points);
+  const internal::SolidCollision judge(p, q);
+  const internal::FreeCells cells =
+      internal::FindFreeCells(convolution, arrangement, rings, points, judge);
+  const internal::PatchSurface patches =
+      internal::AssembleSurface(arrangement, groups, rings, cells, {}, &points);
+  const internal::ExactSurface surface =
+      internal::TriangulatePatches(patches, convolution, points);
+
+  std::vector<Kernel::Point_3> vertices;
+  for (const int id : surface.vertex_points) {
+    const internal::Homogeneous h = Evaluate(points[id].definition);
+    const Kernel::FT w = ToExact(h.w);
+    vertices.emplace_back(ToExact(h.x[0]) / w, ToExact(h.x[1]) / w,
+                          ToExact(h.x[2]) / w);
+    vertices.back().exact();
+  }
+  std::vector<Kernel::Triangle_3> triangles;
+  for (const auto& [i, j, k] : surface.triangles) {
+    triangles.emplace_back(vertices[i], vertices[j], vertices[k]);
+  }
+  return triangles;
+}
+
+bool AreOnOneEdge(const Kernel::Triangle_3& triangle, const Kernel::Point_3& p,
+                  const Kernel::Point_3& q) {
+  for (int k = 0; k < 3; ++k) {
+    const Kernel::Segment_3 edge(triangle[k], triangle[k + 1]);
+    if (edge.has_on(p) && edge.has_on(q)) return true;
+  }
+  return false;
+}
+
+// Whether two triangles share more than parts of their edges.
+bool MeetProperly(const Kernel::Triangle_3& s, const Kernel::Triangle_3& t) {
+  const CGAL::Object part = CGAL::intersection(s, t);
+  if (part.is_empty()) return false;
+  if (const auto* p = CGAL::object_cast<Kernel::Point_3>(&part)) {
+    return !AreOnOneEdge(s, *p, *p) || !AreOnOneEdge(t, *p, *p);
+  }
+  if (const auto* e = CGAL::object_cast<Kernel::Segment_3>(&part)) {
+    return !AreOnOneEdge(s, e->source(), e->target()) ||
+           !AreOnOneEdge(t, e->source(), e->target());
+  }
+  return true;
+}
+
+int CountDegenerate(const std::vector<Kernel::Triangle_3>& triangles) {
+  int count = 0;
+  for (const auto& t : triangles) count += t.is_degenerate();
+  return count;
+}
+
+int CountSelfIntersections(const std::vector<Kernel::Triangle_3>& triangles) {
+  std::vector<Box> boxes;
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
+    boxes.emplace_back(triangles[i].bbox(), i);
+  }
+  int count = 0;
+  CGAL::box_self_intersection_d(
+      boxes.begin(), boxes.end(), [&](const Box& a, const Box& b) {
+        count += MeetProperly(triangles[a.info()], triangles[b.info()]);
+      });
+  return count;
+}
+
+class ExactSurface : public ::testing::TestWithParam<PairKind> {};
+
+TEST_P(ExactSurface, HasNoSelfIntersectionBeforeRounding) {
+  for (std::uint64_t seed = 0; seed < 5; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    const auto triangles = BuildExactly(MakeRandomPair(GetParam(), seed));
+    EXPECT_GT(triangles.size(), 0U);
+    EXPECT_EQ(CountDegenerate(triangles), 0);
+    EXPECT_EQ(CountSelfIntersections(triangles), 0);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Pairs, ExactSurface,
+                         ::testing::ValuesIn(AllPairKinds()));
+
+}  // namespace
+}  // namespace phongpd
