@@ -60,6 +60,10 @@ double OverlapDepth(const Corners& a, const Corners& b) {
   directions.Try(normal_a);
   directions.Try(normal_b);
   for (int i = 0; i < 3; ++i) {
+    // Triangles that rounding made segments have no normal, and segments that
+    // are almost parallel no product: any direction across them will do.
+    directions.Try(directions.EdgeOfA(i).unitOrthogonal());
+    directions.Try(directions.EdgeOfB(i).unitOrthogonal());
     directions.Try(normal_a.cross(directions.EdgeOfA(i)));
     directions.Try(normal_b.cross(directions.EdgeOfB(i)));
     for (int j = 0; j < 3; ++j) {

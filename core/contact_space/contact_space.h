@@ -22,6 +22,14 @@ enum class ContactKind {
 
 // Finer triangles inside the planar patches; the surface stays as it is
 // (surface_refinement.h says how exactly).
+//
+// Not for PhongPD's sake: the paper's field (ℓ = 0) is tied to the
+// tessellation.  Vertices inside a patch have the facet's normal, so the field
+// turns within one triangle of an edge, and PhongPD nears Euclidean PD.  Cone
+// and axes, 100 random motions, target_edge 0 / 0.1 / 0.02, grading 1: cold
+// depth / Euclidean depth 1.19 / 1.03 / 1.01 on average, warm 1.5 / 1.5 / 1.6
+// with a 99th percentile of 6.6 / 7.7 / 8.9; jumps 52 / 49 / 40.  With ℓ = 0.1
+// none of these moves by more than noise: that field splits edges by itself.
 struct RefineOptions {
   // Longest edge, as a fraction of the surface's diagonal; 0: no refinement.
   // In [0, 1].
