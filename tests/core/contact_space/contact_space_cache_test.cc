@@ -148,12 +148,17 @@ TEST_F(ContactSpaceCacheTest, AnyChangedOptionMisses) {
   ContactSpaceOptions options;
   Build(options);
   // An option that is missing here does not compile.
-  auto& [merge_coplanar, outer_shell_only, max_seconds, max_mib, refine,
-         robot_name, obstacle_name] = options;
+  auto& [merge_coplanar, outer_shell_only, repair, wrap_alpha, robot_hull,
+         target_faces, max_seconds, max_mib, refine, robot_name,
+         obstacle_name] = options;
   auto& [target_edge, grading, sharp_angle_degrees] = refine;
   const std::vector<std::function<void()>> changes = {
       [&o = merge_coplanar] { o = !o; },
       [&o = outer_shell_only] { o = !o; },
+      [&o = repair] { o = Repair::kSafe; },
+      [&o = wrap_alpha] { o = 0.2; },
+      [&o = robot_hull] { o = !o; },
+      [&o = target_faces] { o = 100; },
       [&o = max_seconds] { o = 1e6; },
       [&o = max_mib] { o = 1e6; },
       [&o = target_edge] { o = 0.5; },
