@@ -122,7 +122,13 @@ class Checker {
     expect("components", pair_.components, report.components);
     expect("genus", pair_.genus, report.genus);
     expect("cavities", pair_.cavities, report.cavities);
-    const double tolerance = pair_.is_exact ? 0.0 : VolumeTolerance(space_);
+    const double moved =
+        4 * pair_.perturbation *
+        (LargestCoordinate(pair_.robot) + LargestCoordinate(pair_.obstacle));
+    const double tolerance =
+        pair_.is_exact
+            ? 0.0
+            : VolumeTolerance(space_) + moved * SurfaceArea(space_.mesh);
     if (pair_.volume && std::abs(report.volume - *pair_.volume) > tolerance) {
       Fail("volume must be ", *pair_.volume, ", found ", report.volume);
     }

@@ -16,15 +16,18 @@ namespace {
 using Eigen::Vector3d;
 using Random = std::mt19937_64;
 
-constexpr double kTiny = 1e-12;  // of tilt and jitter, relative
+// Perturbations relative to the size: 1e-12, and up to 1e-8 to go on from the
+// grid to what it tells apart.
+constexpr double kTiny = 1e-12;
+constexpr int kDecades = 5;
 constexpr double kPi = 3.14159265358979323846;
 
 int Uniform(int min, int max, Random* random) {
   return std::uniform_int_distribution<int>(min, max)(*random);
 }
 
-TriangleMesh Jittered(TriangleMesh mesh, Random* random) {
-  const double size = kTiny * ComputeBounds(mesh).Diagonal();
+TriangleMesh Jittered(TriangleMesh mesh, double relative, Random* random) {
+  const double size = relative * ComputeBounds(mesh).Diagonal();
   std::uniform_real_distribution<double> unit(-1.0, 1.0);
   for (Vector3d& v : mesh.vertices) {
     for (int k = 0; k < 3; ++k) v[k] += size * unit(*random);
@@ -52,13 +55,18 @@ void Pose(PairKind pose, Random* random, SolidPair* pair) {
     return;
   }
   pair->robot = Rotated(pair->robot, turn);
+  if (pose != PairKind::kTilted && pose != PairKind::kJittered) return;
+  // Every other pair by the least.
+  const int decade = std::max(0, Uniform(1 - kDecades, kDecades - 1, random));
+  pair->perturbation = kTiny * std::pow(10.0, decade);
   if (pose == PairKind::kTilted) {
     const Vector3d axis = RandomRotation(random).col(0);
     pair->robot =
-        Rotated(pair->robot, Eigen::AngleAxisd(kTiny, axis).toRotationMatrix());
-  } else if (pose == PairKind::kJittered) {
-    pair->robot = Jittered(pair->robot, random);
-    pair->obstacle = Jittered(pair->obstacle, random);
+        Rotated(pair->robot,
+                Eigen::AngleAxisd(pair->perturbation, axis).toRotationMatrix());
+  } else {
+    pair->robot = Jittered(pair->robot, pair->perturbation, random);
+    pair->obstacle = Jittered(pair->obstacle, pair->perturbation, random);
   }
 }
 
@@ -256,9 +264,9 @@ std::string Name(PairKind kind) {
     case PairKind::kTurnedApart:
       return "voxels, turned apart";
     case PairKind::kTilted:
-      return "voxels, alike and tilted by 1e-12";
+      return "voxels, alike and tilted";
     case PairKind::kJittered:
-      return "voxels, alike and jittered by 1e-12";
+      return "voxels, alike and jittered";
     case PairKind::kPeg:
       return "pegs in their holes";
     case PairKind::kEdgeTouch:
@@ -282,7 +290,8 @@ SolidPair MakeRandomPair(PairKind kind, std::uint64_t seed) {
   Pose(pose, &random, &pair);
   const bool touches =
       kind == PairKind::kEdgeTouch || kind == PairKind::kVertexTouch;
-  if (touches && pose != PairKind::kAligned) ForgetTopology(&pair);
+  const bool may_open = touches || pair.perturbation > kTiny;
+  if (may_open && pose != PairKind::kAligned) ForgetTopology(&pair);
   return pair;
 }
 

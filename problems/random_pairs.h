@@ -16,8 +16,8 @@ enum class PairKind {
   kAligned,      // voxel solids, axis-aligned
   kTurnedAlike,  // the same, both turned by one rotation
   kTurnedApart,  // and by two
-  kTilted,       // turned alike, then the robot by another 1e-12 rad
-  kJittered,     // turned alike, then every vertex moved by 1e-12 of the size
+  kTilted,       // turned alike, then the robot by another 1e-12 to 1e-8 rad
+  kJittered,     // turned alike, then each vertex moved by 1e-12 to 1e-8
   kPeg,          // square or round peg in its hole, clearance 0, 1e-3 ... 1e-9
   kEdgeTouch,    // two boxes whose sums with the robot touch along an edge
   kVertexTouch,  // ... in a vertex
@@ -40,6 +40,8 @@ struct SolidPair {
   std::optional<int> genus;
   std::optional<int> cavities;
   bool is_exact = false;  // all coordinates stay on a lattice
+  // How far the operands were moved off what is expected, over their size.
+  double perturbation = 0.0;
 };
 
 // The pair of that kind and seed.  Pegs, touching boxes, cavities and worlds

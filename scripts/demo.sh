@@ -4,6 +4,8 @@
 # build/demo/.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
+# The user's own cache is neither used nor filled.
+export PHONGPD_CACHE_DIR=$PWD/build/cache
 
 scripts/build.sh phongpd paper_benchmark
 build/paper_benchmark --output build/demo --motions 20 --points 2000 --page

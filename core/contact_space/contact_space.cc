@@ -15,6 +15,7 @@
 #include "core/contact_space/edge_rings.h"
 #include "core/contact_space/facet_intersections.h"
 #include "core/contact_space/grid_solid.h"
+#include "core/contact_space/operand.h"
 #include "core/contact_space/patch_triangulation.h"
 #include "core/contact_space/plane_arrangement.h"
 #include "core/contact_space/plane_groups.h"
@@ -167,12 +168,11 @@ ContactSpace BuildContactSpace(const TriangleMesh& robot,
   ContactSpaceReport& report = out.report;
   StageClock clock(&report);
 
-  TriangleMesh a = MakeSolid(robot, options.robot_name, &report.robot);
-  TriangleMesh b = MakeSolid(obstacle, options.obstacle_name, &report.obstacle);
-  for (const MeshReport* operand : {&report.robot, &report.obstacle}) {
-    report.warnings.insert(report.warnings.end(), operand->warnings.begin(),
-                           operand->warnings.end());
-  }
+  using internal::OperandRole;
+  TriangleMesh a =
+      internal::PrepareOperand(robot, OperandRole::kRobot, options, &report);
+  TriangleMesh b = internal::PrepareOperand(obstacle, OperandRole::kObstacle,
+                                            options, &report);
   clock.Finish("check");
 
   const internal::CanonicalFrame turned = internal::ChooseCanonicalFrame(a, b);
@@ -187,6 +187,8 @@ ContactSpace BuildContactSpace(const TriangleMesh& robot,
       b, frame.obstacle_center, frame.step, false, options.obstacle_name);
   const internal::GridSolid q = internal::MakeGridSolid(
       a, frame.robot_center, frame.step, true, options.robot_name);
+  internal::CheckResolution(p, b, frame.step, options.obstacle_name, &report);
+  internal::CheckResolution(q, a, frame.step, options.robot_name, &report);
   const internal::Convolution convolution = internal::ReducedConvolution(p, q);
   report.convolution_triangles = convolution.facets.size();
   clock.Finish("convolution");
@@ -217,6 +219,12 @@ ContactSpace BuildContactSpace(const TriangleMesh& robot,
   report.cells = static_cast<std::size_t>(cells.cells);
   report.judged_cells = static_cast<std::size_t>(cells.judged);
   report.cavities = cells.cavities;
+  if (options.outer_shell_only) {
+    ApproximationStep step;
+    step.kind = "outer-shell";
+    step.dropped_cavities = cells.cavities;
+    internal::AddStep(step, &report.approximation);
+  }
   clock.Finish("cells");
 
   const internal::PatchSurface patches = internal::AssembleSurface(

@@ -32,10 +32,11 @@ void Fields(Stream* io, RefineOptions& options) {
 
 template <typename Stream>
 void Fields(Stream* io, ContactSpaceOptions& options) {
-  auto& [merge_coplanar, outer_shell_only, max_seconds, max_mib, refine,
-         robot_name, obstacle_name] = options;
-  (*io)(merge_coplanar, outer_shell_only, max_seconds, max_mib, refine,
-        robot_name, obstacle_name);
+  auto& [merge_coplanar, outer_shell_only, repair, wrap_alpha, robot_hull,
+         target_faces, max_seconds, max_mib, refine, robot_name,
+         obstacle_name] = options;
+  (*io)(merge_coplanar, outer_shell_only, repair, wrap_alpha, robot_hull,
+        target_faces, max_seconds, max_mib, refine, robot_name, obstacle_name);
 }
 
 template <typename Stream>
@@ -57,16 +58,39 @@ void Fields(Stream* io, MeshReport& report) {
 }
 
 template <typename Stream>
+void Fields(Stream* io, RepairReport& report) {
+  auto& [duplicate, mirrored, degenerate, turned, joined, is_wrapped,
+         wrap_reason, wrap_alpha, wrap_bound, actions] = report;
+  (*io)(duplicate, mirrored, degenerate, turned, joined, is_wrapped,
+        wrap_reason, wrap_alpha, wrap_bound, actions);
+}
+
+template <typename Stream>
+void Fields(Stream* io, ApproximationStep& step) {
+  auto& [operand, kind, bound, lower_bound, is_surface_bound, is_conservative,
+         before, after, dropped_cavities] = step;
+  (*io)(operand, kind, bound, lower_bound, is_surface_bound, is_conservative,
+        before, after, dropped_cavities);
+}
+
+template <typename Stream>
+void Fields(Stream* io, Approximation& approximation) {
+  auto& [kind, bound, is_conservative, steps] = approximation;
+  (*io)(kind, bound, is_conservative, steps);
+}
+
+template <typename Stream>
 void Fields(Stream* io, ContactSpaceReport& report) {
   auto& [triangles, vertices, closed, manifold, components, genus, cavities,
          volume, self_intersections, degenerate, worst_quality, median_quality,
          from_cache, seconds, peak_mib, predicted, method, convolution, faces,
-         cells, judged, canonical_frame, grid_step, robot, obstacle,
-         warnings] = report;
+         cells, judged, canonical_frame, grid_step, approximation, robot,
+         obstacle, robot_repair, obstacle_repair, warnings] = report;
   (*io)(triangles, vertices, closed, manifold, components, genus, cavities,
         volume, self_intersections, degenerate, worst_quality, median_quality,
         from_cache, seconds, peak_mib, predicted, method, convolution, faces,
-        cells, judged, canonical_frame, grid_step, robot, obstacle, warnings);
+        cells, judged, canonical_frame, grid_step, approximation, robot,
+        obstacle, robot_repair, obstacle_repair, warnings);
 }
 
 template <typename Stream>

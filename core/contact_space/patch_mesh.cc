@@ -89,7 +89,7 @@ std::vector<std::pair<Vector3d, Vector3d>> PatchMesh::SharpEdges(
   for (int t = 0; t < Count(); ++t) {
     for (int k = 0; k < 3; ++k) {
       const int o = neighbors_[t][k];
-      if (o < t) continue;
+      if (o < t || patch_of_[o] == patch_of_[t]) continue;
       const Vector3d& n = patches_[patch_of_[t]].plane.normal();
       const Vector3d& m = patches_[patch_of_[o]].plane.normal();
       if (std::atan2(n.cross(m).norm(), n.dot(m)) < angle) continue;

@@ -59,8 +59,7 @@ class PatchMesh {
   // The same edge seen from the other side.
   Edge Opposite(Edge e) const;
 
-  // Fixed edges between patches whose normals are at least `angle` (radians)
-  // apart.
+  // Edges between patches whose normals are at least `angle` (radians) apart.
   std::vector<std::pair<Eigen::Vector3d, Eigen::Vector3d>> SharpEdges(
       double angle) const;
 

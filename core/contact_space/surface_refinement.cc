@@ -124,6 +124,7 @@ class Refiner {
         Circumcenter(mesh_.Point(t, 0), mesh_.Point(t, 1), mesh_.Point(t, 2));
     if (!center.allFinite()) return false;
     const Vector3d x = mesh_.Plane(t).Nearest(center);
+    if (!x.allFinite()) return false;
     if (keep_distance &&
         (x - mesh_.Point(t, 0)).norm() < kSpacing * length_(x)) {
       return false;

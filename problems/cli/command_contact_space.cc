@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <cmath>
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -6,6 +7,7 @@
 #include <string>
 
 #include "core/contact_space/contact_space.h"
+#include "core/mesh/mesh_io.h"
 #include "problems/cli/command.h"
 #include "problems/output_files.h"
 #include "problems/text.h"
@@ -21,13 +23,50 @@ struct Flags {
   std::string output;
   std::string report;
   bool outer_shell_only = false;
+  bool robot_hull = false;
+  std::string target_faces = "0";
+  std::string wrap_alpha = "0";
+  std::string repair = "reject";
   double max_seconds = 0.0;
   double max_mib = 0.0;
   std::string refine = "0";
   bool no_cache = false;
 };
 
-Json ToJson(const MeshReport& mesh, const std::string& file) {
+Json ToJson(const RepairReport& repair) {
+  return {{"duplicate_faces", repair.duplicate_faces},
+          {"mirrored_faces", repair.mirrored_faces},
+          {"degenerate_faces", repair.degenerate_faces},
+          {"turned_faces", repair.turned_faces},
+          {"joined_vertices", repair.joined_vertices},
+          {"wrapped", repair.is_wrapped},
+          {"wrap_reason", repair.wrap_reason},
+          {"wrap_alpha", repair.wrap_alpha},
+          {"wrap_bound", repair.wrap_bound},
+          {"actions", repair.actions}};
+}
+
+Json ToJson(const Approximation& approximation) {
+  Json steps = Json::array();
+  for (const ApproximationStep& step : approximation.steps) {
+    steps.push_back({{"operand", step.operand},
+                     {"kind", step.kind},
+                     {"bound", step.bound},
+                     {"lower_bound", step.lower_bound},
+                     {"bound_of", step.is_surface_bound ? "surface" : "solid"},
+                     {"conservative", step.is_conservative},
+                     {"triangles_before", step.triangles_before},
+                     {"triangles_after", step.triangles_after},
+                     {"dropped_cavities", step.dropped_cavities}});
+  }
+  return {{"kind", approximation.kind},
+          {"bound", approximation.bound},
+          {"conservative", approximation.is_conservative},
+          {"steps", steps}};
+}
+
+Json ToJson(const MeshReport& mesh, const RepairReport& repair,
+            const std::string& file) {
   return {{"file", file},
           {"vertices", mesh.vertices},
           {"triangles", mesh.triangles},
@@ -35,8 +74,10 @@ Json ToJson(const MeshReport& mesh, const std::string& file) {
           {"degenerate_triangles", mesh.degenerate_triangles},
           {"duplicate_vertices", mesh.duplicate_vertices},
           {"duplicate_triangles", mesh.duplicate_triangles},
+          {"joined_vertices", mesh.joined_vertices},
           {"inverted_components", mesh.inverted_components},
           {"volume", mesh.volume},
+          {"repair", ToJson(repair)},
           {"warnings", mesh.warnings}};
 }
 
@@ -66,7 +107,7 @@ Json ToJson(const ContactSpaceReport& report) {
             {"arrangement_faces", report.predicted.arrangement_faces},
             {"seconds", report.predicted.seconds},
             {"mib", report.predicted.mib}}},
-          {"approximation", {{"kind", "none"}, {"bound", report.grid_step}}},
+          {"approximation", ToJson(report.approximation)},
           {"convolution_triangles", report.convolution_triangles},
           {"arrangement_faces", report.arrangement_faces},
           {"cells", report.cells},
@@ -107,30 +148,55 @@ void PrintSummary(const Flags& flags, const ContactSpaceReport& report) {
             << report.arrangement_faces << " arrangement faces\n";
 }
 
-int BuildAndWrite(const Flags& flags) {
-  OutputFiles outputs;
-  DeclareMesh(&outputs, flags.output);
-  if (!flags.report.empty()) outputs.Declare(flags.report);
-  MeshReport robot_report;
-  MeshReport obstacle_report;
-  const TriangleMesh robot = LoadSolid(flags.robot, &robot_report);
-  const TriangleMesh obstacle = LoadSolid(flags.obstacle, &obstacle_report);
+Repair ParseRepair(const std::string& text) {
+  if (text == "reject") return Repair::kReject;
+  if (text == "safe") return Repair::kSafe;
+  if (text == "wrap") return Repair::kWrap;
+  throw InputError("--repair: expected reject, safe or wrap, found " + text);
+}
 
+std::size_t ParseTargetFaces(const std::string& text) {
+  const double value = ParseDouble(text, "--target-faces");
+  const bool is_none = value == 0.0;
+  if (is_none || (value >= 4.0 && value <= 1e9 && value == std::floor(value))) {
+    return static_cast<std::size_t>(value);
+  }
+  throw InputError("--target-faces: expected a whole number of at least 4, " +
+                   ("found " + text));
+}
+
+// The flags that change the operands or the result.
+ContactSpaceOptions OptionsOf(const Flags& flags) {
   ContactSpaceOptions options;
   options.outer_shell_only = flags.outer_shell_only;
+  options.robot_hull = flags.robot_hull;
+  options.target_faces = ParseTargetFaces(flags.target_faces);
+  options.wrap_alpha = ParseDouble(flags.wrap_alpha, "--wrap");
+  options.repair = ParseRepair(flags.repair);
   options.max_seconds = flags.max_seconds;
   options.max_mib = flags.max_mib;
   options.robot_name = flags.robot;
   options.obstacle_name = flags.obstacle;
   options.refine.target_edge = ParseDouble(flags.refine, "--refine");
+  return options;
+}
+
+int BuildAndWrite(const Flags& flags) {
+  OutputFiles outputs;
+  DeclareMesh(&outputs, flags.output);
+  if (!flags.report.empty()) outputs.Declare(flags.report);
+  const ContactSpaceOptions options = OptionsOf(flags);
   const ContactSpace space =
-      LoadOrBuild(robot, obstacle, options, !flags.no_cache);
+      LoadOrBuild(ReadMesh(flags.robot), ReadMesh(flags.obstacle), options,
+                  !flags.no_cache);
 
   WriteMeshTo(&outputs, flags.output, space.mesh);
   if (!flags.report.empty()) {
-    Json report = ToJson(space.report);
-    report["robot"] = ToJson(robot_report, flags.robot);
-    report["obstacle"] = ToJson(obstacle_report, flags.obstacle);
+    const ContactSpaceReport& found = space.report;
+    Json report = ToJson(found);
+    report["robot"] = ToJson(found.robot, found.robot_repair, flags.robot);
+    report["obstacle"] =
+        ToJson(found.obstacle, found.obstacle_repair, flags.obstacle);
     outputs.Write(flags.report, report.dump(2) + '\n');
   }
   const bool silent = outputs.UseStandardOutput();
@@ -156,6 +222,20 @@ Command AddContactSpace(CLI::App* app) {
       ->type_name("FILE");
   app->add_option("--report", flags->report, "What was built, as JSON")
       ->type_name("FILE");
+  app->add_flag("--robot-hull", flags->robot_hull,
+                "Take the robot's convex hull: contact space only grows");
+  app->add_option("--target-faces", flags->target_faces,
+                  "Decimate each operand to about N triangles")
+      ->type_name("N");
+  app->add_option("--wrap", flags->wrap_alpha,
+                  "Wrap each operand, closing gaps below about twice ALPHA, a "
+                  "fraction of its diagonal (0.002 to 1)")
+      ->type_name("ALPHA");
+  app->add_option("--repair", flags->repair,
+                  "What to do about operands that are no solids: reject, safe "
+                  "(changes no solid) or wrap (approximates)")
+      ->capture_default_str()
+      ->type_name("KIND");
   app->add_flag("--outer-shell-only", flags->outer_shell_only,
                 "Leave out bounded free cavities");
   app->add_option("--max-seconds", flags->max_seconds,

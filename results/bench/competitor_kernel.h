@@ -6,6 +6,9 @@
 #include <CGAL/Polyhedron_3.h>
 #include <CGAL/Polyhedron_incremental_builder_3.h>
 
+#include <utility>
+#include <vector>
+
 #include "core/mesh/triangle_mesh.h"
 
 // What both competitors share: meshes as Nef polyhedra.
@@ -45,11 +48,38 @@ class PolyhedronWriter
   double sign_;
 };
 
+// The solid, component by component: Nef polyhedra take every bounded region
+// of a surface as filled, cavities included.
 inline CompetitorNef ToNef(const TriangleMesh& mesh, bool reflect) {
-  PolyhedronWriter writer(mesh, reflect);
-  CompetitorPolyhedron polyhedron;
-  polyhedron.delegate(writer);
-  return CompetitorNef(polyhedron);
+  int count = 0;
+  const std::vector<int> label = LabelComponents(mesh, &count);
+  CompetitorNef solid(CompetitorNef::EMPTY), cavities(CompetitorNef::EMPTY);
+  for (int c = 0; c < count; ++c) {
+    TriangleMesh part;
+    std::vector<int> index(mesh.vertices.size(), -1);
+    for (std::size_t t = 0; t < label.size(); ++t) {
+      if (label[t] != c) continue;
+      Triangle triangle = mesh.triangles[t];
+      for (int& v : triangle) {
+        int& i = index[static_cast<std::size_t>(v)];
+        if (i < 0) {
+          i = static_cast<int>(part.vertices.size());
+          part.vertices.push_back(mesh.vertices[static_cast<std::size_t>(v)]);
+        }
+        v = i;
+      }
+      part.triangles.push_back(triangle);
+    }
+    const bool is_cavity = SignedVolume(part) < 0.0;
+    if (is_cavity) {
+      for (Triangle& t : part.triangles) std::swap(t[1], t[2]);
+    }
+    PolyhedronWriter writer(part, reflect);
+    CompetitorPolyhedron polyhedron;
+    polyhedron.delegate(writer);
+    (is_cavity ? cavities : solid) += CompetitorNef(polyhedron);
+  }
+  return cavities.is_empty() ? solid : solid - cavities;
 }
 
 }  // namespace phongpd::bench

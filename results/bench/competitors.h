@@ -18,7 +18,8 @@ struct CompetitorResult {
 CompetitorResult NefSum(const TriangleMesh& robot,
                         const TriangleMesh& obstacle);
 
-// Convex parts by convex_decomposition_3, the hull of every pair's vertex
+// Convex parts (an operand convex up to rounding is one, others go through
+// convex_decomposition_3), the hull of every pair's vertex
 // sums, and their union by PMP corefinement on exact constructions, pair by
 // pair up a tree.
 CompetitorResult HullUnion(const TriangleMesh& robot,

@@ -121,7 +121,10 @@ int Run(int argc, char** argv) {
                 results, tables, figures,
                 CommandLine("build/contact_space_benchmark", argc, argv)));
   out.Commit();
-  std::cout << ToText(ContactSpaceShortTable(results));
+  if (!results.cases.empty()) {
+    std::cout << ToText(ContactSpaceShortTable(results));
+  }
+  if (!results.fuzz.empty()) std::cout << ToText(tables.back().table);
   const int failed = FailedPairs(results);
   if (failed > 0) std::cerr << failed << " random pairs failed\n";
   return failed > 0 ? 1 : 0;

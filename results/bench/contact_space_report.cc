@@ -124,13 +124,14 @@ Table CompetitorsTable(const ContactSpaceResults& results) {
       "The same meshes in the same binary and run, one build each, one "
       "process each, limit " +
       Rounded(results.limit) +
-      " s. Nef: minkowski_sum_3. Hulls: convex_decomposition_3, hulls of all "
-      "pairs of parts, union by corefinement with exact constructions. Ratio: "
-      "their time over our median (both use one thread only, we use all). "
+      " s. Nef: minkowski_sum_3. Hulls: convex parts (an operand convex up to "
+      "1e-9 is one part, else convex_decomposition_3), hulls of all pairs of "
+      "parts, union by corefinement with exact constructions. Nef / ours: "
+      "their time over our median (they use one thread, we use all). "
       "Volume: relative difference to ours.";
-  table.header = {"pair",       "ours [s]",  "Nef [s]",    "ratio",
-                  "Nef volume", "hulls [s]", "ratio",      "hulls volume",
-                  "ours tri.",  "Nef tri.",  "hulls tri.", "Nef [MiB]",
+  table.header = {"pair",       "ours [s]",  "Nef [s]",      "Nef / ours",
+                  "Nef volume", "hulls [s]", "hulls / ours", "hulls volume",
+                  "ours tri.",  "Nef tri.",  "hulls tri.",   "Nef [MiB]",
                   "hulls [MiB]"};
   for (const CaseResult& c : results.cases) {
     if (!c.build.compete) continue;

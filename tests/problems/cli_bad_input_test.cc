@@ -103,8 +103,8 @@ TEST_F(Cli, RefusesBadArgumentsInOneLine) {
   ExpectRefused("query", {"--contact-space"});
   ExpectRefused(
       "contact-space --robot ../box.off --obstacle ../box.off "
-      "--output c.off --robot-hull",
-      {"--robot-hull"});
+      "--output c.off --robot-hulls",
+      {"--robot-hulls"});
   ExpectRefused(
       "contact-space --robot ../box.off --obstacle ../box.off "
       "--output c.xyz",

@@ -51,7 +51,7 @@ struct Outcome {
   std::string err;
 };
 
-// Every test runs in a directory of its own.
+// Every test runs in a directory of its own, with a cache of its own.
 class Cli : public testing::Test {
  protected:
   void SetUp() override {
@@ -78,9 +78,9 @@ class Cli : public testing::Test {
   }
 
   Outcome Run(const std::string& arguments) const {
-    const std::string command = "cd '" + Output("") +
-                                "' && '" PHONGPD_PROGRAM "' " + arguments +
-                                " >../out 2>../err";
+    const std::string command =
+        "cd '" + Output("") + "' && PHONGPD_CACHE_DIR='" + File("cache") +
+        "' '" PHONGPD_PROGRAM "' " + arguments + " >../out 2>../err";
     const int status = std::system(command.c_str());
     Outcome outcome;
     outcome.code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+
+#include "core/contact_space/contact_space.h"
+#include "core/contact_space/grid_solid.h"
+#include "core/mesh/triangle_mesh.h"
+
+// What is done to the operands before the contact space is built, and said
+// about it.
+namespace phongpd::internal {
+
+enum class OperandRole { kRobot, kObstacle };
+
+// The solid to build with: repaired, wrapped, replaced by its hull (robot
+// only) and decimated as the options ask for, in this order.  Fills in the
+// operand's MeshReport and RepairReport, the approximation's steps and the
+// warnings.  Throws InputError naming the operand.
+TriangleMesh PrepareOperand(const TriangleMesh& mesh, OperandRole role,
+                            const ContactSpaceOptions& options,
+                            ContactSpaceReport* report);
+
+// Appends a step and updates kind, bound and conservativeness.
+void AddStep(const ApproximationStep& step, Approximation* approximation);
+
+// Says when the grid, 2^-38 of the larger operand, is coarse for this one:
+// facets that collapsed, fewer than 24 bits.  Throws InputError when the
+// rounded surface crosses itself and is no solid any more.
+void CheckResolution(const GridSolid& solid, const TriangleMesh& mesh,
+                     double step, const std::string& name,
+                     ContactSpaceReport* report);
+
+}  // namespace phongpd::internal
