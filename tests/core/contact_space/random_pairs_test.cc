@@ -51,7 +51,7 @@ TEST(FormerFailures, OutermostSheetsCloserThanRounding) {
 TEST(FormerFailures, PartsOfTheArrangementThatShareNoEdge) {
   ExpectRight(PairKind::kVertexTouch, 0);
   const auto cube = [](double x) { return MakeBox({x, 0, 0}, {x + 1, 1, 1}); };
-  const TriangleMesh shell = Translated(MakeVessel(12, 10, 0), {4, 0, 0});
+  const TriangleMesh shell = Translated(MakeVessel(12, 10, 0), {3, 0, 0});
   const TriangleMesh far = Joined(cube(0), cube(5));
   ContactSpaceOptions options;
   for (const bool outer_only : {false, true}) {
