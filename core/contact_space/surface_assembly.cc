@@ -211,32 +211,79 @@ class Assembler {
     return removable;
   }
 
-  PatchSurface Collect() const {
-    const std::vector<char> removable = Removable();
-    PatchSurface out;
-    out.patches.resize(patch_count_);
-    std::vector<int> id_of(vertex_points_.size(), -1);
+  // The border loops of all patches, as half-edges.
+  std::vector<std::vector<int>> BorderLoops() const {
+    std::vector<std::vector<int>> loops;
     std::vector<char> visited(edges_.size(), 0);
     for (std::size_t e = 0; e < edges_.size(); ++e) {
-      PatchSurface::Patch& patch = out.patches[patch_of_[e]];
-      patch.facet = arrangement_.faces[edges_[e].face].facet;
       if (!is_border_[e] || visited[e]) continue;
       std::vector<int> loop;
       int at = static_cast<int>(e);
       do {
         visited[at] = 1;
-        const int v = edges_[at].vertex;
-        if (!removable[v]) {
-          if (id_of[v] < 0) {
-            id_of[v] = static_cast<int>(out.vertex_points.size());
-            out.vertex_points.push_back(vertex_points_[v]);
-          }
-          loop.push_back(id_of[v]);
-        }
+        loop.push_back(at);
         at = edges_[at].next;
         while (!is_border_[at]) at = edges_[edges_[at].mate].next;
       } while (at != static_cast<int>(e));
-      patch.loops.push_back(std::move(loop));
+      loops.push_back(std::move(loop));
+    }
+    return loops;
+  }
+
+  // Two sheets along one line may have different vertices on it; dropping
+  // them all would leave both with the same edge.  Keeps one.
+  void KeepEdgesDistinct(const std::vector<std::vector<int>>& loops,
+                         std::vector<char>* removable) const {
+    for (bool changed = true; changed;) {
+      changed = false;
+      std::map<std::pair<int, int>, int> dropped;  // edge → a vertex left out
+      for (const std::vector<int>& loop : loops) {
+        const std::size_t size = loop.size();
+        const auto vertex = [&](std::size_t k) {
+          return edges_[loop[k % size]].vertex;
+        };
+        std::size_t start = 0;
+        while (start < size && (*removable)[vertex(start)]) ++start;
+        for (std::size_t k = start; k < start + size;) {
+          std::size_t next = k + 1;
+          while (next < start + size && (*removable)[vertex(next)]) ++next;
+          const int skipped = next > k + 1 ? vertex(k + 1) : -1;
+          const auto [it, is_new] =
+              dropped.try_emplace({vertex(k), vertex(next)}, skipped);
+          const int keep = it->second >= 0 ? it->second : skipped;
+          if (!is_new && keep >= 0) {
+            (*removable)[keep] = 0;
+            changed = true;
+          }
+          k = next;
+        }
+      }
+    }
+  }
+
+  PatchSurface Collect() const {
+    const std::vector<std::vector<int>> loops = BorderLoops();
+    std::vector<char> removable = Removable();
+    KeepEdgesDistinct(loops, &removable);
+    PatchSurface out;
+    out.patches.resize(patch_count_);
+    for (std::size_t e = 0; e < edges_.size(); ++e) {
+      out.patches[patch_of_[e]].facet =
+          arrangement_.faces[edges_[e].face].facet;
+    }
+    std::vector<int> id_of(vertex_points_.size(), -1);
+    for (const std::vector<int>& border : loops) {
+      std::vector<int> loop;
+      for (const int e : border) {
+        const int v = edges_[e].vertex;
+        if (removable[v]) continue;
+        if (id_of[v] < 0) {
+          id_of[v] = static_cast<int>(out.vertex_points.size());
+          out.vertex_points.push_back(vertex_points_[v]);
+        }
+        loop.push_back(id_of[v]);
+      }
+      out.patches[patch_of_[border[0]]].loops.push_back(std::move(loop));
     }
     return out;
   }

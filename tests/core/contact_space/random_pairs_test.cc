@@ -87,5 +87,18 @@ TEST(ContactSpaceCheck, FindsAWrongExpectation) {
   EXPECT_EQ(CheckContactSpace(pair).failures.size(), 2U);
 }
 
+// Two sheets met along a line with different vertices on it; dropping all of
+// them as collinear left both with the same edge.
+TEST(FormerFailures, SheetsAlongOneLineKeepDistinctEdges) {
+  const SolidPair pair = MakeRandomPair(PairKind::kTilted, 337);
+  for (const double factor : {1.0, 30603.115627672451, 6809615.2945323344}) {
+    const ContactSpaceReport report =
+        BuildContactSpace(Scaled(pair.robot, factor),
+                          Scaled(pair.obstacle, factor))
+            .report;
+    EXPECT_TRUE(report.manifold) << "scaled by " << factor;
+  }
+}
+
 }  // namespace
 }  // namespace phongpd
