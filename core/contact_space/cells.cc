@@ -61,7 +61,7 @@ Vector3d ProbePoint(const FaceGeometry& geometry, const std::vector<int>& sides,
     const double gap = geometry.FirstHit(from, n, 0.02 * reach, face).distance;
     if (gap > best) {
       best = gap;
-      point = from + 0.5 * gap * n;
+      point = from + 0.41283 * gap * n;
     }
   }
   return point;

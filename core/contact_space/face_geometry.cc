@@ -53,7 +53,9 @@ Vector3d FaceGeometry::Normal(int face) const {
   return ToDouble(convolution_.facets[facet].normal).normalized();
 }
 
-// Half way from the middle of the longest edge to the opposite border.
+// From a point of the longest edge part of the way to the opposite border.
+// The fractions are no simple ones: on lattice-like solids a ray from the very
+// middle would run exactly into edges and could pass between two faces.
 Vector3d FaceGeometry::InteriorPoint(int face) const {
   const ArrangementFace& f = arrangement_.faces[face];
   int longest = f.begin;
@@ -63,7 +65,8 @@ Vector3d FaceGeometry::InteriorPoint(int face) const {
       longest = h;
     }
   }
-  const Vector3d middle = 0.5 * (From(longest) + To(longest));
+  const Vector3d middle =
+      From(longest) + 0.43711 * (To(longest) - From(longest));
   const Vector3d along = (To(longest) - From(longest)).normalized();
   const Vector3d inward = Normal(face).cross(along);
   double reach = std::numeric_limits<double>::infinity();
@@ -76,7 +79,7 @@ Vector3d FaceGeometry::InteriorPoint(int face) const {
     if (h != longest && distance > 0) reach = std::min(reach, distance);
   }
   if (!std::isfinite(reach)) reach = 0.0;
-  return middle + 0.5 * reach * inward;
+  return middle + 0.38174 * reach * inward;
 }
 
 // Ray parameter of the hit, or infinity: plane, then parity of the border in

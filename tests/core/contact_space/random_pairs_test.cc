@@ -100,5 +100,13 @@ TEST(FormerFailures, SheetsAlongOneLineKeepDistinctEdges) {
   }
 }
 
+// Judging points were face middles: on a lattice their rays ran exactly into
+// edges and passed between two faces, so a free cell was judged at a point of
+// an occupied one.
+TEST(FormerFailures, JudgingPointsOnALattice) {
+  ExpectRight(PairKind::kManyBoxes, 71);
+  ExpectRight(PairKind::kManyBoxes, 86);
+}
+
 }  // namespace
 }  // namespace phongpd
