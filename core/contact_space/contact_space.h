@@ -71,7 +71,8 @@ struct ContactSpaceOptions {
 };
 
 // What the expensive stages were expected to cost, known after a few percent
-// of the time: seconds and memory within about a factor of two on two cores.
+// of the time: a guide fitted on two cores, not a bound.  Faces come out up to
+// four times too many where the operands are coplanar.
 struct PredictedCost {
   double meetings = 0.0;  // pairs of convolution facets that cut each other
   double arrangement_faces = 0.0;
