@@ -46,11 +46,10 @@ NonPenetrationConstraint::NonPenetrationConstraint(
   if (metrics_.empty()) Fail("needs at least one contact space", "none");
   for (const auto& metric : metrics_) {
     if (metric == nullptr) Fail("needs a metric for each space", "a null one");
-    if (metric->rows() != metrics_[0]->rows()) {
-      Fail("all metrics must have the same number of rows",
-           std::to_string(metrics_[0]->rows()) + " and " +
-               std::to_string(metric->rows()));
-    }
+  }
+  if (options.rows < 1 || options.rows > kMaxMetricRows) {
+    Fail("rows must be 1 to " + std::to_string(kMaxMetricRows),
+         std::to_string(options.rows));
   }
   if (waypoints < 1) {
     Fail("needs at least one free waypoint", std::to_string(waypoints));
@@ -67,10 +66,9 @@ NonPenetrationConstraint::NonPenetrationConstraint(
     Fail("the frame needs a finite centre and a unit > 0",
          std::to_string(options_.frame.unit));
   }
-  metric_rows_ = metrics_[0]->rows();
   rows_per_sample_ =
-      metric_rows_ *
-      (options_.merge_spaces ? 1 : static_cast<int>(metrics_.size()));
+      options.rows *
+      (options.merge_spaces ? 1 : static_cast<int>(metrics_.size()));
   for (int i = 0; i <= waypoints_; ++i) {
     const int count = samples_per_segment[static_cast<std::size_t>(i)];
     if (count < 0) Fail("sample counts must be ≥ 0", std::to_string(count));
@@ -156,9 +154,9 @@ bool NonPenetrationConstraint::Evaluate(const double* u,
     for (std::size_t m = 0; m < metrics_.size(); ++m) {
       Branch previous;
       if (!is_stateless) previous = branches.branches[BranchIndex(s, m)];
-      metrics_[m]->Query(q, previous, rows.data());
+      metrics_[m]->Query(q, previous, options_.rows, rows.data());
       Count(rows[0], previous.IsValid(), counts);
-      for (int k = 0; k < metric_rows_; ++k) {
+      for (int k = 0; k < options_.rows; ++k) {
         const MetricRow& row = rows[static_cast<std::size_t>(k)];
         if (!options_.merge_spaces) {
           write(sample, row);
@@ -172,8 +170,8 @@ bool NonPenetrationConstraint::Evaluate(const double* u,
         };
         auto end = least.begin() + kept;
         auto at = std::upper_bound(least.begin(), end, row, before);
-        if (at == least.begin() + metric_rows_) continue;
-        if (kept < metric_rows_) {
+        if (at == least.begin() + options_.rows) continue;
+        if (kept < options_.rows) {
           ++kept;
           ++end;
         }
@@ -208,27 +206,26 @@ void NonPenetrationConstraint::Commit(const double* u, BranchSet* branches,
                                       NonPenetrationCounts* counts) const {
   if (options_.policy == BranchPolicy::kOuterRestart || !IsFinite(u)) return;
   const bool is_stateless = options_.policy == BranchPolicy::kStateless;
-  std::array<MetricRow, kMaxMetricRows> rows;
   for (int s = 0; s < samples(); ++s) {
     const Vector3d q = SamplePoint(s, u);
     for (std::size_t m = 0; m < metrics_.size(); ++m) {
       Branch& branch = branches->branches[BranchIndex(s, m)];
       const bool was_warm = branch.IsValid();
-      metrics_[m]->Query(q, branch, rows.data());
-      const MetricRow warm = rows[0];
+      const MetricRow warm = metrics_[m]->Query(q, branch);
+      MetricRow now = warm;
       if (is_stateless) {
         // The branches are kept for nothing but this count.
-        rows[0] = metrics_[m]->Query(q);
+        now = metrics_[m]->Query(q);
       } else {
         Count(warm, was_warm, counts);
       }
-      if (counts != nullptr && was_warm && rows[0].inside &&
+      if (counts != nullptr && was_warm && now.inside &&
           (warm.status == QueryStatus::kBranchEnded ||
-           std::abs(warm.value - rows[0].value) >
+           std::abs(warm.value - now.value) >
                kSameValue * options_.frame.unit)) {
         ++counts->branch_changes;
       }
-      branch = rows[0].branch;
+      branch = now.branch;
     }
   }
 }

@@ -39,6 +39,7 @@ struct PathFrame {
 
 struct NonPenetrationOptions {
   PathFrame frame;
+  int rows = 1;  // K in [1, kMaxMetricRows]
   BranchPolicy policy = BranchPolicy::kCommit;
   // Several contact spaces: K rows a sample for each of them, or the K least
   // of all their rows.
@@ -60,8 +61,8 @@ struct NonPenetrationOptions {
 // fixed: it depends on N, S, K and the number of spaces only.
 class NonPenetrationConstraint {
  public:
-  // At least one metric, all with the same K (they outlive nothing: shared);
-  // waypoints ≥ 1, N+1 sample counts ≥ 0, finite start and goal, unit > 0.
+  // At least one metric, waypoints ≥ 1, N+1 sample counts ≥ 0, finite start
+  // and goal, unit > 0.
   // Throws InputError.
   NonPenetrationConstraint(
       std::vector<std::shared_ptr<const SignedMetric>> metrics,
@@ -112,7 +113,6 @@ class NonPenetrationConstraint {
   Eigen::Vector3d start_, goal_;
   int waypoints_ = 0;
   NonPenetrationOptions options_;
-  int metric_rows_ = 1;      // K
   int rows_per_sample_ = 1;  // K, or K times the number of spaces
   int nonzeros_ = 0;
   std::vector<Sample> samples_;

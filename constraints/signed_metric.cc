@@ -14,10 +14,6 @@ namespace phongpd {
 using Eigen::Vector3d;
 
 void SignedMetricOptions::Validate() const {
-  if (rows < 1 || rows > kMaxMetricRows) {
-    throw InputError("rows: expected 1 to " + std::to_string(kMaxMetricRows) +
-                     ", found " + std::to_string(rows));
-  }
   if (!(separation >= 1.0 && separation <= 89.0)) {
     throw InputError("separation: expected 1 to 89 degrees, found " +
                      std::to_string(separation));
@@ -38,13 +34,10 @@ SignedMetric::SignedMetric(const TriangleMesh& contact_mesh,
   }
   // After the metric has checked the mesh.
   bounds_ = ComputeBounds(contact_mesh);
-  if (options_.rows > 1) {
-    features_ = std::make_shared<FeatureSearch>(contact_mesh);
-  }
+  features_ = std::make_shared<FeatureSearch>(contact_mesh);
 }
 
-MetricRow SignedMetric::MainRow(const Vector3d& q,
-                                const Branch& previous) const {
+MetricRow SignedMetric::Query(const Vector3d& q, const Branch& previous) const {
   const PenetrationResult result = metric_->Query(q, previous);
   MetricRow row;
   row.status = result.status;
@@ -62,14 +55,14 @@ MetricRow SignedMetric::MainRow(const Vector3d& q,
   return row;
 }
 
-void SignedMetric::Query(const Vector3d& q, const Branch& previous,
+void SignedMetric::Query(const Vector3d& q, const Branch& previous, int count,
                          MetricRow* rows) const {
-  rows[0] = MainRow(q, previous);
-  if (options_.rows == 1) return;
+  rows[0] = Query(q, previous);
+  if (count == 1) return;
   std::array<Vector3d, kMaxMetricRows> taken;
   taken[0] = rows[0].gradient;
   bool has_more = !rows[0].inside && rows[0].status != QueryStatus::kInvalid;
-  for (int k = 1; k < options_.rows; ++k) {
+  for (int k = 1; k < count; ++k) {
     rows[k] = rows[0];
     rows[k].branch = {};
     FeatureSearch::Feature feature;
@@ -83,10 +76,6 @@ void SignedMetric::Query(const Vector3d& q, const Branch& previous,
     rows[k].triangle = feature.triangle;
     taken[static_cast<std::size_t>(k)] = feature.direction;
   }
-}
-
-MetricRow SignedMetric::Query(const Vector3d& q) const {
-  return MainRow(q, Branch());
 }
 
 }  // namespace phongpd

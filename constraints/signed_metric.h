@@ -24,7 +24,6 @@ struct SignedMetricOptions {
   MetricKind metric = MetricKind::kPhong;
   PhongMetricOptions phong = DefaultPhong();  // kPhong only
   JacobianKind jacobian = JacobianKind::kDirection;
-  int rows = 1;              // K in [1, kMaxMetricRows]
   double separation = 25.0;  // least angle between rows, degrees, in [1, 89]
 
   // Throws InputError naming the option, the range and the value.
@@ -77,27 +76,25 @@ class SignedMetric {
   explicit SignedMetric(const TriangleMesh& contact_mesh,
                         const SignedMetricOptions& options = {});
 
-  int rows() const { return options_.rows; }
   const SignedMetricOptions& options() const { return options_; }
   const BoundingBox& bounds() const { return bounds_; }  // of C_cont
 
-  // Writes rows() rows.  With a valid `previous` branch the inside value
-  // continues that branch, otherwise it is the least depth.  For q not finite
-  // every row is kInvalid and zero; no row ever holds NaN or Inf.  Const,
-  // thread-safe, no allocation.
-  void Query(const Eigen::Vector3d& q, const Branch& previous,
+  // Writes `count` = K rows, K in [1, kMaxMetricRows].  With a valid `previous`
+  // branch the inside value continues that branch, otherwise it is the least
+  // depth.  For q not finite every row is kInvalid and zero; no row ever holds
+  // NaN or Inf.  Const, thread-safe, no allocation.
+  void Query(const Eigen::Vector3d& q, const Branch& previous, int count,
              MetricRow* rows) const;
-  // Row 0, cold.
-  MetricRow Query(const Eigen::Vector3d& q) const;
+  // Row 0 alone.
+  MetricRow Query(const Eigen::Vector3d& q,
+                  const Branch& previous = Branch()) const;
 
  private:
-  MetricRow MainRow(const Eigen::Vector3d& q, const Branch& previous) const;
-
   SignedMetricOptions options_;
   BoundingBox bounds_;
   double cos_separation_ = 0.0;
   std::shared_ptr<const PenetrationMetric> metric_;
-  std::shared_ptr<const FeatureSearch> features_;  // rows > 1 only
+  std::shared_ptr<const FeatureSearch> features_;
 };
 
 }  // namespace phongpd

@@ -26,10 +26,9 @@ constexpr int kWaypoints = 6;
 const Vector3d kStart(-2.0, 0.1, 0.05);
 const Vector3d kGoal(2.0, -0.1, 0.1);
 
-std::shared_ptr<const SignedMetric> Metric(const TriangleMesh& mesh, int rows,
+std::shared_ptr<const SignedMetric> Metric(const TriangleMesh& mesh,
                                            JacobianKind jacobian) {
   SignedMetricOptions options;
-  options.rows = rows;
   options.jacobian = jacobian;
   return std::make_shared<SignedMetric>(mesh, options);
 }
@@ -64,7 +63,7 @@ Rows Evaluate(const NonPenetrationConstraint& rows, const VectorXd& u,
 }
 
 TEST(NonPenetration, CountsRowsAndPatternBySampleWaypointAndSpace) {
-  const Metrics one{Metric(Ball({0, 0, 0}), 1, JacobianKind::kExact)};
+  const Metrics one{Metric(Ball({0, 0, 0}), JacobianKind::kExact)};
   const std::vector<int> none(kWaypoints + 1, 0), two(kWaypoints + 1, 2);
   const NonPenetrationConstraint waypoints(one, kStart, kGoal, kWaypoints,
                                            none);
@@ -75,10 +74,14 @@ TEST(NonPenetration, CountsRowsAndPatternBySampleWaypointAndSpace) {
   // First and last segment touch one free waypoint, the others two.
   EXPECT_EQ(dense.nonzeros(),
             3 * kWaypoints + 2 * (2 * 3 + (kWaypoints - 1) * 6));
-  const Metrics three(3, Metric(Ball({0, 0, 0}), 2, JacobianKind::kExact));
-  const NonPenetrationConstraint all(three, kStart, kGoal, kWaypoints, two);
+  const Metrics three(3, Metric(Ball({0, 0, 0}), JacobianKind::kExact));
+  NonPenetrationOptions twice;
+  twice.rows = 2;
+  const NonPenetrationConstraint all(three, kStart, kGoal, kWaypoints, two,
+                                     twice);
   EXPECT_EQ(all.rows(), 6 * dense.rows());
   NonPenetrationOptions merged;
+  merged.rows = 2;
   merged.merge_spaces = true;
   EXPECT_EQ(
       NonPenetrationConstraint(three, kStart, kGoal, kWaypoints, two, merged)
@@ -100,7 +103,7 @@ TEST(NonPenetration, ValuesAreTheMetricAtTheSamples) {
   frame.unit = 2.5;
   NonPenetrationOptions options;
   options.frame = frame;
-  const auto metric = Metric(Ball({0, 0, 0}), 1, JacobianKind::kDirection);
+  const auto metric = Metric(Ball({0, 0, 0}), JacobianKind::kDirection);
   const NonPenetrationConstraint rows({metric}, kStart, kGoal, kWaypoints,
                                       std::vector<int>(kWaypoints + 1, 2),
                                       options);
@@ -127,12 +130,13 @@ TEST(NonPenetration, ExactJacobianIsTheDerivativeForSeveralSpaces) {
   for (const bool merge : {false, true}) {
     NonPenetrationOptions options;
     options.frame.unit = 3.0;
+    options.rows = 2;
     options.merge_spaces = merge;
     const Metrics metrics{
-        Metric(Ball({-0.7, 0.2, 0.0}), 2, JacobianKind::kExact),
+        Metric(Ball({-0.7, 0.2, 0.0}), JacobianKind::kExact),
         Metric(Rotated(MakeBox({0.2, -0.5, -0.4}, {1.2, 0.5, 0.6}),
                        GenericRotation()),
-               2, JacobianKind::kExact)};
+               JacobianKind::kExact)};
     const NonPenetrationConstraint rows(metrics, kStart, kGoal, kWaypoints,
                                         {0, 1, 2, 3, 2, 1, 0}, options);
     std::vector<int> row(static_cast<std::size_t>(rows.nonzeros())), col(row);
@@ -170,7 +174,7 @@ TEST(NonPenetration, ExactJacobianIsTheDerivativeForSeveralSpaces) {
 // Points a solver tries and rejects leave no trace.
 TEST(NonPenetration, OnlyCommitAdvancesBranches) {
   const Metrics metrics{Metric(Rotated(MakeU(2.0, 0.4, 1.0), GenericRotation()),
-                               1, JacobianKind::kDirection)};
+                               JacobianKind::kDirection)};
   NonPenetrationOptions options;
   const NonPenetrationConstraint rows(metrics, kStart, kGoal, kWaypoints,
                                       std::vector<int>(kWaypoints + 1, 3),
@@ -197,7 +201,7 @@ TEST(NonPenetration, OnlyCommitAdvancesBranches) {
 
 TEST(NonPenetration, PoliciesDifferInWhatTheyKeep) {
   const Metrics metrics{Metric(Rotated(MakeU(2.0, 0.4, 1.0), GenericRotation()),
-                               1, JacobianKind::kDirection)};
+                               JacobianKind::kDirection)};
   const std::vector<int> samples(kWaypoints + 1, 3);
   for (const BranchPolicy policy :
        {BranchPolicy::kCommit, BranchPolicy::kStateless,
@@ -231,9 +235,12 @@ TEST(NonPenetration, PoliciesDifferInWhatTheyKeep) {
 }
 
 TEST(NonPenetration, RefusesPointsThatAreNotFinite) {
-  const Metrics metrics{Metric(Ball({0, 0, 0}), 3, JacobianKind::kDirection)};
+  const Metrics metrics{Metric(Ball({0, 0, 0}), JacobianKind::kDirection)};
+  NonPenetrationOptions options;
+  options.rows = 3;
   const NonPenetrationConstraint rows(metrics, kStart, kGoal, kWaypoints,
-                                      std::vector<int>(kWaypoints + 1, 1));
+                                      std::vector<int>(kWaypoints + 1, 1),
+                                      options);
   VectorXd u = Line(0.0, 0);
   BranchSet branches = rows.Start(u.data(), nullptr);
   VectorXd values(rows.rows()), jacobian(rows.nonzeros());
@@ -253,7 +260,7 @@ TEST(NonPenetration, RefusesPointsThatAreNotFinite) {
 }
 
 TEST(NonPenetration, NamesBadInput) {
-  const Metrics metrics{Metric(Ball({0, 0, 0}), 1, JacobianKind::kDirection)};
+  const Metrics metrics{Metric(Ball({0, 0, 0}), JacobianKind::kDirection)};
   const std::vector<int> samples(kWaypoints + 1, 1);
   const auto make = [&](const Metrics& m, const Vector3d& start, int n,
                         const std::vector<int>& s) {
@@ -263,6 +270,11 @@ TEST(NonPenetration, NamesBadInput) {
   EXPECT_THROW(make({nullptr}, kStart, kWaypoints, samples), InputError);
   EXPECT_THROW(make(metrics, kStart, 0, {1}), InputError);
   EXPECT_THROW(make(metrics, kStart, kWaypoints, {1, 2}), InputError);
+  NonPenetrationOptions nine;
+  nine.rows = 9;
+  EXPECT_THROW(NonPenetrationConstraint(metrics, kStart, kGoal, kWaypoints,
+                                        samples, nine),
+               InputError);
   EXPECT_THROW(make(metrics, Vector3d(NAN, 0, 0), kWaypoints, samples),
                InputError);
 }

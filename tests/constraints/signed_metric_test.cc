@@ -22,12 +22,10 @@ namespace {
 
 using Eigen::Vector3d;
 
-SignedMetricOptions Options(MetricKind metric, JacobianKind jacobian,
-                            int rows = 1) {
+SignedMetricOptions Options(MetricKind metric, JacobianKind jacobian) {
   SignedMetricOptions options;
   options.metric = metric;
   options.jacobian = jacobian;
-  options.rows = rows;
   return options;
 }
 
@@ -75,8 +73,8 @@ TEST(SignedMetric, ExactJacobianIsTheDerivative) {
       for (int axis = 0; axis < 3; ++axis) {
         const Vector3d step = h * Vector3d::Unit(axis);
         MetricRow ahead, behind;
-        metric.Query(q + step, row.branch, &ahead);
-        metric.Query(q - step, row.branch, &behind);
+        metric.Query(q + step, row.branch, 1, &ahead);
+        metric.Query(q - step, row.branch, 1, &behind);
         difference[axis] = (ahead.value - behind.value) / (2.0 * h);
       }
       ++compared;
@@ -125,7 +123,7 @@ TEST(SignedMetric, DirectionPointsUphill) {
 TEST(SignedMetric, IsSoundOnAndBesideFeatures) {
   const TriangleMesh mesh = MakeBox({-1, -1, -1}, {1, 1, 1});
   for (const MetricKind kind : {MetricKind::kPhong, MetricKind::kEuclidean}) {
-    const SignedMetric metric(mesh, Options(kind, JacobianKind::kExact, 3));
+    const SignedMetric metric(mesh, Options(kind, JacobianKind::kExact));
     int sides[2] = {0, 0};
     for (const Vector3d& feature :
          {Vector3d(1, 1, 1), Vector3d(1, 1, 0.3), Vector3d(1, 0.2, 0.3),
@@ -134,7 +132,7 @@ TEST(SignedMetric, IsSoundOnAndBesideFeatures) {
         for (int axis = 0; axis < 3; ++axis) {
           const Vector3d q = feature + step * Vector3d::Unit(axis);
           MetricRow rows[3];
-          metric.Query(q, Branch(), rows);
+          metric.Query(q, Branch(), 3, rows);
           ++sides[rows[0].inside ? 1 : 0];
           EXPECT_LE(std::abs(rows[0].value), 2e-12);
           EXPECT_EQ(rows[0].inside, q.cwiseAbs().maxCoeff() < 1.0);
@@ -154,14 +152,13 @@ TEST(SignedMetric, HoldsNoNanForAnyInput) {
   const double inf = std::numeric_limits<double>::infinity();
   const double nan = std::numeric_limits<double>::quiet_NaN();
   for (const MetricKind kind : {MetricKind::kPhong, MetricKind::kEuclidean}) {
-    const SignedMetric metric(TurnedU(),
-                              Options(kind, JacobianKind::kExact, 4));
+    const SignedMetric metric(TurnedU(), Options(kind, JacobianKind::kExact));
     for (const double x :
          {inf, -inf, nan, 1e308, -1e308, 1e200, 1e9, 1e-308, 5e-324, 0.0}) {
       for (const Vector3d& q :
            {Vector3d(x, 0, 0), Vector3d(x, x, x), Vector3d(0.1, x, -x)}) {
         MetricRow rows[4];
-        metric.Query(q, Branch(), rows);
+        metric.Query(q, Branch(), 4, rows);
         for (const MetricRow& row : rows) {
           EXPECT_TRUE(std::isfinite(row.value)) << q.transpose();
           EXPECT_TRUE(row.gradient.allFinite()) << q.transpose();
@@ -210,14 +207,14 @@ TEST(SignedMetric, RowsEqualTheScanOfAllTriangles) {
   const TriangleMesh mesh =
       Rotated(MakePlateWithHole(2.0, 0.2, 0.4), GenericRotation());
   const SignedMetric metric(
-      mesh, Options(MetricKind::kPhong, JacobianKind::kDirection, 4));
+      mesh, Options(MetricKind::kPhong, JacobianKind::kDirection));
   std::mt19937_64 random(5);
   int extra = 0, repeated = 0;
   for (int i = 0; i < 2000; ++i) {
     const Vector3d q =
         RandomPoint(metric.bounds(), i % 2 == 0 ? 0.0 : 4.0, &random);
     MetricRow rows[4];
-    metric.Query(q, Branch(), rows);
+    metric.Query(q, Branch(), 4, rows);
     if (rows[0].inside) {
       for (int k = 1; k < 4; ++k) {
         EXPECT_TRUE(rows[k].is_repeated);
@@ -249,11 +246,11 @@ TEST(SignedMetric, RowsEqualTheScanOfAllTriangles) {
 // Every further row is a necessary condition of the same constraint.
 TEST(SignedMetric, FurtherRowsAreNeverLess) {
   const SignedMetric metric(
-      TurnedU(), Options(MetricKind::kEuclidean, JacobianKind::kExact, 3));
+      TurnedU(), Options(MetricKind::kEuclidean, JacobianKind::kExact));
   std::mt19937_64 random(6);
   for (int i = 0; i < 2000; ++i) {
     MetricRow rows[3];
-    metric.Query(RandomPoint(metric.bounds(), 0.5, &random), Branch(), rows);
+    metric.Query(RandomPoint(metric.bounds(), 0.5, &random), Branch(), 3, rows);
     EXPECT_GE(rows[1].value, rows[0].value - 1e-12);
     EXPECT_GE(rows[2].value, rows[rows[2].is_repeated ? 0 : 1].value - 1e-12);
   }
@@ -262,15 +259,15 @@ TEST(SignedMetric, FurtherRowsAreNeverLess) {
 TEST(SignedMetric, ScalesBitForBitWithTheInput) {
   const TriangleMesh mesh = TurnedU();
   const SignedMetricOptions options =
-      Options(MetricKind::kPhong, JacobianKind::kDirection, 3);
+      Options(MetricKind::kPhong, JacobianKind::kDirection);
   const SignedMetric metric(mesh, options);
   const SignedMetric scaled(Scaled(mesh, 1024.0), options);
   std::mt19937_64 random(7);
   for (int i = 0; i < 300; ++i) {
     const Vector3d q = RandomPoint(metric.bounds(), 0.3, &random);
     MetricRow a[3], b[3];
-    metric.Query(q, Branch(), a);
-    scaled.Query(1024.0 * q, Branch(), b);
+    metric.Query(q, Branch(), 3, a);
+    scaled.Query(1024.0 * q, Branch(), 3, b);
     for (int k = 0; k < 3; ++k) {
       EXPECT_EQ(1024.0 * a[k].value, b[k].value);
       EXPECT_EQ(a[k].gradient, b[k].gradient);
@@ -281,9 +278,6 @@ TEST(SignedMetric, ScalesBitForBitWithTheInput) {
 TEST(SignedMetric, NamesBadOptions) {
   const TriangleMesh box = MakeBox({0, 0, 0}, {1, 1, 1});
   SignedMetricOptions options;
-  options.rows = 9;
-  EXPECT_THROW(SignedMetric(box, options), InputError);
-  options = {};
   options.separation = std::numeric_limits<double>::quiet_NaN();
   EXPECT_THROW(SignedMetric(box, options), InputError);
   options = {};
