@@ -1,19 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "problems/scene_library.h"
 
-#include <array>
 #include <nlohmann/json.hpp>
 
 #include "problems/scene_recipes.h"
-#include "problems/scene_shapes.h"
-#include "problems/shapes.h"
 
 namespace phongpd {
 namespace {
 
 using Json = nlohmann::ordered_json;
 using Values = std::map<std::string, double>;
-using Triple = std::array<double, 3>;
 
 template <typename Items, typename Name>
 std::string Listed(const Items& items, Name name) {
@@ -78,22 +74,6 @@ Json MakeScene(const std::string& name, const Values& knobs) {
         {"smoothing_length", 0.1},
         {"jacobian", "direction"}}},
   };
-}
-
-SceneMeshes BuildSceneMeshes(const Json& scene, const std::string& name) {
-  SceneMeshes meshes;
-  meshes.robot = MakeShape(scene["robot"]["shape"], name + ": /robot/shape");
-  const Json& obstacles = scene["obstacles"];
-  for (std::size_t i = 0; i < obstacles.size(); ++i) {
-    const Json& obstacle = obstacles[i];
-    const auto position = obstacle["position"].get<Triple>();
-    const TriangleMesh placed = Translated(
-        MakeShape(obstacle["shape"],
-                  name + ": /obstacles/" + std::to_string(i) + "/shape"),
-        {position[0], position[1], position[2]});
-    meshes.obstacle = Joined(meshes.obstacle, placed);
-  }
-  return meshes;
 }
 
 }  // namespace phongpd

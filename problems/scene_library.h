@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "core/mesh/mesh_error.h"
-#include "core/mesh/triangle_mesh.h"
 
 // Procedural scenes, each with knobs: sizes in the scene's unit and counts.
 namespace phongpd {
@@ -32,16 +31,5 @@ const std::vector<SceneFamily>& SceneFamilies();
 // unknown family or knob.
 nlohmann::ordered_json MakeScene(const std::string& name,
                                  const std::map<std::string, double>& knobs);
-
-// The operands of a scene whose solids are all `shape` objects: the robot,
-// and all obstacles, each moved to its position, as one mesh.
-struct SceneMeshes {
-  TriangleMesh robot;
-  TriangleMesh obstacle;
-};
-
-// Throws InputError starting with `name` and a JSON pointer.
-SceneMeshes BuildSceneMeshes(const nlohmann::ordered_json& scene,
-                             const std::string& name);
 
 }  // namespace phongpd
