@@ -94,11 +94,11 @@ TriangleMesh Solid(const Json& value, const JsonPlace& place,
   return mesh;
 }
 
-std::vector<SceneObstacle> Obstacles(const Json& value, const JsonPlace& place,
-                                     const std::string& directory,
-                                     std::vector<std::string>* warnings) {
+std::vector<Obstacle> Obstacles(const Json& value, const JsonPlace& place,
+                                const std::string& directory,
+                                std::vector<std::string>* warnings) {
   std::set<std::string> ids;
-  std::vector<SceneObstacle> obstacles;
+  std::vector<Obstacle> obstacles;
   for (std::size_t i = 0; i < value.size(); ++i) {
     const JsonPlace here = place.Child(i);
     const std::string id = value[i].value("id", "obstacle" + std::to_string(i));
@@ -231,29 +231,8 @@ Scene ReadScene(const std::string& path) {
                     file.parent_path().string(), file.stem().string());
 }
 
-std::vector<int> RelevantObstacles(const Scene& scene) {
-  const BoundingBox robot = ComputeBounds(scene.robot);
-  std::vector<int> relevant;
-  for (std::size_t i = 0; i < scene.obstacles.size(); ++i) {
-    const BoundingBox obstacle = ComputeBounds(scene.obstacles[i].mesh);
-    // The box of C_obj = B ⊕ (−R), wider by more than it can be rounded.
-    const double rounding =
-        1e-12 *
-        (robot.Diagonal() +
-         obstacle.min.cwiseAbs().cwiseMax(obstacle.max.cwiseAbs()).maxCoeff());
-    const Vector3d min = (obstacle.min - robot.max).array() - rounding;
-    const Vector3d max = (obstacle.max - robot.min).array() + rounding;
-    const bool meets = (min.array() <= scene.bounds.max.array()).all() &&
-                       (max.array() >= scene.bounds.min.array()).all();
-    if (scene.bounds.IsEmpty() || meets) {
-      relevant.push_back(static_cast<int>(i));
-    }
-  }
-  return relevant;
-}
-
 std::string SkippedObstaclesNote(const Scene& scene) {
-  const std::vector<int> relevant = RelevantObstacles(scene);
+  const std::vector<int> relevant = ReachableObstacles(scene);
   const std::set<int> kept(relevant.begin(), relevant.end());
   std::string list;
   for (std::size_t i = 0; i < scene.obstacles.size(); ++i) {
@@ -262,14 +241,6 @@ std::string SkippedObstaclesNote(const Scene& scene) {
   }
   if (list.empty()) return list;
   return "cannot be touched within the bounds, skipped: " + list;
-}
-
-TriangleMesh JoinedObstacle(const Scene& scene) {
-  TriangleMesh joined;
-  for (const SceneObstacle& obstacle : scene.obstacles) {
-    joined = Joined(joined, obstacle.mesh);
-  }
-  return joined;
 }
 
 }  // namespace phongpd

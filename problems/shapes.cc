@@ -205,17 +205,6 @@ TriangleMesh MakeKnot(double size, double tube, int around, int across) {
   return mesh;
 }
 
-TriangleMesh Joined(const TriangleMesh& a, const TriangleMesh& b) {
-  TriangleMesh mesh = a;
-  const int offset = static_cast<int>(a.vertices.size());
-  mesh.vertices.insert(mesh.vertices.end(), b.vertices.begin(),
-                       b.vertices.end());
-  for (const auto& [i, j, k] : b.triangles) {
-    mesh.triangles.push_back({i + offset, j + offset, k + offset});
-  }
-  return mesh;
-}
-
 Eigen::Matrix3d GenericRotation() {
   return (Eigen::AngleAxisd(0.4, Vector3d::UnitX()) *
           Eigen::AngleAxisd(0.9, Vector3d::UnitY()) *

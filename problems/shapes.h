@@ -93,9 +93,6 @@ TriangleMesh MakeBlob(double radius, int levels, double roughness,
 // 2·around·across triangles, around ≥ 32.
 TriangleMesh MakeKnot(double size, double tube, int around, int across);
 
-// The triangles of both, nothing merged or cut (components may overlap).
-TriangleMesh Joined(const TriangleMesh& a, const TriangleMesh& b);
-
 // Rotation by no special angle (0.7 rad about z, 0.9 about y, 0.4 about x),
 // for meshes that must not be axis-aligned.
 Eigen::Matrix3d GenericRotation();

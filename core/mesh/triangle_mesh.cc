@@ -136,4 +136,15 @@ TriangleMesh Rotated(TriangleMesh mesh, const Eigen::Matrix3d& rotation) {
   return mesh;
 }
 
+TriangleMesh Joined(const TriangleMesh& a, const TriangleMesh& b) {
+  TriangleMesh mesh = a;
+  const int offset = static_cast<int>(a.vertices.size());
+  mesh.vertices.insert(mesh.vertices.end(), b.vertices.begin(),
+                       b.vertices.end());
+  for (const auto& [i, j, k] : b.triangles) {
+    mesh.triangles.push_back({i + offset, j + offset, k + offset});
+  }
+  return mesh;
+}
+
 }  // namespace phongpd

@@ -59,4 +59,7 @@ TriangleMesh Scaled(TriangleMesh mesh, double factor);
 // The mesh rotated: every vertex v becomes rotation · v.
 TriangleMesh Rotated(TriangleMesh mesh, const Eigen::Matrix3d& rotation);
 
+// Both meshes as one; what touches stays apart.
+TriangleMesh Joined(const TriangleMesh& a, const TriangleMesh& b);
+
 }  // namespace phongpd

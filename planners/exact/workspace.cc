@@ -34,15 +34,6 @@ void AppendBox(const BoundingBox& box, bool outward, TriangleMesh* mesh) {
   }
 }
 
-void Append(const TriangleMesh& part, TriangleMesh* mesh) {
-  const int first = static_cast<int>(mesh->vertices.size());
-  mesh->vertices.insert(mesh->vertices.end(), part.vertices.begin(),
-                        part.vertices.end());
-  for (const Triangle& t : part.triangles) {
-    mesh->triangles.push_back({first + t[0], first + t[1], first + t[2]});
-  }
-}
-
 }  // namespace
 
 void Workspace::Validate() const {
@@ -78,16 +69,31 @@ TriangleMesh BoundsShell(const Workspace& workspace) {
   return shell;
 }
 
-TriangleMesh MergedObstacle(const Workspace& workspace) {
-  TriangleMesh merged;
+TriangleMesh JoinedObstacle(const Workspace& workspace) {
+  TriangleMesh joined;
   for (const int i : ReachableObstacles(workspace)) {
-    Append(workspace.obstacles[static_cast<std::size_t>(i)].mesh, &merged);
+    joined =
+        Joined(joined, workspace.obstacles[static_cast<std::size_t>(i)].mesh);
   }
-  if (!workspace.bounds.IsEmpty()) Append(BoundsShell(workspace), &merged);
+  return joined;
+}
+
+TriangleMesh MergedObstacle(const Workspace& workspace) {
+  TriangleMesh merged = JoinedObstacle(workspace);
+  if (!workspace.bounds.IsEmpty()) {
+    merged = Joined(merged, BoundsShell(workspace));
+  }
   if (merged.triangles.empty()) {
     throw InputError("workspace: expected an obstacle or bounds, found none");
   }
   return merged;
+}
+
+BoundingBox ContactBounds(const Workspace& workspace) {
+  const BoundingBox robot = ComputeBounds(workspace.robot);
+  const BoundingBox box = ComputeBounds(JoinedObstacle(workspace));
+  if (box.IsEmpty()) return workspace.bounds;
+  return {box.min - robot.max, box.max - robot.min};
 }
 
 std::vector<int> ReachableObstacles(const Workspace& workspace) {
@@ -95,8 +101,12 @@ std::vector<int> ReachableObstacles(const Workspace& workspace) {
   std::vector<int> reachable;
   for (std::size_t i = 0; i < workspace.obstacles.size(); ++i) {
     const BoundingBox box = ComputeBounds(workspace.obstacles[i].mesh);
-    const Vector3d min = box.min - robot.max;
-    const Vector3d max = box.max - robot.min;
+    // The box of B ⊕ (−A), wider by more than it can be rounded.
+    const double rounding =
+        1e-12 * (robot.Diagonal() +
+                 box.min.cwiseAbs().cwiseMax(box.max.cwiseAbs()).maxCoeff());
+    const Vector3d min = (box.min - robot.max).array() - rounding;
+    const Vector3d max = (box.max - robot.min).array() + rounding;
     if (workspace.bounds.IsEmpty() ||
         ((min.array() <= workspace.bounds.max.array()).all() &&
          (max.array() >= workspace.bounds.min.array()).all())) {

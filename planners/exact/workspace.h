@@ -34,14 +34,23 @@ struct Workspace {
 // inner one.  Requires bounds.
 TriangleMesh BoundsShell(const Workspace& workspace);
 
-// All obstacles and the bounds shell, if there are bounds, as one operand of
-// BuildContactSpace; components may overlap or touch, and C_cont is then the
-// boundary of their union.  That is what cells of free space need, and one
-// row a sample for an optimiser.  Throws InputError if there is nothing.
+// Indices of the obstacles the robot may touch at some q within the bounds:
+// whose contact space has a bounding box that meets them.  The others need no
+// contact space.  All of them without bounds.
+std::vector<int> ReachableObstacles(const Workspace& workspace);
+
+// The reachable obstacles as one operand of BuildContactSpace; components may
+// overlap or touch, and C_cont is then the boundary of their union.  One row a
+// sample for an optimiser.  May be empty.
+TriangleMesh JoinedObstacle(const Workspace& workspace);
+
+// The same with the bounds shell, if there are bounds: what cells of free
+// space need.  Throws InputError if there is nothing.
 TriangleMesh MergedObstacle(const Workspace& workspace);
 
-// Indices of the obstacles the robot can touch at some q within the bounds:
-// whose Minkowski bounding box meets them.  All of them without bounds.
-std::vector<int> ReachableObstacles(const Workspace& workspace);
+// The bounding box of JoinedObstacle's contact space, without building it; the
+// bounds where no obstacle is reachable.  Its diagonal D is the length that
+// margins and smoothing lengths of a scene are fractions of.
+BoundingBox ContactBounds(const Workspace& workspace);
 
 }  // namespace phongpd

@@ -172,12 +172,12 @@ TEST(Scene, KnowsWhichObstaclesCanTouch) {
                          {"position", {x, 0, 0}}});
   }
   const Scene scene = ParseScene(json, "s.json");
-  EXPECT_EQ(RelevantObstacles(scene), (std::vector<int>{0, 1}));
+  EXPECT_EQ(ReachableObstacles(scene), (std::vector<int>{0, 1}));
   EXPECT_EQ(SkippedObstaclesNote(scene),
             "cannot be touched within the bounds, skipped: at 6.750000, "
             "at -6.750000");
   json.erase("bounds");
-  EXPECT_EQ(RelevantObstacles(ParseScene(json, "s.json")).size(), 4U);
+  EXPECT_EQ(ReachableObstacles(ParseScene(json, "s.json")).size(), 4U);
   EXPECT_EQ(SkippedObstaclesNote(ParseScene(json, "s.json")), "");
 }
 

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "problems/scene_space.h"
+
+#include <chrono>
+
+#include "core/mesh/mesh_error.h"
+
+namespace phongpd {
+namespace {
+
+// Builds contact spaces of one robot and adds up what they cost.
+class Builder {
+ public:
+  Builder(const Scene& scene, const ContactSpaceCache& cache, SceneSpace* space)
+      : scene_(scene), cache_(cache), space_(space) {}
+
+  ContactSpace Build(const TriangleMesh& obstacle, const std::string& name) {
+    ContactSpaceOptions options;
+    options.robot_name = scene_.name + ": robot";
+    options.obstacle_name = scene_.name + ": " + name;
+    ContactSpace built =
+        BuildContactSpaceCached(scene_.robot, obstacle, options, cache_);
+    space_->from_cache = space_->from_cache || built.report.from_cache;
+    for (const std::string& warning : built.report.warnings) {
+      space_->warnings.push_back(warning);
+    }
+    return built;
+  }
+
+  void Keep(ContactSpace built) {
+    space_->triangles += built.mesh.triangles.size();
+    space_->contact_meshes.push_back(std::move(built.mesh));
+  }
+
+ private:
+  const Scene& scene_;
+  const ContactSpaceCache& cache_;
+  SceneSpace* space_;
+};
+
+}  // namespace
+
+SceneSpace BuildSceneSpace(const Scene& scene, SpaceLayout layout,
+                           const ContactSpaceCache& cache) {
+  const auto begin = std::chrono::steady_clock::now();
+  SceneSpace space;
+  space.diagonal = ContactBounds(scene).Diagonal();
+  const std::vector<int> reachable = ReachableObstacles(scene);
+  if (reachable.empty() && scene.bounds.IsEmpty()) {
+    throw InputError(scene.name +
+                     ": expected an obstacle or bounds, found neither");
+  }
+  Builder builder(scene, cache, &space);
+  const bool is_sealed = !scene.bounds.IsEmpty();
+  if (layout == SpaceLayout::kPerObstacle) {
+    for (const int i : reachable) {
+      const Obstacle& obstacle = scene.obstacles[static_cast<std::size_t>(i)];
+      builder.Keep(builder.Build(obstacle.mesh, obstacle.id));
+    }
+  } else if (!reachable.empty()) {
+    ContactSpace merged = builder.Build(JoinedObstacle(scene), "obstacles");
+    if (!is_sealed) {
+      space.sealed_mesh = merged.mesh;
+      space.sealed_self_intersections =
+          static_cast<long>(merged.report.self_intersections);
+    }
+    builder.Keep(std::move(merged));
+  }
+  if (space.sealed_mesh.triangles.empty()) {
+    ContactSpace sealed =
+        builder.Build(MergedObstacle(scene),
+                      is_sealed ? "obstacles and bounds" : "obstacles");
+    space.sealed_mesh = std::move(sealed.mesh);
+    space.sealed_self_intersections =
+        static_cast<long>(sealed.report.self_intersections);
+  }
+  space.free_space =
+      std::make_shared<FreeSpace>(space.contact_meshes, scene.bounds);
+  space.seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - begin)
+          .count();
+  return space;
+}
+
+}  // namespace phongpd
