@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "problems/scene_library.h"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "problems/scene_placement.h"
 #include "problems/scene_recipes.h"
 
 namespace phongpd {
@@ -25,55 +27,43 @@ std::string Listed(const Items& items, Name name) {
 const std::vector<SceneFamily>& SceneFamilies() {
   static const std::vector<SceneFamily> families = [] {
     std::vector<SceneFamily> list;
-    for (const SceneRecipe& recipe : SceneRecipes())
+    for (const SceneRecipe& recipe : SceneRecipes()) {
       list.push_back(recipe.family);
+      std::vector<SceneKnob>& knobs = list.back().knobs;
+      knobs.insert(knobs.end(), CommonKnobs().begin(), CommonKnobs().end());
+    }
     return list;
   }();
   return families;
 }
 
 Json MakeScene(const std::string& name, const Values& knobs) {
-  const SceneRecipe* recipe = nullptr;
-  for (const SceneRecipe& candidate : SceneRecipes()) {
-    if (candidate.family.name == name) recipe = &candidate;
-  }
-  if (recipe == nullptr) {
+  const std::vector<SceneFamily>& families = SceneFamilies();
+  const auto family =
+      std::find_if(families.begin(), families.end(),
+                   [&](const SceneFamily& f) { return f.name == name; });
+  if (family == families.end()) {
     throw InputError(
         "scene: expected one of " +
-        Listed(SceneRecipes(),
-               [](const SceneRecipe& r) { return r.family.name; }) +
+        Listed(families, [](const SceneFamily& f) { return f.name; }) +
         ", found '" + name + "'");
   }
   Values values;
-  for (const SceneKnob& knob : recipe->family.knobs) {
+  for (const SceneKnob& knob : family->knobs) {
     values[knob.key] = knob.value;
   }
   for (const auto& [key, value] : knobs) {
     if (values.count(key) == 0) {
-      throw InputError("scene " + name + ": expected one of the knobs " +
-                       Listed(recipe->family.knobs,
-                              [](const SceneKnob& k) { return k.key; }) +
-                       ", found '" + key + "'");
+      throw InputError(
+          "scene " + name + ": expected one of the knobs " +
+          Listed(family->knobs, [](const SceneKnob& k) { return k.key; }) +
+          ", found '" + key + "'");
     }
     values[key] = value;
   }
-  const SceneLayout layout = recipe->make(values);
-  const double r = layout.reach;
-  return {
-      {"name", name},
-      {"robot", {{"shape", layout.robot}}},
-      {"obstacles", Json::array({{{"id", "obstacle"},
-                                  {"shape", layout.obstacle},
-                                  {"position", layout.position}}})},
-      {"bounds", {{"min", {-r, -r, -r}}, {"max", {r, r, r}}}},
-      {"start", layout.start},
-      {"goal", layout.goal},
-      {"penetration",
-       {{"metric", "phong"},
-        {"field", "normal"},
-        {"smoothing_length", 0.1},
-        {"jacobian", "direction"}}},
-  };
+  const SceneRecipe& recipe =
+      SceneRecipes()[static_cast<std::size_t>(family - families.begin())];
+  return PlacedScene(recipe, values);
 }
 
 }  // namespace phongpd
