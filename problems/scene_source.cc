@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "problems/scene_source.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "problems/scene_library.h"
+#include "problems/text.h"
+
+namespace phongpd {
+
+SceneSource::SceneSource(const std::string& text) : text_(text), label_(text) {
+  const std::size_t colon = text.find(':');
+  family_ = text.substr(0, colon);
+  const std::vector<SceneFamily>& families = SceneFamilies();
+  const bool is_known =
+      std::any_of(families.begin(), families.end(),
+                  [&](const SceneFamily& f) { return f.name == family_; });
+  if (!is_known) {
+    if (!std::filesystem::exists(text)) {
+      throw InputError(text +
+                       ": expected a scene file or a family with knobs, "
+                       "FAMILY:key=value,...; found neither (see phongpd "
+                       "scenes list)");
+    }
+    is_file_ = true;
+    label_ = std::filesystem::path(text).stem().string();
+    return;
+  }
+  if (colon == std::string::npos) return;
+  std::istringstream settings(text.substr(colon + 1));
+  for (std::string setting; std::getline(settings, setting, ',');) {
+    const std::size_t equals = setting.find('=');
+    if (equals == std::string::npos) {
+      throw InputError(text + ": expected key=value, found '" + setting + "'");
+    }
+    const std::string key = setting.substr(0, equals);
+    knobs_[key] = ParseDouble(setting.substr(equals + 1), text + ": " + key);
+  }
+}
+
+Scene SceneSource::Load(std::optional<std::uint64_t> seed) const {
+  if (is_file_) return ReadScene(text_);
+  std::map<std::string, double> knobs = knobs_;
+  if (seed) knobs["seed"] = static_cast<double>(*seed);
+  Scene scene = ParseScene(MakeScene(family_, knobs), text_);
+  scene.name = label_;
+  return scene;
+}
+
+}  // namespace phongpd
