@@ -283,6 +283,7 @@ bool SegmentTree::Meets(const Vector3d& a, const Vector3d& b) const noexcept {
 SegmentTree::Hit SegmentTree::First(const Vector3d& a, const Vector3d& b,
                                     double radius) const noexcept {
   const Reach reach(*this, a, b);
+  const double length = (b - a).norm();
   Hit first;
   tree_.NearestFirst(
       1.0,
@@ -297,8 +298,11 @@ SegmentTree::Hit SegmentTree::First(const Vector3d& a, const Vector3d& b,
         if (MeetsTriangle(t, a, b, &fraction) &&
             (!first.Found() || fraction < first.fraction) &&
             !(radius >= 0.0 &&
-              ClosestOnTriangle(t[0], t[1], t[2], a).squared_distance <=
-                  radius * radius)) {
+              // The hit itself bounds the distance, better than the closest
+              // point does on a sliver.
+              (fraction * length <= radius ||
+               ClosestOnTriangle(t[0], t[1], t[2], a).squared_distance <=
+                   radius * radius))) {
           first = {tree_.order()[position], fraction};
         }
         return first.fraction;

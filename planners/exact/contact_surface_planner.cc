@@ -245,8 +245,6 @@ void ContactSurfacePlanner::Impl::FindPath(const Vector3d& start,
   const int count = static_cast<int>(graph.sites().size());
   const int end = count + static_cast<int>(attachments.size());
   std::set<SurfaceGraph::Edge> deleted;
-  // Below an ulp of the coordinates nothing moves any more.
-  const double least = std::ldexp(cells.rounding(), -7);
   while (result->searches < options.max_searches) {
     ++result->searches;
     const SurfaceGraph::Route route =
@@ -265,7 +263,7 @@ void ContactSurfacePlanner::Impl::FindPath(const Vector3d& start,
     sites.emplace_back();
     sites.back().point = goal;
     const int blocked = LiftRoute(sites, segments, result->wanted_clearance,
-                                  least, &result->raw_path, &result->lift);
+                                  cells.rounding(), &result->raw_path, &result->lift);
     if (blocked < 0) return Finish(result);
     const int before = blocked == 0 ? -1 : route[blocked - 1];
     const int after =

@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "planners/exact/path_lift.h"
 
-#include <algorithm>
+#include <cmath>
 
 namespace phongpd {
 
 using Eigen::Vector3d;
 
 int LiftRoute(const std::vector<SurfaceSite>& sites,
-              const SegmentTree& segments, double clearance, double least,
+              const SegmentTree& segments, double clearance, double rounding,
               std::vector<Vector3d>* path, LiftCounts* counts) {
+  // Below an ulp of the coordinates nothing moves any more.
+  const double least = std::ldexp(rounding, -7);
   std::vector<double> lift(sites.size(), 0.0);
   path->resize(sites.size());
   for (std::size_t i = 0; i < sites.size(); ++i) {
@@ -19,7 +21,7 @@ int LiftRoute(const std::vector<SurfaceSite>& sites,
     // Half the gap is less than the clearance only if something is nearer
     // than twice the clearance.
     const SegmentTree::Hit hit = segments.FirstHitBeyond(
-        site.point, site.point + 2.0 * clearance * site.direction, least);
+        site.point, site.point + 2.0 * clearance * site.direction, rounding);
     lift[i] = hit.fraction * clearance;
     (*path)[i] += lift[i] * site.direction;
   }

@@ -22,10 +22,11 @@ struct LiftCounts {
 //
 // Complete: a polyline over an embedded surface that is lifted little enough
 // is free.  Returns the index of the first segment, point k → point k + 1,
-// for which lifts became smaller than `least`, and −1 with all segments free
-// of contact by exact tests; *path then holds the points.
+// for which lifts became as small as rounding allows, and −1 with all segments
+// free of contact by exact tests; *path then holds the points.  Sites lie on
+// the surface within `rounding`, 2⁻⁴⁶ of the largest coordinate.
 int LiftRoute(const std::vector<SurfaceSite>& sites,
-              const SegmentTree& segments, double clearance, double least,
+              const SegmentTree& segments, double clearance, double rounding,
               std::vector<Eigen::Vector3d>* path, LiftCounts* counts);
 
 }  // namespace phongpd
