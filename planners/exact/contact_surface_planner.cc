@@ -262,8 +262,9 @@ void ContactSurfacePlanner::Impl::FindPath(const Vector3d& start,
     }
     sites.emplace_back();
     sites.back().point = goal;
-    const int blocked = LiftRoute(sites, segments, result->wanted_clearance,
-                                  cells.rounding(), &result->raw_path, &result->lift);
+    const int blocked =
+        LiftRoute(sites, segments, result->wanted_clearance, cells.rounding(),
+                  &result->raw_path, &result->lift);
     if (blocked < 0) return Finish(result);
     const int before = blocked == 0 ? -1 : route[blocked - 1];
     const int after =

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "planners/exact/path_lift.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace phongpd {
@@ -12,23 +13,38 @@ int LiftRoute(const std::vector<SurfaceSite>& sites,
               std::vector<Vector3d>* path, LiftCounts* counts) {
   // Below an ulp of the coordinates nothing moves any more.
   const double least = std::ldexp(rounding, -7);
-  std::vector<double> lift(sites.size(), 0.0);
-  path->resize(sites.size());
-  for (std::size_t i = 0; i < sites.size(); ++i) {
+  const std::size_t count = sites.size();
+  std::vector<double> lift(count, 0.0);
+  std::vector<double> room(count);  // first lift, or clearance of what stays
+  path->resize(count);
+  for (std::size_t i = 0; i < count; ++i) {
     const SurfaceSite& site = sites[i];
     (*path)[i] = site.point;
-    if (site.direction.isZero()) continue;
+    if (site.direction.isZero()) {
+      room[i] = segments.Distance(site.point, site.point, clearance);
+      continue;
+    }
     // Half the gap is less than the clearance only if something is nearer
     // than twice the clearance.
-    const SegmentTree::Hit hit = segments.FirstHitBeyond(
-        site.point, site.point + 2.0 * clearance * site.direction, rounding);
-    lift[i] = hit.fraction * clearance;
+    room[i] = clearance *
+              FirstAbove(site, segments, 2.0 * clearance, rounding).fraction;
+    lift[i] = room[i];
     (*path)[i] += lift[i] * site.direction;
   }
+  // What is left of the rooms of two ends when they have been lowered.
+  const auto height = [&](std::size_t i) {
+    return lift[i] > 0.0 ? lift[i] : room[i];
+  };
+  const auto grazes = [&](std::size_t k) {
+    const double low = std::min(height(k), height(k + 1));
+    return std::max(lift[k], lift[k + 1]) >
+               0.125 * std::min(room[k], room[k + 1]) &&
+           segments.Distance((*path)[k], (*path)[k + 1], 0.5 * low) < 0.5 * low;
+  };
   std::size_t k = 0;
-  while (k + 1 < sites.size()) {
+  while (k + 1 < count) {
     ++counts->tests;
-    if (!segments.Meets((*path)[k], (*path)[k + 1])) {
+    if (!segments.Meets((*path)[k], (*path)[k + 1]) && !grazes(k)) {
       ++counts->lifted;
       ++k;
       continue;

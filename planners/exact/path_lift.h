@@ -18,7 +18,10 @@ struct LiftCounts {
 // Lifts a route off the surface: every site moves along its direction by
 // min(clearance, half the free gap there), and while a segment is blocked the
 // larger lift of its two ends is halved (halving both would lose the
-// clearance that a passage has).  Sites without direction stay.
+// clearance that a passage has).  Sites without direction stay.  A segment
+// that is free but leaves less than half of what its ends have been lifted by
+// counts as blocked too, until its lifts are an eighth of the smaller first
+// one: so a segment into a passage does not graze its rim.
 //
 // Complete: a polyline over an embedded surface that is lifted little enough
 // is free.  Returns the index of the first segment, point k → point k + 1,

@@ -25,6 +25,22 @@ Vector3d MeanDirection(const Vector3d& m, const Vector3d& n) {
 
 }  // namespace
 
+SegmentTree::Hit FirstAbove(const SurfaceSite& site,
+                            const SegmentTree& segments, double reach,
+                            double rounding) {
+  const Vector3d end = site.point + reach * site.direction;
+  // Where a sliver is hit is less certain than rounding.
+  for (double radius = rounding; radius < 1e9 * rounding; radius *= 16.0) {
+    const SegmentTree::Hit hit =
+        segments.FirstHitBeyond(site.point, end, radius);
+    if (!hit.Found() ||
+        (hit.triangle != site.triangle && hit.triangle != site.other)) {
+      return hit;
+    }
+  }
+  return {};
+}
+
 SurfaceGraph::SurfaceGraph(const TriangleMesh& mesh,
                            const std::vector<std::array<int, 3>>& neighbors,
                            const SegmentTree& segments, const FreeCells& cells,
@@ -112,8 +128,7 @@ void SurfaceGraph::AddGapLinks(const SegmentTree& segments, double rounding,
                   mesh_.vertices[corners[2]]) /
                  3.0;
     const Vector3d end = from.point + reach * normals_[t];
-    const SegmentTree::Hit hit =
-        segments.FirstHitBeyond(from.point, end, rounding);
+    const SegmentTree::Hit hit = FirstAbove(from, segments, reach, rounding);
     if (!hit.Found()) continue;
     to.triangle = hit.triangle;
     to.direction = normals_[hit.triangle];

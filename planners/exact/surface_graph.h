@@ -23,6 +23,13 @@ struct SurfaceSite {
   int other = -1;               // the other one where it lies on an edge
 };
 
+// What a ray from the site along its direction meets first within `reach`,
+// without the triangles the site lies on and those within `rounding`; fraction
+// 1 if nothing.
+SegmentTree::Hit FirstAbove(const SurfaceSite& site,
+                            const SegmentTree& segments, double reach,
+                            double rounding);
+
 // How the configurations start and goal see the surface.
 struct Attachment {
   SurfaceSite site;  // free to see from the configuration
