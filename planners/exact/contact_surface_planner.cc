@@ -12,6 +12,7 @@
 #include "core/mesh/segment_tree.h"
 #include "core/mesh/self_intersection.h"
 #include "core/projection/contact_surface.h"
+#include "planners/exact/path_centering.h"
 #include "planners/exact/path_shortening.h"
 #include "planners/exact/surface_graph.h"
 
@@ -208,6 +209,7 @@ double ContactSurfacePlanner::Impl::PathClearance(
 }
 
 void ContactSurfacePlanner::Impl::Finish(PlanResult* result) const {
+  CenterPath(surface, segments, result->wanted_clearance, &result->raw_path);
   result->path = result->raw_path;
   if (options.shorten) {
     ShorteningOptions shortening;
