@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/mesh/box_tree.h"
+#include "core/mesh/segment_triangle_distance.h"
 #include "core/mesh/triangle_mesh.h"
 
 namespace phongpd {
@@ -43,6 +44,35 @@ class SurfaceTree {
   // Exact up to rounding; of several closest triangles the one found first.
   // q must be finite; however far away it may be.
   Closest FindClosest(const Eigen::Vector3d& q) const noexcept;
+
+  // Calls visit(triangle, pair) for every triangle within `radius` of the
+  // segment, in no particular order; the pair is in the user's coordinates.
+  template <typename Visit>
+  void ForEachNear(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
+                   double radius, const Visit& visit) const {
+    const Eigen::Vector3d x = (a - center_) * scale_;
+    const Eigen::Vector3d y = (b - center_) * scale_;
+    const double reach = radius * scale_;
+    const Eigen::Vector3d min = x.cwiseMin(y).array() - reach;
+    const Eigen::Vector3d max = x.cwiseMax(y).array() + reach;
+    tree_.ForEach(
+        [&](int index) {
+          const BoxTree::Node& node = tree_.nodes()[index];
+          return (node.min.array() <= max.array()).all() &&
+                 (min.array() <= node.max.array()).all();
+        },
+        [&](int position) {
+          const Corners& t = corners_[position];
+          SegmentTrianglePair pair = ClosestPair(x, y, t[0], t[1], t[2]);
+          if (pair.squared_distance <= reach * reach) {
+            pair.on_segment = pair.on_segment / scale_ + center_;
+            pair.on_triangle = pair.on_triangle / scale_ + center_;
+            pair.squared_distance /= scale_ * scale_;
+            visit(tree_.order()[position], pair);
+          }
+          return true;
+        });
+  }
 
   const Eigen::Vector3d& center() const { return center_; }
   double scale() const { return scale_; }

@@ -2,6 +2,7 @@
 #include "planners/exact/free_space.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "core/mesh/segment_tree.h"
@@ -112,22 +113,29 @@ MotionCheck FreeSpace::Check(const Vector3d& a, const Vector3d& b) const {
 }
 
 double FreeSpace::Clearance(const Vector3d& q) const {
+  return FindNearest(q).distance;
+}
+
+FreeSpace::Nearest FreeSpace::FindNearest(const Vector3d& q) const {
   const BoundingBox& bounds = impl_->bounds;
-  double clearance = std::numeric_limits<double>::infinity();
-  if (!q.allFinite()) return 0.0;
-  if (!bounds.IsEmpty()) {
-    clearance = (q - bounds.min)
-                    .cwiseAbs()
-                    .cwiseMin((bounds.max - q).cwiseAbs())
-                    .minCoeff();
+  if (!q.allFinite()) return {};
+  Nearest nearest;
+  nearest.distance = std::numeric_limits<double>::infinity();
+  for (int k = 0; k < 3 && !bounds.IsEmpty(); ++k) {
+    const double above = q[k] - bounds.min[k], below = bounds.max[k] - q[k];
+    const double distance = std::min(std::abs(above), std::abs(below));
+    if (!(distance < nearest.distance)) continue;
+    nearest.distance = distance;
+    nearest.direction = Vector3d::Unit(k) * (above < below ? 1.0 : -1.0);
   }
   for (const Space& space : impl_->spaces) {
-    if (!space.surface.Accepts(q)) return 0.0;
+    if (!space.surface.Accepts(q)) return {};
     const PenetrationResult answer =
         space.surface.Answer(q, Location::kOutside);
-    clearance = std::min(clearance, answer.signed_distance);
+    if (!(answer.signed_distance < nearest.distance)) continue;
+    nearest = {answer.signed_distance, answer.direction};
   }
-  return clearance;
+  return nearest;
 }
 
 std::size_t FreeSpace::size() const { return impl_->spaces.size(); }

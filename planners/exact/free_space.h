@@ -51,6 +51,13 @@ class FreeSpace {
   // Distance from q to the nearest contact surface or bound, ≥ 0; infinity
   // where there is neither; 0 for non-finite q.  Rounded.
   double Clearance(const Eigen::Vector3d& q) const;
+  // The same with the unit direction in which it grows at a free q (the
+  // facet's normal on a contact surface); zero where there is none.
+  struct Nearest {
+    double distance = 0.0;
+    Eigen::Vector3d direction = Eigen::Vector3d::Zero();
+  };
+  Nearest FindNearest(const Eigen::Vector3d& q) const;
 
   std::size_t size() const;  // number of contact spaces
   const BoundingBox& bounds() const;
