@@ -45,32 +45,25 @@ class SurfaceTree {
   // q must be finite; however far away it may be.
   Closest FindClosest(const Eigen::Vector3d& q) const noexcept;
 
-  // Calls visit(triangle, pair) for every triangle within `radius` of the
-  // segment, in no particular order; the pair is in the user's coordinates.
+  // Calls visit(triangle, pair) → bool for every triangle within `radius` of
+  // the segment, in no particular order, until it returns false; the pair is
+  // in the user's coordinates.  Finite points, at most 1e70 diagonals away.
   template <typename Visit>
   void ForEachNear(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
                    double radius, const Visit& visit) const {
     const Eigen::Vector3d x = (a - center_) * scale_;
     const Eigen::Vector3d y = (b - center_) * scale_;
     const double reach = radius * scale_;
-    const Eigen::Vector3d min = x.cwiseMin(y).array() - reach;
-    const Eigen::Vector3d max = x.cwiseMax(y).array() + reach;
     tree_.ForEach(
-        [&](int index) {
-          const BoxTree::Node& node = tree_.nodes()[index];
-          return (node.min.array() <= max.array()).all() &&
-                 (min.array() <= node.max.array()).all();
-        },
+        [&](int index) { return IsNear(tree_.nodes()[index], x, y, reach); },
         [&](int position) {
           const Corners& t = corners_[position];
           SegmentTrianglePair pair = ClosestPair(x, y, t[0], t[1], t[2]);
-          if (pair.squared_distance <= reach * reach) {
-            pair.on_segment = pair.on_segment / scale_ + center_;
-            pair.on_triangle = pair.on_triangle / scale_ + center_;
-            pair.squared_distance /= scale_ * scale_;
-            visit(tree_.order()[position], pair);
-          }
-          return true;
+          if (pair.squared_distance > reach * reach) return true;
+          pair.on_segment = pair.on_segment / scale_ + center_;
+          pair.on_triangle = pair.on_triangle / scale_ + center_;
+          pair.squared_distance /= scale_ * scale_;
+          return static_cast<bool>(visit(tree_.order()[position], pair));
         });
   }
 
@@ -79,6 +72,10 @@ class SurfaceTree {
 
  private:
   using Corners = std::array<Eigen::Vector3d, 3>;
+
+  // Does the segment x y meet the box widened by `reach`, or nearly so?
+  static bool IsNear(const BoxTree::Node& box, const Eigen::Vector3d& x,
+                     const Eigen::Vector3d& y, double reach) noexcept;
 
   Eigen::Vector3d center_ = Eigen::Vector3d::Zero();
   double scale_ = 1.0;

@@ -138,6 +138,24 @@ FreeSpace::Nearest FreeSpace::FindNearest(const Vector3d& q) const {
   return nearest;
 }
 
+bool FreeSpace::KeepsClearance(const Vector3d& a, const Vector3d& b,
+                               double distance) const {
+  const BoundingBox& bounds = impl_->bounds;
+  if (!a.allFinite() || !b.allFinite()) return false;
+  for (const Vector3d& q : {a, b}) {
+    if (!bounds.IsEmpty() && !((q - bounds.min).array() >= distance &&
+                               (bounds.max - q).array() >= distance)
+                                  .all()) {
+      return false;
+    }
+  }
+  return std::all_of(
+      impl_->spaces.begin(), impl_->spaces.end(), [&](const Space& space) {
+        return space.surface.Accepts(a) && space.surface.Accepts(b) &&
+               space.surface.KeepsDistance(a, b, distance);
+      });
+}
+
 std::size_t FreeSpace::size() const { return impl_->spaces.size(); }
 const BoundingBox& FreeSpace::bounds() const { return impl_->bounds; }
 

@@ -58,6 +58,11 @@ class FreeSpace {
     Eigen::Vector3d direction = Eigen::Vector3d::Zero();
   };
   Nearest FindNearest(const Eigen::Vector3d& q) const;
+  // Is no point of the segment closer than `distance` > 0 to a contact surface
+  // or bound?  Rounded, and nothing about sides: from inside to inside may be
+  // far from the surface, too.  False for non-finite points.
+  bool KeepsClearance(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
+                      double distance) const;
 
   std::size_t size() const;  // number of contact spaces
   const BoundingBox& bounds() const;

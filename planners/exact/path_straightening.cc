@@ -82,10 +82,12 @@ class Straightener {
             clearance_.begin() + static_cast<std::ptrdiff_t>(j) + 1));
   }
 
+  // The ends' own clearance may have been rounded.
   bool Allows(const Vector3d& a, const Vector3d& b, double clearance) {
     ++result_.tried;
     return space_.IsFree(a, b) &&
-           (!(clearance > 0.0) || KeepsClearance(space_, a, b, clearance));
+           (!(clearance > 0.0) ||
+            space_.KeepsClearance(a, b, 0.999 * clearance));
   }
 
   // The points strictly between i and j by others.
@@ -117,20 +119,6 @@ double PathLength(const std::vector<Vector3d>& path) {
     length += (path[i] - path[i - 1]).norm();
   }
   return length;
-}
-
-bool KeepsClearance(const FreeSpace& space, const Vector3d& a,
-                    const Vector3d& b, double clearance) {
-  const double length = (b - a).norm();
-  for (double at = 0.0;;) {
-    const double share = length > 0.0 ? at / length : 0.0;
-    const double distance = space.Clearance(a + share * (b - a));
-    // Points given as free to this very distance may have been rounded.
-    if (distance < 0.999 * clearance) return false;
-    if (at >= length) return true;
-    at =
-        std::min(length, at + std::max(distance - clearance, 0.25 * clearance));
-  }
 }
 
 StraightenedPath Straighten(const FreeSpace& space, std::vector<Vector3d> path,

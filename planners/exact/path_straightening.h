@@ -26,13 +26,6 @@ struct StraightenedPath {
 // Length of a polyline.
 double PathLength(const std::vector<Eigen::Vector3d>& path);
 
-// Does the segment keep `clearance` > 0 from everything?  Sphere tracing with
-// steps of at least a quarter of it and at most 65 points: as good as certain
-// for a clearance of 1/16 of the length or more, a sample below.  Says nothing
-// exact about collision; ask FreeSpace.
-bool KeepsClearance(const FreeSpace& space, const Eigen::Vector3d& a,
-                    const Eigen::Vector3d& b, double clearance);
-
 // Replaces parts of an exactly free path by exactly free segments that keep
 // the clearance: first from each corner as far as it sees, then between random
 // points of the path.  Never longer than the path, same ends, and free.
