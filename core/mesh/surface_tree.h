@@ -46,8 +46,9 @@ class SurfaceTree {
   Closest FindClosest(const Eigen::Vector3d& q) const noexcept;
 
   // Calls visit(triangle, pair) → bool for every triangle within `radius` of
-  // the segment, in no particular order, until it returns false; the pair is
-  // in the user's coordinates.  Finite points, at most 1e70 diagonals away.
+  // the segment, in no particular order, until it returns false.  The pair is
+  // in the user's unit, relative to center(): near the mesh its difference has
+  // all its digits.  Finite points, at most 1e70 diagonals away.
   template <typename Visit>
   void ForEachNear(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
                    double radius, const Visit& visit) const {
@@ -60,8 +61,8 @@ class SurfaceTree {
           const Corners& t = corners_[position];
           SegmentTrianglePair pair = ClosestPair(x, y, t[0], t[1], t[2]);
           if (pair.squared_distance > reach * reach) return true;
-          pair.on_segment = pair.on_segment / scale_ + center_;
-          pair.on_triangle = pair.on_triangle / scale_ + center_;
+          pair.on_segment /= scale_;
+          pair.on_triangle /= scale_;
           pair.squared_distance /= scale_ * scale_;
           return static_cast<bool>(visit(tree_.order()[position], pair));
         });

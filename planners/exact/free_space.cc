@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "planners/exact/free_space.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -156,8 +157,48 @@ bool FreeSpace::KeepsClearance(const Vector3d& a, const Vector3d& b,
       });
 }
 
+std::vector<FreeSpace::NearTriangle> FreeSpace::FindNear(const Vector3d& a,
+                                                         const Vector3d& b,
+                                                         double radius) const {
+  std::vector<NearTriangle> near;
+  if (!a.allFinite() || !b.allFinite()) return near;
+  for (const Space& space : impl_->spaces) {
+    if (!space.surface.Accepts(a) || !space.surface.Accepts(b)) continue;
+    const TriangleMesh& mesh = space.surface.mesh();
+    space.surface.ForEachNear(
+        a, b, radius, [&](int triangle, const SegmentTrianglePair& pair) {
+          NearTriangle found;
+          const Vector3d between = pair.on_segment - pair.on_triangle;
+          found.distance = std::sqrt(pair.squared_distance);
+          found.normal = between.stableNormalized();
+          // Wherever rounding put the pair, the triangle is below its plane.
+          found.level = -std::numeric_limits<double>::infinity();
+          for (std::size_t k = 0; k < 3; ++k) {
+            found.corners[k] = mesh.vertices[mesh.triangles[triangle][k]];
+            found.level =
+                std::max(found.level, found.normal.dot(found.corners[k]));
+          }
+          near.push_back(found);
+          return true;
+        });
+  }
+  std::stable_sort(near.begin(), near.end(),
+                   [](const NearTriangle& one, const NearTriangle& other) {
+                     return one.distance < other.distance;
+                   });
+  return near;
+}
+
 std::size_t FreeSpace::size() const { return impl_->spaces.size(); }
 const BoundingBox& FreeSpace::bounds() const { return impl_->bounds; }
+
+double PathLength(const std::vector<Vector3d>& path) {
+  double length = 0.0;
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    length += (path[i] - path[i - 1]).norm();
+  }
+  return length;
+}
 
 PathCheck CheckPath(const FreeSpace& space, const std::vector<Vector3d>& path) {
   PathCheck result;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <memory>
 #include <vector>
 
@@ -64,6 +65,21 @@ class FreeSpace {
   bool KeepsClearance(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
                       double distance) const;
 
+  // The contact triangles within `radius` of a segment, the nearest first
+  // (bounds have none).  Rounded; nothing for non-finite points.
+  struct NearTriangle {
+    double distance = 0.0;
+    // Unit, from the triangle's closest point to the segment's; zero where
+    // they meet.  No point of the triangle is above the plane normal · x =
+    // level, none of the segment below that of level + distance.
+    Eigen::Vector3d normal = Eigen::Vector3d::Zero();
+    double level = 0.0;
+    std::array<Eigen::Vector3d, 3> corners;
+  };
+  std::vector<NearTriangle> FindNear(const Eigen::Vector3d& a,
+                                     const Eigen::Vector3d& b,
+                                     double radius) const;
+
   std::size_t size() const;  // number of contact spaces
   const BoundingBox& bounds() const;
 
@@ -71,6 +87,9 @@ class FreeSpace {
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };
+
+// Σ |p_{i+1} − p_i| of a polyline.
+double PathLength(const std::vector<Eigen::Vector3d>& path);
 
 // The first collision along a polyline.
 struct PathCheck {

@@ -113,14 +113,6 @@ class Straightener {
 
 }  // namespace
 
-double PathLength(const std::vector<Vector3d>& path) {
-  double length = 0.0;
-  for (std::size_t i = 1; i < path.size(); ++i) {
-    length += (path[i] - path[i - 1]).norm();
-  }
-  return length;
-}
-
 StraightenedPath Straighten(const FreeSpace& space, std::vector<Vector3d> path,
                             const StraighteningOptions& options,
                             std::mt19937_64* random) {

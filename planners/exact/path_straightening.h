@@ -23,9 +23,6 @@ struct StraightenedPath {
   int taken = 0;
 };
 
-// Length of a polyline.
-double PathLength(const std::vector<Eigen::Vector3d>& path);
-
 // Replaces parts of an exactly free path by exactly free segments that keep
 // the clearance: first from each corner as far as it sees, then between random
 // points of the path.  Never longer than the path, same ends, and free.
