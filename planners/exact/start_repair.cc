@@ -298,6 +298,8 @@ void StartRepair::Impl::Repair(const Path& path,
       return;
     }
     Finish(path, options, margin, result);  // more corners than waypoints
+  } else if (options.planner_only) {
+    result->reason = "there is no complete planner to ask";
   } else if (found.is_open) {
     result->reason = "the path enters a component it does not leave";
   } else {

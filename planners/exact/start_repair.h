@@ -19,6 +19,7 @@ struct StartRepairOptions {
   double diagonal = 0.0;  // user's unit; 0: that of the contact mesh
   int routes = 1;         // ways around each obstacle to look for, in [1, 8]
   int random_cuts = 120;  // of the straightening
+  bool planner_only = false;  // the complete planner's path, not the surface's
   std::uint64_t seed = 1;
 
   // Throws InputError naming the option, the range and the value.

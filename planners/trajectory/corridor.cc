@@ -41,7 +41,7 @@ void CorridorOptions::Validate() const {
   Check("max_rounds", "at least 1", max_rounds >= 1, max_rounds);
   Check("least_gain", "in [0, 1)", least_gain >= 0.0 && least_gain < 1.0,
         least_gain);
-  Check("restoring", "in (0, 1e6]", restoring > 0.0 && restoring <= 1e6,
+  Check("restoring", "in [0, 1e6]", restoring >= 0.0 && restoring <= 1e6,
         restoring);
   Check("time_limit", "> 0 seconds", time_limit > 0.0, time_limit);
   ipopt.Validate();

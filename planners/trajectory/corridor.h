@@ -14,7 +14,8 @@ struct CorridorOptions {
   double trust = 0.05;       // τ of the first round, fraction of D, > 0
   int max_rounds = 40;       // ≥ 1
   double least_gain = 1e-4;  // of the merit; two smaller ones end it
-  double restoring = 50.0;   // price of missing clearance, > 0 (see below)
+  // Price of missing clearance (below), ≥ 0; 0: what is missing stays missing.
+  double restoring = 50.0;
   double time_limit = std::numeric_limits<double>::infinity();  // seconds
   IpoptSettings ipopt = DefaultIpopt();                         // of one round
 

@@ -73,7 +73,7 @@ CorridorProgram::CorridorProgram(const TrajectoryProblem& problem,
   for (int i = 0; i <= springs.waypoints; ++i) {
     const double missing = corridor.missing[static_cast<std::size_t>(i)];
     int elastic = -1;
-    if (missing > kLeastMissing) {
+    if (missing > kLeastMissing && price > 0.0) {
       elastic = 3 * springs.waypoints + static_cast<int>(missing_.size());
       missing_.push_back(missing);
     }
