@@ -5,7 +5,7 @@
 set -euo pipefail
 
 packages=(
-  g++ cmake make
+  g++ cmake make pkg-config
   libeigen3-dev libcgal-dev libgmp-dev libmpfr-dev libtbb-dev libfcl-dev
   libgtest-dev librapidcheck-dev libcli11-dev nlohmann-json3-dev
   coinor-libipopt-dev libompl-dev libboost-serialization-dev

@@ -68,6 +68,19 @@ foreach(file IN LISTS files)
   endif()
 endforeach()
 
+# Two files know Ipopt.
+file(GLOB_RECURSE files ${SOURCE}/constraints/* ${SOURCE}/planners/*
+     ${SOURCE}/problems/* ${SOURCE}/tests/*.cc ${SOURCE}/results/*.cc)
+foreach(file IN LISTS files)
+  if(NOT file MATCHES "\\.(h|cc)$" OR file MATCHES "ipopt_(solve|options)\\.cc$")
+    continue()
+  endif()
+  file(STRINGS ${file} includes REGEX "^ *# *include <Ip[A-Z]")
+  if(includes)
+    list(APPEND failures "${file}: ${includes}")
+  endif()
+endforeach()
+
 # Every source names its licence.
 foreach(folder core constraints planners problems tests results)
   file(GLOB_RECURSE files ${SOURCE}/${folder}/*.h ${SOURCE}/${folder}/*.cc)

@@ -142,9 +142,11 @@ TrajectorySummary IpoptTrajectoryOptimizer::Solve(
     Add(run, nlp.counts(), &summary);
     summary.path = nlp.ToPath(run.x);
     Judge(problem_, &summary);
-    const bool may_go_on = run.status != SolveStatus::kTimeLimit &&
-                           run.status != SolveStatus::kCancelled &&
-                           run.status != SolveStatus::kInvalidProblem;
+    const bool has_failed = run.status == SolveStatus::kInfeasible ||
+                            run.status == SolveStatus::kNumerical;
+    const bool may_go_on = IsClassOk(run.status) ||
+                           run.status == SolveStatus::kIterationLimit ||
+                           (has_failed && options_.retry_failed);
     if (summary.collision_free || !may_go_on ||
         summary.rounds >= options_.max_rounds ||
         !Refine(space, summary.path, &summary.samples)) {

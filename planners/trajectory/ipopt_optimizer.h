@@ -18,9 +18,14 @@ struct TrajectoryOptions {
   int rows = 0;
   BranchPolicy policy = BranchPolicy::kCommit;
   bool merge_spaces = false;  // K rows over all contact spaces together
-  // Solves, ≥ 1.  While the judge finds a crossing, the segments that cross
-  // get twice the samples and the next round starts from the last answer.
+  // Solves, ≥ 1.  Where the solver claims a solution, or ran out of iterations,
+  // and the judge finds a crossing, the segments that cross get twice the
+  // samples and the next round starts from there.
   int max_rounds = 4;
+  // Also go on after rounds that ended infeasible or in numerical trouble: a
+  // new start near the old end finds a way out of some traps, at up to
+  // max_rounds times the cost where there is none.
+  bool retry_failed = true;
 
   // Throws InputError naming the field.
   void Validate() const;

@@ -177,12 +177,22 @@ class ProgramAdapter : public Ipopt::TNLP {
   }
 
   bool intermediate_callback(
-      Ipopt::AlgorithmMode mode, Index, Number, Number, Number inf_du,
+      Ipopt::AlgorithmMode mode, Index iteration, Number, Number, Number inf_du,
       Number mu, Number, Number, Number, Number, Index,
       const Ipopt::IpoptData* data,
       Ipopt::IpoptCalculatedQuantities* quantities) override {
     const Stopwatch watch(&run.seconds_callbacks);
+    // Where a restoration phase hands over, its last iterate is reported once
+    // more as the first regular one.
+    int changes = 0;
+    if (iteration == last_iteration_ && !run.log.empty()) {
+      changes = run.log.back().branch_changes;
+      run.restoration_iterations -= run.log.back().is_restoration ? 1 : 0;
+      run.log.pop_back();
+    }
+    last_iteration_ = iteration;
     IterationRecord record;
+    record.violation = std::numeric_limits<double>::max();
     record.iteration = static_cast<int>(run.log.size());
     record.is_restoration = mode == Ipopt::RestorationPhaseMode;
     record.dual_infeasibility = Finite(inf_du);
@@ -193,8 +203,11 @@ class ProgramAdapter : public Ipopt::TNLP {
       if (!IsAt(x_.data())) is_at_valid_ = false;
       record.objective = Finite(program_->Objective(x_.data()));
       record.violation = Violation(x_.data());
-      record.branch_changes = program_->Accept(x_.data());
+      if (accepted_.size() == 0 || x_ != accepted_)
+        changes += program_->Accept(x_.data());
+      accepted_ = x_;
     }
+    record.branch_changes = changes;
     run.restoration_iterations += record.is_restoration ? 1 : 0;
     if (!record.is_restoration) {
       run.dual_infeasibility = record.dual_infeasibility;
@@ -314,7 +327,8 @@ class ProgramAdapter : public Ipopt::TNLP {
   NonlinearProgram* program_;
   const IpoptSettings& settings_;
   Clock::time_point start_ = Clock::now();
-  VectorXd x_;  // last accepted iterate
+  VectorXd x_;         // last accepted iterate
+  VectorXd accepted_;  // the last one the program was told
   // Values and Jacobian at at_, the bytes of the last point evaluated.
   VectorXd at_, values_, jacobian_;
   bool is_at_valid_ = false;
@@ -324,6 +338,7 @@ class ProgramAdapter : public Ipopt::TNLP {
   double best_objective_ = 0.0;
   double stall_reference_ = 0.0;
   int stalled_ = 0;
+  Index last_iteration_ = -1;
   bool has_stopped_ = false;
   SolveStatus stop_status_ = SolveStatus::kCancelled;
 #ifndef PHONGPD_IPOPT_HAS_CURRENT_ITERATE

@@ -32,9 +32,9 @@ class NonlinearProgram {
   virtual void Hessian(const double* x, double objective_factor,
                        const double* multipliers, double* values) const = 0;
 
-  // The solver made x its iterate.  Called once an iteration, never with a
-  // rejected trial point.  Returns the number of discrete changes (of branch)
-  // this brought, for the log.
+  // The solver made x its iterate.  Called once for each iterate that differs
+  // from the one before, never with a rejected trial point.  Returns the number
+  // of discrete changes (of branch) this brought, for the log.
   virtual int Accept(const double* /*x*/) { return 0; }
 };
 

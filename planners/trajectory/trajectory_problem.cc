@@ -115,7 +115,7 @@ Path StraightPath(const TrajectoryProblem& problem) {
   Path path{problem.start};
   for (int i = 1; i <= problem.waypoints; ++i) {
     const double t = static_cast<double>(i) / (problem.waypoints + 1);
-    path.push_back((1.0 - t) * problem.start + t * problem.goal);
+    path.push_back(problem.start + t * (problem.goal - problem.start));
   }
   path.push_back(problem.goal);
   return path;
