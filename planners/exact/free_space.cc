@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "planners/exact/free_space.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "core/mesh/segment_tree.h"
@@ -112,26 +114,91 @@ MotionCheck FreeSpace::Check(const Vector3d& a, const Vector3d& b) const {
 }
 
 double FreeSpace::Clearance(const Vector3d& q) const {
+  return FindNearest(q).distance;
+}
+
+FreeSpace::Nearest FreeSpace::FindNearest(const Vector3d& q) const {
   const BoundingBox& bounds = impl_->bounds;
-  double clearance = std::numeric_limits<double>::infinity();
-  if (!q.allFinite()) return 0.0;
-  if (!bounds.IsEmpty()) {
-    clearance = (q - bounds.min)
-                    .cwiseAbs()
-                    .cwiseMin((bounds.max - q).cwiseAbs())
-                    .minCoeff();
+  if (!q.allFinite()) return {};
+  Nearest nearest;
+  nearest.distance = std::numeric_limits<double>::infinity();
+  for (int k = 0; k < 3 && !bounds.IsEmpty(); ++k) {
+    const double above = q[k] - bounds.min[k], below = bounds.max[k] - q[k];
+    const double distance = std::min(std::abs(above), std::abs(below));
+    if (!(distance < nearest.distance)) continue;
+    nearest.distance = distance;
+    nearest.direction = Vector3d::Unit(k) * (above < below ? 1.0 : -1.0);
   }
   for (const Space& space : impl_->spaces) {
-    if (!space.surface.Accepts(q)) return 0.0;
+    if (!space.surface.Accepts(q)) return {};
     const PenetrationResult answer =
         space.surface.Answer(q, Location::kOutside);
-    clearance = std::min(clearance, answer.signed_distance);
+    if (!(answer.signed_distance < nearest.distance)) continue;
+    nearest = {answer.signed_distance, answer.direction};
   }
-  return clearance;
+  return nearest;
+}
+
+bool FreeSpace::KeepsClearance(const Vector3d& a, const Vector3d& b,
+                               double distance) const {
+  const BoundingBox& bounds = impl_->bounds;
+  if (!a.allFinite() || !b.allFinite()) return false;
+  for (const Vector3d& q : {a, b}) {
+    if (!bounds.IsEmpty() && !((q - bounds.min).array() >= distance &&
+                               (bounds.max - q).array() >= distance)
+                                  .all()) {
+      return false;
+    }
+  }
+  return std::all_of(
+      impl_->spaces.begin(), impl_->spaces.end(), [&](const Space& space) {
+        return space.surface.Accepts(a) && space.surface.Accepts(b) &&
+               space.surface.KeepsDistance(a, b, distance);
+      });
+}
+
+std::vector<FreeSpace::NearTriangle> FreeSpace::FindNear(const Vector3d& a,
+                                                         const Vector3d& b,
+                                                         double radius) const {
+  std::vector<NearTriangle> near;
+  if (!a.allFinite() || !b.allFinite()) return near;
+  for (const Space& space : impl_->spaces) {
+    if (!space.surface.Accepts(a) || !space.surface.Accepts(b)) continue;
+    const TriangleMesh& mesh = space.surface.mesh();
+    space.surface.ForEachNear(
+        a, b, radius, [&](int triangle, const SegmentTrianglePair& pair) {
+          NearTriangle found;
+          const Vector3d between = pair.on_segment - pair.on_triangle;
+          found.distance = std::sqrt(pair.squared_distance);
+          found.normal = between.stableNormalized();
+          // Wherever rounding put the pair, the triangle is below its plane.
+          found.level = -std::numeric_limits<double>::infinity();
+          for (std::size_t k = 0; k < 3; ++k) {
+            found.corners[k] = mesh.vertices[mesh.triangles[triangle][k]];
+            found.level =
+                std::max(found.level, found.normal.dot(found.corners[k]));
+          }
+          near.push_back(found);
+          return true;
+        });
+  }
+  std::stable_sort(near.begin(), near.end(),
+                   [](const NearTriangle& one, const NearTriangle& other) {
+                     return one.distance < other.distance;
+                   });
+  return near;
 }
 
 std::size_t FreeSpace::size() const { return impl_->spaces.size(); }
 const BoundingBox& FreeSpace::bounds() const { return impl_->bounds; }
+
+double PathLength(const std::vector<Vector3d>& path) {
+  double length = 0.0;
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    length += (path[i] - path[i - 1]).norm();
+  }
+  return length;
+}
 
 PathCheck CheckPath(const FreeSpace& space, const std::vector<Vector3d>& path) {
   PathCheck result;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <memory>
 #include <vector>
 
@@ -51,6 +52,33 @@ class FreeSpace {
   // Distance from q to the nearest contact surface or bound, ≥ 0; infinity
   // where there is neither; 0 for non-finite q.  Rounded.
   double Clearance(const Eigen::Vector3d& q) const;
+  // The same with the unit direction in which it grows at a free q (the
+  // facet's normal on a contact surface); zero where there is none.
+  struct Nearest {
+    double distance = 0.0;
+    Eigen::Vector3d direction = Eigen::Vector3d::Zero();
+  };
+  Nearest FindNearest(const Eigen::Vector3d& q) const;
+  // Is no point of the segment closer than `distance` > 0 to a contact surface
+  // or bound?  Rounded, and nothing about sides: from inside to inside may be
+  // far from the surface, too.  False for non-finite points.
+  bool KeepsClearance(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
+                      double distance) const;
+
+  // The contact triangles within `radius` of a segment, the nearest first
+  // (bounds have none).  Rounded; nothing for non-finite points.
+  struct NearTriangle {
+    double distance = 0.0;
+    // Unit, from the triangle's closest point to the segment's; zero where
+    // they meet.  No point of the triangle is above the plane normal · x =
+    // level, none of the segment below that of level + distance.
+    Eigen::Vector3d normal = Eigen::Vector3d::Zero();
+    double level = 0.0;
+    std::array<Eigen::Vector3d, 3> corners;
+  };
+  std::vector<NearTriangle> FindNear(const Eigen::Vector3d& a,
+                                     const Eigen::Vector3d& b,
+                                     double radius) const;
 
   std::size_t size() const;  // number of contact spaces
   const BoundingBox& bounds() const;
@@ -59,6 +87,9 @@ class FreeSpace {
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };
+
+// Σ |p_{i+1} − p_i| of a polyline.
+double PathLength(const std::vector<Eigen::Vector3d>& path);
 
 // The first collision along a polyline.
 struct PathCheck {

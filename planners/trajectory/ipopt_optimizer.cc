@@ -18,25 +18,6 @@ using Clock = std::chrono::steady_clock;
 
 constexpr int kMostSamples = 1000;
 
-void CheckStartPath(const TrajectoryProblem& problem, const Path& path) {
-  const std::string what = "start path: expected ";
-  const auto points = static_cast<std::size_t>(problem.waypoints) + 2;
-  if (path.size() != points) {
-    throw InputError(what + std::to_string(points) + " points, found " +
-                     std::to_string(path.size()));
-  }
-  for (std::size_t i = 0; i < path.size(); ++i) {
-    if (!path[i].allFinite()) {
-      throw InputError(what + "finite points, found NaN or Inf at point " +
-                       std::to_string(i));
-    }
-  }
-  if (path.front() != problem.start || path.back() != problem.goal) {
-    throw InputError(what +
-                     "the problem's start and goal at its ends, found others");
-  }
-}
-
 // Segments that touch something get twice the samples; false if none can.
 bool Refine(const FreeSpace& space, const Path& path,
             std::vector<int>* samples) {

@@ -6,6 +6,7 @@
 
 #include "constraints/non_penetration.h"
 #include "planners/trajectory/nonlinear_program.h"
+#include "planners/trajectory/path_springs.h"
 #include "planners/trajectory/trajectory_problem.h"
 
 namespace phongpd {
@@ -37,12 +38,12 @@ class TrajectoryNlp : public NonlinearProgram {
   const NonPenetrationConstraint& contact() const { return contact_; }
   const NonPenetrationCounts& counts() const { return counts_; }
 
-  int variables() const override { return 3 * waypoints_; }
-  int rows() const override { return contact_.rows() + waypoints_ + 1; }
+  int variables() const override { return 3 * springs_.waypoints; }
+  int rows() const override { return contact_.rows() + springs_.rows(); }
   int jacobian_nonzeros() const override {
-    return contact_.nonzeros() + 6 * waypoints_;
+    return contact_.nonzeros() + springs_.jacobian_nonzeros();
   }
-  int hessian_nonzeros() const override { return 6 * waypoints_ - 3; }
+  int hessian_nonzeros() const override { return springs_.hessian_nonzeros(); }
   void Bounds(double* x_low, double* x_high, double* g_low,
               double* g_high) const override;
   void JacobianPattern(int* row, int* col) const override;
@@ -55,16 +56,9 @@ class TrajectoryNlp : public NonlinearProgram {
   int Accept(const double* x) override;
 
  private:
-  // u_{i+1} − u_i for i in 0 … N, the ends included.
-  Eigen::Vector3d Step(int segment, const double* x) const;
-
-  PathFrame frame_;
-  int waypoints_ = 0;
   Eigen::Vector3d start_, goal_;  // user's unit
-  Eigen::Vector3d u_start_, u_goal_;
-  double weight_ = 1.0;  // f = weight Σ |Δu|²
-  double margin_ = 0.0;  // units of D
-  double eta_ = 1.0;
+  double margin_ = 0.0;           // units of D
+  PathSprings springs_;
   BoundingBox bounds_;
   NonPenetrationConstraint contact_;
   BranchSet branches_;

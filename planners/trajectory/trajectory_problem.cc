@@ -80,14 +80,6 @@ double Diagonal(const TrajectoryProblem& problem) {
   return length > 0.0 && std::isfinite(length) ? length : 1.0;
 }
 
-double PathLength(const Path& path) {
-  double length = 0.0;
-  for (std::size_t i = 0; i + 1 < path.size(); ++i) {
-    length += (path[i + 1] - path[i]).norm();
-  }
-  return length;
-}
-
 double PathEnergy(const TrajectoryProblem& problem, const Path& path) {
   if (path.size() < 2) return 0.0;
   // Divided first: no length is squared in the user's unit.
@@ -98,6 +90,25 @@ double PathEnergy(const TrajectoryProblem& problem, const Path& path) {
     sum += ((path[i + 1] - path[i]) / reference).squaredNorm();
   }
   return static_cast<double>(path.size() - 1) * sum;
+}
+
+void CheckStartPath(const TrajectoryProblem& problem, const Path& path) {
+  const std::string what = "start path: expected ";
+  const auto points = static_cast<std::size_t>(problem.waypoints) + 2;
+  if (path.size() != points) {
+    throw InputError(what + std::to_string(points) + " points, found " +
+                     std::to_string(path.size()));
+  }
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    if (!path[i].allFinite()) {
+      throw InputError(what + "finite points, found NaN or Inf at point " +
+                       std::to_string(i));
+    }
+  }
+  if (path.front() != problem.start || path.back() != problem.goal) {
+    throw InputError(what +
+                     "the problem's start and goal at its ends, found others");
+  }
 }
 
 Path StraightPath(const TrajectoryProblem& problem) {

@@ -57,11 +57,12 @@ TrajectoryProblem MakeTrajectoryProblem(
 // D of the problem, user's unit; > 0.
 double Diagonal(const TrajectoryProblem& problem);
 
-// Σ |p_{i+1} − p_i|.
-double PathLength(const Path& path);
-
 // f of a path, with the problem's ℓ₀ and N+1 the number of its segments.
 double PathEnergy(const TrajectoryProblem& problem, const Path& path);
+
+// Throws InputError unless `path` has N+2 finite points, the problem's start
+// and goal at its ends.
+void CheckStartPath(const TrajectoryProblem& problem, const Path& path);
 
 // N+2 evenly spaced points from start to goal.
 Path StraightPath(const TrajectoryProblem& problem);

@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "planners/trajectory/corridor.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "core/mesh/mesh_error.h"
+#include "planners/trajectory/corridor_program.h"
+
+namespace phongpd {
+namespace {
+
+using Eigen::VectorXd;
+
+constexpr double kSmallestTrust = 1e-3;  // of the first round's
+
+void Check(const char* name, const char* range, bool holds, double value) {
+  if (holds) return;
+  throw InputError(std::string("corridor: ") + name + ": expected " + range +
+                   ", found " + std::to_string(value));
+}
+
+}  // namespace
+
+IpoptSettings CorridorOptions::DefaultIpopt() {
+  IpoptSettings settings;
+  settings.max_iterations = 60;
+  settings.stall_stop = false;
+  // The path as it is touches its planes' offsets; Ipopt's default would push
+  // it a hundredth of every range away first.
+  for (const char* name :
+       {"bound_push", "bound_frac", "slack_bound_push", "slack_bound_frac"}) {
+    settings.ipopt_options[name] = "1e-6";
+  }
+  return settings;
+}
+
+void CorridorOptions::Validate() const {
+  Check("trust", "in (0, 1]", trust > 0.0 && trust <= 1.0, trust);
+  Check("max_rounds", "at least 1", max_rounds >= 1, max_rounds);
+  Check("least_gain", "in [0, 1)", least_gain >= 0.0 && least_gain < 1.0,
+        least_gain);
+  Check("restoring", "in [0, 1e6]", restoring >= 0.0 && restoring <= 1e6,
+        restoring);
+  Check("time_limit", "> 0 seconds", time_limit > 0.0, time_limit);
+  ipopt.Validate();
+}
+
+const char* ToString(CorridorStatus status) {
+  switch (status) {
+    case CorridorStatus::kConverged:
+      return "converged";
+    case CorridorStatus::kSmallestTrust:
+      return "smallest_trust";
+    case CorridorStatus::kRoundLimit:
+      return "round_limit";
+    case CorridorStatus::kTimeLimit:
+      return "time_limit";
+    case CorridorStatus::kNotFree:
+      break;
+  }
+  return "not_free";
+}
+
+CorridorSummary PolishInCorridor(const TrajectoryProblem& problem,
+                                 const Path& path,
+                                 const CorridorOptions& options) {
+  const auto begin = std::chrono::steady_clock::now();
+  const auto seconds = [&begin] {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() -
+                                         begin)
+        .count();
+  };
+  problem.Validate();
+  options.Validate();
+  CheckStartPath(problem, path);
+  CorridorSummary summary;
+  summary.path = path;
+  summary.objective = PathEnergy(problem, path);
+  if (!CheckPath(*problem.free_space, path).free) {
+    summary.seconds = seconds();
+    return summary;
+  }
+
+  PathSprings springs(problem, PathLength(path));
+  VectorXd now = springs.ToVariables(path);
+  for (int i = 0; i <= springs.waypoints; ++i) {
+    springs.eta = std::max(springs.eta, springs.Step(i, now.data()).norm());
+  }
+  const double price =
+      options.restoring / std::max((springs.goal - springs.start).norm(), 1e-3);
+  double trust = options.trust;
+  // A waypoint moves by at most √3 τ.
+  const double reach = 2.0 * trust + problem.margin;
+  Corridor corridor = FindCorridor(problem, springs, path, reach);
+  double merit = springs.Energy(now.data()) + price * corridor.TotalMissing();
+  int small_gains = 0;
+  summary.status = CorridorStatus::kRoundLimit;
+  while (static_cast<int>(summary.rounds.size()) < options.max_rounds) {
+    CorridorProgram program(problem, springs, corridor, now, trust, price);
+    IpoptSettings settings = options.ipopt;
+    settings.time_limit = std::min(
+        settings.time_limit, std::max(1e-3, options.time_limit - seconds()));
+    const IpoptRun run = SolveWithIpopt(&program, program.Start(), settings);
+    summary.iterations += run.iterations;
+
+    CorridorRound round;
+    round.trust = trust;
+    round.planes = corridor.CountPlanes();
+    round.iterations = run.iterations;
+    const Path moved =
+        springs.ToPath(problem.start, run.x.data(), problem.goal);
+    double gain = 0.0;
+    if (CheckPath(*problem.free_space, moved).free) {
+      Corridor around = FindCorridor(problem, springs, moved, reach);
+      const double there =
+          springs.Energy(run.x.data()) + price * around.TotalMissing();
+      gain = (merit - there) / merit;
+      round.is_accepted = gain > 0.0;
+      if (round.is_accepted) {
+        summary.path = moved;
+        now = run.x.head(now.size());
+        corridor = std::move(around);
+        merit = there;
+      }
+    }
+    round.objective = springs.Energy(now.data());
+    round.missing = corridor.TotalMissing();
+    summary.rounds.push_back(round);
+    if (!round.is_accepted) trust *= 0.5;
+    // A round that failed by far says nothing about the next one.
+    const bool is_small = std::abs(gain) < options.least_gain &&
+                          (round.is_accepted || gain != 0.0);
+    small_gains = is_small ? small_gains + 1 : 0;
+    if (small_gains >= 2) {
+      summary.status = CorridorStatus::kConverged;
+      break;
+    }
+    if (trust < kSmallestTrust * options.trust) {
+      summary.status = CorridorStatus::kSmallestTrust;
+      break;
+    }
+    if (seconds() > options.time_limit) {
+      summary.status = CorridorStatus::kTimeLimit;
+      break;
+    }
+  }
+  summary.objective = PathEnergy(problem, summary.path);
+  summary.clearance =
+      problem.margin -
+      *std::max_element(corridor.missing.begin(), corridor.missing.end());
+  summary.seconds = seconds();
+  return summary;
+}
+
+}  // namespace phongpd

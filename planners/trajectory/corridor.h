@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "planners/trajectory/ipopt_solve.h"
+#include "planners/trajectory/trajectory_problem.h"
+
+namespace phongpd {
+
+struct CorridorOptions {
+  double trust = 0.05;       // τ of the first round, fraction of D, > 0
+  int max_rounds = 40;       // ≥ 1
+  double least_gain = 1e-4;  // of the merit; two smaller ones end it
+  // Price of missing clearance (below), ≥ 0; 0: what is missing stays missing.
+  double restoring = 50.0;
+  double time_limit = std::numeric_limits<double>::infinity();  // seconds
+  IpoptSettings ipopt = DefaultIpopt();                         // of one round
+
+  // Throws InputError naming the field.
+  void Validate() const;
+  static IpoptSettings DefaultIpopt();
+};
+
+enum class CorridorStatus {
+  kConverged,      // two rounds gained less than least_gain
+  kSmallestTrust,  // no step of any size was an improvement
+  kRoundLimit,
+  kTimeLimit,
+  kNotFree,  // the start path collides: nothing was done
+};
+const char* ToString(CorridorStatus status);
+
+struct CorridorRound {
+  double objective = 0.0;  // after the round, of the path kept
+  double missing = 0.0;    // clearance, summed over segments, units of D
+  double trust = 0.0;      // units of D
+  int planes = 0;
+  int iterations = 0;
+  bool is_accepted = false;
+};
+
+struct CorridorSummary {
+  CorridorStatus status = CorridorStatus::kNotFree;
+  Path path;               // exactly free but for kNotFree
+  double objective = 0.0;  // energy of `path`
+  // Smallest distance of a segment to contact, at most the margin; units of D.
+  double clearance = 0.0;
+  int iterations = 0;  // of Ipopt, all rounds
+  std::vector<CorridorRound> rounds;
+  double seconds = 0.0;
+
+  bool IsFree() const { return status != CorridorStatus::kNotFree; }
+};
+
+// Shortens an exactly free path without ever leaving free space.  A round:
+//
+//  1. For each segment, planes between it and the triangles within 2τ + margin:
+//     the nearest one first, through its point closest to the segment,
+//     orthogonal to the closest pair; a triangle behind a plane already there
+//     needs none.  A triangle is convex, so its plane separates it.
+//  2. The convex program in the waypoints p and the missing clearances s,
+//
+//       min  f(p) + (w/ℓ₀) Σ s_i
+//       s.t. n·p ≥ level + margin − s_i   for both ends of segment i, its
+//       planes
+//            0 ≤ s_i ≤ margin − clearance of segment i now  (fixed where 0)
+//            |p − p_now|_∞ ≤ τ,  |Δp| ≤ h,
+//
+//     by Ipopt; f, ℓ₀, D and h are TrajectoryProblem's, w is `restoring`.
+//  3. The step is kept if the exact judge finds it free and the merit, the
+//     same objective with the true missing clearances, fell; Ipopt's own word
+//     does not count.  Otherwise τ is halved.
+//
+// So every path kept is exactly free, no segment loses clearance below the
+// margin for nothing, clearance that is missing is restored where a passage
+// allows it, and once none is missing f falls monotonically.  It finds a local
+// minimum of the way the start path takes.  No penetration metric is used.
+//
+// `path`: N + 2 points from start to goal; throws InputError for another
+// shape.  problem.metrics are not looked at.
+CorridorSummary PolishInCorridor(const TrajectoryProblem& problem,
+                                 const Path& path,
+                                 const CorridorOptions& options = {});
+
+}  // namespace phongpd

@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "planners/trajectory/corridor_program.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace phongpd {
+namespace {
+
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+
+constexpr double kNoBound = 2e19;  // Ipopt's infinity is 1e19
+// A triangle this far above a plane, in units of D, still counts as behind it.
+constexpr double kRounding = 1e-12;
+// Shortfalls below this, in units of D, are not worth a variable.
+constexpr double kLeastMissing = 1e-6;
+
+}  // namespace
+
+int Corridor::CountPlanes() const {
+  std::size_t count = 0;
+  for (const auto& of_segment : planes) count += of_segment.size();
+  return static_cast<int>(count);
+}
+
+double Corridor::TotalMissing() const {
+  double sum = 0.0;
+  for (const double one : missing) sum += one;
+  return sum;
+}
+
+Corridor FindCorridor(const TrajectoryProblem& problem,
+                      const PathSprings& springs, const Path& path,
+                      double reach) {
+  Corridor corridor;
+  const double unit = springs.unit;
+  for (std::size_t i = 0; i + 1 < path.size(); ++i) {
+    const auto near =
+        problem.free_space->FindNear(path[i], path[i + 1], reach * unit);
+    const double clearance =
+        near.empty() ? problem.margin : near[0].distance / unit;
+    corridor.missing.push_back(std::max(0.0, problem.margin - clearance));
+    std::vector<Corridor::Plane> planes;
+    for (const FreeSpace::NearTriangle& triangle : near) {
+      const auto is_behind = [&](const Corridor::Plane& plane) {
+        return std::all_of(
+            triangle.corners.begin(), triangle.corners.end(),
+            [&](const Vector3d& q) {
+              return plane.normal.dot((q - springs.center) / unit) <=
+                     plane.level + kRounding;
+            });
+      };
+      if (std::any_of(planes.begin(), planes.end(), is_behind)) continue;
+      planes.push_back(
+          {triangle.normal,
+           (triangle.level - triangle.normal.dot(springs.center)) / unit});
+    }
+    corridor.planes.push_back(std::move(planes));
+  }
+  return corridor;
+}
+
+CorridorProgram::CorridorProgram(const TrajectoryProblem& problem,
+                                 const PathSprings& springs,
+                                 const Corridor& corridor, const VectorXd& now,
+                                 double trust, double price)
+    : problem_(problem),
+      springs_(springs),
+      now_(now),
+      trust_(trust),
+      price_(price) {
+  for (int i = 0; i <= springs.waypoints; ++i) {
+    const double missing = corridor.missing[static_cast<std::size_t>(i)];
+    int elastic = -1;
+    if (missing > kLeastMissing && price > 0.0) {
+      elastic = 3 * springs.waypoints + static_cast<int>(missing_.size());
+      missing_.push_back(missing);
+    }
+    for (const auto& plane : corridor.planes[static_cast<std::size_t>(i)]) {
+      for (const int waypoint : {i - 1, i}) {
+        if (waypoint < 0 || waypoint >= springs.waypoints) continue;
+        // What little is missing without a variable must not make the present
+        // path infeasible.
+        const double shortfall = elastic < 0 ? missing : 0.0;
+        planes_.push_back({waypoint, elastic, plane.normal,
+                           plane.level + problem.margin - shortfall});
+        plane_nonzeros_ += elastic < 0 ? 3 : 4;
+      }
+    }
+  }
+}
+
+VectorXd CorridorProgram::Start() const {
+  VectorXd x(variables());
+  x.head(now_.size()) = now_;
+  for (std::size_t i = 0; i < missing_.size(); ++i) {
+    x[now_.size() + static_cast<Eigen::Index>(i)] = missing_[i];
+  }
+  return x;
+}
+
+int CorridorProgram::variables() const {
+  return 3 * springs_.waypoints + static_cast<int>(missing_.size());
+}
+int CorridorProgram::rows() const {
+  return static_cast<int>(planes_.size()) + springs_.rows();
+}
+int CorridorProgram::jacobian_nonzeros() const {
+  return plane_nonzeros_ + springs_.jacobian_nonzeros();
+}
+
+void CorridorProgram::Bounds(double* x_low, double* x_high, double* g_low,
+                             double* g_high) const {
+  const BoundingBox& bounds = problem_.free_space->bounds();
+  for (int i = 0; i < 3 * springs_.waypoints; ++i) {
+    x_low[i] = now_[i] - trust_;
+    x_high[i] = now_[i] + trust_;
+    if (bounds.IsEmpty()) continue;
+    // The margin from the bounds, or what there is now.
+    const double c = springs_.center[i % 3];
+    const double low = (bounds.min[i % 3] - c) / springs_.unit;
+    const double high = (bounds.max[i % 3] - c) / springs_.unit;
+    x_low[i] = std::max(x_low[i], std::min(now_[i], low + problem_.margin));
+    x_high[i] = std::min(x_high[i], std::max(now_[i], high - problem_.margin));
+  }
+  std::fill(x_low + 3 * springs_.waypoints, x_low + variables(), 0.0);
+  std::copy(missing_.begin(), missing_.end(), x_high + 3 * springs_.waypoints);
+  for (const Row& row : planes_) *g_low++ = row.level;
+  std::fill(g_low, g_low + springs_.rows(), -kNoBound);
+  std::fill(g_high, g_high + planes_.size(), kNoBound);
+  std::fill(g_high + planes_.size(), g_high + rows(), springs_.eta);
+}
+
+void CorridorProgram::JacobianPattern(int* row, int* col) const {
+  for (std::size_t i = 0; i < planes_.size(); ++i) {
+    for (int axis = 0; axis < 3; ++axis) {
+      *row++ = static_cast<int>(i);
+      *col++ = 3 * planes_[i].waypoint + axis;
+    }
+    if (planes_[i].elastic < 0) continue;
+    *row++ = static_cast<int>(i);
+    *col++ = planes_[i].elastic;
+  }
+  springs_.JacobianPattern(static_cast<int>(planes_.size()), row, col);
+}
+
+void CorridorProgram::HessianPattern(int* row, int* col) const {
+  springs_.HessianPattern(row, col);
+}
+
+double CorridorProgram::Objective(const double* x) const {
+  double missing = 0.0;
+  for (int i = 3 * springs_.waypoints; i < variables(); ++i) missing += x[i];
+  return springs_.Energy(x) + price_ * missing;
+}
+
+void CorridorProgram::ObjectiveGradient(const double* x,
+                                        double* gradient) const {
+  springs_.Gradient(x, gradient);
+  std::fill(gradient + 3 * springs_.waypoints, gradient + variables(), price_);
+}
+
+bool CorridorProgram::Constraints(const double* x, double* values,
+                                  double* jacobian) {
+  for (const Row& row : planes_) {
+    const Eigen::Map<const Vector3d> u(x + 3 * row.waypoint);
+    *values = row.normal.dot(u);
+    for (int axis = 0; axis < 3; ++axis) *jacobian++ = row.normal[axis];
+    if (row.elastic >= 0) {
+      *values += x[row.elastic];
+      *jacobian++ = 1.0;
+    }
+    ++values;
+  }
+  springs_.Lengths(x, values, jacobian);
+  return std::all_of(values, values + springs_.rows(),
+                     [](double value) { return std::isfinite(value); });
+}
+
+void CorridorProgram::Hessian(const double* /*x*/, double objective_factor,
+                              const double* multipliers, double* values) const {
+  springs_.Hessian(objective_factor, multipliers + planes_.size(), values);
+}
+
+}  // namespace phongpd

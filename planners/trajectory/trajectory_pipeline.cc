@@ -1,0 +1,263 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "planners/trajectory/trajectory_pipeline.h"
+
+#include <algorithm>
+#include <chrono>
+#include <utility>
+
+#include "core/mesh/mesh_error.h"
+
+namespace phongpd {
+namespace {
+
+class Timer {
+ public:
+  double Seconds() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() -
+                                         begin_)
+        .count();
+  }
+
+ private:
+  std::chrono::steady_clock::time_point begin_ =
+      std::chrono::steady_clock::now();
+};
+
+// A path in hand and what is known of it.
+struct Candidate {
+  TrajectoryStatus status = TrajectoryStatus::kFailed;
+  std::string reason;
+  Path path;
+  double objective = 0.0;
+  int route = 0;
+
+  bool IsBetterThan(const Candidate& other) const {
+    const bool is_free = HasFreePath(status);
+    if (is_free != HasFreePath(other.status)) return is_free;
+    return objective < other.objective;
+  }
+};
+
+// One run of the pipeline.
+class Run {
+ public:
+  Run(const TrajectoryProblem& problem, const StartRepair* repair,
+      const PipelineOptions& options)
+      : problem_(problem), repair_(repair), options_(options) {}
+
+  PipelineResult Solve() {
+    std::vector<Path> starts;
+    if (CheckEnds() && FindStarts(&starts)) {
+      for (std::size_t i = 0; i < starts.size(); ++i) {
+        Candidate found = SolveRoute(starts[i], static_cast<int>(i));
+        if (i == 0 || found.IsBetterThan(best_)) best_ = std::move(found);
+      }
+      result_.status = best_.status;
+      result_.reason = std::move(best_.reason);
+      result_.path = std::move(best_.path);
+      result_.objective = best_.objective;
+      result_.route = best_.route;
+    }
+    result_.certificate = CheckPath(*problem_.free_space, result_.path);
+    result_.seconds = timer_.Seconds();
+    return std::move(result_);
+  }
+
+ private:
+  double Left() const {
+    return std::max(1e-3, options_.time_limit - timer_.Seconds());
+  }
+  bool IsLate() const { return timer_.Seconds() >= options_.time_limit; }
+
+  bool CheckEnds() {
+    const FreeSpace& space = *problem_.free_space;
+    if (!space.IsFree(problem_.start)) {
+      result_.status = TrajectoryStatus::kStartInCollision;
+    } else if (!space.IsFree(problem_.goal)) {
+      result_.status = TrajectoryStatus::kGoalInCollision;
+    } else {
+      return true;
+    }
+    return false;
+  }
+
+  void Note(StageRecord record, const Path& path) {
+    record.is_free = CheckPath(*problem_.free_space, path).free;
+    record.objective = PathEnergy(problem_, path);
+    result_.iterations += record.iterations;
+    result_.stages.push_back(std::move(record));
+  }
+
+  // False: the answer is known already.
+  bool FindStarts(std::vector<Path>* starts) {
+    if (options_.start != TrajectoryStart::kStraight) {
+      StartRepairOptions repair;
+      repair.waypoints = problem_.waypoints;
+      // A path along the surface itself is no start.
+      repair.margin = std::max(problem_.margin, 1e-6);
+      repair.diagonal = Diagonal(problem_);
+      repair.routes = options_.routes;
+      repair.planner_only = options_.start == TrajectoryStart::kPlanner;
+      repair.seed = options_.seed;
+      result_.repair = repair_->Repair(problem_.start, problem_.goal, repair);
+      *starts = result_.repair.routes;
+    }
+    const RepairStatus status = result_.repair.status;
+    if (status == RepairStatus::kInfeasibleProved) {
+      result_.status = TrajectoryStatus::kInfeasibleProved;
+    } else if (starts->empty()) {
+      starts->push_back(StraightPath(problem_));
+    }
+    const bool is_straight = options_.start == TrajectoryStart::kStraight;
+    for (std::size_t i = 0; i < starts->size(); ++i) {
+      Note({"start", static_cast<int>(i),
+            is_straight ? "straight" : ToString(status), false, 0.0, 0,
+            i == 0 ? result_.repair.seconds : 0.0},
+           (*starts)[i]);
+    }
+    return status != RepairStatus::kInfeasibleProved;
+  }
+
+  Candidate SolveRoute(const Path& start, int route) {
+    Candidate candidate;
+    candidate.route = route;
+    Keep(start, &candidate);
+    if (HasFreePath(candidate.status)) {
+      candidate.reason = "the time limit came before the optimiser";
+    }
+    if (!IsLate()) Optimize(start, &candidate);
+    const bool is_wanted = options_.polish == PolishWhen::kAlways ||
+                           (options_.polish == PolishWhen::kNeeded &&
+                            candidate.status != TrajectoryStatus::kSolved);
+    if (is_wanted && HasFreePath(candidate.status) && !IsLate()) {
+      Polish(&candidate);
+    }
+    return candidate;
+  }
+
+  // Makes the path the candidate, as free or not free, not converged.
+  void Keep(const Path& path, Candidate* candidate) {
+    candidate->status = CheckPath(*problem_.free_space, path).free
+                            ? TrajectoryStatus::kStalledFeasible
+                            : TrajectoryStatus::kFailed;
+    candidate->path = path;
+    candidate->objective = PathEnergy(problem_, path);
+  }
+
+  void Optimize(const Path& start, Candidate* candidate) {
+    TrajectoryOptions options = options_.optimizer;
+    options.ipopt.time_limit = std::min(options.ipopt.time_limit, Left());
+    const TrajectorySummary summary =
+        IpoptTrajectoryOptimizer(problem_, options).Solve(start);
+    const std::string word = ToString(summary.status);
+    result_.restoration_iterations += summary.restoration_iterations;
+    Note({"ipopt", candidate->route, word, false, 0.0, summary.iterations,
+          summary.seconds_total},
+         summary.path);
+    Candidate found;
+    found.route = candidate->route;
+    Keep(summary.path, &found);
+    const bool is_converged = summary.status == SolveStatus::kConverged ||
+                              summary.status == SolveStatus::kAcceptable;
+    if (HasFreePath(found.status) && is_converged) {
+      found.status = TrajectoryStatus::kSolved;
+      *candidate = std::move(found);
+      return;
+    }
+    const std::string reason =
+        "Ipopt ended " + word +
+        (HasFreePath(found.status) ? "" : ", its path collides");
+    // A start that collides is no better than an end that does.
+    if (!HasFreePath(candidate->status) || found.IsBetterThan(*candidate)) {
+      *candidate = std::move(found);
+    }
+    candidate->reason = reason;
+  }
+
+  void Polish(Candidate* candidate) {
+    CorridorOptions options = options_.corridor;
+    options.time_limit = std::min(options.time_limit, Left());
+    CorridorSummary summary =
+        PolishInCorridor(problem_, candidate->path, options);
+    Note({"corridor", candidate->route, ToString(summary.status), false, 0.0,
+          summary.iterations, summary.seconds},
+         summary.path);
+    candidate->path = std::move(summary.path);
+    candidate->objective = summary.objective;
+    if (summary.status == CorridorStatus::kConverged) {
+      candidate->status = TrajectoryStatus::kPolished;
+      candidate->reason.clear();
+    } else if (candidate->status != TrajectoryStatus::kSolved) {
+      candidate->reason +=
+          std::string(", the corridor ") + ToString(summary.status);
+    }
+  }
+
+  const TrajectoryProblem& problem_;
+  const StartRepair* repair_;
+  const PipelineOptions& options_;
+  Timer timer_;
+  Candidate best_;
+  PipelineResult result_;
+};
+
+}  // namespace
+
+void PipelineOptions::Validate() const {
+  if (routes < 1 || routes > 8) {
+    throw InputError("trajectory: routes: expected 1 to 8, found " +
+                     std::to_string(routes));
+  }
+  if (!(time_limit > 0.0)) {
+    throw InputError("trajectory: time_limit: expected > 0 seconds, found " +
+                     std::to_string(time_limit));
+  }
+  optimizer.Validate();
+  corridor.Validate();
+}
+
+const char* ToString(TrajectoryStatus status) {
+  switch (status) {
+    case TrajectoryStatus::kSolved:
+      return "solved";
+    case TrajectoryStatus::kPolished:
+      return "polished";
+    case TrajectoryStatus::kStalledFeasible:
+      return "stalled_feasible";
+    case TrajectoryStatus::kInfeasibleProved:
+      return "infeasible_proved";
+    case TrajectoryStatus::kStartInCollision:
+      return "start_in_collision";
+    case TrajectoryStatus::kGoalInCollision:
+      return "goal_in_collision";
+    case TrajectoryStatus::kFailed:
+      break;
+  }
+  return "failed";
+}
+
+bool HasFreePath(TrajectoryStatus status) {
+  return status == TrajectoryStatus::kSolved ||
+         status == TrajectoryStatus::kPolished ||
+         status == TrajectoryStatus::kStalledFeasible;
+}
+
+TrajectoryPipeline::TrajectoryPipeline(
+    const TrajectoryProblem& problem, std::shared_ptr<const StartRepair> repair,
+    const PipelineOptions& options)
+    : problem_(problem), repair_(std::move(repair)), options_(options) {
+  problem_.Validate();
+  options_.Validate();
+  CheckIpoptOptions(options_.optimizer.ipopt);
+  CheckIpoptOptions(options_.corridor.ipopt);
+  if (repair_ == nullptr && options_.start != TrajectoryStart::kStraight) {
+    throw InputError(
+        "trajectory: start: only a straight one goes without start repair");
+  }
+}
+
+PipelineResult TrajectoryPipeline::Solve() const {
+  return Run(problem_, repair_.get(), options_).Solve();
+}
+
+}  // namespace phongpd

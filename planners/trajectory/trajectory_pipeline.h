@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "planners/exact/start_repair.h"
+#include "planners/trajectory/corridor.h"
+#include "planners/trajectory/ipopt_optimizer.h"
+#include "planners/trajectory/trajectory_problem.h"
+
+namespace phongpd {
+
+// What the first solve starts from.
+enum class TrajectoryStart {
+  kStraight,  // the line, colliding or not: for comparisons
+  kRepaired,  // the line, led around what it hits (start_repair.h)
+  kPlanner,   // the complete planner's path where the line collides
+};
+
+enum class PolishWhen {
+  kNever,
+  kNeeded,  // when Ipopt did not converge to an exactly free path
+  kAlways,  // also then: full margins, the best objective
+};
+
+struct PipelineOptions {
+  TrajectoryStart start = TrajectoryStart::kRepaired;
+  int routes = 1;  // ways around the obstacles to optimise, in [1, 8]
+  PolishWhen polish = PolishWhen::kNeeded;
+  TrajectoryOptions optimizer;
+  CorridorOptions corridor;
+  std::uint64_t seed = 1;  // of the straightening
+  double time_limit = std::numeric_limits<double>::infinity();  // seconds
+
+  // Throws InputError naming the field.
+  void Validate() const;
+};
+
+enum class TrajectoryStatus {
+  kSolved,           // Ipopt converged, exactly free
+  kPolished,         // the corridor converged, exactly free
+  kStalledFeasible,  // exactly free, but nothing converged; see `reason`
+  kInfeasibleProved,
+  kStartInCollision,
+  kGoalInCollision,
+  kFailed,  // no free path; see `reason`
+};
+const char* ToString(TrajectoryStatus status);
+// The first three: there is an exactly free path.
+bool HasFreePath(TrajectoryStatus status);
+
+// One step of the pipeline.
+struct StageRecord {
+  std::string stage;     // "start", "ipopt", "corridor"
+  int route = 0;         // 0: the shortest
+  std::string status;    // in the words of the stage
+  bool is_free = false;  // the exact judge's word on what it returned
+  double objective = 0.0;
+  int iterations = 0;  // of Ipopt
+  double seconds = 0.0;
+};
+
+// No member is NaN or infinite.
+struct PipelineResult {
+  TrajectoryStatus status = TrajectoryStatus::kFailed;
+  std::string reason;  // where the status needs one; one sentence
+  Path path;           // N+2 points; empty without any
+  // Evidence: the judge's word on `path`, free or the first crossing.
+  PathCheck certificate;
+  double objective = 0.0;  // energy of `path`
+  int route = 0;           // that was best
+  int iterations = 0;      // of Ipopt, all stages
+  int restoration_iterations = 0;
+  StartRepairResult repair;  // kStraight: nothing was done
+  std::vector<StageRecord> stages;
+  double seconds = 0.0;
+};
+
+// The default way to a trajectory:
+//
+//   start → Ipopt → exact judge → corridor where that is needed → exact judge
+//
+// for each route, the best exactly free path wins.  From a repaired start
+// Ipopt gets 3 rows a sample, from a colliding one 1 (TrajectoryOptions).  The
+// corridor starts from Ipopt's path where that is free and better than the
+// start, otherwise from the start.  Where repair fails without a proof Ipopt
+// is tried from the colliding line.
+//
+// Lengths are relative to D and positions to the middle of start and goal, so
+// that unit and offset do not matter.  Same arguments, same bytes but for
+// seconds.
+class TrajectoryPipeline {
+ public:
+  // `repair` of the boundary of the union of all contact spaces and bounds of
+  // the problem; null only for kStraight.  Throws InputError for options and
+  // problems that IpoptTrajectoryOptimizer would refuse.
+  TrajectoryPipeline(const TrajectoryProblem& problem,
+                     std::shared_ptr<const StartRepair> repair,
+                     const PipelineOptions& options = {});
+
+  // One solve at a time in a process (SolveWithIpopt).
+  PipelineResult Solve() const;
+
+ private:
+  TrajectoryProblem problem_;
+  std::shared_ptr<const StartRepair> repair_;
+  PipelineOptions options_;
+};
+
+}  // namespace phongpd
