@@ -230,10 +230,42 @@ class Assembler {
     return loops;
   }
 
+  // (vertex, patch with a corner there), sorted.
+  std::vector<std::pair<int, int>> Corners(
+      const std::vector<std::vector<int>>& loops) const {
+    std::vector<std::pair<int, int>> corners;
+    for (const std::vector<int>& loop : loops) {
+      for (const int e : loop) {
+        corners.emplace_back(edges_[e].vertex, patch_of_[e]);
+      }
+    }
+    std::sort(corners.begin(), corners.end());
+    corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
+    return corners;
+  }
+
+  // Has a patch that does not end at border edge e corners at both vertices?
+  bool IsSharedByThird(const std::vector<std::pair<int, int>>& corners, int e,
+                       int from, int to) const {
+    for (auto it = std::lower_bound(corners.begin(), corners.end(),
+                                    std::make_pair(from, -1));
+         it != corners.end() && it->first == from; ++it) {
+      const int patch = it->second;
+      if (patch == patch_of_[e] || patch == patch_of_[edges_[e].mate]) continue;
+      if (std::binary_search(corners.begin(), corners.end(),
+                             std::make_pair(to, patch))) {
+        return true;
+      }
+    }
+    return false;
+  }
+
   // Two sheets along one line may have different vertices on it; dropping
-  // them all would leave both with the same edge.  Keeps one.
+  // them all would leave both with the same edge, or one with an edge that is
+  // a diagonal of the other's patch.  Keeps one.
   void KeepEdgesDistinct(const std::vector<std::vector<int>>& loops,
                          std::vector<char>* removable) const {
+    const std::vector<std::pair<int, int>> corners = Corners(loops);
     for (bool changed = true; changed;) {
       changed = false;
       std::map<std::pair<int, int>, int> dropped;  // edge → a vertex left out
@@ -253,6 +285,10 @@ class Assembler {
           const int keep = it->second >= 0 ? it->second : skipped;
           if (!is_new && keep >= 0) {
             (*removable)[keep] = 0;
+            changed = true;
+          } else if (skipped >= 0 && IsSharedByThird(corners, loop[k % size],
+                                                     vertex(k), vertex(next))) {
+            (*removable)[skipped] = 0;
             changed = true;
           }
           k = next;
