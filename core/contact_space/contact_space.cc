@@ -23,6 +23,7 @@
 #include "core/contact_space/surface_assembly.h"
 #include "core/contact_space/surface_refinement.h"
 #include "core/contact_space/union_find.h"
+#include "core/contact_space/zero_edges.h"
 #include "core/mesh/triangle_quality.h"
 
 namespace phongpd {
@@ -101,6 +102,17 @@ void RoundSurface(const internal::ExactSurface& surface,
     out->plane.push_back(plane_ids.emplace(key, next).first->second);
     out->kind.push_back(convolution.facets[facet].kind);
   }
+}
+
+// Distinct exact points may round to one.
+void RemoveZeroEdges(ContactSpace* space) {
+  const std::vector<int> kept = internal::CollapseZeroEdges(&space->mesh);
+  for (std::size_t t = 0; t < kept.size(); ++t) {
+    space->plane[t] = space->plane[kept[t]];
+    space->kind[t] = space->kind[kept[t]];
+  }
+  space->plane.resize(kept.size());
+  space->kind.resize(kept.size());
 }
 
 // Does every vertex of a closed, edge-manifold mesh have one fan of triangles?
@@ -236,6 +248,7 @@ ContactSpace BuildContactSpace(const TriangleMesh& robot,
   if (turned.used) {
     out.mesh = Rotated(std::move(out.mesh), turned.rotation.transpose());
   }
+  RemoveZeroEdges(&out);
   clock.Finish("surface");
   if (options.refine.target_edge > 0.0) {
     internal::RefineSurface(options.refine, &out);

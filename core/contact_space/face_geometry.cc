@@ -17,6 +17,8 @@ using Eigen::Vector3d;
 namespace {
 
 constexpr double kMiss = std::numeric_limits<double>::infinity();
+// Grid steps: far above what rounding moves a ray at a box.
+constexpr double kBoxMargin = 0x1p-4;
 
 // Where the ray enters the box, or infinity.  A direction component of zero
 // is handled apart: 0 · ∞ is not a number.
@@ -82,28 +84,57 @@ Vector3d FaceGeometry::InteriorPoint(int face) const {
   return middle + 0.38174 * reach * inward;
 }
 
-// Ray parameter of the hit, or infinity: plane, then parity of the border in
-// the plane's dominant projection.
-double FaceGeometry::Intersect(int face, const Vector3d& from,
-                               const Vector3d& direction) const {
+// A ray and the plane across it, into which everything is projected along the
+// ray: where a point lands depends on nothing but the point and the ray.
+struct FaceGeometry::Ray {
+  Ray(const Vector3d& from_point, const Vector3d& along)
+      : from(from_point), direction(along) {
+    const int axis = LargestAxis(along);
+    u = (axis + 1) % 3;
+    v = (axis + 2) % 3;
+    w = axis;
+    shear_u = along[u] / along[w];
+    shear_v = along[v] / along[w];
+  }
+  Eigen::Vector2d Project(const Vector3d& p) const {
+    const double height = p[w] - from[w];
+    return {(p[u] - from[u]) - shear_u * height,
+            (p[v] - from[v]) - shear_v * height};
+  }
+
+  Vector3d from, direction;
+  int u = 0, v = 0, w = 0;
+  double shear_u = 0.0, shear_v = 0.0;
+};
+
+// Ray parameter of the hit, or infinity: parity of the projected border, then
+// the plane.  a × b is the negative of b × a to the last bit, so an edge is
+// passed on the same side whichever face asks and from whichever end.
+double FaceGeometry::Intersect(int face, const Ray& ray) const {
   const ArrangementFace& f = arrangement_.faces[face];
-  const Vector3d n =
-      ToDouble(convolution_.facets[arrangement_.faces[face].facet].normal);
-  const double slope = n.dot(direction);
-  if (slope == 0.0) return kMiss;
-  const double t = n.dot(From(f.begin) - from) / slope;
-  if (!(t > 0)) return kMiss;
-  const Vector3d p = from + t * direction;
-  const int axis = LargestAxis(n), u = (axis + 1) % 3, v = (axis + 2) % 3;
   bool inside = false;
   for (int h = f.begin; h < f.end; ++h) {
-    const Vector3d &a = From(h), &b = To(h);
-    if ((a[v] <= p[v]) == (b[v] <= p[v])) continue;
-    if (a[u] + (b[u] - a[u]) * ((p[v] - a[v]) / (b[v] - a[v])) > p[u]) {
-      inside = !inside;
-    }
+    const Eigen::Vector2d a = ray.Project(From(h)), b = ray.Project(To(h));
+    if ((a[1] <= 0.0) == (b[1] <= 0.0)) continue;
+    const double turn = a[0] * b[1] - a[1] * b[0];
+    if (a[1] <= 0.0 ? turn > 0.0 : turn < 0.0) inside = !inside;
   }
-  return inside ? t : kMiss;
+  if (!inside) return kMiss;
+  double low = kMiss, high = -kMiss;
+  for (int h = f.begin; h < f.end; ++h) {
+    const double t = (From(h) - ray.from).dot(ray.direction);
+    low = std::min(low, t);
+    high = std::max(high, t);
+  }
+  const double squared = ray.direction.squaredNorm();
+  const Vector3d n = ToDouble(convolution_.facets[f.facet].normal);
+  const double slope = n.dot(ray.direction);
+  // Seen edge-on, the plane tells little.
+  const double t = slope == 0.0
+                       ? 0.5 * (low + high) / squared
+                       : std::clamp(n.dot(From(f.begin) - ray.from) / slope,
+                                    low / squared, high / squared);
+  return t > 0.0 ? t : kMiss;
 }
 
 void FaceGeometry::BuildTree() {
@@ -116,6 +147,8 @@ void FaceGeometry::BuildTree() {
       box.min = box.min.cwiseMin(From(h));
       box.max = box.max.cwiseMax(From(h));
     }
+    box.min.array() -= kBoxMargin;
+    box.max.array() += kBoxMargin;
   });
   tree_ = BoxTree(boxes, 4);
 }
@@ -123,6 +156,7 @@ void FaceGeometry::BuildTree() {
 FaceGeometry::Hit FaceGeometry::FirstHit(const Vector3d& from,
                                          const Vector3d& direction,
                                          double reach, int self) const {
+  const Ray ray(from, direction);
   const auto better = [](const Hit& a, const Hit& b) {
     return a.distance != b.distance ? a.distance < b.distance : a.face < b.face;
   };
@@ -137,7 +171,7 @@ FaceGeometry::Hit FaceGeometry::FirstHit(const Vector3d& from,
         [&](int position) {
           const int face = tree_.order()[position];
           if (face != self) {
-            const Hit hit{Intersect(face, from, direction), face};
+            const Hit hit{Intersect(face, ray), face};
             if (better(hit, best)) best = hit;
           }
           return best.distance;
@@ -149,7 +183,7 @@ FaceGeometry::Hit FaceGeometry::FirstHit(const Vector3d& from,
       [&](const tbb::blocked_range<int>& range, Hit best) {
         for (int f = range.begin(); f < range.end(); ++f) {
           if (f == self) continue;
-          const Hit hit{Intersect(f, from, direction), f};
+          const Hit hit{Intersect(f, ray), f};
           if (better(hit, best)) best = hit;
         }
         return best;
@@ -160,9 +194,10 @@ FaceGeometry::Hit FaceGeometry::FirstHit(const Vector3d& from,
 std::vector<FaceGeometry::Hit> FaceGeometry::AllHits(const Vector3d& from,
                                                      const Vector3d& direction,
                                                      int self) const {
+  const Ray ray(from, direction);
   std::vector<Hit> hits;
   const auto visit = [&](int face) {
-    const double t = face == self ? kMiss : Intersect(face, from, direction);
+    const double t = face == self ? kMiss : Intersect(face, ray);
     if (t < kMiss) hits.push_back({t, face});
   };
   if (tree_.nodes().empty()) {

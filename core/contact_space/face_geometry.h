@@ -32,7 +32,8 @@ class FaceGeometry {
   // Speeds up FirstHit; worth it for more than a few rays.
   void BuildTree();
   // First face other than `self` on from + t·direction, 0 < t ≤ reach; the
-  // distance is `reach` and the face −1 when there is none.
+  // distance is `reach` and the face −1 when there is none.  All faces at an
+  // edge agree on which side of it a ray passes: none slips between two.
   Hit FirstHit(const Eigen::Vector3d& from, const Eigen::Vector3d& direction,
                double reach, int self) const;
   // All faces other than `self` on from + t·direction, t > 0, by t.
@@ -40,8 +41,8 @@ class FaceGeometry {
                            const Eigen::Vector3d& direction, int self) const;
 
  private:
-  double Intersect(int face, const Eigen::Vector3d& from,
-                   const Eigen::Vector3d& direction) const;
+  struct Ray;
+  double Intersect(int face, const Ray& ray) const;
   const Eigen::Vector3d& From(int half_edge) const {
     return points_.Approximate(arrangement_.half_edges[half_edge].from);
   }

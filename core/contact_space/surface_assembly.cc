@@ -2,8 +2,10 @@
 #include "core/contact_space/surface_assembly.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <stdexcept>
 
 #include "core/contact_space/union_find.h"
@@ -128,26 +130,36 @@ class Assembler {
 
   // Half-edges that two sheets of one solid share.
   void SeparatePinchedEdges() {
-    std::map<std::pair<int, int>, std::vector<int>> owners;
+    using Owner = std::array<int, 3>;  // from < to, half-edge
+    std::vector<Owner> owners;
     for (std::size_t e = 0; e < edges_.size(); ++e) {
       const int from = edges_[e].vertex, to = To(static_cast<int>(e));
-      if (from < to) owners[{from, to}].push_back(static_cast<int>(e));
+      if (from < to) owners.push_back({from, to, static_cast<int>(e)});
     }
+    std::sort(owners.begin(), owners.end());
     pinned_.assign(vertex_points_.size(), 0);
-    for (const auto& [ends, sheets] : owners) {
-      if (sheets.size() < 2) continue;
-      const GridPlane* other = nullptr;
-      for (const int e : sheets) {
-        for (const int f : {e, edges_[e].mate}) {
-          if (!(PlaneOf(f) == PlaneOf(sheets[0]))) other = &PlaneOf(f);
-        }
-      }
-      if (other == nullptr) continue;
-      const int middle = MiddlePoint(sheets[0], *other);
-      if (middle < 0) continue;
-      pinned_[ends.first] = pinned_[ends.second] = 1;
-      for (const int e : sheets) SplitSheet(e, middle);
+    for (auto first = owners.begin(), last = first; first != owners.end();
+         first = last) {
+      last = std::find_if(first, owners.end(), [&](const Owner& o) {
+        return o[0] != (*first)[0] || o[1] != (*first)[1];
+      });
+      if (last - first > 1) SeparateSheets({first, last});
     }
+  }
+
+  void SeparateSheets(const std::vector<std::array<int, 3>>& sheets) {
+    const GridPlane& plane = PlaneOf(sheets[0][2]);
+    const GridPlane* other = nullptr;
+    for (const auto& sheet : sheets) {
+      for (const int f : {sheet[2], edges_[sheet[2]].mate}) {
+        if (!(PlaneOf(f) == plane)) other = &PlaneOf(f);
+      }
+    }
+    if (other == nullptr) return;
+    const int middle = MiddlePoint(sheets[0][2], *other);
+    if (middle < 0) return;
+    pinned_[sheets[0][0]] = pinned_[sheets[0][1]] = 1;
+    for (const auto& sheet : sheets) SplitSheet(sheet[2], middle);
   }
 
   void SplitSheet(int e, int point) {
@@ -230,10 +242,46 @@ class Assembler {
     return loops;
   }
 
+  // The patches with a corner at vertex v: from patches[begin[v]] up to
+  // patches[begin[v + 1]].
+  struct PatchCorners {
+    std::vector<int> begin, patches;
+  };
+
+  PatchCorners CollectCorners() const {
+    PatchCorners corners;
+    corners.begin.assign(vertex_points_.size() + 2, 0);
+    for (std::size_t e = 0; e < edges_.size(); ++e) {
+      if (is_border_[e]) ++corners.begin[edges_[e].vertex + 2];
+    }
+    std::partial_sum(corners.begin.begin(), corners.begin.end(),
+                     corners.begin.begin());
+    corners.patches.resize(corners.begin.back());
+    for (std::size_t e = 0; e < edges_.size(); ++e) {
+      if (!is_border_[e]) continue;
+      corners.patches[corners.begin[edges_[e].vertex + 1]++] = patch_of_[e];
+    }
+    return corners;
+  }
+
+  // Has a patch that does not end at border edge e corners at both vertices?
+  bool IsSharedByThird(const PatchCorners& corners, int e, int from,
+                       int to) const {
+    const auto at = [&](int v, int side) {
+      return corners.patches.begin() + corners.begin[v + side];
+    };
+    return std::any_of(at(from, 0), at(from, 1), [&](int patch) {
+      return patch != patch_of_[e] && patch != patch_of_[edges_[e].mate] &&
+             std::find(at(to, 0), at(to, 1), patch) != at(to, 1);
+    });
+  }
+
   // Two sheets along one line may have different vertices on it; dropping
-  // them all would leave both with the same edge.  Keeps one.
+  // them all would leave both with the same edge, or one with an edge that is
+  // a diagonal of the other's patch.  Keeps one.
   void KeepEdgesDistinct(const std::vector<std::vector<int>>& loops,
                          std::vector<char>* removable) const {
+    const PatchCorners corners = CollectCorners();
     for (bool changed = true; changed;) {
       changed = false;
       std::map<std::pair<int, int>, int> dropped;  // edge → a vertex left out
@@ -253,6 +301,10 @@ class Assembler {
           const int keep = it->second >= 0 ? it->second : skipped;
           if (!is_new && keep >= 0) {
             (*removable)[keep] = 0;
+            changed = true;
+          } else if (skipped >= 0 && IsSharedByThird(corners, loop[k % size],
+                                                     vertex(k), vertex(next))) {
+            (*removable)[skipped] = 0;
             changed = true;
           }
           k = next;

@@ -8,8 +8,11 @@
 #include <CGAL/Object.h>
 #include <CGAL/box_intersection_d.h>
 #include <CGAL/intersections.h>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_reduce.h>
 
 #include <array>
+#include <functional>
 #include <utility>
 
 namespace phongpd::internal {
@@ -20,6 +23,8 @@ using Exact = CGAL::Exact_predicates_exact_constructions_kernel;
 using Point = Kernel::Point_3;
 using Corners = std::array<Point, 3>;
 using Box = CGAL::Box_intersection_d::Box_with_info_d<double, 3, std::size_t>;
+
+constexpr std::size_t kBatch = 1 << 16;
 
 Corners CornersOf(const TriangleMesh& mesh, const Triangle& triangle) {
   const auto point = [&mesh](int v) {
@@ -136,13 +141,31 @@ std::size_t CountSelfIntersections(const TriangleMesh& mesh,
                                    const std::vector<int>& labels) {
   std::vector<Box> boxes =
       BoxesOf(mesh, ProperTriangles(mesh, ComputeBounds(mesh)));
+  // Pairs are judged in parallel, in batches that bound the memory.
+  std::vector<std::pair<std::size_t, std::size_t>> batch;
   std::size_t count = 0;
-  CGAL::box_self_intersection_d(
-      boxes.begin(), boxes.end(), [&](const Box& a, const Box& b) {
-        if (labels[a.info()] != labels[b.info()]) return;
-        count += MeetProperly(CornersOf(mesh, mesh.triangles[a.info()]),
-                              CornersOf(mesh, mesh.triangles[b.info()]));
-      });
+  const auto judge = [&] {
+    count += tbb::parallel_reduce(
+        tbb::blocked_range<std::size_t>(0, batch.size(), 256), std::size_t{0},
+        [&](const tbb::blocked_range<std::size_t>& range, std::size_t sum) {
+          for (std::size_t i = range.begin(); i < range.end(); ++i) {
+            const auto& [s, t] = batch[i];
+            sum += MeetProperly(CornersOf(mesh, mesh.triangles[s]),
+                                CornersOf(mesh, mesh.triangles[t]));
+          }
+          return sum;
+        },
+        std::plus<>());
+    batch.clear();
+  };
+  CGAL::box_self_intersection_d(boxes.begin(), boxes.end(),
+                                [&](const Box& a, const Box& b) {
+                                  if (labels[a.info()] != labels[b.info()])
+                                    return;
+                                  batch.emplace_back(a.info(), b.info());
+                                  if (batch.size() == kBatch) judge();
+                                });
+  judge();
   return count;
 }
 

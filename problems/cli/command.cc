@@ -49,6 +49,35 @@ ContactSpace LoadOrBuild(const TriangleMesh& robot,
   return space;
 }
 
+CLI::Option* AddContactSpaceFile(CLI::App* app, std::string* path) {
+  return app
+      ->add_option("--contact-space", *path,
+                   "Mesh written by phongpd contact-space")
+      ->type_name("FILE");
+}
+
+void AddField(CLI::App* app, std::string* field) {
+  app->add_option("--field", *field,
+                  "Phong field: normals in closed form, or the paper's "
+                  "tangent planes by Newton")
+      ->check(CLI::IsMember({"normal", "tangent-plane"}))
+      ->capture_default_str();
+}
+
+PhongMetricOptions MetricOptions(const std::string& field,
+                                 double smoothing_length) {
+  PhongMetricOptions options;
+  options.field =
+      field == "normal" ? FieldKind::kNormal : FieldKind::kTangentPlane;
+  options.field_options.smoothing_length = smoothing_length;
+  options.Validate();
+  return options;
+}
+
+const char* const kSmoothingLengthHelp =
+    "Of the Phong field, as a fraction of the contact space's diagonal; 0 is "
+    "the paper";
+
 void AddNoCache(CLI::App* app, bool* no_cache) {
   app->add_flag("--no-cache", *no_cache,
                 "Build anew, and do not keep the contact space for the next "

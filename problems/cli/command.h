@@ -11,6 +11,7 @@
 #include "core/mesh/mesh_check.h"
 #include "core/mesh/mesh_error.h"
 #include "core/mesh/triangle_mesh.h"
+#include "core/projection/phong_metric.h"
 #include "problems/output_files.h"
 
 // What the commands of the phongpd program share.
@@ -46,6 +47,18 @@ TriangleMesh LoadContactSpace(const std::string& path);
 ContactSpace LoadOrBuild(const TriangleMesh& robot,
                          const TriangleMesh& obstacle,
                          const ContactSpaceOptions& options, bool use_cache);
+
+// Declares --contact-space, a file that LoadContactSpace reads.
+CLI::Option* AddContactSpaceFile(CLI::App* app, std::string* path);
+
+// Declares --field, and reads it with a --smoothing-length.  Throws InputError
+// naming the flag and the range.
+void AddField(CLI::App* app, std::string* field);
+PhongMetricOptions MetricOptions(const std::string& field,
+                                 double smoothing_length);
+
+// What --smoothing-length says of itself.
+extern const char* const kSmoothingLengthHelp;
 
 // Declares --no-cache.
 void AddNoCache(CLI::App* app, bool* no_cache);

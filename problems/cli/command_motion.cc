@@ -67,11 +67,7 @@ std::vector<MotionTrace> Trace(const Flags& flags, const TriangleMesh& contact,
   traces.push_back(TraceMotion(EuclideanMetric(contact), motion, "euclidean",
                                "Euclidean PD"));
   for (const double length : lengths) {
-    PhongMetricOptions options;
-    options.field =
-        flags.field == "normal" ? FieldKind::kNormal : FieldKind::kTangentPlane;
-    options.field_options.smoothing_length = length;
-    options.Validate();
+    const PhongMetricOptions options = MetricOptions(flags.field, length);
     const std::string value = FormatDouble(length);
     const std::string name = lengths.size() == 1 ? "phong" : "phong@" + value;
     Progress("following " + name);
@@ -137,9 +133,7 @@ int Follow(const Flags& flags) {
 
 Command AddMotion(CLI::App* app) {
   auto flags = std::make_shared<Flags>();
-  app->add_option("--contact-space", flags->contact_space,
-                  "Mesh written by phongpd contact-space")
-      ->type_name("FILE");
+  AddContactSpaceFile(app, &flags->contact_space);
   app->add_option("--robot", flags->robot,
                   "Or: mesh of the translating robot ...")
       ->type_name("FILE");
@@ -158,17 +152,13 @@ Command AddMotion(CLI::App* app) {
       ->required()
       ->type_name("N");
   app->add_option("--smoothing-length", flags->smoothing_lengths,
-                  "Of the Phong field, as a fraction of the contact space's "
-                  "diagonal; 0 is the paper. Several values give the metrics "
-                  "phong@VALUE instead of phong")
+                  std::string(kSmoothingLengthHelp) +
+                      ". Several values give the metrics phong@VALUE instead "
+                      "of phong")
       ->expected(1, -1)
       ->type_name("F")
       ->capture_default_str();
-  app->add_option("--field", flags->field,
-                  "Phong field: normals in closed form, or the paper's "
-                  "tangent planes by Newton")
-      ->check(CLI::IsMember({"normal", "tangent-plane"}))
-      ->capture_default_str();
+  AddField(app, &flags->field);
   app->add_option("--output", flags->output,
                   "CSV file, one row a frame and metric")
       ->required()

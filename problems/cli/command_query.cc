@@ -30,13 +30,9 @@ std::unique_ptr<PenetrationMetric> MakeMetric(const Flags& flags,
   if (flags.metric == "euclidean") {
     return std::make_unique<EuclideanMetric>(contact);
   }
-  PhongMetricOptions options;
-  options.field =
-      flags.field == "normal" ? FieldKind::kNormal : FieldKind::kTangentPlane;
-  options.field_options.smoothing_length =
-      ParseDouble(flags.smoothing_length, "--smoothing-length");
-  options.Validate();
-  return std::make_unique<PhongMetric>(contact, options);
+  return std::make_unique<PhongMetric>(
+      contact, MetricOptions(flags.field, ParseDouble(flags.smoothing_length,
+                                                      "--smoothing-length")));
 }
 
 std::string Row(const Eigen::Vector3d& q, const PenetrationResult& result,
@@ -84,10 +80,7 @@ int Query(const Flags& flags) {
 
 Command AddQuery(CLI::App* app) {
   auto flags = std::make_shared<Flags>();
-  app->add_option("--contact-space", flags->contact_space,
-                  "Mesh written by phongpd contact-space")
-      ->required()
-      ->type_name("FILE");
+  AddContactSpaceFile(app, &flags->contact_space)->required();
   app->add_option("--points", flags->points, "CSV file with the columns x,y,z")
       ->required()
       ->type_name("FILE");
@@ -97,14 +90,9 @@ Command AddQuery(CLI::App* app) {
   app->add_option("--metric", flags->metric)
       ->check(CLI::IsMember({"phong", "euclidean"}))
       ->capture_default_str();
-  app->add_option("--field", flags->field,
-                  "Phong field: normals in closed form, or the paper's "
-                  "tangent planes by Newton")
-      ->check(CLI::IsMember({"normal", "tangent-plane"}))
-      ->capture_default_str();
+  AddField(app, &flags->field);
   app->add_option("--smoothing-length", flags->smoothing_length,
-                  "Of the Phong field, as a fraction of the contact space's "
-                  "diagonal; 0 is the paper")
+                  kSmoothingLengthHelp)
       ->type_name("F")
       ->capture_default_str();
   app->add_option("--jacobian", flags->jacobian,

@@ -4,13 +4,12 @@
 // obstacle, one thread against all, and the checks of random pairs.  Writes
 // CSV, SVG and README.md into a directory.
 #include <CLI/CLI.hpp>
-#include <exception>
 #include <iostream>
 #include <thread>
 
 #include "problems/gnuplot.h"
 #include "results/bench/contact_space_report.h"
-#include "results/bench/output_directory.h"
+#include "results/bench/program.h"
 
 namespace phongpd::bench {
 namespace {
@@ -110,16 +109,13 @@ int Run(int argc, char** argv) {
 
   OutputDirectory out(options.output);
   const std::vector<NamedTable> tables = ContactSpaceTables(results);
-  for (const NamedTable& named : tables) {
-    out.Write(named.file, ToCsv(named.table));
-  }
   std::vector<Figure> figures;
   if (!results.growth.empty()) figures.push_back(GrowthFigure(results.growth));
-  for (const Figure& figure : figures) out.Write(figure.file, figure.svg);
-  out.Write("README.md",
-            ContactSpaceReadme(
-                results, tables, figures,
-                CommandLine("build/contact_space_benchmark", argc, argv)));
+  WriteReport(tables, figures,
+              ContactSpaceReadme(
+                  results, tables, figures,
+                  CommandLine("build/contact_space_benchmark", argc, argv)),
+              &out);
   out.Commit();
   if (!results.cases.empty()) {
     std::cout << ToText(ContactSpaceShortTable(results));
@@ -134,10 +130,6 @@ int Run(int argc, char** argv) {
 }  // namespace phongpd::bench
 
 int main(int argc, char** argv) {
-  try {
-    return phongpd::bench::Run(argc, argv);
-  } catch (const std::exception& error) {
-    std::cerr << "contact_space_benchmark: " << error.what() << '\n';
-    return 3;
-  }
+  return phongpd::bench::RunProgram("contact_space_benchmark",
+                                    phongpd::bench::Run, argc, argv);
 }

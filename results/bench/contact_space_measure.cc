@@ -5,7 +5,7 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cstring>
+#include <functional>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -81,18 +81,34 @@ std::string Build(const BuildCase& build, int builds, int threads,
               {"convolution", report.convolution_triangles},
               {"arrangement", report.arrangement_faces},
               {"builds", seconds.size()},
-              {"median", Quantile(seconds, 0.5)},
+              {"seconds", Quantile(seconds, 0.5)},
               {"slowest", Quantile(seconds, 1.0)},
               {"stages", medians},
               {"hash", hash}}
       .dump();
 }
 
+// Runs `work`, which returns JSON with "seconds", and fills in what every
+// measurement has; nothing when the work did not finish.
+std::optional<Json> RunMeasured(const std::function<std::string()>& work,
+                                double limit, Measurement* m) {
+  const ChildOutcome outcome = RunInChild(work, limit);
+  m->status = outcome.status;
+  m->message = outcome.output;
+  m->seconds = outcome.seconds;
+  m->peak_mib = outcome.peak_mib;
+  if (m->status != ChildStatus::kDone) return std::nullopt;
+  Json json = Json::parse(outcome.output);
+  m->seconds = json["seconds"];
+  return json;
+}
+
 #ifdef PHONGPD_COMPETITORS
 CompetitorMeasurement Compete(const BuildCase& build, double limit,
                               CompetitorResult (*run)(const TriangleMesh&,
                                                       const TriangleMesh&)) {
-  const ChildOutcome outcome = RunInChild(
+  CompetitorMeasurement m;
+  const auto json = RunMeasured(
       [&] {
         const TriangleMesh robot = build.robot(), obstacle = build.obstacle();
         const double start = Now();
@@ -102,17 +118,10 @@ CompetitorMeasurement Compete(const BuildCase& build, double limit,
                     {"volume", result.volume}}
             .dump();
       },
-      limit);
-  CompetitorMeasurement m;
-  m.status = outcome.status;
-  m.message = outcome.output;
-  m.seconds = outcome.seconds;
-  m.peak_mib = outcome.peak_mib;
-  if (m.status != ChildStatus::kDone) return m;
-  const Json json = Json::parse(outcome.output);
-  m.seconds = json["seconds"];
-  m.triangles = json["triangles"];
-  m.volume = json["volume"];
+      limit, &m);
+  if (!json) return m;
+  m.triangles = json->at("triangles");
+  m.volume = json->at("volume");
   return m;
 }
 #endif
@@ -164,15 +173,11 @@ void Count(std::uint64_t seed, const ChildOutcome& outcome, FuzzCount* count) {
 
 BuildMeasurement MeasureBuild(const BuildCase& build, int builds, int threads,
                               double limit) {
-  const ChildOutcome outcome =
-      RunInChild([&] { return Build(build, builds, threads, limit); }, limit);
   BuildMeasurement m;
-  m.status = outcome.status;
-  m.message = outcome.output;
-  m.seconds = outcome.seconds;
-  m.peak_mib = outcome.peak_mib;
-  if (m.status != ChildStatus::kDone) return m;
-  const Json json = Json::parse(outcome.output);
+  const auto found = RunMeasured(
+      [&] { return Build(build, builds, threads, limit); }, limit, &m);
+  if (!found) return m;
+  const Json& json = *found;
   m.robot_triangles = json["robot"];
   m.obstacle_triangles = json["obstacle"];
   m.triangles = json["triangles"];
@@ -185,7 +190,6 @@ BuildMeasurement MeasureBuild(const BuildCase& build, int builds, int threads,
   m.convolution_triangles = json["convolution"];
   m.arrangement_faces = json["arrangement"];
   m.builds = json["builds"];
-  m.seconds = json["median"];
   m.slowest = json["slowest"];
   for (const Json& stage : json["stages"]) {
     m.stages.emplace_back(stage[0], stage[1]);

@@ -13,10 +13,16 @@
 // The measurements of results/contact-space, each in a process of its own.
 namespace phongpd::bench {
 
-// Several builds of one case.
-struct BuildMeasurement {
+// One process.
+struct Measurement {
   ChildStatus status = ChildStatus::kCrashed;
-  std::string message;  // why not, unless kDone
+  std::string message;   // why not, unless kDone
+  double seconds = 0.0;  // of the work if kDone, else of the process
+  double peak_mib = 0.0;
+};
+
+// Several builds of one case; `seconds` is their median.
+struct BuildMeasurement : Measurement {
   int robot_triangles = 0;
   int obstacle_triangles = 0;
   int triangles = 0;
@@ -29,11 +35,9 @@ struct BuildMeasurement {
   int convolution_triangles = 0;
   int arrangement_faces = 0;
   int builds = 0;
-  double seconds = 0.0;  // median
   double slowest = 0.0;
   std::vector<std::pair<std::string, double>> stages;  // medians
-  double peak_mib = 0.0;
-  std::uint64_t hash = 0;  // of the mesh's bytes
+  std::uint64_t hash = 0;                              // of the mesh's bytes
 };
 
 // At most `builds` builds, fewer once they have taken `limit` / 4 together;
@@ -42,11 +46,7 @@ BuildMeasurement MeasureBuild(const BuildCase& build, int builds, int threads,
                               double limit);
 
 // One run of a competitor.
-struct CompetitorMeasurement {
-  ChildStatus status = ChildStatus::kCrashed;
-  std::string message;
-  double seconds = 0.0;
-  double peak_mib = 0.0;
+struct CompetitorMeasurement : Measurement {
   int triangles = 0;
   double volume = 0.0;
 };

@@ -7,8 +7,6 @@
 namespace phongpd::bench {
 namespace {
 
-std::string Count(int value) { return std::to_string(value); }
-
 bool IsDone(ChildStatus status) { return status == ChildStatus::kDone; }
 
 std::string Targets(const ContactSpaceResults& results) {
@@ -30,8 +28,8 @@ std::string Targets(const ContactSpaceResults& results) {
            m.peak_mib <= b.target_mib);
     }
     if (b.target_triangles > 0) {
-      line("≤ " + Count(b.target_triangles) + " triangles",
-           Count(m.triangles) + " triangles",
+      line("≤ " + Shown(b.target_triangles) + " triangles",
+           Shown(m.triangles) + " triangles",
            m.triangles <= b.target_triangles);
     }
   }
@@ -62,18 +60,18 @@ std::string Competition(const ContactSpaceResults& results) {
   };
   std::string text;
   const auto say = [&](const std::string& name, const Tally& t) {
-    text += "- " + name + " finished " + Count(t.finished) + " of " +
-            Count(t.entered) + " pairs, " + Count(t.stopped) + " hit the limit";
+    text += "- " + name + " finished " + Shown(t.finished) + " of " +
+            Shown(t.entered) + " pairs, " + Shown(t.stopped) + " hit the limit";
     const int failed = t.entered - t.finished - t.stopped;
-    if (failed > 0) text += ", " + Count(failed) + " failed";
+    if (failed > 0) text += ", " + Shown(failed) + " failed";
     if (t.finished > 0) {
-      text += "; slower than ours on " + Count(t.slower) +
+      text += "; slower than ours on " + Shown(t.slower) +
               " of those it "
               "finished (" +
               Rounded(t.least) + " to " + Rounded(t.most) + " times our time)";
     }
     if (t.other > 0) {
-      text += "; " + Count(t.other) +
+      text += "; " + Shown(t.other) +
               " of its volumes differ from ours by more than 1e-6";
     }
     text += ".\n";
@@ -94,10 +92,10 @@ std::string Threads(const ContactSpaceResults& results) {
     ++both;
     same += c.one_thread.hash == c.all_threads.hash;
   }
-  return "- " + Count(results.threads) +
+  return "- " + Shown(results.threads) +
          " threads against one: " + Rounded(least) + " to " + Rounded(most) +
-         " times as fast; the same bytes in " + Count(same) + " of " +
-         Count(both) + " pairs.\n";
+         " times as fast; the same bytes in " + Shown(same) + " of " +
+         Shown(both) + " pairs.\n";
 }
 
 std::string Growth(const std::vector<GrowthResult>& growth) {
@@ -116,12 +114,12 @@ std::string Growth(const std::vector<GrowthResult>& growth) {
     const double time = std::log(done.back()->seconds / done[0]->seconds);
     const double memory = std::log(done.back()->peak_mib / done[0]->peak_mib);
     text += "- " + g.robot + " on a smooth obstacle of " +
-            Count(done.front()->obstacle_triangles) + " to " +
-            Count(done.back()->obstacle_triangles) +
+            Shown(done.front()->obstacle_triangles) + " to " +
+            Shown(done.back()->obstacle_triangles) +
             " triangles: time grows with exponent " + Rounded(time / size) +
             ", memory with " + Rounded(memory / size) + " (1 is linear).\n";
     if (done.size() < g.sizes.size()) {
-      text += "  **" + Count(static_cast<int>(g.sizes.size() - done.size())) +
+      text += "  **" + Shown(static_cast<int>(g.sizes.size() - done.size())) +
               " larger sizes did not finish.**\n";
     }
   }
@@ -137,7 +135,7 @@ std::string Fuzz(const ContactSpaceResults& results) {
       failures += "  - " + failure + "\n";
     }
   }
-  return "- " + Count(FailedPairs(results)) + " of " + Count(pairs) +
+  return "- " + Shown(FailedPairs(results)) + " of " + Shown(pairs) +
          " random pairs failed a check.\n" + failures;
 }
 

@@ -10,12 +10,10 @@
 namespace phongpd::bench {
 namespace {
 
-std::string Count(int value) { return std::to_string(value); }
-
 bool IsDone(ChildStatus status) { return status == ChildStatus::kDone; }
 
 // The figure, or why there is none.
-std::string Shown(ChildStatus status, double value, double limit) {
+std::string Outcome(ChildStatus status, double value, double limit) {
   switch (status) {
     case ChildStatus::kDone:
       return Rounded(value);
@@ -29,7 +27,7 @@ std::string Shown(ChildStatus status, double value, double limit) {
 }
 
 std::string Seconds(const BuildMeasurement& m, double limit) {
-  return Shown(m.status, m.seconds, limit);
+  return Outcome(m.status, m.seconds, limit);
 }
 
 // "met" or "missed" for every target there is.
@@ -50,46 +48,46 @@ std::string Verdict(const CaseResult& c) {
         done && m.peak_mib <= c.build.target_mib);
   }
   if (c.build.target_triangles > 0) {
-    add("≤ " + Count(c.build.target_triangles) + " triangles",
+    add("≤ " + Shown(c.build.target_triangles) + " triangles",
         done && m.triangles <= c.build.target_triangles);
   }
   return verdict.empty() ? "–" : verdict;
 }
 
 Table BuildsTable(const ContactSpaceResults& results) {
-  Table table;
-  table.title = "Contact spaces";
-  table.note =
+  return MakeTable(
+      "Contact spaces",
       "Robot + obstacle with their triangles. Seconds: median (and slowest) of "
       "up to 5 builds with all threads, from meshes in memory to a checked "
       "mesh. Peak: of a process that does nothing else. Self-int.: pairs of "
-      "triangles that meet after rounding to double.";
-  table.header = {"pair",        "triangles",   "genus",       "cavities",
-                  "self-int.",   "convolution", "arrangement", "median [s]",
-                  "slowest [s]", "peak [MiB]",  "target"};
-  for (const CaseResult& c : results.cases) {
-    const BuildMeasurement& m = c.all_threads;
-    table.rows.push_back({c.build.name, Count(m.triangles), Count(m.genus),
-                          Count(m.cavities), Count(m.self_intersections),
-                          Count(m.convolution_triangles),
-                          Count(m.arrangement_faces), Seconds(m, results.limit),
-                          Rounded(m.slowest), Rounded(m.peak_mib), Verdict(c)});
-  }
-  return table;
+      "triangles that meet after rounding to double.",
+      {"pair", "triangles", "genus", "cavities", "self-int.", "convolution",
+       "arrangement", "median [s]", "slowest [s]", "peak [MiB]", "target"},
+      results.cases, [&](const CaseResult& c, const auto& add) {
+        const BuildMeasurement& m = c.all_threads;
+        add(c.build.name, m.triangles, m.genus, m.cavities,
+            m.self_intersections, m.convolution_triangles, m.arrangement_faces,
+            Seconds(m, results.limit), m.slowest, m.peak_mib, Verdict(c));
+      });
 }
 
+// Its columns are what the builds report.
 Table StagesTable(const ContactSpaceResults& results) {
   Table table;
   table.title = "Seconds per stage";
   table.note = "Medians of the builds above.";
   table.header = {"pair"};
   for (const CaseResult& c : results.cases) {
-    const BuildMeasurement& m = c.all_threads;
-    if (table.header.size() == 1) {
-      for (const auto& stage : m.stages) table.header.push_back(stage.first);
+    if (table.header.size() > 1) break;
+    for (const auto& stage : c.all_threads.stages) {
+      table.header.push_back(stage.first);
     }
+  }
+  for (const CaseResult& c : results.cases) {
     std::vector<std::string> row = {c.build.name};
-    for (const auto& stage : m.stages) row.push_back(Rounded(stage.second, 2));
+    for (const auto& stage : c.all_threads.stages) {
+      row.push_back(Rounded(stage.second, 2));
+    }
     row.resize(table.header.size());
     table.rows.push_back(row);
   }
@@ -97,117 +95,84 @@ Table StagesTable(const ContactSpaceResults& results) {
 }
 
 Table ThreadsTable(const ContactSpaceResults& results) {
-  Table table;
-  table.title = "One thread and " + Count(results.threads);
-  table.note =
+  const std::string threads = Shown(results.threads);
+  return MakeTable(
+      "One thread and " + threads,
       "The same builds with TBB limited to one thread. Same bytes: a hash of "
-      "all coordinates and indices of the result.";
-  table.header = {"pair", "1 thread [s]", Count(results.threads) + " [s]",
-                  "speed-up", "same bytes"};
-  for (const CaseResult& c : results.cases) {
-    const BuildMeasurement &one = c.one_thread, &all = c.all_threads;
-    const bool both = IsDone(one.status) && IsDone(all.status);
-    table.rows.push_back({c.build.name, Seconds(one, results.limit),
-                          Seconds(all, results.limit),
-                          both ? Rounded(one.seconds / all.seconds) : "–",
-                          !both                  ? "–"
-                          : one.hash == all.hash ? "yes"
-                                                 : "NO"});
-  }
-  return table;
+      "all coordinates and indices of the result.",
+      {"pair", "1 thread [s]", threads + " [s]", "speed-up", "same bytes"},
+      results.cases, [&](const CaseResult& c, const auto& add) {
+        const BuildMeasurement &one = c.one_thread, &all = c.all_threads;
+        const bool both = IsDone(one.status) && IsDone(all.status);
+        add(c.build.name, Seconds(one, results.limit),
+            Seconds(all, results.limit),
+            both ? Rounded(one.seconds / all.seconds) : "–",
+            !both                  ? "–"
+            : one.hash == all.hash ? "yes"
+                                   : "NO");
+      });
 }
 
 Table CompetitorsTable(const ContactSpaceResults& results) {
-  Table table;
-  table.title = "Beside CGAL";
-  table.note =
+  return MakeTable(
+      "Beside CGAL",
       "The same meshes in the same binary and run, one build each, one "
       "process each, limit " +
-      Rounded(results.limit) +
-      " s. Nef: minkowski_sum_3. Hulls: convex parts (an operand convex up to "
-      "1e-9 is one part, else convex_decomposition_3), hulls of all pairs of "
-      "parts, union by corefinement with exact constructions. Nef / ours: "
-      "their time over our median (they use one thread, we use all). "
-      "Volume: relative difference to ours.";
-  table.header = {"pair",       "ours [s]",  "Nef [s]",      "Nef / ours",
-                  "Nef volume", "hulls [s]", "hulls / ours", "hulls volume",
-                  "ours tri.",  "Nef tri.",  "hulls tri.",   "Nef [MiB]",
-                  "hulls [MiB]"};
-  for (const CaseResult& c : results.cases) {
-    if (!c.build.compete) continue;
-    const BuildMeasurement& ours = c.all_threads;
-    const auto ratio = [&](const CompetitorMeasurement& m) -> std::string {
-      if (IsDone(m.status)) return Rounded(m.seconds / ours.seconds);
-      if (m.status != ChildStatus::kStopped) return "–";
-      return "> " + Rounded(results.limit / ours.seconds);
-    };
-    const auto volume = [&](const CompetitorMeasurement& m) -> std::string {
-      if (!IsDone(m.status)) return "–";
-      return Rounded(m.volume / ours.volume - 1.0, 2);
-    };
-    const auto count = [](const CompetitorMeasurement& m) -> std::string {
-      return IsDone(m.status) ? Count(m.triangles) : "–";
-    };
-    const auto shown = [&](const CompetitorMeasurement& m) {
-      return Shown(m.status, m.seconds, results.limit);
-    };
-    table.rows.push_back({c.build.name, Seconds(ours, results.limit),
-                          shown(c.nef), ratio(c.nef), volume(c.nef),
-                          shown(c.hulls), ratio(c.hulls), volume(c.hulls),
-                          Count(ours.triangles), count(c.nef), count(c.hulls),
-                          Rounded(c.nef.peak_mib), Rounded(c.hulls.peak_mib)});
-  }
-  return table;
+          Rounded(results.limit) +
+          " s. Nef: minkowski_sum_3. Hulls: convex parts (an operand convex up "
+          "to 1e-9 is one part, else convex_decomposition_3), hulls of all "
+          "pairs of parts, union by corefinement with exact constructions. Nef "
+          "/ ours: their time over our median (they use one thread, we use "
+          "all). Volume: relative difference to ours.",
+      {"pair", "ours [s]", "Nef [s]", "Nef / ours", "Nef volume", "hulls [s]",
+       "hulls / ours", "hulls volume", "ours tri.", "Nef tri.", "hulls tri.",
+       "Nef [MiB]", "hulls [MiB]"},
+      results.cases, [&](const CaseResult& c, const auto& add) {
+        if (!c.build.compete) return;
+        const BuildMeasurement& ours = c.all_threads;
+        const auto ratio = [&](const CompetitorMeasurement& m) -> std::string {
+          if (IsDone(m.status)) return Rounded(m.seconds / ours.seconds);
+          if (m.status != ChildStatus::kStopped) return "–";
+          return "> " + Rounded(results.limit / ours.seconds);
+        };
+        const auto volume = [&](const CompetitorMeasurement& m) -> std::string {
+          if (!IsDone(m.status)) return "–";
+          return Rounded(m.volume / ours.volume - 1.0, 2);
+        };
+        const auto count = [](const CompetitorMeasurement& m) -> std::string {
+          return IsDone(m.status) ? Shown(m.triangles) : "–";
+        };
+        const auto outcome = [&](const CompetitorMeasurement& m) {
+          return Outcome(m.status, m.seconds, results.limit);
+        };
+        add(c.build.name, Seconds(ours, results.limit), outcome(c.nef),
+            ratio(c.nef), volume(c.nef), outcome(c.hulls), ratio(c.hulls),
+            volume(c.hulls), ours.triangles, count(c.nef), count(c.hulls),
+            c.nef.peak_mib, c.hulls.peak_mib);
+      });
 }
 
 Table GrowthTable(const ContactSpaceResults& results) {
-  Table table;
-  table.title = "A convex robot on a smooth obstacle";
-  table.note =
+  return MakeTable(
+      "A convex robot on a smooth obstacle",
       "A turned brick or a ball of 80 triangles on a torus of 10⁴, 10⁵ and "
       "10⁶. Linear growth: the same microseconds and KiB a triangle in every "
-      "row.";
-  table.header = {"robot",      "obstacle",      "result triangles", "seconds",
-                  "peak [MiB]", "µs a triangle", "KiB a triangle"};
-  for (const GrowthResult& g : results.growth) {
-    for (const BuildMeasurement& m : g.sizes) {
-      const double n = std::max(m.obstacle_triangles, 1);
-      table.rows.push_back({g.robot, Count(m.obstacle_triangles),
-                            Count(m.triangles), Seconds(m, results.limit),
-                            Rounded(m.peak_mib), Rounded(1e6 * m.seconds / n),
-                            Rounded(1024 * m.peak_mib / n)});
-    }
-  }
-  return table;
+      "row.",
+      {"robot", "obstacle", "result triangles", "seconds", "peak [MiB]",
+       "µs a triangle", "KiB a triangle"},
+      results.growth, [&](const GrowthResult& g, const auto& add) {
+        for (const BuildMeasurement& m : g.sizes) {
+          const double n = std::max(m.obstacle_triangles, 1);
+          add(g.robot, m.obstacle_triangles, m.triangles,
+              Seconds(m, results.limit), m.peak_mib, 1e6 * m.seconds / n,
+              1024 * m.peak_mib / n);
+        }
+      });
 }
 
-Table FuzzTable(const ContactSpaceResults& results) {
-  Table table;
-  table.title = "Random pairs";
-  table.note =
-      "Every pair is built four times (as it is, swapped, moved by up to 100 "
-      "sizes, scaled by 1e-9 to 1e9) and checked: closed, manifold, no "
-      "crossing deeper than the grid, volume counted on a lattice, the four "
-      "results alike, and membership of 300 random points and 1200 points "
-      "±1e-6 and ±1e-9 of the diagonal off the surface against FCL. Crevice: "
-      "such a point lies behind another sheet. Undecided: closer to the "
-      "surface, or in a gap thinner, than a few grid steps. Oracle wrong: "
-      "FCL contradicts exact predicates. Rounded: pairs whose triangles meet "
-      "after rounding to double. Slowest: of one build, one thread. Limit " +
-      Rounded(results.pair_limit) + " s a pair.";
-  table.header = {"kind",           "pairs",       "failed",       "points",
-                  "crevices",       "undecided",   "oracle wrong", "rounded",
-                  "largest [tri.]", "slowest [s]", "its seed"};
+FuzzCount Total(const std::vector<FuzzCount>& counts) {
   FuzzCount all;
-  const auto add = [&](const std::string& name, const FuzzCount& f) {
-    table.rows.push_back({name, Count(f.pairs), Count(f.failed),
-                          Count(f.points), Count(f.crevices),
-                          Count(f.undecided), Count(f.oracle_errors),
-                          Count(f.rounded_pairs), Count(f.largest),
-                          Rounded(f.slowest), Count(f.slowest_seed)});
-  };
-  for (const FuzzCount& f : results.fuzz) {
-    add(Name(f.kind), f);
+  for (const FuzzCount& f : counts) {
     all.pairs += f.pairs;
     all.failed += f.failed;
     all.points += f.points;
@@ -221,8 +186,33 @@ Table FuzzTable(const ContactSpaceResults& results) {
       all.slowest_seed = f.slowest_seed;
     }
   }
-  add("all", all);
-  return table;
+  return all;
+}
+
+Table FuzzTable(const ContactSpaceResults& results) {
+  std::vector<std::pair<std::string, FuzzCount>> counts;
+  for (const FuzzCount& f : results.fuzz) counts.emplace_back(Name(f.kind), f);
+  counts.emplace_back("all", Total(results.fuzz));
+  return MakeTable(
+      "Random pairs",
+      "Every pair is built four times (as it is, swapped, moved by up to 100 "
+      "sizes, scaled by 1e-9 to 1e9) and checked: closed, manifold, no "
+      "crossing deeper than the grid, volume counted on a lattice, the four "
+      "results alike, and membership of 300 random points and 1200 points "
+      "±1e-6 and ±1e-9 of the diagonal off the surface against FCL. Crevice: "
+      "such a point lies behind another sheet. Undecided: closer to the "
+      "surface, or in a gap thinner, than a few grid steps. Oracle wrong: "
+      "FCL contradicts exact predicates. Rounded: pairs whose triangles meet "
+      "after rounding to double. Slowest: of one build, one thread. Limit " +
+          Rounded(results.pair_limit) + " s a pair.",
+      {"kind", "pairs", "failed", "points", "crevices", "undecided",
+       "oracle wrong", "rounded", "largest [tri.]", "slowest [s]", "its seed"},
+      counts, [](const auto& count, const auto& add) {
+        const FuzzCount& f = count.second;
+        add(count.first, f.pairs, f.failed, f.points, f.crevices, f.undecided,
+            f.oracle_errors, f.rounded_pairs, f.largest, f.slowest,
+            f.slowest_seed);
+      });
 }
 
 }  // namespace
@@ -247,15 +237,13 @@ std::vector<NamedTable> ContactSpaceTables(const ContactSpaceResults& results) {
 }
 
 Table ContactSpaceShortTable(const ContactSpaceResults& results) {
-  Table table;
-  table.title = "Contact spaces";
-  table.header = {"pair", "triangles", "median [s]", "peak [MiB]", "target"};
-  for (const CaseResult& c : results.cases) {
-    table.rows.push_back({c.build.name, Count(c.all_threads.triangles),
-                          Seconds(c.all_threads, results.limit),
-                          Rounded(c.all_threads.peak_mib), Verdict(c)});
-  }
-  return table;
+  return MakeTable("Contact spaces", "",
+                   {"pair", "triangles", "median [s]", "peak [MiB]", "target"},
+                   results.cases, [&](const CaseResult& c, const auto& add) {
+                     add(c.build.name, c.all_threads.triangles,
+                         Seconds(c.all_threads, results.limit),
+                         c.all_threads.peak_mib, Verdict(c));
+                   });
 }
 
 Figure GrowthFigure(const std::vector<GrowthResult>& growth) {

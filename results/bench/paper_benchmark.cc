@@ -3,16 +3,15 @@
 // same contact spaces, in one binary and one run.  Writes CSV, SVG and
 // README.md into a directory.
 #include <CLI/CLI.hpp>
-#include <exception>
 #include <iostream>
 
 #include "core/projection/euclidean_metric.h"
 #include "core/projection/phong_metric.h"
 #include "problems/gnuplot.h"
 #include "results/bench/moment_figure.h"
-#include "results/bench/output_directory.h"
 #include "results/bench/paper_measure.h"
 #include "results/bench/paper_report.h"
+#include "results/bench/program.h"
 
 namespace phongpd::bench {
 namespace {
@@ -73,14 +72,11 @@ int Run(int argc, char** argv) {
                                   moment.motion, traces)});
 
   const std::vector<NamedTable> tables = PaperTables(results, options);
-  for (const NamedTable& table : tables) {
-    out.Write(table.file, ToCsv(table.table));
-  }
-  for (const Figure& figure : figures) out.Write(figure.file, figure.svg);
-  out.Write("README.md",
-            PaperReadme(results, tables, figures, options, command));
-  if (page)
+  WriteReport(tables, figures,
+              PaperReadme(results, tables, figures, options, command), &out);
+  if (page) {
     out.Write("index.html", PaperPage(tables, figures, options, command));
+  }
   out.Commit();
   std::cout << ToText(ShortTable(results));
   return 0;
@@ -90,10 +86,6 @@ int Run(int argc, char** argv) {
 }  // namespace phongpd::bench
 
 int main(int argc, char** argv) {
-  try {
-    return phongpd::bench::Run(argc, argv);
-  } catch (const std::exception& error) {
-    std::cerr << "paper_benchmark: " << error.what() << '\n';
-    return 3;
-  }
+  return phongpd::bench::RunProgram("paper_benchmark", phongpd::bench::Run,
+                                    argc, argv);
 }

@@ -2,12 +2,10 @@
 #include "results/bench/paper_report.h"
 
 #include <cstdio>
+#include <numeric>
 
 namespace phongpd::bench {
 namespace {
-
-std::string Count(std::size_t value) { return std::to_string(value); }
-std::string Count(int value) { return std::to_string(value); }
 
 std::string Percent(int part, int whole) {
   if (whole == 0) return "–";
@@ -17,109 +15,95 @@ std::string Percent(int part, int whole) {
 }
 
 Table SizesTable(const std::vector<PaperResult>& results) {
-  Table table;
-  table.title = "Contact spaces";
-  table.note =
+  return MakeTable(
+      "Contact spaces",
       "The paper's meshes are unpublished. Of ours, cone (78 triangles) and "
       "wrench (772) have exactly its sizes, the ball (1008) is its \"about "
       "1K\", and the axes are a closed solid of 60 triangles (35, as printed, "
       "cannot close). Seconds: median of all builds, one process; memory: "
-      "peak of the process up to there, so later rows include earlier ones.";
-  table.header = {"benchmark", "triangles", "paper",       "genus",
-                  "cavities",  "self-int.", "convolution", "arrangement",
-                  "build [s]", "peak [MiB]"};
-  for (const PaperResult& r : results) {
-    const ContactSpaceReport& report = r.space.report;
-    table.rows.push_back(
-        {r.benchmark.title, Count(report.triangles),
-         r.benchmark.paper_triangles, Count(report.genus),
-         Count(report.cavities), Count(report.self_intersections),
-         Count(report.convolution_triangles), Count(report.arrangement_faces),
-         Rounded(r.build_seconds), Rounded(report.peak_mib)});
-  }
-  return table;
+      "peak of the process up to there, so later rows include earlier ones.",
+      {"benchmark", "triangles", "paper", "genus", "cavities", "self-int.",
+       "convolution", "arrangement", "build [s]", "peak [MiB]"},
+      results, [](const PaperResult& r, const auto& add) {
+        const ContactSpaceReport& report = r.space.report;
+        add(r.benchmark.title, report.triangles, r.benchmark.paper_triangles,
+            report.genus, report.cavities, report.self_intersections,
+            report.convolution_triangles, report.arrangement_faces,
+            r.build_seconds, report.peak_mib);
+      });
 }
 
 Table MotionsTable(const std::vector<PaperResult>& results,
                    const PaperOptions& options) {
-  Table table;
-  table.title = "Continuity and depth along random motions";
-  table.note =
-      Count(options.motions) + " straight motions of " + Count(options.frames) +
-      " frames between random interior points of each benchmark. Jump: PD "
-      "changes by more than " +
-      Rounded(100.0 * options.jump) +
-      " % of the diagonal between two frames. Flagged: the frame's status "
-      "says so, because the branch folded or the robot left the obstacle on "
-      "another side than its branch led to; steep: no jump when the step is "
-      "divided by 1000; silent: none of these. Ratio: depth over Euclidean "
-      "depth, with the branch carried along, and asked cold at every frame; "
-      "it grows without bound towards an exit on another side, where the "
-      "Euclidean depth goes to 0.";
-  table.header = {"benchmark", "metric",     "frames inside", "jumps",
-                  "flagged",   "steep",      "silent",        "branch ends",
-                  "fallbacks", "ratio mean", "ratio 99 %",    "ratio max",
-                  "cold mean", "cold max"};
-  for (const PaperResult& r : results) {
-    for (const MotionTotals& t : r.totals) {
-      table.rows.push_back(
-          {r.benchmark.title, t.label, Count(t.frames_inside), Count(t.jumps),
-           Count(t.flagged_jumps), Count(t.steep_jumps), Count(t.silent_jumps),
-           Count(t.branch_ends), Count(t.fallbacks), Rounded(t.ratio_mean, 4),
-           Rounded(t.ratio_p99, 4), Rounded(t.ratio_max, 4),
-           Rounded(t.cold_ratio_mean, 4), Rounded(t.cold_ratio_max, 4)});
-    }
-  }
-  return table;
+  return MakeTable(
+      "Continuity and depth along random motions",
+      Shown(options.motions) + " straight motions of " + Shown(options.frames) +
+          " frames between random interior points of each benchmark. Jump: PD "
+          "changes by more than " +
+          Rounded(100.0 * options.jump) +
+          " % of the diagonal between two frames. Flagged: the frame's status "
+          "says so, because the branch folded or the robot left the obstacle "
+          "on another side than its branch led to; steep: no jump when the "
+          "step is divided by 1000; silent: none of these. Ratio: depth over "
+          "Euclidean depth, with the branch carried along, and asked cold at "
+          "every frame; it grows without bound towards an exit on another "
+          "side, where the Euclidean depth goes to 0.",
+      {"benchmark", "metric", "frames inside", "jumps", "flagged", "steep",
+       "silent", "branch ends", "fallbacks", "ratio mean", "ratio 99 %",
+       "ratio max", "cold mean", "cold max"},
+      results, [](const PaperResult& r, const auto& add) {
+        for (const MotionTotals& t : r.totals) {
+          add(r.benchmark.title, t.label, t.frames_inside, t.jumps,
+              t.flagged_jumps, t.steep_jumps, t.silent_jumps, t.branch_ends,
+              t.fallbacks, Rounded(t.ratio_mean, 4), Rounded(t.ratio_p99, 4),
+              Rounded(t.ratio_max, 4), Rounded(t.cold_ratio_mean, 4),
+              Rounded(t.cold_ratio_max, 4));
+        }
+      });
 }
 
 Table TimesTable(const std::vector<PaperResult>& results) {
-  Table table;
-  table.title = "Query times";
-  table.note =
+  return MakeTable(
+      "Query times",
       "Per interior frame of the same random motions, single thread, all in "
       "one run, each query timed alone (the clock's own cost included). Warm: "
       "with the previous frame's branch; Euclidean PD has none. Last column: "
-      "Euclidean time over warm time.";
-  table.header = {"benchmark",      "metric",           "warm median [µs]",
-                  "warm 99 % [µs]", "cold median [µs]", "Euclidean / warm"};
-  for (const PaperResult& r : results) {
-    const double euclidean = r.totals.front().cold_median_us;
-    for (const MotionTotals& t : r.totals) {
-      const bool warm = &t != &r.totals.front();
-      table.rows.push_back(
-          {r.benchmark.title, t.label, warm ? Rounded(t.median_us) : "–",
-           warm ? Rounded(t.p99_us) : "–", Rounded(t.cold_median_us),
-           warm ? Rounded(euclidean / t.median_us) : "–"});
-    }
-  }
-  return table;
+      "Euclidean time over warm time.",
+      {"benchmark", "metric", "warm median [µs]", "warm 99 % [µs]",
+       "cold median [µs]", "Euclidean / warm"},
+      results, [](const PaperResult& r, const auto& add) {
+        const double euclidean = r.totals.front().cold_median_us;
+        for (const MotionTotals& t : r.totals) {
+          const bool warm = &t != &r.totals.front();
+          add(r.benchmark.title, t.label, warm ? Rounded(t.median_us) : "–",
+              warm ? Rounded(t.p99_us) : "–", t.cold_median_us,
+              warm ? Rounded(euclidean / t.median_us) : "–");
+        }
+      });
 }
 
 Table CoverageTable(const std::vector<PaperResult>& results,
                     const PaperOptions& options) {
-  Table table;
-  table.title = "Interior points without a Phong projection";
-  table.note = "Share of " + Count(options.points) +
-               " random interior points at which a cold query finds no "
-               "projection, by fifths of the depth of the deepest point "
-               "(shallow to deep; points per fifth in brackets).";
-  table.header = {"benchmark", "method",  "all",     "0–20 %",
-                  "20–40 %",   "40–60 %", "60–80 %", "80–100 %"};
-  for (const PaperResult& r : results) {
-    for (const Coverage& c : r.coverage) {
-      std::vector<std::string> row = {r.benchmark.title, c.method, ""};
-      int missing = 0;
-      for (std::size_t k = 0; k < 5; ++k) {
-        missing += c.missing[k];
-        row.push_back(Percent(c.missing[k], c.points[k]) + " (" +
-                      Count(c.points[k]) + ")");
-      }
-      row[2] = Percent(missing, options.points);
-      table.rows.push_back(row);
-    }
-  }
-  return table;
+  return MakeTable(
+      "Interior points without a Phong projection",
+      "Share of " + Shown(options.points) +
+          " random interior points at which a cold query finds no "
+          "projection, by fifths of the depth of the deepest point "
+          "(shallow to deep; points per fifth in brackets).",
+      {"benchmark", "method", "all", "0–20 %", "20–40 %", "40–60 %", "60–80 %",
+       "80–100 %"},
+      results, [&](const PaperResult& r, const auto& add) {
+        for (const Coverage& c : r.coverage) {
+          const auto fifth = [&c](std::size_t k) {
+            return Percent(c.missing[k], c.points[k]) + " (" +
+                   Shown(c.points[k]) + ")";
+          };
+          const int missing =
+              std::accumulate(c.missing.begin(), c.missing.end(), 0);
+          add(r.benchmark.title, c.method, Percent(missing, options.points),
+              fifth(0), fifth(1), fifth(2), fifth(3), fifth(4));
+        }
+      });
 }
 
 // How many (benchmark, ℓ) pairs answer faster than Euclidean PD.
@@ -135,10 +119,10 @@ std::string Speed(const std::vector<PaperResult>& results) {
       cold += r.totals[k].cold_median_us < euclidean ? 1 : 0;
     }
   }
-  const std::string of = " of " + Count(pairs) + " cases";
+  const std::string of = " of " + Shown(pairs) + " cases";
   return "Depth is lost everywhere: PhongPD is never less than Euclidean PD. "
          "Time: the median warm query is faster than a Euclidean one in " +
-         Count(warm) + of + ", the median cold one in " + Count(cold) + of +
+         Shown(warm) + of + ", the median cold one in " + Shown(cold) + of +
          ".";
 }
 
@@ -148,14 +132,14 @@ std::string Findings(const std::vector<PaperResult>& results) {
   for (const PaperResult& r : results) {
     const int euclidean = r.totals.front().jumps;
     text += "- " + r.benchmark.title + ": Euclidean PD jumps " +
-            Count(euclidean) + " times.";
+            Shown(euclidean) + " times.";
     for (std::size_t k = 1; k < r.totals.size(); ++k) {
       const MotionTotals& t = r.totals[k];
-      text += " " + t.label + " jumps " + Count(t.jumps) + " times (" +
+      text += " " + t.label + " jumps " + Shown(t.jumps) + " times (" +
               (t.jumps < euclidean   ? "a win"
                : t.jumps > euclidean ? "a loss"
                                      : "a draw") +
-              "), " + Count(t.silent_jumps) +
+              "), " + Shown(t.silent_jumps) +
               " of them silently, and pays with depths " +
               Rounded(t.ratio_mean) + " times the Euclidean on average, " +
               Rounded(t.ratio_p99) + " or more at 1 % of the frames.";
@@ -176,20 +160,16 @@ std::vector<NamedTable> PaperTables(const std::vector<PaperResult>& results,
 }
 
 Table ShortTable(const std::vector<PaperResult>& results) {
-  Table table;
-  table.title = "The paper's three benchmarks";
-  table.header = {"benchmark", "triangles",   "paper",
-                  "build [s]", "jumps Eucl.", "ℓ = 0",
-                  "ℓ = 0.1",   "warm [µs]",   "Eucl. [µs]"};
-  for (const PaperResult& r : results) {
-    table.rows.push_back({r.benchmark.title, Count(r.space.report.triangles),
-                          r.benchmark.paper_triangles, Rounded(r.build_seconds),
-                          Count(r.totals[0].jumps), Count(r.totals[1].jumps),
-                          Count(r.totals[2].jumps),
-                          Rounded(r.totals[1].median_us),
-                          Rounded(r.totals[0].cold_median_us)});
-  }
-  return table;
+  return MakeTable(
+      "The paper's three benchmarks", "",
+      {"benchmark", "triangles", "paper", "build [s]", "jumps Eucl.", "ℓ = 0",
+       "ℓ = 0.1", "warm [µs]", "Eucl. [µs]"},
+      results, [](const PaperResult& r, const auto& add) {
+        add(r.benchmark.title, r.space.report.triangles,
+            r.benchmark.paper_triangles, r.build_seconds, r.totals[0].jumps,
+            r.totals[1].jumps, r.totals[2].jumps, r.totals[1].median_us,
+            r.totals[0].cold_median_us);
+      });
 }
 
 std::string PaperReadme(const std::vector<PaperResult>& results,

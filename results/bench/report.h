@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 // Tables that are written once and shown as CSV, Markdown, HTML or text, and
@@ -15,6 +17,29 @@ struct Table {
   std::vector<std::string> header;
   std::vector<std::vector<std::string>> rows;
 };
+
+// `value` with the given number of significant digits.
+std::string Rounded(double value, int digits = 3);
+
+// What a cell shows: text as it is, numbers as counts and rounded.
+inline std::string Shown(const std::string& text) { return text; }
+inline std::string Shown(int count) { return std::to_string(count); }
+inline std::string Shown(std::size_t count) { return std::to_string(count); }
+inline std::string Shown(double value) { return Rounded(value); }
+
+// A table of `items`: rows(item, add) calls add(cell, ...) for every row the
+// item has.
+template <typename Items, typename Rows>
+Table MakeTable(std::string title, std::string note,
+                std::vector<std::string> header, const Items& items,
+                const Rows& rows) {
+  Table table{std::move(title), std::move(note), std::move(header), {}};
+  const auto add = [&table](const auto&... cells) {
+    table.rows.push_back({Shown(cells)...});
+  };
+  for (const auto& item : items) rows(item, add);
+  return table;
+}
 
 // A table of a report and the CSV file its rows are written to.
 struct NamedTable {
@@ -33,9 +58,6 @@ std::string ToCsv(const Table& table);
 std::string ToMarkdown(const Table& table);
 std::string ToHtml(const Table& table);
 std::string ToText(const Table& table);  // aligned columns
-
-// `value` with the given number of significant digits.
-std::string Rounded(double value, int digits = 3);
 
 // "CPU model, n cores, memory": nothing that names the host.
 std::string Machine();

@@ -7,16 +7,21 @@
 #include <CGAL/intersections.h>
 #include <gtest/gtest.h>
 
+#include <random>
+
 #include "core/contact_space/canonical_frame.h"
 #include "core/contact_space/cells.h"
 #include "core/contact_space/convolution.h"
 #include "core/contact_space/edge_rings.h"
+#include "core/contact_space/face_geometry.h"
 #include "core/contact_space/facet_intersections.h"
 #include "core/contact_space/patch_triangulation.h"
 #include "core/contact_space/plane_arrangement.h"
 #include "core/contact_space/solid_collision.h"
 #include "core/contact_space/surface_assembly.h"
 #include "problems/random_pairs.h"
+#include "problems/random_solids.h"
+#include "problems/shapes.h"
 
 namespace phongpd {
 namespace {
@@ -28,41 +33,53 @@ Kernel::FT ToExact(const internal::Wide& value) {
   return Kernel::FT(Kernel::FT::Exact_type(value.str()));
 }
 
-// All stages of BuildContactSpace up to rounding.
-std::vector<Kernel::Triangle_3> BuildExactly(SolidPair pair) {
-  const internal::CanonicalFrame turned =
-      internal::ChooseCanonicalFrame(pair.robot, pair.obstacle);
-  if (turned.used) {
-    pair.robot = Rotated(pair.robot, turned.rotation);
-    pair.obstacle = Rotated(pair.obstacle, turned.rotation);
+// The stages of BuildContactSpace up to the arrangement.
+struct Stages {
+  explicit Stages(SolidPair pair) {
+    const internal::CanonicalFrame turned =
+        internal::ChooseCanonicalFrame(pair.robot, pair.obstacle);
+    if (turned.used) {
+      pair.robot = Rotated(pair.robot, turned.rotation);
+      pair.obstacle = Rotated(pair.obstacle, turned.rotation);
+    }
+    const internal::GridFrame frame =
+        internal::ChooseGridFrame(pair.robot, pair.obstacle);
+    p = internal::MakeGridSolid(pair.obstacle, frame.obstacle_center,
+                                frame.step, false, "obstacle");
+    q = internal::MakeGridSolid(pair.robot, frame.robot_center, frame.step,
+                                true, "robot");
+    convolution = internal::ReducedConvolution(p, q);
+    groups = internal::GroupByPlane(convolution);
+    const internal::FacetIndex index(convolution);
+    const internal::FacetIntersections intersections =
+        internal::IntersectFacets(convolution, groups, index, &points);
+    arrangement =
+        internal::ArrangePlanes(convolution, groups, intersections, &points);
   }
-  const internal::GridFrame frame =
-      internal::ChooseGridFrame(pair.robot, pair.obstacle);
-  const internal::GridSolid p = internal::MakeGridSolid(
-      pair.obstacle, frame.obstacle_center, frame.step, false, "obstacle");
-  const internal::GridSolid q = internal::MakeGridSolid(
-      pair.robot, frame.robot_center, frame.step, true, "robot");
-  const internal::Convolution convolution = internal::ReducedConvolution(p, q);
-  const internal::PlaneGroups groups = internal::GroupByPlane(convolution);
+
+  internal::GridSolid p, q;
+  internal::Convolution convolution;
+  internal::PlaneGroups groups;
   internal::ExactPoints points;
-  const internal::FacetIndex index(convolution);
-  const internal::FacetIntersections intersections =
-      internal::IntersectFacets(convolution, groups, index, &points);
-  const internal::Arrangement arrangement =
-      internal::ArrangePlanes(convolution, groups, intersections, &points);
+  internal::Arrangement arrangement;
+};
+
+// And those up to rounding.
+std::vector<Kernel::Triangle_3> BuildExactly(const SolidPair& pair) {
+  Stages s(pair);
   const internal::EdgeRings rings =
-      internal::SortAroundEdges(convolution, arrangement, points);
-  const internal::SolidCollision judge(p, q);
-  const internal::FreeCells cells =
-      internal::FindFreeCells(convolution, arrangement, rings, points, judge);
-  const internal::PatchSurface patches =
-      internal::AssembleSurface(arrangement, groups, rings, cells, {}, &points);
+      internal::SortAroundEdges(s.convolution, s.arrangement, s.points);
+  const internal::SolidCollision judge(s.p, s.q);
+  const internal::FreeCells cells = internal::FindFreeCells(
+      s.convolution, s.arrangement, rings, s.points, judge);
+  const internal::PatchSurface patches = internal::AssembleSurface(
+      s.arrangement, s.groups, rings, cells, {}, &s.points);
   const internal::ExactSurface surface =
-      internal::TriangulatePatches(patches, convolution, points);
+      internal::TriangulatePatches(patches, s.convolution, s.points);
 
   std::vector<Kernel::Point_3> vertices;
   for (const int id : surface.vertex_points) {
-    const internal::Homogeneous h = Evaluate(points[id].definition);
+    const internal::Homogeneous h = Evaluate(s.points[id].definition);
     const Kernel::FT w = ToExact(h.w);
     vertices.emplace_back(ToExact(h.x[0]) / w, ToExact(h.x[1]) / w,
                           ToExact(h.x[2]) / w);
@@ -131,6 +148,37 @@ TEST_P(ExactSurface, HasNoSelfIntersectionBeforeRounding) {
 
 INSTANTIATE_TEST_SUITE_P(Pairs, ExactSurface,
                          ::testing::ValuesIn(AllPairKinds()));
+
+// Each face found where the ray meets its own plane: beside an edge two faces
+// found two places, and the ray passed between them or hit both.
+TEST(FaceGeometry, NoRaySlipsBetweenTwoFaces) {
+  std::mt19937_64 random(5);
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  SolidPair convex;  // a ray from inside hits its sum once
+  convex.robot =
+      Rotated(MakeBox({-1, -2, -3}, {1, 2, 3}), RandomRotation(&random));
+  convex.obstacle = MakeIcoBall(2.0, 2);
+  SolidPair lattice;
+  lattice.robot = lattice.obstacle = MakeBox({-1, -1, -1}, {1, 1, 1});
+  for (const SolidPair& pair : {convex, lattice}) {
+    const Stages s(pair);
+    internal::FaceGeometry geometry(s.convolution, s.arrangement, s.points);
+    int wrong = 0;
+    for (const bool tree : {false, true}) {
+      if (tree) geometry.BuildTree();
+      for (const internal::HalfEdge& e : s.arrangement.half_edges) {
+        const Eigen::Vector3d& a = s.points.Approximate(e.from);
+        const Eigen::Vector3d& b = s.points.Approximate(e.to);
+        for (const double t : {0.0, 0.5, unit(random)}) {
+          const Eigen::Vector3d ray = (a + t * (b - a)).normalized();
+          const Eigen::Vector3d from = -1e3 * unit(random) * ray;
+          wrong += geometry.AllHits(from, ray, -1).size() != 1U;
+        }
+      }
+    }
+    EXPECT_EQ(wrong, 0);
+  }
+}
 
 }  // namespace
 }  // namespace phongpd

@@ -9,7 +9,11 @@
 #include <CGAL/Surface_mesh.h>
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
+#include <boost/multiprecision/cpp_bin_float.hpp>
+#include <boost/multiprecision/eigen.hpp>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -135,6 +139,40 @@ TEST(ClosestOnTriangle, HoldsForSliversAndDegenerateTriangles) {
       EXPECT_GE(distance, sampled - 0.06);
       const Vector3d at = p.lambda[0] * a + p.lambda[1] * b + p.lambda[2] * c;
       EXPECT_NEAR((at - q).norm(), distance, 1e-14);
+    }
+  }
+}
+
+// A needle's normal has few correct digits: the foot of the perpendicular came
+// out by up to half its width too far away, and points a grid step off the
+// thin facets of contact spaces were taken for points in the clear.
+TEST(ClosestOnTriangle, MeasuresBesideNeedles) {
+  using Real = boost::multiprecision::cpp_bin_float_50;
+  using Exact = Eigen::Matrix<Real, 3, 1>;
+  std::mt19937 engine(12);
+  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+  for (const double width : {1e-3, 1e-5, 1e-7, 1e-9, 1e-11}) {
+    for (int i = 0; i < 300; ++i) {
+      const auto random = [&]() -> Vector3d {
+        return {uniform(engine), uniform(engine), uniform(engine)};
+      };
+      std::array<Vector3d, 3> t = {random(), random(), random()};
+      t[2] = t[0] + 0.4 * (t[1] - t[0]) + width * random();
+      const Vector3d normal = (t[1] - t[0]).cross(t[2] - t[0]).normalized();
+      const double off = width * uniform(engine);
+      const Vector3d q = 0.3 * t[0] + 0.2 * t[1] + 0.5 * t[2] + off * normal;
+      const auto exact = [](const Vector3d& v) -> Exact {
+        return v.cast<Real>();
+      };
+      const Exact n = Exact(exact(t[1]) - exact(t[0]))
+                          .cross(Exact(exact(t[2]) - exact(t[0])));
+      const Real height =
+          n.dot(Exact(exact(q) - exact(t[0]))) / sqrt(n.squaredNorm());
+      std::rotate(t.begin(), t.begin() + i % 3, t.end());
+      const TrianglePoint p = ClosestOnTriangle(t[0], t[1], t[2], q);
+      EXPECT_NEAR(std::sqrt(p.squared_distance),
+                  abs(height).convert_to<double>(), 2e-15)
+          << width;
     }
   }
 }
