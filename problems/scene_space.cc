@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "problems/scene_space.h"
 
+#include <algorithm>
 #include <chrono>
 
 #include "core/mesh/mesh_error.h"
+#include "core/projection/euclidean_metric.h"
+#include "planners/exact/exact_solution.h"
+#include "problems/text.h"
 
 namespace phongpd {
 namespace {
@@ -80,6 +84,23 @@ SceneSpace BuildSceneSpace(const Scene& scene, SpaceLayout layout,
       std::chrono::duration<double>(std::chrono::steady_clock::now() - begin)
           .count();
   return space;
+}
+
+std::string EndInCollision(const Scene& scene, const SceneSpace& space,
+                           const Eigen::Vector3d& q, const std::string& which) {
+  const bool is_within =
+      scene.bounds.IsEmpty() || ((q.array() > scene.bounds.min.array()).all() &&
+                                 (q.array() < scene.bounds.max.array()).all());
+  const std::string text = which + " (" + FormatPoint(q) + ") ";
+  if (!is_within) return text + "is not strictly within the bounds";
+  double depth = 0.0;
+  for (const TriangleMesh& mesh : space.contact_meshes) {
+    const PenetrationResult result = EuclideanMetric(mesh).Query(q);
+    if (result.inside) depth = std::max(depth, -result.signed_distance);
+  }
+  const std::string names = NameObstacles(scene, q);
+  if (depth == 0.0) return text + "touches " + names;
+  return text + "is " + Rounded(depth) + " deep in " + names;
 }
 
 }  // namespace phongpd

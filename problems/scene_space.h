@@ -43,4 +43,9 @@ SceneSpace BuildSceneSpace(const Scene& scene,
                            SpaceLayout layout = SpaceLayout::kMerged,
                            const ContactSpaceCache& cache = {});
 
+// One sentence for a start or goal (`which`) that is not free: how deep in
+// which obstacle, or that it is beyond the bounds.  Euclidean depth.
+std::string EndInCollision(const Scene& scene, const SceneSpace& space,
+                           const Eigen::Vector3d& q, const std::string& which);
+
 }  // namespace phongpd

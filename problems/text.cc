@@ -58,4 +58,10 @@ const char* StatusName(QueryStatus status) {
   return "invalid";
 }
 
+std::string Rounded(double value, int digits) {
+  char buffer[64];
+  std::snprintf(buffer, sizeof buffer, "%.*g", digits, value);
+  return buffer;
+}
+
 }  // namespace phongpd

@@ -14,6 +14,9 @@ namespace phongpd {
 // The shortest decimal text that reads back to exactly `value`.
 std::string FormatDouble(double value);
 
+// `value` with the given number of significant digits, for people.
+std::string Rounded(double value, int digits = 3);
+
 // Three numbers separated by commas.
 std::string FormatPoint(const Eigen::Vector3d& point);
 

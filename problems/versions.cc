@@ -9,6 +9,8 @@
 #include <Eigen/Core>
 #include <nlohmann/json.hpp>
 
+#include "planners/trajectory/ipopt_solve.h"
+
 namespace phongpd {
 namespace {
 
@@ -27,6 +29,7 @@ std::vector<std::pair<std::string, std::string>> Versions() {
        Dotted(EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION)},
       {"TBB", TBB_VERSION_STRING},
       {"FCL", FCL_VERSION},
+      {"Ipopt", IpoptVersion()},
       {"CLI11", CLI11_VERSION},
       {"nlohmann-json",
        Dotted(NLOHMANN_JSON_VERSION_MAJOR, NLOHMANN_JSON_VERSION_MINOR,

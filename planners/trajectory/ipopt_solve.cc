@@ -449,4 +449,6 @@ IpoptRun SolveWithIpopt(NonlinearProgram* program, const VectorXd& start,
   return adapter->run;
 }
 
+const char* IpoptVersion() { return IPOPT_VERSION; }
+
 }  // namespace phongpd

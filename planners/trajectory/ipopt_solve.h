@@ -91,6 +91,9 @@ struct IpoptRun {
   std::vector<IterationRecord> log;
 };
 
+// "3.11.9": what the library was built with.
+const char* IpoptVersion();
+
 // Throws InputError for ipopt_options that SolveWithIpopt would refuse.
 void CheckIpoptOptions(const IpoptSettings& settings);
 

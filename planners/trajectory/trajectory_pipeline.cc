@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <random>
 #include <utility>
 
 #include "core/mesh/mesh_error.h"
@@ -30,6 +31,7 @@ struct Candidate {
   Path path;
   double objective = 0.0;
   int route = 0;
+  TrajectorySummary ipopt;
 
   bool IsBetterThan(const Candidate& other) const {
     const bool is_free = HasFreePath(status);
@@ -57,6 +59,7 @@ class Run {
       result_.path = std::move(best_.path);
       result_.objective = best_.objective;
       result_.route = best_.route;
+      result_.ipopt = std::move(best_.ipopt);
     }
     result_.certificate = CheckPath(*problem_.free_space, result_.path);
     result_.seconds = timer_.Seconds();
@@ -88,6 +91,19 @@ class Run {
     result_.stages.push_back(std::move(record));
   }
 
+  Path NoisyLine() const {
+    Path path = StraightPath(problem_);
+    if (options_.start_noise == 0.0) return path;
+    std::mt19937_64 random(options_.seed);
+    std::normal_distribution<double> normal;
+    const double size =
+        options_.start_noise * (problem_.goal - problem_.start).norm();
+    for (std::size_t i = 1; i + 1 < path.size(); ++i) {
+      for (double& x : path[i]) x += size * normal(random);
+    }
+    return path;
+  }
+
   // False: the answer is known already.
   bool FindStarts(std::vector<Path>* starts) {
     if (options_.start != TrajectoryStart::kStraight) {
@@ -106,7 +122,7 @@ class Run {
     if (status == RepairStatus::kInfeasibleProved) {
       result_.status = TrajectoryStatus::kInfeasibleProved;
     } else if (starts->empty()) {
-      starts->push_back(StraightPath(problem_));
+      starts->push_back(NoisyLine());
     }
     const bool is_straight = options_.start == TrajectoryStart::kStraight;
     for (std::size_t i = 0; i < starts->size(); ++i) {
@@ -147,8 +163,8 @@ class Run {
   void Optimize(const Path& start, Candidate* candidate) {
     TrajectoryOptions options = options_.optimizer;
     options.ipopt.time_limit = std::min(options.ipopt.time_limit, Left());
-    const TrajectorySummary summary =
-        IpoptTrajectoryOptimizer(problem_, options).Solve(start);
+    candidate->ipopt = IpoptTrajectoryOptimizer(problem_, options).Solve(start);
+    const TrajectorySummary& summary = candidate->ipopt;
     const std::string word = ToString(summary.status);
     result_.restoration_iterations += summary.restoration_iterations;
     Note({"ipopt", candidate->route, word, false, 0.0, summary.iterations,
@@ -156,6 +172,7 @@ class Run {
          summary.path);
     Candidate found;
     found.route = candidate->route;
+    found.ipopt = summary;
     Keep(summary.path, &found);
     const bool is_converged = summary.status == SolveStatus::kConverged ||
                               summary.status == SolveStatus::kAcceptable;
@@ -207,6 +224,10 @@ void PipelineOptions::Validate() const {
   if (routes < 1 || routes > 8) {
     throw InputError("trajectory: routes: expected 1 to 8, found " +
                      std::to_string(routes));
+  }
+  if (!(start_noise >= 0.0 && start_noise <= 10.0)) {
+    throw InputError("trajectory: start_noise: expected 0 to 10, found " +
+                     std::to_string(start_noise));
   }
   if (!(time_limit > 0.0)) {
     throw InputError("trajectory: time_limit: expected > 0 seconds, found " +

@@ -29,11 +29,14 @@ enum class PolishWhen {
 
 struct PipelineOptions {
   TrajectoryStart start = TrajectoryStart::kRepaired;
+  // kStraight: standard deviation of every coordinate of the free waypoints,
+  // fraction of |goal − start|, ≥ 0.
+  double start_noise = 0.0;
   int routes = 1;  // ways around the obstacles to optimise, in [1, 8]
   PolishWhen polish = PolishWhen::kNeeded;
   TrajectoryOptions optimizer;
   CorridorOptions corridor;
-  std::uint64_t seed = 1;  // of the straightening
+  std::uint64_t seed = 1;  // of straightening and noise
   double time_limit = std::numeric_limits<double>::infinity();  // seconds
 
   // Throws InputError naming the field.
@@ -76,6 +79,7 @@ struct PipelineResult {
   int iterations = 0;      // of Ipopt, all stages
   int restoration_iterations = 0;
   StartRepairResult repair;  // kStraight: nothing was done
+  TrajectorySummary ipopt;   // of the best route; no path if it did not run
   std::vector<StageRecord> stages;
   double seconds = 0.0;
 };

@@ -78,6 +78,16 @@ const char* const kSmoothingLengthHelp =
     "Of the Phong field, as a fraction of the contact space's diagonal; 0 is "
     "the paper";
 
+void TellAbout(const Scene& scene, const SceneSpace& space) {
+  for (const std::string& warning : scene.warnings) Warn(warning);
+  for (const std::string& warning : space.warnings) Warn(warning);
+  const std::string skipped = SkippedObstaclesNote(scene);
+  if (!skipped.empty()) Progress(skipped);
+  Progress("contact space: " + std::to_string(space.triangles) +
+           " triangles, " + Rounded(space.seconds) + " s" +
+           (space.from_cache ? " (kept from before)" : ""));
+}
+
 void AddNoCache(CLI::App* app, bool* no_cache) {
   app->add_flag("--no-cache", *no_cache,
                 "Build anew, and do not keep the contact space for the next "

@@ -13,6 +13,7 @@
 #include "core/mesh/triangle_mesh.h"
 #include "core/projection/phong_metric.h"
 #include "problems/output_files.h"
+#include "problems/scene_space.h"
 
 // What the commands of the phongpd program share.
 namespace phongpd::cli {
@@ -32,6 +33,8 @@ Command AddContactSpace(CLI::App* app);
 Command AddQuery(CLI::App* app);
 Command AddMotion(CLI::App* app);
 Command AddScenes(CLI::App* app);
+Command AddOptimize(CLI::App* app);
+Command AddCompare(CLI::App* app);
 
 // Reads an operand file as a solid.  What the user should know goes to
 // stderr, one line a warning.  Throws InputError naming the file.
@@ -59,6 +62,9 @@ PhongMetricOptions MetricOptions(const std::string& field,
 
 // What --smoothing-length says of itself.
 extern const char* const kSmoothingLengthHelp;
+
+// What the user should know of a scene and its contact space, on stderr.
+void TellAbout(const Scene& scene, const SceneSpace& space);
 
 // Declares --no-cache.
 void AddNoCache(CLI::App* app, bool* no_cache);

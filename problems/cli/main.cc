@@ -67,6 +67,10 @@ int Run(int argc, char** argv) {
       AddContactSpace);
   add("query", "Penetration depth at the points of a CSV file", AddQuery);
   add("motion", "Phong and Euclidean depth along a straight motion", AddMotion);
+  add("optimize", "Optimise a trajectory with Ipopt, exactly judged",
+      AddOptimize);
+  add("compare", "Compare penetration metrics in the trajectory optimiser",
+      AddCompare);
   add("scenes", "List or write the procedural scenes", AddScenes);
 
   try {
@@ -78,9 +82,11 @@ int Run(int argc, char** argv) {
   for (const auto& [command, run] : commands) {
     if (command->parsed()) return run();
   }
-  return Fail(kBadInput,
-              "expected a command: contact-space, query, motion or scenes "
-              "(see --help)");
+  std::string names;
+  for (const auto& entry : commands) {
+    names += (names.empty() ? "" : ", ") + entry.first->get_name();
+  }
+  return Fail(kBadInput, "expected a command: " + names + " (see --help)");
 }
 
 }  // namespace

@@ -117,12 +117,6 @@ std::string ToText(const Table& table) {
   return text;
 }
 
-std::string Rounded(double value, int digits) {
-  char buffer[64];
-  std::snprintf(buffer, sizeof buffer, "%.*g", digits, value);
-  return buffer;
-}
-
 std::string Machine() {
   return FieldOf("/proc/cpuinfo", "model name") + ", " +
          std::to_string(std::thread::hardware_concurrency()) + " cores, " +

@@ -18,9 +18,6 @@ struct Table {
   std::vector<std::vector<std::string>> rows;
 };
 
-// `value` with the given number of significant digits.
-std::string Rounded(double value, int digits = 3);
-
 // What a cell shows: text as it is, numbers as counts and rounded.
 inline std::string Shown(const std::string& text) { return text; }
 inline std::string Shown(int count) { return std::to_string(count); }

@@ -1,0 +1,254 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "problems/cli/command.h"
+#include "problems/gnuplot.h"
+#include "problems/output_files.h"
+#include "problems/scene_source.h"
+#include "problems/text.h"
+#include "problems/trajectory_comparison.h"
+#include "problems/trajectory_study.h"
+
+namespace phongpd::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct Flags {
+  std::vector<std::string> scenes;
+  std::vector<std::string> metrics = {"euclidean", "phong@0", "phong@0.1",
+                                      "phong@0.2"};
+  std::vector<std::string> protocols = {
+      "straight-monotone", "straight-adaptive", "repaired-monotone",
+      "repaired-adaptive", "pipeline"};
+  int runs = 50;
+  std::uint64_t seed = 1;
+  std::string shard = "0/1";
+  std::string rows;
+  std::string output;
+  bool keep_paths = false;
+  bool no_cache = false;
+};
+
+// i/n: every n-th problem, beginning with the i-th.
+struct Shard {
+  int index = 0;
+  int count = 1;
+};
+
+Shard ParseShard(const std::string& text) {
+  const std::size_t slash = text.find('/');
+  Shard shard;
+  try {
+    if (slash != std::string::npos) {
+      std::size_t first = 0, second = 0;
+      shard.index = std::stoi(text.substr(0, slash), &first);
+      shard.count = std::stoi(text.substr(slash + 1), &second);
+      if (first == slash && second == text.size() - slash - 1 &&
+          0 <= shard.index && shard.index < shard.count) {
+        return shard;
+      }
+    }
+  } catch (const std::logic_error&) {  // no number, or too large
+  }
+  throw InputError("--shard: expected i/n with 0 <= i < n, found '" + text +
+                   "'");
+}
+
+std::vector<Json> ReadRows(const std::string& path) {
+  std::ifstream file(path);
+  if (!file) throw InputError(path + ": expected rows, found no such file");
+  std::vector<Json> rows;
+  for (std::string line; std::getline(file, line);) {
+    if (line.empty()) continue;
+    Json row = Json::parse(line, nullptr, false);
+    if (!row.is_object()) {
+      throw InputError(path + ": row " + std::to_string(rows.size() + 1) +
+                       ": expected a JSON object, found " + line.substr(0, 40));
+    }
+    rows.push_back(std::move(row));
+  }
+  if (rows.empty()) throw InputError(path + ": expected rows, found none");
+  return rows;
+}
+
+// Runs what belongs to the shard.
+std::vector<Json> Run(const Flags& flags, const Shard& shard) {
+  if (flags.runs < 1) {
+    throw InputError("--runs: expected at least 1, found " +
+                     std::to_string(flags.runs));
+  }
+  std::vector<SceneSource> sources;
+  for (const std::string& scene : flags.scenes) sources.emplace_back(scene);
+  std::vector<TrajectoryMetric> metrics;
+  for (const std::string& text : flags.metrics) {
+    metrics.push_back(ParseTrajectoryMetric(text, "--metrics"));
+  }
+  std::vector<TrajectoryProtocol> protocols;
+  for (const std::string& name : flags.protocols) {
+    protocols.push_back(FindProtocol(name));
+  }
+  ContactSpaceCache cache;
+  if (!flags.no_cache) cache.directory = DefaultCacheDirectory();
+  TrajectoryStudy study(cache);
+  std::vector<Json> rows;
+  int problem = 0;
+  for (const SceneSource& source : sources) {
+    for (int run = 0; run < flags.runs; ++run, ++problem) {
+      if (problem % shard.count != shard.index) continue;
+      const std::uint64_t seed = flags.seed + static_cast<std::uint64_t>(run);
+      const Scene scene = source.Load(seed);
+      study.Enter(scene);
+      Progress(source.label() + ", seed " + std::to_string(seed));
+      for (const TrajectoryProtocol& protocol : protocols) {
+        PipelineOptions options = protocol.options;
+        options.seed = seed;
+        // The scene's own Ipopt settings hold for every protocol.
+        options.optimizer.ipopt.ipopt_options =
+            ScenePipelineOptions(scene).optimizer.ipopt.ipopt_options;
+        // A scene file differs from seed to seed by the start only.
+        const bool is_straight = options.start == TrajectoryStart::kStraight;
+        if (!source.is_family() && is_straight) options.start_noise = 0.01;
+        const std::vector<TrajectoryMetric> only = {TrajectoryMetric()};
+        for (const TrajectoryMetric& metric :
+             protocol.uses_every_metric ? metrics : only) {
+          Json row =
+              TrajectoryRow(study, metric, options, study.Run(metric, options));
+          row["protocol"] = protocol.name;
+          if (!flags.keep_paths) row.erase("path");
+          rows.push_back(std::move(row));
+        }
+      }
+    }
+  }
+  return rows;
+}
+
+void PrintCells(const std::vector<ComparisonCell>& cells) {
+  std::cout << "scene, protocol, method: solved of runs (stalled) + free not "
+               "solved, claims but collides; median iterations, restoration "
+               "%\n";
+  for (const ComparisonCell& c : cells) {
+    std::cout << c.scene << ", " << c.protocol << ", " << c.method << ": "
+              << c.solved << " of " << c.runs << " (" << c.stalled << ") + "
+              << c.free_only << ", " << c.claims_only << "; "
+              << Rounded(c.median_iterations, 4) << ", "
+              << Rounded(100.0 * c.restoration_share, 2) << '\n';
+  }
+}
+
+int Compare(const Flags& flags) {
+  if (flags.scenes.empty() == flags.rows.empty()) {
+    throw InputError(
+        "compare: expected scenes, or --rows with what shards "
+        "wrote");
+  }
+  const Shard shard = ParseShard(flags.shard);
+  const bool is_whole = shard.count == 1;
+  if (is_whole) RequireGnuplot();
+  std::error_code error;
+  std::filesystem::create_directories(flags.output, error);
+  OutputFiles outputs;
+  const auto path = [&](const std::string& name) {
+    return flags.output + "/" + name;
+  };
+  outputs.Declare(path("rows.jsonl"));
+  const std::vector<Json> rows =
+      flags.rows.empty() ? Run(flags, shard) : ReadRows(flags.rows);
+  std::string lines;
+  for (const Json& row : rows) lines += row.dump() + '\n';
+  outputs.Write(path("rows.jsonl"), lines);
+  if (!is_whole) {
+    outputs.Commit();
+    std::cout << rows.size() << " rows; merge shards by concatenation, then "
+              << "compare --rows\n";
+    return kDone;
+  }
+  const std::vector<ComparisonCell> cells = Summarize(rows);
+  const auto write = [&](const std::string& name, const std::string& text) {
+    outputs.Declare(path(name));
+    outputs.Write(path(name), text);
+  };
+  write("summary.csv", ComparisonCsv(cells));
+  write("rows.csv", CompactCsv(rows));
+  for (const TrajectoryProtocol& protocol : TrajectoryProtocols()) {
+    const bool is_there = std::any_of(
+        cells.begin(), cells.end(),
+        [&](const ComparisonCell& c) { return c.protocol == protocol.name; });
+    if (!is_there || !protocol.uses_every_metric) continue;
+    const std::pair<const char*, const char*> measures[] = {
+        {"iterations", "iterations"},
+        {"jacobians", "evaluations/jacobian"},
+        {"seconds", "seconds/total"}};
+    for (const auto& [name, measure] : measures) {
+      write("profile-" + protocol.name + "-" + name + ".svg",
+            PerformanceProfile(rows, protocol.name, measure));
+    }
+  }
+  outputs.Commit();
+  PrintCells(cells);
+  return kDone;
+}
+
+}  // namespace
+
+Command AddCompare(CLI::App* app) {
+  auto flags = std::make_shared<Flags>();
+  std::string protocols = "Ways of running:";
+  for (const TrajectoryProtocol& protocol : TrajectoryProtocols()) {
+    protocols += " " + protocol.name + " (" + protocol.meaning + ");";
+  }
+  protocols.back() = '.';
+  app->add_option("scenes", flags->scenes,
+                  "Scene files, or FAMILY:key=value,... (see scenes list)")
+      ->type_name("SCENE");
+  app->add_option("--metrics", flags->metrics,
+                  "euclidean, phong@L, phong@L/exact, phong@L/tangent-plane; L "
+                  "is the smoothing length")
+      ->expected(1, -1)
+      ->type_name("NAME")
+      ->capture_default_str();
+  app->add_option("--protocols", flags->protocols, protocols)
+      ->expected(1, -1)
+      ->type_name("NAME")
+      ->capture_default_str();
+  app->add_option("--runs", flags->runs, "Seeds a scene, paired over methods")
+      ->type_name("N")
+      ->capture_default_str();
+  app->add_option("--seed", flags->seed, "The first of them, at least 1")
+      ->check(CLI::PositiveNumber)
+      ->type_name("S")
+      ->capture_default_str();
+  app->add_option("--shard", flags->shard,
+                  "Run the i-th of n parts and write rows.jsonl only; the "
+                  "parts are merged by concatenation, then --rows")
+      ->type_name("i/n")
+      ->capture_default_str();
+  app->add_option("--rows", flags->rows,
+                  "Summarise these rows instead of running")
+      ->type_name("FILE");
+  app->add_flag("--paths", flags->keep_paths, "Keep the paths in the rows");
+  app->add_option("--output", flags->output,
+                  "Directory for rows.jsonl, rows.csv, summary.csv and "
+                  "performance profiles")
+      ->required()
+      ->type_name("DIR");
+  AddNoCache(app, &flags->no_cache);
+  app->footer(
+      "On several cores:  seq 0 7 | parallel phongpd compare SCENES --shard "
+      "{}/8 --output part{}\n"
+      "On a cluster:      sbatch --array=0-31 --wrap 'phongpd compare SCENES "
+      "--shard $SLURM_ARRAY_TASK_ID/32 --output part$SLURM_ARRAY_TASK_ID'\n"
+      "Then:              cat part*/rows.jsonl > all.jsonl && phongpd compare "
+      "--rows all.jsonl --output DIR");
+  return [flags] { return Compare(*flags); };
+}
+
+}  // namespace phongpd::cli

@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <iostream>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "problems/cli/command.h"
+#include "problems/output_files.h"
+#include "problems/scene_source.h"
+#include "problems/text.h"
+#include "problems/trajectory_study.h"
+
+namespace phongpd::cli {
+namespace {
+
+struct Flags {
+  std::string scene;
+  std::string metric;
+  std::string smoothing_length;
+  std::string jacobian;
+  std::string policy = "commit";
+  std::string start = "repaired";
+  std::string mu_strategy = "adaptive";
+  std::string polish = "needed";
+  std::string noise = "0";
+  std::string time_limit;
+  int routes = 1;
+  int rows = 0;
+  std::uint64_t seed = 0;
+  int runs = 1;
+  bool per_obstacle = false;
+  std::string output;
+  bool no_cache = false;
+};
+
+void Override(const Flags& flags, Scene* scene) {
+  PenetrationSettings& settings = scene->penetration;
+  if (!flags.metric.empty()) settings.metric = flags.metric;
+  if (!flags.jacobian.empty()) settings.jacobian = flags.jacobian;
+  if (!flags.smoothing_length.empty()) {
+    settings.smoothing_length =
+        ParseDouble(flags.smoothing_length, "--smoothing-length");
+  }
+}
+
+PipelineOptions Options(const Flags& flags, const Scene& scene,
+                        std::uint64_t seed) {
+  PipelineOptions options = ScenePipelineOptions(scene);
+  options.start = ParseStart(flags.start);
+  options.start_noise = ParseDouble(flags.noise, "--start-noise");
+  if (options.start_noise > 0.0 &&
+      options.start != TrajectoryStart::kStraight) {
+    throw InputError(
+        "--start-noise: expected --start straight with it, found " +
+        flags.start);
+  }
+  options.routes = flags.routes;
+  options.seed = seed;
+  options.polish = flags.polish == "never"    ? PolishWhen::kNever
+                   : flags.polish == "always" ? PolishWhen::kAlways
+                                              : PolishWhen::kNeeded;
+  options.optimizer.policy = ParsePolicy(flags.policy);
+  options.optimizer.rows = flags.rows;
+  if (flags.mu_strategy == "monotone") {
+    options.optimizer.ipopt.mu_strategy = IpoptSettings::MuStrategy::kMonotone;
+  }
+  if (!flags.time_limit.empty()) {
+    options.time_limit = ParseDouble(flags.time_limit, "--time");
+  }
+  options.optimizer.ipopt.on_iteration = [](const IterationRecord& record) {
+    if (record.iteration % 25 != 0) return;
+    Progress("  iteration " + std::to_string(record.iteration) +
+             ", objective " + FormatDouble(record.objective) + ", violation " +
+             FormatDouble(record.violation));
+  };
+  return options;
+}
+
+// "why not", for people: which end is how deep in what, or where the path
+// crosses.
+std::string Explanation(const TrajectoryStudy& study,
+                        const PipelineResult& result) {
+  const Scene& scene = study.scene();
+  const bool at_start = result.status == TrajectoryStatus::kStartInCollision;
+  if (at_start || result.status == TrajectoryStatus::kGoalInCollision) {
+    return EndInCollision(scene, study.space(),
+                          at_start ? scene.start : scene.goal,
+                          at_start ? "start" : "goal");
+  }
+  std::string text = result.reason;
+  if (!result.certificate.free && result.certificate.segment >= 0) {
+    text += (text.empty() ? "" : "; ") +
+            std::string("the path first collides in segment ") +
+            std::to_string(result.certificate.segment) + " at fraction " +
+            FormatDouble(result.certificate.motion.fraction);
+  }
+  return text;
+}
+
+void PrintHeader() {
+  std::cout << "scene, metric, start, seed: status, iterations, objective, "
+               "clearance/D, seconds\n";
+}
+
+int Optimize(const Flags& flags) {
+  if (flags.runs < 1) {
+    throw InputError("--runs: expected at least 1, found " +
+                     std::to_string(flags.runs));
+  }
+  const SceneSource source(flags.scene);
+  OutputFiles outputs;
+  outputs.Declare(flags.output);
+  ContactSpaceCache cache;
+  if (!flags.no_cache) cache.directory = DefaultCacheDirectory();
+  TrajectoryStudy study(cache, flags.per_obstacle ? SpaceLayout::kPerObstacle
+                                                  : SpaceLayout::kMerged);
+  const bool silent = outputs.UseStandardOutput();
+  if (!silent) PrintHeader();
+
+  std::string lines;
+  bool are_all_free = true;
+  for (int run = 0; run < flags.runs; ++run) {
+    const std::uint64_t seed = flags.seed + static_cast<std::uint64_t>(run);
+    // Seed 0 is the scene as it stands.
+    Scene scene = seed == 0 ? source.Load() : source.Load(seed);
+    Override(flags, &scene);
+    const PipelineOptions options = Options(flags, scene, seed);
+    const TrajectoryMetric metric = SceneMetric(scene);
+    Progress("run " + std::to_string(run + 1) + " of " +
+             std::to_string(flags.runs) + ": " + metric.name);
+    study.Enter(scene);
+    if (run == 0) TellAbout(scene, study.space());
+    const PipelineResult result = study.Run(metric, options);
+    const nlohmann::ordered_json row =
+        TrajectoryRow(study, metric, options, result);
+    lines += row.dump() + '\n';
+    are_all_free = are_all_free && result.certificate.free;
+    if (silent) continue;
+    std::cout << scene.name << ", " << metric.name << ", " << flags.start
+              << ", " << seed << ": " << ToString(result.status) << ", "
+              << result.iterations << ", " << Rounded(result.objective, 5)
+              << ", " << Rounded(row["clearance"].get<double>(), 3) << ", "
+              << Rounded(result.seconds, 3) << '\n';
+    const std::string why = Explanation(study, result);
+    if (!why.empty()) std::cout << "  " << why << '\n';
+  }
+  outputs.Write(flags.output, lines);
+  outputs.Commit();
+  return are_all_free ? kDone : kNoAnswer;
+}
+
+}  // namespace
+
+Command AddOptimize(CLI::App* app) {
+  auto flags = std::make_shared<Flags>();
+  app->add_option("scene", flags->scene,
+                  "Scene file, or FAMILY:key=value,... (see scenes list)")
+      ->required()
+      ->type_name("SCENE");
+  app->add_option("--metric", flags->metric,
+                  "Penetration depth inside obstacles (scene's own if not set)")
+      ->check(CLI::IsMember({"phong", "euclidean"}));
+  app->add_option("--smoothing-length", flags->smoothing_length,
+                  "Of the Phong field, as a fraction of the contact space's "
+                  "diagonal; 0 is the paper (scene's own if not set)")
+      ->type_name("F");
+  app->add_option("--jacobian", flags->jacobian,
+                  "Of Phong depth: its continuous direction, or the exact "
+                  "gradient (scene's own if not set)")
+      ->check(CLI::IsMember({"direction", "exact"}));
+  app->add_option("--policy", flags->policy,
+                  "When branches advance: at accepted iterates, never (every "
+                  "query cold), or between rounds")
+      ->check(CLI::IsMember({"stateless", "commit", "outer-restart"}))
+      ->capture_default_str();
+  app->add_option("--start", flags->start,
+                  "First path: the line, the line led around what it hits, or "
+                  "the complete planner's")
+      ->check(CLI::IsMember({"straight", "repaired", "planner"}))
+      ->capture_default_str();
+  app->add_option("--start-noise", flags->noise,
+                  "Of the waypoints of a straight start, as a fraction of its "
+                  "length")
+      ->type_name("F")
+      ->capture_default_str();
+  app->add_option("--routes", flags->routes,
+                  "Ways around the obstacles to optimise, 1 to 8")
+      ->type_name("N")
+      ->capture_default_str();
+  app->add_option("--rows", flags->rows,
+                  "Constraint rows a sample; 0: 3 from a free start, else 1")
+      ->type_name("K")
+      ->capture_default_str();
+  app->add_option("--mu-strategy", flags->mu_strategy, "Ipopt's own")
+      ->check(CLI::IsMember({"adaptive", "monotone"}))
+      ->capture_default_str();
+  app->add_option("--polish", flags->polish,
+                  "Corridor polish: never, where Ipopt did not converge to a "
+                  "free path, or always")
+      ->check(CLI::IsMember({"never", "needed", "always"}))
+      ->capture_default_str();
+  app->add_flag("--per-obstacle", flags->per_obstacle,
+                "One contact space for each obstacle instead of a merged one");
+  app->add_option("--seed", flags->seed,
+                  "Of the first run; 0 is the scene as it stands, more draw "
+                  "start and goal of a family, and the noise")
+      ->type_name("S")
+      ->capture_default_str();
+  app->add_option("--runs", flags->runs, "Runs, with seeds S, S+1, ...")
+      ->type_name("N")
+      ->capture_default_str();
+  app->add_option("--time", flags->time_limit, "Limit of a run, seconds")
+      ->type_name("S");
+  app->add_option("--output", flags->output, "JSON Lines, one object a run")
+      ->required()
+      ->type_name("FILE");
+  AddNoCache(app, &flags->no_cache);
+  return [flags] { return Optimize(*flags); };
+}
+
+}  // namespace phongpd::cli

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "planners/trajectory/trajectory_pipeline.h"
+
+namespace phongpd {
+
+// One way of running the optimiser, the same for every metric.
+struct TrajectoryProtocol {
+  std::string name;
+  std::string meaning;
+  PipelineOptions options;
+  bool uses_every_metric = true;  // false: the default metric alone
+};
+
+// straight-monotone, straight-adaptive, repaired-monotone, repaired-adaptive:
+// one solve by Ipopt; pipeline: what `optimize` does by default.
+const std::vector<TrajectoryProtocol>& TrajectoryProtocols();
+// Throws InputError for an unknown name.
+const TrajectoryProtocol& FindProtocol(const std::string& name);
+
+// All runs of one scene, protocol and metric.
+struct ComparisonCell {
+  std::string scene, protocol, method;
+  int runs = 0;
+  int solved = 0;       // claimed by the solver or the pipeline, and free
+  int stalled = 0;      // of them, by a stall stop: free, not proved optimal
+  int free_only = 0;    // exactly free, but not solved
+  int claims_only = 0;  // "solved" but collides
+  double median_iterations = 0.0;
+  double restoration_share = 0.0;  // of all iterations
+  double median_seconds = 0.0;     // without the contact space
+  double callback_share = 0.0;     // of the seconds
+  int rivals = 0;  // solved runs on seeds where something was solved
+  // Objective over the best found by anything on that seed, of solved runs.
+  double mean_ratio = 0.0;
+  int within_2_percent = 0, within_10_percent = 0;
+  double least_clearance = 0.0;  // diagonals, of solved runs
+};
+
+// Cells in order of first appearance.  Rows as TrajectoryRow writes them with
+// the key `protocol`; throws InputError naming the row where one is missing.
+std::vector<ComparisonCell> Summarize(
+    const std::vector<nlohmann::ordered_json>& rows);
+std::string ComparisonCsv(const std::vector<ComparisonCell>& cells);
+
+// Dolan–Moré performance profile over all (scene, seed) of one protocol: the
+// share of problems that a method solves within a factor of the best one.
+// `measure`: "iterations", "evaluations/jacobian" or "seconds/total".
+std::string PerformanceProfile(const std::vector<nlohmann::ordered_json>& rows,
+                               const std::string& protocol,
+                               const std::string& measure);
+
+// The columns of a row that published tables need, as CSV with header.
+std::string CompactCsv(const std::vector<nlohmann::ordered_json>& rows);
+
+}  // namespace phongpd
