@@ -23,14 +23,20 @@ struct Flags {
   std::string meshes;
 };
 
+void ListKnobs(const std::vector<SceneKnob>& knobs) {
+  for (const SceneKnob& knob : knobs) {
+    std::cout << "    " << knob.key << '=' << FormatDouble(knob.value) << "  "
+              << knob.meaning << '\n';
+  }
+}
+
 int List() {
   for (const SceneFamily& family : SceneFamilies()) {
     std::cout << family.name << ": " << family.summary << '\n';
-    for (const SceneKnob& knob : family.knobs) {
-      std::cout << "    " << knob.key << '=' << FormatDouble(knob.value) << "  "
-                << knob.meaning << '\n';
-    }
+    ListKnobs(family.knobs);
   }
+  std::cout << "Every scene has these knobs too:\n";
+  ListKnobs(CommonSceneKnobs());
   return kDone;
 }
 
