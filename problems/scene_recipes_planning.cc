@@ -231,9 +231,9 @@ Layout MazeScene(Values& v) {
     path.push_back(maze.Place(node));
   }
   path.push_back(maze.Place(0));
-  // Only one corridor on the way is too narrow.
   // Walls stay thicker than the cube.
   const double most = std::min(0.1, 1.4 / (n - 1) - 1.0 / 16);
+  // Only one corridor on the way is too narrow.
   const double w = Width(v, most), others = std::abs(v["delta"]);
   Boxes free;
   for (int node = 1; node <= last; ++node) {

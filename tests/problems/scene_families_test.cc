@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "constraints/collision_oracle.h"
+#include "core/contact_space/contact_space.h"
 #include "problems/random_solids.h"
 #include "problems/scene.h"
 #include "problems/scene_library.h"
@@ -328,6 +329,20 @@ TEST(SceneFamilies, TwinsHaveNoPathByFloodFill) {
                      BoxesOf(json["obstacles"][0]["shape"]));
       EXPECT_EQ(world.Connects(scene.start, scene.goal), twin == 0) << bends;
     }
+  }
+}
+
+// The exact contact space of a turned scene, bounds included: one bounded
+// free cell, and more in the twin.
+TEST(SceneFamilies, TurnedTwinsCutTheFreeSpace) {
+  for (const std::string& name : kPlanning) {
+    const auto cells = [&](double twin) {
+      const Scene scene = Made(name, {{"rotation_seed", 3}, {"twin", twin}});
+      return BuildContactSpace(scene.robot, JoinedObstacle(scene))
+          .report.cavities;
+    };
+    EXPECT_EQ(cells(0), 1) << name;
+    EXPECT_GE(cells(1), 2) << name;
   }
 }
 
