@@ -15,7 +15,7 @@ PaperBenchmark Make(const std::string& name, const std::string& title,
   const Scene scene = ParseScene(MakeScene(name, {}), name);
   return {name,
           title,
-          scene.robot,
+          scene.workspace.robot,
           JoinedObstacle(scene),
           paper_triangles,
           std::move(motions)};

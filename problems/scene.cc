@@ -15,7 +15,6 @@
 #include "problems/json_schema.h"
 #include "problems/scene_schema.h"
 #include "problems/scene_shapes.h"
-#include "problems/shapes.h"
 #include "problems/text.h"
 
 namespace phongpd {
@@ -94,11 +93,11 @@ TriangleMesh Solid(const Json& value, const JsonPlace& place,
   return mesh;
 }
 
-std::vector<SceneObstacle> Obstacles(const Json& value, const JsonPlace& place,
-                                     const std::string& directory,
-                                     std::vector<std::string>* warnings) {
+std::vector<Obstacle> Obstacles(const Json& value, const JsonPlace& place,
+                                const std::string& directory,
+                                std::vector<std::string>* warnings) {
   std::set<std::string> ids;
-  std::vector<SceneObstacle> obstacles;
+  std::vector<Obstacle> obstacles;
   for (std::size_t i = 0; i < value.size(); ++i) {
     const JsonPlace here = place.Child(i);
     const std::string id = value[i].value("id", "obstacle" + std::to_string(i));
@@ -199,7 +198,7 @@ Scene ParseScene(const Json& json, const std::string& file,
   scene.start = Point(json["start"]);
   scene.goal = Point(json["goal"]);
   if (json.contains("bounds")) {
-    scene.bounds = Bounds(json["bounds"], place.Child("bounds"));
+    scene.workspace.bounds = Bounds(json["bounds"], place.Child("bounds"));
   }
   if (json.contains("penetration")) {
     Read(json["penetration"], &scene.penetration);
@@ -210,10 +209,10 @@ Scene ParseScene(const Json& json, const std::string& file,
   if (json.contains("witness")) {
     scene.witness = Witness(json["witness"], scene, place.Child("witness"));
   }
-  scene.robot =
+  scene.workspace.robot =
       Solid(json["robot"], place.Child("robot"), directory, &scene.warnings);
-  scene.obstacles = Obstacles(json["obstacles"], place.Child("obstacles"),
-                              directory, &scene.warnings);
+  scene.workspace.obstacles = Obstacles(
+      json["obstacles"], place.Child("obstacles"), directory, &scene.warnings);
   return scene;
 }
 
@@ -231,45 +230,22 @@ Scene ReadScene(const std::string& path) {
                     file.parent_path().string(), file.stem().string());
 }
 
-std::vector<int> RelevantObstacles(const Scene& scene) {
-  const BoundingBox robot = ComputeBounds(scene.robot);
-  std::vector<int> relevant;
-  for (std::size_t i = 0; i < scene.obstacles.size(); ++i) {
-    const BoundingBox obstacle = ComputeBounds(scene.obstacles[i].mesh);
-    // The box of C_obj = B ⊕ (−R), wider by more than it can be rounded.
-    const double rounding =
-        1e-12 *
-        (robot.Diagonal() +
-         obstacle.min.cwiseAbs().cwiseMax(obstacle.max.cwiseAbs()).maxCoeff());
-    const Vector3d min = (obstacle.min - robot.max).array() - rounding;
-    const Vector3d max = (obstacle.max - robot.min).array() + rounding;
-    const bool meets = (min.array() <= scene.bounds.max.array()).all() &&
-                       (max.array() >= scene.bounds.min.array()).all();
-    if (scene.bounds.IsEmpty() || meets) {
-      relevant.push_back(static_cast<int>(i));
-    }
-  }
-  return relevant;
-}
-
 std::string SkippedObstaclesNote(const Scene& scene) {
-  const std::vector<int> relevant = RelevantObstacles(scene);
+  const std::vector<int> relevant = ReachableObstacles(scene.workspace);
   const std::set<int> kept(relevant.begin(), relevant.end());
   std::string list;
-  for (std::size_t i = 0; i < scene.obstacles.size(); ++i) {
+  for (std::size_t i = 0; i < scene.workspace.obstacles.size(); ++i) {
     if (kept.count(static_cast<int>(i)) > 0) continue;
-    list += (list.empty() ? "" : ", ") + scene.obstacles[i].id;
+    list += (list.empty() ? "" : ", ") + scene.workspace.obstacles[i].id;
   }
   if (list.empty()) return list;
   return "cannot be touched within the bounds, skipped: " + list;
 }
 
 TriangleMesh JoinedObstacle(const Scene& scene) {
-  TriangleMesh joined;
-  for (const SceneObstacle& obstacle : scene.obstacles) {
-    joined = Joined(joined, obstacle.mesh);
-  }
-  return joined;
+  Workspace unbounded = scene.workspace;
+  unbounded.bounds = Workspace().bounds;
+  return MergedObstacle(unbounded);
 }
 
 }  // namespace phongpd

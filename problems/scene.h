@@ -11,6 +11,7 @@
 
 #include "core/mesh/mesh_error.h"
 #include "core/mesh/triangle_mesh.h"
+#include "planners/exact/workspace.h"
 
 // A problem as every command reads it: a robot R that translates, obstacles,
 // start and goal, and settings for queries, trajectories and planning.
@@ -18,11 +19,6 @@
 // the contact space's bounding-box diagonal.  The file format is
 // scene.schema.json.
 namespace phongpd {
-
-struct SceneObstacle {
-  std::string id;
-  TriangleMesh mesh;  // in its place
-};
 
 struct PenetrationSettings {
   std::string metric = "phong";        // or "euclidean"
@@ -51,10 +47,7 @@ struct PlanningSettings {
 
 struct Scene {
   std::string name;
-  TriangleMesh robot;  // a solid, as MakeSolid gives it, at q = 0
-  std::vector<SceneObstacle> obstacles;  // solids; at least one; unequal ids
-  // Of q; holds no point if the scene has none.
-  BoundingBox bounds = {Eigen::Vector3d::Ones(), Eigen::Vector3d::Zero()};
+  Workspace workspace;  // at least one obstacle
   Eigen::Vector3d start = Eigen::Vector3d::Zero();
   Eigen::Vector3d goal = Eigen::Vector3d::Zero();
   PenetrationSettings penetration;
@@ -81,16 +74,11 @@ Scene ParseScene(const nlohmann::ordered_json& json, const std::string& file,
                  const std::string& directory = ".",
                  const std::string& name = "scene");
 
-// The indices of the obstacles that the robot may touch while q stays in the
-// bounds: those whose contact space has a bounding box that meets them.  The
-// others need no contact space.  All of them if there are no bounds.
-std::vector<int> RelevantObstacles(const Scene& scene);
-
-// "obstacles a, b cannot be touched within the bounds", for people; empty if
-// every obstacle is relevant.
+// "cannot be touched within the bounds, skipped: a, b", for people; empty if
+// all of ReachableObstacles (workspace.h).
 std::string SkippedObstaclesNote(const Scene& scene);
 
-// All obstacles as one mesh of several components, which may overlap.
+// All obstacles as one mesh of several components, without bounds.
 TriangleMesh JoinedObstacle(const Scene& scene);
 
 // scene.schema.json: what a scene file may hold.

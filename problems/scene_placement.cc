@@ -73,7 +73,7 @@ Json SolidsJson(const SceneLayout& layout, const Placement& placement) {
 
 // Bounding box of the contact space of all obstacles, not placed.
 BoundingBox ContactBounds(const Scene& scene) {
-  const BoundingBox robot = ComputeBounds(scene.robot);
+  const BoundingBox robot = ComputeBounds(scene.workspace.robot);
   const BoundingBox obstacle = ComputeBounds(JoinedObstacle(scene));
   return {obstacle.min - robot.max, obstacle.max - robot.min};
 }
@@ -94,7 +94,7 @@ void DrawDirection(const Scene& scene, std::mt19937_64* random,
                    SceneLayout* layout) {
   const BoundingBox box = ContactBounds(scene);
   const double radius = 0.55 * box.Diagonal();
-  const CollisionOracle oracle(scene.robot, JoinedObstacle(scene));
+  const CollisionOracle oracle(scene.workspace.robot, JoinedObstacle(scene));
   std::uniform_real_distribution<double> tilt(-0.3, 0.3);
   constexpr int kTrials = 1000;
   for (int trial = 0; trial < kTrials; ++trial) {
@@ -131,8 +131,8 @@ void Extend(const Path& path, double margin, BoundingBox* box) {
 }
 
 // The bounds as an obstacle: robot + q stays in its cavity iff q does.
-PlacedShape BoundsShell(const SceneLayout& layout, const Scene& scene) {
-  const BoundingBox robot = ComputeBounds(scene.robot);
+PlacedShape BoundsShellShape(const SceneLayout& layout, const Scene& scene) {
+  const BoundingBox robot = ComputeBounds(scene.workspace.robot);
   const BoundingBox cavity = {layout.bounds.min + robot.min,
                               layout.bounds.max + robot.max};
   return {"bounds_shell",
@@ -210,7 +210,7 @@ Json Assembled(const std::string& name, SceneLayout layout,
     witness.push_back(layout.goal);
   }
   const bool has_shell = layout.is_sealed && placement.is_rotated;
-  if (has_shell) layout.obstacles.push_back(BoundsShell(layout, scene));
+  if (has_shell) layout.obstacles.push_back(BoundsShellShape(layout, scene));
 
   Json json = {{"name", name}};
   json.update(SolidsJson(layout, placement));

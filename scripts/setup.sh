@@ -8,7 +8,8 @@ packages=(
   g++ cmake make
   libeigen3-dev libcgal-dev libgmp-dev libmpfr-dev libtbb-dev libfcl-dev
   libgtest-dev librapidcheck-dev libcli11-dev nlohmann-json3-dev
-  gnuplot-nox
+  coinor-libipopt-dev libompl-dev libboost-serialization-dev
+  libboost-filesystem-dev gnuplot-nox
 )
 
 missing=()

@@ -75,14 +75,15 @@ int Write(const Flags& flags) {
   if (!flags.meshes.empty()) {
     std::error_code error;
     std::filesystem::create_directories(flags.meshes, error);
-    write(scene.robot, flags.meshes + "/robot.off");
+    write(scene.workspace.robot, flags.meshes + "/robot.off");
     write(obstacle, flags.meshes + "/obstacle.off");
   }
   const bool silent = outputs.UseStandardOutput();
   outputs.Commit();
   if (silent) return kDone;
-  std::cout << flags.name << ": robot " << scene.robot.triangles.size()
-            << ", obstacle " << obstacle.triangles.size() << " triangles\n";
+  std::cout << flags.name << ": robot "
+            << scene.workspace.robot.triangles.size() << ", obstacle "
+            << obstacle.triangles.size() << " triangles\n";
   const std::string skipped = SkippedObstaclesNote(scene);
   if (!skipped.empty()) std::cout << skipped << '\n';
   return kDone;

@@ -258,10 +258,10 @@ bool ReadsOrRefuses(const std::string& text) {
   try {
     const Scene scene = ParseScene(ParseJson(text, "s.json"), "s.json");
     EXPECT_TRUE(scene.start.allFinite() && scene.goal.allFinite()) << text;
-    EXPECT_FALSE(scene.obstacles.empty()) << text;
-    EXPECT_NO_THROW(MakeSolid(scene.robot, "robot")) << text;
+    EXPECT_FALSE(scene.workspace.obstacles.empty()) << text;
+    EXPECT_NO_THROW(MakeSolid(scene.workspace.robot, "robot")) << text;
     EXPECT_GE(scene.trajectory.waypoints, 1) << text;
-    RelevantObstacles(scene);
+    ReachableObstacles(scene.workspace);
     return true;
   } catch (const InputError& error) {
     const std::string what = error.what();

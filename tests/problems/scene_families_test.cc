@@ -36,9 +36,9 @@ Scene Made(const std::string& name, const Knobs& knobs) {
 std::string Text(const Knobs& knobs) { return Json(knobs).dump(); }
 
 bool InBounds(const Scene& scene, const Vector3d& q) {
-  return scene.bounds.IsEmpty() ||
-         ((q.array() >= scene.bounds.min.array()).all() &&
-          (q.array() <= scene.bounds.max.array()).all());
+  return scene.workspace.bounds.IsEmpty() ||
+         ((q.array() >= scene.workspace.bounds.min.array()).all() &&
+          (q.array() <= scene.workspace.bounds.max.array()).all());
 }
 
 // The number of samples of a polyline that collide or leave the bounds.
@@ -69,7 +69,7 @@ void ExpectSound(const std::string& name, const Knobs& knobs) {
   SCOPED_TRACE(name + " " + Text(knobs));
   const Scene scene = Made(name, knobs);
   EXPECT_TRUE(scene.warnings.empty());
-  const CollisionOracle oracle(scene.robot, JoinedObstacle(scene));
+  const CollisionOracle oracle(scene.workspace.robot, JoinedObstacle(scene));
   EXPECT_GT(BlockedSamples(scene, oracle, StraightLine(scene)), 0);
   ASSERT_EQ(scene.feasible, true);
   ASSERT_GE(scene.witness.size(), 2U);
@@ -115,15 +115,15 @@ TEST(SceneFamilies, PlacementKeepsTheProblem) {
     const Scene placed = Made(
         name,
         {{"rotation_seed", kSeed}, {"scale", kScale}, {"offset", kOffset}});
-    EXPECT_TRUE(placed.bounds.IsEmpty());
-    EXPECT_EQ(placed.obstacles.back().id, "bounds_shell");
-    const CollisionOracle before(plain.robot, JoinedObstacle(plain));
-    const CollisionOracle after(placed.robot, JoinedObstacle(placed));
+    EXPECT_TRUE(placed.workspace.bounds.IsEmpty());
+    EXPECT_EQ(placed.workspace.obstacles.back().id, "bounds_shell");
+    const CollisionOracle before(plain.workspace.robot, JoinedObstacle(plain));
+    const CollisionOracle after(placed.workspace.robot, JoinedObstacle(placed));
     std::mt19937_64 random(kSeed);
     const Eigen::Matrix3d rotation = RandomRotation(&random);
     int blocked = 0;
     for (int i = 0; i < 2000; ++i) {
-      const Vector3d q = RandomPoint(plain.bounds, &random);
+      const Vector3d q = RandomPoint(plain.workspace.bounds, &random);
       const bool expected = !InBounds(plain, q) || before.Collides(q);
       const Vector3d moved = (kScale * (rotation * q)).array() + kOffset;
       EXPECT_EQ(after.Collides(moved), expected) << name << ' ' << q;
@@ -146,7 +146,8 @@ TEST(SceneFamilies, TwinsBlockTheWayOfTheirSiblings) {
         EXPECT_EQ(twin.feasible, false) << name;
         EXPECT_TRUE(twin.witness.empty());
         EXPECT_EQ(twin.start, sibling.start);
-        const CollisionOracle oracle(twin.robot, JoinedObstacle(twin));
+        const CollisionOracle oracle(twin.workspace.robot,
+                                     JoinedObstacle(twin));
         EXPECT_GT(BlockedSamples(twin, oracle, sibling.witness), 0) << name;
         EXPECT_FALSE(oracle.Collides(twin.start)) << name;
         // Only a maze's goal may lie in the corridor that is too narrow.
@@ -188,7 +189,8 @@ TEST(SceneFamilies, ChannelsAreAsWideAsDelta) {
     for (const double delta : {1e-2, 1e-3, 2e-5}) {
       section.knobs["delta"] = delta;
       const Scene scene = Made(section.name, section.knobs);
-      const CollisionOracle oracle(scene.robot, JoinedObstacle(scene));
+      const CollisionOracle oracle(scene.workspace.robot,
+                                   JoinedObstacle(scene));
       for (const double side : {-0.5, 0.5}) {
         const Vector3d edge = side * delta * section.across;
         EXPECT_FALSE(oracle.Collides(section.point + 0.999 * edge))
@@ -338,7 +340,7 @@ TEST(SceneFamilies, TurnedTwinsCutTheFreeSpace) {
   for (const std::string& name : kPlanning) {
     const auto cells = [&](double twin) {
       const Scene scene = Made(name, {{"rotation_seed", 3}, {"twin", twin}});
-      return BuildContactSpace(scene.robot, JoinedObstacle(scene))
+      return BuildContactSpace(scene.workspace.robot, JoinedObstacle(scene))
           .report.cavities;
     };
     EXPECT_EQ(cells(0), 1) << name;

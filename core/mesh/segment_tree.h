@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <vector>
+
+#include "core/mesh/box_tree.h"
+#include "core/mesh/triangle_mesh.h"
+
+namespace phongpd {
+
+// Where segments meet a surface.  *Whether* they meet is exact, in the user's
+// own coordinates, for segments and triangles in any position: in one plane,
+// through an edge or a vertex, shorter than an ulp.  *Where* is rounded.
+//
+// A zero-area triangle is skipped: on a closed surface its points belong to
+// its neighbours.  All queries require finite points, are thread-safe and do
+// not allocate (but for coordinates beyond 1e±70, exact_sign.h).
+class SegmentTree {
+ public:
+  struct Hit {
+    int triangle = -1;      // −1: none
+    double fraction = 1.0;  // of the way from a to b, in [0, 1]
+
+    bool Found() const { return triangle >= 0; }
+  };
+
+  SegmentTree() = default;
+  // Finite coordinates and valid indices.
+  explicit SegmentTree(const TriangleMesh& mesh);
+
+  // Exact: does the closed segment share a point with the surface?
+  bool Meets(const Eigen::Vector3d& a, const Eigen::Vector3d& b) const noexcept;
+
+  // The first common point; found exactly when Meets.  Of several hits within
+  // rounding of each other any may be returned.
+  Hit FirstHit(const Eigen::Vector3d& a,
+               const Eigen::Vector3d& b) const noexcept;
+
+  // The same without the triangles closer to a than `radius` (≥ 0): for rays
+  // that start on the surface, where every triangle that touches the rounded
+  // start would be hit at once.
+  Hit FirstHitBeyond(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
+                     double radius) const noexcept;
+
+  // Calls visit(triangle, fraction) for every triangle that shares a point
+  // with the closed segment, in no particular order.
+  template <typename Visit>
+  void ForEachHit(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
+                  const Visit& visit) const {
+    const Reach reach(*this, a, b);
+    tree_.ForEach([&](int node) { return reach.Meets(tree_.nodes()[node]); },
+                  [&](int position) {
+                    double fraction = 1.0;
+                    if (MeetsTriangle(corners_[position], a, b, &fraction)) {
+                      visit(tree_.order()[position], fraction);
+                    }
+                    return true;
+                  });
+  }
+
+ private:
+  using Corners = std::array<Eigen::Vector3d, 3>;
+
+  // Conservative test of the segment against boxes.
+  class Reach {
+   public:
+    Reach(const SegmentTree& tree, const Eigen::Vector3d& a,
+          const Eigen::Vector3d& b);
+    bool Meets(const BoxTree::Node& node) const;
+    // Lower bound of the fraction at which the segment enters a box it meets.
+    double Entry(const BoxTree::Node& node) const;
+
+   private:
+    Eigen::Vector3d a_, min_, max_, half_, direction_, slack_;
+  };
+
+  static bool MeetsTriangle(const Corners& t, const Eigen::Vector3d& a,
+                            const Eigen::Vector3d& b, double* fraction);
+  Hit First(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
+            double radius) const noexcept;
+
+  BoxTree tree_;
+  std::vector<Corners> corners_;  // in the tree's order
+  double largest_ = 0.0;          // of all absolute coordinates
+};
+
+}  // namespace phongpd

@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "planners/exact/free_space.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "core/mesh/segment_tree.h"
+#include "core/projection/contact_surface.h"
+
+namespace phongpd {
+namespace {
+
+using Eigen::Vector3d;
+
+struct Space {
+  explicit Space(const TriangleMesh& mesh) : surface(mesh), segments(mesh) {}
+
+  ContactSurface surface;  // checks the mesh first
+  SegmentTree segments;
+};
+
+}  // namespace
+
+struct FreeSpace::Impl {
+  // Index of the contact space that q touches or is inside of, kBounds where
+  // it is not strictly within them, kNone where q is free.
+  int Blocker(const Vector3d& q) const {
+    if (!q.allFinite() || !IsWithinBounds(q)) return MotionCheck::kBounds;
+    for (std::size_t i = 0; i < spaces.size(); ++i) {
+      if (spaces[i].surface.Locate(q) != Location::kOutside) {
+        return static_cast<int>(i);
+      }
+    }
+    return MotionCheck::kNone;
+  }
+
+  bool IsWithinBounds(const Vector3d& q) const {
+    return bounds.IsEmpty() || ((q.array() > bounds.min.array()).all() &&
+                                (q.array() < bounds.max.array()).all());
+  }
+
+  // Fraction of the way from a to b at which the bounds are reached, if a lies
+  // strictly within them and b does not.
+  double FractionToBounds(const Vector3d& a, const Vector3d& b) const {
+    double fraction = 1.0;
+    for (int k = 0; k < 3; ++k) {
+      if (b[k] > bounds.min[k] && b[k] < bounds.max[k]) continue;
+      const double wall = b[k] > a[k] ? bounds.max[k] : bounds.min[k];
+      fraction = std::min(fraction, (wall - a[k]) / (b[k] - a[k]));
+    }
+    return fraction;
+  }
+
+  std::vector<Space> spaces;
+  BoundingBox bounds;
+};
+
+FreeSpace::FreeSpace(const std::vector<TriangleMesh>& contact_meshes,
+                     const BoundingBox& bounds)
+    : impl_(std::make_unique<Impl>()) {
+  impl_->spaces.reserve(contact_meshes.size());
+  for (const TriangleMesh& mesh : contact_meshes) {
+    impl_->spaces.emplace_back(mesh);
+  }
+  impl_->bounds = bounds;
+}
+
+FreeSpace::~FreeSpace() = default;
+FreeSpace::FreeSpace(FreeSpace&&) noexcept = default;
+FreeSpace& FreeSpace::operator=(FreeSpace&&) noexcept = default;
+
+BoundingBox FreeSpace::NoBounds() {
+  return {Vector3d::Constant(1.0), Vector3d::Constant(-1.0)};
+}
+
+bool FreeSpace::IsFree(const Vector3d& q) const {
+  return impl_->Blocker(q) == MotionCheck::kNone;
+}
+
+bool FreeSpace::IsFree(const Vector3d& a, const Vector3d& b) const {
+  // The bounds are convex: if the ends are within them, so is the segment.
+  if (!IsFree(a) || !IsFree(b)) return false;
+  return std::none_of(
+      impl_->spaces.begin(), impl_->spaces.end(),
+      [&](const Space& space) { return space.segments.Meets(a, b); });
+}
+
+MotionCheck FreeSpace::Check(const Vector3d& a, const Vector3d& b) const {
+  MotionCheck result;
+  result.obstacle = impl_->Blocker(a);
+  if (result.obstacle != MotionCheck::kNone || !b.allFinite()) {
+    result.free = false;
+    result.fraction = 0.0;
+    if (result.obstacle == MotionCheck::kNone) {
+      result.obstacle = MotionCheck::kBounds;
+    }
+    return result;
+  }
+  for (std::size_t i = 0; i < impl_->spaces.size(); ++i) {
+    const SegmentTree::Hit hit = impl_->spaces[i].segments.FirstHit(a, b);
+    if (hit.Found() && (result.free || hit.fraction < result.fraction)) {
+      result = {false, hit.fraction, static_cast<int>(i), hit.triangle};
+    }
+  }
+  if (!impl_->IsWithinBounds(b)) {
+    const double fraction = impl_->FractionToBounds(a, b);
+    if (result.free || fraction < result.fraction) {
+      result = {false, fraction, MotionCheck::kBounds, -1};
+    }
+  }
+  return result;
+}
+
+double FreeSpace::Clearance(const Vector3d& q) const {
+  const BoundingBox& bounds = impl_->bounds;
+  double clearance = std::numeric_limits<double>::infinity();
+  if (!q.allFinite()) return 0.0;
+  if (!bounds.IsEmpty()) {
+    clearance = (q - bounds.min)
+                    .cwiseAbs()
+                    .cwiseMin((bounds.max - q).cwiseAbs())
+                    .minCoeff();
+  }
+  for (const Space& space : impl_->spaces) {
+    if (!space.surface.Accepts(q)) return 0.0;
+    const PenetrationResult answer =
+        space.surface.Answer(q, Location::kOutside);
+    clearance = std::min(clearance, answer.signed_distance);
+  }
+  return clearance;
+}
+
+std::size_t FreeSpace::size() const { return impl_->spaces.size(); }
+const BoundingBox& FreeSpace::bounds() const { return impl_->bounds; }
+
+PathCheck CheckPath(const FreeSpace& space, const std::vector<Vector3d>& path) {
+  PathCheck result;
+  if (path.empty()) return result;
+  if (path.size() == 1) {
+    result.motion = space.Check(path[0], path[0]);
+    result.segment = result.motion.free ? -1 : 0;
+  }
+  for (std::size_t k = 0; k + 1 < path.size() && result.motion.free; ++k) {
+    result.motion = space.Check(path[k], path[k + 1]);
+    if (!result.motion.free) result.segment = static_cast<int>(k);
+  }
+  result.free = result.motion.free;
+  return result;
+}
+
+double PathClearance(const FreeSpace& space, const std::vector<Vector3d>& path,
+                     double tolerance) {
+  if (path.empty() || !(tolerance > 0.0)) return 0.0;
+  double best = space.Clearance(path.front());
+  struct Piece {
+    Vector3d a, b;
+    double clearance_a, clearance_b;
+  };
+  std::vector<Piece> pieces;
+  for (std::size_t k = 0; k + 1 < path.size(); ++k) {
+    pieces.push_back({path[k], path[k + 1], space.Clearance(path[k]),
+                      space.Clearance(path[k + 1])});
+    best = std::min(best, pieces.back().clearance_b);
+  }
+  // Between two points l apart no clearance is below (c_a + c_b − l) / 2.
+  while (!pieces.empty()) {
+    const Piece piece = pieces.back();
+    pieces.pop_back();
+    const double length = (piece.b - piece.a).norm();
+    if (0.5 * (piece.clearance_a + piece.clearance_b - length) >=
+        best - tolerance) {
+      continue;
+    }
+    const Vector3d middle = 0.5 * (piece.a + piece.b);
+    const double clearance = space.Clearance(middle);
+    best = std::min(best, clearance);
+    if (!(best > tolerance)) return 0.0;
+    pieces.push_back({piece.a, middle, piece.clearance_a, clearance});
+    pieces.push_back({middle, piece.b, clearance, piece.clearance_b});
+  }
+  return std::max(0.0, best - tolerance);
+}
+
+}  // namespace phongpd

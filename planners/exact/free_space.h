@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <vector>
+
+#include "core/mesh/triangle_mesh.h"
+
+namespace phongpd {
+
+// Where a straight motion first touches something.
+struct MotionCheck {
+  static constexpr int kNone = -1;
+  static constexpr int kBounds = -2;
+
+  bool free = true;
+  double fraction = 1.0;  // of the motion up to the first contact, rounded;
+                          // 0 when it starts in collision
+  int obstacle = kNone;   // index of the contact space, or kBounds
+  int triangle = -1;      // of that contact space; −1 inside it or at bounds
+};
+
+// The configurations q at which a translating robot touches nothing: strictly
+// outside every contact space and strictly inside the bounds.
+//
+// A translating robot's motion from a to b is free iff the segment starts free
+// and meets no contact surface (engine.md §5; no sampling, no resolution), so
+// every answer below but the distances is exact for the meshes given.  It is
+// the judge of every path in this library.
+class FreeSpace {
+ public:
+  // One contact space per obstacle, or one for all of them (MergedObstacle).
+  // Closed, outward, edge-manifold, as BuildContactSpace returns them.  Empty
+  // bounds: none.  Throws InputError like ContactSurface.
+  explicit FreeSpace(const std::vector<TriangleMesh>& contact_meshes,
+                     const BoundingBox& bounds = NoBounds());
+  ~FreeSpace();
+  FreeSpace(FreeSpace&&) noexcept;
+  FreeSpace& operator=(FreeSpace&&) noexcept;
+
+  static BoundingBox NoBounds();
+
+  // Exact.  False for non-finite q.
+  bool IsFree(const Eigen::Vector3d& q) const;
+  // Exact: every point of the closed segment is free.
+  bool IsFree(const Eigen::Vector3d& a, const Eigen::Vector3d& b) const;
+  // `free` is exact, and the rest says what is met first.
+  MotionCheck Check(const Eigen::Vector3d& a, const Eigen::Vector3d& b) const;
+
+  // Distance from q to the nearest contact surface or bound, ≥ 0; infinity
+  // where there is neither; 0 for non-finite q.  Rounded.
+  double Clearance(const Eigen::Vector3d& q) const;
+
+  std::size_t size() const;  // number of contact spaces
+  const BoundingBox& bounds() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+// The first collision along a polyline.
+struct PathCheck {
+  bool free = false;  // no: also for an empty path
+  int segment = -1;   // of the first collision; point k → point k + 1
+  MotionCheck motion;
+};
+
+// Exact.  A path of one point is its point.
+PathCheck CheckPath(const FreeSpace& space,
+                    const std::vector<Eigen::Vector3d>& path);
+
+// The smallest distance from any point of a polyline to the nearest contact
+// surface or bound, within `tolerance` > 0 (user's unit), never above the
+// true one: bisection by the distance's Lipschitz constant 1.  0 when a
+// distance it needs is not larger than the tolerance.
+double PathClearance(const FreeSpace& space,
+                     const std::vector<Eigen::Vector3d>& path,
+                     double tolerance);
+
+}  // namespace phongpd

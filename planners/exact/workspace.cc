@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "planners/exact/workspace.h"
+
+#include <algorithm>
+#include <set>
+
+#include "core/mesh/mesh_error.h"
+
+namespace phongpd {
+namespace {
+
+using Eigen::Vector3d;
+
+// Appends the 12 triangles of a box, outward or inward.
+void AppendBox(const BoundingBox& box, bool outward, TriangleMesh* mesh) {
+  const int first = static_cast<int>(mesh->vertices.size());
+  for (int corner = 0; corner < 8; ++corner) {
+    Vector3d v;
+    for (int k = 0; k < 3; ++k) {
+      v[k] = (corner >> k & 1) != 0 ? box.max[k] : box.min[k];
+    }
+    mesh->vertices.push_back(v);
+  }
+  static constexpr int kFaces[6][4] = {{0, 4, 6, 2}, {1, 3, 7, 5},
+                                       {0, 1, 5, 4}, {2, 6, 7, 3},
+                                       {0, 2, 3, 1}, {4, 5, 7, 6}};
+  for (const int(&face)[4] : kFaces) {
+    for (const int second : {1, 2}) {
+      Triangle t = {first + face[0], first + face[second],
+                    first + face[second + 1]};
+      if (!outward) std::swap(t[1], t[2]);
+      mesh->triangles.push_back(t);
+    }
+  }
+}
+
+void Append(const TriangleMesh& part, TriangleMesh* mesh) {
+  const int first = static_cast<int>(mesh->vertices.size());
+  mesh->vertices.insert(mesh->vertices.end(), part.vertices.begin(),
+                        part.vertices.end());
+  for (const Triangle& t : part.triangles) {
+    mesh->triangles.push_back({first + t[0], first + t[1], first + t[2]});
+  }
+}
+
+}  // namespace
+
+void Workspace::Validate() const {
+  if (robot.triangles.empty()) {
+    throw InputError("robot: expected a solid, found no triangle");
+  }
+  std::set<std::string> ids;
+  for (const Obstacle& obstacle : obstacles) {
+    if (obstacle.mesh.triangles.empty()) {
+      throw InputError("obstacle '" + obstacle.id +
+                       "': expected a solid, found no triangle");
+    }
+    if (!ids.insert(obstacle.id).second) {
+      throw InputError("obstacle '" + obstacle.id + "': the id is used twice");
+    }
+  }
+  const bool none = (bounds.min.array() > bounds.max.array()).all();
+  if (!none && !(bounds.min.array() < bounds.max.array()).all()) {
+    throw InputError("bounds: expected min < max in x, y and z");
+  }
+}
+
+TriangleMesh BoundsShell(const Workspace& workspace) {
+  const BoundingBox robot = ComputeBounds(workspace.robot);
+  const BoundingBox inner = {workspace.bounds.min + robot.min,
+                             workspace.bounds.max + robot.max};
+  // As thick as the cavity is wide: thinner saves nothing, and the outside of
+  // the shell stays far from everything inside.
+  const double wall = (inner.max - inner.min).maxCoeff();
+  TriangleMesh shell;
+  AppendBox({inner.min.array() - wall, inner.max.array() + wall}, true, &shell);
+  AppendBox(inner, false, &shell);
+  return shell;
+}
+
+TriangleMesh MergedObstacle(const Workspace& workspace) {
+  TriangleMesh merged;
+  for (const int i : ReachableObstacles(workspace)) {
+    Append(workspace.obstacles[static_cast<std::size_t>(i)].mesh, &merged);
+  }
+  if (!workspace.bounds.IsEmpty()) Append(BoundsShell(workspace), &merged);
+  if (merged.triangles.empty()) {
+    throw InputError("workspace: expected an obstacle or bounds, found none");
+  }
+  return merged;
+}
+
+std::vector<int> ReachableObstacles(const Workspace& workspace) {
+  const BoundingBox robot = ComputeBounds(workspace.robot);
+  std::vector<int> reachable;
+  for (std::size_t i = 0; i < workspace.obstacles.size(); ++i) {
+    const BoundingBox box = ComputeBounds(workspace.obstacles[i].mesh);
+    const Vector3d min = box.min - robot.max;
+    const Vector3d max = box.max - robot.min;
+    if (workspace.bounds.IsEmpty() ||
+        ((min.array() <= workspace.bounds.max.array()).all() &&
+         (max.array() >= workspace.bounds.min.array()).all())) {
+      reachable.push_back(static_cast<int>(i));
+    }
+  }
+  return reachable;
+}
+
+}  // namespace phongpd

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Truth: FCL on the original meshes, densely along motions, and closed forms.
+#include "planners/exact/free_space.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include "constraints/collision_oracle.h"
+#include "core/contact_space/contact_space.h"
+#include "core/mesh/mesh_error.h"
+#include "problems/shapes.h"
+#include "tests/support/solid_tools.h"
+
+namespace phongpd {
+namespace {
+
+using Eigen::Vector3d;
+
+TriangleMesh Cube(double side) {
+  return MakeBox(Vector3d::Constant(-0.5 * side),
+                 Vector3d::Constant(0.5 * side));
+}
+
+// Contact space of a cube of side 0.5 against one of side 1.5: half-width 1.
+FreeSpace AroundCube(const BoundingBox& bounds = FreeSpace::NoBounds()) {
+  return FreeSpace({BuildContactSpace(Cube(0.5), Cube(1.5)).mesh}, bounds);
+}
+
+TEST(FreeSpace, IsOpen) {
+  const BoundingBox bounds = {Vector3d::Constant(-3.0),
+                              Vector3d::Constant(3.0)};
+  const FreeSpace space = AroundCube(bounds);
+  const double ulp = std::numeric_limits<double>::epsilon();
+  EXPECT_FALSE(space.IsFree({0.0, 0.0, 0.0}));
+  EXPECT_FALSE(space.IsFree({1.0, 0.2, 0.3}));
+  EXPECT_TRUE(space.IsFree({1.0 + ulp, 0.2, 0.3}));
+  EXPECT_FALSE(space.IsFree({3.0, 0.0, 0.0}));
+  EXPECT_TRUE(space.IsFree({3.0 - 2.0 * ulp, 0.0, 0.0}));
+  EXPECT_FALSE(space.IsFree({std::nan(""), 2.0, 0.0}));
+}
+
+TEST(FreeSpace, FindsTheFirstContactOfAMotion) {
+  const FreeSpace space = AroundCube();
+  MotionCheck check = space.Check({-2.0, 0.3, 0.1}, {2.0, 0.3, 0.1});
+  EXPECT_FALSE(check.free);
+  EXPECT_DOUBLE_EQ(check.fraction, 0.25);
+  EXPECT_EQ(check.obstacle, 0);
+  EXPECT_GE(check.triangle, 0);
+  // Along a face: touching is not free, an ulp beside it is.
+  EXPECT_FALSE(space.IsFree({-2.0, 1.0, 0.0}, {2.0, 1.0, 0.0}));
+  const double beside = std::nextafter(1.0, 2.0);
+  EXPECT_TRUE(space.IsFree({-2.0, beside, 0.0}, {2.0, beside, 0.0}));
+  // From inside, and wholly inside.
+  check = space.Check({0.0, 0.0, 0.0}, {0.5, 0.0, 0.0});
+  EXPECT_FALSE(check.free);
+  EXPECT_EQ(check.fraction, 0.0);
+  EXPECT_EQ(check.obstacle, 0);
+}
+
+TEST(FreeSpace, StopsAtTheBounds) {
+  const BoundingBox bounds = {Vector3d::Constant(-3.0),
+                              Vector3d::Constant(3.0)};
+  const FreeSpace space = AroundCube(bounds);
+  const MotionCheck check = space.Check({2.0, 2.0, 2.0}, {6.0, 2.5, 2.0});
+  EXPECT_FALSE(check.free);
+  EXPECT_DOUBLE_EQ(check.fraction, 0.25);
+  EXPECT_EQ(check.obstacle, MotionCheck::kBounds);
+  EXPECT_EQ(space.Check({4.0, 0.0, 0.0}, {2.0, 0.0, 0.0}).fraction, 0.0);
+}
+
+TEST(FreeSpace, SeesThinObstaclesThatSamplesMiss) {
+  const TriangleMesh wall = MakeBox({-1e-9, -1.0, -1.0}, {1e-9, 1.0, 1.0});
+  const FreeSpace space({BuildContactSpace(Cube(1e-9), wall).mesh});
+  EXPECT_TRUE(space.IsFree({-0.5, 0.0, 0.0}));
+  EXPECT_TRUE(space.IsFree({0.5, 0.1, 0.0}));
+  EXPECT_FALSE(space.IsFree({-0.5, 0.0, 0.0}, {0.5, 0.1, 0.0}));
+}
+
+TEST(FreeSpace, AgreesWithDenseChecksOfTheOriginalMeshes) {
+  std::mt19937_64 random(7);
+  const TriangleMesh robot = MakeStar(0.2, 0.5);
+  const TriangleMesh obstacle =
+      Rotated(MakeTorus(1.0, 0.3, 16, 8), testing::RandomRotation(&random));
+  const ContactSpace contact = BuildContactSpace(robot, obstacle);
+  const FreeSpace space({contact.mesh});
+  const CollisionOracle oracle(robot, obstacle);
+  BoundingBox box = ComputeBounds(contact.mesh);
+  box.min *= 1.3;
+  box.max *= 1.3;
+  int free = 0, blocked = 0;
+  for (int i = 0; i < 300; ++i) {
+    const Vector3d a = testing::RandomPoint(box, &random);
+    const Vector3d b = testing::RandomPoint(box, &random);
+    const MotionCheck check = space.Check(a, b);
+    ASSERT_EQ(check.free, space.IsFree(a, b));
+    const int steps = 60;
+    for (int k = 0; k <= steps; ++k) {
+      const double t = static_cast<double>(k) / steps;
+      // At the first contact itself either answer is right.
+      if (!check.free && t > check.fraction - 1e-9) break;
+      ASSERT_FALSE(oracle.Collides(a + t * (b - a))) << i << " at " << t;
+    }
+    if (!check.free && space.IsFree(a)) {
+      const Vector3d at = a + check.fraction * (b - a);
+      EXPECT_LT(space.Clearance(at), 1e-12 * box.Diagonal());
+    }
+    (check.free ? free : blocked) += 1;
+  }
+  EXPECT_GT(free, 50);
+  EXPECT_GT(blocked, 50);
+}
+
+TEST(PathClearance, IsTheSmallestDistanceAlongThePath) {
+  const FreeSpace space = AroundCube();
+  // Passes the corner (1, 1, 1) of the contact space at distance √2/2 · 0.5.
+  const std::vector<Vector3d> path = {{3.0, -0.5, 0.0}, {-0.5, 3.0, 0.0}};
+  const double truth = 0.5 / std::sqrt(2.0);
+  const double clearance = PathClearance(space, path, 1e-6);
+  EXPECT_LE(clearance, truth);
+  EXPECT_GE(clearance, truth - 2e-6);
+  EXPECT_EQ(PathClearance(space, {{0.0, 2.0, 0.0}, {0.0, 1.0, 0.0}}, 1e-6),
+            0.0);
+}
+
+TEST(CheckPath, NamesTheFirstSegmentThatCollides) {
+  const FreeSpace space = AroundCube();
+  PathCheck check =
+      CheckPath(space, {{2.0, 2.0, 0.0}, {2.0, 0.0, 0.0}, {-2.0, 0.0, 0.0}});
+  EXPECT_FALSE(check.free);
+  EXPECT_EQ(check.segment, 1);
+  EXPECT_DOUBLE_EQ(check.motion.fraction, 0.25);
+  EXPECT_TRUE(CheckPath(space, {{2.0, 2.0, 0.0}, {2.0, -2.0, 0.0}}).free);
+  EXPECT_FALSE(CheckPath(space, {}).free);
+  EXPECT_FALSE(CheckPath(space, {{0.0, 0.0, 0.0}}).free);
+}
+
+TEST(FreeSpace, RefusesOpenContactMeshes) {
+  TriangleMesh mesh = Cube(1.0);
+  mesh.triangles.pop_back();
+  EXPECT_THROW(FreeSpace({mesh}), InputError);
+}
+
+}  // namespace
+}  // namespace phongpd

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "planners/exact/workspace.h"
+
+#include <gtest/gtest.h>
+
+#include "core/contact_space/contact_space.h"
+#include "core/mesh/mesh_check.h"
+#include "core/mesh/mesh_error.h"
+#include "planners/exact/free_space.h"
+#include "problems/shapes.h"
+
+namespace phongpd {
+namespace {
+
+using Eigen::Vector3d;
+
+Workspace CubeAmongTwoBoxes() {
+  Workspace workspace;
+  workspace.robot = MakeBox({-0.25, 0.0, 0.0}, {0.25, 0.5, 0.5});
+  workspace.obstacles = {{"near", MakeBox({-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5})},
+                         {"far", MakeBox({9.0, 9.0, 9.0}, {10.0, 10.0, 10.0})}};
+  workspace.bounds = {Vector3d::Constant(-2.0), Vector3d::Constant(2.0)};
+  return workspace;
+}
+
+TEST(Workspace, ConfinesTheRobotExactlyToTheBounds) {
+  const Workspace workspace = CubeAmongTwoBoxes();
+  const TriangleMesh shell = BoundsShell(workspace);
+  EXPECT_EQ(ExamineMesh(shell).boundary_edges, 0u);
+  const ContactSpace contact = BuildContactSpace(workspace.robot, shell);
+  EXPECT_EQ(contact.report.cavities, 1);
+  const FreeSpace space({contact.mesh});
+  EXPECT_TRUE(space.IsFree(Vector3d::Constant(1.999999)));
+  EXPECT_TRUE(space.IsFree(Vector3d::Constant(-1.999999)));
+  for (int k = 0; k < 3; ++k) {
+    EXPECT_FALSE(space.IsFree(2.0 * Vector3d::Unit(k)));
+    EXPECT_FALSE(space.IsFree(-2.0 * Vector3d::Unit(k)));
+  }
+}
+
+TEST(Workspace, MergesWhatTheRobotCanReach) {
+  Workspace workspace = CubeAmongTwoBoxes();
+  EXPECT_EQ(ReachableObstacles(workspace), std::vector<int>{0});
+  // One box and the shell: 12 + 24 triangles.
+  EXPECT_EQ(MergedObstacle(workspace).triangles.size(), 36u);
+  workspace.bounds = FreeSpace::NoBounds();
+  EXPECT_EQ(ReachableObstacles(workspace), (std::vector<int>{0, 1}));
+  EXPECT_EQ(MergedObstacle(workspace).triangles.size(), 24u);
+}
+
+TEST(Workspace, RefusesWhatCannotBeBuilt) {
+  const Workspace valid = CubeAmongTwoBoxes();
+  EXPECT_NO_THROW(valid.Validate());
+  Workspace workspace = valid;
+  workspace.robot = {};
+  EXPECT_THROW(workspace.Validate(), InputError);
+  workspace = valid;
+  workspace.obstacles[1].id = "near";
+  EXPECT_THROW(workspace.Validate(), InputError);
+  workspace = valid;
+  workspace.bounds.max.y() = -2.0;
+  EXPECT_THROW(workspace.Validate(), InputError);
+}
+
+}  // namespace
+}  // namespace phongpd
