@@ -15,8 +15,8 @@ PaperBenchmark Make(const std::string& name, const std::string& title,
   const Scene scene = ParseScene(MakeScene(name, {}), name);
   return {name,
           title,
-          scene.robot,
-          JoinedObstacle(scene),
+          scene.workspace.robot,
+          JoinedObstacle(scene.workspace),
           paper_triangles,
           std::move(motions)};
 }

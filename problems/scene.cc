@@ -15,7 +15,6 @@
 #include "problems/json_schema.h"
 #include "problems/scene_schema.h"
 #include "problems/scene_shapes.h"
-#include "problems/shapes.h"
 #include "problems/text.h"
 
 namespace phongpd {
@@ -199,7 +198,7 @@ Scene ParseScene(const Json& json, const std::string& file,
   scene.start = Point(json["start"]);
   scene.goal = Point(json["goal"]);
   if (json.contains("bounds")) {
-    scene.bounds = Bounds(json["bounds"], place.Child("bounds"));
+    scene.workspace.bounds = Bounds(json["bounds"], place.Child("bounds"));
   }
   if (json.contains("penetration")) {
     Read(json["penetration"], &scene.penetration);
@@ -210,10 +209,10 @@ Scene ParseScene(const Json& json, const std::string& file,
   if (json.contains("witness")) {
     scene.witness = Witness(json["witness"], scene, place.Child("witness"));
   }
-  scene.robot =
+  scene.workspace.robot =
       Solid(json["robot"], place.Child("robot"), directory, &scene.warnings);
-  scene.obstacles = Obstacles(json["obstacles"], place.Child("obstacles"),
-                              directory, &scene.warnings);
+  scene.workspace.obstacles = Obstacles(
+      json["obstacles"], place.Child("obstacles"), directory, &scene.warnings);
   return scene;
 }
 
@@ -232,12 +231,12 @@ Scene ReadScene(const std::string& path) {
 }
 
 std::string SkippedObstaclesNote(const Scene& scene) {
-  const std::vector<int> relevant = ReachableObstacles(scene);
+  const std::vector<int> relevant = ReachableObstacles(scene.workspace);
   const std::set<int> kept(relevant.begin(), relevant.end());
   std::string list;
-  for (std::size_t i = 0; i < scene.obstacles.size(); ++i) {
+  for (std::size_t i = 0; i < scene.workspace.obstacles.size(); ++i) {
     if (kept.count(static_cast<int>(i)) > 0) continue;
-    list += (list.empty() ? "" : ", ") + scene.obstacles[i].id;
+    list += (list.empty() ? "" : ", ") + scene.workspace.obstacles[i].id;
   }
   if (list.empty()) return list;
   return "cannot be touched within the bounds, skipped: " + list;

@@ -45,8 +45,9 @@ struct PlanningSettings {
   double clearance = 0.01;  // largest lift, fraction of the diagonal
 };
 
-struct Scene : Workspace {
+struct Scene {
   std::string name;
+  Workspace workspace;  // at least one obstacle
   Eigen::Vector3d start = Eigen::Vector3d::Zero();
   Eigen::Vector3d goal = Eigen::Vector3d::Zero();
   PenetrationSettings penetration;
@@ -74,7 +75,7 @@ Scene ParseScene(const nlohmann::ordered_json& json, const std::string& file,
                  const std::string& name = "scene");
 
 // "cannot be touched within the bounds, skipped: a, b", for people; empty if
-// every obstacle is reachable.
+// all of ReachableObstacles (workspace.h).
 std::string SkippedObstaclesNote(const Scene& scene);
 
 // scene.schema.json: what a scene file may hold.

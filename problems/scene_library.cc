@@ -29,8 +29,6 @@ const std::vector<SceneFamily>& SceneFamilies() {
     std::vector<SceneFamily> list;
     for (const SceneRecipe& recipe : SceneRecipes()) {
       list.push_back(recipe.family);
-      std::vector<SceneKnob>& knobs = list.back().knobs;
-      knobs.insert(knobs.end(), CommonKnobs().begin(), CommonKnobs().end());
     }
     return list;
   }();
@@ -48,16 +46,16 @@ Json MakeScene(const std::string& name, const Values& knobs) {
         Listed(families, [](const SceneFamily& f) { return f.name; }) +
         ", found '" + name + "'");
   }
+  std::vector<SceneKnob> known = family->knobs;
+  known.insert(known.end(), CommonSceneKnobs().begin(),
+               CommonSceneKnobs().end());
   Values values;
-  for (const SceneKnob& knob : family->knobs) {
-    values[knob.key] = knob.value;
-  }
+  for (const SceneKnob& knob : known) values[knob.key] = knob.value;
   for (const auto& [key, value] : knobs) {
     if (values.count(key) == 0) {
-      throw InputError(
-          "scene " + name + ": expected one of the knobs " +
-          Listed(family->knobs, [](const SceneKnob& k) { return k.key; }) +
-          ", found '" + key + "'");
+      throw InputError("scene " + name + ": expected one of the knobs " +
+                       Listed(known, [](const SceneKnob& k) { return k.key; }) +
+                       ", found '" + key + "'");
     }
     values[key] = value;
   }

@@ -23,9 +23,12 @@ struct SceneFamily {
   std::vector<SceneKnob> knobs;
 };
 
-// All families, the paper's three first; the knobs that all of them have
-// (scene_placement.h) come last.
+// All families, the paper's three first.
 const std::vector<SceneFamily>& SceneFamilies();
+
+// The knobs that every family has besides its own: seed, rotation_seed, offset
+// and scale.
+const std::vector<SceneKnob>& CommonSceneKnobs();
 
 // The scene file's content for the family `name` with some knobs set: solids
 // as `shape` objects, free start and goal, and where the family knows them a

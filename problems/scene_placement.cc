@@ -11,6 +11,8 @@
 #include "constraints/collision_oracle.h"
 #include "problems/random_solids.h"
 #include "problems/scene.h"
+#include "problems/scene_detour.h"
+#include "problems/scene_library.h"
 #include "problems/text.h"
 
 namespace phongpd {
@@ -71,8 +73,8 @@ Json SolidsJson(const SceneLayout& layout, const Placement& placement) {
 
 // Bounding box of the contact space of all obstacles, not placed.
 BoundingBox ContactBounds(const Scene& scene) {
-  const BoundingBox robot = ComputeBounds(scene.robot);
-  const BoundingBox obstacle = ComputeBounds(JoinedObstacle(scene));
+  const BoundingBox robot = ComputeBounds(scene.workspace.robot);
+  const BoundingBox obstacle = ComputeBounds(JoinedObstacle(scene.workspace));
   return {obstacle.min - robot.max, obstacle.max - robot.min};
 }
 
@@ -92,7 +94,8 @@ void DrawDirection(const Scene& scene, std::mt19937_64* random,
                    SceneLayout* layout) {
   const BoundingBox box = ContactBounds(scene);
   const double radius = 0.55 * box.Diagonal();
-  const CollisionOracle oracle(scene.robot, JoinedObstacle(scene));
+  const CollisionOracle oracle(scene.workspace.robot,
+                               JoinedObstacle(scene.workspace));
   std::uniform_real_distribution<double> tilt(-0.3, 0.3);
   constexpr int kTrials = 1000;
   for (int trial = 0; trial < kTrials; ++trial) {
@@ -121,63 +124,16 @@ void DrawNearby(std::mt19937_64* random, SceneLayout* layout) {
   layout->goal = moved(layout->goal);
 }
 
-// The face of a box around `inner` that a point outside it is pushed to.
-struct BoxFace {
-  int axis = -1;  // −1: the point is not outside `inner`
-  bool is_max = false;
-};
-
-BoxFace FaceOf(const Vector3d& p, const BoundingBox& inner) {
-  BoxFace face;
-  double most = 1e-6 * inner.Diagonal();
-  for (int axis = 0; axis < 3; ++axis) {
-    const double below = inner.min[axis] - p[axis];
-    const double above = p[axis] - inner.max[axis];
-    if (std::max(below, above) <= most) continue;
-    most = std::max(below, above);
-    face = {axis, above > below};
-  }
-  return face;
-}
-
-// From start straight out to a box that holds everything, over its surface,
-// and straight in to the goal: free, because both ends of every piece lie on
-// one side of a plane that has `inner` on the other.  Empty if start or goal
-// is not outside `inner`.
-Path PathAround(const Vector3d& start, const Vector3d& goal,
-                const BoundingBox& inner) {
-  const BoxFace from = FaceOf(start, inner), to = FaceOf(goal, inner);
-  if (from.axis < 0 || to.axis < 0) return {};
-  const double gap = 0.05 * inner.Diagonal();
-  const Vector3d min = inner.min.cwiseMin(start).cwiseMin(goal).array() - gap;
-  const Vector3d max = inner.max.cwiseMax(start).cwiseMax(goal).array() + gap;
-  const auto pushed = [&](Vector3d p, const BoxFace& face) {
-    p[face.axis] = face.is_max ? max[face.axis] : min[face.axis];
-    return p;
-  };
-  Path path = {start, pushed(start, from)};
-  if (from.axis != to.axis) {
-    path.push_back(pushed(path.back(), to));
-  } else if (from.is_max != to.is_max) {
-    const BoxFace side = {(from.axis + 1) % 3, true};
-    path.push_back(pushed(path.back(), side));
-    path.push_back(pushed(path.back(), to));
-  }
-  path.push_back(pushed(goal, to));
-  path.push_back(goal);
-  return path;
-}
-
-void Extend(const Path& path, BoundingBox* box) {
+void Extend(const Path& path, double margin, BoundingBox* box) {
   for (const Vector3d& p : path) {
-    box->min = box->min.cwiseMin(p);
-    box->max = box->max.cwiseMax(p);
+    box->min = box->min.cwiseMin(p - Vector3d::Constant(margin));
+    box->max = box->max.cwiseMax(p + Vector3d::Constant(margin));
   }
 }
 
 // The bounds as an obstacle: robot + q stays in its cavity iff q does.
-PlacedShape BoundsShell(const SceneLayout& layout, const Scene& scene) {
-  const BoundingBox robot = ComputeBounds(scene.robot);
+PlacedShape BoundsShellShape(const SceneLayout& layout, const Scene& scene) {
+  const BoundingBox robot = ComputeBounds(scene.workspace.robot);
   const BoundingBox cavity = {layout.bounds.min + robot.min,
                               layout.bounds.max + robot.max};
   return {"bounds_shell",
@@ -196,7 +152,7 @@ BoundingBox MovedBounds(const BoundingBox& box, const Placement& placement) {
     for (int axis = 0; axis < 3; ++axis) {
       if (corner >> axis & 1) p[axis] = box.max[axis];
     }
-    Extend({placement.Moved(p)}, &moved);
+    Extend({placement.Moved(p)}, 0.0, &moved);
   }
   return moved;
 }
@@ -246,15 +202,16 @@ Json Assembled(const std::string& name, SceneLayout layout,
   }
   Path witness;
   if (is_around) {
-    witness = PathAround(layout.start, layout.goal, ContactBounds(scene));
-    Extend(witness, &layout.bounds);
+    const BoundingBox contact = ContactBounds(scene);
+    witness = PathAround(layout.start, layout.goal, contact);
+    Extend(witness, 0.05 * contact.Diagonal(), &layout.bounds);
   } else if (layout.is_feasible) {
     witness = layout.passage;
     witness.insert(witness.begin(), layout.start);
     witness.push_back(layout.goal);
   }
   const bool has_shell = layout.is_sealed && placement.is_rotated;
-  if (has_shell) layout.obstacles.push_back(BoundsShell(layout, scene));
+  if (has_shell) layout.obstacles.push_back(BoundsShellShape(layout, scene));
 
   Json json = {{"name", name}};
   json.update(SolidsJson(layout, placement));
@@ -278,7 +235,7 @@ Json Assembled(const std::string& name, SceneLayout layout,
 
 }  // namespace
 
-const std::vector<SceneKnob>& CommonKnobs() {
+const std::vector<SceneKnob>& CommonSceneKnobs() {
   static const std::vector<SceneKnob> knobs = {
       {"seed", 0, "of random start and goal; 0: the family's own"},
       {"rotation_seed", 0, "of a rotation of everything; 0: none"},

@@ -2,17 +2,11 @@
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
-#include <string>
-#include <vector>
 
-#include "problems/scene_library.h"
 #include "problems/scene_recipes.h"
 
 // The knobs that every family has, and the scene file they lead to.
 namespace phongpd {
-
-// seed, rotation_seed, offset and scale.
-const std::vector<SceneKnob>& CommonKnobs();
 
 // The scene of a family; `knobs` holds all of its knobs and the common ones.
 //  - seed > 0 draws start and goal: within the layout's freedom, or at

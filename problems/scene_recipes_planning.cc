@@ -3,13 +3,13 @@
 // wide (scene_carving.h), infeasible twins with channels slightly too narrow.
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <random>
 #include <utility>
 
 #include "problems/scene_carving.h"
+#include "problems/scene_maze.h"
 #include "problems/scene_recipes.h"
+#include "problems/text.h"
 
 namespace phongpd {
 namespace {
@@ -35,8 +35,14 @@ BoundingBox Slab(double min, double max) {
   return {{min, -kBeyond, -kBeyond}, {max, kBeyond, kBeyond}};
 }
 
-double Width(const Values& v) {
-  return v.at("twin") != 0.0 ? kTooNarrow : v.at("delta");
+// Wider channels than `most` would leave walls that the robot's sweep eats.
+double Width(const Values& v, double most = 0.1) {
+  const double delta = v.at("delta");
+  if (!(delta >= -0.05 && delta <= most)) {
+    throw InputError("delta: expected a number in [-0.05, " +
+                     FormatDouble(most) + "], found " + FormatDouble(delta));
+  }
+  return v.at("twin") != 0.0 ? kTooNarrow : delta;
 }
 
 // An L in the xz plane, one box thick.
@@ -155,7 +161,7 @@ Layout Tunnel(Values& v) {
              {0, -0.75, -0.5},
              {0, -0.75, 0}};
   } else {
-    throw InputError("bends: expected 1, 3 or 5, found " + Json(count).dump());
+    throw InputError("bends: expected 1, 3 or 5, found " + FormatDouble(count));
   }
   bends.insert(bends.end(), {{0.5, -0.75, 0}, {0.5, -0.25, 0}});
   Boxes free = Channel(bends, w);
@@ -215,44 +221,6 @@ Layout Bugtrap(Values& v) {
       w, 1.0 / 16);
 }
 
-struct Maze {
-  int n = 0;
-  std::vector<int> parent;  // of each node in a tree rooted in node 0
-
-  Vector3d Place(int node) const {
-    const auto at = [this](int i) { return -0.75 + 1.5 * i / (n - 1); };
-    return {at(node % n), at(node / n % n), at(node / (n * n))};
-  }
-};
-
-// A random spanning tree of the n × n × n lattice, depth first.
-Maze RandomMaze(int n, std::uint64_t seed) {
-  std::mt19937_64 random(seed);
-  Maze maze = {n, std::vector<int>(static_cast<std::size_t>(n * n * n), -1)};
-  const std::array<int, 3> steps = {1, n, n * n};
-  std::vector<int> stack = {0};
-  maze.parent[0] = 0;
-  while (!stack.empty()) {
-    const int node = stack.back();
-    std::vector<int> fresh;
-    for (const int step : steps) {
-      const int i = node / step % n;
-      if (i > 0 && maze.parent[node - step] < 0) fresh.push_back(node - step);
-      if (i < n - 1 && maze.parent[node + step] < 0) {
-        fresh.push_back(node + step);
-      }
-    }
-    if (fresh.empty()) {
-      stack.pop_back();
-      continue;
-    }
-    const int next = fresh[random() % fresh.size()];
-    maze.parent[next] = node;
-    stack.push_back(next);
-  }
-  return maze;
-}
-
 Layout MazeScene(Values& v) {
   const int n = static_cast<int>(WholeKnob(v, "n", 2, 12));
   const Maze maze = RandomMaze(
@@ -263,8 +231,10 @@ Layout MazeScene(Values& v) {
     path.push_back(maze.Place(node));
   }
   path.push_back(maze.Place(0));
+  // Walls stay thicker than the cube.
+  const double most = std::min(0.1, 1.4 / (n - 1) - 1.0 / 16);
   // Only one corridor on the way is too narrow.
-  const double w = Width(v), others = std::abs(v["delta"]);
+  const double w = Width(v, most), others = std::abs(v["delta"]);
   Boxes free;
   for (int node = 1; node <= last; ++node) {
     const Path corridor = {maze.Place(maze.parent[node]), maze.Place(node)};

@@ -67,7 +67,7 @@ Layout TorusHole(Values& v) {
   const double x = v["major_radius"];
   return OneObstacle(Ball(v["ball_radius"], v["triangles"]), torus, {0, 0, 0},
                      2.0 * (v["major_radius"] + z), {x, 0.1 * x, -z},
-                     {-x, -0.1 * x, z});
+                     {0.9 * x, -0.1 * x, z});
 }
 
 Layout ThinWall(Values& v) {

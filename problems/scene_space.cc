@@ -22,8 +22,8 @@ class Builder {
     ContactSpaceOptions options;
     options.robot_name = scene_.name + ": robot";
     options.obstacle_name = scene_.name + ": " + name;
-    ContactSpace built =
-        BuildContactSpaceCached(scene_.robot, obstacle, options, cache_);
+    ContactSpace built = BuildContactSpaceCached(scene_.workspace.robot,
+                                                 obstacle, options, cache_);
     space_->from_cache = space_->from_cache || built.report.from_cache;
     for (const std::string& warning : built.report.warnings) {
       space_->warnings.push_back(warning);
@@ -48,21 +48,23 @@ SceneSpace BuildSceneSpace(const Scene& scene, SpaceLayout layout,
                            const ContactSpaceCache& cache) {
   const auto begin = std::chrono::steady_clock::now();
   SceneSpace space;
-  space.diagonal = ContactBounds(scene).Diagonal();
-  const std::vector<int> reachable = ReachableObstacles(scene);
-  if (reachable.empty() && scene.bounds.IsEmpty()) {
+  space.diagonal = ContactBounds(scene.workspace).Diagonal();
+  const std::vector<int> reachable = ReachableObstacles(scene.workspace);
+  if (reachable.empty() && scene.workspace.bounds.IsEmpty()) {
     throw InputError(scene.name +
                      ": expected an obstacle or bounds, found neither");
   }
   Builder builder(scene, cache, &space);
-  const bool is_sealed = !scene.bounds.IsEmpty();
+  const bool is_sealed = !scene.workspace.bounds.IsEmpty();
   if (layout == SpaceLayout::kPerObstacle) {
     for (const int i : reachable) {
-      const Obstacle& obstacle = scene.obstacles[static_cast<std::size_t>(i)];
+      const Obstacle& obstacle =
+          scene.workspace.obstacles[static_cast<std::size_t>(i)];
       builder.Keep(builder.Build(obstacle.mesh, obstacle.id));
     }
   } else if (!reachable.empty()) {
-    ContactSpace merged = builder.Build(JoinedObstacle(scene), "obstacles");
+    ContactSpace merged =
+        builder.Build(JoinedObstacle(scene.workspace), "obstacles");
     if (!is_sealed) {
       space.sealed_mesh = merged.mesh;
       space.sealed_self_intersections =
@@ -72,14 +74,14 @@ SceneSpace BuildSceneSpace(const Scene& scene, SpaceLayout layout,
   }
   if (space.sealed_mesh.triangles.empty()) {
     ContactSpace sealed =
-        builder.Build(MergedObstacle(scene),
+        builder.Build(MergedObstacle(scene.workspace),
                       is_sealed ? "obstacles and bounds" : "obstacles");
     space.sealed_mesh = std::move(sealed.mesh);
     space.sealed_self_intersections =
         static_cast<long>(sealed.report.self_intersections);
   }
   space.free_space =
-      std::make_shared<FreeSpace>(space.contact_meshes, scene.bounds);
+      std::make_shared<FreeSpace>(space.contact_meshes, scene.workspace.bounds);
   space.seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - begin)
           .count();
@@ -89,8 +91,9 @@ SceneSpace BuildSceneSpace(const Scene& scene, SpaceLayout layout,
 std::string EndInCollision(const Scene& scene, const SceneSpace& space,
                            const Eigen::Vector3d& q, const std::string& which) {
   const bool is_within =
-      scene.bounds.IsEmpty() || ((q.array() > scene.bounds.min.array()).all() &&
-                                 (q.array() < scene.bounds.max.array()).all());
+      scene.workspace.bounds.IsEmpty() ||
+      ((q.array() > scene.workspace.bounds.min.array()).all() &&
+       (q.array() < scene.workspace.bounds.max.array()).all());
   const std::string text = which + " (" + FormatPoint(q) + ") ";
   if (!is_within) return text + "is not strictly within the bounds";
   double depth = 0.0;
@@ -98,7 +101,7 @@ std::string EndInCollision(const Scene& scene, const SceneSpace& space,
     const PenetrationResult result = EuclideanMetric(mesh).Query(q);
     if (result.inside) depth = std::max(depth, -result.signed_distance);
   }
-  const std::string names = NameObstacles(scene, q);
+  const std::string names = NameObstacles(scene.workspace, q);
   if (depth == 0.0) return text + "touches " + names;
   return text + "is " + Rounded(depth) + " deep in " + names;
 }

@@ -73,8 +73,8 @@ TrajectoryMetric SceneMetric(const Scene& scene) {
 }
 
 void TrajectoryStudy::Enter(const Scene& scene) {
-  const bool is_known =
-      space_.free_space != nullptr && HasSameSolids(scene, scene_);
+  const bool is_known = space_.free_space != nullptr &&
+                        HasSameSolids(scene.workspace, scene_.workspace);
   scene_ = scene;
   if (is_known) return;
   problems_.clear();

@@ -23,14 +23,20 @@ struct Flags {
   std::string meshes;
 };
 
+void ListKnobs(const std::vector<SceneKnob>& knobs) {
+  for (const SceneKnob& knob : knobs) {
+    std::cout << "    " << knob.key << '=' << FormatDouble(knob.value) << "  "
+              << knob.meaning << '\n';
+  }
+}
+
 int List() {
   for (const SceneFamily& family : SceneFamilies()) {
     std::cout << family.name << ": " << family.summary << '\n';
-    for (const SceneKnob& knob : family.knobs) {
-      std::cout << "    " << knob.key << '=' << FormatDouble(knob.value) << "  "
-                << knob.meaning << '\n';
-    }
+    ListKnobs(family.knobs);
   }
+  std::cout << "Every scene has these knobs too:\n";
+  ListKnobs(CommonSceneKnobs());
   return kDone;
 }
 
@@ -55,7 +61,7 @@ int Write(const Flags& flags) {
       MakeScene(flags.name, Knobs(flags.settings));
   // Built in any case: a scene whose solids cannot be made is bad input.
   const Scene scene = ParseScene(json, "scene " + flags.name);
-  const TriangleMesh obstacle = JoinedObstacle(scene);
+  const TriangleMesh obstacle = JoinedObstacle(scene.workspace);
 
   OutputFiles outputs;
   if (!flags.output.empty()) {
@@ -69,14 +75,15 @@ int Write(const Flags& flags) {
   if (!flags.meshes.empty()) {
     std::error_code error;
     std::filesystem::create_directories(flags.meshes, error);
-    write(scene.robot, flags.meshes + "/robot.off");
+    write(scene.workspace.robot, flags.meshes + "/robot.off");
     write(obstacle, flags.meshes + "/obstacle.off");
   }
   const bool silent = outputs.UseStandardOutput();
   outputs.Commit();
   if (silent) return kDone;
-  std::cout << flags.name << ": robot " << scene.robot.triangles.size()
-            << ", obstacle " << obstacle.triangles.size() << " triangles\n";
+  std::cout << flags.name << ": robot "
+            << scene.workspace.robot.triangles.size() << ", obstacle "
+            << obstacle.triangles.size() << " triangles\n";
   const std::string skipped = SkippedObstaclesNote(scene);
   if (!skipped.empty()) std::cout << skipped << '\n';
   return kDone;

@@ -12,6 +12,7 @@
 #include "core/mesh/mesh_io.h"
 #include "core/projection/euclidean_metric.h"
 #include "core/projection/phong_metric.h"
+#include "problems/scene_library.h"
 #include "problems/shapes.h"
 #include "tests/problems/cli_fixture.h"
 
@@ -164,9 +165,8 @@ TEST_F(Cli, MotionWritesARowPerFrameAndMetricAndAPlot) {
 TEST_F(Cli, EverySceneIsListedAndWritten) {
   const Outcome list = Run("scenes list");
   ASSERT_EQ(list.code, 0);
-  for (const std::string name :
-       {"ball_cone", "cone_axes", "ball_wrench", "u_trap", "l", "plate_hole",
-        "torus_hole", "thin_wall", "cube_vessel"}) {
+  for (const SceneFamily& family : SceneFamilies()) {
+    const std::string& name = family.name;
     EXPECT_NE(list.out.find(name + ":"), std::string::npos);
     const Outcome write =
         Run("scenes write " + name + " --output s.json --meshes m");

@@ -55,22 +55,22 @@ Json FullScene() {
 TEST(Scene, NeedsOnlySolidsStartAndGoal) {
   const Scene scene = ParseScene(SmallScene(), "s.json", ".", "small");
   EXPECT_EQ(scene.name, "small");
-  EXPECT_EQ(scene.obstacles.at(0).id, "obstacle0");
-  EXPECT_TRUE(scene.bounds.IsEmpty());
+  EXPECT_EQ(scene.workspace.obstacles.at(0).id, "obstacle0");
+  EXPECT_TRUE(scene.workspace.bounds.IsEmpty());
   EXPECT_EQ(scene.start, Vector3d(-3, 0, 0));
   EXPECT_EQ(scene.goal, Vector3d(3, 0, 0));
   EXPECT_FALSE(scene.feasible.has_value());
   EXPECT_TRUE(scene.witness.empty());
   EXPECT_TRUE(scene.warnings.empty());
-  EXPECT_EQ(ComputeBounds(scene.robot).max, Vector3d(0.5, 0.5, 0.5));
+  EXPECT_EQ(ComputeBounds(scene.workspace.robot).max, Vector3d(0.5, 0.5, 0.5));
 }
 
 TEST(Scene, ReadsEverySetting) {
   const Scene scene = ParseScene(FullScene(), "s.json");
   EXPECT_EQ(scene.name, "full");
-  EXPECT_EQ(scene.obstacles.at(0).id, "cube");
-  EXPECT_EQ(scene.bounds.min, Vector3d(-5, -5, -5));
-  EXPECT_EQ(scene.bounds.max, Vector3d(5, 5, 5));
+  EXPECT_EQ(scene.workspace.obstacles.at(0).id, "cube");
+  EXPECT_EQ(scene.workspace.bounds.min, Vector3d(-5, -5, -5));
+  EXPECT_EQ(scene.workspace.bounds.max, Vector3d(5, 5, 5));
   EXPECT_EQ(scene.penetration.metric, "euclidean");
   EXPECT_EQ(scene.penetration.field, "tangent-plane");
   EXPECT_EQ(scene.penetration.smoothing_length, 0.25);
@@ -122,12 +122,12 @@ TEST(Scene, PlacesSolidsByRotationThenScaleThenPosition) {
   obstacle["position"] = {10, 20, 30};
   obstacle["rotation"] = {0, -1, 0, 1, 0, 0, 0, 0, 1};  // x to y
   const BoundingBox turned =
-      ComputeBounds(ParseScene(json, "s.json").obstacles[0].mesh);
+      ComputeBounds(ParseScene(json, "s.json").workspace.obstacles[0].mesh);
   EXPECT_EQ(turned.min, Vector3d(9, 19.5, 28.5));
   EXPECT_EQ(turned.max, Vector3d(11, 20.5, 31.5));
   obstacle["rotation"] = {{"axis", {0, 0, 7}}, {"degrees", 90}};
   const BoundingBox same =
-      ComputeBounds(ParseScene(json, "s.json").obstacles[0].mesh);
+      ComputeBounds(ParseScene(json, "s.json").workspace.obstacles[0].mesh);
   EXPECT_LT((same.min - turned.min).norm() + (same.max - turned.max).norm(),
             1e-14);
 }
@@ -144,7 +144,8 @@ TEST(Scene, ReadsMeshesBesideTheFileAndComments) {
   std::ofstream(path) << "// a comment\n" << json.dump() << "/* another */\n";
   const Scene scene = ReadScene(path);
   EXPECT_EQ(scene.name, "by_mesh");
-  EXPECT_EQ(ComputeBounds(scene.obstacles.at(0).mesh).max, Vector3d(1, 1, 1));
+  EXPECT_EQ(ComputeBounds(scene.workspace.obstacles.at(0).mesh).max,
+            Vector3d(1, 1, 1));
 
   std::ofstream(path) << "{\"robot\": 1, }";
   std::string what;
@@ -172,12 +173,13 @@ TEST(Scene, KnowsWhichObstaclesCanTouch) {
                          {"position", {x, 0, 0}}});
   }
   const Scene scene = ParseScene(json, "s.json");
-  EXPECT_EQ(ReachableObstacles(scene), (std::vector<int>{0, 1}));
+  EXPECT_EQ(ReachableObstacles(scene.workspace), (std::vector<int>{0, 1}));
   EXPECT_EQ(SkippedObstaclesNote(scene),
             "cannot be touched within the bounds, skipped: at 6.750000, "
             "at -6.750000");
   json.erase("bounds");
-  EXPECT_EQ(ReachableObstacles(ParseScene(json, "s.json")).size(), 4U);
+  EXPECT_EQ(ReachableObstacles(ParseScene(json, "s.json").workspace).size(),
+            4U);
   EXPECT_EQ(SkippedObstaclesNote(ParseScene(json, "s.json")), "");
 }
 
