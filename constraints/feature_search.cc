@@ -2,6 +2,7 @@
 #include "constraints/feature_search.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -37,7 +38,11 @@ FeatureSearch::FeatureSearch(const TriangleMesh& mesh) {
                      q[0].cwiseMax(q[1]).cwiseMax(q[2])});
   }
   tree_ = BoxTree(boxes, 2);
-  for (const int item : tree_.order()) corners_.push_back(corners[item]);
+  position_.resize(corners.size());
+  for (const int item : tree_.order()) {
+    position_[item] = static_cast<int>(corners_.size());
+    corners_.push_back(corners[item]);
+  }
 }
 
 bool FeatureSearch::IsShadowed(const BoxTree::Node& node, const Vector3d& x,
@@ -112,6 +117,29 @@ bool FeatureSearch::FindNext(const Vector3d& q, const Vector3d* taken,
   feature->distance = std::sqrt(nearest) / scale_;
   feature->direction = best_direction;
   return true;
+}
+
+Eigen::Matrix3d FeatureSearch::Curvature(const Vector3d& q,
+                                         int triangle) const noexcept {
+  const Vector3d x = (q - center_) * scale_;
+  if (!(x.cwiseAbs().maxCoeff() <= kFar)) return Eigen::Matrix3d::Zero();
+  const Corners& t = corners_[position_[triangle]];
+  const Vector3d lambda = ClosestOnTriangle(t[0], t[1], t[2], x).lambda;
+  const auto corners_used = (lambda.array() > 0.0).count();
+  Vector3d u;
+  if (corners_used == 3 || !Direction(t, lambda, x, &u)) {
+    return Eigen::Matrix3d::Zero();
+  }
+  Eigen::Matrix3d flat = u * u.transpose();
+  if (corners_used == 2) {
+    const std::size_t a = lambda[0] > 0.0 ? 0 : 1, b = lambda[2] > 0.0 ? 2 : 1;
+    const Vector3d e = (t[b] - t[a]).normalized();
+    flat += e * e.transpose();
+  }
+  const Vector3d foot = lambda[0] * t[0] + lambda[1] * t[1] + lambda[2] * t[2];
+  constexpr double kLeast = 1e-3;
+  const double distance = std::max((x - foot).norm(), kLeast);
+  return (Eigen::Matrix3d::Identity() - flat) / distance * scale_;
 }
 
 }  // namespace phongpd

@@ -34,6 +34,12 @@ class FeatureSearch {
   bool FindNext(const Eigen::Vector3d& q, const Eigen::Vector3d* taken,
                 int count, double cos_limit, Feature* feature) const noexcept;
 
+  // ∇² of the distance to one triangle at q:  0 over its face,
+  // (I − uuᵀ − eeᵀ)/d beside an edge e, (I − uuᵀ)/d beside a vertex; d is
+  // taken as at least 1e-3 diagonals, so that it stays bounded.  User's unit.
+  Eigen::Matrix3d Curvature(const Eigen::Vector3d& q,
+                            int triangle) const noexcept;
+
  private:
   using Corners = std::array<Eigen::Vector3d, 3>;
 
@@ -51,6 +57,7 @@ class FeatureSearch {
   double scale_ = 1.0;  // power of two: diagonal in [1, 2)
   BoxTree tree_;
   std::vector<Corners> corners_;  // in the tree's order, scaled
+  std::vector<int> position_;     // of each triangle in that order
 };
 
 }  // namespace phongpd

@@ -45,6 +45,7 @@ TrajectoryNlp::TrajectoryNlp(const TrajectoryProblem& problem,
       margin_(problem.margin),
       eta_(MaxSegment(problem, start_length) / frame_.unit),
       bounds_(problem.free_space->bounds()),
+      curvature_(options.curvature),
       contact_(problem.metrics, problem.start, problem.goal, problem.waypoints,
                samples, ContactOptions(problem, options)) {
   const double reference = std::max((u_goal_ - u_start_).norm(), 1e-3);
@@ -120,15 +121,21 @@ void TrajectoryNlp::JacobianPattern(int* row, int* col) const {
   }
 }
 
-// The diagonal, then the entries three below it.
+// Waypoint by waypoint: its diagonal, then the three entries that tie it to the
+// one before; with curvature the full blocks of CurvaturePattern.
 void TrajectoryNlp::HessianPattern(int* row, int* col) const {
+  if (has_curvature()) {
+    contact_.CurvaturePattern(row, col);
+    return;
+  }
   for (int i = 0; i < variables(); ++i) {
     *row++ = i;
     *col++ = i;
-  }
-  for (int i = 3; i < variables(); ++i) {
-    *row++ = i;
-    *col++ = i - 3;
+    if (i % 3 < 2 || i < 3) continue;
+    for (int axis = 0; axis < 3; ++axis) {
+      *row++ = i - 2 + axis;
+      *col++ = i - 5 + axis;
+    }
   }
 }
 
@@ -168,22 +175,33 @@ bool TrajectoryNlp::Constraints(const double* x, double* values,
   return true;
 }
 
-void TrajectoryNlp::Hessian(const double* /*x*/, double objective_factor,
+void TrajectoryNlp::Hessian(const double* x, double objective_factor,
                             const double* multipliers, double* values) const {
+  std::fill(values, values + hessian_nonzeros(), 0.0);
+  if (has_curvature()) {
+    contact_.AddCurvature(x, branches_, multipliers,
+                          curvature_ == ContactCurvature::kOutside, values);
+  }
   // Every segment is a spring: 2k on the diagonal of both its ends, −2k
   // between them.
   const double* length_multipliers = multipliers + contact_.rows();
   const auto stiffness = [&](int segment) {
-    return objective_factor * weight_ + length_multipliers[segment] / eta_;
+    return 2.0 *
+           (objective_factor * weight_ + length_multipliers[segment] / eta_);
   };
+  const int diagonal_size = has_curvature() ? 6 : 3;
+  const int coupling_size = has_curvature() ? 9 : 3;
   for (int i = 0; i < waypoints_; ++i) {
-    const double diagonal = 2.0 * (stiffness(i) + stiffness(i + 1));
-    std::fill(values, values + 3, diagonal);
-    values += 3;
-  }
-  for (int i = 1; i < waypoints_; ++i) {
-    std::fill(values, values + 3, -2.0 * stiffness(i));
-    values += 3;
+    for (int axis = 0; axis < 3; ++axis) {
+      const int at = has_curvature() ? (axis + 1) * (axis + 2) / 2 - 1 : axis;
+      values[at] += stiffness(i) + stiffness(i + 1);
+    }
+    values += diagonal_size;
+    if (i == 0) continue;
+    for (int axis = 0; axis < 3; ++axis) {
+      values[has_curvature() ? 4 * axis : axis] -= stiffness(i);
+    }
+    values += coupling_size;
   }
 }
 
