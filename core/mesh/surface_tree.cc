@@ -109,28 +109,6 @@ SurfaceTree::SurfaceTree(const TriangleMesh& mesh) {
   }
 }
 
-bool SurfaceTree::IsNear(const BoxTree::Node& box, const Vector3d& x,
-                         const Vector3d& y, double reach) noexcept {
-  // Separating axes: those of the box, and their cross products with the
-  // segment; slack for the rounding of coordinates of about one.
-  const Vector3d half = 0.5 * (box.max - box.min).array() + reach;
-  const Vector3d middle = 0.5 * (x + y) - 0.5 * (box.min + box.max);
-  const Vector3d along = 0.5 * (y - x);
-  const Vector3d size = along.cwiseAbs();
-  if ((middle.cwiseAbs().array() > half.array() + size.array()).any()) {
-    return false;
-  }
-  const double slack = 1e-14 * (1.0 + middle.cwiseAbs().maxCoeff());
-  for (int k = 0; k < 3; ++k) {
-    const int u = (k + 1) % 3, v = (k + 2) % 3;
-    if (std::abs(middle[u] * along[v] - middle[v] * along[u]) >
-        (half[u] + slack) * size[v] + (half[v] + slack) * size[u]) {
-      return false;
-    }
-  }
-  return true;
-}
-
 SurfaceTree::Closest SurfaceTree::FindClosest(
     const Vector3d& q) const noexcept {
   // Squares of coordinates beyond 1e100 diagonals would overflow; from there

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "core/mesh/box_tree.h"
-#include "core/mesh/segment_triangle_distance.h"
 #include "core/mesh/triangle_mesh.h"
 
 namespace phongpd {
@@ -45,38 +44,11 @@ class SurfaceTree {
   // q must be finite; however far away it may be.
   Closest FindClosest(const Eigen::Vector3d& q) const noexcept;
 
-  // Calls visit(triangle, pair) → bool for every triangle within `radius` of
-  // the segment, in no particular order, until it returns false.  The pair is
-  // in the user's unit, relative to center(): near the mesh its difference has
-  // all its digits.  Finite points, at most 1e70 diagonals away.
-  template <typename Visit>
-  void ForEachNear(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
-                   double radius, const Visit& visit) const {
-    const Eigen::Vector3d x = (a - center_) * scale_;
-    const Eigen::Vector3d y = (b - center_) * scale_;
-    const double reach = radius * scale_;
-    tree_.ForEach(
-        [&](int index) { return IsNear(tree_.nodes()[index], x, y, reach); },
-        [&](int position) {
-          const Corners& t = corners_[position];
-          SegmentTrianglePair pair = ClosestPair(x, y, t[0], t[1], t[2]);
-          if (pair.squared_distance > reach * reach) return true;
-          pair.on_segment /= scale_;
-          pair.on_triangle /= scale_;
-          pair.squared_distance /= scale_ * scale_;
-          return static_cast<bool>(visit(tree_.order()[position], pair));
-        });
-  }
-
   const Eigen::Vector3d& center() const { return center_; }
   double scale() const { return scale_; }
 
  private:
   using Corners = std::array<Eigen::Vector3d, 3>;
-
-  // Does the segment x y meet the box widened by `reach`, or nearly so?
-  static bool IsNear(const BoxTree::Node& box, const Eigen::Vector3d& x,
-                     const Eigen::Vector3d& y, double reach) noexcept;
 
   Eigen::Vector3d center_ = Eigen::Vector3d::Zero();
   double scale_ = 1.0;

@@ -104,17 +104,6 @@ Vector3d ContactSurface::Point(int triangle, const Vector3d& lambda) const {
          lambda[2] * (mesh_.vertices[t[2]] - q0);
 }
 
-bool ContactSurface::KeepsDistance(const Vector3d& a, const Vector3d& b,
-                                   double distance) const noexcept {
-  bool keeps = true;
-  tree_.ForEachNear(a, b, distance,
-                    [&](int /*triangle*/, const SegmentTrianglePair& pair) {
-                      keeps = pair.squared_distance >= distance * distance;
-                      return keeps;
-                    });
-  return keeps;
-}
-
 PenetrationResult ContactSurface::Answer(const Vector3d& q_o,
                                          Location location) const noexcept {
   const SurfaceTree::Closest closest = tree_.FindClosest(q_o);

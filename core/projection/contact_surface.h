@@ -34,17 +34,6 @@ class ContactSurface {
   PenetrationResult Answer(const Eigen::Vector3d& q_o,
                            Location location) const noexcept;
 
-  // visit(triangle, pair) → bool as SurfaceTree::ForEachNear; accepted ends.
-  template <typename Visit>
-  void ForEachNear(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
-                   double radius, const Visit& visit) const {
-    tree_.ForEachNear(a, b, radius, visit);
-  }
-  // Is every point of the segment at least `distance` from the surface?
-  // Accepted ends; rounded.
-  bool KeepsDistance(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
-                     double distance) const noexcept;
-
   // Σ λ_i q_i on a triangle, exact to an ulp where a coordinate is constant.
   Eigen::Vector3d Point(int triangle, const Eigen::Vector3d& lambda) const;
   const TriangleMesh& mesh() const { return mesh_; }

@@ -12,9 +12,9 @@
 #include "core/mesh/segment_tree.h"
 #include "core/mesh/self_intersection.h"
 #include "core/projection/contact_surface.h"
+#include "planners/exact/free_space.h"
 #include "planners/exact/path_centering.h"
 #include "planners/exact/path_shortening.h"
-#include "planners/exact/surface_graph.h"
 
 namespace phongpd {
 namespace {
@@ -102,7 +102,7 @@ struct ContactSurfacePlanner::Impl {
                                  bool to_goal,
                                  const CellCertificate& certificate) const;
   void FindPath(const Vector3d& start, const Vector3d& goal,
-                PlanResult* result) const;
+                const PlanRequest& request, PlanResult* result) const;
   void Finish(PlanResult* result) const;
   double PathClearance(const std::vector<Vector3d>& path) const;
   long CountSelfIntersections() const;
@@ -225,6 +225,7 @@ void ContactSurfacePlanner::Impl::Finish(PlanResult* result) const {
 
 void ContactSurfacePlanner::Impl::FindPath(const Vector3d& start,
                                            const Vector3d& goal,
+                                           const PlanRequest& request,
                                            PlanResult* result) const {
   // Straight, if that is free and as clear as the ends allow.
   const bool sees = !segments.Meets(start, goal);
@@ -250,7 +251,7 @@ void ContactSurfacePlanner::Impl::FindPath(const Vector3d& start,
   while (result->searches < options.max_searches) {
     ++result->searches;
     const SurfaceGraph::Route route =
-        graph.Search(start, goal, attachments, deleted);
+        graph.Search(start, goal, attachments, deleted, request.detours);
     if (route.empty()) {
       result->reason =
           "every route on the surface has a place that rounding closed";
@@ -315,7 +316,8 @@ double ContactSurfacePlanner::build_seconds() const {
 }
 
 PlanResult ContactSurfacePlanner::Plan(const Vector3d& start,
-                                       const Vector3d& goal) const {
+                                       const Vector3d& goal,
+                                       const PlanRequest& request) const {
   const Stopwatch stopwatch;
   const Impl& impl = *impl_;
   PlanResult result;
@@ -333,7 +335,9 @@ PlanResult ContactSurfacePlanner::Plan(const Vector3d& start,
     result.goal = impl.Locate(goal);
     const int cell = result.start.cell;
     const BoundingBox& hull = cell >= 0 ? impl.piece_bounds[cell] : impl.bounds;
-    result.wanted_clearance = impl.options.clearance * hull.Diagonal();
+    result.wanted_clearance = request.clearance > 0.0
+                                  ? request.clearance
+                                  : impl.options.clearance * hull.Diagonal();
     const bool decided = cell != FreeCells::kUndecided &&
                          result.goal.cell != FreeCells::kUndecided;
     if (decided && cell != result.goal.cell) {
@@ -341,7 +345,7 @@ PlanResult ContactSurfacePlanner::Plan(const Vector3d& start,
       result.reason = "start and goal lie in different cells of free space";
       result.self_intersections = impl.CountSelfIntersections();
     } else {
-      impl.FindPath(start, goal, &result);
+      impl.FindPath(start, goal, request, &result);
     }
   }
   result.seconds = stopwatch.Seconds();

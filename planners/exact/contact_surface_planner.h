@@ -11,6 +11,7 @@
 #include "core/mesh/triangle_mesh.h"
 #include "planners/exact/free_cells.h"
 #include "planners/exact/path_lift.h"
+#include "planners/exact/surface_graph.h"
 
 namespace phongpd {
 
@@ -45,6 +46,12 @@ struct ContactSurfaceOptions {
 
   // Throws InputError naming the option, the range and the value.
   void Validate() const;
+};
+
+// What one query may ask differently.
+struct PlanRequest {
+  double clearance = 0.0;             // user's unit, ≥ 0; 0: by the options
+  std::vector<DetourRegion> detours;  // where the route should not go
 };
 
 // What a proof of infeasibility rests on, and what tells the cell otherwise.
@@ -99,8 +106,8 @@ class ContactSurfacePlanner {
   ContactSurfacePlanner& operator=(ContactSurfacePlanner&&) noexcept;
 
   // Thread-safe.  Same arguments, same result but for `seconds`.
-  PlanResult Plan(const Eigen::Vector3d& start,
-                  const Eigen::Vector3d& goal) const;
+  PlanResult Plan(const Eigen::Vector3d& start, const Eigen::Vector3d& goal,
+                  const PlanRequest& request = {}) const;
 
   const FreeCells& cells() const;
   double build_seconds() const;

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "core/mesh/segment_tree.h"
+#include "core/mesh/segment_triangle_distance.h"
 #include "core/projection/contact_surface.h"
 
 namespace phongpd {
@@ -114,47 +115,22 @@ MotionCheck FreeSpace::Check(const Vector3d& a, const Vector3d& b) const {
 }
 
 double FreeSpace::Clearance(const Vector3d& q) const {
-  return FindNearest(q).distance;
-}
-
-FreeSpace::Nearest FreeSpace::FindNearest(const Vector3d& q) const {
   const BoundingBox& bounds = impl_->bounds;
-  if (!q.allFinite()) return {};
-  Nearest nearest;
-  nearest.distance = std::numeric_limits<double>::infinity();
-  for (int k = 0; k < 3 && !bounds.IsEmpty(); ++k) {
-    const double above = q[k] - bounds.min[k], below = bounds.max[k] - q[k];
-    const double distance = std::min(std::abs(above), std::abs(below));
-    if (!(distance < nearest.distance)) continue;
-    nearest.distance = distance;
-    nearest.direction = Vector3d::Unit(k) * (above < below ? 1.0 : -1.0);
+  double clearance = std::numeric_limits<double>::infinity();
+  if (!q.allFinite()) return 0.0;
+  if (!bounds.IsEmpty()) {
+    clearance = (q - bounds.min)
+                    .cwiseAbs()
+                    .cwiseMin((bounds.max - q).cwiseAbs())
+                    .minCoeff();
   }
   for (const Space& space : impl_->spaces) {
-    if (!space.surface.Accepts(q)) return {};
+    if (!space.surface.Accepts(q)) return 0.0;
     const PenetrationResult answer =
         space.surface.Answer(q, Location::kOutside);
-    if (!(answer.signed_distance < nearest.distance)) continue;
-    nearest = {answer.signed_distance, answer.direction};
+    clearance = std::min(clearance, answer.signed_distance);
   }
-  return nearest;
-}
-
-bool FreeSpace::KeepsClearance(const Vector3d& a, const Vector3d& b,
-                               double distance) const {
-  const BoundingBox& bounds = impl_->bounds;
-  if (!a.allFinite() || !b.allFinite()) return false;
-  for (const Vector3d& q : {a, b}) {
-    if (!bounds.IsEmpty() && !((q - bounds.min).array() >= distance &&
-                               (bounds.max - q).array() >= distance)
-                                  .all()) {
-      return false;
-    }
-  }
-  return std::all_of(
-      impl_->spaces.begin(), impl_->spaces.end(), [&](const Space& space) {
-        return space.surface.Accepts(a) && space.surface.Accepts(b) &&
-               space.surface.KeepsDistance(a, b, distance);
-      });
+  return clearance;
 }
 
 std::vector<FreeSpace::NearTriangle> FreeSpace::FindNear(const Vector3d& a,
@@ -165,22 +141,25 @@ std::vector<FreeSpace::NearTriangle> FreeSpace::FindNear(const Vector3d& a,
   for (const Space& space : impl_->spaces) {
     if (!space.surface.Accepts(a) || !space.surface.Accepts(b)) continue;
     const TriangleMesh& mesh = space.surface.mesh();
-    space.surface.ForEachNear(
-        a, b, radius, [&](int triangle, const SegmentTrianglePair& pair) {
-          NearTriangle found;
-          const Vector3d between = pair.on_segment - pair.on_triangle;
-          found.distance = std::sqrt(pair.squared_distance);
-          found.normal = between.stableNormalized();
-          // Wherever rounding put the pair, the triangle is below its plane.
-          found.level = -std::numeric_limits<double>::infinity();
-          for (std::size_t k = 0; k < 3; ++k) {
-            found.corners[k] = mesh.vertices[mesh.triangles[triangle][k]];
-            found.level =
-                std::max(found.level, found.normal.dot(found.corners[k]));
-          }
-          near.push_back(found);
-          return true;
-        });
+    space.segments.ForEachDoubt(a, b, radius, [&](int triangle, double) {
+      NearTriangle found;
+      std::array<Vector3d, 3> t;
+      for (std::size_t k = 0; k < 3; ++k) {
+        found.corners[k] = mesh.vertices[mesh.triangles[triangle][k]];
+        t[k] = found.corners[k] - a;
+      }
+      const SegmentTrianglePair pair =
+          ClosestPair(Vector3d::Zero(), b - a, t[0], t[1], t[2]);
+      found.distance = std::sqrt(pair.squared_distance);
+      if (found.distance > radius) return;
+      found.normal = (pair.on_segment - pair.on_triangle).stableNormalized();
+      // Wherever rounding put the pair, the triangle is below its plane.
+      found.level = -std::numeric_limits<double>::infinity();
+      for (const Vector3d& q : found.corners) {
+        found.level = std::max(found.level, found.normal.dot(q));
+      }
+      near.push_back(found);
+    });
   }
   std::stable_sort(near.begin(), near.end(),
                    [](const NearTriangle& one, const NearTriangle& other) {

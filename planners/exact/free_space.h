@@ -52,18 +52,6 @@ class FreeSpace {
   // Distance from q to the nearest contact surface or bound, ≥ 0; infinity
   // where there is neither; 0 for non-finite q.  Rounded.
   double Clearance(const Eigen::Vector3d& q) const;
-  // The same with the unit direction in which it grows at a free q (the
-  // facet's normal on a contact surface); zero where there is none.
-  struct Nearest {
-    double distance = 0.0;
-    Eigen::Vector3d direction = Eigen::Vector3d::Zero();
-  };
-  Nearest FindNearest(const Eigen::Vector3d& q) const;
-  // Is no point of the segment closer than `distance` > 0 to a contact surface
-  // or bound?  Rounded, and nothing about sides: from inside to inside may be
-  // far from the surface, too.  False for non-finite points.
-  bool KeepsClearance(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
-                      double distance) const;
 
   // The contact triangles within `radius` of a segment, the nearest first
   // (bounds have none).  Rounded; nothing for non-finite points.

@@ -166,12 +166,4 @@ std::vector<Vector3d> ShortenPath(const std::vector<Vector3d>& path,
   return Shortener(path, segments, options).Run();
 }
 
-double PathLength(const std::vector<Vector3d>& path) {
-  double length = 0.0;
-  for (std::size_t k = 1; k < path.size(); ++k) {
-    length += (path[k] - path[k - 1]).norm();
-  }
-  return length;
-}
-
 }  // namespace phongpd

@@ -29,7 +29,4 @@ std::vector<Eigen::Vector3d> ShortenPath(
     const std::vector<Eigen::Vector3d>& path, const SegmentTree& segments,
     const ShorteningOptions& options);
 
-// Σ |p_{k+1} − p_k|.
-double PathLength(const std::vector<Eigen::Vector3d>& path);
-
 }  // namespace phongpd

@@ -3,12 +3,12 @@
 
 #include <Eigen/Core>
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "core/mesh/triangle_mesh.h"
+#include "planners/exact/contact_surface_planner.h"
 #include "planners/exact/free_space.h"
 
 namespace phongpd {
@@ -17,18 +17,12 @@ struct StartRepairOptions {
   int waypoints = 40;     // N ≥ 1 free points between start and goal
   double margin = 0.01;   // wished clearance, a fraction of `diagonal`, > 0
   double diagonal = 0.0;  // user's unit; 0: that of the contact mesh
-  int routes = 1;         // ways around each obstacle to look for, in [1, 8]
+  int routes = 1;         // ways around the obstacles to look for, in [1, 8]
   int random_cuts = 120;  // of the straightening
-  bool planner_only = false;  // the complete planner's path, not the surface's
   std::uint64_t seed = 1;
 
   // Throws InputError naming the option, the range and the value.
   void Validate() const;
-};
-
-struct LiftCounters {
-  int lifted = 0;   // points lifted off the surface
-  int lowered = 0;  // times a lift was halved
 };
 
 enum class RepairStatus {
@@ -43,54 +37,38 @@ const char* ToString(RepairStatus status);
 
 struct StartRepairResult {
   RepairStatus status = RepairStatus::kFailed;
-  // waypoints + 2 points each, exactly free, the shortest first; one if free
-  // or repaired with routes = 1, none if there is no path.
+  // waypoints + 2 points each, exactly free, the shortest first; at most
+  // `routes`, none if there is no path.
   std::vector<std::vector<Eigen::Vector3d>> routes;
-  std::string reason;  // of a failure; empty otherwise
+  std::string reason;  // one sentence unless free or repaired
   int runs = 0;        // pieces of the given path that collide
-  int settled = 0;     // nodes closed by the geodesic searches
-  LiftCounters lift;
-  int cuts_tried = 0;
-  int cuts_taken = 0;
-  bool asked_planner = false;
+  int searches = 0;    // of the surface's roadmap
+  LiftCounts lift;
   double seconds = 0.0;
-
-  bool HasPath() const { return !routes.empty(); }
 };
-
-// What a complete planner says when the surface shows no way.
-struct CompletePlan {
-  bool infeasible = false;            // proved
-  std::vector<Eigen::Vector3d> path;  // exactly free; empty: none found
-  int settled = 0;
-};
-using CompletePlanner = std::function<CompletePlan(
-    const Eigen::Vector3d& start, const Eigen::Vector3d& goal)>;
 
 // Turns a colliding path into an exactly free one that an optimiser can start
 // from.  (Projecting every point cannot: where a path enters one side of a
 // plate and leaves by the other, nearest points jump.)
 //
-//  1. Colliding run: from the first contact with a surface component to the
-//     next place where the path leaves that component into free space.
-//  2. It becomes a short path on the contact space (surface_geodesic.h) ...
-//  3. ... lifted by min(margin, half the gap) along the normals and pushed up
-//     the distance gradient until the clearance is the margin where it can be.
-//     Where a lifted segment still collides, its middle is lifted too, or the
-//     larger of its two lifts halved.
-//  4. The whole path is straightened (path_straightening.h), keeping 0.9
-//     margins of clearance or what there was, and resampled with every corner
-//     a waypoint.
+//  1. Colliding run: from just before the first contact to just after a place
+//     where the path is free again, the next one that can be reached.
+//  2. It becomes the shortest path on the contact space, lifted to the margin
+//     or to the middle of the gap and shortened (contact_surface_planner.h).
+//     For a path of two points that is the whole path.
+//  3. The joined path is shortened again and resampled with every corner a
+//     waypoint (path_resampling.h).
 //
-// A run that does not come back to its component, and a lift that fails, are
-// given to the complete planner if there is one.
+// Complete as the planner is: a path, or the proof that none exists, or the
+// reason why rounding left neither.  More routes come from searches that
+// avoid the middle of those found; they may coincide, and are then given once.
 class StartRepair {
  public:
   // The boundary of the union of all that is in the way, bounds included
   // (MergedObstacle): overlapping contact spaces must be merged first.  As
-  // FreeSpace requires it; throws InputError.
+  // ContactSurfacePlanner requires it; throws InputError.
   explicit StartRepair(const TriangleMesh& merged_contact_mesh,
-                       CompletePlanner planner = nullptr);
+                       const ContactSurfaceOptions& planner_options = {});
   ~StartRepair();
   StartRepair(StartRepair&&) noexcept;
   StartRepair& operator=(StartRepair&&) noexcept;
@@ -104,6 +82,7 @@ class StartRepair {
                            const StartRepairOptions& options = {}) const;
 
   const FreeSpace& space() const;
+  const ContactSurfacePlanner& planner() const;
   double diagonal() const;  // of the contact mesh
 
  private:

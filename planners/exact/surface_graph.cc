@@ -156,8 +156,8 @@ void SurfaceGraph::IndexTriangles() {
 
 SurfaceGraph::Route SurfaceGraph::Search(
     const Vector3d& start, const Vector3d& goal,
-    const std::vector<Attachment>& attachments,
-    const std::set<Edge>& deleted) const {
+    const std::vector<Attachment>& attachments, const std::set<Edge>& deleted,
+    const std::vector<DetourRegion>& detours) const {
   const int count = static_cast<int>(sites_.size());
   const int extra = static_cast<int>(attachments.size());
   const int end = count + extra;  // the goal itself
@@ -207,7 +207,15 @@ SurfaceGraph::Route SurfaceGraph::Search(
     if (i == end) break;
     const Vector3d& here = point(i);
     const auto go = [&](int j) {
-      if (!closed[j]) offer(i, j, length[i] + (point(j) - here).norm());
+      if (closed[j]) return;
+      double step = (point(j) - here).norm();
+      for (const DetourRegion& detour : detours) {
+        const Vector3d middle = 0.5 * (here + point(j));
+        if ((middle - detour.center).norm() < detour.radius) {
+          step *= detour.factor;
+        }
+      }
+      offer(i, j, length[i] + step);
     };
     const SurfaceSite& site =
         i < count ? sites_[i] : attachments[i - count].site;

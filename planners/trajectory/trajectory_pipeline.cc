@@ -113,7 +113,6 @@ class Run {
       repair.margin = std::max(problem_.margin, 1e-6);
       repair.diagonal = Diagonal(problem_);
       repair.routes = options_.routes;
-      repair.planner_only = options_.start == TrajectoryStart::kPlanner;
       repair.seed = options_.seed;
       result_.repair = repair_->Repair(problem_.start, problem_.goal, repair);
       *starts = result_.repair.routes;

@@ -17,8 +17,8 @@ namespace phongpd {
 // What the first solve starts from.
 enum class TrajectoryStart {
   kStraight,  // the line, colliding or not: for comparisons
-  kRepaired,  // the line, led around what it hits (start_repair.h)
-  kPlanner,   // the complete planner's path where the line collides
+  kRepaired,  // the line where it is free, a planned path where it collides
+              // (start_repair.h)
 };
 
 enum class PolishWhen {
