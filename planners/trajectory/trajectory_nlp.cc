@@ -81,27 +81,12 @@ void TrajectoryNlp::JacobianPattern(int* row, int* col) const {
                            col + contact_.nonzeros());
 }
 
-<<<<<<< HEAD
-void TrajectoryNlp::HessianPattern(int* row, int* col) const {
-  springs_.HessianPattern(row, col);
-=======
-// Waypoint by waypoint: its diagonal, then the three entries that tie it to the
-// one before; with curvature the full blocks of CurvaturePattern.
 void TrajectoryNlp::HessianPattern(int* row, int* col) const {
   if (has_curvature()) {
     contact_.CurvaturePattern(row, col);
-    return;
+  } else {
+    springs_.HessianPattern(row, col);
   }
-  for (int i = 0; i < variables(); ++i) {
-    *row++ = i;
-    *col++ = i;
-    if (i % 3 < 2 || i < 3) continue;
-    for (int axis = 0; axis < 3; ++axis) {
-      *row++ = i - 2 + axis;
-      *col++ = i - 5 + axis;
-    }
-  }
->>>>>>> part-ipopt
 }
 
 double TrajectoryNlp::Objective(const double* x) const {
@@ -125,36 +110,29 @@ bool TrajectoryNlp::Constraints(const double* x, double* values,
 
 void TrajectoryNlp::Hessian(const double* x, double objective_factor,
                             const double* multipliers, double* values) const {
-<<<<<<< HEAD
-  springs_.Hessian(objective_factor, multipliers + contact_.rows(), values);
-=======
-  std::fill(values, values + hessian_nonzeros(), 0.0);
-  if (has_curvature()) {
-    contact_.AddCurvature(x, branches_, multipliers,
-                          curvature_ == ContactCurvature::kOutside, values);
-  }
-  // Every segment is a spring: 2k on the diagonal of both its ends, −2k
-  // between them.
   const double* length_multipliers = multipliers + contact_.rows();
-  const auto stiffness = [&](int segment) {
-    return 2.0 *
-           (objective_factor * weight_ + length_multipliers[segment] / eta_);
-  };
-  const int diagonal_size = has_curvature() ? 6 : 3;
-  const int coupling_size = has_curvature() ? 9 : 3;
-  for (int i = 0; i < waypoints_; ++i) {
-    for (int axis = 0; axis < 3; ++axis) {
-      const int at = has_curvature() ? (axis + 1) * (axis + 2) / 2 - 1 : axis;
-      values[at] += stiffness(i) + stiffness(i + 1);
-    }
-    values += diagonal_size;
-    if (i == 0) continue;
-    for (int axis = 0; axis < 3; ++axis) {
-      values[has_curvature() ? 4 * axis : axis] -= stiffness(i);
-    }
-    values += coupling_size;
+  if (!has_curvature()) {
+    springs_.Hessian(objective_factor, length_multipliers, values);
+    return;
   }
->>>>>>> part-ipopt
+  std::fill(values, values + hessian_nonzeros(), 0.0);
+  contact_.AddCurvature(x, branches_, multipliers,
+                        curvature_ == ContactCurvature::kOutside, values);
+  // Entries of the springs, three a waypoint and three to the one before it,
+  // onto the diagonals of CurvaturePattern's triangles and squares.
+  std::vector<double> own(
+      static_cast<std::size_t>(springs_.hessian_nonzeros()));
+  springs_.Hessian(objective_factor, length_multipliers, own.data());
+  const double* next = own.data();
+  for (int i = 0; 3 * i < variables(); ++i) {
+    for (int axis = 0; axis < 3; ++axis) {
+      values[(axis + 1) * (axis + 2) / 2 - 1] += *next++;
+    }
+    values += 6;
+    if (i == 0) continue;
+    for (int axis = 0; axis < 3; ++axis) values[4 * axis] += *next++;
+    values += 9;
+  }
 }
 
 int TrajectoryNlp::Accept(const double* x) {

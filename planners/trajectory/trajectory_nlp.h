@@ -44,13 +44,10 @@ class TrajectoryNlp : public NonlinearProgram {
   int jacobian_nonzeros() const override {
     return contact_.nonzeros() + springs_.jacobian_nonzeros();
   }
-<<<<<<< HEAD
-  int hessian_nonzeros() const override { return springs_.hessian_nonzeros(); }
-=======
   int hessian_nonzeros() const override {
-    return has_curvature() ? contact_.curvature_nonzeros() : 6 * waypoints_ - 3;
+    return has_curvature() ? contact_.curvature_nonzeros()
+                           : springs_.hessian_nonzeros();
   }
->>>>>>> part-ipopt
   void Bounds(double* x_low, double* x_high, double* g_low,
               double* g_high) const override;
   void JacobianPattern(int* row, int* col) const override;
@@ -63,15 +60,8 @@ class TrajectoryNlp : public NonlinearProgram {
   int Accept(const double* x) override;
 
  private:
-<<<<<<< HEAD
-=======
   bool has_curvature() const { return curvature_ != ContactCurvature::kNone; }
-  // u_{i+1} − u_i for i in 0 … N, the ends included.
-  Eigen::Vector3d Step(int segment, const double* x) const;
 
-  PathFrame frame_;
-  int waypoints_ = 0;
->>>>>>> part-ipopt
   Eigen::Vector3d start_, goal_;  // user's unit
   double margin_ = 0.0;           // units of D
   PathSprings springs_;

@@ -69,7 +69,8 @@ void ExpectSound(const std::string& name, const Knobs& knobs) {
   SCOPED_TRACE(name + " " + Text(knobs));
   const Scene scene = Made(name, knobs);
   EXPECT_TRUE(scene.warnings.empty());
-  const CollisionOracle oracle(scene.workspace.robot, JoinedObstacle(scene.workspace));
+  const CollisionOracle oracle(scene.workspace.robot,
+                               JoinedObstacle(scene.workspace));
   EXPECT_GT(BlockedSamples(scene, oracle, StraightLine(scene)), 0);
   ASSERT_EQ(scene.feasible, true);
   ASSERT_GE(scene.witness.size(), 2U);
@@ -117,8 +118,10 @@ TEST(SceneFamilies, PlacementKeepsTheProblem) {
         {{"rotation_seed", kSeed}, {"scale", kScale}, {"offset", kOffset}});
     EXPECT_TRUE(placed.workspace.bounds.IsEmpty());
     EXPECT_EQ(placed.workspace.obstacles.back().id, "bounds_shell");
-    const CollisionOracle before(plain.workspace.robot, JoinedObstacle(plain));
-    const CollisionOracle after(placed.workspace.robot, JoinedObstacle(placed));
+    const CollisionOracle before(plain.workspace.robot,
+                                 JoinedObstacle(plain.workspace));
+    const CollisionOracle after(placed.workspace.robot,
+                                JoinedObstacle(placed.workspace));
     std::mt19937_64 random(kSeed);
     const Eigen::Matrix3d rotation = RandomRotation(&random);
     int blocked = 0;
@@ -147,7 +150,7 @@ TEST(SceneFamilies, TwinsBlockTheWayOfTheirSiblings) {
         EXPECT_TRUE(twin.witness.empty());
         EXPECT_EQ(twin.start, sibling.start);
         const CollisionOracle oracle(twin.workspace.robot,
-                                     JoinedObstacle(twin));
+                                     JoinedObstacle(twin.workspace));
         EXPECT_GT(BlockedSamples(twin, oracle, sibling.witness), 0) << name;
         EXPECT_FALSE(oracle.Collides(twin.start)) << name;
         // Only a maze's goal may lie in the corridor that is too narrow.
@@ -340,7 +343,8 @@ TEST(SceneFamilies, TurnedTwinsCutTheFreeSpace) {
   for (const std::string& name : kPlanning) {
     const auto cells = [&](double twin) {
       const Scene scene = Made(name, {{"rotation_seed", 3}, {"twin", twin}});
-      return BuildContactSpace(scene.workspace.robot, JoinedObstacle(scene.workspace))
+      return BuildContactSpace(scene.workspace.robot,
+                               JoinedObstacle(scene.workspace))
           .report.cavities;
     };
     EXPECT_EQ(cells(0), 1) << name;
