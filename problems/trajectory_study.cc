@@ -112,7 +112,9 @@ TrajectoryProblem TrajectoryStudy::Problem(const TrajectoryMetric& metric) {
 PipelineResult TrajectoryStudy::Run(const TrajectoryMetric& metric,
                                     const PipelineOptions& options) {
   if (options.start != TrajectoryStart::kStraight && repair_ == nullptr) {
-    repair_ = std::make_shared<StartRepair>(space_.sealed_mesh);
+    ContactSurfaceOptions planner;
+    planner.self_intersections = space_.sealed_self_intersections;
+    repair_ = std::make_shared<StartRepair>(space_.sealed_mesh, planner);
   }
   return TrajectoryPipeline(Problem(metric), repair_, options).Solve();
 }
@@ -134,10 +136,10 @@ PipelineOptions ScenePipelineOptions(const Scene& scene) {
 }
 
 TrajectoryStart ParseStart(const std::string& text) {
-  for (const TrajectoryStart start :
-       {TrajectoryStart::kStraight, TrajectoryStart::kRepaired,
-        TrajectoryStart::kPlanner}) {
-    if (text == ToString(start)) return start;
+  if (text == "straight") return TrajectoryStart::kStraight;
+  // Repair is done by the complete planner.
+  if (text == "repaired" || text == "planner") {
+    return TrajectoryStart::kRepaired;
   }
   throw InputError("--start: expected straight, repaired or planner, found '" +
                    text + "'");
@@ -155,15 +157,7 @@ BranchPolicy ParsePolicy(const std::string& text) {
 }
 
 const char* ToString(TrajectoryStart start) {
-  switch (start) {
-    case TrajectoryStart::kStraight:
-      return "straight";
-    case TrajectoryStart::kPlanner:
-      return "planner";
-    case TrajectoryStart::kRepaired:
-      break;
-  }
-  return "repaired";
+  return start == TrajectoryStart::kStraight ? "straight" : "repaired";
 }
 
 const char* ToString(BranchPolicy policy) {

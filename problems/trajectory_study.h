@@ -68,7 +68,7 @@ nlohmann::ordered_json TrajectoryRow(const TrajectoryStudy& study,
                                      const PipelineOptions& options,
                                      const PipelineResult& result);
 
-// "straight", "repaired", "planner" and "commit", "stateless",
+// "straight", "repaired" (or "planner", the same) and "commit", "stateless",
 // "outer-restart".  Throw InputError starting with the flag's name.
 TrajectoryStart ParseStart(const std::string& text);
 BranchPolicy ParsePolicy(const std::string& text);

@@ -174,8 +174,8 @@ Command AddOptimize(CLI::App* app) {
       ->check(CLI::IsMember({"stateless", "commit", "outer-restart"}))
       ->capture_default_str();
   app->add_option("--start", flags->start,
-                  "First path: the line, the line led around what it hits, or "
-                  "the complete planner's")
+                  "First path: the line, or if it collides the path of the "
+                  "complete planner (repaired and planner mean the same)")
       ->check(CLI::IsMember({"straight", "repaired", "planner"}))
       ->capture_default_str();
   app->add_option("--start-noise", flags->noise,
