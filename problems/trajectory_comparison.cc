@@ -2,6 +2,8 @@
 #include "problems/trajectory_comparison.h"
 
 #include <algorithm>
+#include <array>
+#include <fstream>
 #include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -269,6 +271,23 @@ std::string CompactCsv(const std::vector<Json>& rows) {
         << Rounded(Number(row, "seconds/total")) << '\n';
   }
   return csv.str();
+}
+
+std::vector<Json> ReadComparison(const std::string& path) {
+  std::ifstream file(path);
+  if (!file) throw InputError(path + ": expected rows, found no such file");
+  std::vector<Json> rows;
+  for (std::string line; std::getline(file, line);) {
+    if (line.empty()) continue;
+    Json row = Json::parse(line, nullptr, false);
+    if (!row.is_object()) {
+      throw InputError(path + ": row " + std::to_string(rows.size() + 1) +
+                       ": expected a JSON object, found " + line.substr(0, 40));
+    }
+    rows.push_back(std::move(row));
+  }
+  if (rows.empty()) throw InputError(path + ": expected rows, found none");
+  return rows;
 }
 
 }  // namespace phongpd

@@ -23,6 +23,9 @@ const std::vector<TrajectoryProtocol>& TrajectoryProtocols();
 // Throws InputError for an unknown name.
 const TrajectoryProtocol& FindProtocol(const std::string& name);
 
+// The rows of a JSON Lines file.  Throws InputError naming the file and row.
+std::vector<nlohmann::ordered_json> ReadComparison(const std::string& path);
+
 // All runs of one scene, protocol and metric.
 struct ComparisonCell {
   std::string scene, protocol, method;

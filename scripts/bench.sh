@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# bench.sh [paper|contact-space|all]: regenerates the tables and figures of
+# bench.sh [paper|contact-space|convergence|all]: regenerates the tables and figures of
 # results/.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
@@ -9,9 +9,9 @@ export PHONGPD_CACHE_DIR=$PWD/build/cache
 
 suite=${1:-all}
 case $suite in
-  paper | contact-space | all) ;;
+  paper | contact-space | convergence | all) ;;
   *)
-    echo "bench: expected paper, contact-space or all, found $suite" >&2
+    echo "bench: expected paper, contact-space, convergence or all, found $suite" >&2
     exit 2
     ;;
 esac
@@ -25,4 +25,35 @@ if [[ $suite == contact-space || $suite == all ]]; then
   cmake --preset release -DPHONGPD_BUILD_COMPETITORS=ON
   scripts/build.sh contact_space_benchmark
   build/contact_space_benchmark --output results/contact-space
+fi
+if [[ $suite == convergence || $suite == all ]]; then
+  scripts/build.sh phongpd convergence_benchmark
+  rows=build/convergence
+  rm -rf "$rows"
+  scenes=(
+    u_axis u_trap l plate:thickness=0.1 plate:thickness=0.02
+    plate:thickness=0.005 long_plate torus_hole cone_axes ball_wrench
+    ball_convex clutter knot peg_tunnel:clearance=0.1 peg_tunnel:clearance=0.01
+    peg_tunnel:clearance=0.001
+  )
+  # One process a core: Ipopt's linear solver is not thread-safe.
+  cores=$(nproc)
+  shards() { # NAME ARGUMENTS...: compare in as many parts as there are cores
+    local pids=() i
+    for ((i = 0; i < cores; ++i)); do
+      build/phongpd compare "${scenes[@]}" --shard "$i/$cores" \
+        --output "$rows/$1-$i" "${@:2}" &
+      pids+=($!)
+    done
+    for i in "${pids[@]}"; do wait "$i"; done
+  }
+  shards straight --protocols straight-monotone straight-adaptive --metrics \
+    euclidean phong@0 phong@0.05 phong@0.1 phong@0.2 phong@0.3
+  shards exact --protocols straight-adaptive --metrics phong@0.2/exact \
+    --runs 10
+  shards repaired --protocols repaired-monotone repaired-adaptive pipeline \
+    --metrics euclidean phong@0 phong@0.2
+  cat "$rows"/*/rows.jsonl > "$rows/all.jsonl"
+  build/convergence_benchmark --rows "$rows/all.jsonl" \
+    --output results/convergence --how "scripts/bench.sh convergence"
 fi

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <filesystem>
-#include <fstream>
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -60,23 +59,6 @@ Shard ParseShard(const std::string& text) {
   }
   throw InputError("--shard: expected i/n with 0 <= i < n, found '" + text +
                    "'");
-}
-
-std::vector<Json> ReadRows(const std::string& path) {
-  std::ifstream file(path);
-  if (!file) throw InputError(path + ": expected rows, found no such file");
-  std::vector<Json> rows;
-  for (std::string line; std::getline(file, line);) {
-    if (line.empty()) continue;
-    Json row = Json::parse(line, nullptr, false);
-    if (!row.is_object()) {
-      throw InputError(path + ": row " + std::to_string(rows.size() + 1) +
-                       ": expected a JSON object, found " + line.substr(0, 40));
-    }
-    rows.push_back(std::move(row));
-  }
-  if (rows.empty()) throw InputError(path + ": expected rows, found none");
-  return rows;
 }
 
 // Runs what belongs to the shard.
@@ -161,7 +143,7 @@ int Compare(const Flags& flags) {
   };
   outputs.Declare(path("rows.jsonl"));
   const std::vector<Json> rows =
-      flags.rows.empty() ? Run(flags, shard) : ReadRows(flags.rows);
+      flags.rows.empty() ? Run(flags, shard) : ReadComparison(flags.rows);
   std::string lines;
   for (const Json& row : rows) lines += row.dump() + '\n';
   outputs.Write(path("rows.jsonl"), lines);

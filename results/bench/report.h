@@ -7,6 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "problems/text.h"
+
 // Tables that are written once and shown as CSV, Markdown, HTML or text, and
 // the circumstances every published figure comes with.
 namespace phongpd::bench {

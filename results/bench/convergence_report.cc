@@ -1,0 +1,363 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "results/bench/convergence_report.h"
+
+#include <algorithm>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "problems/gnuplot.h"
+#include "problems/text.h"
+
+namespace phongpd::bench {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using Cells = std::vector<ComparisonCell>;
+
+template <typename Key>
+std::vector<std::string> Distinct(const Cells& cells, const Key& key) {
+  std::vector<std::string> names;
+  for (const ComparisonCell& c : cells) {
+    const std::string name = key(c);
+    if (name.empty()) continue;
+    if (std::find(names.begin(), names.end(), name) == names.end()) {
+      names.push_back(name);
+    }
+  }
+  return names;
+}
+
+std::vector<std::string> Scenes(const Cells& cells) {
+  return Distinct(cells, [](const ComparisonCell& c) { return c.scene; });
+}
+
+std::vector<std::string> Methods(const Cells& cells,
+                                 const std::string& protocol) {
+  return Distinct(cells, [&](const ComparisonCell& c) {
+    return c.protocol == protocol ? c.method : std::string();
+  });
+}
+
+const ComparisonCell* Find(const Cells& cells, const std::string& scene,
+                           const std::string& protocol,
+                           const std::string& method) {
+  for (const ComparisonCell& c : cells) {
+    if (c.scene == scene && c.protocol == protocol && c.method == method) {
+      return &c;
+    }
+  }
+  return nullptr;
+}
+
+std::string SolvedText(const ComparisonCell& c) {
+  std::string text = Shown(c.solved) + "/" + Shown(c.runs);
+  if (c.stalled > 0) text += " (" + Shown(c.stalled) + "s)";
+  if (c.free_only > 0) text += " +" + Shown(c.free_only) + "f";
+  if (c.claims_only > 0) text += " " + Shown(c.claims_only) + "c";
+  return text;
+}
+
+std::string EffortText(const ComparisonCell& c) {
+  return Rounded(c.median_iterations, 4) + " · " +
+         Rounded(100.0 * c.restoration_share, 2) + " % · " +
+         Rounded(1e3 * c.median_seconds) + " ms";
+}
+
+// Scenes by methods of one protocol.
+template <typename Text>
+Table Matrix(const Cells& cells, const std::string& protocol, std::string title,
+             std::string note, const Text& text) {
+  const std::vector<std::string> methods = Methods(cells, protocol);
+  Table table{std::move(title), std::move(note), {"scene"}, {}};
+  table.header.insert(table.header.end(), methods.begin(), methods.end());
+  for (const std::string& scene : Scenes(cells)) {
+    std::vector<std::string> row = {scene};
+    for (const std::string& method : methods) {
+      const ComparisonCell* c = Find(cells, scene, protocol, method);
+      row.push_back(c == nullptr ? "–" : text(*c));
+    }
+    table.rows.push_back(std::move(row));
+  }
+  return table;
+}
+
+Table PipelineTable(const Cells& cells) {
+  Cells own;
+  for (const ComparisonCell& c : cells) {
+    if (c.protocol == "pipeline") own.push_back(c);
+  }
+  return MakeTable(
+      "The default pipeline",
+      "Repair, Ipopt, exact judge, corridor where needed. Converged: by Ipopt "
+      "or the corridor; the rest of the free paths stalled. Ratio: objective "
+      "over the best found by any method on that seed. Least clearance along "
+      "a whole path, in diagonals; callbacks: share of the time.",
+      {"scene", "exactly free", "converged", "mean ratio", "within 2 %",
+       "median iterations", "median ms", "callbacks", "least clearance"},
+      own, [](const ComparisonCell& c, const auto& add) {
+        add(c.scene, Shown(c.solved + c.free_only) + "/" + Shown(c.runs),
+            Shown(c.solved), Rounded(c.mean_ratio, 4),
+            Shown(c.within_2_percent), Rounded(c.median_iterations, 4),
+            Rounded(1e3 * c.median_seconds),
+            Rounded(100.0 * c.callback_share, 2) + " %",
+            Rounded(c.least_clearance));
+      });
+}
+
+// Seeds of a scene that only one of two methods solved.
+std::pair<int, int> Discordant(const std::vector<Json>& rows,
+                               const std::string& scene,
+                               const std::string& protocol,
+                               const std::string& first,
+                               const std::string& second) {
+  std::map<long, std::pair<bool, bool>> seeds;
+  for (const Json& row : rows) {
+    if (row.at("scene") != scene || row.at("protocol") != protocol) continue;
+    const long seed = row.at("seed").get<long>();
+    if (row.at("method") == first) seeds[seed].first = row.at("solved");
+    if (row.at("method") == second) seeds[seed].second = row.at("solved");
+  }
+  std::pair<int, int> only = {0, 0};
+  for (const auto& entry : seeds) {
+    only.first += entry.second.first && !entry.second.second;
+    only.second += !entry.second.first && entry.second.second;
+  }
+  return only;
+}
+
+constexpr char kPreset[] = "phong@0.2";
+
+Table VerdictTable(const ConvergenceResults& results) {
+  Table table{"PhongPD (ℓ = 0.2) against Euclidean PD, paired by seed",
+              "Seeds that only one of the two solved. Win or loss: more than "
+              "5 % of the seeds apart; tie otherwise.",
+              {"scene", "protocol", "only Phong", "only Euclid", "verdict"},
+              {}};
+  for (const TrajectoryProtocol& protocol : TrajectoryProtocols()) {
+    if (!protocol.uses_every_metric) continue;
+    for (const std::string& scene : Scenes(results.cells)) {
+      const ComparisonCell* c =
+          Find(results.cells, scene, protocol.name, kPreset);
+      if (c == nullptr) continue;
+      const auto [phong, euclid] =
+          Discordant(results.rows, scene, protocol.name, kPreset, "euclidean");
+      const double apart =
+          static_cast<double>(phong - euclid) / static_cast<double>(c->runs);
+      table.rows.push_back({scene, protocol.name, Shown(phong), Shown(euclid),
+                            apart > 0.05    ? "win"
+                            : apart < -0.05 ? "**loss**"
+                                            : "tie"});
+    }
+  }
+  return table;
+}
+
+bool Belongs(const std::string& scene, const SceneGroup& group) {
+  return std::any_of(group.scenes.begin(), group.scenes.end(),
+                     [&](const std::string& prefix) {
+                       return scene.compare(0, prefix.size(), prefix) == 0;
+                     });
+}
+
+// ℓ against depth excess, solved share and iterations, one curve a group.
+std::string TradeOffFigure(const ConvergenceResults& results,
+                           const std::string& protocol) {
+  std::ostringstream script;
+  std::string plots[3];
+  int block = 0;
+  for (const SceneGroup& group : SceneGroups()) {
+    script << "$g" << block << " << EOD\n";
+    std::map<double, std::array<double, 5>> points;
+    for (const DepthExcess& e : results.excess) {
+      if (!Belongs(e.scene, group)) continue;
+      std::array<double, 5>& p = points[e.smoothing_length];
+      p[0] += e.mean;
+      p[1] += 1.0;
+    }
+    bool has_curve = false;
+    for (auto& [ell, p] : points) {
+      const std::string method = "phong@" + FormatDouble(ell);
+      int cells = 0;
+      for (const ComparisonCell& c : results.cells) {
+        if (c.protocol != protocol || c.method != method ||
+            !Belongs(c.scene, group)) {
+          continue;
+        }
+        p[2] += c.solved;
+        p[3] += c.runs;
+        p[4] += c.median_iterations;
+        ++cells;
+      }
+      if (cells == 0) continue;
+      has_curve = true;
+      script << ell << ' ' << p[0] / p[1] << ' ' << 100.0 * p[2] / p[3] << ' '
+             << p[4] / cells << '\n';
+    }
+    script << "EOD\n";
+    if (has_curve) {
+      for (int k = 0; k < 3; ++k) {
+        plots[k] += (plots[k].empty() ? "plot $g" : ", $g") +
+                    std::to_string(block) +
+                    " using 1:" + std::to_string(k + 2) +
+                    " with linespoints lw 2 title '" + group.name + "'";
+      }
+    }
+    ++block;
+  }
+  const char* const labels[3] = {"mean PhongPD / Euclidean PD", "solved, %",
+                                 "median iterations"};
+  script << "set multiplot layout 1,3 title '" << protocol << "'\n"
+         << "set xlabel 'smoothing length / diagonal'\nset key left top\n";
+  for (int k = 0; k < 3; ++k) {
+    script << "set title '" << labels[k] << "'\n";
+    if (k == 1) script << "set yrange [0:105]\nset key right bottom\n";
+    if (k == 2) script << "set yrange [0:*]\nset key right top\n";
+    script << plots[k] << '\n';
+  }
+  script << "unset multiplot\n";
+  return RenderSvg(script.str(), 1080, 400);
+}
+
+}  // namespace
+
+const std::vector<SceneGroup>& SceneGroups() {
+  static const std::vector<SceneGroup> groups = {
+      {"traps", {"u_axis", "u_trap", "l"}},
+      {"plates", {"plate:", "plate", "long_plate"}},
+      {"holes and tunnels", {"torus", "peg_tunnel"}},
+      {"other", {"cone_axes", "ball_", "clutter", "knot"}}};
+  return groups;
+}
+
+std::vector<NamedTable> Tables(const ConvergenceResults& results) {
+  const Cells& cells = results.cells;
+  std::vector<NamedTable> tables;
+  const std::string key =
+      " Solved / runs; s: of them by a stall stop, exactly free but not proved "
+      "optimal; +f: exactly free, not solved; c: claimed solved but collides.";
+  for (const TrajectoryProtocol& protocol : TrajectoryProtocols()) {
+    if (!protocol.uses_every_metric || Methods(cells, protocol.name).empty()) {
+      continue;
+    }
+    tables.push_back(
+        {protocol.name + "-solved.csv",
+         Matrix(cells, protocol.name, protocol.name + ": solved",
+                "Protocol: " + protocol.meaning + "." + key, SolvedText)});
+    tables.push_back(
+        {protocol.name + "-effort.csv",
+         Matrix(cells, protocol.name, protocol.name + ": effort",
+                "Median iterations · share of them in restoration · median "
+                "time without the contact space.",
+                EffortText)});
+  }
+  tables.push_back({"pipeline.csv", PipelineTable(cells)});
+  tables.push_back({"verdicts.csv", VerdictTable(results)});
+  tables.push_back(
+      {"excess.csv",
+       MakeTable(
+           "What smoothing costs",
+           "PhongPD over Euclidean PD at random interior points, and the "
+           "angle between the Jacobian `direction` and the exact gradient.",
+           {"scene", "ℓ", "mean excess", "worst", "limited vertices",
+            "median angle", "worst angle"},
+           results.excess, [](const DepthExcess& e, const auto& add) {
+             add(e.scene, e.smoothing_length, Rounded(e.mean, 4), e.worst,
+                 Rounded(100.0 * e.limited_share, 2) + " %",
+                 Rounded(e.median_angle) + "°", Rounded(e.worst_angle) + "°");
+           })});
+  return tables;
+}
+
+std::vector<Figure> Figures(const ConvergenceResults& results) {
+  std::vector<Figure> figures;
+  for (const char* protocol : {"straight-monotone", "straight-adaptive"}) {
+    if (Methods(results.cells, protocol).empty()) continue;
+    figures.push_back(
+        {std::string("trade-off-") + protocol + ".svg",
+         "Speed against accuracy: what a longer smoothing length costs in "
+         "depth and gains in convergence, from straight, colliding starts.",
+         TradeOffFigure(results, protocol)});
+  }
+  for (const TrajectoryProtocol& protocol : TrajectoryProtocols()) {
+    if (!protocol.uses_every_metric ||
+        Methods(results.cells, protocol.name).empty()) {
+      continue;
+    }
+    const std::pair<const char*, const char*> measures[] = {
+        {"iterations", "iterations"},
+        {"jacobians", "evaluations/jacobian"},
+        {"seconds", "seconds/total"}};
+    for (const auto& [name, measure] : measures) {
+      figures.push_back(
+          {"profile-" + protocol.name + "-" + name + ".svg",
+           "Performance profile (Dolan and Moré) over all scenes and seeds.",
+           PerformanceProfile(results.rows, protocol.name, measure)});
+    }
+  }
+  return figures;
+}
+
+std::string Findings(const ConvergenceResults& results) {
+  const Cells& cells = results.cells;
+  std::string text = "## Targets\n\n";
+  const auto line = [&](const std::string& what, const std::string& found,
+                        bool is_met) {
+    text += "- " + what + ": " + found +
+            (is_met ? " – met.\n" : " – **missed**.\n");
+  };
+  for (const char* protocol : {"straight-monotone", "straight-adaptive"}) {
+    for (const char* prefix : {"u_axis", "plate:thickness=0.1",
+                               "plate:thickness=0.02", "long_plate"}) {
+      for (const ComparisonCell& c : cells) {
+        if (c.protocol != protocol || c.method != kPreset ||
+            c.scene.compare(0, std::string(prefix).size(), prefix) != 0) {
+          continue;
+        }
+        const ComparisonCell* euclid =
+            Find(cells, c.scene, protocol, "euclidean");
+        line(std::string(protocol) + ", " + c.scene + ", Phong ℓ = 0.2 ≥ 95 %",
+             SolvedText(c) + (euclid == nullptr
+                                  ? ""
+                                  : " (Euclid " + SolvedText(*euclid) + ")"),
+             20 * c.solved >= 19 * c.runs);
+      }
+    }
+  }
+  for (const char* scene : {"u_axis", "u_trap", "l"}) {
+    const ComparisonCell* phong =
+        Find(cells, scene, "straight-monotone", kPreset);
+    const ComparisonCell* euclid =
+        Find(cells, scene, "straight-monotone", "euclidean");
+    if (phong == nullptr || euclid == nullptr) continue;
+    line(std::string("straight-monotone, ") + scene +
+             ", median iterations ≤ 1/3 of Euclid's",
+         Rounded(phong->median_iterations, 4) + " against " +
+             Rounded(euclid->median_iterations, 4),
+         3.0 * phong->median_iterations <= euclid->median_iterations);
+  }
+  for (const ComparisonCell& c : cells) {
+    if (c.protocol != "pipeline") continue;
+    const int free = c.solved + c.free_only;
+    if (100 * free >= 99 * c.runs && 20 * c.solved >= 19 * c.runs &&
+        10 * c.within_2_percent >= 9 * c.runs && c.claims_only == 0) {
+      continue;
+    }
+    line("pipeline, " + c.scene +
+             ", free ≥ 99 %, converged ≥ 95 %, within 2 % of the best ≥ 90 %",
+         Shown(free) + ", " + Shown(c.solved) + ", " +
+             Shown(c.within_2_percent) + " of " + Shown(c.runs),
+         false);
+  }
+  const bool has_claims =
+      std::any_of(cells.begin(), cells.end(), [](const ComparisonCell& c) {
+        return c.protocol == "pipeline" && c.claims_only > 0;
+      });
+  line(
+      "pipeline, Ipopt claims a solution that collides (the pipeline never "
+      "returns it)",
+      has_claims ? "some" : "none", !has_claims);
+  return text;
+}
+
+}  // namespace phongpd::bench
