@@ -200,8 +200,7 @@ std::vector<Attachment> ContactSurfacePlanner::Impl::Attach(
 
 double ContactSurfacePlanner::Impl::PathClearance(
     const std::vector<Vector3d>& path) const {
-  double least = std::numeric_limits<double>::infinity();
-  if (path.size() == 1) least = segments.Distance(path[0], path[0], least);
+  double least = surface.Answer(path[0], Location::kOutside).signed_distance;
   for (std::size_t k = 1; k < path.size(); ++k) {
     least = segments.Distance(path[k - 1], path[k], least);
   }
