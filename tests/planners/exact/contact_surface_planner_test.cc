@@ -116,6 +116,27 @@ TEST(ContactSurfacePlanner, SolvesAtAllScalesAndOffsets) {
   }
 }
 
+// Coplanar facets as the arrangement left them, turned: needles everywhere.
+TEST(ContactSurfacePlanner, CopesWithNeedles) {
+  ContactSpaceOptions as_arranged;
+  as_arranged.merge_coplanar = false;
+  for (const char* family : {"keyhole", "snake", "clutter_hole"}) {
+    for (const double twin : {0.0, 1.0}) {
+      const Scene scene = ParseScene(
+          MakeScene(family,
+                    {{"delta", 1e-3}, {"twin", twin}, {"rotation_seed", 4.0}}),
+          family);
+      const ExactSolution solution =
+          SolveExactly(Solids(scene), scene.start, scene.goal, {}, as_arranged);
+      EXPECT_LT(solution.contact_space.worst_quality, 1e-2);
+      EXPECT_EQ(solution.plan.status, twin == 0.0
+                                          ? PlanStatus::kSolved
+                                          : PlanStatus::kInfeasibleProved)
+          << family << ": " << solution.plan.reason;
+    }
+  }
+}
+
 // A cube of side 2 in a vessel whose cavity has side 6: q in [−2, 2]³, and
 // around the vessel, of side 10, q outside [−6, 6]³.
 TriangleMesh VesselSpace() {

@@ -90,8 +90,9 @@ TEST(FreeCells, GiveCertificatesThatExactPredicatesConfirm) {
   std::mt19937_64 random(4);
   int rays = 0, longest = 0;
   for (int i = 0; i < 24; ++i) {
-    auto world = testing::MakeVoxelWorld(4, 0.3, i % 2 == 0 ? 0.3 : 1e-3,
-                                         i % 3 != 0, &random);
+    // Islands in long chains, and cells within cells.
+    auto world = testing::MakeVoxelWorld(
+        5, i < 16 ? 0.08 : 0.4, i % 2 == 0 ? 0.3 : 1e-3, i % 3 != 0, &random);
     const Eigen::Matrix3d rotation =
         i % 4 < 2 ? Eigen::Matrix3d(Eigen::Matrix3d::Identity())
                   : testing::RandomRotation(&random);
@@ -106,8 +107,8 @@ TEST(FreeCells, GiveCertificatesThatExactPredicatesConfirm) {
       longest = std::max(longest, static_cast<int>(c.rays.size()));
     }
   }
-  EXPECT_GT(rays, 100);
-  EXPECT_GT(longest, 2);
+  EXPECT_GT(rays, 80);
+  EXPECT_GT(longest, 1);
 }
 
 TEST(FreeCells, CountShellsAndIslands) {
