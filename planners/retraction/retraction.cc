@@ -34,6 +34,14 @@ void CheckRange(const std::string& name, double value, double max) {
 
 }  // namespace
 
+Vector3d UniformPoint(const BoundingBox& box, std::mt19937_64* random) {
+  Vector3d q;
+  for (int k = 0; k < 3; ++k) {
+    q[k] = box.min[k] + RandomUnit(random) * (box.max[k] - box.min[k]);
+  }
+  return q;
+}
+
 void RetractionOptions::Validate() const {
   CheckRange("clearance", clearance, 1.0);
   CheckRange("depth_bound", depth_bound, 10.0);

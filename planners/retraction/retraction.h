@@ -71,6 +71,9 @@ struct RetractionCounters {
   std::uint64_t points = 0;       // free points found
 };
 
+// Uniform in a box; the same on every platform.
+Eigen::Vector3d UniformPoint(const BoundingBox& box, std::mt19937_64* random);
+
 // State of one caller: one per thread and sampler, reused from call to call.
 // After a few calls nothing allocates.
 struct RetractionScratch {
@@ -97,6 +100,11 @@ class Retraction {
   // each of them.  Thread-safe with one scratch and engine per thread.
   RetractionStatus Retract(const Eigen::Vector3d& q, std::mt19937_64* random,
                            RetractionScratch* scratch) const;
+
+  // The same model with other options.
+  Retraction WithOptions(const RetractionOptions& options) const {
+    return Retraction(model_, options);
+  }
 
   const RetractionOptions& options() const { return options_; }
   const ContactModel& model() const { return *model_; }
