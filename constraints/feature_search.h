@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <vector>
+
+#include "core/mesh/box_tree.h"
+#include "core/mesh/triangle_mesh.h"
+
+namespace phongpd {
+
+// Nearby features of a surface that lie in different directions: the walls of
+// a channel, the two sides of a concave edge.
+//
+// A feature is the point p of one triangle that is closest to q; its direction
+// is u = (q − p)/|q − p|, the gradient of the distance |q − p|, or the facet's
+// normal where |q − p| ≤ 1e-12 diagonals.
+class FeatureSearch {
+ public:
+  struct Feature {
+    int triangle = -1;
+    double distance = 0.0;  // user's unit
+    Eigen::Vector3d direction = Eigen::Vector3d::Zero();
+  };
+
+  FeatureSearch() = default;
+  // At least one triangle, finite coordinates.
+  explicit FeatureSearch(const TriangleMesh& mesh);
+
+  // The nearest feature with u·taken[i] < cos_limit for all i < count, exact
+  // as the scan of all triangles is; false if there is none, and for q not
+  // finite.  cos_limit in (0, 1).  Does not allocate.
+  bool FindNext(const Eigen::Vector3d& q, const Eigen::Vector3d* taken,
+                int count, double cos_limit, Feature* feature) const noexcept;
+
+ private:
+  using Corners = std::array<Eigen::Vector3d, 3>;
+
+  // No point of a box, seen from x, leaves the cone about a taken direction.
+  bool IsShadowed(const BoxTree::Node& node, const Eigen::Vector3d& x,
+                  const Eigen::Vector3d* taken, int count,
+                  double cos_limit) const noexcept;
+  // Direction of a triangle's closest point; false for a degenerate triangle
+  // that x lies on.
+  bool Direction(const Corners& corners, const Eigen::Vector3d& lambda,
+                 const Eigen::Vector3d& x,
+                 Eigen::Vector3d* direction) const noexcept;
+
+  Eigen::Vector3d center_ = Eigen::Vector3d::Zero();
+  double scale_ = 1.0;  // power of two: diagonal in [1, 2)
+  BoxTree tree_;
+  std::vector<Corners> corners_;  // in the tree's order, scaled
+};
+
+}  // namespace phongpd

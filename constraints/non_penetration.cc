@@ -1,0 +1,233 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "constraints/non_penetration.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <utility>
+
+#include "core/mesh/mesh_error.h"
+
+namespace phongpd {
+
+namespace {
+
+using Eigen::Vector3d;
+
+// Values of two branches that agree to this, in units of the frame, belong to
+// one branch.
+constexpr double kSameValue = 1e-9;
+
+void Fail(const std::string& what, const std::string& found) {
+  throw InputError("non-penetration constraint: " + what + ", found " + found);
+}
+
+void Count(const MetricRow& row, bool was_warm, NonPenetrationCounts* counts) {
+  if (counts == nullptr) return;
+  ++(was_warm ? counts->warm : counts->cold);
+  counts->branch_ends += row.status == QueryStatus::kBranchEnded ? 1 : 0;
+  counts->fallbacks += row.status == QueryStatus::kEuclideanFallback ? 1 : 0;
+}
+
+}  // namespace
+
+NonPenetrationConstraint::NonPenetrationConstraint(
+    std::vector<std::shared_ptr<const SignedMetric>> metrics,
+    const Vector3d& start, const Vector3d& goal, int waypoints,
+    const std::vector<int>& samples_per_segment,
+    const NonPenetrationOptions& options)
+    : metrics_(std::move(metrics)),
+      start_(start),
+      goal_(goal),
+      waypoints_(waypoints),
+      options_(options) {
+  if (metrics_.empty()) Fail("needs at least one contact space", "none");
+  for (const auto& metric : metrics_) {
+    if (metric == nullptr) Fail("needs a metric for each space", "a null one");
+  }
+  if (options.rows < 1 || options.rows > kMaxMetricRows) {
+    Fail("rows must be 1 to " + std::to_string(kMaxMetricRows),
+         std::to_string(options.rows));
+  }
+  if (waypoints < 1) {
+    Fail("needs at least one free waypoint", std::to_string(waypoints));
+  }
+  if (static_cast<int>(samples_per_segment.size()) != waypoints + 1) {
+    Fail("needs " + std::to_string(waypoints + 1) + " sample counts",
+         std::to_string(samples_per_segment.size()));
+  }
+  if (!start.allFinite() || !goal.allFinite()) {
+    Fail("start and goal must be finite", "NaN or Inf");
+  }
+  if (!(options_.frame.unit > 0.0) || !std::isfinite(options_.frame.unit) ||
+      !options_.frame.center.allFinite()) {
+    Fail("the frame needs a finite centre and a unit > 0",
+         std::to_string(options_.frame.unit));
+  }
+  rows_per_sample_ =
+      options.rows *
+      (options.merge_spaces ? 1 : static_cast<int>(metrics_.size()));
+  for (int i = 0; i <= waypoints_; ++i) {
+    const int count = samples_per_segment[static_cast<std::size_t>(i)];
+    if (count < 0) Fail("sample counts must be ≥ 0", std::to_string(count));
+    // Point 0 of a segment is its first waypoint.
+    for (int j = i == 0 ? 1 : 0; j <= count; ++j) {
+      Sample sample;
+      sample.segment = i;
+      sample.t = static_cast<double>(j) / (count + 1);
+      if (i > 0) {
+        sample.waypoint[sample.count] = i - 1;
+        sample.weight[sample.count++] = 1.0 - sample.t;
+      }
+      if (i < waypoints_ && j > 0) {
+        sample.waypoint[sample.count] = i;
+        sample.weight[sample.count++] = sample.t;
+      }
+      nonzeros_ += 3 * sample.count * rows_per_sample_;
+      samples_.push_back(sample);
+    }
+  }
+}
+
+void NonPenetrationConstraint::Sparsity(int* row, int* col) const {
+  int r = 0;
+  for (const Sample& sample : samples_) {
+    for (int k = 0; k < rows_per_sample_; ++k, ++r) {
+      for (int i = 0; i < 3 * sample.count; ++i) {
+        *row++ = r;
+        *col++ = 3 * sample.waypoint[i / 3] + i % 3;
+      }
+    }
+  }
+}
+
+Vector3d NonPenetrationConstraint::Waypoint(int index, const double* u) const {
+  if (index == 0) return start_;
+  if (index == waypoints_ + 1) return goal_;
+  const double* p = u + 3 * (index - 1);
+  return options_.frame.center +
+         options_.frame.unit * Vector3d(p[0], p[1], p[2]);
+}
+
+Vector3d NonPenetrationConstraint::SamplePoint(int sample,
+                                               const double* u) const {
+  const Sample& s = samples_[static_cast<std::size_t>(sample)];
+  const Vector3d a = Waypoint(s.segment, u);
+  if (s.t == 0.0) return a;
+  return (1.0 - s.t) * a + s.t * Waypoint(s.segment + 1, u);
+}
+
+bool NonPenetrationConstraint::IsFinite(const double* u) const {
+  // Sums of a few numbers far below the largest double stay finite.
+  constexpr double kLargest = std::numeric_limits<double>::max() / 16.0;
+  const double limit = kLargest / std::max(1.0, options_.frame.unit);
+  return std::all_of(u, u + variables(),
+                     [&](double x) { return std::abs(x) <= limit; });
+}
+
+bool NonPenetrationConstraint::Evaluate(const double* u,
+                                        const BranchSet& branches,
+                                        double* values, double* jacobian,
+                                        NonPenetrationCounts* counts) const {
+  if (!IsFinite(u)) return false;
+  const bool is_stateless = options_.policy == BranchPolicy::kStateless;
+  std::array<MetricRow, kMaxMetricRows> rows;   // of one space
+  std::array<MetricRow, kMaxMetricRows> least;  // of all, ascending
+  const auto write = [&](const Sample& sample, const MetricRow& row) {
+    if (values != nullptr) {
+      *values++ = std::min(row.value / options_.frame.unit,
+                           std::numeric_limits<double>::max());
+    }
+    if (jacobian == nullptr) return;
+    for (int i = 0; i < sample.count; ++i) {
+      for (int axis = 0; axis < 3; ++axis) {
+        *jacobian++ = sample.weight[i] * row.gradient[axis];
+      }
+    }
+  };
+  for (int s = 0; s < samples(); ++s) {
+    const Sample& sample = samples_[static_cast<std::size_t>(s)];
+    const Vector3d q = SamplePoint(s, u);
+    int kept = 0;
+    for (std::size_t m = 0; m < metrics_.size(); ++m) {
+      Branch previous;
+      if (!is_stateless) previous = branches.branches[BranchIndex(s, m)];
+      metrics_[m]->Query(q, previous, options_.rows, rows.data());
+      Count(rows[0], previous.IsValid(), counts);
+      for (int k = 0; k < options_.rows; ++k) {
+        const MetricRow& row = rows[static_cast<std::size_t>(k)];
+        if (!options_.merge_spaces) {
+          write(sample, row);
+          continue;
+        }
+        // Insertion; ties keep the order of the spaces.  Repeated rows only
+        // fill up.
+        const auto before = [&](const MetricRow& a, const MetricRow& b) {
+          if (a.is_repeated != b.is_repeated) return b.is_repeated;
+          return a.value < b.value;
+        };
+        auto end = least.begin() + kept;
+        auto at = std::upper_bound(least.begin(), end, row, before);
+        if (at == least.begin() + options_.rows) continue;
+        if (kept < options_.rows) {
+          ++kept;
+          ++end;
+        }
+        std::move_backward(at, end - 1, end);
+        *at = row;
+      }
+    }
+    for (int k = 0; k < kept; ++k) {
+      write(sample, least[static_cast<std::size_t>(k)]);
+    }
+  }
+  return true;
+}
+
+BranchSet NonPenetrationConstraint::Start(const double* u,
+                                          NonPenetrationCounts* counts) const {
+  BranchSet set;
+  set.branches.resize(samples_.size() * metrics_.size());
+  if (!IsFinite(u) || options_.policy == BranchPolicy::kStateless) return set;
+  for (int s = 0; s < samples(); ++s) {
+    const Vector3d q = SamplePoint(s, u);
+    for (std::size_t m = 0; m < metrics_.size(); ++m) {
+      const MetricRow row = metrics_[m]->Query(q);
+      Count(row, false, counts);
+      set.branches[BranchIndex(s, m)] = row.branch;
+    }
+  }
+  return set;
+}
+
+void NonPenetrationConstraint::Commit(const double* u, BranchSet* branches,
+                                      NonPenetrationCounts* counts) const {
+  if (options_.policy == BranchPolicy::kOuterRestart || !IsFinite(u)) return;
+  const bool is_stateless = options_.policy == BranchPolicy::kStateless;
+  for (int s = 0; s < samples(); ++s) {
+    const Vector3d q = SamplePoint(s, u);
+    for (std::size_t m = 0; m < metrics_.size(); ++m) {
+      Branch& branch = branches->branches[BranchIndex(s, m)];
+      const bool was_warm = branch.IsValid();
+      const MetricRow warm = metrics_[m]->Query(q, branch);
+      MetricRow now = warm;
+      if (is_stateless) {
+        // The branches are kept for nothing but this count.
+        now = metrics_[m]->Query(q);
+      } else {
+        Count(warm, was_warm, counts);
+      }
+      if (counts != nullptr && was_warm && now.inside &&
+          (warm.status == QueryStatus::kBranchEnded ||
+           std::abs(warm.value - now.value) >
+               kSameValue * options_.frame.unit)) {
+        ++counts->branch_changes;
+      }
+      branch = now.branch;
+    }
+  }
+}
+
+}  // namespace phongpd

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "constraints/signed_metric.h"
+
+#include <array>
+#include <cmath>
+#include <string>
+
+#include "constraints/feature_search.h"
+#include "core/mesh/mesh_error.h"
+#include "core/projection/euclidean_metric.h"
+
+namespace phongpd {
+
+using Eigen::Vector3d;
+
+void SignedMetricOptions::Validate() const {
+  if (!(separation >= 1.0 && separation <= 89.0)) {
+    throw InputError("separation: expected 1 to 89 degrees, found " +
+                     std::to_string(separation));
+  }
+  if (metric == MetricKind::kPhong) phong.Validate();
+}
+
+SignedMetric::SignedMetric(const TriangleMesh& contact_mesh,
+                           const SignedMetricOptions& options)
+    : options_(options) {
+  options_.Validate();
+  constexpr double kDegree = 3.14159265358979323846 / 180.0;
+  cos_separation_ = std::cos(options_.separation * kDegree);
+  if (options_.metric == MetricKind::kPhong) {
+    metric_ = std::make_shared<PhongMetric>(contact_mesh, options_.phong);
+  } else {
+    metric_ = std::make_shared<EuclideanMetric>(contact_mesh);
+  }
+  // After the metric has checked the mesh.
+  bounds_ = ComputeBounds(contact_mesh);
+  features_ = std::make_shared<FeatureSearch>(contact_mesh);
+}
+
+MetricRow SignedMetric::Query(const Vector3d& q, const Branch& previous) const {
+  const PenetrationResult result = metric_->Query(q, previous);
+  MetricRow row;
+  row.status = result.status;
+  row.inside = result.inside;
+  row.triangle = result.triangle;
+  row.branch = result.branch;
+  row.value = result.signed_distance;
+  const bool exact = result.inside && options_.jacobian == JacobianKind::kExact;
+  row.gradient = exact ? result.gradient : result.direction;
+  const double length = row.gradient.stableNorm();
+  if (length > kMaxRowGradient) {
+    row.gradient *= kMaxRowGradient / length;
+    row.is_capped = true;
+  }
+  return row;
+}
+
+void SignedMetric::Query(const Vector3d& q, const Branch& previous, int count,
+                         MetricRow* rows) const {
+  rows[0] = Query(q, previous);
+  if (count == 1) return;
+  std::array<Vector3d, kMaxMetricRows> taken;
+  taken[0] = rows[0].gradient;
+  bool has_more = !rows[0].inside && rows[0].status != QueryStatus::kInvalid;
+  for (int k = 1; k < count; ++k) {
+    rows[k] = rows[0];
+    rows[k].branch = {};
+    FeatureSearch::Feature feature;
+    has_more = has_more && features_->FindNext(q, taken.data(), k,
+                                               cos_separation_, &feature);
+    rows[k].is_repeated = !has_more;
+    if (!has_more) continue;
+    rows[k].status = QueryStatus::kOk;
+    rows[k].value = feature.distance;
+    rows[k].gradient = feature.direction;
+    rows[k].triangle = feature.triangle;
+    taken[static_cast<std::size_t>(k)] = feature.direction;
+  }
+}
+
+}  // namespace phongpd

@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "planners/trajectory/ipopt_optimizer.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "core/mesh/mesh_error.h"
+#include "planners/trajectory/trajectory_nlp.h"
+
+namespace phongpd {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr int kMostSamples = 1000;
+
+void CheckStartPath(const TrajectoryProblem& problem, const Path& path) {
+  const std::string what = "start path: expected ";
+  const auto points = static_cast<std::size_t>(problem.waypoints) + 2;
+  if (path.size() != points) {
+    throw InputError(what + std::to_string(points) + " points, found " +
+                     std::to_string(path.size()));
+  }
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    if (!path[i].allFinite()) {
+      throw InputError(what + "finite points, found NaN or Inf at point " +
+                       std::to_string(i));
+    }
+  }
+  if (path.front() != problem.start || path.back() != problem.goal) {
+    throw InputError(what +
+                     "the problem's start and goal at its ends, found others");
+  }
+}
+
+// Segments that touch something get twice the samples; false if none can.
+bool Refine(const FreeSpace& space, const Path& path,
+            std::vector<int>* samples) {
+  bool has_changed = false;
+  for (std::size_t i = 0; i < samples->size(); ++i) {
+    int& count = (*samples)[i];
+    if (count >= kMostSamples || space.IsFree(path[i], path[i + 1])) continue;
+    count = std::min(2 * count + 1, kMostSamples);
+    has_changed = true;
+  }
+  return has_changed;
+}
+
+void Add(const IpoptRun& run, const NonPenetrationCounts& counts,
+         TrajectorySummary* summary) {
+  summary->status = run.status;
+  summary->raw_status = run.raw_status;
+  summary->violation = run.violation;
+  summary->dual_infeasibility = run.dual_infeasibility;
+  summary->iterations += run.iterations;
+  summary->restoration_iterations += run.restoration_iterations;
+  summary->evaluations.objective += run.evaluations.objective;
+  summary->evaluations.gradient += run.evaluations.gradient;
+  summary->evaluations.constraints += run.evaluations.constraints;
+  summary->evaluations.jacobian += run.evaluations.jacobian;
+  summary->evaluations.hessian += run.evaluations.hessian;
+  summary->queries.cold += counts.cold;
+  summary->queries.warm += counts.warm;
+  summary->queries.branch_ends += counts.branch_ends;
+  summary->queries.branch_changes += counts.branch_changes;
+  summary->queries.fallbacks += counts.fallbacks;
+  summary->seconds_callbacks += run.seconds_callbacks;
+  const int offset = static_cast<int>(summary->log.size());
+  for (IterationRecord record : run.log) {
+    record.iteration += offset;
+    summary->log.push_back(record);
+  }
+}
+
+void Judge(const TrajectoryProblem& problem, TrajectorySummary* summary) {
+  summary->first_crossing = CheckPath(*problem.free_space, summary->path);
+  summary->collision_free = summary->first_crossing.free;
+  const double energy = PathEnergy(problem, summary->path);
+  summary->objective =
+      std::isfinite(energy) ? energy : std::numeric_limits<double>::max();
+}
+
+}  // namespace
+
+void TrajectoryOptions::Validate() const {
+  ipopt.Validate();
+  if (rows < 0 || rows > kMaxMetricRows) {
+    throw InputError("trajectory: rows: expected 0 (by the start path) to " +
+                     std::to_string(kMaxMetricRows) + ", found " +
+                     std::to_string(rows));
+  }
+  if (max_rounds < 1) {
+    throw InputError("trajectory: max_rounds: expected ≥ 1, found " +
+                     std::to_string(max_rounds));
+  }
+}
+
+bool TrajectorySummary::IsSolved() const {
+  return IsClassOk(status) && collision_free && objective < 1e300;
+}
+
+IpoptTrajectoryOptimizer::IpoptTrajectoryOptimizer(
+    const TrajectoryProblem& problem, const TrajectoryOptions& options)
+    : problem_(problem), options_(options) {
+  problem_.Validate();
+  options_.Validate();
+  CheckIpoptOptions(options_.ipopt);
+}
+
+TrajectorySummary IpoptTrajectoryOptimizer::Solve(
+    const Path& start_path) const {
+  const Clock::time_point begin = Clock::now();
+  const auto seconds = [&] {
+    return std::chrono::duration<double>(Clock::now() - begin).count();
+  };
+  CheckStartPath(problem_, start_path);
+  const FreeSpace& space = *problem_.free_space;
+  TrajectorySummary summary;
+  summary.path = start_path;
+  const bool is_start_free = space.IsFree(problem_.start);
+  if (!is_start_free || !space.IsFree(problem_.goal)) {
+    summary.status =
+        is_start_free ? SolveStatus::kInvalidGoal : SolveStatus::kInvalidStart;
+    Judge(problem_, &summary);
+    summary.seconds_total = seconds();
+    return summary;
+  }
+  // Nothing to avoid or nowhere to go: the straight line is optimal.
+  if (problem_.metrics.empty() || problem_.start == problem_.goal) {
+    summary.path = StraightPath(problem_);
+    summary.status = SolveStatus::kConverged;
+    Judge(problem_, &summary);
+    summary.dual_infeasibility = 0.0;
+    summary.seconds_total = seconds();
+    return summary;
+  }
+
+  const double start_length = PathLength(start_path);
+  summary.samples.assign(static_cast<std::size_t>(problem_.waypoints) + 1,
+                         SamplesPerSegment(problem_, start_length));
+  summary.rows = options_.rows;
+  if (summary.rows == 0) {
+    summary.rows = CheckPath(space, start_path).free ? 3 : 1;
+  }
+  TrajectoryNlpOptions nlp_options;
+  nlp_options.rows = summary.rows;
+  nlp_options.policy = options_.policy;
+  nlp_options.merge_spaces = options_.merge_spaces;
+  IpoptSettings settings = options_.ipopt;
+  while (true) {
+    TrajectoryNlp nlp(problem_, summary.samples, start_length, nlp_options);
+    const Eigen::VectorXd u = nlp.ToVariables(summary.path);
+    nlp.Start(u);
+    settings.time_limit = std::max(1e-3, options_.ipopt.time_limit - seconds());
+    const IpoptRun run = SolveWithIpopt(&nlp, u, settings);
+    ++summary.rounds;
+    Add(run, nlp.counts(), &summary);
+    summary.path = nlp.ToPath(run.x);
+    Judge(problem_, &summary);
+    const bool may_go_on = run.status != SolveStatus::kTimeLimit &&
+                           run.status != SolveStatus::kCancelled &&
+                           run.status != SolveStatus::kInvalidProblem;
+    if (summary.collision_free || !may_go_on ||
+        summary.rounds >= options_.max_rounds ||
+        !Refine(space, summary.path, &summary.samples)) {
+      break;
+    }
+  }
+  summary.seconds_total = seconds();
+  return summary;
+}
+
+}  // namespace phongpd

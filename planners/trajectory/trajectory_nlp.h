@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "constraints/non_penetration.h"
+#include "planners/trajectory/nonlinear_program.h"
+#include "planners/trajectory/trajectory_problem.h"
+
+namespace phongpd {
+
+struct TrajectoryNlpOptions {
+  int rows = 1;  // K
+  BranchPolicy policy = BranchPolicy::kCommit;
+  bool merge_spaces = false;
+};
+
+// A TrajectoryProblem as a nonlinear program in u, waypoint = centre + D·u with
+// the centre half way between start and goal.  Rows, in this order: those of
+// NonPenetrationConstraint (units of D), then |u_{i+1} − u_i|²/η ≤ η for the
+// N+1 segments, η = h/D.  The Hessian holds the objective and the length rows
+// exactly and no curvature of the contact rows.
+class TrajectoryNlp : public NonlinearProgram {
+ public:
+  // `samples`: one count per segment; `start_length` decides h.
+  TrajectoryNlp(const TrajectoryProblem& problem,
+                const std::vector<int>& samples, double start_length,
+                const TrajectoryNlpOptions& options);
+
+  Eigen::VectorXd ToVariables(const Path& path) const;
+  // The ends are exactly start and goal.
+  Path ToPath(const Eigen::VectorXd& u) const;
+  // Chooses cold branches at u; before a solve.
+  void Start(const Eigen::VectorXd& u);
+
+  const NonPenetrationConstraint& contact() const { return contact_; }
+  const NonPenetrationCounts& counts() const { return counts_; }
+
+  int variables() const override { return 3 * waypoints_; }
+  int rows() const override { return contact_.rows() + waypoints_ + 1; }
+  int jacobian_nonzeros() const override {
+    return contact_.nonzeros() + 6 * waypoints_;
+  }
+  int hessian_nonzeros() const override { return 6 * waypoints_ - 3; }
+  void Bounds(double* x_low, double* x_high, double* g_low,
+              double* g_high) const override;
+  void JacobianPattern(int* row, int* col) const override;
+  void HessianPattern(int* row, int* col) const override;
+  double Objective(const double* x) const override;
+  void ObjectiveGradient(const double* x, double* gradient) const override;
+  bool Constraints(const double* x, double* values, double* jacobian) override;
+  void Hessian(const double* x, double objective_factor,
+               const double* multipliers, double* values) const override;
+  int Accept(const double* x) override;
+
+ private:
+  // u_{i+1} − u_i for i in 0 … N, the ends included.
+  Eigen::Vector3d Step(int segment, const double* x) const;
+
+  PathFrame frame_;
+  int waypoints_ = 0;
+  Eigen::Vector3d start_, goal_;  // user's unit
+  Eigen::Vector3d u_start_, u_goal_;
+  double weight_ = 1.0;  // f = weight Σ |Δu|²
+  double margin_ = 0.0;  // units of D
+  double eta_ = 1.0;
+  BoundingBox bounds_;
+  NonPenetrationConstraint contact_;
+  BranchSet branches_;
+  NonPenetrationCounts counts_;
+};
+
+}  // namespace phongpd

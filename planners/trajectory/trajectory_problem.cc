@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "planners/trajectory/trajectory_problem.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "core/mesh/mesh_error.h"
+
+namespace phongpd {
+
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr int kMostSamples = 1000;
+
+void Fail(const std::string& field, const std::string& expected,
+          const std::string& found) {
+  throw InputError("trajectory: " + field + ": expected " + expected +
+                   ", found " + found);
+}
+
+}  // namespace
+
+void TrajectoryProblem::Validate() const {
+  for (const auto& metric : metrics) {
+    if (metric == nullptr) Fail("metrics", "one per contact space", "null");
+  }
+  if (free_space == nullptr) Fail("free_space", "the exact judge", "null");
+  if (!start.allFinite()) Fail("start", "finite numbers", "NaN or Inf");
+  if (!goal.allFinite()) Fail("goal", "finite numbers", "NaN or Inf");
+  if (waypoints < 1 || waypoints > 10000) {
+    Fail("waypoints", "1 to 10000", std::to_string(waypoints));
+  }
+  if (samples_per_segment < 0 || samples_per_segment > kMostSamples) {
+    Fail("samples_per_segment", "0 (by rule) to 1000",
+         std::to_string(samples_per_segment));
+  }
+  if (!(margin >= 0.0 && margin <= 1.0)) {
+    Fail("margin", "a fraction of the diagonal in [0, 1]",
+         std::to_string(margin));
+  }
+  if (!(max_segment_ratio >= 1.0 && max_segment_ratio <= 1e6)) {
+    Fail("max_segment_ratio", "1 to 1e6", std::to_string(max_segment_ratio));
+  }
+  if (!(diagonal >= 0.0) || !std::isfinite(diagonal)) {
+    Fail("diagonal", "≥ 0 (0: of the contact spaces)",
+         std::to_string(diagonal));
+  }
+  const double reach = (goal - start).stableNorm() / Diagonal(*this);
+  if (!(reach < 1e6)) {
+    Fail("start and goal", "less than 1e6 diagonals apart",
+         std::to_string(reach));
+  }
+}
+
+TrajectoryProblem MakeTrajectoryProblem(
+    const std::vector<TriangleMesh>& contact_meshes,
+    const SignedMetricOptions& metric, const BoundingBox& bounds) {
+  TrajectoryProblem problem;
+  for (const TriangleMesh& mesh : contact_meshes) {
+    problem.metrics.push_back(std::make_shared<SignedMetric>(mesh, metric));
+  }
+  problem.free_space = std::make_shared<FreeSpace>(contact_meshes, bounds);
+  return problem;
+}
+
+double Diagonal(const TrajectoryProblem& problem) {
+  if (problem.diagonal > 0.0) return problem.diagonal;
+  if (!problem.metrics.empty()) {
+    BoundingBox box = problem.metrics[0]->bounds();
+    for (const auto& metric : problem.metrics) {
+      box.min = box.min.cwiseMin(metric->bounds().min);
+      box.max = box.max.cwiseMax(metric->bounds().max);
+    }
+    return box.Diagonal();
+  }
+  const double length = (problem.goal - problem.start).stableNorm();
+  return length > 0.0 && std::isfinite(length) ? length : 1.0;
+}
+
+double PathLength(const Path& path) {
+  double length = 0.0;
+  for (std::size_t i = 0; i + 1 < path.size(); ++i) {
+    length += (path[i + 1] - path[i]).norm();
+  }
+  return length;
+}
+
+double PathEnergy(const TrajectoryProblem& problem, const Path& path) {
+  if (path.size() < 2) return 0.0;
+  // Divided first: no length is squared in the user's unit.
+  const double reference =
+      std::max((problem.goal - problem.start).norm(), 1e-3 * Diagonal(problem));
+  double sum = 0.0;
+  for (std::size_t i = 0; i + 1 < path.size(); ++i) {
+    sum += ((path[i + 1] - path[i]) / reference).squaredNorm();
+  }
+  return static_cast<double>(path.size() - 1) * sum;
+}
+
+Path StraightPath(const TrajectoryProblem& problem) {
+  Path path{problem.start};
+  for (int i = 1; i <= problem.waypoints; ++i) {
+    const double t = static_cast<double>(i) / (problem.waypoints + 1);
+    path.push_back((1.0 - t) * problem.start + t * problem.goal);
+  }
+  path.push_back(problem.goal);
+  return path;
+}
+
+double MaxSegment(const TrajectoryProblem& problem, double start_length) {
+  const double straight = (problem.goal - problem.start).norm();
+  return problem.max_segment_ratio * std::max(straight, start_length) /
+         (problem.waypoints + 1);
+}
+
+int SamplesPerSegment(const TrajectoryProblem& problem, double start_length) {
+  if (problem.samples_per_segment > 0) return problem.samples_per_segment;
+  if (!(problem.margin > 0.0)) return 0;
+  const double spacing = 2.0 * problem.margin * Diagonal(problem);
+  const double ratio = MaxSegment(problem, start_length) / spacing;
+  // The least S with S + 1 > ratio.
+  return static_cast<int>(
+      std::min(std::floor(ratio), static_cast<double>(kMostSamples)));
+}
+
+}  // namespace phongpd
