@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "problems/scene.h"
 #include "problems/scene_library.h"
 
 namespace phongpd {
@@ -11,11 +12,11 @@ namespace {
 PaperBenchmark Make(const std::string& name, const std::string& title,
                     const std::string& paper_triangles,
                     std::vector<PaperMotion> motions) {
-  const SceneMeshes meshes = BuildSceneMeshes(MakeScene(name, {}), name);
+  const Scene scene = ParseScene(MakeScene(name, {}), name);
   return {name,
           title,
-          meshes.robot,
-          meshes.obstacle,
+          scene.robot,
+          JoinedObstacle(scene),
           paper_triangles,
           std::move(motions)};
 }

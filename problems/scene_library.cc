@@ -1,19 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "problems/scene_library.h"
 
-#include <array>
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "problems/scene_placement.h"
 #include "problems/scene_recipes.h"
-#include "problems/scene_shapes.h"
-#include "problems/shapes.h"
 
 namespace phongpd {
 namespace {
 
 using Json = nlohmann::ordered_json;
 using Values = std::map<std::string, double>;
-using Triple = std::array<double, 3>;
 
 template <typename Items, typename Name>
 std::string Listed(const Items& items, Name name) {
@@ -29,71 +27,43 @@ std::string Listed(const Items& items, Name name) {
 const std::vector<SceneFamily>& SceneFamilies() {
   static const std::vector<SceneFamily> families = [] {
     std::vector<SceneFamily> list;
-    for (const SceneRecipe& recipe : SceneRecipes())
+    for (const SceneRecipe& recipe : SceneRecipes()) {
       list.push_back(recipe.family);
+      std::vector<SceneKnob>& knobs = list.back().knobs;
+      knobs.insert(knobs.end(), CommonKnobs().begin(), CommonKnobs().end());
+    }
     return list;
   }();
   return families;
 }
 
 Json MakeScene(const std::string& name, const Values& knobs) {
-  const SceneRecipe* recipe = nullptr;
-  for (const SceneRecipe& candidate : SceneRecipes()) {
-    if (candidate.family.name == name) recipe = &candidate;
-  }
-  if (recipe == nullptr) {
+  const std::vector<SceneFamily>& families = SceneFamilies();
+  const auto family =
+      std::find_if(families.begin(), families.end(),
+                   [&](const SceneFamily& f) { return f.name == name; });
+  if (family == families.end()) {
     throw InputError(
         "scene: expected one of " +
-        Listed(SceneRecipes(),
-               [](const SceneRecipe& r) { return r.family.name; }) +
+        Listed(families, [](const SceneFamily& f) { return f.name; }) +
         ", found '" + name + "'");
   }
   Values values;
-  for (const SceneKnob& knob : recipe->family.knobs) {
+  for (const SceneKnob& knob : family->knobs) {
     values[knob.key] = knob.value;
   }
   for (const auto& [key, value] : knobs) {
     if (values.count(key) == 0) {
-      throw InputError("scene " + name + ": expected one of the knobs " +
-                       Listed(recipe->family.knobs,
-                              [](const SceneKnob& k) { return k.key; }) +
-                       ", found '" + key + "'");
+      throw InputError(
+          "scene " + name + ": expected one of the knobs " +
+          Listed(family->knobs, [](const SceneKnob& k) { return k.key; }) +
+          ", found '" + key + "'");
     }
     values[key] = value;
   }
-  const SceneLayout layout = recipe->make(values);
-  const double r = layout.reach;
-  return {
-      {"name", name},
-      {"robot", {{"shape", layout.robot}}},
-      {"obstacles", Json::array({{{"id", "obstacle"},
-                                  {"shape", layout.obstacle},
-                                  {"position", layout.position}}})},
-      {"bounds", {{"min", {-r, -r, -r}}, {"max", {r, r, r}}}},
-      {"start", layout.start},
-      {"goal", layout.goal},
-      {"penetration",
-       {{"metric", "phong"},
-        {"field", "normal"},
-        {"smoothing_length", 0.1},
-        {"jacobian", "direction"}}},
-  };
-}
-
-SceneMeshes BuildSceneMeshes(const Json& scene, const std::string& name) {
-  SceneMeshes meshes;
-  meshes.robot = MakeShape(scene["robot"]["shape"], name + ": /robot/shape");
-  const Json& obstacles = scene["obstacles"];
-  for (std::size_t i = 0; i < obstacles.size(); ++i) {
-    const Json& obstacle = obstacles[i];
-    const auto position = obstacle["position"].get<Triple>();
-    const TriangleMesh placed = Translated(
-        MakeShape(obstacle["shape"],
-                  name + ": /obstacles/" + std::to_string(i) + "/shape"),
-        {position[0], position[1], position[2]});
-    meshes.obstacle = Joined(meshes.obstacle, placed);
-  }
-  return meshes;
+  const SceneRecipe& recipe =
+      SceneRecipes()[static_cast<std::size_t>(family - families.begin())];
+  return PlacedScene(recipe, values);
 }
 
 }  // namespace phongpd

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "core/mesh/mesh_error.h"
-#include "core/mesh/triangle_mesh.h"
 
 // Procedural scenes, each with knobs: sizes in the scene's unit and counts.
 namespace phongpd {
@@ -24,24 +23,15 @@ struct SceneFamily {
   std::vector<SceneKnob> knobs;
 };
 
-// All families, the paper's three first.
+// All families, the paper's three first; the knobs that all of them have
+// (scene_placement.h) come last.
 const std::vector<SceneFamily>& SceneFamilies();
 
-// The scene file's content for the family `name` with some knobs set.  Start
-// and goal are free; obstacles are `shape` objects.  Throws InputError for an
-// unknown family or knob.
+// The scene file's content for the family `name` with some knobs set: solids
+// as `shape` objects, free start and goal, and where the family knows them a
+// witness path that is free by construction, and whether one exists.  Throws
+// InputError for an unknown family or knob and for sizes that give no solid.
 nlohmann::ordered_json MakeScene(const std::string& name,
                                  const std::map<std::string, double>& knobs);
-
-// The operands of a scene whose solids are all `shape` objects: the robot,
-// and all obstacles, each moved to its position, as one mesh.
-struct SceneMeshes {
-  TriangleMesh robot;
-  TriangleMesh obstacle;
-};
-
-// Throws InputError starting with `name` and a JSON pointer.
-SceneMeshes BuildSceneMeshes(const nlohmann::ordered_json& scene,
-                             const std::string& name);
 
 }  // namespace phongpd

@@ -5,8 +5,10 @@
 #include <functional>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <string>
 #include <vector>
 
+#include "problems/json_schema.h"
 #include "problems/shapes.h"
 
 namespace phongpd {
@@ -46,10 +48,32 @@ class Parameters {
             value[2].get<double>()};
   }
 
+  std::vector<double> Numbers(const char* key) const {
+    const Json& value = shape_[key];
+    std::vector<double> numbers;
+    for (const Json& item : value) {
+      if (!value.is_array() || !item.is_number()) break;
+      numbers.push_back(item.get<double>());
+    }
+    if (numbers.empty() || numbers.size() != value.size()) {
+      Fail(key, "expected an array of numbers", value);
+    }
+    return numbers;
+  }
+
+  std::vector<std::vector<std::string>> Layers(const char* key) const {
+    try {
+      return shape_[key].get<std::vector<std::vector<std::string>>>();
+    } catch (const Json::exception&) {
+      Fail(key, "expected an array of layers, each an array of texts",
+           shape_[key]);
+    }
+  }
+
   [[noreturn]] void Fail(const char* key, const char* expected,
                          const Json& found) const {
     throw InputError(where_ + "/" + key + ": " + expected + ", found " +
-                     found.dump());
+                     Shortened(found));
   }
 
   const Json& operator[](const char* key) const { return shape_[key]; }
@@ -95,6 +119,18 @@ const std::vector<ShapeType>& ShapeTypes() {
        [](const P& p) {
          const Eigen::Vector3d half = 0.5 * p.Vector("size");
          return MakeBox(-half, half);
+       }},
+      {"box_shell",
+       {"min", "max", "thickness"},
+       [](const P& p) {
+         return MakeBoxShell(p.Vector("min"), p.Vector("max"),
+                             p.Length("thickness"));
+       }},
+      {"cells",
+       {"x", "y", "z", "layers"},
+       [](const P& p) {
+         return MakeCells(p.Numbers("x"), p.Numbers("y"), p.Numbers("z"),
+                          p.Layers("layers"));
        }},
       {"cone",
        {"radius", "height", "sides"},
@@ -169,7 +205,7 @@ const ShapeType& FindType(const Json& shape, const std::string& where) {
   if (!shape.is_object() || !shape.contains("type") ||
       !shape["type"].is_string()) {
     throw InputError(where + ": expected an object with a \"type\", found " +
-                     shape.dump());
+                     Shortened(shape));
   }
   std::string known;
   for (const ShapeType& type : ShapeTypes()) {
@@ -177,7 +213,7 @@ const ShapeType& FindType(const Json& shape, const std::string& where) {
     known += (known.empty() ? "" : ", ") + std::string(type.name);
   }
   throw InputError(where + "/type: expected one of " + known + ", found " +
-                   shape["type"].dump());
+                   Shortened(shape["type"]));
 }
 
 }  // namespace
@@ -187,15 +223,15 @@ TriangleMesh MakeShape(const Json& shape, const std::string& where) {
   for (const char* key : type.keys) {
     if (!shape.contains(key)) {
       throw InputError(where + ": a " + type.name + " needs \"" + key +
-                       "\", found " + shape.dump());
+                       "\", found " + Shortened(shape));
     }
   }
   for (const auto& [key, value] : shape.items()) {
     bool known = key == "type";
     for (const char* name : type.keys) known = known || key == name;
     if (!known) {
-      throw InputError(where + "/" + key + ": a " + type.name +
-                       " has no such parameter");
+      throw InputError(where + ": a " + type.name + " has no parameter " +
+                       Shortened(Json(key)));
     }
   }
   const Parameters parameters(shape, where);

@@ -3,6 +3,8 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <string>
+#include <vector>
 
 #include "core/mesh/triangle_mesh.h"
 
@@ -75,6 +77,20 @@ TriangleMesh MakePrism(double radius, double height, int sides);
 // centred square opening of that side goes through the +z wall and the solid
 // is one component of 412 triangles.
 TriangleMesh MakeVessel(double outer, double inner, double window);
+
+// A box-shaped cavity between two corners, min < max, in a box with walls of
+// the given thickness: 24 triangles in two components.
+TriangleMesh MakeBoxShell(const Eigen::Vector3d& min,
+                          const Eigen::Vector3d& max, double thickness);
+
+// The cells of a grid that are solid: cuts ascending, layers[k][j][i] = '#' for
+// solid, '.' for empty, between the cuts i and i + 1 of x, j and j + 1 of y, k
+// and k + 1 of z.  Every flat face is triangulated as one polygon.  Closed and
+// outward, but edge-manifold only where no two cells meet in an edge alone.
+TriangleMesh MakeCells(const std::vector<double>& x,
+                       const std::vector<double>& y,
+                       const std::vector<double>& z,
+                       const std::vector<std::vector<std::string>>& layers);
 
 // Icosahedron of vertex radius r0 with a pyramid of tip radius r1 on every
 // face, 60 triangles; r1 > r0 gives a spiky non-convex star.

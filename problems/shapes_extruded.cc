@@ -4,11 +4,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <functional>
-#include <map>
+#include <string>
 #include <vector>
 
+#include "core/mesh/mesh_error.h"
 #include "core/mesh/polygon_triangulation.h"
+#include "problems/cell_solids.h"
 #include "problems/shape_parameters.h"
 #include "problems/shapes.h"
 
@@ -81,58 +82,10 @@ void AppendArc(const Vector2d& center, double radius, double from, double to,
   }
 }
 
-// The union of the cells of a cubic grid with cuts at `cuts` on every axis
-// for which `is_solid(i, j, k)`; two triangles per exposed cell face, corners
-// shared.
-TriangleMesh UniteCells(const std::vector<double>& cuts,
-                        const std::function<bool(int, int, int)>& is_solid) {
-  using Cell = std::array<int, 3>;
-  const int n = static_cast<int>(cuts.size()) - 1;
-  const auto solid = [&](const Cell& c) {
-    const bool in_grid =
-        std::all_of(c.begin(), c.end(), [n](int i) { return i >= 0 && i < n; });
-    return in_grid && is_solid(c[0], c[1], c[2]);
-  };
-  TriangleMesh mesh;
-  std::map<Cell, int> index_of_corner;
-  const auto vertex = [&](const Cell& corner) {
-    const auto [at, is_new] =
-        index_of_corner.emplace(corner, static_cast<int>(mesh.vertices.size()));
-    if (is_new) {
-      mesh.vertices.emplace_back(cuts[corner[0]], cuts[corner[1]],
-                                 cuts[corner[2]]);
-    }
-    return at->second;
-  };
-  // The face of `cell` towards `step` = ±1 along `axis`.
-  const auto add_face = [&](const Cell& cell, int axis, int step) {
-    const int u = (axis + 1) % 3, v = (axis + 2) % 3;
-    Cell corner = cell;
-    if (step > 0) ++corner[axis];
-    std::array<int, 4> quad;
-    quad[0] = vertex(corner);
-    ++corner[u];
-    quad[1] = vertex(corner);
-    ++corner[v];
-    quad[2] = vertex(corner);
-    --corner[u];
-    quad[3] = vertex(corner);
-    if (step < 0) std::swap(quad[1], quad[3]);
-    mesh.triangles.push_back({quad[0], quad[1], quad[2]});
-    mesh.triangles.push_back({quad[0], quad[2], quad[3]});
-  };
-  for (int i = 0; i < n * n * n; ++i) {
-    const Cell cell = {i / (n * n), i / n % n, i % n};
-    if (!solid(cell)) continue;
-    for (int axis = 0; axis < 3; ++axis) {
-      for (const int step : {-1, 1}) {
-        Cell next = cell;
-        next[axis] += step;
-        if (!solid(next)) add_face(cell, axis, step);
-      }
-    }
-  }
-  return mesh;
+// `body` with a cavity in the form of the second solid.
+TriangleMesh Hollow(const TriangleMesh& body, TriangleMesh cavity) {
+  for (Triangle& t : cavity.triangles) std::swap(t[1], t[2]);
+  return Joined(body, cavity);
 }
 
 }  // namespace
@@ -152,9 +105,11 @@ TriangleMesh MakeAxes(double half_length, double half_width) {
   RequireLength("MakeAxes", "half_length", half_length);
   RequireLengthBelow("MakeAxes", "half_width", half_width, half_length,
                      "half_length");
-  return UniteCells(
-      {-half_length, -half_width, half_width, half_length},
-      [](int i, int j, int k) { return (i == 1) + (j == 1) + (k == 1) >= 2; });
+  const std::vector<double> cuts = {-half_length, -half_width, half_width,
+                                    half_length};
+  return internal::UniteCells({cuts, cuts, cuts}, [](int i, int j, int k) {
+    return (i == 1) + (j == 1) + (k == 1) >= 2;
+  });
 }
 
 TriangleMesh MakeWrench(double scale, int hole, int ring, int jaw, int throat) {
@@ -241,19 +196,53 @@ TriangleMesh MakePrism(double radius, double height, int sides) {
   return Extrude({RegularPolygon(radius, sides)}, -0.5 * height, 0.5 * height);
 }
 
+TriangleMesh MakeBoxShell(const Vector3d& min, const Vector3d& max,
+                          double thickness) {
+  RequireLength("MakeBoxShell", "thickness", thickness);
+  return Hollow(MakeBox(min.array() - thickness, max.array() + thickness),
+                MakeBox(min, max));
+}
+
+TriangleMesh MakeCells(const std::vector<double>& x,
+                       const std::vector<double>& y,
+                       const std::vector<double>& z,
+                       const std::vector<std::vector<std::string>>& layers) {
+  const auto require = [](bool good, const std::string& expected) {
+    if (!good) throw InputError("MakeCells: expected " + expected);
+  };
+  for (const std::vector<double>* cuts : {&x, &y, &z}) {
+    require(cuts->size() >= 2 && cuts->size() <= 1000,
+            "2 to 1000 cuts on every axis");
+    for (std::size_t i = 1; i < cuts->size(); ++i) {
+      RequireLength("MakeCells", "cut - previous cut",
+                    (*cuts)[i] - (*cuts)[i - 1]);
+    }
+  }
+  require(layers.size() == z.size() - 1, "one layer between two cuts of z");
+  for (const std::vector<std::string>& rows : layers) {
+    require(rows.size() == y.size() - 1, "one row between two cuts of y");
+    for (const std::string& row : rows) {
+      require(row.size() == x.size() - 1 &&
+                  row.find_first_not_of("#.") == std::string::npos,
+              "rows of one '#' (solid) or '.' between two cuts of x");
+    }
+  }
+  return internal::WithWholeFaces(internal::UniteCells(
+      {x, y, z},
+      [&layers](int i, int j, int k) { return layers[k][j][i] == '#'; }));
+}
+
 TriangleMesh MakeVessel(double outer, double inner, double window) {
   RequireLength("MakeVessel", "outer", outer);
   RequireLengthBelow("MakeVessel", "inner", inner, outer, "outer");
   const double a = 0.5 * outer, b = 0.5 * inner, c = 0.5 * window;
   if (window == 0) {
-    TriangleMesh cavity =
-        MakeBox(Vector3d::Constant(-b), Vector3d::Constant(b));
-    for (Triangle& t : cavity.triangles) std::swap(t[1], t[2]);
-    return Joined(MakeBox(Vector3d::Constant(-a), Vector3d::Constant(a)),
-                  cavity);
+    return Hollow(MakeBox(Vector3d::Constant(-a), Vector3d::Constant(a)),
+                  MakeBox(Vector3d::Constant(-b), Vector3d::Constant(b)));
   }
   RequireLengthBelow("MakeVessel", "window", window, inner, "inner");
-  return UniteCells({-a, -b, -c, c, b, a}, [](int i, int j, int k) {
+  const std::vector<double> cuts = {-a, -b, -c, c, b, a};
+  return internal::UniteCells({cuts, cuts, cuts}, [](int i, int j, int k) {
     const auto within = [](int x) { return x >= 1 && x <= 3; };
     const bool cavity = within(i) && within(j) && within(k);
     const bool opening = i == 2 && j == 2 && k == 4;

@@ -26,6 +26,23 @@ double Share(double x, double y) {
   return share >= 0.0 && share <= 1.0 ? share : (share > 1.0 ? 1.0 : 0.0);
 }
 
+// Of the segments ab and cd (Ericson, Real-Time Collision Detection, 5.1.9,
+// with cross products, which lose no digits when they are nearly parallel).
+double SquaredDistance(const Vector3d& a, const Vector3d& b, const Vector3d& c,
+                       const Vector3d& d) {
+  const Vector3d u = b - a, v = d - c, w = c - a;
+  const Vector3d normal = u.cross(v);
+  const double squared = normal.squaredNorm();
+  const double uu = u.squaredNorm(), vv = v.squaredNorm();
+  double s = squared > 1e-28 * uu * vv
+                 ? std::clamp(w.cross(v).dot(normal) / squared, 0.0, 1.0)
+                 : 0.0;
+  const double t =
+      vv > 0.0 ? std::clamp((s * u - w).dot(v) / vv, 0.0, 1.0) : 0.0;
+  if (uu > 0.0) s = std::clamp((w + t * v).dot(u) / uu, 0.0, 1.0);
+  return (w + t * v - s * u).squaredNorm();
+}
+
 // A segment and a triangle in one plane, seen along the axis w.
 class Flat {
  public:
@@ -155,14 +172,15 @@ SegmentTree::Reach::Reach(const SegmentTree& tree, const Vector3d& a,
 
 // Separating axes: the three of the boxes, exactly, and the three cross
 // products with the segment, with slack.
-bool SegmentTree::Reach::Meets(const BoxTree::Node& node) const {
-  if ((node.max.array() < min_.array()).any() ||
-      (max_.array() < node.min.array()).any()) {
+bool SegmentTree::Reach::Meets(const BoxTree::Node& node, double margin) const {
+  if ((node.max.array() + margin < min_.array()).any() ||
+      (max_.array() < node.min.array() - margin).any()) {
     return false;
   }
   const Vector3d c =
       (0.5 * min_ + 0.5 * max_) - (0.5 * node.min + 0.5 * node.max);
-  const Vector3d h = 0.5 * node.max - 0.5 * node.min;
+  const Vector3d h =
+      (0.5 * node.max - 0.5 * node.min).array() + margin * (1.0 + 1e-15);
   const Vector3d d = half_.cwiseAbs();
   for (int k = 0; k < 3; ++k) {
     const int u = (k + 1) % 3, v = (k + 2) % 3;
@@ -172,6 +190,10 @@ bool SegmentTree::Reach::Meets(const BoxTree::Node& node) const {
     }
   }
   return true;
+}
+
+double SegmentTree::Reach::Gap(const BoxTree::Node& node) const {
+  return (node.min - max_).cwiseMax(min_ - node.max).cwiseMax(0.0).norm();
 }
 
 double SegmentTree::Reach::Entry(const BoxTree::Node& node) const {
@@ -207,6 +229,45 @@ bool SegmentTree::MeetsTriangle(const Corners& t, const Vector3d& a,
   return true;
 }
 
+double SegmentTree::OutlineDistance(const Corners& t, const Vector3d& a,
+                                    const Vector3d& b) {
+  double squared =
+      std::min(ClosestOnTriangle(t[0], t[1], t[2], a).squared_distance,
+               ClosestOnTriangle(t[0], t[1], t[2], b).squared_distance);
+  for (std::size_t k = 0; k < 3; ++k) {
+    squared = std::min(squared, SquaredDistance(a, b, t[k], t[(k + 1) % 3]));
+  }
+  return std::sqrt(squared);
+}
+
+double SegmentTree::Distance(const Vector3d& a, const Vector3d& b,
+                             double limit) const noexcept {
+  const Reach reach(*this, a, b);
+  double least = limit;
+  tree_.NearestFirst(
+      limit,
+      [&](int index) {
+        const BoxTree::Node& node = tree_.nodes()[index];
+        const double gap = reach.Gap(node);
+        return gap <= least && (std::isinf(least) || reach.Meets(node, least))
+                   ? gap
+                   : std::numeric_limits<double>::infinity();
+      },
+      [&](int position) {
+        const Corners& t = corners_[position];
+        double fraction = 1.0;
+        if (MeetsTriangle(t, a, b, &fraction)) {
+          least = 0.0;
+        } else if (least > 0.0) {
+          // Positive where they do not meet, whatever the rounding.
+          least = std::min(least, std::max(OutlineDistance(t, a, b),
+                                           std::numeric_limits<double>::min()));
+        }
+        return least;
+      });
+  return least;
+}
+
 bool SegmentTree::Meets(const Vector3d& a, const Vector3d& b) const noexcept {
   const Reach reach(*this, a, b);
   bool meets = false;
@@ -222,6 +283,7 @@ bool SegmentTree::Meets(const Vector3d& a, const Vector3d& b) const noexcept {
 SegmentTree::Hit SegmentTree::First(const Vector3d& a, const Vector3d& b,
                                     double radius) const noexcept {
   const Reach reach(*this, a, b);
+  const double length = (b - a).norm();
   Hit first;
   tree_.NearestFirst(
       1.0,
@@ -236,8 +298,11 @@ SegmentTree::Hit SegmentTree::First(const Vector3d& a, const Vector3d& b,
         if (MeetsTriangle(t, a, b, &fraction) &&
             (!first.Found() || fraction < first.fraction) &&
             !(radius >= 0.0 &&
-              ClosestOnTriangle(t[0], t[1], t[2], a).squared_distance <=
-                  radius * radius)) {
+              // The hit itself bounds the distance, better than the closest
+              // point does on a sliver.
+              (fraction * length <= radius ||
+               ClosestOnTriangle(t[0], t[1], t[2], a).squared_distance <=
+                   radius * radius))) {
           first = {tree_.order()[position], fraction};
         }
         return first.fraction;

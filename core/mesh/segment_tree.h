@@ -44,6 +44,30 @@ class SegmentTree {
   Hit FirstHitBeyond(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
                      double radius) const noexcept;
 
+  // Distance between the closed segment and the surface if it is below
+  // `limit` > 0, and `limit` otherwise; 0 exactly when they meet, elsewhere
+  // rounded: a few ulps of the coordinates.  Zero-area triangles count by
+  // their edges.
+  double Distance(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
+                  double limit) const noexcept;
+
+  // Calls visit(triangle, distance to its outline or of a or b to it) for
+  // every triangle for which that is at most `distance` ≥ 0, and maybe for
+  // others: all triangles whose relation to the segment could change if
+  // points moved by as much.
+  template <typename Visit>
+  void ForEachDoubt(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
+                    double distance, const Visit& visit) const {
+    const Reach reach(*this, a, b);
+    tree_.ForEach(
+        [&](int node) { return reach.Meets(tree_.nodes()[node], distance); },
+        [&](int position) {
+          visit(tree_.order()[position],
+                OutlineDistance(corners_[position], a, b));
+          return true;
+        });
+  }
+
   // Calls visit(triangle, fraction) for every triangle that shares a point
   // with the closed segment, in no particular order.
   template <typename Visit>
@@ -68,7 +92,10 @@ class SegmentTree {
    public:
     Reach(const SegmentTree& tree, const Eigen::Vector3d& a,
           const Eigen::Vector3d& b);
-    bool Meets(const BoxTree::Node& node) const;
+    // Does the segment meet the box, widened by `margin`?
+    bool Meets(const BoxTree::Node& node, double margin = 0.0) const;
+    // Lower bound of the distance to a box.
+    double Gap(const BoxTree::Node& node) const;
     // Lower bound of the fraction at which the segment enters a box it meets.
     double Entry(const BoxTree::Node& node) const;
 
@@ -78,6 +105,9 @@ class SegmentTree {
 
   static bool MeetsTriangle(const Corners& t, const Eigen::Vector3d& a,
                             const Eigen::Vector3d& b, double* fraction);
+  // Distance of the segment to the triangle, were it not to pass through.
+  static double OutlineDistance(const Corners& t, const Eigen::Vector3d& a,
+                                const Eigen::Vector3d& b);
   Hit First(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
             double radius) const noexcept;
 

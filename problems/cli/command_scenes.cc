@@ -9,6 +9,7 @@
 
 #include "problems/cli/command.h"
 #include "problems/output_files.h"
+#include "problems/scene.h"
 #include "problems/scene_library.h"
 #include "problems/text.h"
 
@@ -50,15 +51,16 @@ int Write(const Flags& flags) {
   if (flags.output.empty() && flags.meshes.empty()) {
     throw InputError("scenes write: expected --output, --meshes or both");
   }
-  const nlohmann::ordered_json scene =
+  const nlohmann::ordered_json json =
       MakeScene(flags.name, Knobs(flags.settings));
   // Built in any case: a scene whose solids cannot be made is bad input.
-  const SceneMeshes meshes = BuildSceneMeshes(scene, "scene " + flags.name);
+  const Scene scene = ParseScene(json, "scene " + flags.name);
+  const TriangleMesh obstacle = JoinedObstacle(scene);
 
   OutputFiles outputs;
   if (!flags.output.empty()) {
     outputs.Declare(flags.output);
-    outputs.Write(flags.output, scene.dump(2) + '\n');
+    outputs.Write(flags.output, json.dump(2) + '\n');
   }
   const auto write = [&](const TriangleMesh& mesh, const std::string& path) {
     outputs.Declare(path);
@@ -67,15 +69,16 @@ int Write(const Flags& flags) {
   if (!flags.meshes.empty()) {
     std::error_code error;
     std::filesystem::create_directories(flags.meshes, error);
-    write(meshes.robot, flags.meshes + "/robot.off");
-    write(meshes.obstacle, flags.meshes + "/obstacle.off");
+    write(scene.robot, flags.meshes + "/robot.off");
+    write(obstacle, flags.meshes + "/obstacle.off");
   }
   const bool silent = outputs.UseStandardOutput();
   outputs.Commit();
   if (silent) return kDone;
-  std::cout << flags.name << ": robot " << meshes.robot.triangles.size()
-            << ", obstacle " << meshes.obstacle.triangles.size()
-            << " triangles\n";
+  std::cout << flags.name << ": robot " << scene.robot.triangles.size()
+            << ", obstacle " << obstacle.triangles.size() << " triangles\n";
+  const std::string skipped = SkippedObstaclesNote(scene);
+  if (!skipped.empty()) std::cout << skipped << '\n';
   return kDone;
 }
 

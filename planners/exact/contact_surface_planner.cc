@@ -1,0 +1,351 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "planners/exact/contact_surface_planner.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <mutex>
+#include <set>
+#include <sstream>
+
+#include "core/mesh/mesh_error.h"
+#include "core/mesh/segment_tree.h"
+#include "core/mesh/self_intersection.h"
+#include "core/projection/contact_surface.h"
+#include "planners/exact/path_centering.h"
+#include "planners/exact/path_shortening.h"
+#include "planners/exact/surface_graph.h"
+
+namespace phongpd {
+namespace {
+
+using Eigen::Vector3d;
+
+class Stopwatch {
+ public:
+  double Seconds() const {
+    return std::chrono::duration<double>(Clock::now() - start_).count();
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  Clock::time_point start_ = Clock::now();
+};
+
+template <typename T>
+void Require(bool holds, const char* option, const char* range, T value) {
+  if (holds) return;
+  std::ostringstream message;
+  message << "contact-surface planner: expected " << option << " in " << range
+          << ", found " << value;
+  throw InputError(message.str());
+}
+
+}  // namespace
+
+const char* ToString(PlanStatus status) {
+  switch (status) {
+    case PlanStatus::kSolved:
+      return "solved";
+    case PlanStatus::kInfeasibleProved:
+      return "infeasible_proved";
+    case PlanStatus::kFailed:
+      return "failed";
+    case PlanStatus::kInvalidStart:
+      return "invalid_start";
+    case PlanStatus::kInvalidGoal:
+      return "invalid_goal";
+  }
+  return "";
+}
+
+void ContactSurfaceOptions::Validate() const {
+  Require(clearance > 0.0 && clearance <= 0.5, "clearance", "(0, 0.5]",
+          clearance);
+  Require(spacing >= 1e-3 && spacing <= 1.0, "spacing", "[0.001, 1]", spacing);
+  Require(gap_links >= 0, "gap_links", "[0, ∞)", gap_links);
+  Require(max_searches >= 1, "max_searches", "[1, ∞)", max_searches);
+  Require(random_cuts >= 0, "random_cuts", "[0, ∞)", random_cuts);
+}
+
+struct ContactSurfacePlanner::Impl {
+  Impl(const TriangleMesh& contact_mesh,
+       const ContactSurfaceOptions& given_options)
+      : options((given_options.Validate(), given_options)),
+        surface(contact_mesh),
+        segments(surface.mesh()),
+        bounds(ComputeBounds(surface.mesh())),
+        neighbors(TriangleNeighbors(surface.mesh())),
+        cells(surface.mesh(), neighbors, segments),
+        graph(surface.mesh(), neighbors, segments, cells,
+              options.spacing * bounds.Diagonal(), options.gap_links),
+        piece_bounds(cells.piece_count(), NoPoint()) {
+    const TriangleMesh& mesh = surface.mesh();
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+      BoundingBox& box = piece_bounds[cells.piece()[t]];
+      for (const int v : mesh.triangles[t]) {
+        box.min = box.min.cwiseMin(mesh.vertices[v]);
+        box.max = box.max.cwiseMax(mesh.vertices[v]);
+      }
+    }
+    self_intersections = options.self_intersections;
+  }
+
+  static BoundingBox NoPoint() {
+    const double infinity = std::numeric_limits<double>::infinity();
+    return {Vector3d::Constant(infinity), Vector3d::Constant(-infinity)};
+  }
+
+  std::string WhyInvalid(const char* which, const Vector3d& q) const;
+  CellCertificate Locate(const Vector3d& q) const;
+  std::vector<Attachment> Attach(const Vector3d& q, const Vector3d& other,
+                                 bool to_goal,
+                                 const CellCertificate& certificate) const;
+  void FindPath(const Vector3d& start, const Vector3d& goal,
+                PlanResult* result) const;
+  void Finish(PlanResult* result) const;
+  double PathClearance(const std::vector<Vector3d>& path) const;
+  long CountSelfIntersections() const;
+
+  ContactSurfaceOptions options;
+  ContactSurface surface;
+  SegmentTree segments;
+  BoundingBox bounds;
+  std::vector<std::array<int, 3>> neighbors;
+  FreeCells cells;
+  SurfaceGraph graph;
+  std::vector<BoundingBox> piece_bounds;
+  double build_seconds = 0.0;
+  mutable std::once_flag counted;
+  mutable long self_intersections = -1;
+};
+
+std::string ContactSurfacePlanner::Impl::WhyInvalid(const char* which,
+                                                    const Vector3d& q) const {
+  std::ostringstream reason;
+  reason.precision(6);
+  if (!q.allFinite() || !surface.Accepts(q)) {
+    reason << which << " is not finite";
+    return reason.str();
+  }
+  const Location location = surface.Locate(q);
+  if (location == Location::kOutside) return "";
+  if (location == Location::kOnSurface) {
+    reason << which << " touches";
+  } else {
+    reason << which << " is "
+           << -surface.Answer(q, Location::kInside).signed_distance
+           << " deep in";
+  }
+  const std::string name =
+      options.name_obstacle ? options.name_obstacle(q) : "";
+  reason << (name.empty() ? " an obstacle" : " '" + name + "'");
+  return reason.str();
+}
+
+CellCertificate ContactSurfacePlanner::Impl::Locate(const Vector3d& q) const {
+  CellCertificate certificate;
+  certificate.cell = cells.CellOf(q, &certificate.ray);
+  if (certificate.ray.to_triangle >= 0) {
+    certificate.pieces =
+        cells.Chain(cells.piece()[certificate.ray.to_triangle]);
+    for (const int piece : certificate.pieces) {
+      certificate.rays.push_back(cells.rays()[piece]);
+    }
+  }
+  return certificate;
+}
+
+// The closest point, what is met on the way to the other configuration and in
+// a few directions, and the ray that told the cell.
+std::vector<Attachment> ContactSurfacePlanner::Impl::Attach(
+    const Vector3d& q, const Vector3d& other, bool to_goal,
+    const CellCertificate& certificate) const {
+  std::vector<Attachment> attachments;
+  const auto add = [&](const Vector3d& point, int triangle) {
+    Attachment attachment;
+    attachment.to_goal = to_goal;
+    attachment.site.point = point;
+    attachment.site.triangle = triangle;
+    attachment.site.direction = graph.normal(triangle);
+    attachments.push_back(attachment);
+  };
+  const PenetrationResult closest = surface.Answer(q, Location::kOutside);
+  add(closest.contact, closest.triangle);
+  const Vector3d back = q - closest.contact;
+  // At an edge or a corner only the way back to q is free for sure.
+  if (back.norm() > 0.0) attachments.back().site.direction = back.normalized();
+  const auto shoot = [&](const Vector3d& to) {
+    const SegmentTree::Hit hit = segments.FirstHit(q, to);
+    if (hit.Found()) add(q + hit.fraction * (to - q), hit.triangle);
+  };
+  shoot(other);
+  const double reach = bounds.Diagonal() + (q - bounds.Center()).norm();
+  for (int code = 0; code < 27; ++code) {
+    if (code == 13) continue;
+    const Vector3d direction(code % 3 - 1, code / 3 % 3 - 1, code / 9 - 1);
+    shoot(q + reach * direction.normalized());
+  }
+  if (certificate.ray.to_triangle >= 0) {
+    add(certificate.ray.to, certificate.ray.to_triangle);
+  } else if (certificate.cell == FreeCells::kOutside) {
+    Attachment attachment;
+    attachment.to_goal = to_goal;
+    attachment.outside = true;
+    attachment.site.point = certificate.ray.to;
+    attachments.push_back(attachment);
+  }
+  return attachments;
+}
+
+double ContactSurfacePlanner::Impl::PathClearance(
+    const std::vector<Vector3d>& path) const {
+  double least = std::numeric_limits<double>::infinity();
+  if (path.size() == 1) least = segments.Distance(path[0], path[0], least);
+  for (std::size_t k = 1; k < path.size(); ++k) {
+    least = segments.Distance(path[k - 1], path[k], least);
+  }
+  return least;
+}
+
+void ContactSurfacePlanner::Impl::Finish(PlanResult* result) const {
+  CenterPath(surface, segments, result->wanted_clearance, &result->raw_path);
+  result->path = result->raw_path;
+  if (options.shorten) {
+    ShorteningOptions shortening;
+    shortening.clearance = result->wanted_clearance;
+    shortening.random_cuts = options.random_cuts;
+    shortening.seed = options.seed;
+    result->path = ShortenPath(result->raw_path, segments, shortening);
+  }
+  result->status = PlanStatus::kSolved;
+  result->length = PathLength(result->path);
+  result->clearance = PathClearance(result->path);
+}
+
+void ContactSurfacePlanner::Impl::FindPath(const Vector3d& start,
+                                           const Vector3d& goal,
+                                           PlanResult* result) const {
+  // Straight, if that is free and as clear as the ends allow.
+  const bool sees = !segments.Meets(start, goal);
+  if (sees) {
+    const double ends =
+        std::min({result->wanted_clearance,
+                  segments.Distance(start, start, result->wanted_clearance),
+                  segments.Distance(goal, goal, result->wanted_clearance)});
+    if (start == goal || segments.Distance(start, goal, ends) >= 0.4 * ends) {
+      result->raw_path = {start, goal};
+      if (start == goal) result->raw_path = {start};
+      return Finish(result);
+    }
+  }
+  std::vector<Attachment> attachments =
+      Attach(start, goal, false, result->start);
+  const std::vector<Attachment> to_goal =
+      Attach(goal, start, true, result->goal);
+  attachments.insert(attachments.end(), to_goal.begin(), to_goal.end());
+  const int count = static_cast<int>(graph.sites().size());
+  const int end = count + static_cast<int>(attachments.size());
+  std::set<SurfaceGraph::Edge> deleted;
+  while (result->searches < options.max_searches) {
+    ++result->searches;
+    const SurfaceGraph::Route route =
+        graph.Search(start, goal, attachments, deleted);
+    if (route.empty()) {
+      result->reason =
+          "every route on the surface has a place that rounding closed";
+      break;
+    }
+    std::vector<SurfaceSite> sites(1);
+    sites[0].point = start;
+    for (const int i : route) {
+      sites.push_back(i < count ? graph.sites()[i]
+                                : attachments[i - count].site);
+    }
+    sites.emplace_back();
+    sites.back().point = goal;
+    const int blocked =
+        LiftRoute(sites, segments, result->wanted_clearance, cells.rounding(),
+                  &result->raw_path, &result->lift);
+    if (blocked < 0) return Finish(result);
+    const int before = blocked == 0 ? -1 : route[blocked - 1];
+    const int after =
+        blocked < static_cast<int>(route.size()) ? route[blocked] : end;
+    deleted.insert(std::minmax(before, after));
+    result->deleted_edges = static_cast<int>(deleted.size());
+  }
+  result->raw_path.clear();
+  if (sees) {
+    result->raw_path = {start, goal};
+    return Finish(result);
+  }
+  if (result->reason.empty()) {
+    result->reason = "no route could be lifted in " +
+                     std::to_string(result->searches) + " searches";
+  }
+}
+
+long ContactSurfacePlanner::Impl::CountSelfIntersections() const {
+  std::call_once(counted, [&] {
+    if (self_intersections >= 0) return;
+    const std::vector<int> one_label(surface.mesh().triangles.size(), 0);
+    self_intersections = static_cast<long>(
+        internal::CountSelfIntersections(surface.mesh(), one_label));
+  });
+  return self_intersections;
+}
+
+ContactSurfacePlanner::ContactSurfacePlanner(
+    const TriangleMesh& merged_contact_mesh,
+    const ContactSurfaceOptions& options) {
+  const Stopwatch stopwatch;
+  impl_ = std::make_unique<Impl>(merged_contact_mesh, options);
+  impl_->build_seconds = stopwatch.Seconds();
+}
+
+ContactSurfacePlanner::~ContactSurfacePlanner() = default;
+ContactSurfacePlanner::ContactSurfacePlanner(ContactSurfacePlanner&&) noexcept =
+    default;
+ContactSurfacePlanner& ContactSurfacePlanner::operator=(
+    ContactSurfacePlanner&&) noexcept = default;
+
+const FreeCells& ContactSurfacePlanner::cells() const { return impl_->cells; }
+double ContactSurfacePlanner::build_seconds() const {
+  return impl_->build_seconds;
+}
+
+PlanResult ContactSurfacePlanner::Plan(const Vector3d& start,
+                                       const Vector3d& goal) const {
+  const Stopwatch stopwatch;
+  const Impl& impl = *impl_;
+  PlanResult result;
+  result.rounding = impl.cells.rounding();
+  result.self_intersections = impl.options.self_intersections;
+  result.reason = impl.WhyInvalid("start", start);
+  if (!result.reason.empty()) {
+    result.status = PlanStatus::kInvalidStart;
+  } else {
+    result.reason = impl.WhyInvalid("goal", goal);
+    if (!result.reason.empty()) result.status = PlanStatus::kInvalidGoal;
+  }
+  if (result.reason.empty()) {
+    result.start = impl.Locate(start);
+    result.goal = impl.Locate(goal);
+    const int cell = result.start.cell;
+    const BoundingBox& hull = cell >= 0 ? impl.piece_bounds[cell] : impl.bounds;
+    result.wanted_clearance = impl.options.clearance * hull.Diagonal();
+    const bool decided = cell != FreeCells::kUndecided &&
+                         result.goal.cell != FreeCells::kUndecided;
+    if (decided && cell != result.goal.cell) {
+      result.status = PlanStatus::kInfeasibleProved;
+      result.reason = "start and goal lie in different cells of free space";
+      result.self_intersections = impl.CountSelfIntersections();
+    } else {
+      impl.FindPath(start, goal, &result);
+    }
+  }
+  result.seconds = stopwatch.Seconds();
+  return result;
+}
+
+}  // namespace phongpd

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/mesh/triangle_mesh.h"
+#include "planners/exact/free_cells.h"
+#include "planners/exact/path_lift.h"
+
+namespace phongpd {
+
+enum class PlanStatus {
+  kSolved,            // path free by exact tests
+  kInfeasibleProved,  // start and goal lie in different cells
+  kFailed,            // neither; `reason` says why
+  kInvalidStart,      // not free
+  kInvalidGoal,
+};
+const char* ToString(PlanStatus status);
+
+struct ContactSurfaceOptions {
+  // Clearance that is enough, a fraction of the diagonal of the cell's hull;
+  // passages narrower than twice that are taken in the middle.  In (0, 0.5].
+  double clearance = 0.01;
+  // Distance between roadmap points on an edge, a fraction of the mesh's
+  // diagonal.  Smaller: shorter routes, longer searches.  In [1e-3, 1].
+  double spacing = 0.05;
+  // At most this many triangles get a link across the gap in front of them.
+  int gap_links = 256;
+  // Searches after edges that could not be lifted; at least 1.
+  int max_searches = 200;
+  bool shorten = true;
+  int random_cuts = 200;
+  std::uint64_t seed = 1;
+  // Pairs of triangles of the mesh that meet, if known (ContactSpaceReport);
+  // −1: counted when infeasibility is first proved.
+  long self_intersections = -1;
+  // Names what is in the way at q, for messages.
+  std::function<std::string(const Eigen::Vector3d& q)> name_obstacle;
+
+  // Throws InputError naming the option, the range and the value.
+  void Validate() const;
+};
+
+// What a proof of infeasibility rests on, and what tells the cell otherwise.
+struct CellCertificate {
+  int cell = FreeCells::kUndecided;  // a shell's number or kOutside
+  CellRay ray;                       // from the configuration
+  std::vector<int> pieces;           // the chain, whose rays …
+  std::vector<CellRay> rays;         // … are these, one per piece
+};
+
+struct PlanResult {
+  PlanStatus status = PlanStatus::kFailed;
+  std::string reason;                     // one sentence unless solved
+  std::vector<Eigen::Vector3d> path;      // from start to goal, shortened
+  std::vector<Eigen::Vector3d> raw_path;  // as lifted off the surface
+  double length = 0.0;
+  double clearance = 0.0;         // of the whole path from contact, rounded
+  double wanted_clearance = 0.0;  // user's unit
+  CellCertificate start, goal;
+  // Answers hold for every embedded surface of the mesh's connectivity with
+  // vertices within this distance of the mesh's (free_cells.h).
+  double rounding = 0.0;
+  long self_intersections = -1;  // of the mesh; −1: not counted
+  int searches = 0;
+  int deleted_edges = 0;
+  LiftCounts lift;
+  double seconds = 0.0;
+};
+
+// Complete, deterministic planner for a robot that translates among solids.
+//
+// Free space is bounded by C_cont.  Two configurations are connected iff they
+// lie in the same cell, which rays decide (free_cells.h), and the surface
+// itself is a roadmap of every cell (surface_graph.h): the shortest route on
+// it is lifted off (path_lift.h), then shortened (path_shortening.h).  An edge
+// of the roadmap that cannot be lifted because rounding folded the surface is
+// deleted and the search repeated.  So
+//  - kSolved comes with a path all of which is free by exact tests;
+//  - kInfeasibleProved with the rays that put start and goal into different
+//    cells, valid for the surface within `rounding`;
+//  - kFailed is for surfaces that rounding tore, or gaps of its size.
+// There is no parameter that decides whether a problem is solved.
+class ContactSurfacePlanner {
+ public:
+  // The contact space of all obstacles, and of bounds, in one mesh
+  // (MergedObstacle), cavities included; closed, outward, edge-manifold.
+  // Throws InputError like ContactSurface, and for options.
+  explicit ContactSurfacePlanner(const TriangleMesh& merged_contact_mesh,
+                                 const ContactSurfaceOptions& options = {});
+  ~ContactSurfacePlanner();
+  ContactSurfacePlanner(ContactSurfacePlanner&&) noexcept;
+  ContactSurfacePlanner& operator=(ContactSurfacePlanner&&) noexcept;
+
+  // Thread-safe.  Same arguments, same result but for `seconds`.
+  PlanResult Plan(const Eigen::Vector3d& start,
+                  const Eigen::Vector3d& goal) const;
+
+  const FreeCells& cells() const;
+  double build_seconds() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace phongpd

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "planners/exact/exact_solution.h"
+
+#include <chrono>
+
+#include "constraints/collision_oracle.h"
+
+namespace phongpd {
+
+using Eigen::Vector3d;
+
+std::string NameObstacles(const Workspace& workspace, const Vector3d& q) {
+  std::string names;
+  const auto add = [&](const std::string& name) {
+    names += (names.empty() ? "" : ", ") + name;
+  };
+  for (const int i : ReachableObstacles(workspace)) {
+    const Obstacle& obstacle = workspace.obstacles[static_cast<std::size_t>(i)];
+    if (CollisionOracle(workspace.robot, obstacle.mesh).Collides(q)) {
+      add(obstacle.id);
+    }
+  }
+  const BoundingBox& bounds = workspace.bounds;
+  if (!bounds.IsEmpty() && !((q.array() > bounds.min.array()).all() &&
+                             (q.array() < bounds.max.array()).all())) {
+    add("bounds");
+  }
+  return names;
+}
+
+ExactSolution SolveExactly(const Workspace& workspace, const Vector3d& start,
+                           const Vector3d& goal, ContactSurfaceOptions options,
+                           const ContactSpaceOptions& contact_options) {
+  using Clock = std::chrono::steady_clock;
+  workspace.Validate();
+  options.Validate();
+  ExactSolution solution;
+  const Clock::time_point begin = Clock::now();
+  const ContactSpace space = BuildContactSpace(
+      workspace.robot, MergedObstacle(workspace), contact_options);
+  solution.contact_space_seconds =
+      std::chrono::duration<double>(Clock::now() - begin).count();
+  solution.contact_space = space.report;
+  if (!options.name_obstacle) {
+    options.name_obstacle = [&workspace](const Vector3d& q) {
+      return NameObstacles(workspace, q);
+    };
+  }
+  const ContactSurfacePlanner planner(space.mesh, options);
+  solution.planner_seconds = planner.build_seconds();
+  solution.plan = planner.Plan(start, goal);
+  return solution;
+}
+
+}  // namespace phongpd

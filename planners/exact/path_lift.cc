@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "planners/exact/path_lift.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace phongpd {
+
+using Eigen::Vector3d;
+
+int LiftRoute(const std::vector<SurfaceSite>& sites,
+              const SegmentTree& segments, double clearance, double rounding,
+              std::vector<Vector3d>* path, LiftCounts* counts) {
+  // Below an ulp of the coordinates nothing moves any more.
+  const double least = std::ldexp(rounding, -7);
+  const std::size_t count = sites.size();
+  std::vector<double> lift(count, 0.0);
+  std::vector<double> room(count);  // first lift, or clearance of what stays
+  path->resize(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const SurfaceSite& site = sites[i];
+    (*path)[i] = site.point;
+    if (site.direction.isZero()) {
+      room[i] = segments.Distance(site.point, site.point, clearance);
+      continue;
+    }
+    // Half the gap is less than the clearance only if something is nearer
+    // than twice the clearance.
+    room[i] = clearance *
+              FirstAbove(site, segments, 2.0 * clearance, rounding).fraction;
+    lift[i] = room[i];
+    (*path)[i] += lift[i] * site.direction;
+  }
+  // What is left of the rooms of two ends when they have been lowered.
+  const auto height = [&](std::size_t i) {
+    return lift[i] > 0.0 ? lift[i] : room[i];
+  };
+  const auto grazes = [&](std::size_t k) {
+    const double low = std::min(height(k), height(k + 1));
+    return std::max(lift[k], lift[k + 1]) >
+               0.125 * std::min(room[k], room[k + 1]) &&
+           segments.Distance((*path)[k], (*path)[k + 1], 0.5 * low) < 0.5 * low;
+  };
+  std::size_t k = 0;
+  while (k + 1 < count) {
+    ++counts->tests;
+    if (!segments.Meets((*path)[k], (*path)[k + 1]) && !grazes(k)) {
+      ++counts->lifted;
+      ++k;
+      continue;
+    }
+    const std::size_t larger = lift[k] > lift[k + 1] ? k : k + 1;
+    if (!(lift[larger] > least)) return static_cast<int>(k);
+    lift[larger] *= 0.5;
+    ++counts->halvings;
+    (*path)[larger] =
+        sites[larger].point + lift[larger] * sites[larger].direction;
+    // The segment before has changed too.
+    if (larger == k && k > 0) --k;
+  }
+  return -1;
+}
+
+}  // namespace phongpd

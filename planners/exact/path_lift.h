@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "core/mesh/segment_tree.h"
+#include "planners/exact/surface_graph.h"
+
+namespace phongpd {
+
+struct LiftCounts {
+  int lifted = 0;    // segments of paths that became free
+  int tests = 0;     // segments tested
+  int halvings = 0;  // of lifts
+};
+
+// Lifts a route off the surface: every site moves along its direction by
+// min(clearance, half the free gap there), and while a segment is blocked the
+// larger lift of its two ends is halved (halving both would lose the
+// clearance that a passage has).  Sites without direction stay.  A segment
+// that is free but leaves less than half of what its ends have been lifted by
+// counts as blocked too, until its lifts are an eighth of the smaller first
+// one: so a segment into a passage does not graze its rim.
+//
+// Complete: a polyline over an embedded surface that is lifted little enough
+// is free.  Returns the index of the first segment, point k → point k + 1,
+// for which lifts became as small as rounding allows, and −1 with all segments
+// free of contact by exact tests; *path then holds the points.  Sites lie on
+// the surface within `rounding`, 2⁻⁴⁶ of the largest coordinate.
+int LiftRoute(const std::vector<SurfaceSite>& sites,
+              const SegmentTree& segments, double clearance, double rounding,
+              std::vector<Eigen::Vector3d>* path, LiftCounts* counts);
+
+}  // namespace phongpd

@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "planners/exact/path_shortening.h"
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+namespace phongpd {
+namespace {
+
+using Eigen::Vector3d;
+
+class Shortener {
+ public:
+  Shortener(const std::vector<Vector3d>& path, const SegmentTree& segments,
+            const ShorteningOptions& options)
+      : segments_(segments), options_(options), random_(options.seed) {
+    for (std::size_t k = 0; k < path.size(); ++k) {
+      points_.push_back({path[k], static_cast<double>(k)});
+      if (k == 0) continue;
+      floor_.push_back(std::min(
+          options.clearance,
+          options.kept_share *
+              segments.Distance(
+                  path[k - 1], path[k],
+                  options.clearance / std::max(0.1, options.kept_share))));
+    }
+  }
+
+  std::vector<Vector3d> Run() {
+    Gallop();
+    for (int i = 0; i < options_.random_cuts && points_.size() > 2; ++i) Cut();
+    Gallop();
+    double length = Length();
+    for (int i = 0; i < options_.pulls && points_.size() > 2; ++i) {
+      Pull();
+      if (i % 3 == 2) Gallop();
+      const double now = Length();
+      if (now > length * (1.0 - 1e-4)) break;
+      length = now;
+    }
+    std::vector<Vector3d> path;
+    for (const Point& p : points_) path.push_back(p.position);
+    return path;
+  }
+
+ private:
+  // A point of the path and where it was on the path given.
+  struct Point {
+    Vector3d position;
+    double parameter;
+  };
+
+  double Length() const {
+    double length = 0.0;
+    for (std::size_t k = 1; k < points_.size(); ++k) {
+      length += (points_[k].position - points_[k - 1].position).norm();
+    }
+    return length;
+  }
+
+  // May the straight segment replace the path given from p to q?
+  bool Sees(const Point& p, const Point& q) const {
+    return SeesOver(p.position, q.position, p.parameter, q.parameter);
+  }
+  bool SeesOver(const Vector3d& a, const Vector3d& b, double from,
+                double to) const {
+    if (segments_.Meets(a, b)) return false;
+    const std::size_t first =
+        std::min(static_cast<std::size_t>(from), floor_.size() - 1);
+    const std::size_t last =
+        std::max(first + 1, static_cast<std::size_t>(std::ceil(to)));
+    const double least =
+        *std::min_element(floor_.begin() + static_cast<std::ptrdiff_t>(first),
+                          floor_.begin() + static_cast<std::ptrdiff_t>(last));
+    return !(least > 0.0) || segments_.Distance(a, b, least) >= least;
+  }
+
+  // From each point straight to the farthest that is found by doubling and
+  // halving the stride.
+  void Gallop() {
+    std::vector<Point> kept = {points_.front()};
+    for (std::size_t i = 0; i + 1 < points_.size();) {
+      std::size_t good = i + 1, stride = 2;
+      while (i + stride < points_.size() &&
+             Sees(points_[i], points_[i + stride])) {
+        good = i + stride;
+        stride *= 2;
+      }
+      std::size_t bad = std::min(i + stride, points_.size());
+      while (good + 1 < bad) {
+        const std::size_t middle = (good + bad) / 2;
+        (Sees(points_[i], points_[middle]) ? good : bad) = middle;
+      }
+      kept.push_back(points_[good]);
+      i = good;
+    }
+    points_ = std::move(kept);
+  }
+
+  Point At(std::size_t k, double share) const {
+    const Point& p = points_[k];
+    const Point& q = points_[k + 1];
+    return {p.position + share * (q.position - p.position),
+            p.parameter + share * (q.parameter - p.parameter)};
+  }
+
+  void Cut() {
+    const std::size_t count = points_.size() - 1;
+    std::size_t i = random_() % count, j = random_() % count;
+    if (i == j) return;
+    if (i > j) std::swap(i, j);
+    std::uniform_real_distribution<double> share(0.0, 1.0);
+    const Point p = At(i, share(random_)), q = At(j, share(random_));
+    double old = (points_[i + 1].position - p.position).norm() +
+                 (q.position - points_[j].position).norm();
+    for (std::size_t k = i + 1; k < j; ++k) {
+      old += (points_[k + 1].position - points_[k].position).norm();
+    }
+    if ((q.position - p.position).norm() > old * (1.0 - 1e-6)) return;
+    // What is left of the two segments was part of them, but is measured
+    // against its own stretch from now on.
+    if (!Sees(points_[i], p) || !Sees(p, q) || !Sees(q, points_[j + 1])) return;
+    points_.erase(points_.begin() + static_cast<std::ptrdiff_t>(i + 1),
+                  points_.begin() + static_cast<std::ptrdiff_t>(j + 1));
+    points_.insert(points_.begin() + static_cast<std::ptrdiff_t>(i + 1),
+                   {p, q});
+  }
+
+  void Pull() {
+    for (std::size_t k = 1; k + 1 < points_.size(); ++k) {
+      const Point& p = points_[k - 1];
+      const Point& q = points_[k + 1];
+      const Vector3d along = q.position - p.position;
+      const double squared = along.squaredNorm();
+      const Vector3d here = points_[k].position;
+      const double share =
+          squared > 0.0
+              ? std::clamp((here - p.position).dot(along) / squared, 0.0, 1.0)
+              : 0.0;
+      const Vector3d way = p.position + share * along - here;
+      for (double step = 1.0; step > 0.02; step *= 0.5) {
+        const Vector3d x = here + step * way;
+        if (SeesOver(p.position, x, p.parameter, points_[k].parameter) &&
+            SeesOver(x, q.position, points_[k].parameter, q.parameter)) {
+          points_[k].position = x;
+          break;
+        }
+      }
+    }
+  }
+
+  const SegmentTree& segments_;
+  const ShorteningOptions& options_;
+  std::mt19937_64 random_;
+  std::vector<Point> points_;
+  std::vector<double> floor_;  // clearance asked of what replaces a segment
+};
+
+}  // namespace
+
+std::vector<Vector3d> ShortenPath(const std::vector<Vector3d>& path,
+                                  const SegmentTree& segments,
+                                  const ShorteningOptions& options) {
+  if (path.size() < 3) return path;
+  return Shortener(path, segments, options).Run();
+}
+
+double PathLength(const std::vector<Vector3d>& path) {
+  double length = 0.0;
+  for (std::size_t k = 1; k < path.size(); ++k) {
+    length += (path[k] - path[k - 1]).norm();
+  }
+  return length;
+}
+
+}  // namespace phongpd

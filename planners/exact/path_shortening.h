@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <vector>
+
+#include "core/mesh/segment_tree.h"
+
+namespace phongpd {
+
+struct ShorteningOptions {
+  // Clearance that is enough, user's unit; ≥ 0.
+  double clearance = 0.0;
+  // A new segment keeps min(clearance, this share of the least clearance of
+  // what it replaces on the path given), in [0, 1).
+  double kept_share = 0.8;
+  int random_cuts = 200;
+  int pulls = 12;  // rounds over all inner points
+  std::uint64_t seed = 1;
+};
+
+// Shortens a path that meets no surface: points left out as far as can be
+// seen, straight cuts between random points, and points pulled towards the
+// line between their neighbours.  Every segment of the result is free by an
+// exact test and keeps its clearance relative to the path *given*, so that
+// repeated cuts do not add up.  Ends stay.  Same arguments, same path.
+std::vector<Eigen::Vector3d> ShortenPath(
+    const std::vector<Eigen::Vector3d>& path, const SegmentTree& segments,
+    const ShorteningOptions& options);
+
+// Σ |p_{k+1} − p_k|.
+double PathLength(const std::vector<Eigen::Vector3d>& path);
+
+}  // namespace phongpd

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <set>
+#include <utility>
+#include <vector>
+
+#include "core/mesh/segment_tree.h"
+#include "core/mesh/triangle_mesh.h"
+#include "planners/exact/free_cells.h"
+
+namespace phongpd {
+
+// A place a path may pass: a point of the surface, to be lifted off it along
+// `direction`, or a point away from everything.
+struct SurfaceSite {
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();
+  Eigen::Vector3d direction =
+      Eigen::Vector3d::Zero();  // unit; zero: not lifted
+  int triangle = -1;            // it lies on; −1: none
+  int other = -1;               // the other one where it lies on an edge
+};
+
+// What a ray from the site along its direction meets first within `reach`,
+// without the triangles the site lies on and those within `rounding`; fraction
+// 1 if nothing.
+SegmentTree::Hit FirstAbove(const SurfaceSite& site,
+                            const SegmentTree& segments, double reach,
+                            double rounding);
+
+// How the configurations start and goal see the surface.
+struct Attachment {
+  SurfaceSite site;  // free to see from the configuration
+  bool to_goal = false;
+  bool outside = false;  // the site is one of the outside (below)
+};
+
+// The roadmap that a closed surface is for every free cell around it: points
+// of its edges, joined when they lie on one triangle; and links, segments
+// through free space between two triangles.  Nothing is lifted or tested here.
+class SurfaceGraph {
+ public:
+  // Edges get a point per `spacing` > 0 of their length (between 1 and 6), at
+  // most `gap_links` triangles a link across the free gap in front of them.
+  // All must outlive this.
+  SurfaceGraph(const TriangleMesh& mesh,
+               const std::vector<std::array<int, 3>>& neighbors,
+               const SegmentTree& segments, const FreeCells& cells,
+               double spacing, int gap_links);
+
+  const std::vector<SurfaceSite>& sites() const { return sites_; }
+
+  // Unit normal of a triangle; zero if it has no area.
+  const Eigen::Vector3d& normal(int triangle) const {
+    return normals_[triangle];
+  }
+
+  using Edge = std::pair<int, int>;  // of sites, the smaller first
+  // Numbers of sites; attachment i is number sites().size() + i.
+  using Route = std::vector<int>;
+
+  // The shortest route (A*, by distances on the surface and along links) from
+  // an attachment of the start to one of the goal without the edges in
+  // `deleted`; empty if there is none.
+  Route Search(const Eigen::Vector3d& start, const Eigen::Vector3d& goal,
+               const std::vector<Attachment>& attachments,
+               const std::set<Edge>& deleted) const;
+
+ private:
+  void AddEdgePoints(const std::vector<std::array<int, 3>>& neighbors,
+                     double spacing);
+  void AddRays(const FreeCells& cells);
+  void AddGapLinks(const SegmentTree& segments, double rounding, int count);
+  void AddLink(const SurfaceSite& a, const SurfaceSite& b);
+  void IndexTriangles();
+
+  const TriangleMesh& mesh_;
+  std::vector<Eigen::Vector3d> normals_;
+  std::vector<SurfaceSite> sites_;
+  std::vector<int> partner_;  // of a site: other end of its link, or −1
+  std::vector<int> outside_;  // sites that all see each other
+  std::vector<int> first_;    // of a triangle, into on_triangle_
+  std::vector<int> on_triangle_;
+};
+
+}  // namespace phongpd

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+#include <map>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "core/mesh/mesh_error.h"
+#include "core/mesh/triangle_mesh.h"
+
+// A problem as every command reads it: a robot R that translates, obstacles,
+// start and goal, and settings for queries, trajectories and planning.
+// Lengths are in the scene's own unit unless they are said to be fractions of
+// the contact space's bounding-box diagonal.  The file format is
+// scene.schema.json.
+namespace phongpd {
+
+struct SceneObstacle {
+  std::string id;
+  TriangleMesh mesh;  // in its place
+};
+
+struct PenetrationSettings {
+  std::string metric = "phong";        // or "euclidean"
+  std::string field = "normal";        // or "tangent-plane"
+  double smoothing_length = 0.1;       // fraction of the diagonal; 0: the paper
+  std::string jacobian = "direction";  // or "exact"
+};
+
+using IpoptValue = std::variant<int, double, std::string>;
+
+struct TrajectorySettings {
+  int waypoints = 40;              // free points between start and goal
+  int samples_per_segment = 0;     // interior; 0: by the Lipschitz rule
+  double margin = 0.01;            // distance kept, fraction of the diagonal
+  double max_segment_ratio = 1.6;  // longest over even segment length
+  // By Ipopt's own names.  A whole number in the file arrives as an int, also
+  // for options that are real numbers.
+  std::map<std::string, IpoptValue> ipopt;
+};
+
+struct PlanningSettings {
+  std::string planner = "contact-surface";
+  double time_limit = 5.0;  // seconds
+  double clearance = 0.01;  // largest lift, fraction of the diagonal
+};
+
+struct Scene {
+  std::string name;
+  TriangleMesh robot;  // a solid, as MakeSolid gives it, at q = 0
+  std::vector<SceneObstacle> obstacles;  // solids; at least one; unequal ids
+  // Of q; holds no point if the scene has none.
+  BoundingBox bounds = {Eigen::Vector3d::Ones(), Eigen::Vector3d::Zero()};
+  Eigen::Vector3d start = Eigen::Vector3d::Zero();
+  Eigen::Vector3d goal = Eigen::Vector3d::Zero();
+  PenetrationSettings penetration;
+  TrajectorySettings trajectory;
+  PlanningSettings planning;
+  // What the scene's maker knows: whether a path exists, and a free one from
+  // start to goal (or none).  Nothing checks either against the solids.
+  std::optional<bool> feasible;
+  std::vector<Eigen::Vector3d> witness;
+  std::vector<std::string> warnings;  // about the solids, one sentence each
+};
+
+// Reads a scene file.  Throws InputError, one line "FILE: /pointer: expected
+// ..., found ...": missing or unreadable file, no JSON (comments are allowed),
+// unknown, missing or repeated keys, wrong types, numbers out of range or not
+// finite, bounds without inside, equal obstacle ids, a rotation that is none,
+// a witness that does not lead from start to goal, shapes and mesh files that
+// give no solid.
+Scene ReadScene(const std::string& path);
+
+// The same from a parsed document; errors start with `file`, mesh paths are
+// relative to `directory`.  A scene without a name is called `name`.
+Scene ParseScene(const nlohmann::ordered_json& json, const std::string& file,
+                 const std::string& directory = ".",
+                 const std::string& name = "scene");
+
+// The indices of the obstacles that the robot may touch while q stays in the
+// bounds: those whose contact space has a bounding box that meets them.  The
+// others need no contact space.  All of them if there are no bounds.
+std::vector<int> RelevantObstacles(const Scene& scene);
+
+// "obstacles a, b cannot be touched within the bounds", for people; empty if
+// every obstacle is relevant.
+std::string SkippedObstaclesNote(const Scene& scene);
+
+// All obstacles as one mesh of several components, which may overlap.
+TriangleMesh JoinedObstacle(const Scene& scene);
+
+// scene.schema.json: what a scene file may hold.
+const nlohmann::ordered_json& SceneSchema();
+
+}  // namespace phongpd
