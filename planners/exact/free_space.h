@@ -51,6 +51,9 @@ class FreeSpace {
   // Distance from q to the nearest contact surface or bound, ≥ 0; infinity
   // where there is neither; 0 for non-finite q.  Rounded.
   double Clearance(const Eigen::Vector3d& q) const;
+  // The same for all points of the closed segment; 0 where it leaves the
+  // bounds.
+  double Clearance(const Eigen::Vector3d& a, const Eigen::Vector3d& b) const;
 
   std::size_t size() const;  // number of contact spaces
   const BoundingBox& bounds() const;
@@ -72,11 +75,8 @@ PathCheck CheckPath(const FreeSpace& space,
                     const std::vector<Eigen::Vector3d>& path);
 
 // The smallest distance from any point of a polyline to the nearest contact
-// surface or bound, within `tolerance` > 0 (user's unit), never above the
-// true one: bisection by the distance's Lipschitz constant 1.  0 when a
-// distance it needs is not larger than the tolerance.
+// surface or bound, rounded; 0 for a path that is empty or meets one.
 double PathClearance(const FreeSpace& space,
-                     const std::vector<Eigen::Vector3d>& path,
-                     double tolerance);
+                     const std::vector<Eigen::Vector3d>& path);
 
 }  // namespace phongpd

@@ -3,6 +3,8 @@
 
 #include <ompl/base/SpaceInformation.h>
 
+#include "core/mesh/mesh_error.h"
+
 namespace phongpd {
 
 namespace ob = ompl::base;
@@ -30,6 +32,19 @@ ob::SpaceInformationPtr MakeSpaceInformation(
       std::make_shared<ContactSpaceMotionValidator>(si, model));
   si->setup();
   return si;
+}
+
+void CheckConfigurationSpace(const ob::Planner& planner) {
+  const ob::StateSpacePtr& space =
+      planner.getSpaceInformation()->getStateSpace();
+  if (dynamic_cast<const ob::RealVectorStateSpace*>(space.get()) != nullptr &&
+      space->getDimension() == 3) {
+    return;
+  }
+  throw InputError(planner.getName() +
+                   ": expected a RealVectorStateSpace of dimension 3, found '" +
+                   space->getName() + "' of dimension " +
+                   std::to_string(space->getDimension()));
 }
 
 Vector3d ToPoint(const ob::State* state) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <ompl/base/MotionValidator.h>
+#include <ompl/base/Planner.h>
 #include <ompl/base/SpaceInformation.h>
 #include <ompl/base/StateValidityChecker.h>
 #include <ompl/base/spaces/RealVectorStateSpace.h>
@@ -25,6 +26,10 @@ std::shared_ptr<ompl::base::RealVectorStateSpace> MakeConfigurationSpace(
 // That space with both classes below, set up.
 ompl::base::SpaceInformationPtr MakeSpaceInformation(
     const std::shared_ptr<const ContactModel>& model);
+
+// Throws InputError unless the planner's state space is a RealVectorStateSpace
+// of dimension 3.
+void CheckConfigurationSpace(const ompl::base::Planner& planner);
 
 Eigen::Vector3d ToPoint(const ompl::base::State* state);
 void FromPoint(const Eigen::Vector3d& q, ompl::base::State* state);

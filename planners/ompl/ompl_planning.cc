@@ -189,8 +189,7 @@ OmplPlanningResult PlanWithOmpl(
     }
     result.collision_free = CheckPath(model->free_space(), result.path).free;
     if (result.collision_free) {
-      result.clearance =
-          PathClearance(model->free_space(), result.path, model->floor());
+      result.clearance = PathClearance(model->free_space(), result.path);
     }
   }
   return result;

@@ -42,9 +42,7 @@ struct OmplPlanningResult {
   std::string status;           // of OMPL's planner
   std::vector<Eigen::Vector3d> path;
   double length = 0.0;
-  // Smallest distance from the path to contact, below the true one by at most
-  // 1e-9 of the diagonal; 0 without a free path.
-  double clearance = 0.0;
+  double clearance = 0.0;  // of the whole path from contact; 0 if none is free
   std::uint64_t samples = 0;  // uniform ones; 0 for OMPL's own planners
   // Samples until the first node in_passage; −1: none, or not asked for.
   std::int64_t samples_to_passage = -1;

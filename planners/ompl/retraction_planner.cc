@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "planners/ompl/retraction_planner.h"
 
-#include <ompl/base/spaces/RealVectorStateSpace.h>
 #include <ompl/geometric/PathGeometric.h>
 #include <ompl/util/RandomNumbers.h>
 
@@ -114,14 +113,7 @@ void RetractionPlanner::setup() {
 
 void RetractionPlanner::checkValidity() {
   Planner::checkValidity();
-  const auto* space =
-      dynamic_cast<const ob::RealVectorStateSpace*>(si_->getStateSpace().get());
-  if (space == nullptr || space->getDimension() != 3) {
-    throw InputError(name_ +
-                     ": expected a RealVectorStateSpace of dimension 3, found "
-                     "'" +
-                     si_->getStateSpace()->getName() + "'");
-  }
+  CheckConfigurationSpace(*this);
 }
 
 void RetractionPlanner::clear() {

@@ -1,40 +1,26 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <Eigen/Core>
 #include <memory>
 #include <string>
-#include <vector>
 
-#include "core/mesh/triangle_mesh.h"
 #include "planners/exact/workspace.h"
 #include "planners/retraction/contact_model.h"
+#include "problems/scene.h"
 
-// Narrow passages with a knob: the free channel's side δ, in configuration
-// space, in scenes of size 2.  δ < 0 closes the passage: the infeasible twin.
 namespace phongpd::testing {
 
+// A scene with a narrow passage and its merged contact space.
 struct Passage {
-  std::string name;
+  Scene scene;
   Workspace workspace;
-  Eigen::Vector3d start, goal;
+  std::shared_ptr<const ContactModel> model;
 };
 
-// A cube and a square hole, δ × δ × 0.2 in q, through a plate.
-Passage PlateHole(double delta);
-// A cube and a tunnel with three bends through a block.
-Passage Tunnel(double delta);
-// Three crossed bars and two plus-shaped holes through a plate.
-Passage Keyhole(double delta);
-// A cube in a hollow island whose way out is a pipe that leads inwards.
-Passage Bugtrap(double delta);
-
-// Turned by GenericRotation (but for the bounds): coplanar coincidences go,
-// rounding comes.
-Passage Turned(Passage passage);
-
-// C_cont of everything in the passage as one merged contact space.
-TriangleMesh ContactMesh(const Passage& passage);
-std::shared_ptr<const ContactModel> MakeModel(const Passage& passage);
+// The scene family (hole, tunnel, keyhole, bugtrap, ...) with a channel of
+// side `delta` in q; δ < 0 closes it: the infeasible twin.  A rotation seed
+// > 0 turns everything: coplanar coincidences go, rounding comes.
+Passage MakePassage(const std::string& family, double delta,
+                    int rotation_seed = 0);
 
 }  // namespace phongpd::testing

@@ -116,25 +116,24 @@ TEST(CollideAndSlide, RefusesWhatIsNotFree) {
   EXPECT_THROW(options.Validate(), InputError);
 }
 
-// From in front of the plate to behind it through the hole, from a point in
-// the hole: both ways out are one slide each, whatever the width.
+// From the middle of a hole both ways out are one slide each, whatever the
+// width.
 TEST(CollideAndSlide, LeavesChannelsOfAnyWidth) {
-  for (const bool turned : {false, true}) {
+  for (const int turned : {0, 1}) {
     for (const double delta : {1e-2, 1e-3, 2e-4, 2e-5}) {
-      testing::Passage passage = testing::PlateHole(delta);
-      Vector3d middle(0.13, -0.21, 0.02);
-      if (turned) {
-        passage = testing::Turned(passage);
-        middle = GenericRotation() * middle;
-      }
-      const auto model = testing::MakeModel(passage);
+      const testing::Passage passage =
+          testing::MakePassage("hole", delta, turned);
+      const Path& witness = passage.scene.witness;
+      ASSERT_GE(witness.size(), 4u);
+      const Vector3d middle = 0.5 * (witness[1] + witness[2]);
       Path path;
       SlideCounters counters;
-      for (const Vector3d& end : {passage.start, passage.goal}) {
-        ASSERT_EQ(CollideAndSlide(*model, {}, middle, end, &path, &counters),
-                  SlideStatus::kReached)
-            << passage.name << ' ' << delta;
-        EXPECT_TRUE(CheckPath(model->free_space(), path).free);
+      for (const Vector3d& end : {passage.scene.start, passage.scene.goal}) {
+        ASSERT_EQ(
+            CollideAndSlide(*passage.model, {}, middle, end, &path, &counters),
+            SlideStatus::kReached)
+            << turned << ' ' << delta;
+        EXPECT_TRUE(CheckPath(passage.model->free_space(), path).free);
       }
     }
   }
@@ -145,27 +144,24 @@ TEST(CollideAndSlide, LeavesChannelsOfAnyWidth) {
 // than the one before, and nobody on the other side of a closed plate.
 TEST(CollideAndSlide, NeverTunnelsThroughClosedPassages) {
   int runs = 0, crossed = 0, unfree = 0;
-  for (const auto& make : {testing::PlateHole, testing::Keyhole}) {
-    for (const bool turned : {false, true}) {
-      testing::Passage passage = make(-1e-4);
-      Vector3d up = Vector3d::UnitZ();
-      if (turned) {
-        passage = testing::Turned(passage);
-        up = GenericRotation() * up;
-      }
-      const auto model = testing::MakeModel(passage);
+  for (const char* family : {"hole", "keyhole"}) {
+    for (const int turned : {0, 1}) {
+      const testing::Passage passage =
+          testing::MakePassage(family, -1e-4, turned);
+      const auto& model = passage.model;
+      // Start and goal lie symmetrically to the plate, which holds 0.
+      const Vector3d across = passage.scene.goal - passage.scene.start;
       const Retraction retraction(model);
       for (int seed = 0; seed < 20; ++seed, ++runs) {
         std::mt19937_64 random(static_cast<std::uint64_t>(seed));
         RetractionScratch scratch;
         SlideCounters counters;
-        // A walk whose targets are retracted samples, started in front.
-        Vector3d at = passage.start;
-        const double side = up.dot(at);
+        // A walk whose targets are retracted samples.
+        Vector3d at = passage.scene.start;
         Path path;
         for (int k = 0; k < 60; ++k) {
-          retraction.Retract(testing::RandomPoint(model->region(), &random),
-                             &random, &scratch);
+          retraction.Retract(UniformPoint(model->region(), &random), &random,
+                             &scratch);
           if (scratch.points.empty()) continue;
           const Vector3d b = scratch.points[random() % scratch.points.size()].q;
           const SlideStatus status =
@@ -180,7 +176,7 @@ TEST(CollideAndSlide, NeverTunnelsThroughClosedPassages) {
                                             path[i]) >= model->floor());
           }
           at = path.back();
-          crossed += up.dot(at) * side < 0.0;
+          crossed += across.dot(at) > 0.0;
         }
       }
     }
@@ -190,8 +186,6 @@ TEST(CollideAndSlide, NeverTunnelsThroughClosedPassages) {
   EXPECT_EQ(unfree, 0);
 }
 
-// The Euclidean step turns the edge; Phong steps, which all point away from
-// the cube's middle, end there.
 TEST(StepRetract, FollowsAFaceWithBothMetrics) {
   const auto model = BoxModel();
   std::mt19937_64 random(1);

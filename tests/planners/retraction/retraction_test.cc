@@ -204,12 +204,12 @@ TEST(Retraction, RefusesOptionsOutOfRange) {
   EXPECT_THROW(ContactModel(std::vector<TriangleMesh>()), InputError);
 }
 
-// The plate's hole is a square channel of side δ around (0.13, −0.21): what is
-// retracted into it is half way between two walls, and no closer to the other
-// two than half of that.
+// The plate's hole is a square channel of side δ around (y, z) = (0.25,
+// −0.125): what is retracted into it is half way between two walls, and no
+// closer to the other two than half of that.
 TEST(Retraction, CentresPointsInAChannelOfAnyWidth) {
   for (const double delta : {1e-2, 1e-3, 2e-4, 2e-5}) {
-    const auto model = testing::MakeModel(testing::PlateHole(delta));
+    const auto model = testing::MakePassage("hole", delta).model;
     std::mt19937_64 random(3);
     for (const RetractionMetric metric :
          {RetractionMetric::kPhong, RetractionMetric::kEuclidean,
@@ -221,15 +221,15 @@ TEST(Retraction, CentresPointsInAChannelOfAnyWidth) {
         // In the plate, near the hole, where the Euclidean metric finds it.
         const double angle = 0.1 + i;
         const double radius = 0.5 * delta * (1.5 + (i % 7));
-        const Vector3d q(0.13 + radius * std::cos(angle),
-                         -0.21 + radius * std::sin(angle), 0.001 * (i % 50));
+        const Vector3d q(0.001 * (i % 50), 0.25 + radius * std::cos(angle),
+                         -0.125 + radius * std::sin(angle));
         retraction.Retract(q, &random, &scratch);
         for (const RetractedPoint& point : scratch.points) {
           EXPECT_TRUE(model->free_space().IsFree(point.q));
           EXPECT_GE(point.room, model->floor());
-          if (std::abs(point.q.z()) > 0.09) continue;
-          EXPECT_LE(std::min(std::abs(point.q.x() - 0.13),
-                             std::abs(point.q.y() + 0.21)),
+          if (std::abs(point.q.x()) > 0.11) continue;
+          EXPECT_LE(std::min(std::abs(point.q.y() - 0.25),
+                             std::abs(point.q.z() + 0.125)),
                     1e-9);
           EXPECT_GE(point.room, 0.25 * delta - 1e-9);
           EXPECT_LE(point.room, 0.5 * delta + 1e-9);
@@ -243,8 +243,8 @@ TEST(Retraction, CentresPointsInAChannelOfAnyWidth) {
 }
 
 TEST(Retraction, NeverLeavesTheFreeSpaceOfTheOriginalMeshes) {
-  const testing::Passage passage = testing::Turned(testing::Tunnel(1e-3));
-  const auto model = testing::MakeModel(passage);
+  const testing::Passage passage = testing::MakePassage("tunnel", 1e-3, 1);
+  const auto model = passage.model;
   const CollisionOracle oracle(passage.workspace.robot,
                                MergedObstacle(passage.workspace));
   std::mt19937_64 random(5);
@@ -300,7 +300,7 @@ TEST(Retraction, HandlesSeveralContactSpaces) {
 }
 
 TEST(Retraction, RepeatsWithTheSeed) {
-  const auto model = testing::MakeModel(testing::Tunnel(1e-2));
+  const auto model = testing::MakePassage("tunnel", 1e-2).model;
   const Retraction retraction =
       Make(model, RetractionMetric::kPhong, BranchChoice::kRandom);
   std::vector<Vector3d> runs[2];
