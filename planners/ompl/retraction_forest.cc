@@ -51,7 +51,9 @@ void RetractionForest::Connect(int node,
   for (const int neighbor : nearest_) {
     if (ptc != nullptr && *ptc) return;
     if (graph_.AreConnected(node, neighbor)) continue;
-    if (!Join(node, neighbor)) Join(neighbor, node);
+    if (Join(node, neighbor)) continue;
+    if (ptc != nullptr && *ptc) return;
+    Join(neighbor, node);
   }
 }
 

@@ -4,6 +4,7 @@
 #include <ompl/geometric/PathGeometric.h>
 #include <ompl/util/RandomNumbers.h>
 
+#include <typeinfo>
 #include <utility>
 
 #include "core/mesh/mesh_error.h"
@@ -104,16 +105,15 @@ void RetractionPlanner::setWatch(std::function<void(const Vector3d&)> watch) {
   watch_ = std::move(watch);
 }
 
-void RetractionPlanner::setup() {
-  Planner::setup();
-  const auto* validator = dynamic_cast<const ContactSpaceMotionValidator*>(
-      si_->getMotionValidator().get());
-  exact_ = validator != nullptr && &validator->model() == &retraction_.model();
-}
-
 void RetractionPlanner::checkValidity() {
   Planner::checkValidity();
   CheckConfigurationSpace(*this);
+  // Not one derived from it, which may ask for more.
+  const ob::MotionValidator& validator = *si_->getMotionValidator();
+  exact_ =
+      typeid(validator) == typeid(ContactSpaceMotionValidator) &&
+      &static_cast<const ContactSpaceMotionValidator&>(validator).model() ==
+          &retraction_.model();
 }
 
 void RetractionPlanner::clear() {

@@ -47,7 +47,6 @@ class RetractionPlanner : public ompl::base::Planner {
       const ompl::base::PlannerTerminationCondition& ptc) override;
   using Planner::solve;
   void clear() override;
-  void setup() override;
   void checkValidity() override;
   // Every point of the graph is a vertex, every edge a straight free motion.
   void getPlannerData(ompl::base::PlannerData& data) const override;
