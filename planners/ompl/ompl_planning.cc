@@ -7,6 +7,7 @@
 #include <ompl/base/samplers/BridgeTestValidStateSampler.h>
 #include <ompl/base/samplers/GaussianValidStateSampler.h>
 #include <ompl/base/samplers/ObstacleBasedValidStateSampler.h>
+#include <ompl/config.h>
 #include <ompl/geometric/PathGeometric.h>
 #include <ompl/geometric/planners/prm/PRM.h>
 #include <ompl/geometric/planners/rrt/RRTConnect.h>
@@ -193,6 +194,13 @@ OmplPlanningResult PlanWithOmpl(
     }
   }
   return result;
+}
+
+// OMPL_VERSION is empty in Debian's package.
+std::string OmplVersion() {
+  return std::to_string(OMPL_MAJOR_VERSION) + '.' +
+         std::to_string(OMPL_MINOR_VERSION) + '.' +
+         std::to_string(OMPL_PATCH_VERSION);
 }
 
 void SilenceOmpl() { ompl::msg::noOutputHandler(); }

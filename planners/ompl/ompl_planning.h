@@ -63,6 +63,9 @@ OmplPlanningResult PlanWithOmpl(
     const Eigen::Vector3d& start, const Eigen::Vector3d& goal,
     const std::string& name, const OmplPlanningOptions& options = {});
 
+// Of the OMPL this was compiled with, "1.5.2".
+std::string OmplVersion();
+
 // Turns OMPL's console log off, errors included.
 void SilenceOmpl();
 

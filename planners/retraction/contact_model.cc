@@ -10,6 +10,7 @@
 #include "core/mesh/segment_tree.h"
 #include "core/projection/euclidean_metric.h"
 #include "core/projection/phong_metric.h"
+#include "planners/exact/free_cells.h"
 
 namespace phongpd {
 namespace {
@@ -43,7 +44,37 @@ struct Space {
 
 std::size_t Index(int i) { return static_cast<std::size_t>(i); }
 
+// The box around both; either may be empty.
+BoundingBox Hull(const BoundingBox& a, const BoundingBox& b) {
+  if (a.IsEmpty()) return b;
+  if (b.IsEmpty()) return a;
+  return {a.min.cwiseMin(b.min), a.max.cwiseMax(b.max)};
+}
+
 }  // namespace
+
+BoundingBox SamplingRegion(const TriangleMesh& contact_mesh,
+                           const Vector3d& start, const Vector3d& goal) {
+  const BoundingBox all = ComputeBounds(contact_mesh);
+  const auto neighbors = TriangleNeighbors(contact_mesh);
+  const SegmentTree segments(contact_mesh);
+  const FreeCells cells(contact_mesh, neighbors, segments);
+  BoundingBox region = FreeSpace::NoBounds();
+  for (const Vector3d& q : {start, goal}) {
+    CellRay ray;
+    const int cell = q.allFinite() ? cells.CellOf(q, &ray) : -1;
+    if (cell < 0) return all;
+    TriangleMesh shell;
+    shell.vertices = contact_mesh.vertices;
+    for (std::size_t t = 0; t < contact_mesh.triangles.size(); ++t) {
+      if (cells.piece()[t] == cell) {
+        shell.triangles.push_back(contact_mesh.triangles[t]);
+      }
+    }
+    region = Hull(region, ComputeBounds(shell));
+  }
+  return region;
+}
 
 struct ContactModel::Impl {
   Impl(const std::vector<TriangleMesh>& meshes, const BoundingBox& bounds,
@@ -58,10 +89,7 @@ struct ContactModel::Impl {
       throw InputError("contact model: expected contact spaces or bounds");
     }
     for (const TriangleMesh& mesh : meshes) {
-      const BoundingBox box = ComputeBounds(mesh);
-      const bool first = region.IsEmpty();
-      region.min = first ? box.min : Vector3d(region.min.cwiseMin(box.min));
-      region.max = first ? box.max : Vector3d(region.max.cwiseMax(box.max));
+      region = Hull(region, ComputeBounds(mesh));
     }
   }
 

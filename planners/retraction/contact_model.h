@@ -12,6 +12,15 @@
 
 namespace phongpd {
 
+// Where samples for a path from start to goal are worth drawing in a scene
+// without bounds: the box around the cells of free space that hold them.  The
+// box around the whole mesh if one of them is unbounded (or not told apart by
+// rays, or not free).  No path from start to goal leaves the box, so it may be
+// used as bounds.  One mesh for all obstacles, as ContactSurface requires it.
+BoundingBox SamplingRegion(const TriangleMesh& contact_mesh,
+                           const Eigen::Vector3d& start,
+                           const Eigen::Vector3d& goal);
+
 // What retraction and sliding ask of the contact spaces of a robot that
 // translates: exact motion checks, both penetration metrics, facet normals,
 // and how much room there is in front of a facet.  Const and thread-safe; one
@@ -37,7 +46,8 @@ class ContactModel {
   const TriangleMesh& mesh(int space) const;
   const PhongMetric& phong(int space) const;
 
-  // Where samples are drawn: the bounds, or the box around all meshes.
+  // Where samples are drawn: the bounds, or the box around all meshes (which
+  // is much of what a bounds shell is made of: see SamplingRegion).
   const BoundingBox& region() const;
   // Of the region; every length below refers to it.
   double diagonal() const { return region().Diagonal(); }

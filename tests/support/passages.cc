@@ -22,8 +22,12 @@ Passage MakePassage(const std::string& family, double delta,
   workspace.bounds = passage.scene.bounds;
   const TriangleMesh contact =
       BuildContactSpace(workspace.robot, MergedObstacle(workspace)).mesh;
+  const Scene& scene = passage.scene;
   passage.model = std::make_shared<const ContactModel>(
-      std::vector<TriangleMesh>{contact}, workspace.bounds);
+      std::vector<TriangleMesh>{contact},
+      workspace.bounds.IsEmpty()
+          ? SamplingRegion(contact, scene.start, scene.goal)
+          : workspace.bounds);
   return passage;
 }
 

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 #include <set>
+#include <utility>
 
 #include "constraints/collision_oracle.h"
 #include "core/contact_space/contact_space.h"
@@ -53,6 +54,27 @@ TEST(ContactModel, StandsOffByHalfTheGapAtMost) {
   // The bound at x = 2 is 1 away.
   EXPECT_NEAR(model->Standoff(facet, 3.0), 0.5, 1e-14);
   EXPECT_NEAR(model->floor(), 1e-9 * 4.0 * std::sqrt(3.0), 1e-20);
+}
+
+TEST(SamplingRegion, IsTheBoxAroundTheCellsOfBothEnds) {
+  // Rooms [−1, 0.9] and [1, 3] along x in a block, seen by a point robot.
+  TriangleMesh mesh =
+      MakeBox(Vector3d::Constant(-5.0), Vector3d::Constant(5.0));
+  for (const auto& [min, max] :
+       {std::make_pair(-1.0, 0.9), std::make_pair(1.0, 3.0)}) {
+    TriangleMesh room = MakeBox({min, -1.0, -1.0}, {max, 1.0, 1.0});
+    for (Triangle& t : room.triangles) std::swap(t[1], t[2]);
+    mesh = Joined(mesh, room);
+  }
+  const Vector3d left(0.1, 0.2, 0.3), right(2.0, 0.1, 0.2);
+  BoundingBox region = SamplingRegion(mesh, left, left);
+  EXPECT_EQ(region.min, Vector3d(-1.0, -1.0, -1.0));
+  EXPECT_EQ(region.max, Vector3d(0.9, 1.0, 1.0));
+  region = SamplingRegion(mesh, left, right);
+  EXPECT_EQ(region.min, Vector3d(-1.0, -1.0, -1.0));
+  EXPECT_EQ(region.max, Vector3d(3.0, 1.0, 1.0));
+  region = SamplingRegion(mesh, left, {7.0, 0.0, 0.0});
+  EXPECT_EQ(region.max, Vector3d::Constant(5.0));
 }
 
 TEST(ContactModel, FindsBoundsAsFacets) {
