@@ -131,17 +131,10 @@ double FreeSpace::Clearance(const Vector3d& q) const {
 }
 
 double FreeSpace::Clearance(const Vector3d& a, const Vector3d& b) const {
-  const BoundingBox& bounds = impl_->bounds;
-  double clearance = std::numeric_limits<double>::infinity();
-  if (!a.allFinite() || !b.allFinite()) return 0.0;
-  if (!bounds.IsEmpty()) {
-    // The bounds are convex: an end is nearest to them.
-    const Vector3d low = a.cwiseMin(b) - bounds.min;
-    const Vector3d high = bounds.max - a.cwiseMax(b);
-    clearance = std::max(0.0, low.cwiseMin(high).minCoeff());
-  }
+  double clearance = std::min(Clearance(a), Clearance(b));
+  if (!IsFree(a, b)) return 0.0;
   for (const Space& space : impl_->spaces) {
-    if (clearance > 0.0) clearance = space.segments.Distance(a, b, clearance);
+    clearance = space.segments.Distance(a, b, clearance);
   }
   return clearance;
 }
@@ -164,14 +157,14 @@ PathCheck CheckPath(const FreeSpace& space, const std::vector<Vector3d>& path) {
   return result;
 }
 
-double PathClearance(const FreeSpace& space,
-                     const std::vector<Vector3d>& path) {
-  if (path.empty()) return 0.0;
-  double least = space.Clearance(path.front(), path.front());
+double PathClearance(const FreeSpace& space, const std::vector<Vector3d>& path,
+                     double tolerance) {
+  if (path.empty() || !(tolerance > 0.0)) return 0.0;
+  double best = space.Clearance(path.front(), path.front());
   for (std::size_t k = 0; k + 1 < path.size(); ++k) {
-    least = std::min(least, space.Clearance(path[k], path[k + 1]));
+    best = std::min(best, space.Clearance(path[k], path[k + 1]));
   }
-  return least;
+  return std::max(0.0, best - tolerance);
 }
 
 }  // namespace phongpd

@@ -51,8 +51,8 @@ class FreeSpace {
   // Distance from q to the nearest contact surface or bound, ≥ 0; infinity
   // where there is neither; 0 for non-finite q.  Rounded.
   double Clearance(const Eigen::Vector3d& q) const;
-  // The same for all points of the closed segment; 0 where it leaves the
-  // bounds.
+  // The least over the closed segment; 0 if it is not free.  The bounds are
+  // convex, so its ends tell their distance.
   double Clearance(const Eigen::Vector3d& a, const Eigen::Vector3d& b) const;
 
   std::size_t size() const;  // number of contact spaces
@@ -75,8 +75,10 @@ PathCheck CheckPath(const FreeSpace& space,
                     const std::vector<Eigen::Vector3d>& path);
 
 // The smallest distance from any point of a polyline to the nearest contact
-// surface or bound, rounded; 0 for a path that is empty or meets one.
+// surface or bound, less `tolerance` > 0 (user's unit): a lower bound if that
+// exceeds rounding.  0 if the path is not free.
 double PathClearance(const FreeSpace& space,
-                     const std::vector<Eigen::Vector3d>& path);
+                     const std::vector<Eigen::Vector3d>& path,
+                     double tolerance);
 
 }  // namespace phongpd

@@ -190,7 +190,8 @@ OmplPlanningResult PlanWithOmpl(
     }
     result.collision_free = CheckPath(model->free_space(), result.path).free;
     if (result.collision_free) {
-      result.clearance = PathClearance(model->free_space(), result.path);
+      result.clearance = PathClearance(model->free_space(), result.path,
+                                       1e-12 * model->diagonal());
     }
   }
   return result;
