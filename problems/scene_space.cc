@@ -56,32 +56,35 @@ SceneSpace BuildSceneSpace(const Scene& scene, SpaceLayout layout,
   }
   Builder builder(scene, cache, &space);
   const bool is_sealed = !scene.workspace.bounds.IsEmpty();
+  const auto seal = [&space](const ContactSpace& built) {
+    space.sealed_mesh = built.mesh;
+    space.sealed_self_intersections =
+        static_cast<long>(built.report.self_intersections);
+  };
   if (layout == SpaceLayout::kPerObstacle) {
     for (const int i : reachable) {
       const Obstacle& obstacle =
           scene.workspace.obstacles[static_cast<std::size_t>(i)];
       builder.Keep(builder.Build(obstacle.mesh, obstacle.id));
     }
-  } else if (!reachable.empty()) {
+  } else if (layout == SpaceLayout::kMerged && !reachable.empty()) {
     ContactSpace merged =
         builder.Build(JoinedObstacle(scene.workspace), "obstacles");
-    if (!is_sealed) {
-      space.sealed_mesh = merged.mesh;
-      space.sealed_self_intersections =
-          static_cast<long>(merged.report.self_intersections);
-    }
+    if (!is_sealed) seal(merged);
     builder.Keep(std::move(merged));
   }
   if (space.sealed_mesh.triangles.empty()) {
     ContactSpace sealed =
         builder.Build(MergedObstacle(scene.workspace),
                       is_sealed ? "obstacles and bounds" : "obstacles");
-    space.sealed_mesh = std::move(sealed.mesh);
-    space.sealed_self_intersections =
-        static_cast<long>(sealed.report.self_intersections);
+    seal(sealed);
+    if (layout == SpaceLayout::kSealed) builder.Keep(std::move(sealed));
   }
-  space.free_space =
-      std::make_shared<FreeSpace>(space.contact_meshes, scene.workspace.bounds);
+  // Bounds that are part of the mesh need no second test.
+  space.free_space = std::make_shared<FreeSpace>(space.contact_meshes,
+                                                 layout == SpaceLayout::kSealed
+                                                     ? FreeSpace::NoBounds()
+                                                     : scene.workspace.bounds);
   space.seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - begin)
           .count();

@@ -16,6 +16,7 @@ namespace phongpd {
 enum class SpaceLayout {
   kMerged,       // one, of all of them
   kPerObstacle,  // one each; they may overlap
+  kSealed,       // one, of all of them and the bounds: what planners need
 };
 
 // The contact spaces of a scene, as optimisers and planners need them; only
@@ -24,7 +25,7 @@ struct SceneSpace {
   // D, the diagonal of ContactBounds(scene): the length that margins and
   // smoothing lengths are fractions of, whatever the layout.
   double diagonal = 0.0;
-  std::vector<TriangleMesh> contact_meshes;  // without the bounds
+  std::vector<TriangleMesh> contact_meshes;  // bounds in it: kSealed only
   // All obstacles and the bounds in one: free cells end at the bounds.  Equal
   // to contact_meshes[0] where there are no bounds and all is merged.
   TriangleMesh sealed_mesh;

@@ -80,10 +80,10 @@ Json TrajectoryRow(const TrajectoryStudy& study, const TrajectoryMetric& metric,
   row["objective"] = result.objective;
   row["inf_pr"] = ipopt.violation;
   row["inf_du"] = ipopt.dual_infeasibility;
-  // Smallest distance along the path, in diagonals; a lower bound.
+  // Smallest distance along the path, in diagonals.
   row["clearance"] = result.certificate.free
-                         ? PathClearance(*study.space().free_space, result.path,
-                                         1e-5 * study.space().diagonal) /
+                         ? PathClearance(*study.space().free_space,
+                                         result.path) /
                                study.space().diagonal
                          : 0.0;
   row["rounds"] = ipopt.rounds;

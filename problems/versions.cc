@@ -9,6 +9,7 @@
 #include <Eigen/Core>
 #include <nlohmann/json.hpp>
 
+#include "planners/ompl/ompl_planning.h"
 #include "planners/trajectory/ipopt_solve.h"
 
 namespace phongpd {
@@ -30,6 +31,7 @@ std::vector<std::pair<std::string, std::string>> Versions() {
       {"TBB", TBB_VERSION_STRING},
       {"FCL", FCL_VERSION},
       {"Ipopt", IpoptVersion()},
+      {"OMPL", OmplVersion()},
       {"CLI11", CLI11_VERSION},
       {"nlohmann-json",
        Dotted(NLOHMANN_JSON_VERSION_MAJOR, NLOHMANN_JSON_VERSION_MINOR,

@@ -80,6 +80,16 @@ foreach(file IN LISTS files)
     list(APPEND failures "${file}: ${includes}")
   endif()
 endforeach()
+# OMPL belongs to planners/ompl; programs that measure may use it too.
+foreach(folder constraints planners/exact planners/retraction
+        planners/trajectory problems)
+  forbid(${folder} "ompl/")
+endforeach()
+file(STRINGS ${SOURCE}/planners/ompl/ompl_planning.h includes
+     REGEX "include <ompl/")
+if(includes)
+  list(APPEND failures "ompl_planning.h promises no type of OMPL: ${includes}")
+endif()
 
 # Every source names its licence.
 foreach(folder core constraints planners problems tests results)

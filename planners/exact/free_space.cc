@@ -203,14 +203,14 @@ PathCheck CheckPath(const FreeSpace& space, const std::vector<Vector3d>& path) {
   return result;
 }
 
-double PathClearance(const FreeSpace& space, const std::vector<Vector3d>& path,
-                     double tolerance) {
-  if (path.empty() || !(tolerance > 0.0)) return 0.0;
+double PathClearance(const FreeSpace& space,
+                     const std::vector<Vector3d>& path) {
+  if (path.empty()) return 0.0;
   double best = space.Clearance(path.front(), path.front());
   for (std::size_t k = 0; k + 1 < path.size(); ++k) {
     best = std::min(best, space.Clearance(path[k], path[k + 1]));
   }
-  return std::max(0.0, best - tolerance);
+  return best;
 }
 
 }  // namespace phongpd

@@ -94,10 +94,8 @@ PathCheck CheckPath(const FreeSpace& space,
                     const std::vector<Eigen::Vector3d>& path);
 
 // The smallest distance from any point of a polyline to the nearest contact
-// surface or bound, less `tolerance` > 0 (user's unit): a lower bound if that
-// exceeds rounding.  0 if the path is not free.
+// surface or bound, rounded; 0 if the path is not free or empty.
 double PathClearance(const FreeSpace& space,
-                     const std::vector<Eigen::Vector3d>& path,
-                     double tolerance);
+                     const std::vector<Eigen::Vector3d>& path);
 
 }  // namespace phongpd

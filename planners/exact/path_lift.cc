@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/mesh/segment_tree.h"
+
 namespace phongpd {
 
 using Eigen::Vector3d;

@@ -35,6 +35,7 @@ Command AddMotion(CLI::App* app);
 Command AddScenes(CLI::App* app);
 Command AddOptimize(CLI::App* app);
 Command AddCompare(CLI::App* app);
+Command AddPlan(CLI::App* app);
 
 // Reads an operand file as a solid.  What the user should know goes to
 // stderr, one line a warning.  Throws InputError naming the file.

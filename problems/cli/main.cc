@@ -71,6 +71,7 @@ int Run(int argc, char** argv) {
       AddOptimize);
   add("compare", "Compare penetration metrics in the trajectory optimiser",
       AddCompare);
+  add("plan", "Plan a path, or prove that there is none", AddPlan);
   add("scenes", "List or write the procedural scenes", AddScenes);
 
   try {

@@ -36,6 +36,12 @@ if(NOT output MATCHES "\n2: 0\n$" OR NOT output MATCHES "\n0: -(1\\.[89]|2)")
   message(FATAL_ERROR "unexpected answer of the consumer:\n${output}")
 endif()
 
+if(EXISTS ${BUILD}/planners/ompl)
+  run(${configure} -B ${work}-ompl -D COMPONENT=ompl -D
+      CMAKE_BUILD_TYPE=Release)
+  run(${CMAKE_COMMAND} --build ${work}-ompl)
+endif()
+
 execute_process(
   COMMAND ${configure} -B ${work}-missing -D COMPONENT=nonsense
   RESULT_VARIABLE result

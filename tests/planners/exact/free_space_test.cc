@@ -118,11 +118,8 @@ TEST(PathClearance, IsTheSmallestDistanceAlongThePath) {
   // Passes the corner (1, 1, 1) of the contact space at distance √2/2 · 0.5.
   const std::vector<Vector3d> path = {{3.0, -0.5, 0.0}, {-0.5, 3.0, 0.0}};
   const double truth = 0.5 / std::sqrt(2.0);
-  const double clearance = PathClearance(space, path, 1e-6);
-  EXPECT_LE(clearance, truth);
-  EXPECT_GE(clearance, truth - 2e-6);
-  EXPECT_EQ(PathClearance(space, {{0.0, 2.0, 0.0}, {0.0, 1.0, 0.0}}, 1e-6),
-            0.0);
+  EXPECT_NEAR(PathClearance(space, path), truth, 1e-14);
+  EXPECT_EQ(PathClearance(space, {{0.0, 2.0, 0.0}, {0.0, 1.0, 0.0}}), 0.0);
 }
 
 TEST(CheckPath, NamesTheFirstSegmentThatCollides) {

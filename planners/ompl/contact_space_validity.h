@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <ompl/base/MotionValidator.h>
+#include <ompl/base/Planner.h>
+#include <ompl/base/SpaceInformation.h>
+#include <ompl/base/StateValidityChecker.h>
+#include <ompl/base/spaces/RealVectorStateSpace.h>
+
+#include <Eigen/Core>
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <utility>
+
+#include "planners/retraction/contact_model.h"
+
+// OMPL's view of a contact model: states of a RealVectorStateSpace of
+// dimension 3 are configurations q.
+namespace phongpd {
+
+// The space of q with the model's region as bounds.
+std::shared_ptr<ompl::base::RealVectorStateSpace> MakeConfigurationSpace(
+    const ContactModel& model);
+
+// That space with both classes below, set up.
+ompl::base::SpaceInformationPtr MakeSpaceInformation(
+    const std::shared_ptr<const ContactModel>& model);
+
+// Throws InputError unless the planner's state space is a RealVectorStateSpace
+// of dimension 3.
+void CheckConfigurationSpace(const ompl::base::Planner& planner);
+
+Eigen::Vector3d ToPoint(const ompl::base::State* state);
+void FromPoint(const Eigen::Vector3d& q, ompl::base::State* state);
+
+// Is q free?  Exact; clearance is the distance to what is nearest, 0 where q
+// is not free.  Thread-safe.
+class ContactSpaceValidityChecker : public ompl::base::StateValidityChecker {
+ public:
+  ContactSpaceValidityChecker(const ompl::base::SpaceInformationPtr& si,
+                              std::shared_ptr<const ContactModel> model);
+
+  bool isValid(const ompl::base::State* state) const override;
+  double clearance(const ompl::base::State* state) const override;
+
+  std::uint64_t checks() const { return checks_; }
+
+ private:
+  std::shared_ptr<const ContactModel> model_;
+  mutable std::atomic<std::uint64_t> checks_{0};
+};
+
+// Is the whole motion free?  Exact, without a resolution: obstacles that fall
+// between the samples of OMPL's DiscreteMotionValidator are seen.  Thread-safe.
+class ContactSpaceMotionValidator : public ompl::base::MotionValidator {
+ public:
+  ContactSpaceMotionValidator(const ompl::base::SpaceInformationPtr& si,
+                              std::shared_ptr<const ContactModel> model);
+
+  bool checkMotion(const ompl::base::State* s1,
+                   const ompl::base::State* s2) const override;
+
+  // If blocked, lastValid.second is the largest fraction found such that the
+  // motion up to it is exactly free: the first contact less rounding (1e-12 of
+  // the motion where it arrives steeply), 0 if s1 is not free.
+  bool checkMotion(
+      const ompl::base::State* s1, const ompl::base::State* s2,
+      std::pair<ompl::base::State*, double>& lastValid) const override;
+
+  const ContactModel& model() const { return *model_; }
+
+ private:
+  bool Count(bool free) const;
+
+  std::shared_ptr<const ContactModel> model_;
+};
+
+}  // namespace phongpd

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <ompl/base/ScopedState.h>
+#include <ompl/geometric/SimpleSetup.h>
+#include <ompl/tools/benchmark/Benchmark.h>
+
+#include <sstream>
+
+#include "core/mesh/mesh_error.h"
+#include "planners/ompl/contact_space_validity.h"
+#include "planners/ompl/ompl_planners.h"
+
+namespace phongpd {
+namespace {
+
+// Does not tell the world the name of the machine.
+class NamelessBenchmark : public ompl::tools::Benchmark {
+ public:
+  using Benchmark::Benchmark;
+  void benchmark(const Request& request) override {
+    Benchmark::benchmark(request);
+    exp_.host = "unnamed";
+  }
+};
+
+}  // namespace
+
+std::string OmplBenchmarkLog(const std::shared_ptr<const ContactModel>& model,
+                             const Eigen::Vector3d& start,
+                             const Eigen::Vector3d& goal,
+                             const std::string& experiment,
+                             const std::string& planner, int runs,
+                             const OmplPlanningOptions& options) {
+  if (runs < 1) {
+    throw InputError("runs: expected at least 1, found " +
+                     std::to_string(runs));
+  }
+  const ompl::base::SpaceInformationPtr si = MakeSpaceInformation(model);
+  ompl::geometric::SimpleSetup setup(si);
+  ompl::base::ScopedState<> from(si), to(si);
+  FromPoint(start, from.get());
+  FromPoint(goal, to.get());
+  setup.setStartAndGoalStates(from, to);
+  NamelessBenchmark benchmark(setup, experiment);
+  benchmark.addPlanner(MakeOmplPlanner(planner, si, model, options));
+  NamelessBenchmark::Request request;
+  request.maxTime = options.time_limit;
+  request.maxMem = 4096.0;  // MiB
+  request.runCount = static_cast<unsigned int>(runs);
+  request.displayProgress = false;
+  request.saveConsoleOutput = false;
+  benchmark.benchmark(request);
+  std::ostringstream log;
+  benchmark.saveResultsToStream(log);
+  return log.str();
+}
+
+}  // namespace phongpd

@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "planners/ompl/ompl_planning.h"
+
+#include <ompl/base/PlannerData.h>
+#include <ompl/base/ProblemDefinition.h>
+#include <ompl/base/ScopedState.h>
+#include <ompl/base/samplers/BridgeTestValidStateSampler.h>
+#include <ompl/base/samplers/GaussianValidStateSampler.h>
+#include <ompl/base/samplers/ObstacleBasedValidStateSampler.h>
+#include <ompl/config.h>
+#include <ompl/geometric/PathGeometric.h>
+#include <ompl/geometric/planners/prm/PRM.h>
+#include <ompl/geometric/planners/rrt/RRTConnect.h>
+#include <ompl/util/Console.h>
+#include <ompl/util/RandomNumbers.h>
+
+#include <algorithm>
+#include <chrono>
+
+#include "core/mesh/mesh_error.h"
+#include "planners/ompl/contact_space_validity.h"
+#include "planners/ompl/ompl_planners.h"
+#include "planners/ompl/retraction_forest.h"
+#include "planners/ompl/retraction_rrt.h"
+#include "planners/ompl/retraction_state_sampler.h"
+
+namespace phongpd {
+namespace {
+
+namespace ob = ompl::base;
+namespace og = ompl::geometric;
+using Eigen::Vector3d;
+
+template <typename Sampler>
+ob::ValidStateSamplerPtr Allocate(const ob::SpaceInformation* si) {
+  return std::make_shared<Sampler>(si);
+}
+
+void CheckName(const std::string& name) {
+  const std::vector<std::string>& names = OmplPlannerNames();
+  if (std::find(names.begin(), names.end(), name) != names.end()) return;
+  std::string list;
+  for (const std::string& known : names) {
+    list += (list.empty() ? "" : ", ") + known;
+  }
+  throw InputError("planner: expected one of " + list + ", found '" + name +
+                   "'");
+}
+
+ob::PlannerPtr Configured(const std::shared_ptr<RetractionPlanner>& planner,
+                          const OmplPlanningOptions& options) {
+  planner->setRetractionOptions(options.retraction);
+  planner->setLocalPlanner(LocalPlannerFromString(options.local_planner));
+  planner->setSeed(options.seed);
+  return planner;
+}
+
+// OMPL logs an error when its generator is seeded a second time, but does it;
+// planners made afterwards draw their seeds from the new sequence.
+void SeedOmpl(std::uint64_t seed) {
+  ompl::msg::OutputHandler* const handler = ompl::msg::getOutputHandler();
+  ompl::msg::noOutputHandler();
+  ompl::RNG::setSeed(static_cast<std::uint_fast32_t>(1 + seed % 0xfffffffeull));
+  ompl::msg::useOutputHandler(handler);
+}
+
+std::vector<Vector3d> PointsOf(const ob::PathPtr& path) {
+  std::vector<Vector3d> points;
+  const auto* geometric = dynamic_cast<const og::PathGeometric*>(path.get());
+  if (geometric == nullptr) return points;
+  points.reserve(geometric->getStateCount());
+  for (unsigned int k = 0; k < geometric->getStateCount(); ++k) {
+    points.push_back(ToPoint(geometric->getState(k)));
+  }
+  return points;
+}
+
+void AddRetractionFigures(const RetractionPlanner& planner,
+                          OmplPlanningResult* result) {
+  const RetractionCounters& counters = planner.retractionCounters();
+  result->samples = planner.samples();
+  result->collision_checks += counters.queries;
+  result->segment_checks += planner.slideCounters().segment_checks;
+  result->retractions = counters.retractions;
+  result->branch_ends = counters.branch_ends;
+  result->graph_states = planner.graph().points().size();
+}
+
+}  // namespace
+
+const std::vector<std::string>& OmplPlannerNames() {
+  static const std::vector<std::string> names = {
+      "retraction-rrt",     "retraction-forest",
+      "rrt-connect",        "prm",
+      "prm-obstacle-based", "prm-gaussian",
+      "prm-bridge",         "prm-retraction"};
+  return names;
+}
+
+void OmplPlanningOptions::Validate() const {
+  if (!(time_limit > 0.0)) {
+    throw InputError("time limit: expected > 0 seconds, found " +
+                     std::to_string(time_limit));
+  }
+  retraction.Validate();
+  LocalPlannerFromString(local_planner);
+}
+
+ob::PlannerPtr MakeOmplPlanner(const std::string& name,
+                               const ob::SpaceInformationPtr& si,
+                               const std::shared_ptr<const ContactModel>& model,
+                               const OmplPlanningOptions& options) {
+  CheckName(name);
+  options.Validate();
+  if (!model) throw InputError("planner: expected a contact model");
+  if (name == "retraction-rrt") {
+    return Configured(std::make_shared<RetractionRRT>(si, model), options);
+  }
+  if (name == "retraction-forest") {
+    return Configured(std::make_shared<RetractionForest>(si, model), options);
+  }
+  if (name == "rrt-connect") return std::make_shared<og::RRTConnect>(si);
+  si->clearValidStateSamplerAllocator();
+  if (name == "prm-obstacle-based") {
+    si->setValidStateSamplerAllocator(
+        Allocate<ob::ObstacleBasedValidStateSampler>);
+  } else if (name == "prm-gaussian") {
+    si->setValidStateSamplerAllocator(Allocate<ob::GaussianValidStateSampler>);
+  } else if (name == "prm-bridge") {
+    si->setValidStateSamplerAllocator(
+        Allocate<ob::BridgeTestValidStateSampler>);
+  } else if (name == "prm-retraction") {
+    si->setValidStateSamplerAllocator(RetractionStateSamplerAllocator(
+        model, options.retraction, options.seed));
+  }
+  return std::make_shared<og::PRM>(si);
+}
+
+OmplPlanningResult PlanWithOmpl(
+    const std::shared_ptr<const ContactModel>& model, const Vector3d& start,
+    const Vector3d& goal, const std::string& name,
+    const OmplPlanningOptions& options) {
+  if (!start.allFinite() || !goal.allFinite()) {
+    throw InputError("start and goal: expected finite coordinates");
+  }
+  if (!model) throw InputError("planner: expected a contact model");
+  SeedOmpl(options.seed);
+  const ob::SpaceInformationPtr si = MakeSpaceInformation(model);
+  const ob::PlannerPtr planner = MakeOmplPlanner(name, si, model, options);
+  auto problem = std::make_shared<ob::ProblemDefinition>(si);
+  ob::ScopedState<> from(si), to(si);
+  FromPoint(start, from.get());
+  FromPoint(goal, to.get());
+  problem->setStartAndGoalStates(from, to);
+  planner->setProblemDefinition(problem);
+  planner->setup();
+
+  OmplPlanningResult result;
+  auto* own = dynamic_cast<RetractionPlanner*>(planner.get());
+  if (own != nullptr && options.in_passage) {
+    own->setWatch([&result, &options, own](const Vector3d& q) {
+      if (result.samples_to_passage < 0 && options.in_passage(q)) {
+        result.samples_to_passage = static_cast<std::int64_t>(own->samples());
+      }
+    });
+  }
+  const auto begin = std::chrono::steady_clock::now();
+  const ob::PlannerStatus status =
+      planner->solve(ob::timedPlannerTerminationCondition(options.time_limit));
+  result.seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - begin)
+          .count();
+  result.status = status.asString();
+  result.solved = status == ob::PlannerStatus::EXACT_SOLUTION;
+  result.collision_checks = static_cast<const ContactSpaceValidityChecker&>(
+                                *si->getStateValidityChecker())
+                                .checks();
+  result.segment_checks = si->getMotionValidator()->getCheckedMotionCount();
+  if (own != nullptr) {
+    AddRetractionFigures(*own, &result);
+  } else {
+    ob::PlannerData data(si);
+    planner->getPlannerData(data);
+    result.graph_states = data.numVertices();
+  }
+  if (result.solved) {
+    result.path = PointsOf(problem->getSolutionPath());
+    for (std::size_t k = 1; k < result.path.size(); ++k) {
+      result.length += (result.path[k] - result.path[k - 1]).norm();
+    }
+    result.collision_free = CheckPath(model->free_space(), result.path).free;
+    if (result.collision_free) {
+      result.clearance = PathClearance(model->free_space(), result.path);
+    }
+  }
+  return result;
+}
+
+// OMPL_VERSION is empty in Debian's package.
+std::string OmplVersion() {
+  return std::to_string(OMPL_MAJOR_VERSION) + '.' +
+         std::to_string(OMPL_MINOR_VERSION) + '.' +
+         std::to_string(OMPL_PATCH_VERSION);
+}
+
+void SilenceOmpl() { ompl::msg::noOutputHandler(); }
+
+}  // namespace phongpd

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "planners/retraction/retraction.h"
+
+// OMPL's planners on a contact model, without a type of OMPL's.
+namespace phongpd {
+
+// retraction-rrt, retraction-forest: this library's.  rrt-connect, prm: OMPL's
+// with uniform samples; prm-obstacle-based, prm-gaussian, prm-bridge: PRM with
+// OMPL's samplers for narrow passages; prm-retraction: PRM with
+// RetractionStateSampler.  All of them use the exact motion validator.
+const std::vector<std::string>& OmplPlannerNames();
+
+struct OmplPlanningOptions {
+  double time_limit = 1.0;  // seconds, > 0
+  // Of every random engine of the run.  Runs with the same seed repeat, up to
+  // when time runs out, if no two runs overlap in one process: OMPL's own
+  // generator is global and is reseeded here.  PRM watches its roadmap from a
+  // second thread and repeats only up to when that one notices a solution.
+  std::uint64_t seed = 1;
+  RetractionOptions retraction;  // retraction-* and prm-retraction
+  // retraction-rrt and -forest: collide-and-slide, step-retract, straight.
+  std::string local_planner = "collide-and-slide";
+  // retraction-rrt and -forest: is q within the passage of interest?
+  std::function<bool(const Eigen::Vector3d& q)> in_passage;
+
+  // Throws InputError.
+  void Validate() const;
+};
+
+struct OmplPlanningResult {
+  bool solved = false;          // what the planner claims
+  bool collision_free = false;  // CheckPath's word on the path
+  std::string status;           // of OMPL's planner
+  std::vector<Eigen::Vector3d> path;
+  double length = 0.0;
+  double clearance = 0.0;  // of the whole path from contact; 0 if none is free
+  std::uint64_t samples = 0;  // uniform ones; 0 for OMPL's own planners
+  // Samples until the first node in_passage; −1: none, or not asked for.
+  std::int64_t samples_to_passage = -1;
+  std::uint64_t collision_checks = 0;  // of a configuration
+  std::uint64_t segment_checks = 0;    // of a motion
+  std::uint64_t retractions = 0;       // of colliding configurations
+  std::uint64_t branch_ends = 0;
+  std::uint64_t graph_states = 0;
+  double seconds = 0.0;  // of the planner alone
+};
+
+// One run.  Throws InputError for an unknown name, bad options, a missing
+// model or a start or goal that is not finite; a start or goal in collision
+// is a status ("Invalid start", "Invalid goal").  OMPL's log is not touched;
+// SilenceOmpl turns it off.
+OmplPlanningResult PlanWithOmpl(
+    const std::shared_ptr<const ContactModel>& model,
+    const Eigen::Vector3d& start, const Eigen::Vector3d& goal,
+    const std::string& name, const OmplPlanningOptions& options = {});
+
+// Runs ompl::tools::Benchmark on one planner and returns its log, which
+// ompl_benchmark_statistics.py reads; the host is not named.  Its clock ticks
+// every 0.1 s: PlanWithOmpl measures better.  Throws InputError.
+std::string OmplBenchmarkLog(const std::shared_ptr<const ContactModel>& model,
+                             const Eigen::Vector3d& start,
+                             const Eigen::Vector3d& goal,
+                             const std::string& experiment,
+                             const std::string& planner, int runs,
+                             const OmplPlanningOptions& options = {});
+
+// Of the OMPL this was compiled with, "1.5.2".
+std::string OmplVersion();
+
+// Turns OMPL's console log off, errors included.
+void SilenceOmpl();
+
+}  // namespace phongpd

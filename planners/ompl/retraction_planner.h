@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <ompl/base/Planner.h>
+#include <ompl/base/goals/GoalSampleableRegion.h>
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "planners/retraction/collide_and_slide.h"
+#include "planners/retraction/motion_graph.h"
+#include "planners/retraction/retraction.h"
+
+namespace phongpd {
+
+// How two configurations are joined.
+enum class LocalPlanner {
+  kCollideAndSlide,
+  kStepRetract,
+  kStraight,  // only where the straight motion is free
+};
+
+// "collide-and-slide", "step-retract", "straight".
+std::string ToString(LocalPlanner planner);
+// Throws InputError for any other name.
+LocalPlanner LocalPlannerFromString(const std::string& name);
+
+// What RetractionRRT and RetractionForest share: they draw uniform samples,
+// retract those that collide, and grow a MotionGraph towards the points by a
+// local planner until a start and a goal are connected.
+//
+// The state space is a RealVectorStateSpace of dimension 3 (MakeSpaceInforma-
+// tion), the goal a GoalSampleableRegion.  If the space information has
+// another motion validator than a ContactSpaceMotionValidator of the same
+// model, every motion must pass that one too.  solve() resumes where the last
+// one stopped.  The random engine is the planner's own: setSeed, or else taken
+// from OMPL's generator; clear() does not rewind it.
+class RetractionPlanner : public ompl::base::Planner {
+ public:
+  ~RetractionPlanner() override;
+
+  ompl::base::PlannerStatus solve(
+      const ompl::base::PlannerTerminationCondition& ptc) override;
+  using Planner::solve;
+  void clear() override;
+  void checkValidity() override;
+  // Every point of the graph is a vertex, every edge a straight free motion.
+  void getPlannerData(ompl::base::PlannerData& data) const override;
+
+  void setRetractionOptions(const RetractionOptions& options);
+  const RetractionOptions& retractionOptions() const;
+  void setLocalPlanner(LocalPlanner planner) { local_planner_ = planner; }
+  void setSeed(std::uint64_t seed);
+  // Calls watch(q) for every point added: benchmarks ask when the first one
+  // is inside a passage.
+  void setWatch(std::function<void(const Eigen::Vector3d&)> watch);
+
+  // Since the last clear().
+  std::uint64_t samples() const { return samples_; }
+  const RetractionCounters& retractionCounters() const {
+    return scratch_.counters;
+  }
+  const SlideCounters& slideCounters() const { return slides_; }
+  const MotionGraph& graph() const { return graph_; }
+
+ protected:
+  RetractionPlanner(const ompl::base::SpaceInformationPtr& si,
+                    std::shared_ptr<const ContactModel> model,
+                    const std::string& name);
+
+  // Adds a start or goal that is already point `root` of the graph.
+  virtual void AddRoot(int root, bool is_start) = 0;
+  // Grows the graph towards a free configuration.
+  virtual void Grow(const Eigen::Vector3d& target,
+                    const ompl::base::PlannerTerminationCondition& ptc) = 0;
+  virtual void ClearNeighbors() = 0;
+
+  // Moves from point `from` towards `to`; the polyline is in path_ and its
+  // motions are valid.  True if it got there.
+  bool Slide(int from, const Eigen::Vector3d& to);
+  // Adds path_ to the graph, see MotionGraph::AddPath.
+  int AddSlide(int from, int to = -1);
+  int AddPoint(const Eigen::Vector3d& q);
+  // Where points closer to each other than this are one.
+  double SamePoint() const { return 100.0 * retraction_.model().floor(); }
+
+  MotionGraph graph_;
+  std::vector<Eigen::Vector3d> path_;
+  std::vector<int> starts_, goals_;
+
+ private:
+  void DeclareParams();
+  void AddInputs(const ompl::base::PlannerTerminationCondition& ptc);
+  bool AddSolution();
+  void FreeStates();
+
+  Retraction retraction_;
+  RetractionScratch scratch_;
+  SlideOptions slide_options_;
+  SlideCounters slides_;
+  LocalPlanner local_planner_ = LocalPlanner::kCollideAndSlide;
+  std::mt19937_64 random_;
+  std::uint32_t seed_ = 0;
+  std::uint64_t samples_ = 0;
+  std::vector<Eigen::Vector3d> targets_;  // of the last sample, not yet used
+  bool exact_ = false;  // the motion validator is the model's own
+  std::function<void(const Eigen::Vector3d&)> watch_;
+  ompl::base::State* from_ = nullptr;
+  ompl::base::State* to_ = nullptr;
+  mutable std::vector<ompl::base::State*> states_;  // for planner data
+};
+
+}  // namespace phongpd

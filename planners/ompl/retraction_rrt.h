@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <memory>
+
+#include "planners/ompl/retraction_planner.h"
+
+namespace phongpd {
+
+class PointNeighbors;
+
+// Two trees, from the starts and from the goals, that grow along obstacles.
+//
+// Each retracted sample is a target: the nearest node of one tree slides
+// towards it, the end becomes a node, and the nearest node of the other tree
+// slides towards that.  The trees change roles.  A slide goes as far as it
+// gets; there is no step length.
+class RetractionRRT : public RetractionPlanner {
+ public:
+  RetractionRRT(const ompl::base::SpaceInformationPtr& si,
+                std::shared_ptr<const ContactModel> model);
+  ~RetractionRRT() override;
+
+ protected:
+  void AddRoot(int root, bool is_start) override;
+  void Grow(const Eigen::Vector3d& target,
+            const ompl::base::PlannerTerminationCondition& ptc) override;
+  void ClearNeighbors() override;
+
+ private:
+  // The new node, or −1.
+  int Extend(PointNeighbors* tree, const Eigen::Vector3d& target);
+
+  std::unique_ptr<PointNeighbors> start_tree_, goal_tree_;
+  bool from_start_ = true;  // the tree that is extended next
+};
+
+}  // namespace phongpd

@@ -1,0 +1,238 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "planners/retraction/contact_model.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/mesh/mesh_error.h"
+#include "core/mesh/segment_tree.h"
+#include "core/projection/euclidean_metric.h"
+#include "core/projection/phong_metric.h"
+#include "planners/exact/free_cells.h"
+
+namespace phongpd {
+namespace {
+
+using Eigen::Vector3d;
+
+// Triangles closer to the start of a ray than this share of the diagonal touch
+// it: well above the rounding of a contact point, well below the floor.
+constexpr double kTouch = 1e-11;
+
+struct Space {
+  Space(const TriangleMesh& contact_mesh, const PhongMetricOptions& options)
+      : mesh(contact_mesh),
+        euclidean(contact_mesh),
+        phong(contact_mesh, options),
+        segments(contact_mesh) {
+    normals.reserve(mesh.triangles.size());
+    for (const Triangle& t : mesh.triangles) {
+      const Vector3d e1 = mesh.vertices[t[1]] - mesh.vertices[t[0]];
+      const Vector3d e2 = mesh.vertices[t[2]] - mesh.vertices[t[0]];
+      normals.push_back(e1.cross(e2).stableNormalized());
+    }
+  }
+
+  TriangleMesh mesh;
+  EuclideanMetric euclidean;
+  PhongMetric phong;
+  SegmentTree segments;
+  std::vector<Vector3d> normals;
+};
+
+std::size_t Index(int i) { return static_cast<std::size_t>(i); }
+
+// The box around both; either may be empty.
+BoundingBox Hull(const BoundingBox& a, const BoundingBox& b) {
+  if (a.IsEmpty()) return b;
+  if (b.IsEmpty()) return a;
+  return {a.min.cwiseMin(b.min), a.max.cwiseMax(b.max)};
+}
+
+}  // namespace
+
+BoundingBox SamplingRegion(const TriangleMesh& contact_mesh,
+                           const Vector3d& start, const Vector3d& goal) {
+  const BoundingBox all = ComputeBounds(contact_mesh);
+  const auto neighbors = TriangleNeighbors(contact_mesh);
+  const SegmentTree segments(contact_mesh);
+  const FreeCells cells(contact_mesh, neighbors, segments);
+  BoundingBox region = FreeSpace::NoBounds();
+  for (const Vector3d& q : {start, goal}) {
+    CellRay ray;
+    const int cell = q.allFinite() ? cells.CellOf(q, &ray) : -1;
+    if (cell < 0) return all;
+    TriangleMesh shell;
+    shell.vertices = contact_mesh.vertices;
+    for (std::size_t t = 0; t < contact_mesh.triangles.size(); ++t) {
+      if (cells.piece()[t] == cell) {
+        shell.triangles.push_back(contact_mesh.triangles[t]);
+      }
+    }
+    region = Hull(region, ComputeBounds(shell));
+  }
+  return region;
+}
+
+struct ContactModel::Impl {
+  Impl(const std::vector<TriangleMesh>& meshes, const BoundingBox& bounds,
+       const PhongFieldOptions& field)
+      : free_space(meshes, bounds), region(bounds) {
+    PhongMetricOptions options;
+    options.field_options = field;
+    spaces.reserve(meshes.size());
+    for (const TriangleMesh& mesh : meshes) spaces.emplace_back(mesh, options);
+    if (!bounds.IsEmpty()) return;
+    if (meshes.empty()) {
+      throw InputError("contact model: expected contact spaces or bounds");
+    }
+    for (const TriangleMesh& mesh : meshes) {
+      region = Hull(region, ComputeBounds(mesh));
+    }
+  }
+
+  FreeSpace free_space;
+  BoundingBox region;
+  std::vector<Space> spaces;
+};
+
+ContactModel::ContactModel(const std::vector<TriangleMesh>& contact_meshes,
+                           const BoundingBox& bounds,
+                           const PhongFieldOptions& field)
+    : impl_(std::make_unique<Impl>(contact_meshes, bounds, field)) {}
+ContactModel::~ContactModel() = default;
+ContactModel::ContactModel(ContactModel&&) noexcept = default;
+ContactModel& ContactModel::operator=(ContactModel&&) noexcept = default;
+
+const FreeSpace& ContactModel::free_space() const { return impl_->free_space; }
+const BoundingBox& ContactModel::region() const { return impl_->region; }
+const TriangleMesh& ContactModel::mesh(int space) const {
+  return impl_->spaces[Index(space)].mesh;
+}
+const PhongMetric& ContactModel::phong(int space) const {
+  return impl_->spaces[Index(space)].phong;
+}
+const Vector3d& ContactModel::Normal(int space, int triangle) const {
+  return impl_->spaces[Index(space)].normals[Index(triangle)];
+}
+
+ContactModel::Facet ContactModel::FacetMet(const Vector3d& a, const Vector3d& b,
+                                           const MotionCheck& check) const {
+  const Vector3d motion = b - a;
+  Facet facet;
+  facet.space = check.obstacle;
+  facet.triangle = check.triangle;
+  facet.point = a + check.fraction * motion;
+  if (check.obstacle == MotionCheck::kBounds) {
+    const BoundingBox& bounds = impl_->free_space.bounds();
+    double least = std::numeric_limits<double>::infinity();
+    for (int k = 0; k < 3; ++k) {
+      if (motion[k] == 0.0) continue;
+      const double wall = motion[k] > 0.0 ? bounds.max[k] : bounds.min[k];
+      const double fraction = (wall - a[k]) / motion[k];
+      if (fraction >= least) continue;
+      least = fraction;
+      facet.normal = motion[k] > 0.0 ? Vector3d(-Vector3d::Unit(k))
+                                     : Vector3d(Vector3d::Unit(k));
+    }
+    return facet;
+  }
+  facet.normal = Normal(check.obstacle, check.triangle);
+  const double length = motion.norm();
+  double opposed = facet.normal.dot(motion);
+  if (opposed < -1e-9 * length) return facet;
+  // The motion enters through an edge of a facet it is (nearly) parallel to.
+  const Space& space = impl_->spaces[Index(check.obstacle)];
+  const double reach = check.fraction + kTouch * diagonal() / length;
+  space.segments.ForEachHit(a, b, [&](int triangle, double fraction) {
+    const Vector3d& normal = space.normals[Index(triangle)];
+    if (fraction > reach || normal.dot(motion) >= opposed) return;
+    opposed = normal.dot(motion);
+    facet.triangle = triangle;
+    facet.normal = normal;
+  });
+  return facet;
+}
+
+ContactModel::Facet ContactModel::FindNearest(const Vector3d& q,
+                                              double* distance) const {
+  Facet facet;
+  *distance = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < impl_->spaces.size(); ++i) {
+    const PenetrationResult answer = impl_->spaces[i].euclidean.Query(q);
+    if (answer.status == QueryStatus::kInvalid) {
+      *distance = -std::numeric_limits<double>::infinity();
+      return {};
+    }
+    if (answer.signed_distance >= *distance) continue;
+    *distance = answer.signed_distance;
+    facet.space = static_cast<int>(i);
+    facet.triangle = answer.triangle;
+    facet.point = answer.contact;
+    facet.normal = impl_->spaces[i].normals[Index(answer.triangle)];
+  }
+  const BoundingBox& bounds = impl_->free_space.bounds();
+  for (int k = 0; k < 3 && !bounds.IsEmpty(); ++k) {
+    for (const double side : {-1.0, 1.0}) {
+      const double wall = side > 0.0 ? bounds.max[k] : bounds.min[k];
+      if (side * (wall - q[k]) >= *distance) continue;
+      *distance = side * (wall - q[k]);
+      facet.space = MotionCheck::kBounds;
+      facet.triangle = -1;
+      facet.point = q;
+      facet.point[k] = wall;
+      facet.normal = -side * Vector3d::Unit(k);
+    }
+  }
+  return facet;
+}
+
+double ContactModel::Standoff(const Facet& facet, double clearance) const {
+  const Vector3d ray = 2.0 * clearance * facet.normal;
+  const Vector3d end = facet.point + ray;
+  if (!end.allFinite() || facet.normal.isZero()) return 0.0;
+  double free = 1.0;
+  for (const Space& space : impl_->spaces) {
+    const SegmentTree::Hit hit =
+        space.segments.FirstHitBeyond(facet.point, end, kTouch * diagonal());
+    if (hit.Found()) free = std::min(free, hit.fraction);
+  }
+  const BoundingBox& bounds = impl_->free_space.bounds();
+  for (int k = 0; k < 3 && !bounds.IsEmpty(); ++k) {
+    if (ray[k] == 0.0) continue;
+    const double wall = ray[k] > 0.0 ? bounds.max[k] : bounds.min[k];
+    free = std::min(free, (wall - facet.point[k]) / ray[k]);
+  }
+  return std::max(0.0, free * clearance);
+}
+
+bool ContactModel::LiftOff(Facet facet, double clearance, Vector3d* q,
+                           double* room) const {
+  // Beyond the bounds, as the outside of a bounds shell is, nothing is free.
+  const BoundingBox& bounds = impl_->free_space.bounds();
+  const double slack = kTouch * diagonal();
+  if (!bounds.IsEmpty() &&
+      ((facet.point.array() < bounds.min.array() - slack).any() ||
+       (facet.point.array() > bounds.max.array() + slack).any())) {
+    return false;
+  }
+  double best = 0.0;
+  for (int lift = 0; lift < 3; ++lift) {
+    const double standoff = Standoff(facet, clearance);
+    if (!(standoff >= floor())) break;
+    const Vector3d p = facet.point + standoff * facet.normal;
+    double distance = 0.0;
+    facet = FindNearest(p, &distance);
+    if (distance >= floor() && distance > best) {
+      best = distance;
+      *q = p;
+      *room = distance;
+    }
+    if (distance >= 0.5 * standoff) break;
+  }
+  return best > 0.0;
+}
+
+}  // namespace phongpd

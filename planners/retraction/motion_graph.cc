@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "planners/retraction/motion_graph.h"
+
+#include <algorithm>
+#include <functional>
+#include <limits>
+#include <queue>
+
+namespace phongpd {
+namespace {
+
+using Eigen::Vector3d;
+
+std::size_t Index(int i) { return static_cast<std::size_t>(i); }
+
+}  // namespace
+
+int MotionGraph::AddPoint(const Vector3d& q) {
+  points_.push_back(q);
+  parent_.push_back(static_cast<int>(parent_.size()));
+  size_.push_back(1);
+  return parent_.back();
+}
+
+int MotionGraph::AddPath(int from, const std::vector<Vector3d>& path, int to) {
+  int last = from;
+  for (std::size_t k = 1; k < path.size(); ++k) {
+    const bool ends = to >= 0 && k + 1 == path.size();
+    const int next = ends ? to : AddPoint(path[k]);
+    AddEdge(last, next);
+    last = next;
+  }
+  return last;
+}
+
+void MotionGraph::AddEdge(int a, int b) {
+  edges_.emplace_back(a, b);
+  int root = Root(a), leaf = Root(b);
+  if (root == leaf) return;
+  if (size_[Index(root)] < size_[Index(leaf)]) std::swap(root, leaf);
+  parent_[Index(leaf)] = root;
+  size_[Index(root)] += size_[Index(leaf)];
+}
+
+// By size the trees are logarithmically deep; no compression, so it is const.
+int MotionGraph::Root(int point) const {
+  while (parent_[Index(point)] != point) point = parent_[Index(point)];
+  return point;
+}
+
+std::vector<Vector3d> MotionGraph::ShortestPath(int a, int b) const {
+  if (!AreConnected(a, b)) return {};
+  std::vector<std::vector<int>> neighbors(points_.size());
+  for (const auto& [i, j] : edges_) {
+    neighbors[Index(i)].push_back(j);
+    neighbors[Index(j)].push_back(i);
+  }
+  std::vector<double> length(points_.size(),
+                             std::numeric_limits<double>::infinity());
+  std::vector<int> previous(points_.size(), -1);
+  using Entry = std::pair<double, int>;
+  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
+  length[Index(a)] = 0.0;
+  queue.emplace(0.0, a);
+  while (!queue.empty()) {
+    const auto [so_far, i] = queue.top();
+    queue.pop();
+    if (i == b) break;
+    if (so_far > length[Index(i)]) continue;
+    for (const int j : neighbors[Index(i)]) {
+      const double along =
+          so_far + (points_[Index(j)] - points_[Index(i)]).norm();
+      if (along >= length[Index(j)]) continue;
+      length[Index(j)] = along;
+      previous[Index(j)] = i;
+      queue.emplace(along, j);
+    }
+  }
+  std::vector<Vector3d> path;
+  for (int i = b; i >= 0; i = previous[Index(i)])
+    path.push_back(points_[Index(i)]);
+  std::reverse(path.begin(), path.end());
+  return path;
+}
+
+void MotionGraph::Clear() { *this = MotionGraph(); }
+
+}  // namespace phongpd

@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "planners/retraction/retraction.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <utility>
+
+#include "core/mesh/mesh_error.h"
+
+namespace phongpd {
+namespace {
+
+using Eigen::Vector3d;
+
+std::size_t Index(int i) { return static_cast<std::size_t>(i); }
+
+// In [0, size); the same on every platform, unlike uniform_int_distribution.
+std::size_t RandomIndex(std::size_t size, std::mt19937_64* random) {
+  return static_cast<std::size_t>((*random)() % size);
+}
+
+double RandomUnit(std::mt19937_64* random) {
+  return static_cast<double>((*random)() >> 11) * 0x1p-53;
+}
+
+void CheckRange(const std::string& name, double value, double max) {
+  if (value > 0.0 && value <= max) return;
+  throw InputError("retraction " + name + ": expected in (0, " +
+                   std::to_string(static_cast<int>(max)) + "], found " +
+                   std::to_string(value));
+}
+
+}  // namespace
+
+Vector3d UniformPoint(const BoundingBox& box, std::mt19937_64* random) {
+  Vector3d q;
+  for (int k = 0; k < 3; ++k) {
+    q[k] = box.min[k] + RandomUnit(random) * (box.max[k] - box.min[k]);
+  }
+  return q;
+}
+
+void RetractionOptions::Validate() const {
+  CheckRange("clearance", clearance, 1.0);
+  CheckRange("depth_bound", depth_bound, 10.0);
+  if (max_branches < 1) {
+    throw InputError("retraction max_branches: expected ≥ 1, found " +
+                     std::to_string(max_branches));
+  }
+}
+
+Retraction::Retraction(std::shared_ptr<const ContactModel> model,
+                       const RetractionOptions& options)
+    : model_(std::move(model)), options_(options) {
+  options_.Validate();
+  if (!model_) throw InputError("retraction: expected a contact model");
+}
+
+RetractionStatus Retraction::Retract(const Vector3d& q, std::mt19937_64* random,
+                                     RetractionScratch* scratch) const {
+  scratch->points.clear();
+  ++scratch->counters.queries;
+  if (options_.metric == RetractionMetric::kContactPoint) {
+    return DrawContactPoint(random, scratch);
+  }
+  if (!q.allFinite()) return RetractionStatus::kInvalid;
+  if (model_->free_space().IsFree(q)) {
+    scratch->points.push_back(
+        {q, std::numeric_limits<double>::infinity(), ContactModel::Facet()});
+    return RetractionStatus::kFree;
+  }
+  ++scratch->counters.retractions;
+  std::uint64_t before = scratch->counters.projections;
+  if (options_.metric == RetractionMetric::kEuclidean) {
+    double distance = 0.0;
+    const ContactModel::Facet nearest = model_->FindNearest(q, &distance);
+    if (distance < 0.0 && nearest.space >= 0) {
+      ++scratch->counters.projections;
+      Lift(nearest, scratch);
+    }
+  } else {
+    for (std::size_t i = 0; i < model_->size(); ++i) {
+      Project(static_cast<int>(i), q, random, scratch);
+    }
+  }
+  if (scratch->counters.projections == before) {
+    return RetractionStatus::kNoProjection;
+  }
+  return scratch->points.empty() ? RetractionStatus::kNoClearance
+                                 : RetractionStatus::kRetracted;
+}
+
+RetractionStatus Retraction::DrawContactPoint(
+    std::mt19937_64* random, RetractionScratch* scratch) const {
+  if (model_->size() == 0) return RetractionStatus::kNoProjection;
+  // Facets beyond the bounds (the outside of the bounds shell) are common.
+  constexpr int kDraws = 16;
+  for (int draw = 0; draw < kDraws; ++draw) {
+    const int space = static_cast<int>(RandomIndex(model_->size(), random));
+    const TriangleMesh& mesh = model_->mesh(space);
+    ContactModel::Facet facet;
+    facet.space = space;
+    facet.triangle =
+        static_cast<int>(RandomIndex(mesh.triangles.size(), random));
+    const Triangle& t = mesh.triangles[Index(facet.triangle)];
+    double u = RandomUnit(random), v = RandomUnit(random);
+    if (u + v > 1.0) {
+      u = 1.0 - u;
+      v = 1.0 - v;
+    }
+    const Vector3d& origin = mesh.vertices[Index(t[0])];
+    facet.point = origin + u * (mesh.vertices[Index(t[1])] - origin) +
+                  v * (mesh.vertices[Index(t[2])] - origin);
+    facet.normal = model_->Normal(space, facet.triangle);
+    ++scratch->counters.projections;
+    if (Lift(facet, scratch)) return RetractionStatus::kRetracted;
+  }
+  return RetractionStatus::kNoClearance;
+}
+
+void Retraction::Project(int space, const Vector3d& q, std::mt19937_64* random,
+                         RetractionScratch* scratch) const {
+  std::vector<PenetrationResult>& found = scratch->projections;
+  const PhongMetric& metric = model_->phong(space);
+  found.clear();
+  if (options_.choice == BranchChoice::kWarm ||
+      options_.choice == BranchChoice::kNearest) {
+    scratch->warm.resize(model_->size());
+    Branch& warm = scratch->warm[Index(space)];
+    const bool follow = options_.choice == BranchChoice::kWarm;
+    const PenetrationResult answer = metric.Query(q, follow ? warm : Branch());
+    warm = answer.branch;
+    if (answer.status == QueryStatus::kBranchEnded) {
+      ++scratch->counters.branch_ends;
+    }
+    if (!answer.inside) return;
+    found.push_back(answer);
+  } else {
+    metric.QueryAll(q, options_.depth_bound * model_->diagonal(), &found);
+    if (found.empty() && metric.IsInside(q)) {
+      const PenetrationResult answer = metric.Query(q);
+      if (-answer.signed_distance <=
+          options_.depth_bound * model_->diagonal()) {
+        found.push_back(answer);
+      }
+    }
+  }
+  if (found.empty()) return;
+  if (found.front().status == QueryStatus::kEuclideanFallback) {
+    ++scratch->counters.fallbacks;
+  }
+  scratch->counters.projections += found.size();
+  Choose(space, random, scratch);
+}
+
+// Takes points from scratch->projections by the option's choice.  A choice of
+// one tries the others when the chosen one has no free point in front of it
+// (a projection on the far side of the bounds is none).
+void Retraction::Choose(int space, std::mt19937_64* random,
+                        RetractionScratch* scratch) const {
+  std::vector<PenetrationResult>& found = scratch->projections;
+  const bool all = options_.choice == BranchChoice::kAll;
+  std::vector<int>* taken = nullptr;
+  if (options_.choice == BranchChoice::kNovelty) {
+    scratch->taken.resize(model_->size());
+    taken = &scratch->taken[Index(space)];
+    taken->resize(model_->mesh(space).triangles.size());
+  }
+  const std::size_t limit =
+      std::min(found.size(), Index(options_.max_branches));
+  for (std::size_t k = 0; k < limit; ++k) {
+    std::size_t chosen = k;
+    if (options_.choice == BranchChoice::kRandom) {
+      chosen = k + RandomIndex(found.size() - k, random);
+    } else if (taken != nullptr) {
+      for (std::size_t i = k; i < found.size(); ++i) {
+        if ((*taken)[Index(found[i].triangle)] <
+            (*taken)[Index(found[chosen].triangle)]) {
+          chosen = i;
+        }
+      }
+    }
+    std::swap(found[k], found[chosen]);
+    const PenetrationResult& hit = found[k];
+    if (taken != nullptr) ++(*taken)[Index(hit.triangle)];
+    const ContactModel::Facet contact = {space, hit.triangle, hit.contact,
+                                         model_->Normal(space, hit.triangle)};
+    if (Lift(contact, scratch) && !all) return;
+  }
+}
+
+bool Retraction::Lift(const ContactModel::Facet& contact,
+                      RetractionScratch* scratch) const {
+  RetractedPoint point;
+  point.contact = contact;
+  if (!model_->LiftOff(contact, clearance(), &point.q, &point.room)) {
+    return false;
+  }
+  ++scratch->counters.points;
+  scratch->points.push_back(point);
+  return true;
+}
+
+}  // namespace phongpd

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tests/support/passages.h"
+
+#include <nlohmann/json.hpp>
+
+#include "core/contact_space/contact_space.h"
+#include "problems/scene_library.h"
+
+namespace phongpd::testing {
+
+Passage MakePassage(const std::string& family, double delta,
+                    int rotation_seed) {
+  Passage passage;
+  passage.scene = ParseScene(
+      MakeScene(family, {{"delta", delta}, {"rotation_seed", rotation_seed}}),
+      family);
+  Workspace& workspace = passage.workspace;
+  workspace.robot = passage.scene.robot;
+  for (const SceneObstacle& obstacle : passage.scene.obstacles) {
+    workspace.obstacles.push_back({obstacle.id, obstacle.mesh});
+  }
+  workspace.bounds = passage.scene.bounds;
+  const TriangleMesh contact =
+      BuildContactSpace(workspace.robot, MergedObstacle(workspace)).mesh;
+  const Scene& scene = passage.scene;
+  passage.model = std::make_shared<const ContactModel>(
+      std::vector<TriangleMesh>{contact},
+      workspace.bounds.IsEmpty()
+          ? SamplingRegion(contact, scene.start, scene.goal)
+          : workspace.bounds);
+  return passage;
+}
+
+}  // namespace phongpd::testing

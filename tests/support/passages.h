@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "planners/exact/workspace.h"
+#include "planners/retraction/contact_model.h"
+#include "problems/scene.h"
+
+namespace phongpd::testing {
+
+// A scene with a narrow passage and its merged contact space.
+struct Passage {
+  Scene scene;
+  Workspace workspace;
+  std::shared_ptr<const ContactModel> model;
+};
+
+// The scene family (hole, tunnel, keyhole, bugtrap, ...) with a channel of
+// side `delta` in q; δ < 0 closes it: the infeasible twin.  A rotation seed
+// > 0 turns everything: coplanar coincidences go, rounding comes.
+Passage MakePassage(const std::string& family, double delta,
+                    int rotation_seed = 0);
+
+}  // namespace phongpd::testing
