@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/mesh/segment_tree.h"
-
 namespace phongpd {
 
 using Eigen::Vector3d;
