@@ -104,6 +104,7 @@ class Run {
     const RepairStatus status = result_.repair.status;
     if (status == RepairStatus::kInfeasibleProved) {
       result_.status = TrajectoryStatus::kInfeasibleProved;
+      result_.reason = result_.repair.reason;
     } else if (starts->empty()) {
       starts->push_back(StraightPath(problem_));
     }
@@ -183,7 +184,11 @@ class Run {
          summary.path);
     candidate->path = std::move(summary.path);
     candidate->objective = summary.objective;
-    if (summary.status == CorridorStatus::kConverged) {
+    const bool has_gained = std::any_of(
+        summary.rounds.begin(), summary.rounds.end(),
+        [](const CorridorRound& round) { return round.is_accepted; });
+    if (summary.status == CorridorStatus::kConverged ||
+        (summary.status == CorridorStatus::kSmallestTrust && has_gained)) {
       candidate->status = TrajectoryStatus::kPolished;
       candidate->reason.clear();
     } else if (candidate->status != TrajectoryStatus::kSolved) {
