@@ -125,7 +125,14 @@ class Run {
     if (HasFreePath(candidate.status)) {
       candidate.reason = "the time limit came before the optimiser";
     }
-    if (!IsLate()) Optimize(start, &candidate);
+    const bool may_polish =
+        options_.polish != PolishWhen::kNever && HasFreePath(candidate.status);
+    if (may_polish && IsTooNarrow(start)) {
+      candidate.reason = "the start has too little clearance for Ipopt's rows";
+      Note({"ipopt", route, "skipped", false, 0.0, 0, 0.0}, start);
+    } else if (!IsLate()) {
+      Optimize(start, may_polish, &candidate);
+    }
     const bool is_wanted = options_.polish == PolishWhen::kAlways ||
                            (options_.polish == PolishWhen::kNeeded &&
                             candidate.status != TrajectoryStatus::kSolved);
@@ -133,6 +140,15 @@ class Run {
       Polish(&candidate);
     }
     return candidate;
+  }
+
+  // Where a repaired path, which keeps to the middle of passages, has less than
+  // half the margin, no path near it has all of it.  Ipopt's program is then
+  // infeasible, and it takes hundreds of iterations to find out.
+  bool IsTooNarrow(const Path& start) const {
+    const double margin = problem_.margin * Diagonal(problem_);
+    return margin > 0.0 && PathClearance(*problem_.free_space, start,
+                                         0.05 * margin) < 0.45 * margin;
   }
 
   // Makes the path the candidate, as free or not free, not converged.
@@ -144,8 +160,10 @@ class Run {
     candidate->objective = PathEnergy(problem_, path);
   }
 
-  void Optimize(const Path& start, Candidate* candidate) {
+  void Optimize(const Path& start, bool may_polish, Candidate* candidate) {
     TrajectoryOptions options = options_.optimizer;
+    // With a free start in hand the corridor is the better second round.
+    if (may_polish) options.max_rounds = 1;
     options.ipopt.time_limit = std::min(options.ipopt.time_limit, Left());
     const TrajectorySummary summary =
         IpoptTrajectoryOptimizer(problem_, options).Solve(start);
