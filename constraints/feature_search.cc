@@ -2,6 +2,7 @@
 #include "constraints/feature_search.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -37,24 +38,36 @@ FeatureSearch::FeatureSearch(const TriangleMesh& mesh) {
                      q[0].cwiseMax(q[1]).cwiseMax(q[2])});
   }
   tree_ = BoxTree(boxes, 2);
-  for (const int item : tree_.order()) corners_.push_back(corners[item]);
+  for (const BoxTree::Node& node : tree_.nodes()) {
+    radius_.push_back(0.5 * (node.max - node.min).norm());
+  }
+  position_.resize(corners.size());
+  for (const int item : tree_.order()) {
+    position_[item] = static_cast<int>(corners_.size());
+    corners_.push_back(corners[item]);
+  }
 }
 
-bool FeatureSearch::IsShadowed(const BoxTree::Node& node, const Vector3d& x,
+bool FeatureSearch::IsShadowed(int index, const Vector3d& x,
                                const Vector3d* taken, int count,
                                double cos_limit) const noexcept {
+  const BoxTree::Node& node = tree_.nodes()[index];
   const Vector3d to_x = x - 0.5 * (node.min + node.max);
-  const double distance = to_x.norm();
-  const double radius = 0.5 * (node.max - node.min).norm();
-  // The ball around the box is seen under the half angle β; it stays in the
-  // cone of half angle L if its centre's angle is at most L − β.
-  const double sin_beta = radius / distance;
+  const double radius = radius_[index];
+  // From x the ball around the box, D away, fills the half angle β,
+  // sin β = r/D.  It stays in the cone of half angle L about t if its centre
+  // is within L − β of t:  to_x·t ≥ D cos(L − β) = cos L √(D² − r²) + sin L r.
+  const double squared = to_x.squaredNorm() - radius * radius;
   const double sin_limit = std::sqrt(1.0 - cos_limit * cos_limit);
-  if (!(sin_beta < sin_limit)) return false;
-  const double cos_beta = std::sqrt(1.0 - sin_beta * sin_beta);
-  const double least = cos_limit * cos_beta + sin_limit * sin_beta + 1e-12;
+  if (!(squared > 0.0) ||
+      radius * cos_limit >= sin_limit * std::sqrt(squared)) {
+    return false;  // β ≥ L
+  }
+  const double least = cos_limit * std::sqrt(squared) + sin_limit * radius;
+  // Rounding must not hide anything.
+  const double slack = 1e-12 * (1.0 + least);
   for (int i = 0; i < count; ++i) {
-    if (to_x.dot(taken[i]) >= least * distance) return true;
+    if (to_x.dot(taken[i]) >= least + slack) return true;
   }
   return false;
 }
@@ -88,7 +101,7 @@ bool FeatureSearch::FindNext(const Vector3d& q, const Vector3d* taken,
         const BoxTree::Node& node = tree_.nodes()[index];
         const double lower = node.SquaredDistance(x);
         if (lower > nearest) return kNone;
-        return IsShadowed(node, x, taken, count, cos_limit) ? kNone : lower;
+        return IsShadowed(index, x, taken, count, cos_limit) ? kNone : lower;
       },
       [&](int position) {
         const Corners& t = corners_[position];
@@ -112,6 +125,29 @@ bool FeatureSearch::FindNext(const Vector3d& q, const Vector3d* taken,
   feature->distance = std::sqrt(nearest) / scale_;
   feature->direction = best_direction;
   return true;
+}
+
+Eigen::Matrix3d FeatureSearch::Curvature(const Vector3d& q,
+                                         int triangle) const noexcept {
+  const Vector3d x = (q - center_) * scale_;
+  if (!(x.cwiseAbs().maxCoeff() <= kFar)) return Eigen::Matrix3d::Zero();
+  const Corners& t = corners_[position_[triangle]];
+  const Vector3d lambda = ClosestOnTriangle(t[0], t[1], t[2], x).lambda;
+  const auto corners_used = (lambda.array() > 0.0).count();
+  Vector3d u;
+  if (corners_used == 3 || !Direction(t, lambda, x, &u)) {
+    return Eigen::Matrix3d::Zero();
+  }
+  Eigen::Matrix3d flat = u * u.transpose();
+  if (corners_used == 2) {
+    const std::size_t a = lambda[0] > 0.0 ? 0 : 1, b = lambda[2] > 0.0 ? 2 : 1;
+    const Vector3d e = (t[b] - t[a]).normalized();
+    flat += e * e.transpose();
+  }
+  const Vector3d foot = lambda[0] * t[0] + lambda[1] * t[1] + lambda[2] * t[2];
+  constexpr double kLeast = 1e-3;
+  const double distance = std::max((x - foot).norm(), kLeast);
+  return (Eigen::Matrix3d::Identity() - flat) / distance * scale_;
 }
 
 }  // namespace phongpd

@@ -34,11 +34,18 @@ class FeatureSearch {
   bool FindNext(const Eigen::Vector3d& q, const Eigen::Vector3d* taken,
                 int count, double cos_limit, Feature* feature) const noexcept;
 
+  // ∇² of the distance to one triangle at q:  0 over its face,
+  // (I − uuᵀ − eeᵀ)/d beside an edge e, (I − uuᵀ)/d beside a vertex; d is
+  // taken as at least 1e-3 diagonals, so that it stays bounded.  User's unit.
+  Eigen::Matrix3d Curvature(const Eigen::Vector3d& q,
+                            int triangle) const noexcept;
+
  private:
   using Corners = std::array<Eigen::Vector3d, 3>;
 
-  // No point of a box, seen from x, leaves the cone about a taken direction.
-  bool IsShadowed(const BoxTree::Node& node, const Eigen::Vector3d& x,
+  // No point of a node's box, seen from x, leaves the cone about a taken
+  // direction.
+  bool IsShadowed(int index, const Eigen::Vector3d& x,
                   const Eigen::Vector3d* taken, int count,
                   double cos_limit) const noexcept;
   // Direction of a triangle's closest point; false for a degenerate triangle
@@ -50,7 +57,9 @@ class FeatureSearch {
   Eigen::Vector3d center_ = Eigen::Vector3d::Zero();
   double scale_ = 1.0;  // power of two: diagonal in [1, 2)
   BoxTree tree_;
+  std::vector<double> radius_;    // of each node's box
   std::vector<Corners> corners_;  // in the tree's order, scaled
+  std::vector<int> position_;     // of each triangle in that order
 };
 
 }  // namespace phongpd

@@ -127,63 +127,118 @@ bool NonPenetrationConstraint::IsFinite(const double* u) const {
                      [&](double x) { return std::abs(x) <= limit; });
 }
 
-bool NonPenetrationConstraint::Evaluate(const double* u,
-                                        const BranchSet& branches,
-                                        double* values, double* jacobian,
-                                        NonPenetrationCounts* counts) const {
-  if (!IsFinite(u)) return false;
+template <typename Visit>
+void NonPenetrationConstraint::ForEachRow(const double* u,
+                                          const BranchSet& branches,
+                                          NonPenetrationCounts* counts,
+                                          const Visit& visit) const {
+  struct Candidate {
+    MetricRow row;
+    std::size_t metric = 0;
+  };
   const bool is_stateless = options_.policy == BranchPolicy::kStateless;
-  std::array<MetricRow, kMaxMetricRows> rows;   // of one space
-  std::array<MetricRow, kMaxMetricRows> least;  // of all, ascending
-  const auto write = [&](const Sample& sample, const MetricRow& row) {
-    if (values != nullptr) {
-      *values++ = std::min(row.value / options_.frame.unit,
-                           std::numeric_limits<double>::max());
-    }
-    if (jacobian == nullptr) return;
-    for (int i = 0; i < sample.count; ++i) {
-      for (int axis = 0; axis < 3; ++axis) {
-        *jacobian++ = sample.weight[i] * row.gradient[axis];
-      }
-    }
+  const auto count = static_cast<std::size_t>(options_.rows);
+  std::array<MetricRow, kMaxMetricRows> rows;       // of one space
+  std::array<Candidate, kMaxMetricRows + 1> least;  // of all, ascending
+  // Repeated rows only fill up; ties keep the order of the spaces.
+  const auto before = [](const Candidate& a, const Candidate& b) {
+    if (a.row.is_repeated != b.row.is_repeated) return b.row.is_repeated;
+    return a.row.value < b.row.value;
   };
   for (int s = 0; s < samples(); ++s) {
     const Sample& sample = samples_[static_cast<std::size_t>(s)];
     const Vector3d q = SamplePoint(s, u);
-    int kept = 0;
+    std::size_t kept = 0;
     for (std::size_t m = 0; m < metrics_.size(); ++m) {
       Branch previous;
       if (!is_stateless) previous = branches.branches[BranchIndex(s, m)];
       metrics_[m]->Query(q, previous, options_.rows, rows.data());
       Count(rows[0], previous.IsValid(), counts);
-      for (int k = 0; k < options_.rows; ++k) {
-        const MetricRow& row = rows[static_cast<std::size_t>(k)];
+      for (std::size_t k = 0; k < count; ++k) {
         if (!options_.merge_spaces) {
-          write(sample, row);
+          visit(sample, *metrics_[m], q, rows[k]);
           continue;
         }
-        // Insertion; ties keep the order of the spaces.  Repeated rows only
-        // fill up.
-        const auto before = [&](const MetricRow& a, const MetricRow& b) {
-          if (a.is_repeated != b.is_repeated) return b.is_repeated;
-          return a.value < b.value;
-        };
-        auto end = least.begin() + kept;
-        auto at = std::upper_bound(least.begin(), end, row, before);
-        if (at == least.begin() + options_.rows) continue;
-        if (kept < options_.rows) {
-          ++kept;
-          ++end;
-        }
-        std::move_backward(at, end - 1, end);
-        *at = row;
+        const Candidate candidate{rows[k], m};
+        Candidate* const end = least.data() + kept;
+        Candidate* const at =
+            std::upper_bound(least.data(), end, candidate, before);
+        std::move_backward(at, end, end + 1);
+        *at = candidate;
+        kept = std::min(kept + 1, count);
       }
     }
-    for (int k = 0; k < kept; ++k) {
-      write(sample, least[static_cast<std::size_t>(k)]);
+    for (std::size_t k = 0; k < kept; ++k) {
+      visit(sample, *metrics_[least[k].metric], q, least[k].row);
     }
   }
+}
+
+bool NonPenetrationConstraint::Evaluate(const double* u,
+                                        const BranchSet& branches,
+                                        double* values, double* jacobian,
+                                        NonPenetrationCounts* counts) const {
+  if (!IsFinite(u)) return false;
+  ForEachRow(u, branches, counts,
+             [&](const Sample& sample, const SignedMetric&, const Vector3d&,
+                 const MetricRow& row) {
+               if (values != nullptr) {
+                 *values++ = std::min(row.value / options_.frame.unit,
+                                      std::numeric_limits<double>::max());
+               }
+               if (jacobian == nullptr) return;
+               for (int i = 0; i < sample.count; ++i) {
+                 for (int axis = 0; axis < 3; ++axis) {
+                   *jacobian++ = sample.weight[i] * row.gradient[axis];
+                 }
+               }
+             });
   return true;
+}
+
+void NonPenetrationConstraint::CurvaturePattern(int* row, int* col) const {
+  const auto add = [&](int i, int j) {
+    *row++ = i;
+    *col++ = j;
+  };
+  for (int w = 0; w < waypoints_; ++w) {
+    for (int a = 0; a < 3; ++a) {
+      for (int b = 0; b <= a; ++b) add(3 * w + a, 3 * w + b);
+    }
+    for (int i = 0; w > 0 && i < 9; ++i) {
+      add(3 * w + i / 3, 3 * (w - 1) + i % 3);
+    }
+  }
+}
+
+void NonPenetrationConstraint::AddCurvature(const double* u,
+                                            const BranchSet& branches,
+                                            const double* multipliers,
+                                            bool outside_only,
+                                            double* values) const {
+  if (!IsFinite(u)) return;
+  ForEachRow(u, branches, nullptr,
+             [&](const Sample& sample, const SignedMetric& metric,
+                 const Vector3d& q, const MetricRow& row) {
+               const double multiplier = *multipliers++;
+               if (multiplier == 0.0 || (outside_only && row.inside)) return;
+               const Eigen::Matrix3d h =
+                   multiplier * options_.frame.unit * metric.Curvature(q, row);
+               for (int i = 0; i < sample.count; ++i) {
+                 const int w = sample.waypoint[i];
+                 double* block = values + (w == 0 ? 0 : 15 * w - 9);
+                 const double weight = sample.weight[i];
+                 for (int a = 0; a < 3; ++a) {
+                   for (int b = 0; b <= a; ++b) {
+                     *block++ += weight * weight * h(a, b);
+                   }
+                 }
+                 // The second waypoint of a sample is the later one.
+                 for (int k = 0; i == 1 && k < 9; ++k) {
+                   *block++ += weight * sample.weight[0] * h(k / 3, k % 3);
+                 }
+               }
+             });
 }
 
 BranchSet NonPenetrationConstraint::Start(const double* u,

@@ -87,6 +87,17 @@ class NonPenetrationConstraint {
   bool Evaluate(const double* u, const BranchSet& branches, double* values,
                 double* jacobian, NonPenetrationCounts* counts) const;
 
+  // Σ multipliers[i] ∇² of row i (SignedMetric::Curvature), added to the lower
+  // triangle of a matrix with blocks for neighbouring waypoints.  It holds
+  // curvature_nonzeros() entries waypoint by waypoint: 6 of the diagonal block,
+  // row by row, then 9 of the block left of it.  With `outside_only` rows
+  // inside add nothing.  Queries again: Evaluate keeps nothing.
+  int curvature_nonzeros() const { return 15 * waypoints_ - 9; }
+  void CurvaturePattern(int* row, int* col) const;
+  void AddCurvature(const double* u, const BranchSet& branches,
+                    const double* multipliers, bool outside_only,
+                    double* values) const;
+
   // Cold branches at u: the beginning of a solve or of a round.
   BranchSet Start(const double* u, NonPenetrationCounts* counts) const;
   // u was accepted: advances the branches as the policy says.  Does nothing if
@@ -104,6 +115,10 @@ class NonPenetrationConstraint {
   };
 
   Eigen::Vector3d Waypoint(int index, const double* u) const;
+  // visit(sample, metric, q, row) for all rows in their order.
+  template <typename Visit>
+  void ForEachRow(const double* u, const BranchSet& branches,
+                  NonPenetrationCounts* counts, const Visit& visit) const;
   bool IsFinite(const double* u) const;
   std::size_t BranchIndex(int sample, std::size_t space) const {
     return static_cast<std::size_t>(sample) * metrics_.size() + space;

@@ -64,18 +64,45 @@ void SignedMetric::Query(const Vector3d& q, const Branch& previous, int count,
   bool has_more = !rows[0].inside && rows[0].status != QueryStatus::kInvalid;
   for (int k = 1; k < count; ++k) {
     rows[k] = rows[0];
-    rows[k].branch = {};
     FeatureSearch::Feature feature;
     has_more = has_more && features_->FindNext(q, taken.data(), k,
                                                cos_separation_, &feature);
     rows[k].is_repeated = !has_more;
     if (!has_more) continue;
     rows[k].status = QueryStatus::kOk;
+    rows[k].is_capped = false;
     rows[k].value = feature.distance;
     rows[k].gradient = feature.direction;
     rows[k].triangle = feature.triangle;
     taken[static_cast<std::size_t>(k)] = feature.direction;
   }
+}
+
+Eigen::Matrix3d SignedMetric::Curvature(const Vector3d& q,
+                                        const MetricRow& row) const {
+  if (row.status == QueryStatus::kInvalid) return Eigen::Matrix3d::Zero();
+  if (!row.branch.IsValid()) {
+    const double sign = row.inside ? -1.0 : 1.0;
+    return sign * features_->Curvature(q, row.triangle);
+  }
+  const double diagonal = bounds_.Diagonal();
+  const double step = 1e-6 * diagonal;
+  Eigen::Matrix3d h;
+  for (int axis = 0; axis < 3; ++axis) {
+    const Vector3d move = step * Vector3d::Unit(axis);
+    const PenetrationResult ahead = metric_->Query(q + move, row.branch);
+    const PenetrationResult behind = metric_->Query(q - move, row.branch);
+    for (const PenetrationResult* side : {&ahead, &behind}) {
+      if (side->status != QueryStatus::kOk || !side->inside) {
+        return Eigen::Matrix3d::Zero();
+      }
+    }
+    h.col(axis) = (ahead.gradient - behind.gradient) / (2.0 * step);
+  }
+  h = (0.5 * (h + h.transpose())).eval();
+  const double size = h.norm(), most = 1e3 / diagonal;
+  if (!(size <= most)) h *= std::isfinite(size) ? most / size : 0.0;
+  return h;
 }
 
 }  // namespace phongpd

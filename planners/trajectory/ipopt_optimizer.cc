@@ -131,6 +131,7 @@ TrajectorySummary IpoptTrajectoryOptimizer::Solve(
   nlp_options.rows = summary.rows;
   nlp_options.policy = options_.policy;
   nlp_options.merge_spaces = options_.merge_spaces;
+  nlp_options.curvature = options_.curvature;
   IpoptSettings settings = options_.ipopt;
   while (true) {
     TrajectoryNlp nlp(problem_, summary.samples, start_length, nlp_options);

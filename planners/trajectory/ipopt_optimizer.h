@@ -18,6 +18,7 @@ struct TrajectoryOptions {
   int rows = 0;
   BranchPolicy policy = BranchPolicy::kCommit;
   bool merge_spaces = false;  // K rows over all contact spaces together
+  ContactCurvature curvature = ContactCurvature::kNone;
   // Solves, ≥ 1.  Where the solver claims a solution, or ran out of iterations,
   // and the judge finds a crossing, the segments that cross get twice the
   // samples and the next round starts from there.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "planners/trajectory/ipopt_options.h"
 
+#include <IpoptConfig.h>
+
 #include <IpIpoptApplication.hpp>
 #include <IpReturnCodes.hpp>
 #include <cmath>

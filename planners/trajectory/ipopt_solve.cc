@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "planners/trajectory/ipopt_solve.h"
 
+#include <IpoptConfig.h>
+
 #include <IpIpoptApplication.hpp>
 #include <IpIpoptCalculatedQuantities.hpp>
 #include <IpIpoptData.hpp>
@@ -430,7 +432,8 @@ IpoptRun SolveWithIpopt(NonlinearProgram* program, const VectorXd& start,
   const Ipopt::SmartPtr<ProgramAdapter> adapter =
       new ProgramAdapter(program, start, settings);
   // The empty name: no ipopt.opt of the current directory changes the result.
-  Ipopt::ApplicationReturnStatus status = application->Initialize("");
+  Ipopt::ApplicationReturnStatus status =
+      application->Initialize(std::string());
   if (status == Ipopt::Solve_Succeeded) {
     const Ipopt::SmartPtr<Ipopt::TNLP> problem = Ipopt::GetRawPtr(adapter);
     status = application->OptimizeTNLP(problem);

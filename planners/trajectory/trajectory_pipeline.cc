@@ -142,9 +142,9 @@ class Run {
     return candidate;
   }
 
-  // Where a repaired path, which keeps to the middle of passages, has less than
-  // half the margin, no path near it has all of it.  Ipopt's program is then
-  // infeasible, and it takes hundreds of iterations to find out.
+  // A repaired path keeps to the middle of passages.  Where it has less than
+  // half the margin Ipopt's program is mostly infeasible, and it takes hundreds
+  // of iterations to find out.
   bool IsTooNarrow(const Path& start) const {
     const double margin = problem_.margin * Diagonal(problem_);
     return margin > 0.0 && PathClearance(*problem_.free_space, start,

@@ -256,6 +256,46 @@ TEST(SignedMetric, FurtherRowsAreNeverLess) {
   }
 }
 
+// Differences of the exact gradient, where the feature stays the same.
+TEST(SignedMetric, CurvatureIsTheDerivativeOfTheGradient) {
+  const TriangleMesh mesh = TurnedU();
+  for (const MetricKind kind : {MetricKind::kPhong, MetricKind::kEuclidean}) {
+    const SignedMetric metric(mesh, Options(kind, JacobianKind::kExact));
+    std::mt19937_64 random(8);
+    int curved[2] = {0, 0}, compared = 0, off = 0;
+    for (int i = 0; i < 3000; ++i) {
+      const Vector3d q = RandomPoint(metric.bounds(), 0.3, &random);
+      const MetricRow row = metric.Query(q);
+      const Eigen::Matrix3d h = metric.Curvature(q, row);
+      EXPECT_TRUE(h.allFinite());
+      MetricRow rows[2];
+      metric.Query(q, Branch(), 2, rows);
+      if (rows[1].is_repeated) {
+        EXPECT_EQ(metric.Curvature(q, rows[1]), h);
+      }
+      EXPECT_LE((h - h.transpose()).norm(), 1e-12 * (1.0 + h.norm()));
+      if (row.is_capped || std::abs(row.value) < 0.02 || h.norm() > 100.0) {
+        continue;
+      }
+      Eigen::Matrix3d difference;
+      const double step = 1e-5;
+      for (int axis = 0; axis < 3; ++axis) {
+        const Vector3d move = step * Vector3d::Unit(axis);
+        difference.col(axis) = (metric.Query(q + move, row.branch).gradient -
+                                metric.Query(q - move, row.branch).gradient) /
+                               (2.0 * step);
+      }
+      ++compared;
+      off += (difference - h).norm() > 1e-3 * (1.0 + h.norm()) ? 1 : 0;
+      curved[row.inside ? 1 : 0] += h.norm() > 0.1 ? 1 : 0;
+    }
+    EXPECT_GT(compared, 2000);
+    EXPECT_GT(curved[0], 500);
+    EXPECT_EQ(curved[1] > 50, kind == MetricKind::kPhong);
+    EXPECT_LE(off, compared / 100);
+  }
+}
+
 TEST(SignedMetric, ScalesBitForBitWithTheInput) {
   const TriangleMesh mesh = TurnedU();
   const SignedMetricOptions options =

@@ -146,6 +146,41 @@ TEST(TrajectoryNlp, HessianIsTheDerivativeOfTheSmoothRowsGradient) {
   }
 }
 
+// With curvature of all rows the Hessian passes Ipopt's checker, too: around
+// a box, whose distance outside is smooth but for few places.
+TEST(TrajectoryNlp, HessianWithCurvaturePassesIpoptsChecker) {
+  SignedMetricOptions metric;
+  metric.jacobian = JacobianKind::kExact;
+  TrajectoryProblem problem = MakeTrajectoryProblem(
+      {Rotated(MakeBox({-1, -1, -1}, {1, 1, 1}), GenericRotation())}, metric);
+  problem.start = Vector3d(-2.5, 1.6, 0.2);
+  problem.goal = Vector3d(2.5, 1.5, 0.1);
+  problem.waypoints = 5;
+  TrajectoryNlpOptions options;
+  options.rows = 2;
+  options.curvature = ContactCurvature::kOutside;
+  TrajectoryNlp nlp = MakeNlp(problem, 1, options);
+  int passed = 0;
+  for (unsigned seed = 0; seed < 20; ++seed) {
+    const VectorXd u = Noisy(nlp, problem, 0.03, seed);
+    nlp.Start(u);
+    std::string text;
+    IpoptSettings settings;
+    settings.output = &text;
+    settings.max_iterations = 0;
+    settings.ipopt_options = {{"print_level", "5"},
+                              {"derivative_test", "second-order"},
+                              {"derivative_test_tol", "1e-5"},
+                              {"point_perturbation_radius", "0"}};
+    SolveWithIpopt(&nlp, u, settings);
+    passed += text.find("No errors detected by derivative checker") !=
+                      std::string::npos
+                  ? 1
+                  : 0;
+  }
+  EXPECT_GE(passed, 18);
+}
+
 TEST(TrajectoryNlp, ValuesAreEnergyMarginsAndLengths) {
   const TrajectoryProblem problem = TrapProblem(JacobianKind::kDirection, 7);
   TrajectoryNlp nlp = MakeNlp(problem, 2, {});

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Evaluating rows allocates nothing, checked by counting every allocation of
+// the process.
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cmath>
+#include <cstdlib>
+#include <memory>
+#include <new>
+#include <vector>
+
+#include "constraints/non_penetration.h"
+#include "problems/shapes.h"
+
+namespace {
+std::atomic<long> allocations{0};
+}  // namespace
+
+void* operator new(std::size_t size) {
+  ++allocations;
+  if (void* memory = std::malloc(size > 0 ? size : 1)) return memory;
+  throw std::bad_alloc();
+}
+void operator delete(void* memory) noexcept { std::free(memory); }
+void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+
+namespace phongpd {
+namespace {
+
+TEST(ConstraintCost, EvaluatingDoesNotAllocate) {
+  const auto metric =
+      std::make_shared<SignedMetric>(MakeTorus(1.0, 0.35, 40, 16));
+  const std::vector<int> samples(9, 2);
+  for (const bool merge : {false, true}) {
+    NonPenetrationOptions options;
+    options.rows = 3;
+    options.merge_spaces = merge;
+    const NonPenetrationConstraint rows({metric, metric}, {-2, 0.1, 0},
+                                        {2, 0, 0.1}, 8, samples, options);
+    std::vector<double> u(static_cast<std::size_t>(rows.variables()));
+    for (std::size_t i = 0; i < u.size(); ++i) {
+      u[i] = 1.2 * std::sin(static_cast<double>(3 * i));
+    }
+    std::vector<double> values(static_cast<std::size_t>(rows.rows()));
+    std::vector<double> jacobian(static_cast<std::size_t>(rows.nonzeros()));
+    NonPenetrationCounts counts;
+    BranchSet branches = rows.Start(u.data(), &counts);
+    const long before = allocations;
+    for (int i = 0; i < 200; ++i) {
+      u[static_cast<std::size_t>(i) % u.size()] += 1e-3 * i;
+      ASSERT_TRUE(rows.Evaluate(u.data(), branches, values.data(),
+                                jacobian.data(), &counts));
+      rows.Commit(u.data(), &branches, &counts);
+    }
+    EXPECT_EQ(allocations, before);
+    EXPECT_GT(counts.warm, 100);
+  }
+}
+
+}  // namespace
+}  // namespace phongpd
