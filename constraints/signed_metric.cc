@@ -64,13 +64,13 @@ void SignedMetric::Query(const Vector3d& q, const Branch& previous, int count,
   bool has_more = !rows[0].inside && rows[0].status != QueryStatus::kInvalid;
   for (int k = 1; k < count; ++k) {
     rows[k] = rows[0];
-    rows[k].branch = {};
     FeatureSearch::Feature feature;
     has_more = has_more && features_->FindNext(q, taken.data(), k,
                                                cos_separation_, &feature);
     rows[k].is_repeated = !has_more;
     if (!has_more) continue;
     rows[k].status = QueryStatus::kOk;
+    rows[k].is_capped = false;
     rows[k].value = feature.distance;
     rows[k].gradient = feature.direction;
     rows[k].triangle = feature.triangle;

@@ -48,7 +48,7 @@ struct MetricRow {
   QueryStatus status = QueryStatus::kInvalid;
   bool inside = false;
   int triangle = -1;         // of the contact mesh
-  Branch branch;             // row 0 only: for the next query
+  Branch branch;             // of row 0 and its copies: for the next query
   bool is_capped = false;    // gradient was longer than kMaxRowGradient
   bool is_repeated = false;  // an unused row: copy of row 0
 };
@@ -67,7 +67,6 @@ struct MetricRow {
 // they show the solver the second wall of a channel before it hits it.
 // Inside, and where no further feature exists, the remaining rows repeat row 0
 // with is_repeated: the pattern stays, and no row claims what is not known.
-//
 class SignedMetric {
  public:
   // `contact_mesh` as EuclideanMetric requires it.  Throws InputError.

@@ -147,9 +147,12 @@ CorridorSummary PolishInCorridor(const TrajectoryProblem& problem,
     }
   }
   summary.objective = PathEnergy(problem, summary.path);
-  summary.clearance =
-      problem.margin -
-      *std::max_element(corridor.missing.begin(), corridor.missing.end());
+  summary.clearance = problem.margin;
+  for (const auto& planes : corridor.planes) {
+    for (const Corridor::Plane& plane : planes) {
+      summary.clearance = std::min(summary.clearance, plane.distance);
+    }
+  }
   summary.seconds = seconds();
   return summary;
 }

@@ -46,7 +46,7 @@ struct CorridorSummary {
   CorridorStatus status = CorridorStatus::kNotFree;
   Path path;               // exactly free but for kNotFree
   double objective = 0.0;  // energy of `path`
-  // Smallest distance of a segment to contact, at most the margin; units of D.
+  // Smallest distance of a segment to contact or the margin; units of D.
   double clearance = 0.0;
   int iterations = 0;  // of Ipopt, all rounds
   std::vector<CorridorRound> rounds;
@@ -63,20 +63,20 @@ struct CorridorSummary {
 //     needs none.  A triangle is convex, so its plane separates it.
 //  2. The convex program in the waypoints p and the missing clearances s,
 //
-//       min  f(p) + (w/ℓ₀) Σ s_i
-//       s.t. n·p ≥ level + margin − s_i   for both ends of segment i, its
-//       planes
-//            0 ≤ s_i ≤ margin − clearance of segment i now  (fixed where 0)
+//       min  f(p) + (P/ℓ₀) Σ s_i
+//       s.t. n·p ≥ level + wanted_i − s_i  for its planes and both its ends
+//            0 ≤ s_i ≤ wanted_i − clearance_i of segment i now (or fixed at 0)
 //            |p − p_now|_∞ ≤ τ,  |Δp| ≤ h,
 //
-//     by Ipopt; f, ℓ₀, D and h are TrajectoryProblem's, w is `restoring`.
+//     by Ipopt; f, ℓ₀, D and h are TrajectoryProblem's, P is `restoring`, and
+//     wanted is the margin or, between opposite planes, 0.95 of half the gap.
 //  3. The step is kept if the exact judge finds it free and the merit, the
 //     same objective with the true missing clearances, fell; Ipopt's own word
 //     does not count.  Otherwise τ is halved.
 //
-// So every path kept is exactly free, no segment loses clearance below the
-// margin for nothing, clearance that is missing is restored where a passage
-// allows it, and once none is missing f falls monotonically.  It finds a local
+// So every path kept is exactly free, what clearance is missing is restored
+// where a passage allows it, none is lost below what is wanted but for another
+// segment's, and once none is missing f falls monotonically.  It finds a local
 // minimum of the way the start path takes.  No penetration metric is used.
 //
 // `path`: N + 2 points from start to goal; throws InputError for another

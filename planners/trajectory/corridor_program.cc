@@ -16,6 +16,28 @@ constexpr double kRounding = 1e-12;
 // Shortfalls below this, in units of D, are not worth a variable.
 constexpr double kLeastMissing = 1e-6;
 
+// Planes whose normals have a smaller product face each other.
+constexpr double kOpposite = -0.95;
+// Share of half a gap that is wanted; all of it would leave nothing to choose.
+constexpr double kCentred = 0.95;
+
+// The clearance a segment between the planes can reach, at most the margin.
+// Between two opposite planes with c = n_j·n_k a move along n_j makes both
+// distances equal at (d_k − c d_j)/(1 − c).
+double Attainable(const std::vector<Corridor::Plane>& planes, double margin) {
+  double wanted = margin;
+  for (std::size_t j = 0; j < planes.size(); ++j) {
+    for (std::size_t k = 0; k < j; ++k) {
+      const double c = planes[j].normal.dot(planes[k].normal);
+      if (c > kOpposite) continue;
+      const double middle =
+          (planes[k].distance - c * planes[j].distance) / (1.0 - c);
+      wanted = std::min(wanted, kCentred * middle);
+    }
+  }
+  return wanted;
+}
+
 }  // namespace
 
 int Corridor::CountPlanes() const {
@@ -38,9 +60,6 @@ Corridor FindCorridor(const TrajectoryProblem& problem,
   for (std::size_t i = 0; i + 1 < path.size(); ++i) {
     const auto near =
         problem.free_space->FindNear(path[i], path[i + 1], reach * unit);
-    const double clearance =
-        near.empty() ? problem.margin : near[0].distance / unit;
-    corridor.missing.push_back(std::max(0.0, problem.margin - clearance));
     std::vector<Corridor::Plane> planes;
     for (const FreeSpace::NearTriangle& triangle : near) {
       const auto is_behind = [&](const Corridor::Plane& plane) {
@@ -54,8 +73,13 @@ Corridor FindCorridor(const TrajectoryProblem& problem,
       if (std::any_of(planes.begin(), planes.end(), is_behind)) continue;
       planes.push_back(
           {triangle.normal,
-           (triangle.level - triangle.normal.dot(springs.center)) / unit});
+           (triangle.level - triangle.normal.dot(springs.center)) / unit,
+           triangle.distance / unit});
     }
+    const double wanted = Attainable(planes, problem.margin);
+    const double clearance = near.empty() ? wanted : near[0].distance / unit;
+    corridor.wanted.push_back(wanted);
+    corridor.missing.push_back(std::max(0.0, wanted - clearance));
     corridor.planes.push_back(std::move(planes));
   }
   return corridor;
@@ -72,6 +96,7 @@ CorridorProgram::CorridorProgram(const TrajectoryProblem& problem,
       price_(price) {
   for (int i = 0; i <= springs.waypoints; ++i) {
     const double missing = corridor.missing[static_cast<std::size_t>(i)];
+    const double wanted = corridor.wanted[static_cast<std::size_t>(i)];
     int elastic = -1;
     if (missing > kLeastMissing && price > 0.0) {
       elastic = 3 * springs.waypoints + static_cast<int>(missing_.size());
@@ -84,7 +109,7 @@ CorridorProgram::CorridorProgram(const TrajectoryProblem& problem,
         // path infeasible.
         const double shortfall = elastic < 0 ? missing : 0.0;
         planes_.push_back({waypoint, elastic, plane.normal,
-                           plane.level + problem.margin - shortfall});
+                           plane.level + wanted - shortfall});
         plane_nonzeros_ += elastic < 0 ? 3 : 4;
       }
     }

@@ -14,9 +14,13 @@ struct Corridor {
   struct Plane {
     Eigen::Vector3d normal;  // towards the segment
     double level;            // of the obstacle: n·u ≤ level
+    double distance;         // of the segment
   };
   std::vector<std::vector<Plane>> planes;  // of each segment
-  std::vector<double> missing;  // margin − clearance of each segment, ≥ 0
+  // What a segment can have: the margin, or most of half the gap between two
+  // opposite planes if that is less.
+  std::vector<double> wanted;
+  std::vector<double> missing;  // wanted − clearance, ≥ 0
 
   int CountPlanes() const;
   double TotalMissing() const;
@@ -52,7 +56,7 @@ class CorridorProgram : public NonlinearProgram {
                const double* multipliers, double* values) const override;
 
  private:
-  // n·u_waypoint + s ≥ level + margin.
+  // n·u_waypoint + s ≥ level.
   struct Row {
     int waypoint;
     int elastic;  // variable of s, −1: none

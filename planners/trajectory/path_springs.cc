@@ -102,17 +102,14 @@ void PathSprings::HessianPattern(int* row, int* col) const {
 
 void PathSprings::Hessian(double factor, const double* multipliers,
                           double* values) const {
-  // 2k on the diagonal of both ends of a spring, −2k between them.
-  const auto stiffness = [&](int segment) {
-    return factor * weight + multipliers[segment] / eta;
-  };
   for (int i = 0; i < waypoints; ++i) {
-    const double diagonal = 2.0 * (stiffness(i) + stiffness(i + 1));
-    std::fill(values, values + 3, diagonal);
+    std::fill(values, values + 3,
+              Stiffness(i, factor, multipliers) +
+                  Stiffness(i + 1, factor, multipliers));
     values += 3;
   }
   for (int i = 1; i < waypoints; ++i) {
-    std::fill(values, values + 3, -2.0 * stiffness(i));
+    std::fill(values, values + 3, -Stiffness(i, factor, multipliers));
     values += 3;
   }
 }

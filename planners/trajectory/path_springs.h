@@ -44,6 +44,12 @@ struct PathSprings {
   void Lengths(const double* x, double* values, double* jacobian) const;
   void JacobianPattern(int first_row, int* row, int* col) const;
 
+  // Second derivative of a segment's spring: on the diagonal of both its ends,
+  // negative between them.
+  double Stiffness(int segment, double factor,
+                   const double* multipliers) const {
+    return 2.0 * (factor * weight + multipliers[segment] / eta);
+  }
   // Lower triangle; of the energy times a factor and the rows by multipliers.
   int hessian_nonzeros() const { return 6 * waypoints - 3; }
   void HessianPattern(int* row, int* col) const;

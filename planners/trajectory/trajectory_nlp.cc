@@ -118,19 +118,18 @@ void TrajectoryNlp::Hessian(const double* x, double objective_factor,
   std::fill(values, values + hessian_nonzeros(), 0.0);
   contact_.AddCurvature(x, branches_, multipliers,
                         curvature_ == ContactCurvature::kOutside, values);
-  // Entries of the springs, three a waypoint and three to the one before it,
-  // onto the diagonals of CurvaturePattern's triangles and squares.
-  std::vector<double> own(
-      static_cast<std::size_t>(springs_.hessian_nonzeros()));
-  springs_.Hessian(objective_factor, length_multipliers, own.data());
-  const double* next = own.data();
-  for (int i = 0; 3 * i < variables(); ++i) {
-    for (int axis = 0; axis < 3; ++axis) {
-      values[(axis + 1) * (axis + 2) / 2 - 1] += *next++;
+  // The springs into the full blocks of CurvaturePattern: 6 of the waypoint,
+  // then the 9 that tie it to the one before.
+  const auto stiffness = [&](int segment) {
+    return springs_.Stiffness(segment, objective_factor, length_multipliers);
+  };
+  for (int i = 0; i < springs_.waypoints; ++i) {
+    for (const int at : {0, 2, 5}) {
+      values[at] += stiffness(i) + stiffness(i + 1);
     }
     values += 6;
     if (i == 0) continue;
-    for (int axis = 0; axis < 3; ++axis) values[4 * axis] += *next++;
+    for (const int at : {0, 4, 8}) values[at] -= stiffness(i);
     values += 9;
   }
 }

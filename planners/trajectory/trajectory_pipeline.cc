@@ -120,6 +120,7 @@ class Run {
     const RepairStatus status = result_.repair.status;
     if (status == RepairStatus::kInfeasibleProved) {
       result_.status = TrajectoryStatus::kInfeasibleProved;
+      result_.reason = result_.repair.reason;
     } else if (starts->empty()) {
       starts->push_back(NoisyLine());
     }
@@ -140,7 +141,14 @@ class Run {
     if (HasFreePath(candidate.status)) {
       candidate.reason = "the time limit came before the optimiser";
     }
-    if (!IsLate()) Optimize(start, &candidate);
+    const bool may_polish =
+        options_.polish != PolishWhen::kNever && HasFreePath(candidate.status);
+    if (may_polish && IsTooNarrow(start)) {
+      candidate.reason = "the start has too little clearance for Ipopt's rows";
+      Note({"ipopt", route, "skipped", false, 0.0, 0, 0.0}, start);
+    } else if (!IsLate()) {
+      Optimize(start, may_polish, &candidate);
+    }
     const bool is_wanted = options_.polish == PolishWhen::kAlways ||
                            (options_.polish == PolishWhen::kNeeded &&
                             candidate.status != TrajectoryStatus::kSolved);
@@ -148,6 +156,15 @@ class Run {
       Polish(&candidate);
     }
     return candidate;
+  }
+
+  // A repaired path keeps to the middle of passages.  Where it has less than
+  // half the margin Ipopt's program is mostly infeasible, and it takes hundreds
+  // of iterations to find out.
+  bool IsTooNarrow(const Path& start) const {
+    const double margin = problem_.margin * Diagonal(problem_);
+    return margin > 0.0 && PathClearance(*problem_.free_space, start,
+                                         0.05 * margin) < 0.45 * margin;
   }
 
   // Makes the path the candidate, as free or not free, not converged.
@@ -159,8 +176,10 @@ class Run {
     candidate->objective = PathEnergy(problem_, path);
   }
 
-  void Optimize(const Path& start, Candidate* candidate) {
+  void Optimize(const Path& start, bool may_polish, Candidate* candidate) {
     TrajectoryOptions options = options_.optimizer;
+    // With a free start in hand the corridor is the better second round.
+    if (may_polish) options.max_rounds = 1;
     options.ipopt.time_limit = std::min(options.ipopt.time_limit, Left());
     candidate->ipopt = IpoptTrajectoryOptimizer(problem_, options).Solve(start);
     const TrajectorySummary& summary = candidate->ipopt;
@@ -200,7 +219,11 @@ class Run {
          summary.path);
     candidate->path = std::move(summary.path);
     candidate->objective = summary.objective;
-    if (summary.status == CorridorStatus::kConverged) {
+    const bool has_gained = std::any_of(
+        summary.rounds.begin(), summary.rounds.end(),
+        [](const CorridorRound& round) { return round.is_accepted; });
+    if (summary.status == CorridorStatus::kConverged ||
+        (summary.status == CorridorStatus::kSmallestTrust && has_gained)) {
       candidate->status = TrajectoryStatus::kPolished;
       candidate->reason.clear();
     } else if (candidate->status != TrajectoryStatus::kSolved) {

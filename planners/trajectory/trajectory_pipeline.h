@@ -91,8 +91,10 @@ struct PipelineResult {
 // for each route, the best exactly free path wins.  From a repaired start
 // Ipopt gets 3 rows a sample, from a colliding one 1 (TrajectoryOptions).  The
 // corridor starts from Ipopt's path where that is free and better than the
-// start, otherwise from the start.  Where repair fails without a proof Ipopt
-// is tried from the colliding line.
+// start, otherwise from the start; it follows the first round already, and
+// Ipopt is skipped where a free start has less than half the margin (passages
+// narrower than it), because its program is mostly infeasible there.  Where
+// repair fails without a proof Ipopt is tried from the colliding line.
 //
 // Lengths are relative to D and positions to the middle of start and goal, so
 // that unit and offset do not matter.  Same arguments, same bytes but for

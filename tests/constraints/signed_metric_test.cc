@@ -268,6 +268,11 @@ TEST(SignedMetric, CurvatureIsTheDerivativeOfTheGradient) {
       const MetricRow row = metric.Query(q);
       const Eigen::Matrix3d h = metric.Curvature(q, row);
       EXPECT_TRUE(h.allFinite());
+      MetricRow rows[2];
+      metric.Query(q, Branch(), 2, rows);
+      if (rows[1].is_repeated) {
+        EXPECT_EQ(metric.Curvature(q, rows[1]), h);
+      }
       EXPECT_LE((h - h.transpose()).norm(), 1e-12 * (1.0 + h.norm()));
       if (row.is_capped || std::abs(row.value) < 0.02 || h.norm() > 100.0) {
         continue;

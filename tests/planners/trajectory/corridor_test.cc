@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Truth: the exact judge, distances by bisection, closed forms.
+#include "planners/trajectory/corridor.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/mesh/mesh_error.h"
+#include "planners/exact/path_resampling.h"
+#include "planners/exact/start_repair.h"
+#include "problems/shapes.h"
+#include "tests/support/path_problems.h"
+
+namespace phongpd {
+namespace {
+
+using Eigen::Vector3d;
+using testing::MakePathProblem;
+using testing::PathProblem;
+
+TrajectoryProblem WithoutMetrics(const PathProblem& source) {
+  TrajectoryProblem problem;
+  problem.free_space =
+      std::make_shared<FreeSpace>(std::vector<TriangleMesh>{source.contact});
+  problem.start = source.start;
+  problem.goal = source.goal;
+  problem.diagonal = ComputeBounds(source.contact).Diagonal();
+  return problem;
+}
+
+Path Repaired(const PathProblem& source) {
+  return StartRepair(source.contact)
+      .Repair(source.start, source.goal)
+      .routes[0];
+}
+
+TEST(Corridor, ConvergesOnTheFamiliesExactlyFree) {
+  for (const std::string family :
+       {"Uaxis", "U", "L", "plate0.1", "plate0.005", "longplate", "hole",
+        "torus", "cone_axes", "clutter", "channel0.01"}) {
+    const PathProblem source = MakePathProblem(family, 1);
+    const TrajectoryProblem problem = WithoutMetrics(source);
+    const Path start = Repaired(source);
+    const CorridorSummary summary = PolishInCorridor(problem, start);
+    EXPECT_EQ(summary.status, CorridorStatus::kConverged) << family;
+    EXPECT_TRUE(CheckPath(*problem.free_space, summary.path).free) << family;
+    EXPECT_EQ(summary.path.size(), start.size());
+    EXPECT_EQ(summary.objective, PathEnergy(problem, summary.path));
+    // Clearance may have been missing and cost something, most at the mouth of
+    // a channel.
+    const double allowed = family == "channel0.01" ? 1.25 : 1.01;
+    EXPECT_LT(summary.objective, allowed * PathEnergy(problem, start))
+        << family;
+    EXPECT_LE(summary.iterations, 250) << family;
+  }
+}
+
+TEST(Corridor, EnergyFallsAndEveryRoundIsFree) {
+  // A corridor of one round more each time: its path is the next iterate.
+  PathProblem source = MakePathProblem("Uaxis", 2);
+  TrajectoryProblem problem = WithoutMetrics(source);
+  problem.margin = 0.005;  // what the start has is more
+  const Path start = Repaired(source);
+  CorridorOptions options;
+  double previous = PathEnergy(problem, start);
+  for (int rounds = 1; rounds <= 6; ++rounds) {
+    options.max_rounds = rounds;
+    const CorridorSummary summary = PolishInCorridor(problem, start, options);
+    ASSERT_TRUE(CheckPath(*problem.free_space, summary.path).free);
+    EXPECT_LE(summary.objective, previous * (1.0 + 1e-12));
+    EXPECT_GE(PathClearance(*problem.free_space, summary.path,
+                            1e-7 * problem.diagonal),
+              (problem.margin - 1e-6) * problem.diagonal);
+    previous = summary.objective;
+    if (summary.status == CorridorStatus::kConverged) break;
+    EXPECT_EQ(summary.status, CorridorStatus::kRoundLimit);
+    EXPECT_EQ(summary.rounds.size(), static_cast<std::size_t>(rounds));
+  }
+}
+
+TEST(Corridor, FindsTheShortestWayOverAnEdge) {
+  // Over the top of a cube, in the plane y = 0: the straight line pulled over
+  // the corner (0, 0, 1) of a thin wall; the optimum touches it at the margin.
+  TrajectoryProblem problem;
+  const TriangleMesh wall = MakeBox({-0.01, -2.0, -2.0}, {0.01, 2.0, 1.0});
+  problem.free_space =
+      std::make_shared<FreeSpace>(std::vector<TriangleMesh>{wall});
+  problem.diagonal = 2.0;
+  problem.start = {-1.0, 0.0, 0.5};
+  problem.goal = {1.0, 0.0, 0.5};
+  const Path start = ResampleKeepingCorners(
+      {problem.start, {-0.5, 0.7, 1.6}, {0.3, 0.2, 1.4}, problem.goal}, 40);
+  const CorridorSummary summary = PolishInCorridor(problem, start);
+  EXPECT_EQ(summary.status, CorridorStatus::kConverged);
+  // From below by the polyline over the edge without margin, from above by the
+  // one over two points √2 margins away from the wall's edges.
+  const double up = 2.0 * 0.02 * std::sqrt(0.5);
+  const double least = 2.0 * std::hypot(0.99, 0.5) + 0.02;
+  const double most = 2.0 * std::hypot(0.99 - up, 0.5 + up) + 0.02 + 2.0 * up;
+  const double length = PathLength(summary.path);
+  EXPECT_GE(length, least);
+  EXPECT_LE(length, 1.002 * most);
+  EXPECT_NEAR(summary.clearance, problem.margin, 1e-6);
+}
+
+TEST(Corridor, RestoresMissingClearance) {
+  // A detour that grazes the cube's edge at a thousandth of the margin.
+  TrajectoryProblem problem;
+  const TriangleMesh cube =
+      MakeBox(Vector3d::Constant(-1.0), Vector3d::Constant(1.0));
+  problem.free_space =
+      std::make_shared<FreeSpace>(std::vector<TriangleMesh>{cube});
+  problem.diagonal = ComputeBounds(cube).Diagonal();
+  problem.start = {-2.0, 0.0, 0.5};
+  problem.goal = {2.0, 0.0, 0.5};
+  const double off = 1e-5 * problem.diagonal;
+  const Path start = ResampleKeepingCorners({problem.start,
+                                             {-1.0 - off, 0.0, 1.0 + off},
+                                             {1.0 + off, 0.0, 1.0 + off},
+                                             problem.goal},
+                                            40);
+  const CorridorSummary summary = PolishInCorridor(problem, start);
+  EXPECT_EQ(summary.status, CorridorStatus::kConverged);
+  const double margin = problem.margin * problem.diagonal;
+  EXPECT_GE(PathClearance(*problem.free_space, summary.path, 1e-6 * margin),
+            0.999 * margin);
+  EXPECT_GT(summary.rounds.front().missing, -1e-15);
+  EXPECT_LT(summary.rounds.back().missing, 1e-6);
+
+  // Without the price the clearance stays, and the energy only falls.
+  CorridorOptions keep;
+  keep.restoring = 0.0;
+  const CorridorSummary kept = PolishInCorridor(problem, start, keep);
+  EXPECT_LE(kept.objective, PathEnergy(problem, start));
+  EXPECT_LT(kept.objective, summary.objective);
+  EXPECT_TRUE(CheckPath(*problem.free_space, kept.path).free);
+  EXPECT_GE(kept.clearance, 0.9e-5);
+}
+
+TEST(Corridor, CentresItselfInAPassageNarrowerThanTheMargin) {
+  // Width 0.02, margin 0.03: 0.01 is what there is.
+  TrajectoryProblem problem;
+  const TriangleMesh block = MakePlateWithHole(2.0, 1.0, 0.02);
+  problem.free_space =
+      std::make_shared<FreeSpace>(std::vector<TriangleMesh>{block});
+  problem.diagonal = 3.0;
+  problem.start = {0.0, 0.0, 0.9};
+  problem.goal = {0.0, 0.0, -0.9};
+  const Path start = ResampleKeepingCorners(
+      {problem.start, {0.009, 0.0, 0.4}, {-0.009, 0.008, -0.4}, problem.goal},
+      40);
+  ASSERT_TRUE(CheckPath(*problem.free_space, start).free);
+  const CorridorSummary summary = PolishInCorridor(problem, start);
+  EXPECT_TRUE(CheckPath(*problem.free_space, summary.path).free);
+  EXPECT_GE(PathClearance(*problem.free_space, summary.path, 1e-6), 0.0098);
+}
+
+TEST(Corridor, StaysWithinTheBounds) {
+  TrajectoryProblem problem;
+  const TriangleMesh cube =
+      MakeBox(Vector3d::Constant(-1.0), Vector3d::Constant(1.0));
+  // No way over the top within the bounds but a gap of 0.1.
+  const BoundingBox bounds = {Vector3d(-3.0, -1.1, -1.05),
+                              Vector3d(3.0, 1.1, 1.1)};
+  problem.free_space =
+      std::make_shared<FreeSpace>(std::vector<TriangleMesh>{cube}, bounds);
+  problem.diagonal = ComputeBounds(cube).Diagonal();
+  problem.start = {-2.0, 0.0, 0.0};
+  problem.goal = {2.0, 0.0, 0.0};
+  const Path start = ResampleKeepingCorners(
+      {problem.start, {-1.2, 0.0, 1.09}, {1.2, 0.0, 1.09}, problem.goal}, 40);
+  const CorridorSummary summary = PolishInCorridor(problem, start);
+  EXPECT_TRUE(CheckPath(*problem.free_space, summary.path).free);
+  EXPECT_LT(summary.objective, PathEnergy(problem, start));
+}
+
+TEST(Corridor, DoesNotDependOnUnitAndOffset) {
+  const PathProblem source = MakePathProblem("cone_axes", 1);
+  const Path start = Repaired(source);
+  const double expected =
+      PolishInCorridor(WithoutMetrics(source), start).objective;
+  for (const double scale : {1e-3, 1e3}) {
+    const Vector3d offset = scale * 1e3 * Vector3d(1.0, -0.5, 0.7);
+    PathProblem moved = source;
+    moved.contact = Translated(Scaled(source.contact, scale), offset);
+    moved.start = scale * source.start + offset;
+    moved.goal = scale * source.goal + offset;
+    Path path;
+    for (const Vector3d& q : start) path.push_back(scale * q + offset);
+    const CorridorSummary summary =
+        PolishInCorridor(WithoutMetrics(moved), path);
+    EXPECT_EQ(summary.status, CorridorStatus::kConverged);
+    EXPECT_NEAR(summary.objective, expected, 1e-3 * expected);
+  }
+}
+
+TEST(Corridor, IsDeterministic) {
+  const PathProblem source = MakePathProblem("torus", 4);
+  const Path start = Repaired(source);
+  const TrajectoryProblem problem = WithoutMetrics(source);
+  EXPECT_EQ(PolishInCorridor(problem, start).path,
+            PolishInCorridor(problem, start).path);
+}
+
+TEST(Corridor, RefusesWhatItCannotUse) {
+  const PathProblem source = MakePathProblem("plate0.1", 0);
+  const TrajectoryProblem problem = WithoutMetrics(source);
+  const Path line = StraightPath(problem);
+  const CorridorSummary summary = PolishInCorridor(problem, line);
+  EXPECT_EQ(summary.status, CorridorStatus::kNotFree);
+  EXPECT_EQ(summary.path, line);
+  EXPECT_TRUE(summary.rounds.empty());
+  EXPECT_THROW(PolishInCorridor(problem, {problem.start, problem.goal}),
+               InputError);
+  CorridorOptions options;
+  options.trust = 0.0;
+  EXPECT_THROW(PolishInCorridor(problem, line, options), InputError);
+  options = {};
+  options.restoring = -1.0;
+  EXPECT_THROW(PolishInCorridor(problem, line, options), InputError);
+}
+
+}  // namespace
+}  // namespace phongpd

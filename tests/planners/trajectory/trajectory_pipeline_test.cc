@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Truth: the exact judge; objectives of one way compared with another's.
+#include "planners/trajectory/trajectory_pipeline.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/mesh/mesh_error.h"
+#include "problems/shapes.h"
+#include "tests/support/path_problems.h"
+
+namespace phongpd {
+namespace {
+
+using Eigen::Vector3d;
+using testing::MakePathProblem;
+using testing::PathProblem;
+
+struct Case {
+  explicit Case(const PathProblem& source)
+      : problem(MakeTrajectoryProblem({source.contact})),
+        repair(std::make_shared<StartRepair>(source.contact)) {
+    problem.start = source.start;
+    problem.goal = source.goal;
+  }
+  PipelineResult Solve(const PipelineOptions& options = {}) const {
+    return TrajectoryPipeline(problem, repair, options).Solve();
+  }
+
+  TrajectoryProblem problem;
+  std::shared_ptr<const StartRepair> repair;
+};
+
+void ExpectEvidence(const TrajectoryProblem& problem,
+                    const PipelineResult& result) {
+  EXPECT_EQ(HasFreePath(result.status), result.certificate.free);
+  EXPECT_EQ(result.certificate.free,
+            CheckPath(*problem.free_space, result.path).free);
+  ASSERT_EQ(result.path.size(),
+            static_cast<std::size_t>(problem.waypoints) + 2);
+  EXPECT_EQ(result.path.front(), problem.start);
+  EXPECT_EQ(result.path.back(), problem.goal);
+  EXPECT_EQ(result.objective, PathEnergy(problem, result.path));
+  int iterations = 0;
+  for (const StageRecord& stage : result.stages) {
+    iterations += stage.iterations;
+    EXPECT_TRUE(std::isfinite(stage.objective));
+    EXPECT_LE(stage.seconds, result.seconds);
+  }
+  EXPECT_EQ(result.iterations, iterations);
+}
+
+TEST(TrajectoryPipeline, SolvesTheFamilies) {
+  for (const std::string family :
+       {"Uaxis", "plate0.005", "hole", "cone_axes", "channel0.01"}) {
+    const Case setup(MakePathProblem(family, 1));
+    const PipelineResult result = setup.Solve();
+    EXPECT_TRUE(result.status == TrajectoryStatus::kSolved ||
+                result.status == TrajectoryStatus::kPolished)
+        << family << ": " << ToString(result.status) << result.reason;
+    ExpectEvidence(setup.problem, result);
+    // Clearance that the start lacks may cost something.
+    EXPECT_LT(result.objective, 1.25 * result.stages[0].objective) << family;
+  }
+}
+
+TEST(TrajectoryPipeline, PolishesWhatStallsOrCrosses) {
+  // Too few iterations for anything: the corridor finishes from the start.
+  const Case setup(MakePathProblem("plate0.1", 2));
+  PipelineOptions options;
+  options.optimizer.ipopt.max_iterations = 3;
+  options.optimizer.max_rounds = 1;
+  const PipelineResult polished = setup.Solve(options);
+  EXPECT_EQ(polished.status, TrajectoryStatus::kPolished);
+  ExpectEvidence(setup.problem, polished);
+  EXPECT_EQ(polished.stages.back().stage, "corridor");
+
+  options.polish = PolishWhen::kNever;
+  const PipelineResult left = setup.Solve(options);
+  EXPECT_EQ(left.status, TrajectoryStatus::kStalledFeasible);
+  EXPECT_NE(left.reason.find("iteration_limit"), std::string::npos);
+  ExpectEvidence(setup.problem, left);
+  EXPECT_LE(polished.objective, left.objective);
+
+  // Ipopt does it alone, and the corridor agrees.
+  const PipelineResult solved = setup.Solve();
+  EXPECT_NEAR(solved.objective, polished.objective, 0.01 * solved.objective);
+}
+
+TEST(TrajectoryPipeline, MoreRoutesAreNeverWorse) {
+  const Case setup(MakePathProblem("plate0.02", 3));
+  PipelineOptions options;
+  options.polish = PolishWhen::kAlways;
+  const PipelineResult one = setup.Solve(options);
+  options.routes = 3;
+  const PipelineResult three = setup.Solve(options);
+  ExpectEvidence(setup.problem, three);
+  EXPECT_LE(three.objective, one.objective);
+  EXPECT_GE(three.repair.routes.size(), 2u);
+  EXPECT_EQ(one.status, TrajectoryStatus::kPolished);
+}
+
+TEST(TrajectoryPipeline, StartsStraightWhenAsked) {
+  const Case setup(MakePathProblem("longplate", 1));
+  PipelineOptions options;
+  options.start = TrajectoryStart::kStraight;
+  const PipelineResult result =
+      TrajectoryPipeline(setup.problem, nullptr, options).Solve();
+  ExpectEvidence(setup.problem, result);
+  EXPECT_EQ(result.stages[0].status, "straight");
+  EXPECT_FALSE(result.stages[0].is_free);
+  EXPECT_TRUE(result.repair.routes.empty());
+  EXPECT_THROW(TrajectoryPipeline(setup.problem, nullptr, {}), InputError);
+}
+
+TEST(TrajectoryPipeline, SaysWhyThereIsNoPath) {
+  const TriangleMesh vessel = MakeVessel(4.0, 3.0, 0.0);
+  PathProblem source = {vessel, {0.5, 0.2, 0.1}, {3.0, 0.1, 0.2}};
+  const PipelineResult closed = Case(source).Solve();
+  EXPECT_EQ(closed.status, TrajectoryStatus::kInfeasibleProved);
+  EXPECT_TRUE(closed.path.empty());
+  EXPECT_FALSE(closed.reason.empty());
+
+  source.start = {1.7, 0.0, 0.0};
+  EXPECT_EQ(Case(source).Solve().status, TrajectoryStatus::kStartInCollision);
+  source.start = {3.0, 3.0, 0.0};
+  source.goal = {1.7, 0.0, 0.0};
+  EXPECT_EQ(Case(source).Solve().status, TrajectoryStatus::kGoalInCollision);
+}
+
+TEST(TrajectoryPipeline, KeepsToItsTimeLimit) {
+  const Case setup(MakePathProblem("Uaxis", 0));
+  PipelineOptions options;
+  options.time_limit = 1e-9;
+  const PipelineResult result = setup.Solve(options);
+  EXPECT_EQ(result.status, TrajectoryStatus::kStalledFeasible);
+  EXPECT_NE(result.reason.find("time limit"), std::string::npos);
+  ExpectEvidence(setup.problem, result);
+}
+
+TEST(TrajectoryPipeline, DoesNotDependOnUnitAndOffset) {
+  const PathProblem source = MakePathProblem("plate0.02", 1);
+  const double expected = Case(source).Solve().objective;
+  for (const double scale : {1e-3, 1e3}) {
+    const Vector3d offset = scale * 1e3 * Vector3d(1.0, -0.5, 0.7);
+    const PathProblem moved = {
+        Translated(Scaled(source.contact, scale), offset),
+        scale * source.start + offset, scale * source.goal + offset};
+    const PipelineResult result = Case(moved).Solve();
+    EXPECT_TRUE(HasFreePath(result.status));
+    EXPECT_NEAR(result.objective, expected, 0.01 * expected);
+  }
+}
+
+TEST(TrajectoryPipeline, IsDeterministic) {
+  const PathProblem source = MakePathProblem("hole", 3);
+  const PipelineResult one = Case(source).Solve();
+  const PipelineResult other = Case(source).Solve();
+  EXPECT_EQ(one.path, other.path);
+  EXPECT_EQ(one.iterations, other.iterations);
+}
+
+TEST(TrajectoryPipeline, RefusesBadOptions) {
+  PipelineOptions options;
+  options.routes = 0;
+  EXPECT_THROW(options.Validate(), InputError);
+  options = {};
+  options.time_limit = 0.0;
+  EXPECT_THROW(options.Validate(), InputError);
+  options = {};
+  options.corridor.max_rounds = 0;
+  EXPECT_THROW(options.Validate(), InputError);
+  const Case setup(MakePathProblem("plate0.1", 0));
+  options = {};
+  options.optimizer.ipopt.ipopt_options["no_such_option"] = "1";
+  EXPECT_THROW(setup.Solve(options), InputError);
+}
+
+}  // namespace
+}  // namespace phongpd
