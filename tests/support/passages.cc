@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/contact_space/contact_space.h"
+#include "planners/exact/workspace.h"
 #include "problems/scene_library.h"
 
 namespace phongpd::testing {
@@ -14,12 +15,7 @@ Passage MakePassage(const std::string& family, double delta,
   passage.scene = ParseScene(
       MakeScene(family, {{"delta", delta}, {"rotation_seed", rotation_seed}}),
       family);
-  Workspace& workspace = passage.workspace;
-  workspace.robot = passage.scene.robot;
-  for (const SceneObstacle& obstacle : passage.scene.obstacles) {
-    workspace.obstacles.push_back({obstacle.id, obstacle.mesh});
-  }
-  workspace.bounds = passage.scene.bounds;
+  const Workspace& workspace = passage.scene.workspace;
   const TriangleMesh contact =
       BuildContactSpace(workspace.robot, MergedObstacle(workspace)).mesh;
   const Scene& scene = passage.scene;

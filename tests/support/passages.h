@@ -4,7 +4,6 @@
 #include <memory>
 #include <string>
 
-#include "planners/exact/workspace.h"
 #include "planners/retraction/contact_model.h"
 #include "problems/scene.h"
 
@@ -13,7 +12,6 @@ namespace phongpd::testing {
 // A scene with a narrow passage and its merged contact space.
 struct Passage {
   Scene scene;
-  Workspace workspace;
   std::shared_ptr<const ContactModel> model;
 };
 

@@ -31,8 +31,8 @@ std::vector<Vector3d> Draw(ob::ValidStateSampler* sampler,
 
 TEST(RetractionStateSampler, ReturnsValidStatesOnly) {
   const testing::Passage passage = testing::MakePassage("tunnel", 1e-3);
-  const CollisionOracle oracle(passage.workspace.robot,
-                               MergedObstacle(passage.workspace));
+  const CollisionOracle oracle(passage.scene.workspace.robot,
+                               MergedObstacle(passage.scene.workspace));
   for (const RetractionMetric metric :
        {RetractionMetric::kPhong, RetractionMetric::kEuclidean,
         RetractionMetric::kContactPoint}) {

@@ -267,8 +267,8 @@ TEST(Retraction, CentresPointsInAChannelOfAnyWidth) {
 TEST(Retraction, NeverLeavesTheFreeSpaceOfTheOriginalMeshes) {
   const testing::Passage passage = testing::MakePassage("tunnel", 1e-3, 1);
   const auto model = passage.model;
-  const CollisionOracle oracle(passage.workspace.robot,
-                               MergedObstacle(passage.workspace));
+  const CollisionOracle oracle(passage.scene.workspace.robot,
+                               MergedObstacle(passage.scene.workspace));
   std::mt19937_64 random(5);
   RetractionScratch scratch;
   std::size_t points = 0;

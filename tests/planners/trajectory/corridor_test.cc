@@ -70,8 +70,7 @@ TEST(Corridor, EnergyFallsAndEveryRoundIsFree) {
     const CorridorSummary summary = PolishInCorridor(problem, start, options);
     ASSERT_TRUE(CheckPath(*problem.free_space, summary.path).free);
     EXPECT_LE(summary.objective, previous * (1.0 + 1e-12));
-    EXPECT_GE(PathClearance(*problem.free_space, summary.path,
-                            1e-7 * problem.diagonal),
+    EXPECT_GE(PathClearance(*problem.free_space, summary.path),
               (problem.margin - 1e-6) * problem.diagonal);
     previous = summary.objective;
     if (summary.status == CorridorStatus::kConverged) break;
@@ -124,8 +123,7 @@ TEST(Corridor, RestoresMissingClearance) {
   const CorridorSummary summary = PolishInCorridor(problem, start);
   EXPECT_EQ(summary.status, CorridorStatus::kConverged);
   const double margin = problem.margin * problem.diagonal;
-  EXPECT_GE(PathClearance(*problem.free_space, summary.path, 1e-6 * margin),
-            0.999 * margin);
+  EXPECT_GE(PathClearance(*problem.free_space, summary.path), 0.999 * margin);
   EXPECT_GT(summary.rounds.front().missing, -1e-15);
   EXPECT_LT(summary.rounds.back().missing, 1e-6);
 
@@ -154,7 +152,7 @@ TEST(Corridor, CentresItselfInAPassageNarrowerThanTheMargin) {
   ASSERT_TRUE(CheckPath(*problem.free_space, start).free);
   const CorridorSummary summary = PolishInCorridor(problem, start);
   EXPECT_TRUE(CheckPath(*problem.free_space, summary.path).free);
-  EXPECT_GE(PathClearance(*problem.free_space, summary.path, 1e-6), 0.0098);
+  EXPECT_GE(PathClearance(*problem.free_space, summary.path), 0.0098);
 }
 
 TEST(Corridor, StaysWithinTheBounds) {
