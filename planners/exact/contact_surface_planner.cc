@@ -167,14 +167,12 @@ std::vector<Attachment> ContactSurfacePlanner::Impl::Attach(
     attachment.to_goal = to_goal;
     attachment.site.point = point;
     attachment.site.triangle = triangle;
-    attachment.site.direction = graph.normal(triangle);
+    // At edges and corners only the way back to q is free for sure.
+    attachment.site.direction = (q - point).stableNormalized();
     attachments.push_back(attachment);
   };
   const PenetrationResult closest = surface.Answer(q, Location::kOutside);
   add(closest.contact, closest.triangle);
-  const Vector3d back = q - closest.contact;
-  // At an edge or a corner only the way back to q is free for sure.
-  if (back.norm() > 0.0) attachments.back().site.direction = back.normalized();
   const auto shoot = [&](const Vector3d& to) {
     const SegmentTree::Hit hit = segments.FirstHit(q, to);
     if (hit.Found()) add(q + hit.fraction * (to - q), hit.triangle);
@@ -200,8 +198,7 @@ std::vector<Attachment> ContactSurfacePlanner::Impl::Attach(
 
 double ContactSurfacePlanner::Impl::PathClearance(
     const std::vector<Vector3d>& path) const {
-  double least = std::numeric_limits<double>::infinity();
-  if (path.size() == 1) least = segments.Distance(path[0], path[0], least);
+  double least = surface.Answer(path[0], Location::kOutside).signed_distance;
   for (std::size_t k = 1; k < path.size(); ++k) {
     least = segments.Distance(path[k - 1], path[k], least);
   }
@@ -253,8 +250,13 @@ void ContactSurfacePlanner::Impl::FindPath(const Vector3d& start,
     const SurfaceGraph::Route route =
         graph.Search(start, goal, attachments, deleted, request.detours);
     if (route.empty()) {
+      const bool decided = result->start.cell != FreeCells::kUndecided &&
+                           result->goal.cell != FreeCells::kUndecided;
       result->reason =
-          "every route on the surface has a place that rounding closed";
+          decided
+              ? "every route on the surface has a place that rounding closed"
+              : "no route found, and no ray that keeps rounding away from "
+                "edges tells the cell of the start or of the goal";
       break;
     }
     std::vector<SurfaceSite> sites(1);

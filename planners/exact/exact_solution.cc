@@ -41,6 +41,10 @@ ExactSolution SolveExactly(const Workspace& workspace, const Vector3d& start,
   solution.contact_space_seconds =
       std::chrono::duration<double>(Clock::now() - begin).count();
   solution.contact_space = space.report;
+  if (options.self_intersections < 0) {
+    options.self_intersections =
+        static_cast<long>(space.report.self_intersections);
+  }
   if (!options.name_obstacle) {
     options.name_obstacle = [&workspace](const Vector3d& q) {
       return NameObstacles(workspace, q);

@@ -237,20 +237,30 @@ CellRay FreeCells::RayFrom(const Vector3d& q, const Vector3d& direction) const {
 }
 
 void FreeCells::FollowChains() {
-  cell_.assign(rays_.size(), kUndecided);
+  constexpr int kUnknown = -3, kOnTheWay = -4;
+  cell_.assign(rays_.size(), kUnknown);
+  std::vector<int> chain;
   for (std::size_t i = 0; i < rays_.size(); ++i) {
-    // A chain longer than there are pieces runs in a circle, which takes
-    // pieces that needed different directions.
     int piece = static_cast<int>(i);
-    for (std::size_t step = 0; step <= rays_.size(); ++step) {
-      const CellRay& ray = rays_[piece];
-      if (ray.end == CellRay::End::kUndecided) break;
-      if (ray.end != CellRay::End::kSurface) {
-        cell_[i] = ray.end == CellRay::End::kShell ? piece : kOutside;
-        break;
-      }
-      piece = piece_[ray.to_triangle];
+    chain.clear();
+    while (cell_[piece] == kUnknown &&
+           rays_[piece].end == CellRay::End::kSurface) {
+      cell_[piece] = kOnTheWay;
+      chain.push_back(piece);
+      piece = piece_[rays_[piece].to_triangle];
     }
+    int cell = cell_[piece];
+    if (cell == kUnknown) {
+      const CellRay::End end = rays_[piece].end;
+      cell = end == CellRay::End::kShell     ? piece
+             : end == CellRay::End::kOutside ? kOutside
+                                             : kUndecided;
+      cell_[piece] = cell;
+    }
+    // Back to where it came by: a circle, which takes pieces that needed
+    // different directions.
+    if (cell == kOnTheWay) cell = kUndecided;
+    for (const int link : chain) cell_[link] = cell;
   }
 }
 

@@ -133,6 +133,15 @@ double FreeSpace::Clearance(const Vector3d& q) const {
   return clearance;
 }
 
+double FreeSpace::Clearance(const Vector3d& a, const Vector3d& b) const {
+  double clearance = std::min(Clearance(a), Clearance(b));
+  if (!IsFree(a, b)) return 0.0;
+  for (const Space& space : impl_->spaces) {
+    clearance = space.segments.Distance(a, b, clearance);
+  }
+  return clearance;
+}
+
 std::vector<FreeSpace::NearTriangle> FreeSpace::FindNear(const Vector3d& a,
                                                          const Vector3d& b,
                                                          double radius) const {
@@ -197,32 +206,9 @@ PathCheck CheckPath(const FreeSpace& space, const std::vector<Vector3d>& path) {
 double PathClearance(const FreeSpace& space, const std::vector<Vector3d>& path,
                      double tolerance) {
   if (path.empty() || !(tolerance > 0.0)) return 0.0;
-  double best = space.Clearance(path.front());
-  struct Piece {
-    Vector3d a, b;
-    double clearance_a, clearance_b;
-  };
-  std::vector<Piece> pieces;
+  double best = space.Clearance(path.front(), path.front());
   for (std::size_t k = 0; k + 1 < path.size(); ++k) {
-    pieces.push_back({path[k], path[k + 1], space.Clearance(path[k]),
-                      space.Clearance(path[k + 1])});
-    best = std::min(best, pieces.back().clearance_b);
-  }
-  // Between two points l apart no clearance is below (c_a + c_b − l) / 2.
-  while (!pieces.empty()) {
-    const Piece piece = pieces.back();
-    pieces.pop_back();
-    const double length = (piece.b - piece.a).norm();
-    if (0.5 * (piece.clearance_a + piece.clearance_b - length) >=
-        best - tolerance) {
-      continue;
-    }
-    const Vector3d middle = 0.5 * (piece.a + piece.b);
-    const double clearance = space.Clearance(middle);
-    best = std::min(best, clearance);
-    if (!(best > tolerance)) return 0.0;
-    pieces.push_back({piece.a, middle, piece.clearance_a, clearance});
-    pieces.push_back({middle, piece.b, clearance, piece.clearance_b});
+    best = std::min(best, space.Clearance(path[k], path[k + 1]));
   }
   return std::max(0.0, best - tolerance);
 }

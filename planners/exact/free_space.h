@@ -52,6 +52,9 @@ class FreeSpace {
   // Distance from q to the nearest contact surface or bound, ≥ 0; infinity
   // where there is neither; 0 for non-finite q.  Rounded.
   double Clearance(const Eigen::Vector3d& q) const;
+  // The least over the closed segment; 0 if it is not free.  The bounds are
+  // convex, so its ends tell their distance.
+  double Clearance(const Eigen::Vector3d& a, const Eigen::Vector3d& b) const;
 
   // The contact triangles within `radius` of a segment, the nearest first
   // (bounds have none).  Rounded; nothing for non-finite points.
@@ -91,9 +94,8 @@ PathCheck CheckPath(const FreeSpace& space,
                     const std::vector<Eigen::Vector3d>& path);
 
 // The smallest distance from any point of a polyline to the nearest contact
-// surface or bound, within `tolerance` > 0 (user's unit), never above the
-// true one: bisection by the distance's Lipschitz constant 1.  0 when a
-// distance it needs is not larger than the tolerance.
+// surface or bound, less `tolerance` > 0 (user's unit): a lower bound if that
+// exceeds rounding.  0 if the path is not free.
 double PathClearance(const FreeSpace& space,
                      const std::vector<Eigen::Vector3d>& path,
                      double tolerance);

@@ -19,45 +19,64 @@ class Centering {
             double clearance)
       : surface_(surface), segments_(segments), clearance_(clearance) {}
 
-  void Run(std::vector<Vector3d>* path) const {
+  void Run(std::vector<Vector3d>* path) {
+    for (const Vector3d& p : *path) points_.push_back(At(p));
     // Twice: a neighbour that has not moved yet holds a point back.
     for (int pass = 0; pass < 2; ++pass) {
-      for (std::size_t k = 1; k + 1 < path->size(); ++k) Raise(k, path);
+      for (std::size_t k = 1; k + 1 < points_.size(); ++k) Raise(k);
     }
-    for (int round = 0; round < kRounds; ++round) {
-      if (!Split(path)) return;
+    for (int round = 0; round < kRounds && Split(); ++round) {
     }
+    path->clear();
+    for (const Point& p : points_) path->push_back(p.position);
   }
 
  private:
-  double Room(const Vector3d& a, const Vector3d& b) const {
-    return segments_.Distance(a, b, clearance_);
+  struct Point {
+    Vector3d position;
+    Vector3d contact;  // closest
+    double distance;   // to it
+  };
+
+  Point At(const Vector3d& p) const {
+    const PenetrationResult answer = surface_.Answer(p, Location::kOutside);
+    return {p, answer.contact, (p - answer.contact).norm()};
   }
 
-  // Moves point k of the path, which has points on either side.
-  bool Raise(std::size_t k, std::vector<Vector3d>* path) const {
-    const Vector3d before = (*path)[k - 1], after = (*path)[k + 1];
-    Vector3d& p = (*path)[k];
-    double room = std::min(Room(before, p), Room(p, after));
+  // Clearance of a segment, at most that of its ends.
+  double Room(const Point& a, const Point& b) const {
+    return segments_.Distance(a.position, b.position,
+                              std::min({clearance_, a.distance, b.distance}));
+  }
+  bool HasRoom(const Point& a, const Point& b, double room) const {
+    return a.distance >= room && b.distance >= room &&
+           segments_.Distance(a.position, b.position, room) >= room;
+  }
+
+  // Moves point k, which has points on either side.
+  bool Raise(std::size_t k) {
+    if (points_[k].distance >= clearance_) return false;
+    const Point& before = points_[k - 1];
+    const Point& after = points_[k + 1];
+    Point& p = points_[k];
+    double room = -1.0;  // not known yet
     bool raised = false;
-    for (int move = 0; move < kMoves && room < clearance_; ++move) {
-      const Vector3d contact = surface_.Answer(p, Location::kOutside).contact;
-      const double distance = (p - contact).norm();
-      if (!(distance > 0.0) || distance >= clearance_) break;
-      const Vector3d up = (p - contact) / distance;
+    for (int move = 0; move < kMoves && p.distance < clearance_; ++move) {
+      if (!(p.distance > 0.0)) break;
+      const Vector3d up = (p.position - p.contact) / p.distance;
+      const double reach = 2.0 * clearance_;
       const SegmentTree::Hit hit =
-          segments_.FirstHit(p, p + 2.0 * clearance_ * up);
-      const double gap = distance + hit.fraction * 2.0 * clearance_;
-      const double height = std::min(clearance_, 0.5 * gap);
+          segments_.FirstHit(p.position, p.position + reach * up);
+      const double gap = p.distance + hit.fraction * reach;
+      const double way = std::min(clearance_, 0.5 * gap) - p.distance;
+      if (!(way > 0.01 * p.distance)) break;
+      if (room < 0.0) room = std::min(Room(before, p), Room(p, after));
       bool moved = false;
       for (double share = 1.0; share > 0.2 && !moved; share *= 0.5) {
-        const Vector3d x = p + share * (height - distance) * up;
-        const double now = std::min(Room(before, x), Room(x, after));
-        if (now >= room && Room(x, x) > 1.01 * distance) {
-          p = x;
-          room = now;
-          moved = true;
-        }
+        const Point x = At(p.position + share * way * up);
+        moved = x.distance > 1.01 * p.distance && HasRoom(before, x, room) &&
+                HasRoom(x, after, room);
+        if (moved) p = x;
       }
       if (!moved) break;
       raised = true;
@@ -66,27 +85,25 @@ class Centering {
   }
 
   // A point in every segment that comes much nearer than both its ends.
-  bool Split(std::vector<Vector3d>* path) const {
+  bool Split() {
     bool changed = false;
-    std::vector<Vector3d> old;
-    old.swap(*path);
-    path->push_back(old.front());
+    std::vector<Point> old;
+    old.swap(points_);
+    points_.push_back(old.front());
     for (std::size_t k = 1; k < old.size(); ++k) {
-      const Vector3d a = path->back();
-      const Vector3d b = old[k];
-      const double room = Room(a, b);
-      if (room < 0.6 * std::min(Room(a, a), Room(b, b))) {
-        path->push_back(Nearest(a, b));
-        path->push_back(b);
-        if (Raise(path->size() - 2, path)) {
+      const Point a = points_.back(), b = old[k];
+      const double wanted =
+          0.6 * std::min({clearance_, a.distance, b.distance});
+      if (!HasRoom(a, b, wanted)) {
+        points_.push_back(At(Nearest(a.position, b.position)));
+        points_.push_back(b);
+        if (Raise(points_.size() - 2)) {
           changed = true;
-        } else {
-          path->pop_back();
-          path->back() = b;
+          continue;
         }
-      } else {
-        path->push_back(b);
+        points_.resize(points_.size() - 2);
       }
+      points_.push_back(b);
     }
     return changed;
   }
@@ -95,7 +112,8 @@ class Centering {
   Vector3d Nearest(Vector3d a, Vector3d b) const {
     for (int i = 0; i < kBisections; ++i) {
       const Vector3d middle = 0.5 * (a + b);
-      (Room(a, middle) < Room(middle, b) ? b : a) = middle;
+      const double left = segments_.Distance(a, middle, clearance_);
+      (segments_.Distance(middle, b, left) < left ? a : b) = middle;
     }
     return 0.5 * (a + b);
   }
@@ -103,6 +121,7 @@ class Centering {
   const ContactSurface& surface_;
   const SegmentTree& segments_;
   double clearance_;
+  std::vector<Point> points_;
 };
 
 }  // namespace

@@ -10,13 +10,15 @@ namespace {
 
 using Eigen::Vector3d;
 
+constexpr int kCutsInVain = 60;  // in a row: no more are tried
+
 class Shortener {
  public:
   Shortener(const std::vector<Vector3d>& path, const SegmentTree& segments,
             const ShorteningOptions& options)
       : segments_(segments), options_(options), random_(options.seed) {
     for (std::size_t k = 0; k < path.size(); ++k) {
-      points_.push_back({path[k], static_cast<double>(k)});
+      points_.push_back({path[k], static_cast<double>(k), false});
       if (k == 0) continue;
       floor_.push_back(std::min(
           options.clearance,
@@ -29,7 +31,11 @@ class Shortener {
 
   std::vector<Vector3d> Run() {
     Gallop();
-    for (int i = 0; i < options_.random_cuts && points_.size() > 2; ++i) Cut();
+    int in_vain = 0;
+    for (int i = 0; i < options_.random_cuts && points_.size() > 2; ++i) {
+      in_vain = Cut() ? 0 : in_vain + 1;
+      if (in_vain > kCutsInVain) break;
+    }
     Gallop();
     double length = Length();
     for (int i = 0; i < options_.pulls && points_.size() > 2; ++i) {
@@ -49,6 +55,7 @@ class Shortener {
   struct Point {
     Vector3d position;
     double parameter;
+    bool settled = false;  // cannot be pulled while its neighbours stay
   };
 
   double Length() const {
@@ -95,6 +102,7 @@ class Shortener {
       kept.push_back(points_[good]);
       i = good;
     }
+    for (Point& p : kept) p.settled = false;
     points_ = std::move(kept);
   }
 
@@ -102,13 +110,13 @@ class Shortener {
     const Point& p = points_[k];
     const Point& q = points_[k + 1];
     return {p.position + share * (q.position - p.position),
-            p.parameter + share * (q.parameter - p.parameter)};
+            p.parameter + share * (q.parameter - p.parameter), false};
   }
 
-  void Cut() {
+  bool Cut() {
     const std::size_t count = points_.size() - 1;
     std::size_t i = random_() % count, j = random_() % count;
-    if (i == j) return;
+    if (i == j) return false;
     if (i > j) std::swap(i, j);
     std::uniform_real_distribution<double> share(0.0, 1.0);
     const Point p = At(i, share(random_)), q = At(j, share(random_));
@@ -117,20 +125,24 @@ class Shortener {
     for (std::size_t k = i + 1; k < j; ++k) {
       old += (points_[k + 1].position - points_[k].position).norm();
     }
-    if ((q.position - p.position).norm() > old * (1.0 - 1e-6)) return;
+    if ((q.position - p.position).norm() > old * (1.0 - 1e-6)) return false;
     // What is left of the two segments was part of them, but is measured
     // against its own stretch from now on.
-    if (!Sees(points_[i], p) || !Sees(p, q) || !Sees(q, points_[j + 1])) return;
+    if (!Sees(points_[i], p) || !Sees(p, q) || !Sees(q, points_[j + 1]))
+      return false;
     points_.erase(points_.begin() + static_cast<std::ptrdiff_t>(i + 1),
                   points_.begin() + static_cast<std::ptrdiff_t>(j + 1));
     points_.insert(points_.begin() + static_cast<std::ptrdiff_t>(i + 1),
                    {p, q});
+    return true;
   }
 
   void Pull() {
     for (std::size_t k = 1; k + 1 < points_.size(); ++k) {
-      const Point& p = points_[k - 1];
-      const Point& q = points_[k + 1];
+      if (points_[k].settled) continue;
+      points_[k].settled = true;
+      Point& p = points_[k - 1];
+      Point& q = points_[k + 1];
       const Vector3d along = q.position - p.position;
       const double squared = along.squaredNorm();
       const Vector3d here = points_[k].position;
@@ -144,6 +156,7 @@ class Shortener {
         if (SeesOver(p.position, x, p.parameter, points_[k].parameter) &&
             SeesOver(x, q.position, points_[k].parameter, q.parameter)) {
           points_[k].position = x;
+          p.settled = q.settled = points_[k].settled = false;
           break;
         }
       }

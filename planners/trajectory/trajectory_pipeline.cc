@@ -148,7 +148,7 @@ class Run {
   bool IsTooNarrow(const Path& start) const {
     const double margin = problem_.margin * Diagonal(problem_);
     return margin > 0.0 && PathClearance(*problem_.free_space, start,
-                                         0.05 * margin) < 0.45 * margin;
+                                         1e-3 * margin) < 0.5 * margin;
   }
 
   // Makes the path the candidate, as free or not free, not converged.

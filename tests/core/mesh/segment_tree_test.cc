@@ -9,11 +9,13 @@
 #include <CGAL/intersections.h>
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <cmath>
 #include <limits>
 #include <optional>
 #include <random>
 
+#include "core/mesh/surface_tree.h"
 #include "problems/shapes.h"
 #include "tests/support/solid_tools.h"
 
@@ -187,6 +189,74 @@ TEST(SegmentTree, SkipsTrianglesWithoutArea) {
   const SegmentTree tree(mesh);
   EXPECT_FALSE(tree.Meets({2.5, -1.0, 0.0}, {2.5, 1.0, 0.0}));
   EXPECT_TRUE(tree.Meets({0.0, -1.0, 0.0}, {0.0, 1.0, 0.0}));
+}
+
+TEST(SegmentTree, MeasuresTheDistanceOfSegments) {
+  const double infinity = std::numeric_limits<double>::infinity();
+  const SegmentTree box(UnitBox());
+  // Along a face, across an edge, past a corner, a point, and inside.
+  EXPECT_DOUBLE_EQ(box.Distance({-2, 0.1, 0.75}, {2, 0.2, 0.75}, infinity),
+                   0.25);
+  EXPECT_DOUBLE_EQ(box.Distance({0, 2, -0.5}, {0, -0.5, 2}, infinity),
+                   0.25 * std::sqrt(2.0));
+  EXPECT_DOUBLE_EQ(box.Distance({0.5, 0.5, 1.5}, {2, 2, 1.5}, infinity), 1.0);
+  EXPECT_DOUBLE_EQ(box.Distance({1, 1, 1}, {1, 1, 1}, infinity),
+                   0.5 * std::sqrt(3.0));
+  EXPECT_DOUBLE_EQ(box.Distance({-0.25, 0, 0}, {0.25, 0, 0}, infinity), 0.25);
+  EXPECT_EQ(box.Distance({-2, 0, 0}, {2, 0, 0}, infinity), 0.0);
+  // The limit, and what touches.
+  EXPECT_EQ(box.Distance({-2, 0, 0.75}, {2, 0, 0.75}, 0.1), 0.1);
+  EXPECT_EQ(box.Distance({-2, 0, 0.5}, {2, 0, 0.5}, 0.1), 0.0);
+  const double beside = std::nextafter(0.5, 1.0);
+  EXPECT_GT(box.Distance({-2, 0, beside}, {2, 0, beside}, 0.1), 0.0);
+
+  std::mt19937_64 random(11);
+  const TriangleMesh torus =
+      Rotated(MakeTorus(2.0, 0.5, 40, 20), testing::RandomRotation(&random));
+  for (const double scale : {1e-3, 1.0, 1e3}) {
+    const TriangleMesh mesh = Scaled(torus, scale);
+    const SegmentTree segments(mesh);
+    const SurfaceTree surface(mesh);
+    const BoundingBox bounds = ComputeBounds(mesh);
+    for (int i = 0; i < 200; ++i) {
+      const Vector3d a = testing::RandomPoint(bounds, &random);
+      const Vector3d b = testing::RandomPoint(bounds, &random);
+      const double distance = segments.Distance(a, b, infinity);
+      EXPECT_EQ(distance == 0.0, segments.Meets(a, b));
+      constexpr int kSamples = 500;
+      double sampled = infinity;
+      for (int k = 0; k <= kSamples; ++k) {
+        const Vector3d x = a + (double{1} * k / kSamples) * (b - a);
+        sampled = std::min(sampled, surface.FindClosest(x).distance);
+      }
+      EXPECT_LE(distance, sampled + 1e-14 * scale);
+      EXPECT_GE(distance, sampled - 0.5 * (b - a).norm() / kSamples);
+      const double limit = 0.7 * distance;
+      if (limit > 0.0) {
+        EXPECT_EQ(segments.Distance(a, b, limit), limit);
+      }
+    }
+  }
+}
+
+TEST(SegmentTree, IgnoresSliversThatTheStartTouches) {
+  // Where a ray hits a sliver it starts on is less certain than an ulp.
+  std::mt19937_64 random(12);
+  for (int i = 0; i < 200; ++i) {
+    const TriangleMesh mesh = Rotated(MakeBox({4, 4, 4}, {4 + 1e-4, 5, 5}),
+                                      testing::RandomRotation(&random));
+    const SegmentTree segments(mesh);
+    for (const Triangle& t : mesh.triangles) {
+      const Vector3d& a = mesh.vertices[t[0]];
+      const Vector3d& b = mesh.vertices[t[1]];
+      const Vector3d& c = mesh.vertices[t[2]];
+      const Vector3d up = (b - a).cross(c - a).normalized();
+      for (const Vector3d& x :
+           {Vector3d(0.5 * (a + b)), Vector3d((a + b + c) / 3.0)}) {
+        EXPECT_FALSE(segments.FirstHitBeyond(x, x + up, 1e-11).Found());
+      }
+    }
+  }
 }
 
 }  // namespace

@@ -26,10 +26,10 @@ struct Tally {
 // One random pair of cells of one random world, moved by x → scale·R·x + t.
 void Try(std::mt19937_64* random, const Eigen::Matrix3d& rotation, double scale,
          double offset, Tally* tally) {
-  static constexpr double kFills[] = {0.35, 0.5, 0.62};
+  static constexpr double kFills[] = {0.1, 0.35, 0.5, 0.62};
   static constexpr double kChannels[] = {0.3, 0.05, 1e-4};
   const double channel = kChannels[(*random)() % 3];
-  const double fill = kFills[(*random)() % 3];
+  const double fill = kFills[(*random)() % 4];
   const bool filled_around = (*random)() % 2 == 0;
   const int n = 3 + static_cast<int>((*random)() % 3);
   VoxelWorld world = MakeVoxelWorld(n, fill, channel, filled_around, random);

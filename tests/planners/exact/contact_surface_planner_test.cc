@@ -1,0 +1,244 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Truth: how the scenes are made, FreeSpace, and closed forms.
+#include "planners/exact/contact_surface_planner.h"
+
+#include <gtest/gtest.h>
+
+#include <map>
+#include <nlohmann/json.hpp>
+#include <random>
+#include <string>
+
+#include "planners/exact/exact_solution.h"
+#include "planners/exact/free_space.h"
+#include "planners/exact/path_shortening.h"
+#include "problems/scene.h"
+#include "problems/scene_library.h"
+#include "problems/shapes.h"
+#include "tests/support/solid_tools.h"
+
+namespace phongpd {
+namespace {
+
+using Eigen::Vector3d;
+using Knobs = std::map<std::string, double>;
+
+Workspace Solids(const Scene& scene) {
+  Workspace workspace;
+  workspace.robot = scene.robot;
+  workspace.bounds = scene.bounds;
+  for (const SceneObstacle& obstacle : scene.obstacles) {
+    workspace.obstacles.push_back({obstacle.id, obstacle.mesh});
+  }
+  return workspace;
+}
+
+// Plans a scene, checks the path and returns the result.
+PlanResult PlanScene(const std::string& family, const Knobs& knobs) {
+  const Scene scene = ParseScene(MakeScene(family, knobs), family);
+  const TriangleMesh contact =
+      BuildContactSpace(scene.robot, MergedObstacle(Solids(scene))).mesh;
+  const PlanResult result =
+      ContactSurfacePlanner(contact).Plan(scene.start, scene.goal);
+  if (result.status != PlanStatus::kSolved) return result;
+  const FreeSpace space({contact});
+  EXPECT_TRUE(CheckPath(space, result.path).free) << family;
+  EXPECT_TRUE(CheckPath(space, result.raw_path).free) << family;
+  EXPECT_EQ(result.path.front(), scene.start);
+  EXPECT_EQ(result.path.back(), scene.goal);
+  EXPECT_NEAR(result.length, PathLength(result.path), 1e-12);
+  const double tolerance = 1e-3 * result.clearance;
+  const double clearance = PathClearance(space, result.path, tolerance);
+  EXPECT_NEAR(result.clearance, clearance, 2.0 * tolerance) << family;
+  // The way through the middle, made as short as exact tests allow.
+  if (!scene.witness.empty()) {
+    ShorteningOptions shortest;
+    shortest.random_cuts = 1000;
+    shortest.pulls = 50;
+    EXPECT_LT(result.length,
+              1.15 * PathLength(ShortenPath(scene.witness, SegmentTree(contact),
+                                            shortest)))
+        << family;
+  }
+  return result;
+}
+
+TEST(ContactSurfacePlanner, PassesWhateverIsWideEnough) {
+  for (const double rotation : {0.0, 5.0}) {
+    for (const double delta : {2e-2, 2e-3, 2e-4, 2e-5}) {
+      for (const char* family :
+           {"gap", "hole", "tunnel", "keyhole", "comb", "snake", "bugtrap"}) {
+        const PlanResult result =
+            PlanScene(family, {{"delta", delta}, {"rotation_seed", rotation}});
+        EXPECT_EQ(result.status, PlanStatus::kSolved) << family << delta;
+        // Possible are δ/2.
+        EXPECT_GT(result.clearance, 0.4 * 0.5 * delta) << family << delta;
+        EXPECT_EQ(result.deleted_edges, 0) << family << delta;
+      }
+    }
+  }
+}
+
+TEST(ContactSurfacePlanner, ProvesThatTwinsAreInfeasible) {
+  for (const double rotation : {0.0, 5.0, 6.0}) {
+    for (const char* family : {"gap", "hole", "tunnel", "keyhole", "comb",
+                               "snake", "bugtrap", "clutter_hole", "maze"}) {
+      const PlanResult result =
+          PlanScene(family, {{"twin", 1.0}, {"rotation_seed", rotation}});
+      EXPECT_EQ(result.status, PlanStatus::kInfeasibleProved) << family;
+      EXPECT_NE(result.start.cell, result.goal.cell) << family;
+      EXPECT_EQ(result.self_intersections, 0) << family;
+      EXPECT_FALSE(result.reason.empty());
+    }
+  }
+}
+
+TEST(ContactSurfacePlanner, SolvesClutterAndMazes) {
+  for (const double rotation : {0.0, 5.0}) {
+    const Knobs turned = {{"delta", 1e-4}, {"rotation_seed", rotation}};
+    EXPECT_EQ(PlanScene("clutter_hole", turned).status, PlanStatus::kSolved);
+    Knobs maze = turned;
+    maze["n"] = 4.0;
+    EXPECT_EQ(PlanScene("maze", maze).status, PlanStatus::kSolved);
+  }
+}
+
+TEST(ContactSurfacePlanner, SolvesAtAllScalesAndOffsets) {
+  for (const double scale : {1e-3, 1.0, 1e3}) {
+    for (const double offset : {1e3, 1e5}) {
+      const PlanResult result = PlanScene("tunnel", {{"delta", 1e-4},
+                                                     {"scale", scale},
+                                                     {"offset", offset * scale},
+                                                     {"rotation_seed", 2.0}});
+      EXPECT_EQ(result.status, PlanStatus::kSolved) << scale << " " << offset;
+      EXPECT_GT(result.clearance, 0.4 * 0.5e-4 * scale);
+    }
+  }
+}
+
+// Coplanar facets as the arrangement left them, turned: needles everywhere.
+TEST(ContactSurfacePlanner, CopesWithNeedles) {
+  ContactSpaceOptions as_arranged;
+  as_arranged.merge_coplanar = false;
+  for (const char* family : {"keyhole", "snake", "clutter_hole"}) {
+    for (const double twin : {0.0, 1.0}) {
+      const Scene scene = ParseScene(
+          MakeScene(family,
+                    {{"delta", 1e-3}, {"twin", twin}, {"rotation_seed", 4.0}}),
+          family);
+      const ExactSolution solution =
+          SolveExactly(Solids(scene), scene.start, scene.goal, {}, as_arranged);
+      EXPECT_LT(solution.contact_space.worst_quality, 1e-2);
+      EXPECT_EQ(solution.plan.status, twin == 0.0
+                                          ? PlanStatus::kSolved
+                                          : PlanStatus::kInfeasibleProved)
+          << family << ": " << solution.plan.reason;
+    }
+  }
+}
+
+// A cube of side 2 in a vessel whose cavity has side 6: q in [−2, 2]³, and
+// around the vessel, of side 10, q outside [−6, 6]³.
+TriangleMesh VesselSpace() {
+  return BuildContactSpace(
+             MakeBox(Vector3d::Constant(-1.0), Vector3d::Constant(1.0)),
+             MakeVessel(10.0, 6.0, 0.0))
+      .mesh;
+}
+
+TEST(ContactSurfacePlanner, ProvesThatNothingLeavesAVessel) {
+  const ContactSurfacePlanner planner(VesselSpace());
+  PlanResult result = planner.Plan({0.5, 0.1, 0.2}, {8.0, 0.0, 0.0});
+  EXPECT_EQ(result.status, PlanStatus::kInfeasibleProved);
+  EXPECT_GE(result.start.cell, 0);
+  EXPECT_EQ(result.goal.cell, FreeCells::kOutside);
+  EXPECT_EQ(result.start.rays.back().end, CellRay::End::kShell);
+  // And that all else can be reached: within it, and around it.
+  result = planner.Plan({1.9, 1.9, -1.9}, {-1.9, 1.9, 1.9});
+  EXPECT_EQ(result.status, PlanStatus::kSolved);
+  result = planner.Plan({-8.0, 0.1, 0.2}, {8.0, 0.0, 0.0});
+  EXPECT_EQ(result.status, PlanStatus::kSolved);
+  EXPECT_GT(result.length, 2.0 * std::sqrt(4.0 + 36.0) + 12.0);
+  EXPECT_LT(result.length, 1.1 * (2.0 * std::sqrt(4.0 + 36.0) + 12.0));
+}
+
+TEST(ContactSurfacePlanner, JoinsIslandsSideBySideThroughTheOutside) {
+  // No ray leads from one to the other; start and goal touch either.
+  TriangleMesh mesh = MakeBox({0, 0, 0}, {1, 1, 1});
+  const TriangleMesh other = MakeBox({9, -7, 0}, {10, -6, 1});
+  for (const Vector3d& v : other.vertices) mesh.vertices.push_back(v);
+  for (const Triangle& t : other.triangles) {
+    mesh.triangles.push_back({t[0] + 8, t[1] + 8, t[2] + 8});
+  }
+  const ContactSurfacePlanner planner(mesh);
+  const PlanResult result =
+      planner.Plan({-0.001, 0.5, 0.5}, {10.001, -6.5, 0.5});
+  EXPECT_EQ(result.status, PlanStatus::kSolved);
+  EXPECT_EQ(result.start.cell, FreeCells::kOutside);
+}
+
+TEST(ContactSurfacePlanner, RefusesStartsAndGoalsThatAreNotFree) {
+  const ContactSurfacePlanner planner(VesselSpace());
+  const Vector3d free = Vector3d::Zero();
+  PlanResult result = planner.Plan({2.5, 0.0, 0.0}, free);
+  EXPECT_EQ(result.status, PlanStatus::kInvalidStart);
+  EXPECT_EQ(result.reason, "start is 0.5 deep in an obstacle");
+  result = planner.Plan(free, {0.0, 2.0, 0.0});
+  EXPECT_EQ(result.status, PlanStatus::kInvalidGoal);
+  EXPECT_EQ(result.reason, "goal touches an obstacle");
+  result = planner.Plan(free, {0.0, std::nan(""), 0.0});
+  EXPECT_EQ(result.status, PlanStatus::kInvalidGoal);
+  EXPECT_EQ(result.reason, "goal is not finite");
+  EXPECT_TRUE(result.path.empty());
+}
+
+TEST(ContactSurfacePlanner, NamesWhatIsInTheWay) {
+  Workspace workspace;
+  workspace.robot = MakeBox(Vector3d::Constant(-0.5), Vector3d::Constant(0.5));
+  workspace.obstacles = {{"wall", MakeBox({1, -9, -9}, {2, 9, 9})},
+                         {"post", MakeBox({-4, 0, -9}, {-3, 1, 9})}};
+  workspace.bounds = {Vector3d::Constant(-5.0), Vector3d::Constant(5.0)};
+  ExactSolution solution = SolveExactly(workspace, {1.0, 3, 0}, {-1, 0, 0});
+  EXPECT_EQ(solution.plan.status, PlanStatus::kInvalidStart);
+  EXPECT_EQ(solution.plan.reason, "start is 0.5 deep in 'wall'");
+  solution = SolveExactly(workspace, {0, 0, 0}, {0, 0, 6.0});
+  EXPECT_EQ(solution.plan.reason, "goal is 1 deep in 'bounds'");
+  solution = SolveExactly(workspace, {0, 0, 0}, {4, 0, 0});
+  EXPECT_EQ(solution.plan.status, PlanStatus::kInfeasibleProved);
+  solution = SolveExactly(workspace, {0, 0.5, 0}, {-4.75, 0.5, 0});
+  EXPECT_EQ(solution.plan.status, PlanStatus::kSolved);
+  EXPECT_GT(solution.contact_space_seconds, 0.0);
+  EXPECT_EQ(solution.contact_space.components, 3);
+}
+
+TEST(ContactSurfacePlanner, SolvesTrivialProblemsTrivially) {
+  const ContactSurfacePlanner planner(VesselSpace());
+  const Vector3d q(0.5, 0.25, 0.125);
+  PlanResult result = planner.Plan(q, q);
+  EXPECT_EQ(result.status, PlanStatus::kSolved);
+  EXPECT_EQ(result.path, std::vector<Vector3d>{q});
+  EXPECT_EQ(result.length, 0.0);
+  EXPECT_DOUBLE_EQ(result.clearance, 1.5);
+  result = planner.Plan(q, -q);
+  EXPECT_EQ(result.path, (std::vector<Vector3d>{q, -q}));
+}
+
+TEST(ContactSurfacePlanner, RepeatsItselfToTheBit) {
+  const Knobs knobs = {{"delta", 1e-3}, {"rotation_seed", 3.0}};
+  const PlanResult a = PlanScene("clutter_hole", knobs);
+  const PlanResult b = PlanScene("clutter_hole", knobs);
+  EXPECT_EQ(a.path, b.path);
+  EXPECT_EQ(a.raw_path, b.raw_path);
+}
+
+TEST(ContactSurfacePlanner, RefusesOptionsOutOfRange) {
+  ContactSurfaceOptions options;
+  options.clearance = 0.0;
+  EXPECT_THROW(ContactSurfacePlanner(VesselSpace(), options), InputError);
+  options = {};
+  options.spacing = 2.0;
+  EXPECT_THROW(ContactSurfacePlanner(VesselSpace(), options), InputError);
+}
+
+}  // namespace
+}  // namespace phongpd
