@@ -11,6 +11,7 @@
 #include "constraints/collision_oracle.h"
 #include "core/contact_space/contact_space.h"
 #include "core/mesh/mesh_error.h"
+#include "core/mesh/segment_tree.h"
 #include "problems/shapes.h"
 #include "tests/support/solid_tools.h"
 
@@ -111,6 +112,44 @@ TEST(FreeSpace, AgreesWithDenseChecksOfTheOriginalMeshes) {
   }
   EXPECT_GT(free, 50);
   EXPECT_GT(blocked, 50);
+}
+
+TEST(FreeSpace, FindsTheTrianglesNearASegment) {
+  const TriangleMesh mesh =
+      Translated(MakeTorus(1.0, 0.3, 16, 8), {1000.0, 0.0, 0.0});
+  const FreeSpace space({mesh});
+  std::mt19937_64 random(11);
+  const BoundingBox box = ComputeBounds(mesh);
+  int found = 0;
+  for (int i = 0; i < 200; ++i) {
+    const Vector3d a = testing::RandomPoint(box, &random);
+    const Vector3d b = a + 0.1 * (testing::RandomPoint(box, &random) - a);
+    if (!space.IsFree(a, b)) continue;
+    const double radius = 0.3;
+    const auto near = space.FindNear(a, b, radius);
+    std::size_t expected = 0;
+    for (const Triangle& t : mesh.triangles) {
+      // Truth: SegmentTree on the triangle alone.
+      const TriangleMesh one = {
+          {mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]},
+          {{0, 1, 2}}};
+      expected += SegmentTree(one).Distance(a, b, 2.0 * radius) <= radius;
+    }
+    ASSERT_EQ(near.size(), expected);
+    for (std::size_t k = 0; k < near.size(); ++k) {
+      const FreeSpace::NearTriangle& triangle = near[k];
+      ASSERT_TRUE(k == 0 || near[k - 1].distance <= triangle.distance);
+      for (const Vector3d& q : triangle.corners) {
+        ASSERT_LE(triangle.normal.dot(q), triangle.level);
+      }
+      for (const Vector3d& q : {a, b}) {
+        ASSERT_GE(triangle.normal.dot(q),
+                  triangle.level + triangle.distance - 1e-11);
+      }
+    }
+    found += static_cast<int>(near.size());
+  }
+  EXPECT_GT(found, 500);
 }
 
 TEST(PathClearance, IsTheSmallestDistanceAlongThePath) {

@@ -10,6 +10,7 @@
 #include "core/mesh/mesh_error.h"
 #include "planners/exact/path_resampling.h"
 #include "planners/exact/start_repair.h"
+#include "planners/trajectory/corridor_program.h"
 #include "problems/shapes.h"
 #include "tests/support/path_problems.h"
 
@@ -191,6 +192,86 @@ TEST(Corridor, DoesNotDependOnUnitAndOffset) {
         PolishInCorridor(WithoutMetrics(moved), path);
     EXPECT_EQ(summary.status, CorridorStatus::kConverged);
     EXPECT_NEAR(summary.objective, expected, 1e-3 * expected);
+  }
+}
+
+TEST(CorridorProgram, DerivativesAreThoseOfItsValues) {
+  PathProblem source = MakePathProblem("channel0.1", 2);
+  TrajectoryProblem problem = WithoutMetrics(source);
+  problem.waypoints = 12;
+  problem.margin = 0.03;  // some segments lack clearance
+  StartRepairOptions options;
+  options.waypoints = problem.waypoints;
+  const Path path = StartRepair(source.contact)
+                        .Repair(source.start, source.goal, options)
+                        .routes[0];
+  const PathSprings springs(problem, PathLength(path));
+  const Eigen::VectorXd now = springs.ToVariables(path);
+  const Corridor corridor = FindCorridor(problem, springs, path, 0.1);
+  CorridorProgram program(problem, springs, corridor, now, 0.05, 20.0);
+  const int n = program.variables(), m = program.rows();
+  ASSERT_GT(n, 3 * problem.waypoints);
+  ASSERT_GT(m, springs.rows());
+  const Eigen::VectorXd x = program.Start();
+
+  // The present path holds every row and bound.
+  Eigen::VectorXd x_low(n), x_high(n), g_low(m), g_high(m), g(m);
+  program.Bounds(x_low.data(), x_high.data(), g_low.data(), g_high.data());
+  Eigen::VectorXd jacobian(program.jacobian_nonzeros());
+  ASSERT_TRUE(program.Constraints(x.data(), g.data(), jacobian.data()));
+  EXPECT_GE((x - x_low).minCoeff(), -1e-12);
+  EXPECT_GE((x_high - x).minCoeff(), -1e-12);
+  EXPECT_GE((g - g_low).head(m - springs.rows()).minCoeff(), -1e-9);
+
+  // Everything is at most quadratic, so central differences are exact but for
+  // rounding.
+  const double h = 1e-4;
+  Eigen::VectorXd gradient(n), multipliers(m), other(jacobian.size());
+  for (int i = 0; i < m; ++i) multipliers[i] = 0.5 + 0.1 * (i % 7);
+  program.ObjectiveGradient(x.data(), gradient.data());
+  std::vector<int> row(static_cast<std::size_t>(jacobian.size())), col(row);
+  program.JacobianPattern(row.data(), col.data());
+  Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(m, n);
+  for (std::size_t i = 0; i < row.size(); ++i) {
+    dense(row[i], col[i]) += jacobian[static_cast<Eigen::Index>(i)];
+  }
+  Eigen::VectorXd values(program.hessian_nonzeros());
+  program.Hessian(x.data(), 2.0, multipliers.data(), values.data());
+  std::vector<int> lower(static_cast<std::size_t>(values.size())), left(lower);
+  program.HessianPattern(lower.data(), left.data());
+  Eigen::MatrixXd hessian = Eigen::MatrixXd::Zero(n, n);
+  for (std::size_t i = 0; i < lower.size(); ++i) {
+    hessian(lower[i], left[i]) += values[static_cast<Eigen::Index>(i)];
+    if (lower[i] != left[i]) {
+      hessian(left[i], lower[i]) += values[static_cast<Eigen::Index>(i)];
+    }
+  }
+  const auto lagrangian_gradient = [&](const Eigen::VectorXd& at) {
+    Eigen::VectorXd sum(n), unused(m);
+    program.ObjectiveGradient(at.data(), sum.data());
+    sum *= 2.0;
+    program.Constraints(at.data(), unused.data(), other.data());
+    for (std::size_t i = 0; i < row.size(); ++i) {
+      sum[col[i]] += multipliers[row[i]] * other[static_cast<Eigen::Index>(i)];
+    }
+    return sum;
+  };
+  for (int k = 0; k < n; ++k) {
+    Eigen::VectorXd up = x, down = x, g_up(m), g_down(m);
+    up[k] += h;
+    down[k] -= h;
+    EXPECT_NEAR(
+        (program.Objective(up.data()) - program.Objective(down.data())) /
+            (2.0 * h),
+        gradient[k], 1e-8);
+    const Eigen::VectorXd column =
+        (lagrangian_gradient(up) - lagrangian_gradient(down)) / (2.0 * h);
+    EXPECT_LE((column - hessian.col(k)).cwiseAbs().maxCoeff(), 1e-7);
+    program.Constraints(up.data(), g_up.data(), other.data());
+    program.Constraints(down.data(), g_down.data(), other.data());
+    EXPECT_LE(
+        ((g_up - g_down) / (2.0 * h) - dense.col(k)).cwiseAbs().maxCoeff(),
+        1e-8);
   }
 }
 
