@@ -210,7 +210,7 @@ double ContactSurfacePlanner::Impl::PathClearance(
   return least;
 }
 
-// Makes a free path the result unless that is shorter already.
+// Makes a free path the result unless that is better already.
 void ContactSurfacePlanner::Impl::Keep(std::vector<Vector3d> raw_path,
                                        PlanResult* result) const {
   CenterPath(surface, segments, result->wanted_clearance, &raw_path);
@@ -223,15 +223,18 @@ void ContactSurfacePlanner::Impl::Keep(std::vector<Vector3d> raw_path,
     path = ShortenPath(raw_path, segments, shortening);
   }
   const double length = PathLength(path);
-  if (result->status == PlanStatus::kSolved && result->length <= length) {
-    return;
+  const double clearance = PathClearance(path);
+  if (result->status == PlanStatus::kSolved) {
+    // Clearance is worth a tenth of the length.
+    const double share = clearance < 0.7 * result->clearance ? 0.9 : 1.0;
+    if (length >= share * result->length) return;
   }
   result->status = PlanStatus::kSolved;
   result->reason.clear();
   result->raw_path = std::move(raw_path);
   result->path = std::move(path);
   result->length = length;
-  result->clearance = PathClearance(result->path);
+  result->clearance = clearance;
 }
 
 void ContactSurfacePlanner::Impl::FindPath(const Vector3d& start,

@@ -121,7 +121,8 @@ void SurfaceGraph::AddGapLinks(const SegmentTree& segments, double rounding,
     if (!hit.Found()) return;
     SurfaceSite to;
     to.triangle = hit.triangle;
-    to.direction = normals_[hit.triangle];
+    // At edges and corners only the way back is free for sure.
+    to.direction = -from.direction;
     to.point = from.point + hit.fraction * reach * from.direction;
     AddLink(from, to);
   };
