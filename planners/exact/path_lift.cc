@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/mesh/segment_tree.h"
+#include "planners/exact/surface_graph.h"
+
 namespace phongpd {
 
 using Eigen::Vector3d;

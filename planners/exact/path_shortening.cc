@@ -5,6 +5,8 @@
 #include <cmath>
 #include <random>
 
+#include "core/mesh/segment_tree.h"
+
 namespace phongpd {
 namespace {
 
