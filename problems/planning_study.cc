@@ -110,7 +110,7 @@ PlanningResult PlanningStudy::Run(const PlanningRun& run) {
     result.numbers.length = exact_.length;
     result.numbers.clearance = exact_.clearance;
     result.numbers.segment_checks =
-        static_cast<std::uint64_t>(exact_.lift.segments);
+        static_cast<std::uint64_t>(exact_.lift.tests);
     // The first query pays for the planner's tables, too.
     result.numbers.seconds = exact_.seconds + planner_->build_seconds();
     result.numbers.collision_free =

@@ -133,18 +133,6 @@ double FreeSpace::Clearance(const Vector3d& q) const {
   return clearance;
 }
 
-<<<<<<< HEAD
-=======
-double FreeSpace::Clearance(const Vector3d& a, const Vector3d& b) const {
-  double clearance = std::min(Clearance(a), Clearance(b));
-  if (!IsFree(a, b)) return 0.0;
-  for (const Space& space : impl_->spaces) {
-    clearance = space.segments.Distance(a, b, clearance);
-  }
-  return clearance;
-}
-
->>>>>>> part-repair
 std::vector<FreeSpace::NearTriangle> FreeSpace::FindNear(const Vector3d& a,
                                                          const Vector3d& b,
                                                          double radius) const {
@@ -178,7 +166,6 @@ std::vector<FreeSpace::NearTriangle> FreeSpace::FindNear(const Vector3d& a,
                      return one.distance < other.distance;
                    });
   return near;
-<<<<<<< HEAD
 }
 
 double FreeSpace::Clearance(const Vector3d& a, const Vector3d& b) const {
@@ -188,8 +175,6 @@ double FreeSpace::Clearance(const Vector3d& a, const Vector3d& b) const {
     clearance = space.segments.Distance(a, b, clearance);
   }
   return clearance;
-=======
->>>>>>> part-repair
 }
 
 std::size_t FreeSpace::size() const { return impl_->spaces.size(); }

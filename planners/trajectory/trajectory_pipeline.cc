@@ -163,13 +163,8 @@ class Run {
   // of iterations to find out.
   bool IsTooNarrow(const Path& start) const {
     const double margin = problem_.margin * Diagonal(problem_);
-<<<<<<< HEAD
     return margin > 0.0 &&
            PathClearance(*problem_.free_space, start) < 0.5 * margin;
-=======
-    return margin > 0.0 && PathClearance(*problem_.free_space, start,
-                                         1e-3 * margin) < 0.5 * margin;
->>>>>>> part-repair
   }
 
   // Makes the path the candidate, as free or not free, not converged.
