@@ -81,11 +81,11 @@ Json TrajectoryRow(const TrajectoryStudy& study, const TrajectoryMetric& metric,
   row["inf_pr"] = ipopt.violation;
   row["inf_du"] = ipopt.dual_infeasibility;
   // Smallest distance along the path, in diagonals.
-  row["clearance"] = result.certificate.free
-                         ? PathClearance(*study.space().free_space,
-                                         result.path) /
-                               study.space().diagonal
-                         : 0.0;
+  row["clearance"] =
+      result.certificate.free
+          ? PathClearance(*study.space().free_space, result.path) /
+                study.space().diagonal
+          : 0.0;
   row["rounds"] = ipopt.rounds;
   row["queries"] = {{"cold", ipopt.queries.cold},
                     {"warm", ipopt.queries.warm},

@@ -267,9 +267,8 @@ void ContactSurfacePlanner::Impl::FindPath(const Vector3d& start,
   for (int found = 0; found < options.routes;) {
     if (result->searches == options.max_searches) break;
     ++result->searches;
-    const SurfaceGraph::Route route =
-        graph.Search(start, goal, attachments, deleted, avoided,
-                     request.detours);
+    const SurfaceGraph::Route route = graph.Search(
+        start, goal, attachments, deleted, avoided, request.detours);
     if (route.empty()) break;
     std::vector<SurfaceSite> sites(1);
     sites[0].point = start;

@@ -77,8 +77,7 @@ class SurfaceGraph {
   // (empty: none) count kDetour times: that finds routes of another kind.
   Route Search(const Eigen::Vector3d& start, const Eigen::Vector3d& goal,
                const std::vector<Attachment>& attachments,
-               const std::set<Edge>& deleted,
-               const std::vector<char>& avoided,
+               const std::set<Edge>& deleted, const std::vector<char>& avoided,
                const std::vector<DetourRegion>& detours = {}) const;
 
  private:
