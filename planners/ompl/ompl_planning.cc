@@ -16,6 +16,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <limits>
 
 #include "core/mesh/mesh_error.h"
 #include "planners/ompl/contact_space_validity.h"
@@ -190,8 +191,9 @@ OmplPlanningResult PlanWithOmpl(
     }
     result.collision_free = CheckPath(model->free_space(), result.path).free;
     if (result.collision_free) {
+      // A path may pass within rounding of contact: nothing is taken off.
       result.clearance = PathClearance(model->free_space(), result.path,
-                                       1e-12 * model->diagonal());
+                                       std::numeric_limits<double>::min());
     }
   }
   return result;
