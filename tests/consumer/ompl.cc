@@ -9,6 +9,6 @@
 
 ompl::base::PlannerPtr MakePlanner(
     const std::shared_ptr<const phongpd::ContactModel>& model) {
-  return phongpd::MakeOmplPlanner(
-      "retraction-rrt", phongpd::MakeSpaceInformation(model), model);
+  return phongpd::MakeOmplPlanner("retraction-rrt",
+                                  phongpd::MakeSpaceInformation(model), model);
 }
