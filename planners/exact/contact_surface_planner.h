@@ -30,10 +30,14 @@ struct ContactSurfaceOptions {
   // Distance between roadmap points on an edge, a fraction of the mesh's
   // diagonal.  Smaller: shorter routes, longer searches.  In [1e-3, 1].
   double spacing = 0.05;
-  // At most this many triangles get a link across the gap in front of them.
+  // At most this many triangles, and points of edges if triangles are fewer,
+  // get a link across the gap in front of them.
   int gap_links = 256;
   // Searches after edges that could not be lifted; at least 1.
   int max_searches = 200;
+  // Routes of different kinds that are compared after shortening, at least 1;
+  // fewer where the first is about as short as the straight line.
+  int routes = 3;
   bool shorten = true;
   int random_cuts = 200;
   std::uint64_t seed = 1;
