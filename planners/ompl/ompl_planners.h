@@ -13,7 +13,8 @@ namespace phongpd {
 // A planner by one of OmplPlannerNames, for a space information as
 // MakeSpaceInformation makes it (whose valid-state sampler it sets where the
 // name says so).  For ompl::tools::Benchmark and for programs that use OMPL
-// themselves.  Throws InputError.
+// themselves.  One space information holds one valid-state sampler: give each
+// prm-* planner its own.  Throws InputError.
 ompl::base::PlannerPtr MakeOmplPlanner(
     const std::string& name, const ompl::base::SpaceInformationPtr& si,
     const std::shared_ptr<const ContactModel>& model,

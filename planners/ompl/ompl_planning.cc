@@ -16,6 +16,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <limits>
 
 #include "core/mesh/mesh_error.h"
 #include "planners/ompl/contact_space_validity.h"

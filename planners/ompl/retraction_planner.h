@@ -51,6 +51,7 @@ class RetractionPlanner : public ompl::base::Planner {
   // Every point of the graph is a vertex, every edge a straight free motion.
   void getPlannerData(ompl::base::PlannerData& data) const override;
 
+  // Its clearance is the slides' standoff as well.
   void setRetractionOptions(const RetractionOptions& options);
   const RetractionOptions& retractionOptions() const;
   void setLocalPlanner(LocalPlanner planner) { local_planner_ = planner; }

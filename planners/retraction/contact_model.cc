@@ -17,9 +17,14 @@ namespace {
 
 using Eigen::Vector3d;
 
-// Triangles closer to the start of a ray than this share of the diagonal touch
-// it: well above the rounding of a contact point, well below the floor.
-constexpr double kTouch = 1e-11;
+// Triangles closer to the start of a ray than this touch it: well above the
+// rounding of a contact point, well below the floor.
+double TouchRadius(const BoundingBox& region) {
+  const double largest =
+      region.min.cwiseAbs().cwiseMax(region.max.cwiseAbs()).maxCoeff();
+  return 1e-11 * region.Diagonal() +
+         16.0 * std::numeric_limits<double>::epsilon() * largest;
+}
 
 struct Space {
   Space(const TriangleMesh& contact_mesh, const PhongMetricOptions& options)
@@ -84,17 +89,20 @@ struct ContactModel::Impl {
     options.field_options = field;
     spaces.reserve(meshes.size());
     for (const TriangleMesh& mesh : meshes) spaces.emplace_back(mesh, options);
-    if (!bounds.IsEmpty()) return;
-    if (meshes.empty()) {
+    if (bounds.IsEmpty() && meshes.empty()) {
       throw InputError("contact model: expected contact spaces or bounds");
     }
-    for (const TriangleMesh& mesh : meshes) {
-      region = Hull(region, ComputeBounds(mesh));
+    if (bounds.IsEmpty()) {
+      for (const TriangleMesh& mesh : meshes) {
+        region = Hull(region, ComputeBounds(mesh));
+      }
     }
+    touch = TouchRadius(region);
   }
 
   FreeSpace free_space;
   BoundingBox region;
+  double touch = 0.0;  // TouchRadius(region)
   std::vector<Space> spaces;
 };
 
@@ -145,7 +153,7 @@ ContactModel::Facet ContactModel::FacetMet(const Vector3d& a, const Vector3d& b,
   if (opposed < -1e-9 * length) return facet;
   // The motion enters through an edge of a facet it is (nearly) parallel to.
   const Space& space = impl_->spaces[Index(check.obstacle)];
-  const double reach = check.fraction + kTouch * diagonal() / length;
+  const double reach = check.fraction + impl_->touch / length;
   space.segments.ForEachHit(a, b, [&](int triangle, double fraction) {
     const Vector3d& normal = space.normals[Index(triangle)];
     if (fraction > reach || normal.dot(motion) >= opposed) return;
@@ -196,7 +204,7 @@ double ContactModel::Standoff(const Facet& facet, double clearance) const {
   double free = 1.0;
   for (const Space& space : impl_->spaces) {
     const SegmentTree::Hit hit =
-        space.segments.FirstHitBeyond(facet.point, end, kTouch * diagonal());
+        space.segments.FirstHitBeyond(facet.point, end, impl_->touch);
     if (hit.Found()) free = std::min(free, hit.fraction);
   }
   const BoundingBox& bounds = impl_->free_space.bounds();
@@ -212,7 +220,7 @@ bool ContactModel::LiftOff(Facet facet, double clearance, Vector3d* q,
                            double* room) const {
   // Beyond the bounds, as the outside of a bounds shell is, nothing is free.
   const BoundingBox& bounds = impl_->free_space.bounds();
-  const double slack = kTouch * diagonal();
+  const double slack = impl_->touch;
   if (!bounds.IsEmpty() &&
       ((facet.point.array() < bounds.min.array() - slack).any() ||
        (facet.point.array() > bounds.max.array() + slack).any())) {

@@ -32,7 +32,8 @@ BoundingBox SamplingRegion(const TriangleMesh& contact_mesh,
 class ContactModel {
  public:
   // As FreeSpace; the field is the one of the Phong metric.  Its ℓ = 0 is
-  // right for planning: ℓ > 0 gives nothing there (studies: planning §4).
+  // right for planning: a limited field with ℓ > 0 changes neither what is
+  // solved nor the samples it takes.
   // Throws InputError, also if there is neither a mesh nor bounds.
   explicit ContactModel(const std::vector<TriangleMesh>& contact_meshes,
                         const BoundingBox& bounds = FreeSpace::NoBounds(),

@@ -11,10 +11,14 @@ namespace phongpd::testing {
 
 Passage MakePassage(const std::string& family, double delta,
                     int rotation_seed) {
+  return MakePassage(family,
+                     {{"delta", delta}, {"rotation_seed", rotation_seed}});
+}
+
+Passage MakePassage(const std::string& family,
+                    const std::map<std::string, double>& knobs) {
   Passage passage;
-  passage.scene = ParseScene(
-      MakeScene(family, {{"delta", delta}, {"rotation_seed", rotation_seed}}),
-      family);
+  passage.scene = ParseScene(MakeScene(family, knobs), family);
   const Workspace& workspace = passage.scene.workspace;
   const TriangleMesh contact =
       BuildContactSpace(workspace.robot, MergedObstacle(workspace)).mesh;

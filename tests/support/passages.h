@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <map>
 #include <memory>
 #include <string>
 
@@ -20,5 +21,8 @@ struct Passage {
 // > 0 turns everything: coplanar coincidences go, rounding comes.
 Passage MakePassage(const std::string& family, double delta,
                     int rotation_seed = 0);
+// The family with any of its knobs.
+Passage MakePassage(const std::string& family,
+                    const std::map<std::string, double>& knobs);
 
 }  // namespace phongpd::testing

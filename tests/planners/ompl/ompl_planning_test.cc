@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Truth: the exact path check, infeasible twins, the measured study.
+// Truth: the exact path check, infeasible twins, the other metric.
 #include "planners/ompl/ompl_planning.h"
 
 #include <gtest/gtest.h>
@@ -81,8 +81,8 @@ TEST_F(OmplPlanning, RepeatsWithTheSeed) {
   }
 }
 
-// The study's main finding, as medians of nine seeds on a hole: all Phong
-// branches need some ten samples, the nearest point a hundred times as many.
+// Medians of nine seeds on a hole: all Phong branches need some ten samples,
+// the nearest point a hundred times as many.
 TEST_F(OmplPlanning, NeedsFarFewerSamplesWithAllBranches) {
   const testing::Passage passage = testing::MakePassage("hole", 1e-3);
   const auto median = [&](RetractionMetric metric, std::int64_t* to_passage) {

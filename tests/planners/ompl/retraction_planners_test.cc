@@ -83,6 +83,25 @@ TYPED_TEST(RetractionPlanners, SolveNarrowPassagesWithFreePaths) {
   }
 }
 
+TYPED_TEST(RetractionPlanners, DependNeitherOnUnitNorOnOrigin) {
+  for (const double scale : {1e-3, 1.0, 1e3}) {
+    for (const double offset : {0.0, 1e3}) {
+      for (const char* family : {"hole", "tunnel"}) {
+        const testing::Passage passage =
+            testing::MakePassage(family, {{"delta", 1e-3},
+                                          {"scale", scale},
+                                          {"offset", offset * scale},
+                                          {"rotation_seed", 1}});
+        Setup<TypeParam> setup(passage);
+        ASSERT_EQ(setup.Solve(5.0), ob::PlannerStatus::EXACT_SOLUTION)
+            << family << scale << ' ' << offset;
+        EXPECT_LT(setup.planner->samples(), 200u);
+        EXPECT_TRUE(CheckPath(passage.model->free_space(), setup.Path()).free);
+      }
+    }
+  }
+}
+
 TYPED_TEST(RetractionPlanners, NeverSolveInfeasibleTwins) {
   int runs = 0;
   for (const char* family : {"hole", "tunnel", "keyhole"}) {
