@@ -55,6 +55,13 @@ DetourRegion MiddleOf(const Path& raw, double diagonal) {
   return region;
 }
 
+void Count(const PlanResult& plan, StartRepairResult* result) {
+  result->searches += plan.searches;
+  result->lift.lifted += plan.lift.lifted;
+  result->lift.tests += plan.lift.tests;
+  result->lift.halvings += plan.lift.halvings;
+}
+
 bool IsSame(const Path& one, const Path& other) {
   const double tolerance = kSameRoute * PathLength(one);
   for (std::size_t i = 0; i < one.size(); ++i) {
@@ -139,42 +146,39 @@ Path StartRepair::Impl::LeadAround(const Path& path,
                                    std::vector<DetourRegion>* detours,
                                    StartRepairResult* result) const {
   const double end = static_cast<double>(path.size() - 1);
+  // A line is replaced as a whole, which leaves the planner free to find the
+  // shortest way.  Of a polyline all that is free is kept.
+  const bool is_line = path.size() == 2;
   Path out = {path.front()};
   double done = 0.0;  // the given path is dealt with up to here, and free here
   PlanRequest request;
   request.clearance = margin;
   request.detours = *detours;
   for (std::size_t i = 0; i < contacts.size();) {
-    // A short way before the contact; a path of one segment is replaced as a
-    // whole, which leaves the planner free to find the shortest one.
-    const double reach = path.size() == 2 ? 1.0 : 0.5;
-    const double before = contacts[i] - reach * (contacts[i] - done);
-    const Vector3d from =
-        path.size() == 2 ? path.front() : PointAt(path, before);
+    const double before = is_line ? 0.0 : 0.5 * (done + contacts[i]);
+    const Vector3d from = PointAt(path, before);
     ++result->runs;
     PlanResult plan;
+    plan.reason = "rounding closed every place where the path is free again";
     double after = end;
-    std::size_t next = contacts.size();
-    for (std::size_t j = i; j < contacts.size(); ++j) {
-      const bool is_last = j + 1 == contacts.size();
-      if (path.size() == 2 && !is_last) continue;
-      after = is_last ? end : 0.5 * (contacts[j] + contacts[j + 1]);
-      const Vector3d to = is_last ? path.back() : PointAt(path, after);
-      if (!is_last && !space.IsFree(to)) continue;
+    std::size_t next = is_line ? contacts.size() : i + 1;
+    for (; next <= contacts.size(); ++next) {
+      const double free_until = next < contacts.size() ? contacts[next] : end;
+      after = is_line ? end : 0.5 * (contacts[next - 1] + free_until);
+      const Vector3d to = is_line ? path.back() : PointAt(path, after);
+      if (!space.IsFree(to)) continue;
       plan = planner.Plan(from, to, request);
-      result->searches += plan.searches;
-      result->lift.lifted += plan.lift.lifted;
-      result->lift.tests += plan.lift.tests;
-      result->lift.halvings += plan.lift.halvings;
-      next = j + 1;
+      Count(plan, result);
       if (plan.status == PlanStatus::kSolved) break;
     }
     if (plan.status != PlanStatus::kSolved) {
+      // What proves a path infeasible are its own ends.
+      if (!is_line) plan = planner.Plan(path.front(), path.back(), request);
       result->reason = plan.reason;
       if (plan.status == PlanStatus::kInfeasibleProved) {
         result->status = RepairStatus::kInfeasibleProved;
       }
-      return {};
+      return plan.path;
     }
     AppendBetween(path, done, before, &out);
     out.insert(out.end(), plan.path.begin(), plan.path.end());
@@ -185,7 +189,7 @@ Path StartRepair::Impl::LeadAround(const Path& path,
   AppendBetween(path, done, end, &out);
   out.push_back(path.back());
   out.erase(std::unique(out.begin(), out.end()), out.end());
-  return path.size() == 2 ? out : Shorten(out, options, margin);
+  return is_line ? out : Shorten(out, options, margin);
 }
 
 Path StartRepair::Impl::Shorten(const Path& path,
