@@ -229,6 +229,25 @@ bool SegmentTree::MeetsTriangle(const Corners& t, const Vector3d& a,
   return true;
 }
 
+// Does the triangle's plane alone keep the segment further away than
+// `distance`?  Of most triangles near a segment it does.
+bool SegmentTree::IsBeyond(const Corners& t, const Vector3d& a,
+                           const Vector3d& b, double distance) {
+  const Vector3d u = t[1] - t[0], v = t[2] - t[0], to_a = a - t[0],
+                 to_b = b - t[0];
+  const Vector3d normal = u.cross(v);
+  const double at_a = normal.dot(to_a), at_b = normal.dot(to_b);
+  if (!(at_a * at_b > 0.0)) return false;
+  const double nearer = std::min(std::abs(at_a), std::abs(at_b));
+  // Only where rounding cannot matter: no slivers, and not far away.
+  const double squared = normal.squaredNorm();
+  const double longest = std::max(u.squaredNorm(), v.squaredNorm());
+  const double reach = std::max(to_a.squaredNorm(), to_b.squaredNorm());
+  return squared > 1e-6 * longest * longest &&
+         nearer * nearer >
+             squared * std::max(1.0001 * distance * distance, 1e-24 * reach);
+}
+
 double SegmentTree::OutlineDistance(const Corners& t, const Vector3d& a,
                                     const Vector3d& b) {
   double squared =
@@ -256,6 +275,7 @@ double SegmentTree::Distance(const Vector3d& a, const Vector3d& b,
       [&](int position) {
         const Corners& t = corners_[position];
         double fraction = 1.0;
+        if (IsBeyond(t, a, b, least)) return least;
         if (MeetsTriangle(t, a, b, &fraction)) {
           least = 0.0;
         } else if (least > 0.0) {
@@ -266,6 +286,23 @@ double SegmentTree::Distance(const Vector3d& a, const Vector3d& b,
         return least;
       });
   return least;
+}
+
+bool SegmentTree::ComesWithin(const Vector3d& a, const Vector3d& b,
+                              double distance) const noexcept {
+  const Reach reach(*this, a, b);
+  bool found = false;
+  tree_.ForEach(
+      [&](int node) { return reach.Meets(tree_.nodes()[node], distance); },
+      [&](int position) {
+        const Corners& t = corners_[position];
+        double fraction = 1.0;
+        found = !IsBeyond(t, a, b, distance) &&
+                (MeetsTriangle(t, a, b, &fraction) ||
+                 OutlineDistance(t, a, b) < distance);
+        return !found;
+      });
+  return found;
 }
 
 bool SegmentTree::Meets(const Vector3d& a, const Vector3d& b) const noexcept {

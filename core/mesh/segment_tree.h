@@ -51,6 +51,10 @@ class SegmentTree {
   double Distance(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
                   double limit) const noexcept;
 
+  // Is that below `distance` ≥ 0?  True whenever they meet, exactly.
+  bool ComesWithin(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
+                   double distance) const noexcept;
+
   // Calls visit(triangle, distance to its outline or of a or b to it) for
   // every triangle for which that is at most `distance` ≥ 0, and maybe for
   // others: all triangles whose relation to the segment could change if
@@ -105,6 +109,8 @@ class SegmentTree {
 
   static bool MeetsTriangle(const Corners& t, const Eigen::Vector3d& a,
                             const Eigen::Vector3d& b, double* fraction);
+  static bool IsBeyond(const Corners& t, const Eigen::Vector3d& a,
+                       const Eigen::Vector3d& b, double distance);
   // Distance of the segment to the triangle, were it not to pass through.
   static double OutlineDistance(const Corners& t, const Eigen::Vector3d& a,
                                 const Eigen::Vector3d& b);

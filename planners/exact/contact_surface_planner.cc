@@ -15,11 +15,16 @@
 #include "planners/exact/free_space.h"
 #include "planners/exact/path_centering.h"
 #include "planners/exact/path_shortening.h"
+#include "planners/exact/surface_graph.h"
 
 namespace phongpd {
 namespace {
 
 using Eigen::Vector3d;
+
+// Further routes are not looked for if the first is hardly longer than the
+// straight line, nor shortened if they are this much longer than a short one.
+constexpr double kStraight = 1.05, kHopeless = 1.6;
 
 class Stopwatch {
  public:
@@ -65,6 +70,7 @@ void ContactSurfaceOptions::Validate() const {
   Require(spacing >= 1e-3 && spacing <= 1.0, "spacing", "[0.001, 1]", spacing);
   Require(gap_links >= 0, "gap_links", "[0, ∞)", gap_links);
   Require(max_searches >= 1, "max_searches", "[1, ∞)", max_searches);
+  Require(routes >= 1, "routes", "[1, ∞)", routes);
   Require(random_cuts >= 0, "random_cuts", "[0, ∞)", random_cuts);
 }
 
@@ -103,7 +109,7 @@ struct ContactSurfacePlanner::Impl {
                                  const CellCertificate& certificate) const;
   void FindPath(const Vector3d& start, const Vector3d& goal,
                 const PlanRequest& request, PlanResult* result) const;
-  void Finish(PlanResult* result) const;
+  void Keep(std::vector<Vector3d> raw_path, PlanResult* result) const;
   double PathClearance(const std::vector<Vector3d>& path) const;
   long CountSelfIntersections() const;
 
@@ -205,25 +211,40 @@ double ContactSurfacePlanner::Impl::PathClearance(
   return least;
 }
 
-void ContactSurfacePlanner::Impl::Finish(PlanResult* result) const {
-  CenterPath(surface, segments, result->wanted_clearance, &result->raw_path);
-  result->path = result->raw_path;
+// Makes a free path the result unless that is better already.
+void ContactSurfacePlanner::Impl::Keep(std::vector<Vector3d> raw_path,
+                                       PlanResult* result) const {
+  CenterPath(surface, segments, result->wanted_clearance, &raw_path);
+  std::vector<Vector3d> path = raw_path;
   if (options.shorten) {
     ShorteningOptions shortening;
     shortening.clearance = result->wanted_clearance;
     shortening.random_cuts = options.random_cuts;
     shortening.seed = options.seed;
-    result->path = ShortenPath(result->raw_path, segments, shortening);
+    path = ShortenPath(raw_path, segments, shortening);
+  }
+  result->routes.push_back(path);
+  const double length = PathLength(path);
+  const double clearance = PathClearance(path);
+  if (result->status == PlanStatus::kSolved) {
+    // Clearance is worth a tenth of the length.
+    const double share = clearance < 0.7 * result->clearance ? 0.9 : 1.0;
+    if (length >= share * result->length) return;
   }
   result->status = PlanStatus::kSolved;
-  result->length = PathLength(result->path);
-  result->clearance = PathClearance(result->path);
+  result->reason.clear();
+  result->raw_path = std::move(raw_path);
+  result->path = std::move(path);
+  result->length = length;
+  result->clearance = clearance;
 }
 
 void ContactSurfacePlanner::Impl::FindPath(const Vector3d& start,
                                            const Vector3d& goal,
                                            const PlanRequest& request,
                                            PlanResult* result) const {
+  const bool all = request.routes > 0;
+  const int routes = all ? request.routes : options.routes;
   // Straight, if that is free and as clear as the ends allow.
   const bool sees = !segments.Meets(start, goal);
   if (sees) {
@@ -232,9 +253,9 @@ void ContactSurfacePlanner::Impl::FindPath(const Vector3d& start,
                   segments.Distance(start, start, result->wanted_clearance),
                   segments.Distance(goal, goal, result->wanted_clearance)});
     if (start == goal || segments.Distance(start, goal, ends) >= 0.4 * ends) {
-      result->raw_path = {start, goal};
-      if (start == goal) result->raw_path = {start};
-      return Finish(result);
+      std::vector<Vector3d> path = {start};
+      if (start != goal) path.push_back(goal);
+      return Keep(std::move(path), result);
     }
   }
   std::vector<Attachment> attachments =
@@ -245,20 +266,14 @@ void ContactSurfacePlanner::Impl::FindPath(const Vector3d& start,
   const int count = static_cast<int>(graph.sites().size());
   const int end = count + static_cast<int>(attachments.size());
   std::set<SurfaceGraph::Edge> deleted;
-  while (result->searches < options.max_searches) {
+  std::vector<char> avoided;
+  const double straight = (goal - start).norm();
+  for (int found = 0; found < routes;) {
+    if (result->searches == options.max_searches) break;
     ++result->searches;
     const SurfaceGraph::Route route =
-        graph.Search(start, goal, attachments, deleted, request.detours);
-    if (route.empty()) {
-      const bool decided = result->start.cell != FreeCells::kUndecided &&
-                           result->goal.cell != FreeCells::kUndecided;
-      result->reason =
-          decided
-              ? "every route on the surface has a place that rounding closed"
-              : "no route found, and no ray that keeps rounding away from "
-                "edges tells the cell of the start or of the goal";
-      break;
-    }
+        graph.Search(start, goal, attachments, deleted, avoided);
+    if (route.empty()) break;
     std::vector<SurfaceSite> sites(1);
     sites[0].point = start;
     for (const int i : route) {
@@ -267,25 +282,41 @@ void ContactSurfacePlanner::Impl::FindPath(const Vector3d& start,
     }
     sites.emplace_back();
     sites.back().point = goal;
-    const int blocked =
-        LiftRoute(sites, segments, result->wanted_clearance, cells.rounding(),
-                  &result->raw_path, &result->lift);
-    if (blocked < 0) return Finish(result);
-    const int before = blocked == 0 ? -1 : route[blocked - 1];
-    const int after =
-        blocked < static_cast<int>(route.size()) ? route[blocked] : end;
-    deleted.insert(std::minmax(before, after));
-    result->deleted_edges = static_cast<int>(deleted.size());
+    std::vector<Vector3d> path;
+    const int blocked = LiftRoute(sites, segments, result->wanted_clearance,
+                                  cells.rounding(), &path, &result->lift);
+    if (blocked >= 0) {
+      const int before = blocked == 0 ? -1 : route[blocked - 1];
+      const int after =
+          blocked < static_cast<int>(route.size()) ? route[blocked] : end;
+      deleted.insert(std::minmax(before, after));
+      result->deleted_edges = static_cast<int>(deleted.size());
+      continue;
+    }
+    // A route this long will not become the shortest one.
+    if (!all && found > 0 && PathLength(path) > kHopeless * result->length) {
+      break;
+    }
+    Keep(std::move(path), result);
+    if (!all && (!options.shorten || result->length < kStraight * straight)) {
+      return;
+    }
+    ++found;
+    avoided.resize(neighbors.size(), 0);
+    for (const SurfaceSite& site : sites) {
+      if (site.triangle >= 0) avoided[site.triangle] = 1;
+    }
   }
-  result->raw_path.clear();
-  if (sees) {
-    result->raw_path = {start, goal};
-    return Finish(result);
-  }
-  if (result->reason.empty()) {
-    result->reason = "no route could be lifted in " +
-                     std::to_string(result->searches) + " searches";
-  }
+  if (result->status == PlanStatus::kSolved) return;
+  const bool decided = result->start.cell != FreeCells::kUndecided &&
+                       result->goal.cell != FreeCells::kUndecided;
+  result->reason =
+      result->searches == options.max_searches
+          ? "no route could be lifted in as many searches as allowed"
+      : decided ? "every route on the surface has a place that rounding closed"
+                : "no route found, and no ray that keeps rounding away from "
+                  "edges tells the cell of the start or of the goal";
+  if (sees) Keep({start, goal}, result);
 }
 
 long ContactSurfacePlanner::Impl::CountSelfIntersections() const {

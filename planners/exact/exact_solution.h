@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <string>
 
 #include "core/contact_space/contact_space.h"
 #include "planners/exact/contact_surface_planner.h"

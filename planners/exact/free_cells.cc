@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "core/mesh/exact_sign.h"
+#include "core/mesh/segment_tree.h"
 
 namespace phongpd {
 namespace {

@@ -5,10 +5,11 @@
 #include <array>
 #include <vector>
 
-#include "core/mesh/segment_tree.h"
 #include "core/mesh/triangle_mesh.h"
 
 namespace phongpd {
+
+class SegmentTree;
 
 // A segment through free space between what it leaves and what it meets first.
 struct CellRay {

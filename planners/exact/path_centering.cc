@@ -50,7 +50,7 @@ class Centering {
   }
   bool HasRoom(const Point& a, const Point& b, double room) const {
     return a.distance >= room && b.distance >= room &&
-           segments_.Distance(a.position, b.position, room) >= room;
+           !segments_.ComesWithin(a.position, b.position, room);
   }
 
   // Moves point k, which has points on either side.

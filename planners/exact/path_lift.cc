@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/mesh/segment_tree.h"
+#include "planners/exact/surface_graph.h"
+
 namespace phongpd {
 
 using Eigen::Vector3d;
@@ -39,7 +42,7 @@ int LiftRoute(const std::vector<SurfaceSite>& sites,
     const double low = std::min(height(k), height(k + 1));
     return std::max(lift[k], lift[k + 1]) >
                0.125 * std::min(room[k], room[k + 1]) &&
-           segments.Distance((*path)[k], (*path)[k + 1], 0.5 * low) < 0.5 * low;
+           segments.ComesWithin((*path)[k], (*path)[k + 1], 0.5 * low);
   };
   std::size_t k = 0;
   while (k + 1 < count) {

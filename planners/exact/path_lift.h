@@ -4,10 +4,10 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "core/mesh/segment_tree.h"
-#include "planners/exact/surface_graph.h"
-
 namespace phongpd {
+
+class SegmentTree;
+struct SurfaceSite;
 
 struct LiftCounts {
   int lifted = 0;    // segments of paths that became free

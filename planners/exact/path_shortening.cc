@@ -5,6 +5,8 @@
 #include <cmath>
 #include <random>
 
+#include "core/mesh/segment_tree.h"
+
 namespace phongpd {
 namespace {
 
@@ -72,7 +74,6 @@ class Shortener {
   }
   bool SeesOver(const Vector3d& a, const Vector3d& b, double from,
                 double to) const {
-    if (segments_.Meets(a, b)) return false;
     const std::size_t first =
         std::min(static_cast<std::size_t>(from), floor_.size() - 1);
     const std::size_t last =
@@ -80,7 +81,7 @@ class Shortener {
     const double least =
         *std::min_element(floor_.begin() + static_cast<std::ptrdiff_t>(first),
                           floor_.begin() + static_cast<std::ptrdiff_t>(last));
-    return !(least > 0.0) || segments_.Distance(a, b, least) >= least;
+    return !segments_.ComesWithin(a, b, least);
   }
 
   // From each point straight to the farthest that is found by doubling and
@@ -151,7 +152,7 @@ class Shortener {
               ? std::clamp((here - p.position).dot(along) / squared, 0.0, 1.0)
               : 0.0;
       const Vector3d way = p.position + share * along - here;
-      for (double step = 1.0; step > 0.02; step *= 0.5) {
+      for (double step = 1.0; step > 0.1; step *= 0.5) {
         const Vector3d x = here + step * way;
         if (SeesOver(p.position, x, p.parameter, points_[k].parameter) &&
             SeesOver(x, q.position, points_[k].parameter, q.parameter)) {

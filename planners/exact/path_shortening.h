@@ -5,9 +5,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/mesh/segment_tree.h"
-
 namespace phongpd {
+
+class SegmentTree;
 
 struct ShorteningOptions {
   // Clearance that is enough, user's unit; ≥ 0.

@@ -54,8 +54,9 @@ SurfaceGraph::SurfaceGraph(const TriangleMesh& mesh,
                            .stableNormalized());
   }
   AddEdgePoints(neighbors, spacing);
+  const std::size_t edge_points = sites_.size();
   AddRays(cells);
-  AddGapLinks(segments, cells.rounding(), gap_links);
+  AddGapLinks(segments, cells.rounding(), edge_points, gap_links);
   partner_.resize(sites_.size(), -1);
   IndexTriangles();
 }
@@ -112,28 +113,37 @@ void SurfaceGraph::AddRays(const FreeCells& cells) {
 }
 
 void SurfaceGraph::AddGapLinks(const SegmentTree& segments, double rounding,
-                               int count) {
+                               std::size_t edge_points, int count) {
   const double reach = ComputeBounds(mesh_).Diagonal();
+  const auto link = [&](const SurfaceSite& from) {
+    if (from.direction.isZero()) return;
+    const SegmentTree::Hit hit = FirstAbove(from, segments, reach, rounding);
+    if (!hit.Found()) return;
+    SurfaceSite to;
+    to.triangle = hit.triangle;
+    // At edges and corners only the way back is free for sure.
+    to.direction = -from.direction;
+    to.point = from.point + hit.fraction * reach * from.direction;
+    AddLink(from, to);
+  };
+  // From the centroids of as many triangles, then from points of edges.
   const std::size_t triangles = mesh_.triangles.size();
-  const std::size_t links =
-      std::min(triangles, static_cast<std::size_t>(std::max(0, count)));
+  const std::size_t most = static_cast<std::size_t>(std::max(0, count));
+  const std::size_t links = std::min(triangles, most);
   for (std::size_t i = 0; i < links; ++i) {
     const std::size_t t = i * triangles / links;
-    if (normals_[t].isZero()) continue;
     const Triangle& corners = mesh_.triangles[t];
-    SurfaceSite from, to;
+    SurfaceSite from;
     from.triangle = static_cast<int>(t);
     from.direction = normals_[t];
     from.point = (mesh_.vertices[corners[0]] + mesh_.vertices[corners[1]] +
                   mesh_.vertices[corners[2]]) /
                  3.0;
-    const Vector3d end = from.point + reach * normals_[t];
-    const SegmentTree::Hit hit = FirstAbove(from, segments, reach, rounding);
-    if (!hit.Found()) continue;
-    to.triangle = hit.triangle;
-    to.direction = normals_[hit.triangle];
-    to.point = from.point + hit.fraction * (end - from.point);
-    AddLink(from, to);
+    link(from);
+  }
+  const std::size_t more = std::min(edge_points, most - links);
+  for (std::size_t i = 0; i < more; ++i) {
+    link(SurfaceSite(sites_[i * edge_points / more]));
   }
 }
 
@@ -157,20 +167,19 @@ void SurfaceGraph::IndexTriangles() {
 SurfaceGraph::Route SurfaceGraph::Search(
     const Vector3d& start, const Vector3d& goal,
     const std::vector<Attachment>& attachments, const std::set<Edge>& deleted,
-    const std::vector<DetourRegion>& detours) const {
+    const std::vector<char>& avoided) const {
   const int count = static_cast<int>(sites_.size());
   const int extra = static_cast<int>(attachments.size());
   const int end = count + extra;  // the goal itself
   std::unordered_map<int, std::vector<int>> attached;
+  std::vector<char> has_attachment(mesh_.triangles.size(), 0);
   std::vector<int> outside = outside_;
   for (int i = 0; i < extra; ++i) {
     const Attachment& attachment = attachments[i];
     if (attachment.outside) outside.push_back(count + i);
     if (attachment.site.triangle >= 0) {
       attached[attachment.site.triangle].push_back(count + i);
-    }
-    if (attachment.site.other >= 0) {
-      attached[attachment.site.other].push_back(count + i);
+      has_attachment[attachment.site.triangle] = 1;
     }
   }
   const auto point = [&](int i) -> const Vector3d& {
@@ -208,22 +217,19 @@ SurfaceGraph::Route SurfaceGraph::Search(
     const Vector3d& here = point(i);
     const auto go = [&](int j) {
       if (closed[j]) return;
-      double step = (point(j) - here).norm();
-      for (const DetourRegion& detour : detours) {
-        const Vector3d middle = 0.5 * (here + point(j));
-        if ((middle - detour.center).norm() < detour.radius) {
-          step *= detour.factor;
-        }
-      }
-      offer(i, j, length[i] + step);
+      const bool avoid = !avoided.empty() && j < count &&
+                         sites_[j].triangle >= 0 &&
+                         avoided[sites_[j].triangle] != 0;
+      offer(i, j,
+            length[i] + (avoid ? kDetour : 1.0) * (point(j) - here).norm());
     };
     const SurfaceSite& site =
         i < count ? sites_[i] : attachments[i - count].site;
     for (const int t : {site.triangle, site.other}) {
       if (t < 0) continue;
       for (int k = first_[t]; k < first_[t + 1]; ++k) go(on_triangle_[k]);
+      if (!has_attachment[t]) continue;
       const auto found = attached.find(t);
-      if (found == attached.end()) continue;
       for (const int j : found->second) go(j);
     }
     if (i < count && partner_[i] >= 0) go(partner_[i]);

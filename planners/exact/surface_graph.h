@@ -37,21 +37,14 @@ struct Attachment {
   bool outside = false;  // the site is one of the outside (below)
 };
 
-// Steps of a route whose middle lies within `radius` of `center` count `factor`
-// ≥ 1 times their length, so that another way may be shorter.
-struct DetourRegion {
-  Eigen::Vector3d center = Eigen::Vector3d::Zero();
-  double radius = 0.0;  // user's unit
-  double factor = 1.0;
-};
-
 // The roadmap that a closed surface is for every free cell around it: points
 // of its edges, joined when they lie on one triangle; and links, segments
 // through free space between two triangles.  Nothing is lifted or tested here.
 class SurfaceGraph {
  public:
   // Edges get a point per `spacing` > 0 of their length (between 1 and 6), at
-  // most `gap_links` triangles a link across the free gap in front of them.
+  // most `gap_links` triangles, and points of edges if triangles are fewer, a
+  // link across the free gap in front of them.
   // All must outlive this.
   SurfaceGraph(const TriangleMesh& mesh,
                const std::vector<std::array<int, 3>>& neighbors,
@@ -65,23 +58,26 @@ class SurfaceGraph {
     return normals_[triangle];
   }
 
+  static constexpr double kDetour = 3.0;
   using Edge = std::pair<int, int>;  // of sites, the smaller first
   // Numbers of sites; attachment i is number sites().size() + i.
   using Route = std::vector<int>;
 
   // The shortest route (A*, by distances on the surface and along links) from
   // an attachment of the start to one of the goal without the edges in
-  // `deleted`; empty if there is none.
+  // `deleted`; empty if there is none.  Ways to triangles that are `avoided`
+  // (empty: none) count kDetour times: that finds routes of another kind.
   Route Search(const Eigen::Vector3d& start, const Eigen::Vector3d& goal,
                const std::vector<Attachment>& attachments,
                const std::set<Edge>& deleted,
-               const std::vector<DetourRegion>& detours = {}) const;
+               const std::vector<char>& avoided) const;
 
  private:
   void AddEdgePoints(const std::vector<std::array<int, 3>>& neighbors,
                      double spacing);
   void AddRays(const FreeCells& cells);
-  void AddGapLinks(const SegmentTree& segments, double rounding, int count);
+  void AddGapLinks(const SegmentTree& segments, double rounding,
+                   std::size_t edge_points, int count);
   void AddLink(const SurfaceSite& a, const SurfaceSite& b);
   void IndexTriangles();
 

@@ -223,6 +223,8 @@ TEST(SegmentTree, MeasuresTheDistanceOfSegments) {
       const Vector3d b = testing::RandomPoint(bounds, &random);
       const double distance = segments.Distance(a, b, infinity);
       EXPECT_EQ(distance == 0.0, segments.Meets(a, b));
+      EXPECT_EQ(distance == 0.0, segments.ComesWithin(a, b, 0.0));
+      EXPECT_TRUE(segments.ComesWithin(a, b, 1.1 * distance + 1e-9 * scale));
       constexpr int kSamples = 500;
       double sampled = infinity;
       for (int k = 0; k <= kSamples; ++k) {
@@ -234,6 +236,7 @@ TEST(SegmentTree, MeasuresTheDistanceOfSegments) {
       const double limit = 0.7 * distance;
       if (limit > 0.0) {
         EXPECT_EQ(segments.Distance(a, b, limit), limit);
+        EXPECT_FALSE(segments.ComesWithin(a, b, limit));
       }
     }
   }

@@ -9,6 +9,7 @@
 #include <random>
 #include <string>
 
+#include "core/mesh/segment_tree.h"
 #include "planners/exact/exact_solution.h"
 #include "planners/exact/free_space.h"
 #include "planners/exact/path_shortening.h"

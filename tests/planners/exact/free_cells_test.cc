@@ -7,6 +7,7 @@
 
 #include <random>
 
+#include "core/mesh/segment_tree.h"
 #include "planners/exact/contact_surface_planner.h"
 #include "problems/shapes.h"
 #include "tests/support/solid_tools.h"
