@@ -15,6 +15,7 @@
 #include "planners/exact/free_space.h"
 #include "planners/exact/path_centering.h"
 #include "planners/exact/path_shortening.h"
+#include "planners/exact/surface_graph.h"
 
 namespace phongpd {
 namespace {
@@ -222,6 +223,7 @@ void ContactSurfacePlanner::Impl::Keep(std::vector<Vector3d> raw_path,
     shortening.seed = options.seed;
     path = ShortenPath(raw_path, segments, shortening);
   }
+  result->routes.push_back(path);
   const double length = PathLength(path);
   const double clearance = PathClearance(path);
   if (result->status == PlanStatus::kSolved) {
@@ -241,6 +243,8 @@ void ContactSurfacePlanner::Impl::FindPath(const Vector3d& start,
                                            const Vector3d& goal,
                                            const PlanRequest& request,
                                            PlanResult* result) const {
+  const bool all = request.routes > 0;
+  const int routes = all ? request.routes : options.routes;
   // Straight, if that is free and as clear as the ends allow.
   const bool sees = !segments.Meets(start, goal);
   if (sees) {
@@ -264,11 +268,11 @@ void ContactSurfacePlanner::Impl::FindPath(const Vector3d& start,
   std::set<SurfaceGraph::Edge> deleted;
   std::vector<char> avoided;
   const double straight = (goal - start).norm();
-  for (int found = 0; found < options.routes;) {
+  for (int found = 0; found < routes;) {
     if (result->searches == options.max_searches) break;
     ++result->searches;
-    const SurfaceGraph::Route route = graph.Search(
-        start, goal, attachments, deleted, avoided, request.detours);
+    const SurfaceGraph::Route route =
+        graph.Search(start, goal, attachments, deleted, avoided);
     if (route.empty()) break;
     std::vector<SurfaceSite> sites(1);
     sites[0].point = start;
@@ -290,9 +294,13 @@ void ContactSurfacePlanner::Impl::FindPath(const Vector3d& start,
       continue;
     }
     // A route this long will not become the shortest one.
-    if (found > 0 && PathLength(path) > kHopeless * result->length) break;
+    if (!all && found > 0 && PathLength(path) > kHopeless * result->length) {
+      break;
+    }
     Keep(std::move(path), result);
-    if (!options.shorten || result->length < kStraight * straight) return;
+    if (!all && (!options.shorten || result->length < kStraight * straight)) {
+      return;
+    }
     ++found;
     avoided.resize(neighbors.size(), 0);
     for (const SurfaceSite& site : sites) {

@@ -11,7 +11,6 @@
 #include "core/mesh/triangle_mesh.h"
 #include "planners/exact/free_cells.h"
 #include "planners/exact/path_lift.h"
-#include "planners/exact/surface_graph.h"
 
 namespace phongpd {
 
@@ -54,8 +53,10 @@ struct ContactSurfaceOptions {
 
 // What one query may ask differently.
 struct PlanRequest {
-  double clearance = 0.0;             // user's unit, ≥ 0; 0: by the options
-  std::vector<DetourRegion> detours;  // where the route should not go
+  double clearance = 0.0;  // user's unit, ≥ 0; 0: by the options
+  // So many, however long, ≥ 0; 0: by the options, and only as long as they
+  // may become the shortest.
+  int routes = 0;
 };
 
 // What a proof of infeasibility rests on, and what tells the cell otherwise.
@@ -71,6 +72,8 @@ struct PlanResult {
   std::string reason;                     // one sentence unless solved
   std::vector<Eigen::Vector3d> path;      // from start to goal, shortened
   std::vector<Eigen::Vector3d> raw_path;  // as lifted off the surface
+  // All that were compared, as `path` is, which is one of them.
+  std::vector<std::vector<Eigen::Vector3d>> routes;
   double length = 0.0;
   double clearance = 0.0;         // of the whole path from contact, rounded
   double wanted_clearance = 0.0;  // user's unit

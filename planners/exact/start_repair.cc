@@ -38,21 +38,11 @@ void AppendBetween(const Path& path, double from, double to, Path* out) {
   }
 }
 
-// Around the middle of what a route has on the surface.
-DetourRegion MiddleOf(const Path& raw, double diagonal) {
-  const Path inner =
-      raw.size() > 3 ? Path(raw.begin() + 1, raw.end() - 1) : raw;
-  DetourRegion region;
-  const double length = PathLength(inner);
-  double left = 0.5 * length;
-  std::size_t k = 1;
-  for (; k + 1 < inner.size() && left > 0.0; ++k) {
-    left -= (inner[k] - inner[k - 1]).norm();
-  }
-  region.center = 0.5 * (inner[k - 1] + inner[k]);
-  region.radius = std::max(0.05 * diagonal, 0.25 * length);
-  region.factor = 4.0;
-  return region;
+void Count(const PlanResult& plan, StartRepairResult* result) {
+  result->searches += plan.searches;
+  result->lift.lifted += plan.lift.lifted;
+  result->lift.tests += plan.lift.tests;
+  result->lift.halvings += plan.lift.halvings;
 }
 
 bool IsSame(const Path& one, const Path& other) {
@@ -101,10 +91,10 @@ struct StartRepair::Impl {
         diagonal(ComputeBounds(mesh).Diagonal()) {}
 
   std::vector<double> FindContacts(const Path& path) const;
+  std::vector<Path> PlanLine(const Path& path, const PlanRequest& request,
+                             StartRepairResult* result) const;
   Path LeadAround(const Path& path, const std::vector<double>& contacts,
-                  const StartRepairOptions& options, double margin,
-                  std::vector<DetourRegion>* detours,
-                  StartRepairResult* result) const;
+                  const PlanRequest& request, StartRepairResult* result) const;
   Path Shorten(const Path& path, const StartRepairOptions& options,
                double clearance) const;
   Path Resample(Path path, const StartRepairOptions& options,
@@ -130,62 +120,54 @@ std::vector<double> StartRepair::Impl::FindContacts(const Path& path) const {
   return contacts;
 }
 
-// The given path with every colliding run led around; empty with a reason if
-// that fails.
+// The straight way replaced as a whole, which leaves the planner free to find
+// the shortest one.
+std::vector<Path> StartRepair::Impl::PlanLine(const Path& path,
+                                              const PlanRequest& request,
+                                              StartRepairResult* result) const {
+  PlanResult plan = planner.Plan(path.front(), path.back(), request);
+  Count(plan, result);
+  result->reason = plan.reason;
+  if (plan.status == PlanStatus::kInfeasibleProved) {
+    result->status = RepairStatus::kInfeasibleProved;
+  }
+  return std::move(plan.routes);
+}
+
+// A polyline with every colliding run led around and all that is free kept;
+// empty if that fails.
 Path StartRepair::Impl::LeadAround(const Path& path,
                                    const std::vector<double>& contacts,
-                                   const StartRepairOptions& options,
-                                   double margin,
-                                   std::vector<DetourRegion>* detours,
+                                   const PlanRequest& request,
                                    StartRepairResult* result) const {
   const double end = static_cast<double>(path.size() - 1);
   Path out = {path.front()};
   double done = 0.0;  // the given path is dealt with up to here, and free here
-  PlanRequest request;
-  request.clearance = margin;
-  request.detours = *detours;
   for (std::size_t i = 0; i < contacts.size();) {
-    // A short way before the contact; a path of one segment is replaced as a
-    // whole, which leaves the planner free to find the shortest one.
-    const double reach = path.size() == 2 ? 1.0 : 0.5;
-    const double before = contacts[i] - reach * (contacts[i] - done);
-    const Vector3d from =
-        path.size() == 2 ? path.front() : PointAt(path, before);
-    ++result->runs;
+    const double before = 0.5 * (done + contacts[i]);
     PlanResult plan;
     double after = end;
-    std::size_t next = contacts.size();
-    for (std::size_t j = i; j < contacts.size(); ++j) {
-      const bool is_last = j + 1 == contacts.size();
-      if (path.size() == 2 && !is_last) continue;
-      after = is_last ? end : 0.5 * (contacts[j] + contacts[j + 1]);
-      const Vector3d to = is_last ? path.back() : PointAt(path, after);
-      if (!is_last && !space.IsFree(to)) continue;
-      plan = planner.Plan(from, to, request);
-      result->searches += plan.searches;
-      result->lift.lifted += plan.lift.lifted;
-      result->lift.tests += plan.lift.tests;
-      result->lift.halvings += plan.lift.halvings;
-      next = j + 1;
+    std::size_t next = i + 1;
+    for (; next <= contacts.size(); ++next) {
+      const double free_until = next < contacts.size() ? contacts[next] : end;
+      after = 0.5 * (contacts[next - 1] + free_until);
+      const Vector3d to = PointAt(path, after);
+      if (!space.IsFree(to)) continue;
+      plan = planner.Plan(PointAt(path, before), to, request);
+      Count(plan, result);
       if (plan.status == PlanStatus::kSolved) break;
     }
-    if (plan.status != PlanStatus::kSolved) {
-      result->reason = plan.reason;
-      if (plan.status == PlanStatus::kInfeasibleProved) {
-        result->status = RepairStatus::kInfeasibleProved;
-      }
-      return {};
-    }
+    if (plan.status != PlanStatus::kSolved) return {};
     AppendBetween(path, done, before, &out);
     out.insert(out.end(), plan.path.begin(), plan.path.end());
-    detours->push_back(MiddleOf(plan.raw_path, diagonal));
+    ++result->runs;
     done = after;
     i = next;
   }
   AppendBetween(path, done, end, &out);
   out.push_back(path.back());
   out.erase(std::unique(out.begin(), out.end()), out.end());
-  return path.size() == 2 ? out : Shorten(out, options, margin);
+  return out;
 }
 
 Path StartRepair::Impl::Shorten(const Path& path,
@@ -238,15 +220,30 @@ void StartRepair::Impl::Repair(const Path& path,
     return;
   }
   const double length = options.diagonal > 0.0 ? options.diagonal : diagonal;
+  PlanRequest request;
   // Shortening gives a part of the clearance away.
-  const double margin =
-      options.margin * length / ShorteningOptions().kept_share;
-  std::vector<DetourRegion> detours;
-  for (int route = 0; route < options.routes; ++route) {
-    result->runs = 0;
-    Path around = LeadAround(path, contacts, options, margin, &detours, result);
-    if (around.empty()) break;
-    Path sampled = Resample(std::move(around), options, result);
+  request.clearance = options.margin * length / ShorteningOptions().kept_share;
+  if (options.routes > 1) request.routes = options.routes;
+  std::vector<Path> found;
+  if (path.size() > 2) {
+    Path around = LeadAround(path, contacts, request, result);
+    if (!around.empty()) {
+      found.push_back(Shorten(around, options, request.clearance));
+    }
+  }
+  // Also where a run of a polyline has no way around: what proves that there
+  // is no path are its own ends.
+  if (found.empty()) {
+    result->runs = 1;
+    found = PlanLine(path, request, result);
+  }
+  std::stable_sort(found.begin(), found.end(),
+                   [](const Path& a, const Path& b) {
+                     return PathLength(a) < PathLength(b);
+                   });
+  for (Path& route : found) {
+    if (static_cast<int>(result->routes.size()) == options.routes) break;
+    Path sampled = Resample(std::move(route), options, result);
     if (sampled.empty()) continue;
     const bool is_known =
         std::any_of(result->routes.begin(), result->routes.end(),
@@ -256,10 +253,6 @@ void StartRepair::Impl::Repair(const Path& path,
   if (result->routes.empty()) return;
   result->status = RepairStatus::kRepaired;
   result->reason.clear();
-  std::stable_sort(result->routes.begin(), result->routes.end(),
-                   [](const Path& a, const Path& b) {
-                     return PathLength(a) < PathLength(b);
-                   });
 }
 
 StartRepair::StartRepair(const TriangleMesh& merged_contact_mesh,

@@ -60,8 +60,8 @@ struct StartRepairResult {
 //     waypoint (path_resampling.h).
 //
 // Complete as the planner is: a path, or the proof that none exists, or the
-// reason why rounding left neither.  More routes come from searches that
-// avoid the middle of those found; they may coincide, and are then given once.
+// reason why rounding left neither.  More routes are those that the planner
+// compared, for paths of two points; those that coincide are given once.
 class StartRepair {
  public:
   // The boundary of the union of all that is in the way, bounds included

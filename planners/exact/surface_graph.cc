@@ -167,8 +167,7 @@ void SurfaceGraph::IndexTriangles() {
 SurfaceGraph::Route SurfaceGraph::Search(
     const Vector3d& start, const Vector3d& goal,
     const std::vector<Attachment>& attachments, const std::set<Edge>& deleted,
-    const std::vector<char>& avoided,
-    const std::vector<DetourRegion>& detours) const {
+    const std::vector<char>& avoided) const {
   const int count = static_cast<int>(sites_.size());
   const int extra = static_cast<int>(attachments.size());
   const int end = count + extra;  // the goal itself
@@ -218,18 +217,11 @@ SurfaceGraph::Route SurfaceGraph::Search(
     const Vector3d& here = point(i);
     const auto go = [&](int j) {
       if (closed[j]) return;
-      double step = (point(j) - here).norm();
-      if (!avoided.empty() && j < count && sites_[j].triangle >= 0 &&
-          avoided[sites_[j].triangle] != 0) {
-        step *= kDetour;
-      }
-      const Vector3d middle = 0.5 * (here + point(j));
-      for (const DetourRegion& detour : detours) {
-        if ((middle - detour.center).norm() < detour.radius) {
-          step *= detour.factor;
-        }
-      }
-      offer(i, j, length[i] + step);
+      const bool avoid = !avoided.empty() && j < count &&
+                         sites_[j].triangle >= 0 &&
+                         avoided[sites_[j].triangle] != 0;
+      offer(i, j,
+            length[i] + (avoid ? kDetour : 1.0) * (point(j) - here).norm());
     };
     const SurfaceSite& site =
         i < count ? sites_[i] : attachments[i - count].site;

@@ -37,14 +37,6 @@ struct Attachment {
   bool outside = false;  // the site is one of the outside (below)
 };
 
-// Steps of a route whose middle lies within `radius` of `center` count `factor`
-// ≥ 1 times their length, so that another way may be shorter.
-struct DetourRegion {
-  Eigen::Vector3d center = Eigen::Vector3d::Zero();
-  double radius = 0.0;  // user's unit
-  double factor = 1.0;
-};
-
 // The roadmap that a closed surface is for every free cell around it: points
 // of its edges, joined when they lie on one triangle; and links, segments
 // through free space between two triangles.  Nothing is lifted or tested here.
@@ -77,8 +69,8 @@ class SurfaceGraph {
   // (empty: none) count kDetour times: that finds routes of another kind.
   Route Search(const Eigen::Vector3d& start, const Eigen::Vector3d& goal,
                const std::vector<Attachment>& attachments,
-               const std::set<Edge>& deleted, const std::vector<char>& avoided,
-               const std::vector<DetourRegion>& detours = {}) const;
+               const std::set<Edge>& deleted,
+               const std::vector<char>& avoided) const;
 
  private:
   void AddEdgePoints(const std::vector<std::array<int, 3>>& neighbors,

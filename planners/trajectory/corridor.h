@@ -11,7 +11,7 @@
 namespace phongpd {
 
 struct CorridorOptions {
-  double trust = 0.05;       // τ of the first round, fraction of D, > 0
+  double trust = 0.05;       // τ of the first round, fraction of D, in (0, 1]
   int max_rounds = 40;       // ≥ 1
   double least_gain = 1e-4;  // of the merit; two smaller ones end it
   // Price of missing clearance (below), ≥ 0; 0: what is missing stays missing.

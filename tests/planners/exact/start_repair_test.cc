@@ -96,15 +96,15 @@ TEST(StartRepair, LeadsOnlyCollidingPartsOfAPolylineAround) {
       Joined(Cube(1.0), Translated(Cube(1.0), {10.0, 0.0, 0.0}));
   const StartRepair repair(two);
   // Far up between the two cubes, on purpose.
-  const Path given = {{-3.0, 0.0, 0.0},
-                      {5.0, 0.3, 0.0},
-                      {5.0, 0.0, 8.0},
-                      {5.0, -0.3, 0.0},
-                      {13.0, 0.0, 0.0}};
+  const Path given = {{-3.0, 0.0, 0.0}, {5.0, 0.3, 0.0},  {5.0, 0.0, 8.0},
+                      {5.0, -0.3, 0.0}, {13.0, 0.0, 0.0}, {13.0, 0.0, 9.0},
+                      {13.0, 5.0, 0.0}};
   const StartRepairResult result = repair.Repair(given);
   ASSERT_EQ(result.status, RepairStatus::kRepaired) << result.reason;
   EXPECT_EQ(result.runs, 2);
   EXPECT_TRUE(CheckPath(repair.space(), result.routes[0]).free);
+  EXPECT_EQ(result.routes[0].front(), given.front());
+  EXPECT_EQ(result.routes[0].back(), given.back());
 }
 
 TEST(StartRepair, ProvesThatNoPathExists) {

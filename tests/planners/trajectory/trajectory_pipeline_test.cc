@@ -6,7 +6,9 @@
 
 #include <cmath>
 
+#include "core/contact_space/contact_space.h"
 #include "core/mesh/mesh_error.h"
+#include "planners/exact/workspace.h"
 #include "problems/shapes.h"
 #include "tests/support/path_problems.h"
 
@@ -127,6 +129,40 @@ TEST(TrajectoryPipeline, SaysWhyThereIsNoPath) {
   source.start = {3.0, 3.0, 0.0};
   source.goal = {1.7, 0.0, 0.0};
   EXPECT_EQ(Case(source).Solve().status, TrajectoryStatus::kGoalInCollision);
+}
+
+// A wall across a room that leaves a slit at its top, made of two boxes that
+// overlap: one contact space each for the rows, one merged for the repair.
+TEST(TrajectoryPipeline, TakesOneContactSpacePerObstacleAndBounds) {
+  for (const double top : {0.55, 0.95}) {
+    Workspace workspace;
+    workspace.robot =
+        MakeBox(Vector3d::Constant(-0.1), Vector3d::Constant(0.1));
+    workspace.obstacles = {
+        {"left", MakeBox({-0.1, -2.0, -2.0}, {0.1, 0.2, top})},
+        {"right", MakeBox({-0.12, -0.1, -2.0}, {0.08, 2.0, top})}};
+    workspace.bounds = {Vector3d::Constant(-1.0), Vector3d::Constant(1.0)};
+    std::vector<TriangleMesh> contacts;
+    for (const Obstacle& obstacle : workspace.obstacles) {
+      contacts.push_back(
+          BuildContactSpace(workspace.robot, obstacle.mesh).mesh);
+    }
+    TrajectoryProblem problem =
+        MakeTrajectoryProblem(contacts, {}, workspace.bounds);
+    problem.start = {-0.7, 0.1, 0.0};
+    problem.goal = {0.7, -0.2, 0.1};
+    const auto repair = std::make_shared<StartRepair>(
+        BuildContactSpace(workspace.robot, MergedObstacle(workspace)).mesh);
+    const PipelineResult result = TrajectoryPipeline(problem, repair).Solve();
+    if (top > 0.9) {
+      EXPECT_EQ(result.status, TrajectoryStatus::kInfeasibleProved);
+      continue;
+    }
+    EXPECT_TRUE(result.status == TrajectoryStatus::kSolved ||
+                result.status == TrajectoryStatus::kPolished)
+        << result.reason;
+    ExpectEvidence(problem, result);
+  }
 }
 
 TEST(TrajectoryPipeline, KeepsToItsTimeLimit) {
