@@ -23,7 +23,7 @@ namespace phongpd {
 struct PenetrationSettings {
   std::string metric = "phong";        // or "euclidean"
   std::string field = "normal";        // or "tangent-plane"
-  double smoothing_length = 0.1;       // fraction of the diagonal; 0: the paper
+  double smoothing_length = 0.2;       // fraction of the diagonal; 0: the paper
   std::string jacobian = "direction";  // or "exact"
 };
 

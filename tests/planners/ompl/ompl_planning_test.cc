@@ -28,7 +28,7 @@ class OmplPlanning : public ::testing::Test {
 };
 
 TEST_F(OmplPlanning, SolvesWithEveryPlanner) {
-  const testing::Passage passage = testing::MakePassage("gap", 0.3);
+  const testing::Passage passage = testing::MakePassage("gap", 0.1);
   for (const std::string& name : OmplPlannerNames()) {
     OmplPlanningOptions options;
     options.time_limit = 10.0;
