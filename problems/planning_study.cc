@@ -77,6 +77,7 @@ OmplPlanningOptions PlanningStudy::Options(const PlanningRun& run) const {
   OmplPlanningOptions options;
   options.time_limit = run.time_limit;
   options.seed = run.seed;
+  options.in_passage = run.in_passage;
   options.retraction = ParseRetraction(run.retraction, "--metric");
   options.retraction.clearance = scene_.planning.clearance;
   return options;

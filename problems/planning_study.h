@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
@@ -29,6 +30,8 @@ struct PlanningRun {
   std::string retraction = "phong";  // retraction-* and prm-retraction
   double time_limit = 5.0;           // seconds; of OMPL's planners
   std::uint64_t seed = 1;
+  // retraction-rrt and -forest count their samples until the first node here.
+  std::function<bool(const Eigen::Vector3d& q)> in_passage;
 };
 
 // What one run gave; every path is judged exactly.

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# bench.sh [paper|contact-space|convergence|all]: regenerates the tables and figures of
+# bench.sh [paper|contact-space|convergence|planning|all]: regenerates the tables and figures of
 # results/.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
@@ -9,9 +9,9 @@ export PHONGPD_CACHE_DIR=$PWD/build/cache
 
 suite=${1:-all}
 case $suite in
-  paper | contact-space | convergence | all) ;;
+  paper | contact-space | convergence | planning | all) ;;
   *)
-    echo "bench: expected paper, contact-space, convergence or all, found $suite" >&2
+    echo "bench: expected paper, contact-space, convergence, planning or all, found $suite" >&2
     exit 2
     ;;
 esac
@@ -56,4 +56,13 @@ if [[ $suite == convergence || $suite == all ]]; then
   cat "$rows"/*/rows.jsonl > "$rows/all.jsonl"
   build/convergence_benchmark --rows "$rows/all.jsonl" \
     --output results/convergence --how "scripts/bench.sh convergence"
+fi
+if [[ $suite == planning || $suite == all ]]; then
+  scripts/build.sh planning_benchmark voxel_worlds_test
+  worlds=$(PHONGPD_VOXEL_WORLDS=1700 build/tests/voxel_worlds_test |
+    awk '/^solved/ { solved += $2; proved += $4; wrong += $6 }
+      END { print solved " solved, " proved " proved infeasible, " wrong \
+        " disagreements (PHONGPD_VOXEL_WORLDS=1700 voxel_worlds_test)" }')
+  build/planning_benchmark --output results/planning \
+    --voxel-worlds "$worlds"
 fi

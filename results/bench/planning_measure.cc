@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "results/bench/planning_measure.h"
+
+#include <algorithm>
+#include <chrono>
+#include <limits>
+#include <random>
+
+#include "planners/exact/contact_surface_planner.h"
+#include "problems/planning_study.h"
+#include "problems/random_solids.h"
+#include "problems/scene_source.h"
+#include "problems/text.h"
+#include "results/bench/report.h"
+
+namespace phongpd::bench {
+namespace {
+
+using Eigen::Vector3d;
+
+double Seconds(std::chrono::steady_clock::time_point since) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - since)
+      .count();
+}
+
+PlanningProblem Make(const std::string& family, const std::string& knobs,
+                     double delta, bool is_turned, bool is_feasible) {
+  PlanningProblem problem;
+  problem.family = family;
+  problem.delta = delta;
+  problem.is_turned = is_turned;
+  problem.is_feasible = is_feasible;
+  problem.scene = family + ":delta=" + FormatDouble(delta);
+  if (!knobs.empty()) problem.scene += "," + knobs;
+  if (!is_feasible) problem.scene += ",twin=1";
+  if (is_turned) problem.scene += ",rotation_seed=1";
+  return problem;
+}
+
+struct Family {
+  const char* name;
+  const char* knobs;
+};
+constexpr Family kFamilies[] = {
+    {"gap", ""},           {"hole", ""},          {"tunnel", "bends=1"},
+    {"tunnel", "bends=3"}, {"tunnel", "bends=5"}, {"keyhole", ""},
+    {"comb", ""},          {"snake", ""},         {"bugtrap", ""},
+    {"clutter_hole", ""},  {"maze", "n=3"},       {"maze", "n=4"},
+    {"maze", "n=6"}};
+
+// Is q in the channel: within δ of a place of the witness that is as narrow as
+// the channel?
+std::function<bool(const Vector3d&)> InPassage(const PlanningStudy& study,
+                                               double delta) {
+  if (study.scene().witness.size() < 2) return nullptr;
+  return [&study, delta](const Vector3d& q) {
+    const std::vector<Vector3d>& path = study.scene().witness;
+    for (std::size_t k = 0; k + 1 < path.size(); ++k) {
+      const Vector3d way = path[k + 1] - path[k];
+      const double t = std::clamp(
+          (q - path[k]).dot(way) / std::max(way.squaredNorm(), 1e-300), 0.0,
+          1.0);
+      const Vector3d nearest = path[k] + t * way;
+      if ((q - nearest).norm() <= delta &&
+          study.space().free_space->Clearance(nearest) <= 0.51 * delta) {
+        return true;
+      }
+    }
+    return false;
+  };
+}
+
+SamplerRun RunOnce(PlanningStudy* study, const PlanningRun& run) {
+  const PlanningResult result = study->Run(run);
+  const OmplPlanningResult& n = result.numbers;
+  SamplerRun measured;
+  measured.is_solved = result.solved;
+  measured.is_false = n.solved && !n.collision_free;
+  measured.seconds = n.seconds;
+  measured.samples = static_cast<double>(n.samples);
+  measured.samples_to_passage = static_cast<double>(n.samples_to_passage);
+  measured.collision_checks = static_cast<double>(n.collision_checks);
+  measured.segment_checks = static_cast<double>(n.segment_checks);
+  measured.retractions = static_cast<double>(n.retractions);
+  measured.length = n.length;
+  measured.clearance = n.clearance;
+  return measured;
+}
+
+}  // namespace
+
+std::vector<PlanningProblem> ExactProblems() {
+  std::vector<PlanningProblem> problems;
+  for (const Family& family : kFamilies) {
+    for (const bool is_turned : {false, true}) {
+      for (const double delta : {2e-2, 1e-3, 1e-4, 2e-5}) {
+        problems.push_back(
+            Make(family.name, family.knobs, delta, is_turned, true));
+      }
+      problems.push_back(
+          Make(family.name, family.knobs, 1e-3, is_turned, false));
+    }
+  }
+  return problems;
+}
+
+std::vector<PlanningProblem> SamplerProblems() {
+  std::vector<PlanningProblem> problems;
+  for (const Family& family : kFamilies) {
+    const std::string name = family.name;
+    const std::string knobs = family.knobs;
+    if (knobs == "bends=1" || knobs == "n=6") continue;
+    const double delta = name == "gap" ? 0.1 : 1e-3;
+    problems.push_back(Make(name, knobs, delta, false, true));
+  }
+  for (const char* name : {"hole", "bugtrap"}) {
+    problems.push_back(Make(name, "", 1e-3, true, true));
+  }
+  return problems;
+}
+
+std::vector<PlanningProblem> NarrowingProblems() {
+  std::vector<PlanningProblem> problems;
+  for (const char* name : {"hole", "snake", "bugtrap"}) {
+    for (const double delta : {2e-2, 2e-3, 2e-4, 2e-5}) {
+      problems.push_back(Make(name, "", delta, false, true));
+    }
+  }
+  return problems;
+}
+
+ExactRow MeasureExact(const PlanningProblem& problem) {
+  ExactRow row;
+  row.problem = problem;
+  const Scene scene = SceneSource(problem.scene).Load();
+  const SceneSpace space = BuildSceneSpace(scene, SpaceLayout::kSealed);
+  row.contact_space_milliseconds = 1e3 * space.seconds;
+  row.triangles = space.triangles;
+  ContactSurfaceOptions options;
+  options.clearance = scene.planning.clearance;
+  options.self_intersections = space.sealed_self_intersections;
+  const ContactSurfacePlanner planner(space.sealed_mesh, options);
+  row.build_milliseconds = 1e3 * planner.build_seconds();
+  std::vector<double> milliseconds;
+  PlanResult plan;
+  for (int i = 0; i < 5; ++i) {
+    plan = planner.Plan(scene.start, scene.goal);
+    milliseconds.push_back(1e3 * plan.seconds);
+  }
+  row.milliseconds = Quantile(milliseconds, 0.5);
+  row.status = ToString(plan.status);
+  row.length = plan.length;
+  row.clearance = plan.clearance;
+  row.is_right = problem.is_feasible
+                     ? plan.status == PlanStatus::kSolved &&
+                           CheckPath(*space.free_space, plan.path).free
+                     : plan.status == PlanStatus::kInfeasibleProved;
+  return row;
+}
+
+std::vector<SamplerRow> MeasureSamplers(
+    const PlanningProblem& problem, const std::vector<std::string>& planners,
+    const PlanningOptions& options) {
+  PlanningStudy study(SceneSource(problem.scene).Load());
+  std::vector<SamplerRow> rows;
+  for (const std::string& planner : planners) {
+    SamplerRow row;
+    row.problem = problem;
+    row.planner = planner;
+    const std::size_t space = planner.find(' ');
+    PlanningRun run;
+    run.planner = planner.substr(0, space);
+    if (space != std::string::npos) run.retraction = planner.substr(space + 1);
+    run.time_limit = options.limit;
+    run.in_passage = InPassage(study, problem.delta);
+    int solved = 0;
+    for (int i = 0; i < options.seeds; ++i) {
+      if (i == options.hopeless && solved == 0) break;
+      run.seed = options.seed + static_cast<std::uint64_t>(i);
+      row.runs.push_back(RunOnce(&study, run));
+      solved += row.runs.back().is_solved;
+    }
+    rows.push_back(std::move(row));
+  }
+  return rows;
+}
+
+MotionRow MeasureMotions(const std::string& scene, std::uint64_t seed) {
+  const SceneSpace space = BuildSceneSpace(SceneSource(scene).Load());
+  const FreeSpace& free_space = *space.free_space;
+  BoundingBox box = ComputeBounds(space.contact_meshes.front());
+  const Vector3d margin = 0.1 * (box.max - box.min);
+  box = {box.min - margin, box.max + margin};
+  std::mt19937_64 random(seed);
+  MotionRow row;
+  row.scene = scene;
+  row.triangles = space.triangles;
+  std::vector<double> microseconds;
+  constexpr int kMotions = 2000, kRepeats = 20;
+  // Ends near the surface: what planners ask, and the slower case.
+  std::uniform_real_distribution<double> size(-0.05, 0.05);
+  while (static_cast<int>(microseconds.size()) < kMotions) {
+    const SurfacePoint point =
+        RandomSurfacePoint(space.contact_meshes.front(), &random);
+    const auto near = [&] {
+      return Vector3d(point.position + space.diagonal * Vector3d(size(random),
+                                                                 size(random),
+                                                                 size(random)));
+    };
+    const Vector3d a = near(), b = near();
+    if (!free_space.IsFree(a)) continue;
+    bool is_free = false;
+    const auto begin = std::chrono::steady_clock::now();
+    for (int i = 0; i < kRepeats; ++i) is_free = free_space.IsFree(a, b);
+    microseconds.push_back(1e6 * Seconds(begin) / kRepeats);
+    row.blocked_share += is_free ? 0.0 : 1.0 / kMotions;
+  }
+  row.median_microseconds = Quantile(microseconds, 0.5);
+  row.slow_microseconds = Quantile(microseconds, 0.95);
+  return row;
+}
+
+}  // namespace phongpd::bench

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "results/bench/planning_measure.h"
+#include "results/bench/report.h"
+
+namespace phongpd::bench {
+
+struct PlanningResults {
+  PlanningOptions options;
+  std::vector<ExactRow> exact;
+  std::vector<SamplerRow> samplers;   // SamplerProblems
+  std::vector<SamplerRow> narrowing;  // NarrowingProblems
+  std::vector<MotionRow> motions;
+};
+
+std::vector<NamedTable> Tables(const PlanningResults& results);
+std::vector<Figure> Figures(const PlanningResults& results);
+// Targets met and missed: the text above the tables.
+std::string Findings(const PlanningResults& results);
+// Every run of the samplers.
+std::string RunsCsv(const PlanningResults& results);
+
+}  // namespace phongpd::bench
