@@ -34,6 +34,8 @@ struct ExactRow {
   std::size_t triangles = 0;
   double length = 0.0;
   double clearance = 0.0;
+  double witness_length = 0.0;  // of the scene's own way through, as short as
+                                // exact tests allow; 0: there is none
 };
 
 // One run of a sampling planner.
