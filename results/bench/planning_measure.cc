@@ -6,7 +6,9 @@
 #include <limits>
 #include <random>
 
+#include "core/mesh/segment_tree.h"
 #include "planners/exact/contact_surface_planner.h"
+#include "planners/exact/path_shortening.h"
 #include "problems/planning_study.h"
 #include "problems/random_solids.h"
 #include "problems/scene_source.h"
@@ -151,6 +153,14 @@ ExactRow MeasureExact(const PlanningProblem& problem) {
   row.status = ToString(plan.status);
   row.length = plan.length;
   row.clearance = plan.clearance;
+  if (scene.witness.size() > 1 &&
+      CheckPath(*space.free_space, scene.witness).free) {
+    ShorteningOptions shortest;
+    shortest.random_cuts = 2000;
+    shortest.pulls = 100;
+    row.witness_length = PathLength(
+        ShortenPath(scene.witness, SegmentTree(space.sealed_mesh), shortest));
+  }
   row.is_right = problem.is_feasible
                      ? plan.status == PlanStatus::kSolved &&
                            CheckPath(*space.free_space, plan.path).free

@@ -14,7 +14,7 @@
 namespace phongpd::bench {
 namespace {
 
-// Least length of a path found by anything for the same scene.
+// Least length of a path known for a scene.
 std::map<std::string, double> BestLengths(const PlanningResults& results) {
   std::map<std::string, double> best;
   const auto offer = [&best](const std::string& scene, double length) {
@@ -23,6 +23,7 @@ std::map<std::string, double> BestLengths(const PlanningResults& results) {
   };
   for (const ExactRow& row : results.exact) {
     if (row.status == "solved") offer(row.problem.scene, row.length);
+    if (row.witness_length > 0.0) offer(row.problem.scene, row.witness_length);
   }
   for (const auto* rows : {&results.samplers, &results.narrowing}) {
     for (const SamplerRow& row : *rows) {
@@ -84,9 +85,10 @@ Table ExactTable(const PlanningResults& results) {
   return MakeTable(
       "The contact-surface planner, every problem",
       "Clearance over δ: 0.5 is what a channel allows; wide problems reach "
-      "their cap first. Ratio: length over the shortest path any planner here "
-      "found. Milliseconds: median of five queries; what is built once "
-      "(tables, contact space) apart.",
+      "their cap first. Ratio: length over the shortest path known, of any "
+      "planner here or the scene's own way through, pulled tight by 2000 cuts "
+      "without a wish for clearance. Milliseconds: median of five queries; "
+      "what is built once (tables, contact space) apart.",
       {"scene", "triangles", "answer", "right", "query ms", "tables ms",
        "contact space ms", "clearance/δ", "length", "ratio"},
       results.exact, [&](const ExactRow& r, const auto& add) {
@@ -258,7 +260,7 @@ std::string Findings(const PlanningResults& results) {
       "possible",
       "least " + Rounded(least_share) + ", " + Shown(near) + " below",
       near == 0);
-  line("contact-surface: length ≤ 1.3 × the best found here",
+  line("contact-surface: length ≤ 1.3 × the shortest known",
        "worst " + Rounded(worst_ratio, 4) + ", " + Shown(long_ones) + " of " +
            Shown(paths) + " above",
        long_ones == 0);
