@@ -62,15 +62,33 @@ PlanningStudy::PlanningStudy(const Scene& scene, const ContactSpaceCache& cache)
     : scene_(scene),
       space_(BuildSceneSpace(scene, SpaceLayout::kSealed, cache)) {}
 
+BoundingBox PlanningStudy::Region() const {
+  const BoundingBox& bounds = scene_.workspace.bounds;
+  return bounds.IsEmpty()
+             ? SamplingRegion(space_.sealed_mesh, scene_.start, scene_.goal)
+             : bounds;
+}
+
+TriangleMesh PlanningStudy::VisibleMesh() const {
+  const BoundingBox region = Region();
+  const double rounding = 1e-9 * region.Diagonal();
+  TriangleMesh visible;
+  visible.vertices = space_.sealed_mesh.vertices;
+  for (const Triangle& t : space_.sealed_mesh.triangles) {
+    const bool is_within = std::all_of(t.begin(), t.end(), [&](int v) {
+      const Eigen::Vector3d& p = visible.vertices[v];
+      return (p.array() >= region.min.array() - rounding).all() &&
+             (p.array() <= region.max.array() + rounding).all();
+    });
+    if (is_within) visible.triangles.push_back(t);
+  }
+  return visible;
+}
+
 void PlanningStudy::PrepareModel() {
   if (model_ != nullptr) return;
-  const BoundingBox& bounds = scene_.workspace.bounds;
   // The bounds are part of the mesh; what is beyond them need not be sampled.
-  const BoundingBox region =
-      bounds.IsEmpty()
-          ? SamplingRegion(space_.sealed_mesh, scene_.start, scene_.goal)
-          : bounds;
-  model_ = std::make_shared<ContactModel>(space_.contact_meshes, region);
+  model_ = std::make_shared<ContactModel>(space_.contact_meshes, Region());
 }
 
 OmplPlanningOptions PlanningStudy::Options(const PlanningRun& run) const {

@@ -58,6 +58,12 @@ class PlanningStudy {
   // contact-surface, which is none.
   std::string OmplLog(const PlanningRun& run, int runs);
 
+  // Where paths can be: the bounds, or the box around the cells of start and
+  // goal (SamplingRegion).
+  BoundingBox Region() const;
+  // The triangles of the contact space in that region, for pictures.
+  TriangleMesh VisibleMesh() const;
+
   const Scene& scene() const { return scene_; }
   const SceneSpace& space() const { return space_; }
   // Of the last run by contact-surface: certificate and counts.

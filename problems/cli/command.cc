@@ -88,6 +88,27 @@ void TellAbout(const Scene& scene, const SceneSpace& space) {
            (space.from_cache ? " (kept from before)" : ""));
 }
 
+void AddPictures(CLI::App* app, std::string* html, std::string* svg) {
+  app->add_option("--html", *html,
+                  "Page with the contact space, the paths and the robot, to "
+                  "turn and zoom; needs nothing from elsewhere")
+      ->type_name("FILE");
+  app->add_option("--svg", *svg, "The same as a still picture")
+      ->type_name("FILE");
+}
+
+void DeclarePictures(OutputFiles* outputs, const std::string& html,
+                     const std::string& svg) {
+  if (!html.empty()) outputs->Declare(html);
+  if (!svg.empty()) outputs->Declare(svg);
+}
+
+void WritePictures(OutputFiles* outputs, const std::string& html,
+                   const std::string& svg, const PathScene& scene) {
+  if (!html.empty()) outputs->Write(html, PathPage(scene));
+  if (!svg.empty()) outputs->Write(svg, PathSvg(scene));
+}
+
 void AddNoCache(CLI::App* app, bool* no_cache) {
   app->add_flag("--no-cache", *no_cache,
                 "Build anew, and do not keep the contact space for the next "

@@ -13,6 +13,7 @@
 #include "core/mesh/triangle_mesh.h"
 #include "core/projection/phong_metric.h"
 #include "problems/output_files.h"
+#include "problems/path_picture.h"
 #include "problems/scene_space.h"
 
 // What the commands of the phongpd program share.
@@ -66,6 +67,14 @@ extern const char* const kSmoothingLengthHelp;
 
 // What the user should know of a scene and its contact space, on stderr.
 void TellAbout(const Scene& scene, const SceneSpace& space);
+
+// Declares --html and --svg, and the files they name.
+void AddPictures(CLI::App* app, std::string* html, std::string* svg);
+void DeclarePictures(OutputFiles* outputs, const std::string& html,
+                     const std::string& svg);
+// Writes those that were asked for.
+void WritePictures(OutputFiles* outputs, const std::string& html,
+                   const std::string& svg, const PathScene& scene);
 
 // Declares --no-cache.
 void AddNoCache(CLI::App* app, bool* no_cache);

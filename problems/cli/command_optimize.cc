@@ -30,6 +30,8 @@ struct Flags {
   int runs = 1;
   bool per_obstacle = false;
   std::string output;
+  std::string html;
+  std::string svg;
   bool no_cache = false;
 };
 
@@ -110,6 +112,7 @@ int Optimize(const Flags& flags) {
   const SceneSource source(flags.scene);
   OutputFiles outputs;
   outputs.Declare(flags.output);
+  DeclarePictures(&outputs, flags.html, flags.svg);
   ContactSpaceCache cache;
   if (!flags.no_cache) cache.directory = DefaultCacheDirectory();
   TrajectoryStudy study(cache, flags.per_obstacle ? SpaceLayout::kPerObstacle
@@ -117,6 +120,7 @@ int Optimize(const Flags& flags) {
   const bool silent = outputs.UseStandardOutput();
   if (!silent) PrintHeader();
 
+  PathScene picture;
   std::string lines;
   bool are_all_free = true;
   for (int run = 0; run < flags.runs; ++run) {
@@ -134,6 +138,9 @@ int Optimize(const Flags& flags) {
     const nlohmann::ordered_json row =
         TrajectoryRow(study, metric, options, result);
     lines += row.dump() + '\n';
+    picture.paths.push_back({metric.name + ", seed " + std::to_string(seed) +
+                                 ": " + ToString(result.status),
+                             result.path, result.certificate.free});
     are_all_free = are_all_free && result.certificate.free;
     if (silent) continue;
     std::cout << scene.name << ", " << metric.name << ", " << flags.start
@@ -145,6 +152,10 @@ int Optimize(const Flags& flags) {
     if (!why.empty()) std::cout << "  " << why << '\n';
   }
   outputs.Write(flags.output, lines);
+  picture.title = study.scene().name;
+  picture.contact_meshes = study.space().contact_meshes;
+  picture.robot = study.scene().workspace.robot;
+  WritePictures(&outputs, flags.html, flags.svg, picture);
   outputs.Commit();
   return are_all_free ? kDone : kNoAnswer;
 }
@@ -214,6 +225,7 @@ Command AddOptimize(CLI::App* app) {
   app->add_option("--output", flags->output, "JSON Lines, one object a run")
       ->required()
       ->type_name("FILE");
+  AddPictures(app, &flags->html, &flags->svg);
   AddNoCache(app, &flags->no_cache);
   return [flags] { return Optimize(*flags); };
 }

@@ -21,6 +21,8 @@ struct Flags {
   std::uint64_t seed = 1;
   int runs = 1;
   std::string output;
+  std::string html;
+  std::string svg;
   std::string ompl_log;
   bool no_cache = false;
 };
@@ -55,6 +57,7 @@ int Plan(const Flags& flags) {
   }
   OutputFiles outputs;
   outputs.Declare(flags.output);
+  DeclarePictures(&outputs, flags.html, flags.svg);
   if (!flags.ompl_log.empty()) outputs.Declare(flags.ompl_log);
   SilenceOmpl();
   ContactSpaceCache cache;
@@ -66,6 +69,7 @@ int Plan(const Flags& flags) {
     std::cout << "scene, planner, seed: status, seconds (without contact "
                  "space), points, length, clearance\n";
   }
+  PathScene picture;
   std::string lines;
   bool is_answered = true;
   for (int i = 0; i < flags.runs; ++i) {
@@ -74,6 +78,10 @@ int Plan(const Flags& flags) {
              std::to_string(flags.runs));
     const PlanningResult result = study.Run(run);
     lines += PlanningRow(study, run, result).dump() + '\n';
+    picture.paths.push_back({run.planner + ", seed " +
+                                 std::to_string(run.seed) + ": " +
+                                 result.status,
+                             result.numbers.path, result.solved});
     is_answered = is_answered && result.solved;
     if (silent) continue;
     std::cout << scene.name << ", " << run.planner << ", " << run.seed << ": "
@@ -85,6 +93,10 @@ int Plan(const Flags& flags) {
     if (!result.solved && !why.empty()) std::cout << "  " << why << '\n';
   }
   outputs.Write(flags.output, lines);
+  picture.title = scene.name;
+  picture.contact_meshes = {study.VisibleMesh()};
+  picture.robot = scene.workspace.robot;
+  WritePictures(&outputs, flags.html, flags.svg, picture);
   if (!flags.ompl_log.empty()) {
     Progress("running OMPL's benchmark");
     outputs.Write(flags.ompl_log, study.OmplLog(run, flags.runs));
@@ -128,6 +140,7 @@ Command AddPlan(CLI::App* app) {
                   "Also run OMPL's own benchmark on the planner and write its "
                   "log, which OMPL's statistics script reads")
       ->type_name("FILE");
+  AddPictures(app, &flags->html, &flags->svg);
   AddNoCache(app, &flags->no_cache);
   return [flags] { return Plan(*flags); };
 }
