@@ -30,6 +30,23 @@ OutputFiles::~OutputFiles() {
     std::error_code ignored;
     if (file.temporary != file.target) fs::remove(file.temporary, ignored);
   }
+  for (auto it = directories_.rbegin(); it != directories_.rend(); ++it) {
+    std::error_code ignored;
+    fs::remove(*it, ignored);  // only if it is empty
+  }
+}
+
+void OutputFiles::MakeDirectory(const std::string& path) {
+  std::error_code error;
+  std::vector<fs::path> missing;
+  for (fs::path at = fs::weakly_canonical(fs::absolute(path), error);
+       !error && !fs::exists(at, error); at = at.parent_path()) {
+    missing.push_back(at);
+  }
+  for (auto it = missing.rbegin(); !error && it != missing.rend(); ++it) {
+    if (fs::create_directory(*it, error)) directories_.push_back(it->string());
+  }
+  if (error) FailToWrite(path, error.message());
 }
 
 void OutputFiles::Declare(const std::string& path) {
@@ -104,6 +121,7 @@ void OutputFiles::Commit() {
     if (error) FailToWrite(file.path, error.message());
   }
   files_.clear();
+  directories_.clear();
 }
 
 bool OutputFiles::UseStandardOutput() const {

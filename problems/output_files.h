@@ -26,6 +26,10 @@ class OutputFiles {
   OutputFiles(const OutputFiles&) = delete;
   OutputFiles& operator=(const OutputFiles&) = delete;
 
+  // Makes the directory `path` and its parents where they are missing; what
+  // it made goes again without Commit.
+  void MakeDirectory(const std::string& path);
+
   // Checks that `path` could be written and is declared once only.
   void Declare(const std::string& path);
 
@@ -50,6 +54,7 @@ class OutputFiles {
   const File& Find(const std::string& path) const;
 
   std::vector<File> files_;
+  std::vector<std::string> directories_;  // made here, parents first
 };
 
 }  // namespace phongpd

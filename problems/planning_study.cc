@@ -58,6 +58,11 @@ RetractionOptions ParseRetraction(const std::string& text,
   return options;
 }
 
+void CheckHasOmplLog(const std::string& planner) {
+  if (planner != kContactSurface) return;
+  throw InputError("--ompl-log: expected a planner of OMPL, found " + planner);
+}
+
 PlanningStudy::PlanningStudy(const Scene& scene, const ContactSpaceCache& cache)
     : scene_(scene),
       space_(BuildSceneSpace(scene, SpaceLayout::kSealed, cache)) {}
@@ -102,10 +107,7 @@ OmplPlanningOptions PlanningStudy::Options(const PlanningRun& run) const {
 }
 
 std::string PlanningStudy::OmplLog(const PlanningRun& run, int runs) {
-  if (run.planner == kContactSurface) {
-    throw InputError("--ompl-log: expected a planner of OMPL, found " +
-                     run.planner);
-  }
+  CheckHasOmplLog(run.planner);
   PrepareModel();
   return OmplBenchmarkLog(model_, scene_.start, scene_.goal, scene_.name,
                           run.planner, runs, Options(run));
@@ -141,6 +143,14 @@ PlanningResult PlanningStudy::Run(const PlanningRun& run) {
     result.status = result.numbers.status;
   }
   result.solved = result.numbers.collision_free && !result.numbers.path.empty();
+  if (!result.solved) {
+    for (const bool at_start : {false, true}) {
+      const Eigen::Vector3d& q = at_start ? scene_.start : scene_.goal;
+      if (space_.free_space->IsFree(q)) continue;
+      result.reason =
+          EndInCollision(scene_, space_, q, at_start ? "start" : "goal");
+    }
+  }
   return result;
 }
 

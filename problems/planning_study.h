@@ -24,6 +24,8 @@ std::vector<std::string> PlannerNames();
 RetractionOptions ParseRetraction(const std::string& text,
                                   const std::string& what);
 const std::vector<std::string>& RetractionNames();
+// Throws InputError for contact-surface, which OMPL's benchmark cannot run.
+void CheckHasOmplLog(const std::string& planner);
 
 struct PlanningRun {
   std::string planner = "contact-surface";
@@ -54,8 +56,7 @@ class PlanningStudy {
   PlanningResult Run(const PlanningRun& run);
 
   // The log of OMPL's own benchmark of one of its planners, for the
-  // statistics script that comes with OMPL.  Throws InputError for
-  // contact-surface, which is none.
+  // statistics script that comes with OMPL.  Throws like CheckHasOmplLog.
   std::string OmplLog(const PlanningRun& run, int runs);
 
   // Where paths can be: the bounds, or the box around the cells of start and

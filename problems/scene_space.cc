@@ -99,12 +99,22 @@ std::string EndInCollision(const Scene& scene, const SceneSpace& space,
        (q.array() < scene.workspace.bounds.max.array()).all());
   const std::string text = which + " (" + FormatPoint(q) + ") ";
   if (!is_within) return text + "is not strictly within the bounds";
+  const std::string names = NameObstacles(scene.workspace, q);
+  if (names.empty()) return text + "touches an obstacle or the bounds";
+  // A sealed mesh measures the way out of obstacles and bounds together.
+  const bool is_sealed =
+      space.free_space->bounds().IsEmpty() && !scene.workspace.bounds.IsEmpty();
+  std::vector<TriangleMesh> joined;
+  if (is_sealed) {
+    joined.push_back(BuildContactSpace(scene.workspace.robot,
+                                       JoinedObstacle(scene.workspace))
+                         .mesh);
+  }
   double depth = 0.0;
-  for (const TriangleMesh& mesh : space.contact_meshes) {
+  for (const TriangleMesh& mesh : is_sealed ? joined : space.contact_meshes) {
     const PenetrationResult result = EuclideanMetric(mesh).Query(q);
     if (result.inside) depth = std::max(depth, -result.signed_distance);
   }
-  const std::string names = NameObstacles(scene.workspace, q);
   if (depth == 0.0) return text + "touches " + names;
   return text + "is " + Rounded(depth) + " deep in " + names;
 }

@@ -21,6 +21,16 @@ std::string FormatPoint(const Eigen::Vector3d& point) {
          FormatDouble(point.z());
 }
 
+std::string CsvCell(const std::string& text) {
+  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+  std::string cell = "\"";
+  for (const char c : text) {
+    if (c == '"') cell += c;
+    cell += c;
+  }
+  return cell + '"';
+}
+
 double ParseDouble(std::string_view text, const std::string& what) {
   std::string_view digits = text;
   if (digits.size() > 1 && digits[0] == '+' && digits[1] != '-') {

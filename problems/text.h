@@ -24,6 +24,10 @@ std::string FormatPoint(const Eigen::Vector3d& point);
 // InputError "<what>: expected a finite number, found '<text>'".
 double ParseDouble(std::string_view text, const std::string& what);
 
+// One cell of a CSV file (RFC 4180): quoted where it holds a comma, a quote or
+// a line's end.
+std::string CsvCell(const std::string& text);
+
 // ok, branch_ended, euclidean_fallback or invalid.
 const char* StatusName(QueryStatus status);
 

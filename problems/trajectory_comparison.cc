@@ -3,13 +3,10 @@
 
 #include <algorithm>
 #include <array>
-#include <fstream>
 #include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
-#include <set>
 #include <sstream>
-#include <utility>
 
 #include "core/mesh/mesh_error.h"
 #include "problems/gnuplot.h"
@@ -22,10 +19,10 @@ using Json = nlohmann::ordered_json;
 
 double Median(std::vector<double> values) {
   if (values.empty()) return 0.0;
-  const auto middle =
-      values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
+  std::sort(values.begin(), values.end());
+  const std::size_t half = values.size() / 2;
+  return values.size() % 2 == 1 ? values[half]
+                                : 0.5 * (values[half - 1] + values[half]);
 }
 
 PipelineOptions OneSolve(TrajectoryStart start, bool is_adaptive) {
@@ -42,31 +39,28 @@ PipelineOptions OneSolve(TrajectoryStart start, bool is_adaptive) {
   return options;
 }
 
-std::string Text(const Json& row, const char* key) {
-  return row.at(key).get<std::string>();
-}
-
-// A number by its path, "seconds/total".
-double Number(const Json& row, const std::string& path) {
-  return row.at(Json::json_pointer("/" + path)).get<double>();
+// A string of gnuplot's, taken literally.
+std::string Quoted(const std::string& text) {
+  std::string quoted = "'";
+  for (const char c : text) {
+    if (c == '\'') quoted += c;
+    quoted += c;
+  }
+  return quoted + '\'';
 }
 
 using CellKey = std::array<std::string, 3>;
-using ProblemKey = std::pair<std::string, long>;
 
 CellKey KeyOf(const Json& row) {
-  return {Text(row, "scene"), Text(row, "protocol"), Text(row, "method")};
+  return {RowText(row, "scene"), RowText(row, "protocol"),
+          RowText(row, "method")};
 }
-ProblemKey ProblemOf(const Json& row) {
-  return {Text(row, "scene"), row.at("seed").get<long>()};
-}
-
 // The best objective of an exactly free path, by scene and seed.
 std::map<ProblemKey, double> BestObjectives(const std::vector<Json>& rows) {
   std::map<ProblemKey, double> best;
   for (const Json& row : rows) {
     if (!row.at("collision_free").get<bool>()) continue;
-    const double objective = Number(row, "objective");
+    const double objective = RowNumber(row, "objective");
     const auto [it, is_new] = best.emplace(ProblemOf(row), objective);
     if (!is_new) it->second = std::min(it->second, objective);
   }
@@ -89,24 +83,27 @@ ComparisonCell Summarize(const CellKey& key,
     const bool is_free = row->at("collision_free").get<bool>();
     cell.solved += is_solved;
     cell.stalled +=
-        is_solved && Text(*row, "status_class") == "stalled_feasible";
+        is_solved && RowText(*row, "status_class") == "stalled_feasible";
     cell.free_only += is_free && !is_solved;
     cell.claims_only += row->at("solver_claims_solved").get<bool>() &&
                         !row->at("solver_path_free").get<bool>();
-    iterations.push_back(Number(*row, "iterations"));
-    seconds.push_back(Number(*row, "seconds/total"));
+    iterations.push_back(RowNumber(*row, "iterations"));
+    seconds.push_back(RowNumber(*row, "seconds/total"));
     all += iterations.back();
-    restoration += Number(*row, "restoration_iterations");
-    callbacks += Number(*row, "seconds/callbacks");
+    restoration += RowNumber(*row, "restoration_iterations");
+    callbacks += RowNumber(*row, "seconds/callbacks");
     total += seconds.back();
     if (!is_solved) continue;
-    const double ratio = Number(*row, "objective") / best.at(ProblemOf(*row));
+    const double least = best.at(ProblemOf(*row));
+    // No way is shorter than that from a point to itself.
+    const double ratio =
+        least > 0.0 ? RowNumber(*row, "objective") / least : 1.0;
     ++cell.rivals;
     cell.mean_ratio += ratio;
     cell.within_2_percent += ratio <= 1.02;
     cell.within_10_percent += ratio <= 1.1;
     cell.least_clearance =
-        std::min(cell.least_clearance, Number(*row, "clearance"));
+        std::min(cell.least_clearance, RowNumber(*row, "clearance"));
   }
   if (cell.rivals > 0) {
     cell.mean_ratio /= cell.rivals;
@@ -158,15 +155,10 @@ std::vector<ComparisonCell> Summarize(const std::vector<Json>& rows) {
   std::vector<CellKey> order;
   std::map<CellKey, std::vector<const Json*>> cells;
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    try {
-      std::vector<const Json*>& cell = cells[KeyOf(rows[i])];
-      if (cell.empty()) order.push_back(KeyOf(rows[i]));
-      cell.push_back(&rows[i]);
-    } catch (const Json::exception& error) {
-      throw InputError("row " + std::to_string(i + 1) +
-                       ": expected a row of phongpd compare, found " +
-                       error.what());
-    }
+    CheckComparisonRow(rows[i], "row " + std::to_string(i + 1));
+    std::vector<const Json*>& cell = cells[KeyOf(rows[i])];
+    if (cell.empty()) order.push_back(KeyOf(rows[i]));
+    cell.push_back(&rows[i]);
   }
   const std::map<ProblemKey, double> best = BestObjectives(rows);
   std::vector<ComparisonCell> result;
@@ -183,9 +175,9 @@ std::string ComparisonCsv(const std::vector<ComparisonCell>& cells) {
          "median_seconds,callback_share,mean_objective_ratio,within_2_percent,"
          "within_10_percent,least_clearance\n";
   for (const ComparisonCell& c : cells) {
-    csv << c.scene << ',' << c.protocol << ',' << c.method << ',' << c.runs
-        << ',' << c.solved << ',' << c.stalled << ',' << c.free_only << ','
-        << c.claims_only << ',' << Rounded(c.median_iterations, 4) << ','
+    csv << CsvCell(c.scene) << ',' << c.protocol << ',' << c.method << ','
+        << c.runs << ',' << c.solved << ',' << c.stalled << ',' << c.free_only
+        << ',' << c.claims_only << ',' << Rounded(c.median_iterations, 4) << ','
         << Rounded(c.restoration_share) << ',' << Rounded(c.median_seconds)
         << ',' << Rounded(c.callback_share) << ',' << Rounded(c.mean_ratio, 5)
         << ',' << c.within_2_percent << ',' << c.within_10_percent << ','
@@ -194,100 +186,74 @@ std::string ComparisonCsv(const std::vector<ComparisonCell>& cells) {
   return csv.str();
 }
 
+double ProfileCurve::Share(double factor) const {
+  const auto end = std::upper_bound(ratios.begin(), ratios.end(), factor);
+  return problems == 0 ? 0.0
+                       : static_cast<double>(end - ratios.begin()) / problems;
+}
+
+std::vector<ProfileCurve> ProfileCurves(const std::vector<Json>& rows,
+                                        const std::string& protocol,
+                                        const std::string& measure) {
+  constexpr double kNever = std::numeric_limits<double>::infinity();
+  std::map<ProblemKey, std::map<std::string, double>> problems;
+  std::vector<ProfileCurve> curves;
+  for (const Json& row : rows) {
+    if (RowText(row, "protocol") != protocol) continue;
+    const std::string method = RowText(row, "method");
+    problems[ProblemOf(row)][method] =
+        row.at("solved").get<bool>() ? std::max(1e-9, RowNumber(row, measure))
+                                     : kNever;
+    const bool is_known =
+        std::any_of(curves.begin(), curves.end(),
+                    [&](const ProfileCurve& c) { return c.method == method; });
+    if (!is_known) curves.push_back({method, {}, 0});
+  }
+  for (ProfileCurve& curve : curves) {
+    curve.problems = static_cast<int>(problems.size());
+    for (const auto& entry : problems) {
+      const std::map<std::string, double>& values = entry.second;
+      const auto own = values.find(curve.method);
+      if (own == values.end() || !(own->second < kNever)) continue;
+      double best = kNever;
+      for (const auto& value : values) best = std::min(best, value.second);
+      curve.ratios.push_back(own->second / best);
+    }
+    std::sort(curve.ratios.begin(), curve.ratios.end());
+  }
+  return curves;
+}
+
 std::string PerformanceProfile(const std::vector<Json>& rows,
                                const std::string& protocol,
                                const std::string& measure) {
-  constexpr double kNever = std::numeric_limits<double>::infinity();
-  std::map<ProblemKey, std::map<std::string, double>> problems;
-  std::vector<std::string> methods;
-  for (const Json& row : rows) {
-    if (Text(row, "protocol") != protocol) continue;
-    const std::string method = Text(row, "method");
-    if (std::find(methods.begin(), methods.end(), method) == methods.end()) {
-      methods.push_back(method);
-    }
-    problems[ProblemOf(row)][method] =
-        row.at("solved").get<bool>() ? std::max(1e-9, Number(row, measure))
-                                     : kNever;
-  }
-  std::map<std::string, std::vector<double>> ratios;
-  for (const auto& [problem, values] : problems) {
-    double best = kNever;
-    for (const auto& entry : values) best = std::min(best, entry.second);
-    for (const auto& [method, value] : values) {
-      if (value < kNever) ratios[method].push_back(value / best);
-    }
-  }
+  constexpr double kLargest = 100.0;
+  const std::vector<ProfileCurve> curves =
+      ProfileCurves(rows, protocol, measure);
   std::ostringstream script;
   std::string plots;
-  int block = 0;
-  for (const std::string& method : methods) {
-    std::vector<double>& sorted = ratios[method];
-    std::sort(sorted.begin(), sorted.end());
-    script << "$m" << block << " << EOD\n1 0\n";
-    for (std::size_t i = 0; i < sorted.size(); ++i) {
-      script << FormatDouble(sorted[i]) << ' '
-             << static_cast<double>(i + 1) /
-                    static_cast<double>(problems.size())
-             << '\n';
+  for (std::size_t k = 0; k < curves.size(); ++k) {
+    const ProfileCurve& curve = curves[k];
+    script << "$m" << k << " << EOD\n1 0\n";
+    for (const double ratio : curve.ratios) {
+      if (ratio > kLargest) break;
+      script << FormatDouble(ratio) << ' ' << curve.Share(ratio) << '\n';
     }
-    script << "100 "
-           << static_cast<double>(sorted.size()) /
-                  static_cast<double>(problems.size())
-           << "\nEOD\n";
-    plots += (plots.empty() ? "plot $m" : ", $m") + std::to_string(block) +
-             " using 1:2 with steps lw 2 title '" + method + "'";
-    ++block;
+    script << kLargest << ' ' << curve.Share(kLargest) << "\nEOD\n";
+    plots += (plots.empty() ? "plot $m" : ", $m") + std::to_string(k) +
+             " using 1:2 with steps lw 2 title " + Quoted(curve.method);
   }
-  script << "set logscale x\nset xrange [1:100]\nset yrange [0:1]\n"
+  const int problems = curves.empty() ? 0 : curves.front().problems;
+  // Names of methods hold '@', which is markup to gnuplot.
+  script << "set logscale x\nset xrange [1:" << kLargest
+         << "]\nset yrange [0:1]\n"
          << "set xlabel '" << measure << " over the least of all methods'\n"
          << "set ylabel 'share of problems solved'\n"
-         << "set key right bottom\nset title '" << protocol << ", "
-         << problems.size() << " problems'\n"
+         << "set key right bottom noenhanced\nset title "
+         << Quoted(protocol + ", " + std::to_string(problems) + " problems")
+         << '\n'
          << plots << '\n';
   return RenderSvg(script.str(), 720, 440);
-}
-
-std::string CompactCsv(const std::vector<Json>& rows) {
-  std::ostringstream csv;
-  csv << "scene,protocol,method,seed,status,status_class,solved,"
-         "solver_claims_solved,collision_free,iterations,"
-         "restoration_iterations,jacobian_evaluations,objective,inf_pr,inf_du,"
-         "clearance,branch_ends,seconds_callbacks,seconds_total\n";
-  for (const Json& row : rows) {
-    csv << Text(row, "scene") << ',' << Text(row, "protocol") << ','
-        << Text(row, "method") << ',' << row.at("seed") << ','
-        << Text(row, "status") << ',' << Text(row, "status_class") << ','
-        << row.at("solved") << ',' << row.at("solver_claims_solved") << ','
-        << row.at("collision_free") << ',' << row.at("iterations") << ','
-        << row.at("restoration_iterations") << ','
-        << row.at("evaluations").at("jacobian") << ','
-        << Rounded(Number(row, "objective"), 8) << ','
-        << Rounded(Number(row, "inf_pr")) << ','
-        << Rounded(Number(row, "inf_du")) << ','
-        << Rounded(Number(row, "clearance"), 4) << ','
-        << row.at("queries").at("branch_ends") << ','
-        << Rounded(Number(row, "seconds/callbacks")) << ','
-        << Rounded(Number(row, "seconds/total")) << '\n';
-  }
-  return csv.str();
-}
-
-std::vector<Json> ReadComparison(const std::string& path) {
-  std::ifstream file(path);
-  if (!file) throw InputError(path + ": expected rows, found no such file");
-  std::vector<Json> rows;
-  for (std::string line; std::getline(file, line);) {
-    if (line.empty()) continue;
-    Json row = Json::parse(line, nullptr, false);
-    if (!row.is_object()) {
-      throw InputError(path + ": row " + std::to_string(rows.size() + 1) +
-                       ": expected a JSON object, found " + line.substr(0, 40));
-    }
-    rows.push_back(std::move(row));
-  }
-  if (rows.empty()) throw InputError(path + ": expected rows, found none");
-  return rows;
 }
 
 }  // namespace phongpd

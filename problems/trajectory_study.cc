@@ -116,7 +116,15 @@ PipelineResult TrajectoryStudy::Run(const TrajectoryMetric& metric,
     planner.self_intersections = space_.sealed_self_intersections;
     repair_ = std::make_shared<StartRepair>(space_.sealed_mesh, planner);
   }
-  return TrajectoryPipeline(Problem(metric), repair_, options).Solve();
+  PipelineResult result =
+      TrajectoryPipeline(Problem(metric), repair_, options).Solve();
+  const bool at_start = result.status == TrajectoryStatus::kStartInCollision;
+  if (at_start || result.status == TrajectoryStatus::kGoalInCollision) {
+    result.reason =
+        EndInCollision(scene_, space_, at_start ? scene_.start : scene_.goal,
+                       at_start ? "start" : "goal");
+  }
+  return result;
 }
 
 PipelineOptions ScenePipelineOptions(const Scene& scene) {

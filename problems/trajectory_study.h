@@ -42,7 +42,8 @@ class TrajectoryStudy {
   const Scene& scene() const { return scene_; }
   const SceneSpace& space() const { return space_; }
 
-  // Options other than those the scene sets (waypoints, margin, ...).
+  // Options other than those the scene sets (waypoints, margin, ...).  The
+  // reason of a start or goal in collision names the obstacle and the depth.
   PipelineResult Run(const TrajectoryMetric& metric,
                      const PipelineOptions& options);
 

@@ -98,11 +98,16 @@ bool ContactSpaceMotionValidator::checkMotion(
   const FreeSpace& space = model_->free_space();
   const MotionCheck check = space.Check(a, b);
   if (Count(check.free)) return true;
-  // Back off from the (rounded) contact until the motion so far is free.
+  // Back off from the (rounded) contact until the motion so far is free and
+  // other programs can tell that it is.
   double fraction = 0.0;
-  for (double gap = 1e-12; gap < check.fraction; gap *= 8.0) {
+  const double first = 2.0 * model_->floor() / (b - a).norm();
+  for (double gap = first; gap < check.fraction; gap *= 8.0) {
     const double candidate = check.fraction - gap;
-    if (!space.IsFree(a, a + candidate * (b - a))) continue;
+    const Vector3d end = a + candidate * (b - a);
+    if (space.Clearance(end) < model_->floor() || !space.IsFree(a, end)) {
+      continue;
+    }
     fraction = candidate;
     break;
   }

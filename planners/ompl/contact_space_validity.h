@@ -62,8 +62,9 @@ class ContactSpaceMotionValidator : public ompl::base::MotionValidator {
                    const ompl::base::State* s2) const override;
 
   // If blocked, lastValid.second is the largest fraction found such that the
-  // motion up to it is exactly free: the first contact less rounding (1e-12 of
-  // the motion where it arrives steeply), 0 if s1 is not free.
+  // motion up to it is exactly free and its end keeps model.floor(): OMPL's
+  // samplers make states of it, which would lie on the contact surface.  0 if
+  // there is none.
   bool checkMotion(
       const ompl::base::State* s1, const ompl::base::State* s2,
       std::pair<ompl::base::State*, double>& lastValid) const override;

@@ -157,6 +157,15 @@ OmplPlanningResult PlanWithOmpl(
   planner->setup();
 
   OmplPlanningResult result;
+  // OMPL's planners wait for another goal until the time is over.
+  for (const bool at_start : {true, false}) {
+    if (model->free_space().IsFree(at_start ? start : goal)) continue;
+    result.status =
+        ob::PlannerStatus(at_start ? ob::PlannerStatus::INVALID_START
+                                   : ob::PlannerStatus::INVALID_GOAL)
+            .asString();
+    return result;
+  }
   auto* own = dynamic_cast<RetractionPlanner*>(planner.get());
   if (own != nullptr && options.in_passage) {
     own->setWatch([&result, &options, own](const Vector3d& q) {

@@ -49,6 +49,9 @@ struct Space {
 
 std::size_t Index(int i) { return static_cast<std::size_t>(i); }
 
+// Around all that an unbounded cell holds, of its diagonal.
+constexpr double kRoom = 0.1;
+
 // The box around both; either may be empty.
 BoundingBox Hull(const BoundingBox& a, const BoundingBox& b) {
   if (a.IsEmpty()) return b;
@@ -60,7 +63,13 @@ BoundingBox Hull(const BoundingBox& a, const BoundingBox& b) {
 
 BoundingBox SamplingRegion(const TriangleMesh& contact_mesh,
                            const Vector3d& start, const Vector3d& goal) {
-  const BoundingBox all = ComputeBounds(contact_mesh);
+  BoundingBox all = ComputeBounds(contact_mesh);
+  for (const Vector3d& q : {start, goal}) {
+    if (q.allFinite()) all = Hull(all, {q, q});
+  }
+  // Any way through the outside can be bent into the room around.
+  const Vector3d room = Vector3d::Constant(kRoom * all.Diagonal());
+  all = {all.min - room, all.max + room};
   const auto neighbors = TriangleNeighbors(contact_mesh);
   const SegmentTree segments(contact_mesh);
   const FreeCells cells(contact_mesh, neighbors, segments);

@@ -14,9 +14,10 @@ namespace phongpd {
 
 // Where samples for a path from start to goal are worth drawing in a scene
 // without bounds: the box around the cells of free space that hold them.  The
-// box around the whole mesh if one of them is unbounded (or not told apart by
-// rays, or not free).  No path from start to goal leaves the box, so it may be
-// used as bounds.  One mesh for all obstacles, as ContactSurface requires it.
+// box around the mesh, start and goal, with room on every side, if one of them
+// is unbounded (or not told apart by rays, or not free).  Start and goal are
+// joined within the box if they are joined at all, so it may be used as bounds.
+// One mesh for all obstacles, as ContactSurface requires it.
 BoundingBox SamplingRegion(const TriangleMesh& contact_mesh,
                            const Eigen::Vector3d& start,
                            const Eigen::Vector3d& goal);

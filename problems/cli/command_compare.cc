@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <filesystem>
+#include <algorithm>
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -61,35 +61,55 @@ Shard ParseShard(const std::string& text) {
                    "'");
 }
 
-// Runs what belongs to the shard.
-std::vector<Json> Run(const Flags& flags, const Shard& shard) {
+// What is compared.
+struct Methods {
+  std::vector<SceneSource> sources;
+  std::vector<TrajectoryMetric> metrics;
+  std::vector<TrajectoryProtocol> protocols;
+};
+
+// Throws InputError for all that can be told to be wrong before a run.
+Methods ReadMethods(const Flags& flags) {
   if (flags.runs < 1) {
     throw InputError("--runs: expected at least 1, found " +
                      std::to_string(flags.runs));
   }
-  std::vector<SceneSource> sources;
-  for (const std::string& scene : flags.scenes) sources.emplace_back(scene);
-  std::vector<TrajectoryMetric> metrics;
+  Methods methods;
+  std::set<std::string> names;
+  for (const std::string& text : flags.scenes) {
+    methods.sources.emplace_back(text);
+    const Scene scene = methods.sources.back().Load(flags.seed);
+    // Rows know their scene by its name.
+    if (!names.insert(scene.name).second) {
+      throw InputError(text + ": expected scenes of different names, found '" +
+                       scene.name + "' twice");
+    }
+  }
   for (const std::string& text : flags.metrics) {
-    metrics.push_back(ParseTrajectoryMetric(text, "--metrics"));
+    methods.metrics.push_back(ParseTrajectoryMetric(text, "--metrics"));
   }
-  std::vector<TrajectoryProtocol> protocols;
   for (const std::string& name : flags.protocols) {
-    protocols.push_back(FindProtocol(name));
+    methods.protocols.push_back(FindProtocol(name));
   }
+  return methods;
+}
+
+// Runs what belongs to the shard.
+std::vector<Json> Run(const Flags& flags, const Methods& methods,
+                      const Shard& shard) {
   ContactSpaceCache cache;
   if (!flags.no_cache) cache.directory = DefaultCacheDirectory();
   TrajectoryStudy study(cache);
   std::vector<Json> rows;
   int problem = 0;
-  for (const SceneSource& source : sources) {
+  for (const SceneSource& source : methods.sources) {
     for (int run = 0; run < flags.runs; ++run, ++problem) {
       if (problem % shard.count != shard.index) continue;
       const std::uint64_t seed = flags.seed + static_cast<std::uint64_t>(run);
       const Scene scene = source.Load(seed);
       study.Enter(scene);
       Progress(source.label() + ", seed " + std::to_string(seed));
-      for (const TrajectoryProtocol& protocol : protocols) {
+      for (const TrajectoryProtocol& protocol : methods.protocols) {
         PipelineOptions options = protocol.options;
         options.seed = seed;
         // The scene's own Ipopt settings hold for every protocol.
@@ -100,7 +120,7 @@ std::vector<Json> Run(const Flags& flags, const Shard& shard) {
         if (!source.is_family() && is_straight) options.start_noise = 0.01;
         const std::vector<TrajectoryMetric> only = {TrajectoryMetric()};
         for (const TrajectoryMetric& metric :
-             protocol.uses_every_metric ? metrics : only) {
+             protocol.uses_every_metric ? methods.metrics : only) {
           Json row =
               TrajectoryRow(study, metric, options, study.Run(metric, options));
           row["protocol"] = protocol.name;
@@ -135,15 +155,20 @@ int Compare(const Flags& flags) {
   const Shard shard = ParseShard(flags.shard);
   const bool is_whole = shard.count == 1;
   if (is_whole) RequireGnuplot();
-  std::error_code error;
-  std::filesystem::create_directories(flags.output, error);
+  Methods methods;
+  std::vector<Json> rows;
+  if (flags.rows.empty()) {
+    methods = ReadMethods(flags);
+  } else {
+    rows = ReadComparison(flags.rows);
+  }
   OutputFiles outputs;
+  outputs.MakeDirectory(flags.output);
   const auto path = [&](const std::string& name) {
     return flags.output + "/" + name;
   };
   outputs.Declare(path("rows.jsonl"));
-  const std::vector<Json> rows =
-      flags.rows.empty() ? Run(flags, shard) : ReadComparison(flags.rows);
+  if (flags.rows.empty()) rows = Run(flags, methods, shard);
   std::string lines;
   for (const Json& row : rows) lines += row.dump() + '\n';
   outputs.Write(path("rows.jsonl"), lines);

@@ -78,17 +78,8 @@ PipelineOptions Options(const Flags& flags, const Scene& scene,
   return options;
 }
 
-// "why not", for people: which end is how deep in what, or where the path
-// crosses.
-std::string Explanation(const TrajectoryStudy& study,
-                        const PipelineResult& result) {
-  const Scene& scene = study.scene();
-  const bool at_start = result.status == TrajectoryStatus::kStartInCollision;
-  if (at_start || result.status == TrajectoryStatus::kGoalInCollision) {
-    return EndInCollision(scene, study.space(),
-                          at_start ? scene.start : scene.goal,
-                          at_start ? "start" : "goal");
-  }
+// "why not", for people, and where the path crosses.
+std::string Explanation(const PipelineResult& result) {
   std::string text = result.reason;
   if (!result.certificate.free && result.certificate.segment >= 0) {
     text += (text.empty() ? "" : "; ") +
@@ -118,8 +109,6 @@ int Optimize(const Flags& flags) {
   TrajectoryStudy study(cache, flags.per_obstacle ? SpaceLayout::kPerObstacle
                                                   : SpaceLayout::kMerged);
   const bool silent = outputs.UseStandardOutput();
-  if (!silent) PrintHeader();
-
   PathScene picture;
   std::string lines;
   bool are_all_free = true;
@@ -143,12 +132,13 @@ int Optimize(const Flags& flags) {
                              result.path, result.certificate.free});
     are_all_free = are_all_free && result.certificate.free;
     if (silent) continue;
+    if (run == 0) PrintHeader();
     std::cout << scene.name << ", " << metric.name << ", " << flags.start
               << ", " << seed << ": " << ToString(result.status) << ", "
               << result.iterations << ", " << Rounded(result.objective, 5)
               << ", " << Rounded(row["clearance"].get<double>(), 3) << ", "
               << Rounded(result.seconds, 3) << '\n';
-    const std::string why = Explanation(study, result);
+    const std::string why = Explanation(result);
     if (!why.empty()) std::cout << "  " << why << '\n';
   }
   outputs.Write(flags.output, lines);
@@ -215,6 +205,7 @@ Command AddOptimize(CLI::App* app) {
   app->add_option("--seed", flags->seed,
                   "Of the first run; 0 is the scene as it stands, more draw "
                   "start and goal of a family, and the noise")
+      ->check(CLI::NonNegativeNumber)
       ->type_name("S")
       ->capture_default_str();
   app->add_option("--runs", flags->runs, "Runs, with seeds S, S+1, ...")

@@ -27,19 +27,9 @@ struct Flags {
   bool no_cache = false;
 };
 
-// Why there is no path, for people.
-std::string Explanation(const PlanningStudy& study,
-                        const PlanningResult& result) {
-  const Scene& scene = study.scene();
-  const FreeSpace& space = *study.space().free_space;
-  for (const bool at_start : {true, false}) {
-    const Eigen::Vector3d& q = at_start ? scene.start : scene.goal;
-    if (!space.IsFree(q)) {
-      return EndInCollision(scene, study.space(), q,
-                            at_start ? "start" : "goal");
-    }
-  }
-  return result.reason;
+void PrintHeader() {
+  std::cout << "scene, planner, seed: status, seconds (without contact "
+               "space), points, length, clearance\n";
 }
 
 int Plan(const Flags& flags) {
@@ -55,6 +45,7 @@ int Plan(const Flags& flags) {
   if (!flags.time_limit.empty()) {
     run.time_limit = ParseDouble(flags.time_limit, "--time");
   }
+  if (!flags.ompl_log.empty()) CheckHasOmplLog(run.planner);
   OutputFiles outputs;
   outputs.Declare(flags.output);
   DeclarePictures(&outputs, flags.html, flags.svg);
@@ -65,10 +56,6 @@ int Plan(const Flags& flags) {
   PlanningStudy study(scene, cache);
   TellAbout(scene, study.space());
   const bool silent = outputs.UseStandardOutput();
-  if (!silent) {
-    std::cout << "scene, planner, seed: status, seconds (without contact "
-                 "space), points, length, clearance\n";
-  }
   PathScene picture;
   std::string lines;
   bool is_answered = true;
@@ -84,13 +71,13 @@ int Plan(const Flags& flags) {
                              result.numbers.path, result.solved});
     is_answered = is_answered && result.solved;
     if (silent) continue;
+    if (i == 0) PrintHeader();
     std::cout << scene.name << ", " << run.planner << ", " << run.seed << ": "
               << result.status << ", " << Rounded(result.numbers.seconds)
               << ", " << result.numbers.path.size() << ", "
               << Rounded(result.numbers.length, 4) << ", "
               << Rounded(result.numbers.clearance) << '\n';
-    const std::string why = Explanation(study, result);
-    if (!result.solved && !why.empty()) std::cout << "  " << why << '\n';
+    if (!result.reason.empty()) std::cout << "  " << result.reason << '\n';
   }
   outputs.Write(flags.output, lines);
   picture.title = scene.name;
@@ -128,6 +115,7 @@ Command AddPlan(CLI::App* app) {
                   "set)")
       ->type_name("S");
   app->add_option("--seed", flags->seed, "Of the first run")
+      ->check(CLI::NonNegativeNumber)
       ->type_name("S")
       ->capture_default_str();
   app->add_option("--runs", flags->runs, "Runs, with seeds S, S+1, ...")

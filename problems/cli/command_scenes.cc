@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <filesystem>
 #include <iostream>
 #include <map>
 #include <memory>
@@ -73,8 +72,7 @@ int Write(const Flags& flags) {
     WriteMeshTo(&outputs, path, mesh);
   };
   if (!flags.meshes.empty()) {
-    std::error_code error;
-    std::filesystem::create_directories(flags.meshes, error);
+    outputs.MakeDirectory(flags.meshes);
     write(scene.workspace.robot, flags.meshes + "/robot.off");
     write(obstacle, flags.meshes + "/obstacle.off");
   }

@@ -6,6 +6,7 @@
 #include <fstream>
 #include <thread>
 
+#include "problems/text.h"
 #include "problems/versions.h"
 
 namespace phongpd::bench {
@@ -59,7 +60,7 @@ std::string ToCsv(const Table& table) {
   std::string csv;
   const auto add = [&](std::vector<std::string> row) {
     for (std::string& cell : row) {
-      if (cell.find(',') != std::string::npos) cell = '"' + cell + '"';
+      cell = CsvCell(cell);
     }
     csv += Joined(row, ",") + '\n';
   };

@@ -71,8 +71,11 @@ TEST(ContactSpaceMotionValidator, StopsRightBeforeTheFirstContact) {
   motion.Set({-1.9, 0.3, 0.1}, {1.9, 0.3, 0.1});
   std::pair<ob::State*, double> last(motion.last.get(), -1.0);
   EXPECT_FALSE(si->checkMotion(motion.a.get(), motion.b.get(), last));
-  EXPECT_NEAR(last.second, 0.9 / 3.8, 1e-11);
+  EXPECT_NEAR(last.second, 0.9 / 3.8, 1e-8);
   EXPECT_LT(last.second, 0.9 / 3.8);
+  // Obstacle-based samples are such states: once so near that FCL disagreed.
+  EXPECT_GE(model->free_space().Clearance(ToPoint(motion.last.get())),
+            model->floor());
   EXPECT_TRUE(si->isValid(motion.last.get()));
   EXPECT_TRUE(si->checkMotion(motion.a.get(), motion.last.get()));
   // The state may be left out, and may be one of the ends.
@@ -158,7 +161,7 @@ TEST(ContactSpaceMotionValidator, AgreesWithDenseChecksOfTheOriginalMeshes) {
                   model->free_space().Clearance(a) < 1e-9 * diagonal);
     } else {
       ASSERT_LT(model->free_space().Clearance(ToPoint(motion.last.get())),
-                1e-9 * diagonal);
+                1e-8 * diagonal);
     }
   }
   EXPECT_GT(free, 1000);

@@ -141,6 +141,8 @@ TEST_F(OmplPlanning, ReportsInvalidEnds) {
         passage.model, passage.scene.start, {0.0, 0.0, 0.0}, name, options);
     EXPECT_FALSE(goal.solved);
     EXPECT_FALSE(goal.collision_free);
+    EXPECT_EQ(goal.status, "Invalid goal") << name;
+    EXPECT_LT(goal.seconds, 0.1) << name;  // OMPL waits for another goal
   }
 }
 

@@ -73,8 +73,20 @@ TEST(SamplingRegion, IsTheBoxAroundTheCellsOfBothEnds) {
   region = SamplingRegion(mesh, left, right);
   EXPECT_EQ(region.min, Vector3d(-1.0, -1.0, -1.0));
   EXPECT_EQ(region.max, Vector3d(3.0, 1.0, 1.0));
-  region = SamplingRegion(mesh, left, {7.0, 0.0, 0.0});
-  EXPECT_EQ(region.max, Vector3d::Constant(5.0));
+}
+
+TEST(SamplingRegion, LeavesRoomAroundWhatHasNoBounds) {
+  const TriangleMesh mesh =
+      MakeBox(Vector3d::Constant(-5.0), Vector3d::Constant(5.0));
+  const BoundingBox region =
+      SamplingRegion(mesh, {-6.0, 0.0, 0.0}, {9.0, 0.0, 0.0});
+  const double room = 0.1 * std::sqrt(15.0 * 15.0 + 2.0 * 100.0);
+  EXPECT_NEAR(
+      (region.min - Vector3d(-6.0 - room, -5.0 - room, -5.0 - room)).norm(),
+      0.0, 1e-14);
+  EXPECT_NEAR(
+      (region.max - Vector3d(9.0 + room, 5.0 + room, 5.0 + room)).norm(), 0.0,
+      1e-14);
 }
 
 TEST(ContactModel, FindsBoundsAsFacets) {
