@@ -8,6 +8,7 @@
 
 #include "core/mesh/mesh_error.h"
 #include "core/mesh/segment_tree.h"
+#include "core/mesh/unit_normal.h"
 #include "core/projection/euclidean_metric.h"
 #include "core/projection/phong_metric.h"
 #include "planners/exact/free_cells.h"
@@ -34,9 +35,7 @@ struct Space {
         segments(contact_mesh) {
     normals.reserve(mesh.triangles.size());
     for (const Triangle& t : mesh.triangles) {
-      const Vector3d e1 = mesh.vertices[t[1]] - mesh.vertices[t[0]];
-      const Vector3d e2 = mesh.vertices[t[2]] - mesh.vertices[t[0]];
-      normals.push_back(e1.cross(e2).stableNormalized());
+      normals.push_back(UnitNormal(mesh, t));
     }
   }
 
