@@ -2,12 +2,12 @@
 #include "planners/exact/start_repair.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <utility>
 
 #include "core/mesh/mesh_error.h"
 #include "core/mesh/segment_tree.h"
+#include "core/stopwatch.h"
 #include "planners/exact/path_resampling.h"
 #include "planners/exact/path_shortening.h"
 
@@ -276,16 +276,13 @@ StartRepairResult StartRepair::Repair(const Path& path,
   for (const Vector3d& q : path) {
     if (!q.allFinite()) {
       throw InputError(
-          "start repair: path: expected finite points, found NaN "
-          "or Inf");
+          "start repair: path: expected finite points, found NaN or Inf");
     }
   }
-  const auto begin = std::chrono::steady_clock::now();
+  const Stopwatch stopwatch;
   StartRepairResult result;
   impl_->Repair(path, options, &result);
-  result.seconds =
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - begin)
-          .count();
+  result.seconds = stopwatch.Seconds();
   return result;
 }
 

@@ -15,10 +15,9 @@
 #include <ompl/util/RandomNumbers.h>
 
 #include <algorithm>
-#include <chrono>
-#include <limits>
 
 #include "core/mesh/mesh_error.h"
+#include "core/stopwatch.h"
 #include "planners/ompl/contact_space_validity.h"
 #include "planners/ompl/ompl_planners.h"
 #include "planners/ompl/retraction_forest.h"
@@ -165,12 +164,10 @@ OmplPlanningResult PlanWithOmpl(
       }
     });
   }
-  const auto begin = std::chrono::steady_clock::now();
+  const Stopwatch stopwatch;
   const ob::PlannerStatus status =
       planner->solve(ob::timedPlannerTerminationCondition(options.time_limit));
-  result.seconds =
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - begin)
-          .count();
+  result.seconds = stopwatch.Seconds();
   result.status = status.asString();
   result.solved = status == ob::PlannerStatus::EXACT_SOLUTION;
   result.collision_checks = static_cast<const ContactSpaceValidityChecker&>(
@@ -186,9 +183,7 @@ OmplPlanningResult PlanWithOmpl(
   }
   if (result.solved) {
     result.path = PointsOf(problem->getSolutionPath());
-    for (std::size_t k = 1; k < result.path.size(); ++k) {
-      result.length += (result.path[k] - result.path[k - 1]).norm();
-    }
+    result.length = PathLength(result.path);
     result.collision_free = CheckPath(model->free_space(), result.path).free;
     if (result.collision_free) {
       result.clearance = PathClearance(model->free_space(), result.path);

@@ -7,6 +7,8 @@
 #include <IpReturnCodes.hpp>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <string>
 
 #include "core/mesh/mesh_error.h"
 
@@ -68,7 +70,63 @@ void ApplyOne(const std::string& name, const std::string& text,
   if (!is_set) Fail(name, "a value Ipopt accepts", text);
 }
 
+void FailSetting(const std::string& what, const std::string& expected,
+                 double found) {
+  throw InputError("Ipopt settings: " + what + ": expected " + expected +
+                   ", found " + std::to_string(found));
+}
+
 }  // namespace
+
+const char* ToString(SolveStatus status) {
+  switch (status) {
+    case SolveStatus::kConverged:
+      return "converged";
+    case SolveStatus::kAcceptable:
+      return "acceptable";
+    case SolveStatus::kStalledFeasible:
+      return "stalled_feasible";
+    case SolveStatus::kInfeasible:
+      return "infeasible";
+    case SolveStatus::kIterationLimit:
+      return "iteration_limit";
+    case SolveStatus::kTimeLimit:
+      return "time_limit";
+    case SolveStatus::kCancelled:
+      return "cancelled";
+    case SolveStatus::kNumerical:
+      return "numerical";
+    case SolveStatus::kInvalidProblem:
+      return "invalid_problem";
+    case SolveStatus::kInvalidStart:
+      return "invalid_start";
+    case SolveStatus::kInvalidGoal:
+      return "invalid_goal";
+  }
+  return "unknown";
+}
+
+bool IsClassOk(SolveStatus status) {
+  return status == SolveStatus::kConverged ||
+         status == SolveStatus::kAcceptable ||
+         status == SolveStatus::kStalledFeasible;
+}
+
+void IpoptSettings::Validate() const {
+  if (max_iterations < 0) FailSetting("max_iterations", "≥ 0", max_iterations);
+  if (!(tolerance > 0.0 && tolerance < 1.0)) {
+    FailSetting("tolerance", "between 0 and 1", tolerance);
+  }
+  if (stall_iterations < 1)
+    FailSetting("stall_iterations", "≥ 1", stall_iterations);
+  if (!(stall_improvement >= 0.0 && stall_improvement < 1.0)) {
+    FailSetting("stall_improvement", "in [0, 1)", stall_improvement);
+  }
+  if (!(feasibility >= 0.0)) FailSetting("feasibility", "≥ 0", feasibility);
+  if (!(time_limit > 0.0)) FailSetting("time_limit", "> 0 seconds", time_limit);
+}
+
+const char* IpoptVersion() { return IPOPT_VERSION; }
 
 void ApplyIpoptOptions(const IpoptSettings& settings,
                        Ipopt::IpoptApplication* application) {

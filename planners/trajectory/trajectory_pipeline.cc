@@ -2,27 +2,14 @@
 #include "planners/trajectory/trajectory_pipeline.h"
 
 #include <algorithm>
-#include <chrono>
 #include <random>
 #include <utility>
 
 #include "core/mesh/mesh_error.h"
+#include "core/stopwatch.h"
 
 namespace phongpd {
 namespace {
-
-class Timer {
- public:
-  double Seconds() const {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() -
-                                         begin_)
-        .count();
-  }
-
- private:
-  std::chrono::steady_clock::time_point begin_ =
-      std::chrono::steady_clock::now();
-};
 
 // A path in hand and what is known of it.
 struct Candidate {
@@ -62,15 +49,15 @@ class Run {
       result_.ipopt = std::move(best_.ipopt);
     }
     result_.certificate = CheckPath(*problem_.free_space, result_.path);
-    result_.seconds = timer_.Seconds();
+    result_.seconds = stopwatch_.Seconds();
     return std::move(result_);
   }
 
  private:
   double Left() const {
-    return std::max(1e-3, options_.time_limit - timer_.Seconds());
+    return std::max(1e-3, options_.time_limit - stopwatch_.Seconds());
   }
-  bool IsLate() const { return timer_.Seconds() >= options_.time_limit; }
+  bool IsLate() const { return stopwatch_.Seconds() >= options_.time_limit; }
 
   bool CheckEnds() {
     const FreeSpace& space = *problem_.free_space;
@@ -235,7 +222,7 @@ class Run {
   const TrajectoryProblem& problem_;
   const StartRepair* repair_;
   const PipelineOptions& options_;
-  Timer timer_;
+  Stopwatch stopwatch_;
   Candidate best_;
   PipelineResult result_;
 };
