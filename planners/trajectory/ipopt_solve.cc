@@ -12,6 +12,8 @@
 #include <cstdarg>
 #include <cstdio>
 #include <cstring>
+#include <exception>
+#include <limits>
 #include <mutex>
 
 #include "core/mesh/mesh_error.h"
@@ -99,8 +101,9 @@ class ProgramAdapter : public Ipopt::TNLP {
   bool has_stopped() const { return has_stopped_; }
   SolveStatus stop_status() const { return stop_status_; }
 
-  // The point to return, once Ipopt is done.
+  // The point to return, once Ipopt is done.  Throws what a callback threw.
   void Finish() {
+    if (failure_) std::rethrow_exception(failure_);
     if (!IsClassOk(run.status) || run.status == SolveStatus::kStalledFeasible) {
       if (has_best_) x_ = best_x_;
     }
@@ -180,6 +183,28 @@ class ProgramAdapter : public Ipopt::TNLP {
       Number mu, Number, Number, Number, Number, Index,
       const Ipopt::IpoptData* data,
       Ipopt::IpoptCalculatedQuantities* quantities) override {
+    // Ipopt would turn an exception into a status.
+    try {
+      return !Advance(mode, iteration, inf_du, mu, data, quantities);
+    } catch (...) {
+      failure_ = std::current_exception();
+      return false;
+    }
+  }
+
+  void finalize_solution(Ipopt::SolverReturn, Index n, const Number* x,
+                         const Number*, const Number*, Index, const Number*,
+                         const Number*, Number, const Ipopt::IpoptData*,
+                         Ipopt::IpoptCalculatedQuantities*) override {
+    const Eigen::Map<const VectorXd> final_x(x, n);
+    if (final_x.allFinite()) x_ = final_x;
+  }
+
+ private:
+  // Notes the iterate; true if Ipopt must stop.
+  bool Advance(Ipopt::AlgorithmMode mode, Index iteration, Number inf_du,
+               Number mu, const Ipopt::IpoptData* data,
+               Ipopt::IpoptCalculatedQuantities* quantities) {
     const TimeAdder adder(&run.seconds_callbacks);
     // Where a restoration phase hands over, its last iterate is reported once
     // more as the first regular one.
@@ -213,18 +238,9 @@ class ProgramAdapter : public Ipopt::TNLP {
     }
     run.log.push_back(record);
     if (settings_.on_iteration) settings_.on_iteration(record);
-    return !MustStop(record);
+    return MustStop(record);
   }
 
-  void finalize_solution(Ipopt::SolverReturn, Index n, const Number* x,
-                         const Number*, const Number*, Index, const Number*,
-                         const Number*, Number, const Ipopt::IpoptData*,
-                         Ipopt::IpoptCalculatedQuantities*) override {
-    const Eigen::Map<const VectorXd> final_x(x, n);
-    if (final_x.allFinite()) x_ = final_x;
-  }
-
- private:
   bool IsAt(const double* x) const {
     return is_at_valid_ && std::memcmp(x, at_.data(),
                                        static_cast<std::size_t>(at_.size()) *
@@ -340,6 +356,7 @@ class ProgramAdapter : public Ipopt::TNLP {
   Index last_iteration_ = -1;
   bool has_stopped_ = false;
   SolveStatus stop_status_ = SolveStatus::kCancelled;
+  std::exception_ptr failure_;  // of a callback
 #ifndef PHONGPD_IPOPT_HAS_CURRENT_ITERATE
   Ipopt::TNLPAdapter* adapter_ = nullptr;
 #endif
