@@ -8,11 +8,11 @@
 #include <set>
 #include <sstream>
 
-#include "core/mesh/mesh_error.h"
 #include "core/mesh/segment_tree.h"
 #include "core/mesh/self_intersection.h"
 #include "core/projection/contact_surface.h"
 #include "core/stopwatch.h"
+#include "planners/exact/check_option.h"
 #include "planners/exact/free_space.h"
 #include "planners/exact/path_centering.h"
 #include "planners/exact/path_shortening.h"
@@ -29,11 +29,7 @@ constexpr double kStraight = 1.05, kHopeless = 1.6;
 
 template <typename T>
 void Require(bool holds, const char* option, const char* range, T value) {
-  if (holds) return;
-  std::ostringstream message;
-  message << "contact-surface planner: expected " << option << " in " << range
-          << ", found " << value;
-  throw InputError(message.str());
+  CheckOption(holds, "contact-surface planner", option, range, value);
 }
 
 }  // namespace
@@ -55,19 +51,20 @@ const char* ToString(PlanStatus status) {
 }
 
 void ContactSurfaceOptions::Validate() const {
-  Require(clearance > 0.0 && clearance <= 0.5, "clearance", "(0, 0.5]",
+  Require(clearance > 0.0 && clearance <= 0.5, "clearance", "in (0, 0.5]",
           clearance);
-  Require(spacing >= 1e-3 && spacing <= 1.0, "spacing", "[0.001, 1]", spacing);
-  Require(gap_links >= 0, "gap_links", "[0, ∞)", gap_links);
-  Require(max_searches >= 1, "max_searches", "[1, ∞)", max_searches);
-  Require(routes >= 1, "routes", "[1, ∞)", routes);
-  Require(random_cuts >= 0, "random_cuts", "[0, ∞)", random_cuts);
+  Require(spacing >= 1e-3 && spacing <= 1.0, "spacing", "in [0.001, 1]",
+          spacing);
+  Require(gap_links >= 0, "gap_links", "≥ 0", gap_links);
+  Require(max_searches >= 1, "max_searches", "≥ 1", max_searches);
+  Require(routes >= 1, "routes", "≥ 1", routes);
+  Require(random_cuts >= 0, "random_cuts", "≥ 0", random_cuts);
 }
 
 void PlanRequest::Validate() const {
-  Require(clearance >= 0.0 && std::isfinite(clearance), "clearance", "[0, ∞)",
-          clearance);
-  Require(routes >= 0, "routes", "[0, ∞)", routes);
+  Require(clearance >= 0.0 && std::isfinite(clearance), "clearance",
+          "≥ 0 and finite", clearance);
+  Require(routes >= 0, "routes", "≥ 0", routes);
 }
 
 struct ContactSurfacePlanner::Impl {

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/mesh/mesh_error.h"
 #include "core/stopwatch.h"
+#include "planners/exact/check_option.h"
 #include "planners/trajectory/corridor_program.h"
 
 namespace phongpd {
@@ -15,10 +15,9 @@ using Eigen::VectorXd;
 
 constexpr double kSmallestTrust = 1e-3;  // of the first round's
 
-void Check(const char* name, const char* range, bool holds, double value) {
-  if (holds) return;
-  throw InputError(std::string("corridor: ") + name + ": expected " + range +
-                   ", found " + std::to_string(value));
+template <typename T>
+void Check(const char* name, const char* range, bool holds, T value) {
+  CheckOption(holds, "corridor", name, range, value);
 }
 
 }  // namespace

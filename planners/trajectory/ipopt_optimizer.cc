@@ -6,8 +6,8 @@
 #include <limits>
 #include <string>
 
-#include "core/mesh/mesh_error.h"
 #include "core/stopwatch.h"
+#include "planners/exact/check_option.h"
 #include "planners/trajectory/trajectory_nlp.h"
 
 namespace phongpd {
@@ -66,15 +66,10 @@ void Judge(const TrajectoryProblem& problem, TrajectorySummary* summary) {
 
 void TrajectoryOptions::Validate() const {
   ipopt.Validate();
-  if (rows < 0 || rows > kMaxMetricRows) {
-    throw InputError("trajectory: rows: expected 0 (by the start path) to " +
-                     std::to_string(kMaxMetricRows) + ", found " +
-                     std::to_string(rows));
-  }
-  if (max_rounds < 1) {
-    throw InputError("trajectory: max_rounds: expected ≥ 1, found " +
-                     std::to_string(max_rounds));
-  }
+  CheckOption(rows >= 0 && rows <= kMaxMetricRows, "trajectory", "rows",
+              "0 (by the start path) to 8", rows);
+  static_assert(kMaxMetricRows == 8, "the message says so");
+  CheckOption(max_rounds >= 1, "trajectory", "max_rounds", "≥ 1", max_rounds);
 }
 
 bool TrajectorySummary::IsSolved() const {

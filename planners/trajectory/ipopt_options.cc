@@ -11,6 +11,7 @@
 #include <string>
 
 #include "core/mesh/mesh_error.h"
+#include "planners/exact/check_option.h"
 
 namespace phongpd {
 
@@ -70,12 +71,6 @@ void ApplyOne(const std::string& name, const std::string& text,
   if (!is_set) Fail(name, "a value Ipopt accepts", text);
 }
 
-void FailSetting(const std::string& what, const std::string& expected,
-                 double found) {
-  throw InputError("Ipopt settings: " + what + ": expected " + expected +
-                   ", found " + std::to_string(found));
-}
-
 }  // namespace
 
 const char* ToString(SolveStatus status) {
@@ -113,17 +108,18 @@ bool IsClassOk(SolveStatus status) {
 }
 
 void IpoptSettings::Validate() const {
-  if (max_iterations < 0) FailSetting("max_iterations", "≥ 0", max_iterations);
-  if (!(tolerance > 0.0 && tolerance < 1.0)) {
-    FailSetting("tolerance", "between 0 and 1", tolerance);
-  }
-  if (stall_iterations < 1)
-    FailSetting("stall_iterations", "≥ 1", stall_iterations);
-  if (!(stall_improvement >= 0.0 && stall_improvement < 1.0)) {
-    FailSetting("stall_improvement", "in [0, 1)", stall_improvement);
-  }
-  if (!(feasibility >= 0.0)) FailSetting("feasibility", "≥ 0", feasibility);
-  if (!(time_limit > 0.0)) FailSetting("time_limit", "> 0 seconds", time_limit);
+  const auto check = [](bool holds, const char* name, const char* range,
+                        auto value) {
+    CheckOption(holds, "Ipopt settings", name, range, value);
+  };
+  check(max_iterations >= 0, "max_iterations", "≥ 0", max_iterations);
+  check(tolerance > 0.0 && tolerance < 1.0, "tolerance", "in (0, 1)",
+        tolerance);
+  check(stall_iterations >= 1, "stall_iterations", "≥ 1", stall_iterations);
+  check(stall_improvement >= 0.0 && stall_improvement < 1.0,
+        "stall_improvement", "in [0, 1)", stall_improvement);
+  check(feasibility >= 0.0, "feasibility", "≥ 0", feasibility);
+  check(time_limit > 0.0, "time_limit", "> 0 seconds", time_limit);
 }
 
 const char* IpoptVersion() { return IPOPT_VERSION; }

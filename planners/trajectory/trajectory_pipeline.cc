@@ -7,6 +7,7 @@
 
 #include "core/mesh/mesh_error.h"
 #include "core/stopwatch.h"
+#include "planners/exact/check_option.h"
 
 namespace phongpd {
 namespace {
@@ -230,18 +231,14 @@ class Run {
 }  // namespace
 
 void PipelineOptions::Validate() const {
-  if (routes < 1 || routes > 8) {
-    throw InputError("trajectory: routes: expected 1 to 8, found " +
-                     std::to_string(routes));
-  }
-  if (!(start_noise >= 0.0 && start_noise <= 10.0)) {
-    throw InputError("trajectory: start_noise: expected 0 to 10, found " +
-                     std::to_string(start_noise));
-  }
-  if (!(time_limit > 0.0)) {
-    throw InputError("trajectory: time_limit: expected > 0 seconds, found " +
-                     std::to_string(time_limit));
-  }
+  const auto check = [](bool holds, const char* name, const char* range,
+                        auto value) {
+    CheckOption(holds, "trajectory", name, range, value);
+  };
+  check(routes >= 1 && routes <= 8, "routes", "1 to 8", routes);
+  check(start_noise >= 0.0 && start_noise <= 10.0, "start_noise", "0 to 10",
+        start_noise);
+  check(time_limit > 0.0, "time_limit", "> 0 seconds", time_limit);
   optimizer.Validate();
   corridor.Validate();
 }
