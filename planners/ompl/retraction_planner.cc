@@ -80,7 +80,7 @@ void RetractionPlanner::setWatch(std::function<void(const Vector3d&)> watch) {
 
 void RetractionPlanner::checkValidity() {
   Planner::checkValidity();
-  CheckConfigurationSpace(*this);
+  CheckConfigurationSpace(getName(), *si_->getStateSpace());
   // Not one derived from it, which may ask for more.
   const ob::MotionValidator& validator = *si_->getMotionValidator();
   exact_ =

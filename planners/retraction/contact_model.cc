@@ -9,6 +9,7 @@
 #include "core/mesh/mesh_error.h"
 #include "core/mesh/segment_tree.h"
 #include "core/mesh/unit_normal.h"
+#include "core/projection/contact_surface.h"
 #include "core/projection/euclidean_metric.h"
 #include "core/projection/phong_metric.h"
 #include "planners/exact/free_cells.h"
@@ -59,6 +60,7 @@ BoundingBox Hull(const BoundingBox& a, const BoundingBox& b) {
 
 BoundingBox SamplingRegion(const TriangleMesh& contact_mesh,
                            const Vector3d& start, const Vector3d& goal) {
+  CheckContactMesh(contact_mesh);
   const BoundingBox all = ComputeBounds(contact_mesh);
   const auto neighbors = TriangleNeighbors(contact_mesh);
   const SegmentTree segments(contact_mesh);
@@ -167,6 +169,10 @@ ContactModel::Facet ContactModel::FindNearest(const Vector3d& q,
                                               double* distance) const {
   Facet facet;
   *distance = std::numeric_limits<double>::infinity();
+  if (!q.allFinite()) {
+    *distance = -*distance;
+    return facet;
+  }
   for (std::size_t i = 0; i < impl_->spaces.size(); ++i) {
     const PenetrationResult answer = impl_->spaces[i].euclidean.Query(q);
     if (answer.status == QueryStatus::kInvalid) {
