@@ -122,10 +122,16 @@ std::shared_ptr<BvhModel> ToBvh(const TriangleMesh& mesh) {
   return model;
 }
 
-void RequireTriangles(const TriangleMesh& mesh, const char* name) {
+void RequireSolid(const TriangleMesh& mesh, const char* name) {
+  const std::string what = std::string("collision oracle: the ") + name;
   if (mesh.triangles.empty()) {
-    throw InputError(std::string("collision oracle: the ") + name +
-                     " needs at least one triangle, found none");
+    throw InputError(what + " needs at least one triangle, found none");
+  }
+  // A NaN in an exact predicate would end the process.
+  for (const Eigen::Vector3d& v : mesh.vertices) {
+    if (!v.allFinite()) {
+      throw InputError(what + " needs finite vertices, found NaN or Inf");
+    }
   }
 }
 
@@ -161,8 +167,8 @@ struct CollisionOracle::Impl {
 
 CollisionOracle::CollisionOracle(const TriangleMesh& robot,
                                  const TriangleMesh& obstacle) {
-  RequireTriangles(robot, "robot");
-  RequireTriangles(obstacle, "obstacle");
+  RequireSolid(robot, "robot");
+  RequireSolid(obstacle, "obstacle");
   impl_ = std::make_unique<Impl>(robot, obstacle);
 }
 
@@ -172,7 +178,6 @@ CollisionOracle& CollisionOracle::operator=(CollisionOracle&&) noexcept =
     default;
 
 bool CollisionOracle::Collides(const Eigen::Vector3d& q) const {
-  // A NaN in an exact predicate would end the process.
   if (!q.allFinite()) {
     throw InputError("collision oracle: the configuration must be finite");
   }

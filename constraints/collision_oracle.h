@@ -18,7 +18,7 @@ namespace phongpd {
 class CollisionOracle {
  public:
   // Both meshes as MakeSolid returns them.  Throws InputError if one has no
-  // triangle.
+  // triangle or a vertex that is not finite.
   CollisionOracle(const TriangleMesh& robot, const TriangleMesh& obstacle);
   ~CollisionOracle();
   CollisionOracle(CollisionOracle&&) noexcept;

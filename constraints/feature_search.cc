@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
+#include "core/mesh/scaled_triangles.h"
 #include "core/mesh/surface_tree.h"
 
 namespace phongpd {
@@ -22,29 +24,17 @@ constexpr double kFar = 1e8;
 }  // namespace
 
 FeatureSearch::FeatureSearch(const TriangleMesh& mesh) {
-  const BoundingBox bounds = ComputeBounds(mesh);
-  center_ = bounds.Center();
-  const double diagonal = bounds.Diagonal();
-  if (diagonal > 0.0) scale_ = std::ldexp(1.0, -std::ilogb(diagonal));
-  std::vector<Corners> corners;
-  std::vector<BoundingBox> boxes;
-  for (const Triangle& t : mesh.triangles) {
-    Corners q;
-    for (std::size_t k = 0; k < 3; ++k) {
-      q[k] = (mesh.vertices[t[k]] - center_) * scale_;
-    }
-    corners.push_back(q);
-    boxes.push_back({q[0].cwiseMin(q[1]).cwiseMin(q[2]),
-                     q[0].cwiseMax(q[1]).cwiseMax(q[2])});
-  }
-  tree_ = BoxTree(boxes, 2);
+  ScaledTriangles scaled(mesh);
+  center_ = scaled.center;
+  scale_ = scaled.scale;
+  tree_ = std::move(scaled.tree);
+  corners_ = std::move(scaled.corners);
   for (const BoxTree::Node& node : tree_.nodes()) {
     radius_.push_back(0.5 * (node.max - node.min).norm());
   }
-  position_.resize(corners.size());
-  for (const int item : tree_.order()) {
-    position_[item] = static_cast<int>(corners_.size());
-    corners_.push_back(corners[item]);
+  position_.resize(corners_.size());
+  for (std::size_t i = 0; i < corners_.size(); ++i) {
+    position_[tree_.order()[i]] = static_cast<int>(i);
   }
 }
 

@@ -25,7 +25,7 @@ class FeatureSearch {
   };
 
   FeatureSearch() = default;
-  // At least one triangle, finite coordinates.
+  // At least one triangle, finite coordinates.  Queries are thread-safe.
   explicit FeatureSearch(const TriangleMesh& mesh);
 
   // The nearest feature with u·taken[i] < cos_limit for all i < count, exact

@@ -18,7 +18,8 @@ enum class BranchPolicy {
   kOuterRestart,  // fixed from Start(x) to the next Start(x)
 };
 
-// The state of an evaluation, one branch for each sample and contact space.
+// The state of an evaluation, one branch for each sample and contact space, as
+// NonPenetrationConstraint::Start makes it.
 struct BranchSet {
   std::vector<Branch> branches;
 };
@@ -58,7 +59,8 @@ struct NonPenetrationOptions {
 //
 // Rows are numbered sample by sample along the path (for each: space by space,
 // row by row); entries row by row, waypoint by waypoint, x y z.  The pattern is
-// fixed: it depends on N, S, K and the number of spaces only.
+// fixed: it depends on N, S, K and the number of spaces only.  Const and
+// thread-safe: what changes, branches and counts, is the caller's.
 class NonPenetrationConstraint {
  public:
   // At least one metric, waypoints ≥ 1, N+1 sample counts ≥ 0, finite start
@@ -76,7 +78,6 @@ class NonPenetrationConstraint {
   int nonzeros() const { return nonzeros_; }
   // The zero-based pattern, nonzeros() entries each.
   void Sparsity(int* row, int* col) const;
-  const NonPenetrationOptions& options() const { return options_; }
 
   // The configuration of a sample, user's unit.
   Eigen::Vector3d SamplePoint(int sample, const double* u) const;

@@ -2,10 +2,10 @@
 #include "problems/scene_space.h"
 
 #include <algorithm>
-#include <chrono>
 
 #include "core/mesh/mesh_error.h"
 #include "core/projection/euclidean_metric.h"
+#include "core/stopwatch.h"
 #include "planners/exact/exact_solution.h"
 #include "problems/text.h"
 
@@ -46,7 +46,7 @@ class Builder {
 
 SceneSpace BuildSceneSpace(const Scene& scene, SpaceLayout layout,
                            const ContactSpaceCache& cache) {
-  const auto begin = std::chrono::steady_clock::now();
+  const Stopwatch stopwatch;
   SceneSpace space;
   space.diagonal = ContactBounds(scene.workspace).Diagonal();
   const std::vector<int> reachable = ReachableObstacles(scene.workspace);
@@ -85,9 +85,7 @@ SceneSpace BuildSceneSpace(const Scene& scene, SpaceLayout layout,
                                                  layout == SpaceLayout::kSealed
                                                      ? FreeSpace::NoBounds()
                                                      : scene.workspace.bounds);
-  space.seconds =
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - begin)
-          .count();
+  space.seconds = stopwatch.Seconds();
   return space;
 }
 

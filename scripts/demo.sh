@@ -8,6 +8,7 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 # The user's own cache is neither used nor filled.
 export PHONGPD_CACHE_DIR=$PWD/build/cache
 
+scripts/build.sh phongpd paper_benchmark
 demo=build/demo
 build/paper_benchmark --output "$demo" --motions 20 --points 2000 --page
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/mesh/box_tree.h"
+#include "core/mesh/segment_triangle_meeting.h"
 #include "core/mesh/triangle_mesh.h"
 
 namespace phongpd {
@@ -55,10 +56,10 @@ class SegmentTree {
   bool ComesWithin(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
                    double distance) const noexcept;
 
-  // Calls visit(triangle, distance to its outline or of a or b to it) for
-  // every triangle for which that is at most `distance` ≥ 0, and maybe for
-  // others: all triangles whose relation to the segment could change if
-  // points moved by as much.
+  // Calls visit(triangle, x) for every triangle with x ≤ `distance` ≥ 0, and
+  // maybe for others; x is how far the segment is from the triangle's outline,
+  // or one of its ends from the triangle.  These are all triangles whose
+  // relation to the segment could change if points moved by as much.
   template <typename Visit>
   void ForEachDoubt(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
                     double distance, const Visit& visit) const {
@@ -107,8 +108,6 @@ class SegmentTree {
     Eigen::Vector3d a_, min_, max_, half_, direction_, slack_;
   };
 
-  static bool MeetsTriangle(const Corners& t, const Eigen::Vector3d& a,
-                            const Eigen::Vector3d& b, double* fraction);
   static bool IsBeyond(const Corners& t, const Eigen::Vector3d& a,
                        const Eigen::Vector3d& b, double distance);
   // Distance of the segment to the triangle, were it not to pass through.

@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
+
+#include "core/mesh/scaled_triangles.h"
 
 namespace phongpd {
 
@@ -88,25 +91,11 @@ TrianglePoint ClosestOnTriangle(const Vector3d& a, const Vector3d& b,
 }
 
 SurfaceTree::SurfaceTree(const TriangleMesh& mesh) {
-  const BoundingBox bounds = ComputeBounds(mesh);
-  center_ = bounds.Center();
-  const double diagonal = bounds.Diagonal();
-  if (diagonal > 0.0) scale_ = std::ldexp(1.0, -std::ilogb(diagonal));
-  std::vector<Corners> corners;
-  std::vector<BoundingBox> boxes;
-  for (const Triangle& t : mesh.triangles) {
-    Corners q;
-    for (std::size_t k = 0; k < 3; ++k) {
-      q[k] = (mesh.vertices[t[k]] - center_) * scale_;
-    }
-    corners.push_back(q);
-    boxes.push_back({q[0].cwiseMin(q[1]).cwiseMin(q[2]),
-                     q[0].cwiseMax(q[1]).cwiseMax(q[2])});
-  }
-  tree_ = BoxTree(boxes, 2);
-  for (int item : tree_.order()) {
-    corners_.push_back(corners[item]);
-  }
+  ScaledTriangles scaled(mesh);
+  center_ = scaled.center;
+  scale_ = scaled.scale;
+  tree_ = std::move(scaled.tree);
+  corners_ = std::move(scaled.corners);
 }
 
 SurfaceTree::Closest SurfaceTree::FindClosest(

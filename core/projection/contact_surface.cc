@@ -37,7 +37,9 @@ std::size_t CountBadEdges(const TriangleMesh& mesh) {
   return bad;
 }
 
-void Check(const TriangleMesh& mesh) {
+}  // namespace
+
+void CheckContactMesh(const TriangleMesh& mesh) {
   const std::string name = "contact mesh: ";
   if (mesh.triangles.empty()) throw InputError(name + "no triangle");
   const int size = static_cast<int>(mesh.vertices.size());
@@ -72,10 +74,8 @@ void Check(const TriangleMesh& mesh) {
   }
 }
 
-}  // namespace
-
 ContactSurface::ContactSurface(const TriangleMesh& mesh) : mesh_(mesh) {
-  Check(mesh_);
+  CheckContactMesh(mesh_);
   inside_ = InsideTest(mesh_);
   tree_ = SurfaceTree(mesh_);
   facet_normals_.reserve(mesh_.triangles.size());

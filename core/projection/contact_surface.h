@@ -11,15 +11,18 @@
 
 namespace phongpd {
 
+// Throws InputError unless the mesh is closed and edge-manifold, with
+// triangles, valid indices, finite coordinates and a diagonal in [1e-150,
+// 1e150].
+void CheckContactMesh(const TriangleMesh& mesh);
+
 // A contact space ready for Euclidean answers: the exact inside test in the
 // user's coordinates and the closest-point tree.  EuclideanMetric answers with
 // it everywhere; PhongMetric outside and where no projection exists, so that
 // the two agree there bit for bit.
 class ContactSurface {
  public:
-  // Closed, outward, edge-manifold.  Throws InputError: no triangle, bad
-  // index, non-finite coordinates, an extent too large to be squared, or an
-  // open or non-manifold edge, with the count.
+  // Closed, outward, edge-manifold.  Throws InputError as CheckContactMesh.
   explicit ContactSurface(const TriangleMesh& mesh);
 
   // Can queries at q be answered?  q and q − centre must be finite.

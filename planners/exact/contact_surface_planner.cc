@@ -2,16 +2,17 @@
 #include "planners/exact/contact_surface_planner.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
+#include <limits>
 #include <mutex>
 #include <set>
 #include <sstream>
 
-#include "core/mesh/mesh_error.h"
 #include "core/mesh/segment_tree.h"
 #include "core/mesh/self_intersection.h"
 #include "core/projection/contact_surface.h"
+#include "core/stopwatch.h"
+#include "planners/exact/check_option.h"
 #include "planners/exact/free_space.h"
 #include "planners/exact/path_centering.h"
 #include "planners/exact/path_shortening.h"
@@ -26,24 +27,9 @@ using Eigen::Vector3d;
 // straight line, nor shortened if they are this much longer than a short one.
 constexpr double kStraight = 1.05, kHopeless = 1.6;
 
-class Stopwatch {
- public:
-  double Seconds() const {
-    return std::chrono::duration<double>(Clock::now() - start_).count();
-  }
-
- private:
-  using Clock = std::chrono::steady_clock;
-  Clock::time_point start_ = Clock::now();
-};
-
 template <typename T>
 void Require(bool holds, const char* option, const char* range, T value) {
-  if (holds) return;
-  std::ostringstream message;
-  message << "contact-surface planner: expected " << option << " in " << range
-          << ", found " << value;
-  throw InputError(message.str());
+  CheckOption(holds, "contact-surface planner", option, range, value);
 }
 
 }  // namespace
@@ -65,13 +51,20 @@ const char* ToString(PlanStatus status) {
 }
 
 void ContactSurfaceOptions::Validate() const {
-  Require(clearance > 0.0 && clearance <= 0.5, "clearance", "(0, 0.5]",
+  Require(clearance > 0.0 && clearance <= 0.5, "clearance", "in (0, 0.5]",
           clearance);
-  Require(spacing >= 1e-3 && spacing <= 1.0, "spacing", "[0.001, 1]", spacing);
-  Require(gap_links >= 0, "gap_links", "[0, ∞)", gap_links);
-  Require(max_searches >= 1, "max_searches", "[1, ∞)", max_searches);
-  Require(routes >= 1, "routes", "[1, ∞)", routes);
-  Require(random_cuts >= 0, "random_cuts", "[0, ∞)", random_cuts);
+  Require(spacing >= 1e-3 && spacing <= 1.0, "spacing", "in [0.001, 1]",
+          spacing);
+  Require(gap_links >= 0, "gap_links", "≥ 0", gap_links);
+  Require(max_searches >= 1, "max_searches", "≥ 1", max_searches);
+  Require(routes >= 1, "routes", "≥ 1", routes);
+  Require(random_cuts >= 0, "random_cuts", "≥ 0", random_cuts);
+}
+
+void PlanRequest::Validate() const {
+  Require(clearance >= 0.0 && std::isfinite(clearance), "clearance",
+          "≥ 0 and finite", clearance);
+  Require(routes >= 0, "routes", "≥ 0", routes);
 }
 
 struct ContactSurfacePlanner::Impl {
@@ -110,7 +103,7 @@ struct ContactSurfacePlanner::Impl {
   void FindPath(const Vector3d& start, const Vector3d& goal,
                 const PlanRequest& request, PlanResult* result) const;
   void Keep(std::vector<Vector3d> raw_path, PlanResult* result) const;
-  double PathClearance(const std::vector<Vector3d>& path) const;
+  double ClearanceOf(const std::vector<Vector3d>& path) const;
   long CountSelfIntersections() const;
 
   ContactSurfaceOptions options;
@@ -202,7 +195,8 @@ std::vector<Attachment> ContactSurfacePlanner::Impl::Attach(
   return attachments;
 }
 
-double ContactSurfacePlanner::Impl::PathClearance(
+// Of a path that is free, at most what it has at its start.
+double ContactSurfacePlanner::Impl::ClearanceOf(
     const std::vector<Vector3d>& path) const {
   double least = surface.Answer(path[0], Location::kOutside).signed_distance;
   for (std::size_t k = 1; k < path.size(); ++k) {
@@ -215,17 +209,14 @@ double ContactSurfacePlanner::Impl::PathClearance(
 void ContactSurfacePlanner::Impl::Keep(std::vector<Vector3d> raw_path,
                                        PlanResult* result) const {
   CenterPath(surface, segments, result->wanted_clearance, &raw_path);
-  std::vector<Vector3d> path = raw_path;
-  if (options.shorten) {
-    ShorteningOptions shortening;
-    shortening.clearance = result->wanted_clearance;
-    shortening.random_cuts = options.random_cuts;
-    shortening.seed = options.seed;
-    path = ShortenPath(raw_path, segments, shortening);
-  }
+  ShorteningOptions shortening;
+  shortening.clearance = result->wanted_clearance;
+  shortening.random_cuts = options.random_cuts;
+  shortening.seed = options.seed;
+  std::vector<Vector3d> path = ShortenPath(raw_path, segments, shortening);
   result->routes.push_back(path);
   const double length = PathLength(path);
-  const double clearance = PathClearance(path);
+  const double clearance = ClearanceOf(path);
   if (result->status == PlanStatus::kSolved) {
     // Clearance is worth a tenth of the length.
     const double share = clearance < 0.7 * result->clearance ? 0.9 : 1.0;
@@ -298,9 +289,7 @@ void ContactSurfacePlanner::Impl::FindPath(const Vector3d& start,
       break;
     }
     Keep(std::move(path), result);
-    if (!all && (!options.shorten || result->length < kStraight * straight)) {
-      return;
-    }
+    if (!all && result->length < kStraight * straight) return;
     ++found;
     avoided.resize(neighbors.size(), 0);
     for (const SurfaceSite& site : sites) {
@@ -351,6 +340,7 @@ double ContactSurfacePlanner::build_seconds() const {
 PlanResult ContactSurfacePlanner::Plan(const Vector3d& start,
                                        const Vector3d& goal,
                                        const PlanRequest& request) const {
+  request.Validate();
   const Stopwatch stopwatch;
   const Impl& impl = *impl_;
   PlanResult result;

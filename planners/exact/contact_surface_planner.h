@@ -38,13 +38,13 @@ struct ContactSurfaceOptions {
   // Routes of different kinds that are compared after shortening, at least 1;
   // fewer where the first is about as short as the straight line.
   int routes = 3;
-  bool shorten = true;
-  int random_cuts = 200;
-  std::uint64_t seed = 1;
+  int random_cuts = 200;   // of the shortening, ≥ 0
+  std::uint64_t seed = 1;  // of those
   // Pairs of triangles of the mesh that meet, if known (ContactSpaceReport);
   // −1: counted when infeasibility is first proved.
   long self_intersections = -1;
-  // Names what is in the way at q, for messages.
+  // Names what is in the way at q, for messages.  Plan calls it: whoever plans
+  // in several threads needs one that is thread-safe.
   std::function<std::string(const Eigen::Vector3d& q)> name_obstacle;
 
   // Throws InputError naming the option, the range and the value.
@@ -53,10 +53,13 @@ struct ContactSurfaceOptions {
 
 // What one query may ask differently.
 struct PlanRequest {
-  double clearance = 0.0;  // user's unit, ≥ 0; 0: by the options
+  double clearance = 0.0;  // user's unit, ≥ 0, finite; 0: by the options
   // So many, however long, ≥ 0; 0: by the options, and only as long as they
   // may become the shortest.
   int routes = 0;
+
+  // Throws InputError naming the option, the range and the value.
+  void Validate() const;
 };
 
 // What a proof of infeasibility rests on, and what tells the cell otherwise.
@@ -112,7 +115,8 @@ class ContactSurfacePlanner {
   ContactSurfacePlanner(ContactSurfacePlanner&&) noexcept;
   ContactSurfacePlanner& operator=(ContactSurfacePlanner&&) noexcept;
 
-  // Thread-safe.  Same arguments, same result but for `seconds`.
+  // Thread-safe.  Same arguments, same result but for `seconds`.  A start or
+  // goal that is not finite is an invalid one; throws InputError for requests.
   PlanResult Plan(const Eigen::Vector3d& start, const Eigen::Vector3d& goal,
                   const PlanRequest& request = {}) const;
 

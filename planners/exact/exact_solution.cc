@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "planners/exact/exact_solution.h"
 
-#include <chrono>
-
 #include "constraints/collision_oracle.h"
+#include "core/stopwatch.h"
 
 namespace phongpd {
 
@@ -31,15 +30,13 @@ std::string NameObstacles(const Workspace& workspace, const Vector3d& q) {
 ExactSolution SolveExactly(const Workspace& workspace, const Vector3d& start,
                            const Vector3d& goal, ContactSurfaceOptions options,
                            const ContactSpaceOptions& contact_options) {
-  using Clock = std::chrono::steady_clock;
   workspace.Validate();
   options.Validate();
   ExactSolution solution;
-  const Clock::time_point begin = Clock::now();
+  const Stopwatch stopwatch;
   const ContactSpace space = BuildContactSpace(
       workspace.robot, MergedObstacle(workspace), contact_options);
-  solution.contact_space_seconds =
-      std::chrono::duration<double>(Clock::now() - begin).count();
+  solution.contact_space_seconds = stopwatch.Seconds();
   solution.contact_space = space.report;
   if (options.self_intersections < 0) {
     options.self_intersections =

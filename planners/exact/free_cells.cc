@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "core/mesh/exact_sign.h"
 #include "core/mesh/segment_tree.h"
+#include "core/mesh/unit_normal.h"
 
 namespace phongpd {
 namespace {
@@ -86,11 +88,7 @@ bool FreeCells::Cast(const Vector3d& a, const Vector3d& b,
   crossings->clear();
   const Vector3d along = b - a;
   segments_.ForEachHit(a, b, [&](int triangle, double fraction) {
-    const Triangle& t = mesh_.triangles[triangle];
-    const Vector3d& p = mesh_.vertices[t[0]];
-    const Vector3d normal = (mesh_.vertices[t[1]] - p)
-                                .cross(mesh_.vertices[t[2]] - p)
-                                .stableNormalized();
+    const Vector3d normal = UnitNormal(mesh_, mesh_.triangles[triangle]);
     crossings->push_back(
         {triangle, fraction, 2.0 * rounding_ / std::abs(normal.dot(along))});
   });

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/mesh/mesh_error.h"
 #include "core/mesh/segment_tree.h"
 #include "core/mesh/segment_triangle_distance.h"
 #include "core/projection/contact_surface.h"
@@ -61,6 +62,7 @@ struct FreeSpace::Impl {
 FreeSpace::FreeSpace(const std::vector<TriangleMesh>& contact_meshes,
                      const BoundingBox& bounds)
     : impl_(std::make_unique<Impl>()) {
+  CheckBounds(bounds);
   impl_->spaces.reserve(contact_meshes.size());
   for (const TriangleMesh& mesh : contact_meshes) {
     impl_->spaces.emplace_back(mesh);
@@ -74,6 +76,13 @@ FreeSpace& FreeSpace::operator=(FreeSpace&&) noexcept = default;
 
 BoundingBox FreeSpace::NoBounds() {
   return {Vector3d::Constant(1.0), Vector3d::Constant(-1.0)};
+}
+
+void FreeSpace::CheckBounds(const BoundingBox& bounds) {
+  if (bounds.min.allFinite() && bounds.max.allFinite()) return;
+  throw InputError(
+      "bounds: expected finite numbers, found NaN or Inf; leave the bounds out "
+      "where there are none");
 }
 
 bool FreeSpace::IsFree(const Vector3d& q) const {
@@ -137,7 +146,7 @@ std::vector<FreeSpace::NearTriangle> FreeSpace::FindNear(const Vector3d& a,
                                                          const Vector3d& b,
                                                          double radius) const {
   std::vector<NearTriangle> near;
-  if (!a.allFinite() || !b.allFinite()) return near;
+  if (!a.allFinite() || !b.allFinite() || !(radius >= 0.0)) return near;
   for (const Space& space : impl_->spaces) {
     if (!space.surface.Accepts(a) || !space.surface.Accepts(b)) continue;
     const TriangleMesh& mesh = space.surface.mesh();

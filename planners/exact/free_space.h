@@ -26,14 +26,15 @@ struct MotionCheck {
 // outside every contact space and strictly inside the bounds.
 //
 // A translating robot's motion from a to b is free iff the segment starts free
-// and meets no contact surface (engine.md §5; no sampling, no resolution), so
+// and meets no contact surface (no sampling, no resolution), so
 // every answer below but the distances is exact for the meshes given.  It is
-// the judge of every path in this library.
+// the judge of every path in this library.  Thread-safe.
 class FreeSpace {
  public:
   // One contact space per obstacle, or one for all of them (MergedObstacle).
   // Closed, outward, edge-manifold, as BuildContactSpace returns them.  Empty
-  // bounds: none.  Throws InputError like ContactSurface.
+  // bounds: none.  Throws InputError like ContactSurface, and for bounds that
+  // hold NaN or are infinite.
   explicit FreeSpace(const std::vector<TriangleMesh>& contact_meshes,
                      const BoundingBox& bounds = NoBounds());
   ~FreeSpace();
@@ -41,6 +42,8 @@ class FreeSpace {
   FreeSpace& operator=(FreeSpace&&) noexcept;
 
   static BoundingBox NoBounds();
+  // Throws InputError "bounds: …" for NaN or infinity.
+  static void CheckBounds(const BoundingBox& bounds);
 
   // Exact.  False for non-finite q.
   bool IsFree(const Eigen::Vector3d& q) const;
@@ -57,7 +60,8 @@ class FreeSpace {
   double Clearance(const Eigen::Vector3d& a, const Eigen::Vector3d& b) const;
 
   // The contact triangles within `radius` of a segment, the nearest first
-  // (bounds have none).  Rounded; nothing for non-finite points.
+  // (bounds have none).  Rounded; nothing for non-finite points or a radius
+  // that is not ≥ 0.
   struct NearTriangle {
     double distance = 0.0;
     // Unit, from the triangle's closest point to the segment's; zero where

@@ -4,6 +4,8 @@
 #include <queue>
 #include <utility>
 
+#include "core/mesh/mesh_error.h"
+
 namespace phongpd {
 
 using Eigen::Vector3d;
@@ -13,6 +15,11 @@ std::vector<Vector3d> ResampleKeepingCorners(
   std::vector<Vector3d> path;
   if (corners.size() < 2 || waypoints + 2 < static_cast<int>(corners.size())) {
     return path;
+  }
+  for (const Vector3d& corner : corners) {
+    if (!corner.allFinite()) {
+      throw InputError("resampling: expected finite points, found NaN or Inf");
+    }
   }
   // Give pieces, one by one, to the segment whose pieces are longest; of equal
   // ones to the last.

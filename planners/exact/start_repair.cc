@@ -2,12 +2,13 @@
 #include "planners/exact/start_repair.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <utility>
 
 #include "core/mesh/mesh_error.h"
 #include "core/mesh/segment_tree.h"
+#include "core/stopwatch.h"
+#include "planners/exact/check_option.h"
 #include "planners/exact/path_resampling.h"
 #include "planners/exact/path_shortening.h"
 
@@ -20,10 +21,9 @@ using Path = std::vector<Vector3d>;
 // Of its length when resampled; routes closer than that are the same.
 constexpr double kSameRoute = 1e-3;
 
-void Check(const char* name, const char* range, bool holds, double value) {
-  if (holds) return;
-  throw InputError(std::string("start repair: ") + name + ": expected " +
-                   range + ", found " + std::to_string(value));
+template <typename T>
+void Check(const char* name, const char* range, bool holds, T value) {
+  CheckOption(holds, "start repair", name, range, value);
 }
 
 Vector3d PointAt(const Path& path, double at) {
@@ -271,21 +271,17 @@ StartRepairResult StartRepair::Repair(const Vector3d& start,
 StartRepairResult StartRepair::Repair(const Path& path,
                                       const StartRepairOptions& options) const {
   options.Validate();
-  Check("path", "2 points or more", path.size() >= 2,
-        static_cast<double>(path.size()));
+  Check("path", "2 points or more", path.size() >= 2, path.size());
   for (const Vector3d& q : path) {
     if (!q.allFinite()) {
       throw InputError(
-          "start repair: path: expected finite points, found NaN "
-          "or Inf");
+          "start repair: path: expected finite points, found NaN or Inf");
     }
   }
-  const auto begin = std::chrono::steady_clock::now();
+  const Stopwatch stopwatch;
   StartRepairResult result;
   impl_->Repair(path, options, &result);
-  result.seconds =
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - begin)
-          .count();
+  result.seconds = stopwatch.Seconds();
   return result;
 }
 

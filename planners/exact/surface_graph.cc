@@ -8,6 +8,8 @@
 #include <queue>
 #include <unordered_map>
 
+#include "core/mesh/unit_normal.h"
+
 namespace phongpd {
 namespace {
 
@@ -48,10 +50,7 @@ SurfaceGraph::SurfaceGraph(const TriangleMesh& mesh,
     : mesh_(mesh) {
   normals_.reserve(mesh.triangles.size());
   for (const Triangle& t : mesh.triangles) {
-    const Vector3d& p = mesh.vertices[t[0]];
-    normals_.push_back((mesh.vertices[t[1]] - p)
-                           .cross(mesh.vertices[t[2]] - p)
-                           .stableNormalized());
+    normals_.push_back(UnitNormal(mesh, t));
   }
   AddEdgePoints(neighbors, spacing);
   const std::size_t edge_points = sites_.size();

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "core/mesh/mesh_error.h"
+#include "planners/exact/free_space.h"
 
 namespace phongpd {
 namespace {
@@ -50,6 +51,7 @@ void Workspace::Validate() const {
       throw InputError("obstacle '" + obstacle.id + "': the id is used twice");
     }
   }
+  FreeSpace::CheckBounds(bounds);
   const bool none = (bounds.min.array() > bounds.max.array()).all();
   if (!none && !(bounds.min.array() < bounds.max.array()).all()) {
     throw InputError("bounds: expected min < max in x, y and z");

@@ -23,8 +23,8 @@ struct Workspace {
                         Eigen::Vector3d::Constant(-1.0)};  // of q; empty: none
 
   // Throws InputError: an empty robot, an obstacle without triangles, an id
-  // used twice, bounds that hold no open set (min < max is asked in each
-  // coordinate unless all are absent).
+  // used twice, bounds that are not finite or hold no open set (min < max is
+  // asked in each coordinate unless all are absent).
   void Validate() const;
 };
 

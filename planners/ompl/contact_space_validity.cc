@@ -24,6 +24,7 @@ std::shared_ptr<ob::RealVectorStateSpace> MakeConfigurationSpace(
 
 ob::SpaceInformationPtr MakeSpaceInformation(
     const std::shared_ptr<const ContactModel>& model) {
+  if (!model) throw InputError("space information: expected a contact model");
   auto si =
       std::make_shared<ob::SpaceInformation>(MakeConfigurationSpace(*model));
   si->setStateValidityChecker(
@@ -34,17 +35,16 @@ ob::SpaceInformationPtr MakeSpaceInformation(
   return si;
 }
 
-void CheckConfigurationSpace(const ob::Planner& planner) {
-  const ob::StateSpacePtr& space =
-      planner.getSpaceInformation()->getStateSpace();
-  if (dynamic_cast<const ob::RealVectorStateSpace*>(space.get()) != nullptr &&
-      space->getDimension() == 3) {
+void CheckConfigurationSpace(const std::string& name,
+                             const ob::StateSpace& space) {
+  if (dynamic_cast<const ob::RealVectorStateSpace*>(&space) != nullptr &&
+      space.getDimension() == 3) {
     return;
   }
-  throw InputError(planner.getName() +
+  throw InputError(name +
                    ": expected a RealVectorStateSpace of dimension 3, found '" +
-                   space->getName() + "' of dimension " +
-                   std::to_string(space->getDimension()));
+                   space.getName() + "' of dimension " +
+                   std::to_string(space.getDimension()));
 }
 
 Vector3d ToPoint(const ob::State* state) {

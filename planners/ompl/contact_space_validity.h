@@ -2,7 +2,6 @@
 #pragma once
 
 #include <ompl/base/MotionValidator.h>
-#include <ompl/base/Planner.h>
 #include <ompl/base/SpaceInformation.h>
 #include <ompl/base/StateValidityChecker.h>
 #include <ompl/base/spaces/RealVectorStateSpace.h>
@@ -11,6 +10,7 @@
 #include <atomic>
 #include <cstdint>
 #include <memory>
+#include <string>
 #include <utility>
 
 #include "planners/retraction/contact_model.h"
@@ -23,13 +23,15 @@ namespace phongpd {
 std::shared_ptr<ompl::base::RealVectorStateSpace> MakeConfigurationSpace(
     const ContactModel& model);
 
-// That space with both classes below, set up.
+// That space with both classes below, set up.  Throws InputError without a
+// model.
 ompl::base::SpaceInformationPtr MakeSpaceInformation(
     const std::shared_ptr<const ContactModel>& model);
 
-// Throws InputError unless the planner's state space is a RealVectorStateSpace
-// of dimension 3.
-void CheckConfigurationSpace(const ompl::base::Planner& planner);
+// Throws InputError, which begins with `name`, unless the space is a
+// RealVectorStateSpace of dimension 3.
+void CheckConfigurationSpace(const std::string& name,
+                             const ompl::base::StateSpace& space);
 
 Eigen::Vector3d ToPoint(const ompl::base::State* state);
 void FromPoint(const Eigen::Vector3d& q, ompl::base::State* state);

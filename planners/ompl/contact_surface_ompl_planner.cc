@@ -44,7 +44,7 @@ void ContactSurfaceOmplPlanner::clear() {
 
 void ContactSurfaceOmplPlanner::checkValidity() {
   Planner::checkValidity();
-  CheckConfigurationSpace(*this);
+  CheckConfigurationSpace(getName(), *si_->getStateSpace());
 }
 
 ob::PlannerStatus ContactSurfaceOmplPlanner::solve(

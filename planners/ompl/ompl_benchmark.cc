@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <ompl/base/ScopedState.h>
 #include <ompl/geometric/SimpleSetup.h>
 #include <ompl/tools/benchmark/Benchmark.h>
 
@@ -36,10 +35,7 @@ std::string OmplBenchmarkLog(const std::shared_ptr<const ContactModel>& model,
   }
   const ompl::base::SpaceInformationPtr si = MakeSpaceInformation(model);
   ompl::geometric::SimpleSetup setup(si);
-  ompl::base::ScopedState<> from(si), to(si);
-  FromPoint(start, from.get());
-  FromPoint(goal, to.get());
-  setup.setStartAndGoalStates(from, to);
+  SetStartAndGoal(start, goal, setup.getProblemDefinition().get());
   NamelessBenchmark benchmark(setup, experiment);
   benchmark.addPlanner(MakeOmplPlanner(planner, si, model, options));
   NamelessBenchmark::Request request;

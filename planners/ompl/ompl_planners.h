@@ -2,13 +2,20 @@
 #pragma once
 
 #include <ompl/base/Planner.h>
+#include <ompl/base/ProblemDefinition.h>
 
+#include <Eigen/Core>
 #include <memory>
 #include <string>
 
 #include "planners/ompl/ompl_planning.h"
 
 namespace phongpd {
+
+// Gives the problem one start and one goal.  Throws InputError for a point that
+// is not finite.
+void SetStartAndGoal(const Eigen::Vector3d& start, const Eigen::Vector3d& goal,
+                     ompl::base::ProblemDefinition* problem);
 
 // A planner by one of OmplPlannerNames, for a space information as
 // MakeSpaceInformation makes it (whose valid-state sampler it sets where the

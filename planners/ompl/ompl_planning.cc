@@ -2,7 +2,6 @@
 #include "planners/ompl/ompl_planning.h"
 
 #include <ompl/base/PlannerData.h>
-#include <ompl/base/ProblemDefinition.h>
 #include <ompl/base/ScopedState.h>
 #include <ompl/base/samplers/BridgeTestValidStateSampler.h>
 #include <ompl/base/samplers/GaussianValidStateSampler.h>
@@ -15,10 +14,9 @@
 #include <ompl/util/RandomNumbers.h>
 
 #include <algorithm>
-#include <chrono>
-#include <limits>
 
 #include "core/mesh/mesh_error.h"
+#include "core/stopwatch.h"
 #include "planners/ompl/contact_space_validity.h"
 #include "planners/ompl/ompl_planners.h"
 #include "planners/ompl/retraction_forest.h"
@@ -99,12 +97,26 @@ const std::vector<std::string>& OmplPlannerNames() {
 }
 
 void OmplPlanningOptions::Validate() const {
-  if (!(time_limit > 0.0)) {
-    throw InputError("time limit: expected > 0 seconds, found " +
+  // OMPL counts ticks in 64 bits.
+  if (!(time_limit > 0.0 && time_limit <= 1e9)) {
+    throw InputError("time limit: expected > 0 and ≤ 1e9 seconds, found " +
                      std::to_string(time_limit));
   }
   retraction.Validate();
   LocalPlannerFromString(local_planner);
+}
+
+void SetStartAndGoal(const Vector3d& start, const Vector3d& goal,
+                     ob::ProblemDefinition* problem) {
+  if (!start.allFinite() || !goal.allFinite()) {
+    throw InputError(
+        "start and goal: expected finite coordinates, found NaN or Inf");
+  }
+  const ob::SpaceInformationPtr& si = problem->getSpaceInformation();
+  ob::ScopedState<> from(si), to(si);
+  FromPoint(start, from.get());
+  FromPoint(goal, to.get());
+  problem->setStartAndGoalStates(from, to);
 }
 
 ob::PlannerPtr MakeOmplPlanner(const std::string& name,
@@ -113,7 +125,6 @@ ob::PlannerPtr MakeOmplPlanner(const std::string& name,
                                const OmplPlanningOptions& options) {
   CheckName(name);
   options.Validate();
-  if (!model) throw InputError("planner: expected a contact model");
   if (name == "retraction-rrt") {
     return Configured(std::make_shared<RetractionRRT>(si, model), options);
   }
@@ -141,18 +152,11 @@ OmplPlanningResult PlanWithOmpl(
     const std::shared_ptr<const ContactModel>& model, const Vector3d& start,
     const Vector3d& goal, const std::string& name,
     const OmplPlanningOptions& options) {
-  if (!start.allFinite() || !goal.allFinite()) {
-    throw InputError("start and goal: expected finite coordinates");
-  }
-  if (!model) throw InputError("planner: expected a contact model");
   SeedOmpl(options.seed);
   const ob::SpaceInformationPtr si = MakeSpaceInformation(model);
   const ob::PlannerPtr planner = MakeOmplPlanner(name, si, model, options);
   auto problem = std::make_shared<ob::ProblemDefinition>(si);
-  ob::ScopedState<> from(si), to(si);
-  FromPoint(start, from.get());
-  FromPoint(goal, to.get());
-  problem->setStartAndGoalStates(from, to);
+  SetStartAndGoal(start, goal, problem.get());
   planner->setProblemDefinition(problem);
   planner->setup();
 
@@ -174,12 +178,10 @@ OmplPlanningResult PlanWithOmpl(
       }
     });
   }
-  const auto begin = std::chrono::steady_clock::now();
+  const Stopwatch stopwatch;
   const ob::PlannerStatus status =
       planner->solve(ob::timedPlannerTerminationCondition(options.time_limit));
-  result.seconds =
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - begin)
-          .count();
+  result.seconds = stopwatch.Seconds();
   result.status = status.asString();
   result.solved = status == ob::PlannerStatus::EXACT_SOLUTION;
   result.collision_checks = static_cast<const ContactSpaceValidityChecker&>(
@@ -195,9 +197,7 @@ OmplPlanningResult PlanWithOmpl(
   }
   if (result.solved) {
     result.path = PointsOf(problem->getSolutionPath());
-    for (std::size_t k = 1; k < result.path.size(); ++k) {
-      result.length += (result.path[k] - result.path[k - 1]).norm();
-    }
+    result.length = PathLength(result.path);
     result.collision_free = CheckPath(model->free_space(), result.path).free;
     if (result.collision_free) {
       result.clearance = PathClearance(model->free_space(), result.path);

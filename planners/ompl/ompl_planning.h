@@ -20,7 +20,7 @@ namespace phongpd {
 const std::vector<std::string>& OmplPlannerNames();
 
 struct OmplPlanningOptions {
-  double time_limit = 1.0;  // seconds, > 0
+  double time_limit = 1.0;  // seconds, in (0, 1e9]
   // Of every random engine of the run.  Runs with the same seed repeat, up to
   // when time runs out, if no two runs overlap in one process: OMPL's own
   // generator is global and is reseeded here.  PRM watches its roadmap from a

@@ -33,6 +33,14 @@ class PointNeighbors {
     return found_;
   }
 
+  // The nearest point if it is that close, −1 otherwise.
+  int FindTwin(const Eigen::Vector3d& q, double distance) {
+    const std::vector<int>& nearest = Nearest(q, 1);
+    const bool has_twin =
+        !nearest.empty() && (At(nearest[0]) - q).norm() <= distance;
+    return has_twin ? nearest[0] : -1;
+  }
+
  private:
   static constexpr int kQuery = -1;
 

@@ -35,11 +35,7 @@ void RetractionForest::AddRoot(int root, bool) { Connect(root, nullptr); }
 
 void RetractionForest::Grow(const Vector3d& target,
                             const ob::PlannerTerminationCondition& ptc) {
-  const std::vector<int>& twin = nodes_->Nearest(target, 1);
-  if (!twin.empty()) {
-    const Vector3d& there = graph_.points()[static_cast<std::size_t>(twin[0])];
-    if ((there - target).norm() <= SamePoint()) return;
-  }
+  if (nodes_->FindTwin(target, SamePoint()) >= 0) return;
   Connect(AddPoint(target), &ptc);
 }
 
@@ -64,12 +60,11 @@ bool RetractionForest::Join(int from, int to) {
     return true;
   }
   if (path_.size() < 2) return false;
-  const Vector3d end = path_.back();
-  const int twin = nodes_->Nearest(end, 1)[0];
-  const Vector3d& there = graph_.points()[static_cast<std::size_t>(twin)];
-  if ((there - end).norm() > SamePoint()) {
+  const int twin = nodes_->FindTwin(path_.back(), SamePoint());
+  if (twin < 0) {
     nodes_->Add(AddSlide(from));
-  } else if (!graph_.AreConnected(from, twin) && Slide(from, there)) {
+  } else if (!graph_.AreConnected(from, twin) &&
+             Slide(from, graph_.points()[static_cast<std::size_t>(twin)])) {
     AddSlide(from, twin);
   }
   return graph_.AreConnected(from, to);

@@ -7,38 +7,12 @@
 #include <typeinfo>
 #include <utility>
 
-#include "core/mesh/mesh_error.h"
 #include "planners/ompl/contact_space_validity.h"
-#include "planners/ompl/retraction_settings.h"
 
 namespace phongpd {
 
 namespace ob = ompl::base;
 using Eigen::Vector3d;
-
-std::string ToString(LocalPlanner planner) {
-  switch (planner) {
-    case LocalPlanner::kStepRetract:
-      return "step-retract";
-    case LocalPlanner::kStraight:
-      return "straight";
-    case LocalPlanner::kCollideAndSlide:
-      break;
-  }
-  return "collide-and-slide";
-}
-
-LocalPlanner LocalPlannerFromString(const std::string& name) {
-  for (const LocalPlanner planner :
-       {LocalPlanner::kCollideAndSlide, LocalPlanner::kStepRetract,
-        LocalPlanner::kStraight}) {
-    if (name == ToString(planner)) return planner;
-  }
-  throw InputError(
-      "local planner: expected one of "
-      "collide-and-slide,step-retract,straight, found '" +
-      name + "'");
-}
 
 RetractionPlanner::RetractionPlanner(const ob::SpaceInformationPtr& si,
                                      std::shared_ptr<const ContactModel> model,
@@ -79,8 +53,7 @@ void RetractionPlanner::DeclareParams() {
         local_planner_ = LocalPlannerFromString(name);
       },
       [this] { return ToString(local_planner_); });
-  params_["local_planner"].setRangeSuggestion(
-      "collide-and-slide,step-retract,straight");
+  params_["local_planner"].setRangeSuggestion(LocalPlannerRange());
   params_.declareParam<unsigned int>(
       "seed", [this](unsigned int seed) { setSeed(seed); },
       [this] { return seed_; });
@@ -107,7 +80,7 @@ void RetractionPlanner::setWatch(std::function<void(const Vector3d&)> watch) {
 
 void RetractionPlanner::checkValidity() {
   Planner::checkValidity();
-  CheckConfigurationSpace(*this);
+  CheckConfigurationSpace(getName(), *si_->getStateSpace());
   // Not one derived from it, which may ask for more.
   const ob::MotionValidator& validator = *si_->getMotionValidator();
   exact_ =

@@ -11,23 +11,12 @@
 #include <string>
 #include <vector>
 
+#include "planners/ompl/retraction_settings.h"
 #include "planners/retraction/collide_and_slide.h"
 #include "planners/retraction/motion_graph.h"
 #include "planners/retraction/retraction.h"
 
 namespace phongpd {
-
-// How two configurations are joined.
-enum class LocalPlanner {
-  kCollideAndSlide,
-  kStepRetract,
-  kStraight,  // only where the straight motion is free
-};
-
-// "collide-and-slide", "step-retract", "straight".
-std::string ToString(LocalPlanner planner);
-// Throws InputError for any other name.
-LocalPlanner LocalPlannerFromString(const std::string& name);
 
 // What RetractionRRT and RetractionForest share: they draw uniform samples,
 // retract those that collide, and grow a MotionGraph towards the points by a

@@ -32,10 +32,8 @@ int RetractionRRT::Extend(PointNeighbors* tree, const Vector3d& target) {
   const int from = tree->Nearest(target, 1)[0];
   Slide(from, target);
   if (path_.size() < 2) return -1;
-  const Vector3d end = path_.back();
-  const int twin = tree->Nearest(end, 1)[0];
-  const Vector3d& there = graph_.points()[static_cast<std::size_t>(twin)];
-  if ((there - end).norm() <= SamePoint()) return twin;
+  const int twin = tree->FindTwin(path_.back(), SamePoint());
+  if (twin >= 0) return twin;
   const int node = AddSlide(from);
   tree->Add(node);
   return node;
@@ -55,10 +53,9 @@ void RetractionRRT::Grow(const Vector3d& target,
     return;
   }
   if (path_.size() < 2) return;
-  const Vector3d end = path_.back();
-  const int twin = other->Nearest(end, 1)[0];
-  const Vector3d& there = graph_.points()[static_cast<std::size_t>(twin)];
-  if ((there - end).norm() > SamePoint()) other->Add(AddSlide(from));
+  if (other->FindTwin(path_.back(), SamePoint()) < 0) {
+    other->Add(AddSlide(from));
+  }
 }
 
 void RetractionRRT::ClearNeighbors() {

@@ -19,6 +19,11 @@ constexpr std::pair<BranchChoice, const char*> kChoices[] = {
     {BranchChoice::kWarm, "warm"},
     {BranchChoice::kNearest, "nearest"}};
 
+constexpr std::pair<LocalPlanner, const char*> kLocalPlanners[] = {
+    {LocalPlanner::kCollideAndSlide, "collide-and-slide"},
+    {LocalPlanner::kStepRetract, "step-retract"},
+    {LocalPlanner::kStraight, "straight"}};
+
 template <typename Value, std::size_t kSize>
 std::string NameOf(Value value,
                    const std::pair<Value, const char*> (&names)[kSize]) {
@@ -53,12 +58,19 @@ std::string ToString(RetractionMetric metric) {
   return NameOf(metric, kMetrics);
 }
 std::string ToString(BranchChoice choice) { return NameOf(choice, kChoices); }
+std::string ToString(LocalPlanner planner) {
+  return NameOf(planner, kLocalPlanners);
+}
 RetractionMetric RetractionMetricFromString(const std::string& name) {
   return ValueOf("retraction metric", name, kMetrics);
 }
 BranchChoice BranchChoiceFromString(const std::string& name) {
   return ValueOf("branch choice", name, kChoices);
 }
+LocalPlanner LocalPlannerFromString(const std::string& name) {
+  return ValueOf("local planner", name, kLocalPlanners);
+}
+std::string LocalPlannerRange() { return Names(kLocalPlanners); }
 
 void DeclareRetractionParams(
     const std::function<RetractionOptions()>& get,

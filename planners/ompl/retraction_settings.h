@@ -8,16 +8,30 @@
 
 #include "planners/retraction/retraction.h"
 
-// RetractionOptions as OMPL parameters.
+// How retraction planners are set, in words and as OMPL parameters.
 namespace phongpd {
+
+// How two configurations are joined.
+enum class LocalPlanner {
+  kCollideAndSlide,
+  kStepRetract,
+  kStraight,  // only where the straight motion is free
+};
+
+// "collide-and-slide", "step-retract", "straight".
+std::string ToString(LocalPlanner planner);
 
 // "phong", "euclidean", "contact-point".
 std::string ToString(RetractionMetric metric);
 // "all", "random", "novelty", "warm", "nearest".
 std::string ToString(BranchChoice choice);
-// Throw InputError for any other name.
+// Throw InputError for any other name, with all that there are.
+LocalPlanner LocalPlannerFromString(const std::string& name);
 RetractionMetric RetractionMetricFromString(const std::string& name);
 BranchChoice BranchChoiceFromString(const std::string& name);
+
+// The names of local planners, separated by commas: a range of OMPL's.
+std::string LocalPlannerRange();
 
 // Declares metric, choice, clearance, depth_bound and max_branches on *params
 // with their ranges.  Setting one calls set(changed options), which may throw

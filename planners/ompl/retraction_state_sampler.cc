@@ -21,6 +21,7 @@ RetractionStateSampler::RetractionStateSampler(
       retraction_(std::move(model), options),
       random_(seed) {
   name_ = "retraction";
+  CheckConfigurationSpace(name_, *si->getStateSpace());
   const ob::RealVectorBounds& bounds =
       si->getStateSpace()->as<ob::RealVectorStateSpace>()->getBounds();
   for (unsigned int k = 0; k < 3; ++k) {

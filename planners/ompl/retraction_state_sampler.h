@@ -23,6 +23,8 @@ namespace phongpd {
 // per thread.
 class RetractionStateSampler : public ompl::base::ValidStateSampler {
  public:
+  // Throws InputError without a model, for options, and for a space that is no
+  // RealVectorStateSpace of dimension 3.
   RetractionStateSampler(const ompl::base::SpaceInformation* si,
                          std::shared_ptr<const ContactModel> model,
                          const RetractionOptions& options, std::uint64_t seed);

@@ -4,9 +4,8 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <limits>
-#include <string>
 
-#include "core/mesh/mesh_error.h"
+#include "planners/exact/check_option.h"
 
 namespace phongpd {
 namespace {
@@ -109,21 +108,17 @@ Vector3d AlongCrease(const Vector3d& motion, const Vector3d& n_1,
   return motion.dot(crease) * crease;
 }
 
-void CheckFraction(const std::string& name, double value) {
-  if (value > 0.0 && value <= 1.0) return;
-  throw InputError("slide " + name + ": expected in (0, 1], found " +
-                   std::to_string(value));
-}
-
 }  // namespace
 
 void SlideOptions::Validate() const {
-  CheckFraction("clearance", clearance);
-  CheckFraction("step", step);
-  if (max_moves < 1) {
-    throw InputError("slide max_moves: expected ≥ 1, found " +
-                     std::to_string(max_moves));
-  }
+  const auto check = [](bool holds, const char* name, const char* range,
+                        auto value) {
+    CheckOption(holds, "slide", name, range, value);
+  };
+  check(clearance > 0.0 && clearance <= 1.0, "clearance", "in (0, 1]",
+        clearance);
+  check(step > 0.0 && step <= 1.0, "step", "in (0, 1]", step);
+  check(max_moves >= 1, "max_moves", "≥ 1", max_moves);
 }
 
 SlideStatus CollideAndSlide(const ContactModel& model,
@@ -131,6 +126,7 @@ SlideStatus CollideAndSlide(const ContactModel& model,
                             const Vector3d& b, std::vector<Vector3d>* path,
                             SlideCounters* counters) {
   using Outcome = Slider::Outcome;
+  options.Validate();
   path->clear();
   ++counters->slides;
   if (!b.allFinite() || !model.free_space().IsFree(a)) {
@@ -163,6 +159,7 @@ SlideStatus StepRetract(const Retraction& retraction,
                         SlideCounters* counters) {
   const ContactModel& model = retraction.model();
   const FreeSpace& space = model.free_space();
+  options.Validate();
   path->clear();
   ++counters->slides;
   if (!b.allFinite() || !space.IsFree(a)) return SlideStatus::kInvalid;

@@ -16,6 +16,8 @@ namespace phongpd {
 // Both return the polyline they moved along.  It is exactly free (each segment
 // passed FreeSpace::IsFree), its points between a and b keep the model's floor,
 // and every point of a collide-and-slide is closer to b than the one before.
+// Thread-safe with a path, counters, scratch and engine per thread.  Both throw
+// InputError for options.
 struct SlideOptions {
   // Largest standoff from what is slid along, as a fraction of the region's
   // diagonal; half the free gap where that is less.  (0, 1].

@@ -8,6 +8,8 @@
 
 #include "core/mesh/mesh_error.h"
 #include "core/mesh/segment_tree.h"
+#include "core/mesh/unit_normal.h"
+#include "core/projection/contact_surface.h"
 #include "core/projection/euclidean_metric.h"
 #include "core/projection/phong_metric.h"
 #include "planners/exact/free_cells.h"
@@ -34,9 +36,7 @@ struct Space {
         segments(contact_mesh) {
     normals.reserve(mesh.triangles.size());
     for (const Triangle& t : mesh.triangles) {
-      const Vector3d e1 = mesh.vertices[t[1]] - mesh.vertices[t[0]];
-      const Vector3d e2 = mesh.vertices[t[2]] - mesh.vertices[t[0]];
-      normals.push_back(e1.cross(e2).stableNormalized());
+      normals.push_back(UnitNormal(mesh, t));
     }
   }
 
@@ -63,6 +63,7 @@ BoundingBox Hull(const BoundingBox& a, const BoundingBox& b) {
 
 BoundingBox SamplingRegion(const TriangleMesh& contact_mesh,
                            const Vector3d& start, const Vector3d& goal) {
+  CheckContactMesh(contact_mesh);
   BoundingBox all = ComputeBounds(contact_mesh);
   for (const Vector3d& q : {start, goal}) {
     if (q.allFinite()) all = Hull(all, {q, q});
@@ -177,6 +178,10 @@ ContactModel::Facet ContactModel::FindNearest(const Vector3d& q,
                                               double* distance) const {
   Facet facet;
   *distance = std::numeric_limits<double>::infinity();
+  if (!q.allFinite()) {
+    *distance = -*distance;
+    return facet;
+  }
   for (std::size_t i = 0; i < impl_->spaces.size(); ++i) {
     const PenetrationResult answer = impl_->spaces[i].euclidean.Query(q);
     if (answer.status == QueryStatus::kInvalid) {

@@ -17,7 +17,7 @@ namespace phongpd {
 // box around the mesh, start and goal, with room on every side, if one of them
 // is unbounded (or not told apart by rays, or not free).  Start and goal are
 // joined within the box if they are joined at all, so it may be used as bounds.
-// One mesh for all obstacles, as ContactSurface requires it.
+// One mesh for all obstacles; throws InputError as ContactSurface does.
 BoundingBox SamplingRegion(const TriangleMesh& contact_mesh,
                            const Eigen::Vector3d& start,
                            const Eigen::Vector3d& goal);
@@ -78,7 +78,8 @@ class ContactModel {
 
   // The facet closest to q over all spaces and bounds; of spaces that hold q
   // the one it is deepest in.  *distance is signed: < 0 within an obstacle or
-  // beyond the bounds (sign exact), > 0 iff q is free.
+  // beyond the bounds (sign exact), > 0 iff q is free; −∞, with no facet, for q
+  // not finite.
   Facet FindNearest(const Eigen::Vector3d& q, double* distance) const;
 
   // min(clearance, ½ · free gap) along the facet's normal: how far a point in

@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <string>
 #include <utility>
 
 #include "core/mesh/mesh_error.h"
+#include "planners/exact/check_option.h"
 
 namespace phongpd {
 namespace {
@@ -25,13 +25,6 @@ double RandomUnit(std::mt19937_64* random) {
   return static_cast<double>((*random)() >> 11) * 0x1p-53;
 }
 
-void CheckRange(const std::string& name, double value, double max) {
-  if (value > 0.0 && value <= max) return;
-  throw InputError("retraction " + name + ": expected in (0, " +
-                   std::to_string(static_cast<int>(max)) + "], found " +
-                   std::to_string(value));
-}
-
 }  // namespace
 
 Vector3d UniformPoint(const BoundingBox& box, std::mt19937_64* random) {
@@ -43,12 +36,15 @@ Vector3d UniformPoint(const BoundingBox& box, std::mt19937_64* random) {
 }
 
 void RetractionOptions::Validate() const {
-  CheckRange("clearance", clearance, 1.0);
-  CheckRange("depth_bound", depth_bound, 10.0);
-  if (max_branches < 1) {
-    throw InputError("retraction max_branches: expected ≥ 1, found " +
-                     std::to_string(max_branches));
-  }
+  const auto check = [](bool holds, const char* name, const char* range,
+                        auto value) {
+    CheckOption(holds, "retraction", name, range, value);
+  };
+  check(clearance > 0.0 && clearance <= 1.0, "clearance", "in (0, 1]",
+        clearance);
+  check(depth_bound > 0.0 && depth_bound <= 10.0, "depth_bound", "in (0, 10]",
+        depth_bound);
+  check(max_branches >= 1, "max_branches", "≥ 1", max_branches);
 }
 
 Retraction::Retraction(std::shared_ptr<const ContactModel> model,

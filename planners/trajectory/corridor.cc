@@ -2,10 +2,10 @@
 #include "planners/trajectory/corridor.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
-#include "core/mesh/mesh_error.h"
+#include "core/stopwatch.h"
+#include "planners/exact/check_option.h"
 #include "planners/trajectory/corridor_program.h"
 
 namespace phongpd {
@@ -15,10 +15,9 @@ using Eigen::VectorXd;
 
 constexpr double kSmallestTrust = 1e-3;  // of the first round's
 
-void Check(const char* name, const char* range, bool holds, double value) {
-  if (holds) return;
-  throw InputError(std::string("corridor: ") + name + ": expected " + range +
-                   ", found " + std::to_string(value));
+template <typename T>
+void Check(const char* name, const char* range, bool holds, T value) {
+  CheckOption(holds, "corridor", name, range, value);
 }
 
 }  // namespace
@@ -66,12 +65,7 @@ const char* ToString(CorridorStatus status) {
 CorridorSummary PolishInCorridor(const TrajectoryProblem& problem,
                                  const Path& path,
                                  const CorridorOptions& options) {
-  const auto begin = std::chrono::steady_clock::now();
-  const auto seconds = [&begin] {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() -
-                                         begin)
-        .count();
-  };
+  const Stopwatch stopwatch;
   problem.Validate();
   options.Validate();
   CheckStartPath(problem, path);
@@ -79,7 +73,7 @@ CorridorSummary PolishInCorridor(const TrajectoryProblem& problem,
   summary.path = path;
   summary.objective = PathEnergy(problem, path);
   if (!CheckPath(*problem.free_space, path).free) {
-    summary.seconds = seconds();
+    summary.seconds = stopwatch.Seconds();
     return summary;
   }
 
@@ -100,8 +94,9 @@ CorridorSummary PolishInCorridor(const TrajectoryProblem& problem,
   while (static_cast<int>(summary.rounds.size()) < options.max_rounds) {
     CorridorProgram program(problem, springs, corridor, now, trust, price);
     IpoptSettings settings = options.ipopt;
-    settings.time_limit = std::min(
-        settings.time_limit, std::max(1e-3, options.time_limit - seconds()));
+    settings.time_limit =
+        std::min(settings.time_limit,
+                 std::max(1e-3, options.time_limit - stopwatch.Seconds()));
     const IpoptRun run = SolveWithIpopt(&program, program.Start(), settings);
     summary.iterations += run.iterations;
 
@@ -141,7 +136,7 @@ CorridorSummary PolishInCorridor(const TrajectoryProblem& problem,
       summary.status = CorridorStatus::kSmallestTrust;
       break;
     }
-    if (seconds() > options.time_limit) {
+    if (stopwatch.Seconds() > options.time_limit) {
       summary.status = CorridorStatus::kTimeLimit;
       break;
     }
@@ -153,7 +148,7 @@ CorridorSummary PolishInCorridor(const TrajectoryProblem& problem,
       summary.clearance = std::min(summary.clearance, plane.distance);
     }
   }
-  summary.seconds = seconds();
+  summary.seconds = stopwatch.Seconds();
   return summary;
 }
 

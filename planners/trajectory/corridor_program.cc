@@ -10,7 +10,6 @@ namespace {
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-constexpr double kNoBound = 2e19;  // Ipopt's infinity is 1e19
 // A triangle this far above a plane, in units of D, still counts as behind it.
 constexpr double kRounding = 1e-12;
 // Shortfalls below this, in units of D, are not worth a variable.

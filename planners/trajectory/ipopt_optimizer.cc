@@ -2,21 +2,17 @@
 #include "planners/trajectory/ipopt_optimizer.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <limits>
 #include <string>
 
-#include "core/mesh/mesh_error.h"
+#include "core/stopwatch.h"
+#include "planners/exact/check_option.h"
 #include "planners/trajectory/trajectory_nlp.h"
 
 namespace phongpd {
 
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-constexpr int kMostSamples = 1000;
 
 // Segments that touch something get twice the samples; false if none can.
 bool Refine(const FreeSpace& space, const Path& path,
@@ -24,8 +20,9 @@ bool Refine(const FreeSpace& space, const Path& path,
   bool has_changed = false;
   for (std::size_t i = 0; i < samples->size(); ++i) {
     int& count = (*samples)[i];
-    if (count >= kMostSamples || space.IsFree(path[i], path[i + 1])) continue;
-    count = std::min(2 * count + 1, kMostSamples);
+    if (count >= kMaxSamplesPerSegment || space.IsFree(path[i], path[i + 1]))
+      continue;
+    count = std::min(2 * count + 1, kMaxSamplesPerSegment);
     has_changed = true;
   }
   return has_changed;
@@ -69,15 +66,10 @@ void Judge(const TrajectoryProblem& problem, TrajectorySummary* summary) {
 
 void TrajectoryOptions::Validate() const {
   ipopt.Validate();
-  if (rows < 0 || rows > kMaxMetricRows) {
-    throw InputError("trajectory: rows: expected 0 (by the start path) to " +
-                     std::to_string(kMaxMetricRows) + ", found " +
-                     std::to_string(rows));
-  }
-  if (max_rounds < 1) {
-    throw InputError("trajectory: max_rounds: expected ≥ 1, found " +
-                     std::to_string(max_rounds));
-  }
+  CheckOption(rows >= 0 && rows <= kMaxMetricRows, "trajectory", "rows",
+              "0 (by the start path) to 8", rows);
+  static_assert(kMaxMetricRows == 8, "the message says so");
+  CheckOption(max_rounds >= 1, "trajectory", "max_rounds", "≥ 1", max_rounds);
 }
 
 bool TrajectorySummary::IsSolved() const {
@@ -94,10 +86,7 @@ IpoptTrajectoryOptimizer::IpoptTrajectoryOptimizer(
 
 TrajectorySummary IpoptTrajectoryOptimizer::Solve(
     const Path& start_path) const {
-  const Clock::time_point begin = Clock::now();
-  const auto seconds = [&] {
-    return std::chrono::duration<double>(Clock::now() - begin).count();
-  };
+  const Stopwatch stopwatch;
   CheckStartPath(problem_, start_path);
   const FreeSpace& space = *problem_.free_space;
   TrajectorySummary summary;
@@ -107,7 +96,7 @@ TrajectorySummary IpoptTrajectoryOptimizer::Solve(
     summary.status =
         is_start_free ? SolveStatus::kInvalidGoal : SolveStatus::kInvalidStart;
     Judge(problem_, &summary);
-    summary.seconds_total = seconds();
+    summary.seconds_total = stopwatch.Seconds();
     return summary;
   }
   // Nothing to avoid or nowhere to go: the straight line is optimal.
@@ -116,7 +105,7 @@ TrajectorySummary IpoptTrajectoryOptimizer::Solve(
     summary.status = SolveStatus::kConverged;
     Judge(problem_, &summary);
     summary.dual_infeasibility = 0.0;
-    summary.seconds_total = seconds();
+    summary.seconds_total = stopwatch.Seconds();
     return summary;
   }
 
@@ -137,7 +126,8 @@ TrajectorySummary IpoptTrajectoryOptimizer::Solve(
     TrajectoryNlp nlp(problem_, summary.samples, start_length, nlp_options);
     const Eigen::VectorXd u = nlp.ToVariables(summary.path);
     nlp.Start(u);
-    settings.time_limit = std::max(1e-3, options_.ipopt.time_limit - seconds());
+    settings.time_limit =
+        std::max(1e-3, options_.ipopt.time_limit - stopwatch.Seconds());
     const IpoptRun run = SolveWithIpopt(&nlp, u, settings);
     ++summary.rounds;
     Add(run, nlp.counts(), &summary);
@@ -154,7 +144,7 @@ TrajectorySummary IpoptTrajectoryOptimizer::Solve(
       break;
     }
   }
-  summary.seconds_total = seconds();
+  summary.seconds_total = stopwatch.Seconds();
   return summary;
 }
 

@@ -7,8 +7,11 @@
 #include <IpReturnCodes.hpp>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <string>
 
 #include "core/mesh/mesh_error.h"
+#include "planners/exact/check_option.h"
 
 namespace phongpd {
 
@@ -69,6 +72,57 @@ void ApplyOne(const std::string& name, const std::string& text,
 }
 
 }  // namespace
+
+const char* ToString(SolveStatus status) {
+  switch (status) {
+    case SolveStatus::kConverged:
+      return "converged";
+    case SolveStatus::kAcceptable:
+      return "acceptable";
+    case SolveStatus::kStalledFeasible:
+      return "stalled_feasible";
+    case SolveStatus::kInfeasible:
+      return "infeasible";
+    case SolveStatus::kIterationLimit:
+      return "iteration_limit";
+    case SolveStatus::kTimeLimit:
+      return "time_limit";
+    case SolveStatus::kCancelled:
+      return "cancelled";
+    case SolveStatus::kNumerical:
+      return "numerical";
+    case SolveStatus::kInvalidProblem:
+      return "invalid_problem";
+    case SolveStatus::kInvalidStart:
+      return "invalid_start";
+    case SolveStatus::kInvalidGoal:
+      return "invalid_goal";
+  }
+  return "unknown";
+}
+
+bool IsClassOk(SolveStatus status) {
+  return status == SolveStatus::kConverged ||
+         status == SolveStatus::kAcceptable ||
+         status == SolveStatus::kStalledFeasible;
+}
+
+void IpoptSettings::Validate() const {
+  const auto check = [](bool holds, const char* name, const char* range,
+                        auto value) {
+    CheckOption(holds, "Ipopt settings", name, range, value);
+  };
+  check(max_iterations >= 0, "max_iterations", "≥ 0", max_iterations);
+  check(tolerance > 0.0 && tolerance < 1.0, "tolerance", "in (0, 1)",
+        tolerance);
+  check(stall_iterations >= 1, "stall_iterations", "≥ 1", stall_iterations);
+  check(stall_improvement >= 0.0 && stall_improvement < 1.0,
+        "stall_improvement", "in [0, 1)", stall_improvement);
+  check(feasibility >= 0.0, "feasibility", "≥ 0", feasibility);
+  check(time_limit > 0.0, "time_limit", "> 0 seconds", time_limit);
+}
+
+const char* IpoptVersion() { return IPOPT_VERSION; }
 
 void ApplyIpoptOptions(const IpoptSettings& settings,
                        Ipopt::IpoptApplication* application) {

@@ -8,14 +8,16 @@
 #include <IpIpoptData.hpp>
 #include <IpTNLP.hpp>
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdarg>
 #include <cstdio>
 #include <cstring>
+#include <exception>
+#include <limits>
 #include <mutex>
 
 #include "core/mesh/mesh_error.h"
+#include "core/stopwatch.h"
 #include "planners/trajectory/ipopt_options.h"
 
 #if IPOPT_VERSION_MAJOR > 3 || \
@@ -34,7 +36,6 @@ namespace {
 using Eigen::VectorXd;
 using Ipopt::Index;
 using Ipopt::Number;
-using Clock = std::chrono::steady_clock;
 
 // Ipopt prints into a string.
 class StringJournal : public Ipopt::Journal {
@@ -66,16 +67,14 @@ double Finite(double value) {
 }
 
 // Adds the time it lives.
-class Stopwatch {
+class TimeAdder {
  public:
-  explicit Stopwatch(double* seconds) : seconds_(seconds) {}
-  ~Stopwatch() {
-    *seconds_ += std::chrono::duration<double>(Clock::now() - start_).count();
-  }
+  explicit TimeAdder(double* seconds) : seconds_(seconds) {}
+  ~TimeAdder() { *seconds_ += stopwatch_.Seconds(); }
 
  private:
   double* seconds_;
-  Clock::time_point start_ = Clock::now();
+  Stopwatch stopwatch_;
 };
 
 class ProgramAdapter : public Ipopt::TNLP {
@@ -102,8 +101,9 @@ class ProgramAdapter : public Ipopt::TNLP {
   bool has_stopped() const { return has_stopped_; }
   SolveStatus stop_status() const { return stop_status_; }
 
-  // The point to return, once Ipopt is done.
+  // The point to return, once Ipopt is done.  Throws what a callback threw.
   void Finish() {
+    if (failure_) std::rethrow_exception(failure_);
     if (!IsClassOk(run.status) || run.status == SolveStatus::kStalledFeasible) {
       if (has_best_) x_ = best_x_;
     }
@@ -135,19 +135,19 @@ class ProgramAdapter : public Ipopt::TNLP {
   }
 
   bool eval_f(Index, const Number* x, bool, Number& value) override {
-    const Stopwatch watch(&run.seconds_callbacks);
+    const TimeAdder adder(&run.seconds_callbacks);
     ++run.evaluations.objective;
     value = program_->Objective(x);
     return std::isfinite(value);
   }
   bool eval_grad_f(Index, const Number* x, bool, Number* gradient) override {
-    const Stopwatch watch(&run.seconds_callbacks);
+    const TimeAdder adder(&run.seconds_callbacks);
     ++run.evaluations.gradient;
     program_->ObjectiveGradient(x, gradient);
     return true;
   }
   bool eval_g(Index, const Number* x, bool, Index m, Number* g) override {
-    const Stopwatch watch(&run.seconds_callbacks);
+    const TimeAdder adder(&run.seconds_callbacks);
     ++run.evaluations.constraints;
     if (!Evaluate(x)) return false;
     std::copy(values_.data(), values_.data() + m, g);
@@ -159,7 +159,7 @@ class ProgramAdapter : public Ipopt::TNLP {
       program_->JacobianPattern(row, col);
       return true;
     }
-    const Stopwatch watch(&run.seconds_callbacks);
+    const TimeAdder adder(&run.seconds_callbacks);
     ++run.evaluations.jacobian;
     if (!Evaluate(x)) return false;
     std::copy(jacobian_.data(), jacobian_.data() + nonzeros, values);
@@ -172,7 +172,7 @@ class ProgramAdapter : public Ipopt::TNLP {
       program_->HessianPattern(row, col);
       return true;
     }
-    const Stopwatch watch(&run.seconds_callbacks);
+    const TimeAdder adder(&run.seconds_callbacks);
     ++run.evaluations.hessian;
     program_->Hessian(x, factor, multipliers, values);
     return true;
@@ -183,7 +183,29 @@ class ProgramAdapter : public Ipopt::TNLP {
       Number mu, Number, Number, Number, Number, Index,
       const Ipopt::IpoptData* data,
       Ipopt::IpoptCalculatedQuantities* quantities) override {
-    const Stopwatch watch(&run.seconds_callbacks);
+    // Ipopt would turn an exception into a status.
+    try {
+      return !Advance(mode, iteration, inf_du, mu, data, quantities);
+    } catch (...) {
+      failure_ = std::current_exception();
+      return false;
+    }
+  }
+
+  void finalize_solution(Ipopt::SolverReturn, Index n, const Number* x,
+                         const Number*, const Number*, Index, const Number*,
+                         const Number*, Number, const Ipopt::IpoptData*,
+                         Ipopt::IpoptCalculatedQuantities*) override {
+    const Eigen::Map<const VectorXd> final_x(x, n);
+    if (final_x.allFinite()) x_ = final_x;
+  }
+
+ private:
+  // Notes the iterate; true if Ipopt must stop.
+  bool Advance(Ipopt::AlgorithmMode mode, Index iteration, Number inf_du,
+               Number mu, const Ipopt::IpoptData* data,
+               Ipopt::IpoptCalculatedQuantities* quantities) {
+    const TimeAdder adder(&run.seconds_callbacks);
     // Where a restoration phase hands over, its last iterate is reported once
     // more as the first regular one.
     int changes = 0;
@@ -216,18 +238,9 @@ class ProgramAdapter : public Ipopt::TNLP {
     }
     run.log.push_back(record);
     if (settings_.on_iteration) settings_.on_iteration(record);
-    return !MustStop(record);
+    return MustStop(record);
   }
 
-  void finalize_solution(Ipopt::SolverReturn, Index n, const Number* x,
-                         const Number*, const Number*, Index, const Number*,
-                         const Number*, Number, const Ipopt::IpoptData*,
-                         Ipopt::IpoptCalculatedQuantities*) override {
-    const Eigen::Map<const VectorXd> final_x(x, n);
-    if (final_x.allFinite()) x_ = final_x;
-  }
-
- private:
   bool IsAt(const double* x) const {
     return is_at_valid_ && std::memcmp(x, at_.data(),
                                        static_cast<std::size_t>(at_.size()) *
@@ -316,9 +329,9 @@ class ProgramAdapter : public Ipopt::TNLP {
     if (settings_.is_cancelled && settings_.is_cancelled()) {
       return Stop(SolveStatus::kCancelled);
     }
-    const double seconds =
-        std::chrono::duration<double>(Clock::now() - start_).count();
-    if (seconds > settings_.time_limit) return Stop(SolveStatus::kTimeLimit);
+    if (stopwatch_.Seconds() > settings_.time_limit) {
+      return Stop(SolveStatus::kTimeLimit);
+    }
     if (settings_.stall_stop && has_best_ &&
         stalled_ >= settings_.stall_iterations) {
       return Stop(SolveStatus::kStalledFeasible);
@@ -328,7 +341,7 @@ class ProgramAdapter : public Ipopt::TNLP {
 
   NonlinearProgram* program_;
   const IpoptSettings& settings_;
-  Clock::time_point start_ = Clock::now();
+  Stopwatch stopwatch_;
   VectorXd x_;         // last accepted iterate
   VectorXd accepted_;  // the last one the program was told
   // Values and Jacobian at at_, the bytes of the last point evaluated.
@@ -343,64 +356,13 @@ class ProgramAdapter : public Ipopt::TNLP {
   Index last_iteration_ = -1;
   bool has_stopped_ = false;
   SolveStatus stop_status_ = SolveStatus::kCancelled;
+  std::exception_ptr failure_;  // of a callback
 #ifndef PHONGPD_IPOPT_HAS_CURRENT_ITERATE
   Ipopt::TNLPAdapter* adapter_ = nullptr;
 #endif
 };
 
-void Fail(const std::string& what, const std::string& expected, double found) {
-  throw InputError("Ipopt settings: " + what + ": expected " + expected +
-                   ", found " + std::to_string(found));
-}
-
 }  // namespace
-
-const char* ToString(SolveStatus status) {
-  switch (status) {
-    case SolveStatus::kConverged:
-      return "converged";
-    case SolveStatus::kAcceptable:
-      return "acceptable";
-    case SolveStatus::kStalledFeasible:
-      return "stalled_feasible";
-    case SolveStatus::kInfeasible:
-      return "infeasible";
-    case SolveStatus::kIterationLimit:
-      return "iteration_limit";
-    case SolveStatus::kTimeLimit:
-      return "time_limit";
-    case SolveStatus::kCancelled:
-      return "cancelled";
-    case SolveStatus::kNumerical:
-      return "numerical";
-    case SolveStatus::kInvalidProblem:
-      return "invalid_problem";
-    case SolveStatus::kInvalidStart:
-      return "invalid_start";
-    case SolveStatus::kInvalidGoal:
-      return "invalid_goal";
-  }
-  return "unknown";
-}
-
-bool IsClassOk(SolveStatus status) {
-  return status == SolveStatus::kConverged ||
-         status == SolveStatus::kAcceptable ||
-         status == SolveStatus::kStalledFeasible;
-}
-
-void IpoptSettings::Validate() const {
-  if (max_iterations < 0) Fail("max_iterations", "≥ 0", max_iterations);
-  if (!(tolerance > 0.0 && tolerance < 1.0)) {
-    Fail("tolerance", "between 0 and 1", tolerance);
-  }
-  if (stall_iterations < 1) Fail("stall_iterations", "≥ 1", stall_iterations);
-  if (!(stall_improvement >= 0.0 && stall_improvement < 1.0)) {
-    Fail("stall_improvement", "in [0, 1)", stall_improvement);
-  }
-  if (!(feasibility >= 0.0)) Fail("feasibility", "≥ 0", feasibility);
-  if (!(time_limit > 0.0)) Fail("time_limit", "> 0 seconds", time_limit);
-}
 
 void CheckIpoptOptions(const IpoptSettings& settings) {
   const Ipopt::SmartPtr<Ipopt::IpoptApplication> application =
@@ -420,7 +382,7 @@ IpoptRun SolveWithIpopt(NonlinearProgram* program, const VectorXd& start,
   // MUMPS keeps global state.
   static std::mutex one_at_a_time;
   const std::lock_guard<std::mutex> lock(one_at_a_time);
-  const Clock::time_point begin = Clock::now();
+  const Stopwatch stopwatch;
   const Ipopt::SmartPtr<Ipopt::IpoptApplication> application =
       new Ipopt::IpoptApplication(false);  // no console
   ApplyIpoptOptions(settings, Ipopt::GetRawPtr(application));
@@ -444,11 +406,8 @@ IpoptRun SolveWithIpopt(NonlinearProgram* program, const VectorXd& start,
           ? adapter->stop_status()
           : ClassifyIpoptStatus(status);
   adapter->Finish();
-  adapter->run.seconds_total =
-      std::chrono::duration<double>(Clock::now() - begin).count();
+  adapter->run.seconds_total = stopwatch.Seconds();
   return adapter->run;
 }
-
-const char* IpoptVersion() { return IPOPT_VERSION; }
 
 }  // namespace phongpd

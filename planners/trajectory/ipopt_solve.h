@@ -60,7 +60,9 @@ struct IpoptSettings {
   // Ipopt's own options by name, values as text; they win over the above.  A
   // name or value Ipopt does not know is an InputError that names it.
   std::map<std::string, std::string> ipopt_options;
-  std::function<bool()> is_cancelled;  // asked once an iteration
+  // Called once an iteration.  They may not solve; what they throw ends the
+  // solve and reaches its caller.
+  std::function<bool()> is_cancelled;
   std::function<void(const IterationRecord&)> on_iteration;
   std::string* output = nullptr;  // receives what Ipopt prints (print_level)
 

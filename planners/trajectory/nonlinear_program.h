@@ -3,11 +3,14 @@
 
 namespace phongpd {
 
+// A bound that is none: Ipopt's infinity is 1e19.
+inline constexpr double kNoBound = 2e19;
+
 // A nonlinear program as a solver sees it, sparse and with fixed patterns:
 //
 //   min f(x)   subject to   x_low ≤ x ≤ x_high,  g_low ≤ g(x) ≤ g_high.
 //
-// Bounds beyond ±1e19 mean none.  Patterns are zero-based; the Hessian's holds
+// Bounds of ±kNoBound mean none.  Patterns are zero-based; the Hessian's holds
 // the lower triangle.  An implementation may keep a state that changes g (the
 // branches of a metric), but only in Accept.
 class NonlinearProgram {

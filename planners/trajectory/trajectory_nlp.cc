@@ -11,7 +11,6 @@ namespace {
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-constexpr double kNoBound = 2e19;  // Ipopt's infinity is 1e19
 // Free means strictly inside the bounds, so waypoints keep this far away from
 // them, in units of D; more than Ipopt's relaxation of 1e-8.
 constexpr double kBoundInset = 1e-6;

@@ -2,27 +2,15 @@
 #include "planners/trajectory/trajectory_pipeline.h"
 
 #include <algorithm>
-#include <chrono>
 #include <random>
 #include <utility>
 
 #include "core/mesh/mesh_error.h"
+#include "core/stopwatch.h"
+#include "planners/exact/check_option.h"
 
 namespace phongpd {
 namespace {
-
-class Timer {
- public:
-  double Seconds() const {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() -
-                                         begin_)
-        .count();
-  }
-
- private:
-  std::chrono::steady_clock::time_point begin_ =
-      std::chrono::steady_clock::now();
-};
 
 // A path in hand and what is known of it.
 struct Candidate {
@@ -62,15 +50,15 @@ class Run {
       result_.ipopt = std::move(best_.ipopt);
     }
     result_.certificate = CheckPath(*problem_.free_space, result_.path);
-    result_.seconds = timer_.Seconds();
+    result_.seconds = stopwatch_.Seconds();
     return std::move(result_);
   }
 
  private:
   double Left() const {
-    return std::max(1e-3, options_.time_limit - timer_.Seconds());
+    return std::max(1e-3, options_.time_limit - stopwatch_.Seconds());
   }
-  bool IsLate() const { return timer_.Seconds() >= options_.time_limit; }
+  bool IsLate() const { return stopwatch_.Seconds() >= options_.time_limit; }
 
   bool CheckEnds() {
     const FreeSpace& space = *problem_.free_space;
@@ -235,7 +223,7 @@ class Run {
   const TrajectoryProblem& problem_;
   const StartRepair* repair_;
   const PipelineOptions& options_;
-  Timer timer_;
+  Stopwatch stopwatch_;
   Candidate best_;
   PipelineResult result_;
 };
@@ -243,18 +231,14 @@ class Run {
 }  // namespace
 
 void PipelineOptions::Validate() const {
-  if (routes < 1 || routes > 8) {
-    throw InputError("trajectory: routes: expected 1 to 8, found " +
-                     std::to_string(routes));
-  }
-  if (!(start_noise >= 0.0 && start_noise <= 10.0)) {
-    throw InputError("trajectory: start_noise: expected 0 to 10, found " +
-                     std::to_string(start_noise));
-  }
-  if (!(time_limit > 0.0)) {
-    throw InputError("trajectory: time_limit: expected > 0 seconds, found " +
-                     std::to_string(time_limit));
-  }
+  const auto check = [](bool holds, const char* name, const char* range,
+                        auto value) {
+    CheckOption(holds, "trajectory", name, range, value);
+  };
+  check(routes >= 1 && routes <= 8, "routes", "1 to 8", routes);
+  check(start_noise >= 0.0 && start_noise <= 10.0, "start_noise", "0 to 10",
+        start_noise);
+  check(time_limit > 0.0, "time_limit", "> 0 seconds", time_limit);
   optimizer.Validate();
   corridor.Validate();
 }

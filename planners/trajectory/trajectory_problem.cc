@@ -13,8 +13,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr int kMostSamples = 1000;
-
 void Fail(const std::string& field, const std::string& expected,
           const std::string& found) {
   throw InputError("trajectory: " + field + ": expected " + expected +
@@ -33,7 +31,7 @@ void TrajectoryProblem::Validate() const {
   if (waypoints < 1 || waypoints > 10000) {
     Fail("waypoints", "1 to 10000", std::to_string(waypoints));
   }
-  if (samples_per_segment < 0 || samples_per_segment > kMostSamples) {
+  if (samples_per_segment < 0 || samples_per_segment > kMaxSamplesPerSegment) {
     Fail("samples_per_segment", "0 (by rule) to 1000",
          std::to_string(samples_per_segment));
   }
@@ -134,7 +132,7 @@ int SamplesPerSegment(const TrajectoryProblem& problem, double start_length) {
   const double ratio = MaxSegment(problem, start_length) / spacing;
   // The least S with S + 1 > ratio.
   return static_cast<int>(
-      std::min(std::floor(ratio), static_cast<double>(kMostSamples)));
+      std::min(std::floor(ratio), static_cast<double>(kMaxSamplesPerSegment)));
 }
 
 }  // namespace phongpd

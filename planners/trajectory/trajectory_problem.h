@@ -10,6 +10,9 @@
 
 namespace phongpd {
 
+// No more interior samples in a segment, whatever the rule says.
+inline constexpr int kMaxSamplesPerSegment = 1000;
+
 // A polyline of N free waypoints between fixed ends,
 //
 //   start = p_0, p_1, …, p_N, p_{N+1} = goal,

@@ -129,6 +129,10 @@ TEST(CollisionOracle, SwappingRolesMirrorsTheConfiguration) {
 TEST(CollisionOracle, RefusesWhatItCannotJudge) {
   EXPECT_THROW(CollisionOracle(TriangleMesh(), Cube(1.0)), InputError);
   EXPECT_THROW(CollisionOracle(Cube(1.0), TriangleMesh()), InputError);
+  TriangleMesh broken = Cube(1.0);
+  broken.vertices[3].z() = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THROW(CollisionOracle(broken, Cube(1.0)), InputError);
+  EXPECT_THROW(CollisionOracle(Cube(1.0), broken), InputError);
   const CollisionOracle oracle(Cube(1.0), Cube(1.0));
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const double inf = std::numeric_limits<double>::infinity();

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # cmake -D BUILD=... -D SOURCE=... -P run.cmake: installs the built library,
-# builds this folder against it as an outsider would, and runs the result.
+# builds this folder against it as an outsider would, and runs the results.
 cmake_minimum_required(VERSION 3.23)
 
 function(run)
@@ -8,19 +8,20 @@ function(run)
 endfunction()
 
 set(work ${BUILD}/consumer)
-file(REMOVE_RECURSE ${BUILD}/install ${work})
-run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${BUILD}/install --component
+set(prefix ${BUILD}/install)
+file(REMOVE_RECURSE ${prefix} ${work} ${work}-all ${work}-missing)
+run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${prefix} --component
     development)
-file(GLOB_RECURSE headers RELATIVE ${BUILD}/install/include
-     ${BUILD}/install/include/*.h)
+file(GLOB_RECURSE headers RELATIVE ${prefix}/include ${prefix}/include/*.h)
 if(NOT "phongpd/core/mesh/triangle_mesh.h" IN_LIST headers
    OR "phongpd/core/contact_space/convolution.h" IN_LIST headers)
   message(FATAL_ERROR "installed headers are not the public ones: ${headers}")
 endif()
 
+# The core asks for none of the other components' libraries.
 set(configure ${CMAKE_COMMAND} -S ${SOURCE}/tests/consumer
-              -D CMAKE_PREFIX_PATH=${BUILD}/install)
-run(${configure} -B ${work} -D COMPONENT=core -D CMAKE_BUILD_TYPE=Release)
+              -D CMAKE_PREFIX_PATH=${prefix})
+run(${configure} -B ${work} -D COMPONENTS=core -D CMAKE_BUILD_TYPE=Release)
 run(${CMAKE_COMMAND} --build ${work})
 file(
   WRITE ${work}/box.off
@@ -28,7 +29,7 @@ file(
 1 1 1\n3 0 2 1\n3 1 2 3\n3 4 5 6\n3 5 7 6\n3 0 1 4\n3 1 5 4\n3 2 6 3\n\
 3 3 6 7\n3 0 4 2\n3 2 4 6\n3 1 3 5\n3 3 7 5\n")
 execute_process(
-  COMMAND ${work}/consumer ${work}/box.off ${work}/box.off
+  COMMAND ${work}/use_core ${work}/box.off ${work}/box.off
   OUTPUT_VARIABLE output COMMAND_ERROR_IS_FATAL ANY)
 # Two boxes of side 2: C_obj is the box of side 4, so the last point lies on
 # its surface and the middle one is up to 2 units inside, and no less than 1.8.
@@ -36,14 +37,21 @@ if(NOT output MATCHES "\n2: 0\n$" OR NOT output MATCHES "\n0: -(1\\.[89]|2)")
   message(FATAL_ERROR "unexpected answer of the consumer:\n${output}")
 endif()
 
-if(EXISTS ${BUILD}/planners/ompl)
-  run(${configure} -B ${work}-ompl -D COMPONENT=ompl -D
-      CMAKE_BUILD_TYPE=Release)
-  run(${CMAKE_COMMAND} --build ${work}-ompl)
-endif()
+# All components that were built: each header on its own, and the planners.
+file(GLOB_RECURSE components ${prefix}/*/PhongPD*Targets.cmake)
+list(TRANSFORM components REPLACE "^.*/PhongPD(.*)Targets\\.cmake$" "\\1")
+list(JOIN components "," listed)
+run(${configure} -B ${work}-all -D COMPONENTS=${listed} -D
+    HEADERS=${prefix}/include)
+run(${CMAKE_COMMAND} --build ${work}-all --parallel 2)
+foreach(component ipopt ompl)
+  if(component IN_LIST components)
+    run(${work}-all/use_${component})
+  endif()
+endforeach()
 
 execute_process(
-  COMMAND ${configure} -B ${work}-missing -D COMPONENT=nonsense
+  COMMAND ${configure} -B ${work}-missing -D COMPONENTS=nonsense
   RESULT_VARIABLE result
   OUTPUT_QUIET
   ERROR_VARIABLE error)

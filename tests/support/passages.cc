@@ -6,6 +6,7 @@
 #include "core/contact_space/contact_space.h"
 #include "planners/exact/workspace.h"
 #include "problems/scene_library.h"
+#include "problems/shapes.h"
 
 namespace phongpd::testing {
 
@@ -29,6 +30,13 @@ Passage MakePassage(const std::string& family,
           ? SamplingRegion(contact, scene.start, scene.goal)
           : workspace.bounds);
   return passage;
+}
+
+std::shared_ptr<const ContactModel> BoxModel() {
+  const Eigen::Vector3d one = Eigen::Vector3d::Ones();
+  return std::make_shared<const ContactModel>(
+      std::vector<TriangleMesh>{MakeBox(-one, one)},
+      BoundingBox{-2.0 * one, 2.0 * one});
 }
 
 }  // namespace phongpd::testing

@@ -25,4 +25,7 @@ Passage MakePassage(const std::string& family, double delta,
 Passage MakePassage(const std::string& family,
                     const std::map<std::string, double>& knobs);
 
+// C_obj = [−1, 1]³, in bounds [−2, 2]³.
+std::shared_ptr<const ContactModel> BoxModel();
+
 }  // namespace phongpd::testing

@@ -4,10 +4,14 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <random>
 #include <string>
+#include <thread>
+#include <vector>
 
 #include "core/mesh/segment_tree.h"
 #include "planners/exact/exact_solution.h"
@@ -230,6 +234,41 @@ TEST(ContactSurfacePlanner, RefusesOptionsOutOfRange) {
   options = {};
   options.spacing = 2.0;
   EXPECT_THROW(ContactSurfacePlanner(VesselSpace(), options), InputError);
+}
+
+TEST(ContactSurfacePlanner, RefusesRequestsOutOfRange) {
+  const ContactSurfacePlanner planner(VesselSpace());
+  const Vector3d q = Vector3d::Constant(20.0);
+  for (const double clearance :
+       {-1.0, std::nan(""), std::numeric_limits<double>::infinity()}) {
+    PlanRequest request;
+    request.clearance = clearance;
+    EXPECT_THROW(planner.Plan(q, -q, request), InputError) << clearance;
+  }
+  PlanRequest request;
+  request.routes = -1;
+  EXPECT_THROW(planner.Plan(q, -q, request), InputError);
+}
+
+TEST(ContactSurfacePlanner, PlansTheSameFromSeveralThreads) {
+  const ContactSurfacePlanner planner(VesselSpace());
+  const Vector3d start = Vector3d::Constant(20.0), goal = -start;
+  const PlanResult expected = planner.Plan(start, goal);
+  const PlanResult proof = planner.Plan(start, Vector3d::Zero());
+  std::vector<PlanResult> found(4);
+  std::vector<std::thread> threads;
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    threads.emplace_back([&, i] {
+      found[i] = planner.Plan(start, i % 2 == 0 ? goal : Vector3d::Zero());
+    });
+  }
+  for (std::thread& thread : threads) thread.join();
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    const PlanResult& same = i % 2 == 0 ? expected : proof;
+    EXPECT_EQ(found[i].status, same.status);
+    EXPECT_EQ(found[i].path, same.path);
+    EXPECT_EQ(found[i].self_intersections, same.self_intersections);
+  }
 }
 
 }  // namespace

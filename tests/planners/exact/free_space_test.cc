@@ -173,6 +173,34 @@ TEST(CheckPath, NamesTheFirstSegmentThatCollides) {
   EXPECT_FALSE(CheckPath(space, {{0.0, 0.0, 0.0}}).free);
 }
 
+TEST(FreeSpace, HasNothingFreeAtPointsThatAreNotFinite) {
+  const FreeSpace space({Cube(1.0)});
+  const Vector3d q(3.0, 0.0, 0.0);
+  for (const double value : {std::nan(""), HUGE_VAL, -HUGE_VAL}) {
+    const Vector3d bad(3.0, value, 0.0);
+    EXPECT_FALSE(space.IsFree(bad));
+    EXPECT_FALSE(space.IsFree(q, bad));
+    EXPECT_FALSE(space.IsFree(bad, q));
+    EXPECT_EQ(space.Check(q, bad).fraction, 0.0);
+    EXPECT_EQ(space.Clearance(bad), 0.0);
+    EXPECT_EQ(space.Clearance(q, bad), 0.0);
+    EXPECT_TRUE(space.FindNear(q, bad, 1.0).empty());
+    EXPECT_EQ(CheckPath(space, {q, bad, q}).segment, 0);
+    EXPECT_EQ(PathClearance(space, {q, bad, q}), 0.0);
+  }
+  EXPECT_TRUE(space.FindNear(q, q, std::nan("")).empty());
+  EXPECT_TRUE(space.FindNear(q, q, -1.0).empty());
+  EXPECT_EQ(space.FindNear(q, q, 1e3).size(), 12u);
+}
+
+TEST(FreeSpace, RefusesBoundsThatAreNotFinite) {
+  for (const double bad : {std::nan(""), HUGE_VAL}) {
+    const BoundingBox bounds = {Vector3d::Constant(-4.0),
+                                Vector3d(4.0, bad, 4.0)};
+    EXPECT_THROW(FreeSpace({Cube(1.0)}, bounds), InputError) << bad;
+  }
+}
+
 TEST(FreeSpace, RefusesOpenContactMeshes) {
   TriangleMesh mesh = Cube(1.0);
   mesh.triangles.pop_back();

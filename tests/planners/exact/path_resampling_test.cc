@@ -4,8 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <random>
 
+#include "core/mesh/mesh_error.h"
 #include "planners/exact/free_space.h"
 
 namespace phongpd {
@@ -57,6 +59,15 @@ TEST(PathResampling, KeepsOrderAndLongestPieceWithinTheBound) {
     }
     EXPECT_LE(LongestPiece(path),
               PathLength(corners) / (waypoints + 1 - inner) + 1e-12);
+  }
+}
+
+TEST(PathResampling, RefusesPointsThatAreNotFinite) {
+  const Vector3d origin = Vector3d::Zero();
+  for (const double bad : {std::nan(""), HUGE_VAL}) {
+    EXPECT_THROW(
+        ResampleKeepingCorners({origin, Vector3d(bad, 0.0, 0.0), origin}, 5),
+        InputError);
   }
 }
 

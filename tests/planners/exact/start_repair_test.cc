@@ -184,6 +184,8 @@ TEST(StartRepair, RefusesBadInput) {
   const Vector3d q(3.0, 0.0, 0.0);
   EXPECT_THROW(repair.Repair(Path{q}), InputError);
   EXPECT_THROW(repair.Repair(q, Vector3d::Constant(std::nan(""))), InputError);
+  const Vector3d far(0.0, HUGE_VAL, 0.0);
+  EXPECT_THROW(repair.Repair(Path{q, far, -q}), InputError);
   StartRepairOptions options;
   options.waypoints = 0;
   EXPECT_THROW(repair.Repair(q, -q, options), InputError);

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "core/contact_space/contact_space.h"
 #include "core/mesh/mesh_check.h"
 #include "core/mesh/mesh_error.h"
@@ -60,6 +62,10 @@ TEST(Workspace, RefusesWhatCannotBeBuilt) {
   workspace = valid;
   workspace.bounds.max.y() = -2.0;
   EXPECT_THROW(workspace.Validate(), InputError);
+  for (const double bad : {std::nan(""), HUGE_VAL}) {
+    workspace.bounds.max.y() = bad;
+    EXPECT_THROW(workspace.Validate(), InputError) << bad;
+  }
 }
 
 }  // namespace

@@ -5,13 +5,16 @@
 #include <gtest/gtest.h>
 #include <ompl/base/DiscreteMotionValidator.h>
 #include <ompl/base/ScopedState.h>
+#include <ompl/base/spaces/SO3StateSpace.h>
 
 #include <random>
 
 #include "constraints/collision_oracle.h"
 #include "core/contact_space/contact_space.h"
+#include "core/mesh/mesh_error.h"
 #include "planners/retraction/retraction.h"
 #include "problems/shapes.h"
+#include "tests/support/passages.h"
 #include "tests/support/solid_tools.h"
 
 namespace phongpd {
@@ -19,18 +22,11 @@ namespace {
 
 namespace ob = ompl::base;
 using Eigen::Vector3d;
+using testing::BoxModel;
 
 TriangleMesh Cube(double side) {
   return MakeBox(Vector3d::Constant(-0.5 * side),
                  Vector3d::Constant(0.5 * side));
-}
-
-// C_obj = [−1, 1]³, in bounds [−2, 2]³.
-std::shared_ptr<const ContactModel> BoxModel() {
-  const BoundingBox bounds = {Vector3d::Constant(-2.0),
-                              Vector3d::Constant(2.0)};
-  return std::make_shared<const ContactModel>(
-      std::vector<TriangleMesh>{Cube(2.0)}, bounds);
 }
 
 // Two states to move between.
@@ -168,11 +164,26 @@ TEST(ContactSpaceMotionValidator, AgreesWithDenseChecksOfTheOriginalMeshes) {
   EXPECT_GT(blocked, 1000);
 }
 
-TEST(CheckConfigurationSpace, RefusesOtherSpaces) {
+TEST(MakeConfigurationSpace, HasTheBoundsOfTheModel) {
   const auto model = BoxModel();
   const auto space = MakeConfigurationSpace(*model);
   EXPECT_EQ(space->getBounds().low, std::vector<double>(3, -2.0));
   EXPECT_EQ(space->getBounds().high, std::vector<double>(3, 2.0));
+  EXPECT_NO_THROW(CheckConfigurationSpace("test", *space));
+}
+
+TEST(CheckConfigurationSpace, RefusesOtherSpaces) {
+  const ob::RealVectorStateSpace plane(2);
+  const ob::SO3StateSpace turns;  // of dimension 3
+  for (const ob::StateSpace* space :
+       {static_cast<const ob::StateSpace*>(&plane),
+        static_cast<const ob::StateSpace*>(&turns)}) {
+    EXPECT_THROW(CheckConfigurationSpace("test", *space), InputError);
+  }
+}
+
+TEST(MakeSpaceInformation, NeedsAModel) {
+  EXPECT_THROW(MakeSpaceInformation(nullptr), InputError);
 }
 
 }  // namespace

@@ -150,8 +150,10 @@ TEST_F(OmplPlanning, RefusesBadInput) {
   const testing::Passage passage = testing::MakePassage("hole", 1e-2);
   OmplPlanningOptions options;
   EXPECT_THROW(Plan(passage, "a-star", options), InputError);
-  options.time_limit = 0.0;
-  EXPECT_THROW(Plan(passage, "prm", options), InputError);
+  for (const double limit : {0.0, std::nan(""), HUGE_VAL}) {
+    options.time_limit = limit;
+    EXPECT_THROW(Plan(passage, "prm", options), InputError) << limit;
+  }
   options = {};
   options.local_planner = "fly";
   EXPECT_THROW(Plan(passage, "retraction-rrt", options), InputError);
@@ -161,6 +163,12 @@ TEST_F(OmplPlanning, RefusesBadInput) {
   EXPECT_THROW(
       PlanWithOmpl(nullptr, passage.scene.start, passage.scene.goal, "prm", {}),
       InputError);
+  EXPECT_THROW(OmplBenchmarkLog(passage.model, {std::nan(""), 0.0, 0.0},
+                                passage.scene.goal, "test", "prm", 1),
+               InputError);
+  EXPECT_THROW(OmplBenchmarkLog(nullptr, passage.scene.start,
+                                passage.scene.goal, "test", "prm", 1),
+               InputError);
 }
 
 }  // namespace

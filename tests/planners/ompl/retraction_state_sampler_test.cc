@@ -105,6 +105,17 @@ TEST(RetractionStateSampler, DeclaresItsParametersWithRanges) {
   EXPECT_EQ(sampler.options().clearance, RetractionOptions().clearance);
 }
 
+TEST(RetractionStateSampler, RefusesOtherSpacesAndNoModel) {
+  auto plane = std::make_shared<ompl::base::RealVectorStateSpace>(2);
+  plane->setBounds(-1.0, 1.0);
+  const ompl::base::SpaceInformation flat(plane);
+  const auto model = testing::BoxModel();
+  EXPECT_THROW(RetractionStateSampler(&flat, model, {}, 1), InputError);
+  const auto si = MakeSpaceInformation(model);
+  EXPECT_NO_THROW(RetractionStateSampler(si.get(), model, {}, 1));
+  EXPECT_THROW(RetractionStateSampler(si.get(), nullptr, {}, 1), InputError);
+}
+
 TEST(RetractionStateSampler, NamesReadBack) {
   for (const char* name : {"phong", "euclidean", "contact-point"}) {
     EXPECT_EQ(ToString(RetractionMetricFromString(name)), name);

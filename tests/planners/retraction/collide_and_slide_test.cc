@@ -19,19 +19,11 @@ namespace {
 
 using Eigen::Vector3d;
 using Path = std::vector<Vector3d>;
+using testing::BoxModel;
 
 TriangleMesh Cube(double side) {
   return MakeBox(Vector3d::Constant(-0.5 * side),
                  Vector3d::Constant(0.5 * side));
-}
-
-// C_obj = [−1, 1]³, in bounds [−2, 2]³.
-std::shared_ptr<const ContactModel> BoxModel() {
-  const BoundingBox bounds = {Vector3d::Constant(-2.0),
-                              Vector3d::Constant(2.0)};
-  return std::make_shared<const ContactModel>(
-      std::vector<TriangleMesh>{BuildContactSpace(Cube(0.5), Cube(1.5)).mesh},
-      bounds);
 }
 
 TEST(CollideAndSlide, GoesStraightWhereNothingIsInTheWay) {
@@ -109,6 +101,10 @@ TEST(CollideAndSlide, RefusesWhatIsNotFree) {
                             {std::nan(""), 0.0, 0.0}, &path, &counters),
             SlideStatus::kInvalid);
   SlideOptions options;
+  options.clearance = std::nan("");
+  EXPECT_THROW(CollideAndSlide(*model, options, {1.5, 0.0, 0.0},
+                               {1.5, 0.5, 0.0}, &path, &counters),
+               InputError);
   options.clearance = -1.0;
   EXPECT_THROW(options.Validate(), InputError);
   options = {};

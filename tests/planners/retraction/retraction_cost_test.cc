@@ -3,25 +3,10 @@
 // checked by counting every allocation of the process.
 #include <gtest/gtest.h>
 
-#include <atomic>
-#include <cstdlib>
-#include <new>
-
 #include "planners/retraction/collide_and_slide.h"
 #include "planners/retraction/retraction.h"
+#include "tests/support/count_allocations.h"
 #include "tests/support/passages.h"
-
-namespace {
-std::atomic<long> allocations{0};
-}  // namespace
-
-void* operator new(std::size_t size) {
-  ++allocations;
-  if (void* memory = std::malloc(size > 0 ? size : 1)) return memory;
-  throw std::bad_alloc();
-}
-void operator delete(void* memory) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
 
 namespace phongpd {
 namespace {

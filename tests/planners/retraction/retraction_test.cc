@@ -21,18 +21,11 @@ namespace phongpd {
 namespace {
 
 using Eigen::Vector3d;
+using testing::BoxModel;
 
 TriangleMesh Cube(double side) {
   return MakeBox(Vector3d::Constant(-0.5 * side),
                  Vector3d::Constant(0.5 * side));
-}
-
-// C_obj = [−1, 1]³, in bounds [−2, 2]³.
-std::shared_ptr<const ContactModel> BoxModel() {
-  const BoundingBox bounds = {Vector3d::Constant(-2.0),
-                              Vector3d::Constant(2.0)};
-  return std::make_shared<const ContactModel>(
-      std::vector<TriangleMesh>{Cube(2.0)}, bounds);
 }
 
 Retraction Make(const std::shared_ptr<const ContactModel>& model,
@@ -103,6 +96,32 @@ TEST(ContactModel, FindsBoundsAsFacets) {
   ASSERT_TRUE(model->LiftOff(facet, 0.01, &q, &room));
   EXPECT_NEAR(q.z(), 1.99, 1e-14);
   EXPECT_NEAR(room, 0.01, 1e-14);
+}
+
+TEST(ContactModel, FindsNothingNearPointsThatAreNotFinite) {
+  const BoundingBox bounds = {Vector3d::Constant(-2.0),
+                              Vector3d::Constant(2.0)};
+  const ContactModel bounds_only({}, bounds);
+  const auto model = BoxModel();
+  for (const ContactModel* one :
+       {&bounds_only, static_cast<const ContactModel*>(model.get())}) {
+    double distance = 0.0;
+    const ContactModel::Facet facet =
+        one->FindNearest({std::nan(""), 0.0, 0.0}, &distance);
+    EXPECT_EQ(distance, -HUGE_VAL);
+    EXPECT_EQ(facet.space, MotionCheck::kNone);
+  }
+}
+
+TEST(SamplingRegion, RefusesWhatIsNoContactSpace) {
+  const Vector3d q(3.0, 0.0, 0.0);
+  TriangleMesh mesh = Cube(1.0);
+  EXPECT_THROW(SamplingRegion({}, q, -q), InputError);
+  mesh.vertices[0].x() = std::nan("");
+  EXPECT_THROW(SamplingRegion(mesh, q, -q), InputError);
+  mesh = Cube(1.0);
+  mesh.triangles.pop_back();
+  EXPECT_THROW(SamplingRegion(mesh, q, -q), InputError);
 }
 
 // The normals of a cube's faces turn towards its corners, so a Phong line

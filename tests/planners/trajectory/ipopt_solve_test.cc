@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 #include <sstream>
+#include <stdexcept>
 #include <string>
 #include <thread>
 #include <vector>
@@ -189,6 +190,23 @@ TEST(SolveWithIpopt, RefusesBadSettingsAndStarts) {
   refused([&](IpoptSettings* s) { s->stall_improvement = nan; });
   refused([](IpoptSettings* s) { s->time_limit = 0.0; });
   refused([&](IpoptSettings* s) { s->feasibility = nan; });
+}
+
+TEST(SolveWithIpopt, PassesOnWhatACallbackThrows) {
+  Disc disc;
+  IpoptSettings settings;
+  settings.on_iteration = [](const IterationRecord& record) {
+    if (record.iteration == 2) throw std::out_of_range("two");
+  };
+  EXPECT_THROW(SolveWithIpopt(&disc, Point(0.1, 0.2), settings),
+               std::out_of_range);
+  settings.on_iteration = nullptr;
+  settings.is_cancelled = []() -> bool { throw std::out_of_range("at once"); };
+  EXPECT_THROW(SolveWithIpopt(&disc, Point(0.1, 0.2), settings),
+               std::out_of_range);
+  // Nothing is left locked.
+  EXPECT_EQ(SolveWithIpopt(&disc, Point(0.1, 0.2), {}).status,
+            SolveStatus::kConverged);
 }
 
 TEST(SolveWithIpopt, TellsWhyItStopped) {
