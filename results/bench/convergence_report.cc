@@ -139,7 +139,10 @@ Table VerdictTable(const ConvergenceResults& results) {
     for (const std::string& scene : Scenes(results.cells)) {
       const ComparisonCell* c =
           Find(results.cells, scene, protocol.name, kPreset);
-      if (c == nullptr) continue;
+      if (c == nullptr ||
+          Find(results.cells, scene, protocol.name, "euclidean") == nullptr) {
+        continue;
+      }
       const auto [phong, euclid] =
           Discordant(results.rows, scene, protocol.name, kPreset, "euclidean");
       const double apart =
@@ -281,7 +284,7 @@ std::vector<Figure> Figures(const ConvergenceResults& results) {
   }
   for (const TrajectoryProtocol& protocol : TrajectoryProtocols()) {
     if (!protocol.uses_every_metric ||
-        Methods(results.cells, protocol.name).empty()) {
+        Methods(results.cells, protocol.name).size() < 2) {
       continue;
     }
     const std::pair<const char*, const char*> measures[] = {
