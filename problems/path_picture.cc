@@ -28,9 +28,9 @@ Vector3d Normal(const TriangleMesh& mesh, const Triangle& t) {
       .stableNormalized();
 }
 
-// Edges whose two facets turn by more than 20°.
-std::vector<Edge> SharpEdges(const TriangleMesh& mesh) {
-  constexpr double kCosine = 0.94;
+// Edges whose two facets turn by more than 20°; all of them where none does,
+// as on a finely tessellated ball.
+std::vector<Edge> SharpEdges(const TriangleMesh& mesh, double cosine = 0.94) {
   std::vector<Edge> edges;
   const std::vector<std::array<int, 3>> neighbors = TriangleNeighbors(mesh);
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
@@ -40,14 +40,15 @@ std::vector<Edge> SharpEdges(const TriangleMesh& mesh) {
       if (other >= 0 && other < static_cast<int>(t)) continue;
       if (other >= 0 &&
           Normal(mesh, triangle).dot(Normal(mesh, mesh.triangles[other])) >
-              kCosine) {
+              cosine) {
         continue;
       }
       edges.emplace_back(mesh.vertices[triangle[k]],
                          mesh.vertices[triangle[(k + 1) % 3]]);
     }
   }
-  return edges;
+  const bool is_smooth = edges.empty() && !mesh.triangles.empty();
+  return is_smooth && cosine < 2.0 ? SharpEdges(mesh, 2.0) : edges;
 }
 
 BoundingBox Region(const PathScene& scene) {

@@ -16,8 +16,9 @@ struct NamedPath {
   bool is_free = true;
 };
 
-// What is drawn: the sharp edges of contact surfaces (dihedral angle above
-// 20°) and of the robot, and paths of the robot's position among them.
+// What is drawn: the sharp edges of contact surfaces and of the robot (facets
+// turn by more than 20°; all edges where none is sharp), and paths of the
+// robot's position among them.
 struct PathScene {
   std::string title;
   std::vector<TriangleMesh> contact_meshes;
