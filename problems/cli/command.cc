@@ -5,7 +5,6 @@
 
 #include <iostream>
 
-#include "core/contact_space/contact_space_cache.h"
 #include "core/mesh/mesh_io.h"
 #include "problems/text.h"
 
@@ -42,9 +41,8 @@ ContactSpace LoadOrBuild(const TriangleMesh& robot,
                          const TriangleMesh& obstacle,
                          const ContactSpaceOptions& options, bool use_cache) {
   Progress("building the contact space");
-  ContactSpaceCache cache;
-  if (use_cache) cache.directory = DefaultCacheDirectory();
-  ContactSpace space = BuildContactSpaceCached(robot, obstacle, options, cache);
+  ContactSpace space =
+      BuildContactSpaceCached(robot, obstacle, options, UserCache(!use_cache));
   for (const std::string& warning : space.report.warnings) Warn(warning);
   return space;
 }
@@ -88,32 +86,23 @@ void TellAbout(const Scene& scene, const SceneSpace& space) {
            (space.from_cache ? " (kept from before)" : ""));
 }
 
-void AddPictures(CLI::App* app, std::string* html, std::string* svg) {
-  app->add_option("--html", *html,
-                  "Page with the contact space, the paths and the robot, to "
-                  "turn and zoom; needs nothing from elsewhere")
-      ->type_name("FILE");
-  app->add_option("--svg", *svg, "The same as a still picture")
-      ->type_name("FILE");
-}
-
-void DeclarePictures(OutputFiles* outputs, const std::string& html,
-                     const std::string& svg) {
-  if (!html.empty()) outputs->Declare(html);
-  if (!svg.empty()) outputs->Declare(svg);
-}
-
-void WritePictures(OutputFiles* outputs, const std::string& html,
-                   const std::string& svg, const PathScene& scene) {
-  if (!html.empty()) outputs->Write(html, PathPage(scene));
-  if (!svg.empty()) outputs->Write(svg, PathSvg(scene));
-}
-
 void AddNoCache(CLI::App* app, bool* no_cache) {
   app->add_flag("--no-cache", *no_cache,
                 "Build anew, and do not keep the contact space for the next "
                 "time in $PHONGPD_CACHE_DIR, $XDG_CACHE_HOME/phongpd or "
                 "~/.cache/phongpd");
+}
+
+ContactSpaceCache UserCache(bool no_cache) {
+  ContactSpaceCache cache;
+  if (!no_cache) cache.directory = DefaultCacheDirectory();
+  return cache;
+}
+
+void RequireRuns(int runs) {
+  if (runs >= 1) return;
+  throw InputError("--runs: expected at least 1, found " +
+                   std::to_string(runs));
 }
 
 void DeclareMesh(OutputFiles* outputs, const std::string& path) {

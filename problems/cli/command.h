@@ -8,12 +8,12 @@
 #include <vector>
 
 #include "core/contact_space/contact_space.h"
+#include "core/contact_space/contact_space_cache.h"
 #include "core/mesh/mesh_check.h"
 #include "core/mesh/mesh_error.h"
 #include "core/mesh/triangle_mesh.h"
 #include "core/projection/phong_metric.h"
 #include "problems/output_files.h"
-#include "problems/path_picture.h"
 #include "problems/scene_space.h"
 
 // What the commands of the phongpd program share.
@@ -68,16 +68,12 @@ extern const char* const kSmoothingLengthHelp;
 // What the user should know of a scene and its contact space, on stderr.
 void TellAbout(const Scene& scene, const SceneSpace& space);
 
-// Declares --html and --svg, and the files they name.
-void AddPictures(CLI::App* app, std::string* html, std::string* svg);
-void DeclarePictures(OutputFiles* outputs, const std::string& html,
-                     const std::string& svg);
-// Writes those that were asked for.
-void WritePictures(OutputFiles* outputs, const std::string& html,
-                   const std::string& svg, const PathScene& scene);
-
-// Declares --no-cache.
+// Declares --no-cache, and the cache it leaves: the user's own, or none.
 void AddNoCache(CLI::App* app, bool* no_cache);
+ContactSpaceCache UserCache(bool no_cache);
+
+// Throws InputError unless --runs is at least 1.
+void RequireRuns(int runs);
 
 // Declares a mesh output, and fails now if its extension means nothing.
 void DeclareMesh(OutputFiles* outputs, const std::string& path);

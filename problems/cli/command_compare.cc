@@ -70,10 +70,7 @@ struct Methods {
 
 // Throws InputError for all that can be told to be wrong before a run.
 Methods ReadMethods(const Flags& flags) {
-  if (flags.runs < 1) {
-    throw InputError("--runs: expected at least 1, found " +
-                     std::to_string(flags.runs));
-  }
+  RequireRuns(flags.runs);
   Methods methods;
   std::set<std::string> names;
   for (const std::string& text : flags.scenes) {
@@ -97,9 +94,7 @@ Methods ReadMethods(const Flags& flags) {
 // Runs what belongs to the shard.
 std::vector<Json> Run(const Flags& flags, const Methods& methods,
                       const Shard& shard) {
-  ContactSpaceCache cache;
-  if (!flags.no_cache) cache.directory = DefaultCacheDirectory();
-  TrajectoryStudy study(cache);
+  TrajectoryStudy study(UserCache(flags.no_cache));
   std::vector<Json> rows;
   int problem = 0;
   for (const SceneSource& source : methods.sources) {

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
 
 #include "problems/cli/command.h"
-#include "problems/output_files.h"
+#include "problems/cli/seeded_runs.h"
 #include "problems/scene_source.h"
 #include "problems/text.h"
 #include "problems/trajectory_study.h"
@@ -13,8 +12,7 @@
 namespace phongpd::cli {
 namespace {
 
-struct Flags {
-  std::string scene;
+struct Flags : SeededRunFlags {
   std::string metric;
   std::string smoothing_length;
   std::string jacobian;
@@ -23,16 +21,9 @@ struct Flags {
   std::string mu_strategy = "adaptive";
   std::string polish = "needed";
   std::string noise = "0";
-  std::string time_limit;
   int routes = 1;
   int rows = 0;
-  std::uint64_t seed = 0;
-  int runs = 1;
   bool per_obstacle = false;
-  std::string output;
-  std::string html;
-  std::string svg;
-  bool no_cache = false;
 };
 
 void Override(const Flags& flags, Scene* scene) {
@@ -90,28 +81,15 @@ std::string Explanation(const PipelineResult& result) {
   return text;
 }
 
-void PrintHeader() {
-  std::cout << "scene, metric, start, seed: status, iterations, objective, "
-               "clearance/D, seconds\n";
-}
-
 int Optimize(const Flags& flags) {
-  if (flags.runs < 1) {
-    throw InputError("--runs: expected at least 1, found " +
-                     std::to_string(flags.runs));
-  }
+  RequireRuns(flags.runs);
   const SceneSource source(flags.scene);
-  OutputFiles outputs;
-  outputs.Declare(flags.output);
-  DeclarePictures(&outputs, flags.html, flags.svg);
-  ContactSpaceCache cache;
-  if (!flags.no_cache) cache.directory = DefaultCacheDirectory();
-  TrajectoryStudy study(cache, flags.per_obstacle ? SpaceLayout::kPerObstacle
-                                                  : SpaceLayout::kMerged);
-  const bool silent = outputs.UseStandardOutput();
-  PathScene picture;
-  std::string lines;
-  bool are_all_free = true;
+  SeededRuns runs(flags,
+                  "scene, metric, start, seed: status, iterations, objective, "
+                  "clearance/D, seconds");
+  TrajectoryStudy study(
+      UserCache(flags.no_cache),
+      flags.per_obstacle ? SpaceLayout::kPerObstacle : SpaceLayout::kMerged);
   for (int run = 0; run < flags.runs; ++run) {
     const std::uint64_t seed = flags.seed + static_cast<std::uint64_t>(run);
     // Seed 0 is the scene as it stands.
@@ -126,38 +104,30 @@ int Optimize(const Flags& flags) {
     const PipelineResult result = study.Run(metric, options);
     const nlohmann::ordered_json row =
         TrajectoryRow(study, metric, options, result);
-    lines += row.dump() + '\n';
-    picture.paths.push_back({metric.name + ", seed " + std::to_string(seed) +
-                                 ": " + ToString(result.status),
-                             result.path, result.certificate.free});
-    are_all_free = are_all_free && result.certificate.free;
-    if (silent) continue;
-    if (run == 0) PrintHeader();
-    std::cout << scene.name << ", " << metric.name << ", " << flags.start
-              << ", " << seed << ": " << ToString(result.status) << ", "
-              << result.iterations << ", " << Rounded(result.objective, 5)
-              << ", " << Rounded(row["clearance"].get<double>(), 3) << ", "
-              << Rounded(result.seconds, 3) << '\n';
-    const std::string why = Explanation(result);
-    if (!why.empty()) std::cout << "  " << why << '\n';
+    const std::string outcome =
+        std::to_string(seed) + ": " + ToString(result.status);
+    runs.Add(row,
+             {metric.name + ", seed " + outcome, result.path,
+              result.certificate.free},
+             scene.name + ", " + metric.name + ", " + flags.start + ", " +
+                 outcome + ", " + std::to_string(result.iterations) + ", " +
+                 Rounded(result.objective, 5) + ", " +
+                 Rounded(row["clearance"].get<double>(), 3) + ", " +
+                 Rounded(result.seconds, 3),
+             Explanation(result));
   }
-  outputs.Write(flags.output, lines);
-  picture.title = study.scene().name;
-  picture.contact_meshes = study.space().contact_meshes;
-  picture.robot = study.scene().workspace.robot;
-  WritePictures(&outputs, flags.html, flags.svg, picture);
-  outputs.Commit();
-  return are_all_free ? kDone : kNoAnswer;
+  runs.Write({study.scene().name,
+              study.space().contact_meshes,
+              study.scene().workspace.robot,
+              {}});
+  return runs.Commit();
 }
 
 }  // namespace
 
 Command AddOptimize(CLI::App* app) {
   auto flags = std::make_shared<Flags>();
-  app->add_option("scene", flags->scene,
-                  "Scene file, or FAMILY:key=value,... (see scenes list)")
-      ->required()
-      ->type_name("SCENE");
+  AddScene(app, flags.get());
   app->add_option("--metric", flags->metric,
                   "Penetration depth inside obstacles (scene's own if not set)")
       ->check(CLI::IsMember({"phong", "euclidean"}));
@@ -202,21 +172,14 @@ Command AddOptimize(CLI::App* app) {
       ->capture_default_str();
   app->add_flag("--per-obstacle", flags->per_obstacle,
                 "One contact space for each obstacle instead of a merged one");
-  app->add_option("--seed", flags->seed,
-                  "Of the first run; 0 is the scene as it stands, more draw "
-                  "start and goal of a family, and the noise")
-      ->check(CLI::NonNegativeNumber)
-      ->type_name("S")
-      ->capture_default_str();
-  app->add_option("--runs", flags->runs, "Runs, with seeds S, S+1, ...")
-      ->type_name("N")
-      ->capture_default_str();
+  AddRuns(app,
+          "Of the first run; 0 is the scene as it stands, more draw start and "
+          "goal of a family, and the noise",
+          flags.get());
   app->add_option("--time", flags->time_limit, "Limit of a run, seconds")
       ->type_name("S");
-  app->add_option("--output", flags->output, "JSON Lines, one object a run")
-      ->required()
-      ->type_name("FILE");
-  AddPictures(app, &flags->html, &flags->svg);
+  AddRowOutput(app, flags.get());
+  AddPictures(app, flags.get());
   AddNoCache(app, &flags->no_cache);
   return [flags] { return Optimize(*flags); };
 }

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
 
 #include "problems/cli/command.h"
-#include "problems/output_files.h"
+#include "problems/cli/seeded_runs.h"
 #include "problems/planning_study.h"
 #include "problems/scene_source.h"
 #include "problems/text.h"
@@ -13,30 +12,16 @@
 namespace phongpd::cli {
 namespace {
 
-struct Flags {
-  std::string scene;
+struct Flags : SeededRunFlags {
+  Flags() { seed = 1; }
+
   std::string planner;
   std::string metric = "phong";
-  std::string time_limit;
-  std::uint64_t seed = 1;
-  int runs = 1;
-  std::string output;
-  std::string html;
-  std::string svg;
   std::string ompl_log;
-  bool no_cache = false;
 };
 
-void PrintHeader() {
-  std::cout << "scene, planner, seed: status, seconds (without contact "
-               "space), points, length, clearance\n";
-}
-
 int Plan(const Flags& flags) {
-  if (flags.runs < 1) {
-    throw InputError("--runs: expected at least 1, found " +
-                     std::to_string(flags.runs));
-  }
+  RequireRuns(flags.runs);
   const Scene scene = SceneSource(flags.scene).Load();
   PlanningRun run;
   run.planner = flags.planner.empty() ? scene.planning.planner : flags.planner;
@@ -46,60 +31,42 @@ int Plan(const Flags& flags) {
     run.time_limit = ParseDouble(flags.time_limit, "--time");
   }
   if (!flags.ompl_log.empty()) CheckHasOmplLog(run.planner);
-  OutputFiles outputs;
-  outputs.Declare(flags.output);
-  DeclarePictures(&outputs, flags.html, flags.svg);
-  if (!flags.ompl_log.empty()) outputs.Declare(flags.ompl_log);
+  SeededRuns runs(flags,
+                  "scene, planner, seed: status, seconds (without contact "
+                  "space), points, length, clearance");
+  if (!flags.ompl_log.empty()) runs.outputs().Declare(flags.ompl_log);
   SilenceOmpl();
-  ContactSpaceCache cache;
-  if (!flags.no_cache) cache.directory = DefaultCacheDirectory();
-  PlanningStudy study(scene, cache);
+  PlanningStudy study(scene, UserCache(flags.no_cache));
   TellAbout(scene, study.space());
-  const bool silent = outputs.UseStandardOutput();
-  PathScene picture;
-  std::string lines;
-  bool is_answered = true;
   for (int i = 0; i < flags.runs; ++i) {
     run.seed = flags.seed + static_cast<std::uint64_t>(i);
     Progress("run " + std::to_string(i + 1) + " of " +
              std::to_string(flags.runs));
     const PlanningResult result = study.Run(run);
-    lines += PlanningRow(study, run, result).dump() + '\n';
-    picture.paths.push_back({run.planner + ", seed " +
-                                 std::to_string(run.seed) + ": " +
-                                 result.status,
-                             result.numbers.path, result.solved});
-    is_answered = is_answered && result.solved;
-    if (silent) continue;
-    if (i == 0) PrintHeader();
-    std::cout << scene.name << ", " << run.planner << ", " << run.seed << ": "
-              << result.status << ", " << Rounded(result.numbers.seconds)
-              << ", " << result.numbers.path.size() << ", "
-              << Rounded(result.numbers.length, 4) << ", "
-              << Rounded(result.numbers.clearance) << '\n';
-    if (!result.reason.empty()) std::cout << "  " << result.reason << '\n';
+    const std::string outcome = std::to_string(run.seed) + ": " + result.status;
+    runs.Add(
+        PlanningRow(study, run, result),
+        {run.planner + ", seed " + outcome, result.numbers.path, result.solved},
+        scene.name + ", " + run.planner + ", " + outcome + ", " +
+            Rounded(result.numbers.seconds) + ", " +
+            std::to_string(result.numbers.path.size()) + ", " +
+            Rounded(result.numbers.length, 4) + ", " +
+            Rounded(result.numbers.clearance),
+        result.reason);
   }
-  outputs.Write(flags.output, lines);
-  picture.title = scene.name;
-  picture.contact_meshes = {study.VisibleMesh()};
-  picture.robot = scene.workspace.robot;
-  WritePictures(&outputs, flags.html, flags.svg, picture);
+  runs.Write({scene.name, {study.VisibleMesh()}, scene.workspace.robot, {}});
   if (!flags.ompl_log.empty()) {
     Progress("running OMPL's benchmark");
-    outputs.Write(flags.ompl_log, study.OmplLog(run, flags.runs));
+    runs.outputs().Write(flags.ompl_log, study.OmplLog(run, flags.runs));
   }
-  outputs.Commit();
-  return is_answered ? kDone : kNoAnswer;
+  return runs.Commit();
 }
 
 }  // namespace
 
 Command AddPlan(CLI::App* app) {
   auto flags = std::make_shared<Flags>();
-  app->add_option("scene", flags->scene,
-                  "Scene file, or FAMILY:key=value,... (see scenes list)")
-      ->required()
-      ->type_name("SCENE");
+  AddScene(app, flags.get());
   app->add_option("--planner", flags->planner,
                   "contact-surface is complete, deterministic and proves "
                   "infeasibility; the others sample (scene's own if not set)")
@@ -114,21 +81,13 @@ Command AddPlan(CLI::App* app) {
                   "Limit of a run by a sampler, seconds (scene's own if not "
                   "set)")
       ->type_name("S");
-  app->add_option("--seed", flags->seed, "Of the first run")
-      ->check(CLI::NonNegativeNumber)
-      ->type_name("S")
-      ->capture_default_str();
-  app->add_option("--runs", flags->runs, "Runs, with seeds S, S+1, ...")
-      ->type_name("N")
-      ->capture_default_str();
-  app->add_option("--output", flags->output, "JSON Lines, one object a run")
-      ->required()
-      ->type_name("FILE");
+  AddRuns(app, "Of the first run", flags.get());
+  AddRowOutput(app, flags.get());
   app->add_option("--ompl-log", flags->ompl_log,
                   "Also run OMPL's own benchmark on the planner and write its "
                   "log, which OMPL's statistics script reads")
       ->type_name("FILE");
-  AddPictures(app, &flags->html, &flags->svg);
+  AddPictures(app, flags.get());
   AddNoCache(app, &flags->no_cache);
   return [flags] { return Plan(*flags); };
 }
