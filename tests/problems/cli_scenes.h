@@ -32,6 +32,13 @@ class CliScenes : public Cli {
       "trajectory": {"waypoints": 12}})");
   }
 
+  // The same with bounds that end where the wall does.
+  static Json ShutOff() {
+    Json scene = TwoObstacles();
+    scene["bounds"] = {{"min", {-2, -0.3, -0.3}}, {"max", {2, 0.3, 0.3}}};
+    return scene;
+  }
+
   // Writes the scene beside run/; the argument that names it there.
   std::string Scene(const Json& json,
                     const std::string& name = "scene.json") const {
@@ -70,6 +77,39 @@ class CliScenes : public Cli {
       for (Json& stage : row["stages"]) stage.erase("seconds");
     }
     return row;
+  }
+
+  // Two runs from seed 5, and again with the flags `again`: different runs, but
+  // the same bytes except for seconds.
+  void ExpectRepeats(const std::string& command,
+                     const std::string& again) const {
+    const std::string runs = command + " --runs 2 --seed 5 --output o.jsonl";
+    ASSERT_EQ(Run(runs).code, 0);
+    const std::vector<Json> first = TakeRows();
+    ASSERT_EQ(Run(runs + again).code, 0);
+    const std::vector<Json> second = TakeRows();
+    ASSERT_EQ(first.size(), 2U);
+    ASSERT_EQ(second.size(), 2U);
+    for (std::size_t i = 0; i < 2; ++i) {
+      EXPECT_EQ(first[i]["seed"], 5 + i);
+      EXPECT_EQ(WithoutSeconds(first[i]).dump(),
+                WithoutSeconds(second[i]).dump());
+    }
+    EXPECT_NE(first[0]["path"], first[1]["path"]);
+  }
+
+  // What every command of seeded runs on a scene refuses.
+  void ExpectBadRunsRefused(const std::string& command) const {
+    const std::string good = command + ' ' + Scene(TwoObstacles());
+    const std::string rest = " --output o.jsonl";
+    ExpectRefused(good, {"--output"});
+    ExpectRefused(good + " --output nowhere/o.jsonl", {"nowhere"});
+    ExpectRefused(command + " none.json" + rest, {"none.json"});
+    ExpectRefused(command + " hole:delta=1" + rest, {"delta"});
+    ExpectRefused(good + rest + " --metric l1", {"--metric", "l1"});
+    ExpectRefused(good + rest + " --runs 0", {"--runs", "0"});
+    ExpectRefused(good + rest + " --seed -1", {"--seed", "-1"});
+    ExpectRefused(good + rest + " --time nan", {"--time", "nan"});
   }
 
   // FCL on the original meshes at many points of the row's path, its ends and
