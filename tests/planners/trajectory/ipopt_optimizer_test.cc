@@ -13,28 +13,22 @@
 
 #include "core/mesh/mesh_error.h"
 #include "problems/shapes.h"
+#include "tests/support/trap.h"
 
 namespace phongpd {
 namespace {
 
 using Eigen::Vector3d;
-
-TriangleMesh Trap() {
-  return Rotated(Translated(MakeU(2.0, 0.4, 1.0), {-1.0, -1.0, -0.5}),
-                 GenericRotation());
-}
+using testing::Trap;
 
 // Straight through both arms of the U, shifted at random.
 TrajectoryProblem TrapProblem(unsigned seed, MetricKind metric) {
   SignedMetricOptions options;
   options.metric = metric;
-  TrajectoryProblem problem = MakeTrajectoryProblem({Trap()}, options);
   std::mt19937_64 random(seed);
   std::uniform_real_distribution<double> uniform(-0.15, 0.15);
   const double x = uniform(random), z = uniform(random);
-  problem.start = GenericRotation() * Vector3d(x, -1.95, z);
-  problem.goal = GenericRotation() * Vector3d(x, 1.95, z);
-  return problem;
+  return testing::TrapProblem({x, -1.95, z}, {x, 1.95, z}, options);
 }
 
 void ExpectEvidence(const TrajectoryProblem& problem,

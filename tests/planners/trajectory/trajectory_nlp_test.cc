@@ -17,25 +17,21 @@
 #include "core/mesh/mesh_error.h"
 #include "planners/trajectory/ipopt_solve.h"
 #include "problems/shapes.h"
+#include "tests/support/trap.h"
 
 namespace phongpd {
 namespace {
 
 using Eigen::Vector3d;
 using Eigen::VectorXd;
-
-TriangleMesh Trap() {
-  return Rotated(Translated(MakeU(2.0, 0.4, 1.0), {-1.0, -1.0, -0.5}),
-                 GenericRotation());
-}
+using testing::Trap;
 
 // A way through the arms of the trap.
 TrajectoryProblem TrapProblem(JacobianKind jacobian, int waypoints) {
   SignedMetricOptions options;
   options.jacobian = jacobian;
-  TrajectoryProblem problem = MakeTrajectoryProblem({Trap()}, options);
-  problem.start = GenericRotation() * Vector3d(0.1, -1.9, 0.05);
-  problem.goal = GenericRotation() * Vector3d(0.2, 1.9, -0.05);
+  TrajectoryProblem problem =
+      testing::TrapProblem({0.1, -1.9, 0.05}, {0.2, 1.9, -0.05}, options);
   problem.waypoints = waypoints;
   return problem;
 }
@@ -58,6 +54,23 @@ VectorXd Noisy(const TrajectoryNlp& nlp, const TrajectoryProblem& problem,
   return u;
 }
 
+// Ipopt's own checker at u, of "first-order" or "second-order"; *text is what
+// it prints.
+bool PassesChecker(TrajectoryNlp* nlp, const VectorXd& u,
+                   const std::string& order, std::string* text) {
+  nlp->Start(u);
+  IpoptSettings settings;
+  settings.output = text;
+  settings.max_iterations = 0;
+  settings.ipopt_options = {{"print_level", "5"},
+                            {"derivative_test", order},
+                            {"derivative_test_tol", "1e-5"},
+                            {"point_perturbation_radius", "0"}};
+  SolveWithIpopt(nlp, u, settings);
+  return text->find("No errors detected by derivative checker") !=
+         std::string::npos;
+}
+
 TEST(TrajectoryNlp, PassesIpoptsDerivativeCheckerAtSmoothPoints) {
   const TrajectoryProblem problem = TrapProblem(JacobianKind::kExact, 6);
   TrajectoryNlpOptions options;
@@ -76,18 +89,8 @@ TEST(TrajectoryNlp, PassesIpoptsDerivativeCheckerAtSmoothPoints) {
     }
     if (is_capped) continue;
     ++points;
-    nlp.Start(u);
     std::string text;
-    IpoptSettings settings;
-    settings.output = &text;
-    settings.max_iterations = 0;
-    settings.ipopt_options = {{"print_level", "5"},
-                              {"derivative_test", "first-order"},
-                              {"derivative_test_tol", "1e-5"},
-                              {"point_perturbation_radius", "0"}};
-    SolveWithIpopt(&nlp, u, settings);
-    EXPECT_NE(text.find("No errors detected by derivative checker"),
-              std::string::npos)
+    EXPECT_TRUE(PassesChecker(&nlp, u, "first-order", &text))
         << "seed " << seed << "\n"
         << text;
   }
@@ -162,21 +165,9 @@ TEST(TrajectoryNlp, HessianWithCurvaturePassesIpoptsChecker) {
   TrajectoryNlp nlp = MakeNlp(problem, 1, options);
   int passed = 0;
   for (unsigned seed = 0; seed < 20; ++seed) {
-    const VectorXd u = Noisy(nlp, problem, 0.03, seed);
-    nlp.Start(u);
     std::string text;
-    IpoptSettings settings;
-    settings.output = &text;
-    settings.max_iterations = 0;
-    settings.ipopt_options = {{"print_level", "5"},
-                              {"derivative_test", "second-order"},
-                              {"derivative_test_tol", "1e-5"},
-                              {"point_perturbation_radius", "0"}};
-    SolveWithIpopt(&nlp, u, settings);
-    passed += text.find("No errors detected by derivative checker") !=
-                      std::string::npos
-                  ? 1
-                  : 0;
+    const VectorXd u = Noisy(nlp, problem, 0.03, seed);
+    passed += PassesChecker(&nlp, u, "second-order", &text) ? 1 : 0;
   }
   EXPECT_GE(passed, 18);
 }
