@@ -2,7 +2,6 @@
 #include "planners/trajectory/corridor_program.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace phongpd {
 namespace {
@@ -197,9 +196,7 @@ bool CorridorProgram::Constraints(const double* x, double* values,
     }
     ++values;
   }
-  springs_.Lengths(x, values, jacobian);
-  return std::all_of(values, values + springs_.rows(),
-                     [](double value) { return std::isfinite(value); });
+  return springs_.Lengths(x, values, jacobian);
 }
 
 void CorridorProgram::Hessian(const double* /*x*/, double objective_factor,

@@ -6,6 +6,8 @@
 #include <IpIpoptApplication.hpp>
 #include <IpReturnCodes.hpp>
 #include <cmath>
+#include <cstdarg>
+#include <cstdio>
 #include <limits>
 #include <map>
 #include <string>
@@ -16,6 +18,30 @@
 namespace phongpd {
 
 namespace {
+
+// Ipopt prints into a string.
+class StringJournal : public Ipopt::Journal {
+ public:
+  StringJournal(std::string* text, int level)
+      : Ipopt::Journal("phongpd", static_cast<Ipopt::EJournalLevel>(level)),
+        text_(text) {}
+
+ protected:
+  void PrintImpl(Ipopt::EJournalCategory, Ipopt::EJournalLevel,
+                 const char* text) override {
+    *text_ += text;
+  }
+  void PrintfImpl(Ipopt::EJournalCategory, Ipopt::EJournalLevel,
+                  const char* format, va_list arguments) override {
+    char line[1024];
+    std::vsnprintf(line, sizeof(line), format, arguments);
+    *text_ += line;
+  }
+  void FlushBufferImpl() override {}
+
+ private:
+  std::string* text_;
+};
 
 void Fail(const std::string& name, const std::string& expected,
           const std::string& found) {
@@ -143,6 +169,11 @@ void ApplyIpoptOptions(const IpoptSettings& settings,
   }
   for (const auto& [name, value] : options) {
     ApplyOne(name, value, application);
+  }
+  if (settings.output != nullptr) {
+    Ipopt::Index level = 0;
+    application->Options()->GetIntegerValue("print_level", level, "");
+    application->Jnlst()->AddJournal(new StringJournal(settings.output, level));
   }
 }
 

@@ -9,8 +9,9 @@ class IpoptApplication;
 
 namespace phongpd {
 
-// Hands the settings to Ipopt.  Throws InputError for an option of
-// settings.ipopt_options that Ipopt does not know or a value it refuses.
+// Hands the settings to Ipopt, which then prints into settings.output.  Throws
+// InputError for an option of settings.ipopt_options that Ipopt does not know
+// or a value it refuses.
 void ApplyIpoptOptions(const IpoptSettings& settings,
                        Ipopt::IpoptApplication* application);
 

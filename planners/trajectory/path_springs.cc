@@ -2,6 +2,7 @@
 #include "planners/trajectory/path_springs.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace phongpd {
 
@@ -59,11 +60,13 @@ void PathSprings::Gradient(const double* x, double* gradient) const {
   }
 }
 
-void PathSprings::Lengths(const double* x, double* values,
+bool PathSprings::Lengths(const double* x, double* values,
                           double* jacobian) const {
+  bool are_finite = true;
   for (int i = 0; i <= waypoints; ++i) {
     const Vector3d step = Step(i, x);
     values[i] = step.squaredNorm() / eta;
+    are_finite = are_finite && std::isfinite(values[i]);
     for (int end = 0; end < 2; ++end) {
       const int waypoint = i - 1 + end;
       if (waypoint < 0 || waypoint >= waypoints) continue;
@@ -73,6 +76,7 @@ void PathSprings::Lengths(const double* x, double* values,
       }
     }
   }
+  return are_finite;
 }
 
 void PathSprings::JacobianPattern(int first_row, int* row, int* col) const {

@@ -41,7 +41,8 @@ struct PathSprings {
 
   int rows() const { return waypoints + 1; }
   int jacobian_nonzeros() const { return 6 * waypoints; }
-  void Lengths(const double* x, double* values, double* jacobian) const;
+  // False where a value is not finite.
+  bool Lengths(const double* x, double* values, double* jacobian) const;
   void JacobianPattern(int first_row, int* row, int* col) const;
 
   // Second derivative of a segment's spring: on the diagonal of both its ends,

@@ -2,7 +2,6 @@
 #include "planners/trajectory/trajectory_nlp.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace phongpd {
 
@@ -102,9 +101,7 @@ bool TrajectoryNlp::Constraints(const double* x, double* values,
     return false;
   }
   values += contact_.rows();
-  springs_.Lengths(x, values, jacobian + contact_.nonzeros());
-  return std::all_of(values, values + springs_.rows(),
-                     [](double value) { return std::isfinite(value); });
+  return springs_.Lengths(x, values, jacobian + contact_.nonzeros());
 }
 
 void TrajectoryNlp::Hessian(const double* x, double objective_factor,
