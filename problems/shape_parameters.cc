@@ -42,6 +42,11 @@ void RequireCount(const char* shape, const char* parameter, int value,
   throw InputError(message.str());
 }
 
+void RequireTriangles(const char* shape, const char* formula, int first,
+                      int second) {
+  RequireCount(shape, formula, 2 * first * second, 0, kMaxTriangles);
+}
+
 Eigen::Vector2d UnitCircle(int i, int n) {
   const int quadrant = 4 * i / n;
   const int rest = 4 * i - quadrant * n;

@@ -20,6 +20,14 @@ void RequireLengthBelow(const char* shape, const char* parameter, double value,
 void RequireCount(const char* shape, const char* parameter, int value,
                   int minimum, int maximum = 10'000);
 
+// No shape has more triangles: ten times the largest operand measured.
+inline constexpr int kMaxTriangles = 10'000'000;
+
+// A number of triangles, 2·first·second of two counts that RequireCount let
+// pass; `formula` says of which.
+void RequireTriangles(const char* shape, const char* formula, int first,
+                      int second);
+
 // The point at i/n of a full turn on the unit circle: multiples of a quarter
 // turn are exact, and n divisible by 4 gives an exact quarter-turn symmetry.
 Eigen::Vector2d UnitCircle(int i, int n);

@@ -18,6 +18,7 @@ using Eigen::Vector3d;
 using internal::RequireCount;
 using internal::RequireLength;
 using internal::RequireLengthBelow;
+using internal::RequireTriangles;
 using internal::UnitCircle;
 
 TriangleMesh MakeIcosahedron(double radius) {
@@ -61,7 +62,7 @@ std::vector<Triangle> TubeTriangles(int around, int across) {
 
 TriangleMesh MakeIcoBall(double radius, int levels) {
   RequireLength("MakeIcoBall", "radius", radius);
-  RequireCount("MakeIcoBall", "levels", levels, 0, 10);
+  RequireCount("MakeIcoBall", "levels", levels, 0, 9);
   TriangleMesh mesh = MakeIcosahedron(radius);
   for (int level = 0; level < levels; ++level) {
     std::map<std::pair<int, int>, int> midpoints;
@@ -90,6 +91,8 @@ TriangleMesh MakeUvBall(double radius, int meridians, int parallels) {
   RequireLength("MakeUvBall", "radius", radius);
   RequireCount("MakeUvBall", "meridians", meridians, 3);
   RequireCount("MakeUvBall", "parallels", parallels, 2);
+  RequireTriangles("MakeUvBall", "2·meridians·(parallels - 1) triangles",
+                   meridians, parallels - 1);
   TriangleMesh mesh;
   mesh.vertices.emplace_back(0, 0, radius);
   for (int i = 1; i < parallels; ++i) {
@@ -147,6 +150,7 @@ TriangleMesh MakeTorus(double major_radius, double minor_radius, int around,
                      "major_radius");
   RequireCount("MakeTorus", "around", around, 3);
   RequireCount("MakeTorus", "across", across, 3);
+  RequireTriangles("MakeTorus", "2·around·across triangles", around, across);
   TriangleMesh mesh;
   for (int i = 0; i < around; ++i) {
     const Vector2d out = UnitCircle(i, around);
@@ -181,6 +185,7 @@ TriangleMesh MakeKnot(double size, double tube, int around, int across) {
   RequireLengthBelow("MakeKnot", "tube", tube, 0.5 * size, "size / 2");
   RequireCount("MakeKnot", "around", around, 32);
   RequireCount("MakeKnot", "across", across, 3);
+  RequireTriangles("MakeKnot", "2·around·across triangles", around, across);
   TriangleMesh mesh;
   for (int i = 0; i < around; ++i) {
     const Vector2d t = UnitCircle(i, around);

@@ -12,12 +12,13 @@
 // edge-manifold mesh without self-intersections and throws InputError for
 // parameters that cannot give one: one line that names the shape and the
 // parameter, what it must be and what it was.  Lengths are in the caller's
-// unit, in [1e-70, 1e70]; counts of points on a curve are at most 10 000.
-// Same arguments, same bytes.  Circles start on +x and hit the axes exactly.
+// unit, in [1e-70, 1e70]; counts of points on a curve are at most 10 000,
+// triangles at most 10⁷.  Same arguments, same bytes.  Circles start on +x and
+// hit the axes exactly.
 namespace phongpd {
 
 // Ball of radius r: icosahedron subdivided `levels` times, 20·4^levels
-// triangles, vertices on the sphere; levels in [0, 10].
+// triangles, vertices on the sphere; levels in [0, 9].
 TriangleMesh MakeIcoBall(double radius, int levels);
 
 // Ball of radius r with `meridians` × `parallels` quads: UV sphere,

@@ -45,7 +45,7 @@ std::vector<Wave> RandomWaves(std::mt19937_64* random) {
 TriangleMesh MakeBlob(double radius, int levels, double roughness,
                       std::uint64_t seed) {
   internal::RequireLength("MakeBlob", "radius", radius);
-  internal::RequireCount("MakeBlob", "levels", levels, 0, 10);
+  internal::RequireCount("MakeBlob", "levels", levels, 0, 9);
   if (!(roughness >= 0.0 && roughness < 1.0)) {
     std::ostringstream message;
     message << "MakeBlob: roughness must be in [0, 1), found " << roughness;

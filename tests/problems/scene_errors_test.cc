@@ -139,6 +139,13 @@ TEST(SceneErrors, NameFilePlaceExpectedAndFound) {
       {"/robot/shape/radius", -1,
        "s.json: /robot/shape: MakeIcoBall: radius must be a length in "
        "[1e-70, 1e+70], found -1"},
+      {"/robot/shape",
+       {{"type", "uv_ball"},
+        {"radius", 1},
+        {"meridians", 10000},
+        {"parallels", 10000}},
+       "s.json: /robot/shape: MakeUvBall: 2·meridians·(parallels - 1) "
+       "triangles must be a count in [0, 10000000], found 199980000"},
       {"/obstacles/1/shape/layers",
        {{"#"}, {"#"}},
        "s.json: /obstacles/1/shape: MakeCells: expected rows of one '#' "

@@ -239,12 +239,34 @@ TEST(GenericRotation, IsARotation) {
   EXPECT_GT(r.cwiseAbs().minCoeff(), 0.0);
 }
 
+// Two counts within their range made 2·10⁸ triangles.
+TEST(Shapes, RefuseMoreThanTenMillionTriangles) {
+  const auto refusal = [](const std::function<void()>& make) -> std::string {
+    try {
+      make();
+      return "accepted";
+    } catch (const InputError& error) {
+      return error.what();
+    }
+  };
+  EXPECT_EQ(refusal([] { MakeUvBall(1, 10000, 502); }),
+            "MakeUvBall: 2·meridians·(parallels - 1) triangles must be a count "
+            "in [0, 10000000], found 10020000");
+  EXPECT_EQ(refusal([] { MakeTorus(2, 1, 10000, 10000); }),
+            "MakeTorus: 2·around·across triangles must be a count in [0, "
+            "10000000], found 200000000");
+  EXPECT_EQ(refusal([] { MakeKnot(2, 0.5, 2501, 2000); }),
+            "MakeKnot: 2·around·across triangles must be a count in [0, "
+            "10000000], found 10004000");
+  EXPECT_EQ(MakeTorus(2, 1, 10000, 50).triangles.size(), 1000000u);
+}
+
 TEST(Shapes, RefuseBadParametersByName) {
   const double inf = std::numeric_limits<double>::infinity();
   const std::vector<std::pair<std::string, std::function<void()>>> refused = {
       {"MakeIcoBall: radius", [] { MakeIcoBall(0, 1); }},
       {"MakeIcoBall: levels", [] { MakeIcoBall(1, -1); }},
-      {"MakeIcoBall: levels", [] { MakeIcoBall(1, 11); }},
+      {"MakeIcoBall: levels", [] { MakeIcoBall(1, 10); }},
       {"MakeUvBall: radius", [] { MakeUvBall(kNaN, 8, 8); }},
       {"MakeUvBall: meridians", [] { MakeUvBall(1, 2, 8); }},
       {"MakeUvBall: parallels", [] { MakeUvBall(1, 8, 1); }},
