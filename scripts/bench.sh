@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# bench.sh [paper|contact-space|convergence|planning|all]: regenerates the tables and figures of
-# results/.
+# bench.sh [paper|contact-space|convergence|planning|all]: regenerates the
+# tables and figures of results/.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 # The user's own cache is neither used nor filled.
@@ -11,7 +11,8 @@ suite=${1:-all}
 case $suite in
   paper | contact-space | convergence | planning | all) ;;
   *)
-    echo "bench: expected paper, contact-space, convergence, planning or all, found $suite" >&2
+    echo "bench: expected paper, contact-space, convergence, planning or all," \
+      "found $suite" >&2
     exit 2
     ;;
 esac
