@@ -24,13 +24,15 @@ int MotionGraph::AddPoint(const Vector3d& q) {
 
 int MotionGraph::AddPath(int from, const std::vector<Vector3d>& path, int to) {
   int last = from;
-  for (std::size_t k = 1; k < path.size(); ++k) {
-    const bool ends = to >= 0 && k + 1 == path.size();
-    const int next = ends ? to : AddPoint(path[k]);
+  const std::size_t kept = to >= 0 ? 1 : 0;
+  for (std::size_t k = 1; k + kept < path.size(); ++k) {
+    const int next = AddPoint(path[k]);
     AddEdge(last, next);
     last = next;
   }
-  return last;
+  if (to < 0 || to == last) return last;
+  AddEdge(last, to);
+  return to;
 }
 
 void MotionGraph::AddEdge(int a, int b) {

@@ -16,7 +16,8 @@ class MotionGraph {
 
   // Joins the points by an edge each along a polyline that starts at point
   // `from` (path[0], not added again).  Ends in the point `to` if that is
-  // given (path.back(), not added again).  Returns the last point's number.
+  // given (path.back(), not added again); a path of one point then joins two
+  // that coincide.  Returns the last point's number.
   int AddPath(int from, const std::vector<Eigen::Vector3d>& path, int to = -1);
 
   bool AreConnected(int a, int b) const { return Root(a) == Root(b); }

@@ -119,10 +119,12 @@ TEST_F(CliPlan, SaysWhyAnEndIsNotFree) {
 TEST_F(CliPlan, StaysWhereStartIsGoal) {
   Json scene = TwoObstacles();
   scene["goal"] = scene["start"];
-  for (const std::string planner : {"contact-surface", "retraction-forest"}) {
+  for (const std::string planner :
+       {"contact-surface", "retraction-forest", "retraction-rrt"}) {
     const Json row =
         OneRow("plan " + Scene(scene) + " --planner " + planner, 0);
     EXPECT_EQ(row["collision_free"], true) << planner;
+    EXPECT_EQ(row["path_length"], 0.0) << planner;
   }
 }
 

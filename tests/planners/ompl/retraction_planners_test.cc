@@ -83,6 +83,18 @@ TYPED_TEST(RetractionPlanners, SolveNarrowPassagesWithFreePaths) {
   }
 }
 
+// The slide from a goal to the same start is one point, which joined nothing:
+// the path went to a sample and back.
+TYPED_TEST(RetractionPlanners, StayWhereStartIsGoal) {
+  testing::Passage passage = testing::MakePassage("hole", 1e-2);
+  passage.scene.goal = passage.scene.start;
+  Setup<TypeParam> setup(passage);
+  ASSERT_EQ(setup.Solve(1.0), ob::PlannerStatus::EXACT_SOLUTION);
+  EXPECT_EQ(setup.planner->samples(), 0u);
+  EXPECT_EQ(setup.Path(),
+            std::vector<Vector3d>({passage.scene.start, passage.scene.start}));
+}
+
 TYPED_TEST(RetractionPlanners, DependNeitherOnUnitNorOnOrigin) {
   for (const double scale : {1e-3, 1.0, 1e3}) {
     for (const double offset : {0.0, 1e3}) {

@@ -32,6 +32,17 @@ TEST(MotionGraph, TakesTheShorterOfTwoWays) {
   EXPECT_TRUE(graph.edges().empty());
 }
 
+TEST(MotionGraph, JoinsPointsThatCoincide) {
+  MotionGraph graph;
+  const Vector3d q(1, 2, 3);
+  const int a = graph.AddPoint(q), b = graph.AddPoint(q);
+  EXPECT_EQ(graph.AddPath(a, {q}, b), b);
+  EXPECT_EQ(graph.ShortestPath(a, b), (Path{q, q}));
+  EXPECT_EQ(graph.AddPath(a, {q}, a), a);
+  EXPECT_EQ(graph.points().size(), 2u);
+  EXPECT_EQ(graph.edges().size(), 1u);
+}
+
 // Components by flooding the edges.
 TEST(MotionGraph, KnowsItsComponents) {
   std::mt19937_64 random(2);
