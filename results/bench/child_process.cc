@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <chrono>
 #include <csignal>
 #include <cstring>
 #include <exception>
@@ -20,12 +19,6 @@ namespace {
 
 // Address space of a child, so that none takes the machine down.
 constexpr rlim_t kMemory = rlim_t{12} << 30;
-
-double Now() {
-  return std::chrono::duration<double>(
-             std::chrono::steady_clock::now().time_since_epoch())
-      .count();
-}
 
 [[noreturn]] void Work(const std::function<std::string()>& work, int pipe) {
   const rlimit memory = {kMemory, kMemory};
@@ -55,7 +48,6 @@ ChildProcess::ChildProcess(const std::function<std::string()>& work) {
     throw std::runtime_error(std::string("pipe: ") + std::strerror(errno));
   }
   std::cout.flush();
-  start_ = Now();
   pid_ = fork();
   if (pid_ == 0) {
     close(ends[0]);
@@ -81,7 +73,7 @@ ChildOutcome ChildProcess::Wait(double limit) {
   bool stopped = false;
   char buffer[4096];
   while (true) {
-    const double left = start_ + limit - Now();
+    const double left = limit - stopwatch_.Seconds();
     pollfd ready = {pipe_, POLLIN, 0};
     const int timeout = static_cast<int>(std::clamp(1e3 * left, 0.0, 1e6));
     const int events = poll(&ready, 1, timeout);
@@ -107,7 +99,7 @@ void ChildProcess::Reap(ChildOutcome* outcome) {
   rusage usage = {};
   while (wait4(pid_, &status, 0, &usage) < 0 && errno == EINTR) {
   }
-  outcome->seconds = Now() - start_;
+  outcome->seconds = stopwatch_.Seconds();
   outcome->peak_mib = static_cast<double>(usage.ru_maxrss) / 1024.0;
   outcome->status = !WIFEXITED(status)         ? ChildStatus::kCrashed
                     : WEXITSTATUS(status) == 0 ? ChildStatus::kDone

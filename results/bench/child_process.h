@@ -6,6 +6,8 @@
 #include <functional>
 #include <string>
 
+#include "core/stopwatch.h"
+
 namespace phongpd::bench {
 
 enum class ChildStatus {
@@ -41,7 +43,7 @@ class ChildProcess {
 
   pid_t pid_ = -1;
   int pipe_ = -1;
-  double start_ = 0.0;
+  Stopwatch stopwatch_;  // since the start
 };
 
 ChildOutcome RunInChild(const std::function<std::string()>& work, double limit);

@@ -4,27 +4,38 @@
 #include <tbb/global_control.h>
 
 #include <algorithm>
-#include <chrono>
 #include <functional>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 
 #include "core/contact_space/contact_space.h"
+#include "core/stopwatch.h"
 #include "problems/contact_space_check.h"
 #include "results/bench/competitors.h"
 #include "results/bench/report.h"
 
-namespace phongpd::bench {
+namespace phongpd {
+
+// What child processes send.
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(CheckResult, failures, triangles, seconds,
+                                   rounded_contacts, crevices, undecided,
+                                   oracle_errors)
+
+namespace bench {
+
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(BuildMeasurement, seconds, robot_triangles,
+                                   obstacle_triangles, triangles, components,
+                                   genus, cavities, sound, self_intersections,
+                                   volume, convolution_triangles,
+                                   arrangement_faces, builds, slowest, stages,
+                                   hash)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(CompetitorMeasurement, seconds, triangles,
+                                   volume)
+
 namespace {
 
 using Json = nlohmann::json;
-
-double Now() {
-  return std::chrono::duration<double>(
-             std::chrono::steady_clock::now().time_since_epoch())
-      .count();
-}
 
 // FNV-1a over all coordinates and indices.
 std::uint64_t Hash(const TriangleMesh& mesh) {
@@ -40,8 +51,8 @@ std::uint64_t Hash(const TriangleMesh& mesh) {
   return hash;
 }
 
-std::string Build(const BuildCase& build, int builds, int threads,
-                  double limit) {
+BuildMeasurement Build(const BuildCase& build, int builds, int threads,
+                       double limit) {
   std::optional<tbb::global_control> control;
   if (threads > 0) {
     control.emplace(tbb::global_control::max_allowed_parallelism,
@@ -51,78 +62,73 @@ std::string Build(const BuildCase& build, int builds, int threads,
   std::vector<double> seconds;
   std::vector<std::pair<std::string, std::vector<double>>> stages;
   ContactSpaceReport report;
-  std::uint64_t hash = 0;
+  BuildMeasurement m;
   double spent = 0.0;
   while (static_cast<int>(seconds.size()) < builds && spent < 0.25 * limit) {
-    const double start = Now();
+    const Stopwatch stopwatch;
     const ContactSpace space = BuildContactSpace(robot, obstacle);
-    seconds.push_back(Now() - start);
+    seconds.push_back(stopwatch.Seconds());
     spent += seconds.back();
     report = space.report;
-    hash = Hash(space.mesh);
+    m.hash = Hash(space.mesh);
     for (std::size_t i = 0; i < report.seconds.size(); ++i) {
       if (i == stages.size()) stages.push_back({report.seconds[i].first, {}});
       stages[i].second.push_back(report.seconds[i].second);
     }
   }
-  Json medians = Json::array();
   for (const auto& [stage, times] : stages) {
-    medians.push_back({stage, Quantile(times, 0.5)});
+    m.stages.emplace_back(stage, Quantile(times, 0.5));
   }
-  return Json{{"robot", robot.triangles.size()},
-              {"obstacle", obstacle.triangles.size()},
-              {"triangles", report.triangles},
-              {"components", report.components},
-              {"genus", report.genus},
-              {"cavities", report.cavities},
-              {"sound", report.closed && report.manifold},
-              {"self_intersections", report.self_intersections},
-              {"volume", report.volume},
-              {"convolution", report.convolution_triangles},
-              {"arrangement", report.arrangement_faces},
-              {"builds", seconds.size()},
-              {"seconds", Quantile(seconds, 0.5)},
-              {"slowest", Quantile(seconds, 1.0)},
-              {"stages", medians},
-              {"hash", hash}}
-      .dump();
+  m.robot_triangles = static_cast<int>(robot.triangles.size());
+  m.obstacle_triangles = static_cast<int>(obstacle.triangles.size());
+  m.triangles = static_cast<int>(report.triangles);
+  m.components = report.components;
+  m.genus = report.genus;
+  m.cavities = report.cavities;
+  m.sound = report.closed && report.manifold;
+  m.self_intersections = static_cast<int>(report.self_intersections);
+  m.volume = report.volume;
+  m.convolution_triangles = static_cast<int>(report.convolution_triangles);
+  m.arrangement_faces = static_cast<int>(report.arrangement_faces);
+  m.builds = static_cast<int>(seconds.size());
+  m.seconds = Quantile(seconds, 0.5);
+  m.slowest = Quantile(seconds, 1.0);
+  return m;
 }
 
-// Runs `work`, which returns JSON with "seconds", and fills in what every
-// measurement has; nothing when the work did not finish.
-std::optional<Json> RunMeasured(const std::function<std::string()>& work,
-                                double limit, Measurement* m) {
-  const ChildOutcome outcome = RunInChild(work, limit);
-  m->status = outcome.status;
-  m->message = outcome.output;
-  m->seconds = outcome.seconds;
-  m->peak_mib = outcome.peak_mib;
-  if (m->status != ChildStatus::kDone) return std::nullopt;
-  Json json = Json::parse(outcome.output);
-  m->seconds = json["seconds"];
-  return json;
+// What `work` measures in a process of its own; if it did not finish, how long
+// that took.
+template <typename M>
+M RunMeasured(const std::function<M()>& work, double limit) {
+  const ChildOutcome outcome =
+      RunInChild([&] { return Json(work()).dump(); }, limit);
+  M m;
+  if (outcome.status == ChildStatus::kDone) {
+    Json::parse(outcome.output).get_to(m);
+  } else {
+    m.seconds = outcome.seconds;
+  }
+  m.status = outcome.status;
+  m.peak_mib = outcome.peak_mib;
+  return m;
 }
 
 #ifdef PHONGPD_COMPETITORS
 CompetitorMeasurement Compete(const BuildCase& build, double limit,
                               CompetitorResult (*run)(const TriangleMesh&,
                                                       const TriangleMesh&)) {
-  CompetitorMeasurement m;
-  const auto json = RunMeasured(
+  return RunMeasured<CompetitorMeasurement>(
       [&] {
         const TriangleMesh robot = build.robot(), obstacle = build.obstacle();
-        const double start = Now();
+        const Stopwatch stopwatch;
         const CompetitorResult result = run(robot, obstacle);
-        return Json{{"seconds", Now() - start},
-                    {"triangles", result.triangles},
-                    {"volume", result.volume}}
-            .dump();
+        CompetitorMeasurement m;
+        m.seconds = stopwatch.Seconds();
+        m.triangles = static_cast<int>(result.triangles);
+        m.volume = result.volume;
+        return m;
       },
-      limit, &m);
-  if (!json) return m;
-  m.triangles = json->at("triangles");
-  m.volume = json->at("volume");
-  return m;
+      limit);
 }
 #endif
 
@@ -131,13 +137,7 @@ std::string Check(PairKind kind, std::uint64_t seed) {
                                 1);
   CheckOptions options;
   options.seed = seed;
-  const CheckResult r = CheckContactSpace(MakeRandomPair(kind, seed), options);
-  return Json{
-      {"failures", r.failures},       {"seconds", r.seconds},
-      {"triangles", r.triangles},     {"rounded", r.rounded_contacts},
-      {"points", 5 * options.points}, {"crevices", r.crevices},
-      {"undecided", r.undecided},     {"oracle_errors", r.oracle_errors}}
-      .dump();
+  return Json(CheckContactSpace(MakeRandomPair(kind, seed), options)).dump();
 }
 
 void Count(std::uint64_t seed, const ChildOutcome& outcome, FuzzCount* count) {
@@ -154,17 +154,17 @@ void Count(std::uint64_t seed, const ChildOutcome& outcome, FuzzCount* count) {
                                                    : outcome.output);
     return;
   }
-  const Json json = Json::parse(outcome.output);
-  count->failed += !json["failures"].empty();
-  for (const std::string why : json["failures"]) fail(why);
-  count->points += json["points"].get<int>();
-  count->crevices += json["crevices"].get<int>();
-  count->undecided += json["undecided"].get<int>();
-  count->oracle_errors += json["oracle_errors"].get<int>();
-  count->rounded_pairs += json["rounded"].get<int>() > 0;
-  count->largest = std::max(count->largest, json["triangles"].get<int>());
-  if (json["seconds"] > count->slowest) {
-    count->slowest = json["seconds"];
+  const auto found = Json::parse(outcome.output).get<CheckResult>();
+  count->failed += !found.failures.empty();
+  for (const std::string& why : found.failures) fail(why);
+  count->points += 5 * CheckOptions().points;
+  count->crevices += found.crevices;
+  count->undecided += found.undecided;
+  count->oracle_errors += found.oracle_errors;
+  count->rounded_pairs += found.rounded_contacts > 0;
+  count->largest = std::max(count->largest, static_cast<int>(found.triangles));
+  if (found.seconds > count->slowest) {
+    count->slowest = found.seconds;
     count->slowest_seed = static_cast<int>(seed);
   }
 }
@@ -173,29 +173,8 @@ void Count(std::uint64_t seed, const ChildOutcome& outcome, FuzzCount* count) {
 
 BuildMeasurement MeasureBuild(const BuildCase& build, int builds, int threads,
                               double limit) {
-  BuildMeasurement m;
-  const auto found = RunMeasured(
-      [&] { return Build(build, builds, threads, limit); }, limit, &m);
-  if (!found) return m;
-  const Json& json = *found;
-  m.robot_triangles = json["robot"];
-  m.obstacle_triangles = json["obstacle"];
-  m.triangles = json["triangles"];
-  m.components = json["components"];
-  m.genus = json["genus"];
-  m.cavities = json["cavities"];
-  m.sound = json["sound"];
-  m.self_intersections = json["self_intersections"];
-  m.volume = json["volume"];
-  m.convolution_triangles = json["convolution"];
-  m.arrangement_faces = json["arrangement"];
-  m.builds = json["builds"];
-  m.slowest = json["slowest"];
-  for (const Json& stage : json["stages"]) {
-    m.stages.emplace_back(stage[0], stage[1]);
-  }
-  m.hash = json["hash"];
-  return m;
+  return RunMeasured<BuildMeasurement>(
+      [&] { return Build(build, builds, threads, limit); }, limit);
 }
 
 #ifdef PHONGPD_COMPETITORS
@@ -233,4 +212,5 @@ FuzzCount CheckPairs(PairKind kind, std::uint64_t first, int pairs,
   return count;
 }
 
-}  // namespace phongpd::bench
+}  // namespace bench
+}  // namespace phongpd

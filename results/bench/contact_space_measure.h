@@ -16,7 +16,6 @@ namespace phongpd::bench {
 // One process.
 struct Measurement {
   ChildStatus status = ChildStatus::kCrashed;
-  std::string message;   // why not, unless kDone
   double seconds = 0.0;  // of the work if kDone, else of the process
   double peak_mib = 0.0;
 };

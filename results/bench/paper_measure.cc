@@ -2,23 +2,17 @@
 #include "results/bench/paper_measure.h"
 
 #include <algorithm>
-#include <chrono>
 #include <memory>
 #include <numeric>
 #include <random>
 
 #include "core/projection/euclidean_metric.h"
 #include "core/projection/phong_metric.h"
+#include "core/stopwatch.h"
 #include "results/bench/report.h"
 
 namespace phongpd::bench {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double SecondsSince(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 struct NamedMetric {
   std::string name;
@@ -73,9 +67,9 @@ void TimeQueries(const PenetrationMetric& metric, const StraightMotion& motion,
   Branch branch;
   for (int frame = 0; frame < motion.frames; ++frame) {
     const Eigen::Vector3d q = motion.At(frame);
-    const Clock::time_point start = Clock::now();
+    const Stopwatch stopwatch;
     const PenetrationResult result = metric.Query(q, branch);
-    const double seconds = SecondsSince(start);
+    const double seconds = stopwatch.Seconds();
     if (result.inside && frame > 0) microseconds->push_back(1e6 * seconds);
     if (carry_branch) branch = result.branch;
   }
@@ -187,9 +181,9 @@ PaperResult Measure(const PaperBenchmark& benchmark,
   result.benchmark = benchmark;
   std::vector<double> seconds;
   for (int i = 0; i < options.builds; ++i) {
-    const Clock::time_point start = Clock::now();
+    const Stopwatch stopwatch;
     result.space = BuildContactSpace(benchmark.robot, benchmark.obstacle);
-    seconds.push_back(SecondsSince(start));
+    seconds.push_back(stopwatch.Seconds());
   }
   result.build_seconds = Quantile(seconds, 0.5);
   const TriangleMesh& contact = result.space.mesh;
