@@ -64,22 +64,6 @@ BoundingBox Region(const PathScene& scene) {
   return box;
 }
 
-std::string Escaped(const std::string& text) {
-  std::string escaped;
-  for (const char c : text) {
-    if (c == '&') {
-      escaped += "&amp;";
-    } else if (c == '<') {
-      escaped += "&lt;";
-    } else if (c == '"') {
-      escaped += "&quot;";
-    } else {
-      escaped += c;
-    }
-  }
-  return escaped;
-}
-
 std::string JsonPoint(const Vector3d& p) {
   return "[" + Rounded(p.x(), 7) + "," + Rounded(p.y(), 7) + "," +
          Rounded(p.z(), 7) + "]";

@@ -54,6 +54,24 @@ double ParseDouble(std::string_view text, const std::string& what) {
   return value;
 }
 
+std::string Escaped(const std::string& text) {
+  std::string escaped;
+  for (const char c : text) {
+    if (c == '&') {
+      escaped += "&amp;";
+    } else if (c == '<') {
+      escaped += "&lt;";
+    } else if (c == '>') {
+      escaped += "&gt;";
+    } else if (c == '"') {
+      escaped += "&quot;";
+    } else {
+      escaped += c;
+    }
+  }
+  return escaped;
+}
+
 const char* StatusName(QueryStatus status) {
   switch (status) {
     case QueryStatus::kOk:

@@ -28,6 +28,9 @@ double ParseDouble(std::string_view text, const std::string& what);
 // a line's end.
 std::string CsvCell(const std::string& text);
 
+// `text` between the tags of HTML or SVG: & < > " as entities.
+std::string Escaped(const std::string& text);
+
 // ok, branch_ended, euclidean_fallback or invalid.
 const char* StatusName(QueryStatus status);
 

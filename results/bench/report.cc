@@ -20,22 +20,6 @@ std::string Joined(const std::vector<std::string>& cells, const char* between) {
   return line;
 }
 
-std::string Escaped(const std::string& text) {
-  std::string html;
-  for (const char c : text) {
-    if (c == '<') {
-      html += "&lt;";
-    } else if (c == '>') {
-      html += "&gt;";
-    } else if (c == '&') {
-      html += "&amp;";
-    } else {
-      html += c;
-    }
-  }
-  return html;
-}
-
 // Columns a terminal needs for UTF-8 text.
 std::size_t Width(const std::string& text) {
   return static_cast<std::size_t>(std::count_if(
