@@ -151,9 +151,7 @@ TriangleMesh Shell(const LatticeBox& inner, int thickness) {
     outer.min[k] -= thickness;
     outer.max[k] += thickness;
   }
-  TriangleMesh cavity = BoxesMesh({inner});
-  for (Triangle& t : cavity.triangles) std::swap(t[1], t[2]);
-  return Joined(BoxesMesh({outer}), cavity);
+  return Joined(BoxesMesh({outer}), Reversed(BoxesMesh({inner})));
 }
 
 SolidPair CavityPair(Random* random) {

@@ -83,9 +83,8 @@ void AppendArc(const Vector2d& center, double radius, double from, double to,
 }
 
 // `body` with a cavity in the form of the second solid.
-TriangleMesh Hollow(const TriangleMesh& body, TriangleMesh cavity) {
-  for (Triangle& t : cavity.triangles) std::swap(t[1], t[2]);
-  return Joined(body, cavity);
+TriangleMesh Hollow(const TriangleMesh& body, const TriangleMesh& cavity) {
+  return Joined(body, Reversed(cavity));
 }
 
 }  // namespace

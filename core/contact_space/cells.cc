@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "core/contact_space/face_geometry.h"
-#include "core/contact_space/union_find.h"
+#include "core/mesh/union_find.h"
 
 namespace phongpd::internal {
 namespace {

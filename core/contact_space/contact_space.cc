@@ -22,9 +22,9 @@
 #include "core/contact_space/solid_collision.h"
 #include "core/contact_space/surface_assembly.h"
 #include "core/contact_space/surface_refinement.h"
-#include "core/contact_space/union_find.h"
 #include "core/contact_space/zero_edges.h"
 #include "core/mesh/triangle_quality.h"
+#include "core/mesh/union_find.h"
 
 namespace phongpd {
 namespace {

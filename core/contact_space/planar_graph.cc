@@ -7,7 +7,7 @@
 #include <numeric>
 #include <stdexcept>
 
-#include "core/contact_space/union_find.h"
+#include "core/mesh/union_find.h"
 
 namespace phongpd::internal {
 namespace {

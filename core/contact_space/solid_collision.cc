@@ -9,7 +9,7 @@
 #include <cmath>
 #include <vector>
 
-#include "core/contact_space/union_find.h"
+#include "core/mesh/union_find.h"
 
 namespace phongpd::internal {
 namespace {

@@ -5,34 +5,10 @@
 #include <algorithm>
 #include <cstddef>
 #include <limits>
-#include <numeric>
+
+#include "core/mesh/union_find.h"
 
 namespace phongpd {
-namespace {
-
-// Disjoint sets of vertices, with path halving.
-class VertexSets {
- public:
-  explicit VertexSets(std::size_t size) : parent_(size) {
-    std::iota(parent_.begin(), parent_.end(), 0);
-  }
-  int Find(int v) {
-    while (parent_[v] != v) v = parent_[v] = parent_[parent_[v]];
-    return v;
-  }
-  void Join(int a, int b) {
-    a = Find(a);
-    b = Find(b);
-    // The smaller index stays the root, whatever the order of the triangles.
-    if (a < b) std::swap(a, b);
-    parent_[a] = b;
-  }
-
- private:
-  std::vector<int> parent_;
-};
-
-}  // namespace
 
 BoundingBox ComputeBounds(const TriangleMesh& mesh) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -73,7 +49,7 @@ double SurfaceArea(const TriangleMesh& mesh) {
 }
 
 std::vector<int> LabelComponents(const TriangleMesh& mesh, int* count) {
-  VertexSets sets(mesh.vertices.size());
+  internal::UnionFind sets(mesh.vertices.size());
   for (const auto& [a, b, c] : mesh.triangles) {
     sets.Join(a, b);
     sets.Join(b, c);
@@ -119,6 +95,11 @@ std::vector<std::array<int, 3>> TriangleNeighbors(const TriangleMesh& mesh) {
     neighbors[b.triangle][b.corner] = a.triangle;
   }
   return neighbors;
+}
+
+TriangleMesh Reversed(TriangleMesh mesh) {
+  for (Triangle& t : mesh.triangles) std::swap(t[1], t[2]);
+  return mesh;
 }
 
 TriangleMesh Translated(TriangleMesh mesh, const Eigen::Vector3d& offset) {

@@ -50,6 +50,9 @@ std::vector<int> LabelComponents(const TriangleMesh& mesh, int* count);
 // on a boundary.  Requires an edge-manifold mesh.
 std::vector<std::array<int, 3>> TriangleNeighbors(const TriangleMesh& mesh);
 
+// The mesh inside out: every triangle turned over.
+TriangleMesh Reversed(TriangleMesh mesh);
+
 // The mesh with every vertex moved by `offset`.
 TriangleMesh Translated(TriangleMesh mesh, const Eigen::Vector3d& offset);
 

@@ -12,27 +12,20 @@ namespace {
 
 using Eigen::Vector3d;
 
-// Appends the 12 triangles of a box, outward or inward.
-void AppendBox(const BoundingBox& box, bool outward, TriangleMesh* mesh) {
-  const int first = static_cast<int>(mesh->vertices.size());
+// The 12 outward triangles of a box.
+TriangleMesh BoxMesh(const BoundingBox& box) {
+  TriangleMesh mesh;
   for (int corner = 0; corner < 8; ++corner) {
     Vector3d v;
     for (int k = 0; k < 3; ++k) {
       v[k] = (corner >> k & 1) != 0 ? box.max[k] : box.min[k];
     }
-    mesh->vertices.push_back(v);
+    mesh.vertices.push_back(v);
   }
-  static constexpr int kFaces[6][4] = {{0, 4, 6, 2}, {1, 3, 7, 5},
-                                       {0, 1, 5, 4}, {2, 6, 7, 3},
-                                       {0, 2, 3, 1}, {4, 5, 7, 6}};
-  for (const int(&face)[4] : kFaces) {
-    for (const int second : {1, 2}) {
-      Triangle t = {first + face[0], first + face[second],
-                    first + face[second + 1]};
-      if (!outward) std::swap(t[1], t[2]);
-      mesh->triangles.push_back(t);
-    }
-  }
+  mesh.triangles = {{0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5},
+                    {0, 1, 5}, {0, 5, 4}, {2, 6, 7}, {2, 7, 3},
+                    {0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}};
+  return mesh;
 }
 
 }  // namespace
@@ -65,10 +58,8 @@ TriangleMesh BoundsShell(const Workspace& workspace) {
   // As thick as the cavity is wide: thinner saves nothing, and the outside of
   // the shell stays far from everything inside.
   const double wall = (inner.max - inner.min).maxCoeff();
-  TriangleMesh shell;
-  AppendBox({inner.min.array() - wall, inner.max.array() + wall}, true, &shell);
-  AppendBox(inner, false, &shell);
-  return shell;
+  return Joined(BoxMesh({inner.min.array() - wall, inner.max.array() + wall}),
+                Reversed(BoxMesh(inner)));
 }
 
 TriangleMesh JoinedObstacle(const Workspace& workspace) {

@@ -98,7 +98,7 @@ class ContactSpaceCacheTest : public testing::Test {
 
 TEST_F(ContactSpaceCacheTest, GivesWhatTheBuildGaveBitForBit) {
   // Inside out, so that the report has something to say.
-  for (Triangle& t : robot_.triangles) std::swap(t[1], t[2]);
+  robot_ = Reversed(robot_);
   ContactSpaceOptions options;
   options.refine.target_edge = 0.2;
   const ContactSpace built = Build(options);

@@ -327,9 +327,7 @@ TEST(ContactSpace, PredictsItsArrangementWithinAFactorOfTwo) {
 }
 
 TEST(ContactSpace, TurnsAnInsideOutOperandAndSaysSo) {
-  TriangleMesh inverted = Cube(1);
-  for (Triangle& t : inverted.triangles) std::swap(t[1], t[2]);
-  const ContactSpace c = BuildContactSpace(inverted, Cube(1));
+  const ContactSpace c = BuildContactSpace(Reversed(Cube(1)), Cube(1));
   EXPECT_EQ(c.report.volume, 8.0);
   EXPECT_EQ(c.report.robot.inverted_components, 1);
   EXPECT_FALSE(c.report.warnings.empty());

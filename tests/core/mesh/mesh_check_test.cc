@@ -18,11 +18,6 @@ using Eigen::Vector3d;
 
 TriangleMesh UnitBox() { return MakeBox({0, 0, 0}, {1, 1, 1}); }
 
-TriangleMesh Mirrored(TriangleMesh mesh) {
-  for (Triangle& t : mesh.triangles) std::swap(t[1], t[2]);
-  return mesh;
-}
-
 // Every triangle with its own three vertices.
 TriangleMesh Soup(const TriangleMesh& mesh) {
   TriangleMesh soup;
@@ -179,7 +174,7 @@ TEST(MakeSolid, WorksFarFromTheOrigin) {
   const TriangleMesh box = MakeBox({0, 0, 0}, {0.25, 0.5, 1});
   for (const double offset : {1e6, -1e9}) {
     MeshReport report;
-    MakeSolid(Translated(Mirrored(box), Vector3d::Constant(offset)), "box",
+    MakeSolid(Translated(Reversed(box), Vector3d::Constant(offset)), "box",
               &report);
     EXPECT_EQ(report.volume, 0.125);
     EXPECT_EQ(report.inverted_components, 1);
@@ -238,7 +233,7 @@ TEST(MakeSolid, KeepsZeroAreaTrianglesThatTheSurfaceNeeds) {
 TEST(MakeSolid, TurnsInsideOutParts) {
   MeshReport report;
   const TriangleMesh solid =
-      MakeSolid(Joined(UnitBox(), Mirrored(Translated(UnitBox(), {5, 0, 0}))),
+      MakeSolid(Joined(UnitBox(), Reversed(Translated(UnitBox(), {5, 0, 0}))),
                 "two", &report);
   EXPECT_EQ(report.inverted_components, 1);
   EXPECT_EQ(report.volume, 2.0);
@@ -252,7 +247,7 @@ TriangleMesh Nest(const std::vector<std::pair<double, bool>>& shells) {
   for (const auto& [size, is_outward] : shells) {
     const TriangleMesh box =
         MakeBox(Vector3d::Constant(-size), Vector3d::Constant(size));
-    mesh = Joined(mesh, is_outward ? box : Mirrored(box));
+    mesh = Joined(mesh, is_outward ? box : Reversed(box));
   }
   return mesh;
 }
@@ -286,11 +281,11 @@ TEST(MakeSolid, TurnsPartsThatAreOnlyPartlyInside) {
   const TriangleMesh l = MakeL(4, 1, 4);
   const TriangleMesh ball = MakeIcoBall(0.5, 1);
   MeshReport report;
-  MakeSolid(Joined(l, Mirrored(Translated(ball, {1, 2, 2}))), "x", &report);
+  MakeSolid(Joined(l, Reversed(Translated(ball, {1, 2, 2}))), "x", &report);
   EXPECT_EQ(report.inverted_components, 1);  // crosses the wall
-  MakeSolid(Joined(l, Mirrored(Translated(ball, {3, 3, 2}))), "x", &report);
+  MakeSolid(Joined(l, Reversed(Translated(ball, {3, 3, 2}))), "x", &report);
   EXPECT_EQ(report.inverted_components, 1);  // in the notch
-  MakeSolid(Joined(l, Mirrored(Scaled(Translated(ball, {1, 1, 4}), 0.5))), "x",
+  MakeSolid(Joined(l, Reversed(Scaled(Translated(ball, {1, 1, 4}), 0.5))), "x",
             &report);
   EXPECT_EQ(report.inverted_components, 0);  // in the wall: a cavity
 }

@@ -55,9 +55,7 @@ TEST(SamplingRegion, IsTheBoxAroundTheCellsOfBothEnds) {
       MakeBox(Vector3d::Constant(-5.0), Vector3d::Constant(5.0));
   for (const auto& [min, max] :
        {std::make_pair(-1.0, 0.9), std::make_pair(1.0, 3.0)}) {
-    TriangleMesh room = MakeBox({min, -1.0, -1.0}, {max, 1.0, 1.0});
-    for (Triangle& t : room.triangles) std::swap(t[1], t[2]);
-    mesh = Joined(mesh, room);
+    mesh = Joined(mesh, Reversed(MakeBox({min, -1.0, -1.0}, {max, 1.0, 1.0})));
   }
   const Vector3d left(0.1, 0.2, 0.3), right(2.0, 0.1, 0.2);
   BoundingBox region = SamplingRegion(mesh, left, left);
