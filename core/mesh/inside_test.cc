@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/mesh/inside_test.h"
 
-#include <cstddef>
-
 #include "core/mesh/exact_sign.h"
+#include "core/mesh/triangle_corners.h"
 
 namespace phongpd {
 
@@ -59,23 +58,8 @@ Crossing Cross(const Vector3d& a, const Vector3d& b, const Vector3d& c,
 
 }  // namespace
 
-InsideTest::InsideTest(const TriangleMesh& mesh) {
-  std::vector<BoundingBox> boxes;
-  boxes.reserve(mesh.triangles.size());
-  std::vector<Corners> corners;
-  corners.reserve(mesh.triangles.size());
-  for (const Triangle& t : mesh.triangles) {
-    const Vector3d& a = mesh.vertices[t[0]];
-    const Vector3d& b = mesh.vertices[t[1]];
-    const Vector3d& c = mesh.vertices[t[2]];
-    corners.push_back({a, b, c});
-    boxes.push_back({a.cwiseMin(b).cwiseMin(c), a.cwiseMax(b).cwiseMax(c)});
-  }
-  tree_ = BoxTree(boxes, 2);
-  corners_.reserve(corners.size());
-  for (int item : tree_.order()) {
-    corners_.push_back(corners[item]);
-  }
+InsideTest::InsideTest(const TriangleMesh& mesh) : corners_(CornersOf(mesh)) {
+  tree_ = SortIntoTree(&corners_);
 }
 
 Location InsideTest::Locate(const Vector3d& q) const {

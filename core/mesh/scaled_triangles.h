@@ -2,11 +2,11 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <array>
 #include <cmath>
 #include <vector>
 
 #include "core/mesh/box_tree.h"
+#include "core/mesh/triangle_corners.h"
 #include "core/mesh/triangle_mesh.h"
 
 namespace phongpd {
@@ -16,32 +16,22 @@ namespace phongpd {
 // c the centre of the bounding box and s the power of two that brings its
 // diagonal into [1, 2).  Valid indices, finite coordinates.
 struct ScaledTriangles {
-  using Corners = std::array<Eigen::Vector3d, 3>;
-
   explicit ScaledTriangles(const TriangleMesh& mesh) {
     const BoundingBox bounds = ComputeBounds(mesh);
     center = bounds.Center();
     const double diagonal = bounds.Diagonal();
     if (diagonal > 0.0) scale = std::ldexp(1.0, -std::ilogb(diagonal));
-    std::vector<Corners> unsorted;
-    std::vector<BoundingBox> boxes;
-    for (const Triangle& t : mesh.triangles) {
-      Corners q;
-      for (std::size_t k = 0; k < 3; ++k) {
-        q[k] = (mesh.vertices[t[k]] - center) * scale;
-      }
-      unsorted.push_back(q);
-      boxes.push_back({q[0].cwiseMin(q[1]).cwiseMin(q[2]),
-                       q[0].cwiseMax(q[1]).cwiseMax(q[2])});
+    corners = CornersOf(mesh);
+    for (TriangleCorners& q : corners) {
+      for (Eigen::Vector3d& x : q) x = (x - center) * scale;
     }
-    tree = BoxTree(boxes, 2);
-    for (const int item : tree.order()) corners.push_back(unsorted[item]);
+    tree = SortIntoTree(&corners);
   }
 
   Eigen::Vector3d center;
   double scale = 1.0;
   BoxTree tree;
-  std::vector<Corners> corners;  // in the tree's order
+  std::vector<TriangleCorners> corners;  // in the tree's order
 };
 
 }  // namespace phongpd

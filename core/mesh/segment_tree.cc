@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "core/mesh/surface_tree.h"
+#include "core/mesh/triangle_corners.h"
 
 namespace phongpd {
 namespace {
@@ -33,24 +34,13 @@ double SquaredDistance(const Vector3d& a, const Vector3d& b, const Vector3d& c,
 
 }  // namespace
 
-SegmentTree::SegmentTree(const TriangleMesh& mesh) {
-  std::vector<BoundingBox> boxes;
-  boxes.reserve(mesh.triangles.size());
-  for (const Triangle& t : mesh.triangles) {
-    const Vector3d& a = mesh.vertices[t[0]];
-    const Vector3d& b = mesh.vertices[t[1]];
-    const Vector3d& c = mesh.vertices[t[2]];
-    boxes.push_back({a.cwiseMin(b).cwiseMin(c), a.cwiseMax(b).cwiseMax(c)});
-    largest_ = std::max({largest_, boxes.back().min.cwiseAbs().maxCoeff(),
-                         boxes.back().max.cwiseAbs().maxCoeff()});
+SegmentTree::SegmentTree(const TriangleMesh& mesh) : corners_(CornersOf(mesh)) {
+  for (const Corners& t : corners_) {
+    for (const Vector3d& v : t) {
+      largest_ = std::max(largest_, v.cwiseAbs().maxCoeff());
+    }
   }
-  tree_ = BoxTree(boxes, 2);
-  corners_.reserve(boxes.size());
-  for (int item : tree_.order()) {
-    const Triangle& t = mesh.triangles[item];
-    corners_.push_back(
-        {mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]});
-  }
+  tree_ = SortIntoTree(&corners_);
 }
 
 SegmentTree::Reach::Reach(const SegmentTree& tree, const Vector3d& a,
