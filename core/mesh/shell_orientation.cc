@@ -119,8 +119,12 @@ void FindEnclosers(std::vector<Shell>* shells) {
 }  // namespace
 
 std::vector<int> LabelShells(const TriangleMesh& mesh, int* count) {
-  const std::vector<std::array<int, 3>> neighbors = TriangleNeighbors(mesh);
-  std::vector<int> labels(mesh.triangles.size(), -1);
+  return LabelShells(TriangleNeighbors(mesh), count);
+}
+
+std::vector<int> LabelShells(const std::vector<std::array<int, 3>>& neighbors,
+                             int* count) {
+  std::vector<int> labels(neighbors.size(), -1);
   std::vector<int> open;
   *count = 0;
   for (std::size_t seed = 0; seed < labels.size(); ++seed) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,9 @@ namespace phongpd::internal {
 // through edges: the units of one orientation.  Parts that only touch in a
 // vertex are different shells.  Labels as in LabelComponents.
 std::vector<int> LabelShells(const TriangleMesh& mesh, int* count);
+// The same from what TriangleNeighbors returned.
+std::vector<int> LabelShells(const std::vector<std::array<int, 3>>& neighbors,
+                             int* count);
 
 // Turns shells so that the mesh bounds a volume outward, and returns how many
 // it turned.  Shell j encloses shell i when they do not cross and i is inside

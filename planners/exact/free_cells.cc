@@ -9,6 +9,7 @@
 
 #include "core/mesh/exact_sign.h"
 #include "core/mesh/segment_tree.h"
+#include "core/mesh/shell_orientation.h"
 #include "core/mesh/unit_normal.h"
 
 namespace phongpd {
@@ -38,7 +39,9 @@ FreeCells::FreeCells(const TriangleMesh& mesh,
   const double largest = std::max(bounds_.min.cwiseAbs().maxCoeff(),
                                   bounds_.max.cwiseAbs().maxCoeff());
   rounding_ = std::ldexp(largest, -46);
-  LabelPieces(neighbors);
+  int pieces = 0;
+  piece_ = internal::LabelShells(neighbors, &pieces);
+  rays_.resize(pieces);
   std::vector<std::vector<int>> triangles(rays_.size());
   for (std::size_t t = 0; t < piece_.size(); ++t) {
     triangles[piece_[t]].push_back(static_cast<int>(t));
@@ -52,28 +55,6 @@ FreeCells::FreeCells(const TriangleMesh& mesh,
     }
   }
   FollowChains();
-}
-
-void FreeCells::LabelPieces(const std::vector<std::array<int, 3>>& neighbors) {
-  piece_.assign(mesh_.triangles.size(), -1);
-  std::vector<int> open;
-  int count = 0;
-  for (std::size_t seed = 0; seed < piece_.size(); ++seed) {
-    if (piece_[seed] >= 0) continue;
-    piece_[seed] = count;
-    open.push_back(static_cast<int>(seed));
-    while (!open.empty()) {
-      const int t = open.back();
-      open.pop_back();
-      for (const int u : neighbors[t]) {
-        if (u < 0 || piece_[u] >= 0) continue;
-        piece_[u] = count;
-        open.push_back(u);
-      }
-    }
-    ++count;
-  }
-  rays_.resize(count);
 }
 
 // Where the segment crosses triangles, in order; false if it comes within

@@ -81,7 +81,6 @@ class FreeCells {
     double fraction, slack;  // of the way along the segment
   };
 
-  void LabelPieces(const std::vector<std::array<int, 3>>& neighbors);
   bool Cast(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
             std::vector<Crossing>* crossings) const;
   CellRay RayOfPiece(const std::vector<int>& triangles,
