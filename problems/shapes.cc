@@ -42,6 +42,12 @@ TriangleMesh MakeIcosahedron(double radius) {
   return mesh;
 }
 
+void RequireTube(const char* shape, int around, int least_around, int across) {
+  RequireCount(shape, "around", around, least_around);
+  RequireCount(shape, "across", across, 3);
+  RequireTriangles(shape, "2·around·across triangles", around, across);
+}
+
 // Two triangles for every cell of a grid that closes in both directions;
 // vertex (i, j) stands at i·across + j.
 std::vector<Triangle> TubeTriangles(int around, int across) {
@@ -148,9 +154,7 @@ TriangleMesh MakeTorus(double major_radius, double minor_radius, int around,
   RequireLength("MakeTorus", "major_radius", major_radius);
   RequireLengthBelow("MakeTorus", "minor_radius", minor_radius, major_radius,
                      "major_radius");
-  RequireCount("MakeTorus", "around", around, 3);
-  RequireCount("MakeTorus", "across", across, 3);
-  RequireTriangles("MakeTorus", "2·around·across triangles", around, across);
+  RequireTube("MakeTorus", around, 3, across);
   TriangleMesh mesh;
   for (int i = 0; i < around; ++i) {
     const Vector2d out = UnitCircle(i, around);
@@ -183,9 +187,7 @@ TriangleMesh MakeStar(double inner_radius, double outer_radius) {
 TriangleMesh MakeKnot(double size, double tube, int around, int across) {
   RequireLength("MakeKnot", "size", size);
   RequireLengthBelow("MakeKnot", "tube", tube, 0.5 * size, "size / 2");
-  RequireCount("MakeKnot", "around", around, 32);
-  RequireCount("MakeKnot", "across", across, 3);
-  RequireTriangles("MakeKnot", "2·around·across triangles", around, across);
+  RequireTube("MakeKnot", around, 32, across);
   TriangleMesh mesh;
   for (int i = 0; i < around; ++i) {
     const Vector2d t = UnitCircle(i, around);
