@@ -4,6 +4,8 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
+#include "problems/shapes.h"
+
 namespace phongpd::testing {
 
 using Eigen::Vector3d;
@@ -24,6 +26,11 @@ double WindingNumber(const TriangleMesh& mesh, const Vector3d& q) {
     sum += 2 * std::atan2(volume, denominator);
   }
   return static_cast<double>(sum / (4 * M_PIl));
+}
+
+TriangleMesh Cube(double side) {
+  const Vector3d half = Vector3d::Constant(0.5 * side);
+  return MakeBox(-half, half);
 }
 
 }  // namespace phongpd::testing

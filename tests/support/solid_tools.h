@@ -14,6 +14,9 @@ namespace phongpd::testing {
 // meaningless only within rounding of the surface.
 double WindingNumber(const TriangleMesh& mesh, const Eigen::Vector3d& q);
 
+// Of that side, around the origin.
+TriangleMesh Cube(double side);
+
 // The generators, under the names tests know them by.
 using phongpd::RandomPoint;
 using phongpd::RandomRotation;

@@ -15,11 +15,7 @@ namespace phongpd {
 namespace {
 
 using Eigen::Vector3d;
-
-TriangleMesh Cube(double side) {
-  const Vector3d half = Vector3d::Constant(side / 2);
-  return MakeBox(-half, half);
-}
+using testing::Cube;
 
 TriangleMesh Peg(double side) {
   return MakeBox({-side / 2, -side / 2, -1}, {side / 2, side / 2, 1});

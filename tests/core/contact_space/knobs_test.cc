@@ -19,11 +19,7 @@ namespace phongpd {
 namespace {
 
 using Eigen::Vector3d;
-
-TriangleMesh Cube(double side) {
-  const Vector3d half = Vector3d::Constant(side / 2);
-  return MakeBox(-half, half);
-}
+using testing::Cube;
 
 void ExpectSound(const ContactSpaceReport& report) {
   EXPECT_TRUE(report.closed);

@@ -19,11 +19,7 @@ namespace phongpd {
 namespace {
 
 using Eigen::Vector3d;
-
-TriangleMesh Cube(double side) {
-  return MakeBox(Vector3d::Constant(-0.5 * side),
-                 Vector3d::Constant(0.5 * side));
-}
+using testing::Cube;
 
 // Contact space of a cube of side 0.5 against one of side 1.5: half-width 1.
 FreeSpace AroundCube(const BoundingBox& bounds = FreeSpace::NoBounds()) {

@@ -23,11 +23,7 @@ namespace {
 namespace ob = ompl::base;
 using Eigen::Vector3d;
 using testing::BoxModel;
-
-TriangleMesh Cube(double side) {
-  return MakeBox(Vector3d::Constant(-0.5 * side),
-                 Vector3d::Constant(0.5 * side));
-}
+using testing::Cube;
 
 // Two states to move between.
 struct Motion {

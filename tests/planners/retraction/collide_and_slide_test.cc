@@ -20,11 +20,7 @@ namespace {
 using Eigen::Vector3d;
 using Path = std::vector<Vector3d>;
 using testing::BoxModel;
-
-TriangleMesh Cube(double side) {
-  return MakeBox(Vector3d::Constant(-0.5 * side),
-                 Vector3d::Constant(0.5 * side));
-}
+using testing::Cube;
 
 TEST(CollideAndSlide, GoesStraightWhereNothingIsInTheWay) {
   const auto model = BoxModel();

@@ -22,11 +22,7 @@ namespace {
 
 using Eigen::Vector3d;
 using testing::BoxModel;
-
-TriangleMesh Cube(double side) {
-  return MakeBox(Vector3d::Constant(-0.5 * side),
-                 Vector3d::Constant(0.5 * side));
-}
+using testing::Cube;
 
 Retraction Make(const std::shared_ptr<const ContactModel>& model,
                 RetractionMetric metric, BranchChoice choice) {
