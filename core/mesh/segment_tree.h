@@ -110,7 +110,8 @@ class SegmentTree {
 
   static bool IsBeyond(const Corners& t, const Eigen::Vector3d& a,
                        const Eigen::Vector3d& b, double distance);
-  // Distance of the segment to the triangle, were it not to pass through.
+  // Distance of the segment to the triangle, were it not to pass through:
+  // unlike ClosestPair it knows no crossings, and needs no points.
   static double OutlineDistance(const Corners& t, const Eigen::Vector3d& a,
                                 const Eigen::Vector3d& b);
   Hit First(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
