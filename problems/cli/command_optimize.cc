@@ -28,6 +28,7 @@ struct Flags {
   int rows = 0;
   std::uint64_t seed = 0;
   int runs = 1;
+  bool no_line = false;
   bool per_obstacle = false;
   std::string output;
   std::string html;
@@ -57,6 +58,7 @@ PipelineOptions Options(const Flags& flags, const Scene& scene,
         flags.start);
   }
   options.routes = flags.routes;
+  options.also_line = !flags.no_line;
   options.seed = seed;
   options.polish = flags.polish == "never"    ? PolishWhen::kNever
                    : flags.polish == "always" ? PolishWhen::kAlways
@@ -188,6 +190,9 @@ Command AddOptimize(CLI::App* app) {
                   "Ways around the obstacles to optimise, 1 to 8")
       ->type_name("N")
       ->capture_default_str();
+  app->add_flag("--no-line", flags->no_line,
+                "Optimise from the repaired start alone, not from the "
+                "colliding line as well");
   app->add_option("--rows", flags->rows,
                   "Constraint rows a sample; 0: 3 from a free start, else 1")
       ->type_name("K")
