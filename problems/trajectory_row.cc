@@ -86,6 +86,7 @@ Json TrajectoryRow(const TrajectoryStudy& study, const TrajectoryMetric& metric,
           ? PathClearance(*study.space().free_space, result.path) /
                 study.space().diagonal
           : 0.0;
+  row["missing_clearance"] = result.missing_clearance;
   row["rounds"] = ipopt.rounds;
   row["queries"] = {{"cold", ipopt.queries.cold},
                     {"warm", ipopt.queries.warm},
