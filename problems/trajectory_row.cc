@@ -99,7 +99,7 @@ Json TrajectoryRow(const TrajectoryStudy& study, const TrajectoryMetric& metric,
   row["contact_triangles"] = study.space().triangles;
   row["seconds"] = {{"contact_space", study.space().seconds},
                     {"repair", result.repair.seconds},
-                    {"callbacks", ipopt.seconds_callbacks},
+                    {"callbacks", result.seconds_callbacks},
                     {"total", result.seconds}};
   row["path"] = Json::array();
   for (const Eigen::Vector3d& p : result.path)

@@ -208,6 +208,7 @@ class Run {
     const TrajectorySummary& summary = candidate->ipopt;
     const std::string word = ToString(summary.status);
     result_.restoration_iterations += summary.restoration_iterations;
+    result_.seconds_callbacks += summary.seconds_callbacks;
     Note({"ipopt", candidate->route, word, false, 0.0, summary.iterations,
           summary.seconds_total},
          summary.path);

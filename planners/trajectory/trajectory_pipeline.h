@@ -88,6 +88,7 @@ struct PipelineResult {
   StartRepairResult repair;  // kStraight: nothing was done
   TrajectorySummary ipopt;   // of the best route; no path if it did not run
   std::vector<StageRecord> stages;
+  double seconds_callbacks = 0.0;  // of Ipopt, all routes, corridor apart
   double seconds = 0.0;
 };
 
