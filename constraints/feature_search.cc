@@ -76,28 +76,31 @@ bool FeatureSearch::Direction(const Corners& corners, const Vector3d& lambda,
 }
 
 bool FeatureSearch::FindNext(const Vector3d& q, const Vector3d* taken,
-                             int count, double cos_limit,
+                             int count, double cos_limit, double reach,
                              Feature* feature) const noexcept {
   const Vector3d x = (q - center_) * scale_;
   // The negation catches NaN, too.
   if (!(x.cwiseAbs().maxCoeff() <= kFar)) return false;
   constexpr double kNone = std::numeric_limits<double>::infinity();
+  const double limit =
+      std::min(std::pow(reach * scale_, 2), std::numeric_limits<double>::max());
   double nearest = kNone;
   int best = -1;
   Vector3d best_direction = Vector3d::Zero();
   tree_.NearestFirst(
-      std::numeric_limits<double>::max(),
+      limit,
       [&](int index) {
         const BoxTree::Node& node = tree_.nodes()[index];
         const double lower = node.SquaredDistance(x);
-        if (lower > nearest) return kNone;
+        if (lower > std::min(nearest, limit)) return kNone;
         return IsShadowed(index, x, taken, count, cos_limit) ? kNone : lower;
       },
       [&](int position) {
         const Corners& t = corners_[position];
         const TrianglePoint p = ClosestOnTriangle(t[0], t[1], t[2], x);
         Vector3d u;
-        if (p.squared_distance < nearest && Direction(t, p.lambda, x, &u)) {
+        if (p.squared_distance < nearest && p.squared_distance <= limit &&
+            Direction(t, p.lambda, x, &u)) {
           bool is_new = true;
           for (int i = 0; i < count && is_new; ++i) {
             is_new = u.dot(taken[i]) < cos_limit;
@@ -108,7 +111,7 @@ bool FeatureSearch::FindNext(const Vector3d& q, const Vector3d* taken,
             best_direction = u;
           }
         }
-        return std::min(nearest, std::numeric_limits<double>::max());
+        return std::min(nearest, limit);
       });
   if (best < 0) return false;
   feature->triangle = tree_.order()[best];

@@ -29,10 +29,12 @@ class FeatureSearch {
   explicit FeatureSearch(const TriangleMesh& mesh);
 
   // The nearest feature with u·taken[i] < cos_limit for all i < count, exact
-  // as the scan of all triangles is; false if there is none, and for q not
-  // finite.  cos_limit in (0, 1).  Does not allocate.
+  // as the scan of all triangles is; false if there is none within `reach`
+  // (user's unit, ≥ 0 or infinite), and for q not finite.  cos_limit in (0, 1).
+  // Does not allocate.
   bool FindNext(const Eigen::Vector3d& q, const Eigen::Vector3d* taken,
-                int count, double cos_limit, Feature* feature) const noexcept;
+                int count, double cos_limit, double reach,
+                Feature* feature) const noexcept;
 
   // ∇² of the distance to one triangle at q:  0 over its face,
   // (I − uuᵀ − eeᵀ)/d beside an edge e, (I − uuᵀ)/d beside a vertex; d is

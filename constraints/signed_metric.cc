@@ -18,6 +18,10 @@ void SignedMetricOptions::Validate() const {
     throw InputError("separation: expected 1 to 89 degrees, found " +
                      std::to_string(separation));
   }
+  if (!(reach > 0.0)) {
+    throw InputError("reach: expected > 0 diagonals, found " +
+                     std::to_string(reach));
+  }
   if (metric == MetricKind::kPhong) phong.Validate();
 }
 
@@ -34,6 +38,7 @@ SignedMetric::SignedMetric(const TriangleMesh& contact_mesh,
   }
   // After the metric has checked the mesh.
   bounds_ = ComputeBounds(contact_mesh);
+  reach_ = options_.reach * bounds_.Diagonal();
   features_ = std::make_shared<FeatureSearch>(contact_mesh);
 }
 
@@ -65,8 +70,9 @@ void SignedMetric::Query(const Vector3d& q, const Branch& previous, int count,
   for (int k = 1; k < count; ++k) {
     rows[k] = rows[0];
     FeatureSearch::Feature feature;
-    has_more = has_more && features_->FindNext(q, taken.data(), k,
-                                               cos_separation_, &feature);
+    has_more =
+        has_more && features_->FindNext(q, taken.data(), k, cos_separation_,
+                                        reach_, &feature);
     rows[k].is_repeated = !has_more;
     if (!has_more) continue;
     rows[k].status = QueryStatus::kOk;

@@ -25,6 +25,9 @@ struct SignedMetricOptions {
   PhongMetricOptions phong = DefaultPhong();  // kPhong only
   JacobianKind jacobian = JacobianKind::kDirection;
   double separation = 25.0;  // least angle between rows, degrees, in [1, 89]
+  // Farthest that rows after the first may be, diagonals of C_cont, > 0.  A
+  // wall farther off says nothing a margin needs, and is what costs time.
+  double reach = 0.1;
 
   // Throws InputError naming the option, the range and the value.
   void Validate() const;
@@ -62,7 +65,8 @@ struct MetricRow {
 // options: they change how a solver gets out, not what is feasible.
 //
 // Rows (outside): row 0 is d; row k is the distance to the nearest triangle
-// whose direction differs by more than `separation` from those of rows 0 … k−1.
+// within `reach` whose direction differs by more than `separation` from those
+// of rows 0 … k−1.
 // All are necessary for d ≥ m, so extra rows never change the feasible set;
 // they show the solver the second wall of a channel before it hits it.
 // Inside, and where no further feature exists, the remaining rows repeat row 0
@@ -99,6 +103,7 @@ class SignedMetric {
   SignedMetricOptions options_;
   BoundingBox bounds_;
   double cos_separation_ = 0.0;
+  double reach_ = 0.0;  // user's unit
   std::shared_ptr<const PenetrationMetric> metric_;
   std::shared_ptr<const FeatureSearch> features_;
 };

@@ -44,6 +44,7 @@ void CheckComparisonRow(const Json& row, const std::string& where) {
       {"/inf_pr", Kind::number_float},
       {"/inf_du", Kind::number_float},
       {"/clearance", Kind::number_float},
+      {"/missing_clearance", Kind::number_float},
       {"/queries/branch_ends", Kind::number_integer},
       {"/seconds/callbacks", Kind::number_float},
       {"/seconds/total", Kind::number_float}};
@@ -71,7 +72,8 @@ std::string CompactCsv(const std::vector<Json>& rows) {
   csv << "scene,protocol,method,seed,status,status_class,solved,"
          "solver_claims_solved,collision_free,iterations,"
          "restoration_iterations,jacobian_evaluations,objective,inf_pr,inf_du,"
-         "clearance,branch_ends,seconds_callbacks,seconds_total\n";
+         "clearance,missing_clearance,branch_ends,seconds_callbacks,seconds_"
+         "total\n";
   for (const Json& row : rows) {
     csv << CsvCell(RowText(row, "scene")) << ',' << RowText(row, "protocol")
         << ',' << RowText(row, "method") << ',' << row.at("seed") << ','
@@ -84,6 +86,7 @@ std::string CompactCsv(const std::vector<Json>& rows) {
         << Rounded(RowNumber(row, "inf_pr")) << ','
         << Rounded(RowNumber(row, "inf_du")) << ','
         << Rounded(RowNumber(row, "clearance"), 4) << ','
+        << Rounded(RowNumber(row, "missing_clearance"), 4) << ','
         << row.at("queries").at("branch_ends") << ','
         << Rounded(RowNumber(row, "seconds/callbacks")) << ','
         << Rounded(RowNumber(row, "seconds/total")) << '\n';

@@ -34,6 +34,7 @@ PipelineOptions OneSolve(TrajectoryStart start, bool is_adaptive) {
   options.optimizer.ipopt.mu_strategy =
       is_adaptive ? Mu::kAdaptive : Mu::kMonotone;
   options.optimizer.ipopt.stall_stop = is_adaptive;
+  options.also_line = false;
   const bool is_repaired = start == TrajectoryStart::kRepaired;
   options.optimizer.rows = is_adaptive && is_repaired ? 3 : 1;
   return options;
@@ -63,21 +64,48 @@ CellKey KeyOf(const Json& row) {
   return {RowText(row, "scene"), RowText(row, "protocol"),
           RowText(row, "method")};
 }
-// The best objective of an exactly free path, by scene and seed.
-std::map<ProblemKey, double> BestObjectives(const std::vector<Json>& rows) {
-  std::map<ProblemKey, double> best;
-  for (const Json& row : rows) {
-    if (!row.at("collision_free").get<bool>()) continue;
-    const double objective = RowNumber(row, "objective");
-    const auto [it, is_new] = best.emplace(ProblemOf(row), objective);
-    if (!is_new) it->second = std::min(it->second, objective);
+// Missing clearance that does not count, of the margin: what samples leave
+// open between them.
+constexpr double kToleratedGap = 0.1;
+
+// The exactly free paths by scene and seed.
+class Rivals {
+ public:
+  explicit Rivals(const std::vector<Json>& rows) {
+    for (const Json& row : rows) {
+      if (row.at("collision_free").get<bool>()) {
+        paths_[ProblemOf(row)].push_back(PathOf(row));
+      }
+    }
   }
-  return best;
-}
+
+  // The least objective of those that keep as clear as this one, itself among
+  // them.
+  double BestObjective(const Json& row) const {
+    const Rival own = PathOf(row);
+    double best = own.objective;
+    for (const Rival& rival : paths_.at(ProblemOf(row))) {
+      if (rival.missing <= std::max(own.missing, kToleratedGap)) {
+        best = std::min(best, rival.objective);
+      }
+    }
+    return best;
+  }
+
+ private:
+  struct Rival {
+    double objective, missing;
+  };
+  static Rival PathOf(const Json& row) {
+    return {RowNumber(row, "objective"), RowNumber(row, "missing_clearance")};
+  }
+
+  std::map<ProblemKey, std::vector<Rival>> paths_;
+};
 
 ComparisonCell Summarize(const CellKey& key,
                          const std::vector<const Json*>& rows,
-                         const std::map<ProblemKey, double>& best) {
+                         const Rivals& rivals) {
   ComparisonCell cell;
   cell.scene = key[0];
   cell.protocol = key[1];
@@ -102,7 +130,7 @@ ComparisonCell Summarize(const CellKey& key,
     callbacks += RowNumber(*row, "seconds/callbacks");
     total += seconds.back();
     if (!is_solved) continue;
-    const double least = best.at(ProblemOf(*row));
+    const double least = rivals.BestObjective(*row);
     // No way is shorter than that from a point to itself.
     const double ratio =
         least > 0.0 ? RowNumber(*row, "objective") / least : 1.0;
@@ -178,10 +206,10 @@ std::vector<ComparisonCell> Summarize(const std::vector<Json>& rows) {
     if (cell.empty()) order.push_back(KeyOf(rows[i]));
     cell.push_back(&rows[i]);
   }
-  const std::map<ProblemKey, double> best = BestObjectives(rows);
+  const Rivals rivals(rows);
   std::vector<ComparisonCell> result;
   for (const CellKey& key : order) {
-    result.push_back(Summarize(key, cells[key], best));
+    result.push_back(Summarize(key, cells[key], rivals));
   }
   return result;
 }

@@ -86,6 +86,7 @@ Json TrajectoryRow(const TrajectoryStudy& study, const TrajectoryMetric& metric,
           ? PathClearance(*study.space().free_space, result.path) /
                 study.space().diagonal
           : 0.0;
+  row["missing_clearance"] = result.missing_clearance;
   row["rounds"] = ipopt.rounds;
   row["queries"] = {{"cold", ipopt.queries.cold},
                     {"warm", ipopt.queries.warm},
@@ -98,7 +99,7 @@ Json TrajectoryRow(const TrajectoryStudy& study, const TrajectoryMetric& metric,
   row["contact_triangles"] = study.space().triangles;
   row["seconds"] = {{"contact_space", study.space().seconds},
                     {"repair", result.repair.seconds},
-                    {"callbacks", ipopt.seconds_callbacks},
+                    {"callbacks", result.seconds_callbacks},
                     {"total", result.seconds}};
   row["path"] = Json::array();
   for (const Eigen::Vector3d& p : result.path)

@@ -89,11 +89,12 @@ TrajectoryProblem TrajectoryStudy::Problem(const TrajectoryMetric& metric) {
     problem.free_space = space_.free_space;
     problem.diagonal = space_.diagonal;
     for (const TriangleMesh& mesh : space_.contact_meshes) {
-      // The field measures ℓ by the diagonal of its own mesh.
+      // Both are measured by the diagonal of their own mesh.
       SignedMetricOptions options = metric.options;
+      const double larger = space_.diagonal / ComputeBounds(mesh).Diagonal();
       double& length = options.phong.field_options.smoothing_length;
-      length = std::min(
-          1.0, length * space_.diagonal / ComputeBounds(mesh).Diagonal());
+      length = std::min(1.0, length * larger);
+      options.reach *= larger;
       problem.metrics.push_back(std::make_shared<SignedMetric>(mesh, options));
     }
     found = problems_.emplace(metric.name, std::move(problem)).first;

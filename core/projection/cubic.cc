@@ -57,7 +57,8 @@ double RootInBracket(const Cubic& c, double a, double b, double value_a,
   double last_step = std::abs(b - a);
   for (int i = 0; i < 200; ++i) {
     const double value = Value(c, s);
-    if (value == 0.0) return s;
+    // Nearer to zero than the value is known.
+    if (std::abs(value) <= 0.25 * Rounding(c, s)) return s;
     (value < 0.0 ? a : b) = s;
     double next = s - value / Slope(c, s);
     const bool in_bracket = next > std::min(a, b) && next < std::max(a, b);

@@ -15,6 +15,7 @@
 #include "planners/exact/check_option.h"
 #include "planners/exact/free_space.h"
 #include "planners/exact/path_centering.h"
+#include "planners/exact/path_recombination.h"
 #include "planners/exact/path_shortening.h"
 #include "planners/exact/surface_graph.h"
 
@@ -23,9 +24,15 @@ namespace {
 
 using Eigen::Vector3d;
 
-// Further routes are not looked for if the first is hardly longer than the
-// straight line, nor shortened if they are this much longer than a short one.
-constexpr double kStraight = 1.05, kHopeless = 1.6;
+// Further routes are not looked for if one is hardly longer than the straight
+// line and as clear as the ends allow, nor where they are so much longer than
+// the shortest that no part of them will serve.
+constexpr double kStraight = 1.05, kHopeless = 3.0;
+constexpr int kNarrowRoutes = 3;  // if straight but not clear
+
+// Recombined routes keep this share of the clearance of their parts, and count
+// if they are shorter than this share of the shortest part.
+constexpr double kKeptShare = 0.8, kGain = 0.99;
 
 template <typename T>
 void Require(bool holds, const char* option, const char* range, T value) {
@@ -103,6 +110,7 @@ struct ContactSurfacePlanner::Impl {
   void FindPath(const Vector3d& start, const Vector3d& goal,
                 const PlanRequest& request, PlanResult* result) const;
   void Keep(std::vector<Vector3d> raw_path, PlanResult* result) const;
+  void Recombine(PlanResult* result) const;
   double ClearanceOf(const std::vector<Vector3d>& path) const;
   long CountSelfIntersections() const;
 
@@ -230,19 +238,33 @@ void ContactSurfacePlanner::Impl::Keep(std::vector<Vector3d> raw_path,
   result->clearance = clearance;
 }
 
+// One more route, of the best parts of those found.
+void ContactSurfacePlanner::Impl::Recombine(PlanResult* result) const {
+  if (result->routes.size() < 2) return;
+  std::vector<RoutedPath> paths;
+  double shortest = std::numeric_limits<double>::infinity();
+  for (const std::vector<Vector3d>& route : result->routes) {
+    const double clearance = kKeptShare * ClearanceOf(route);
+    paths.push_back({route, std::min(clearance, result->wanted_clearance)});
+    shortest = std::min(shortest, PathLength(route));
+  }
+  std::vector<Vector3d> path = RecombinePaths(paths, segments);
+  if (PathLength(path) < kGain * shortest) Keep(std::move(path), result);
+}
+
 void ContactSurfacePlanner::Impl::FindPath(const Vector3d& start,
                                            const Vector3d& goal,
                                            const PlanRequest& request,
                                            PlanResult* result) const {
-  const bool all = request.routes > 0;
-  const int routes = all ? request.routes : options.routes;
+  const bool all = request.all_routes;
+  const int routes = request.routes > 0 ? request.routes : options.routes;
   // Straight, if that is free and as clear as the ends allow.
   const bool sees = !segments.Meets(start, goal);
+  const double ends =
+      std::min({result->wanted_clearance,
+                segments.Distance(start, start, result->wanted_clearance),
+                segments.Distance(goal, goal, result->wanted_clearance)});
   if (sees) {
-    const double ends =
-        std::min({result->wanted_clearance,
-                  segments.Distance(start, start, result->wanted_clearance),
-                  segments.Distance(goal, goal, result->wanted_clearance)});
     if (start == goal || segments.Distance(start, goal, ends) >= 0.4 * ends) {
       std::vector<Vector3d> path = {start};
       if (start != goal) path.push_back(goal);
@@ -289,14 +311,17 @@ void ContactSurfacePlanner::Impl::FindPath(const Vector3d& start,
       break;
     }
     Keep(std::move(path), result);
-    if (!all && result->length < kStraight * straight) return;
     ++found;
+    if (!all && result->length < kStraight * straight &&
+        (result->clearance >= 0.4 * ends || found >= kNarrowRoutes)) {
+      break;
+    }
     avoided.resize(neighbors.size(), 0);
     for (const SurfaceSite& site : sites) {
       if (site.triangle >= 0) avoided[site.triangle] = 1;
     }
   }
-  if (result->status == PlanStatus::kSolved) return;
+  if (result->status == PlanStatus::kSolved) return Recombine(result);
   const bool decided = result->start.cell != FreeCells::kUndecided &&
                        result->goal.cell != FreeCells::kUndecided;
   result->reason =

@@ -54,9 +54,10 @@ struct ContactSurfaceOptions {
 // What one query may ask differently.
 struct PlanRequest {
   double clearance = 0.0;  // user's unit, ≥ 0, finite; 0: by the options
-  // So many, however long, ≥ 0; 0: by the options, and only as long as they
-  // may become the shortest.
-  int routes = 0;
+  int routes = 0;          // ≥ 0; 0: by the options
+  // All of them, however long; otherwise only while they may become the
+  // shortest.
+  bool all_routes = false;
 
   // Throws InputError naming the option, the range and the value.
   void Validate() const;
@@ -75,7 +76,8 @@ struct PlanResult {
   std::string reason;                     // one sentence unless solved
   std::vector<Eigen::Vector3d> path;      // from start to goal, shortened
   std::vector<Eigen::Vector3d> raw_path;  // as lifted off the surface
-  // All that were compared, as `path` is, which is one of them.
+  // All that were compared, as `path` is, which is one of them; the last one
+  // may be made of parts of the others (path_recombination.h).
   std::vector<std::vector<Eigen::Vector3d>> routes;
   double length = 0.0;
   double clearance = 0.0;         // of the whole path from contact, rounded
@@ -96,7 +98,8 @@ struct PlanResult {
 // Free space is bounded by C_cont.  Two configurations are connected iff they
 // lie in the same cell, which rays decide (free_cells.h), and the surface
 // itself is a roadmap of every cell (surface_graph.h): the shortest route on
-// it is lifted off (path_lift.h), then shortened (path_shortening.h).  An edge
+// it is lifted off (path_lift.h), then shortened (path_shortening.h), and the
+// best parts of several are put together (path_recombination.h).  An edge
 // of the roadmap that cannot be lifted because rounding folded the surface is
 // deleted and the search repeated.  So
 //  - kSolved comes with a path all of which is free by exact tests;

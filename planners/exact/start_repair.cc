@@ -62,6 +62,8 @@ void StartRepairOptions::Validate() const {
   Check("diagonal", "0 to 1e150", diagonal >= 0.0 && diagonal <= 1e150,
         diagonal);
   Check("routes", "1 to 8", routes >= 1 && routes <= 8, routes);
+  Check("candidates", "1 to 64", candidates >= 1 && candidates <= 64,
+        candidates);
   Check("random_cuts", "at least 0", random_cuts >= 0, random_cuts);
 }
 
@@ -223,7 +225,8 @@ void StartRepair::Impl::Repair(const Path& path,
   PlanRequest request;
   // Shortening gives a part of the clearance away.
   request.clearance = options.margin * length / ShorteningOptions().kept_share;
-  if (options.routes > 1) request.routes = options.routes;
+  request.routes = std::max(options.candidates, options.routes);
+  request.all_routes = options.routes > 1;
   std::vector<Path> found;
   if (path.size() > 2) {
     Path around = LeadAround(path, contacts, request, result);

@@ -17,7 +17,10 @@ struct StartRepairOptions {
   int waypoints = 40;     // N ≥ 1 free points between start and goal
   double margin = 0.01;   // wished clearance, a fraction of `diagonal`, > 0
   double diagonal = 0.0;  // user's unit; 0: that of the contact mesh
-  int routes = 1;         // ways around the obstacles to look for, in [1, 8]
+  int routes = 1;         // to return, in [1, 8]
+  // Ways around the obstacles to look for, in [1, 64]: their best parts make
+  // the routes.  Each takes as long as the first.
+  int candidates = 8;
   int random_cuts = 120;  // of the straightening
   std::uint64_t seed = 1;
 
@@ -60,8 +63,9 @@ struct StartRepairResult {
 //     waypoint (path_resampling.h).
 //
 // Complete as the planner is: a path, or the proof that none exists, or the
-// reason why rounding left neither.  More routes are those that the planner
-// compared, for paths of two points; those that coincide are given once.
+// reason why rounding left neither.  More routes are the next ones that the
+// planner compared, for paths of two points; those that coincide are given
+// once.
 class StartRepair {
  public:
   // The boundary of the union of all that is in the way, bounds included

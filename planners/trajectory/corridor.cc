@@ -152,4 +152,17 @@ CorridorSummary PolishInCorridor(const TrajectoryProblem& problem,
   return summary;
 }
 
+double MissingClearance(const TrajectoryProblem& problem, const Path& path) {
+  if (problem.margin == 0.0) return 0.0;
+  const PathSprings springs(problem, PathLength(path));
+  // Gaps that are wider leave room for the margin.
+  const double reach = 2.1 * problem.margin;
+  double most = 0.0;
+  for (const double missing :
+       FindCorridor(problem, springs, path, reach).missing) {
+    most = std::max(most, missing / problem.margin);
+  }
+  return std::min(most, 1.0);
+}
+
 }  // namespace phongpd

@@ -85,4 +85,10 @@ CorridorSummary PolishInCorridor(const TrajectoryProblem& problem,
                                  const Path& path,
                                  const CorridorOptions& options = {});
 
+// The most that a segment of an exactly free path lacks of the clearance it
+// could have, which is `wanted` above: the margin where there is room for it.
+// Fraction of the margin, in [0, 1]; 0 where the margin is 0.  Two paths are
+// to be compared by their length only if they keep equally clear.
+double MissingClearance(const TrajectoryProblem& problem, const Path& path);
+
 }  // namespace phongpd

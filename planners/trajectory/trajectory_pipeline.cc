@@ -12,18 +12,29 @@
 namespace phongpd {
 namespace {
 
+// Of the margin; what samples leave open between them.
+constexpr double kToleratedGap = 0.1;
+
+// Of Ipopt from the colliding line, where there is a repaired start as well.
+// Most that arrive take half as many.
+constexpr int kLineIterations = 100;
+
 // A path in hand and what is known of it.
 struct Candidate {
   TrajectoryStatus status = TrajectoryStatus::kFailed;
   std::string reason;
   Path path;
   double objective = 0.0;
+  double missing_clearance = 0.0;  // of a free path
   int route = 0;
   TrajectorySummary ipopt;
 
+  bool IsFree() const { return HasFreePath(status); }
+  bool KeepsClear() const { return missing_clearance <= kToleratedGap; }
+
   bool IsBetterThan(const Candidate& other) const {
-    const bool is_free = HasFreePath(status);
-    if (is_free != HasFreePath(other.status)) return is_free;
+    if (IsFree() != other.IsFree()) return IsFree();
+    if (KeepsClear() != other.KeepsClear()) return KeepsClear();
     return objective < other.objective;
   }
 };
@@ -42,10 +53,18 @@ class Run {
         Candidate found = SolveRoute(starts[i], static_cast<int>(i));
         if (i == 0 || found.IsBetterThan(best_)) best_ = std::move(found);
       }
+      if (options_.also_line && WantsLine(starts[0])) {
+        const int route = static_cast<int>(starts.size());
+        const Path line = StraightPath(problem_);
+        Note({"start", route, "straight", false, 0.0, 0, 0.0}, line);
+        Candidate found = SolveRoute(line, route);
+        if (found.IsBetterThan(best_)) best_ = std::move(found);
+      }
       result_.status = best_.status;
       result_.reason = std::move(best_.reason);
       result_.path = std::move(best_.path);
       result_.objective = best_.objective;
+      result_.missing_clearance = best_.missing_clearance;
       result_.route = best_.route;
       result_.ipopt = std::move(best_.ipopt);
     }
@@ -126,11 +145,11 @@ class Run {
     Candidate candidate;
     candidate.route = route;
     Keep(start, &candidate);
-    if (HasFreePath(candidate.status)) {
+    if (candidate.IsFree()) {
       candidate.reason = "the time limit came before the optimiser";
     }
     const bool may_polish =
-        options_.polish != PolishWhen::kNever && HasFreePath(candidate.status);
+        options_.polish != PolishWhen::kNever && candidate.IsFree();
     if (may_polish && IsTooNarrow(start)) {
       candidate.reason = "the start has too little clearance for Ipopt's rows";
       Note({"ipopt", route, "skipped", false, 0.0, 0, 0.0}, start);
@@ -139,8 +158,9 @@ class Run {
     }
     const bool is_wanted = options_.polish == PolishWhen::kAlways ||
                            (options_.polish == PolishWhen::kNeeded &&
-                            candidate.status != TrajectoryStatus::kSolved);
-    if (is_wanted && HasFreePath(candidate.status) && !IsLate()) {
+                            (candidate.status != TrajectoryStatus::kSolved ||
+                             !candidate.KeepsClear()));
+    if (is_wanted && candidate.IsFree() && !IsLate()) {
       Polish(&candidate);
     }
     return candidate;
@@ -155,6 +175,13 @@ class Run {
            PathClearance(*problem_.free_space, start) < 0.5 * margin;
   }
 
+  // The line finds no way through a passage too narrow for Ipopt's rows; it
+  // may find a wider one.
+  bool WantsLine(const Path& start) const {
+    return result_.repair.status == RepairStatus::kRepaired && !IsLate() &&
+           (!IsTooNarrow(start) || !best_.KeepsClear());
+  }
+
   // Makes the path the candidate, as free or not free, not converged.
   void Keep(const Path& path, Candidate* candidate) {
     candidate->status = CheckPath(*problem_.free_space, path).free
@@ -162,17 +189,26 @@ class Run {
                             : TrajectoryStatus::kFailed;
     candidate->path = path;
     candidate->objective = PathEnergy(problem_, path);
+    candidate->missing_clearance =
+        candidate->IsFree() ? MissingClearance(problem_, path) : 0.0;
   }
 
   void Optimize(const Path& start, bool may_polish, Candidate* candidate) {
     TrajectoryOptions options = options_.optimizer;
     // With a free start in hand the corridor is the better second round.
     if (may_polish) options.max_rounds = 1;
+    // With another route in hand no long search is worth its time.
+    if (candidate->route > 0 && !candidate->IsFree()) {
+      options.max_rounds = 1;
+      options.ipopt.max_iterations =
+          std::min(options.ipopt.max_iterations, kLineIterations);
+    }
     options.ipopt.time_limit = std::min(options.ipopt.time_limit, Left());
     candidate->ipopt = IpoptTrajectoryOptimizer(problem_, options).Solve(start);
     const TrajectorySummary& summary = candidate->ipopt;
     const std::string word = ToString(summary.status);
     result_.restoration_iterations += summary.restoration_iterations;
+    result_.seconds_callbacks += summary.seconds_callbacks;
     Note({"ipopt", candidate->route, word, false, 0.0, summary.iterations,
           summary.seconds_total},
          summary.path);
@@ -182,16 +218,15 @@ class Run {
     Keep(summary.path, &found);
     const bool is_converged = summary.status == SolveStatus::kConverged ||
                               summary.status == SolveStatus::kAcceptable;
-    if (HasFreePath(found.status) && is_converged) {
+    if (found.IsFree() && is_converged) {
       found.status = TrajectoryStatus::kSolved;
       *candidate = std::move(found);
       return;
     }
     const std::string reason =
-        "Ipopt ended " + word +
-        (HasFreePath(found.status) ? "" : ", its path collides");
+        "Ipopt ended " + word + (found.IsFree() ? "" : ", its path collides");
     // A start that collides is no better than an end that does.
-    if (!HasFreePath(candidate->status) || found.IsBetterThan(*candidate)) {
+    if (!candidate->IsFree() || found.IsBetterThan(*candidate)) {
       *candidate = std::move(found);
     }
     candidate->reason = reason;
@@ -207,6 +242,7 @@ class Run {
          summary.path);
     candidate->path = std::move(summary.path);
     candidate->objective = summary.objective;
+    candidate->missing_clearance = MissingClearance(problem_, candidate->path);
     const bool has_gained = std::any_of(
         summary.rounds.begin(), summary.rounds.end(),
         [](const CorridorRound& round) { return round.is_accepted; });

@@ -23,7 +23,8 @@ enum class TrajectoryStart {
 
 enum class PolishWhen {
   kNever,
-  kNeeded,  // when Ipopt did not converge to an exactly free path
+  kNeeded,  // when Ipopt did not converge to an exactly free path that keeps
+            // its margin between the samples, too
   kAlways,  // also then: full margins, the best objective
 };
 
@@ -33,6 +34,10 @@ struct PipelineOptions {
   // fraction of |goal − start|, ≥ 0.
   double start_noise = 0.0;
   int routes = 1;  // ways around the obstacles to optimise, in [1, 8]
+  // kRepaired: optimise from the colliding line as well, and keep the better
+  // path.  It ends in another valley than the shortest route every fifth time,
+  // for a third more time.
+  bool also_line = true;
   PolishWhen polish = PolishWhen::kNeeded;
   TrajectoryOptions optimizer;
   CorridorOptions corridor;
@@ -59,7 +64,7 @@ bool HasFreePath(TrajectoryStatus status);
 // One step of the pipeline.
 struct StageRecord {
   std::string stage;     // "start", "ipopt", "corridor"
-  int route = 0;         // 0: the shortest
+  int route = 0;         // 0: the shortest; the line comes last
   std::string status;    // in the words of the stage
   bool is_free = false;  // the exact judge's word on what it returned
   double objective = 0.0;
@@ -75,12 +80,15 @@ struct PipelineResult {
   // Evidence: the judge's word on `path`, free or the first crossing.
   PathCheck certificate;
   double objective = 0.0;  // energy of `path`
-  int route = 0;           // that was best
-  int iterations = 0;      // of Ipopt, all stages
+  // MissingClearance of `path` if it is free (corridor.h), else 0.
+  double missing_clearance = 0.0;
+  int route = 0;       // that was best
+  int iterations = 0;  // of Ipopt, all stages
   int restoration_iterations = 0;
   StartRepairResult repair;  // kStraight: nothing was done
   TrajectorySummary ipopt;   // of the best route; no path if it did not run
   std::vector<StageRecord> stages;
+  double seconds_callbacks = 0.0;  // of Ipopt, all routes, corridor apart
   double seconds = 0.0;
 };
 
@@ -88,7 +96,8 @@ struct PipelineResult {
 //
 //   start → Ipopt → exact judge → corridor where that is needed → exact judge
 //
-// for each route, the best exactly free path wins.  From a repaired start
+// for each route; of the exactly free paths the best one wins, clearance first
+// (MissingClearance), then the objective.  From a repaired start
 // Ipopt gets 3 rows a sample, from a colliding one 1 (TrajectoryOptions).  The
 // corridor starts from Ipopt's path where that is free and better than the
 // start, otherwise from the start; it follows the first round already, and

@@ -23,6 +23,7 @@ struct Flags : SeededRunFlags {
   std::string noise = "0";
   int routes = 1;
   int rows = 0;
+  bool no_line = false;
   bool per_obstacle = false;
 };
 
@@ -48,6 +49,7 @@ PipelineOptions Options(const Flags& flags, const Scene& scene,
         flags.start);
   }
   options.routes = flags.routes;
+  options.also_line = !flags.no_line;
   options.seed = seed;
   options.polish = flags.polish == "never"    ? PolishWhen::kNever
                    : flags.polish == "always" ? PolishWhen::kAlways
@@ -158,6 +160,9 @@ Command AddOptimize(CLI::App* app) {
                   "Ways around the obstacles to optimise, 1 to 8")
       ->type_name("N")
       ->capture_default_str();
+  app->add_flag("--no-line", flags->no_line,
+                "Optimise from the repaired start alone, not from the "
+                "colliding line as well");
   app->add_option("--rows", flags->rows,
                   "Constraint rows a sample; 0: 3 from a free start, else 1")
       ->type_name("K")

@@ -172,10 +172,11 @@ TEST(SignedMetric, HoldsNoNanForAnyInput) {
   }
 }
 
-// Greedy scan of every triangle, sorted by distance.
+// Greedy scan of every triangle, sorted by distance; only the first may be
+// farther than `reach`.
 std::vector<MetricRow> BruteForceRows(const TriangleMesh& mesh,
                                       const Vector3d& q, double degrees,
-                                      int count) {
+                                      double reach, int count) {
   std::vector<MetricRow> all;
   for (const Triangle& t : mesh.triangles) {
     const Vector3d &a = mesh.vertices[t[0]], &b = mesh.vertices[t[1]],
@@ -198,7 +199,10 @@ std::vector<MetricRow> BruteForceRows(const TriangleMesh& mesh,
           return k.gradient.dot(row.gradient) <
                  std::cos(degrees * M_PI / 180.0);
         });
-    if (is_new && static_cast<int>(kept.size()) < count) kept.push_back(row);
+    const bool is_near = kept.empty() || row.value <= reach;
+    if (is_new && is_near && static_cast<int>(kept.size()) < count) {
+      kept.push_back(row);
+    }
   }
   return kept;
 }
@@ -206,13 +210,20 @@ std::vector<MetricRow> BruteForceRows(const TriangleMesh& mesh,
 TEST(SignedMetric, RowsEqualTheScanOfAllTriangles) {
   const TriangleMesh mesh =
       Rotated(MakePlateWithHole(2.0, 0.2, 0.4), GenericRotation());
-  const SignedMetric metric(
-      mesh, Options(MetricKind::kPhong, JacobianKind::kDirection));
+  SignedMetricOptions options =
+      Options(MetricKind::kPhong, JacobianKind::kDirection);
+  std::vector<SignedMetric> metrics;
+  for (const double reach :
+       {0.1, 0.5, std::numeric_limits<double>::infinity()}) {
+    options.reach = reach;
+    metrics.emplace_back(mesh, options);
+  }
   std::mt19937_64 random(5);
   int extra = 0, repeated = 0;
-  for (int i = 0; i < 2000; ++i) {
+  for (int i = 0; i < 3000; ++i) {
+    const SignedMetric& metric = metrics[i % 3];
     const Vector3d q =
-        RandomPoint(metric.bounds(), i % 2 == 0 ? 0.0 : 4.0, &random);
+        RandomPoint(metric.bounds(), i / 3 % 2 == 0 ? 0.0 : 4.0, &random);
     MetricRow rows[4];
     metric.Query(q, Branch(), 4, rows);
     if (rows[0].inside) {
@@ -223,7 +234,8 @@ TEST(SignedMetric, RowsEqualTheScanOfAllTriangles) {
       }
       continue;
     }
-    const std::vector<MetricRow> expected = BruteForceRows(mesh, q, 25.0, 4);
+    const std::vector<MetricRow> expected = BruteForceRows(
+        mesh, q, 25.0, metric.options().reach * metric.bounds().Diagonal(), 4);
     for (std::size_t k = 0; k < 4; ++k) {
       if (k >= expected.size()) {
         EXPECT_TRUE(rows[k].is_repeated);
@@ -320,6 +332,11 @@ TEST(SignedMetric, NamesBadOptions) {
   SignedMetricOptions options;
   options.separation = std::numeric_limits<double>::quiet_NaN();
   EXPECT_THROW(SignedMetric(box, options), InputError);
+  for (const double reach : {0.0, std::nan("")}) {
+    options = {};
+    options.reach = reach;
+    EXPECT_THROW(SignedMetric(box, options), InputError);
+  }
   options = {};
   options.phong.field_options.smoothing_length = -1.0;
   EXPECT_THROW(SignedMetric(box, options), InputError);

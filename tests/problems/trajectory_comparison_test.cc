@@ -45,6 +45,7 @@ Json Row(const Made& made) {
           {"inf_pr", 0.0},
           {"inf_du", 0.0},
           {"clearance", 0.01},
+          {"missing_clearance", 0.0},
           {"queries", {{"branch_ends", 0}}},
           {"seconds", {{"callbacks", 0.25}, {"total", 1.0}}},
           {"protocol", made.protocol}};
@@ -99,6 +100,21 @@ TEST(Summarize, ComparesObjectivesWithTheBestOfAnyProtocolAndMethod) {
   EXPECT_EQ(cells[4].rivals, 0);
   EXPECT_EQ(cells[4].mean_ratio, 0.0);
   EXPECT_EQ(cells[4].least_clearance, 0.0);
+}
+
+// A shortcut that does not keep the margin is no rival of a path that does.
+TEST(Summarize, ComparesObjectivesAtEqualClearance) {
+  std::vector<Json> rows = {
+      Row({"clear", 1, true, 1.0}), Row({"close", 1, true, 0.9}),
+      Row({"closer", 1, true, 0.8}), Row({"sampled", 1, true, 0.99})};
+  rows[1]["missing_clearance"] = 0.5;
+  rows[2]["missing_clearance"] = 0.6;
+  rows[3]["missing_clearance"] = 0.1;  // between samples: does not count
+  const std::vector<ComparisonCell> cells = Summarize(rows);
+  EXPECT_DOUBLE_EQ(cells[0].mean_ratio, 1.0 / 0.99);
+  EXPECT_DOUBLE_EQ(cells[1].mean_ratio, 1.0);
+  EXPECT_DOUBLE_EQ(cells[2].mean_ratio, 1.0);
+  EXPECT_DOUBLE_EQ(cells[3].mean_ratio, 1.0);
 }
 
 TEST(Summarize, TakesMediansAndShares) {

@@ -58,6 +58,41 @@ TEST(Corridor, ConvergesOnTheFamiliesExactlyFree) {
   }
 }
 
+TEST(MissingClearance, IsWhatTheMarginExceedsTheDistanceBy) {
+  // A plate's upper side is the plane z = 0.5, far from its rim.
+  PathProblem source;
+  source.contact = MakeBox({-5.0, -5.0, -0.5}, {5.0, 5.0, 0.5});
+  TrajectoryProblem problem = WithoutMetrics(source);
+  const double diagonal = std::sqrt(201.0);
+  for (const double share : {0.05, 0.3, 0.9, 1.0, 1.7}) {
+    const double z = 0.5 + share * 0.01 * diagonal;
+    problem.start = {-1.0, 0.0, z};
+    problem.goal = {1.0, 0.0, z};
+    EXPECT_NEAR(MissingClearance(problem, StraightPath(problem)),
+                std::max(0.0, 1.0 - share), 1e-9)
+        << share;
+  }
+  problem.margin = 0.0;
+  EXPECT_EQ(MissingClearance(problem, StraightPath(problem)), 0.0);
+}
+
+TEST(MissingClearance, ExpectsNoMoreThanMostOfHalfAGap) {
+  // Two plates 0.2 apart with a margin that is larger than that.
+  PathProblem source;
+  source.contact = Joined(MakeBox({-5.0, -5.0, -0.5}, {5.0, 5.0, 0.5}),
+                          MakeBox({-5.0, -5.0, 0.7}, {5.0, 5.0, 1.7}));
+  TrajectoryProblem problem = WithoutMetrics(source);
+  problem.diagonal = 10.0;
+  problem.margin = 0.05;
+  for (const double height : {0.01, 0.05, 0.094, 0.1}) {
+    problem.start = {-1.0, 0.0, 0.5 + height};
+    problem.goal = {1.0, 0.0, 0.5 + height};
+    EXPECT_NEAR(MissingClearance(problem, StraightPath(problem)),
+                std::max(0.0, 0.95 * 0.1 - height) / 0.5, 1e-9)
+        << height;
+  }
+}
+
 TEST(Corridor, EnergyFallsAndEveryRoundIsFree) {
   // A corridor of one round more each time: its path is the next iterate.
   PathProblem source = MakePathProblem("Uaxis", 2);
