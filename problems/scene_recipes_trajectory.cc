@@ -18,6 +18,17 @@ Json Ball(double radius, double triangles) {
           {"triangles", CountJson(triangles)}};
 }
 
+// The obstacle as designed, or finely tessellated with a hundredth of its edges
+// as noise.
+Json Scanned(const Json& shape, Values& v) {
+  if (v["edge"] == 0.0) return shape;
+  return {{"type", "scan"},
+          {"of", shape},
+          {"edge", v["edge"]},
+          {"noise", 0.01 * v["edge"]},
+          {"seed", 1}};
+}
+
 Layout UTrap(Values& v) {
   const double size = v["size"];
   const Json u = {{"type", "u"},
@@ -25,7 +36,7 @@ Layout UTrap(Values& v) {
                   {"wall", v["wall"]},
                   {"height", v["height"]}};
   const double x = 0.5 * size + 5.0 * v["ball_radius"];
-  return OneObstacle(Ball(v["ball_radius"], v["triangles"]), u,
+  return OneObstacle(Ball(v["ball_radius"], v["triangles"]), Scanned(u, v),
                      {-0.5 * size, -0.5 * size, -0.5 * v["height"]}, 2.0 * x,
                      {-x, 0.0, 0.0}, {x, 0.0, 0.0});
 }
@@ -74,8 +85,8 @@ Layout ThinWall(Values& v) {
   const Json wall = {{"type", "box"},
                      {"size", {v["thickness"], v["side"], v["side"]}}};
   const double x = 0.5 * v["side"];
-  return OneObstacle(Ball(v["ball_radius"], v["triangles"]), wall, {0, 0, 0},
-                     2.0 * v["side"], {-x, 0.1 * x, 0.05 * x},
+  return OneObstacle(Ball(v["ball_radius"], v["triangles"]), Scanned(wall, v),
+                     {0, 0, 0}, 2.0 * v["side"], {-x, 0.1 * x, 0.05 * x},
                      {x, 0.0, -0.05 * x});
 }
 
@@ -121,8 +132,8 @@ Layout LongPlate(Values& v) {
                       {"size", {v["length"], v["width"], v["thickness"]}}};
   const double x = 0.5 * v["length"] + 5.0 * v["ball_radius"];
   Layout layout =
-      OneObstacle(Ball(v["ball_radius"], v["triangles"]), plate, {0, 0, 0},
-                  2.0 * x, {-x, 0.0, 0.0}, {x, 0.0, 0.0});
+      OneObstacle(Ball(v["ball_radius"], v["triangles"]), Scanned(plate, v),
+                  {0, 0, 0}, 2.0 * x, {-x, 0.0, 0.0}, {x, 0.0, 0.0});
   layout.freedom = v["ball_radius"];
   return layout;
 }
@@ -179,11 +190,14 @@ Layout Clutter(Values& v) {
 std::vector<SceneRecipe> TrajectoryRecipes() {
   const SceneKnob ball = {"ball_radius", 0.1, "radius of the robot ball"};
   const SceneKnob faces = {"triangles", 320, "of the robot ball: 20·4^k"};
+  const SceneKnob edge = {
+      "edge", 0.0, "longest edge of the obstacle as scanned; 0: as designed"};
   return {
       {{"u_trap",
         "a ball behind the closed side of a U",
         {ball,
          faces,
+         edge,
          {"size", 2.0, "outer width of the U"},
          {"wall", 0.2, "thickness of its walls"},
          {"height", 1.0, "of the U"}}},
@@ -216,6 +230,7 @@ std::vector<SceneRecipe> TrajectoryRecipes() {
         "a ball before a thin wall",
         {ball,
          faces,
+         edge,
          {"side", 2.0, "of the wall"},
          {"thickness", 0.01, "of the wall"}}},
        ThinWall},
@@ -238,6 +253,7 @@ std::vector<SceneRecipe> TrajectoryRecipes() {
         "a ball on a line through both arms of a U",
         {ball,
          faces,
+         edge,
          {"size", 2.0, "outer width of the U"},
          {"wall", 0.2, "thickness of its walls"},
          {"height", 1.0, "of the U"}}},
@@ -246,6 +262,7 @@ std::vector<SceneRecipe> TrajectoryRecipes() {
         "a ball before a plate, which thin_wall is too",
         {ball,
          faces,
+         edge,
          {"side", 2.0, "of the plate"},
          {"thickness", 0.1, "of the plate"}}},
        ThinWall},
@@ -253,6 +270,7 @@ std::vector<SceneRecipe> TrajectoryRecipes() {
         "a ball on a line along a plate, inside it",
         {ball,
          faces,
+         edge,
          {"length", 3.0, "of the plate, along the line"},
          {"width", 1.0, "of the plate"},
          {"thickness", 0.1, "of the plate"}}},

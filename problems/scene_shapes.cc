@@ -61,6 +61,10 @@ class Parameters {
     return numbers;
   }
 
+  TriangleMesh Shape(const char* key) const {
+    return MakeShape(shape_[key], where_ + "/" + key);
+  }
+
   std::vector<std::vector<std::string>> Layers(const char* key) const {
     try {
       return shape_[key].get<std::vector<std::vector<std::string>>>();
@@ -179,6 +183,12 @@ const std::vector<ShapeType>& ShapeTypes() {
        [](const P& p) {
          return MakePrism(p.Length("radius"), p.Length("height"),
                           p.Count("sides"));
+       }},
+      {"scan",
+       {"of", "edge", "noise", "seed"},
+       [](const P& p) {
+         return MakeScan(p.Shape("of"), p.Length("edge"), p.Length("noise"),
+                         static_cast<std::uint64_t>(p.Count("seed")));
        }},
       {"vessel",
        {"outer", "inner", "window"},

@@ -47,6 +47,10 @@ void RequireTriangles(const char* shape, const char* formula, int first,
   RequireCount(shape, formula, 2 * first * second, 0, kMaxTriangles);
 }
 
+double UnitRandom(std::mt19937_64* random) {
+  return std::ldexp(static_cast<double>((*random)() >> 11), -53);
+}
+
 Eigen::Vector2d UnitCircle(int i, int n) {
   const int quadrant = 4 * i / n;
   const int rest = 4 * i - quadrant * n;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <random>
 
 namespace phongpd::internal {
 
@@ -31,5 +32,9 @@ void RequireTriangles(const char* shape, const char* formula, int first,
 // The point at i/n of a full turn on the unit circle: multiples of a quarter
 // turn are exact, and n divisible by 4 gives an exact quarter-turn symmetry.
 Eigen::Vector2d UnitCircle(int i, int n);
+
+// [0, 1) from the engine's bits: the standard's distributions may differ from
+// library to library.
+double UnitRandom(std::mt19937_64* random);
 
 }  // namespace phongpd::internal

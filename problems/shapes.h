@@ -105,6 +105,14 @@ TriangleMesh MakeStar(double inner_radius, double outer_radius);
 TriangleMesh MakeBlob(double radius, int levels, double roughness,
                       std::uint64_t seed);
 
+// A solid as a scanner sees it: edges longer than `edge` are halved until none
+// is, then every coordinate of every vertex moves by at most `noise`, below a
+// tenth of `edge`; 0: no noise.  No coplanar faces are left to merge, so its
+// contact spaces are as finely tessellated as it is.  Noise far below the
+// thickness of its walls keeps it embedded.
+TriangleMesh MakeScan(TriangleMesh solid, double edge, double noise,
+                      std::uint64_t seed);
+
 // Tube of radius `tube` < size/2 along the trefoil knot
 // size · (sin t + 2 sin 2t, cos t − 2 cos 2t, −sin 3t),
 // 2·around·across triangles, around ≥ 32.

@@ -13,6 +13,7 @@ namespace phongpd {
 namespace {
 
 using Eigen::Vector3d;
+using internal::UnitRandom;
 
 constexpr int kWaves = 12;
 constexpr double kPi = 3.14159265358979323846;
@@ -22,20 +23,15 @@ struct Wave {
   double phase;
 };
 
-// [0, 1) from the engine's bits: the standard's distributions may differ from
-// library to library.
-double Unit(std::mt19937_64* random) {
-  return std::ldexp(static_cast<double>((*random)() >> 11), -53);
-}
-
 std::vector<Wave> RandomWaves(std::mt19937_64* random) {
   std::vector<Wave> waves;
   for (int i = 0; i < kWaves; ++i) {
-    const double z = 2 * Unit(random) - 1, turn = 2 * kPi * Unit(random);
+    const double z = 2 * UnitRandom(random) - 1,
+                 turn = 2 * kPi * UnitRandom(random);
     const double flat = std::sqrt(1 - z * z);
     const Vector3d direction(flat * std::cos(turn), flat * std::sin(turn), z);
-    const double number = 2 + 4 * Unit(random);
-    waves.push_back({number * direction, 2 * kPi * Unit(random)});
+    const double number = 2 + 4 * UnitRandom(random);
+    waves.push_back({number * direction, 2 * kPi * UnitRandom(random)});
   }
   return waves;
 }

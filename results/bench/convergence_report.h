@@ -26,6 +26,7 @@ struct DepthExcess {
 struct SceneGroup {
   std::string name;
   std::vector<std::string> scenes;  // labels begin with one of these
+  bool is_scanned = false;          // obstacles with a knob `edge`
 };
 const std::vector<SceneGroup>& SceneGroups();
 
@@ -35,9 +36,19 @@ struct ConvergenceResults {
   std::vector<DepthExcess> excess;
 };
 
+// The metric that is compared with Euclidean PD.
+inline constexpr char kPreset[] = "phong@0.2";
+// Null if there were no such runs.
+const ComparisonCell* Find(const std::vector<ComparisonCell>& cells,
+                           const std::string& scene,
+                           const std::string& protocol,
+                           const std::string& method);
+// Solved / runs, and what the tables explain.
+std::string SolvedText(const ComparisonCell& cell);
+
 std::vector<NamedTable> Tables(const ConvergenceResults& results);
 std::vector<Figure> Figures(const ConvergenceResults& results);
-// Targets met and missed, wins, ties and losses: the text above the tables.
+// Targets met and missed: the text above the tables (convergence_findings.cc).
 std::string Findings(const ConvergenceResults& results);
 
 }  // namespace phongpd::bench

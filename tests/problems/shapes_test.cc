@@ -187,6 +187,41 @@ TEST(Blob, IsABumpySolidOfItsSeed) {
   EXPECT_EQ(report.inverted_components, 0);
 }
 
+TEST(Scan, IsTheSolidWithShortEdgesAndSmallNoise) {
+  const TriangleMesh u = MakeU(2.0, 0.2, 1.0);
+  const double edge = 0.15;
+  const TriangleMesh fine = MakeScan(u, edge, 0.0, 1);
+  EXPECT_NEAR(SignedVolume(fine), SignedVolume(u), 1e-13);
+  EXPECT_GT(fine.triangles.size(), 10 * u.triangles.size());
+  const double noise = 0.01 * edge;
+  const TriangleMesh scan = MakeScan(u, edge, noise, 1);
+  EXPECT_EQ(scan.triangles, fine.triangles);
+  EXPECT_EQ(scan.vertices, MakeScan(u, edge, noise, 1).vertices);
+  EXPECT_NE(scan.vertices, MakeScan(u, edge, noise, 2).vertices);
+  double moved = 0.0, longest = 0.0;
+  for (std::size_t i = 0; i < scan.vertices.size(); ++i) {
+    const Vector3d off = scan.vertices[i] - fine.vertices[i];
+    moved = std::max(moved, off.cwiseAbs().maxCoeff());
+  }
+  EXPECT_LE(moved, noise);
+  EXPECT_GT(moved, 0.95 * noise);
+  for (const Triangle& t : fine.triangles) {
+    for (int k = 0; k < 3; ++k) {
+      longest = std::max(
+          longest,
+          (fine.vertices[t[k]] - fine.vertices[t[(k + 1) % 3]]).norm());
+    }
+  }
+  EXPECT_LE(longest, edge);
+  // Closed, embedded, outward; no two neighbours coplanar.
+  MeshReport report;
+  MakeSolid(scan, "scan", &report);
+  EXPECT_EQ(report.inverted_components, 0);
+  EXPECT_THROW(MakeScan(u, edge, 0.02, 1), InputError);
+  EXPECT_THROW(MakeScan(u, 0.0, 0.0, 1), InputError);
+  EXPECT_THROW(MakeScan(u, 1e-6, 0.0, 1), InputError);
+}
+
 TEST(IcoBall, ConvergesToTheBallByAFactorOfFourALevel) {
   const double ball = 4.0 / 3.0 * kPi;
   double last = ball - SignedVolume(MakeIcoBall(1, 1));
