@@ -184,12 +184,6 @@ const std::vector<ShapeType>& ShapeTypes() {
          return MakePrism(p.Length("radius"), p.Length("height"),
                           p.Count("sides"));
        }},
-      {"scan",
-       {"of", "edge", "noise", "seed"},
-       [](const P& p) {
-         return MakeScan(p.Shape("of"), p.Length("edge"), p.Length("noise"),
-                         static_cast<std::uint64_t>(p.Count("seed")));
-       }},
       {"vessel",
        {"outer", "inner", "window"},
        [](const P& p) {
@@ -206,6 +200,12 @@ const std::vector<ShapeType>& ShapeTypes() {
        [](const P& p) {
          return MakeKnot(p.Length("size"), p.Length("tube"), p.Count("around"),
                          p.Count("across"));
+       }},
+      {"scan",
+       {"of", "edge", "noise", "seed"},
+       [](const P& p) {
+         return MakeScan(p.Shape("of"), p.Length("edge"), p.Length("noise"),
+                         static_cast<std::uint64_t>(p.Count("seed")));
        }},
   };
   return types;

@@ -71,9 +71,11 @@ TrianglePoint ClosestOnTriangle(const Vector3d& a, const Vector3d& b,
   TrianglePoint best;
   best.squared_distance = std::numeric_limits<double>::infinity();
   const double longest = std::max(ab.squaredNorm(), ac.squaredNorm());
-  const bool is_sliver = !(squared > 1e-8 * longest * longest);
-  if (is_sliver) {
+  if (!(squared > 1e-8 * longest * longest)) {
     OfferSliver(a, b, c, x, &best);
+    OfferEdge(0, 1, ab, ax, &best);
+    OfferEdge(0, 2, ac, ax, &best);
+    OfferEdge(1, 2, c - b, x - b, &best);
   } else {
     const double l1 = ax.cross(ac).dot(normal);
     const double l2 = ab.cross(ax).dot(normal);
@@ -83,10 +85,12 @@ TrianglePoint ClosestOnTriangle(const Vector3d& a, const Vector3d& b,
       best.squared_distance = (ax - m1 * ab - m2 * ac).squaredNorm();
       return best;
     }
+    // On an edge that the foot lies beyond: the way from x to a point of any
+    // other crosses one of these.
+    if (!(l2 >= 0.0)) OfferEdge(0, 1, ab, ax, &best);
+    if (!(l1 >= 0.0)) OfferEdge(0, 2, ac, ax, &best);
+    if (!(l1 + l2 <= squared)) OfferEdge(1, 2, c - b, x - b, &best);
   }
-  OfferEdge(0, 1, ab, ax, &best);
-  OfferEdge(0, 2, ac, ax, &best);
-  OfferEdge(1, 2, c - b, x - b, &best);
   return best;
 }
 
