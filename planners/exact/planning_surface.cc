@@ -84,6 +84,12 @@ void PlanningSurface::Keep(std::vector<Vector3d> raw_path, int random_cuts,
   shortening.random_cuts = random_cuts;
   shortening.seed = options.seed;
   std::vector<Vector3d> path = ShortenPath(raw_path, segments, shortening);
+  Offer(std::move(raw_path), std::move(path), result);
+}
+
+void PlanningSurface::Offer(std::vector<Vector3d> raw_path,
+                            std::vector<Vector3d> path,
+                            PlanResult* result) const {
   result->routes.push_back(path);
   const double length = PathLength(path);
   const double clearance = ClearanceOf(path);

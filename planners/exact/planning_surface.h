@@ -34,8 +34,10 @@ struct PlanningSurface {
   bool IsClearWay(const Eigen::Vector3d& start, const Eigen::Vector3d& goal,
                   double clearance) const;
 
-  // Centres and shortens a free path and makes it the result unless that is
-  // better already.
+  // Makes a free path the result unless that is better already.
+  void Offer(std::vector<Eigen::Vector3d> raw_path,
+             std::vector<Eigen::Vector3d> path, PlanResult* result) const;
+  // The same after it has been centred and shortened.
   void Keep(std::vector<Eigen::Vector3d> raw_path, int random_cuts,
             PlanResult* result) const;
 

@@ -1,0 +1,289 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "planners/exact/lifted_graph.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <utility>
+
+#include "planners/exact/free_space.h"
+#include "planners/exact/path_lift.h"
+
+namespace phongpd {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+SurfaceSite Fixed(const Vector3d& point) {
+  SurfaceSite site;
+  site.point = point;
+  return site;
+}
+
+}  // namespace
+
+LiftedGraph::LiftedGraph(const PlanningSurface& surface, double spacing,
+                         int gap_links)
+    : surface_(surface),
+      graph_(surface.contact.mesh(), surface.neighbors, surface.segments,
+             surface.cells, spacing, gap_links) {
+  LiftNodes();
+  Store(JoinNodes());
+  std::vector<BoundingBox> boxes;
+  boxes.reserve(points_.size());
+  for (const Vector3d& p : points_) boxes.push_back({p, p});
+  tree_ = BoxTree(boxes, 8);
+}
+
+void LiftedGraph::LiftNodes() {
+  const FreeCells& cells = surface_.cells;
+  for (const SurfaceSite& site : graph_.sites()) {
+    const int cell = site.triangle >= 0
+                         ? cells.CellOfPiece(cells.piece()[site.triangle])
+                         : FreeCells::kOutside;
+    const double clearance = surface_.WantedClearance(cell);
+    Vector3d point = site.point;
+    if (!site.direction.isZero()) {
+      point += RoomAbove(site, surface_.segments, clearance, cells.rounding()) *
+               site.direction;
+    }
+    points_.push_back(point);
+    room_.push_back(surface_.segments.Distance(point, point, clearance));
+  }
+  counts_.nodes = static_cast<int>(points_.size());
+}
+
+void LiftedGraph::Join(int i, int j, std::vector<Edge>* edges) {
+  if (i > j) std::swap(i, j);
+  Edge edge = {i, j, -1, (points_[i] - points_[j]).norm()};
+  // True whenever they meet, too.
+  if (surface_.segments.ComesWithin(points_[i], points_[j],
+                                    0.5 * std::min(room_[i], room_[j]))) {
+    std::vector<Vector3d> path;
+    LiftCounts lift;
+    const int blocked =
+        LiftRoute({Fixed(points_[i]), graph_.sites()[i], graph_.sites()[j],
+                   Fixed(points_[j])},
+                  surface_.segments, std::max(room_[i], room_[j]),
+                  surface_.cells.rounding(), &path, &lift);
+    if (blocked >= 0) {
+      ++counts_.left_out;
+      return;
+    }
+    ++counts_.lowered;
+    edge.via = static_cast<int>(via_.size());
+    edge.length = PathLength(path);
+    via_.push_back(path[1]);
+    via_.push_back(path[2]);
+  }
+  edges->push_back(edge);
+}
+
+std::vector<LiftedGraph::Edge> LiftedGraph::JoinNodes() {
+  std::vector<Edge> edges;
+  const std::vector<SurfaceSite>& sites = graph_.sites();
+  const int triangles = static_cast<int>(surface_.neighbors.size());
+  std::vector<int> on_edges, of_links;
+  std::vector<std::pair<double, int>> near;
+  for (int t = 0; t < triangles; ++t) {
+    on_edges.clear();
+    of_links.clear();
+    graph_.ForEachOn(t, [&](int i) {
+      (i < graph_.edge_points() ? on_edges : of_links).push_back(i);
+    });
+    std::sort(on_edges.begin(), on_edges.end());
+    for (std::size_t x = 0; x < on_edges.size(); ++x) {
+      for (std::size_t y = x + 1; y < on_edges.size(); ++y) {
+        const SurfaceSite& a = sites[on_edges[x]];
+        const SurfaceSite& b = sites[on_edges[y]];
+        const bool one_edge = a.triangle == b.triangle && a.other == b.other;
+        // Along an edge in one of its triangles, from each point to the next.
+        if (one_edge && (y > x + 1 || a.triangle != t)) continue;
+        Join(on_edges[x], on_edges[y], &edges);
+      }
+    }
+    for (const int i : of_links) {
+      near.clear();
+      for (const int j : on_edges) {
+        near.emplace_back((sites[i].point - sites[j].point).squaredNorm(), j);
+      }
+      const std::size_t ways = std::min<std::size_t>(kLinkWays, near.size());
+      std::partial_sort(near.begin(),
+                        near.begin() + static_cast<std::ptrdiff_t>(ways),
+                        near.end());
+      for (std::size_t k = 0; k < ways; ++k) Join(i, near[k].second, &edges);
+    }
+  }
+  for (int i = 0; i < counts_.nodes; ++i) {
+    if (graph_.partner(i) > i) Join(i, graph_.partner(i), &edges);
+  }
+  for (std::size_t k = 1; k < graph_.outside().size(); ++k) {
+    Join(graph_.outside()[0], graph_.outside()[k], &edges);
+  }
+  return edges;
+}
+
+void LiftedGraph::Store(const std::vector<Edge>& edges) {
+  counts_.ways = static_cast<int>(edges.size());
+  first_.assign(points_.size() + 1, 0);
+  for (const Edge& edge : edges) {
+    ++first_[edge.from + 1];
+    ++first_[edge.to + 1];
+  }
+  for (std::size_t i = 1; i < first_.size(); ++i) first_[i] += first_[i - 1];
+  ways_.resize(first_.back());
+  std::vector<int> next(first_.begin(), first_.end() - 1);
+  for (const Edge& edge : edges) {
+    ways_[next[edge.from]++] = {edge.to, edge.via, edge.length};
+    ways_[next[edge.to]++] = {edge.from, edge.via, edge.length};
+  }
+}
+
+std::vector<LiftedGraph::Stop> LiftedGraph::See(const Vector3d& q,
+                                                double clearance, int tried,
+                                                int wanted) const {
+  using Candidate = std::pair<double, int>;
+  const std::size_t most = static_cast<std::size_t>(tried);
+  std::vector<Candidate> nearest;  // a heap, the farthest on top
+  nearest.reserve(most + 1);
+  tree_.NearestFirst(
+      kInfinity,
+      [&](int node) { return tree_.nodes()[node].SquaredDistance(q); },
+      [&](int position) {
+        const int i = tree_.order()[position];
+        nearest.emplace_back((points_[i] - q).squaredNorm(), i);
+        std::push_heap(nearest.begin(), nearest.end());
+        if (nearest.size() > most) {
+          std::pop_heap(nearest.begin(), nearest.end());
+          nearest.pop_back();
+        }
+        return nearest.size() < most ? kInfinity : nearest.front().first;
+      });
+  std::sort_heap(nearest.begin(), nearest.end());
+  const double room = surface_.segments.Distance(q, q, clearance);
+  std::vector<Stop> stops;
+  for (const auto& [squared, i] : nearest) {
+    if (static_cast<int>(stops.size()) == wanted) break;
+    if (surface_.segments.ComesWithin(q, points_[i],
+                                      0.5 * std::min(room, room_[i]))) {
+      continue;
+    }
+    stops.push_back({i, std::sqrt(squared), {}});
+  }
+  return stops;
+}
+
+std::vector<LiftedGraph::Stop> LiftedGraph::Descend(const Vector3d& q,
+                                                    double clearance,
+                                                    int wanted) const {
+  const PenetrationResult closest =
+      surface_.contact.Answer(q, Location::kOutside);
+  SurfaceSite foot;
+  foot.point = closest.contact;
+  foot.triangle = closest.triangle;
+  // At edges and corners only the way back to q is free for sure.
+  foot.direction = (q - foot.point).stableNormalized();
+  std::vector<std::pair<double, int>> near;
+  graph_.ForEachOn(foot.triangle, [&](int i) {
+    near.emplace_back((graph_.sites()[i].point - foot.point).squaredNorm(), i);
+  });
+  std::sort(near.begin(), near.end());
+  std::vector<Stop> stops;
+  for (const auto& [squared, i] : near) {
+    if (static_cast<int>(stops.size()) == wanted) break;
+    std::vector<Vector3d> path;
+    LiftCounts lift;
+    if (LiftRoute({Fixed(q), foot, graph_.sites()[i], Fixed(points_[i])},
+                  surface_.segments, clearance, surface_.cells.rounding(),
+                  &path, &lift) >= 0) {
+      continue;
+    }
+    stops.push_back({i, PathLength(path), {path[1], path[2]}});
+  }
+  return stops;
+}
+
+std::vector<Vector3d> LiftedGraph::Search(const Vector3d& start,
+                                          const std::vector<Stop>& starts,
+                                          const Vector3d& goal,
+                                          const std::vector<Stop>& goals,
+                                          Scratch* scratch) const {
+  Scratch& s = *scratch;
+  if (s.round.size() != points_.size()) {
+    s = {};
+    s.length.resize(points_.size());
+    s.before.resize(points_.size());
+    s.way.resize(points_.size());
+    s.round.assign(points_.size(), 0);
+  }
+  if (++s.current == 0) {
+    std::fill(s.round.begin(), s.round.end(), 0);
+    s.current = 1;
+  }
+  s.open.clear();
+  const auto later = [](const Scratch::Entry& a, const Scratch::Entry& b) {
+    return a.bound != b.bound ? a.bound > b.bound : a.node > b.node;
+  };
+  const auto offer = [&](int from, int way, int to, double length) {
+    if (s.round[to] == s.current && !(length < s.length[to])) return;
+    s.round[to] = s.current;
+    s.length[to] = length;
+    s.before[to] = from;
+    s.way[to] = way;
+    s.open.push_back({length + (points_[to] - goal).norm(), length, to});
+    std::push_heap(s.open.begin(), s.open.end(), later);
+  };
+  // `way` of the first node is its stop.
+  for (std::size_t k = 0; k < starts.size(); ++k) {
+    offer(-1, static_cast<int>(k), starts[k].node, starts[k].length);
+  }
+  double best = kInfinity;
+  const Stop* last = nullptr;
+  while (!s.open.empty()) {
+    const Scratch::Entry top = s.open.front();
+    if (top.bound >= best) break;
+    std::pop_heap(s.open.begin(), s.open.end(), later);
+    s.open.pop_back();
+    if (top.length > s.length[top.node]) continue;
+    for (const Stop& stop : goals) {
+      if (stop.node == top.node && top.length + stop.length < best) {
+        best = top.length + stop.length;
+        last = &stop;
+      }
+    }
+    for (int k = first_[top.node]; k < first_[top.node + 1]; ++k) {
+      offer(top.node, k, ways_[k].to, top.length + ways_[k].length);
+    }
+  }
+  std::vector<Vector3d> path;
+  if (last == nullptr) return path;
+  // Backwards from the goal.
+  const auto add = [&path](const Vector3d& p) {
+    if (path.empty() || path.back() != p) path.push_back(p);
+  };
+  add(goal);
+  for (const Vector3d& p : last->via) add(p);
+  for (int i = last->node;;) {
+    add(points_[i]);
+    const int from = s.before[i];
+    if (from < 0) {
+      const std::vector<Vector3d>& via = starts[s.way[i]].via;
+      std::for_each(via.rbegin(), via.rend(), add);
+      break;
+    }
+    const int via = ways_[s.way[i]].via;
+    if (via >= 0) {
+      // Stored from the smaller node on.
+      add(via_[from < i ? via + 1 : via]);
+      add(via_[from < i ? via : via + 1]);
+    }
+    i = from;
+  }
+  add(start);
+  std::reverse(path.begin(), path.end());
+  return path;
+}
+
+}  // namespace phongpd
