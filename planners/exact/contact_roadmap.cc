@@ -12,6 +12,7 @@
 #include "planners/exact/check_option.h"
 #include "planners/exact/free_space.h"
 #include "planners/exact/lifted_graph.h"
+#include "planners/exact/path_shortening.h"
 #include "planners/exact/planning_surface.h"
 
 namespace phongpd {
@@ -54,14 +55,14 @@ struct ContactRoadmap::Impl {
                               double clearance) const;
 
   // Memory of searches, one for every query that runs at the same time.
-  std::unique_ptr<LiftedGraph::Scratch> Take() const {
+  std::unique_ptr<RouteTable::Scratch> Take() const {
     const std::lock_guard<std::mutex> lock(mutex);
-    if (idle.empty()) return std::make_unique<LiftedGraph::Scratch>();
-    std::unique_ptr<LiftedGraph::Scratch> scratch = std::move(idle.back());
+    if (idle.empty()) return std::make_unique<RouteTable::Scratch>();
+    std::unique_ptr<RouteTable::Scratch> scratch = std::move(idle.back());
     idle.pop_back();
     return scratch;
   }
-  void Return(std::unique_ptr<LiftedGraph::Scratch> scratch) const {
+  void Return(std::unique_ptr<RouteTable::Scratch> scratch) const {
     const std::lock_guard<std::mutex> lock(mutex);
     idle.push_back(std::move(scratch));
   }
@@ -73,21 +74,27 @@ struct ContactRoadmap::Impl {
   double build_seconds = 0.0;
   mutable std::atomic<long> queries{0}, lazy_searches{0};
   mutable std::mutex mutex;
-  mutable std::vector<std::unique_ptr<LiftedGraph::Scratch>> idle;
+  mutable std::vector<std::unique_ptr<RouteTable::Scratch>> idle;
 };
 
 std::vector<Vector3d> ContactRoadmap::Impl::Route(const Vector3d& start,
                                                   const Vector3d& goal,
                                                   double clearance) const {
-  const auto attach = [&](const Vector3d& q) {
-    std::vector<LiftedGraph::Stop> stops =
-        graph.See(q, clearance, options.neighbors, options.stops);
+  const auto attach = [&](const Vector3d& q, const Vector3d& other) {
+    std::vector<LiftedGraph::Stop> stops;
+    graph.See(q, q, clearance, options.neighbors, options.stops, &stops);
+    // And what is in the way: the nearest nodes may lie behind.
+    const SegmentTree::Hit hit = surface.segments.FirstHit(q, other);
+    if (hit.Found()) {
+      graph.See(q, q + hit.fraction * (other - q), clearance, options.neighbors,
+                options.stops, &stops);
+    }
     if (stops.empty()) stops = graph.Descend(q, clearance, options.stops);
     return stops;
   };
-  std::unique_ptr<LiftedGraph::Scratch> scratch = Take();
-  std::vector<Vector3d> route =
-      graph.Search(start, attach(start), goal, attach(goal), scratch.get());
+  std::unique_ptr<RouteTable::Scratch> scratch = Take();
+  std::vector<Vector3d> route = graph.Search(
+      start, attach(start, goal), goal, attach(goal, start), scratch.get());
   Return(std::move(scratch));
   return route;
 }
@@ -154,7 +161,15 @@ PlanResult ContactRoadmap::Plan(const Vector3d& start, const Vector3d& goal,
       lazy.clearance = request.clearance;
       result = impl_->planner->Plan(start, goal, lazy);
     } else if (request.shorten) {
-      surface.Keep(std::move(path), request.random_cuts, &result);
+      // Without the points between which it is straight anyway: each of those
+      // left is centred.
+      ShorteningOptions sparse;
+      sparse.clearance = result.wanted_clearance;
+      sparse.random_cuts = 0;
+      sparse.pulls = 0;
+      surface.Keep(ShortenPath(path, surface.segments, sparse),
+                   request.random_cuts, &result);
+      result.raw_path = std::move(path);
     } else {
       surface.Offer(path, path, &result);
     }

@@ -30,7 +30,9 @@ LiftedGraph::LiftedGraph(const PlanningSurface& surface, double spacing,
       graph_(surface.contact.mesh(), surface.neighbors, surface.segments,
              surface.cells, spacing, gap_links) {
   LiftNodes();
-  Store(JoinNodes());
+  const Edges edges = JoinNodes();
+  counts_.ways = static_cast<int>(edges.size());
+  routes_ = RouteTable(counts_.nodes, edges);
   std::vector<BoundingBox> boxes;
   boxes.reserve(points_.size());
   for (const Vector3d& p : points_) boxes.push_back({p, p});
@@ -55,9 +57,10 @@ void LiftedGraph::LiftNodes() {
   counts_.nodes = static_cast<int>(points_.size());
 }
 
-void LiftedGraph::Join(int i, int j, std::vector<Edge>* edges) {
+void LiftedGraph::Join(int i, int j, Edges* edges) {
   if (i > j) std::swap(i, j);
-  Edge edge = {i, j, -1, (points_[i] - points_[j]).norm()};
+  double length = (points_[i] - points_[j]).norm();
+  int via = -1;
   // True whenever they meet, too.
   if (surface_.segments.ComesWithin(points_[i], points_[j],
                                     0.5 * std::min(room_[i], room_[j]))) {
@@ -73,16 +76,17 @@ void LiftedGraph::Join(int i, int j, std::vector<Edge>* edges) {
       return;
     }
     ++counts_.lowered;
-    edge.via = static_cast<int>(via_.size());
-    edge.length = PathLength(path);
+    length = PathLength(path);
+    via = static_cast<int>(via_.size());
     via_.push_back(path[1]);
     via_.push_back(path[2]);
   }
-  edges->push_back(edge);
+  edges->push_back({i, j, length});
+  via_of_.push_back(via);
 }
 
-std::vector<LiftedGraph::Edge> LiftedGraph::JoinNodes() {
-  std::vector<Edge> edges;
+LiftedGraph::Edges LiftedGraph::JoinNodes() {
+  Edges edges;
   const std::vector<SurfaceSite>& sites = graph_.sites();
   const int triangles = static_cast<int>(surface_.neighbors.size());
   std::vector<int> on_edges, of_links;
@@ -125,35 +129,19 @@ std::vector<LiftedGraph::Edge> LiftedGraph::JoinNodes() {
   return edges;
 }
 
-void LiftedGraph::Store(const std::vector<Edge>& edges) {
-  counts_.ways = static_cast<int>(edges.size());
-  first_.assign(points_.size() + 1, 0);
-  for (const Edge& edge : edges) {
-    ++first_[edge.from + 1];
-    ++first_[edge.to + 1];
-  }
-  for (std::size_t i = 1; i < first_.size(); ++i) first_[i] += first_[i - 1];
-  ways_.resize(first_.back());
-  std::vector<int> next(first_.begin(), first_.end() - 1);
-  for (const Edge& edge : edges) {
-    ways_[next[edge.from]++] = {edge.to, edge.via, edge.length};
-    ways_[next[edge.to]++] = {edge.from, edge.via, edge.length};
-  }
-}
-
-std::vector<LiftedGraph::Stop> LiftedGraph::See(const Vector3d& q,
-                                                double clearance, int tried,
-                                                int wanted) const {
+void LiftedGraph::See(const Vector3d& q, const Vector3d& around,
+                      double clearance, int tried, int wanted,
+                      std::vector<Stop>* stops) const {
   using Candidate = std::pair<double, int>;
   const std::size_t most = static_cast<std::size_t>(tried);
   std::vector<Candidate> nearest;  // a heap, the farthest on top
   nearest.reserve(most + 1);
   tree_.NearestFirst(
       kInfinity,
-      [&](int node) { return tree_.nodes()[node].SquaredDistance(q); },
+      [&](int node) { return tree_.nodes()[node].SquaredDistance(around); },
       [&](int position) {
         const int i = tree_.order()[position];
-        nearest.emplace_back((points_[i] - q).squaredNorm(), i);
+        nearest.emplace_back((points_[i] - around).squaredNorm(), i);
         std::push_heap(nearest.begin(), nearest.end());
         if (nearest.size() > most) {
           std::pop_heap(nearest.begin(), nearest.end());
@@ -163,16 +151,16 @@ std::vector<LiftedGraph::Stop> LiftedGraph::See(const Vector3d& q,
       });
   std::sort_heap(nearest.begin(), nearest.end());
   const double room = surface_.segments.Distance(q, q, clearance);
-  std::vector<Stop> stops;
+  int seen = 0;
   for (const auto& [squared, i] : nearest) {
-    if (static_cast<int>(stops.size()) == wanted) break;
+    if (seen == wanted) break;
     if (surface_.segments.ComesWithin(q, points_[i],
                                       0.5 * std::min(room, room_[i]))) {
       continue;
     }
-    stops.push_back({i, std::sqrt(squared), {}});
+    stops->push_back({i, (points_[i] - q).norm(), {}});
+    ++seen;
   }
-  return stops;
 }
 
 std::vector<LiftedGraph::Stop> LiftedGraph::Descend(const Vector3d& q,
@@ -209,80 +197,34 @@ std::vector<Vector3d> LiftedGraph::Search(const Vector3d& start,
                                           const std::vector<Stop>& starts,
                                           const Vector3d& goal,
                                           const std::vector<Stop>& goals,
-                                          Scratch* scratch) const {
-  Scratch& s = *scratch;
-  if (s.round.size() != points_.size()) {
-    s = {};
-    s.length.resize(points_.size());
-    s.before.resize(points_.size());
-    s.way.resize(points_.size());
-    s.round.assign(points_.size(), 0);
-  }
-  if (++s.current == 0) {
-    std::fill(s.round.begin(), s.round.end(), 0);
-    s.current = 1;
-  }
-  s.open.clear();
-  const auto later = [](const Scratch::Entry& a, const Scratch::Entry& b) {
-    return a.bound != b.bound ? a.bound > b.bound : a.node > b.node;
+                                          RouteTable::Scratch* scratch) const {
+  const auto priced = [](const std::vector<Stop>& stops) {
+    std::vector<RouteTable::Stop> prices;
+    for (const Stop& stop : stops) prices.push_back({stop.node, stop.length});
+    return prices;
   };
-  const auto offer = [&](int from, int way, int to, double length) {
-    if (s.round[to] == s.current && !(length < s.length[to])) return;
-    s.round[to] = s.current;
-    s.length[to] = length;
-    s.before[to] = from;
-    s.way[to] = way;
-    s.open.push_back({length + (points_[to] - goal).norm(), length, to});
-    std::push_heap(s.open.begin(), s.open.end(), later);
-  };
-  // `way` of the first node is its stop.
-  for (std::size_t k = 0; k < starts.size(); ++k) {
-    offer(-1, static_cast<int>(k), starts[k].node, starts[k].length);
-  }
-  double best = kInfinity;
-  const Stop* last = nullptr;
-  while (!s.open.empty()) {
-    const Scratch::Entry top = s.open.front();
-    if (top.bound >= best) break;
-    std::pop_heap(s.open.begin(), s.open.end(), later);
-    s.open.pop_back();
-    if (top.length > s.length[top.node]) continue;
-    for (const Stop& stop : goals) {
-      if (stop.node == top.node && top.length + stop.length < best) {
-        best = top.length + stop.length;
-        last = &stop;
-      }
-    }
-    for (int k = first_[top.node]; k < first_[top.node + 1]; ++k) {
-      offer(top.node, k, ways_[k].to, top.length + ways_[k].length);
-    }
-  }
+  const RouteTable::Route route =
+      routes_.Search(priced(starts), priced(goals), scratch);
   std::vector<Vector3d> path;
-  if (last == nullptr) return path;
-  // Backwards from the goal.
+  if (route.nodes.empty()) return path;
   const auto add = [&path](const Vector3d& p) {
     if (path.empty() || path.back() != p) path.push_back(p);
   };
-  add(goal);
-  for (const Vector3d& p : last->via) add(p);
-  for (int i = last->node;;) {
-    add(points_[i]);
-    const int from = s.before[i];
-    if (from < 0) {
-      const std::vector<Vector3d>& via = starts[s.way[i]].via;
-      std::for_each(via.rbegin(), via.rend(), add);
-      break;
-    }
-    const int via = ways_[s.way[i]].via;
-    if (via >= 0) {
-      // Stored from the smaller node on.
-      add(via_[from < i ? via + 1 : via]);
-      add(via_[from < i ? via : via + 1]);
-    }
-    i = from;
-  }
   add(start);
-  std::reverse(path.begin(), path.end());
+  for (const Vector3d& p : starts[route.start].via) add(p);
+  add(points_[route.nodes[0]]);
+  for (std::size_t k = 0; k < route.edges.size(); ++k) {
+    const int via = via_of_[route.edges[k]];
+    const bool forward = route.nodes[k] < route.nodes[k + 1];
+    if (via >= 0) {
+      add(via_[forward ? via : via + 1]);
+      add(via_[forward ? via + 1 : via]);
+    }
+    add(points_[route.nodes[k + 1]]);
+  }
+  const std::vector<Vector3d>& via = goals[route.goal].via;
+  std::for_each(via.rbegin(), via.rend(), add);
+  add(goal);
   return path;
 }
 

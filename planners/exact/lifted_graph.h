@@ -2,11 +2,11 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <cstdint>
 #include <vector>
 
 #include "core/mesh/box_tree.h"
 #include "planners/exact/planning_surface.h"
+#include "planners/exact/route_table.h"
 #include "planners/exact/surface_graph.h"
 
 namespace phongpd {
@@ -39,67 +39,48 @@ class LiftedGraph {
     std::vector<Eigen::Vector3d> via;  // in between, from the configuration on
   };
 
-  // Memory of a search, to be reused.
-  struct Scratch {
-    struct Entry {
-      double bound, length;
-      int node;
-    };
-    std::vector<double> length;
-    std::vector<int> before, way;      // node and number of the way
-    std::vector<std::uint32_t> round;  // in which they were set
-    std::uint32_t current = 0;
-    std::vector<Entry> open;
-  };
-
   // Spacing and number of links as those of SurfaceGraph.  The surface must
   // outlive this.
   LiftedGraph(const PlanningSurface& surface, double spacing, int gap_links);
 
   const Counts& counts() const { return counts_; }
 
-  // Nodes seen from q with half the clearance of both, at most `wanted` of
-  // the `tried` nearest ones.
-  std::vector<Stop> See(const Eigen::Vector3d& q, double clearance, int tried,
-                        int wanted) const;
-  // The same over the closest place of the surface, for configurations that
-  // see no node nearby; empty only where rounding closed the way.
+  // Adds nodes that q sees with half the clearance of both, at most `wanted`
+  // of the `tried` ones nearest to `around`, which are q's nearest nodes or
+  // those near a place that q sees.
+  void See(const Eigen::Vector3d& q, const Eigen::Vector3d& around,
+           double clearance, int tried, int wanted,
+           std::vector<Stop>* stops) const;
+  // Nodes reached over the closest place of the surface, for configurations
+  // that see no node nearby; empty only where rounding closed the way.
   std::vector<Stop> Descend(const Eigen::Vector3d& q, double clearance,
                             int wanted) const;
 
-  // The shortest path from start to goal over their stops (A*); empty if none.
+  // The shortest path from start to goal over their stops; empty if none.
   std::vector<Eigen::Vector3d> Search(const Eigen::Vector3d& start,
                                       const std::vector<Stop>& starts,
                                       const Eigen::Vector3d& goal,
                                       const std::vector<Stop>& goals,
-                                      Scratch* scratch) const;
+                                      RouteTable::Scratch* scratch) const;
 
  private:
   static constexpr int kLinkWays = 3;
 
-  struct Way {
-    int to;
-    int via;  // −1: straight; otherwise index of two points, which lie in
-              // this order from the smaller node to the larger
-    double length;
-  };
-  struct Edge {
-    int from, to, via;
-    double length;
-  };
+  using Edges = std::vector<RouteTable::Edge>;
 
   void LiftNodes();
-  std::vector<Edge> JoinNodes();
-  void Join(int i, int j, std::vector<Edge>* edges);
-  void Store(const std::vector<Edge>& edges);
+  Edges JoinNodes();
+  void Join(int i, int j, Edges* edges);
 
   const PlanningSurface& surface_;
   SurfaceGraph graph_;
   Counts counts_;
   std::vector<Eigen::Vector3d> points_;
   std::vector<double> room_;  // clearance of a node, at most the wanted one
-  std::vector<int> first_;    // of a node, into ways_
-  std::vector<Way> ways_;
+  RouteTable routes_;
+  // Of an edge −1: straight; otherwise index of two points, which lie in this
+  // order from the smaller node to the larger.
+  std::vector<int> via_of_;
   std::vector<Eigen::Vector3d> via_;
   BoxTree tree_;  // of the nodes
 };
