@@ -16,6 +16,10 @@ using Eigen::Vector3d;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
+// Of a way that keeps such a share of the wanted clearance: a path that is
+// free of narrow places is worth a detour.
+double Price(double length, double share) { return (2.0 - share) * length; }
+
 SurfaceSite Fixed(const Vector3d& point) {
   SurfaceSite site;
   site.point = point;
@@ -53,6 +57,7 @@ void LiftedGraph::LiftNodes() {
     }
     points_.push_back(point);
     room_.push_back(surface_.segments.Distance(point, point, clearance));
+    share_.push_back(room_.back() / clearance);
   }
   counts_.nodes = static_cast<int>(points_.size());
 }
@@ -81,7 +86,8 @@ void LiftedGraph::Join(int i, int j, Edges* edges) {
     via_.push_back(path[1]);
     via_.push_back(path[2]);
   }
-  edges->push_back({i, j, length});
+  const double room = via >= 0 ? 0.0 : std::min(share_[i], share_[j]);
+  edges->push_back({i, j, Price(length, room)});
   via_of_.push_back(via);
 }
 
@@ -158,7 +164,7 @@ void LiftedGraph::See(const Vector3d& q, const Vector3d& around,
                                       0.5 * std::min(room, room_[i]))) {
       continue;
     }
-    stops->push_back({i, (points_[i] - q).norm(), {}});
+    stops->push_back({i, Price((points_[i] - q).norm(), share_[i]), {}});
     ++seen;
   }
 }
@@ -188,7 +194,7 @@ std::vector<LiftedGraph::Stop> LiftedGraph::Descend(const Vector3d& q,
                   &path, &lift) >= 0) {
       continue;
     }
-    stops.push_back({i, PathLength(path), {path[1], path[2]}});
+    stops.push_back({i, Price(PathLength(path), 0.0), {path[1], path[2]}});
   }
   return stops;
 }
@@ -200,7 +206,7 @@ std::vector<Vector3d> LiftedGraph::Search(const Vector3d& start,
                                           RouteTable::Scratch* scratch) const {
   const auto priced = [](const std::vector<Stop>& stops) {
     std::vector<RouteTable::Stop> prices;
-    for (const Stop& stop : stops) prices.push_back({stop.node, stop.length});
+    for (const Stop& stop : stops) prices.push_back({stop.node, stop.price});
     return prices;
   };
   const RouteTable::Route route =

@@ -21,6 +21,9 @@ namespace phongpd {
 // an exact test.  Where rounding folded the surface a way cannot be lifted
 // and is left out.
 //
+// The price of a way is its length, up to twice that where it is narrower than
+// wanted.
+//
 // Points of edges are joined across triangles, each end of a link to the
 // kLinkWays nearest points of its triangle's edges: links do not multiply
 // where many end on one large triangle.
@@ -35,7 +38,7 @@ class LiftedGraph {
   // How a configuration reaches a node.
   struct Stop {
     int node = -1;
-    double length = 0.0;
+    double price = 0.0;
     std::vector<Eigen::Vector3d> via;  // in between, from the configuration on
   };
 
@@ -56,7 +59,7 @@ class LiftedGraph {
   std::vector<Stop> Descend(const Eigen::Vector3d& q, double clearance,
                             int wanted) const;
 
-  // The shortest path from start to goal over their stops; empty if none.
+  // The cheapest path from start to goal over their stops; empty if none.
   std::vector<Eigen::Vector3d> Search(const Eigen::Vector3d& start,
                                       const std::vector<Stop>& starts,
                                       const Eigen::Vector3d& goal,
@@ -76,7 +79,8 @@ class LiftedGraph {
   SurfaceGraph graph_;
   Counts counts_;
   std::vector<Eigen::Vector3d> points_;
-  std::vector<double> room_;  // clearance of a node, at most the wanted one
+  std::vector<double> room_;   // clearance of a node, at most the wanted one
+  std::vector<double> share_;  // of the wanted one
   RouteTable routes_;
   // Of an edge −1: straight; otherwise index of two points, which lie in this
   // order from the smaller node to the larger.
