@@ -223,6 +223,23 @@ TEST(ContactRoadmap, SolvesAtAllScalesAndOffsets) {
   }
 }
 
+// A channel narrower than the rounding of coordinates: no edge through it can
+// be lifted beforehand.
+TEST(ContactRoadmap, AsksThePlannerWhereRoundingClosedItsRoutes) {
+  const Problem problem("hole", {{"delta", 1e-9}, {"offset", 1e5}});
+  const Vector3d& start = problem.scene.start;
+  const Vector3d& goal = problem.scene.goal;
+  const PlanResult result = problem.roadmap.Plan(start, goal);
+  const PlanResult expected = problem.planner->Plan(start, goal);
+  EXPECT_EQ(problem.roadmap.report().lazy_searches, 1);
+  EXPECT_GT(problem.roadmap.report().left_out_edges, 0);
+  EXPECT_EQ(expected.status, PlanStatus::kSolved);
+  EXPECT_EQ(result.status, expected.status);
+  EXPECT_EQ(result.path, expected.path);
+  EXPECT_EQ(result.searches, expected.searches);
+  EXPECT_TRUE(CheckPath(problem.space, result.path).free);
+}
+
 // A cube of side 2 in a vessel whose cavity has side 6: q in [−2, 2]³, and
 // around the vessel, of side 10, q outside [−6, 6]³.
 TriangleMesh VesselSpace() {
