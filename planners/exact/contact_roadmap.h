@@ -17,7 +17,8 @@ struct ContactRoadmapOptions {
   double spacing = 0.1;
   int gap_links = 1000;
   // A start or goal joins `stops` of the nodes it sees among the `neighbors`
-  // nearest ones; both at least 1.
+  // nearest ones, and as many near what it meets first on the straight way to
+  // the other; both at least 1.
   int neighbors = 32;
   int stops = 6;
 
@@ -48,14 +49,15 @@ struct RoadmapReport {
 
 // ContactSurfacePlanner for many queries on one scene: its whole roadmap is
 // lifted off the surface and tested once (lifted_graph.h); a query joins start
-// and goal to it by exact tests and takes the shortest route.
+// and goal to it by exact tests and takes the cheapest route.
 //
 // As complete as the planner, and with the same statuses, proofs and exact
 // tests: infeasibility is proved by the same certificates, and a query that
 // finds no route, which only rounding or unusual places of start and goal can
 // cause, is handed to the planner.  `searches` of a result is 0 if the
-// roadmap answered.  Routes are compared by length only and one is taken;
-// where the best path matters more than time, ask the planner.
+// roadmap answered.  One route is taken, by length on the roadmap, narrow places
+// counting up to twice; where the best path matters more than time, ask the
+// planner.
 //
 // Use it from some ten queries on; for one, building it costs more than
 // ContactSurfacePlanner::Plan.
