@@ -55,12 +55,12 @@ struct RoadmapReport {
 // tests: infeasibility is proved by the same certificates, and a query that
 // finds no route, which only rounding or unusual places of start and goal can
 // cause, is handed to the planner.  `searches` of a result is 0 if the
-// roadmap answered.  One route is taken, by length on the roadmap, narrow places
-// counting up to twice; where the best path matters more than time, ask the
-// planner.
+// roadmap answered.  One route is taken, by length on the roadmap, narrow
+// places counting up to twice; where the best path matters more than time, ask
+// the planner.
 //
-// Use it from some ten queries on; for one, building it costs more than
-// ContactSurfacePlanner::Plan.
+// Building it costs as much as ten to three hundred queries save; for fewer,
+// ContactSurfacePlanner::Plan is faster.
 class ContactRoadmap {
  public:
   // On the planner's contact space, with its wanted clearance.  Throws

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Purpose: planning through narrow passages. The complete planner on every
 // problem, sampling planners beside each other with the same exact validator,
-// many queries on one scene, and the cost of an exact motion check.  Writes CSV, SVG and README.md.
+// many queries on one scene, and the cost of an exact motion check.  Writes
+// CSV, SVG and README.md.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <iostream>
