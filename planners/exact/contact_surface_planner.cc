@@ -4,19 +4,14 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <mutex>
 #include <set>
-#include <sstream>
+#include <utility>
 
-#include "core/mesh/segment_tree.h"
-#include "core/mesh/self_intersection.h"
-#include "core/projection/contact_surface.h"
 #include "core/stopwatch.h"
 #include "planners/exact/check_option.h"
 #include "planners/exact/free_space.h"
-#include "planners/exact/path_centering.h"
 #include "planners/exact/path_recombination.h"
-#include "planners/exact/path_shortening.h"
+#include "planners/exact/planning_surface.h"
 #include "planners/exact/surface_graph.h"
 
 namespace phongpd {
@@ -75,93 +70,26 @@ void PlanRequest::Validate() const {
 }
 
 struct ContactSurfacePlanner::Impl {
-  Impl(const TriangleMesh& contact_mesh,
-       const ContactSurfaceOptions& given_options)
-      : options((given_options.Validate(), given_options)),
-        surface(contact_mesh),
-        segments(surface.mesh()),
-        bounds(ComputeBounds(surface.mesh())),
-        neighbors(TriangleNeighbors(surface.mesh())),
-        cells(surface.mesh(), neighbors, segments),
-        graph(surface.mesh(), neighbors, segments, cells,
-              options.spacing * bounds.Diagonal(), options.gap_links),
-        piece_bounds(cells.piece_count(), NoPoint()) {
-    const TriangleMesh& mesh = surface.mesh();
-    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-      BoundingBox& box = piece_bounds[cells.piece()[t]];
-      for (const int v : mesh.triangles[t]) {
-        box.min = box.min.cwiseMin(mesh.vertices[v]);
-        box.max = box.max.cwiseMax(mesh.vertices[v]);
-      }
-    }
-    self_intersections = options.self_intersections;
-  }
+  Impl(const TriangleMesh& contact_mesh, const ContactSurfaceOptions& options)
+      : surface(contact_mesh, options),
+        graph(surface.contact.mesh(), surface.neighbors, surface.segments,
+              surface.cells, options.spacing * surface.bounds.Diagonal(),
+              options.gap_links) {}
 
-  static BoundingBox NoPoint() {
-    const double infinity = std::numeric_limits<double>::infinity();
-    return {Vector3d::Constant(infinity), Vector3d::Constant(-infinity)};
-  }
-
-  std::string WhyInvalid(const char* which, const Vector3d& q) const;
-  CellCertificate Locate(const Vector3d& q) const;
   std::vector<Attachment> Attach(const Vector3d& q, const Vector3d& other,
                                  bool to_goal,
                                  const CellCertificate& certificate) const;
+  void Keep(std::vector<Vector3d> raw_path, PlanResult* result) const {
+    surface.Keep(std::move(raw_path), surface.options.random_cuts, result);
+  }
+  void Recombine(PlanResult* result) const;
   void FindPath(const Vector3d& start, const Vector3d& goal,
                 const PlanRequest& request, PlanResult* result) const;
-  void Keep(std::vector<Vector3d> raw_path, PlanResult* result) const;
-  void Recombine(PlanResult* result) const;
-  double ClearanceOf(const std::vector<Vector3d>& path) const;
-  long CountSelfIntersections() const;
 
-  ContactSurfaceOptions options;
-  ContactSurface surface;
-  SegmentTree segments;
-  BoundingBox bounds;
-  std::vector<std::array<int, 3>> neighbors;
-  FreeCells cells;
+  PlanningSurface surface;
   SurfaceGraph graph;
-  std::vector<BoundingBox> piece_bounds;
   double build_seconds = 0.0;
-  mutable std::once_flag counted;
-  mutable long self_intersections = -1;
 };
-
-std::string ContactSurfacePlanner::Impl::WhyInvalid(const char* which,
-                                                    const Vector3d& q) const {
-  std::ostringstream reason;
-  reason.precision(6);
-  if (!q.allFinite() || !surface.Accepts(q)) {
-    reason << which << " is not finite";
-    return reason.str();
-  }
-  const Location location = surface.Locate(q);
-  if (location == Location::kOutside) return "";
-  if (location == Location::kOnSurface) {
-    reason << which << " touches";
-  } else {
-    reason << which << " is "
-           << -surface.Answer(q, Location::kInside).signed_distance
-           << " deep in";
-  }
-  const std::string name =
-      options.name_obstacle ? options.name_obstacle(q) : "";
-  reason << (name.empty() ? " an obstacle" : " '" + name + "'");
-  return reason.str();
-}
-
-CellCertificate ContactSurfacePlanner::Impl::Locate(const Vector3d& q) const {
-  CellCertificate certificate;
-  certificate.cell = cells.CellOf(q, &certificate.ray);
-  if (certificate.ray.to_triangle >= 0) {
-    certificate.pieces =
-        cells.Chain(cells.piece()[certificate.ray.to_triangle]);
-    for (const int piece : certificate.pieces) {
-      certificate.rays.push_back(cells.rays()[piece]);
-    }
-  }
-  return certificate;
-}
 
 // The closest point, what is met on the way to the other configuration and in
 // a few directions, and the ray that told the cell.
@@ -178,14 +106,16 @@ std::vector<Attachment> ContactSurfacePlanner::Impl::Attach(
     attachment.site.direction = (q - point).stableNormalized();
     attachments.push_back(attachment);
   };
-  const PenetrationResult closest = surface.Answer(q, Location::kOutside);
+  const PenetrationResult closest =
+      surface.contact.Answer(q, Location::kOutside);
   add(closest.contact, closest.triangle);
   const auto shoot = [&](const Vector3d& to) {
-    const SegmentTree::Hit hit = segments.FirstHit(q, to);
+    const SegmentTree::Hit hit = surface.segments.FirstHit(q, to);
     if (hit.Found()) add(q + hit.fraction * (to - q), hit.triangle);
   };
   shoot(other);
-  const double reach = bounds.Diagonal() + (q - bounds.Center()).norm();
+  const double reach =
+      surface.bounds.Diagonal() + (q - surface.bounds.Center()).norm();
   for (int code = 0; code < 27; ++code) {
     if (code == 13) continue;
     const Vector3d direction(code % 3 - 1, code / 3 % 3 - 1, code / 9 - 1);
@@ -203,52 +133,17 @@ std::vector<Attachment> ContactSurfacePlanner::Impl::Attach(
   return attachments;
 }
 
-// Of a path that is free, at most what it has at its start.
-double ContactSurfacePlanner::Impl::ClearanceOf(
-    const std::vector<Vector3d>& path) const {
-  double least = surface.Answer(path[0], Location::kOutside).signed_distance;
-  for (std::size_t k = 1; k < path.size(); ++k) {
-    least = segments.Distance(path[k - 1], path[k], least);
-  }
-  return least;
-}
-
-// Makes a free path the result unless that is better already.
-void ContactSurfacePlanner::Impl::Keep(std::vector<Vector3d> raw_path,
-                                       PlanResult* result) const {
-  CenterPath(surface, segments, result->wanted_clearance, &raw_path);
-  ShorteningOptions shortening;
-  shortening.clearance = result->wanted_clearance;
-  shortening.random_cuts = options.random_cuts;
-  shortening.seed = options.seed;
-  std::vector<Vector3d> path = ShortenPath(raw_path, segments, shortening);
-  result->routes.push_back(path);
-  const double length = PathLength(path);
-  const double clearance = ClearanceOf(path);
-  if (result->status == PlanStatus::kSolved) {
-    // Clearance is worth a tenth of the length.
-    const double share = clearance < 0.7 * result->clearance ? 0.9 : 1.0;
-    if (length >= share * result->length) return;
-  }
-  result->status = PlanStatus::kSolved;
-  result->reason.clear();
-  result->raw_path = std::move(raw_path);
-  result->path = std::move(path);
-  result->length = length;
-  result->clearance = clearance;
-}
-
 // One more route, of the best parts of those found.
 void ContactSurfacePlanner::Impl::Recombine(PlanResult* result) const {
   if (result->routes.size() < 2) return;
   std::vector<RoutedPath> paths;
   double shortest = std::numeric_limits<double>::infinity();
   for (const std::vector<Vector3d>& route : result->routes) {
-    const double clearance = kKeptShare * ClearanceOf(route);
+    const double clearance = kKeptShare * surface.ClearanceOf(route);
     paths.push_back({route, std::min(clearance, result->wanted_clearance)});
     shortest = std::min(shortest, PathLength(route));
   }
-  std::vector<Vector3d> path = RecombinePaths(paths, segments);
+  std::vector<Vector3d> path = RecombinePaths(paths, surface.segments);
   if (PathLength(path) < kGain * shortest) Keep(std::move(path), result);
 }
 
@@ -256,20 +151,13 @@ void ContactSurfacePlanner::Impl::FindPath(const Vector3d& start,
                                            const Vector3d& goal,
                                            const PlanRequest& request,
                                            PlanResult* result) const {
+  const ContactSurfaceOptions& options = surface.options;
   const bool all = request.all_routes;
   const int routes = request.routes > 0 ? request.routes : options.routes;
-  // Straight, if that is free and as clear as the ends allow.
-  const bool sees = !segments.Meets(start, goal);
-  const double ends =
-      std::min({result->wanted_clearance,
-                segments.Distance(start, start, result->wanted_clearance),
-                segments.Distance(goal, goal, result->wanted_clearance)});
-  if (sees) {
-    if (start == goal || segments.Distance(start, goal, ends) >= 0.4 * ends) {
-      std::vector<Vector3d> path = {start};
-      if (start != goal) path.push_back(goal);
-      return Keep(std::move(path), result);
-    }
+  if (surface.IsClearWay(start, goal, result->wanted_clearance)) {
+    std::vector<Vector3d> path = {start};
+    if (start != goal) path.push_back(goal);
+    return Keep(std::move(path), result);
   }
   std::vector<Attachment> attachments =
       Attach(start, goal, false, result->start);
@@ -281,6 +169,8 @@ void ContactSurfacePlanner::Impl::FindPath(const Vector3d& start,
   std::set<SurfaceGraph::Edge> deleted;
   std::vector<char> avoided;
   const double straight = (goal - start).norm();
+  const double clear =
+      0.4 * surface.ClearanceOfEnds(start, goal, result->wanted_clearance);
   for (int found = 0; found < routes;) {
     if (result->searches == options.max_searches) break;
     ++result->searches;
@@ -296,8 +186,9 @@ void ContactSurfacePlanner::Impl::FindPath(const Vector3d& start,
     sites.emplace_back();
     sites.back().point = goal;
     std::vector<Vector3d> path;
-    const int blocked = LiftRoute(sites, segments, result->wanted_clearance,
-                                  cells.rounding(), &path, &result->lift);
+    const int blocked =
+        LiftRoute(sites, surface.segments, result->wanted_clearance,
+                  surface.cells.rounding(), &path, &result->lift);
     if (blocked >= 0) {
       const int before = blocked == 0 ? -1 : route[blocked - 1];
       const int after =
@@ -313,10 +204,10 @@ void ContactSurfacePlanner::Impl::FindPath(const Vector3d& start,
     Keep(std::move(path), result);
     ++found;
     if (!all && result->length < kStraight * straight &&
-        (result->clearance >= 0.4 * ends || found >= kNarrowRoutes)) {
+        (result->clearance >= clear || found >= kNarrowRoutes)) {
       break;
     }
-    avoided.resize(neighbors.size(), 0);
+    avoided.resize(surface.neighbors.size(), 0);
     for (const SurfaceSite& site : sites) {
       if (site.triangle >= 0) avoided[site.triangle] = 1;
     }
@@ -330,17 +221,7 @@ void ContactSurfacePlanner::Impl::FindPath(const Vector3d& start,
       : decided ? "every route on the surface has a place that rounding closed"
                 : "no route found, and no ray that keeps rounding away from "
                   "edges tells the cell of the start or of the goal";
-  if (sees) Keep({start, goal}, result);
-}
-
-long ContactSurfacePlanner::Impl::CountSelfIntersections() const {
-  std::call_once(counted, [&] {
-    if (self_intersections >= 0) return;
-    const std::vector<int> one_label(surface.mesh().triangles.size(), 0);
-    self_intersections = static_cast<long>(
-        internal::CountSelfIntersections(surface.mesh(), one_label));
-  });
-  return self_intersections;
+  if (!surface.segments.Meets(start, goal)) Keep({start, goal}, result);
 }
 
 ContactSurfacePlanner::ContactSurfacePlanner(
@@ -357,7 +238,12 @@ ContactSurfacePlanner::ContactSurfacePlanner(ContactSurfacePlanner&&) noexcept =
 ContactSurfacePlanner& ContactSurfacePlanner::operator=(
     ContactSurfacePlanner&&) noexcept = default;
 
-const FreeCells& ContactSurfacePlanner::cells() const { return impl_->cells; }
+const FreeCells& ContactSurfacePlanner::cells() const {
+  return surface().cells;
+}
+const PlanningSurface& ContactSurfacePlanner::surface() const {
+  return impl_->surface;
+}
 double ContactSurfacePlanner::build_seconds() const {
   return impl_->build_seconds;
 }
@@ -367,34 +253,9 @@ PlanResult ContactSurfacePlanner::Plan(const Vector3d& start,
                                        const PlanRequest& request) const {
   request.Validate();
   const Stopwatch stopwatch;
-  const Impl& impl = *impl_;
-  PlanResult result;
-  result.rounding = impl.cells.rounding();
-  result.self_intersections = impl.options.self_intersections;
-  result.reason = impl.WhyInvalid("start", start);
-  if (!result.reason.empty()) {
-    result.status = PlanStatus::kInvalidStart;
-  } else {
-    result.reason = impl.WhyInvalid("goal", goal);
-    if (!result.reason.empty()) result.status = PlanStatus::kInvalidGoal;
-  }
+  PlanResult result = impl_->surface.Begin(start, goal, request.clearance);
   if (result.reason.empty()) {
-    result.start = impl.Locate(start);
-    result.goal = impl.Locate(goal);
-    const int cell = result.start.cell;
-    const BoundingBox& hull = cell >= 0 ? impl.piece_bounds[cell] : impl.bounds;
-    result.wanted_clearance = request.clearance > 0.0
-                                  ? request.clearance
-                                  : impl.options.clearance * hull.Diagonal();
-    const bool decided = cell != FreeCells::kUndecided &&
-                         result.goal.cell != FreeCells::kUndecided;
-    if (decided && cell != result.goal.cell) {
-      result.status = PlanStatus::kInfeasibleProved;
-      result.reason = "start and goal lie in different cells of free space";
-      result.self_intersections = impl.CountSelfIntersections();
-    } else {
-      impl.FindPath(start, goal, request, &result);
-    }
+    impl_->FindPath(start, goal, request, &result);
   }
   result.seconds = stopwatch.Seconds();
   return result;

@@ -14,6 +14,8 @@
 
 namespace phongpd {
 
+struct PlanningSurface;
+
 enum class PlanStatus {
   kSolved,            // path free by exact tests
   kInfeasibleProved,  // start and goal lie in different cells
@@ -127,7 +129,11 @@ class ContactSurfacePlanner {
   double build_seconds() const;
 
  private:
+  friend class ContactRoadmap;
   struct Impl;
+
+  const PlanningSurface& surface() const;
+
   std::unique_ptr<Impl> impl_;
 };
 

@@ -11,6 +11,14 @@ namespace phongpd {
 
 using Eigen::Vector3d;
 
+double RoomAbove(const SurfaceSite& site, const SegmentTree& segments,
+                 double clearance, double rounding) {
+  // Half the gap is less than the clearance only if something is nearer than
+  // twice the clearance.
+  return clearance *
+         FirstAbove(site, segments, 2.0 * clearance, rounding).fraction;
+}
+
 int LiftRoute(const std::vector<SurfaceSite>& sites,
               const SegmentTree& segments, double clearance, double rounding,
               std::vector<Vector3d>* path, LiftCounts* counts) {
@@ -27,10 +35,7 @@ int LiftRoute(const std::vector<SurfaceSite>& sites,
       room[i] = segments.Distance(site.point, site.point, clearance);
       continue;
     }
-    // Half the gap is less than the clearance only if something is nearer
-    // than twice the clearance.
-    room[i] = clearance *
-              FirstAbove(site, segments, 2.0 * clearance, rounding).fraction;
+    room[i] = RoomAbove(site, segments, clearance, rounding);
     lift[i] = room[i];
     (*path)[i] += lift[i] * site.direction;
   }

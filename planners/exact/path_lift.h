@@ -15,6 +15,10 @@ struct LiftCounts {
   int halvings = 0;  // of lifts
 };
 
+// How far a site can be lifted: min(clearance, half the free gap in front).
+double RoomAbove(const SurfaceSite& site, const SegmentTree& segments,
+                 double clearance, double rounding);
+
 // Lifts a route off the surface: every site moves along its direction by
 // min(clearance, half the free gap there), and while a segment is blocked the
 // larger lift of its two ends is halved (halving both would lose the

@@ -53,9 +53,9 @@ SurfaceGraph::SurfaceGraph(const TriangleMesh& mesh,
     normals_.push_back(UnitNormal(mesh, t));
   }
   AddEdgePoints(neighbors, spacing);
-  const std::size_t edge_points = sites_.size();
+  edge_points_ = static_cast<int>(sites_.size());
   AddRays(cells);
-  AddGapLinks(segments, cells.rounding(), edge_points, gap_links);
+  AddGapLinks(segments, cells.rounding(), gap_links);
   partner_.resize(sites_.size(), -1);
   IndexTriangles();
 }
@@ -112,7 +112,7 @@ void SurfaceGraph::AddRays(const FreeCells& cells) {
 }
 
 void SurfaceGraph::AddGapLinks(const SegmentTree& segments, double rounding,
-                               std::size_t edge_points, int count) {
+                               int count) {
   const double reach = ComputeBounds(mesh_).Diagonal();
   const auto link = [&](const SurfaceSite& from) {
     if (from.direction.isZero()) return;
@@ -126,6 +126,7 @@ void SurfaceGraph::AddGapLinks(const SegmentTree& segments, double rounding,
     AddLink(from, to);
   };
   // From the centroids of as many triangles, then from points of edges.
+  const std::size_t edge_points = static_cast<std::size_t>(edge_points_);
   const std::size_t triangles = mesh_.triangles.size();
   const std::size_t most = static_cast<std::size_t>(std::max(0, count));
   const std::size_t links = std::min(triangles, most);
@@ -226,7 +227,7 @@ SurfaceGraph::Route SurfaceGraph::Search(
         i < count ? sites_[i] : attachments[i - count].site;
     for (const int t : {site.triangle, site.other}) {
       if (t < 0) continue;
-      for (int k = first_[t]; k < first_[t + 1]; ++k) go(on_triangle_[k]);
+      ForEachOn(t, go);
       if (!has_attachment[t]) continue;
       const auto found = attached.find(t);
       for (const int j : found->second) go(j);

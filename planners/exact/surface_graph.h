@@ -53,6 +53,20 @@ class SurfaceGraph {
 
   const std::vector<SurfaceSite>& sites() const { return sites_; }
 
+  // The first sites are so many points of edges, those of an edge in a row.
+  int edge_points() const { return edge_points_; }
+  // The other end of a site's link; −1: it has none.
+  int partner(int site) const { return partner_[site]; }
+  // Sites away from everything, which all see each other.
+  const std::vector<int>& outside() const { return outside_; }
+  // Calls visit(site) for the sites on a triangle.
+  template <typename Visit>
+  void ForEachOn(int triangle, const Visit& visit) const {
+    for (int k = first_[triangle]; k < first_[triangle + 1]; ++k) {
+      visit(on_triangle_[k]);
+    }
+  }
+
   // Unit normal of a triangle; zero if it has no area.
   const Eigen::Vector3d& normal(int triangle) const {
     return normals_[triangle];
@@ -76,17 +90,17 @@ class SurfaceGraph {
   void AddEdgePoints(const std::vector<std::array<int, 3>>& neighbors,
                      double spacing);
   void AddRays(const FreeCells& cells);
-  void AddGapLinks(const SegmentTree& segments, double rounding,
-                   std::size_t edge_points, int count);
+  void AddGapLinks(const SegmentTree& segments, double rounding, int count);
   void AddLink(const SurfaceSite& a, const SurfaceSite& b);
   void IndexTriangles();
 
   const TriangleMesh& mesh_;
   std::vector<Eigen::Vector3d> normals_;
   std::vector<SurfaceSite> sites_;
-  std::vector<int> partner_;  // of a site: other end of its link, or −1
-  std::vector<int> outside_;  // sites that all see each other
-  std::vector<int> first_;    // of a triangle, into on_triangle_
+  int edge_points_ = 0;
+  std::vector<int> partner_;  // of a site
+  std::vector<int> outside_;
+  std::vector<int> first_;  // of a triangle, into on_triangle_
   std::vector<int> on_triangle_;
 };
 

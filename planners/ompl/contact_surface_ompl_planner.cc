@@ -23,6 +23,8 @@ ContactSurfaceOmplPlanner::ContactSurfaceOmplPlanner(
   }
   specs_.recognizedGoal = ob::GOAL_SAMPLEABLE_REGION;
   specs_.provingSolutionNonExistence = true;
+  declareParam<bool>("roadmap", this, &ContactSurfaceOmplPlanner::setRoadmap,
+                     &ContactSurfaceOmplPlanner::getRoadmap, "0,1");
   addPlannerProgressProperty("infeasible proved BOOLEAN", [this] {
     return std::to_string(static_cast<int>(infeasible_proved_));
   });
@@ -65,7 +67,7 @@ ob::PlannerStatus ContactSurfaceOmplPlanner::solve(
     goals_.push_back(ToPoint(state));
     for (const Vector3d& start : starts_) {
       if (ptc && goals_.size() > 1) return ob::PlannerStatus::TIMEOUT;
-      result_ = planner_->Plan(start, goals_.back());
+      result_ = Plan(start, goals_.back());
       all_proved &= result_.status == PlanStatus::kInfeasibleProved;
       if (result_.status != PlanStatus::kSolved) continue;
       if (AddSolution()) return ob::PlannerStatus::EXACT_SOLUTION;
@@ -76,6 +78,13 @@ ob::PlannerStatus ContactSurfaceOmplPlanner::solve(
   // A goal region of which every state has been seen.
   infeasible_proved_ = all_proved && goals_.size() >= goal->maxSampleCount();
   return ob::PlannerStatus::ABORT;
+}
+
+PlanResult ContactSurfaceOmplPlanner::Plan(const Vector3d& start,
+                                           const Vector3d& goal) {
+  if (!uses_roadmap_) return planner_->Plan(start, goal);
+  if (!roadmap_) roadmap_ = std::make_unique<const ContactRoadmap>(planner_);
+  return roadmap_->Plan(start, goal);
 }
 
 bool ContactSurfaceOmplPlanner::AddSolution() {

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Purpose: planning through narrow passages. The complete planner on every
 // problem, sampling planners beside each other with the same exact validator,
-// and the cost of an exact motion check.  Writes CSV, SVG and README.md.
+// many queries on one scene, and the cost of an exact motion check.  Writes
+// CSV, SVG and README.md.
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <iostream>
 
 #include "planners/ompl/ompl_planning.h"
@@ -33,17 +35,38 @@ int Run(int argc, char** argv) {
   app.add_option("--seed", results.options.seed)->capture_default_str();
   app.add_option("--voxel-worlds", worlds,
                  "What the voxel-world test printed, quoted in the README");
+  std::vector<std::string> parts = {"exact", "motions", "multi-query",
+                                    "samplers"};
+  app.add_option("--parts", parts, "Measure only these, for a look")
+      ->check(CLI::IsMember(parts))
+      ->delimiter(',');
   CLI11_PARSE(app, argc, argv);
+  const auto wanted = [&parts](const std::string& part) {
+    return std::find(parts.begin(), parts.end(), part) != parts.end();
+  };
   RequireGnuplot();
   SilenceOmpl();
   const std::string command =
       CommandLine("build/planning_benchmark", argc, argv);
 
-  for (const PlanningProblem& problem : ExactProblems()) {
-    results.exact.push_back(MeasureExact(problem));
+  if (wanted("exact")) {
+    for (const PlanningProblem& problem : ExactProblems()) {
+      results.exact.push_back(MeasureExact(problem));
+    }
   }
-  for (const char* scene : {"ball_wrench", "clutter", "knot"}) {
-    results.motions.push_back(MeasureMotions(scene, results.options.seed));
+  if (wanted("motions")) {
+    for (const char* scene : {"ball_wrench", "clutter", "knot"}) {
+      results.motions.push_back(MeasureMotions(scene, results.options.seed));
+    }
+  }
+  if (wanted("multi-query")) {
+    constexpr int kQueries = 100;
+    for (const std::string& scene : MultiQueryScenes()) {
+      for (MultiQueryRow& row :
+           MeasureMultiQuery(scene, kQueries, results.options.seed)) {
+        results.multi_query.push_back(std::move(row));
+      }
+    }
   }
   const std::vector<std::string> planners = {"retraction-forest phong",
                                              "retraction-forest phong-random",
@@ -66,12 +89,14 @@ int Run(int argc, char** argv) {
       rows->push_back(std::move(row));
     }
   };
-  for (const PlanningProblem& problem : SamplerProblems()) {
-    measure(problem, planners, &results.samplers);
-  }
-  for (const PlanningProblem& problem : NarrowingProblems()) {
-    measure(problem, {"retraction-forest phong", "retraction-rrt phong"},
-            &results.narrowing);
+  if (wanted("samplers")) {
+    for (const PlanningProblem& problem : SamplerProblems()) {
+      measure(problem, planners, &results.samplers);
+    }
+    for (const PlanningProblem& problem : NarrowingProblems()) {
+      measure(problem, {"retraction-forest phong", "retraction-rrt phong"},
+              &results.narrowing);
+    }
   }
 
   OutputDirectory out(directory);

@@ -199,6 +199,7 @@ std::vector<NamedTable> Tables(const PlanningResults& results) {
       {"narrowing.csv",
        SamplerTable(results.narrowing, "Effort and the width of the passage",
                     "The same from wide to narrow.")},
+      {"multi_query.csv", MultiQueryTable(results.multi_query)},
       {"motions.csv", MotionTable(results)}};
 }
 
@@ -264,6 +265,13 @@ std::string Findings(const PlanningResults& results) {
        "worst " + Rounded(worst_ratio, 4) + ", " + Shown(long_ones) + " of " +
            Shown(paths) + " above",
        long_ones == 0);
+  int wrong = 0, queries = 0;
+  for (const MultiQueryRow& r : results.multi_query) {
+    wrong += r.wrong;
+    queries += r.solved + r.proved;
+  }
+  line("roadmap: statuses of the contact-surface planner, paths exactly free",
+       Shown(wrong) + " of " + Shown(queries) + " wrong", wrong == 0);
   for (const SamplerRow& r : results.samplers) {
     if (r.planner != "retraction-forest phong") continue;
     const int solved = Solved(r);

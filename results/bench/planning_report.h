@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "results/bench/multi_query.h"
 #include "results/bench/planning_measure.h"
 #include "results/bench/report.h"
 
@@ -15,6 +16,7 @@ struct PlanningResults {
   std::vector<SamplerRow> samplers;   // SamplerProblems
   std::vector<SamplerRow> narrowing;  // NarrowingProblems
   std::vector<MotionRow> motions;
+  std::vector<MultiQueryRow> multi_query;
 };
 
 std::vector<NamedTable> Tables(const PlanningResults& results);

@@ -3,8 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
+#include <memory>
 #include <random>
+#include <utility>
+#include <vector>
 
+#include "planners/exact/contact_roadmap.h"
 #include "planners/exact/contact_surface_planner.h"
 #include "planners/exact/free_space.h"
 #include "tests/support/solid_tools.h"
@@ -19,9 +23,40 @@ using testing::VoxelWorld;
 
 struct Tally {
   int solved = 0, proved = 0, wrong = 0, searches = 0;
-  double least_clearance = 1e9;  // in channel widths
+  int worlds = 0;
+  long queries = 0, lazy_searches = 0;  // of every third's roadmap
+  double least_clearance = 1e9;         // in channel widths
   double slowest = 0.0;
 };
+
+// The roadmap on several pairs, as it is and shortened.
+void TryRoadmap(const VoxelWorld& world,
+                std::shared_ptr<const ContactSurfacePlanner> planner,
+                const std::vector<Vector3d>& centers, std::size_t i,
+                Tally* tally) {
+  const ContactRoadmap roadmap(std::move(planner));
+  const FreeSpace space({world.contact_space});
+  for (std::size_t k = 0; k < 6; ++k) {
+    const std::size_t j = (i + k * k) % centers.size();
+    RoadmapRequest request;
+    request.shorten = k % 2 == 0;
+    const PlanResult result = roadmap.Plan(centers[i], centers[j], request);
+    const bool connected = world.labels[i] == world.labels[j];
+    EXPECT_EQ(ToString(result.status),
+              std::string(connected ? "solved" : "infeasible_proved"))
+        << result.reason;
+    const bool is_right = connected
+                              ? result.status == PlanStatus::kSolved &&
+                                    CheckPath(space, result.path).free &&
+                                    result.path.front() == centers[i] &&
+                                    result.path.back() == centers[j]
+                              : result.status == PlanStatus::kInfeasibleProved;
+    EXPECT_TRUE(is_right);
+    tally->wrong += !is_right;
+  }
+  tally->queries += roadmap.report().queries;
+  tally->lazy_searches += roadmap.report().lazy_searches;
+}
 
 // One random pair of cells of one random world, moved by x → scale·R·x + t.
 void Try(std::mt19937_64* random, const Eigen::Matrix3d& rotation, double scale,
@@ -40,12 +75,18 @@ void Try(std::mt19937_64* random, const Eigen::Matrix3d& rotation, double scale,
   for (Vector3d& v : world.contact_space.vertices) v = move(v);
   const std::size_t i = (*random)() % world.centers.size();
   const std::size_t j = (*random)() % world.centers.size();
-  const Vector3d start = move(world.centers[i]);
-  const Vector3d goal = move(world.centers[j]);
+  std::vector<Vector3d> centers;
+  for (const Vector3d& center : world.centers) centers.push_back(move(center));
+  const Vector3d& start = centers[i];
+  const Vector3d& goal = centers[j];
   const bool connected = world.labels[i] == world.labels[j];
 
-  const ContactSurfacePlanner planner(world.contact_space);
-  const PlanResult result = planner.Plan(start, goal);
+  const auto planner =
+      std::make_shared<const ContactSurfacePlanner>(world.contact_space);
+  if (tally->worlds++ % 3 == 0) {
+    TryRoadmap(world, planner, centers, i, tally);
+  }
+  const PlanResult result = planner->Plan(start, goal);
   tally->searches = std::max(tally->searches, result.searches);
   tally->slowest = std::max(tally->slowest, result.seconds);
   EXPECT_EQ(ToString(result.status),
@@ -76,9 +117,9 @@ int Worlds(int in_the_suite) {
 void Report(const Tally& tally) {
   std::printf(
       "solved %d proved %d wrong %d searches %d clearance/channel %g "
-      "slowest %g s\n",
+      "slowest %g s roadmap %ld lazy %ld\n",
       tally.solved, tally.proved, tally.wrong, tally.searches,
-      tally.least_clearance, tally.slowest);
+      tally.least_clearance, tally.slowest, tally.queries, tally.lazy_searches);
 }
 
 TEST(ContactSurfacePlanner, AgreesWithFloodFillInVoxelWorlds) {

@@ -76,6 +76,30 @@ TEST(ContactSurfaceOmplPlanner, IsAPlannerLikeOthers) {
   EXPECT_THROW(ContactSurfaceOmplPlanner(query.si, nullptr), InputError);
 }
 
+TEST(ContactSurfaceOmplPlanner, KeepsItsRoadmapFromQueryToQuery) {
+  const testing::Passage passage = testing::MakePassage("keyhole", 1e-3);
+  Query query(passage);
+  EXPECT_EQ(query.planner->params()["roadmap"].getValue(), "0");
+  query.planner->params().setParam("roadmap", "1");
+  EXPECT_TRUE(query.planner->getRoadmap());
+  EXPECT_EQ(query.planner->roadmap(), nullptr);
+  const ContactRoadmap* built = nullptr;
+  for (int i = 0; i < 3; ++i) {
+    ASSERT_EQ(query.planner->solve(1.0), ob::PlannerStatus::EXACT_SOLUTION);
+    EXPECT_TRUE(query.problem->getSolutionPath()->check());
+    EXPECT_EQ(query.planner->result().searches, 0);
+    if (i == 0) built = query.planner->roadmap();
+    EXPECT_EQ(query.planner->roadmap(), built);
+    EXPECT_EQ(query.planner->roadmap()->report().queries, i + 1);
+    query.planner->clear();
+    query.problem->clearSolutionPaths();
+  }
+  Query twin(testing::MakePassage("keyhole", -1e-4));
+  twin.planner->setRoadmap(true);
+  EXPECT_EQ(twin.planner->solve(1.0), ob::PlannerStatus::ABORT);
+  EXPECT_TRUE(twin.planner->infeasibleProved());
+}
+
 TEST(ContactSurfaceOmplPlanner, TriesEveryGoal) {
   const testing::Passage passage = testing::MakePassage("hole", -1e-4);
   Query query(passage);

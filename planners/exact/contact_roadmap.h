@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+
+#include "core/mesh/triangle_mesh.h"
+#include "planners/exact/contact_surface_planner.h"
+
+namespace phongpd {
+
+struct ContactRoadmapOptions {
+  // Distance between nodes on an edge, a fraction of the mesh's diagonal, and
+  // how many triangles, and points of edges if triangles are fewer, get a link
+  // across the gap in front of them.  More: shorter raw paths, longer build
+  // and queries.  In [1e-3, 1], ≥ 0.
+  double spacing = 0.1;
+  int gap_links = 1000;
+  // A start or goal joins `stops` of the nodes it sees among the `neighbors`
+  // nearest ones, and as many near what it meets first on the straight way to
+  // the other; both at least 1.
+  int neighbors = 32;
+  int stops = 6;
+
+  // Throws InputError naming the option, the range and the value.
+  void Validate() const;
+};
+
+// What one query may ask differently.
+struct RoadmapRequest {
+  // Centre and shorten the route.  Without: as the roadmap has it.
+  bool shorten = true;
+  int random_cuts = 20;    // of the shortening, ≥ 0
+  double clearance = 0.0;  // user's unit, ≥ 0, finite; 0: by the options
+
+  // Throws InputError naming the option, the range and the value.
+  void Validate() const;
+};
+
+struct RoadmapReport {
+  int nodes = 0;
+  int edges = 0;
+  int lowered_edges = 0;   // free only nearer to the surface than their ends
+  int left_out_edges = 0;  // closed by rounding
+  double build_seconds = 0.0;
+  long queries = 0;        // that looked for a route
+  long lazy_searches = 0;  // of those, the planner was asked
+};
+
+// ContactSurfacePlanner for many queries on one scene: its whole roadmap is
+// lifted off the surface and tested once (lifted_graph.h); a query joins start
+// and goal to it by exact tests and takes the cheapest route.
+//
+// As complete as the planner, and with the same statuses, proofs and exact
+// tests: infeasibility is proved by the same certificates, and a query that
+// finds no route, which only rounding or unusual places of start and goal can
+// cause, is handed to the planner.  `searches` of a result is 0 if the
+// roadmap answered.  One route is taken, by length on the roadmap, narrow
+// places counting up to twice; where the best path matters more than time, ask
+// the planner.
+//
+// Building it costs as much as ten to three hundred queries save; for fewer,
+// ContactSurfacePlanner::Plan is faster.
+class ContactRoadmap {
+ public:
+  // On the planner's contact space, with its wanted clearance.  Throws
+  // InputError for options and for no planner.
+  explicit ContactRoadmap(std::shared_ptr<const ContactSurfacePlanner> planner,
+                          const ContactRoadmapOptions& options = {});
+  // Builds the planner, too; throws InputError like it.
+  explicit ContactRoadmap(const TriangleMesh& merged_contact_mesh,
+                          const ContactRoadmapOptions& options = {},
+                          const ContactSurfaceOptions& planner_options = {});
+  ~ContactRoadmap();
+  ContactRoadmap(ContactRoadmap&&) noexcept;
+  ContactRoadmap& operator=(ContactRoadmap&&) noexcept;
+
+  // Thread-safe.  Same arguments, same result but for `seconds`.  A start or
+  // goal that is not finite is an invalid one; throws InputError for requests.
+  PlanResult Plan(const Eigen::Vector3d& start, const Eigen::Vector3d& goal,
+                  const RoadmapRequest& request = {}) const;
+
+  const ContactSurfacePlanner& planner() const;
+  RoadmapReport report() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace phongpd

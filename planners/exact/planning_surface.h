@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "core/mesh/segment_tree.h"
+#include "core/projection/contact_surface.h"
+#include "planners/exact/contact_surface_planner.h"
+#include "planners/exact/free_cells.h"
+
+namespace phongpd {
+
+// The merged contact space as planners need it, and what every query begins
+// and ends with.  Thread-safe; stays where it is, its members refer to each
+// other.
+struct PlanningSurface {
+  // Throws InputError like ContactSurface, and for options.
+  PlanningSurface(const TriangleMesh& contact_mesh,
+                  const ContactSurfaceOptions& given_options);
+  PlanningSurface(const PlanningSurface&) = delete;
+  PlanningSurface& operator=(const PlanningSurface&) = delete;
+
+  // A result with evidence, certificates, and its status where no path is to
+  // be looked for; kFailed without a reason where one is.  `clearance` is the
+  // user's wish, 0: none.
+  PlanResult Begin(const Eigen::Vector3d& start, const Eigen::Vector3d& goal,
+                   double clearance) const;
+
+  // The lesser clearance of two free configurations, at most the wish > 0.
+  double ClearanceOfEnds(const Eigen::Vector3d& start,
+                         const Eigen::Vector3d& goal, double clearance) const;
+  // Is the straight way free, and about as clear as its ends and the wish
+  // allow?
+  bool IsClearWay(const Eigen::Vector3d& start, const Eigen::Vector3d& goal,
+                  double clearance) const;
+
+  // Makes a free path the result unless that is better already.
+  void Offer(std::vector<Eigen::Vector3d> raw_path,
+             std::vector<Eigen::Vector3d> path, PlanResult* result) const;
+  // The same after it has been centred and shortened.
+  void Keep(std::vector<Eigen::Vector3d> raw_path, int random_cuts,
+            PlanResult* result) const;
+
+  // By the options, in the cell of that number: a share of its hull.
+  double WantedClearance(int cell) const;
+  // Of a path that is free, at most what it has at its start.
+  double ClearanceOf(const std::vector<Eigen::Vector3d>& path) const;
+
+  const ContactSurfaceOptions options;
+  const ContactSurface contact;
+  const SegmentTree segments;
+  const BoundingBox bounds;
+  const std::vector<std::array<int, 3>> neighbors;
+  const FreeCells cells;
+
+ private:
+  std::string WhyInvalid(const char* which, const Eigen::Vector3d& q) const;
+  CellCertificate Locate(const Eigen::Vector3d& q) const;
+  long CountSelfIntersections() const;
+
+  std::vector<BoundingBox> piece_bounds_;
+  mutable std::once_flag counted_;
+  mutable long self_intersections_;
+};
+
+}  // namespace phongpd
