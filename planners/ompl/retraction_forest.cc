@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "core/mesh/mesh_error.h"
-#include "planners/ompl/point_neighbors.h"
+#include "planners/retraction/point_neighbors.h"
 
 namespace phongpd {
 

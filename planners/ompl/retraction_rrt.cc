@@ -3,7 +3,7 @@
 
 #include <utility>
 
-#include "planners/ompl/point_neighbors.h"
+#include "planners/retraction/point_neighbors.h"
 
 namespace phongpd {
 
