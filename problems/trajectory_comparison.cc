@@ -64,10 +64,6 @@ CellKey KeyOf(const Json& row) {
   return {RowText(row, "scene"), RowText(row, "protocol"),
           RowText(row, "method")};
 }
-// Missing clearance that does not count, of the margin: what samples leave
-// open between them.
-constexpr double kToleratedGap = 0.1;
-
 // The exactly free paths by scene and seed.
 class Rivals {
  public:
@@ -85,7 +81,7 @@ class Rivals {
     const Rival own = PathOf(row);
     double best = own.objective;
     for (const Rival& rival : paths_.at(ProblemOf(row))) {
-      if (rival.missing <= std::max(own.missing, kToleratedGap)) {
+      if (rival.missing <= std::max(own.missing, kToleratedMissing)) {
         best = std::min(best, rival.objective);
       }
     }

@@ -25,9 +25,19 @@ using Eigen::Vector3d;
 constexpr double kStraight = 1.05, kHopeless = 3.0;
 constexpr int kNarrowRoutes = 3;  // if straight but not clear
 
+// Routes that differ by less, of their length, are one.
+constexpr double kSameWay = 0.01;
+
 // Recombined routes keep this share of the clearance of their parts, and count
 // if they are shorter than this share of the shortest part.
 constexpr double kKeptShare = 0.8, kGain = 0.99;
+
+// Is the last one much like one before?
+bool IsKnown(const std::vector<std::vector<Vector3d>>& routes) {
+  return std::any_of(routes.begin(), routes.end() - 1, [&](const auto& other) {
+    return TakeSameWay(other, routes.back(), kSameWay);
+  });
+}
 
 template <typename T>
 void Require(bool holds, const char* option, const char* range, T value) {
@@ -203,6 +213,8 @@ void ContactSurfacePlanner::Impl::FindPath(const Vector3d& start,
     }
     Keep(std::move(path), result);
     ++found;
+    // Little else is left; who asks for more routes wants that, too.
+    if (request.routes == 0 && IsKnown(result->routes)) break;
     if (!all && result->length < kStraight * straight &&
         (result->clearance >= clear || found >= kNarrowRoutes)) {
       break;

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/mesh/segment_tree.h"
+#include "planners/exact/free_space.h"
 
 namespace phongpd {
 namespace {
@@ -61,7 +62,39 @@ std::vector<Corner> CollectCorners(const std::vector<RoutedPath>& paths) {
   return corners;
 }
 
+// Points at shares 0, 1/n … 1 of the length.
+std::vector<Vector3d> EvenPoints(const std::vector<Vector3d>& path, int n) {
+  const double length = PathLength(path);
+  std::vector<Vector3d> points = {path.front()};
+  double done = 0.0;
+  for (std::size_t k = 1; k < path.size(); ++k) {
+    const double step = (path[k] - path[k - 1]).norm();
+    while (static_cast<int>(points.size()) < n) {
+      const double at = length * static_cast<double>(points.size()) / n - done;
+      if (!(at <= step)) break;
+      points.push_back(path[k - 1] + (step > 0.0 ? at / step : 0.0) *
+                                         (path[k] - path[k - 1]));
+    }
+    done += step;
+  }
+  points.resize(static_cast<std::size_t>(n), path.back());
+  points.push_back(path.back());
+  return points;
+}
+
 }  // namespace
+
+bool TakeSameWay(const std::vector<Vector3d>& one,
+                 const std::vector<Vector3d>& other, double tolerance) {
+  constexpr int kShares = 32;
+  const double close = tolerance * PathLength(one);
+  const std::vector<Vector3d> a = EvenPoints(one, kShares);
+  const std::vector<Vector3d> b = EvenPoints(other, kShares);
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    if (!((a[i] - b[i]).norm() <= close)) return false;
+  }
+  return true;
+}
 
 std::vector<Vector3d> RecombinePaths(const std::vector<RoutedPath>& paths,
                                      const SegmentTree& segments) {

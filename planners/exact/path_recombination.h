@@ -26,4 +26,10 @@ struct RoutedPath {
 std::vector<Eigen::Vector3d> RecombinePaths(
     const std::vector<RoutedPath>& paths, const SegmentTree& segments);
 
+// Are two paths of at least two points the same but for details?  Points at
+// equal shares of their lengths are within `tolerance` times the first one's
+// length of each other; sampled, so only a good guess.
+bool TakeSameWay(const std::vector<Eigen::Vector3d>& one,
+                 const std::vector<Eigen::Vector3d>& other, double tolerance);
+
 }  // namespace phongpd

@@ -90,5 +90,7 @@ CorridorSummary PolishInCorridor(const TrajectoryProblem& problem,
 // Fraction of the margin, in [0, 1]; 0 where the margin is 0.  Two paths are
 // to be compared by their length only if they keep equally clear.
 double MissingClearance(const TrajectoryProblem& problem, const Path& path);
+// So much does not count: what samples leave open between them.
+inline constexpr double kToleratedMissing = 0.1;
 
 }  // namespace phongpd

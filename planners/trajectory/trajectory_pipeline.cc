@@ -12,9 +12,6 @@
 namespace phongpd {
 namespace {
 
-// Of the margin; what samples leave open between them.
-constexpr double kToleratedGap = 0.1;
-
 // Of Ipopt from the colliding line, where there is a repaired start as well.
 // Most that arrive take half as many.
 constexpr int kLineIterations = 100;
@@ -30,7 +27,7 @@ struct Candidate {
   TrajectorySummary ipopt;
 
   bool IsFree() const { return HasFreePath(status); }
-  bool KeepsClear() const { return missing_clearance <= kToleratedGap; }
+  bool KeepsClear() const { return missing_clearance <= kToleratedMissing; }
 
   bool IsBetterThan(const Candidate& other) const {
     if (IsFree() != other.IsFree()) return IsFree();

@@ -129,6 +129,24 @@ TEST(RecombinePaths, TakesTheSameSideOfTwoBars) {
               PathLength(paths[0].points), 1e-12);
 }
 
+TEST(TakeSameWay, IsAboutPlacesNotAboutCorners) {
+  const Path one = {{0.0, 0.0, 0.0}, {1.0, 1.0, 0.0}, {2.0, 0.0, 0.0}};
+  Path finer = {{0.0, 0.0, 0.0},
+                {0.5, 0.5, 0.0},
+                {1.0, 1.0, 0.0},
+                {1.0, 1.0, 0.0},
+                {2.0, 0.0, 0.0}};
+  EXPECT_TRUE(TakeSameWay(one, finer, 1e-9));
+  finer[2].z() = finer[3].z() = 0.02;  // of a length of 2.83
+  EXPECT_TRUE(TakeSameWay(one, finer, 0.01));
+  EXPECT_FALSE(TakeSameWay(one, finer, 0.001));
+  Path mirrored = one;
+  mirrored[1].y() = -1.0;
+  EXPECT_FALSE(TakeSameWay(one, mirrored, 0.1));
+  const Path point = {{1.0, 2.0, 3.0}, {1.0, 2.0, 3.0}};
+  EXPECT_TRUE(TakeSameWay(point, point, 0.0));
+}
+
 TEST(RecombinePaths, GivesOnePathBackAndNothingForNone) {
   const SegmentTree segments(MakeBox({-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5}));
   EXPECT_TRUE(RecombinePaths({}, segments).empty());
