@@ -25,18 +25,18 @@ using Eigen::Vector3d;
 constexpr double kStraight = 1.05, kHopeless = 3.0;
 constexpr int kNarrowRoutes = 3;  // if straight but not clear
 
-// Routes that differ by less, of their length, are one.
+// Routes as lifted that differ by less, of their length, are one.
 constexpr double kSameWay = 0.01;
 
 // Recombined routes keep this share of the clearance of their parts, and count
 // if they are shorter than this share of the shortest part.
 constexpr double kKeptShare = 0.8, kGain = 0.99;
 
-// Is the last one much like one before?
-bool IsKnown(const std::vector<std::vector<Vector3d>>& routes) {
-  return std::any_of(routes.begin(), routes.end() - 1, [&](const auto& other) {
-    return TakeSameWay(other, routes.back(), kSameWay);
-  });
+bool IsKnown(const std::vector<std::vector<Vector3d>>& raw_paths,
+             const std::vector<Vector3d>& path) {
+  return std::any_of(
+      raw_paths.begin(), raw_paths.end(),
+      [&](const auto& other) { return TakeSameWay(other, path, kSameWay); });
 }
 
 template <typename T>
@@ -178,6 +178,7 @@ void ContactSurfacePlanner::Impl::FindPath(const Vector3d& start,
   const int end = count + static_cast<int>(attachments.size());
   std::set<SurfaceGraph::Edge> deleted;
   std::vector<char> avoided;
+  std::vector<std::vector<Vector3d>> raw_paths;
   const double straight = (goal - start).norm();
   const double clear =
       0.4 * surface.ClearanceOfEnds(start, goal, result->wanted_clearance);
@@ -211,10 +212,12 @@ void ContactSurfacePlanner::Impl::FindPath(const Vector3d& start,
     if (!all && found > 0 && PathLength(path) > kHopeless * result->length) {
       break;
     }
-    Keep(std::move(path), result);
     ++found;
-    // Little else is left; who asks for more routes wants that, too.
-    if (request.routes == 0 && IsKnown(result->routes)) break;
+    // Not worth shortening once more; who asks for more routes wants even that.
+    if (request.routes > 0 || !IsKnown(raw_paths, path)) {
+      raw_paths.push_back(path);
+      Keep(std::move(path), result);
+    }
     if (!all && result->length < kStraight * straight &&
         (result->clearance >= clear || found >= kNarrowRoutes)) {
       break;
