@@ -2,6 +2,7 @@
 // A program of OMPL's that takes a planner from here.
 #include <ompl/base/ScopedState.h>
 #include <ompl/geometric/SimpleSetup.h>
+#include <ompl/util/RandomNumbers.h>
 #include <phongpd/planners/ompl/contact_space_validity.h>
 #include <phongpd/planners/ompl/retraction_rrt.h>
 
@@ -10,6 +11,7 @@
 #include "boxes.h"
 
 int main() {
+  ompl::RNG::setSeed(1);
   const auto model = std::make_shared<const phongpd::ContactModel>(
       std::vector<phongpd::TriangleMesh>{ContactMesh()},
       phongpd::BoundingBox{Eigen::Vector3d::Constant(-4.0),
@@ -29,8 +31,9 @@ int main() {
   }
   const double length = phongpd::PathLength(path);
   std::cout << status.asString() << ", length " << length << '\n';
+  // A random tree promises a free path, not a short one.
   return phongpd::CheckPath(model->free_space(), path).free &&
-                 length > kShortest && length < 2.0 * kShortest
+                 length > kShortest
              ? 0
              : 1;
 }
