@@ -108,55 +108,6 @@ Table PipelineTable(const Cells& cells) {
       });
 }
 
-// Seeds of a scene that only one of two methods solved.
-std::pair<int, int> Discordant(const std::vector<Json>& rows,
-                               const std::string& scene,
-                               const std::string& protocol,
-                               const std::string& first,
-                               const std::string& second) {
-  std::map<long, std::pair<bool, bool>> seeds;
-  for (const Json& row : rows) {
-    if (row.at("scene") != scene || row.at("protocol") != protocol) continue;
-    const long seed = row.at("seed").get<long>();
-    if (row.at("method") == first) seeds[seed].first = row.at("solved");
-    if (row.at("method") == second) seeds[seed].second = row.at("solved");
-  }
-  std::pair<int, int> only = {0, 0};
-  for (const auto& entry : seeds) {
-    only.first += entry.second.first && !entry.second.second;
-    only.second += !entry.second.first && entry.second.second;
-  }
-  return only;
-}
-
-Table VerdictTable(const ConvergenceResults& results) {
-  Table table{"PhongPD (ℓ = 0.2) against Euclidean PD, paired by seed",
-              "Seeds that only one of the two solved. Win or loss: more than "
-              "5 % of the seeds apart; tie otherwise.",
-              {"scene", "protocol", "only Phong", "only Euclid", "verdict"},
-              {}};
-  for (const TrajectoryProtocol& protocol : TrajectoryProtocols()) {
-    if (!protocol.uses_every_metric) continue;
-    for (const std::string& scene : Scenes(results.cells)) {
-      const ComparisonCell* c =
-          Find(results.cells, scene, protocol.name, kPreset);
-      if (c == nullptr ||
-          Find(results.cells, scene, protocol.name, "euclidean") == nullptr) {
-        continue;
-      }
-      const auto [phong, euclid] =
-          Discordant(results.rows, scene, protocol.name, kPreset, "euclidean");
-      const double apart =
-          static_cast<double>(phong - euclid) / static_cast<double>(c->runs);
-      table.rows.push_back({scene, protocol.name, Shown(phong), Shown(euclid),
-                            apart > 0.05    ? "win"
-                            : apart < -0.05 ? "**loss**"
-                                            : "tie"});
-    }
-  }
-  return table;
-}
-
 bool Belongs(const std::string& scene, const SceneGroup& group) {
   const bool is_scanned = scene.find("edge=") != std::string::npos;
   if (is_scanned != group.is_scanned) return false;
@@ -264,6 +215,7 @@ std::vector<NamedTable> Tables(const ConvergenceResults& results) {
   }
   tables.push_back({"pipeline.csv", PipelineTable(cells)});
   tables.push_back({"verdicts.csv", VerdictTable(results)});
+  tables.push_back({"losses.csv", LossTable(results)});
   tables.push_back(
       {"excess.csv",
        MakeTable(

@@ -46,6 +46,11 @@ const ComparisonCell* Find(const std::vector<ComparisonCell>& cells,
 // Solved / runs, and what the tables explain.
 std::string SolvedText(const ComparisonCell& cell);
 
+// PhongPD against Euclidean PD, seed by seed, and what lies behind losses
+// (convergence_verdicts.cc).
+Table VerdictTable(const ConvergenceResults& results);
+Table LossTable(const ConvergenceResults& results);
+
 std::vector<NamedTable> Tables(const ConvergenceResults& results);
 std::vector<Figure> Figures(const ConvergenceResults& results);
 // Targets met and missed: the text above the tables (convergence_findings.cc).
