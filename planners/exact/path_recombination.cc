@@ -35,6 +35,7 @@ struct Way {
   }
 };
 
+// Is the segment from a to b on one of the paths, and so known to be free?
 // The start is corner 0 and the goal corner 1; they are on every path.
 bool AreNeighbors(const Corner& a, const Corner& b,
                   const std::vector<RoutedPath>& paths, bool is_start,
@@ -50,10 +51,11 @@ bool AreNeighbors(const Corner& a, const Corner& b,
 }
 
 std::vector<Corner> CollectCorners(const std::vector<RoutedPath>& paths) {
-  double least = paths[0].clearance;
-  for (const RoutedPath& p : paths) least = std::max(least, p.clearance);
-  std::vector<Corner> corners = {{paths[0].points.front(), least, 0, 0},
-                                 {paths[0].points.back(), least, 0, 0}};
+  // The ends are on every path, so the other end of a segment decides.
+  double most = 0.0;
+  for (const RoutedPath& p : paths) most = std::max(most, p.clearance);
+  std::vector<Corner> corners = {{paths[0].points.front(), most, 0, 0},
+                                 {paths[0].points.back(), most, 0, 0}};
   for (std::size_t i = 0; i < paths.size(); ++i) {
     for (std::size_t k = 1; k + 1 < paths[i].points.size(); ++k) {
       corners.push_back({paths[i].points[k], paths[i].clearance, i, k});
