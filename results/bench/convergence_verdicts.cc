@@ -43,8 +43,8 @@ Duels FindDuels(const std::vector<Json>& rows, const std::string& protocol) {
   return duels;
 }
 
-// Calls visit(protocol, scene, duels of that scene, seeds only Phong solved,
-// seeds only Euclid solved) where both metrics ran.
+// Calls visit(Phong's cell, its duels by seed, seeds only Phong solved, seeds
+// only Euclid solved) for every scene and protocol in which both metrics ran.
 template <typename Visit>
 void ForEachPair(const ConvergenceResults& results, const Visit& visit) {
   for (const TrajectoryProtocol& protocol : TrajectoryProtocols()) {
