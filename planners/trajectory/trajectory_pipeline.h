@@ -35,8 +35,8 @@ struct PipelineOptions {
   double start_noise = 0.0;
   int routes = 1;  // ways around the obstacles to optimise, in [1, 8]
   // kRepaired: optimise from the colliding line as well, and keep the better
-  // path: at least 2 % better in one of 22 published runs (8 of 50 on
-  // ball_convex), for two fifths more time.
+  // path.  The line ends in another valley now and then; that costs a second
+  // solve by Ipopt, of at most 100 iterations.
   bool also_line = true;
   PolishWhen polish = PolishWhen::kNeeded;
   TrajectoryOptions optimizer;
