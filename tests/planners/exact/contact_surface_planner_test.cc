@@ -160,12 +160,8 @@ TEST(ContactSurfacePlanner, ProvesThatNothingLeavesAVessel) {
 
 TEST(ContactSurfacePlanner, JoinsIslandsSideBySideThroughTheOutside) {
   // No ray leads from one to the other; start and goal touch either.
-  TriangleMesh mesh = MakeBox({0, 0, 0}, {1, 1, 1});
-  const TriangleMesh other = MakeBox({9, -7, 0}, {10, -6, 1});
-  for (const Vector3d& v : other.vertices) mesh.vertices.push_back(v);
-  for (const Triangle& t : other.triangles) {
-    mesh.triangles.push_back({t[0] + 8, t[1] + 8, t[2] + 8});
-  }
+  const TriangleMesh mesh = Joined(MakeBox({0, 0, 0}, {1, 1, 1}),
+                                   MakeBox({9, -7, 0}, {10, -6, 1}));
   const ContactSurfacePlanner planner(mesh);
   const PlanResult result =
       planner.Plan({-0.001, 0.5, 0.5}, {10.001, -6.5, 0.5});
