@@ -3,7 +3,6 @@
 
 #include <sys/resource.h>
 
-#include <chrono>
 #include <cmath>
 #include <numeric>
 #include <sstream>
@@ -25,6 +24,7 @@
 #include "core/contact_space/zero_edges.h"
 #include "core/mesh/triangle_quality.h"
 #include "core/mesh/union_find.h"
+#include "core/stopwatch.h"
 
 namespace phongpd {
 namespace {
@@ -34,16 +34,13 @@ class StageClock {
  public:
   explicit StageClock(ContactSpaceReport* report) : report_(report) {}
   void Finish(const std::string& stage) {
-    const auto now = std::chrono::steady_clock::now();
-    report_->seconds.emplace_back(
-        stage, std::chrono::duration<double>(now - last_).count());
-    last_ = now;
+    report_->seconds.emplace_back(stage, stopwatch_.Seconds());
+    stopwatch_ = Stopwatch();
   }
 
  private:
   ContactSpaceReport* report_;
-  std::chrono::steady_clock::time_point last_ =
-      std::chrono::steady_clock::now();
+  Stopwatch stopwatch_;
 };
 
 double PeakMib() {

@@ -2,11 +2,11 @@
 #include "results/bench/planning_measure.h"
 
 #include <algorithm>
-#include <chrono>
 #include <limits>
 #include <random>
 
 #include "core/mesh/segment_tree.h"
+#include "core/stopwatch.h"
 #include "planners/exact/contact_surface_planner.h"
 #include "planners/exact/path_shortening.h"
 #include "problems/planning_study.h"
@@ -19,11 +19,6 @@ namespace phongpd::bench {
 namespace {
 
 using Eigen::Vector3d;
-
-double Seconds(std::chrono::steady_clock::time_point since) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - since)
-      .count();
-}
 
 PlanningProblem Make(const std::string& family, const std::string& knobs,
                      double delta, bool is_turned, bool is_feasible) {
@@ -220,9 +215,9 @@ MotionRow MeasureMotions(const std::string& scene, std::uint64_t seed) {
     const Vector3d a = near(), b = near();
     if (!free_space.IsFree(a)) continue;
     bool is_free = false;
-    const auto begin = std::chrono::steady_clock::now();
+    const Stopwatch stopwatch;
     for (int i = 0; i < kRepeats; ++i) is_free = free_space.IsFree(a, b);
-    microseconds.push_back(1e6 * Seconds(begin) / kRepeats);
+    microseconds.push_back(1e6 * stopwatch.Seconds() / kRepeats);
     row.blocked_share += is_free ? 0.0 : 1.0 / kMotions;
   }
   row.median_microseconds = Quantile(microseconds, 0.5);
