@@ -4,12 +4,12 @@
 # Needs the network only then; everything else works offline.
 set -euo pipefail
 
+# Ipopt's package names blas and lapack to the linker without bringing them.
 packages=(
-  g++ cmake make pkg-config
-  libeigen3-dev libcgal-dev libgmp-dev libmpfr-dev libtbb-dev libfcl-dev
-  libgtest-dev librapidcheck-dev libcli11-dev nlohmann-json3-dev
-  coinor-libipopt-dev libompl-dev libboost-serialization-dev
-  libboost-filesystem-dev gnuplot-nox
+  g++ cmake make pkg-config libeigen3-dev libcgal-dev libgmp-dev libmpfr-dev
+  libtbb-dev libfcl-dev libgtest-dev librapidcheck-dev libcli11-dev
+  nlohmann-json3-dev coinor-libipopt-dev libblas-dev liblapack-dev libompl-dev
+  libboost-serialization-dev libboost-filesystem-dev gnuplot-nox
 )
 
 missing=()
