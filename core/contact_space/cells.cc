@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/contact_space/cells.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <map>
 #include <numeric>
@@ -147,19 +149,28 @@ FreeCells FindFreeCells(const Convolution& convolution,
   if (candidates.size() > 4) geometry.BuildTree();
   std::vector<char> is_free(2 * faces.size(), 0);
   is_free[outer] = 1;
-  std::vector<int> free_sides;  // one of each free cell but the unbounded
+  std::vector<std::vector<int>*> judged;
   for (auto& [cell, members] : candidates) {
-    if (cell == outer) continue;
+    if (cell != outer) judged.push_back(&members);
+  }
+  out.judged = static_cast<int>(judged.size());
+  std::vector<char> collides(judged.size());
+  tbb::parallel_for(std::size_t{0}, judged.size(), [&](std::size_t i) {
+    std::vector<int>& members = *judged[i];
     const std::size_t probes = std::min(kProbes, members.size());
     std::partial_sort(
         members.begin(), members.begin() + probes, members.end(),
         [&area](int a, int b) {
           return area[a / 2] != area[b / 2] ? area[a / 2] > area[b / 2] : a < b;
         });
-    ++out.judged;
-    if (judge.Collide(ProbePoint(geometry, members, reach))) continue;
-    is_free[cell] = 1;
-    free_sides.push_back(members[0]);
+    collides[i] = judge.Collide(ProbePoint(geometry, members, reach));
+  });
+  std::vector<int> free_sides;  // one of each free cell but the unbounded
+  for (std::size_t i = 0; i < judged.size(); ++i) {
+    const int side = judged[i]->front();
+    if (collides[i]) continue;
+    is_free[sides.Find(side)] = 1;
+    free_sides.push_back(side);
   }
   // Only now that all are judged, so that a ray can cause no leak.
   std::vector<std::pair<int, int>> gaps;

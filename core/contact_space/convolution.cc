@@ -10,6 +10,9 @@
 #include <cmath>
 #include <unordered_map>
 #include <unordered_set>
+#include <utility>
+
+#include "core/contact_space/gauss_tree.h"
 
 namespace phongpd::internal {
 namespace {
@@ -73,15 +76,42 @@ struct VertexStars {
   std::vector<GridPoint> exact;
 };
 
+// The caps of the normals around every vertex.
+//
+// Let n·d ≤ 0 for all rays d at v, and let the normals mᵢ of the facets there
+// lie in a cap of less than 90° around a.  Seen along a the facets cover every
+// direction, and x ↦ n·x over them is piecewise linear with gradients gᵢ.  Were
+// gᵢ·u > 0 for all i and one u, n·x would grow along u: so Σ wᵢ gᵢ = 0 for some
+// wᵢ ≥ 0, which is n = ± Σ wᵢ mᵢ / |…|.  Hence n or −n is in the cap.
+GaussTree VertexCaps(const GridSolid& s) {
+  std::vector<std::vector<Vector3d>> normals(s.vertices.size());
+  for (std::size_t f = 0; f < s.facets.size(); ++f) {
+    const Vector3d n = ToDouble(s.normals[f]).normalized();
+    for (const int v : s.facets[f]) normals[v].push_back(n);
+  }
+  std::vector<GaussCap> caps;
+  caps.reserve(normals.size());
+  for (const std::vector<Vector3d>& around : normals) {
+    caps.push_back(CapAround(around.data(), around.size()));
+  }
+  return GaussTree(std::move(caps));
+}
+
 // Vertices of `stars` that a facet with normal n can touch.  `turn` is +1 when
 // the stars belong to the turned operand Q, −1 when the facet does.
 std::vector<int> TouchedVertices(const GridNormal& n, const VertexStars& stars,
-                                 int turn) {
-  std::vector<int> touched, unclear;
+                                 const GaussTree& caps, int turn) {
+  std::vector<int> candidates, touched, unclear;
   const Vector3d nd = ToDouble(n);
   const double bound = nd.lpNorm<1>() * kDotError;
-  const int count = static_cast<int>(stars.begin.size()) - 1;
-  for (int v = 0; v < count; ++v) {
+  const Vector3d unit = nd.normalized();
+  for (const Vector3d& side : {unit, Vector3d(-unit)}) {
+    caps.ForEachNear({side, 0.0}, [&](int v) { candidates.push_back(v); });
+  }
+  std::sort(candidates.begin(), candidates.end());
+  candidates.erase(std::unique(candidates.begin(), candidates.end()),
+                   candidates.end());
+  for (const int v : candidates) {
     const int begin = stars.begin[v], end = stars.begin[v + 1];
     bool below = begin < end;
     unclear.clear();
@@ -104,13 +134,13 @@ std::vector<int> TouchedVertices(const GridNormal& n, const VertexStars& stars,
   return touched;
 }
 
-// A strictly convex edge: its direction and the two apex directions, and for
-// the quick test the unit direction and unit normals of its facets.
+// A strictly convex edge: its direction and the two apex directions, and the
+// unit normals of its facets.
 struct ConvexEdge {
   int a, b;
   GridPoint exact[3];
   Vector3d rounded[3];
-  Vector3d direction, left_normal, right_normal;
+  Vector3d left_normal, right_normal;
 };
 
 std::vector<ConvexEdge> ConvexEdges(const GridSolid& s) {
@@ -125,7 +155,6 @@ std::vector<ConvexEdge> ConvexEdges(const GridSolid& s) {
     c.exact[1] = s.vertices[e.left_apex] - a;
     c.exact[2] = s.vertices[e.right_apex] - a;
     for (int k = 0; k < 3; ++k) c.rounded[k] = ToDouble(c.exact[k]);
-    c.direction = c.rounded[0].normalized();
     c.left_normal = ToDouble(s.normals[e.left]).normalized();
     c.right_normal = ToDouble(s.normals[e.right]).normalized();
     edges.push_back(c);
@@ -133,44 +162,19 @@ std::vector<ConvexEdge> ConvexEdges(const GridSolid& s) {
   return edges;
 }
 
-// Directions of many edges by coordinate, so that the quick test runs over
-// contiguous numbers.
-struct EdgeDirections {
-  explicit EdgeDirections(const std::vector<ConvexEdge>& edges) {
-    for (const ConvexEdge& e : edges) {
-      x.push_back(e.direction[0]);
-      y.push_back(e.direction[1]);
-      z.push_back(e.direction[2]);
-    }
-  }
-  std::vector<double> x, y, z;
-};
+// The normals n with which an edge can be touched: those for which both apices
+// lie below the plane through it, the arc between its facets' normals.  Edges
+// touch where their arcs cross.
+GaussCap ArcCap(const ConvexEdge& e) {
+  const Vector3d normals[2] = {e.left_normal, e.right_normal};
+  return CapAround(normals, 2);
+}
 
-// Edges g that may pass over e: the apices of e lie on one side of the plane
-// (e, g) just when g points above one facet of e and below the other.  Drops
-// only what clearly does not.
-void CandidateEdges(const ConvexEdge& e, const EdgeDirections& g,
-                    std::vector<int>* candidates) {
-  constexpr double kClear = 1e-13;  // unit vectors: far above their rounding
-  candidates->clear();
-  const Vector3d l = e.left_normal, r = e.right_normal;
-  constexpr std::size_t kBlock = 64;
-  for (std::size_t begin = 0; begin < g.x.size(); begin += kBlock) {
-    const std::size_t size = std::min(kBlock, g.x.size() - begin);
-    const double *x = g.x.data() + begin, *y = g.y.data() + begin,
-                 *z = g.z.data() + begin;
-    double low[kBlock], high[kBlock];
-    for (std::size_t j = 0; j < size; ++j) {
-      const double p = l[0] * x[j] + l[1] * y[j] + l[2] * z[j];
-      const double q = r[0] * x[j] + r[1] * y[j] + r[2] * z[j];
-      low[j] = p < q ? p : q;
-      high[j] = p < q ? q : p;
-    }
-    for (std::size_t j = 0; j < size; ++j) {
-      if (low[j] > kClear || high[j] < -kClear) continue;
-      candidates->push_back(static_cast<int>(begin + j));
-    }
-  }
+GaussTree ArcCaps(const std::vector<ConvexEdge>& edges) {
+  std::vector<GaussCap> caps;
+  caps.reserve(edges.size());
+  for (const ConvexEdge& e : edges) caps.push_back(ArcCap(e));
+  return GaussTree(std::move(caps));
 }
 
 // e × (ω × g) · o, and n · (ω × o) where the apex turns too.
@@ -275,10 +279,11 @@ Convolution ReducedConvolution(const GridSolid& p, const GridSolid& q) {
   const auto add_facets = [&](const GridSolid& facets, const GridSolid& others,
                               ContactKind kind) {
     const VertexStars stars(others);
+    const GaussTree caps = VertexCaps(others);
     const int turn = kind == ContactKind::kObstacleFacet ? 1 : -1;
     std::vector<std::vector<int>> touched(facets.facets.size());
     tbb::parallel_for(std::size_t{0}, touched.size(), [&](std::size_t f) {
-      touched[f] = TouchedVertices(facets.normals[f], stars, turn);
+      touched[f] = TouchedVertices(facets.normals[f], stars, caps, turn);
     });
     for (std::size_t f = 0; f < touched.size(); ++f) {
       for (const int v : touched[f]) {
@@ -299,12 +304,14 @@ Convolution ReducedConvolution(const GridSolid& p, const GridSolid& q) {
     int edge, side;
   };
   std::vector<std::vector<Hit>> hits(pe.size());
-  const EdgeDirections directions(qe);
+  const GaussTree arcs = ArcCaps(qe);
   const tbb::blocked_range<std::size_t> all(0, pe.size());
   tbb::parallel_for(all, [&](const tbb::blocked_range<std::size_t>& range) {
     std::vector<int> candidates;
     for (std::size_t i = range.begin(); i < range.end(); ++i) {
-      CandidateEdges(pe[i], directions, &candidates);
+      candidates.clear();
+      arcs.ForEachNear(ArcCap(pe[i]), [&](int j) { candidates.push_back(j); });
+      std::sort(candidates.begin(), candidates.end());
       for (const int j : candidates) {
         const int side = CommonSide(pe[i], qe[j]);
         if (side != 0) hits[i].push_back({j, side});

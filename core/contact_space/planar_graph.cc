@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numeric>
 #include <stdexcept>
@@ -19,6 +20,8 @@ constexpr double kAngleGap = 1e-9;
 // Where an edge passes is known in double up to this (grid steps), or else it
 // is too level to tell.
 constexpr double kSteepError = 1.0;
+// Grid steps by which boxes of edges are wider: far above kPointError.
+constexpr double kBoxMargin = 1.0;
 
 }  // namespace
 
@@ -338,28 +341,54 @@ int PlanarGraph::RightOfEdge(int edge, int vertex) const {
 
 // The half-edge with the component just to its left, −1 when there is none.
 int PlanarGraph::HalfEdgeLeftOf(const Component& component,
-                                const std::vector<int>& component_of) const {
+                                const std::vector<int>& component_of,
+                                const BoxTree& tree) const {
   const int corner = component.corner;
   const Vector2d at = Flat(corner);
   int closest = -1;
-  for (int e = 0; e < static_cast<int>(edges_.size()); ++e) {
+  const auto visit = [&](int e) {
     const auto [a, b] = edges_[e].end;
-    if (component_of[a] == component_of[corner]) continue;
-    const Vector2d p = Flat(a), q = Flat(b);
-    if (std::min(p[0], q[0]) > at[0] + 1 || std::max(p[1], q[1]) < at[1] - 1 ||
-        std::min(p[1], q[1]) > at[1] + 1) {
-      continue;
-    }
+    if (component_of[a] == component_of[corner]) return;
     // Half-open in height, so that a chain counts once.
     const bool a_below = Compare(a, corner, v_) <= 0;
     const bool b_below = Compare(b, corner, v_) <= 0;
-    if (a_below == b_below || RightOfEdge(e, corner) <= 0) continue;
+    if (a_below == b_below || RightOfEdge(e, corner) <= 0) return;
     if (closest < 0 || IsCloser(e, closest, corner)) closest = e;
-  }
+  };
+  // How far left of the corner a box begins; nothing behind the left end of
+  // the closest edge can come between.
+  const double kNever = std::numeric_limits<double>::infinity();
+  tree.NearestFirst(
+      std::numeric_limits<double>::max(),
+      [&](int index) {
+        const BoxTree::Node& node = tree.nodes()[index];
+        const bool is_beside = node.min[0] <= at[0] && node.min[1] <= at[1] &&
+                               node.max[1] >= at[1];
+        return is_beside ? at[0] - node.max[0] : kNever;
+      },
+      [&](int position) {
+        visit(tree.order()[position]);
+        if (closest < 0) return std::numeric_limits<double>::max();
+        const auto [a, b] = edges_[closest].end;
+        return at[0] - std::min(Flat(a)[0], Flat(b)[0]) + kBoxMargin;
+      });
   if (closest < 0) return -1;
   // The component lies right of the upward half-edge: left of the other.
   const auto [a, b] = edges_[closest].end;
   return Compare(a, b, v_) < 0 ? 2 * closest + 1 : 2 * closest;
+}
+
+// Boxes of the projected edges, wider than their ends are uncertain.
+BoxTree PlanarGraph::EdgeTree() const {
+  std::vector<BoundingBox> boxes;
+  boxes.reserve(edges_.size());
+  for (const Edge& e : edges_) {
+    const Vector2d p = Flat(e.end[0]), q = Flat(e.end[1]);
+    const Vector2d low = p.cwiseMin(q).array() - kBoxMargin;
+    const Vector2d high = p.cwiseMax(q).array() + kBoxMargin;
+    boxes.push_back({{low[0], low[1], 0.0}, {high[0], high[1], 0.0}});
+  }
+  return BoxTree(boxes, 4);
 }
 
 void PlanarGraph::FormFaces() {
@@ -380,7 +409,9 @@ void PlanarGraph::FormFaces() {
   }
   // Every component's outer loop belongs to the face around it.
   std::vector<int> component_of(vertices_.size(), -1);
+  BoxTree tree;
   if (components.size() > 1) {
+    tree = EdgeTree();
     UnionFind sets(vertices_.size());
     for (const Edge& e : edges_) sets.Join(e.end[0], e.end[1]);
     for (std::size_t v = 0; v < vertices_.size(); ++v) {
@@ -397,7 +428,7 @@ void PlanarGraph::FormFaces() {
   for (const Component& c : ordered) {
     int face = 0;
     if (components.size() > 1) {
-      const int h = HalfEdgeLeftOf(c, component_of);
+      const int h = HalfEdgeLeftOf(c, component_of, tree);
       if (h >= 0) face = face_of_[h];
     }
     if (face < 0) throw std::logic_error("contact space: faces out of order");

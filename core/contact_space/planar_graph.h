@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/contact_space/exact_points.h"
+#include "core/mesh/box_tree.h"
 
 namespace phongpd::internal {
 
@@ -87,7 +88,9 @@ class PlanarGraph {
   void LinkLoops();
   std::vector<Component> FindComponents() const;
   int HalfEdgeLeftOf(const Component& component,
-                     const std::vector<int>& component_of) const;
+                     const std::vector<int>& component_of,
+                     const BoxTree& tree) const;
+  BoxTree EdgeTree() const;
   int RightOfEdge(int edge, int vertex) const;
   bool IsCloser(int e, int f, int vertex) const;
   void FormFaces();

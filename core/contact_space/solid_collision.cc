@@ -9,6 +9,7 @@
 #include <cmath>
 #include <vector>
 
+#include "core/mesh/box_tree.h"
 #include "core/mesh/union_find.h"
 
 namespace phongpd::internal {
@@ -25,7 +26,32 @@ using Tree = CGAL::AABB_tree<CGAL::AABB_traits<Kernel, Primitive>>;
 struct Solid {
   std::vector<SolidFacet> facets;
   std::vector<Point> seeds;  // one vertex per component
+  BoundingBox bounds;
+  BoxTree facet_tree, seed_tree;
 };
+
+Eigen::Vector3d Coordinates(const Point& p) { return {p.x(), p.y(), p.z()}; }
+
+// Grid coordinates are exact in double, and so are their boxes.
+void BuildTrees(Solid* solid) {
+  std::vector<BoundingBox> boxes;
+  boxes.reserve(solid->facets.size());
+  for (const SolidFacet& t : solid->facets) {
+    const CGAL::Bbox_3 box = t.bbox();
+    boxes.push_back({{box.xmin(), box.ymin(), box.zmin()},
+                     {box.xmax(), box.ymax(), box.zmax()}});
+  }
+  solid->facet_tree = BoxTree(boxes, 4);
+  if (!boxes.empty()) {
+    const BoxTree::Node& root = solid->facet_tree.nodes()[0];
+    solid->bounds = {root.min, root.max};
+  }
+  boxes.clear();
+  for (const Point& p : solid->seeds) {
+    boxes.push_back({Coordinates(p), Coordinates(p)});
+  }
+  solid->seed_tree = BoxTree(boxes, 4);
+}
 
 Solid MakeSolidOf(const GridSolid& grid, double sign) {
   Solid solid;
@@ -63,24 +89,50 @@ int Turn(const Point& a, const Point& b, const Point& p) {
 // facets above p.  Positive means inside, also where components overlap.
 int WindingNumber(const Solid& solid, const Point& p) {
   int winding = 0;
-  for (const SolidFacet& t : solid.facets) {
-    const auto box = t.bbox();
-    if (box.zmax() < p.z() || box.xmin() > p.x() || box.xmax() < p.x() ||
-        box.ymin() > p.y() || box.ymax() < p.y()) {
-      continue;
-    }
-    const int turn = Turn(t[0], t[1], p);
-    if (turn == 0 || Turn(t[1], t[2], p) != turn ||
-        Turn(t[2], t[0], p) != turn) {
-      continue;
-    }
-    // p is below the facet when it is behind its upward side.
-    if (static_cast<int>(CGAL::orientation(t[0], t[1], t[2], p)) == turn) {
-      continue;
-    }
-    winding += turn;
-  }
+  const auto is_above = [&](const Eigen::Vector3d& low,
+                            const Eigen::Vector3d& high) {
+    return high[2] >= p.z() && low[0] <= p.x() && high[0] >= p.x() &&
+           low[1] <= p.y() && high[1] >= p.y();
+  };
+  const BoxTree& tree = solid.facet_tree;
+  tree.ForEach(
+      [&](int index) {
+        return is_above(tree.nodes()[index].min, tree.nodes()[index].max);
+      },
+      [&](int position) {
+        const SolidFacet& t = solid.facets[tree.order()[position]];
+        const int turn = Turn(t[0], t[1], p);
+        // p is below the facet when it is behind its upward side.
+        if (turn != 0 && Turn(t[1], t[2], p) == turn &&
+            Turn(t[2], t[0], p) == turn &&
+            static_cast<int>(CGAL::orientation(t[0], t[1], t[2], p)) != turn) {
+          winding += turn;
+        }
+        return true;
+      });
   return winding;
+}
+
+// Does `other` contain a seed of `solid` moved by `shift`?
+bool ContainsSeed(const Solid& other, const Solid& solid,
+                  const Kernel::Vector_3& shift) {
+  // 2^39 + 2^40 with 12 fractional bits: exact, too.
+  const Eigen::Vector3d s(shift.x(), shift.y(), shift.z());
+  const Eigen::Vector3d low = other.bounds.min - s, high = other.bounds.max - s;
+  const BoxTree& tree = solid.seed_tree;
+  bool contains = false;
+  tree.ForEach(
+      [&](int index) {
+        const BoxTree::Node& node = tree.nodes()[index];
+        return (node.max.array() >= low.array()).all() &&
+               (node.min.array() <= high.array()).all();
+      },
+      [&](int position) {
+        contains = WindingNumber(
+                       other, solid.seeds[tree.order()[position]] + shift) > 0;
+        return !contains;
+      });
+  return contains;
 }
 
 }  // namespace
@@ -96,6 +148,8 @@ SolidCollision::SolidCollision(const GridSolid& obstacle,
     : impl_(std::make_unique<Impl>()) {
   impl_->obstacle = MakeSolidOf(obstacle, 1.0);
   impl_->robot = MakeSolidOf(reflected_robot, -1.0);
+  BuildTrees(&impl_->obstacle);
+  BuildTrees(&impl_->robot);
   impl_->obstacle_in_tree =
       impl_->obstacle.facets.size() >= impl_->robot.facets.size();
   const auto& large = impl_->obstacle_in_tree ? impl_->obstacle : impl_->robot;
@@ -110,11 +164,9 @@ bool SolidCollision::Collide(const Eigen::Vector3d& q) const {
   Kernel::Vector_3 shift(std::round(q[0] * 0x1p12) * 0x1p-12,
                          std::round(q[1] * 0x1p12) * 0x1p-12,
                          std::round(q[2] * 0x1p12) * 0x1p-12);
-  for (const Point& seed : impl_->robot.seeds) {
-    if (WindingNumber(impl_->obstacle, seed + shift) > 0) return true;
-  }
-  for (const Point& seed : impl_->obstacle.seeds) {
-    if (WindingNumber(impl_->robot, seed - shift) > 0) return true;
+  if (ContainsSeed(impl_->obstacle, impl_->robot, shift) ||
+      ContainsSeed(impl_->robot, impl_->obstacle, -shift)) {
+    return true;
   }
   const bool robot_moves = impl_->obstacle_in_tree;
   if (!robot_moves) shift = -shift;
