@@ -102,8 +102,8 @@ TEST(Convolution, HoldsExactlyThePairsThatTouch) {
       const TriangleMesh robot = Turned(solids[i], &random);
       const TriangleMesh obstacle = Turned(solids[j], &random);
       const GridFrame frame = PlaceOnGrid(robot, obstacle);
-      const GridSolid p = MakeGridSolid(frame.obstacle, obstacle.triangles,
-                                        false, "obstacle");
+      const GridSolid p =
+          MakeGridSolid(frame.obstacle, obstacle.triangles, false, "obstacle");
       const GridSolid q =
           MakeGridSolid(frame.robot, robot.triangles, true, "robot");
       const Counts expected = CountByDefinition(p, q);

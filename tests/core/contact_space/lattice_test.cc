@@ -8,7 +8,9 @@
 #include <random>
 #include <string>
 
+#include "core/contact_space/contact_space.h"
 #include "core/contact_space/grid_frame.h"
+#include "core/mesh/mesh_io.h"
 #include "problems/random_solids.h"
 #include "problems/shapes.h"
 
@@ -123,7 +125,7 @@ TEST(GridFrame, IsTheSameForDecimalsOfAnyScaleAndPlace) {
     const Vector3d q = obstacle.vertices[1] - robot.vertices[2];
     EXPECT_LE((other.ToUser(x) - q).norm(), 0x1p-52 * q.norm());
   };
-  for (const double factor : {1e1, 1e3, 1e9, 1024.0, 3e5}) {
+  for (const double factor : {1e1, 1e3, 1e9, 1024.0, 2e5}) {
     expect_same(Divided(a, factor), Divided(b, factor));
     expect_same(Scaled(a, factor), Scaled(b, factor));
   }
@@ -163,6 +165,66 @@ TEST(GridFrame, RoundsWhatIsOnNoLattice) {
                 1.01 * frame.step);
     }
   }
+}
+
+// The canonical frame turned these off their lattice: false cavities, a false
+// genus, self-intersections, and another result after every move.
+TEST(Faults, ShearedVoxelsStayOnTheirLattice) {
+  const std::string folder = PHONGPD_TEST_DATA "/faults/";
+  const TriangleMesh robot = ReadMesh(folder + "sheared_robot.off");
+  const TriangleMesh obstacle = ReadMesh(folder + "sheared_obstacle.off");
+  const ContactSpace space = BuildContactSpace(robot, obstacle);
+  const auto expect_right = [](const ContactSpace& found) {
+    EXPECT_EQ(found.report.volume, 3525.0);
+    EXPECT_EQ(found.report.cavities, 0);
+    EXPECT_EQ(found.report.genus, 0);
+    EXPECT_EQ(found.report.self_intersections, 0u);
+    EXPECT_EQ(found.report.grid_step, 0.0);
+    EXPECT_LE(found.report.triangles, 200u);
+    for (const Vector3d& v : found.mesh.vertices) {
+      EXPECT_EQ(v, Vector3d(v.array().round()));
+    }
+  };
+  expect_right(space);
+  const Vector3d a(-12345678, 99, 1e6), b(1e6, -3e6, 7e5);
+  const ContactSpace moved =
+      BuildContactSpace(Translated(robot, a), Translated(obstacle, b));
+  expect_right(moved);
+  EXPECT_EQ(moved.mesh.triangles, space.mesh.triangles);
+  EXPECT_EQ(moved.mesh.vertices, Translated(space.mesh, b - a).vertices);
+}
+
+// Exact fits of decimals: rounded to binary fractions the peg was a grid step
+// too thick or too thin.
+TEST(Faults, DecimalPegsFitExactly) {
+  for (const double unit : {0.1, 1e-3, 0.7}) {
+    for (const double x : {0.0, 0.3, 1234.7}) {
+      const auto peg = [&](double half) {
+        return Divided(MakeBox({-half, -half, -9}, {half, half, 9}), 10.0);
+      };
+      const TriangleMesh plate = Divided(
+          Translated(MakePlateWithHole(40, 10, 14), {10 * x, 0, 0}), 10.0);
+      const auto in_units = [unit](TriangleMesh mesh) {
+        return Scaled(std::move(mesh), unit);
+      };
+      EXPECT_EQ(
+          BuildContactSpace(in_units(peg(7)), in_units(plate)).report.genus, 0)
+          << unit << ' ' << x;
+      EXPECT_EQ(
+          BuildContactSpace(in_units(peg(6)), in_units(plate)).report.genus, 1)
+          << unit << ' ' << x;
+    }
+  }
+}
+
+TEST(ContactSpace, WarnsWhereCoordinatesLeaveLittleOfAnOperand) {
+  const TriangleMesh cone = MakeCone(0.8, 1.6, 20);
+  const auto warnings = [&](double offset) {
+    return BuildContactSpace(Translated(cone, {0, offset, 0}), MakeAxes(2, 0.2))
+        .report.warnings.size();
+  };
+  EXPECT_EQ(warnings(1e9), 0u);
+  EXPECT_EQ(warnings(1e10), 1u);
 }
 
 }  // namespace
