@@ -3,16 +3,17 @@
 
 #include <sys/resource.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <sstream>
 #include <unordered_map>
 
-#include "core/contact_space/canonical_frame.h"
 #include "core/contact_space/cells.h"
 #include "core/contact_space/convolution.h"
 #include "core/contact_space/edge_rings.h"
 #include "core/contact_space/facet_intersections.h"
+#include "core/contact_space/grid_frame.h"
 #include "core/contact_space/grid_solid.h"
 #include "core/contact_space/operand.h"
 #include "core/contact_space/patch_triangulation.h"
@@ -84,9 +85,9 @@ void RoundSurface(const internal::ExactSurface& surface,
                   const internal::GridFrame& frame,
                   const internal::Convolution& convolution,
                   const internal::PlaneGroups& groups, ContactSpace* out) {
-  const Eigen::Vector3d origin = frame.Origin();
   for (const int id : surface.vertex_points) {
-    out->mesh.vertices.push_back(origin + frame.step * points.Approximate(id));
+    out->mesh.vertices.push_back(
+        frame.ToUser(internal::WithExactIntegers(points[id])));
   }
   out->mesh.triangles = surface.triangles;
   // Planes that made it to the surface, numbered by first appearance.
@@ -178,26 +179,22 @@ ContactSpace BuildContactSpace(const TriangleMesh& robot,
   StageClock clock(&report);
 
   using internal::OperandRole;
-  TriangleMesh a =
+  const TriangleMesh a =
       internal::PrepareOperand(robot, OperandRole::kRobot, options, &report);
-  TriangleMesh b = internal::PrepareOperand(obstacle, OperandRole::kObstacle,
-                                            options, &report);
+  const TriangleMesh b = internal::PrepareOperand(
+      obstacle, OperandRole::kObstacle, options, &report);
   clock.Finish("check");
 
-  const internal::CanonicalFrame turned = internal::ChooseCanonicalFrame(a, b);
-  report.canonical_frame = turned.used;
-  if (turned.used) {
-    a = Rotated(std::move(a), turned.rotation);
-    b = Rotated(std::move(b), turned.rotation);
-  }
-  const internal::GridFrame frame = internal::ChooseGridFrame(a, b);
-  report.grid_step = frame.step;
+  const internal::GridFrame frame = internal::PlaceOnGrid(a, b);
+  report.canonical_frame = frame.is_turned;
+  report.grid_step = frame.rounding;
   const internal::GridSolid p = internal::MakeGridSolid(
-      b, frame.obstacle_center, frame.step, false, options.obstacle_name);
+      frame.obstacle, b.triangles, false, options.obstacle_name);
   const internal::GridSolid q = internal::MakeGridSolid(
-      a, frame.robot_center, frame.step, true, options.robot_name);
-  internal::CheckResolution(p, b, frame.step, options.obstacle_name, &report);
-  internal::CheckResolution(q, a, frame.step, options.robot_name, &report);
+      frame.robot, a.triangles, true, options.robot_name);
+  const double resolution = std::min(frame.rounding, frame.step);
+  internal::CheckResolution(p, b, resolution, options.obstacle_name, &report);
+  internal::CheckResolution(q, a, resolution, options.robot_name, &report);
   const internal::Convolution convolution = internal::ReducedConvolution(p, q);
   report.convolution_triangles = convolution.facets.size();
   clock.Finish("convolution");
@@ -242,9 +239,6 @@ ContactSpace BuildContactSpace(const TriangleMesh& robot,
   const internal::ExactSurface surface =
       internal::TriangulatePatches(patches, convolution, points);
   RoundSurface(surface, points, frame, convolution, groups, &out);
-  if (turned.used) {
-    out.mesh = Rotated(std::move(out.mesh), turned.rotation.transpose());
-  }
   RemoveZeroEdges(&out);
   clock.Finish("surface");
   if (options.refine.target_edge > 0.0) {

@@ -113,8 +113,9 @@ struct ContactSpaceReport {
   std::size_t judged_cells = 0;
   // The work was done in a turned frame in which more facets are axis-aligned.
   bool canonical_frame = false;
-  // Input coordinates are rounded to a binary grid first; nothing else is
-  // approximated.  Largest displacement, user's unit.
+  // Input coordinates are placed on an integer grid first; nothing else is
+  // approximated.  None was moved by more than this, user's unit; 0: they lie
+  // on a lattice (grid_frame.h) and nothing was rounded.
   double grid_step = 0.0;
   // All that is not exact because the options said so.
   Approximation approximation;

@@ -14,6 +14,8 @@
 
 #include "core/contact_space/gauss_tree.h"
 
+#include "core/contact_space/symbolic_turn.h"
+
 namespace phongpd::internal {
 namespace {
 
@@ -22,41 +24,6 @@ using Eigen::Vector3d;
 // Relative bound on a double dot product of a rounded normal with an exact
 // vector: three products and two sums of terms rounded once, with room.
 constexpr double kDotError = 1e-14;
-
-// Direction of the symbolic rotation.  Its components have no short integer
-// relation, so first-order terms of grid vectors do not vanish.
-const Vector3d kAxis(0.37170913265849731, 0.56291826475183729,
-                     0.73831572046135197);
-
-// A first-order term is evaluated in double and trusted when it is above this
-// fraction of its parts; else in 113 bits, where the true value of a term that
-// is not zero is far above the rounding.
-constexpr double kClearTerm = 1e-12;
-
-// Component k of a × b for triples of any number type.
-template <typename Number, typename A, typename B>
-Number CrossComponent(const A& a, const B& b, int k) {
-  const int i = (k + 1) % 3, j = (k + 2) % 3;
-  return static_cast<Number>(a[i]) * static_cast<Number>(b[j]) -
-         static_cast<Number>(a[j]) * static_cast<Number>(b[i]);
-}
-
-// n · (ω × d) = d · (n × ω).
-template <typename Number>
-Number RotationValue(const GridNormal& n, const GridPoint& d) {
-  Number sum = 0;
-  for (int k = 0; k < 3; ++k) {
-    sum += static_cast<Number>(d[k]) * CrossComponent<Number>(n, kAxis, k);
-  }
-  return sum;
-}
-
-int RotationTerm(const GridNormal& n, const GridPoint& d) {
-  const double value = RotationValue<double>(n, d);
-  const double parts = ToDouble(n).lpNorm<1>() * ToDouble(d).lpNorm<1>();
-  if (std::abs(value) > kClearTerm * parts) return Sign(value);
-  return Sign(RotationValue<Float128>(n, d));
-}
 
 // Vectors from every vertex to its neighbours, contiguous for the inner loop.
 struct VertexStars {
@@ -126,7 +93,7 @@ std::vector<int> TouchedVertices(const GridNormal& n, const VertexStars& stars,
     for (std::size_t i = 0; below && i < unclear.size(); ++i) {
       const GridPoint& d = stars.exact[unclear[i]];
       int sign = Sign(Dot(n, d));
-      if (sign == 0) sign = turn * RotationTerm(n, d);
+      if (sign == 0) sign = turn * TurnedSign(n, d);
       below = sign < 0;
     }
     if (below) touched.push_back(v);
@@ -177,33 +144,6 @@ GaussTree ArcCaps(const std::vector<ConvexEdge>& edges) {
   return GaussTree(std::move(caps));
 }
 
-// e × (ω × g) · o, and n · (ω × o) where the apex turns too.
-template <typename Number>
-Number TurnedValue(const ConvexEdge& e, const ConvexEdge& g,
-                   const GridNormal& n, const GridPoint& o, bool of_q) {
-  std::array<Number, 3> turned;
-  for (int k = 0; k < 3; ++k) {
-    turned[k] = CrossComponent<Number>(kAxis, g.exact[0], k);
-  }
-  Number sum = of_q ? RotationValue<Number>(n, o) : Number(0);
-  for (int k = 0; k < 3; ++k) {
-    sum += CrossComponent<Number>(e.exact[0], turned, k) *
-           static_cast<Number>(o[k]);
-  }
-  return sum;
-}
-
-// First-order side of apex `o` of the plane spanned by e and the turned g; the
-// apex turns too when it belongs to Q.
-int TurnedSide(const ConvexEdge& e, const ConvexEdge& g, const GridNormal& n,
-               const GridPoint& o, bool of_q) {
-  const double value = TurnedValue<double>(e, g, n, o, of_q);
-  const double parts = e.rounded[0].lpNorm<1>() * g.rounded[0].lpNorm<1>() *
-                       ToDouble(o).lpNorm<1>();
-  if (std::abs(value) > kClearTerm * parts) return Sign(value);
-  return Sign(TurnedValue<Float128>(e, g, n, o, of_q));
-}
-
 // Side of the plane spanned by e and g on which all four apices lie, or 0.
 int CommonSide(const ConvexEdge& e, const ConvexEdge& g) {
   const Vector3d n = e.rounded[0].cross(g.rounded[0]);
@@ -230,8 +170,13 @@ int CommonSide(const ConvexEdge& e, const ConvexEdge& g) {
     const bool of_q = k >= 2;
     const GridPoint& apex = (of_q ? g : e).exact[1 + k % 2];
     int sign = Sign(Dot(exact, apex));
-    if (sign == 0) sign = TurnedSide(e, g, exact, apex, of_q);
-    if (sign == 0 || (common != 0 && sign != common)) return 0;
+    // (e × g)·o = g·(o × e) = e·(g × o): the other edge against the normal of
+    // the apex's facet, with P or Q turned.
+    if (sign == 0) {
+      sign = of_q ? -TurnedSign(Cross(g.exact[0], apex), e.exact[0])
+                  : TurnedSign(Cross(apex, e.exact[0]), g.exact[0]);
+    }
+    if (common != 0 && sign != common) return 0;
     common = sign;
   }
   return common;

@@ -30,8 +30,9 @@ struct Convolution {
 //   edge e ⊕ edge g     when both are strictly convex and their four other
 //                       apices lie on one side of the plane spanned by e, g.
 // Exact ties (parallel features) are decided as if Q had been turned about one
-// fixed generic axis by an infinitesimal angle: consistent for all three
-// kinds, so nothing is missed and parallel facets are not generated twice.
+// fixed axis by an infinitesimal angle (symbolic_turn.h): consistent for all
+// three kinds, so nothing is missed and parallel facets are not generated
+// twice.
 // Source of the conditions: Kaul & Rossignac; Lien, "Covering Minkowski sum
 // boundary", 2008.
 Convolution ReducedConvolution(const GridSolid& p, const GridSolid& q);

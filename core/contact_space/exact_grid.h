@@ -17,7 +17,6 @@ namespace phongpd::internal {
 inline constexpr int kGridBits = 38;
 
 __extension__ using Int128 = __int128;
-__extension__ using Float128 = __float128;
 
 using GridPoint = std::array<std::int64_t, 3>;
 using GridNormal = std::array<Int128, 3>;

@@ -104,6 +104,22 @@ LocatedPoint Locate(const PointDefinition& definition) {
   return {definition, Approximate(definition)};
 }
 
+Eigen::Vector3d WithExactIntegers(const LocatedPoint& point) {
+  Eigen::Vector3d x = point.approximate;
+  if (point.definition.kind == PointDefinition::kVertex) return x;
+  const Eigen::Vector3d nearest = x.array().round();
+  const auto may_be = [&](int k) {
+    return std::abs(x[k] - nearest[k]) <= kPointError;
+  };
+  if (!may_be(0) && !may_be(1) && !may_be(2)) return x;
+  const Homogeneous h = Evaluate(point.definition);
+  for (int k = 0; k < 3; ++k) {
+    const std::int64_t n = std::llround(nearest[k]);
+    if (may_be(k) && h.x[k] == h.w * n) x[k] = nearest[k];
+  }
+  return x;
+}
+
 int CompareCoordinate(const LocatedPoint& p, const LocatedPoint& q, int axis) {
   const double difference = p.approximate[axis] - q.approximate[axis];
   if (std::abs(difference) > 2 * kPointError) return Sign(difference);

@@ -72,6 +72,10 @@ struct LocatedPoint {
 };
 LocatedPoint Locate(const PointDefinition& definition);
 
+// The approximation, but with integer coordinates exactly where the point has
+// them.
+Eigen::Vector3d WithExactIntegers(const LocatedPoint& point);
+
 // Sign of p[axis] − q[axis]; exact.
 int CompareCoordinate(const LocatedPoint& p, const LocatedPoint& q, int axis);
 

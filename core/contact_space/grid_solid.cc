@@ -186,37 +186,14 @@ void BuildEdges(GridSolid* solid, const std::string& name) {
 
 }  // namespace
 
-GridFrame ChooseGridFrame(const TriangleMesh& robot,
-                          const TriangleMesh& obstacle) {
-  GridFrame frame;
-  double reach = 0.0;
-  for (const TriangleMesh* mesh : {&robot, &obstacle}) {
-    const BoundingBox box = ComputeBounds(*mesh);
-    Eigen::Vector3d& center =
-        mesh == &robot ? frame.robot_center : frame.obstacle_center;
-    center = box.Center();
-    reach = std::max(reach, (box.max - center).cwiseAbs().maxCoeff());
-    reach = std::max(reach, (box.min - center).cwiseAbs().maxCoeff());
-  }
-  int exponent = 0;
-  std::frexp(reach, &exponent);
-  frame.step = std::ldexp(1.0, exponent - kGridBits);
-  return frame;
-}
-
-GridSolid MakeGridSolid(const TriangleMesh& mesh, const Eigen::Vector3d& center,
-                        double step, bool reflect, const std::string& name) {
+GridSolid MakeGridSolid(const std::vector<GridPoint>& vertices,
+                        const std::vector<Triangle>& triangles, bool reflect,
+                        const std::string& name) {
   GridSolid solid;
-  solid.vertices.reserve(mesh.vertices.size());
-  for (const Eigen::Vector3d& v : mesh.vertices) {
-    GridPoint p;
-    for (int k = 0; k < 3; ++k) {
-      p[k] = std::llrint((v[k] - center[k]) / step) * (reflect ? -1 : 1);
-    }
-    solid.vertices.push_back(p);
-  }
-  solid.facets = mesh.triangles;
+  solid.vertices = vertices;
+  solid.facets = triangles;
   if (reflect) {
+    for (GridPoint& p : solid.vertices) p = GridPoint{0, 0, 0} - p;
     for (Triangle& t : solid.facets) std::swap(t[1], t[2]);
   }
   JoinCoincidentEnds(&solid.facets, solid.vertices);

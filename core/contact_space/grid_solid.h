@@ -9,22 +9,6 @@
 
 namespace phongpd::internal {
 
-// Places both operands on one integer grid.  Each operand is taken relative
-// to its own centre, so that neither loses bits to an offset:
-//   a = robot_center + step · i,   b = obstacle_center + step · j,
-//   q = b − a = origin + step · (j − i).
-struct GridFrame {
-  double step = 1.0;  // a power of two, user's unit
-  Eigen::Vector3d robot_center = Eigen::Vector3d::Zero();
-  Eigen::Vector3d obstacle_center = Eigen::Vector3d::Zero();
-
-  Eigen::Vector3d Origin() const { return obstacle_center - robot_center; }
-};
-
-// The finest grid with kGridBits bits for the larger operand.
-GridFrame ChooseGridFrame(const TriangleMesh& robot,
-                          const TriangleMesh& obstacle);
-
 // An edge a→b with the facets on both sides: `left` contains a→b and its
 // third vertex is `left_apex`; `right` contains b→a.
 struct GridEdge {
@@ -42,12 +26,14 @@ struct GridSolid {
   std::vector<std::vector<int>> neighbors;  // vertices joined by an edge
 };
 
-// Rounds a closed mesh to the grid; with `reflect` through the origin as well
-// (−A, facets turned).  Facets that the rounding makes degenerate are removed
-// without changing the surface: coincident ends are joined, and a facet whose
-// three corners are collinear gives its middle corner to its neighbour.
-// Throws InputError naming `name` when nothing or no closed surface is left.
-GridSolid MakeGridSolid(const TriangleMesh& mesh, const Eigen::Vector3d& center,
-                        double step, bool reflect, const std::string& name);
+// The closed mesh with these vertices; with `reflect` through the origin as
+// well (−A, facets turned).  Facets without area, which rounding to the grid
+// may leave, are removed without changing the surface: coincident ends are
+// joined, and a facet whose three corners are collinear gives its middle
+// corner to its neighbour.  Throws InputError naming `name` when nothing or no
+// closed surface is left.
+GridSolid MakeGridSolid(const std::vector<GridPoint>& vertices,
+                        const std::vector<Triangle>& triangles, bool reflect,
+                        const std::string& name);
 
 }  // namespace phongpd::internal

@@ -15,6 +15,9 @@ namespace {
 // Bits of an operand's diagonal on the grid: below the first the user is
 // told, below the second the rounded surface is looked at.
 constexpr double kEnoughBits = 24.0, kSafeBits = 30.0;
+// Coordinates beyond this many diagonals leave less than 24 bits of a double
+// to the operand itself.
+constexpr double kFarAway = 1e9;
 
 std::string Rounded(double value) {
   std::ostringstream stream;
@@ -40,6 +43,19 @@ std::string Sentence(const ApproximationStep& step) {
               : "; gaps and walls narrower than about twice that may vanish or "
                 "appear";
   return text;
+}
+
+void WarnIfFarAway(const TriangleMesh& solid, const std::string& name,
+                   ContactSpaceReport* report) {
+  const BoundingBox box = ComputeBounds(solid);
+  const double farthest =
+      box.min.cwiseAbs().cwiseMax(box.max.cwiseAbs()).maxCoeff();
+  if (!(farthest > kFarAway * box.Diagonal())) return;
+  report->warnings.push_back(
+      name + ": coordinates reach " + Rounded(farthest / box.Diagonal()) +
+      " times its diagonal, where doubles are " +
+      Rounded(std::ldexp(farthest, -52) / box.Diagonal()) +
+      " of it apart; move it nearer to the origin");
 }
 
 // Replaces *solid and reports it.
@@ -121,12 +137,14 @@ TriangleMesh PrepareOperand(const TriangleMesh& mesh, OperandRole role,
     Apply("decimation", Decimate(solid, options.target_faces), name, &solid,
           report);
   }
+  WarnIfFarAway(solid, name, report);
   return solid;
 }
 
 void CheckResolution(const GridSolid& solid, const TriangleMesh& mesh,
                      double step, const std::string& name,
                      ContactSpaceReport* report) {
+  if (step == 0.0) return;  // nothing was rounded
   const double bits = std::log2(ComputeBounds(mesh).Diagonal() / step);
   const std::size_t facets = mesh.triangles.size() - solid.facets.size();
   std::vector<bool> used(solid.vertices.size(), false);

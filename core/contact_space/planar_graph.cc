@@ -303,8 +303,10 @@ bool PlanarGraph::IsCloser(int e, int f, int vertex) const {
       std::abs(reach_e - reach_f) > error_e + error_f) {
     return reach_e > reach_f;
   }
-  // Edges of the graph do not cross: an end of one that lies beside the other
-  // tells.
+  // Edges of the graph share no more than an end, and both of these reach from
+  // the vertex's height or below to above it: the higher of their lower ends
+  // lies beside the other edge, or else they share it, and then the lower of
+  // their upper ends does.
   const auto right_of = [this](int vertex_of_other, int edge) {
     const Edge& x = edges_[edge];
     const int low = Compare(x.end[0], x.end[1], v_) < 0 ? 0 : 1;
@@ -322,7 +324,7 @@ bool PlanarGraph::IsCloser(int e, int f, int vertex) const {
     const int side = right_of(end, e);
     if (side != 0) return side < 0;
   }
-  return false;
+  throw std::logic_error("contact space: edges of a plane overlap");
 }
 
 // +1 when the vertex lies to the +u side of the (not horizontal) edge.

@@ -9,6 +9,7 @@
 #include <random>
 
 #include "core/contact_space/gauss_tree.h"
+#include "core/contact_space/grid_frame.h"
 #include "problems/shapes.h"
 #include "tests/support/solid_tools.h"
 
@@ -100,11 +101,11 @@ TEST(Convolution, HoldsExactlyThePairsThatTouch) {
     for (std::size_t j = 0; j < solids.size(); ++j) {
       const TriangleMesh robot = Turned(solids[i], &random);
       const TriangleMesh obstacle = Turned(solids[j], &random);
-      const GridFrame frame = ChooseGridFrame(robot, obstacle);
-      const GridSolid p = MakeGridSolid(obstacle, frame.obstacle_center,
-                                        frame.step, false, "obstacle");
+      const GridFrame frame = PlaceOnGrid(robot, obstacle);
+      const GridSolid p =
+          MakeGridSolid(frame.obstacle, obstacle.triangles, false, "obstacle");
       const GridSolid q =
-          MakeGridSolid(robot, frame.robot_center, frame.step, true, "robot");
+          MakeGridSolid(frame.robot, robot.triangles, true, "robot");
       const Counts expected = CountByDefinition(p, q);
       ASSERT_EQ(expected.ties, 0) << i << ' ' << j;
       std::map<ContactKind, int> found;

@@ -9,12 +9,12 @@
 
 #include <random>
 
-#include "core/contact_space/canonical_frame.h"
 #include "core/contact_space/cells.h"
 #include "core/contact_space/convolution.h"
 #include "core/contact_space/edge_rings.h"
 #include "core/contact_space/face_geometry.h"
 #include "core/contact_space/facet_intersections.h"
+#include "core/contact_space/grid_frame.h"
 #include "core/contact_space/patch_triangulation.h"
 #include "core/contact_space/plane_arrangement.h"
 #include "core/contact_space/solid_collision.h"
@@ -35,19 +35,13 @@ Kernel::FT ToExact(const internal::Wide& value) {
 
 // The stages of BuildContactSpace up to the arrangement.
 struct Stages {
-  explicit Stages(SolidPair pair) {
-    const internal::CanonicalFrame turned =
-        internal::ChooseCanonicalFrame(pair.robot, pair.obstacle);
-    if (turned.used) {
-      pair.robot = Rotated(pair.robot, turned.rotation);
-      pair.obstacle = Rotated(pair.obstacle, turned.rotation);
-    }
+  explicit Stages(const SolidPair& pair) {
     const internal::GridFrame frame =
-        internal::ChooseGridFrame(pair.robot, pair.obstacle);
-    p = internal::MakeGridSolid(pair.obstacle, frame.obstacle_center,
-                                frame.step, false, "obstacle");
-    q = internal::MakeGridSolid(pair.robot, frame.robot_center, frame.step,
-                                true, "robot");
+        internal::PlaceOnGrid(pair.robot, pair.obstacle);
+    p = internal::MakeGridSolid(frame.obstacle, pair.obstacle.triangles, false,
+                                "obstacle");
+    q = internal::MakeGridSolid(frame.robot, pair.robot.triangles, true,
+                                "robot");
     convolution = internal::ReducedConvolution(p, q);
     groups = internal::GroupByPlane(convolution);
     const internal::FacetIndex index(convolution);
