@@ -178,24 +178,27 @@ ContactSpace BuildContactSpace(const TriangleMesh& robot,
   StageClock clock(&report);
 
   using internal::OperandRole;
-  TriangleMesh a =
+  const TriangleMesh prepared_robot =
       internal::PrepareOperand(robot, OperandRole::kRobot, options, &report);
-  TriangleMesh b = internal::PrepareOperand(obstacle, OperandRole::kObstacle,
-                                            options, &report);
+  const TriangleMesh prepared_obstacle = internal::PrepareOperand(
+      obstacle, OperandRole::kObstacle, options, &report);
   clock.Finish("check");
 
-  const internal::CanonicalFrame turned = internal::ChooseCanonicalFrame(a, b);
+  const internal::CanonicalFrame turned =
+      internal::ChooseCanonicalFrame(prepared_robot, prepared_obstacle);
   report.canonical_frame = turned.used;
-  if (turned.used) {
-    a = Rotated(std::move(a), turned.rotation);
-    b = Rotated(std::move(b), turned.rotation);
-  }
+  const auto turn = [&turned](const TriangleMesh& mesh) {
+    return turned.used ? Rotated(mesh, turned.rotation) : mesh;
+  };
+  const TriangleMesh a = turn(prepared_robot), b = turn(prepared_obstacle);
   const internal::GridFrame frame = internal::ChooseGridFrame(a, b);
   report.grid_step = frame.step;
-  const internal::GridSolid p = internal::MakeGridSolid(
-      b, frame.obstacle_center, frame.step, false, options.obstacle_name);
-  const internal::GridSolid q = internal::MakeGridSolid(
-      a, frame.robot_center, frame.step, true, options.robot_name);
+  const internal::GridSolid p =
+      internal::MakeGridSolid(b, frame.obstacle_center, frame.step, false,
+                              options.obstacle_name, &prepared_obstacle);
+  const internal::GridSolid q =
+      internal::MakeGridSolid(a, frame.robot_center, frame.step, true,
+                              options.robot_name, &prepared_robot);
   internal::CheckResolution(p, b, frame.step, options.obstacle_name, &report);
   internal::CheckResolution(q, a, frame.step, options.robot_name, &report);
   const internal::Convolution convolution = internal::ReducedConvolution(p, q);

@@ -46,8 +46,11 @@ struct GridSolid {
 // (−A, facets turned).  Facets that the rounding makes degenerate are removed
 // without changing the surface: coincident ends are joined, and a facet whose
 // three corners are collinear gives its middle corner to its neighbour.
-// Throws InputError naming `name` when nothing or no closed surface is left.
+// What rounding does beyond that is mended (grid_repair.h).
+// Throws InputError naming `name` when no solid is left; places are said in
+// the user's frame, where the mesh is `in_user_frame` if not null.
 GridSolid MakeGridSolid(const TriangleMesh& mesh, const Eigen::Vector3d& center,
-                        double step, bool reflect, const std::string& name);
+                        double step, bool reflect, const std::string& name,
+                        const TriangleMesh* in_user_frame = nullptr);
 
 }  // namespace phongpd::internal

@@ -25,8 +25,7 @@ TriangleMesh PrepareOperand(const TriangleMesh& mesh, OperandRole role,
 void AddStep(const ApproximationStep& step, Approximation* approximation);
 
 // Says when the grid, 2^-38 of the larger operand, is coarse for this one:
-// facets that collapsed, fewer than 24 bits.  Throws InputError when the
-// rounded surface crosses itself and is no solid any more.
+// facets that collapsed, fewer than 24 bits.
 void CheckResolution(const GridSolid& solid, const TriangleMesh& mesh,
                      double step, const std::string& name,
                      ContactSpaceReport* report);
