@@ -4,10 +4,12 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numeric>
+#include <tuple>
 #include <utility>
 
+#include "core/contact_space/grid_repair.h"
 #include "core/mesh/mesh_error.h"
+#include "core/mesh/union_find.h"
 
 namespace phongpd::internal {
 namespace {
@@ -20,40 +22,37 @@ GridNormal FacetNormal(const std::vector<GridPoint>& vertices,
                vertices[t[2]] - vertices[t[0]]);
 }
 
-// Joins the ends of edges whose ends fell onto one grid point, and drops the
-// facets that collapse with them.
+// Joins the ends of edges whose ends fell onto one grid point, the lower index
+// staying, and drops the facets that collapse with them; appends these to
+// *lost.
 void JoinCoincidentEnds(std::vector<Triangle>* facets,
-                        const std::vector<GridPoint>& vertices) {
-  std::vector<int> root(vertices.size());
-  std::iota(root.begin(), root.end(), 0);
-  const auto find = [&root](int v) {
-    while (root[v] != v) v = root[v] = root[root[v]];
-    return v;
-  };
+                        const std::vector<GridPoint>& vertices,
+                        std::vector<Triangle>* lost) {
+  UnionFind ends(vertices.size());
   for (const Triangle& t : *facets) {
     for (int k = 0; k < 3; ++k) {
       const int a = t[k], b = t[(k + 1) % 3];
-      if (vertices[a] == vertices[b]) {
-        const auto [low, high] = std::minmax(find(a), find(b));
-        root[high] = low;
-      }
+      if (vertices[a] == vertices[b]) ends.Join(a, b);
     }
   }
   std::vector<Triangle> kept;
   kept.reserve(facets->size());
   for (const Triangle& t : *facets) {
-    const Triangle u = {find(t[0]), find(t[1]), find(t[2])};
-    if (u[0] != u[1] && u[1] != u[2] && u[2] != u[0]) kept.push_back(u);
+    const Triangle u = {ends.Find(t[0]), ends.Find(t[1]), ends.Find(t[2])};
+    const bool is_collapsed = u[0] == u[1] || u[1] == u[2] || u[2] == u[0];
+    (is_collapsed ? *lost : kept).push_back(u);
   }
   *facets = std::move(kept);
 }
 
 // Gives the middle corner of every collinear facet to the neighbour across its
 // longest edge: (a,b,c) with b between a and c, and (a,c,d), become (a,b,d)
-// and (b,c,d).  The surface stays the same point set.
+// and (b,c,d).  The surface stays the same point set, but for flat pockets
+// without an edge to anything else, which are appended to *lost.
 void DissolveCollinearFacets(std::vector<Triangle>* facets,
                              const std::vector<GridPoint>& vertices,
-                             const std::string& name) {
+                             const std::string& name,
+                             std::vector<Triangle>* lost) {
   const auto is_flat = [&](const Triangle& t) {
     return IsZero(FacetNormal(vertices, t));
   };
@@ -121,6 +120,7 @@ void DissolveCollinearFacets(std::vector<Triangle>* facets,
     detach(g);
     if (d == b) {  // The pair is a flat pocket: it vanishes.
       alive[f] = alive[g] = 0;
+      lost->push_back(t);
       continue;
     }
     (*facets)[f] = {a, b, d};
@@ -188,7 +188,8 @@ void BuildEdges(GridSolid* solid, const std::string& name) {
 
 GridSolid MakeGridSolid(const std::vector<GridPoint>& vertices,
                         const std::vector<Triangle>& triangles, bool reflect,
-                        const std::string& name) {
+                        const std::string& name,
+                        const TriangleMesh* rounded_from, double step) {
   GridSolid solid;
   solid.vertices = vertices;
   solid.facets = triangles;
@@ -196,8 +197,13 @@ GridSolid MakeGridSolid(const std::vector<GridPoint>& vertices,
     for (GridPoint& p : solid.vertices) p = GridPoint{0, 0, 0} - p;
     for (Triangle& t : solid.facets) std::swap(t[1], t[2]);
   }
-  JoinCoincidentEnds(&solid.facets, solid.vertices);
-  DissolveCollinearFacets(&solid.facets, solid.vertices, name);
+  std::vector<Triangle> lost;
+  JoinCoincidentEnds(&solid.facets, solid.vertices, &lost);
+  DissolveCollinearFacets(&solid.facets, solid.vertices, name, &lost);
+  // A solid that rounding did not touch is one still.
+  if (!solid.facets.empty() && rounded_from != nullptr) {
+    MendRounding({*rounded_from, step, reflect, name}, std::move(lost), &solid);
+  }
   if (solid.facets.empty()) {
     throw InputError(name +
                      ": expected a solid, found nothing thicker than "

@@ -30,10 +30,14 @@ struct GridSolid {
 // well (−A, facets turned).  Facets without area, which rounding to the grid
 // may leave, are removed without changing the surface: coincident ends are
 // joined, and a facet whose three corners are collinear gives its middle
-// corner to its neighbour.  Throws InputError naming `name` when nothing or no
-// closed surface is left.
+// corner to its neighbour.  What rounding does beyond that is mended
+// (grid_repair.h) if the vertices were rounded, to steps of `step`, from those
+// of `rounded_from`; null: they are exact.  Throws InputError naming `name`
+// when no solid is left; places are those of `rounded_from`.
 GridSolid MakeGridSolid(const std::vector<GridPoint>& vertices,
                         const std::vector<Triangle>& triangles, bool reflect,
-                        const std::string& name);
+                        const std::string& name,
+                        const TriangleMesh* rounded_from = nullptr,
+                        double step = 0.0);
 
 }  // namespace phongpd::internal

@@ -7,14 +7,12 @@
 #include <utility>
 
 #include "core/mesh/mesh_approximation.h"
-#include "core/mesh/self_intersection.h"
 
 namespace phongpd::internal {
 namespace {
 
-// Bits of an operand's diagonal on the grid: below the first the user is
-// told, below the second the rounded surface is looked at.
-constexpr double kEnoughBits = 24.0, kSafeBits = 30.0;
+// Bits of an operand's diagonal on the grid below which the user is told.
+constexpr double kEnoughBits = 24.0;
 // Coordinates beyond this many diagonals leave less than 24 bits of a double
 // to the operand itself.
 constexpr double kFarAway = 1e9;
@@ -175,21 +173,6 @@ void CheckResolution(const GridSolid& solid, const TriangleMesh& mesh,
     }
     report->warnings.push_back(line);
   }
-  if (facets == 0 && bits >= kSafeBits) return;
-  TriangleMesh rounded;
-  for (const GridPoint& v : solid.vertices) {
-    rounded.vertices.push_back(ToDouble(v));
-  }
-  rounded.triangles = solid.facets;
-  int components = 0;
-  const std::size_t pairs =
-      CountSelfIntersections(rounded, LabelComponents(rounded, &components));
-  if (pairs == 0) return;
-  throw InputError(name + ": too fine for the grid of " + Rounded(step) +
-                   " (2^-38 of the larger operand); expected a solid after " +
-                   "rounding, found " + std::to_string(pairs) +
-                   " pairs of triangles that meet; remove its small details "
-                   "or make the operands more alike in size");
 }
 
 }  // namespace phongpd::internal

@@ -25,9 +25,8 @@ TriangleMesh PrepareOperand(const TriangleMesh& mesh, OperandRole role,
 void AddStep(const ApproximationStep& step, Approximation* approximation);
 
 // Says when rounding by up to `step`, 2^-38 of the larger operand, is coarse
-// for this one: facets that collapsed, fewer than 24 bits.  Throws InputError
-// when the rounded surface crosses itself and is no solid any more.  Nothing
-// to say when step is 0.
+// for this one: facets that collapsed, fewer than 24 bits.  Nothing to say when
+// step is 0.
 void CheckResolution(const GridSolid& solid, const TriangleMesh& mesh,
                      double step, const std::string& name,
                      ContactSpaceReport* report);

@@ -9,10 +9,9 @@
 #include <CGAL/box_intersection_d.h>
 #include <CGAL/intersections.h>
 #include <tbb/blocked_range.h>
-#include <tbb/parallel_reduce.h>
+#include <tbb/parallel_for.h>
 
 #include <array>
-#include <functional>
 #include <utility>
 
 namespace phongpd::internal {
@@ -137,25 +136,33 @@ bool IsDegenerate(const TriangleMesh& mesh, const Triangle& triangle) {
   return CGAL::collinear(c[0], c[1], c[2]);
 }
 
+bool MeetProperly(const TriangleMesh& mesh, std::size_t s, std::size_t t) {
+  return MeetProperly(CornersOf(mesh, mesh.triangles[s]),
+                      CornersOf(mesh, mesh.triangles[t]));
+}
+
 std::size_t CountSelfIntersections(const TriangleMesh& mesh,
-                                   const std::vector<int>& labels) {
+                                   const std::vector<int>& labels,
+                                   std::size_t limit,
+                                   std::vector<TrianglePair>* pairs) {
   std::vector<Box> boxes =
       BoxesOf(mesh, ProperTriangles(mesh, ComputeBounds(mesh)));
   // Pairs are judged in parallel, in batches that bound the memory.
-  std::vector<std::pair<std::size_t, std::size_t>> batch;
+  std::vector<TrianglePair> batch;
   std::size_t count = 0;
   const auto judge = [&] {
-    count += tbb::parallel_reduce(
-        tbb::blocked_range<std::size_t>(0, batch.size(), 256), std::size_t{0},
-        [&](const tbb::blocked_range<std::size_t>& range, std::size_t sum) {
+    std::vector<char> is_meeting(batch.size());
+    tbb::parallel_for(
+        tbb::blocked_range<std::size_t>(0, batch.size(), 256),
+        [&](const tbb::blocked_range<std::size_t>& range) {
           for (std::size_t i = range.begin(); i < range.end(); ++i) {
-            const auto& [s, t] = batch[i];
-            sum += MeetProperly(CornersOf(mesh, mesh.triangles[s]),
-                                CornersOf(mesh, mesh.triangles[t]));
+            is_meeting[i] = MeetProperly(mesh, batch[i].first, batch[i].second);
           }
-          return sum;
-        },
-        std::plus<>());
+        });
+    for (std::size_t i = 0; i < batch.size(); ++i) {
+      if (!is_meeting[i]) continue;
+      if (count++ < limit) pairs->push_back(batch[i]);
+    }
     batch.clear();
   };
   CGAL::box_self_intersection_d(boxes.begin(), boxes.end(),

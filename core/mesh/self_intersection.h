@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 #include "core/mesh/triangle_mesh.h"
@@ -18,9 +19,16 @@ namespace phongpd::internal {
 // Corners with identical coordinates or on one line.
 bool IsDegenerate(const TriangleMesh& mesh, const Triangle& triangle);
 
-// Pairs of triangles with equal labels that meet properly.
+// Whether two triangles of the mesh, both with an area, meet properly.
+bool MeetProperly(const TriangleMesh& mesh, std::size_t s, std::size_t t);
+
+// Pairs of triangles with equal labels that meet properly: how many.  The
+// first `limit` of them are appended to *pairs, which may be null.
+using TrianglePair = std::pair<std::size_t, std::size_t>;
 std::size_t CountSelfIntersections(const TriangleMesh& mesh,
-                                   const std::vector<int>& labels);
+                                   const std::vector<int>& labels,
+                                   std::size_t limit = 0,
+                                   std::vector<TrianglePair>* pairs = nullptr);
 
 // Whether a triangle of `a` meets one of `b` properly.
 bool Intersect(const TriangleMesh& a, const TriangleMesh& b);

@@ -26,22 +26,6 @@ struct Shell {
   std::vector<int> enclosers;  // shells around it
 };
 
-// Solid angle of the shell seen from `p` by its turns, ±1 inside, 0 outside,
-// fractions on the surface (van Oosterom and Strackee 1983).
-double Turns(const TriangleMesh& shell, const Vector3d& p) {
-  double half_angles = 0.0;
-  for (const auto& [i, j, k] : shell.triangles) {
-    const Vector3d a = shell.vertices[i] - p;
-    const Vector3d b = shell.vertices[j] - p;
-    const Vector3d c = shell.vertices[k] - p;
-    const double la = a.norm(), lb = b.norm(), lc = c.norm();
-    half_angles +=
-        std::atan2(a.dot(b.cross(c)), la * lb * lc + a.dot(b) * lc +
-                                          b.dot(c) * la + c.dot(a) * lb);
-  }
-  return half_angles / (2.0 * kPi);
-}
-
 // Whether `inner` is inside `outer`, for shells that do not cross: the first
 // of its corners that is not on `outer` tells.
 bool IsInside(const TriangleMesh& inner, const TriangleMesh& outer) {
@@ -117,6 +101,20 @@ void FindEnclosers(std::vector<Shell>* shells) {
 }
 
 }  // namespace
+
+double Turns(const TriangleMesh& mesh, const Vector3d& p) {
+  double half_angles = 0.0;
+  for (const auto& [i, j, k] : mesh.triangles) {
+    const Vector3d a = mesh.vertices[i] - p;
+    const Vector3d b = mesh.vertices[j] - p;
+    const Vector3d c = mesh.vertices[k] - p;
+    const double la = a.norm(), lb = b.norm(), lc = c.norm();
+    half_angles +=
+        std::atan2(a.dot(b.cross(c)), la * lb * lc + a.dot(b) * lc +
+                                          b.dot(c) * la + c.dot(a) * lb);
+  }
+  return half_angles / (2.0 * kPi);
+}
 
 std::vector<int> LabelShells(const TriangleMesh& mesh, int* count) {
   return LabelShells(TriangleNeighbors(mesh), count);

@@ -17,6 +17,10 @@ std::vector<int> LabelShells(const TriangleMesh& mesh, int* count);
 std::vector<int> LabelShells(const std::vector<std::array<int, 3>>& neighbors,
                              int* count);
 
+// Solid angle of a closed mesh seen from `p` by its turns, ±1 inside a shell,
+// 0 outside, fractions on the surface (van Oosterom and Strackee 1983).
+double Turns(const TriangleMesh& mesh, const Eigen::Vector3d& p);
+
 // Turns shells so that the mesh bounds a volume outward, and returns how many
 // it turned.  Shell j encloses shell i when they do not cross and i is inside
 // j, whatever their directions.
