@@ -170,7 +170,7 @@ check_fuzz() {
     say "fuzz: NOT RUN, THERE IS NO scripts/fuzz.sh"
     return
   fi
-  scripts/fuzz.sh "$(if whole; then echo 300; else echo 30; fi)"
+  scripts/fuzz.sh "$(if whole; then echo 300; else echo 30; fi)s"
 }
 
 # Of the library alone, not of the program and the tests themselves.
