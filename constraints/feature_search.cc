@@ -9,6 +9,7 @@
 
 #include "core/mesh/scaled_triangles.h"
 #include "core/mesh/surface_tree.h"
+#include "core/mesh/unit_normal.h"
 
 namespace phongpd {
 
@@ -71,7 +72,7 @@ bool FeatureSearch::Direction(const Corners& corners, const Vector3d& lambda,
     *direction =
         (corners[1] - corners[0]).cross(Vector3d(corners[2] - corners[0]));
   }
-  direction->stableNormalize();
+  *direction = Unit(*direction);
   return direction->squaredNorm() > 0.5;
 }
 

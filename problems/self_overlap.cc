@@ -44,6 +44,10 @@ class Directions {
     least_ = std::min(least_, static_cast<double>(overlap / length));
   }
 
+  void TryAcross(const Wide& edge) {
+    if (edge.norm() > 0) Try(edge.unitOrthogonal());
+  }
+
   double least() const { return least_; }
 
  private:
@@ -62,8 +66,8 @@ double OverlapDepth(const Corners& a, const Corners& b) {
   for (int i = 0; i < 3; ++i) {
     // Triangles that rounding made segments have no normal, and segments that
     // are almost parallel no product: any direction across them will do.
-    directions.Try(directions.EdgeOfA(i).unitOrthogonal());
-    directions.Try(directions.EdgeOfB(i).unitOrthogonal());
+    directions.TryAcross(directions.EdgeOfA(i));
+    directions.TryAcross(directions.EdgeOfB(i));
     directions.Try(normal_a.cross(directions.EdgeOfA(i)));
     directions.Try(normal_b.cross(directions.EdgeOfB(i)));
     for (int j = 0; j < 3; ++j) {

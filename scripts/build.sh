@@ -1,12 +1,13 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
 # build.sh [TARGET...]: sets up, configures build/ and builds the targets
-# (everything when none is named).
+# (everything when none is named).  Another preset than release by PRESET=NAME.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
+preset=${PRESET:-release}
 scripts/setup.sh
-cmake --preset release
+cmake --preset "$preset"
 
 # A translation unit that includes CGAL takes up to 1.5 GiB to compile.
 jobs=$(nproc)
@@ -16,4 +17,4 @@ memory=$(awk '/MemAvailable/ { print int($2 / 1572864) }' /proc/meminfo)
 
 targets=()
 [[ $# -eq 0 ]] || targets=(--target "$@")
-cmake --build --preset release --parallel "$jobs" "${targets[@]}"
+cmake --build --preset "$preset" --parallel "$jobs" "${targets[@]}"

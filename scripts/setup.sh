@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Installs the Debian packages PhongPD is built from, only those missing.
-# Needs the network only then; everything else works offline.
+# setup.sh [PACKAGE...]: installs the Debian packages PhongPD is built from and
+# the named ones, only those missing.  Needs the network only then; everything
+# else works offline.
 set -euo pipefail
 
 # Ipopt's package names blas and lapack to the linker without bringing them.
@@ -9,7 +10,7 @@ packages=(
   g++ cmake make pkg-config libeigen3-dev libcgal-dev libgmp-dev libmpfr-dev
   libtbb-dev libfcl-dev libgtest-dev librapidcheck-dev libcli11-dev
   nlohmann-json3-dev coinor-libipopt-dev libblas-dev liblapack-dev libompl-dev
-  libboost-serialization-dev libboost-filesystem-dev gnuplot-nox
+  libboost-serialization-dev libboost-filesystem-dev gnuplot-nox "$@"
 )
 
 missing=()

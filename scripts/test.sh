@@ -7,4 +7,4 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 export PHONGPD_CACHE_DIR=$PWD/build/cache
 
 scripts/build.sh
-ctest --preset release --parallel 2
+ctest --preset release --parallel 2 --output-log build/tests.log

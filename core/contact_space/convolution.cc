@@ -13,7 +13,6 @@
 #include <utility>
 
 #include "core/contact_space/gauss_tree.h"
-
 #include "core/contact_space/symbolic_turn.h"
 
 namespace phongpd::internal {

@@ -4,6 +4,8 @@
 #include <Eigen/Geometry>
 #include <utility>
 
+#include "core/mesh/unit_normal.h"
+
 namespace phongpd::internal {
 namespace {
 
@@ -29,7 +31,7 @@ PatchPlane::PatchPlane(const std::vector<Vector3d>& corners) {
   u_ = (axis + 1) % 3;
   v_ = (axis + 2) % 3;
   if (normal_[axis] < 0.0) std::swap(u_, v_);
-  normal_.stableNormalize();
+  normal_ = Unit(normal_);
 
   origin_ = Farthest(corners, corners.front());
   e1_ = Farthest(corners, origin_) - origin_;

@@ -292,6 +292,7 @@ bool PlanarGraph::IsCloser(int e, int f, int vertex) const {
   // almost level edge.
   const auto reach = [&](int edge) -> std::pair<double, double> {
     const Vector2d a = Flat(edges_[edge].end[0]), b = Flat(edges_[edge].end[1]);
+    if (a[1] == b[1]) return {a[0], std::numeric_limits<double>::infinity()};
     const double slope = (b[0] - a[0]) / (b[1] - a[1]);
     return {a[0] + slope * (height - a[1]),
             8 * kPointError * (1 + std::abs(slope))};

@@ -93,7 +93,7 @@ Faces WithoutCopies(const Faces& faces, const std::vector<int>& first,
 
 // Removes copies and faces without area from one part.
 Faces CleanPart(const TriangleMesh& mesh, const std::vector<int>& first,
-                Faces faces, RepairReport* report) {
+                const Faces& faces, RepairReport* report) {
   std::size_t bad = LeastUnpairedEdges(faces, first);
   RepairReport best = *report;
   Faces chosen = faces;

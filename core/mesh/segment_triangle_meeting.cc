@@ -18,9 +18,10 @@ int Side(const Vector3d& a, const Vector3d& b, const Vector3d& c,
   return Orient3d(a.data(), b.data(), c.data(), d.data());
 }
 
-// x / (x − y) of two values of opposite sign or zero, in [0, 1].
+// x / (x − y) of two values of opposite sign or zero, in [0, 1]; 0 where
+// rounding left both the same.
 double Share(double x, double y) {
-  const double share = x / (x - y);
+  const double share = x == y ? 0.0 : x / (x - y);
   return share >= 0.0 && share <= 1.0 ? share : (share > 1.0 ? 1.0 : 0.0);
 }
 

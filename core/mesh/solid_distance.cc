@@ -19,8 +19,6 @@ using internal::DistanceTarget;
 using internal::FarthestPoint;
 using internal::Piece;
 
-constexpr double kRounding = 1e-14;  // of the diagonal
-
 // The frame all distances are taken in: coordinates of the size of one.
 struct Frame {
   Vector3d center = Vector3d::Zero();

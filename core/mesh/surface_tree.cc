@@ -51,9 +51,10 @@ void OfferSliver(const Vector3d& a, const Vector3d& b, const Vector3d& c,
   const double along_apex = to_apex.dot(e) / squared;
   const double along_x = to_x.dot(e) / squared;
   const Vector3d height = to_apex - along_apex * e;
-  const double across = (to_x - along_x * e).dot(height) / height.squaredNorm();
+  const double tall = height.squaredNorm();
+  if (!(tall > 0.0)) return;
+  const double across = (to_x - along_x * e).dot(height) / tall;
   const double along = along_x - across * along_apex;
-  // Not a number when the height is zero: no.
   if (!(across >= 0.0 && along >= 0.0 && across + along <= 1.0)) return;
   best->squared_distance = (to_x - along * e - across * to_apex).squaredNorm();
   best->lambda[i] = std::max(0.0, 1.0 - across - along);

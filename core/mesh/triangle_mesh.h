@@ -5,6 +5,12 @@
 #include <array>
 #include <vector>
 
+// Proofs by rounding errors, signed zeros and NaN checks are void under it.
+#if defined(__FAST_MATH__) || \
+    (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__)
+#error "PhongPD needs IEEE arithmetic: compile without -ffast-math"
+#endif
+
 namespace phongpd {
 
 // Three vertex indices, counter-clockwise seen from outside the solid.

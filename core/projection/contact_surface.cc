@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/mesh/mesh_error.h"
+#include "core/mesh/unit_normal.h"
 
 namespace phongpd {
 
@@ -91,7 +92,7 @@ ContactSurface::ContactSurface(const TriangleMesh& mesh) : mesh_(mesh) {
     const Vector3d n = l1 >= l2 && l1 >= l3   ? e3.cross(Vector3d(-e2))
                        : l2 >= l1 && l2 >= l3 ? e1.cross(e3)
                                               : e1.cross(e2);
-    facet_normals_.push_back(n.stableNormalized());
+    facet_normals_.push_back(Unit(n));
   }
 }
 
@@ -118,9 +119,8 @@ PenetrationResult ContactSurface::Answer(const Vector3d& q_o,
   const Vector3d& normal = facet_normals_[closest.triangle];
   const bool in_facet = closest.lambda.minCoeff() > 0.0;
   const bool at_contact = distance * tree_.scale() <= 1e-12;
-  Vector3d direction = result.inside ? Vector3d(result.contact - q_o)
-                                     : Vector3d(q_o - result.contact);
-  direction.stableNormalize();
+  Vector3d direction = Unit(result.inside ? Vector3d(result.contact - q_o)
+                                          : Vector3d(q_o - result.contact));
   if ((in_facet || at_contact) && normal.squaredNorm() > 0.0) {
     // A foot inside the facet, but not the facet's side q_o is on: rounding
     // in a sliver; the difference is the better answer there.

@@ -95,6 +95,7 @@ Vector3d BestNormal(const std::vector<Vector3d>& facets) {
         support = &facet;
       }
     }
+    // NOLINTNEXTLINE(clang-analyzer-core.NonNullParamChecker): not all are zero
     if (v.squaredNorm() - v.dot(*support) <= kImprovement) break;
     if (simplex.size == 4) break;  // the simplex holds the origin
     simplex.point[simplex.size++] = *support;

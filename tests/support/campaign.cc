@@ -19,10 +19,10 @@ long CampaignCases(long brief, long whole) {
 void ReportCampaign(const CampaignRow& row) {
   if (!IsLongCampaign()) return;
   const nlohmann::ordered_json line = {
-      {"item", row.item},         {"subject", row.subject},
-      {"cases", row.cases},       {"failures", row.failures},
-      {"worst", row.worst},       {"bound", row.bound},
-      {"unit", row.unit},         {"seed", row.seed},
+      {"item", row.item},   {"subject", row.subject},
+      {"cases", row.cases}, {"failures", row.failures},
+      {"worst", row.worst}, {"bound", row.bound},
+      {"unit", row.unit},   {"seed", row.seed},
   };
   std::cout << "CAMPAIGN " << line.dump() << std::endl;
 }

@@ -284,8 +284,8 @@ TEST(ContactRoadmap, AnswersAtTheLimitsOfFreeSpace) {
 
 TEST(ContactRoadmap, JoinsIslandsSideBySideThroughTheOutside) {
   // No ray leads from one to the other; start and goal touch either.
-  const TriangleMesh mesh = Joined(MakeBox({0, 0, 0}, {1, 1, 1}),
-                                   MakeBox({9, -7, 0}, {10, -6, 1}));
+  const TriangleMesh mesh =
+      Joined(MakeBox({0, 0, 0}, {1, 1, 1}), MakeBox({9, -7, 0}, {10, -6, 1}));
   const ContactRoadmap roadmap(mesh);
   const PlanResult result =
       roadmap.Plan({-0.001, 0.5, 0.5}, {10.001, -6.5, 0.5});

@@ -160,8 +160,8 @@ TEST(ContactSurfacePlanner, ProvesThatNothingLeavesAVessel) {
 
 TEST(ContactSurfacePlanner, JoinsIslandsSideBySideThroughTheOutside) {
   // No ray leads from one to the other; start and goal touch either.
-  const TriangleMesh mesh = Joined(MakeBox({0, 0, 0}, {1, 1, 1}),
-                                   MakeBox({9, -7, 0}, {10, -6, 1}));
+  const TriangleMesh mesh =
+      Joined(MakeBox({0, 0, 0}, {1, 1, 1}), MakeBox({9, -7, 0}, {10, -6, 1}));
   const ContactSurfacePlanner planner(mesh);
   const PlanResult result =
       planner.Plan({-0.001, 0.5, 0.5}, {10.001, -6.5, 0.5});

@@ -63,7 +63,8 @@ struct Setup {
 template <typename T>
 class RetractionPlanners : public ::testing::Test {};
 using Planners = ::testing::Types<RetractionRRT, RetractionForest>;
-TYPED_TEST_SUITE(RetractionPlanners, Planners);
+// The comma: clang wants every variadic argument there.
+TYPED_TEST_SUITE(RetractionPlanners, Planners, );
 
 TYPED_TEST(RetractionPlanners, SolveNarrowPassagesWithFreePaths) {
   for (const char* family :

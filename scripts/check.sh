@@ -1,0 +1,234 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
+# check.sh [quick|full|SECTION...]: what the tests do not see.  quick is what CI
+# runs after them, full takes everything; a section named by itself is the whole
+# of it unless SLICE=quick.  Installs the tools it needs, only those missing.
+#   format       clang-format over every source
+#   options      every switch configures
+#   clang        clang compiles the tree, warnings as errors
+#   cppcheck     no report but those .cppcheck-suppressions explains
+#   tidy         clang-tidy, by .clang-tidy
+#   fptrap       tests with invalid floating-point operations trapped
+#   determinism  the same bytes again, with one thread and two, by gcc and clang
+#   tsan         tests with TBB's loops on plain threads, thread sanitizer
+#   fuzz         scripts/fuzz.sh for a while
+#   coverage     lines and branches, to results/extremes/coverage.md
+#   asan         tests with address and undefined-behaviour sanitizers
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+# The user's own cache is neither used nor filled.
+export PHONGPD_CACHE_DIR=$PWD/build/cache
+
+readonly all=(format options clang cppcheck tidy fptrap determinism tsan fuzz
+  coverage asan)
+# Not tsan and coverage: each compiles the library once more.
+readonly quick=(format options clang cppcheck tidy fptrap determinism fuzz asan)
+readonly folders=(core constraints planners problems)
+# Whole test programs that reach every folder below the program and build fast.
+readonly slice=(
+  collision_oracle_test non_penetration_test signed_metric_test
+  contact_space_test contact_space_cache_test zero_edges_test
+  inside_test_test mesh_check_test mesh_io_refusal_test mesh_io_test
+  mesh_repair_test segment_tree_test triangle_mesh_test
+  branch_walk_test cubic_test euclidean_metric_test normal_field_test
+  phong_field_test phong_metric_test query_cost_test tangent_plane_field_test
+  contact_roadmap_test contact_surface_planner_test free_cells_test
+  free_space_test start_repair_test workspace_test
+  motion_graph_test retraction_test scene_errors_test
+)
+# Those whose code under test runs in several threads.
+readonly threaded=(
+  contact_space_test exact_surface_test mesh_approximation_test query_cost_test
+  self_intersection_test contact_roadmap_test contact_surface_planner_test
+)
+
+say() { printf 'check: %s\n' "$*"; }
+whole() { [[ $SLICE == full ]]; }
+sources() { find "${folders[@]}" tests results -name '*.h' -o -name '*.cc'; }
+
+# Runs the tests that are built there: those outside the slice are not.
+run_tests() { # PRESET
+  ctest --preset "$1" --parallel 2 --no-tests=error \
+    -E '_NOT_BUILT|^Layering$|^InstalledPackage$|^Refuses_'
+}
+
+build_tests() { # PRESET PROGRAMS...: everything in full
+  local programs=("${@:2}")
+  if whole; then programs=(); fi
+  PRESET=$1 scripts/build.sh "${programs[@]}"
+}
+
+# Compiler commands of the folders named, one a line, from build-clang/.
+compile_commands() { # FOLDER...
+  scripts/setup.sh clang
+  cmake --preset clang >/dev/null
+  local pattern
+  pattern=$(IFS='|' && echo "$*")
+  sed -n 's/^  "command": "\(.*\)",$/\1/p' build-clang/compile_commands.json |
+    sed 's/\\"/"/g; s/\\\\/\\/g' | grep -E " $PWD/(build-clang/)?($pattern)/"
+}
+
+check_format() {
+  scripts/setup.sh clang-format
+  sources | xargs clang-format --dry-run -Werror
+}
+
+check_options() {
+  local log=build/check/options.log
+  configures() { # MESSAGE OPTION...
+    say "options ${*:2}"
+    rm -rf build/check/options
+    cmake -S . -B build/check/options "${@:2}" >"$log" 2>&1 &&
+      grep -q -- "$1" "$log" || { cat "$log"; return 1; }
+  }
+  configures "Generating done" -DPHONGPD_BUILD_PROBLEMS=OFF
+  configures "Generating done" -DPHONGPD_BUILD_TESTS=OFF \
+    -DPHONGPD_BUILD_RESULTS=OFF
+  configures "need the component ompl" -DPHONGPD_BUILD_OMPL=OFF
+  configures "need the component ompl" -DCMAKE_DISABLE_FIND_PACKAGE_ompl=ON
+  PKG_CONFIG_LIBDIR=/nonexistent configures "need the component ipopt"
+}
+
+# The front end only: all of its diagnostics, in half the time.  full builds.
+check_clang() {
+  scripts/setup.sh clang
+  if whole; then PRESET=clang scripts/build.sh; return; fi
+  compile_commands "${folders[@]}" tests results |
+    sed 's/ -o [^ ]* -c / -fsyntax-only -c /' >build/check/clang.commands
+  local count
+  count=$(wc -l <build/check/clang.commands)
+  say "clang: $count sources"
+  # One line each $((count / 10)) sources tells that it moves.
+  awk -v every=$((count / 10)) '{ print }
+    NR % every == 0 { print "echo check: clang: " NR " sources" }' \
+    build/check/clang.commands |
+    (cd build-clang && tr '\n' '\0' |
+      xargs -0 -n 1 -P "$(nproc)" bash -c)
+}
+
+check_cppcheck() {
+  scripts/setup.sh cppcheck
+  cppcheck --std=c++17 --language=c++ --quiet --error-exitcode=1 -I . \
+    --enable=warning,performance,portability \
+    --suppressions-list=.cppcheck-suppressions "${folders[@]}" results
+}
+
+check_tidy() {
+  scripts/setup.sh clang clang-tidy
+  local part=(core constraints planners problems) files
+  if ! whole; then part=(core/mesh core/projection constraints); fi
+  files=$(compile_commands "${part[@]}" | sed 's/.* //' | grep -v build-clang)
+  # Those that include CGAL take minutes each: only in full.
+  if ! whole; then files=$(xargs grep -L '<CGAL/' <<<"$files"); fi
+  say "tidy: $(wc -w <<<"$files") sources"
+  # The count of what it left out in system headers is no news.
+  xargs -n 4 -P "$(nproc)" clang-tidy -p build-clang --quiet <<<"$files" \
+    2>build/check/tidy.errors || { cat build/check/tidy.errors; return 1; }
+}
+
+check_fptrap() {
+  scripts/setup.sh binutils
+  build_tests release "${slice[@]}"
+  local log=$PWD/build/check/invalid.log
+  rm -f "$log"
+  g++ -shared -fPIC -O1 tests/support/trap_invalid.cc -o build/trap_invalid.so
+  PHONGPD_INVALID_LOG=$log LD_PRELOAD=$PWD/build/trap_invalid.so \
+    run_tests release
+  # Tests feed NaN on purpose: no word at all means no trap at all.
+  [[ -s $log ]]
+  # Functions of ours that did one; tests themselves may.
+  sort -u "$log" | while read -r file offset; do
+    addr2line -f -C -e "$file" "$offset" | head -n 1
+  done | sort | uniq -c >build/check/invalid.functions
+  local ours
+  ours=$(grep 'phongpd::' build/check/invalid.functions |
+    grep -v '_Test::TestBody' |
+    grep -vEf <(grep -v '^#' tests/invalid_operations.txt)) || return 0
+  say "fptrap: invalid operations where none are expected:"
+  cut -c 1-160 <<<"$ours"
+  return 1
+}
+
+check_determinism() {
+  scripts/build.sh phongpd
+  local programs=(build/phongpd)
+  if whole; then
+    PRESET=clang scripts/build.sh phongpd
+    programs+=(build-clang/phongpd)
+  fi
+  scripts/determinism.sh "$(if whole; then echo 10; else echo 2; fi)" \
+    "${programs[@]}"
+}
+
+check_tsan() {
+  scripts/setup.sh clang libclang-rt-14-dev
+  build_tests tsan "${threaded[@]}"
+  TSAN_OPTIONS=halt_on_error=1 run_tests tsan
+}
+
+check_fuzz() {
+  if [[ ! -x scripts/fuzz.sh ]]; then
+    say "fuzz: NOT RUN, THERE IS NO scripts/fuzz.sh"
+    return
+  fi
+  scripts/fuzz.sh "$(if whole; then echo 300; else echo 30; fi)s"
+}
+
+# Of the library alone, not of the program and the tests themselves.
+check_coverage() {
+  scripts/setup.sh gcovr
+  build_tests coverage "${slice[@]}"
+  find build-coverage -name '*.gcda' -delete
+  run_tests coverage
+  gcovr --root . --object-directory build-coverage --exclude-throw-branches \
+    --filter '(core|constraints|planners)/' --csv build/check/coverage.csv
+  mkdir -p results/extremes
+  awk -F, -v slice="$SLICE" -f scripts/coverage.awk build/check/coverage.csv \
+    >results/extremes/coverage.md
+}
+
+check_asan() {
+  scripts/setup.sh clang libclang-rt-14-dev
+  build_tests asan "${slice[@]}"
+  ASAN_OPTIONS=detect_stack_use_after_return=1:check_initialization_order=1 \
+    UBSAN_OPTIONS=print_stacktrace=1 run_tests asan
+}
+
+case ${1:-quick} in
+  quick) sections=("${quick[@]}") SLICE=quick ;;
+  full) sections=("${all[@]}") SLICE=full ;;
+  *) sections=("$@") SLICE=${SLICE:-full} ;;
+esac
+export SLICE
+for section in "${sections[@]}"; do
+  if ! declare -F "check_$section" >/dev/null; then
+    echo "check: expected quick, full or one of ${all[*]}, found $section" >&2
+    exit 2
+  fi
+done
+mkdir -p build/check
+if [[ $# -eq 1 && ${#sections[@]} -eq 1 ]]; then
+  "check_$1"
+  say "$1 ($SLICE) passed after $SECONDS s"
+  exit 0
+fi
+
+# Seconds of processor time that finished children took.
+used() { awk 'END { split($1 " " $2, t, /[ms ]+/)
+  print int(60 * t[1] + t[2] + 60 * t[3] + t[4]) }' build/check/times; }
+passed=0 failed=0
+printf '%-12s %-7s %8s %8s\n' section result 'wall s' 'cpu s' \
+  >build/check/summary
+for section in "${sections[@]}"; do
+  say "$section ($SLICE) begins after $SECONDS s"
+  times >build/check/times
+  wall=$SECONDS cpu=$(used) result=passed
+  scripts/check.sh "$section" || result=FAILED
+  [[ $result == passed ]] && passed=$((passed + 1)) || failed=$((failed + 1))
+  times >build/check/times
+  printf '%-12s %-7s %8d %8d\n' "$section" "$result" $((SECONDS - wall)) \
+    $(($(used) - cpu)) | tee -a build/check/summary
+done
+cat build/check/summary
+say "$passed passed, $failed failed"
+((failed == 0))
