@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <set>
 #include <utility>
 
@@ -13,6 +14,7 @@
 #include "planners/exact/path_recombination.h"
 #include "planners/exact/planning_surface.h"
 #include "planners/exact/surface_graph.h"
+#include "planners/exact/surface_sight.h"
 
 namespace phongpd {
 namespace {
@@ -102,18 +104,20 @@ struct ContactSurfacePlanner::Impl {
 };
 
 // The closest point, what is met on the way to the other configuration and in
-// a few directions, and the ray that told the cell.
+// a few directions, and the ray that told the cell: it alone would do, the
+// others make routes shorter.
 std::vector<Attachment> ContactSurfacePlanner::Impl::Attach(
     const Vector3d& q, const Vector3d& other, bool to_goal,
     const CellCertificate& certificate) const {
   std::vector<Attachment> attachments;
   const auto add = [&](const Vector3d& point, int triangle) {
+    const std::optional<SurfaceSite> site =
+        SiteSeenFrom(q, point, triangle, surface.contact.mesh(),
+                     surface.segments, surface.cells.rounding());
+    if (!site) return;
     Attachment attachment;
     attachment.to_goal = to_goal;
-    attachment.site.point = point;
-    attachment.site.triangle = triangle;
-    // At edges and corners only the way back to q is free for sure.
-    attachment.site.direction = (q - point).stableNormalized();
+    attachment.site = *site;
     attachments.push_back(attachment);
   };
   const PenetrationResult closest =
@@ -133,7 +137,8 @@ std::vector<Attachment> ContactSurfacePlanner::Impl::Attach(
   }
   if (certificate.ray.to_triangle >= 0) {
     add(certificate.ray.to, certificate.ray.to_triangle);
-  } else if (certificate.cell == FreeCells::kOutside) {
+  } else if (certificate.cell == FreeCells::kOutside &&
+             surface.cells.IsAbove(certificate.ray.to)) {
     Attachment attachment;
     attachment.to_goal = to_goal;
     attachment.outside = true;
@@ -197,14 +202,15 @@ void ContactSurfacePlanner::Impl::FindPath(const Vector3d& start,
     sites.emplace_back();
     sites.back().point = goal;
     std::vector<Vector3d> path;
-    const int blocked =
+    const std::vector<int> blamed =
         LiftRoute(sites, surface.segments, result->wanted_clearance,
                   surface.cells.rounding(), &path, &result->lift);
-    if (blocked >= 0) {
-      const int before = blocked == 0 ? -1 : route[blocked - 1];
-      const int after =
-          blocked < static_cast<int>(route.size()) ? route[blocked] : end;
-      deleted.insert(std::minmax(before, after));
+    if (!blamed.empty()) {
+      for (const int k : blamed) {
+        const int before = k == 0 ? -1 : route[k - 1];
+        const int after = k < static_cast<int>(route.size()) ? route[k] : end;
+        deleted.insert(std::minmax(before, after));
+      }
       result->deleted_edges = static_cast<int>(deleted.size());
       continue;
     }

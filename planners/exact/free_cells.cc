@@ -46,15 +46,33 @@ FreeCells::FreeCells(const TriangleMesh& mesh,
   for (std::size_t t = 0; t < piece_.size(); ++t) {
     triangles[piece_[t]].push_back(static_cast<int>(t));
   }
-  // One direction for all, so that chains climb; a piece for which it is not
-  // generic takes another.
-  for (std::size_t i = 0; i < rays_.size(); ++i) {
-    for (int k = 0; k < kDirections; ++k) {
-      rays_[i] = RayOfPiece(triangles[i], Direction(k));
-      if (rays_[i].end != CellRay::End::kUndecided) break;
+  // One direction for all, so that chains climb.
+  while (direction_ < kDirections && !CastRays(triangles, direction_)) {
+    ++direction_;
+  }
+  if (direction_ == kDirections) {
+    // There is none: pieces for which the first is not generic take another.
+    direction_ = 0;
+    CastRays(triangles, direction_);
+    for (std::size_t i = 0; i < rays_.size(); ++i) {
+      for (int k = 1; k < kDirections; ++k) {
+        if (rays_[i].end != CellRay::End::kUndecided) break;
+        rays_[i] = RayOfPiece(triangles[i], Direction(k));
+      }
     }
   }
   FollowChains();
+}
+
+// True if all are decided.
+bool FreeCells::CastRays(const std::vector<std::vector<int>>& triangles,
+                         int direction) {
+  bool decided = true;
+  for (std::size_t i = 0; i < rays_.size(); ++i) {
+    rays_[i] = RayOfPiece(triangles[i], Direction(direction));
+    decided = decided && rays_[i].end != CellRay::End::kUndecided;
+  }
+  return decided;
 }
 
 // Where the segment crosses triangles, in order; false if it comes within
@@ -80,12 +98,20 @@ bool FreeCells::Cast(const Vector3d& a, const Vector3d& b,
   return true;
 }
 
+double FreeCells::Top(const Vector3d& direction) const {
+  return bounds_.max.dot(direction.cwiseMax(0.0)) +
+         bounds_.min.dot(direction.cwiseMin(0.0));
+}
+
+bool FreeCells::IsAbove(const Vector3d& p) const {
+  const Vector3d direction = Direction(direction_);
+  return p.dot(direction) > Top(direction) + 0.01 * bounds_.Diagonal();
+}
+
 Vector3d FreeCells::Beyond(const Vector3d& from,
                            const Vector3d& direction) const {
   // All rays of a direction end in one plane, which nothing reaches.
-  const double top = bounds_.max.dot(direction.cwiseMax(0.0)) +
-                     bounds_.min.dot(direction.cwiseMin(0.0)) +
-                     0.05 * bounds_.Diagonal();
+  const double top = Top(direction) + 0.05 * bounds_.Diagonal();
   return from + std::max(top - from.dot(direction), 0.05 * bounds_.Diagonal()) *
                     direction;
 }
@@ -255,7 +281,7 @@ std::vector<int> FreeCells::Chain(int piece) const {
 
 int FreeCells::CellOf(const Vector3d& q, CellRay* ray) const {
   for (int k = 0; k < kDirections; ++k) {
-    *ray = RayFrom(q, Direction(k));
+    *ray = RayFrom(q, Direction((direction_ + k) % kDirections));
     if (ray->end == CellRay::End::kOutside) return kOutside;
     if (ray->end != CellRay::End::kSurface) continue;
     const int cell = cell_[piece_[ray->to_triangle]];

@@ -32,11 +32,11 @@ struct CellRay {
 // A piece is a part of the surface connected through edges.  Seen from
 // infinity it is an island, free around it, or a shell, free inside it.  A
 // bounded cell has exactly one shell on its boundary, the unbounded cell none,
-// all others are islands.  From each island a ray along one generic direction
-// d leaves the piece for good and meets the next piece of the same cell, so
-// the chain island → island → … climbs along d until it ends in the shell of
-// the cell or outside.  Where it ends *is* the cell: two configurations are
-// connected by a free path iff their chains end alike.
+// all others are islands.  From each island a ray along one direction d,
+// generic for all of them, leaves the piece for good and meets the next piece
+// of the same cell, so the chain island → island → … climbs along d until it
+// ends in the shell of the cell or outside.  Where it ends *is* the cell: two
+// configurations are connected by a free path iff their chains end alike.
 //
 // What is proved.  A ray counts only if the segment it lies on keeps
 // `rounding` away from every edge and by both its ends from every triangle,
@@ -52,7 +52,7 @@ class FreeCells {
   static constexpr int kUndecided = -2;  // see CellRay::End
 
   // `mesh` closed, edge-manifold, oriented with the free side in front, finite;
-  // it, its neighbours (TriangleNeighbors) and `segments` must outlive this.
+  // it, its neighbours (FreeNeighbors) and `segments` must outlive this.
   FreeCells(const TriangleMesh& mesh,
             const std::vector<std::array<int, 3>>& neighbors,
             const SegmentTree& segments);
@@ -71,6 +71,10 @@ class FreeCells {
   // The pieces a chain runs through, the given one first.
   std::vector<int> Chain(int piece) const;
 
+  // Does a point lie so far along the common direction of the pieces' rays
+  // that nothing is there?  All such points see each other.
+  bool IsAbove(const Eigen::Vector3d& p) const;
+
   // The cell that a free configuration lies in; the ray that tells goes to
   // *ray.
   int CellOf(const Eigen::Vector3d& q, CellRay* ray) const;
@@ -88,14 +92,17 @@ class FreeCells {
   CellRay RayThrough(int triangle, const Eigen::Vector3d& direction) const;
   CellRay RayFrom(const Eigen::Vector3d& q,
                   const Eigen::Vector3d& direction) const;
+  double Top(const Eigen::Vector3d& direction) const;
   Eigen::Vector3d Beyond(const Eigen::Vector3d& from,
                          const Eigen::Vector3d& direction) const;
+  bool CastRays(const std::vector<std::vector<int>>& triangles, int direction);
   void FollowChains();
 
   const TriangleMesh& mesh_;
   const SegmentTree& segments_;
   BoundingBox bounds_;
   double rounding_ = 0.0;
+  int direction_ = 0;  // common one of the pieces' rays
   std::vector<int> piece_;
   std::vector<CellRay> rays_;
   std::vector<int> cell_;

@@ -4,10 +4,12 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include "planners/exact/free_space.h"
 #include "planners/exact/path_lift.h"
+#include "planners/exact/surface_sight.h"
 
 namespace phongpd {
 namespace {
@@ -71,12 +73,12 @@ void LiftedGraph::Join(int i, int j, Edges* edges) {
                                     0.5 * std::min(room_[i], room_[j]))) {
     std::vector<Vector3d> path;
     LiftCounts lift;
-    const int blocked =
+    const std::vector<int> blamed =
         LiftRoute({Fixed(points_[i]), graph_.sites()[i], graph_.sites()[j],
                    Fixed(points_[j])},
                   surface_.segments, std::max(room_[i], room_[j]),
                   surface_.cells.rounding(), &path, &lift);
-    if (blocked >= 0) {
+    if (!blamed.empty()) {
       ++counts_.left_out;
       return;
     }
@@ -174,24 +176,24 @@ std::vector<LiftedGraph::Stop> LiftedGraph::Descend(const Vector3d& q,
                                                     int wanted) const {
   const PenetrationResult closest =
       surface_.contact.Answer(q, Location::kOutside);
-  SurfaceSite foot;
-  foot.point = closest.contact;
-  foot.triangle = closest.triangle;
-  // At edges and corners only the way back to q is free for sure.
-  foot.direction = (q - foot.point).stableNormalized();
+  const std::optional<SurfaceSite> foot = SiteSeenFrom(
+      q, closest.contact, closest.triangle, surface_.contact.mesh(),
+      surface_.segments, surface_.cells.rounding());
+  std::vector<Stop> stops;
+  if (!foot) return stops;
   std::vector<std::pair<double, int>> near;
-  graph_.ForEachOn(foot.triangle, [&](int i) {
-    near.emplace_back((graph_.sites()[i].point - foot.point).squaredNorm(), i);
+  graph_.ForEachOn(foot->triangle, [&](int i) {
+    near.emplace_back((graph_.sites()[i].point - foot->point).squaredNorm(), i);
   });
   std::sort(near.begin(), near.end());
-  std::vector<Stop> stops;
   for (const auto& [squared, i] : near) {
     if (static_cast<int>(stops.size()) == wanted) break;
     std::vector<Vector3d> path;
     LiftCounts lift;
-    if (LiftRoute({Fixed(q), foot, graph_.sites()[i], Fixed(points_[i])},
-                  surface_.segments, clearance, surface_.cells.rounding(),
-                  &path, &lift) >= 0) {
+    if (!LiftRoute({Fixed(q), *foot, graph_.sites()[i], Fixed(points_[i])},
+                   surface_.segments, clearance, surface_.cells.rounding(),
+                   &path, &lift)
+             .empty()) {
       continue;
     }
     stops.push_back({i, Price(PathLength(path), 0.0), {path[1], path[2]}});

@@ -3,13 +3,47 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/mesh/segment_tree.h"
 #include "planners/exact/surface_graph.h"
 
 namespace phongpd {
+namespace {
 
 using Eigen::Vector3d;
+
+// The larger lift of the two ends with which the segment between them becomes
+// free when nothing else holds it; 0 if none above `least` does, infinity if it
+// is free and has no lift to lose.
+double FreeLift(const SurfaceSite& a, const SurfaceSite& b, double lift_a,
+                double lift_b, double least, const SegmentTree& segments) {
+  while (segments.Meets(a.point + lift_a * a.direction,
+                        b.point + lift_b * b.direction)) {
+    double& larger = lift_a > lift_b ? lift_a : lift_b;
+    if (!(larger > least)) return 0.0;
+    larger *= 0.5;
+  }
+  const double lift = std::max(lift_a, lift_b);
+  return lift > 0.0 ? lift : std::numeric_limits<double>::infinity();
+}
+
+std::vector<int> SegmentsToBlame(const std::vector<SurfaceSite>& sites,
+                                 const std::vector<double>& first_lift,
+                                 double least, const SegmentTree& segments) {
+  std::vector<int> blamed;
+  double smallest = std::numeric_limits<double>::infinity();
+  for (std::size_t k = 0; k + 1 < sites.size(); ++k) {
+    const double lift = FreeLift(sites[k], sites[k + 1], first_lift[k],
+                                 first_lift[k + 1], least, segments);
+    if (lift < smallest) blamed.clear();
+    if (lift < smallest || lift == 0.0) blamed.push_back(static_cast<int>(k));
+    smallest = std::min(smallest, lift);
+  }
+  return blamed;
+}
+
+}  // namespace
 
 double RoomAbove(const SurfaceSite& site, const SegmentTree& segments,
                  double clearance, double rounding) {
@@ -19,13 +53,14 @@ double RoomAbove(const SurfaceSite& site, const SegmentTree& segments,
          FirstAbove(site, segments, 2.0 * clearance, rounding).fraction;
 }
 
-int LiftRoute(const std::vector<SurfaceSite>& sites,
-              const SegmentTree& segments, double clearance, double rounding,
-              std::vector<Vector3d>* path, LiftCounts* counts) {
+std::vector<int> LiftRoute(const std::vector<SurfaceSite>& sites,
+                           const SegmentTree& segments, double clearance,
+                           double rounding, std::vector<Vector3d>* path,
+                           LiftCounts* counts) {
   // Below an ulp of the coordinates nothing moves any more.
   const double least = std::ldexp(rounding, -7);
   const std::size_t count = sites.size();
-  std::vector<double> lift(count, 0.0);
+  std::vector<double> lift(count, 0.0), first_lift(count, 0.0);
   std::vector<double> room(count);  // first lift, or clearance of what stays
   path->resize(count);
   for (std::size_t i = 0; i < count; ++i) {
@@ -36,7 +71,7 @@ int LiftRoute(const std::vector<SurfaceSite>& sites,
       continue;
     }
     room[i] = RoomAbove(site, segments, clearance, rounding);
-    lift[i] = room[i];
+    lift[i] = first_lift[i] = room[i];
     (*path)[i] += lift[i] * site.direction;
   }
   // What is left of the rooms of two ends when they have been lowered.
@@ -58,7 +93,9 @@ int LiftRoute(const std::vector<SurfaceSite>& sites,
       continue;
     }
     const std::size_t larger = lift[k] > lift[k + 1] ? k : k + 1;
-    if (!(lift[larger] > least)) return static_cast<int>(k);
+    if (!(lift[larger] > least)) {
+      return SegmentsToBlame(sites, first_lift, least, segments);
+    }
     lift[larger] *= 0.5;
     ++counts->halvings;
     (*path)[larger] =
@@ -66,7 +103,7 @@ int LiftRoute(const std::vector<SurfaceSite>& sites,
     // The segment before has changed too.
     if (larger == k && k > 0) --k;
   }
-  return -1;
+  return {};
 }
 
 }  // namespace phongpd

@@ -27,13 +27,20 @@ double RoomAbove(const SurfaceSite& site, const SegmentTree& segments,
 // counts as blocked too, until its lifts are an eighth of the smaller first
 // one: so a segment into a passage does not graze its rim.
 //
-// Complete: a polyline over an embedded surface that is lifted little enough
-// is free.  Returns the index of the first segment, point k → point k + 1,
-// for which lifts became as small as rounding allows, and −1 with all segments
-// free of contact by exact tests; *path then holds the points.  Sites lie on
-// the surface within `rounding`, 2⁻⁴⁶ of the largest coordinate.
-int LiftRoute(const std::vector<SurfaceSite>& sites,
-              const SegmentTree& segments, double clearance, double rounding,
-              std::vector<Eigen::Vector3d>* path, LiftCounts* counts);
+// Complete: for each segment there is an ε so that it is free whenever both
+// its ends are lifted by at most ε, in any ratio (planners/README.md); no lift
+// falls below half the smallest of these.
+//
+// Returns nothing with all segments free of contact by exact tests; *path then
+// holds the points.  Otherwise the lifts became as small as rounding allows,
+// and the segments, point k → point k + 1, that are to blame are returned:
+// those which no lift of their own frees, or else the one that needs the
+// smallest.  (Not the one at which lifts vanished: the lifts of its neighbours
+// vanish with those of a segment that stays blocked.)  Sites lie on the surface
+// within `rounding`, 2⁻⁴⁶ of the largest coordinate.
+std::vector<int> LiftRoute(const std::vector<SurfaceSite>& sites,
+                           const SegmentTree& segments, double clearance,
+                           double rounding, std::vector<Eigen::Vector3d>* path,
+                           LiftCounts* counts);
 
 }  // namespace phongpd

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/mesh/self_intersection.h"
+#include "planners/exact/free_neighbors.h"
 #include "planners/exact/free_space.h"
 #include "planners/exact/path_centering.h"
 #include "planners/exact/path_shortening.h"
@@ -21,7 +22,7 @@ PlanningSurface::PlanningSurface(const TriangleMesh& contact_mesh,
       contact(contact_mesh),
       segments(contact.mesh()),
       bounds(ComputeBounds(contact.mesh())),
-      neighbors(TriangleNeighbors(contact.mesh())),
+      neighbors(FreeNeighbors(contact.mesh())),
       cells(contact.mesh(), neighbors, segments),
       self_intersections_(options.self_intersections) {
   const double infinity = std::numeric_limits<double>::infinity();

@@ -5,10 +5,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <queue>
 #include <unordered_map>
 
 #include "core/mesh/unit_normal.h"
+#include "planners/exact/surface_sight.h"
 
 namespace phongpd {
 namespace {
@@ -100,7 +102,7 @@ void SurfaceGraph::AddRays(const FreeCells& cells) {
     if (ray.end == CellRay::End::kSurface) {
       to.triangle = ray.to_triangle;
       to.direction = normals_[ray.to_triangle];
-    } else if (ray.end == CellRay::End::kOutside) {
+    } else if (ray.end == CellRay::End::kOutside && cells.IsAbove(ray.to)) {
       outside_.push_back(static_cast<int>(sites_.size()) + 1);
     } else {
       continue;
@@ -118,12 +120,10 @@ void SurfaceGraph::AddGapLinks(const SegmentTree& segments, double rounding,
     if (from.direction.isZero()) return;
     const SegmentTree::Hit hit = FirstAbove(from, segments, reach, rounding);
     if (!hit.Found()) return;
-    SurfaceSite to;
-    to.triangle = hit.triangle;
-    // At edges and corners only the way back is free for sure.
-    to.direction = -from.direction;
-    to.point = from.point + hit.fraction * reach * from.direction;
-    AddLink(from, to);
+    const std::optional<SurfaceSite> to = SiteSeenFrom(
+        from.point, from.point + hit.fraction * reach * from.direction,
+        hit.triangle, mesh_, segments, rounding);
+    if (to) AddLink(from, *to);
   };
   // From the centroids of as many triangles, then from points of edges.
   const std::size_t edge_points = static_cast<std::size_t>(edge_points_);

@@ -8,8 +8,12 @@
 #include <ompl/base/goals/GoalStates.h>
 #include <ompl/geometric/PathGeometric.h>
 
+#include <random>
+
 #include "core/mesh/mesh_error.h"
 #include "planners/ompl/contact_space_validity.h"
+#include "tests/support/campaign.h"
+#include "tests/support/lattice_world.h"
 #include "tests/support/passages.h"
 
 namespace phongpd {
@@ -52,6 +56,52 @@ TEST(ContactSurfaceOmplPlanner, SolvesOrProvesThereIsNoPath) {
       EXPECT_FALSE(twin.problem->hasSolution());
     }
   }
+}
+
+// Round numbers; flood fill knows the answer.
+TEST(LatticeCampaign, OmplAnswersEveryQueryRight) {
+  testing::CampaignRow row;
+  row.item = "lattice";
+  row.subject = "planner of OMPL";
+  const int worlds = static_cast<int>(testing::CampaignCases(10, 100));
+  for (int i = 0; i < worlds; ++i) {
+    std::mt19937_64 random(static_cast<std::uint64_t>(i));
+    const auto world =
+        testing::MakeLatticeWorld(static_cast<testing::LatticeWorld::Family>(
+                                      i % testing::LatticeWorld::kFamilies),
+                                  i % 2 == 1, &random);
+    BoundingBox region = ComputeBounds(world.contact_space);
+    region.max += Eigen::Vector3d::Constant(region.Diagonal());
+    region.min -= Eigen::Vector3d::Constant(region.Diagonal());
+    const auto si = MakeSpaceInformation(std::make_shared<const ContactModel>(
+        std::vector<TriangleMesh>{world.contact_space}, region));
+    ContactSurfaceOmplPlanner planner(
+        si, std::make_shared<const ContactSurfacePlanner>(world.contact_space));
+    planner.setRoadmap(i % 3 == 0);
+    const auto pick = [&](ob::ScopedState<>* state) {
+      testing::LatticeWorld::Cell cell = world.RandomCell(&random);
+      while (world.Label(cell) < 0) cell = world.RandomCell(&random);
+      FromPoint(world.Point(cell), state->get());
+      return world.Label(cell);
+    };
+    for (long k = testing::CampaignCases(10, 100); k > 0; --k) {
+      ob::ScopedState<> start(si), goal(si);
+      const bool connected = pick(&start) == pick(&goal);
+      const auto problem = std::make_shared<ob::ProblemDefinition>(si);
+      problem->setStartAndGoalStates(start, goal);
+      planner.clear();
+      planner.setProblemDefinition(problem);
+      planner.setup();
+      const bool solved =
+          planner.solve(1.0) == ob::PlannerStatus::EXACT_SOLUTION;
+      ++row.cases;
+      row.failures +=
+          solved != connected || (solved ? !problem->getSolutionPath()->check()
+                                         : !planner.infeasibleProved());
+    }
+  }
+  EXPECT_EQ(row.failures, 0);
+  testing::ReportCampaign(row);
 }
 
 TEST(ContactSurfaceOmplPlanner, IsAPlannerLikeOthers) {
