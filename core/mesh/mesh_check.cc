@@ -7,6 +7,7 @@
 #include <sstream>
 #include <tuple>
 
+#include "core/mesh/mesh_range.h"
 #include "core/mesh/self_intersection.h"
 #include "core/mesh/shell_orientation.h"
 

@@ -33,17 +33,6 @@ struct MeshReport {
   std::vector<std::string> warnings;
 };
 
-// The largest coordinate of a solid, and the range of its diagonal.  Squares
-// and cubes of these lengths keep all their digits: contact spaces and queries
-// are the same, bit for bit, under every power of two that stays in the range
-// (tests/core/mesh/range_test.cc).
-inline constexpr double kMaxCoordinate = 1e80;
-inline constexpr double kMinDiagonal = 1e-80, kMaxDiagonal = 1e80;
-
-// Throws InputError, naming `name`, the value and the limit, if a triangle has
-// a finite corner beyond kMaxCoordinate.
-void RequireInRange(const TriangleMesh& mesh, const std::string& name);
-
 // Counts everything above without changing the mesh or throwing.
 //  - Invalid indices: only vertices, triangles and the first two defects.
 //  - Non-finite coordinates: no degenerate triangles, duplicate vertices,
@@ -59,7 +48,7 @@ void RequireInRange(const TriangleMesh& mesh, const std::string& name);
 MeshReport ExamineMesh(const TriangleMesh& mesh);
 
 // Returns `mesh` as a solid that the contact-space builder accepts: finite,
-// valid indices, in the range above, closed, edge-manifold,
+// valid indices, lengths in range (mesh_range.h), closed, edge-manifold,
 // consistently oriented, no self-intersection within a component, every shell
 // enclosing a volume and facing the right way.  What it does by itself:
 //  - Vertices with exactly equal coordinates are joined when that leaves

@@ -11,6 +11,7 @@
 #include "core/mesh/face_pairing.h"
 #include "core/mesh/mesh_approximation.h"
 #include "core/mesh/mesh_error.h"
+#include "core/mesh/mesh_range.h"
 #include "core/mesh/self_intersection.h"
 
 namespace phongpd {

@@ -16,7 +16,7 @@
 // casts any double of a face line to an index, and OBJ had to be parsed before
 // it to leave out what it refuses.  These check every count against the bytes
 // that are left before they allocate or repeat anything: memory stays below
-// 100 times the file, time proportional to it.
+// 100 times the file.
 namespace phongpd::internal {
 
 enum class MeshFormat { kOff, kObj, kStl, kPly };

@@ -6,6 +6,7 @@
 #include <iostream>
 
 #include "core/mesh/mesh_io.h"
+#include "core/mesh/mesh_range.h"
 #include "problems/text.h"
 
 namespace phongpd::cli {

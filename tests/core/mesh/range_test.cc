@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/contact_space/contact_space.h"
-#include "core/mesh/mesh_check.h"
+#include "core/mesh/mesh_range.h"
 #include "core/mesh/mesh_repair.h"
 #include "core/projection/euclidean_metric.h"
 #include "core/projection/phong_metric.h"
