@@ -30,19 +30,21 @@ std::atomic<std::size_t> held{0}, most{0};
 
 }  // namespace
 
-void* operator new(std::size_t size) {
+// Not inline: gcc would see a malloc that operator delete ends.
+[[gnu::noinline]] void* operator new(std::size_t size) {
   void* const memory = std::malloc(size > 0 ? size : 1);
   if (memory == nullptr) throw std::bad_alloc();
   const std::size_t now = held += malloc_usable_size(memory);
   if (now > most) most = now;
   return memory;
 }
-void operator delete(void* memory) noexcept {
+[[gnu::noinline]] void operator delete(void* memory) noexcept {
   held -= malloc_usable_size(memory);
   std::free(memory);
 }
-void operator delete(void* memory, std::size_t) noexcept {
-  operator delete(memory);
+[[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept {
+  held -= malloc_usable_size(memory);
+  std::free(memory);
 }
 
 namespace phongpd {
