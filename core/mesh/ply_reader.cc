@@ -159,14 +159,17 @@ class PlyReader {
   }
 
   void RequireCoordinates() const {
-    int found = 0;
+    int found[3] = {0, 0, 0};
     for (const Element& element : elements_) {
-      for (const Property& p : element.properties) found += p.role <= Role::kZ;
+      for (const Property& p : element.properties) {
+        if (p.role <= Role::kZ) ++found[static_cast<int>(p.role)];
+      }
     }
-    if (found == 3) return;
+    if (found[0] == 1 && found[1] == 1 && found[2] == 1) return;
     scanner_.Refuse(
-        "PLY header; expected vertex properties x, y and z, found " +
-        std::to_string(found) + " of them; export it again");
+        "PLY header; expected vertex properties x, y and z, each once, found " +
+        std::to_string(found[0] + found[1] + found[2]) +
+        " of them; export it again");
   }
 
   // Of one item; in text, every value is a digit and what ends it.

@@ -103,20 +103,24 @@ PolygonSoup ReadBinary(MeshScanner scanner) {
 
 PolygonSoup ReadStl(std::string_view bytes, const std::string& file) {
   const MeshScanner scanner(bytes, "STL", file);
-  std::string_view copy = bytes;
-  const bool says_solid = TakeWord(&copy) == "solid";
   std::uint32_t count = 0;
-  bool fits = bytes.size() >= kHeaderBytes + sizeof count;
-  if (fits) {
+  const bool has_count = bytes.size() >= kHeaderBytes + sizeof count;
+  if (has_count) {
     std::memcpy(&count, bytes.data() + kHeaderBytes, sizeof count);
-    fits =
-        count <= (bytes.size() - kHeaderBytes - sizeof count) / kTriangleBytes;
   }
-  // Some binary files say solid too: text has facets and an end.
-  const bool is_text =
-      says_solid && bytes.find("facet") != std::string_view::npos;
-  if (is_text || (says_solid && !fits)) return ReadText(scanner);
-  if (bytes.size() < kHeaderBytes + sizeof count) scanner.RefuseContent();
+  const bool is_long_enough =
+      has_count &&
+      count <= (bytes.size() - kHeaderBytes - sizeof count) / kTriangleBytes;
+  // The headers of some binary files say solid too.
+  std::string_view text = bytes;
+  const bool says_solid = TakeWord(&text) == "solid";
+  TakeLine(&text);
+  const std::string_view next = TakeWord(&text);
+  if (says_solid &&
+      (!is_long_enough || next == "facet" || next == "endsolid")) {
+    return ReadText(scanner);
+  }
+  if (!has_count) scanner.RefuseContent();
   return ReadBinary(scanner);
 }
 
