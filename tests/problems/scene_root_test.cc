@@ -9,6 +9,7 @@
 #include <string>
 
 #include "core/mesh/mesh_io.h"
+#include "problems/json_schema.h"
 #include "problems/scene.h"
 #include "problems/shapes.h"
 
@@ -128,6 +129,23 @@ TEST_F(SceneRoot, SceneFilesHaveALimit) {
     what = error.what();
   }
   EXPECT_NE(what.find("nesting of at most 100 levels"), std::string::npos);
+}
+
+// Found by fuzzing: a text with a line's end in it was repeated whole.
+TEST(SceneText, IsNotRepeatedWholeInARefusal) {
+  for (const std::string& text : {"{\"" + std::string(10'000, 'a') + "\n\": 1}",
+                                  "{\"a\": " + std::string(10'000, '1') + "x}",
+                                  "{\"" + std::string(10'000, 'a') + "\" 1}"}) {
+    std::string what;
+    try {
+      ParseJson(text, "file");
+    } catch (const InputError& error) {
+      what = error.what();
+    }
+    EXPECT_EQ(what.rfind("file: expected JSON, found a ", 0), 0u);
+    EXPECT_LT(what.size(), 400u);
+    EXPECT_EQ(what.find('\n'), std::string::npos);
+  }
 }
 
 }  // namespace
