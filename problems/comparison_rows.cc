@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "problems/comparison_rows.h"
 
-#include <fstream>
+#include <cstdint>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "core/mesh/input_file.h"
 #include "core/mesh/mesh_error.h"
 #include "problems/text.h"
 
@@ -95,8 +96,9 @@ std::string CompactCsv(const std::vector<Json>& rows) {
 }
 
 std::vector<Json> ReadComparison(const std::string& path) {
-  std::ifstream file(path);
-  if (!file) throw InputError(path + ": expected rows, found no such file");
+  constexpr std::uintmax_t kMaxBytes = std::uintmax_t{1} << 30;
+  std::istringstream file(
+      ReadInputFile(path, "rows of phongpd compare", kMaxBytes));
   std::vector<Json> rows;
   for (std::string line; std::getline(file, line);) {
     if (line.empty()) continue;

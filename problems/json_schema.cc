@@ -287,6 +287,11 @@ Json ParseJson(const std::string& text, const std::string& file) {
   } catch (const Json::exception& error) {
     std::string what = error.what();
     what.erase(0, what.find("] ") + 2);
+    // It repeats all of the text or number that it was reading.
+    constexpr std::size_t kBegin = 160, kEnd = 80;
+    if (what.size() > kBegin + kEnd) {
+      what.replace(kBegin, what.size() - kBegin - kEnd, "...");
+    }
     throw InputError(file + ": expected JSON, found a " + what);
   }
 }

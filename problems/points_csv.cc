@@ -2,12 +2,8 @@
 #include "problems/points_csv.h"
 
 #include <array>
-#include <cerrno>
-#include <cstring>
-#include <filesystem>
-#include <fstream>
-#include <string_view>
 
+#include "core/mesh/input_file.h"
 #include "problems/text.h"
 
 namespace phongpd {
@@ -61,23 +57,29 @@ Header ReadHeader(std::string_view line, const std::string& path) {
 }  // namespace
 
 std::vector<Eigen::Vector3d> ReadPointsCsv(const std::string& path) {
-  if (std::filesystem::is_directory(path)) {
-    throw InputError(path + ": expected a CSV file, found a directory");
-  }
-  std::ifstream file(path);
-  if (!file) {
-    throw InputError(path + ": cannot be read (" + std::strerror(errno) + ")");
-  }
-  std::string line;
-  if (!std::getline(file, line)) {
-    throw InputError(path + ": expected a header with the columns x,y,z, " +
+  return ParsePointsCsv(ReadInputFile(path, "a CSV file", kMaxPointsBytes),
+                        path);
+}
+
+std::vector<Eigen::Vector3d> ParsePointsCsv(std::string_view content,
+                                            const std::string& file) {
+  const auto take_line = [&content] {
+    const std::size_t end = content.find('\n');
+    const std::string_view line = content.substr(0, end);
+    content.remove_prefix(end == std::string_view::npos ? content.size()
+                                                        : end + 1);
+    return line;
+  };
+  if (content.empty()) {
+    throw InputError(file + ": expected a header with the columns x,y,z, " +
                      "found an empty file");
   }
-  const Header header = ReadHeader(line, path);
+  const Header header = ReadHeader(take_line(), file);
   std::vector<Eigen::Vector3d> points;
-  for (std::size_t number = 2; std::getline(file, line); ++number) {
+  for (std::size_t number = 2; !content.empty(); ++number) {
+    const std::string_view line = take_line();
     if (Trimmed(line).empty()) continue;
-    const std::string where = path + ":" + std::to_string(number);
+    const std::string where = file + ":" + std::to_string(number);
     const std::vector<std::string_view> cells = Cells(line);
     if (cells.size() != header.columns) {
       throw InputError(where + ": expected " + std::to_string(header.columns) +
@@ -91,7 +93,6 @@ std::vector<Eigen::Vector3d> ReadPointsCsv(const std::string& path) {
                       where + ": column " + std::string(1, "xyz"[k]));
     }
   }
-  if (file.bad()) throw InputError(path + ": reading stopped half-way");
   return points;
 }
 

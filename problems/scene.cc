@@ -2,14 +2,15 @@
 #include "problems/scene.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <set>
-#include <sstream>
+#include <system_error>
 #include <utility>
 
+#include "core/mesh/input_file.h"
 #include "core/mesh/mesh_check.h"
 #include "core/mesh/mesh_io.h"
 #include "problems/json_schema.h"
@@ -55,9 +56,40 @@ Matrix3d Rotation(const Json& value, const JsonPlace& place) {
   return rotation;
 }
 
+// Where the mesh files of a scene are.
+struct MeshFolder {
+  std::string directory;  // that relative paths start from
+  std::string root;       // that all must lie below, if not empty
+};
+
+// The path of a mesh file that a scene names, checked against the root.
+std::string MeshPath(const Json& value, const JsonPlace& place,
+                     const MeshFolder& folder) {
+  namespace fs = std::filesystem;
+  const fs::path path = fs::path(folder.directory) / value.get<std::string>();
+  if (folder.root.empty()) return path.string();
+  std::error_code error;
+  const fs::path root = fs::canonical(folder.root, error);
+  if (error || !fs::is_directory(root, error)) {
+    throw InputError(folder.root +
+                     ": expected the root folder of mesh files, found none");
+  }
+  const fs::path resolved = fs::weakly_canonical(path, error);
+  const bool is_below =
+      !error &&
+      std::mismatch(root.begin(), root.end(), resolved.begin(), resolved.end())
+              .first == root.end();
+  if (!is_below) {
+    place.Fail("a mesh file below the root " + folder.root,
+               Shortened(value) + ", which is not; move it there");
+  }
+  // Not `path`: what has been checked is read.
+  return resolved.string();
+}
+
 // A `solid` of the schema.  Steps that a scene leaves out do no arithmetic.
 TriangleMesh Solid(const Json& value, const JsonPlace& place,
-                   const std::string& directory,
+                   const MeshFolder& folder,
                    std::vector<std::string>* warnings) {
   TriangleMesh mesh;
   std::string name;
@@ -65,9 +97,9 @@ TriangleMesh Solid(const Json& value, const JsonPlace& place,
     name = place.Child("shape").Text();
     mesh = MakeShape(value["shape"], name);
   } else {
-    const auto file = value["mesh"].get<std::string>();
-    const auto path = (std::filesystem::path(directory) / file).string();
-    name = place.Child("mesh").Text();
+    const JsonPlace mesh_place = place.Child("mesh");
+    name = mesh_place.Text();
+    const std::string path = MeshPath(value["mesh"], mesh_place, folder);
     try {
       mesh = ReadMesh(path);
     } catch (const InputError& error) {
@@ -94,7 +126,7 @@ TriangleMesh Solid(const Json& value, const JsonPlace& place,
 }
 
 std::vector<Obstacle> Obstacles(const Json& value, const JsonPlace& place,
-                                const std::string& directory,
+                                const MeshFolder& folder,
                                 std::vector<std::string>* warnings) {
   std::set<std::string> ids;
   std::vector<Obstacle> obstacles;
@@ -105,7 +137,7 @@ std::vector<Obstacle> Obstacles(const Json& value, const JsonPlace& place,
       here.Child("id").Fail("an id of its own",
                             Shortened(Json(id)) + " a second time");
     }
-    obstacles.push_back({id, Solid(value[i], here, directory, warnings)});
+    obstacles.push_back({id, Solid(value[i], here, folder, warnings)});
   }
   return obstacles;
 }
@@ -190,7 +222,8 @@ const Json& SceneSchema() {
 }
 
 Scene ParseScene(const Json& json, const std::string& file,
-                 const std::string& directory, const std::string& name) {
+                 const std::string& directory, const std::string& name,
+                 const std::string& root) {
   RequireSchema(json, SceneSchema(), file);
   const JsonPlace place = {file, ""};
   Scene scene;
@@ -209,25 +242,19 @@ Scene ParseScene(const Json& json, const std::string& file,
   if (json.contains("witness")) {
     scene.witness = Witness(json["witness"], scene, place.Child("witness"));
   }
+  const MeshFolder folder = {directory, root};
   scene.workspace.robot =
-      Solid(json["robot"], place.Child("robot"), directory, &scene.warnings);
+      Solid(json["robot"], place.Child("robot"), folder, &scene.warnings);
   scene.workspace.obstacles = Obstacles(
-      json["obstacles"], place.Child("obstacles"), directory, &scene.warnings);
+      json["obstacles"], place.Child("obstacles"), folder, &scene.warnings);
   return scene;
 }
 
-Scene ReadScene(const std::string& path) {
-  std::ifstream stream(path, std::ios::binary);
-  std::ostringstream text;
-  // A directory opens, but gives no character.
-  if (!stream || !(text << stream.rdbuf())) {
-    throw InputError(
-        path + ": expected a scene file, found " +
-        (std::filesystem::exists(path) ? "nothing to read" : "no such file"));
-  }
+Scene ReadScene(const std::string& path, const std::string& root) {
+  const std::string text = ReadInputFile(path, "a scene file", kMaxSceneBytes);
   const std::filesystem::path file(path);
-  return ParseScene(ParseJson(text.str(), path), path,
-                    file.parent_path().string(), file.stem().string());
+  return ParseScene(ParseJson(text, path), path, file.parent_path().string(),
+                    file.stem().string(), root);
 }
 
 std::string SkippedObstaclesNote(const Scene& scene) {

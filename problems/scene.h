@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <map>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
@@ -60,19 +61,29 @@ struct Scene {
   std::vector<std::string> warnings;  // about the solids, one sentence each
 };
 
+// The largest scene file that is read.  Arrays and objects may lie within each
+// other 100 deep (json_schema.h).
+inline constexpr std::uintmax_t kMaxSceneBytes = std::uintmax_t{1} << 28;
+
 // Reads a scene file.  Throws InputError, one line "FILE: /pointer: expected
-// ..., found ...": missing or unreadable file, no JSON (comments are allowed),
-// unknown, missing or repeated keys, wrong types, numbers out of range or not
-// finite, bounds without inside, equal obstacle ids, a rotation that is none,
-// a witness that does not lead from start to goal, shapes and mesh files that
-// give no solid.
-Scene ReadScene(const std::string& path);
+// ..., found ...": missing or unreadable file, more than kMaxSceneBytes, no
+// JSON (comments are allowed), unknown, missing or repeated keys, wrong types,
+// numbers out of range or not finite, bounds without inside, equal obstacle
+// ids, a rotation that is none, a witness that does not lead from start to
+// goal, shapes and mesh files that give no solid.
+//
+// A `root` that is not empty is a folder that mesh files must lie below, links
+// and ".." followed; others are refused before they are opened.  That guards
+// against scene files of strangers, not against somebody who changes the
+// folder at the same time.
+Scene ReadScene(const std::string& path, const std::string& root = "");
 
 // The same from a parsed document; errors start with `file`, mesh paths are
 // relative to `directory`.  A scene without a name is called `name`.
 Scene ParseScene(const nlohmann::ordered_json& json, const std::string& file,
                  const std::string& directory = ".",
-                 const std::string& name = "scene");
+                 const std::string& name = "scene",
+                 const std::string& root = "");
 
 // "cannot be touched within the bounds, skipped: a, b", for people; empty if
 // all of ReachableObstacles (workspace.h).

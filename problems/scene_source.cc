@@ -11,7 +11,8 @@
 
 namespace phongpd {
 
-SceneSource::SceneSource(const std::string& text) : text_(text), label_(text) {
+SceneSource::SceneSource(const std::string& text, const std::string& root)
+    : text_(text), root_(root), label_(text) {
   const std::size_t colon = text.find(':');
   family_ = text.substr(0, colon);
   const std::vector<SceneFamily>& families = SceneFamilies();
@@ -42,7 +43,7 @@ SceneSource::SceneSource(const std::string& text) : text_(text), label_(text) {
 }
 
 Scene SceneSource::Load(std::optional<std::uint64_t> seed) const {
-  if (is_file_) return ReadScene(text_);
+  if (is_file_) return ReadScene(text_, root_);
   std::map<std::string, double> knobs = knobs_;
   if (seed) knobs["seed"] = static_cast<double>(*seed);
   Scene scene = ParseScene(MakeScene(family_, knobs), text_);

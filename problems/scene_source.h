@@ -15,8 +15,8 @@ namespace phongpd {
 class SceneSource {
  public:
   // Throws InputError if `text` names neither a file nor a family, or a knob
-  // is not key=number.  The file is not read yet.
-  explicit SceneSource(const std::string& text);
+  // is not key=number.  The file is not read yet.  `root`: see ReadScene.
+  explicit SceneSource(const std::string& text, const std::string& root = "");
 
   // As the user wrote it, for tables: a file without folder and extension.
   const std::string& label() const { return label_; }
@@ -29,6 +29,7 @@ class SceneSource {
 
  private:
   std::string text_;
+  std::string root_;
   std::string label_;
   bool is_file_ = false;
   std::string family_;

@@ -48,8 +48,13 @@ double ParseDouble(std::string_view text, const std::string& what) {
     good = false;
   }
   if (!good || !std::isfinite(value)) {
-    throw InputError(what + ": expected a finite number, found '" +
-                     std::string(text) + "'");
+    constexpr std::size_t kLongest = 40;
+    std::string found(text.substr(0, kLongest));
+    for (char& c : found) {
+      if (c < ' ' || c == '\x7f') c = '?';
+    }
+    throw InputError(what + ": expected a finite number, found '" + found +
+                     (text.size() > kLongest ? "...'" : "'"));
   }
   return value;
 }

@@ -22,6 +22,30 @@
 //   }
 namespace phongpd::internal {
 
+// The bytes a T takes at least; 1 where only its Fields know.
+template <typename T>
+struct LeastBytes {
+  static constexpr std::size_t value =
+      std::is_arithmetic_v<T> || std::is_enum_v<T> ? sizeof(T) : 1;
+};
+template <>
+struct LeastBytes<std::string> {
+  static constexpr std::size_t value = sizeof(std::size_t);
+};
+template <>
+struct LeastBytes<Eigen::Vector3d> {
+  static constexpr std::size_t value = 3 * sizeof(double);
+};
+template <typename T, std::size_t N>
+struct LeastBytes<std::array<T, N>> {
+  static constexpr std::size_t value = N * LeastBytes<T>::value;
+};
+template <typename T, typename U>
+struct LeastBytes<std::pair<T, U>> {
+  static constexpr std::size_t value =
+      LeastBytes<T>::value + LeastBytes<U>::value;
+};
+
 class ByteWriter {
  public:
   template <typename... Values>
@@ -66,6 +90,7 @@ class ByteWriter {
 };
 
 // Reading past the end leaves the values as they are and makes Done false.
+// Nothing is allocated for more things than the bytes that are left can hold.
 class ByteReader {
  public:
   explicit ByteReader(std::string_view bytes) : bytes_(bytes) {}
@@ -84,15 +109,15 @@ class ByteReader {
     std::memcpy(data, bytes_.data(), size);
     bytes_.remove_prefix(size);
   }
-  // A count of things of at least one byte each.
-  std::size_t GetCount() {
+  // A count of things of at least `least` bytes each.
+  std::size_t GetCount(std::size_t least) {
     std::size_t count = 0;
     GetRaw(&count, sizeof count);
-    good_ = good_ && count <= bytes_.size();
+    good_ = good_ && count <= bytes_.size() / least;
     return good_ ? count : 0;
   }
   void Get(std::string& text) {
-    const std::size_t size = GetCount();
+    const std::size_t size = GetCount(1);
     text.assign(bytes_.substr(0, size));
     bytes_.remove_prefix(size);
   }
@@ -108,8 +133,10 @@ class ByteReader {
   template <typename T>
   void Get(std::vector<T>& values) {
     values.clear();
-    values.resize(GetCount());
-    for (T& value : values) Get(value);
+    const std::size_t count = GetCount(LeastBytes<T>::value);
+    // Where their size is known, all at once; else as they come.
+    if constexpr (LeastBytes<T>::value > 1) values.reserve(count);
+    for (std::size_t i = 0; i < count && good_; ++i) Get(values.emplace_back());
   }
   void Get(bool& value) {
     unsigned char byte = value;

@@ -114,12 +114,37 @@ std::string ToBytes(const ContactSpace& space) {
   return writer.Take();
 }
 
+namespace {
+
+// Is it what others rely on without looking again?
+bool IsValid(const ContactSpace& space) {
+  const std::size_t triangles = space.mesh.triangles.size();
+  if (space.plane.size() != triangles || space.kind.size() != triangles) {
+    return false;
+  }
+  for (const Eigen::Vector3d& v : space.mesh.vertices) {
+    if (!v.allFinite()) return false;
+  }
+  const auto size = static_cast<int>(space.mesh.vertices.size());
+  for (const Triangle& triangle : space.mesh.triangles) {
+    for (const int v : triangle) {
+      if (v < 0 || v >= size) return false;
+    }
+  }
+  for (const ContactKind kind : space.kind) {
+    if (kind < ContactKind::kObstacleFacet || kind > ContactKind::kEdges) {
+      return false;
+    }
+  }
+  return true;
+}
+
+}  // namespace
+
 bool FromBytes(std::string_view bytes, ContactSpace* space) {
   ByteReader reader(bytes);
   reader(*space);
-  const std::size_t triangles = space->mesh.triangles.size();
-  return reader.Done() && space->plane.size() == triangles &&
-         space->kind.size() == triangles;
+  return reader.Done() && IsValid(*space);
 }
 
 }  // namespace internal

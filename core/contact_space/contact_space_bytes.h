@@ -18,7 +18,8 @@ std::string KeyBytes(const TriangleMesh& robot, const TriangleMesh& obstacle,
 
 std::string ToBytes(const ContactSpace& space);
 // False, with *space in no particular state, unless `bytes` is a contact
-// space to the last byte.
+// space to the last byte, with valid indices, finite vertices and known kinds.
+// Memory stays below 100 times the bytes, whatever they claim.
 bool FromBytes(std::string_view bytes, ContactSpace* space);
 
 }  // namespace phongpd::internal

@@ -7,15 +7,12 @@
 #include <sstream>
 #include <tuple>
 
+#include "core/mesh/mesh_range.h"
 #include "core/mesh/self_intersection.h"
 #include "core/mesh/shell_orientation.h"
 
 namespace phongpd {
 namespace {
-
-// Beyond these, squares and cubes of lengths leave the range in which
-// distances and volumes keep their digits.
-constexpr double kMinDiagonal = 1e-80, kMaxDiagonal = 1e80;
 
 bool UsesVertexTwice(const Triangle& t) {
   return t[0] == t[1] || t[1] == t[2] || t[2] == t[0];
@@ -254,6 +251,22 @@ void RequireProper(const TriangleMesh& mesh, const MeshReport& report,
 
 }  // namespace
 
+void RequireInRange(const TriangleMesh& mesh, const std::string& name) {
+  const int size = static_cast<int>(mesh.vertices.size());
+  for (const Triangle& triangle : mesh.triangles) {
+    for (const int v : triangle) {
+      if (v < 0 || v >= size || !mesh.vertices[v].allFinite()) continue;
+      const double largest = mesh.vertices[v].cwiseAbs().maxCoeff();
+      if (largest <= kMaxCoordinate) continue;
+      std::ostringstream what;
+      what << "size out of range; expected coordinates of at most "
+           << kMaxCoordinate << ", found " << largest << " at vertex " << v
+           << " (from 0); use another unit";
+      Refuse(name, what.str());
+    }
+  }
+}
+
 MeshReport ExamineMesh(const TriangleMesh& mesh) {
   MeshReport report = ExamineTopology(mesh);
   ExamineGeometry(mesh, &report);
@@ -267,6 +280,7 @@ TriangleMesh MakeSolid(const TriangleMesh& mesh, const std::string& name,
   MeshReport& found = report == nullptr ? unused : *report;
   found = ExamineTopology(mesh);
   RequireUsable(found, name);
+  RequireInRange(mesh, name);
 
   TriangleMesh solid = Cleaned(mesh, false);
   if (BadEdges(found) > 0 && found.duplicate_vertices > 0) {

@@ -48,7 +48,7 @@ struct MeshReport {
 MeshReport ExamineMesh(const TriangleMesh& mesh);
 
 // Returns `mesh` as a solid that the contact-space builder accepts: finite,
-// valid indices, diagonal in [1e-80, 1e80], closed, edge-manifold,
+// valid indices, lengths in range (mesh_range.h), closed, edge-manifold,
 // consistently oriented, no self-intersection within a component, every shell
 // enclosing a volume and facing the right way.  What it does by itself:
 //  - Vertices with exactly equal coordinates are joined when that leaves

@@ -4,14 +4,14 @@
 #include <algorithm>
 #include <cctype>
 #include <cstddef>
-#include <exception>
 #include <filesystem>
 #include <fstream>
 #include <string>
-#include <system_error>
+#include <string_view>
 #include <utility>
 #include <vector>
 
+#include "core/mesh/input_file.h"
 #include "core/mesh/polygon_soup.h"
 #include "core/mesh/polygon_triangulation.h"
 
@@ -35,28 +35,6 @@ MeshFormat FormatOf(const std::string& path) {
                    ".stl or .ply, found " +
                    (extension.empty() ? "none" : "\"" + extension + "\"") +
                    "; convert the file");
-}
-
-std::ifstream Open(const std::string& path, std::size_t* size) {
-  std::error_code error;
-  if (std::filesystem::is_directory(path, error)) {
-    throw InputError(path + ": expected a mesh file, found a directory");
-  }
-  std::ifstream in(path, std::ios::binary);
-  if (!in) {
-    const bool exists = std::filesystem::exists(path, error);
-    throw InputError(path + ": cannot be opened; expected a readable file, " +
-                     (exists ? "found one that is not; check its permissions"
-                             : "found nothing; check the path"));
-  }
-  in.seekg(0, std::ios::end);
-  *size = static_cast<std::size_t>(std::max<std::streamoff>(in.tellg(), 0));
-  in.clear();
-  in.seekg(0);
-  if (*size == 0) {
-    throw InputError(path + ": expected a mesh, found an empty file");
-  }
-  return in;
 }
 
 // "what" with the count and the first of them, or nothing if there is none.
@@ -101,33 +79,29 @@ void RequireValid(const PolygonSoup& soup, const std::string& path) {
 
 TriangleMesh ReadMesh(const std::string& path) {
   const MeshFormat format = FormatOf(path);
-  std::size_t size = 0;
-  std::ifstream in = Open(path, &size);
-  PolygonSoup soup;
-  try {
-    soup = internal::ReadSoup(format, in, size, path);
-  } catch (const InputError&) {
-    throw;
-  } catch (const std::exception& error) {
-    // A count that no memory can hold, or a broken expectation of CGAL's.
-    std::string what = error.what();
-    std::replace(what.begin(), what.end(), '\n', ' ');
-    throw InputError(path + ": unreadable; expected a complete mesh, found " +
-                     what + "; export it again");
+  const std::string bytes = ReadInputFile(path, "a mesh file", kMaxMeshBytes);
+  if (bytes.empty()) {
+    throw InputError(path + ": expected a mesh, found an empty file");
   }
-  RequireValid(soup, path);
+  return internal::ReadMeshBytes(format, bytes, path);
+}
+
+TriangleMesh internal::ReadMeshBytes(MeshFormat format, std::string_view bytes,
+                                     const std::string& file) {
+  PolygonSoup soup = ReadSoup(format, bytes, file);
+  RequireValid(soup, file);
   TriangleMesh mesh;
   mesh.vertices = std::move(soup.points);
   std::vector<Eigen::Vector3d> corners;
   for (const std::vector<int>& polygon : soup.polygons) {
     corners.clear();
     for (const int v : polygon) corners.push_back(mesh.vertices[v]);
-    for (const auto& [a, b, c] : internal::TriangulatePolygon(corners)) {
+    for (const auto& [a, b, c] : TriangulatePolygon(corners)) {
       mesh.triangles.push_back({polygon[a], polygon[b], polygon[c]});
     }
   }
   if (mesh.triangles.empty()) {
-    throw InputError(path + ": expected faces, found " +
+    throw InputError(file + ": expected faces, found " +
                      std::to_string(mesh.vertices.size()) +
                      " vertices and no face; export it as a surface mesh");
   }

@@ -11,6 +11,7 @@
 #include "core/mesh/face_pairing.h"
 #include "core/mesh/mesh_approximation.h"
 #include "core/mesh/mesh_error.h"
+#include "core/mesh/mesh_range.h"
 #include "core/mesh/self_intersection.h"
 
 namespace phongpd {
@@ -194,6 +195,7 @@ TriangleMesh RepairSolid(const TriangleMesh& mesh, const std::string& name,
   try {
     return MakeSolid(mended, name, mesh_report);
   } catch (const InputError& error) {
+    RequireInRange(mended, name);  // no wrap brings it nearer
     const bool has_area =
         mesh_report->bad_indices + mesh_report->non_finite_vertices == 0 &&
         std::any_of(mended.triangles.begin(), mended.triangles.end(),

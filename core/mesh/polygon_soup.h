@@ -2,12 +2,21 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <cstddef>
 #include <iosfwd>
 #include <string>
+#include <string_view>
 #include <vector>
 
-// Mesh files as CGAL reads and writes them.
+#include "core/mesh/triangle_mesh.h"
+
+// Mesh files as points and polygons.
+//
+// The readers are our own, because CGAL's (5.5.1) cannot be made safe from
+// outside: its PLY reader allocates what a list claims to hold, its OFF scanner
+// casts any double of a face line to an index, and OBJ had to be parsed before
+// it to leave out what it refuses.  These check every count against the bytes
+// that are left before they allocate or repeat anything: memory stays below
+// 100 times the file.
 namespace phongpd::internal {
 
 enum class MeshFormat { kOff, kObj, kStl, kPly };
@@ -19,16 +28,22 @@ struct PolygonSoup {
   std::vector<std::vector<int>> polygons;
 };
 
-// Reads `in`, which holds `size` bytes; throws InputError naming `path`.
-// CGAL's readers do the work, behind checks for what those of CGAL 5.5.1 do
-// not survive: OFF and PLY counts beyond the size of the file, OFF lines with
-// and without colours mixed, PLY coordinates that are missing or no floating
-// point numbers, OBJ statements other than vertices and faces.
-PolygonSoup ReadSoup(MeshFormat format, std::istream& in, std::size_t size,
-                     const std::string& path);
+// Reads a file of at most kMaxMeshBytes (mesh_io.h); throws InputError naming
+// `file`.
+PolygonSoup ReadSoup(MeshFormat format, std::string_view bytes,
+                     const std::string& file);
+// One format each.
+PolygonSoup ReadOff(std::string_view bytes, const std::string& file);
+PolygonSoup ReadObj(std::string_view bytes, const std::string& file);
+PolygonSoup ReadStl(std::string_view bytes, const std::string& file);
+PolygonSoup ReadPly(std::string_view bytes, const std::string& file);
 
-// Writes text with 17 significant digits; false when the stream failed.
-// Requires finite points and valid indices.
+// ReadMesh of a file that has been read: checks and triangulates its soup.
+TriangleMesh ReadMeshBytes(MeshFormat format, std::string_view bytes,
+                           const std::string& file);
+
+// Writes text with 17 significant digits, through CGAL; false when the stream
+// failed.  Requires finite points and valid indices.
 bool WriteSoup(MeshFormat format, const PolygonSoup& soup, std::ostream& out);
 
 }  // namespace phongpd::internal

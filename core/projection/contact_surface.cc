@@ -119,8 +119,11 @@ PenetrationResult ContactSurface::Answer(const Vector3d& q_o,
   const Vector3d& normal = facet_normals_[closest.triangle];
   const bool in_facet = closest.lambda.minCoeff() > 0.0;
   const bool at_contact = distance * tree_.scale() <= 1e-12;
-  Vector3d direction = Unit(result.inside ? Vector3d(result.contact - q_o)
-                                          : Vector3d(q_o - result.contact));
+  Vector3d direction = result.inside ? Vector3d(result.contact - q_o)
+                                     : Vector3d(q_o - result.contact);
+  // The norm may be beyond all doubles where no coordinate is.
+  if (direction.cwiseAbs().maxCoeff() > 1e300) direction *= 0x1p-10;
+  direction = Unit(direction);
   if ((in_facet || at_contact) && normal.squaredNorm() > 0.0) {
     // A foot inside the facet, but not the facet's side q_o is on: rounding
     // in a sliver; the difference is the better answer there.

@@ -6,6 +6,7 @@
 #include <iostream>
 
 #include "core/mesh/mesh_io.h"
+#include "core/mesh/mesh_range.h"
 #include "problems/text.h"
 
 namespace phongpd::cli {
@@ -23,6 +24,7 @@ TriangleMesh LoadSolid(const std::string& path, MeshReport* report) {
 
 TriangleMesh LoadContactSpace(const std::string& path) {
   TriangleMesh mesh = ReadMesh(path);
+  RequireInRange(mesh, path);
   const MeshReport report = ExamineMesh(mesh);
   const auto refuse = [&](std::size_t count, const std::string& what) {
     if (count == 0) return;
@@ -97,6 +99,14 @@ ContactSpaceCache UserCache(bool no_cache) {
   ContactSpaceCache cache;
   if (!no_cache) cache.directory = DefaultCacheDirectory();
   return cache;
+}
+
+void AddRoot(CLI::App* app, std::string* root) {
+  app->add_option("--root", *root,
+                  "Refuse a scene file whose mesh files, links and .. "
+                  "followed, lie outside this folder (for scene files of "
+                  "others)")
+      ->type_name("DIR");
 }
 
 void RequireRuns(int runs) {

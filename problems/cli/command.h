@@ -72,6 +72,9 @@ void TellAbout(const Scene& scene, const SceneSpace& space);
 void AddNoCache(CLI::App* app, bool* no_cache);
 ContactSpaceCache UserCache(bool no_cache);
 
+// Declares --root, the folder that mesh files of a scene file must lie below.
+void AddRoot(CLI::App* app, std::string* root);
+
 // Throws InputError unless --runs is at least 1.
 void RequireRuns(int runs);
 

@@ -22,6 +22,7 @@ using Json = nlohmann::ordered_json;
 
 struct Flags {
   std::vector<std::string> scenes;
+  std::string root;  // of their mesh files; empty: anywhere
   std::vector<std::string> metrics = {"euclidean", "phong@0", "phong@0.1",
                                       "phong@0.2"};
   std::vector<std::string> protocols = {
@@ -74,7 +75,7 @@ Methods ReadMethods(const Flags& flags) {
   Methods methods;
   std::set<std::string> names;
   for (const std::string& text : flags.scenes) {
-    methods.sources.emplace_back(text);
+    methods.sources.emplace_back(text, flags.root);
     const Scene scene = methods.sources.back().Load(flags.seed);
     // Rows know their scene by its name.
     if (!names.insert(scene.name).second) {
@@ -211,6 +212,7 @@ Command AddCompare(CLI::App* app) {
   app->add_option("scenes", flags->scenes,
                   "Scene files, or FAMILY:key=value,... (see scenes list)")
       ->type_name("SCENE");
+  AddRoot(app, &flags->root);
   app->add_option("--metrics", flags->metrics,
                   "euclidean, phong@L, phong@L/exact, phong@L/tangent-plane; L "
                   "is the smoothing length")

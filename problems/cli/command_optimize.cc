@@ -85,7 +85,7 @@ std::string Explanation(const PipelineResult& result) {
 
 int Optimize(const Flags& flags) {
   RequireRuns(flags.runs);
-  const SceneSource source(flags.scene);
+  const SceneSource source(flags.scene, flags.root);
   SeededRuns runs(flags,
                   "scene, metric, start, seed: status, iterations, objective, "
                   "clearance/D, seconds");

@@ -22,7 +22,7 @@ struct Flags : SeededRunFlags {
 
 int Plan(const Flags& flags) {
   RequireRuns(flags.runs);
-  const Scene scene = SceneSource(flags.scene).Load();
+  const Scene scene = SceneSource(flags.scene, flags.root).Load();
   PlanningRun run;
   run.planner = flags.planner.empty() ? scene.planning.planner : flags.planner;
   run.retraction = flags.metric;

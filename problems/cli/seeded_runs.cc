@@ -13,6 +13,7 @@ void AddScene(CLI::App* app, SeededRunFlags* flags) {
                   "Scene file, or FAMILY:key=value,... (see scenes list)")
       ->required()
       ->type_name("SCENE");
+  AddRoot(app, &flags->root);
 }
 
 void AddRuns(CLI::App* app, const std::string& seed_help,

@@ -15,6 +15,7 @@ namespace phongpd::cli {
 
 struct SeededRunFlags {
   std::string scene;
+  std::string root;        // of its mesh files; empty: anywhere
   std::uint64_t seed = 0;  // S
   int runs = 1;
   std::string time_limit;  // of a run; the command says what it limits
@@ -24,7 +25,8 @@ struct SeededRunFlags {
   bool no_cache = false;
 };
 
-// Declare the argument SCENE, --seed and --runs, --output, --html and --svg.
+// Declare the argument SCENE and --root, --seed and --runs, --output, --html
+// and --svg.
 void AddScene(CLI::App* app, SeededRunFlags* flags);
 void AddRuns(CLI::App* app, const std::string& seed_help,
              SeededRunFlags* flags);

@@ -2,9 +2,13 @@
 // Bad input ends with exit code 2, one line that names the file, and nothing
 // written.
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
+#include <filesystem>
+#include <fstream>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -165,6 +169,51 @@ TEST_F(Cli, RefusesContactSpacesThatAreNone) {
   ExpectRefused("query --contact-space ../turned.off" + rest, {"turned.off"});
   ExpectRefused("query --contact-space ../open.off" + rest, {"open.off", "3"});
   ExpectRefused("query --contact-space ../none.off" + rest, {"none.off"});
+}
+
+TEST_F(Cli, RefusesFilesThatClaimMoreThanTheyHold) {
+  std::filesystem::copy(PHONGPD_TEST_DATA "/faults/list_count.ply",
+                        File("list_count.ply"));
+  ExpectMeshRefused("list_count.ply", {"declares 2000000000 values"});
+}
+
+TEST_F(Cli, RefusesSizesBeyondTheRangeByTheirValue) {
+  WriteText("p.csv", "x,y,z\n0,0,0\n");
+  const TriangleMesh box = MakeBox({-1, -1, -1}, {1, 1, 1});
+  WriteMesh(Scaled(box, 2e80), File("far.off"));
+  ExpectMeshRefused("far.off", {"at most 1e+80, found 2e+80"});
+  ExpectRefused(
+      "query --contact-space ../far.off --points ../p.csv --output o.csv",
+      {"far.off", "at most 1e+80, found 2e+80"});
+}
+
+TEST_F(Cli, ReadsPipesAndRefusesThoseThatNobodyWritesTo) {
+  ASSERT_EQ(mkfifo(File("pipe.csv").c_str(), 0600), 0);
+  const std::string query = "query --contact-space ../box.off --output o.csv ";
+  ExpectRefused(query + "--points ../pipe.csv",
+                {"pipe.csv", "a pipe that nobody writes to"});
+  ExpectRefused(query + "--points /dev/zero", {"/dev/zero", "a device"});
+  WriteText("p.csv", "x,y,z\n0,0,0\n");
+  std::thread writer(
+      [&] { std::ofstream(File("pipe.csv")) << "x,y,z\n0,0,0\n"; });
+  EXPECT_EQ(Run(query + "--points ../pipe.csv").code, 0);
+  writer.join();
+  EXPECT_EQ(Run(query + "--points /dev/stdin < ../p.csv").code, 0);
+}
+
+TEST_F(Cli, KeepsMeshFilesOfScenesBelowTheRoot) {
+  std::filesystem::create_directory(folder_ / "scenes");
+  WriteText("scenes/scene.json",
+            R"({"robot": {"mesh": "../box.off"}, "obstacles": [{"mesh":
+                "../box.off"}], "start": [9, 0, 0], "goal": [0, 9, 0]})");
+  for (const std::string command :
+       {"plan ../scenes/scene.json", "optimize ../scenes/scene.json",
+        "compare ../scenes/scene.json"}) {
+    ExpectRefused(command + " --output o --root ../scenes",
+                  {"/robot/mesh", "below the root ../scenes"});
+  }
+  EXPECT_EQ(Run("plan ../scenes/scene.json --root .. --output o.jsonl").code,
+            0);
 }
 
 TEST_F(Cli, AFailedWriteIsBadInputToo) {

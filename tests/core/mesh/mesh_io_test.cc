@@ -137,7 +137,8 @@ TEST(MeshIo, ReadsLinesThatEndInCrLf) {
 
 TEST(MeshIo, ReadsBinaryStl) {
   const TriangleMesh box = MakeBox({0, 0, 0}, {1, 2, 4});
-  for (const std::string start : {"", "solid "}) {  // some writers say solid
+  // Some writers say solid.
+  for (const std::string start : {"", "solid ", "solid of facet normal\n"}) {
     std::string stl = start + std::string(80 - start.size(), ' ');
     stl += Bytes<std::uint32_t>(12);
     for (std::size_t t = 0; t < 12; ++t) {
