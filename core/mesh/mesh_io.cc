@@ -7,6 +7,7 @@
 #include <exception>
 #include <filesystem>
 #include <fstream>
+#include <sstream>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -134,7 +135,7 @@ TriangleMesh ReadMesh(const std::string& path) {
   return mesh;
 }
 
-void WriteMesh(const TriangleMesh& mesh, const std::string& path) {
+std::string MeshContent(const TriangleMesh& mesh, const std::string& path) {
   const MeshFormat format = FormatOf(path);
   PolygonSoup soup;
   soup.points = mesh.vertices;
@@ -142,9 +143,17 @@ void WriteMesh(const TriangleMesh& mesh, const std::string& path) {
     soup.polygons.emplace_back(t.begin(), t.end());
   }
   RequireValid(soup, path);
+  std::ostringstream out;
+  out.exceptions(std::ios::badbit);  // it would swallow std::bad_alloc
+  internal::WriteSoup(format, soup, out);
+  return out.str();
+}
+
+void WriteMesh(const TriangleMesh& mesh, const std::string& path) {
+  const std::string content = MeshContent(mesh, path);
   std::ofstream out(path, std::ios::binary);
-  const bool is_written = out && internal::WriteSoup(format, soup, out);
-  if (!is_written || !out.flush()) {
+  out.write(content.data(), static_cast<std::streamsize>(content.size()));
+  if (!out.flush()) {
     throw InputError(path +
                      ": cannot be written; expected a writable path "
                      "with room for " +
