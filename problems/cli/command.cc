@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "problems/cli/command.h"
 
+#include <fcntl.h>
 #include <unistd.h>
 
 #include <iostream>
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "core/contact_space/content_hash.h"
+#include "core/files/descriptor.h"
 #include "core/mesh/mesh_io.h"
 #include "problems/text.h"
 #include "problems/versions.h"
@@ -118,6 +121,12 @@ void WriteMeshTo(OutputFiles* outputs, const std::string& path,
   outputs->Write(path, MeshContent(mesh, path));
 }
 
+void CommitAndTell(OutputFiles* outputs, const std::string& text) {
+  const bool is_silent = outputs->UseStandardOutput();
+  outputs->Commit();
+  if (!is_silent) std::cout << text;
+}
+
 Eigen::Vector3d ParsePoint(const std::vector<std::string>& cells,
                            const std::string& flag) {
   Eigen::Vector3d point;
@@ -126,6 +135,17 @@ Eigen::Vector3d ParsePoint(const std::vector<std::string>& cells,
   }
   return point;
 }
+
+namespace {
+
+// Two builds of one version may give different rows.
+std::string ProgramDigest() {
+  const internal::Descriptor file(open("/proc/self/exe", O_RDONLY | O_CLOEXEC));
+  if (!file.IsOpen()) return "";
+  return internal::ToHex(internal::HashContent(internal::ReadAll(file)));
+}
+
+}  // namespace
 
 nlohmann::ordered_json CommandSettings(const CLI::App& app,
                                        const std::vector<SceneSource>& scenes) {
@@ -144,6 +164,7 @@ nlohmann::ordered_json CommandSettings(const CLI::App& app,
   for (const auto& [name, version] : Versions()) {
     settings["versions"][name] = version;
   }
+  settings["program"] = ProgramDigest();
   return settings;
 }
 

@@ -84,12 +84,15 @@ void DeclareMesh(OutputFiles* outputs, const std::string& path);
 void WriteMeshTo(OutputFiles* outputs, const std::string& path,
                  const TriangleMesh& mesh);
 
+// Commits, and then prints `text` unless an output is standard output.
+void CommitAndTell(OutputFiles* outputs, const std::string& text);
+
 // The three numbers of a flag, e.g. --from X Y Z.
 Eigen::Vector3d ParsePoint(const std::vector<std::string>& cells,
                            const std::string& flag);
 
 // What the rows of a command depend on, for RowFile: its options but for the
-// names of outputs and --no-cache, its scenes and all versions.
+// names of outputs and --no-cache, its scenes, all versions and the program.
 nlohmann::ordered_json CommandSettings(const CLI::App& app,
                                        const std::vector<SceneSource>& scenes);
 

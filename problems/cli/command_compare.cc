@@ -114,17 +114,19 @@ std::vector<ComparisonJob> Jobs(const Flags& flags, const Methods& methods,
   return jobs;
 }
 
-void PrintCells(const std::vector<ComparisonCell>& cells) {
-  std::cout << "scene, protocol, method: solved of runs (stalled) + free not "
-               "solved, claims but collides; median iterations, restoration "
-               "%\n";
+std::string CellTable(const std::vector<ComparisonCell>& cells) {
+  TextStream text;
+  text << "scene, protocol, method: solved of runs (stalled) + free not "
+          "solved, claims but collides; median iterations, restoration "
+          "%\n";
   for (const ComparisonCell& c : cells) {
-    std::cout << c.scene << ", " << c.protocol << ", " << c.method << ": "
-              << c.solved << " of " << c.runs << " (" << c.stalled << ") + "
-              << c.free_only << ", " << c.claims_only << "; "
-              << Rounded(c.median_iterations, 4) << ", "
-              << Rounded(100.0 * c.restoration_share, 2) << '\n';
+    text << c.scene << ", " << c.protocol << ", " << c.method << ": "
+         << c.solved << " of " << c.runs << " (" << c.stalled << ") + "
+         << c.free_only << ", " << c.claims_only << "; "
+         << Rounded(c.median_iterations, 4) << ", "
+         << Rounded(100.0 * c.restoration_share, 2) << '\n';
   }
+  return text.str();
 }
 
 int Compare(const CLI::App& app, const Flags& flags) {
@@ -197,8 +199,11 @@ int Compare(const CLI::App& app, const Flags& flags) {
             PerformanceProfile(rows, protocol.name, measure));
     }
   }
+  const std::string table = CellTable(cells);
+  rows.clear();  // to destroy JSON takes memory: not after the outputs are
+                 // there
   commit();
-  PrintCells(cells);
+  std::cout << table;
   return kDone;
 }
 

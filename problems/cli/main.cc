@@ -102,7 +102,8 @@ int Run(int argc, char** argv) {
 int FailForMemory() {
   const std::string& stage = Stage();
   return Fail(kInternalError,
-              "out of memory" + (stage.empty() ? "" : " after: " + stage) +
+              "out of memory" +
+                  (stage.empty() ? "" : ", the last step was: " + stage) +
                   "; give the process more, or simplify the meshes "
                   "(contact-space --target-faces, --robot-hull; --max-mib "
                   "refuses early what would need more)");
@@ -115,13 +116,17 @@ int FailFor(const std::exception_ptr& failure) {
     return Fail(kBadInput, error.what());
   } catch (const std::bad_alloc&) {
     return FailForMemory();
-  } catch (const std::system_error& error) {
-    // Threads are what may be refused; files are InputErrors by now.
-    return Fail(kInternalError, std::string("the system refuses: ") +
-                                    error.what() +
-                                    "; see its limits (ulimit -a)");
   } catch (const std::exception& error) {
-    return Fail(kInternalError, std::string("internal error: ") + error.what());
+    const std::string what = error.what();
+    // TBB reports a refused thread as any runtime_error.  Files are InputErrors
+    // by now.
+    if (dynamic_cast<const std::system_error*>(&error) != nullptr ||
+        what.find("pthread_create") != std::string::npos) {
+      return Fail(kInternalError, "no thread can be started (" + what +
+                                      "); see the limits of processes and "
+                                      "memory (ulimit -u, ulimit -v)");
+    }
+    return Fail(kInternalError, "internal error: " + what);
   } catch (...) {
     return Fail(kInternalError, "internal error");
   }
