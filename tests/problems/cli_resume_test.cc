@@ -175,8 +175,9 @@ TEST_F(CliResume, AnotherCommandIsRefusedWithWhatDiffers) {
 
 TEST_F(CliResume, ATornRowIsDoneAgain) {
   const std::string command =
-      "plan " + Scene(TwoObstacles()) + " --runs 3 --seed 5 --output o.jsonl";
-  ASSERT_EQ(Run(command).code, 0);
+      "plan " + Scene(TwoObstacles()) +
+      " --planner rrt-connect --output o.jsonl --seed 5 --runs ";
+  ASSERT_EQ(Run(command + "3").code, 0);
   const Strings whole = Rows("o.jsonl");
   const pid_t process = Start(command + "100000");
   Await("o.jsonl.partial", 6000);
