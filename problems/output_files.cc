@@ -70,9 +70,9 @@ class OutputFiles::Replacement {
     try {
       file_.temporary->Publish(file_.leaf, kNewFile);
     } catch (...) {
-      // Two names of one file are no rename; then only the second one goes.
-      if (!old_.empty()) Undo();
-      Keep();
+      // To rename one of two names of a file to the other does nothing: the
+      // second name goes separately, unless it is the only one.
+      if (!old_.empty() && Undo().empty()) Keep();
       throw;
     }
   }
