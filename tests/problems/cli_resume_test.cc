@@ -19,7 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 using Strings = std::vector<std::string>;
 
-class CliResume : public CliProcess {
+class CliResumeCampaign : public CliProcess {
  protected:
   // The whole rows of a file, without the first line of a partial one.
   Strings Rows(const std::string& name) const {
@@ -49,6 +49,10 @@ class CliResume : public CliProcess {
                      const Strings& whole, std::chrono::microseconds duration,
                      int kills) {
     const std::string partial = rows + ".partial";
+    testing::CampaignRow report;
+    report.item = "faults";
+    report.subject = "SIGKILL and resume: " + command.substr(0, 8);
+    report.seed = 7;
     Strings seen;
     int code = 128 + SIGKILL;
     for (int i = 0; i < 20 * kills && kills > 0 && code != 0; ++i) {
@@ -59,6 +63,7 @@ class CliResume : public CliProcess {
       const Strings now = Rows(partial);
       EXPECT_TRUE(BeginsWith(now, seen)) << "rows were lost or changed";
       if (!now.empty()) --kills;
+      ++report.cases;
       seen = now;
     }
     EXPECT_FALSE(seen.empty()) << "never killed while there were rows";
@@ -75,10 +80,12 @@ class CliResume : public CliProcess {
     const Strings all = Rows(rows);
     EXPECT_TRUE(BeginsWith(all, seen)) << "rows were done again";
     EXPECT_EQ(Comparable(all), Comparable(whole));
+    report.failures = HasFailure() ? 1 : 0;
+    testing::ReportCampaign(report);
   }
 };
 
-TEST_F(CliResume, OptimizeGoesOnAfterSigkill) {
+TEST_F(CliResumeCampaign, OptimizeGoesOnAfterSigkill) {
   const std::string command =
       "optimize " + Scene(TwoObstacles()) +
       " --runs 6 --seed 5 --start straight --start-noise 0.1 --html o.html "
@@ -99,7 +106,7 @@ TEST_F(CliResume, OptimizeGoesOnAfterSigkill) {
   EXPECT_EQ(Names(), (std::set<std::string>{"o.html", "o.jsonl", "o.svg"}));
 }
 
-TEST_F(CliResume, PlanGoesOnAfterSigkill) {
+TEST_F(CliResumeCampaign, PlanGoesOnAfterSigkill) {
   const std::string command = "plan " + Scene(TwoObstacles()) +
                               " --planner rrt-connect --runs 300 --time 5 "
                               "--html o.html --output o.jsonl";
@@ -114,7 +121,7 @@ TEST_F(CliResume, PlanGoesOnAfterSigkill) {
   EXPECT_EQ(Names(), (std::set<std::string>{"o.html", "o.jsonl"}));
 }
 
-TEST_F(CliResume, CompareGoesOnAfterSigkill) {
+TEST_F(CliResumeCampaign, CompareGoesOnAfterSigkill) {
   const std::string command =
       "compare u_trap:triangles=80 " + Scene(TwoObstacles()) +
       " --runs 2 --seed 3 --metrics euclidean phong@0.2 --protocols "
@@ -130,7 +137,7 @@ TEST_F(CliResume, CompareGoesOnAfterSigkill) {
 }
 
 // Every way to leave rows of two commands in one file.
-TEST_F(CliResume, AnotherCommandIsRefusedWithWhatDiffers) {
+TEST_F(CliResumeCampaign, AnotherCommandIsRefusedWithWhatDiffers) {
   WriteMesh(MakeBox({-0.1, -0.5, -0.5}, {0.1, 0.5, 0.5}), File("wall.off"));
   Json scene = TwoObstacles();
   scene["obstacles"][0] = {{"id", "wall"}, {"mesh", "wall.off"}};
@@ -173,7 +180,7 @@ TEST_F(CliResume, AnotherCommandIsRefusedWithWhatDiffers) {
   expect_refused(command + " --seed 1", "contents of scenes");
 }
 
-TEST_F(CliResume, ATornRowIsDoneAgain) {
+TEST_F(CliResumeCampaign, ATornRowIsDoneAgain) {
   const std::string command =
       "plan " + Scene(TwoObstacles()) +
       " --planner rrt-connect --output o.jsonl --seed 5 --runs ";
