@@ -69,7 +69,7 @@ void CheckComparisonRow(const Json& row, const std::string& where) {
 }
 
 std::string CompactCsv(const std::vector<Json>& rows) {
-  std::ostringstream csv;
+  TextStream csv;
   csv << "scene,protocol,method,seed,status,status_class,solved,"
          "solver_claims_solved,collision_free,iterations,"
          "restoration_iterations,jacobian_evaluations,objective,inf_pr,inf_du,"

@@ -29,8 +29,8 @@ using File = std::unique_ptr<std::FILE, CloseFile>;
 File AnonymousFile() {
   File file(std::tmpfile());
   if (!file) {
-    throw std::runtime_error(std::string("no temporary file for gnuplot: ") +
-                             std::strerror(errno));
+    throw InputError(std::string("plots: no temporary file for gnuplot (") +
+                     std::strerror(errno) + ")");
   }
   return file;
 }
@@ -77,8 +77,12 @@ std::string RenderSvg(const std::string& script, int width, int height) {
       "," + std::to_string(height) +
       " dynamic enhanced font 'sans-serif,13' background rgb 'white'\n" +
       script + "\n";
-  std::fwrite(all.data(), 1, all.size(), input.get());
-  std::fflush(input.get());
+  if (std::fwrite(all.data(), 1, all.size(), input.get()) != all.size() ||
+      std::fflush(input.get()) != 0) {
+    throw InputError(std::string("plots: a temporary file for gnuplot cannot "
+                                 "be written (") +
+                     std::strerror(errno) + ")");
+  }
   std::rewind(input.get());
 
   posix_spawn_file_actions_t actions;
@@ -93,8 +97,8 @@ std::string RenderSvg(const std::string& script, int width, int height) {
       posix_spawnp(&child, program, &actions, nullptr, arguments, environ);
   posix_spawn_file_actions_destroy(&actions);
   if (failed != 0) {
-    throw std::runtime_error(std::string("gnuplot could not be started: ") +
-                             std::strerror(failed));
+    throw InputError(std::string("plots: gnuplot could not be started (") +
+                     std::strerror(failed) + ")");
   }
   int status = 0;
   while (waitpid(child, &status, 0) < 0 && errno == EINTR) {

@@ -12,8 +12,8 @@ void RequireGnuplot();
 
 // Runs `script` (which carries its data as $name << EOD blocks) through
 // gnuplot's SVG terminal of the given size in pixels and returns the picture.
-// Throws InputError without gnuplot and std::runtime_error, with gnuplot's
-// first message, if it fails.
+// Throws InputError without gnuplot or room for its temporary files, and
+// std::runtime_error, with gnuplot's first message, if it fails.
 std::string RenderSvg(const std::string& script, int width, int height);
 
 }  // namespace phongpd

@@ -1,22 +1,36 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "core/files/descriptor.h"
+#include "core/files/interruption.h"
+#include "core/files/temporary_file.h"
 #include "core/mesh/mesh_error.h"
 
 namespace phongpd {
 
-// The files one command writes: all of them or none.  Contents go to a
-// temporary neighbour of each file first; Commit renames them when everything
-// has been written.  Targets that are no regular file (a device, a pipe) are
-// written in place, and /dev/stdout through standard output.
+// The files one command writes: all of them or none.
 //
 //   OutputFiles outputs;
 //   outputs.Declare(path);          // fails now, not after hours of work
 //   outputs.Write(path, text);
 //   outputs.Commit();
+//
+// Contents go to private temporaries beside their targets
+// (.phongpd-NAME-RANDOM.part, see core/files/temporary_file.h) and are on the
+// disk before Commit renames the first; when a rename fails, those before it
+// are undone.  Only a power cut or SIGKILL within Commit, which lasts as long
+// as the renames, can leave some new files beside old ones, each of them whole.
+// Signals remove the temporaries; what SIGKILL leaves goes with the next
+// Declare of the same file.  A symbolic link is followed, unless others could
+// have put it there: it is somebody else's, in a folder they may write to.
+//
+// Targets that are no regular file (a device, a pipe) are written in place,
+// and /dev/stdout through standard output.
 //
 // Throws InputError naming the file that cannot be written.
 class OutputFiles {
@@ -30,15 +44,15 @@ class OutputFiles {
   // it made goes again without Commit.
   void MakeDirectory(const std::string& path);
 
-  // Checks that `path` could be written and is declared once only.
+  // Makes sure that `path` can be written and is declared once only.
   void Declare(const std::string& path);
 
-  // Where the content of the declared `path` goes until Commit; it has the
-  // same extension.
-  const std::string& TemporaryPath(const std::string& path) const;
+  // The regular file that the declared `path` names, links resolved; empty for
+  // what is written in place.
+  std::string Target(const std::string& path) const;
 
-  // Writes `content` there.
-  void Write(const std::string& path, const std::string& content);
+  // Writes the content of the declared `path`; once.
+  void Write(const std::string& path, std::string_view content);
 
   void Commit();
 
@@ -47,14 +61,21 @@ class OutputFiles {
 
  private:
   struct File {
-    std::string path;       // as the user named it
-    std::string target;     // symbolic links followed
-    std::string temporary;  // equal to target when written in place
+    std::string path;    // as the user named it
+    std::string target;  // symbolic links followed
+    std::string leaf;    // its name in the folder
+    internal::Descriptor folder;
+    std::unique_ptr<internal::TemporaryFile> temporary;  // none: in place
   };
+  struct Directory {
+    std::string path;
+    internal::RemovedOnSignal on_signal;
+  };
+  class Replacement;
   const File& Find(const std::string& path) const;
 
   std::vector<File> files_;
-  std::vector<std::string> directories_;  // made here, parents first
+  std::vector<Directory> directories_;  // made here, parents first
 };
 
 }  // namespace phongpd

@@ -156,7 +156,7 @@ std::string PathSvg(const PathScene& scene) {
                        1.3 * (std::cos(pitch) * d.z() + std::sin(pitch) * w),
                    6);
   };
-  std::ostringstream svg;
+  TextStream svg;
   svg << "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 " << kWidth
       << ' ' << kHeight << "\" font-family=\"sans-serif\" font-size=\"13\">\n"
       << "<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n"
@@ -188,7 +188,7 @@ std::string PathPage(const PathScene& scene) {
     const std::vector<Edge> edges = SharpEdges(mesh);
     contact.insert(contact.end(), edges.begin(), edges.end());
   }
-  std::ostringstream page;
+  TextStream page;
   page << "<!doctype html>\n<meta charset=\"utf-8\">\n<title>"
        << Escaped(scene.title)
        << "</title>\n<style>body{font:14px sans-serif;margin:1em}"

@@ -217,7 +217,8 @@ std::vector<Vector3d> Witness(const Json& value, const Scene& scene,
 }  // namespace
 
 const Json& SceneSchema() {
-  static const Json schema = Json::parse(internal::kSceneSchema);
+  // Never destroyed: that takes memory, of which there may be none by then.
+  static const Json& schema = *new Json(Json::parse(internal::kSceneSchema));
   return schema;
 }
 

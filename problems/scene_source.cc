@@ -3,9 +3,13 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "core/contact_space/byte_stream.h"
+#include "core/contact_space/content_hash.h"
 #include "problems/scene_library.h"
 #include "problems/text.h"
 
@@ -49,6 +53,22 @@ Scene SceneSource::Load(std::optional<std::uint64_t> seed) const {
   Scene scene = ParseScene(MakeScene(family_, knobs), text_);
   scene.name = label_;
   return scene;
+}
+
+std::string SceneSource::Digest() const {
+  internal::ByteWriter writer;
+  writer(text_);
+  if (is_file_) {
+    std::ifstream file(text_, std::ios::binary);
+    writer(std::string(std::istreambuf_iterator<char>(file), {}));
+  }
+  const Scene scene = Load();
+  writer(scene.start, scene.goal, scene.workspace.robot.vertices,
+         scene.workspace.robot.triangles);
+  for (const Obstacle& obstacle : scene.workspace.obstacles) {
+    writer(obstacle.mesh.vertices, obstacle.mesh.triangles);
+  }
+  return internal::ToHex(internal::HashContent(writer.Take()));
 }
 
 }  // namespace phongpd

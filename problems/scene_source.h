@@ -27,6 +27,10 @@ class SceneSource {
   // a family.  Throws InputError like ReadScene and MakeScene.
   Scene Load(std::optional<std::uint64_t> seed = std::nullopt) const;
 
+  // 32 hexadecimal digits that change with the scene: with its file or knobs,
+  // and with the solids they give.  Throws like Load.
+  std::string Digest() const;
+
  private:
   std::string text_;
   std::string root_;

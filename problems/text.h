@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <sstream>
 #include <string>
 #include <string_view>
 
@@ -10,6 +11,13 @@
 
 // Numbers, points and statuses as text, the same in every file and message.
 namespace phongpd {
+
+// A stream to a string that throws std::bad_alloc; the standard one drops what
+// finds no memory and goes on.
+class TextStream : public std::ostringstream {
+ public:
+  TextStream() { exceptions(std::ios::badbit); }
+};
 
 // The shortest decimal text that reads back to exactly `value`.
 std::string FormatDouble(double value);

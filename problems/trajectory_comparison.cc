@@ -211,7 +211,7 @@ std::vector<ComparisonCell> Summarize(const std::vector<Json>& rows) {
 }
 
 std::string ComparisonCsv(const std::vector<ComparisonCell>& cells) {
-  std::ostringstream csv;
+  TextStream csv;
   csv << "scene,protocol,method,runs,solved,stalled,free_not_solved,"
          "claims_but_collides,median_iterations,restoration_share,"
          "median_seconds,callback_share,mean_objective_ratio,within_2_percent,"
@@ -272,7 +272,7 @@ std::string PerformanceProfile(const std::vector<Json>& rows,
   constexpr double kLargest = 100.0;
   const std::vector<ProfileCurve> curves =
       ProfileCurves(rows, protocol, measure);
-  std::ostringstream script;
+  TextStream script;
   std::string plots;
   for (std::size_t k = 0; k < curves.size(); ++k) {
     const ProfileCurve& curve = curves[k];

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # cmake -D SOURCE=... -P layering_test.cmake: who may include whom.
 #   core <- constraints <- planners <- problems <- tests, results
-#   core: mesh <- contact_space <- projection
+#   core: files, mesh <- contact_space <- projection
 cmake_minimum_required(VERSION 3.23)
 
 set(failures "")
@@ -26,6 +26,7 @@ endfunction()
 
 forbid(core "(constraints|planners|problems|tests|results)/")
 forbid(core "(fcl|ompl|CLI|nlohmann|coin)/|Ip[A-Z]")
+forbid(core/files "core/(mesh|contact_space|projection)/")
 forbid(core/mesh "core/(contact_space|projection)/")
 forbid(core/contact_space "core/projection/")
 forbid(constraints "(planners|problems|tests|results)/")

@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/contact_space/contact_space_cache.h"
 
+#include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <chrono>
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
+#include <new>
 #include <string_view>
 #include <system_error>
 #include <vector>
@@ -15,15 +18,19 @@
 #include "core/contact_space/byte_stream.h"
 #include "core/contact_space/contact_space_bytes.h"
 #include "core/contact_space/content_hash.h"
+#include "core/files/descriptor.h"
+#include "core/files/temporary_file.h"
 
 namespace phongpd {
 namespace {
 
 namespace fs = std::filesystem;
+using internal::Descriptor;
 
 const char kExtension[] = ".contact-space";
 const char kTemporary[] = "unfinished-";
-// Written by a process that is gone, when this old.
+// Written by a process that is gone, when this old; sooner where files can be
+// locked.
 constexpr std::chrono::hours kAbandoned(1);
 
 std::string FromEnvironment(const char* name) {
@@ -31,16 +38,60 @@ std::string FromEnvironment(const char* name) {
   return value != nullptr ? value : "";
 }
 
+// The cache's folder, if it is there and can be trusted.
+class CacheFolder {
+ public:
+  explicit CacheFolder(const std::string& path) : path_(path) { Open(); }
+
+  const Descriptor& descriptor() const { return folder_; }
+  // Why it is not used; empty: no reason, or it is not there.
+  const std::string& distrust() const { return distrust_; }
+
+  // False if it cannot be had.
+  bool MakeIfMissing() {
+    if (folder_.IsOpen() || !distrust_.empty()) return folder_.IsOpen();
+    // What is missing is made for the user alone, as XDG_CACHE_HOME asks for.
+    fs::path made;
+    for (const fs::path& part : fs::path(path_)) {
+      made /= part;
+      if (mkdir(made.c_str(), 0700) != 0 && errno != EEXIST) return false;
+    }
+    Open();
+    return folder_.IsOpen();
+  }
+
+ private:
+  void Open() {
+    folder_ = Descriptor(open(path_.c_str(), O_PATH | O_DIRECTORY | O_CLOEXEC));
+    if (!folder_.IsOpen()) return;
+    // In a shared folder anybody can put a link under the cache's name.
+    struct stat named;
+    const bool is_own_name = lstat(path_.c_str(), &named) == 0 &&
+                             (!S_ISLNK(named.st_mode) ||
+                              named.st_uid == geteuid() || named.st_uid == 0);
+    if (is_own_name && internal::IsPrivate(folder_)) return;
+    folder_.Close();
+    distrust_ = "the cache folder " + path_ +
+                " is not used: expected it to be the user's own and closed to "
+                "the writing of others (chmod go-w), or set PHONGPD_CACHE_DIR";
+  }
+
+  std::string path_;
+  Descriptor folder_;
+  std::string distrust_;
+};
+
 // One cached result: a header that says what it is the result of, then the
 // size and checksum of what follows, then that.
 class CacheFile {
  public:
   CacheFile(const TriangleMesh& robot, const TriangleMesh& obstacle,
             const ContactSpaceOptions& options, const ContactSpaceCache& cache)
-      : cache_(cache) {
+      : cache_(cache), folder_(cache.directory) {
     const internal::ContentHash key =
         internal::HashContent(internal::KeyBytes(robot, obstacle, options));
-    path_ = fs::path(cache.directory) / (internal::ToHex(key) + kExtension);
+    name_ = internal::ToHex(key) + kExtension;
+    path_ = fs::path(cache.directory) / name_;
     // The counts catch what little the hash may miss.
     internal::ByteWriter writer;
     writer(std::string("phongpd contact space"), key, robot.vertices.size(),
@@ -49,52 +100,53 @@ class CacheFile {
     header_ = writer.Take();
   }
 
-  const fs::path& path() const { return path_; }
+  // What the user should know; empty: nothing.
+  const std::string& warning() const { return warning_; }
 
-  enum Outcome { kAbsent, kDamaged, kRead };
-  Outcome Read(ContactSpace* space) const {
-    std::error_code error;
-    const std::uintmax_t size = fs::file_size(path_, error);
-    if (error) return kAbsent;
-    if (size > cache_.max_bytes) return kDamaged;
-    std::ifstream stream(path_, std::ios::binary);
-    if (!stream) return kAbsent;
-    std::string bytes(static_cast<std::size_t>(size), '\0');
-    stream.read(bytes.data(), static_cast<std::streamsize>(size));
-    if (static_cast<std::uintmax_t>(stream.gcount()) != size) return kDamaged;
-    const std::string_view all(bytes);
-    const std::size_t start = header_.size() + kSealBytes;
-    if (all.size() < start) return kDamaged;
-    const std::string_view content = all.substr(start);
-    if (all.substr(0, start) != header_ + Seal(content) ||
-        !internal::FromBytes(content, space)) {
-      return kDamaged;
+  // False, with a reason to warn of if there is one, unless *space is what was
+  // kept.
+  bool Read(ContactSpace* space) {
+    warning_ = folder_.distrust();
+    if (!folder_.descriptor().IsOpen()) return false;
+    const Descriptor file(
+        openat(folder_.descriptor().number(), name_.c_str(),
+               O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));
+    struct stat status;
+    if (file.IsOpen() ? fstat(file.number(), &status) != 0 : errno != ELOOP) {
+      return false;
     }
-    // Now it is not the longest unused one.
-    fs::last_write_time(path_, fs::file_time_type::clock::now(), error);
-    return kRead;
+    if (!file.IsOpen() || !S_ISREG(status.st_mode) ||
+        !internal::IsPrivate(file)) {
+      warning_ = "the cache file " + path_.string() +
+                 " is not used: expected a file of the user's own that nobody "
+                 "else may write to";
+      return false;
+    }
+    if (!IsContent(file, static_cast<std::uintmax_t>(status.st_size), space)) {
+      warning_ = "the cache file " + path_.string() +
+                 " was damaged and has been replaced";
+      return false;
+    }
+    futimens(file.number(), nullptr);  // now it is not the longest unused one
+    return true;
   }
 
-  void Write(const ContactSpace& space) const {
-    const std::string content = internal::ToBytes(space);
-    const std::string bytes = header_ + Seal(content) + content;
-    if (bytes.size() > cache_.max_bytes) return;
-    std::error_code error;
-    fs::create_directories(cache_.directory, error);
-    std::string name =
-        (fs::path(cache_.directory) / (kTemporary + std::string("XXXXXX")))
-            .string();
-    const int descriptor = mkstemp(name.data());
-    if (descriptor < 0) return;
-    close(descriptor);
-    std::ofstream stream(name, std::ios::binary);
-    stream.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-    stream.close();
-    if (stream) {
-      fs::rename(name, path_, error);
-      if (!error) return Trim();
+  // Failures are no more than that: the next call finds no file.
+  void Write(const ContactSpace& space) {
+    try {
+      const std::string content = internal::ToBytes(space);
+      const std::string start = header_ + Seal(content);
+      if (start.size() + content.size() > cache_.max_bytes) return;
+      if (!folder_.MakeIfMissing()) return;
+      internal::TemporaryFile file(folder_.descriptor(), kTemporary);
+      file.Write(start);
+      file.Write(content);
+      // Not synced: what a power cut leaves, the checksum finds.
+      file.Publish(name_, 0600);
+      Trim();
+    } catch (const std::system_error&) {
+    } catch (const std::bad_alloc&) {
     }
-    fs::remove(name, error);
   }
 
  private:
@@ -106,6 +158,22 @@ class CacheFile {
     return writer.Take();
   }
 
+  bool IsContent(const Descriptor& file, std::uintmax_t size,
+                 ContactSpace* space) const {
+    const std::size_t start = header_.size() + kSealBytes;
+    if (size > cache_.max_bytes || size < start) return false;
+    try {
+      const std::string bytes = internal::ReadAll(file);
+      const std::string_view all(bytes);
+      if (all.size() < start) return false;
+      const std::string_view content = all.substr(start);
+      return all.substr(0, start) == header_ + Seal(content) &&
+             internal::FromBytes(content, space);
+    } catch (const std::system_error&) {  // a disk that fails
+      return false;
+    }
+  }
+
   // Other processes may remove files meanwhile: errors mean no more than that.
   void Trim() const {
     struct Entry {
@@ -113,6 +181,7 @@ class CacheFile {
       std::uintmax_t bytes;
       fs::path path;
     };
+    internal::RemoveAbandoned(cache_.directory, kTemporary);
     std::vector<Entry> entries;
     std::uintmax_t total = 0;
     const auto now = fs::file_time_type::clock::now();
@@ -126,6 +195,7 @@ class CacheFile {
       const std::string name = it->path().filename().string();
       if (name.rfind(kTemporary, 0) == 0 && now - used > kAbandoned) {
         fs::remove(it->path(), gone);
+        continue;
       }
       if (it->path().extension() != kExtension) continue;
       entries.push_back({used, bytes, it->path()});
@@ -143,8 +213,11 @@ class CacheFile {
   }
 
   ContactSpaceCache cache_;
+  CacheFolder folder_;
+  std::string name_;
   fs::path path_;
   std::string header_;
+  std::string warning_;
 };
 
 }  // namespace
@@ -166,18 +239,16 @@ ContactSpace BuildContactSpaceCached(const TriangleMesh& robot,
   if (cache.directory.empty()) {
     return BuildContactSpace(robot, obstacle, options);
   }
-  const CacheFile file(robot, obstacle, options, cache);
+  CacheFile file(robot, obstacle, options, cache);
   ContactSpace space;
-  const CacheFile::Outcome outcome = file.Read(&space);
-  if (outcome == CacheFile::kRead) {
+  if (file.Read(&space)) {
     space.report.from_cache = true;
     return space;
   }
   space = BuildContactSpace(robot, obstacle, options);
   file.Write(space);
-  if (outcome == CacheFile::kDamaged) {
-    space.report.warnings.push_back("the cache file " + file.path().string() +
-                                    " was damaged and has been replaced");
+  if (!file.warning().empty()) {
+    space.report.warnings.push_back(file.warning());
   }
   return space;
 }

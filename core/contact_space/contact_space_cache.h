@@ -10,7 +10,7 @@ namespace phongpd {
 
 // A folder of earlier results of BuildContactSpace.
 struct ContactSpaceCache {
-  std::string directory;  // created when needed; empty: no cache
+  std::string directory;  // created (0700) when needed; empty: no cache
   // Of all files together; the longest unused ones are removed first.
   std::uintmax_t max_bytes = std::uintmax_t{512} << 20;
 };
@@ -27,8 +27,10 @@ std::string DefaultCacheDirectory();
 // A cache that cannot be read or written is no error, just no cache.  A file
 // that is truncated or changed is detected (128-bit checksum), built anew,
 // replaced, and named in report.warnings.  Files appear under their name only
-// when complete, so any number of processes may share the folder.  Only
-// contents forged on purpose pass: share it with nobody you do not trust.
+// when complete, so any number of processes of one user may share the folder.
+// Contents forged on purpose would pass, so only folders and files are used
+// that are the user's own and that nobody else may write to; others, and links
+// where a file should be, are not read, and named in report.warnings.
 //
 // Throws what BuildContactSpace throws; failures are not kept.
 ContactSpace BuildContactSpaceCached(const TriangleMesh& robot,

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <fstream>
+#include <sstream>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -108,7 +109,7 @@ TriangleMesh internal::ReadMeshBytes(MeshFormat format, std::string_view bytes,
   return mesh;
 }
 
-void WriteMesh(const TriangleMesh& mesh, const std::string& path) {
+std::string MeshContent(const TriangleMesh& mesh, const std::string& path) {
   const MeshFormat format = FormatOf(path);
   PolygonSoup soup;
   soup.points = mesh.vertices;
@@ -116,9 +117,17 @@ void WriteMesh(const TriangleMesh& mesh, const std::string& path) {
     soup.polygons.emplace_back(t.begin(), t.end());
   }
   RequireValid(soup, path);
+  std::ostringstream out;
+  out.exceptions(std::ios::badbit);  // it would swallow std::bad_alloc
+  internal::WriteSoup(format, soup, out);
+  return out.str();
+}
+
+void WriteMesh(const TriangleMesh& mesh, const std::string& path) {
+  const std::string content = MeshContent(mesh, path);
   std::ofstream out(path, std::ios::binary);
-  const bool is_written = out && internal::WriteSoup(format, soup, out);
-  if (!is_written || !out.flush()) {
+  out.write(content.data(), static_cast<std::streamsize>(content.size()));
+  if (!out.flush()) {
     throw InputError(path +
                      ": cannot be written; expected a writable path "
                      "with room for " +

@@ -45,4 +45,7 @@ TriangleMesh ReadMesh(const std::string& path);
 // non-finite coordinates and bad indices, and when writing fails.
 void WriteMesh(const TriangleMesh& mesh, const std::string& path);
 
+// What WriteMesh writes to a file of this name.  Throws InputError like it.
+std::string MeshContent(const TriangleMesh& mesh, const std::string& path);
+
 }  // namespace phongpd

@@ -1,13 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "problems/cli/command.h"
 
+#include <fcntl.h>
 #include <unistd.h>
 
 #include <iostream>
+#include <nlohmann/json.hpp>
+#include <set>
 
+#include "core/contact_space/content_hash.h"
+#include "core/files/descriptor.h"
 #include "core/mesh/mesh_io.h"
 #include "core/mesh/mesh_range.h"
 #include "problems/text.h"
+#include "problems/versions.h"
 
 namespace phongpd::cli {
 
@@ -116,25 +122,19 @@ void RequireRuns(int runs) {
 }
 
 void DeclareMesh(OutputFiles* outputs, const std::string& path) {
+  MeshContent({{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {Triangle{0, 1, 2}}}, path);
   outputs->Declare(path);
-  WriteMeshTo(outputs, path,
-              {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {Triangle{0, 1, 2}}});
 }
 
 void WriteMeshTo(OutputFiles* outputs, const std::string& path,
                  const TriangleMesh& mesh) {
-  const std::string& temporary = outputs->TemporaryPath(path);
-  try {
-    WriteMesh(mesh, temporary);
-  } catch (const InputError& error) {
-    // The user knows the file by its own name only.
-    std::string message = error.what();
-    const std::size_t place = message.find(temporary);
-    if (place != std::string::npos) {
-      message.replace(place, temporary.size(), path);
-    }
-    throw InputError(message);
-  }
+  outputs->Write(path, MeshContent(mesh, path));
+}
+
+void CommitAndTell(OutputFiles* outputs, const std::string& text) {
+  const bool is_silent = outputs->UseStandardOutput();
+  outputs->Commit();
+  if (!is_silent) std::cout << text;
 }
 
 Eigen::Vector3d ParsePoint(const std::vector<std::string>& cells,
@@ -146,13 +146,51 @@ Eigen::Vector3d ParsePoint(const std::vector<std::string>& cells,
   return point;
 }
 
+namespace {
+
+// Two builds of one version may give different rows.
+std::string ProgramDigest() {
+  const internal::Descriptor file(open("/proc/self/exe", O_RDONLY | O_CLOEXEC));
+  if (!file.IsOpen()) return "";
+  return internal::ToHex(internal::HashContent(internal::ReadAll(file)));
+}
+
+}  // namespace
+
+nlohmann::ordered_json CommandSettings(const CLI::App& app,
+                                       const std::vector<SceneSource>& scenes) {
+  using Json = nlohmann::ordered_json;
+  static const std::set<std::string> others = {
+      "--help", "--output", "--html", "--svg", "--ompl-log", "--no-cache"};
+  Json settings = {{"command", app.get_name()}};
+  for (const CLI::Option* const option : app.get_options()) {
+    const std::string name = option->get_name();
+    if (others.count(name) != 0) continue;
+    settings[name] = option->count() > 0 ? Json(option->results())
+                                         : Json(option->get_default_str());
+  }
+  Json& digests = settings["contents of scenes"] = Json::array();
+  for (const SceneSource& scene : scenes) digests.push_back(scene.Digest());
+  for (const auto& [name, version] : Versions()) {
+    settings["versions"][name] = version;
+  }
+  settings["program"] = ProgramDigest();
+  return settings;
+}
+
 void Progress(const std::string& text) {
   static const bool terminal = isatty(STDERR_FILENO) != 0;
   if (terminal) std::cerr << text << '\n';
+  Stage() = text;
 }
 
-void Warn(const std::string& text) {
-  std::cerr << "phongpd: warning: " << text << '\n';
+std::string& Stage() {
+  static std::string stage;
+  return stage;
 }
+
+void Note(const std::string& text) { std::cerr << "phongpd: " << text << '\n'; }
+
+void Warn(const std::string& text) { Note("warning: " + text); }
 
 }  // namespace phongpd::cli

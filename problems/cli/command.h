@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <Eigen/Core>
 #include <functional>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,7 @@
 #include "core/mesh/triangle_mesh.h"
 #include "core/projection/phong_metric.h"
 #include "problems/output_files.h"
+#include "problems/scene_source.h"
 #include "problems/scene_space.h"
 
 // What the commands of the phongpd program share.
@@ -23,7 +25,7 @@ enum ExitCode {
   kDone = 0,           // ran and answered
   kNoAnswer = 1,       // ran, found no answer
   kBadInput = 2,       // InputError or bad arguments: one line, nothing written
-  kInternalError = 3,  // a fault of the program
+  kInternalError = 3,  // a fault of the program, or out of memory or threads
 };
 
 // Runs a command whose flags have been parsed; returns an ExitCode.
@@ -85,12 +87,25 @@ void DeclareMesh(OutputFiles* outputs, const std::string& path);
 void WriteMeshTo(OutputFiles* outputs, const std::string& path,
                  const TriangleMesh& mesh);
 
+// Commits, and then prints `text` unless an output is standard output.
+void CommitAndTell(OutputFiles* outputs, const std::string& text);
+
 // The three numbers of a flag, e.g. --from X Y Z.
 Eigen::Vector3d ParsePoint(const std::vector<std::string>& cells,
                            const std::string& flag);
 
+// What the rows of a command depend on, for RowFile: its options but for the
+// names of outputs and --no-cache, its scenes, all versions and the program.
+nlohmann::ordered_json CommandSettings(const CLI::App& app,
+                                       const std::vector<SceneSource>& scenes);
+
 // One progress line on stderr, only when that is a terminal.
 void Progress(const std::string& text);
+// The last of them, shown or not: what the command is at.
+std::string& Stage();
+
+// "phongpd: ..." on stderr.
+void Note(const std::string& text);
 
 // "phongpd: warning: ..." on stderr.
 void Warn(const std::string& text);

@@ -8,8 +8,10 @@
 #include <vector>
 
 #include "problems/cli/command.h"
+#include "problems/cli/comparison_jobs.h"
 #include "problems/gnuplot.h"
 #include "problems/output_files.h"
+#include "problems/row_file.h"
 #include "problems/scene_source.h"
 #include "problems/text.h"
 #include "problems/trajectory_comparison.h"
@@ -92,57 +94,43 @@ Methods ReadMethods(const Flags& flags) {
   return methods;
 }
 
-// Runs what belongs to the shard.
-std::vector<Json> Run(const Flags& flags, const Methods& methods,
-                      const Shard& shard) {
-  TrajectoryStudy study(UserCache(flags.no_cache));
-  std::vector<Json> rows;
+// Those of the shard, in the order of their rows.
+std::vector<ComparisonJob> Jobs(const Flags& flags, const Methods& methods,
+                                const Shard& shard) {
+  std::vector<ComparisonJob> jobs;
   int problem = 0;
   for (const SceneSource& source : methods.sources) {
     for (int run = 0; run < flags.runs; ++run, ++problem) {
       if (problem % shard.count != shard.index) continue;
       const std::uint64_t seed = flags.seed + static_cast<std::uint64_t>(run);
-      const Scene scene = source.Load(seed);
-      study.Enter(scene);
-      Progress(source.label() + ", seed " + std::to_string(seed));
       for (const TrajectoryProtocol& protocol : methods.protocols) {
-        PipelineOptions options = protocol.options;
-        options.seed = seed;
-        // The scene's own Ipopt settings hold for every protocol.
-        options.optimizer.ipopt.ipopt_options =
-            ScenePipelineOptions(scene).optimizer.ipopt.ipopt_options;
-        // A scene file differs from seed to seed by the start only.
-        const bool is_straight = options.start == TrajectoryStart::kStraight;
-        if (!source.is_family() && is_straight) options.start_noise = 0.01;
         const std::vector<TrajectoryMetric> only = {TrajectoryMetric()};
         for (const TrajectoryMetric& metric :
              protocol.uses_every_metric ? methods.metrics : only) {
-          Json row =
-              TrajectoryRow(study, metric, options, study.Run(metric, options));
-          row["protocol"] = protocol.name;
-          if (!flags.keep_paths) row.erase("path");
-          rows.push_back(std::move(row));
+          jobs.push_back({&source, seed, protocol, metric});
         }
       }
     }
   }
-  return rows;
+  return jobs;
 }
 
-void PrintCells(const std::vector<ComparisonCell>& cells) {
-  std::cout << "scene, protocol, method: solved of runs (stalled) + free not "
-               "solved, claims but collides; median iterations, restoration "
-               "%\n";
+std::string CellTable(const std::vector<ComparisonCell>& cells) {
+  TextStream text;
+  text << "scene, protocol, method: solved of runs (stalled) + free not "
+          "solved, claims but collides; median iterations, restoration "
+          "%\n";
   for (const ComparisonCell& c : cells) {
-    std::cout << c.scene << ", " << c.protocol << ", " << c.method << ": "
-              << c.solved << " of " << c.runs << " (" << c.stalled << ") + "
-              << c.free_only << ", " << c.claims_only << "; "
-              << Rounded(c.median_iterations, 4) << ", "
-              << Rounded(100.0 * c.restoration_share, 2) << '\n';
+    text << c.scene << ", " << c.protocol << ", " << c.method << ": "
+         << c.solved << " of " << c.runs << " (" << c.stalled << ") + "
+         << c.free_only << ", " << c.claims_only << "; "
+         << Rounded(c.median_iterations, 4) << ", "
+         << Rounded(100.0 * c.restoration_share, 2) << '\n';
   }
+  return text.str();
 }
 
-int Compare(const Flags& flags) {
+int Compare(const CLI::App& app, const Flags& flags) {
   if (flags.scenes.empty() == flags.rows.empty()) {
     throw InputError(
         "compare: expected scenes, or --rows with what shards "
@@ -163,13 +151,30 @@ int Compare(const Flags& flags) {
   const auto path = [&](const std::string& name) {
     return flags.output + "/" + name;
   };
-  outputs.Declare(path("rows.jsonl"));
-  if (flags.rows.empty()) rows = Run(flags, methods, shard);
+  const std::string rows_path = path("rows.jsonl");
+  outputs.Declare(rows_path);
   std::string lines;
-  for (const Json& row : rows) lines += row.dump() + '\n';
-  outputs.Write(path("rows.jsonl"), lines);
-  if (!is_whole) {
+  std::unique_ptr<RowFile> file;
+  if (flags.rows.empty()) {
+    file = std::make_unique<RowFile>(outputs.Target(rows_path),
+                                     CommandSettings(app, methods.sources));
+    RunJobs(Jobs(flags, methods, shard), UserCache(flags.no_cache),
+            flags.keep_paths, file.get());
+    lines = file->Content();
+    // As from --rows, so that kept rows and new ones count alike.
+    for (const std::string& row : file->rows()) {
+      rows.push_back(Json::parse(row));
+    }
+  } else {
+    for (const Json& row : rows) lines += row.dump() + '\n';
+  }
+  outputs.Write(rows_path, lines);
+  const auto commit = [&] {
     outputs.Commit();
+    if (file != nullptr) file->Finish();
+  };
+  if (!is_whole) {
+    commit();
     std::cout << rows.size() << " rows; merge shards by concatenation, then "
               << "compare --rows\n";
     return kDone;
@@ -195,8 +200,11 @@ int Compare(const Flags& flags) {
             PerformanceProfile(rows, protocol.name, measure));
     }
   }
-  outputs.Commit();
-  PrintCells(cells);
+  const std::string table = CellTable(cells);
+  rows.clear();  // to destroy JSON takes memory: not after the outputs are
+                 // there
+  commit();
+  std::cout << table;
   return kDone;
 }
 
@@ -241,7 +249,9 @@ Command AddCompare(CLI::App* app) {
   app->add_flag("--paths", flags->keep_paths, "Keep the paths in the rows");
   app->add_option("--output", flags->output,
                   "Directory for rows.jsonl, rows.csv, summary.csv and "
-                  "performance profiles")
+                  "performance profiles. Until all rows are done they are in "
+                  "rows.jsonl.partial, from which the same command goes on if "
+                  "it is interrupted, by a time limit for example")
       ->required()
       ->type_name("DIR");
   AddNoCache(app, &flags->no_cache);
@@ -250,9 +260,10 @@ Command AddCompare(CLI::App* app) {
       "{}/8 --output part{}\n"
       "On a cluster:      sbatch --array=0-31 --wrap 'phongpd compare SCENES "
       "--shard $SLURM_ARRAY_TASK_ID/32 --output part$SLURM_ARRAY_TASK_ID'\n"
+      "Parts that were cut off go on where they were when started again.\n"
       "Then:              cat part*/rows.jsonl > all.jsonl && phongpd compare "
       "--rows all.jsonl --output DIR");
-  return [flags] { return Compare(*flags); };
+  return [app, flags] { return Compare(*app, *flags); };
 }
 
 }  // namespace phongpd::cli

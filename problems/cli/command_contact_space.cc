@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <cmath>
-#include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -128,24 +127,26 @@ std::string Rounded(double value) {
   return stream.str();
 }
 
-void PrintSummary(const Flags& flags, const ContactSpaceReport& report) {
+std::string Summary(const Flags& flags, const ContactSpaceReport& report) {
+  TextStream text;
   double total = 0.0;
   for (const auto& [stage, time] : report.seconds) total += time;
-  std::cout << flags.output << ": " << report.triangles << " triangles, "
-            << report.vertices << " vertices, "
-            << (report.closed ? "closed, " : "NOT CLOSED, ")
-            << (report.manifold ? "manifold, " : "NOT MANIFOLD, ")
-            << Plural(report.components, "component") << ", genus "
-            << report.genus << ", "
-            << (report.cavities == 1 ? "1 cavity"
-                                     : Plural(report.cavities, "cavitie"))
-            << ", volume " << FormatDouble(report.volume) << '\n'
-            << "triangle quality: worst " << Rounded(report.worst_quality)
-            << ", median " << Rounded(report.median_quality) << '\n'
-            << (report.from_cache ? "from the cache; built in " : "built in ")
-            << Rounded(total) << " s, peak " << Rounded(report.peak_mib)
-            << " MiB, " << report.convolution_triangles << " convolution and "
-            << report.arrangement_faces << " arrangement faces\n";
+  text << flags.output << ": " << report.triangles << " triangles, "
+       << report.vertices << " vertices, "
+       << (report.closed ? "closed, " : "NOT CLOSED, ")
+       << (report.manifold ? "manifold, " : "NOT MANIFOLD, ")
+       << Plural(report.components, "component") << ", genus " << report.genus
+       << ", "
+       << (report.cavities == 1 ? "1 cavity"
+                                : Plural(report.cavities, "cavitie"))
+       << ", volume " << FormatDouble(report.volume) << '\n'
+       << "triangle quality: worst " << Rounded(report.worst_quality)
+       << ", median " << Rounded(report.median_quality) << '\n'
+       << (report.from_cache ? "from the cache; built in " : "built in ")
+       << Rounded(total) << " s, peak " << Rounded(report.peak_mib) << " MiB, "
+       << report.convolution_triangles << " convolution and "
+       << report.arrangement_faces << " arrangement faces\n";
+  return text.str();
 }
 
 Repair ParseRepair(const std::string& text) {
@@ -199,9 +200,7 @@ int BuildAndWrite(const Flags& flags) {
         ToJson(found.obstacle, found.obstacle_repair, flags.obstacle);
     outputs.Write(flags.report, report.dump(2) + '\n');
   }
-  const bool silent = outputs.UseStandardOutput();
-  outputs.Commit();
-  if (!silent) PrintSummary(flags, space.report);
+  CommitAndTell(&outputs, Summary(flags, space.report));
   return kDone;
 }
 

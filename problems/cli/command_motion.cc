@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <iostream>
 #include <memory>
 #include <set>
 #include <string>
@@ -77,16 +76,18 @@ std::vector<MotionTrace> Trace(const Flags& flags, const TriangleMesh& contact,
   return traces;
 }
 
-void PrintSummary(const Flags& flags, const std::vector<MotionTrace>& traces,
-                  double diagonal) {
+std::string Summary(const Flags& flags, const std::vector<MotionTrace>& traces,
+                    double diagonal) {
+  TextStream text;
   for (const MotionTrace& trace : traces) {
     const MotionSummary s = Summarize(trace, kJump * diagonal);
-    std::cout << trace.metric << ": " << s.inside << " of " << flags.frames
-              << " frames inside, |PD| up to " << FormatDouble(s.max_magnitude)
-              << ", largest change " << FormatDouble(s.largest_change) << ", "
-              << s.jumps << " jumps > 5 % of the diagonal, " << s.branch_ends
-              << " branch ends, " << s.fallbacks << " Euclidean fallbacks\n";
+    text << trace.metric << ": " << s.inside << " of " << flags.frames
+         << " frames inside, |PD| up to " << FormatDouble(s.max_magnitude)
+         << ", largest change " << FormatDouble(s.largest_change) << ", "
+         << s.jumps << " jumps > 5 % of the diagonal, " << s.branch_ends
+         << " branch ends, " << s.fallbacks << " Euclidean fallbacks\n";
   }
+  return text.str();
 }
 
 int Follow(const Flags& flags) {
@@ -122,10 +123,8 @@ int Follow(const Flags& flags) {
                                          FormatPoint(motion.from) + ") to (" +
                                          FormatPoint(motion.to) + ")"));
   }
-  const bool silent = outputs.UseStandardOutput();
-  outputs.Commit();
-  if (silent) return kDone;
-  PrintSummary(flags, traces, ComputeBounds(contact).Diagonal());
+  CommitAndTell(&outputs,
+                Summary(flags, traces, ComputeBounds(contact).Diagonal()));
   return kDone;
 }
 

@@ -72,23 +72,40 @@ PipelineOptions Options(const Flags& flags, const Scene& scene,
 }
 
 // "why not", for people, and where the path crosses.
-std::string Explanation(const PipelineResult& result) {
-  std::string text = result.reason;
-  if (!result.certificate.free && result.certificate.segment >= 0) {
+std::string Explanation(const nlohmann::ordered_json& row) {
+  std::string text = row.at("reason").get<std::string>();
+  const auto& crossing = row.at("first_crossing");
+  if (!crossing.is_null()) {
     text += (text.empty() ? "" : "; ") +
             std::string("the path first collides in segment ") +
-            std::to_string(result.certificate.segment) + " at fraction " +
-            FormatDouble(result.certificate.motion.fraction);
+            crossing.at("segment").dump() + " at fraction " +
+            FormatDouble(NumberAt(crossing, "/fraction"));
   }
   return text;
+}
+
+RunSummary Summarize(const Flags& flags, const nlohmann::ordered_json& row) {
+  const std::string metric = row.at("method").get<std::string>();
+  const std::string outcome =
+      row.at("seed").dump() + ": " + row.at("status_class").get<std::string>();
+  return {{metric + ", seed " + outcome, PathOf(row),
+           row.at("collision_free").get<bool>()},
+          row.at("scene").get<std::string>() + ", " + metric + ", " +
+              flags.start + ", " + outcome + ", " +
+              row.at("iterations").dump() + ", " +
+              Rounded(NumberAt(row, "/objective"), 5) + ", " +
+              Rounded(NumberAt(row, "/clearance"), 3) + ", " +
+              Rounded(NumberAt(row, "/seconds/total"), 3),
+          Explanation(row)};
 }
 
 int Optimize(const Flags& flags) {
   RequireRuns(flags.runs);
   const SceneSource source(flags.scene, flags.root);
-  SeededRuns runs(flags,
+  SeededRuns runs(flags, source,
                   "scene, metric, start, seed: status, iterations, objective, "
-                  "clearance/D, seconds");
+                  "clearance/D, seconds",
+                  [&flags](const auto& row) { return Summarize(flags, row); });
   TrajectoryStudy study(
       UserCache(flags.no_cache),
       flags.per_obstacle ? SpaceLayout::kPerObstacle : SpaceLayout::kMerged);
@@ -101,22 +118,14 @@ int Optimize(const Flags& flags) {
     const TrajectoryMetric metric = SceneMetric(scene);
     Progress("run " + std::to_string(run + 1) + " of " +
              std::to_string(flags.runs) + ": " + metric.name);
+    const bool is_kept = run < runs.kept();
+    // The pictures need the last scene.
+    if (is_kept && run + 1 < flags.runs) continue;
     study.Enter(scene);
-    if (run == 0) TellAbout(scene, study.space());
+    if (run == runs.kept()) TellAbout(scene, study.space());
+    if (is_kept) continue;
     const PipelineResult result = study.Run(metric, options);
-    const nlohmann::ordered_json row =
-        TrajectoryRow(study, metric, options, result);
-    const std::string outcome =
-        std::to_string(seed) + ": " + ToString(result.status);
-    runs.Add(row,
-             {metric.name + ", seed " + outcome, result.path,
-              result.certificate.free},
-             scene.name + ", " + metric.name + ", " + flags.start + ", " +
-                 outcome + ", " + std::to_string(result.iterations) + ", " +
-                 Rounded(result.objective, 5) + ", " +
-                 Rounded(row["clearance"].get<double>(), 3) + ", " +
-                 Rounded(result.seconds, 3),
-             Explanation(result));
+    runs.Add(TrajectoryRow(study, metric, options, result));
   }
   runs.Write({study.scene().name,
               study.space().contact_meshes,

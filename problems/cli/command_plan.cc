@@ -20,9 +20,24 @@ struct Flags : SeededRunFlags {
   std::string ompl_log;
 };
 
+RunSummary Summarize(const nlohmann::ordered_json& row) {
+  const std::string planner = row.at("planner").get<std::string>();
+  const std::string outcome =
+      row.at("seed").dump() + ": " + row.at("status").get<std::string>();
+  return {{planner + ", seed " + outcome, PathOf(row),
+           row.at("solved").get<bool>()},
+          row.at("scene").get<std::string>() + ", " + planner + ", " + outcome +
+              ", " + Rounded(NumberAt(row, "/seconds/solve")) + ", " +
+              std::to_string(row.at("path").size()) + ", " +
+              Rounded(NumberAt(row, "/path_length"), 4) + ", " +
+              Rounded(NumberAt(row, "/clearance")),
+          row.at("reason").get<std::string>()};
+}
+
 int Plan(const Flags& flags) {
   RequireRuns(flags.runs);
-  const Scene scene = SceneSource(flags.scene, flags.root).Load();
+  const SceneSource source(flags.scene, flags.root);
+  const Scene scene = source.Load();
   PlanningRun run;
   run.planner = flags.planner.empty() ? scene.planning.planner : flags.planner;
   run.retraction = flags.metric;
@@ -31,32 +46,25 @@ int Plan(const Flags& flags) {
     run.time_limit = ParseDouble(flags.time_limit, "--time");
   }
   if (!flags.ompl_log.empty()) CheckHasOmplLog(run.planner);
-  SeededRuns runs(flags,
+  SeededRuns runs(flags, source,
                   "scene, planner, seed: status, seconds (without contact "
-                  "space), points, length, clearance");
+                  "space), points, length, clearance",
+                  Summarize);
   if (!flags.ompl_log.empty()) runs.outputs().Declare(flags.ompl_log);
   SilenceOmpl();
   PlanningStudy study(scene, UserCache(flags.no_cache));
   TellAbout(scene, study.space());
-  for (int i = 0; i < flags.runs; ++i) {
+  for (int i = runs.kept(); i < flags.runs; ++i) {
     run.seed = flags.seed + static_cast<std::uint64_t>(i);
     Progress("run " + std::to_string(i + 1) + " of " +
              std::to_string(flags.runs));
     const PlanningResult result = study.Run(run);
-    const std::string outcome = std::to_string(run.seed) + ": " + result.status;
-    runs.Add(
-        PlanningRow(study, run, result),
-        {run.planner + ", seed " + outcome, result.numbers.path, result.solved},
-        scene.name + ", " + run.planner + ", " + outcome + ", " +
-            Rounded(result.numbers.seconds) + ", " +
-            std::to_string(result.numbers.path.size()) + ", " +
-            Rounded(result.numbers.length, 4) + ", " +
-            Rounded(result.numbers.clearance),
-        result.reason);
+    runs.Add(PlanningRow(study, run, result));
   }
   runs.Write({scene.name, {study.VisibleMesh()}, scene.workspace.robot, {}});
   if (!flags.ompl_log.empty()) {
     Progress("running OMPL's benchmark");
+    run.seed = flags.seed + static_cast<std::uint64_t>(flags.runs) - 1;
     runs.outputs().Write(flags.ompl_log, study.OmplLog(run, flags.runs));
   }
   return runs.Commit();

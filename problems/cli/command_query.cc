@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <iostream>
 #include <memory>
 #include <string>
 #include <vector>
@@ -68,11 +67,10 @@ int Query(const Flags& flags) {
     csv += Row(q, result, flags.jacobian == "exact");
   }
   outputs.Write(flags.output, csv);
-  const bool silent = outputs.UseStandardOutput();
-  outputs.Commit();
-  if (silent) return kDone;
-  std::cout << flags.output << ": " << points.size() << " points, " << inside
-            << " inside, " << not_ok << " with another status than ok\n";
+  CommitAndTell(&outputs, flags.output + ": " + std::to_string(points.size()) +
+                              " points, " + std::to_string(inside) +
+                              " inside, " + std::to_string(not_ok) +
+                              " with another status than ok\n");
   return kDone;
 }
 

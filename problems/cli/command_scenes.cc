@@ -56,16 +56,22 @@ int Write(const Flags& flags) {
   if (flags.output.empty() && flags.meshes.empty()) {
     throw InputError("scenes write: expected --output, --meshes or both");
   }
-  const nlohmann::ordered_json json =
-      MakeScene(flags.name, Knobs(flags.settings));
-  // Built in any case: a scene whose solids cannot be made is bad input.
-  const Scene scene = ParseScene(json, "scene " + flags.name);
+  std::string text;
+  Scene scene;
+  {
+    // Gone before anything is written: to destroy it takes memory.
+    const nlohmann::ordered_json json =
+        MakeScene(flags.name, Knobs(flags.settings));
+    // Built in any case: a scene whose solids cannot be made is bad input.
+    scene = ParseScene(json, "scene " + flags.name);
+    text = json.dump(2) + '\n';
+  }
   const TriangleMesh obstacle = JoinedObstacle(scene.workspace);
 
   OutputFiles outputs;
   if (!flags.output.empty()) {
     outputs.Declare(flags.output);
-    outputs.Write(flags.output, json.dump(2) + '\n');
+    outputs.Write(flags.output, text);
   }
   const auto write = [&](const TriangleMesh& mesh, const std::string& path) {
     outputs.Declare(path);
@@ -76,14 +82,12 @@ int Write(const Flags& flags) {
     write(scene.workspace.robot, flags.meshes + "/robot.off");
     write(obstacle, flags.meshes + "/obstacle.off");
   }
-  const bool silent = outputs.UseStandardOutput();
-  outputs.Commit();
-  if (silent) return kDone;
-  std::cout << flags.name << ": robot "
-            << scene.workspace.robot.triangles.size() << ", obstacle "
-            << obstacle.triangles.size() << " triangles\n";
   const std::string skipped = SkippedObstaclesNote(scene);
-  if (!skipped.empty()) std::cout << skipped << '\n';
+  CommitAndTell(&outputs,
+                flags.name + ": robot " +
+                    std::to_string(scene.workspace.robot.triangles.size()) +
+                    ", obstacle " + std::to_string(obstacle.triangles.size()) +
+                    " triangles\n" + skipped + (skipped.empty() ? "" : "\n"));
   return kDone;
 }
 

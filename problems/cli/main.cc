@@ -1,12 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <unistd.h>
+
+#include <atomic>
 #include <cctype>
+#include <csignal>
 #include <exception>
 #include <iostream>
 #include <new>
 #include <string>
+#include <system_error>
 #include <utility>
 #include <vector>
 
+#include "core/files/interruption.h"
 #include "problems/cli/command.h"
 #include "problems/versions.h"
 
@@ -53,8 +59,10 @@ std::vector<std::string> Arguments(int argc, char** argv) {
 int Run(int argc, char** argv) {
   CLI::App app(
       "Continuous penetration depth (PhongPD) on exact contact spaces.\n"
-      "Exit codes: 0 done, 1 ran but found no answer, 2 bad input (nothing is "
-      "written), 3 internal error.",
+      "Exit codes: 0 done, 1 ran but found no answer, 2 bad input or an output "
+      "that cannot be written (nothing is), 3 internal error, or out of memory "
+      "or threads; 128 + n ended by signal n, for example 130 by Ctrl-C.\n"
+      "Outputs are replaced together at the end or not at all.",
       "phongpd");
   app.set_version_flag("--version", VersionText);
   std::vector<std::pair<CLI::App*, Command>> commands;
@@ -90,21 +98,78 @@ int Run(int argc, char** argv) {
   return Fail(kBadInput, "expected a command: " + names + " (see --help)");
 }
 
-}  // namespace
-}  // namespace phongpd::cli
+// Says what the memory was needed for and where less does.
+int FailForMemory() {
+  const std::string& stage = Stage();
+  return Fail(kInternalError,
+              "out of memory" +
+                  (stage.empty() ? "" : ", the last step was: " + stage) +
+                  "; give the process more, or simplify the meshes "
+                  "(contact-space --target-faces, --robot-hull; --max-mib "
+                  "refuses early what would need more)");
+}
 
-int main(int argc, char** argv) {
-  using namespace phongpd::cli;
+int FailFor(const std::exception_ptr& failure) {
+  try {
+    std::rethrow_exception(failure);
+  } catch (const InputError& error) {
+    return Fail(kBadInput, error.what());
+  } catch (const std::bad_alloc&) {
+    return FailForMemory();
+  } catch (const std::exception& error) {
+    const std::string what = error.what();
+    // TBB reports a refused thread as any runtime_error.  Files are InputErrors
+    // by now.
+    if (dynamic_cast<const std::system_error*>(&error) != nullptr ||
+        what.find("pthread_create") != std::string::npos) {
+      return Fail(kInternalError, "no thread can be started (" + what +
+                                      "); see the limits of processes and "
+                                      "memory (ulimit -u, ulimit -v)");
+    }
+    return Fail(kInternalError, "internal error: " + what);
+  } catch (...) {
+    return Fail(kInternalError, "internal error");
+  }
+}
+
+// An exception where none can be passed on, such as a thread's: the destructors
+// that remove files do not run.
+[[noreturn]] void OnTerminate() {
+  internal::RemoveFilesNow();
+  static std::atomic_flag is_known = ATOMIC_FLAG_INIT;
+  if (!is_known.test_and_set()) {
+    const std::exception_ptr failure = std::current_exception();
+    if (failure != nullptr) {
+      FailFor(failure);
+    } else {
+      Fail(kInternalError, "internal error: terminated");
+    }
+  } else {
+    // There was no memory even for the message.
+    constexpr char kMessage[] = "phongpd: out of memory\n";
+    static_cast<void>(!write(STDERR_FILENO, kMessage, sizeof kMessage - 1));
+  }
+  _exit(kInternalError);
+}
+
+}  // namespace
+
+// The program.
+int Main(int argc, char** argv) {
+  internal::RemoveFilesOnSignals();
+  // A limit of file sizes is an error of the write, like a full disk.
+  std::signal(SIGXFSZ, SIG_IGN);
+  std::set_terminate(OnTerminate);
   try {
     const int code = Run(argc, argv);
     std::cout.flush();
     if (!std::cout) return Fail(kBadInput, "standard output: write failed");
     return code;
-  } catch (const phongpd::InputError& error) {
-    return Fail(kBadInput, error.what());
-  } catch (const std::bad_alloc&) {
-    return Fail(kInternalError, "internal error: out of memory");
-  } catch (const std::exception& error) {
-    return Fail(kInternalError, std::string("internal error: ") + error.what());
+  } catch (...) {
+    return FailFor(std::current_exception());
   }
 }
+
+}  // namespace phongpd::cli
+
+int main(int argc, char** argv) { return phongpd::cli::Main(argc, argv); }

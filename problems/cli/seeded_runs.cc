@@ -2,6 +2,7 @@
 #include "problems/cli/seeded_runs.h"
 
 #include <iostream>
+#include <limits>
 #include <utility>
 
 #include "problems/cli/command.h"
@@ -9,6 +10,7 @@
 namespace phongpd::cli {
 
 void AddScene(CLI::App* app, SeededRunFlags* flags) {
+  flags->app = app;
   app->add_option("scene", flags->scene,
                   "Scene file, or FAMILY:key=value,... (see scenes list)")
       ->required()
@@ -28,7 +30,11 @@ void AddRuns(CLI::App* app, const std::string& seed_help,
 }
 
 void AddRowOutput(CLI::App* app, SeededRunFlags* flags) {
-  app->add_option("--output", flags->output, "JSON Lines, one object a run")
+  app->add_option(
+         "--output", flags->output,
+         "JSON Lines, one object a run. Until all are done they are in "
+         "FILE.partial, from which the same command goes on if it "
+         "is interrupted")
       ->required()
       ->type_name("FILE");
 }
@@ -42,25 +48,61 @@ void AddPictures(CLI::App* app, SeededRunFlags* flags) {
       ->type_name("FILE");
 }
 
-SeededRuns::SeededRuns(const SeededRunFlags& flags, const std::string& header)
-    : flags_(flags), header_(header + '\n') {
+double NumberAt(const nlohmann::ordered_json& row, const char* pointer) {
+  const auto& value = row.at(nlohmann::ordered_json::json_pointer(pointer));
+  return value.is_null() ? std::numeric_limits<double>::quiet_NaN()
+                         : value.get<double>();
+}
+
+std::vector<Eigen::Vector3d> PathOf(const nlohmann::ordered_json& row) {
+  std::vector<Eigen::Vector3d> path;
+  for (const auto& p : row.at("path")) {
+    path.emplace_back(p.at(0).get<double>(), p.at(1).get<double>(),
+                      p.at(2).get<double>());
+  }
+  return path;
+}
+
+SeededRuns::SeededRuns(const SeededRunFlags& flags, const SceneSource& source,
+                       const std::string& header, Summarizer summarize)
+    : flags_(flags), header_(header + '\n'), summarize_(std::move(summarize)) {
   outputs_.Declare(flags.output);
   if (!flags.html.empty()) outputs_.Declare(flags.html);
   if (!flags.svg.empty()) outputs_.Declare(flags.svg);
+  rows_ = std::make_unique<RowFile>(outputs_.Target(flags.output),
+                                    CommandSettings(*flags.app, {source}));
+  kept_ = static_cast<int>(rows_->rows().size());
+  if (kept_ == 0) return;
+  Note("going on after " + std::to_string(kept_) + " of " +
+       std::to_string(flags.runs) + " runs in " + rows_->path());
+  std::uint64_t seed = flags.seed;
+  for (const std::string& line : rows_->rows()) {
+    const auto row = nlohmann::ordered_json::parse(line);
+    if (row.value("seed", seed + 1) != seed || kept_ > flags.runs) {
+      throw InputError(rows_->path() + ": expected a row of seed " +
+                       std::to_string(seed) + "; remove the file");
+    }
+    Tell(row);
+    ++seed;
+  }
 }
 
-void SeededRuns::Add(const nlohmann::ordered_json& row, const NamedPath& path,
-                     const std::string& line, const std::string& why) {
-  rows_ += row.dump() + '\n';
-  paths_.push_back(path);
-  are_all_answered_ = are_all_answered_ && path.is_free;
+void SeededRuns::Add(const nlohmann::ordered_json& row) {
+  rows_->Append(row.dump());
+  Tell(row);
+}
+
+void SeededRuns::Tell(const nlohmann::ordered_json& row) {
+  RunSummary run = summarize_(row);
+  are_all_answered_ = are_all_answered_ && run.path.is_free;
+  paths_.push_back(std::move(run.path));
   if (outputs_.UseStandardOutput()) return;
-  std::cout << std::exchange(header_, "") << line << '\n';
-  if (!why.empty()) std::cout << "  " << why << '\n';
+  std::cout << std::exchange(header_, "") << run.line << '\n';
+  if (!run.why.empty()) std::cout << "  " << run.why << '\n';
 }
 
 void SeededRuns::Write(PathScene scene) {
-  outputs_.Write(flags_.output, rows_);
+  outputs_.Write(flags_.output, rows_->Content());
   scene.paths = paths_;
   if (!flags_.html.empty()) outputs_.Write(flags_.html, PathPage(scene));
   if (!flags_.svg.empty()) outputs_.Write(flags_.svg, PathSvg(scene));
@@ -68,6 +110,7 @@ void SeededRuns::Write(PathScene scene) {
 
 int SeededRuns::Commit() {
   outputs_.Commit();
+  rows_->Finish();
   return are_all_answered_ ? kDone : kNoAnswer;
 }
 

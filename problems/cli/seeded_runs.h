@@ -3,11 +3,15 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdint>
+#include <functional>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
 
 #include "problems/output_files.h"
 #include "problems/path_picture.h"
+#include "problems/row_file.h"
+#include "problems/scene_source.h"
 
 // Runs of one scene with the seeds S, S + 1, ...: the flags that commands made
 // of them share, and what the runs leave behind.
@@ -23,6 +27,7 @@ struct SeededRunFlags {
   std::string html;
   std::string svg;
   bool no_cache = false;
+  const CLI::App* app = nullptr;  // that they were declared on
 };
 
 // Declare the argument SCENE and --root, --seed and --runs, --output, --html
@@ -33,21 +38,37 @@ void AddRuns(CLI::App* app, const std::string& seed_help,
 void AddRowOutput(CLI::App* app, SeededRunFlags* flags);
 void AddPictures(CLI::App* app, SeededRunFlags* flags);
 
+// What people see of a run; all of it comes from its row, so that a row kept
+// from an interrupted command tells the same.
+struct RunSummary {
+  NamedPath path;    // not free: no answer
+  std::string line;  // on standard output
+  std::string why;   // the answer is not what it might be; or empty
+};
+using Summarizer = std::function<RunSummary(const nlohmann::ordered_json&)>;
+
+// The number at a JSON pointer; NaN for null, as JSON has it.
+double NumberAt(const nlohmann::ordered_json& row, const char* pointer);
+// The points of the row's "path".
+std::vector<Eigen::Vector3d> PathOf(const nlohmann::ordered_json& row);
+
 // A row of --output and a line on standard output for each run, and all paths
-// in the pictures.
+// in the pictures.  Rows are kept as they come and taken up again (RowFile).
 class SeededRuns {
  public:
   // Declares the outputs; `header` is the line above those of the runs, and
   // `flags` must outlive this.  Throws InputError naming a file.
-  SeededRuns(const SeededRunFlags& flags, const std::string& header);
+  SeededRuns(const SeededRunFlags& flags, const SceneSource& source,
+             const std::string& header, Summarizer summarize);
 
   // For outputs of the command's own, until Commit.
   OutputFiles& outputs() { return outputs_; }
 
-  // Notes a run that is over.  `line` and, unless empty, `why` (the answer is
-  // not what it might be) are for people; no path that is free: no answer.
-  void Add(const nlohmann::ordered_json& row, const NamedPath& path,
-           const std::string& line, const std::string& why);
+  // How many runs, the first ones, an interrupted command has left.
+  int kept() const { return kept_; }
+
+  // Notes a run that is over.
+  void Add(const nlohmann::ordered_json& row);
 
   // Writes the rows, and the pictures of the scene with the paths of all runs.
   void Write(PathScene scene);
@@ -56,10 +77,14 @@ class SeededRuns {
   int Commit();
 
  private:
+  void Tell(const nlohmann::ordered_json& row);
+
   const SeededRunFlags& flags_;
   std::string header_;  // until it is printed
+  Summarizer summarize_;
   OutputFiles outputs_;
-  std::string rows_;
+  std::unique_ptr<RowFile> rows_;
+  int kept_ = 0;
   std::vector<NamedPath> paths_;
   bool are_all_answered_ = true;
 };

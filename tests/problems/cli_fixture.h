@@ -77,13 +77,21 @@ class Cli : public testing::Test {
     std::ofstream(folder_ / name) << text;
   }
 
-  Outcome Run(const std::string& arguments) const {
-    const std::string command =
-        "cd '" + Output("") + "' && PHONGPD_CACHE_DIR='" + File("cache") +
-        "' '" PHONGPD_PROGRAM "' " + arguments + " >../out 2>../err";
-    const int status = std::system(command.c_str());
+  // What the shell is asked for; `before` are its variables or limits.
+  std::string CommandLine(const std::string& arguments,
+                          const std::string& before = "") const {
+    return "cd '" + Output("") + "' && " + before + " PHONGPD_CACHE_DIR='" +
+           File("cache") + "' '" PHONGPD_PROGRAM "' " + arguments +
+           " >../out 2>../err";
+  }
+
+  // The exit code is 128 + the number of the signal that ended it, if any.
+  Outcome Run(const std::string& arguments,
+              const std::string& before = "") const {
+    const int status = std::system(CommandLine(arguments, before).c_str());
     Outcome outcome;
-    outcome.code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    outcome.code =
+        WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
     outcome.out = Content(folder_ / "out");
     outcome.err = Content(folder_ / "err");
     return outcome;

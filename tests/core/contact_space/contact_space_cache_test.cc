@@ -2,6 +2,8 @@
 #include "core/contact_space/contact_space_cache.h"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <chrono>
 #include <cmath>
@@ -9,25 +11,18 @@
 #include <filesystem>
 #include <fstream>
 #include <functional>
-#include <sstream>
 #include <string>
 #include <thread>
 #include <vector>
 
 #include "core/contact_space/content_hash.h"
 #include "problems/shapes.h"
+#include "tests/support/temporary_folder.h"
 
 namespace phongpd {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string Content(const fs::path& path) {
-  std::ifstream stream(path, std::ios::binary);
-  std::ostringstream text;
-  text << stream.rdbuf();
-  return text.str();
-}
 
 void Overwrite(const fs::path& path, const std::string& content) {
   std::ofstream(path, std::ios::binary) << content;
@@ -67,16 +62,12 @@ void ExpectEqual(const ContactSpace& a, const ContactSpace& b) {
   EXPECT_EQ(r.obstacle.volume, s.obstacle.volume);
 }
 
-class ContactSpaceCacheTest : public testing::Test {
+class ContactSpaceCacheTest : public testing::TemporaryFolder {
  protected:
   void SetUp() override {
-    std::string name =
-        (fs::temp_directory_path() / "phongpd_cache_XXXXXX").string();
-    ASSERT_NE(mkdtemp(name.data()), nullptr);
-    folder_ = name;
-    cache_.directory = (folder_ / "a" / "b").string();
+    TemporaryFolder::SetUp();
+    cache_.directory = At("a/b");
   }
-  void TearDown() override { fs::remove_all(folder_); }
 
   ContactSpace Build(const ContactSpaceOptions& options = {}) const {
     return BuildContactSpaceCached(robot_, obstacle_, options, cache_);
@@ -90,7 +81,6 @@ class ContactSpaceCacheTest : public testing::Test {
     return files;
   }
 
-  fs::path folder_;
   ContactSpaceCache cache_;
   TriangleMesh robot_ = MakeBox({-0.1, -0.1, -0.1}, {0.3, 0.4, 0.5});
   TriangleMesh obstacle_ = MakeL(3, 1, 1);
@@ -233,6 +223,84 @@ TEST_F(ContactSpaceCacheTest, UnusableDirectoriesAreNoError) {
   fs::remove(file);
   fs::create_directories(file / "sub");
   EXPECT_TRUE(Build().report.closed);
+}
+
+TEST_F(ContactSpaceCacheTest, IsForTheUserAlone) {
+  const mode_t before = umask(0);
+  Build();
+  umask(before);
+  const auto mode = [](const fs::path& path) {
+    struct stat status = {};
+    EXPECT_EQ(lstat(path.c_str(), &status), 0) << path;
+    return status.st_mode & 07777U;
+  };
+  EXPECT_EQ(mode(folder_ / "a"), 0700U);
+  EXPECT_EQ(mode(folder_ / "a" / "b"), 0700U);
+  ASSERT_EQ(Files().size(), 1U);
+  EXPECT_EQ(mode(Files()[0]), 0600U);
+}
+
+TEST_F(ContactSpaceCacheTest, WhatOthersMayChangeIsNamedAndNotUsed) {
+  Build();
+  const fs::path file = Files()[0];
+  const auto expect_warning = [&](const fs::path& name, const std::string& what,
+                                  const std::string& word) {
+    const ContactSpace space = Build();
+    EXPECT_FALSE(space.report.from_cache) << what;
+    ASSERT_EQ(space.report.warnings.size(), 1U) << what;
+    const std::string& warning = space.report.warnings[0];
+    EXPECT_NE(warning.find(name.string()), std::string::npos) << warning;
+    EXPECT_NE(warning.find(word), std::string::npos) << warning;
+  };
+  const fs::path directory = cache_.directory;
+  for (const auto mode : {fs::perms::group_write, fs::perms::others_write}) {
+    fs::permissions(directory, mode, fs::perm_options::add);
+    expect_warning(directory, "folder", "is not used");
+    fs::permissions(directory, mode, fs::perm_options::remove);
+    EXPECT_TRUE(Build().report.from_cache);
+    fs::permissions(file, mode, fs::perm_options::add);
+    expect_warning(file, "file", "is not used");
+    EXPECT_TRUE(Build().report.from_cache) << "replaced by the user's own";
+  }
+  if (geteuid() != 0) return;  // only root can give files away
+  ASSERT_EQ(chown(file.c_str(), 12345, 12345), 0);
+  expect_warning(file, "file of another user", "is not used");
+  ASSERT_EQ(chown(directory.c_str(), 12345, 12345), 0);
+  expect_warning(directory, "folder of another user", "is not used");
+  ASSERT_EQ(chown(directory.c_str(), 0, 0), 0);
+  fs::create_directory_symlink(directory, folder_ / "link");
+  cache_.directory = (folder_ / "link").string();
+  EXPECT_TRUE(Build().report.from_cache) << "a link of one's own";
+  ASSERT_EQ(lchown(cache_.directory.c_str(), 12345, 12345), 0);
+  expect_warning(cache_.directory, "link of another user", "is not used");
+}
+
+// A link in the place of a file is neither read nor written through.
+TEST_F(ContactSpaceCacheTest, LinksAreNotFollowed) {
+  Build();
+  const fs::path file = Files()[0];
+  const fs::path elsewhere = folder_ / "elsewhere";
+  fs::rename(file, elsewhere);
+  const std::string content = Content(elsewhere);
+  fs::create_symlink(elsewhere, file);
+  const ContactSpace space = Build();
+  EXPECT_FALSE(space.report.from_cache);
+  ASSERT_EQ(space.report.warnings.size(), 1U);
+  EXPECT_EQ(Content(elsewhere), content);
+  EXPECT_FALSE(fs::is_symlink(file));
+  EXPECT_TRUE(Build().report.from_cache);
+}
+
+// What a killed process left goes at once, not after an hour.
+TEST_F(ContactSpaceCacheTest, AbandonedTemporariesGoWithTheNextResult) {
+  ContactSpaceOptions options;
+  Build(options);
+  const fs::path left = fs::path(cache_.directory) /
+                        ("unfinished-" + std::string(32, '0') + ".part");
+  Overwrite(left, "torn");
+  options.robot_name = "another";
+  Build(options);
+  EXPECT_FALSE(fs::exists(left));
 }
 
 TEST_F(ContactSpaceCacheTest, RemovesTheLongestUnusedFilesFirst) {

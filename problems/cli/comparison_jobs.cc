@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "problems/cli/comparison_jobs.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "problems/cli/command.h"
+#include "problems/comparison_rows.h"
+
+namespace phongpd::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json RunJob(const ComparisonJob& job, TrajectoryStudy* study) {
+  PipelineOptions options = job.protocol.options;
+  options.seed = job.seed;
+  // The scene's own Ipopt settings hold for every protocol.
+  options.optimizer.ipopt.ipopt_options =
+      ScenePipelineOptions(study->scene()).optimizer.ipopt.ipopt_options;
+  // A scene file differs from seed to seed by the start only.
+  const bool is_straight = options.start == TrajectoryStart::kStraight;
+  if (!job.source->is_family() && is_straight) options.start_noise = 0.01;
+  Json row = TrajectoryRow(*study, job.metric, options,
+                           study->Run(job.metric, options));
+  row["protocol"] = job.protocol.name;
+  return row;
+}
+
+// Throws InputError unless the line is the job's row.
+void CheckKept(const std::string& line, const ComparisonJob& job,
+               const std::string& where) {
+  const Json row = Json::parse(line);
+  CheckComparisonRow(row, where);
+  if (row.at("seed") == job.seed &&
+      RowText(row, "protocol") == job.protocol.name &&
+      RowText(row, "method") == job.metric.name) {
+    return;
+  }
+  throw InputError(where + ": expected seed " + std::to_string(job.seed) +
+                   ", " + job.protocol.name + ", " + job.metric.name +
+                   "; found another; remove the file");
+}
+
+}  // namespace
+
+void RunJobs(const std::vector<ComparisonJob>& jobs,
+             const ContactSpaceCache& cache, bool keep_paths, RowFile* rows) {
+  const std::size_t kept = std::min(rows->rows().size(), jobs.size());
+  for (std::size_t i = 0; i < kept; ++i) {
+    CheckKept(rows->rows()[i], jobs[i],
+              rows->path() + ": row " + std::to_string(i + 1));
+  }
+  if (kept > 0) {
+    Note("going on after " + std::to_string(kept) + " of " +
+         std::to_string(jobs.size()) + " rows in " + rows->path());
+  }
+  TrajectoryStudy study(cache);
+  for (std::size_t i = kept; i < jobs.size(); ++i) {
+    const ComparisonJob& job = jobs[i];
+    if (i == kept || job.source != jobs[i - 1].source ||
+        job.seed != jobs[i - 1].seed) {
+      Progress(job.source->label() + ", seed " + std::to_string(job.seed));
+      study.Enter(job.source->Load(job.seed));
+    }
+    Json row = RunJob(job, &study);
+    if (!keep_paths) row.erase("path");
+    rows->Append(row.dump());
+  }
+}
+
+}  // namespace phongpd::cli

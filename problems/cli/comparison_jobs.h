@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/contact_space/contact_space_cache.h"
+#include "problems/row_file.h"
+#include "problems/scene_source.h"
+#include "problems/trajectory_comparison.h"
+#include "problems/trajectory_study.h"
+
+namespace phongpd::cli {
+
+// What gives one row of a comparison.
+struct ComparisonJob {
+  const SceneSource* source;
+  std::uint64_t seed;
+  TrajectoryProtocol protocol;
+  TrajectoryMetric metric;
+};
+
+// Appends the rows that are not there yet; those that are must be of the first
+// jobs.  Throws InputError, also unless they are.
+void RunJobs(const std::vector<ComparisonJob>& jobs,
+             const ContactSpaceCache& cache, bool keep_paths, RowFile* rows);
+
+}  // namespace phongpd::cli
