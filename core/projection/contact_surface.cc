@@ -113,8 +113,9 @@ PenetrationResult ContactSurface::Answer(const Vector3d& q_o,
   result.inside = location == Location::kInside;
   result.triangle = closest.triangle;
   result.contact = Point(closest.triangle, closest.lambda);
-  const double distance =
-      location == Location::kOnSurface ? 0.0 : closest.distance;
+  const double distance = location == Location::kOnSurface
+                              ? 0.0
+                              : std::max(closest.distance, LeastDistance());
   result.signed_distance = result.inside ? -distance : distance;
   const Vector3d& normal = facet_normals_[closest.triangle];
   const bool in_facet = closest.lambda.minCoeff() > 0.0;
