@@ -89,9 +89,17 @@ TriangleMesh CubeMesh(double half) {
   return MakeBox(Vector3d::Constant(-half), Vector3d::Constant(half));
 }
 
+void CheckContact(const MotionScene& scene) {
+  for (const Vector3d& v : scene.contact.vertices) {
+    if (v == v.array().round().matrix()) continue;
+    throw std::logic_error("motion set, " + scene.name +
+                           ": a vertex of the contact space is no integer");
+  }
+}
+
 void BuildContact(MotionScene* scene) {
   scene->contact = BuildContactSpace(scene->robot, scene->obstacle).mesh;
-  for (const Vector3d& v : scene->contact.vertices) ToGrid(v);
+  CheckContact(*scene);
 }
 
 // Cells of side 4; a robot of half-side 2 fits the gaps of one cell exactly.
@@ -134,7 +142,8 @@ MotionScene Sheared(MotionScene scene, const Matrix3& map) {
   return scene;
 }
 
-// Convex bodies that lie apart.
+// Convex bodies that lie apart: the contact space is the hull of differences
+// of vertices, which keeps them as they are.
 MotionScene ConvexScene(const std::string& name, const TriangleMesh& robot,
                         const std::vector<TriangleMesh>& bodies) {
   MotionScene scene;
@@ -143,8 +152,13 @@ MotionScene ConvexScene(const std::string& name, const TriangleMesh& robot,
   for (const TriangleMesh& body : bodies) {
     scene.obstacle = Joined(scene.obstacle, body);
     scene.pieces.push_back(ConvexSum(robot, body));
+    std::vector<Vector3d> points;
+    for (const Vector3d& b : body.vertices) {
+      for (const Vector3d& a : robot.vertices) points.push_back(b - a);
+    }
+    scene.contact = Joined(scene.contact, Hull(points));
   }
-  BuildContact(&scene);
+  CheckContact(scene);
   return scene;
 }
 

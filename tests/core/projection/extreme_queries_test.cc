@@ -175,9 +175,10 @@ TEST(ExtremeQueriesCampaign, SignIsExactAndDepthRightWhereverTheyAre) {
             } else {
               right = right && found >= truth - 1e-13 * size;
             }
-            // q_c is where it is said to be.
-            right = right &&
-                    std::abs((r->contact - q).norm() - found) <= 1e-12 * size;
+            // q_c is where it is said to be; Phong's λ are known to 1e-9 in
+            // slivers.
+            const double off = std::abs((r->contact - q).norm() - found);
+            right = right && off <= (r->branch.IsValid() ? 1e-9 : 1e-12) * size;
           }
         }
         ++cases;
