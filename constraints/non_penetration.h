@@ -19,9 +19,10 @@ enum class BranchPolicy {
 };
 
 // The state of an evaluation, one branch for each sample and contact space, as
-// NonPenetrationConstraint::Start makes it.  Whoever takes one throws InputError
-// for any other number of branches, an empty set included.  Branches of another
-// contact space are no error: what cannot be continued is a cold query.
+// NonPenetrationConstraint::Start makes it.  Whoever takes one throws
+// InputError for any other number of branches, an empty set included.  Branches
+// of another contact space are no error: what cannot be continued is a cold
+// query.
 struct BranchSet {
   std::vector<Branch> branches;
 };

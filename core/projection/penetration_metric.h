@@ -30,7 +30,7 @@ struct Branch {
 // Answer to a query at q_o.  Lengths in the user's unit.
 struct PenetrationResult {
   QueryStatus status = QueryStatus::kInvalid;
-  bool inside = false;           // exact: q_o strictly inside C_obj
+  bool inside = false;  // exact: q_o strictly inside C_obj
   // −|q_c − q_o| inside, distance outside.  Its sign is exact: < 0 strictly
   // inside C_obj, 0 on C_cont (the robot touches), > 0 in free space.
   double signed_distance = 0.0;
