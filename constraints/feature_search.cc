@@ -80,8 +80,8 @@ bool FeatureSearch::FindNext(const Vector3d& q, const Vector3d* taken,
                              int count, double cos_limit, double reach,
                              Feature* feature) const noexcept {
   const Vector3d x = (q - center_) * scale_;
-  // The negation catches NaN, too.
-  if (!(x.cwiseAbs().maxCoeff() <= kFar)) return false;
+  // False for NaN, which maxCoeff may pass over.
+  if (!(x.array().abs() <= kFar).all()) return false;
   constexpr double kNone = std::numeric_limits<double>::infinity();
   const double limit =
       std::min(std::pow(reach * scale_, 2), std::numeric_limits<double>::max());
@@ -124,7 +124,10 @@ bool FeatureSearch::FindNext(const Vector3d& q, const Vector3d* taken,
 Eigen::Matrix3d FeatureSearch::Curvature(const Vector3d& q,
                                          int triangle) const noexcept {
   const Vector3d x = (q - center_) * scale_;
-  if (!(x.cwiseAbs().maxCoeff() <= kFar)) return Eigen::Matrix3d::Zero();
+  if (!(x.array().abs() <= kFar).all() || triangle < 0 ||
+      triangle >= static_cast<int>(position_.size())) {
+    return Eigen::Matrix3d::Zero();
+  }
   const Corners& t = corners_[position_[triangle]];
   const Vector3d lambda = ClosestOnTriangle(t[0], t[1], t[2], x).lambda;
   const auto corners_used = (lambda.array() > 0.0).count();

@@ -127,6 +127,15 @@ bool NonPenetrationConstraint::IsFinite(const double* u) const {
                      [&](double x) { return std::abs(x) <= limit; });
 }
 
+void NonPenetrationConstraint::CheckSize(const BranchSet& branches) const {
+  const std::size_t expected = samples_.size() * metrics_.size();
+  if (branches.branches.size() == expected) return;
+  Fail("needs the branches Start makes for it, " + std::to_string(expected) +
+           " (" + std::to_string(samples_.size()) + " samples × " +
+           std::to_string(metrics_.size()) + " contact spaces)",
+       std::to_string(branches.branches.size()));
+}
+
 template <typename Visit>
 void NonPenetrationConstraint::ForEachRow(const double* u,
                                           const BranchSet& branches,
@@ -178,6 +187,7 @@ bool NonPenetrationConstraint::Evaluate(const double* u,
                                         const BranchSet& branches,
                                         double* values, double* jacobian,
                                         NonPenetrationCounts* counts) const {
+  CheckSize(branches);
   if (!IsFinite(u)) return false;
   ForEachRow(u, branches, counts,
              [&](const Sample& sample, const SignedMetric&, const Vector3d&,
@@ -216,6 +226,7 @@ void NonPenetrationConstraint::AddCurvature(const double* u,
                                             const double* multipliers,
                                             bool outside_only,
                                             double* values) const {
+  CheckSize(branches);
   if (!IsFinite(u)) return;
   ForEachRow(u, branches, nullptr,
              [&](const Sample& sample, const SignedMetric& metric,
@@ -259,6 +270,7 @@ BranchSet NonPenetrationConstraint::Start(const double* u,
 
 void NonPenetrationConstraint::Commit(const double* u, BranchSet* branches,
                                       NonPenetrationCounts* counts) const {
+  CheckSize(*branches);
   if (options_.policy == BranchPolicy::kOuterRestart || !IsFinite(u)) return;
   const bool is_stateless = options_.policy == BranchPolicy::kStateless;
   for (int s = 0; s < samples(); ++s) {

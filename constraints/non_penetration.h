@@ -19,7 +19,10 @@ enum class BranchPolicy {
 };
 
 // The state of an evaluation, one branch for each sample and contact space, as
-// NonPenetrationConstraint::Start makes it.
+// NonPenetrationConstraint::Start makes it.  Whoever takes one throws
+// InputError for any other number of branches, an empty set included.  Branches
+// of another contact space are no error: what cannot be continued is a cold
+// query.
 struct BranchSet {
   std::vector<Branch> branches;
 };
@@ -121,6 +124,7 @@ class NonPenetrationConstraint {
   void ForEachRow(const double* u, const BranchSet& branches,
                   NonPenetrationCounts* counts, const Visit& visit) const;
   bool IsFinite(const double* u) const;
+  void CheckSize(const BranchSet& branches) const;
   std::size_t BranchIndex(int sample, std::size_t space) const {
     return static_cast<std::size_t>(sample) * metrics_.size() + space;
   }

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# bench.sh [paper|contact-space|convergence|planning|all]: regenerates the
-# tables and figures of results/.
+# bench.sh [paper|contact-space|convergence|planning|extremes|all]: regenerates
+# the tables and figures of results/.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 # The user's own cache is neither used nor filled.
@@ -9,10 +9,10 @@ export PHONGPD_CACHE_DIR=$PWD/build/cache
 
 suite=${1:-all}
 case $suite in
-  paper | contact-space | convergence | planning | all) ;;
+  paper | contact-space | convergence | planning | extremes | all) ;;
   *)
-    echo "bench: expected paper, contact-space, convergence, planning or all," \
-      "found $suite" >&2
+    echo "bench: expected paper, contact-space, convergence, planning," \
+      "extremes or all, found $suite" >&2
     exit 2
     ;;
 esac
@@ -72,4 +72,27 @@ if [[ $suite == planning || $suite == all ]]; then
         " disagreements (PHONGPD_VOXEL_WORLDS=1700 voxel_worlds_test)" }')
   build/planning_benchmark --output results/planning \
     --voxel-worlds "$worlds"
+fi
+if [[ $suite == extremes || $suite == all ]]; then
+  # Every test program with a suite named *Campaign* takes part.
+  mapfile -t tests < <(grep -rlE '^TEST(_[FP])?\([A-Za-z]*Campaign' tests \
+    --include='*_test.cc' | xargs -n 1 basename -s .cc | sort)
+  scripts/build.sh extremes_report motion_set "${tests[@]}"
+  logs=$PWD/build/extremes
+  rm -rf "$logs"
+  mkdir -p "$logs"
+  campaign() { # TEST: its long form, at most a quarter of an hour
+    local code=0 start=$SECONDS
+    PHONGPD_CAMPAIGN=long timeout 900 "build/tests/$1" \
+      --gtest_filter='*Campaign*' > "$logs/$1.log" 2>&1 || code=$?
+    echo "END $code $((SECONDS - start))" >> "$logs/$1.log"
+    echo "$1: exit code $code, $((SECONDS - start)) s"
+  }
+  export -f campaign
+  export logs
+  printf '%s\n' "${tests[@]}" | xargs -P 2 -I{} bash -c 'campaign {}'
+  # Exit code 1, wrong answers of ours, is the report's to tell.
+  build/motion_set --output results/extremes || (($? == 1))
+  build/extremes_report --logs "$logs" --output results/extremes \
+    --how "scripts/bench.sh extremes"
 fi

@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 #include <utility>
 
@@ -113,8 +114,11 @@ PenetrationResult ContactSurface::Answer(const Vector3d& q_o,
   result.inside = location == Location::kInside;
   result.triangle = closest.triangle;
   result.contact = Point(closest.triangle, closest.lambda);
-  const double distance =
-      location == Location::kOnSurface ? 0.0 : closest.distance;
+  // At the end of doubles a distance may overflow; no result is infinite.
+  const double distance = location == Location::kOnSurface
+                              ? 0.0
+                              : std::clamp(closest.distance, LeastDistance(),
+                                           std::numeric_limits<double>::max());
   result.signed_distance = result.inside ? -distance : distance;
   const Vector3d& normal = facet_normals_[closest.triangle];
   const bool in_facet = closest.lambda.minCoeff() > 0.0;

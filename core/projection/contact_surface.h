@@ -31,11 +31,20 @@ class ContactSurface {
   }
   Location Locate(const Eigen::Vector3d& q) const { return inside_.Locate(q); }
 
+  // What a distance is at least off the surface, where rounding says 0: far
+  // below any rounding, so that 0 means touching and the sign is exact.
+  double LeastDistance() const { return 0x1p-104 / tree_.scale(); }
+
   // Euclidean answer at an accepted q whose location is known.  The direction
   // is the facet's normal where q_c is inside a facet or q lies on it (to
   // 1e-12 of the diagonal), and (q_c − q)/|q_c − q| elsewhere.
   PenetrationResult Answer(const Eigen::Vector3d& q_o,
                            Location location) const noexcept;
+
+  // Distance of an accepted q to the surface, ≥ 0, rounded.
+  double Distance(const Eigen::Vector3d& q) const noexcept {
+    return tree_.FindClosest(q).distance;
+  }
 
   // Σ λ_i q_i on a triangle, exact to an ulp where a coordinate is constant.
   Eigen::Vector3d Point(int triangle, const Eigen::Vector3d& lambda) const;

@@ -14,6 +14,8 @@ namespace phongpd {
 // Its direction jumps across the medial axis; `previous` is ignored, results
 // have no branch, and `gradient` equals `direction` on both sides.  On C_cont
 // (signed distance 0, not inside) the direction is the facet's normal.
+// At a re-entrant edge with less than 90° of free space it may point into the
+// facet across: a step along it then does not leave C_obj.
 class EuclideanMetric final : public PenetrationMetric {
  public:
   // `contact_mesh` closed, outward, edge-manifold, with a diagonal between

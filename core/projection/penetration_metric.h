@@ -30,8 +30,10 @@ struct Branch {
 // Answer to a query at q_o.  Lengths in the user's unit.
 struct PenetrationResult {
   QueryStatus status = QueryStatus::kInvalid;
-  bool inside = false;           // exact: q_o strictly inside C_obj
-  double signed_distance = 0.0;  // −|q_c − q_o| inside, distance outside
+  bool inside = false;  // exact: q_o strictly inside C_obj
+  // −|q_c − q_o| inside, distance outside.  Its sign is exact: < 0 strictly
+  // inside C_obj, 0 on C_cont (the robot touches), > 0 in free space.
+  double signed_distance = 0.0;
   Eigen::Vector3d contact = Eigen::Vector3d::Zero();  // q_c on C_cont
   // Unit vector from q_o towards q_c inside, outward gradient outside.
   Eigen::Vector3d direction = Eigen::Vector3d::Zero();

@@ -67,7 +67,8 @@ struct PhongMetric::Impl {
     PenetrationResult result;
     result.status = status;
     result.inside = true;
-    result.signed_distance = -p.depth / field.scale;
+    result.signed_distance =
+        -std::max(p.depth / field.scale, surface.LeastDistance());
     const Triangle& t = field.mesh.triangles[p.triangle];
     const Vector3d& q0 = vertices[t[0]];
     result.contact = p.lambda[1] == 1.0 ? vertices[t[1]]

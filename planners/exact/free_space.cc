@@ -135,9 +135,7 @@ double FreeSpace::Clearance(const Vector3d& q) const {
   }
   for (const Space& space : impl_->spaces) {
     if (!space.surface.Accepts(q)) return 0.0;
-    const PenetrationResult answer =
-        space.surface.Answer(q, Location::kOutside);
-    clearance = std::min(clearance, answer.signed_distance);
+    clearance = std::min(clearance, space.surface.Distance(q));
   }
   return clearance;
 }
