@@ -37,6 +37,7 @@ Command AddScenes(CLI::App* app);
 Command AddOptimize(CLI::App* app);
 Command AddCompare(CLI::App* app);
 Command AddPlan(CLI::App* app);
+Command AddReproduce(CLI::App* app);
 
 // Reads an operand file as a solid.  What the user should know goes to
 // stderr, one line a warning.  Throws InputError naming the file.
@@ -71,6 +72,10 @@ void TellAbout(const Scene& scene, const SceneSpace& space);
 // Declares --no-cache, and the cache it leaves: the user's own, or none.
 void AddNoCache(CLI::App* app, bool* no_cache);
 ContactSpaceCache UserCache(bool no_cache);
+
+// Declares --verify and --no-verify of a command whose answers are judged a
+// second time, on the original solids; on unless asked otherwise.
+void AddVerify(CLI::App* app, bool* verify);
 
 // Throws InputError unless --runs is at least 1.
 void RequireRuns(int runs);

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "problems/answer_check.h"
 #include "problems/cli/command.h"
 #include "problems/cli/seeded_runs.h"
 #include "problems/scene_source.h"
@@ -25,7 +26,19 @@ struct Flags : SeededRunFlags {
   int rows = 0;
   bool no_line = false;
   bool per_obstacle = false;
+  bool verify = true;
 };
+
+AnswerClaims ClaimsOf(const PipelineResult& result) {
+  AnswerClaims claims;
+  if (result.certificate.free) claims.path = result.path;
+  claims.proves_separation =
+      result.status == TrajectoryStatus::kInfeasibleProved;
+  claims.start_is_blocked =
+      result.status == TrajectoryStatus::kStartInCollision;
+  claims.goal_is_blocked = result.status == TrajectoryStatus::kGoalInCollision;
+  return claims;
+}
 
 void Override(const Flags& flags, Scene* scene) {
   PenetrationSettings& settings = scene->penetration;
@@ -92,6 +105,7 @@ int Optimize(const Flags& flags) {
   TrajectoryStudy study(
       UserCache(flags.no_cache),
       flags.per_obstacle ? SpaceLayout::kPerObstacle : SpaceLayout::kMerged);
+  AnswerCheck check(flags.verify);
   for (int run = 0; run < flags.runs; ++run) {
     const std::uint64_t seed = flags.seed + static_cast<std::uint64_t>(run);
     // Seed 0 is the scene as it stands.
@@ -104,25 +118,28 @@ int Optimize(const Flags& flags) {
     study.Enter(scene);
     if (run == 0) TellAbout(scene, study.space());
     const PipelineResult result = study.Run(metric, options);
-    const nlohmann::ordered_json row =
-        TrajectoryRow(study, metric, options, result);
+    nlohmann::ordered_json row = TrajectoryRow(study, metric, options, result);
+    const bool stands =
+        check.Judge(study.scene(), study.space(), ClaimsOf(result), &row);
     const std::string outcome =
-        std::to_string(seed) + ": " + ToString(result.status);
+        std::to_string(seed) + ": " + row["status_class"].get<std::string>();
     runs.Add(row,
              {metric.name + ", seed " + outcome, result.path,
-              result.certificate.free},
+              stands && result.certificate.free},
              scene.name + ", " + metric.name + ", " + flags.start + ", " +
                  outcome + ", " + std::to_string(result.iterations) + ", " +
                  Rounded(result.objective, 5) + ", " +
                  Rounded(row["clearance"].get<double>(), 3) + ", " +
                  Rounded(result.seconds, 3),
-             Explanation(result));
+             stands ? Explanation(result) : row["reason"].get<std::string>());
   }
   runs.Write({study.scene().name,
               study.space().contact_meshes,
               study.scene().workspace.robot,
               {}});
-  return runs.Commit();
+  const int code = runs.Commit();
+  check.RequireNoFailure();
+  return code;
 }
 
 }  // namespace
@@ -185,6 +202,7 @@ Command AddOptimize(CLI::App* app) {
       ->type_name("S");
   AddRowOutput(app, flags.get());
   AddPictures(app, flags.get());
+  AddVerify(app, &flags->verify);
   AddNoCache(app, &flags->no_cache);
   return [flags] { return Optimize(*flags); };
 }

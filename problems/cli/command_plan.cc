@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "problems/answer_check.h"
 #include "problems/cli/command.h"
 #include "problems/cli/seeded_runs.h"
 #include "problems/planning_study.h"
@@ -18,7 +19,18 @@ struct Flags : SeededRunFlags {
   std::string planner;
   std::string metric = "phong";
   std::string ompl_log;
+  bool verify = true;
 };
+
+AnswerClaims ClaimsOf(const PlanningResult& result) {
+  AnswerClaims claims;
+  if (result.solved) claims.path = result.numbers.path;
+  claims.proves_separation = result.infeasible_proved;
+  claims.start_is_blocked =
+      result.status == ToString(PlanStatus::kInvalidStart);
+  claims.goal_is_blocked = result.status == ToString(PlanStatus::kInvalidGoal);
+  return claims;
+}
 
 int Plan(const Flags& flags) {
   RequireRuns(flags.runs);
@@ -38,14 +50,21 @@ int Plan(const Flags& flags) {
   SilenceOmpl();
   PlanningStudy study(scene, UserCache(flags.no_cache));
   TellAbout(scene, study.space());
+  AnswerCheck check(flags.verify);
   for (int i = 0; i < flags.runs; ++i) {
     run.seed = flags.seed + static_cast<std::uint64_t>(i);
     Progress("run " + std::to_string(i + 1) + " of " +
              std::to_string(flags.runs));
-    const PlanningResult result = study.Run(run);
+    PlanningResult result = study.Run(run);
+    nlohmann::ordered_json row = PlanningRow(study, run, result);
+    if (!check.Judge(scene, study.space(), ClaimsOf(result), &row)) {
+      result.solved = false;
+      result.status = row["status"];
+      result.reason = row["reason"];
+    }
     const std::string outcome = std::to_string(run.seed) + ": " + result.status;
     runs.Add(
-        PlanningRow(study, run, result),
+        row,
         {run.planner + ", seed " + outcome, result.numbers.path, result.solved},
         scene.name + ", " + run.planner + ", " + outcome + ", " +
             Rounded(result.numbers.seconds) + ", " +
@@ -59,7 +78,9 @@ int Plan(const Flags& flags) {
     Progress("running OMPL's benchmark");
     runs.outputs().Write(flags.ompl_log, study.OmplLog(run, flags.runs));
   }
-  return runs.Commit();
+  const int code = runs.Commit();
+  check.RequireNoFailure();
+  return code;
 }
 
 }  // namespace
@@ -88,6 +109,7 @@ Command AddPlan(CLI::App* app) {
                   "log, which OMPL's statistics script reads")
       ->type_name("FILE");
   AddPictures(app, flags.get());
+  AddVerify(app, &flags->verify);
   AddNoCache(app, &flags->no_cache);
   return [flags] { return Plan(*flags); };
 }

@@ -73,6 +73,8 @@ int Run(int argc, char** argv) {
       AddCompare);
   add("plan", "Plan a path, or prove that there is none", AddPlan);
   add("scenes", "List or write the procedural scenes", AddScenes);
+  add("reproduce", "Pack a command with its inputs, to report what went wrong",
+      AddReproduce);
 
   try {
     app.parse(Arguments(argc, argv));
@@ -105,6 +107,9 @@ int main(int argc, char** argv) {
   } catch (const std::bad_alloc&) {
     return Fail(kInternalError, "internal error: out of memory");
   } catch (const std::exception& error) {
-    return Fail(kInternalError, std::string("internal error: ") + error.what());
+    return Fail(kInternalError,
+                std::string("internal error: ") + error.what() +
+                    "; to report it: phongpd reproduce --output report.json -- "
+                    "and the command as you gave it");
   }
 }
