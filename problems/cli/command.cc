@@ -115,6 +115,13 @@ void AddRoot(CLI::App* app, std::string* root) {
       ->type_name("DIR");
 }
 
+void AddVerify(CLI::App* app, bool* verify) {
+  app->add_flag("--verify,!--no-verify", *verify,
+                "Judge every answer again on the original meshes, by code that "
+                "shares nothing with contact spaces; a wrong one is a fault of "
+                "the program (default: on)");
+}
+
 void RequireRuns(int runs) {
   if (runs >= 1) return;
   throw InputError("--runs: expected at least 1, found " +

@@ -39,6 +39,7 @@ Command AddScenes(CLI::App* app);
 Command AddOptimize(CLI::App* app);
 Command AddCompare(CLI::App* app);
 Command AddPlan(CLI::App* app);
+Command AddReproduce(CLI::App* app);
 
 // Reads an operand file as a solid.  What the user should know goes to
 // stderr, one line a warning.  Throws InputError naming the file.
@@ -76,6 +77,10 @@ ContactSpaceCache UserCache(bool no_cache);
 
 // Declares --root, the folder that mesh files of a scene file must lie below.
 void AddRoot(CLI::App* app, std::string* root);
+
+// Declares --verify and --no-verify of a command whose answers are judged a
+// second time, on the original solids; on unless asked otherwise.
+void AddVerify(CLI::App* app, bool* verify);
 
 // Throws InputError unless --runs is at least 1.
 void RequireRuns(int runs);

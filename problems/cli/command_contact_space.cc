@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <Eigen/Geometry>
 #include <cmath>
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <sstream>
 #include <string>
 
 #include "core/contact_space/contact_space.h"
 #include "core/mesh/mesh_io.h"
+#include "planners/exact/verification.h"
+#include "problems/answer_check.h"
 #include "problems/cli/command.h"
 #include "problems/output_files.h"
 #include "problems/text.h"
@@ -30,6 +32,7 @@ struct Flags {
   double max_mib = 0.0;
   std::string refine = "0";
   bool no_cache = false;
+  bool verify = true;
 };
 
 Json ToJson(const RepairReport& repair) {
@@ -120,13 +123,6 @@ std::string Plural(int count, const char* noun) {
   return std::to_string(count) + ' ' + noun + (count == 1 ? "" : "s");
 }
 
-std::string Rounded(double value) {
-  std::ostringstream stream;
-  stream.precision(4);
-  stream << value;
-  return stream.str();
-}
-
 std::string Summary(const Flags& flags, const ContactSpaceReport& report) {
   TextStream text;
   double total = 0.0;
@@ -140,11 +136,11 @@ std::string Summary(const Flags& flags, const ContactSpaceReport& report) {
        << (report.cavities == 1 ? "1 cavity"
                                 : Plural(report.cavities, "cavitie"))
        << ", volume " << FormatDouble(report.volume) << '\n'
-       << "triangle quality: worst " << Rounded(report.worst_quality)
-       << ", median " << Rounded(report.median_quality) << '\n'
+       << "triangle quality: worst " << Rounded(report.worst_quality, 4)
+       << ", median " << Rounded(report.median_quality, 4) << '\n'
        << (report.from_cache ? "from the cache; built in " : "built in ")
-       << Rounded(total) << " s, peak " << Rounded(report.peak_mib) << " MiB, "
-       << report.convolution_triangles << " convolution and "
+       << Rounded(total, 4) << " s, peak " << Rounded(report.peak_mib, 4)
+       << " MiB, " << report.convolution_triangles << " convolution and "
        << report.arrangement_faces << " arrangement faces\n";
   return text.str();
 }
@@ -182,14 +178,54 @@ ContactSpaceOptions OptionsOf(const Flags& flags) {
   return options;
 }
 
+// Middles of up to 100 triangles, judged on the operands; null where these are
+// not the files' solids, or were judged when the cache was filled.  Throws
+// std::runtime_error for a point that is not on the contact surface.
+Json VerifySample(const Flags& flags, const TriangleMesh& robot,
+                  const TriangleMesh& obstacle, const ContactSpace& space) {
+  const bool is_exact =
+      space.report.approximation.kind == "none" && flags.repair == "reject";
+  if (!flags.verify || !is_exact || space.report.from_cache) return nullptr;
+  Workspace solids;
+  solids.robot = MakeSolid(robot, flags.robot);
+  solids.obstacles = {{flags.obstacle, MakeSolid(obstacle, flags.obstacle)}};
+  const Verifier verifier(solids);
+  constexpr std::size_t kPoints = 100;
+  const std::vector<Triangle>& triangles = space.mesh.triangles;
+  const std::size_t stride = 1 + triangles.size() / (kPoints + 1);
+  int points = 0, within_rounding = 0;
+  double seconds = 0.0;
+  for (std::size_t i = 0; i < triangles.size(); i += stride, ++points) {
+    const auto corner = [&](std::size_t k) -> const Eigen::Vector3d& {
+      return space.mesh.vertices[static_cast<std::size_t>(triangles[i][k])];
+    };
+    const Verification found =
+        verifier.VerifySurface((corner(0) + corner(1) + corner(2)) / 3.0,
+                               (corner(1) - corner(0))
+                                   .cross(corner(2) - corner(0))
+                                   .stableNormalized());
+    seconds += found.seconds;
+    within_rounding += found.verdict == Verdict::kWithinRounding ? 1 : 0;
+    if (found.verdict == Verdict::kRefuted) {
+      FailVerification(found.reason);
+    }
+  }
+  return {{"points", points},
+          {"within_rounding", within_rounding},
+          {"wrong", 0},
+          {"seconds", seconds}};
+}
+
 int BuildAndWrite(const Flags& flags) {
   OutputFiles outputs;
   DeclareMesh(&outputs, flags.output);
   if (!flags.report.empty()) outputs.Declare(flags.report);
   const ContactSpaceOptions options = OptionsOf(flags);
+  const TriangleMesh robot = ReadMesh(flags.robot);
+  const TriangleMesh obstacle = ReadMesh(flags.obstacle);
   const ContactSpace space =
-      LoadOrBuild(ReadMesh(flags.robot), ReadMesh(flags.obstacle), options,
-                  !flags.no_cache);
+      LoadOrBuild(robot, obstacle, options, !flags.no_cache);
+  const Json verification = VerifySample(flags, robot, obstacle, space);
 
   WriteMeshTo(&outputs, flags.output, space.mesh);
   if (!flags.report.empty()) {
@@ -198,6 +234,7 @@ int BuildAndWrite(const Flags& flags) {
     report["robot"] = ToJson(found.robot, found.robot_repair, flags.robot);
     report["obstacle"] =
         ToJson(found.obstacle, found.obstacle_repair, flags.obstacle);
+    report["verification"] = verification;
     outputs.Write(flags.report, report.dump(2) + '\n');
   }
   CommitAndTell(&outputs, Summary(flags, space.report));
@@ -251,6 +288,7 @@ Command AddContactSpace(CLI::App* app) {
                   "triangles as they come")
       ->type_name("FRACTION")
       ->capture_default_str();
+  AddVerify(app, &flags->verify);
   AddNoCache(app, &flags->no_cache);
   return [flags] { return BuildAndWrite(*flags); };
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <memory>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -7,6 +8,8 @@
 #include "core/contact_space/contact_space.h"
 #include "core/projection/euclidean_metric.h"
 #include "core/projection/phong_metric.h"
+#include "planners/exact/verification.h"
+#include "problems/answer_check.h"
 #include "problems/cli/command.h"
 #include "problems/gnuplot.h"
 #include "problems/motion.h"
@@ -31,18 +34,47 @@ struct Flags {
   std::string output;
   std::string svg;
   bool no_cache = false;
+  bool verify = true;
 };
 
-TriangleMesh ContactMesh(const Flags& flags) {
-  if (!flags.contact_space.empty()) {
-    return LoadContactSpace(flags.contact_space);
-  }
-  const TriangleMesh robot = LoadSolid(flags.robot);
-  const TriangleMesh obstacle = LoadSolid(flags.obstacle);
+// The two meshes, where they are given.
+std::optional<Workspace> ReadSolids(const Flags& flags) {
+  if (!flags.contact_space.empty()) return std::nullopt;
+  Workspace workspace;
+  workspace.robot = LoadSolid(flags.robot);
+  workspace.obstacles = {{flags.obstacle, LoadSolid(flags.obstacle)}};
+  return workspace;
+}
+
+TriangleMesh ContactMesh(const Flags& flags,
+                         const std::optional<Workspace>& solids) {
+  if (!solids) return LoadContactSpace(flags.contact_space);
   ContactSpaceOptions options;
   options.robot_name = flags.robot;
   options.obstacle_name = flags.obstacle;
-  return LoadOrBuild(robot, obstacle, options, !flags.no_cache).mesh;
+  return LoadOrBuild(solids->robot, solids->obstacles[0].mesh, options,
+                     !flags.no_cache)
+      .mesh;
+}
+
+// Judges the depths of all frames again; returns a line for people.  Throws
+// std::runtime_error for the first that is wrong.
+std::string VerifyDepths(const Workspace& solids, const StraightMotion& motion,
+                         const std::vector<MotionTrace>& traces) {
+  const Verifier verifier(solids);
+  int confirmed = 0, all = 0;
+  for (const MotionTrace& trace : traces) {
+    for (int frame = 0; frame < motion.frames; ++frame, ++all) {
+      const Verification found = verifier.VerifyDepth(
+          motion.At(frame), trace.results[static_cast<std::size_t>(frame)]);
+      confirmed += found.verdict == Verdict::kConfirmed ? 1 : 0;
+      if (found.verdict != Verdict::kRefuted) continue;
+      FailVerification(trace.metric + ", frame " + std::to_string(frame) +
+                       ": " + found.reason);
+    }
+  }
+  return "verified on the original solids: " + std::to_string(confirmed) +
+         " of " + std::to_string(all) + " depths, the others within rounding\n";
 }
 
 std::vector<double> SmoothingLengths(const Flags& flags) {
@@ -113,9 +145,12 @@ int Follow(const Flags& flags) {
     RequireGnuplot();
   }
 
-  const TriangleMesh contact = ContactMesh(flags);
+  const std::optional<Workspace> solids = ReadSolids(flags);
+  const TriangleMesh contact = ContactMesh(flags, solids);
   const std::vector<MotionTrace> traces =
       Trace(flags, contact, lengths, motion);
+  std::string verified;
+  if (solids && flags.verify) verified = VerifyDepths(*solids, motion, traces);
   outputs.Write(flags.output, MotionCsv(traces));
   if (!flags.svg.empty()) {
     outputs.Write(flags.svg,
@@ -123,8 +158,9 @@ int Follow(const Flags& flags) {
                                          FormatPoint(motion.from) + ") to (" +
                                          FormatPoint(motion.to) + ")"));
   }
-  CommitAndTell(&outputs,
-                Summary(flags, traces, ComputeBounds(contact).Diagonal()));
+  CommitAndTell(
+      &outputs,
+      Summary(flags, traces, ComputeBounds(contact).Diagonal()) + verified);
   return kDone;
 }
 
@@ -165,6 +201,7 @@ Command AddMotion(CLI::App* app) {
   app->add_option("--svg", flags->svg,
                   "Plot of x, y, z and magnitude (needs gnuplot)")
       ->type_name("FILE");
+  AddVerify(app, &flags->verify);
   AddNoCache(app, &flags->no_cache);
   return [flags] { return Follow(*flags); };
 }

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "problems/answer_check.h"
 #include "problems/cli/command.h"
 #include "problems/cli/seeded_runs.h"
 #include "problems/scene_source.h"
@@ -25,7 +26,19 @@ struct Flags : SeededRunFlags {
   int rows = 0;
   bool no_line = false;
   bool per_obstacle = false;
+  bool verify = true;
 };
+
+AnswerClaims ClaimsOf(const PipelineResult& result) {
+  AnswerClaims claims;
+  if (result.certificate.free) claims.path = result.path;
+  claims.proves_separation =
+      result.status == TrajectoryStatus::kInfeasibleProved;
+  claims.start_is_blocked =
+      result.status == TrajectoryStatus::kStartInCollision;
+  claims.goal_is_blocked = result.status == TrajectoryStatus::kGoalInCollision;
+  return claims;
+}
 
 void Override(const Flags& flags, Scene* scene) {
   PenetrationSettings& settings = scene->penetration;
@@ -109,6 +122,7 @@ int Optimize(const Flags& flags) {
   TrajectoryStudy study(
       UserCache(flags.no_cache),
       flags.per_obstacle ? SpaceLayout::kPerObstacle : SpaceLayout::kMerged);
+  AnswerCheck check(flags.verify);
   for (int run = 0; run < flags.runs; ++run) {
     const std::uint64_t seed = flags.seed + static_cast<std::uint64_t>(run);
     // Seed 0 is the scene as it stands.
@@ -125,13 +139,17 @@ int Optimize(const Flags& flags) {
     if (run == runs.kept()) TellAbout(scene, study.space());
     if (is_kept) continue;
     const PipelineResult result = study.Run(metric, options);
-    runs.Add(TrajectoryRow(study, metric, options, result));
+    nlohmann::ordered_json row = TrajectoryRow(study, metric, options, result);
+    check.Judge(study.scene(), study.space(), ClaimsOf(result), &row);
+    runs.Add(row);
   }
   runs.Write({study.scene().name,
               study.space().contact_meshes,
               study.scene().workspace.robot,
               {}});
-  return runs.Commit();
+  const int code = runs.Commit();
+  check.RequireNoFailure();
+  return code;
 }
 
 }  // namespace
@@ -194,6 +212,7 @@ Command AddOptimize(CLI::App* app) {
       ->type_name("S");
   AddRowOutput(app, flags.get());
   AddPictures(app, flags.get());
+  AddVerify(app, &flags->verify);
   AddNoCache(app, &flags->no_cache);
   return [flags] { return Optimize(*flags); };
 }

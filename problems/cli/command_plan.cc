@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "problems/answer_check.h"
 #include "problems/cli/command.h"
 #include "problems/cli/seeded_runs.h"
 #include "problems/planning_study.h"
@@ -18,6 +19,7 @@ struct Flags : SeededRunFlags {
   std::string planner;
   std::string metric = "phong";
   std::string ompl_log;
+  bool verify = true;
 };
 
 RunSummary Summarize(const nlohmann::ordered_json& row) {
@@ -32,6 +34,16 @@ RunSummary Summarize(const nlohmann::ordered_json& row) {
               Rounded(NumberAt(row, "/path_length"), 4) + ", " +
               Rounded(NumberAt(row, "/clearance")),
           row.at("reason").get<std::string>()};
+}
+
+AnswerClaims ClaimsOf(const PlanningResult& result) {
+  AnswerClaims claims;
+  if (result.solved) claims.path = result.numbers.path;
+  claims.proves_separation = result.infeasible_proved;
+  claims.start_is_blocked =
+      result.status == ToString(PlanStatus::kInvalidStart);
+  claims.goal_is_blocked = result.status == ToString(PlanStatus::kInvalidGoal);
+  return claims;
 }
 
 int Plan(const Flags& flags) {
@@ -54,12 +66,15 @@ int Plan(const Flags& flags) {
   SilenceOmpl();
   PlanningStudy study(scene, UserCache(flags.no_cache));
   TellAbout(scene, study.space());
+  AnswerCheck check(flags.verify);
   for (int i = runs.kept(); i < flags.runs; ++i) {
     run.seed = flags.seed + static_cast<std::uint64_t>(i);
     Progress("run " + std::to_string(i + 1) + " of " +
              std::to_string(flags.runs));
     const PlanningResult result = study.Run(run);
-    runs.Add(PlanningRow(study, run, result));
+    nlohmann::ordered_json row = PlanningRow(study, run, result);
+    check.Judge(scene, study.space(), ClaimsOf(result), &row);
+    runs.Add(row);
   }
   runs.Write({scene.name, {study.VisibleMesh()}, scene.workspace.robot, {}});
   if (!flags.ompl_log.empty()) {
@@ -67,7 +82,9 @@ int Plan(const Flags& flags) {
     run.seed = flags.seed + static_cast<std::uint64_t>(flags.runs) - 1;
     runs.outputs().Write(flags.ompl_log, study.OmplLog(run, flags.runs));
   }
-  return runs.Commit();
+  const int code = runs.Commit();
+  check.RequireNoFailure();
+  return code;
 }
 
 }  // namespace
@@ -96,6 +113,7 @@ Command AddPlan(CLI::App* app) {
                   "log, which OMPL's statistics script reads")
       ->type_name("FILE");
   AddPictures(app, flags.get());
+  AddVerify(app, &flags->verify);
   AddNoCache(app, &flags->no_cache);
   return [flags] { return Plan(*flags); };
 }

@@ -81,6 +81,8 @@ int Run(int argc, char** argv) {
       AddCompare);
   add("plan", "Plan a path, or prove that there is none", AddPlan);
   add("scenes", "List or write the procedural scenes", AddScenes);
+  add("reproduce", "Pack a command with its inputs, to report what went wrong",
+      AddReproduce);
 
   try {
     app.parse(Arguments(argc, argv));
@@ -126,7 +128,10 @@ int FailFor(const std::exception_ptr& failure) {
                                       "); see the limits of processes and "
                                       "memory (ulimit -u, ulimit -v)");
     }
-    return Fail(kInternalError, "internal error: " + what);
+    return Fail(kInternalError,
+                "internal error: " + what +
+                    "; to report it: phongpd reproduce --output report.json -- "
+                    "and the command as you gave it");
   } catch (...) {
     return Fail(kInternalError, "internal error");
   }

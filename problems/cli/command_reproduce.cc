@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "problems/cli/command.h"
+#include "problems/output_files.h"
+#include "problems/reproduction.h"
+
+namespace phongpd::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+struct Flags {
+  std::string output;
+  std::string replay;
+  std::string folder;
+  bool no_run = false;
+  std::vector<std::string> command;
+};
+
+// A folder of our own that goes when this does.
+class TemporaryFolder {
+ public:
+  TemporaryFolder() {
+    std::string name = (fs::temp_directory_path() / "phongpd-XXXXXX").string();
+    if (mkdtemp(name.data()) == nullptr) {
+      throw InputError(name + ": cannot make a temporary folder");
+    }
+    path_ = name;
+  }
+  ~TemporaryFolder() {
+    std::error_code ignored;
+    fs::remove_all(path_, ignored);
+  }
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+
+  const fs::path& path() const { return path_; }
+
+ private:
+  fs::path path_;
+};
+
+CommandOutcome RunIn(const fs::path& folder, const TemporaryFolder& scratch,
+                     const Json& document, const std::string& name) {
+  fs::create_directory(folder);
+  UnpackCommand(document, name, folder.string());
+  return RunCommand(PackedArguments(document, name), folder.string(),
+                    scratch.path().string());
+}
+
+std::string Ending(int exit_code, int signal) {
+  return exit_code >= 0 ? "exit code " + std::to_string(exit_code)
+                        : "signal " + std::to_string(signal);
+}
+
+int Pack(const Flags& flags) {
+  OutputFiles outputs;
+  outputs.Declare(flags.output);
+  Json document = PackCommand(flags.command);
+  PackedArguments(document, "reproduce");
+  std::string ending = "not run";
+  if (!flags.no_run) {
+    Progress("running it");
+    const TemporaryFolder temporary;
+    const CommandOutcome outcome =
+        RunIn(temporary.path() / "run", temporary, document, "reproduce");
+    document["run"] = {{"exit_code", outcome.exit_code},
+                       {"signal", outcome.signal},
+                       {"seconds", outcome.seconds},
+                       {"stdout", outcome.out},
+                       {"stderr", outcome.err}};
+    ending = Ending(outcome.exit_code, outcome.signal);
+  }
+  outputs.Write(
+      flags.output,
+      document.dump(1, ' ', false, Json::error_handler_t::replace) + '\n');
+  const bool silent = outputs.UseStandardOutput();
+  outputs.Commit();
+  if (silent) return kDone;
+  std::cout << flags.output << ": " << document["files"].size()
+            << " files packed, " << ending << '\n';
+  return kDone;
+}
+
+int Replay(const Flags& flags) {
+  std::ifstream stream(flags.replay, std::ios::binary);
+  const Json document = Json::parse(stream, nullptr, false);
+  const TemporaryFolder temporary;
+  const fs::path folder = flags.folder.empty() ? temporary.path() / "run"
+                                               : fs::absolute(flags.folder);
+  if (fs::exists(folder)) {
+    throw InputError("--folder: expected a name that is free, found " +
+                     flags.folder);
+  }
+  PackedArguments(document, flags.replay);
+  const CommandOutcome now = RunIn(folder, temporary, document, flags.replay);
+  std::cout << now.out;
+  std::cerr << now.err;
+  std::cout << Ending(now.exit_code, now.signal);
+  const Json& run = document.value("run", Json());
+  if (!run.is_object()) {
+    std::cout << "; none was recorded\n";
+    return kDone;
+  }
+  const int exit_code = run.value("exit_code", -1);
+  const int signal = run.value("signal", 0);
+  const bool same_end = exit_code == now.exit_code && signal == now.signal;
+  const bool same_words = run.value("stderr", std::string()) == now.err;
+  std::cout << (same_end ? ", as recorded"
+                         : "; recorded: " + Ending(exit_code, signal))
+            << (same_words ? "" : "; another text on stderr") << '\n';
+  return same_end && same_words ? kDone : kNoAnswer;
+}
+
+int Reproduce(const Flags& flags) {
+  if (flags.replay.empty() == flags.command.empty()) {
+    throw InputError(
+        "reproduce: expected --output FILE -- COMMAND ARGUMENTS, or --replay "
+        "FILE");
+  }
+  if (!flags.replay.empty()) return Replay(flags);
+  if (flags.output.empty()) {
+    throw InputError("reproduce: expected --output FILE, found none");
+  }
+  return Pack(flags);
+}
+
+}  // namespace
+
+Command AddReproduce(CLI::App* app) {
+  auto flags = std::make_shared<Flags>();
+  app->add_option("--output", flags->output,
+                  "JSON file with the command, its inputs, versions and "
+                  "outcome; no folder, user or host is named in it")
+      ->type_name("FILE");
+  app->add_flag("--no-run", flags->no_run,
+                "Pack only, for a command that does not end");
+  app->add_option("--replay", flags->replay,
+                  "Run what such a file holds and compare exit code and "
+                  "messages; 0: the same, 1: not")
+      ->type_name("FILE");
+  app->add_option("--folder", flags->folder,
+                  "New folder to unpack the inputs of --replay to and to keep "
+                  "them (otherwise a temporary one)")
+      ->type_name("DIR");
+  app->add_option("command", flags->command,
+                  "After --: the command to pack, as it was given to phongpd")
+      ->type_name("COMMAND ARGUMENTS");
+  app->footer(
+      "phongpd reproduce --output report.json -- plan scene.json --output "
+      "p.jsonl\n"
+      "phongpd reproduce --replay report.json");
+  return [flags] { return Reproduce(*flags); };
+}
+
+}  // namespace phongpd::cli
