@@ -98,8 +98,8 @@ int SideAcrossGap(const FaceGeometry& geometry, UnionFind* sides,
 
 FreeCells FindFreeCells(const Convolution& convolution,
                         const Arrangement& arrangement, const EdgeRings& rings,
-                        const ExactPoints& points,
-                        const SolidCollision& judge) {
+                        const ExactPoints& points, const SolidCollision& judge,
+                        const BuildLimits& limits) {
   const std::vector<ArrangementFace>& faces = arrangement.faces;
   const int count = static_cast<int>(faces.size());
   UnionFind sides(2 * faces.size()), parts(faces.size());
@@ -156,6 +156,7 @@ FreeCells FindFreeCells(const Convolution& convolution,
   out.judged = static_cast<int>(judged.size());
   std::vector<char> collides(judged.size());
   tbb::parallel_for(std::size_t{0}, judged.size(), [&](std::size_t i) {
+    limits.Check("cells");
     std::vector<int>& members = *judged[i];
     const std::size_t probes = std::min(kProbes, members.size());
     std::partial_sort(

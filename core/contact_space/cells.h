@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "core/contact_space/build_limits.h"
 #include "core/contact_space/edge_rings.h"
 #include "core/contact_space/solid_collision.h"
 
@@ -23,9 +24,11 @@ struct FreeCells {
 // point well inside it.  The unbounded cell is free by definition.  Free
 // cells that belong to edge-disjoint parts of the arrangement but to one
 // region of space count as one cell.
-// Throws std::logic_error when it is not (the arrangement leaks).
+// Throws std::logic_error when it is not (the arrangement leaks), InputError
+// when `limits` are passed.
 FreeCells FindFreeCells(const Convolution& convolution,
                         const Arrangement& arrangement, const EdgeRings& rings,
-                        const ExactPoints& points, const SolidCollision& judge);
+                        const ExactPoints& points, const SolidCollision& judge,
+                        const BuildLimits& limits);
 
 }  // namespace phongpd::internal

@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <sstream>
 #include <unordered_map>
 
+#include "core/contact_space/build_limits.h"
 #include "core/contact_space/cells.h"
 #include "core/contact_space/convolution.h"
 #include "core/contact_space/edge_rings.h"
@@ -61,22 +61,6 @@ PredictedCost Predict(const internal::Convolution& convolution,
   cost.seconds = 3e-6 * facets + 5.5e-6 * meetings;
   cost.mib = 5.0 + 3e-4 * facets + 8e-4 * meetings;
   return cost;
-}
-
-void RefuseAbove(const ContactSpaceOptions& options,
-                 const PredictedCost& cost) {
-  const auto refuse = [&](const std::string& what, double limit,
-                          double predicted, const std::string& unit) {
-    if (limit <= 0 || predicted <= limit) return;
-    std::ostringstream message;
-    message << options.robot_name << " and " << options.obstacle_name
-            << ": expected a contact space of at most " << limit << ' ' << unit
-            << " (" << what << "), predicted " << predicted << ' ' << unit
-            << "; simplify an operand or raise the limit";
-    throw InputError(message.str());
-  };
-  refuse("max_seconds", options.max_seconds, cost.seconds, "s");
-  refuse("max_mib", options.max_mib, cost.mib, "MiB");
 }
 
 // Rounds the exact surface into the user's frame.
@@ -177,6 +161,7 @@ ContactSpace BuildContactSpace(const TriangleMesh& robot,
   ContactSpace out;
   ContactSpaceReport& report = out.report;
   StageClock clock(&report);
+  internal::BuildLimits limits(options);
 
   using internal::OperandRole;
   const TriangleMesh a =
@@ -209,13 +194,13 @@ ContactSpace BuildContactSpace(const TriangleMesh& robot,
     const internal::FacetIndex index(convolution);
     report.predicted = Predict(
         convolution, internal::PredictMeetings(convolution, groups, index));
-    RefuseAbove(options, report.predicted);
+    limits.Predict(report.predicted);
     clock.Finish("prediction");
     const internal::FacetIntersections intersections =
-        internal::IntersectFacets(convolution, groups, index, &points);
+        internal::IntersectFacets(convolution, groups, index, limits, &points);
     clock.Finish("intersection");
-    arrangement =
-        internal::ArrangePlanes(convolution, groups, intersections, &points);
+    arrangement = internal::ArrangePlanes(convolution, groups, intersections,
+                                          limits, &points);
   }
   report.arrangement_faces = arrangement.faces.size();
   clock.Finish("arrangement");
@@ -223,8 +208,8 @@ ContactSpace BuildContactSpace(const TriangleMesh& robot,
   const internal::EdgeRings rings =
       internal::SortAroundEdges(convolution, arrangement, points);
   const internal::SolidCollision judge(p, q);
-  const internal::FreeCells cells =
-      internal::FindFreeCells(convolution, arrangement, rings, points, judge);
+  const internal::FreeCells cells = internal::FindFreeCells(
+      convolution, arrangement, rings, points, judge, limits);
   report.cells = static_cast<std::size_t>(cells.cells);
   report.judged_cells = static_cast<std::size_t>(cells.judged);
   report.cavities = cells.cavities;

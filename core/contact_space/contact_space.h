@@ -60,8 +60,10 @@ struct ContactSpaceOptions {
   bool robot_hull = false;
   // Decimate each operand to about this many triangles; 0: none.
   std::size_t target_faces = 0;
-  // Refuse, with the predicted figure, a contact space that would take longer
-  // or more memory than this; 0: no limit.
+  // Limits of a build.  Refused at once, with the predicted figure, where that
+  // is above them, and stopped where the build itself passes them: InputError.
+  // Seconds; 0: no limit.  MiB by which the process grows; 0: nine tenths of
+  // what is free when the build begins, which only stops; infinity: no limit.
   double max_seconds = 0.0;
   double max_mib = 0.0;
   RefineOptions refine;

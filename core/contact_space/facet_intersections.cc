@@ -285,6 +285,7 @@ double PredictMeetings(const Convolution& convolution,
 FacetIntersections IntersectFacets(const Convolution& convolution,
                                    const PlaneGroups& groups,
                                    const FacetIndex& index,
+                                   const BuildLimits& limits,
                                    ExactPoints* points) {
   FacetIntersections out;
   out.segments.resize(groups.members.size());
@@ -304,6 +305,7 @@ FacetIntersections IntersectFacets(const Convolution& convolution,
   for (int begin = 0; begin < count; begin += kBlock) {
     const int end = std::min(count, begin + kBlock);
     tbb::parallel_for(begin, end, [&](int t) {
+      limits.Check("intersection");
       std::vector<Meeting>& found = meetings[t - begin];
       found.clear();
       ForEachMeeting(groups, index, intersector, t, t,

@@ -4,6 +4,7 @@
 #include <tuple>
 #include <vector>
 
+#include "core/contact_space/build_limits.h"
 #include "core/contact_space/convolution.h"
 #include "core/contact_space/exact_points.h"
 #include "core/contact_space/plane_groups.h"
@@ -45,9 +46,11 @@ double PredictMeetings(const Convolution& convolution,
 // Intersects all facets of different planes whose boxes meet.  Sides are
 // decided in 128-bit integers, overlaps along the common line in double with
 // an exact fallback, and only end points that survive are constructed.
+// Throws InputError when `limits` are passed.
 FacetIntersections IntersectFacets(const Convolution& convolution,
                                    const PlaneGroups& groups,
                                    const FacetIndex& index,
+                                   const BuildLimits& limits,
                                    ExactPoints* points);
 
 }  // namespace phongpd::internal

@@ -196,10 +196,11 @@ class PlaneArranger {
 Arrangement ArrangePlanes(const Convolution& convolution,
                           const PlaneGroups& groups,
                           const FacetIntersections& intersections,
-                          ExactPoints* points) {
+                          const BuildLimits& limits, ExactPoints* points) {
   const std::size_t count = groups.members.size();
   std::vector<PlaneResult> results(count);
   tbb::parallel_for(std::size_t{0}, count, [&](std::size_t g) {
+    limits.Check("arrangement");
     PlaneArranger(convolution, groups, intersections, *points,
                   static_cast<int>(g))
         .Run(&results[g]);

@@ -35,10 +35,10 @@ struct Arrangement {
 // Cuts every plane along its intersection segments and keeps the faces that
 // some convolution facet covers.  Crossings of segments are added to `points`.
 // Planes are independent and run in parallel; the result does not depend on
-// the number of threads.
+// the number of threads.  Throws InputError when `limits` are passed.
 Arrangement ArrangePlanes(const Convolution& convolution,
                           const PlaneGroups& groups,
                           const FacetIntersections& intersections,
-                          ExactPoints* points);
+                          const BuildLimits& limits, ExactPoints* points);
 
 }  // namespace phongpd::internal

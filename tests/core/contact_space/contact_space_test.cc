@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "constraints/collision_oracle.h"
+#include "core/contact_space/build_limits.h"
 #include "problems/shapes.h"
 #include "tests/support/solid_tools.h"
 
@@ -307,11 +308,39 @@ TEST(ContactSpace, RefusesWhatIsPredictedToExceedALimit) {
   ContactSpaceOptions options;
   options.max_seconds = 0.5 * cost.seconds;
   EXPECT_THROW(BuildContactSpace(a, b, options), InputError);
-  options.max_seconds = 2 * cost.seconds;
+  options.max_seconds = 600;  // passed by no machine
   options.max_mib = 0.5 * cost.mib;
   EXPECT_THROW(BuildContactSpace(a, b, options), InputError);
-  options.max_mib = 2 * cost.mib;
+  options.max_mib = 10 * cost.mib;
   EXPECT_NO_THROW(BuildContactSpace(a, b, options));
+}
+
+TEST(ContactSpace, StopsABuildThatPassesALimit) {
+  internal::BuildLimits limits([] {
+    ContactSpaceOptions options;
+    options.max_seconds = 1e-9;
+    options.robot_name = "screw.off";
+    return options;
+  }());
+  try {
+    limits.Check("arrangement");
+    FAIL() << "a passed limit was not noticed";
+  } catch (const InputError& error) {
+    const std::string what = error.what();
+    for (const char* part : {"screw.off", "max_seconds", "arrangement"}) {
+      EXPECT_NE(what.find(part), std::string::npos) << what;
+    }
+  }
+}
+
+TEST(ContactSpace, StopsBeforeItFillsTheMemory) {
+  EXPECT_GT(internal::AvailableMib(), 0.0);
+  ContactSpaceOptions options;
+  options.max_mib = 0.25;
+  internal::BuildLimits limits(options);
+  std::vector<char> more(std::size_t{64} << 20, 1);
+  EXPECT_EQ(more.back(), 1);
+  EXPECT_THROW(limits.Check("arrangement"), InputError);
 }
 
 TEST(ContactSpace, PredictsItsArrangementWithinAFactorOfTwo) {

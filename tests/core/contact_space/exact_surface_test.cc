@@ -46,11 +46,12 @@ struct Stages {
     groups = internal::GroupByPlane(convolution);
     const internal::FacetIndex index(convolution);
     const internal::FacetIntersections intersections =
-        internal::IntersectFacets(convolution, groups, index, &points);
-    arrangement =
-        internal::ArrangePlanes(convolution, groups, intersections, &points);
+        internal::IntersectFacets(convolution, groups, index, limits, &points);
+    arrangement = internal::ArrangePlanes(convolution, groups, intersections,
+                                          limits, &points);
   }
 
+  internal::BuildLimits limits{ContactSpaceOptions()};
   internal::GridSolid p, q;
   internal::Convolution convolution;
   internal::PlaneGroups groups;
@@ -65,7 +66,7 @@ std::vector<Kernel::Triangle_3> BuildExactly(const SolidPair& pair) {
       internal::SortAroundEdges(s.convolution, s.arrangement, s.points);
   const internal::SolidCollision judge(s.p, s.q);
   const internal::FreeCells cells = internal::FindFreeCells(
-      s.convolution, s.arrangement, rings, s.points, judge);
+      s.convolution, s.arrangement, rings, s.points, judge, s.limits);
   const internal::PatchSurface patches = internal::AssembleSurface(
       s.arrangement, s.groups, rings, cells, {}, &s.points);
   const internal::ExactSurface surface =
