@@ -174,12 +174,14 @@ ContactSpace BuildContactSpace(const TriangleMesh& robot,
   report.canonical_frame = frame.is_turned;
   report.grid_step = frame.rounding;
   const bool is_rounded = frame.rounding > 0.0;
+  const internal::RoundedFrom of_p = {b, frame.step, frame.rounding};
+  const internal::RoundedFrom of_q = {a, frame.step, frame.rounding};
   const internal::GridSolid p = internal::MakeGridSolid(
       frame.obstacle, b.triangles, false, options.obstacle_name,
-      is_rounded ? &b : nullptr, frame.step);
-  const internal::GridSolid q = internal::MakeGridSolid(
-      frame.robot, a.triangles, true, options.robot_name,
-      is_rounded ? &a : nullptr, frame.step);
+      is_rounded ? &of_p : nullptr);
+  const internal::GridSolid q =
+      internal::MakeGridSolid(frame.robot, a.triangles, true,
+                              options.robot_name, is_rounded ? &of_q : nullptr);
   const double resolution = std::min(frame.rounding, frame.step);
   internal::CheckResolution(p, b, resolution, options.obstacle_name, &report);
   internal::CheckResolution(q, a, resolution, options.robot_name, &report);

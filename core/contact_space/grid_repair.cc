@@ -30,10 +30,10 @@ using Wide = long double;
 
 [[noreturn]] void Refuse(const RoundedOperand& operand, const std::string& what,
                          int vertex) {
-  const Vector3d& p = operand.mesh.vertices[vertex];
+  const Vector3d& p = operand.from.mesh.vertices[vertex];
   std::ostringstream text;
   text.precision(3);
-  text << operand.name << ": too fine for the grid of " << operand.step
+  text << operand.name << ": too fine for the grid of " << operand.from.step
        << " (2^-38 of the larger operand); expected a solid after rounding, "
        << "found " << what;
   text.precision(9);
@@ -117,7 +117,7 @@ std::vector<int> ComponentsOfVertices(const TriangleMesh& mesh,
 std::vector<char> FindTurned(const RoundedOperand& operand,
                              const GridSolid& solid,
                              const std::vector<int>& groups, int count) {
-  const TriangleMesh& mesh = operand.mesh;
+  const TriangleMesh& mesh = operand.from.mesh;
   const auto before = Volumes(mesh.vertices, mesh.triangles, groups, count);
   const auto after = Volumes(solid.vertices, mesh.triangles, groups, count);
   std::vector<char> is_turned(count);
@@ -132,7 +132,7 @@ std::vector<char> FindTurned(const RoundedOperand& operand,
 // the grid, and appends their facets to *lost.
 void RemoveTurnedParts(const RoundedOperand& operand,
                        std::vector<Triangle>* lost, GridSolid* solid) {
-  const TriangleMesh& mesh = operand.mesh;
+  const TriangleMesh& mesh = operand.from.mesh;
   int count = 0;
   const std::vector<int> shells = LabelShells(mesh, &count);
   const std::vector<char> is_turned =
@@ -358,11 +358,11 @@ class CrossingMender {
   TriangleMesh mesh_;  // the same in doubles, which hold grid points exactly
 };
 
-// Is what was removed within kLostSteps of the solid that is left?
+// Is what was removed within `reach` (grid steps) of the solid that is left?
 class LossCheck {
  public:
-  explicit LossCheck(const GridSolid& solid)
-      : mesh_(MeshOf(solid)), surface_(mesh_) {
+  LossCheck(const GridSolid& solid, double reach)
+      : reach_(reach), mesh_(MeshOf(solid)), surface_(mesh_) {
     for (const Triangle& t : mesh_.triangles) {
       for (int k = 0; k < 3; ++k) {
         edges_.insert(std::minmax({t[k], t[(k + 1) % 3]}));
@@ -394,18 +394,19 @@ class LossCheck {
     const Vector3d middle = 0.5 * (a + b);
     const SurfaceTree::Closest closest = surface_.FindClosest(middle);
     const double radius = 0.5 * (b - a).norm();
-    if (closest.distance + radius <= kLostSteps) return true;
+    if (closest.distance + radius <= reach_) return true;
     if (closest.distance > radius) return Turns(mesh_, middle) > 0.5;
     const Triangle& t = mesh_.triangles[closest.triangle];
     const auto is_near = [&](const Vector3d& p) {
       return ClosestOnTriangle(mesh_.vertices[t[0]], mesh_.vertices[t[1]],
                                mesh_.vertices[t[2]], p)
-                 .squared_distance <= kLostSteps * kLostSteps;
+                 .squared_distance <= reach_ * reach_;
     };
     if (is_near(a) && is_near(b)) return true;
     return radius > 0.0 && IsKept(a, middle) && IsKept(middle, b);
   }
 
+  double reach_;
   TriangleMesh mesh_;
   SurfaceTree surface_;
   std::set<std::pair<int, int>> edges_;
@@ -416,11 +417,11 @@ class LossCheck {
 void MendRounding(const RoundedOperand& operand, std::vector<Triangle> lost,
                   GridSolid* solid) {
   RemoveTurnedParts(operand, &lost, solid);
-  if (solid->facets.size() < operand.mesh.triangles.size()) {
+  if (solid->facets.size() < operand.from.mesh.triangles.size()) {
     CancelOppositeFacets(&solid->facets, &lost);
   }
   if (solid->facets.empty()) return;
-  const Parts parts(operand.mesh);
+  const Parts parts(operand.from.mesh);
   const std::vector<TrianglePair> crossings =
       CrossingMender(parts, solid).Mend();
   if (!crossings.empty()) {
@@ -430,7 +431,8 @@ void MendRounding(const RoundedOperand& operand, std::vector<Triangle> lost,
            solid->facets[crossings[0].first][0]);
   }
   if (lost.empty()) return;
-  const LossCheck check(*solid);
+  const LossCheck check(
+      *solid, 4.0 * std::max(1.0, operand.from.rounding / operand.from.step));
   for (const Triangle& t : lost) {
     if (!check.IsKept(t)) Refuse(operand, "a part that is thinner", t[0]);
   }

@@ -16,9 +16,8 @@ namespace phongpd::internal {
 
 // What was rounded.
 struct RoundedOperand {
-  const TriangleMesh& mesh;  // before, as MakeSolid returns it; user's frame
-  double step = 1.0;         // of the grid, user's unit
-  bool reflect = false;      // rounded −mesh, with its facets turned
+  const RoundedFrom& from;
+  bool reflect = false;  // rounded −mesh, with its facets turned
   const std::string& name;
 };
 
@@ -32,10 +31,8 @@ struct RoundedOperand {
 //    so long as that leaves fewer crossings.
 // Throws InputError naming the operand, the defect and a place of it when
 // facets still cross, or what was removed, `lost` included, is not inside the
-// solid that is left nor within kLostSteps of it.
+// solid that is left nor within four times the rounding of it.
 void MendRounding(const RoundedOperand& operand, std::vector<Triangle> lost,
                   GridSolid* solid);
-
-inline constexpr double kLostSteps = 4.0;
 
 }  // namespace phongpd::internal

@@ -188,8 +188,7 @@ void BuildEdges(GridSolid* solid, const std::string& name) {
 
 GridSolid MakeGridSolid(const std::vector<GridPoint>& vertices,
                         const std::vector<Triangle>& triangles, bool reflect,
-                        const std::string& name,
-                        const TriangleMesh* rounded_from, double step) {
+                        const std::string& name, const RoundedFrom* rounded) {
   GridSolid solid;
   solid.vertices = vertices;
   solid.facets = triangles;
@@ -201,8 +200,8 @@ GridSolid MakeGridSolid(const std::vector<GridPoint>& vertices,
   JoinCoincidentEnds(&solid.facets, solid.vertices, &lost);
   DissolveCollinearFacets(&solid.facets, solid.vertices, name, &lost);
   // A solid that rounding did not touch is one still.
-  if (!solid.facets.empty() && rounded_from != nullptr) {
-    MendRounding({*rounded_from, step, reflect, name}, std::move(lost), &solid);
+  if (!solid.facets.empty() && rounded != nullptr) {
+    MendRounding({*rounded, reflect, name}, std::move(lost), &solid);
   }
   if (solid.facets.empty()) {
     throw InputError(name +

@@ -26,18 +26,23 @@ struct GridSolid {
   std::vector<std::vector<int>> neighbors;  // vertices joined by an edge
 };
 
+// What an operand's vertices were before they were rounded to the grid.
+struct RoundedFrom {
+  const TriangleMesh& mesh;  // user's frame, as MakeSolid returns it
+  double step = 1.0;         // of the grid, user's unit
+  double rounding = 1.0;     // no coordinate moved by more, user's unit
+};
+
 // The closed mesh with these vertices; with `reflect` through the origin as
 // well (−A, facets turned).  Facets without area, which rounding to the grid
 // may leave, are removed without changing the surface: coincident ends are
 // joined, and a facet whose three corners are collinear gives its middle
 // corner to its neighbour.  What rounding does beyond that is mended
-// (grid_repair.h) if the vertices were rounded, to steps of `step`, from those
-// of `rounded_from`; null: they are exact.  Throws InputError naming `name`
-// when no solid is left; places are those of `rounded_from`.
+// (grid_repair.h) if the vertices were rounded; null: they are exact.  Throws
+// InputError naming `name` when no solid is left, and where.
 GridSolid MakeGridSolid(const std::vector<GridPoint>& vertices,
                         const std::vector<Triangle>& triangles, bool reflect,
                         const std::string& name,
-                        const TriangleMesh* rounded_from = nullptr,
-                        double step = 0.0);
+                        const RoundedFrom* rounded = nullptr);
 
 }  // namespace phongpd::internal
