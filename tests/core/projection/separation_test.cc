@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "constraints/collision_oracle.h"
+#include "constraints/motion_oracle.h"
 #include "core/contact_space/contact_space.h"
 #include "core/mesh/mesh_check.h"
 #include "core/mesh/surface_tree.h"
@@ -21,7 +22,6 @@
 #include "problems/random_pairs.h"
 #include "problems/shapes.h"
 #include "tests/support/campaign.h"
-#include "tests/support/exact_collision.h"
 #include "tests/support/solid_tools.h"
 
 namespace phongpd {
@@ -155,7 +155,7 @@ Tally Separate(const Solids& solids, long poses, std::mt19937_64* random) {
   const BoundingBox box = ComputeBounds(mesh);
   const double diagonal = box.Diagonal();
   const CollisionOracle fcl(robot, obstacle);
-  const testing::ExactCollision exact(robot, obstacle);
+  const MotionOracle exact(robot, obstacle);
   std::vector<std::unique_ptr<PenetrationMetric>> metrics;
   metrics.push_back(std::make_unique<EuclideanMetric>(mesh));
   for (const double ell : {0.0, 0.1}) {

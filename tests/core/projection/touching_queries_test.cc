@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "constraints/motion_oracle.h"
 #include "core/contact_space/contact_space.h"
 #include "core/projection/euclidean_metric.h"
 #include "core/projection/phong_metric.h"
@@ -20,7 +21,6 @@
 #include "problems/shapes.h"
 #include "tests/support/campaign.h"
 #include "tests/support/exact_answers.h"
-#include "tests/support/exact_collision.h"
 #include "tests/support/solid_tools.h"
 
 namespace phongpd {
@@ -188,7 +188,7 @@ TEST(TouchingCampaign, MeansTheSameForQueryJudgeAndSolids) {
     const EuclideanMetric euclid(mesh);
     const PhongMetric phong(mesh);
     const FreeSpace free({mesh});
-    const testing::ExactCollision solids(pair.robot, pair.obstacle);
+    const MotionOracle solids(pair.robot, pair.obstacle);
     for (long i = 0; i < each; ++i) {
       // Coordinates of vertices of C_cont, or of a contact of two vertices.
       Vector3d q;
