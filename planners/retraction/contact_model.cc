@@ -51,6 +51,9 @@ std::size_t Index(int i) { return static_cast<std::size_t>(i); }
 
 // Around all that an unbounded cell holds, of its diagonal.
 constexpr double kRoom = 0.1;
+// Off a corner where the first way runs within the other wall, off both walls,
+// and to the middle of what is left.
+constexpr int kLifts = 4;
 
 // The box around both; either may be empty.
 BoundingBox Hull(const BoundingBox& a, const BoundingBox& b) {
@@ -241,7 +244,7 @@ bool ContactModel::LiftOff(Facet facet, double clearance, Vector3d* q,
     return false;
   }
   double best = 0.0;
-  for (int lift = 0; lift < 3; ++lift) {
+  for (int lift = 0; lift < kLifts; ++lift) {
     const double standoff = Standoff(facet, clearance);
     if (!(standoff >= floor())) break;
     const Vector3d p = facet.point + standoff * facet.normal;

@@ -89,7 +89,7 @@ class ContactModel {
   double Standoff(const Facet& facet, double clearance) const;
 
   // Moves off the facet by its standoff.  Where that leaves the point close to
-  // another facet (the corner of a channel) off that one too, at most three
+  // another facet (the corner of a channel) off that one too, at most four
   // times.  False if no point that keeps the floor was found; *q is then
   // untouched.  *room is the distance from *q to what is nearest.
   bool LiftOff(Facet facet, double clearance, Eigen::Vector3d* q,

@@ -167,16 +167,22 @@ void ExpectRefused(const std::string& what, const TriangleMesh& solid) {
   }
 }
 
-// Moves vertices to within `spread` of one place.
-TriangleMesh Gathered(TriangleMesh mesh, const std::vector<int>& vertices,
-                      double spread) {
+// Moves vertices to within `spread` of one place so that a solid remains: the
+// first that does of some random ways.
+TriangleMesh Gathered(const TriangleMesh& mesh,
+                      const std::vector<int>& vertices, double spread) {
   std::mt19937_64 random(7);
   const Vector3d place = mesh.vertices[vertices[0]];
-  for (const int v : vertices) {
-    mesh.vertices[v] =
-        place + spread * testing::RandomPoint(
-                             {-Vector3d::Ones(), Vector3d::Ones()}, &random);
+  for (int trial = 0; trial < 1000; ++trial) {
+    TriangleMesh moved = mesh;
+    for (const int v : vertices) {
+      moved.vertices[v] =
+          place + spread * testing::RandomPoint(
+                               {-Vector3d::Ones(), Vector3d::Ones()}, &random);
+    }
+    if (ExamineMesh(moved).self_intersections == 0) return moved;
   }
+  ADD_FAILURE() << "no way to gather them";
   return mesh;
 }
 
