@@ -134,7 +134,7 @@ FreeCells FindFreeCells(const Convolution& convolution,
   largest.resize(rays);
   const int outer = sides.Find(OuterSide(geometry, largest, reach));
   if (occupied[outer]) {
-    throw std::logic_error(
+    throw LeakError(
         "contact space leaks: the unbounded cell touches the inside of a "
         "facet; an operand is not a closed solid without self-intersections");
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <stdexcept>
 #include <vector>
 
 #include "core/contact_space/build_limits.h"
@@ -8,6 +9,11 @@
 #include "core/contact_space/solid_collision.h"
 
 namespace phongpd::internal {
+
+// The unbounded cell is occupied: the arrangement leaks.
+struct LeakError : std::logic_error {
+  using std::logic_error::logic_error;
+};
 
 // Which sides of the arrangement look into free space.
 struct FreeCells {
@@ -24,7 +30,7 @@ struct FreeCells {
 // point well inside it.  The unbounded cell is free by definition.  Free
 // cells that belong to edge-disjoint parts of the arrangement but to one
 // region of space count as one cell.
-// Throws std::logic_error when it is not (the arrangement leaks), InputError
+// Throws LeakError when it is not, InputError
 // when `limits` are passed.
 FreeCells FindFreeCells(const Convolution& convolution,
                         const Arrangement& arrangement, const EdgeRings& rings,

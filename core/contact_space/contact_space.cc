@@ -210,8 +210,17 @@ ContactSpace BuildContactSpace(const TriangleMesh& robot,
   const internal::EdgeRings rings =
       internal::SortAroundEdges(convolution, arrangement, points);
   const internal::SolidCollision judge(p, q);
-  const internal::FreeCells cells = internal::FindFreeCells(
-      convolution, arrangement, rings, points, judge, limits);
+  const internal::FreeCells cells = [&] {
+    try {
+      return internal::FindFreeCells(convolution, arrangement, rings, points,
+                                     judge, limits);
+    } catch (const internal::LeakError&) {
+      if (is_rounded) {
+        internal::RefuseLostFacets(p, b, q, a, frame.step, options);
+      }
+      throw;
+    }
+  }();
   report.cells = static_cast<std::size_t>(cells.cells);
   report.judged_cells = static_cast<std::size_t>(cells.judged);
   report.cavities = cells.cavities;

@@ -137,12 +137,43 @@ void DissolveCollinearFacets(std::vector<Triangle>* facets,
   *facets = std::move(kept);
 }
 
-// Pairs half-edges a→b with b→a.  After joining coincident ends a pair of
-// vertices may carry several; any pairing keeps the surface a closed cycle.
-void BuildEdges(GridSolid* solid, const std::string& name) {
-  struct Half {
-    int a, b, apex, facet;
+struct Half {
+  int a, b, apex, facet;
+};
+
+// Of half-edges back along the edge of `f` (from `begin` to `end`), that whose
+// facet the facet of `f` meets first when it is turned about the edge into the
+// solid: between the two the solid is.
+std::size_t FirstBehind(const GridSolid& solid, const Half& f,
+                        const std::vector<Half>& halves, std::size_t begin,
+                        std::size_t end) {
+  const GridPoint& a = solid.vertices[f.a];
+  const GridPoint along = solid.vertices[f.b] - a;
+  const GridNormal& n = solid.normals[f.facet];
+  const auto apex = [&](std::size_t i) {
+    return solid.vertices[halves[i].apex] - a;
   };
+  // 0 below the facet's plane, 1 beyond the edge in it, 2 above, 3 back on f.
+  const auto part = [&](const GridPoint& u) {
+    const int side = Sign(Dot(n, u));
+    if (side != 0) return side < 0 ? 0 : 2;
+    const GridNormal m = Cross(along, u);  // parallel to n
+    const int k = LargestAxis(n);
+    return Sign(m[k]) == Sign(n[k]) ? 3 : 1;
+  };
+  std::size_t first = begin;
+  for (std::size_t i = begin + 1; i < end; ++i) {
+    const GridPoint u = apex(i), v = apex(first);
+    const int pu = part(u), pv = part(v);
+    if (pu < pv || (pu == pv && Sign(Dot(Cross(along, u), v)) < 0)) first = i;
+  }
+  return first;
+}
+
+// Pairs half-edges a→b with b→a.  After joining coincident ends a pair of
+// vertices may carry several: they are paired through the solid, as only then
+// an edge is convex where the solid is.
+void BuildEdges(GridSolid* solid, const std::string& name) {
   std::vector<Half> halves;
   halves.reserve(3 * solid->facets.size());
   for (std::size_t f = 0; f < solid->facets.size(); ++f) {
@@ -175,6 +206,9 @@ void BuildEdges(GridSolid* solid, const std::string& name) {
     }
     for (std::size_t k = 0; begin + k < turn; ++k) {
       const Half& forward = halves[begin + k];
+      // Those before are taken.
+      std::swap(halves[turn + k],
+                halves[FirstBehind(*solid, forward, halves, turn + k, end)]);
       const Half& backward = halves[turn + k];
       solid->edges.push_back({low, high, forward.apex, backward.apex,
                               forward.facet, backward.facet});

@@ -175,4 +175,20 @@ void CheckResolution(const GridSolid& solid, const TriangleMesh& mesh,
   }
 }
 
+void RefuseLostFacets(const GridSolid& obstacle, const TriangleMesh& b,
+                      const GridSolid& robot, const TriangleMesh& a,
+                      double step, const ContactSpaceOptions& options) {
+  std::string names;
+  if (robot.facets.size() < a.triangles.size()) names = options.robot_name;
+  if (obstacle.facets.size() < b.triangles.size()) {
+    names += (names.empty() ? "" : " and ") + options.obstacle_name;
+  }
+  if (names.empty()) return;
+  throw InputError(names + ": too fine for the grid of " + Rounded(step) +
+                   " (2^-38 of the larger operand); expected a solid after "
+                   "rounding, found facets that collapsed and a contact space "
+                   "that leaks; remove details below the grid or make the "
+                   "operands more alike in size");
+}
+
 }  // namespace phongpd::internal

@@ -31,4 +31,11 @@ void CheckResolution(const GridSolid& solid, const TriangleMesh& mesh,
                      double step, const std::string& name,
                      ContactSpaceReport* report);
 
+// For a contact space that leaks: throws InputError naming the
+// operands that lost facets, by which they are no solids any more; returns
+// where none did.
+void RefuseLostFacets(const GridSolid& obstacle, const TriangleMesh& b,
+                      const GridSolid& robot, const TriangleMesh& a,
+                      double step, const ContactSpaceOptions& options);
+
 }  // namespace phongpd::internal

@@ -93,7 +93,8 @@ std::vector<std::array<int, 3>> FreeNeighbors(const TriangleMesh& mesh) {
     }
   }
   const Sectors sectors(mesh);
-  for (const auto& [ends, sides] : segments) {
+  for (const auto& segment : segments) {
+    const std::vector<Side>& sides = segment.second;
     if (sides.size() <= 2) continue;
     // Facets folded onto each other have no order: they stay as they are.
     const bool is_mutual =
