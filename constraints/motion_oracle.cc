@@ -166,8 +166,7 @@ struct MotionOracle::Impl {
             }
           }
         }
-      } else if (other.IsLeaf() ||
-                 (!one.IsLeaf() && Size(one) > Size(other))) {
+      } else if (other.IsLeaf() || (!one.IsLeaf() && Size(one) > Size(other))) {
         stack.emplace_back(one.first, o);
         stack.emplace_back(one.first + 1, o);
       } else {
