@@ -35,7 +35,7 @@ struct Pair {
   TriangleMesh robot, obstacle;
 };
 
-std::uint64_t Seeds(long brief, long whole) {
+std::uint64_t Cases(long brief, long whole) {
   return static_cast<std::uint64_t>(CampaignCases(brief, whole));
 }
 
@@ -245,7 +245,7 @@ TEST(InvarianceCampaign, PowersOfTwoChangeNoBit) {
 
 TEST(InvarianceCampaign, PowersOfTenKeepTopologyAndPoints) {
   Judge judge("10^k, k = -9 ... 9", 1e-15, kGrid);
-  for (std::uint64_t seed = 0; seed < Seeds(6, 120); ++seed) {
+  for (std::uint64_t seed = 0; seed < Cases(6, 120); ++seed) {
     const Pair pair = MakePair(seed);
     const ContactSpace space = Build(pair);
     for (int k = -9; k <= 9; k += static_cast<int>(CampaignCases(6, 1))) {
@@ -268,7 +268,7 @@ TEST(InvarianceCampaign, PowersOfTenKeepTopologyAndPoints) {
 // By 1 … 10^6 diagonals in any direction: whole numbers, and what rounds.
 TEST(InvarianceCampaign, OffsetsKeepTopologyAndPoints) {
   Judge judge("offsets to 10^6 L", 1e-9, 1e-9);
-  for (std::uint64_t seed = 0; seed < Seeds(6, 120); ++seed) {
+  for (std::uint64_t seed = 0; seed < Cases(6, 120); ++seed) {
     const Pair pair = MakePair(seed);
     const ContactSpace space = Build(pair);
     const double length = ComputeBounds(pair.obstacle).Diagonal();
@@ -291,16 +291,16 @@ TEST(InvarianceCampaign, OffsetsKeepTopologyAndPoints) {
 TEST(InvarianceCampaign, PermutedAndMirroredAxesGiveTheSamePoints) {
   Judge judge("48 signed permutations, swapped operands, shuffled meshes", 0.0,
               kGrid);
-  for (std::uint64_t seed = 0; seed < Seeds(6, 120); ++seed) {
+  for (std::uint64_t seed = 0; seed < Cases(6, 120); ++seed) {
     const Pair pair = MakePair(seed);
     const ContactSpace space = Build(pair);
     const std::string name = "seed " + std::to_string(seed);
     const double length = Length(space);
     std::array<int, 3> axes = {0, 1, 2};
-    int number = 0;
+    std::uint64_t number = 0;
     do {
       for (int signs = 0; signs < 8; ++signs) {
-        if (number++ % CampaignCases(13, 1) != 0) continue;
+        if ((number++ + seed) % Cases(13, 3) != 0) continue;
         Matrix3d map = Matrix3d::Zero();
         for (int k = 0; k < 3; ++k) {
           map(k, axes[k]) = (signs >> k & 1) != 0 ? -1 : 1;
@@ -338,7 +338,7 @@ TEST(InvarianceCampaign, PermutedAndMirroredAxesGiveTheSamePoints) {
 // Everything is a lattice point, so nothing may be off by anything.
 TEST(InvarianceCampaign, IntegerMapsAreExact) {
   Judge judge("integer maps and offsets of voxel solids", 0.0, 0.0);
-  for (std::uint64_t seed = 0; seed < Seeds(40, 2000); ++seed) {
+  for (std::uint64_t seed = 0; seed < Cases(40, 2000); ++seed) {
     Random random(seed);
     const Pair pair = VoxelPair(&random);
     const Matrix3d map = IntegerMap(seed % 2 == 0, &random);
@@ -366,10 +366,11 @@ TEST(InvarianceCampaign, IntegerMapsAreExact) {
 }
 
 // Modelled along axes, turned together and then moved: what rounding makes of
-// their coordinates is taken back by the frame.
+// their coordinates is taken back by the frame.  Beyond 10^5 L the directions
+// of facets scatter by more than the frame calls one direction.
 TEST(InvarianceCampaign, TurnedAndMovedSolidsKeepTopology) {
-  Judge judge("turned alike, offsets to 10^6 L", 1e-9, 1e-9);
-  for (std::uint64_t seed = 0; seed < Seeds(6, 120); ++seed) {
+  Judge judge("turned alike, offsets to 10^5 L", 1e-9, 1e-9);
+  for (std::uint64_t seed = 0; seed < Cases(6, 120); ++seed) {
     Random random(seed);
     Pair pair = VoxelPair(&random);
     if (seed % 3 == 1) {
@@ -380,7 +381,7 @@ TEST(InvarianceCampaign, TurnedAndMovedSolidsKeepTopology) {
     const ContactSpace space = Build(pair);
     const double length = ComputeBounds(pair.obstacle).Diagonal();
     const Matrix3d turn = RandomRotation(&random);
-    for (int k = 0; k <= 6; k += static_cast<int>(CampaignCases(3, 1))) {
+    for (int k = 0; k <= 5; k += static_cast<int>(CampaignCases(3, 1))) {
       const double far = std::pow(10.0, k) * length;
       const Vector3d a = far * RandomRotation(&random).col(0);
       const Vector3d b = far * RandomRotation(&random).col(0);
