@@ -11,7 +11,9 @@
 #include <exception>
 #include <limits>
 #include <mutex>
+#include <new>
 #include <optional>
+#include <stdexcept>
 
 #include "core/mesh/mesh_error.h"
 #include "core/stopwatch.h"
@@ -250,26 +252,22 @@ class ProgramAdapter : public Ipopt::TNLP {
 #endif
 };
 
-}  // namespace
-
-void CheckIpoptOptions(const IpoptSettings& settings) {
-  const Ipopt::SmartPtr<Ipopt::IpoptApplication> application =
-      new Ipopt::IpoptApplication(false);
-  ApplyIpoptOptions(settings, Ipopt::GetRawPtr(application));
+// Ipopt's exceptions, which it makes of failed allocations among others, are no
+// std::exception.
+template <typename Work>
+auto InPlainErrors(const Work& work) -> decltype(work()) {
+  try {
+    return work();
+  } catch (const Ipopt::IpoptException& error) {
+    if (error.Message().find("memory") != std::string::npos) {
+      throw std::bad_alloc();
+    }
+    throw std::runtime_error("Ipopt: " + error.Message());
+  }
 }
 
-IpoptRun SolveWithIpopt(NonlinearProgram* program, const VectorXd& start,
-                        const IpoptSettings& settings) {
-  settings.Validate();
-  if (start.size() != program->variables() || !start.allFinite()) {
-    throw InputError("Ipopt start: expected " +
-                     std::to_string(program->variables()) +
-                     " finite numbers, found " + std::to_string(start.size()) +
-                     (start.allFinite() ? "" : " with NaN or Inf"));
-  }
-  // MUMPS keeps global state.
-  static std::mutex one_at_a_time;
-  const std::lock_guard<std::mutex> lock(one_at_a_time);
+IpoptRun Solve(NonlinearProgram* program, const VectorXd& start,
+               const IpoptSettings& settings) {
   const Stopwatch stopwatch;
   const Ipopt::SmartPtr<Ipopt::IpoptApplication> application =
       new Ipopt::IpoptApplication(false);  // no console
@@ -291,6 +289,31 @@ IpoptRun SolveWithIpopt(NonlinearProgram* program, const VectorXd& start,
   adapter->Finish();
   adapter->run.seconds_total = stopwatch.Seconds();
   return adapter->run;
+}
+
+}  // namespace
+
+void CheckIpoptOptions(const IpoptSettings& settings) {
+  InPlainErrors([&] {
+    const Ipopt::SmartPtr<Ipopt::IpoptApplication> application =
+        new Ipopt::IpoptApplication(false);
+    ApplyIpoptOptions(settings, Ipopt::GetRawPtr(application));
+  });
+}
+
+IpoptRun SolveWithIpopt(NonlinearProgram* program, const VectorXd& start,
+                        const IpoptSettings& settings) {
+  settings.Validate();
+  if (start.size() != program->variables() || !start.allFinite()) {
+    throw InputError("Ipopt start: expected " +
+                     std::to_string(program->variables()) +
+                     " finite numbers, found " + std::to_string(start.size()) +
+                     (start.allFinite() ? "" : " with NaN or Inf"));
+  }
+  // MUMPS keeps global state.
+  static std::mutex one_at_a_time;
+  const std::lock_guard<std::mutex> lock(one_at_a_time);
+  return InPlainErrors([&] { return Solve(program, start, settings); });
 }
 
 }  // namespace phongpd

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <cxxabi.h>
 #include <unistd.h>
 
 #include <atomic>
@@ -9,6 +10,7 @@
 #include <new>
 #include <string>
 #include <system_error>
+#include <typeinfo>
 #include <utility>
 #include <vector>
 
@@ -133,7 +135,10 @@ int FailFor(const std::exception_ptr& failure) {
                     "; to report it: phongpd reproduce --output report.json -- "
                     "and the command as you gave it");
   } catch (...) {
-    return Fail(kInternalError, "internal error");
+    const std::type_info* const type = abi::__cxa_current_exception_type();
+    return Fail(kInternalError,
+                std::string("internal error: an exception of type ") +
+                    (type != nullptr ? type->name() : "unknown"));
   }
 }
 

@@ -101,6 +101,7 @@ class CliFaultCampaign : public CliProcess {
         command.arguments, std::string("LD_PRELOAD='") + PHONGPD_FAIL_CALLS +
                                "' PHONGPD_FAIL_CALL=" + fault);
     const bool is_done = outcome.code == 0;
+    if (IsBeforeMain(outcome)) return "";
     if (!is_done && outcome.code != 2 && outcome.code != 3) {
       return "ends with " + std::to_string(outcome.code) + " " + outcome.err;
     }

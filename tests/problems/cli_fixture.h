@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <csignal>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -50,6 +51,15 @@ struct Outcome {
   std::string out;
   std::string err;
 };
+
+// There was no memory for the loader, or for the static objects of libraries:
+// main, which has words for it, was never reached.
+inline bool IsBeforeMain(const Outcome& outcome) {
+  return outcome.code == 127 ||
+         outcome.err.find("shared librar") != std::string::npos ||
+         (outcome.code == 128 + SIGABRT &&
+          outcome.err.find("terminate called after throwing") == 0);
+}
 
 // Every test runs in a directory of its own, with a cache of its own.
 class Cli : public testing::Test {
