@@ -49,9 +49,11 @@ double AvailableMib() {
   for (double value = 0.0; in >> name >> value; std::getline(in, unit)) {
     if (name == "MemAvailable:") available = value / 1024.0;
   }
-  const double group = NumberIn("/sys/fs/cgroup/memory.max") -
-                       NumberIn("/sys/fs/cgroup/memory.current");
-  if (std::isfinite(group)) available = std::min(available, group / kMib);
+  const double most = NumberIn("/sys/fs/cgroup/memory.max");
+  const double used = NumberIn("/sys/fs/cgroup/memory.current");
+  if (std::isfinite(most) && std::isfinite(used)) {
+    available = std::min(available, (most - used) / kMib);
+  }
   rlimit limit;
   if (getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY) {
     available = std::min(
