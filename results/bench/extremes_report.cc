@@ -201,8 +201,8 @@ int Run(int argc, char** argv) {
   std::string text =
       "# Stability at the extremes\n\nLong forms of the tests named "
       "`*Campaign*`; each has a short one in the suite.\n\n" +
-      found.text + '\n' + ToMarkdown(RowsTable(rows)) +
-      "Rows: [rows.jsonl](rows.jsonl).\n\n";
+      found.text + "- What is open, written by hand: [open.md](open.md).\n\n" +
+      ToMarkdown(RowsTable(rows)) + "Rows: [rows.jsonl](rows.jsonl).\n\n";
   if (!motions.rows.empty()) {
     text += ToMarkdown(motions) + "Rows: [motion_set.csv](motion_set.csv).\n\n";
   }
