@@ -7,7 +7,7 @@
 #   scripts/fuzz.sh merge [TARGET ...]
 #
 # 30s: seconds of each target; 1000000: runs of each (default 30s, all targets;
-# their names are the folders of tests/fuzz/corpus).  Prints a row "target,
+# their names are the folders of tests/fuzz/corpus; FUZZ_SEED=1 repeats a run).  Prints a row "target,
 # runs, seconds, corpus, crashes" for each.  What it finds stays in
 # build-asan/corpus, inputs that fail in build-asan/crashes; fails if there are
 # any.  An input fails when it crashes, leaks, takes more than 10 s, allocates
@@ -65,7 +65,7 @@ run() {
     dictionary=(-dict="tests/fuzz/$target.dict")
   local status=0
   "$build/tests/fuzz/fuzz_$target" "${limit[@]}" "${dictionary[@]}" \
-    -max_len="${max_len[$target]:-512}" -timeout=10 -rss_limit_mb=1024 \
+    -seed="${FUZZ_SEED:-0}" -max_len="${max_len[$target]:-512}" -timeout=10 -rss_limit_mb=1024 \
     -malloc_limit_mb="${malloc_mib[$target]:-2}" -print_final_stats=1 \
     -artifact_prefix="$build/crashes/$target/" \
     "$build/corpus/$target" "$kept" >"$log" 2>&1 || status=$?

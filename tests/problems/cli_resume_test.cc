@@ -56,7 +56,8 @@ class CliResumeCampaign : public CliProcess {
     Strings seen;
     int code = 128 + SIGKILL;
     for (int i = 0; i < 20 * kills && kills > 0 && code != 0; ++i) {
-      code = Interrupt(command, RandomTime(duration / 2), SIGKILL);
+      // Later and later: the machine may be busier than when this was timed.
+      code = Interrupt(command, RandomTime(duration * (10 + i) / 20), SIGKILL);
       if (code == 0) break;
       ASSERT_EQ(code, 128 + SIGKILL) << Content(folder_ / "err");
       if (!fs::exists(Output(partial))) continue;

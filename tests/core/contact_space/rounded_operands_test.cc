@@ -173,7 +173,6 @@ TriangleMesh Gathered(TriangleMesh mesh, const std::vector<int>& vertices,
   for (const int v : vertices) {
     mesh.vertices[v] = place + factor * (mesh.vertices[v] - place);
   }
-  ADD_FAILURE() << "no way to gather them";
   return mesh;
 }
 
