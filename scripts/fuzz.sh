@@ -7,8 +7,9 @@
 #   scripts/fuzz.sh merge [TARGET ...]
 #
 # 30s: seconds of each target; 1000000: runs of each (default 30s, all targets;
-# their names are the folders of tests/fuzz/corpus; FUZZ_SEED=1 repeats a run).  Prints a row "target,
-# runs, seconds, corpus, crashes" for each.  What it finds stays in
+# their names are the folders of tests/fuzz/corpus).  FUZZ_SEED=1 begins with
+# that seed instead of chance.  Prints a row "target, runs, seconds, corpus,
+# crashes" for each.  What it finds stays in
 # build-asan/corpus, inputs that fail in build-asan/crashes; fails if there are
 # any.  An input fails when it crashes, leaks, takes more than 10 s, allocates
 # 2 MiB at once (solids and queries more), or breaks what tests/fuzz/fuzz_targets.h
