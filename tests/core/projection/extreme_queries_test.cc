@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <memory>
 #include <random>
 #include <string>
 #include <utility>
@@ -18,6 +17,7 @@
 #include "problems/shapes.h"
 #include "tests/support/campaign.h"
 #include "tests/support/exact_answers.h"
+#include "tests/support/metrics.h"
 
 namespace phongpd {
 namespace {
@@ -139,13 +139,7 @@ TEST(ExtremeQueriesCampaign, SignIsExactAndDepthRightWhereverTheyAre) {
   for (const Subject& subject : Subjects()) {
     const TriangleMesh& mesh = subject.mesh;
     const double diagonal = ComputeBounds(mesh).Diagonal();
-    std::vector<std::unique_ptr<PenetrationMetric>> metrics;
-    metrics.push_back(std::make_unique<EuclideanMetric>(mesh));
-    for (const double ell : {0.0, 0.05}) {
-      PhongMetricOptions options;
-      options.field_options.smoothing_length = ell;
-      metrics.push_back(std::make_unique<PhongMetric>(mesh, options));
-    }
+    const auto metrics = testing::EuclideanAndPhong(mesh, 0.05);
     std::vector<std::vector<Vector3d>> paths =
         Paths(subject, testing::CampaignCases(5, 100), 40, &random);
     for (const Vector3d& q :

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <functional>
 #include <iostream>
-#include <memory>
 #include <random>
 #include <string>
 #include <vector>
@@ -16,12 +15,11 @@
 #include "core/contact_space/contact_space.h"
 #include "core/mesh/mesh_check.h"
 #include "core/mesh/surface_tree.h"
-#include "core/projection/euclidean_metric.h"
-#include "core/projection/phong_metric.h"
 #include "problems/paper_benchmarks.h"
 #include "problems/random_pairs.h"
 #include "problems/shapes.h"
 #include "tests/support/campaign.h"
+#include "tests/support/metrics.h"
 #include "tests/support/solid_tools.h"
 
 namespace phongpd {
@@ -156,13 +154,7 @@ Tally Separate(const Solids& solids, long poses, std::mt19937_64* random) {
   const double diagonal = box.Diagonal();
   const CollisionOracle fcl(robot, obstacle);
   const MotionOracle exact(robot, obstacle);
-  std::vector<std::unique_ptr<PenetrationMetric>> metrics;
-  metrics.push_back(std::make_unique<EuclideanMetric>(mesh));
-  for (const double ell : {0.0, 0.1}) {
-    PhongMetricOptions options;
-    options.field_options.smoothing_length = ell;
-    metrics.push_back(std::make_unique<PhongMetric>(mesh, options));
-  }
+  const auto metrics = testing::EuclideanAndPhong(mesh, 0.1);
   std::vector<Branch> branches(metrics.size());
   Tally tally;
   const auto judge = [&](const PenetrationResult& result, const Vector3d& q,

@@ -6,7 +6,6 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <memory>
 #include <random>
 #include <string>
 #include <utility>
@@ -21,6 +20,7 @@
 #include "problems/shapes.h"
 #include "tests/support/campaign.h"
 #include "tests/support/exact_answers.h"
+#include "tests/support/metrics.h"
 #include "tests/support/solid_tools.h"
 
 namespace phongpd {
@@ -110,13 +110,7 @@ TEST(TouchingCampaign, SignIsExactAndMonotoneAndDirectionsAreUnit) {
   double worst = 0.0;
   for (const auto& [name, mesh] : Shapes()) {
     const double diagonal = ComputeBounds(mesh).Diagonal();
-    std::vector<std::unique_ptr<PenetrationMetric>> metrics;
-    metrics.push_back(std::make_unique<EuclideanMetric>(mesh));
-    for (const double ell : {0.0, 0.1}) {
-      PhongMetricOptions options;
-      options.field_options.smoothing_length = ell;
-      metrics.push_back(std::make_unique<PhongMetric>(mesh, options));
-    }
+    const auto metrics = testing::EuclideanAndPhong(mesh, 0.1);
     const FreeSpace free({mesh});
     for (const Ray& ray : Rays(mesh, testing::CampaignCases(9, 150), &random)) {
       int last_sign = -1;
