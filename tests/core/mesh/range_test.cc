@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "core/contact_space/canonical_frame.h"
 #include "core/contact_space/contact_space.h"
 #include "core/mesh/mesh_range.h"
 #include "core/mesh/mesh_repair.h"
@@ -52,6 +53,30 @@ TEST(Range, IsTheSameContactSpaceAtEveryPowerOfTwo) {
     }
     EXPECT_EQ(differ, 0) << power;
     EXPECT_GT(inside, 200);
+  }
+}
+
+// Solids turned alike are turned back first, by a frame made of areas, whose
+// squares leave the range of doubles long before the lengths do.
+TEST(Range, IsTheSameCanonicalFrameAtEveryPowerOfTwo) {
+  const Eigen::Matrix3d turn = GenericRotation();
+  const TriangleMesh robot = Rotated(MakeL(0.5, 0.2, 0.3), turn),
+                     obstacle = Rotated(MakeU(3, 1, 1), turn);
+  const internal::CanonicalFrame one =
+      internal::ChooseCanonicalFrame(robot, obstacle);
+  ASSERT_TRUE(one.used);
+  const ContactSpace space = BuildContactSpace(robot, obstacle);
+  for (const int power : {-264, -260, -256, -100, 100, 256, 262}) {
+    const double scale = std::ldexp(1.0, power);
+    const TriangleMesh robot_there = Scaled(robot, scale),
+                       obstacle_there = Scaled(obstacle, scale);
+    const internal::CanonicalFrame frame =
+        internal::ChooseCanonicalFrame(robot_there, obstacle_there);
+    EXPECT_TRUE(frame.used) << power;
+    EXPECT_EQ(frame.rotation, one.rotation) << power;
+    const ContactSpace there = BuildContactSpace(robot_there, obstacle_there);
+    EXPECT_EQ(there.mesh.triangles, space.mesh.triangles) << power;
+    EXPECT_EQ(there.mesh.vertices, Scaled(space.mesh, scale).vertices) << power;
   }
 }
 
