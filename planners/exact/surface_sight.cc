@@ -23,7 +23,7 @@ SurfaceSite SiteAt(const Vector3d& q, const Vector3d& p, int triangle) {
   site.point = p;
   site.triangle = triangle;
   // At edges only the way back to q is free for sure.
-  site.direction = (q - p).stableNormalized();
+  site.direction = Unit(q - p);
   return site;
 }
 
@@ -69,7 +69,7 @@ std::optional<SurfaceSite> SiteSeenFrom(const Vector3d& q, const Vector3d& p,
   // As far as p may be from where the way ends.
   const double near =
       std::max(rounding, std::ldexp(q.cwiseAbs().maxCoeff(), -46));
-  const Vector3d back = (q - p).stableNormalized();
+  const Vector3d back = Unit(q - p);
   std::vector<Facing> facing;
   bool is_corner = false;
   int touched = 0;

@@ -20,6 +20,7 @@ namespace phongpd {
 // the steepest is taken.  At a corner, and where solids touch each other, other
 // triangles may still be in between.  There the site is moved into a triangle
 // that faces q, so far that q sees it.  Nothing if no such place was found.
+// Where q is p, to the last bit, the site has no direction: it is zero.
 std::optional<SurfaceSite> SiteSeenFrom(const Eigen::Vector3d& q,
                                         const Eigen::Vector3d& p, int triangle,
                                         const TriangleMesh& mesh,

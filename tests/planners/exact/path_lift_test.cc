@@ -68,6 +68,27 @@ TEST(SurfaceSight, LiftsWhatIsSeenOfEdgesAndCorners) {
   EXPECT_EQ(unseen, 0);
 }
 
+// A viewer who stands on the surface, up to rounding, may be where it looks.
+TEST(SurfaceSight, HasNoDirectionWhereTheViewerIsThePlaceItself) {
+  // A facet across the lattice of doubles: its centroid rounds to either side.
+  const TriangleMesh mesh =
+      Rotated(MakeBox({-1, -1, -1}, {1, 1, 1}), GenericRotation());
+  const SegmentTree segments(mesh);
+  int seen = 0;
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    const Triangle& t = mesh.triangles[i];
+    const Vector3d p =
+        (mesh.vertices[t[0]] + mesh.vertices[t[1]] + mesh.vertices[t[2]]) / 3.0;
+    const auto site =
+        SiteSeenFrom(p, p, static_cast<int>(i), mesh, segments, 1e-13);
+    if (!site) continue;
+    ++seen;
+    EXPECT_EQ(site->point, p);
+    EXPECT_EQ(site->direction, Vector3d::Zero());
+  }
+  EXPECT_GT(seen, 0);
+}
+
 // The lifts on either side of a segment that stays blocked vanish too; it
 // alone is to blame.
 TEST(PathLift, BlamesTheSegmentThatNothingFrees) {
