@@ -22,6 +22,10 @@ using Eigen::Vector3d;
 // Two hits are one (found by the two triangles of an edge) if both agree to
 // this; field frame.
 constexpr double kSameHit = 1e-9;
+// |s| of a branch, in the field frame, whose diagonal is in [1, 2).  Where n(λ)
+// is short, s is a multiple of the depth, but no projection has one like this,
+// and its fourth power is still finite.
+constexpr double kMaxOffset = 1e50;
 
 }  // namespace
 
@@ -44,14 +48,19 @@ struct PhongMetric::Impl {
     }
   }
 
-  // A branch that comes from this metric or could have.
+  // A branch that comes from this metric or could have.  The comparisons are
+  // false for NaN; a sum of λ ≥ 0 that is 1 has no infinite part.
   bool Knows(const Branch& branch) const {
+    const Vector3d& lambda = branch.lambda;
     return branch.triangle >= 0 &&
            branch.triangle <
                static_cast<int>(projector.field().mesh.triangles.size()) &&
-           branch.lambda.allFinite() && branch.lambda.minCoeff() >= 0.0 &&
-           std::abs(branch.lambda.sum() - 1.0) < 1e-9 &&
-           std::isfinite(branch.s * projector.field().scale);
+           std::isgreaterequal(lambda[0], 0.0) &&
+           std::isgreaterequal(lambda[1], 0.0) &&
+           std::isgreaterequal(lambda[2], 0.0) &&
+           std::abs(lambda.sum() - 1.0) < 1e-9 &&
+           std::islessequal(std::abs(branch.s * projector.field().scale),
+                            kMaxOffset);
   }
 
   Projection ToProjection(const Branch& branch) const {
@@ -158,7 +167,7 @@ void PhongMetric::QueryAll(const Vector3d& q_o, double depth_bound,
                            std::vector<PenetrationResult>* results) const {
   const Impl& impl = *impl_;
   results->clear();
-  if (!impl.surface.Accepts(q_o) || !(depth_bound >= 0.0) ||
+  if (!impl.surface.Accepts(q_o) || !std::isgreaterequal(depth_bound, 0.0) ||
       impl.surface.Locate(q_o) != Location::kInside) {
     return;
   }

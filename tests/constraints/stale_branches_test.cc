@@ -117,7 +117,7 @@ TEST(Branches, WithImpossibleMembersAreColdQueries) {
         Vector3d(1, 1, 1), Vector3d(1e308, 1e308, 1e308)}) {
     bad.push_back({0, lambda, -0.1});
   }
-  for (const double s : {kNan, kInf, -kInf}) {
+  for (const double s : {kNan, kInf, -kInf, 1e60, -1e60, -1e300}) {
     bad.push_back({0, Vector3d(0.5, 0.25, 0.25), s});
   }
   for (const FieldKind field : {FieldKind::kNormal, FieldKind::kTangentPlane}) {
