@@ -22,6 +22,13 @@ constexpr double kOnSurface = 1e-12;
 // two points of the surface are a millionth of a degree apart.
 constexpr double kFar = 1e8;
 
+// False for NaN, without an invalid operation.
+bool IsNear(const Vector3d& x) {
+  return std::islessequal(std::abs(x[0]), kFar) &&
+         std::islessequal(std::abs(x[1]), kFar) &&
+         std::islessequal(std::abs(x[2]), kFar);
+}
+
 }  // namespace
 
 FeatureSearch::FeatureSearch(const TriangleMesh& mesh) {
@@ -80,8 +87,7 @@ bool FeatureSearch::FindNext(const Vector3d& q, const Vector3d* taken,
                              int count, double cos_limit, double reach,
                              Feature* feature) const noexcept {
   const Vector3d x = (q - center_) * scale_;
-  // False for NaN, which maxCoeff may pass over.
-  if (!(x.array().abs() <= kFar).all()) return false;
+  if (!IsNear(x)) return false;
   constexpr double kNone = std::numeric_limits<double>::infinity();
   const double limit =
       std::min(std::pow(reach * scale_, 2), std::numeric_limits<double>::max());
@@ -124,7 +130,7 @@ bool FeatureSearch::FindNext(const Vector3d& q, const Vector3d* taken,
 Eigen::Matrix3d FeatureSearch::Curvature(const Vector3d& q,
                                          int triangle) const noexcept {
   const Vector3d x = (q - center_) * scale_;
-  if (!(x.array().abs() <= kFar).all() || triangle < 0 ||
+  if (!IsNear(x) || triangle < 0 ||
       triangle >= static_cast<int>(position_.size())) {
     return Eigen::Matrix3d::Zero();
   }

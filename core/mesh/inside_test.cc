@@ -2,6 +2,7 @@
 #include "core/mesh/inside_test.h"
 
 #include "core/mesh/exact_sign.h"
+#include "core/mesh/finite.h"
 #include "core/mesh/triangle_corners.h"
 
 namespace phongpd {
@@ -63,7 +64,7 @@ InsideTest::InsideTest(const TriangleMesh& mesh) : corners_(CornersOf(mesh)) {
 }
 
 Location InsideTest::Locate(const Vector3d& q) const {
-  if (!q.allFinite() || tree_.nodes().empty()) return Location::kOutside;
+  if (!IsFinite(q) || tree_.nodes().empty()) return Location::kOutside;
   const BoxTree::Node& root = tree_.nodes().front();
   if ((q.array() < root.min.array()).any() ||
       (q.array() > root.max.array()).any()) {

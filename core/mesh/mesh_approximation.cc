@@ -2,6 +2,7 @@
 #include "core/mesh/mesh_approximation.h"
 
 #include <algorithm>
+#include <cmath>
 #include <sstream>
 #include <stdexcept>
 #include <utility>
@@ -36,7 +37,9 @@ bool IsSolid(TriangleMesh* mesh) {
 }
 
 TriangleMesh Wrap(const TriangleMesh& mesh, double alpha) {
-  if (!(alpha >= kMinWrapAlpha && alpha <= kMaxWrapAlpha)) {
+  // Both false for NaN.
+  if (!(std::isgreaterequal(alpha, kMinWrapAlpha) &&
+        std::islessequal(alpha, kMaxWrapAlpha))) {
     std::ostringstream what;
     what << "wrap alpha: expected a fraction of the diagonal between "
          << kMinWrapAlpha << " and " << kMaxWrapAlpha << ", found " << alpha;

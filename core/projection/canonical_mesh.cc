@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "core/mesh/finite.h"
 #include "core/mesh/mesh_error.h"
 #include "core/projection/edge_split.h"
 
@@ -33,7 +34,7 @@ void CheckMesh(const TriangleMesh& mesh) {
            std::to_string(bad) + " others");
   }
   for (const Triangle& t : mesh.triangles) {
-    for (const int v : t) bad += mesh.vertices[At(v)].allFinite() ? 0 : 1;
+    for (const int v : t) bad += IsFinite(mesh.vertices[At(v)]) ? 0 : 1;
   }
   if (bad > 0) {
     Refuse("finite vertices, found " + std::to_string(bad) +

@@ -8,6 +8,7 @@
 #include <string>
 #include <utility>
 
+#include "core/mesh/finite.h"
 #include "core/mesh/mesh_error.h"
 #include "core/mesh/unit_normal.h"
 
@@ -50,7 +51,7 @@ void CheckContactMesh(const TriangleMesh& mesh) {
     for (const int v : t) {
       const bool valid = v >= 0 && v < size;
       bad_indices += !valid;
-      bad_vertices += valid && !mesh.vertices[v].allFinite();
+      bad_vertices += valid && !IsFinite(mesh.vertices[v]);
     }
   }
   if (bad_indices > 0) {

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "core/mesh/finite.h"
 #include "core/mesh/inside_test.h"
 #include "core/mesh/surface_tree.h"
 #include "core/mesh/triangle_mesh.h"
@@ -27,7 +28,7 @@ class ContactSurface {
 
   // Can queries at q be answered?  q and q − centre must be finite.
   bool Accepts(const Eigen::Vector3d& q) const {
-    return (q - tree_.center()).allFinite();
+    return IsFinite(q - tree_.center());
   }
   Location Locate(const Eigen::Vector3d& q) const { return inside_.Locate(q); }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/mesh/finite.h"
 #include "core/mesh/mesh_error.h"
 #include "core/mesh/segment_tree.h"
 #include "core/mesh/segment_triangle_distance.h"
@@ -29,7 +30,7 @@ struct FreeSpace::Impl {
   // Index of the contact space that q touches or is inside of, kBounds where
   // it is not strictly within them, kNone where q is free.
   int Blocker(const Vector3d& q) const {
-    if (!q.allFinite() || !IsWithinBounds(q)) return MotionCheck::kBounds;
+    if (!IsFinite(q) || !IsWithinBounds(q)) return MotionCheck::kBounds;
     for (std::size_t i = 0; i < spaces.size(); ++i) {
       if (spaces[i].surface.Locate(q) != Location::kOutside) {
         return static_cast<int>(i);
@@ -79,7 +80,7 @@ BoundingBox FreeSpace::NoBounds() {
 }
 
 void FreeSpace::CheckBounds(const BoundingBox& bounds) {
-  if (bounds.min.allFinite() && bounds.max.allFinite()) return;
+  if (IsFinite(bounds.min) && IsFinite(bounds.max)) return;
   throw InputError(
       "bounds: expected finite numbers, found NaN or Inf; leave the bounds out "
       "where there are none");
@@ -100,7 +101,7 @@ bool FreeSpace::IsFree(const Vector3d& a, const Vector3d& b) const {
 MotionCheck FreeSpace::Check(const Vector3d& a, const Vector3d& b) const {
   MotionCheck result;
   result.obstacle = impl_->Blocker(a);
-  if (result.obstacle != MotionCheck::kNone || !b.allFinite()) {
+  if (result.obstacle != MotionCheck::kNone || !IsFinite(b)) {
     result.free = false;
     result.fraction = 0.0;
     if (result.obstacle == MotionCheck::kNone) {
@@ -126,7 +127,7 @@ MotionCheck FreeSpace::Check(const Vector3d& a, const Vector3d& b) const {
 double FreeSpace::Clearance(const Vector3d& q) const {
   const BoundingBox& bounds = impl_->bounds;
   double clearance = std::numeric_limits<double>::infinity();
-  if (!q.allFinite()) return 0.0;
+  if (!IsFinite(q)) return 0.0;
   if (!bounds.IsEmpty()) {
     clearance = (q - bounds.min)
                     .cwiseAbs()
@@ -144,7 +145,9 @@ std::vector<FreeSpace::NearTriangle> FreeSpace::FindNear(const Vector3d& a,
                                                          const Vector3d& b,
                                                          double radius) const {
   std::vector<NearTriangle> near;
-  if (!a.allFinite() || !b.allFinite() || !(radius >= 0.0)) return near;
+  if (!IsFinite(a) || !IsFinite(b) || !std::isgreaterequal(radius, 0.0)) {
+    return near;
+  }
   for (const Space& space : impl_->spaces) {
     if (!space.surface.Accepts(a) || !space.surface.Accepts(b)) continue;
     const TriangleMesh& mesh = space.surface.mesh();

@@ -6,6 +6,7 @@
 #include <sstream>
 #include <utility>
 
+#include "core/mesh/finite.h"
 #include "core/mesh/self_intersection.h"
 #include "planners/exact/free_neighbors.h"
 #include "planners/exact/free_space.h"
@@ -127,7 +128,7 @@ double PlanningSurface::ClearanceOf(const std::vector<Vector3d>& path) const {
 
 std::string PlanningSurface::WhyInvalid(const char* which,
                                         const Vector3d& q) const {
-  if (!q.allFinite() || !contact.Accepts(q)) {
+  if (!IsFinite(q) || !contact.Accepts(q)) {
     return std::string(which) + " is not finite";
   }
   const Location location = contact.Locate(q);

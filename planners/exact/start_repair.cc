@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "core/mesh/finite.h"
 #include "core/mesh/mesh_error.h"
 #include "core/mesh/segment_tree.h"
 #include "core/stopwatch.h"
@@ -276,7 +277,7 @@ StartRepairResult StartRepair::Repair(const Path& path,
   options.Validate();
   Check("path", "2 points or more", path.size() >= 2, path.size());
   for (const Vector3d& q : path) {
-    if (!q.allFinite()) {
+    if (!IsFinite(q)) {
       throw InputError(
           "start repair: path: expected finite points, found NaN or Inf");
     }

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/mesh/finite.h"
 #include "core/mesh/mesh_error.h"
 #include "core/mesh/segment_tree.h"
 #include "core/mesh/unit_normal.h"
@@ -69,7 +70,7 @@ BoundingBox SamplingRegion(const TriangleMesh& contact_mesh,
   CheckContactMesh(contact_mesh);
   BoundingBox all = ComputeBounds(contact_mesh);
   for (const Vector3d& q : {start, goal}) {
-    if (q.allFinite()) all = Hull(all, {q, q});
+    if (IsFinite(q)) all = Hull(all, {q, q});
   }
   // Any way through the outside can be bent into the room around.
   const Vector3d room = Vector3d::Constant(kRoom * all.Diagonal());
@@ -80,7 +81,7 @@ BoundingBox SamplingRegion(const TriangleMesh& contact_mesh,
   BoundingBox region = FreeSpace::NoBounds();
   for (const Vector3d& q : {start, goal}) {
     CellRay ray;
-    const int cell = q.allFinite() ? cells.CellOf(q, &ray) : -1;
+    const int cell = IsFinite(q) ? cells.CellOf(q, &ray) : -1;
     if (cell < 0) return all;
     TriangleMesh shell;
     shell.vertices = contact_mesh.vertices;
@@ -181,7 +182,7 @@ ContactModel::Facet ContactModel::FindNearest(const Vector3d& q,
                                               double* distance) const {
   Facet facet;
   *distance = std::numeric_limits<double>::infinity();
-  if (!q.allFinite()) {
+  if (!IsFinite(q)) {
     *distance = -*distance;
     return facet;
   }
@@ -217,7 +218,7 @@ ContactModel::Facet ContactModel::FindNearest(const Vector3d& q,
 double ContactModel::Standoff(const Facet& facet, double clearance) const {
   const Vector3d ray = 2.0 * clearance * facet.normal;
   const Vector3d end = facet.point + ray;
-  if (!end.allFinite() || facet.normal.isZero()) return 0.0;
+  if (!IsFinite(end) || facet.normal.isZero()) return 0.0;
   double free = 1.0;
   for (const Space& space : impl_->spaces) {
     const SegmentTree::Hit hit =

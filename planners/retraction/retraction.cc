@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "core/mesh/finite.h"
 #include "core/mesh/mesh_error.h"
 #include "planners/exact/check_option.h"
 
@@ -61,7 +62,7 @@ RetractionStatus Retraction::Retract(const Vector3d& q, std::mt19937_64* random,
   if (options_.metric == RetractionMetric::kContactPoint) {
     return DrawContactPoint(random, scratch);
   }
-  if (!q.allFinite()) return RetractionStatus::kInvalid;
+  if (!IsFinite(q)) return RetractionStatus::kInvalid;
   if (model_->free_space().IsFree(q)) {
     scratch->points.push_back(
         {q, std::numeric_limits<double>::infinity(), ContactModel::Facet()});

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <string>
 
+#include "core/mesh/finite.h"
 #include "core/mesh/mesh_error.h"
 
 namespace phongpd {
@@ -26,8 +27,8 @@ void TrajectoryProblem::Validate() const {
     if (metric == nullptr) Fail("metrics", "one per contact space", "null");
   }
   if (free_space == nullptr) Fail("free_space", "the exact judge", "null");
-  if (!start.allFinite()) Fail("start", "finite numbers", "NaN or Inf");
-  if (!goal.allFinite()) Fail("goal", "finite numbers", "NaN or Inf");
+  if (!IsFinite(start)) Fail("start", "finite numbers", "NaN or Inf");
+  if (!IsFinite(goal)) Fail("goal", "finite numbers", "NaN or Inf");
   if (waypoints < 1 || waypoints > 10000) {
     Fail("waypoints", "1 to 10000", std::to_string(waypoints));
   }
@@ -98,7 +99,7 @@ void CheckStartPath(const TrajectoryProblem& problem, const Path& path) {
                      std::to_string(path.size()));
   }
   for (std::size_t i = 0; i < path.size(); ++i) {
-    if (!path[i].allFinite()) {
+    if (!IsFinite(path[i])) {
       throw InputError(what + "finite points, found NaN or Inf at point " +
                        std::to_string(i));
     }
