@@ -21,9 +21,8 @@ export PHONGPD_CACHE_DIR=$PWD/build/cache
 
 readonly all=(format options clang cppcheck tidy fptrap determinism tsan fuzz
   coverage asan)
-# Not tsan and coverage: each compiles the library once more.  Not fptrap:
-# functions it names are still to be looked at.
-readonly quick=(format options clang cppcheck tidy determinism fuzz asan)
+# Not tsan and coverage: each compiles the library once more.
+readonly quick=(format options clang cppcheck tidy fptrap determinism fuzz asan)
 readonly folders=(core constraints planners problems)
 # Whole test programs that reach every folder below the program and build fast.
 readonly slice=(
@@ -37,6 +36,11 @@ readonly slice=(
   free_space_test start_repair_test workspace_test
   motion_graph_test retraction_test scene_errors_test
 )
+# Those, besides, that feed what is no number, or next to none.
+readonly extreme=(
+  fuzz_corpus_test path_resampling_test range_test reader_limits_test
+  shapes_test stale_branches_test
+)
 # Those whose code under test runs in several threads.
 readonly threaded=(
   contact_space_test exact_surface_test mesh_approximation_test query_cost_test
@@ -48,9 +52,9 @@ whole() { [[ $SLICE == full ]]; }
 sources() { find "${folders[@]}" tests results -name '*.h' -o -name '*.cc'; }
 
 # Runs the tests that are built there: those outside the slice are not.
-run_tests() { # PRESET [PATTERN to leave out, too]
+run_tests() { # PRESET [PATTERN to leave out, too] [OPTION of ctest...]
   ctest --preset "$1" --parallel 2 --no-tests=error \
-    -E "_NOT_BUILT|^Layering\$|^InstalledPackage\$|^Refuses_${2:+|$2}"
+    -E "_NOT_BUILT|^Layering\$|^InstalledPackage\$|^Refuses_${2:+|$2}" "${@:3}"
 }
 
 build_tests() { # PRESET PROGRAMS...: everything in full
@@ -129,14 +133,17 @@ check_tidy() {
 
 check_fptrap() {
   scripts/setup.sh binutils
-  build_tests release "${slice[@]}"
-  local log=$PWD/build/check/invalid.log
+  local programs=("${slice[@]}" "${extreme[@]}")
+  build_tests release "${programs[@]}"
+  local log=$PWD/build/check/invalid.log only=()
   rm -f "$log"
+  # Everything is built there when CI comes to this.
+  whole || only=(-L "^($(IFS='|' && echo "${programs[*]}"))\$")
   g++ -shared -fPIC -O1 tests/support/trap_invalid.cc -o build/trap_invalid.so
   # Those that limit files and memory, or preload something themselves, limit
   # the trap's log, too.
   PHONGPD_INVALID_LOG=$log LD_PRELOAD=$PWD/build/trap_invalid.so \
-    run_tests release '^CliLimits|^CliFault'
+    run_tests release '^CliLimits|^CliFault' "${only[@]}"
   # Tests feed NaN on purpose: no word at all means no trap at all.
   [[ -s $log ]]
   # Functions of ours that did one; tests themselves may.
