@@ -7,8 +7,8 @@
 #include <limits>
 #include <utility>
 
-#include "core/mesh/scaled_triangles.h"
-#include "core/mesh/surface_tree.h"
+#include "core/bvh/scaled_triangles.h"
+#include "core/bvh/surface_tree.h"
 #include "core/mesh/unit_normal.h"
 
 namespace phongpd {

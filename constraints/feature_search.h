@@ -5,7 +5,7 @@
 #include <array>
 #include <vector>
 
-#include "core/mesh/box_tree.h"
+#include "core/bvh/box_tree.h"
 #include "core/mesh/triangle_mesh.h"
 
 namespace phongpd {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "constraints/translated_triangles.h"
-#include "core/mesh/box_tree.h"
+#include "core/bvh/box_tree.h"
 #include "core/mesh/mesh_error.h"
 
 namespace phongpd {

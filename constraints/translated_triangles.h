@@ -7,7 +7,7 @@
 // Exact predicates of triangles of which one is translated, in the user's own
 // coordinates.  A sum like a + q is never rounded: intervals decide first,
 // rationals where they cannot.  They share no code with the contact space and
-// its predicates (core/mesh/exact_sign.h), because they are there to judge it.
+// its predicates (core/bvh/exact_sign.h), because they are there to judge it.
 // All points must be finite.
 namespace phongpd::internal {
 

@@ -117,7 +117,7 @@ check_cppcheck() {
 check_tidy() {
   scripts/setup.sh clang clang-tidy
   local part=(core constraints planners problems) files
-  if ! whole; then part=(core/mesh core/projection constraints); fi
+  if ! whole; then part=(core/mesh core/bvh core/solid core/projection constraints); fi
   files=$(compile_commands "${part[@]}" | sed 's/.* //' | grep -v build-clang)
   # Those that include CGAL take minutes each: only in full.
   if ! whole; then files=$(xargs grep -L '<CGAL/' <<<"$files"); fi

@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # cmake -D SOURCE=... -P layering_test.cmake: who may include whom.
 #   core <- constraints <- planners <- problems <- tests, results
-#   core: files, mesh <- contact_space <- projection
+#   core: files, mesh <- bvh <- solid <- bounds <- minkowski <- contact
+#     <- projection
 cmake_minimum_required(VERSION 3.23)
 
 set(failures "")
@@ -26,9 +27,15 @@ endfunction()
 
 forbid(core "(constraints|planners|problems|tests|results)/")
 forbid(core "(fcl|ompl|CLI|nlohmann|coin)/|Ip[A-Z]")
-forbid(core/files "core/(mesh|contact_space|projection)/")
-forbid(core/mesh "core/(contact_space|projection)/")
-forbid(core/contact_space "core/projection/")
+set(floors mesh bvh solid bounds minkowski contact projection)
+while(floors)
+  list(POP_FRONT floors floor)
+  list(JOIN floors "|" above)
+  if(above)
+    forbid(core/${floor} "core/(${above})/")
+    forbid(core/files "core/(${floor}|${above})/")
+  endif()
+endwhile()
 forbid(constraints "(planners|problems|tests|results)/")
 forbid(planners "(problems|tests|results)/")
 forbid(problems "(tests|results)/")

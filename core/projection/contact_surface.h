@@ -4,8 +4,8 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "core/mesh/inside_test.h"
-#include "core/mesh/surface_tree.h"
+#include "core/bvh/inside_test.h"
+#include "core/bvh/surface_tree.h"
 #include "core/mesh/triangle_mesh.h"
 #include "core/projection/penetration_metric.h"
 

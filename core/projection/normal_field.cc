@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/mesh/surface_tree.h"
+#include "core/bvh/surface_tree.h"
 #include "core/projection/cubic.h"
 
 namespace phongpd {

@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "core/mesh/box_tree.h"
+#include "core/bvh/box_tree.h"
 #include "core/projection/field_projector.h"
 
 namespace phongpd {

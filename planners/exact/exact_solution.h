@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <string>
 
-#include "core/contact_space/contact_space.h"
+#include "core/contact/contact_space.h"
 #include "planners/exact/contact_surface_planner.h"
 #include "planners/exact/workspace.h"
 

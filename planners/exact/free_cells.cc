@@ -7,10 +7,10 @@
 #include <cmath>
 #include <limits>
 
-#include "core/mesh/exact_sign.h"
-#include "core/mesh/segment_tree.h"
-#include "core/mesh/shell_orientation.h"
+#include "core/bvh/exact_sign.h"
+#include "core/bvh/segment_tree.h"
 #include "core/mesh/unit_normal.h"
+#include "core/solid/shell_orientation.h"
 
 namespace phongpd {
 namespace {

@@ -7,7 +7,7 @@
 #include <tuple>
 #include <utility>
 
-#include "core/mesh/exact_sign.h"
+#include "core/bvh/exact_sign.h"
 
 namespace phongpd {
 namespace {

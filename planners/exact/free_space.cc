@@ -6,9 +6,9 @@
 #include <cmath>
 #include <limits>
 
+#include "core/bvh/segment_tree.h"
+#include "core/bvh/segment_triangle_distance.h"
 #include "core/mesh/mesh_error.h"
-#include "core/mesh/segment_tree.h"
-#include "core/mesh/segment_triangle_distance.h"
 #include "core/projection/contact_surface.h"
 
 namespace phongpd {

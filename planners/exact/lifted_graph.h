@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "core/mesh/box_tree.h"
+#include "core/bvh/box_tree.h"
 #include "planners/exact/planning_surface.h"
 #include "planners/exact/route_table.h"
 #include "planners/exact/surface_graph.h"

@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "core/mesh/segment_tree.h"
+#include "core/bvh/segment_tree.h"
 #include "core/projection/contact_surface.h"
 
 namespace phongpd {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "core/mesh/segment_tree.h"
+#include "core/bvh/segment_tree.h"
 #include "planners/exact/surface_graph.h"
 
 namespace phongpd {

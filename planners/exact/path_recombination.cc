@@ -7,7 +7,7 @@
 #include <queue>
 #include <utility>
 
-#include "core/mesh/segment_tree.h"
+#include "core/bvh/segment_tree.h"
 #include "planners/exact/free_space.h"
 
 namespace phongpd {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <random>
 
-#include "core/mesh/segment_tree.h"
+#include "core/bvh/segment_tree.h"
 
 namespace phongpd {
 namespace {

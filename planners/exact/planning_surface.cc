@@ -6,7 +6,7 @@
 #include <sstream>
 #include <utility>
 
-#include "core/mesh/self_intersection.h"
+#include "core/solid/self_intersection.h"
 #include "planners/exact/free_neighbors.h"
 #include "planners/exact/free_space.h"
 #include "planners/exact/path_centering.h"

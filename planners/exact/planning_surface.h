@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "core/mesh/segment_tree.h"
+#include "core/bvh/segment_tree.h"
 #include "core/projection/contact_surface.h"
 #include "planners/exact/contact_surface_planner.h"
 #include "planners/exact/free_cells.h"

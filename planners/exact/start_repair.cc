@@ -5,8 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "core/bvh/segment_tree.h"
 #include "core/mesh/mesh_error.h"
-#include "core/mesh/segment_tree.h"
 #include "core/stopwatch.h"
 #include "planners/exact/check_option.h"
 #include "planners/exact/path_resampling.h"

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/mesh/segment_tree.h"
+#include "core/bvh/segment_tree.h"
 #include "core/mesh/triangle_mesh.h"
 #include "planners/exact/free_cells.h"
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "core/mesh/exact_sign.h"
+#include "core/bvh/exact_sign.h"
 #include "core/mesh/unit_normal.h"
 
 namespace phongpd {

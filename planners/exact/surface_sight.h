@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <optional>
 
-#include "core/mesh/segment_tree.h"
+#include "core/bvh/segment_tree.h"
 #include "core/mesh/triangle_mesh.h"
 #include "planners/exact/surface_graph.h"
 

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/bvh/segment_tree.h"
 #include "core/mesh/mesh_error.h"
-#include "core/mesh/segment_tree.h"
 #include "core/mesh/unit_normal.h"
 #include "core/projection/contact_surface.h"
 #include "core/projection/euclidean_metric.h"

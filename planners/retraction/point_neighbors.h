@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "core/mesh/box_tree.h"
+#include "core/bvh/box_tree.h"
 #include "planners/retraction/motion_graph.h"
 
 namespace phongpd {

@@ -8,12 +8,12 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "core/contact_space/content_hash.h"
+#include "core/contact/content_hash.h"
 #include "core/files/descriptor.h"
 #include "core/mesh/mesh_io.h"
 #include "core/mesh/mesh_range.h"
-#include "problems/text.h"
-#include "problems/versions.h"
+#include "problems/output/text.h"
+#include "problems/output/versions.h"
 
 namespace phongpd::cli {
 

@@ -8,15 +8,15 @@
 #include <string>
 #include <vector>
 
-#include "core/contact_space/contact_space.h"
-#include "core/contact_space/contact_space_cache.h"
-#include "core/mesh/mesh_check.h"
+#include "core/contact/contact_space.h"
+#include "core/contact/contact_space_cache.h"
 #include "core/mesh/mesh_error.h"
 #include "core/mesh/triangle_mesh.h"
 #include "core/projection/phong_metric.h"
-#include "problems/output_files.h"
-#include "problems/scene_source.h"
-#include "problems/scene_space.h"
+#include "core/solid/mesh_check.h"
+#include "problems/output/output_files.h"
+#include "problems/scenes/scene_source.h"
+#include "problems/world/scene_space.h"
 
 // What the commands of the phongpd program share.
 namespace phongpd::cli {

@@ -9,13 +9,13 @@
 
 #include "problems/cli/command.h"
 #include "problems/cli/comparison_jobs.h"
-#include "problems/gnuplot.h"
-#include "problems/output_files.h"
-#include "problems/row_file.h"
-#include "problems/scene_source.h"
-#include "problems/text.h"
-#include "problems/trajectory_comparison.h"
-#include "problems/trajectory_study.h"
+#include "problems/output/output_files.h"
+#include "problems/output/row_file.h"
+#include "problems/output/text.h"
+#include "problems/pictures/gnuplot.h"
+#include "problems/scenes/scene_source.h"
+#include "problems/studies/trajectory_comparison.h"
+#include "problems/studies/trajectory_study.h"
 
 namespace phongpd::cli {
 namespace {

@@ -5,13 +5,13 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "core/contact_space/contact_space.h"
+#include "core/contact/contact_space.h"
 #include "core/mesh/mesh_io.h"
 #include "planners/exact/verification.h"
-#include "problems/answer_check.h"
 #include "problems/cli/command.h"
-#include "problems/output_files.h"
-#include "problems/text.h"
+#include "problems/output/output_files.h"
+#include "problems/output/text.h"
+#include "problems/studies/answer_check.h"
 
 namespace phongpd::cli {
 namespace {
@@ -30,7 +30,6 @@ struct Flags {
   std::string repair = "reject";
   double max_seconds = 0.0;
   double max_mib = 0.0;
-  std::string refine = "0";
   bool no_cache = false;
   bool verify = true;
 };
@@ -174,7 +173,6 @@ ContactSpaceOptions OptionsOf(const Flags& flags) {
   options.max_mib = flags.max_mib;
   options.robot_name = flags.robot;
   options.obstacle_name = flags.obstacle;
-  options.refine.target_edge = ParseDouble(flags.refine, "--refine");
   return options;
 }
 
@@ -284,12 +282,6 @@ Command AddContactSpace(CLI::App* app) {
                   "what does (0: stop at nine tenths of what is free)")
       ->type_name("MIB")
       ->check(CLI::NonNegativeNumber);
-  app->add_option("--refine", flags->refine,
-                  "Longest edge as a fraction of the diagonal, a quarter of it "
-                  "at sharp edges; the surface stays as it is. 0: leave the "
-                  "triangles as they come")
-      ->type_name("FRACTION")
-      ->capture_default_str();
   AddVerify(app, &flags->verify);
   AddNoCache(app, &flags->no_cache);
   return [flags] { return BuildAndWrite(*flags); };

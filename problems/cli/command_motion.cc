@@ -5,16 +5,16 @@
 #include <string>
 #include <vector>
 
-#include "core/contact_space/contact_space.h"
+#include "core/contact/contact_space.h"
 #include "core/projection/euclidean_metric.h"
 #include "core/projection/phong_metric.h"
 #include "planners/exact/verification.h"
-#include "problems/answer_check.h"
 #include "problems/cli/command.h"
-#include "problems/gnuplot.h"
-#include "problems/motion.h"
-#include "problems/output_files.h"
-#include "problems/text.h"
+#include "problems/output/output_files.h"
+#include "problems/output/text.h"
+#include "problems/pictures/gnuplot.h"
+#include "problems/studies/answer_check.h"
+#include "problems/studies/motion.h"
 
 namespace phongpd::cli {
 namespace {

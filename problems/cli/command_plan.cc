@@ -3,12 +3,12 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "problems/answer_check.h"
 #include "problems/cli/command.h"
 #include "problems/cli/seeded_runs.h"
-#include "problems/planning_study.h"
-#include "problems/scene_source.h"
-#include "problems/text.h"
+#include "problems/output/text.h"
+#include "problems/scenes/scene_source.h"
+#include "problems/studies/answer_check.h"
+#include "problems/studies/planning_study.h"
 
 namespace phongpd::cli {
 namespace {

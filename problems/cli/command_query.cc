@@ -6,9 +6,9 @@
 #include "core/projection/euclidean_metric.h"
 #include "core/projection/phong_metric.h"
 #include "problems/cli/command.h"
-#include "problems/output_files.h"
-#include "problems/points_csv.h"
-#include "problems/text.h"
+#include "problems/output/output_files.h"
+#include "problems/output/points_csv.h"
+#include "problems/output/text.h"
 
 namespace phongpd::cli {
 namespace {

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "problems/cli/command.h"
-#include "problems/output_files.h"
-#include "problems/reproduction.h"
+#include "problems/output/output_files.h"
+#include "problems/studies/reproduction.h"
 
 namespace phongpd::cli {
 namespace {

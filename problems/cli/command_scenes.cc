@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "problems/cli/command.h"
-#include "problems/output_files.h"
-#include "problems/scene.h"
-#include "problems/scene_library.h"
-#include "problems/text.h"
+#include "problems/output/output_files.h"
+#include "problems/output/text.h"
+#include "problems/scenes/scene.h"
+#include "problems/scenes/scene_library.h"
 
 namespace phongpd::cli {
 namespace {

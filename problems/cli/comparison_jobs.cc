@@ -6,7 +6,7 @@
 #include <string>
 
 #include "problems/cli/command.h"
-#include "problems/comparison_rows.h"
+#include "problems/studies/comparison_rows.h"
 
 namespace phongpd::cli {
 namespace {

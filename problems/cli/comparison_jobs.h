@@ -4,11 +4,11 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/contact_space/contact_space_cache.h"
-#include "problems/row_file.h"
-#include "problems/scene_source.h"
-#include "problems/trajectory_comparison.h"
-#include "problems/trajectory_study.h"
+#include "core/contact/contact_space_cache.h"
+#include "problems/output/row_file.h"
+#include "problems/scenes/scene_source.h"
+#include "problems/studies/trajectory_comparison.h"
+#include "problems/studies/trajectory_study.h"
 
 namespace phongpd::cli {
 

@@ -16,7 +16,7 @@
 
 #include "core/files/interruption.h"
 #include "problems/cli/command.h"
-#include "problems/versions.h"
+#include "problems/output/versions.h"
 
 namespace phongpd::cli {
 namespace {

@@ -8,10 +8,10 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "problems/output_files.h"
-#include "problems/path_picture.h"
-#include "problems/row_file.h"
-#include "problems/scene_source.h"
+#include "problems/output/output_files.h"
+#include "problems/output/row_file.h"
+#include "problems/pictures/path_picture.h"
+#include "problems/scenes/scene_source.h"
 
 // Runs of one scene with the seeds S, S + 1, ...: the flags that commands made
 // of them share, and what the runs leave behind.

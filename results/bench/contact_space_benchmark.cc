@@ -7,7 +7,7 @@
 #include <iostream>
 #include <thread>
 
-#include "problems/gnuplot.h"
+#include "problems/pictures/gnuplot.h"
 #include "results/bench/contact_space_report.h"
 #include "results/bench/program.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "results/bench/contact_space_cases.h"
 
-#include "problems/shapes.h"
+#include "problems/shapes/shapes.h"
 
 namespace phongpd::bench {
 namespace {

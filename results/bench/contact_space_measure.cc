@@ -9,9 +9,9 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "core/contact_space/contact_space.h"
+#include "core/contact/contact_space.h"
 #include "core/stopwatch.h"
-#include "problems/contact_space_check.h"
+#include "problems/studies/contact_space_check.h"
 #include "results/bench/competitors.h"
 #include "results/bench/report.h"
 

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "problems/random_pairs.h"
+#include "problems/studies/random_pairs.h"
 #include "results/bench/child_process.h"
 #include "results/bench/contact_space_cases.h"
 

@@ -11,10 +11,10 @@
 
 #include "core/projection/euclidean_metric.h"
 #include "core/projection/phong_metric.h"
-#include "problems/gnuplot.h"
-#include "problems/random_solids.h"
-#include "problems/scene_source.h"
-#include "problems/scene_space.h"
+#include "problems/pictures/gnuplot.h"
+#include "problems/scenes/scene_source.h"
+#include "problems/shapes/random_solids.h"
+#include "problems/world/scene_space.h"
 #include "results/bench/convergence_report.h"
 #include "results/bench/program.h"
 

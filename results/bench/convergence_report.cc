@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "problems/gnuplot.h"
-#include "problems/text.h"
+#include "problems/output/text.h"
+#include "problems/pictures/gnuplot.h"
 
 namespace phongpd::bench {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "problems/trajectory_comparison.h"
+#include "problems/studies/trajectory_comparison.h"
 #include "results/bench/report.h"
 
 namespace phongpd::bench {

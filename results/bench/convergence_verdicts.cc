@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "problems/text.h"
+#include "problems/output/text.h"
 #include "results/bench/convergence_report.h"
 
 namespace phongpd::bench {

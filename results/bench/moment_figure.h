@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "problems/motion.h"
-#include "problems/paper_benchmarks.h"
+#include "problems/studies/motion.h"
+#include "problems/studies/paper_benchmarks.h"
 
 namespace phongpd::bench {
 

@@ -9,10 +9,10 @@
 #include <tuple>
 #include <utility>
 
-#include "core/contact_space/contact_space.h"
-#include "core/mesh/convex_hull.h"
-#include "problems/random_solids.h"
-#include "problems/shapes.h"
+#include "core/bounds/convex_hull.h"
+#include "core/contact/contact_space.h"
+#include "problems/shapes/random_solids.h"
+#include "problems/shapes/shapes.h"
 #include "results/bench/motion_set.h"
 
 namespace phongpd::bench {

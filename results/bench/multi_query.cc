@@ -10,8 +10,8 @@
 
 #include "planners/exact/contact_roadmap.h"
 #include "planners/exact/free_space.h"
-#include "problems/scene_source.h"
-#include "problems/scene_space.h"
+#include "problems/scenes/scene_source.h"
+#include "problems/world/scene_space.h"
 
 namespace phongpd::bench {
 namespace {

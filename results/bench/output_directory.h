@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string>
 
-#include "problems/output_files.h"
+#include "problems/output/output_files.h"
 
 namespace phongpd::bench {
 

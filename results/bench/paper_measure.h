@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "core/contact_space/contact_space.h"
+#include "core/contact/contact_space.h"
 #include "core/projection/phong_field.h"
-#include "problems/motion.h"
-#include "problems/paper_benchmarks.h"
+#include "problems/studies/motion.h"
+#include "problems/studies/paper_benchmarks.h"
 
 // Everything results/paper says about one benchmark, as numbers.
 namespace phongpd::bench {

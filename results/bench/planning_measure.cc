@@ -5,14 +5,14 @@
 #include <limits>
 #include <random>
 
-#include "core/mesh/segment_tree.h"
+#include "core/bvh/segment_tree.h"
 #include "core/stopwatch.h"
 #include "planners/exact/contact_surface_planner.h"
 #include "planners/exact/path_shortening.h"
-#include "problems/planning_study.h"
-#include "problems/random_solids.h"
-#include "problems/scene_source.h"
-#include "problems/text.h"
+#include "problems/output/text.h"
+#include "problems/scenes/scene_source.h"
+#include "problems/shapes/random_solids.h"
+#include "problems/studies/planning_study.h"
 #include "results/bench/report.h"
 
 namespace phongpd::bench {

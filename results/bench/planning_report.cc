@@ -8,8 +8,8 @@
 #include <set>
 #include <sstream>
 
-#include "problems/gnuplot.h"
-#include "problems/text.h"
+#include "problems/output/text.h"
+#include "problems/pictures/gnuplot.h"
 
 namespace phongpd::bench {
 namespace {

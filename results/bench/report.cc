@@ -6,8 +6,8 @@
 #include <fstream>
 #include <thread>
 
-#include "problems/text.h"
-#include "problems/versions.h"
+#include "problems/output/text.h"
+#include "problems/output/versions.h"
 
 namespace phongpd::bench {
 namespace {

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "problems/text.h"
+#include "problems/output/text.h"
 
 // Tables that are written once and shown as CSV, Markdown, HTML or text, and
 // the circumstances every published figure comes with.

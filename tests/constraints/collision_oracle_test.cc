@@ -9,7 +9,7 @@
 #include <random>
 
 #include "core/mesh/mesh_error.h"
-#include "problems/shapes.h"
+#include "problems/shapes/shapes.h"
 
 namespace phongpd {
 namespace {

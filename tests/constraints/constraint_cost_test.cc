@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "constraints/non_penetration.h"
-#include "problems/shapes.h"
+#include "problems/shapes/shapes.h"
 #include "tests/support/count_allocations.h"
 
 namespace phongpd {

@@ -12,11 +12,11 @@
 #include <vector>
 
 #include "constraints/translated_triangles.h"
-#include "core/contact_space/contact_space.h"
+#include "core/contact/contact_space.h"
 #include "core/mesh/mesh_error.h"
 #include "planners/exact/free_space.h"
-#include "problems/random_pairs.h"
-#include "problems/shapes.h"
+#include "problems/shapes/shapes.h"
+#include "problems/studies/random_pairs.h"
 #include "tests/support/campaign.h"
 #include "tests/support/solid_tools.h"
 

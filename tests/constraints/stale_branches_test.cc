@@ -16,7 +16,7 @@
 #include "constraints/signed_metric.h"
 #include "core/mesh/mesh_error.h"
 #include "core/projection/phong_metric.h"
-#include "problems/shapes.h"
+#include "problems/shapes/shapes.h"
 #include "tests/support/campaign.h"
 #include "tests/support/solid_tools.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <phongpd/core/contact_space/contact_space.h>
+#include <phongpd/core/contact/contact_space.h>
 
 // The problem that every planner of this folder solves: a cube of side 1 goes
 // around a box of side 2.

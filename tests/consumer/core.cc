@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The README's example: how deep is a small box in a large one?
-#include <phongpd/core/contact_space/contact_space.h>
+#include <phongpd/core/contact/contact_space.h>
 #include <phongpd/core/mesh/mesh_io.h>
 #include <phongpd/core/projection/phong_metric.h>
 

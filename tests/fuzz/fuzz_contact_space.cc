@@ -6,9 +6,9 @@
 #include <utility>
 #include <vector>
 
-#include "core/contact_space/contact_space.h"
-#include "core/contact_space/contact_space_bytes.h"
-#include "problems/shapes.h"
+#include "core/contact/contact_space.h"
+#include "core/contact/contact_space_bytes.h"
+#include "problems/shapes/shapes.h"
 #include "tests/fuzz/byte_source.h"
 #include "tests/fuzz/fuzz_targets.h"
 #include "tests/fuzz/promise.h"

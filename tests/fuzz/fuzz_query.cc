@@ -5,10 +5,10 @@
 #include <memory>
 #include <vector>
 
-#include "core/contact_space/contact_space.h"
+#include "core/contact/contact_space.h"
 #include "core/projection/euclidean_metric.h"
 #include "core/projection/phong_metric.h"
-#include "problems/shapes.h"
+#include "problems/shapes/shapes.h"
 #include "tests/fuzz/byte_source.h"
 #include "tests/fuzz/fuzz_targets.h"
 #include "tests/fuzz/promise.h"

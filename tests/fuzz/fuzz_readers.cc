@@ -2,7 +2,7 @@
 #include <string_view>
 
 #include "core/mesh/polygon_soup.h"
-#include "problems/points_csv.h"
+#include "problems/output/points_csv.h"
 #include "tests/fuzz/fuzz_targets.h"
 #include "tests/fuzz/promise.h"
 

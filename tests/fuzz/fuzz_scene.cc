@@ -2,8 +2,8 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "problems/json_schema.h"
-#include "problems/scene.h"
+#include "problems/scenes/json_schema.h"
+#include "problems/scenes/scene.h"
 #include "tests/fuzz/fuzz_targets.h"
 #include "tests/fuzz/promise.h"
 

@@ -7,7 +7,7 @@
 #include <memory>
 #include <vector>
 
-#include "core/mesh/segment_tree.h"
+#include "core/bvh/segment_tree.h"
 #include "planners/exact/free_space.h"
 #include "tests/support/campaign.h"
 

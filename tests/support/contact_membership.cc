@@ -5,8 +5,8 @@
 #include <cmath>
 #include <sstream>
 
-#include "core/mesh/self_intersection.h"
-#include "core/mesh/surface_tree.h"
+#include "core/bvh/surface_tree.h"
+#include "core/solid/self_intersection.h"
 #include "tests/support/solid_tools.h"
 
 namespace phongpd::testing {

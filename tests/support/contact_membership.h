@@ -4,7 +4,7 @@
 #include <random>
 #include <string>
 
-#include "core/contact_space/contact_space.h"
+#include "core/contact/contact_space.h"
 #include "core/mesh/triangle_mesh.h"
 
 namespace phongpd::testing {

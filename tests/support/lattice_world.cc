@@ -6,8 +6,8 @@
 #include <Eigen/LU>
 #include <algorithm>
 
-#include "core/contact_space/contact_space.h"
-#include "problems/shapes.h"
+#include "core/contact/contact_space.h"
+#include "problems/shapes/shapes.h"
 
 namespace phongpd::testing {
 namespace {

@@ -3,10 +3,10 @@
 
 #include <nlohmann/json.hpp>
 
-#include "core/contact_space/contact_space.h"
+#include "core/contact/contact_space.h"
 #include "planners/exact/workspace.h"
-#include "problems/scene_library.h"
-#include "problems/shapes.h"
+#include "problems/scenes/scene_library.h"
+#include "problems/shapes/shapes.h"
 
 namespace phongpd::testing {
 

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "planners/retraction/contact_model.h"
-#include "problems/scene.h"
+#include "problems/scenes/scene.h"
 
 namespace phongpd::testing {
 

@@ -7,9 +7,9 @@
 #include <random>
 #include <stdexcept>
 
-#include "core/contact_space/contact_space.h"
+#include "core/contact/contact_space.h"
 #include "planners/exact/free_space.h"
-#include "problems/shapes.h"
+#include "problems/shapes/shapes.h"
 #include "tests/support/solid_tools.h"
 
 namespace phongpd::testing {

@@ -4,7 +4,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
-#include "problems/shapes.h"
+#include "problems/shapes/shapes.h"
 
 namespace phongpd::testing {
 

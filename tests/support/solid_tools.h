@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 
 #include "core/mesh/triangle_mesh.h"
-#include "problems/random_solids.h"
+#include "problems/shapes/random_solids.h"
 
 // Independent routes to facts that tests compare the engine with.
 namespace phongpd::testing {

@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 
 #include "planners/trajectory/trajectory_problem.h"
-#include "problems/shapes.h"
+#include "problems/shapes/shapes.h"
 
 // A trap that straight paths run into.
 namespace phongpd::testing {

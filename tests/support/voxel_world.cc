@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "problems/random_solids.h"
+#include "problems/shapes/random_solids.h"
 
 namespace phongpd::testing {
 namespace {

@@ -11,9 +11,9 @@
 #include <random>
 #include <string>
 
-#include "core/mesh/mesh_check.h"
 #include "core/mesh/mesh_io.h"
-#include "problems/shapes.h"
+#include "core/solid/mesh_check.h"
+#include "problems/shapes/shapes.h"
 
 namespace phongpd {
 namespace {

@@ -10,8 +10,8 @@
 #include <fstream>
 #include <string>
 
-#include "core/mesh/mesh_check.h"
-#include "problems/shapes.h"
+#include "core/solid/mesh_check.h"
+#include "problems/shapes/shapes.h"
 
 namespace phongpd {
 namespace {

@@ -7,12 +7,12 @@
 #include <string>
 #include <vector>
 
-#include "core/contact_space/contact_space.h"
+#include "core/bounds/mesh_repair.h"
+#include "core/contact/contact_space.h"
 #include "core/mesh/mesh_range.h"
-#include "core/mesh/mesh_repair.h"
 #include "core/projection/euclidean_metric.h"
 #include "core/projection/phong_metric.h"
-#include "problems/shapes.h"
+#include "problems/shapes/shapes.h"
 
 namespace phongpd {
 namespace {

@@ -8,7 +8,7 @@
 #include <map>
 #include <utility>
 
-#include "problems/shapes.h"
+#include "problems/shapes/shapes.h"
 
 namespace phongpd {
 namespace {

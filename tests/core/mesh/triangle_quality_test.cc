@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "problems/shapes.h"
+#include "problems/shapes/shapes.h"
 
 namespace phongpd {
 namespace {

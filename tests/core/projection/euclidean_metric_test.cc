@@ -19,9 +19,9 @@
 #include <random>
 #include <vector>
 
+#include "core/bvh/surface_tree.h"
 #include "core/mesh/mesh_error.h"
-#include "core/mesh/surface_tree.h"
-#include "problems/shapes.h"
+#include "problems/shapes/shapes.h"
 
 namespace phongpd {
 namespace {

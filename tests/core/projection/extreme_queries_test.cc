@@ -12,10 +12,10 @@
 #include <utility>
 #include <vector>
 
-#include "core/contact_space/contact_space.h"
+#include "core/contact/contact_space.h"
 #include "core/projection/euclidean_metric.h"
 #include "core/projection/phong_metric.h"
-#include "problems/shapes.h"
+#include "problems/shapes/shapes.h"
 #include "tests/support/campaign.h"
 #include "tests/support/exact_answers.h"
 

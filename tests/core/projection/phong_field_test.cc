@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "core/mesh/mesh_error.h"
-#include "problems/shapes.h"
+#include "problems/shapes/shapes.h"
 
 namespace phongpd {
 namespace {

@@ -13,7 +13,7 @@
 #include "core/mesh/mesh_error.h"
 #include "core/projection/euclidean_metric.h"
 #include "core/projection/normal_field.h"
-#include "problems/shapes.h"
+#include "problems/shapes/shapes.h"
 
 namespace phongpd {
 namespace {

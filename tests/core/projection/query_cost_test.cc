@@ -9,7 +9,7 @@
 
 #include "core/projection/euclidean_metric.h"
 #include "core/projection/phong_metric.h"
-#include "problems/shapes.h"
+#include "problems/shapes/shapes.h"
 #include "tests/support/count_allocations.h"
 
 namespace phongpd {

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "problems/shapes.h"
+#include "problems/shapes/shapes.h"
 
 namespace phongpd {
 namespace {

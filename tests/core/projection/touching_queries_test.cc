@@ -13,12 +13,12 @@
 #include <vector>
 
 #include "constraints/motion_oracle.h"
-#include "core/contact_space/contact_space.h"
+#include "core/contact/contact_space.h"
 #include "core/projection/euclidean_metric.h"
 #include "core/projection/phong_metric.h"
 #include "planners/exact/free_space.h"
-#include "problems/random_pairs.h"
-#include "problems/shapes.h"
+#include "problems/shapes/shapes.h"
+#include "problems/studies/random_pairs.h"
 #include "tests/support/campaign.h"
 #include "tests/support/exact_answers.h"
 #include "tests/support/solid_tools.h"

@@ -11,7 +11,7 @@
 
 #include "core/projection/intrinsic_delaunay.h"
 #include "core/projection/normal_cone.h"
-#include "problems/shapes.h"
+#include "problems/shapes/shapes.h"
 
 namespace phongpd {
 namespace {

@@ -16,13 +16,13 @@
 #include <utility>
 #include <vector>
 
-#include "core/contact_space/contact_space.h"
+#include "core/contact/contact_space.h"
 #include "core/mesh/mesh_error.h"
 #include "planners/exact/free_space.h"
 #include "planners/exact/workspace.h"
-#include "problems/scene.h"
-#include "problems/scene_library.h"
-#include "problems/shapes.h"
+#include "problems/scenes/scene.h"
+#include "problems/scenes/scene_library.h"
+#include "problems/shapes/shapes.h"
 
 namespace phongpd {
 namespace {

@@ -13,13 +13,13 @@
 #include <thread>
 #include <vector>
 
-#include "core/mesh/segment_tree.h"
+#include "core/bvh/segment_tree.h"
 #include "planners/exact/exact_solution.h"
 #include "planners/exact/free_space.h"
 #include "planners/exact/path_shortening.h"
-#include "problems/scene.h"
-#include "problems/scene_library.h"
-#include "problems/shapes.h"
+#include "problems/scenes/scene.h"
+#include "problems/scenes/scene_library.h"
+#include "problems/shapes/shapes.h"
 #include "tests/support/solid_tools.h"
 
 namespace phongpd {

@@ -7,9 +7,9 @@
 
 #include <random>
 
-#include "core/mesh/segment_tree.h"
+#include "core/bvh/segment_tree.h"
 #include "planners/exact/contact_surface_planner.h"
-#include "problems/shapes.h"
+#include "problems/shapes/shapes.h"
 #include "tests/support/solid_tools.h"
 #include "tests/support/voxel_world.h"
 

@@ -9,10 +9,10 @@
 #include <random>
 
 #include "constraints/collision_oracle.h"
-#include "core/contact_space/contact_space.h"
+#include "core/bvh/segment_tree.h"
+#include "core/contact/contact_space.h"
 #include "core/mesh/mesh_error.h"
-#include "core/mesh/segment_tree.h"
-#include "problems/shapes.h"
+#include "problems/shapes/shapes.h"
 #include "tests/support/solid_tools.h"
 
 namespace phongpd {

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "core/contact_space/contact_space.h"
-#include "core/mesh/segment_tree.h"
+#include "core/bvh/segment_tree.h"
+#include "core/contact/contact_space.h"
 #include "planners/exact/contact_roadmap.h"
 #include "planners/exact/contact_surface_planner.h"
 #include "planners/exact/exact_solution.h"
@@ -18,7 +18,7 @@
 #include "planners/exact/free_space.h"
 #include "planners/exact/path_lift.h"
 #include "planners/exact/surface_graph.h"
-#include "problems/scene.h"
+#include "problems/scenes/scene.h"
 #include "tests/support/campaign.h"
 #include "tests/support/lattice_world.h"
 

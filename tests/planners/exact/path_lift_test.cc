@@ -6,12 +6,12 @@
 
 #include <vector>
 
-#include "core/mesh/segment_tree.h"
+#include "core/bvh/segment_tree.h"
 #include "core/mesh/unit_normal.h"
 #include "planners/exact/free_space.h"
 #include "planners/exact/surface_graph.h"
 #include "planners/exact/surface_sight.h"
-#include "problems/shapes.h"
+#include "problems/shapes/shapes.h"
 
 namespace phongpd {
 namespace {

@@ -9,7 +9,7 @@
 #include <limits>
 
 #include "core/mesh/mesh_error.h"
-#include "problems/shapes.h"
+#include "problems/shapes/shapes.h"
 #include "tests/support/path_problems.h"
 
 namespace phongpd {

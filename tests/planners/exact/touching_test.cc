@@ -7,13 +7,13 @@
 #include <string>
 #include <vector>
 
-#include "core/contact_space/contact_space.h"
+#include "core/contact/contact_space.h"
 #include "core/projection/euclidean_metric.h"
 #include "planners/exact/contact_roadmap.h"
 #include "planners/exact/contact_surface_planner.h"
 #include "planners/exact/free_space.h"
 #include "planners/exact/workspace.h"
-#include "problems/shapes.h"
+#include "problems/shapes/shapes.h"
 
 namespace phongpd {
 namespace {

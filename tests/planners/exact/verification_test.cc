@@ -9,15 +9,15 @@
 #include <random>
 #include <vector>
 
-#include "core/contact_space/contact_space.h"
+#include "core/contact/contact_space.h"
 #include "core/projection/euclidean_metric.h"
 #include "core/projection/phong_metric.h"
 #include "planners/exact/contact_surface_planner.h"
 #include "planners/exact/exact_solution.h"
 #include "planners/exact/free_space.h"
-#include "problems/scene.h"
-#include "problems/scene_source.h"
-#include "problems/shapes.h"
+#include "problems/scenes/scene.h"
+#include "problems/scenes/scene_source.h"
+#include "problems/shapes/shapes.h"
 #include "tests/support/campaign.h"
 #include "tests/support/solid_tools.h"
 

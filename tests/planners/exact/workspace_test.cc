@@ -5,11 +5,11 @@
 
 #include <cmath>
 
-#include "core/contact_space/contact_space.h"
-#include "core/mesh/mesh_check.h"
+#include "core/contact/contact_space.h"
 #include "core/mesh/mesh_error.h"
+#include "core/solid/mesh_check.h"
 #include "planners/exact/free_space.h"
-#include "problems/shapes.h"
+#include "problems/shapes/shapes.h"
 
 namespace phongpd {
 namespace {

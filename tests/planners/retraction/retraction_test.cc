@@ -11,9 +11,9 @@
 #include <utility>
 
 #include "constraints/collision_oracle.h"
-#include "core/contact_space/contact_space.h"
+#include "core/contact/contact_space.h"
 #include "core/mesh/mesh_error.h"
-#include "problems/shapes.h"
+#include "problems/shapes/shapes.h"
 #include "tests/support/passages.h"
 #include "tests/support/solid_tools.h"
 

@@ -11,7 +11,7 @@
 #include "planners/exact/path_resampling.h"
 #include "planners/exact/start_repair.h"
 #include "planners/trajectory/corridor_program.h"
-#include "problems/shapes.h"
+#include "problems/shapes/shapes.h"
 #include "tests/support/path_problems.h"
 
 namespace phongpd {

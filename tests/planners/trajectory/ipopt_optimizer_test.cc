@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "core/mesh/mesh_error.h"
-#include "problems/shapes.h"
+#include "problems/shapes/shapes.h"
 #include "tests/support/trap.h"
 
 namespace phongpd {

@@ -16,7 +16,7 @@
 
 #include "core/mesh/mesh_error.h"
 #include "planners/trajectory/ipopt_solve.h"
-#include "problems/shapes.h"
+#include "problems/shapes/shapes.h"
 #include "tests/support/trap.h"
 
 namespace phongpd {

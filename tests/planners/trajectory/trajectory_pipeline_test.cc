@@ -7,10 +7,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/contact_space/contact_space.h"
+#include "core/contact/contact_space.h"
 #include "core/mesh/mesh_error.h"
 #include "planners/exact/workspace.h"
-#include "problems/shapes.h"
+#include "problems/shapes/shapes.h"
 #include "tests/support/path_problems.h"
 
 namespace phongpd {

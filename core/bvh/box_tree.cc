@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/bvh/box_tree.h"
+
+#include <algorithm>
+#include <array>
+
+namespace phongpd {
+
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr int kBins = 16;
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+BoundingBox EmptyBox() {
+  return {Vector3d::Constant(kInfinity), Vector3d::Constant(-kInfinity)};
+}
+
+void Extend(const BoundingBox& other, BoundingBox* box) {
+  box->min = box->min.cwiseMin(other.min);
+  box->max = box->max.cwiseMax(other.max);
+}
+
+double HalfArea(const BoundingBox& box) {
+  if (box.IsEmpty()) return 0.0;
+  const Vector3d d = box.max - box.min;
+  return d.x() * d.y() + d.y() * d.z() + d.z() * d.x();
+}
+
+struct Range {
+  int node;
+  int first;
+  int last;  // one past the end
+  int depth;
+};
+
+// Splits order[first, last) and returns the first position of the right part.
+class Splitter {
+ public:
+  explicit Splitter(const std::vector<BoundingBox>& boxes) : boxes_(boxes) {}
+
+  int Split(const Range& range, std::vector<int>* order) const {
+    const auto begin = order->begin() + range.first;
+    const auto end = order->begin() + range.last;
+    Vector3d low = Vector3d::Constant(kInfinity);
+    Vector3d high = Vector3d::Constant(-kInfinity);
+    for (auto it = begin; it != end; ++it) {
+      low = low.cwiseMin(Middle(*it));
+      high = high.cwiseMax(Middle(*it));
+    }
+    int axis = 0;
+    const double extent = (high - low).maxCoeff(&axis);
+    if (range.depth < BoxTree::kSplitDepth && extent > 0.0) {
+      const int bin = BestBin(begin, end, low[axis], extent, axis);
+      const auto middle = std::partition(begin, end, [&](int item) {
+        return BinOf(item, low[axis], extent, axis) <= bin;
+      });
+      if (middle != begin && middle != end) {
+        return static_cast<int>(middle - order->begin());
+      }
+    }
+    const auto middle = begin + (range.last - range.first) / 2;
+    std::nth_element(begin, middle, end, [&](int a, int b) {
+      return Middle(a)[axis] < Middle(b)[axis];
+    });
+    return static_cast<int>(middle - order->begin());
+  }
+
+ private:
+  Vector3d Middle(int item) const { return boxes_[item].Center(); }
+
+  int BinOf(int item, double low, double extent, int axis) const {
+    const double position = (Middle(item)[axis] - low) / extent * kBins;
+    return std::clamp(static_cast<int>(position), 0, kBins - 1);
+  }
+
+  // The bin after which a cut is cheapest by surface area.
+  int BestBin(std::vector<int>::iterator begin, std::vector<int>::iterator end,
+              double low, double extent, int axis) const {
+    std::array<BoundingBox, kBins> box;
+    std::array<int, kBins> count{};
+    box.fill(EmptyBox());
+    for (auto it = begin; it != end; ++it) {
+      const int bin = BinOf(*it, low, extent, axis);
+      Extend(boxes_[*it], &box[bin]);
+      ++count[bin];
+    }
+    std::array<double, kBins> right_cost{};
+    BoundingBox sum = EmptyBox();
+    int items = 0;
+    for (std::size_t i = kBins - 1; i > 0; --i) {
+      Extend(box[i], &sum);
+      items += count[i];
+      right_cost[i - 1] = HalfArea(sum) * items;
+    }
+    sum = EmptyBox();
+    items = 0;
+    double best = kInfinity;
+    int best_bin = 0;
+    for (std::size_t i = 0; i + 1 < kBins; ++i) {
+      Extend(box[i], &sum);
+      items += count[i];
+      const double cost = HalfArea(sum) * items + right_cost[i];
+      if (cost < best) {
+        best = cost;
+        best_bin = static_cast<int>(i);
+      }
+    }
+    return best_bin;
+  }
+
+  const std::vector<BoundingBox>& boxes_;
+};
+
+}  // namespace
+
+BoxTree::BoxTree(const std::vector<BoundingBox>& boxes, int leaf_size) {
+  if (boxes.empty()) return;
+  order_.resize(boxes.size());
+  for (std::size_t i = 0; i < boxes.size(); ++i) {
+    order_[i] = static_cast<int>(i);
+  }
+  const Splitter splitter(boxes);
+  nodes_.emplace_back();
+  std::vector<Range> open{{0, 0, static_cast<int>(boxes.size()), 0}};
+  while (!open.empty()) {
+    const Range range = open.back();
+    open.pop_back();
+    BoundingBox box = EmptyBox();
+    for (int i = range.first; i < range.last; ++i) {
+      Extend(boxes[order_[i]], &box);
+    }
+    Node node;
+    node.min = box.min;
+    node.max = box.max;
+    if (range.last - range.first <= leaf_size) {
+      node.first = range.first;
+      node.count = range.last - range.first;
+    } else {
+      const int middle = splitter.Split(range, &order_);
+      node.first = static_cast<int>(nodes_.size());
+      nodes_.resize(nodes_.size() + 2);
+      open.push_back({node.first, range.first, middle, range.depth + 1});
+      open.push_back({node.first + 1, middle, range.last, range.depth + 1});
+    }
+    nodes_[range.node] = node;
+  }
+}
+
+}  // namespace phongpd

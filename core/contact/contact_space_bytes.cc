@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/contact/contact_space_bytes.h"
+
+#include <cstdint>
+
+#include "core/contact/byte_stream.h"
+
+namespace phongpd {
+namespace {
+
+// To be raised when the meaning of the bytes changes without their source:
+// PHONGPD_BUILDER is a digest of the sources of core/mesh and
+// core/contact_space and the version of CGAL, so that a result of other code
+// is never taken for one of this.
+constexpr std::uint32_t kFormat = 1;
+
+}  // namespace
+
+// Beside the structs, where the streams find them.
+
+template <typename Stream>
+void Fields(Stream* io, TriangleMesh& mesh) {
+  auto& [vertices, triangles] = mesh;
+  (*io)(vertices, triangles);
+}
+
+template <typename Stream>
+void Fields(Stream* io, ContactSpaceOptions& options) {
+  auto& [merge_coplanar, outer_shell_only, repair, wrap_alpha, robot_hull,
+         target_faces, max_seconds, max_mib, robot_name, obstacle_name] =
+      options;
+  (*io)(merge_coplanar, outer_shell_only, repair, wrap_alpha, robot_hull,
+        target_faces, max_seconds, max_mib, robot_name, obstacle_name);
+}
+
+template <typename Stream>
+void Fields(Stream* io, PredictedCost& cost) {
+  auto& [meetings, arrangement_faces, seconds, mib] = cost;
+  (*io)(meetings, arrangement_faces, seconds, mib);
+}
+
+template <typename Stream>
+void Fields(Stream* io, MeshReport& report) {
+  auto& [vertices, triangles, components, non_finite, bad_indices, boundary,
+         non_manifold, misoriented, degenerate, duplicate_vertices,
+         duplicate_triangles, self_intersections, joined, inverted, volume,
+         warnings] = report;
+  (*io)(vertices, triangles, components, non_finite, bad_indices, boundary,
+        non_manifold, misoriented, degenerate, duplicate_vertices,
+        duplicate_triangles, self_intersections, joined, inverted, volume,
+        warnings);
+}
+
+template <typename Stream>
+void Fields(Stream* io, RepairReport& report) {
+  auto& [duplicate, mirrored, degenerate, turned, joined, is_wrapped,
+         wrap_reason, wrap_alpha, wrap_bound, actions] = report;
+  (*io)(duplicate, mirrored, degenerate, turned, joined, is_wrapped,
+        wrap_reason, wrap_alpha, wrap_bound, actions);
+}
+
+template <typename Stream>
+void Fields(Stream* io, ApproximationStep& step) {
+  auto& [operand, kind, bound, lower_bound, is_surface_bound, is_conservative,
+         before, after, dropped_cavities] = step;
+  (*io)(operand, kind, bound, lower_bound, is_surface_bound, is_conservative,
+        before, after, dropped_cavities);
+}
+
+template <typename Stream>
+void Fields(Stream* io, Approximation& approximation) {
+  auto& [kind, bound, is_conservative, steps] = approximation;
+  (*io)(kind, bound, is_conservative, steps);
+}
+
+template <typename Stream>
+void Fields(Stream* io, ContactSpaceReport& report) {
+  auto& [triangles, vertices, closed, manifold, components, genus, cavities,
+         volume, self_intersections, degenerate, worst_quality, median_quality,
+         from_cache, seconds, peak_mib, predicted, method, convolution, faces,
+         cells, judged, canonical_frame, grid_step, approximation, robot,
+         obstacle, robot_repair, obstacle_repair, warnings] = report;
+  (*io)(triangles, vertices, closed, manifold, components, genus, cavities,
+        volume, self_intersections, degenerate, worst_quality, median_quality,
+        from_cache, seconds, peak_mib, predicted, method, convolution, faces,
+        cells, judged, canonical_frame, grid_step, approximation, robot,
+        obstacle, robot_repair, obstacle_repair, warnings);
+}
+
+template <typename Stream>
+void Fields(Stream* io, ContactSpace& space) {
+  auto& [mesh, plane, kind, report] = space;
+  (*io)(mesh, plane, kind, report);
+}
+
+namespace internal {
+
+std::string KeyBytes(const TriangleMesh& robot, const TriangleMesh& obstacle,
+                     const ContactSpaceOptions& options) {
+  ByteWriter writer;
+  writer(kFormat, std::string(PHONGPD_BUILDER), robot, obstacle, options);
+  return writer.Take();
+}
+
+std::string ToBytes(const ContactSpace& space) {
+  ByteWriter writer;
+  writer(space);
+  return writer.Take();
+}
+
+namespace {
+
+// Is it what others rely on without looking again?
+bool IsValid(const ContactSpace& space) {
+  const std::size_t triangles = space.mesh.triangles.size();
+  if (space.plane.size() != triangles || space.kind.size() != triangles) {
+    return false;
+  }
+  for (const Eigen::Vector3d& v : space.mesh.vertices) {
+    if (!v.allFinite()) return false;
+  }
+  const auto size = static_cast<int>(space.mesh.vertices.size());
+  for (const Triangle& triangle : space.mesh.triangles) {
+    for (const int v : triangle) {
+      if (v < 0 || v >= size) return false;
+    }
+  }
+  for (const ContactKind kind : space.kind) {
+    if (kind < ContactKind::kObstacleFacet || kind > ContactKind::kEdges) {
+      return false;
+    }
+  }
+  return true;
+}
+
+}  // namespace
+
+bool FromBytes(std::string_view bytes, ContactSpace* space) {
+  ByteReader reader(bytes);
+  reader(*space);
+  return reader.Done() && IsValid(*space);
+}
+
+}  // namespace internal
+}  // namespace phongpd

@@ -1,0 +1,256 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/contact/contact_space_cache.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <chrono>
+#include <cstdlib>
+#include <filesystem>
+#include <new>
+#include <string_view>
+#include <system_error>
+#include <vector>
+
+#include "core/contact/byte_stream.h"
+#include "core/contact/contact_space_bytes.h"
+#include "core/contact/content_hash.h"
+#include "core/files/descriptor.h"
+#include "core/files/temporary_file.h"
+
+namespace phongpd {
+namespace {
+
+namespace fs = std::filesystem;
+using internal::Descriptor;
+
+const char kExtension[] = ".contact-space";
+const char kTemporary[] = "unfinished-";
+// Written by a process that is gone, when this old; sooner where files can be
+// locked.
+constexpr std::chrono::hours kAbandoned(1);
+
+std::string FromEnvironment(const char* name) {
+  const char* const value = std::getenv(name);
+  return value != nullptr ? value : "";
+}
+
+// The cache's folder, if it is there and can be trusted.
+class CacheFolder {
+ public:
+  explicit CacheFolder(const std::string& path) : path_(path) { Open(); }
+
+  const Descriptor& descriptor() const { return folder_; }
+  // Why it is not used; empty: no reason, or it is not there.
+  const std::string& distrust() const { return distrust_; }
+
+  // False if it cannot be had.
+  bool MakeIfMissing() {
+    if (folder_.IsOpen() || !distrust_.empty()) return folder_.IsOpen();
+    // What is missing is made for the user alone, as XDG_CACHE_HOME asks for.
+    fs::path made;
+    for (const fs::path& part : fs::path(path_)) {
+      made /= part;
+      if (mkdir(made.c_str(), 0700) != 0 && errno != EEXIST) return false;
+    }
+    Open();
+    return folder_.IsOpen();
+  }
+
+ private:
+  void Open() {
+    folder_ = Descriptor(open(path_.c_str(), O_PATH | O_DIRECTORY | O_CLOEXEC));
+    if (!folder_.IsOpen()) return;
+    // In a shared folder anybody can put a link under the cache's name.
+    struct stat named;
+    const bool is_own_name = lstat(path_.c_str(), &named) == 0 &&
+                             (!S_ISLNK(named.st_mode) ||
+                              named.st_uid == geteuid() || named.st_uid == 0);
+    if (is_own_name && internal::IsPrivate(folder_)) return;
+    folder_.Close();
+    distrust_ = "the cache folder " + path_ +
+                " is not used: expected it to be the user's own and closed to "
+                "the writing of others (chmod go-w), or set PHONGPD_CACHE_DIR";
+  }
+
+  std::string path_;
+  Descriptor folder_;
+  std::string distrust_;
+};
+
+// One cached result: a header that says what it is the result of, then the
+// size and checksum of what follows, then that.
+class CacheFile {
+ public:
+  CacheFile(const TriangleMesh& robot, const TriangleMesh& obstacle,
+            const ContactSpaceOptions& options, const ContactSpaceCache& cache)
+      : cache_(cache), folder_(cache.directory) {
+    const internal::ContentHash key =
+        internal::HashContent(internal::KeyBytes(robot, obstacle, options));
+    name_ = internal::ToHex(key) + kExtension;
+    path_ = fs::path(cache.directory) / name_;
+    // The counts catch what little the hash may miss.
+    internal::ByteWriter writer;
+    writer(std::string("phongpd contact space"), key, robot.vertices.size(),
+           robot.triangles.size(), obstacle.vertices.size(),
+           obstacle.triangles.size());
+    header_ = writer.Take();
+  }
+
+  // What the user should know; empty: nothing.
+  const std::string& warning() const { return warning_; }
+
+  // False, with a reason to warn of if there is one, unless *space is what was
+  // kept.
+  bool Read(ContactSpace* space) {
+    warning_ = folder_.distrust();
+    if (!folder_.descriptor().IsOpen()) return false;
+    const Descriptor file(
+        openat(folder_.descriptor().number(), name_.c_str(),
+               O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));
+    struct stat status;
+    if (file.IsOpen() ? fstat(file.number(), &status) != 0 : errno != ELOOP) {
+      return false;
+    }
+    if (!file.IsOpen() || !S_ISREG(status.st_mode) ||
+        !internal::IsPrivate(file)) {
+      warning_ = "the cache file " + path_.string() +
+                 " is not used: expected a file of the user's own that nobody "
+                 "else may write to";
+      return false;
+    }
+    if (!IsContent(file, static_cast<std::uintmax_t>(status.st_size), space)) {
+      warning_ = "the cache file " + path_.string() +
+                 " was damaged and has been replaced";
+      return false;
+    }
+    futimens(file.number(), nullptr);  // now it is not the longest unused one
+    return true;
+  }
+
+  // Failures are no more than that: the next call finds no file.
+  void Write(const ContactSpace& space) {
+    try {
+      const std::string content = internal::ToBytes(space);
+      const std::string start = header_ + Seal(content);
+      if (start.size() + content.size() > cache_.max_bytes) return;
+      if (!folder_.MakeIfMissing()) return;
+      internal::TemporaryFile file(folder_.descriptor(), kTemporary);
+      file.Write(start);
+      file.Write(content);
+      // Not synced: what a power cut leaves, the checksum finds.
+      file.Publish(name_, 0600);
+      Trim();
+    } catch (const std::system_error&) {
+    } catch (const std::bad_alloc&) {
+    }
+  }
+
+ private:
+  static constexpr std::size_t kSealBytes = 3 * sizeof(std::uint64_t);
+  static std::string Seal(std::string_view content) {
+    internal::ByteWriter writer;
+    writer(static_cast<std::uint64_t>(content.size()),
+           internal::HashContent(content));
+    return writer.Take();
+  }
+
+  bool IsContent(const Descriptor& file, std::uintmax_t size,
+                 ContactSpace* space) const {
+    const std::size_t start = header_.size() + kSealBytes;
+    if (size > cache_.max_bytes || size < start) return false;
+    try {
+      const std::string bytes = internal::ReadAll(file);
+      const std::string_view all(bytes);
+      if (all.size() < start) return false;
+      const std::string_view content = all.substr(start);
+      return all.substr(0, start) == header_ + Seal(content) &&
+             internal::FromBytes(content, space);
+    } catch (const std::system_error&) {  // a disk that fails
+      return false;
+    }
+  }
+
+  // Other processes may remove files meanwhile: errors mean no more than that.
+  void Trim() const {
+    struct Entry {
+      fs::file_time_type used;
+      std::uintmax_t bytes;
+      fs::path path;
+    };
+    internal::RemoveAbandoned(cache_.directory, kTemporary);
+    std::vector<Entry> entries;
+    std::uintmax_t total = 0;
+    const auto now = fs::file_time_type::clock::now();
+    std::error_code error;
+    for (fs::directory_iterator it(cache_.directory, error), end;
+         !error && it != end; it.increment(error)) {
+      std::error_code gone;
+      const fs::file_time_type used = it->last_write_time(gone);
+      const std::uintmax_t bytes = gone ? 0 : it->file_size(gone);
+      if (gone) continue;
+      const std::string name = it->path().filename().string();
+      if (name.rfind(kTemporary, 0) == 0 && now - used > kAbandoned) {
+        fs::remove(it->path(), gone);
+        continue;
+      }
+      if (it->path().extension() != kExtension) continue;
+      entries.push_back({used, bytes, it->path()});
+      total += bytes;
+    }
+    std::sort(entries.begin(), entries.end(),
+              [](const Entry& a, const Entry& b) { return a.used < b.used; });
+    for (const Entry& entry : entries) {
+      if (total <= cache_.max_bytes) return;
+      if (entry.path == path_) continue;
+      std::error_code gone;
+      fs::remove(entry.path, gone);
+      total -= entry.bytes;
+    }
+  }
+
+  ContactSpaceCache cache_;
+  CacheFolder folder_;
+  std::string name_;
+  fs::path path_;
+  std::string header_;
+  std::string warning_;
+};
+
+}  // namespace
+
+std::string DefaultCacheDirectory() {
+  const std::string own = FromEnvironment("PHONGPD_CACHE_DIR");
+  if (!own.empty()) return own;
+  const fs::path shared = FromEnvironment("XDG_CACHE_HOME");
+  if (shared.is_absolute()) return (shared / "phongpd").string();
+  const fs::path home = FromEnvironment("HOME");
+  if (home.is_absolute()) return (home / ".cache" / "phongpd").string();
+  return "";
+}
+
+ContactSpace BuildContactSpaceCached(const TriangleMesh& robot,
+                                     const TriangleMesh& obstacle,
+                                     const ContactSpaceOptions& options,
+                                     const ContactSpaceCache& cache) {
+  if (cache.directory.empty()) {
+    return BuildContactSpace(robot, obstacle, options);
+  }
+  CacheFile file(robot, obstacle, options, cache);
+  ContactSpace space;
+  if (file.Read(&space)) {
+    space.report.from_cache = true;
+    return space;
+  }
+  space = BuildContactSpace(robot, obstacle, options);
+  file.Write(space);
+  if (!file.warning().empty()) {
+    space.report.warnings.push_back(file.warning());
+  }
+  return space;
+}
+
+}  // namespace phongpd

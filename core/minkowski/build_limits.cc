@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/minkowski/build_limits.h"
+
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <sstream>
+
+namespace phongpd::internal {
+namespace {
+
+constexpr double kNone = std::numeric_limits<double>::infinity();
+constexpr double kMib = 1024.0 * 1024.0;
+// Of what is free; the rest is for what a build leaves to its caller.
+constexpr double kFreeShare = 0.9;
+// Reading the resident set takes a microsecond, a facet not much more.
+constexpr unsigned kCallsPerLook = 64;
+
+// The first number of a file of one, or infinity.
+double NumberIn(const char* path) {
+  std::ifstream in(path);
+  double number = kNone;
+  return in >> number ? number : kNone;
+}
+
+// Pages of the whole process and of its resident set, as MiB.
+struct ProcessMib {
+  double all = 0.0, resident = 0.0;
+};
+
+ProcessMib Process() {
+  std::ifstream in("/proc/self/statm");
+  double all = 0.0, resident = 0.0;
+  in >> all >> resident;
+  const double page = static_cast<double>(sysconf(_SC_PAGESIZE)) / kMib;
+  return {all * page, resident * page};
+}
+
+}  // namespace
+
+double AvailableMib() {
+  double available = kNone;
+  std::ifstream in("/proc/meminfo");
+  std::string name, unit;
+  for (double value = 0.0; in >> name >> value; std::getline(in, unit)) {
+    if (name == "MemAvailable:") available = value / 1024.0;
+  }
+  const double most = NumberIn("/sys/fs/cgroup/memory.max");
+  const double used = NumberIn("/sys/fs/cgroup/memory.current");
+  if (std::isfinite(most) && std::isfinite(used)) {
+    available = std::min(available, (most - used) / kMib);
+  }
+  rlimit limit;
+  if (getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY) {
+    available = std::min(
+        available, static_cast<double>(limit.rlim_cur) / kMib - Process().all);
+  }
+  return std::max(0.0, available);
+}
+
+BuildLimits::BuildLimits(const ContactSpaceOptions& options)
+    : operands_(options.robot_name + " and " + options.obstacle_name),
+      max_seconds_(options.max_seconds > 0.0 ? options.max_seconds : kNone),
+      max_mib_(options.max_mib),
+      is_automatic_(!(options.max_mib > 0.0)),
+      first_mib_(Process().resident) {
+  if (is_automatic_) max_mib_ = kFreeShare * AvailableMib();
+}
+
+void BuildLimits::Predict(const PredictedCost& cost) {
+  predicted_ = cost;
+  const auto check = [this](const char* option, double limit, double predicted,
+                            const char* unit) {
+    if (predicted <= limit) return;
+    std::ostringstream text;
+    text << "expected a contact space of at most " << limit << ' ' << unit
+         << " (" << option << "), predicted " << predicted << ' ' << unit;
+    Refuse(text.str());
+  };
+  check("max_seconds", max_seconds_, cost.seconds, "s");
+  // A prediction may be several times too high: no reason to refuse what
+  // nobody has limited.
+  if (!is_automatic_) check("max_mib", max_mib_, cost.mib, "MiB");
+}
+
+void BuildLimits::Check(const char* stage) const {
+  if (calls_.fetch_add(1, std::memory_order_relaxed) % kCallsPerLook != 0) {
+    return;
+  }
+  std::ostringstream text;
+  const double seconds = stopwatch_.Seconds();
+  if (seconds > max_seconds_) {
+    text << "expected a contact space within " << max_seconds_
+         << " s (max_seconds), stopped after " << seconds << " s";
+  } else {
+    const double mib = Process().resident - first_mib_;
+    if (mib <= max_mib_) return;
+    text << "expected a contact space of at most " << max_mib_ << " MiB ("
+         << (is_automatic_ ? "nine tenths of the memory that was free"
+                           : "max_mib")
+         << "), stopped at " << mib << " MiB";
+  }
+  text << " in its " << stage << " (predicted: " << predicted_.seconds
+       << " s and " << predicted_.mib << " MiB)";
+  Refuse(text.str());
+}
+
+void BuildLimits::Refuse(const std::string& what) const {
+  throw InputError(operands_ + ": " + what +
+                   "; simplify an operand (robot_hull, target_faces) or raise "
+                   "the limit");
+}
+
+}  // namespace phongpd::internal

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <atomic>
+#include <string>
+
+#include "core/minkowski/contact_space_options.h"
+#include "core/minkowski/contact_space_report.h"
+#include "core/stopwatch.h"
+
+namespace phongpd::internal {
+
+// What this process can still take, MiB: the machine's available memory, or
+// what a control group or RLIMIT_AS leaves of it.
+double AvailableMib();
+
+// The limits of one build, asked from within its loops: what was predicted is
+// a guide, what was passed is a fact.  Time counts from construction; memory
+// is the growth of the process's resident set since then, so that other
+// threads' work counts, too.
+class BuildLimits {
+ public:
+  explicit BuildLimits(const ContactSpaceOptions& options);
+
+  // Throws InputError naming the operands, the limit and what was predicted,
+  // if that is above an explicit limit.
+  void Predict(const PredictedCost& cost);
+
+  // Throws InputError naming the operands, the limit that has been passed and
+  // the stage.  From any thread; cheap enough for every facet.
+  void Check(const char* stage) const;
+
+ private:
+  [[noreturn]] void Refuse(const std::string& what) const;
+
+  std::string operands_;
+  double max_seconds_, max_mib_;  // infinity: none
+  bool is_automatic_;             // max_mib_ is a share of what is free
+  double first_mib_;
+  Stopwatch stopwatch_;
+  PredictedCost predicted_;
+  mutable std::atomic<unsigned> calls_{0};
+};
+
+}  // namespace phongpd::internal

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+#include "core/bounds/mesh_repair.h"
+
+namespace phongpd {
+
+// What to build, how, and within which limits.
+struct ContactSpaceOptions {
+  // Join exactly coplanar triangles and re-triangulate (most slivers vanish).
+  bool merge_coplanar = true;
+  // Drop bounded free cavities: a translating robot cannot get there from
+  // outside.  Kept and reported by default.
+  bool outer_shell_only = false;
+  // What happens to operands that are no solids.
+  Repair repair = Repair::kReject;
+  // Approximations, each with a proved bound in the report; all off, in the
+  // order they are applied in (mesh_approximation.h).  Alpha wrap of both
+  // operands, a fraction of the operand's diagonal; 0: none.
+  double wrap_alpha = 0.0;
+  // The robot's convex hull in its place.
+  bool robot_hull = false;
+  // Decimate each operand to about this many triangles; 0: none.
+  std::size_t target_faces = 0;
+  // Limits of a build.  Refused at once, with the predicted figure, where that
+  // is above them, and stopped where the build itself passes them: InputError.
+  // Seconds; 0: no limit.  MiB by which the process grows; 0: nine tenths of
+  // what is free when the build begins, which only stops; infinity: no limit.
+  double max_seconds = 0.0;
+  double max_mib = 0.0;
+  // Names used in error messages, e.g. the files the operands came from.
+  std::string robot_name = "robot";
+  std::string obstacle_name = "obstacle";
+};
+
+}  // namespace phongpd

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <tuple>
+#include <vector>
+
+#include "core/bvh/box_tree.h"
+#include "core/minkowski/build_limits.h"
+#include "core/minkowski/convolution.h"
+#include "core/minkowski/exact_points.h"
+#include "core/minkowski/plane_groups.h"
+
+namespace phongpd::internal {
+
+// A segment of one plane, cut by another; both ends equal for an isolated
+// point.
+struct PlaneSegment {
+  int from, to;  // ExactPoints ids, from ≤ to
+  int cutter;    // plane group that cuts here: its plane contains the segment
+
+  bool operator<(const PlaneSegment& o) const {
+    return std::tie(from, to, cutter) < std::tie(o.from, o.to, o.cutter);
+  }
+};
+
+// Where the facets of other planes cut each plane.
+struct FacetIntersections {
+  // Id in ExactPoints of every convolution point, −1 when no facet uses it.
+  std::vector<int> point_ids;
+  // Per plane group: sorted segments with distinct ends.
+  std::vector<std::vector<PlaneSegment>> segments;
+};
+
+// Boxes of the convolution's facets in a tree.
+struct FacetIndex {
+  explicit FacetIndex(const Convolution& convolution);
+  std::vector<BoundingBox> boxes;
+  BoxTree tree;
+};
+
+// Expected number of facet pairs that IntersectFacets will cut, from an even
+// sample of the facets; what every later stage costs grows with it.
+double PredictMeetings(const Convolution& convolution,
+                       const PlaneGroups& groups, const FacetIndex& index);
+
+// Intersects all facets of different planes whose boxes meet.  Sides are
+// decided in 128-bit integers, overlaps along the common line in double with
+// an exact fallback, and only end points that survive are constructed.
+// Throws InputError when `limits` are passed.
+FacetIntersections IntersectFacets(const Convolution& convolution,
+                                   const PlaneGroups& groups,
+                                   const FacetIndex& index,
+                                   const BuildLimits& limits,
+                                   ExactPoints* points);
+
+}  // namespace phongpd::internal

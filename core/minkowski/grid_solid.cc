@@ -1,0 +1,253 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/minkowski/grid_solid.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <tuple>
+#include <utility>
+
+#include "core/mesh/mesh_error.h"
+#include "core/mesh/union_find.h"
+#include "core/minkowski/grid_repair.h"
+
+namespace phongpd::internal {
+namespace {
+
+using HalfEdge = std::pair<int, int>;
+
+GridNormal FacetNormal(const std::vector<GridPoint>& vertices,
+                       const Triangle& t) {
+  return Cross(vertices[t[1]] - vertices[t[0]],
+               vertices[t[2]] - vertices[t[0]]);
+}
+
+// Joins the ends of edges whose ends fell onto one grid point, the lower index
+// staying, and drops the facets that collapse with them; appends these to
+// *lost.
+void JoinCoincidentEnds(std::vector<Triangle>* facets,
+                        const std::vector<GridPoint>& vertices,
+                        std::vector<Triangle>* lost) {
+  UnionFind ends(vertices.size());
+  for (const Triangle& t : *facets) {
+    for (int k = 0; k < 3; ++k) {
+      const int a = t[k], b = t[(k + 1) % 3];
+      if (vertices[a] == vertices[b]) ends.Join(a, b);
+    }
+  }
+  std::vector<Triangle> kept;
+  kept.reserve(facets->size());
+  for (const Triangle& t : *facets) {
+    const Triangle u = {ends.Find(t[0]), ends.Find(t[1]), ends.Find(t[2])};
+    const bool is_collapsed = u[0] == u[1] || u[1] == u[2] || u[2] == u[0];
+    (is_collapsed ? *lost : kept).push_back(u);
+  }
+  *facets = std::move(kept);
+}
+
+// Gives the middle corner of every collinear facet to the neighbour across its
+// longest edge: (a,b,c) with b between a and c, and (a,c,d), become (a,b,d)
+// and (b,c,d).  The surface stays the same point set, but for flat pockets
+// without an edge to anything else, which are appended to *lost.
+void DissolveCollinearFacets(std::vector<Triangle>* facets,
+                             const std::vector<GridPoint>& vertices,
+                             const std::string& name,
+                             std::vector<Triangle>* lost) {
+  const auto is_flat = [&](const Triangle& t) {
+    return IsZero(FacetNormal(vertices, t));
+  };
+  if (std::none_of(facets->begin(), facets->end(), is_flat)) return;
+
+  std::multimap<HalfEdge, int> owner;
+  const auto attach = [&](int f) {
+    const Triangle& t = (*facets)[f];
+    for (int k = 0; k < 3; ++k)
+      owner.emplace(HalfEdge(t[k], t[(k + 1) % 3]), f);
+  };
+  const auto detach = [&](int f) {
+    const Triangle& t = (*facets)[f];
+    for (int k = 0; k < 3; ++k) {
+      auto range = owner.equal_range(HalfEdge(t[k], t[(k + 1) % 3]));
+      for (auto it = range.first; it != range.second; ++it) {
+        if (it->second == f) {
+          owner.erase(it);
+          break;
+        }
+      }
+    }
+  };
+  const int count = static_cast<int>(facets->size());
+  std::vector<char> alive(facets->size(), 1);
+  std::vector<int> queue;
+  for (int f = 0; f < count; ++f) {
+    attach(f);
+    if (is_flat((*facets)[f])) queue.push_back(f);
+  }
+  // Each step moves one corner off a flat facet; the bound only guards against
+  // an operand that is nothing but flat facets.
+  for (std::size_t steps = 0; !queue.empty(); ++steps) {
+    const int f = queue.back();
+    queue.pop_back();
+    if (!alive[f] || !is_flat((*facets)[f])) continue;
+    if (steps > 16 * facets->size()) {
+      throw InputError(name +
+                       ": expected facets with area, found a chain of "
+                       "zero-area triangles that cannot be dissolved; remesh "
+                       "the operand");
+    }
+    const Triangle t = (*facets)[f];
+    const auto length = [&](int k) {
+      return ToDouble(vertices[t[(k + 1) % 3]] - vertices[t[k]]).squaredNorm();
+    };
+    int longest = 0;
+    for (int k = 1; k < 3; ++k) {
+      if (length(k) > length(longest)) longest = k;
+    }
+    const int c = t[longest], a = t[(longest + 1) % 3];
+    const int b = t[(longest + 2) % 3];
+    const auto it = owner.find(HalfEdge(a, c));
+    if (it == owner.end()) {
+      throw InputError(name +
+                       ": expected a closed mesh, found a boundary edge "
+                       "beside a zero-area triangle");
+    }
+    const int g = it->second;
+    const Triangle& n = (*facets)[g];
+    const int d = n[0] != a && n[0] != c   ? n[0]
+                  : n[1] != a && n[1] != c ? n[1]
+                                           : n[2];
+    detach(f);
+    detach(g);
+    if (d == b) {  // The pair is a flat pocket: it vanishes.
+      alive[f] = alive[g] = 0;
+      lost->push_back(t);
+      continue;
+    }
+    (*facets)[f] = {a, b, d};
+    (*facets)[g] = {b, c, d};
+    for (const int h : {f, g}) {
+      attach(h);
+      if (is_flat((*facets)[h])) queue.push_back(h);
+    }
+  }
+  std::vector<Triangle> kept;
+  for (int f = 0; f < count; ++f) {
+    if (alive[f]) kept.push_back((*facets)[f]);
+  }
+  *facets = std::move(kept);
+}
+
+struct Half {
+  int a, b, apex, facet;
+};
+
+// Of half-edges back along the edge of `f` (from `begin` to `end`), that whose
+// facet the facet of `f` meets first when it is turned about the edge into the
+// solid: between the two the solid is.
+std::size_t FirstBehind(const GridSolid& solid, const Half& f,
+                        const std::vector<Half>& halves, std::size_t begin,
+                        std::size_t end) {
+  const GridPoint& a = solid.vertices[f.a];
+  const GridPoint along = solid.vertices[f.b] - a;
+  const GridNormal& n = solid.normals[f.facet];
+  const auto apex = [&](std::size_t i) {
+    return solid.vertices[halves[i].apex] - a;
+  };
+  // 0 below the facet's plane, 1 beyond the edge in it, 2 above, 3 back on f.
+  const auto part = [&](const GridPoint& u) {
+    const int side = Sign(Dot(n, u));
+    if (side != 0) return side < 0 ? 0 : 2;
+    const GridNormal m = Cross(along, u);  // parallel to n
+    const int k = LargestAxis(n);
+    return Sign(m[k]) == Sign(n[k]) ? 3 : 1;
+  };
+  std::size_t first = begin;
+  for (std::size_t i = begin + 1; i < end; ++i) {
+    const GridPoint u = apex(i), v = apex(first);
+    const int pu = part(u), pv = part(v);
+    if (pu < pv || (pu == pv && Sign(Dot(Cross(along, u), v)) < 0)) first = i;
+  }
+  return first;
+}
+
+// Pairs half-edges a→b with b→a.  After joining coincident ends a pair of
+// vertices may carry several: they are paired through the solid, as only then
+// an edge is convex where the solid is.
+void BuildEdges(GridSolid* solid, const std::string& name) {
+  std::vector<Half> halves;
+  halves.reserve(3 * solid->facets.size());
+  for (std::size_t f = 0; f < solid->facets.size(); ++f) {
+    const Triangle& t = solid->facets[f];
+    for (int k = 0; k < 3; ++k) {
+      halves.push_back(
+          {t[k], t[(k + 1) % 3], t[(k + 2) % 3], static_cast<int>(f)});
+    }
+  }
+  const auto key = [](const Half& h) {
+    return std::make_tuple(std::min(h.a, h.b), std::max(h.a, h.b), h.a > h.b,
+                           h.facet);
+  };
+  std::sort(halves.begin(), halves.end(),
+            [&key](const Half& x, const Half& y) { return key(x) < key(y); });
+  solid->neighbors.assign(solid->vertices.size(), {});
+  for (std::size_t begin = 0, end = 0; begin < halves.size(); begin = end) {
+    const int low = std::min(halves[begin].a, halves[begin].b);
+    const int high = std::max(halves[begin].a, halves[begin].b);
+    std::size_t turn = begin;  // first half-edge high→low
+    while (end < halves.size() &&
+           std::min(halves[end].a, halves[end].b) == low &&
+           std::max(halves[end].a, halves[end].b) == high) {
+      if (halves[end].a == low) turn = end + 1;
+      ++end;
+    }
+    if (turn - begin != end - turn) {
+      throw InputError(name + ": expected a closed mesh, found an edge with " +
+                       std::to_string(end - begin) + " triangles");
+    }
+    for (std::size_t k = 0; begin + k < turn; ++k) {
+      const Half& forward = halves[begin + k];
+      // Those before are taken.
+      std::swap(halves[turn + k],
+                halves[FirstBehind(*solid, forward, halves, turn + k, end)]);
+      const Half& backward = halves[turn + k];
+      solid->edges.push_back({low, high, forward.apex, backward.apex,
+                              forward.facet, backward.facet});
+    }
+    solid->neighbors[low].push_back(high);
+    solid->neighbors[high].push_back(low);
+  }
+}
+
+}  // namespace
+
+GridSolid MakeGridSolid(const std::vector<GridPoint>& vertices,
+                        const std::vector<Triangle>& triangles, bool reflect,
+                        const std::string& name, const RoundedFrom* rounded) {
+  GridSolid solid;
+  solid.vertices = vertices;
+  solid.facets = triangles;
+  if (reflect) {
+    for (GridPoint& p : solid.vertices) p = GridPoint{0, 0, 0} - p;
+    for (Triangle& t : solid.facets) std::swap(t[1], t[2]);
+  }
+  std::vector<Triangle> lost;
+  JoinCoincidentEnds(&solid.facets, solid.vertices, &lost);
+  DissolveCollinearFacets(&solid.facets, solid.vertices, name, &lost);
+  // A solid that rounding did not touch is one still.
+  if (!solid.facets.empty() && rounded != nullptr) {
+    MendRounding({*rounded, reflect, name}, std::move(lost), &solid);
+  }
+  if (solid.facets.empty()) {
+    throw InputError(name +
+                     ": expected a solid, found nothing thicker than "
+                     "the grid step (2^-38 of the larger operand)");
+  }
+  solid.normals.reserve(solid.facets.size());
+  for (const Triangle& t : solid.facets) {
+    solid.normals.push_back(FacetNormal(solid.vertices, t));
+  }
+  BuildEdges(&solid, name);
+  return solid;
+}
+
+}  // namespace phongpd::internal

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <vector>
+
+#include "core/minkowski/surface_assembly.h"
+
+namespace phongpd::internal {
+
+// The triangulated boundary of the free cells, before rounding.
+struct ExactSurface {
+  std::vector<int> vertex_points;   // ExactPoints id of each vertex
+  std::vector<Triangle> triangles;  // outward: normals point into free space
+  std::vector<int> facet;           // convolution facet of each triangle
+};
+
+// Triangulates every patch over its border vertices alone: constrained
+// Delaunay with exact predicates; triangles and convex quadrilaterals, which
+// are most patches, directly.  Throws std::logic_error when a border does not
+// bound an area, which an arrangement cannot produce.
+ExactSurface TriangulatePatches(const PatchSurface& surface,
+                                const Convolution& convolution,
+                                const ExactPoints& points);
+
+}  // namespace phongpd::internal

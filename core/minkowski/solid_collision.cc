@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/minkowski/solid_collision.h"
+
+#include <CGAL/AABB_traits.h>
+#include <CGAL/AABB_tree.h>
+#include <CGAL/AABB_triangle_primitive.h>
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+
+#include <cmath>
+#include <vector>
+
+#include "core/bvh/box_tree.h"
+#include "core/mesh/union_find.h"
+
+namespace phongpd::internal {
+namespace {
+
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using Point = Kernel::Point_3;
+using SolidFacet = Kernel::Triangle_3;
+using Primitive =
+    CGAL::AABB_triangle_primitive<Kernel,
+                                  std::vector<SolidFacet>::const_iterator>;
+using Tree = CGAL::AABB_tree<CGAL::AABB_traits<Kernel, Primitive>>;
+
+struct Solid {
+  std::vector<SolidFacet> facets;
+  std::vector<Point> seeds;  // one vertex per component
+  BoundingBox bounds;
+  BoxTree facet_tree, seed_tree;
+};
+
+Eigen::Vector3d Coordinates(const Point& p) { return {p.x(), p.y(), p.z()}; }
+
+// Grid coordinates are exact in double, and so are their boxes.
+void BuildTrees(Solid* solid) {
+  std::vector<BoundingBox> boxes;
+  boxes.reserve(solid->facets.size());
+  for (const SolidFacet& t : solid->facets) {
+    const CGAL::Bbox_3 box = t.bbox();
+    boxes.push_back({{box.xmin(), box.ymin(), box.zmin()},
+                     {box.xmax(), box.ymax(), box.zmax()}});
+  }
+  solid->facet_tree = BoxTree(boxes, 4);
+  if (!boxes.empty()) {
+    const BoxTree::Node& root = solid->facet_tree.nodes()[0];
+    solid->bounds = {root.min, root.max};
+  }
+  boxes.clear();
+  for (const Point& p : solid->seeds) {
+    boxes.push_back({Coordinates(p), Coordinates(p)});
+  }
+  solid->seed_tree = BoxTree(boxes, 4);
+}
+
+Solid MakeSolidOf(const GridSolid& grid, double sign) {
+  Solid solid;
+  UnionFind sets(grid.vertices.size());
+  const auto point = [&](int v) {
+    const Eigen::Vector3d p = sign * ToDouble(grid.vertices[v]);
+    return Point(p[0], p[1], p[2]);
+  };
+  for (const Triangle& t : grid.facets) {
+    sets.Join(t[0], t[1]);
+    sets.Join(t[0], t[2]);
+    // Reflection turned the facets; turn them back.
+    solid.facets.emplace_back(point(t[0]), point(sign > 0 ? t[1] : t[2]),
+                              point(sign > 0 ? t[2] : t[1]));
+  }
+  for (int v = 0; v < static_cast<int>(grid.vertices.size()); ++v) {
+    if (!grid.neighbors[v].empty() && sets.Find(v) == v) {
+      solid.seeds.push_back(point(v));
+    }
+  }
+  return solid;
+}
+
+// Sign of the turn a → b → p in the xy plane, with p moved by (ε, ε²): never
+// zero unless a and b coincide there.
+int Turn(const Point& a, const Point& b, const Point& p) {
+  const Kernel::Point_2 a2(a.x(), a.y()), b2(b.x(), b.y()), p2(p.x(), p.y());
+  const int turn = static_cast<int>(CGAL::orientation(a2, b2, p2));
+  if (turn != 0) return turn;
+  if (a.y() != b.y()) return a.y() > b.y() ? 1 : -1;
+  return a.x() == b.x() ? 0 : a.x() < b.x() ? 1 : -1;
+}
+
+// Winding number of the solid around p (not on its surface): signed count of
+// facets above p.  Positive means inside, also where components overlap.
+int WindingNumber(const Solid& solid, const Point& p) {
+  int winding = 0;
+  const auto is_above = [&](const Eigen::Vector3d& low,
+                            const Eigen::Vector3d& high) {
+    return high[2] >= p.z() && low[0] <= p.x() && high[0] >= p.x() &&
+           low[1] <= p.y() && high[1] >= p.y();
+  };
+  const BoxTree& tree = solid.facet_tree;
+  tree.ForEach(
+      [&](int index) {
+        return is_above(tree.nodes()[index].min, tree.nodes()[index].max);
+      },
+      [&](int position) {
+        const SolidFacet& t = solid.facets[tree.order()[position]];
+        const int turn = Turn(t[0], t[1], p);
+        // p is below the facet when it is behind its upward side.
+        if (turn != 0 && Turn(t[1], t[2], p) == turn &&
+            Turn(t[2], t[0], p) == turn &&
+            static_cast<int>(CGAL::orientation(t[0], t[1], t[2], p)) != turn) {
+          winding += turn;
+        }
+        return true;
+      });
+  return winding;
+}
+
+// Does `other` contain a seed of `solid` moved by `shift`?
+bool ContainsSeed(const Solid& other, const Solid& solid,
+                  const Kernel::Vector_3& shift) {
+  // 2^39 + 2^40 with 12 fractional bits: exact, too.
+  const Eigen::Vector3d s(shift.x(), shift.y(), shift.z());
+  const Eigen::Vector3d low = other.bounds.min - s, high = other.bounds.max - s;
+  const BoxTree& tree = solid.seed_tree;
+  bool contains = false;
+  tree.ForEach(
+      [&](int index) {
+        const BoxTree::Node& node = tree.nodes()[index];
+        return (node.max.array() >= low.array()).all() &&
+               (node.min.array() <= high.array()).all();
+      },
+      [&](int position) {
+        contains = WindingNumber(
+                       other, solid.seeds[tree.order()[position]] + shift) > 0;
+        return !contains;
+      });
+  return contains;
+}
+
+}  // namespace
+
+struct SolidCollision::Impl {
+  Solid obstacle, robot;
+  Tree tree;  // of the operand with more facets
+  bool obstacle_in_tree = true;
+};
+
+SolidCollision::SolidCollision(const GridSolid& obstacle,
+                               const GridSolid& reflected_robot)
+    : impl_(std::make_unique<Impl>()) {
+  impl_->obstacle = MakeSolidOf(obstacle, 1.0);
+  impl_->robot = MakeSolidOf(reflected_robot, -1.0);
+  BuildTrees(&impl_->obstacle);
+  BuildTrees(&impl_->robot);
+  impl_->obstacle_in_tree =
+      impl_->obstacle.facets.size() >= impl_->robot.facets.size();
+  const auto& large = impl_->obstacle_in_tree ? impl_->obstacle : impl_->robot;
+  impl_->tree.insert(large.facets.begin(), large.facets.end());
+  impl_->tree.build();
+}
+
+SolidCollision::~SolidCollision() = default;
+
+bool SolidCollision::Collide(const Eigen::Vector3d& q) const {
+  // 2^39 + 2^40 with 12 fractional bits fits a double: sums are exact.
+  Kernel::Vector_3 shift(std::round(q[0] * 0x1p12) * 0x1p-12,
+                         std::round(q[1] * 0x1p12) * 0x1p-12,
+                         std::round(q[2] * 0x1p12) * 0x1p-12);
+  if (ContainsSeed(impl_->obstacle, impl_->robot, shift) ||
+      ContainsSeed(impl_->robot, impl_->obstacle, -shift)) {
+    return true;
+  }
+  const bool robot_moves = impl_->obstacle_in_tree;
+  if (!robot_moves) shift = -shift;
+  const Solid& small = robot_moves ? impl_->robot : impl_->obstacle;
+  for (const SolidFacet& t : small.facets) {
+    if (impl_->tree.do_intersect(
+            SolidFacet(t[0] + shift, t[1] + shift, t[2] + shift))) {
+      return true;
+    }
+  }
+  return false;
+}
+
+}  // namespace phongpd::internal

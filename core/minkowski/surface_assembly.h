@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <vector>
+
+#include "core/minkowski/cells.h"
+#include "core/minkowski/plane_groups.h"
+
+namespace phongpd::internal {
+
+// The boundary of the free cells: planar patches bounded by loops.
+struct PatchSurface {
+  std::vector<int> vertex_points;  // ExactPoints id of each vertex
+  struct Patch {
+    int facet = 0;                        // convolution facet of its plane
+    std::vector<std::vector<int>> loops;  // vertices, patch on the left
+  };
+  std::vector<Patch> patches;
+};
+
+struct AssemblyOptions {
+  bool merge_coplanar = true;
+  bool outer_only = false;  // leave out the shells of cavities
+};
+
+// Takes the free sides whose opposite side is occupied.  Around an edge with
+// more than two of them they are paired across the *occupied* sectors, so
+// solids that only touch stay separate and every vertex gets one fan: the
+// result is manifold, with coincident vertices where solids touch.  Where one
+// solid touches itself along an edge both sheets would still share the two
+// ends of that edge: each sheet gets a mid-point of its own (added to
+// `points`).
+//
+// With merge_coplanar, faces of one plane that are joined by an edge form one
+// patch, and a border vertex between the same two planes on both sides is
+// dropped: both its edges lie on the planes' common line.  This removes most
+// slivers and leaves the surface the same point set.
+PatchSurface AssembleSurface(const Arrangement& arrangement,
+                             const PlaneGroups& groups, const EdgeRings& rings,
+                             const FreeCells& cells,
+                             const AssemblyOptions& options,
+                             ExactPoints* points);
+
+}  // namespace phongpd::internal

@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/solid/self_intersection.h"
+
+#include <CGAL/Bbox_3.h>
+#include <CGAL/Cartesian_converter.h>
+#include <CGAL/Exact_predicates_exact_constructions_kernel.h>
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Object.h>
+#include <CGAL/box_intersection_d.h>
+#include <CGAL/intersections.h>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <array>
+#include <utility>
+
+namespace phongpd::internal {
+namespace {
+
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using Exact = CGAL::Exact_predicates_exact_constructions_kernel;
+using Point = Kernel::Point_3;
+using Corners = std::array<Point, 3>;
+using Box = CGAL::Box_intersection_d::Box_with_info_d<double, 3, std::size_t>;
+
+constexpr std::size_t kBatch = 1 << 16;
+
+Corners CornersOf(const TriangleMesh& mesh, const Triangle& triangle) {
+  const auto point = [&mesh](int v) {
+    const Eigen::Vector3d& p = mesh.vertices[v];
+    return Point(p.x(), p.y(), p.z());
+  };
+  return {point(triangle[0]), point(triangle[1]), point(triangle[2])};
+}
+
+Kernel::Triangle_3 ToTriangle(const Corners& c) { return {c[0], c[1], c[2]}; }
+
+// Rotates the equal corners of two triangles to the front; returns how many.
+int AlignCommonCorners(Corners* a, Corners* b) {
+  int common = 0;
+  for (int i = 0; i < 3; ++i) {
+    for (int j = common; j < 3; ++j) {
+      if ((*a)[i] != (*b)[j]) continue;
+      std::swap((*a)[i], (*a)[common]);
+      std::swap((*b)[j], (*b)[common]);
+      ++common;
+      break;
+    }
+  }
+  return common;
+}
+
+// Whether both points lie on one edge of the triangle.
+bool AreOnOneEdge(const Exact::Triangle_3& triangle, const Exact::Point_3& p,
+                  const Exact::Point_3& q) {
+  for (int k = 0; k < 3; ++k) {
+    const Exact::Segment_3 edge(triangle[k], triangle[k + 1]);
+    if (edge.has_on(p) && edge.has_on(q)) return true;
+  }
+  return false;
+}
+
+// Whether the common part of two triangles, which is not empty, lies on an
+// edge of each.  Constructs it: slow, but needed for few pairs.
+bool TouchAlongEdges(const Corners& a, const Corners& b) {
+  const CGAL::Cartesian_converter<Kernel, Exact> to_exact;
+  const Exact::Triangle_3 s = to_exact(ToTriangle(a));
+  const Exact::Triangle_3 t = to_exact(ToTriangle(b));
+  const CGAL::Object part = CGAL::intersection(s, t);
+  if (const auto* p = CGAL::object_cast<Exact::Point_3>(&part)) {
+    return AreOnOneEdge(s, *p, *p) && AreOnOneEdge(t, *p, *p);
+  }
+  if (const auto* e = CGAL::object_cast<Exact::Segment_3>(&part)) {
+    return AreOnOneEdge(s, e->source(), e->target()) &&
+           AreOnOneEdge(t, e->source(), e->target());
+  }
+  return false;  // an area in a common plane
+}
+
+// Whether one of two proper triangles has a point inside the other.
+bool MeetProperly(Corners a, Corners b) {
+  switch (AlignCommonCorners(&a, &b)) {
+    case 0:
+      return CGAL::do_intersect(ToTriangle(a), ToTriangle(b)) &&
+             !TouchAlongEdges(a, b);
+    case 1:
+      // The common part is convex and holds the corner; any ray in it from
+      // there leaves one of the triangles through the opposite edge.
+      return (CGAL::do_intersect(ToTriangle(a),
+                                 Kernel::Segment_3(b[1], b[2])) ||
+              CGAL::do_intersect(ToTriangle(b),
+                                 Kernel::Segment_3(a[1], a[2]))) &&
+             !TouchAlongEdges(a, b);
+    case 2:
+      // Only triangles of one plane on the same side of the edge overlap.
+      return CGAL::orientation(a[0], a[1], a[2], b[2]) == CGAL::COPLANAR &&
+             CGAL::coplanar_orientation(a[0], a[1], a[2], b[2]) ==
+                 CGAL::POSITIVE;
+    default:
+      return true;
+  }
+}
+
+std::vector<Box> BoxesOf(const TriangleMesh& mesh,
+                         const std::vector<std::size_t>& triangles) {
+  std::vector<Box> boxes;
+  boxes.reserve(triangles.size());
+  for (const std::size_t t : triangles) {
+    const Corners c = CornersOf(mesh, mesh.triangles[t]);
+    boxes.emplace_back(c[0].bbox() + c[1].bbox() + c[2].bbox(), t);
+  }
+  return boxes;
+}
+
+// The triangles that have an area and whose own box meets `region`.
+std::vector<std::size_t> ProperTriangles(const TriangleMesh& mesh,
+                                         const BoundingBox& region) {
+  std::vector<std::size_t> proper;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const auto& [i, j, k] = mesh.triangles[t];
+    const Eigen::Vector3d& a = mesh.vertices[i];
+    const Eigen::Vector3d& b = mesh.vertices[j];
+    const Eigen::Vector3d& c = mesh.vertices[k];
+    const bool is_near =
+        (a.cwiseMin(b).cwiseMin(c).array() <= region.max.array()).all() &&
+        (a.cwiseMax(b).cwiseMax(c).array() >= region.min.array()).all();
+    if (is_near && !IsDegenerate(mesh, mesh.triangles[t])) proper.push_back(t);
+  }
+  return proper;
+}
+
+}  // namespace
+
+bool IsDegenerate(const TriangleMesh& mesh, const Triangle& triangle) {
+  const Corners c = CornersOf(mesh, triangle);
+  return CGAL::collinear(c[0], c[1], c[2]);
+}
+
+bool MeetProperly(const TriangleMesh& mesh, std::size_t s, std::size_t t) {
+  return MeetProperly(CornersOf(mesh, mesh.triangles[s]),
+                      CornersOf(mesh, mesh.triangles[t]));
+}
+
+std::size_t CountSelfIntersections(const TriangleMesh& mesh,
+                                   const std::vector<int>& labels,
+                                   std::size_t limit,
+                                   std::vector<TrianglePair>* pairs) {
+  std::vector<Box> boxes =
+      BoxesOf(mesh, ProperTriangles(mesh, ComputeBounds(mesh)));
+  // Pairs are judged in parallel, in batches that bound the memory.
+  std::vector<TrianglePair> batch;
+  std::size_t count = 0;
+  const auto judge = [&] {
+    std::vector<char> is_meeting(batch.size());
+    tbb::parallel_for(
+        tbb::blocked_range<std::size_t>(0, batch.size(), 256),
+        [&](const tbb::blocked_range<std::size_t>& range) {
+          for (std::size_t i = range.begin(); i < range.end(); ++i) {
+            is_meeting[i] = MeetProperly(mesh, batch[i].first, batch[i].second);
+          }
+        });
+    for (std::size_t i = 0; i < batch.size(); ++i) {
+      if (!is_meeting[i]) continue;
+      if (count++ < limit) pairs->push_back(batch[i]);
+    }
+    batch.clear();
+  };
+  CGAL::box_self_intersection_d(boxes.begin(), boxes.end(),
+                                [&](const Box& a, const Box& b) {
+                                  if (labels[a.info()] != labels[b.info()])
+                                    return;
+                                  batch.emplace_back(a.info(), b.info());
+                                  if (batch.size() == kBatch) judge();
+                                });
+  judge();
+  return count;
+}
+
+bool Intersect(const TriangleMesh& a, const TriangleMesh& b) {
+  std::vector<Box> boxes_a = BoxesOf(a, ProperTriangles(a, ComputeBounds(b)));
+  std::vector<Box> boxes_b = BoxesOf(b, ProperTriangles(b, ComputeBounds(a)));
+  bool found = false;
+  CGAL::box_intersection_d(
+      boxes_a.begin(), boxes_a.end(), boxes_b.begin(), boxes_b.end(),
+      [&](const Box& s, const Box& t) {
+        found = found || MeetProperly(CornersOf(a, a.triangles[s.info()]),
+                                      CornersOf(b, b.triangles[t.info()]));
+      });
+  return found;
+}
+
+}  // namespace phongpd::internal

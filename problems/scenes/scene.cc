@@ -1,0 +1,273 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "problems/scenes/scene.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <system_error>
+#include <utility>
+
+#include "core/mesh/input_file.h"
+#include "core/mesh/mesh_io.h"
+#include "core/solid/mesh_check.h"
+#include "problems/output/text.h"
+#include "problems/scenes/json_schema.h"
+#include "problems/scenes/scene_schema.h"
+#include "problems/scenes/scene_shapes.h"
+
+namespace phongpd {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+using Json = nlohmann::ordered_json;
+
+// Every reader below relies on the schema: types, counts and ranges are right.
+
+Vector3d Point(const Json& value) {
+  return {value[0].get<double>(), value[1].get<double>(),
+          value[2].get<double>()};
+}
+
+Matrix3d Rotation(const Json& value, const JsonPlace& place) {
+  if (value.is_object()) {
+    const Vector3d axis = Point(value["axis"]);
+    const double length = axis.stableNorm();
+    if (!(length > 0.0) || !std::isfinite(length)) {
+      place.Child("axis").Fail("a direction", Shortened(value["axis"]));
+    }
+    constexpr double kRadians = 3.14159265358979323846 / 180.0;
+    return Eigen::AngleAxisd(kRadians * value["degrees"].get<double>(),
+                             axis / length)
+        .toRotationMatrix();
+  }
+  Matrix3d rotation;
+  for (int i = 0; i < 9; ++i) rotation(i / 3, i % 3) = value[i].get<double>();
+  constexpr double kRounding = 1e-9;  // of 1, for matrices typed by hand
+  const double error =
+      (rotation * rotation.transpose() - Matrix3d::Identity()).norm();
+  // Written so that NaN fails it.
+  if (!(error <= kRounding && rotation.determinant() > 0.0)) {
+    place.Fail("the rows of a rotation matrix", Shortened(value));
+  }
+  return rotation;
+}
+
+// Where the mesh files of a scene are.
+struct MeshFolder {
+  std::string directory;  // that relative paths start from
+  std::string root;       // that all must lie below, if not empty
+};
+
+// The path of a mesh file that a scene names, checked against the root.
+std::string MeshPath(const Json& value, const JsonPlace& place,
+                     const MeshFolder& folder) {
+  namespace fs = std::filesystem;
+  const fs::path path = fs::path(folder.directory) / value.get<std::string>();
+  if (folder.root.empty()) return path.string();
+  std::error_code error;
+  const fs::path root = fs::canonical(folder.root, error);
+  if (error || !fs::is_directory(root, error)) {
+    throw InputError(folder.root +
+                     ": expected the root folder of mesh files, found none");
+  }
+  const fs::path resolved = fs::weakly_canonical(path, error);
+  const bool is_below =
+      !error &&
+      std::mismatch(root.begin(), root.end(), resolved.begin(), resolved.end())
+              .first == root.end();
+  if (!is_below) {
+    place.Fail("a mesh file below the root " + folder.root,
+               Shortened(value) + ", which is not; move it there");
+  }
+  // Not `path`: what has been checked is read.
+  return resolved.string();
+}
+
+// A `solid` of the schema.  Steps that a scene leaves out do no arithmetic.
+TriangleMesh Solid(const Json& value, const JsonPlace& place,
+                   const MeshFolder& folder,
+                   std::vector<std::string>* warnings) {
+  TriangleMesh mesh;
+  std::string name;
+  if (value.contains("shape")) {
+    name = place.Child("shape").Text();
+    mesh = MakeShape(value["shape"], name);
+  } else {
+    const JsonPlace mesh_place = place.Child("mesh");
+    name = mesh_place.Text();
+    const std::string path = MeshPath(value["mesh"], mesh_place, folder);
+    try {
+      mesh = ReadMesh(path);
+    } catch (const InputError& error) {
+      throw InputError(name + ": expected a mesh file, found " + error.what());
+    }
+    name += ": " + Shortened(value["mesh"]);
+  }
+  if (value.contains("rotation")) {
+    mesh = Rotated(std::move(mesh),
+                   Rotation(value["rotation"], place.Child("rotation")));
+  }
+  if (value.contains("scale")) {
+    mesh = Scaled(std::move(mesh), value["scale"].get<double>());
+  }
+  if (value.contains("position")) {
+    mesh = Translated(std::move(mesh), Point(value["position"]));
+  }
+  MeshReport report;
+  mesh = MakeSolid(mesh, name, &report);
+  for (const std::string& warning : report.warnings) {
+    warnings->push_back(name + ": " + warning);
+  }
+  return mesh;
+}
+
+std::vector<Obstacle> Obstacles(const Json& value, const JsonPlace& place,
+                                const MeshFolder& folder,
+                                std::vector<std::string>* warnings) {
+  std::set<std::string> ids;
+  std::vector<Obstacle> obstacles;
+  for (std::size_t i = 0; i < value.size(); ++i) {
+    const JsonPlace here = place.Child(i);
+    const std::string id = value[i].value("id", "obstacle" + std::to_string(i));
+    if (!ids.insert(id).second) {
+      here.Child("id").Fail("an id of its own",
+                            Shortened(Json(id)) + " a second time");
+    }
+    obstacles.push_back({id, Solid(value[i], here, folder, warnings)});
+  }
+  return obstacles;
+}
+
+BoundingBox Bounds(const Json& value, const JsonPlace& place) {
+  const BoundingBox box = {Point(value["min"]), Point(value["max"])};
+  for (int axis = 0; axis < 3; ++axis) {
+    if (box.min[axis] < box.max[axis]) continue;
+    place.Child("max")
+        .Child(static_cast<std::size_t>(axis))
+        .Fail("more than min, " + FormatDouble(box.min[axis]),
+              FormatDouble(box.max[axis]));
+  }
+  return box;
+}
+
+void Read(const Json& value, const char* key, std::string* text) {
+  if (value.contains(key)) *text = value[key].get<std::string>();
+}
+
+void Read(const Json& value, const char* key, double* number) {
+  if (value.contains(key)) *number = value[key].get<double>();
+}
+
+void Read(const Json& value, const char* key, int* number) {
+  // By way of double: 40.0 is a whole number too.
+  if (value.contains(key)) *number = static_cast<int>(value[key].get<double>());
+}
+
+void Read(const Json& value, PenetrationSettings* settings) {
+  Read(value, "metric", &settings->metric);
+  Read(value, "field", &settings->field);
+  Read(value, "smoothing_length", &settings->smoothing_length);
+  Read(value, "jacobian", &settings->jacobian);
+}
+
+IpoptValue OptionValue(const Json& value) {
+  if (value.is_string()) return value.get<std::string>();
+  const double number = value.get<double>();
+  constexpr double kLargestInt = 2147483647.0;
+  if (value.is_number_integer() && std::abs(number) <= kLargestInt) {
+    return static_cast<int>(number);
+  }
+  return number;
+}
+
+void Read(const Json& value, TrajectorySettings* settings) {
+  Read(value, "waypoints", &settings->waypoints);
+  Read(value, "samples_per_segment", &settings->samples_per_segment);
+  Read(value, "margin", &settings->margin);
+  Read(value, "max_segment_ratio", &settings->max_segment_ratio);
+  if (!value.contains("ipopt")) return;
+  for (const auto& [key, option] : value["ipopt"].items()) {
+    settings->ipopt[key] = OptionValue(option);
+  }
+}
+
+void Read(const Json& value, PlanningSettings* settings) {
+  Read(value, "planner", &settings->planner);
+  Read(value, "time_limit", &settings->time_limit);
+  Read(value, "clearance", &settings->clearance);
+}
+
+std::vector<Vector3d> Witness(const Json& value, const Scene& scene,
+                              const JsonPlace& place) {
+  std::vector<Vector3d> points;
+  for (const Json& point : value) points.push_back(Point(point));
+  if (points.front() != scene.start) {
+    place.Child(std::size_t{0}).Fail("the start", Shortened(value.front()));
+  }
+  if (points.back() != scene.goal) {
+    place.Child(points.size() - 1).Fail("the goal", Shortened(value.back()));
+  }
+  return points;
+}
+
+}  // namespace
+
+const Json& SceneSchema() {
+  // Never destroyed: that takes memory, of which there may be none by then.
+  static const Json& schema = *new Json(Json::parse(internal::kSceneSchema));
+  return schema;
+}
+
+Scene ParseScene(const Json& json, const std::string& file,
+                 const std::string& directory, const std::string& name,
+                 const std::string& root) {
+  RequireSchema(json, SceneSchema(), file);
+  const JsonPlace place = {file, ""};
+  Scene scene;
+  scene.name = json.value("name", name);
+  scene.start = Point(json["start"]);
+  scene.goal = Point(json["goal"]);
+  if (json.contains("bounds")) {
+    scene.workspace.bounds = Bounds(json["bounds"], place.Child("bounds"));
+  }
+  if (json.contains("penetration")) {
+    Read(json["penetration"], &scene.penetration);
+  }
+  if (json.contains("trajectory")) Read(json["trajectory"], &scene.trajectory);
+  if (json.contains("planning")) Read(json["planning"], &scene.planning);
+  if (json.contains("feasible")) scene.feasible = json["feasible"].get<bool>();
+  if (json.contains("witness")) {
+    scene.witness = Witness(json["witness"], scene, place.Child("witness"));
+  }
+  const MeshFolder folder = {directory, root};
+  scene.workspace.robot =
+      Solid(json["robot"], place.Child("robot"), folder, &scene.warnings);
+  scene.workspace.obstacles = Obstacles(
+      json["obstacles"], place.Child("obstacles"), folder, &scene.warnings);
+  return scene;
+}
+
+Scene ReadScene(const std::string& path, const std::string& root) {
+  const std::string text = ReadInputFile(path, "a scene file", kMaxSceneBytes);
+  const std::filesystem::path file(path);
+  return ParseScene(ParseJson(text, path), path, file.parent_path().string(),
+                    file.stem().string(), root);
+}
+
+std::string SkippedObstaclesNote(const Scene& scene) {
+  const std::vector<int> relevant = ReachableObstacles(scene.workspace);
+  const std::set<int> kept(relevant.begin(), relevant.end());
+  std::string list;
+  for (std::size_t i = 0; i < scene.workspace.obstacles.size(); ++i) {
+    if (kept.count(static_cast<int>(i)) > 0) continue;
+    list += (list.empty() ? "" : ", ") + scene.workspace.obstacles[i].id;
+  }
+  if (list.empty()) return list;
+  return "cannot be touched within the bounds, skipped: " + list;
+}
+
+}  // namespace phongpd

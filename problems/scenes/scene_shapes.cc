@@ -1,0 +1,257 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "problems/scenes/scene_shapes.h"
+
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "problems/scenes/json_schema.h"
+#include "problems/shapes/shapes.h"
+
+namespace phongpd {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// The parameters of one shape object, read by name.
+class Parameters {
+ public:
+  Parameters(const Json& shape, const std::string& where)
+      : shape_(shape), where_(where) {}
+
+  double Length(const char* key) const {
+    const Json& value = shape_[key];
+    if (!value.is_number()) Fail(key, "expected a number", value);
+    return value.get<double>();
+  }
+
+  int Count(const char* key) const {
+    const Json& value = shape_[key];
+    const double number = value.is_number() ? value.get<double>() : -1.0;
+    if (number < 0.0 || number > std::numeric_limits<int>::max() ||
+        number != std::floor(number)) {
+      Fail(key, "expected a whole number", value);
+    }
+    return static_cast<int>(number);
+  }
+
+  Eigen::Vector3d Vector(const char* key) const {
+    const Json& value = shape_[key];
+    if (!value.is_array() || value.size() != 3 || !value[0].is_number() ||
+        !value[1].is_number() || !value[2].is_number()) {
+      Fail(key, "expected three numbers", value);
+    }
+    return {value[0].get<double>(), value[1].get<double>(),
+            value[2].get<double>()};
+  }
+
+  std::vector<double> Numbers(const char* key) const {
+    const Json& value = shape_[key];
+    std::vector<double> numbers;
+    for (const Json& item : value) {
+      if (!value.is_array() || !item.is_number()) break;
+      numbers.push_back(item.get<double>());
+    }
+    if (numbers.empty() || numbers.size() != value.size()) {
+      Fail(key, "expected an array of numbers", value);
+    }
+    return numbers;
+  }
+
+  TriangleMesh Shape(const char* key) const {
+    return MakeShape(shape_[key], where_ + "/" + key);
+  }
+
+  std::vector<std::vector<std::string>> Layers(const char* key) const {
+    try {
+      return shape_[key].get<std::vector<std::vector<std::string>>>();
+    } catch (const Json::exception&) {
+      Fail(key, "expected an array of layers, each an array of texts",
+           shape_[key]);
+    }
+  }
+
+  [[noreturn]] void Fail(const char* key, const char* expected,
+                         const Json& found) const {
+    throw InputError(where_ + "/" + key + ": " + expected + ", found " +
+                     Shortened(found));
+  }
+
+  const Json& operator[](const char* key) const { return shape_[key]; }
+
+ private:
+  const Json& shape_;
+  const std::string& where_;
+};
+
+TriangleMesh MakeBall(const Parameters& p) {
+  const int triangles = p.Count("triangles");
+  int levels = 0;
+  long long size = 20;
+  while (size < triangles) {
+    size *= 4;
+    ++levels;
+  }
+  if (size != triangles) {
+    p.Fail("triangles", "expected 20, 80, 320, 1280, ... (20·4^k)",
+           p["triangles"]);
+  }
+  return MakeIcoBall(p.Length("radius"), levels);
+}
+
+struct ShapeType {
+  const char* name;
+  std::vector<const char*> keys;
+  std::function<TriangleMesh(const Parameters&)> make;
+};
+
+const std::vector<ShapeType>& ShapeTypes() {
+  using P = Parameters;
+  static const std::vector<ShapeType> types = {
+      {"ball", {"radius", "triangles"}, MakeBall},
+      {"uv_ball",
+       {"radius", "meridians", "parallels"},
+       [](const P& p) {
+         return MakeUvBall(p.Length("radius"), p.Count("meridians"),
+                           p.Count("parallels"));
+       }},
+      {"box",
+       {"size"},
+       [](const P& p) {
+         const Eigen::Vector3d half = 0.5 * p.Vector("size");
+         return MakeBox(-half, half);
+       }},
+      {"box_shell",
+       {"min", "max", "thickness"},
+       [](const P& p) {
+         return MakeBoxShell(p.Vector("min"), p.Vector("max"),
+                             p.Length("thickness"));
+       }},
+      {"cells",
+       {"x", "y", "z", "layers"},
+       [](const P& p) {
+         return MakeCells(p.Numbers("x"), p.Numbers("y"), p.Numbers("z"),
+                          p.Layers("layers"));
+       }},
+      {"cone",
+       {"radius", "height", "sides"},
+       [](const P& p) {
+         return MakeCone(p.Length("radius"), p.Length("height"),
+                         p.Count("sides"));
+       }},
+      {"axes",
+       {"half_length", "half_width"},
+       [](const P& p) {
+         return MakeAxes(p.Length("half_length"), p.Length("half_width"));
+       }},
+      {"wrench",
+       {"scale"},
+       [](const P& p) { return MakeWrench(p.Length("scale")); }},
+      {"torus",
+       {"major_radius", "minor_radius", "around", "across"},
+       [](const P& p) {
+         return MakeTorus(p.Length("major_radius"), p.Length("minor_radius"),
+                          p.Count("around"), p.Count("across"));
+       }},
+      {"l",
+       {"size", "width", "height"},
+       [](const P& p) {
+         return MakeL(p.Length("size"), p.Length("width"), p.Length("height"));
+       }},
+      {"u",
+       {"size", "wall", "height"},
+       [](const P& p) {
+         return MakeU(p.Length("size"), p.Length("wall"), p.Length("height"));
+       }},
+      {"plate_hole",
+       {"side", "thickness", "hole"},
+       [](const P& p) {
+         return MakePlateWithHole(p.Length("side"), p.Length("thickness"),
+                                  p.Length("hole"));
+       }},
+      {"plate_round_hole",
+       {"side", "thickness", "radius", "sides"},
+       [](const P& p) {
+         return MakePlateWithRoundHole(p.Length("side"), p.Length("thickness"),
+                                       p.Length("radius"), p.Count("sides"));
+       }},
+      {"prism",
+       {"radius", "height", "sides"},
+       [](const P& p) {
+         return MakePrism(p.Length("radius"), p.Length("height"),
+                          p.Count("sides"));
+       }},
+      {"vessel",
+       {"outer", "inner", "window"},
+       [](const P& p) {
+         return MakeVessel(p.Length("outer"), p.Length("inner"),
+                           p.Length("window"));
+       }},
+      {"star",
+       {"inner_radius", "outer_radius"},
+       [](const P& p) {
+         return MakeStar(p.Length("inner_radius"), p.Length("outer_radius"));
+       }},
+      {"knot",
+       {"size", "tube", "around", "across"},
+       [](const P& p) {
+         return MakeKnot(p.Length("size"), p.Length("tube"), p.Count("around"),
+                         p.Count("across"));
+       }},
+      {"scan",
+       {"of", "edge", "noise", "seed"},
+       [](const P& p) {
+         return MakeScan(p.Shape("of"), p.Length("edge"), p.Length("noise"),
+                         static_cast<std::uint64_t>(p.Count("seed")));
+       }},
+  };
+  return types;
+}
+
+const ShapeType& FindType(const Json& shape, const std::string& where) {
+  if (!shape.is_object() || !shape.contains("type") ||
+      !shape["type"].is_string()) {
+    throw InputError(where + ": expected an object with a \"type\", found " +
+                     Shortened(shape));
+  }
+  std::string known;
+  for (const ShapeType& type : ShapeTypes()) {
+    if (shape["type"] == type.name) return type;
+    known += (known.empty() ? "" : ", ") + std::string(type.name);
+  }
+  throw InputError(where + "/type: expected one of " + known + ", found " +
+                   Shortened(shape["type"]));
+}
+
+}  // namespace
+
+TriangleMesh MakeShape(const Json& shape, const std::string& where) {
+  const ShapeType& type = FindType(shape, where);
+  for (const char* key : type.keys) {
+    if (!shape.contains(key)) {
+      throw InputError(where + ": a " + type.name + " needs \"" + key +
+                       "\", found " + Shortened(shape));
+    }
+  }
+  for (const auto& [key, value] : shape.items()) {
+    bool known = key == "type";
+    for (const char* name : type.keys) known = known || key == name;
+    if (!known) {
+      throw InputError(where + ": a " + type.name + " has no parameter " +
+                       Shortened(Json(key)));
+    }
+  }
+  const Parameters parameters(shape, where);
+  try {
+    return type.make(parameters);
+  } catch (const InputError& error) {
+    const std::string message = error.what();
+    if (message.rfind(where, 0) == 0) throw;
+    throw InputError(where + ": " + message);
+  }
+}
+
+}  // namespace phongpd

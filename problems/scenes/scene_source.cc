@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "problems/scenes/scene_source.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "core/contact/byte_stream.h"
+#include "core/contact/content_hash.h"
+#include "problems/output/text.h"
+#include "problems/scenes/scene_library.h"
+
+namespace phongpd {
+
+SceneSource::SceneSource(const std::string& text, const std::string& root)
+    : text_(text), root_(root), label_(text) {
+  const std::size_t colon = text.find(':');
+  family_ = text.substr(0, colon);
+  const std::vector<SceneFamily>& families = SceneFamilies();
+  const bool is_known =
+      std::any_of(families.begin(), families.end(),
+                  [&](const SceneFamily& f) { return f.name == family_; });
+  if (!is_known) {
+    if (!std::filesystem::exists(text)) {
+      throw InputError(text +
+                       ": expected a scene file or a family with knobs, "
+                       "FAMILY:key=value,...; found neither (see phongpd "
+                       "scenes list)");
+    }
+    is_file_ = true;
+    label_ = std::filesystem::path(text).stem().string();
+    return;
+  }
+  if (colon == std::string::npos) return;
+  std::istringstream settings(text.substr(colon + 1));
+  for (std::string setting; std::getline(settings, setting, ',');) {
+    const std::size_t equals = setting.find('=');
+    if (equals == std::string::npos) {
+      throw InputError(text + ": expected key=value, found '" + setting + "'");
+    }
+    const std::string key = setting.substr(0, equals);
+    knobs_[key] = ParseDouble(setting.substr(equals + 1), text + ": " + key);
+  }
+}
+
+Scene SceneSource::Load(std::optional<std::uint64_t> seed) const {
+  if (is_file_) return ReadScene(text_, root_);
+  std::map<std::string, double> knobs = knobs_;
+  if (seed) knobs["seed"] = static_cast<double>(*seed);
+  Scene scene = ParseScene(MakeScene(family_, knobs), text_);
+  scene.name = label_;
+  return scene;
+}
+
+std::string SceneSource::Digest() const {
+  internal::ByteWriter writer;
+  writer(text_);
+  if (is_file_) {
+    std::ifstream file(text_, std::ios::binary);
+    writer(std::string(std::istreambuf_iterator<char>(file), {}));
+  }
+  const Scene scene = Load();
+  writer(scene.start, scene.goal, scene.workspace.robot.vertices,
+         scene.workspace.robot.triangles);
+  for (const Obstacle& obstacle : scene.workspace.obstacles) {
+    writer(obstacle.mesh.vertices, obstacle.mesh.triangles);
+  }
+  return internal::ToHex(internal::HashContent(writer.Take()));
+}
+
+}  // namespace phongpd

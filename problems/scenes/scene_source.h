@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+
+#include "problems/scenes/scene.h"
+
+namespace phongpd {
+
+// Where a command's scene comes from: a scene file, or a family of
+// scene_library.h with knobs, "plate:thickness=0.02,offset=1000".
+class SceneSource {
+ public:
+  // Throws InputError if `text` names neither a file nor a family, or a knob
+  // is not key=number.  The file is not read yet.  `root`: see ReadScene.
+  explicit SceneSource(const std::string& text, const std::string& root = "");
+
+  // As the user wrote it, for tables: a file without folder and extension.
+  const std::string& label() const { return label_; }
+  // A family has a scene for every seed (knob `seed`); a file is one scene.
+  bool is_family() const { return !is_file_; }
+
+  // Reads or makes it.  A seed is ignored by a file, and overrides the knob of
+  // a family.  Throws InputError like ReadScene and MakeScene.
+  Scene Load(std::optional<std::uint64_t> seed = std::nullopt) const;
+
+  // 32 hexadecimal digits that change with the scene: with its file or knobs,
+  // and with the solids they give.  Throws like Load.
+  std::string Digest() const;
+
+ private:
+  std::string text_;
+  std::string root_;
+  std::string label_;
+  bool is_file_ = false;
+  std::string family_;
+  std::map<std::string, double> knobs_;
+};
+
+}  // namespace phongpd

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "problems/studies/answer_check.h"
+
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <stdexcept>
+
+#include "core/stopwatch.h"
+
+namespace phongpd {
+namespace {
+
+std::optional<Verification> Verify(const Scene& scene, const SceneSpace& space,
+                                   const AnswerClaims& claims) {
+  const bool is_blocked = claims.start_is_blocked || claims.goal_is_blocked;
+  if (claims.path.empty() && !claims.proves_separation && !is_blocked) {
+    return std::nullopt;
+  }
+  const Verifier verifier(scene.workspace);
+  if (is_blocked) {
+    return verifier.VerifyBlocked(claims.start_is_blocked ? scene.start
+                                                          : scene.goal);
+  }
+  if (claims.path.empty()) {
+    return verifier.VerifySeparation(space.sealed_mesh, scene.start,
+                                     scene.goal);
+  }
+  if (claims.path.front() != scene.start || claims.path.back() != scene.goal) {
+    Verification elsewhere;
+    elsewhere.verdict = Verdict::kRefuted;
+    elsewhere.reason = "the path does not lead from start to goal";
+    return elsewhere;
+  }
+  return verifier.VerifyPath(claims.path);
+}
+
+}  // namespace
+
+bool AnswerCheck::Judge(const Scene& scene, const SceneSpace& space,
+                        const AnswerClaims& claims,
+                        nlohmann::ordered_json* row) {
+  const Stopwatch stopwatch;
+  const std::optional<Verification> found =
+      is_on_ ? Verify(scene, space, claims) : std::nullopt;
+  (*row)["verified"] = nullptr;
+  (*row)["seconds"]["verification"] = stopwatch.Seconds();
+  if (!found) return true;
+  (*row)["verified"] = ToString(found->verdict);
+  if (found->verdict != Verdict::kRefuted) return true;
+  for (const char* key : {"status", "status_class"}) {
+    if (row->contains(key)) (*row)[key] = "verification_failed";
+  }
+  for (const char* key :
+       {"solved", "infeasible_proved", "collision_free", "solver_path_free"}) {
+    if (row->contains(key)) (*row)[key] = false;
+  }
+  (*row)["reason"] = found->reason;
+  if (failure_.empty()) failure_ = scene.name + ": " + found->reason;
+  return false;
+}
+
+void AnswerCheck::RequireNoFailure() const {
+  if (!failure_.empty()) FailVerification(failure_);
+}
+
+void FailVerification(const std::string& what) {
+  throw std::runtime_error("verification on the original solids failed: " +
+                           what);
+}
+
+}  // namespace phongpd

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "problems/studies/motion.h"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "problems/output/text.h"
+#include "problems/pictures/gnuplot.h"
+
+namespace phongpd {
+namespace {
+
+// Colour-blind safe, and told apart by width and dash without any colour; thin
+// lines come later and stay visible on top of wide ones.
+constexpr std::array<const char*, 5> kLineStyles = {
+    "lc rgb '#F0A830' lw 5", "lc rgb '#0060B0' lw 3 dt (9,5)",
+    "lc rgb '#000000' lw 1.3", "lc rgb '#009E73' lw 1.8 dt (2,3)",
+    "lc rgb '#B04080' lw 1.8 dt (12,4,2,4)"};
+
+// Between single quotes gnuplot reads everything as it stands.
+std::string Quoted(const std::string& text) {
+  std::string quoted = "'";
+  for (const char c : text) {
+    quoted += c;
+    if (c == '\'') quoted += c;
+  }
+  return quoted + "'";
+}
+
+std::string DataBlock(const MotionTrace& trace, std::size_t number) {
+  std::string block = "$trace" + std::to_string(number) + " << EOD\n";
+  for (std::size_t i = 0; i < trace.pd.size(); ++i) {
+    const Eigen::Vector3d& pd = trace.pd[i];
+    block += std::to_string(i);
+    for (const double value : {pd.x(), pd.y(), pd.z(), pd.norm()}) {
+      block += ' ' + FormatDouble(value);
+    }
+    block += '\n';
+  }
+  return block + "EOD\n";
+}
+
+}  // namespace
+
+Eigen::Vector3d StraightMotion::At(int frame) const {
+  if (frame == 0) return from;
+  if (frame == frames - 1) return to;
+  const double t = static_cast<double>(frame) / (frames - 1);
+  return from + t * (to - from);
+}
+
+MotionTrace TraceMotion(const PenetrationMetric& metric,
+                        const StraightMotion& motion, std::string name,
+                        std::string label) {
+  MotionTrace trace;
+  trace.metric = std::move(name);
+  trace.label = std::move(label);
+  Branch branch;
+  for (int frame = 0; frame < motion.frames; ++frame) {
+    const Eigen::Vector3d q = motion.At(frame);
+    trace.results.push_back(metric.Query(q, branch));
+    trace.pd.push_back(trace.results.back().PenetrationVector(q));
+    branch = trace.results.back().branch;
+  }
+  return trace;
+}
+
+MotionSummary Summarize(const MotionTrace& trace, double jump_length) {
+  MotionSummary summary;
+  for (std::size_t i = 0; i < trace.pd.size(); ++i) {
+    const PenetrationResult& result = trace.results[i];
+    summary.inside += result.inside ? 1 : 0;
+    summary.branch_ends += result.status == QueryStatus::kBranchEnded ? 1 : 0;
+    summary.fallbacks +=
+        result.status == QueryStatus::kEuclideanFallback ? 1 : 0;
+    summary.max_magnitude = std::max(summary.max_magnitude, trace.pd[i].norm());
+    if (i == 0) continue;
+    const double change = (trace.pd[i] - trace.pd[i - 1]).norm();
+    summary.largest_change = std::max(summary.largest_change, change);
+    summary.jumps += change > jump_length ? 1 : 0;
+  }
+  return summary;
+}
+
+std::string MotionCsv(const std::vector<MotionTrace>& traces) {
+  std::string csv = "frame,metric,status,pd_x,pd_y,pd_z,magnitude\n";
+  const std::size_t frames = traces.empty() ? 0 : traces.front().pd.size();
+  for (std::size_t i = 0; i < frames; ++i) {
+    for (const MotionTrace& trace : traces) {
+      csv += std::to_string(i) + ',' + trace.metric + ',' +
+             StatusName(trace.results[i].status) + ',' +
+             FormatPoint(trace.pd[i]) + ',' + FormatDouble(trace.pd[i].norm()) +
+             '\n';
+    }
+  }
+  return csv;
+}
+
+std::string MotionPage(const std::vector<MotionTrace>& traces,
+                       const std::string& title) {
+  std::string script;
+  for (std::size_t k = 0; k < traces.size(); ++k) {
+    script += DataBlock(traces[k], k);
+  }
+  script += "set multiplot layout 4,1 title " + Quoted(title) +
+            " noenhanced font ',16' margins 0.11,0.97,0.07,0.89 "
+            "spacing 0,0.025\n"
+            "set grid lc rgb '#DDDDDD'\nset offsets 0,0,graph 0.08,graph "
+            "0.08\nset xzeroaxis lc rgb '#888888'\nset format x ''\n";
+  const std::array<const char*, 4> names = {
+      "x of PD [length]", "y of PD [length]", "z of PD [length]",
+      "|PD| [length]"};
+  for (std::size_t panel = 0; panel < names.size(); ++panel) {
+    script += std::string("set ylabel '") + names[panel] + "' offset 1,0\n";
+    script += panel == 0
+                  ? "set key at screen 0.54,0.93 center center horizontal "
+                    "samplen 5 width 2 noenhanced\n"
+                  : "unset key\n";
+    if (panel + 1 == names.size()) {
+      script += "set format x '%g'\nset xlabel 'frame'\n";
+    }
+    script += "plot ";
+    for (std::size_t k = 0; k < traces.size(); ++k) {
+      script += (k == 0 ? "$trace" : ", $trace") + std::to_string(k) +
+                " using 1:" + std::to_string(panel + 2) + " with lines " +
+                kLineStyles[k % kLineStyles.size()] + " title " +
+                Quoted(traces[k].label);
+    }
+    script += '\n';
+  }
+  return RenderSvg(script + "unset multiplot\n", 900, 1000);
+}
+
+}  // namespace phongpd

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "planners/exact/contact_surface_planner.h"
+#include "planners/ompl/ompl_planning.h"
+#include "problems/scenes/scene.h"
+#include "problems/world/scene_space.h"
+
+namespace phongpd {
+
+// "contact-surface" and OmplPlannerNames().
+std::vector<std::string> PlannerNames();
+
+// How retraction planners sample: "phong" (all branches), "phong-random",
+// "phong-novelty", "phong-warm", "phong-nearest", "euclidean" (nearest) and
+// "contact-point" (no retraction).  Throws InputError starting with `what`.
+RetractionOptions ParseRetraction(const std::string& text,
+                                  const std::string& what);
+const std::vector<std::string>& RetractionNames();
+// Throws InputError for contact-surface, which OMPL's benchmark cannot run.
+void CheckHasOmplLog(const std::string& planner);
+
+struct PlanningRun {
+  std::string planner = "contact-surface";
+  std::string retraction = "phong";  // retraction-* and prm-retraction
+  double time_limit = 5.0;           // seconds; of OMPL's planners
+  std::uint64_t seed = 1;
+  // retraction-rrt and -forest count their samples until the first node here.
+  std::function<bool(const Eigen::Vector3d& q)> in_passage;
+};
+
+// What one run gave; every path is judged exactly.
+struct PlanningResult {
+  bool solved = false;             // an exactly free path
+  bool infeasible_proved = false;  // contact-surface only
+  std::string status;
+  std::string reason;
+  OmplPlanningResult numbers;  // path, checks, ...; status is OMPL's
+};
+
+// Plans on one scene: the sealed contact space is built once for all runs.
+class PlanningStudy {
+ public:
+  // Throws InputError.
+  explicit PlanningStudy(const Scene& scene,
+                         const ContactSpaceCache& cache = {});
+
+  // Throws InputError for an unknown planner or retraction.
+  PlanningResult Run(const PlanningRun& run);
+
+  // The log of OMPL's own benchmark of one of its planners, for the
+  // statistics script that comes with OMPL.  Throws like CheckHasOmplLog.
+  std::string OmplLog(const PlanningRun& run, int runs);
+
+  // Where paths can be: the bounds, or the box around the cells of start and
+  // goal (SamplingRegion).
+  BoundingBox Region() const;
+  // The triangles of the contact space in that region, for pictures.
+  TriangleMesh VisibleMesh() const;
+
+  const Scene& scene() const { return scene_; }
+  const SceneSpace& space() const { return space_; }
+  // Of the last run by contact-surface: certificate and counts.
+  const PlanResult& exact() const { return exact_; }
+
+ private:
+  void PrepareModel();
+  OmplPlanningOptions Options(const PlanningRun& run) const;
+
+  Scene scene_;
+  SceneSpace space_;
+  std::unique_ptr<ContactSurfacePlanner> planner_;
+  std::shared_ptr<const ContactModel> model_;
+  PlanResult exact_;
+};
+
+// One row of results, with the keys the command line documents.
+nlohmann::ordered_json PlanningRow(const PlanningStudy& study,
+                                   const PlanningRun& run,
+                                   const PlanningResult& result);
+
+}  // namespace phongpd

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// phongpd compare as users run it.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "tests/problems/cli/cli_scenes.h"
+
+namespace phongpd {
+namespace {
+
+using CliCompare = CliScenes;
+
+TEST_F(CliCompare, ShardsMergeIntoTheWhole) {
+  const std::string what =
+      "compare thin_wall:thickness=0.02,triangles=80 " + Scene(TwoObstacles()) +
+      " --runs 2 --seed 3 --metrics euclidean phong@0.2 --protocols "
+      "straight-adaptive pipeline --output ";
+  ASSERT_EQ(Run(what + "whole").code, 0);
+  ASSERT_EQ(Run(what + "part0 --shard 0/2").code, 0);
+  ASSERT_EQ(Run(what + "part1 --shard 1/2").code, 0);
+  EXPECT_FALSE(std::filesystem::exists(Output("part0/summary.csv")));
+  WriteText("all.jsonl", Content(Output("part0/rows.jsonl")) +
+                             Content(Output("part1/rows.jsonl")));
+  const Outcome merged = Run("compare --rows ../all.jsonl --output merged");
+  ASSERT_EQ(merged.code, 0) << merged.err;
+
+  // Other rows come first, so they are compared as sets of lines.
+  const auto rows = [&](const std::string& folder) {
+    std::vector<std::string> lines;
+    for (const std::string& line :
+         Split(Content(Output(folder + "/rows.jsonl")), '\n')) {
+      lines.push_back(WithoutSeconds(Json::parse(line)).dump());
+    }
+    std::sort(lines.begin(), lines.end());
+    return lines;
+  };
+  EXPECT_EQ(rows("whole").size(), 2U * 2U * 3U);
+  EXPECT_EQ(rows("whole"), rows("merged"));
+  // A quoted label holds one comma; without the columns of seconds.
+  const auto cells = [&](const std::string& folder) {
+    std::vector<std::string> lines;
+    for (const std::string& line :
+         Split(Content(Output(folder + "/summary.csv")), '\n')) {
+      std::vector<std::string> columns = Split(line, ',');
+      const std::size_t shift = line[0] == '"' ? 1 : 0;
+      EXPECT_EQ(columns.size(), 16U + shift) << line;
+      columns[10 + shift] = columns[11 + shift] = "";
+      std::string text;
+      for (const std::string& column : columns) text += column + ',';
+      lines.push_back(text);
+    }
+    std::sort(lines.begin(), lines.end());
+    return lines;
+  };
+  EXPECT_EQ(cells("whole").size(), 1U + 2U * 3U);
+  EXPECT_EQ(cells("whole"), cells("merged"));
+  for (const char* name :
+       {"rows.csv", "profile-straight-adaptive-iterations.svg",
+        "profile-straight-adaptive-jacobians.svg",
+        "profile-straight-adaptive-seconds.svg"}) {
+    EXPECT_FALSE(Content(Output(std::string("merged/") + name)).empty())
+        << name;
+  }
+}
+
+// Once left the directory behind, or called bad rows a fault of its own.
+TEST_F(CliCompare, RefusesBadInputAndLeavesNoDirectory) {
+  const std::string good = "compare " + Scene(TwoObstacles());
+  const std::string rest = " --output a/b --runs 1";
+  ExpectRefused("compare" + rest, {"--rows"});
+  ExpectRefused(good + rest + " --rows ../r.jsonl", {"--rows"});
+  ExpectRefused("compare --rows ../none.jsonl" + rest, {"none.jsonl"});
+  ExpectRefused("compare none.json" + rest, {"none.json"});
+  for (const std::string shard : {"2/2", "-1/2", "1", "a/b", "0/0", "0/2x"}) {
+    ExpectRefused(good + rest + " --shard=" + shard, {"--shard", shard});
+  }
+  ExpectRefused(good + " --output a --runs 0", {"--runs"});
+  ExpectRefused(good + rest + " --seed 0", {"--seed"});
+  ExpectRefused(good + rest + " --metrics phong@x", {"--metrics", "'x'"});
+  ExpectRefused(good + rest + " --metrics phong@2", {"smoothing_length", "2"});
+  ExpectRefused(good + rest + " --protocols fast", {"--protocols", "fast"});
+  ExpectRefused(good + " ../scene.json" + rest, {"two", "twice"});
+  ExpectRefused(good + " --output ../scene.json", {"scene.json"});
+  Json scene = TwoObstacles();
+  scene["trajectory"]["ipopt"] = {{"tool", 1}};
+  ExpectRefused("compare " + Scene(scene, "tool.json") + rest, {"tool"});
+  WriteText("r.jsonl", "{\"scene\":1}\n");
+  ExpectRefused("compare --rows ../r.jsonl" + rest,
+                {"r.jsonl: row 1", "/scene", "1"});
+}
+
+}  // namespace
+}  // namespace phongpd

@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// phongpd optimize as users run it.
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "core/mesh/mesh_io.h"
+#include "problems/scenes/scene_source.h"
+#include "problems/shapes/shapes.h"
+#include "tests/problems/cli/cli_scenes.h"
+
+namespace phongpd {
+namespace {
+
+using CliOptimize = CliScenes;
+
+TEST_F(CliOptimize, WritesTheDocumentedKeys) {
+  const Json row = OneRow("optimize " + Scene(TwoObstacles()), 0);
+  for (const char* key : {"scene",
+                          "metric",
+                          "smoothing_length",
+                          "jacobian",
+                          "policy",
+                          "seed",
+                          "status",
+                          "status_class",
+                          "iterations",
+                          "restoration_iterations",
+                          "evaluations",
+                          "objective",
+                          "inf_pr",
+                          "inf_du",
+                          "collision_free",
+                          "first_crossing",
+                          "rounds",
+                          "queries",
+                          "seconds",
+                          "path",
+                          "versions"}) {
+    EXPECT_TRUE(row.contains(key)) << key;
+  }
+  for (const char* key : {"cold", "warm", "branch_ends"}) {
+    EXPECT_TRUE(row["queries"][key].is_number_integer()) << key;
+  }
+  for (const char* key : {"contact_space", "callbacks", "total"}) {
+    EXPECT_GE(row["seconds"][key].get<double>(), 0.0) << key;
+  }
+  EXPECT_EQ(row["scene"], "two");
+  EXPECT_EQ(row["metric"], "phong");
+  EXPECT_EQ(row["smoothing_length"], 0.2);
+  EXPECT_TRUE(row["first_crossing"].is_null());
+  EXPECT_EQ(row["path"].size(), 14U);
+  const Json euclidean =
+      OneRow("optimize ../scene.json --metric euclidean --seed 4", 0);
+  EXPECT_EQ(Keys(euclidean), Keys(row));
+  EXPECT_TRUE(euclidean["smoothing_length"].is_null());
+  EXPECT_EQ(euclidean["seed"], 4);
+}
+
+TEST_F(CliOptimize, ItsFreePathsAreFreeByFcl) {
+  Scene(TwoObstacles());
+  const phongpd::Scene scene = ReadScene(File("scene.json"));
+  for (const std::string flags :
+       {"", "--per-obstacle", "--start straight --metric euclidean",
+        "--start straight --polish never --start-noise 0.05 --seed 3",
+        "--polish always --routes 3"}) {
+    const Json row = OneRow("optimize ../scene.json " + flags, 0);
+    EXPECT_EQ(row["collision_free"], true) << flags;
+    EXPECT_GT(row["clearance"].get<double>(), 0.0) << flags;
+    ExpectFree(row, scene);
+  }
+  for (const std::string family : {"u_trap:triangles=80", "plate_hole"}) {
+    const Json row = OneRow("optimize " + family, 0);
+    EXPECT_EQ(row["collision_free"], true) << family;
+    ExpectFree(row, SceneSource(family).Load());
+  }
+}
+
+TEST_F(CliOptimize, RepeatsItselfToTheByteButForSeconds) {
+  ExpectRepeats("optimize " + Scene(TwoObstacles()) +
+                    " --start straight --start-noise 0.1",
+                " --no-cache");
+}
+
+TEST_F(CliOptimize, TellsWhichEndIsHowDeepInWhat) {
+  const auto expect = [&](const char* end, const Json& place,
+                          const std::string& status,
+                          const std::vector<std::string>& words) {
+    Json scene = TwoObstacles();
+    scene[end] = place;
+    for (const std::string flags :
+         {"", " --start straight", " --per-obstacle"}) {
+      const Json row = OneRow("optimize " + Scene(scene) + flags, 1);
+      EXPECT_EQ(row["status_class"], status);
+      EXPECT_EQ(row["collision_free"], false);
+      EXPECT_EQ(row["solved"], false);
+      EXPECT_TRUE(row["path"].empty());
+      for (const std::string& word : words) {
+        EXPECT_NE(row["reason"].get<std::string>().find(word),
+                  std::string::npos)
+            << word << " in " << row["reason"];
+      }
+    }
+  };
+  expect("start", {0.1, 0, 0}, "start_in_collision",
+         {"start (0.1,0,0)", "0.1 deep in wall"});
+  expect("goal", {0.6, 0.1, 0}, "goal_in_collision", {"0.25 deep in post"});
+  expect("goal", {5, 0, 0}, "goal_in_collision",
+         {"goal (5,0,0)", "not strictly within the bounds"});
+  expect("goal", {2, 0, 0}, "goal_in_collision",
+         {"not strictly within the bounds"});
+}
+
+TEST_F(CliOptimize, AnswersWhereStartIsGoal) {
+  Json scene = TwoObstacles();
+  scene["goal"] = scene["start"];
+  for (const std::string flags : {"", " --start straight", " --routes 2"}) {
+    const Json row = OneRow("optimize " + Scene(scene) + flags, 0);
+    EXPECT_EQ(row["collision_free"], true);
+    EXPECT_EQ(row["objective"], 0.0);
+    for (const Json& p : row["path"]) EXPECT_EQ(p, scene["start"]);
+  }
+}
+
+TEST_F(CliOptimize, ProvesThatThereIsNoPath) {
+  Json row = OneRow("optimize " + Scene(ShutOff()), 1);
+  EXPECT_EQ(row["status_class"], "infeasible_proved");
+  EXPECT_EQ(row["collision_free"], false);
+  row = OneRow("optimize ../scene.json --start straight --time 2", 1);
+  EXPECT_EQ(row["status_class"], "failed");
+  EXPECT_EQ(row["collision_free"], false);
+  EXPECT_TRUE(row["first_crossing"].is_object());
+  row = OneRow("optimize hole:twin=1,rotation_seed=2", 1);
+  EXPECT_EQ(row["status_class"], "infeasible_proved");
+}
+
+TEST_F(CliOptimize, KeepsWhatClearanceThereIsBelowTheMargin) {
+  Json scene = TwoObstacles();
+  scene["trajectory"]["margin"] = 0.4;  // of the diagonal; the room is less
+  const Json row = OneRow("optimize " + Scene(scene), 0);
+  EXPECT_EQ(row["collision_free"], true);
+  EXPECT_LT(row["clearance"].get<double>(), 0.4);
+  ExpectFree(row, ReadScene(File("scene.json")));
+}
+
+TEST_F(CliOptimize, ReadsMeshesBesideTheScene) {
+  WriteMesh(MakeBox({-0.1, -0.5, -0.5}, {0.1, 0.5, 0.5}), File("wall.obj"));
+  Json scene = TwoObstacles();
+  scene["obstacles"][0] = {{"id", "wall"}, {"mesh", "wall.obj"}};
+  const Json row = OneRow("optimize " + Scene(scene), 0);
+  EXPECT_EQ(row["collision_free"], true);
+  ExpectFree(row, ReadScene(File("scene.json")));
+}
+
+TEST_F(CliOptimize, RefusesBadInputBeforeItWritesOrPrints) {
+  ExpectBadRunsRefused("optimize");
+  const std::string rest = " --output o.jsonl";
+  const auto with = [&](const char* pointer, const Json& value) {
+    Json scene = TwoObstacles();
+    scene[Json::json_pointer(pointer)] = value;
+    return "optimize " + Scene(scene) + rest;
+  };
+  ExpectRefused(with("/trajectory/waypoint", 3), {"scene.json", "waypoint"});
+  ExpectRefused(with("/roboter", 3), {"scene.json", "roboter"});
+  ExpectRefused(with("/trajectory/ipopt", {{"tool", 1e-6}}), {"tool"});
+  ExpectRefused(with("/trajectory/ipopt", {{"tol", "abc"}}), {"tol", "abc"});
+  ExpectRefused(with("/trajectory/ipopt", {{"max_iter", 2.5}}),
+                {"max_iter", "2.5"});
+  const std::string good = "optimize " + Scene(TwoObstacles());
+  ExpectRefused(good + " --output ../scene.json/o.jsonl", {"scene.json"});
+  ExpectRefused("optimize no_such_family" + rest, {"no_such_family"});
+  ExpectRefused("optimize u_trap:bar=1" + rest, {"bar"});
+  ExpectRefused("optimize u_trap:wall" + rest, {"wall"});
+  ExpectRefused("optimize u_trap:wall=thick" + rest, {"wall", "thick"});
+  ExpectRefused("optimize u_trap:wall=9" + rest, {"wall"});
+  ExpectRefused(good + rest + " --smoothing-length 2", {"smoothing", "2"});
+  ExpectRefused(good + rest + " --routes 9", {"routes", "9"});
+  ExpectRefused(good + rest + " --rows -1", {"rows", "-1"});
+  ExpectRefused(good + rest + " --time 0", {"time", "0"});
+  ExpectRefused(good + rest + " --policy eager", {"--policy", "eager"});
+  ExpectRefused(good + rest + " --start-noise 0.1", {"--start-noise"});
+  ExpectRefused(good + rest + " --start straight --start-noise nan",
+                {"--start-noise", "nan"});
+}
+
+}  // namespace
+}  // namespace phongpd

@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Commands that are interrupted go on where they were when called again.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "core/mesh/mesh_io.h"
+#include "problems/shapes/shapes.h"
+#include "tests/problems/cli/cli_process.h"
+#include "tests/support/campaign.h"
+
+namespace phongpd {
+namespace {
+
+namespace fs = std::filesystem;
+using Strings = std::vector<std::string>;
+
+class CliResumeCampaign : public CliProcess {
+ protected:
+  // The whole rows of a file, without the first line of a partial one.
+  Strings Rows(const std::string& name) const {
+    const std::string text = Content(Output(name));
+    Strings rows = Split(text.substr(0, text.rfind('\n') + 1), '\n');
+    if (!rows.empty() && name.find(".partial") != std::string::npos) {
+      rows.erase(rows.begin());
+    }
+    return rows;
+  }
+  static Strings Comparable(const Strings& rows) {
+    Strings result;
+    for (const std::string& row : rows) {
+      result.push_back(WithoutSeconds(Json::parse(row)).dump());
+    }
+    return result;
+  }
+  static bool BeginsWith(const Strings& rows, const Strings& start) {
+    return rows.size() >= start.size() &&
+           std::equal(start.begin(), start.end(), rows.begin());
+  }
+
+  // Kills `command` at random moments, at most `kills` times while it has rows;
+  // they go to `rows`.  Expects what it gives in one go, `whole`, but for
+  // seconds, and every row that was ever there byte for byte.
+  void ExpectResumes(const std::string& command, const std::string& rows,
+                     const Strings& whole, std::chrono::microseconds duration,
+                     int kills) {
+    const std::string partial = rows + ".partial";
+    testing::CampaignRow report;
+    report.item = "faults";
+    report.subject = "SIGKILL and resume: " + command.substr(0, 8);
+    report.seed = 7;
+    Strings seen;
+    int code = 128 + SIGKILL;
+    for (int i = 0; i < 20 * kills && kills > 0 && code != 0; ++i) {
+      // Later and later: the machine may be busier than when this was timed.
+      code = Interrupt(command, RandomTime(duration * (10 + i) / 20), SIGKILL);
+      if (code == 0) break;
+      ASSERT_EQ(code, 128 + SIGKILL) << Content(folder_ / "err");
+      if (!fs::exists(Output(partial))) continue;
+      const Strings now = Rows(partial);
+      EXPECT_TRUE(BeginsWith(now, seen)) << "rows were lost or changed";
+      if (!now.empty()) --kills;
+      ++report.cases;
+      seen = now;
+    }
+    EXPECT_FALSE(seen.empty()) << "never killed while there were rows";
+    if (code != 0) {
+      EXPECT_FALSE(fs::exists(Output(rows)));
+      const Outcome outcome = Run(command);
+      EXPECT_EQ(outcome.code, 0) << outcome.err;
+      EXPECT_NE(
+          outcome.err.find("going on after " + std::to_string(seen.size()) +
+                           " of " + std::to_string(whole.size())),
+          std::string::npos)
+          << outcome.err;
+    }
+    const Strings all = Rows(rows);
+    EXPECT_TRUE(BeginsWith(all, seen)) << "rows were done again";
+    EXPECT_EQ(Comparable(all), Comparable(whole));
+    report.failures = HasFailure() ? 1 : 0;
+    testing::ReportCampaign(report);
+  }
+};
+
+TEST_F(CliResumeCampaign, OptimizeGoesOnAfterSigkill) {
+  const std::string command =
+      "optimize " + Scene(TwoObstacles()) +
+      " --runs 6 --seed 5 --start straight --start-noise 0.1 --html o.html "
+      "--svg o.svg --output o.jsonl";
+  const auto duration = Duration(command);
+  const Strings whole = Rows("o.jsonl");
+  ASSERT_EQ(whole.size(), 6U);
+  const std::string page = Content(Output("o.html"));
+  const std::string picture = Content(Output("o.svg"));
+  const std::string out = Content(folder_ / "out");
+  for (const std::string& name : Names()) fs::remove(Output(name));
+  ExpectResumes(command, "o.jsonl", whole, duration,
+                static_cast<int>(testing::CampaignCases(3, 30)));
+  EXPECT_EQ(Content(Output("o.html")), page);
+  EXPECT_EQ(Content(Output("o.svg")), picture);
+  EXPECT_EQ(Split(Content(folder_ / "out"), '\n').size(),
+            Split(out, '\n').size());
+  EXPECT_EQ(Names(), (std::set<std::string>{"o.html", "o.jsonl", "o.svg"}));
+}
+
+TEST_F(CliResumeCampaign, PlanGoesOnAfterSigkill) {
+  const std::string command = "plan " + Scene(TwoObstacles()) +
+                              " --planner rrt-connect --runs 300 --time 5 "
+                              "--html o.html --output o.jsonl";
+  const auto duration = Duration(command);
+  const Strings whole = Rows("o.jsonl");
+  ASSERT_EQ(whole.size(), 300U);
+  const std::string page = Content(Output("o.html"));
+  for (const std::string& name : Names()) fs::remove(Output(name));
+  ExpectResumes(command, "o.jsonl", whole, duration,
+                static_cast<int>(testing::CampaignCases(3, 30)));
+  EXPECT_EQ(Content(Output("o.html")), page);
+  EXPECT_EQ(Names(), (std::set<std::string>{"o.html", "o.jsonl"}));
+}
+
+TEST_F(CliResumeCampaign, CompareGoesOnAfterSigkill) {
+  const std::string command =
+      "compare u_trap:triangles=80 " + Scene(TwoObstacles()) +
+      " --runs 2 --seed 3 --metrics euclidean phong@0.2 --protocols "
+      "straight-adaptive --output d";
+  const auto duration = Duration(command);
+  const Strings whole = Rows("d/rows.jsonl");
+  ASSERT_EQ(whole.size(), 8U);
+  const std::set<std::string> names = Names();
+  fs::remove_all(Output("d"));
+  ExpectResumes(command, "d/rows.jsonl", whole, duration,
+                static_cast<int>(testing::CampaignCases(3, 30)));
+  EXPECT_EQ(Names(), names);
+}
+
+// Every way to leave rows of two commands in one file.
+TEST_F(CliResumeCampaign, AnotherCommandIsRefusedWithWhatDiffers) {
+  WriteMesh(MakeBox({-0.1, -0.5, -0.5}, {0.1, 0.5, 0.5}), File("wall.off"));
+  Json scene = TwoObstacles();
+  scene["obstacles"][0] = {{"id", "wall"}, {"mesh", "wall.off"}};
+  const std::string command = "optimize " + Scene(scene) +
+                              " --start straight --polish never --output "
+                              "o.jsonl --runs 500";
+  const pid_t process = Start(command + " --seed 1");
+  Await("o.jsonl.partial", 3000);
+  // While it runs, any second process is refused.
+  Outcome second = Run(command + " --seed 1");
+  EXPECT_EQ(second.code, 2);
+  EXPECT_NE(second.err.find("another process"), std::string::npos)
+      << second.err;
+  kill(process, SIGTERM);
+  EXPECT_EQ(Wait(process), 128 + SIGTERM);
+  EXPECT_EQ(Names(), std::set<std::string>{"o.jsonl.partial"});
+  const std::string kept = Content(Output("o.jsonl.partial"));
+
+  const auto expect_refused = [&](const std::string& other,
+                                  const std::string& word) {
+    const Outcome outcome = Run(other);
+    EXPECT_EQ(outcome.code, 2) << other;
+    EXPECT_TRUE(outcome.out.empty()) << outcome.out;
+    for (const std::string& part : {word, std::string("another command")}) {
+      EXPECT_NE(outcome.err.find(part), std::string::npos) << outcome.err;
+    }
+    EXPECT_EQ(Content(Output("o.jsonl.partial")), kept);
+    EXPECT_EQ(Names(), std::set<std::string>{"o.jsonl.partial"});
+  };
+  expect_refused(command + " --seed 2", "--seed [\"1\"] there, [\"2\"] here");
+  expect_refused(command + " --seed 1 --metric euclidean", "--metric");
+  expect_refused(command + " --seed 1 --no-line", "--no-line");
+  expect_refused("optimize u_axis --output o.jsonl", "scene");
+  expect_refused("plan ../scene.json --output o.jsonl", "command");
+  WriteMesh(MakeBox({-0.1, -0.5, -0.5}, {0.1, 0.5, 0.6}), File("wall.off"));
+  expect_refused(command + " --seed 1", "contents of scenes");
+  WriteMesh(MakeBox({-0.1, -0.5, -0.5}, {0.1, 0.5, 0.5}), File("wall.off"));
+  scene["trajectory"]["margin"] = 0.02;
+  Scene(scene);
+  expect_refused(command + " --seed 1", "contents of scenes");
+}
+
+TEST_F(CliResumeCampaign, ATornRowIsDoneAgain) {
+  const std::string command =
+      "plan " + Scene(TwoObstacles()) +
+      " --planner rrt-connect --output o.jsonl --seed 5 --runs ";
+  ASSERT_EQ(Run(command + "3").code, 0);
+  const Strings whole = Rows("o.jsonl");
+  const pid_t process = Start(command + "100000");
+  Await("o.jsonl.partial", 6000);
+  kill(process, SIGKILL);
+  Wait(process);
+  // As before, the finished output stays until a new one is finished.
+  EXPECT_EQ(Rows("o.jsonl"), whole);
+  std::string text = Content(Output("o.jsonl.partial"));
+  text.replace(text.find("100000"), 6, "3");
+  std::size_t end = 0;
+  for (int line = 0; line < 3; ++line) end = text.find('\n', end) + 1;
+  ASSERT_GT(end, 0U);
+  WriteText("run/o.jsonl.partial", text.substr(0, end + 40));
+  const Strings kept = Rows("o.jsonl.partial");
+  ASSERT_EQ(kept.size(), 2U);
+  const Outcome outcome = Run(command + "3");
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  const Strings rows = Rows("o.jsonl");
+  ASSERT_EQ(rows.size(), 3U);
+  EXPECT_TRUE(BeginsWith(rows, kept));
+  EXPECT_EQ(Json::parse(rows[2])["seed"], 7);
+  EXPECT_FALSE(fs::exists(Output("o.jsonl.partial")));
+}
+
+}  // namespace
+}  // namespace phongpd

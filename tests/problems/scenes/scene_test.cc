@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "problems/scenes/scene.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "core/mesh/mesh_io.h"
+#include "problems/shapes/shapes.h"
+
+namespace phongpd {
+namespace {
+
+using Eigen::Vector3d;
+using Json = nlohmann::ordered_json;
+
+Json Box(double size) {
+  return {{"type", "box"}, {"size", {size, size, size}}};
+}
+
+Json SmallScene() {
+  return {{"robot", {{"shape", Box(1)}}},
+          {"obstacles", Json::array({{{"shape", Box(2)}}})},
+          {"start", {-3, 0, 0}},
+          {"goal", {3, 0, 0}}};
+}
+
+Json FullScene() {
+  Json scene = SmallScene();
+  scene["name"] = "full";
+  scene["obstacles"][0]["id"] = "cube";
+  scene["bounds"] = {{"min", {-5, -5, -5}}, {"max", {5, 5, 5}}};
+  scene["penetration"] = {{"metric", "euclidean"},
+                          {"field", "tangent-plane"},
+                          {"smoothing_length", 0.25},
+                          {"jacobian", "exact"}};
+  scene["trajectory"] = {
+      {"waypoints", 12.0},
+      {"samples_per_segment", 3},
+      {"margin", 0.02},
+      {"max_segment_ratio", 2},
+      {"ipopt",
+       {{"tol", 1e-6}, {"max_iter", 50}, {"mu_strategy", "adaptive"}}}};
+  scene["planning"] = {
+      {"planner", "prm"}, {"time_limit", 1}, {"clearance", 0.5}};
+  scene["feasible"] = true;
+  scene["witness"] = {{-3, 0, 0}, {0, 0, 4}, {3, 0, 0}};
+  return scene;
+}
+
+TEST(Scene, NeedsOnlySolidsStartAndGoal) {
+  const Scene scene = ParseScene(SmallScene(), "s.json", ".", "small");
+  EXPECT_EQ(scene.name, "small");
+  EXPECT_EQ(scene.workspace.obstacles.at(0).id, "obstacle0");
+  EXPECT_TRUE(scene.workspace.bounds.IsEmpty());
+  EXPECT_EQ(scene.start, Vector3d(-3, 0, 0));
+  EXPECT_EQ(scene.goal, Vector3d(3, 0, 0));
+  EXPECT_FALSE(scene.feasible.has_value());
+  EXPECT_TRUE(scene.witness.empty());
+  EXPECT_TRUE(scene.warnings.empty());
+  EXPECT_EQ(ComputeBounds(scene.workspace.robot).max, Vector3d(0.5, 0.5, 0.5));
+}
+
+TEST(Scene, ReadsEverySetting) {
+  const Scene scene = ParseScene(FullScene(), "s.json");
+  EXPECT_EQ(scene.name, "full");
+  EXPECT_EQ(scene.workspace.obstacles.at(0).id, "cube");
+  EXPECT_EQ(scene.workspace.bounds.min, Vector3d(-5, -5, -5));
+  EXPECT_EQ(scene.workspace.bounds.max, Vector3d(5, 5, 5));
+  EXPECT_EQ(scene.penetration.metric, "euclidean");
+  EXPECT_EQ(scene.penetration.field, "tangent-plane");
+  EXPECT_EQ(scene.penetration.smoothing_length, 0.25);
+  EXPECT_EQ(scene.penetration.jacobian, "exact");
+  EXPECT_EQ(scene.trajectory.waypoints, 12);
+  EXPECT_EQ(scene.trajectory.samples_per_segment, 3);
+  EXPECT_EQ(scene.trajectory.margin, 0.02);
+  EXPECT_EQ(scene.trajectory.max_segment_ratio, 2.0);
+  EXPECT_EQ(scene.trajectory.ipopt.at("tol"), IpoptValue(1e-6));
+  EXPECT_EQ(scene.trajectory.ipopt.at("max_iter"), IpoptValue(50));
+  EXPECT_EQ(scene.trajectory.ipopt.at("mu_strategy"),
+            IpoptValue(std::string("adaptive")));
+  EXPECT_EQ(scene.planning.planner, "prm");
+  EXPECT_EQ(scene.planning.time_limit, 1.0);
+  EXPECT_EQ(scene.planning.clearance, 0.5);
+  EXPECT_EQ(scene.feasible, true);
+  EXPECT_EQ(scene.witness.at(1), Vector3d(0, 0, 4));
+}
+
+// The schema's defaults are what a reader of the file sees; the structs' are
+// what happens.
+TEST(Scene, SchemaAndStructsHaveTheSameDefaults) {
+  Json written = SmallScene();
+  for (const char* section : {"penetration", "trajectory", "planning"}) {
+    const Json& known = SceneSchema()["properties"][section]["properties"];
+    for (const auto& [key, schema] : known.items()) {
+      if (key != "ipopt") written[section][key] = schema.at("default");
+    }
+  }
+  const Scene a = ParseScene(written, "a"), b = ParseScene(SmallScene(), "b");
+  EXPECT_EQ(a.penetration.metric, b.penetration.metric);
+  EXPECT_EQ(a.penetration.field, b.penetration.field);
+  EXPECT_EQ(a.penetration.smoothing_length, b.penetration.smoothing_length);
+  EXPECT_EQ(a.penetration.jacobian, b.penetration.jacobian);
+  EXPECT_EQ(a.trajectory.waypoints, b.trajectory.waypoints);
+  EXPECT_EQ(a.trajectory.samples_per_segment, b.trajectory.samples_per_segment);
+  EXPECT_EQ(a.trajectory.margin, b.trajectory.margin);
+  EXPECT_EQ(a.trajectory.max_segment_ratio, b.trajectory.max_segment_ratio);
+  EXPECT_EQ(a.planning.planner, b.planning.planner);
+  EXPECT_EQ(a.planning.time_limit, b.planning.time_limit);
+  EXPECT_EQ(a.planning.clearance, b.planning.clearance);
+}
+
+TEST(Scene, PlacesSolidsByRotationThenScaleThenPosition) {
+  Json json = SmallScene();
+  Json& obstacle = json["obstacles"][0];
+  obstacle["shape"]["size"] = {2, 4, 6};
+  obstacle["scale"] = 0.5;
+  obstacle["position"] = {10, 20, 30};
+  obstacle["rotation"] = {0, -1, 0, 1, 0, 0, 0, 0, 1};  // x to y
+  const BoundingBox turned =
+      ComputeBounds(ParseScene(json, "s.json").workspace.obstacles[0].mesh);
+  EXPECT_EQ(turned.min, Vector3d(9, 19.5, 28.5));
+  EXPECT_EQ(turned.max, Vector3d(11, 20.5, 31.5));
+  obstacle["rotation"] = {{"axis", {0, 0, 7}}, {"degrees", 90}};
+  const BoundingBox same =
+      ComputeBounds(ParseScene(json, "s.json").workspace.obstacles[0].mesh);
+  EXPECT_LT((same.min - turned.min).norm() + (same.max - turned.max).norm(),
+            1e-14);
+}
+
+TEST(Scene, ReadsMeshesBesideTheFileAndComments) {
+  const std::filesystem::path folder =
+      std::filesystem::path(testing::TempDir()) / "phongpd_scene_test";
+  std::filesystem::create_directories(folder / "meshes");
+  WriteMesh(MakeBox({-1, -1, -1}, {1, 1, 1}),
+            (folder / "meshes" / "cube.off").string());
+  Json json = SmallScene();
+  json["obstacles"][0] = {{"mesh", "meshes/cube.off"}};
+  const std::string path = (folder / "by_mesh.json").string();
+  std::ofstream(path) << "// a comment\n" << json.dump() << "/* another */\n";
+  const Scene scene = ReadScene(path);
+  EXPECT_EQ(scene.name, "by_mesh");
+  EXPECT_EQ(ComputeBounds(scene.workspace.obstacles.at(0).mesh).max,
+            Vector3d(1, 1, 1));
+
+  std::ofstream(path) << "{\"robot\": 1, }";
+  std::string what;
+  try {
+    ReadScene(path);
+  } catch (const InputError& error) {
+    what = error.what();
+  }
+  EXPECT_EQ(
+      what.rfind(path + ": expected JSON, found a parse error at line 1", 0),
+      0U)
+      << what;
+  EXPECT_THROW(ReadScene((folder / "none.json").string()), InputError);
+  EXPECT_THROW(ReadScene(folder.string()), InputError);
+  std::filesystem::remove_all(folder);
+}
+
+TEST(Scene, KnowsWhichObstaclesCanTouch) {
+  Json json = FullScene();
+  Json& obstacles = json["obstacles"];
+  // C_obj of a cube of side 2 at x reaches from x − 1.5; the bounds end at 5.
+  for (const double x : {6.5, 6.75, -6.75}) {
+    obstacles.push_back({{"id", "at " + std::to_string(x)},
+                         {"shape", Box(2)},
+                         {"position", {x, 0, 0}}});
+  }
+  const Scene scene = ParseScene(json, "s.json");
+  EXPECT_EQ(ReachableObstacles(scene.workspace), (std::vector<int>{0, 1}));
+  EXPECT_EQ(SkippedObstaclesNote(scene),
+            "cannot be touched within the bounds, skipped: at 6.750000, "
+            "at -6.750000");
+  json.erase("bounds");
+  EXPECT_EQ(ReachableObstacles(ParseScene(json, "s.json").workspace).size(),
+            4U);
+  EXPECT_EQ(SkippedObstaclesNote(ParseScene(json, "s.json")), "");
+}
+
+}  // namespace
+}  // namespace phongpd
