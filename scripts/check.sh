@@ -4,7 +4,7 @@
 # runs after them, full takes everything; a section named by itself is the whole
 # of it unless SLICE=quick.  Installs the tools it needs, only those missing.
 #   format       clang-format over every source
-#   options      every switch configures
+#   options      every switch configures; outside projects take each way in
 #   clang        clang compiles the tree, warnings as errors
 #   cppcheck     no report but those .cppcheck-suppressions explains
 #   tidy         clang-tidy, by .clang-tidy
@@ -45,12 +45,12 @@ readonly threaded=(
 
 say() { printf 'check: %s\n' "$*"; }
 whole() { [[ $SLICE == full ]]; }
-sources() { find "${folders[@]}" tests results -name '*.h' -o -name '*.cc'; }
+sources() { find "${folders[@]}" tests results examples -name '*.h' -o -name '*.cc'; }
 
 # Runs the tests that are built there: those outside the slice are not.
 run_tests() { # PRESET [PATTERN to leave out, too]
   ctest --preset "$1" --parallel 2 --no-tests=error \
-    -E "_NOT_BUILT|^Layering\$|^InstalledPackage\$|^Refuses_${2:+|$2}"
+    -E "_NOT_BUILT|^Layering\$|^Example\\.|^InstalledPackage\$|^Refuses_${2:+|$2}"
 }
 
 build_tests() { # PRESET PROGRAMS...: everything in full
@@ -75,26 +75,55 @@ check_format() {
 }
 
 check_options() {
-  local log=build/check/options.log
+  local log=build/check/options.log part
+  local parts=(CORE CONSTRAINTS ORACLE PLANNERS IPOPT OMPL PROBLEMS PROGRAM
+    EXAMPLES TESTS RESULTS)
   configures() { # MESSAGE OPTION...
     say "options ${*:2}"
     rm -rf build/check/options
     cmake -S . -B build/check/options "${@:2}" >"$log" 2>&1 &&
-      grep -q -- "$1" "$log" || { cat "$log"; return 1; }
+      grep -q "Generating done" "$log" && grep -q -- "$1" "$log" ||
+      { cat "$log"; say "options: expected '$1'"; return 1; }
   }
-  configures "Generating done" -DPHONGPD_BUILD_PROBLEMS=OFF
-  configures "Generating done" -DPHONGPD_BUILD_TESTS=OFF \
-    -DPHONGPD_BUILD_RESULTS=OFF
-  configures "need the component ompl" -DPHONGPD_BUILD_OMPL=OFF
-  configures "need the component ompl" -DCMAKE_DISABLE_FIND_PACKAGE_ompl=ON
-  PKG_CONFIG_LIBDIR=/nonexistent configures "need the component ipopt"
+  # What is switched off, and what is said of that which stands on it.
+  local -A above=([CORE]=phongpd::constraints [CONSTRAINTS]=phongpd::planners
+    [ORACLE]=phongpd::problems [PLANNERS]=phongpd::ipopt
+    [IPOPT]=phongpd::problems [OMPL]=phongpd::problems
+    [PROBLEMS]="the program" [PROGRAM]="the tests")
+  local none=()
+  for part in "${parts[@]}"; do
+    configures "${above[$part]:+Not built for want of.*: }${above[$part]:-}" \
+      "-DPHONGPD_BUILD_$part=OFF"
+    none+=("-DPHONGPD_BUILD_$part=OFF")
+  done
+  configures "" "${none[@]}"
+  # What is not installed.
+  for part in fcl ompl CLI11 nlohmann_json GTest; do
+    configures "Not built for want of .*the package" \
+      "-DCMAKE_DISABLE_FIND_PACKAGE_$part=ON"
+  done
+  PKG_CONFIG_LIBDIR=/nonexistent configures \
+    "Not built for want of the package coinor-libipopt-dev.*: phongpd::ipopt"
+
+  # Outside projects; the tests build the one of the installed package.
+  takes() { # WAY OPTION...
+    say "options taken by $1"
+    rm -rf "build/check/$1"
+    cmake -S tests/consumer -B "build/check/$1" -DWAY="$1" \
+      -DPHONGPD_SOURCE="$PWD" "${@:2}" >"$log" 2>&1 &&
+      cmake --build "build/check/$1" --parallel 2 >>"$log" 2>&1 ||
+      { cat "$log"; return 1; }
+  }
+  takes subdirectory -DCOMPONENTS=core,ipopt,ompl -DCOMPILE_ONLY=ON
+  takes fetch -DCOMPONENTS=core
+  build/check/fetch/use_core examples/cube.off examples/cube.off
 }
 
 # The front end only: all of its diagnostics, in half the time.  full builds.
 check_clang() {
   scripts/setup.sh clang
   if whole; then PRESET=clang scripts/build.sh; return; fi
-  compile_commands "${folders[@]}" tests results |
+  compile_commands "${folders[@]}" tests results examples |
     sed 's/ -o [^ ]* -c / -fsyntax-only -c /' >build/check/clang.commands
   local count
   count=$(wc -l <build/check/clang.commands)

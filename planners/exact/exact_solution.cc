@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "planners/exact/exact_solution.h"
 
-#include "constraints/collision_oracle.h"
+#include "constraints/motion_oracle.h"
 #include "core/stopwatch.h"
 
 namespace phongpd {
@@ -15,7 +15,7 @@ std::string NameObstacles(const Workspace& workspace, const Vector3d& q) {
   };
   for (const int i : ReachableObstacles(workspace)) {
     const Obstacle& obstacle = workspace.obstacles[static_cast<std::size_t>(i)];
-    if (CollisionOracle(workspace.robot, obstacle.mesh).Collides(q)) {
+    if (MotionOracle(workspace.robot, obstacle.mesh).Collides(q)) {
       add(obstacle.id);
     }
   }

@@ -10,7 +10,7 @@
 #include <random>
 #include <sstream>
 
-#include "constraints/collision_oracle.h"
+#include "constraints/oracle/collision_oracle.h"
 #include "core/bvh/inside_test.h"
 #include "core/bvh/surface_tree.h"
 #include "core/contact/contact_space.h"

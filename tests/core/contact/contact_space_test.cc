@@ -7,7 +7,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
-#include "constraints/collision_oracle.h"
+#include "constraints/oracle/collision_oracle.h"
 #include "core/minkowski/build_limits.h"
 #include "problems/shapes/shapes.h"
 #include "tests/support/solid_tools.h"

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <string>
 
-#include "constraints/collision_oracle.h"
+#include "constraints/oracle/collision_oracle.h"
 #include "core/bounds/solid_distance.h"
 #include "core/bvh/surface_tree.h"
 #include "core/contact/contact_space.h"

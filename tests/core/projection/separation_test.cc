@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
-#include "constraints/collision_oracle.h"
 #include "constraints/motion_oracle.h"
+#include "constraints/oracle/collision_oracle.h"
 #include "core/bvh/surface_tree.h"
 #include "core/contact/contact_space.h"
 #include "core/projection/euclidean_metric.h"

@@ -8,7 +8,7 @@
 #include <limits>
 #include <random>
 
-#include "constraints/collision_oracle.h"
+#include "constraints/oracle/collision_oracle.h"
 #include "core/bvh/segment_tree.h"
 #include "core/contact/contact_space.h"
 #include "core/mesh/mesh_error.h"

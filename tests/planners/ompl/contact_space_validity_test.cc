@@ -9,7 +9,7 @@
 
 #include <random>
 
-#include "constraints/collision_oracle.h"
+#include "constraints/oracle/collision_oracle.h"
 #include "core/contact/contact_space.h"
 #include "core/mesh/mesh_error.h"
 #include "planners/retraction/retraction.h"

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "constraints/collision_oracle.h"
+#include "constraints/oracle/collision_oracle.h"
 #include "core/contact/contact_space.h"
 #include "problems/scenes/scene.h"
 #include "problems/scenes/scene_library.h"

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "constraints/collision_oracle.h"
+#include "constraints/oracle/collision_oracle.h"
 #include "core/mesh/mesh_error.h"
 #include "core/solid/mesh_check.h"
 #include "problems/shapes/random_solids.h"
