@@ -36,6 +36,16 @@ function(phongpd_can_build name)
   endif()
 endfunction()
 
+# What most sources include, parsed once for all of a target's.  Sources name
+# what they use all the same: with CMAKE_DISABLE_PRECOMPILE_HEADERS, as in the
+# preset clang, or a cache of objects, which needs options of its own for such
+# headers, they compile without.
+if(CMAKE_CXX_COMPILER_LAUNCHER)
+  set(CMAKE_DISABLE_PRECOMPILE_HEADERS ON)
+endif()
+set(PHONGPD_COMMON_HEADERS <Eigen/Core> <algorithm> <functional> <map> <memory>
+                           <string> <vector>)
+
 # The library, without sources.
 function(phongpd_add_component component)
   set(target phongpd_${component})

@@ -115,7 +115,8 @@ check_options() {
       { cat "$log"; return 1; }
   }
   takes subdirectory -DCOMPONENTS=core,ipopt,ompl -DCOMPILE_ONLY=ON
-  takes fetch -DCOMPONENTS=core
+  # Not optimised: it is compiled for this alone.
+  takes fetch -DCOMPONENTS=core -DCMAKE_BUILD_TYPE=None
   build/check/fetch/use_core examples/cube.off examples/cube.off
 }
 
