@@ -7,8 +7,7 @@
 #include <limits>
 #include <utility>
 
-#include "core/bvh/scaled_triangles.h"
-#include "core/bvh/surface_tree.h"
+#include "core/bvh/triangle_bvh.h"
 #include "core/mesh/unit_normal.h"
 
 namespace phongpd {
@@ -22,27 +21,27 @@ constexpr double kOnSurface = 1e-12;
 // two points of the surface are a millionth of a degree apart.
 constexpr double kFar = 1e8;
 
+// False for NaN, without an invalid operation.
+bool IsNear(const Vector3d& x) {
+  return std::islessequal(std::abs(x[0]), kFar) &&
+         std::islessequal(std::abs(x[1]), kFar) &&
+         std::islessequal(std::abs(x[2]), kFar);
+}
+
 }  // namespace
 
-FeatureSearch::FeatureSearch(const TriangleMesh& mesh) {
-  ScaledTriangles scaled(mesh);
-  center_ = scaled.center;
-  scale_ = scaled.scale;
-  tree_ = std::move(scaled.tree);
-  corners_ = std::move(scaled.corners);
-  for (const BoxTree::Node& node : tree_.nodes()) {
-    radius_.push_back(0.5 * (node.max - node.min).norm());
-  }
-  position_.resize(corners_.size());
-  for (std::size_t i = 0; i < corners_.size(); ++i) {
-    position_[tree_.order()[i]] = static_cast<int>(i);
+FeatureSearch::FeatureSearch(ContactSpace space)
+    : space_(std::move(space)), bvh_(&space_.bvh()) {
+  for (const BoxTree::Node& node : bvh_->tree().nodes()) {
+    const BoxTree::Node box = bvh_->ToFrame(node);
+    radius_.push_back(0.5 * (box.max - box.min).norm());
   }
 }
 
 bool FeatureSearch::IsShadowed(int index, const Vector3d& x,
                                const Vector3d* taken, int count,
                                double cos_limit) const noexcept {
-  const BoxTree::Node& node = tree_.nodes()[index];
+  const BoxTree::Node node = bvh_->ToFrame(bvh_->tree().nodes()[index]);
   const Vector3d to_x = x - 0.5 * (node.min + node.max);
   const double radius = radius_[index];
   // From x the ball around the box, D away, fills the half angle β,
@@ -63,8 +62,8 @@ bool FeatureSearch::IsShadowed(int index, const Vector3d& x,
   return false;
 }
 
-bool FeatureSearch::Direction(const Corners& corners, const Vector3d& lambda,
-                              const Vector3d& x,
+bool FeatureSearch::Direction(const TriangleCorners& corners,
+                              const Vector3d& lambda, const Vector3d& x,
                               Vector3d* direction) const noexcept {
   *direction = x - (lambda[0] * corners[0] + lambda[1] * corners[1] +
                     lambda[2] * corners[2]);
@@ -79,25 +78,24 @@ bool FeatureSearch::Direction(const Corners& corners, const Vector3d& lambda,
 bool FeatureSearch::FindNext(const Vector3d& q, const Vector3d* taken,
                              int count, double cos_limit, double reach,
                              Feature* feature) const noexcept {
-  const Vector3d x = (q - center_) * scale_;
-  // False for NaN, which maxCoeff may pass over.
-  if (!(x.array().abs() <= kFar).all()) return false;
+  const Vector3d x = bvh_->ToFrame(q);
+  if (!IsNear(x)) return false;
   constexpr double kNone = std::numeric_limits<double>::infinity();
-  const double limit =
-      std::min(std::pow(reach * scale_, 2), std::numeric_limits<double>::max());
+  const double limit = std::min(std::pow(reach * bvh_->scale(), 2),
+                                std::numeric_limits<double>::max());
   double nearest = kNone;
   int best = -1;
   Vector3d best_direction = Vector3d::Zero();
-  tree_.NearestFirst(
+  bvh_->tree().NearestFirst(
       limit,
       [&](int index) {
-        const BoxTree::Node& node = tree_.nodes()[index];
+        const BoxTree::Node node = bvh_->ToFrame(bvh_->tree().nodes()[index]);
         const double lower = node.SquaredDistance(x);
         if (lower > std::min(nearest, limit)) return kNone;
         return IsShadowed(index, x, taken, count, cos_limit) ? kNone : lower;
       },
       [&](int position) {
-        const Corners& t = corners_[position];
+        const TriangleCorners t = bvh_->ToFrame(bvh_->corners()[position]);
         const TrianglePoint p = ClosestOnTriangle(t[0], t[1], t[2], x);
         Vector3d u;
         if (p.squared_distance < nearest && p.squared_distance <= limit &&
@@ -115,20 +113,24 @@ bool FeatureSearch::FindNext(const Vector3d& q, const Vector3d* taken,
         return std::min(nearest, limit);
       });
   if (best < 0) return false;
-  feature->triangle = tree_.order()[best];
-  feature->distance = std::sqrt(nearest) / scale_;
+  feature->triangle = bvh_->tree().order()[best];
+  feature->distance = std::sqrt(nearest) / bvh_->scale();
   feature->direction = best_direction;
   return true;
 }
 
 Eigen::Matrix3d FeatureSearch::Curvature(const Vector3d& q,
                                          int triangle) const noexcept {
-  const Vector3d x = (q - center_) * scale_;
-  if (!(x.array().abs() <= kFar).all() || triangle < 0 ||
-      triangle >= static_cast<int>(position_.size())) {
+  const Vector3d x = bvh_->ToFrame(q);
+  if (!IsNear(x) || triangle < 0 ||
+      triangle >= static_cast<int>(space_.mesh().triangles.size())) {
     return Eigen::Matrix3d::Zero();
   }
-  const Corners& t = corners_[position_[triangle]];
+  const TriangleMesh& mesh = space_.mesh();
+  const Triangle& indices = mesh.triangles[triangle];
+  const TriangleCorners t = bvh_->ToFrame(
+      TriangleCorners{mesh.vertices[indices[0]], mesh.vertices[indices[1]],
+                      mesh.vertices[indices[2]]});
   const Vector3d lambda = ClosestOnTriangle(t[0], t[1], t[2], x).lambda;
   const auto corners_used = (lambda.array() > 0.0).count();
   Vector3d u;
@@ -144,7 +146,7 @@ Eigen::Matrix3d FeatureSearch::Curvature(const Vector3d& q,
   const Vector3d foot = lambda[0] * t[0] + lambda[1] * t[1] + lambda[2] * t[2];
   constexpr double kLeast = 1e-3;
   const double distance = std::max((x - foot).norm(), kLeast);
-  return (Eigen::Matrix3d::Identity() - flat) / distance * scale_;
+  return (Eigen::Matrix3d::Identity() - flat) / distance * bvh_->scale();
 }
 
 }  // namespace phongpd

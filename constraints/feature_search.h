@@ -5,8 +5,8 @@
 #include <array>
 #include <vector>
 
-#include "core/bvh/box_tree.h"
-#include "core/mesh/triangle_mesh.h"
+#include "core/bvh/triangle_bvh.h"
+#include "core/contact/contact_space.h"
 
 namespace phongpd {
 
@@ -24,9 +24,8 @@ class FeatureSearch {
     Eigen::Vector3d direction = Eigen::Vector3d::Zero();
   };
 
-  FeatureSearch() = default;
-  // At least one triangle, finite coordinates.  Queries are thread-safe.
-  explicit FeatureSearch(const TriangleMesh& mesh);
+  // Queries are thread-safe.
+  explicit FeatureSearch(ContactSpace space);
 
   // The nearest feature with u·taken[i] < cos_limit for all i < count, exact
   // as the scan of all triangles is; false if there is none within `reach`
@@ -44,8 +43,6 @@ class FeatureSearch {
                             int triangle) const noexcept;
 
  private:
-  using Corners = std::array<Eigen::Vector3d, 3>;
-
   // No point of a node's box, seen from x, leaves the cone about a taken
   // direction.
   bool IsShadowed(int index, const Eigen::Vector3d& x,
@@ -53,16 +50,13 @@ class FeatureSearch {
                   double cos_limit) const noexcept;
   // Direction of a triangle's closest point; false for a degenerate triangle
   // that x lies on.
-  bool Direction(const Corners& corners, const Eigen::Vector3d& lambda,
+  bool Direction(const TriangleCorners& corners, const Eigen::Vector3d& lambda,
                  const Eigen::Vector3d& x,
                  Eigen::Vector3d* direction) const noexcept;
 
-  Eigen::Vector3d center_ = Eigen::Vector3d::Zero();
-  double scale_ = 1.0;  // power of two: diagonal in [1, 2)
-  BoxTree tree_;
-  std::vector<double> radius_;    // of each node's box
-  std::vector<Corners> corners_;  // in the tree's order, scaled
-  std::vector<int> position_;     // of each triangle in that order
+  ContactSpace space_;
+  const TriangleBvh* bvh_;      // the space's
+  std::vector<double> radius_;  // of each node's box, frame of distances
 };
 
 }  // namespace phongpd

@@ -9,6 +9,7 @@
 
 #include "constraints/translated_triangles.h"
 #include "core/bvh/box_tree.h"
+#include "core/mesh/finite.h"
 #include "core/mesh/mesh_error.h"
 
 namespace phongpd {
@@ -45,7 +46,7 @@ Solid MakeSolidOf(const TriangleMesh& mesh, const std::string& name) {
     Corners t;
     for (std::size_t k = 0; k < 3; ++k) {
       t[k] = mesh.vertices[static_cast<std::size_t>(mesh.triangles[i][k])];
-      if (!t[k].allFinite()) {
+      if (!IsFinite(t[k])) {
         throw InputError("motion oracle: the " + name +
                          " needs finite vertices, found NaN or Inf");
       }
@@ -125,7 +126,7 @@ class Segment {
 };
 
 void RequireFinite(const Vector3d& q) {
-  if (q.allFinite()) return;
+  if (IsFinite(q)) return;
   throw InputError("motion oracle: the configuration must be finite");
 }
 

@@ -8,6 +8,7 @@
 #include <string>
 #include <utility>
 
+#include "core/mesh/finite.h"
 #include "core/mesh/mesh_error.h"
 
 namespace phongpd {
@@ -58,11 +59,11 @@ NonPenetrationConstraint::NonPenetrationConstraint(
     Fail("needs " + std::to_string(waypoints + 1) + " sample counts",
          std::to_string(samples_per_segment.size()));
   }
-  if (!start.allFinite() || !goal.allFinite()) {
+  if (!phongpd::IsFinite(start) || !phongpd::IsFinite(goal)) {
     Fail("start and goal must be finite", "NaN or Inf");
   }
   if (!(options_.frame.unit > 0.0) || !std::isfinite(options_.frame.unit) ||
-      !options_.frame.center.allFinite()) {
+      !phongpd::IsFinite(options_.frame.center)) {
     Fail("the frame needs a finite centre and a unit > 0",
          std::to_string(options_.frame.unit));
   }
@@ -123,8 +124,9 @@ bool NonPenetrationConstraint::IsFinite(const double* u) const {
   // Sums of a few numbers far below the largest double stay finite.
   constexpr double kLargest = std::numeric_limits<double>::max() / 16.0;
   const double limit = kLargest / std::max(1.0, options_.frame.unit);
-  return std::all_of(u, u + variables(),
-                     [&](double x) { return std::abs(x) <= limit; });
+  return std::all_of(u, u + variables(), [&](double x) {
+    return std::islessequal(std::abs(x), limit);
+  });
 }
 
 void NonPenetrationConstraint::CheckSize(const BranchSet& branches) const {

@@ -19,27 +19,25 @@ void SignedMetricOptions::Validate() const {
                      std::to_string(separation));
   }
   if (!(reach > 0.0)) {
-    throw InputError("reach: expected > 0 diagonals, found " +
+    throw InputError("reach: expected a share of D > 0, found " +
                      std::to_string(reach));
   }
   if (metric == MetricKind::kPhong) phong.Validate();
 }
 
-SignedMetric::SignedMetric(const TriangleMesh& contact_mesh,
+SignedMetric::SignedMetric(const ContactSpace& space,
                            const SignedMetricOptions& options)
-    : options_(options) {
+    : options_(options), space_(space) {
   options_.Validate();
   constexpr double kDegree = 3.14159265358979323846 / 180.0;
   cos_separation_ = std::cos(options_.separation * kDegree);
   if (options_.metric == MetricKind::kPhong) {
-    metric_ = std::make_shared<PhongMetric>(contact_mesh, options_.phong);
+    metric_ = std::make_shared<PhongMetric>(space, options_.phong);
   } else {
-    metric_ = std::make_shared<EuclideanMetric>(contact_mesh);
+    metric_ = std::make_shared<EuclideanMetric>(space);
   }
-  // After the metric has checked the mesh.
-  bounds_ = ComputeBounds(contact_mesh);
-  reach_ = options_.reach * bounds_.Diagonal();
-  features_ = std::make_shared<FeatureSearch>(contact_mesh);
+  reach_ = options_.reach * space.length();
+  features_ = std::make_shared<FeatureSearch>(space);
 }
 
 MetricRow SignedMetric::Query(const Vector3d& q, const Branch& previous) const {
@@ -91,7 +89,7 @@ Eigen::Matrix3d SignedMetric::Curvature(const Vector3d& q,
     const double sign = row.inside ? -1.0 : 1.0;
     return sign * features_->Curvature(q, row.triangle);
   }
-  const double diagonal = bounds_.Diagonal();
+  const double diagonal = space_.bounds().Diagonal();
   const double step = 1e-6 * diagonal;
   Eigen::Matrix3d h;
   for (int axis = 0; axis < 3; ++axis) {

@@ -25,13 +25,13 @@ struct SignedMetricOptions {
   PhongMetricOptions phong = DefaultPhong();  // kPhong only
   JacobianKind jacobian = JacobianKind::kDirection;
   double separation = 25.0;  // least angle between rows, degrees, in [1, 89]
-  // Farthest that rows after the first may be, diagonals of C_cont, > 0.  A
+  // Farthest that rows after the first may be, a share of D, > 0.  A
   // wall farther off says nothing a margin needs, and is what costs time.
   double reach = 0.1;
 
   // Throws InputError naming the option, the range and the value.
   void Validate() const;
-  // ℓ = 0.2 diagonals: what solves traps and plates from colliding starts.
+  // ℓ = 0.2 D: what solves traps and plates from colliding starts.
   static PhongMetricOptions DefaultPhong() {
     PhongMetricOptions options;
     options.field_options.smoothing_length = 0.2;
@@ -73,12 +73,12 @@ struct MetricRow {
 // with is_repeated: the pattern stays, and no row claims what is not known.
 class SignedMetric {
  public:
-  // `contact_mesh` as EuclideanMetric requires it.  Throws InputError.
-  explicit SignedMetric(const TriangleMesh& contact_mesh,
+  // Throws InputError for options.
+  explicit SignedMetric(const ContactSpace& space,
                         const SignedMetricOptions& options = {});
 
   const SignedMetricOptions& options() const { return options_; }
-  const BoundingBox& bounds() const { return bounds_; }  // of C_cont
+  const ContactSpace& space() const { return space_; }
 
   // Writes `count` = K rows, K in [1, kMaxMetricRows].  With a valid `previous`
   // branch the inside value continues that branch, otherwise it is the least
@@ -101,7 +101,7 @@ class SignedMetric {
 
  private:
   SignedMetricOptions options_;
-  BoundingBox bounds_;
+  ContactSpace space_;
   double cos_separation_ = 0.0;
   double reach_ = 0.0;  // user's unit
   std::shared_ptr<const PenetrationMetric> metric_;

@@ -4,7 +4,7 @@
 # runs after them, full takes everything; a section named by itself is the whole
 # of it unless SLICE=quick.  Installs the tools it needs, only those missing.
 #   format       clang-format over every source
-#   options      every switch configures
+#   options      every switch configures; outside projects take each way in
 #   clang        clang compiles the tree, warnings as errors
 #   cppcheck     no report but those .cppcheck-suppressions explains
 #   tidy         clang-tidy, by .clang-tidy
@@ -21,21 +21,25 @@ export PHONGPD_CACHE_DIR=$PWD/build/cache
 
 readonly all=(format options clang cppcheck tidy fptrap determinism tsan fuzz
   coverage asan)
-# Not tsan and coverage: each compiles the library once more.  Not fptrap:
-# functions it names are still to be looked at.
-readonly quick=(format options clang cppcheck tidy determinism fuzz asan)
+# Not tsan and coverage: each compiles the library once more.
+readonly quick=(format options clang cppcheck tidy fptrap determinism fuzz asan)
 readonly folders=(core constraints planners problems)
 # Whole test programs that reach every folder below the program and build fast.
 readonly slice=(
   collision_oracle_test non_penetration_test signed_metric_test
   contact_space_test contact_space_cache_test zero_edges_test
-  inside_test_test mesh_check_test mesh_io_refusal_test mesh_io_test
-  mesh_repair_test segment_tree_test triangle_mesh_test
+  triangle_bvh_inside_test mesh_check_test mesh_io_refusal_test mesh_io_test
+  mesh_repair_test triangle_bvh_segments_test triangle_mesh_test
   branch_walk_test cubic_test euclidean_metric_test normal_field_test
   phong_field_test phong_metric_test query_cost_test tangent_plane_field_test
   contact_roadmap_test contact_surface_planner_test free_cells_test
   free_space_test start_repair_test workspace_test
   motion_graph_test retraction_test scene_errors_test
+)
+# Those, besides, that feed what is no number, or next to none.
+readonly extreme=(
+  fuzz_corpus_test path_resampling_test range_test reader_limits_test
+  shapes_test stale_branches_test
 )
 # Those whose code under test runs in several threads.
 readonly threaded=(
@@ -45,12 +49,13 @@ readonly threaded=(
 
 say() { printf 'check: %s\n' "$*"; }
 whole() { [[ $SLICE == full ]]; }
-sources() { find "${folders[@]}" tests results -name '*.h' -o -name '*.cc'; }
+sources() { find "${folders[@]}" tests results examples -name '*.h' -o -name '*.cc'; }
 
 # Runs the tests that are built there: those outside the slice are not.
-run_tests() { # PRESET [PATTERN to leave out, too]
+run_tests() { # PRESET [PATTERN to leave out, too] [OPTION of ctest...]
   ctest --preset "$1" --parallel 2 --no-tests=error \
-    -E "_NOT_BUILT|^Layering\$|^InstalledPackage\$|^Refuses_${2:+|$2}"
+    -E "_NOT_BUILT|^Layering\$|^Example\\.|^InstalledPackage\$|^Refuses_${2:+|$2}" \
+    "${@:3}"
 }
 
 build_tests() { # PRESET PROGRAMS...: everything in full
@@ -75,26 +80,56 @@ check_format() {
 }
 
 check_options() {
-  local log=build/check/options.log
+  local log=build/check/options.log part
+  local parts=(CORE CONSTRAINTS ORACLE PLANNERS IPOPT OMPL PROBLEMS PROGRAM
+    EXAMPLES TESTS RESULTS)
   configures() { # MESSAGE OPTION...
     say "options ${*:2}"
     rm -rf build/check/options
     cmake -S . -B build/check/options "${@:2}" >"$log" 2>&1 &&
-      grep -q -- "$1" "$log" || { cat "$log"; return 1; }
+      grep -q "Generating done" "$log" && grep -q -- "$1" "$log" ||
+      { cat "$log"; say "options: expected '$1'"; return 1; }
   }
-  configures "Generating done" -DPHONGPD_BUILD_PROBLEMS=OFF
-  configures "Generating done" -DPHONGPD_BUILD_TESTS=OFF \
-    -DPHONGPD_BUILD_RESULTS=OFF
-  configures "need the component ompl" -DPHONGPD_BUILD_OMPL=OFF
-  configures "need the component ompl" -DCMAKE_DISABLE_FIND_PACKAGE_ompl=ON
-  PKG_CONFIG_LIBDIR=/nonexistent configures "need the component ipopt"
+  # What is switched off, and what is said of that which stands on it.
+  local -A above=([CORE]=phongpd::constraints [CONSTRAINTS]=phongpd::planners
+    [ORACLE]=phongpd::problems [PLANNERS]=phongpd::ipopt
+    [IPOPT]=phongpd::problems [OMPL]=phongpd::problems
+    [PROBLEMS]="the program" [PROGRAM]="the tests")
+  local none=()
+  for part in "${parts[@]}"; do
+    configures "${above[$part]:+Not built for want of.*: }${above[$part]:-}" \
+      "-DPHONGPD_BUILD_$part=OFF"
+    none+=("-DPHONGPD_BUILD_$part=OFF")
+  done
+  configures "" "${none[@]}"
+  # What is not installed.
+  for part in fcl ompl CLI11 nlohmann_json GTest; do
+    configures "Not built for want of .*the package" \
+      "-DCMAKE_DISABLE_FIND_PACKAGE_$part=ON"
+  done
+  PKG_CONFIG_LIBDIR=/nonexistent configures \
+    "Not built for want of the package coinor-libipopt-dev.*: phongpd::ipopt"
+
+  # Outside projects; the tests build the one of the installed package.
+  takes() { # WAY OPTION...
+    say "options taken by $1"
+    rm -rf "build/check/$1"
+    cmake -S tests/consumer -B "build/check/$1" -DWAY="$1" \
+      -DPHONGPD_SOURCE="$PWD" "${@:2}" >"$log" 2>&1 &&
+      cmake --build "build/check/$1" --parallel 2 >>"$log" 2>&1 ||
+      { cat "$log"; return 1; }
+  }
+  takes subdirectory -DCOMPONENTS=core,ipopt,ompl -DCOMPILE_ONLY=ON
+  # Not optimised: it is compiled for this alone.
+  takes fetch -DCOMPONENTS=core -DCMAKE_BUILD_TYPE=None
+  build/check/fetch/use_core examples/cube.off examples/cube.off
 }
 
 # The front end only: all of its diagnostics, in half the time.  full builds.
 check_clang() {
   scripts/setup.sh clang
   if whole; then PRESET=clang scripts/build.sh; return; fi
-  compile_commands "${folders[@]}" tests results |
+  compile_commands "${folders[@]}" tests results examples |
     sed 's/ -o [^ ]* -c / -fsyntax-only -c /' >build/check/clang.commands
   local count
   count=$(wc -l <build/check/clang.commands)
@@ -129,14 +164,17 @@ check_tidy() {
 
 check_fptrap() {
   scripts/setup.sh binutils
-  build_tests release "${slice[@]}"
-  local log=$PWD/build/check/invalid.log
+  local programs=("${slice[@]}" "${extreme[@]}")
+  build_tests release "${programs[@]}"
+  local log=$PWD/build/check/invalid.log only=()
   rm -f "$log"
+  # Everything is built there when CI comes to this.
+  whole || only=(-L "^($(IFS='|' && echo "${programs[*]}"))\$")
   g++ -shared -fPIC -O1 tests/support/trap_invalid.cc -o build/trap_invalid.so
   # Those that limit files and memory, or preload something themselves, limit
   # the trap's log, too.
   PHONGPD_INVALID_LOG=$log LD_PRELOAD=$PWD/build/trap_invalid.so \
-    run_tests release '^CliLimits|^CliFault'
+    run_tests release '^CliLimits|^CliFault' "${only[@]}"
   # Tests feed NaN on purpose: no word at all means no trap at all.
   [[ -s $log ]]
   # Functions of ours that did one; tests themselves may.

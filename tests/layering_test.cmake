@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # cmake -D SOURCE=... -P layering_test.cmake: who may include whom.
-#   core <- constraints <- planners <- problems <- tests, results
+#   core <- constraints <- planners <- problems <- tests, results, examples
+#   core <- constraints/oracle <- problems
 #   core: files, mesh <- bvh <- solid <- bounds <- minkowski <- contact
 #     <- projection
 cmake_minimum_required(VERSION 3.23)
@@ -37,8 +38,12 @@ while(floors)
   endif()
 endwhile()
 forbid(constraints "(planners|problems|tests|results)/")
+forbid(constraints/oracle "constraints/[a-z_]+\\.h")
+# Planners, and who wants only these, do without FCL.
+forbid(planners "constraints/oracle/")
 forbid(planners "(problems|tests|results)/")
-forbid(problems "(tests|results)/")
+forbid(problems "(tests|results|examples)/")
+forbid(examples "(tests|results)/")
 
 # Heavy libraries stay out of what users include.
 file(STRINGS ${SOURCE}/core/CMakeLists.txt public REGEX "^    [a-z_/]+\\.h")
@@ -62,12 +67,11 @@ foreach(header IN LISTS public)
   endforeach()
 endforeach()
 
-# One file knows FCL, and one that measures it; anybody may ask for its version.
+# One file knows FCL; anybody may ask for its version.
 file(GLOB_RECURSE files ${SOURCE}/constraints/* ${SOURCE}/problems/*
      ${SOURCE}/tests/*.cc ${SOURCE}/results/*.cc)
 foreach(file IN LISTS files)
-  if(NOT file MATCHES "\\.(h|cc)$" OR file MATCHES
-     "(collision_oracle|fcl_motions)\\.cc$")
+  if(NOT file MATCHES "\\.(h|cc)$" OR file MATCHES "/fcl_surfaces\\.cc$")
     continue()
   endif()
   file(STRINGS ${file} includes REGEX "^ *# *include <fcl/")
@@ -100,8 +104,17 @@ if(includes)
   list(APPEND failures "ompl_planning.h promises no type of OMPL: ${includes}")
 endif()
 
+# Examples include what any other project can.
+file(GLOB files ${SOURCE}/examples/*.cc)
+foreach(file IN LISTS files)
+  file(STRINGS ${file} includes REGEX "^ *# *include \"")
+  if(includes)
+    list(APPEND failures "${file}: ${includes}")
+  endif()
+endforeach()
+
 # Every source names its licence.
-foreach(folder core constraints planners problems tests results)
+foreach(folder core constraints planners problems tests results examples)
   file(GLOB_RECURSE files ${SOURCE}/${folder}/*.h ${SOURCE}/${folder}/*.cc)
   foreach(file IN LISTS files)
     file(STRINGS ${file} first LIMIT_COUNT 1)

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/bounds/cgal_mesh.h"
+#include "core/mesh/sorted_mesh.h"
 
 namespace phongpd::internal {
 
@@ -20,7 +21,8 @@ TriangleMesh HullOfVertices(const TriangleMesh& mesh) {
   }
   CgalMesh hull;
   CGAL::convex_hull_3(points.begin(), points.end(), hull);
-  return FromCgal(hull, frame);
+  // CGAL visits facets in an order that depends on where they lie in memory.
+  return SortByCoordinates(FromCgal(hull, frame)).mesh;
 }
 
 }  // namespace phongpd::internal

@@ -174,7 +174,7 @@ std::array<Vector3d, 3> DistanceTarget::Corners(int triangle) const {
 }
 
 double DistanceTarget::At(const Vector3d& x, int* closest) const {
-  const SurfaceTree::Closest found = tree_.FindClosest(x);
+  const TriangleBvh::Closest found = tree_.FindClosest(x);
   *closest = found.triangle;
   return Contains(x) ? -found.distance : found.distance;
 }

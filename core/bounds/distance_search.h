@@ -8,8 +8,7 @@
 
 #include "core/bounds/solid_distance.h"
 #include "core/bvh/box_tree.h"
-#include "core/bvh/inside_test.h"
-#include "core/bvh/surface_tree.h"
+#include "core/bvh/triangle_bvh.h"
 #include "core/mesh/triangle_mesh.h"
 
 // The branch and bound behind solid_distance.h, in coordinates of the size
@@ -35,10 +34,10 @@ class DistanceTarget {
  private:
   TriangleMesh mesh_;
   std::vector<Eigen::Vector3d> normals_;  // unit; zero: degenerate
-  SurfaceTree tree_;
+  TriangleBvh tree_;
   BoxTree boxes_;
-  std::vector<InsideTest> inside_;  // of each shell
-  std::vector<int> sign_;           // of its volume
+  std::vector<TriangleBvh> inside_;  // of each shell
+  std::vector<int> sign_;            // of its volume
 };
 
 // A tetrahedron or a triangle, the convex hull of its corners.

@@ -2,6 +2,7 @@
 #include "core/bounds/mesh_approximation.h"
 
 #include <algorithm>
+#include <cmath>
 #include <sstream>
 #include <stdexcept>
 #include <utility>
@@ -10,7 +11,7 @@
 #include "core/bounds/convex_hull.h"
 #include "core/bounds/edge_collapse.h"
 #include "core/bounds/solid_distance.h"
-#include "core/bvh/inside_test.h"
+#include "core/bvh/triangle_bvh.h"
 #include "core/solid/mesh_check.h"
 
 namespace phongpd {
@@ -36,7 +37,9 @@ bool IsSolid(TriangleMesh* mesh) {
 }
 
 TriangleMesh Wrap(const TriangleMesh& mesh, double alpha) {
-  if (!(alpha >= kMinWrapAlpha && alpha <= kMaxWrapAlpha)) {
+  // Both false for NaN.
+  if (!(std::isgreaterequal(alpha, kMinWrapAlpha) &&
+        std::islessequal(alpha, kMaxWrapAlpha))) {
     std::ostringstream what;
     what << "wrap alpha: expected a fraction of the diagonal between "
          << kMinWrapAlpha << " and " << kMaxWrapAlpha << ", found " << alpha;
@@ -46,7 +49,7 @@ TriangleMesh Wrap(const TriangleMesh& mesh, double alpha) {
   TriangleMesh wrap = MakeSolid(
       internal::WrapTriangles(mesh, length, kOffset * length), "alpha wrap");
   // What makes it conservative is checked, not believed.
-  const InsideTest inside(wrap);
+  const TriangleBvh inside(wrap);
   for (const Triangle& t : mesh.triangles) {
     for (const int v : t) {
       if (inside.Locate(mesh.vertices[v]) != Location::kInside) {

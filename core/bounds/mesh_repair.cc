@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "core/bounds/mesh_approximation.h"
+#include "core/mesh/finite.h"
 #include "core/mesh/mesh_error.h"
 #include "core/mesh/mesh_range.h"
 #include "core/solid/face_pairing.h"
@@ -136,7 +137,7 @@ TriangleMesh RepairSafely(const TriangleMesh& mesh, RepairReport* report) {
     }
   }
   for (const Eigen::Vector3d& v : mesh.vertices) {
-    if (!v.allFinite()) return mesh;  // MakeSolid refuses it, used or not
+    if (!IsFinite(v)) return mesh;  // MakeSolid refuses it, used or not
   }
   TriangleMesh out = mesh;
   const std::vector<int> first = FirstOfEqual(out);

@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "core/bounds/distance_search.h"
-#include "core/bvh/surface_tree.h"
+#include "core/bvh/triangle_bvh.h"
 
 namespace phongpd {
 namespace {
@@ -87,7 +87,7 @@ std::vector<Piece> FacetPieces(const TriangleMesh& mesh) {
 double NearlyConvexBound(const TriangleMesh& hull, const TriangleMesh& solid,
                          const DistanceTarget& to) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  const SurfaceTree tree(hull);
+  const TriangleBvh tree(hull);
   // With what the rounding of a sliver's normal can add, times `sign`.
   const auto depth = [&hull](std::size_t facet, const Vector3d& x, int sign) {
     const Triangle& t = hull.triangles[facet];

@@ -6,7 +6,7 @@
 #include <array>
 #include <limits>
 
-#include "core/bvh/surface_tree.h"
+#include "core/bvh/triangle_bvh.h"
 
 namespace phongpd {
 namespace {

@@ -1,248 +1,170 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/contact/contact_space.h"
 
-#include <sys/resource.h>
-
 #include <algorithm>
 #include <cmath>
-#include <numeric>
-#include <unordered_map>
+#include <mutex>
+#include <utility>
 
-#include "core/mesh/triangle_quality.h"
-#include "core/mesh/union_find.h"
-#include "core/minkowski/build_limits.h"
-#include "core/minkowski/cells.h"
-#include "core/minkowski/convolution.h"
-#include "core/minkowski/edge_rings.h"
-#include "core/minkowski/facet_intersections.h"
-#include "core/minkowski/grid_frame.h"
-#include "core/minkowski/grid_solid.h"
-#include "core/minkowski/operand.h"
-#include "core/minkowski/patch_triangulation.h"
-#include "core/minkowski/plane_arrangement.h"
-#include "core/minkowski/plane_groups.h"
-#include "core/minkowski/solid_collision.h"
-#include "core/minkowski/surface_assembly.h"
-#include "core/minkowski/zero_edges.h"
-#include "core/stopwatch.h"
+#include "core/contact/surface_description.h"
+#include "core/mesh/finite.h"
+#include "core/mesh/mesh_error.h"
+#include "core/mesh/unit_normal.h"
 
 namespace phongpd {
 namespace {
 
-// Writes the wall time since the last call under the name of a stage.
-class StageClock {
- public:
-  explicit StageClock(ContactSpaceReport* report) : report_(report) {}
-  void Finish(const std::string& stage) {
-    report_->seconds.emplace_back(stage, stopwatch_.Seconds());
-    stopwatch_ = Stopwatch();
+using Eigen::Vector3d;
+
+// Counts half-edges without exactly one opposite.
+std::size_t CountBadEdges(const TriangleMesh& mesh) {
+  std::vector<std::pair<int, int>> edges;
+  edges.reserve(3 * mesh.triangles.size());
+  for (const Triangle& t : mesh.triangles) {
+    for (int k = 0; k < 3; ++k) edges.emplace_back(t[k], t[(k + 1) % 3]);
   }
-
- private:
-  ContactSpaceReport* report_;
-  Stopwatch stopwatch_;
-};
-
-double PeakMib() {
-  rusage usage;
-  getrusage(RUSAGE_SELF, &usage);
-  return static_cast<double>(usage.ru_maxrss) / 1024.0;
-}
-
-// Fitted to solids of 12 to 20,000 triangles on 2 cores; coplanar solids have
-// far fewer faces and take as long.
-PredictedCost Predict(const internal::Convolution& convolution,
-                      double meetings) {
-  const double facets = static_cast<double>(convolution.facets.size());
-  PredictedCost cost;
-  cost.meetings = meetings;
-  cost.arrangement_faces = 0.75 * meetings;
-  cost.seconds = 3e-6 * facets + 5.5e-6 * meetings;
-  cost.mib = 5.0 + 3e-4 * facets + 8e-4 * meetings;
-  return cost;
-}
-
-// Rounds the exact surface into the user's frame.
-void RoundSurface(const internal::ExactSurface& surface,
-                  const internal::ExactPoints& points,
-                  const internal::GridFrame& frame,
-                  const internal::Convolution& convolution,
-                  const internal::PlaneGroups& groups, ContactSpace* out) {
-  for (const int id : surface.vertex_points) {
-    out->mesh.vertices.push_back(
-        frame.ToUser(internal::WithExactIntegers(points[id])));
-  }
-  out->mesh.triangles = surface.triangles;
-  // Planes that made it to the surface, numbered by first appearance.
-  std::unordered_map<int, int> plane_ids;
-  out->plane.reserve(surface.facet.size());
-  out->kind.reserve(surface.facet.size());
-  for (const int facet : surface.facet) {
-    const int key = 2 * groups.of_facet[facet] + groups.reversed[facet];
-    const int next = static_cast<int>(plane_ids.size());
-    out->plane.push_back(plane_ids.emplace(key, next).first->second);
-    out->kind.push_back(convolution.facets[facet].kind);
-  }
-}
-
-// Distinct exact points may round to one.
-void RemoveZeroEdges(ContactSpace* space) {
-  const std::vector<int> kept = internal::CollapseZeroEdges(&space->mesh);
-  for (std::size_t t = 0; t < kept.size(); ++t) {
-    space->plane[t] = space->plane[kept[t]];
-    space->kind[t] = space->kind[kept[t]];
-  }
-  space->plane.resize(kept.size());
-  space->kind.resize(kept.size());
-}
-
-// Does every vertex of a closed, edge-manifold mesh have one fan of triangles?
-bool HasManifoldVertices(const TriangleMesh& mesh, std::size_t vertices) {
-  const auto neighbors = TriangleNeighbors(mesh);
-  internal::UnionFind fans(3 * mesh.triangles.size());
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    for (int k = 0; k < 3; ++k) {
-      const Triangle& other = mesh.triangles[neighbors[t][k]];
-      for (const int corner : {k, (k + 1) % 3}) {
-        for (int j = 0; j < 3; ++j) {
-          if (other[j] == mesh.triangles[t][corner]) {
-            fans.Join(static_cast<int>(3 * t) + corner,
-                      3 * neighbors[t][k] + j);
-          }
-        }
-      }
+  std::sort(edges.begin(), edges.end());
+  std::size_t bad = 0;
+  for (const auto& [a, b] : edges) {
+    const auto same =
+        std::equal_range(edges.begin(), edges.end(), std::make_pair(a, b));
+    const auto opposite =
+        std::equal_range(edges.begin(), edges.end(), std::make_pair(b, a));
+    if (same.second - same.first != 1 ||
+        opposite.second - opposite.first != 1) {
+      ++bad;
     }
   }
-  std::size_t count = 0;
-  for (std::size_t c = 0; c < 3 * mesh.triangles.size(); ++c) {
-    count += fans.Find(static_cast<int>(c)) == static_cast<int>(c);
-  }
-  return count == vertices;
+  return bad;
 }
 
-// Fills in what can be said of the finished mesh, by looking at the mesh.
-void DescribeSurface(const TriangleMesh& mesh, ContactSpaceReport* report) {
-  const MeshReport found = ExamineMesh(mesh);
-  report->triangles = found.triangles;
-  report->vertices = found.vertices;
-  report->closed = found.boundary_edges == 0;
-  report->manifold = report->closed && found.non_manifold_edges == 0 &&
-                     HasManifoldVertices(mesh, found.vertices);
-  report->components = found.components;
-  report->volume = SignedVolume(mesh);
-  report->self_intersections = found.self_intersections;
-  report->degenerate_triangles = found.degenerate_triangles;
-  const QualityFigures quality = MeasureQuality(mesh);
-  report->worst_quality = quality.worst;
-  report->median_quality = quality.median;
-  // χ = V − E + F = 2·components − 2·genus, with E = 3F/2 on a closed mesh.
-  const long euler = static_cast<long>(found.vertices) -
-                     static_cast<long>(found.triangles) / 2;
-  report->genus = static_cast<int>(found.components - euler / 2);
-  if (found.self_intersections > 0) {
-    report->warnings.push_back(
-        std::to_string(found.self_intersections) +
-        " pairs of triangles meet: the solid touches itself, or vertices "
-        "closer than the rounding to double");
+void CheckContactMesh(const TriangleMesh& mesh, const std::string& who) {
+  const std::string name = who + ": ";
+  if (mesh.triangles.empty()) throw InputError(name + "no triangle");
+  const int size = static_cast<int>(mesh.vertices.size());
+  std::size_t bad_indices = 0, bad_vertices = 0;
+  for (const Triangle& t : mesh.triangles) {
+    for (const int v : t) {
+      const bool valid = v >= 0 && v < size;
+      bad_indices += !valid;
+      bad_vertices += valid && !IsFinite(mesh.vertices[v]);
+    }
   }
-  if (found.degenerate_triangles > 0) {
-    report->warnings.push_back(std::to_string(found.degenerate_triangles) +
-                               " triangles have no area after rounding");
+  if (bad_indices > 0) {
+    throw InputError(name + std::to_string(bad_indices) +
+                     " vertex indices out of range");
   }
+  if (bad_vertices > 0) {
+    throw InputError(name + std::to_string(bad_vertices) +
+                     " corners with non-finite coordinates");
+  }
+  const double diagonal = ComputeBounds(mesh).Diagonal();
+  if (!(diagonal >= 1e-150 && diagonal <= 1e150)) {
+    throw InputError(name +
+                     "diagonal of the bounding box must be between "
+                     "1e-150 and 1e150, found " +
+                     std::to_string(diagonal));
+  }
+  const std::size_t bad_edges = CountBadEdges(mesh);
+  if (bad_edges > 0) {
+    throw InputError(name + "must be closed and edge-manifold, found " +
+                     std::to_string(bad_edges) +
+                     " half-edges without exactly one opposite");
+  }
+}
+
+// The two shortest edges give the best-conditioned normal.
+Vector3d FacetNormal(const TriangleMesh& mesh, const Triangle& t,
+                     double scale) {
+  const Vector3d e1 = (mesh.vertices[t[1]] - mesh.vertices[t[0]]) * scale;
+  const Vector3d e2 = (mesh.vertices[t[2]] - mesh.vertices[t[0]]) * scale;
+  const Vector3d e3 = e2 - e1;
+  const double l1 = e1.squaredNorm(), l2 = e2.squaredNorm(),
+               l3 = e3.squaredNorm();
+  return Unit(l1 >= l2 && l1 >= l3   ? e3.cross(Vector3d(-e2))
+              : l2 >= l1 && l2 >= l3 ? e1.cross(e3)
+                                     : e1.cross(e2));
 }
 
 }  // namespace
 
-ContactSpace BuildContactSpace(const TriangleMesh& robot,
-                               const TriangleMesh& obstacle,
-                               const ContactSpaceOptions& options) {
-  ContactSpace out;
-  ContactSpaceReport& report = out.report;
-  StageClock clock(&report);
-  internal::BuildLimits limits(options);
+struct ContactSpace::Indexes {
+  std::once_flag bvh_built, normals_built;
+  TriangleBvh bvh;
+  std::vector<Vector3d> normals;
+};
 
-  using internal::OperandRole;
-  const TriangleMesh a =
-      internal::PrepareOperand(robot, OperandRole::kRobot, options, &report);
-  const TriangleMesh b = internal::PrepareOperand(
-      obstacle, OperandRole::kObstacle, options, &report);
-  clock.Finish("check");
+ContactSpace::Data::Data() : indexes(std::make_unique<Indexes>()) {}
+ContactSpace::Data::~Data() = default;
 
-  const internal::GridFrame frame = internal::PlaceOnGrid(a, b);
-  report.canonical_frame = frame.is_turned;
-  report.grid_step = frame.rounding;
-  const bool is_rounded = frame.rounding > 0.0;
-  const internal::RoundedFrom of_p = {b, frame.step, frame.rounding};
-  const internal::RoundedFrom of_q = {a, frame.step, frame.rounding};
-  const internal::GridSolid p = internal::MakeGridSolid(
-      frame.obstacle, b.triangles, false, options.obstacle_name,
-      is_rounded ? &of_p : nullptr);
-  const internal::GridSolid q =
-      internal::MakeGridSolid(frame.robot, a.triangles, true,
-                              options.robot_name, is_rounded ? &of_q : nullptr);
-  const double resolution = std::min(frame.rounding, frame.step);
-  internal::CheckResolution(p, b, resolution, options.obstacle_name, &report);
-  internal::CheckResolution(q, a, resolution, options.robot_name, &report);
-  const internal::Convolution convolution = internal::ReducedConvolution(p, q);
-  report.convolution_triangles = convolution.facets.size();
-  clock.Finish("convolution");
-
-  const internal::PlaneGroups groups = internal::GroupByPlane(convolution);
-  internal::ExactPoints points;
-  internal::Arrangement arrangement;
-  {
-    const internal::FacetIndex index(convolution);
-    report.predicted = Predict(
-        convolution, internal::PredictMeetings(convolution, groups, index));
-    limits.Predict(report.predicted);
-    clock.Finish("prediction");
-    const internal::FacetIntersections intersections =
-        internal::IntersectFacets(convolution, groups, index, limits, &points);
-    clock.Finish("intersection");
-    arrangement = internal::ArrangePlanes(convolution, groups, intersections,
-                                          limits, &points);
-  }
-  report.arrangement_faces = arrangement.faces.size();
-  clock.Finish("arrangement");
-
-  const internal::EdgeRings rings =
-      internal::SortAroundEdges(convolution, arrangement, points);
-  const internal::SolidCollision judge(p, q);
-  const internal::FreeCells cells = [&] {
-    try {
-      return internal::FindFreeCells(convolution, arrangement, rings, points,
-                                     judge, limits);
-    } catch (const internal::LeakError&) {
-      if (is_rounded) {
-        internal::RefuseLostFacets(p, b, q, a, frame.step, options);
-      }
-      throw;
+ContactSpace::ContactSpace(Parts parts, const std::string& name) {
+  CheckContactMesh(parts.mesh, name);
+  for (const std::size_t size : {parts.plane.size(), parts.kind.size()}) {
+    if (size != 0 && size != parts.mesh.triangles.size()) {
+      throw InputError(name + ": expected planes and kinds of " +
+                       std::to_string(parts.mesh.triangles.size()) +
+                       " triangles or of none, found " + std::to_string(size));
     }
-  }();
-  report.cells = static_cast<std::size_t>(cells.cells);
-  report.judged_cells = static_cast<std::size_t>(cells.judged);
-  report.cavities = cells.cavities;
-  if (options.outer_shell_only) {
-    ApproximationStep step;
-    step.kind = "outer-shell";
-    step.dropped_cavities = cells.cavities;
-    internal::AddStep(step, &report.approximation);
   }
-  clock.Finish("cells");
+  const auto data = std::make_shared<Data>();
+  data->parts = std::move(parts);
+  data->bounds = ComputeBounds(data->parts.mesh);
+  length_ = data->bounds.Diagonal();
+  data_ = data;
+}
 
-  const internal::PatchSurface patches = internal::AssembleSurface(
-      arrangement, groups, rings, cells,
-      {options.merge_coplanar, options.outer_shell_only}, &points);
-  const internal::ExactSurface surface =
-      internal::TriangulatePatches(patches, convolution, points);
-  RoundSurface(surface, points, frame, convolution, groups, &out);
-  RemoveZeroEdges(&out);
-  clock.Finish("surface");
+ContactSpace ContactSpace::WithLength(double length) const {
+  if (!(length > 0.0 && std::isfinite(length))) {
+    throw InputError("length: expected finite and > 0, found " +
+                     std::to_string(length));
+  }
+  ContactSpace other = *this;
+  other.length_ = length;
+  return other;
+}
 
-  DescribeSurface(out.mesh, &report);
-  report.peak_mib = PeakMib();
-  clock.Finish("report");
-  return out;
+const TriangleBvh& ContactSpace::bvh() const {
+  Indexes& indexes = *data_->indexes;
+  std::call_once(indexes.bvh_built,
+                 [&] { indexes.bvh = TriangleBvh(data_->parts.mesh); });
+  return indexes.bvh;
+}
+
+const std::vector<Vector3d>& ContactSpace::normals() const {
+  Indexes& indexes = *data_->indexes;
+  std::call_once(indexes.normals_built, [&] {
+    const double diagonal = data_->bounds.Diagonal();
+    const double scale = std::ldexp(1.0, -std::ilogb(diagonal));
+    const TriangleMesh& mesh = data_->parts.mesh;
+    indexes.normals.reserve(mesh.triangles.size());
+    for (const Triangle& t : mesh.triangles) {
+      indexes.normals.push_back(FacetNormal(mesh, t, scale));
+    }
+  });
+  return indexes.normals;
+}
+
+std::vector<ContactSpace> WithCommonLength(std::vector<ContactSpace> spaces) {
+  if (spaces.empty()) return spaces;
+  BoundingBox box = spaces[0].bounds();
+  bool agree = true;
+  for (const ContactSpace& space : spaces) {
+    agree = agree && space.length() == spaces[0].length();
+    box.min = box.min.cwiseMin(space.bounds().min);
+    box.max = box.max.cwiseMax(space.bounds().max);
+  }
+  if (agree) return spaces;
+  for (ContactSpace& space : spaces) space = space.WithLength(box.Diagonal());
+  return spaces;
+}
+
+ContactSpace TakeAsContactSpace(TriangleMesh mesh, const std::string& name) {
+  ContactSpace::Parts parts;
+  parts.mesh = std::move(mesh);
+  parts.report.method = "taken from a mesh";
+  CheckContactMesh(parts.mesh, name);
+  internal::DescribeSurface(parts.mesh, &parts.report);
+  return ContactSpace(std::move(parts), name);
 }
 
 }  // namespace phongpd

@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <Eigen/Core>
+#include <memory>
+#include <string>
 #include <vector>
 
+#include "core/bvh/triangle_bvh.h"
 #include "core/mesh/triangle_mesh.h"
 #include "core/minkowski/contact_kind.h"
 #include "core/minkowski/contact_space_options.h"
@@ -14,13 +18,64 @@ namespace phongpd {
 // q for which A + q and B meet; closed, outward, bounded free cavities
 // included as inward shells.  Topology is exact; coordinates are the exact
 // vertices rounded to double.
-struct ContactSpace {
-  TriangleMesh mesh;
-  // Supporting plane of each triangle: triangles with equal id lie exactly in
-  // one oriented plane.
-  std::vector<int> plane;
-  std::vector<ContactKind> kind;  // of each triangle
-  ContactSpaceReport report;
+//
+// An immutable handle: copies are cheap, share everything and may be used by
+// any number of threads.  What metrics, judges and planners search in is built
+// once, on first use, and shared by all of them.
+class ContactSpace {
+ public:
+  // What a contact space is made of, as plain data.
+  struct Parts {
+    TriangleMesh mesh;
+    // Supporting plane of each triangle: triangles with equal id lie exactly
+    // in one oriented plane.  Empty: not known.
+    std::vector<int> plane;
+    std::vector<ContactKind> kind;  // of each triangle; empty: not known
+    ContactSpaceReport report;
+  };
+
+  // Throws InputError, which begins with `name`, unless the mesh is closed and
+  // edge-manifold, with triangles, valid indices, finite coordinates and a
+  // diagonal in [1e-150, 1e150]; and where plane or kind are of other size.
+  explicit ContactSpace(Parts parts, const std::string& name = "contact space");
+
+  const Parts& parts() const { return data_->parts; }
+  const TriangleMesh& mesh() const { return data_->parts.mesh; }
+  const std::vector<int>& plane() const { return data_->parts.plane; }
+  const std::vector<ContactKind>& kind() const { return data_->parts.kind; }
+  const ContactSpaceReport& report() const { return data_->parts.report; }
+  const BoundingBox& bounds() const { return data_->bounds; }
+
+  // D, user's unit: the length that every share (smoothing length, reach,
+  // margin) refers to.  That of the bounding box's diagonal unless WithLength
+  // gave another: all contact spaces of a world have the world's.
+  double length() const { return length_; }
+  // The same space with another D > 0; throws InputError otherwise.
+  ContactSpace WithLength(double length) const;
+
+  // The one index: distances, segments, inside.
+  const TriangleBvh& bvh() const;
+  // Unit normals of the triangles, outward; zero where there is no area.
+  const std::vector<Eigen::Vector3d>& normals() const;
+
+  // Do both share mesh and indexes?
+  bool SharesWith(const ContactSpace& other) const {
+    return data_ == other.data_;
+  }
+
+ private:
+  struct Indexes;
+  struct Data {
+    Parts parts;
+    BoundingBox bounds;
+    std::unique_ptr<Indexes> indexes;
+
+    Data();
+    ~Data();
+  };
+
+  std::shared_ptr<const Data> data_;
+  double length_ = 0.0;
 };
 
 // Builds the contact space of a translating `robot` (A) and a fixed
@@ -37,5 +92,18 @@ struct ContactSpace {
 ContactSpace BuildContactSpace(const TriangleMesh& robot,
                                const TriangleMesh& obstacle,
                                const ContactSpaceOptions& options = {});
+
+// The same spaces with one D: the one they agree on, or else the diagonal of
+// the bounding box of all of them.  A share of D then is the same length
+// whichever obstacle it is asked of.
+std::vector<ContactSpace> WithCommonLength(std::vector<ContactSpace> spaces);
+
+// Any closed mesh taken for a contact space: one that was saved, or the
+// boundary of forbidden positions found in another way.  Nothing says that it
+// is a Minkowski sum: of a bracket's own mesh every answer is that of a point
+// among brackets.  Planes and kinds are not known, the report is that of the
+// mesh alone with method "taken from a mesh".  Throws as ContactSpace.
+ContactSpace TakeAsContactSpace(TriangleMesh mesh,
+                                const std::string& name = "contact mesh");
 
 }  // namespace phongpd

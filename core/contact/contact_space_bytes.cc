@@ -4,14 +4,15 @@
 #include <cstdint>
 
 #include "core/contact/byte_stream.h"
+#include "core/mesh/finite.h"
 
 namespace phongpd {
 namespace {
 
 // To be raised when the meaning of the bytes changes without their source:
 // PHONGPD_BUILDER is a digest of the sources of core/mesh and
-// core/contact_space and the version of CGAL, so that a result of other code
-// is never taken for one of this.
+// core/mesh to core/contact and the version of CGAL, so that a result of other
+// code is never taken for one of this.
 constexpr std::uint32_t kFormat = 1;
 
 }  // namespace
@@ -88,7 +89,7 @@ void Fields(Stream* io, ContactSpaceReport& report) {
 }
 
 template <typename Stream>
-void Fields(Stream* io, ContactSpace& space) {
+void Fields(Stream* io, ContactSpace::Parts& space) {
   auto& [mesh, plane, kind, report] = space;
   (*io)(mesh, plane, kind, report);
 }
@@ -102,7 +103,7 @@ std::string KeyBytes(const TriangleMesh& robot, const TriangleMesh& obstacle,
   return writer.Take();
 }
 
-std::string ToBytes(const ContactSpace& space) {
+std::string ToBytes(const ContactSpace::Parts& space) {
   ByteWriter writer;
   writer(space);
   return writer.Take();
@@ -111,13 +112,13 @@ std::string ToBytes(const ContactSpace& space) {
 namespace {
 
 // Is it what others rely on without looking again?
-bool IsValid(const ContactSpace& space) {
+bool IsValid(const ContactSpace::Parts& space) {
   const std::size_t triangles = space.mesh.triangles.size();
   if (space.plane.size() != triangles || space.kind.size() != triangles) {
     return false;
   }
   for (const Eigen::Vector3d& v : space.mesh.vertices) {
-    if (!v.allFinite()) return false;
+    if (!IsFinite(v)) return false;
   }
   const auto size = static_cast<int>(space.mesh.vertices.size());
   for (const Triangle& triangle : space.mesh.triangles) {
@@ -135,7 +136,7 @@ bool IsValid(const ContactSpace& space) {
 
 }  // namespace
 
-bool FromBytes(std::string_view bytes, ContactSpace* space) {
+bool FromBytes(std::string_view bytes, ContactSpace::Parts* space) {
   ByteReader reader(bytes);
   reader(*space);
   return reader.Done() && IsValid(*space);

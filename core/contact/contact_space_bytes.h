@@ -16,10 +16,10 @@ namespace phongpd::internal {
 std::string KeyBytes(const TriangleMesh& robot, const TriangleMesh& obstacle,
                      const ContactSpaceOptions& options);
 
-std::string ToBytes(const ContactSpace& space);
+std::string ToBytes(const ContactSpace::Parts& space);
 // False, with *space in no particular state, unless `bytes` is a contact
 // space to the last byte, with valid indices, finite vertices and known kinds.
 // Memory stays below 100 times the bytes, whatever they claim.
-bool FromBytes(std::string_view bytes, ContactSpace* space);
+bool FromBytes(std::string_view bytes, ContactSpace::Parts* space);
 
 }  // namespace phongpd::internal

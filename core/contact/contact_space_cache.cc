@@ -105,7 +105,7 @@ class CacheFile {
 
   // False, with a reason to warn of if there is one, unless *space is what was
   // kept.
-  bool Read(ContactSpace* space) {
+  bool Read(ContactSpace::Parts* space) {
     warning_ = folder_.distrust();
     if (!folder_.descriptor().IsOpen()) return false;
     const Descriptor file(
@@ -132,7 +132,7 @@ class CacheFile {
   }
 
   // Failures are no more than that: the next call finds no file.
-  void Write(const ContactSpace& space) {
+  void Write(const ContactSpace::Parts& space) {
     try {
       const std::string content = internal::ToBytes(space);
       const std::string start = header_ + Seal(content);
@@ -159,7 +159,7 @@ class CacheFile {
   }
 
   bool IsContent(const Descriptor& file, std::uintmax_t size,
-                 ContactSpace* space) const {
+                 ContactSpace::Parts* space) const {
     const std::size_t start = header_.size() + kSealBytes;
     if (size > cache_.max_bytes || size < start) return false;
     try {
@@ -240,17 +240,17 @@ ContactSpace BuildContactSpaceCached(const TriangleMesh& robot,
     return BuildContactSpace(robot, obstacle, options);
   }
   CacheFile file(robot, obstacle, options, cache);
-  ContactSpace space;
-  if (file.Read(&space)) {
-    space.report.from_cache = true;
-    return space;
+  ContactSpace::Parts kept;
+  if (file.Read(&kept)) {
+    kept.report.from_cache = true;
+    return ContactSpace(std::move(kept));
   }
-  space = BuildContactSpace(robot, obstacle, options);
-  file.Write(space);
-  if (!file.warning().empty()) {
-    space.report.warnings.push_back(file.warning());
-  }
-  return space;
+  ContactSpace built = BuildContactSpace(robot, obstacle, options);
+  file.Write(built.parts());
+  if (file.warning().empty()) return built;
+  ContactSpace::Parts parts = built.parts();
+  parts.report.warnings.push_back(file.warning());
+  return ContactSpace(std::move(parts));
 }
 
 }  // namespace phongpd

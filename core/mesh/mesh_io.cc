@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/mesh/finite.h"
 #include "core/mesh/input_file.h"
 #include "core/mesh/polygon_soup.h"
 #include "core/mesh/polygon_triangulation.h"
@@ -60,7 +61,7 @@ class Complaint {
 void RequireValid(const PolygonSoup& soup, const std::string& path) {
   Complaint non_finite, bad_index;
   for (std::size_t i = 0; i < soup.points.size(); ++i) {
-    if (!soup.points[i].allFinite()) non_finite.Add(i);
+    if (!IsFinite(soup.points[i])) non_finite.Add(i);
   }
   non_finite.ThrowIfAny(path, "finite coordinates",
                         "vertices with NaN or infinity");

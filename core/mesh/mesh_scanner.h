@@ -3,9 +3,12 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <cstring>
+#include <limits>
 #include <string>
 #include <string_view>
+#include <type_traits>
 
 // What the readers of all mesh formats share: bytes in memory, taken from the
 // front, and refusals that name file and place.
@@ -24,6 +27,23 @@ bool ParseInteger(std::string_view word, long long* value);
 
 // `word` in quotes for a message: shortened, on one line.
 std::string Quoted(std::string_view word);
+
+// A signalling NaN becomes a quiet one: read as it is, it would be an invalid
+// operation wherever it is converted or compared, even by std::isnan.  Looks at
+// the bits (IEEE) for that reason.
+template <typename Real>
+void MakeQuiet(Real* x) {
+  static_assert(std::numeric_limits<Real>::is_iec559);
+  using Bits =
+      std::conditional_t<sizeof(Real) == 4, std::uint32_t, std::uint64_t>;
+  static_assert(sizeof(Bits) == sizeof(Real));
+  constexpr Real kInfinity = std::numeric_limits<Real>::infinity();
+  Bits bits, infinity;
+  std::memcpy(&bits, x, sizeof bits);
+  std::memcpy(&infinity, &kInfinity, sizeof infinity);
+  const bool is_nan = static_cast<Bits>(bits << 1) > infinity << 1;
+  if (is_nan) *x = std::numeric_limits<Real>::quiet_NaN();
+}
 
 class MeshScanner {
  public:
@@ -50,7 +70,8 @@ class MeshScanner {
   // mesh_io.cc counts them).
   double Real(std::string_view word, const std::string& place) const;
 
-  // Takes a value in the given byte order; refuses when too few are left.
+  // Takes a value in the given byte order; refuses when too few are left.  Of
+  // reals a NaN is a quiet one, whatever its bits are in the file.
   template <typename T>
   T Binary(bool is_big_endian) {
     if (bytes_.size() < sizeof(T)) RefuseContent();
@@ -61,6 +82,7 @@ class MeshScanner {
     if (is_big_endian) std::reverse(raw, raw + sizeof(T));
     T value;
     std::memcpy(&value, raw, sizeof(T));
+    if constexpr (std::is_floating_point_v<T>) MakeQuiet(&value);
     return value;
   }
 

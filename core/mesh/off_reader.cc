@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <cmath>
 #include <cstdint>
 
 #include "core/mesh/mesh_scanner.h"
@@ -87,6 +88,9 @@ class OffReader {
 
   void ReadVertex() {
     const int numbers = is_homogeneous_ ? 4 : 3;
+    const auto place = [this] {
+      return "vertex " + std::to_string(soup_.points.size() + 1);
+    };
     double x[4] = {0, 0, 0, 1};
     if (is_binary_) {
       for (int k = 0; k < numbers; ++k) x[k] = scanner_.Binary<float>(true);
@@ -95,11 +99,17 @@ class OffReader {
       if (has_textures_) Skip(is_homogeneous_ ? 3 : 2);
     } else {
       std::string_view line = ContentLine();
-      const std::string place =
-          "vertex " + std::to_string(soup_.points.size() + 1);
+      const std::string text_place = place();
       for (int k = 0; k < numbers; ++k) {
-        x[k] = scanner_.Real(TakeWord(&line), place);
+        x[k] = scanner_.Real(TakeWord(&line), text_place);
       }
+    }
+    if (x[3] == 0.0 || !std::isfinite(x[3])) {
+      scanner_.Refuse(place() +
+                      "; expected a finite fourth coordinate other than 0, "
+                      "found " +
+                      (x[3] == 0.0 ? "0" : "NaN or infinity") +
+                      "; export it again");
     }
     soup_.points.emplace_back(x[0] / x[3], x[1] / x[3], x[2] / x[3]);
   }

@@ -35,6 +35,12 @@ constexpr TypeName kTypes[] = {{"char", "int8", Type::kInt8, 1},
                                {"float", "float32", Type::kFloat, 4},
                                {"double", "float64", Type::kDouble, 8}};
 
+// 0, 1, ... `most`; a text may spell any number, or NaN.
+bool IsWhole(double x, double most) {
+  return std::isgreaterequal(x, 0.0) && std::islessequal(x, most) &&
+         x == std::floor(x);
+}
+
 bool IsReal(Type type) { return type == Type::kFloat || type == Type::kDouble; }
 
 // What a property means to us: x, y, z of a vertex, corners of a face.
@@ -191,10 +197,9 @@ class PlyReader {
         continue;
       }
       const double count = Value(*p.count, element, true);
-      // Written so that NaN fails it.
-      if (!(count >= 0 && count == std::floor(count))) Refuse(element, count);
-      const bool fits = count <= std::numeric_limits<std::uint32_t>::max();
-      if (!fits) Refuse(element, count);
+      if (!IsWhole(count, std::numeric_limits<std::uint32_t>::max())) {
+        Refuse(element, count);
+      }
       const auto corners = static_cast<std::uint32_t>(count);
       scanner_.RequireRoom(corners, is_text_ ? 2 : p.type->bytes,
                            "values in a list of a " + element.name);
@@ -219,9 +224,9 @@ class PlyReader {
 
   // An index that is none becomes −1, which is out of range.
   static int Index(double value) {
-    const bool fits = value >= 0 && value == std::floor(value) &&
-                      value <= std::numeric_limits<int>::max();
-    return fits ? static_cast<int>(value) : -1;
+    return IsWhole(value, std::numeric_limits<int>::max())
+               ? static_cast<int>(value)
+               : -1;
   }
 
   // All types but float have their values among the doubles.

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <map>
 
+#include "core/mesh/finite.h"
 #include "core/mesh/mesh_scanner.h"
 #include "core/mesh/polygon_soup.h"
 
@@ -18,7 +19,7 @@ class StlSoup {
   void AddCorner(const Eigen::Vector3d& p) {
     int index = static_cast<int>(soup_.points.size());
     // NaN is equal to nothing, and has no place in an order.
-    if (p.allFinite()) {
+    if (IsFinite(p)) {
       index =
           index_.emplace(std::array{p.x(), p.y(), p.z()}, index).first->second;
     }

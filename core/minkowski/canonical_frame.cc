@@ -34,10 +34,18 @@ struct Direction {
 class DirectionTable {
  public:
   void Add(const TriangleMesh& mesh) {
-    const double total = SurfaceArea(mesh);
+    double total = SurfaceArea(mesh);
+    if (!(total > 0.0)) return;
+    // In units of about its root: squares of areas leave the range of doubles
+    // from lengths of 1e±77 on.
+    int exponent = 0;
+    std::frexp(std::sqrt(total), &exponent);
+    const double scale = std::ldexp(1.0, -exponent);
+    total *= scale * scale;
     for (const Triangle& t : mesh.triangles) {
       const Vector3d& a = mesh.vertices[t[0]];
-      Vector3d n = (mesh.vertices[t[1]] - a).cross(mesh.vertices[t[2]] - a);
+      Vector3d n = (scale * (mesh.vertices[t[1]] - a))
+                       .cross(scale * (mesh.vertices[t[2]] - a));
       const double area = 0.5 * n.norm();
       if (!(area > 0)) continue;
       n /= 2 * area;

@@ -10,7 +10,7 @@
 #include <sstream>
 #include <utility>
 
-#include "core/bvh/surface_tree.h"
+#include "core/bvh/triangle_bvh.h"
 #include "core/mesh/mesh_error.h"
 #include "core/mesh/union_find.h"
 #include "core/solid/self_intersection.h"
@@ -392,7 +392,7 @@ class LossCheck {
   // between its ends leaves both inside or both outside.
   bool IsKept(const Vector3d& a, const Vector3d& b) const {
     const Vector3d middle = 0.5 * (a + b);
-    const SurfaceTree::Closest closest = surface_.FindClosest(middle);
+    const TriangleBvh::Closest closest = surface_.FindClosest(middle);
     const double radius = 0.5 * (b - a).norm();
     if (closest.distance + radius <= reach_) return true;
     if (closest.distance > radius) return Turns(mesh_, middle) > 0.5;
@@ -408,7 +408,7 @@ class LossCheck {
 
   double reach_;
   TriangleMesh mesh_;
-  SurfaceTree surface_;
+  TriangleBvh surface_;
   std::set<std::pair<int, int>> edges_;
 };
 

@@ -9,11 +9,9 @@
 namespace phongpd {
 
 // A mesh in the frame of PhongField and in an order that depends on nothing
-// but its geometry: used vertices sorted by coordinates, triangles rotated to
-// start at their smallest vertex and sorted.  Whatever is computed from it is
+// but its geometry (sorted_mesh.h).  Whatever is computed from it is
 // independent, to the last bit, of the order of the input's vertices and
-// triangles.  (Distinct vertices of equal coordinates keep the input's order
-// among themselves: the one exception.)
+// triangles.
 struct CanonicalMesh {
   TriangleMesh mesh;
   std::vector<int> source;  // input triangle of each triangle
@@ -22,8 +20,8 @@ struct CanonicalMesh {
   double diagonal = 1.0;    // of the bounding box, in [1, 2) after scaling
 };
 
-// Requires finite, closed, edge-manifold and consistently oriented input with
-// a bounding box of normal, positive diagonal; throws InputError otherwise.
+// Of the mesh of a contact space: finite, closed, oriented, of a diagonal in
+// [1e-150, 1e150].
 CanonicalMesh MakeCanonical(const TriangleMesh& mesh);
 
 }  // namespace phongpd

@@ -6,13 +6,13 @@
 namespace phongpd {
 
 struct EuclideanMetric::Impl {
-  explicit Impl(const TriangleMesh& mesh) : surface(mesh) {}
+  explicit Impl(const ContactSpace& space) : surface(space) {}
 
   ContactSurface surface;
 };
 
-EuclideanMetric::EuclideanMetric(const TriangleMesh& contact_mesh)
-    : impl_(std::make_unique<Impl>(contact_mesh)) {}
+EuclideanMetric::EuclideanMetric(const ContactSpace& space)
+    : impl_(std::make_unique<Impl>(space)) {}
 EuclideanMetric::~EuclideanMetric() = default;
 EuclideanMetric::EuclideanMetric(EuclideanMetric&&) noexcept = default;
 EuclideanMetric& EuclideanMetric::operator=(EuclideanMetric&&) noexcept =

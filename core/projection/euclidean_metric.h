@@ -3,7 +3,7 @@
 
 #include <memory>
 
-#include "core/mesh/triangle_mesh.h"
+#include "core/contact/contact_space.h"
 #include "core/projection/penetration_metric.h"
 
 namespace phongpd {
@@ -18,9 +18,7 @@ namespace phongpd {
 // facet across: a step along it then does not leave C_obj.
 class EuclideanMetric final : public PenetrationMetric {
  public:
-  // `contact_mesh` closed, outward, edge-manifold, with a diagonal between
-  // 1e-150 and 1e150.  Throws InputError.
-  explicit EuclideanMetric(const TriangleMesh& contact_mesh);
+  explicit EuclideanMetric(const ContactSpace& space);
   ~EuclideanMetric() override;
   EuclideanMetric(EuclideanMetric&&) noexcept;
   EuclideanMetric& operator=(EuclideanMetric&&) noexcept;

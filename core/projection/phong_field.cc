@@ -51,13 +51,12 @@ void CheckRange(const char* name, double value, bool ok, const char* range) {
 // Builds the field step by step; all coordinates in the field frame.
 class FieldBuilder {
  public:
-  FieldBuilder(const TriangleMesh& contact_mesh,
-               const PhongFieldOptions& options)
+  FieldBuilder(const ContactSpace& space, const PhongFieldOptions& options)
       : options_(options) {
-    CanonicalMesh canonical = MakeCanonical(contact_mesh);
+    CanonicalMesh canonical = MakeCanonical(space.mesh());
     field_.center = canonical.center;
     field_.scale = canonical.scale;
-    diagonal_ = canonical.diagonal;
+    length_ = space.length() * field_.scale;
     contact_triangle_ = std::move(canonical.source);
     field_.mesh = std::move(canonical.mesh);
     facets_ = FacetNormals(field_.mesh);
@@ -208,7 +207,7 @@ class FieldBuilder {
     out << "splitting needs more than " << kMaxTriangles
         << " triangles; smoothing_length " << options_.smoothing_length
         << " and max_edge " << options_.max_edge << " ask for edges below "
-        << MaxEdge() / diagonal_ << " of the diagonal; set a larger max_edge";
+        << MaxEdge() / length_ << " of D; set a larger max_edge";
     Refuse(out.str());
   }
 
@@ -232,8 +231,8 @@ class FieldBuilder {
   }
 
   double MaxEdge() const {
-    if (options_.max_edge > 0.0) return options_.max_edge * diagonal_;
-    return kEdgePerEll * options_.smoothing_length * diagonal_;
+    if (options_.max_edge > 0.0) return options_.max_edge * length_;
+    return kEdgePerEll * options_.smoothing_length * length_;
   }
 
   void SplitLongEdges() {
@@ -264,7 +263,7 @@ class FieldBuilder {
     for (const int s : source_) part_facets.push_back(facets_[At(s)]);
     const std::vector<Vector3d> smooth =
         DiffuseNormals(field_.mesh, MeanNormals(field_.mesh, part_facets),
-                       options_.smoothing_length * diagonal_);
+                       options_.smoothing_length * length_);
     const auto fans = FacetFans();
     for (std::size_t v = 0; v < base_.size(); ++v) {
       const double length = smooth[v].norm();
@@ -317,7 +316,7 @@ class FieldBuilder {
 
   PhongFieldOptions options_;
   PhongField field_;
-  double diagonal_ = 0.0;              // field frame, in [1, 2)
+  double length_ = 0.0;                // D, field frame
   std::vector<int> contact_triangle_;  // of each source triangle
   std::vector<Vector3d> facets_;       // N_f, per source triangle
   std::vector<int> source_;            // per triangle of field_.mesh
@@ -337,10 +336,10 @@ void PhongFieldOptions::Validate() const {
              "[0, 1]");
 }
 
-PhongField BuildPhongField(const TriangleMesh& contact_mesh,
+PhongField BuildPhongField(const ContactSpace& space,
                            const PhongFieldOptions& options) {
   options.Validate();
-  return FieldBuilder(contact_mesh, options).Take();
+  return FieldBuilder(space, options).Take();
 }
 
 }  // namespace phongpd

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "core/contact/contact_space.h"
 #include "core/mesh/triangle_mesh.h"
 
 namespace phongpd {
@@ -17,21 +18,21 @@ enum class NormalWeight {
 };
 
 struct PhongFieldOptions {
-  // ℓ as a fraction of the contact space's bounding-box diagonal; 0 is the
-  // paper's field.  Must be in [0, 1].
+  // ℓ as a share of D (ContactSpace::length); 0 is the paper's field.  Must be
+  // in [0, 1].
   double smoothing_length = 0.0;
   NormalWeight weight = NormalWeight::kAngle;
   // Admissibility c: n_i · N_f ≥ c for every vertex i and incident facet f.
   // Must be in (0, 1).
   double limiter = 0.1;
-  // Longest edge of the field mesh as a fraction of the diagonal; longer edges
-  // are split at mid-points (which leaves the surface as it is).  0: ℓ/2, or
-  // no bound for ℓ = 0.  A diffusion that edges longer than ℓ do not resolve
-  // is a property of the tessellation, not of the shape: against a mesh of
-  // edges ℓ/8 the field is off by 3-25° (root mean square over box, U, wrench,
-  // cone/axes; ℓ = 0.05-0.2) without splitting, by 1-3° with edges ≤ ℓ and by
-  // 0.2-1° with edges ≤ ℓ/2; by up to 9° where parts are thinner than ℓ.
-  // Must be in [0, 1]; refused where it needs more than 4M triangles.
+  // Longest edge of the field mesh as a share of D; longer edges are split at
+  // mid-points (which leaves the surface as it is).  0: ℓ/2, or no bound for ℓ
+  // = 0.  A diffusion that edges longer than ℓ do not resolve is a property of
+  // the tessellation, not of the shape: against a mesh of edges ℓ/8 the field
+  // is off by 3-25° (root mean square over box, U, wrench, cone/axes; ℓ =
+  // 0.05-0.2) without splitting, by 1-3° with edges ≤ ℓ and by 0.2-1° with
+  // edges ≤ ℓ/2; by up to 9° where parts are thinner than ℓ. Must be in [0, 1];
+  // refused where it needs more than 4M triangles.
   double max_edge = 0.0;
 
   // Throws InputError naming the option, the range and the value.
@@ -95,10 +96,9 @@ struct PhongField {
   }
 };
 
-// Builds the field on a closed, outward, edge-manifold mesh (a contact space).
-// Three sparse SPD solves for ℓ > 0, see vertex_normals.h.
-// Throws InputError for bad options or an unusable mesh.
-PhongField BuildPhongField(const TriangleMesh& contact_mesh,
+// Builds the field of a contact space.  Three sparse SPD solves for ℓ > 0, see
+// vertex_normals.h. Throws InputError for bad options or an unusable mesh.
+PhongField BuildPhongField(const ContactSpace& space,
                            const PhongFieldOptions& options = {});
 
 }  // namespace phongpd

@@ -22,18 +22,23 @@ using Eigen::Vector3d;
 // Two hits are one (found by the two triangles of an edge) if both agree to
 // this; field frame.
 constexpr double kSameHit = 1e-9;
+// |s| of a branch, in the field frame, whose diagonal is in [1, 2).  Where n(λ)
+// is short, s is a multiple of the depth, but no projection has one like this,
+// and its fourth power is still finite.
+constexpr double kMaxOffset = 1e50;
 
 }  // namespace
 
 void PhongMetricOptions::Validate() const { field_options.Validate(); }
 
 struct PhongMetric::Impl {
-  Impl(const TriangleMesh& mesh, const PhongMetricOptions& options)
-      : surface(mesh),
-        projector(BuildPhongField(mesh, options.field_options), options.field),
+  Impl(const ContactSpace& space, const PhongMetricOptions& options)
+      : surface(space),
+        projector(BuildPhongField(space, options.field_options), options.field),
         search(projector),
         walk(projector) {
     // Field vertices that are contact vertices keep their exact coordinates.
+    const TriangleMesh& mesh = space.mesh();
     const PhongField& field = projector.field();
     for (std::size_t v = 0; v < field.mesh.vertices.size(); ++v) {
       const bool original =
@@ -44,14 +49,19 @@ struct PhongMetric::Impl {
     }
   }
 
-  // A branch that comes from this metric or could have.
+  // A branch that comes from this metric or could have.  The comparisons are
+  // false for NaN; a sum of λ ≥ 0 that is 1 has no infinite part.
   bool Knows(const Branch& branch) const {
+    const Vector3d& lambda = branch.lambda;
     return branch.triangle >= 0 &&
            branch.triangle <
                static_cast<int>(projector.field().mesh.triangles.size()) &&
-           branch.lambda.allFinite() && branch.lambda.minCoeff() >= 0.0 &&
-           std::abs(branch.lambda.sum() - 1.0) < 1e-9 &&
-           std::isfinite(branch.s * projector.field().scale);
+           std::isgreaterequal(lambda[0], 0.0) &&
+           std::isgreaterequal(lambda[1], 0.0) &&
+           std::isgreaterequal(lambda[2], 0.0) &&
+           std::abs(lambda.sum() - 1.0) < 1e-9 &&
+           std::islessequal(std::abs(branch.s * projector.field().scale),
+                            kMaxOffset);
   }
 
   Projection ToProjection(const Branch& branch) const {
@@ -112,10 +122,10 @@ struct PhongMetric::Impl {
   std::vector<Vector3d> vertices;  // of the field mesh, user's frame
 };
 
-PhongMetric::PhongMetric(const TriangleMesh& contact_mesh,
+PhongMetric::PhongMetric(const ContactSpace& space,
                          const PhongMetricOptions& options) {
   options.Validate();
-  impl_ = std::make_unique<Impl>(contact_mesh, options);
+  impl_ = std::make_unique<Impl>(space, options);
 }
 PhongMetric::~PhongMetric() = default;
 PhongMetric::PhongMetric(PhongMetric&&) noexcept = default;
@@ -158,7 +168,7 @@ void PhongMetric::QueryAll(const Vector3d& q_o, double depth_bound,
                            std::vector<PenetrationResult>* results) const {
   const Impl& impl = *impl_;
   results->clear();
-  if (!impl.surface.Accepts(q_o) || !(depth_bound >= 0.0) ||
+  if (!impl.surface.Accepts(q_o) || !std::isgreaterequal(depth_bound, 0.0) ||
       impl.surface.Locate(q_o) != Location::kInside) {
     return;
   }

@@ -34,13 +34,15 @@ struct PhongMetricOptions {
 // depths, the contact that comes first by x, y, z).  With a branch it follows
 // the branch from the branch's own configuration straight to q_o and reports
 // kBranchEnded where the branch folds, leaves C_obj, or is left behind because
-// q_o left C_obj elsewhere.
+// q_o left C_obj elsewhere.  What is no branch of this metric by its numbers –
+// no such triangle, λ not barycentric, |s| of some 1e50 diagonals – counts as
+// none.
 // Where no projection exists inside, the Euclidean answer without a branch
 // and status kEuclideanFallback.
 class PhongMetric final : public PenetrationMetric {
  public:
-  // `contact_mesh` as EuclideanMetric requires it.  Throws InputError.
-  explicit PhongMetric(const TriangleMesh& contact_mesh,
+  // Throws InputError for options.
+  explicit PhongMetric(const ContactSpace& space,
                        const PhongMetricOptions& options = {});
   ~PhongMetric() override;
   PhongMetric(PhongMetric&&) noexcept;

@@ -7,6 +7,7 @@
 #include <sstream>
 #include <tuple>
 
+#include "core/mesh/finite.h"
 #include "core/mesh/mesh_range.h"
 #include "core/solid/self_intersection.h"
 #include "core/solid/shell_orientation.h"
@@ -49,7 +50,7 @@ void CountVerticesAndIndices(const TriangleMesh& mesh, MeshReport* report) {
     for (const int v : triangle) report->bad_indices += v < 0 || v >= size;
   }
   for (const Eigen::Vector3d& v : mesh.vertices) {
-    report->non_finite_vertices += !v.allFinite();
+    report->non_finite_vertices += !IsFinite(v);
   }
   if (report->bad_indices > 0) return;
   const std::vector<bool> used = UsedVertices(mesh);
@@ -255,7 +256,7 @@ void RequireInRange(const TriangleMesh& mesh, const std::string& name) {
   const int size = static_cast<int>(mesh.vertices.size());
   for (const Triangle& triangle : mesh.triangles) {
     for (const int v : triangle) {
-      if (v < 0 || v >= size || !mesh.vertices[v].allFinite()) continue;
+      if (v < 0 || v >= size || !IsFinite(mesh.vertices[v])) continue;
       const double largest = mesh.vertices[v].cwiseAbs().maxCoeff();
       if (largest <= kMaxCoordinate) continue;
       std::ostringstream what;

@@ -84,7 +84,7 @@ std::vector<Vector3d> ContactRoadmap::Impl::Route(const Vector3d& start,
     std::vector<LiftedGraph::Stop> stops;
     graph.See(q, q, clearance, options.neighbors, options.stops, &stops);
     // And what is in the way: the nearest nodes may lie behind.
-    const SegmentTree::Hit hit = surface.segments.FirstHit(q, other);
+    const TriangleBvh::Hit hit = surface.segments.FirstHit(q, other);
     if (hit.Found()) {
       graph.See(q, q + hit.fraction * (other - q), clearance, options.neighbors,
                 options.stops, &stops);
@@ -111,11 +111,11 @@ ContactRoadmap::ContactRoadmap(
   impl_->build_seconds = stopwatch.Seconds();
 }
 
-ContactRoadmap::ContactRoadmap(const TriangleMesh& merged_contact_mesh,
+ContactRoadmap::ContactRoadmap(const ContactSpace& merged,
                                const ContactRoadmapOptions& options,
                                const ContactSurfaceOptions& planner_options)
     : ContactRoadmap(std::make_shared<const ContactSurfacePlanner>(
-                         merged_contact_mesh, planner_options),
+                         merged, planner_options),
                      options) {}
 
 ContactRoadmap::~ContactRoadmap() = default;

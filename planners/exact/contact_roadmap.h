@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <memory>
 
-#include "core/mesh/triangle_mesh.h"
+#include "core/contact/contact_space.h"
 #include "planners/exact/contact_surface_planner.h"
 
 namespace phongpd {
@@ -68,7 +68,7 @@ class ContactRoadmap {
   explicit ContactRoadmap(std::shared_ptr<const ContactSurfacePlanner> planner,
                           const ContactRoadmapOptions& options = {});
   // Builds the planner, too; throws InputError like it.
-  explicit ContactRoadmap(const TriangleMesh& merged_contact_mesh,
+  explicit ContactRoadmap(const ContactSpace& merged,
                           const ContactRoadmapOptions& options = {},
                           const ContactSurfaceOptions& planner_options = {});
   ~ContactRoadmap();

@@ -82,8 +82,8 @@ void PlanRequest::Validate() const {
 }
 
 struct ContactSurfacePlanner::Impl {
-  Impl(const TriangleMesh& contact_mesh, const ContactSurfaceOptions& options)
-      : surface(contact_mesh, options),
+  Impl(const ContactSpace& space, const ContactSurfaceOptions& options)
+      : surface(space, options),
         graph(surface.contact.mesh(), surface.neighbors, surface.segments,
               surface.cells, options.spacing * surface.bounds.Diagonal(),
               options.gap_links) {}
@@ -124,7 +124,7 @@ std::vector<Attachment> ContactSurfacePlanner::Impl::Attach(
       surface.contact.Answer(q, Location::kOutside);
   add(closest.contact, closest.triangle);
   const auto shoot = [&](const Vector3d& to) {
-    const SegmentTree::Hit hit = surface.segments.FirstHit(q, to);
+    const TriangleBvh::Hit hit = surface.segments.FirstHit(q, to);
     if (hit.Found()) add(q + hit.fraction * (to - q), hit.triangle);
   };
   shoot(other);
@@ -246,10 +246,9 @@ void ContactSurfacePlanner::Impl::FindPath(const Vector3d& start,
 }
 
 ContactSurfacePlanner::ContactSurfacePlanner(
-    const TriangleMesh& merged_contact_mesh,
-    const ContactSurfaceOptions& options) {
+    const ContactSpace& merged, const ContactSurfaceOptions& options) {
   const Stopwatch stopwatch;
-  impl_ = std::make_unique<Impl>(merged_contact_mesh, options);
+  impl_ = std::make_unique<Impl>(merged, options);
   impl_->build_seconds = stopwatch.Seconds();
 }
 

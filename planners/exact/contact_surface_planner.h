@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "core/mesh/triangle_mesh.h"
+#include "core/contact/contact_space.h"
 #include "planners/exact/free_cells.h"
 #include "planners/exact/path_lift.h"
 
@@ -42,9 +42,6 @@ struct ContactSurfaceOptions {
   int routes = 3;
   int random_cuts = 200;   // of the shortening, ≥ 0
   std::uint64_t seed = 1;  // of those
-  // Pairs of triangles of the mesh that meet, if known (ContactSpaceReport);
-  // −1: counted when infeasibility is first proved.
-  long self_intersections = -1;
   // Names what is in the way at q, for messages.  Plan calls it: whoever plans
   // in several threads needs one that is thread-safe.
   std::function<std::string(const Eigen::Vector3d& q)> name_obstacle;
@@ -88,7 +85,7 @@ struct PlanResult {
   // Answers hold for every embedded surface of the mesh's connectivity with
   // vertices within this distance of the mesh's (free_cells.h).
   double rounding = 0.0;
-  long self_intersections = -1;  // of the mesh; −1: not counted
+  long self_intersections = 0;  // of the mesh, as rounded
   int searches = 0;
   int deleted_edges = 0;
   LiftCounts lift;
@@ -111,10 +108,9 @@ struct PlanResult {
 // There is no parameter that decides whether a problem is solved.
 class ContactSurfacePlanner {
  public:
-  // The contact space of all obstacles, and of bounds, in one mesh
-  // (MergedObstacle), cavities included; closed, outward, edge-manifold.
-  // Throws InputError like ContactSurface, and for options.
-  explicit ContactSurfacePlanner(const TriangleMesh& merged_contact_mesh,
+  // The one contact space of all obstacles, and of bounds (MergedObstacle),
+  // cavities included.  Throws InputError for options.
+  explicit ContactSurfacePlanner(const ContactSpace& merged,
                                  const ContactSurfaceOptions& options = {});
   ~ContactSurfacePlanner();
   ContactSurfacePlanner(ContactSurfacePlanner&&) noexcept;

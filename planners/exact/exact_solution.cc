@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "planners/exact/exact_solution.h"
 
-#include "constraints/collision_oracle.h"
+#include "constraints/motion_oracle.h"
 #include "core/stopwatch.h"
 
 namespace phongpd {
@@ -15,7 +15,7 @@ std::string NameObstacles(const Workspace& workspace, const Vector3d& q) {
   };
   for (const int i : ReachableObstacles(workspace)) {
     const Obstacle& obstacle = workspace.obstacles[static_cast<std::size_t>(i)];
-    if (CollisionOracle(workspace.robot, obstacle.mesh).Collides(q)) {
+    if (MotionOracle(workspace.robot, obstacle.mesh).Collides(q)) {
       add(obstacle.id);
     }
   }
@@ -37,17 +37,13 @@ ExactSolution SolveExactly(const Workspace& workspace, const Vector3d& start,
   const ContactSpace space = BuildContactSpace(
       workspace.robot, MergedObstacle(workspace), contact_options);
   solution.contact_space_seconds = stopwatch.Seconds();
-  solution.contact_space = space.report;
-  if (options.self_intersections < 0) {
-    options.self_intersections =
-        static_cast<long>(space.report.self_intersections);
-  }
+  solution.contact_space = space.report();
   if (!options.name_obstacle) {
     options.name_obstacle = [&workspace](const Vector3d& q) {
       return NameObstacles(workspace, q);
     };
   }
-  const ContactSurfacePlanner planner(space.mesh, options);
+  const ContactSurfacePlanner planner(space, options);
   solution.planner_seconds = planner.build_seconds();
   solution.plan = planner.Plan(start, goal);
   return solution;

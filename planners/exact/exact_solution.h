@@ -29,7 +29,7 @@ ExactSolution SolveExactly(const Workspace& workspace,
                            const ContactSpaceOptions& contact_options = {});
 
 // The ids of what the robot touches at q: obstacles, and "bounds"; separated
-// by ", ".  Decided on the solids, contact in floating point.
+// by ", ".  Decided exactly, on the solids.
 std::string NameObstacles(const Workspace& workspace, const Eigen::Vector3d& q);
 
 }  // namespace phongpd

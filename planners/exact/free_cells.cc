@@ -8,7 +8,7 @@
 #include <limits>
 
 #include "core/bvh/exact_sign.h"
-#include "core/bvh/segment_tree.h"
+#include "core/bvh/triangle_bvh.h"
 #include "core/mesh/unit_normal.h"
 #include "core/solid/shell_orientation.h"
 
@@ -34,7 +34,7 @@ constexpr int kTriesPerDirection = 4;
 
 FreeCells::FreeCells(const TriangleMesh& mesh,
                      const std::vector<std::array<int, 3>>& neighbors,
-                     const SegmentTree& segments)
+                     const TriangleBvh& segments)
     : mesh_(mesh), segments_(segments), bounds_(ComputeBounds(mesh)) {
   const double largest = std::max(bounds_.min.cwiseAbs().maxCoeff(),
                                   bounds_.max.cwiseAbs().maxCoeff());

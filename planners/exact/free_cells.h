@@ -9,7 +9,7 @@
 
 namespace phongpd {
 
-class SegmentTree;
+class TriangleBvh;
 
 // A segment through free space between what it leaves and what it meets first.
 struct CellRay {
@@ -55,7 +55,7 @@ class FreeCells {
   // it, its neighbours (FreeNeighbors) and `segments` must outlive this.
   FreeCells(const TriangleMesh& mesh,
             const std::vector<std::array<int, 3>>& neighbors,
-            const SegmentTree& segments);
+            const TriangleBvh& segments);
 
   // Largest displacement of vertices that the answers allow for, 2⁻⁴⁶ of the
   // largest coordinate.
@@ -99,7 +99,7 @@ class FreeCells {
   void FollowChains();
 
   const TriangleMesh& mesh_;
-  const SegmentTree& segments_;
+  const TriangleBvh& segments_;
   BoundingBox bounds_;
   double rounding_ = 0.0;
   int direction_ = 0;  // common one of the pieces' rays

@@ -5,23 +5,22 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
-#include "core/bvh/segment_tree.h"
 #include "core/bvh/segment_triangle_distance.h"
+#include "core/bvh/triangle_bvh.h"
+#include "core/mesh/finite.h"
 #include "core/mesh/mesh_error.h"
-#include "core/projection/contact_surface.h"
 
 namespace phongpd {
 namespace {
 
 using Eigen::Vector3d;
 
-struct Space {
-  explicit Space(const TriangleMesh& mesh) : surface(mesh), segments(mesh) {}
-
-  ContactSurface surface;  // checks the mesh first
-  SegmentTree segments;
-};
+// Can distances from q be told?  q and q − centre must be finite.
+bool Accepts(const TriangleBvh& tree, const Vector3d& q) {
+  return IsFinite(q - tree.center());
+}
 
 }  // namespace
 
@@ -29,9 +28,9 @@ struct FreeSpace::Impl {
   // Index of the contact space that q touches or is inside of, kBounds where
   // it is not strictly within them, kNone where q is free.
   int Blocker(const Vector3d& q) const {
-    if (!q.allFinite() || !IsWithinBounds(q)) return MotionCheck::kBounds;
+    if (!IsFinite(q) || !IsWithinBounds(q)) return MotionCheck::kBounds;
     for (std::size_t i = 0; i < spaces.size(); ++i) {
-      if (spaces[i].surface.Locate(q) != Location::kOutside) {
+      if (trees[i]->Locate(q) != Location::kOutside) {
         return static_cast<int>(i);
       }
     }
@@ -55,17 +54,18 @@ struct FreeSpace::Impl {
     return fraction;
   }
 
-  std::vector<Space> spaces;
+  std::vector<ContactSpace> spaces;
+  std::vector<const TriangleBvh*> trees;  // of the spaces
   BoundingBox bounds;
 };
 
-FreeSpace::FreeSpace(const std::vector<TriangleMesh>& contact_meshes,
+FreeSpace::FreeSpace(std::vector<ContactSpace> spaces,
                      const BoundingBox& bounds)
     : impl_(std::make_unique<Impl>()) {
   CheckBounds(bounds);
-  impl_->spaces.reserve(contact_meshes.size());
-  for (const TriangleMesh& mesh : contact_meshes) {
-    impl_->spaces.emplace_back(mesh);
+  impl_->spaces = std::move(spaces);
+  for (const ContactSpace& space : impl_->spaces) {
+    impl_->trees.push_back(&space.bvh());
   }
   impl_->bounds = bounds;
 }
@@ -79,7 +79,7 @@ BoundingBox FreeSpace::NoBounds() {
 }
 
 void FreeSpace::CheckBounds(const BoundingBox& bounds) {
-  if (bounds.min.allFinite() && bounds.max.allFinite()) return;
+  if (IsFinite(bounds.min) && IsFinite(bounds.max)) return;
   throw InputError(
       "bounds: expected finite numbers, found NaN or Inf; leave the bounds out "
       "where there are none");
@@ -93,14 +93,14 @@ bool FreeSpace::IsFree(const Vector3d& a, const Vector3d& b) const {
   // The bounds are convex: if the ends are within them, so is the segment.
   if (!IsFree(a) || !IsFree(b)) return false;
   return std::none_of(
-      impl_->spaces.begin(), impl_->spaces.end(),
-      [&](const Space& space) { return space.segments.Meets(a, b); });
+      impl_->trees.begin(), impl_->trees.end(),
+      [&](const TriangleBvh* tree) { return tree->Meets(a, b); });
 }
 
 MotionCheck FreeSpace::Check(const Vector3d& a, const Vector3d& b) const {
   MotionCheck result;
   result.obstacle = impl_->Blocker(a);
-  if (result.obstacle != MotionCheck::kNone || !b.allFinite()) {
+  if (result.obstacle != MotionCheck::kNone || !IsFinite(b)) {
     result.free = false;
     result.fraction = 0.0;
     if (result.obstacle == MotionCheck::kNone) {
@@ -109,7 +109,7 @@ MotionCheck FreeSpace::Check(const Vector3d& a, const Vector3d& b) const {
     return result;
   }
   for (std::size_t i = 0; i < impl_->spaces.size(); ++i) {
-    const SegmentTree::Hit hit = impl_->spaces[i].segments.FirstHit(a, b);
+    const TriangleBvh::Hit hit = impl_->trees[i]->FirstHit(a, b);
     if (hit.Found() && (result.free || hit.fraction < result.fraction)) {
       result = {false, hit.fraction, static_cast<int>(i), hit.triangle};
     }
@@ -126,16 +126,16 @@ MotionCheck FreeSpace::Check(const Vector3d& a, const Vector3d& b) const {
 double FreeSpace::Clearance(const Vector3d& q) const {
   const BoundingBox& bounds = impl_->bounds;
   double clearance = std::numeric_limits<double>::infinity();
-  if (!q.allFinite()) return 0.0;
+  if (!IsFinite(q)) return 0.0;
   if (!bounds.IsEmpty()) {
     clearance = (q - bounds.min)
                     .cwiseAbs()
                     .cwiseMin((bounds.max - q).cwiseAbs())
                     .minCoeff();
   }
-  for (const Space& space : impl_->spaces) {
-    if (!space.surface.Accepts(q)) return 0.0;
-    clearance = std::min(clearance, space.surface.Distance(q));
+  for (const TriangleBvh* tree : impl_->trees) {
+    if (!Accepts(*tree, q)) return 0.0;
+    clearance = std::min(clearance, tree->FindClosest(q).distance);
   }
   return clearance;
 }
@@ -144,11 +144,13 @@ std::vector<FreeSpace::NearTriangle> FreeSpace::FindNear(const Vector3d& a,
                                                          const Vector3d& b,
                                                          double radius) const {
   std::vector<NearTriangle> near;
-  if (!a.allFinite() || !b.allFinite() || !(radius >= 0.0)) return near;
-  for (const Space& space : impl_->spaces) {
-    if (!space.surface.Accepts(a) || !space.surface.Accepts(b)) continue;
-    const TriangleMesh& mesh = space.surface.mesh();
-    space.segments.ForEachDoubt(a, b, radius, [&](int triangle, double) {
+  if (!IsFinite(a) || !IsFinite(b) || !std::isgreaterequal(radius, 0.0)) {
+    return near;
+  }
+  for (const ContactSpace& space : impl_->spaces) {
+    if (!Accepts(space.bvh(), a) || !Accepts(space.bvh(), b)) continue;
+    const TriangleMesh& mesh = space.mesh();
+    space.bvh().ForEachDoubt(a, b, radius, [&](int triangle, double) {
       NearTriangle found;
       std::array<Vector3d, 3> t;
       for (std::size_t k = 0; k < 3; ++k) {
@@ -178,13 +180,15 @@ std::vector<FreeSpace::NearTriangle> FreeSpace::FindNear(const Vector3d& a,
 double FreeSpace::Clearance(const Vector3d& a, const Vector3d& b) const {
   double clearance = std::min(Clearance(a), Clearance(b));
   if (!IsFree(a, b)) return 0.0;
-  for (const Space& space : impl_->spaces) {
-    clearance = space.segments.Distance(a, b, clearance);
+  for (const TriangleBvh* tree : impl_->trees) {
+    clearance = tree->Distance(a, b, clearance);
   }
   return clearance;
 }
 
-std::size_t FreeSpace::size() const { return impl_->spaces.size(); }
+const std::vector<ContactSpace>& FreeSpace::spaces() const {
+  return impl_->spaces;
+}
 const BoundingBox& FreeSpace::bounds() const { return impl_->bounds; }
 
 double PathLength(const std::vector<Vector3d>& path) {

@@ -6,6 +6,7 @@
 #include <memory>
 #include <vector>
 
+#include "core/contact/contact_space.h"
 #include "core/mesh/triangle_mesh.h"
 
 namespace phongpd {
@@ -32,10 +33,9 @@ struct MotionCheck {
 class FreeSpace {
  public:
   // One contact space per obstacle, or one for all of them (MergedObstacle).
-  // Closed, outward, edge-manifold, as BuildContactSpace returns them.  Empty
-  // bounds: none.  Throws InputError like ContactSurface, and for bounds that
-  // hold NaN or are infinite.
-  explicit FreeSpace(const std::vector<TriangleMesh>& contact_meshes,
+  // Empty bounds: none.  Throws InputError for bounds that hold NaN or are
+  // infinite.
+  explicit FreeSpace(std::vector<ContactSpace> spaces,
                      const BoundingBox& bounds = NoBounds());
   ~FreeSpace();
   FreeSpace(FreeSpace&&) noexcept;
@@ -75,7 +75,8 @@ class FreeSpace {
                                      const Eigen::Vector3d& b,
                                      double radius) const;
 
-  std::size_t size() const;  // number of contact spaces
+  const std::vector<ContactSpace>& spaces() const;
+  std::size_t size() const { return spaces().size(); }
   const BoundingBox& bounds() const;
 
  private:

@@ -15,7 +15,7 @@ constexpr int kBisections = 12;  // of a segment
 
 class Centering {
  public:
-  Centering(const ContactSurface& surface, const SegmentTree& segments,
+  Centering(const ContactSurface& surface, const TriangleBvh& segments,
             double clearance)
       : surface_(surface), segments_(segments), clearance_(clearance) {}
 
@@ -65,7 +65,7 @@ class Centering {
       if (!(p.distance > 0.0)) break;
       const Vector3d up = (p.position - p.contact) / p.distance;
       const double reach = 2.0 * clearance_;
-      const SegmentTree::Hit hit =
+      const TriangleBvh::Hit hit =
           segments_.FirstHit(p.position, p.position + reach * up);
       const double gap = p.distance + hit.fraction * reach;
       const double way = std::min(clearance_, 0.5 * gap) - p.distance;
@@ -119,14 +119,14 @@ class Centering {
   }
 
   const ContactSurface& surface_;
-  const SegmentTree& segments_;
+  const TriangleBvh& segments_;
   double clearance_;
   std::vector<Point> points_;
 };
 
 }  // namespace
 
-void CenterPath(const ContactSurface& surface, const SegmentTree& segments,
+void CenterPath(const ContactSurface& surface, const TriangleBvh& segments,
                 double clearance, std::vector<Vector3d>* path) {
   if (path->size() > 1 && clearance > 0.0) {
     Centering(surface, segments, clearance).Run(path);

@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "core/bvh/segment_tree.h"
+#include "core/bvh/triangle_bvh.h"
 #include "core/projection/contact_surface.h"
 
 namespace phongpd {
@@ -14,7 +14,7 @@ namespace phongpd {
 // reached or the gap is halved, and a segment that dips below its ends gets a
 // point there.  A move counts if both segments stay free, by exact tests, and
 // the lesser of their clearances does not fall.  Ends stay.
-void CenterPath(const ContactSurface& surface, const SegmentTree& segments,
+void CenterPath(const ContactSurface& surface, const TriangleBvh& segments,
                 double clearance, std::vector<Eigen::Vector3d>* path);
 
 }  // namespace phongpd

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "core/bvh/segment_tree.h"
+#include "core/bvh/triangle_bvh.h"
 #include "planners/exact/surface_graph.h"
 
 namespace phongpd {
@@ -17,7 +17,7 @@ using Eigen::Vector3d;
 // free when nothing else holds it; 0 if none above `least` does, infinity if it
 // is free and has no lift to lose.
 double FreeLift(const SurfaceSite& a, const SurfaceSite& b, double lift_a,
-                double lift_b, double least, const SegmentTree& segments) {
+                double lift_b, double least, const TriangleBvh& segments) {
   while (segments.Meets(a.point + lift_a * a.direction,
                         b.point + lift_b * b.direction)) {
     double& larger = lift_a > lift_b ? lift_a : lift_b;
@@ -30,7 +30,7 @@ double FreeLift(const SurfaceSite& a, const SurfaceSite& b, double lift_a,
 
 std::vector<int> SegmentsToBlame(const std::vector<SurfaceSite>& sites,
                                  const std::vector<double>& first_lift,
-                                 double least, const SegmentTree& segments) {
+                                 double least, const TriangleBvh& segments) {
   std::vector<int> blamed;
   double smallest = std::numeric_limits<double>::infinity();
   for (std::size_t k = 0; k + 1 < sites.size(); ++k) {
@@ -45,7 +45,7 @@ std::vector<int> SegmentsToBlame(const std::vector<SurfaceSite>& sites,
 
 }  // namespace
 
-double RoomAbove(const SurfaceSite& site, const SegmentTree& segments,
+double RoomAbove(const SurfaceSite& site, const TriangleBvh& segments,
                  double clearance, double rounding) {
   // Half the gap is less than the clearance only if something is nearer than
   // twice the clearance.
@@ -54,7 +54,7 @@ double RoomAbove(const SurfaceSite& site, const SegmentTree& segments,
 }
 
 std::vector<int> LiftRoute(const std::vector<SurfaceSite>& sites,
-                           const SegmentTree& segments, double clearance,
+                           const TriangleBvh& segments, double clearance,
                            double rounding, std::vector<Vector3d>* path,
                            LiftCounts* counts) {
   // Below an ulp of the coordinates nothing moves any more.

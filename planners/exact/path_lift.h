@@ -6,7 +6,7 @@
 
 namespace phongpd {
 
-class SegmentTree;
+class TriangleBvh;
 struct SurfaceSite;
 
 struct LiftCounts {
@@ -16,7 +16,7 @@ struct LiftCounts {
 };
 
 // How far a site can be lifted: min(clearance, half the free gap in front).
-double RoomAbove(const SurfaceSite& site, const SegmentTree& segments,
+double RoomAbove(const SurfaceSite& site, const TriangleBvh& segments,
                  double clearance, double rounding);
 
 // Lifts a route off the surface: every site moves along its direction by
@@ -39,7 +39,7 @@ double RoomAbove(const SurfaceSite& site, const SegmentTree& segments,
 // vanish with those of a segment that stays blocked.)  Sites lie on the surface
 // within `rounding`, 2⁻⁴⁶ of the largest coordinate.
 std::vector<int> LiftRoute(const std::vector<SurfaceSite>& sites,
-                           const SegmentTree& segments, double clearance,
+                           const TriangleBvh& segments, double clearance,
                            double rounding, std::vector<Eigen::Vector3d>* path,
                            LiftCounts* counts);
 

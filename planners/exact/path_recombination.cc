@@ -7,7 +7,7 @@
 #include <queue>
 #include <utility>
 
-#include "core/bvh/segment_tree.h"
+#include "core/bvh/triangle_bvh.h"
 #include "planners/exact/free_space.h"
 
 namespace phongpd {
@@ -99,7 +99,7 @@ bool TakeSameWay(const std::vector<Vector3d>& one,
 }
 
 std::vector<Vector3d> RecombinePaths(const std::vector<RoutedPath>& paths,
-                                     const SegmentTree& segments) {
+                                     const TriangleBvh& segments) {
   if (paths.empty()) return {};
   const std::vector<Corner> corners = CollectCorners(paths);
   const Vector3d& goal = corners[1].point;

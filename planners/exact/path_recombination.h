@@ -6,7 +6,7 @@
 
 namespace phongpd {
 
-class SegmentTree;
+class TriangleBvh;
 
 // A path with the same ends as others and what it may give away.
 struct RoutedPath {
@@ -24,7 +24,7 @@ struct RoutedPath {
 // lesser of both clearances, by an exact test that it is free.  Empty without
 // paths.  Deterministic; a segment is tested only when the search needs it.
 std::vector<Eigen::Vector3d> RecombinePaths(
-    const std::vector<RoutedPath>& paths, const SegmentTree& segments);
+    const std::vector<RoutedPath>& paths, const TriangleBvh& segments);
 
 // Are two paths of at least two points the same but for details?  Points at
 // equal shares of their lengths are within `tolerance` times the first one's

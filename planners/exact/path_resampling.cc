@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "planners/exact/path_resampling.h"
 
+#include <cmath>
 #include <queue>
+#include <string>
 #include <utility>
 
+#include "core/mesh/finite.h"
 #include "core/mesh/mesh_error.h"
 
 namespace phongpd {
@@ -17,7 +20,7 @@ std::vector<Vector3d> ResampleKeepingCorners(
     return path;
   }
   for (const Vector3d& corner : corners) {
-    if (!corner.allFinite()) {
+    if (!IsFinite(corner)) {
       throw InputError("resampling: expected finite points, found NaN or Inf");
     }
   }
@@ -29,6 +32,12 @@ std::vector<Vector3d> ResampleKeepingCorners(
   std::priority_queue<std::pair<double, std::size_t>> longest;
   for (std::size_t k = 0; k < segments; ++k) {
     length[k] = (corners[k + 1] - corners[k]).norm();
+    if (!std::isfinite(length[k])) {
+      throw InputError(
+          "resampling: expected points less than 1e154 apart, found more after "
+          "point " +
+          std::to_string(k) + " (from 0); use another unit");
+    }
     longest.push({length[k], k});
   }
   for (int left = waypoints + 1 - static_cast<int>(segments); left > 0;

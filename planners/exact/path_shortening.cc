@@ -5,7 +5,7 @@
 #include <cmath>
 #include <random>
 
-#include "core/bvh/segment_tree.h"
+#include "core/bvh/triangle_bvh.h"
 
 namespace phongpd {
 namespace {
@@ -16,7 +16,7 @@ constexpr int kCutsInVain = 60;  // in a row: no more are tried
 
 class Shortener {
  public:
-  Shortener(const std::vector<Vector3d>& path, const SegmentTree& segments,
+  Shortener(const std::vector<Vector3d>& path, const TriangleBvh& segments,
             const ShorteningOptions& options)
       : segments_(segments), options_(options), random_(options.seed) {
     for (std::size_t k = 0; k < path.size(); ++k) {
@@ -164,7 +164,7 @@ class Shortener {
     }
   }
 
-  const SegmentTree& segments_;
+  const TriangleBvh& segments_;
   const ShorteningOptions& options_;
   std::mt19937_64 random_;
   std::vector<Point> points_;
@@ -174,7 +174,7 @@ class Shortener {
 }  // namespace
 
 std::vector<Vector3d> ShortenPath(const std::vector<Vector3d>& path,
-                                  const SegmentTree& segments,
+                                  const TriangleBvh& segments,
                                   const ShorteningOptions& options) {
   if (path.size() < 3) return path;
   return Shortener(path, segments, options).Run();

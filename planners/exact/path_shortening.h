@@ -7,7 +7,7 @@
 
 namespace phongpd {
 
-class SegmentTree;
+class TriangleBvh;
 
 struct ShorteningOptions {
   // Clearance that is enough, user's unit; ≥ 0.
@@ -26,7 +26,7 @@ struct ShorteningOptions {
 // exact test and keeps its clearance relative to the path *given*, so that
 // repeated cuts do not add up.  Ends stay.  Same arguments, same path.
 std::vector<Eigen::Vector3d> ShortenPath(
-    const std::vector<Eigen::Vector3d>& path, const SegmentTree& segments,
+    const std::vector<Eigen::Vector3d>& path, const TriangleBvh& segments,
     const ShorteningOptions& options);
 
 }  // namespace phongpd

@@ -6,7 +6,7 @@
 #include <sstream>
 #include <utility>
 
-#include "core/solid/self_intersection.h"
+#include "core/mesh/finite.h"
 #include "planners/exact/free_neighbors.h"
 #include "planners/exact/free_space.h"
 #include "planners/exact/path_centering.h"
@@ -16,15 +16,14 @@ namespace phongpd {
 
 using Eigen::Vector3d;
 
-PlanningSurface::PlanningSurface(const TriangleMesh& contact_mesh,
+PlanningSurface::PlanningSurface(const ContactSpace& space,
                                  const ContactSurfaceOptions& given_options)
     : options((given_options.Validate(), given_options)),
-      contact(contact_mesh),
-      segments(contact.mesh()),
-      bounds(ComputeBounds(contact.mesh())),
+      contact(space),
+      segments(contact.bvh()),
+      bounds(space.bounds()),
       neighbors(FreeNeighbors(contact.mesh())),
-      cells(contact.mesh(), neighbors, segments),
-      self_intersections_(options.self_intersections) {
+      cells(contact.mesh(), neighbors, segments) {
   const double infinity = std::numeric_limits<double>::infinity();
   const BoundingBox no_point = {Vector3d::Constant(infinity),
                                 Vector3d::Constant(-infinity)};
@@ -43,7 +42,8 @@ PlanResult PlanningSurface::Begin(const Vector3d& start, const Vector3d& goal,
                                   double clearance) const {
   PlanResult result;
   result.rounding = cells.rounding();
-  result.self_intersections = options.self_intersections;
+  result.self_intersections =
+      static_cast<long>(contact.space().report().self_intersections);
   result.reason = WhyInvalid("start", start);
   if (!result.reason.empty()) {
     result.status = PlanStatus::kInvalidStart;
@@ -63,7 +63,6 @@ PlanResult PlanningSurface::Begin(const Vector3d& start, const Vector3d& goal,
   if (decided && cell != result.goal.cell) {
     result.status = PlanStatus::kInfeasibleProved;
     result.reason = "start and goal lie in different cells of free space";
-    result.self_intersections = CountSelfIntersections();
   }
   return result;
 }
@@ -127,7 +126,7 @@ double PlanningSurface::ClearanceOf(const std::vector<Vector3d>& path) const {
 
 std::string PlanningSurface::WhyInvalid(const char* which,
                                         const Vector3d& q) const {
-  if (!q.allFinite() || !contact.Accepts(q)) {
+  if (!IsFinite(q) || !contact.Accepts(q)) {
     return std::string(which) + " is not finite";
   }
   const Location location = contact.Locate(q);
@@ -158,16 +157,6 @@ CellCertificate PlanningSurface::Locate(const Vector3d& q) const {
     }
   }
   return certificate;
-}
-
-long PlanningSurface::CountSelfIntersections() const {
-  std::call_once(counted_, [&] {
-    if (self_intersections_ >= 0) return;
-    const std::vector<int> one_label(contact.mesh().triangles.size(), 0);
-    self_intersections_ = static_cast<long>(
-        internal::CountSelfIntersections(contact.mesh(), one_label));
-  });
-  return self_intersections_;
 }
 
 }  // namespace phongpd

@@ -3,11 +3,11 @@
 
 #include <Eigen/Core>
 #include <array>
-#include <mutex>
 #include <string>
 #include <vector>
 
-#include "core/bvh/segment_tree.h"
+#include "core/bvh/triangle_bvh.h"
+#include "core/contact/contact_space.h"
 #include "core/projection/contact_surface.h"
 #include "planners/exact/contact_surface_planner.h"
 #include "planners/exact/free_cells.h"
@@ -18,8 +18,8 @@ namespace phongpd {
 // and ends with.  Thread-safe; stays where it is, its members refer to each
 // other.
 struct PlanningSurface {
-  // Throws InputError like ContactSurface, and for options.
-  PlanningSurface(const TriangleMesh& contact_mesh,
+  // Throws InputError for options.
+  PlanningSurface(const ContactSpace& space,
                   const ContactSurfaceOptions& given_options);
   PlanningSurface(const PlanningSurface&) = delete;
   PlanningSurface& operator=(const PlanningSurface&) = delete;
@@ -52,7 +52,7 @@ struct PlanningSurface {
 
   const ContactSurfaceOptions options;
   const ContactSurface contact;
-  const SegmentTree segments;
+  const TriangleBvh& segments;  // of the space
   const BoundingBox bounds;
   const std::vector<std::array<int, 3>> neighbors;
   const FreeCells cells;
@@ -60,11 +60,8 @@ struct PlanningSurface {
  private:
   std::string WhyInvalid(const char* which, const Eigen::Vector3d& q) const;
   CellCertificate Locate(const Eigen::Vector3d& q) const;
-  long CountSelfIntersections() const;
 
   std::vector<BoundingBox> piece_bounds_;
-  mutable std::once_flag counted_;
-  mutable long self_intersections_;
 };
 
 }  // namespace phongpd

@@ -5,7 +5,8 @@
 #include <cmath>
 #include <utility>
 
-#include "core/bvh/segment_tree.h"
+#include "core/bvh/triangle_bvh.h"
+#include "core/mesh/finite.h"
 #include "core/mesh/mesh_error.h"
 #include "core/stopwatch.h"
 #include "planners/exact/check_option.h"
@@ -86,11 +87,11 @@ const char* ToString(RepairStatus status) {
 }
 
 struct StartRepair::Impl {
-  Impl(const TriangleMesh& mesh, const ContactSurfaceOptions& options)
-      : space({mesh}),
-        segments(mesh),
-        planner(mesh, options),
-        diagonal(ComputeBounds(mesh).Diagonal()) {}
+  Impl(const ContactSpace& merged, const ContactSurfaceOptions& options)
+      : space({merged}),
+        segments(merged.bvh()),
+        planner(merged, options),
+        diagonal(merged.length()) {}
 
   std::vector<double> FindContacts(const Path& path) const;
   std::vector<Path> PlanLine(const Path& path, const PlanRequest& request,
@@ -105,7 +106,7 @@ struct StartRepair::Impl {
               StartRepairResult* result) const;
 
   FreeSpace space;
-  SegmentTree segments;
+  const TriangleBvh& segments;  // of the space
   ContactSurfacePlanner planner;
   double diagonal;
 };
@@ -258,9 +259,9 @@ void StartRepair::Impl::Repair(const Path& path,
   result->reason.clear();
 }
 
-StartRepair::StartRepair(const TriangleMesh& merged_contact_mesh,
+StartRepair::StartRepair(const ContactSpace& merged,
                          const ContactSurfaceOptions& planner_options)
-    : impl_(std::make_unique<Impl>(merged_contact_mesh, planner_options)) {}
+    : impl_(std::make_unique<Impl>(merged, planner_options)) {}
 StartRepair::~StartRepair() = default;
 StartRepair::StartRepair(StartRepair&&) noexcept = default;
 StartRepair& StartRepair::operator=(StartRepair&&) noexcept = default;
@@ -276,7 +277,7 @@ StartRepairResult StartRepair::Repair(const Path& path,
   options.Validate();
   Check("path", "2 points or more", path.size() >= 2, path.size());
   for (const Vector3d& q : path) {
-    if (!q.allFinite()) {
+    if (!IsFinite(q)) {
       throw InputError(
           "start repair: path: expected finite points, found NaN or Inf");
     }

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "core/mesh/triangle_mesh.h"
+#include "core/contact/contact_space.h"
 #include "planners/exact/contact_surface_planner.h"
 #include "planners/exact/free_space.h"
 
@@ -16,7 +16,7 @@ namespace phongpd {
 struct StartRepairOptions {
   int waypoints = 40;     // N ≥ 1 free points between start and goal
   double margin = 0.01;   // wished clearance, a fraction of `diagonal`, > 0
-  double diagonal = 0.0;  // user's unit; 0: that of the contact mesh
+  double diagonal = 0.0;  // user's unit; 0: D of the contact space
   int routes = 1;         // to return, in [1, 8]
   // Ways around the obstacles to look for, in [1, 64]: their best parts make
   // the routes.  Each takes as long as the first.
@@ -69,9 +69,9 @@ struct StartRepairResult {
 class StartRepair {
  public:
   // The boundary of the union of all that is in the way, bounds included
-  // (MergedObstacle): overlapping contact spaces must be merged first.  As
-  // ContactSurfacePlanner requires it; throws InputError.
-  explicit StartRepair(const TriangleMesh& merged_contact_mesh,
+  // (MergedObstacle): overlapping contact spaces must be merged first.  Throws
+  // InputError for options.
+  explicit StartRepair(const ContactSpace& merged,
                        const ContactSurfaceOptions& planner_options = {});
   ~StartRepair();
   StartRepair(StartRepair&&) noexcept;
@@ -87,7 +87,7 @@ class StartRepair {
 
   const FreeSpace& space() const;
   const ContactSurfacePlanner& planner() const;
-  double diagonal() const;  // of the contact mesh
+  double diagonal() const;  // D of the contact space
 
  private:
   struct Impl;

@@ -29,13 +29,13 @@ Vector3d MeanDirection(const Vector3d& m, const Vector3d& n) {
 
 }  // namespace
 
-SegmentTree::Hit FirstAbove(const SurfaceSite& site,
-                            const SegmentTree& segments, double reach,
+TriangleBvh::Hit FirstAbove(const SurfaceSite& site,
+                            const TriangleBvh& segments, double reach,
                             double rounding) {
   const Vector3d end = site.point + reach * site.direction;
   // Where a sliver is hit is less certain than rounding.
   for (double radius = rounding; radius < 1e9 * rounding; radius *= 16.0) {
-    const SegmentTree::Hit hit =
+    const TriangleBvh::Hit hit =
         segments.FirstHitBeyond(site.point, end, radius);
     if (!hit.Found() ||
         (hit.triangle != site.triangle && hit.triangle != site.other)) {
@@ -47,7 +47,7 @@ SegmentTree::Hit FirstAbove(const SurfaceSite& site,
 
 SurfaceGraph::SurfaceGraph(const TriangleMesh& mesh,
                            const std::vector<std::array<int, 3>>& neighbors,
-                           const SegmentTree& segments, const FreeCells& cells,
+                           const TriangleBvh& segments, const FreeCells& cells,
                            double spacing, int gap_links)
     : mesh_(mesh) {
   normals_.reserve(mesh.triangles.size());
@@ -113,12 +113,12 @@ void SurfaceGraph::AddRays(const FreeCells& cells) {
   }
 }
 
-void SurfaceGraph::AddGapLinks(const SegmentTree& segments, double rounding,
+void SurfaceGraph::AddGapLinks(const TriangleBvh& segments, double rounding,
                                int count) {
   const double reach = ComputeBounds(mesh_).Diagonal();
   const auto link = [&](const SurfaceSite& from) {
     if (from.direction.isZero()) return;
-    const SegmentTree::Hit hit = FirstAbove(from, segments, reach, rounding);
+    const TriangleBvh::Hit hit = FirstAbove(from, segments, reach, rounding);
     if (!hit.Found()) return;
     const std::optional<SurfaceSite> to = SiteSeenFrom(
         from.point, from.point + hit.fraction * reach * from.direction,

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/bvh/segment_tree.h"
+#include "core/bvh/triangle_bvh.h"
 #include "core/mesh/triangle_mesh.h"
 #include "planners/exact/free_cells.h"
 
@@ -26,8 +26,8 @@ struct SurfaceSite {
 // What a ray from the site along its direction meets first within `reach`,
 // without the triangles the site lies on and those within `rounding`; fraction
 // 1 if nothing.
-SegmentTree::Hit FirstAbove(const SurfaceSite& site,
-                            const SegmentTree& segments, double reach,
+TriangleBvh::Hit FirstAbove(const SurfaceSite& site,
+                            const TriangleBvh& segments, double reach,
                             double rounding);
 
 // How the configurations start and goal see the surface.
@@ -48,7 +48,7 @@ class SurfaceGraph {
   // All must outlive this.
   SurfaceGraph(const TriangleMesh& mesh,
                const std::vector<std::array<int, 3>>& neighbors,
-               const SegmentTree& segments, const FreeCells& cells,
+               const TriangleBvh& segments, const FreeCells& cells,
                double spacing, int gap_links);
 
   const std::vector<SurfaceSite>& sites() const { return sites_; }
@@ -90,7 +90,7 @@ class SurfaceGraph {
   void AddEdgePoints(const std::vector<std::array<int, 3>>& neighbors,
                      double spacing);
   void AddRays(const FreeCells& cells);
-  void AddGapLinks(const SegmentTree& segments, double rounding, int count);
+  void AddGapLinks(const TriangleBvh& segments, double rounding, int count);
   void AddLink(const SurfaceSite& a, const SurfaceSite& b);
   void IndexTriangles();
 

@@ -23,7 +23,7 @@ SurfaceSite SiteAt(const Vector3d& q, const Vector3d& p, int triangle) {
   site.point = p;
   site.triangle = triangle;
   // At edges only the way back to q is free for sure.
-  site.direction = (q - p).stableNormalized();
+  site.direction = Unit(q - p);
   return site;
 }
 
@@ -42,7 +42,7 @@ constexpr double kPlaces[][3] = {
 // In the triangle, near its corner p, where q sees it.
 std::optional<SurfaceSite> MoveInto(const Vector3d& q, const Vector3d& p,
                                     int triangle, const TriangleMesh& mesh,
-                                    const SegmentTree& segments) {
+                                    const TriangleBvh& segments) {
   const Triangle& t = mesh.triangles[triangle];
   for (double step = 0.25; step > 1e-6; step *= 0.125) {
     for (const auto& weights : kPlaces) {
@@ -51,7 +51,7 @@ std::optional<SurfaceSite> MoveInto(const Vector3d& q, const Vector3d& p,
         target += step * weights[k] * mesh.vertices[t[k]];
       }
       const Vector3d way = 1.0625 * (target - q);  // through the triangle
-      const SegmentTree::Hit hit = segments.FirstHit(q, q + way);
+      const TriangleBvh::Hit hit = segments.FirstHit(q, q + way);
       if (hit.triangle == triangle) {
         return SiteAt(q, q + hit.fraction * way, triangle);
       }
@@ -64,12 +64,12 @@ std::optional<SurfaceSite> MoveInto(const Vector3d& q, const Vector3d& p,
 
 std::optional<SurfaceSite> SiteSeenFrom(const Vector3d& q, const Vector3d& p,
                                         int triangle, const TriangleMesh& mesh,
-                                        const SegmentTree& segments,
+                                        const TriangleBvh& segments,
                                         double rounding) {
   // As far as p may be from where the way ends.
   const double near =
       std::max(rounding, std::ldexp(q.cwiseAbs().maxCoeff(), -46));
-  const Vector3d back = (q - p).stableNormalized();
+  const Vector3d back = Unit(q - p);
   std::vector<Facing> facing;
   bool is_corner = false;
   int touched = 0;

@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <optional>
 
-#include "core/bvh/segment_tree.h"
+#include "core/bvh/triangle_bvh.h"
 #include "core/mesh/triangle_mesh.h"
 #include "planners/exact/surface_graph.h"
 
@@ -20,10 +20,11 @@ namespace phongpd {
 // the steepest is taken.  At a corner, and where solids touch each other, other
 // triangles may still be in between.  There the site is moved into a triangle
 // that faces q, so far that q sees it.  Nothing if no such place was found.
+// Where q is p, to the last bit, the site has no direction: it is zero.
 std::optional<SurfaceSite> SiteSeenFrom(const Eigen::Vector3d& q,
                                         const Eigen::Vector3d& p, int triangle,
                                         const TriangleMesh& mesh,
-                                        const SegmentTree& segments,
+                                        const TriangleBvh& segments,
                                         double rounding);
 
 }  // namespace phongpd

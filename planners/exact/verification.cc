@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "constraints/motion_oracle.h"
+#include "core/mesh/finite.h"
 #include "core/stopwatch.h"
 #include "planners/exact/separating_part.h"
 
@@ -203,7 +204,7 @@ Verification Verifier::VerifyPath(const std::vector<Vector3d>& path) const {
     const Vector3d& a = path[k];
     const Vector3d& b = path[std::min(k + 1, path.size() - 1)];
     if (k + 1 == path.size() && k > 0) break;
-    if (!a.allFinite() || !b.allFinite()) {
+    if (!IsFinite(a) || !IsFinite(b)) {
       result.verdict = Verdict::kRefuted;
       result.reason = "segment " + std::to_string(k) + " is not finite";
       break;
@@ -224,7 +225,7 @@ Verification Verifier::VerifyPath(const std::vector<Vector3d>& path) const {
 Verification Verifier::VerifyBlocked(const Vector3d& q) const {
   const Stopwatch stopwatch;
   Verification result;
-  if (q.allFinite() && impl_->IsFree(q, q, &result.tests)) {
+  if (IsFinite(q) && impl_->IsFree(q, q, &result.tests)) {
     const bool is_close = impl_->IsNearlyBlocked(q, &result.tests);
     result.verdict = is_close ? Verdict::kWithinRounding : Verdict::kRefuted;
     result.reason = "the robot is free at " + Text(q) +
@@ -281,7 +282,7 @@ Verification Verifier::VerifyDepth(const Vector3d& q,
     answer.seconds = stopwatch.Seconds();
     return answer;
   };
-  if (result.status == QueryStatus::kInvalid || !q.allFinite()) {
+  if (result.status == QueryStatus::kInvalid || !IsFinite(q)) {
     return end(Verdict::kRefuted, "there is no depth to verify");
   }
   const Impl& impl = *impl_;

@@ -15,6 +15,7 @@
 
 #include <algorithm>
 
+#include "core/mesh/finite.h"
 #include "core/mesh/mesh_error.h"
 #include "core/stopwatch.h"
 #include "planners/ompl/contact_space_validity.h"
@@ -108,7 +109,7 @@ void OmplPlanningOptions::Validate() const {
 
 void SetStartAndGoal(const Vector3d& start, const Vector3d& goal,
                      ob::ProblemDefinition* problem) {
-  if (!start.allFinite() || !goal.allFinite()) {
+  if (!IsFinite(start) || !IsFinite(goal)) {
     throw InputError(
         "start and goal: expected finite coordinates, found NaN or Inf");
   }

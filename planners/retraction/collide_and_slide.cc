@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "core/mesh/finite.h"
 #include "planners/exact/check_option.h"
 
 namespace phongpd {
@@ -129,7 +130,7 @@ SlideStatus CollideAndSlide(const ContactModel& model,
   options.Validate();
   path->clear();
   ++counters->slides;
-  if (!b.allFinite() || !model.free_space().IsFree(a)) {
+  if (!IsFinite(b) || !model.free_space().IsFree(a)) {
     return SlideStatus::kInvalid;
   }
   path->push_back(a);
@@ -162,7 +163,7 @@ SlideStatus StepRetract(const Retraction& retraction,
   options.Validate();
   path->clear();
   ++counters->slides;
-  if (!b.allFinite() || !space.IsFree(a)) return SlideStatus::kInvalid;
+  if (!IsFinite(b) || !space.IsFree(a)) return SlideStatus::kInvalid;
   path->push_back(a);
   if (a == b) return SlideStatus::kReached;
   const double longest = options.step * model.diagonal();

@@ -6,7 +6,8 @@
 #include <cmath>
 #include <limits>
 
-#include "core/bvh/segment_tree.h"
+#include "core/bvh/triangle_bvh.h"
+#include "core/mesh/finite.h"
 #include "core/mesh/mesh_error.h"
 #include "core/mesh/unit_normal.h"
 #include "core/projection/contact_surface.h"
@@ -29,21 +30,22 @@ double TouchRadius(const BoundingBox& region) {
 }
 
 struct Space {
-  Space(const TriangleMesh& contact_mesh, const PhongMetricOptions& options)
-      : mesh(contact_mesh),
-        euclidean(contact_mesh),
-        phong(contact_mesh, options),
-        segments(contact_mesh) {
+  Space(const ContactSpace& contact_space, const PhongMetricOptions& options)
+      : contact(contact_space),
+        euclidean(contact),
+        phong(contact, options),
+        segments(contact.bvh()) {
+    const TriangleMesh& mesh = contact.mesh();
     normals.reserve(mesh.triangles.size());
     for (const Triangle& t : mesh.triangles) {
       normals.push_back(UnitNormal(mesh, t));
     }
   }
 
-  TriangleMesh mesh;
+  ContactSpace contact;
   EuclideanMetric euclidean;
   PhongMetric phong;
-  SegmentTree segments;
+  const TriangleBvh& segments;  // of the contact space
   std::vector<Vector3d> normals;
 };
 
@@ -64,23 +66,22 @@ BoundingBox Hull(const BoundingBox& a, const BoundingBox& b) {
 
 }  // namespace
 
-BoundingBox SamplingRegion(const TriangleMesh& contact_mesh,
-                           const Vector3d& start, const Vector3d& goal) {
-  CheckContactMesh(contact_mesh);
-  BoundingBox all = ComputeBounds(contact_mesh);
+BoundingBox SamplingRegion(const ContactSpace& space, const Vector3d& start,
+                           const Vector3d& goal) {
+  const TriangleMesh& contact_mesh = space.mesh();
+  BoundingBox all = space.bounds();
   for (const Vector3d& q : {start, goal}) {
-    if (q.allFinite()) all = Hull(all, {q, q});
+    if (IsFinite(q)) all = Hull(all, {q, q});
   }
   // Any way through the outside can be bent into the room around.
   const Vector3d room = Vector3d::Constant(kRoom * all.Diagonal());
   all = {all.min - room, all.max + room};
   const auto neighbors = TriangleNeighbors(contact_mesh);
-  const SegmentTree segments(contact_mesh);
-  const FreeCells cells(contact_mesh, neighbors, segments);
+  const FreeCells cells(contact_mesh, neighbors, space.bvh());
   BoundingBox region = FreeSpace::NoBounds();
   for (const Vector3d& q : {start, goal}) {
     CellRay ray;
-    const int cell = q.allFinite() ? cells.CellOf(q, &ray) : -1;
+    const int cell = IsFinite(q) ? cells.CellOf(q, &ray) : -1;
     if (cell < 0) return all;
     TriangleMesh shell;
     shell.vertices = contact_mesh.vertices;
@@ -95,20 +96,18 @@ BoundingBox SamplingRegion(const TriangleMesh& contact_mesh,
 }
 
 struct ContactModel::Impl {
-  Impl(const std::vector<TriangleMesh>& meshes, const BoundingBox& bounds,
+  Impl(const std::vector<ContactSpace>& given, const BoundingBox& bounds,
        const PhongFieldOptions& field)
-      : free_space(meshes, bounds), region(bounds) {
+      : free_space(given, bounds), region(bounds) {
     PhongMetricOptions options;
     options.field_options = field;
-    spaces.reserve(meshes.size());
-    for (const TriangleMesh& mesh : meshes) spaces.emplace_back(mesh, options);
-    if (bounds.IsEmpty() && meshes.empty()) {
+    spaces.reserve(given.size());
+    for (const ContactSpace& one : given) spaces.emplace_back(one, options);
+    if (bounds.IsEmpty() && given.empty()) {
       throw InputError("contact model: expected contact spaces or bounds");
     }
     if (bounds.IsEmpty()) {
-      for (const TriangleMesh& mesh : meshes) {
-        region = Hull(region, ComputeBounds(mesh));
-      }
+      for (const ContactSpace& one : given) region = Hull(region, one.bounds());
     }
     touch = TouchRadius(region);
   }
@@ -119,18 +118,18 @@ struct ContactModel::Impl {
   std::vector<Space> spaces;
 };
 
-ContactModel::ContactModel(const std::vector<TriangleMesh>& contact_meshes,
+ContactModel::ContactModel(const std::vector<ContactSpace>& spaces,
                            const BoundingBox& bounds,
                            const PhongFieldOptions& field)
-    : impl_(std::make_unique<Impl>(contact_meshes, bounds, field)) {}
+    : impl_(std::make_unique<Impl>(spaces, bounds, field)) {}
 ContactModel::~ContactModel() = default;
 ContactModel::ContactModel(ContactModel&&) noexcept = default;
 ContactModel& ContactModel::operator=(ContactModel&&) noexcept = default;
 
 const FreeSpace& ContactModel::free_space() const { return impl_->free_space; }
 const BoundingBox& ContactModel::region() const { return impl_->region; }
-const TriangleMesh& ContactModel::mesh(int space) const {
-  return impl_->spaces[Index(space)].mesh;
+const ContactSpace& ContactModel::space(int space) const {
+  return impl_->spaces[Index(space)].contact;
 }
 const PhongMetric& ContactModel::phong(int space) const {
   return impl_->spaces[Index(space)].phong;
@@ -181,7 +180,7 @@ ContactModel::Facet ContactModel::FindNearest(const Vector3d& q,
                                               double* distance) const {
   Facet facet;
   *distance = std::numeric_limits<double>::infinity();
-  if (!q.allFinite()) {
+  if (!IsFinite(q)) {
     *distance = -*distance;
     return facet;
   }
@@ -217,10 +216,10 @@ ContactModel::Facet ContactModel::FindNearest(const Vector3d& q,
 double ContactModel::Standoff(const Facet& facet, double clearance) const {
   const Vector3d ray = 2.0 * clearance * facet.normal;
   const Vector3d end = facet.point + ray;
-  if (!end.allFinite() || facet.normal.isZero()) return 0.0;
+  if (!IsFinite(end) || facet.normal.isZero()) return 0.0;
   double free = 1.0;
   for (const Space& space : impl_->spaces) {
-    const SegmentTree::Hit hit =
+    const TriangleBvh::Hit hit =
         space.segments.FirstHitBeyond(facet.point, end, impl_->touch);
     if (hit.Found()) free = std::min(free, hit.fraction);
   }

@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include "core/mesh/triangle_mesh.h"
+#include "core/contact/contact_space.h"
 #include "core/projection/phong_field.h"
 #include "core/projection/phong_metric.h"
 #include "planners/exact/free_space.h"
@@ -17,8 +17,8 @@ namespace phongpd {
 // box around the mesh, start and goal, with room on every side, if one of them
 // is unbounded (or not told apart by rays, or not free).  Start and goal are
 // joined within the box if they are joined at all, so it may be used as bounds.
-// One mesh for all obstacles; throws InputError as ContactSurface does.
-BoundingBox SamplingRegion(const TriangleMesh& contact_mesh,
+// One space for all obstacles.
+BoundingBox SamplingRegion(const ContactSpace& space,
                            const Eigen::Vector3d& start,
                            const Eigen::Vector3d& goal);
 
@@ -35,8 +35,8 @@ class ContactModel {
   // As FreeSpace; the field is the one of the Phong metric.  Its ℓ = 0 is
   // right for planning: a limited field with ℓ > 0 changes neither what is
   // solved nor the samples it takes.
-  // Throws InputError, also if there is neither a mesh nor bounds.
-  explicit ContactModel(const std::vector<TriangleMesh>& contact_meshes,
+  // Throws InputError for options, and if there is neither a space nor bounds.
+  explicit ContactModel(const std::vector<ContactSpace>& spaces,
                         const BoundingBox& bounds = FreeSpace::NoBounds(),
                         const PhongFieldOptions& field = {});
   ~ContactModel();
@@ -45,7 +45,7 @@ class ContactModel {
 
   const FreeSpace& free_space() const;
   std::size_t size() const { return free_space().size(); }
-  const TriangleMesh& mesh(int space) const;
+  const ContactSpace& space(int space) const;
   const PhongMetric& phong(int space) const;
 
   // Where samples are drawn: the bounds, or the box around all meshes (which

@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "core/mesh/finite.h"
 #include "core/mesh/mesh_error.h"
 #include "planners/exact/check_option.h"
 
@@ -61,7 +62,7 @@ RetractionStatus Retraction::Retract(const Vector3d& q, std::mt19937_64* random,
   if (options_.metric == RetractionMetric::kContactPoint) {
     return DrawContactPoint(random, scratch);
   }
-  if (!q.allFinite()) return RetractionStatus::kInvalid;
+  if (!IsFinite(q)) return RetractionStatus::kInvalid;
   if (model_->free_space().IsFree(q)) {
     scratch->points.push_back(
         {q, std::numeric_limits<double>::infinity(), ContactModel::Facet()});
@@ -95,7 +96,7 @@ RetractionStatus Retraction::DrawContactPoint(
   constexpr int kDraws = 16;
   for (int draw = 0; draw < kDraws; ++draw) {
     const int space = static_cast<int>(RandomIndex(model_->size(), random));
-    const TriangleMesh& mesh = model_->mesh(space);
+    const TriangleMesh& mesh = model_->space(space).mesh();
     ContactModel::Facet facet;
     facet.space = space;
     facet.triangle =
@@ -162,7 +163,7 @@ void Retraction::Choose(int space, std::mt19937_64* random,
   if (options_.choice == BranchChoice::kNovelty) {
     scratch->taken.resize(model_->size());
     taken = &scratch->taken[Index(space)];
-    taken->resize(model_->mesh(space).triangles.size());
+    taken->resize(model_->space(space).mesh().triangles.size());
   }
   const std::size_t limit =
       std::min(found.size(), Index(options_.max_branches));

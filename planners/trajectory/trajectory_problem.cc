@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 
+#include "core/mesh/finite.h"
 #include "core/mesh/mesh_error.h"
 
 namespace phongpd {
@@ -26,8 +28,8 @@ void TrajectoryProblem::Validate() const {
     if (metric == nullptr) Fail("metrics", "one per contact space", "null");
   }
   if (free_space == nullptr) Fail("free_space", "the exact judge", "null");
-  if (!start.allFinite()) Fail("start", "finite numbers", "NaN or Inf");
-  if (!goal.allFinite()) Fail("goal", "finite numbers", "NaN or Inf");
+  if (!IsFinite(start)) Fail("start", "finite numbers", "NaN or Inf");
+  if (!IsFinite(goal)) Fail("goal", "finite numbers", "NaN or Inf");
   if (waypoints < 1 || waypoints > 10000) {
     Fail("waypoints", "1 to 10000", std::to_string(waypoints));
   }
@@ -54,25 +56,25 @@ void TrajectoryProblem::Validate() const {
 }
 
 TrajectoryProblem MakeTrajectoryProblem(
-    const std::vector<TriangleMesh>& contact_meshes,
+    const std::vector<ContactSpace>& contact_spaces,
     const SignedMetricOptions& metric, const BoundingBox& bounds) {
   TrajectoryProblem problem;
-  for (const TriangleMesh& mesh : contact_meshes) {
-    problem.metrics.push_back(std::make_shared<SignedMetric>(mesh, metric));
+  const std::vector<ContactSpace> spaces = WithCommonLength(contact_spaces);
+  for (const ContactSpace& space : spaces) {
+    problem.metrics.push_back(std::make_shared<SignedMetric>(space, metric));
   }
-  problem.free_space = std::make_shared<FreeSpace>(contact_meshes, bounds);
+  problem.free_space = std::make_shared<FreeSpace>(spaces, bounds);
   return problem;
 }
 
 double Diagonal(const TrajectoryProblem& problem) {
   if (problem.diagonal > 0.0) return problem.diagonal;
   if (!problem.metrics.empty()) {
-    BoundingBox box = problem.metrics[0]->bounds();
+    std::vector<ContactSpace> spaces;
     for (const auto& metric : problem.metrics) {
-      box.min = box.min.cwiseMin(metric->bounds().min);
-      box.max = box.max.cwiseMax(metric->bounds().max);
+      spaces.push_back(metric->space());
     }
-    return box.Diagonal();
+    return WithCommonLength(std::move(spaces))[0].length();
   }
   const double length = (problem.goal - problem.start).stableNorm();
   return length > 0.0 && std::isfinite(length) ? length : 1.0;
@@ -98,7 +100,7 @@ void CheckStartPath(const TrajectoryProblem& problem, const Path& path) {
                      std::to_string(path.size()));
   }
   for (std::size_t i = 0; i < path.size(); ++i) {
-    if (!path[i].allFinite()) {
+    if (!IsFinite(path[i])) {
       throw InputError(what + "finite points, found NaN or Inf at point " +
                        std::to_string(i));
     }

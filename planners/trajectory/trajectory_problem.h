@@ -41,7 +41,7 @@ struct TrajectoryProblem {
   int samples_per_segment = 0;     // S in [0, 1000]; 0: by the rule
   double margin = 0.01;            // fraction of D, in [0, 1]
   double max_segment_ratio = 1.6;  // ρ ≥ 1
-  // D, user's unit; 0: of the bounding box of all contact spaces.
+  // D, user's unit; 0: that of the contact spaces (WithCommonLength).
   double diagonal = 0.0;
 
   // Throws InputError naming the field.
@@ -54,10 +54,11 @@ enum class ContactCurvature { kNone, kOutside, kAll };
 
 using Path = std::vector<Eigen::Vector3d>;
 
-// The contact spaces with one metric each and their judge; only start and goal
-// are left to set.  Throws InputError as SignedMetric and FreeSpace do.
+// The contact spaces with one metric each and their judge, all with one D
+// (WithCommonLength); only start and goal are left to set.  Throws InputError
+// as SignedMetric and FreeSpace do.
 TrajectoryProblem MakeTrajectoryProblem(
-    const std::vector<TriangleMesh>& contact_meshes,
+    const std::vector<ContactSpace>& contact_spaces,
     const SignedMetricOptions& metric = {},
     const BoundingBox& bounds = FreeSpace::NoBounds());
 

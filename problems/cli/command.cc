@@ -28,7 +28,7 @@ TriangleMesh LoadSolid(const std::string& path, MeshReport* report) {
   return solid;
 }
 
-TriangleMesh LoadContactSpace(const std::string& path) {
+ContactSpace LoadContactSpace(const std::string& path) {
   TriangleMesh mesh = ReadMesh(path);
   RequireInRange(mesh, path);
   const MeshReport report = ExamineMesh(mesh);
@@ -42,7 +42,7 @@ TriangleMesh LoadContactSpace(const std::string& path) {
   refuse(report.boundary_edges, "boundary edges");
   refuse(report.non_manifold_edges, "non-manifold edges");
   if (!(SignedVolume(mesh) > 0.0)) refuse(1, "surface facing inwards");
-  return mesh;
+  return TakeAsContactSpace(std::move(mesh), path);
 }
 
 ContactSpace LoadOrBuild(const TriangleMesh& robot,
@@ -51,7 +51,7 @@ ContactSpace LoadOrBuild(const TriangleMesh& robot,
   Progress("building the contact space");
   ContactSpace space =
       BuildContactSpaceCached(robot, obstacle, options, UserCache(!use_cache));
-  for (const std::string& warning : space.report.warnings) Warn(warning);
+  for (const std::string& warning : space.report().warnings) Warn(warning);
   return space;
 }
 

@@ -48,7 +48,7 @@ TriangleMesh LoadSolid(const std::string& path, MeshReport* report = nullptr);
 // Reads a contact space written by `phongpd contact-space`: closed,
 // edge-manifold, outward; rounding may have made some triangles meet.
 // Throws InputError naming the file.
-TriangleMesh LoadContactSpace(const std::string& path);
+ContactSpace LoadContactSpace(const std::string& path);
 
 // The contact space of two solids, from the user's cache when `use_cache` and
 // it is there.  What the user should know goes to stderr.

@@ -182,20 +182,20 @@ ContactSpaceOptions OptionsOf(const Flags& flags) {
 Json VerifySample(const Flags& flags, const TriangleMesh& robot,
                   const TriangleMesh& obstacle, const ContactSpace& space) {
   const bool is_exact =
-      space.report.approximation.kind == "none" && flags.repair == "reject";
-  if (!flags.verify || !is_exact || space.report.from_cache) return nullptr;
+      space.report().approximation.kind == "none" && flags.repair == "reject";
+  if (!flags.verify || !is_exact || space.report().from_cache) return nullptr;
   Workspace solids;
   solids.robot = MakeSolid(robot, flags.robot);
   solids.obstacles = {{flags.obstacle, MakeSolid(obstacle, flags.obstacle)}};
   const Verifier verifier(solids);
   constexpr std::size_t kPoints = 100;
-  const std::vector<Triangle>& triangles = space.mesh.triangles;
+  const std::vector<Triangle>& triangles = space.mesh().triangles;
   const std::size_t stride = 1 + triangles.size() / (kPoints + 1);
   int points = 0, within_rounding = 0;
   double seconds = 0.0;
   for (std::size_t i = 0; i < triangles.size(); i += stride, ++points) {
     const auto corner = [&](std::size_t k) -> const Eigen::Vector3d& {
-      return space.mesh.vertices[static_cast<std::size_t>(triangles[i][k])];
+      return space.mesh().vertices[static_cast<std::size_t>(triangles[i][k])];
     };
     const Verification found =
         verifier.VerifySurface((corner(0) + corner(1) + corner(2)) / 3.0,
@@ -225,9 +225,9 @@ int BuildAndWrite(const Flags& flags) {
       LoadOrBuild(robot, obstacle, options, !flags.no_cache);
   const Json verification = VerifySample(flags, robot, obstacle, space);
 
-  WriteMeshTo(&outputs, flags.output, space.mesh);
+  WriteMeshTo(&outputs, flags.output, space.mesh());
   if (!flags.report.empty()) {
-    const ContactSpaceReport& found = space.report;
+    const ContactSpaceReport& found = space.report();
     Json report = ToJson(found);
     report["robot"] = ToJson(found.robot, found.robot_repair, flags.robot);
     report["obstacle"] =
@@ -235,7 +235,7 @@ int BuildAndWrite(const Flags& flags) {
     report["verification"] = verification;
     outputs.Write(flags.report, report.dump(2) + '\n');
   }
-  CommitAndTell(&outputs, Summary(flags, space.report));
+  CommitAndTell(&outputs, Summary(flags, space.report()));
   return kDone;
 }
 

@@ -46,15 +46,14 @@ std::optional<Workspace> ReadSolids(const Flags& flags) {
   return workspace;
 }
 
-TriangleMesh ContactMesh(const Flags& flags,
-                         const std::optional<Workspace>& solids) {
+ContactSpace ContactSpaceOf(const Flags& flags,
+                            const std::optional<Workspace>& solids) {
   if (!solids) return LoadContactSpace(flags.contact_space);
   ContactSpaceOptions options;
   options.robot_name = flags.robot;
   options.obstacle_name = flags.obstacle;
   return LoadOrBuild(solids->robot, solids->obstacles[0].mesh, options,
-                     !flags.no_cache)
-      .mesh;
+                     !flags.no_cache);
 }
 
 // Judges the depths of all frames again; returns a line for people.  Throws
@@ -90,7 +89,7 @@ std::vector<double> SmoothingLengths(const Flags& flags) {
   return lengths;
 }
 
-std::vector<MotionTrace> Trace(const Flags& flags, const TriangleMesh& contact,
+std::vector<MotionTrace> Trace(const Flags& flags, const ContactSpace& contact,
                                const std::vector<double>& lengths,
                                const StraightMotion& motion) {
   std::vector<MotionTrace> traces;
@@ -146,7 +145,7 @@ int Follow(const Flags& flags) {
   }
 
   const std::optional<Workspace> solids = ReadSolids(flags);
-  const TriangleMesh contact = ContactMesh(flags, solids);
+  const ContactSpace contact = ContactSpaceOf(flags, solids);
   const std::vector<MotionTrace> traces =
       Trace(flags, contact, lengths, motion);
   std::string verified;
@@ -158,9 +157,7 @@ int Follow(const Flags& flags) {
                                          FormatPoint(motion.from) + ") to (" +
                                          FormatPoint(motion.to) + ")"));
   }
-  CommitAndTell(
-      &outputs,
-      Summary(flags, traces, ComputeBounds(contact).Diagonal()) + verified);
+  CommitAndTell(&outputs, Summary(flags, traces, contact.length()) + verified);
   return kDone;
 }
 

@@ -143,10 +143,11 @@ int Optimize(const Flags& flags) {
     check.Judge(study.scene(), study.space(), ClaimsOf(result), &row);
     runs.Add(row);
   }
-  runs.Write({study.scene().name,
-              study.space().contact_meshes,
-              study.scene().workspace.robot,
-              {}});
+  PathScene picture{study.scene().name, {}, study.scene().workspace.robot, {}};
+  for (const ContactSpace& space : study.space().contact_spaces) {
+    picture.contact_meshes.push_back(space.mesh());
+  }
+  runs.Write(std::move(picture));
   const int code = runs.Commit();
   check.RequireNoFailure();
   return code;

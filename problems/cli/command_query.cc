@@ -25,7 +25,7 @@ struct Flags {
 };
 
 std::unique_ptr<PenetrationMetric> MakeMetric(const Flags& flags,
-                                              const TriangleMesh& contact) {
+                                              const ContactSpace& contact) {
   if (flags.metric == "euclidean") {
     return std::make_unique<EuclideanMetric>(contact);
   }
@@ -48,7 +48,7 @@ int Query(const Flags& flags) {
   OutputFiles outputs;
   outputs.Declare(flags.output);
   const std::vector<Eigen::Vector3d> points = ReadPointsCsv(flags.points);
-  const TriangleMesh contact = LoadContactSpace(flags.contact_space);
+  const ContactSpace contact = LoadContactSpace(flags.contact_space);
   Progress("building the metric");
   const std::unique_ptr<PenetrationMetric> metric = MakeMetric(flags, contact);
 

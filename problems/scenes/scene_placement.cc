@@ -8,7 +8,7 @@
 #include <random>
 #include <utility>
 
-#include "constraints/collision_oracle.h"
+#include "constraints/oracle/collision_oracle.h"
 #include "problems/output/text.h"
 #include "problems/scenes/scene.h"
 #include "problems/scenes/scene_detour.h"

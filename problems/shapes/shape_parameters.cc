@@ -15,8 +15,11 @@ constexpr double kMinLength = 1e-70, kMaxLength = 1e70;
 }  // namespace
 
 void RequireLength(const char* shape, const char* parameter, double value) {
-  // Written so that NaN fails it.
-  if (value >= kMinLength && value <= kMaxLength) return;
+  // Both false for NaN.
+  if (std::isgreaterequal(value, kMinLength) &&
+      std::islessequal(value, kMaxLength)) {
+    return;
+  }
   std::ostringstream message;
   message << shape << ": " << parameter << " must be a length in ["
           << kMinLength << ", " << kMaxLength << "], found " << value;

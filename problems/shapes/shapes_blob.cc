@@ -42,7 +42,8 @@ TriangleMesh MakeBlob(double radius, int levels, double roughness,
                       std::uint64_t seed) {
   internal::RequireLength("MakeBlob", "radius", radius);
   internal::RequireCount("MakeBlob", "levels", levels, 0, 9);
-  if (!(roughness >= 0.0 && roughness < 1.0)) {
+  // Both false for NaN.
+  if (!(std::isgreaterequal(roughness, 0.0) && std::isless(roughness, 1.0))) {
     std::ostringstream message;
     message << "MakeBlob: roughness must be in [0, 1), found " << roughness;
     throw InputError(message.str());

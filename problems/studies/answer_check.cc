@@ -22,7 +22,7 @@ std::optional<Verification> Verify(const Scene& scene, const SceneSpace& space,
                                                           : scene.goal);
   }
   if (claims.path.empty()) {
-    return verifier.VerifySeparation(space.sealed_mesh, scene.start,
+    return verifier.VerifySeparation(space.sealed->mesh(), scene.start,
                                      scene.goal);
   }
   if (claims.path.front() != scene.start || claims.path.back() != scene.goal) {

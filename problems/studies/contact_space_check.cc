@@ -10,9 +10,8 @@
 #include <random>
 #include <sstream>
 
-#include "constraints/collision_oracle.h"
-#include "core/bvh/inside_test.h"
-#include "core/bvh/surface_tree.h"
+#include "constraints/oracle/collision_oracle.h"
+#include "core/bvh/triangle_bvh.h"
 #include "core/contact/contact_space.h"
 #include "core/solid/self_intersection.h"
 #include "problems/shapes/random_solids.h"
@@ -50,7 +49,7 @@ bool MeetExactly(const TriangleMesh& robot, const TriangleMesh& obstacle) {
         for (std::size_t t = 0; t < part.size(); ++t) {
           if (part[t] == k) body.triangles.push_back(outer.triangles[t]);
         }
-        if (InsideTest(body).Locate(p) != Location::kInside) continue;
+        if (TriangleBvh(body).Locate(p) != Location::kInside) continue;
         winding += SignedVolume(body) > 0 ? 1 : -1;
       }
       if (winding > 0) return true;
@@ -68,7 +67,7 @@ class Checker {
   CheckResult Run() {
     space_ = Build(pair_.robot, pair_.obstacle, "");
     if (!Passed()) return result_;
-    result_.triangles = space_.report.triangles;
+    result_.triangles = space_->report().triangles;
     CheckExpectations();
     CheckSelfIntersections();
     CheckPoints();
@@ -87,32 +86,36 @@ class Checker {
     result_.failures.push_back(text.str());
   }
 
-  ContactSpace Build(const TriangleMesh& robot, const TriangleMesh& obstacle,
-                     const std::string& which) {
-    ContactSpace space;
+  // Nothing if it throws, which is a failure.
+  std::optional<ContactSpace> Build(const TriangleMesh& robot,
+                                    const TriangleMesh& obstacle,
+                                    const std::string& which) {
+    std::optional<ContactSpace> built;
     try {
-      space = BuildContactSpace(robot, obstacle);
+      built = BuildContactSpace(robot, obstacle);
     } catch (const std::exception& error) {
       Fail(which, "throws: ", error.what());
-      return space;
+      return built;
     }
+    const ContactSpace& space = *built;
     double seconds = 0.0;
-    for (const auto& stage : space.report.seconds) seconds += stage.second;
+    for (const auto& stage : space.report().seconds) seconds += stage.second;
     result_.seconds = std::max(result_.seconds, seconds);
-    if (!space.report.closed) Fail(which, "not closed");
-    if (!space.report.manifold) Fail(which, "not manifold");
-    if (space.mesh.triangles.empty()) Fail(which, "empty");
-    return space;
+    if (!space.report().closed) Fail(which, "not closed");
+    if (!space.report().manifold) Fail(which, "not manifold");
+    if (space.mesh().triangles.empty()) Fail(which, "empty");
+    return built;
   }
 
   // What a volume may change by when the solid's surface moves by the grid.
   double VolumeTolerance(const ContactSpace& space) const {
-    return kGridSteps * 4 * space.report.grid_step * SurfaceArea(space.mesh) +
-           1e-12 * std::abs(space.report.volume);
+    return kGridSteps * 4 * space.report().grid_step *
+               SurfaceArea(space.mesh()) +
+           1e-12 * std::abs(space.report().volume);
   }
 
   void CheckExpectations() {
-    const ContactSpaceReport& report = space_.report;
+    const ContactSpaceReport& report = space_->report();
     const auto expect = [&](const char* what, const std::optional<int>& value,
                             int found) {
       if (value && *value != found) {
@@ -128,24 +131,24 @@ class Checker {
     const double tolerance =
         pair_.is_exact
             ? 0.0
-            : VolumeTolerance(space_) + moved * SurfaceArea(space_.mesh);
+            : VolumeTolerance(*space_) + moved * SurfaceArea(space_->mesh());
     if (pair_.volume && std::abs(report.volume - *pair_.volume) > tolerance) {
       Fail("volume must be ", *pair_.volume, ", found ", report.volume);
     }
   }
 
   void CheckSelfIntersections() {
-    const TriangleMesh& mesh = space_.mesh;
-    if (pair_.is_exact && space_.report.self_intersections > 0) {
-      Fail(space_.report.self_intersections, " self-intersections");
+    const TriangleMesh& mesh = space_->mesh();
+    if (pair_.is_exact && space_->report().self_intersections > 0) {
+      Fail(space_->report().self_intersections, " self-intersections");
     }
     // Slivers as thin as the grid have no reliable direction to separate in,
     // so crossings are told from rounding at the grid's size only.
     const double rounding =
-        kGridSteps * space_.report.grid_step +
+        kGridSteps * space_->report().grid_step +
         kUlps * (LargestCoordinate(mesh) + LargestCoordinate(pair_.robot) +
                  LargestCoordinate(pair_.obstacle));
-    result_.rounded_contacts = space_.report.self_intersections;
+    result_.rounded_contacts = space_->report().self_intersections;
     result_.deepest_overlap = DeepestSelfOverlap(mesh) / rounding;
     if (result_.deepest_overlap > 1.0) {
       Fail("triangles overlap by ", result_.deepest_overlap * rounding,
@@ -156,14 +159,14 @@ class Checker {
   // Does the surface agree with the oracle about q?  `is_outside` is what the
   // way q was made says, if anything.
   void CheckPoint(const Vector3d& q, const bool* is_outside) {
-    const double margin = kGridSteps * space_.report.grid_step +
+    const double margin = kGridSteps * space_->report().grid_step +
                           kUlps * (LargestCoordinate(pair_.robot) +
                                    LargestCoordinate(pair_.obstacle));
-    if (tree_.FindClosest(q).distance < margin) {
+    if (space_->bvh().FindClosest(q).distance < margin) {
       ++result_.undecided;
       return;
     }
-    const bool inside = inside_.Locate(q) == Location::kInside;
+    const bool inside = space_->bvh().Locate(q) == Location::kInside;
     if (is_outside != nullptr && *is_outside == inside) ++result_.crevices;
     if (oracle_->Collides(q) == inside) return;
     if (MeetExactly(Translated(pair_.robot, q), pair_.obstacle) == inside) {
@@ -185,17 +188,15 @@ class Checker {
   }
 
   void CheckPoints() {
-    tree_ = SurfaceTree(space_.mesh);
-    inside_ = InsideTest(space_.mesh);
     oracle_ = std::make_unique<CollisionOracle>(pair_.robot, pair_.obstacle);
-    const BoundingBox box = ComputeBounds(space_.mesh);
+    const BoundingBox box = ComputeBounds(space_->mesh());
     for (int i = 0; i < options_.points; ++i) {
       CheckPoint(RandomPoint(box, &random_), nullptr);
     }
     for (const double step : {1e-6, -1e-6, 1e-9, -1e-9}) {
       const bool is_outside = step > 0.0;
       for (int i = 0; i < options_.points; ++i) {
-        const SurfacePoint at = RandomSurfacePoint(space_.mesh, &random_);
+        const SurfacePoint at = RandomSurfacePoint(space_->mesh(), &random_);
         CheckPoint(at.position + step * box.Diagonal() * at.normal,
                    &is_outside);
       }
@@ -203,23 +204,26 @@ class Checker {
   }
 
   // Compares a variant, mapped back by v ↦ (v − offset) / factor.
-  void Compare(const ContactSpace& variant, double factor,
+  void Compare(const std::optional<ContactSpace>& built, double factor,
                const Vector3d& offset, const std::string& which) {
-    if (variant.mesh.triangles.empty()) return;
-    const double volume = variant.report.volume / std::pow(std::abs(factor), 3);
+    if (!built) return;
+    const ContactSpace& variant = *built;
+    const double volume =
+        variant.report().volume / std::pow(std::abs(factor), 3);
     const double reach = (LargestCoordinate(pair_.robot) +
                           LargestCoordinate(pair_.obstacle) + offset.norm());
     const double length =
-        kGridSteps * (space_.report.grid_step +
-                      variant.report.grid_step / std::abs(factor)) +
+        kGridSteps * (space_->report().grid_step +
+                      variant.report().grid_step / std::abs(factor)) +
         kUlps * reach;
     const double tolerance =
-        2 * VolumeTolerance(space_) + length * SurfaceArea(space_.mesh);
-    if (std::abs(volume - space_.report.volume) > tolerance) {
-      Fail(which, "volume must be ", space_.report.volume, ", found ", volume);
+        2 * VolumeTolerance(*space_) + length * SurfaceArea(space_->mesh());
+    if (std::abs(volume - space_->report().volume) > tolerance) {
+      Fail(which, "volume must be ", space_->report().volume, ", found ",
+           volume);
     }
-    const BoundingBox a = ComputeBounds(space_.mesh);
-    const BoundingBox b = ComputeBounds(variant.mesh);
+    const BoundingBox a = ComputeBounds(space_->mesh());
+    const BoundingBox b = ComputeBounds(variant.mesh());
     const Vector3d p = (b.min - offset) / factor, q = (b.max - offset) / factor;
     const double error = std::max((p.cwiseMin(q) - a.min).norm(),
                                   (p.cwiseMax(q) - a.max).norm());
@@ -230,7 +234,7 @@ class Checker {
     const TriangleMesh &a = pair_.robot, &b = pair_.obstacle;
     Compare(Build(b, a, "swapped: "), -1.0, Vector3d::Zero(), "swapped: ");
 
-    const double far = 100 * ComputeBounds(space_.mesh).Diagonal();
+    const double far = 100 * ComputeBounds(space_->mesh()).Diagonal();
     std::uniform_real_distribution<double> unit(-1.0, 1.0);
     const auto offset = [&]() -> Vector3d {
       return far * Vector3d(unit(random_), unit(random_), unit(random_));
@@ -249,9 +253,7 @@ class Checker {
   const SolidPair& pair_;
   const CheckOptions& options_;
   std::mt19937_64 random_;
-  ContactSpace space_;
-  SurfaceTree tree_;
-  InsideTest inside_;
+  std::optional<ContactSpace> space_;
   std::unique_ptr<CollisionOracle> oracle_;
   CheckResult result_;
 };

@@ -70,7 +70,7 @@ PlanningStudy::PlanningStudy(const Scene& scene, const ContactSpaceCache& cache)
 BoundingBox PlanningStudy::Region() const {
   const BoundingBox& bounds = scene_.workspace.bounds;
   return bounds.IsEmpty()
-             ? SamplingRegion(space_.sealed_mesh, scene_.start, scene_.goal)
+             ? SamplingRegion(*space_.sealed, scene_.start, scene_.goal)
              : bounds;
 }
 
@@ -78,8 +78,8 @@ TriangleMesh PlanningStudy::VisibleMesh() const {
   const BoundingBox region = Region();
   const double rounding = 1e-9 * region.Diagonal();
   TriangleMesh visible;
-  visible.vertices = space_.sealed_mesh.vertices;
-  for (const Triangle& t : space_.sealed_mesh.triangles) {
+  visible.vertices = space_.sealed->mesh().vertices;
+  for (const Triangle& t : space_.sealed->mesh().triangles) {
     const bool is_within = std::all_of(t.begin(), t.end(), [&](int v) {
       const Eigen::Vector3d& p = visible.vertices[v];
       return (p.array() >= region.min.array() - rounding).all() &&
@@ -93,7 +93,7 @@ TriangleMesh PlanningStudy::VisibleMesh() const {
 void PlanningStudy::PrepareModel() {
   if (model_ != nullptr) return;
   // The bounds are part of the mesh; what is beyond them need not be sampled.
-  model_ = std::make_shared<ContactModel>(space_.contact_meshes, Region());
+  model_ = std::make_shared<ContactModel>(space_.contact_spaces, Region());
 }
 
 OmplPlanningOptions PlanningStudy::Options(const PlanningRun& run) const {
@@ -119,9 +119,8 @@ PlanningResult PlanningStudy::Run(const PlanningRun& run) {
     if (planner_ == nullptr) {
       ContactSurfaceOptions options;
       options.clearance = scene_.planning.clearance;
-      options.self_intersections = space_.sealed_self_intersections;
       planner_ =
-          std::make_unique<ContactSurfacePlanner>(space_.sealed_mesh, options);
+          std::make_unique<ContactSurfacePlanner>(*space_.sealed, options);
     }
     exact_ = planner_->Plan(scene_.start, scene_.goal);
     result.status = ToString(exact_.status);

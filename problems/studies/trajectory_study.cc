@@ -88,14 +88,9 @@ TrajectoryProblem TrajectoryStudy::Problem(const TrajectoryMetric& metric) {
     TrajectoryProblem problem;
     problem.free_space = space_.free_space;
     problem.diagonal = space_.diagonal;
-    for (const TriangleMesh& mesh : space_.contact_meshes) {
-      // Both are measured by the diagonal of their own mesh.
-      SignedMetricOptions options = metric.options;
-      const double larger = space_.diagonal / ComputeBounds(mesh).Diagonal();
-      double& length = options.phong.field_options.smoothing_length;
-      length = std::min(1.0, length * larger);
-      options.reach *= larger;
-      problem.metrics.push_back(std::make_shared<SignedMetric>(mesh, options));
+    for (const ContactSpace& one : space_.contact_spaces) {
+      problem.metrics.push_back(
+          std::make_shared<SignedMetric>(one, metric.options));
     }
     found = problems_.emplace(metric.name, std::move(problem)).first;
   }
@@ -113,9 +108,7 @@ TrajectoryProblem TrajectoryStudy::Problem(const TrajectoryMetric& metric) {
 PipelineResult TrajectoryStudy::Run(const TrajectoryMetric& metric,
                                     const PipelineOptions& options) {
   if (options.start != TrajectoryStart::kStraight && repair_ == nullptr) {
-    ContactSurfaceOptions planner;
-    planner.self_intersections = space_.sealed_self_intersections;
-    repair_ = std::make_shared<StartRepair>(space_.sealed_mesh, planner);
+    repair_ = std::make_shared<StartRepair>(*space_.sealed);
   }
   PipelineResult result =
       TrajectoryPipeline(Problem(metric), repair_, options).Solve();

@@ -24,16 +24,16 @@ class Builder {
     options.obstacle_name = scene_.name + ": " + name;
     ContactSpace built = BuildContactSpaceCached(scene_.workspace.robot,
                                                  obstacle, options, cache_);
-    space_->from_cache = space_->from_cache || built.report.from_cache;
-    for (const std::string& warning : built.report.warnings) {
+    space_->from_cache = space_->from_cache || built.report().from_cache;
+    for (const std::string& warning : built.report().warnings) {
       space_->warnings.push_back(warning);
     }
-    return built;
+    return built.WithLength(space_->diagonal);
   }
 
-  void Keep(ContactSpace built) {
-    space_->triangles += built.mesh.triangles.size();
-    space_->contact_meshes.push_back(std::move(built.mesh));
+  void Keep(const ContactSpace& built) {
+    space_->triangles += built.mesh().triangles.size();
+    space_->contact_spaces.push_back(built);
   }
 
  private:
@@ -56,11 +56,6 @@ SceneSpace BuildSceneSpace(const Scene& scene, SpaceLayout layout,
   }
   Builder builder(scene, cache, &space);
   const bool is_sealed = !scene.workspace.bounds.IsEmpty();
-  const auto seal = [&space](const ContactSpace& built) {
-    space.sealed_mesh = built.mesh;
-    space.sealed_self_intersections =
-        static_cast<long>(built.report.self_intersections);
-  };
   if (layout == SpaceLayout::kPerObstacle) {
     for (const int i : reachable) {
       const Obstacle& obstacle =
@@ -68,20 +63,19 @@ SceneSpace BuildSceneSpace(const Scene& scene, SpaceLayout layout,
       builder.Keep(builder.Build(obstacle.mesh, obstacle.id));
     }
   } else if (layout == SpaceLayout::kMerged && !reachable.empty()) {
-    ContactSpace merged =
+    const ContactSpace merged =
         builder.Build(JoinedObstacle(scene.workspace), "obstacles");
-    if (!is_sealed) seal(merged);
-    builder.Keep(std::move(merged));
+    if (!is_sealed) space.sealed = merged;
+    builder.Keep(merged);
   }
-  if (space.sealed_mesh.triangles.empty()) {
-    ContactSpace sealed =
+  if (!space.sealed) {
+    space.sealed =
         builder.Build(MergedObstacle(scene.workspace),
                       is_sealed ? "obstacles and bounds" : "obstacles");
-    seal(sealed);
-    if (layout == SpaceLayout::kSealed) builder.Keep(std::move(sealed));
+    if (layout == SpaceLayout::kSealed) builder.Keep(*space.sealed);
   }
   // Bounds that are part of the mesh need no second test.
-  space.free_space = std::make_shared<FreeSpace>(space.contact_meshes,
+  space.free_space = std::make_shared<FreeSpace>(space.contact_spaces,
                                                  layout == SpaceLayout::kSealed
                                                      ? FreeSpace::NoBounds()
                                                      : scene.workspace.bounds);
@@ -102,15 +96,14 @@ std::string EndInCollision(const Scene& scene, const SceneSpace& space,
   // A sealed mesh measures the way out of obstacles and bounds together.
   const bool is_sealed =
       space.free_space->bounds().IsEmpty() && !scene.workspace.bounds.IsEmpty();
-  std::vector<TriangleMesh> joined;
+  std::vector<ContactSpace> joined;
   if (is_sealed) {
     joined.push_back(BuildContactSpace(scene.workspace.robot,
-                                       JoinedObstacle(scene.workspace))
-                         .mesh);
+                                       JoinedObstacle(scene.workspace)));
   }
   double depth = 0.0;
-  for (const TriangleMesh& mesh : is_sealed ? joined : space.contact_meshes) {
-    const PenetrationResult result = EuclideanMetric(mesh).Query(q);
+  for (const ContactSpace& one : is_sealed ? joined : space.contact_spaces) {
+    const PenetrationResult result = EuclideanMetric(one).Query(q);
     if (result.inside) depth = std::max(depth, -result.signed_distance);
   }
   if (depth == 0.0) return text + "touches " + names;

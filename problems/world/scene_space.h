@@ -2,11 +2,12 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "core/contact/contact_space.h"
 #include "core/contact/contact_space_cache.h"
-#include "core/mesh/triangle_mesh.h"
 #include "planners/exact/free_space.h"
 #include "problems/scenes/scene.h"
 
@@ -25,13 +26,13 @@ struct SceneSpace {
   // D, the diagonal of ContactBounds(scene): the length that margins and
   // smoothing lengths are fractions of, whatever the layout.
   double diagonal = 0.0;
-  std::vector<TriangleMesh> contact_meshes;  // bounds in it: kSealed only
+  // Each of length D; bounds in it: kSealed only.
+  std::vector<ContactSpace> contact_spaces;
   // All obstacles and the bounds in one: free cells end at the bounds.  Equal
-  // to contact_meshes[0] where there are no bounds and all is merged.
-  TriangleMesh sealed_mesh;
-  long sealed_self_intersections = 0;  // pairs of its triangles, as rounded
-  std::shared_ptr<const FreeSpace> free_space;  // of contact_meshes and bounds
-  std::size_t triangles = 0;                    // of contact_meshes
+  // to contact_spaces[0] where there are no bounds and all is merged.
+  std::optional<ContactSpace> sealed;
+  std::shared_ptr<const FreeSpace> free_space;  // of contact_spaces and bounds
+  std::size_t triangles = 0;                    // of contact_spaces
   double seconds = 0.0;                         // building, or reading a cache
   bool from_cache = false;                      // at least one of them
   std::vector<std::string> warnings;

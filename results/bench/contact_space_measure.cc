@@ -69,8 +69,8 @@ BuildMeasurement Build(const BuildCase& build, int builds, int threads,
     const ContactSpace space = BuildContactSpace(robot, obstacle);
     seconds.push_back(stopwatch.Seconds());
     spent += seconds.back();
-    report = space.report;
-    m.hash = Hash(space.mesh);
+    report = space.report();
+    m.hash = Hash(space.mesh());
     for (std::size_t i = 0; i < report.seconds.size(); ++i) {
       if (i == stages.size()) stages.push_back({report.seconds[i].first, {}});
       stages[i].second.push_back(report.seconds[i].second);

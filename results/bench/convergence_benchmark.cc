@@ -39,14 +39,12 @@ std::vector<Eigen::Vector3d> InteriorPoints(const TriangleMesh& mesh,
   return points;
 }
 
-DepthExcess Measure(const std::string& scene, const TriangleMesh& mesh,
-                    double diagonal, double ell,
-                    const std::vector<Eigen::Vector3d>& points,
+DepthExcess Measure(const std::string& scene, const ContactSpace& contact,
+                    double ell, const std::vector<Eigen::Vector3d>& points,
                     const EuclideanMetric& euclid) {
   PhongMetricOptions options;
-  options.field_options.smoothing_length =
-      std::min(1.0, ell * diagonal / ComputeBounds(mesh).Diagonal());
-  const PhongMetric phong(mesh, options);
+  options.field_options.smoothing_length = ell;
+  const PhongMetric phong(contact, options);
   DepthExcess excess;
   excess.scene = scene;
   excess.smoothing_length = ell;
@@ -77,12 +75,12 @@ std::vector<DepthExcess> MeasureAll(const std::vector<std::string>& scenes,
   for (const std::string& label : scenes) {
     std::cerr << label << '\n';
     const SceneSpace space = BuildSceneSpace(SceneSource(label).Load());
-    const TriangleMesh& mesh = space.contact_meshes.front();
-    const EuclideanMetric euclid(mesh);
+    const ContactSpace& contact = space.contact_spaces.front();
+    const EuclideanMetric euclid(contact);
     const std::vector<Eigen::Vector3d> inside =
-        InteriorPoints(mesh, euclid, points, seed);
+        InteriorPoints(contact.mesh(), euclid, points, seed);
     for (const double ell : kSmoothingLengths) {
-      all.push_back(Measure(label, mesh, space.diagonal, ell, inside, euclid));
+      all.push_back(Measure(label, contact, ell, inside, euclid));
     }
   }
   return all;

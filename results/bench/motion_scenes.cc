@@ -98,7 +98,7 @@ void CheckContact(const MotionScene& scene) {
 }
 
 void BuildContact(MotionScene* scene) {
-  scene->contact = BuildContactSpace(scene->robot, scene->obstacle).mesh;
+  scene->contact = BuildContactSpace(scene->robot, scene->obstacle).mesh();
   CheckContact(*scene);
 }
 

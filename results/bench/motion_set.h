@@ -10,7 +10,7 @@
 #include "core/mesh/triangle_mesh.h"
 
 // A public set of straight motions with rational ground truth: "motion set
-// v1".  The set is a stream, defined by this code, a seed and a length; the
+// v2".  The set is a stream, defined by this code, a seed and a length; the
 // hash of the stream says whether two people have the same one.
 //
 // A motion a → b is blocked iff the closed segment shares a point with the
@@ -21,7 +21,7 @@
 // no rounding.
 namespace phongpd::bench {
 
-constexpr int kMotionSetVersion = 1;
+constexpr int kMotionSetVersion = 2;
 constexpr int kMotionGridBits = 20;  // a unit of length is 2²⁰ steps
 
 using GridVector = Eigen::Matrix<std::int64_t, 3, 1>;

@@ -16,10 +16,10 @@
 #include <optional>
 #include <sstream>
 
+#include "constraints/oracle/fcl_surfaces.h"
 #include "core/stopwatch.h"
 #include "planners/exact/free_space.h"
 #include "planners/ompl/ompl_planning.h"
-#include "results/bench/fcl_motions.h"
 #include "results/bench/motion_set.h"
 #include "results/bench/program.h"
 
@@ -82,7 +82,8 @@ class OmplMotions {
 
 struct Scene {
   Scene(const MotionScene& scene, const std::vector<double>& resolutions)
-      : free({scene.contact}), fcl(scene.robot, scene.obstacle) {
+      : free({TakeAsContactSpace(scene.contact)}),
+        fcl(scene.robot, scene.obstacle) {
     BoundingBox box = ComputeBounds(scene.contact);
     const Vector3d margin = (box.max - box.min) / 4.0;
     box.min -= margin;
@@ -93,7 +94,7 @@ struct Scene {
   }
 
   FreeSpace free;
-  FclMotions fcl;
+  FclSurfaces fcl;
   std::vector<std::unique_ptr<OmplMotions>> ompl;
 };
 
@@ -176,7 +177,7 @@ int Run(int argc, char** argv) {
   for (const MotionScene& source : sources) {
     scenes.push_back(std::make_unique<Scene>(source, resolutions));
   }
-  using Solver = FclMotions::Solver;
+  using Solver = FclSurfaces::Solver;
   std::vector<Judge> judges = {
       {"ours", 1, false,
        [](const Scene& s, const Vector3d& a, const Vector3d& b) {
@@ -184,11 +185,11 @@ int Run(int argc, char** argv) {
        }},
       {"FCL conservative advancement", 101, true,
        [](const Scene& s, const Vector3d& a, const Vector3d& b) {
-         return s.fcl.Collides(a, b, Solver::kConservativeAdvancement);
+         return s.fcl.Meet(a, b, Solver::kConservativeAdvancement);
        }},
       {"FCL default", 101, true,
        [](const Scene& s, const Vector3d& a, const Vector3d& b) {
-         return s.fcl.Collides(a, b, Solver::kDefault);
+         return s.fcl.Meet(a, b, Solver::kPlacements);
        }}};
   for (std::size_t i = 0; i < resolutions.size(); ++i) {
     constexpr std::array<std::uint64_t, 3> kEvery = {7, 11, 101};

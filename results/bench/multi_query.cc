@@ -23,7 +23,7 @@ std::vector<Pair> RandomPairs(const Scene& scene, const SceneSpace& space,
                               int count, std::uint64_t seed) {
   const FreeSpace& free_space = *space.free_space;
   BoundingBox box = scene.workspace.bounds;
-  if (box.IsEmpty()) box = ComputeBounds(space.sealed_mesh);
+  if (box.IsEmpty()) box = space.sealed->bounds();
   std::mt19937_64 random(seed);
   std::uniform_real_distribution<double> share(0.0, 1.0);
   const auto point = [&] {
@@ -81,16 +81,15 @@ std::vector<MultiQueryRow> MeasureMultiQuery(const std::string& name,
   const SceneSpace space = BuildSceneSpace(scene, SpaceLayout::kSealed);
   ContactSurfaceOptions options;
   options.clearance = scene.planning.clearance;
-  options.self_intersections = space.sealed_self_intersections;
   const auto planner =
-      std::make_shared<const ContactSurfacePlanner>(space.sealed_mesh, options);
+      std::make_shared<const ContactSurfacePlanner>(*space.sealed, options);
   const ContactRoadmap roadmap(planner);
   const RoadmapReport report = roadmap.report();
 
   std::vector<MultiQueryRow> rows(3);
   for (MultiQueryRow& row : rows) {
     row.scene = name;
-    row.triangles = space.sealed_mesh.triangles.size();
+    row.triangles = space.sealed->mesh().triangles.size();
     row.build_milliseconds = 1e3 * report.build_seconds;
     row.nodes = report.nodes;
     row.edges = report.edges;

@@ -16,7 +16,7 @@
 namespace phongpd::bench {
 namespace {
 
-std::vector<MotionTrace> TraceMoment(const TriangleMesh& contact,
+std::vector<MotionTrace> TraceMoment(const ContactSpace& contact,
                                      const StraightMotion& motion) {
   std::vector<MotionTrace> traces;
   traces.push_back(TraceMotion(EuclideanMetric(contact), motion, "euclidean",
@@ -65,10 +65,10 @@ int Run(int argc, char** argv) {
   const PaperMotion moment = PaperMoment();
   const PaperResult& wrench = results.back();
   const std::vector<MotionTrace> traces =
-      TraceMoment(wrench.space.mesh, moment.motion);
+      TraceMoment(*wrench.space, moment.motion);
   out.Write("moment.csv", MotionCsv(traces));
   figures.push_back({"moment.svg", moment.summary,
-                     MomentFigure(wrench.benchmark, wrench.space.mesh,
+                     MomentFigure(wrench.benchmark, wrench.space->mesh(),
                                   moment.motion, traces)});
 
   const std::vector<NamedTable> tables = PaperTables(results, options);

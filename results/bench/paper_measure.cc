@@ -20,7 +20,7 @@ struct NamedMetric {
   std::unique_ptr<PenetrationMetric> metric;
 };
 
-std::unique_ptr<PhongMetric> MakePhong(const TriangleMesh& contact,
+std::unique_ptr<PhongMetric> MakePhong(const ContactSpace& contact,
                                        FieldKind field, double ell) {
   PhongMetricOptions options;
   options.field = field;
@@ -186,9 +186,9 @@ PaperResult Measure(const PaperBenchmark& benchmark,
     seconds.push_back(stopwatch.Seconds());
   }
   result.build_seconds = Quantile(seconds, 0.5);
-  const TriangleMesh& contact = result.space.mesh;
-  const BoundingBox box = ComputeBounds(contact);
-  result.diagonal = box.Diagonal();
+  const ContactSpace& contact = *result.space;
+  const BoundingBox& box = contact.bounds();
+  result.diagonal = contact.length();
 
   const EuclideanMetric euclidean(contact);
   auto phong = MakePhong(contact, FieldKind::kNormal, 0.0);

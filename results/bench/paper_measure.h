@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -56,7 +57,7 @@ struct MotionTotals {
 
 struct PaperResult {
   PaperBenchmark benchmark;
-  ContactSpace space;
+  std::optional<ContactSpace> space;
   double diagonal = 0.0;
   double build_seconds = 0.0;  // median of all builds
   std::vector<Coverage> coverage;

@@ -25,7 +25,7 @@ Table SizesTable(const std::vector<PaperResult>& results) {
       {"benchmark", "triangles", "paper", "genus", "cavities", "self-int.",
        "convolution", "arrangement", "build [s]", "peak [MiB]"},
       results, [](const PaperResult& r, const auto& add) {
-        const ContactSpaceReport& report = r.space.report;
+        const ContactSpaceReport& report = r.space->report();
         add(r.benchmark.title, report.triangles, r.benchmark.paper_triangles,
             report.genus, report.cavities, report.self_intersections,
             report.convolution_triangles, report.arrangement_faces,
@@ -165,7 +165,7 @@ Table ShortTable(const std::vector<PaperResult>& results) {
       {"benchmark", "triangles", "paper", "build [s]", "jumps Eucl.", "ℓ = 0",
        "ℓ = 0.1", "warm [µs]", "Eucl. [µs]"},
       results, [](const PaperResult& r, const auto& add) {
-        add(r.benchmark.title, r.space.report.triangles,
+        add(r.benchmark.title, r.space->report().triangles,
             r.benchmark.paper_triangles, r.build_seconds, r.totals[0].jumps,
             r.totals[1].jumps, r.totals[2].jumps, r.totals[1].median_us,
             r.totals[0].cold_median_us);

@@ -5,7 +5,7 @@
 #include <limits>
 #include <random>
 
-#include "core/bvh/segment_tree.h"
+#include "core/bvh/triangle_bvh.h"
 #include "core/stopwatch.h"
 #include "planners/exact/contact_surface_planner.h"
 #include "planners/exact/path_shortening.h"
@@ -135,8 +135,7 @@ ExactRow MeasureExact(const PlanningProblem& problem) {
   row.triangles = space.triangles;
   ContactSurfaceOptions options;
   options.clearance = scene.planning.clearance;
-  options.self_intersections = space.sealed_self_intersections;
-  const ContactSurfacePlanner planner(space.sealed_mesh, options);
+  const ContactSurfacePlanner planner(*space.sealed, options);
   row.build_milliseconds = 1e3 * planner.build_seconds();
   std::vector<double> milliseconds;
   PlanResult plan;
@@ -153,8 +152,8 @@ ExactRow MeasureExact(const PlanningProblem& problem) {
     ShorteningOptions shortest;
     shortest.random_cuts = 2000;
     shortest.pulls = 100;
-    row.witness_length = PathLength(
-        ShortenPath(scene.witness, SegmentTree(space.sealed_mesh), shortest));
+    row.witness_length =
+        PathLength(ShortenPath(scene.witness, space.sealed->bvh(), shortest));
   }
   row.is_right = problem.is_feasible
                      ? plan.status == PlanStatus::kSolved &&
@@ -193,7 +192,7 @@ std::vector<SamplerRow> MeasureSamplers(
 MotionRow MeasureMotions(const std::string& scene, std::uint64_t seed) {
   const SceneSpace space = BuildSceneSpace(SceneSource(scene).Load());
   const FreeSpace& free_space = *space.free_space;
-  BoundingBox box = ComputeBounds(space.contact_meshes.front());
+  BoundingBox box = space.contact_spaces.front().bounds();
   const Vector3d margin = 0.1 * (box.max - box.min);
   box = {box.min - margin, box.max + margin};
   std::mt19937_64 random(seed);
@@ -206,7 +205,7 @@ MotionRow MeasureMotions(const std::string& scene, std::uint64_t seed) {
   std::uniform_real_distribution<double> size(-0.05, 0.05);
   while (static_cast<int>(microseconds.size()) < kMotions) {
     const SurfacePoint point =
-        RandomSurfacePoint(space.contact_meshes.front(), &random);
+        RandomSurfacePoint(space.contact_spaces.front().mesh(), &random);
     const auto near = [&] {
       return Vector3d(point.position + space.diagonal * Vector3d(size(random),
                                                                  size(random),

@@ -15,8 +15,8 @@ namespace phongpd {
 namespace {
 
 TEST(ConstraintCost, EvaluatingDoesNotAllocate) {
-  const auto metric =
-      std::make_shared<SignedMetric>(MakeTorus(1.0, 0.35, 40, 16));
+  const auto metric = std::make_shared<SignedMetric>(
+      TakeAsContactSpace(MakeTorus(1.0, 0.35, 40, 16)));
   const std::vector<int> samples(9, 2);
   for (const bool merge : {false, true}) {
     NonPenetrationOptions options;

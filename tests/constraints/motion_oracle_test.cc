@@ -267,9 +267,9 @@ TEST(MotionOracleCampaign, AgreesWithTheContactSpaceOfRandomPairs) {
     for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
       const SolidPair pair = MakeRandomPair(kind, seed);
       const ContactSpace space = BuildContactSpace(pair.robot, pair.obstacle);
-      const FreeSpace judge({space.mesh});
+      const FreeSpace judge({space});
       const MotionOracle oracle(pair.robot, pair.obstacle);
-      BoundingBox box = ComputeBounds(space.mesh);
+      BoundingBox box = ComputeBounds(space.mesh());
       const double diagonal = box.Diagonal();
       box.min.array() -= 0.2 * diagonal;
       box.max.array() += 0.2 * diagonal;
@@ -278,12 +278,12 @@ TEST(MotionOracleCampaign, AgreesWithTheContactSpaceOfRandomPairs) {
         const BoundingBox b = ComputeBounds(*mesh);
         largest += b.min.cwiseAbs().cwiseMax(b.max.cwiseAbs()).maxCoeff();
       }
-      const double rounding = 4.0 * space.report.grid_step + 4e-15 * largest;
+      const double rounding = 4.0 * space.report().grid_step + 4e-15 * largest;
       for (long i = 0; i < segments; ++i) {
         Vector3d a = testing::RandomPoint(box, &random);
         Vector3d b = testing::RandomPoint(box, &random);
         if (i % 2 == 0) {  // grazing: along the surface, 1 to 1e-15 L above it
-          const auto at = testing::RandomSurfacePoint(space.mesh, &random);
+          const auto at = testing::RandomSurfacePoint(space.mesh(), &random);
           a = at.position + std::pow(10.0, -static_cast<double>(i / 2 % 16)) *
                                 diagonal * at.normal;
           b = a + 0.02 * at.normal.cross(b - a);

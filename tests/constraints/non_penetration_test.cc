@@ -30,7 +30,7 @@ std::shared_ptr<const SignedMetric> Metric(const TriangleMesh& mesh,
                                            JacobianKind jacobian) {
   SignedMetricOptions options;
   options.jacobian = jacobian;
-  return std::make_shared<SignedMetric>(mesh, options);
+  return std::make_shared<SignedMetric>(TakeAsContactSpace(mesh), options);
 }
 
 TriangleMesh Ball(const Vector3d& center) {

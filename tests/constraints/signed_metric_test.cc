@@ -13,7 +13,7 @@
 #include <random>
 #include <vector>
 
-#include "core/bvh/surface_tree.h"
+#include "core/bvh/triangle_bvh.h"
 #include "core/mesh/mesh_error.h"
 #include "problems/shapes/shapes.h"
 
@@ -45,8 +45,9 @@ Vector3d RandomPoint(const BoundingBox& box, double grow,
 
 TEST(SignedMetric, IsTheIntervalDistanceOfABox) {
   for (const MetricKind kind : {MetricKind::kPhong, MetricKind::kEuclidean}) {
-    const SignedMetric metric(MakeBox({-1, -1, -1}, {1, 1, 1}),
-                              Options(kind, JacobianKind::kDirection));
+    const SignedMetric metric(
+        TakeAsContactSpace(MakeBox({-1, -1, -1}, {1, 1, 1})),
+        Options(kind, JacobianKind::kDirection));
     EXPECT_NEAR(metric.Query({2.5, 0.2, 0.1}).value, 1.5, 1e-14);
     EXPECT_NEAR(metric.Query({2.0, 2.0, 0.1}).value, std::sqrt(2.0), 1e-14);
     const MetricRow inside = metric.Query({0.9, 0.0, 0.0});
@@ -61,11 +62,12 @@ TEST(SignedMetric, IsTheIntervalDistanceOfABox) {
 TEST(SignedMetric, ExactJacobianIsTheDerivative) {
   const TriangleMesh mesh = TurnedU();
   for (const MetricKind kind : {MetricKind::kPhong, MetricKind::kEuclidean}) {
-    const SignedMetric metric(mesh, Options(kind, JacobianKind::kExact));
+    const SignedMetric metric(TakeAsContactSpace(mesh),
+                              Options(kind, JacobianKind::kExact));
     std::mt19937_64 random(3);
     int compared = 0, off = 0, inside = 0;
     for (int i = 0; i < 2000; ++i) {
-      const Vector3d q = RandomPoint(metric.bounds(), 0.2, &random);
+      const Vector3d q = RandomPoint(metric.space().bounds(), 0.2, &random);
       const MetricRow row = metric.Query(q);
       if (row.is_capped) continue;
       Vector3d difference;
@@ -91,14 +93,15 @@ TEST(SignedMetric, ExactJacobianIsTheDerivative) {
 // large it becomes on the U at ℓ = 0.2.
 TEST(SignedMetric, DirectionPointsUphill) {
   const TriangleMesh mesh = TurnedU();
-  const SignedMetric exact(mesh,
+  const SignedMetric exact(TakeAsContactSpace(mesh),
                            Options(MetricKind::kPhong, JacobianKind::kExact));
   const SignedMetric direction(
-      mesh, Options(MetricKind::kPhong, JacobianKind::kDirection));
+      TakeAsContactSpace(mesh),
+      Options(MetricKind::kPhong, JacobianKind::kDirection));
   std::mt19937_64 random(4);
   std::vector<double> degrees;
   for (int i = 0; i < 6000; ++i) {
-    const Vector3d q = RandomPoint(exact.bounds(), 0.0, &random);
+    const Vector3d q = RandomPoint(exact.space().bounds(), 0.0, &random);
     const MetricRow e = exact.Query(q), d = direction.Query(q);
     EXPECT_EQ(e.value, d.value);
     if (!e.inside || e.status != QueryStatus::kOk) continue;
@@ -123,7 +126,8 @@ TEST(SignedMetric, DirectionPointsUphill) {
 TEST(SignedMetric, IsSoundOnAndBesideFeatures) {
   const TriangleMesh mesh = MakeBox({-1, -1, -1}, {1, 1, 1});
   for (const MetricKind kind : {MetricKind::kPhong, MetricKind::kEuclidean}) {
-    const SignedMetric metric(mesh, Options(kind, JacobianKind::kExact));
+    const SignedMetric metric(TakeAsContactSpace(mesh),
+                              Options(kind, JacobianKind::kExact));
     int sides[2] = {0, 0};
     for (const Vector3d& feature :
          {Vector3d(1, 1, 1), Vector3d(1, 1, 0.3), Vector3d(1, 0.2, 0.3),
@@ -152,7 +156,8 @@ TEST(SignedMetric, HoldsNoNanForAnyInput) {
   const double inf = std::numeric_limits<double>::infinity();
   const double nan = std::numeric_limits<double>::quiet_NaN();
   for (const MetricKind kind : {MetricKind::kPhong, MetricKind::kEuclidean}) {
-    const SignedMetric metric(TurnedU(), Options(kind, JacobianKind::kExact));
+    const SignedMetric metric(TakeAsContactSpace(TurnedU()),
+                              Options(kind, JacobianKind::kExact));
     for (const double x :
          {inf, -inf, nan, 1e308, -1e308, 1e200, 1e9, 1e-308, 5e-324, 0.0}) {
       for (const Vector3d& q :
@@ -216,14 +221,14 @@ TEST(SignedMetric, RowsEqualTheScanOfAllTriangles) {
   for (const double reach :
        {0.1, 0.5, std::numeric_limits<double>::infinity()}) {
     options.reach = reach;
-    metrics.emplace_back(mesh, options);
+    metrics.emplace_back(TakeAsContactSpace(mesh), options);
   }
   std::mt19937_64 random(5);
   int extra = 0, repeated = 0;
   for (int i = 0; i < 3000; ++i) {
     const SignedMetric& metric = metrics[i % 3];
-    const Vector3d q =
-        RandomPoint(metric.bounds(), i / 3 % 2 == 0 ? 0.0 : 4.0, &random);
+    const Vector3d q = RandomPoint(metric.space().bounds(),
+                                   i / 3 % 2 == 0 ? 0.0 : 4.0, &random);
     MetricRow rows[4];
     metric.Query(q, Branch(), 4, rows);
     if (rows[0].inside) {
@@ -235,7 +240,8 @@ TEST(SignedMetric, RowsEqualTheScanOfAllTriangles) {
       continue;
     }
     const std::vector<MetricRow> expected = BruteForceRows(
-        mesh, q, 25.0, metric.options().reach * metric.bounds().Diagonal(), 4);
+        mesh, q, 25.0,
+        metric.options().reach * metric.space().bounds().Diagonal(), 4);
     for (std::size_t k = 0; k < 4; ++k) {
       if (k >= expected.size()) {
         EXPECT_TRUE(rows[k].is_repeated);
@@ -258,11 +264,13 @@ TEST(SignedMetric, RowsEqualTheScanOfAllTriangles) {
 // Every further row is a necessary condition of the same constraint.
 TEST(SignedMetric, FurtherRowsAreNeverLess) {
   const SignedMetric metric(
-      TurnedU(), Options(MetricKind::kEuclidean, JacobianKind::kExact));
+      TakeAsContactSpace(TurnedU()),
+      Options(MetricKind::kEuclidean, JacobianKind::kExact));
   std::mt19937_64 random(6);
   for (int i = 0; i < 2000; ++i) {
     MetricRow rows[3];
-    metric.Query(RandomPoint(metric.bounds(), 0.5, &random), Branch(), 3, rows);
+    metric.Query(RandomPoint(metric.space().bounds(), 0.5, &random), Branch(),
+                 3, rows);
     EXPECT_GE(rows[1].value, rows[0].value - 1e-12);
     EXPECT_GE(rows[2].value, rows[rows[2].is_repeated ? 0 : 1].value - 1e-12);
   }
@@ -272,11 +280,12 @@ TEST(SignedMetric, FurtherRowsAreNeverLess) {
 TEST(SignedMetric, CurvatureIsTheDerivativeOfTheGradient) {
   const TriangleMesh mesh = TurnedU();
   for (const MetricKind kind : {MetricKind::kPhong, MetricKind::kEuclidean}) {
-    const SignedMetric metric(mesh, Options(kind, JacobianKind::kExact));
+    const SignedMetric metric(TakeAsContactSpace(mesh),
+                              Options(kind, JacobianKind::kExact));
     std::mt19937_64 random(8);
     int curved[2] = {0, 0}, compared = 0, off = 0;
     for (int i = 0; i < 3000; ++i) {
-      const Vector3d q = RandomPoint(metric.bounds(), 0.3, &random);
+      const Vector3d q = RandomPoint(metric.space().bounds(), 0.3, &random);
       const MetricRow row = metric.Query(q);
       const Eigen::Matrix3d h = metric.Curvature(q, row);
       EXPECT_TRUE(h.allFinite());
@@ -312,11 +321,11 @@ TEST(SignedMetric, ScalesBitForBitWithTheInput) {
   const TriangleMesh mesh = TurnedU();
   const SignedMetricOptions options =
       Options(MetricKind::kPhong, JacobianKind::kDirection);
-  const SignedMetric metric(mesh, options);
-  const SignedMetric scaled(Scaled(mesh, 1024.0), options);
+  const SignedMetric metric(TakeAsContactSpace(mesh), options);
+  const SignedMetric scaled(TakeAsContactSpace(Scaled(mesh, 1024.0)), options);
   std::mt19937_64 random(7);
   for (int i = 0; i < 300; ++i) {
-    const Vector3d q = RandomPoint(metric.bounds(), 0.3, &random);
+    const Vector3d q = RandomPoint(metric.space().bounds(), 0.3, &random);
     MetricRow a[3], b[3];
     metric.Query(q, Branch(), 3, a);
     scaled.Query(1024.0 * q, Branch(), 3, b);
@@ -331,18 +340,18 @@ TEST(SignedMetric, NamesBadOptions) {
   const TriangleMesh box = MakeBox({0, 0, 0}, {1, 1, 1});
   SignedMetricOptions options;
   options.separation = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_THROW(SignedMetric(box, options), InputError);
+  EXPECT_THROW(SignedMetric(TakeAsContactSpace(box), options), InputError);
   for (const double reach : {0.0, std::nan("")}) {
     options = {};
     options.reach = reach;
-    EXPECT_THROW(SignedMetric(box, options), InputError);
+    EXPECT_THROW(SignedMetric(TakeAsContactSpace(box), options), InputError);
   }
   options = {};
   options.phong.field_options.smoothing_length = -1.0;
-  EXPECT_THROW(SignedMetric(box, options), InputError);
+  EXPECT_THROW(SignedMetric(TakeAsContactSpace(box), options), InputError);
   TriangleMesh open = box;
   open.triangles.pop_back();
-  EXPECT_THROW(SignedMetric(open, {}), InputError);
+  EXPECT_THROW(SignedMetric(TakeAsContactSpace(open), {}), InputError);
 }
 
 }  // namespace

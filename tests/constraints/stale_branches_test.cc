@@ -32,7 +32,8 @@ constexpr std::uint64_t kSeed = 8;
 NonPenetrationConstraint Rows(BranchPolicy policy, int waypoints, int spaces) {
   NonPenetrationOptions options;
   options.policy = policy;
-  const auto metric = std::make_shared<SignedMetric>(MakeIcoBall(0.8, 1));
+  const auto metric =
+      std::make_shared<SignedMetric>(TakeAsContactSpace(MakeIcoBall(0.8, 1)));
   return NonPenetrationConstraint(
       std::vector<std::shared_ptr<const SignedMetric>>(
           static_cast<std::size_t>(spaces), metric),
@@ -117,13 +118,13 @@ TEST(Branches, WithImpossibleMembersAreColdQueries) {
         Vector3d(1, 1, 1), Vector3d(1e308, 1e308, 1e308)}) {
     bad.push_back({0, lambda, -0.1});
   }
-  for (const double s : {kNan, kInf, -kInf}) {
+  for (const double s : {kNan, kInf, -kInf, 1e60, -1e60, -1e300}) {
     bad.push_back({0, Vector3d(0.5, 0.25, 0.25), s});
   }
   for (const FieldKind field : {FieldKind::kNormal, FieldKind::kTangentPlane}) {
     PhongMetricOptions options;
     options.field = field;
-    const PhongMetric metric(mesh, options);
+    const PhongMetric metric(TakeAsContactSpace(mesh), options);
     for (const Vector3d& q : {Vector3d(0.2, 0.9, 0.4), Vector3d(1, 0.1, 0.3),
                               Vector3d(1, 1, 0.4), Vector3d(9, 9, 9)}) {
       const PenetrationResult cold = metric.Query(q);
@@ -148,11 +149,11 @@ TEST(StaleBranchesCampaign, GiveProjectionsOfThisSpaceOrSayThatTheyEnded) {
     for (const double ell : {0.0, 0.2}) {
       PhongMetricOptions options;
       options.field_options.smoothing_length = ell;
-      metrics.emplace_back(mesh, options);
+      metrics.emplace_back(TakeAsContactSpace(mesh), options);
     }
     PhongMetricOptions options;
     options.field = FieldKind::kTangentPlane;
-    metrics.emplace_back(mesh, options);
+    metrics.emplace_back(TakeAsContactSpace(mesh), options);
   }
   std::mt19937_64 random(kSeed);
   std::uniform_real_distribution<double> unit(0.0, 1.0);
@@ -227,7 +228,7 @@ TEST(Curvature, OfRowsFromElsewhereIsZero) {
   for (const MetricKind kind : {MetricKind::kPhong, MetricKind::kEuclidean}) {
     SignedMetricOptions options;
     options.metric = kind;
-    const SignedMetric metric(MakeIcoBall(1.0, 1), options);
+    const SignedMetric metric(TakeAsContactSpace(MakeIcoBall(1.0, 1)), options);
     for (const int triangle : {-1, INT_MIN, INT_MAX, 80}) {
       MetricRow row;
       row.status = QueryStatus::kOk;

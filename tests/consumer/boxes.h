@@ -18,8 +18,8 @@ inline phongpd::TriangleMesh Box(double half) {
   return box;
 }
 
-inline phongpd::TriangleMesh ContactMesh() {
-  return phongpd::BuildContactSpace(Box(0.5), Box(1.0)).mesh;
+inline phongpd::ContactSpace BoxSpace() {
+  return phongpd::BuildContactSpace(Box(0.5), Box(1.0));
 }
 
 inline const Eigen::Vector3d kStart(-3.0, 0.1, 0.2), kGoal(3.0, 0.3, -0.1);

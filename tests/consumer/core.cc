@@ -12,7 +12,7 @@ int main(int argc, char** argv) {
   const phongpd::TriangleMesh obstacle = phongpd::ReadMesh(argv[2]);
   const phongpd::ContactSpace space =
       phongpd::BuildContactSpace(robot, obstacle);
-  const phongpd::PhongMetric metric(space.mesh);
+  const phongpd::PhongMetric metric(space);
 
   phongpd::Branch branch;  // carried from query to query
   for (double x = -2.0; x <= 2.0; x += 0.5) {

@@ -7,7 +7,7 @@
 #include "boxes.h"
 
 int main() {
-  const phongpd::TriangleMesh contact = ContactMesh();
+  const phongpd::ContactSpace contact = BoxSpace();
   phongpd::TrajectoryProblem problem =
       phongpd::MakeTrajectoryProblem({contact});
   problem.start = kStart;

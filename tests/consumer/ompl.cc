@@ -13,7 +13,7 @@
 int main() {
   ompl::RNG::setSeed(1);
   const auto model = std::make_shared<const phongpd::ContactModel>(
-      std::vector<phongpd::TriangleMesh>{ContactMesh()},
+      std::vector<phongpd::ContactSpace>{BoxSpace()},
       phongpd::BoundingBox{Eigen::Vector3d::Constant(-4.0),
                            Eigen::Vector3d::Constant(4.0)});
   const auto si = phongpd::MakeSpaceInformation(model);

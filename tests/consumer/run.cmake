@@ -37,14 +37,18 @@ if(NOT output MATCHES "\n2: 0\n$" OR NOT output MATCHES "\n0: -(1\\.[89]|2)")
   message(FATAL_ERROR "unexpected answer of the consumer:\n${output}")
 endif()
 
+# Nobody who wants planners needs FCL.
+run(${configure} -B ${work}-all -D COMPONENTS=planners -D
+    CMAKE_DISABLE_FIND_PACKAGE_fcl=ON)
 # All components that were built: each header on its own, and the planners.
 file(GLOB_RECURSE components ${prefix}/*/PhongPD*Targets.cmake)
 list(TRANSFORM components REPLACE "^.*/PhongPD(.*)Targets\\.cmake$" "\\1")
 list(JOIN components "," listed)
+file(REMOVE_RECURSE ${work}-all)
 run(${configure} -B ${work}-all -D COMPONENTS=${listed} -D
     HEADERS=${prefix}/include)
 run(${CMAKE_COMMAND} --build ${work}-all --parallel 2)
-foreach(component ipopt ompl)
+foreach(component ipopt ompl problems)
   if(component IN_LIST components)
     run(${work}-all/use_${component})
   endif()

@@ -83,7 +83,7 @@ TriangleMesh Changed(ByteSource* source) {
 
 void Cache(const std::uint8_t* data, std::size_t size) {
   const std::string_view bytes(reinterpret_cast<const char*>(data), size);
-  phongpd::ContactSpace space, again;
+  phongpd::ContactSpace::Parts space, again;
   if (!internal::FromBytes(bytes, &space)) return;
   const std::string written = internal::ToBytes(space);
   Promise(internal::FromBytes(written, &again), "what is written is read");
@@ -97,9 +97,9 @@ void ContactSpace(const std::uint8_t* data, std::size_t size) {
   const TriangleMesh robot = Changed(&source), obstacle = Changed(&source);
   try {
     const phongpd::ContactSpace space = BuildContactSpace(robot, obstacle);
-    Promise(space.report.closed, "a contact space is closed");
-    Promise(std::isfinite(space.report.volume), "its volume is finite");
-    for (const Eigen::Vector3d& v : space.mesh.vertices) {
+    Promise(space.report().closed, "a contact space is closed");
+    Promise(std::isfinite(space.report().volume), "its volume is finite");
+    for (const Eigen::Vector3d& v : space.mesh().vertices) {
       Promise(v.allFinite(), "its vertices are finite");
     }
   } catch (const InputError& error) {

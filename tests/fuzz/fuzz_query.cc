@@ -17,14 +17,14 @@ namespace phongpd::fuzz {
 namespace {
 
 struct Metrics {
-  explicit Metrics(const TriangleMesh& mesh) : euclidean(mesh) {
+  explicit Metrics(const phongpd::ContactSpace& space) : euclidean(space) {
     for (const FieldKind field :
          {FieldKind::kNormal, FieldKind::kTangentPlane}) {
       for (const double smoothing_length : {0.0, 0.2}) {
         PhongMetricOptions options;
         options.field = field;
         options.field_options.smoothing_length = smoothing_length;
-        phong.emplace_back(mesh, options);
+        phong.emplace_back(space, options);
       }
     }
   }
@@ -41,7 +41,7 @@ const std::vector<std::unique_ptr<Metrics>>& AllMetrics() {
     for (const TriangleMesh& obstacle :
          {box, MakeCone(1.0, 2.0, 7), MakeU(3.0, 1.0, 1.0)}) {
       metrics.push_back(std::make_unique<Metrics>(
-          BuildContactSpace(MakeCone(0.5, 1.0, 5), obstacle).mesh));
+          BuildContactSpace(MakeCone(0.5, 1.0, 5), obstacle)));
     }
     return metrics;
   }();

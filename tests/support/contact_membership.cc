@@ -5,7 +5,7 @@
 #include <cmath>
 #include <sstream>
 
-#include "core/bvh/surface_tree.h"
+#include "core/bvh/triangle_bvh.h"
 #include "core/solid/self_intersection.h"
 #include "tests/support/solid_tools.h"
 
@@ -39,8 +39,8 @@ std::string FindWrongPoint(const TriangleMesh& robot,
                            const TriangleMesh& obstacle,
                            const ContactSpace& space, int count,
                            std::mt19937_64* random) {
-  const BoundingBox box = ComputeBounds(space.mesh);
-  const SurfaceTree surface(space.mesh);
+  const BoundingBox box = ComputeBounds(space.mesh());
+  const TriangleBvh surface(space.mesh());
   const auto vertex_of = [random](const TriangleMesh& mesh) -> Vector3d {
     const Triangle& t = mesh.triangles[(*random)() % mesh.triangles.size()];
     return mesh.vertices[t[(*random)() % 3]];
@@ -59,14 +59,15 @@ std::string FindWrongPoint(const TriangleMesh& robot,
       q = vertex_of(obstacle) - RandomSurfacePoint(robot, random).position +
           near;
     }
-    if (surface.FindClosest(q).distance < 8 * space.report.grid_step) continue;
-    const bool is_inside = WindingNumber(space.mesh, q) > 0.5;
+    if (surface.FindClosest(q).distance < 8 * space.report().grid_step)
+      continue;
+    const bool is_inside = WindingNumber(space.mesh(), q) > 0.5;
     if (is_inside == Meet(robot, obstacle, q)) continue;
     std::ostringstream text;
     text.precision(17);
     text << "(" << q.transpose() << ") is " << (is_inside ? "in" : "not in")
          << " C_obj, "
-         << surface.FindClosest(q).distance / space.report.grid_step
+         << surface.FindClosest(q).distance / space.report().grid_step
          << " grid steps off its surface";
     return text.str();
   }

@@ -3,7 +3,7 @@
 
 #include <Eigen/Core>
 
-#include "core/bvh/inside_test.h"
+#include "core/bvh/triangle_bvh.h"
 #include "core/mesh/triangle_mesh.h"
 #include "core/projection/penetration_metric.h"
 

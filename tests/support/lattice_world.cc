@@ -284,7 +284,7 @@ LatticeWorld MakeLatticeWorld(LatticeWorld::Family family, bool mapped,
   if (is_full) return MakeLatticeWorld(family, mapped, random);
   world.contact_space =
       BuildContactSpace(world.workspace.robot, MergedObstacle(world.workspace))
-          .mesh;
+          .mesh();
   while (mapped) {
     world.map.row(0) = PickPoint(-2, 2, random);
     world.map.row(1) = PickPoint(-2, 2, random);

@@ -22,12 +22,12 @@ Passage MakePassage(const std::string& family,
   passage.scene = ParseScene(MakeScene(family, knobs), family);
   const Workspace& workspace = passage.scene.workspace;
   const TriangleMesh contact =
-      BuildContactSpace(workspace.robot, MergedObstacle(workspace)).mesh;
+      BuildContactSpace(workspace.robot, MergedObstacle(workspace)).mesh();
   const Scene& scene = passage.scene;
   passage.model = std::make_shared<const ContactModel>(
-      std::vector<TriangleMesh>{contact},
+      std::vector<ContactSpace>{TakeAsContactSpace(contact)},
       workspace.bounds.IsEmpty()
-          ? SamplingRegion(contact, scene.start, scene.goal)
+          ? SamplingRegion(TakeAsContactSpace(contact), scene.start, scene.goal)
           : workspace.bounds);
   return passage;
 }
@@ -35,7 +35,7 @@ Passage MakePassage(const std::string& family,
 std::shared_ptr<const ContactModel> BoxModel() {
   const Eigen::Vector3d one = Eigen::Vector3d::Ones();
   return std::make_shared<const ContactModel>(
-      std::vector<TriangleMesh>{MakeBox(-one, one)},
+      std::vector<ContactSpace>{TakeAsContactSpace(MakeBox(-one, one))},
       BoundingBox{-2.0 * one, 2.0 * one});
 }
 

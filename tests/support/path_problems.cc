@@ -32,7 +32,7 @@ TriangleMesh Centered(const TriangleMesh& mesh) {
 }
 
 TriangleMesh Contact(const TriangleMesh& robot, const TriangleMesh& obstacle) {
-  return Centered(BuildContactSpace(robot, obstacle).mesh);
+  return Centered(BuildContactSpace(robot, obstacle).mesh());
 }
 
 TriangleMesh Plate(double thickness, double width) {
@@ -139,7 +139,7 @@ PathProblem MakePathProblem(const std::string& family, std::uint64_t seed) {
           : built.emplace(key, MakeContact(family, seed)).first->second;
   PathProblem problem;
   problem.contact = mesh;
-  const FreeSpace space({mesh});
+  const FreeSpace space({TakeAsContactSpace(mesh)});
   const double distance = 0.02 * ComputeBounds(mesh).Diagonal();
   std::mt19937_64 random(seed);
   const auto is_good = [&](const Vector3d& q) {

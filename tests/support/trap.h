@@ -21,7 +21,8 @@ inline TriangleMesh Trap() {
 inline TrajectoryProblem TrapProblem(const Eigen::Vector3d& start,
                                      const Eigen::Vector3d& goal,
                                      const SignedMetricOptions& options) {
-  TrajectoryProblem problem = MakeTrajectoryProblem({Trap()}, options);
+  TrajectoryProblem problem =
+      MakeTrajectoryProblem({TakeAsContactSpace(Trap())}, options);
   problem.start = GenericRotation() * start;
   problem.goal = GenericRotation() * goal;
   return problem;

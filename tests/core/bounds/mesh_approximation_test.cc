@@ -3,12 +3,16 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <random>
 #include <string>
+#include <vector>
 
+#include "core/bounds/convex_hull.h"
 #include "core/bounds/solid_distance.h"
-#include "core/bvh/inside_test.h"
-#include "core/bvh/surface_tree.h"
+#include "core/bvh/triangle_bvh.h"
 #include "core/solid/mesh_check.h"
 #include "problems/shapes/shapes.h"
 #include "tests/support/solid_tools.h"
@@ -22,7 +26,7 @@ using Eigen::Vector3d;
 // points of the other solid and of its surface.
 double SampledDeviation(const TriangleMesh& from, const TriangleMesh& to,
                         int samples) {
-  const SurfaceTree tree(to);
+  const TriangleBvh tree(to);
   std::mt19937_64 random(11);
   double largest = 0.0;
   const auto look = [&](const Vector3d& x) {
@@ -113,6 +117,31 @@ TEST(ConvexHull, BoundsTheDistanceOfEveryPointOfTheHull) {
   EXPECT_GE(hull.bound, 1.0 - 1e-12);
 }
 
+// CGAL's own order of facets varies from run to run with where they lie in
+// memory; the order of the input is what a test can vary.
+TEST(ConvexHull, IsTheSameInWhateverOrderTheInputComes) {
+  std::mt19937 random(4);
+  TriangleMesh mesh = MakeIcoBall(1.0, 2);
+  const TriangleMesh expected = internal::HullOfVertices(mesh);
+  EXPECT_EQ(expected.triangles.size(), mesh.triangles.size());
+  for (int round = 0; round < 20; ++round) {
+    std::shuffle(mesh.triangles.begin(), mesh.triangles.end(), random);
+    std::vector<int> place(mesh.vertices.size());
+    std::iota(place.begin(), place.end(), 0);
+    std::shuffle(place.begin(), place.end(), random);
+    TriangleMesh moved = mesh;
+    for (std::size_t v = 0; v < place.size(); ++v) {
+      moved.vertices[static_cast<std::size_t>(place[v])] = mesh.vertices[v];
+    }
+    for (Triangle& t : moved.triangles) {
+      for (int& v : t) v = place[static_cast<std::size_t>(v)];
+    }
+    const TriangleMesh hull = internal::HullOfVertices(moved);
+    EXPECT_EQ(hull.vertices, expected.vertices);
+    EXPECT_EQ(hull.triangles, expected.triangles);
+  }
+}
+
 TEST(Decimate, BoundsTheDeviationOfABall) {
   const TriangleMesh ball = MakeIcoBall(1.0, 3);
   double last = 0.0;
@@ -190,13 +219,13 @@ TEST(WrapTriangles, EnclosesRandomSoups) {
       soup.triangles.push_back({3 * t, 3 * t + 1, 3 * t + 2});
     }
     const ApproximateMesh wrap = WrapTriangles(soup, 0.1);
-    const InsideTest inside(wrap.mesh);
+    const TriangleBvh inside(wrap.mesh);
     for (int s = 0; s < 200; ++s) {
       EXPECT_EQ(
           inside.Locate(testing::RandomSurfacePoint(soup, &random).position),
           Location::kInside);
     }
-    const SurfaceTree tree(soup);
+    const TriangleBvh tree(soup);
     for (const Vector3d& v : wrap.mesh.vertices) {
       EXPECT_LE(tree.FindClosest(v).distance, wrap.bound);
     }

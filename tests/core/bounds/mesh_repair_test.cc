@@ -9,7 +9,7 @@
 #include <string>
 
 #include "core/bounds/mesh_approximation.h"
-#include "core/bvh/inside_test.h"
+#include "core/bvh/triangle_bvh.h"
 #include "problems/shapes/shapes.h"
 #include "tests/support/solid_tools.h"
 
@@ -176,7 +176,7 @@ TEST(RepairSolid, RefusesWhatOnlyAWrapCanMend) {
     EXPECT_GT(report.wrap_bound, 0.0);
     EXPECT_LT(report.wrap_bound, 0.1 * ComputeBounds(bad).Diagonal());
     EXPECT_FALSE(report.wrap_reason.empty());
-    const InsideTest inside(solid);
+    const TriangleBvh inside(solid);
     for (const Triangle& t : bad.triangles) {
       for (const int v : t) {
         EXPECT_EQ(inside.Locate(bad.vertices[v]), Location::kInside);

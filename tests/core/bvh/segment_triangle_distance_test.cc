@@ -10,7 +10,7 @@
 #include <cmath>
 #include <random>
 
-#include "core/bvh/surface_tree.h"
+#include "core/bvh/triangle_bvh.h"
 
 namespace phongpd {
 namespace {

@@ -34,10 +34,10 @@ bool SameBits(const TriangleMesh& a, const TriangleMesh& b) {
 
 // All of it, but for from_cache and warnings.
 void ExpectEqual(const ContactSpace& a, const ContactSpace& b) {
-  EXPECT_TRUE(SameBits(a.mesh, b.mesh));
-  EXPECT_EQ(a.plane, b.plane);
-  EXPECT_EQ(a.kind, b.kind);
-  const ContactSpaceReport &r = a.report, &s = b.report;
+  EXPECT_TRUE(SameBits(a.mesh(), b.mesh()));
+  EXPECT_EQ(a.plane(), b.plane());
+  EXPECT_EQ(a.kind(), b.kind());
+  const ContactSpaceReport &r = a.report(), &s = b.report();
   EXPECT_EQ(r.triangles, s.triangles);
   EXPECT_EQ(r.vertices, s.vertices);
   EXPECT_EQ(r.closed, s.closed);
@@ -92,20 +92,20 @@ TEST_F(ContactSpaceCacheTest, GivesWhatTheBuildGaveBitForBit) {
   ContactSpaceOptions options;
   const ContactSpace built = Build(options);
   const ContactSpace cached = Build(options);
-  EXPECT_FALSE(built.report.from_cache);
-  EXPECT_TRUE(cached.report.from_cache);
-  EXPECT_FALSE(built.report.warnings.empty());
-  EXPECT_EQ(built.report.warnings, cached.report.warnings);
+  EXPECT_FALSE(built.report().from_cache);
+  EXPECT_TRUE(cached.report().from_cache);
+  EXPECT_FALSE(built.report().warnings.empty());
+  EXPECT_EQ(built.report().warnings, cached.report().warnings);
   ExpectEqual(built, cached);
-  EXPECT_TRUE(SameBits(cached.mesh,
-                       BuildContactSpace(robot_, obstacle_, options).mesh));
+  EXPECT_TRUE(SameBits(cached.mesh(),
+                       BuildContactSpace(robot_, obstacle_, options).mesh()));
   EXPECT_EQ(Files().size(), 1U);
 }
 
 TEST_F(ContactSpaceCacheTest, IsOffWithoutADirectory) {
   cache_.directory.clear();
   Build();
-  EXPECT_FALSE(Build().report.from_cache);
+  EXPECT_FALSE(Build().report().from_cache);
 }
 
 TEST_F(ContactSpaceCacheTest, AnyChangedBitOfTheOperandsMisses) {
@@ -113,10 +113,10 @@ TEST_F(ContactSpaceCacheTest, AnyChangedBitOfTheOperandsMisses) {
   const auto misses = [&](const std::function<void()>& change) {
     const TriangleMesh robot = robot_, obstacle = obstacle_;
     change();
-    const bool missed = !Build().report.from_cache;
+    const bool missed = !Build().report().from_cache;
     robot_ = robot;
     obstacle_ = obstacle;
-    return missed && Build().report.from_cache;
+    return missed && Build().report().from_cache;
   };
   for (Eigen::Vector3d& vertex : robot_.vertices) {
     for (double& x : vertex) {
@@ -141,21 +141,16 @@ TEST_F(ContactSpaceCacheTest, AnyChangedOptionMisses) {
          target_faces, max_seconds, max_mib, robot_name, obstacle_name] =
       options;
   const std::vector<std::function<void()>> changes = {
-      [&o = merge_coplanar] { o = !o; },
-      [&o = outer_shell_only] { o = !o; },
-      [&o = repair] { o = Repair::kSafe; },
-      [&o = wrap_alpha] { o = 0.2; },
-      [&o = robot_hull] { o = !o; },
-      [&o = target_faces] { o = 100; },
-      [&o = max_seconds] { o = 1e6; },
-      [&o = max_mib] { o = 1e6; },
-      [&o = robot_name] { o += "s"; },
-      [&o = obstacle_name] { o += "s"; },
+      [&o = merge_coplanar] { o = !o; },    [&o = outer_shell_only] { o = !o; },
+      [&o = repair] { o = Repair::kSafe; }, [&o = wrap_alpha] { o = 0.2; },
+      [&o = robot_hull] { o = !o; },        [&o = target_faces] { o = 100; },
+      [&o = max_seconds] { o = 1e6; },      [&o = max_mib] { o = 1e6; },
+      [&o = robot_name] { o += "s"; },      [&o = obstacle_name] { o += "s"; },
   };
   for (std::size_t i = 0; i < changes.size(); ++i) {
     changes[i]();
-    EXPECT_FALSE(Build(options).report.from_cache) << "change " << i;
-    EXPECT_TRUE(Build(options).report.from_cache) << "change " << i;
+    EXPECT_FALSE(Build(options).report().from_cache) << "change " << i;
+    EXPECT_TRUE(Build(options).report().from_cache) << "change " << i;
   }
 }
 
@@ -167,13 +162,14 @@ TEST_F(ContactSpaceCacheTest, DamagedFilesAreFoundReplacedAndNamed) {
   ASSERT_GT(good.size(), 500U);
   const auto expect_rebuilt = [&](const std::string& what) {
     const ContactSpace again = Build();
-    EXPECT_FALSE(again.report.from_cache) << what;
-    EXPECT_TRUE(SameBits(again.mesh, built.mesh)) << what;
-    ASSERT_EQ(again.report.warnings.size(), 1U) << what;
-    EXPECT_NE(again.report.warnings[0].find(file.string()), std::string::npos);
+    EXPECT_FALSE(again.report().from_cache) << what;
+    EXPECT_TRUE(SameBits(again.mesh(), built.mesh())) << what;
+    ASSERT_EQ(again.report().warnings.size(), 1U) << what;
+    EXPECT_NE(again.report().warnings[0].find(file.string()),
+              std::string::npos);
     const ContactSpace after = Build();
-    EXPECT_TRUE(after.report.from_cache) << what;
-    EXPECT_TRUE(after.report.warnings.empty()) << what;
+    EXPECT_TRUE(after.report().from_cache) << what;
+    EXPECT_TRUE(after.report().warnings.empty()) << what;
   };
   for (std::size_t i = 0; i < good.size(); i += i < 150 ? 1 : 41) {
     std::string bad = good;
@@ -206,9 +202,9 @@ TEST_F(ContactSpaceCacheTest, UnusableDirectoriesAreNoError) {
     cache_.directory = path.string();
     for (int i = 0; i < 2; ++i) {
       const ContactSpace space = Build();
-      EXPECT_TRUE(space.report.closed);
-      EXPECT_FALSE(space.report.from_cache);
-      EXPECT_TRUE(space.report.warnings.empty());
+      EXPECT_TRUE(space.report().closed);
+      EXPECT_FALSE(space.report().from_cache);
+      EXPECT_TRUE(space.report().warnings.empty());
     }
   }
   // A directory in the place of the file.
@@ -217,7 +213,7 @@ TEST_F(ContactSpaceCacheTest, UnusableDirectoriesAreNoError) {
   const fs::path file = Files()[0];
   fs::remove(file);
   fs::create_directories(file / "sub");
-  EXPECT_TRUE(Build().report.closed);
+  EXPECT_TRUE(Build().report().closed);
 }
 
 TEST_F(ContactSpaceCacheTest, IsForTheUserAlone) {
@@ -241,9 +237,9 @@ TEST_F(ContactSpaceCacheTest, WhatOthersMayChangeIsNamedAndNotUsed) {
   const auto expect_warning = [&](const fs::path& name, const std::string& what,
                                   const std::string& word) {
     const ContactSpace space = Build();
-    EXPECT_FALSE(space.report.from_cache) << what;
-    ASSERT_EQ(space.report.warnings.size(), 1U) << what;
-    const std::string& warning = space.report.warnings[0];
+    EXPECT_FALSE(space.report().from_cache) << what;
+    ASSERT_EQ(space.report().warnings.size(), 1U) << what;
+    const std::string& warning = space.report().warnings[0];
     EXPECT_NE(warning.find(name.string()), std::string::npos) << warning;
     EXPECT_NE(warning.find(word), std::string::npos) << warning;
   };
@@ -252,10 +248,10 @@ TEST_F(ContactSpaceCacheTest, WhatOthersMayChangeIsNamedAndNotUsed) {
     fs::permissions(directory, mode, fs::perm_options::add);
     expect_warning(directory, "folder", "is not used");
     fs::permissions(directory, mode, fs::perm_options::remove);
-    EXPECT_TRUE(Build().report.from_cache);
+    EXPECT_TRUE(Build().report().from_cache);
     fs::permissions(file, mode, fs::perm_options::add);
     expect_warning(file, "file", "is not used");
-    EXPECT_TRUE(Build().report.from_cache) << "replaced by the user's own";
+    EXPECT_TRUE(Build().report().from_cache) << "replaced by the user's own";
   }
   if (geteuid() != 0) return;  // only root can give files away
   ASSERT_EQ(chown(file.c_str(), 12345, 12345), 0);
@@ -265,7 +261,7 @@ TEST_F(ContactSpaceCacheTest, WhatOthersMayChangeIsNamedAndNotUsed) {
   ASSERT_EQ(chown(directory.c_str(), 0, 0), 0);
   fs::create_directory_symlink(directory, folder_ / "link");
   cache_.directory = (folder_ / "link").string();
-  EXPECT_TRUE(Build().report.from_cache) << "a link of one's own";
+  EXPECT_TRUE(Build().report().from_cache) << "a link of one's own";
   ASSERT_EQ(lchown(cache_.directory.c_str(), 12345, 12345), 0);
   expect_warning(cache_.directory, "link of another user", "is not used");
 }
@@ -279,11 +275,11 @@ TEST_F(ContactSpaceCacheTest, LinksAreNotFollowed) {
   const std::string content = Content(elsewhere);
   fs::create_symlink(elsewhere, file);
   const ContactSpace space = Build();
-  EXPECT_FALSE(space.report.from_cache);
-  ASSERT_EQ(space.report.warnings.size(), 1U);
+  EXPECT_FALSE(space.report().from_cache);
+  ASSERT_EQ(space.report().warnings.size(), 1U);
   EXPECT_EQ(Content(elsewhere), content);
   EXPECT_FALSE(fs::is_symlink(file));
-  EXPECT_TRUE(Build().report.from_cache);
+  EXPECT_TRUE(Build().report().from_cache);
 }
 
 // What a killed process left goes at once, not after an hour.
@@ -302,7 +298,7 @@ TEST_F(ContactSpaceCacheTest, RemovesTheLongestUnusedFilesFirst) {
   const auto build = [&](int i) {
     ContactSpaceOptions options;
     options.robot_name = std::string(1, static_cast<char>('a' + i));
-    return Build(options).report.from_cache;
+    return Build(options).report().from_cache;
   };
   const auto age = [&](const fs::path& path, int hours) {
     fs::last_write_time(
@@ -348,8 +344,8 @@ TEST_F(ContactSpaceCacheTest, IsSharedByThreads) {
         ContactSpaceOptions options;
         options.robot_name = std::to_string(round % 7);
         const ContactSpace space = Build(options);
-        wrong[i] +=
-            !SameBits(space.mesh, built.mesh) || !space.report.warnings.empty();
+        wrong[i] += !SameBits(space.mesh(), built.mesh()) ||
+                    !space.report().warnings.empty();
       }
     });
   }

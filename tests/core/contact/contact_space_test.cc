@@ -7,7 +7,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
-#include "constraints/collision_oracle.h"
+#include "constraints/oracle/collision_oracle.h"
 #include "core/minkowski/build_limits.h"
 #include "problems/shapes/shapes.h"
 #include "tests/support/solid_tools.h"
@@ -53,11 +53,11 @@ void ExpectSeparates(const TriangleMesh& robot, const TriangleMesh& obstacle,
 
 TEST(ContactSpace, OfTwoUnitCubesIsTheCubeOfSideTwo) {
   const ContactSpace c = BuildContactSpace(Cube(1), Cube(1));
-  ExpectSound(c.report);
-  EXPECT_EQ(c.report.volume, 8.0);
-  EXPECT_EQ(c.report.triangles, 12u);
-  EXPECT_EQ(c.report.vertices, 8u);
-  EXPECT_EQ(c.report.genus, 0);
+  ExpectSound(c.report());
+  EXPECT_EQ(c.report().volume, 8.0);
+  EXPECT_EQ(c.report().triangles, 12u);
+  EXPECT_EQ(c.report().vertices, 8u);
+  EXPECT_EQ(c.report().genus, 0);
 }
 
 TEST(ContactSpace, IsObstaclePlusReflectedRobot) {
@@ -65,24 +65,24 @@ TEST(ContactSpace, IsObstaclePlusReflectedRobot) {
   const TriangleMesh robot = MakeBox({0, 0, 0}, {3, 1, 1});
   const ContactSpace c =
       BuildContactSpace(robot, MakeBox({0, 0, 0}, {1, 1, 1}));
-  const BoundingBox box = ComputeBounds(c.mesh);
+  const BoundingBox box = ComputeBounds(c.mesh());
   EXPECT_EQ(box.min, Vector3d(-3, -1, -1));
   EXPECT_EQ(box.max, Vector3d(1, 1, 1));
 }
 
 TEST(ContactSpace, OfACubeInAVesselHasACavityThatArisesByTheSum) {
   const ContactSpace c = BuildContactSpace(Cube(1), MakeVessel(3.6, 3.0, 0.6));
-  ExpectSound(c.report);
-  EXPECT_NEAR(c.report.volume, 89.336, 1e-9);
-  EXPECT_EQ(c.report.components, 2);
-  EXPECT_EQ(c.report.cavities, 1);
+  ExpectSound(c.report());
+  EXPECT_NEAR(c.report().volume, 89.336, 1e-9);
+  EXPECT_EQ(c.report().components, 2);
+  EXPECT_EQ(c.report().cavities, 1);
 }
 
 TEST(ContactSpace, OfACubeInAShellKeepsTheCavity) {
   const ContactSpace c = BuildContactSpace(Cube(1), MakeVessel(4, 3, 0));
-  ExpectSound(c.report);
-  EXPECT_EQ(c.report.volume, 125.0 - 8.0);
-  EXPECT_EQ(c.report.cavities, 1);
+  ExpectSound(c.report());
+  EXPECT_EQ(c.report().volume, 125.0 - 8.0);
+  EXPECT_EQ(c.report().cavities, 1);
 }
 
 TEST(ContactSpace, OuterShellOnlyDropsCavities) {
@@ -90,34 +90,34 @@ TEST(ContactSpace, OuterShellOnlyDropsCavities) {
   options.outer_shell_only = true;
   const ContactSpace c =
       BuildContactSpace(Cube(1), MakeVessel(4, 3, 0), options);
-  ExpectSound(c.report);
-  EXPECT_EQ(c.report.volume, 125.0);
-  EXPECT_EQ(c.report.components, 1);
+  ExpectSound(c.report());
+  EXPECT_EQ(c.report().volume, 125.0);
+  EXPECT_EQ(c.report().components, 1);
 }
 
 TEST(ContactSpace, OfAnExactlyFittingPegHasNoSlot) {
   const ContactSpace c = BuildContactSpace(Peg(1), MakePlateWithHole(4, 1, 1));
-  ExpectSound(c.report);
-  EXPECT_EQ(c.report.volume, 75.0);
-  EXPECT_EQ(c.report.genus, 0);
+  ExpectSound(c.report());
+  EXPECT_EQ(c.report().volume, 75.0);
+  EXPECT_EQ(c.report().genus, 0);
 }
 
 TEST(ContactSpace, OfAPegWithOnePercentClearanceHasAThroughSlot) {
   const ContactSpace c =
       BuildContactSpace(Peg(0.99), MakePlateWithHole(4, 1, 1));
-  ExpectSound(c.report);
+  ExpectSound(c.report());
   // (4.99² − 0.01²) · 3
-  EXPECT_NEAR(c.report.volume, 74.7, 1e-9);
-  EXPECT_EQ(c.report.genus, 1);
+  EXPECT_NEAR(c.report().volume, 74.7, 1e-9);
+  EXPECT_EQ(c.report().genus, 1);
 }
 
 TEST(ContactSpace, KeepsASlotOfOneMillionth) {
   const double peg = 1 - 1e-6;
   const ContactSpace c =
       BuildContactSpace(Peg(peg), MakePlateWithHole(4, 1, 1));
-  ExpectSound(c.report);
-  EXPECT_EQ(c.report.genus, 1);
-  EXPECT_NEAR(c.report.volume, ((4 + peg) * (4 + peg) - 1e-12) * 3, 1e-9);
+  ExpectSound(c.report());
+  EXPECT_EQ(c.report().genus, 1);
+  EXPECT_NEAR(c.report().volume, ((4 + peg) * (4 + peg) - 1e-12) * 3, 1e-9);
 }
 
 TEST(ContactSpace, OfConvexBodiesHasTheVolumeOfMixedVolumes) {
@@ -125,7 +125,7 @@ TEST(ContactSpace, OfConvexBodiesHasTheVolumeOfMixedVolumes) {
   // each; here simply the sum of two boxes of different sides.
   const ContactSpace c = BuildContactSpace(MakeBox({-1, -2, -3}, {1, 2, 3}),
                                            MakeBox({0, 0, 0}, {5, 7, 9}));
-  EXPECT_EQ(c.report.volume, 7.0 * 11.0 * 15.0);
+  EXPECT_EQ(c.report().volume, 7.0 * 11.0 * 15.0);
 }
 
 TEST(ContactSpace, OfSolidsThatTouchAlongAnEdgeKeepsThemApart) {
@@ -133,18 +133,18 @@ TEST(ContactSpace, OfSolidsThatTouchAlongAnEdgeKeepsThemApart) {
   const TriangleMesh bars =
       Joined(MakeBox({0, 0, 0}, {1, 1, 1}), MakeBox({2, 2, 0}, {3, 3, 1}));
   const ContactSpace c = BuildContactSpace(Cube(1), bars);
-  ExpectSound(c.report);
-  EXPECT_EQ(c.report.components, 2);
-  EXPECT_EQ(c.report.volume, 16.0);
+  ExpectSound(c.report());
+  EXPECT_EQ(c.report().components, 2);
+  EXPECT_EQ(c.report().volume, 16.0);
 }
 
 TEST(ContactSpace, OfSolidsThatTouchInAVertexKeepsThemApart) {
   const TriangleMesh bars =
       Joined(MakeBox({0, 0, 0}, {1, 1, 1}), MakeBox({2, 2, 2}, {3, 3, 3}));
   const ContactSpace c = BuildContactSpace(Cube(1), bars);
-  ExpectSound(c.report);
-  EXPECT_EQ(c.report.components, 2);
-  EXPECT_EQ(c.report.volume, 16.0);
+  ExpectSound(c.report());
+  EXPECT_EQ(c.report().components, 2);
+  EXPECT_EQ(c.report().volume, 16.0);
 }
 
 TEST(ContactSpace, OfASolidThatTouchesItselfAlongAnEdgeIsManifold) {
@@ -153,10 +153,10 @@ TEST(ContactSpace, OfASolidThatTouchesItselfAlongAnEdgeIsManifold) {
       Joined(MakeBox({0, 0, 0}, {1, 1, 1}), MakeBox({2, 2, 0}, {3, 3, 1})),
       MakeBox({0, 0, 1.5}, {3, 3, 2.5}));
   const ContactSpace c = BuildContactSpace(Cube(1), bars);
-  ExpectSound(c.report);
-  EXPECT_EQ(c.report.components, 1);
+  ExpectSound(c.report());
+  EXPECT_EQ(c.report().components, 1);
   // Slab 4·4·2 and, below it, two columns of 2·2·1.5.
-  EXPECT_EQ(c.report.volume, 32.0 + 12.0);
+  EXPECT_EQ(c.report().volume, 32.0 + 12.0);
 }
 
 TEST(ContactSpace, TakesOverlappingComponentsAsTheirUnion) {
@@ -169,16 +169,17 @@ TEST(ContactSpace, TakesOverlappingComponentsAsTheirUnion) {
   const ContactSpace one = BuildContactSpace(cone, MakeAxes(2, 0.2));
   const ContactSpace three =
       BuildContactSpace(cone, Joined(Joined(bar(0), bar(1)), bar(2)));
-  EXPECT_NEAR(one.report.volume, three.report.volume, 1e-9);
-  EXPECT_EQ(one.report.triangles, three.report.triangles);
+  EXPECT_NEAR(one.report().volume, three.report().volume, 1e-9);
+  EXPECT_EQ(one.report().triangles, three.report().triangles);
 }
 
 TEST(ContactSpace, SwappingTheOperandsMirrorsIt) {
   const TriangleMesh a = MakeStar(0.5, 1.2), b = MakeTorus(2, 0.6, 12, 8);
   const ContactSpace ab = BuildContactSpace(a, b), ba = BuildContactSpace(b, a);
-  EXPECT_NEAR(ab.report.volume, ba.report.volume, 1e-9 * ab.report.volume);
-  EXPECT_EQ(ab.report.genus, ba.report.genus);
-  const BoundingBox x = ComputeBounds(ab.mesh), y = ComputeBounds(ba.mesh);
+  EXPECT_NEAR(ab.report().volume, ba.report().volume,
+              1e-9 * ab.report().volume);
+  EXPECT_EQ(ab.report().genus, ba.report().genus);
+  const BoundingBox x = ComputeBounds(ab.mesh()), y = ComputeBounds(ba.mesh());
   EXPECT_LT((x.min + y.max).norm(), 1e-10);
   EXPECT_LT((x.max + y.min).norm(), 1e-10);
 }
@@ -189,26 +190,26 @@ TEST(ContactSpace, ScalesBitIdenticallyByPowersOfTwo) {
   for (const double factor : {std::ldexp(1.0, -30), std::ldexp(1.0, 30)}) {
     const ContactSpace s =
         BuildContactSpace(Scaled(a, factor), Scaled(b, factor));
-    ASSERT_EQ(s.mesh.triangles, c.mesh.triangles);
-    for (std::size_t i = 0; i < c.mesh.vertices.size(); ++i) {
-      EXPECT_EQ(s.mesh.vertices[i], factor * c.mesh.vertices[i]);
+    ASSERT_EQ(s.mesh().triangles, c.mesh().triangles);
+    for (std::size_t i = 0; i < c.mesh().vertices.size(); ++i) {
+      EXPECT_EQ(s.mesh().vertices[i], factor * c.mesh().vertices[i]);
     }
   }
 }
 
 TEST(ContactSpace, KeepsItsVolumeWhereverTheOperandsAre) {
   const TriangleMesh a = MakeCone(0.8, 1.6, 20), b = MakeU(3, 0.5, 1);
-  const double volume = BuildContactSpace(a, b).report.volume;
+  const double volume = BuildContactSpace(a, b).report().volume;
   const Vector3d far(1e5, -2e5, 3e5);
   for (const double scale : {1e-9, 1e-3, 1e3, 1e9}) {
     const ContactSpace c =
         BuildContactSpace(Scaled(a, scale), Scaled(b, scale));
-    EXPECT_NEAR(c.report.volume / std::pow(scale, 3), volume, 1e-8 * volume);
+    EXPECT_NEAR(c.report().volume / std::pow(scale, 3), volume, 1e-8 * volume);
   }
   const ContactSpace c = BuildContactSpace(Translated(a, far), b);
-  ExpectSound(c.report);
-  EXPECT_NEAR(c.report.volume, volume, 1e-8 * volume);
-  const BoundingBox box = ComputeBounds(c.mesh);
+  ExpectSound(c.report());
+  EXPECT_NEAR(c.report().volume, volume, 1e-8 * volume);
+  const BoundingBox box = ComputeBounds(c.mesh());
   EXPECT_LT((box.Center() + far).norm(), 10.0);
 }
 
@@ -217,21 +218,21 @@ TEST(ContactSpace, IsTheTurnedOneWhenBothOperandsTurnAlike) {
   const ContactSpace straight = BuildContactSpace(a, b);
   const Eigen::Matrix3d turn = GenericRotation();
   const ContactSpace c = BuildContactSpace(Rotated(a, turn), Rotated(b, turn));
-  ExpectSound(c.report);
-  EXPECT_FALSE(straight.report.canonical_frame);
-  EXPECT_TRUE(c.report.canonical_frame);
-  EXPECT_NEAR(c.report.volume, straight.report.volume,
-              1e-9 * straight.report.volume);
-  EXPECT_EQ(c.report.triangles, straight.report.triangles);
-  const BoundingBox back = ComputeBounds(Rotated(c.mesh, turn.transpose()));
-  const BoundingBox box = ComputeBounds(straight.mesh);
+  ExpectSound(c.report());
+  EXPECT_FALSE(straight.report().canonical_frame);
+  EXPECT_TRUE(c.report().canonical_frame);
+  EXPECT_NEAR(c.report().volume, straight.report().volume,
+              1e-9 * straight.report().volume);
+  EXPECT_EQ(c.report().triangles, straight.report().triangles);
+  const BoundingBox back = ComputeBounds(Rotated(c.mesh(), turn.transpose()));
+  const BoundingBox box = ComputeBounds(straight.mesh());
   EXPECT_LT((back.min - box.min).norm() + (back.max - box.max).norm(), 1e-9);
 }
 
 TEST(ContactSpace, LeavesSolidsWithoutCommonAxesWhereTheyAre) {
   const ContactSpace c = BuildContactSpace(
       MakeStar(0.5, 1.2), Rotated(MakeIcoBall(2, 2), GenericRotation()));
-  EXPECT_FALSE(c.report.canonical_frame);
+  EXPECT_FALSE(c.report().canonical_frame);
 }
 
 TEST(ContactSpace, DoesNotDependOnTheNumberOfThreads) {
@@ -239,28 +240,29 @@ TEST(ContactSpace, DoesNotDependOnTheNumberOfThreads) {
   const ContactSpace parallel = BuildContactSpace(a, b);
   tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
   const ContactSpace serial = BuildContactSpace(a, b);
-  EXPECT_EQ(parallel.mesh.triangles, serial.mesh.triangles);
-  EXPECT_EQ(parallel.mesh.vertices, serial.mesh.vertices);
-  EXPECT_EQ(parallel.plane, serial.plane);
+  EXPECT_EQ(parallel.mesh().triangles, serial.mesh().triangles);
+  EXPECT_EQ(parallel.mesh().vertices, serial.mesh().vertices);
+  EXPECT_EQ(parallel.plane(), serial.plane());
 }
 
 TEST(ContactSpace, TrianglesOfOnePlaneIdAreCoplanar) {
   const ContactSpace c =
       BuildContactSpace(MakeCone(0.8, 1.6, 20), MakeAxes(2, 0.2));
   std::vector<Vector3d> normal, point;
-  for (std::size_t t = 0; t < c.mesh.triangles.size(); ++t) {
-    const std::size_t id = static_cast<std::size_t>(c.plane[t]);
-    const Triangle& f = c.mesh.triangles[t];
-    const Vector3d& p = c.mesh.vertices[f[0]];
+  for (std::size_t t = 0; t < c.mesh().triangles.size(); ++t) {
+    const std::size_t id = static_cast<std::size_t>(c.plane()[t]);
+    const Triangle& f = c.mesh().triangles[t];
+    const Vector3d& p = c.mesh().vertices[f[0]];
     const Vector3d n =
-        (c.mesh.vertices[f[1]] - p).cross(c.mesh.vertices[f[2]] - p);
+        (c.mesh().vertices[f[1]] - p).cross(c.mesh().vertices[f[2]] - p);
     if (id == normal.size()) {
       normal.push_back(n.normalized());
       point.push_back(p);
     }
     ASSERT_LT(id, normal.size());
     for (const int v : f) {
-      EXPECT_LT(std::abs(normal[id].dot(c.mesh.vertices[v] - point[id])), 1e-9);
+      EXPECT_LT(std::abs(normal[id].dot(c.mesh().vertices[v] - point[id])),
+                1e-9);
     }
   }
 }
@@ -271,10 +273,10 @@ TEST(ContactSpace, MergingCoplanarTrianglesKeepsTheSurface) {
   raw.merge_coplanar = false;
   const ContactSpace merged = BuildContactSpace(a, b);
   const ContactSpace cut = BuildContactSpace(a, b, raw);
-  ExpectSound(cut.report);
-  EXPECT_LT(merged.report.triangles, cut.report.triangles);
-  EXPECT_NEAR(merged.report.volume, cut.report.volume, 1e-9);
-  EXPECT_NEAR(SurfaceArea(merged.mesh), SurfaceArea(cut.mesh), 1e-9);
+  ExpectSound(cut.report());
+  EXPECT_LT(merged.report().triangles, cut.report().triangles);
+  EXPECT_NEAR(merged.report().volume, cut.report().volume, 1e-9);
+  EXPECT_NEAR(SurfaceArea(merged.mesh()), SurfaceArea(cut.mesh()), 1e-9);
 }
 
 TEST(ContactSpace, SeparatesFreeFromHitForGenericSolids) {
@@ -282,8 +284,8 @@ TEST(ContactSpace, SeparatesFreeFromHitForGenericSolids) {
   const TriangleMesh obstacle =
       Rotated(MakeTorus(2, 0.6, 16, 8), GenericRotation());
   const ContactSpace c = BuildContactSpace(robot, obstacle);
-  ExpectSound(c.report);
-  ExpectSeparates(robot, obstacle, c.mesh, 1000);
+  ExpectSound(c.report());
+  ExpectSeparates(robot, obstacle, c.mesh(), 1000);
 }
 
 TEST(ContactSpace, RefusesAnOpenOperandByNameAndCount) {
@@ -303,7 +305,7 @@ TEST(ContactSpace, RefusesAnOpenOperandByNameAndCount) {
 
 TEST(ContactSpace, RefusesWhatIsPredictedToExceedALimit) {
   const TriangleMesh a = MakeStar(0.5, 1.2), b = MakeTorus(2, 0.6, 24, 12);
-  const PredictedCost cost = BuildContactSpace(a, b).report.predicted;
+  const PredictedCost cost = BuildContactSpace(a, b).report().predicted;
   EXPECT_GT(cost.seconds, 0.0);
   ContactSpaceOptions options;
   options.max_seconds = 0.5 * cost.seconds;
@@ -345,7 +347,7 @@ TEST(ContactSpace, StopsBeforeItFillsTheMemory) {
 
 TEST(ContactSpace, PredictsItsArrangementWithinAFactorOfTwo) {
   const ContactSpaceReport report =
-      BuildContactSpace(MakeStar(0.5, 1.2), MakeTorus(2, 0.6, 24, 12)).report;
+      BuildContactSpace(MakeStar(0.5, 1.2), MakeTorus(2, 0.6, 24, 12)).report();
   const double built = static_cast<double>(report.arrangement_faces);
   EXPECT_LT(report.predicted.arrangement_faces, 2 * built);
   EXPECT_GT(report.predicted.arrangement_faces, 0.5 * built);
@@ -353,9 +355,9 @@ TEST(ContactSpace, PredictsItsArrangementWithinAFactorOfTwo) {
 
 TEST(ContactSpace, TurnsAnInsideOutOperandAndSaysSo) {
   const ContactSpace c = BuildContactSpace(Reversed(Cube(1)), Cube(1));
-  EXPECT_EQ(c.report.volume, 8.0);
-  EXPECT_EQ(c.report.robot.inverted_components, 1);
-  EXPECT_FALSE(c.report.warnings.empty());
+  EXPECT_EQ(c.report().volume, 8.0);
+  EXPECT_EQ(c.report().robot.inverted_components, 1);
+  EXPECT_FALSE(c.report().warnings.empty());
 }
 
 }  // namespace

@@ -8,9 +8,9 @@
 #include <cmath>
 #include <string>
 
-#include "constraints/collision_oracle.h"
+#include "constraints/oracle/collision_oracle.h"
 #include "core/bounds/solid_distance.h"
-#include "core/bvh/surface_tree.h"
+#include "core/bvh/triangle_bvh.h"
 #include "core/contact/contact_space.h"
 #include "problems/shapes/shapes.h"
 #include "tests/support/solid_tools.h"
@@ -38,24 +38,24 @@ bool Says(const ContactSpaceReport& report, const std::string& words) {
 // one, and contains it where it says so.
 void ExpectWithinBound(const TriangleMesh& robot, const TriangleMesh& obstacle,
                        const ContactSpace& c, int samples) {
-  ExpectSound(c.report);
+  ExpectSound(c.report());
   const CollisionOracle oracle(robot, obstacle);
   const ContactSpace exact = BuildContactSpace(robot, obstacle);
-  const SurfaceTree exact_tree(exact.mesh), tree(c.mesh);
-  const BoundingBox box = ComputeBounds(c.mesh);
+  const TriangleBvh exact_tree(exact.mesh()), tree(c.mesh());
+  const BoundingBox box = ComputeBounds(c.mesh());
   std::mt19937_64 random(19);
-  const double bound = c.report.approximation.bound * (1 + 1e-12);
+  const double bound = c.report().approximation.bound * (1 + 1e-12);
   int added = 0;
   for (int i = 0; i < samples; ++i) {
     const Vector3d q = testing::RandomPoint(box, &random);
-    const bool is_in = testing::WindingNumber(c.mesh, q) > 0.5;
+    const bool is_in = testing::WindingNumber(c.mesh(), q) > 0.5;
     const bool is_hit = oracle.Collides(q);
     if (is_in && !is_hit) {
       ++added;
       EXPECT_LE(exact_tree.FindClosest(q).distance, bound) << q.transpose();
     }
     if (is_hit && !is_in) {
-      EXPECT_FALSE(c.report.approximation.is_conservative) << q.transpose();
+      EXPECT_FALSE(c.report().approximation.is_conservative) << q.transpose();
       EXPECT_LE(tree.FindClosest(q).distance, bound) << q.transpose();
     }
   }
@@ -64,10 +64,10 @@ void ExpectWithinBound(const TriangleMesh& robot, const TriangleMesh& obstacle,
 
 TEST(Knobs, NoneIsExact) {
   const ContactSpace c = BuildContactSpace(Cube(1), MakeL(3, 1, 1));
-  EXPECT_EQ(c.report.approximation.kind, "none");
-  EXPECT_EQ(c.report.approximation.bound, 0.0);
-  EXPECT_TRUE(c.report.approximation.is_conservative);
-  EXPECT_TRUE(c.report.warnings.empty());
+  EXPECT_EQ(c.report().approximation.kind, "none");
+  EXPECT_EQ(c.report().approximation.bound, 0.0);
+  EXPECT_TRUE(c.report().approximation.is_conservative);
+  EXPECT_TRUE(c.report().warnings.empty());
 }
 
 TEST(Knobs, RobotHullContainsTheExactContactSpace) {
@@ -76,8 +76,8 @@ TEST(Knobs, RobotHullContainsTheExactContactSpace) {
   ContactSpaceOptions options;
   options.robot_hull = true;
   const ContactSpace c = BuildContactSpace(robot, torus, options);
-  EXPECT_EQ(c.report.approximation.kind, "robot-hull");
-  EXPECT_TRUE(c.report.approximation.is_conservative);
+  EXPECT_EQ(c.report().approximation.kind, "robot-hull");
+  EXPECT_TRUE(c.report().approximation.is_conservative);
   ExpectWithinBound(robot, torus, c, 1500);
 }
 
@@ -87,8 +87,8 @@ TEST(Knobs, RobotHullOfAConvexRobotChangesNothing) {
   options.robot_hull = true;
   const ContactSpace hull = BuildContactSpace(robot, axes, options);
   const ContactSpace exact = BuildContactSpace(robot, axes);
-  EXPECT_LE(hull.report.approximation.bound, 1e-12);
-  EXPECT_NEAR(hull.report.volume, exact.report.volume, 1e-9);
+  EXPECT_LE(hull.report().approximation.bound, 1e-12);
+  EXPECT_NEAR(hull.report().volume, exact.report().volume, 1e-9);
 }
 
 TEST(Knobs, DecimationStaysWithinItsBound) {
@@ -98,13 +98,13 @@ TEST(Knobs, DecimationStaysWithinItsBound) {
   options.target_faces = 150;
   options.robot_name = "ball";
   const ContactSpace c = BuildContactSpace(robot, knot, options);
-  const Approximation& a = c.report.approximation;
+  const Approximation& a = c.report().approximation;
   EXPECT_EQ(a.kind, "decimation");
   EXPECT_FALSE(a.is_conservative);
   ASSERT_EQ(a.steps.size(), 2U);
   EXPECT_EQ(a.bound, a.steps[0].bound + a.steps[1].bound);
   EXPECT_LE(a.steps[0].triangles_after, 150U);
-  EXPECT_TRUE(Says(c.report, "ball: decimated"));
+  EXPECT_TRUE(Says(c.report(), "ball: decimated"));
   ExpectWithinBound(robot, knot, c, 1500);
 }
 
@@ -113,9 +113,9 @@ TEST(Knobs, WrapContainsTheExactContactSpace) {
   ContactSpaceOptions options;
   options.wrap_alpha = 0.1;
   const ContactSpace c = BuildContactSpace(robot, u, options);
-  EXPECT_EQ(c.report.approximation.kind, "alpha-wrap");
-  EXPECT_EQ(c.report.approximation.steps.size(), 2U);
-  EXPECT_TRUE(c.report.approximation.is_conservative);
+  EXPECT_EQ(c.report().approximation.kind, "alpha-wrap");
+  EXPECT_EQ(c.report().approximation.steps.size(), 2U);
+  EXPECT_TRUE(c.report().approximation.is_conservative);
   ExpectWithinBound(robot, u, c, 1500);
 }
 
@@ -127,8 +127,8 @@ TEST(Knobs, SeveralAreNamedTogetherAndTheirBoundsAdded) {
   options.outer_shell_only = true;
   const ContactSpace c =
       BuildContactSpace(MakeStar(0.3, 0.6), MakeVessel(4, 3, 0), options);
-  ExpectSound(c.report);
-  const Approximation& a = c.report.approximation;
+  ExpectSound(c.report());
+  const Approximation& a = c.report().approximation;
   EXPECT_EQ(a.kind, "alpha-wrap+robot-hull+decimation+outer-shell");
   double sum = 0.0;
   for (const ApproximationStep& step : a.steps) sum += step.bound;
@@ -141,7 +141,7 @@ TEST(Knobs, OuterShellCountsWhatItDrops) {
   options.outer_shell_only = true;
   const ContactSpace c =
       BuildContactSpace(Cube(1), MakeVessel(4, 3, 0), options);
-  const Approximation& a = c.report.approximation;
+  const Approximation& a = c.report().approximation;
   EXPECT_EQ(a.kind, "outer-shell");
   EXPECT_EQ(a.bound, 0.0);
   ASSERT_EQ(a.steps.size(), 1U);
@@ -176,14 +176,14 @@ TEST(BadOperands, AreRefusedByNameOrRepaired) {
       options.repair = Repair::kWrap;
       options.wrap_alpha = 0.2;
       const ContactSpace c = build();
-      ExpectSound(c.report);
-      EXPECT_EQ(c.report.approximation.kind, "alpha-wrap");
-      const auto& steps = c.report.approximation.steps;
+      ExpectSound(c.report());
+      EXPECT_EQ(c.report().approximation.kind, "alpha-wrap");
+      const auto& steps = c.report().approximation.steps;
       ASSERT_EQ(steps.size(), 2U);
       EXPECT_EQ(steps[0].is_surface_bound, is_robot);
       EXPECT_EQ(steps[1].is_surface_bound, !is_robot);
-      EXPECT_GT(c.report.approximation.bound, 0.0);
-      EXPECT_TRUE(Says(c.report, "bad.off: wrapped"));
+      EXPECT_GT(c.report().approximation.bound, 0.0);
+      EXPECT_TRUE(Says(c.report(), "bad.off: wrapped"));
     }
   }
 }
@@ -194,10 +194,10 @@ TEST(BadOperands, SafeRepairGivesTheExactContactSpace) {
   ContactSpaceOptions options;
   options.repair = Repair::kSafe;
   const ContactSpace c = BuildContactSpace(Cube(1), doubled, options);
-  EXPECT_EQ(c.report.volume, 8.0);
-  EXPECT_EQ(c.report.approximation.kind, "none");
-  EXPECT_EQ(c.report.obstacle_repair.duplicate_faces, 12U);
-  EXPECT_TRUE(Says(c.report, "obstacle: 12 duplicate faces removed"));
+  EXPECT_EQ(c.report().volume, 8.0);
+  EXPECT_EQ(c.report().approximation.kind, "none");
+  EXPECT_EQ(c.report().obstacle_repair.duplicate_faces, 12U);
+  EXPECT_TRUE(Says(c.report(), "obstacle: 12 duplicate faces removed"));
 }
 
 TEST(BadOperands, OfVeryDifferentSizesAreReported) {
@@ -206,9 +206,9 @@ TEST(BadOperands, OfVeryDifferentSizesAreReported) {
     const TriangleMesh large = MakeL(3, 1, 1);
     try {
       const ContactSpace c = BuildContactSpace(small, large);
-      ExpectSound(c.report);
-      EXPECT_TRUE(Says(c.report, "robot: coordinates are rounded to"));
-      EXPECT_NEAR(c.report.volume, SignedVolume(large), 25.0 / ratio);
+      ExpectSound(c.report());
+      EXPECT_TRUE(Says(c.report(), "robot: coordinates are rounded to"));
+      EXPECT_NEAR(c.report().volume, SignedVolume(large), 25.0 / ratio);
     } catch (const InputError& error) {  // rounded to nonsense
       EXPECT_GT(ratio, 1e8) << error.what();
       EXPECT_NE(std::string(error.what()).find("robot"), std::string::npos);
@@ -227,11 +227,11 @@ TEST(BadOperands, TooThinForTheGridAreRefused) {
 TEST(BadOperands, FarFromTheOriginLoseWhatDoublesLose) {
   const Vector3d far(1e6, -1e6, 1e6);
   const TriangleMesh star = MakeStar(0.5, 1.2);
-  const double volume = BuildContactSpace(star, Cube(2)).report.volume;
+  const double volume = BuildContactSpace(star, Cube(2)).report().volume;
   const ContactSpace c =
       BuildContactSpace(Translated(star, far), Translated(Cube(2), -far));
-  ExpectSound(c.report);
-  EXPECT_NEAR(c.report.volume, volume, 1e-8 * volume);
+  ExpectSound(c.report());
+  EXPECT_NEAR(c.report().volume, volume, 1e-8 * volume);
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include "core/bounds/mesh_repair.h"
 #include "core/contact/contact_space.h"
 #include "core/mesh/mesh_range.h"
+#include "core/minkowski/canonical_frame.h"
 #include "core/projection/euclidean_metric.h"
 #include "core/projection/phong_metric.h"
 #include "problems/shapes/shapes.h"
@@ -32,16 +33,18 @@ bool IsScaled(const PenetrationResult& a, const PenetrationResult& b,
 TEST(Range, IsTheSameContactSpaceAtEveryPowerOfTwo) {
   const TriangleMesh cone = MakeCone(0.8, 1.6, 8), u = MakeU(3, 1, 1);
   const ContactSpace one = BuildContactSpace(cone, u);
-  const PhongMetric metric(one.mesh);
+  const PhongMetric metric(one);
   for (const int power : {-264, -200, -100, 100, 200, 262}) {
     const double scale = std::ldexp(1.0, power);
     const ContactSpace space =
         BuildContactSpace(Scaled(cone, scale), Scaled(u, scale));
-    ASSERT_EQ(space.mesh.triangles, one.mesh.triangles) << power;
-    EXPECT_EQ(space.mesh.vertices, Scaled(one.mesh, scale).vertices) << power;
-    EXPECT_EQ(space.report.volume, std::ldexp(one.report.volume, 3 * power));
-    EXPECT_EQ(space.report.worst_quality, one.report.worst_quality);
-    const PhongMetric scaled(space.mesh);
+    ASSERT_EQ(space.mesh().triangles, one.mesh().triangles) << power;
+    EXPECT_EQ(space.mesh().vertices, Scaled(one.mesh(), scale).vertices)
+        << power;
+    EXPECT_EQ(space.report().volume,
+              std::ldexp(one.report().volume, 3 * power));
+    EXPECT_EQ(space.report().worst_quality, one.report().worst_quality);
+    const PhongMetric scaled(space);
     int differ = 0, inside = 0;
     for (int i = 0; i < 1000; ++i) {
       const Vector3d q(1.5 * std::sin(1.1 * i), 1.5 * std::cos(2.3 * i),
@@ -55,14 +58,39 @@ TEST(Range, IsTheSameContactSpaceAtEveryPowerOfTwo) {
   }
 }
 
+// Solids turned alike are turned back first, by a frame made of areas, whose
+// squares leave the range of doubles long before the lengths do.
+TEST(Range, IsTheSameCanonicalFrameAtEveryPowerOfTwo) {
+  const Eigen::Matrix3d turn = GenericRotation();
+  const TriangleMesh robot = Rotated(MakeL(0.5, 0.2, 0.3), turn),
+                     obstacle = Rotated(MakeU(3, 1, 1), turn);
+  const internal::CanonicalFrame one =
+      internal::ChooseCanonicalFrame(robot, obstacle);
+  ASSERT_TRUE(one.used);
+  const ContactSpace space = BuildContactSpace(robot, obstacle);
+  for (const int power : {-264, -260, -256, -100, 100, 256, 262}) {
+    const double scale = std::ldexp(1.0, power);
+    const TriangleMesh robot_there = Scaled(robot, scale),
+                       obstacle_there = Scaled(obstacle, scale);
+    const internal::CanonicalFrame frame =
+        internal::ChooseCanonicalFrame(robot_there, obstacle_there);
+    EXPECT_TRUE(frame.used) << power;
+    EXPECT_EQ(frame.rotation, one.rotation) << power;
+    const ContactSpace there = BuildContactSpace(robot_there, obstacle_there);
+    EXPECT_EQ(there.mesh().triangles, space.mesh().triangles) << power;
+    EXPECT_EQ(there.mesh().vertices, Scaled(space.mesh(), scale).vertices)
+        << power;
+  }
+}
+
 TEST(Range, HoldsTheLargestFloats) {
   const Vector3d corner = Vector3d::Constant(FLT_MAX);
   const TriangleMesh box = MakeBox(-corner, corner);
   const ContactSpace space = BuildContactSpace(box, box);
   const double edge = 4.0 * static_cast<double>(FLT_MAX);
-  EXPECT_NEAR(space.report.volume / (edge * edge * edge), 1.0, 1e-14);
+  EXPECT_NEAR(space.report().volume / (edge * edge * edge), 1.0, 1e-14);
   const PenetrationResult result =
-      EuclideanMetric(space.mesh).Query(Vector3d(0.5 * FLT_MAX, 0, 0));
+      EuclideanMetric(space).Query(Vector3d(0.5 * FLT_MAX, 0, 0));
   EXPECT_TRUE(result.inside);
   EXPECT_NEAR(result.signed_distance / FLT_MAX, -1.5, 1e-15);
 }
@@ -100,8 +128,8 @@ TEST(Range, EndsByNameWithTheValueAndTheLimit) {
 // The distance to a unit box along an axis and along a diagonal.
 TEST(Range, OfQueriesIsAllDoubles) {
   const TriangleMesh box = MakeBox({-1, -1, -1}, {1, 1, 1});
-  const EuclideanMetric euclidean(box);
-  const PhongMetric phong(box);
+  const EuclideanMetric euclidean(TakeAsContactSpace(box));
+  const PhongMetric phong(TakeAsContactSpace(box));
   for (const double x : {1e10, 1e100, 1e155, 1e200, 1e300, 1e307, DBL_MAX}) {
     for (const Vector3d& q : {Vector3d(x, 0, 0), Vector3d(-x, x, x)}) {
       for (const PenetrationResult& result :

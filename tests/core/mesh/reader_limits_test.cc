@@ -8,11 +8,13 @@
 
 #include <atomic>
 #include <chrono>
+#include <cmath>
 #include <cstdint>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <new>
 #include <string>
 #include <thread>
@@ -20,6 +22,7 @@
 
 #include "core/mesh/input_file.h"
 #include "core/mesh/mesh_io.h"
+#include "core/mesh/mesh_scanner.h"
 #include "core/mesh/polygon_soup.h"
 #include "core/stopwatch.h"
 
@@ -179,6 +182,70 @@ TEST(ReaderLimits, ElementsWithoutPropertiesTakeNoTime) {
                 "element vertex 1\nproperty float x\nproperty float y\n"
                 "property float z\nend_header\n0 0 0\n",
                 "no face");
+}
+
+// Touched as it is, a signalling NaN would be an invalid operation; as bits it
+// shows.
+template <typename Real, typename Bits>
+void ExpectQuiet(const std::vector<Bits>& nans, Bits quiet_bit) {
+  for (const bool big : {false, true}) {
+    for (const Bits nan : nans) {
+      const std::string bytes = Bytes(nan, big), file = "file";
+      internal::MeshScanner scanner(bytes, "PLY", file);
+      const Real x = scanner.Binary<Real>(big);
+      Bits found = 0;
+      std::memcpy(&found, &x, sizeof found);
+      EXPECT_TRUE(std::isnan(x)) << nan;
+      EXPECT_EQ(found & quiet_bit, quiet_bit) << nan;
+    }
+    for (const Real kept :
+         {Real{0}, -Real{0}, Real{-1.5}, std::numeric_limits<Real>::max(),
+          -std::numeric_limits<Real>::denorm_min(),
+          std::numeric_limits<Real>::infinity(),
+          -std::numeric_limits<Real>::infinity()}) {
+      const std::string bytes = Bytes(kept, big), file = "file";
+      internal::MeshScanner scanner(bytes, "PLY", file);
+      const Real x = scanner.Binary<Real>(big);
+      EXPECT_EQ(Bytes(x), Bytes(kept)) << kept;
+    }
+  }
+}
+
+TEST(MeshScanner, GivesQuietNansAndEveryOtherNumberAsItIs) {
+  ExpectQuiet<float, std::uint32_t>(
+      {0x7f800001u, 0xff800001u, 0x7fbfffffu, 0x7fc00000u, 0xffffffffu},
+      0x00400000u);
+  ExpectQuiet<double, std::uint64_t>(
+      {0x7ff0000000000001u, 0xfff0000000000001u, 0x7ff7ffffffffffffu,
+       0x7ff8000000000000u, 0xffffffffffffffffu},
+      0x0008000000000000u);
+}
+
+// The points are the first three coordinates over the fourth.
+TEST(ReaderLimits, OffPointsOverNothingOrInfinityAreRefused) {
+  const std::string begin = "4OFF\n3 1 0\n0 0 0 1\n2 0 0 2\n";
+  const std::string face = "3 0 1 2\n";
+  EXPECT_EQ(internal::ReadMeshBytes(MeshFormat::kOff,
+                                    begin + "0 3 0 3\n" + face, "file")
+                .vertices[2],
+            Eigen::Vector3d(0, 1, 0));
+  for (const char* vertex :
+       {"0 1 0 0", "0 0 0 0", "0 0 0 -0", "inf 0 0 0", "nan 0 0 0"}) {
+    ExpectRefused(MeshFormat::kOff, begin + vertex + "\n" + face,
+                  "vertex 3; expected a finite fourth coordinate other than "
+                  "0, found 0");
+  }
+  for (const char* vertex :
+       {"0 1 0 inf", "inf 0 0 inf", "0 0 0 -inf", "0 0 0 nan"}) {
+    ExpectRefused(MeshFormat::kOff, begin + vertex + "\n" + face,
+                  "found NaN or infinity");
+  }
+  std::string binary =
+      "4OFF BINARY\n" + Bytes(1, true) + Bytes(1, true) + Bytes(0, true);
+  for (int k = 0; k < 3; ++k) binary += Bytes(0x7f800001u, true);
+  ExpectRefused(MeshFormat::kOff,
+                binary + Bytes(0.0f, true) + Bytes(0, true) + Bytes(0, true),
+                "vertex 1; expected a finite fourth");
 }
 
 TEST(ReaderLimits, ObjIndicesAreBounded) {

@@ -9,7 +9,7 @@
 #include <random>
 #include <string>
 
-#include "core/bvh/surface_tree.h"
+#include "core/bvh/triangle_bvh.h"
 #include "core/contact/contact_space.h"
 #include "problems/shapes/shapes.h"
 #include "problems/studies/contact_space_check.h"
@@ -68,8 +68,8 @@ class Table {
 // Of a vertex: by the grid, or, where the operands lie on it, by the doubles it
 // is written in.
 double Rounding(const ContactSpace& space) {
-  return std::max(space.report.grid_step,
-                  0x1p-52 * ComputeBounds(space.mesh).Diagonal());
+  return std::max(space.report().grid_step,
+                  0x1p-52 * ComputeBounds(space.mesh()).Diagonal());
 }
 
 TriangleMesh Box(const Vector3d& size) {
@@ -132,11 +132,11 @@ TEST(ExtremeOperandsCampaign, SumsOfBoxesOfAnyAspectHaveTheirVolume) {
               is_turned ? GenericRotation() : Matrix3d::Identity();
           const ContactSpace space =
               BuildContactSpace(Rotated(Box(a), turn), Rotated(Box(b), turn));
-          table.CheckValue("boxes", space.report.volume, (a + b).prod(),
-                           32 * Rounding(space), SurfaceArea(space.mesh));
-          EXPECT_TRUE(space.report.manifold);
-          EXPECT_EQ(space.report.genus, 0);
-          EXPECT_EQ(space.report.components, 1);
+          table.CheckValue("boxes", space.report().volume, (a + b).prod(),
+                           32 * Rounding(space), SurfaceArea(space.mesh()));
+          EXPECT_TRUE(space.report().manifold);
+          EXPECT_EQ(space.report().genus, 0);
+          EXPECT_EQ(space.report().components, 1);
         }
       }
     }
@@ -161,10 +161,10 @@ TEST(ExtremeOperandsCampaign, NeedlesSlabsAndKnivesMeetBoxesInClosedForm) {
           const TriangleMesh other = Box(box);
           const ContactSpace space = is_robot ? BuildContactSpace(solid, other)
                                               : BuildContactSpace(other, solid);
-          table.CheckValue("convex", space.report.volume,
+          table.CheckValue("convex", space.report().volume,
                            SumWithBox(solid, box), 32 * Rounding(space),
-                           SurfaceArea(space.mesh));
-          EXPECT_TRUE(space.report.manifold);
+                           SurfaceArea(space.mesh()));
+          EXPECT_TRUE(space.report().manifold);
         }
       }
     }
@@ -185,13 +185,13 @@ TEST(ExtremeOperandsCampaign, DifferenceBodiesOfSimplicesAreTwentyTimesThem) {
     const TriangleMesh tetrahedron =
         Tetrahedron(corner(), corner(), corner(), corner());
     const ContactSpace space = BuildContactSpace(tetrahedron, tetrahedron);
-    table.CheckValue("simplex", space.report.volume,
+    table.CheckValue("simplex", space.report().volume,
                      20 * SignedVolume(tetrahedron), 32 * Rounding(space),
-                     SurfaceArea(space.mesh));
-    EXPECT_TRUE(space.report.manifold);
+                     SurfaceArea(space.mesh()));
+    EXPECT_TRUE(space.report().manifold);
     // Every pose that puts one corner on another is in contact.
     EXPECT_LT(
-        SurfaceTree(space.mesh)
+        TriangleBvh(space.mesh())
             .FindClosest(tetrahedron.vertices[0] - tetrahedron.vertices[1])
             .distance,
         4 * Rounding(space));
@@ -264,14 +264,14 @@ TEST(ExtremeOperandsCampaign, CoplanarAndCollinearVerticesChangeNothing) {
       for (const bool is_robot_fine : {false, true}) {
         const ContactSpace space = BuildContactSpace(
             is_robot_fine ? MakeScan(other, 0.25, 0.0, 1) : other, fine);
-        table.CheckValue("volume", space.report.volume, truth.report.volume,
-                         1e-15, truth.report.volume);
-        table.CheckValue("triangles",
-                         static_cast<double>(space.report.triangles),
-                         static_cast<double>(truth.report.triangles), 0.0, 1.0);
-        EXPECT_EQ(space.report.components, truth.report.components);
-        EXPECT_EQ(space.report.cavities, truth.report.cavities);
-        EXPECT_EQ(space.report.genus, truth.report.genus);
+        table.CheckValue("volume", space.report().volume, truth.report().volume,
+                         1e-15, truth.report().volume);
+        table.CheckValue(
+            "triangles", static_cast<double>(space.report().triangles),
+            static_cast<double>(truth.report().triangles), 0.0, 1.0);
+        EXPECT_EQ(space.report().components, truth.report().components);
+        EXPECT_EQ(space.report().cavities, truth.report().cavities);
+        EXPECT_EQ(space.report().genus, truth.report().genus);
       }
     }
   }
@@ -305,7 +305,7 @@ TEST(ExtremeOperandsCampaign, SolidsThatShareAPointAnEdgeOrAFace) {
     const ContactSpace space = BuildContactSpace(a, b);
     table.CheckValue(
         "touching pose",
-        SurfaceTree(space.mesh).FindClosest(Vector3d::Zero()).distance, 0.0,
+        TriangleBvh(space.mesh()).FindClosest(Vector3d::Zero()).distance, 0.0,
         0.0, 1.0);
     for (int i = 0; i < 27; ++i) {
       const Vector3d q = 1e-9 * Vector3d(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1);
@@ -317,9 +317,10 @@ TEST(ExtremeOperandsCampaign, SolidsThatShareAPointAnEdgeOrAFace) {
         is_on_surface |= q[k] == low || q[k] == high;
       }
       if (is_on_surface) continue;
-      table.CheckValue("beside it",
-                       testing::WindingNumber(space.mesh, q) > 0.5 ? 0.0 : 1.0,
-                       is_free ? 1.0 : 0.0, 0.0, 1.0);
+      table.CheckValue(
+          "beside it",
+          testing::WindingNumber(space.mesh(), q) > 0.5 ? 0.0 : 1.0,
+          is_free ? 1.0 : 0.0, 0.0, 1.0);
     }
   }
 }

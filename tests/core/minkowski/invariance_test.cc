@@ -12,7 +12,7 @@
 #include <random>
 #include <set>
 
-#include "core/bvh/surface_tree.h"
+#include "core/bvh/triangle_bvh.h"
 #include "core/contact/contact_space.h"
 #include "core/projection/euclidean_metric.h"
 #include "problems/shapes/random_solids.h"
@@ -100,14 +100,14 @@ ContactSpace Build(const Pair& pair) {
 // Vertices where three planes or more meet: those on a straight edge depend on
 // how it was cut.
 std::vector<Vector3d> CornersOf(const ContactSpace& space) {
-  std::vector<std::set<int>> planes(space.mesh.vertices.size());
-  for (std::size_t t = 0; t < space.mesh.triangles.size(); ++t) {
-    for (const int v : space.mesh.triangles[t])
-      planes[v].insert(space.plane[t]);
+  std::vector<std::set<int>> planes(space.mesh().vertices.size());
+  for (std::size_t t = 0; t < space.mesh().triangles.size(); ++t) {
+    for (const int v : space.mesh().triangles[t])
+      planes[v].insert(space.plane()[t]);
   }
   std::vector<Vector3d> corners;
   for (std::size_t v = 0; v < planes.size(); ++v) {
-    if (planes[v].size() > 2) corners.push_back(space.mesh.vertices[v]);
+    if (planes[v].size() > 2) corners.push_back(space.mesh().vertices[v]);
   }
   return corners;
 }
@@ -128,9 +128,9 @@ double Apart(const std::vector<Vector3d>& a, const std::vector<Vector3d>& b) {
 }
 
 bool IsFinite(const ContactSpace& space) {
-  return std::all_of(space.mesh.vertices.begin(), space.mesh.vertices.end(),
+  return std::all_of(space.mesh().vertices.begin(), space.mesh().vertices.end(),
                      [](const Vector3d& v) { return v.allFinite(); }) &&
-         std::isfinite(space.report.volume);
+         std::isfinite(space.report().volume);
 }
 
 using PointMap = std::function<Vector3d(const Vector3d&)>;
@@ -139,7 +139,7 @@ using PointMap = std::function<Vector3d(const Vector3d&)>;
 double SurfacesApart(const TriangleMesh& a, const TriangleMesh& b) {
   double worst = 0.0;
   for (const auto& [from, to] : {std::pair(&a, &b), std::pair(&b, &a)}) {
-    const SurfaceTree tree(*to);
+    const TriangleBvh tree(*to);
     for (const Vector3d& p : from->vertices) {
       worst = std::max(worst, tree.FindClosest(p).distance);
     }
@@ -172,7 +172,7 @@ class Judge {
   // `moved` must be `space` with its points mapped; `length` is L after that.
   void Compare(const ContactSpace& space, const ContactSpace& moved,
                const PointMap& map, double length, const std::string& what) {
-    const ContactSpaceReport &a = space.report, &b = moved.report;
+    const ContactSpaceReport &a = space.report(), &b = moved.report();
     const bool is_exact = a.grid_step == 0.0;
     testing::CampaignRow& row = is_exact ? exact_ : rounded_;
     double apart = 0.0;
@@ -181,9 +181,9 @@ class Judge {
       for (Vector3d& p : corners) p = map(p);
       apart = Apart(corners, CornersOf(moved)) / length;
     } else {
-      TriangleMesh expected = space.mesh;
+      TriangleMesh expected = space.mesh();
       for (Vector3d& p : expected.vertices) p = map(p);
-      apart = SurfacesApart(expected, moved.mesh) / length;
+      apart = SurfacesApart(expected, moved.mesh()) / length;
     }
     const bool is_right = b.manifold && IsFinite(moved) &&
                           b.components == a.components && b.genus == a.genus &&
@@ -203,15 +203,16 @@ class Judge {
 };
 
 double Length(const ContactSpace& space) {
-  return ComputeBounds(space.mesh).Diagonal();
+  return ComputeBounds(space.mesh()).Diagonal();
 }
 
 bool AreSame(const ContactSpace& space, const ContactSpace& scaled, int k) {
   const double factor = std::ldexp(1.0, k);
-  return scaled.mesh.triangles == space.mesh.triangles &&
-         scaled.plane == space.plane && scaled.kind == space.kind &&
-         std::equal(space.mesh.vertices.begin(), space.mesh.vertices.end(),
-                    scaled.mesh.vertices.begin(), scaled.mesh.vertices.end(),
+  return scaled.mesh().triangles == space.mesh().triangles &&
+         scaled.plane() == space.plane() && scaled.kind() == space.kind() &&
+         std::equal(space.mesh().vertices.begin(), space.mesh().vertices.end(),
+                    scaled.mesh().vertices.begin(),
+                    scaled.mesh().vertices.end(),
                     [factor](const Vector3d& p, const Vector3d& q) {
                       return factor * p == q;
                     });
@@ -225,15 +226,15 @@ TEST(InvarianceCampaign, PowersOfTwoChangeNoBit) {
   for (std::uint64_t seed = 0; seed < 6; ++seed) {
     const Pair pair = MakePair(seed);
     const ContactSpace space = Build(pair);
-    const Vector3d q = 0.1 * ComputeBounds(space.mesh).max;
-    const auto depth = EuclideanMetric(space.mesh).Query(q).signed_distance;
+    const Vector3d q = 0.1 * ComputeBounds(space.mesh()).max;
+    const auto depth = EuclideanMetric(space).Query(q).signed_distance;
     for (long k = -100; k <= 100; k += step) {
       const double factor = std::ldexp(1.0, static_cast<int>(k));
       const ContactSpace scaled =
           Build({Scaled(pair.robot, factor), Scaled(pair.obstacle, factor)});
       const bool same =
           AreSame(space, scaled, static_cast<int>(k)) &&
-          EuclideanMetric(scaled.mesh).Query(factor * q).signed_distance ==
+          EuclideanMetric(scaled).Query(factor * q).signed_distance ==
               factor * depth;
       EXPECT_TRUE(same) << "seed " << seed << ", 2^" << k;
       ++row.cases;
@@ -355,12 +356,13 @@ TEST(InvarianceCampaign, IntegerMapsAreExact) {
         space, other,
         [&](const Vector3d& p) { return Vector3d(map * p + b - a); }, 1.0,
         name);
-    EXPECT_EQ(other.report.grid_step, 0.0) << name;
-    EXPECT_EQ(other.report.self_intersections, space.report.self_intersections)
+    EXPECT_EQ(other.report().grid_step, 0.0) << name;
+    EXPECT_EQ(other.report().self_intersections,
+              space.report().self_intersections)
         << name;
-    EXPECT_NEAR(other.report.volume,
-                space.report.volume * std::abs(map.determinant()),
-                1e-9 * other.report.volume)
+    EXPECT_NEAR(other.report().volume,
+                space.report().volume * std::abs(map.determinant()),
+                1e-9 * other.report().volume)
         << name;
   }
 }

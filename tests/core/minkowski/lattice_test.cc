@@ -175,13 +175,13 @@ TEST(Faults, ShearedVoxelsStayOnTheirLattice) {
   const TriangleMesh obstacle = ReadMesh(folder + "sheared_obstacle.off");
   const ContactSpace space = BuildContactSpace(robot, obstacle);
   const auto expect_right = [](const ContactSpace& found) {
-    EXPECT_EQ(found.report.volume, 3525.0);
-    EXPECT_EQ(found.report.cavities, 0);
-    EXPECT_EQ(found.report.genus, 0);
-    EXPECT_EQ(found.report.self_intersections, 0u);
-    EXPECT_EQ(found.report.grid_step, 0.0);
-    EXPECT_LE(found.report.triangles, 200u);
-    for (const Vector3d& v : found.mesh.vertices) {
+    EXPECT_EQ(found.report().volume, 3525.0);
+    EXPECT_EQ(found.report().cavities, 0);
+    EXPECT_EQ(found.report().genus, 0);
+    EXPECT_EQ(found.report().self_intersections, 0u);
+    EXPECT_EQ(found.report().grid_step, 0.0);
+    EXPECT_LE(found.report().triangles, 200u);
+    for (const Vector3d& v : found.mesh().vertices) {
       EXPECT_EQ(v, Vector3d(v.array().round()));
     }
   };
@@ -190,8 +190,8 @@ TEST(Faults, ShearedVoxelsStayOnTheirLattice) {
   const ContactSpace moved =
       BuildContactSpace(Translated(robot, a), Translated(obstacle, b));
   expect_right(moved);
-  EXPECT_EQ(moved.mesh.triangles, space.mesh.triangles);
-  EXPECT_EQ(moved.mesh.vertices, Translated(space.mesh, b - a).vertices);
+  EXPECT_EQ(moved.mesh().triangles, space.mesh().triangles);
+  EXPECT_EQ(moved.mesh().vertices, Translated(space.mesh(), b - a).vertices);
 }
 
 // Exact fits of decimals: rounded to binary fractions the peg was a grid step
@@ -208,10 +208,12 @@ TEST(Faults, DecimalPegsFitExactly) {
         return Scaled(std::move(mesh), unit);
       };
       EXPECT_EQ(
-          BuildContactSpace(in_units(peg(7)), in_units(plate)).report.genus, 0)
+          BuildContactSpace(in_units(peg(7)), in_units(plate)).report().genus,
+          0)
           << unit << ' ' << x;
       EXPECT_EQ(
-          BuildContactSpace(in_units(peg(6)), in_units(plate)).report.genus, 1)
+          BuildContactSpace(in_units(peg(6)), in_units(plate)).report().genus,
+          1)
           << unit << ' ' << x;
     }
   }
@@ -221,7 +223,8 @@ TEST(ContactSpace, WarnsWhereCoordinatesLeaveLittleOfAnOperand) {
   const TriangleMesh cone = MakeCone(0.8, 1.6, 20);
   const auto warnings = [&](double offset) {
     return BuildContactSpace(Translated(cone, {0, offset, 0}), MakeAxes(2, 0.2))
-        .report.warnings.size();
+        .report()
+        .warnings.size();
   };
   EXPECT_EQ(warnings(1e9), 0u);
   EXPECT_EQ(warnings(1e10), 1u);

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/bvh/surface_tree.h"
+#include "core/bvh/triangle_bvh.h"
 #include "core/contact/contact_space.h"
 #include "problems/shapes/random_solids.h"
 #include "problems/shapes/shapes.h"
@@ -59,14 +59,14 @@ TEST(FormerFailures, PartsOfTheArrangementThatShareNoEdge) {
     options.outer_shell_only = outer_only;
     // Two boxes apart, and both inside a shell: one cavity with two islands.
     const ContactSpace apart = BuildContactSpace(cube(0), far, options);
-    EXPECT_EQ(apart.report.cavities, 0);
-    EXPECT_EQ(apart.report.components, 2);
-    EXPECT_EQ(apart.report.volume, 16.0);
+    EXPECT_EQ(apart.report().cavities, 0);
+    EXPECT_EQ(apart.report().components, 2);
+    EXPECT_EQ(apart.report().volume, 16.0);
     const ContactSpace islands =
         BuildContactSpace(cube(0), Joined(far, shell), options);
-    EXPECT_EQ(islands.report.cavities, 1);
-    EXPECT_EQ(islands.report.components, outer_only ? 1 : 4);
-    EXPECT_NEAR(islands.report.volume,
+    EXPECT_EQ(islands.report().cavities, 1);
+    EXPECT_EQ(islands.report().components, outer_only ? 1 : 4);
+    EXPECT_NEAR(islands.report().volume,
                 outer_only ? 13.0 * 13 * 13 : 13.0 * 13 * 13 - 9 * 9 * 9 + 16,
                 1e-9);
   }
@@ -96,7 +96,7 @@ TEST(FormerFailures, SheetsAlongOneLineKeepDistinctEdges) {
     const ContactSpaceReport report =
         BuildContactSpace(Scaled(pair.robot, factor),
                           Scaled(pair.obstacle, factor))
-            .report;
+            .report();
     EXPECT_TRUE(report.manifold) << "scaled by " << factor;
   }
 }
@@ -126,8 +126,8 @@ TEST(FormerFailures, PointsBesideNeedles) {
                               const Eigen::Vector3d& q) {
     const SolidPair pair = MakeRandomPair(kind, seed);
     const ContactSpace space = BuildContactSpace(pair.robot, pair.obstacle);
-    EXPECT_LT(SurfaceTree(space.mesh).FindClosest(q).distance,
-              space.report.grid_step)
+    EXPECT_LT(TriangleBvh(space.mesh()).FindClosest(q).distance,
+              space.report().grid_step)
         << Name(kind) << ", seed " << seed;
   };
   expect_near(PairKind::kTilted, 111,

@@ -107,8 +107,8 @@ void TryMutation(std::uint64_t seed, Tally* tally) {
     const ContactSpace space = BuildContactSpace(robot, obstacle);
     ++tally->built;
     std::string wrong;
-    if (!space.report.closed) wrong = "not closed";
-    if (!space.report.manifold) wrong = "not manifold";
+    if (!space.report().closed) wrong = "not closed";
+    if (!space.report().manifold) wrong = "not manifold";
     if (wrong.empty()) {
       wrong = FindWrongPoint(robot, obstacle, space, 16, &random);
     }
@@ -141,8 +141,8 @@ void ExpectRight(const std::string& what, const TriangleMesh& solid) {
     const TriangleMesh& robot = is_robot ? solid : box;
     const TriangleMesh& obstacle = is_robot ? box : solid;
     const ContactSpace space = BuildContactSpace(robot, obstacle);
-    EXPECT_TRUE(space.report.closed);
-    EXPECT_TRUE(space.report.manifold);
+    EXPECT_TRUE(space.report().closed);
+    EXPECT_TRUE(space.report().manifold);
     EXPECT_EQ(FindWrongPoint(robot, obstacle, space, 60, &random), "");
   }
 }
@@ -208,8 +208,8 @@ TEST(CollapsedOperands, AnEdgeWithoutLengthIsJoined) {
   const TriangleMesh cube = testing::Cube(0.5);
   const ContactSpace expected = BuildContactSpace(cube, plain);
   const ContactSpace found = BuildContactSpace(cube, doubled);
-  EXPECT_EQ(found.mesh.triangles, expected.mesh.triangles);
-  EXPECT_EQ(found.mesh.vertices, expected.mesh.vertices);
+  EXPECT_EQ(found.mesh().triangles, expected.mesh().triangles);
+  EXPECT_EQ(found.mesh().vertices, expected.mesh().vertices);
   ExpectRight("as robot and obstacle", doubled);
 }
 

@@ -120,10 +120,10 @@ TEST(CollapseZeroEdges, CleansContactSpacesOfNearlyCoplanarSolids) {
        {std::pair(PairKind::kJittered, 23), std::pair(PairKind::kTilted, 2)}) {
     const SolidPair pair = MakeRandomPair(kind, seed);
     const ContactSpace space = BuildContactSpace(pair.robot, pair.obstacle);
-    EXPECT_TRUE(space.report.manifold);
-    EXPECT_LE(space.report.degenerate_triangles, 4U) << Name(kind);
-    EXPECT_EQ(space.plane.size(), space.mesh.triangles.size());
-    EXPECT_EQ(space.kind.size(), space.mesh.triangles.size());
+    EXPECT_TRUE(space.report().manifold);
+    EXPECT_LE(space.report().degenerate_triangles, 4U) << Name(kind);
+    EXPECT_EQ(space.plane().size(), space.mesh().triangles.size());
+    EXPECT_EQ(space.kind().size(), space.mesh().triangles.size());
   }
 }
 

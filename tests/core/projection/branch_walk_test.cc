@@ -27,7 +27,7 @@ struct Scene {
   Scene(const TriangleMesh& m, double smoothing)
       : mesh(m),
         ell(smoothing),
-        metric(m, Options(smoothing)),
+        metric(TakeAsContactSpace(m), Options(smoothing)),
         diagonal(ComputeBounds(m).Diagonal()) {}
 
   static PhongMetricOptions Options(double smoothing) {
@@ -280,7 +280,8 @@ TEST(BranchWalk, LeavingTheSolidIsAnOutsideAnswerAndReentryIsShallow) {
 TEST(BranchWalk, LeavingElsewhereThanTheBranchLeadsIsSaid) {
   // In at the left of a thick plate, out at the right: the branch keeps
   // pointing left, and its depth of 2 drops to 0 in one frame.
-  const PhongMetric plate(MakeBox({-1, -50, -50}, {1, 50, 50}));
+  const PhongMetric plate(
+      TakeAsContactSpace(MakeBox({-1, -50, -50}, {1, 50, 50})));
   const auto across = Track(plate, {{-1.5, 0.3, 0.2}, {1.5, 0.3, 0.2}}, 61);
   int ends = 0;
   double last_depth = 0.0;

@@ -19,7 +19,7 @@
 #include <random>
 #include <vector>
 
-#include "core/bvh/surface_tree.h"
+#include "core/bvh/triangle_bvh.h"
 #include "core/mesh/mesh_error.h"
 #include "problems/shapes/shapes.h"
 
@@ -62,7 +62,7 @@ TEST(EuclideanMetric, AgreesWithBruteForceAndWithCgal) {
                     Index(static_cast<unsigned>(t[2])));
     }
     const CgalTree tree(faces(cgal).first, faces(cgal).second, cgal);
-    const EuclideanMetric metric(mesh);
+    const EuclideanMetric metric(TakeAsContactSpace(mesh));
     for (const Vector3d& q : RandomPoints(mesh, 1000, 0.3)) {
       const PenetrationResult result = metric.Query(q);
       double least = std::numeric_limits<double>::infinity();
@@ -86,7 +86,8 @@ TEST(EuclideanMetric, AgreesWithBruteForceAndWithCgal) {
 }
 
 TEST(EuclideanMetric, IsTheClosedFormOfABox) {
-  const EuclideanMetric metric(MakeBox({-1, -2, -3}, {1, 2, 3}));
+  const EuclideanMetric metric(
+      TakeAsContactSpace(MakeBox({-1, -2, -3}, {1, 2, 3})));
   for (const Vector3d& q :
        RandomPoints(MakeBox({-1, -2, -3}, {1, 2, 3}), 2000, 0.4)) {
     const Vector3d d = q.cwiseAbs() - Vector3d(1, 2, 3);
@@ -97,7 +98,8 @@ TEST(EuclideanMetric, IsTheClosedFormOfABox) {
 }
 
 TEST(EuclideanMetric, GivesTheFacetNormalOnTheSurface) {
-  const EuclideanMetric metric(MakeBox({-1, -1, -1}, {1, 1, 1}));
+  const EuclideanMetric metric(
+      TakeAsContactSpace(MakeBox({-1, -1, -1}, {1, 1, 1})));
   for (int axis = 0; axis < 3; ++axis) {
     Vector3d q(0.25, 0.5, -0.25);
     q[axis] = -1.0;
@@ -179,7 +181,7 @@ TEST(ClosestOnTriangle, MeasuresBesideNeedles) {
 
 TEST(EuclideanMetric, RefusesWhatItCannotAnswer) {
   const TriangleMesh box = MakeBox({-1, -1, -1}, {1, 1, 1});
-  const EuclideanMetric metric(box);
+  const EuclideanMetric metric(TakeAsContactSpace(box));
   for (const double bad : {NAN, INFINITY, -INFINITY}) {
     for (int axis = 0; axis < 3; ++axis) {
       Vector3d q = Vector3d::Zero();
@@ -196,16 +198,16 @@ TEST(EuclideanMetric, RefusesWhatItCannotAnswer) {
     EXPECT_NEAR(result.signed_distance / far, 1.0, 1e-14);
     EXPECT_LT((result.direction - Vector3d::UnitY()).norm(), 1e-12);
   }
-  EXPECT_THROW(EuclideanMetric(TriangleMesh{}), InputError);
+  EXPECT_THROW(EuclideanMetric(TakeAsContactSpace(TriangleMesh{})), InputError);
   TriangleMesh open = box;
   open.triangles.pop_back();
-  EXPECT_THROW(EuclideanMetric{open}, InputError);
+  EXPECT_THROW(EuclideanMetric{TakeAsContactSpace(open)}, InputError);
   TriangleMesh broken = box;
   broken.vertices[0].x() = NAN;
-  EXPECT_THROW(EuclideanMetric{broken}, InputError);
+  EXPECT_THROW(EuclideanMetric{TakeAsContactSpace(broken)}, InputError);
   broken = box;
   broken.triangles[0][0] = 99;
-  EXPECT_THROW(EuclideanMetric{broken}, InputError);
+  EXPECT_THROW(EuclideanMetric{TakeAsContactSpace(broken)}, InputError);
 }
 
 }  // namespace

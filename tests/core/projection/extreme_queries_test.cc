@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <memory>
 #include <random>
 #include <string>
 #include <utility>
@@ -18,6 +17,7 @@
 #include "problems/shapes/shapes.h"
 #include "tests/support/campaign.h"
 #include "tests/support/exact_answers.h"
+#include "tests/support/metrics.h"
 
 namespace phongpd {
 namespace {
@@ -32,7 +32,7 @@ struct Subject {
 };
 
 TriangleMesh Sum(const TriangleMesh& robot, const TriangleMesh& obstacle) {
-  return BuildContactSpace(robot, obstacle).mesh;
+  return BuildContactSpace(robot, obstacle).mesh();
 }
 
 // Aspects to 1e6, symmetric ones, knife edges, cavities.
@@ -139,13 +139,8 @@ TEST(ExtremeQueriesCampaign, SignIsExactAndDepthRightWhereverTheyAre) {
   for (const Subject& subject : Subjects()) {
     const TriangleMesh& mesh = subject.mesh;
     const double diagonal = ComputeBounds(mesh).Diagonal();
-    std::vector<std::unique_ptr<PenetrationMetric>> metrics;
-    metrics.push_back(std::make_unique<EuclideanMetric>(mesh));
-    for (const double ell : {0.0, 0.05}) {
-      PhongMetricOptions options;
-      options.field_options.smoothing_length = ell;
-      metrics.push_back(std::make_unique<PhongMetric>(mesh, options));
-    }
+    const auto metrics =
+        testing::EuclideanAndPhong(TakeAsContactSpace(mesh), 0.05);
     std::vector<std::vector<Vector3d>> paths =
         Paths(subject, testing::CampaignCases(5, 100), 40, &random);
     for (const Vector3d& q :
@@ -210,8 +205,8 @@ TEST(ExtremeQueriesCampaign, SignIsExactAndDepthRightWhereverTheyAre) {
 TEST(ExtremeQueries, PointsThatAreNotFiniteAreInvalidAndZero) {
   constexpr double kInf = std::numeric_limits<double>::infinity();
   const TriangleMesh mesh = MakeL(2.0, 0.4, 0.6);
-  const EuclideanMetric euclid(mesh);
-  const PhongMetric phong(mesh);
+  const EuclideanMetric euclid(TakeAsContactSpace(mesh));
+  const PhongMetric phong(TakeAsContactSpace(mesh));
   const Branch branch = phong.Query(Vector3d(0.2, 0.2, 0.3)).branch;
   ASSERT_TRUE(branch.IsValid());
   for (const double bad : {std::nan(""), kInf, -kInf}) {
@@ -242,8 +237,8 @@ TEST(ExtremeQueries, PointsThatAreNotFiniteAreInvalidAndZero) {
 // wrong.
 TEST(ExtremeQueries, PointsAtTheEndOfDoublesAreOutside) {
   const TriangleMesh mesh = MakeL(2.0, 0.4, 0.6);
-  const EuclideanMetric euclid(mesh);
-  const PhongMetric phong(mesh);
+  const EuclideanMetric euclid(TakeAsContactSpace(mesh));
+  const PhongMetric phong(TakeAsContactSpace(mesh));
   for (const double far :
        {1e100, 1e200, 1e300, 1.7e308, std::numeric_limits<double>::max()}) {
     for (const Vector3d& d : {Vector3d(1, 0, 0), Vector3d(-1, 1, -1)}) {

@@ -69,7 +69,8 @@ TEST(PhongField, IsAdmissibleForEverySmoothingLength) {
     std::size_t limited = 0;
     for (const double ell : {0.0, 0.02, 0.1, 0.3, 1.0}) {
       SCOPED_TRACE(shape.name + ", ell " + std::to_string(ell));
-      const PhongField field = BuildPhongField(shape.mesh, Ell(ell));
+      const PhongField field =
+          BuildPhongField(TakeAsContactSpace(shape.mesh), Ell(ell));
       const double least = LeastDot(field, shape.mesh);
       EXPECT_GE(least, 0.1 - 1e-12);
       EXPECT_NEAR(field.report.min_normal_dot, least, 1e-12);
@@ -101,7 +102,8 @@ TEST(PhongField, TightLimiterHoldsToo) {
   options.limiter = 0.3;
   for (const NamedShape& shape : Shapes()) {
     if (shape.name == "star") continue;  // its tips' best direction has 0.24
-    const PhongField field = BuildPhongField(shape.mesh, options);
+    const PhongField field =
+        BuildPhongField(TakeAsContactSpace(shape.mesh), options);
     EXPECT_GE(LeastDot(field, shape.mesh), 0.3 - 1e-12) << shape.name;
   }
 }
@@ -110,7 +112,8 @@ TEST(PhongField, NeedleTipGetsTheBestDirectionThereIs) {
   // n·N_f = sin(half opening angle) of the cone at best, less the facets'
   // sagitta: below the limiter, above zero.
   const TriangleMesh needle = MakeCone(0.05, 2.0, 40);
-  const PhongField field = BuildPhongField(needle, Ell(0.1));
+  const PhongField field =
+      BuildPhongField(TakeAsContactSpace(needle), Ell(0.1));
   const double apothem = 0.05 * std::cos(M_PI / 40.0);
   EXPECT_NEAR(LeastDot(field, needle), apothem / std::hypot(apothem, 2.0),
               1e-9);
@@ -143,7 +146,8 @@ TEST(PhongField, InadmissibleVertexIsCountedAndConfined) {
   const TriangleMesh mesh = Pinched();
   ASSERT_GT(SignedVolume(mesh), 0.0);
   for (const double ell : {0.0, 0.2}) {
-    const PhongField field = BuildPhongField(mesh, Ell(ell));
+    const PhongField field =
+        BuildPhongField(TakeAsContactSpace(mesh), Ell(ell));
     EXPECT_EQ(field.report.inadmissible_vertices, 1u);
     EXPECT_LE(field.report.min_normal_dot, 0.0);
     for (std::size_t t = 0; t < field.mesh.triangles.size(); ++t) {
@@ -163,7 +167,8 @@ TEST(PhongField, SplittingKeepsTheSurface) {
     SCOPED_TRACE(shape.name);
     PhongFieldOptions options = Ell(0.1);
     options.max_edge = 0.03;
-    const PhongField field = BuildPhongField(shape.mesh, options);
+    const PhongField field =
+        BuildPhongField(TakeAsContactSpace(shape.mesh), options);
     ASSERT_GT(field.report.split_edges, 100u);
     const double scale = field.scale;
     const double volume = SignedVolume(shape.mesh) * scale * scale * scale;
@@ -240,11 +245,12 @@ std::vector<std::array<Corner, 3>> AsSet(const PhongField& field) {
 TEST(PhongField, ScalingByAPowerOfTwoGivesTheSameBits) {
   for (const NamedShape& shape : Shapes()) {
     for (const double ell : {0.0, 0.1}) {
-      const PhongField field = BuildPhongField(shape.mesh, Ell(ell));
+      const PhongField field =
+          BuildPhongField(TakeAsContactSpace(shape.mesh), Ell(ell));
       for (const int k : {-40, -1, 3, 60}) {
         const double factor = std::ldexp(1.0, k);
-        const PhongField scaled =
-            BuildPhongField(Scaled(shape.mesh, factor), Ell(ell));
+        const PhongField scaled = BuildPhongField(
+            TakeAsContactSpace(Scaled(shape.mesh, factor)), Ell(ell));
         ASSERT_EQ(field.mesh.triangles, scaled.mesh.triangles);
         ASSERT_EQ(field.source_triangle, scaled.source_triangle);
         ASSERT_EQ(field.scale, scaled.scale * factor);
@@ -261,7 +267,8 @@ TEST(PhongField, DoesNotDependOnTheOrderOfTheInputToTheLastBit) {
   std::mt19937 rng(17);
   for (const NamedShape& shape : Shapes()) {
     for (const double ell : {0.0, 0.1}) {
-      const auto expected = AsSet(BuildPhongField(shape.mesh, Ell(ell)));
+      const auto expected =
+          AsSet(BuildPhongField(TakeAsContactSpace(shape.mesh), Ell(ell)));
       TriangleMesh mesh = shape.mesh;
       std::vector<int> rank(mesh.vertices.size());
       for (std::size_t v = 0; v < rank.size(); ++v) {
@@ -278,7 +285,8 @@ TEST(PhongField, DoesNotDependOnTheOrderOfTheInputToTheLastBit) {
       }
       std::shuffle(mesh.triangles.begin(), mesh.triangles.end(), rng);
       mesh.vertices.push_back(Vector3d(100.0, 0.0, 0.0));  // unused
-      const PhongField field = BuildPhongField(mesh, Ell(ell));
+      const PhongField field =
+          BuildPhongField(TakeAsContactSpace(mesh), Ell(ell));
       EXPECT_TRUE(AsSet(field) == expected) << shape.name << " " << ell;
       EXPECT_GE(LeastDot(field, mesh), 0.1 - 1e-12);  // sources are right
     }
@@ -291,7 +299,7 @@ TEST(PhongField, SmoothFieldBelongsToTheShapeAndNotToTheMesh) {
   const TriangleMesh box = MakeBox(Vector3d(0, 0, 0), Vector3d(1, 2, 3));
   PhongFieldOptions fine = Ell(0.2);
   fine.max_edge = 0.02;
-  const PhongField reference = BuildPhongField(box, fine);
+  const PhongField reference = BuildPhongField(TakeAsContactSpace(box), fine);
   std::map<std::array<double, 3>, Vector3d> normal_at;
   for (std::size_t v = 0; v < reference.normals.size(); ++v) {
     const Vector3d& q = reference.mesh.vertices[v];
@@ -300,7 +308,7 @@ TEST(PhongField, SmoothFieldBelongsToTheShapeAndNotToTheMesh) {
   const auto worst = [&](double max_edge) {
     PhongFieldOptions options = Ell(0.2);
     options.max_edge = max_edge;
-    const PhongField field = BuildPhongField(box, options);
+    const PhongField field = BuildPhongField(TakeAsContactSpace(box), options);
     double angle = 0.0;
     std::size_t common = 0;
     for (std::size_t v = 0; v < field.normals.size(); ++v) {
@@ -319,7 +327,7 @@ TEST(PhongField, SmoothFieldBelongsToTheShapeAndNotToTheMesh) {
 
 TEST(PhongField, PaperFieldOfABallNeedsNothing) {
   const TriangleMesh ball = MakeIcoBall(1.0, 3);
-  const PhongField field = BuildPhongField(ball);
+  const PhongField field = BuildPhongField(TakeAsContactSpace(ball));
   EXPECT_EQ(field.mesh.triangles.size(), ball.triangles.size());
   EXPECT_EQ(field.report.split_edges, 0u);
   EXPECT_EQ(field.report.limited_vertices, 0u);
@@ -346,7 +354,8 @@ TEST(PhongField, DegenerateTrianglesDoNoHarm) {
   mesh.triangles.push_back({b, m, m + 1});
   mesh.triangles.push_back({m, a, m + 1});
   for (const double ell : {0.0, 0.1}) {
-    const PhongField field = BuildPhongField(mesh, Ell(ell));
+    const PhongField field =
+        BuildPhongField(TakeAsContactSpace(mesh), Ell(ell));
     EXPECT_EQ(field.report.obtuse_edges, 0u);
     EXPECT_GT(field.report.min_normal_dot, 0.1 - 1e-12);
     for (const Vector3d& n : field.normals) {
@@ -360,7 +369,7 @@ TEST(PhongField, RefusesBadInputByName) {
   const auto message = [](const TriangleMesh& mesh,
                           const PhongFieldOptions& options) -> std::string {
     try {
-      BuildPhongField(mesh, options);
+      BuildPhongField(TakeAsContactSpace(mesh), options);
     } catch (const InputError& error) {
       return error.what();
     }
@@ -378,11 +387,12 @@ TEST(PhongField, RefusesBadInputByName) {
   EXPECT_NE(message(box, options).find("max_edge"), std::string::npos);
   TriangleMesh open = box;
   open.triangles.pop_back();
-  EXPECT_NE(message(open, {}).find("3 edges"), std::string::npos);
+  EXPECT_NE(message(open, {}).find("3 half-edges without exactly one opposite"),
+            std::string::npos);
   TriangleMesh bad = box;
   bad.vertices[0].x() = nan;
   EXPECT_NE(message(bad, {}).find("finite"), std::string::npos);
-  EXPECT_NE(message(TriangleMesh(), {}).find("triangles"), std::string::npos);
+  EXPECT_NE(message(TriangleMesh(), {}).find("no triangle"), std::string::npos);
   EXPECT_NE(message(Scaled(box, 0.0), {}).find("diagonal"), std::string::npos);
 }
 

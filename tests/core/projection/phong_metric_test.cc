@@ -25,7 +25,7 @@ PhongMetric MakeMetric(const TriangleMesh& mesh, double ell,
   PhongMetricOptions options;
   options.field = kind;
   options.field_options.smoothing_length = ell;
-  return PhongMetric(mesh, options);
+  return PhongMetric(TakeAsContactSpace(mesh), options);
 }
 
 std::vector<Vector3d> InteriorPoints(const PhongMetric& metric,
@@ -126,7 +126,7 @@ TEST(PhongMetric, HitIsAProjectionAndNotShallowerThanEuclidean) {
     for (const TriangleMesh& mesh : Shapes()) {
       const double diagonal = ComputeBounds(mesh).Diagonal();
       const PhongMetric metric = MakeMetric(mesh, 0.05, kind);
-      const EuclideanMetric euclidean(mesh);
+      const EuclideanMetric euclidean(TakeAsContactSpace(mesh));
       int missed = 0;
       for (const Vector3d& q : InteriorPoints(metric, mesh, 250)) {
         const PenetrationResult result = metric.Query(q);
@@ -154,7 +154,7 @@ TEST(PhongMetric, HitIsAProjectionAndNotShallowerThanEuclidean) {
 TEST(PhongMetric, OutsideIsTheEuclideanMetricBitForBit) {
   const TriangleMesh mesh = MakeU(2.0, 0.4, 0.6);
   const PhongMetric phong = MakeMetric(mesh, 0.1);
-  const EuclideanMetric euclidean(mesh);
+  const EuclideanMetric euclidean(TakeAsContactSpace(mesh));
   std::mt19937 engine(13);
   std::uniform_real_distribution<double> uniform(-3.0, 3.0);
   for (int i = 0; i < 2000; ++i) {

@@ -37,8 +37,9 @@ TEST(QueryCost, QueriesDoNotAllocate) {
   const TriangleMesh mesh = MakeTorus(1.0, 0.35, 40, 16);
   PhongMetricOptions planes;
   planes.field = FieldKind::kTangentPlane;
-  const PhongMetric phong(mesh), newton(mesh, planes);
-  const EuclideanMetric euclidean(mesh);
+  const PhongMetric phong(TakeAsContactSpace(mesh)),
+      newton(TakeAsContactSpace(mesh), planes);
+  const EuclideanMetric euclidean(TakeAsContactSpace(mesh));
   std::vector<PenetrationResult> all;
   all.reserve(4096);
   const long before = allocations;
@@ -55,7 +56,7 @@ TEST(QueryCost, QueriesDoNotAllocate) {
 }
 
 TEST(QueryCost, ThreadsGetTheSameBits) {
-  const PhongMetric metric(MakeTorus(1.0, 0.35, 40, 16));
+  const PhongMetric metric(TakeAsContactSpace(MakeTorus(1.0, 0.35, 40, 16)));
   const double alone = Sum(metric, 0, 3000);
   double sums[2] = {0.0, 0.0};
   std::thread first([&] { sums[0] = Sum(metric, 0, 3000); });

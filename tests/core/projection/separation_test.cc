@@ -6,22 +6,20 @@
 #include <algorithm>
 #include <functional>
 #include <iostream>
-#include <memory>
 #include <random>
 #include <string>
 #include <vector>
 
-#include "constraints/collision_oracle.h"
 #include "constraints/motion_oracle.h"
-#include "core/bvh/surface_tree.h"
+#include "constraints/oracle/collision_oracle.h"
+#include "core/bvh/triangle_bvh.h"
 #include "core/contact/contact_space.h"
-#include "core/projection/euclidean_metric.h"
-#include "core/projection/phong_metric.h"
 #include "core/solid/mesh_check.h"
 #include "problems/shapes/shapes.h"
 #include "problems/studies/paper_benchmarks.h"
 #include "problems/studies/random_pairs.h"
 #include "tests/support/campaign.h"
+#include "tests/support/metrics.h"
 #include "tests/support/solid_tools.h"
 
 namespace phongpd {
@@ -151,18 +149,13 @@ struct Tally {
 Tally Separate(const Solids& solids, long poses, std::mt19937_64* random) {
   const TriangleMesh robot = MakeSolid(solids.robot(), "robot");
   const TriangleMesh obstacle = MakeSolid(solids.obstacle(), "obstacle");
-  const TriangleMesh mesh = BuildContactSpace(robot, obstacle).mesh;
+  const TriangleMesh mesh = BuildContactSpace(robot, obstacle).mesh();
   const BoundingBox box = ComputeBounds(mesh);
   const double diagonal = box.Diagonal();
   const CollisionOracle fcl(robot, obstacle);
   const MotionOracle exact(robot, obstacle);
-  std::vector<std::unique_ptr<PenetrationMetric>> metrics;
-  metrics.push_back(std::make_unique<EuclideanMetric>(mesh));
-  for (const double ell : {0.0, 0.1}) {
-    PhongMetricOptions options;
-    options.field_options.smoothing_length = ell;
-    metrics.push_back(std::make_unique<PhongMetric>(mesh, options));
-  }
+  const auto metrics =
+      testing::EuclideanAndPhong(TakeAsContactSpace(mesh), 0.1);
   std::vector<Branch> branches(metrics.size());
   Tally tally;
   const auto judge = [&](const PenetrationResult& result, const Vector3d& q,

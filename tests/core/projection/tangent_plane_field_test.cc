@@ -40,7 +40,7 @@ std::vector<Case> Fields() {
          {MakeBox(Vector3d(0, 0, 0), Vector3d(1, 2, 3)),
           Rotated(MakeU(1.0, 0.2, 0.5), turn), MakeStar(1.0, 2.0),
           Rotated(MakeCone(1.0, 2.0, 12), turn), MakeIcoBall(1.0, 2)}) {
-      result.emplace_back(BuildPhongField(mesh, options));
+      result.emplace_back(BuildPhongField(TakeAsContactSpace(mesh), options));
     }
   }
   return result;

@@ -6,7 +6,6 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <memory>
 #include <random>
 #include <string>
 #include <utility>
@@ -21,6 +20,7 @@
 #include "problems/studies/random_pairs.h"
 #include "tests/support/campaign.h"
 #include "tests/support/exact_answers.h"
+#include "tests/support/metrics.h"
 #include "tests/support/solid_tools.h"
 
 namespace phongpd {
@@ -44,7 +44,7 @@ std::vector<std::pair<std::string, TriangleMesh>> Shapes() {
       {"cone and box", BuildContactSpace(MakeBox(Vector3d(-0.1, -0.2, -0.1),
                                                  Vector3d(0.2, 0.1, 0.3)),
                                          MakeCone(1.0, 2.0, 9))
-                           .mesh},
+                           .mesh()},
       {"L", MakeL(2.0, 0.4, 0.6)},
       {"turned cone", Rotated(MakeCone(0.5, 3.0, 40), turn)},
       {"ball", MakeIcoBall(1.0, 2)},
@@ -110,14 +110,9 @@ TEST(TouchingCampaign, SignIsExactAndMonotoneAndDirectionsAreUnit) {
   double worst = 0.0;
   for (const auto& [name, mesh] : Shapes()) {
     const double diagonal = ComputeBounds(mesh).Diagonal();
-    std::vector<std::unique_ptr<PenetrationMetric>> metrics;
-    metrics.push_back(std::make_unique<EuclideanMetric>(mesh));
-    for (const double ell : {0.0, 0.1}) {
-      PhongMetricOptions options;
-      options.field_options.smoothing_length = ell;
-      metrics.push_back(std::make_unique<PhongMetric>(mesh, options));
-    }
-    const FreeSpace free({mesh});
+    const auto metrics =
+        testing::EuclideanAndPhong(TakeAsContactSpace(mesh), 0.1);
+    const FreeSpace free({TakeAsContactSpace(mesh)});
     for (const Ray& ray : Rays(mesh, testing::CampaignCases(9, 150), &random)) {
       int last_sign = -1;
       std::vector<Branch> branches(metrics.size());
@@ -184,10 +179,11 @@ TEST(TouchingCampaign, MeansTheSameForQueryJudgeAndSolids) {
   const long each = count / static_cast<long>(pairs.size()) + 1;
   long cases = 0, failures = 0, touching = 0, free_cases = 0;
   for (const SolidPair& pair : pairs) {
-    const TriangleMesh mesh = BuildContactSpace(pair.robot, pair.obstacle).mesh;
-    const EuclideanMetric euclid(mesh);
-    const PhongMetric phong(mesh);
-    const FreeSpace free({mesh});
+    const TriangleMesh mesh =
+        BuildContactSpace(pair.robot, pair.obstacle).mesh();
+    const EuclideanMetric euclid(TakeAsContactSpace(mesh));
+    const PhongMetric phong(TakeAsContactSpace(mesh));
+    const FreeSpace free({TakeAsContactSpace(mesh)});
     const MotionOracle solids(pair.robot, pair.obstacle);
     for (long i = 0; i < each; ++i) {
       // Coordinates of vertices of C_cont, or of a contact of two vertices.

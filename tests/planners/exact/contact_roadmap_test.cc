@@ -35,15 +35,14 @@ struct Problem {
           const ContactSpaceOptions& options = {})
       : scene(ParseScene(MakeScene(family, knobs), family)),
         contact(BuildContactSpace(scene.workspace.robot,
-                                  MergedObstacle(scene.workspace), options)
-                    .mesh),
+                                  MergedObstacle(scene.workspace), options)),
         space({contact}),
         planner(std::make_shared<const ContactSurfacePlanner>(contact)),
         roadmap(planner) {}
 
   // Free configurations within the bounds.
   std::vector<Vector3d> RandomPoints(int count, std::uint64_t seed) const {
-    const BoundingBox box = ComputeBounds(contact);
+    const BoundingBox& box = contact.bounds();
     std::mt19937_64 random(seed);
     std::uniform_real_distribution<double> share(0.0, 1.0);
     std::vector<Vector3d> points;
@@ -60,7 +59,7 @@ struct Problem {
   }
 
   Scene scene;
-  TriangleMesh contact;
+  ContactSpace contact;
   FreeSpace space;
   std::shared_ptr<const ContactSurfacePlanner> planner;
   ContactRoadmap roadmap;
@@ -174,8 +173,8 @@ TEST(ContactRoadmap, KeepsTheClearanceARequestWants) {
   // Around a cube with side 2, at least as far from it as wanted.
   const TriangleMesh cube =
       MakeBox(Vector3d::Constant(-1.0), Vector3d::Constant(1.0));
-  const ContactRoadmap roadmap(cube);
-  const FreeSpace space({cube});
+  const ContactRoadmap roadmap(TakeAsContactSpace(cube));
+  const FreeSpace space({TakeAsContactSpace(cube)});
   for (const double wanted : {0.01, 0.1, 0.3}) {
     RoadmapRequest request;
     request.clearance = wanted;
@@ -246,11 +245,11 @@ TriangleMesh VesselSpace() {
   return BuildContactSpace(
              MakeBox(Vector3d::Constant(-1.0), Vector3d::Constant(1.0)),
              MakeVessel(10.0, 6.0, 0.0))
-      .mesh;
+      .mesh();
 }
 
 TEST(ContactRoadmap, AnswersAtTheLimitsOfFreeSpace) {
-  const ContactRoadmap roadmap(VesselSpace());
+  const ContactRoadmap roadmap(TakeAsContactSpace(VesselSpace()));
   const Vector3d free(0.5, 0.25, 0.125);
   // Nowhere to go, and straight ahead.
   PlanResult result = roadmap.Plan(free, free);
@@ -273,7 +272,9 @@ TEST(ContactRoadmap, AnswersAtTheLimitsOfFreeSpace) {
     const Vector3d start(-6.0 - near, 0.3, 0.2), goal(0.1, 6.0 + near, -5.0);
     result = roadmap.Plan(start, goal);
     ASSERT_EQ(result.status, PlanStatus::kSolved) << near << result.reason;
-    EXPECT_TRUE(CheckPath(FreeSpace({VesselSpace()}), result.path).free);
+    EXPECT_TRUE(
+        CheckPath(FreeSpace({TakeAsContactSpace(VesselSpace())}), result.path)
+            .free);
   }
   // Far away.
   result = roadmap.Plan({-1e6, 0.1, 0.2}, {1e6, 0.0, 0.0});
@@ -286,7 +287,7 @@ TEST(ContactRoadmap, JoinsIslandsSideBySideThroughTheOutside) {
   // No ray leads from one to the other; start and goal touch either.
   const TriangleMesh mesh =
       Joined(MakeBox({0, 0, 0}, {1, 1, 1}), MakeBox({9, -7, 0}, {10, -6, 1}));
-  const ContactRoadmap roadmap(mesh);
+  const ContactRoadmap roadmap(TakeAsContactSpace(mesh));
   const PlanResult result =
       roadmap.Plan({-0.001, 0.5, 0.5}, {10.001, -6.5, 0.5});
   EXPECT_EQ(result.status, PlanStatus::kSolved);
@@ -322,7 +323,8 @@ TEST(ContactRoadmap, RefusesOptionsAndRequestsOutOfRange) {
   const auto refuses = [&](auto member, auto value) {
     ContactRoadmapOptions options;
     options.*member = value;
-    EXPECT_THROW(ContactRoadmap(mesh, options), InputError) << value;
+    EXPECT_THROW(ContactRoadmap(TakeAsContactSpace(mesh), options), InputError)
+        << value;
   };
   refuses(&ContactRoadmapOptions::spacing, 0.0);
   refuses(&ContactRoadmapOptions::spacing, std::nan(""));
@@ -331,7 +333,7 @@ TEST(ContactRoadmap, RefusesOptionsAndRequestsOutOfRange) {
   refuses(&ContactRoadmapOptions::stops, 0);
   EXPECT_THROW(ContactRoadmap(std::shared_ptr<const ContactSurfacePlanner>()),
                InputError);
-  const ContactRoadmap roadmap(mesh);
+  const ContactRoadmap roadmap(TakeAsContactSpace(mesh));
   RoadmapRequest request;
   request.random_cuts = -1;
   EXPECT_THROW(roadmap.Plan({0, 0, 0}, {1, 0, 0}, request), InputError);

@@ -13,7 +13,7 @@
 #include <thread>
 #include <vector>
 
-#include "core/bvh/segment_tree.h"
+#include "core/bvh/triangle_bvh.h"
 #include "planners/exact/exact_solution.h"
 #include "planners/exact/free_space.h"
 #include "planners/exact/path_shortening.h"
@@ -33,11 +33,11 @@ PlanResult PlanScene(const std::string& family, const Knobs& knobs) {
   const Scene scene = ParseScene(MakeScene(family, knobs), family);
   const TriangleMesh contact =
       BuildContactSpace(scene.workspace.robot, MergedObstacle(scene.workspace))
-          .mesh;
-  const PlanResult result =
-      ContactSurfacePlanner(contact).Plan(scene.start, scene.goal);
+          .mesh();
+  const PlanResult result = ContactSurfacePlanner(TakeAsContactSpace(contact))
+                                .Plan(scene.start, scene.goal);
   if (result.status != PlanStatus::kSolved) return result;
-  const FreeSpace space({contact});
+  const FreeSpace space({TakeAsContactSpace(contact)});
   EXPECT_TRUE(CheckPath(space, result.path).free) << family;
   EXPECT_TRUE(CheckPath(space, result.raw_path).free) << family;
   EXPECT_EQ(result.path.front(), scene.start);
@@ -52,7 +52,7 @@ PlanResult PlanScene(const std::string& family, const Knobs& knobs) {
     shortest.random_cuts = 1000;
     shortest.pulls = 50;
     EXPECT_LT(result.length,
-              1.15 * PathLength(ShortenPath(scene.witness, SegmentTree(contact),
+              1.15 * PathLength(ShortenPath(scene.witness, TriangleBvh(contact),
                                             shortest)))
         << family;
   }
@@ -139,11 +139,11 @@ TriangleMesh VesselSpace() {
   return BuildContactSpace(
              MakeBox(Vector3d::Constant(-1.0), Vector3d::Constant(1.0)),
              MakeVessel(10.0, 6.0, 0.0))
-      .mesh;
+      .mesh();
 }
 
 TEST(ContactSurfacePlanner, ProvesThatNothingLeavesAVessel) {
-  const ContactSurfacePlanner planner(VesselSpace());
+  const ContactSurfacePlanner planner(TakeAsContactSpace(VesselSpace()));
   PlanResult result = planner.Plan({0.5, 0.1, 0.2}, {8.0, 0.0, 0.0});
   EXPECT_EQ(result.status, PlanStatus::kInfeasibleProved);
   EXPECT_GE(result.start.cell, 0);
@@ -162,7 +162,7 @@ TEST(ContactSurfacePlanner, JoinsIslandsSideBySideThroughTheOutside) {
   // No ray leads from one to the other; start and goal touch either.
   const TriangleMesh mesh =
       Joined(MakeBox({0, 0, 0}, {1, 1, 1}), MakeBox({9, -7, 0}, {10, -6, 1}));
-  const ContactSurfacePlanner planner(mesh);
+  const ContactSurfacePlanner planner(TakeAsContactSpace(mesh));
   const PlanResult result =
       planner.Plan({-0.001, 0.5, 0.5}, {10.001, -6.5, 0.5});
   EXPECT_EQ(result.status, PlanStatus::kSolved);
@@ -170,7 +170,7 @@ TEST(ContactSurfacePlanner, JoinsIslandsSideBySideThroughTheOutside) {
 }
 
 TEST(ContactSurfacePlanner, RefusesStartsAndGoalsThatAreNotFree) {
-  const ContactSurfacePlanner planner(VesselSpace());
+  const ContactSurfacePlanner planner(TakeAsContactSpace(VesselSpace()));
   const Vector3d free = Vector3d::Zero();
   PlanResult result = planner.Plan({2.5, 0.0, 0.0}, free);
   EXPECT_EQ(result.status, PlanStatus::kInvalidStart);
@@ -204,7 +204,7 @@ TEST(ContactSurfacePlanner, NamesWhatIsInTheWay) {
 }
 
 TEST(ContactSurfacePlanner, SolvesTrivialProblemsTrivially) {
-  const ContactSurfacePlanner planner(VesselSpace());
+  const ContactSurfacePlanner planner(TakeAsContactSpace(VesselSpace()));
   const Vector3d q(0.5, 0.25, 0.125);
   PlanResult result = planner.Plan(q, q);
   EXPECT_EQ(result.status, PlanStatus::kSolved);
@@ -226,14 +226,18 @@ TEST(ContactSurfacePlanner, RepeatsItselfToTheBit) {
 TEST(ContactSurfacePlanner, RefusesOptionsOutOfRange) {
   ContactSurfaceOptions options;
   options.clearance = 0.0;
-  EXPECT_THROW(ContactSurfacePlanner(VesselSpace(), options), InputError);
+  EXPECT_THROW(
+      ContactSurfacePlanner(TakeAsContactSpace(VesselSpace()), options),
+      InputError);
   options = {};
   options.spacing = 2.0;
-  EXPECT_THROW(ContactSurfacePlanner(VesselSpace(), options), InputError);
+  EXPECT_THROW(
+      ContactSurfacePlanner(TakeAsContactSpace(VesselSpace()), options),
+      InputError);
 }
 
 TEST(ContactSurfacePlanner, RefusesRequestsOutOfRange) {
-  const ContactSurfacePlanner planner(VesselSpace());
+  const ContactSurfacePlanner planner(TakeAsContactSpace(VesselSpace()));
   const Vector3d q = Vector3d::Constant(20.0);
   for (const double clearance :
        {-1.0, std::nan(""), std::numeric_limits<double>::infinity()}) {
@@ -247,7 +251,7 @@ TEST(ContactSurfacePlanner, RefusesRequestsOutOfRange) {
 }
 
 TEST(ContactSurfacePlanner, PlansTheSameFromSeveralThreads) {
-  const ContactSurfacePlanner planner(VesselSpace());
+  const ContactSurfacePlanner planner(TakeAsContactSpace(VesselSpace()));
   const Vector3d start = Vector3d::Constant(20.0), goal = -start;
   const PlanResult expected = planner.Plan(start, goal);
   const PlanResult proof = planner.Plan(start, Vector3d::Zero());

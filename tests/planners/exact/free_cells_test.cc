@@ -7,7 +7,7 @@
 
 #include <random>
 
-#include "core/bvh/segment_tree.h"
+#include "core/bvh/triangle_bvh.h"
 #include "planners/exact/contact_surface_planner.h"
 #include "problems/shapes/shapes.h"
 #include "tests/support/solid_tools.h"
@@ -98,7 +98,8 @@ TEST(FreeCells, GiveCertificatesThatExactPredicatesConfirm) {
         i % 4 < 2 ? Eigen::Matrix3d(Eigen::Matrix3d::Identity())
                   : testing::RandomRotation(&random);
     for (Vector3d& v : world.contact_space.vertices) v = rotation * v;
-    const ContactSurfacePlanner planner(world.contact_space);
+    const ContactSurfacePlanner planner(
+        TakeAsContactSpace(world.contact_space));
     const Vector3d start = rotation * world.centers.front();
     const Vector3d goal = rotation * world.centers.back();
     const PlanResult result = planner.Plan(start, goal);
@@ -124,7 +125,7 @@ TEST(FreeCells, CountShellsAndIslands) {
     }
   }
   const auto neighbors = TriangleNeighbors(mesh);
-  const SegmentTree segments(mesh);
+  const TriangleBvh segments(mesh);
   const FreeCells cells(mesh, neighbors, segments);
   ASSERT_EQ(cells.piece_count(), 4);
   int shells = 0, outside = 0;

@@ -8,8 +8,8 @@
 #include <limits>
 #include <random>
 
-#include "constraints/collision_oracle.h"
-#include "core/bvh/segment_tree.h"
+#include "constraints/oracle/collision_oracle.h"
+#include "core/bvh/triangle_bvh.h"
 #include "core/contact/contact_space.h"
 #include "core/mesh/mesh_error.h"
 #include "problems/shapes/shapes.h"
@@ -23,7 +23,7 @@ using testing::Cube;
 
 // Contact space of a cube of side 0.5 against one of side 1.5: half-width 1.
 FreeSpace AroundCube(const BoundingBox& bounds = FreeSpace::NoBounds()) {
-  return FreeSpace({BuildContactSpace(Cube(0.5), Cube(1.5)).mesh}, bounds);
+  return FreeSpace({BuildContactSpace(Cube(0.5), Cube(1.5))}, bounds);
 }
 
 TEST(FreeSpace, IsOpen) {
@@ -70,7 +70,7 @@ TEST(FreeSpace, StopsAtTheBounds) {
 
 TEST(FreeSpace, SeesThinObstaclesThatSamplesMiss) {
   const TriangleMesh wall = MakeBox({-1e-9, -1.0, -1.0}, {1e-9, 1.0, 1.0});
-  const FreeSpace space({BuildContactSpace(Cube(1e-9), wall).mesh});
+  const FreeSpace space({BuildContactSpace(Cube(1e-9), wall)});
   EXPECT_TRUE(space.IsFree({-0.5, 0.0, 0.0}));
   EXPECT_TRUE(space.IsFree({0.5, 0.1, 0.0}));
   EXPECT_FALSE(space.IsFree({-0.5, 0.0, 0.0}, {0.5, 0.1, 0.0}));
@@ -82,9 +82,9 @@ TEST(FreeSpace, AgreesWithDenseChecksOfTheOriginalMeshes) {
   const TriangleMesh obstacle =
       Rotated(MakeTorus(1.0, 0.3, 16, 8), testing::RandomRotation(&random));
   const ContactSpace contact = BuildContactSpace(robot, obstacle);
-  const FreeSpace space({contact.mesh});
+  const FreeSpace space({contact});
   const CollisionOracle oracle(robot, obstacle);
-  BoundingBox box = ComputeBounds(contact.mesh);
+  BoundingBox box = ComputeBounds(contact.mesh());
   box.min *= 1.3;
   box.max *= 1.3;
   int free = 0, blocked = 0;
@@ -113,7 +113,7 @@ TEST(FreeSpace, AgreesWithDenseChecksOfTheOriginalMeshes) {
 TEST(FreeSpace, FindsTheTrianglesNearASegment) {
   const TriangleMesh mesh =
       Translated(MakeTorus(1.0, 0.3, 16, 8), {1000.0, 0.0, 0.0});
-  const FreeSpace space({mesh});
+  const FreeSpace space({TakeAsContactSpace(mesh)});
   std::mt19937_64 random(11);
   const BoundingBox box = ComputeBounds(mesh);
   int found = 0;
@@ -125,11 +125,11 @@ TEST(FreeSpace, FindsTheTrianglesNearASegment) {
     const auto near = space.FindNear(a, b, radius);
     std::size_t expected = 0;
     for (const Triangle& t : mesh.triangles) {
-      // Truth: SegmentTree on the triangle alone.
+      // Truth: TriangleBvh on the triangle alone.
       const TriangleMesh one = {
           {mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]},
           {{0, 1, 2}}};
-      expected += SegmentTree(one).Distance(a, b, 2.0 * radius) <= radius;
+      expected += TriangleBvh(one).Distance(a, b, 2.0 * radius) <= radius;
     }
     ASSERT_EQ(near.size(), expected);
     for (std::size_t k = 0; k < near.size(); ++k) {
@@ -170,7 +170,7 @@ TEST(CheckPath, NamesTheFirstSegmentThatCollides) {
 }
 
 TEST(FreeSpace, HasNothingFreeAtPointsThatAreNotFinite) {
-  const FreeSpace space({Cube(1.0)});
+  const FreeSpace space({TakeAsContactSpace(Cube(1.0))});
   const Vector3d q(3.0, 0.0, 0.0);
   for (const double value : {std::nan(""), HUGE_VAL, -HUGE_VAL}) {
     const Vector3d bad(3.0, value, 0.0);
@@ -193,14 +193,15 @@ TEST(FreeSpace, RefusesBoundsThatAreNotFinite) {
   for (const double bad : {std::nan(""), HUGE_VAL}) {
     const BoundingBox bounds = {Vector3d::Constant(-4.0),
                                 Vector3d(4.0, bad, 4.0)};
-    EXPECT_THROW(FreeSpace({Cube(1.0)}, bounds), InputError) << bad;
+    EXPECT_THROW(FreeSpace({TakeAsContactSpace(Cube(1.0))}, bounds), InputError)
+        << bad;
   }
 }
 
 TEST(FreeSpace, RefusesOpenContactMeshes) {
   TriangleMesh mesh = Cube(1.0);
   mesh.triangles.pop_back();
-  EXPECT_THROW(FreeSpace({mesh}), InputError);
+  EXPECT_THROW(FreeSpace({TakeAsContactSpace(mesh)}), InputError);
 }
 
 }  // namespace

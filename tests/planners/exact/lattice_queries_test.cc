@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "core/bvh/segment_tree.h"
+#include "core/bvh/triangle_bvh.h"
 #include "core/contact/contact_space.h"
 #include "planners/exact/contact_roadmap.h"
 #include "planners/exact/contact_surface_planner.h"
@@ -114,8 +114,9 @@ void ForEachWorld(long worlds, const ContactSurfaceOptions& options,
     const LatticeWorld world = testing::MakeLatticeWorld(
         family, i / LatticeWorld::kFamilies % 2 == 1, &random);
     const auto planner = std::make_shared<const ContactSurfacePlanner>(
-        world.contact_space, options);
-    ask(world, FreeSpace({world.contact_space}), planner, &random);
+        TakeAsContactSpace(world.contact_space), options);
+    ask(world, FreeSpace({TakeAsContactSpace(world.contact_space)}), planner,
+        &random);
   }
 }
 
@@ -177,8 +178,7 @@ TEST(LatticeCampaign, SolvesTheQueriesThatFailed) {
     EXPECT_EQ(ToString(solution.plan.status), std::string("solved")) << name;
     EXPECT_EQ(solution.plan.deleted_edges, 0) << name;
     const FreeSpace space({BuildContactSpace(scene.workspace.robot,
-                                             MergedObstacle(scene.workspace))
-                               .mesh});
+                                             MergedObstacle(scene.workspace))});
     EXPECT_TRUE(CheckPath(space, solution.plan.path).free) << name;
   }
 }
@@ -189,9 +189,9 @@ TEST(LatticeCampaign, ConnectsTheLatticeAroundAPrism) {
       ReadScene(std::string(PHONGPD_TEST_DATA) + "/faults/prism.json");
   const TriangleMesh contact =
       BuildContactSpace(scene.workspace.robot, MergedObstacle(scene.workspace))
-          .mesh;
-  const ContactSurfacePlanner planner(contact, Cheap());
-  const FreeSpace space({contact});
+          .mesh();
+  const ContactSurfacePlanner planner(TakeAsContactSpace(contact), Cheap());
+  const FreeSpace space({TakeAsContactSpace(contact)});
   std::mt19937_64 random(kSeed);
   const BoundingBox box = ComputeBounds(contact);
   const auto pick = [&] {
@@ -232,7 +232,7 @@ TEST(PathLift, FreesEverySegmentBetweenSitesOfATriangle) {
       [&](const LatticeWorld& world, const FreeSpace&, const auto& planner,
           std::mt19937_64*) {
         const TriangleMesh& mesh = world.contact_space;
-        const SegmentTree segments(mesh);
+        const TriangleBvh segments(mesh);
         const FreeCells& cells = planner->cells();
         const SurfaceGraph graph(mesh, FreeNeighbors(mesh), segments, cells,
                                  0.2 * ComputeBounds(mesh).Diagonal(), 100);

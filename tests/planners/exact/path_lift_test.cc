@@ -6,7 +6,7 @@
 
 #include <vector>
 
-#include "core/bvh/segment_tree.h"
+#include "core/bvh/triangle_bvh.h"
 #include "core/mesh/unit_normal.h"
 #include "planners/exact/free_space.h"
 #include "planners/exact/surface_graph.h"
@@ -23,8 +23,8 @@ using Eigen::Vector3d;
 // becomes a site which may be lifted, on a triangle that faces the viewer.
 TEST(SurfaceSight, LiftsWhatIsSeenOfEdgesAndCorners) {
   const TriangleMesh mesh = MakeL(4.0, 2.0, 2.0);
-  const SegmentTree segments(mesh);
-  const FreeSpace space({mesh});
+  const TriangleBvh segments(mesh);
+  const FreeSpace space({TakeAsContactSpace(mesh)});
   std::vector<Vector3d> places = mesh.vertices;
   for (const Triangle& t : mesh.triangles) {
     for (std::size_t k = 0; k < 3; ++k) {
@@ -38,7 +38,7 @@ TEST(SurfaceSight, LiftsWhatIsSeenOfEdgesAndCorners) {
                      0.5 * (code / 121) - 1.5);
     if (!space.IsFree(q)) continue;
     for (const Vector3d& p : places) {
-      const SegmentTree::Hit first = segments.FirstHit(q, p);
+      const TriangleBvh::Hit first = segments.FirstHit(q, p);
       if (!first.Found() || first.fraction < 1.0 - 1e-12) continue;
       const auto site =
           SiteSeenFrom(q, p, first.triangle, mesh, segments, 1e-13);
@@ -68,10 +68,31 @@ TEST(SurfaceSight, LiftsWhatIsSeenOfEdgesAndCorners) {
   EXPECT_EQ(unseen, 0);
 }
 
+// A viewer who stands on the surface, up to rounding, may be where it looks.
+TEST(SurfaceSight, HasNoDirectionWhereTheViewerIsThePlaceItself) {
+  // A facet across the lattice of doubles: its centroid rounds to either side.
+  const TriangleMesh mesh =
+      Rotated(MakeBox({-1, -1, -1}, {1, 1, 1}), GenericRotation());
+  const TriangleBvh segments(mesh);
+  int seen = 0;
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    const Triangle& t = mesh.triangles[i];
+    const Vector3d p =
+        (mesh.vertices[t[0]] + mesh.vertices[t[1]] + mesh.vertices[t[2]]) / 3.0;
+    const auto site =
+        SiteSeenFrom(p, p, static_cast<int>(i), mesh, segments, 1e-13);
+    if (!site) continue;
+    ++seen;
+    EXPECT_EQ(site->point, p);
+    EXPECT_EQ(site->direction, Vector3d::Zero());
+  }
+  EXPECT_GT(seen, 0);
+}
+
 // The lifts on either side of a segment that stays blocked vanish too; it
 // alone is to blame.
 TEST(PathLift, BlamesTheSegmentThatNothingFrees) {
-  const SegmentTree segments(MakeBox({-1, -1, -1}, {1, 1, 1}));
+  const TriangleBvh segments(MakeBox({-1, -1, -1}, {1, 1, 1}));
   const auto site = [](const Vector3d& p, const Vector3d& direction) {
     SurfaceSite s;
     s.point = p;

@@ -10,7 +10,7 @@
 #include <limits>
 #include <random>
 
-#include "core/bvh/segment_tree.h"
+#include "core/bvh/triangle_bvh.h"
 #include "planners/exact/free_space.h"
 #include "problems/shapes/shapes.h"
 
@@ -31,7 +31,7 @@ TriangleMesh Boxes(std::mt19937_64* random, int count) {
 }
 
 double ShortestByRelaxation(const std::vector<RoutedPath>& paths,
-                            const SegmentTree& segments) {
+                            const TriangleBvh& segments) {
   Path corners = {paths[0].points.front(), paths[0].points.back()};
   std::vector<double> clearance(2, 0.0);
   for (const RoutedPath& p : paths) {
@@ -77,8 +77,8 @@ TEST(RecombinePaths, IsAsShortAsAllPairsOfCornersAllow) {
   int shorter = 0;
   for (int trial = 0; trial < 60; ++trial) {
     const TriangleMesh boxes = Boxes(&random, 8);
-    const SegmentTree segments(boxes);
-    const FreeSpace space({boxes});
+    const TriangleBvh segments(boxes);
+    const FreeSpace space({TakeAsContactSpace(boxes)});
     const Vector3d start(-0.3, 0.5, 0.5), goal(1.4, 0.5, 0.5);
     std::vector<RoutedPath> paths;
     for (int attempt = 0; attempt < 400 && paths.size() < 4; ++attempt) {
@@ -118,8 +118,9 @@ TEST(RecombinePaths, TakesTheSameSideOfTwoBars) {
   const std::vector<RoutedPath> paths = {
       {{start, one, two + under, goal}, 0.0},
       {{start, one + under, two, goal}, 0.0}};
-  const SegmentTree segments(bars);
-  ASSERT_TRUE(CheckPath(FreeSpace({bars}), paths[0].points).free);
+  const TriangleBvh segments(bars);
+  ASSERT_TRUE(
+      CheckPath(FreeSpace({TakeAsContactSpace(bars)}), paths[0].points).free);
   const Path path = RecombinePaths(paths, segments);
   EXPECT_NEAR(PathLength(path), 2.0 * std::hypot(1.0, z) + 2.0, 1e-12);
   // A new segment must keep the clearance of its ends, 0.1 here.
@@ -148,7 +149,7 @@ TEST(TakeSameWay, IsAboutPlacesNotAboutCorners) {
 }
 
 TEST(RecombinePaths, GivesOnePathBackAndNothingForNone) {
-  const SegmentTree segments(MakeBox({-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5}));
+  const TriangleBvh segments(MakeBox({-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5}));
   EXPECT_TRUE(RecombinePaths({}, segments).empty());
   const Path around = {{-2.0, 0.0, 0.0}, {0.0, 2.0, 0.0}, {2.0, 0.0, 0.0}};
   EXPECT_EQ(RecombinePaths({{around, 0.1}}, segments), around);

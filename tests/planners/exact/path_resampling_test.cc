@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <random>
+#include <string>
 
 #include "core/mesh/mesh_error.h"
 #include "planners/exact/free_space.h"
@@ -69,6 +70,26 @@ TEST(PathResampling, RefusesPointsThatAreNotFinite) {
         ResampleKeepingCorners({origin, Vector3d(bad, 0.0, 0.0), origin}, 5),
         InputError);
   }
+}
+
+// Their difference is no double, or the square of its length is none.
+TEST(PathResampling, RefusesSegmentsThatAreTooLong) {
+  const Vector3d origin = Vector3d::Zero();
+  for (const double far : {1e155, 1e308}) {
+    const Vector3d a(far, far, 0.0);
+    try {
+      ResampleKeepingCorners({origin, origin, a, -a}, 9);
+      ADD_FAILURE() << far;
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find("after point 1 (from 0)"),
+                std::string::npos)
+          << error.what();
+    }
+  }
+  const Path path = ResampleKeepingCorners(
+      {origin, Vector3d(1e153, 0.0, 0.0), Vector3d(-1e153, 0.0, 0.0)}, 5);
+  ASSERT_EQ(path.size(), 7u);
+  EXPECT_EQ(path[1].x(), 0.5e153);
 }
 
 TEST(PathResampling, RefusesMoreCornersThanWaypoints) {

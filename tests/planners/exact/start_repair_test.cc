@@ -34,7 +34,8 @@ TEST(StartRepair, FreesEveryPathOfTheFamilies) {
     for (std::uint64_t seed = 0; seed < 8; ++seed) {
       const PathProblem problem = MakePathProblem(family, seed);
       if (repair == nullptr || family == "clutter") {
-        repair = std::make_unique<StartRepair>(problem.contact);
+        repair =
+            std::make_unique<StartRepair>(TakeAsContactSpace(problem.contact));
       }
       const StartRepairResult result =
           repair->Repair(problem.start, problem.goal);
@@ -55,7 +56,7 @@ TEST(StartRepair, FreesEveryPathOfTheFamilies) {
 TEST(StartRepair, GoesTheShortestWayAroundABox) {
   // From (−2, 0, 0.9) over the top edge (z = 1) of a cube and down again:
   // straight to the edge, across, straight to the goal.
-  const StartRepair repair(Cube(1.0));
+  const StartRepair repair(TakeAsContactSpace(Cube(1.0)));
   const Vector3d start(-2.0, 0.0, 0.9), goal(2.0, 0.0, 0.9);
   StartRepairOptions options;
   options.margin = 1e-4;
@@ -70,7 +71,7 @@ TEST(StartRepair, GoesNearlyTheShortestWayAroundABall) {
   // Between opposite points at distance 2 of a unit ball: two tangents of
   // length √3 and an arc of 60°.  The mesh is inside the ball and the path
   // outside the mesh by the margin.
-  const StartRepair repair(MakeIcoBall(1.0, 4));
+  const StartRepair repair(TakeAsContactSpace(MakeIcoBall(1.0, 4)));
   const Vector3d start(-2.0, 0.1, 0.05), goal = -start;
   const double distance = start.norm();
   const double tangent = std::sqrt(distance * distance - 1.0);
@@ -82,7 +83,7 @@ TEST(StartRepair, GoesNearlyTheShortestWayAroundABall) {
 }
 
 TEST(StartRepair, LeavesFreePathsAsTheyAre) {
-  const StartRepair repair(Cube(1.0));
+  const StartRepair repair(TakeAsContactSpace(Cube(1.0)));
   const Path given = {{-2.0, 0.0, 0.0}, {-2.0, 2.0, 0.0}, {2.0, 2.0, 0.5}};
   const StartRepairResult result = repair.Repair(given);
   EXPECT_EQ(result.status, RepairStatus::kFree);
@@ -94,7 +95,7 @@ TEST(StartRepair, LeavesFreePathsAsTheyAre) {
 TEST(StartRepair, LeadsOnlyCollidingPartsOfAPolylineAround) {
   const TriangleMesh two =
       Joined(Cube(1.0), Translated(Cube(1.0), {10.0, 0.0, 0.0}));
-  const StartRepair repair(two);
+  const StartRepair repair(TakeAsContactSpace(two));
   // Far up between the two cubes, on purpose.
   const Path given = {{-3.0, 0.0, 0.0}, {5.0, 0.3, 0.0},  {5.0, 0.0, 8.0},
                       {5.0, -0.3, 0.0}, {13.0, 0.0, 0.0}, {13.0, 0.0, 9.0},
@@ -108,7 +109,7 @@ TEST(StartRepair, LeadsOnlyCollidingPartsOfAPolylineAround) {
 }
 
 TEST(StartRepair, ProvesThatNoPathExists) {
-  const StartRepair repair(Nested());
+  const StartRepair repair(TakeAsContactSpace(Nested()));
   const Vector3d inside(1.0, 0.2, 0.1), outside(4.0, 0.3, 0.2);
   const StartRepairResult result = repair.Repair(inside, outside);
   EXPECT_EQ(result.status, RepairStatus::kInfeasibleProved);
@@ -125,7 +126,7 @@ TEST(StartRepair, ProvesThatNoPathExists) {
 }
 
 TEST(StartRepair, SaysWhichEndCollides) {
-  const StartRepair repair(Cube(1.0));
+  const StartRepair repair(TakeAsContactSpace(Cube(1.0)));
   const Vector3d free(3.0, 0.0, 0.0), inside(0.5, 0.0, 0.0);
   EXPECT_EQ(repair.Repair(inside, free).status,
             RepairStatus::kStartInCollision);
@@ -137,7 +138,7 @@ TEST(StartRepair, SaysWhichEndCollides) {
 
 TEST(StartRepair, FindsDifferentRoutes) {
   const PathProblem problem = MakePathProblem("plate0.1", 3);
-  const StartRepair repair(problem.contact);
+  const StartRepair repair(TakeAsContactSpace(problem.contact));
   StartRepairOptions options;
   options.routes = 3;
   const StartRepairResult result =
@@ -152,15 +153,15 @@ TEST(StartRepair, FindsDifferentRoutes) {
 
 TEST(StartRepair, DoesNotDependOnUnitAndOffset) {
   const PathProblem problem = MakePathProblem("Uaxis", 1);
-  const StartRepair base(problem.contact);
+  const StartRepair base(TakeAsContactSpace(problem.contact));
   const StartRepairResult expected = base.Repair(problem.start, problem.goal);
   ASSERT_EQ(expected.status, RepairStatus::kRepaired);
   const double length = PathLength(expected.routes[0]);
   for (const double scale : {1e-3, 1e3}) {
     for (const double shift : {0.0, 1e3}) {
       const Vector3d offset = scale * shift * Vector3d(1.0, -0.5, 0.7);
-      const StartRepair repair(
-          Translated(Scaled(problem.contact, scale), offset));
+      const StartRepair repair(TakeAsContactSpace(
+          Translated(Scaled(problem.contact, scale), offset)));
       const StartRepairResult result = repair.Repair(
           scale * problem.start + offset, scale * problem.goal + offset);
       ASSERT_EQ(result.status, RepairStatus::kRepaired) << scale << shift;
@@ -172,7 +173,8 @@ TEST(StartRepair, DoesNotDependOnUnitAndOffset) {
 
 TEST(StartRepair, IsDeterministic) {
   const PathProblem problem = MakePathProblem("cone_axes", 2);
-  const StartRepair one(problem.contact), other(problem.contact);
+  const StartRepair one(TakeAsContactSpace(problem.contact)),
+      other(TakeAsContactSpace(problem.contact));
   const StartRepairResult a = one.Repair(problem.start, problem.goal);
   const StartRepairResult b = other.Repair(problem.start, problem.goal);
   EXPECT_EQ(a.routes, b.routes);
@@ -180,7 +182,7 @@ TEST(StartRepair, IsDeterministic) {
 }
 
 TEST(StartRepair, RefusesBadInput) {
-  const StartRepair repair(Cube(1.0));
+  const StartRepair repair(TakeAsContactSpace(Cube(1.0)));
   const Vector3d q(3.0, 0.0, 0.0);
   EXPECT_THROW(repair.Repair(Path{q}), InputError);
   EXPECT_THROW(repair.Repair(q, Vector3d::Constant(std::nan(""))), InputError);
@@ -199,7 +201,7 @@ TEST(StartRepair, RefusesBadInput) {
 
 TEST(StartRepair, SaysSoWhenCornersOutnumberWaypoints) {
   const PathProblem problem = MakePathProblem("Uaxis", 0);
-  const StartRepair repair(problem.contact);
+  const StartRepair repair(TakeAsContactSpace(problem.contact));
   StartRepairOptions options;
   options.waypoints = 1;
   const StartRepairResult result =

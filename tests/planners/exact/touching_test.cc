@@ -100,15 +100,15 @@ TEST(Touching, IsCollisionForQueryJudgePlannerAndProof) {
     }
     workspace.bounds = {Vector3d(-6, -6, -6), Vector3d(6, 6, 6)};
     const TriangleMesh contact =
-        BuildContactSpace(workspace.robot, MergedObstacle(workspace)).mesh;
-    const FreeSpace space({contact}, workspace.bounds);
+        BuildContactSpace(workspace.robot, MergedObstacle(workspace)).mesh();
+    const FreeSpace space({TakeAsContactSpace(contact)}, workspace.bounds);
     EXPECT_EQ(space.IsFree(one.at), !one.touches) << one.what;
     EXPECT_EQ(space.IsFree(one.start, one.goal), !one.touches) << one.what;
     EXPECT_EQ(CheckPath(space, {one.start, one.at, one.goal}).free,
               !one.touches)
         << one.what;
-    const ContactSurfacePlanner planner(contact);
-    const ContactRoadmap roadmap(contact);
+    const ContactSurfacePlanner planner(TakeAsContactSpace(contact));
+    const ContactRoadmap roadmap(TakeAsContactSpace(contact));
     const std::string wanted = one.touches ? "infeasible_proved" : "solved";
     EXPECT_EQ(ToString(planner.Plan(one.start, one.goal).status), wanted)
         << one.what;
@@ -127,10 +127,10 @@ TEST(Touching, InAFaceAnEdgeOrAPointIsCollision) {
   const TriangleMesh contact =
       BuildContactSpace(MakeBox(Vector3d::Zero(), Vector3d::Ones()),
                         MakeBox(Vector3d::Zero(), Vector3d::Constant(3.0)))
-          .mesh;
-  const FreeSpace space({contact});
-  const ContactSurfacePlanner planner(contact);
-  const EuclideanMetric metric(contact);
+          .mesh();
+  const FreeSpace space({TakeAsContactSpace(contact)});
+  const ContactSurfacePlanner planner(TakeAsContactSpace(contact));
+  const EuclideanMetric metric(TakeAsContactSpace(contact));
   const Vector3d goal(8, 8, 8);
   for (const Vector3d& q : {Vector3d(3, 1, 1), Vector3d(3, 3, 1),
                             Vector3d(3, 3, 3), Vector3d(-1, 0.5, 3)}) {

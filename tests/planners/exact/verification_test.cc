@@ -101,7 +101,7 @@ TEST(VerifySeparation, ConfirmsAProofAndRefutesAWrongContactSpace) {
   const Workspace workspace = HollowBox();
   const Verifier verifier(workspace);
   const TriangleMesh contact =
-      BuildContactSpace(workspace.robot, MergedObstacle(workspace)).mesh;
+      BuildContactSpace(workspace.robot, MergedObstacle(workspace)).mesh();
   const Vector3d inside(0.1, 0.2, 0.3), outside(5.1, 5.2, 5.3);
   for (const bool swapped : {false, true}) {
     const Verification proof = verifier.VerifySeparation(
@@ -144,9 +144,9 @@ TEST(VerifyDepth, ConfirmsBothMetricsAndRefutesWrongDepths) {
   workspace.obstacles = {{"U", MakeU(2.0, 0.4, 1.0)}};
   const Verifier verifier(workspace);
   const TriangleMesh contact =
-      BuildContactSpace(workspace.robot, workspace.obstacles[0].mesh).mesh;
-  const EuclideanMetric euclidean(contact);
-  const PhongMetric phong(contact);
+      BuildContactSpace(workspace.robot, workspace.obstacles[0].mesh).mesh();
+  const EuclideanMetric euclidean(TakeAsContactSpace(contact));
+  const PhongMetric phong(TakeAsContactSpace(contact));
   const BoundingBox box = ComputeBounds(contact);
   std::mt19937_64 random(11);
   int inside = 0, beside = 0;

@@ -35,7 +35,7 @@ void TryRoadmap(const VoxelWorld& world,
                 const std::vector<Vector3d>& centers, std::size_t i,
                 Tally* tally) {
   const ContactRoadmap roadmap(std::move(planner));
-  const FreeSpace space({world.contact_space});
+  const FreeSpace space({TakeAsContactSpace(world.contact_space)});
   for (std::size_t k = 0; k < 6; ++k) {
     const std::size_t j = (i + k * k) % centers.size();
     RoadmapRequest request;
@@ -81,8 +81,8 @@ void Try(std::mt19937_64* random, const Eigen::Matrix3d& rotation, double scale,
   const Vector3d& goal = centers[j];
   const bool connected = world.labels[i] == world.labels[j];
 
-  const auto planner =
-      std::make_shared<const ContactSurfacePlanner>(world.contact_space);
+  const auto planner = std::make_shared<const ContactSurfacePlanner>(
+      TakeAsContactSpace(world.contact_space));
   if (tally->worlds++ % 3 == 0) {
     TryRoadmap(world, planner, centers, i, tally);
   }
@@ -99,7 +99,7 @@ void Try(std::mt19937_64* random, const Eigen::Matrix3d& rotation, double scale,
     return;
   }
   ++tally->solved;
-  const FreeSpace space({world.contact_space});
+  const FreeSpace space({TakeAsContactSpace(world.contact_space)});
   EXPECT_TRUE(CheckPath(space, result.path).free);
   EXPECT_TRUE(CheckPath(space, result.raw_path).free);
   EXPECT_EQ(result.path.front(), start);

@@ -8,6 +8,7 @@
 #include "core/contact/contact_space.h"
 #include "core/mesh/mesh_error.h"
 #include "core/solid/mesh_check.h"
+#include "planners/exact/exact_solution.h"
 #include "planners/exact/free_space.h"
 #include "problems/shapes/shapes.h"
 
@@ -30,8 +31,8 @@ TEST(Workspace, ConfinesTheRobotExactlyToTheBounds) {
   const TriangleMesh shell = BoundsShell(workspace);
   EXPECT_EQ(ExamineMesh(shell).boundary_edges, 0u);
   const ContactSpace contact = BuildContactSpace(workspace.robot, shell);
-  EXPECT_EQ(contact.report.cavities, 1);
-  const FreeSpace space({contact.mesh});
+  EXPECT_EQ(contact.report().cavities, 1);
+  const FreeSpace space({contact});
   EXPECT_TRUE(space.IsFree(Vector3d::Constant(1.999999)));
   EXPECT_TRUE(space.IsFree(Vector3d::Constant(-1.999999)));
   for (int k = 0; k < 3; ++k) {
@@ -48,6 +49,19 @@ TEST(Workspace, MergesWhatTheRobotCanReach) {
   workspace.bounds = FreeSpace::NoBounds();
   EXPECT_EQ(ReachableObstacles(workspace), (std::vector<int>{0, 1}));
   EXPECT_EQ(MergedObstacle(workspace).triangles.size(), 24u);
+}
+
+// C_obj of `near` ends at x = 0.75, the bounds at 2.
+TEST(Workspace, NamesWhatTheRobotTouchesToTheLastBit) {
+  const Workspace workspace = CubeAmongTwoBoxes();
+  const auto names = [&](double x) {
+    return NameObstacles(workspace, {x, 0.0, 0.0});
+  };
+  EXPECT_EQ(names(0.0), "near");
+  EXPECT_EQ(names(0.75), "near");
+  EXPECT_EQ(names(std::nextafter(0.75, 1.0)), "");
+  EXPECT_EQ(names(std::nextafter(2.0, 0.0)), "");
+  EXPECT_EQ(names(2.0), "bounds");
 }
 
 TEST(Workspace, RefusesWhatCannotBeBuilt) {

@@ -9,7 +9,7 @@
 
 #include <random>
 
-#include "constraints/collision_oracle.h"
+#include "constraints/oracle/collision_oracle.h"
 #include "core/contact/contact_space.h"
 #include "core/mesh/mesh_error.h"
 #include "planners/retraction/retraction.h"
@@ -98,8 +98,7 @@ TEST(ContactSpaceMotionValidator, SeesWhatADiscreteOneMisses) {
   const BoundingBox bounds = {Vector3d::Constant(-1.0),
                               Vector3d::Constant(1.0)};
   const auto model = std::make_shared<const ContactModel>(
-      std::vector<TriangleMesh>{BuildContactSpace(Cube(1e-6), wall).mesh},
-      bounds);
+      std::vector<ContactSpace>{BuildContactSpace(Cube(1e-6), wall)}, bounds);
   const ob::SpaceInformationPtr si = MakeSpaceInformation(model);
   const ob::DiscreteMotionValidator discrete(si);
   Motion motion(si);
@@ -113,9 +112,9 @@ TEST(ContactSpaceMotionValidator, AgreesWithDenseChecksOfTheOriginalMeshes) {
   const TriangleMesh robot = MakeStar(0.2, 0.5);
   const TriangleMesh obstacle =
       Rotated(MakeTorus(1.0, 0.3, 12, 6), testing::RandomRotation(&random));
-  const TriangleMesh contact = BuildContactSpace(robot, obstacle).mesh;
-  const auto model =
-      std::make_shared<const ContactModel>(std::vector<TriangleMesh>{contact});
+  const TriangleMesh contact = BuildContactSpace(robot, obstacle).mesh();
+  const auto model = std::make_shared<const ContactModel>(
+      std::vector<ContactSpace>{TakeAsContactSpace(contact)});
   const ob::SpaceInformationPtr si = MakeSpaceInformation(model);
   const CollisionOracle oracle(robot, obstacle);
   const double diagonal = model->diagonal();

@@ -27,7 +27,7 @@ struct Query {
         problem(std::make_shared<ob::ProblemDefinition>(si)),
         planner(std::make_shared<ContactSurfaceOmplPlanner>(
             si, std::make_shared<const ContactSurfacePlanner>(
-                    passage.model->mesh(0)))) {
+                    passage.model->space(0)))) {
     ob::ScopedState<> start(si), goal(si);
     FromPoint(passage.scene.start, start.get());
     FromPoint(passage.scene.goal, goal.get());
@@ -74,9 +74,11 @@ TEST(LatticeCampaign, OmplAnswersEveryQueryRight) {
     region.max += Eigen::Vector3d::Constant(region.Diagonal());
     region.min -= Eigen::Vector3d::Constant(region.Diagonal());
     const auto si = MakeSpaceInformation(std::make_shared<const ContactModel>(
-        std::vector<TriangleMesh>{world.contact_space}, region));
+        std::vector<ContactSpace>{TakeAsContactSpace(world.contact_space)},
+        region));
     ContactSurfaceOmplPlanner planner(
-        si, std::make_shared<const ContactSurfacePlanner>(world.contact_space));
+        si, std::make_shared<const ContactSurfacePlanner>(
+                TakeAsContactSpace(world.contact_space)));
     planner.setRoadmap(i % 3 == 0);
     const auto pick = [&](ob::ScopedState<>* state) {
       testing::LatticeWorld::Cell cell = world.RandomCell(&random);

@@ -7,7 +7,7 @@
 
 #include <thread>
 
-#include "constraints/collision_oracle.h"
+#include "constraints/oracle/collision_oracle.h"
 #include "core/mesh/mesh_error.h"
 #include "planners/ompl/contact_space_validity.h"
 #include "planners/ompl/retraction_settings.h"

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-#include "constraints/collision_oracle.h"
+#include "constraints/oracle/collision_oracle.h"
 #include "core/contact/contact_space.h"
 #include "core/mesh/mesh_error.h"
 #include "problems/shapes/shapes.h"
@@ -73,8 +73,8 @@ TEST(CollideAndSlide, StopsWhereNoSlideComesCloser) {
 TEST(CollideAndSlide, FollowsTheCreaseOfTwoPlanes) {
   // An L: the slide along one leg runs into the other and goes up the crease.
   const auto model = std::make_shared<const ContactModel>(
-      std::vector<TriangleMesh>{
-          BuildContactSpace(Cube(0.01), MakeL(2.0, 0.5, 2.0)).mesh},
+      std::vector<ContactSpace>{
+          BuildContactSpace(Cube(0.01), MakeL(2.0, 0.5, 2.0))},
       BoundingBox{Vector3d::Constant(-3.0), Vector3d::Constant(3.0)});
   Path path;
   SlideCounters counters;

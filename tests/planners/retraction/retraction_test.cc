@@ -10,7 +10,7 @@
 #include <set>
 #include <utility>
 
-#include "constraints/collision_oracle.h"
+#include "constraints/oracle/collision_oracle.h"
 #include "core/contact/contact_space.h"
 #include "core/mesh/mesh_error.h"
 #include "problems/shapes/shapes.h"
@@ -54,10 +54,10 @@ TEST(SamplingRegion, IsTheBoxAroundTheCellsOfBothEnds) {
     mesh = Joined(mesh, Reversed(MakeBox({min, -1.0, -1.0}, {max, 1.0, 1.0})));
   }
   const Vector3d left(0.1, 0.2, 0.3), right(2.0, 0.1, 0.2);
-  BoundingBox region = SamplingRegion(mesh, left, left);
+  BoundingBox region = SamplingRegion(TakeAsContactSpace(mesh), left, left);
   EXPECT_EQ(region.min, Vector3d(-1.0, -1.0, -1.0));
   EXPECT_EQ(region.max, Vector3d(0.9, 1.0, 1.0));
-  region = SamplingRegion(mesh, left, right);
+  region = SamplingRegion(TakeAsContactSpace(mesh), left, right);
   EXPECT_EQ(region.min, Vector3d(-1.0, -1.0, -1.0));
   EXPECT_EQ(region.max, Vector3d(3.0, 1.0, 1.0));
 }
@@ -65,8 +65,8 @@ TEST(SamplingRegion, IsTheBoxAroundTheCellsOfBothEnds) {
 TEST(SamplingRegion, LeavesRoomAroundWhatHasNoBounds) {
   const TriangleMesh mesh =
       MakeBox(Vector3d::Constant(-5.0), Vector3d::Constant(5.0));
-  const BoundingBox region =
-      SamplingRegion(mesh, {-6.0, 0.0, 0.0}, {9.0, 0.0, 0.0});
+  const BoundingBox region = SamplingRegion(TakeAsContactSpace(mesh),
+                                            {-6.0, 0.0, 0.0}, {9.0, 0.0, 0.0});
   const double room = 0.1 * std::sqrt(15.0 * 15.0 + 2.0 * 100.0);
   EXPECT_NEAR(
       (region.min - Vector3d(-6.0 - room, -5.0 - room, -5.0 - room)).norm(),
@@ -110,12 +110,12 @@ TEST(ContactModel, FindsNothingNearPointsThatAreNotFinite) {
 TEST(SamplingRegion, RefusesWhatIsNoContactSpace) {
   const Vector3d q(3.0, 0.0, 0.0);
   TriangleMesh mesh = Cube(1.0);
-  EXPECT_THROW(SamplingRegion({}, q, -q), InputError);
+  EXPECT_THROW(SamplingRegion(TakeAsContactSpace({}), q, -q), InputError);
   mesh.vertices[0].x() = std::nan("");
-  EXPECT_THROW(SamplingRegion(mesh, q, -q), InputError);
+  EXPECT_THROW(SamplingRegion(TakeAsContactSpace(mesh), q, -q), InputError);
   mesh = Cube(1.0);
   mesh.triangles.pop_back();
-  EXPECT_THROW(SamplingRegion(mesh, q, -q), InputError);
+  EXPECT_THROW(SamplingRegion(TakeAsContactSpace(mesh), q, -q), InputError);
 }
 
 // The normals of a cube's faces turn towards its corners, so a Phong line
@@ -231,7 +231,7 @@ TEST(Retraction, SaysWhyThereIsNoPoint) {
   const BoundingBox bounds = {Vector3d::Constant(-0.5),
                               Vector3d::Constant(0.5)};
   const Retraction caught(std::make_shared<const ContactModel>(
-      std::vector<TriangleMesh>{BuildContactSpace(Cube(0.5), Cube(1.5)).mesh},
+      std::vector<ContactSpace>{BuildContactSpace(Cube(0.5), Cube(1.5))},
       bounds));
   EXPECT_EQ(caught.Retract({0.1, 0.2, 0.3}, &random, &scratch),
             RetractionStatus::kNoClearance);
@@ -248,7 +248,7 @@ TEST(Retraction, RefusesOptionsOutOfRange) {
     EXPECT_THROW(Retraction(model, options), InputError) << bad;
   }
   EXPECT_THROW(Retraction(nullptr), InputError);
-  EXPECT_THROW(ContactModel(std::vector<TriangleMesh>()), InputError);
+  EXPECT_THROW(ContactModel(std::vector<ContactSpace>()), InputError);
 }
 
 // The plate's hole is a square channel of side δ around (y, z) = (0.25,
@@ -317,11 +317,10 @@ TEST(Retraction, NeverLeavesTheFreeSpaceOfTheOriginalMeshes) {
 TEST(Retraction, HandlesSeveralContactSpaces) {
   // Two boxes that overlap in x ∈ [0.5, 1]: what leaves one may be in the
   // other, and must then leave that one too or be dropped.
-  std::vector<TriangleMesh> meshes = {
-      BuildContactSpace(Cube(0.5), Cube(1.5)).mesh,
-      BuildContactSpace(Cube(0.5), Translated(Cube(1.5), {1.5, 0.0, 0.0}))
-          .mesh};
-  const auto model = std::make_shared<const ContactModel>(meshes);
+  const std::vector<ContactSpace> spaces = {
+      BuildContactSpace(Cube(0.5), Cube(1.5)),
+      BuildContactSpace(Cube(0.5), Translated(Cube(1.5), {1.5, 0.0, 0.0}))};
+  const auto model = std::make_shared<const ContactModel>(spaces);
   EXPECT_NEAR(model->diagonal(), Vector3d(3.5, 2.0, 2.0).norm(), 1e-12);
   std::mt19937_64 random(5);
   RetractionScratch scratch;

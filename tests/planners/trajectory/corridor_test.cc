@@ -23,8 +23,8 @@ using testing::PathProblem;
 
 TrajectoryProblem WithoutMetrics(const PathProblem& source) {
   TrajectoryProblem problem;
-  problem.free_space =
-      std::make_shared<FreeSpace>(std::vector<TriangleMesh>{source.contact});
+  problem.free_space = std::make_shared<FreeSpace>(
+      std::vector<ContactSpace>{TakeAsContactSpace(source.contact)});
   problem.start = source.start;
   problem.goal = source.goal;
   problem.diagonal = ComputeBounds(source.contact).Diagonal();
@@ -32,7 +32,7 @@ TrajectoryProblem WithoutMetrics(const PathProblem& source) {
 }
 
 Path Repaired(const PathProblem& source) {
-  return StartRepair(source.contact)
+  return StartRepair(TakeAsContactSpace(source.contact))
       .Repair(source.start, source.goal)
       .routes[0];
 }
@@ -120,8 +120,8 @@ TEST(Corridor, FindsTheShortestWayOverAnEdge) {
   // the corner (0, 0, 1) of a thin wall; the optimum touches it at the margin.
   TrajectoryProblem problem;
   const TriangleMesh wall = MakeBox({-0.01, -2.0, -2.0}, {0.01, 2.0, 1.0});
-  problem.free_space =
-      std::make_shared<FreeSpace>(std::vector<TriangleMesh>{wall});
+  problem.free_space = std::make_shared<FreeSpace>(
+      std::vector<ContactSpace>{TakeAsContactSpace(wall)});
   problem.diagonal = 2.0;
   problem.start = {-1.0, 0.0, 0.5};
   problem.goal = {1.0, 0.0, 0.5};
@@ -145,8 +145,8 @@ TEST(Corridor, RestoresMissingClearance) {
   TrajectoryProblem problem;
   const TriangleMesh cube =
       MakeBox(Vector3d::Constant(-1.0), Vector3d::Constant(1.0));
-  problem.free_space =
-      std::make_shared<FreeSpace>(std::vector<TriangleMesh>{cube});
+  problem.free_space = std::make_shared<FreeSpace>(
+      std::vector<ContactSpace>{TakeAsContactSpace(cube)});
   problem.diagonal = ComputeBounds(cube).Diagonal();
   problem.start = {-2.0, 0.0, 0.5};
   problem.goal = {2.0, 0.0, 0.5};
@@ -177,8 +177,8 @@ TEST(Corridor, CentresItselfInAPassageNarrowerThanTheMargin) {
   // Width 0.02, margin 0.03: 0.01 is what there is.
   TrajectoryProblem problem;
   const TriangleMesh block = MakePlateWithHole(2.0, 1.0, 0.02);
-  problem.free_space =
-      std::make_shared<FreeSpace>(std::vector<TriangleMesh>{block});
+  problem.free_space = std::make_shared<FreeSpace>(
+      std::vector<ContactSpace>{TakeAsContactSpace(block)});
   problem.diagonal = 3.0;
   problem.start = {0.0, 0.0, 0.9};
   problem.goal = {0.0, 0.0, -0.9};
@@ -198,8 +198,8 @@ TEST(Corridor, StaysWithinTheBounds) {
   // No way over the top within the bounds but a gap of 0.1.
   const BoundingBox bounds = {Vector3d(-3.0, -1.1, -1.05),
                               Vector3d(3.0, 1.1, 1.1)};
-  problem.free_space =
-      std::make_shared<FreeSpace>(std::vector<TriangleMesh>{cube}, bounds);
+  problem.free_space = std::make_shared<FreeSpace>(
+      std::vector<ContactSpace>{TakeAsContactSpace(cube)}, bounds);
   problem.diagonal = ComputeBounds(cube).Diagonal();
   problem.start = {-2.0, 0.0, 0.0};
   problem.goal = {2.0, 0.0, 0.0};
@@ -237,7 +237,7 @@ TEST(CorridorProgram, DerivativesAreThoseOfItsValues) {
   problem.margin = 0.03;  // some segments lack clearance
   StartRepairOptions options;
   options.waypoints = problem.waypoints;
-  const Path path = StartRepair(source.contact)
+  const Path path = StartRepair(TakeAsContactSpace(source.contact))
                         .Repair(source.start, source.goal, options)
                         .routes[0];
   const PathSprings springs(problem, PathLength(path));

@@ -109,7 +109,8 @@ TEST(IpoptTrajectoryOptimizer, IsTheSameInEveryUnit) {
   const TrajectoryProblem problem = TrapProblem(2, MetricKind::kPhong);
   const TrajectorySummary a = IpoptTrajectoryOptimizer(problem).Solve();
   for (const double scale : {1.0 / 1024.0, 1024.0}) {
-    TrajectoryProblem scaled = MakeTrajectoryProblem({Scaled(Trap(), scale)});
+    TrajectoryProblem scaled =
+        MakeTrajectoryProblem({TakeAsContactSpace(Scaled(Trap(), scale))});
     scaled.start = scale * problem.start;
     scaled.goal = scale * problem.goal;
     const TrajectorySummary b = IpoptTrajectoryOptimizer(scaled).Solve();
@@ -138,12 +139,12 @@ TEST(IpoptTrajectoryOptimizer, EveryPolicyFindsAWay) {
 }
 
 TEST(IpoptTrajectoryOptimizer, PassesBetweenSeveralObstacles) {
-  std::vector<TriangleMesh> obstacles;
+  std::vector<ContactSpace> obstacles;
   for (int i = 0; i < 4; ++i) {
     const double side = i % 2 == 0 ? 0.25 : -0.25;
-    obstacles.push_back(Rotated(
+    obstacles.push_back(TakeAsContactSpace(Rotated(
         Translated(MakeIcoBall(0.4, 2), {i - 1.5, side, 0.1 * i - 0.15}),
-        GenericRotation()));
+        GenericRotation())));
   }
   for (const bool merge : {false, true}) {
     TrajectoryProblem problem = MakeTrajectoryProblem(obstacles);
@@ -169,7 +170,8 @@ TEST(IpoptTrajectoryOptimizer, StaysWithinBounds) {
   low.array() -= 1.2;
   high.array() += 1.2;
   problem.free_space = std::make_shared<FreeSpace>(
-      std::vector<TriangleMesh>{Trap()}, BoundingBox{low, high});
+      std::vector<ContactSpace>{TakeAsContactSpace(Trap())},
+      BoundingBox{low, high});
   const TrajectorySummary summary = IpoptTrajectoryOptimizer(problem).Solve();
   EXPECT_TRUE(summary.IsSolved());
   for (const Vector3d& p : summary.path) {
@@ -268,8 +270,8 @@ TEST(IpoptTrajectoryOptimizer, StopsAtTheLimits) {
 // Free paths that no longer improve come back as such: on a torus the solver
 // cycles between feasible iterates.
 TEST(IpoptTrajectoryOptimizer, StallReturnsAFreePathUnderItsOwnStatus) {
-  TrajectoryProblem problem = MakeTrajectoryProblem(
-      {Rotated(MakeTorus(0.8, 0.3, 32, 16), GenericRotation())});
+  TrajectoryProblem problem = MakeTrajectoryProblem({TakeAsContactSpace(
+      Rotated(MakeTorus(0.8, 0.3, 32, 16), GenericRotation()))});
   TrajectoryOptions options;
   options.ipopt.stall_iterations = 5;
   options.rows = 3;

@@ -155,7 +155,9 @@ TEST(TrajectoryNlp, HessianWithCurvaturePassesIpoptsChecker) {
   SignedMetricOptions metric;
   metric.jacobian = JacobianKind::kExact;
   TrajectoryProblem problem = MakeTrajectoryProblem(
-      {Rotated(MakeBox({-1, -1, -1}, {1, 1, 1}), GenericRotation())}, metric);
+      {TakeAsContactSpace(
+          Rotated(MakeBox({-1, -1, -1}, {1, 1, 1}), GenericRotation()))},
+      metric);
   problem.start = Vector3d(-2.5, 1.6, 0.2);
   problem.goal = Vector3d(2.5, 1.5, 0.1);
   problem.waypoints = 5;
@@ -201,8 +203,8 @@ TEST(TrajectoryNlp, ValuesAreEnergyMarginsAndLengths) {
 TEST(TrajectoryNlp, KeepsWaypointsStrictlyWithinBounds) {
   TrajectoryProblem problem = TrapProblem(JacobianKind::kDirection, 4);
   const BoundingBox bounds = {Vector3d(-3, -2.5, -2), Vector3d(3, 2.5, 4)};
-  problem.free_space =
-      std::make_shared<FreeSpace>(std::vector<TriangleMesh>{Trap()}, bounds);
+  problem.free_space = std::make_shared<FreeSpace>(
+      std::vector<ContactSpace>{TakeAsContactSpace(Trap())}, bounds);
   const TrajectoryNlp nlp = MakeNlp(problem, 1, {});
   VectorXd low(nlp.variables()), high(low), g_low(nlp.rows()), g_high(g_low);
   nlp.Bounds(low.data(), high.data(), g_low.data(), g_high.data());
@@ -237,7 +239,8 @@ TEST(TrajectoryNlp, IsCommittedOnlyAtAcceptedIterates) {
   for (const bool is_phong : {true, false}) {
     TrajectoryProblem problem = TrapProblem(JacobianKind::kDirection, 40);
     if (!is_phong) {
-      problem.metrics = {std::make_shared<SignedMetric>(Trap(), euclid)};
+      problem.metrics = {
+          std::make_shared<SignedMetric>(TakeAsContactSpace(Trap()), euclid)};
     }
     Recorder nlp(problem, std::vector<int>(41, 2), 0.0, {});
     const VectorXd u = nlp.ToVariables(StraightPath(problem));

@@ -22,8 +22,9 @@ using testing::PathProblem;
 
 struct Case {
   explicit Case(const PathProblem& source)
-      : problem(MakeTrajectoryProblem({source.contact})),
-        repair(std::make_shared<StartRepair>(source.contact)) {
+      : problem(MakeTrajectoryProblem({TakeAsContactSpace(source.contact)})),
+        repair(
+            std::make_shared<StartRepair>(TakeAsContactSpace(source.contact))) {
     problem.start = source.start;
     problem.goal = source.goal;
   }
@@ -166,17 +167,16 @@ TEST(TrajectoryPipeline, TakesOneContactSpacePerObstacleAndBounds) {
         {"left", MakeBox({-0.1, -2.0, -2.0}, {0.1, 0.2, top})},
         {"right", MakeBox({-0.12, -0.1, -2.0}, {0.08, 2.0, top})}};
     workspace.bounds = {Vector3d::Constant(-1.0), Vector3d::Constant(1.0)};
-    std::vector<TriangleMesh> contacts;
+    std::vector<ContactSpace> contacts;
     for (const Obstacle& obstacle : workspace.obstacles) {
-      contacts.push_back(
-          BuildContactSpace(workspace.robot, obstacle.mesh).mesh);
+      contacts.push_back(BuildContactSpace(workspace.robot, obstacle.mesh));
     }
     TrajectoryProblem problem =
         MakeTrajectoryProblem(contacts, {}, workspace.bounds);
     problem.start = {-0.7, 0.1, 0.0};
     problem.goal = {0.7, -0.2, 0.1};
     const auto repair = std::make_shared<StartRepair>(
-        BuildContactSpace(workspace.robot, MergedObstacle(workspace)).mesh);
+        BuildContactSpace(workspace.robot, MergedObstacle(workspace)));
     const PipelineResult result = TrajectoryPipeline(problem, repair).Solve();
     if (top > 0.9) {
       EXPECT_EQ(result.status, TrajectoryStatus::kInfeasibleProved);

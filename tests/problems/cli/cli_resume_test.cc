@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/mesh/mesh_io.h"
@@ -42,99 +44,107 @@ class CliResumeCampaign : public CliProcess {
            std::equal(start.begin(), start.end(), rows.begin());
   }
 
-  // Kills `command` at random moments, at most `kills` times while it has rows;
-  // they go to `rows`.  Expects what it gives in one go, `whole`, but for
-  // seconds, and every row that was ever there byte for byte.
+  // Runs `command` in one go, expects `count` rows in `rows`, and then kills it
+  // at random moments, some times while there are rows, until it is done.
+  // Expects the same files again: those of `alike` byte for byte, the rows but
+  // for seconds, and every row that was ever there byte for byte.
   void ExpectResumes(const std::string& command, const std::string& rows,
-                     const Strings& whole, std::chrono::microseconds duration,
-                     int kills) {
-    const std::string partial = rows + ".partial";
-    testing::CampaignRow report;
-    report.item = "faults";
-    report.subject = "SIGKILL and resume: " + command.substr(0, 8);
-    report.seed = 7;
-    Strings seen;
-    int code = 128 + SIGKILL;
-    for (int i = 0; i < 20 * kills && kills > 0 && code != 0; ++i) {
-      // Later and later: the machine may be busier than when this was timed.
-      code = Interrupt(command, RandomTime(duration * (10 + i) / 20), SIGKILL);
-      if (code == 0) break;
-      ASSERT_EQ(code, 128 + SIGKILL) << Content(folder_ / "err");
-      if (!fs::exists(Output(partial))) continue;
-      const Strings now = Rows(partial);
-      EXPECT_TRUE(BeginsWith(now, seen)) << "rows were lost or changed";
-      if (!now.empty()) --kills;
-      ++report.cases;
-      seen = now;
+                     std::size_t count, const Strings& alike) {
+    const auto duration = Duration(command);
+    const Strings whole = Rows(rows);
+    ASSERT_EQ(whole.size(), count) << Content(folder_ / "err");
+    const std::set<std::string> names = Names();
+    const std::size_t lines = Split(Content(folder_ / "out"), '\n').size();
+    Strings contents;
+    for (const std::string& name : alike) {
+      contents.push_back(Content(Output(name)));
+      EXPECT_FALSE(contents.back().empty()) << name;
     }
+    fs::remove_all(folder_ / "run");
+    fs::create_directory(folder_ / "run");
+
+    const Kills kills = Kill(command, rows, duration);
+    const Strings& seen = kills.seen;
     EXPECT_FALSE(seen.empty()) << "never killed while there were rows";
-    if (code != 0) {
+    if (!kills.is_done) {
       EXPECT_FALSE(fs::exists(Output(rows)));
       const Outcome outcome = Run(command);
       EXPECT_EQ(outcome.code, 0) << outcome.err;
       EXPECT_NE(
           outcome.err.find("going on after " + std::to_string(seen.size()) +
-                           " of " + std::to_string(whole.size())),
+                           " of " + std::to_string(count)),
           std::string::npos)
           << outcome.err;
     }
     const Strings all = Rows(rows);
     EXPECT_TRUE(BeginsWith(all, seen)) << "rows were done again";
     EXPECT_EQ(Comparable(all), Comparable(whole));
+    for (std::size_t i = 0; i < alike.size(); ++i) {
+      EXPECT_EQ(Content(Output(alike[i])), contents[i]) << alike[i];
+    }
+    EXPECT_EQ(Names(), names);
+    EXPECT_EQ(Split(Content(folder_ / "out"), '\n').size(), lines);
+    testing::CampaignRow report;
+    report.item = "faults";
+    report.subject = "SIGKILL and resume: " + command.substr(0, 8);
+    report.seed = 7;
+    report.cases = kills.cases;
     report.failures = HasFailure() ? 1 : 0;
     testing::ReportCampaign(report);
+  }
+
+ private:
+  struct Kills {
+    bool is_done = false;  // the last time it was not killed in time
+    long cases = 0;        // with a partial file
+    Strings seen;          // its rows at last
+  };
+
+  // Kills `command`, which takes about `duration`, some times while there are
+  // rows.
+  Kills Kill(const std::string& command, const std::string& rows,
+             std::chrono::microseconds duration) {
+    const long most = testing::CampaignCases(3, 30);
+    const std::string partial = rows + ".partial";
+    Kills kills;
+    long with_rows = 0;
+    for (int i = 0; i < 20 * most && with_rows < most; ++i) {
+      // Later and later: the machine may be busier than when this was timed.
+      const int code =
+          Interrupt(command, RandomTime(duration * (10 + i) / 20), SIGKILL);
+      kills.is_done = code == 0;
+      if (kills.is_done) break;
+      EXPECT_EQ(code, 128 + SIGKILL) << Content(folder_ / "err");
+      if (!fs::exists(Output(partial))) continue;
+      Strings now = Rows(partial);
+      EXPECT_TRUE(BeginsWith(now, kills.seen)) << "rows were lost or changed";
+      with_rows += now.empty() ? 0 : 1;
+      ++kills.cases;
+      kills.seen = std::move(now);
+    }
+    return kills;
   }
 };
 
 TEST_F(CliResumeCampaign, OptimizeGoesOnAfterSigkill) {
-  const std::string command =
-      "optimize " + Scene(TwoObstacles()) +
-      " --runs 6 --seed 5 --start straight --start-noise 0.1 --html o.html "
-      "--svg o.svg --output o.jsonl";
-  const auto duration = Duration(command);
-  const Strings whole = Rows("o.jsonl");
-  ASSERT_EQ(whole.size(), 6U);
-  const std::string page = Content(Output("o.html"));
-  const std::string picture = Content(Output("o.svg"));
-  const std::string out = Content(folder_ / "out");
-  for (const std::string& name : Names()) fs::remove(Output(name));
-  ExpectResumes(command, "o.jsonl", whole, duration,
-                static_cast<int>(testing::CampaignCases(3, 30)));
-  EXPECT_EQ(Content(Output("o.html")), page);
-  EXPECT_EQ(Content(Output("o.svg")), picture);
-  EXPECT_EQ(Split(Content(folder_ / "out"), '\n').size(),
-            Split(out, '\n').size());
-  EXPECT_EQ(Names(), (std::set<std::string>{"o.html", "o.jsonl", "o.svg"}));
+  ExpectResumes("optimize " + Scene(TwoObstacles()) +
+                    " --runs 6 --seed 5 --start straight --start-noise 0.1 "
+                    "--html o.html --svg o.svg --output o.jsonl",
+                "o.jsonl", 6, {"o.html", "o.svg"});
 }
 
 TEST_F(CliResumeCampaign, PlanGoesOnAfterSigkill) {
-  const std::string command = "plan " + Scene(TwoObstacles()) +
-                              " --planner rrt-connect --runs 300 --time 5 "
-                              "--html o.html --output o.jsonl";
-  const auto duration = Duration(command);
-  const Strings whole = Rows("o.jsonl");
-  ASSERT_EQ(whole.size(), 300U);
-  const std::string page = Content(Output("o.html"));
-  for (const std::string& name : Names()) fs::remove(Output(name));
-  ExpectResumes(command, "o.jsonl", whole, duration,
-                static_cast<int>(testing::CampaignCases(3, 30)));
-  EXPECT_EQ(Content(Output("o.html")), page);
-  EXPECT_EQ(Names(), (std::set<std::string>{"o.html", "o.jsonl"}));
+  ExpectResumes("plan " + Scene(TwoObstacles()) +
+                    " --planner rrt-connect --runs 300 --time 5 --html o.html "
+                    "--output o.jsonl",
+                "o.jsonl", 300, {"o.html"});
 }
 
 TEST_F(CliResumeCampaign, CompareGoesOnAfterSigkill) {
-  const std::string command =
-      "compare u_trap:triangles=80 " + Scene(TwoObstacles()) +
-      " --runs 2 --seed 3 --metrics euclidean phong@0.2 --protocols "
-      "straight-adaptive --output d";
-  const auto duration = Duration(command);
-  const Strings whole = Rows("d/rows.jsonl");
-  ASSERT_EQ(whole.size(), 8U);
-  const std::set<std::string> names = Names();
-  fs::remove_all(Output("d"));
-  ExpectResumes(command, "d/rows.jsonl", whole, duration,
-                static_cast<int>(testing::CampaignCases(3, 30)));
-  EXPECT_EQ(Names(), names);
+  ExpectResumes("compare u_trap:triangles=80 " + Scene(TwoObstacles()) +
+                    " --runs 2 --seed 3 --metrics euclidean phong@0.2 "
+                    "--protocols straight-adaptive --output d",
+                "d/rows.jsonl", 8, {});
 }
 
 // Every way to leave rows of two commands in one file.

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "constraints/collision_oracle.h"
+#include "constraints/oracle/collision_oracle.h"
 #include "problems/scenes/scene.h"
 #include "tests/problems/cli/cli_fixture.h"
 

@@ -35,8 +35,8 @@ TEST_F(Cli, QueryWritesTheDoublesOfTheLibrary) {
   const TriangleMesh contact = ReadMesh(Output("c.off"));
   PhongMetricOptions options;
   options.field_options.smoothing_length = 0.1;
-  const PhongMetric phong(contact, options);
-  const EuclideanMetric euclidean(contact);
+  const PhongMetric phong(TakeAsContactSpace(contact), options);
+  const EuclideanMetric euclidean(TakeAsContactSpace(contact));
   const std::vector<std::pair<std::string, const PenetrationMetric*>> metrics =
       {{"--smoothing-length 0.1", &phong}, {"--metric euclidean", &euclidean}};
   for (const auto& [flags, metric] : metrics) {

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "constraints/collision_oracle.h"
+#include "constraints/oracle/collision_oracle.h"
 #include "core/contact/contact_space.h"
 #include "problems/scenes/scene.h"
 #include "problems/scenes/scene_library.h"
@@ -345,7 +345,8 @@ TEST(SceneFamilies, TurnedTwinsCutTheFreeSpace) {
       const Scene scene = Made(name, {{"rotation_seed", 3}, {"twin", twin}});
       return BuildContactSpace(scene.workspace.robot,
                                JoinedObstacle(scene.workspace))
-          .report.cavities;
+          .report()
+          .cavities;
     };
     EXPECT_EQ(cells(0), 1) << name;
     EXPECT_GE(cells(1), 2) << name;

@@ -10,7 +10,7 @@
 #include <random>
 #include <vector>
 
-#include "constraints/collision_oracle.h"
+#include "constraints/oracle/collision_oracle.h"
 #include "core/contact/contact_space.h"
 #include "core/projection/euclidean_metric.h"
 #include "core/projection/phong_metric.h"
@@ -22,7 +22,7 @@ using Eigen::Vector3d;
 
 constexpr int kPoints = 10000;
 
-PhongMetric MakePhong(const TriangleMesh& contact, double ell) {
+PhongMetric MakePhong(const ContactSpace& contact, double ell) {
   PhongMetricOptions options;
   options.field_options.smoothing_length = ell;
   return PhongMetric(contact, options);
@@ -32,8 +32,8 @@ PhongMetric MakePhong(const TriangleMesh& contact, double ell) {
 struct Built {
   explicit Built(const PaperBenchmark& b)
       : benchmark(b),
-        contact(BuildContactSpace(b.robot, b.obstacle).mesh),
-        box(ComputeBounds(contact)),
+        contact(BuildContactSpace(b.robot, b.obstacle)),
+        box(contact.bounds()),
         oracle(b.robot, b.obstacle),
         euclidean(contact),
         phong(MakePhong(contact, 0.0)),
@@ -58,7 +58,7 @@ struct Built {
   }
 
   PaperBenchmark benchmark;
-  TriangleMesh contact;
+  ContactSpace contact;
   BoundingBox box;
   CollisionOracle oracle;
   EuclideanMetric euclidean;
@@ -202,8 +202,8 @@ TEST_P(PaperBenchmarkTest, PdIsContinuousAlongMotionsUpToFlaggedEnds) {
 TEST_P(PaperBenchmarkTest, SwappingTheOperandsNegatesPd) {
   const Built& b = Get(GetParam());
   const TriangleMesh mirrored =
-      BuildContactSpace(b.benchmark.obstacle, b.benchmark.robot).mesh;
-  const EuclideanMetric euclidean(mirrored);
+      BuildContactSpace(b.benchmark.obstacle, b.benchmark.robot).mesh();
+  const EuclideanMetric euclidean(TakeAsContactSpace(mirrored));
   const double tolerance = 1e-9 * b.box.Diagonal();
   for (const Vector3d& q : b.InteriorPoints(1000, 5)) {
     EXPECT_NEAR(euclidean.Query(-q).signed_distance,

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "constraints/collision_oracle.h"
+#include "constraints/oracle/collision_oracle.h"
 #include "core/mesh/mesh_error.h"
 #include "core/solid/mesh_check.h"
 #include "problems/shapes/random_solids.h"
@@ -80,18 +80,19 @@ TEST_P(SceneSpaceLayouts, HaveOneDiagonalAndOneSealedMesh) {
   const SceneSpace space = BuildSceneSpace(scene, GetParam());
   EXPECT_EQ(space.diagonal, ContactBounds(scene.workspace).Diagonal());
   std::size_t triangles = 0;
-  for (const TriangleMesh& mesh : space.contact_meshes) {
-    triangles += mesh.triangles.size();
+  for (const ContactSpace& one : space.contact_spaces) {
+    EXPECT_EQ(one.length(), space.diagonal);
+    triangles += one.mesh().triangles.size();
   }
   EXPECT_EQ(space.triangles, triangles);
-  EXPECT_EQ(space.contact_meshes.size(),
+  EXPECT_EQ(space.contact_spaces.size(),
             GetParam() == SpaceLayout::kPerObstacle ? 4U : 1U);
   // Closed around the bounds: nothing beyond them is free of it but the
   // unbounded outside of the shell.
-  const MeshReport report = ExamineMesh(space.sealed_mesh);
+  const MeshReport report = ExamineMesh(space.sealed->mesh());
   EXPECT_EQ(report.boundary_edges, 0U);
   EXPECT_EQ(report.non_manifold_edges, 0U);
-  const FreeSpace sealed({space.sealed_mesh});
+  const FreeSpace sealed({*space.sealed});
   EXPECT_TRUE(sealed.IsFree(scene.start));
   for (int axis = 0; axis < 3; ++axis) {
     for (const double side : {-1.0, 1.0}) {
@@ -122,8 +123,10 @@ TEST(SceneSpace, SkipsObstaclesOutOfReachAndSaysSo) {
   EXPECT_TRUE(SkippedObstaclesNote(Parse(near)).empty());
   const SceneSpace all = BuildSceneSpace(scene);
   const SceneSpace few = BuildSceneSpace(Parse(near));
-  EXPECT_EQ(all.contact_meshes[0].vertices, few.contact_meshes[0].vertices);
-  EXPECT_EQ(all.contact_meshes[0].triangles, few.contact_meshes[0].triangles);
+  EXPECT_EQ(all.contact_spaces[0].mesh().vertices,
+            few.contact_spaces[0].mesh().vertices);
+  EXPECT_EQ(all.contact_spaces[0].mesh().triangles,
+            few.contact_spaces[0].mesh().triangles);
 }
 
 TEST(SceneSpace, NeedsNoObstacleWithinReach) {
@@ -138,15 +141,15 @@ TEST(SceneSpace, NeedsNoObstacleWithinReach) {
     EXPECT_FALSE(space.free_space->IsFree(scene.start, {1.5, 0.0, 0.0}));
   }
   json.erase("bounds");  // within reach, then
-  EXPECT_EQ(BuildSceneSpace(Parse(json)).contact_meshes.size(), 1U);
+  EXPECT_EQ(BuildSceneSpace(Parse(json)).contact_spaces.size(), 1U);
 }
 
 TEST(SceneSpace, WithoutBoundsSealsNothing) {
   Json json = Crowd();
   json.erase("bounds");
   const SceneSpace space = BuildSceneSpace(Parse(json));
-  ASSERT_EQ(space.contact_meshes.size(), 1U);
-  EXPECT_EQ(space.sealed_mesh.vertices, space.contact_meshes[0].vertices);
+  ASSERT_EQ(space.contact_spaces.size(), 1U);
+  EXPECT_TRUE(space.sealed->SharesWith(space.contact_spaces[0]));
   EXPECT_TRUE(space.free_space->IsFree({50.0, 50.0, 50.0}));
 }
 

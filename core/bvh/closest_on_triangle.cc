@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/bvh/surface_tree.h"
+#include "core/bvh/closest_on_triangle.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <cmath>
+#include <array>
 #include <limits>
-#include <utility>
-
-#include "core/bvh/scaled_triangles.h"
 
 namespace phongpd {
 
@@ -93,53 +90,6 @@ TrianglePoint ClosestOnTriangle(const Vector3d& a, const Vector3d& b,
     if (!(l1 + l2 <= squared)) OfferEdge(1, 2, c - b, x - b, &best);
   }
   return best;
-}
-
-SurfaceTree::SurfaceTree(const TriangleMesh& mesh) {
-  ScaledTriangles scaled(mesh);
-  center_ = scaled.center;
-  scale_ = scaled.scale;
-  tree_ = std::move(scaled.tree);
-  corners_ = std::move(scaled.corners);
-}
-
-SurfaceTree::Closest SurfaceTree::FindClosest(
-    const Vector3d& q) const noexcept {
-  // Squares of coordinates beyond 1e100 diagonals would overflow; from there
-  // the direction decides, and pulling q closer leaves it as it is.
-  Vector3d x = (0.5 * q - 0.5 * center_) * scale_;
-  const double far = x.cwiseAbs().maxCoeff();
-  const double shrink = far > 1e100 ? 1e100 / far : 1.0;
-  if (!std::isfinite(far)) {
-    x = (q / q.cwiseAbs().maxCoeff()) * 1e100;
-  } else {
-    x *= 2.0 * shrink;
-  }
-  int best = -1;
-  TrianglePoint nearest;
-  nearest.squared_distance = std::numeric_limits<double>::infinity();
-  tree_.NearestFirst(
-      nearest.squared_distance,
-      [&](int index) { return tree_.nodes()[index].SquaredDistance(x); },
-      [&](int position) {
-        const Corners& t = corners_[position];
-        const TrianglePoint p = ClosestOnTriangle(t[0], t[1], t[2], x);
-        if (p.squared_distance < nearest.squared_distance) {
-          nearest = p;
-          best = position;
-        }
-        return nearest.squared_distance;
-      });
-  Closest result;
-  if (best < 0) return result;
-  result.triangle = tree_.order()[best];
-  result.lambda = nearest.lambda;
-  result.distance = std::sqrt(nearest.squared_distance) / scale_;
-  if (shrink != 1.0 || !std::isfinite(far)) {
-    result.distance = std::min((q - center_).stableNorm(),
-                               std::numeric_limits<double>::max());
-  }
-  return result;
 }
 
 }  // namespace phongpd

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Truth: CGAL's exact Side_of_triangle_mesh, an independent implementation.
-#include "core/bvh/inside_test.h"
-
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Side_of_triangle_mesh.h>
 #include <CGAL/Surface_mesh.h>
@@ -14,6 +12,7 @@
 #include <vector>
 
 #include "core/bvh/exact_sign.h"
+#include "core/bvh/triangle_bvh.h"
 #include "problems/shapes/shapes.h"
 
 namespace phongpd {
@@ -46,7 +45,7 @@ struct Counts {
 Counts Compare(const TriangleMesh& mesh, const std::vector<Vector3d>& points) {
   const CgalMesh cgal = ToCgal(mesh);
   const CGAL::Side_of_triangle_mesh<CgalMesh, Kernel> side(cgal);
-  const InsideTest test(mesh);
+  const TriangleBvh test(mesh);
   Counts counts;
   for (const Vector3d& q : points) {
     const auto truth = side(Kernel::Point_3(q.x(), q.y(), q.z()));
@@ -85,7 +84,7 @@ std::vector<Vector3d> Grid(const TriangleMesh& mesh) {
   return points;
 }
 
-TEST(InsideTest, AgreesWithCgalOnGridsThroughVerticesEdgesAndFaces) {
+TEST(TriangleBvhInside, AgreesWithCgalOnGridsThroughVerticesEdgesAndFaces) {
   for (const TriangleMesh& mesh :
        {MakeBox({-1, -1, -1}, {1, 1, 1}), MakeAxes(2.0, 0.25),
         MakeL(2.0, 0.5, 0.75), MakeU(2.0, 0.25, 0.5),
@@ -97,7 +96,7 @@ TEST(InsideTest, AgreesWithCgalOnGridsThroughVerticesEdgesAndFaces) {
   }
 }
 
-TEST(InsideTest, AgreesWithCgalAtRandomPointsAndOnVerticesAndEdges) {
+TEST(TriangleBvhInside, AgreesWithCgalAtRandomPointsAndOnVerticesAndEdges) {
   std::mt19937 engine(4);
   std::uniform_real_distribution<double> uniform(0.0, 1.0);
   for (const TriangleMesh& mesh :
@@ -123,8 +122,8 @@ TEST(InsideTest, AgreesWithCgalAtRandomPointsAndOnVerticesAndEdges) {
   }
 }
 
-TEST(InsideTest, DecidesWithinOneUlpOfAFace) {
-  const InsideTest box(MakeBox({-1, -1, -1}, {1, 1, 1}));
+TEST(TriangleBvhInside, DecidesWithinOneUlpOfAFace) {
+  const TriangleBvh box(MakeBox({-1, -1, -1}, {1, 1, 1}));
   for (int axis = 0; axis < 3; ++axis) {
     for (const double sign : {-1.0, 1.0}) {
       Vector3d q(0.3, 0.3, 0.3);
@@ -138,10 +137,10 @@ TEST(InsideTest, DecidesWithinOneUlpOfAFace) {
   }
 }
 
-TEST(InsideTest, SurvivesDenormalsHugeScalesAndNonFiniteInput) {
+TEST(TriangleBvhInside, SurvivesDenormalsHugeScalesAndNonFiniteInput) {
   constexpr double kTiny = 5e-324;
   for (const double scale : {1e-300, 1e-100, 1.0, 1e100, 1e300}) {
-    const InsideTest box(Scaled(MakeBox({-1, -1, -1}, {1, 1, 1}), scale));
+    const TriangleBvh box(Scaled(MakeBox({-1, -1, -1}, {1, 1, 1}), scale));
     EXPECT_EQ(box.Locate({kTiny, -kTiny, kTiny}), Location::kInside);
     EXPECT_EQ(box.Locate({scale, kTiny, kTiny}), Location::kOnSurface);
     EXPECT_EQ(box.Locate({kTiny, kTiny, scale}), Location::kOnSurface);

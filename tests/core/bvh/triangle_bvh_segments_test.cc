@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Truth: CGAL's exact predicates, triangle by triangle, and its exact
 // constructions for where segments meet.
-#include "core/bvh/segment_tree.h"
-
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Object.h>
@@ -15,7 +13,7 @@
 #include <optional>
 #include <random>
 
-#include "core/bvh/surface_tree.h"
+#include "core/bvh/triangle_bvh.h"
 #include "problems/shapes/shapes.h"
 #include "tests/support/solid_tools.h"
 
@@ -88,19 +86,19 @@ Vector3d LatticePoint(std::mt19937_64& random) {
   return Vector3d(step(random), step(random), step(random)) * 0.25;
 }
 
-TEST(SegmentTree, AgreesWithExactPredicatesOnALattice) {
+TEST(TriangleBvhSegments, AgreesWithExactPredicatesOnALattice) {
   const TriangleMesh solids[] = {UnitBox(), MakeL(2.0, 0.5, 1.0),
                                  MakeVessel(3.0, 2.0, 1.0)};
   std::mt19937_64 random(1);
   for (const TriangleMesh& solid : solids) {
-    const SegmentTree tree(solid);
+    const TriangleBvh tree(solid);
     int met = 0;
     for (int i = 0; i < 3000; ++i) {
       const Vector3d a = LatticePoint(random), b = LatticePoint(random);
       const bool truth = TrulyMeets(solid, a, b);
       ASSERT_EQ(tree.Meets(a, b), truth)
           << a.transpose() << " to " << b.transpose();
-      const SegmentTree::Hit hit = tree.FirstHit(a, b);
+      const TriangleBvh::Hit hit = tree.FirstHit(a, b);
       ASSERT_EQ(hit.Found(), truth);
       met += truth;
       if (!truth || a == b) continue;
@@ -111,11 +109,11 @@ TEST(SegmentTree, AgreesWithExactPredicatesOnALattice) {
   }
 }
 
-TEST(SegmentTree, AgreesWithExactPredicatesBesideTheSurface) {
+TEST(TriangleBvhSegments, AgreesWithExactPredicatesBesideTheSurface) {
   std::mt19937_64 random(2);
   const TriangleMesh solid =
       Rotated(MakeStar(0.4, 1.0), testing::RandomRotation(&random));
-  const SegmentTree tree(solid);
+  const TriangleBvh tree(solid);
   std::uniform_real_distribution<double> exponent(-17.0, 0.0);
   int met = 0, missed = 0;
   for (int i = 0; i < 4000; ++i) {
@@ -133,23 +131,23 @@ TEST(SegmentTree, AgreesWithExactPredicatesBesideTheSurface) {
   EXPECT_GT(missed, 500);
 }
 
-TEST(SegmentTree, DecidesAtEveryScaleAndOffset) {
+TEST(TriangleBvhSegments, DecidesAtEveryScaleAndOffset) {
   std::mt19937_64 random(3);
   const TriangleMesh box = UnitBox();
   for (const int power : {-490, -30, 0, 30, 490}) {
     const double scale = std::ldexp(1.0, power);
     const TriangleMesh solid = Scaled(box, scale);
-    const SegmentTree tree(solid);
+    const TriangleBvh tree(solid);
     for (int i = 0; i < 300; ++i) {
       const Vector3d a = scale * LatticePoint(random);
       const Vector3d b = scale * LatticePoint(random);
-      EXPECT_EQ(tree.Meets(a, b), SegmentTree(box).Meets(a / scale, b / scale))
+      EXPECT_EQ(tree.Meets(a, b), TriangleBvh(box).Meets(a / scale, b / scale))
           << scale;
     }
   }
   const Vector3d far(1e6, -1e6, 1e6);
   const TriangleMesh solid = Translated(box, far);
-  const SegmentTree tree(solid);
+  const TriangleBvh tree(solid);
   for (int i = 0; i < 500; ++i) {
     const Vector3d a = far + LatticePoint(random);
     const Vector3d b = far + LatticePoint(random);
@@ -157,9 +155,9 @@ TEST(SegmentTree, DecidesAtEveryScaleAndOffset) {
   }
 }
 
-TEST(SegmentTree, VisitsEveryTriangleASegmentMeets) {
+TEST(TriangleBvhSegments, VisitsEveryTriangleASegmentMeets) {
   const TriangleMesh box = UnitBox();
-  const SegmentTree tree(box);
+  const TriangleBvh tree(box);
   int count = 0;
   tree.ForEachHit({-2.0, 0.1, 0.2}, {2.0, 0.1, 0.2},
                   [&](int triangle, double fraction) {
@@ -170,30 +168,30 @@ TEST(SegmentTree, VisitsEveryTriangleASegmentMeets) {
   EXPECT_EQ(count, 2);
 }
 
-TEST(SegmentTree, LeavesOutWhatTouchesTheStartOfARay) {
+TEST(TriangleBvhSegments, LeavesOutWhatTouchesTheStartOfARay) {
   const TriangleMesh box = UnitBox();
-  const SegmentTree tree(box);
+  const TriangleBvh tree(box);
   const Vector3d edge(0.5, 0.5, 0.1), across(-2.0, -2.0, 0.1);
   EXPECT_EQ(tree.FirstHit(edge, across).fraction, 0.0);
-  const SegmentTree::Hit hit = tree.FirstHitBeyond(edge, across, 1e-12);
+  const TriangleBvh::Hit hit = tree.FirstHitBeyond(edge, across, 1e-12);
   ASSERT_TRUE(hit.Found());
   EXPECT_NEAR(hit.fraction, 0.4, 1e-15);
   EXPECT_FALSE(tree.FirstHitBeyond(edge, {2.0, 2.0, 0.1}, 1e-12).Found());
 }
 
-TEST(SegmentTree, SkipsTrianglesWithoutArea) {
+TEST(TriangleBvhSegments, SkipsTrianglesWithoutArea) {
   TriangleMesh mesh = UnitBox();
   mesh.vertices.push_back({2.0, 0.0, 0.0});
   mesh.vertices.push_back({3.0, 0.0, 0.0});
   mesh.triangles.push_back({8, 9, 8});
-  const SegmentTree tree(mesh);
+  const TriangleBvh tree(mesh);
   EXPECT_FALSE(tree.Meets({2.5, -1.0, 0.0}, {2.5, 1.0, 0.0}));
   EXPECT_TRUE(tree.Meets({0.0, -1.0, 0.0}, {0.0, 1.0, 0.0}));
 }
 
-TEST(SegmentTree, MeasuresTheDistanceOfSegments) {
+TEST(TriangleBvhSegments, MeasuresTheDistanceOfSegments) {
   const double infinity = std::numeric_limits<double>::infinity();
-  const SegmentTree box(UnitBox());
+  const TriangleBvh box(UnitBox());
   // Along a face, across an edge, past a corner, a point, and inside.
   EXPECT_DOUBLE_EQ(box.Distance({-2, 0.1, 0.75}, {2, 0.2, 0.75}, infinity),
                    0.25);
@@ -215,8 +213,8 @@ TEST(SegmentTree, MeasuresTheDistanceOfSegments) {
       Rotated(MakeTorus(2.0, 0.5, 40, 20), testing::RandomRotation(&random));
   for (const double scale : {1e-3, 1.0, 1e3}) {
     const TriangleMesh mesh = Scaled(torus, scale);
-    const SegmentTree segments(mesh);
-    const SurfaceTree surface(mesh);
+    const TriangleBvh segments(mesh);
+    const TriangleBvh surface(mesh);
     const BoundingBox bounds = ComputeBounds(mesh);
     for (int i = 0; i < 200; ++i) {
       const Vector3d a = testing::RandomPoint(bounds, &random);
@@ -242,13 +240,13 @@ TEST(SegmentTree, MeasuresTheDistanceOfSegments) {
   }
 }
 
-TEST(SegmentTree, IgnoresSliversThatTheStartTouches) {
+TEST(TriangleBvhSegments, IgnoresSliversThatTheStartTouches) {
   // Where a ray hits a sliver it starts on is less certain than an ulp.
   std::mt19937_64 random(12);
   for (int i = 0; i < 200; ++i) {
     const TriangleMesh mesh = Rotated(MakeBox({4, 4, 4}, {4 + 1e-4, 5, 5}),
                                       testing::RandomRotation(&random));
-    const SegmentTree segments(mesh);
+    const TriangleBvh segments(mesh);
     for (const Triangle& t : mesh.triangles) {
       const Vector3d& a = mesh.vertices[t[0]];
       const Vector3d& b = mesh.vertices[t[1]];

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/bvh/segment_triangle_meeting.h"
+#include "core/bvh/segment_triangle_intersection.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>

@@ -1,20 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "constraints/collision_oracle.h"
+#include "constraints/oracle/collision_oracle.h"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Polygon_mesh_processing/orient_polygon_soup.h>
 #include <CGAL/Polygon_mesh_processing/polygon_soup_to_polygon_mesh.h>
 #include <CGAL/Side_of_triangle_mesh.h>
 #include <CGAL/Surface_mesh.h>
-#include <fcl/geometry/bvh/BVH_model.h>
-#include <fcl/narrowphase/collision.h>
 
-#include <exception>
 #include <memory>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "constraints/oracle/fcl_surfaces.h"
+#include "core/mesh/finite.h"
 #include "core/mesh/mesh_error.h"
 
 namespace phongpd {
@@ -25,7 +23,6 @@ using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Point = Kernel::Point_3;
 using SurfaceMesh = CGAL::Surface_mesh<Point>;
 using SideOf = CGAL::Side_of_triangle_mesh<SurfaceMesh, Kernel>;
-using BvhModel = fcl::BVHModel<fcl::OBBRSSd>;
 
 // One closed component.  Its bounded side adds `sign` to the winding number
 // of the solid: +1 for a body, -1 for a cavity.
@@ -106,22 +103,6 @@ class Solid {
   std::vector<Component> components_;
 };
 
-std::shared_ptr<BvhModel> ToBvh(const TriangleMesh& mesh) {
-  auto model = std::make_shared<BvhModel>();
-  std::vector<fcl::Triangle> triangles;
-  for (const Triangle& t : mesh.triangles) {
-    triangles.emplace_back(static_cast<std::size_t>(t[0]),
-                           static_cast<std::size_t>(t[1]),
-                           static_cast<std::size_t>(t[2]));
-  }
-  const bool built =
-      model->beginModel() == fcl::BVH_OK &&
-      model->addSubModel(mesh.vertices, triangles) == fcl::BVH_OK &&
-      model->endModel() == fcl::BVH_OK;
-  if (!built) throw std::runtime_error("FCL could not build its box tree");
-  return model;
-}
-
 void RequireSolid(const TriangleMesh& mesh, const char* name) {
   const std::string what = std::string("collision oracle: the ") + name;
   if (mesh.triangles.empty()) {
@@ -129,7 +110,7 @@ void RequireSolid(const TriangleMesh& mesh, const char* name) {
   }
   // A NaN in an exact predicate would end the process.
   for (const Eigen::Vector3d& v : mesh.vertices) {
-    if (!v.allFinite()) {
+    if (!IsFinite(v)) {
       throw InputError(what + " needs finite vertices, found NaN or Inf");
     }
   }
@@ -141,28 +122,11 @@ struct CollisionOracle::Impl {
   Impl(const TriangleMesh& robot_mesh, const TriangleMesh& obstacle_mesh)
       : robot(robot_mesh),
         obstacle(obstacle_mesh),
-        robot_bvh(ToBvh(robot_mesh)),
-        obstacle_bvh(ToBvh(obstacle_mesh)) {}
-
-  bool SurfacesMeet(const Eigen::Vector3d& q) const {
-    fcl::Transform3d moved = fcl::Transform3d::Identity();
-    moved.translation() = q;
-    const fcl::CollisionRequestd request(1, false);
-    fcl::CollisionResultd result;
-    try {
-      fcl::collide(robot_bvh.get(), moved, obstacle_bvh.get(),
-                   fcl::Transform3d::Identity(), request, result);
-    } catch (const std::exception& error) {
-      throw std::runtime_error(std::string("FCL collide failed: ") +
-                               error.what());
-    }
-    return result.isCollision();
-  }
+        surfaces(robot_mesh, obstacle_mesh) {}
 
   Solid robot;
   Solid obstacle;
-  std::shared_ptr<BvhModel> robot_bvh;
-  std::shared_ptr<BvhModel> obstacle_bvh;
+  FclSurfaces surfaces;
 };
 
 CollisionOracle::CollisionOracle(const TriangleMesh& robot,
@@ -178,10 +142,10 @@ CollisionOracle& CollisionOracle::operator=(CollisionOracle&&) noexcept =
     default;
 
 bool CollisionOracle::Collides(const Eigen::Vector3d& q) const {
-  if (!q.allFinite()) {
+  if (!IsFinite(q)) {
     throw InputError("collision oracle: the configuration must be finite");
   }
-  if (impl_->SurfacesMeet(q)) return true;
+  if (impl_->surfaces.Meet(q)) return true;
   // Disjoint surfaces: the solids share a point iff one whole component of
   // one lies in the other, and any of its vertices shows it.
   for (const Component& c : impl_->robot.components()) {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/bvh/inside_test.h"
-
+// Where a point lies.
 #include "core/bvh/exact_sign.h"
-#include "core/bvh/triangle_corners.h"
+#include "core/bvh/triangle_bvh.h"
+#include "core/mesh/finite.h"
 
 namespace phongpd {
 
@@ -58,12 +58,8 @@ Crossing Cross(const Vector3d& a, const Vector3d& b, const Vector3d& c,
 
 }  // namespace
 
-InsideTest::InsideTest(const TriangleMesh& mesh) : corners_(CornersOf(mesh)) {
-  tree_ = SortIntoTree(&corners_);
-}
-
-Location InsideTest::Locate(const Vector3d& q) const {
-  if (!q.allFinite() || tree_.nodes().empty()) return Location::kOutside;
+Location TriangleBvh::Locate(const Vector3d& q) const {
+  if (!IsFinite(q) || tree_.nodes().empty()) return Location::kOutside;
   const BoxTree::Node& root = tree_.nodes().front();
   if ((q.array() < root.min.array()).any() ||
       (q.array() > root.max.array()).any()) {
@@ -81,7 +77,7 @@ Location InsideTest::Locate(const Vector3d& q) const {
                (upward ? node.max.z() >= q.z() : node.min.z() <= q.z());
       },
       [&](int position) {
-        const Corners& t = corners_[position];
+        const TriangleCorners& t = corners_[position];
         const Crossing crossing = Cross(t[0], t[1], t[2], q, upward);
         touched = crossing == Crossing::kTouch;
         inside ^= crossing == Crossing::kBeyond;

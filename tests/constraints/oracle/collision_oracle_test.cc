@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Boxes, for which every answer is a comparison of intervals.
-#include "constraints/collision_oracle.h"
+#include "constraints/oracle/collision_oracle.h"
 
 #include <gtest/gtest.h>
 

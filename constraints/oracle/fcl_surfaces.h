@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+
+#include "core/mesh/triangle_mesh.h"
+
+namespace phongpd {
+
+// What FCL says of two meshes of which one translates, from box trees (OBBRSS)
+// of their triangles.  Surfaces only: a mesh inside the other meets nothing.
+// Decided in floating point.  Checks and baselines only.
+//
+// Vertices and configurations must be finite; the members below throw
+// std::runtime_error where FCL does not answer.  Thread-safe.
+class FclSurfaces {
+ public:
+  // How FCL decides a motion, with its own defaults otherwise.
+  enum class Solver {
+    kPlacements,               // at ten places of the way, its default
+    kConservativeAdvancement,  // to the tolerance 1e-4
+  };
+
+  // Throws std::runtime_error if FCL cannot build a tree (it needs a triangle).
+  FclSurfaces(const TriangleMesh& robot, const TriangleMesh& obstacle);
+  ~FclSurfaces();
+  FclSurfaces(FclSurfaces&&) noexcept;
+  FclSurfaces& operator=(FclSurfaces&&) noexcept;
+
+  // Do the surfaces of A + q and B share a point?
+  bool Meet(const Eigen::Vector3d& q) const;
+
+  // Do they anywhere on the straight motion a → b?
+  bool Meet(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
+            Solver solver) const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace phongpd

@@ -1,0 +1,86 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# How a component phongpd::NAME is made: its switch PHONGPD_BUILD_<NAME>, its
+# library, its public headers, its place in the installed package.
+
+# Can NAME be built?  Sets PHONGPD_HAS_<NAME>, and says in one sentence what is
+# missing where its switch is on but
+#   STANDS_ON  components are not built
+#   FINDS      variable and package to install, in turn: the variable is false
+# WHAT names it to people, phongpd::NAME by default.
+function(phongpd_can_build name)
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "WHAT" "STANDS_ON;FINDS")
+  string(TOUPPER ${name} switch)
+  set(missing "")
+  foreach(below IN LISTS arg_STANDS_ON)
+    if(NOT TARGET phongpd::${below})
+      list(APPEND missing phongpd::${below})
+    endif()
+  endforeach()
+  while(arg_FINDS)
+    list(POP_FRONT arg_FINDS found package)
+    if(NOT ${found})
+      list(APPEND missing "the package ${package}")
+    endif()
+  endwhile()
+  if(NOT arg_WHAT)
+    set(arg_WHAT phongpd::${name})
+  endif()
+  if(PHONGPD_BUILD_${switch} AND missing)
+    list(JOIN missing ", " missing)
+    message(STATUS "Not built for want of ${missing}: ${arg_WHAT}")
+  endif()
+  if(PHONGPD_BUILD_${switch} AND NOT missing)
+    set(PHONGPD_HAS_${switch} TRUE PARENT_SCOPE)
+  else()
+    set(PHONGPD_HAS_${switch} FALSE PARENT_SCOPE)
+  endif()
+endfunction()
+
+# What most sources include, parsed once for all of a target's.  Sources name
+# what they use all the same: with CMAKE_DISABLE_PRECOMPILE_HEADERS, as in the
+# preset clang, or a cache of objects, which needs options of its own for such
+# headers, they compile without.
+if(CMAKE_CXX_COMPILER_LAUNCHER)
+  set(CMAKE_DISABLE_PRECOMPILE_HEADERS ON)
+endif()
+set(PHONGPD_COMMON_HEADERS <Eigen/Core> <algorithm> <functional> <map> <memory>
+                           <string> <vector>)
+
+# The library, without sources.
+function(phongpd_add_component component)
+  set(target phongpd_${component})
+  add_library(${target} STATIC)
+  add_library(phongpd::${component} ALIAS ${target})
+  set_target_properties(${target} PROPERTIES EXPORT_NAME ${component})
+  target_compile_features(${target} PUBLIC cxx_std_17)
+  target_link_libraries(${target} PRIVATE $<BUILD_INTERFACE:phongpd_flags>)
+endfunction()
+
+# Sources and public headers, relative to the folder that calls it.
+function(phongpd_component_sources component)
+  cmake_parse_arguments(PARSE_ARGV 1 files "" "" "SOURCES;HEADERS")
+  target_sources(phongpd_${component} PRIVATE ${files_SOURCES})
+  target_sources(phongpd_${component} PUBLIC FILE_SET HEADERS BASE_DIRS
+                 ${PROJECT_SOURCE_DIR} FILES ${files_HEADERS})
+endfunction()
+
+# Installs it as PhongPD<component>Targets, by which the package config knows
+# that it is there.
+function(phongpd_install_component component)
+  if(NOT PHONGPD_INSTALL)
+    return()
+  endif()
+  install(
+    TARGETS phongpd_${component}
+    EXPORT PhongPD${component}Targets
+    ARCHIVE COMPONENT development
+    LIBRARY COMPONENT development
+    FILE_SET HEADERS
+    DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/phongpd
+    COMPONENT development)
+  install(
+    EXPORT PhongPD${component}Targets
+    NAMESPACE phongpd::
+    DESTINATION ${PHONGPD_PACKAGE_DIR}
+    COMPONENT development)
+endfunction()
