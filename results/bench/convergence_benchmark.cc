@@ -14,7 +14,7 @@
 #include "problems/pictures/gnuplot.h"
 #include "problems/scenes/scene_source.h"
 #include "problems/shapes/random_solids.h"
-#include "problems/world/scene_space.h"
+#include "problems/world/world.h"
 #include "results/bench/convergence_report.h"
 #include "results/bench/program.h"
 
@@ -39,14 +39,14 @@ std::vector<Eigen::Vector3d> InteriorPoints(const TriangleMesh& mesh,
   return points;
 }
 
-DepthExcess Measure(const std::string& scene, const TriangleMesh& mesh,
+DepthExcess Measure(const std::string& scene, const ContactSpace& space,
                     double diagonal, double ell,
                     const std::vector<Eigen::Vector3d>& points,
                     const EuclideanMetric& euclid) {
-  PhongMetricOptions options;
-  options.field_options.smoothing_length =
-      std::min(1.0, ell * diagonal / ComputeBounds(mesh).Diagonal());
-  const PhongMetric phong(mesh, options);
+  SignedMetricOptions options;
+  options.phong.field_options.smoothing_length = ell;
+  const PhongMetric phong(space.mesh,
+                          MetricOptionsOn(space, diagonal, options).phong);
   DepthExcess excess;
   excess.scene = scene;
   excess.smoothing_length = ell;
@@ -76,13 +76,17 @@ std::vector<DepthExcess> MeasureAll(const std::vector<std::string>& scenes,
   std::vector<DepthExcess> all;
   for (const std::string& label : scenes) {
     std::cerr << label << '\n';
-    const SceneSpace space = BuildSceneSpace(SceneSource(label).Load());
-    const TriangleMesh& mesh = space.contact_meshes.front();
+    const Scene scene = SceneSource(label).Load();
+    const World world(scene.workspace, scene.name);
+    const ContactSpace& space =
+        world.Spaces(SpaceLayout::kMerged).spaces.front();
+    const TriangleMesh& mesh = space.mesh;
     const EuclideanMetric euclid(mesh);
     const std::vector<Eigen::Vector3d> inside =
         InteriorPoints(mesh, euclid, points, seed);
     for (const double ell : kSmoothingLengths) {
-      all.push_back(Measure(label, mesh, space.diagonal, ell, inside, euclid));
+      all.push_back(
+          Measure(label, space, world.diagonal(), ell, inside, euclid));
     }
   }
   return all;

@@ -44,7 +44,7 @@ list(JOIN components "," listed)
 run(${configure} -B ${work}-all -D COMPONENTS=${listed} -D
     HEADERS=${prefix}/include)
 run(${CMAKE_COMMAND} --build ${work}-all --parallel 2)
-foreach(component ipopt ompl)
+foreach(component ipopt ompl problems)
   if(component IN_LIST components)
     run(${work}-all/use_${component})
   endif()
