@@ -72,6 +72,11 @@ bool SeeksClearance(const std::string& planner) {
 PlanningStudy::PlanningStudy(const Scene& scene, const ContactSpaceCache& cache)
     : scene_(scene), world_(scene.workspace, scene.name, cache) {}
 
+PlanningStudy::PlanningStudy(const Scene& scene, const World& world)
+    : scene_(scene), world_(world) {
+  RequireSameSolids(scene.workspace, world, scene.name);
+}
+
 BoundingBox PlanningStudy::Region() const {
   const BoundingBox& bounds = scene_.workspace.bounds;
   return bounds.IsEmpty()

@@ -57,6 +57,9 @@ class PlanningStudy {
   // Throws InputError.
   explicit PlanningStudy(const Scene& scene,
                          const ContactSpaceCache& cache = {});
+  // In a world that others share.  Throws InputError unless its solids are the
+  // scene's.
+  PlanningStudy(const Scene& scene, const World& world);
 
   // A start or goal that is not free is said before anything is built.  Throws
   // InputError for an unknown planner or retraction.

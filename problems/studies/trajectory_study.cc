@@ -84,6 +84,14 @@ void TrajectoryStudy::Enter(const Scene& scene) {
   world_.emplace(scene_.workspace, scene_.name, cache_);
 }
 
+void TrajectoryStudy::Enter(const Scene& scene, const World& world) {
+  RequireSameSolids(scene.workspace, world, scene.name);
+  scene_ = scene;
+  problems_.clear();
+  repair_.reset();
+  world_ = world;
+}
+
 std::size_t TrajectoryStudy::triangles() const {
   const WorldSpaces* built = world().Built(layout_);
   return built == nullptr ? 0 : built->triangles;

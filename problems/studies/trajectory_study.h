@@ -41,6 +41,9 @@ class TrajectoryStudy {
 
   // Makes `scene` the current one; builds nothing.  Throws InputError.
   void Enter(const Scene& scene);
+  // The same in a world that others share.  Throws InputError unless its solids
+  // are the scene's.
+  void Enter(const Scene& scene, const World& world);
   const Scene& scene() const { return scene_; }
   // Of the current scene; Enter comes first.
   const World& world() const { return *world_; }

@@ -21,9 +21,11 @@ TEST(DepthBound, IsTheDepthOfTwoBoxes) {
   const TriangleMesh obstacle = MakeBox({-1, -2, -3}, {1, 2, 3});
   const MotionOracle oracle(robot, obstacle);
   std::mt19937_64 random(1);
+  std::uniform_real_distribution<double> share(-1.0, 1.0);
   for (int i = 0; i < 200; ++i) {
     const Vector3d half(1.1, 2.2, 3.3);
-    const Vector3d q = RandomPoint({-half, half}, &random);
+    const Vector3d q(share(random) * half.x(), share(random) * half.y(),
+                     share(random) * half.z());
     const double depth = (half - q.cwiseAbs()).minCoeff();
     const WayOut way = BoundDepth(robot, obstacle, q, oracle);
     EXPECT_NEAR(way.length, depth, 1e-12) << q.transpose();

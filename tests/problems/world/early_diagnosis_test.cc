@@ -86,6 +86,40 @@ TEST(EarlyDiagnosis, PlansBuildNothingForBlockedEnds) {
   }
 }
 
+// The planner, a sampler of OMPL and the optimiser on one scene.
+TEST(World, IsSharedByAllThatPlanInIt) {
+  for (const bool has_bounds : {false, true}) {
+    Json json = Json::parse(R"({"name": "shared",
+      "robot": {"shape": {"type": "box", "size": [0.2, 0.2, 0.2]}},
+      "obstacles": [{"shape": {"type": "box", "size": [0.2, 1, 1]}}],
+      "start": [-1, 0, 0.1], "goal": [1, 0.1, 0],
+      "trajectory": {"waypoints": 12}})");
+    if (has_bounds)
+      json["bounds"] = {{"min", {-2, -2, -2}}, {"max", {2, 2, 2}}};
+    const Scene scene = ParseScene(json, "shared.json");
+    const World world(scene.workspace, scene.name);
+    PlanningStudy planning(scene, world);
+    PlanningRun run;
+    run.time_limit = 20.0;
+    for (const std::string planner : {"contact-surface", "retraction-forest"}) {
+      run.planner = planner;
+      EXPECT_TRUE(planning.Run(run).solved) << planner;
+    }
+    EXPECT_EQ(world.Report().contact_spaces, 1);
+    TrajectoryStudy trajectories;
+    trajectories.Enter(scene, world);
+    const TrajectoryMetric metric = SceneMetric(scene);
+    EXPECT_TRUE(HasFreePath(trajectories.Run(metric, {}).status));
+    EXPECT_EQ(trajectories.Run(metric, {}).path.size(), 14U);
+    // Bounds belong to the planners' space and not to the optimiser's.
+    EXPECT_EQ(world.Report().contact_spaces, has_bounds ? 2 : 1);
+    Scene other = scene;
+    other.workspace.obstacles[0].mesh.vertices[0].x() -= 1.0;
+    EXPECT_THROW(PlanningStudy(other, world), InputError);
+    EXPECT_THROW(trajectories.Enter(other, world), InputError);
+  }
+}
+
 TEST(EarlyDiagnosis, TrajectoriesBuildNothingForBlockedEnds) {
   for (const SpaceLayout layout :
        {SpaceLayout::kMerged, SpaceLayout::kPerObstacle}) {
