@@ -151,12 +151,14 @@ TEST_F(CliPlan, SeeksAClearanceInUnitsOrAsAShareOfD) {
       EXPECT_NEAR(lengths["clearance"]["share"].get<double>() * d,
                   row["clearance"].get<double>(), 1e-12);
       if (planner != "contact-surface") continue;
-      EXPECT_GT(row["clearance"].get<double>(), 0.3 * unit) << flag;
+      // It is sought, not promised: corners are cut.
+      EXPECT_GT(row["clearance"].get<double>(), 0.5 * unit) << flag;
+      EXPECT_LT(row["clearance"].get<double>(), 1.01 * unit) << flag;
     }
   };
-  check("0.3unit", 0.3);
-  check("0.1", 0.1 * d);
-  check("0.1D", 0.1 * d);
+  check("0.02unit", 0.02);
+  check("0.01", 0.01 * d);
+  check("0.01D", 0.01 * d);
   // Told in the unit it means the same, to the byte of the path.
   const Json share = OneRow(good + " --clearance 0.125D", 0);
   const Json unit =
