@@ -212,6 +212,7 @@ TEST_F(CliOptimize, RefusesBadInputBeforeItWritesOrPrints) {
     return "optimize " + Scene(scene) + rest;
   };
   ExpectRefused(with("/trajectory/waypoint", 3), {"scene.json", "waypoint"});
+  ExpectRefused(with("/trajectory/margin", "1 km"), {"scene.json", "margin"});
   ExpectRefused(with("/roboter", 3), {"scene.json", "roboter"});
   ExpectRefused(with("/trajectory/ipopt", {{"tool", 1e-6}}), {"tool"});
   ExpectRefused(with("/trajectory/ipopt", {{"tol", "abc"}}), {"tol", "abc"});
@@ -228,7 +229,6 @@ TEST_F(CliOptimize, RefusesBadInputBeforeItWritesOrPrints) {
   ExpectBadLengthsRefused(good + rest, "--margin");
   ExpectBadLengthsRefused(good + rest, "--smoothing-length");
   ExpectRefused(good + rest + " --margin 0unit", {"--margin", "> 0"});
-  ExpectRefused(with("/trajectory/margin", "1 km"), {"scene.json", "margin"});
   ExpectRefused(good + rest + " --routes 9", {"routes", "9"});
   ExpectRefused(good + rest + " --rows -1", {"rows", "-1"});
   ExpectRefused(good + rest + " --time 0", {"time", "0"});
