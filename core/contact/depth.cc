@@ -78,8 +78,8 @@ struct DepthQuery::Impl {
   Impl(const TriangleMesh& the_robot, const TriangleMesh& the_obstacle,
        DepthOptions the_options)
       : options(std::move(the_options)),
-        robot(MakeSolid(the_robot, options.robot_name)),
-        obstacle(MakeSolid(the_obstacle, options.obstacle_name)),
+        robot(Prepared(the_robot, options.robot_name, &warnings)),
+        obstacle(Prepared(the_obstacle, options.obstacle_name, &warnings)),
         robot_ids(InputVertices(the_robot, robot)),
         obstacle_ids(InputVertices(the_obstacle, obstacle)),
         unturned(robot, obstacle, options) {
@@ -124,6 +124,7 @@ struct DepthQuery::Impl {
       result.clearance = length;
       // Solids that share no point are apart, however little.
       if (!(length > 0.0)) result.clearance = frame.step * 0x1p-60;
+      result.explored_radius = result.clearance;
       if (found.distance > kShortWay) along = -along;
     } else if (found.distance > 0.0) {
       result.status = DepthStatus::kPenetrating;
@@ -159,7 +160,20 @@ struct DepthQuery::Impl {
   // Grid steps: a way this short is rounding, and has no direction.
   static constexpr double kShortWay = 0x1p-4;
 
+  static TriangleMesh Prepared(const TriangleMesh& mesh,
+                               const std::string& name,
+                               std::vector<std::string>* warnings) {
+    MeshReport report;
+    TriangleMesh solid = MakeSolid(mesh, name, &report);
+    for (const std::string& line : report.warnings) {
+      const bool is_named = line.find(name) != std::string::npos;
+      warnings->push_back(is_named ? line : name + ": " + line);
+    }
+    return solid;
+  }
+
   DepthOptions options;
+  std::vector<std::string> warnings;
   TriangleMesh robot, obstacle;
   std::vector<int> robot_ids, obstacle_ids;
   PlacedPair unturned;
@@ -191,6 +205,10 @@ DepthResult DepthQuery::At(const RobotPose& pose) const {
   DepthResult result = impl_->Answer(turned, pose.position);
   result.seconds = stopwatch.Seconds();
   return result;
+}
+
+const std::vector<std::string>& DepthQuery::warnings() const {
+  return impl_->warnings;
 }
 
 DepthResult PenetrationDepth(const TriangleMesh& robot,

@@ -7,6 +7,7 @@
 #include <limits>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "core/mesh/triangle_mesh.h"
 
@@ -64,9 +65,10 @@ struct DepthResult {
   ContactFeature robot_feature, obstacle_feature;
   // The answer is the global one: nothing that was not looked at is nearer than
   // explored_radius, and it is not farther.  Otherwise a limit was met: the
-  // depth is at least explored_radius and at most `depth`.
+  // depth is at least explored_radius and at most `depth`, a translation that
+  // suffices; features are kNone where no point of C_cont was found.
   bool certified = false;
-  double explored_radius = std::numeric_limits<double>::infinity();
+  double explored_radius = 0.0;
   DepthLevel level = DepthLevel::kNone;
   // What the input's coordinates were rounded by to lie on the grid (0: they
   // do).  The answer is exact for the rounded solids, to rounding in double;
@@ -110,6 +112,10 @@ class DepthQuery {
   // The robot turned, then moved: translational depth at a pose.  Throws
   // InputError also unless | |quaternion| − 1 | ≤ 1e-9.
   DepthResult At(const RobotPose& pose) const;
+
+  // What a user should know of the operands although it is no error, one
+  // sentence each, with the operand's name.
+  const std::vector<std::string>& warnings() const;
 
  private:
   struct Impl;

@@ -160,7 +160,7 @@ GridDepth DepthSearch::Apart(const Vector3d& x) const {
   depth.normal =
       ToDouble(pair_.obstacle.normals[nearest.facet_of_p]).normalized();
   depth.is_certified = true;
-  depth.radius = std::numeric_limits<double>::infinity();
+  depth.radius = depth.distance;
   return depth;
 }
 

@@ -88,16 +88,19 @@ bool IsClearlyApart(const Vector3d corners[3], const BoundingBox& box) {
   return false;
 }
 
-FeatureSums::Operand::Operand(const GridSolid& s)
+FeatureSums::Operand::Operand(const GridSolid& s, int turn)
     : solid(s),
       stars(s),
       edges(ConvexEdges(s)),
       vertices(VertexTree(s)),
       facets(FacetTree(s)),
-      arcs(ArcTree(s, edges)) {}
+      arcs(ArcTree(s, edges)) {
+  touching.reserve(s.normals.size());
+  for (const GridNormal& n : s.normals) touching.emplace_back(n, turn);
+}
 
 FeatureSums::FeatureSums(const GridSolid& p, const GridSolid& q)
-    : p_(p), q_(q) {
+    : p_(p, 1), q_(q, -1) {
   const BoxTree::Node& a = p_.facets.tree().nodes()[0];
   const BoxTree::Node& b = q_.facets.tree().nodes()[0];
   bounds_ = {a.min + b.min, a.max + b.max};
@@ -134,10 +137,9 @@ WindowConvolution FeatureSums::Within(const BoundingBox& window) const {
     pairs.clear();
     ForEachPairIn(facets.facets, others.vertices, NormalMatch::kEqualOrOpposite,
                   window, [&](int f, int v) {
-                    const TouchingFacet facet(facets.solid.normals[f],
-                                              of_p ? 1 : -1);
-                    if (facet.Touches(others.stars, v))
+                    if (facets.touching[f].Touches(others.stars, v)) {
                       pairs.emplace_back(f, v);
+                    }
                   });
     for (const auto& [f, v] : sorted()) {
       const std::size_t before = out.convolution.facets.size();

@@ -45,8 +45,10 @@ class FeatureSums {
 
  private:
   struct Operand {
-    explicit Operand(const GridSolid& s);
+    // `turn` is that of its facets (TouchingFacet).
+    Operand(const GridSolid& s, int turn);
     const GridSolid& solid;
+    std::vector<TouchingFacet> touching;  // per facet
     VertexStars stars;
     std::vector<ConvexEdge> edges;
     ConeTree vertices, facets, arcs;

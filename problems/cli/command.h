@@ -40,6 +40,8 @@ Command AddOptimize(CLI::App* app);
 Command AddCompare(CLI::App* app);
 Command AddPlan(CLI::App* app);
 Command AddReproduce(CLI::App* app);
+Command AddDepth(CLI::App* app);
+Command AddMinkowski(CLI::App* app);
 
 // Reads an operand file as a solid.  What the user should know goes to
 // stderr, one line a warning.  Throws InputError naming the file.

@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Truth: closed forms, Euclidean PD on the whole contact space, FCL.
+// Truth: closed forms, and Euclidean PD on the whole contact space.
 #include "core/contact/depth.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <functional>
 #include <limits>
 #include <random>
 
-#include "constraints/collision_oracle.h"
 #include "core/bvh/surface_tree.h"
 #include "core/contact/contact_space.h"
 #include "core/mesh/mesh_error.h"
@@ -28,6 +26,19 @@ double DistanceToSurface(const TriangleMesh& mesh, const Vector3d& x) {
   return SurfaceTree(mesh).FindClosest(x).distance;
 }
 
+// Of x to the vertex, edge or facet.
+double DistanceToFeature(const TriangleMesh& mesh,
+                         const ContactFeature& feature, const Vector3d& x) {
+  TriangleMesh alone;
+  const int count = feature.kind;
+  for (int k = 0; k < 3; ++k) {
+    const int v = feature.vertices[static_cast<std::size_t>(k % count)];
+    alone.vertices.push_back(mesh.vertices[static_cast<std::size_t>(v)]);
+  }
+  alone.triangles = {{0, 1, 2}};
+  return SurfaceTree(alone).FindClosest(x).distance;
+}
+
 void ExpectWitness(const TriangleMesh& placed_robot,
                    const TriangleMesh& obstacle, const Vector3d& q,
                    const DepthResult& result) {
@@ -40,8 +51,14 @@ void ExpectWitness(const TriangleMesh& placed_robot,
   EXPECT_NEAR(way.norm(), result.depth + result.clearance, tolerance);
   EXPECT_LE((result.contact - q - way).norm(), tolerance);
   EXPECT_NEAR(result.direction.norm(), 1.0, 1e-12);
-  EXPECT_NE(result.robot_feature.kind, ContactFeature::kNone);
-  EXPECT_NE(result.obstacle_feature.kind, ContactFeature::kNone);
+  ASSERT_NE(result.robot_feature.kind, ContactFeature::kNone);
+  ASSERT_NE(result.obstacle_feature.kind, ContactFeature::kNone);
+  EXPECT_LE(DistanceToFeature(placed_robot, result.robot_feature,
+                              result.on_robot - q),
+            tolerance);
+  EXPECT_LE(
+      DistanceToFeature(obstacle, result.obstacle_feature, result.on_obstacle),
+      tolerance);
 }
 
 struct Pair {
@@ -122,6 +139,146 @@ TEST(DepthQuery, EqualsTheWholeContactSpaceAtTurnedPoses) {
       }
     }
   }
+}
+
+TEST(DepthQuery, IsTheLeastOverlapOfTwoBoxes) {
+  const TriangleMesh box = MakeBox({-1, -1, -1}, {1, 1, 1});
+  const DepthQuery query(box, box);
+  std::mt19937_64 random(13);
+  std::uniform_real_distribution<double> offset(-1.99, 1.99);
+  for (int i = 0; i < 200; ++i) {
+    const Vector3d q(offset(random), offset(random), offset(random));
+    const DepthResult found = query.At(q);
+    ASSERT_EQ(found.status, DepthStatus::kPenetrating);
+    EXPECT_TRUE(found.certified);
+    int axis = 0;
+    const double least = 2.0 - q.cwiseAbs().maxCoeff(&axis);
+    EXPECT_NEAR(found.depth, least, 1e-14);
+    EXPECT_NEAR(found.direction[axis], q[axis] > 0 ? 1.0 : -1.0, 1e-14);
+    ExpectWitness(box, box, q, found);
+  }
+}
+
+TEST(DepthQuery, IsHowFarACubeOnItsDiagonalSinksIn) {
+  const TriangleMesh floor = MakeBox({-5, -5, -4}, {5, 5, 0});
+  RobotPose pose;
+  pose.orientation =
+      Eigen::Quaterniond::FromTwoVectors(Vector3d(1, 1, 1), Vector3d(0, 0, 1));
+  const DepthQuery query(Cube(1), floor);
+  for (const double sunk : {0.3, 0.01, 1e-6}) {
+    pose.position = {0.1, 0.2, std::sqrt(0.75) - sunk};
+    const DepthResult found = query.At(pose);
+    EXPECT_EQ(found.status, DepthStatus::kPenetrating);
+    EXPECT_TRUE(found.certified);
+    EXPECT_NEAR(found.depth, sunk,
+                8 * std::sqrt(3.0) * found.grid_step + 1e-14);
+    EXPECT_EQ(found.robot_feature.kind, ContactFeature::kVertex);
+    EXPECT_NEAR(found.direction[2], 1.0, 1e-12);
+  }
+  pose.position = {0.1, 0.2, std::sqrt(0.75) + 0.25};
+  const DepthResult apart = query.At(pose);
+  EXPECT_EQ(apart.status, DepthStatus::kSeparate);
+  EXPECT_NEAR(apart.clearance, 0.25, 1e-10);
+}
+
+TEST(DepthQuery, CallsFlushSolidsTouchingExactly) {
+  // Decimals, which no double is.
+  const TriangleMesh a = MakeBox({0.1, 0.1, 0.1}, {0.4, 0.4, 0.4});
+  const TriangleMesh b = MakeBox({0.7, 0.1, 0.1}, {1.3, 0.4, 0.4});
+  const DepthQuery query(a, b);
+  const Vector3d flush[] = {
+      {0.3, 0, 0}, {0.3, 0.1, -0.2}, {0.3, 0.3, 0}, {0.3, 0.3, 0.3}};
+  for (const Vector3d& q : flush) {
+    const DepthResult found = query.At(q);
+    EXPECT_EQ(found.status, DepthStatus::kTouching) << q.transpose();
+    EXPECT_TRUE(found.certified);
+    EXPECT_EQ(found.depth, 0.0);
+    EXPECT_EQ(found.clearance, 0.0);
+    EXPECT_NEAR(found.direction.norm(), 1.0, 1e-15);
+    ExpectWitness(a, b, q, found);
+  }
+  const double hair = 0x1p-40;
+  EXPECT_EQ(query.At(Vector3d(0.3 + hair, 0, 0)).status,
+            DepthStatus::kPenetrating);
+  EXPECT_NEAR(query.At(Vector3d(0.3 + hair, 0, 0)).depth, hair, 1e-15);
+  EXPECT_EQ(query.At(Vector3d(0.3 - hair, 0, 0)).status,
+            DepthStatus::kSeparate);
+  EXPECT_NEAR(query.At(Vector3d(0.3 - hair, 0, 0)).clearance, hair, 1e-15);
+}
+
+TEST(DepthQuery, LeavesAnExactHoleAlongItsAxis) {
+  const TriangleMesh plate = MakePlateWithHole(4, 1, 1);
+  const TriangleMesh peg = MakeBox({-0.5, -0.5, -1}, {0.5, 0.5, 1});
+  const DepthQuery exact(peg, plate);
+  // Free only above or below the plate.
+  const DepthResult fits = exact.At(Vector3d(0, 0, 0.25));
+  EXPECT_EQ(fits.status, DepthStatus::kPenetrating);
+  EXPECT_NEAR(fits.depth, 1.25, 1e-13);
+  EXPECT_NEAR(fits.direction[2], 1.0, 1e-13);
+  EXPECT_EQ(exact.At(Vector3d(0, 0, 1.5)).status, DepthStatus::kTouching);
+  const TriangleMesh loose = MakeBox({-0.495, -0.495, -1}, {0.495, 0.495, 1});
+  const DepthResult free = DepthQuery(loose, plate).At(Vector3d::Zero());
+  EXPECT_EQ(free.status, DepthStatus::kSeparate);
+  EXPECT_NEAR(free.clearance, 0.005, 1e-15);
+}
+
+TEST(DepthQuery, AnswersNestedSolidsAndCavities) {
+  const DepthResult nested = PenetrationDepth(Cube(1), Cube(4));
+  EXPECT_EQ(nested.status, DepthStatus::kPenetrating);
+  EXPECT_NEAR(nested.depth, 2.5, 1e-14);
+  EXPECT_NEAR(PenetrationDepth(Cube(4), Cube(1)).depth, 2.5, 1e-14);
+  const DepthQuery shell(Cube(1), MakeVessel(4, 3, 0));
+  const DepthResult inside = shell.At(Vector3d(0.25, 0, 0));
+  EXPECT_EQ(inside.status, DepthStatus::kSeparate);
+  EXPECT_NEAR(inside.clearance, 0.75, 1e-14);
+  EXPECT_EQ(shell.At(Vector3d(1, 0, 0)).status, DepthStatus::kTouching);
+  // Back into the cavity is nearer than out.
+  const DepthResult wall = shell.At(Vector3d(1.25, 0, 0));
+  EXPECT_NEAR(wall.depth, 0.25, 1e-14);
+  EXPECT_NEAR(wall.direction[0], -1.0, 1e-14);
+}
+
+TEST(DepthQuery, AnswersFarApartSolids) {
+  const DepthQuery query(Cube(2), Cube(2));
+  for (const double far : {1e3, 1e9, 1e14}) {
+    const DepthResult found = query.At(Vector3d(0, 0, far));
+    EXPECT_EQ(found.status, DepthStatus::kSeparate);
+    EXPECT_NEAR(found.clearance, far - 2.0, 1e-15 * far);
+    EXPECT_NEAR(found.direction[2], 1.0, 1e-15);
+  }
+  EXPECT_THROW(query.At(Vector3d(0, 0, 1e18)), InputError);
+}
+
+TEST(DepthQuery, SaysWhatALimitLeftOpen) {
+  const TriangleMesh star = MakeStar(0.5, 1.2),
+                     torus = MakeTorus(2, 0.6, 16, 8);
+  const Vector3d q(2, 0, 0);
+  const DepthResult truth = PenetrationDepth(star, torus, {q, {1, 0, 0, 0}});
+  ASSERT_TRUE(truth.certified);
+  DepthOptions options;
+  options.max_radius = 0.5 * truth.depth;
+  const DepthResult bound =
+      PenetrationDepth(star, torus, {q, {1, 0, 0, 0}}, options);
+  EXPECT_EQ(bound.status, DepthStatus::kPenetrating);
+  EXPECT_FALSE(bound.certified);
+  EXPECT_GE(bound.explored_radius, options.max_radius);
+  EXPECT_LE(bound.explored_radius, truth.depth);
+  EXPECT_GE(bound.depth, truth.depth);
+  options.max_radius = 0.0;
+  EXPECT_THROW(DepthQuery(star, torus, options), InputError);
+}
+
+TEST(DepthQuery, RefusesPosesThatAreNone) {
+  const DepthQuery query(Cube(1), Cube(1));
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THROW(query.At(Vector3d(nan, 0, 0)), InputError);
+  RobotPose pose;
+  pose.orientation.coeffs() << 0, 0, 0, 1 + 2e-9;
+  EXPECT_THROW(query.At(pose), InputError);
+  pose.orientation.coeffs() << 0, 0, 0, 1 + 0.5e-9;
+  EXPECT_EQ(query.At(pose).status, DepthStatus::kPenetrating);
+  pose.orientation.coeffs() << nan, 0, 0, 1;
+  EXPECT_THROW(query.At(pose), InputError);
 }
 
 }  // namespace
