@@ -22,6 +22,8 @@ using Eigen::Vector3d;
 // Of the larger operand: beyond, a double no longer tells its vertices apart.
 constexpr double kFarthest = 1e15;
 constexpr double kUnitLength = 1e-9;
+// Of a way: what of it across the facet is rounding.
+constexpr double kAcross = 1e-12;
 
 std::string Described(double value) {
   std::ostringstream text;
@@ -118,7 +120,12 @@ struct DepthQuery::Impl {
     const double length = found.distance * frame.step;
     const Vector3d way = found.point - x;
     Vector3d along = found.normal;
-    if (found.distance > kShortWay) along = way.normalized();
+    const double across = (way - way.dot(along) * along).norm();
+    // Straight through a facet the way is its normal, which is exact.
+    if (found.distance > kShortWay &&
+        !(found.collides && across <= kAcross * found.distance)) {
+      along = way.normalized();
+    }
     if (!found.collides) {
       result.status = DepthStatus::kSeparate;
       result.clearance = length;
@@ -141,6 +148,7 @@ struct DepthQuery::Impl {
 
   void TellWitness(const PlacedPair& placed, const internal::GridDepth& found,
                    const Vector3d& q, DepthResult* result) const {
+    if (found.of_robot.count == 0) return;
     result->on_robot = PointOf(found.of_robot, placed.robot.vertices) + q;
     result->on_obstacle = PointOf(found.of_obstacle, obstacle.vertices);
     result->robot_feature = FeatureOf(found.of_robot, robot_ids);

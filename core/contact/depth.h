@@ -59,7 +59,8 @@ struct DepthResult {
   // q_c, the configuration nearest to q at which A touches B.
   Eigen::Vector3d contact = Eigen::Vector3d::Zero();
   // The pair of points that touch there: of A as it is put, and of B;
-  // on_obstacle − on_robot = q_c − q.  One pair of perhaps several.
+  // on_obstacle − on_robot = q_c − q.  One pair of perhaps several; zero where
+  // the features are kNone.
   Eigen::Vector3d on_robot = Eigen::Vector3d::Zero();
   Eigen::Vector3d on_obstacle = Eigen::Vector3d::Zero();
   ContactFeature robot_feature, obstacle_feature;

@@ -90,6 +90,13 @@ class WindowChooser {
         std::max(kLeastReach, kFirstShare * (all.max - all.min).maxCoeff());
   }
 
+  // The window that reaches as far as `most`.
+  void Take(double most) {
+    reach_ = most;
+    window_ = GridWindow::Around(x_, reach_);
+    part_ = sums_.Within(window_.Box());
+  }
+
   // The largest window within `most` of x that holds about `facets` facets.
   void Choose(std::size_t facets, double most) {
     reach_ = std::min(reach_, most);
@@ -186,8 +193,7 @@ void DepthSearch::SearchWindows(const Vector3d& x, const SearchLimits& limits,
   for (;;) {
     const double most = std::min(depth->distance, limits.max_radius);
     // A point that is known says how far to look.
-    chooser.Choose(
-        is_found ? std::numeric_limits<std::size_t>::max() / 2 : facets, most);
+    is_found ? chooser.Take(most) : chooser.Choose(facets, most);
     const GridWindow& window = chooser.window();
     const WindowConvolution& part = chooser.part();
     depth->radius = window.WallDistance(x);
@@ -196,7 +202,7 @@ void DepthSearch::SearchWindows(const Vector3d& x, const SearchLimits& limits,
       ++depth->windows;
       depth->faces += static_cast<std::size_t>(cells.FaceCount());
       const WindowCells::Nearest nearest = cells.FindNearest(x);
-      if (nearest.found && nearest.distance <= depth->distance) {
+      if (nearest.found && (!is_found || nearest.distance < depth->distance)) {
         is_found = true;
         depth->distance = nearest.distance;
         depth->point = nearest.point;
@@ -208,7 +214,10 @@ void DepthSearch::SearchWindows(const Vector3d& x, const SearchLimits& limits,
     const BoundingBox box = window.Box();
     depth->is_full = (box.min.array() < all.min.array()).all() &&
                      (box.max.array() > all.max.array()).all();
+    // Where everything beyond is free, a window that shows no free cell can
+    // only be rounding's fault: a bound is all there is.
     if (depth->is_certified || depth->is_full ||
+        (!is_found && chooser.reach() >= depth->distance) ||
         depth->radius >= limits.max_radius ||
         (limits.max_seconds > 0.0 &&
          stopwatch.Seconds() > limits.max_seconds)) {
