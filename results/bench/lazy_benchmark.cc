@@ -166,9 +166,10 @@ int Run(int argc, char** argv) {
       "diagonal deep. Every answer is compared with the whole contact "
       "space's.\n\n" +
           ToMarkdown(tables, {}) + "\n" +
-          Circumstances(CommandLine("lazy_benchmark", argc, argv),
+          Circumstances(CommandLine("build/lazy_benchmark", argc, argv),
                         options.seed),
       &out);
+  out.Commit();
   return 0;
 }
 

