@@ -29,7 +29,7 @@ if [[ $suite == contact-space || $suite == all ]]; then
 fi
 if [[ $suite == lazy || $suite == all ]]; then
   scripts/build.sh lazy_benchmark
-  build/lazy_benchmark --output results/lazy
+  build/lazy_benchmark --output results/lazy --queries 60
 fi
 if [[ $suite == convergence || $suite == all ]]; then
   scripts/build.sh phongpd convergence_benchmark
