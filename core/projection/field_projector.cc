@@ -32,7 +32,7 @@ int FieldProjector::Project(int triangle, const Vector3d& x, double max_depth,
   if (kind_ == FieldKind::kTangentPlane) {
     TangentPlaneHit hit;
     if (!ProjectOnTangentPlanes(field_, planes_, triangle, x, start, &hit) ||
-        hit.s > kOnSurface || hit.s < -max_depth) {
+        !(hit.s <= kOnSurface && hit.s >= -max_depth)) {
       return 0;
     }
     const Vector3d positive = hit.lambda.cwiseMax(0.0);
