@@ -189,8 +189,13 @@ check_coverage() {
   gcovr --root . --object-directory build-coverage --exclude-throw-branches \
     --filter '(core|constraints|planners)/' --csv build/check/coverage.csv
   mkdir -p results/extremes
-  awk -F, -v slice="$SLICE" -f scripts/coverage.awk build/check/coverage.csv \
-    >results/extremes/coverage.md
+  {
+    awk -F, -v slice="$SLICE" -f scripts/coverage.awk build/check/coverage.csv
+    find build-coverage/{core,constraints,planners} -name '*.gcda' | sort |
+      xargs gcov --stdout --branch-probabilities --branch-counts --demangled-names \
+        --relative-only --source-prefix "$PWD" 2>/dev/null |
+      awk -f scripts/derivatives.awk
+  } >results/extremes/coverage.md
 }
 
 check_asan() {

@@ -345,5 +345,47 @@ TEST(SignedMetric, NamesBadOptions) {
   EXPECT_THROW(SignedMetric(open, {}), InputError);
 }
 
+// Beside an edge in direction t the distance a has the curvature t tᵀ / a, and
+// is given up to what the search resolves.
+TEST(SignedMetric, CurvatureBesideAnEdgeIsTheClosedFormUpToItsCap) {
+  const SignedMetric metric(
+      MakeBox({-1, -1, -1}, {1, 1, 1}),
+      Options(MetricKind::kEuclidean, JacobianKind::kExact));
+  const Vector3d t = Vector3d(1, -1, 0).normalized();
+  const auto beside = [&](double a) {
+    const double half = a / std::sqrt(2.0);
+    const Vector3d q(1.0 + half, 1.0 + half, 0.3);
+    return metric.Curvature(q, metric.Query(q));
+  };
+  for (const double a : {0.05, 0.1, 0.5, 2.0}) {
+    EXPECT_LT((beside(a) - t * t.transpose() / a).norm(), 1e-12 / a);
+  }
+  EXPECT_LT((beside(1e-6) - beside(1e-7)).norm(), 1e-6 * beside(1e-6).norm());
+  EXPECT_LT(beside(1e-12).norm(), 1e4);
+  EXPECT_TRUE(beside(-1e-12).allFinite());
+  EXPECT_TRUE(beside(0.0).allFinite());
+}
+
+TEST(SignedMetric, CurvatureIsZeroWhereThereIsNone) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  for (const MetricKind kind : {MetricKind::kPhong, MetricKind::kEuclidean}) {
+    const SignedMetric metric(MakeBox({-1, -1, -1}, {1, 1, 1}),
+                              Options(kind, JacobianKind::kExact));
+    // No number, too far to tell, on a facet, and less than a difference's
+    // step below one.
+    for (const Vector3d& q :
+         {Vector3d(nan, 0, 0), Vector3d(1e12, 0.2, 0.3),
+          Vector3d(1.0, 0.2, 0.3), Vector3d(1.0 - 1e-12, 0.2, 0.3)}) {
+      EXPECT_EQ(metric.Curvature(q, metric.Query(q)), Eigen::Matrix3d::Zero());
+    }
+    MetricRow row = metric.Query({1.5, 1.5, 0.3});
+    for (const int triangle : {-1, 1 << 20}) {
+      row.triangle = triangle;
+      EXPECT_EQ(metric.Curvature({1.5, 1.5, 0.3}, row),
+                Eigen::Matrix3d::Zero());
+    }
+  }
+}
+
 }  // namespace
 }  // namespace phongpd

@@ -373,5 +373,34 @@ TEST(TangentPlaneField, GradientStaysFiniteUpToFoldsAndIsTheNormalThere) {
   EXPECT_GT(longest, 1e6);
 }
 
+// Frames of normals more than 90° apart are reflections of each other; the
+// normal still faces the linear one.
+TEST(TangentPlaneField, NormalFacesTheLinearOneOfObtuseCorners) {
+  std::mt19937 rng(6);
+  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+  int checked = 0;
+  for (int i = 0; i < 1000; ++i) {
+    std::array<Vector3d, 3> corners;
+    for (Vector3d& n : corners) n = {uniform(rng), uniform(rng), uniform(rng)};
+    const Case s = OneTriangle(corners);
+    const Vector3d lambda(0.2, 0.3, 0.5);
+    const Vector3d n = TangentPlaneNormal(s.field, s.planes, 0, lambda);
+    EXPECT_NEAR(n.norm(), 1.0, 1e-12);
+    EXPECT_GE(n.dot(Linear(s.field, 0, lambda)), 0.0);
+    ++checked;
+  }
+  EXPECT_EQ(checked, 1000);
+}
+
+TEST(FieldProjector, NormalAndGradientAreZeroWhereNormalsCancel) {
+  const FieldProjector projector(
+      OneTriangle({Vector3d::UnitZ(), -Vector3d::UnitZ(), Vector3d::UnitZ()})
+          .field,
+      FieldKind::kNormal);
+  const Projection middle{0, Vector3d(0.5, 0.5, 0.0), -0.5, 0.0};
+  EXPECT_EQ(projector.UnitNormal(middle), Vector3d::Zero());
+  EXPECT_EQ(projector.Gradient(middle), Vector3d::Zero());
+}
+
 }  // namespace
 }  // namespace phongpd
