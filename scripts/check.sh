@@ -191,10 +191,13 @@ check_coverage() {
   mkdir -p results/extremes
   {
     awk -F, -v slice="$SLICE" -f scripts/coverage.awk build/check/coverage.csv
-    find build-coverage/{core,constraints,planners} -name '*.gcda' | sort |
-      xargs gcov --stdout --branch-probabilities --branch-counts --demangled-names \
-        --relative-only --source-prefix "$PWD" 2>/dev/null |
-      awk -f scripts/derivatives.awk
+    # From where they were compiled: paths may be relative to that.
+    for folder in core constraints planners planners/trajectory; do
+      (cd "build-coverage/$folder" && find CMakeFiles -name '*.gcda' | sort |
+        xargs gcov --stdout --branch-probabilities --branch-counts \
+          --demangled-names --relative-only --source-prefix "$OLDPWD" \
+          2>/dev/null)
+    done | awk -f scripts/derivatives.awk
   } >results/extremes/coverage.md
 }
 

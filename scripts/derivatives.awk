@@ -28,7 +28,8 @@ BEGIN {
     "|NonPenetrationConstraint::Evaluate)$"
   print "## Derivatives\n"
   print "Functions that compute derivatives or step by them; with each branch"
-  print "that no test takes its line.\n"
+  print "that no test takes its line. Branches in Eigen expressions written there"
+  print "count, those of exceptions do not.\n"
   print "| file | function | branches | taken | never taken |"
   print "|---|---|---|---|---|"
 }

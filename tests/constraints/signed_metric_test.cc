@@ -387,5 +387,49 @@ TEST(SignedMetric, CurvatureIsZeroWhereThereIsNone) {
   }
 }
 
+TEST(SignedMetric, CurvatureIsZeroWithinAStepOfTheEndOfABranch) {
+  const SignedMetric metric(TurnedU(),
+                            Options(MetricKind::kPhong, JacobianKind::kExact));
+  std::mt19937_64 random(9);
+  int ends = 0;
+  for (int i = 0; i < 20000 && ends < 20; ++i) {
+    const Vector3d from = RandomPoint(metric.bounds(), 0.0, &random);
+    const Vector3d to = RandomPoint(metric.bounds(), 0.0, &random);
+    MetricRow row = metric.Query(from);
+    const auto goes_on = [&](double t, MetricRow* there) {
+      *there = metric.Query(from + t * (to - from), row.branch);
+      return there->inside && there->status == QueryStatus::kOk;
+    };
+    MetricRow there;
+    if (!row.inside || !row.branch.IsValid() || goes_on(1.0, &there) ||
+        !there.inside) {
+      continue;
+    }
+    double near = 0.0, far = 1.0;
+    for (int halving = 0; halving < 50; ++halving) {
+      const double middle = 0.5 * (near + far);
+      if (goes_on(middle, &there)) row = there;
+      (there.inside && there.status == QueryStatus::kOk ? near : far) = middle;
+    }
+    if (!metric.Query(from + far * (to - from)).inside) continue;
+    ++ends;
+    EXPECT_EQ(metric.Curvature(from + near * (to - from), row),
+              Eigen::Matrix3d::Zero());
+  }
+  EXPECT_EQ(ends, 20);
+}
+
+// A triangle without area between the halves of an edge and the whole.
+TEST(SignedMetric, CurvatureIsZeroOnATriangleWithoutArea) {
+  const TriangleMesh mesh{
+      {{0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {0, 0, 2}, {1, 0, 0}},
+      {{0, 2, 4}, {4, 2, 1}, {0, 4, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}}};
+  const SignedMetric metric(
+      mesh, Options(MetricKind::kEuclidean, JacobianKind::kExact));
+  MetricRow row = metric.Query({0.5, 0.0, 0.0});
+  row.triangle = 2;
+  EXPECT_EQ(metric.Curvature({0.5, 0.0, 0.0}, row), Eigen::Matrix3d::Zero());
+}
+
 }  // namespace
 }  // namespace phongpd
