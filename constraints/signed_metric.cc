@@ -104,8 +104,9 @@ Eigen::Matrix3d SignedMetric::Curvature(const Vector3d& q,
     h.col(axis) = (ahead.gradient - behind.gradient) / (2.0 * step);
   }
   h = (0.5 * (h + h.transpose())).eval();
-  const double size = h.norm(), most = 1e3 / diagonal;
-  if (!(size <= most)) h *= std::isfinite(size) ? most / size : 0.0;
+  // Squares may overflow in small spaces; the norm does not.
+  const double size = h.stableNorm(), most = 1e3 / diagonal;
+  if (size > most) h *= most / size;
   return h;
 }
 

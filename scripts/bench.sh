@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# bench.sh [paper|contact-space|convergence|planning|extremes|all]: regenerates
-# the tables and figures of results/.
+# bench.sh [paper|contact-space|lazy|convergence|planning|extremes|all]:
+# regenerates the tables and figures of results/.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 # The user's own cache is neither used nor filled.
@@ -9,10 +9,10 @@ export PHONGPD_CACHE_DIR=$PWD/build/cache
 
 suite=${1:-all}
 case $suite in
-  paper | contact-space | convergence | planning | extremes | all) ;;
+  paper | contact-space | lazy | convergence | planning | extremes | all) ;;
   *)
-    echo "bench: expected paper, contact-space, convergence, planning," \
-      "extremes or all, found $suite" >&2
+    echo "bench: expected paper, contact-space, lazy, convergence," \
+      "planning, extremes or all, found $suite" >&2
     exit 2
     ;;
 esac
@@ -26,6 +26,10 @@ if [[ $suite == contact-space || $suite == all ]]; then
   cmake --preset release -DPHONGPD_BUILD_COMPETITORS=ON
   scripts/build.sh contact_space_benchmark
   build/contact_space_benchmark --output results/contact-space
+fi
+if [[ $suite == lazy || $suite == all ]]; then
+  scripts/build.sh lazy_benchmark
+  build/lazy_benchmark --output results/lazy --queries 60
 fi
 if [[ $suite == convergence || $suite == all ]]; then
   scripts/build.sh phongpd convergence_benchmark

@@ -227,8 +227,16 @@ check_coverage() {
   gcovr --root . --object-directory build-coverage --exclude-throw-branches \
     --filter '(core|constraints|planners)/' --csv build/check/coverage.csv
   mkdir -p results/extremes
-  awk -F, -v slice="$SLICE" -f scripts/coverage.awk build/check/coverage.csv \
-    >results/extremes/coverage.md
+  {
+    awk -F, -v slice="$SLICE" -f scripts/coverage.awk build/check/coverage.csv
+    # From where they were compiled: paths may be relative to that.
+    for folder in core constraints planners planners/trajectory; do
+      (cd "build-coverage/$folder" && find CMakeFiles -name '*.gcda' | sort |
+        xargs gcov --stdout --branch-probabilities --branch-counts \
+          --demangled-names --relative-only --source-prefix "$OLDPWD" \
+          2>/dev/null)
+    done | awk -f scripts/derivatives.awk
+  } >results/extremes/coverage.md
 }
 
 check_asan() {

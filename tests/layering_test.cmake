@@ -67,6 +67,18 @@ foreach(header IN LISTS public)
   endforeach()
 endforeach()
 
+# Worlds know nothing of who fills or shows them, and what is installed of them
+# nothing of files and flags.
+forbid(problems/world "problems/(scenes|shapes|studies|pictures|cli)/")
+forbid(problems/world "(nlohmann|CLI)/")
+foreach(name diagnosis length world)
+  file(STRINGS ${SOURCE}/problems/world/${name}.h includes
+       REGEX "problems/(output|world/depth)")
+  if(includes)
+    list(APPEND failures "${name}.h is installed without: ${includes}")
+  endif()
+endforeach()
+
 # One file knows FCL; anybody may ask for its version.
 file(GLOB_RECURSE files ${SOURCE}/constraints/* ${SOURCE}/problems/*
      ${SOURCE}/tests/*.cc ${SOURCE}/results/*.cc)

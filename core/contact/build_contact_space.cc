@@ -14,8 +14,7 @@
 #include "core/minkowski/convolution.h"
 #include "core/minkowski/edge_rings.h"
 #include "core/minkowski/facet_intersections.h"
-#include "core/minkowski/grid_frame.h"
-#include "core/minkowski/grid_solid.h"
+#include "core/minkowski/grid_pair.h"
 #include "core/minkowski/operand.h"
 #include "core/minkowski/patch_triangulation.h"
 #include "core/minkowski/plane_arrangement.h"
@@ -113,18 +112,14 @@ ContactSpace BuildContactSpace(const TriangleMesh& robot,
       obstacle, OperandRole::kObstacle, options, &report);
   clock.Finish("check");
 
-  const internal::GridFrame frame = internal::PlaceOnGrid(a, b);
+  const internal::GridPair pair =
+      internal::MakeGridPair(a, options.robot_name, b, options.obstacle_name);
+  const internal::GridFrame& frame = pair.frame;
+  const internal::GridSolid& p = pair.obstacle;
+  const internal::GridSolid& q = pair.reflected_robot;
   report.canonical_frame = frame.is_turned;
   report.grid_step = frame.rounding;
-  const bool is_rounded = frame.rounding > 0.0;
-  const internal::RoundedFrom of_p = {b, frame.step, frame.rounding};
-  const internal::RoundedFrom of_q = {a, frame.step, frame.rounding};
-  const internal::GridSolid p = internal::MakeGridSolid(
-      frame.obstacle, b.triangles, false, options.obstacle_name,
-      is_rounded ? &of_p : nullptr);
-  const internal::GridSolid q =
-      internal::MakeGridSolid(frame.robot, a.triangles, true,
-                              options.robot_name, is_rounded ? &of_q : nullptr);
+  const bool is_rounded = pair.IsRounded();
   const double resolution = std::min(frame.rounding, frame.step);
   internal::CheckResolution(p, b, resolution, options.obstacle_name, &report);
   internal::CheckResolution(q, a, resolution, options.robot_name, &report);

@@ -12,16 +12,13 @@
 #include <vector>
 
 #include "core/mesh/union_find.h"
+#include "core/minkowski/cell_probe.h"
 #include "core/minkowski/face_geometry.h"
 
 namespace phongpd::internal {
 namespace {
 
 using Eigen::Vector3d;
-
-// Faces of a cell from which a judging point is tried: the largest are the
-// best, and the point farthest from any other face wins.
-constexpr std::size_t kProbes = 4;
 
 // Grid steps: far above the rounding of a ray's hits.
 constexpr double kClearGap = 16.0;
@@ -49,24 +46,6 @@ int OuterSide(const FaceGeometry& geometry, const std::vector<int>& largest,
     if (best > kClearGap) break;
   }
   return side;
-}
-
-// A point well inside the cell that `sides` (the largest first) look into.
-Vector3d ProbePoint(const FaceGeometry& geometry, const std::vector<int>& sides,
-                    double reach) {
-  double best = -1.0;
-  Vector3d point = Vector3d::Zero();
-  for (std::size_t k = 0; k < std::min(kProbes, sides.size()); ++k) {
-    const int face = sides[k] / 2;  // candidate cells hold + sides only
-    const Vector3d from = geometry.InteriorPoint(face);
-    const Vector3d n = geometry.Normal(face);
-    const double gap = geometry.FirstHit(from, n, 0.02 * reach, face).distance;
-    if (gap > best) {
-      best = gap;
-      point = from + 0.41283 * gap * n;
-    }
-  }
-  return point;
 }
 
 // Parts of the arrangement that share no edge, as the vertex-disjoint sums of
@@ -157,14 +136,7 @@ FreeCells FindFreeCells(const Convolution& convolution,
   std::vector<char> collides(judged.size());
   tbb::parallel_for(std::size_t{0}, judged.size(), [&](std::size_t i) {
     limits.Check("cells");
-    std::vector<int>& members = *judged[i];
-    const std::size_t probes = std::min(kProbes, members.size());
-    std::partial_sort(
-        members.begin(), members.begin() + probes, members.end(),
-        [&area](int a, int b) {
-          return area[a / 2] != area[b / 2] ? area[a / 2] > area[b / 2] : a < b;
-        });
-    collides[i] = judge.Collide(ProbePoint(geometry, members, reach));
+    collides[i] = judge.Collide(ProbePoint(geometry, area, judged[i], reach));
   });
   std::vector<int> free_sides;  // one of each free cell but the unbounded
   for (std::size_t i = 0; i < judged.size(); ++i) {

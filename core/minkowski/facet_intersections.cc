@@ -263,6 +263,16 @@ void ForEachMeeting(const PlaneGroups& groups, const FacetIndex& index,
 FacetIndex::FacetIndex(const Convolution& convolution)
     : boxes(FacetBoxes(convolution)), tree(boxes, 4) {}
 
+FacetIndex::FacetIndex(const Convolution& convolution,
+                       const BoundingBox& window)
+    : boxes(FacetBoxes(convolution)) {
+  for (BoundingBox& box : boxes) {
+    box.min = box.min.cwiseMax(window.min).cwiseMin(window.max);
+    box.max = box.max.cwiseMin(window.max).cwiseMax(window.min);
+  }
+  tree = BoxTree(boxes, 4);
+}
+
 double PredictMeetings(const Convolution& convolution,
                        const PlaneGroups& groups, const FacetIndex& index) {
   constexpr int kSample = 1024;

@@ -34,6 +34,9 @@ struct FacetIntersections {
 // Boxes of the convolution's facets in a tree.
 struct FacetIndex {
   explicit FacetIndex(const Convolution& convolution);
+  // What they have in `window`, which they all meet: facets that meet outside
+  // are not found.
+  FacetIndex(const Convolution& convolution, const BoundingBox& window);
   std::vector<BoundingBox> boxes;
   BoxTree tree;
 };

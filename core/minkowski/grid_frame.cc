@@ -242,6 +242,13 @@ Eigen::Vector3d GridFrame::ToUser(const Vector3d& x) const {
   return origin + q;
 }
 
+Eigen::Vector3d GridFrame::ToGrid(const Vector3d& q) const {
+  Vector3d x = q - origin;
+  if (is_turned) x = rotation * x;
+  for (int k = 0; k < 3; ++k) x[k] = (unit.Count(x[k]) - shift[k]) / stride;
+  return x;
+}
+
 GridFrame PlaceOnGrid(const TriangleMesh& robot, const TriangleMesh& obstacle) {
   GridFrame frame;
   Operands operands{Vertices(robot), Vertices(obstacle)};

@@ -30,6 +30,9 @@ struct GridFrame {
   // the decimals the user would write.
   Eigen::Vector3d ToUser(const Eigen::Vector3d& x) const;
 
+  // Its inverse, in steps; rounded, but for configurations on the lattice.
+  Eigen::Vector3d ToGrid(const Eigen::Vector3d& q) const;
+
   // q = origin + Rᵀ unit·(shift + stride·x).
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();
   LatticeUnit unit;

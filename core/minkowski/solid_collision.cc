@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/minkowski/solid_collision.h"
 
-#include <CGAL/AABB_traits.h>
-#include <CGAL/AABB_tree.h>
-#include <CGAL/AABB_triangle_primitive.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/intersections.h>
 
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "core/bvh/box_tree.h"
@@ -18,10 +17,6 @@ namespace {
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Point = Kernel::Point_3;
 using SolidFacet = Kernel::Triangle_3;
-using Primitive =
-    CGAL::AABB_triangle_primitive<Kernel,
-                                  std::vector<SolidFacet>::const_iterator>;
-using Tree = CGAL::AABB_tree<CGAL::AABB_traits<Kernel, Primitive>>;
 
 struct Solid {
   std::vector<SolidFacet> facets;
@@ -135,12 +130,55 @@ bool ContainsSeed(const Solid& other, const Solid& solid,
   return contains;
 }
 
+// Does a facet of `robot` moved by `shift` meet one of `obstacle`?
+bool FacetsMeet(const Solid& obstacle, const Solid& robot,
+                const Kernel::Vector_3& shift) {
+  const Eigen::Vector3d s(shift.x(), shift.y(), shift.z());
+  // Exact, as are the sums.
+  const auto overlap = [&s](const BoxTree::Node& fixed,
+                            const BoxTree::Node& moved) {
+    return (fixed.min.array() <= (moved.max + s).array()).all() &&
+           (fixed.max.array() >= (moved.min + s).array()).all();
+  };
+  const std::vector<BoxTree::Node>& fixed = obstacle.facet_tree.nodes();
+  const std::vector<BoxTree::Node>& moved = robot.facet_tree.nodes();
+  std::vector<std::pair<int, int>> stack;
+  const auto push = [&](int i, int j) {
+    if (overlap(fixed[i], moved[j])) stack.emplace_back(i, j);
+  };
+  if (!fixed.empty() && !moved.empty()) push(0, 0);
+  while (!stack.empty()) {
+    const auto [i, j] = stack.back();
+    stack.pop_back();
+    const BoxTree::Node &a = fixed[i], &b = moved[j];
+    if (a.IsLeaf() && b.IsLeaf()) {
+      for (int l = b.first; l < b.first + b.count; ++l) {
+        const SolidFacet& t = robot.facets[robot.facet_tree.order()[l]];
+        const SolidFacet at(t[0] + shift, t[1] + shift, t[2] + shift);
+        const CGAL::Bbox_3 box = at.bbox();
+        for (int k = a.first; k < a.first + a.count; ++k) {
+          const SolidFacet& u = obstacle.facets[obstacle.facet_tree.order()[k]];
+          if (CGAL::do_overlap(box, u.bbox()) && CGAL::do_intersect(at, u)) {
+            return true;
+          }
+        }
+      }
+      continue;
+    }
+    const bool splits_fixed =
+        b.IsLeaf() || (!a.IsLeaf() && (a.max - a.min).squaredNorm() >=
+                                          (b.max - b.min).squaredNorm());
+    for (int k = 0; k < 2; ++k) {
+      push(splits_fixed ? a.first + k : i, splits_fixed ? j : b.first + k);
+    }
+  }
+  return false;
+}
+
 }  // namespace
 
 struct SolidCollision::Impl {
   Solid obstacle, robot;
-  Tree tree;  // of the operand with more facets
-  bool obstacle_in_tree = true;
 };
 
 SolidCollision::SolidCollision(const GridSolid& obstacle,
@@ -150,34 +188,18 @@ SolidCollision::SolidCollision(const GridSolid& obstacle,
   impl_->robot = MakeSolidOf(reflected_robot, -1.0);
   BuildTrees(&impl_->obstacle);
   BuildTrees(&impl_->robot);
-  impl_->obstacle_in_tree =
-      impl_->obstacle.facets.size() >= impl_->robot.facets.size();
-  const auto& large = impl_->obstacle_in_tree ? impl_->obstacle : impl_->robot;
-  impl_->tree.insert(large.facets.begin(), large.facets.end());
-  impl_->tree.build();
 }
 
 SolidCollision::~SolidCollision() = default;
 
 bool SolidCollision::Collide(const Eigen::Vector3d& q) const {
   // 2^39 + 2^40 with 12 fractional bits fits a double: sums are exact.
-  Kernel::Vector_3 shift(std::round(q[0] * 0x1p12) * 0x1p-12,
-                         std::round(q[1] * 0x1p12) * 0x1p-12,
-                         std::round(q[2] * 0x1p12) * 0x1p-12);
-  if (ContainsSeed(impl_->obstacle, impl_->robot, shift) ||
-      ContainsSeed(impl_->robot, impl_->obstacle, -shift)) {
-    return true;
-  }
-  const bool robot_moves = impl_->obstacle_in_tree;
-  if (!robot_moves) shift = -shift;
-  const Solid& small = robot_moves ? impl_->robot : impl_->obstacle;
-  for (const SolidFacet& t : small.facets) {
-    if (impl_->tree.do_intersect(
-            SolidFacet(t[0] + shift, t[1] + shift, t[2] + shift))) {
-      return true;
-    }
-  }
-  return false;
+  const Kernel::Vector_3 shift(std::round(q[0] * 0x1p12) * 0x1p-12,
+                               std::round(q[1] * 0x1p12) * 0x1p-12,
+                               std::round(q[2] * 0x1p12) * 0x1p-12);
+  return ContainsSeed(impl_->obstacle, impl_->robot, shift) ||
+         ContainsSeed(impl_->robot, impl_->obstacle, -shift) ||
+         FacetsMeet(impl_->obstacle, impl_->robot, shift);
 }
 
 }  // namespace phongpd::internal

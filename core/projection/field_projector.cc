@@ -32,7 +32,7 @@ int FieldProjector::Project(int triangle, const Vector3d& x, double max_depth,
   if (kind_ == FieldKind::kTangentPlane) {
     TangentPlaneHit hit;
     if (!ProjectOnTangentPlanes(field_, planes_, triangle, x, start, &hit) ||
-        hit.s > kOnSurface || hit.s < -max_depth) {
+        !(hit.s <= kOnSurface && hit.s >= -max_depth)) {
       return 0;
     }
     const Vector3d positive = hit.lambda.cwiseMax(0.0);
@@ -72,9 +72,7 @@ Vector3d FieldProjector::Gradient(const Projection& p) const noexcept {
     TangentPlaneHit hit;
     const bool found =
         ProjectOnTangentPlanes(field_, planes_, p.triangle, x, p.lambda, &hit);
-    const bool usable =
-        found && hit.gradient.allFinite() && hit.gradient.squaredNorm() > 0.0;
-    return usable ? hit.gradient : n;
+    return found && hit.gradient.squaredNorm() > 0.0 ? hit.gradient : n;
   }
   return prisms_[p.triangle].DepthGradient({p.lambda, p.s});
 }

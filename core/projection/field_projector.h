@@ -51,7 +51,8 @@ class FieldProjector {
   }
   // Unit normal n̂ at the projection.
   Eigen::Vector3d UnitNormal(const Projection& p) const noexcept;
-  // Exact gradient of the signed depth; n̂ where it does not exist (a fold).
+  // Exact gradient of the signed depth; n̂ where it does not exist (a fold),
+  // zero where n̂ does not.
   Eigen::Vector3d Gradient(const Projection& p) const noexcept;
 
  private:

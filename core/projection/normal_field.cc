@@ -69,6 +69,7 @@ Vector3d OffsetPrism::DepthGradient(const NormalHit& hit) const {
   const Vector3d b = e2 + hit.s * d2;
   const Vector3d n = Normal(hit.lambda);
   const double norm = n.norm();
+  if (!(norm > 0.0)) return Vector3d::Zero();
   const Vector3d unit = n / norm;
   const Vector3d ab = a.cross(b);
   const double det = ab.dot(n);

@@ -53,7 +53,7 @@ struct OffsetPrism {
     return hit.s * Normal(hit.lambda).norm();
   }
   // ∇d = |n|∇s + s(n̂·d₁)∇λ₁ + s(n̂·d₂)∇λ₂; the unit normal where J is
-  // singular.
+  // singular, zero where n is.
   Eigen::Vector3d DepthGradient(const NormalHit& hit) const;
 
   // All projections of x with s in [s_min, s_max] (ends widened by rounding),

@@ -84,8 +84,16 @@ TriangleMesh MergedObstacle(const Workspace& workspace) {
 
 BoundingBox ContactBounds(const Workspace& workspace) {
   const BoundingBox robot = ComputeBounds(workspace.robot);
-  const BoundingBox box = ComputeBounds(JoinedObstacle(workspace));
-  if (box.IsEmpty()) return workspace.bounds;
+  const std::vector<int> reachable = ReachableObstacles(workspace);
+  if (reachable.empty()) return workspace.bounds;
+  BoundingBox box;
+  for (std::size_t k = 0; k < reachable.size(); ++k) {
+    const BoundingBox one = ComputeBounds(
+        workspace.obstacles[static_cast<std::size_t>(reachable[k])].mesh);
+    if (k == 0) box = one;
+    box.min = box.min.cwiseMin(one.min);
+    box.max = box.max.cwiseMax(one.max);
+  }
   return {box.min - robot.max, box.max - robot.min};
 }
 

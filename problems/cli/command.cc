@@ -71,27 +71,46 @@ void AddField(CLI::App* app, std::string* field) {
 }
 
 PhongMetricOptions MetricOptions(const std::string& field,
-                                 double smoothing_length) {
+                                 const Length& smoothing_length,
+                                 const ContactSpace& contact) {
+  const double diagonal = contact.length();
+  RequireLength(smoothing_length, LengthRange::kFromZero, diagonal,
+                "--smoothing-length");
   PhongMetricOptions options;
   options.field =
       field == "normal" ? FieldKind::kNormal : FieldKind::kTangentPlane;
-  options.field_options.smoothing_length = smoothing_length;
+  options.field_options.smoothing_length =
+      smoothing_length.Resolve(diagonal).share;
   options.Validate();
   return options;
 }
 
 const char* const kSmoothingLengthHelp =
-    "Of the Phong field, as a fraction of the contact space's diagonal; 0 is "
-    "the paper";
+    "Of the Phong field, 0 (the paper) to the contact space's diagonal D: 0.1 "
+    "or 0.1D is a share of D, 0.5unit is in the user's unit";
 
-void TellAbout(const Scene& scene, const SceneSpace& space) {
+void TellAbout(const Scene& scene) {
   for (const std::string& warning : scene.warnings) Warn(warning);
-  for (const std::string& warning : space.warnings) Warn(warning);
   const std::string skipped = SkippedObstaclesNote(scene);
   if (!skipped.empty()) Progress(skipped);
-  Progress("contact space: " + std::to_string(space.triangles) +
-           " triangles, " + Rounded(space.seconds) + " s" +
-           (space.from_cache ? " (kept from before)" : ""));
+}
+
+void TellAboutSpaces(const World& world, std::size_t triangles) {
+  const WorldReport report = world.Report();
+  for (const std::string& warning : report.warnings) Warn(warning);
+  if (report.contact_spaces == 0) return;
+  Progress("contact space: " + std::to_string(triangles) + " triangles, " +
+           Rounded(report.seconds) + " s" +
+           (report.from_cache ? " (kept from before)" : ""));
+}
+
+Length LengthFlag(const std::string& text, const std::string& flag,
+                  LengthRange range, const Workspace* workspace) {
+  const Length length = ParseLength(text, flag);
+  RequireLength(
+      length, range,
+      workspace == nullptr ? 0.0 : ContactBounds(*workspace).Diagonal(), flag);
+  return length;
 }
 
 void AddNoCache(CLI::App* app, bool* no_cache) {

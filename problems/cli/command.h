@@ -16,7 +16,7 @@
 #include "core/solid/mesh_check.h"
 #include "problems/output/output_files.h"
 #include "problems/scenes/scene_source.h"
-#include "problems/world/scene_space.h"
+#include "problems/world/world.h"
 
 // What the commands of the phongpd program share.
 namespace phongpd::cli {
@@ -40,6 +40,8 @@ Command AddOptimize(CLI::App* app);
 Command AddCompare(CLI::App* app);
 Command AddPlan(CLI::App* app);
 Command AddReproduce(CLI::App* app);
+Command AddDepth(CLI::App* app);
+Command AddMinkowski(CLI::App* app);
 
 // Reads an operand file as a solid.  What the user should know goes to
 // stderr, one line a warning.  Throws InputError naming the file.
@@ -59,17 +61,26 @@ ContactSpace LoadOrBuild(const TriangleMesh& robot,
 // Declares --contact-space, a file that LoadContactSpace reads.
 CLI::Option* AddContactSpaceFile(CLI::App* app, std::string* path);
 
-// Declares --field, and reads it with a --smoothing-length.  Throws InputError
-// naming the flag and the range.
+// Declares --field, and reads it with a --smoothing-length, for which D is the
+// diagonal of that contact space.  Throws InputError naming the flag and the
+// range.
 void AddField(CLI::App* app, std::string* field);
 PhongMetricOptions MetricOptions(const std::string& field,
-                                 double smoothing_length);
+                                 const Length& smoothing_length,
+                                 const ContactSpace& contact);
 
 // What --smoothing-length says of itself.
 extern const char* const kSmoothingLengthHelp;
 
-// What the user should know of a scene and its contact space, on stderr.
-void TellAbout(const Scene& scene, const SceneSpace& space);
+// What the user should know of a scene, before anything is built, and of what
+// its world has built; on stderr.
+void TellAbout(const Scene& scene);
+void TellAboutSpaces(const World& world, std::size_t triangles);
+
+// Reads a flag that is a length; throws InputError naming it for what is none
+// and, if `workspace` is given, for what is out of range in its world.
+Length LengthFlag(const std::string& text, const std::string& flag,
+                  LengthRange range, const Workspace* workspace = nullptr);
 
 // Declares --no-cache, and the cache it leaves: the user's own, or none.
 void AddNoCache(CLI::App* app, bool* no_cache);

@@ -223,7 +223,8 @@ Command AddCompare(CLI::App* app) {
   AddRoot(app, &flags->root);
   app->add_option("--metrics", flags->metrics,
                   "euclidean, phong@L, phong@L/exact, phong@L/tangent-plane; L "
-                  "is the smoothing length")
+                  "is the smoothing length, 0.2 or 0.2D (a share of D) or "
+                  "0.5unit (the scene's unit)")
       ->expected(1, -1)
       ->type_name("NAME")
       ->capture_default_str();

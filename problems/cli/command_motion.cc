@@ -76,12 +76,13 @@ std::string VerifyDepths(const Workspace& solids, const StraightMotion& motion,
          " of " + std::to_string(all) + " depths, the others within rounding\n";
 }
 
-std::vector<double> SmoothingLengths(const Flags& flags) {
-  std::vector<double> lengths;
-  std::set<double> seen;
+std::vector<Length> SmoothingLengths(const Flags& flags) {
+  std::vector<Length> lengths;
+  std::set<std::string> seen;
   for (const std::string& text : flags.smoothing_lengths) {
-    lengths.push_back(ParseDouble(text, "--smoothing-length"));
-    if (!seen.insert(lengths.back()).second) {
+    lengths.push_back(
+        LengthFlag(text, "--smoothing-length", LengthRange::kFromZero));
+    if (!seen.insert(lengths.back().Text()).second) {
       throw InputError("--smoothing-length: expected different values, found " +
                        text + " twice");
     }
@@ -90,15 +91,16 @@ std::vector<double> SmoothingLengths(const Flags& flags) {
 }
 
 std::vector<MotionTrace> Trace(const Flags& flags, const ContactSpace& contact,
-                               const std::vector<double>& lengths,
+                               const std::vector<Length>& lengths,
                                const StraightMotion& motion) {
   std::vector<MotionTrace> traces;
   Progress("following euclidean");
   traces.push_back(TraceMotion(EuclideanMetric(contact), motion, "euclidean",
                                "Euclidean PD"));
-  for (const double length : lengths) {
-    const PhongMetricOptions options = MetricOptions(flags.field, length);
-    const std::string value = FormatDouble(length);
+  for (const Length& length : lengths) {
+    const PhongMetricOptions options =
+        MetricOptions(flags.field, length, contact);
+    const std::string value = length.Text();
     const std::string name = lengths.size() == 1 ? "phong" : "phong@" + value;
     Progress("following " + name);
     traces.push_back(TraceMotion(PhongMetric(contact, options), motion, name,
@@ -136,7 +138,7 @@ int Follow(const Flags& flags) {
   motion.from = ParsePoint(flags.from, "--from");
   motion.to = ParsePoint(flags.to, "--to");
   motion.frames = flags.frames;
-  const std::vector<double> lengths = SmoothingLengths(flags);
+  const std::vector<Length> lengths = SmoothingLengths(flags);
   OutputFiles outputs;
   outputs.Declare(flags.output);
   if (!flags.svg.empty()) {
@@ -188,7 +190,7 @@ Command AddMotion(CLI::App* app) {
                       ". Several values give the metrics phong@VALUE instead "
                       "of phong")
       ->expected(1, -1)
-      ->type_name("F")
+      ->type_name("LENGTH")
       ->capture_default_str();
   AddField(app, &flags->field);
   app->add_option("--output", flags->output,

@@ -16,6 +16,7 @@ namespace {
 struct Flags : SeededRunFlags {
   std::string metric;
   std::string smoothing_length;
+  std::string margin;
   std::string jacobian;
   std::string policy = "commit";
   std::string start = "repaired";
@@ -46,7 +47,12 @@ void Override(const Flags& flags, Scene* scene) {
   if (!flags.jacobian.empty()) settings.jacobian = flags.jacobian;
   if (!flags.smoothing_length.empty()) {
     settings.smoothing_length =
-        ParseDouble(flags.smoothing_length, "--smoothing-length");
+        LengthFlag(flags.smoothing_length, "--smoothing-length",
+                   LengthRange::kFromZero, &scene->workspace);
+  }
+  if (!flags.margin.empty()) {
+    scene->trajectory.margin = LengthFlag(
+        flags.margin, "--margin", LengthRange::kAboveZero, &scene->workspace);
   }
 }
 
@@ -117,7 +123,7 @@ int Optimize(const Flags& flags) {
   const SceneSource source(flags.scene, flags.root);
   SeededRuns runs(flags, source,
                   "scene, metric, start, seed: status, iterations, objective, "
-                  "clearance/D, seconds",
+                  "clearance (user's unit), seconds",
                   [&flags](const auto& row) { return Summarize(flags, row); });
   TrajectoryStudy study(
       UserCache(flags.no_cache),
@@ -136,18 +142,20 @@ int Optimize(const Flags& flags) {
     // The pictures need the last scene.
     if (is_kept && run + 1 < flags.runs) continue;
     study.Enter(scene);
-    if (run == runs.kept()) TellAbout(scene, study.space());
+    if (run == runs.kept()) TellAbout(scene);
     if (is_kept) continue;
     const PipelineResult result = study.Run(metric, options);
     nlohmann::ordered_json row = TrajectoryRow(study, metric, options, result);
-    check.Judge(study.scene(), study.space(), ClaimsOf(result), &row);
+    check.Judge(study.scene(), study.world(), ClaimsOf(result), &row);
     runs.Add(row);
   }
-  PathScene picture{study.scene().name, {}, study.scene().workspace.robot, {}};
-  for (const ContactSpace& space : study.space().contact_spaces) {
-    picture.contact_meshes.push_back(space.mesh());
-  }
-  runs.Write(std::move(picture));
+  runs.Write([&study] {
+    return PathScene{study.scene().name,
+                     study.spaces().Meshes(),
+                     study.scene().workspace.robot,
+                     {}};
+  });
+  TellAboutSpaces(study.world(), study.triangles());
   const int code = runs.Commit();
   check.RequireNoFailure();
   return code;
@@ -162,9 +170,14 @@ Command AddOptimize(CLI::App* app) {
                   "Penetration depth inside obstacles (scene's own if not set)")
       ->check(CLI::IsMember({"phong", "euclidean"}));
   app->add_option("--smoothing-length", flags->smoothing_length,
-                  "Of the Phong field, as a fraction of the contact space's "
-                  "diagonal; 0 is the paper (scene's own if not set)")
-      ->type_name("F");
+                  "Of the Phong field, 0 (the paper) to D, the diagonal of the "
+                  "obstacles' contact space: 0.1 or 0.1D is a share of D, "
+                  "0.5unit is in the scene's unit (scene's own if not set)")
+      ->type_name("LENGTH");
+  app->add_option("--margin", flags->margin,
+                  "Distance to keep, more than 0 and at most D, told like "
+                  "--smoothing-length (scene's own if not set)")
+      ->type_name("LENGTH");
   app->add_option("--jacobian", flags->jacobian,
                   "Of Phong depth: its continuous direction, or the exact "
                   "gradient (scene's own if not set)")

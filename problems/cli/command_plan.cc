@@ -18,6 +18,7 @@ struct Flags : SeededRunFlags {
 
   std::string planner;
   std::string metric = "phong";
+  std::string clearance;
   std::string ompl_log;
   bool verify = true;
 };
@@ -46,12 +47,27 @@ AnswerClaims ClaimsOf(const PlanningResult& result) {
   return claims;
 }
 
+void SetClearance(const Flags& flags, const std::string& planner,
+                  Scene* scene) {
+  if (flags.clearance.empty()) return;
+  if (!SeeksClearance(planner)) {
+    throw InputError(
+        "--clearance: expected a planner that seeks one (contact-surface or a "
+        "retraction), found " +
+        planner);
+  }
+  scene->planning.clearance =
+      LengthFlag(flags.clearance, "--clearance", LengthRange::kAboveZero,
+                 &scene->workspace);
+}
+
 int Plan(const Flags& flags) {
   RequireRuns(flags.runs);
   const SceneSource source(flags.scene, flags.root);
-  const Scene scene = source.Load();
+  Scene scene = source.Load();
   PlanningRun run;
   run.planner = flags.planner.empty() ? scene.planning.planner : flags.planner;
+  SetClearance(flags, run.planner, &scene);
   run.retraction = flags.metric;
   run.time_limit = scene.planning.time_limit;
   if (!flags.time_limit.empty()) {
@@ -60,12 +76,12 @@ int Plan(const Flags& flags) {
   if (!flags.ompl_log.empty()) CheckHasOmplLog(run.planner);
   SeededRuns runs(flags, source,
                   "scene, planner, seed: status, seconds (without contact "
-                  "space), points, length, clearance",
+                  "space), points, length, clearance (user's unit)",
                   Summarize);
   if (!flags.ompl_log.empty()) runs.outputs().Declare(flags.ompl_log);
   SilenceOmpl();
   PlanningStudy study(scene, UserCache(flags.no_cache));
-  TellAbout(scene, study.space());
+  TellAbout(scene);
   AnswerCheck check(flags.verify);
   for (int i = runs.kept(); i < flags.runs; ++i) {
     run.seed = flags.seed + static_cast<std::uint64_t>(i);
@@ -73,10 +89,15 @@ int Plan(const Flags& flags) {
              std::to_string(flags.runs));
     const PlanningResult result = study.Run(run);
     nlohmann::ordered_json row = PlanningRow(study, run, result);
-    check.Judge(scene, study.space(), ClaimsOf(result), &row);
+    check.Judge(scene, study.world(), ClaimsOf(result), &row);
     runs.Add(row);
   }
-  runs.Write({scene.name, {study.VisibleMesh()}, scene.workspace.robot, {}});
+  runs.Write([&] {
+    return PathScene{
+        scene.name, {study.VisibleMesh()}, scene.workspace.robot, {}};
+  });
+  const WorldSpaces* built = study.world().Built(SpaceLayout::kSealed);
+  TellAboutSpaces(study.world(), built == nullptr ? 0 : built->triangles);
   if (!flags.ompl_log.empty()) {
     Progress("running OMPL's benchmark");
     run.seed = flags.seed + static_cast<std::uint64_t>(flags.runs) - 1;
@@ -102,6 +123,12 @@ Command AddPlan(CLI::App* app) {
                   "the nearest point, or to a random one")
       ->check(CLI::IsMember(RetractionNames()))
       ->capture_default_str();
+  app->add_option("--clearance", flags->clearance,
+                  "To seek where there is room, more than 0 and at most D, the "
+                  "diagonal of the obstacles' contact space: 0.01 or 0.01D is "
+                  "a share of D, 0.5unit is in the scene's unit (scene's own "
+                  "if not set)")
+      ->type_name("LENGTH");
   app->add_option("--time", flags->time_limit,
                   "Limit of a run by a sampler, seconds (scene's own if not "
                   "set)")

@@ -30,8 +30,10 @@ std::unique_ptr<PenetrationMetric> MakeMetric(const Flags& flags,
     return std::make_unique<EuclideanMetric>(contact);
   }
   return std::make_unique<PhongMetric>(
-      contact, MetricOptions(flags.field, ParseDouble(flags.smoothing_length,
-                                                      "--smoothing-length")));
+      contact,
+      MetricOptions(flags.field,
+                    ParseLength(flags.smoothing_length, "--smoothing-length"),
+                    contact));
 }
 
 std::string Row(const Eigen::Vector3d& q, const PenetrationResult& result,
@@ -91,7 +93,7 @@ Command AddQuery(CLI::App* app) {
   AddField(app, &flags->field);
   app->add_option("--smoothing-length", flags->smoothing_length,
                   kSmoothingLengthHelp)
-      ->type_name("F")
+      ->type_name("LENGTH")
       ->capture_default_str();
   app->add_option("--jacobian", flags->jacobian,
                   "What the gradient columns hold: the exact gradient of "

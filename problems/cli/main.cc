@@ -73,6 +73,10 @@ int Run(int argc, char** argv) {
     CLI::App* const command = app.add_subcommand(name, summary);
     commands.emplace_back(command, declare(command));
   };
+  add("depth", "Exact penetration depth of two meshes, or their clearance",
+      AddDepth);
+  add("minkowski", "Exact Minkowski sum of two meshes, or difference",
+      AddMinkowski);
   add("contact-space", "Build the contact space of two meshes",
       AddContactSpace);
   add("query", "Penetration depth at the points of a CSV file", AddQuery);

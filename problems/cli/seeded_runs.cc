@@ -101,8 +101,10 @@ void SeededRuns::Tell(const nlohmann::ordered_json& row) {
   if (!run.why.empty()) std::cout << "  " << run.why << '\n';
 }
 
-void SeededRuns::Write(PathScene scene) {
+void SeededRuns::Write(const std::function<PathScene()>& make_scene) {
   outputs_.Write(flags_.output, rows_->Content());
+  if (flags_.html.empty() && flags_.svg.empty()) return;
+  PathScene scene = make_scene();
   scene.paths = paths_;
   if (!flags_.html.empty()) outputs_.Write(flags_.html, PathPage(scene));
   if (!flags_.svg.empty()) outputs_.Write(flags_.svg, PathSvg(scene));

@@ -70,8 +70,9 @@ class SeededRuns {
   // Notes a run that is over.
   void Add(const nlohmann::ordered_json& row);
 
-  // Writes the rows, and the pictures of the scene with the paths of all runs.
-  void Write(PathScene scene);
+  // Writes the rows, and the pictures of the scene with the paths of all runs;
+  // without pictures nobody asks for the scene.
+  void Write(const std::function<PathScene()>& scene);
 
   // Returns kDone if every run had an answer, kNoAnswer otherwise.
   int Commit();

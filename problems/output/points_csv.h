@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/contact/depth.h"
 #include "core/mesh/mesh_error.h"
 
 namespace phongpd {
@@ -24,5 +25,11 @@ std::vector<Eigen::Vector3d> ReadPointsCsv(const std::string& path);
 // The same from the content of `file`, which appears in messages.
 std::vector<Eigen::Vector3d> ParsePointsCsv(std::string_view content,
                                             const std::string& file);
+
+// The same for poses: columns x, y, z, qw, qx, qy and qz, the quaternion of
+// unit length to 1e-9 (CheckPose).
+std::vector<RobotPose> ReadPosesCsv(const std::string& path);
+std::vector<RobotPose> ParsePosesCsv(std::string_view content,
+                                     const std::string& file);
 
 }  // namespace phongpd

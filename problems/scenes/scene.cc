@@ -162,15 +162,29 @@ void Read(const Json& value, const char* key, double* number) {
   if (value.contains(key)) *number = value[key].get<double>();
 }
 
+// A number is a share of D.
+Length LengthAt(const Json& value, const JsonPlace& place, LengthRange range) {
+  const Length length =
+      value.is_string() ? ParseLength(value.get<std::string>(), place.Text())
+                        : Length::FromShare(value.get<double>());
+  RequireLength(length, range, 0.0, place.Text());
+  return length;
+}
+
 void Read(const Json& value, const char* key, int* number) {
   // By way of double: 40.0 is a whole number too.
   if (value.contains(key)) *number = static_cast<int>(value[key].get<double>());
 }
 
-void Read(const Json& value, PenetrationSettings* settings) {
+void Read(const Json& value, const JsonPlace& place,
+          PenetrationSettings* settings) {
   Read(value, "metric", &settings->metric);
   Read(value, "field", &settings->field);
-  Read(value, "smoothing_length", &settings->smoothing_length);
+  if (value.contains("smoothing_length")) {
+    settings->smoothing_length =
+        LengthAt(value["smoothing_length"], place.Child("smoothing_length"),
+                 LengthRange::kFromZero);
+  }
   Read(value, "jacobian", &settings->jacobian);
 }
 
@@ -184,10 +198,14 @@ IpoptValue OptionValue(const Json& value) {
   return number;
 }
 
-void Read(const Json& value, TrajectorySettings* settings) {
+void Read(const Json& value, const JsonPlace& place,
+          TrajectorySettings* settings) {
   Read(value, "waypoints", &settings->waypoints);
   Read(value, "samples_per_segment", &settings->samples_per_segment);
-  Read(value, "margin", &settings->margin);
+  if (value.contains("margin")) {
+    settings->margin = LengthAt(value["margin"], place.Child("margin"),
+                                LengthRange::kAboveZero);
+  }
   Read(value, "max_segment_ratio", &settings->max_segment_ratio);
   if (!value.contains("ipopt")) return;
   for (const auto& [key, option] : value["ipopt"].items()) {
@@ -195,10 +213,32 @@ void Read(const Json& value, TrajectorySettings* settings) {
   }
 }
 
-void Read(const Json& value, PlanningSettings* settings) {
+void Read(const Json& value, const JsonPlace& place,
+          PlanningSettings* settings) {
   Read(value, "planner", &settings->planner);
   Read(value, "time_limit", &settings->time_limit);
-  Read(value, "clearance", &settings->clearance);
+  if (value.contains("clearance")) {
+    settings->clearance = LengthAt(value["clearance"], place.Child("clearance"),
+                                   LengthRange::kAboveZero);
+  }
+}
+
+// Again, now that D is known.
+void RequireLengths(const Scene& scene, const JsonPlace& place) {
+  const double diagonal = ContactBounds(scene.workspace).Diagonal();
+  const auto require = [&](const Length& length, LengthRange range,
+                           const char* section, const char* key) {
+    RequireLength(length, range, diagonal,
+                  place.Child(section).Child(key).Text());
+  };
+  require(scene.penetration.smoothing_length, LengthRange::kFromZero,
+          "penetration", "smoothing_length");
+  require(scene.trajectory.margin, LengthRange::kAboveZero, "trajectory",
+          "margin");
+  if (scene.planning.clearance) {
+    require(*scene.planning.clearance, LengthRange::kAboveZero, "planning",
+            "clearance");
+  }
 }
 
 std::vector<Vector3d> Witness(const Json& value, const Scene& scene,
@@ -235,10 +275,14 @@ Scene ParseScene(const Json& json, const std::string& file,
     scene.workspace.bounds = Bounds(json["bounds"], place.Child("bounds"));
   }
   if (json.contains("penetration")) {
-    Read(json["penetration"], &scene.penetration);
+    Read(json["penetration"], place.Child("penetration"), &scene.penetration);
   }
-  if (json.contains("trajectory")) Read(json["trajectory"], &scene.trajectory);
-  if (json.contains("planning")) Read(json["planning"], &scene.planning);
+  if (json.contains("trajectory")) {
+    Read(json["trajectory"], place.Child("trajectory"), &scene.trajectory);
+  }
+  if (json.contains("planning")) {
+    Read(json["planning"], place.Child("planning"), &scene.planning);
+  }
   if (json.contains("feasible")) scene.feasible = json["feasible"].get<bool>();
   if (json.contains("witness")) {
     scene.witness = Witness(json["witness"], scene, place.Child("witness"));
@@ -248,6 +292,7 @@ Scene ParseScene(const Json& json, const std::string& file,
       Solid(json["robot"], place.Child("robot"), folder, &scene.warnings);
   scene.workspace.obstacles = Obstacles(
       json["obstacles"], place.Child("obstacles"), folder, &scene.warnings);
+  RequireLengths(scene, place);
   return scene;
 }
 

@@ -13,28 +13,29 @@
 #include "core/mesh/mesh_error.h"
 #include "core/mesh/triangle_mesh.h"
 #include "planners/exact/workspace.h"
+#include "problems/world/length.h"
 
 // A problem as every command reads it: a robot R that translates, obstacles,
 // start and goal, and settings for queries, trajectories and planning.
-// Lengths are in the scene's own unit unless they are said to be fractions of
-// the contact space's bounding-box diagonal.  The file format is
-// scene.schema.json.
+// Coordinates are in the scene's own unit; settings that are a Length are in
+// that unit or shares of D, the one length of the scene's world (world.h).  The
+// file format is scene.schema.json.
 namespace phongpd {
 
 struct PenetrationSettings {
-  std::string metric = "phong";        // or "euclidean"
-  std::string field = "normal";        // or "tangent-plane"
-  double smoothing_length = 0.2;       // fraction of the diagonal; 0: the paper
-  std::string jacobian = "direction";  // or "exact"
+  std::string metric = "phong";                      // or "euclidean"
+  std::string field = "normal";                      // or "tangent-plane"
+  Length smoothing_length = Length::FromShare(0.2);  // at most D; 0: the paper
+  std::string jacobian = "direction";                // or "exact"
 };
 
 using IpoptValue = std::variant<int, double, std::string>;
 
 struct TrajectorySettings {
-  int waypoints = 40;              // free points between start and goal
-  int samples_per_segment = 0;     // interior; 0: by the Lipschitz rule
-  double margin = 0.01;            // distance kept, fraction of the diagonal
-  double max_segment_ratio = 1.6;  // longest over even segment length
+  int waypoints = 40;           // free points between start and goal
+  int samples_per_segment = 0;  // interior; 0: by the Lipschitz rule
+  Length margin = Length::FromShare(0.01);  // distance kept, in (0, D]
+  double max_segment_ratio = 1.6;           // longest over even segment length
   // By Ipopt's own names.  A whole number in the file arrives as an int, also
   // for options that are real numbers.
   std::map<std::string, IpoptValue> ipopt;
@@ -43,7 +44,10 @@ struct TrajectorySettings {
 struct PlanningSettings {
   std::string planner = "contact-surface";
   double time_limit = 5.0;  // seconds
-  double clearance = 0.01;  // largest lift, fraction of the diagonal
+  // Wanted clearance, in (0, D]: how far paths and samples are lifted off
+  // contact where there is room.  None: the planner's own, 0.01 of the diagonal
+  // of what it plans in (ContactSurfaceOptions, RetractionOptions).
+  std::optional<Length> clearance;
 };
 
 struct Scene {

@@ -10,7 +10,7 @@
 namespace phongpd {
 namespace {
 
-std::optional<Verification> Verify(const Scene& scene, const SceneSpace& space,
+std::optional<Verification> Verify(const Scene& scene, const World& world,
                                    const AnswerClaims& claims) {
   const bool is_blocked = claims.start_is_blocked || claims.goal_is_blocked;
   if (claims.path.empty() && !claims.proves_separation && !is_blocked) {
@@ -22,7 +22,7 @@ std::optional<Verification> Verify(const Scene& scene, const SceneSpace& space,
                                                           : scene.goal);
   }
   if (claims.path.empty()) {
-    return verifier.VerifySeparation(space.sealed->mesh(), scene.start,
+    return verifier.VerifySeparation(world.Sealed().mesh(), scene.start,
                                      scene.goal);
   }
   if (claims.path.front() != scene.start || claims.path.back() != scene.goal) {
@@ -36,12 +36,12 @@ std::optional<Verification> Verify(const Scene& scene, const SceneSpace& space,
 
 }  // namespace
 
-bool AnswerCheck::Judge(const Scene& scene, const SceneSpace& space,
+bool AnswerCheck::Judge(const Scene& scene, const World& world,
                         const AnswerClaims& claims,
                         nlohmann::ordered_json* row) {
   const Stopwatch stopwatch;
   const std::optional<Verification> found =
-      is_on_ ? Verify(scene, space, claims) : std::nullopt;
+      is_on_ ? Verify(scene, world, claims) : std::nullopt;
   (*row)["verified"] = nullptr;
   (*row)["seconds"]["verification"] = stopwatch.Seconds();
   if (!found) return true;

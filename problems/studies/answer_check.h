@@ -8,7 +8,7 @@
 
 #include "planners/exact/verification.h"
 #include "problems/scenes/scene.h"
-#include "problems/world/scene_space.h"
+#include "problems/world/world.h"
 
 namespace phongpd {
 
@@ -30,8 +30,9 @@ class AnswerCheck {
   // verdict, null where there is no claim or no check; seconds.verification.
   // Returns false where a claim is refuted, and takes it back: status and
   // status_class become verification_failed, and no path is called free.
-  bool Judge(const Scene& scene, const SceneSpace& space,
-             const AnswerClaims& claims, nlohmann::ordered_json* row);
+  // `world` is the scene's; only a proof needs its sealed space.
+  bool Judge(const Scene& scene, const World& world, const AnswerClaims& claims,
+             nlohmann::ordered_json* row);
 
   // FailVerification with what was refuted first, if anything.
   void RequireNoFailure() const;

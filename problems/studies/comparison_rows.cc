@@ -44,7 +44,7 @@ void CheckComparisonRow(const Json& row, const std::string& where) {
       {"/objective", Kind::number_float},
       {"/inf_pr", Kind::number_float},
       {"/inf_du", Kind::number_float},
-      {"/clearance", Kind::number_float},
+      {"/lengths/clearance/share", Kind::number_float},
       {"/missing_clearance", Kind::number_float},
       {"/queries/branch_ends", Kind::number_integer},
       {"/seconds/callbacks", Kind::number_float},
@@ -86,7 +86,7 @@ std::string CompactCsv(const std::vector<Json>& rows) {
         << Rounded(RowNumber(row, "objective"), 8) << ','
         << Rounded(RowNumber(row, "inf_pr")) << ','
         << Rounded(RowNumber(row, "inf_du")) << ','
-        << Rounded(RowNumber(row, "clearance"), 4) << ','
+        << Rounded(RowNumber(row, "lengths/clearance/share"), 4) << ','
         << Rounded(RowNumber(row, "missing_clearance"), 4) << ','
         << row.at("queries").at("branch_ends") << ','
         << Rounded(RowNumber(row, "seconds/callbacks")) << ','

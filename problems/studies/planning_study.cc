@@ -7,6 +7,7 @@
 
 #include "core/mesh/mesh_error.h"
 #include "problems/output/versions.h"
+#include "problems/studies/length_row.h"
 
 namespace phongpd {
 namespace {
@@ -63,23 +64,33 @@ void CheckHasOmplLog(const std::string& planner) {
   throw InputError("--ompl-log: expected a planner of OMPL, found " + planner);
 }
 
+bool SeeksClearance(const std::string& planner) {
+  return planner == kContactSurface ||
+         planner.find("retraction") != std::string::npos;
+}
+
 PlanningStudy::PlanningStudy(const Scene& scene, const ContactSpaceCache& cache)
-    : scene_(scene),
-      space_(BuildSceneSpace(scene, SpaceLayout::kSealed, cache)) {}
+    : scene_(scene), world_(scene.workspace, scene.name, cache) {}
+
+PlanningStudy::PlanningStudy(const Scene& scene, const World& world)
+    : scene_(scene), world_(world) {
+  RequireSameSolids(scene.workspace, world, scene.name);
+}
 
 BoundingBox PlanningStudy::Region() const {
   const BoundingBox& bounds = scene_.workspace.bounds;
   return bounds.IsEmpty()
-             ? SamplingRegion(*space_.sealed, scene_.start, scene_.goal)
+             ? SamplingRegion(world_.Sealed(), scene_.start, scene_.goal)
              : bounds;
 }
 
 TriangleMesh PlanningStudy::VisibleMesh() const {
   const BoundingBox region = Region();
   const double rounding = 1e-9 * region.Diagonal();
+  const TriangleMesh& sealed = world_.Sealed().mesh();
   TriangleMesh visible;
-  visible.vertices = space_.sealed->mesh().vertices;
-  for (const Triangle& t : space_.sealed->mesh().triangles) {
+  visible.vertices = sealed.vertices;
+  for (const Triangle& t : sealed.triangles) {
     const bool is_within = std::all_of(t.begin(), t.end(), [&](int v) {
       const Eigen::Vector3d& p = visible.vertices[v];
       return (p.array() >= region.min.array() - rounding).all() &&
@@ -93,7 +104,13 @@ TriangleMesh PlanningStudy::VisibleMesh() const {
 void PlanningStudy::PrepareModel() {
   if (model_ != nullptr) return;
   // The bounds are part of the mesh; what is beyond them need not be sampled.
-  model_ = std::make_shared<ContactModel>(space_.contact_spaces, Region());
+  model_ = std::make_shared<ContactModel>(spaces().spaces, Region());
+}
+
+double PlanningStudy::WantedClearance() const {
+  return scene_.planning.clearance
+             ? world_.Resolve(*scene_.planning.clearance).unit
+             : 0.0;
 }
 
 OmplPlanningOptions PlanningStudy::Options(const PlanningRun& run) const {
@@ -102,7 +119,12 @@ OmplPlanningOptions PlanningStudy::Options(const PlanningRun& run) const {
   options.seed = run.seed;
   options.in_passage = run.in_passage;
   options.retraction = ParseRetraction(run.retraction, "--metric");
-  options.retraction.clearance = scene_.planning.clearance;
+  if (model_ != nullptr && scene_.planning.clearance) {
+    // Measured by the region; where that is smaller than the wish, nothing in
+    // it is farther from contact.
+    options.retraction.clearance =
+        std::min(1.0, WantedClearance() / model_->diagonal());
+  }
   return options;
 }
 
@@ -113,42 +135,81 @@ std::string PlanningStudy::OmplLog(const PlanningRun& run, int runs) {
                           run.planner, runs, Options(run));
 }
 
-PlanningResult PlanningStudy::Run(const PlanningRun& run) {
-  PlanningResult result;
-  if (run.planner == kContactSurface) {
-    if (planner_ == nullptr) {
-      ContactSurfaceOptions options;
-      options.clearance = scene_.planning.clearance;
-      planner_ =
-          std::make_unique<ContactSurfacePlanner>(*space_.sealed, options);
+// False: start or goal is not free, and the result says so.
+bool PlanningStudy::Diagnose(const PlanningRun& run,
+                             PlanningResult* result) const {
+  for (const bool at_start : {true, false}) {
+    const Diagnosis diagnosis =
+        world_.Diagnose(at_start ? scene_.start : scene_.goal);
+    if (diagnosis.IsFree()) continue;
+    result->reason = diagnosis.Text(at_start ? "start" : "goal");
+    // In the words of the planner, as if it had been asked.
+    if (run.planner == kContactSurface) {
+      result->status = ToString(at_start ? PlanStatus::kInvalidStart
+                                         : PlanStatus::kInvalidGoal);
+    } else {
+      result->status = at_start ? "Invalid start" : "Invalid goal";
     }
-    exact_ = planner_->Plan(scene_.start, scene_.goal);
-    result.status = ToString(exact_.status);
-    result.reason = exact_.reason;
-    result.infeasible_proved = exact_.status == PlanStatus::kInfeasibleProved;
-    result.numbers.path = exact_.path;
-    result.numbers.length = exact_.length;
-    result.numbers.clearance = exact_.clearance;
-    result.numbers.segment_checks =
-        static_cast<std::uint64_t>(exact_.lift.tests);
-    // The first query pays for the planner's tables, too.
-    result.numbers.seconds = exact_.seconds + planner_->build_seconds();
-    result.numbers.collision_free =
-        CheckPath(*space_.free_space, exact_.path).free;
+    return false;
+  }
+  return true;
+}
+
+void PlanningStudy::RunExact(PlanningResult* result) {
+  if (planner_ == nullptr) {
+    planner_ = std::make_unique<ContactSurfacePlanner>(world_.Sealed());
+  }
+  PlanRequest request;
+  request.clearance = WantedClearance();
+  exact_ = planner_->Plan(scene_.start, scene_.goal, request);
+  result->status = ToString(exact_.status);
+  result->reason = exact_.reason;
+  result->infeasible_proved = exact_.status == PlanStatus::kInfeasibleProved;
+  result->numbers.path = exact_.path;
+  result->numbers.length = exact_.length;
+  result->numbers.clearance = exact_.clearance;
+  result->numbers.segment_checks =
+      static_cast<std::uint64_t>(exact_.lift.tests);
+  // The first query pays for the planner's tables, too.
+  result->numbers.seconds = exact_.seconds + planner_->build_seconds();
+  result->numbers.collision_free =
+      CheckPath(*spaces().free_space, exact_.path).free;
+  result->wanted_clearance =
+      world_.Resolve(Length::FromUnit(exact_.wanted_clearance));
+}
+
+void PlanningStudy::RunOmpl(const PlanningRun& run, PlanningResult* result) {
+  PrepareModel();
+  const OmplPlanningOptions options = Options(run);
+  result->numbers =
+      PlanWithOmpl(model_, scene_.start, scene_.goal, run.planner, options);
+  result->status = result->numbers.status;
+  if (SeeksClearance(run.planner)) {
+    result->wanted_clearance = world_.Resolve(
+        Length::FromUnit(options.retraction.clearance * model_->diagonal()));
+  }
+}
+
+PlanningResult PlanningStudy::Run(const PlanningRun& run) {
+  const std::vector<std::string> names = PlannerNames();
+  if (std::find(names.begin(), names.end(), run.planner) == names.end()) {
+    throw InputError("--planner: expected one of " + Join(names) + "; found '" +
+                     run.planner + "'");
+  }
+  // Before anything is built.
+  if (run.planner != kContactSurface) Options(run).Validate();
+  PlanningResult result;
+  if (!Diagnose(run, &result)) return result;
+  if (run.planner == kContactSurface) {
+    RunExact(&result);
   } else {
-    PrepareModel();
-    result.numbers = PlanWithOmpl(model_, scene_.start, scene_.goal,
-                                  run.planner, Options(run));
-    result.status = result.numbers.status;
+    RunOmpl(run, &result);
   }
   result.solved = result.numbers.collision_free && !result.numbers.path.empty();
-  if (!result.solved) {
-    for (const bool at_start : {false, true}) {
-      const Eigen::Vector3d& q = at_start ? scene_.start : scene_.goal;
-      if (space_.free_space->IsFree(q)) continue;
-      result.reason =
-          EndInCollision(scene_, space_, q, at_start ? "start" : "goal");
-    }
+  for (const bool at_start : {false, true}) {
+    const Eigen::Vector3d& q = at_start ? scene_.start : scene_.goal;
+    if (result.solved || spaces().free_space->IsFree(q)) continue;
+    result.reason = BlockedByRounding(q, at_start ? "start" : "goal");
   }
   return result;
 }
@@ -171,7 +232,12 @@ nlohmann::ordered_json PlanningRow(const PlanningStudy& study,
   row["infeasible_proved"] = result.infeasible_proved;
   row["collision_free"] = n.collision_free;
   row["clearance"] = n.clearance;
-  row["seconds"] = {{"contact_space", study.space().seconds},
+  row["lengths"] = {
+      {"D", study.world().diagonal()},
+      {"wanted_clearance", LengthRow(result.wanted_clearance)},
+      {"clearance",
+       LengthRow(study.world().Resolve(Length::FromUnit(n.clearance)))}};
+  row["seconds"] = {{"contact_space", study.world().Report().seconds},
                     {"solve", n.seconds}};
   row["checks"] = {{"collision", n.collision_checks},
                    {"segment", n.segment_checks}};
@@ -179,7 +245,9 @@ nlohmann::ordered_json PlanningRow(const PlanningStudy& study,
   row["retractions"] = n.retractions;
   row["branch_ends"] = n.branch_ends;
   row["graph_states"] = n.graph_states;
-  row["contact_triangles"] = study.space().triangles;
+  // 0: none was built.
+  const WorldSpaces* built = study.world().Built(SpaceLayout::kSealed);
+  row["contact_triangles"] = built == nullptr ? 0 : built->triangles;
   row["path_length"] = n.length;
   row["path"] = Json::array();
   for (const Eigen::Vector3d& p : n.path) {

@@ -5,13 +5,14 @@
 #include <functional>
 #include <memory>
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "planners/exact/contact_surface_planner.h"
 #include "planners/ompl/ompl_planning.h"
 #include "problems/scenes/scene.h"
-#include "problems/world/scene_space.h"
+#include "problems/world/world.h"
 
 namespace phongpd {
 
@@ -26,6 +27,8 @@ RetractionOptions ParseRetraction(const std::string& text,
 const std::vector<std::string>& RetractionNames();
 // Throws InputError for contact-surface, which OMPL's benchmark cannot run.
 void CheckHasOmplLog(const std::string& planner);
+// Does the planner take a wanted clearance?  OMPL's own do not.
+bool SeeksClearance(const std::string& planner);
 
 struct PlanningRun {
   std::string planner = "contact-surface";
@@ -43,16 +46,23 @@ struct PlanningResult {
   std::string status;
   std::string reason;
   OmplPlanningResult numbers;  // path, checks, ...; status is OMPL's
+  // What was sought, resolved; none: the planner seeks none, or did not start.
+  std::optional<ResolvedLength> wanted_clearance;
 };
 
-// Plans on one scene: the sealed contact space is built once for all runs.
+// Plans on one scene: the sealed contact space of its world is built once for
+// all runs, when the first one needs it.
 class PlanningStudy {
  public:
   // Throws InputError.
   explicit PlanningStudy(const Scene& scene,
                          const ContactSpaceCache& cache = {});
+  // In a world that others share.  Throws InputError unless its solids are the
+  // scene's.
+  PlanningStudy(const Scene& scene, const World& world);
 
-  // Throws InputError for an unknown planner or retraction.
+  // A start or goal that is not free is said before anything is built.  Throws
+  // InputError for an unknown planner or retraction.
   PlanningResult Run(const PlanningRun& run);
 
   // The log of OMPL's own benchmark of one of its planners, for the
@@ -66,16 +76,25 @@ class PlanningStudy {
   TriangleMesh VisibleMesh() const;
 
   const Scene& scene() const { return scene_; }
-  const SceneSpace& space() const { return space_; }
+  const World& world() const { return world_; }
+  // Those it plans in; builds them.
+  const WorldSpaces& spaces() const {
+    return world_.Spaces(SpaceLayout::kSealed);
+  }
   // Of the last run by contact-surface: certificate and counts.
   const PlanResult& exact() const { return exact_; }
 
  private:
   void PrepareModel();
   OmplPlanningOptions Options(const PlanningRun& run) const;
+  bool Diagnose(const PlanningRun& run, PlanningResult* result) const;
+  void RunExact(PlanningResult* result);
+  void RunOmpl(const PlanningRun& run, PlanningResult* result);
+  // The wanted clearance in the user's unit; 0: the planner's own.
+  double WantedClearance() const;
 
   Scene scene_;
-  SceneSpace space_;
+  World world_;
   std::unique_ptr<ContactSurfacePlanner> planner_;
   std::shared_ptr<const ContactModel> model_;
   PlanResult exact_;

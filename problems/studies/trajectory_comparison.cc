@@ -134,8 +134,8 @@ ComparisonCell Summarize(const CellKey& key,
     cell.mean_ratio += ratio;
     cell.within_2_percent += ratio <= 1.02;
     cell.within_10_percent += ratio <= 1.1;
-    cell.least_clearance =
-        std::min(cell.least_clearance, RowNumber(*row, "clearance"));
+    cell.least_clearance = std::min(cell.least_clearance,
+                                    RowNumber(*row, "lengths/clearance/share"));
   }
   if (cell.rivals > 0) {
     cell.mean_ratio /= cell.rivals;

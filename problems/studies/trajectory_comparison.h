@@ -43,7 +43,7 @@ struct ComparisonCell {
   // best is 0.
   double mean_ratio = 0.0;
   int within_2_percent = 0, within_10_percent = 0;
-  double least_clearance = 0.0;  // diagonals, of solved runs
+  double least_clearance = 0.0;  // share of D, of solved runs
 };
 
 // Cells in order of first appearance.  Rows as TrajectoryRow writes them with

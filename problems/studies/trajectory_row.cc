@@ -2,6 +2,7 @@
 #include <nlohmann/json.hpp>
 
 #include "problems/output/versions.h"
+#include "problems/studies/length_row.h"
 #include "problems/studies/trajectory_study.h"
 
 namespace phongpd {
@@ -48,9 +49,9 @@ Json TrajectoryRow(const TrajectoryStudy& study, const TrajectoryMetric& metric,
   row["scene"] = study.scene().name;
   row["metric"] = is_phong ? "phong" : "euclidean";
   row["method"] = metric.name;
-  row["smoothing_length"] =
-      is_phong ? Json(metric.options.phong.field_options.smoothing_length)
-               : Json(nullptr);
+  const World& world = study.world();
+  const std::optional<ResolvedLength> smoothing = study.SmoothingLength(metric);
+  row["smoothing_length"] = smoothing ? Json(smoothing->share) : Json(nullptr);
   row["jacobian"] = is_exact ? "exact" : "direction";
   row["policy"] = ToString(options.optimizer.policy);
   row["start"] = ToString(options.start);
@@ -80,12 +81,17 @@ Json TrajectoryRow(const TrajectoryStudy& study, const TrajectoryMetric& metric,
   row["objective"] = result.objective;
   row["inf_pr"] = ipopt.violation;
   row["inf_du"] = ipopt.dual_infeasibility;
-  // Smallest distance along the path, in diagonals.
-  row["clearance"] =
+  // Smallest distance along the path, in the user's unit.
+  const double clearance =
       result.certificate.free
-          ? PathClearance(*study.space().free_space, result.path) /
-                study.space().diagonal
+          ? PathClearance(*study.spaces().free_space, result.path)
           : 0.0;
+  row["clearance"] = clearance;
+  row["lengths"] = {
+      {"D", world.diagonal()},
+      {"smoothing_length", LengthRow(smoothing)},
+      {"margin", LengthRow(world.Resolve(study.scene().trajectory.margin))},
+      {"clearance", LengthRow(world.Resolve(Length::FromUnit(clearance)))}};
   row["missing_clearance"] = result.missing_clearance;
   row["rounds"] = ipopt.rounds;
   row["queries"] = {{"cold", ipopt.queries.cold},
@@ -96,8 +102,8 @@ Json TrajectoryRow(const TrajectoryStudy& study, const TrajectoryMetric& metric,
   for (const StageRecord& stage : result.stages) {
     row["stages"].push_back(StageRow(stage));
   }
-  row["contact_triangles"] = study.space().triangles;
-  row["seconds"] = {{"contact_space", study.space().seconds},
+  row["contact_triangles"] = study.triangles();
+  row["seconds"] = {{"contact_space", world.Report().seconds},
                     {"repair", result.repair.seconds},
                     {"callbacks", result.seconds_callbacks},
                     {"total", result.seconds}};

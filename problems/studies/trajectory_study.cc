@@ -10,19 +10,13 @@
 namespace phongpd {
 namespace {
 
-bool IsSame(const TriangleMesh& a, const TriangleMesh& b) {
-  return a.vertices == b.vertices && a.triangles == b.triangles;
-}
-
-bool HasSameSolids(const Workspace& a, const Workspace& b) {
-  if (!IsSame(a.robot, b.robot) || a.obstacles.size() != b.obstacles.size() ||
-      a.bounds.min != b.bounds.min || a.bounds.max != b.bounds.max) {
-    return false;
-  }
-  for (std::size_t i = 0; i < a.obstacles.size(); ++i) {
-    if (!IsSame(a.obstacles[i].mesh, b.obstacles[i].mesh)) return false;
-  }
-  return true;
+// "phong@0.2/tangent-plane/exact".
+std::string PhongName(const Length& length,
+                      const SignedMetricOptions& options) {
+  std::string name = "phong@" + length.Text();
+  if (options.phong.field == FieldKind::kTangentPlane) name += "/tangent-plane";
+  if (options.jacobian == JacobianKind::kExact) name += "/exact";
+  return name;
 }
 
 }  // namespace
@@ -55,68 +49,140 @@ TrajectoryMetric ParseTrajectoryMetric(const std::string& text,
   if (strip("/tangent-plane")) {
     metric.options.phong.field = FieldKind::kTangentPlane;
   }
-  metric.options.phong.field_options.smoothing_length =
-      ParseDouble(rest, what + ": smoothing length");
-  metric.options.Validate();
+  const std::string place = what + ": smoothing_length";
+  metric.smoothing_length = ParseLength(rest, place);
+  RequireLength(metric.smoothing_length, LengthRange::kFromZero, 0.0, place);
   return metric;
 }
 
 TrajectoryMetric SceneMetric(const Scene& scene) {
   const PenetrationSettings& settings = scene.penetration;
+  TrajectoryMetric metric;
   if (settings.metric == "euclidean") {
-    return ParseTrajectoryMetric("euclidean", scene.name);
+    metric.name = settings.metric;
+    metric.options.metric = MetricKind::kEuclidean;
+    return metric;
   }
-  std::string name = "phong@" + FormatDouble(settings.smoothing_length);
-  if (settings.field == "tangent-plane") name += "/tangent-plane";
-  if (settings.jacobian == "exact") name += "/exact";
-  return ParseTrajectoryMetric(name, scene.name);
+  if (settings.field == "tangent-plane") {
+    metric.options.phong.field = FieldKind::kTangentPlane;
+  }
+  if (settings.jacobian == "exact") {
+    metric.options.jacobian = JacobianKind::kExact;
+  }
+  metric.smoothing_length = settings.smoothing_length;
+  metric.name = PhongName(metric.smoothing_length, metric.options);
+  return metric;
 }
 
 void TrajectoryStudy::Enter(const Scene& scene) {
-  const bool is_known = space_.free_space != nullptr &&
-                        HasSameSolids(scene.workspace, scene_.workspace);
+  const bool is_known =
+      world_ && HaveSameSolids(scene.workspace, world_->workspace());
   scene_ = scene;
   if (is_known) return;
   problems_.clear();
   repair_.reset();
-  space_ = BuildSceneSpace(scene_, layout_, cache_);
+  world_.emplace(scene_.workspace, scene_.name, cache_);
+}
+
+void TrajectoryStudy::Enter(const Scene& scene, const World& world) {
+  RequireSameSolids(scene.workspace, world, scene.name);
+  scene_ = scene;
+  problems_.clear();
+  repair_.reset();
+  world_ = world;
+}
+
+std::size_t TrajectoryStudy::triangles() const {
+  const WorldSpaces* built = world().Built(layout_);
+  return built == nullptr ? 0 : built->triangles;
+}
+
+std::optional<ResolvedLength> TrajectoryStudy::SmoothingLength(
+    const TrajectoryMetric& metric) const {
+  if (metric.options.metric != MetricKind::kPhong) return std::nullopt;
+  RequireLength(metric.smoothing_length, LengthRange::kFromZero,
+                world().diagonal(), metric.name + ": smoothing_length");
+  return world().Resolve(metric.smoothing_length);
+}
+
+// Lengths as shares of D.
+SignedMetricOptions TrajectoryStudy::WorldOptions(
+    const TrajectoryMetric& metric) const {
+  SignedMetricOptions options = metric.options;
+  if (const auto length = SmoothingLength(metric)) {
+    options.phong.field_options.smoothing_length = length->share;
+  }
+  return options;
+}
+
+TrajectoryProblem TrajectoryStudy::Settings() const {
+  const TrajectorySettings& settings = scene_.trajectory;
+  TrajectoryProblem problem;
+  problem.diagonal = world().diagonal();
+  problem.start = scene_.start;
+  problem.goal = scene_.goal;
+  problem.waypoints = settings.waypoints;
+  problem.samples_per_segment = settings.samples_per_segment;
+  problem.margin = world().Resolve(settings.margin).share;
+  problem.max_segment_ratio = settings.max_segment_ratio;
+  return problem;
 }
 
 TrajectoryProblem TrajectoryStudy::Problem(const TrajectoryMetric& metric) {
   auto found = problems_.find(metric.name);
   if (found == problems_.end()) {
+    const SignedMetricOptions of_world = WorldOptions(metric);
     TrajectoryProblem problem;
-    problem.free_space = space_.free_space;
-    problem.diagonal = space_.diagonal;
-    for (const ContactSpace& one : space_.contact_spaces) {
+    problem.free_space = spaces().free_space;
+    for (const ContactSpace& space : spaces().spaces) {
       problem.metrics.push_back(
-          std::make_shared<SignedMetric>(one, metric.options));
+          std::make_shared<SignedMetric>(space, of_world));
     }
     found = problems_.emplace(metric.name, std::move(problem)).first;
   }
-  TrajectoryProblem problem = found->second;
-  const TrajectorySettings& settings = scene_.trajectory;
-  problem.start = scene_.start;
-  problem.goal = scene_.goal;
-  problem.waypoints = settings.waypoints;
-  problem.samples_per_segment = settings.samples_per_segment;
-  problem.margin = settings.margin;
-  problem.max_segment_ratio = settings.max_segment_ratio;
+  TrajectoryProblem problem = Settings();
+  problem.metrics = found->second.metrics;
+  problem.free_space = found->second.free_space;
   return problem;
+}
+
+// False: start or goal is not free, and the result says so.
+bool TrajectoryStudy::Diagnose(PipelineResult* result) const {
+  for (const bool at_start : {true, false}) {
+    const Diagnosis diagnosis =
+        world().Diagnose(at_start ? scene_.start : scene_.goal);
+    if (diagnosis.IsFree()) continue;
+    result->status = at_start ? TrajectoryStatus::kStartInCollision
+                              : TrajectoryStatus::kGoalInCollision;
+    result->reason = diagnosis.Text(at_start ? "start" : "goal");
+    return false;
+  }
+  return true;
 }
 
 PipelineResult TrajectoryStudy::Run(const TrajectoryMetric& metric,
                                     const PipelineOptions& options) {
+  // Bad options are refused, and blocked ends are told, before anything is
+  // built: the pipeline's own checks need no contact space.
+  TrajectoryProblem empty = Settings();
+  empty.free_space = std::make_shared<FreeSpace>(std::vector<ContactSpace>());
+  PipelineOptions straight = options;
+  straight.start = TrajectoryStart::kStraight;
+  TrajectoryPipeline(empty, nullptr, straight);
+  metric.options.Validate();
+  SmoothingLength(metric);
+  PipelineResult blocked;
+  if (!Diagnose(&blocked)) return blocked;
+
   if (options.start != TrajectoryStart::kStraight && repair_ == nullptr) {
-    repair_ = std::make_shared<StartRepair>(*space_.sealed);
+    repair_ = std::make_shared<StartRepair>(world().Sealed());
   }
   PipelineResult result =
       TrajectoryPipeline(Problem(metric), repair_, options).Solve();
   const bool at_start = result.status == TrajectoryStatus::kStartInCollision;
   if (at_start || result.status == TrajectoryStatus::kGoalInCollision) {
-    result.reason =
-        EndInCollision(scene_, space_, at_start ? scene_.start : scene_.goal,
-                       at_start ? "start" : "goal");
+    result.reason = BlockedByRounding(at_start ? scene_.start : scene_.goal,
+                                      at_start ? "start" : "goal");
   }
   return result;
 }

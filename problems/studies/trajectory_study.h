@@ -5,21 +5,23 @@
 #include <map>
 #include <memory>
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
 
 #include "constraints/signed_metric.h"
 #include "planners/trajectory/trajectory_pipeline.h"
 #include "problems/scenes/scene.h"
-#include "problems/world/scene_space.h"
+#include "problems/world/world.h"
 
 namespace phongpd {
 
 // The metric of a non-penetration row as users write it: "euclidean",
-// "phong@L" with the smoothing length L (a fraction of D), "phong@L/exact" with
-// the exact Jacobian, "phong@L/tangent-plane" with the paper's field.
+// "phong@L" with the smoothing length L (length.h), "phong@L/exact" with the
+// exact Jacobian, "phong@L/tangent-plane" with the paper's field.
 struct TrajectoryMetric {
   std::string name = "phong@0.2";
-  SignedMetricOptions options;  // smoothing length as a fraction of D
+  Length smoothing_length = Length::FromShare(0.2);  // phong only
+  SignedMetricOptions options;  // all else; `reach` is a share of D
 };
 
 // Throws InputError starting with `what`.
@@ -37,24 +39,42 @@ class TrajectoryStudy {
                            SpaceLayout layout = SpaceLayout::kMerged)
       : cache_(cache), layout_(layout) {}
 
-  // Makes `scene` the current one.  Throws InputError.
+  // Makes `scene` the current one; builds nothing.  Throws InputError.
   void Enter(const Scene& scene);
+  // The same in a world that others share.  Throws InputError unless its solids
+  // are the scene's.
+  void Enter(const Scene& scene, const World& world);
   const Scene& scene() const { return scene_; }
-  const SceneSpace& space() const { return space_; }
+  // Of the current scene; Enter comes first.
+  const World& world() const { return *world_; }
+  // Those it optimises in; builds them.
+  const WorldSpaces& spaces() const { return world().Spaces(layout_); }
+  // Their triangles; 0: they are not built.
+  std::size_t triangles() const;
 
-  // Options other than those the scene sets (waypoints, margin, ...).  The
-  // reason of a start or goal in collision names the obstacle and the depth.
+  // Options other than those the scene sets (waypoints, margin, ...).  A start
+  // or goal in collision is said before anything is built, with the obstacle
+  // and a bound of the depth.  Throws InputError.
   PipelineResult Run(const TrajectoryMetric& metric,
                      const PipelineOptions& options);
 
   // The problem of the current scene; its metrics are shared between calls.
   TrajectoryProblem Problem(const TrajectoryMetric& metric);
 
+  // The metric's smoothing length in the current world; none for Euclid.
+  std::optional<ResolvedLength> SmoothingLength(
+      const TrajectoryMetric& metric) const;
+
  private:
+  // All but the metrics and their judge.
+  TrajectoryProblem Settings() const;
+  SignedMetricOptions WorldOptions(const TrajectoryMetric& metric) const;
+  bool Diagnose(PipelineResult* result) const;
+
   ContactSpaceCache cache_;
   SpaceLayout layout_;
   Scene scene_;
-  SceneSpace space_;
+  std::optional<World> world_;
   std::map<std::string, TrajectoryProblem> problems_;  // by metric
   std::shared_ptr<const StartRepair> repair_;
 };

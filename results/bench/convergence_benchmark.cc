@@ -14,7 +14,7 @@
 #include "problems/pictures/gnuplot.h"
 #include "problems/scenes/scene_source.h"
 #include "problems/shapes/random_solids.h"
-#include "problems/world/scene_space.h"
+#include "problems/world/world.h"
 #include "results/bench/convergence_report.h"
 #include "results/bench/program.h"
 
@@ -39,12 +39,12 @@ std::vector<Eigen::Vector3d> InteriorPoints(const TriangleMesh& mesh,
   return points;
 }
 
-DepthExcess Measure(const std::string& scene, const ContactSpace& contact,
+DepthExcess Measure(const std::string& scene, const ContactSpace& space,
                     double ell, const std::vector<Eigen::Vector3d>& points,
                     const EuclideanMetric& euclid) {
   PhongMetricOptions options;
   options.field_options.smoothing_length = ell;
-  const PhongMetric phong(contact, options);
+  const PhongMetric phong(space, options);
   DepthExcess excess;
   excess.scene = scene;
   excess.smoothing_length = ell;
@@ -74,13 +74,15 @@ std::vector<DepthExcess> MeasureAll(const std::vector<std::string>& scenes,
   std::vector<DepthExcess> all;
   for (const std::string& label : scenes) {
     std::cerr << label << '\n';
-    const SceneSpace space = BuildSceneSpace(SceneSource(label).Load());
-    const ContactSpace& contact = space.contact_spaces.front();
-    const EuclideanMetric euclid(contact);
+    const Scene scene = SceneSource(label).Load();
+    const World world(scene.workspace, scene.name);
+    const ContactSpace& space =
+        world.Spaces(SpaceLayout::kMerged).spaces.front();
+    const EuclideanMetric euclid(space);
     const std::vector<Eigen::Vector3d> inside =
-        InteriorPoints(contact.mesh(), euclid, points, seed);
+        InteriorPoints(space.mesh(), euclid, points, seed);
     for (const double ell : kSmoothingLengths) {
-      all.push_back(Measure(label, contact, ell, inside, euclid));
+      all.push_back(Measure(label, space, ell, inside, euclid));
     }
   }
   return all;

@@ -11,7 +11,7 @@
 #include "planners/exact/contact_roadmap.h"
 #include "planners/exact/free_space.h"
 #include "problems/scenes/scene_source.h"
-#include "problems/world/scene_space.h"
+#include "problems/world/world.h"
 
 namespace phongpd::bench {
 namespace {
@@ -19,11 +19,11 @@ namespace {
 using Eigen::Vector3d;
 using Pair = std::pair<Vector3d, Vector3d>;
 
-std::vector<Pair> RandomPairs(const Scene& scene, const SceneSpace& space,
-                              int count, std::uint64_t seed) {
-  const FreeSpace& free_space = *space.free_space;
+std::vector<Pair> RandomPairs(const Scene& scene, const World& world, int count,
+                              std::uint64_t seed) {
+  const FreeSpace& free_space = *world.Spaces(SpaceLayout::kSealed).free_space;
   BoundingBox box = scene.workspace.bounds;
-  if (box.IsEmpty()) box = space.sealed->bounds();
+  if (box.IsEmpty()) box = world.Sealed().bounds();
   std::mt19937_64 random(seed);
   std::uniform_real_distribution<double> share(0.0, 1.0);
   const auto point = [&] {
@@ -78,18 +78,19 @@ std::vector<std::string> MultiQueryScenes() {
 std::vector<MultiQueryRow> MeasureMultiQuery(const std::string& name,
                                              int queries, std::uint64_t seed) {
   const Scene scene = SceneSource(name).Load();
-  const SceneSpace space = BuildSceneSpace(scene, SpaceLayout::kSealed);
+  const World world(scene.workspace, scene.name);
+  const ContactSpace& sealed = world.Sealed();
+  const FreeSpace& free_space = *world.Spaces(SpaceLayout::kSealed).free_space;
   ContactSurfaceOptions options;
-  options.clearance = scene.planning.clearance;
   const auto planner =
-      std::make_shared<const ContactSurfacePlanner>(*space.sealed, options);
+      std::make_shared<const ContactSurfacePlanner>(sealed, options);
   const ContactRoadmap roadmap(planner);
   const RoadmapReport report = roadmap.report();
 
   std::vector<MultiQueryRow> rows(3);
   for (MultiQueryRow& row : rows) {
     row.scene = name;
-    row.triangles = space.sealed->mesh().triangles.size();
+    row.triangles = sealed.mesh().triangles.size();
     row.build_milliseconds = 1e3 * report.build_seconds;
     row.nodes = report.nodes;
     row.edges = report.edges;
@@ -105,18 +106,18 @@ std::vector<MultiQueryRow> MeasureMultiQuery(const std::string& name,
   rows[2].planner = "roadmap, shortened";
   RoadmapRequest raw, shortened;
   raw.shorten = false;
-  for (const auto& pair : RandomPairs(scene, space, queries, seed)) {
+  for (const auto& pair : RandomPairs(scene, world, queries, seed)) {
     const Vector3d& start = pair.first;
     const Vector3d& goal = pair.second;
     double seconds = 0.0;
     const PlanResult by_planner =
         Fastest([&] { return planner->Plan(start, goal); }, &seconds);
-    Record(by_planner, by_planner, seconds, *space.free_space, &rows[0]);
+    Record(by_planner, by_planner, seconds, free_space, &rows[0]);
     for (const std::size_t k : {1u, 2u}) {
       const RoadmapRequest& request = k == 1 ? raw : shortened;
       const PlanResult result =
           Fastest([&] { return roadmap.Plan(start, goal, request); }, &seconds);
-      Record(result, by_planner, seconds, *space.free_space, &rows[k]);
+      Record(result, by_planner, seconds, free_space, &rows[k]);
       rows[k].lazy_searches += result.searches > 0;
     }
   }

@@ -59,7 +59,7 @@ std::function<bool(const Vector3d&)> InPassage(const PlanningStudy& study,
           1.0);
       const Vector3d nearest = path[k] + t * way;
       if ((q - nearest).norm() <= delta &&
-          study.space().free_space->Clearance(nearest) <= 0.51 * delta) {
+          study.spaces().free_space->Clearance(nearest) <= 0.51 * delta) {
         return true;
       }
     }
@@ -130,12 +130,13 @@ ExactRow MeasureExact(const PlanningProblem& problem) {
   ExactRow row;
   row.problem = problem;
   const Scene scene = SceneSource(problem.scene).Load();
-  const SceneSpace space = BuildSceneSpace(scene, SpaceLayout::kSealed);
-  row.contact_space_milliseconds = 1e3 * space.seconds;
-  row.triangles = space.triangles;
+  const World world(scene.workspace, scene.name);
+  const ContactSpace& sealed = world.Sealed();
+  const FreeSpace& free_space = *world.Spaces(SpaceLayout::kSealed).free_space;
+  row.contact_space_milliseconds = 1e3 * world.Report().seconds;
+  row.triangles = sealed.mesh().triangles.size();
   ContactSurfaceOptions options;
-  options.clearance = scene.planning.clearance;
-  const ContactSurfacePlanner planner(*space.sealed, options);
+  const ContactSurfacePlanner planner(sealed, options);
   row.build_milliseconds = 1e3 * planner.build_seconds();
   std::vector<double> milliseconds;
   PlanResult plan;
@@ -147,17 +148,16 @@ ExactRow MeasureExact(const PlanningProblem& problem) {
   row.status = ToString(plan.status);
   row.length = plan.length;
   row.clearance = plan.clearance;
-  if (scene.witness.size() > 1 &&
-      CheckPath(*space.free_space, scene.witness).free) {
+  if (scene.witness.size() > 1 && CheckPath(free_space, scene.witness).free) {
     ShorteningOptions shortest;
     shortest.random_cuts = 2000;
     shortest.pulls = 100;
     row.witness_length =
-        PathLength(ShortenPath(scene.witness, space.sealed->bvh(), shortest));
+        PathLength(ShortenPath(scene.witness, sealed.bvh(), shortest));
   }
   row.is_right = problem.is_feasible
                      ? plan.status == PlanStatus::kSolved &&
-                           CheckPath(*space.free_space, plan.path).free
+                           CheckPath(free_space, plan.path).free
                      : plan.status == PlanStatus::kInfeasibleProved;
   return row;
 }
@@ -190,26 +190,28 @@ std::vector<SamplerRow> MeasureSamplers(
 }
 
 MotionRow MeasureMotions(const std::string& scene, std::uint64_t seed) {
-  const SceneSpace space = BuildSceneSpace(SceneSource(scene).Load());
-  const FreeSpace& free_space = *space.free_space;
-  BoundingBox box = space.contact_spaces.front().bounds();
+  const Scene loaded = SceneSource(scene).Load();
+  const World world(loaded.workspace, loaded.name);
+  const WorldSpaces& merged = world.Spaces(SpaceLayout::kMerged);
+  const FreeSpace& free_space = *merged.free_space;
+  const TriangleMesh& mesh = merged.spaces.front().mesh();
+  BoundingBox box = ComputeBounds(mesh);
   const Vector3d margin = 0.1 * (box.max - box.min);
   box = {box.min - margin, box.max + margin};
   std::mt19937_64 random(seed);
   MotionRow row;
   row.scene = scene;
-  row.triangles = space.triangles;
+  row.triangles = merged.triangles;
   std::vector<double> microseconds;
   constexpr int kMotions = 2000, kRepeats = 20;
   // Ends near the surface: what planners ask, and the slower case.
   std::uniform_real_distribution<double> size(-0.05, 0.05);
   while (static_cast<int>(microseconds.size()) < kMotions) {
-    const SurfacePoint point =
-        RandomSurfacePoint(space.contact_spaces.front().mesh(), &random);
+    const SurfacePoint point = RandomSurfacePoint(mesh, &random);
     const auto near = [&] {
-      return Vector3d(point.position + space.diagonal * Vector3d(size(random),
-                                                                 size(random),
-                                                                 size(random)));
+      return Vector3d(point.position +
+                      world.diagonal() *
+                          Vector3d(size(random), size(random), size(random)));
     };
     const Vector3d a = near(), b = near();
     if (!free_space.IsFree(a)) continue;

@@ -279,5 +279,59 @@ TEST(NonPenetration, NamesBadInput) {
                InputError);
 }
 
+TEST(NonPenetration, CurvatureOutsideLeavesOutTheRowsInside) {
+  const Metrics metrics{Metric(Ball({0, 0, 0}), JacobianKind::kExact)};
+  const NonPenetrationConstraint rows(metrics, kStart, kGoal, kWaypoints,
+                                      std::vector<int>(kWaypoints + 1, 1));
+  VectorXd u = Line(0.05, 3);
+  const BranchSet branches = rows.Start(u.data(), nullptr);
+  const auto curvature = [&](const VectorXd& multipliers, bool outside_only) {
+    VectorXd values = VectorXd::Zero(rows.curvature_nonzeros());
+    rows.AddCurvature(u.data(), branches, multipliers.data(), outside_only,
+                      values.data());
+    return values;
+  };
+  int curved[2] = {0, 0};
+  for (int i = 0; i < rows.rows(); ++i) {
+    const VectorXd one = VectorXd::Unit(rows.rows(), i);
+    const VectorXd all = curvature(one, false), outside = curvature(one, true);
+    const bool inside = metrics[0]->Query(rows.SamplePoint(i, u.data())).inside;
+    EXPECT_EQ(outside, inside ? VectorXd(0.0 * all) : all);
+    curved[inside ? 1 : 0] += all.norm() > 0.1 ? 1 : 0;
+  }
+  EXPECT_GT(curved[0], 0);
+  EXPECT_GT(curved[1], 0);
+  u[4] = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(curvature(VectorXd::Ones(rows.rows()), false).norm(), 0.0);
+}
+
+TEST(NonPenetration, GivesValuesOrJacobianAlone) {
+  const Metrics metrics{Metric(Ball({0, 0, 0}), JacobianKind::kExact)};
+  const NonPenetrationConstraint rows(metrics, kStart, kGoal, kWaypoints,
+                                      std::vector<int>(kWaypoints + 1, 1));
+  const VectorXd u = Line(0.05, 4);
+  const BranchSet branches = rows.Start(u.data(), nullptr);
+  const Rows both = Evaluate(rows, u, branches, nullptr);
+  VectorXd values(rows.rows()), jacobian(rows.nonzeros());
+  EXPECT_TRUE(
+      rows.Evaluate(u.data(), branches, values.data(), nullptr, nullptr));
+  EXPECT_TRUE(
+      rows.Evaluate(u.data(), branches, nullptr, jacobian.data(), nullptr));
+  EXPECT_EQ(values, both.values);
+  EXPECT_EQ(jacobian, both.jacobian);
+}
+
+TEST(NonPenetration, ValuesBeyondAllDoublesAreTheLargest) {
+  const Metrics metrics{Metric(Ball({0, 0, 0}), JacobianKind::kExact)};
+  NonPenetrationOptions options;
+  options.frame = {Vector3d(1e20, 0, 0), 1e-300};
+  const NonPenetrationConstraint rows(metrics, kStart, kGoal, 1, {0, 0},
+                                      options);
+  const VectorXd u = VectorXd::Zero(3);
+  const Rows at = Evaluate(rows, u, rows.Start(u.data(), nullptr), nullptr);
+  EXPECT_EQ(at.values[0], std::numeric_limits<double>::max());
+  EXPECT_LT((at.jacobian - Vector3d::UnitX()).norm(), 1e-15);
+}
+
 }  // namespace
 }  // namespace phongpd

@@ -354,5 +354,93 @@ TEST(SignedMetric, NamesBadOptions) {
   EXPECT_THROW(SignedMetric(TakeAsContactSpace(open), {}), InputError);
 }
 
+// Beside an edge in direction t the distance a has the curvature t tᵀ / a, and
+// is given up to what the search resolves.
+TEST(SignedMetric, CurvatureBesideAnEdgeIsTheClosedFormUpToItsCap) {
+  const SignedMetric metric(
+      TakeAsContactSpace(MakeBox({-1, -1, -1}, {1, 1, 1})),
+      Options(MetricKind::kEuclidean, JacobianKind::kExact));
+  const Vector3d t = Vector3d(1, -1, 0).normalized();
+  const auto beside = [&](double a) {
+    const double half = a / std::sqrt(2.0);
+    const Vector3d q(1.0 + half, 1.0 + half, 0.3);
+    return metric.Curvature(q, metric.Query(q));
+  };
+  for (const double a : {0.05, 0.1, 0.5, 2.0}) {
+    EXPECT_LT((beside(a) - t * t.transpose() / a).norm(), 1e-12 / a);
+  }
+  EXPECT_LT((beside(1e-6) - beside(1e-7)).norm(), 1e-6 * beside(1e-6).norm());
+  EXPECT_LT(beside(1e-12).norm(), 1e4);
+  EXPECT_TRUE(beside(-1e-12).allFinite());
+  EXPECT_TRUE(beside(0.0).allFinite());
+}
+
+TEST(SignedMetric, CurvatureIsZeroWhereThereIsNone) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  for (const MetricKind kind : {MetricKind::kPhong, MetricKind::kEuclidean}) {
+    const SignedMetric metric(
+        TakeAsContactSpace(MakeBox({-1, -1, -1}, {1, 1, 1})),
+        Options(kind, JacobianKind::kExact));
+    // No number, too far to tell, on a facet, and less than a difference's
+    // step below one.
+    for (const Vector3d& q :
+         {Vector3d(nan, 0, 0), Vector3d(1e12, 0.2, 0.3),
+          Vector3d(1.0, 0.2, 0.3), Vector3d(1.0 - 1e-12, 0.2, 0.3)}) {
+      EXPECT_EQ(metric.Curvature(q, metric.Query(q)), Eigen::Matrix3d::Zero());
+    }
+    MetricRow row = metric.Query({1.5, 1.5, 0.3});
+    for (const int triangle : {-1, 1 << 20}) {
+      row.triangle = triangle;
+      EXPECT_EQ(metric.Curvature({1.5, 1.5, 0.3}, row),
+                Eigen::Matrix3d::Zero());
+    }
+  }
+}
+
+TEST(SignedMetric, CurvatureIsZeroWithinAStepOfTheEndOfABranch) {
+  const SignedMetric metric(TakeAsContactSpace(TurnedU()),
+                            Options(MetricKind::kPhong, JacobianKind::kExact));
+  std::mt19937_64 random(9);
+  int ends = 0;
+  for (int i = 0; i < 20000 && ends < 20; ++i) {
+    const Vector3d from = RandomPoint(metric.space().bounds(), 0.0, &random);
+    const Vector3d to = RandomPoint(metric.space().bounds(), 0.0, &random);
+    MetricRow row = metric.Query(from);
+    const auto goes_on = [&](double t, MetricRow* there) {
+      *there = metric.Query(from + t * (to - from), row.branch);
+      return there->inside && there->status == QueryStatus::kOk;
+    };
+    MetricRow there;
+    if (!row.inside || !row.branch.IsValid() || goes_on(1.0, &there) ||
+        !there.inside) {
+      continue;
+    }
+    double near = 0.0, far = 1.0;
+    for (int halving = 0; halving < 50; ++halving) {
+      const double middle = 0.5 * (near + far);
+      if (goes_on(middle, &there)) row = there;
+      (there.inside && there.status == QueryStatus::kOk ? near : far) = middle;
+    }
+    if (!metric.Query(from + far * (to - from)).inside) continue;
+    ++ends;
+    EXPECT_EQ(metric.Curvature(from + near * (to - from), row),
+              Eigen::Matrix3d::Zero());
+  }
+  EXPECT_EQ(ends, 20);
+}
+
+// A triangle without area between the halves of an edge and the whole.
+TEST(SignedMetric, CurvatureIsZeroOnATriangleWithoutArea) {
+  const TriangleMesh mesh{
+      {{0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {0, 0, 2}, {1, 0, 0}},
+      {{0, 2, 4}, {4, 2, 1}, {0, 4, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}}};
+  const SignedMetric metric(
+      TakeAsContactSpace(mesh),
+      Options(MetricKind::kEuclidean, JacobianKind::kExact));
+  MetricRow row = metric.Query({0.5, 0.0, 0.0});
+  row.triangle = 2;
+  EXPECT_EQ(metric.Curvature({0.5, 0.0, 0.0}, row), Eigen::Matrix3d::Zero());
+}
+
 }  // namespace
 }  // namespace phongpd

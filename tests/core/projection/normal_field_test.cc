@@ -180,5 +180,39 @@ TEST(NormalField, GradientIsTheDerivativeOfTheDepth) {
   EXPECT_GT(checked, 1000);
 }
 
+// With p(λ) = n(λ) all normals meet in the origin: with σ = 1 + s the point is
+// x = σ p(λ), its depth |x| (σ − 1)/σ with σ = x·(1, 1, 1), and the gradient
+// p̂ + (|p| (1, 1, 1) − p̂)/σ.
+TEST(NormalField, GradientBesideAFoldIsTheClosedFormAndOnItTheNormal) {
+  const std::array<Vector3d, 3> corners = {Vector3d::UnitX(), Vector3d::UnitY(),
+                                           Vector3d::UnitZ()};
+  const OffsetPrism prism(corners, corners);
+  for (const Vector3d& lambda :
+       {Vector3d(0.25, 0.25, 0.5), Vector3d(0.5, 0.5, 0.0),
+        Vector3d(1.0, 0.0, 0.0)}) {
+    const Vector3d p = prism.Point(lambda), unit = p.normalized();
+    EXPECT_LT((prism.DepthGradient({lambda, -1.0}) - unit).norm(), 1e-15);
+    for (const double offset : {1e-12, -1e-12, 1e-6, -1e-6, 0.5, -0.5}) {
+      const double s = -1.0 + offset, sigma = 1.0 + s;
+      const Vector3d truth =
+          unit + (Vector3d::Constant(p.norm()) - unit) / sigma;
+      EXPECT_LT((prism.DepthGradient({lambda, s}) - truth).norm(),
+                1e-14 * truth.norm());
+    }
+  }
+}
+
+// Opposite normals at the ends of an edge cancel in its middle.
+TEST(NormalField, GradientIsZeroWhereTheNormalIs) {
+  const OffsetPrism prism(
+      {Vector3d::Zero(), Vector3d::UnitX(), Vector3d::UnitY()},
+      {Vector3d::UnitZ(), -Vector3d::UnitZ(), Vector3d::UnitZ()});
+  for (const double s : {0.0, -0.5, -1e-12}) {
+    EXPECT_EQ(prism.DepthGradient({{0.5, 0.5, 0.0}, s}), Vector3d::Zero());
+    EXPECT_TRUE(
+        prism.DepthGradient({{0.5 + 1e-12, 0.5 - 1e-12, 0.0}, s}).allFinite());
+  }
+}
+
 }  // namespace
 }  // namespace phongpd

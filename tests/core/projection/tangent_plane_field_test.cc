@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "core/projection/field_projector.h"
 #include "problems/shapes/shapes.h"
 
 namespace phongpd {
@@ -330,6 +331,75 @@ TEST(TangentPlaneField, FailureLeavesTheHitAlone) {
                                      Vector3d(0.4, 0.3, -2.0), kThird, &hit));
   EXPECT_DOUBLE_EQ(hit.s, -2.0);
   EXPECT_LT((hit.gradient - Vector3d::UnitZ()).norm(), 1e-15);
+}
+
+// Down the line of a projection the gradient grows without bound towards a
+// fold, and its part across the normal changes sign there.
+TEST(TangentPlaneField, GradientStaysFiniteUpToFoldsAndIsTheNormalThere) {
+  std::mt19937 rng(4);
+  std::uniform_real_distribution<double> uniform(-0.5, 0.5);
+  int folds = 0, normals = 0;
+  double longest = 0.0;
+  for (int i = 0; i < 300; ++i) {
+    std::array<Vector3d, 3> corners;
+    for (Vector3d& n : corners) n = {uniform(rng), uniform(rng), 1.0};
+    const FieldProjector projector(OneTriangle(corners).field,
+                                   FieldKind::kTangentPlane);
+    const Vector3d lambda(0.3, 0.3, 0.4);
+    const Vector3d normal = projector.UnitNormal({0, lambda, 0.0, 0.0});
+    const auto gradient = [&](double s) {
+      const Vector3d g = projector.Gradient({0, lambda, s, -s});
+      EXPECT_TRUE(g.allFinite());
+      EXPECT_GT(g.norm(), 0.99);
+      normals += g == normal ? 1 : 0;
+      longest = std::max(longest, g.norm());
+      return g;
+    };
+    const auto side = [&](double s) {
+      return (gradient(s) - normal).dot(gradient(-0.1) - normal) > 0.0;
+    };
+    double near = -0.1, far = -0.2;
+    while (far > -5.0 && side(far)) far -= 0.1;
+    if (far <= -5.0) continue;
+    ++folds;
+    for (int halving = 0; halving < 60; ++halving) {
+      const double middle = 0.5 * (near + far);
+      (side(middle) ? near : far) = middle;
+    }
+    for (const double offset : {0.0, 1e-12, -1e-12}) gradient(near + offset);
+  }
+  EXPECT_GT(folds, 100);
+  EXPECT_GT(normals, 20);
+  EXPECT_GT(longest, 1e6);
+}
+
+// Frames of normals more than 90° apart are reflections of each other; the
+// normal still faces the linear one.
+TEST(TangentPlaneField, NormalFacesTheLinearOneOfObtuseCorners) {
+  std::mt19937 rng(6);
+  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+  int checked = 0;
+  for (int i = 0; i < 1000; ++i) {
+    std::array<Vector3d, 3> corners;
+    for (Vector3d& n : corners) n = {uniform(rng), uniform(rng), uniform(rng)};
+    const Case s = OneTriangle(corners);
+    const Vector3d lambda(0.2, 0.3, 0.5);
+    const Vector3d n = TangentPlaneNormal(s.field, s.planes, 0, lambda);
+    EXPECT_NEAR(n.norm(), 1.0, 1e-12);
+    EXPECT_GE(n.dot(Linear(s.field, 0, lambda)), 0.0);
+    ++checked;
+  }
+  EXPECT_EQ(checked, 1000);
+}
+
+TEST(FieldProjector, NormalAndGradientAreZeroWhereNormalsCancel) {
+  const FieldProjector projector(
+      OneTriangle({Vector3d::UnitZ(), -Vector3d::UnitZ(), Vector3d::UnitZ()})
+          .field,
+      FieldKind::kNormal);
+  const Projection middle{0, Vector3d(0.5, 0.5, 0.0), -0.5, 0.0};
+  EXPECT_EQ(projector.UnitNormal(middle), Vector3d::Zero());
+  EXPECT_EQ(projector.Gradient(middle), Vector3d::Zero());
 }
 
 }  // namespace

@@ -330,5 +330,21 @@ TEST(TrajectoryProblem, NamesBadFields) {
   refused([](TrajectoryProblem* p) { p->free_space = nullptr; });
 }
 
+TEST(TrajectoryNlp, RefusesPointsWhoseRowsAreNotFinite) {
+  const TrajectoryProblem problem = TrapProblem(JacobianKind::kExact, 3);
+  TrajectoryNlp nlp = MakeNlp(problem, 1, {});
+  const VectorXd line = nlp.ToVariables(StraightPath(problem));
+  nlp.Start(line);
+  VectorXd values(nlp.rows()), jacobian(nlp.jacobian_nonzeros());
+  EXPECT_TRUE(nlp.Constraints(line.data(), values.data(), jacobian.data()));
+  // The last is finite, but not the square of its distance.
+  for (const double bad : {std::numeric_limits<double>::quiet_NaN(),
+                           std::numeric_limits<double>::infinity(), 1e200}) {
+    VectorXd u = line;
+    u[4] = bad;
+    EXPECT_FALSE(nlp.Constraints(u.data(), values.data(), jacobian.data()));
+  }
+}
+
 }  // namespace
 }  // namespace phongpd

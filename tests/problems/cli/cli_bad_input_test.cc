@@ -126,6 +126,14 @@ TEST_F(Cli, RefusesBadArgumentsInOneLine) {
                     "--from 0 0 0 --to 1 0 0 --frames 5 "
                     "--smoothing-length 2",
                 {"smoothing", "2"});
+  ExpectRefused(motion +
+                    "--from 0 0 0 --to 1 0 0 --frames 5 "
+                    "--smoothing-length 1km",
+                {"--smoothing-length: expected a length >= 0", "'1km'"});
+  ExpectRefused(motion +
+                    "--from 0 0 0 --to 1 0 0 --frames 5 "
+                    "--smoothing-length 1e6unit",
+                {"--smoothing-length: expected at most", "found 1e+06unit"});
   ExpectRefused(
       "motion --robot ../box.off --from 0 0 0 --to 1 0 0 "
       "--frames 5 --output m.csv",

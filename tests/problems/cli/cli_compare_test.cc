@@ -83,6 +83,11 @@ TEST_F(CliCompare, RefusesBadInputAndLeavesNoDirectory) {
   ExpectRefused(good + rest + " --seed 0", {"--seed"});
   ExpectRefused(good + rest + " --metrics phong@x", {"--metrics", "'x'"});
   ExpectRefused(good + rest + " --metrics phong@2", {"smoothing_length", "2"});
+  ExpectRefused(
+      good + rest + " --metrics phong@0.1km",
+      {"--metrics: smoothing_length: expected a length >= 0", "found '0.1km'"});
+  ExpectRefused(good + rest + " --metrics phong@-1unit",
+                {"--metrics: smoothing_length", "found '-1unit'"});
   ExpectRefused(good + rest + " --protocols fast", {"--protocols", "fast"});
   ExpectRefused(good + " ../scene.json" + rest, {"two", "twice"});
   ExpectRefused(good + " --output ../scene.json", {"scene.json"});

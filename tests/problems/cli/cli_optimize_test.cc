@@ -98,6 +98,9 @@ TEST_F(CliOptimize, TellsWhichEndIsHowDeepInWhat) {
       EXPECT_EQ(row["collision_free"], false);
       EXPECT_EQ(row["solved"], false);
       EXPECT_TRUE(row["path"].empty());
+      // It is said before anything is built.
+      EXPECT_EQ(row["contact_triangles"], 0);
+      EXPECT_EQ(row["seconds"]["contact_space"], 0.0);
       for (const std::string& word : words) {
         EXPECT_NE(row["reason"].get<std::string>().find(word),
                   std::string::npos)
@@ -106,12 +109,14 @@ TEST_F(CliOptimize, TellsWhichEndIsHowDeepInWhat) {
     }
   };
   expect("start", {0.1, 0, 0}, "start_in_collision",
-         {"start (0.1,0,0)", "0.1 deep in wall"});
-  expect("goal", {0.6, 0.1, 0}, "goal_in_collision", {"0.25 deep in post"});
+         {"start (0.1,0,0)", "at most 0.1 deep in wall"});
+  expect("goal", {0.6, 0.1, 0}, "goal_in_collision",
+         {"at most 0.25 deep in post"});
   expect("goal", {5, 0, 0}, "goal_in_collision",
-         {"goal (5,0,0)", "not strictly within the bounds"});
+         {"goal (5,0,0)",
+          "not strictly within the bounds: x is 3 above the maximum 2"});
   expect("goal", {2, 0, 0}, "goal_in_collision",
-         {"not strictly within the bounds"});
+         {"not strictly within the bounds: x is on the maximum 2"});
 }
 
 TEST_F(CliOptimize, AnswersWhereStartIsGoal) {
@@ -142,8 +147,53 @@ TEST_F(CliOptimize, KeepsWhatClearanceThereIsBelowTheMargin) {
   scene["trajectory"]["margin"] = 0.4;  // of the diagonal; the room is less
   const Json row = OneRow("optimize " + Scene(scene), 0);
   EXPECT_EQ(row["collision_free"], true);
-  EXPECT_LT(row["clearance"].get<double>(), 0.4);
+  EXPECT_LT(row["lengths"]["clearance"]["share"].get<double>(), 0.4);
   ExpectFree(row, ReadScene(File("scene.json")));
+}
+
+// D: the wall and the post with the cube around them, 2.2 high.
+TEST_F(CliOptimize, TakesLengthsInUnitsOrAsSharesOfD) {
+  const double d = Eigen::Vector3d(1.05, 1.2, 2.2).norm();
+  const std::string good = "optimize " + Scene(TwoObstacles());
+  const Json plain = OneRow(good, 0);
+  EXPECT_NEAR(plain["lengths"]["D"].get<double>(), d, 1e-12);
+  EXPECT_EQ(plain["lengths"]["margin"]["share"], 0.01);
+  EXPECT_EQ(plain["lengths"]["smoothing_length"]["share"], 0.2);
+  EXPECT_NEAR(plain["lengths"]["smoothing_length"]["unit"].get<double>(),
+              0.2 * d, 1e-12);
+  EXPECT_EQ(plain["lengths"]["clearance"]["unit"], plain["clearance"]);
+  // Powers of two lose nothing on the way: the same bytes.
+  const Json share =
+      OneRow(good + " --margin 0.0625 --smoothing-length 0.125D", 0);
+  const auto in_unit = [&](const char* key) {
+    return share["lengths"][key]["unit"].dump() + "unit";
+  };
+  Json unit = OneRow(good + " --margin " + in_unit("margin") +
+                         " --smoothing-length " + in_unit("smoothing_length"),
+                     0);
+  EXPECT_EQ(unit["path"], share["path"]);
+  EXPECT_EQ(unit["lengths"], share["lengths"]);
+  EXPECT_EQ(unit["method"], "phong@" + in_unit("smoothing_length"));
+  EXPECT_GE(share["clearance"].get<double>(), 0.9 * 0.0625 * d);
+  // The same, asked for by the scene.
+  Json scene = TwoObstacles();
+  scene["trajectory"]["margin"] = in_unit("margin");
+  scene["penetration"]["smoothing_length"] = in_unit("smoothing_length");
+  EXPECT_EQ(OneRow("optimize " + Scene(scene, "unit.json"), 0)["path"],
+            share["path"]);
+}
+
+// One obstacle's contact space is smaller than the world; a field takes no
+// more than its diagonal, and the row says so.
+// D is the world's, also where obstacles that are smaller have a space each.
+TEST_F(CliOptimize, AShareOfDIsOneLengthWhateverSpacesAreBuilt) {
+  const std::string good =
+      "optimize " + Scene(TwoObstacles()) + " --smoothing-length 1";
+  const Json merged = OneRow(good, 0)["lengths"];
+  const Json each = OneRow(good + " --per-obstacle", 0)["lengths"];
+  EXPECT_EQ(merged["D"], each["D"]);
+  EXPECT_EQ(merged["smoothing_length"], each["smoothing_length"]);
+  EXPECT_EQ(merged["smoothing_length"]["unit"], merged["D"]);
 }
 
 TEST_F(CliOptimize, ReadsMeshesBesideTheScene) {
@@ -164,6 +214,7 @@ TEST_F(CliOptimize, RefusesBadInputBeforeItWritesOrPrints) {
     return "optimize " + Scene(scene) + rest;
   };
   ExpectRefused(with("/trajectory/waypoint", 3), {"scene.json", "waypoint"});
+  ExpectRefused(with("/trajectory/margin", "1 km"), {"scene.json", "margin"});
   ExpectRefused(with("/roboter", 3), {"scene.json", "roboter"});
   ExpectRefused(with("/trajectory/ipopt", {{"tool", 1e-6}}), {"tool"});
   ExpectRefused(with("/trajectory/ipopt", {{"tol", "abc"}}), {"tol", "abc"});
@@ -177,6 +228,9 @@ TEST_F(CliOptimize, RefusesBadInputBeforeItWritesOrPrints) {
   ExpectRefused("optimize u_trap:wall=thick" + rest, {"wall", "thick"});
   ExpectRefused("optimize u_trap:wall=9" + rest, {"wall"});
   ExpectRefused(good + rest + " --smoothing-length 2", {"smoothing", "2"});
+  ExpectBadLengthsRefused(good + rest, "--margin");
+  ExpectBadLengthsRefused(good + rest, "--smoothing-length");
+  ExpectRefused(good + rest + " --margin 0unit", {"--margin", "> 0"});
   ExpectRefused(good + rest + " --routes 9", {"routes", "9"});
   ExpectRefused(good + rest + " --rows -1", {"rows", "-1"});
   ExpectRefused(good + rest + " --time 0", {"time", "0"});

@@ -110,10 +110,65 @@ TEST_F(CliPlan, SaysWhyAnEndIsNotFree) {
       // Samplers once waited for another goal.
       EXPECT_LT(row["seconds"]["solve"].get<double>(), 1.0) << planner;
     };
-    expect("start", {0.1, 0, 0}, "start (0.1,0,0) is 0.1 deep in wall");
-    expect("goal", {0.6, 0.1, 0}, "goal (0.6,0.1,0) is 0.25 deep in post");
-    expect("goal", {5, 0, 0}, "goal (5,0,0) is not strictly within the bounds");
+    expect("start", {0.1, 0, 0}, "start (0.1,0,0) is at most 0.1 deep in wall");
+    expect("goal", {0.6, 0.1, 0},
+           "goal (0.6,0.1,0) is at most 0.25 deep in post");
+    expect("goal", {5, 0, 0},
+           "goal (5,0,0) is not strictly within the bounds: x is 3 above the "
+           "maximum 2");
   }
+}
+
+// The contact space was built first, and a second one to say how deep.
+TEST_F(CliPlan, BuildsNothingToSayThatAnEndIsNotFree) {
+  Json scene = TwoObstacles();
+  scene["goal"] = {0.1, 0, 0};
+  const std::string good = "plan " + Scene(scene);
+  const Json row = OneRow(good, 1);
+  EXPECT_EQ(row["contact_triangles"], 0);
+  EXPECT_EQ(row["seconds"]["contact_space"], 0.0);
+  EXPECT_EQ(row["verified"], "confirmed");
+  // A picture shows the contact space all the same.
+  EXPECT_EQ(OneRow(good + " --html p.html", 1)["contact_triangles"], 0);
+  EXPECT_GT(Content(Output("p.html")).size(), 1000U);
+}
+
+// D: the wall and the post with the cube around them, 2.2 high.
+TEST_F(CliPlan, SeeksAClearanceInUnitsOrAsAShareOfD) {
+  const double d = Eigen::Vector3d(1.05, 1.2, 2.2).norm();
+  const std::string good = "plan " + Scene(TwoObstacles());
+  const auto check = [&](const std::string& flag, double unit) {
+    for (const std::string planner : {"contact-surface", "retraction-forest"}) {
+      const Json row =
+          OneRow(good + " --planner " + planner + " --clearance " + flag, 0);
+      const Json& lengths = row["lengths"];
+      EXPECT_NEAR(lengths["D"].get<double>(), d, 1e-12);
+      EXPECT_NEAR(lengths["wanted_clearance"]["unit"].get<double>(), unit,
+                  1e-12);
+      EXPECT_NEAR(lengths["wanted_clearance"]["share"].get<double>(), unit / d,
+                  1e-12);
+      EXPECT_EQ(lengths["clearance"]["unit"], row["clearance"]);
+      EXPECT_NEAR(lengths["clearance"]["share"].get<double>() * d,
+                  row["clearance"].get<double>(), 1e-12);
+      if (planner != "contact-surface") continue;
+      // It is sought, not promised: corners are cut.
+      EXPECT_GT(row["clearance"].get<double>(), 0.5 * unit) << flag;
+      EXPECT_LT(row["clearance"].get<double>(), 1.01 * unit) << flag;
+    }
+  };
+  check("0.02unit", 0.02);
+  check("0.01", 0.01 * d);
+  check("0.01D", 0.01 * d);
+  // Told in the unit it means the same, to the byte of the path.
+  const Json share = OneRow(good + " --clearance 0.125D", 0);
+  const Json unit =
+      OneRow(good + " --clearance " +
+                 share["lengths"]["wanted_clearance"]["unit"].dump() + "unit",
+             0);
+  EXPECT_EQ(unit["path"], share["path"]);
+  EXPECT_TRUE(
+      OneRow(good + " --planner rrt-connect", 0)["lengths"]["wanted_clearance"]
+          .is_null());
 }
 
 TEST_F(CliPlan, StaysWhereStartIsGoal) {
@@ -157,7 +212,8 @@ TEST_F(CliPlan, BoundsMayCutThePassageOrLeaveNoRoom) {
   for (const std::string planner : {"contact-surface", "prm"}) {
     row =
         OneRow("plan " + Scene(scene) + " --time 0.3 --planner " + planner, 1);
-    EXPECT_EQ(row["reason"], "start (-0.5,0,0) is 1.6 deep in wall") << planner;
+    EXPECT_EQ(row["reason"], "start (-0.5,0,0) is at most 1.6 deep in wall")
+        << planner;
   }
 }
 
@@ -230,6 +286,10 @@ TEST_F(CliPlan, RefusesBadInputBeforeItWritesOrPrints) {
   const std::string rest = " --output o.jsonl";
   ExpectBadRunsRefused("plan");
   ExpectRefused(good + rest + " --planner fast", {"--planner", "fast"});
+  ExpectBadLengthsRefused(good + rest, "--clearance");
+  ExpectRefused(good + rest + " --clearance 0", {"--clearance", "> 0"});
+  ExpectRefused(good + rest + " --planner prm --clearance 0.1",
+                {"--clearance", "contact-surface", "prm"});
   ExpectRefused(good + rest + " --time 0 --planner prm", {"time", "0"});
   ExpectRefused(good + rest + " --time -1 --planner prm", {"time", "-1"});
   ExpectRefused(good + rest + " --ompl-log o.log",

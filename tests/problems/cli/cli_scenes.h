@@ -112,6 +112,21 @@ class CliScenes : public Cli {
     ExpectRefused(good + rest + " --time nan", {"--time", "nan"});
   }
 
+  // What every flag that is a length refuses, in a world of D = 2.72.
+  void ExpectBadLengthsRefused(const std::string& command,
+                               const std::string& flag) const {
+    for (const std::string value :
+         {"-1", "-0.5unit", "1km", "unit", "nan", "infunit", "5%"}) {
+      ExpectRefused(command + ' ' + flag + '=' + value,
+                    {flag + ": expected a length >= 0 as 0.01 or 0.01D",
+                     "found '" + value + "'"});
+    }
+    ExpectRefused(command + ' ' + flag + " 1.5",
+                  {flag, "at most 1 (the world's diagonal D)", "found 1.5"});
+    ExpectRefused(command + ' ' + flag + " 2.8unit",
+                  {flag, "at most 2.7", "unit", "found 2.8unit"});
+  }
+
   // FCL on the original meshes at many points of the row's path, its ends and
   // the bounds.
   static void ExpectFree(const Json& row, const phongpd::Scene& scene) {

@@ -8,7 +8,7 @@
 
 #include "problems/scenes/scene_source.h"
 #include "problems/studies/answer_check.h"
-#include "problems/world/scene_space.h"
+#include "problems/world/world.h"
 #include "tests/problems/cli/cli_scenes.h"
 
 namespace phongpd {
@@ -36,7 +36,7 @@ TEST_F(CliVerify, ConfirmsPathsProofsAndBlockedEnds) {
 // What a wrong contact space or a broken planner would claim.
 TEST(AnswerCheck, TakesBackWhatTheSolidsRefute) {
   const Scene scene = SceneSource("u_axis").Load();
-  const SceneSpace space = BuildSceneSpace(scene);
+  const World world(scene.workspace, scene.name);
   using Json = nlohmann::ordered_json;
   const Json written = {{"status", "solved"},     {"reason", ""},
                         {"solved", true},         {"infeasible_proved", true},
@@ -49,7 +49,7 @@ TEST(AnswerCheck, TakesBackWhatTheSolidsRefute) {
   for (const AnswerClaims& claims : {through, proof, blocked, elsewhere}) {
     AnswerCheck check(true);
     Json row = written;
-    EXPECT_FALSE(check.Judge(scene, space, claims, &row));
+    EXPECT_FALSE(check.Judge(scene, world, claims, &row));
     EXPECT_EQ(row["verified"], "refuted");
     EXPECT_EQ(row["status"], "verification_failed");
     for (const char* key : {"solved", "infeasible_proved", "collision_free"}) {
@@ -58,7 +58,7 @@ TEST(AnswerCheck, TakesBackWhatTheSolidsRefute) {
     EXPECT_FALSE(row["reason"].get<std::string>().empty());
     EXPECT_THROW(check.RequireNoFailure(), std::runtime_error);
     AnswerCheck off(false);
-    EXPECT_TRUE(off.Judge(scene, space, claims, &row));
+    EXPECT_TRUE(off.Judge(scene, world, claims, &row));
     EXPECT_NO_THROW(off.RequireNoFailure());
   }
 }

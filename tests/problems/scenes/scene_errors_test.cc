@@ -162,6 +162,27 @@ TEST(SceneErrors, NameFilePlaceExpectedAndFound) {
       {"/penetration/smoothing_length", 1.5,
        "s.json: /penetration/smoothing_length: expected a number >= 0 and <= "
        "1, found 1.5"},
+      {"/penetration/smoothing_length", -0.5,
+       "s.json: /penetration/smoothing_length: expected a number >= 0 and <= "
+       "1, found -0.5"},
+      {"/penetration/smoothing_length", "1.5D",
+       "s.json: /penetration/smoothing_length: expected at most 1 (the world's "
+       "diagonal D), found 1.5"},
+      {"/trajectory/margin", 0,
+       "s.json: /trajectory/margin: expected a length > 0, found 0"},
+      {"/trajectory/margin", "0.01 m",
+       "s.json: /trajectory/margin: expected a length >= 0 as 0.01 or 0.01D "
+       "(a share of the world's diagonal D) or 0.5unit (the user's unit), "
+       "found '0.01 m'"},
+      {"/trajectory/margin", "-1unit",
+       "s.json: /trajectory/margin: expected a length >= 0 as 0.01 or 0.01D "
+       "(a share of the world's diagonal D) or 0.5unit (the user's unit), "
+       "found '-1unit'"},
+      {"/trajectory/margin", true,
+       "s.json: /trajectory/margin: expected a number >= 0 and <= 1 or a text "
+       "that is not empty, found true"},
+      {"/planning/clearance", "0unit",
+       "s.json: /planning/clearance: expected a length > 0, found 0unit"},
       {"/trajectory/waypoints", 2.5,
        "s.json: /trajectory/waypoints: expected a whole number >= 1 and <= "
        "1e+05, found 2.5"},
@@ -187,6 +208,20 @@ TEST(SceneErrors, NameFilePlaceExpectedAndFound) {
   EXPECT_EQ(ErrorOf(Json(3)),
             "s.json: expected an object with \"robot\", \"obstacles\", "
             "\"start\", \"goal\", found 3");
+}
+
+// What is too long is known once the solids are.
+TEST(SceneErrors, NameLengthsBeyondTheWorld) {
+  for (const std::string place :
+       {"/penetration/smoothing_length", "/trajectory/margin",
+        "/planning/clearance"}) {
+    const std::string error = ErrorWith(place, "1e6unit");
+    EXPECT_EQ(error.find("s.json: " + place + ": expected at most "), 0U)
+        << error;
+    EXPECT_NE(error.find("unit (the world's diagonal D), found 1e+06unit"),
+              std::string::npos)
+        << error;
+  }
 }
 
 TEST(SceneErrors, NameWhatIsNoMesh) {

@@ -73,11 +73,11 @@ TEST(Scene, ReadsEverySetting) {
   EXPECT_EQ(scene.workspace.bounds.max, Vector3d(5, 5, 5));
   EXPECT_EQ(scene.penetration.metric, "euclidean");
   EXPECT_EQ(scene.penetration.field, "tangent-plane");
-  EXPECT_EQ(scene.penetration.smoothing_length, 0.25);
+  EXPECT_EQ(scene.penetration.smoothing_length, Length::FromShare(0.25));
   EXPECT_EQ(scene.penetration.jacobian, "exact");
   EXPECT_EQ(scene.trajectory.waypoints, 12);
   EXPECT_EQ(scene.trajectory.samples_per_segment, 3);
-  EXPECT_EQ(scene.trajectory.margin, 0.02);
+  EXPECT_EQ(scene.trajectory.margin, Length::FromShare(0.02));
   EXPECT_EQ(scene.trajectory.max_segment_ratio, 2.0);
   EXPECT_EQ(scene.trajectory.ipopt.at("tol"), IpoptValue(1e-6));
   EXPECT_EQ(scene.trajectory.ipopt.at("max_iter"), IpoptValue(50));
@@ -85,9 +85,21 @@ TEST(Scene, ReadsEverySetting) {
             IpoptValue(std::string("adaptive")));
   EXPECT_EQ(scene.planning.planner, "prm");
   EXPECT_EQ(scene.planning.time_limit, 1.0);
-  EXPECT_EQ(scene.planning.clearance, 0.5);
+  EXPECT_EQ(scene.planning.clearance, Length::FromShare(0.5));
   EXPECT_EQ(scene.feasible, true);
   EXPECT_EQ(scene.witness.at(1), Vector3d(0, 0, 4));
+}
+
+TEST(Scene, ReadsLengthsInUnitsOrAsShares) {
+  Json json = SmallScene();
+  json["penetration"]["smoothing_length"] = "0.3unit";
+  json["trajectory"]["margin"] = "0.02 D";
+  json["planning"]["clearance"] = "0.125 unit";
+  const Scene scene = ParseScene(json, "s.json");
+  EXPECT_EQ(scene.penetration.smoothing_length, Length::FromUnit(0.3));
+  EXPECT_EQ(scene.trajectory.margin, Length::FromShare(0.02));
+  EXPECT_EQ(scene.planning.clearance, Length::FromUnit(0.125));
+  EXPECT_FALSE(ParseScene(SmallScene(), "s.json").planning.clearance);
 }
 
 // The schema's defaults are what a reader of the file sees; the structs' are
@@ -97,7 +109,9 @@ TEST(Scene, SchemaAndStructsHaveTheSameDefaults) {
   for (const char* section : {"penetration", "trajectory", "planning"}) {
     const Json& known = SceneSchema()["properties"][section]["properties"];
     for (const auto& [key, schema] : known.items()) {
-      if (key != "ipopt") written[section][key] = schema.at("default");
+      // Ipopt's own defaults, and the planner's own clearance.
+      if (key == "ipopt" || key == "clearance") continue;
+      written[section][key] = schema.at("default");
     }
   }
   const Scene a = ParseScene(written, "a"), b = ParseScene(SmallScene(), "b");

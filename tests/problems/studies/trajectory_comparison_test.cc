@@ -44,7 +44,7 @@ Json Row(const Made& made) {
           {"objective", made.objective},
           {"inf_pr", 0.0},
           {"inf_du", 0.0},
-          {"clearance", 0.01},
+          {"lengths", {{"clearance", {{"share", 0.01}}}}},
           {"missing_clearance", 0.0},
           {"queries", {{"branch_ends", 0}}},
           {"seconds", {{"callbacks", 0.25}, {"total", 1.0}}},
@@ -80,7 +80,7 @@ TEST(Summarize, ComparesObjectivesWithTheBestOfAnyProtocolAndMethod) {
       // Another scene and a path that collides are no rivals.
       Row({"a", 1, true, 0.1, 10, "solved", "hole"}),
       Row({"d", 2, false, 0.01, 10, "failed"})};
-  rows[0]["clearance"] = 0.003;
+  rows[0]["lengths"]["clearance"]["share"] = 0.003;
   const std::vector<ComparisonCell> cells = Summarize(rows);
   ASSERT_EQ(cells.size(), 5U);
   const ComparisonCell& a = cells[0];

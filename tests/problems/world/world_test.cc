@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "problems/world/scene_space.h"
+#include "problems/world/world.h"
 
 #include <gtest/gtest.h>
 
@@ -7,11 +7,13 @@
 #include <nlohmann/json.hpp>
 #include <random>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "constraints/oracle/collision_oracle.h"
 #include "core/mesh/mesh_error.h"
 #include "core/solid/mesh_check.h"
+#include "problems/scenes/scene.h"
 #include "problems/shapes/random_solids.h"
 
 namespace phongpd {
@@ -47,11 +49,14 @@ Json Crowd() {
 
 Scene Parse(const Json& json) { return ParseScene(json, "crowd.json"); }
 
-class SceneSpaceLayouts : public testing::TestWithParam<SpaceLayout> {};
+World WorldOf(const Scene& scene) { return World(scene.workspace, scene.name); }
 
-TEST_P(SceneSpaceLayouts, AgreeWithFclOnFreedom) {
+class WorldLayouts : public testing::TestWithParam<SpaceLayout> {};
+
+TEST_P(WorldLayouts, AgreeWithFclOnFreedom) {
   const Scene scene = Parse(Crowd());
-  const SceneSpace space = BuildSceneSpace(scene, GetParam());
+  const World world = WorldOf(scene);
+  const WorldSpaces& space = world.Spaces(GetParam());
   std::vector<CollisionOracle> oracles;
   for (const Obstacle& obstacle : scene.workspace.obstacles) {
     oracles.emplace_back(scene.workspace.robot, obstacle.mesh);
@@ -75,24 +80,24 @@ TEST_P(SceneSpaceLayouts, AgreeWithFclOnFreedom) {
   EXPECT_GT(beyond, 1000);
 }
 
-TEST_P(SceneSpaceLayouts, HaveOneDiagonalAndOneSealedMesh) {
+TEST_P(WorldLayouts, HaveOneDiagonalAndOneSealedMesh) {
   const Scene scene = Parse(Crowd());
-  const SceneSpace space = BuildSceneSpace(scene, GetParam());
-  EXPECT_EQ(space.diagonal, ContactBounds(scene.workspace).Diagonal());
+  const World world = WorldOf(scene);
+  const WorldSpaces& space = world.Spaces(GetParam());
+  EXPECT_EQ(world.diagonal(), ContactBounds(scene.workspace).Diagonal());
   std::size_t triangles = 0;
-  for (const ContactSpace& one : space.contact_spaces) {
-    EXPECT_EQ(one.length(), space.diagonal);
-    triangles += one.mesh().triangles.size();
+  for (const TriangleMesh& mesh : space.Meshes()) {
+    triangles += mesh.triangles.size();
   }
   EXPECT_EQ(space.triangles, triangles);
-  EXPECT_EQ(space.contact_spaces.size(),
+  EXPECT_EQ(space.spaces.size(),
             GetParam() == SpaceLayout::kPerObstacle ? 4U : 1U);
   // Closed around the bounds: nothing beyond them is free of it but the
   // unbounded outside of the shell.
-  const MeshReport report = ExamineMesh(space.sealed->mesh());
+  const MeshReport report = ExamineMesh(world.Sealed().mesh());
   EXPECT_EQ(report.boundary_edges, 0U);
   EXPECT_EQ(report.non_manifold_edges, 0U);
-  const FreeSpace sealed({*space.sealed});
+  const FreeSpace sealed({world.Sealed()});
   EXPECT_TRUE(sealed.IsFree(scene.start));
   for (int axis = 0; axis < 3; ++axis) {
     for (const double side : {-1.0, 1.0}) {
@@ -108,12 +113,12 @@ TEST_P(SceneSpaceLayouts, HaveOneDiagonalAndOneSealedMesh) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(All, SceneSpaceLayouts,
+INSTANTIATE_TEST_SUITE_P(All, WorldLayouts,
                          testing::Values(SpaceLayout::kMerged,
                                          SpaceLayout::kPerObstacle,
                                          SpaceLayout::kSealed));
 
-TEST(SceneSpace, SkipsObstaclesOutOfReachAndSaysSo) {
+TEST(World, SkipsObstaclesOutOfReachAndSaysSo) {
   const Scene scene = Parse(Crowd());
   const std::string note = SkippedObstaclesNote(scene);
   EXPECT_NE(note.find("far"), std::string::npos) << note;
@@ -121,66 +126,96 @@ TEST(SceneSpace, SkipsObstaclesOutOfReachAndSaysSo) {
   Json near = Crowd();
   near["obstacles"].erase(4);
   EXPECT_TRUE(SkippedObstaclesNote(Parse(near)).empty());
-  const SceneSpace all = BuildSceneSpace(scene);
-  const SceneSpace few = BuildSceneSpace(Parse(near));
-  EXPECT_EQ(all.contact_spaces[0].mesh().vertices,
-            few.contact_spaces[0].mesh().vertices);
-  EXPECT_EQ(all.contact_spaces[0].mesh().triangles,
-            few.contact_spaces[0].mesh().triangles);
+  const World all = WorldOf(scene), few = WorldOf(Parse(near));
+  const TriangleMesh& a = all.Spaces(SpaceLayout::kMerged).spaces[0].mesh();
+  const TriangleMesh& b = few.Spaces(SpaceLayout::kMerged).spaces[0].mesh();
+  EXPECT_EQ(a.vertices, b.vertices);
+  EXPECT_EQ(a.triangles, b.triangles);
 }
 
-TEST(SceneSpace, NeedsNoObstacleWithinReach) {
+TEST(World, NeedsNoObstacleWithinReach) {
   Json json = Crowd();
   json["obstacles"] = {Box("far", {1.0, 1.0, 1.0}, {30.0, 0.0, 0.0})};
+  const Scene scene = Parse(json);
+  const World world = WorldOf(scene);
   for (const SpaceLayout layout :
        {SpaceLayout::kMerged, SpaceLayout::kPerObstacle,
         SpaceLayout::kSealed}) {
-    const Scene scene = Parse(json);
-    const SceneSpace space = BuildSceneSpace(scene, layout);
-    EXPECT_TRUE(space.free_space->IsFree(scene.start, scene.goal));
-    EXPECT_FALSE(space.free_space->IsFree(scene.start, {1.5, 0.0, 0.0}));
+    const FreeSpace& space = *world.Spaces(layout).free_space;
+    EXPECT_TRUE(space.IsFree(scene.start, scene.goal));
+    EXPECT_FALSE(space.IsFree(scene.start, {1.5, 0.0, 0.0}));
   }
   json.erase("bounds");  // within reach, then
-  EXPECT_EQ(BuildSceneSpace(Parse(json)).contact_spaces.size(), 1U);
+  EXPECT_EQ(WorldOf(Parse(json)).Spaces(SpaceLayout::kMerged).spaces.size(),
+            1U);
+  Workspace nothing;
+  nothing.robot = scene.workspace.robot;
+  EXPECT_THROW(World{nothing}, InputError);
 }
 
-TEST(SceneSpace, WithoutBoundsSealsNothing) {
+// Without bounds the sealed space is the merged one, and is built once.
+TEST(World, WithoutBoundsSealsNothing) {
   Json json = Crowd();
   json.erase("bounds");
-  const SceneSpace space = BuildSceneSpace(Parse(json));
-  ASSERT_EQ(space.contact_spaces.size(), 1U);
-  EXPECT_TRUE(space.sealed->SharesWith(space.contact_spaces[0]));
-  EXPECT_TRUE(space.free_space->IsFree({50.0, 50.0, 50.0}));
+  const World world = WorldOf(Parse(json));
+  const WorldSpaces& merged = world.Spaces(SpaceLayout::kMerged);
+  ASSERT_EQ(merged.spaces.size(), 1U);
+  EXPECT_EQ(&world.Sealed(), &merged.spaces[0]);
+  EXPECT_EQ(world.Report().contact_spaces, 1);
+  EXPECT_TRUE(merged.free_space->IsFree({50.0, 50.0, 50.0}));
 }
 
-// The way out of the sealed mesh leads beyond the bounds' shell, too: its
-// depth once was that of the shell.
-TEST(EndInCollision, TellsTheSameInEveryLayout) {
-  Json json = Crowd();
-  json["robot"]["shape"] = {{"type", "box"}, {"size", {4.0, 4.0, 4.0}}};
-  const Scene scene = Parse(json);
-  const Vector3d inside(0.5, 0.0, 0.0);
-  const std::string merged =
-      EndInCollision(scene, BuildSceneSpace(scene), inside, "start");
-  EXPECT_EQ(merged.find("start (0.5,0,0) is "), 0U) << merged;
-  EXPECT_NE(merged.find("wall"), std::string::npos) << merged;
-  const SceneSpace sealed = BuildSceneSpace(scene, SpaceLayout::kSealed);
-  EXPECT_EQ(EndInCollision(scene, sealed, inside, "start"), merged);
+TEST(World, BuildsOnDemandOnceForAllCopiesAndThreads) {
+  const World world = WorldOf(Parse(Crowd()));
+  const World copy = world;
+  EXPECT_FALSE(world.Diagnose({0.0, 0.0, 0.0}).IsFree());
+  EXPECT_TRUE(world.Diagnose({-0.8, -0.8, -0.8}).IsFree());
+  EXPECT_EQ(world.Resolve(Length::FromShare(1.0)).unit, world.diagonal());
+  EXPECT_EQ(world.Report().contact_spaces, 0);
+  EXPECT_EQ(world.Built(SpaceLayout::kSealed), nullptr);
+  std::vector<const ContactSpace*> found(4, nullptr);
+  std::vector<std::thread> threads;
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    threads.emplace_back(
+        [&, i] { found[i] = &(i % 2 == 0 ? world : copy).Sealed(); });
+  }
+  for (std::thread& thread : threads) thread.join();
+  for (const ContactSpace* space : found) EXPECT_EQ(space, &world.Sealed());
+  EXPECT_EQ(world.Report().contact_spaces, 1);
+  EXPECT_EQ(copy.Built(SpaceLayout::kMerged), nullptr);
+  world.Spaces(SpaceLayout::kMerged);
+  EXPECT_NE(copy.Built(SpaceLayout::kMerged), nullptr);
+  world.Spaces(SpaceLayout::kPerObstacle);
+  EXPECT_EQ(world.Report().contact_spaces, 6);
 }
 
-TEST(EndInCollision, NamesObstacleAndDepthOrTheBounds) {
-  const Scene scene = Parse(Crowd());
+// D is the same whatever is built, so that an option means one length.
+TEST(World, ItsSpacesMeasureByTheWorldsDiagonal) {
+  const World world = WorldOf(Parse(Crowd()));
+  int smaller = 0;
   for (const SpaceLayout layout :
        {SpaceLayout::kMerged, SpaceLayout::kPerObstacle,
         SpaceLayout::kSealed}) {
-    const SceneSpace space = BuildSceneSpace(scene, layout);
-    // The beam is 0.3 wide and the ball's facets lie within its radius.
-    const std::string text =
-        EndInCollision(scene, space, {-0.6, 0.6, 0.9}, "goal");
-    EXPECT_EQ(text.find("goal (-0.6,0.6,0.9) is 0.3 deep in beam"), 0U) << text;
-    EXPECT_EQ(EndInCollision(scene, space, {1.0, 0.0, 0.9}, "goal"),
-              "goal (1,0,0.9) is not strictly within the bounds");
+    for (const ContactSpace& space : world.Spaces(layout).spaces) {
+      EXPECT_EQ(space.length(), world.diagonal());
+      smaller += space.bounds().Diagonal() < 0.5 * world.diagonal();
+    }
   }
+  EXPECT_GT(smaller, 0);
+}
+
+TEST(World, IsKnownByItsSolidsNamesAndBounds) {
+  const Workspace a = Parse(Crowd()).workspace;
+  Workspace b = a;
+  EXPECT_TRUE(HaveSameSolids(a, b));
+  b.obstacles[1].id = "rod";
+  EXPECT_FALSE(HaveSameSolids(a, b));
+  b = a;
+  b.obstacles[1].mesh.vertices[0].x() += 1e-15;
+  EXPECT_FALSE(HaveSameSolids(a, b));
+  b = a;
+  b.bounds.max.x() += 1.0;
+  EXPECT_FALSE(HaveSameSolids(a, b));
 }
 
 }  // namespace

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <array>
+#include <limits>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/mesh/triangle_mesh.h"
+
+namespace phongpd {
+
+// Where the robot A is put: every vertex a becomes R·a + q, with R the matrix
+// of the quaternion.
+struct RobotPose {
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  // q, user's unit
+  Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();  // of unit
+                                                                    // length
+};
+
+enum class DepthStatus {
+  kPenetrating,  // q is strictly inside C_obj
+  kTouching,     // q lies on C_cont: the solids meet, an arbitrarily small
+                 // motion parts them
+  kSeparate,     // the solids share no point
+};
+
+// How much of C_cont was modelled for an answer.
+enum class DepthLevel {
+  kNone,    // nothing: the solids are apart
+  kWindow,  // boxes around q
+  kFull,    // all of it
+};
+
+// What of an operand a witness point lies on: one, two or three vertices of
+// the mesh that the query was made with (the first at the same place), −1 for
+// the others.
+struct ContactFeature {
+  enum Kind { kNone, kVertex, kEdge, kFacet };
+  Kind kind = kNone;
+  std::array<int, 3> vertices = {-1, -1, -1};
+};
+
+// Lengths in the user's unit.
+struct DepthResult {
+  DepthStatus status = DepthStatus::kSeparate;
+  // Euclidean penetration depth min |q_c − q| over q_c on C_cont (paper, Eqs. 1
+  // and 2), the length of the shortest translation after which A touches B from
+  // outside; 0 unless penetrating.
+  double depth = 0.0;
+  // Least distance between the solids; 0 unless separate.
+  double clearance = 0.0;
+  // Unit: towards q_c when penetrating, the facet's outward normal when
+  // touching, away from q_c when separate.  A + q leaves B along it.
+  Eigen::Vector3d direction = Eigen::Vector3d::Zero();
+  // q_c, the configuration nearest to q at which A touches B.
+  Eigen::Vector3d contact = Eigen::Vector3d::Zero();
+  // The pair of points that touch there: of A as it is put, and of B;
+  // on_obstacle − on_robot = q_c − q.  One pair of perhaps several; zero where
+  // the features are kNone.
+  Eigen::Vector3d on_robot = Eigen::Vector3d::Zero();
+  Eigen::Vector3d on_obstacle = Eigen::Vector3d::Zero();
+  ContactFeature robot_feature, obstacle_feature;
+  // The answer is the global one: nothing that was not looked at is nearer than
+  // explored_radius, and it is not farther.  Otherwise a limit was met: the
+  // depth is at least explored_radius and at most `depth`, a translation that
+  // suffices; features are kNone where no point of C_cont was found.
+  bool certified = false;
+  double explored_radius = 0.0;
+  DepthLevel level = DepthLevel::kNone;
+  // What the input's coordinates were rounded by to lie on the grid (0: they
+  // do).  The answer is exact for the rounded solids, to rounding in double;
+  // depth and clearance are those of the given ones to 4·√3 times that.
+  double grid_step = 0.0;
+  std::size_t arranged_faces = 0;  // over all windows
+  int windows = 0;
+  double seconds = 0.0;  // wall time of the query
+};
+
+struct DepthOptions {
+  // Explore no farther than this around q, user's unit: > 0.
+  double max_radius = std::numeric_limits<double>::infinity();
+  // Start no window after this; 0: no limit.
+  double max_seconds = 0.0;
+  // Names used in error messages.
+  std::string robot_name = "robot";
+  std::string obstacle_name = "obstacle";
+};
+
+// Exact penetration depth of two solids of any genus as they lie, nothing
+// precomputed: of C_cont = ∂(B ⊕ (−A)) only boxes around q are modelled, the
+// smallest first, until the answer is certified (core/README.md).  The answer
+// is EuclideanMetric's on the whole contact space.
+//
+// `At` is const and thread-safe.  Queries of the orientation the robot was
+// given in share what is precomputed; any other makes a new operand of it.
+class DepthQuery {
+ public:
+  // Solids as MakeSolid accepts them; throws InputError naming the operand.
+  DepthQuery(const TriangleMesh& robot, const TriangleMesh& obstacle,
+             DepthOptions options = {});
+  ~DepthQuery();
+  DepthQuery(DepthQuery&&) noexcept;
+  DepthQuery& operator=(DepthQuery&&) noexcept;
+
+  // The robot moved by q.  Throws InputError unless q is finite and within
+  // 1e15 times the size of the operands.
+  DepthResult At(const Eigen::Vector3d& q) const;
+
+  // The robot turned, then moved: translational depth at a pose.  Throws
+  // InputError also unless | |quaternion| − 1 | ≤ 1e-9.
+  DepthResult At(const RobotPose& pose) const;
+
+  // What a user should know of the operands although it is no error, one
+  // sentence each, with the operand's name.
+  const std::vector<std::string>& warnings() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+// The same once.
+DepthResult PenetrationDepth(const TriangleMesh& robot,
+                             const TriangleMesh& obstacle,
+                             const RobotPose& pose = {},
+                             const DepthOptions& options = {});
+
+// Throws InputError "<what>: …" unless the pose is finite and its quaternion of
+// unit length to 1e-9.
+void CheckPose(const RobotPose& pose, const std::string& what);
+
+}  // namespace phongpd

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+#include <utility>
+#include <vector>
+
+#include "core/bvh/box_tree.h"
+#include "core/minkowski/gauss_tree.h"
+
+namespace phongpd::internal {
+
+// Features of one solid, each with a box in space and a cap of normals, in a
+// tree over the boxes whose nodes bound the caps, too.
+class ConeTree {
+ public:
+  ConeTree(const std::vector<BoundingBox>& boxes,
+           const std::vector<GaussCap>& caps);
+
+  const BoxTree& tree() const { return tree_; }
+  // Of a node: the caps' box.
+  const BoundingBox& Normals(int node) const { return normals_[node]; }
+  // By position in tree().order().
+  const BoundingBox& Box(int position) const { return boxes_[position]; }
+  const GaussCap& Cap(int position) const { return caps_[position]; }
+
+ private:
+  BoxTree tree_;
+  std::vector<BoundingBox> normals_;
+  std::vector<BoundingBox> boxes_;
+  std::vector<GaussCap> caps_;
+};
+
+// Which normals of P and Q go together: equal ones, or opposite ones as well
+// (VertexCaps tells a vertex's normals up to their sign).
+enum class NormalMatch { kEqual, kEqualOrOpposite };
+
+// visit(i, j) for every feature i of P and j of Q whose boxes have a sum within
+// `window` and whose caps overlap; in no stated order.
+template <typename Visit>
+void ForEachPairIn(const ConeTree& p, const ConeTree& q, NormalMatch match,
+                   const BoundingBox& window, const Visit& visit) {
+  if (p.tree().nodes().empty() || q.tree().nodes().empty()) return;
+  const auto is_in_window = [&window](const auto& a, const auto& b) {
+    return ((a.min + b.min).array() <= window.max.array()).all() &&
+           ((a.max + b.max).array() >= window.min.array()).all();
+  };
+  const auto may_match = [match](const BoundingBox& a, const BoundingBox& b) {
+    return ((a.min.array() <= b.max.array()).all() &&
+            (a.max.array() >= b.min.array()).all()) ||
+           (match == NormalMatch::kEqualOrOpposite &&
+            (-a.max.array() <= b.max.array()).all() &&
+            (-a.min.array() >= b.min.array()).all());
+  };
+  const auto caps_meet = [match](const GaussCap& a, const GaussCap& b) {
+    const double reach = (a.radius + b.radius) * (a.radius + b.radius);
+    return (a.center - b.center).squaredNorm() <= reach ||
+           (match == NormalMatch::kEqualOrOpposite &&
+            (a.center + b.center).squaredNorm() <= reach);
+  };
+  std::vector<std::pair<int, int>> stack;
+  const auto push = [&](int i, int j) {
+    if (is_in_window(p.tree().nodes()[i], q.tree().nodes()[j]) &&
+        may_match(p.Normals(i), q.Normals(j))) {
+      stack.emplace_back(i, j);
+    }
+  };
+  for (push(0, 0); !stack.empty();) {
+    const auto [i, j] = stack.back();
+    stack.pop_back();
+    const BoxTree::Node& a = p.tree().nodes()[i];
+    const BoxTree::Node& b = q.tree().nodes()[j];
+    if (a.IsLeaf() && b.IsLeaf()) {
+      for (int k = a.first; k < a.first + a.count; ++k) {
+        for (int l = b.first; l < b.first + b.count; ++l) {
+          if (caps_meet(p.Cap(k), q.Cap(l)) &&
+              is_in_window(p.Box(k), q.Box(l))) {
+            visit(p.tree().order()[k], q.tree().order()[l]);
+          }
+        }
+      }
+      continue;
+    }
+    const bool splits_p =
+        b.IsLeaf() || (!a.IsLeaf() && (a.max - a.min).squaredNorm() >=
+                                          (b.max - b.min).squaredNorm());
+    for (int k = 0; k < 2; ++k) {
+      push(splits_p ? a.first + k : i, splits_p ? j : b.first + k);
+    }
+  }
+}
+
+}  // namespace phongpd::internal

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+
+#include "core/bvh/triangle_bvh.h"
+#include "core/minkowski/convolution.h"
+#include "core/minkowski/grid_pair.h"
+#include "core/minkowski/solid_collision.h"
+
+namespace phongpd::internal {
+
+// What the reduced convolution alone tells of free space, exactly and without
+// an arrangement.
+//
+// Directly behind each of its facets the operands overlap, and C_cont is part
+// of it.  A segment that starts free first meets it from the front, and what is
+// in front of the first facet it meets is free; so it is free iff it meets
+// none.  The segment from a free q to the nearest point of the convolution
+// meets nothing before: that point is the nearest of C_cont.
+//
+// Configurations are in the user's frame; they are rounded to 2^-12 of a grid
+// step (2^-50 of the operands), for which the answers are exact.  Thread-safe.
+class ConvolutionSpace {
+ public:
+  // Keeps a reference.
+  explicit ConvolutionSpace(const GridPair& pair);
+
+  // Does A + q meet B nowhere?  False for non-finite q.
+  bool IsFree(const Eigen::Vector3d& q) const;
+  // Is every point of the closed segment free?
+  bool IsFree(const Eigen::Vector3d& a, const Eigen::Vector3d& b) const;
+
+  // The point of C_cont nearest to a free q, and its distance, rounded.
+  struct Nearest {
+    Eigen::Vector3d point = Eigen::Vector3d::Zero();
+    double distance = 0.0;
+  };
+  Nearest FindNearest(const Eigen::Vector3d& q) const;
+
+  std::size_t size() const { return facets_; }
+
+ private:
+  // In grid steps, rounded as above.
+  Eigen::Vector3d ToGrid(const Eigen::Vector3d& q) const;
+
+  const GridPair& pair_;
+  SolidCollision judge_;
+  BoundingBox bounds_;  // of the convolution, grid steps
+  std::size_t facets_ = 0;
+  TriangleMesh mesh_;  // grid steps, exact
+  TriangleBvh bvh_;
+};
+
+}  // namespace phongpd::internal

@@ -1,0 +1,384 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/minkowski/window_cells.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <utility>
+
+#include "core/mesh/union_find.h"
+#include "core/minkowski/cell_probe.h"
+#include "core/minkowski/edge_rings.h"
+#include "core/minkowski/exact_points.h"
+#include "core/minkowski/face_geometry.h"
+#include "core/minkowski/facet_intersections.h"
+#include "core/minkowski/plane_arrangement.h"
+#include "core/minkowski/plane_groups.h"
+
+namespace phongpd::internal {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+// Half steps: far above the rounding of the arrangement's points.
+constexpr double kNearlyThere = 0x1p-6;
+
+GridPoint Doubled(const GridPoint& p) { return p + p; }
+
+// The convolution in half steps, and the walls behind it.
+Convolution WithWalls(const Convolution& part, const GridWindow& window) {
+  Convolution out;
+  out.points.reserve(part.points.size() + 8);
+  for (const GridPoint& p : part.points) out.points.push_back(Doubled(p));
+  out.facets = part.facets;
+  int source = 0;
+  for (const ConvolutionFacet& f : part.facets) {
+    source = std::max(source, f.source + 1);
+  }
+  const int first = static_cast<int>(out.points.size());
+  for (int corner = 0; corner < 8; ++corner) {
+    GridPoint p;
+    for (int k = 0; k < 3; ++k) {
+      p[k] = (corner >> k & 1) != 0 ? window.max[k] : window.min[k];
+    }
+    out.points.push_back(p);
+  }
+  for (int axis = 0; axis < 3; ++axis) {
+    const int u = 1 << (axis + 1) % 3, v = 1 << (axis + 2) % 3;
+    for (const int high : {0, 1}) {
+      // u, v, axis are right-handed: 0, u, u + v, v looks along +axis.
+      const int c0 = first + (high << axis);
+      int c1 = c0 + u, c3 = c0 + v;
+      const int c2 = c0 + u + v;
+      if (high != 0) std::swap(c1, c3);
+      GridNormal n{};
+      n[axis] = high != 0 ? -1 : 1;
+      out.facets.push_back({{c0, c1, c2}, n, source, ContactKind::kEdges});
+      out.facets.push_back({{c0, c2, c3}, n, source, ContactKind::kEdges});
+      ++source;
+    }
+  }
+  return out;
+}
+
+double SquaredDistanceToEdge(const Vector3d& a, const Vector3d& b,
+                             Vector3d* nearest) {
+  const Vector3d along = b - a;
+  const double length = along.squaredNorm();
+  const double t =
+      length > 0.0 ? std::clamp(-a.dot(along) / length, 0.0, 1.0) : 0.0;
+  *nearest = a + t * along;
+  return nearest->squaredNorm();
+}
+
+}  // namespace
+
+GridWindow GridWindow::Around(const Vector3d& q, double reach) {
+  GridWindow window;
+  for (int k = 0; k < 3; ++k) {
+    window.min[k] = 2 * std::llround(std::floor(q[k] - reach)) - 1;
+    window.max[k] = 2 * std::llround(std::ceil(q[k] + reach)) + 1;
+  }
+  return window;
+}
+
+BoundingBox GridWindow::Box() const {
+  return {0.5 * ToDouble(min), 0.5 * ToDouble(max)};
+}
+
+double GridWindow::WallDistance(const Vector3d& q) const {
+  const BoundingBox box = Box();
+  return (q - box.min).cwiseMin(box.max - q).minCoeff();
+}
+
+// All in half steps.
+struct WindowCells::Impl {
+  Impl(const WindowConvolution& sums, const GridWindow& window,
+       const SolidCollision& the_judge, const BuildLimits& limits)
+      : first_wall(static_cast<int>(sums.convolution.facets.size())),
+        convolution(WithWalls(sums.convolution, window)),
+        groups(GroupByPlane(convolution)),
+        judge(the_judge) {
+    box = {ToDouble(window.min), ToDouble(window.max)};
+    const FacetIndex index(convolution, box);
+    const FacetIntersections intersections =
+        IntersectFacets(convolution, groups, index, limits, &points);
+    arrangement =
+        ArrangePlanes(convolution, groups, intersections, limits, &points);
+    rings = SortAroundEdges(convolution, arrangement, points);
+    FindCells();
+  }
+
+  bool IsWall(int face) const {
+    return arrangement.faces[face].facet >= first_wall;
+  }
+
+  // Faces are joined where they share an edge that is in no wall: each such
+  // part is in the window or outside.  One that has an edge in a wall shows
+  // which by the side of the wall it lies on.
+  std::vector<char> FindInside() const {
+    const std::size_t count = arrangement.faces.size();
+    UnionFind parts(count);
+    std::vector<char> inside(count, 0), known(count, 0);
+    std::vector<std::pair<int, char>> told;
+    for (const EdgeRing& ring : rings.rings) {
+      const int size = ring.end - ring.begin;
+      const auto spoke = [&](int k) -> const Spoke& {
+        return rings.spokes[ring.begin + k % size];
+      };
+      int wall = 0;
+      while (wall < size && !IsWall(spoke(wall).face)) ++wall;
+      if (wall == size) {
+        for (int k = 0; k + 1 < size; ++k) {
+          parts.Join(spoke(k).face, spoke(k + 1).face);
+        }
+        continue;
+      }
+      // What follows a wall up to the next one lies on the side that the wall
+      // has there.
+      char is_inside = 0;
+      for (int k = wall; k < wall + size; ++k) {
+        const Spoke& s = spoke(k);
+        if (IsWall(s.face)) {
+          is_inside = s.SideToNext() == PlusSide(s.face);
+        } else {
+          told.emplace_back(s.face, is_inside);
+        }
+      }
+    }
+    for (const auto& [face, is_inside] : told) {
+      inside[parts.Find(face)] = is_inside;
+      known[parts.Find(face)] = 1;
+    }
+    std::vector<char> result(count, 0);
+    for (std::size_t f = 0; f < count; ++f) {
+      const int face = static_cast<int>(f), part = parts.Find(face);
+      if (!known[part]) {  // it touches no wall
+        const Vector3d& p = points.Approximate(
+            arrangement.half_edges[arrangement.faces[f].begin].from);
+        inside[part] = (p.array() > box.min.array()).all() &&
+                       (p.array() < box.max.array()).all();
+        known[part] = 1;
+      }
+      result[f] = IsWall(face) || inside[part];
+    }
+    return result;
+  }
+
+  void FindCells() {
+    const int count = static_cast<int>(arrangement.faces.size());
+    UnionFind sides(2 * arrangement.faces.size());
+    for (const EdgeRing& ring : rings.rings) {
+      for (int k = ring.begin; k < ring.end; ++k) {
+        const int next = k + 1 < ring.end ? k + 1 : ring.begin;
+        sides.Join(rings.spokes[k].SideToNext(),
+                   rings.spokes[next].SideToPrevious());
+      }
+    }
+    const std::vector<char> inside = FindInside();
+    std::vector<char> occupied(2 * arrangement.faces.size(), 0);
+    for (int f = 0; f < count; ++f) {
+      if (!inside[f]) continue;
+      occupied[sides.Find(MinusSide(f))] = 1;
+      if (arrangement.faces[f].two_sided) occupied[sides.Find(PlusSide(f))] = 1;
+    }
+    std::map<int, int> ids;
+    for (int f = 0; f < count; ++f) {
+      const int cell = sides.Find(PlusSide(f));
+      if (!inside[f] || occupied[cell]) continue;
+      const auto [it, is_new] =
+          ids.emplace(cell, static_cast<int>(candidates.size()));
+      if (is_new) candidates.emplace_back();
+      candidates[it->second].sides.push_back(PlusSide(f));
+    }
+    area.resize(arrangement.faces.size());
+    if (candidates.size() > 4) geometry.BuildTree();
+    for (const Candidate& c : candidates) {
+      for (const int side : c.sides) area[side / 2] = geometry.Area(side / 2);
+    }
+  }
+
+  // A cell of + sides alone.
+  struct Candidate {
+    std::vector<int> sides;
+    int judgement = -1;  // 1: free
+  };
+
+  bool IsFree(Candidate* cell) {
+    if (cell->judgement < 0) {
+      // The probe may be anywhere in the window.
+      const double reach = 100.0 * (box.max - box.min).maxCoeff();
+      std::vector<int> sides = cell->sides;
+      const Vector3d probe = ProbePoint(geometry, area, &sides, reach);
+      cell->judgement = judge.Collide(0.5 * probe) ? 0 : 1;
+      ++judged;
+    }
+    return cell->judgement == 1;
+  }
+
+  struct FacePoint {
+    double squared_distance = kInfinity;
+    Vector3d offset = Vector3d::Zero();  // from q
+  };
+
+  // The point of a face nearest to q, found relative to q.
+  FacePoint NearestOn(int face, const Vector3d& q, double limit) const {
+    const ArrangementFace& f = arrangement.faces[face];
+    const ConvolutionFacet& facet = convolution.facets[f.facet];
+    const Vector3d n = ToDouble(facet.normal).normalized();
+    const double height =
+        n.dot(ToDouble(convolution.points[facet.corners[0]]) - q);
+    FacePoint best;
+    if (height * height >= limit) return best;
+    const Vector3d foot = height * n;
+    const int axis = LargestAxis(n), u = (axis + 1) % 3, v = (axis + 2) % 3;
+    bool holds_foot = false;
+    for (int h = f.begin; h < f.end; ++h) {
+      const HalfEdge& e = arrangement.half_edges[h];
+      const Vector3d a = points.Approximate(e.from) - q;
+      const Vector3d b = points.Approximate(e.to) - q;
+      Vector3d nearest;
+      const double squared = SquaredDistanceToEdge(a, b, &nearest);
+      if (squared < best.squared_distance) best = {squared, nearest};
+      if ((a[v] > foot[v]) == (b[v] > foot[v])) continue;
+      const double at =
+          a[u] + (foot[v] - a[v]) * ((b[u] - a[u]) / (b[v] - a[v]));
+      if (at > foot[u]) holds_foot = !holds_foot;
+    }
+    if (holds_foot && height * height < best.squared_distance) {
+      best = {height * height, foot};
+    }
+    return best;
+  }
+
+  // The convolution facet that the face is part of at a point of it: coplanar
+  // facets are arranged together.
+  int FacetAt(int face, const Vector3d& point) const {
+    const int representative = arrangement.faces[face].facet;
+    const int group = groups.of_facet[representative];
+    int best = representative;
+    double least = kInfinity;
+    for (const int f : groups.members[group]) {
+      if (groups.reversed[f] != groups.reversed[representative]) continue;
+      const double squared = SquaredDistanceInPlane(f, point);
+      if (squared < least) {
+        least = squared;
+        best = f;
+      }
+    }
+    return best;
+  }
+
+  // Of a point in a facet's plane to the facet.
+  double SquaredDistanceInPlane(int f, const Vector3d& point) const {
+    const ConvolutionFacet& facet = convolution.facets[f];
+    const Vector3d n = ToDouble(facet.normal);
+    bool inside = true;
+    double least = kInfinity;
+    for (int k = 0; k < 3; ++k) {
+      const Vector3d a = ToDouble(convolution.points[facet.corners[k]]) - point;
+      const Vector3d b =
+          ToDouble(convolution.points[facet.corners[(k + 1) % 3]]) - point;
+      Vector3d nearest;
+      least = std::min(least, SquaredDistanceToEdge(a, b, &nearest));
+      if (n.dot((b - a).cross(-a)) < 0.0) inside = false;
+    }
+    return inside ? 0.0 : least;
+  }
+
+  // Of a point within 2^-12 of a grid step: does it lie in the face's plane?
+  bool LiesInPlane(int face, const Vector3d& q) const {
+    const ConvolutionFacet& facet =
+        convolution.facets[arrangement.faces[face].facet];
+    const GridPoint& origin = convolution.points[facet.corners[0]];
+    Wide side = 0;
+    for (int k = 0; k < 3; ++k) {
+      const Wide x = std::llround(std::ldexp(q[k], 11));
+      side += Wide(facet.normal[k]) * (x - (Wide(origin[k]) << 11));
+    }
+    return side.is_zero();
+  }
+
+  int first_wall;
+  BoundingBox box;
+  Convolution convolution;
+  PlaneGroups groups;
+  const SolidCollision& judge;
+  ExactPoints points;
+  Arrangement arrangement;
+  EdgeRings rings;
+  FaceGeometry geometry{convolution, arrangement, points};
+  std::vector<double> area;
+  std::vector<Candidate> candidates;
+  int judged = 0;
+};
+
+WindowCells::WindowCells(const WindowConvolution& sums,
+                         const GridWindow& window, const SolidCollision& judge,
+                         const BuildLimits& limits)
+    : impl_(std::make_unique<Impl>(sums, window, judge, limits)) {}
+WindowCells::~WindowCells() = default;
+
+WindowCells::Nearest WindowCells::FindNearest(const Vector3d& q) {
+  const Vector3d q2 = 2.0 * q;
+  // Cells by their nearest face, so that few are judged.
+  struct Entry {
+    double squared_distance;
+    int cell, face;
+    Vector3d offset;
+  };
+  std::vector<Entry> entries;
+  for (int c = 0; c < static_cast<int>(impl_->candidates.size()); ++c) {
+    Entry entry{kInfinity, c, -1, Vector3d::Zero()};
+    for (const int side : impl_->candidates[c].sides) {
+      if (impl_->IsWall(side / 2)) continue;
+      Impl::FacePoint p =
+          impl_->NearestOn(side / 2, q2, entry.squared_distance);
+      if (p.squared_distance < kNearlyThere * kNearlyThere &&
+          impl_->LiesInPlane(side / 2, q2)) {
+        p = {0.0, Vector3d::Zero()};
+      }
+      if (p.squared_distance < entry.squared_distance) {
+        entry = {p.squared_distance, c, side / 2, p.offset};
+      }
+    }
+    if (entry.face >= 0) entries.push_back(entry);
+  }
+  std::sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) {
+    return a.squared_distance != b.squared_distance
+               ? a.squared_distance < b.squared_distance
+               : a.cell < b.cell;
+  });
+  Nearest nearest;
+  for (const Entry& entry : entries) {
+    if (!impl_->IsFree(&impl_->candidates[entry.cell])) continue;
+    nearest.found = true;
+    nearest.distance = 0.5 * std::sqrt(entry.squared_distance);
+    nearest.point = q + 0.5 * entry.offset;
+    nearest.normal = impl_->geometry.Normal(entry.face);
+    nearest.facet = impl_->FacetAt(entry.face, q2 + entry.offset);
+    break;
+  }
+  return nearest;
+}
+
+double WindowCells::SurfaceArea() {
+  double area = 0.0;
+  for (Impl::Candidate& cell : impl_->candidates) {
+    if (!impl_->IsFree(&cell)) continue;
+    for (const int side : cell.sides) {
+      if (!impl_->IsWall(side / 2)) area += 0.25 * impl_->area[side / 2];
+    }
+  }
+  return area;
+}
+
+int WindowCells::FaceCount() const {
+  return static_cast<int>(impl_->arrangement.faces.size());
+}
+int WindowCells::JudgedCells() const { return impl_->judged; }
+
+}  // namespace phongpd::internal

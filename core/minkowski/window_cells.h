@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <vector>
+
+#include "core/minkowski/build_limits.h"
+#include "core/minkowski/solid_collision.h"
+#include "core/minkowski/window_convolution.h"
+
+namespace phongpd::internal {
+
+// A box in q-space in half grid steps, all its coordinates odd: no grid point
+// and no facet along an axis lies in a wall.
+struct GridWindow {
+  GridPoint min, max;
+
+  // The box of half-width `reach` ≥ 1 around q (grid steps), rounded outwards.
+  static GridWindow Around(const Eigen::Vector3d& q, double reach);
+  // In grid steps.
+  BoundingBox Box() const;
+  // Of a point in it to the nearest wall, grid steps; ≤ 0 outside.
+  double WallDistance(const Eigen::Vector3d& q) const;
+};
+
+// The part of C_cont in a window, exactly: the convolution's facets there and
+// the six walls as facets of their own, which look into the window, so that
+// all outside counts as occupied, are arranged as for a full build.  A cell
+// that looks at the back of any facet is occupied; of the others those that
+// somebody asks about are judged by one collision test.
+class WindowCells {
+ public:
+  // `window` holds what FeatureSums::Within told of it.  Keeps a reference to
+  // `judge`.  Throws InputError when `limits` are passed.
+  WindowCells(const WindowConvolution& sums, const GridWindow& window,
+              const SolidCollision& judge, const BuildLimits& limits);
+  ~WindowCells();
+
+  // The point of C_cont in the window nearest to q, grid steps.
+  struct Nearest {
+    bool found = false;
+    double distance = 0.0;  // 0 exactly when q lies on C_cont
+    Eigen::Vector3d point = Eigen::Vector3d::Zero();
+    Eigen::Vector3d normal = Eigen::Vector3d::Zero();  // of the facet, outward
+    int facet = -1;  // of the convolution, holds the point
+  };
+  Nearest FindNearest(const Eigen::Vector3d& q);
+
+  // Area of C_cont in the window, grid steps squared; judges every cell.
+  double SurfaceArea();
+  int FaceCount() const;
+  int JudgedCells() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace phongpd::internal

@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/minkowski/window_convolution.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <utility>
+
+#include "core/minkowski/facet_collector.h"
+
+namespace phongpd::internal {
+namespace {
+
+using Eigen::Vector3d;
+
+// Of a facet's reach: far above the rounding of the separating axes.
+constexpr double kClearShare = 1e-9;
+
+BoundingBox BoxOf(const GridSolid& s, const int* corners, int count) {
+  BoundingBox box;
+  box.min = box.max = ToDouble(s.vertices[corners[0]]);
+  for (int k = 1; k < count; ++k) {
+    const Vector3d p = ToDouble(s.vertices[corners[k]]);
+    box.min = box.min.cwiseMin(p);
+    box.max = box.max.cwiseMax(p);
+  }
+  return box;
+}
+
+ConeTree VertexTree(const GridSolid& s) {
+  std::vector<BoundingBox> boxes;
+  std::vector<GaussCap> caps;
+  boxes.reserve(s.vertices.size());
+  for (int v = 0; v < static_cast<int>(s.vertices.size()); ++v) {
+    boxes.push_back(BoxOf(s, &v, 1));
+  }
+  return {boxes, VertexCaps(s)};
+}
+
+ConeTree FacetTree(const GridSolid& s) {
+  std::vector<BoundingBox> boxes;
+  std::vector<GaussCap> caps;
+  boxes.reserve(s.facets.size());
+  caps.reserve(s.facets.size());
+  for (std::size_t f = 0; f < s.facets.size(); ++f) {
+    boxes.push_back(BoxOf(s, s.facets[f].data(), 3));
+    const Vector3d n = ToDouble(s.normals[f]).normalized();
+    caps.push_back(CapAround(&n, 1));
+  }
+  return {boxes, caps};
+}
+
+ConeTree ArcTree(const GridSolid& s, const std::vector<ConvexEdge>& edges) {
+  std::vector<BoundingBox> boxes;
+  boxes.reserve(edges.size());
+  for (const ConvexEdge& e : edges) {
+    const int ends[2] = {e.a, e.b};
+    boxes.push_back(BoxOf(s, ends, 2));
+  }
+  return {boxes, ArcCaps(edges)};
+}
+
+}  // namespace
+
+bool IsClearlyApart(const Vector3d corners[3], const BoundingBox& box) {
+  const Vector3d center = box.Center(), half = 0.5 * (box.max - box.min);
+  Vector3d t[3];
+  double reach = half.lpNorm<Eigen::Infinity>();
+  for (int k = 0; k < 3; ++k) {
+    t[k] = corners[k] - center;
+    reach = std::max(reach, t[k].lpNorm<Eigen::Infinity>());
+  }
+  const auto separates = [&](const Vector3d& axis) {
+    const double a = axis.dot(t[0]), b = axis.dot(t[1]), c = axis.dot(t[2]);
+    const double room =
+        axis.cwiseAbs().dot(half) + kClearShare * reach * axis.lpNorm<1>();
+    return std::min({a, b, c}) > room || std::max({a, b, c}) < -room;
+  };
+  const Vector3d edges[3] = {t[1] - t[0], t[2] - t[1], t[0] - t[2]};
+  for (int k = 0; k < 3; ++k) {
+    if (separates(Vector3d::Unit(k))) return true;
+  }
+  if (separates(edges[0].cross(edges[1]))) return true;
+  for (const Vector3d& e : edges) {
+    for (int k = 0; k < 3; ++k) {
+      if (separates(e.cross(Vector3d::Unit(k)))) return true;
+    }
+  }
+  return false;
+}
+
+FeatureSums::Operand::Operand(const GridSolid& s, int turn)
+    : solid(s),
+      stars(s),
+      edges(ConvexEdges(s)),
+      vertices(VertexTree(s)),
+      facets(FacetTree(s)),
+      arcs(ArcTree(s, edges)) {
+  touching.reserve(s.normals.size());
+  for (const GridNormal& n : s.normals) touching.emplace_back(n, turn);
+}
+
+FeatureSums::FeatureSums(const GridSolid& p, const GridSolid& q)
+    : p_(p, 1), q_(q, -1) {
+  const BoxTree::Node& a = p_.facets.tree().nodes()[0];
+  const BoxTree::Node& b = q_.facets.tree().nodes()[0];
+  bounds_ = {a.min + b.min, a.max + b.max};
+}
+
+WindowConvolution FeatureSums::Within(const BoundingBox& window) const {
+  using Pair = std::pair<int, int>;
+  WindowConvolution out;
+  FacetCollector collect(&out.convolution);
+  std::vector<Pair> pairs;
+  int source = 0;
+  // In the order of ReducedConvolution, whatever the trees look like.
+  const auto sorted = [&pairs]() -> const std::vector<Pair>& {
+    std::sort(pairs.begin(), pairs.end());
+    return pairs;
+  };
+  const auto keep = [&](std::size_t before, const SumOrigin& origin) {
+    std::vector<ConvolutionFacet>& facets = out.convolution.facets;
+    std::size_t kept = before;
+    for (std::size_t f = before; f < facets.size(); ++f) {
+      Vector3d corners[3];
+      for (int k = 0; k < 3; ++k) {
+        corners[k] = ToDouble(out.convolution.points[facets[f].corners[k]]);
+      }
+      if (IsClearlyApart(corners, window)) continue;
+      facets[kept++] = facets[f];
+      out.origins.push_back(origin);
+    }
+    facets.resize(kept);
+  };
+  const auto add_facets = [&](const Operand& facets, const Operand& others,
+                              ContactKind kind) {
+    const bool of_p = kind == ContactKind::kObstacleFacet;
+    pairs.clear();
+    ForEachPairIn(facets.facets, others.vertices, NormalMatch::kEqualOrOpposite,
+                  window, [&](int f, int v) {
+                    if (facets.touching[f].Touches(others.stars, v)) {
+                      pairs.emplace_back(f, v);
+                    }
+                  });
+    for (const auto& [f, v] : sorted()) {
+      const std::size_t before = out.convolution.facets.size();
+      collect.AddFacet(facets.solid, f, others.solid.vertices[v], kind,
+                       source++);
+      keep(before, of_p ? SumOrigin{f, v} : SumOrigin{v, f});
+    }
+  };
+  add_facets(p_, q_, ContactKind::kObstacleFacet);
+  add_facets(q_, p_, ContactKind::kRobotFacet);
+
+  pairs.clear();
+  ForEachPairIn(p_.arcs, q_.arcs, NormalMatch::kEqual, window,
+                [&](int e, int g) { pairs.emplace_back(e, g); });
+  for (const auto& [e, g] : sorted()) {
+    const int side = CommonSide(p_.edges[e], q_.edges[g]);
+    if (side == 0) continue;
+    const std::size_t before = out.convolution.facets.size();
+    collect.AddEdges(p_.solid, p_.edges[e], q_.solid, q_.edges[g], side,
+                     source++);
+    keep(before, {e, g});
+  }
+  return out;
+}
+
+}  // namespace phongpd::internal

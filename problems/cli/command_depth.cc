@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "core/contact/depth.h"
+#include "core/mesh/mesh_io.h"
+#include "problems/cli/command.h"
+#include "problems/output/output_files.h"
+#include "problems/output/points_csv.h"
+#include "problems/output/text.h"
+
+namespace phongpd::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct Flags {
+  std::string a;
+  std::string b;
+  std::vector<std::string> at;
+  std::string poses;
+  std::string output = "/dev/stdout";
+  std::string max_radius;
+  double max_seconds = 0.0;
+  bool json = false;
+};
+
+const char* NameOf(DepthStatus status) {
+  switch (status) {
+    case DepthStatus::kPenetrating:
+      return "penetrating";
+    case DepthStatus::kTouching:
+      return "touching";
+    default:
+      return "separate";
+  }
+}
+
+const char* NameOf(DepthLevel level) {
+  switch (level) {
+    case DepthLevel::kFull:
+      return "full";
+    case DepthLevel::kWindow:
+      return "window";
+    default:
+      return "none";
+  }
+}
+
+const char* NameOf(ContactFeature::Kind kind) {
+  constexpr const char* kNames[] = {"none", "vertex", "edge", "facet"};
+  return kNames[kind];
+}
+
+std::vector<int> VerticesOf(const ContactFeature& feature) {
+  return {feature.vertices.begin(), feature.vertices.begin() + feature.kind};
+}
+
+// "edge 3 7"
+std::string Described(const ContactFeature& feature) {
+  std::string text = NameOf(feature.kind);
+  for (const int v : VerticesOf(feature)) text += ' ' + std::to_string(v);
+  return text;
+}
+
+Json ToJson(const Eigen::Vector3d& v) { return {v[0], v[1], v[2]}; }
+
+Json ToJson(const Eigen::Vector3d& point, const ContactFeature& feature) {
+  return {{"point", ToJson(point)},
+          {"feature", NameOf(feature.kind)},
+          {"vertices", VerticesOf(feature)}};
+}
+
+Json ToJson(const RobotPose& pose, const DepthResult& r) {
+  const Eigen::Quaterniond& turn = pose.orientation;
+  return {{"position", ToJson(pose.position)},
+          {"orientation", {turn.w(), turn.x(), turn.y(), turn.z()}},
+          {"status", NameOf(r.status)},
+          {"depth", r.depth},
+          {"clearance", r.clearance},
+          {"direction", ToJson(r.direction)},
+          {"contact", ToJson(r.contact)},
+          {"on_a", ToJson(r.on_robot, r.robot_feature)},
+          {"on_b", ToJson(r.on_obstacle, r.obstacle_feature)},
+          {"certified", r.certified},
+          {"explored_radius", r.explored_radius},
+          {"level", NameOf(r.level)},
+          {"grid_step", r.grid_step},
+          {"arranged_faces", r.arranged_faces},
+          {"windows", r.windows},
+          {"seconds", r.seconds}};
+}
+
+constexpr const char* kHeader =
+    "x,y,z,qw,qx,qy,qz,status,depth,clearance,direction_x,direction_y,"
+    "direction_z,contact_x,contact_y,contact_z,on_a_x,on_a_y,on_a_z,on_b_x,"
+    "on_b_y,on_b_z,feature_a,feature_b,certified,explored_radius,level,"
+    "seconds\n";
+
+std::string Row(const RobotPose& pose, const DepthResult& r) {
+  const Eigen::Quaterniond& turn = pose.orientation;
+  std::string row = FormatPoint(pose.position);
+  for (const double x : {turn.w(), turn.x(), turn.y(), turn.z()}) {
+    row += ',' + FormatDouble(x);
+  }
+  row += std::string(",") + NameOf(r.status) + ',' + FormatDouble(r.depth) +
+         ',' + FormatDouble(r.clearance);
+  for (const Eigen::Vector3d& v :
+       {r.direction, r.contact, r.on_robot, r.on_obstacle}) {
+    row += ',' + FormatPoint(v);
+  }
+  return row + ',' + Described(r.robot_feature) + ',' +
+         Described(r.obstacle_feature) + (r.certified ? ",1," : ",0,") +
+         FormatDouble(r.explored_radius) + ',' + NameOf(r.level) + ',' +
+         FormatDouble(r.seconds) + '\n';
+}
+
+// For people.
+std::string Sentence(const Flags& flags, const DepthResult& r) {
+  TextStream text;
+  switch (r.status) {
+    case DepthStatus::kSeparate:
+      text << "separate: " << FormatDouble(r.clearance) << " apart\n";
+      break;
+    case DepthStatus::kTouching:
+      text << "touching: free along " << FormatPoint(r.direction) << '\n';
+      break;
+    case DepthStatus::kPenetrating:
+      text << "penetrating: depth "
+           << (r.certified
+                   ? ""
+                   : "between " + FormatDouble(r.explored_radius) + " and ")
+           << FormatDouble(r.depth) << ", out along "
+           << FormatPoint(r.direction) << '\n';
+      break;
+  }
+  if (r.robot_feature.kind != ContactFeature::kNone) {
+    text << flags.a << ": " << FormatPoint(r.on_robot) << " on "
+         << Described(r.robot_feature) << '\n'
+         << flags.b << ": " << FormatPoint(r.on_obstacle) << " on "
+         << Described(r.obstacle_feature) << '\n';
+  }
+  text << (r.certified ? "certified" : "NOT CERTIFIED") << ", level "
+       << NameOf(r.level) << ", " << r.arranged_faces << " faces arranged, "
+       << Rounded(r.seconds) << " s\n";
+  return text.str();
+}
+
+std::vector<RobotPose> PosesOf(const Flags& flags) {
+  if (!flags.poses.empty()) return ReadPosesCsv(flags.poses);
+  RobotPose pose;
+  if (!flags.at.empty()) pose.position = ParsePoint(flags.at, "--at");
+  return {pose};
+}
+
+int Depth(const Flags& flags) {
+  OutputFiles outputs;
+  outputs.Declare(flags.output);
+  const std::vector<RobotPose> poses = PosesOf(flags);
+  DepthOptions options;
+  options.robot_name = flags.a;
+  options.obstacle_name = flags.b;
+  options.max_seconds = flags.max_seconds;
+  if (!flags.max_radius.empty()) {
+    options.max_radius = ParseDouble(flags.max_radius, "--max-radius");
+    if (!(options.max_radius > 0.0)) {
+      throw InputError("--max-radius: expected a length > 0, found " +
+                       flags.max_radius);
+    }
+  }
+  const DepthQuery query(ReadMesh(flags.a), ReadMesh(flags.b), options);
+  for (const std::string& warning : query.warnings()) Warn(warning);
+  const bool is_table = !flags.json && !flags.poses.empty();
+  std::string text = is_table ? kHeader : "";
+  bool is_certified = true;
+  for (const RobotPose& pose : poses) {
+    const DepthResult result = query.At(pose);
+    is_certified = is_certified && result.certified;
+    if (flags.json) {
+      text += ToJson(pose, result).dump() + '\n';
+    } else {
+      text += is_table ? Row(pose, result) : Sentence(flags, result);
+    }
+  }
+  outputs.Write(flags.output, text);
+  outputs.Commit();
+  return is_certified ? kDone : kNoAnswer;
+}
+
+}  // namespace
+
+Command AddDepth(CLI::App* app) {
+  auto flags = std::make_shared<Flags>();
+  app->add_option("A", flags->a, "Mesh of a solid (OFF, OBJ, STL, PLY)")
+      ->required()
+      ->type_name("FILE");
+  app->add_option("B", flags->b, "Mesh of the other, which stays")
+      ->required()
+      ->type_name("FILE");
+  CLI::Option* const at =
+      app->add_option("--at", flags->at, "Move A by this first")
+          ->expected(3)
+          ->type_name("X Y Z");
+  app->add_option("--pose", flags->poses,
+                  "CSV file with the columns x,y,z,qw,qx,qy,qz: turn A, then "
+                  "move it; an answer for each")
+      ->excludes(at)
+      ->type_name("FILE");
+  app->add_option("--output", flags->output, "Where the answers go")
+      ->capture_default_str()
+      ->type_name("FILE");
+  app->add_flag("--json", flags->json, "One JSON object for each pose");
+  app->add_option("--max-radius", flags->max_radius,
+                  "Look no farther than this; what is deeper comes as a bound, "
+                  "with exit code 1")
+      ->type_name("LENGTH");
+  app->add_option("--max-seconds", flags->max_seconds,
+                  "Look no farther after this time for one pose (0: no limit)")
+      ->type_name("S")
+      ->check(CLI::NonNegativeNumber);
+  return [flags] { return Depth(*flags); };
+}
+
+}  // namespace phongpd::cli

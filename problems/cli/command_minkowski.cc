@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "core/contact/contact_space.h"
+#include "core/mesh/mesh_io.h"
+#include "problems/cli/command.h"
+#include "problems/cli/contact_space_report_json.h"
+#include "problems/output/output_files.h"
+
+namespace phongpd::cli {
+namespace {
+
+struct Flags {
+  std::string a;
+  std::string b;
+  std::string output;
+  std::string report;
+  bool difference = false;
+  double max_seconds = 0.0;
+  double max_mib = 0.0;
+  bool no_cache = false;
+};
+
+// −A: every point through the origin, and so every triangle turned over.
+TriangleMesh Reflected(TriangleMesh mesh) {
+  for (Eigen::Vector3d& v : mesh.vertices) v = -v;
+  return Reversed(std::move(mesh));
+}
+
+// The contact space of a robot A and an obstacle B is that of B ⊕ (−A), and so
+// B ⊕ A the one of −A and B.
+int Sum(const Flags& flags) {
+  OutputFiles outputs;
+  DeclareMesh(&outputs, flags.output);
+  if (!flags.report.empty()) outputs.Declare(flags.report);
+  ContactSpaceOptions options;
+  options.robot_name = flags.a;
+  options.obstacle_name = flags.b;
+  options.max_seconds = flags.max_seconds;
+  options.max_mib = flags.max_mib;
+  TriangleMesh a = ReadMesh(flags.a);
+  const TriangleMesh b = ReadMesh(flags.b);
+  if (!flags.difference) a = Reflected(std::move(a));
+  const ContactSpace space = LoadOrBuild(a, b, options, !flags.no_cache);
+  WriteMeshTo(&outputs, flags.output, space.mesh());
+  const ContactSpaceReport& found = space.report();
+  if (!flags.report.empty()) {
+    nlohmann::ordered_json report = {
+        {"sum", flags.difference ? "B + (-A)" : "A + B"}};
+    report.update(ToJson(found));
+    report["a"] = ToJson(found.robot, found.robot_repair, flags.a);
+    report["b"] = ToJson(found.obstacle, found.obstacle_repair, flags.b);
+    outputs.Write(flags.report, report.dump(2) + '\n');
+  }
+  CommitAndTell(&outputs, Summary(flags.output, found));
+  return kDone;
+}
+
+}  // namespace
+
+Command AddMinkowski(CLI::App* app) {
+  auto flags = std::make_shared<Flags>();
+  app->add_option("A", flags->a, "Mesh of a solid (OFF, OBJ, STL, PLY)")
+      ->required()
+      ->type_name("FILE");
+  app->add_option("B", flags->b, "Mesh of another")
+      ->required()
+      ->type_name("FILE");
+  app->add_flag("--difference", flags->difference,
+                "B + (-A), all differences b - a: the contact space of a robot "
+                "A and an obstacle B");
+  app->add_option("--output", flags->output,
+                  "Surface of the sum, in the format of its extension")
+      ->required()
+      ->type_name("FILE");
+  app->add_option("--report", flags->report, "What was built, as JSON")
+      ->type_name("FILE");
+  app->add_option("--max-seconds", flags->max_seconds,
+                  "Refuse what is predicted to take longer, and stop "
+                  "what does (0: never)")
+      ->type_name("S")
+      ->check(CLI::NonNegativeNumber);
+  app->add_option("--max-mib", flags->max_mib,
+                  "Refuse what is predicted to need more memory, and stop "
+                  "what does (0: stop at nine tenths of what is free)")
+      ->type_name("MIB")
+      ->check(CLI::NonNegativeNumber);
+  AddNoCache(app, &flags->no_cache);
+  return [flags] { return Sum(*flags); };
+}
+
+}  // namespace phongpd::cli

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+
+namespace phongpd {
+
+// A length in both ways it can be told.
+struct ResolvedLength {
+  double unit = 0.0;   // the user's unit, that of coordinates
+  double share = 0.0;  // of D
+};
+
+// A length ≥ 0 as somebody asks for it: in the user's unit, or as a share of
+// D, the one length of a world (World::diagonal).  A value; what it comes to
+// is known once D is.
+class Length {
+ public:
+  Length() = default;  // 0
+  // Throw InputError unless the number is finite and ≥ 0.
+  static Length FromShare(double share);
+  static Length FromUnit(double length);
+
+  bool is_share() const { return is_share_; }
+  double value() const { return value_; }  // as it was given
+
+  // What was given stays as it is, to the bit; the other one is rounded.
+  // Throws InputError unless `diagonal` (D) is finite and > 0.
+  ResolvedLength Resolve(double diagonal) const;
+
+  // "0.2" (a share) or "0.5unit"; ParseLength reads back the same length.
+  std::string Text() const;
+
+  friend bool operator==(const Length& a, const Length& b) {
+    return a.is_share_ == b.is_share_ && a.value_ == b.value_;
+  }
+  friend bool operator!=(const Length& a, const Length& b) { return !(a == b); }
+
+ private:
+  Length(double value, bool is_share) : value_(value), is_share_(is_share) {}
+
+  double value_ = 0.0;
+  bool is_share_ = true;
+};
+
+// How a length is written: "0.01" or "0.01D", a share of D, or "0.5unit", in
+// the user's unit; blanks may stand before D and unit.
+extern const char* const kLengthSyntax;
+
+// Reads that.  Throws InputError "WHAT: expected ..., found 'TEXT'" for
+// anything else, negative numbers among them.
+Length ParseLength(const std::string& text, const std::string& what);
+
+// Which lengths an option takes; none takes more than D.
+enum class LengthRange { kFromZero, kAboveZero };
+
+// Throws InputError "WHAT: expected ..., found LENGTH" for lengths out of
+// range.  Without D (0) lengths in the user's unit pass that may be too long.
+void RequireLength(const Length& length, LengthRange range, double diagonal,
+                   const std::string& what);
+
+}  // namespace phongpd

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/contact/contact_space.h"
+#include "core/contact/contact_space_cache.h"
+#include "planners/exact/free_space.h"
+#include "planners/exact/workspace.h"
+#include "problems/world/diagnosis.h"
+#include "problems/world/length.h"
+
+namespace phongpd {
+
+// How the obstacles of a world become contact spaces.
+enum class SpaceLayout {
+  kMerged,       // one, of all of them
+  kPerObstacle,  // one each; they may overlap
+  kSealed,       // one, of all of them and the bounds: what planners need
+};
+
+// The contact spaces of one layout; only what the robot can touch within the
+// bounds is in them.  All have the world's D for length.
+struct WorldSpaces {
+  std::vector<ContactSpace> spaces;
+  // Of those, and of the bounds where they are no part of them.
+  std::shared_ptr<const FreeSpace> free_space;
+  std::size_t triangles = 0;  // of all spaces
+
+  // Their meshes, for pictures.
+  std::vector<TriangleMesh> Meshes() const;
+};
+
+// What a world has built so far.
+struct WorldReport {
+  int contact_spaces = 0;   // built, or read from the cache
+  double seconds = 0.0;     // spent on them
+  bool from_cache = false;  // at least one of them
+  std::vector<std::string> warnings;
+};
+
+// A robot that translates among named obstacles, perhaps within bounds, and
+// all that planners and optimisers share of it: the length D that options are
+// told in, the diagnosis of start and goal, and contact spaces, which are
+// built when somebody asks for them, once, and kept.
+//
+//   World world(workspace);
+//   Diagnosis start = world.Diagnose(q);                // nothing is built
+//   const WorldSpaces& s = world.Spaces(SpaceLayout::kSealed);
+//   ContactSurfacePlanner planner(s.spaces[0]);
+//
+// A handle: copies are cheap and share what is built.  Thread-safe; whoever
+// asks for what another thread is building waits for it.
+class World {
+ public:
+  // `name` begins the messages about its solids.  Throws InputError like
+  // Workspace::Validate, and if there is nothing to collide with: neither an
+  // obstacle nor bounds.
+  explicit World(Workspace workspace, const std::string& name = "world",
+                 const ContactSpaceCache& cache = {});
+
+  const Workspace& workspace() const;
+  const std::string& name() const;
+
+  // D, the one length of the world: the diagonal of ContactBounds(workspace),
+  // > 0, whatever the layout; bounds are no part of it where an obstacle can be
+  // reached.  User's unit.
+  double diagonal() const;
+  ResolvedLength Resolve(const Length& length) const {
+    return length.Resolve(diagonal());
+  }
+
+  // Exact, on the solids; builds nothing (diagnosis.h).
+  Diagnosis Diagnose(const Eigen::Vector3d& q) const;
+
+  // Builds them on first use, one after the other (each build is parallel), or
+  // takes them from the cache.  The reference holds as long as a copy of the
+  // world does.  Throws what BuildContactSpace throws, and then builds anew
+  // when asked again.
+  const WorldSpaces& Spaces(SpaceLayout layout) const;
+  // spaces[0] of kSealed, whose free cells end at the bounds.
+  const ContactSpace& Sealed() const;
+  // What there is of them already; null before Spaces.
+  const WorldSpaces* Built(SpaceLayout layout) const;
+  WorldReport Report() const;
+
+ private:
+  struct Impl;
+  std::shared_ptr<Impl> impl_;
+};
+
+// Have both the same solids and bounds, obstacles by the same names in the same
+// order, so that one world serves both?
+bool HaveSameSolids(const Workspace& a, const Workspace& b);
+// Throws InputError naming `scene` unless the world has those.
+void RequireSameSolids(const Workspace& workspace, const World& world,
+                       const std::string& scene);
+
+}  // namespace phongpd

@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Purpose: depth of two meshes from windows of the contact space, nothing
+// precomputed, beside building the whole and asking EuclideanMetric, in one
+// binary and one run.  Writes CSV and README.md into a directory.
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <ctime>
+#include <functional>
+#include <iostream>
+#include <random>
+
+#include "core/contact/contact_space.h"
+#include "core/contact/depth.h"
+#include "core/projection/euclidean_metric.h"
+#include "core/stopwatch.h"
+#include "problems/shapes/random_solids.h"
+#include "problems/shapes/shapes.h"
+#include "results/bench/program.h"
+
+namespace phongpd::bench {
+namespace {
+
+using Eigen::Vector3d;
+using Maker = std::function<TriangleMesh()>;
+
+struct Case {
+  std::string name;
+  Maker robot, obstacle;
+};
+
+std::vector<Case> Cases() {
+  const auto turned = [](const Maker& make) -> Maker {
+    return [make] { return Rotated(make(), GenericRotation()); };
+  };
+  const Maker knot = [] { return MakeKnot(0.5, 0.225, 96, 8); };
+  const Maker wrench = [] { return MakeWrench(); };
+  return {
+      {"ball + wrench", [] { return MakeUvBall(0.4, 24, 22); }, wrench},
+      {"turned wrench + wrench",
+       turned([] { return MakeWrench(0.5, 12, 12, 8, 8); }), wrench},
+      {"cube + hollow shell", turned([] {
+         return MakeBox({-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5});
+       }),
+       [] { return MakeVessel(4, 3, 0); }},
+      {"star + knot", [] { return MakeStar(0.5, 1.2); }, knot},
+      {"star + organic body", [] { return MakeStar(0.5, 1.2); },
+       [] { return MakeBlob(2, 5, 0.35, 1); }},
+      {"turned wrench + scanned torus",
+       turned([] { return MakeWrench(0.5, 24, 24, 20, 18); }),
+       [] { return MakeScan(MakeTorus(2, 0.7, 60, 30), 0.15, 0.002, 3); }},
+      {"knot + scanned body", [] { return MakeKnot(0.3, 0.12, 128, 16); },
+       [] { return MakeScan(MakeBlob(2, 4, 0.35, 1), 0.2, 0.001, 3); }},
+  };
+}
+
+// Of the whole process: what a busy machine does not change.
+double CpuSeconds() {
+  timespec now;
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) +
+         1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+struct Options {
+  std::string directory;
+  int queries = 200;
+  double depth = 0.05;
+  std::uint64_t seed = 1;
+};
+
+struct Row {
+  std::string name;
+  std::size_t robot = 0, obstacle = 0, full_faces = 0;
+  double full_seconds = 0.0, handle_seconds = 0.0;
+  std::vector<double> cpu_ms, wall_ms, faces, turned_ms;
+  double worst_error = 0.0;  // share of the diagonal
+  int uncertified = 0, wrong = 0;
+};
+
+Row Measure(const Case& c, const Options& options) {
+  Row row;
+  row.name = c.name;
+  const TriangleMesh robot = c.robot(), obstacle = c.obstacle();
+  row.robot = robot.triangles.size();
+  row.obstacle = obstacle.triangles.size();
+  double start = CpuSeconds();
+  const ContactSpace space = BuildContactSpace(robot, obstacle);
+  row.full_seconds = CpuSeconds() - start;
+  row.full_faces = space.report().arrangement_faces;
+  start = CpuSeconds();
+  const DepthQuery query(robot, obstacle);
+  row.handle_seconds = CpuSeconds() - start;
+
+  const EuclideanMetric metric(space);
+  const double diagonal = space.length();
+  std::mt19937_64 random(options.seed);
+  std::uniform_real_distribution<double> share(0.0, options.depth);
+  while (static_cast<int>(row.cpu_ms.size()) < options.queries) {
+    const SurfacePoint on = RandomSurfacePoint(space.mesh(), &random);
+    RobotPose pose;
+    pose.position = on.position - share(random) * diagonal * on.normal;
+    const PenetrationResult truth = metric.Query(pose.position);
+    if (!truth.inside || -truth.signed_distance > options.depth * diagonal) {
+      continue;
+    }
+    start = CpuSeconds();
+    const DepthResult found = query.At(pose.position);
+    row.cpu_ms.push_back(1e3 * (CpuSeconds() - start));
+    row.wall_ms.push_back(1e3 * found.seconds);
+    row.faces.push_back(static_cast<double>(found.arranged_faces));
+    const double error = std::abs(found.depth + truth.signed_distance);
+    row.worst_error = std::max(row.worst_error, error / diagonal);
+    row.uncertified += found.certified ? 0 : 1;
+    row.wrong += error > 1e-12 * diagonal ? 1 : 0;
+    if (row.cpu_ms.size() % 20 == 0) {
+      pose.orientation = Eigen::Quaterniond(RandomRotation(&random));
+      start = CpuSeconds();
+      static_cast<void>(query.At(pose));
+      row.turned_ms.push_back(1e3 * (CpuSeconds() - start));
+    }
+  }
+  return row;
+}
+
+NamedTable TableOf(const std::vector<Row>& rows) {
+  return {"depth.csv",
+          MakeTable(
+              "Depth of at most 5 % of the diagonal",
+              "CPU time of the process: that of one full build, of "
+              "making the query from two meshes, and of one answer "
+              "(median and 95 %; wall time beside it); of an answer at "
+              "a turned pose, which makes a new operand.",
+              {"pair", "triangles of A", "triangles of B", "full build, CPU s",
+               "its faces", "query made, CPU s", "answer, CPU ms", "95 %",
+               "wall ms", "faces arranged, median", "turned, CPU ms",
+               "worst error / diagonal", "not certified", "wrong"},
+              rows, [](const Row& r, const auto& add) {
+                add(r.name, r.robot, r.obstacle, r.full_seconds, r.full_faces,
+                    r.handle_seconds, Quantile(r.cpu_ms, 0.5),
+                    Quantile(r.cpu_ms, 0.95), Quantile(r.wall_ms, 0.5),
+                    Quantile(r.faces, 0.5), Quantile(r.turned_ms, 0.5),
+                    r.worst_error, r.uncertified, r.wrong);
+              })};
+}
+
+int Run(int argc, char** argv) {
+  CLI::App app("Depth from windows of the contact space: tables.");
+  Options options;
+  app.add_option("--output", options.directory, "Directory to write into")
+      ->required();
+  app.add_option("--queries", options.queries)->capture_default_str();
+  app.add_option("--seed", options.seed)->capture_default_str();
+  CLI11_PARSE(app, argc, argv);
+  std::vector<Row> rows;
+  for (const Case& c : Cases()) {
+    rows.push_back(Measure(c, options));
+    std::cout << ToText(TableOf({rows.back()}).table) << std::endl;
+  }
+  const std::vector<NamedTable> tables = {TableOf(rows)};
+  OutputDirectory out(options.directory);
+  WriteReport(
+      tables, {},
+      "# Depth without the whole contact space\n\n"
+      "`DepthQuery` beside `BuildContactSpace` and `EuclideanMetric`: random "
+      "configurations below random points of C_cont, at most 5 % of its "
+      "diagonal deep. Every answer is compared with the whole contact "
+      "space's.\n\n" +
+          ToMarkdown(tables, {}) + "\n" +
+          Circumstances(CommandLine("build/lazy_benchmark", argc, argv),
+                        options.seed),
+      &out);
+  out.Commit();
+  return 0;
+}
+
+}  // namespace
+}  // namespace phongpd::bench
+
+int main(int argc, char** argv) {
+  return phongpd::bench::RunProgram("lazy_benchmark", phongpd::bench::Run, argc,
+                                    argv);
+}

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A start or goal that is not free is said before a contact space is built.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "core/mesh/mesh_error.h"
+#include "problems/scenes/scene.h"
+#include "problems/studies/planning_study.h"
+#include "problems/studies/trajectory_study.h"
+
+namespace phongpd {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// Five tori of some thousand triangles; tests count contact spaces, not time.
+Json Tori() {
+  Json json = Json::parse(R"({"name": "tori",
+    "robot": {"shape": {"type": "ball", "radius": 0.2, "triangles": 320}},
+    "obstacles": [],
+    "bounds": {"min": [-3, -3, -1], "max": [12, 3, 1]},
+    "start": [-2, 0, 0], "goal": [10.5, 0, 0]})");
+  for (int i = 0; i < 5; ++i) {
+    json["obstacles"].push_back({{"id", "torus" + std::to_string(i)},
+                                 {"shape",
+                                  {{"type", "torus"},
+                                   {"major_radius", 1.0},
+                                   {"minor_radius", 0.4},
+                                   {"around", 64},
+                                   {"across", 40}}},
+                                 {"position", {2.5 * i, 0.0, 0.0}}});
+  }
+  return json;
+}
+
+struct Case {
+  const char* end;
+  Json place;
+  bool at_start;
+  std::string begins;  // of the reason
+};
+
+std::vector<Case> Cases() {
+  return {{"start", {3.5, 0, 0}, true, "start (3.5,0,0) is at most 0."},
+          {"goal", {7.5, 1, 0}, false, "goal (7.5,1,0) is at most 0."},
+          {"goal",
+           {13, 0, 0},
+           false,
+           "goal (13,0,0) is not strictly within the bounds: x is 1 above the "
+           "maximum 12"}};
+}
+
+TEST(EarlyDiagnosis, PlansBuildNothingForBlockedEnds) {
+  for (const Case& c : Cases()) {
+    Json json = Tori();
+    json[c.end] = c.place;
+    PlanningStudy study(ParseScene(json, "tori.json"));
+    PlanningRun run;
+    for (const std::string planner :
+         {"contact-surface", "retraction-forest", "rrt-connect"}) {
+      run.planner = planner;
+      const PlanningResult result = study.Run(run);
+      EXPECT_FALSE(result.solved);
+      EXPECT_TRUE(result.numbers.path.empty());
+      EXPECT_EQ(result.reason.find(c.begins), 0U) << result.reason;
+      const bool is_exact = planner == "contact-surface";
+      const std::string status =
+          is_exact ? ToString(c.at_start ? PlanStatus::kInvalidStart
+                                         : PlanStatus::kInvalidGoal)
+                   : (c.at_start ? "Invalid start" : "Invalid goal");
+      EXPECT_EQ(result.status, status);
+      const Json row = PlanningRow(study, run, result);
+      EXPECT_EQ(row["contact_triangles"], 0);
+      EXPECT_EQ(row["seconds"]["contact_space"], 0.0);
+    }
+    EXPECT_EQ(study.world().Report().contact_spaces, 0);
+    // Bad options are still bad input.
+    run.planner = "prm";
+    run.time_limit = -1.0;
+    EXPECT_THROW(study.Run(run), InputError);
+    run.planner = "fast";
+    EXPECT_THROW(study.Run(run), InputError);
+  }
+}
+
+// The planner, a sampler of OMPL and the optimiser on one scene.
+TEST(World, IsSharedByAllThatPlanInIt) {
+  for (const bool has_bounds : {false, true}) {
+    Json json = Json::parse(R"({"name": "shared",
+      "robot": {"shape": {"type": "box", "size": [0.2, 0.2, 0.2]}},
+      "obstacles": [{"shape": {"type": "box", "size": [0.2, 1, 1]}}],
+      "start": [-1, 0, 0.1], "goal": [1, 0.1, 0],
+      "trajectory": {"waypoints": 12}})");
+    if (has_bounds)
+      json["bounds"] = {{"min", {-2, -2, -2}}, {"max", {2, 2, 2}}};
+    const Scene scene = ParseScene(json, "shared.json");
+    const World world(scene.workspace, scene.name);
+    PlanningStudy planning(scene, world);
+    PlanningRun run;
+    run.time_limit = 20.0;
+    for (const std::string planner : {"contact-surface", "retraction-forest"}) {
+      run.planner = planner;
+      EXPECT_TRUE(planning.Run(run).solved) << planner;
+    }
+    EXPECT_EQ(world.Report().contact_spaces, 1);
+    TrajectoryStudy trajectories;
+    trajectories.Enter(scene, world);
+    const TrajectoryMetric metric = SceneMetric(scene);
+    EXPECT_TRUE(HasFreePath(trajectories.Run(metric, {}).status));
+    // Bounds belong to the planners' space and not to the optimiser's.
+    EXPECT_EQ(world.Report().contact_spaces, has_bounds ? 2 : 1);
+    Scene other = scene;
+    other.workspace.obstacles[0].mesh.vertices[0].x() -= 1.0;
+    EXPECT_THROW(PlanningStudy(other, world), InputError);
+    EXPECT_THROW(trajectories.Enter(other, world), InputError);
+  }
+}
+
+TEST(EarlyDiagnosis, TrajectoriesBuildNothingForBlockedEnds) {
+  for (const SpaceLayout layout :
+       {SpaceLayout::kMerged, SpaceLayout::kPerObstacle}) {
+    for (const Case& c : Cases()) {
+      Json json = Tori();
+      json[c.end] = c.place;
+      TrajectoryStudy study({}, layout);
+      study.Enter(ParseScene(json, "tori.json"));
+      const TrajectoryMetric metric = SceneMetric(study.scene());
+      const PipelineResult result = study.Run(metric, {});
+      EXPECT_EQ(result.status, c.at_start ? TrajectoryStatus::kStartInCollision
+                                          : TrajectoryStatus::kGoalInCollision);
+      EXPECT_EQ(result.reason.find(c.begins), 0U) << result.reason;
+      const Json row = TrajectoryRow(study, metric, {}, result);
+      EXPECT_EQ(row["contact_triangles"], 0);
+      EXPECT_EQ(row["collision_free"], false);
+      EXPECT_EQ(study.world().Report().contact_spaces, 0);
+      PipelineOptions bad;
+      bad.optimizer.ipopt.ipopt_options["tool"] = "1";
+      EXPECT_THROW(study.Run(metric, bad), InputError);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace phongpd
