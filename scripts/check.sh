@@ -81,8 +81,8 @@ check_format() {
 
 check_options() {
   local log=build/check/options.log part
-  local parts=(CORE CONSTRAINTS ORACLE PLANNERS IPOPT OMPL PROBLEMS PROGRAM
-    EXAMPLES TESTS RESULTS)
+  local parts=(CORE CONSTRAINTS ORACLE PLANNERS IPOPT OMPL PROBLEMS STUDIES
+    PROGRAM EXAMPLES TESTS RESULTS)
   configures() { # MESSAGE OPTION...
     say "options ${*:2}"
     rm -rf build/check/options
@@ -93,8 +93,9 @@ check_options() {
   # What is switched off, and what is said of that which stands on it.
   local -A above=([CORE]=phongpd::constraints [CONSTRAINTS]=phongpd::planners
     [ORACLE]=phongpd::problems [PLANNERS]=phongpd::ipopt
-    [IPOPT]=phongpd::problems [OMPL]=phongpd::problems
-    [PROBLEMS]="the program" [PROGRAM]="the tests")
+    [IPOPT]=phongpd::studies [OMPL]=phongpd::studies
+    [PROBLEMS]=phongpd::studies [STUDIES]="the program"
+    [PROGRAM]="the tests")
   local none=()
   for part in "${parts[@]}"; do
     configures "${above[$part]:+Not built for want of.*: }${above[$part]:-}" \
