@@ -215,7 +215,11 @@ class ReadComparisonTest : public testing::Test {
     return "";
   }
 
-  const std::string path_ = testing::TempDir() + "phongpd_rows.jsonl";
+  // Of its own for each test: they run at the same time.
+  const std::string path_ =
+      testing::TempDir() +
+      testing::UnitTest::GetInstance()->current_test_info()->name() +
+      "_rows.jsonl";
 };
 
 TEST_F(ReadComparisonTest, NamesFileRowAndWhatIsWrong) {
