@@ -28,23 +28,6 @@ TriangleMesh LoadSolid(const std::string& path, MeshReport* report) {
   return solid;
 }
 
-ContactSpace LoadContactSpace(const std::string& path) {
-  TriangleMesh mesh = ReadMesh(path);
-  RequireInRange(mesh, path);
-  const MeshReport report = ExamineMesh(mesh);
-  const auto refuse = [&](std::size_t count, const std::string& what) {
-    if (count == 0) return;
-    throw InputError(path + ": expected a contact space (closed, manifold, " +
-                     "outward), found " + std::to_string(count) + " " + what +
-                     "; build one with phongpd contact-space");
-  };
-  refuse(report.bad_indices, "triangle indices out of range");
-  refuse(report.boundary_edges, "boundary edges");
-  refuse(report.non_manifold_edges, "non-manifold edges");
-  if (!(SignedVolume(mesh) > 0.0)) refuse(1, "surface facing inwards");
-  return TakeAsContactSpace(std::move(mesh), path);
-}
-
 ContactSpace LoadOrBuild(const TriangleMesh& robot,
                          const TriangleMesh& obstacle,
                          const ContactSpaceOptions& options, bool use_cache) {

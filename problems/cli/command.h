@@ -47,18 +47,14 @@ Command AddMinkowski(CLI::App* app);
 // stderr, one line a warning.  Throws InputError naming the file.
 TriangleMesh LoadSolid(const std::string& path, MeshReport* report = nullptr);
 
-// Reads a contact space written by `phongpd contact-space`: closed,
-// edge-manifold, outward; rounding may have made some triangles meet.
-// Throws InputError naming the file.
-ContactSpace LoadContactSpace(const std::string& path);
-
 // The contact space of two solids, from the user's cache when `use_cache` and
 // it is there.  What the user should know goes to stderr.
 ContactSpace LoadOrBuild(const TriangleMesh& robot,
                          const TriangleMesh& obstacle,
                          const ContactSpaceOptions& options, bool use_cache);
 
-// Declares --contact-space, a file that LoadContactSpace reads.
+// Declares --contact-space, a file that LoadContactSpace reads
+// (contact_space_file.h).
 CLI::Option* AddContactSpaceFile(CLI::App* app, std::string* path);
 
 // Declares --field, and reads it with a --smoothing-length, for which D is the

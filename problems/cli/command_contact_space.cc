@@ -9,6 +9,7 @@
 #include "core/mesh/mesh_io.h"
 #include "planners/exact/verification.h"
 #include "problems/cli/command.h"
+#include "problems/cli/contact_space_file.h"
 #include "problems/cli/contact_space_report_json.h"
 #include "problems/output/output_files.h"
 #include "problems/output/text.h"
@@ -116,7 +117,7 @@ int BuildAndWrite(const Flags& flags) {
       LoadOrBuild(robot, obstacle, options, !flags.no_cache);
   const Json verification = VerifySample(flags, robot, obstacle, space);
 
-  WriteMeshTo(&outputs, flags.output, space.mesh());
+  WriteContactSpaceTo(&outputs, flags.output, space.mesh());
   if (!flags.report.empty()) {
     const ContactSpaceReport& found = space.report();
     Json report = ToJson(found);

@@ -6,6 +6,7 @@
 #include "core/contact/contact_space.h"
 #include "core/mesh/mesh_io.h"
 #include "problems/cli/command.h"
+#include "problems/cli/contact_space_file.h"
 #include "problems/cli/contact_space_report_json.h"
 #include "problems/output/output_files.h"
 
@@ -44,7 +45,11 @@ int Sum(const Flags& flags) {
   const TriangleMesh b = ReadMesh(flags.b);
   if (!flags.difference) a = Reflected(std::move(a));
   const ContactSpace space = LoadOrBuild(a, b, options, !flags.no_cache);
-  WriteMeshTo(&outputs, flags.output, space.mesh());
+  if (flags.difference) {
+    WriteContactSpaceTo(&outputs, flags.output, space.mesh());
+  } else {
+    WriteMeshTo(&outputs, flags.output, space.mesh());
+  };
   const ContactSpaceReport& found = space.report();
   if (!flags.report.empty()) {
     nlohmann::ordered_json report = {

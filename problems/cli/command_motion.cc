@@ -10,6 +10,7 @@
 #include "core/projection/phong_metric.h"
 #include "planners/exact/verification.h"
 #include "problems/cli/command.h"
+#include "problems/cli/contact_space_file.h"
 #include "problems/output/output_files.h"
 #include "problems/output/text.h"
 #include "problems/pictures/gnuplot.h"
@@ -160,6 +161,7 @@ int Follow(const Flags& flags) {
                                          FormatPoint(motion.to) + ")"));
   }
   CommitAndTell(&outputs, Summary(flags, traces, contact.length()) + verified);
+  if (!solids) TellIfTaken(flags.contact_space);
   return kDone;
 }
 

@@ -6,6 +6,7 @@
 #include "core/projection/euclidean_metric.h"
 #include "core/projection/phong_metric.h"
 #include "problems/cli/command.h"
+#include "problems/cli/contact_space_file.h"
 #include "problems/output/output_files.h"
 #include "problems/output/points_csv.h"
 #include "problems/output/text.h"
@@ -73,6 +74,7 @@ int Query(const Flags& flags) {
                               " points, " + std::to_string(inside) +
                               " inside, " + std::to_string(not_ok) +
                               " with another status than ok\n");
+  TellIfTaken(flags.contact_space);
   return kDone;
 }
 

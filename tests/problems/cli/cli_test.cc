@@ -19,6 +19,27 @@
 namespace phongpd {
 namespace {
 
+TEST_F(Cli, AMeshThatDoesNotSayItIsAContactSpaceIsTakenForOneAloud) {
+  WriteText("p.csv", "x,y,z\n0.3,0,0\n");
+  const std::string rest = " --points ../p.csv --output o.csv";
+  Outcome outcome = Run("query --contact-space ../box.off" + rest);
+  EXPECT_EQ(outcome.code, 0);
+  EXPECT_NE(outcome.err.find("box.off: taken as a contact space"),
+            std::string::npos)
+      << outcome.err;
+  for (const std::string file : {"c.off", "c.OBJ"}) {
+    ASSERT_EQ(Run("contact-space --robot ../cone.off --obstacle ../box.off "
+                  "--output " +
+                  file)
+                  .code,
+              0);
+    outcome = Run("query --contact-space " + file + rest);
+    EXPECT_EQ(outcome.code, 0);
+    EXPECT_EQ(outcome.err, "");
+    EXPECT_FALSE(ReadMesh(Output(file)).triangles.empty());
+  }
+}
+
 TEST_F(Cli, QueryWritesTheDoublesOfTheLibrary) {
   ASSERT_EQ(Run("contact-space --robot ../cone.off --obstacle ../box.off "
                 "--output c.off")

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "problems/cli/contact_space_file.h"
+
+#include <cctype>
+#include <filesystem>
+#include <fstream>
+#include <system_error>
+#include <utility>
+
+#include "core/mesh/mesh_error.h"
+#include "core/mesh/mesh_io.h"
+#include "core/mesh/mesh_range.h"
+#include "core/solid/mesh_check.h"
+#include "problems/cli/command.h"
+
+namespace phongpd::cli {
+namespace {
+
+constexpr char kMark[] = "# contact space by phongpd\n";
+
+bool HasComments(const std::string& path) {
+  const std::size_t dot = path.find_last_of('.');
+  std::string extension = dot == std::string::npos ? "" : path.substr(dot + 1);
+  for (char& c : extension) c = static_cast<char>(std::tolower(c));
+  return extension == "off" || extension == "obj";
+}
+
+// False for pipes, too, which have been read.
+bool SaysWhatItIs(const std::string& path) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error)) return false;
+  const std::string mark = kMark;
+  std::ifstream file(path, std::ios::binary);
+  file.seekg(-static_cast<std::streamoff>(mark.size()), std::ios::end);
+  std::string end(mark.size(), '\0');
+  file.read(end.data(), static_cast<std::streamsize>(end.size()));
+  return file.good() && end == mark;
+}
+
+}  // namespace
+
+void WriteContactSpaceTo(OutputFiles* outputs, const std::string& path,
+                         const TriangleMesh& mesh) {
+  outputs->Write(path,
+                 MeshContent(mesh, path) + (HasComments(path) ? kMark : ""));
+}
+
+ContactSpace LoadContactSpace(const std::string& path) {
+  TriangleMesh mesh = ReadMesh(path);
+  RequireInRange(mesh, path);
+  const MeshReport report = ExamineMesh(mesh);
+  const auto refuse = [&](std::size_t count, const std::string& what) {
+    if (count == 0) return;
+    throw InputError(path + ": expected a contact space (closed, manifold, " +
+                     "outward), found " + std::to_string(count) + " " + what +
+                     "; build one with phongpd contact-space");
+  };
+  refuse(report.bad_indices, "triangle indices out of range");
+  refuse(report.boundary_edges, "boundary edges");
+  refuse(report.non_manifold_edges, "non-manifold edges");
+  if (!(SignedVolume(mesh) > 0.0)) refuse(1, "surface facing inwards");
+  return TakeAsContactSpace(std::move(mesh), path);
+}
+
+void TellIfTaken(const std::string& path) {
+  if (SaysWhatItIs(path)) return;
+  Note(path +
+       ": taken as a contact space, though nothing in it says that it is one "
+       "(phongpd contact-space marks OFF and OBJ files)");
+}
+
+}  // namespace phongpd::cli
