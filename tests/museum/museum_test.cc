@@ -11,8 +11,8 @@
 
 #include "core/contact/contact_space.h"
 #include "core/contact/depth.h"
-#include "core/projection/euclidean_metric.h"
 #include "problems/shapes/shapes.h"
+#include "tests/museum/depth_expectations.h"
 #include "tests/support/solid_tools.h"
 
 namespace phongpd {
@@ -21,46 +21,9 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 using testing::Cube;
-
-DepthResult ExpectDepth(const TriangleMesh& robot, const TriangleMesh& obstacle,
-                        const Vector3d& q, double depth) {
-  const DepthResult found = PenetrationDepth(robot, obstacle, {q});
-  EXPECT_EQ(found.status, DepthStatus::kPenetrating);
-  EXPECT_TRUE(found.certified);
-  EXPECT_NEAR(found.depth, depth, 1e-9);
-  EXPECT_NEAR((found.contact - q).norm(), depth, 1e-9);
-  const EuclideanMetric whole(BuildContactSpace(robot, obstacle));
-  EXPECT_TRUE(whole.Query(q).inside);
-  EXPECT_NEAR(whole.Query(q).signed_distance, -depth, 1e-9);
-  // That far they still touch, a little farther they do not.
-  const Vector3d out = q + (depth + 1e-6) * found.direction;
-  EXPECT_EQ(PenetrationDepth(robot, obstacle, {out}).status,
-            DepthStatus::kSeparate);
-  return found;
-}
-
-DepthResult ExpectTouching(const TriangleMesh& robot,
-                           const TriangleMesh& obstacle, const Vector3d& q) {
-  const DepthResult found = PenetrationDepth(robot, obstacle, {q});
-  EXPECT_EQ(found.status, DepthStatus::kTouching);
-  EXPECT_TRUE(found.certified);
-  EXPECT_EQ(found.depth, 0.0);
-  EXPECT_EQ(found.clearance, 0.0);
-  EXPECT_NEAR(found.direction.norm(), 1.0, 1e-12);
-  const EuclideanMetric whole(BuildContactSpace(robot, obstacle));
-  EXPECT_FALSE(whole.Query(q).inside);
-  EXPECT_EQ(whole.Query(q).signed_distance, 0.0);
-  return found;
-}
-
-void ExpectSeparate(const TriangleMesh& robot, const TriangleMesh& obstacle,
-                    const Vector3d& q, double clearance) {
-  const DepthResult found = PenetrationDepth(robot, obstacle, {q});
-  EXPECT_EQ(found.status, DepthStatus::kSeparate);
-  EXPECT_NEAR(found.clearance, clearance, 1e-12);
-  const EuclideanMetric whole(BuildContactSpace(robot, obstacle));
-  EXPECT_NEAR(whole.Query(q).signed_distance, clearance, 1e-12);
-}
+using testing::ExpectDepth;
+using testing::ExpectSeparate;
+using testing::ExpectTouching;
 
 // Turns the cube's space diagonal to the z axis.
 Matrix3d OnItsCorner() {
