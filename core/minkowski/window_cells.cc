@@ -99,10 +99,10 @@ struct WindowCells::Impl {
   Impl(const WindowConvolution& sums, const GridWindow& window,
        const SolidCollision& the_judge, const BuildLimits& limits)
       : first_wall(static_cast<int>(sums.convolution.facets.size())),
+        box{ToDouble(window.min), ToDouble(window.max)},
         convolution(WithWalls(sums.convolution, window)),
         groups(GroupByPlane(convolution)),
         judge(the_judge) {
-    box = {ToDouble(window.min), ToDouble(window.max)};
     const FacetIndex index(convolution, box);
     const FacetIntersections intersections =
         IntersectFacets(convolution, groups, index, limits, &points);
