@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/bvh/triangle_bvh.h"
+#include "core/mesh/finite.h"
 #include "core/projection/cubic.h"
 
 namespace phongpd {
@@ -73,11 +74,12 @@ Vector3d OffsetPrism::DepthGradient(const NormalHit& hit) const {
   const Vector3d unit = n / norm;
   const Vector3d ab = a.cross(b);
   const double det = ab.dot(n);
+  if (det == 0.0) return unit;  // a fold
   // The rows of J⁻¹ are b×n, n×a and a×b over det J.
   const Vector3d gradient = (norm * ab + hit.s * unit.dot(d1) * b.cross(n) +
                              hit.s * unit.dot(d2) * n.cross(a)) /
                             det;
-  return gradient.allFinite() ? gradient : unit;
+  return IsFinite(gradient) ? gradient : unit;
 }
 
 int OffsetPrism::Project(const Vector3d& x, double s_min, double s_max,
