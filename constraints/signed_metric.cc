@@ -105,7 +105,7 @@ Eigen::Matrix3d SignedMetric::Curvature(const Vector3d& q,
   }
   h = (0.5 * (h + h.transpose())).eval();
   // Squares may overflow in small spaces; the norm does not.
-  const double size = h.stableNorm(), most = 1e3 / diagonal;
+  const double size = h.reshaped().stableNorm(), most = 1e3 / diagonal;
   if (size > most) h *= most / size;
   return h;
 }
