@@ -67,7 +67,7 @@ void CheckContactMesh(const TriangleMesh& mesh, const std::string& who) {
   }
   const std::size_t bad_edges = CountBadEdges(mesh);
   if (bad_edges > 0) {
-    throw InputError(name + "must be closed and edge-manifold, found " +
+    throw InputError(name + "expected a closed, edge-manifold mesh, found " +
                      std::to_string(bad_edges) +
                      " half-edges without exactly one opposite");
   }
@@ -97,7 +97,11 @@ struct ContactSpace::Indexes {
 ContactSpace::Data::Data() : indexes(std::make_unique<Indexes>()) {}
 ContactSpace::Data::~Data() = default;
 
-ContactSpace::ContactSpace(Parts parts, const std::string& name) {
+ContactSpace::ContactSpace(Parts parts, const std::string& name)
+    : data_(MakeData(std::move(parts), name)) {}
+
+std::shared_ptr<ContactSpace::Data> ContactSpace::MakeData(
+    Parts parts, const std::string& name) {
   CheckContactMesh(parts.mesh, name);
   for (const std::size_t size : {parts.plane.size(), parts.kind.size()}) {
     if (size != 0 && size != parts.mesh.triangles.size()) {
@@ -106,11 +110,10 @@ ContactSpace::ContactSpace(Parts parts, const std::string& name) {
                        " triangles or of none, found " + std::to_string(size));
     }
   }
-  const auto data = std::make_shared<Data>();
+  auto data = std::make_shared<Data>();
   data->parts = std::move(parts);
   data->bounds = ComputeBounds(data->parts.mesh);
-  length_ = data->bounds.Diagonal();
-  data_ = data;
+  return data;
 }
 
 ContactSpace ContactSpace::WithLength(double length) const {
@@ -147,7 +150,7 @@ const std::vector<Vector3d>& ContactSpace::normals() const {
 std::vector<ContactSpace> WithCommonLength(std::vector<ContactSpace> spaces) {
   if (spaces.empty()) return spaces;
   BoundingBox box = spaces[0].bounds();
-  bool agree = true;
+  bool agree = spaces[0].HasOwnLength();
   for (const ContactSpace& space : spaces) {
     agree = agree && space.length() == spaces[0].length();
     box.min = box.min.cwiseMin(space.bounds().min);
@@ -162,9 +165,11 @@ ContactSpace TakeAsContactSpace(TriangleMesh mesh, const std::string& name) {
   ContactSpace::Parts parts;
   parts.mesh = std::move(mesh);
   parts.report.method = "taken from a mesh";
-  CheckContactMesh(parts.mesh, name);
-  internal::DescribeSurface(parts.mesh, &parts.report);
-  return ContactSpace(std::move(parts), name);
+  auto data = ContactSpace::MakeData(std::move(parts), name);
+  internal::DescribeSurface(data->parts.mesh, &data->parts.report);
+  ContactSpace space;
+  space.data_ = std::move(data);
+  return space;
 }
 
 }  // namespace phongpd

@@ -49,8 +49,13 @@ class ContactSpace {
   // D, user's unit: the length that every share (smoothing length, reach,
   // margin) refers to.  That of the bounding box's diagonal unless WithLength
   // gave another: all contact spaces of a world have the world's.
-  double length() const { return length_; }
-  // The same space with another D > 0; throws InputError otherwise.
+  double length() const {
+    return HasOwnLength() ? length_ : bounds().Diagonal();
+  }
+  // Was D given by WithLength?
+  bool HasOwnLength() const { return length_ > 0.0; }
+  // The same space with a D of its own, > 0 and finite; throws InputError
+  // otherwise.
   ContactSpace WithLength(double length) const;
 
   // The one index: distances, segments, inside.
@@ -74,8 +79,14 @@ class ContactSpace {
     ~Data();
   };
 
+  ContactSpace() = default;  // to be given its data
+  friend ContactSpace TakeAsContactSpace(TriangleMesh mesh,
+                                         const std::string& name);
+  // Checked.
+  static std::shared_ptr<Data> MakeData(Parts parts, const std::string& name);
+
   std::shared_ptr<const Data> data_;
-  double length_ = 0.0;
+  double length_ = 0.0;  // 0: the diagonal
 };
 
 // Builds the contact space of a translating `robot` (A) and a fixed
@@ -93,9 +104,9 @@ ContactSpace BuildContactSpace(const TriangleMesh& robot,
                                const TriangleMesh& obstacle,
                                const ContactSpaceOptions& options = {});
 
-// The same spaces with one D: the one they agree on, or else the diagonal of
-// the bounding box of all of them.  A share of D then is the same length
-// whichever obstacle it is asked of.
+// The same spaces with one D: the one that all of them were given
+// (WithLength), or else the diagonal of the bounding box of all of them.  A
+// share of D then is the same length whichever obstacle it is asked of.
 std::vector<ContactSpace> WithCommonLength(std::vector<ContactSpace> spaces);
 
 // Any closed mesh taken for a contact space: one that was saved, or the

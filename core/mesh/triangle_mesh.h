@@ -31,8 +31,7 @@ struct BoundingBox {
   Eigen::Vector3d max;
 
   bool IsEmpty() const { return !(min.array() <= max.array()).all(); }
-  // Length of the diagonal in the mesh's unit; 0 when empty.  It is the
-  // length most relative tolerances and the smoothing length refer to.
+  // Length of the diagonal in the mesh's unit; 0 when empty.
   double Diagonal() const { return IsEmpty() ? 0.0 : (max - min).norm(); }
   Eigen::Vector3d Center() const { return 0.5 * (min + max); }
 };

@@ -64,6 +64,7 @@ TrajectoryProblem MakeTrajectoryProblem(
     problem.metrics.push_back(std::make_shared<SignedMetric>(space, metric));
   }
   problem.free_space = std::make_shared<FreeSpace>(spaces, bounds);
+  if (!spaces.empty()) problem.diagonal = spaces[0].length();
   return problem;
 }
 

@@ -10,7 +10,6 @@
 #include "core/mesh/mesh_error.h"
 #include "core/mesh/mesh_io.h"
 #include "core/mesh/mesh_range.h"
-#include "core/solid/mesh_check.h"
 #include "problems/cli/command.h"
 
 namespace phongpd::cli {
@@ -48,18 +47,14 @@ void WriteContactSpaceTo(OutputFiles* outputs, const std::string& path,
 ContactSpace LoadContactSpace(const std::string& path) {
   TriangleMesh mesh = ReadMesh(path);
   RequireInRange(mesh, path);
-  const MeshReport report = ExamineMesh(mesh);
-  const auto refuse = [&](std::size_t count, const std::string& what) {
-    if (count == 0) return;
-    throw InputError(path + ": expected a contact space (closed, manifold, " +
-                     "outward), found " + std::to_string(count) + " " + what +
-                     "; build one with phongpd contact-space");
-  };
-  refuse(report.bad_indices, "triangle indices out of range");
-  refuse(report.boundary_edges, "boundary edges");
-  refuse(report.non_manifold_edges, "non-manifold edges");
-  if (!(SignedVolume(mesh) > 0.0)) refuse(1, "surface facing inwards");
-  return TakeAsContactSpace(std::move(mesh), path);
+  const ContactSpace space = TakeAsContactSpace(std::move(mesh), path);
+  if (!(space.report().volume > 0.0)) {
+    throw InputError(path +
+                     ": expected a contact space, outward, found a "
+                     "surface facing inwards; build one with phongpd "
+                     "contact-space");
+  }
+  return space;
 }
 
 void TellIfTaken(const std::string& path) {

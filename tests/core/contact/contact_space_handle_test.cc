@@ -100,7 +100,13 @@ TEST(ContactSpaceHandle, ObstaclesOfOneProblemHaveOneLength) {
   EXPECT_EQ(Diagonal(problem), d);
   const BoundingBox a = small.bounds(), b = large.bounds();
   EXPECT_EQ(d, (a.max.cwiseMax(b.max) - a.min.cwiseMin(b.min)).norm());
-  // Spaces that agree already keep what they agree on.
+  // Two of one size, whose diagonals agree by chance, are no exception.
+  const auto same =
+      WithCommonLength({TakeAsContactSpace(MakeBox({0, 0, 0}, {1, 1, 1})),
+                        TakeAsContactSpace(MakeBox({4, 0, 0}, {5, 1, 1}))});
+  EXPECT_EQ(same[0].length(), Vector3d(5, 1, 1).norm());
+  EXPECT_EQ(same[1].length(), Vector3d(5, 1, 1).norm());
+  // Spaces that were given one already keep it.
   const auto given =
       WithCommonLength({small.WithLength(3), large.WithLength(3)});
   EXPECT_EQ(given[0].length(), 3.0);
