@@ -9,6 +9,7 @@
 
 #include "constraints/translated_triangles.h"
 #include "core/bvh/box_tree.h"
+#include "core/bvh/box_tree_pairs.h"
 #include "core/mesh/finite.h"
 #include "core/mesh/mesh_error.h"
 
@@ -130,10 +131,6 @@ void RequireFinite(const Vector3d& q) {
   throw InputError("motion oracle: the configuration must be finite");
 }
 
-double Size(const BoxTree::Node& node) {
-  return (node.max - node.min).maxCoeff();
-}
-
 }  // namespace
 
 struct MotionOracle::Impl {
@@ -147,34 +144,19 @@ struct MotionOracle::Impl {
     const Segment segment(a, b, kSlack * reach);
     const auto& robots = robot.tree.nodes();
     const auto& obstacles = obstacle.tree.nodes();
-    std::vector<std::pair<int, int>> stack;
-    if (!robots.empty() && !obstacles.empty()) stack.emplace_back(0, 0);
-    while (!stack.empty()) {
-      const auto [r, o] = stack.back();
-      stack.pop_back();
-      const BoxTree::Node& one = robots[static_cast<std::size_t>(r)];
-      const BoxTree::Node& other = obstacles[static_cast<std::size_t>(o)];
-      if (!segment.Reaches(one, other)) continue;
-      if (one.IsLeaf() && other.IsLeaf()) {
-        for (int i = one.first; i < one.first + one.count; ++i) {
-          for (int j = other.first; j < other.first + other.count; ++j) {
-            if (internal::MeetWhileMoving(
-                    robot.corners[static_cast<std::size_t>(i)],
-                    obstacle.corners[static_cast<std::size_t>(j)], a, b) &&
-                !visit(static_cast<std::size_t>(i),
-                       static_cast<std::size_t>(j))) {
-              return;
-            }
-          }
-        }
-      } else if (other.IsLeaf() || (!one.IsLeaf() && Size(one) > Size(other))) {
-        stack.emplace_back(one.first, o);
-        stack.emplace_back(one.first + 1, o);
-      } else {
-        stack.emplace_back(r, other.first);
-        stack.emplace_back(r, other.first + 1);
-      }
-    }
+    ForEachPair(
+        robot.tree, obstacle.tree,
+        [&](int r, int o) {
+          return segment.Reaches(robots[static_cast<std::size_t>(r)],
+                                 obstacles[static_cast<std::size_t>(o)]);
+        },
+        [&](int r, int o) {
+          const auto i = static_cast<std::size_t>(r);
+          const auto j = static_cast<std::size_t>(o);
+          return !internal::MeetWhileMoving(robot.corners[i],
+                                            obstacle.corners[j], a, b) ||
+                 visit(i, j);
+        });
   }
 
   // Does one solid hold a component of the other at q?  Surfaces apart.

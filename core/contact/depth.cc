@@ -32,6 +32,14 @@ std::string Described(double value) {
   return text.str();
 }
 
+// Nine tenths of the free memory, and messages with the operands' names.
+ContactSpaceOptions LimitsOf(const DepthOptions& options) {
+  ContactSpaceOptions limits;
+  limits.robot_name = options.robot_name;
+  limits.obstacle_name = options.obstacle_name;
+  return limits;
+}
+
 // The solids and their search at one orientation of the robot.
 struct PlacedPair {
   PlacedPair(TriangleMesh the_robot, const TriangleMesh& obstacle,
@@ -39,7 +47,7 @@ struct PlacedPair {
       : robot(std::move(the_robot)),
         pair(internal::MakeGridPair(robot, options.robot_name, obstacle,
                                     options.obstacle_name)),
-        search(pair) {}
+        search(pair, LimitsOf(options)) {}
 
   TriangleMesh robot;  // turned
   internal::GridPair pair;
@@ -75,6 +83,35 @@ std::vector<int> InputVertices(const TriangleMesh& mesh,
 }
 
 }  // namespace
+
+const char* ToString(DepthStatus status) {
+  switch (status) {
+    case DepthStatus::kPenetrating:
+      return "penetrating";
+    case DepthStatus::kTouching:
+      return "touching";
+    case DepthStatus::kSeparate:
+      break;
+  }
+  return "separate";
+}
+
+const char* ToString(DepthLevel level) {
+  switch (level) {
+    case DepthLevel::kFull:
+      return "full";
+    case DepthLevel::kWindow:
+      return "window";
+    case DepthLevel::kNone:
+      break;
+  }
+  return "none";
+}
+
+const char* ToString(ContactFeature::Kind kind) {
+  constexpr const char* kNames[] = {"none", "vertex", "edge", "facet"};
+  return kNames[kind];
+}
 
 struct DepthQuery::Impl {
   Impl(const TriangleMesh& the_robot, const TriangleMesh& the_obstacle,
@@ -173,9 +210,8 @@ struct DepthQuery::Impl {
                                std::vector<std::string>* warnings) {
     MeshReport report;
     TriangleMesh solid = MakeSolid(mesh, name, &report);
-    for (const std::string& line : report.warnings) {
-      const bool is_named = line.find(name) != std::string::npos;
-      warnings->push_back(is_named ? line : name + ": " + line);
+    for (const std::string& line : NamedWarnings(report, name)) {
+      warnings->push_back(line);
     }
     return solid;
   }

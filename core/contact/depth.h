@@ -28,12 +28,15 @@ enum class DepthStatus {
   kSeparate,     // the solids share no point
 };
 
+const char* ToString(DepthStatus status);  // "penetrating", ...
+
 // How much of C_cont was modelled for an answer.
 enum class DepthLevel {
   kNone,    // nothing: the solids are apart
   kWindow,  // boxes around q
   kFull,    // all of it
 };
+const char* ToString(DepthLevel level);  // "none", "window", "full"
 
 // What of an operand a witness point lies on: one, two or three vertices of
 // the mesh that the query was made with (the first at the same place), −1 for
@@ -43,6 +46,8 @@ struct ContactFeature {
   Kind kind = kNone;
   std::array<int, 3> vertices = {-1, -1, -1};
 };
+
+const char* ToString(ContactFeature::Kind kind);  // "none", "vertex", ...
 
 // Lengths in the user's unit.
 struct DepthResult {

@@ -2,10 +2,10 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <utility>
 #include <vector>
 
 #include "core/bvh/box_tree.h"
+#include "core/bvh/box_tree_pairs.h"
 #include "core/minkowski/gauss_tree.h"
 
 namespace phongpd::internal {
@@ -40,7 +40,6 @@ enum class NormalMatch { kEqual, kEqualOrOpposite };
 template <typename Visit>
 void ForEachPairIn(const ConeTree& p, const ConeTree& q, NormalMatch match,
                    const BoundingBox& window, const Visit& visit) {
-  if (p.tree().nodes().empty() || q.tree().nodes().empty()) return;
   const auto is_in_window = [&window](const auto& a, const auto& b) {
     return ((a.min + b.min).array() <= window.max.array()).all() &&
            ((a.max + b.max).array() >= window.min.array()).all();
@@ -58,36 +57,18 @@ void ForEachPairIn(const ConeTree& p, const ConeTree& q, NormalMatch match,
            (match == NormalMatch::kEqualOrOpposite &&
             (a.center + b.center).squaredNorm() <= reach);
   };
-  std::vector<std::pair<int, int>> stack;
-  const auto push = [&](int i, int j) {
-    if (is_in_window(p.tree().nodes()[i], q.tree().nodes()[j]) &&
-        may_match(p.Normals(i), q.Normals(j))) {
-      stack.emplace_back(i, j);
-    }
-  };
-  for (push(0, 0); !stack.empty();) {
-    const auto [i, j] = stack.back();
-    stack.pop_back();
-    const BoxTree::Node& a = p.tree().nodes()[i];
-    const BoxTree::Node& b = q.tree().nodes()[j];
-    if (a.IsLeaf() && b.IsLeaf()) {
-      for (int k = a.first; k < a.first + a.count; ++k) {
-        for (int l = b.first; l < b.first + b.count; ++l) {
-          if (caps_meet(p.Cap(k), q.Cap(l)) &&
-              is_in_window(p.Box(k), q.Box(l))) {
-            visit(p.tree().order()[k], q.tree().order()[l]);
-          }
+  ForEachPair(
+      p.tree(), q.tree(),
+      [&](int i, int j) {
+        return is_in_window(p.tree().nodes()[i], q.tree().nodes()[j]) &&
+               may_match(p.Normals(i), q.Normals(j));
+      },
+      [&](int k, int l) {
+        if (caps_meet(p.Cap(k), q.Cap(l)) && is_in_window(p.Box(k), q.Box(l))) {
+          visit(p.tree().order()[k], q.tree().order()[l]);
         }
-      }
-      continue;
-    }
-    const bool splits_p =
-        b.IsLeaf() || (!a.IsLeaf() && (a.max - a.min).squaredNorm() >=
-                                          (b.max - b.min).squaredNorm());
-    for (int k = 0; k < 2; ++k) {
-      push(splits_p ? a.first + k : i, splits_p ? j : b.first + k);
-    }
-  }
+        return true;
+      });
 }
 
 }  // namespace phongpd::internal

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/minkowski/convolution_space.h"
 
-#include <cmath>
+#include "core/mesh/finite.h"
 
 namespace phongpd::internal {
 namespace {
@@ -29,22 +29,16 @@ ConvolutionSpace::ConvolutionSpace(const GridPair& pair)
       judge_(pair.obstacle, pair.reflected_robot),
       mesh_(AsMesh(ReducedConvolution(pair.obstacle, pair.reflected_robot))) {
   bounds_ = ComputeBounds(mesh_);
-  facets_ = mesh_.triangles.size();
   bvh_ = TriangleBvh(mesh_);
 }
 
 Vector3d ConvolutionSpace::ToGrid(const Vector3d& q) const {
-  Vector3d x = pair_.frame.ToGrid(q);
-  for (int k = 0; k < 3; ++k) {
-    // Beyond, no rounding can matter: nothing is there.
-    if (std::abs(x[k]) < 0x1p50) x[k] = std::round(x[k] * 0x1p12) * 0x1p-12;
-  }
-  return x;
+  return RoundedToFractions(pair_.frame.ToGrid(q));
 }
 
 bool ConvolutionSpace::IsFree(const Vector3d& q) const {
   const Vector3d x = ToGrid(q);
-  if (!x.allFinite()) return false;
+  if (!IsFinite(x)) return false;
   const bool is_within = (x.array() >= bounds_.min.array()).all() &&
                          (x.array() <= bounds_.max.array()).all();
   return !is_within || !judge_.Collide(x);
@@ -52,7 +46,7 @@ bool ConvolutionSpace::IsFree(const Vector3d& q) const {
 
 bool ConvolutionSpace::IsFree(const Vector3d& a, const Vector3d& b) const {
   const Vector3d from = ToGrid(a), to = ToGrid(b);
-  return to.allFinite() && IsFree(a) && !bvh_.Meets(from, to);
+  return IsFinite(to) && IsFree(a) && !bvh_.Meets(from, to);
 }
 
 ConvolutionSpace::Nearest ConvolutionSpace::FindNearest(

@@ -38,8 +38,6 @@ class ConvolutionSpace {
   };
   Nearest FindNearest(const Eigen::Vector3d& q) const;
 
-  std::size_t size() const { return facets_; }
-
  private:
   // In grid steps, rounded as above.
   Eigen::Vector3d ToGrid(const Eigen::Vector3d& q) const;
@@ -47,8 +45,7 @@ class ConvolutionSpace {
   const GridPair& pair_;
   SolidCollision judge_;
   BoundingBox bounds_;  // of the convolution, grid steps
-  std::size_t facets_ = 0;
-  TriangleMesh mesh_;  // grid steps, exact
+  TriangleMesh mesh_;   // grid steps, exact
   TriangleBvh bvh_;
 };
 

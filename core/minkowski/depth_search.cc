@@ -7,7 +7,6 @@
 #include <limits>
 #include <vector>
 
-#include "core/minkowski/build_limits.h"
 #include "core/stopwatch.h"
 
 namespace phongpd::internal {
@@ -133,20 +132,18 @@ class WindowChooser {
 
 }  // namespace
 
-DepthSearch::DepthSearch(const GridPair& pair)
+DepthSearch::DepthSearch(const GridPair& pair,
+                         const ContactSpaceOptions& options)
     : pair_(pair),
       judge_(pair.obstacle, pair.reflected_robot),
       sums_(pair.obstacle, pair.reflected_robot),
-      gap_(pair.obstacle, pair.reflected_robot) {}
+      gap_(pair.obstacle, pair.reflected_robot),
+      build_limits_(options) {}
 
 GridDepth DepthSearch::Find(const Vector3d& q,
                             const SearchLimits& limits) const {
   const BoundingBox& all = sums_.bounds();
-  Vector3d x = q;
-  for (int k = 0; k < 3; ++k) {
-    // Beyond, no rounding can matter: nothing is there.
-    if (std::abs(x[k]) < 0x1p40) x[k] = std::round(x[k] * 0x1p12) * 0x1p-12;
-  }
+  const Vector3d x = RoundedToFractions(q);
   const bool is_within = (x.array() >= all.min.array()).all() &&
                          (x.array() <= all.max.array()).all();
   if (!is_within || !judge_.Collide(x)) return Apart(x);
@@ -174,7 +171,6 @@ GridDepth DepthSearch::Apart(const Vector3d& x) const {
 void DepthSearch::SearchWindows(const Vector3d& x, const SearchLimits& limits,
                                 GridDepth* depth) const {
   const Stopwatch stopwatch;
-  const BuildLimits no_limits{ContactSpaceOptions()};
   // Beyond the box of all sums everything is free.
   const BoundingBox& all = sums_.bounds();
   depth->distance = std::numeric_limits<double>::infinity();
@@ -198,7 +194,7 @@ void DepthSearch::SearchWindows(const Vector3d& x, const SearchLimits& limits,
     const WindowConvolution& part = chooser.part();
     depth->radius = window.WallDistance(x);
     if (!part.origins.empty()) {
-      WindowCells cells(part, window, judge_, no_limits);
+      WindowCells cells(part, window, judge_, build_limits_);
       ++depth->windows;
       depth->faces += static_cast<std::size_t>(cells.FaceCount());
       const WindowCells::Nearest nearest = cells.FindNearest(x);

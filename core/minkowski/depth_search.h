@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 
+#include "core/minkowski/build_limits.h"
 #include "core/minkowski/grid_pair.h"
 #include "core/minkowski/solid_collision.h"
 #include "core/minkowski/solid_gap.h"
@@ -48,8 +49,9 @@ struct SearchLimits {
 // tells whether a nearer one exists.
 class DepthSearch {
  public:
-  // Keeps a reference.
-  explicit DepthSearch(const GridPair& pair);
+  // Keeps a reference.  What is built is held to `options`' memory, counted
+  // from here on.
+  DepthSearch(const GridPair& pair, const ContactSpaceOptions& options);
 
   // x finite, rounded to 2^-12 steps where that matters.
   GridDepth Find(const Eigen::Vector3d& x, const SearchLimits& limits) const;
@@ -65,6 +67,7 @@ class DepthSearch {
   SolidCollision judge_;
   FeatureSums sums_;
   SolidGap gap_;
+  BuildLimits build_limits_;
 };
 
 }  // namespace phongpd::internal

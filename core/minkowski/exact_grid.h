@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <cmath>
 #include <cstdint>
 
 // Exact integer geometry on the grid all contact-space work happens on.
@@ -52,6 +53,17 @@ inline Eigen::Vector3d ToDouble(const GridPoint& p) {
 inline Eigen::Vector3d ToDouble(const GridNormal& n) {
   return {static_cast<double>(n[0]), static_cast<double>(n[1]),
           static_cast<double>(n[2])};
+}
+
+// A position to the nearest 2^-12 of a grid step: its sum with a grid point has
+// 2^40 and 12 fractional bits at the most, which a double holds.  Farther out
+// nothing is, and doubles are as coarse by themselves.
+inline Eigen::Vector3d RoundedToFractions(const Eigen::Vector3d& q) {
+  Eigen::Vector3d x = q;
+  for (int k = 0; k < 3; ++k) {
+    if (std::abs(x[k]) < 0x1p40) x[k] = std::round(x[k] * 0x1p12) * 0x1p-12;
+  }
+  return x;
 }
 
 // Index of the component of largest magnitude.

@@ -250,4 +250,16 @@ GridSolid MakeGridSolid(const std::vector<GridPoint>& vertices,
   return solid;
 }
 
+std::vector<BoundingBox> FacetBoxes(const GridSolid& solid) {
+  std::vector<BoundingBox> boxes;
+  boxes.reserve(solid.facets.size());
+  for (const Triangle& t : solid.facets) {
+    const Eigen::Vector3d a = ToDouble(solid.vertices[t[0]]);
+    const Eigen::Vector3d b = ToDouble(solid.vertices[t[1]]);
+    const Eigen::Vector3d c = ToDouble(solid.vertices[t[2]]);
+    boxes.push_back({a.cwiseMin(b).cwiseMin(c), a.cwiseMax(b).cwiseMax(c)});
+  }
+  return boxes;
+}
+
 }  // namespace phongpd::internal

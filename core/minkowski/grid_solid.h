@@ -26,6 +26,9 @@ struct GridSolid {
   std::vector<std::vector<int>> neighbors;  // vertices joined by an edge
 };
 
+// Of each facet, exact in double.
+std::vector<BoundingBox> FacetBoxes(const GridSolid& solid);
+
 // What an operand's vertices were before they were rounded to the grid.
 struct RoundedFrom {
   const TriangleMesh& mesh;  // user's frame, as MakeSolid returns it

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/bvh/box_tree.h"
+#include "core/bvh/box_tree_pairs.h"
 #include "core/mesh/union_find.h"
 
 namespace phongpd::internal {
@@ -142,37 +143,24 @@ bool FacetsMeet(const Solid& obstacle, const Solid& robot,
   };
   const std::vector<BoxTree::Node>& fixed = obstacle.facet_tree.nodes();
   const std::vector<BoxTree::Node>& moved = robot.facet_tree.nodes();
-  std::vector<std::pair<int, int>> stack;
-  const auto push = [&](int i, int j) {
-    if (overlap(fixed[i], moved[j])) stack.emplace_back(i, j);
-  };
-  if (!fixed.empty() && !moved.empty()) push(0, 0);
-  while (!stack.empty()) {
-    const auto [i, j] = stack.back();
-    stack.pop_back();
-    const BoxTree::Node &a = fixed[i], &b = moved[j];
-    if (a.IsLeaf() && b.IsLeaf()) {
-      for (int l = b.first; l < b.first + b.count; ++l) {
-        const SolidFacet& t = robot.facets[robot.facet_tree.order()[l]];
-        const SolidFacet at(t[0] + shift, t[1] + shift, t[2] + shift);
-        const CGAL::Bbox_3 box = at.bbox();
-        for (int k = a.first; k < a.first + a.count; ++k) {
-          const SolidFacet& u = obstacle.facets[obstacle.facet_tree.order()[k]];
-          if (CGAL::do_overlap(box, u.bbox()) && CGAL::do_intersect(at, u)) {
-            return true;
-          }
+  bool meet = false;
+  int placed = -1;  // position of the robot's facet that `at` is
+  SolidFacet at;
+  ForEachPair(
+      robot.facet_tree, obstacle.facet_tree,
+      [&](int i, int j) { return overlap(fixed[j], moved[i]); },
+      [&](int k, int l) {
+        if (k != placed) {
+          const SolidFacet& t = robot.facets[robot.facet_tree.order()[k]];
+          at = SolidFacet(t[0] + shift, t[1] + shift, t[2] + shift);
+          placed = k;
         }
-      }
-      continue;
-    }
-    const bool splits_fixed =
-        b.IsLeaf() || (!a.IsLeaf() && (a.max - a.min).squaredNorm() >=
-                                          (b.max - b.min).squaredNorm());
-    for (int k = 0; k < 2; ++k) {
-      push(splits_fixed ? a.first + k : i, splits_fixed ? j : b.first + k);
-    }
-  }
-  return false;
+        const SolidFacet& u = obstacle.facets[obstacle.facet_tree.order()[l]];
+        meet =
+            CGAL::do_overlap(at.bbox(), u.bbox()) && CGAL::do_intersect(at, u);
+        return !meet;
+      });
+  return meet;
 }
 
 }  // namespace
@@ -193,10 +181,8 @@ SolidCollision::SolidCollision(const GridSolid& obstacle,
 SolidCollision::~SolidCollision() = default;
 
 bool SolidCollision::Collide(const Eigen::Vector3d& q) const {
-  // 2^39 + 2^40 with 12 fractional bits fits a double: sums are exact.
-  const Kernel::Vector_3 shift(std::round(q[0] * 0x1p12) * 0x1p-12,
-                               std::round(q[1] * 0x1p12) * 0x1p-12,
-                               std::round(q[2] * 0x1p12) * 0x1p-12);
+  const Eigen::Vector3d at = RoundedToFractions(q);
+  const Kernel::Vector_3 shift(at[0], at[1], at[2]);
   return ContainsSeed(impl_->obstacle, impl_->robot, shift) ||
          ContainsSeed(impl_->robot, impl_->obstacle, -shift) ||
          FacetsMeet(impl_->obstacle, impl_->robot, shift);

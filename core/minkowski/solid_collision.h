@@ -19,7 +19,7 @@ class SolidCollision {
   ~SolidCollision();
 
   // q in grid steps relative to the frame's origin, |q| < 2^40.  Decided
-  // exactly for q rounded to 2^-12 steps.
+  // exactly for RoundedToFractions(q).
   bool Collide(const Eigen::Vector3d& q) const;
 
  private:

@@ -9,6 +9,7 @@
 #include <queue>
 #include <tuple>
 
+#include "core/bvh/box_tree_pairs.h"
 #include "core/bvh/segment_triangle_distance.h"
 
 namespace phongpd::internal {
@@ -16,18 +17,6 @@ namespace {
 
 using Eigen::Vector3d;
 using Corners = std::array<Vector3d, 3>;
-
-BoxTree FacetTree(const GridSolid& s) {
-  std::vector<BoundingBox> boxes;
-  boxes.reserve(s.facets.size());
-  for (const Triangle& t : s.facets) {
-    const Vector3d a = ToDouble(s.vertices[t[0]]);
-    const Vector3d b = ToDouble(s.vertices[t[1]]);
-    const Vector3d c = ToDouble(s.vertices[t[2]]);
-    boxes.push_back({a.cwiseMin(b).cwiseMin(c), a.cwiseMax(b).cwiseMax(c)});
-  }
-  return {boxes, 4};
-}
 
 struct TrianglePair {
   Vector3d on_t = Vector3d::Zero(), on_u = Vector3d::Zero();
@@ -55,7 +44,7 @@ TrianglePair ClosestPoints(const Corners& t, const Corners& u) {
 }  // namespace
 
 SolidGap::SolidGap(const GridSolid& p, const GridSolid& q)
-    : p_(p), q_(q), p_tree_(FacetTree(p)), q_tree_(FacetTree(q)) {}
+    : p_(p), q_(q), p_tree_(FacetBoxes(p), 4), q_tree_(FacetBoxes(q), 4) {}
 
 SolidGap::Nearest SolidGap::Find(const Vector3d& x) const {
   // Coordinates of about the size of one, by a power of two.
@@ -111,9 +100,7 @@ SolidGap::Nearest SolidGap::Find(const Vector3d& x) const {
       }
       continue;
     }
-    const bool splits_p =
-        b.IsLeaf() || (!a.IsLeaf() && (a.max - a.min).squaredNorm() >=
-                                          (b.max - b.min).squaredNorm());
+    const bool splits_p = SplitsFirst(a, b);
     for (int k = 0; k < 2; ++k) {
       const int ci = splits_p ? a.first + k : i;
       const int cj = splits_p ? j : b.first + k;

@@ -15,46 +15,32 @@ using Eigen::Vector3d;
 // Of a facet's reach: far above the rounding of the separating axes.
 constexpr double kClearShare = 1e-9;
 
-BoundingBox BoxOf(const GridSolid& s, const int* corners, int count) {
-  BoundingBox box;
-  box.min = box.max = ToDouble(s.vertices[corners[0]]);
-  for (int k = 1; k < count; ++k) {
-    const Vector3d p = ToDouble(s.vertices[corners[k]]);
-    box.min = box.min.cwiseMin(p);
-    box.max = box.max.cwiseMax(p);
-  }
-  return box;
-}
-
 ConeTree VertexTree(const GridSolid& s) {
   std::vector<BoundingBox> boxes;
-  std::vector<GaussCap> caps;
   boxes.reserve(s.vertices.size());
-  for (int v = 0; v < static_cast<int>(s.vertices.size()); ++v) {
-    boxes.push_back(BoxOf(s, &v, 1));
+  for (const GridPoint& v : s.vertices) {
+    boxes.push_back({ToDouble(v), ToDouble(v)});
   }
   return {boxes, VertexCaps(s)};
 }
 
 ConeTree FacetTree(const GridSolid& s) {
-  std::vector<BoundingBox> boxes;
   std::vector<GaussCap> caps;
-  boxes.reserve(s.facets.size());
-  caps.reserve(s.facets.size());
-  for (std::size_t f = 0; f < s.facets.size(); ++f) {
-    boxes.push_back(BoxOf(s, s.facets[f].data(), 3));
-    const Vector3d n = ToDouble(s.normals[f]).normalized();
+  caps.reserve(s.normals.size());
+  for (const GridNormal& normal : s.normals) {
+    const Vector3d n = ToDouble(normal).normalized();
     caps.push_back(CapAround(&n, 1));
   }
-  return {boxes, caps};
+  return {FacetBoxes(s), caps};
 }
 
 ConeTree ArcTree(const GridSolid& s, const std::vector<ConvexEdge>& edges) {
   std::vector<BoundingBox> boxes;
   boxes.reserve(edges.size());
   for (const ConvexEdge& e : edges) {
-    const int ends[2] = {e.a, e.b};
-    boxes.push_back(BoxOf(s, ends, 2));
+    const Vector3d a = ToDouble(s.vertices[e.a]);
+    const Vector3d b = ToDouble(s.vertices[e.b]);
+    boxes.push_back({a.cwiseMin(b), a.cwiseMax(b)});
   }
   return {boxes, ArcCaps(edges)};
 }

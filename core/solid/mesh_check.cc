@@ -305,4 +305,14 @@ TriangleMesh MakeSolid(const TriangleMesh& mesh, const std::string& name,
   return solid;
 }
 
+std::vector<std::string> NamedWarnings(const MeshReport& report,
+                                       const std::string& name) {
+  std::vector<std::string> lines;
+  for (const std::string& line : report.warnings) {
+    const bool is_named = line.find(name) != std::string::npos;
+    lines.push_back(is_named ? line : name + ": " + line);
+  }
+  return lines;
+}
+
 }  // namespace phongpd

@@ -33,6 +33,10 @@ struct MeshReport {
   std::vector<std::string> warnings;
 };
 
+// The report's warnings, each with the mesh's name in it.
+std::vector<std::string> NamedWarnings(const MeshReport& report,
+                                       const std::string& name);
+
 // Counts everything above without changing the mesh or throwing.
 //  - Invalid indices: only vertices, triangles and the first two defects.
 //  - Non-finite coordinates: no degenerate triangles, duplicate vertices,

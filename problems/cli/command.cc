@@ -21,10 +21,7 @@ TriangleMesh LoadSolid(const std::string& path, MeshReport* report) {
   MeshReport own;
   MeshReport& found = report != nullptr ? *report : own;
   TriangleMesh solid = MakeSolid(ReadMesh(path), path, &found);
-  for (const std::string& warning : found.warnings) {
-    const bool named = warning.find(path) != std::string::npos;
-    Warn(named ? warning : path + ": " + warning);
-  }
+  for (const std::string& line : NamedWarnings(found, path)) Warn(line);
   return solid;
 }
 
@@ -43,6 +40,19 @@ CLI::Option* AddContactSpaceFile(CLI::App* app, std::string* path) {
       ->add_option("--contact-space", *path,
                    "Mesh written by phongpd contact-space")
       ->type_name("FILE");
+}
+
+void AddBuildLimits(CLI::App* app, double* max_seconds, double* max_mib) {
+  app->add_option("--max-seconds", *max_seconds,
+                  "Refuse what is predicted to take longer, and stop "
+                  "what does (0: never)")
+      ->type_name("S")
+      ->check(CLI::NonNegativeNumber);
+  app->add_option("--max-mib", *max_mib,
+                  "Refuse what is predicted to need more memory, and stop "
+                  "what does (0: stop at nine tenths of what is free)")
+      ->type_name("MIB")
+      ->check(CLI::NonNegativeNumber);
 }
 
 void AddField(CLI::App* app, std::string* field) {

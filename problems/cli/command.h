@@ -53,6 +53,9 @@ ContactSpace LoadOrBuild(const TriangleMesh& robot,
                          const TriangleMesh& obstacle,
                          const ContactSpaceOptions& options, bool use_cache);
 
+// Declares --max-seconds and --max-mib of a build (ContactSpaceOptions).
+void AddBuildLimits(CLI::App* app, double* max_seconds, double* max_mib);
+
 // Declares --contact-space, a file that LoadContactSpace reads
 // (contact_space_file.h).
 CLI::Option* AddContactSpaceFile(CLI::App* app, std::string* path);

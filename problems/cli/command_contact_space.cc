@@ -164,16 +164,7 @@ Command AddContactSpace(CLI::App* app) {
       ->type_name("KIND");
   app->add_flag("--outer-shell-only", flags->outer_shell_only,
                 "Leave out bounded free cavities");
-  app->add_option("--max-seconds", flags->max_seconds,
-                  "Refuse what is predicted to take longer, and stop "
-                  "what does (0: never)")
-      ->type_name("S")
-      ->check(CLI::NonNegativeNumber);
-  app->add_option("--max-mib", flags->max_mib,
-                  "Refuse what is predicted to need more memory, and stop "
-                  "what does (0: stop at nine tenths of what is free)")
-      ->type_name("MIB")
-      ->check(CLI::NonNegativeNumber);
+  AddBuildLimits(app, &flags->max_seconds, &flags->max_mib);
   AddVerify(app, &flags->verify);
   AddNoCache(app, &flags->no_cache);
   return [flags] { return BuildAndWrite(*flags); };

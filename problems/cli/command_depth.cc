@@ -27,40 +27,13 @@ struct Flags {
   bool json = false;
 };
 
-const char* NameOf(DepthStatus status) {
-  switch (status) {
-    case DepthStatus::kPenetrating:
-      return "penetrating";
-    case DepthStatus::kTouching:
-      return "touching";
-    default:
-      return "separate";
-  }
-}
-
-const char* NameOf(DepthLevel level) {
-  switch (level) {
-    case DepthLevel::kFull:
-      return "full";
-    case DepthLevel::kWindow:
-      return "window";
-    default:
-      return "none";
-  }
-}
-
-const char* NameOf(ContactFeature::Kind kind) {
-  constexpr const char* kNames[] = {"none", "vertex", "edge", "facet"};
-  return kNames[kind];
-}
-
 std::vector<int> VerticesOf(const ContactFeature& feature) {
   return {feature.vertices.begin(), feature.vertices.begin() + feature.kind};
 }
 
 // "edge 3 7"
 std::string Described(const ContactFeature& feature) {
-  std::string text = NameOf(feature.kind);
+  std::string text = ToString(feature.kind);
   for (const int v : VerticesOf(feature)) text += ' ' + std::to_string(v);
   return text;
 }
@@ -69,7 +42,7 @@ Json ToJson(const Eigen::Vector3d& v) { return {v[0], v[1], v[2]}; }
 
 Json ToJson(const Eigen::Vector3d& point, const ContactFeature& feature) {
   return {{"point", ToJson(point)},
-          {"feature", NameOf(feature.kind)},
+          {"feature", ToString(feature.kind)},
           {"vertices", VerticesOf(feature)}};
 }
 
@@ -77,7 +50,7 @@ Json ToJson(const RobotPose& pose, const DepthResult& r) {
   const Eigen::Quaterniond& turn = pose.orientation;
   return {{"position", ToJson(pose.position)},
           {"orientation", {turn.w(), turn.x(), turn.y(), turn.z()}},
-          {"status", NameOf(r.status)},
+          {"status", ToString(r.status)},
           {"depth", r.depth},
           {"clearance", r.clearance},
           {"direction", ToJson(r.direction)},
@@ -86,7 +59,7 @@ Json ToJson(const RobotPose& pose, const DepthResult& r) {
           {"on_b", ToJson(r.on_obstacle, r.obstacle_feature)},
           {"certified", r.certified},
           {"explored_radius", r.explored_radius},
-          {"level", NameOf(r.level)},
+          {"level", ToString(r.level)},
           {"grid_step", r.grid_step},
           {"arranged_faces", r.arranged_faces},
           {"windows", r.windows},
@@ -105,7 +78,7 @@ std::string Row(const RobotPose& pose, const DepthResult& r) {
   for (const double x : {turn.w(), turn.x(), turn.y(), turn.z()}) {
     row += ',' + FormatDouble(x);
   }
-  row += std::string(",") + NameOf(r.status) + ',' + FormatDouble(r.depth) +
+  row += std::string(",") + ToString(r.status) + ',' + FormatDouble(r.depth) +
          ',' + FormatDouble(r.clearance);
   for (const Eigen::Vector3d& v :
        {r.direction, r.contact, r.on_robot, r.on_obstacle}) {
@@ -113,7 +86,7 @@ std::string Row(const RobotPose& pose, const DepthResult& r) {
   }
   return row + ',' + Described(r.robot_feature) + ',' +
          Described(r.obstacle_feature) + (r.certified ? ",1," : ",0,") +
-         FormatDouble(r.explored_radius) + ',' + NameOf(r.level) + ',' +
+         FormatDouble(r.explored_radius) + ',' + ToString(r.level) + ',' +
          FormatDouble(r.seconds) + '\n';
 }
 
@@ -143,7 +116,7 @@ std::string Sentence(const Flags& flags, const DepthResult& r) {
          << Described(r.obstacle_feature) << '\n';
   }
   text << (r.certified ? "certified" : "NOT CERTIFIED") << ", level "
-       << NameOf(r.level) << ", " << r.arranged_faces << " faces arranged, "
+       << ToString(r.level) << ", " << r.arranged_faces << " faces arranged, "
        << Rounded(r.seconds) << " s\n";
   return text.str();
 }

@@ -49,7 +49,7 @@ int Sum(const Flags& flags) {
     WriteContactSpaceTo(&outputs, flags.output, space.mesh());
   } else {
     WriteMeshTo(&outputs, flags.output, space.mesh());
-  };
+  }
   const ContactSpaceReport& found = space.report();
   if (!flags.report.empty()) {
     nlohmann::ordered_json report = {
@@ -82,16 +82,7 @@ Command AddMinkowski(CLI::App* app) {
       ->type_name("FILE");
   app->add_option("--report", flags->report, "What was built, as JSON")
       ->type_name("FILE");
-  app->add_option("--max-seconds", flags->max_seconds,
-                  "Refuse what is predicted to take longer, and stop "
-                  "what does (0: never)")
-      ->type_name("S")
-      ->check(CLI::NonNegativeNumber);
-  app->add_option("--max-mib", flags->max_mib,
-                  "Refuse what is predicted to need more memory, and stop "
-                  "what does (0: stop at nine tenths of what is free)")
-      ->type_name("MIB")
-      ->check(CLI::NonNegativeNumber);
+  AddBuildLimits(app, &flags->max_seconds, &flags->max_mib);
   AddNoCache(app, &flags->no_cache);
   return [flags] { return Sum(*flags); };
 }
