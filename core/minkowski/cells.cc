@@ -81,13 +81,11 @@ FreeCells FindFreeCells(const Convolution& convolution,
                         const BuildLimits& limits) {
   const std::vector<ArrangementFace>& faces = arrangement.faces;
   const int count = static_cast<int>(faces.size());
-  UnionFind sides(2 * faces.size()), parts(faces.size());
+  UnionFind sides = JoinSides(rings, faces.size());
+  UnionFind parts(faces.size());  // faces that share an edge
   for (const EdgeRing& ring : rings.rings) {
-    for (int k = ring.begin; k < ring.end; ++k) {
-      const int next = k + 1 < ring.end ? k + 1 : ring.begin;
-      sides.Join(rings.spokes[k].SideToNext(),
-                 rings.spokes[next].SideToPrevious());
-      parts.Join(rings.spokes[k].face, rings.spokes[next].face);
+    for (int k = ring.begin + 1; k < ring.end; ++k) {
+      parts.Join(rings.spokes[k - 1].face, rings.spokes[k].face);
     }
   }
   std::vector<char> occupied(2 * faces.size(), 0);

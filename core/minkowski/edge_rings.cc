@@ -185,4 +185,16 @@ EdgeRings SortAroundEdges(const Convolution& convolution,
   return out;
 }
 
+UnionFind JoinSides(const EdgeRings& rings, std::size_t faces) {
+  UnionFind sides(2 * faces);
+  for (const EdgeRing& ring : rings.rings) {
+    for (int k = ring.begin; k < ring.end; ++k) {
+      const int next = k + 1 < ring.end ? k + 1 : ring.begin;
+      sides.Join(rings.spokes[k].SideToNext(),
+                 rings.spokes[next].SideToPrevious());
+    }
+  }
+  return sides;
+}
+
 }  // namespace phongpd::internal

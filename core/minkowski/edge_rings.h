@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "core/mesh/union_find.h"
 #include "core/minkowski/convolution.h"
 #include "core/minkowski/exact_points.h"
 #include "core/minkowski/plane_arrangement.h"
@@ -41,5 +42,10 @@ struct EdgeRings {
 EdgeRings SortAroundEdges(const Convolution& convolution,
                           const Arrangement& arrangement,
                           const ExactPoints& points);
+
+// The 2·`faces` sides, joined where they face each other around an edge: sides
+// of one set look into one cell.  A cell whose boundary has several parts that
+// share no edge has a set for each.
+UnionFind JoinSides(const EdgeRings& rings, std::size_t faces);
 
 }  // namespace phongpd::internal

@@ -170,14 +170,7 @@ struct WindowCells::Impl {
 
   void FindCells() {
     const int count = static_cast<int>(arrangement.faces.size());
-    UnionFind sides(2 * arrangement.faces.size());
-    for (const EdgeRing& ring : rings.rings) {
-      for (int k = ring.begin; k < ring.end; ++k) {
-        const int next = k + 1 < ring.end ? k + 1 : ring.begin;
-        sides.Join(rings.spokes[k].SideToNext(),
-                   rings.spokes[next].SideToPrevious());
-      }
-    }
+    UnionFind sides = JoinSides(rings, arrangement.faces.size());
     const std::vector<char> inside = FindInside();
     std::vector<char> occupied(2 * arrangement.faces.size(), 0);
     for (int f = 0; f < count; ++f) {
