@@ -115,7 +115,7 @@ class CliReproduce : public CliScenes {
 TEST_F(CliReproduce, PacksEveryKindOfCommandAndReplaysIt) {
   Json packed =
       Pack("contact-space --robot '" + File("cone.off") +
-           "' --obstacle=../box.off --output c.off --report /tmp/r.json");
+           "' --obstacle=../box.off --output c.off --report /nowhere/r.json");
   EXPECT_EQ(packed["files"].size(), 2U);
   EXPECT_EQ(packed["run"]["exit_code"], 0);
   EXPECT_EQ(packed["arguments"][2], "inputs/1/cone.off");
@@ -182,7 +182,7 @@ TEST_F(CliReproduce, RefusesWhatWouldWriteElsewhere) {
     ExpectRefused("reproduce --replay ../bad.json", {"bad.json", word});
   };
   refused(Json::array(), "format");
-  for (const std::string name : {"/tmp/x", "../x", "a/../../x", ""}) {
+  for (const std::string name : {"/nowhere/x", "../x", "a/../../x", ""}) {
     Json bad = good;
     bad["files"] = {{{"name", name}, {"encoding", "text"}, {"content", "x"}}};
     refused(bad, "file name");

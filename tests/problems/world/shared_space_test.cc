@@ -87,6 +87,8 @@ TEST(SharedSpace, AllOfItTakesLessThan50MibAt28ThousandTriangles) {
   std::cout << space.mesh().triangles.size() << " triangles, space "
             << built - before << " MiB, everything " << all - before
             << " MiB\n";
+  // Sanitizers bring an allocator of their own, which counts nothing here.
+  if (built == before) GTEST_SKIP() << "the allocator does not count";
   EXPECT_LE(all - before, 50.0);
 }
 
