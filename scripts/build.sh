@@ -7,7 +7,13 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 preset=${PRESET:-release}
 scripts/setup.sh
-cmake --preset "$preset"
+options=()
+# What scripts/python.sh has prepared.
+if [[ $preset == release && -x build/venv/bin/python ]]; then
+  options=(-DPHONGPD_BUILD_PYTHON=ON
+    -DPython_EXECUTABLE="$PWD/build/venv/bin/python")
+fi
+cmake --preset "$preset" "${options[@]}"
 
 # A translation unit that includes CGAL takes up to 1.5 GiB to compile.
 jobs=$(nproc)

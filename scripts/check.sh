@@ -49,7 +49,7 @@ readonly threaded=(
 
 say() { printf 'check: %s\n' "$*"; }
 whole() { [[ $SLICE == full ]]; }
-sources() { find "${folders[@]}" tests results examples -name '*.h' -o -name '*.cc'; }
+sources() { find "${folders[@]}" tests results examples python -name '*.h' -o -name '*.cc'; }
 
 # Runs the tests that are built there: those outside the slice are not.
 run_tests() { # PRESET [PATTERN to leave out, too] [OPTION of ctest...]

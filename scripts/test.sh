@@ -6,5 +6,6 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 # The user's own cache is neither used nor filled.
 export PHONGPD_CACHE_DIR=$PWD/build/cache
 
+scripts/python.sh
 scripts/build.sh
 ctest --preset release --parallel 2 --output-log build/tests.log

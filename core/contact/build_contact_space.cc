@@ -104,6 +104,7 @@ ContactSpace BuildContactSpace(const TriangleMesh& robot,
   ContactSpaceReport& report = out.report;
   StageClock clock(&report);
   internal::BuildLimits limits(options);
+  limits.ObserveCancellation();
 
   using internal::OperandRole;
   const TriangleMesh a =

@@ -10,7 +10,21 @@
 #include <limits>
 #include <sstream>
 
-namespace phongpd::internal {
+#include "core/minkowski/build_cancellation.h"
+
+namespace phongpd {
+namespace {
+
+// How often CancelBuilds was called.
+std::atomic<unsigned> cancellations{0};
+static_assert(std::atomic<unsigned>::is_always_lock_free,
+              "a signal handler may call CancelBuilds");
+
+}  // namespace
+
+void CancelBuilds() { ++cancellations; }
+
+namespace internal {
 namespace {
 
 constexpr double kNone = std::numeric_limits<double>::infinity();
@@ -87,7 +101,17 @@ void BuildLimits::Predict(const PredictedCost& cost) {
   if (!is_automatic_) check("max_mib", max_mib_, cost.mib, "MiB");
 }
 
+void BuildLimits::ObserveCancellation() {
+  is_cancellable_ = true;
+  cancellations_ = cancellations.load();
+}
+
 void BuildLimits::Check(const char* stage) const {
+  if (is_cancellable_ &&
+      cancellations.load(std::memory_order_relaxed) != cancellations_) {
+    throw BuildCancelled(operands_ + ": the contact space was cancelled in " +
+                         "its " + stage);
+  }
   if (calls_.fetch_add(1, std::memory_order_relaxed) % kCallsPerLook != 0) {
     return;
   }
@@ -115,4 +139,5 @@ void BuildLimits::Refuse(const std::string& what) const {
                    "the limit");
 }
 
-}  // namespace phongpd::internal
+}  // namespace internal
+}  // namespace phongpd

@@ -26,8 +26,12 @@ class BuildLimits {
   // if that is above an explicit limit.
   void Predict(const PredictedCost& cost);
 
+  // From now on CancelBuilds stops this build, too.
+  void ObserveCancellation();
+
   // Throws InputError naming the operands, the limit that has been passed and
-  // the stage.  From any thread; cheap enough for every facet.
+  // the stage, or BuildCancelled.  From any thread; cheap enough for every
+  // facet.
   void Check(const char* stage) const;
 
  private:
@@ -39,6 +43,8 @@ class BuildLimits {
   double first_mib_;
   Stopwatch stopwatch_;
   PredictedCost predicted_;
+  bool is_cancellable_ = false;
+  unsigned cancellations_ = 0;  // before this build
   mutable std::atomic<unsigned> calls_{0};
 };
 

@@ -41,6 +41,7 @@ Command AddCompare(CLI::App* app);
 Command AddPlan(CLI::App* app);
 Command AddReproduce(CLI::App* app);
 Command AddDepth(CLI::App* app);
+Command AddMerge(CLI::App* app);
 Command AddMinkowski(CLI::App* app);
 
 // Reads an operand file as a solid.  What the user should know goes to

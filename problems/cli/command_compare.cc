@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <algorithm>
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -9,6 +8,8 @@
 
 #include "problems/cli/command.h"
 #include "problems/cli/comparison_jobs.h"
+#include "problems/cli/comparison_output.h"
+#include "problems/cli/shard.h"
 #include "problems/output/output_files.h"
 #include "problems/output/row_file.h"
 #include "problems/output/text.h"
@@ -38,31 +39,6 @@ struct Flags {
   bool keep_paths = false;
   bool no_cache = false;
 };
-
-// i/n: every n-th problem, beginning with the i-th.
-struct Shard {
-  int index = 0;
-  int count = 1;
-};
-
-Shard ParseShard(const std::string& text) {
-  const std::size_t slash = text.find('/');
-  Shard shard;
-  try {
-    if (slash != std::string::npos) {
-      std::size_t first = 0, second = 0;
-      shard.index = std::stoi(text.substr(0, slash), &first);
-      shard.count = std::stoi(text.substr(slash + 1), &second);
-      if (first == slash && second == text.size() - slash - 1 &&
-          0 <= shard.index && shard.index < shard.count) {
-        return shard;
-      }
-    }
-  } catch (const std::logic_error&) {  // no number, or too large
-  }
-  throw InputError("--shard: expected i/n with 0 <= i < n, found '" + text +
-                   "'");
-}
 
 // What is compared.
 struct Methods {
@@ -101,7 +77,7 @@ std::vector<ComparisonJob> Jobs(const Flags& flags, const Methods& methods,
   int problem = 0;
   for (const SceneSource& source : methods.sources) {
     for (int run = 0; run < flags.runs; ++run, ++problem) {
-      if (problem % shard.count != shard.index) continue;
+      if (!shard.Has(problem)) continue;
       const std::uint64_t seed = flags.seed + static_cast<std::uint64_t>(run);
       for (const TrajectoryProtocol& protocol : methods.protocols) {
         const std::vector<TrajectoryMetric> only = {TrajectoryMetric()};
@@ -115,21 +91,6 @@ std::vector<ComparisonJob> Jobs(const Flags& flags, const Methods& methods,
   return jobs;
 }
 
-std::string CellTable(const std::vector<ComparisonCell>& cells) {
-  TextStream text;
-  text << "scene, protocol, method: solved of runs (stalled) + free not "
-          "solved, claims but collides; median iterations, restoration "
-          "%\n";
-  for (const ComparisonCell& c : cells) {
-    text << c.scene << ", " << c.protocol << ", " << c.method << ": "
-         << c.solved << " of " << c.runs << " (" << c.stalled << ") + "
-         << c.free_only << ", " << c.claims_only << "; "
-         << Rounded(c.median_iterations, 4) << ", "
-         << Rounded(100.0 * c.restoration_share, 2) << '\n';
-  }
-  return text.str();
-}
-
 int Compare(const CLI::App& app, const Flags& flags) {
   if (flags.scenes.empty() == flags.rows.empty()) {
     throw InputError(
@@ -137,8 +98,7 @@ int Compare(const CLI::App& app, const Flags& flags) {
         "wrote");
   }
   const Shard shard = ParseShard(flags.shard);
-  const bool is_whole = shard.count == 1;
-  if (is_whole) RequireGnuplot();
+  if (shard.IsWhole()) RequireGnuplot();
   Methods methods;
   std::vector<Json> rows;
   if (flags.rows.empty()) {
@@ -155,9 +115,9 @@ int Compare(const CLI::App& app, const Flags& flags) {
   outputs.Declare(rows_path);
   std::string lines;
   std::unique_ptr<RowFile> file;
+  const Json settings = CommandSettings(app, methods.sources);
   if (flags.rows.empty()) {
-    file = std::make_unique<RowFile>(outputs.Target(rows_path),
-                                     CommandSettings(app, methods.sources));
+    file = std::make_unique<RowFile>(outputs.Target(rows_path), settings);
     RunJobs(Jobs(flags, methods, shard), UserCache(flags.no_cache),
             flags.keep_paths, file.get());
     lines = file->Content();
@@ -173,34 +133,15 @@ int Compare(const CLI::App& app, const Flags& flags) {
     outputs.Commit();
     if (file != nullptr) file->Finish();
   };
-  if (!is_whole) {
+  if (!shard.IsWhole()) {
+    const std::string record = path(kShardFile);
+    outputs.Declare(record);
+    outputs.Write(record, ShardText(shard, settings, rows.size()));
     commit();
-    std::cout << rows.size() << " rows; merge shards by concatenation, then "
-              << "compare --rows\n";
+    std::cout << rows.size() << " rows; join the parts with phongpd merge\n";
     return kDone;
   }
-  const std::vector<ComparisonCell> cells = Summarize(rows);
-  const auto write = [&](const std::string& name, const std::string& text) {
-    outputs.Declare(path(name));
-    outputs.Write(path(name), text);
-  };
-  write("summary.csv", ComparisonCsv(cells));
-  write("rows.csv", CompactCsv(rows));
-  for (const TrajectoryProtocol& protocol : TrajectoryProtocols()) {
-    const bool is_there = std::any_of(
-        cells.begin(), cells.end(),
-        [&](const ComparisonCell& c) { return c.protocol == protocol.name; });
-    if (!is_there || !protocol.uses_every_metric) continue;
-    const std::pair<const char*, const char*> measures[] = {
-        {"iterations", "iterations"},
-        {"jacobians", "evaluations/jacobian"},
-        {"seconds", "seconds/total"}};
-    for (const auto& [name, measure] : measures) {
-      write("profile-" + protocol.name + "-" + name + ".svg",
-            PerformanceProfile(rows, protocol.name, measure));
-    }
-  }
-  const std::string table = CellTable(cells);
+  const std::string table = WriteSummaries(rows, flags.output, &outputs);
   rows.clear();  // to destroy JSON takes memory: not after the outputs are
                  // there
   commit();
@@ -240,8 +181,8 @@ Command AddCompare(CLI::App* app) {
       ->type_name("S")
       ->capture_default_str();
   app->add_option("--shard", flags->shard,
-                  "Run the i-th of n parts and write rows.jsonl only; the "
-                  "parts are merged by concatenation, then --rows")
+                  "Run the i-th of n parts and write rows.jsonl and shard.json "
+                  "only; phongpd merge joins the parts")
       ->type_name("i/n")
       ->capture_default_str();
   app->add_option("--rows", flags->rows,
@@ -262,8 +203,7 @@ Command AddCompare(CLI::App* app) {
       "On a cluster:      sbatch --array=0-31 --wrap 'phongpd compare SCENES "
       "--shard $SLURM_ARRAY_TASK_ID/32 --output part$SLURM_ARRAY_TASK_ID'\n"
       "Parts that were cut off go on where they were when started again.\n"
-      "Then:              cat part*/rows.jsonl > all.jsonl && phongpd compare "
-      "--rows all.jsonl --output DIR");
+      "Then:              phongpd merge part* --output DIR");
   return [app, flags] { return Compare(*app, *flags); };
 }
 

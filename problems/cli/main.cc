@@ -85,6 +85,7 @@ int Run(int argc, char** argv) {
       AddOptimize);
   add("compare", "Compare penetration metrics in the trajectory optimiser",
       AddCompare);
+  add("merge", "Join the parts of a comparison", AddMerge);
   add("plan", "Plan a path, or prove that there is none", AddPlan);
   add("scenes", "List or write the procedural scenes", AddScenes);
   add("reproduce", "Pack a command with its inputs, to report what went wrong",

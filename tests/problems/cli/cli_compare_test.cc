@@ -24,19 +24,15 @@ TEST_F(CliCompare, ShardsMergeIntoTheWhole) {
   ASSERT_EQ(Run(what + "part0 --shard 0/2").code, 0);
   ASSERT_EQ(Run(what + "part1 --shard 1/2").code, 0);
   EXPECT_FALSE(std::filesystem::exists(Output("part0/summary.csv")));
-  WriteText("all.jsonl", Content(Output("part0/rows.jsonl")) +
-                             Content(Output("part1/rows.jsonl")));
-  const Outcome merged = Run("compare --rows ../all.jsonl --output merged");
+  const Outcome merged = Run("merge part1 part0 --output merged");
   ASSERT_EQ(merged.code, 0) << merged.err;
 
-  // Other rows come first, so they are compared as sets of lines.
   const auto rows = [&](const std::string& folder) {
     std::vector<std::string> lines;
     for (const std::string& line :
          Split(Content(Output(folder + "/rows.jsonl")), '\n')) {
       lines.push_back(WithoutSeconds(Json::parse(line)).dump());
     }
-    std::sort(lines.begin(), lines.end());
     return lines;
   };
   EXPECT_EQ(rows("whole").size(), 2U * 2U * 3U);
@@ -54,7 +50,6 @@ TEST_F(CliCompare, ShardsMergeIntoTheWhole) {
       for (const std::string& column : columns) text += column + ',';
       lines.push_back(text);
     }
-    std::sort(lines.begin(), lines.end());
     return lines;
   };
   EXPECT_EQ(cells("whole").size(), 1U + 2U * 3U);
@@ -66,6 +61,32 @@ TEST_F(CliCompare, ShardsMergeIntoTheWhole) {
     EXPECT_FALSE(Content(Output(std::string("merged/") + name)).empty())
         << name;
   }
+}
+
+TEST_F(CliCompare, PartsThatAreLostRepeatedOrCutShortAreNamed) {
+  const std::string what = "compare " + Scene(TwoObstacles()) +
+                           " --runs 3 --metrics euclidean --protocols "
+                           "straight-adaptive --output ";
+  for (const std::string part : {"0", "1", "2"}) {
+    ASSERT_EQ(Run(what + "../p" + part + " --shard " + part + "/3").code, 0);
+  }
+  ASSERT_EQ(Run(what + "../other --seed 9 --shard 1/3").code, 0);
+  ExpectRefused("merge ../p0 ../p2 --output out",
+                {"1/3", "all 3 parts, found 2"});
+  ExpectRefused("merge ../p0 ../p1 ../p2 ../p1 --output out",
+                {"p1", "1/3", "once"});
+  ExpectRefused("merge ../p0 ../other ../p2 --output out",
+                {"other", "another"});
+  ExpectRefused("merge ../p0 ../p1 ../none --output out", {"none/shard.json"});
+  const std::string whole = Content(folder_ / "p2/rows.jsonl");
+  WriteText("p2/rows.jsonl", "");
+  ExpectRefused("merge ../p0 ../p1 ../p2 --output out", {"p2/rows.jsonl"});
+  WriteText("p2/rows.jsonl", whole + whole);
+  ExpectRefused("merge ../p0 ../p1 ../p2 --output out",
+                {"p2/rows.jsonl", "expected 1 rows", "found 2"});
+  WriteText("p2/shard.json", "{\"shard\": \"7/3\"}");
+  ExpectRefused("merge ../p0 ../p1 ../p2 --output out", {"p2/shard.json"});
+  EXPECT_FALSE(std::filesystem::exists(Output("out")));
 }
 
 // Once left the directory behind, or called bad rows a fault of its own.

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "problems/output/output_files.h"
+
+namespace phongpd::cli {
+
+// Writes what a comparison leaves in `directory` besides rows.jsonl:
+// summary.csv, rows.csv and the performance profiles.  Returns the table for
+// people.  Throws InputError; RequireGnuplot comes first.
+std::string WriteSummaries(const std::vector<nlohmann::ordered_json>& rows,
+                           const std::string& directory, OutputFiles* outputs);
+
+}  // namespace phongpd::cli

@@ -1,0 +1,38 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Continuous penetration depth on exact contact spaces.
+
+A robot that translates among fixed obstacles, all closed triangle meshes.
+Lengths are in the user's unit throughout, or, where a docstring says so, a
+share of D, the world's one length.
+
+    import phongpd
+
+    part = phongpd.Solid.read("part.stl")
+    tool = phongpd.Solid.read("tool.stl")
+    print(phongpd.depth(tool, part))               # exact, as they lie
+    space = phongpd.ContactSpace.build(tool, part)
+    phong = phongpd.PhongMetric(space, smoothing_length=0.2)
+    answers = phong.query(points)                  # an N x 3 array
+
+    world = phongpd.World(tool, {"part": part})
+    run = world.optimize(start, goal)              # Ipopt, exactly judged
+    plan = world.plan(start, goal)                 # or a proof that there is none
+
+Whatever cannot be used raises InputError, a ValueError of one line: what,
+where, expected, found.
+"""
+
+from ._contact import ContactSpace, EuclideanMetric, PhongMetric, QueryResult, \
+    minkowski
+from ._depth import Depth, DepthQuery, depth
+from ._native import BuildCancelled, InputError, __version__
+from ._rows import NonPenetrationRows
+from ._solid import Solid
+from ._world import Diagnosis, Plan, Roadmap, Trajectory, World
+
+__all__ = [
+    "BuildCancelled", "ContactSpace", "Depth", "DepthQuery", "Diagnosis",
+    "EuclideanMetric", "InputError", "NonPenetrationRows", "PhongMetric",
+    "Plan", "QueryResult", "Roadmap", "Solid", "Trajectory", "World",
+    "__version__", "depth", "minkowski",
+]

@@ -1,0 +1,85 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What users give, as the arrays that the library takes."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ._native import InputError
+
+Floats = NDArray[np.float64]
+
+
+def _numbers(value: ArrayLike, name: str, shape: str) -> Floats:
+    try:
+        array = np.asarray(value)
+    except ValueError as error:  # rows of different lengths
+        raise InputError(
+            f"{name}: expected numbers of shape {shape}, found {error}"
+        ) from None
+    if array.dtype.kind not in "fiub":
+        raise InputError(
+            f"{name}: expected real numbers, found an array of {array.dtype}")
+    return np.ascontiguousarray(array, dtype=np.float64)
+
+
+def rows(value: ArrayLike, name: str, width: int) -> Floats:
+    """An array of shape (N, width); a single row is one of (1, width)."""
+    array = _numbers(value, name, f"(N, {width})")
+    if array.ndim == 1 and array.shape[0] == width:
+        array = array[np.newaxis, :]
+    if array.size == 0 and array.ndim <= 2:
+        return np.empty((0, width))
+    if array.ndim != 2 or array.shape[1] != width:
+        raise InputError(
+            f"{name}: expected shape (N, {width}), found {array.shape}")
+    return array
+
+
+def is_single(value: Any, width: int) -> bool:
+    return np.ndim(value) == 1 and np.shape(value) == (width,)
+
+
+def point(value: ArrayLike, name: str) -> tuple[float, float, float]:
+    """Three finite numbers."""
+    array = _numbers(value, name, "(3,)")
+    if array.shape != (3,) or not np.isfinite(array).all():
+        raise InputError(f"{name}: expected three finite numbers, found {value!r}")
+    return float(array[0]), float(array[1]), float(array[2])
+
+
+def whole_number(value: Any, name: str, least: int) -> int:
+    if isinstance(value, bool) or not hasattr(value, "__index__"):
+        raise InputError(f"{name}: expected a whole number, found {value!r}")
+    number = value.__index__()
+    if number < least:
+        raise InputError(
+            f"{name}: expected a whole number of at least {least}, "
+            f"found {number}")
+    return int(number)
+
+
+def seconds(value: Any, name: str) -> float:
+    """More than 0; None: no limit."""
+    if value is None:
+        return math.inf
+    number = float(value)
+    if not number > 0.0:
+        raise InputError(f"{name}: expected seconds, more than 0, found {value!r}")
+    return number
+
+
+def length(value: Any, name: str) -> str:
+    """A share of D as a number, "0.5unit" in the user's unit; None: default."""
+    if value is None:
+        return ""
+    if isinstance(value, str):
+        return value
+    number = float(value)
+    if not math.isfinite(number):
+        raise InputError(f"{name}: expected a finite length, found {value!r}")
+    return repr(number)

@@ -1,0 +1,85 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from . import _native
+from ._arguments import Floats, point, rows, whole_number
+from ._native import InputError
+from ._world import World
+
+
+class NonPenetrationRows:
+    """Constraint rows d(sample) >= margin of a path, for a solver of your own.
+
+    The path runs from start through N free waypoints to goal; samples are the
+    waypoints and `samples_per_segment` inner points of every segment.  d is
+    the signed metric: distance outside, minus the depth inside.  Values and
+    derivatives by the waypoints' 3N coordinates; the pattern never changes.
+
+        rows = phongpd.NonPenetrationRows(world, start, goal, waypoints=20)
+        scipy.optimize.minimize(f, u0, method="SLSQP", constraints={
+            "type": "ineq", "fun": lambda u: rows.value(u) - margin,
+            "jac": rows.jacobian})
+
+    A Phong depth follows a branch.  Branches are chosen at the first u that is
+    asked, and advanced by `accept` alone, best once an iteration: between two
+    calls values are one smooth function.  `start` forgets them.
+    """
+
+    def __init__(self, world: World, start: ArrayLike, goal: ArrayLike, *,
+                 waypoints: int = 40, samples_per_segment: int = 4,
+                 metric: str = "phong@0.2", rows_per_sample: int = 1) -> None:
+        self._native = _native.Rows(
+            world._native, metric, point(start, "start"), point(goal, "goal"),
+            whole_number(waypoints, "waypoints", 1),
+            whole_number(samples_per_segment, "samples_per_segment", 0),
+            whole_number(rows_per_sample, "rows_per_sample", 1))
+        self.pattern: tuple[NDArray[np.int32], NDArray[np.int32]] = \
+            self._native.sparsity()
+        """Row and column of each entry of the Jacobian, zero-based."""
+        self._last: tuple[bytes, tuple[Floats, Floats]] | None = None
+
+    @property
+    def shape(self) -> tuple[int, int]:
+        """Rows, and variables: 3 a waypoint, x y z."""
+        return self._native.rows, self._native.variables
+
+    def start(self, u: ArrayLike) -> None:
+        """Chooses the branches anew: the least depth at every sample."""
+        self._last = None
+        self._native.start(self._waypoints(u))
+
+    def accept(self, u: ArrayLike) -> None:
+        """u is the solver's new iterate: the branches follow it there."""
+        self._last = None
+        self._native.accept(self._waypoints(u))
+
+    def value(self, u: ArrayLike) -> Floats:
+        """(rows,): d at every sample, user's unit."""
+        return self._evaluate(u)[0]
+
+    def entries(self, u: ArrayLike) -> Floats:
+        """Derivatives, one for each place of `pattern`."""
+        return self._evaluate(u)[1]
+
+    def jacobian(self, u: ArrayLike) -> Floats:
+        """(rows, variables), dense; sparse solvers take `entries`."""
+        dense = np.zeros(self.shape)
+        dense[self.pattern] = self.entries(u)
+        return dense
+
+    def _waypoints(self, u: ArrayLike) -> Floats:
+        if np.size(u) != self.shape[1]:
+            raise InputError(f"waypoints: expected {self.shape[1]} numbers, "
+                             f"found {np.size(u)}")
+        return rows(np.reshape(u, (-1, 3)), "waypoints", 3)
+
+    def _evaluate(self, u: ArrayLike) -> tuple[Floats, Floats]:
+        # Solvers ask for value and derivative at the same u.
+        waypoints = self._waypoints(u)
+        key = waypoints.tobytes()
+        if self._last is None or self._last[0] != key:
+            self._last = key, self._native.evaluate(waypoints)
+        return self._last[1]

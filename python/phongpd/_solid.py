@@ -1,0 +1,108 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+from __future__ import annotations
+
+import os
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from . import _native
+from ._arguments import Floats, rows
+from ._native import InputError
+
+
+class Solid:
+    """A closed triangle mesh that was checked once and never changes.
+
+    Equal vertices are joined where that closes the surface, shells that face
+    inwards are turned; `warnings` says so.  Anything that is no solid (open,
+    not manifold, self-intersecting within a component, no volume) raises
+    InputError with counts.  Components may overlap: their union is meant.
+    """
+
+    def __init__(self, vertices: ArrayLike, triangles: ArrayLike,
+                 name: str = "solid") -> None:
+        """vertices: (N, 3), any unit; triangles: (M, 3), whole numbers."""
+        corners = np.asarray(triangles)
+        if corners.dtype.kind not in "iu" or corners.ndim != 2 \
+                or corners.shape[1] != 3:
+            raise InputError(
+                f"{name}: triangles: expected whole numbers of shape (M, 3), "
+                f"found {corners.dtype} of shape {corners.shape}")
+        limit = np.iinfo(np.int32).max
+        if corners.size and (corners.max() > limit or corners.min() < 0):
+            raise InputError(
+                f"{name}: triangles: expected existing vertices, found "
+                f"{corners.min()} to {corners.max()}")
+        self._native = _native.Solid.from_arrays(
+            rows(vertices, f"{name}: vertices", 3),
+            np.ascontiguousarray(corners, dtype=np.int32), str(name))
+
+    @classmethod
+    def _of(cls, native: _native.Solid) -> Solid:
+        solid = cls.__new__(cls)
+        solid._native = native
+        return solid
+
+    @classmethod
+    def read(cls, path: str | os.PathLike[str], name: str | None = None) -> Solid:
+        """Of an OFF, OBJ, STL or PLY file."""
+        text = os.fspath(path)
+        return cls._of(_native.Solid.read(text, text if name is None else name))
+
+    @classmethod
+    def from_trimesh(cls, mesh: Any, name: str = "solid") -> Solid:
+        """Of anything with `vertices` and `faces`, as trimesh and Open3D's
+        tensor meshes have."""
+        return cls(np.asarray(mesh.vertices), np.asarray(mesh.faces), name)
+
+    @property
+    def name(self) -> str:
+        """Stands in messages about it."""
+        return self._native.name
+
+    @property
+    def vertices(self) -> Floats:
+        """(N, 3), read-only, no copy."""
+        return self._native.vertices
+
+    @property
+    def triangles(self) -> NDArray[np.int32]:
+        """(M, 3), counter-clockwise seen from outside; read-only, no copy."""
+        return self._native.triangles
+
+    @property
+    def volume(self) -> float:
+        """Of the components, each counted alone; user's unit cubed."""
+        return self._native.volume
+
+    @property
+    def components(self) -> int:
+        return self._native.components
+
+    @property
+    def warnings(self) -> list[str]:
+        """What was done to it, and what is no error but worth knowing."""
+        return self._native.warnings
+
+    def write(self, path: str | os.PathLike[str]) -> None:
+        """OFF, OBJ, STL or PLY by the ending."""
+        self._native.write(os.fspath(path))
+
+    def __repr__(self) -> str:
+        return (f"<Solid {self.name!r}: {len(self.triangles)} triangles, "
+                f"volume {self.volume:g}>")
+
+
+def as_solid(value: Any, name: str) -> Solid:
+    """A Solid, a path, or an object with vertices and faces."""
+    if isinstance(value, Solid):
+        return value
+    if isinstance(value, (str, os.PathLike)):
+        return Solid.read(value)
+    if hasattr(value, "vertices") and hasattr(value, "faces"):
+        return Solid.from_trimesh(value, name)
+    raise InputError(
+        f"{name}: expected a Solid, a file or a mesh with vertices and faces, "
+        f"found {type(value).__name__}")

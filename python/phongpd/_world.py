@@ -1,0 +1,279 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any, Tuple
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from . import _native
+from ._arguments import Floats, length, point, rows, seconds, whole_number
+from ._contact import ContactSpace
+from ._native import InputError
+from ._solid import Solid, as_solid
+
+_Point = Tuple[float, float, float]
+
+
+@dataclass(frozen=True)
+class Diagnosis:
+    """Is a position free, and if not, why; exact, of the solids themselves."""
+
+    free: bool
+    contacts: list[dict[str, Any]]
+    """For each obstacle in the way: its name, a translation `depth_at_most`
+    along `direction` that leaves it."""
+    excesses: list[dict[str, Any]]
+    """For each bound that is not kept: axis, is_maximum, bound, by."""
+
+
+@dataclass(frozen=True)
+class Trajectory:
+    """One optimised trajectory; the row of `phongpd optimize` as `row`."""
+
+    status: str
+    """"solved" and what else there is: see `reason`."""
+    reason: str
+    free: bool
+    """The exact judge's word on the whole path."""
+    path: Floats = field(repr=False)
+    """(K, 3), from start to goal; empty without any."""
+    objective: float
+    clearance: float
+    """From contact and bounds, of the whole path; user's unit."""
+    iterations: int
+    seconds: float
+    row: dict[str, Any] = field(repr=False)
+
+    def _repr_html_(self) -> str:
+        return _table("trajectory", self, self.row.get("method"))
+
+
+@dataclass(frozen=True)
+class Plan:
+    """One answer of a planner; the row of `phongpd plan` as `row`."""
+
+    status: str
+    reason: str
+    solved: bool
+    """With a path that is free by exact tests."""
+    infeasible: bool
+    """Proved: start and goal lie in different cells of free space."""
+    path: Floats = field(repr=False)
+    """(K, 3); empty without any."""
+    length: float
+    clearance: float
+    seconds: float
+    row: dict[str, Any] = field(repr=False)
+
+    def _repr_html_(self) -> str:
+        return _table("plan", self, self.row.get("planner"))
+
+
+class World:
+    """A robot that translates among obstacles, perhaps within bounds.
+
+    Contact spaces are built when something asks for them, once, and kept;
+    moving start and goal builds nothing.  Safe to use from several threads;
+    optimisations and plans of one world wait for each other.
+    """
+
+    def __init__(self, robot: Any, obstacles: Any, *,
+                 bounds: ArrayLike | None = None, name: str = "world",
+                 cache: bool = False) -> None:
+        """robot: Solid, file or mesh.  obstacles: one, or a dict of them by
+        name.  bounds: (2, 3), least and greatest position of the robot; None:
+        none.  cache: keep contact spaces in the user's cache folder."""
+        if not isinstance(obstacles, Mapping):
+            obstacles = {"obstacle": obstacles}
+        named = [(str(key), as_solid(value, str(key))._native)
+                 for key, value in obstacles.items()]
+        box = None
+        if bounds is not None:
+            corners = rows(bounds, "bounds", 3)
+            if len(corners) != 2:
+                raise InputError(
+                    f"bounds: expected shape (2, 3), found {corners.shape}")
+            box = (point(corners[0], "bounds"), point(corners[1], "bounds"))
+        self._open(_native.Scene.make(as_solid(robot, "robot")._native, named,
+                                      box, name), cache)
+
+    def _open(self, scene: Any, cache: bool) -> None:
+        self._native = _native.World(scene, cache)
+
+    @classmethod
+    def load(cls, scene: str | os.PathLike[str], *, seed: int | None = None,
+             cache: bool = False) -> World:
+        """Of a scene file, or of a family with knobs as the command line takes
+        them: "u_axis", "plate:thickness=0.02"; seed: of a family."""
+        world = cls.__new__(cls)
+        world._open(_native.Scene.load(os.fspath(scene), seed), cache)
+        return world
+
+    @property
+    def name(self) -> str:
+        return self._native.scene.name
+
+    @property
+    def robot(self) -> Solid:
+        return Solid._of(self._native.scene.robot)
+
+    @property
+    def obstacles(self) -> list[Solid]:
+        return [Solid._of(solid) for solid in self._native.scene.obstacles]
+
+    @property
+    def bounds(self) -> Floats | None:
+        """(2, 3), or None."""
+        return self._native.scene.bounds
+
+    @property
+    def start(self) -> Floats:
+        """Of the scene it was loaded from."""
+        return self._native.scene.start
+
+    @property
+    def goal(self) -> Floats:
+        return self._native.scene.goal
+
+    @property
+    def length(self) -> float:
+        """D, that shares refer to: the diagonal of what the obstacles' contact
+        space takes up; user's unit."""
+        return self._native.length
+
+    @property
+    def warnings(self) -> list[str]:
+        return self._native.scene.warnings
+
+    def diagnose(self, q: ArrayLike) -> Diagnosis:
+        """Exact, on the solids; builds nothing."""
+        return Diagnosis(**self._native.diagnose(point(q, "q")))
+
+    def contact_spaces(self) -> list[ContactSpace]:
+        """That of all obstacles together; none where none can be touched
+        within the bounds."""
+        return [ContactSpace(space) for space in self._native.contact_spaces()]
+
+    def is_free(self, points: ArrayLike) -> NDArray[np.bool_]:
+        """(N,): does the robot touch nothing there?  Exact."""
+        places = rows(points, "points", 3)
+        return self._native.are_free(places, places).view(np.bool_)
+
+    def is_motion_free(self, a: ArrayLike, b: ArrayLike) -> NDArray[np.bool_]:
+        """(N,): is every point of the straight motion a[i] -> b[i] free?
+        Exact, without sampling."""
+        begins, ends = rows(a, "a", 3), rows(b, "b", 3)
+        if len(begins) != len(ends):
+            raise InputError(f"b: expected {len(begins)} rows as in a, "
+                             f"found {len(ends)}")
+        return self._native.are_free(begins, ends).view(np.bool_)
+
+    def clearance(self, points: ArrayLike) -> Floats:
+        """(N,): distance to contact and bounds; 0 where not free."""
+        return self._native.clearances(rows(points, "points", 3))
+
+    def optimize(self, start: ArrayLike | None = None,
+                 goal: ArrayLike | None = None, *, metric: str = "",
+                 margin: float | str | None = None, waypoints: int = 0,
+                 seed: int = 1, max_seconds: float | None = None,
+                 straight: bool = False) -> Trajectory:
+        """A short smooth trajectory by Ipopt, judged exactly.
+
+        start, goal: positions; the scene's own where it was loaded.
+        metric: "phong@0.2" (default), "phong@L" with a smoothing length,
+        "euclidean".  margin: distance kept, a share of D or "0.5unit".
+        waypoints: free ones; 0: the scene's.  straight: start from the line
+        even where it collides, as comparisons do.
+        """
+        row = json.loads(self._native.optimize(
+            *self._ends(start, goal), metric, length(margin, "margin"),
+            whole_number(waypoints, "waypoints", 0),
+            whole_number(seed, "seed", 0), seconds(max_seconds, "max_seconds"),
+            straight))
+        return Trajectory(
+            status=row["status_class"], reason=row["reason"],
+            free=row["collision_free"], path=_path(row),
+            objective=row["objective"], clearance=row["clearance"],
+            iterations=row["iterations"], seconds=row["seconds"]["total"],
+            row=row)
+
+    def plan(self, start: ArrayLike | None = None,
+             goal: ArrayLike | None = None, *,
+             planner: str = "contact-surface", retraction: str = "phong",
+             clearance: float | str | None = None, max_seconds: float = 5.0,
+             seed: int = 1) -> Plan:
+        """A path that is free by exact tests, or why there is none.
+
+        planner: "contact-surface" is complete, deterministic and proves
+        infeasibility; the others sample (names: `phongpd plan --help`), for
+        `max_seconds`, by `seed`; retraction-* carry samples to the contact
+        space by `retraction`.  clearance: to seek where there is room, a share
+        of D or "0.5unit".
+        """
+        row = json.loads(self._native.plan(
+            *self._ends(start, goal), planner, retraction,
+            length(clearance, "clearance"), seconds(max_seconds, "max_seconds"),
+            whole_number(seed, "seed", 0)))
+        return Plan(
+            status=row["status"], reason=row["reason"], solved=row["solved"],
+            infeasible=row["infeasible_proved"], path=_path(row),
+            length=row["path_length"], clearance=row["clearance"],
+            seconds=row["seconds"]["solve"], row=row)
+
+    def roadmap(self) -> Roadmap:
+        """For many queries; building it costs what ten to three hundred calls
+        of plan do."""
+        return Roadmap(self)
+
+    def _ends(self, start: ArrayLike | None,
+              goal: ArrayLike | None) -> tuple[_Point, _Point]:
+        return (point(self.start if start is None else start, "start"),
+                point(self.goal if goal is None else goal, "goal"))
+
+    def __repr__(self) -> str:
+        return f"<World {self.name!r}: D {self.length:g}>"
+
+
+class Roadmap:
+    """ContactSurfacePlanner for many queries: as complete, and with the same
+    proofs.  Thread-safe."""
+
+    def __init__(self, world: World) -> None:
+        self._native = _native.Roadmap(world._native)
+
+    @property
+    def nodes(self) -> int:
+        return self._native.nodes
+
+    @property
+    def edges(self) -> int:
+        return self._native.edges
+
+    def plan(self, start: ArrayLike, goal: ArrayLike) -> Plan:
+        found = self._native.plan(point(start, "start"), point(goal, "goal"))
+        return Plan(
+            status=found["status"], reason=found["reason"],
+            solved=found["status"] == "solved",
+            infeasible=found["status"] == "infeasible_proved",
+            path=found["path"], length=found["length"],
+            clearance=found["clearance"], seconds=found["seconds"], row={})
+
+
+def _path(row: dict[str, Any]) -> Floats:
+    return np.asarray(row["path"], dtype=np.float64).reshape(-1, 3)
+
+
+def _table(what: str, answer: Any, how: str | None) -> str:
+    cells = "".join(
+        f"<tr><th style='text-align:left'>{key}</th><td>{value}</td></tr>"
+        for key, value in (
+            ("status", answer.status), ("by", how or ""),
+            ("points", len(answer.path)),
+            ("clearance", f"{answer.clearance:.4g}"),
+            ("seconds", f"{answer.seconds:.3g}")))
+    return f"<table><caption>{what}</caption>{cells}</table>"

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/vector.h>
+
+#include "core/mesh/mesh_io.h"
+#include "python/src/arrays.h"
+#include "python/src/bindings.h"
+
+namespace phongpd::python {
+namespace {
+
+Solid Checked(const TriangleMesh& mesh, const std::string& name) {
+  Solid solid;
+  solid.name = name;
+  solid.mesh = std::make_shared<const TriangleMesh>(
+      MakeSolid(mesh, name, &solid.report));
+  return solid;
+}
+
+Solid FromArrays(const Rows3& vertices, const Corners& triangles,
+                 const std::string& name) {
+  TriangleMesh mesh;
+  mesh.vertices = ToPoints(vertices);
+  mesh.triangles.resize(triangles.shape(0));
+  for (size_t i = 0; i < mesh.triangles.size(); ++i) {
+    for (size_t k = 0; k < 3; ++k) mesh.triangles[i][k] = triangles(i, k);
+  }
+  const nb::gil_scoped_release release;
+  return Checked(mesh, name);
+}
+
+Solid Read(const std::string& path, const std::string& name) {
+  const nb::gil_scoped_release release;
+  return Checked(ReadMesh(path), name);
+}
+
+}  // namespace
+
+void BindSolid(nb::module_& module) {
+  nb::class_<Solid>(module, "Solid")
+      .def_static("from_arrays", &FromArrays)
+      .def_static("read", &Read)
+      .def("write",
+           [](const Solid& solid, const std::string& path) {
+             WriteMesh(*solid.mesh, path);
+           })
+      .def_prop_ro("name", [](const Solid& solid) { return solid.name; })
+      .def_prop_ro("vertices",
+                   [](nb::handle self) {
+                     return View(nb::cast<const Solid&>(self).mesh->vertices,
+                                 self);
+                   })
+      .def_prop_ro("triangles",
+                   [](nb::handle self) {
+                     return View(nb::cast<const Solid&>(self).mesh->triangles,
+                                 self);
+                   })
+      .def_prop_ro("volume",
+                   [](const Solid& solid) { return solid.report.volume; })
+      .def_prop_ro("components",
+                   [](const Solid& solid) { return solid.report.components; })
+      .def_prop_ro("warnings", [](const Solid& solid) {
+        return NamedWarnings(solid.report, solid.name);
+      });
+}
+
+}  // namespace phongpd::python

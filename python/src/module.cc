@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// phongpd._native: the library as the Python files of the package need it.
+// Arguments come checked and of the right type from there; what users read is
+// written there, too.
+#include <nanobind/nanobind.h>
+
+#include "core/mesh/mesh_error.h"
+#include "core/minkowski/build_cancellation.h"
+#include "planners/ompl/ompl_planning.h"
+#include "python/src/bindings.h"
+
+NB_MODULE(_native, module) {
+  namespace nb = nanobind;
+  nb::exception<phongpd::InputError>(module, "InputError", PyExc_ValueError);
+  nb::exception<phongpd::BuildCancelled>(module, "BuildCancelled");
+  module.attr("__version__") = PHONGPD_VERSION;
+  phongpd::SilenceOmpl();
+  phongpd::python::BindSolid(module);
+  phongpd::python::BindContactSpace(module);
+  phongpd::python::BindDepth(module);
+  phongpd::python::BindWorld(module);
+}

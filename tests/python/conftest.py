@@ -1,0 +1,40 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+import numpy as np
+import phongpd
+import pytest
+
+# Corners by x, y, z as bits; two triangles a face, seen from outside.
+BOX_FACES = [[0, 1, 3], [0, 3, 2], [4, 6, 7], [4, 7, 5], [0, 4, 5], [0, 5, 1],
+             [2, 3, 7], [2, 7, 6], [0, 2, 6], [0, 6, 4], [1, 5, 7], [1, 7, 3]]
+
+
+def box_arrays(low, high):
+    ends = np.array([low, high], dtype=float)
+    vertices = np.array([[ends[i >> 2, 0], ends[i >> 1 & 1, 1], ends[i & 1, 2]]
+                         for i in range(8)])
+    return vertices, np.array(BOX_FACES)
+
+
+def make_box(low, high, name="box"):
+    return phongpd.Solid(*box_arrays(low, high), name)
+
+
+@pytest.fixture
+def robot():
+    return make_box((0, 0, 0), (1, 1, 1), "robot")
+
+
+@pytest.fixture
+def obstacle():
+    return make_box((0.8, 0, 0), (2, 1, 1), "obstacle")
+
+
+@pytest.fixture
+def space(robot, obstacle):
+    return phongpd.ContactSpace.build(robot, obstacle)
+
+
+@pytest.fixture
+def world(robot, obstacle):
+    return phongpd.World(robot, {"obstacle": obstacle},
+                         bounds=[[-3, -3, -3], [4, 4, 4]])
