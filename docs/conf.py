@@ -27,7 +27,8 @@ breathe_default_members = ("members",)
 
 # The compiled half is not needed to read docstrings.
 autodoc_mock_imports = ["phongpd._native"]
-autodoc_typehints = "description"
+autodoc_typehints = "signature"
+autoclass_content = "both"
 autodoc_member_order = "bysource"
 
 html_theme = "furo"
