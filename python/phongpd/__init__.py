@@ -3,7 +3,7 @@
 
 A robot that translates among fixed obstacles, all closed triangle meshes.
 Lengths are in the user's unit throughout, or, where a docstring says so, a
-share of D, the world's one length.
+share of D, the world's one length::
 
     import phongpd
 

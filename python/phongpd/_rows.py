@@ -16,12 +16,12 @@ class NonPenetrationRows:
     The path runs from start through N free waypoints to goal; samples are the
     waypoints and `samples_per_segment` inner points of every segment.  d is
     the signed metric: distance outside, minus the depth inside.  Values and
-    derivatives by the waypoints' 3N coordinates; the pattern never changes.
+    derivatives by the waypoints' 3N coordinates; the pattern never changes::
 
         rows = phongpd.NonPenetrationRows(world, start, goal, waypoints=20)
-        scipy.optimize.minimize(f, u0, method="SLSQP", constraints={
-            "type": "ineq", "fun": lambda u: rows.value(u) - margin,
-            "jac": rows.jacobian})
+        keep = {"type": "ineq", "fun": lambda u: rows.value(u) - margin,
+                "jac": rows.jacobian}
+        scipy.optimize.minimize(f, u0, method="SLSQP", constraints=keep)
 
     A Phong depth follows a branch.  Branches are chosen at the first u that is
     asked, and advanced by `accept` alone, best once an iteration: between two

@@ -1,0 +1,14 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
+# docs.sh: builds the pages into build/site/html, a folder that any web server
+# serves and that needs no network.  Warnings are errors.
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+
+scripts/setup.sh doxygen python3-sphinx python3-myst-parser python3-breathe \
+  furo python3-numpy
+mkdir -p build/site
+doxygen docs/Doxyfile
+/usr/bin/python3 -m sphinx -q -W --keep-going -b html -d build/site/doctrees \
+  docs build/site/html
+echo "docs: build/site/html/index.html"
