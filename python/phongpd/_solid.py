@@ -53,8 +53,7 @@ class Solid:
 
     @classmethod
     def from_trimesh(cls, mesh: Any, name: str = "solid") -> Solid:
-        """Of anything with `vertices` and `faces`, as trimesh and Open3D's
-        tensor meshes have."""
+        """Of anything with `vertices` and `faces`, as trimesh has them."""
         return cls(np.asarray(mesh.vertices), np.asarray(mesh.faces), name)
 
     @property
