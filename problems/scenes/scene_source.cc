@@ -10,6 +10,7 @@
 
 #include "core/contact/byte_stream.h"
 #include "core/contact/content_hash.h"
+#include "problems/output/nearest_name.h"
 #include "problems/output/text.h"
 #include "problems/scenes/scene_library.h"
 
@@ -25,10 +26,13 @@ SceneSource::SceneSource(const std::string& text, const std::string& root)
                   [&](const SceneFamily& f) { return f.name == family_; });
   if (!is_known) {
     if (!std::filesystem::exists(text)) {
+      std::vector<std::string> names;
+      for (const SceneFamily& family : families) names.push_back(family.name);
       throw InputError(text +
                        ": expected a scene file or a family with knobs, "
                        "FAMILY:key=value,...; found neither (see phongpd "
-                       "scenes list)");
+                       "scenes list)" +
+                       DidYouMean(family_, names));
     }
     is_file_ = true;
     label_ = std::filesystem::path(text).stem().string();

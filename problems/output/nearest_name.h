@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace phongpd {
+
+// "; did you mean NAME?" with the name that takes the fewest insertions,
+// removals, changes and swaps of neighbours (the first of several), if these
+// are at most a third of the word; else empty.
+std::string DidYouMean(const std::string& word,
+                       const std::vector<std::string>& names);
+
+}  // namespace phongpd
