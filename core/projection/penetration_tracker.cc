@@ -3,12 +3,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <string>
 #include <utility>
 
 #include "core/mesh/mesh_error.h"
 #include "core/projection/contact_surface.h"
+#include "core/projection/near_triangles.h"
+#include "core/projection/surface_search.h"
+#include "core/projection/surface_walk.h"
 
 namespace phongpd {
 namespace {
@@ -24,6 +28,8 @@ constexpr double kBelieveLength = 0.03;
 constexpr double kSame = 1.0 + 1e-12;
 // Of a step, so that rounding does not exceed its bound.
 constexpr double kSlack = 1.0 - 1e-12;
+// Triangles of a descent: more are rare.
+constexpr std::size_t kUsualDescent = 64;
 
 double Length(const SurfaceWalk& walk, const MeshPoint& start,
               const SurfaceWay& way) {
@@ -66,80 +72,119 @@ const char* Name(TrackerStatus status) {
   return "invalid";
 }
 
+struct PenetrationTracker::State::Data {
+  std::shared_ptr<const Impl> owner;
+  bool inside = false;  // after the last step; only then the rest counts
+  Vector3d q = Vector3d::Zero();
+  double magnitude = 0.0;
+  // Frame of SurfaceWalk.
+  Vector3d x = Vector3d::Zero();
+  double depth = 0.0;
+  MeshPoint contact;
+  MeshPoint nearest;  // the closest point of all
+  NearTriangles near;
+  // The last search: where q was, how far it may move until the answer is
+  // looked for again, and the way that was found; none: no other place of the
+  // piece is better than the end of the descent.
+  bool searched = false;
+  Vector3d searched_at = Vector3d::Zero();
+  double believed = 0.0;
+  SurfaceWay way;
+  std::size_t on_way = 0;
+  // Memory that steps use again.
+  SurfaceWay descent;
+  SurfaceSearch search;
+};
+
+using State = PenetrationTracker::State;
+
+State::State() = default;
+State::~State() = default;
+State::State(const State& other)
+    : data_(other.data_ ? std::make_unique<Data>(*other.data_) : nullptr) {}
+State& State::operator=(const State& other) {
+  State copy(other);
+  data_ = std::move(copy.data_);
+  return *this;
+}
+State::State(State&&) noexcept = default;
+State& State::operator=(State&&) noexcept = default;
+
 struct PenetrationTracker::Impl {
+  using Data = State::Data;
+
   Impl(const ContactSpace& space, const PenetrationTrackerOptions& o)
       : surface(space), walk(space), options(o) {}
 
   // The ball of all depth around an interior point holds no surface.
-  bool IsInside(const Vector3d& q, const State& state) const {
-    if (state.inside_) {
-      const double step = (walk.bvh().ToFrame(q) - state.x_).norm();
-      if (step < 0.999 * state.depth_ - 1e-12) return true;
+  bool IsInside(const Vector3d& q, const Data& state) const {
+    if (state.inside) {
+      const double step = (walk.bvh().ToFrame(q) - state.x).norm();
+      if (step < 0.999 * state.depth - 1e-12) return true;
     }
     return surface.Locate(q) == Location::kInside;
   }
 
   // Inside for the first time: the closest point.
-  void Enter(const Vector3d& x, State* state) const {
+  void Enter(const Vector3d& x, Data* state) const {
     const SurfaceFoot nearest = walk.FindClosest(x, {});
-    state->contact_ = nearest.point;
-    state->nearest_ = nearest.point;
-    state->depth_ = std::sqrt(nearest.squared_distance);
+    state->contact = nearest.point;
+    state->nearest = nearest.point;
+    state->depth = std::sqrt(nearest.squared_distance);
     Forget(state);
   }
 
-  static void Forget(State* state) {
-    state->searched_ = false;
-    state->way_.clear();
-    state->on_way_ = 0;
+  static void Forget(Data* state) {
+    state->searched = false;
+    state->way.clear();
+    state->on_way = 0;
   }
 
   // The way p has to take, from the last search or a new one; empty: none.
   void Choose(const Vector3d& x, const SurfaceFoot& nearest_of_own,
-              State* state) const {
-    double radius = options.ratio * state->depth_;
+              Data* state) const {
+    double radius = options.ratio * state->depth;
     const double own = std::sqrt(nearest_of_own.squared_distance);
     if (own > radius) radius = options.ratio * own;
-    const bool in_ball = (walk.At(state->contact_) - x).norm() <= radius;
-    const bool on_way = state->on_way_ < state->way_.size();
-    if (state->searched_ && (on_way || in_ball) &&
-        (x - state->searched_at_).norm() <= state->believed_) {
+    const bool in_ball = (walk.At(state->contact) - x).norm() <= radius;
+    const bool on_way = state->on_way < state->way.size();
+    if (state->searched && (on_way || in_ball) &&
+        (x - state->searched_at).norm() <= state->believed) {
       return;
     }
     Forget(state);
     const SurfaceBall ball{x, radius};
-    MeshPoint start = state->contact_;
-    if (!in_ball && state->search_.FindBall(walk, ball, start, &state->way_)) {
-      start = state->way_.back();
+    MeshPoint start = state->contact;
+    if (!in_ball && state->search.FindBall(walk, ball, start, &state->way)) {
+      start = state->way.back();
     }
-    state->search_.FindInside(walk, ball, start, nearest_of_own.point,
-                              &state->way_);
-    state->searched_ = true;
-    state->searched_at_ = x;
-    const double length = Length(walk, state->contact_, state->way_);
-    state->believed_ = std::max(kBelieveWay * own, kBelieveLength * length);
+    state->search.FindInside(walk, ball, start, nearest_of_own.point,
+                             &state->way);
+    state->searched = true;
+    state->searched_at = x;
+    const double length = Length(walk, state->contact, state->way);
+    state->believed = std::max(kBelieveWay * own, kBelieveLength * length);
     // The end of the descent may be what the search found.
-    const double end = (walk.At(state->way_.back()) - x).squaredNorm();
-    const double descended =
-        (walk.At(state->descent_.back()) - x).squaredNorm();
+    const double end = (walk.At(state->way.back()) - x).squaredNorm();
+    const double descended = (walk.At(state->descent.back()) - x).squaredNorm();
     if (in_ball && descended <= end * kSame) {
-      state->way_.clear();
-      state->believed_ = kBelieveNone * own;
+      state->way.clear();
+      state->believed = kBelieveNone * own;
     }
   }
 
   // Moves the contact; true if it is where it wants to be.
-  bool Move(const Vector3d& x, State* state, double* moved) const {
-    const double step = (x - state->x_).norm();
+  bool Move(const Vector3d& x, Data* state, double* moved) const {
+    const double step = (x - state->x).norm();
     const double budget = kSlack * options.speed * step;
     *moved = 0.0;
-    SurfaceFoot local = walk.Descend(state->contact_, x, &state->descent_);
-    SurfaceFoot seed = walk.FootOn(state->nearest_.triangle, x);
+    SurfaceFoot local = walk.Descend(state->contact, x, &state->descent);
+    SurfaceFoot seed = walk.FootOn(state->nearest.triangle, x);
     if (local.squared_distance <= seed.squared_distance) seed = local;
-    const SurfaceFoot nearest = state->near_.FindClosest(walk, x, seed, step);
-    state->nearest_ = nearest.point;
-    state->depth_ = std::sqrt(nearest.squared_distance);
-    const int component = walk.component(state->contact_.triangle);
+    const SurfaceFoot nearest = state->near.FindClosest(walk, x, seed, step);
+    state->nearest = nearest.point;
+    state->depth = std::sqrt(nearest.squared_distance);
+    const int component = walk.component(state->contact.triangle);
     const SurfaceFoot own = walk.component(nearest.point.triangle) == component
                                 ? nearest
                                 : walk.FindClosest(x, local, component);
@@ -148,17 +193,17 @@ struct PenetrationTracker::Impl {
     } else {
       Choose(x, own, state);
     }
-    if (state->on_way_ < state->way_.size()) {
+    if (state->on_way < state->way.size()) {
       *moved =
-          walk.Advance(state->way_, budget, &state->on_way_, &state->contact_);
-      if (state->on_way_ < state->way_.size()) return false;
+          walk.Advance(state->way, budget, &state->on_way, &state->contact);
+      if (state->on_way < state->way.size()) return false;
       Forget(state);
-      walk.Descend(state->contact_, x, &state->descent_);
+      walk.Descend(state->contact, x, &state->descent);
     }
     std::size_t piece = 0;
-    *moved += walk.Advance(state->descent_, budget - *moved, &piece,
-                           &state->contact_);
-    return piece == state->descent_.size();
+    *moved +=
+        walk.Advance(state->descent, budget - *moved, &piece, &state->contact);
+    return piece == state->descent.size();
   }
 
   Vector3d ContactPoint(const MeshPoint& p) const {
@@ -178,30 +223,33 @@ const PenetrationTrackerOptions& PenetrationTracker::options() const {
   return impl_->options;
 }
 
-TrackerResult PenetrationTracker::Step(const Vector3d& q, State* state) const {
+TrackerResult PenetrationTracker::Step(const Vector3d& q, State* of) const {
   const Impl& impl = *impl_;
   TrackerResult result;
   if (!impl.surface.Accepts(q)) return result;
-  if (state->owner_ != impl_) {
-    *state = State();
-    state->owner_ = impl_;
+  if (!of->data_ || of->data_->owner != impl_) {
+    of->data_ = std::make_unique<State::Data>();
+    of->data_->owner = impl_;
+    of->data_->descent.reserve(kUsualDescent);
   }
+  State::Data* const state = of->data_.get();
   if (!impl.IsInside(q, *state)) {
-    const double bound =
-        (impl.options.speed + 1.0) * (q - state->q_).stableNorm();
-    result.status = state->inside_ && state->magnitude_ > bound
-                        ? TrackerStatus::kLeftElsewhere
-                        : TrackerStatus::kOutside;
+    result.status = TrackerStatus::kOutside;
+    if (state->inside &&
+        state->magnitude >
+            (impl.options.speed + 1.0) * (q - state->q).stableNorm()) {
+      result.status = TrackerStatus::kLeftElsewhere;
+    }
     Impl::Forget(state);
-    state->inside_ = false;
-    state->q_ = q;
-    state->magnitude_ = 0.0;
+    state->inside = false;
+    state->q = q;
+    state->magnitude = 0.0;
     return result;
   }
   const TriangleBvh& bvh = impl.walk.bvh();
   const Vector3d x = bvh.ToFrame(q);
   result.status = TrackerStatus::kFollowing;
-  if (!state->inside_) {
+  if (!state->inside) {
     impl.Enter(x, state);
   } else {
     double moved = 0.0;
@@ -211,19 +259,19 @@ TrackerResult PenetrationTracker::Step(const Vector3d& q, State* state) const {
     result.moved = moved / bvh.scale();
   }
   result.inside = true;
-  result.triangle = state->contact_.triangle;
-  result.contact = impl.ContactPoint(state->contact_);
+  result.triangle = state->contact.triangle;
+  result.contact = impl.ContactPoint(state->contact);
   result.pd = result.contact - q;
   result.magnitude = result.pd.stableNorm();
   result.euclidean_depth =
-      std::max(state->depth_ / bvh.scale(), impl.surface.LeastDistance());
+      std::max(state->depth / bvh.scale(), impl.surface.LeastDistance());
   // Overflows where q all but touches C_cont elsewhere; no result is infinite.
   result.ratio = std::min(result.magnitude / result.euclidean_depth,
                           std::numeric_limits<double>::max());
-  state->inside_ = true;
-  state->q_ = q;
-  state->x_ = x;
-  state->magnitude_ = result.magnitude;
+  state->inside = true;
+  state->q = q;
+  state->x = x;
+  state->magnitude = result.magnitude;
   return result;
 }
 

@@ -2,20 +2,15 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <cstddef>
 #include <memory>
 
 #include "core/contact/contact_space.h"
-#include "core/projection/near_triangles.h"
-#include "core/projection/surface_search.h"
-#include "core/projection/surface_walk.h"
 
 namespace phongpd {
 
 struct PenetrationTrackerOptions {
   // c ≥ 1: the contact makes for where the depth is at most c times the
-  // Euclidean.  Below 2 the pieces it could stay in die often (measured:
-  // results/queries); 3 is enough nearly everywhere.
+  // Euclidean.  The smaller, the less often there is a way that stays there.
   double ratio = 3.0;
   // κ > 0: how far the contact moves along the surface at most, in lengths of
   // the robot's own step.
@@ -81,38 +76,22 @@ struct TrackerResult {
 // Deterministic.  The tracker is immutable, copies share everything, any
 // number of threads may step their own states.
 class PenetrationTracker {
-  struct Impl;
-
  public:
-  // Where a motion is: a value.  A new one has not begun.
+  // Where a motion is: a value, copies go their own ways.  A new one has not
+  // begun, nor has another tracker's; one that was moved from is new.
   class State {
    public:
-    // The contact; valid while the last step was inside.
-    bool IsInside() const { return inside_; }
+    State();
+    ~State();
+    State(const State& other);
+    State& operator=(const State& other);
+    State(State&&) noexcept;
+    State& operator=(State&&) noexcept;
 
    private:
     friend class PenetrationTracker;
-
-    std::shared_ptr<const Impl> owner_;  // another tracker's state is new
-    bool inside_ = false;
-    Eigen::Vector3d q_ = Eigen::Vector3d::Zero();
-    double magnitude_ = 0.0;
-    // Frame of SurfaceWalk.
-    Eigen::Vector3d x_ = Eigen::Vector3d::Zero();
-    double depth_ = 0.0;
-    MeshPoint contact_;
-    MeshPoint nearest_;  // the closest point of all
-    NearTriangles near_;
-    // The last search: where q was, how long its answer is believed, and the
-    // way it found (none: the contact's own local minimum is best).
-    bool searched_ = false;
-    Eigen::Vector3d searched_at_ = Eigen::Vector3d::Zero();
-    double believed_ = 0.0;
-    SurfaceWay way_;
-    std::size_t on_way_ = 0;
-    // Memory that steps use again.
-    SurfaceWay descent_;
-    SurfaceSearch search_;
+    struct Data;
+    std::unique_ptr<Data> data_;
   };
 
   // Throws InputError for options.
@@ -126,6 +105,7 @@ class PenetrationTracker {
   const PenetrationTrackerOptions& options() const;
 
  private:
+  struct Impl;
   std::shared_ptr<const Impl> impl_;
 };
 

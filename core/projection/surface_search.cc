@@ -10,6 +10,9 @@ namespace {
 
 using Eigen::Vector3d;
 
+// How much more what is left counts than what is behind: fewer triangles are
+// visited, and ways may be that much longer than the shortest.
+constexpr double kGreed = 2.0;
 // Sweeps that pull a way taut.
 constexpr int kSweeps = 4;
 
@@ -107,7 +110,7 @@ void SurfaceSearch::Expand(const SurfaceWalk& walk, const Goal& goal,
     const double cost = here.cost + (point - here.point).norm();
     if (known && entry.cost <= cost) continue;
     entry = {search_, false, triangle, k, t, cost, point};
-    heap_.emplace_back(cost + goal.Left(point), next);
+    heap_.emplace_back(cost + kGreed * goal.Left(point), next);
     std::push_heap(heap_.begin(), heap_.end(), std::greater<>());
   }
 }

@@ -18,6 +18,7 @@
 #include "problems/shapes/shapes.h"
 #include "problems/studies/paper_benchmarks.h"
 #include "results/bench/program.h"
+#include "results/bench/tracker_report.h"
 
 namespace phongpd::bench {
 namespace {
@@ -130,26 +131,14 @@ Begin FollowTracker(const PenetrationTracker& tracker) {
   };
 }
 
-struct Row {
-  std::string space, metric;
-  std::size_t triangles = 0;
-  int frames = 0;   // inside
-  int jumps = 0;    // of more than 5 % of the diagonal
-  int beyond = 0;   // changes beyond (κ + 1)·|Δq|, exits elsewhere apart
-  int exits = 0;    // elsewhere
-  int sliding = 0;  // frames
-  std::vector<double> ratios;
-  std::vector<double> micros;  // of inside frames: the least of the repeats
-};
-
-Row Measure(const Space& space, const std::string& metric, const Begin& begin,
-            const std::vector<Motion>& motions,
-            const std::vector<std::vector<double>>& depths,
-            const Options& options) {
+TrackerRow Measure(const Space& space, const std::string& metric,
+                   const Begin& begin, const std::vector<Motion>& motions,
+                   const std::vector<std::vector<double>>& depths,
+                   const Options& options) {
   using Clock = std::chrono::steady_clock;
   const double diagonal = space.contact.length();
   const double bound = PenetrationTrackerOptions().speed + 1.0;
-  Row row;
+  TrackerRow row;
   row.space = space.name;
   row.metric = metric;
   row.triangles = space.contact.mesh().triangles.size();
@@ -188,7 +177,8 @@ Row Measure(const Space& space, const std::string& metric, const Begin& begin,
   return row;
 }
 
-std::vector<Row> MeasureSpace(const Space& space, const Options& options) {
+std::vector<TrackerRow> MeasureSpace(const Space& space,
+                                     const Options& options) {
   const std::vector<Motion> motions = Motions(space.contact, options);
   const EuclideanMetric euclidean(space.contact);
   std::vector<std::vector<double>> depths;
@@ -199,7 +189,7 @@ std::vector<Row> MeasureSpace(const Space& space, const Options& options) {
       depths.back().push_back(result.inside ? -result.signed_distance : 0.0);
     }
   }
-  std::vector<Row> rows;
+  std::vector<TrackerRow> rows;
   const auto measure = [&](const std::string& name, const Begin& begin) {
     rows.push_back(Measure(space, name, begin, motions, depths, options));
   };
@@ -215,34 +205,6 @@ std::vector<Row> MeasureSpace(const Space& space, const Options& options) {
   return rows;
 }
 
-NamedTable TableOf(const std::vector<Row>& rows) {
-  return {
-      "tracker.csv",
-      MakeTable(
-          "Along motions",
-          "A jump: PD changes by more than 5 % of the diagonal between two "
-          "frames. Beyond: it changes by more than 11 times the robot's step, "
-          "exits elsewhere apart. Ratio: depth over Euclidean depth, frames "
-          "inside.",
-          {"contact space", "triangles", "metric", "frames inside", "jumps",
-           "beyond", "exits elsewhere", "sliding, %", "mean ratio",
-           "above 3, %", "worst ratio", "µs, median", "99 %", "worst"},
-          rows, [](const Row& r, const auto& add) {
-            double sum = 0.0, worst = 0.0;
-            int above = 0;
-            for (const double ratio : r.ratios) {
-              sum += ratio;
-              worst = std::max(worst, ratio);
-              above += ratio > 3.0 * (1.0 + 1e-9) ? 1 : 0;
-            }
-            const double frames = std::max(1, r.frames);
-            add(r.space, r.triangles, r.metric, r.frames, r.jumps, r.beyond,
-                r.exits, 100.0 * r.sliding / frames, sum / frames,
-                100.0 * above / frames, worst, Quantile(r.micros, 0.5),
-                Quantile(r.micros, 0.99), Quantile(r.micros, 1.0));
-          })};
-}
-
 int Run(int argc, char** argv) {
   CLI::App app("Metrics along motions: tables.");
   Options options;
@@ -252,21 +214,21 @@ int Run(int argc, char** argv) {
   app.add_option("--frames", options.frames)->capture_default_str();
   app.add_option("--seed", options.seed)->capture_default_str();
   CLI11_PARSE(app, argc, argv);
-  std::vector<Row> rows;
+  std::vector<TrackerRow> rows;
   for (const Space& space : Spaces()) {
-    const std::vector<Row> of_space = MeasureSpace(space, options);
+    const std::vector<TrackerRow> of_space = MeasureSpace(space, options);
     rows.insert(rows.end(), of_space.begin(), of_space.end());
-    std::cout << ToText(TableOf(of_space).table) << std::endl;
+    std::cout << ToText(TrackerTable(of_space).table) << std::endl;
   }
-  const std::vector<NamedTable> tables = {TableOf(rows)};
+  const std::vector<NamedTable> tables = {TrackerTotals(rows),
+                                          TrackerTable(rows)};
   OutputDirectory out(options.directory);
-  WriteReport(
-      tables, {},
-      "# Metrics along motions\n\n" + ToMarkdown(tables, {}) + "\n" +
-          Circumstances(CommandLine("build/tracker_benchmark", argc, argv),
-                        options.seed) +
-          "\n",
-      &out);
+  const std::string command =
+      CommandLine("build/tracker_benchmark", argc, argv);
+  WriteReport(tables, {},
+              TrackerReadme(tables, rows) + "\n" +
+                  Circumstances(command, options.seed) + "\n",
+              &out);
   out.Commit();
   return 0;
 }
