@@ -31,6 +31,26 @@ constexpr double kSlack = 1.0 - 1e-12;
 // Triangles of a descent: more are rare.
 constexpr std::size_t kUsualDescent = 64;
 
+// Where a motion is.  Frame of SurfaceWalk.
+struct Position {
+  bool inside = false;  // after the last step; only then the rest counts
+  Vector3d q = Vector3d::Zero();  // user's frame
+  double magnitude = 0.0;         // user's unit
+  Vector3d x = Vector3d::Zero();
+  double depth = 0.0;
+  MeshPoint contact;
+  MeshPoint nearest;  // the closest point of all
+  NearTriangles near;
+  // The last search: where q was, how far it may move until the answer is
+  // looked for again, and the way that was found; none: no other place of the
+  // piece is better than the end of the descent.
+  bool searched = false;
+  Vector3d searched_at = Vector3d::Zero();
+  double believed = 0.0;
+  SurfaceWay way;
+  std::size_t on_way = 0;
+};
+
 double Length(const SurfaceWalk& walk, const MeshPoint& start,
               const SurfaceWay& way) {
   double length = 0.0;
@@ -74,34 +94,25 @@ const char* Name(TrackerStatus status) {
 
 struct PenetrationTracker::State::Data {
   std::shared_ptr<const Impl> owner;
-  bool inside = false;  // after the last step; only then the rest counts
-  Vector3d q = Vector3d::Zero();
-  double magnitude = 0.0;
-  // Frame of SurfaceWalk.
-  Vector3d x = Vector3d::Zero();
-  double depth = 0.0;
-  MeshPoint contact;
-  MeshPoint nearest;  // the closest point of all
-  NearTriangles near;
-  // The last search: where q was, how far it may move until the answer is
-  // looked for again, and the way that was found; none: no other place of the
-  // piece is better than the end of the descent.
-  bool searched = false;
-  Vector3d searched_at = Vector3d::Zero();
-  double believed = 0.0;
-  SurfaceWay way;
-  std::size_t on_way = 0;
-  // Memory that steps use again.
+  Position position;
+  // Memory that steps use again; copies do without.
   SurfaceWay descent;
   SurfaceSearch search;
+
+  Data(std::shared_ptr<const Impl> tracker, Position where)
+      : owner(std::move(tracker)), position(std::move(where)) {
+    descent.reserve(kUsualDescent);
+  }
 };
 
 using State = PenetrationTracker::State;
 
 State::State() = default;
 State::~State() = default;
-State::State(const State& other)
-    : data_(other.data_ ? std::make_unique<Data>(*other.data_) : nullptr) {}
+State::State(const State& other) {
+  if (!other.data_) return;
+  data_ = std::make_unique<Data>(other.data_->owner, other.data_->position);
+}
 State& State::operator=(const State& other) {
   State copy(other);
   data_ = std::move(copy.data_);
@@ -117,7 +128,7 @@ struct PenetrationTracker::Impl {
       : surface(space), walk(space), options(o) {}
 
   // The ball of all depth around an interior point holds no surface.
-  bool IsInside(const Vector3d& q, const Data& state) const {
+  bool IsInside(const Vector3d& q, const Position& state) const {
     if (state.inside) {
       const double step = (walk.bvh().ToFrame(q) - state.x).norm();
       if (step < 0.999 * state.depth - 1e-12) return true;
@@ -126,7 +137,7 @@ struct PenetrationTracker::Impl {
   }
 
   // Inside for the first time: the closest point.
-  void Enter(const Vector3d& x, Data* state) const {
+  void Enter(const Vector3d& x, Position* state) const {
     const SurfaceFoot nearest = walk.FindClosest(x, {});
     state->contact = nearest.point;
     state->nearest = nearest.point;
@@ -134,7 +145,7 @@ struct PenetrationTracker::Impl {
     Forget(state);
   }
 
-  static void Forget(Data* state) {
+  static void Forget(Position* state) {
     state->searched = false;
     state->way.clear();
     state->on_way = 0;
@@ -142,7 +153,8 @@ struct PenetrationTracker::Impl {
 
   // The way p has to take, from the last search or a new one; empty: none.
   void Choose(const Vector3d& x, const SurfaceFoot& nearest_of_own,
-              Data* state) const {
+              Data* data) const {
+    Position* const state = &data->position;
     double radius = options.ratio * state->depth;
     const double own = std::sqrt(nearest_of_own.squared_distance);
     if (own > radius) radius = options.ratio * own;
@@ -155,18 +167,18 @@ struct PenetrationTracker::Impl {
     Forget(state);
     const SurfaceBall ball{x, radius};
     MeshPoint start = state->contact;
-    if (!in_ball && state->search.FindBall(walk, ball, start, &state->way)) {
+    if (!in_ball && data->search.FindBall(walk, ball, start, &state->way)) {
       start = state->way.back();
     }
-    state->search.FindInside(walk, ball, start, nearest_of_own.point,
-                             &state->way);
+    data->search.FindInside(walk, ball, start, nearest_of_own.point,
+                            &state->way);
     state->searched = true;
     state->searched_at = x;
     const double length = Length(walk, state->contact, state->way);
     state->believed = std::max(kBelieveWay * own, kBelieveLength * length);
     // The end of the descent may be what the search found.
     const double end = (walk.At(state->way.back()) - x).squaredNorm();
-    const double descended = (walk.At(state->descent.back()) - x).squaredNorm();
+    const double descended = (walk.At(data->descent.back()) - x).squaredNorm();
     if (in_ball && descended <= end * kSame) {
       state->way.clear();
       state->believed = kBelieveNone * own;
@@ -174,11 +186,12 @@ struct PenetrationTracker::Impl {
   }
 
   // Moves the contact; true if it is where it wants to be.
-  bool Move(const Vector3d& x, Data* state, double* moved) const {
+  bool Move(const Vector3d& x, Data* data, double* moved) const {
+    Position* const state = &data->position;
     const double step = (x - state->x).norm();
     const double budget = kSlack * options.speed * step;
     *moved = 0.0;
-    SurfaceFoot local = walk.Descend(state->contact, x, &state->descent);
+    SurfaceFoot local = walk.Descend(state->contact, x, &data->descent);
     SurfaceFoot seed = walk.FootOn(state->nearest.triangle, x);
     if (local.squared_distance <= seed.squared_distance) seed = local;
     const SurfaceFoot nearest = state->near.FindClosest(walk, x, seed, step);
@@ -191,19 +204,19 @@ struct PenetrationTracker::Impl {
     if (local.squared_distance <= own.squared_distance * kSame) {
       Forget(state);
     } else {
-      Choose(x, own, state);
+      Choose(x, own, data);
     }
     if (state->on_way < state->way.size()) {
       *moved =
           walk.Advance(state->way, budget, &state->on_way, &state->contact);
       if (state->on_way < state->way.size()) return false;
       Forget(state);
-      walk.Descend(state->contact, x, &state->descent);
+      walk.Descend(state->contact, x, &data->descent);
     }
     std::size_t piece = 0;
     *moved +=
-        walk.Advance(state->descent, budget - *moved, &piece, &state->contact);
-    return piece == state->descent.size();
+        walk.Advance(data->descent, budget - *moved, &piece, &state->contact);
+    return piece == data->descent.size();
   }
 
   Vector3d ContactPoint(const MeshPoint& p) const {
@@ -228,16 +241,13 @@ TrackerResult PenetrationTracker::Step(const Vector3d& q, State* of) const {
   TrackerResult result;
   if (!impl.surface.Accepts(q)) return result;
   if (!of->data_ || of->data_->owner != impl_) {
-    of->data_ = std::make_unique<State::Data>();
-    of->data_->owner = impl_;
-    of->data_->descent.reserve(kUsualDescent);
+    of->data_ = std::make_unique<State::Data>(impl_, Position());
   }
-  State::Data* const state = of->data_.get();
+  Position* const state = &of->data_->position;
   if (!impl.IsInside(q, *state)) {
     result.status = TrackerStatus::kOutside;
-    if (state->inside &&
-        state->magnitude >
-            (impl.options.speed + 1.0) * (q - state->q).stableNorm()) {
+    if (state->inside && state->magnitude > (impl.options.speed + 1.0) *
+                                                (q - state->q).stableNorm()) {
       result.status = TrackerStatus::kLeftElsewhere;
     }
     Impl::Forget(state);
@@ -253,7 +263,7 @@ TrackerResult PenetrationTracker::Step(const Vector3d& q, State* of) const {
     impl.Enter(x, state);
   } else {
     double moved = 0.0;
-    if (!impl.Move(x, state, &moved)) {
+    if (!impl.Move(x, of->data_.get(), &moved)) {
       result.status = TrackerStatus::kSliding;
     }
     result.moved = moved / bvh.scale();

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <functional>
 
 namespace phongpd {
@@ -68,10 +69,7 @@ void SurfaceSearch::Begin(const SurfaceWalk& walk, const MeshPoint& start,
   entries_.resize(walk.size());
   heap_.clear();
   settled_.clear();
-  if (++search_ == 0) {  // all numbers have been used
-    std::fill(entries_.begin(), entries_.end(), Entry());
-    search_ = 1;
-  }
+  ++search_;
   Entry& first = entries_[start.triangle];
   first = Entry();
   first.search = search_;

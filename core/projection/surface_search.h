@@ -2,7 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <cstddef>
+#include <cstdint>
 #include <utility>
 #include <vector>
 
@@ -22,16 +22,9 @@ struct SurfaceBall {
 // point of its edge that lies straightest between where the way comes from and
 // where it goes, then pulled taut across the edges it crosses.  The ways are
 // short, not shortest.  What is held between searches is memory alone: no
-// answer depends on it, copies start without it.
+// answer depends on it.
 class SurfaceSearch {
  public:
-  SurfaceSearch() = default;
-  SurfaceSearch(const SurfaceSearch& /*other*/) {}
-  SurfaceSearch& operator=(const SurfaceSearch& /*other*/) { return *this; }
-  SurfaceSearch(SurfaceSearch&&) = default;
-  SurfaceSearch& operator=(SurfaceSearch&&) = default;
-  ~SurfaceSearch() = default;
-
   // Appends to *way a way from `start`, in the ball, that stays in the ball
   // and ends at `goal`; where the goal is in another piece of the ball, at the
   // point of the piece of `start` closest to the centre.
@@ -47,7 +40,7 @@ class SurfaceSearch {
  private:
   // A way's best known entry into a triangle.
   struct Entry {
-    unsigned search = 0;  // the one that made it
+    std::uint64_t search = 0;  // the one that made it
     bool settled = false;
     int parent = -1;
     int edge = -1;  // of the parent, crossed at a + t (b − a)
@@ -70,7 +63,7 @@ class SurfaceSearch {
                  const Eigen::Vector3d& start, const MeshPoint& end,
                  SurfaceWay* way);
 
-  unsigned search_ = 0;
+  std::uint64_t search_ = 0;
   std::vector<Entry> entries_;
   std::vector<std::pair<double, int>> heap_;
   std::vector<int> settled_;

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <limits>
@@ -266,6 +267,89 @@ TEST(PenetrationTracker, ShorterStepsGiveTheSameCurve) {
   EXPECT_LT(mean, 1e-3 * static_cast<double>(frames));
 }
 
+// Distance of q to the piece of {x : |x − q| ≤ radius} that meets `triangle`,
+// by spreading over edges that come as near.
+double DistanceToPiece(const TriangleMesh& mesh,
+                       const std::vector<std::array<int, 3>>& neighbors,
+                       int triangle, const Vector3d& q, double radius) {
+  std::vector<char> seen(mesh.triangles.size(), 0);
+  std::vector<int> open{triangle};
+  seen[triangle] = 1;
+  double least = std::numeric_limits<double>::infinity();
+  while (!open.empty()) {
+    const int at = open.back();
+    open.pop_back();
+    const Triangle& t = mesh.triangles[at];
+    const Vector3d &a = mesh.vertices[t[0]], &b = mesh.vertices[t[1]],
+                   &c = mesh.vertices[t[2]];
+    least = std::min(least, ClosestOnTriangle(a, b, c, q).squared_distance);
+    for (int k = 0; k < 3; ++k) {
+      const int next = neighbors[at][k];
+      const Vector3d &from = mesh.vertices[t[k]],
+                     &to = mesh.vertices[t[(k + 1) % 3]];
+      const Vector3d e = to - from;
+      const double along =
+          std::clamp((q - from).dot(e) / e.squaredNorm(), 0.0, 1.0);
+      if (seen[next] != 0 || (from + along * e - q).norm() > radius) continue;
+      seen[next] = 1;
+      open.push_back(next);
+    }
+  }
+  return std::sqrt(least);
+}
+
+// What "following" says, but for how long a search is believed: q may move by
+// 3 % of d until a place that has come within reach is noticed.
+TEST(PenetrationTracker, FollowsTheClosestPointOfItsPiece) {
+  long following = 0, late = 0, elsewhere = 0;
+  for (const Space& space : Spaces(8)) {
+    const PenetrationTracker tracker(space.contact);
+    const TriangleMesh& mesh = space.contact.mesh();
+    const auto neighbors = TriangleNeighbors(mesh);
+    std::mt19937_64 random(9);
+    for (int m = 0; m < 6; ++m) {
+      State state;
+      for (const Vector3d& q : MakeMotion(space.contact, m % 2, 200, &random)) {
+        const TrackerResult now = tracker.Step(q, &state);
+        const double reach = 3.0 * now.euclidean_depth;
+        if (now.status != TrackerStatus::kFollowing || now.magnitude > reach) {
+          continue;
+        }
+        const double least =
+            DistanceToPiece(mesh, neighbors, now.triangle, q, reach);
+        ++following;
+        late += now.magnitude > least * (1.0 + 1e-9) ? 1 : 0;
+        elsewhere += least > now.euclidean_depth * (1.0 + 1e-9) ? 1 : 0;
+      }
+    }
+  }
+  EXPECT_GT(following, 6000);
+  // Euclid's own point is not always in the piece: else this says nothing.
+  EXPECT_GT(elsewhere, 100);
+  EXPECT_LT(static_cast<double>(late), 0.01 * static_cast<double>(following))
+      << late;
+}
+
+TEST(PenetrationTracker, ScalesBitForBitWithTheInput) {
+  const TriangleMesh mesh =
+      BuildContactSpace(MakeIcoBall(0.25, 1), MakeU(2.0, 0.3, 0.6)).mesh();
+  const ContactSpace contact = TakeAsContactSpace(mesh);
+  const PenetrationTracker tracker(contact);
+  std::mt19937_64 random(6);
+  const Motion motion = MakeMotion(contact, 1, 400, &random);
+  for (const double factor : {0x1p200, 0x1p-200}) {
+    const PenetrationTracker scaled(TakeAsContactSpace(Scaled(mesh, factor)));
+    State one, other;
+    for (const Vector3d& q : motion) {
+      const TrackerResult a = tracker.Step(q, &one);
+      const TrackerResult b = scaled.Step(factor * q, &other);
+      ASSERT_EQ(a.status, b.status);
+      ASSERT_EQ(a.pd * factor, b.pd);
+      ASSERT_EQ(a.ratio, b.ratio);
+    }
+  }
+}
+
 // Of 4 × 4 × 1; pushed from above, the contact is on top at z = 0.5.
 ContactSpace Plate() {
   return TakeAsContactSpace(MakeBox({-2, -2, -0.5}, {2, 2, 0.5}));
@@ -385,7 +469,8 @@ TEST(PenetrationTracker, ARobotAtRestHasItsContactAtRest) {
 
 TEST(PenetrationTracker, OptionsOutOfRangeAreRefused) {
   constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-  for (const double ratio : {0.99, -1.0, kNan, 1.0 / 0.0}) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  for (const double ratio : {0.99, -1.0, kNan, kInfinity}) {
     PenetrationTrackerOptions options;
     options.ratio = ratio;
     EXPECT_THROW(PenetrationTracker(Plate(), options), InputError);
