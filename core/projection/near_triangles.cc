@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/projection/near_triangles.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 
 namespace phongpd {
 namespace {
@@ -15,6 +17,19 @@ constexpr std::size_t kFew = 48;
 constexpr double kMostSteps = 16.0, kFewestSteps = 1.0;
 // Rounding of distances, frame of SurfaceWalk.
 constexpr double kRounding = 1e-14;
+constexpr double kPlaneRounding = 1e-11;
+// sin² of a triangle's angle between its two edges, below which its plane is
+// not used.
+constexpr double kFlat = 1e-4;
+
+void SetPlane(const TriangleCorners& t, Vector3d* normal, double* offset) {
+  const Vector3d u = t[1] - t[0], v = t[2] - t[0];
+  const Vector3d n = u.cross(v);
+  const double squared = n.squaredNorm();
+  if (!(squared > kFlat * u.squaredNorm() * v.squaredNorm())) return;
+  *normal = n / std::sqrt(squared);
+  *offset = normal->dot(t[0]);
+}
 
 }  // namespace
 
@@ -25,9 +40,12 @@ SurfaceFoot NearTriangles::FindClosest(const SurfaceWalk& walk,
   double distance = std::sqrt(best.squared_distance);
   const double gone = (x - anchor_).norm();
   if (distance + gone + kRounding <= radius_) {
-    for (const auto& [far, triangle] : near_) {
-      if (far - gone - kRounding >= distance) continue;
-      const SurfaceFoot foot = walk.FootOn(triangle, x);
+    for (const Near& near : near_) {
+      if (near.far - gone - kRounding >= distance) continue;
+      // No point of the triangle is closer than its plane.
+      const double above = std::abs(near.normal.dot(x) - near.offset);
+      if (above > distance + kPlaneRounding) continue;
+      const SurfaceFoot foot = walk.FootOn(near.triangle, x);
       if (foot.squared_distance >= best.squared_distance) continue;
       best = foot;
       distance = std::sqrt(best.squared_distance);
@@ -59,7 +77,9 @@ void NearTriangles::List(const SurfaceWalk& walk, const Vector3d& x,
           radius_ = -1.0;
           return false;
         }
-        near_.emplace_back(far, triangle);
+        near_.push_back({far, 0.0, triangle, Vector3d::Zero()});
+        SetPlane(walk.corners(triangle), &near_.back().normal,
+                 &near_.back().offset);
         return true;
       });
   if (radius_ < 0.0) {

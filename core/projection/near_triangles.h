@@ -2,8 +2,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <cstddef>
-#include <utility>
 #include <vector>
 
 #include "core/projection/surface_walk.h"
@@ -24,12 +22,20 @@ class NearTriangles {
                           const SurfaceFoot& seed, double step);
 
  private:
+  // A triangle at `far` from the anchor, in the plane normal·y = offset; normal
+  // zero where rounding leaves it no plane worth the name.
+  struct Near {
+    double far, offset;
+    int triangle;
+    Eigen::Vector3d normal;
+  };
+
   void List(const SurfaceWalk& walk, const Eigen::Vector3d& x, double radius);
 
   Eigen::Vector3d anchor_ = Eigen::Vector3d::Zero();
   double radius_ = -1.0;  // r; none is listed
   double ahead_ = 8.0;    // steps that the next list is to be good for
-  std::vector<std::pair<double, int>> near_;
+  std::vector<Near> near_;
 };
 
 }  // namespace phongpd

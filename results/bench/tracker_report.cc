@@ -159,9 +159,15 @@ std::string TrackerReadme(const std::vector<NamedTable>& tables,
          "has no gradient for a solver.\n\n"
          "## Where the tracker loses\n\n" +
          Losses(rows) +
-         "\nA hollow body whose inside and outside hang together by a window "
-         "alone is the hard case: a contact that may not jump cannot come to "
-         "the other side of a wall in time.\n\n" +
+         "\nWalls are the hard case where the way round them is many times "
+         "their "
+         "thickness: a hollow body whose inside and outside hang together by a "
+         "window, "
+         "thin plates, slender bars. A contact that may not jump cannot come "
+         "to the "
+         "other side in time. `PenetrationTrackerCampaign` has five such among "
+         "its 20 "
+         "contact spaces and prints their figures in its long form.\n\n" +
          Times(rows) + "\n" + ToMarkdown(tables, {});
 }
 
