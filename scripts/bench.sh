@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# bench.sh [paper|contact-space|lazy|convergence|planning|extremes|all]:
+# bench.sh [paper|queries|contact-space|lazy|convergence|planning|extremes|all]:
 # regenerates the tables and figures of results/.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
@@ -9,16 +9,21 @@ export PHONGPD_CACHE_DIR=$PWD/build/cache
 
 suite=${1:-all}
 case $suite in
-  paper | contact-space | lazy | convergence | planning | extremes | all) ;;
+  paper | queries | contact-space | lazy | convergence | planning | extremes | \
+    all) ;;
   *)
-    echo "bench: expected paper, contact-space, lazy, convergence," \
-      "planning, extremes or all, found $suite" >&2
+    echo "bench: expected paper, queries, contact-space, lazy," \
+      "convergence, planning, extremes or all, found $suite" >&2
     exit 2
     ;;
 esac
 if [[ $suite == paper || $suite == all ]]; then
   scripts/build.sh paper_benchmark
   build/paper_benchmark --output results/paper
+fi
+if [[ $suite == queries || $suite == all ]]; then
+  scripts/build.sh tracker_benchmark
+  build/tracker_benchmark --output results/queries
 fi
 if [[ $suite == contact-space || $suite == all ]]; then
   # The competitors compile for minutes: only here, and remembered in build/.

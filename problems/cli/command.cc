@@ -63,6 +63,19 @@ void AddField(CLI::App* app, std::string* field) {
       ->capture_default_str();
 }
 
+void AddSliding(CLI::App* app, PenetrationTrackerOptions* options) {
+  app->add_option("--slide-ratio", options->ratio,
+                  "Sliding contact: it makes for where the depth is at most "
+                  "so many times the Euclidean; at least 1")
+      ->check(CLI::Range(1.0, 1e6))
+      ->capture_default_str();
+  app->add_option("--slide-speed", options->speed,
+                  "... moving at most so many times as far as the robot; the "
+                  "depth changes by at most one more")
+      ->check(CLI::Range(1e-6, 1e6))
+      ->capture_default_str();
+}
+
 PhongMetricOptions MetricOptions(const std::string& field,
                                  const Length& smoothing_length,
                                  const ContactSpace& contact) {

@@ -12,6 +12,7 @@
 #include "core/contact/contact_space_cache.h"
 #include "core/mesh/mesh_error.h"
 #include "core/mesh/triangle_mesh.h"
+#include "core/projection/penetration_tracker.h"
 #include "core/projection/phong_metric.h"
 #include "core/solid/mesh_check.h"
 #include "problems/output/output_files.h"
@@ -68,6 +69,9 @@ void AddField(CLI::App* app, std::string* field);
 PhongMetricOptions MetricOptions(const std::string& field,
                                  const Length& smoothing_length,
                                  const ContactSpace& contact);
+
+// Declares --slide-ratio and --slide-speed of the tracker.
+void AddSliding(CLI::App* app, PenetrationTrackerOptions* options);
 
 // What --smoothing-length says of itself.
 extern const char* const kSmoothingLengthHelp;

@@ -16,6 +16,7 @@
 #include "problems/pictures/gnuplot.h"
 #include "problems/studies/answer_check.h"
 #include "problems/studies/motion.h"
+#include "problems/studies/sliding.h"
 
 namespace phongpd::cli {
 namespace {
@@ -32,6 +33,7 @@ struct Flags {
   int frames = 0;
   std::vector<std::string> smoothing_lengths = {"0"};
   std::string field = "normal";
+  PenetrationTrackerOptions sliding;
   std::string output;
   std::string svg;
   bool no_cache = false;
@@ -60,13 +62,20 @@ ContactSpace ContactSpaceOf(const Flags& flags,
 // Judges the depths of all frames again; returns a line for people.  Throws
 // std::runtime_error for the first that is wrong.
 std::string VerifyDepths(const Workspace& solids, const StraightMotion& motion,
+                         const ContactSpace& contact,
                          const std::vector<MotionTrace>& traces) {
   const Verifier verifier(solids);
   int confirmed = 0, all = 0;
   for (const MotionTrace& trace : traces) {
     for (int frame = 0; frame < motion.frames; ++frame, ++all) {
-      const Verification found = verifier.VerifyDepth(
-          motion.At(frame), trace.results[static_cast<std::size_t>(frame)]);
+      const auto i = static_cast<std::size_t>(frame);
+      PenetrationResult result = trace.results[i];
+      // On its way a contact need not be where PD itself leaves the surface.
+      if (trace.status[i] == Name(TrackerStatus::kSliding)) {
+        result.direction =
+            contact.normals()[static_cast<std::size_t>(result.triangle)];
+      }
+      const Verification found = verifier.VerifyDepth(motion.At(frame), result);
       confirmed += found.verdict == Verdict::kConfirmed ? 1 : 0;
       if (found.verdict != Verdict::kRefuted) continue;
       FailVerification(trace.metric + ", frame " + std::to_string(frame) +
@@ -107,6 +116,8 @@ std::vector<MotionTrace> Trace(const Flags& flags, const ContactSpace& contact,
     traces.push_back(TraceMotion(PhongMetric(contact, options), motion, name,
                                  "PhongPD, ℓ = " + value));
   }
+  Progress("following sliding");
+  traces.push_back(TraceSliding(contact, flags.sliding, motion));
   return traces;
 }
 
@@ -118,8 +129,14 @@ std::string Summary(const Flags& flags, const std::vector<MotionTrace>& traces,
     text << trace.metric << ": " << s.inside << " of " << flags.frames
          << " frames inside, |PD| up to " << FormatDouble(s.max_magnitude)
          << ", largest change " << FormatDouble(s.largest_change) << ", "
-         << s.jumps << " jumps > 5 % of the diagonal, " << s.branch_ends
-         << " branch ends, " << s.fallbacks << " Euclidean fallbacks\n";
+         << s.jumps << " jumps > 5 % of the diagonal, ";
+    if (trace.metric == "sliding") {
+      text << s.sliding << " frames sliding, " << s.left_elsewhere
+           << " exits elsewhere\n";
+    } else {
+      text << s.branch_ends << " branch ends, " << s.fallbacks
+           << " Euclidean fallbacks\n";
+    }
   }
   return text.str();
 }
@@ -140,6 +157,7 @@ int Follow(const Flags& flags) {
   motion.to = ParsePoint(flags.to, "--to");
   motion.frames = flags.frames;
   const std::vector<Length> lengths = SmoothingLengths(flags);
+  flags.sliding.Validate();
   OutputFiles outputs;
   outputs.Declare(flags.output);
   if (!flags.svg.empty()) {
@@ -152,7 +170,8 @@ int Follow(const Flags& flags) {
   const std::vector<MotionTrace> traces =
       Trace(flags, contact, lengths, motion);
   std::string verified;
-  if (solids && flags.verify) verified = VerifyDepths(*solids, motion, traces);
+  if (solids && flags.verify)
+    verified = VerifyDepths(*solids, motion, contact, traces);
   outputs.Write(flags.output, MotionCsv(traces));
   if (!flags.svg.empty()) {
     outputs.Write(flags.svg,
@@ -195,6 +214,7 @@ Command AddMotion(CLI::App* app) {
       ->type_name("LENGTH")
       ->capture_default_str();
   AddField(app, &flags->field);
+  AddSliding(app, &flags->sliding);
   app->add_option("--output", flags->output,
                   "CSV file, one row a frame and metric")
       ->required()

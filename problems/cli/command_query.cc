@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -10,6 +11,7 @@
 #include "problems/output/output_files.h"
 #include "problems/output/points_csv.h"
 #include "problems/output/text.h"
+#include "problems/studies/sliding.h"
 
 namespace phongpd::cli {
 namespace {
@@ -23,6 +25,7 @@ struct Flags {
   std::string smoothing_length = "0";
   std::string jacobian = "exact";
   bool tracked = false;
+  PenetrationTrackerOptions sliding;
 };
 
 std::unique_ptr<PenetrationMetric> MakeMetric(const Flags& flags,
@@ -37,43 +40,94 @@ std::unique_ptr<PenetrationMetric> MakeMetric(const Flags& flags,
                     contact));
 }
 
-std::string Row(const Eigen::Vector3d& q, const PenetrationResult& result,
-                bool exact_gradient) {
-  return FormatPoint(q) + ',' + StatusName(result.status) + ',' +
-         (result.inside ? "1," : "0,") + FormatDouble(result.signed_distance) +
-         ',' + FormatPoint(result.contact) + ',' +
-         FormatPoint(result.direction) + ',' +
+// Refuses what would be ignored, or not what it says.
+void RequireSense(const CLI::App& app, const Flags& flags) {
+  if (flags.metric == "sliding") {
+    if (!flags.tracked) {
+      throw InputError(
+          "--metric sliding: expected --tracked, for its contact depends on "
+          "the rows before, found none");
+    }
+    flags.sliding.Validate();
+    return;
+  }
+  for (const char* flag : {"--slide-ratio", "--slide-speed"}) {
+    if (app.count(flag) > 0) {
+      throw InputError(std::string(flag) +
+                       ": expected with --metric sliding, found with " +
+                       flags.metric);
+    }
+  }
+}
+
+// Answers to the points, one after the other, and a name of its status.
+using Answer =
+    std::function<std::string(const Eigen::Vector3d&, PenetrationResult*)>;
+
+Answer MakeAnswer(const Flags& flags, const ContactSpace& contact) {
+  if (flags.metric == "sliding") {
+    auto query = std::make_shared<SlidingQuery>(contact, flags.sliding);
+    return [query](const Eigen::Vector3d& q, PenetrationResult* result) {
+      const SlidingAnswer answer = query->Next(q);
+      *result = answer.result;
+      return std::string(Name(answer.status));
+    };
+  }
+  const std::shared_ptr<PenetrationMetric> metric = MakeMetric(flags, contact);
+  return [metric, tracked = flags.tracked, branch = Branch()](
+             const Eigen::Vector3d& q, PenetrationResult* result) mutable {
+    *result = metric->Query(q, branch);
+    if (tracked) branch = result->branch;
+    return std::string(StatusName(result->status));
+  };
+}
+
+// Is that status an answer like any other?
+bool IsUsual(const std::string& status) {
+  return status == StatusName(QueryStatus::kOk) ||
+         status == Name(TrackerStatus::kFollowing) ||
+         status == Name(TrackerStatus::kOutside);
+}
+
+std::string Row(const Eigen::Vector3d& q, const std::string& status,
+                const PenetrationResult& result, bool exact_gradient) {
+  return FormatPoint(q) + ',' + status + ',' + (result.inside ? "1," : "0,") +
+         FormatDouble(result.signed_distance) + ',' +
+         FormatPoint(result.contact) + ',' + FormatPoint(result.direction) +
+         ',' +
          FormatPoint(exact_gradient ? result.gradient : result.direction) +
          ',' + std::to_string(result.triangle) + '\n';
 }
 
-int Query(const Flags& flags) {
+int Query(const CLI::App& app, const Flags& flags) {
+  RequireSense(app, flags);
   OutputFiles outputs;
   outputs.Declare(flags.output);
   const std::vector<Eigen::Vector3d> points = ReadPointsCsv(flags.points);
   const ContactSpace contact = LoadContactSpace(flags.contact_space);
   Progress("building the metric");
-  const std::unique_ptr<PenetrationMetric> metric = MakeMetric(flags, contact);
+  const Answer answer = MakeAnswer(flags, contact);
 
   std::string csv =
       "x,y,z,status,inside,signed_distance,contact_x,contact_y,contact_z,"
       "direction_x,direction_y,direction_z,gradient_x,gradient_y,gradient_z,"
       "triangle\n";
   std::size_t inside = 0;
-  std::size_t not_ok = 0;
-  Branch branch;
+  std::size_t unusual = 0;
   for (const Eigen::Vector3d& q : points) {
-    const PenetrationResult result = metric->Query(q, branch);
-    if (flags.tracked) branch = result.branch;
+    PenetrationResult result;
+    const std::string status = answer(q, &result);
     inside += result.inside ? 1 : 0;
-    not_ok += result.status == QueryStatus::kOk ? 0 : 1;
-    csv += Row(q, result, flags.jacobian == "exact");
+    unusual += IsUsual(status) ? 0 : 1;
+    csv += Row(q, status, result, flags.jacobian == "exact");
   }
   outputs.Write(flags.output, csv);
-  CommitAndTell(&outputs, flags.output + ": " + std::to_string(points.size()) +
-                              " points, " + std::to_string(inside) +
-                              " inside, " + std::to_string(not_ok) +
-                              " with another status than ok\n");
+  CommitAndTell(
+      &outputs,
+      flags.output + ": " + std::to_string(points.size()) + " points, " +
+          std::to_string(inside) + " inside, " + std::to_string(unusual) +
+          " with another status than " +
+          (flags.metric == "sliding" ? "following or outside" : "ok") + "\n");
   TellIfTaken(flags.contact_space);
   return kDone;
 }
@@ -90,7 +144,13 @@ Command AddQuery(CLI::App* app) {
       ->required()
       ->type_name("FILE");
   app->add_option("--metric", flags->metric)
-      ->check(CLI::IsMember({"phong", "euclidean"}))
+      ->description(
+          "sliding: a contact that never jumps, it slides over the contact "
+          "surface along the motion that the rows are; needs --tracked.  Its "
+          "status is following, sliding (the contact is on its way), outside, "
+          "left_elsewhere (outside, the depth jumped to zero) or invalid; its "
+          "gradient that with the contact held, equal to direction")
+      ->check(CLI::IsMember({"phong", "euclidean", "sliding"}))
       ->capture_default_str();
   AddField(app, &flags->field);
   app->add_option("--smoothing-length", flags->smoothing_length,
@@ -103,8 +163,10 @@ Command AddQuery(CLI::App* app) {
       ->check(CLI::IsMember({"exact", "direction"}))
       ->capture_default_str();
   app->add_flag("--tracked", flags->tracked,
-                "Carry the branch from row to row (phong only)");
-  return [flags] { return Query(*flags); };
+                "Carry the branch (phong) or the contact (sliding) from row to "
+                "row");
+  AddSliding(app, &flags->sliding);
+  return [app, flags] { return Query(*app, *flags); };
 }
 
 }  // namespace phongpd::cli

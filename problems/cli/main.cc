@@ -121,7 +121,8 @@ int Run(int argc, char** argv) {
   add("contact-space", "Build the contact space of two meshes",
       AddContactSpace);
   add("query", "Penetration depth at the points of a CSV file", AddQuery);
-  add("motion", "Phong and Euclidean depth along a straight motion", AddMotion);
+  add("motion", "Phong, Euclidean and sliding depth along a straight motion",
+      AddMotion);
   add("optimize", "Optimise a trajectory with Ipopt, exactly judged",
       AddOptimize);
   add("compare", "Compare penetration metrics in the trajectory optimiser",

@@ -5,6 +5,7 @@
 #include <array>
 #include <utility>
 
+#include "core/projection/penetration_tracker.h"
 #include "problems/output/text.h"
 #include "problems/pictures/gnuplot.h"
 
@@ -60,6 +61,7 @@ MotionTrace TraceMotion(const PenetrationMetric& metric,
   for (int frame = 0; frame < motion.frames; ++frame) {
     const Eigen::Vector3d q = motion.At(frame);
     trace.results.push_back(metric.Query(q, branch));
+    trace.status.emplace_back(StatusName(trace.results.back().status));
     trace.pd.push_back(trace.results.back().PenetrationVector(q));
     branch = trace.results.back().branch;
   }
@@ -74,6 +76,9 @@ MotionSummary Summarize(const MotionTrace& trace, double jump_length) {
     summary.branch_ends += result.status == QueryStatus::kBranchEnded ? 1 : 0;
     summary.fallbacks +=
         result.status == QueryStatus::kEuclideanFallback ? 1 : 0;
+    summary.sliding += trace.status[i] == Name(TrackerStatus::kSliding) ? 1 : 0;
+    summary.left_elsewhere +=
+        trace.status[i] == Name(TrackerStatus::kLeftElsewhere) ? 1 : 0;
     summary.max_magnitude = std::max(summary.max_magnitude, trace.pd[i].norm());
     if (i == 0) continue;
     const double change = (trace.pd[i] - trace.pd[i - 1]).norm();
@@ -88,10 +93,9 @@ std::string MotionCsv(const std::vector<MotionTrace>& traces) {
   const std::size_t frames = traces.empty() ? 0 : traces.front().pd.size();
   for (std::size_t i = 0; i < frames; ++i) {
     for (const MotionTrace& trace : traces) {
-      csv += std::to_string(i) + ',' + trace.metric + ',' +
-             StatusName(trace.results[i].status) + ',' +
-             FormatPoint(trace.pd[i]) + ',' + FormatDouble(trace.pd[i].norm()) +
-             '\n';
+      csv += std::to_string(i) + ',' + trace.metric + ',' + trace.status[i] +
+             ',' + FormatPoint(trace.pd[i]) + ',' +
+             FormatDouble(trace.pd[i].norm()) + '\n';
     }
   }
   return csv;

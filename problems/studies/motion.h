@@ -22,9 +22,10 @@ struct StraightMotion {
 
 // One metric along one motion.
 struct MotionTrace {
-  std::string metric;  // as in the CSV: euclidean, phong, phong@0.1
+  std::string metric;  // as in the CSV: euclidean, phong, phong@0.1, sliding
   std::string label;   // for people
   std::vector<PenetrationResult> results;  // per frame
+  std::vector<std::string> status;         // as in the CSV
   std::vector<Eigen::Vector3d> pd;         // PD(q) = q_c − q, 0 outside
 };
 
@@ -41,6 +42,8 @@ struct MotionSummary {
   int jumps = 0;              // changes larger than jump_length
   int branch_ends = 0;        // frames with status branch_ended
   int fallbacks = 0;          // frames with status euclidean_fallback
+  int sliding = 0;            // frames with status sliding
+  int left_elsewhere = 0;     // frames with status left_elsewhere
 };
 MotionSummary Summarize(const MotionTrace& trace, double jump_length);
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/projection/euclidean_metric.h"
+#include "core/projection/penetration_tracker.h"
 #include "core/projection/phong_metric.h"
 #include "problems/shapes/shapes.h"
 #include "tests/support/count_allocations.h"
@@ -53,6 +54,26 @@ TEST(QueryCost, QueriesDoNotAllocate) {
   }
   EXPECT_EQ(allocations, before);
   EXPECT_NE(sum, 0.0);
+}
+
+TEST(QueryCost, OrdinaryStepsOfTheTrackerDoNotAllocate) {
+  const PenetrationTracker tracker(
+      TakeAsContactSpace(MakeTorus(1.0, 0.35, 60, 24)));
+  PenetrationTracker::State state;
+  const auto lap = [&] {
+    int following = 0;
+    for (int i = 0; i < 2000; ++i) {
+      const double t = 0.00314159 * i;
+      const TrackerResult now =
+          tracker.Step({1.1 * std::cos(t), 1.1 * std::sin(t), 0.05}, &state);
+      following += now.status == TrackerStatus::kFollowing ? 1 : 0;
+    }
+    return following;
+  };
+  for (int i = 0; i < 20; ++i) tracker.Step({1.1, 0.001 * i, 0.05}, &state);
+  const long before = allocations;
+  EXPECT_EQ(lap(), 2000);
+  EXPECT_EQ(allocations, before);
 }
 
 TEST(QueryCost, ThreadsGetTheSameBits) {

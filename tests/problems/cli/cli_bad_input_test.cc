@@ -164,6 +164,20 @@ TEST_F(Cli, RefusesPointFilesWithLineAndColumn) {
   }
 }
 
+TEST_F(Cli, RefusesSlidingFlagsThatMakeNoSense) {
+  WriteText("p.csv", "x,y,z\n0,0,0\n");
+  const std::string query =
+      "query --contact-space ../box.off --points ../p.csv --output o.csv ";
+  ExpectRefused(query + "--metric sliding", {"--metric sliding", "--tracked"});
+  ExpectRefused(query + "--slide-ratio 2", {"--slide-ratio", "phong"});
+  ExpectRefused(query + "--metric euclidean --slide-speed 2",
+                {"--slide-speed", "euclidean"});
+  const std::string sliding = query + "--metric sliding --tracked ";
+  ExpectRefused(sliding + "--slide-ratio 0.9", {"--slide-ratio", "0.9"});
+  ExpectRefused(sliding + "--slide-speed 0", {"--slide-speed", "0"});
+  ExpectRefused(sliding + "--slide-speed nan", {"slide speed", "nan"});
+}
+
 TEST_F(Cli, RefusesContactSpacesThatAreNone) {
   WriteText("p.csv", "x,y,z\n0,0,0\n");
   TriangleMesh mesh = MakeBox({-1, -1, -1}, {1, 1, 1});

@@ -2,6 +2,7 @@
 // Good runs of the phongpd program: columns, and doubles that read back.
 #include <gtest/gtest.h>
 
+#include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <string>
@@ -151,6 +152,49 @@ TEST_F(Cli, TrackedQueryFollowsTheBranch) {
   EXPECT_EQ(sides("--tracked --metric euclidean"), 2U);
 }
 
+TEST_F(Cli, SlidingQueryNeverJumpsAndSaysWhatItDoes) {
+  // Into a plate from above and out below, which is too far around its rim.
+  WriteMesh(MakeBox({-2, -2, -0.5}, {2, 2, 0.5}), File("plate.off"));
+  std::string points = "x,y,z\n";
+  for (int i = 0; i <= 60; ++i) {
+    points += "0.1,0.2," + std::to_string(0.6 - 0.02 * i) + "\n";
+  }
+  WriteText("p.csv", points);
+  const Outcome outcome =
+      Run("query --contact-space ../plate.off --points ../p.csv --output o.csv "
+          "--metric sliding --tracked --slide-ratio 2.5 --slide-speed 4");
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  std::map<std::string, int> statuses;
+  Eigen::Vector3d before = Eigen::Vector3d::Zero();
+  for (const std::string& line : Split(Content(Output("o.csv")), '\n')) {
+    const std::vector<std::string> cells = Split(line, ',');
+    if (cells[0] == "x") continue;
+    ASSERT_EQ(cells.size(), 16U);
+    ++statuses[cells[3]];
+    const auto point = [&](std::size_t i) {
+      return Eigen::Vector3d(Number(cells[i]), Number(cells[i + 1]),
+                             Number(cells[i + 2]));
+    };
+    const bool inside = cells[4] == "1";
+    const Eigen::Vector3d pd =
+        inside ? Eigen::Vector3d(point(6) - point(0)) : Eigen::Vector3d::Zero();
+    if (inside) {
+      EXPECT_NEAR(Number(cells[5]), -pd.norm(), 1e-15);
+      EXPECT_NEAR((point(9) * pd.norm() - pd).norm(), 0.0, 1e-15);
+    }
+    EXPECT_EQ(point(9), point(12));
+    if (cells[3] != "left_elsewhere") {
+      EXPECT_LE((pd - before).norm(), 5.0 * 0.02 + 1e-12) << line;
+    }
+    before = pd;
+  }
+  EXPECT_EQ(statuses["left_elsewhere"], 1);
+  EXPECT_GT(statuses["following"], 20);
+  EXPECT_GT(statuses["sliding"], 3);
+  EXPECT_GT(statuses["outside"], 5);
+  EXPECT_EQ(statuses.size(), 4U);
+}
+
 TEST_F(Cli, MotionWritesARowPerFrameAndMetricAndAPlot) {
   const Outcome outcome =
       Run("motion --robot ../cone.off --obstacle ../box.off --from -3 -.1 0.2 "
@@ -158,15 +202,16 @@ TEST_F(Cli, MotionWritesARowPerFrameAndMetricAndAPlot) {
           "--smoothing-length 0 0.1");
   ASSERT_EQ(outcome.code, 0) << outcome.err;
   const std::vector<std::string> lines = Split(Content(Output("m.csv")), '\n');
-  ASSERT_EQ(lines.size(), 91U);
+  ASSERT_EQ(lines.size(), 121U);
   EXPECT_EQ(lines[0], "frame,metric,status,pd_x,pd_y,pd_z,magnitude");
-  const std::vector<std::string> names = {"euclidean", "phong@0", "phong@0.1"};
+  const std::vector<std::string> names = {"euclidean", "phong@0", "phong@0.1",
+                                          "sliding"};
   int inside = 0;
   for (std::size_t i = 1; i < lines.size(); ++i) {
     const std::vector<std::string> cells = Split(lines[i], ',');
     ASSERT_EQ(cells.size(), 7U);
-    EXPECT_EQ(cells[0], std::to_string((i - 1) / 3));
-    EXPECT_EQ(cells[1], names[(i - 1) % 3]);
+    EXPECT_EQ(cells[0], std::to_string((i - 1) / 4));
+    EXPECT_EQ(cells[1], names[(i - 1) % 4]);
     const Eigen::Vector3d pd(Number(cells[3]), Number(cells[4]),
                              Number(cells[5]));
     EXPECT_EQ(Number(cells[6]), pd.norm());
@@ -180,6 +225,8 @@ TEST_F(Cli, MotionWritesARowPerFrameAndMetricAndAPlot) {
                 .code,
             0);
   EXPECT_NE(Content(Output("one.csv")).find("0,phong,ok,0,0,0,0\n"),
+            std::string::npos);
+  EXPECT_NE(Content(Output("one.csv")).find("0,sliding,outside,0,0,0,0\n"),
             std::string::npos);
 }
 

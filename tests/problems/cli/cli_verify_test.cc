@@ -69,7 +69,7 @@ TEST_F(CliVerify, MotionIsVerifiedWhereTheSolidsAreKnown) {
       "--to 3 0.1 0.2 --frames 50 --output m.csv";
   const Outcome with = Run(motion);
   EXPECT_EQ(with.code, 0) << with.err;
-  EXPECT_NE(with.out.find("verified on the original solids: 100 of 100"),
+  EXPECT_NE(with.out.find("verified on the original solids: 150 of 150"),
             std::string::npos)
       << with.out;
   EXPECT_EQ(Run(motion + " --no-verify").out.find("verified"),

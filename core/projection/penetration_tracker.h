@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+
+#include "core/contact/contact_space.h"
+
+namespace phongpd {
+
+struct PenetrationTrackerOptions {
+  // c ≥ 1: the contact makes for where the depth is at most c times the
+  // Euclidean.  The smaller, the less often there is a way that stays there.
+  double ratio = 3.0;
+  // κ > 0: how far the contact moves along the surface at most, in lengths of
+  // the robot's own step.
+  double speed = 10.0;
+
+  void Validate() const;  // throws InputError unless finite and in range
+};
+
+enum class TrackerStatus {
+  kFollowing,      // inside; the contact is where it wants to be
+  kSliding,        // inside; the contact is on its way there
+  kLeftElsewhere,  // outside, PD zero: q left C_obj so far from the contact
+                   // that PD changed by more than (κ + 1)·|Δq|
+  kOutside,        // not inside, PD zero
+  kInvalid,        // q is not finite: all other members are zero, the state is
+                   // as it was
+};
+
+// "following", "sliding", "left_elsewhere", "outside", "invalid".
+const char* Name(TrackerStatus status);
+
+// Answer to one step.  Lengths in the user's unit.
+struct TrackerResult {
+  TrackerStatus status = TrackerStatus::kInvalid;
+  bool inside = false;  // exact: q strictly inside C_obj
+  Eigen::Vector3d pd = Eigen::Vector3d::Zero();  // p − q inside, else zero
+  double magnitude = 0.0;                        // |pd|
+  double euclidean_depth = 0.0;  // d: distance of q to C_cont inside, else 0
+  double ratio = 0.0;            // |pd|/d ≥ 1 inside (to rounding), else 0
+  double moved = 0.0;  // how far the contact moved along the surface, ≤ κ|Δq|
+  Eigen::Vector3d contact = Eigen::Vector3d::Zero();  // p on C_cont inside
+  int triangle = -1;  // of the contact-space mesh, holds p; −1 outside
+};
+
+// Penetration depth of a robot that moves, without a jump: the contact is a
+// point p that slides over C_cont, like the proxy of haptic rendering (Zilles
+// and Salisbury 1995; Ruspini, Kolarov and Khatib 1997), at a bounded speed.
+// For the next q:
+//
+//   1. d = distance of q to C_cont; S = {x ∈ C_cont : |x − q| ≤ c·d}.
+//   2. p wants to be at the point closest to q in the connected piece of S
+//      that holds it; outside S, in the piece a short way leads to.
+//   3. It moves there along the surface, by at most κ·|Δq|; PD = p − q.
+//
+// So while q is inside, |ΔPD| ≤ (κ + 1)·|Δq| (to rounding: some 1e-14 of the
+// diagonal) whatever the shape.  Entering C_obj, p starts at the closest point
+// and |PD| ≤ |Δq|.  Leaving it, PD becomes zero: within the bound, or counted
+// as kLeftElsewhere.  The price is depth: usually |PD| ≤ c·d, but nothing
+// bounds it while p is on its way, nor where C_cont has several components: p
+// cannot leave the one it entered through, and then c·d counts from that one's
+// distance if it is beyond c·d.
+//
+// Most steps are a descent over the triangles next to p.  A way to another
+// place is searched for where the closest point of all is elsewhere, again at
+// the latest when q has moved by a few hundredths of d (between searches the
+// wish is the last one's), and kept while p is on it.  Ways are short, not
+// shortest.
+//
+// It is a state along a motion, not a field: two motions to the same q may
+// have different contacts, there is no gradient, and what happens between two
+// steps is not seen.  For solvers: PhongMetric.
+//
+// Deterministic.  The tracker is immutable, copies share everything, any
+// number of threads may step their own states.
+class PenetrationTracker {
+ public:
+  // Where a motion is: a value, copies go their own ways.  A new one has not
+  // begun, nor has another tracker's; one that was moved from is new.
+  class State {
+   public:
+    State();
+    ~State();
+    State(const State& other);
+    State& operator=(const State& other);
+    State(State&&) noexcept;
+    State& operator=(State&&) noexcept;
+
+   private:
+    friend class PenetrationTracker;
+    struct Data;
+    std::unique_ptr<Data> data_;
+  };
+
+  // Throws InputError for options.
+  explicit PenetrationTracker(const ContactSpace& space,
+                              const PenetrationTrackerOptions& options = {});
+
+  // The answer at q, the next position of the motion that *state is of.
+  // Allocates nothing but for longer ways and searches than before.
+  TrackerResult Step(const Eigen::Vector3d& q, State* state) const;
+
+  const PenetrationTrackerOptions& options() const;
+
+ private:
+  struct Impl;
+  std::shared_ptr<const Impl> impl_;
+};
+
+}  // namespace phongpd
