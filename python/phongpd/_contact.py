@@ -181,7 +181,7 @@ class PhongMetric(_Metric):
             raise InputError(
                 f"field: expected 'normal' or 'tangent-plane', found {field!r}")
         self._native = _native.Metric.phong(
-            _space(space), float(smoothing_length), field == "tangent-plane")
+            native_space(space), float(smoothing_length), field == "tangent-plane")
 
 
 class EuclideanMetric(_Metric):
@@ -189,10 +189,10 @@ class EuclideanMetric(_Metric):
     needed; its direction jumps where two walls are equally near."""
 
     def __init__(self, space: ContactSpace) -> None:
-        self._native = _native.Metric.euclidean(_space(space))
+        self._native = _native.Metric.euclidean(native_space(space))
 
 
-def _space(space: ContactSpace) -> _native.ContactSpace:
+def native_space(space: ContactSpace) -> _native.ContactSpace:
     if isinstance(space, ContactSpace):
         return space._native
     raise InputError(

@@ -11,6 +11,7 @@
 #include "core/mesh/mesh_io.h"
 #include "core/minkowski/build_cancellation.h"
 #include "core/projection/euclidean_metric.h"
+#include "core/projection/penetration_tracker.h"
 #include "core/projection/phong_metric.h"
 #include "core/projection/query_batch.h"
 #include "python/src/arrays.h"
@@ -168,6 +169,42 @@ nb::dict Query(const Metric& metric, const Rows3& rows, bool is_tracked) {
   return out;
 }
 
+// Columns of one row a step of the motion, from the state as it is.
+nb::dict Follow(const PenetrationTracker& tracker,
+                PenetrationTracker::State* state, const Rows3& rows) {
+  const size_t count = rows.shape(0);
+  Column<unsigned char, 1> status(count), inside(count);
+  Column<double, 1> depth(count), euclidean(count), ratio(count), moved(count);
+  Column<double, 3> pd(count), contact(count);
+  Column<int, 1> triangle(count);
+  {
+    const nb::gil_scoped_release release;
+    for (size_t i = 0; i < count; ++i) {
+      const TrackerResult r = tracker.Step(Row(rows, i), state);
+      status[i] = static_cast<unsigned char>(r.status);
+      inside[i] = r.inside;
+      depth[i] = r.magnitude;
+      euclidean[i] = r.euclidean_depth;
+      ratio[i] = r.ratio;
+      moved[i] = r.moved;
+      pd.Set(i, r.pd);
+      contact.Set(i, r.contact);
+      triangle[i] = r.triangle;
+    }
+  }
+  nb::dict out;
+  out["status"] = status.Array();
+  out["inside"] = inside.Array();
+  out["penetration"] = pd.Array();
+  out["depth"] = depth.Array();
+  out["euclidean_depth"] = euclidean.Array();
+  out["ratio"] = ratio.Array();
+  out["moved"] = moved.Array();
+  out["contact"] = contact.Array();
+  out["triangle"] = triangle.Array();
+  return out;
+}
+
 }  // namespace
 
 void BindContactSpace(nb::module_& module) {
@@ -200,6 +237,19 @@ void BindContactSpace(nb::module_& module) {
       .def_static("phong", &Phong)
       .def_static("euclidean", &Euclidean)
       .def("query", &Query);
+  nb::class_<PenetrationTracker::State>(module, "TrackerState")
+      .def(nb::init<>());
+  nb::class_<PenetrationTracker>(module, "PenetrationTracker")
+      .def("__init__",
+           [](PenetrationTracker* self, const ContactSpace& space, double ratio,
+              double speed) {
+             PenetrationTrackerOptions options;
+             options.ratio = ratio;
+             options.speed = speed;
+             const nb::gil_scoped_release release;
+             new (self) PenetrationTracker(space, options);
+           })
+      .def("follow", &Follow);
 }
 
 }  // namespace phongpd::python

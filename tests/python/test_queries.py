@@ -57,6 +57,29 @@ def test_tracked_answers_continue_a_branch(space):
     assert not (jumps & ~ended).any()
 
 
+def test_the_tracker_never_jumps(space):
+    random = np.random.default_rng(9)
+    walk = np.cumsum(random.normal(scale=0.02, size=(5000, 3)), axis=0)
+    walk = 0.4 + np.clip(walk, -0.9, 0.9)
+    tracker = phongpd.PenetrationTracker(space, speed=5)
+    motion = tracker.follow(walk)
+    assert set(motion.statuses) <= {"following", "sliding", "outside"}
+    stays = motion.inside[1:] & motion.inside[:-1]
+    steps = np.linalg.norm(np.diff(walk, axis=0), axis=1)[stays]
+    changes = np.linalg.norm(np.diff(motion.penetration, axis=0), axis=1)[stays]
+    assert (changes <= 6 * steps + 1e-12).all()
+    euclid = phongpd.EuclideanMetric(space).query(walk).signed_distance
+    inside = motion.inside
+    assert np.abs(motion.euclidean_depth[inside] + euclid[inside]).max() < 1e-10
+    # In two calls as in one, and anew after restart.
+    again = phongpd.PenetrationTracker(space, speed=5)
+    parts = [again.follow(walk[:2000]), again.follow(walk[2000:])]
+    assert (np.vstack([p.penetration for p in parts])
+            == motion.penetration).all()
+    again.restart()
+    assert (again.follow(walk).penetration == motion.penetration).all()
+
+
 def test_points_that_are_not_finite_are_invalid(space):
     for metric in (phongpd.PhongMetric(space), phongpd.EuclideanMetric(space)):
         answer = metric.query([[np.nan, 0, 0], [np.inf, 0, 0], [0, 0, 0]])
