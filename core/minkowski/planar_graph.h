@@ -34,7 +34,8 @@ class PlanarGraph {
   void Build();
 
   // After Build: half-edge 2e runs along edge e, 2e + 1 back.  Faces lie on
-  // the left of their half-edges, seen along the plane's normal.
+  // the left of their half-edges, seen with the plane's normal towards the
+  // eye, or on the right where IsMirrored.
   struct Face {
     Coverage coverage{};
     std::vector<int> loops;  // one half-edge of every border loop
