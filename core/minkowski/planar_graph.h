@@ -87,6 +87,8 @@ class PlanarGraph {
   Eigen::Vector2d Direction(int half_edge) const;
   void SortOutgoing(std::vector<int>* half_edges) const;
   void LinkLoops();
+  // Does every half-edge go on where it ends, and none twice?
+  bool HasLoops() const;
   std::vector<Component> FindComponents() const;
   int HalfEdgeLeftOf(const Component& component,
                      const std::vector<int>& component_of,
