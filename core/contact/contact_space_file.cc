@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <fstream>
 #include <string_view>
+#include <utility>
 
 #include "core/contact/byte_stream.h"
 #include "core/contact/contact_space_bytes.h"
