@@ -157,8 +157,8 @@ TEST(ExactPoints, PredicatesHaveTheSignsOfRationals) {
 // A point beside a plane by 2^-41 of a grid step, far below what doubles tell
 // at these coordinates: on the edge (0,0,0) to (n,n,n), at t = 1/n² or so.
 TEST(ExactPoints, TellApartWhatDoublesDoNot) {
-  const std::int64_t n = (std::int64_t{1} << 38) - 1;
-  const auto at = [n](internal::Int128 above, internal::Int128 below) {
+  constexpr std::int64_t n = (std::int64_t{1} << 38) - 1;
+  const auto at = [](internal::Int128 above, internal::Int128 below) {
     PointDefinition d;
     d.kind = PointDefinition::kEdge;
     d.a = {n, n, n};
