@@ -119,34 +119,4 @@ bool FeatureSearch::FindNext(const Vector3d& q, const Vector3d* taken,
   return true;
 }
 
-Eigen::Matrix3d FeatureSearch::Curvature(const Vector3d& q,
-                                         int triangle) const noexcept {
-  const Vector3d x = bvh_->ToFrame(q);
-  if (!IsNear(x) || triangle < 0 ||
-      triangle >= static_cast<int>(space_.mesh().triangles.size())) {
-    return Eigen::Matrix3d::Zero();
-  }
-  const TriangleMesh& mesh = space_.mesh();
-  const Triangle& indices = mesh.triangles[triangle];
-  const TriangleCorners t = bvh_->ToFrame(
-      TriangleCorners{mesh.vertices[indices[0]], mesh.vertices[indices[1]],
-                      mesh.vertices[indices[2]]});
-  const Vector3d lambda = ClosestOnTriangle(t[0], t[1], t[2], x).lambda;
-  const auto corners_used = (lambda.array() > 0.0).count();
-  Vector3d u;
-  if (corners_used == 3 || !Direction(t, lambda, x, &u)) {
-    return Eigen::Matrix3d::Zero();
-  }
-  Eigen::Matrix3d flat = u * u.transpose();
-  if (corners_used == 2) {
-    const std::size_t a = lambda[0] > 0.0 ? 0 : 1, b = lambda[2] > 0.0 ? 2 : 1;
-    const Vector3d e = (t[b] - t[a]).normalized();
-    flat += e * e.transpose();
-  }
-  const Vector3d foot = lambda[0] * t[0] + lambda[1] * t[1] + lambda[2] * t[2];
-  constexpr double kLeast = 1e-3;
-  const double distance = std::max((x - foot).norm(), kLeast);
-  return (Eigen::Matrix3d::Identity() - flat) / distance * bvh_->scale();
-}
-
 }  // namespace phongpd

@@ -35,13 +35,6 @@ class FeatureSearch {
                 int count, double cos_limit, double reach,
                 Feature* feature) const noexcept;
 
-  // ∇² of the distance to one triangle at q:  0 over its face,
-  // (I − uuᵀ − eeᵀ)/d beside an edge e, (I − uuᵀ)/d beside a vertex; d is
-  // taken as at least 1e-3 diagonals, so that it stays bounded.  User's unit.
-  // Zero for q not finite and for a triangle that is none of the mesh.
-  Eigen::Matrix3d Curvature(const Eigen::Vector3d& q,
-                            int triangle) const noexcept;
-
  private:
   // No point of a node's box, seen from x, leaves the cone about a taken
   // direction.

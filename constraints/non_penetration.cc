@@ -17,10 +17,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-// Values of two branches that agree to this, in units of the frame, belong to
-// one branch.
-constexpr double kSameValue = 1e-9;
-
 void Fail(const std::string& what, const std::string& found) {
   throw InputError("non-penetration constraint: " + what + ", found " + found);
 }
@@ -143,45 +139,36 @@ void NonPenetrationConstraint::ForEachRow(const double* u,
                                           const BranchSet& branches,
                                           NonPenetrationCounts* counts,
                                           const Visit& visit) const {
-  struct Candidate {
-    MetricRow row;
-    std::size_t metric = 0;
-  };
-  const bool is_stateless = options_.policy == BranchPolicy::kStateless;
   const auto count = static_cast<std::size_t>(options_.rows);
   std::array<MetricRow, kMaxMetricRows> rows;       // of one space
-  std::array<Candidate, kMaxMetricRows + 1> least;  // of all, ascending
+  std::array<MetricRow, kMaxMetricRows + 1> least;  // of all, ascending
   // Repeated rows only fill up; ties keep the order of the spaces.
-  const auto before = [](const Candidate& a, const Candidate& b) {
-    if (a.row.is_repeated != b.row.is_repeated) return b.row.is_repeated;
-    return a.row.value < b.row.value;
+  const auto before = [](const MetricRow& a, const MetricRow& b) {
+    if (a.is_repeated != b.is_repeated) return b.is_repeated;
+    return a.value < b.value;
   };
   for (int s = 0; s < samples(); ++s) {
     const Sample& sample = samples_[static_cast<std::size_t>(s)];
     const Vector3d q = SamplePoint(s, u);
     std::size_t kept = 0;
     for (std::size_t m = 0; m < metrics_.size(); ++m) {
-      Branch previous;
-      if (!is_stateless) previous = branches.branches[BranchIndex(s, m)];
+      const Branch& previous = branches.branches[BranchIndex(s, m)];
       metrics_[m]->Query(q, previous, options_.rows, rows.data());
       Count(rows[0], previous.IsValid(), counts);
       for (std::size_t k = 0; k < count; ++k) {
         if (!options_.merge_spaces) {
-          visit(sample, *metrics_[m], q, rows[k]);
+          visit(sample, rows[k]);
           continue;
         }
-        const Candidate candidate{rows[k], m};
-        Candidate* const end = least.data() + kept;
-        Candidate* const at =
-            std::upper_bound(least.data(), end, candidate, before);
+        MetricRow* const end = least.data() + kept;
+        MetricRow* const at =
+            std::upper_bound(least.data(), end, rows[k], before);
         std::move_backward(at, end, end + 1);
-        *at = candidate;
+        *at = rows[k];
         kept = std::min(kept + 1, count);
       }
     }
-    for (std::size_t k = 0; k < kept; ++k) {
-      visit(sample, *metrics_[least[k].metric], q, least[k].row);
-    }
+    for (std::size_t k = 0; k < kept; ++k) visit(sample, least[k]);
   }
 }
 
@@ -192,8 +179,7 @@ bool NonPenetrationConstraint::Evaluate(const double* u,
   CheckSize(branches);
   if (!IsFinite(u)) return false;
   ForEachRow(u, branches, counts,
-             [&](const Sample& sample, const SignedMetric&, const Vector3d&,
-                 const MetricRow& row) {
+             [&](const Sample& sample, const MetricRow& row) {
                if (values != nullptr) {
                  *values++ = std::min(row.value / options_.frame.unit,
                                       std::numeric_limits<double>::max());
@@ -208,57 +194,11 @@ bool NonPenetrationConstraint::Evaluate(const double* u,
   return true;
 }
 
-void NonPenetrationConstraint::CurvaturePattern(int* row, int* col) const {
-  const auto add = [&](int i, int j) {
-    *row++ = i;
-    *col++ = j;
-  };
-  for (int w = 0; w < waypoints_; ++w) {
-    for (int a = 0; a < 3; ++a) {
-      for (int b = 0; b <= a; ++b) add(3 * w + a, 3 * w + b);
-    }
-    for (int i = 0; w > 0 && i < 9; ++i) {
-      add(3 * w + i / 3, 3 * (w - 1) + i % 3);
-    }
-  }
-}
-
-void NonPenetrationConstraint::AddCurvature(const double* u,
-                                            const BranchSet& branches,
-                                            const double* multipliers,
-                                            bool outside_only,
-                                            double* values) const {
-  CheckSize(branches);
-  if (!IsFinite(u)) return;
-  ForEachRow(u, branches, nullptr,
-             [&](const Sample& sample, const SignedMetric& metric,
-                 const Vector3d& q, const MetricRow& row) {
-               const double multiplier = *multipliers++;
-               if (multiplier == 0.0 || (outside_only && row.inside)) return;
-               const Eigen::Matrix3d h =
-                   multiplier * options_.frame.unit * metric.Curvature(q, row);
-               for (int i = 0; i < sample.count; ++i) {
-                 const int w = sample.waypoint[i];
-                 double* block = values + (w == 0 ? 0 : 15 * w - 9);
-                 const double weight = sample.weight[i];
-                 for (int a = 0; a < 3; ++a) {
-                   for (int b = 0; b <= a; ++b) {
-                     *block++ += weight * weight * h(a, b);
-                   }
-                 }
-                 // The second waypoint of a sample is the later one.
-                 for (int k = 0; i == 1 && k < 9; ++k) {
-                   *block++ += weight * sample.weight[0] * h(k / 3, k % 3);
-                 }
-               }
-             });
-}
-
 BranchSet NonPenetrationConstraint::Start(const double* u,
                                           NonPenetrationCounts* counts) const {
   BranchSet set;
   set.branches.resize(samples_.size() * metrics_.size());
-  if (!IsFinite(u) || options_.policy == BranchPolicy::kStateless) return set;
+  if (!IsFinite(u)) return set;
   for (int s = 0; s < samples(); ++s) {
     const Vector3d q = SamplePoint(s, u);
     for (std::size_t m = 0; m < metrics_.size(); ++m) {
@@ -273,25 +213,16 @@ BranchSet NonPenetrationConstraint::Start(const double* u,
 void NonPenetrationConstraint::Commit(const double* u, BranchSet* branches,
                                       NonPenetrationCounts* counts) const {
   CheckSize(*branches);
-  if (options_.policy == BranchPolicy::kOuterRestart || !IsFinite(u)) return;
-  const bool is_stateless = options_.policy == BranchPolicy::kStateless;
+  if (!IsFinite(u)) return;
   for (int s = 0; s < samples(); ++s) {
     const Vector3d q = SamplePoint(s, u);
     for (std::size_t m = 0; m < metrics_.size(); ++m) {
       Branch& branch = branches->branches[BranchIndex(s, m)];
       const bool was_warm = branch.IsValid();
-      const MetricRow warm = metrics_[m]->Query(q, branch);
-      MetricRow now = warm;
-      if (is_stateless) {
-        // The branches are kept for nothing but this count.
-        now = metrics_[m]->Query(q);
-      } else {
-        Count(warm, was_warm, counts);
-      }
+      const MetricRow now = metrics_[m]->Query(q, branch);
+      Count(now, was_warm, counts);
       if (counts != nullptr && was_warm && now.inside &&
-          (warm.status == QueryStatus::kBranchEnded ||
-           std::abs(warm.value - now.value) >
-               kSameValue * options_.frame.unit)) {
+          now.status == QueryStatus::kBranchEnded) {
         ++counts->branch_changes;
       }
       branch = now.branch;

@@ -9,20 +9,15 @@
 
 namespace phongpd {
 
-// How the branches of the samples advance while a solver iterates.  A solver
-// also evaluates points it rejects: none of them ever changes a branch.
-enum class BranchPolicy {
-  kCommit,        // frozen during an iteration, advanced by Commit(x) at the
-                  // accepted iterate
-  kStateless,     // every query is cold
-  kOuterRestart,  // fixed from Start(x) to the next Start(x)
-};
-
 // The state of an evaluation, one branch for each sample and contact space, as
 // NonPenetrationConstraint::Start makes it.  Whoever takes one throws
 // InputError for any other number of branches, an empty set included.  Branches
 // of another contact space are no error: what cannot be continued is a cold
 // query.
+//
+// They are frozen while a solver iterates and advance at the iterates it
+// accepts (Commit): it also evaluates points that it rejects, and none of these
+// ever changes a branch.
 struct BranchSet {
   std::vector<Branch> branches;
 };
@@ -44,7 +39,6 @@ struct PathFrame {
 struct NonPenetrationOptions {
   PathFrame frame;
   int rows = 1;  // K in [1, kMaxMetricRows]
-  BranchPolicy policy = BranchPolicy::kCommit;
   // Several contact spaces: K rows a sample for each of them, or the K least
   // of all their rows.
   bool merge_spaces = false;
@@ -91,21 +85,10 @@ class NonPenetrationConstraint {
   bool Evaluate(const double* u, const BranchSet& branches, double* values,
                 double* jacobian, NonPenetrationCounts* counts) const;
 
-  // Σ multipliers[i] ∇² of row i (SignedMetric::Curvature), added to the lower
-  // triangle of a matrix with blocks for neighbouring waypoints.  It holds
-  // curvature_nonzeros() entries waypoint by waypoint: 6 of the diagonal block,
-  // row by row, then 9 of the block left of it.  With `outside_only` rows
-  // inside add nothing.  Queries again: Evaluate keeps nothing.
-  int curvature_nonzeros() const { return 15 * waypoints_ - 9; }
-  void CurvaturePattern(int* row, int* col) const;
-  void AddCurvature(const double* u, const BranchSet& branches,
-                    const double* multipliers, bool outside_only,
-                    double* values) const;
-
   // Cold branches at u: the beginning of a solve or of a round.
   BranchSet Start(const double* u, NonPenetrationCounts* counts) const;
-  // u was accepted: advances the branches as the policy says.  Does nothing if
-  // some u is not finite.
+  // u was accepted: advances the branches to it.  Does nothing if some u is not
+  // finite.
   void Commit(const double* u, BranchSet* branches,
               NonPenetrationCounts* counts) const;
 
@@ -119,7 +102,7 @@ class NonPenetrationConstraint {
   };
 
   Eigen::Vector3d Waypoint(int index, const double* u) const;
-  // visit(sample, metric, q, row) for all rows in their order.
+  // visit(sample, row) for all rows in their order.
   template <typename Visit>
   void ForEachRow(const double* u, const BranchSet& branches,
                   NonPenetrationCounts* counts, const Visit& visit) const;

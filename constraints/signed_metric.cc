@@ -82,32 +82,4 @@ void SignedMetric::Query(const Vector3d& q, const Branch& previous, int count,
   }
 }
 
-Eigen::Matrix3d SignedMetric::Curvature(const Vector3d& q,
-                                        const MetricRow& row) const {
-  if (row.status == QueryStatus::kInvalid) return Eigen::Matrix3d::Zero();
-  if (!row.branch.IsValid()) {
-    const double sign = row.inside ? -1.0 : 1.0;
-    return sign * features_->Curvature(q, row.triangle);
-  }
-  const double diagonal = space_.bounds().Diagonal();
-  const double step = 1e-6 * diagonal;
-  Eigen::Matrix3d h;
-  for (int axis = 0; axis < 3; ++axis) {
-    const Vector3d move = step * Vector3d::Unit(axis);
-    const PenetrationResult ahead = metric_->Query(q + move, row.branch);
-    const PenetrationResult behind = metric_->Query(q - move, row.branch);
-    for (const PenetrationResult* side : {&ahead, &behind}) {
-      if (side->status != QueryStatus::kOk || !side->inside) {
-        return Eigen::Matrix3d::Zero();
-      }
-    }
-    h.col(axis) = (ahead.gradient - behind.gradient) / (2.0 * step);
-  }
-  h = (0.5 * (h + h.transpose())).eval();
-  // Squares may overflow in small spaces; the norm does not.
-  const double size = h.reshaped().stableNorm(), most = 1e3 / diagonal;
-  if (size > most) h *= most / size;
-  return h;
-}
-
 }  // namespace phongpd

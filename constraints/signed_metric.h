@@ -90,15 +90,6 @@ class SignedMetric {
   MetricRow Query(const Eigen::Vector3d& q,
                   const Branch& previous = Branch()) const;
 
-  // ∇² of the value of a row that Query gave at q.  Distances (outside, and
-  // Euclid's depth) in closed form (FeatureSearch::Curvature).  Phong's depth
-  // by central differences of its exact gradient along the row's branch, steps
-  // of 1e-6 diagonals, symmetrised, bounded by 1e3/diagonal like the others;
-  // zero where the branch ends within a step.  For trials: contact curvature
-  // won no solver run of a 30-seed study, inside it cost restoration.
-  Eigen::Matrix3d Curvature(const Eigen::Vector3d& q,
-                            const MetricRow& row) const;
-
  private:
   SignedMetricOptions options_;
   ContactSpace space_;

@@ -65,8 +65,6 @@ if [[ $suite == convergence || $suite == all ]]; then
     euclidean phong@0 phong@0.05 phong@0.1 phong@0.2 phong@0.3
   shards exact --protocols straight-adaptive --metrics phong@0.2/exact \
     --runs 10
-  shards changes --protocols curvature-outside curvature-all \
-    policy-stateless policy-outer-restart --metrics phong@0.2 --runs 10
   shards repaired --protocols repaired-monotone repaired-adaptive pipeline \
     --metrics euclidean phong@0 phong@0.2
   cat "$rows"/*/rows.jsonl > "$rows/all.jsonl"

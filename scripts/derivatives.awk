@@ -22,7 +22,7 @@ function Flush(   i, hit, missed, short, last) {
   printf "| %s | %s | %d | %d | %s |\n", source, short, count, hit, missed
 }
 BEGIN {
-  wanted = "(Gradient|Jacobian|Slope|Curvature|Hessian|Jet|UnitNormal|Lengths" \
+  wanted = "(Gradient|Jacobian|Slope|Hessian|Jet|UnitNormal|Lengths" \
     "|Local|SafeFraction|RefineHit|Newton|ProjectOnTangentPlanes" \
     "|CriticalPoints|RootInBracket|::Constraints" \
     "|NonPenetrationConstraint::Evaluate)$"

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 
 namespace phongpd {
 
@@ -113,6 +114,43 @@ class Splitter {
   const std::vector<BoundingBox>& boxes_;
 };
 
+// What both traversals rely on: children come in pairs behind their parent and
+// lie within it, no path overflows the traversals' stack, and every item is in
+// one leaf, within its box.
+[[maybe_unused]] bool IsSound(const std::vector<BoxTree::Node>& nodes,
+                              const std::vector<int>& order,
+                              const std::vector<BoundingBox>& boxes) {
+  const auto holds = [](const BoxTree::Node& node, const Vector3d& min,
+                        const Vector3d& max) {
+    return (node.min.array() <= min.array()).all() &&
+           (node.max.array() >= max.array()).all();
+  };
+  std::vector<int> depth(nodes.size(), 0);
+  std::vector<char> seen(boxes.size(), 0);
+  std::size_t reached = 1;
+  for (std::size_t n = 0; n < nodes.size(); ++n) {
+    const BoxTree::Node& node = nodes[n];
+    for (int i = node.first; i < node.first + node.count; ++i) {
+      const BoundingBox& box = boxes[order[i]];
+      if (seen[order[i]]++ != 0 || !holds(node, box.min, box.max)) return false;
+    }
+    if (node.IsLeaf()) continue;
+    for (const int child : {node.first, node.first + 1}) {
+      if (child <= static_cast<int>(n) ||
+          child >= static_cast<int>(nodes.size()) ||
+          !holds(node, nodes[child].min, nodes[child].max)) {
+        return false;
+      }
+      depth[child] = depth[n] + 1;
+      if (depth[child] >= BoxTree::kMaxDepth) return false;
+      ++reached;
+    }
+  }
+  return reached == nodes.size() &&
+         std::count(seen.begin(), seen.end(), 1) ==
+             static_cast<std::ptrdiff_t>(boxes.size());
+}
+
 }  // namespace
 
 BoxTree::BoxTree(const std::vector<BoundingBox>& boxes, int leaf_size) {
@@ -146,6 +184,7 @@ BoxTree::BoxTree(const std::vector<BoundingBox>& boxes, int leaf_size) {
     }
     nodes_[range.node] = node;
   }
+  assert(IsSound(nodes_, order_, boxes));
 }
 
 }  // namespace phongpd

@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "core/contact/byte_stream.h"
+#include "core/contact/content_hash.h"
 #include "core/mesh/finite.h"
 
 namespace phongpd {
@@ -114,8 +115,8 @@ namespace {
 // Is it what others rely on without looking again?
 bool IsValid(const ContactSpace::Parts& space) {
   const std::size_t triangles = space.mesh.triangles.size();
-  if (space.plane.size() != triangles || space.kind.size() != triangles) {
-    return false;
+  for (const std::size_t size : {space.plane.size(), space.kind.size()}) {
+    if (size != triangles && size != 0) return false;
   }
   for (const Eigen::Vector3d& v : space.mesh.vertices) {
     if (!IsFinite(v)) return false;
@@ -140,6 +141,12 @@ bool FromBytes(std::string_view bytes, ContactSpace::Parts* space) {
   ByteReader reader(bytes);
   reader(*space);
   return reader.Done() && IsValid(*space);
+}
+
+std::string Seal(std::string_view content) {
+  ByteWriter writer;
+  writer(static_cast<std::uint64_t>(content.size()), HashContent(content));
+  return writer.Take();
 }
 
 }  // namespace internal

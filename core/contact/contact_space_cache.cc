@@ -135,7 +135,7 @@ class CacheFile {
   void Write(const ContactSpace::Parts& space) {
     try {
       const std::string content = internal::ToBytes(space);
-      const std::string start = header_ + Seal(content);
+      const std::string start = header_ + internal::Seal(content);
       if (start.size() + content.size() > cache_.max_bytes) return;
       if (!folder_.MakeIfMissing()) return;
       internal::TemporaryFile file(folder_.descriptor(), kTemporary);
@@ -150,24 +150,16 @@ class CacheFile {
   }
 
  private:
-  static constexpr std::size_t kSealBytes = 3 * sizeof(std::uint64_t);
-  static std::string Seal(std::string_view content) {
-    internal::ByteWriter writer;
-    writer(static_cast<std::uint64_t>(content.size()),
-           internal::HashContent(content));
-    return writer.Take();
-  }
-
   bool IsContent(const Descriptor& file, std::uintmax_t size,
                  ContactSpace::Parts* space) const {
-    const std::size_t start = header_.size() + kSealBytes;
+    const std::size_t start = header_.size() + internal::kSealBytes;
     if (size > cache_.max_bytes || size < start) return false;
     try {
       const std::string bytes = internal::ReadAll(file);
       const std::string_view all(bytes);
       if (all.size() < start) return false;
       const std::string_view content = all.substr(start);
-      return all.substr(0, start) == header_ + Seal(content) &&
+      return all.substr(0, start) == header_ + internal::Seal(content) &&
              internal::FromBytes(content, space);
     } catch (const std::system_error&) {  // a disk that fails
       return false;

@@ -2,6 +2,7 @@
 #include "core/minkowski/exact_points.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 namespace phongpd::internal {
@@ -75,6 +76,7 @@ Homogeneous Evaluate(const PointDefinition& point) {
       break;
     }
   }
+  assert(h.w != 0);  // neither parallel planes nor an edge along its plane
   if (h.w < 0) {
     h.w = -h.w;
     for (Wide& x : h.x) x = -x;
@@ -87,6 +89,8 @@ Eigen::Vector3d Approximate(const PointDefinition& point) {
     case PointDefinition::kVertex:
       return ToDouble(point.a);
     case PointDefinition::kEdge: {
+      // Strictly on both sides, or else t is no fraction.
+      assert(Sign(point.side_a) * Sign(point.side_b) < 0);
       const double t = static_cast<double>(point.side_a) /
                        static_cast<double>(point.side_a - point.side_b);
       return ToDouble(point.a) + t * ToDouble(point.b - point.a);
@@ -227,6 +231,7 @@ int ExactPoints::Add(const LocatedPoint& p) {
 }
 
 LocatedPoint ExactPoints::operator[](int id) const {
+  assert(0 <= id && id < size());
   LocatedPoint p;
   p.approximate = approximate_[id];
   PointDefinition& d = p.definition;

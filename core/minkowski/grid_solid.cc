@@ -2,6 +2,7 @@
 #include "core/minkowski/grid_solid.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <map>
 #include <tuple>
@@ -218,6 +219,33 @@ void BuildEdges(GridSolid* solid, const std::string& name) {
   }
 }
 
+// What every predicate of the engine relies on: coordinates of kGridBits,
+// facets with area, and edges whose facets run along them one each way.
+[[maybe_unused]] bool IsSound(const GridSolid& solid) {
+  for (const GridPoint& p : solid.vertices) {
+    for (const std::int64_t x : p) {
+      if (std::abs(x) > std::int64_t{1} << kGridBits) return false;
+    }
+  }
+  for (const GridNormal& n : solid.normals) {
+    if (IsZero(n)) return false;
+  }
+  const auto runs = [&](int facet, int a, int b, int apex) {
+    const Triangle& t = solid.facets[facet];
+    for (int k = 0; k < 3; ++k) {
+      if (t[k] == a) return t[(k + 1) % 3] == b && t[(k + 2) % 3] == apex;
+    }
+    return false;
+  };
+  for (const GridEdge& e : solid.edges) {
+    if (!runs(e.left, e.a, e.b, e.left_apex) ||
+        !runs(e.right, e.b, e.a, e.right_apex)) {
+      return false;
+    }
+  }
+  return 2 * solid.edges.size() == 3 * solid.facets.size();
+}
+
 }  // namespace
 
 GridSolid MakeGridSolid(const std::vector<GridPoint>& vertices,
@@ -247,6 +275,7 @@ GridSolid MakeGridSolid(const std::vector<GridPoint>& vertices,
     solid.normals.push_back(FacetNormal(solid.vertices, t));
   }
   BuildEdges(&solid, name);
+  assert(IsSound(solid));
   return solid;
 }
 

@@ -2,6 +2,7 @@
 #include "core/minkowski/planar_graph.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -33,12 +34,15 @@ PlanarGraph::PlanarGraph(const GridPlane& plane)
 }
 
 int PlanarGraph::AddVertex(const LocatedPoint& point) {
+  assert(SideOf(plane_, point) == 0);
   vertices_.push_back(point);
   return static_cast<int>(vertices_.size()) - 1;
 }
 
 void PlanarGraph::AddSegment(int from, int to, const GridPlane& cutter,
                              const Coverage& net) {
+  assert(from == to || (SideOf(cutter, vertices_[from]) == 0 &&
+                        SideOf(cutter, vertices_[to]) == 0));
   Segment s{from, to, cutter, net, {}, Flat(from), Flat(to)};
   const Vector2d low = s.low.cwiseMin(s.high).array() - 2 * kPointError;
   s.high = s.low.cwiseMax(s.high).array() + 2 * kPointError;
@@ -477,8 +481,20 @@ void PlanarGraph::Build() {
   CrossAll();
   SplitSegments();
   LinkLoops();
+  assert(HasLoops());
   FormFaces();
   SpreadCoverage();
+}
+
+bool PlanarGraph::HasLoops() const {
+  std::vector<char> seen(next_.size(), 0);
+  for (std::size_t h = 0; h < next_.size(); ++h) {
+    const int half_edge = static_cast<int>(h);
+    if (From(next_[h]) != From(half_edge ^ 1)) return false;
+    if (From(half_edge) == From(half_edge ^ 1)) return false;
+    if (seen[next_[h]]++ != 0) return false;
+  }
+  return true;
 }
 
 }  // namespace phongpd::internal

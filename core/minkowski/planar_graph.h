@@ -34,7 +34,8 @@ class PlanarGraph {
   void Build();
 
   // After Build: half-edge 2e runs along edge e, 2e + 1 back.  Faces lie on
-  // the left of their half-edges, seen along the plane's normal.
+  // the left of their half-edges, seen with the plane's normal towards the
+  // eye, or on the right where IsMirrored.
   struct Face {
     Coverage coverage{};
     std::vector<int> loops;  // one half-edge of every border loop
@@ -86,6 +87,8 @@ class PlanarGraph {
   Eigen::Vector2d Direction(int half_edge) const;
   void SortOutgoing(std::vector<int>* half_edges) const;
   void LinkLoops();
+  // Does every half-edge go on where it ends, and none twice?
+  bool HasLoops() const;
   std::vector<Component> FindComponents() const;
   int HalfEdgeLeftOf(const Component& component,
                      const std::vector<int>& component_of,

@@ -3,6 +3,7 @@
 
 #include <tbb/parallel_for.h>
 
+#include <cassert>
 #include <cstdint>
 #include <limits>
 #include <numeric>
@@ -32,9 +33,21 @@ GridPlane PlaneOf(const GridNormal& normal, const GridPoint& p,
   const Int128 divisor = Gcd(Gcd(n[0], n[1]), n[2]);
   for (Int128& x : n) x /= divisor;
   const Int128 lead = n[0] != 0 ? n[0] : n[1] != 0 ? n[1] : n[2];
+  assert(lead != 0);  // the facet has area
   *reversed = lead < 0;
   if (*reversed) n = Negated(n);
   return {n, Dot(n, p)};
+}
+
+// Do all three corners lie on the plane, not only the one it was made from?
+[[maybe_unused]] bool IsOnPlane(const Convolution& convolution, std::size_t f,
+                                const GridPlane& plane) {
+  for (const int corner : convolution.facets[f].corners) {
+    if (Dot(plane.normal, convolution.points[corner]) != plane.offset) {
+      return false;
+    }
+  }
+  return true;
 }
 
 }  // namespace
@@ -59,6 +72,7 @@ PlaneGroups GroupByPlane(const Convolution& convolution) {
       groups.planes.push_back(planes[f]);
     }
     groups.of_facet[f] = it->second;
+    assert(IsOnPlane(convolution, f, planes[f]));
     groups.members[it->second].push_back(static_cast<int>(f));
   }
   return groups;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <map>
 #include <numeric>
@@ -36,6 +37,7 @@ class Assembler {
     PairEdges(rings);
     NumberVertices();
     SeparatePinchedEdges();
+    assert(IsPaired());
     FormPatches();
     return Collect();
   }
@@ -87,6 +89,16 @@ class Assembler {
   }
 
   int To(int e) const { return edges_[edges_[e].next].vertex; }
+
+  // Has every half-edge one mate, which runs back between the same vertices?
+  bool IsPaired() const {
+    for (std::size_t e = 0; e < edges_.size(); ++e) {
+      const int mate = edges_[e].mate;
+      if (mate < 0 || edges_[mate].mate != static_cast<int>(e)) return false;
+      if (To(mate) != edges_[e].vertex) return false;
+    }
+    return true;
+  }
 
   // Gives every fan of faces around a point a vertex of its own.
   void NumberVertices() {

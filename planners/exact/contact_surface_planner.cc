@@ -27,6 +27,9 @@ using Eigen::Vector3d;
 constexpr double kStraight = 1.05, kHopeless = 3.0;
 constexpr int kNarrowRoutes = 3;  // if straight but not clear
 
+// Searches after edges that could not be lifted.
+constexpr int kMaxSearches = 200;
+
 // Routes as lifted that differ by less, of their length, are one.
 constexpr double kSameWay = 0.01;
 
@@ -70,7 +73,6 @@ void ContactSurfaceOptions::Validate() const {
   Require(spacing >= 1e-3 && spacing <= 1.0, "spacing", "in [0.001, 1]",
           spacing);
   Require(gap_links >= 0, "gap_links", "≥ 0", gap_links);
-  Require(max_searches >= 1, "max_searches", "≥ 1", max_searches);
   Require(routes >= 1, "routes", "≥ 1", routes);
   Require(random_cuts >= 0, "random_cuts", "≥ 0", random_cuts);
 }
@@ -188,7 +190,7 @@ void ContactSurfacePlanner::Impl::FindPath(const Vector3d& start,
   const double clear =
       0.4 * surface.ClearanceOfEnds(start, goal, result->wanted_clearance);
   for (int found = 0; found < routes;) {
-    if (result->searches == options.max_searches) break;
+    if (result->searches == kMaxSearches) break;
     ++result->searches;
     const SurfaceGraph::Route route =
         graph.Search(start, goal, attachments, deleted, avoided);
@@ -237,7 +239,7 @@ void ContactSurfacePlanner::Impl::FindPath(const Vector3d& start,
   const bool decided = result->start.cell != FreeCells::kUndecided &&
                        result->goal.cell != FreeCells::kUndecided;
   result->reason =
-      result->searches == options.max_searches
+      result->searches == kMaxSearches
           ? "no route could be lifted in as many searches as allowed"
       : decided ? "every route on the surface has a place that rounding closed"
                 : "no route found, and no ray that keeps rounding away from "

@@ -35,8 +35,6 @@ struct ContactSurfaceOptions {
   // At most this many triangles, and points of edges if triangles are fewer,
   // get a link across the gap in front of them.
   int gap_links = 256;
-  // Searches after edges that could not be lifted; at least 1.
-  int max_searches = 200;
   // Routes of different kinds that are compared after shortening, at least 1;
   // fewer where the first is about as short as the straight line.
   int routes = 3;

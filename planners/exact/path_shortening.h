@@ -9,12 +9,13 @@ namespace phongpd {
 
 class TriangleBvh;
 
+// A new segment keeps min(clearance, this share of the least clearance of what
+// it replaces on the path given).
+inline constexpr double kClearanceKept = 0.8;
+
 struct ShorteningOptions {
   // Clearance that is enough, user's unit; ≥ 0.
   double clearance = 0.0;
-  // A new segment keeps min(clearance, this share of the least clearance of
-  // what it replaces on the path given), in [0, 1).
-  double kept_share = 0.8;
   int random_cuts = 200;
   int pulls = 12;  // rounds over all inner points
   std::uint64_t seed = 1;

@@ -22,6 +22,10 @@ using Path = std::vector<Vector3d>;
 // Of its length when resampled; routes closer than that are the same.
 constexpr double kSameRoute = 1e-3;
 
+// Ways around the obstacles that are looked for, no fewer than may be asked
+// for: their best parts make the routes.  Each takes as long as the first.
+constexpr int kCandidates = 8;
+
 template <typename T>
 void Check(const char* name, const char* range, bool holds, T value) {
   CheckOption(holds, "start repair", name, range, value);
@@ -63,8 +67,6 @@ void StartRepairOptions::Validate() const {
   Check("diagonal", "0 to 1e150", diagonal >= 0.0 && diagonal <= 1e150,
         diagonal);
   Check("routes", "1 to 8", routes >= 1 && routes <= 8, routes);
-  Check("candidates", "1 to 64", candidates >= 1 && candidates <= 64,
-        candidates);
   Check("random_cuts", "at least 0", random_cuts >= 0, random_cuts);
 }
 
@@ -225,8 +227,8 @@ void StartRepair::Impl::Repair(const Path& path,
   const double length = options.diagonal > 0.0 ? options.diagonal : diagonal;
   PlanRequest request;
   // Shortening gives a part of the clearance away.
-  request.clearance = options.margin * length / ShorteningOptions().kept_share;
-  request.routes = std::max(options.candidates, options.routes);
+  request.clearance = options.margin * length / kClearanceKept;
+  request.routes = kCandidates;
   request.all_routes = options.routes > 1;
   std::vector<Path> found;
   if (path.size() > 2) {

@@ -17,10 +17,7 @@ struct StartRepairOptions {
   int waypoints = 40;     // N ≥ 1 free points between start and goal
   double margin = 0.01;   // wished clearance, a fraction of `diagonal`, > 0
   double diagonal = 0.0;  // user's unit; 0: D of the contact space
-  int routes = 1;         // to return, in [1, 8]
-  // Ways around the obstacles to look for, in [1, 64]: their best parts make
-  // the routes.  Each takes as long as the first.
-  int candidates = 8;
+  int routes = 1;         // to return, in [1, 8]: of the best parts of 8 ways
   int random_cuts = 120;  // of the straightening
   std::uint64_t seed = 1;
 

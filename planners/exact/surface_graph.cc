@@ -3,6 +3,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -50,6 +51,8 @@ SurfaceGraph::SurfaceGraph(const TriangleMesh& mesh,
                            const TriangleBvh& segments, const FreeCells& cells,
                            double spacing, int gap_links)
     : mesh_(mesh) {
+  assert(spacing > 0.0 && gap_links >= 0);
+  assert(neighbors.size() == mesh.triangles.size());
   normals_.reserve(mesh.triangles.size());
   for (const Triangle& t : mesh.triangles) {
     normals_.push_back(UnitNormal(mesh, t));
@@ -59,7 +62,16 @@ SurfaceGraph::SurfaceGraph(const TriangleMesh& mesh,
   AddRays(cells);
   AddGapLinks(segments, cells.rounding(), gap_links);
   partner_.resize(sites_.size(), -1);
+  assert(HasMutualPartners());
   IndexTriangles();
+}
+
+bool SurfaceGraph::HasMutualPartners() const {
+  for (std::size_t i = 0; i < partner_.size(); ++i) {
+    const int j = partner_[i];
+    if (j >= 0 && partner_[j] != static_cast<int>(i)) return false;
+  }
+  return true;
 }
 
 void SurfaceGraph::AddEdgePoints(

@@ -92,6 +92,7 @@ class SurfaceGraph {
   void AddRays(const FreeCells& cells);
   void AddGapLinks(const TriangleBvh& segments, double rounding, int count);
   void AddLink(const SurfaceSite& a, const SurfaceSite& b);
+  bool HasMutualPartners() const;
   void IndexTriangles();
 
   const TriangleMesh& mesh_;

@@ -14,6 +14,7 @@ namespace {
 using Eigen::VectorXd;
 
 constexpr double kSmallestTrust = 1e-3;  // of the first round's
+constexpr double kLeastGain = 1e-4;  // of the merit; two smaller ones end it
 
 template <typename T>
 void Check(const char* name, const char* range, bool holds, T value) {
@@ -38,8 +39,6 @@ IpoptSettings CorridorOptions::DefaultIpopt() {
 void CorridorOptions::Validate() const {
   Check("trust", "in (0, 1]", trust > 0.0 && trust <= 1.0, trust);
   Check("max_rounds", "at least 1", max_rounds >= 1, max_rounds);
-  Check("least_gain", "in [0, 1)", least_gain >= 0.0 && least_gain < 1.0,
-        least_gain);
   Check("restoring", "in [0, 1e6]", restoring >= 0.0 && restoring <= 1e6,
         restoring);
   Check("time_limit", "> 0 seconds", time_limit > 0.0, time_limit);
@@ -125,8 +124,8 @@ CorridorSummary PolishInCorridor(const TrajectoryProblem& problem,
     summary.rounds.push_back(round);
     if (!round.is_accepted) trust *= 0.5;
     // A round that failed by far says nothing about the next one.
-    const bool is_small = std::abs(gain) < options.least_gain &&
-                          (round.is_accepted || gain != 0.0);
+    const bool is_small =
+        std::abs(gain) < kLeastGain && (round.is_accepted || gain != 0.0);
     small_gains = is_small ? small_gains + 1 : 0;
     if (small_gains >= 2) {
       summary.status = CorridorStatus::kConverged;

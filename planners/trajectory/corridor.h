@@ -11,9 +11,8 @@
 namespace phongpd {
 
 struct CorridorOptions {
-  double trust = 0.05;       // τ of the first round, fraction of D, in (0, 1]
-  int max_rounds = 40;       // ≥ 1
-  double least_gain = 1e-4;  // of the merit; two smaller ones end it
+  double trust = 0.05;  // τ of the first round, fraction of D, in (0, 1]
+  int max_rounds = 40;  // ≥ 1
   // Price of missing clearance (below), ≥ 0; 0: what is missing stays missing.
   double restoring = 50.0;
   double time_limit = std::numeric_limits<double>::infinity();  // seconds
@@ -25,7 +24,7 @@ struct CorridorOptions {
 };
 
 enum class CorridorStatus {
-  kConverged,      // two rounds gained less than least_gain
+  kConverged,      // two rounds gained less than 1e-4 of the merit
   kSmallestTrust,  // no step of any size was an improvement
   kRoundLimit,
   kTimeLimit,

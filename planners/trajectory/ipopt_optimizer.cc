@@ -118,9 +118,7 @@ TrajectorySummary IpoptTrajectoryOptimizer::Solve(
   }
   TrajectoryNlpOptions nlp_options;
   nlp_options.rows = summary.rows;
-  nlp_options.policy = options_.policy;
   nlp_options.merge_spaces = options_.merge_spaces;
-  nlp_options.curvature = options_.curvature;
   IpoptSettings settings = options_.ipopt;
   while (true) {
     TrajectoryNlp nlp(problem_, summary.samples, start_length, nlp_options);
@@ -137,7 +135,7 @@ TrajectorySummary IpoptTrajectoryOptimizer::Solve(
                             run.status == SolveStatus::kNumerical;
     const bool may_go_on = IsClassOk(run.status) ||
                            run.status == SolveStatus::kIterationLimit ||
-                           (has_failed && options_.retry_failed);
+                           has_failed;
     if (summary.collision_free || !may_go_on ||
         summary.rounds >= options_.max_rounds ||
         !Refine(space, summary.path, &summary.samples)) {

@@ -16,17 +16,13 @@ struct TrajectoryOptions {
   // K rows a sample; 0: 3 from a start path that is free, 1 from one that
   // collides (there more rows contradict each other on thin parts).
   int rows = 0;
-  BranchPolicy policy = BranchPolicy::kCommit;
   bool merge_spaces = false;  // K rows over all contact spaces together
-  ContactCurvature curvature = ContactCurvature::kNone;
   // Solves, ≥ 1.  Where the solver claims a solution, or ran out of iterations,
   // and the judge finds a crossing, the segments that cross get twice the
-  // samples and the next round starts from there.
+  // samples and the next round starts from there; also after rounds that ended
+  // infeasible or in numerical trouble, where a new start near the old end
+  // finds a way out of some traps.
   int max_rounds = 4;
-  // Also go on after rounds that ended infeasible or in numerical trouble: a
-  // new start near the old end finds a way out of some traps, at up to
-  // max_rounds times the cost where there is none.
-  bool retry_failed = true;
 
   // Throws InputError naming the field.
   void Validate() const;

@@ -19,7 +19,6 @@ NonPenetrationOptions ContactOptions(const PathSprings& springs,
   NonPenetrationOptions contact;
   contact.frame = {springs.center, springs.unit};
   contact.rows = options.rows;
-  contact.policy = options.policy;
   contact.merge_spaces = options.merge_spaces;
   return contact;
 }
@@ -35,7 +34,6 @@ TrajectoryNlp::TrajectoryNlp(const TrajectoryProblem& problem,
       margin_(problem.margin),
       springs_(problem, start_length),
       bounds_(problem.free_space->bounds()),
-      curvature_(options.curvature),
       contact_(problem.metrics, problem.start, problem.goal, problem.waypoints,
                samples, ContactOptions(springs_, options)) {}
 
@@ -80,11 +78,7 @@ void TrajectoryNlp::JacobianPattern(int* row, int* col) const {
 }
 
 void TrajectoryNlp::HessianPattern(int* row, int* col) const {
-  if (has_curvature()) {
-    contact_.CurvaturePattern(row, col);
-  } else {
-    springs_.HessianPattern(row, col);
-  }
+  springs_.HessianPattern(row, col);
 }
 
 double TrajectoryNlp::Objective(const double* x) const {
@@ -104,30 +98,9 @@ bool TrajectoryNlp::Constraints(const double* x, double* values,
   return springs_.Lengths(x, values, jacobian + contact_.nonzeros());
 }
 
-void TrajectoryNlp::Hessian(const double* x, double objective_factor,
+void TrajectoryNlp::Hessian(const double* /*x*/, double objective_factor,
                             const double* multipliers, double* values) const {
-  const double* length_multipliers = multipliers + contact_.rows();
-  if (!has_curvature()) {
-    springs_.Hessian(objective_factor, length_multipliers, values);
-    return;
-  }
-  std::fill(values, values + hessian_nonzeros(), 0.0);
-  contact_.AddCurvature(x, branches_, multipliers,
-                        curvature_ == ContactCurvature::kOutside, values);
-  // The springs into the full blocks of CurvaturePattern: 6 of the waypoint,
-  // then the 9 that tie it to the one before.
-  const auto stiffness = [&](int segment) {
-    return springs_.Stiffness(segment, objective_factor, length_multipliers);
-  };
-  for (int i = 0; i < springs_.waypoints; ++i) {
-    for (const int at : {0, 2, 5}) {
-      values[at] += stiffness(i) + stiffness(i + 1);
-    }
-    values += 6;
-    if (i == 0) continue;
-    for (const int at : {0, 4, 8}) values[at] -= stiffness(i);
-    values += 9;
-  }
+  springs_.Hessian(objective_factor, multipliers + contact_.rows(), values);
 }
 
 int TrajectoryNlp::Accept(const double* x) {

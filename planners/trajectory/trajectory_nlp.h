@@ -13,16 +13,14 @@ namespace phongpd {
 
 struct TrajectoryNlpOptions {
   int rows = 1;  // K
-  BranchPolicy policy = BranchPolicy::kCommit;
   bool merge_spaces = false;
-  ContactCurvature curvature = ContactCurvature::kNone;
 };
 
 // A TrajectoryProblem as a nonlinear program in u, waypoint = centre + D·u with
 // the centre half way between start and goal.  Rows, in this order: those of
 // NonPenetrationConstraint (units of D), then |u_{i+1} − u_i|²/η ≤ η for the
 // N+1 segments, η = h/D.  The Hessian holds the objective and the length rows
-// exactly, and what options.curvature says of the contact rows.
+// exactly, and nothing of the contact rows.
 class TrajectoryNlp : public NonlinearProgram {
  public:
   // `samples`: one count per segment; `start_length` decides h.
@@ -44,10 +42,7 @@ class TrajectoryNlp : public NonlinearProgram {
   int jacobian_nonzeros() const override {
     return contact_.nonzeros() + springs_.jacobian_nonzeros();
   }
-  int hessian_nonzeros() const override {
-    return has_curvature() ? contact_.curvature_nonzeros()
-                           : springs_.hessian_nonzeros();
-  }
+  int hessian_nonzeros() const override { return springs_.hessian_nonzeros(); }
   void Bounds(double* x_low, double* x_high, double* g_low,
               double* g_high) const override;
   void JacobianPattern(int* row, int* col) const override;
@@ -60,13 +55,10 @@ class TrajectoryNlp : public NonlinearProgram {
   int Accept(const double* x) override;
 
  private:
-  bool has_curvature() const { return curvature_ != ContactCurvature::kNone; }
-
   Eigen::Vector3d start_, goal_;  // user's unit
   double margin_ = 0.0;           // units of D
   PathSprings springs_;
   BoundingBox bounds_;
-  ContactCurvature curvature_ = ContactCurvature::kNone;
   NonPenetrationConstraint contact_;
   BranchSet branches_;
   NonPenetrationCounts counts_;

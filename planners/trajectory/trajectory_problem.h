@@ -48,10 +48,6 @@ struct TrajectoryProblem {
   void Validate() const;
 };
 
-// Which second derivatives of the contact rows the Hessian holds besides those
-// of objective and lengths.  It never paid in a 30-seed study; for trials.
-enum class ContactCurvature { kNone, kOutside, kAll };
-
 using Path = std::vector<Eigen::Vector3d>;
 
 // The contact spaces with one metric each and their judge, all with one D

@@ -38,7 +38,7 @@ ContactSpace LoadOrBuild(const TriangleMesh& robot,
 CLI::Option* AddContactSpaceFile(CLI::App* app, std::string* path) {
   return app
       ->add_option("--contact-space", *path,
-                   "Mesh written by phongpd contact-space")
+                   "Written by phongpd contact-space: a .pcs file, or a mesh")
       ->type_name("FILE");
 }
 

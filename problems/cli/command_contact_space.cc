@@ -108,7 +108,7 @@ Json VerifySample(const Flags& flags, const TriangleMesh& robot,
 
 int BuildAndWrite(const Flags& flags) {
   OutputFiles outputs;
-  DeclareMesh(&outputs, flags.output);
+  DeclareContactSpace(&outputs, flags.output);
   if (!flags.report.empty()) outputs.Declare(flags.report);
   const ContactSpaceOptions options = OptionsOf(flags);
   const TriangleMesh robot = ReadMesh(flags.robot);
@@ -117,7 +117,7 @@ int BuildAndWrite(const Flags& flags) {
       LoadOrBuild(robot, obstacle, options, !flags.no_cache);
   const Json verification = VerifySample(flags, robot, obstacle, space);
 
-  WriteContactSpaceTo(&outputs, flags.output, space.mesh());
+  WriteContactSpaceTo(&outputs, flags.output, space);
   if (!flags.report.empty()) {
     const ContactSpaceReport& found = space.report();
     Json report = ToJson(found);
@@ -142,8 +142,10 @@ Command AddContactSpace(CLI::App* app) {
   app->add_option("--obstacle", flags->obstacle, "Mesh of the fixed obstacle")
       ->required()
       ->type_name("FILE");
-  app->add_option("--output", flags->output,
-                  "Contact space, in the format of its extension")
+  app->add_option(
+         "--output", flags->output,
+         "Contact space: a mesh in the format of its extension, or, as "
+         ".pcs, all of it (planes, kinds, report)")
       ->required()
       ->type_name("FILE");
   app->add_option("--report", flags->report, "What was built, as JSON")

@@ -34,7 +34,11 @@ TriangleMesh Reflected(TriangleMesh mesh) {
 // B ⊕ A the one of −A and B.
 int Sum(const Flags& flags) {
   OutputFiles outputs;
-  DeclareMesh(&outputs, flags.output);
+  if (flags.difference) {
+    DeclareContactSpace(&outputs, flags.output);
+  } else {
+    DeclareMesh(&outputs, flags.output);
+  }
   if (!flags.report.empty()) outputs.Declare(flags.report);
   ContactSpaceOptions options;
   options.robot_name = flags.a;
@@ -46,7 +50,7 @@ int Sum(const Flags& flags) {
   if (!flags.difference) a = Reflected(std::move(a));
   const ContactSpace space = LoadOrBuild(a, b, options, !flags.no_cache);
   if (flags.difference) {
-    WriteContactSpaceTo(&outputs, flags.output, space.mesh());
+    WriteContactSpaceTo(&outputs, flags.output, space);
   } else {
     WriteMeshTo(&outputs, flags.output, space.mesh());
   }
@@ -77,7 +81,8 @@ Command AddMinkowski(CLI::App* app) {
                 "B + (-A), all differences b - a: the contact space of a robot "
                 "A and an obstacle B");
   app->add_option("--output", flags->output,
-                  "Surface of the sum, in the format of its extension")
+                  "Surface of the sum, in the format of its extension; of a "
+                  "difference also .pcs")
       ->required()
       ->type_name("FILE");
   app->add_option("--report", flags->report, "What was built, as JSON")

@@ -18,7 +18,6 @@ struct Flags : SeededRunFlags {
   std::string smoothing_length;
   std::string margin;
   std::string jacobian;
-  std::string policy = "commit";
   std::string start = "repaired";
   std::string mu_strategy = "adaptive";
   std::string polish = "needed";
@@ -73,7 +72,6 @@ PipelineOptions Options(const Flags& flags, const Scene& scene,
   options.polish = flags.polish == "never"    ? PolishWhen::kNever
                    : flags.polish == "always" ? PolishWhen::kAlways
                                               : PolishWhen::kNeeded;
-  options.optimizer.policy = ParsePolicy(flags.policy);
   options.optimizer.rows = flags.rows;
   if (flags.mu_strategy == "monotone") {
     options.optimizer.ipopt.mu_strategy = IpoptSettings::MuStrategy::kMonotone;
@@ -182,11 +180,6 @@ Command AddOptimize(CLI::App* app) {
                   "Of Phong depth: its continuous direction, or the exact "
                   "gradient (scene's own if not set)")
       ->check(CLI::IsMember({"direction", "exact"}));
-  app->add_option("--policy", flags->policy,
-                  "When branches advance: at accepted iterates, never (every "
-                  "query cold), or between rounds")
-      ->check(CLI::IsMember({"stateless", "commit", "outer-restart"}))
-      ->capture_default_str();
   app->add_option("--start", flags->start,
                   "First path: the line, or if it collides the path of the "
                   "complete planner (repaired and planner mean the same)")

@@ -7,6 +7,7 @@
 #include <system_error>
 #include <utility>
 
+#include "core/contact/contact_space_file.h"
 #include "core/mesh/mesh_error.h"
 #include "core/mesh/mesh_io.h"
 #include "core/mesh/mesh_range.h"
@@ -36,18 +37,34 @@ bool SaysWhatItIs(const std::string& path) {
   return file.good() && end == mark;
 }
 
+ContactSpace TakeMesh(const std::string& path) {
+  TriangleMesh mesh = ReadMesh(path);
+  RequireInRange(mesh, path);
+  return TakeAsContactSpace(std::move(mesh), path);
+}
+
 }  // namespace
 
+void DeclareContactSpace(OutputFiles* outputs, const std::string& path) {
+  if (NamesContactSpaceFile(path)) {
+    outputs->Declare(path);
+  } else {
+    DeclareMesh(outputs, path);
+  }
+}
+
 void WriteContactSpaceTo(OutputFiles* outputs, const std::string& path,
-                         const TriangleMesh& mesh) {
-  outputs->Write(path,
-                 MeshContent(mesh, path) + (HasComments(path) ? kMark : ""));
+                         const ContactSpace& space) {
+  outputs->Write(path, NamesContactSpaceFile(path)
+                           ? ContactSpaceContent(space)
+                           : MeshContent(space.mesh(), path) +
+                                 (HasComments(path) ? kMark : ""));
 }
 
 ContactSpace LoadContactSpace(const std::string& path) {
-  TriangleMesh mesh = ReadMesh(path);
-  RequireInRange(mesh, path);
-  const ContactSpace space = TakeAsContactSpace(std::move(mesh), path);
+  const ContactSpace space =
+      NamesContactSpaceFile(path) ? ReadContactSpace(path) : TakeMesh(path);
+  RequireInRange(space.mesh(), path);
   if (!(space.report().volume > 0.0)) {
     throw InputError(path +
                      ": expected a contact space, outward, found a "
@@ -58,10 +75,11 @@ ContactSpace LoadContactSpace(const std::string& path) {
 }
 
 void TellIfTaken(const std::string& path) {
-  if (SaysWhatItIs(path)) return;
+  if (NamesContactSpaceFile(path) || SaysWhatItIs(path)) return;
   Note(path +
        ": taken as a contact space, though nothing in it says that it is one "
-       "(phongpd contact-space marks OFF and OBJ files)");
+       "(phongpd contact-space marks OFF and OBJ files, and .pcs files need no "
+       "mark)");
 }
 
 }  // namespace phongpd::cli

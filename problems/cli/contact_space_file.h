@@ -4,18 +4,22 @@
 #include <string>
 
 #include "core/contact/contact_space.h"
-#include "core/mesh/triangle_mesh.h"
 #include "problems/output/output_files.h"
 
 namespace phongpd::cli {
 
-// Writes the mesh of a contact space, and in formats with comments (OFF, OBJ)
-// a last line that says what it is.
-void WriteContactSpaceTo(OutputFiles* outputs, const std::string& path,
-                         const TriangleMesh& mesh);
+// Declares a contact space as output: a .pcs file, which keeps planes, kinds,
+// report and D, or a mesh; fails now if its extension means neither.
+void DeclareContactSpace(OutputFiles* outputs, const std::string& path);
 
-// Reads a contact space: closed, edge-manifold, outward; rounding may have made
-// some triangles meet.  Throws InputError naming the file.
+// Writes it; to mesh formats with comments (OFF, OBJ) with a last line that
+// says what it is.
+void WriteContactSpaceTo(OutputFiles* outputs, const std::string& path,
+                         const ContactSpace& space);
+
+// Reads a contact space: a .pcs file as it was, or a mesh that is closed,
+// edge-manifold and outward; rounding may have made some triangles meet.
+// Throws InputError naming the file.
 ContactSpace LoadContactSpace(const std::string& path);
 
 // Any such mesh will do, but of a bracket's own every answer is that of a

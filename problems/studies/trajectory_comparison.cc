@@ -40,14 +40,6 @@ PipelineOptions OneSolve(TrajectoryStart start, bool is_adaptive) {
   return options;
 }
 
-// straight-adaptive with one thing changed: what that thing is worth.
-PipelineOptions Ablation(ContactCurvature curvature, BranchPolicy policy) {
-  PipelineOptions options = OneSolve(TrajectoryStart::kStraight, true);
-  options.optimizer.curvature = curvature;
-  options.optimizer.policy = policy;
-  return options;
-}
-
 // A string of gnuplot's, taken literally.
 std::string Quoted(const std::string& text) {
   std::string quoted = "'";
@@ -166,16 +158,6 @@ const std::vector<TrajectoryProtocol>& TrajectoryProtocols() {
       {"repaired-adaptive",
        "repaired start, adaptive mu, stall stop, 3 rows a sample",
        OneSolve(Start::kRepaired, true), true},
-      {"curvature-outside",
-       "straight-adaptive with the curvature of rows outside obstacles",
-       Ablation(ContactCurvature::kOutside, BranchPolicy::kCommit), true},
-      {"curvature-all", "straight-adaptive with the curvature of all rows",
-       Ablation(ContactCurvature::kAll, BranchPolicy::kCommit), true},
-      {"policy-stateless", "straight-adaptive with every query cold",
-       Ablation(ContactCurvature::kNone, BranchPolicy::kStateless), true},
-      {"policy-outer-restart",
-       "straight-adaptive with branches fixed during a solve",
-       Ablation(ContactCurvature::kNone, BranchPolicy::kOuterRestart), true},
       {"pipeline",
        "the default of optimize: repair, Ipopt, judge, corridor where needed",
        PipelineOptions(), false},

@@ -19,8 +19,7 @@ struct TrajectoryProtocol {
 };
 
 // straight-monotone, straight-adaptive, repaired-monotone, repaired-adaptive:
-// one solve by Ipopt; curvature-* and policy-*: straight-adaptive with one
-// thing changed; pipeline: what `optimize` does by default.
+// one solve by Ipopt; pipeline: what `optimize` does by default.
 const std::vector<TrajectoryProtocol>& TrajectoryProtocols();
 // Throws InputError for an unknown name.
 const TrajectoryProtocol& FindProtocol(const std::string& name);

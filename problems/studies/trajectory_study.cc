@@ -213,31 +213,8 @@ TrajectoryStart ParseStart(const std::string& text) {
                    text + "'");
 }
 
-BranchPolicy ParsePolicy(const std::string& text) {
-  for (const BranchPolicy policy :
-       {BranchPolicy::kCommit, BranchPolicy::kStateless,
-        BranchPolicy::kOuterRestart}) {
-    if (text == ToString(policy)) return policy;
-  }
-  throw InputError(
-      "--policy: expected commit, stateless or outer-restart, found '" + text +
-      "'");
-}
-
 const char* ToString(TrajectoryStart start) {
   return start == TrajectoryStart::kStraight ? "straight" : "repaired";
-}
-
-const char* ToString(BranchPolicy policy) {
-  switch (policy) {
-    case BranchPolicy::kStateless:
-      return "stateless";
-    case BranchPolicy::kOuterRestart:
-      return "outer-restart";
-    case BranchPolicy::kCommit:
-      break;
-  }
-  return "commit";
 }
 
 }  // namespace phongpd

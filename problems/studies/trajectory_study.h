@@ -89,11 +89,9 @@ nlohmann::ordered_json TrajectoryRow(const TrajectoryStudy& study,
                                      const PipelineOptions& options,
                                      const PipelineResult& result);
 
-// "straight", "repaired" (or "planner", the same) and "commit", "stateless",
-// "outer-restart".  Throw InputError starting with the flag's name.
+// "straight" or "repaired" (or "planner", the same).  Throws InputError
+// starting with the flag's name.
 TrajectoryStart ParseStart(const std::string& text);
-BranchPolicy ParsePolicy(const std::string& text);
 const char* ToString(TrajectoryStart start);
-const char* ToString(BranchPolicy policy);
 
 }  // namespace phongpd

@@ -199,41 +199,6 @@ TEST(NonPenetration, OnlyCommitAdvancesBranches) {
   EXPECT_LT((trial.values - accepted.values).cwiseAbs().maxCoeff(), 1e-9);
 }
 
-TEST(NonPenetration, PoliciesDifferInWhatTheyKeep) {
-  const Metrics metrics{Metric(Rotated(MakeU(2.0, 0.4, 1.0), GenericRotation()),
-                               JacobianKind::kDirection)};
-  const std::vector<int> samples(kWaypoints + 1, 3);
-  for (const BranchPolicy policy :
-       {BranchPolicy::kCommit, BranchPolicy::kStateless,
-        BranchPolicy::kOuterRestart}) {
-    NonPenetrationOptions options;
-    options.policy = policy;
-    const NonPenetrationConstraint rows(metrics, kStart, kGoal, kWaypoints,
-                                        samples, options);
-    const VectorXd u = Line(0.1, 2), next = Line(0.3, 9);
-    NonPenetrationCounts counts;
-    BranchSet branches = rows.Start(u.data(), &counts);
-    const Rows before = Evaluate(rows, next, branches, &counts);
-    rows.Commit(next.data(), &branches, &counts);
-    const Rows after = Evaluate(rows, u, branches, &counts);
-    if (policy == BranchPolicy::kStateless) {
-      EXPECT_EQ(counts.warm, 0);
-      for (int s = 0; s < rows.samples(); ++s) {
-        EXPECT_EQ(before.values[s],
-                  metrics[0]->Query(rows.SamplePoint(s, next.data())).value);
-      }
-    } else {
-      EXPECT_GT(counts.warm, 0);
-    }
-    if (policy == BranchPolicy::kOuterRestart) {
-      const Rows fresh =
-          Evaluate(rows, u, rows.Start(u.data(), nullptr), nullptr);
-      EXPECT_EQ(after.values, fresh.values);
-      EXPECT_EQ(counts.branch_changes, 0);
-    }
-  }
-}
-
 TEST(NonPenetration, RefusesPointsThatAreNotFinite) {
   const Metrics metrics{Metric(Ball({0, 0, 0}), JacobianKind::kDirection)};
   NonPenetrationOptions options;
@@ -277,32 +242,6 @@ TEST(NonPenetration, NamesBadInput) {
                InputError);
   EXPECT_THROW(make(metrics, Vector3d(NAN, 0, 0), kWaypoints, samples),
                InputError);
-}
-
-TEST(NonPenetration, CurvatureOutsideLeavesOutTheRowsInside) {
-  const Metrics metrics{Metric(Ball({0, 0, 0}), JacobianKind::kExact)};
-  const NonPenetrationConstraint rows(metrics, kStart, kGoal, kWaypoints,
-                                      std::vector<int>(kWaypoints + 1, 1));
-  VectorXd u = Line(0.05, 3);
-  const BranchSet branches = rows.Start(u.data(), nullptr);
-  const auto curvature = [&](const VectorXd& multipliers, bool outside_only) {
-    VectorXd values = VectorXd::Zero(rows.curvature_nonzeros());
-    rows.AddCurvature(u.data(), branches, multipliers.data(), outside_only,
-                      values.data());
-    return values;
-  };
-  int curved[2] = {0, 0};
-  for (int i = 0; i < rows.rows(); ++i) {
-    const VectorXd one = VectorXd::Unit(rows.rows(), i);
-    const VectorXd all = curvature(one, false), outside = curvature(one, true);
-    const bool inside = metrics[0]->Query(rows.SamplePoint(i, u.data())).inside;
-    EXPECT_EQ(outside, inside ? VectorXd(0.0 * all) : all);
-    curved[inside ? 1 : 0] += all.norm() > 0.1 ? 1 : 0;
-  }
-  EXPECT_GT(curved[0], 0);
-  EXPECT_GT(curved[1], 0);
-  u[4] = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_EQ(curvature(VectorXd::Ones(rows.rows()), false).norm(), 0.0);
 }
 
 TEST(NonPenetration, GivesValuesOrJacobianAlone) {

@@ -29,16 +29,14 @@ constexpr double kInf = std::numeric_limits<double>::infinity();
 const double kNan = std::nan("");
 constexpr std::uint64_t kSeed = 8;
 
-NonPenetrationConstraint Rows(BranchPolicy policy, int waypoints, int spaces) {
-  NonPenetrationOptions options;
-  options.policy = policy;
+NonPenetrationConstraint Rows(int waypoints, int spaces) {
   const auto metric =
       std::make_shared<SignedMetric>(TakeAsContactSpace(MakeIcoBall(0.8, 1)));
   return NonPenetrationConstraint(
       std::vector<std::shared_ptr<const SignedMetric>>(
           static_cast<std::size_t>(spaces), metric),
       Vector3d(-2, 0, 0), Vector3d(2, 0, 0), waypoints,
-      std::vector<int>(static_cast<std::size_t>(waypoints) + 1, 1), options);
+      std::vector<int>(static_cast<std::size_t>(waypoints) + 1, 1));
 }
 
 template <typename Call>
@@ -54,43 +52,32 @@ void ExpectRefused(const Call& call, std::size_t expected, std::size_t found) {
   }
 }
 
-// Empty, too short, too long, of another constraint: whatever the policy.
+// Empty, too short, too long, of another constraint.
 TEST(BranchSets, OfAnotherSizeAreRefusedByEveryUser) {
-  for (const BranchPolicy policy :
-       {BranchPolicy::kCommit, BranchPolicy::kStateless,
-        BranchPolicy::kOuterRestart}) {
-    const NonPenetrationConstraint rows = Rows(policy, 3, 2);
-    const std::vector<double> u(9, 0.1), multipliers(50, 1.0);
-    const BranchSet good = rows.Start(u.data(), nullptr);
-    const std::size_t size = good.branches.size();
-    ASSERT_EQ(size, 2u * static_cast<std::size_t>(rows.samples()));
-    std::vector<BranchSet> bad = {{},
-                                  good,
-                                  good,
-                                  Rows(policy, 2, 2).Start(u.data(), nullptr),
-                                  Rows(policy, 3, 1).Start(u.data(), nullptr)};
-    bad[1].branches.pop_back();
-    bad[2].branches.emplace_back();
-    std::vector<double> values(200), jacobian(500), curvature(500);
-    for (BranchSet& set : bad) {
-      const std::size_t found = set.branches.size();
-      ExpectRefused(
-          [&] {
-            rows.Evaluate(u.data(), set, values.data(), jacobian.data(),
-                          nullptr);
-          },
-          size, found);
-      ExpectRefused(
-          [&] {
-            rows.AddCurvature(u.data(), set, multipliers.data(), false,
-                              curvature.data());
-          },
-          size, found);
-      ExpectRefused([&] { rows.Commit(u.data(), &set, nullptr); }, size, found);
-    }
-    EXPECT_TRUE(
-        rows.Evaluate(u.data(), good, values.data(), jacobian.data(), nullptr));
+  const NonPenetrationConstraint rows = Rows(3, 2);
+  const std::vector<double> u(9, 0.1);
+  const BranchSet good = rows.Start(u.data(), nullptr);
+  const std::size_t size = good.branches.size();
+  ASSERT_EQ(size, 2u * static_cast<std::size_t>(rows.samples()));
+  std::vector<BranchSet> bad = {{},
+                                good,
+                                good,
+                                Rows(2, 2).Start(u.data(), nullptr),
+                                Rows(3, 1).Start(u.data(), nullptr)};
+  bad[1].branches.pop_back();
+  bad[2].branches.emplace_back();
+  std::vector<double> values(200), jacobian(500);
+  for (BranchSet& set : bad) {
+    const std::size_t found = set.branches.size();
+    ExpectRefused(
+        [&] {
+          rows.Evaluate(u.data(), set, values.data(), jacobian.data(), nullptr);
+        },
+        size, found);
+    ExpectRefused([&] { rows.Commit(u.data(), &set, nullptr); }, size, found);
   }
+  EXPECT_TRUE(
+      rows.Evaluate(u.data(), good, values.data(), jacobian.data(), nullptr));
 }
 
 bool IsFinite(const PenetrationResult& r) {
@@ -222,30 +209,6 @@ TEST(StaleBranchesCampaign, GiveProjectionsOfThisSpaceOrSayThatTheyEnded) {
                            "stale and made-up branches, both fields, warm and "
                            "ring",
                            cases, failures, worst, 1e-9, "L", kSeed});
-}
-
-TEST(Curvature, OfRowsFromElsewhereIsZero) {
-  for (const MetricKind kind : {MetricKind::kPhong, MetricKind::kEuclidean}) {
-    SignedMetricOptions options;
-    options.metric = kind;
-    const SignedMetric metric(TakeAsContactSpace(MakeIcoBall(1.0, 1)), options);
-    for (const int triangle : {-1, INT_MIN, INT_MAX, 80}) {
-      MetricRow row;
-      row.status = QueryStatus::kOk;
-      row.triangle = triangle;
-      EXPECT_TRUE(metric.Curvature(Vector3d(2, 1, 0), row).isZero());
-    }
-    MetricRow row = metric.Query(Vector3d(2, 1, 0));
-    for (const double bad : {kNan, kInf, -kInf}) {
-      for (int axis = 0; axis < 3; ++axis) {
-        Vector3d q(2, 1, 0);
-        q[axis] = bad;
-        EXPECT_TRUE(metric.Curvature(q, row).isZero());
-        MetricRow inside = metric.Query(Vector3d(0.3, 0.1, 0));
-        EXPECT_TRUE(metric.Curvature(q, inside).allFinite());
-      }
-    }
-  }
 }
 
 }  // namespace

@@ -23,7 +23,8 @@ void PointsCsv(const std::uint8_t* data, std::size_t size);
 // what is fast, scans are left out, and no mesh file is read.
 void Scene(const std::uint8_t* data, std::size_t size);
 
-// The contents of a cached contact space, their checksum taken as right:
+// The contents of a cached or saved contact space, which are the same bytes
+// read by the same code (FromBytes), their checksum taken as right:
 // refused, or the same after writing and reading again.
 void Cache(const std::uint8_t* data, std::size_t size);
 

@@ -268,6 +268,27 @@ TEST(DepthQuery, SaysWhatALimitLeftOpen) {
   EXPECT_THROW(DepthQuery(star, torus, options), InputError);
 }
 
+// No window is started after the limit: the first is all the work there is, and
+// what it tells holds.
+TEST(DepthQuery, KeepsToItsTimeLimit) {
+  const TriangleMesh star = MakeStar(0.5, 1.2),
+                     torus = MakeTorus(2, 0.6, 32, 16);
+  const RobotPose pose{Vector3d(2, 0, 0), {1, 0, 0, 0}};
+  const DepthResult truth = PenetrationDepth(star, torus, pose);
+  ASSERT_TRUE(truth.certified);
+  ASSERT_GE(truth.windows, 3);
+  DepthOptions options;
+  options.max_seconds = 1e-9;
+  const DepthResult late = PenetrationDepth(star, torus, pose, options);
+  EXPECT_EQ(late.status, DepthStatus::kPenetrating);
+  EXPECT_FALSE(late.certified);
+  EXPECT_LE(late.windows, 1);
+  EXPECT_LT(2 * late.arranged_faces, truth.arranged_faces);
+  EXPECT_LT(late.seconds, truth.seconds);
+  EXPECT_LE(late.explored_radius, truth.depth);
+  EXPECT_GE(late.depth, truth.depth);
+}
+
 TEST(DepthQuery, RefusesPosesThatAreNone) {
   const DepthQuery query(Cube(1), Cube(1));
   const double nan = std::numeric_limits<double>::quiet_NaN();

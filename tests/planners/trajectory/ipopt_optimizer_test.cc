@@ -121,20 +121,13 @@ TEST(IpoptTrajectoryOptimizer, IsTheSameInEveryUnit) {
   }
 }
 
-TEST(IpoptTrajectoryOptimizer, EveryPolicyFindsAWay) {
-  for (const BranchPolicy policy :
-       {BranchPolicy::kCommit, BranchPolicy::kStateless,
-        BranchPolicy::kOuterRestart}) {
-    for (unsigned seed = 0; seed < 3; ++seed) {
-      const TrajectoryProblem problem = TrapProblem(seed, MetricKind::kPhong);
-      TrajectoryOptions options;
-      options.policy = policy;
-      const TrajectorySummary summary =
-          IpoptTrajectoryOptimizer(problem, options).Solve();
-      ExpectEvidence(problem, summary);
-      EXPECT_TRUE(summary.IsSolved());
-      EXPECT_EQ(summary.queries.warm == 0, policy == BranchPolicy::kStateless);
-    }
+TEST(IpoptTrajectoryOptimizer, FindsAWayOutOfATrap) {
+  for (unsigned seed = 0; seed < 3; ++seed) {
+    const TrajectoryProblem problem = TrapProblem(seed, MetricKind::kPhong);
+    const TrajectorySummary summary = IpoptTrajectoryOptimizer(problem).Solve();
+    ExpectEvidence(problem, summary);
+    EXPECT_TRUE(summary.IsSolved());
+    EXPECT_GT(summary.queries.warm, 0);
   }
 }
 
@@ -259,6 +252,7 @@ TEST(IpoptTrajectoryOptimizer, StopsAtTheLimits) {
   summary = IpoptTrajectoryOptimizer(problem, options).Solve();
   EXPECT_EQ(summary.status, SolveStatus::kTimeLimit);
   EXPECT_EQ(summary.rounds, 1);
+  EXPECT_LE(summary.iterations, 1);
   options = {};
   options.ipopt.is_cancelled = [] { return true; };
   summary = IpoptTrajectoryOptimizer(problem, options).Solve();

@@ -104,7 +104,7 @@ TEST(TrajectoryNlp, HessianIsTheDerivativeOfTheSmoothRowsGradient) {
   nlp.Start(u);
   std::mt19937_64 random(2);
   std::normal_distribution<double> normal;
-  // Contact rows have multiplier zero here: they bring no curvature.
+  // Contact rows have multiplier zero here: the Hessian leaves them out.
   VectorXd multipliers = VectorXd::Zero(nlp.rows());
   for (int i = nlp.contact().rows(); i < nlp.rows(); ++i) {
     multipliers[i] = normal(random);
@@ -147,31 +147,6 @@ TEST(TrajectoryNlp, HessianIsTheDerivativeOfTheSmoothRowsGradient) {
     EXPECT_LT((difference - dense.col(j)).cwiseAbs().maxCoeff(),
               1e-9 * dense.cwiseAbs().maxCoeff());
   }
-}
-
-// With curvature of all rows the Hessian passes Ipopt's checker, too: around
-// a box, whose distance outside is smooth but for few places.
-TEST(TrajectoryNlp, HessianWithCurvaturePassesIpoptsChecker) {
-  SignedMetricOptions metric;
-  metric.jacobian = JacobianKind::kExact;
-  TrajectoryProblem problem = MakeTrajectoryProblem(
-      {TakeAsContactSpace(
-          Rotated(MakeBox({-1, -1, -1}, {1, 1, 1}), GenericRotation()))},
-      metric);
-  problem.start = Vector3d(-2.5, 1.6, 0.2);
-  problem.goal = Vector3d(2.5, 1.5, 0.1);
-  problem.waypoints = 5;
-  TrajectoryNlpOptions options;
-  options.rows = 2;
-  options.curvature = ContactCurvature::kOutside;
-  TrajectoryNlp nlp = MakeNlp(problem, 1, options);
-  int passed = 0;
-  for (unsigned seed = 0; seed < 20; ++seed) {
-    std::string text;
-    const VectorXd u = Noisy(nlp, problem, 0.03, seed);
-    passed += PassesChecker(&nlp, u, "second-order", &text) ? 1 : 0;
-  }
-  EXPECT_GE(passed, 18);
 }
 
 TEST(TrajectoryNlp, ValuesAreEnergyMarginsAndLengths) {

@@ -6,6 +6,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
+#include <string>
+#include <utility>
 
 #include "core/contact/contact_space.h"
 #include "core/mesh/mesh_error.h"
@@ -93,17 +96,31 @@ TEST(TrajectoryPipeline, PolishesWhatStallsOrCrosses) {
   EXPECT_NEAR(solved.objective, polished.objective, 0.01 * solved.objective);
 }
 
+// Routes come shortest first, but optimised another may be the best: around the
+// cone and the axes it is, by more than 1 %.
 TEST(TrajectoryPipeline, MoreRoutesAreNeverWorse) {
-  const Case setup(MakePathProblem("plate0.02", 3));
-  PipelineOptions options;
-  options.polish = PolishWhen::kAlways;
-  const PipelineResult one = setup.Solve(options);
-  options.routes = 3;
-  const PipelineResult three = setup.Solve(options);
-  ExpectEvidence(setup.problem, three);
-  EXPECT_LE(three.objective, one.objective);
-  EXPECT_GE(three.repair.routes.size(), 2u);
-  EXPECT_EQ(one.status, TrajectoryStatus::kPolished);
+  int better = 0;
+  for (const auto& [family, seed] :
+       {std::pair<const char*, unsigned>("cone_axes", 1),
+        {"cone_axes", 4},
+        {"plate0.02", 3}}) {
+    SCOPED_TRACE(family + std::to_string(seed));
+    const Case setup(MakePathProblem(family, seed));
+    PipelineOptions options;
+    options.also_line = false;
+    const PipelineResult one = setup.Solve(options);
+    options.routes = 3;
+    const PipelineResult three = setup.Solve(options);
+    ExpectEvidence(setup.problem, three);
+    EXPECT_EQ(one.route, 0);
+    EXPECT_GE(three.repair.routes.size(), 2u);
+    std::set<int> tried;
+    for (const StageRecord& stage : three.stages) tried.insert(stage.route);
+    EXPECT_EQ(tried.size(), three.repair.routes.size());
+    EXPECT_LE(three.objective, one.objective * (1.0 + 1e-9));
+    better += three.route > 0 && three.objective < 0.99 * one.objective;
+  }
+  EXPECT_EQ(better, 2);
 }
 
 // From the shortest route Ipopt ends on the far side; the line finds the near
@@ -190,13 +207,24 @@ TEST(TrajectoryPipeline, TakesOneContactSpacePerObstacleAndBounds) {
 }
 
 TEST(TrajectoryPipeline, KeepsToItsTimeLimit) {
-  const Case setup(MakePathProblem("Uaxis", 0));
+  const Case setup(MakePathProblem("plate0.02", 3));
   PipelineOptions options;
   options.time_limit = 1e-9;
-  const PipelineResult result = setup.Solve(options);
-  EXPECT_EQ(result.status, TrajectoryStatus::kStalledFeasible);
-  EXPECT_NE(result.reason.find("time limit"), std::string::npos);
-  ExpectEvidence(setup.problem, result);
+  const PipelineResult none = setup.Solve(options);
+  EXPECT_EQ(none.status, TrajectoryStatus::kStalledFeasible);
+  EXPECT_NE(none.reason.find("time limit"), std::string::npos);
+  ExpectEvidence(setup.problem, none);
+  // Measured, against what all of it takes on the same machine: stopped where
+  // it is, in the middle of many routes.
+  options = {};
+  options.routes = 8;
+  options.polish = PolishWhen::kAlways;
+  const PipelineResult all = setup.Solve(options);
+  options.time_limit = 0.1 * all.seconds;
+  const PipelineResult some = setup.Solve(options);
+  ExpectEvidence(setup.problem, some);
+  EXPECT_LT(some.seconds, 0.6 * all.seconds);
+  EXPECT_LT(some.iterations, all.iterations);
 }
 
 TEST(TrajectoryPipeline, DoesNotDependOnUnitAndOffset) {

@@ -34,6 +34,29 @@ TEST_F(Cli, RefusesMissingAndUnreadableMeshes) {
   ExpectMeshRefused("none.off", {});
 }
 
+TEST_F(Cli, RefusesSavedContactSpacesThatAreNot) {
+  WriteText("p.csv", "x,y,z\n0.3,0,0\n");
+  ASSERT_EQ(Run("contact-space --robot ../cone.off --obstacle ../box.off "
+                "--output ../c.pcs")
+                .code,
+            0);
+  const std::string good = Content(File("c.pcs"));
+  const std::string rest = " --points ../p.csv --output o.csv";
+  WriteText("cut.pcs", good.substr(0, good.size() / 2));
+  ExpectRefused("query --contact-space ../cut.pcs" + rest,
+                {"cut.pcs", "cut off"});
+  std::string bad = good;
+  bad.back() = static_cast<char>(bad.back() ^ 1);
+  WriteText("bad.pcs", bad);
+  ExpectRefused("query --contact-space ../bad.pcs" + rest,
+                {"bad.pcs", "damaged"});
+  WriteText("mesh.pcs", Content(File("box.off")));
+  ExpectRefused("query --contact-space ../mesh.pcs" + rest,
+                {"mesh.pcs", "another beginning"});
+  // A sum is no contact space.
+  ExpectRefused("minkowski ../cone.off ../box.off --output s.pcs", {"s.pcs"});
+}
+
 TEST_F(Cli, RefusesCoordinatesThatAreNoNumbers) {
   for (const std::string value : {"nan", "inf", "-inf", "1e999"}) {
     WriteText("bad.off", "OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 " + value +

@@ -234,7 +234,6 @@ TEST_F(CliOptimize, RefusesBadInputBeforeItWritesOrPrints) {
   ExpectRefused(good + rest + " --routes 9", {"routes", "9"});
   ExpectRefused(good + rest + " --rows -1", {"rows", "-1"});
   ExpectRefused(good + rest + " --time 0", {"time", "0"});
-  ExpectRefused(good + rest + " --policy eager", {"--policy", "eager"});
   ExpectRefused(good + rest + " --start-noise 0.1", {"--start-noise"});
   ExpectRefused(good + rest + " --start straight --start-noise nan",
                 {"--start-noise", "nan"});

@@ -41,6 +41,25 @@ TEST_F(Cli, AMeshThatDoesNotSayItIsAContactSpaceIsTakenForOneAloud) {
   }
 }
 
+TEST_F(Cli, ASavedContactSpaceAnswersAsTheOneThatWasBuilt) {
+  const std::string pair = "--robot ../cone.off --obstacle ../box.off ";
+  ASSERT_EQ(Run("contact-space " + pair + "--output c.pcs").code, 0);
+  const std::string rest =
+      "--from -3 -.1 0.2 --to 3 .1 -.4 --frames 30 --smoothing-length 0 0.1 "
+      "--output ";
+  ASSERT_EQ(Run("motion " + pair + rest + "built.csv").code, 0);
+  Outcome outcome = Run("motion --contact-space c.pcs " + rest + "read.csv");
+  EXPECT_EQ(outcome.code, 0);
+  EXPECT_EQ(outcome.err, "");
+  EXPECT_EQ(Content(Output("read.csv")), Content(Output("built.csv")));
+  ASSERT_EQ(
+      Run("minkowski --difference ../cone.off ../box.off --output d.PCS").code,
+      0);
+  outcome = Run("motion --contact-space d.PCS " + rest + "read.csv");
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_EQ(Content(Output("read.csv")), Content(Output("built.csv")));
+}
+
 TEST_F(Cli, QueryWritesTheDoublesOfTheLibrary) {
   ASSERT_EQ(Run("contact-space --robot ../cone.off --obstacle ../box.off "
                 "--output c.off")
