@@ -24,8 +24,9 @@ bool HasComments(const std::string& path) {
   return extension == "off" || extension == "obj";
 }
 
-// False for pipes, too, which have been read.
-bool SaysWhatItIs(const std::string& path) {
+}  // namespace
+
+bool IsMarkedContactSpace(const std::string& path) {
   std::error_code error;
   if (!std::filesystem::is_regular_file(path, error)) return false;
   const std::string mark = kMark;
@@ -35,8 +36,6 @@ bool SaysWhatItIs(const std::string& path) {
   file.read(end.data(), static_cast<std::streamsize>(end.size()));
   return file.good() && end == mark;
 }
-
-}  // namespace
 
 void WriteContactSpaceTo(OutputFiles* outputs, const std::string& path,
                          const TriangleMesh& mesh) {
@@ -58,7 +57,7 @@ ContactSpace LoadContactSpace(const std::string& path) {
 }
 
 void TellIfTaken(const std::string& path) {
-  if (SaysWhatItIs(path)) return;
+  if (IsMarkedContactSpace(path)) return;
   Note(path +
        ": taken as a contact space, though nothing in it says that it is one "
        "(phongpd contact-space marks OFF and OBJ files)");

@@ -86,6 +86,7 @@ int Run(int argc, char** argv) {
   add("compare", "Compare penetration metrics in the trajectory optimiser",
       AddCompare);
   add("plan", "Plan a path, or prove that there is none", AddPlan);
+  add("view", "Look at meshes, scenes, paths, motions and depths", AddView);
   add("scenes", "List or write the procedural scenes", AddScenes);
   add("reproduce", "Pack a command with its inputs, to report what went wrong",
       AddReproduce);
