@@ -1,5 +1,14 @@
 // What the page keeps in its link and saves as a picture; and how it starts.
 
+// What follows # in the address; nothing if somebody has cut it in pieces.
+function linkText() {
+  try {
+    return decodeURIComponent(location.hash.slice(1));
+  } catch (error) {
+    return '';
+  }
+}
+
 class LinkedViewer extends Viewer {
   // The view as text: only what differs from the first one.
   hash() {
@@ -26,8 +35,7 @@ class LinkedViewer extends Viewer {
 
   readLink() {
     const {state, orbit} = this;
-    const link = new URLSearchParams(
-        decodeURIComponent(location.hash.slice(1)));
+    const link = new URLSearchParams(linkText());
     const numbers = key => (link.get(key) || '').split(',').map(Number);
     const eye = numbers('eye');
     if (eye.length === 6 && eye.every(Number.isFinite) && eye[2] > 0) {
@@ -42,7 +50,7 @@ class LinkedViewer extends Viewer {
     }
     if (link.has('cut')) {
       const [axis, at, flip] = link.get('cut').split(',');
-      if ('xyz'.includes(axis) && at >= 0 && at <= 1) {
+      if (['x', 'y', 'z'].includes(axis) && at >= 0 && at <= 1) {
         state.clip = {on: true, axis, at: Number(at), flip: flip === '1'};
       }
     }

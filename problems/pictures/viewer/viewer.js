@@ -30,7 +30,7 @@ class Viewer {
     this.apply();
     window.addEventListener('resize', () => { this.frame(); this.changed(); });
     window.addEventListener('hashchange', () => {
-      if (decodeURIComponent(location.hash.slice(1)) === this.hash()) return;
+      if (linkText() === this.hash()) return;
       this.readLink();
       this.apply();
     });
@@ -81,10 +81,14 @@ class Viewer {
     const {inner} = this.panes(width, height)[0];
     const {home} = this.orbit;
     home.target = this.stage.focus.getCenter(new THREE.Vector3()).toArray();
-    const isFirst = !this.isReady || this.orbit.distance === home.distance;
+    const isFirst = this.orbit.distance === home.distance;
     home.distance =
         this.orbit.fit(this.stage.corners, inner.width / inner.height);
-    if (isFirst) this.orbit.reset();
+    if (!this.isReady) {
+      this.orbit.reset();
+    } else if (isFirst) {
+      this.orbit.distance = home.distance;
+    }
   }
 
   text(length) {

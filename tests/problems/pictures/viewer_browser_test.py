@@ -379,6 +379,12 @@ def main():
             checks.quiet(name)
         browser.open(pages["trap"])
         work_controls(browser, checks, pages["trap"])
+        browser.open(pages["trap"], "#%E0%A4%A&t=nan")
+        browser.open(pages["trap"], "#eye=1,2,x&t=7&way=99&cut=w,3&theme=red")
+        checks.holds("viewer.orbit.yaw === viewer.orbit.home.yaw && "
+                     "viewer.state.way === 0 && !viewer.state.clip.on && "
+                     "viewer.state.theme === 'light'",
+                     "what a link has that means nothing is left out")
         browser.open(pages["motion"])
         checks.holds("document.querySelectorAll('#labels .pane').length === 2",
                      "a motion has a pane for each metric")
