@@ -190,6 +190,13 @@ function dashes(points, dash, gap) {
   return pieces;
 }
 
+// At most `most` of the points, both ends among them.
+function thinned(points, most) {
+  if (points.length <= most) return points;
+  return Array.from({length: most}, (_, i) =>
+      points[Math.round(i * (points.length - 1) / (most - 1))]);
+}
+
 // Tubes around polylines, with round joints.
 function tubeGeometry(pieces, radius) {
   const positions = [], normals = [], index = [], sides = 10;

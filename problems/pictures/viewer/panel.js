@@ -358,7 +358,13 @@ function drawChart(viewer) {
     g.strokeStyle = wayColor(state.theme, i);
     g.lineWidth = 2;
     g.beginPath();
-    values.forEach((value, f) => g.lineTo(x(f), y(value)));
+    // Of more frames than pixels, the least and the largest of each pixel.
+    const step = Math.max(1, Math.ceil(count / width));
+    for (let f = 0; f < count; f += step) {
+      const some = values.slice(f, f + step);
+      g.lineTo(x(f), y(Math.min(...some)));
+      if (step > 1) g.lineTo(x(f), y(Math.max(...some)));
+    }
     g.stroke();
   });
   g.strokeStyle = style.getPropertyValue('--text');

@@ -75,7 +75,10 @@ class Stage {
     const clip = {clippingPlanes: [this.plane]};
     const lines = new THREE.LineBasicMaterial(
         {transparent: true, opacity: 0.55, ...clip});
-    const edges = new THREE.LineSegments(edgeGeometry(mesh), lines);
+    // What was simplified for display has creases that the solid has not.
+    const isWhole = entry.shown === entry.triangles;
+    const edges = new THREE.LineSegments(
+        edgeGeometry(isWhole ? mesh : {positions: [], indices: []}), lines);
     edges.renderOrder = 3;
     const solid = {entry, mesh, geometry, edges, group, faces: []};
     if (entry.role === 'contact') {
@@ -207,8 +210,8 @@ class Stage {
       way.stages = new THREE.Group();
       this.groups.stages.add(way.stages);
       if (way.points.length < 2 || way.kind === 'answers') continue;
-      const pieces = way.free ? [way.points]
-                              : dashes(way.points, 0.022, 0.014);
+      const points = thinned(way.points, 1500);
+      const pieces = way.free ? [points] : dashes(points, 0.022, 0.014);
       const r = way.kind === 'motion' ? radius * 0.5 : radius;
       way.group.add(new THREE.Mesh(tubeGeometry(pieces, r), material));
       for (let i = 0; i <= 6; ++i) {
