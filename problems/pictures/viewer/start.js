@@ -139,15 +139,10 @@ function tellInstead(text) {
   message.hidden = false;
 }
 
-function hasWebGL() {
-  try {
-    const canvas = document.createElement('canvas');
-    return !!(window.WebGLRenderingContext &&
-              (canvas.getContext('webgl') ||
-               canvas.getContext('experimental-webgl')));
-  } catch (error) {
-    return false;
-  }
+// What draws; null where the browser has it not.
+function contextOf(canvas) {
+  return canvas.getContext(
+      'webgl', {alpha: true, antialias: true, depth: true, stencil: true});
 }
 
 function start() {
@@ -156,7 +151,8 @@ function start() {
   const isEmpty = !data.meshes.some(m => m.shown) && !data.robot &&
       !data.motion && !data.answers.length && !data.start && !data.goal &&
       !data.paths.some(p => p.points.length);
-  if (!hasWebGL()) {
+  const context = contextOf(byId('canvas'));
+  if (!context) {
     document.body.classList.add('bare');
     tellInstead('This browser draws no WebGL, so there is no picture. It ' +
                 'would show ' + data.meshes.length + ' meshes and ' +
@@ -165,7 +161,7 @@ function start() {
                 '. Switch hardware acceleration on, or take another browser.');
     return;
   }
-  window.viewer = new LinkedViewer(data);
+  window.viewer = new LinkedViewer(data, context);
   if (isEmpty) {
     tellInstead('There is nothing to show: no mesh, no path, no answer.');
   }

@@ -3,14 +3,15 @@
 const kDuration = 8;  // seconds of a way at speed 1
 
 class Viewer {
-  constructor(data) {
+  // `context`: of the canvas, by WebGL.
+  constructor(data, context) {
     this.data = data;
     this.state = this.defaults();
     this.stage = new DressedStage(data);
     this.camera = new THREE.PerspectiveCamera(
         kFieldOfView * 180 / Math.PI, 1, 0.01, 10);
     this.renderer = new THREE.WebGLRenderer(
-        {canvas: byId('canvas'), antialias: true, alpha: true, stencil: true});
+        {canvas: byId('canvas'), context, antialias: true, alpha: true});
     this.renderer.localClippingEnabled = true;
     this.renderer.autoClear = false;
     this.isReady = false;
@@ -217,8 +218,13 @@ class Viewer {
     const {renderer, stage, state, camera} = this;
     const canvas = byId('canvas');
     const width = canvas.clientWidth, height = canvas.clientHeight;
-    renderer.setPixelRatio(window.devicePixelRatio || 1);
-    renderer.setSize(width, height, false);
+    // Setting it makes a new buffer, also of the same size.
+    const size = [width, height, window.devicePixelRatio || 1];
+    if (String(size) !== this.size) {
+      this.size = String(size);
+      renderer.setPixelRatio(size[2]);
+      renderer.setSize(width, height, false);
+    }
     this.orbit.place(camera);
     stage.key.position.copy(camera.position).sub(this.orbit.target)
         .applyAxisAngle(new THREE.Vector3(0, 0, 1), 0.5);
