@@ -110,6 +110,8 @@ check_options() {
   done
   PKG_CONFIG_LIBDIR=/nonexistent configures \
     "Not built for want of the package coinor-libipopt-dev.*: phongpd::ipopt"
+  configures "Not built for want of the package libjs-three" \
+    -DPHONGPD_THREE_JS=
 
   # Outside projects; the tests build the one of the installed package.
   takes() { # WAY OPTION...

@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # setup.sh [PACKAGE...]: installs the Debian packages PhongPD is built from and
 # the named ones, only those missing.  Needs the network only then; everything
-# else works offline.
+# else works offline.  Worth naming: chromium, by which phongpd view --png draws
+# and the tests open pages.
 set -euo pipefail
 
 # Ipopt's package names blas and lapack to the linker without bringing them.
@@ -10,7 +11,8 @@ packages=(
   g++ cmake make pkg-config libeigen3-dev libcgal-dev libgmp-dev libmpfr-dev
   libtbb-dev libfcl-dev libgtest-dev librapidcheck-dev libcli11-dev
   nlohmann-json3-dev coinor-libipopt-dev libblas-dev liblapack-dev libompl-dev
-  libboost-serialization-dev libboost-filesystem-dev gnuplot-nox "$@"
+  libboost-serialization-dev libboost-filesystem-dev gnuplot-nox libjs-three
+  "$@"
 )
 
 missing=()

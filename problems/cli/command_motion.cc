@@ -14,6 +14,7 @@
 #include "problems/output/output_files.h"
 #include "problems/output/text.h"
 #include "problems/pictures/gnuplot.h"
+#include "problems/pictures/viewer/view_page.h"
 #include "problems/studies/answer_check.h"
 #include "problems/studies/motion.h"
 #include "problems/studies/sliding.h"
@@ -36,6 +37,7 @@ struct Flags {
   PenetrationTrackerOptions sliding;
   std::string output;
   std::string svg;
+  std::string html;
   bool no_cache = false;
   bool verify = true;
 };
@@ -141,6 +143,37 @@ std::string Summary(const Flags& flags, const std::vector<MotionTrace>& traces,
   return text.str();
 }
 
+// The robot is a point where only the contact space is given.
+View MotionView(const ContactSpace& contact,
+                const std::optional<Workspace>& solids,
+                const StraightMotion& motion,
+                const std::vector<MotionTrace>& traces) {
+  View view;
+  view.title = "Penetration depth along a motion";
+  view.meshes = {{"contact space", ViewRole::kContactSpace, contact.mesh()}};
+  if (solids) {
+    view.robot = solids->robot;
+    for (const Obstacle& obstacle : solids->obstacles) {
+      view.meshes.push_back({obstacle.id, ViewRole::kObstacle, obstacle.mesh});
+    }
+  } else {
+    view.notes = {
+        "The robot is drawn as a ball: with --robot and --obstacle it would "
+        "be itself."};
+  }
+  for (int frame = 0; frame < motion.frames; ++frame) {
+    view.motion.positions.push_back(motion.At(frame));
+  }
+  for (const MotionTrace& trace : traces) {
+    ViewTrace shown{trace.label, trace.pd, {}};
+    for (const PenetrationResult& result : trace.results) {
+      shown.status.push_back(StatusName(result.status));
+    }
+    view.motion.traces.push_back(std::move(shown));
+  }
+  return view;
+}
+
 int Follow(const Flags& flags) {
   const bool pair = !flags.robot.empty() && !flags.obstacle.empty();
   const bool either = !flags.robot.empty() || !flags.obstacle.empty();
@@ -160,6 +193,10 @@ int Follow(const Flags& flags) {
   flags.sliding.Validate();
   OutputFiles outputs;
   outputs.Declare(flags.output);
+  if (!flags.html.empty()) {
+    outputs.Declare(flags.html);
+    RequireViewer();
+  }
   if (!flags.svg.empty()) {
     outputs.Declare(flags.svg);
     RequireGnuplot();
@@ -178,6 +215,10 @@ int Follow(const Flags& flags) {
                   MotionPage(traces, "Penetration depth from (" +
                                          FormatPoint(motion.from) + ") to (" +
                                          FormatPoint(motion.to) + ")"));
+  }
+  if (!flags.html.empty()) {
+    outputs.Write(flags.html,
+                  ViewPage(MotionView(contact, solids, motion, traces)));
   }
   CommitAndTell(&outputs, Summary(flags, traces, contact.length()) + verified);
   if (!solids) TellIfTaken(flags.contact_space);
@@ -221,6 +262,10 @@ Command AddMotion(CLI::App* app) {
       ->type_name("FILE");
   app->add_option("--svg", flags->svg,
                   "Plot of x, y, z and magnitude (needs gnuplot)")
+      ->type_name("FILE");
+  app->add_option("--html", flags->html,
+                  "Page with the moving robot and the arrow of PD, a picture "
+                  "for each metric side by side (as view makes it)")
       ->type_name("FILE");
   AddVerify(app, &flags->verify);
   AddNoCache(app, &flags->no_cache);

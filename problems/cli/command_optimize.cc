@@ -6,6 +6,7 @@
 #include "problems/cli/command.h"
 #include "problems/cli/seeded_runs.h"
 #include "problems/output/text.h"
+#include "problems/pictures/viewer/scene_view.h"
 #include "problems/scenes/scene_source.h"
 #include "problems/studies/answer_check.h"
 #include "problems/studies/trajectory_study.h"
@@ -105,8 +106,7 @@ RunSummary Summarize(const Flags& flags, const nlohmann::ordered_json& row) {
   const std::string metric = row.at("method").get<std::string>();
   const std::string outcome =
       row.at("seed").dump() + ": " + row.at("status_class").get<std::string>();
-  return {{metric + ", seed " + outcome, PathOf(row),
-           row.at("collision_free").get<bool>()},
+  return {NamedPathOf(row),
           row.at("scene").get<std::string>() + ", " + metric + ", " +
               flags.start + ", " + outcome + ", " +
               row.at("iterations").dump() + ", " +
@@ -147,12 +147,8 @@ int Optimize(const Flags& flags) {
     check.Judge(study.scene(), study.world(), ClaimsOf(result), &row);
     runs.Add(row);
   }
-  runs.Write([&study] {
-    return PathScene{study.scene().name,
-                     study.spaces().Meshes(),
-                     study.scene().workspace.robot,
-                     {}};
-  });
+  runs.Write(
+      [&study] { return SceneView(study.scene(), study.spaces().Meshes()); });
   TellAboutSpaces(study.world(), study.triangles());
   const int code = runs.Commit();
   check.RequireNoFailure();

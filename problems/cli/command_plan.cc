@@ -6,6 +6,7 @@
 #include "problems/cli/command.h"
 #include "problems/cli/seeded_runs.h"
 #include "problems/output/text.h"
+#include "problems/pictures/viewer/scene_view.h"
 #include "problems/scenes/scene_source.h"
 #include "problems/studies/answer_check.h"
 #include "problems/studies/planning_study.h"
@@ -27,8 +28,7 @@ RunSummary Summarize(const nlohmann::ordered_json& row) {
   const std::string planner = row.at("planner").get<std::string>();
   const std::string outcome =
       row.at("seed").dump() + ": " + row.at("status").get<std::string>();
-  return {{planner + ", seed " + outcome, PathOf(row),
-           row.at("solved").get<bool>()},
+  return {NamedPathOf(row),
           row.at("scene").get<std::string>() + ", " + planner + ", " + outcome +
               ", " + Rounded(NumberAt(row, "/seconds/solve")) + ", " +
               std::to_string(row.at("path").size()) + ", " +
@@ -92,10 +92,7 @@ int Plan(const Flags& flags) {
     check.Judge(scene, study.world(), ClaimsOf(result), &row);
     runs.Add(row);
   }
-  runs.Write([&] {
-    return PathScene{
-        scene.name, {study.VisibleMesh()}, scene.workspace.robot, {}};
-  });
+  runs.Write([&] { return SceneView(scene, {study.VisibleMesh()}); });
   const WorldSpaces* built = study.world().Built(SpaceLayout::kSealed);
   TellAboutSpaces(study.world(), built == nullptr ? 0 : built->triangles);
   if (!flags.ompl_log.empty()) {

@@ -25,8 +25,16 @@ bool HasComments(const std::string& path) {
   return extension == "off" || extension == "obj";
 }
 
-// False for pipes, too, which have been read.
-bool SaysWhatItIs(const std::string& path) {
+ContactSpace TakeMesh(const std::string& path) {
+  TriangleMesh mesh = ReadMesh(path);
+  RequireInRange(mesh, path);
+  return TakeAsContactSpace(std::move(mesh), path);
+}
+
+}  // namespace
+
+bool IsMarkedContactSpace(const std::string& path) {
+  if (NamesContactSpaceFile(path)) return true;
   std::error_code error;
   if (!std::filesystem::is_regular_file(path, error)) return false;
   const std::string mark = kMark;
@@ -36,14 +44,6 @@ bool SaysWhatItIs(const std::string& path) {
   file.read(end.data(), static_cast<std::streamsize>(end.size()));
   return file.good() && end == mark;
 }
-
-ContactSpace TakeMesh(const std::string& path) {
-  TriangleMesh mesh = ReadMesh(path);
-  RequireInRange(mesh, path);
-  return TakeAsContactSpace(std::move(mesh), path);
-}
-
-}  // namespace
 
 void DeclareContactSpace(OutputFiles* outputs, const std::string& path) {
   if (NamesContactSpaceFile(path)) {
@@ -75,7 +75,7 @@ ContactSpace LoadContactSpace(const std::string& path) {
 }
 
 void TellIfTaken(const std::string& path) {
-  if (NamesContactSpaceFile(path) || SaysWhatItIs(path)) return;
+  if (IsMarkedContactSpace(path)) return;
   Note(path +
        ": taken as a contact space, though nothing in it says that it is one "
        "(phongpd contact-space marks OFF and OBJ files, and .pcs files need no "

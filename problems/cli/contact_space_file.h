@@ -22,6 +22,10 @@ void WriteContactSpaceTo(OutputFiles* outputs, const std::string& path,
 // Throws InputError naming the file.
 ContactSpace LoadContactSpace(const std::string& path);
 
+// Does the file say that it is a contact space?  A .pcs file does, and OFF and
+// OBJ files that WriteContactSpaceTo wrote; no pipe does, which has been read.
+bool IsMarkedContactSpace(const std::string& path);
+
 // Any such mesh will do, but of a bracket's own every answer is that of a
 // point, and nothing else would tell: says so on stderr unless the file says
 // that it is a contact space.  For the end of a command that went well.

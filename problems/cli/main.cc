@@ -129,6 +129,7 @@ int Run(int argc, char** argv) {
       AddCompare);
   add("merge", "Join the parts of a comparison", AddMerge);
   add("plan", "Plan a path, or prove that there is none", AddPlan);
+  add("view", "Look at meshes, scenes, paths, motions and depths", AddView);
   add("scenes", "List or write the procedural scenes", AddScenes);
   add("reproduce", "Pack a command with its inputs, to report what went wrong",
       AddReproduce);

@@ -6,6 +6,8 @@
 #include <utility>
 
 #include "problems/cli/command.h"
+#include "problems/pictures/path_picture.h"
+#include "problems/pictures/viewer/view_page.h"
 
 namespace phongpd::cli {
 
@@ -41,10 +43,12 @@ void AddRowOutput(CLI::App* app, SeededRunFlags* flags) {
 
 void AddPictures(CLI::App* app, SeededRunFlags* flags) {
   app->add_option("--html", flags->html,
-                  "Page with the contact space, the paths and the robot, to "
-                  "turn and zoom; needs nothing from elsewhere")
+                  "Page with obstacles, contact space, paths and the moving "
+                  "robot, to turn and cut (as view makes it); needs nothing "
+                  "from elsewhere")
       ->type_name("FILE");
-  app->add_option("--svg", flags->svg, "The same as a still picture")
+  app->add_option("--svg", flags->svg,
+                  "Contact space and paths as a still picture of lines")
       ->type_name("FILE");
 }
 
@@ -63,9 +67,19 @@ std::vector<Eigen::Vector3d> PathOf(const nlohmann::ordered_json& row) {
   return path;
 }
 
+NamedPath NamedPathOf(const nlohmann::ordered_json& row) {
+  const bool is_plan = row.contains("planner");
+  return {row.at(is_plan ? "planner" : "method").get<std::string>() +
+              ", seed " + row.at("seed").dump() + ": " +
+              row.at(is_plan ? "status" : "status_class").get<std::string>(),
+          PathOf(row),
+          row.at(is_plan ? "solved" : "collision_free").get<bool>()};
+}
+
 SeededRuns::SeededRuns(const SeededRunFlags& flags, const SceneSource& source,
                        const std::string& header, Summarizer summarize)
     : flags_(flags), header_(header + '\n'), summarize_(std::move(summarize)) {
+  if (!flags.html.empty()) RequireViewer();
   outputs_.Declare(flags.output);
   if (!flags.html.empty()) outputs_.Declare(flags.html);
   if (!flags.svg.empty()) outputs_.Declare(flags.svg);
@@ -101,13 +115,13 @@ void SeededRuns::Tell(const nlohmann::ordered_json& row) {
   if (!run.why.empty()) std::cout << "  " << run.why << '\n';
 }
 
-void SeededRuns::Write(const std::function<PathScene()>& make_scene) {
+void SeededRuns::Write(const std::function<View()>& make_view) {
   outputs_.Write(flags_.output, rows_->Content());
   if (flags_.html.empty() && flags_.svg.empty()) return;
-  PathScene scene = make_scene();
-  scene.paths = paths_;
-  if (!flags_.html.empty()) outputs_.Write(flags_.html, PathPage(scene));
-  if (!flags_.svg.empty()) outputs_.Write(flags_.svg, PathSvg(scene));
+  View view = make_view();
+  view.paths = paths_;
+  if (!flags_.html.empty()) outputs_.Write(flags_.html, ViewPage(view));
+  if (!flags_.svg.empty()) outputs_.Write(flags_.svg, PathSvg(view));
 }
 
 int SeededRuns::Commit() {

@@ -10,7 +10,7 @@
 
 #include "problems/output/output_files.h"
 #include "problems/output/row_file.h"
-#include "problems/pictures/path_picture.h"
+#include "problems/pictures/viewer/view.h"
 #include "problems/scenes/scene_source.h"
 
 // Runs of one scene with the seeds S, S + 1, ...: the flags that commands made
@@ -52,6 +52,10 @@ double NumberAt(const nlohmann::ordered_json& row, const char* pointer);
 // The points of the row's "path".
 std::vector<Eigen::Vector3d> PathOf(const nlohmann::ordered_json& row);
 
+// The path of a row that optimize or plan wrote, named by its method or
+// planner, seed and status; free if the row says so.
+NamedPath NamedPathOf(const nlohmann::ordered_json& row);
+
 // A row of --output and a line on standard output for each run, and all paths
 // in the pictures.  Rows are kept as they come and taken up again (RowFile).
 class SeededRuns {
@@ -70,9 +74,9 @@ class SeededRuns {
   // Notes a run that is over.
   void Add(const nlohmann::ordered_json& row);
 
-  // Writes the rows, and the pictures of the scene with the paths of all runs;
-  // without pictures nobody asks for the scene.
-  void Write(const std::function<PathScene()>& scene);
+  // Writes the rows, and the pictures of the view with the paths of all runs;
+  // without pictures nobody asks for it.
+  void Write(const std::function<View()>& view);
 
   // Returns kDone if every run had an answer, kNoAnswer otherwise.
   int Commit();

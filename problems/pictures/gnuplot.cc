@@ -8,11 +8,12 @@
 
 #include <cerrno>
 #include <cstdio>
-#include <cstdlib>
 #include <cstring>
 #include <memory>
 #include <sstream>
 #include <stdexcept>
+
+#include "problems/pictures/programs.h"
 
 extern char** environ;
 
@@ -57,11 +58,7 @@ std::string FirstTextLine(const std::string& text) {
 }  // namespace
 
 void RequireGnuplot() {
-  const char* const path = std::getenv("PATH");
-  std::istringstream folders(path != nullptr ? path : "/usr/bin:/bin");
-  for (std::string folder; std::getline(folders, folder, ':');) {
-    if (access((folder + "/gnuplot").c_str(), X_OK) == 0) return;
-  }
+  if (!FindProgram({"gnuplot"}).empty()) return;
   throw InputError(
       "plots: expected the program gnuplot on PATH, found none; install the "
       "Debian package gnuplot-nox");

@@ -182,7 +182,8 @@ class Packer {
 
 bool TakesOutput(const std::string& flag) {
   static const std::vector<std::string> flags = {
-      "--output", "--report", "--html", "--svg", "--ompl-log", "--meshes"};
+      "--output", "--report", "--html",     "--svg",
+      "--glb",    "--png",    "--ompl-log", "--meshes"};
   return std::find(flags.begin(), flags.end(), flag) != flags.end();
 }
 

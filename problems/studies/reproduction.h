@@ -29,10 +29,10 @@ struct CommandOutcome {
 
 // Packs a command line without running it (`run` is null).  Inputs are the
 // arguments that name regular files, and the meshes of those that are scene
-// files; what follows --output, --report, --html, --svg, --ompl-log and
-// --meshes is an output.  Meshes that a scene names by an absolute path or
-// with ".." are renamed in it.  Throws InputError for a file that cannot be
-// read, and where they are more than 512 MiB together.
+// files; what follows --output, --report, --html, --svg, --glb, --png,
+// --ompl-log and --meshes is an output.  Meshes that a scene names by an
+// absolute path or with ".." are renamed in it.  Throws InputError for a file
+// that cannot be read, and where they are more than 512 MiB together.
 nlohmann::ordered_json PackCommand(const std::vector<std::string>& arguments);
 
 // Checks a document and returns its arguments.  Throws InputError starting

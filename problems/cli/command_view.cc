@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <spawn.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/files/descriptor.h"
+#include "problems/cli/command.h"
+#include "problems/cli/view_inputs.h"
+#include "problems/output/output_files.h"
+#include "problems/pictures/programs.h"
+#include "problems/pictures/viewer/gltf.h"
+#include "problems/pictures/viewer/still_picture.h"
+#include "problems/pictures/viewer/view_page.h"
+
+extern char** environ;
+
+namespace phongpd::cli {
+namespace {
+
+constexpr int kPictureWidth = 1600, kPictureHeight = 1000;
+
+struct Flags : ViewRequest {
+  std::vector<std::string> from_cells, to_cells;
+  std::string unit = "units";
+  std::string title;
+  std::string html, glb, png;
+};
+
+// A name that says something else is a slip.
+void RequireEnding(const std::string& path, const std::string& flag,
+                   const std::string& ending) {
+  if (path.empty() || path.rfind("/dev/", 0) == 0) return;
+  const std::string found = std::filesystem::path(path).extension().string();
+  if (found == ending) return;
+  throw InputError(flag + ": expected a name that ends in " + ending +
+                   ", found " + path);
+}
+
+// A new file of the user's own, which stays.
+std::string WriteTemporary(const std::string& page) {
+  std::error_code error;
+  const std::filesystem::path parent =
+      std::filesystem::temp_directory_path(error);
+  std::string path = ((error ? std::filesystem::path("/tmp") : parent) /
+                      "phongpd-view-XXXXXX.html")
+                         .string();
+  const internal::Descriptor file(mkstemps(path.data(), 5));
+  if (!file.IsOpen()) {
+    throw InputError(path + ": cannot be written (" + std::strerror(errno) +
+                     "); take --html FILE");
+  }
+  internal::WriteAll(file, page);
+  return path;
+}
+
+// In the user's browser, if there is a display; does not wait for it.
+void OpenOnDisplay(const std::string& path) {
+  if (std::getenv("DISPLAY") == nullptr &&
+      std::getenv("WAYLAND_DISPLAY") == nullptr) {
+    return;
+  }
+  std::string program = FindProgram({"xdg-open"});
+  if (program.empty()) return;
+  std::string argument = path;
+  char* arguments[] = {program.data(), argument.data(), nullptr};
+  pid_t child = 0;
+  if (posix_spawn(&child, program.c_str(), nullptr, nullptr, arguments,
+                  environ) != 0) {
+    Note("xdg-open could not be started; open the file yourself");
+  }
+}
+
+int Look(Flags flags) {
+  if (!flags.from_cells.empty()) {
+    flags.from = ParsePoint(flags.from_cells, "--from");
+  }
+  if (!flags.to_cells.empty()) flags.to = ParsePoint(flags.to_cells, "--to");
+  RequireEnding(flags.html, "--html", ".html");
+  RequireEnding(flags.glb, "--glb", ".glb");
+  RequireEnding(flags.png, "--png", ".png");
+  const bool is_page =
+      !flags.html.empty() || (flags.glb.empty() && flags.png.empty());
+  if (is_page || !flags.png.empty()) RequireViewer();
+  if (!flags.png.empty()) RequireBrowser();
+  OutputFiles outputs;
+  for (const std::string& path : {flags.html, flags.glb, flags.png}) {
+    if (!path.empty()) outputs.Declare(path);
+  }
+
+  View view = ReadThings(flags);
+  view.unit = flags.unit;
+  if (!flags.title.empty()) view.title = flags.title;
+  const std::string page =
+      is_page || !flags.png.empty() ? ViewPage(view) : std::string();
+  if (!flags.html.empty()) outputs.Write(flags.html, page);
+  if (!flags.glb.empty()) outputs.Write(flags.glb, ViewGlb(view));
+  if (!flags.png.empty()) {
+    Progress("drawing the picture");
+    outputs.Write(flags.png, StillPicture(page, kPictureWidth, kPictureHeight));
+  }
+  outputs.Commit();
+  if (is_page && flags.html.empty()) {
+    const std::string path = WriteTemporary(page);
+    std::cout << path << '\n';
+    OpenOnDisplay(path);
+  }
+  return kDone;
+}
+
+}  // namespace
+
+Command AddView(CLI::App* app) {
+  auto flags = std::make_shared<Flags>();
+  app->add_option("THING", flags->things,
+                  "Meshes and contact spaces (OFF, OBJ, PLY, STL), a scene "
+                  "(file or FAMILY:key=value,...), rows of optimize and plan, "
+                  "a table of motion, answers of depth and query: several are "
+                  "shown together. Without an output, a page is written to a "
+                  "temporary file, its name is printed, and where there is a "
+                  "display xdg-open opens it")
+      ->required()
+      ->type_name("THING");
+  app->add_option("--html", flags->html,
+                  "Page to turn, cut and play; one file, needs nothing from "
+                  "elsewhere")
+      ->type_name("FILE");
+  app->add_option("--glb", flags->glb,
+                  "Binary glTF 2.0: meshes, paths, the robot's way as an "
+                  "animation; for Blender, f3d and others")
+      ->type_name("FILE");
+  app->add_option("--png", flags->png,
+                  "Still picture, 1600 x 1000, the robot at stages along its "
+                  "way (needs the browser chromium)")
+      ->type_name("FILE");
+  app->add_option("--robot", flags->robot,
+                  "Mesh of what moves, for tables that do not hold it")
+      ->type_name("FILE");
+  app->add_option("--from", flags->from_cells,
+                  "First position of a motion's table ...")
+      ->expected(3)
+      ->type_name("X Y Z");
+  app->add_option("--to", flags->to_cells, "... and its last")
+      ->expected(3)
+      ->type_name("X Y Z");
+  app->add_flag(
+      "--build", flags->build,
+      "Build the contact space of a scene, or take it from the cache, "
+      "and show it");
+  app->add_option("--unit", flags->unit, "What a unit of length is called")
+      ->type_name("NAME")
+      ->capture_default_str();
+  app->add_option("--title", flags->title, "Of the page")->type_name("TEXT");
+  AddRoot(app, &flags->root);
+  AddNoCache(app, &flags->no_cache);
+  app->footer(
+      "Examples:\n"
+      "  phongpd view robot.off obstacle.off\n"
+      "  phongpd view u_axis --build --html u.html\n"
+      "  phongpd view phong.jsonl euclidean.jsonl --png paths.png\n"
+      "  phongpd view motion.csv contact.off --robot robot.off "
+      "--from 0 -1 0 --to 0 1 0\n");
+  return [flags] { return Look(*flags); };
+}
+
+}  // namespace phongpd::cli

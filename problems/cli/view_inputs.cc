@@ -1,0 +1,295 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "problems/cli/view_inputs.h"
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "core/contact/contact_space_file.h"
+#include "core/mesh/input_file.h"
+#include "core/mesh/mesh_io.h"
+#include "core/mesh/mesh_range.h"
+#include "problems/cli/command.h"
+#include "problems/cli/contact_space_file.h"
+#include "problems/cli/seeded_runs.h"
+#include "problems/cli/view_tables.h"
+#include "problems/pictures/viewer/scene_view.h"
+#include "problems/scenes/scene_library.h"
+#include "problems/studies/motion.h"
+
+namespace phongpd::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::uintmax_t kMaxBytes = std::uintmax_t{1} << 30;
+constexpr char kKinds[] =
+    "a mesh or contact space (OFF, OBJ, PLY, STL, .pcs), a scene (file or "
+    "FAMILY:key=value,...), rows of optimize or plan (JSON Lines), a motion "
+    "(CSV), or depths (CSV, JSON)";
+
+[[noreturn]] void FailUnknown(const std::string& thing,
+                              const std::string& found) {
+  throw InputError(thing + ": expected " + kKinds + ", found " + found);
+}
+
+std::string Extension(const std::string& path) {
+  std::string extension = std::filesystem::path(path).extension().string();
+  for (char& c : extension) {
+    c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  }
+  return extension;
+}
+
+bool IsMesh(const std::string& extension) {
+  return extension == ".off" || extension == ".obj" || extension == ".ply" ||
+         extension == ".stl" || extension == ".pcs";
+}
+
+bool IsFamily(const std::string& thing) {
+  const std::string name = thing.substr(0, thing.find(':'));
+  const std::vector<SceneFamily>& families = SceneFamilies();
+  return std::any_of(families.begin(), families.end(),
+                     [&](const SceneFamily& f) { return f.name == name; });
+}
+
+Eigen::Vector3d PointOf(const Json& json) {
+  return {json.at(0).get<double>(), json.at(1).get<double>(),
+          json.at(2).get<double>()};
+}
+
+ViewAnswer AnswerOf(const Json& row) {
+  ViewAnswer answer;
+  answer.position = PointOf(row.at("position"));
+  const Json& turn = row.at("orientation");
+  answer.orientation = {turn.at(0).get<double>(), turn.at(1).get<double>(),
+                        turn.at(2).get<double>(), turn.at(3).get<double>()};
+  answer.status = row.at("status").get<std::string>();
+  answer.depth = row.at("depth").get<double>();
+  answer.clearance = row.at("clearance").get<double>();
+  answer.direction = PointOf(row.at("direction"));
+  answer.on_robot = PointOf(row.at("on_a").at("point"));
+  answer.on_obstacle = PointOf(row.at("on_b").at("point"));
+  answer.has_witness = row.at("on_a").at("feature") != "none";
+  return answer;
+}
+
+// Collects things into a view.
+class Collector {
+ public:
+  explicit Collector(const ViewRequest& request) : request_(request) {}
+
+  void Take(const std::string& thing) {
+    if (IsFamily(thing) && !std::filesystem::exists(thing)) {
+      return TakeScene(SceneSource(thing, request_.root).Load());
+    }
+    const std::string extension = Extension(thing);
+    if (IsMesh(extension)) return TakeMesh(thing);
+    const std::string content = ReadInputFile(thing, kKinds, kMaxBytes);
+    const std::size_t first = content.find_first_not_of(" \t\r\n");
+    if (first == std::string::npos) FailUnknown(thing, "an empty file");
+    switch (KindOfTable(content)) {
+      case TableKind::kMotion:
+        return TakeMotion(ParseTraces(content, thing), thing);
+      case TableKind::kDepth:
+        return TakeAnswers(ParseDepthTable(content, thing));
+      case TableKind::kQuery:
+        return TakeAnswers(ParseQueryTable(content, thing));
+      case TableKind::kOther:
+        break;
+    }
+    // Scenes may begin with a comment.
+    if (content[first] == '{' || content[first] == '/') {
+      return TakeJson(content, thing);
+    }
+    FailUnknown(thing, extension.empty() || extension == ".json" ||
+                               extension == ".jsonl" || extension == ".csv"
+                           ? "other content"
+                           : "a file " + extension);
+  }
+
+  View Finish() {
+    if (!request_.robot.empty()) {
+      if (!view_.robot.triangles.empty()) {
+        throw InputError(
+            "--robot: expected things without a robot of their own, found "
+            "the scene " +
+            scene_);
+      }
+      view_.robot = Mesh(request_.robot);
+    }
+    if (view_.robot.triangles.empty() && !FirstWay(view_).empty()) {
+      view_.notes.push_back(
+          "What moves is drawn as a ball: the files do not hold the robot "
+          "(--robot FILE).");
+    }
+    if (view_.meshes.empty() && !FirstWay(view_).empty()) {
+      view_.notes.push_back(
+          "The files do not hold what stands around: name its mesh or its "
+          "scene as well.");
+    }
+    if (view_.title.empty()) {
+      for (const std::string& thing : request_.things) {
+        view_.title += (view_.title.empty() ? "" : ", ") +
+                       std::filesystem::path(thing).filename().string();
+      }
+    }
+    return std::move(view_);
+  }
+
+  // Scenes first: runs find theirs there already.
+  static int Order(const std::string& thing) {
+    return IsFamily(thing) || Extension(thing) == ".json" ? 0 : 1;
+  }
+
+ private:
+  static TriangleMesh Mesh(const std::string& path) {
+    if (NamesContactSpaceFile(path)) return ReadContactSpace(path).mesh();
+    TriangleMesh mesh = ReadMesh(path);
+    RequireInRange(mesh, path);
+    return mesh;
+  }
+
+  void TakeMesh(const std::string& path) {
+    const ViewRole role =
+        IsMarkedContactSpace(path) ? ViewRole::kContactSpace : ViewRole::kMesh;
+    view_.meshes.push_back(
+        {std::filesystem::path(path).filename().string(), role, Mesh(path)});
+  }
+
+  void TakeScene(const Scene& scene) {
+    if (!scene_.empty()) {
+      throw InputError("view: expected things of one scene, found " + scene_ +
+                       " and " + scene.name + "; look at one at a time");
+    }
+    scene_ = scene.name;
+    std::vector<TriangleMesh> spaces;
+    if (request_.build) {
+      Progress("building the contact space");
+      const World world(scene.workspace, scene.name,
+                        UserCache(request_.no_cache));
+      spaces = world.Spaces(SpaceLayout::kMerged).Meshes();
+    }
+    View view = SceneView(scene, spaces);
+    view_.title = view.title;
+    view_.robot = view.robot;
+    view_.start = view.start;
+    view_.goal = view.goal;
+    Append(&view_.meshes, std::move(view.meshes));
+    Append(&view_.notes, std::move(view.notes));
+  }
+
+  void TakeMotion(std::vector<ViewTrace> traces, const std::string& file) {
+    if (!view_.motion.positions.empty()) {
+      throw InputError(file + ": expected one motion, found a second one");
+    }
+    if (request_.from.has_value() != request_.to.has_value()) {
+      throw InputError("--from, --to: expected both or none, found one");
+    }
+    StraightMotion motion;
+    motion.frames = static_cast<int>(traces.front().pd.size());
+    if (request_.from) {
+      motion.from = *request_.from;
+      motion.to = *request_.to;
+    } else {
+      view_.notes.push_back(
+          "The table does not hold the robot's positions: all arrows start at "
+          "the origin (--from X Y Z --to X Y Z, as the motion was asked for).");
+    }
+    for (int frame = 0; frame < motion.frames; ++frame) {
+      view_.motion.positions.push_back(motion.At(frame));
+    }
+    view_.motion.traces = std::move(traces);
+  }
+
+  void TakeAnswers(std::vector<ViewAnswer> answers) {
+    Append(&view_.answers, std::move(answers));
+  }
+
+  // A scene, or objects a line.
+  void TakeJson(const std::string& content, const std::string& file) {
+    const Json whole = Json::parse(content, nullptr, false, true);
+    if (!whole.is_discarded() && !IsRow(whole)) {
+      if (!whole.is_object() || !whole.contains("robot")) {
+        FailUnknown(file, "JSON without robot, path or on_a");
+      }
+      return TakeScene(SceneSource(file, request_.root).Load());
+    }
+    std::size_t number = 0;
+    for (std::size_t at = 0; at < content.size();) {
+      const std::size_t end = std::min(content.find('\n', at), content.size());
+      const std::string line = content.substr(at, end - at);
+      at = end + 1;
+      ++number;
+      if (line.find_first_not_of(" \t\r") == std::string::npos) continue;
+      TakeRow(line, file + ":" + std::to_string(number));
+    }
+  }
+
+  static bool IsRow(const Json& json) {
+    return json.contains("on_a") ||
+           (json.contains("path") && json.contains("scene"));
+  }
+
+  void TakeRow(const std::string& line, const std::string& where) {
+    const Json row = Json::parse(line, nullptr, false);
+    if (row.is_discarded() || !IsRow(row)) {
+      FailUnknown(where, row.is_discarded() ? "no JSON" : "another object");
+    }
+    try {
+      if (row.contains("on_a")) {
+        view_.answers.push_back(AnswerOf(row));
+      } else {
+        TakeRun(row, where);
+      }
+    } catch (const nlohmann::json::exception& error) {
+      throw InputError(where + ": expected a row as phongpd writes it, found " +
+                       error.what());
+    }
+  }
+
+  void TakeRun(const Json& row, const std::string& where) {
+    const std::string scene = row.at("scene").get<std::string>();
+    const std::uint64_t seed = row.at("seed").get<std::uint64_t>();
+    view_.paths.push_back(NamedPathOf(row));
+    if (scene == scene_) return;
+    if (!scene_.empty()) {
+      throw InputError(where + ": expected runs of the scene " + scene_ +
+                       ", found one of " + scene + "; look at one at a time");
+    }
+    if (IsFamily(scene)) {
+      // Seeds of planners draw no scene.
+      const bool draws = seed > 0 && !row.contains("planner");
+      const SceneSource source(scene, request_.root);
+      return TakeScene(draws ? source.Load(seed) : source.Load());
+    }
+    scene_ = scene;
+    view_.title = scene;
+  }
+
+  template <typename T>
+  static void Append(std::vector<T>* all, std::vector<T> more) {
+    for (T& item : more) all->push_back(std::move(item));
+  }
+
+  const ViewRequest& request_;
+  View view_;
+  std::string scene_;  // none yet if empty
+};
+
+}  // namespace
+
+View ReadThings(const ViewRequest& request) {
+  std::vector<std::string> things = request.things;
+  std::stable_sort(things.begin(), things.end(),
+                   [](const std::string& a, const std::string& b) {
+                     return Collector::Order(a) < Collector::Order(b);
+                   });
+  Collector collector(request);
+  for (const std::string& thing : things) collector.Take(thing);
+  return collector.Finish();
+}
+
+}  // namespace phongpd::cli

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+
+#include "core/mesh/triangle_mesh.h"
+
+namespace phongpd {
+
+// Triangles a page draws without getting slow.
+inline constexpr std::size_t kMaxDisplayTriangles = 200000;
+
+struct DisplayMesh {
+  TriangleMesh mesh;
+  double cell = 0.0;  // edge of the grid, user's unit; 0: the mesh as it is
+};
+
+// A mesh of at most `most` ≥ 1 triangles to look at, not to compute with:
+// vertices in one cell of a grid become one, their mean (vertex clustering,
+// Rossignac and Borrel 1993), and triangles with two corners in one cell, or
+// that are there already, go.  Any triangles will do; the result may be open
+// or cross itself.  No vertex moves farther than √3 cells.
+DisplayMesh MeshForDisplay(const TriangleMesh& mesh, std::size_t most);
+
+}  // namespace phongpd

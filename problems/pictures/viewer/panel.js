@@ -1,0 +1,376 @@
+// Legend, switches, player and help.
+
+const kKeys = [
+  ['drag · one finger', 'turn'],
+  ['shift or right drag · two fingers', 'move'],
+  ['wheel · pinch, + −', 'zoom'],
+  ['space', 'play, pause'],
+  ['← →', 'robot back, on'],
+  ['1 … 9', 'follow that path'],
+  ['R', 'reset the view'],
+  ['X Y Z', 'look along an axis'],
+  ['C', 'clipping plane'],
+  ['O', 'see through solids'],
+  ['K', 'contact space'],
+  ['G', 'robot at stages'],
+  ['T', 'light or dark'],
+  ['S', 'save as PNG'],
+  ['L', 'link to this view'],
+  ['? · Esc', 'this help'],
+];
+
+function make(tag, attributes = {}, ...children) {
+  const element = document.createElement(tag);
+  for (const [key, value] of Object.entries(attributes)) {
+    if (key.startsWith('on')) {
+      element.addEventListener(key.slice(2), value);
+    } else if (value !== null && value !== false) {
+      element.setAttribute(key, value);
+    }
+  }
+  element.append(...children);
+  return element;
+}
+
+// Fonts need not have one.
+function linkIcon() {
+  const svg = document.createElementNS('http://www.w3.org/2000/svg', 'svg');
+  svg.setAttribute('viewBox', '0 0 16 16');
+  const path = document.createElementNS('http://www.w3.org/2000/svg', 'path');
+  path.setAttribute('d', 'M7 9a3 3 0 0 0 4.2 0l2.5-2.5a3 3 0 0 0-4.2-4.2L8.2 ' +
+      '3.6M9 7a3 3 0 0 0-4.2 0L2.3 9.5a3 3 0 0 0 4.2 4.2l1.3-1.3');
+  for (const [key, value] of Object.entries(
+           {fill: 'none', stroke: 'currentColor', 'stroke-width': 1.6})) {
+    path.setAttribute(key, value);
+  }
+  svg.append(path);
+  return svg;
+}
+
+const byId = id => document.getElementById(id);
+
+class Panel {
+  constructor(viewer) {
+    this.viewer = viewer;
+    const {data, stage} = viewer;
+    byId('title').textContent = data.title;
+    byId('facts').textContent = this.facts();
+    this.makeTools();
+    byId('panel').append(
+        this.legend(), this.ways(), this.display(), this.notes());
+    if (stage.ways.some(way => way.points.length > 1)) this.makePlayer();
+    this.makeHelp();
+  }
+
+  facts() {
+    const {data, stage} = this.viewer, facts = [];
+    const count = (n, what) => n.toLocaleString('en') + ' ' + what +
+        (n === 1 ? '' : 's');
+    const triangles = data.meshes.reduce((n, m) => n + m.triangles, 0) +
+        (data.robot ? data.robot.triangles : 0);
+    if (triangles) facts.push(count(triangles, 'triangle'));
+    const paths = stage.ways.filter(way => way.kind === 'path');
+    if (paths.length) facts.push(count(paths.length, 'path'));
+    if (data.motion) facts.push(count(data.motion.positions.length, 'frame'));
+    if (data.answers.length) facts.push(count(data.answers.length, 'answer'));
+    return facts.join(' · ');
+  }
+
+  makeTools() {
+    const viewer = this.viewer;
+    const tool = (id, text, title, act) => make(
+        'button', {id, title, type: 'button', onclick: act}, text);
+    byId('tools').append(
+        tool('menu', '☰', 'Legend and display', () => this.togglePanel()),
+        tool('reset', '⟲', 'Reset the view (R)', () => viewer.reset()),
+        tool('theme', '◐', 'Light or dark (T)', () => viewer.toggleTheme()),
+        tool('link', linkIcon(), 'Copy a link to this view (L)',
+             () => viewer.link()),
+        tool('save', '⤓', 'Save as PNG (S)', () => viewer.save()),
+        tool('ask', '?', 'Keyboard and mouse (?)', () => this.toggleHelp()));
+  }
+
+  togglePanel() {
+    document.body.classList.toggle('open');
+    this.viewer.frame();
+    this.viewer.changed();
+  }
+
+  section(title, ...rows) {
+    return make('section', {}, make('h2', {}, title), ...rows);
+  }
+
+  check(id, text, isOn, act, color) {
+    const box = make('input', {id, type: 'checkbox',
+                               onchange: e => act(e.target.checked)});
+    box.checked = isOn;
+    const swatch = color ? make('i', {class: 'swatch', 'data-color': color})
+                         : '';
+    return make('label', {class: 'row'}, box, swatch, make('span', {}, text));
+  }
+
+  legend() {
+    const {data, state, viewer} = {data: this.viewer.data,
+                                   state: this.viewer.state,
+                                   viewer: this.viewer};
+    const rows = [];
+    const of = role => data.meshes.filter(m => m.role === role);
+    const named = (list, many) => list.length === 1
+        ? list[0].name : list.length + ' ' + many;
+    const row = (key, text, color) => rows.push(this.check(
+        'show-' + key, text, state.show[key], isOn => {
+          state.show[key] = isOn;
+          viewer.apply();
+        }, color));
+    if (of('obstacle').length) {
+      row('obstacle', of('obstacle').length === 1
+          ? 'obstacle' : named(of('obstacle'), 'obstacles'), 'obstacle');
+    }
+    if (of('contact').length) row('contact', 'contact space', 'contact');
+    if (of('mesh').length === 1) row('mesh', of('mesh')[0].name, 'mesh');
+    if (of('mesh').length > 1) {
+      row('mesh', of('mesh').length + ' meshes');
+      for (const entry of of('mesh').slice(0, 8)) {
+        rows.push(make('p', {class: 'row part'}, make('i', {
+          class: 'swatch', 'data-color': this.viewer.stage.colorName(entry),
+        }), make('span', {}, entry.name)));
+      }
+    }
+    if (data.robot) row('robot', 'robot', 'robot');
+    if (data.start || data.goal) row('marks', 'start and goal', 'mark');
+    if (this.viewer.stage.ways.some(w => w.stages.children.length)) {
+      row('stages', 'robot at stages', 'ghost');
+    }
+    if (rows.length === 0) {
+      rows.push(make('p', {class: 'empty'},
+                     'There are no meshes in this view.'));
+    }
+    return this.section('Shown', ...rows);
+  }
+
+  ways() {
+    const {data, stage} = this.viewer;
+    const rows = [];
+    stage.ways.forEach((way, i) => {
+      if (way.kind === 'motion') return;
+      const isEmpty = way.points.length === 0;
+      const length = isEmpty ? 0 : way.lengths[way.lengths.length - 1];
+      const more = isEmpty ? 'no path'
+          : way.kind === 'answers' ? ''
+          : (way.free ? '' : 'collides · ') +
+              this.viewer.text(length * data.scale);
+      rows.push(make('button', {
+        class: 'way', type: 'button', 'data-way': i, disabled: isEmpty,
+        title: isEmpty ? 'This run has no path' : 'Follow it (' + (i + 1) + ')',
+        onclick: () => this.viewer.follow(i),
+      }, make('i', {class: 'line' + (way.free ? '' : ' dashed'),
+                    'data-way-color': i}),
+      make('span', {}, way.name), make('small', {}, more)));
+    });
+    if (data.motion) {
+      data.motion.traces.forEach((trace, i) => rows.push(make(
+          'p', {class: 'way'}, make('i', {class: 'line', 'data-trace': i}),
+          make('span', {}, trace.name),
+          make('small', {id: 'trace-' + i}, ''))));
+    }
+    if (!rows.length) return '';
+    const title = data.motion ? 'Penetration depth'
+        : data.answers.length ? 'Answers' : 'Paths';
+    return this.section(title, ...rows);
+  }
+
+  display() {
+    const viewer = this.viewer, {state, data} = viewer;
+    const clip = make('input', {
+      id: 'clip-at', type: 'range', min: 0, max: 1000, 'aria-label': 'Plane at',
+      oninput: e => viewer.set(() => {
+        state.clip.at = e.target.value / 1000;
+        state.clip.on = true;
+      }),
+    });
+    const axis = make(
+        'select', {id: 'clip-axis', 'aria-label': 'Axis of the plane',
+                   onchange: e => viewer.set(() => {
+                     state.clip.axis = e.target.value;
+                     state.clip.on = true;
+                   })},
+        ...['x', 'y', 'z'].map(k => make('option', {value: k}, k)));
+    const flip = make('button', {id: 'clip-flip', type: 'button',
+                                 title: 'Show the other side',
+                                 onclick: () => viewer.set(() => {
+                                   state.clip.flip = !state.clip.flip;
+                                   state.clip.on = true;
+                                 })}, '⇄');
+    const rows = [];
+    if (data.meshes.length) {
+      rows.push(make('div', {class: 'clip'},
+                     this.check('clip-on', 'cut', state.clip.on,
+                                isOn => viewer.set(
+                                    () => { state.clip.on = isOn; })),
+                     axis, clip, flip));
+    }
+    if (data.meshes.some(m => m.role !== 'contact')) {
+      rows.push(this.check('xray', 'see through solids', state.xray,
+                           isOn => viewer.set(() => { state.xray = isOn; })));
+    }
+    if (data.meshes.some(m => m.role === 'contact')) {
+      rows.push(this.check('bend', 'colour contact space by curvature',
+                           state.bend,
+                           isOn => viewer.set(() => { state.bend = isOn; })),
+                make('div', {id: 'bend-key', hidden: ''},
+                     make('span', {}, 'valley'), make('i'),
+                     make('span', {}, 'ridge')));
+    }
+    return rows.length ? this.section('Display', ...rows) : '';
+  }
+
+  notes() {
+    const {notes} = this.viewer.data;
+    return notes.length
+        ? this.section('Notes', ...notes.map(n => make('p', {}, n))) : '';
+  }
+
+  makePlayer() {
+    const viewer = this.viewer;
+    const {state, data} = viewer;
+    const scrub = make('input', {
+      id: 'scrub', type: 'range', min: 0, max: 10000, 'aria-label': 'Time',
+      oninput: e => {
+        state.playing = false;
+        viewer.set(() => { state.time = e.target.value / 10000; });
+      },
+    });
+    const speed = make(
+        'select', {id: 'speed', 'aria-label': 'Speed',
+                   onchange: e => { state.speed = Number(e.target.value); }},
+        ...[0.1, 0.25, 0.5, 1, 2, 4].map(
+            s => make('option', {value: s}, s + '×')));
+    speed.value = state.speed;
+    byId('player').append(make(
+        'div', {class: 'bar'},
+        make('button', {id: 'play', type: 'button', title: 'Play (space)',
+                        onclick: () => viewer.togglePlay()}, '▶'),
+        scrub, speed, make('output', {id: 'where'})));
+    if (data.motion && data.motion.traces.length) {
+      byId('player').prepend(make('canvas', {
+        id: 'chart', 'aria-label': 'Length of PD over the frames',
+        onpointerdown: e => this.scrubChart(e),
+        onpointermove: e => { if (e.buttons) this.scrubChart(e); },
+      }));
+    }
+  }
+
+  scrubChart(e) {
+    const box = e.target.getBoundingClientRect();
+    const share = (e.clientX - box.left - kChartLeft) /
+        (box.width - kChartLeft - kChartRight);
+    this.viewer.state.playing = false;
+    this.viewer.set(() => {
+      this.viewer.state.time = Math.min(1, Math.max(0, share));
+    });
+  }
+
+  makeHelp() {
+    byId('help').append(
+        make('h2', {}, 'Keyboard and mouse'),
+        make('dl', {}, ...kKeys.flatMap(
+            ([key, what]) => [make('dt', {}, key), make('dd', {}, what)])),
+        make('button', {type: 'button', onclick: () => this.toggleHelp()},
+             'Close'));
+  }
+
+  toggleHelp(isShown = byId('help').hidden) {
+    byId('help').hidden = !isShown;
+  }
+
+  // Puts the state into the controls.
+  show() {
+    const {state, stage, data} = this.viewer;
+    const check = (id, isOn) => { if (byId(id)) byId(id).checked = isOn; };
+    for (const key of Object.keys(state.show)) {
+      check('show-' + key, state.show[key]);
+    }
+    check('clip-on', state.clip.on);
+    check('xray', state.xray);
+    check('bend', state.bend);
+    if (byId('bend-key')) byId('bend-key').hidden = !state.bend;
+    if (byId('clip-at')) {
+      byId('clip-at').value = 1000 * state.clip.at;
+      byId('clip-axis').value = state.clip.axis;
+    }
+    const theme = kThemes[state.theme];
+    const css = color => '#' + color.toString(16).padStart(6, '0');
+    for (const i of document.querySelectorAll('[data-color]')) {
+      const name = i.dataset.color;
+      i.style.background = name === 'robot'
+          ? '#' + stage.robotMaterial.color.getHexString() : css(theme[name]);
+      i.style.opacity = name === 'contact' ? 0.55 : 1;
+    }
+    for (const i of document.querySelectorAll('[data-way-color]')) {
+      i.style.color = stage.colorOf(state.theme, Number(i.dataset.wayColor));
+    }
+    for (const i of document.querySelectorAll('[data-trace]')) {
+      i.style.color = wayColor(state.theme, Number(i.dataset.trace));
+    }
+    for (const button of document.querySelectorAll('button.way')) {
+      button.setAttribute('aria-pressed',
+                          Number(button.dataset.way) === state.way);
+    }
+    if (!byId('scrub')) return;
+    byId('scrub').value = Math.round(10000 * state.time);
+    byId('speed').value = state.speed;
+    byId('play').textContent = state.playing ? '❚❚' : '▶';
+    if (data.motion && byId('chart')) drawChart(this.viewer);
+  }
+}
+
+const kChartLeft = 46, kChartRight = 12;
+
+// |PD| of every metric over the frames.
+function drawChart(viewer) {
+  const {data, state} = viewer, canvas = byId('chart');
+  const ratio = window.devicePixelRatio || 1;
+  const width = canvas.clientWidth, height = canvas.clientHeight;
+  canvas.width = width * ratio;
+  canvas.height = height * ratio;
+  const g = canvas.getContext('2d');
+  g.scale(ratio, ratio);
+  const style = getComputedStyle(document.body);
+  const lengths = data.motion.traces.map(
+      trace => trace.pd.map(p => Math.hypot(...p)));
+  const most = lengths.reduce(
+      (m, l) => l.reduce((a, b) => Math.max(a, b), m), 0) || 1;
+  const count = data.motion.positions.length;
+  const x = f => kChartLeft + f / Math.max(1, count - 1) *
+      (width - kChartLeft - kChartRight);
+  const y = value => height - 8 - value / most * (height - 18);
+  g.font = '11px system-ui, sans-serif';
+  g.fillStyle = g.strokeStyle = style.getPropertyValue('--soft');
+  g.textAlign = 'right';
+  g.fillText('|PD|', kChartLeft - 8, height / 2);
+  g.fillText(viewer.number(most), kChartLeft - 8, 14);
+  g.fillText('0', kChartLeft - 8, height - 5);
+  g.beginPath();
+  g.moveTo(kChartLeft, y(0));
+  g.lineTo(width - kChartRight, y(0));
+  g.stroke();
+  lengths.forEach((values, i) => {
+    g.strokeStyle = wayColor(state.theme, i);
+    g.lineWidth = 2;
+    g.beginPath();
+    // Of more frames than pixels, the least and the largest of each pixel.
+    const step = Math.max(1, Math.ceil(count / width));
+    for (let f = 0; f < count; f += step) {
+      const some = values.slice(f, f + step);
+      g.lineTo(x(f), y(Math.min(...some)));
+      if (step > 1) g.lineTo(x(f), y(Math.max(...some)));
+    }
+    g.stroke();
+  });
+  g.strokeStyle = style.getPropertyValue('--text');
+  g.lineWidth = 1;
+  g.beginPath();
+  g.moveTo(x(state.time * (count - 1)), 4);
+  g.lineTo(x(state.time * (count - 1)), height - 4);
+  g.stroke();
+}

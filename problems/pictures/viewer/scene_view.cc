@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "problems/pictures/viewer/scene_view.h"
+
+namespace phongpd {
+
+View SceneView(const Scene& scene,
+               const std::vector<TriangleMesh>& contact_spaces) {
+  View view;
+  view.title = scene.name;
+  view.notes = scene.warnings;
+  view.robot = scene.workspace.robot;
+  view.start = scene.start;
+  view.goal = scene.goal;
+  for (const Obstacle& obstacle : scene.workspace.obstacles) {
+    view.meshes.push_back({obstacle.id, ViewRole::kObstacle, obstacle.mesh});
+  }
+  for (const TriangleMesh& mesh : contact_spaces) {
+    view.meshes.push_back({"contact space", ViewRole::kContactSpace, mesh});
+  }
+  return view;
+}
+
+}  // namespace phongpd

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Geometry>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/mesh/triangle_mesh.h"
+
+// What a picture shows, as plain data: the same for the page, for glTF and for
+// still pictures.  Coordinates are in the user's unit.
+namespace phongpd {
+
+enum class ViewRole {
+  kObstacle,      // solid and fixed
+  kContactSpace,  // positions of the robot at which it touches; translucent
+  kMesh,          // any other
+};
+
+// "obstacle", "contact" or "mesh".
+const char* ToString(ViewRole role);
+
+struct ViewMesh {
+  std::string name;
+  ViewRole role = ViewRole::kMesh;
+  TriangleMesh mesh;
+};
+
+// A path of the robot's position, with a name for the legend.
+struct NamedPath {
+  std::string name;
+  std::vector<Eigen::Vector3d> points;
+  bool is_free = true;
+};
+
+// One metric along a motion: PD(q) = q_c − q of every frame, 0 outside.
+struct ViewTrace {
+  std::string name;
+  std::vector<Eigen::Vector3d> pd;
+  std::vector<std::string> status;
+};
+
+// A motion: the robot's position in every frame, and what each metric says of
+// it.
+struct ViewMotion {
+  std::vector<Eigen::Vector3d> positions;
+  std::vector<ViewTrace> traces;
+};
+
+// An answer at a pose: witness points, and the way out.
+struct ViewAnswer {
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();
+  Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();
+  std::string status;
+  double depth = 0.0;      // of penetration
+  double clearance = 0.0;  // where they are apart
+  Eigen::Vector3d direction = Eigen::Vector3d::Zero();
+  Eigen::Vector3d on_robot = Eigen::Vector3d::Zero();
+  Eigen::Vector3d on_obstacle = Eigen::Vector3d::Zero();
+  bool has_witness = false;  // are there such points?
+};
+
+struct View {
+  std::string title;
+  std::string unit = "units";      // what one unit of length is called
+  std::vector<std::string> notes;  // what a person should know, a sentence each
+  std::vector<ViewMesh> meshes;    // fixed
+  TriangleMesh robot;              // at the origin; may be empty
+  std::optional<Eigen::Vector3d> start, goal;
+  std::vector<NamedPath> paths;
+  ViewMotion motion;                // no frames: none
+  std::vector<ViewAnswer> answers;  // one robot, a pose each
+};
+
+// Of everything in the view but the robot, which is taken where it stands or
+// goes; never empty: a unit cube at the origin where there is nothing.
+BoundingBox ViewBounds(const View& view);
+
+// The robot's way that is shown first: the first path with points, or the
+// motion, or the answers' positions; empty if it stays where it is.
+std::vector<Eigen::Vector3d> FirstWay(const View& view);
+
+}  // namespace phongpd

@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "problems/pictures/viewer/view_json.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <nlohmann/json.hpp>
+
+#include "problems/output/text.h"
+#include "problems/pictures/viewer/display_mesh.h"
+
+namespace phongpd {
+namespace {
+
+using Eigen::Vector3d;
+using Json = nlohmann::ordered_json;
+
+Json PointJson(const Vector3d& p) { return {p.x(), p.y(), p.z()}; }
+
+Json PointsJson(const std::vector<Vector3d>& points) {
+  Json json = Json::array();
+  for (const Vector3d& p : points) json.push_back(PointJson(p));
+  return json;
+}
+
+Json MaybePoint(const std::optional<Vector3d>& p) {
+  return p ? PointJson(*p) : Json(nullptr);
+}
+
+template <typename Number>
+void Append(std::string* bytes, Number number) {
+  char raw[sizeof number];
+  std::memcpy(raw, &number, sizeof number);
+  bytes->append(raw, sizeof number);
+}
+
+// Within one page all meshes lose alike.
+std::size_t Share(std::size_t triangles, std::size_t all) {
+  if (all <= kMaxDisplayTriangles) return triangles;
+  const double share =
+      static_cast<double>(triangles) / static_cast<double>(all);
+  return std::max<std::size_t>(
+      1000, static_cast<std::size_t>(
+                share * static_cast<double>(kMaxDisplayTriangles)));
+}
+
+Json MeshJson(const TriangleMesh& mesh, const std::string& name,
+              std::size_t most, const Vector3d& center, double scale,
+              std::vector<std::string>* notes) {
+  const DisplayMesh shown = MeshForDisplay(mesh, most);
+  if (shown.cell > 0.0) {
+    notes->push_back(name + ": " + std::to_string(shown.mesh.triangles.size()) +
+                     " of " + std::to_string(mesh.triangles.size()) +
+                     " triangles are shown, simplified on a grid of " +
+                     Rounded(shown.cell) + " for display only");
+  }
+  std::string positions, indices;
+  for (const Vector3d& p : shown.mesh.vertices) {
+    for (int k = 0; k < 3; ++k) {
+      Append(&positions, static_cast<float>((p[k] - center[k]) / scale));
+    }
+  }
+  for (const Triangle& t : shown.mesh.triangles) {
+    for (const int v : t) Append(&indices, static_cast<std::uint32_t>(v));
+  }
+  return {{"name", name},
+          {"triangles", mesh.triangles.size()},
+          {"shown", shown.mesh.triangles.size()},
+          {"positions", Base64(positions)},
+          {"indices", Base64(indices)}};
+}
+
+Json MotionJson(const ViewMotion& motion) {
+  if (motion.positions.empty()) return nullptr;
+  Json json = {{"positions", PointsJson(motion.positions)},
+               {"traces", Json::array()}};
+  for (const ViewTrace& trace : motion.traces) {
+    json["traces"].push_back({{"name", trace.name},
+                              {"pd", PointsJson(trace.pd)},
+                              {"status", trace.status}});
+  }
+  return json;
+}
+
+Json AnswerJson(const ViewAnswer& answer) {
+  const Eigen::Quaterniond& turn = answer.orientation;
+  const bool has = answer.has_witness;
+  return {{"position", PointJson(answer.position)},
+          {"orientation", {turn.w(), turn.x(), turn.y(), turn.z()}},
+          {"status", answer.status},
+          {"depth", answer.depth},
+          {"clearance", answer.clearance},
+          {"direction", PointJson(answer.direction)},
+          {"on_a", has ? PointJson(answer.on_robot) : Json(nullptr)},
+          {"on_b", has ? PointJson(answer.on_obstacle) : Json(nullptr)}};
+}
+
+}  // namespace
+
+std::string Base64(const std::string& bytes) {
+  constexpr char kDigits[] =
+      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  text.reserve((bytes.size() + 2) / 3 * 4);
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    std::uint32_t group = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      group <<= 8U;
+      if (i + k < bytes.size())
+        group |= static_cast<unsigned char>(bytes[i + k]);
+    }
+    for (std::size_t k = 0; k < 4; ++k) {
+      const bool is_padding = i + k > bytes.size();
+      text += is_padding ? '=' : kDigits[(group >> (18U - 6U * k)) & 63U];
+    }
+  }
+  return text;
+}
+
+Json ViewJson(const View& view) {
+  const BoundingBox box = ViewBounds(view);
+  const Vector3d center = box.Center();
+  double scale = std::max(box.Diagonal(), ComputeBounds(view.robot).Diagonal());
+  if (!(scale > 0.0)) scale = 1.0;
+  std::size_t all = view.robot.triangles.size();
+  for (const ViewMesh& mesh : view.meshes) all += mesh.mesh.triangles.size();
+
+  Json json;
+  json["title"] = view.title;
+  json["unit"] = view.unit;
+  std::vector<std::string> notes = view.notes;
+  json["notes"] = Json::array();
+  json["center"] = PointJson(center);
+  json["scale"] = scale;
+  json["meshes"] = Json::array();
+  for (const ViewMesh& mesh : view.meshes) {
+    Json entry =
+        MeshJson(mesh.mesh, mesh.name, Share(mesh.mesh.triangles.size(), all),
+                 center, scale, &notes);
+    entry["role"] = ToString(mesh.role);
+    json["meshes"].push_back(std::move(entry));
+  }
+  json["robot"] = view.robot.triangles.empty()
+                      ? Json(nullptr)
+                      : MeshJson(view.robot, "robot",
+                                 Share(view.robot.triangles.size(), all),
+                                 Vector3d::Zero(), scale, &notes);
+  json["start"] = MaybePoint(view.start);
+  json["goal"] = MaybePoint(view.goal);
+  json["paths"] = Json::array();
+  for (const NamedPath& path : view.paths) {
+    json["paths"].push_back({{"name", path.name},
+                             {"free", path.is_free},
+                             {"points", PointsJson(path.points)}});
+  }
+  json["motion"] = MotionJson(view.motion);
+  json["answers"] = Json::array();
+  for (const ViewAnswer& answer : view.answers) {
+    json["answers"].push_back(AnswerJson(answer));
+  }
+  json["notes"] = notes;
+  return json;
+}
+
+}  // namespace phongpd

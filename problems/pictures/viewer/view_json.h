@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+
+#include "problems/pictures/viewer/view.h"
+
+namespace phongpd {
+
+// The data block of the page:
+//   title, unit, notes[]
+//   center[3], scale       meshes hold (p − center) / scale, which fits single
+//                          precision wherever the scene lies
+//   meshes[{name, role, triangles (of the original), shown, positions (base64
+//     of float32 triples), indices (base64 of uint32 triples)}]
+//   robot                  the same without a role, relative to the origin: its
+//                          vertices are p / scale; null: none
+//   start, goal            [x, y, z] or null; these and all below in the user's
+//                          unit
+//   paths[{name, free, points[[x, y, z]]}]
+//   motion {positions[], traces[{name, pd[], status[]}]} or null
+//   answers[{position, orientation [w, x, y, z], status, depth, clearance,
+//     direction, on_a, on_b}]  on_a and on_b are null without witness points
+// Meshes with more triangles than kMaxDisplayTriangles together are shown
+// coarser, and a note says so.
+nlohmann::ordered_json ViewJson(const View& view);
+
+// RFC 4648, with padding.
+std::string Base64(const std::string& bytes);
+
+}  // namespace phongpd

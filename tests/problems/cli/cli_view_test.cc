@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "tests/problems/cli/cli_scenes.h"
+
+namespace phongpd {
+namespace {
+
+class CliView : public CliScenes {
+ protected:
+  // The data block of a page in run/, which goes.
+  Json TakeData(const std::string& name) const {
+    const std::string page = Content(Output(name));
+    std::filesystem::remove(Output(name));
+    const std::string open = "id=\"view-data\">";
+    const std::size_t begin = page.find(open) + open.size();
+    if (begin < open.size()) {
+      ADD_FAILURE() << "no data in " << name;
+      return Json::object();
+    }
+    return Json::parse(
+        page.substr(begin, page.find("</script>", begin) - begin));
+  }
+
+  // Of `phongpd view THINGS`.
+  Json Data(const std::string& things) const {
+    const Outcome outcome = Run("view " + things + " --html v.html");
+    EXPECT_EQ(outcome.code, 0) << things << outcome.err;
+    EXPECT_TRUE(outcome.out.empty()) << outcome.out;
+    return TakeData("v.html");
+  }
+
+  // Runs a command whose output comes to lie beside run/.
+  void Prepare(const std::string& command, const std::string& name) const {
+    const Outcome outcome = Run(command + " --output ../" + name);
+    ASSERT_LE(outcome.code, 1) << command << outcome.err;
+  }
+
+  static std::vector<std::string> Names(const Json& list) {
+    std::vector<std::string> names;
+    for (const Json& item : list) names.push_back(item.at("name"));
+    return names;
+  }
+};
+
+using Strings = std::vector<std::string>;
+
+TEST_F(CliView, TakesMeshesAndTellsContactSpacesApart) {
+  Prepare("contact-space --robot ../cone.off --obstacle ../box.off", "c.off");
+  const Json data = Data("../box.off ../cone.off ../c.off --unit mm");
+  EXPECT_EQ(Names(data["meshes"]), Strings({"box.off", "cone.off", "c.off"}));
+  EXPECT_EQ(data["meshes"][0]["role"], "mesh");
+  EXPECT_EQ(data["meshes"][2]["role"], "contact");
+  EXPECT_EQ(data["meshes"][0]["triangles"], 12);
+  EXPECT_EQ(data["unit"], "mm");
+  for (const char* const format : {"obj", "ply", "stl"}) {
+    const std::string name = std::string("b.") + format;
+    WriteMesh(MakeBox({-1, -1, -1}, {1, 1, 1}), File(name));
+    EXPECT_EQ(Names(Data("../" + name)["meshes"]), Strings({name}));
+  }
+}
+
+TEST_F(CliView, TakesScenesAndBuildsTheirContactSpaceOnRequest) {
+  const std::string scene = Scene(TwoObstacles());
+  Json data = Data(scene);
+  EXPECT_EQ(data["title"], "two");
+  EXPECT_EQ(Names(data["meshes"]), Strings({"wall", "post"}));
+  EXPECT_EQ(data["robot"]["triangles"], 12);
+  EXPECT_EQ(data["start"], Json({-1.5, 0.0, 0.0}));
+  data = Data(scene + " --build");
+  ASSERT_EQ(data["meshes"].size(), 3U);
+  EXPECT_EQ(data["meshes"][2]["role"], "contact");
+  EXPECT_EQ(Data("u_axis")["meshes"][0]["triangles"], 28);
+}
+
+TEST_F(CliView, PutsRunsAndPlansOfOneSceneBesideEachOther) {
+  const std::string scene = Scene(TwoObstacles());
+  Prepare("plan " + scene, "plan.jsonl");
+  Prepare("optimize " + scene + " --start straight --polish never --runs 2",
+          "runs.jsonl");
+  const Json data = Data("../plan.jsonl ../runs.jsonl " + scene);
+  ASSERT_EQ(data["paths"].size(), 3U);
+  EXPECT_EQ(data["paths"][0]["name"], "contact-surface, seed 1: solved");
+  EXPECT_EQ(data["paths"][0]["free"], true);
+  std::size_t row = 0;
+  for (const std::string& line : Split(Content(File("runs.jsonl")), '\n')) {
+    const Json run = Json::parse(line);
+    const Json& path = data["paths"][++row];
+    EXPECT_EQ(path["points"], run["path"]);
+    EXPECT_EQ(path["free"], run["collision_free"]);
+    EXPECT_EQ(path["name"].get<std::string>().find("phong@0.2, seed "), 0U);
+  }
+  EXPECT_EQ(data["meshes"].size(), 2U);
+  // Alone, rows of a file's scene have a path and say what is missing.
+  const Json alone = Data("../plan.jsonl");
+  EXPECT_TRUE(alone["meshes"].empty());
+  EXPECT_EQ(alone["notes"].size(), 2U);
+  ExpectRefused("view ../plan.jsonl u_axis --html v.html",
+                {"plan.jsonl:1", "u_axis", "two"});
+}
+
+TEST_F(CliView, BringsTheSceneOfAFamilyAlong) {
+  Prepare("plan u_axis", "u.jsonl");
+  const Json data = Data("../u.jsonl");
+  EXPECT_EQ(data["title"], "u_axis");
+  EXPECT_EQ(data["meshes"][0]["triangles"], 28);
+  EXPECT_EQ(data["start"], data["paths"][0]["points"][0]);
+}
+
+TEST_F(CliView, TakesMotionsWithWhatTheTableDoesNotHold) {
+  Prepare(
+      "motion --robot ../cone.off --obstacle ../box.off --from -3 0 0.1 "
+      "--to 3 0 0 --frames 21 --no-verify --html m.html",
+      "m.csv");
+  const Json page = TakeData("m.html");
+  EXPECT_EQ(page["motion"]["positions"].size(), 21U);
+  EXPECT_EQ(page["robot"]["triangles"], 14);
+  Json data = Data(
+      "../m.csv --robot ../cone.off ../box.off --from -3 0 0.1 "
+      "--to 3 0 0");
+  EXPECT_EQ(data["motion"]["positions"], page["motion"]["positions"]);
+  ASSERT_EQ(Names(data["motion"]["traces"]), Strings({"euclidean", "phong"}));
+  for (std::size_t k = 0; k < 2; ++k) {
+    EXPECT_EQ(data["motion"]["traces"][k]["pd"],
+              page["motion"]["traces"][k]["pd"]);
+    EXPECT_EQ(data["motion"]["traces"][k]["status"].size(), 21U);
+  }
+  EXPECT_TRUE(data["notes"].empty());
+  data = Data("../m.csv");
+  EXPECT_EQ(data["motion"]["positions"][20], Json({0.0, 0.0, 0.0}));
+  EXPECT_EQ(data["notes"].size(), 3U);
+  ExpectRefused("view ../m.csv --from 0 0 0 --html v.html", {"--from", "--to"});
+}
+
+TEST_F(CliView, TakesDepthsAsTablesAndAsJson) {
+  WriteText("p.csv", "x,y,z,qw,qx,qy,qz\n1.5,0,0,1,0,0,0\n9,0,0,0,1,0,0\n");
+  const std::string depth = "depth ../cone.off ../box.off --pose ../p.csv";
+  Prepare(depth, "d.csv");
+  Prepare(depth + " --json", "d.json");
+  const std::string rest = " ../box.off --robot ../cone.off";
+  const Json table = Data("../d.csv" + rest)["answers"];
+  EXPECT_EQ(table, Data("../d.json" + rest)["answers"]);
+  ASSERT_EQ(table.size(), 2U);
+  EXPECT_EQ(table[0]["status"], "penetrating");
+  EXPECT_EQ(table[1]["status"], "separate");
+  EXPECT_EQ(table[1]["orientation"], Json({0.0, 1.0, 0.0, 0.0}));
+  // on_b − on_a is the way out.
+  double length = 0.0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    length += std::pow(
+        table[0]["on_b"][k].get<double>() - table[0]["on_a"][k].get<double>(),
+        2);
+  }
+  EXPECT_NEAR(std::sqrt(length), table[0]["depth"].get<double>(), 1e-9);
+}
+
+TEST_F(CliView, TakesAnswersOfQueries) {
+  Prepare("contact-space --robot ../cone.off --obstacle ../box.off", "c.off");
+  WriteText("p.csv", "x,y,z\n0.1,0,0\n5,0,0\n");
+  Prepare("query --contact-space ../c.off --points ../p.csv", "q.csv");
+  const Json answers = Data("../q.csv ../c.off")["answers"];
+  ASSERT_EQ(answers.size(), 2U);
+  EXPECT_GT(answers[0]["depth"], 0.0);
+  EXPECT_GT(answers[1]["clearance"], 0.0);
+  EXPECT_EQ(answers[1]["on_a"], Json({5.0, 0.0, 0.0}));
+}
+
+TEST_F(CliView, WritesGltf) {
+  const Outcome outcome = Run("view u_axis --glb u.glb");
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_EQ(Content(Output("u.glb")).substr(0, 4), "glTF");
+}
+
+// No display: nothing is opened.
+TEST_F(CliView, WithoutAnOutputTellsWhereThePageIs) {
+  std::filesystem::create_directory(File("tmp"));
+  const Outcome outcome =
+      Run("view ../box.off",
+          "env -u DISPLAY -u WAYLAND_DISPLAY TMPDIR='" + File("tmp") + "'");
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  const std::string path = outcome.out.substr(0, outcome.out.find('\n'));
+  EXPECT_EQ(path.find(File("tmp")), 0U) << path;
+  EXPECT_EQ(path.substr(path.size() - 5), ".html");
+  EXPECT_NE(Content(path).find("view-data"), std::string::npos);
+}
+
+// Before any work: the thing is not even there.
+TEST_F(CliView, SaysWhatAPictureNeeds) {
+  const Outcome outcome = Run("view none.off --png p.png", "env PATH=/nowhere");
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_NE(outcome.err.find("install the Debian package chromium"),
+            std::string::npos)
+      << outcome.err;
+}
+
+TEST_F(CliView, RefusesWhatIsNothingToLookAt) {
+  const auto refused = [&](const std::string& content, const std::string& name,
+                           const std::vector<std::string>& words) {
+    WriteText(name, content);
+    ExpectRefused("view ../" + name + " --html v.html", words);
+  };
+  const std::string kinds = "expected a mesh or contact space";
+  refused("", "empty.csv", {"empty.csv", kinds, "an empty file"});
+  refused("hello\n", "a.txt", {"a.txt", kinds, "a file .txt"});
+  refused("a,b\n1,2\n", "t.csv", {"t.csv", kinds});
+  refused("{\"triangles\": 3}", "report.json", {"report.json", kinds});
+  refused("{\"scene\":\"s\",\"path\":[]}\n", "r.jsonl", {"r.jsonl:1", "row"});
+  refused("{\"scene\":\"s\",\"path\":[]}\nx\n", "s.jsonl", {"s.jsonl"});
+  refused("frame,metric,status,pd_x,pd_y,pd_z,magnitude\n", "n.csv",
+          {"n.csv", "no frame"});
+  refused("frame,metric,status,pd_x,pd_y,pd_z,magnitude\n0,a,ok,1,nan,0,1\n",
+          "f.csv", {"f.csv:2", "pd_y", "nan"});
+  refused(
+      "frame,metric,status,pd_x,pd_y,pd_z,magnitude\n0,a,ok,1,0,0,1\n"
+      "0,b,ok,1,0,0,1\n1,b,ok,1,0,0,1\n",
+      "g.csv", {"g.csv", "1 of a and 2 of b"});
+  ExpectRefused("view", {"THING"});
+  ExpectRefused("view none.off --html v.html", {"none.off"});
+  ExpectRefused("view none --html v.html", {"none"});
+  ExpectRefused("view u_axis u_axis --html v.html", {"one scene"});
+  ExpectRefused("view u_axis --robot ../cone.off --html v.html", {"--robot"});
+  ExpectRefused("view u_axis --html v.png", {"--html", ".html", "v.png"});
+  ExpectRefused("view u_axis --glb v.gltf", {"--glb", ".glb"});
+  ExpectRefused("view u_axis --png v.svg", {"--png", ".png"});
+}
+
+}  // namespace
+}  // namespace phongpd
