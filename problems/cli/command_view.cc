@@ -120,7 +120,7 @@ int Look(Flags flags) {
 Command AddView(CLI::App* app) {
   auto flags = std::make_shared<Flags>();
   app->add_option("THING", flags->things,
-                  "Meshes and contact spaces (OFF, OBJ, PLY, STL), a scene "
+                  "Meshes, contact spaces (OFF, OBJ, PLY, STL, .pcs), a scene "
                   "(file or FAMILY:key=value,...), rows of optimize and plan, "
                   "a table of motion, answers of depth and query: several are "
                   "shown together. Without an output, a page is written to a "
