@@ -10,6 +10,8 @@
 #include <limits>
 #include <sstream>
 
+#include "core/minkowski/build_refusal.h"
+
 namespace phongpd::internal {
 namespace {
 
@@ -110,9 +112,10 @@ void BuildLimits::Check(const char* stage) const {
 }
 
 void BuildLimits::Refuse(const std::string& what) const {
-  throw InputError(operands_ + ": " + what +
-                   "; simplify an operand (robot_hull, target_faces) or raise "
-                   "the limit");
+  throw BuildRefusal(
+      operands_ + ": " + what +
+      "; simplify an operand (robot_hull, target_faces) or raise "
+      "the limit");
 }
 
 }  // namespace phongpd::internal

@@ -22,11 +22,11 @@ class BuildLimits {
  public:
   explicit BuildLimits(const ContactSpaceOptions& options);
 
-  // Throws InputError naming the operands, the limit and what was predicted,
+  // Throws BuildRefusal naming the operands, the limit and what was predicted,
   // if that is above an explicit limit.
   void Predict(const PredictedCost& cost);
 
-  // Throws InputError naming the operands, the limit that has been passed and
+  // Throws BuildRefusal naming the operands, the limit that has been passed and
   // the stage.  From any thread; cheap enough for every facet.
   void Check(const char* stage) const;
 
