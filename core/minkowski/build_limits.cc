@@ -106,8 +106,11 @@ void BuildLimits::Check(const char* stage) const {
                            : "max_mib")
          << "), stopped at " << mib << " MiB";
   }
-  text << " in its " << stage << " (predicted: " << predicted_.seconds
-       << " s and " << predicted_.mib << " MiB)";
+  text << " in its " << stage;
+  if (predicted_.seconds > 0.0) {
+    text << " (predicted: " << predicted_.seconds << " s and " << predicted_.mib
+         << " MiB)";
+  }
   Refuse(text.str());
 }
 
