@@ -2,6 +2,7 @@
 #include "core/contact/convolution_model.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "core/mesh/finite.h"
 #include "core/mesh/mesh_error.h"
