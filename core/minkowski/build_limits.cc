@@ -11,6 +11,7 @@
 #include <sstream>
 
 #include "core/minkowski/build_cancellation.h"
+#include "core/minkowski/build_refusal.h"
 
 namespace phongpd {
 namespace {
@@ -128,15 +129,19 @@ void BuildLimits::Check(const char* stage) const {
                            : "max_mib")
          << "), stopped at " << mib << " MiB";
   }
-  text << " in its " << stage << " (predicted: " << predicted_.seconds
-       << " s and " << predicted_.mib << " MiB)";
+  text << " in its " << stage;
+  if (predicted_.seconds > 0.0) {
+    text << " (predicted: " << predicted_.seconds << " s and " << predicted_.mib
+         << " MiB)";
+  }
   Refuse(text.str());
 }
 
 void BuildLimits::Refuse(const std::string& what) const {
-  throw InputError(operands_ + ": " + what +
-                   "; simplify an operand (robot_hull, target_faces) or raise "
-                   "the limit");
+  throw BuildRefusal(
+      operands_ + ": " + what +
+      "; simplify an operand (robot_hull, target_faces) or raise "
+      "the limit");
 }
 
 }  // namespace internal

@@ -22,14 +22,14 @@ class BuildLimits {
  public:
   explicit BuildLimits(const ContactSpaceOptions& options);
 
-  // Throws InputError naming the operands, the limit and what was predicted,
+  // Throws BuildRefusal naming the operands, the limit and what was predicted,
   // if that is above an explicit limit.
   void Predict(const PredictedCost& cost);
 
   // From now on CancelBuilds stops this build, too.
   void ObserveCancellation();
 
-  // Throws InputError naming the operands, the limit that has been passed and
+  // Throws BuildRefusal naming the operands, the limit that has been passed and
   // the stage, or BuildCancelled.  From any thread; cheap enough for every
   // facet.
   void Check(const char* stage) const;

@@ -26,9 +26,10 @@ struct ContactSpaceOptions {
   // Decimate each operand to about this many triangles; 0: none.
   std::size_t target_faces = 0;
   // Limits of a build.  Refused at once, with the predicted figure, where that
-  // is above them, and stopped where the build itself passes them: InputError.
-  // Seconds; 0: no limit.  MiB by which the process grows; 0: nine tenths of
-  // what is free when the build begins, which only stops; infinity: no limit.
+  // is above them, and stopped where the build itself passes them:
+  // BuildRefusal. Seconds; 0: no limit.  MiB by which the process grows; 0:
+  // nine tenths of what is free when the build begins, which only stops;
+  // infinity: no limit.
   double max_seconds = 0.0;
   double max_mib = 0.0;
   // Names used in error messages, e.g. the files the operands came from.

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/minkowski/build_limits.h"
 #include "core/minkowski/facet_collector.h"
 #include "core/minkowski/gauss_tree.h"
 #include "core/minkowski/touching_features.h"
@@ -36,7 +37,11 @@ std::vector<int> TouchedVertices(const GridNormal& n, const VertexStars& stars,
 
 }  // namespace
 
-Convolution ReducedConvolution(const GridSolid& p, const GridSolid& q) {
+Convolution ReducedConvolution(const GridSolid& p, const GridSolid& q,
+                               const BuildLimits* limits) {
+  const auto check = [limits] {
+    if (limits != nullptr) limits->Check("convolution");
+  };
   Convolution out;
   FacetCollector collect(&out);
   int source = 0;
@@ -51,6 +56,7 @@ Convolution ReducedConvolution(const GridSolid& p, const GridSolid& q) {
       touched[f] = TouchedVertices(facets.normals[f], stars, caps, turn);
     });
     for (std::size_t f = 0; f < touched.size(); ++f) {
+      check();
       for (const int v : touched[f]) {
         collect.AddFacet(facets, static_cast<int>(f), others.vertices[v], kind,
                          source++);
@@ -70,6 +76,7 @@ Convolution ReducedConvolution(const GridSolid& p, const GridSolid& q) {
   tbb::parallel_for(all, [&](const tbb::blocked_range<std::size_t>& range) {
     std::vector<int> candidates;
     for (std::size_t i = range.begin(); i < range.end(); ++i) {
+      check();
       candidates.clear();
       arcs.ForEachNear(ArcCap(pe[i]), [&](int j) { candidates.push_back(j); });
       std::sort(candidates.begin(), candidates.end());
@@ -80,6 +87,7 @@ Convolution ReducedConvolution(const GridSolid& p, const GridSolid& q) {
     }
   });
   for (std::size_t i = 0; i < pe.size(); ++i) {
+    check();
     for (const Hit& hit : hits[i]) {
       collect.AddEdges(p, pe[i], q, qe[hit.edge], hit.side, source);
       ++source;

@@ -9,6 +9,8 @@
 
 namespace phongpd::internal {
 
+class BuildLimits;
+
 struct ConvolutionFacet {
   Triangle corners;   // into Convolution::points, outward
   GridNormal normal;  // exact, outward, not reduced
@@ -35,6 +37,9 @@ struct Convolution {
 // twice.
 // Source of the conditions: Kaul & Rossignac; Lien, "Covering Minkowski sum
 // boundary", 2008.
-Convolution ReducedConvolution(const GridSolid& p, const GridSolid& q);
+//
+// Throws BuildRefusal when `limits`, if there are any, are passed.
+Convolution ReducedConvolution(const GridSolid& p, const GridSolid& q,
+                               const BuildLimits* limits = nullptr);
 
 }  // namespace phongpd::internal

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/minkowski/convolution_space.h"
 
+#include <algorithm>
+
 #include "core/mesh/finite.h"
 
 namespace phongpd::internal {
@@ -22,12 +24,17 @@ TriangleMesh AsMesh(const Convolution& convolution) {
   return mesh;
 }
 
+// Of a radius: what rounding between the frames may take of it.
+constexpr double kSlack = 1.0 + 0x1p-40;
+
 }  // namespace
 
-ConvolutionSpace::ConvolutionSpace(const GridPair& pair)
+ConvolutionSpace::ConvolutionSpace(const GridPair& pair,
+                                   const BuildLimits* limits)
     : pair_(pair),
       judge_(pair.obstacle, pair.reflected_robot),
-      mesh_(AsMesh(ReducedConvolution(pair.obstacle, pair.reflected_robot))) {
+      mesh_(AsMesh(
+          ReducedConvolution(pair.obstacle, pair.reflected_robot, limits))) {
   bounds_ = ComputeBounds(mesh_);
   bvh_ = TriangleBvh(mesh_);
 }
@@ -49,6 +56,14 @@ bool ConvolutionSpace::IsFree(const Vector3d& a, const Vector3d& b) const {
   return IsFinite(to) && IsFree(a) && !bvh_.Meets(from, to);
 }
 
+double ConvolutionSpace::FirstContact(const Vector3d& a,
+                                      const Vector3d& b) const {
+  const Vector3d to = ToGrid(b);
+  if (!IsFinite(to)) return 0.0;
+  const TriangleBvh::Hit hit = bvh_.FirstHit(ToGrid(a), to);
+  return hit.Found() ? hit.fraction : 2.0;
+}
+
 ConvolutionSpace::Nearest ConvolutionSpace::FindNearest(
     const Vector3d& q) const {
   const Vector3d x = ToGrid(q);
@@ -59,6 +74,36 @@ ConvolutionSpace::Nearest ConvolutionSpace::FindNearest(
              mesh_.vertices[mesh_.triangles[closest.triangle][k]];
   }
   return {pair_.frame.ToUser(point), closest.distance * pair_.frame.step};
+}
+
+double ConvolutionSpace::Distance(const Vector3d& a, const Vector3d& b,
+                                  double limit) const {
+  const double step = pair_.frame.step;
+  return std::min(limit,
+                  step * bvh_.Distance(ToGrid(a), ToGrid(b), limit / step));
+}
+
+std::vector<std::array<Vector3d, 3>> ConvolutionSpace::FacetsNear(
+    const Vector3d& a, const Vector3d& b, double radius) const {
+  std::vector<std::array<Vector3d, 3>> near;
+  const Vector3d from = ToGrid(a), to = ToGrid(b);
+  if (!IsFinite(from) || !IsFinite(to)) return near;
+  // In grid steps the segment is rounded by less than one.
+  const double reach = kSlack * radius / pair_.frame.step + 1.0;
+  bvh_.ForEachDoubt(from, to, reach, [&](int triangle, double) {
+    std::array<Vector3d, 3>& corners = near.emplace_back();
+    for (std::size_t k = 0; k < 3; ++k) {
+      corners[k] =
+          pair_.frame.ToUser(mesh_.vertices[mesh_.triangles[triangle][k]]);
+    }
+  });
+  return near;
+}
+
+TriangleMesh ConvolutionSpace::Mesh() const {
+  TriangleMesh mesh = mesh_;
+  for (Vector3d& v : mesh.vertices) v = pair_.frame.ToUser(v);
+  return mesh;
 }
 
 }  // namespace phongpd::internal

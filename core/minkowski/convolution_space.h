@@ -2,6 +2,9 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
+#include <cstddef>
+#include <vector>
 
 #include "core/bvh/triangle_bvh.h"
 #include "core/minkowski/convolution.h"
@@ -17,19 +20,26 @@ namespace phongpd::internal {
 // of it.  A segment that starts free first meets it from the front, and what is
 // in front of the first facet it meets is free; so it is free iff it meets
 // none.  The segment from a free q to the nearest point of the convolution
-// meets nothing before: that point is the nearest of C_cont.
+// meets nothing before: that point is the nearest of C_cont.  So it is with the
+// shortest way from any point of a free segment.
 //
 // Configurations are in the user's frame; they are rounded to 2^-12 of a grid
 // step (2^-50 of the operands), for which the answers are exact.  Thread-safe.
 class ConvolutionSpace {
  public:
-  // Keeps a reference.
-  explicit ConvolutionSpace(const GridPair& pair);
+  // Keeps a reference.  Throws BuildRefusal when `limits` are passed.
+  explicit ConvolutionSpace(const GridPair& pair,
+                            const BuildLimits* limits = nullptr);
 
-  // Does A + q meet B nowhere?  False for non-finite q.
+  // Does A + q meet B nowhere?  False for non-finite q, and for q so far away
+  // that it has no place on the grid.
   bool IsFree(const Eigen::Vector3d& q) const;
   // Is every point of the closed segment free?
   bool IsFree(const Eigen::Vector3d& a, const Eigen::Vector3d& b) const;
+
+  // From a free a towards b: the fraction of the way at which C_cont is met,
+  // rounded; > 1 iff it is not.  0 for b without a place on the grid.
+  double FirstContact(const Eigen::Vector3d& a, const Eigen::Vector3d& b) const;
 
   // The point of C_cont nearest to a free q, and its distance, rounded.
   struct Nearest {
@@ -37,6 +47,20 @@ class ConvolutionSpace {
     double distance = 0.0;
   };
   Nearest FindNearest(const Eigen::Vector3d& q) const;
+
+  // Distance of a free segment from C_cont if that is below `limit` > 0, and
+  // `limit` otherwise.  Rounded.
+  double Distance(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
+                  double limit) const;
+
+  // Corners of the facets within `radius` ≥ 0 of a segment, and perhaps of
+  // some a little farther.
+  std::vector<std::array<Eigen::Vector3d, 3>> FacetsNear(
+      const Eigen::Vector3d& a, const Eigen::Vector3d& b, double radius) const;
+
+  std::size_t facets() const { return mesh_.triangles.size(); }
+  // The user's frame; rounded.
+  TriangleMesh Mesh() const;
 
  private:
   // In grid steps, rounded as above.

@@ -22,6 +22,23 @@ bool Accepts(const TriangleBvh& tree, const Vector3d& q) {
   return IsFinite(q - tree.center());
 }
 
+// How a triangle and a segment are to each other.
+FreeSpace::NearTriangle ToldApart(const std::array<Vector3d, 3>& corners,
+                                  const Vector3d& a, const Vector3d& b) {
+  FreeSpace::NearTriangle found;
+  found.corners = corners;
+  const SegmentTrianglePair pair = ClosestPair(
+      Vector3d::Zero(), b - a, corners[0] - a, corners[1] - a, corners[2] - a);
+  found.distance = std::sqrt(pair.squared_distance);
+  found.normal = (pair.on_segment - pair.on_triangle).stableNormalized();
+  // Wherever rounding put the pair, the triangle is below its plane.
+  found.level = -std::numeric_limits<double>::infinity();
+  for (const Vector3d& q : corners) {
+    found.level = std::max(found.level, found.normal.dot(q));
+  }
+  return found;
+}
+
 }  // namespace
 
 struct FreeSpace::Impl {
@@ -33,6 +50,9 @@ struct FreeSpace::Impl {
       if (trees[i]->Locate(q) != Location::kOutside) {
         return static_cast<int>(i);
       }
+    }
+    for (std::size_t i = 0; i < models.size(); ++i) {
+      if (!models[i].IsFree(q)) return static_cast<int>(i);
     }
     return MotionCheck::kNone;
   }
@@ -54,8 +74,10 @@ struct FreeSpace::Impl {
     return fraction;
   }
 
+  // Either of these is empty.
   std::vector<ContactSpace> spaces;
   std::vector<const TriangleBvh*> trees;  // of the spaces
+  std::vector<ConvolutionModel> models;
   BoundingBox bounds;
 };
 
@@ -68,6 +90,17 @@ FreeSpace::FreeSpace(std::vector<ContactSpace> spaces,
     impl_->trees.push_back(&space.bvh());
   }
   impl_->bounds = bounds;
+}
+
+FreeSpace::FreeSpace(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+
+FreeSpace FreeSpace::OfConvolutions(std::vector<ConvolutionModel> models,
+                                    const BoundingBox& bounds) {
+  CheckBounds(bounds);
+  auto impl = std::make_unique<Impl>();
+  impl->models = std::move(models);
+  impl->bounds = bounds;
+  return FreeSpace(std::move(impl));
 }
 
 FreeSpace::~FreeSpace() = default;
@@ -91,6 +124,14 @@ bool FreeSpace::IsFree(const Vector3d& q) const {
 
 bool FreeSpace::IsFree(const Vector3d& a, const Vector3d& b) const {
   // The bounds are convex: if the ends are within them, so is the segment.
+  if (!impl_->models.empty()) {
+    return IsFinite(a) && IsFinite(b) && impl_->IsWithinBounds(a) &&
+           impl_->IsWithinBounds(b) &&
+           std::all_of(impl_->models.begin(), impl_->models.end(),
+                       [&](const ConvolutionModel& model) {
+                         return model.IsFree(a, b);
+                       });
+  }
   if (!IsFree(a) || !IsFree(b)) return false;
   return std::none_of(
       impl_->trees.begin(), impl_->trees.end(),
@@ -112,6 +153,12 @@ MotionCheck FreeSpace::Check(const Vector3d& a, const Vector3d& b) const {
     const TriangleBvh::Hit hit = impl_->trees[i]->FirstHit(a, b);
     if (hit.Found() && (result.free || hit.fraction < result.fraction)) {
       result = {false, hit.fraction, static_cast<int>(i), hit.triangle};
+    }
+  }
+  for (std::size_t i = 0; i < impl_->models.size(); ++i) {
+    const double fraction = impl_->models[i].FirstContact(a, b);
+    if (fraction <= 1.0 && (result.free || fraction < result.fraction)) {
+      result = {false, fraction, static_cast<int>(i), -1};
     }
   }
   if (!impl_->IsWithinBounds(b)) {
@@ -137,6 +184,9 @@ double FreeSpace::Clearance(const Vector3d& q) const {
     if (!Accepts(*tree, q)) return 0.0;
     clearance = std::min(clearance, tree->FindClosest(q).distance);
   }
+  for (const ConvolutionModel& model : impl_->models) {
+    clearance = std::min(clearance, model.FindNearest(q).distance);
+  }
   return clearance;
 }
 
@@ -151,24 +201,19 @@ std::vector<FreeSpace::NearTriangle> FreeSpace::FindNear(const Vector3d& a,
     if (!Accepts(space.bvh(), a) || !Accepts(space.bvh(), b)) continue;
     const TriangleMesh& mesh = space.mesh();
     space.bvh().ForEachDoubt(a, b, radius, [&](int triangle, double) {
-      NearTriangle found;
-      std::array<Vector3d, 3> t;
-      for (std::size_t k = 0; k < 3; ++k) {
-        found.corners[k] = mesh.vertices[mesh.triangles[triangle][k]];
-        t[k] = found.corners[k] - a;
-      }
-      const SegmentTrianglePair pair =
-          ClosestPair(Vector3d::Zero(), b - a, t[0], t[1], t[2]);
-      found.distance = std::sqrt(pair.squared_distance);
-      if (found.distance > radius) return;
-      found.normal = (pair.on_segment - pair.on_triangle).stableNormalized();
-      // Wherever rounding put the pair, the triangle is below its plane.
-      found.level = -std::numeric_limits<double>::infinity();
-      for (const Vector3d& q : found.corners) {
-        found.level = std::max(found.level, found.normal.dot(q));
-      }
-      near.push_back(found);
+      const Triangle& t = mesh.triangles[triangle];
+      const NearTriangle found = ToldApart(
+          {mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]}, a,
+          b);
+      if (found.distance <= radius) near.push_back(found);
     });
+  }
+  for (const ConvolutionModel& model : impl_->models) {
+    for (const std::array<Vector3d, 3>& corners :
+         model.FacetsNear(a, b, radius)) {
+      const NearTriangle found = ToldApart(corners, a, b);
+      if (found.distance <= radius) near.push_back(found);
+    }
   }
   std::stable_sort(near.begin(), near.end(),
                    [](const NearTriangle& one, const NearTriangle& other) {
@@ -183,11 +228,17 @@ double FreeSpace::Clearance(const Vector3d& a, const Vector3d& b) const {
   for (const TriangleBvh* tree : impl_->trees) {
     clearance = tree->Distance(a, b, clearance);
   }
+  for (const ConvolutionModel& model : impl_->models) {
+    clearance = model.Clearance(a, b, clearance);
+  }
   return clearance;
 }
 
 const std::vector<ContactSpace>& FreeSpace::spaces() const {
   return impl_->spaces;
+}
+const std::vector<ConvolutionModel>& FreeSpace::convolutions() const {
+  return impl_->models;
 }
 const BoundingBox& FreeSpace::bounds() const { return impl_->bounds; }
 

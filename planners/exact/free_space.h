@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/contact/contact_space.h"
+#include "core/contact/convolution_model.h"
 #include "core/mesh/triangle_mesh.h"
 
 namespace phongpd {
@@ -19,8 +20,10 @@ struct MotionCheck {
   bool free = true;
   double fraction = 1.0;  // of the motion up to the first contact, rounded;
                           // 0 when it starts in collision
-  int obstacle = kNone;   // index of the contact space, or kBounds
-  int triangle = -1;      // of that contact space; −1 inside it or at bounds
+  int obstacle = kNone;   // index of the contact space (or convolution model),
+                          // or kBounds
+  int triangle = -1;      // of that contact space; −1 inside it or at bounds,
+                          // and where there is none but a convolution model
 };
 
 // The configurations q at which a translating robot touches nothing: strictly
@@ -30,6 +33,10 @@ struct MotionCheck {
 // and meets no contact surface (no sampling, no resolution), so
 // every answer below but the distances is exact for the meshes given.  It is
 // the judge of every path in this library.  Thread-safe.
+//
+// Free space is all that these questions are about, so the convolution of robot
+// and obstacle is enough for them, at a fraction of the cost of C_cont
+// (convolution_model.h): OfConvolutions gives the same answers.
 class FreeSpace {
  public:
   // One contact space per obstacle, or one for all of them (MergedObstacle).
@@ -37,6 +44,9 @@ class FreeSpace {
   // infinite.
   explicit FreeSpace(std::vector<ContactSpace> spaces,
                      const BoundingBox& bounds = NoBounds());
+  // One model per obstacle, or one for all of them.  Throws as above.
+  static FreeSpace OfConvolutions(std::vector<ConvolutionModel> models,
+                                  const BoundingBox& bounds = NoBounds());
   ~FreeSpace();
   FreeSpace(FreeSpace&&) noexcept;
   FreeSpace& operator=(FreeSpace&&) noexcept;
@@ -53,14 +63,16 @@ class FreeSpace {
   MotionCheck Check(const Eigen::Vector3d& a, const Eigen::Vector3d& b) const;
 
   // Distance from q to the nearest contact surface or bound, ≥ 0; infinity
-  // where there is neither; 0 for non-finite q.  Rounded.
+  // where there is neither; 0 for non-finite q.  Rounded.  Convolution models
+  // tell it of free q only: 0 for all others.
   double Clearance(const Eigen::Vector3d& q) const;
   // The least over the closed segment; 0 if it is not free.  The bounds are
   // convex, so its ends tell their distance.
   double Clearance(const Eigen::Vector3d& a, const Eigen::Vector3d& b) const;
 
   // The contact triangles within `radius` of a segment, the nearest first
-  // (bounds have none).  Rounded; nothing for non-finite points or a radius
+  // (bounds have none).  Of convolution models all facets, those hidden behind
+  // C_cont too.  Rounded; nothing for non-finite points or a radius
   // that is not ≥ 0.
   struct NearTriangle {
     double distance = 0.0;
@@ -75,12 +87,17 @@ class FreeSpace {
                                      const Eigen::Vector3d& b,
                                      double radius) const;
 
+  // Empty where the answers come from convolution models, and the other way
+  // round.
   const std::vector<ContactSpace>& spaces() const;
+  const std::vector<ConvolutionModel>& convolutions() const;
   std::size_t size() const { return spaces().size(); }
   const BoundingBox& bounds() const;
 
  private:
   struct Impl;
+  explicit FreeSpace(std::unique_ptr<Impl> impl);
+
   std::unique_ptr<Impl> impl_;
 };
 

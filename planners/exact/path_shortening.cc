@@ -6,6 +6,7 @@
 #include <random>
 
 #include "core/bvh/triangle_bvh.h"
+#include "planners/exact/free_space.h"
 
 namespace phongpd {
 namespace {
@@ -14,9 +15,28 @@ using Eigen::Vector3d;
 
 constexpr int kCutsInVain = 60;  // in a row: no more are tried
 
+// What a shortener asks of free space.
+class RoomAround {
+ public:
+  explicit RoomAround(const FreeSpace& space) : space_(space) {}
+  double Distance(const Vector3d& a, const Vector3d& b, double limit) const {
+    return std::min(limit, space_.Clearance(a, b));
+  }
+  bool ComesWithin(const Vector3d& a, const Vector3d& b,
+                   double distance) const {
+    return !space_.IsFree(a, b) ||
+           (distance > 0.0 && space_.Clearance(a, b) < distance);
+  }
+
+ private:
+  const FreeSpace& space_;
+};
+
+// Of a TriangleBvh or RoomAround.
+template <typename Room>
 class Shortener {
  public:
-  Shortener(const std::vector<Vector3d>& path, const TriangleBvh& segments,
+  Shortener(const std::vector<Vector3d>& path, const Room& segments,
             const ShorteningOptions& options)
       : segments_(segments), options_(options), random_(options.seed) {
     for (std::size_t k = 0; k < path.size(); ++k) {
@@ -163,7 +183,7 @@ class Shortener {
     }
   }
 
-  const TriangleBvh& segments_;
+  const Room& segments_;
   const ShorteningOptions& options_;
   std::mt19937_64 random_;
   std::vector<Point> points_;
@@ -176,7 +196,15 @@ std::vector<Vector3d> ShortenPath(const std::vector<Vector3d>& path,
                                   const TriangleBvh& segments,
                                   const ShorteningOptions& options) {
   if (path.size() < 3) return path;
-  return Shortener(path, segments, options).Run();
+  return Shortener<TriangleBvh>(path, segments, options).Run();
+}
+
+std::vector<Vector3d> ShortenPath(const std::vector<Vector3d>& path,
+                                  const FreeSpace& space,
+                                  const ShorteningOptions& options) {
+  if (path.size() < 3) return path;
+  const RoomAround room(space);
+  return Shortener<RoomAround>(path, room, options).Run();
 }
 
 }  // namespace phongpd

@@ -7,6 +7,7 @@
 
 namespace phongpd {
 
+class FreeSpace;
 class TriangleBvh;
 
 // A new segment keeps min(clearance, this share of the least clearance of what
@@ -28,6 +29,10 @@ struct ShorteningOptions {
 // repeated cuts do not add up.  Ends stay.  Same arguments, same path.
 std::vector<Eigen::Vector3d> ShortenPath(
     const std::vector<Eigen::Vector3d>& path, const TriangleBvh& segments,
+    const ShorteningOptions& options);
+// The same for a path that is free in `space`, bounds included.
+std::vector<Eigen::Vector3d> ShortenPath(
+    const std::vector<Eigen::Vector3d>& path, const FreeSpace& space,
     const ShorteningOptions& options);
 
 }  // namespace phongpd

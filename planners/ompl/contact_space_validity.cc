@@ -11,28 +11,40 @@ namespace ob = ompl::base;
 using Eigen::Vector3d;
 
 std::shared_ptr<ob::RealVectorStateSpace> MakeConfigurationSpace(
-    const ContactModel& model) {
+    const BoundingBox& region) {
   auto space = std::make_shared<ob::RealVectorStateSpace>(3);
   ob::RealVectorBounds bounds(3);
   for (unsigned int k = 0; k < 3; ++k) {
-    bounds.setLow(k, model.region().min[k]);
-    bounds.setHigh(k, model.region().max[k]);
+    bounds.setLow(k, region.min[k]);
+    bounds.setHigh(k, region.max[k]);
   }
   space->setBounds(bounds);
   return space;
 }
 
+std::shared_ptr<ob::RealVectorStateSpace> MakeConfigurationSpace(
+    const ContactModel& model) {
+  return MakeConfigurationSpace(model.region());
+}
+
+ob::SpaceInformationPtr MakeSpaceInformation(const MotionDomain& domain) {
+  if (!domain.free_space) {
+    throw InputError("space information: expected free space, found none");
+  }
+  auto si = std::make_shared<ob::SpaceInformation>(
+      MakeConfigurationSpace(domain.region));
+  si->setStateValidityChecker(
+      std::make_shared<ContactSpaceValidityChecker>(si, domain));
+  si->setMotionValidator(
+      std::make_shared<ContactSpaceMotionValidator>(si, domain));
+  si->setup();
+  return si;
+}
+
 ob::SpaceInformationPtr MakeSpaceInformation(
     const std::shared_ptr<const ContactModel>& model) {
   if (!model) throw InputError("space information: expected a contact model");
-  auto si =
-      std::make_shared<ob::SpaceInformation>(MakeConfigurationSpace(*model));
-  si->setStateValidityChecker(
-      std::make_shared<ContactSpaceValidityChecker>(si, model));
-  si->setMotionValidator(
-      std::make_shared<ContactSpaceMotionValidator>(si, model));
-  si->setup();
-  return si;
+  return MakeSpaceInformation(DomainOf(model));
 }
 
 void CheckConfigurationSpace(const std::string& name,
@@ -58,27 +70,24 @@ void FromPoint(const Vector3d& q, ob::State* state) {
 }
 
 ContactSpaceValidityChecker::ContactSpaceValidityChecker(
-    const ob::SpaceInformationPtr& si,
-    std::shared_ptr<const ContactModel> model)
-    : StateValidityChecker(si), model_(std::move(model)) {
+    const ob::SpaceInformationPtr& si, MotionDomain domain)
+    : StateValidityChecker(si), domain_(std::move(domain)) {
   specs_.clearanceComputationType = ob::StateValidityCheckerSpecs::EXACT;
 }
 
 bool ContactSpaceValidityChecker::isValid(const ob::State* state) const {
   checks_.fetch_add(1, std::memory_order_relaxed);
-  return model_->free_space().IsFree(ToPoint(state));
+  return domain_.free_space->IsFree(ToPoint(state));
 }
 
 double ContactSpaceValidityChecker::clearance(const ob::State* state) const {
   const Vector3d q = ToPoint(state);
-  return model_->free_space().IsFree(q) ? model_->free_space().Clearance(q)
-                                        : 0.0;
+  return domain_.free_space->IsFree(q) ? domain_.free_space->Clearance(q) : 0.0;
 }
 
 ContactSpaceMotionValidator::ContactSpaceMotionValidator(
-    const ob::SpaceInformationPtr& si,
-    std::shared_ptr<const ContactModel> model)
-    : MotionValidator(si), model_(std::move(model)) {}
+    const ob::SpaceInformationPtr& si, MotionDomain domain)
+    : MotionValidator(si), domain_(std::move(domain)) {}
 
 // OMPL's counters are plain integers that other threads update too.
 bool ContactSpaceMotionValidator::Count(bool free) const {
@@ -88,24 +97,24 @@ bool ContactSpaceMotionValidator::Count(bool free) const {
 
 bool ContactSpaceMotionValidator::checkMotion(const ob::State* s1,
                                               const ob::State* s2) const {
-  return Count(model_->free_space().IsFree(ToPoint(s1), ToPoint(s2)));
+  return Count(domain_.free_space->IsFree(ToPoint(s1), ToPoint(s2)));
 }
 
 bool ContactSpaceMotionValidator::checkMotion(
     const ob::State* s1, const ob::State* s2,
     std::pair<ob::State*, double>& lastValid) const {
   const Vector3d a = ToPoint(s1), b = ToPoint(s2);
-  const FreeSpace& space = model_->free_space();
+  const FreeSpace& space = *domain_.free_space;
   const MotionCheck check = space.Check(a, b);
   if (Count(check.free)) return true;
   // Back off from the (rounded) contact until the motion so far is free and
   // other programs can tell that it is.
   double fraction = 0.0;
-  const double first = 2.0 * model_->floor() / (b - a).norm();
+  const double first = 2.0 * domain_.floor() / (b - a).norm();
   for (double gap = first; gap < check.fraction; gap *= 8.0) {
     const double candidate = check.fraction - gap;
     const Vector3d end = a + candidate * (b - a);
-    if (space.Clearance(end) < model_->floor() || !space.IsFree(a, end)) {
+    if (space.Clearance(end) < domain_.floor() || !space.IsFree(a, end)) {
       continue;
     }
     fraction = candidate;

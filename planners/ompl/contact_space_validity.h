@@ -13,18 +13,23 @@
 #include <string>
 #include <utility>
 
+#include "planners/ompl/motion_domain.h"
 #include "planners/retraction/contact_model.h"
 
-// OMPL's view of a contact model: states of a RealVectorStateSpace of
-// dimension 3 are configurations q.
+// OMPL's view of free space: states of a RealVectorStateSpace of dimension 3
+// are configurations q.
 namespace phongpd {
 
-// The space of q with the model's region as bounds.
+// The space of q with the region as bounds.
+std::shared_ptr<ompl::base::RealVectorStateSpace> MakeConfigurationSpace(
+    const BoundingBox& region);
 std::shared_ptr<ompl::base::RealVectorStateSpace> MakeConfigurationSpace(
     const ContactModel& model);
 
 // That space with both classes below, set up.  Throws InputError without a
-// model.
+// model, or without free space.
+ompl::base::SpaceInformationPtr MakeSpaceInformation(
+    const MotionDomain& domain);
 ompl::base::SpaceInformationPtr MakeSpaceInformation(
     const std::shared_ptr<const ContactModel>& model);
 
@@ -41,7 +46,10 @@ void FromPoint(const Eigen::Vector3d& q, ompl::base::State* state);
 class ContactSpaceValidityChecker : public ompl::base::StateValidityChecker {
  public:
   ContactSpaceValidityChecker(const ompl::base::SpaceInformationPtr& si,
-                              std::shared_ptr<const ContactModel> model);
+                              MotionDomain domain);
+  ContactSpaceValidityChecker(const ompl::base::SpaceInformationPtr& si,
+                              const std::shared_ptr<const ContactModel>& model)
+      : ContactSpaceValidityChecker(si, DomainOf(model)) {}
 
   bool isValid(const ompl::base::State* state) const override;
   double clearance(const ompl::base::State* state) const override;
@@ -49,7 +57,7 @@ class ContactSpaceValidityChecker : public ompl::base::StateValidityChecker {
   std::uint64_t checks() const { return checks_; }
 
  private:
-  std::shared_ptr<const ContactModel> model_;
+  MotionDomain domain_;
   mutable std::atomic<std::uint64_t> checks_{0};
 };
 
@@ -58,25 +66,28 @@ class ContactSpaceValidityChecker : public ompl::base::StateValidityChecker {
 class ContactSpaceMotionValidator : public ompl::base::MotionValidator {
  public:
   ContactSpaceMotionValidator(const ompl::base::SpaceInformationPtr& si,
-                              std::shared_ptr<const ContactModel> model);
+                              MotionDomain domain);
+  ContactSpaceMotionValidator(const ompl::base::SpaceInformationPtr& si,
+                              const std::shared_ptr<const ContactModel>& model)
+      : ContactSpaceMotionValidator(si, DomainOf(model)) {}
 
   bool checkMotion(const ompl::base::State* s1,
                    const ompl::base::State* s2) const override;
 
   // If blocked, lastValid.second is the largest fraction found such that the
-  // motion up to it is exactly free and its end keeps model.floor(): OMPL's
+  // motion up to it is exactly free and its end keeps domain().floor(): OMPL's
   // samplers make states of it, which would lie on the contact surface.  0 if
   // there is none.
   bool checkMotion(
       const ompl::base::State* s1, const ompl::base::State* s2,
       std::pair<ompl::base::State*, double>& lastValid) const override;
 
-  const ContactModel& model() const { return *model_; }
+  const MotionDomain& domain() const { return domain_; }
 
  private:
   bool Count(bool free) const;
 
-  std::shared_ptr<const ContactModel> model_;
+  MotionDomain domain_;
 };
 
 }  // namespace phongpd

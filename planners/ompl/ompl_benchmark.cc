@@ -21,19 +21,16 @@ class NamelessBenchmark : public ompl::tools::Benchmark {
   }
 };
 
-}  // namespace
-
-std::string OmplBenchmarkLog(const std::shared_ptr<const ContactModel>& model,
-                             const Eigen::Vector3d& start,
-                             const Eigen::Vector3d& goal,
-                             const std::string& experiment,
-                             const std::string& planner, int runs,
-                             const OmplPlanningOptions& options) {
+std::string Log(const MotionDomain& domain,
+                const std::shared_ptr<const ContactModel>& model,
+                const Eigen::Vector3d& start, const Eigen::Vector3d& goal,
+                const std::string& experiment, const std::string& planner,
+                int runs, const OmplPlanningOptions& options) {
   if (runs < 1) {
     throw InputError("runs: expected at least 1, found " +
                      std::to_string(runs));
   }
-  const ompl::base::SpaceInformationPtr si = MakeSpaceInformation(model);
+  const ompl::base::SpaceInformationPtr si = MakeSpaceInformation(domain);
   ompl::geometric::SimpleSetup setup(si);
   SetStartAndGoal(start, goal, setup.getProblemDefinition().get());
   // By the set-up's own function, too: its path simplifier asks for the goal.
@@ -50,6 +47,27 @@ std::string OmplBenchmarkLog(const std::shared_ptr<const ContactModel>& model,
   std::ostringstream log;
   benchmark.saveResultsToStream(log);
   return log.str();
+}
+
+}  // namespace
+
+std::string OmplBenchmarkLog(const std::shared_ptr<const ContactModel>& model,
+                             const Eigen::Vector3d& start,
+                             const Eigen::Vector3d& goal,
+                             const std::string& experiment,
+                             const std::string& planner, int runs,
+                             const OmplPlanningOptions& options) {
+  return Log(DomainOf(model), model, start, goal, experiment, planner, runs,
+             options);
+}
+
+std::string OmplBenchmarkLog(const MotionDomain& domain,
+                             const Eigen::Vector3d& start,
+                             const Eigen::Vector3d& goal,
+                             const std::string& experiment,
+                             const std::string& planner, int runs,
+                             const OmplPlanningOptions& options) {
+  return Log(domain, nullptr, start, goal, experiment, planner, runs, options);
 }
 
 }  // namespace phongpd

@@ -21,7 +21,8 @@ void SetStartAndGoal(const Eigen::Vector3d& start, const Eigen::Vector3d& goal,
 // MakeSpaceInformation makes it (whose valid-state sampler it sets where the
 // name says so).  For ompl::tools::Benchmark and for programs that use OMPL
 // themselves.  One space information holds one valid-state sampler: give each
-// prm-* planner its own.  Throws InputError.
+// prm-* planner its own.  The model may be null for SurfaceFreePlannerNames.
+// Throws InputError.
 ompl::base::PlannerPtr MakeOmplPlanner(
     const std::string& name, const ompl::base::SpaceInformationPtr& si,
     const std::shared_ptr<const ContactModel>& model,

@@ -36,8 +36,13 @@ ob::ValidStateSamplerPtr Allocate(const ob::SpaceInformation* si) {
   return std::make_shared<Sampler>(si);
 }
 
-void CheckName(const std::string& name) {
-  const std::vector<std::string>& names = OmplPlannerNames();
+// Does it ask for the contact surface?
+bool NeedsSurface(const std::string& name) {
+  return name.find("retraction") != std::string::npos;
+}
+
+void CheckIsAmong(const std::vector<std::string>& names,
+                  const std::string& name) {
   if (std::find(names.begin(), names.end(), name) != names.end()) return;
   std::string list;
   for (const std::string& known : names) {
@@ -97,6 +102,13 @@ const std::vector<std::string>& OmplPlannerNames() {
   return names;
 }
 
+std::vector<std::string> SurfaceFreePlannerNames() {
+  std::vector<std::string> names = OmplPlannerNames();
+  names.erase(std::remove_if(names.begin(), names.end(), NeedsSurface),
+              names.end());
+  return names;
+}
+
 void OmplPlanningOptions::Validate() const {
   // OMPL counts ticks in 64 bits.
   if (!(time_limit > 0.0 && time_limit <= 1e9)) {
@@ -124,7 +136,7 @@ ob::PlannerPtr MakeOmplPlanner(const std::string& name,
                                const ob::SpaceInformationPtr& si,
                                const std::shared_ptr<const ContactModel>& model,
                                const OmplPlanningOptions& options) {
-  CheckName(name);
+  CheckIsAmong(model ? OmplPlannerNames() : SurfaceFreePlannerNames(), name);
   options.Validate();
   if (name == "retraction-rrt") {
     return Configured(std::make_shared<RetractionRRT>(si, model), options);
@@ -149,12 +161,15 @@ ob::PlannerPtr MakeOmplPlanner(const std::string& name,
   return std::make_shared<og::PRM>(si);
 }
 
-OmplPlanningResult PlanWithOmpl(
-    const std::shared_ptr<const ContactModel>& model, const Vector3d& start,
-    const Vector3d& goal, const std::string& name,
-    const OmplPlanningOptions& options) {
+namespace {
+
+OmplPlanningResult Plan(const MotionDomain& domain,
+                        const std::shared_ptr<const ContactModel>& model,
+                        const Vector3d& start, const Vector3d& goal,
+                        const std::string& name,
+                        const OmplPlanningOptions& options) {
   SeedOmpl(options.seed);
-  const ob::SpaceInformationPtr si = MakeSpaceInformation(model);
+  const ob::SpaceInformationPtr si = MakeSpaceInformation(domain);
   const ob::PlannerPtr planner = MakeOmplPlanner(name, si, model, options);
   auto problem = std::make_shared<ob::ProblemDefinition>(si);
   SetStartAndGoal(start, goal, problem.get());
@@ -164,7 +179,7 @@ OmplPlanningResult PlanWithOmpl(
   OmplPlanningResult result;
   // OMPL's planners wait for another goal until the time is over.
   for (const bool at_start : {true, false}) {
-    if (model->free_space().IsFree(at_start ? start : goal)) continue;
+    if (domain.free_space->IsFree(at_start ? start : goal)) continue;
     result.status =
         ob::PlannerStatus(at_start ? ob::PlannerStatus::INVALID_START
                                    : ob::PlannerStatus::INVALID_GOAL)
@@ -199,12 +214,29 @@ OmplPlanningResult PlanWithOmpl(
   if (result.solved) {
     result.path = PointsOf(problem->getSolutionPath());
     result.length = PathLength(result.path);
-    result.collision_free = CheckPath(model->free_space(), result.path).free;
+    result.collision_free = CheckPath(*domain.free_space, result.path).free;
     if (result.collision_free) {
-      result.clearance = PathClearance(model->free_space(), result.path);
+      result.clearance = PathClearance(*domain.free_space, result.path);
     }
   }
   return result;
+}
+
+}  // namespace
+
+OmplPlanningResult PlanWithOmpl(
+    const std::shared_ptr<const ContactModel>& model, const Vector3d& start,
+    const Vector3d& goal, const std::string& name,
+    const OmplPlanningOptions& options) {
+  if (!model) throw InputError("planner: expected a contact model, found none");
+  return Plan(DomainOf(model), model, start, goal, name, options);
+}
+
+OmplPlanningResult PlanWithOmpl(const MotionDomain& domain,
+                                const Vector3d& start, const Vector3d& goal,
+                                const std::string& name,
+                                const OmplPlanningOptions& options) {
+  return Plan(domain, nullptr, start, goal, name, options);
 }
 
 // OMPL_VERSION is empty in Debian's package.

@@ -8,9 +8,11 @@
 #include <string>
 #include <vector>
 
+#include "planners/ompl/motion_domain.h"
 #include "planners/retraction/retraction.h"
 
-// OMPL's planners on a contact model, without a type of OMPL's.
+// OMPL's planners on a contact model, or on free space alone, without a type of
+// OMPL's.
 namespace phongpd {
 
 // retraction-rrt, retraction-forest: this library's.  rrt-connect, prm: OMPL's
@@ -18,6 +20,10 @@ namespace phongpd {
 // OMPL's samplers for narrow passages; prm-retraction: PRM with
 // RetractionStateSampler.  All of them use the exact motion validator.
 const std::vector<std::string>& OmplPlannerNames();
+// Those of them that ask for validity and motion checks only: rrt-connect, prm,
+// prm-obstacle-based, prm-gaussian, prm-bridge.  All others need a
+// ContactModel.
+std::vector<std::string> SurfaceFreePlannerNames();
 
 struct OmplPlanningOptions {
   double time_limit = 1.0;  // seconds, in (0, 1e9]
@@ -63,10 +69,24 @@ OmplPlanningResult PlanWithOmpl(
     const Eigen::Vector3d& start, const Eigen::Vector3d& goal,
     const std::string& name, const OmplPlanningOptions& options = {});
 
+// The same by one of SurfaceFreePlannerNames; throws InputError for others.
+OmplPlanningResult PlanWithOmpl(const MotionDomain& domain,
+                                const Eigen::Vector3d& start,
+                                const Eigen::Vector3d& goal,
+                                const std::string& name,
+                                const OmplPlanningOptions& options = {});
+
 // Runs ompl::tools::Benchmark on one planner and returns its log, which
 // ompl_benchmark_statistics.py reads; the host is not named.  Its clock ticks
 // every 0.1 s: PlanWithOmpl measures better.  Throws InputError.
 std::string OmplBenchmarkLog(const std::shared_ptr<const ContactModel>& model,
+                             const Eigen::Vector3d& start,
+                             const Eigen::Vector3d& goal,
+                             const std::string& experiment,
+                             const std::string& planner, int runs,
+                             const OmplPlanningOptions& options = {});
+// The same by one of SurfaceFreePlannerNames; throws InputError for others.
+std::string OmplBenchmarkLog(const MotionDomain& domain,
                              const Eigen::Vector3d& start,
                              const Eigen::Vector3d& goal,
                              const std::string& experiment,

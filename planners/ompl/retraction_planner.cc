@@ -83,10 +83,10 @@ void RetractionPlanner::checkValidity() {
   CheckConfigurationSpace(getName(), *si_->getStateSpace());
   // Not one derived from it, which may ask for more.
   const ob::MotionValidator& validator = *si_->getMotionValidator();
-  exact_ =
-      typeid(validator) == typeid(ContactSpaceMotionValidator) &&
-      &static_cast<const ContactSpaceMotionValidator&>(validator).model() ==
-          &retraction_.model();
+  exact_ = typeid(validator) == typeid(ContactSpaceMotionValidator) &&
+           static_cast<const ContactSpaceMotionValidator&>(validator)
+                   .domain()
+                   .free_space.get() == &retraction_.model().free_space();
 }
 
 void RetractionPlanner::clear() {

@@ -104,6 +104,11 @@ void TellAbout(const Scene& scene) {
 void TellAboutSpaces(const World& world, std::size_t triangles) {
   const WorldReport report = world.Report();
   for (const std::string& warning : report.warnings) Warn(warning);
+  if (world.BuiltConvolution() != nullptr) {
+    Progress("free space alone: " +
+             std::to_string(world.BuiltConvolution()->facets) + " facets, " +
+             Rounded(report.seconds) + " s");
+  }
   if (report.contact_spaces == 0) return;
   Progress("contact space: " + std::to_string(triangles) + " triangles, " +
            Rounded(report.seconds) + " s" +

@@ -19,6 +19,8 @@ struct Flags : SeededRunFlags {
 
   std::string planner;
   std::string metric = "phong";
+  std::string model;
+  WorldLimits limits;
   std::string clearance;
   std::string ompl_log;
   bool verify = true;
@@ -61,26 +63,45 @@ void SetClearance(const Flags& flags, const std::string& planner,
                  &scene->workspace);
 }
 
+// What the model made of the run, on stderr.
+void TellModel(const PlanningStudy& study, const PlanningRun& run,
+               const PlanningResult& result) {
+  if (result.model != "window") return;
+  std::string text = "model window: free space alone";
+  if (!study.refusal().empty()) text += ", as the whole is refused";
+  text += ", by " + result.planner;
+  if (run.planner.empty()) {
+    text += " (the default contact-surface needs the whole)";
+    if (study.scene().planning.clearance) {
+      text += ", which seeks no clearance";
+    }
+  }
+  Note(text + (study.refusal().empty() ? "" : ": " + study.refusal()));
+}
+
 int Plan(const Flags& flags) {
   RequireRuns(flags.runs);
   const SceneSource source(flags.scene, flags.root);
   Scene scene = source.Load();
   PlanningRun run;
   run.planner = flags.planner.empty() ? scene.planning.planner : flags.planner;
-  SetClearance(flags, run.planner, &scene);
+  if (!flags.model.empty()) scene.planning.model = flags.model;
+  const std::string planner =
+      run.planner.empty() ? DefaultPlanner(scene.planning.model) : run.planner;
+  SetClearance(flags, planner, &scene);
   run.retraction = flags.metric;
   run.time_limit = scene.planning.time_limit;
   if (!flags.time_limit.empty()) {
     run.time_limit = ParseDouble(flags.time_limit, "--time");
   }
-  if (!flags.ompl_log.empty()) CheckHasOmplLog(run.planner);
+  if (!flags.ompl_log.empty()) CheckHasOmplLog(planner);
   SeededRuns runs(flags, source,
                   "scene, planner, seed: status, seconds (without contact "
                   "space), points, length, clearance (user's unit)",
                   Summarize);
   if (!flags.ompl_log.empty()) runs.outputs().Declare(flags.ompl_log);
   SilenceOmpl();
-  PlanningStudy study(scene, UserCache(flags.no_cache));
+  PlanningStudy study(scene, UserCache(flags.no_cache), flags.limits);
   TellAbout(scene);
   AnswerCheck check(flags.verify);
   for (int i = runs.kept(); i < flags.runs; ++i) {
@@ -88,6 +109,7 @@ int Plan(const Flags& flags) {
     Progress("run " + std::to_string(i + 1) + " of " +
              std::to_string(flags.runs));
     const PlanningResult result = study.Run(run);
+    if (i == runs.kept()) TellModel(study, run, result);
     nlohmann::ordered_json row = PlanningRow(study, run, result);
     check.Judge(scene, study.world(), ClaimsOf(result), &row);
     runs.Add(row);
@@ -112,7 +134,8 @@ Command AddPlan(CLI::App* app) {
   AddScene(app, flags.get());
   app->add_option("--planner", flags->planner,
                   "contact-surface is complete, deterministic and proves "
-                  "infeasibility; the others sample (scene's own if not set)")
+                  "infeasibility; the others sample (scene's own if not set; "
+                  "rrt-connect where only free space is modelled)")
       ->check(CLI::IsMember(PlannerNames()));
   app->add_option("--metric", flags->metric,
                   "How retraction planners carry colliding samples to the "
@@ -120,6 +143,14 @@ Command AddPlan(CLI::App* app) {
                   "the nearest point, or to a random one")
       ->check(CLI::IsMember(RetractionNames()))
       ->capture_default_str();
+  app->add_option("--model", flags->model,
+                  "What is built to plan in: all of the contact space (full), "
+                  "free space alone, at a fraction of the cost and as exact, "
+                  "for planners that only check motions (window), or all of it "
+                  "where the limits below allow it (auto; scene's own if not "
+                  "set)")
+      ->check(CLI::IsMember({"auto", "window", "full"}));
+  AddBuildLimits(app, &flags->limits.max_seconds, &flags->limits.max_mib);
   app->add_option("--clearance", flags->clearance,
                   "To seek where there is room, more than 0 and at most D, the "
                   "diagonal of the obstacles' contact space: 0.01 or 0.01D is "

@@ -216,6 +216,7 @@ void Read(const Json& value, const JsonPlace& place,
 void Read(const Json& value, const JsonPlace& place,
           PlanningSettings* settings) {
   Read(value, "planner", &settings->planner);
+  Read(value, "model", &settings->model);
   Read(value, "time_limit", &settings->time_limit);
   if (value.contains("clearance")) {
     settings->clearance = LengthAt(value["clearance"], place.Child("clearance"),

@@ -42,8 +42,9 @@ struct TrajectorySettings {
 };
 
 struct PlanningSettings {
-  std::string planner = "contact-surface";
-  double time_limit = 5.0;  // seconds
+  std::string planner;         // empty: the default (PlanningStudy)
+  std::string model = "auto";  // or "window", "full"
+  double time_limit = 5.0;     // seconds
   // Wanted clearance, in (0, D]: how far paths and samples are lifted off
   // contact where there is room.  None: the planner's own, 0.01 of the diagonal
   // of what it plans in (ContactSurfaceOptions, RetractionOptions).

@@ -2,17 +2,20 @@
 #include "problems/studies/planning_study.h"
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "core/mesh/mesh_error.h"
-#include "problems/output/versions.h"
-#include "problems/studies/length_row.h"
+#include "core/minkowski/build_refusal.h"
+#include "core/stopwatch.h"
+#include "planners/exact/path_shortening.h"
 
 namespace phongpd {
 namespace {
 
 constexpr char kContactSurface[] = "contact-surface";
+// Clearance that is enough for a path in free space alone, of D: as much as
+// ContactSurfaceOptions wants.
+constexpr double kEnoughClearance = 0.01;
 
 std::string Join(const std::vector<std::string>& names) {
   std::string text;
@@ -24,73 +27,58 @@ std::string Join(const std::vector<std::string>& names) {
 
 }  // namespace
 
-std::vector<std::string> PlannerNames() {
-  std::vector<std::string> names = {kContactSurface};
-  const std::vector<std::string>& ompl = OmplPlannerNames();
-  names.insert(names.end(), ompl.begin(), ompl.end());
-  return names;
-}
-
-const std::vector<std::string>& RetractionNames() {
-  static const std::vector<std::string> names = {
-      "phong",         "phong-random", "phong-novelty", "phong-warm",
-      "phong-nearest", "euclidean",    "contact-point"};
-  return names;
-}
-
-RetractionOptions ParseRetraction(const std::string& text,
-                                  const std::string& what) {
-  RetractionOptions options;
-  const std::vector<std::string>& names = RetractionNames();
-  const auto found = std::find(names.begin(), names.end(), text);
-  if (found == names.end()) {
-    throw InputError(what + ": expected one of " + Join(names) + "; found '" +
-                     text + "'");
-  }
-  const std::ptrdiff_t index = found - names.begin();
-  constexpr BranchChoice kChoices[] = {
-      BranchChoice::kAll, BranchChoice::kRandom, BranchChoice::kNovelty,
-      BranchChoice::kWarm, BranchChoice::kNearest};
-  if (index < 5) options.choice = kChoices[index];
-  if (text == "euclidean") options.metric = RetractionMetric::kEuclidean;
-  if (text == "contact-point") {
-    options.metric = RetractionMetric::kContactPoint;
-  }
-  return options;
-}
-
-void CheckHasOmplLog(const std::string& planner) {
-  if (planner != kContactSurface) return;
-  throw InputError("--ompl-log: expected a planner of OMPL, found " + planner);
-}
-
-bool SeeksClearance(const std::string& planner) {
-  return planner == kContactSurface ||
-         planner.find("retraction") != std::string::npos;
-}
-
-PlanningStudy::PlanningStudy(const Scene& scene, const ContactSpaceCache& cache)
-    : scene_(scene), world_(scene.workspace, scene.name, cache) {}
+PlanningStudy::PlanningStudy(const Scene& scene, const ContactSpaceCache& cache,
+                             const WorldLimits& limits)
+    : scene_(scene), world_(scene.workspace, scene.name, cache, limits) {}
 
 PlanningStudy::PlanningStudy(const Scene& scene, const World& world)
     : scene_(scene), world_(world) {
   RequireSameSolids(scene.workspace, world, scene.name);
 }
 
-BoundingBox PlanningStudy::Region() const {
-  const BoundingBox& bounds = scene_.workspace.bounds;
-  return bounds.IsEmpty()
-             ? SamplingRegion(world_.Sealed(), scene_.start, scene_.goal)
-             : bounds;
+bool PlanningStudy::UsesWindow() {
+  if (uses_window_) return *uses_window_;
+  const std::string& model = scene_.planning.model;
+  if (model != "auto" && model != "window" && model != "full") {
+    throw InputError("model: expected auto, window or full, found '" + model +
+                     "'");
+  }
+  if (model != "window") {
+    try {
+      world_.Spaces(SpaceLayout::kSealed);
+    } catch (const BuildRefusal& refusal) {
+      if (model == "full") throw;
+      refusal_ = refusal.what();
+    }
+  }
+  uses_window_ = model == "window" || !refusal_.empty();
+  return *uses_window_;
 }
 
-TriangleMesh PlanningStudy::VisibleMesh() const {
+const FreeSpace& PlanningStudy::Judge() {
+  return UsesWindow() ? *world_.Convolution().free_space : *spaces().free_space;
+}
+
+BoundingBox PlanningStudy::Region() {
+  const BoundingBox& bounds = scene_.workspace.bounds;
+  if (!bounds.IsEmpty()) return bounds;
+  return UsesWindow()
+             ? SamplingRegion(Judge(), scene_.start, scene_.goal)
+             : SamplingRegion(world_.Sealed(), scene_.start, scene_.goal);
+}
+
+TriangleMesh PlanningStudy::VisibleMesh() {
   const BoundingBox region = Region();
   const double rounding = 1e-9 * region.Diagonal();
-  const TriangleMesh& sealed = world_.Sealed().mesh();
+  TriangleMesh all;
+  if (!UsesWindow()) {
+    all = world_.Sealed().mesh();
+  } else if (!world_.Convolution().models.empty()) {
+    all = world_.Convolution().models.front().Mesh();
+  }
   TriangleMesh visible;
-  visible.vertices = sealed.vertices;
-  for (const Triangle& t : sealed.triangles) {
+  visible.vertices = all.vertices;
+  for (const Triangle& t : all.triangles) {
     const bool is_within = std::all_of(t.begin(), t.end(), [&](int v) {
       const Eigen::Vector3d& p = visible.vertices[v];
       return (p.array() >= region.min.array() - rounding).all() &&
@@ -99,6 +87,10 @@ TriangleMesh PlanningStudy::VisibleMesh() const {
     if (is_within) visible.triangles.push_back(t);
   }
   return visible;
+}
+
+MotionDomain PlanningStudy::Domain() {
+  return {world_.Convolution().free_space, Region()};
 }
 
 void PlanningStudy::PrepareModel() {
@@ -129,14 +121,19 @@ OmplPlanningOptions PlanningStudy::Options(const PlanningRun& run) const {
 }
 
 std::string PlanningStudy::OmplLog(const PlanningRun& run, int runs) {
-  CheckHasOmplLog(run.planner);
+  const std::string planner = PlannerOf(run);
+  CheckHasOmplLog(planner);
+  if (UsesWindow()) {
+    return OmplBenchmarkLog(Domain(), scene_.start, scene_.goal, scene_.name,
+                            planner, runs, Options(run));
+  }
   PrepareModel();
   return OmplBenchmarkLog(model_, scene_.start, scene_.goal, scene_.name,
-                          run.planner, runs, Options(run));
+                          planner, runs, Options(run));
 }
 
 // False: start or goal is not free, and the result says so.
-bool PlanningStudy::Diagnose(const PlanningRun& run,
+bool PlanningStudy::Diagnose(const std::string& planner,
                              PlanningResult* result) const {
   for (const bool at_start : {true, false}) {
     const Diagnosis diagnosis =
@@ -144,7 +141,7 @@ bool PlanningStudy::Diagnose(const PlanningRun& run,
     if (diagnosis.IsFree()) continue;
     result->reason = diagnosis.Text(at_start ? "start" : "goal");
     // In the words of the planner, as if it had been asked.
-    if (run.planner == kContactSurface) {
+    if (planner == kContactSurface) {
       result->status = ToString(at_start ? PlanStatus::kInvalidStart
                                          : PlanStatus::kInvalidGoal);
     } else {
@@ -178,29 +175,79 @@ void PlanningStudy::RunExact(PlanningResult* result) {
       world_.Resolve(Length::FromUnit(exact_.wanted_clearance));
 }
 
+// Straightened, and judged again.
+void PlanningStudy::Shorten(std::uint64_t seed, OmplPlanningResult* numbers) {
+  const Stopwatch stopwatch;
+  const FreeSpace& space = Judge();
+  ShorteningOptions options;
+  options.clearance = scene_.planning.clearance
+                          ? WantedClearance()
+                          : kEnoughClearance * world_.diagonal();
+  options.seed = seed;
+  numbers->path = ShortenPath(numbers->path, space, options);
+  numbers->length = PathLength(numbers->path);
+  numbers->collision_free = CheckPath(space, numbers->path).free;
+  numbers->clearance = PathClearance(space, numbers->path);
+  numbers->seconds += stopwatch.Seconds();
+}
+
 void PlanningStudy::RunOmpl(const PlanningRun& run, PlanningResult* result) {
+  if (UsesWindow()) {
+    result->numbers = PlanWithOmpl(Domain(), scene_.start, scene_.goal,
+                                   result->planner, Options(run));
+    if (result->numbers.collision_free) Shorten(run.seed, &result->numbers);
+    result->status = result->numbers.status;
+    return;
+  }
   PrepareModel();
   const OmplPlanningOptions options = Options(run);
   result->numbers =
-      PlanWithOmpl(model_, scene_.start, scene_.goal, run.planner, options);
+      PlanWithOmpl(model_, scene_.start, scene_.goal, result->planner, options);
   result->status = result->numbers.status;
-  if (SeeksClearance(run.planner)) {
+  if (SeeksClearance(result->planner)) {
     result->wanted_clearance = world_.Resolve(
         Length::FromUnit(options.retraction.clearance * model_->diagonal()));
   }
 }
 
+void PlanningStudy::RequireSurfaceFree(const std::string& planner) const {
+  if (!NeedsContactSurface(planner)) return;
+  const std::string others = Join(SurfaceFreePlannerNames());
+  if (refusal_.empty()) {
+    throw InputError(
+        "--planner: expected one that needs no contact surface with model "
+        "window (" +
+        others + "), found " + planner + "; take model full");
+  }
+  throw BuildRefusal(refusal_ + "; or plan in free space alone (" + others +
+                     ")");
+}
+
+// Builds the full model where it takes that to know.
+std::string PlanningStudy::PlannerOf(const PlanningRun& run) {
+  if (!run.planner.empty()) return run.planner;
+  return DefaultPlanner(UsesWindow() ? "window" : "full");
+}
+
 PlanningResult PlanningStudy::Run(const PlanningRun& run) {
   const std::vector<std::string> names = PlannerNames();
-  if (std::find(names.begin(), names.end(), run.planner) == names.end()) {
+  if (!run.planner.empty() &&
+      std::find(names.begin(), names.end(), run.planner) == names.end()) {
     throw InputError("--planner: expected one of " + Join(names) + "; found '" +
                      run.planner + "'");
   }
   // Before anything is built.
-  if (run.planner != kContactSurface) Options(run).Validate();
+  const bool is_window = scene_.planning.model == "window";
   PlanningResult result;
-  if (!Diagnose(run, &result)) return result;
-  if (run.planner == kContactSurface) {
+  result.planner =
+      run.planner.empty() ? DefaultPlanner(scene_.planning.model) : run.planner;
+  if (is_window) RequireSurfaceFree(result.planner);
+  if (result.planner != kContactSurface) Options(run).Validate();
+  if (!Diagnose(result.planner, &result)) return result;
+  result.planner = PlannerOf(run);
+  if (UsesWindow()) RequireSurfaceFree(result.planner);
+  result.model = UsesWindow() ? "window" : "full";
+  if (result.planner == kContactSurface) {
     RunExact(&result);
   } else {
     RunOmpl(run, &result);
@@ -208,55 +255,10 @@ PlanningResult PlanningStudy::Run(const PlanningRun& run) {
   result.solved = result.numbers.collision_free && !result.numbers.path.empty();
   for (const bool at_start : {false, true}) {
     const Eigen::Vector3d& q = at_start ? scene_.start : scene_.goal;
-    if (result.solved || spaces().free_space->IsFree(q)) continue;
+    if (result.solved || Judge().IsFree(q)) continue;
     result.reason = BlockedByRounding(q, at_start ? "start" : "goal");
   }
   return result;
-}
-
-nlohmann::ordered_json PlanningRow(const PlanningStudy& study,
-                                   const PlanningRun& run,
-                                   const PlanningResult& result) {
-  using Json = nlohmann::ordered_json;
-  const OmplPlanningResult& n = result.numbers;
-  Json row;
-  row["scene"] = study.scene().name;
-  row["planner"] = run.planner;
-  row["metric"] = run.planner.find("retraction") == std::string::npos
-                      ? Json(nullptr)
-                      : Json(run.retraction);
-  row["seed"] = run.seed;
-  row["status"] = result.status;
-  row["reason"] = result.reason;
-  row["solved"] = result.solved;
-  row["infeasible_proved"] = result.infeasible_proved;
-  row["collision_free"] = n.collision_free;
-  row["clearance"] = n.clearance;
-  row["lengths"] = {
-      {"D", study.world().diagonal()},
-      {"wanted_clearance", LengthRow(result.wanted_clearance)},
-      {"clearance",
-       LengthRow(study.world().Resolve(Length::FromUnit(n.clearance)))}};
-  row["seconds"] = {{"contact_space", study.world().Report().seconds},
-                    {"solve", n.seconds}};
-  row["checks"] = {{"collision", n.collision_checks},
-                   {"segment", n.segment_checks}};
-  row["samples"] = n.samples;
-  row["retractions"] = n.retractions;
-  row["branch_ends"] = n.branch_ends;
-  row["graph_states"] = n.graph_states;
-  // 0: none was built.
-  const WorldSpaces* built = study.world().Built(SpaceLayout::kSealed);
-  row["contact_triangles"] = built == nullptr ? 0 : built->triangles;
-  row["path_length"] = n.length;
-  row["path"] = Json::array();
-  for (const Eigen::Vector3d& p : n.path) {
-    row["path"].push_back({p.x(), p.y(), p.z()});
-  }
-  row["versions"] = Json::object();
-  for (const auto& [name, version] : Versions())
-    row["versions"][name] = version;
-  return row;
 }
 
 }  // namespace phongpd

@@ -30,8 +30,15 @@ void CheckHasOmplLog(const std::string& planner);
 // Does the planner take a wanted clearance?  OMPL's own do not.
 bool SeeksClearance(const std::string& planner);
 
+// The planners that do without the contact surface, from which they want
+// nothing but validity and motion checks: SurfaceFreePlannerNames().
+bool NeedsContactSurface(const std::string& planner);
+
+// contact-surface; rrt-connect for the model "window".
+std::string DefaultPlanner(const std::string& model);
+
 struct PlanningRun {
-  std::string planner = "contact-surface";
+  std::string planner;               // empty: the default of the model
   std::string retraction = "phong";  // retraction-* and prm-retraction
   double time_limit = 5.0;           // seconds; of OMPL's planners
   std::uint64_t seed = 1;
@@ -41,6 +48,8 @@ struct PlanningRun {
 
 // What one run gave; every path is judged exactly.
 struct PlanningResult {
+  std::string planner;             // that ran
+  std::string model = "none";      // what it planned in: "full", "window"
   bool solved = false;             // an exactly free path
   bool infeasible_proved = false;  // contact-surface only
   std::string status;
@@ -50,19 +59,29 @@ struct PlanningResult {
   std::optional<ResolvedLength> wanted_clearance;
 };
 
-// Plans on one scene: the sealed contact space of its world is built once for
-// all runs, when the first one needs it.
+// Plans on one scene.  What it plans in is built once for all runs, when the
+// first one needs it, by the scene's planning.model:
+//   full    the sealed contact space of its world,
+//   window  free space alone (World::Convolution), which is enough for planners
+//           that only check motions; their paths are exactly free all the same,
+//           and are shortened (ShortenPath) where they keep the wanted
+//           clearance, by default 0.01 D,
+//   auto    full; window where the limits of a build refuse the contact space
+//           and the planner can do with it.
 class PlanningStudy {
  public:
   // Throws InputError.
   explicit PlanningStudy(const Scene& scene,
-                         const ContactSpaceCache& cache = {});
+                         const ContactSpaceCache& cache = {},
+                         const WorldLimits& limits = {});
   // In a world that others share.  Throws InputError unless its solids are the
   // scene's.
   PlanningStudy(const Scene& scene, const World& world);
 
   // A start or goal that is not free is said before anything is built.  Throws
-  // InputError for an unknown planner or retraction.
+  // InputError for an unknown planner or retraction, and for a planner that
+  // needs the contact surface with model window; BuildRefusal where a limit
+  // refuses the contact space that is needed.
   PlanningResult Run(const PlanningRun& run);
 
   // The log of OMPL's own benchmark of one of its planners, for the
@@ -71,13 +90,17 @@ class PlanningStudy {
 
   // Where paths can be: the bounds, or the box around the cells of start and
   // goal (SamplingRegion).
-  BoundingBox Region() const;
-  // The triangles of the contact space in that region, for pictures.
-  TriangleMesh VisibleMesh() const;
+  BoundingBox Region();
+  // The triangles of the contact space, or of the convolution, in that region,
+  // for pictures.
+  TriangleMesh VisibleMesh();
+
+  // Why model auto took the window; empty: it did not.
+  const std::string& refusal() const { return refusal_; }
 
   const Scene& scene() const { return scene_; }
   const World& world() const { return world_; }
-  // Those it plans in; builds them.
+  // Those of the full model; builds them.
   const WorldSpaces& spaces() const {
     return world_.Spaces(SpaceLayout::kSealed);
   }
@@ -85,16 +108,25 @@ class PlanningStudy {
   const PlanResult& exact() const { return exact_; }
 
  private:
+  // Decides once, and builds what the full model needs.
+  bool UsesWindow();
+  const FreeSpace& Judge();
+  std::string PlannerOf(const PlanningRun& run);
+  void RequireSurfaceFree(const std::string& planner) const;
   void PrepareModel();
+  MotionDomain Domain();
   OmplPlanningOptions Options(const PlanningRun& run) const;
-  bool Diagnose(const PlanningRun& run, PlanningResult* result) const;
+  bool Diagnose(const std::string& planner, PlanningResult* result) const;
   void RunExact(PlanningResult* result);
   void RunOmpl(const PlanningRun& run, PlanningResult* result);
+  void Shorten(std::uint64_t seed, OmplPlanningResult* numbers);
   // The wanted clearance in the user's unit; 0: the planner's own.
   double WantedClearance() const;
 
   Scene scene_;
   World world_;
+  std::optional<bool> uses_window_;  // not yet decided: none
+  std::string refusal_;
   std::unique_ptr<ContactSurfacePlanner> planner_;
   std::shared_ptr<const ContactModel> model_;
   PlanResult exact_;

@@ -40,16 +40,31 @@ struct World::Impl {
     return slots[is_each ? 2 : is_merged ? 1 : 0];
   }
 
-  ContactSpace Build(const TriangleMesh& obstacle, const std::string& what) {
+  // Adds the wall time of a build to the report, also of one that is refused.
+  struct Spent {
+    ~Spent() {
+      const std::lock_guard<std::mutex> lock(world->report_mutex);
+      world->report.seconds += stopwatch.Seconds();
+    }
+    Impl* world;
+    Stopwatch stopwatch = {};
+  };
+
+  ContactSpaceOptions Options(const std::string& what) const {
     ContactSpaceOptions options;
     options.robot_name = name + ": robot";
     options.obstacle_name = name + ": " + what;
-    const Stopwatch stopwatch;
-    ContactSpace built =
-        BuildContactSpaceCached(workspace.robot, obstacle, options, cache);
+    options.max_seconds = limits.max_seconds;
+    options.max_mib = limits.max_mib;
+    return options;
+  }
+
+  ContactSpace Build(const TriangleMesh& obstacle, const std::string& what) {
+    const Spent spent{this};
+    ContactSpace built = BuildContactSpaceCached(workspace.robot, obstacle,
+                                                 Options(what), cache);
     const std::lock_guard<std::mutex> lock(report_mutex);
     ++report.contact_spaces;
-    report.seconds += stopwatch.Seconds();
     report.from_cache = report.from_cache || built.report().from_cache;
     report.warnings.insert(report.warnings.end(),
                            built.report().warnings.begin(),
@@ -83,17 +98,38 @@ struct World::Impl {
     return all;
   }
 
+  std::unique_ptr<const WorldConvolution> BuildConvolution() {
+    auto all = std::make_unique<WorldConvolution>();
+    if (!ReachableObstacles(workspace).empty()) {
+      const Spent spent{this};
+      const ConvolutionModel& model = all->models.emplace_back(
+          workspace.robot, JoinedObstacle(workspace), Options("obstacles"));
+      all->facets = model.report().facets;
+      const std::lock_guard<std::mutex> lock(report_mutex);
+      ++report.convolutions;
+      report.warnings.insert(report.warnings.end(),
+                             model.report().warnings.begin(),
+                             model.report().warnings.end());
+    }
+    all->free_space = std::make_shared<FreeSpace>(
+        FreeSpace::OfConvolutions(all->models, workspace.bounds));
+    return all;
+  }
+
   Workspace workspace;
   std::string name;
   ContactSpaceCache cache;
+  WorldLimits limits;
   double diagonal = 0.0;
   std::array<Slot, 3> slots;
+  std::mutex convolution_mutex;  // held while building
+  std::unique_ptr<const WorldConvolution> convolution;
   std::mutex report_mutex;
   WorldReport report;
 };
 
 World::World(Workspace workspace, const std::string& name,
-             const ContactSpaceCache& cache)
+             const ContactSpaceCache& cache, const WorldLimits& limits)
     : impl_(std::make_shared<Impl>()) {
   workspace.Validate();
   if (workspace.obstacles.empty() && workspace.bounds.IsEmpty()) {
@@ -103,6 +139,7 @@ World::World(Workspace workspace, const std::string& name,
   impl_->workspace = std::move(workspace);
   impl_->name = name;
   impl_->cache = cache;
+  impl_->limits = limits;
 }
 
 const Workspace& World::workspace() const { return impl_->workspace; }
@@ -133,6 +170,21 @@ const WorldSpaces* World::Built(SpaceLayout layout) const {
   Impl::Slot& slot = impl_->SlotOf(layout);
   const std::lock_guard<std::mutex> lock(slot.mutex);
   return slot.spaces.get();
+}
+
+const WorldConvolution& World::Convolution() const {
+  const std::lock_guard<std::mutex> lock(impl_->convolution_mutex);
+  if (impl_->convolution == nullptr) {
+    // As in Spaces.
+    tbb::this_task_arena::isolate(
+        [&] { impl_->convolution = impl_->BuildConvolution(); });
+  }
+  return *impl_->convolution;
+}
+
+const WorldConvolution* World::BuiltConvolution() const {
+  const std::lock_guard<std::mutex> lock(impl_->convolution_mutex);
+  return impl_->convolution.get();
 }
 
 WorldReport World::Report() const {

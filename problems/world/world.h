@@ -35,10 +35,26 @@ struct WorldSpaces {
   std::vector<TriangleMesh> Meshes() const;
 };
 
+// Free space alone, without contact spaces: what there is to build for whoever
+// only asks whether motions are free and how much room they have.
+struct WorldConvolution {
+  std::vector<ConvolutionModel> models;  // one of all obstacles, or none
+  // Of that and the bounds.
+  std::shared_ptr<const FreeSpace> free_space;
+  std::size_t facets = 0;  // of the models
+};
+
+// What a world may spend on one build (ContactSpaceOptions).
+struct WorldLimits {
+  double max_seconds = 0.0;  // 0: no limit
+  double max_mib = 0.0;      // 0: nine tenths of what is free
+};
+
 // What a world has built so far.
 struct WorldReport {
-  int contact_spaces = 0;   // built, or read from the cache
-  double seconds = 0.0;     // spent on them
+  int contact_spaces = 0;   // built, or read from the cache: the full level
+  int convolutions = 0;     // built: free space alone
+  double seconds = 0.0;     // spent on them, and on what limits refused
   bool from_cache = false;  // at least one of them
   std::vector<std::string> warnings;
 };
@@ -61,7 +77,8 @@ class World {
   // Workspace::Validate, and if there is nothing to collide with: neither an
   // obstacle nor bounds.
   explicit World(Workspace workspace, const std::string& name = "world",
-                 const ContactSpaceCache& cache = {});
+                 const ContactSpaceCache& cache = {},
+                 const WorldLimits& limits = {});
 
   const Workspace& workspace() const;
   const std::string& name() const;
@@ -79,13 +96,20 @@ class World {
 
   // Builds them on first use, one after the other (each build is parallel), or
   // takes them from the cache.  The reference holds as long as a copy of the
-  // world does.  Throws what BuildContactSpace throws, and then builds anew
-  // when asked again.
+  // world does.  Throws what BuildContactSpace throws (BuildRefusal at the
+  // limits), and then builds anew when asked again.
   const WorldSpaces& Spaces(SpaceLayout layout) const;
   // spaces[0] of kSealed, whose free cells end at the bounds.
   const ContactSpace& Sealed() const;
   // What there is of them already; null before Spaces.
   const WorldSpaces* Built(SpaceLayout layout) const;
+
+  // Free space at a fraction of the cost of Spaces, with the same answers;
+  // built on first use and kept as those are.  Throws what ConvolutionModel
+  // throws.
+  const WorldConvolution& Convolution() const;
+  // Null before Convolution.
+  const WorldConvolution* BuiltConvolution() const;
   WorldReport Report() const;
 
  private:

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Purpose: depth of two meshes from windows of the contact space, nothing
-// precomputed, beside building the whole and asking EuclideanMetric, in one
-// binary and one run.  Writes CSV and README.md into a directory.
+// precomputed, and motion checks from the convolution alone, beside building
+// the whole and asking that, in one binary and one run.  Writes CSV and
+// README.md into a directory.
 #include <CLI/CLI.hpp>
 #include <cmath>
-#include <ctime>
 #include <functional>
 #include <iostream>
 #include <random>
@@ -15,6 +15,7 @@
 #include "core/stopwatch.h"
 #include "problems/shapes/random_solids.h"
 #include "problems/shapes/shapes.h"
+#include "results/bench/free_space_measure.h"
 #include "results/bench/program.h"
 
 namespace phongpd::bench {
@@ -53,17 +54,11 @@ std::vector<Case> Cases() {
   };
 }
 
-// Of the whole process: what a busy machine does not change.
-double CpuSeconds() {
-  timespec now;
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) +
-         1e-9 * static_cast<double>(now.tv_nsec);
-}
-
 struct Options {
   std::string directory;
   int queries = 200;
+  int segments = 20000;
+  double max_seconds = 60.0;
   double depth = 0.05;
   std::uint64_t seed = 1;
 };
@@ -74,6 +69,7 @@ struct Row {
   double full_seconds = 0.0, handle_seconds = 0.0;
   std::vector<double> cpu_ms, wall_ms, faces, turned_ms;
   double worst_error = 0.0;  // share of the diagonal
+  FreeSpaceRow free_space;
   int uncertified = 0, wrong = 0;
 };
 
@@ -87,6 +83,9 @@ Row Measure(const Case& c, const Options& options) {
   const ContactSpace space = BuildContactSpace(robot, obstacle);
   row.full_seconds = CpuSeconds() - start;
   row.full_faces = space.report().arrangement_faces;
+  row.free_space =
+      MeasureFreeSpace(c.name, robot, obstacle, space, row.full_seconds,
+                       options.segments, options.seed);
   start = CpuSeconds();
   const DepthQuery query(robot, obstacle);
   row.handle_seconds = CpuSeconds() - start;
@@ -149,6 +148,10 @@ int Run(int argc, char** argv) {
   app.add_option("--output", options.directory, "Directory to write into")
       ->required();
   app.add_option("--queries", options.queries)->capture_default_str();
+  app.add_option("--segments", options.segments)->capture_default_str();
+  app.add_option("--max-seconds", options.max_seconds,
+                 "Of a full build that is to be refused")
+      ->capture_default_str();
   app.add_option("--seed", options.seed)->capture_default_str();
   CLI11_PARSE(app, argc, argv);
   std::vector<Row> rows;
@@ -156,15 +159,19 @@ int Run(int argc, char** argv) {
     rows.push_back(Measure(c, options));
     std::cout << ToText(TableOf({rows.back()}).table) << std::endl;
   }
-  const std::vector<NamedTable> tables = {TableOf(rows)};
+  std::vector<FreeSpaceRow> free_spaces;
+  for (const Row& row : rows) free_spaces.push_back(row.free_space);
+  const std::vector<NamedTable> tables = {TableOf(rows),
+                                          FreeSpaceTable(free_spaces),
+                                          LargePlanTable(options.max_seconds)};
   OutputDirectory out(options.directory);
   WriteReport(
       tables, {},
-      "# Depth without the whole contact space\n\n"
+      "# Answers without the whole contact space\n\n"
       "`DepthQuery` beside `BuildContactSpace` and `EuclideanMetric`: random "
       "configurations below random points of C_cont, at most 5 % of its "
       "diagonal deep. Every answer is compared with the whole contact "
-      "space's.\n\n" +
+      "space's. `ConvolutionModel` tells free space without either.\n\n" +
           ToMarkdown(tables, {}) + "\n" +
           Circumstances(CommandLine("build/lazy_benchmark", argc, argv),
                         options.seed),

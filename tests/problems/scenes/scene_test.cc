@@ -109,8 +109,9 @@ TEST(Scene, SchemaAndStructsHaveTheSameDefaults) {
   for (const char* section : {"penetration", "trajectory", "planning"}) {
     const Json& known = SceneSchema()["properties"][section]["properties"];
     for (const auto& [key, schema] : known.items()) {
-      // Ipopt's own defaults, and the planner's own clearance.
-      if (key == "ipopt" || key == "clearance") continue;
+      // Ipopt's own defaults, the planner's own clearance, the model's own
+      // planner.
+      if (key == "ipopt" || key == "clearance" || key == "planner") continue;
       written[section][key] = schema.at("default");
     }
   }
@@ -124,6 +125,7 @@ TEST(Scene, SchemaAndStructsHaveTheSameDefaults) {
   EXPECT_EQ(a.trajectory.margin, b.trajectory.margin);
   EXPECT_EQ(a.trajectory.max_segment_ratio, b.trajectory.max_segment_ratio);
   EXPECT_EQ(a.planning.planner, b.planning.planner);
+  EXPECT_EQ(a.planning.model, b.planning.model);
   EXPECT_EQ(a.planning.time_limit, b.planning.time_limit);
   EXPECT_EQ(a.planning.clearance, b.planning.clearance);
 }

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/contact/convolution_model.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "core/mesh/finite.h"
+#include "core/mesh/mesh_error.h"
+#include "core/minkowski/build_limits.h"
+#include "core/minkowski/contact_space_report.h"
+#include "core/minkowski/convolution_space.h"
+#include "core/minkowski/grid_pair.h"
+#include "core/minkowski/operand.h"
+#include "core/stopwatch.h"
+
+namespace phongpd {
+
+using Eigen::Vector3d;
+
+struct ConvolutionModel::Data {
+  Data(const TriangleMesh& robot, const TriangleMesh& obstacle,
+       const ContactSpaceOptions& options, ContactSpaceReport* operands)
+      : Data(robot, obstacle, options, internal::BuildLimits(options),
+             operands) {}
+
+  Data(const TriangleMesh& robot, const TriangleMesh& obstacle,
+       const ContactSpaceOptions& options, const internal::BuildLimits& limits,
+       ContactSpaceReport* operands)
+      : pair(MakePair(robot, obstacle, options, operands)),
+        space(pair, &limits),
+        bounds(ComputeBounds(space.Mesh())) {}
+
+  static internal::GridPair MakePair(const TriangleMesh& robot,
+                                     const TriangleMesh& obstacle,
+                                     const ContactSpaceOptions& options,
+                                     ContactSpaceReport* operands) {
+    using internal::OperandRole;
+    const TriangleMesh a =
+        internal::PrepareOperand(robot, OperandRole::kRobot, options, operands);
+    const TriangleMesh b = internal::PrepareOperand(
+        obstacle, OperandRole::kObstacle, options, operands);
+    internal::GridPair pair =
+        internal::MakeGridPair(a, options.robot_name, b, options.obstacle_name);
+    const double resolution = std::min(pair.frame.rounding, pair.frame.step);
+    internal::CheckResolution(pair.obstacle, b, resolution,
+                              options.obstacle_name, operands);
+    internal::CheckResolution(pair.reflected_robot, a, resolution,
+                              options.robot_name, operands);
+    return pair;
+  }
+
+  internal::GridPair pair;
+  internal::ConvolutionSpace space;  // of the pair
+  BoundingBox bounds;
+  ConvolutionReport report;
+};
+
+ConvolutionModel::ConvolutionModel(const TriangleMesh& robot,
+                                   const TriangleMesh& obstacle,
+                                   const ContactSpaceOptions& options) {
+  if (options.outer_shell_only) {
+    throw InputError(
+        "outer_shell_only: expected false for a convolution model, which knows "
+        "nothing of cavities, found true; build the contact space");
+  }
+  const Stopwatch stopwatch;
+  ContactSpaceReport operands;
+  auto data = std::make_shared<Data>(robot, obstacle, options, &operands);
+  data->report.facets = data->space.facets();
+  data->report.grid_step = data->pair.frame.rounding;
+  data->report.approximation = operands.approximation;
+  data->report.warnings = operands.warnings;
+  data->report.seconds = stopwatch.Seconds();
+  data_ = std::move(data);
+}
+
+bool ConvolutionModel::IsFree(const Vector3d& q) const {
+  return data_->space.IsFree(q);
+}
+
+bool ConvolutionModel::IsFree(const Vector3d& a, const Vector3d& b) const {
+  return data_->space.IsFree(a, b);
+}
+
+double ConvolutionModel::FirstContact(const Vector3d& a,
+                                      const Vector3d& b) const {
+  if (!IsFinite(b) || !IsFree(a)) return 0.0;
+  return data_->space.FirstContact(a, b);
+}
+
+ConvolutionModel::Nearest ConvolutionModel::FindNearest(
+    const Vector3d& q) const {
+  if (!IsFinite(q)) return {};
+  if (!IsFree(q)) return {q, 0.0};
+  const internal::ConvolutionSpace::Nearest found = data_->space.FindNearest(q);
+  return {found.point, found.distance};
+}
+
+double ConvolutionModel::Clearance(const Vector3d& a, const Vector3d& b,
+                                   double limit) const {
+  return IsFree(a, b) ? data_->space.Distance(a, b, limit) : 0.0;
+}
+
+std::vector<std::array<Vector3d, 3>> ConvolutionModel::FacetsNear(
+    const Vector3d& a, const Vector3d& b, double radius) const {
+  return data_->space.FacetsNear(a, b, radius);
+}
+
+const BoundingBox& ConvolutionModel::bounds() const { return data_->bounds; }
+const ConvolutionReport& ConvolutionModel::report() const {
+  return data_->report;
+}
+TriangleMesh ConvolutionModel::Mesh() const { return data_->space.Mesh(); }
+
+}  // namespace phongpd

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+
+#include "core/mesh/mesh_error.h"
+#include "problems/studies/planning_study.h"
+
+namespace phongpd {
+namespace {
+
+constexpr char kContactSurface[] = "contact-surface";
+
+std::string Join(const std::vector<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) {
+    text += (text.empty() ? "" : ", ") + name;
+  }
+  return text;
+}
+
+}  // namespace
+
+std::vector<std::string> PlannerNames() {
+  std::vector<std::string> names = {kContactSurface};
+  const std::vector<std::string>& ompl = OmplPlannerNames();
+  names.insert(names.end(), ompl.begin(), ompl.end());
+  return names;
+}
+
+const std::vector<std::string>& RetractionNames() {
+  static const std::vector<std::string> names = {
+      "phong",         "phong-random", "phong-novelty", "phong-warm",
+      "phong-nearest", "euclidean",    "contact-point"};
+  return names;
+}
+
+RetractionOptions ParseRetraction(const std::string& text,
+                                  const std::string& what) {
+  RetractionOptions options;
+  const std::vector<std::string>& names = RetractionNames();
+  const auto found = std::find(names.begin(), names.end(), text);
+  if (found == names.end()) {
+    throw InputError(what + ": expected one of " + Join(names) + "; found '" +
+                     text + "'");
+  }
+  const std::ptrdiff_t index = found - names.begin();
+  constexpr BranchChoice kChoices[] = {
+      BranchChoice::kAll, BranchChoice::kRandom, BranchChoice::kNovelty,
+      BranchChoice::kWarm, BranchChoice::kNearest};
+  if (index < 5) options.choice = kChoices[index];
+  if (text == "euclidean") options.metric = RetractionMetric::kEuclidean;
+  if (text == "contact-point") {
+    options.metric = RetractionMetric::kContactPoint;
+  }
+  return options;
+}
+
+void CheckHasOmplLog(const std::string& planner) {
+  if (planner != kContactSurface) return;
+  throw InputError("--ompl-log: expected a planner of OMPL, found " + planner);
+}
+
+bool SeeksClearance(const std::string& planner) {
+  return planner == kContactSurface ||
+         planner.find("retraction") != std::string::npos;
+}
+
+std::string DefaultPlanner(const std::string& model) {
+  return model == "window" ? "rrt-connect" : kContactSurface;
+}
+
+bool NeedsContactSurface(const std::string& planner) {
+  const std::vector<std::string> others = SurfaceFreePlannerNames();
+  return std::find(others.begin(), others.end(), planner) == others.end();
+}
+
+}  // namespace phongpd

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <nlohmann/json.hpp>
+
+#include "problems/output/versions.h"
+#include "problems/studies/length_row.h"
+#include "problems/studies/planning_study.h"
+
+namespace phongpd {
+
+nlohmann::ordered_json PlanningRow(const PlanningStudy& study,
+                                   const PlanningRun& run,
+                                   const PlanningResult& result) {
+  using Json = nlohmann::ordered_json;
+  const OmplPlanningResult& n = result.numbers;
+  Json row;
+  row["scene"] = study.scene().name;
+  row["planner"] = result.planner;
+  row["model"] = result.model;
+  row["metric"] = result.planner.find("retraction") == std::string::npos
+                      ? Json(nullptr)
+                      : Json(run.retraction);
+  row["seed"] = run.seed;
+  row["status"] = result.status;
+  row["reason"] = result.reason;
+  row["solved"] = result.solved;
+  row["infeasible_proved"] = result.infeasible_proved;
+  row["collision_free"] = n.collision_free;
+  row["clearance"] = n.clearance;
+  row["lengths"] = {
+      {"D", study.world().diagonal()},
+      {"wanted_clearance", LengthRow(result.wanted_clearance)},
+      {"clearance",
+       LengthRow(study.world().Resolve(Length::FromUnit(n.clearance)))}};
+  row["seconds"] = {{"contact_space", study.world().Report().seconds},
+                    {"solve", n.seconds}};
+  row["checks"] = {{"collision", n.collision_checks},
+                   {"segment", n.segment_checks}};
+  row["samples"] = n.samples;
+  row["retractions"] = n.retractions;
+  row["branch_ends"] = n.branch_ends;
+  row["graph_states"] = n.graph_states;
+  // 0: none was built.
+  const WorldSpaces* built = study.world().Built(SpaceLayout::kSealed);
+  row["contact_triangles"] = built == nullptr ? 0 : built->triangles;
+  row["path_length"] = n.length;
+  row["path"] = Json::array();
+  for (const Eigen::Vector3d& p : n.path) {
+    row["path"].push_back({p.x(), p.y(), p.z()});
+  }
+  row["versions"] = Json::object();
+  for (const auto& [name, version] : Versions())
+    row["versions"][name] = version;
+  return row;
+}
+
+}  // namespace phongpd

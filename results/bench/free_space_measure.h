@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/contact/contact_space.h"
+#include "core/mesh/triangle_mesh.h"
+#include "results/bench/report.h"
+
+// Free space from the convolution alone beside the whole contact space.
+namespace phongpd::bench {
+
+// CPU time of the whole process, seconds: what a busy machine does not change.
+double CpuSeconds();
+
+struct FreeSpaceRow {
+  std::string name;
+  std::size_t robot = 0, obstacle = 0;  // triangles
+  double full_seconds = 0.0;            // CPU
+  double seconds = 0.0;                 // CPU
+  std::size_t facets = 0;
+  int segments = 0, free = 0, disagreements = 0;
+  double worst_clearance = 0.0;                        // difference, share of D
+  double full_microseconds = 0.0, microseconds = 0.0;  // per motion check
+};
+
+// Random segments in the box of the contact space, a tenth of its size on
+// average; `space` took `full_seconds`.
+FreeSpaceRow MeasureFreeSpace(const std::string& name,
+                              const TriangleMesh& robot,
+                              const TriangleMesh& obstacle,
+                              const ContactSpace& space, double full_seconds,
+                              int segments, std::uint64_t seed);
+
+NamedTable FreeSpaceTable(const std::vector<FreeSpaceRow>& rows);
+
+// A motion among two bodies of some 20 thousand triangles, planned in free
+// space alone and judged on the original solids, and what a build of the whole
+// contact space with `max_seconds` says.
+NamedTable LargePlanTable(double max_seconds);
+
+}  // namespace phongpd::bench

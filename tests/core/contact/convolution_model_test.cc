@@ -1,0 +1,277 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Truth: exact motion checks and distances on the whole contact space, and
+// rational arithmetic on the boxes of lattice worlds.
+#include "core/contact/convolution_model.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <random>
+#include <vector>
+
+#include "core/contact/contact_space.h"
+#include "core/mesh/mesh_error.h"
+#include "core/minkowski/build_refusal.h"
+#include "planners/exact/free_space.h"
+#include "problems/shapes/shapes.h"
+#include "tests/support/lattice_world.h"
+#include "tests/support/solid_tools.h"
+
+namespace phongpd {
+namespace {
+
+using Eigen::Vector3d;
+using testing::Cube;
+using testing::LatticeWorld;
+
+struct Pair {
+  const char* name;
+  TriangleMesh robot, obstacle;
+};
+
+std::vector<Pair> Pairs() {
+  return {
+      {"ball and cone", MakeIcoBall(0.5, 1), MakeCone(0.8, 1.6, 12)},
+      {"ball and wrench", MakeUvBall(0.3, 8, 6), MakeWrench(1, 12, 12, 8, 8)},
+      {"star and torus", MakeStar(0.5, 1.2), MakeTorus(2, 0.6, 12, 6)},
+      {"star and knot", MakeStar(0.3, 0.7), MakeKnot(0.5, 0.2, 32, 6)},
+      {"L and U", MakeL(1, 0.3, 0.5), MakeU(2, 0.5, 1)},
+      {"star and turned vessel", MakeStar(0.3, 0.7),
+       Rotated(MakeVessel(3.6, 3, 0.6), GenericRotation())},
+      {"blob and plate", MakeBlob(0.4, 1, 0.35, 1),
+       MakePlateWithRoundHole(3, 0.3, 1.2, 12)},
+      {"turned L far away and torus",
+       Rotated(MakeL(1, 0.3, 0.5), GenericRotation()),
+       Translated(MakeTorus(2, 0.6, 12, 6), {1e3, -2e3, 5e2})},
+      {"axes and shell", MakeAxes(0.5, 0.05), MakeVessel(4, 3, 0)},
+      // Touching without an inside: only one position fits.
+      {"peg and its hole", MakeBox({-0.5, -0.5, -1}, {0.5, 0.5, 1}),
+       MakePlateWithHole(4, 1, 1)},
+      {"cube and hollow shell", Cube(1), MakeVessel(4, 3, 0)},
+      {"prism and scan", MakePrism(0.4, 1, 6),
+       MakeScan(MakeTorus(2, 0.7, 12, 8), 0.8, 0.002, 3)},
+  };
+}
+
+struct Counts {
+  int free = 0, blocked = 0, distances = 0;
+};
+
+// Everything that is asked of a segment, of both.
+void Compare(const FreeSpace& found, const FreeSpace& truth, const Vector3d& a,
+             const Vector3d& b, double diagonal, Counts* counts) {
+  const bool is_free = truth.IsFree(a, b);
+  ASSERT_EQ(found.IsFree(a), truth.IsFree(a)) << a.transpose();
+  ASSERT_EQ(found.IsFree(a, b), is_free)
+      << a.transpose() << " to " << b.transpose();
+  (is_free ? counts->free : counts->blocked) += 1;
+  const MotionCheck check = found.Check(a, b), expected = truth.Check(a, b);
+  ASSERT_EQ(check.free, is_free);
+  ASSERT_EQ(check.obstacle, expected.obstacle);
+  EXPECT_NEAR((check.fraction - expected.fraction) * (b - a).norm(), 0.0,
+              1e-12 * diagonal);
+  if (!truth.IsFree(a)) {
+    EXPECT_EQ(found.Clearance(a), 0.0);
+    return;
+  }
+  EXPECT_NEAR(found.Clearance(a), truth.Clearance(a), 1e-12 * diagonal);
+  EXPECT_NEAR(found.Clearance(a, b), truth.Clearance(a, b), 1e-12 * diagonal);
+  ++counts->distances;
+}
+
+TEST(ConvolutionModel, AgreesWithTheContactSpaceOnEverySegment) {
+  std::mt19937_64 random(4);
+  Counts counts;
+  for (const Pair& pair : Pairs()) {
+    SCOPED_TRACE(pair.name);
+    const ContactSpace space = BuildContactSpace(pair.robot, pair.obstacle);
+    const FreeSpace truth({space});
+    const ConvolutionModel model(pair.robot, pair.obstacle);
+    const FreeSpace found = FreeSpace::OfConvolutions({model});
+    EXPECT_EQ(model.report().facets, space.report().convolution_triangles);
+    EXPECT_EQ(model.report().grid_step, space.report().grid_step);
+    const double diagonal = space.bounds().Diagonal();
+    EXPECT_LT((model.bounds().min - space.bounds().min).norm(),
+              1e-12 * diagonal);
+    EXPECT_LT((model.bounds().max - space.bounds().max).norm(),
+              1e-12 * diagonal);
+    for (int i = 0; i < 600; ++i) {
+      const Vector3d a = testing::RandomPoint(space.bounds(), &random);
+      Vector3d b = testing::RandomPoint(space.bounds(), &random);
+      if (i % 2 == 0) b = a + 0.1 * (b - a);
+      if (i % 100 == 0) b = a;
+      Compare(found, truth, a, b, diagonal, &counts);
+      if (HasFatalFailure()) return;
+      if (!truth.IsFree(a)) continue;
+      const ConvolutionModel::Nearest nearest = model.FindNearest(a);
+      EXPECT_NEAR((nearest.point - a).norm(), nearest.distance,
+                  1e-12 * diagonal);
+      EXPECT_NEAR(truth.Clearance(nearest.point), 0.0, 1e-12 * diagonal);
+    }
+  }
+  EXPECT_GT(counts.free, 1000);
+  EXPECT_GT(counts.blocked, 1000);
+  EXPECT_GT(counts.distances, 1000);
+}
+
+// Along faces, through edges and corners of C_cont.
+TEST(ConvolutionModel, AgreesWithTheContactSpaceWhereItIsTouched) {
+  std::mt19937_64 random(5);
+  Counts counts;
+  for (const Pair& pair : {
+           Pair{"cubes", Cube(0.5), Cube(1.5)},
+           Pair{"cube and hollow shell", Cube(1), MakeVessel(4, 3, 0)},
+           Pair{"peg and its hole", MakeBox({-0.5, -0.5, -1}, {0.5, 0.5, 1}),
+                MakePlateWithHole(4, 1, 1)},
+           Pair{"L and U", MakeL(1, 0.25, 0.5), MakeU(2, 0.5, 1)},
+           Pair{"axes and plate", MakeAxes(0.5, 0.125),
+                MakePlateWithHole(4, 1, 2)},
+       }) {
+    SCOPED_TRACE(pair.name);
+    const ContactSpace space = BuildContactSpace(pair.robot, pair.obstacle);
+    const FreeSpace truth({space});
+    const FreeSpace found = FreeSpace::OfConvolutions(
+        {ConvolutionModel(pair.robot, pair.obstacle)});
+    const std::vector<Vector3d>& corners = space.mesh().vertices;
+    // Coordinates of corners, mixed, half a cube off, or kept.
+    const auto pick = [&] {
+      Vector3d q;
+      for (int k = 0; k < 3; ++k) {
+        q[k] = corners[random() % corners.size()][k];
+        if (random() % 2 == 0) q[k] += random() % 2 == 0 ? 0.25 : -0.25;
+      }
+      return q;
+    };
+    for (int i = 0; i < 3000; ++i) {
+      const Vector3d a = pick();
+      Vector3d b = pick();
+      for (int k = 0; k < 3; ++k) {
+        if (random() % 2 == 0) b[k] = a[k];
+      }
+      Compare(found, truth, a, b, space.bounds().Diagonal(), &counts);
+      if (HasFatalFailure()) return;
+    }
+  }
+  EXPECT_GT(counts.free, 1000);
+  EXPECT_GT(counts.blocked, 5000);
+}
+
+TEST(ConvolutionModel, AgreesWithRationalArithmeticOnLatticeWorlds) {
+  std::mt19937_64 random(6);
+  int free = 0, blocked = 0;
+  for (int i = 0; i < 40; ++i) {
+    const auto family =
+        static_cast<LatticeWorld::Family>(i % LatticeWorld::kFamilies);
+    const LatticeWorld world =
+        testing::MakeLatticeWorld(family, i % 2 == 1, &random);
+    SCOPED_TRACE(world.name);
+    const auto mapped = [&](TriangleMesh mesh) {
+      for (Vector3d& v : mesh.vertices) v = world.map.cast<double>() * v;
+      return mesh;
+    };
+    const FreeSpace found = FreeSpace::OfConvolutions(
+        {ConvolutionModel(mapped(world.workspace.robot),
+                          mapped(MergedObstacle(world.workspace)))});
+    for (int k = 0; k < 200; ++k) {
+      const Vector3d a = world.Point(world.RandomCell(&random));
+      const Vector3d b = world.Point(world.RandomCell(&random));
+      const bool is_free = world.IsFree({a, b});
+      ASSERT_EQ(found.IsFree(a, b), is_free)
+          << a.transpose() << " to " << b.transpose();
+      (is_free ? free : blocked) += 1;
+    }
+  }
+  EXPECT_GT(free, 300);
+  EXPECT_GT(blocked, 1000);
+}
+
+TEST(ConvolutionModel, TellsTheTrianglesNearASegment) {
+  std::mt19937_64 random(7);
+  const TriangleMesh robot = MakeStar(0.3, 0.7);
+  const TriangleMesh obstacle = MakeTorus(2, 0.6, 12, 6);
+  const FreeSpace truth({BuildContactSpace(robot, obstacle)});
+  const ConvolutionModel model(robot, obstacle);
+  const FreeSpace found = FreeSpace::OfConvolutions({model});
+  int told = 0;
+  for (int i = 0; i < 300; ++i) {
+    const Vector3d a = testing::RandomPoint(model.bounds(), &random);
+    const Vector3d b =
+        a + 0.1 * (testing::RandomPoint(model.bounds(), &random) - a);
+    if (!truth.IsFree(a, b)) continue;
+    const double radius = 0.4;
+    const auto near = found.FindNear(a, b, radius);
+    const auto expected = truth.FindNear(a, b, radius);
+    ASSERT_EQ(near.empty(), expected.empty());
+    if (near.empty()) continue;
+    EXPECT_NEAR(near.front().distance, expected.front().distance, 1e-12);
+    for (const FreeSpace::NearTriangle& triangle : near) {
+      for (const Vector3d& q : triangle.corners) {
+        ASSERT_LE(triangle.normal.dot(q), triangle.level);
+      }
+      for (const Vector3d& q : {a, b}) {
+        ASSERT_GE(triangle.normal.dot(q),
+                  triangle.level + triangle.distance - 1e-12);
+      }
+    }
+    told += static_cast<int>(near.size());
+  }
+  EXPECT_GT(told, 500);
+}
+
+TEST(ConvolutionModel, StopsAtTheBounds) {
+  const BoundingBox bounds = {Vector3d::Constant(-3), Vector3d::Constant(3)};
+  const FreeSpace space = FreeSpace::OfConvolutions(
+      {ConvolutionModel(Cube(0.5), Cube(1.5))}, bounds);
+  EXPECT_TRUE(space.spaces().empty());
+  EXPECT_EQ(space.convolutions().size(), 1U);
+  EXPECT_FALSE(space.IsFree({3, 0, 0}));
+  EXPECT_FALSE(space.IsFree({1, 0.2, 0.3}));
+  EXPECT_EQ(space.Clearance({2.5, 0, 0}), 0.5);
+  EXPECT_EQ(space.Clearance({1.5, 0, 0}), 0.5);
+  EXPECT_FALSE(space.IsFree({2, 2, 2}, {6, 2.5, 2}));
+  MotionCheck check = space.Check({2, 2, 2}, {6, 2.5, 2});
+  EXPECT_DOUBLE_EQ(check.fraction, 0.25);
+  EXPECT_EQ(check.obstacle, MotionCheck::kBounds);
+  check = space.Check({-2, 0.3, 0.1}, {2, 0.3, 0.1});
+  EXPECT_DOUBLE_EQ(check.fraction, 0.25);
+  EXPECT_EQ(check.obstacle, 0);
+  EXPECT_EQ(check.triangle, -1);
+}
+
+TEST(ConvolutionModel, HasNothingFreeAtPointsThatAreNotFinite) {
+  const ConvolutionModel model(Cube(0.5), Cube(1.5));
+  const FreeSpace space = FreeSpace::OfConvolutions({model});
+  const Vector3d q(3, 0, 0);
+  for (const double value : {std::nan(""), HUGE_VAL, -HUGE_VAL,
+                             std::numeric_limits<double>::max()}) {
+    const Vector3d bad(3, value, 0);
+    EXPECT_FALSE(space.IsFree(bad));
+    EXPECT_FALSE(space.IsFree(q, bad));
+    EXPECT_FALSE(space.IsFree(bad, q));
+    EXPECT_EQ(space.Check(q, bad).fraction, 0.0);
+    EXPECT_FALSE(space.Check(q, bad).free);
+    EXPECT_EQ(space.Clearance(bad), 0.0);
+    EXPECT_EQ(space.Clearance(q, bad), 0.0);
+    EXPECT_TRUE(space.FindNear(q, bad, 1.0).empty());
+    EXPECT_EQ(model.FindNearest(bad).distance, 0.0);
+    EXPECT_EQ(model.FirstContact(q, bad), 0.0);
+    EXPECT_EQ(model.FirstContact(bad, q), 0.0);
+  }
+  EXPECT_EQ(model.FindNearest({std::nan(""), 0, 0}).point, Vector3d::Zero());
+}
+
+TEST(ConvolutionModel, RefusesWhatItCannotBuild) {
+  ContactSpaceOptions options;
+  options.outer_shell_only = true;
+  EXPECT_THROW(ConvolutionModel(Cube(1), Cube(1), options), InputError);
+  TriangleMesh open = Cube(1);
+  open.triangles.pop_back();
+  EXPECT_THROW(ConvolutionModel(open, Cube(1)), InputError);
+  options = {};
+  options.max_seconds = 1e-9;
+  EXPECT_THROW(ConvolutionModel(Cube(1), Cube(1), options), BuildRefusal);
+}
+
+}  // namespace
+}  // namespace phongpd
