@@ -125,8 +125,9 @@ TEST_F(CliView, TakesMotionsWithWhatTheTableDoesNotHold) {
       "../m.csv --robot ../cone.off ../box.off --from -3 0 0.1 "
       "--to 3 0 0");
   EXPECT_EQ(data["motion"]["positions"], page["motion"]["positions"]);
-  ASSERT_EQ(Names(data["motion"]["traces"]), Strings({"euclidean", "phong"}));
-  for (std::size_t k = 0; k < 2; ++k) {
+  ASSERT_EQ(Names(data["motion"]["traces"]),
+            Strings({"euclidean", "phong", "sliding"}));
+  for (std::size_t k = 0; k < 3; ++k) {
     EXPECT_EQ(data["motion"]["traces"][k]["pd"],
               page["motion"]["traces"][k]["pd"]);
     EXPECT_EQ(data["motion"]["traces"][k]["status"].size(), 21U);

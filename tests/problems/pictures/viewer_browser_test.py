@@ -386,7 +386,7 @@ def main():
                      "viewer.state.theme === 'light'",
                      "what a link has that means nothing is left out")
         browser.open(pages["motion"])
-        checks.holds("document.querySelectorAll('#labels .pane').length === 2",
+        checks.holds("document.querySelectorAll('#labels .pane').length === 3",
                      "a motion has a pane for each metric")
         checks.changes(lambda: browser.press("ArrowLeft"), "a frame of motion")
         browser.open(pages["depth"])
