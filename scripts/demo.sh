@@ -22,13 +22,18 @@ run() {
 more() { run "$@" | tail -n +2; }
 
 echo
-echo "A trajectory out of a trap (plain Ipopt from the straight line, then the"
-echo "default pipeline):"
+echo "A trajectory out of a trap: plain Ipopt from the straight line with monotone"
+echo "mu, as the comparison asks, and with adaptive mu, which gets both metrics out"
+echo "in more or fewer iterations; then the default pipeline:"
 plain=(--start straight --mu-strategy monotone --polish never)
 run optimize u_axis --metric euclidean "${plain[@]}" \
   --output "$demo/trap_euclidean.jsonl" --svg "$demo/trap_euclidean.svg"
 more optimize u_axis --smoothing-length 0.2 "${plain[@]}" \
   --output "$demo/trap_phong.jsonl" --svg "$demo/trap_phong.svg"
+for metric in euclidean phong; do
+  more optimize u_axis --metric "$metric" --start straight --polish never \
+    --output "$demo/trap_adaptive_$metric.jsonl"
+done
 more optimize u_axis --output "$demo/trap_pipeline.jsonl" \
   --html "$demo/trap.html" --svg "$demo/trap_pipeline.svg"
 
