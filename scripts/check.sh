@@ -11,6 +11,8 @@
 #   fptrap       tests with invalid floating-point operations trapped
 #   determinism  the same bytes again, with one thread and two, by gcc and clang
 #   tsan         tests with TBB's loops on plain threads, thread sanitizer
+#   readme       the commands of README, as they stand
+#   docs         the pages, warnings as errors
 #   fuzz         scripts/fuzz.sh for a while
 #   coverage     lines and branches, to results/extremes/coverage.md
 #   asan         tests with address and undefined-behaviour sanitizers
@@ -19,10 +21,11 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 # The user's own cache is neither used nor filled.
 export PHONGPD_CACHE_DIR=$PWD/build/cache
 
-readonly all=(format options clang cppcheck tidy fptrap determinism tsan fuzz
-  coverage asan)
-# Not tsan and coverage: each compiles the library once more.
-readonly quick=(format options clang cppcheck tidy fptrap determinism fuzz asan)
+readonly all=(format options clang cppcheck tidy fptrap determinism readme docs
+  tsan fuzz coverage asan)
+# Not tsan and coverage, which compile the library once more each, and docs.
+readonly quick=(format options clang cppcheck tidy fptrap determinism readme
+  fuzz asan)
 readonly folders=(core constraints planners problems)
 # Whole test programs that reach every folder below the program and build fast.
 readonly slice=(
@@ -204,6 +207,10 @@ check_determinism() {
   scripts/determinism.sh "$(if whole; then echo 10; else echo 2; fi)" \
     "${programs[@]}"
 }
+
+check_readme() { scripts/readme.sh; }
+
+check_docs() { scripts/docs.sh; }
 
 check_tsan() {
   scripts/setup.sh clang libclang-rt-14-dev
