@@ -67,14 +67,18 @@ build_tests() { # PRESET PROGRAMS...: everything in full
   PRESET=$1 scripts/build.sh "${programs[@]}"
 }
 
-# Compiler commands of the folders named, one a line, from build-clang/.
+# Compiler commands of the folders named, one a line, from build-clang/; without
+# what a build writes there first.
 compile_commands() { # FOLDER...
   scripts/setup.sh clang
   cmake --preset clang >/dev/null
   local pattern
   pattern=$(IFS='|' && echo "$*")
   sed -n 's/^  "command": "\(.*\)",$/\1/p' build-clang/compile_commands.json |
-    sed 's/\\"/"/g; s/\\\\/\\/g' | grep -E " $PWD/(build-clang/)?($pattern)/"
+    sed 's/\\"/"/g; s/\\\\/\\/g' | grep -E " $PWD/(build-clang/)?($pattern)/" |
+    while IFS= read -r command; do
+      [[ ! -e ${command##* } ]] || printf '%s\n' "$command"
+    done
 }
 
 check_format() {

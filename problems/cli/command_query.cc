@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "core/projection/euclidean_metric.h"
 #include "core/projection/phong_metric.h"
+#include "core/projection/query_batch.h"
 #include "problems/cli/command.h"
 #include "problems/cli/contact_space_file.h"
 #include "problems/output/output_files.h"
@@ -60,26 +60,39 @@ void RequireSense(const CLI::App& app, const Flags& flags) {
   }
 }
 
-// Answers to the points, one after the other, and a name of its status.
-using Answer =
-    std::function<std::string(const Eigen::Vector3d&, PenetrationResult*)>;
+struct Answers {
+  std::vector<PenetrationResult> results;
+  std::vector<std::string> statuses;
+};
 
-Answer MakeAnswer(const Flags& flags, const ContactSpace& contact) {
+// Those of a sequence one after the other, all others on all cores.
+Answers Ask(const Flags& flags, const ContactSpace& contact,
+            const std::vector<Eigen::Vector3d>& points) {
+  Answers answers;
+  answers.statuses.reserve(points.size());
   if (flags.metric == "sliding") {
-    auto query = std::make_shared<SlidingQuery>(contact, flags.sliding);
-    return [query](const Eigen::Vector3d& q, PenetrationResult* result) {
-      const SlidingAnswer answer = query->Next(q);
-      *result = answer.result;
-      return std::string(Name(answer.status));
-    };
+    SlidingQuery query(contact, flags.sliding);
+    for (const Eigen::Vector3d& q : points) {
+      const SlidingAnswer answer = query.Next(q);
+      answers.results.push_back(answer.result);
+      answers.statuses.emplace_back(Name(answer.status));
+    }
+    return answers;
   }
-  const std::shared_ptr<PenetrationMetric> metric = MakeMetric(flags, contact);
-  return [metric, tracked = flags.tracked, branch = Branch()](
-             const Eigen::Vector3d& q, PenetrationResult* result) mutable {
-    *result = metric->Query(q, branch);
-    if (tracked) branch = result->branch;
-    return std::string(StatusName(result->status));
-  };
+  const std::unique_ptr<PenetrationMetric> metric = MakeMetric(flags, contact);
+  if (flags.tracked) {
+    Branch branch;
+    for (const Eigen::Vector3d& q : points) {
+      answers.results.push_back(metric->Query(q, branch));
+      branch = answers.results.back().branch;
+    }
+  } else {
+    answers.results = QueryBatch(*metric, points);
+  }
+  for (const PenetrationResult& result : answers.results) {
+    answers.statuses.emplace_back(StatusName(result.status));
+  }
+  return answers;
 }
 
 // Is that status an answer like any other?
@@ -106,7 +119,7 @@ int Query(const CLI::App& app, const Flags& flags) {
   const std::vector<Eigen::Vector3d> points = ReadPointsCsv(flags.points);
   const ContactSpace contact = LoadContactSpace(flags.contact_space);
   Progress("building the metric");
-  const Answer answer = MakeAnswer(flags, contact);
+  const Answers answers = Ask(flags, contact, points);
 
   std::string csv =
       "x,y,z,status,inside,signed_distance,contact_x,contact_y,contact_z,"
@@ -114,12 +127,12 @@ int Query(const CLI::App& app, const Flags& flags) {
       "triangle\n";
   std::size_t inside = 0;
   std::size_t unusual = 0;
-  for (const Eigen::Vector3d& q : points) {
-    PenetrationResult result;
-    const std::string status = answer(q, &result);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const PenetrationResult& result = answers.results[i];
+    const std::string& status = answers.statuses[i];
     inside += result.inside ? 1 : 0;
     unusual += IsUsual(status) ? 0 : 1;
-    csv += Row(q, status, result, flags.jacobian == "exact");
+    csv += Row(points[i], status, result, flags.jacobian == "exact");
   }
   outputs.Write(flags.output, csv);
   CommitAndTell(
