@@ -7,28 +7,19 @@
 
 #include <array>
 #include <memory>
-#include <mutex>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <utility>
 
-#include "constraints/non_penetration.h"
 #include "planners/exact/contact_roadmap.h"
 #include "problems/scenes/scene_source.h"
-#include "problems/studies/answer_check.h"
-#include "problems/studies/planning_study.h"
-#include "problems/studies/trajectory_study.h"
 #include "python/src/arrays.h"
 #include "python/src/bindings.h"
+#include "python/src/workshop.h"
 
 namespace phongpd::python {
 namespace {
 
 using Eigen::Vector3d;
-using Point = std::array<double, 3>;
-
-Vector3d ToVector(const Point& p) { return {p[0], p[1], p[2]}; }
-Point ToPoint(const Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 
 Solid AlreadyChecked(const TriangleMesh& mesh, const std::string& name) {
   Solid solid;
@@ -37,114 +28,6 @@ Solid AlreadyChecked(const TriangleMesh& mesh, const std::string& name) {
   solid.report = ExamineMesh(mesh);
   return solid;
 }
-
-// A world and what has been prepared in it for one kind of question or the
-// other.  Ipopt runs once at a time in a process, and preparing is no question
-// for two threads at once: one mutex for all.
-class Workshop {
- public:
-  Workshop(const Scene& scene, bool cache)
-      : scene_(scene),
-        cache_(FolderOf(cache)),
-        world_(scene.workspace, scene.name, cache_),
-        trajectories_(cache_) {}
-
-  const World& world() const { return world_; }
-  const Scene& scene() const { return scene_; }
-
-  // A row as `phongpd optimize` writes it.
-  std::string Optimize(const Point& start, const Point& goal,
-                       const std::string& metric, const std::string& margin,
-                       int waypoints, std::uint64_t seed, double max_seconds,
-                       bool is_straight) {
-    const nb::gil_scoped_release release;
-    const std::lock_guard<std::mutex> lock(one_at_a_time_);
-    Scene scene = Between(start, goal);
-    if (!margin.empty()) {
-      scene.trajectory.margin = ParseLength(margin, "margin");
-      RequireLength(scene.trajectory.margin, LengthRange::kAboveZero,
-                    world_.diagonal(), "margin");
-    }
-    if (waypoints > 0) scene.trajectory.waypoints = waypoints;
-    PipelineOptions options = ScenePipelineOptions(scene);
-    options.seed = seed;
-    options.time_limit = max_seconds;
-    if (is_straight) options.start = TrajectoryStart::kStraight;
-    trajectories_.Enter(scene, world_);
-    const TrajectoryMetric chosen =
-        metric.empty() ? SceneMetric(scene)
-                       : ParseTrajectoryMetric(metric, "metric");
-    const PipelineResult result = trajectories_.Run(chosen, options);
-    nlohmann::ordered_json row =
-        TrajectoryRow(trajectories_, chosen, options, result);
-    AnswerClaims claims;
-    if (result.certificate.free) claims.path = result.path;
-    claims.proves_separation =
-        result.status == TrajectoryStatus::kInfeasibleProved;
-    return Judged(scene, claims, &row);
-  }
-
-  // A row as `phongpd plan` writes it.
-  std::string Plan(const Point& start, const Point& goal,
-                   const std::string& planner, const std::string& retraction,
-                   const std::string& clearance, double max_seconds,
-                   std::uint64_t seed) {
-    const nb::gil_scoped_release release;
-    const std::lock_guard<std::mutex> lock(one_at_a_time_);
-    Scene scene = Between(start, goal);
-    if (!clearance.empty()) {
-      scene.planning.clearance = ParseLength(clearance, "clearance");
-      RequireLength(*scene.planning.clearance, LengthRange::kAboveZero,
-                    world_.diagonal(), "clearance");
-    }
-    PlanningStudy study(scene, world_);
-    PlanningRun run;
-    run.planner = planner;
-    run.retraction = retraction;
-    run.time_limit = max_seconds;
-    run.seed = seed;
-    const PlanningResult result = study.Run(run);
-    nlohmann::ordered_json row = PlanningRow(study, run, result);
-    AnswerClaims claims;
-    if (result.solved) claims.path = result.numbers.path;
-    claims.proves_separation = result.infeasible_proved;
-    return Judged(scene, claims, &row);
-  }
-
- private:
-  static ContactSpaceCache FolderOf(bool cache) {
-    ContactSpaceCache folder;
-    if (cache) folder.directory = DefaultCacheDirectory();
-    return folder;
-  }
-
-  Scene Between(const Point& start, const Point& goal) const {
-    Scene scene = scene_;
-    scene.start = ToVector(start);
-    scene.goal = ToVector(goal);
-    for (const Vector3d& q : {scene.start, scene.goal}) {
-      if (q.allFinite()) continue;
-      throw InputError("start and goal: expected finite numbers, found others");
-    }
-    scene.witness.clear();
-    scene.feasible.reset();
-    return scene;
-  }
-
-  std::string Judged(const Scene& scene, const AnswerClaims& claims,
-                     nlohmann::ordered_json* row) const {
-    AnswerCheck check(true);
-    check.Judge(scene, world_, claims, row);
-    check.RequireNoFailure();
-    return row->dump();
-  }
-
-  Scene scene_;
-  ContactSpaceCache cache_;
-  World world_;
-  TrajectoryStudy trajectories_;
-  std::mutex one_at_a_time_;
-};
 
 Scene MakeScene(const Solid& robot,
                 const std::vector<std::pair<std::string, Solid>>& obstacles,
@@ -235,79 +118,6 @@ nb::dict PlanOf(const ContactRoadmap& roadmap, const Point& start,
   return out;
 }
 
-// The rows of a polyline, and the branches that the caller's solver is on.
-class Rows {
- public:
-  Rows(const Workshop& workshop, const std::string& metric, const Point& start,
-       const Point& goal, int waypoints, int samples_per_segment, int rows)
-      : length_(workshop.world().diagonal()) {
-    const TrajectoryMetric chosen = ParseTrajectoryMetric(metric, "metric");
-    SignedMetricOptions options = chosen.options;
-    options.phong.field_options.smoothing_length =
-        chosen.smoothing_length.Resolve(length_).share;
-    std::vector<std::shared_ptr<const SignedMetric>> metrics;
-    const nb::gil_scoped_release release;
-    for (const ContactSpace& space :
-         workshop.world().Spaces(SpaceLayout::kMerged).spaces) {
-      metrics.push_back(std::make_shared<SignedMetric>(space, options));
-    }
-    NonPenetrationOptions layout;
-    layout.rows = rows;
-    rows_ = std::make_unique<NonPenetrationConstraint>(
-        std::move(metrics), ToVector(start), ToVector(goal), waypoints,
-        std::vector<int>(static_cast<size_t>(waypoints) + 1,
-                         samples_per_segment),
-        layout);
-    row_.resize(static_cast<size_t>(rows_->nonzeros()));
-    column_.resize(row_.size());
-    rows_->Sparsity(row_.data(), column_.data());
-  }
-
-  size_t variables() const { return static_cast<size_t>(rows_->variables()); }
-  size_t rows() const { return static_cast<size_t>(rows_->rows()); }
-  double length() const { return length_; }
-  nb::tuple Sparsity() const {
-    return nb::make_tuple(Owned(row_, {row_.size()}),
-                          Owned(column_, {column_.size()}));
-  }
-
-  // Cold branches at u.
-  void Start(const Rows3& u) {
-    const nb::gil_scoped_release release;
-    branches_ = rows_->Start(u.data(), nullptr);
-  }
-  void Accept(const Rows3& u) {
-    const nb::gil_scoped_release release;
-    if (branches_.branches.empty()) {
-      branches_ = rows_->Start(u.data(), nullptr);
-    }
-    rows_->Commit(u.data(), &branches_, nullptr);
-  }
-  // Values and entries of the pattern.
-  nb::tuple Evaluate(const Rows3& u) {
-    std::vector<double> values(rows()), entries(row_.size());
-    {
-      const nb::gil_scoped_release release;
-      if (branches_.branches.empty()) {
-        branches_ = rows_->Start(u.data(), nullptr);
-      }
-      if (!rows_->Evaluate(u.data(), branches_, values.data(), entries.data(),
-                           nullptr)) {
-        throw InputError("waypoints: expected finite numbers, found others");
-      }
-    }
-    const size_t m = values.size(), e = entries.size();
-    return nb::make_tuple(Owned(std::move(values), {m}),
-                          Owned(std::move(entries), {e}));
-  }
-
- private:
-  std::unique_ptr<NonPenetrationConstraint> rows_;
-  double length_;
-  BranchSet branches_;
-  std::vector<int> row_, column_;
-};
-
 void BindScene(nb::module_& module) {
   nb::class_<Scene>(module, "Scene")
       .def_static("make", &MakeScene, nb::arg("robot"), nb::arg("obstacles"),
@@ -376,16 +186,6 @@ void BindWorld(nb::module_& module) {
                    [](const ContactRoadmap& r) { return r.report().nodes; })
       .def_prop_ro("edges",
                    [](const ContactRoadmap& r) { return r.report().edges; });
-  nb::class_<Rows>(module, "Rows")
-      .def(nb::init<const Workshop&, const std::string&, const Point&,
-                    const Point&, int, int, int>())
-      .def("start", &Rows::Start)
-      .def("accept", &Rows::Accept)
-      .def("evaluate", &Rows::Evaluate)
-      .def("sparsity", &Rows::Sparsity)
-      .def_prop_ro("variables", &Rows::variables)
-      .def_prop_ro("rows", &Rows::rows)
-      .def_prop_ro("length", &Rows::length);
 }
 
 }  // namespace phongpd::python

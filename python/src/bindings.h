@@ -22,5 +22,6 @@ void BindSolid(nanobind::module_& module);
 void BindContactSpace(nanobind::module_& module);
 void BindDepth(nanobind::module_& module);
 void BindWorld(nanobind::module_& module);
+void BindRows(nanobind::module_& module);
 
 }  // namespace phongpd::python

@@ -19,4 +19,5 @@ NB_MODULE(_native, module) {
   phongpd::python::BindContactSpace(module);
   phongpd::python::BindDepth(module);
   phongpd::python::BindWorld(module);
+  phongpd::python::BindRows(module);
 }

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "python/src/workshop.h"
+
+#include <nanobind/nanobind.h>
+
+#include <nlohmann/json.hpp>
+
+#include "problems/studies/planning_study.h"
+
+namespace phongpd::python {
+namespace {
+
+using Eigen::Vector3d;
+namespace nb = nanobind;
+
+ContactSpaceCache FolderOf(bool cache) {
+  ContactSpaceCache folder;
+  if (cache) folder.directory = DefaultCacheDirectory();
+  return folder;
+}
+
+}  // namespace
+
+Workshop::Workshop(const Scene& scene, bool cache)
+    : scene_(scene),
+      cache_(FolderOf(cache)),
+      world_(scene.workspace, scene.name, cache_),
+      trajectories_(cache_) {}
+
+std::string Workshop::Optimize(const Point& start, const Point& goal,
+                               const std::string& metric,
+                               const std::string& margin, int waypoints,
+                               std::uint64_t seed, double max_seconds,
+                               bool is_straight) {
+  const nb::gil_scoped_release release;
+  const std::lock_guard<std::mutex> lock(one_at_a_time_);
+  Scene scene = Between(start, goal);
+  if (!margin.empty()) {
+    scene.trajectory.margin = ParseLength(margin, "margin");
+    RequireLength(scene.trajectory.margin, LengthRange::kAboveZero,
+                  world_.diagonal(), "margin");
+  }
+  if (waypoints > 0) scene.trajectory.waypoints = waypoints;
+  PipelineOptions options = ScenePipelineOptions(scene);
+  options.seed = seed;
+  options.time_limit = max_seconds;
+  if (is_straight) options.start = TrajectoryStart::kStraight;
+  trajectories_.Enter(scene, world_);
+  const TrajectoryMetric chosen = metric.empty()
+                                      ? SceneMetric(scene)
+                                      : ParseTrajectoryMetric(metric, "metric");
+  const PipelineResult result = trajectories_.Run(chosen, options);
+  nlohmann::ordered_json row =
+      TrajectoryRow(trajectories_, chosen, options, result);
+  AnswerClaims claims;
+  if (result.certificate.free) claims.path = result.path;
+  claims.proves_separation =
+      result.status == TrajectoryStatus::kInfeasibleProved;
+  return Judged(scene, claims, &row);
+}
+
+std::string Workshop::Plan(const Point& start, const Point& goal,
+                           const std::string& planner,
+                           const std::string& retraction,
+                           const std::string& clearance, double max_seconds,
+                           std::uint64_t seed) {
+  const nb::gil_scoped_release release;
+  const std::lock_guard<std::mutex> lock(one_at_a_time_);
+  Scene scene = Between(start, goal);
+  if (!clearance.empty()) {
+    scene.planning.clearance = ParseLength(clearance, "clearance");
+    RequireLength(*scene.planning.clearance, LengthRange::kAboveZero,
+                  world_.diagonal(), "clearance");
+  }
+  PlanningStudy study(scene, world_);
+  PlanningRun run;
+  run.planner = planner;
+  run.retraction = retraction;
+  run.time_limit = max_seconds;
+  run.seed = seed;
+  const PlanningResult result = study.Run(run);
+  nlohmann::ordered_json row = PlanningRow(study, run, result);
+  AnswerClaims claims;
+  if (result.solved) claims.path = result.numbers.path;
+  claims.proves_separation = result.infeasible_proved;
+  return Judged(scene, claims, &row);
+}
+
+Scene Workshop::Between(const Point& start, const Point& goal) const {
+  Scene scene = scene_;
+  scene.start = ToVector(start);
+  scene.goal = ToVector(goal);
+  for (const Vector3d& q : {scene.start, scene.goal}) {
+    if (q.allFinite()) continue;
+    throw InputError("start and goal: expected finite numbers, found others");
+  }
+  scene.witness.clear();
+  scene.feasible.reset();
+  return scene;
+}
+
+std::string Workshop::Judged(const Scene& scene, const AnswerClaims& claims,
+                             nlohmann::ordered_json* row) const {
+  AnswerCheck check(true);
+  check.Judge(scene, world_, claims, row);
+  check.RequireNoFailure();
+  return row->dump();
+}
+
+}  // namespace phongpd::python

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <mutex>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+
+#include "problems/scenes/scene.h"
+#include "problems/studies/answer_check.h"
+#include "problems/studies/trajectory_study.h"
+#include "problems/world/world.h"
+
+namespace phongpd::python {
+
+using Point = std::array<double, 3>;
+
+inline Eigen::Vector3d ToVector(const Point& p) { return {p[0], p[1], p[2]}; }
+
+// A world and what has been prepared in it for one kind of question or the
+// other.  Ipopt runs once at a time in a process, and preparing is no question
+// for two threads at once: one mutex for all.
+class Workshop {
+ public:
+  Workshop(const Scene& scene, bool cache);
+
+  const World& world() const { return world_; }
+  const Scene& scene() const { return scene_; }
+
+  // A row as `phongpd optimize` writes it, judged.  Empty texts and 0: the
+  // scene's own.
+  std::string Optimize(const Point& start, const Point& goal,
+                       const std::string& metric, const std::string& margin,
+                       int waypoints, std::uint64_t seed, double max_seconds,
+                       bool is_straight);
+
+  // A row as `phongpd plan` writes it, judged.
+  std::string Plan(const Point& start, const Point& goal,
+                   const std::string& planner, const std::string& retraction,
+                   const std::string& clearance, double max_seconds,
+                   std::uint64_t seed);
+
+ private:
+  Scene Between(const Point& start, const Point& goal) const;
+  std::string Judged(const Scene& scene, const AnswerClaims& claims,
+                     nlohmann::ordered_json* row) const;
+
+  Scene scene_;
+  ContactSpaceCache cache_;
+  World world_;
+  TrajectoryStudy trajectories_;
+  std::mutex one_at_a_time_;
+};
+
+}  // namespace phongpd::python
