@@ -20,6 +20,23 @@ run() {
 }
 # Runs one of several that share a header: only the first prints it.
 more() { run "$@" | tail -n +2; }
+# Also for the page.
+note() { tee -a "$demo/$1.txt"; }
+rm -f "$demo"/*.txt
+
+mv "$demo/index.html" "$demo/benchmarks.html"
+wrench=$demo/wrench
+way=(--from 0.3 -1.2 0.1 --to 0.3 1.2 0.05)
+run scenes write ball_wrench --meshes "$wrench" >/dev/null
+echo
+echo "A ball pushed over the handle of a wrench:"
+run motion --robot "$wrench/robot.off" --obstacle "$wrench/obstacle.off" \
+  "${way[@]}" --frames 400 --smoothing-length 0.1 \
+  --output "$demo/motion.csv" --html "$demo/motion.html" | note motion
+echo
+echo "How deep are the two as they lie?"
+echo "\$ build/phongpd depth $wrench/robot.off $wrench/obstacle.off" | note depth
+run depth "$wrench/robot.off" "$wrench/obstacle.off" | note depth
 
 echo
 echo "A trajectory out of a trap: plain Ipopt from the straight line with monotone"
@@ -27,28 +44,32 @@ echo "mu, as the comparison asks, and with adaptive mu, which gets both metrics 
 echo "in more or fewer iterations; then the default pipeline:"
 plain=(--start straight --mu-strategy monotone --polish never)
 run optimize u_axis --metric euclidean "${plain[@]}" \
-  --output "$demo/trap_euclidean.jsonl" --svg "$demo/trap_euclidean.svg"
+  --output "$demo/trap_euclidean.jsonl" --svg "$demo/trap_euclidean.svg" |
+  note trap
 more optimize u_axis --smoothing-length 0.2 "${plain[@]}" \
-  --output "$demo/trap_phong.jsonl" --svg "$demo/trap_phong.svg"
+  --output "$demo/trap_phong.jsonl" --svg "$demo/trap_phong.svg" | note trap
 for metric in euclidean phong; do
   more optimize u_axis --metric "$metric" --start straight --polish never \
-    --output "$demo/trap_adaptive_$metric.jsonl"
+    --output "$demo/trap_adaptive_$metric.jsonl" | note trap
 done
 more optimize u_axis --output "$demo/trap_pipeline.jsonl" \
-  --html "$demo/trap.html" --svg "$demo/trap_pipeline.svg"
+  --svg "$demo/trap_pipeline.svg" | note trap
+run view "$demo/trap_euclidean.jsonl" "$demo/trap_phong.jsonl" \
+  "$demo/trap_pipeline.jsonl" --build --html "$demo/trap.html" >/dev/null
 
 echo
 echo "A passage one thousandth wide, and the same closed by a ten-thousandth:"
 passage=tunnel:delta=0.001,bends=3
 run plan "$passage" --output "$demo/tunnel.jsonl" \
-  --html "$demo/tunnel.html" --svg "$demo/tunnel.svg"
-more plan "$passage,twin=1" --output "$demo/tunnel_twin.jsonl"
+  --html "$demo/tunnel.html" --svg "$demo/tunnel.svg" | note tunnel
+more plan "$passage,twin=1" --output "$demo/tunnel_twin.jsonl" | note tunnel
 more plan "$passage" --planner retraction-forest \
-  --output "$demo/tunnel_forest.jsonl"
+  --output "$demo/tunnel_forest.jsonl" | note tunnel
 for scene in "$passage" "$passage,twin=1"; do
   more plan "$scene" --planner rrt-connect --time 1 \
-    --output "$demo/tunnel_rrt_connect.jsonl"
+    --output "$demo/tunnel_rrt_connect.jsonl" | note tunnel
 done
+scripts/demo_page.sh "$demo"
 
 echo
-echo "Look at $demo/index.html, $demo/trap.html and $demo/tunnel.html"
+echo "Look at $demo/index.html"

@@ -234,6 +234,8 @@ class Viewer {
     const place = stage.pose(state.way, state.time);
     const panes = this.panes(width, height);
     renderer.setScissorTest(false);
+    // Opaque: as a part of another page what is behind a canvas may be black.
+    renderer.setClearColor(state.theme === 'dark' ? 0x181d24 : 0xf2f4f6, 1);
     renderer.clear();
     renderer.setScissorTest(true);
     byId('labels').textContent = '';
