@@ -76,7 +76,7 @@ void PenetrationTrackerOptions::Validate() const {
   }
 }
 
-const char* Name(TrackerStatus status) {
+const char* ToString(TrackerStatus status) {
   switch (status) {
     case TrackerStatus::kFollowing:
       return "following";

@@ -30,7 +30,7 @@ enum class TrackerStatus {
 };
 
 // "following", "sliding", "left_elsewhere", "outside", "invalid".
-const char* Name(TrackerStatus status);
+const char* ToString(TrackerStatus status);
 
 // Answer to one step.  Lengths in the user's unit.
 struct TrackerResult {

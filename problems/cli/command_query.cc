@@ -75,7 +75,7 @@ Answers Ask(const Flags& flags, const ContactSpace& contact,
     for (const Eigen::Vector3d& q : points) {
       const SlidingAnswer answer = query.Next(q);
       answers.results.push_back(answer.result);
-      answers.statuses.emplace_back(Name(answer.status));
+      answers.statuses.emplace_back(ToString(answer.status));
     }
     return answers;
   }
@@ -98,8 +98,8 @@ Answers Ask(const Flags& flags, const ContactSpace& contact,
 // Is that status an answer like any other?
 bool IsUsual(const std::string& status) {
   return status == StatusName(QueryStatus::kOk) ||
-         status == Name(TrackerStatus::kFollowing) ||
-         status == Name(TrackerStatus::kOutside);
+         status == ToString(TrackerStatus::kFollowing) ||
+         status == ToString(TrackerStatus::kOutside);
 }
 
 std::string Row(const Eigen::Vector3d& q, const std::string& status,

@@ -76,9 +76,10 @@ MotionSummary Summarize(const MotionTrace& trace, double jump_length) {
     summary.branch_ends += result.status == QueryStatus::kBranchEnded ? 1 : 0;
     summary.fallbacks +=
         result.status == QueryStatus::kEuclideanFallback ? 1 : 0;
-    summary.sliding += trace.status[i] == Name(TrackerStatus::kSliding) ? 1 : 0;
+    summary.sliding +=
+        trace.status[i] == ToString(TrackerStatus::kSliding) ? 1 : 0;
     summary.left_elsewhere +=
-        trace.status[i] == Name(TrackerStatus::kLeftElsewhere) ? 1 : 0;
+        trace.status[i] == ToString(TrackerStatus::kLeftElsewhere) ? 1 : 0;
     summary.max_magnitude = std::max(summary.max_magnitude, trace.pd[i].norm());
     if (i == 0) continue;
     const double change = (trace.pd[i] - trace.pd[i - 1]).norm();

@@ -46,7 +46,7 @@ MotionTrace TraceSliding(const ContactSpace& space,
     const Vector3d q = motion.At(frame);
     const SlidingAnswer answer = query.Next(q);
     trace.results.push_back(answer.result);
-    trace.status.emplace_back(Name(answer.status));
+    trace.status.emplace_back(ToString(answer.status));
     trace.pd.push_back(answer.result.PenetrationVector(q));
   }
   return trace;

@@ -189,9 +189,9 @@ void Follow(const Space& space, const PenetrationTracker& tracker,
     }
     if (!ok) {
       ++figures->failures;
-      ADD_FAILURE() << space.name << ", frame " << i << ": " << Name(now.status)
-                    << ", |PD| " << now.magnitude << ", d "
-                    << now.euclidean_depth << ", moved " << now.moved
+      ADD_FAILURE() << space.name << ", frame " << i << ": "
+                    << ToString(now.status) << ", |PD| " << now.magnitude
+                    << ", d " << now.euclidean_depth << ", moved " << now.moved
                     << ", step " << step;
     }
     before = now;
