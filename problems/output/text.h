@@ -5,6 +5,7 @@
 #include <sstream>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "core/mesh/mesh_error.h"
 #include "core/projection/penetration_metric.h"
@@ -31,6 +32,9 @@ std::string FormatPoint(const Eigen::Vector3d& point);
 // The finite number that `text` spells in full, correctly rounded.  Throws
 // InputError "<what>: expected a finite number, found '<text>'".
 double ParseDouble(std::string_view text, const std::string& what);
+
+// "a, b, c".
+std::string Joined(const std::vector<std::string>& names);
 
 // One cell of a CSV file (RFC 4180): quoted where it holds a comma, a quote or
 // a line's end.

@@ -1,23 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "problems/studies/planner_names.h"
+
 #include <algorithm>
 
 #include "core/mesh/mesh_error.h"
-#include "problems/studies/planning_study.h"
+#include "problems/output/text.h"
 
 namespace phongpd {
-namespace {
-
-constexpr char kContactSurface[] = "contact-surface";
-
-std::string Join(const std::vector<std::string>& names) {
-  std::string text;
-  for (const std::string& name : names) {
-    text += (text.empty() ? "" : ", ") + name;
-  }
-  return text;
-}
-
-}  // namespace
 
 std::vector<std::string> PlannerNames() {
   std::vector<std::string> names = {kContactSurface};
@@ -39,7 +28,7 @@ RetractionOptions ParseRetraction(const std::string& text,
   const std::vector<std::string>& names = RetractionNames();
   const auto found = std::find(names.begin(), names.end(), text);
   if (found == names.end()) {
-    throw InputError(what + ": expected one of " + Join(names) + "; found '" +
+    throw InputError(what + ": expected one of " + Joined(names) + "; found '" +
                      text + "'");
   }
   const std::ptrdiff_t index = found - names.begin();

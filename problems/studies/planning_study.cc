@@ -8,22 +8,14 @@
 #include "core/minkowski/build_refusal.h"
 #include "core/stopwatch.h"
 #include "planners/exact/path_shortening.h"
+#include "problems/output/text.h"
 
 namespace phongpd {
 namespace {
 
-constexpr char kContactSurface[] = "contact-surface";
 // Clearance that is enough for a path in free space alone, of D: as much as
 // ContactSurfaceOptions wants.
 constexpr double kEnoughClearance = 0.01;
-
-std::string Join(const std::vector<std::string>& names) {
-  std::string text;
-  for (const std::string& name : names) {
-    text += (text.empty() ? "" : ", ") + name;
-  }
-  return text;
-}
 
 }  // namespace
 
@@ -212,7 +204,7 @@ void PlanningStudy::RunOmpl(const PlanningRun& run, PlanningResult* result) {
 
 void PlanningStudy::RequireSurfaceFree(const std::string& planner) const {
   if (!NeedsContactSurface(planner)) return;
-  const std::string others = Join(SurfaceFreePlannerNames());
+  const std::string others = Joined(SurfaceFreePlannerNames());
   if (refusal_.empty()) {
     throw InputError(
         "--planner: expected one that needs no contact surface with model "
@@ -233,8 +225,8 @@ PlanningResult PlanningStudy::Run(const PlanningRun& run) {
   const std::vector<std::string> names = PlannerNames();
   if (!run.planner.empty() &&
       std::find(names.begin(), names.end(), run.planner) == names.end()) {
-    throw InputError("--planner: expected one of " + Join(names) + "; found '" +
-                     run.planner + "'");
+    throw InputError("--planner: expected one of " + Joined(names) +
+                     "; found '" + run.planner + "'");
   }
   // Before anything is built.
   const bool is_window = scene_.planning.model == "window";

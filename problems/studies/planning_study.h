@@ -12,30 +12,10 @@
 #include "planners/exact/contact_surface_planner.h"
 #include "planners/ompl/ompl_planning.h"
 #include "problems/scenes/scene.h"
+#include "problems/studies/planner_names.h"
 #include "problems/world/world.h"
 
 namespace phongpd {
-
-// "contact-surface" and OmplPlannerNames().
-std::vector<std::string> PlannerNames();
-
-// How retraction planners sample: "phong" (all branches), "phong-random",
-// "phong-novelty", "phong-warm", "phong-nearest", "euclidean" (nearest) and
-// "contact-point" (no retraction).  Throws InputError starting with `what`.
-RetractionOptions ParseRetraction(const std::string& text,
-                                  const std::string& what);
-const std::vector<std::string>& RetractionNames();
-// Throws InputError for contact-surface, which OMPL's benchmark cannot run.
-void CheckHasOmplLog(const std::string& planner);
-// Does the planner take a wanted clearance?  OMPL's own do not.
-bool SeeksClearance(const std::string& planner);
-
-// The planners that do without the contact surface, from which they want
-// nothing but validity and motion checks: SurfaceFreePlannerNames().
-bool NeedsContactSurface(const std::string& planner);
-
-// contact-surface; rrt-connect for the model "window".
-std::string DefaultPlanner(const std::string& model);
 
 struct PlanningRun {
   std::string planner;               // empty: the default of the model
