@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 from __future__ import annotations
 
-import os
 from dataclasses import dataclass
 from typing import Any
 
@@ -10,13 +9,13 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _native
 from ._arguments import Floats, rows, whole_number
-from ._native import InputError
+from ._mesh import MeshViews
+from ._native import ContactSpace as NativeSpace, InputError
 from ._solid import as_solid
+from ._statuses import Statuses
 
-STATUSES = ("ok", "branch_ended", "euclidean_fallback", "invalid")
 
-
-class ContactSpace:
+class ContactSpace(MeshViews):
     """The boundary of obstacle + (-robot), exact: where they touch.
 
     All positions q (translations of the robot) at which it touches the
@@ -24,7 +23,9 @@ class ContactSpace:
     they overlap.  Immutable, safe to share among threads.
     """
 
-    def __init__(self, native: _native.ContactSpace) -> None:
+    _native: NativeSpace
+
+    def __init__(self, native: NativeSpace) -> None:
         """Use build, or take."""
         self._native = native
 
@@ -56,16 +57,6 @@ class ContactSpace:
         return cls(_native.ContactSpace.take(as_solid(solid, "mesh")._native))
 
     @property
-    def vertices(self) -> Floats:
-        """(N, 3), user's unit; read-only, no copy."""
-        return self._native.vertices
-
-    @property
-    def triangles(self) -> NDArray[np.int32]:
-        """(M, 3); read-only, no copy."""
-        return self._native.triangles
-
-    @property
     def length(self) -> float:
         """D, that shares refer to: the bounding box's diagonal."""
         return self._native.length
@@ -74,10 +65,6 @@ class ContactSpace:
     def report(self) -> dict[str, Any]:
         """What was built: counts, genus, volume, seconds by stage, warnings."""
         return self._native.report
-
-    def write(self, path: str | os.PathLike[str]) -> None:
-        """OFF, OBJ, STL or PLY by the ending."""
-        self._native.write(os.fspath(path))
 
     def __repr__(self) -> str:
         report = self.report
@@ -99,13 +86,15 @@ def minkowski(a: Any, b: Any, *, difference: bool = False,
 
 
 @dataclass(frozen=True)
-class QueryResult:
+class QueryResult(Statuses):
     """Answers of a metric, a row for each of N points; user's unit."""
+
+    WORDS = ("ok", "branch_ended", "euclidean_fallback", "invalid")
 
     points: Floats
     """(N, 3), as they were asked."""
     status: NDArray[np.uint8]
-    """(N,), indices into STATUSES; `statuses` are the words."""
+    """(N,), indices into WORDS; `statuses` are the words."""
     inside: NDArray[np.bool_]
     """(N,), exact: strictly inside, the solids overlap."""
     signed_distance: Floats
@@ -120,16 +109,9 @@ class QueryResult:
     """(N,): of the contact space, holds q_c; -1 where status is invalid."""
 
     @property
-    def statuses(self) -> list[str]:
-        return [STATUSES[s] for s in self.status]
-
-    @property
     def penetration(self) -> Floats:
         """(N, 3): PD(q) = q_c - q inside, zero outside."""
         return np.where(self.inside[:, None], self.contact - self.points, 0.0)
-
-    def __len__(self) -> int:
-        return len(self.status)
 
     def to_columns(self) -> dict[str, Any]:
         """One-dimensional columns as `phongpd query` writes them, for

@@ -5,14 +5,15 @@ import os
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from . import _native
-from ._arguments import Floats, rows
-from ._native import InputError
+from ._arguments import rows
+from ._mesh import MeshViews
+from ._native import InputError, Solid as NativeSolid
 
 
-class Solid:
+class Solid(MeshViews):
     """A closed triangle mesh that was checked once and never changes.
 
     Equal vertices are joined where that closes the surface, shells that face
@@ -20,6 +21,8 @@ class Solid:
     not manifold, self-intersecting within a component, no volume) raises
     InputError with counts.  Components may overlap: their union is meant.
     """
+
+    _native: NativeSolid
 
     def __init__(self, vertices: ArrayLike, triangles: ArrayLike,
                  name: str = "solid") -> None:
@@ -40,7 +43,7 @@ class Solid:
             np.ascontiguousarray(corners, dtype=np.int32), str(name))
 
     @classmethod
-    def _of(cls, native: _native.Solid) -> Solid:
+    def _of(cls, native: NativeSolid) -> Solid:
         solid = cls.__new__(cls)
         solid._native = native
         return solid
@@ -62,16 +65,6 @@ class Solid:
         return self._native.name
 
     @property
-    def vertices(self) -> Floats:
-        """(N, 3), read-only, no copy."""
-        return self._native.vertices
-
-    @property
-    def triangles(self) -> NDArray[np.int32]:
-        """(M, 3), counter-clockwise seen from outside; read-only, no copy."""
-        return self._native.triangles
-
-    @property
     def volume(self) -> float:
         """Of the components, each counted alone; user's unit cubed."""
         return self._native.volume
@@ -84,10 +77,6 @@ class Solid:
     def warnings(self) -> list[str]:
         """What was done to it, and what is no error but worth knowing."""
         return self._native.warnings
-
-    def write(self, path: str | os.PathLike[str]) -> None:
-        """OFF, OBJ, STL or PLY by the ending."""
-        self._native.write(os.fspath(path))
 
     def __repr__(self) -> str:
         return (f"<Solid {self.name!r}: {len(self.triangles)} triangles, "

@@ -9,18 +9,19 @@ from numpy.typing import ArrayLike, NDArray
 from . import _native
 from ._arguments import Floats, rows
 from ._contact import ContactSpace, native_space
-
-STATUSES = ("following", "sliding", "left_elsewhere", "outside", "invalid")
+from ._statuses import Statuses
 
 
 @dataclass(frozen=True)
-class TrackedMotion:
+class TrackedMotion(Statuses):
     """A step a row; user's unit."""
+
+    WORDS = ("following", "sliding", "left_elsewhere", "outside", "invalid")
 
     points: Floats
     """(N, 3): the robot's positions."""
     status: NDArray[np.uint8]
-    """(N,), indices into the words of `statuses`."""
+    """(N,), indices into WORDS; `statuses` are the words."""
     inside: NDArray[np.bool_]
     """(N,), exact."""
     penetration: Floats
@@ -37,13 +38,6 @@ class TrackedMotion:
     """(N, 3): on the contact space, inside."""
     triangle: NDArray[np.int32]
     """(N,): of the contact space; -1 outside."""
-
-    @property
-    def statuses(self) -> list[str]:
-        return [STATUSES[s] for s in self.status]
-
-    def __len__(self) -> int:
-        return len(self.status)
 
 
 class PenetrationTracker:
