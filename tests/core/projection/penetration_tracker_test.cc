@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The promises of penetration_tracker.h along motions: depth and place of the
-// contact are judged by EuclideanMetric and by all triangles one by one.
+// The promises of penetration_tracker.h but for its bounds
+// (penetration_tracker_campaign_test): what it follows, statuses, states.
 #include "core/projection/penetration_tracker.h"
 
 #include <gtest/gtest.h>
@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <random>
 #include <string>
@@ -18,226 +17,18 @@
 
 #include "core/bvh/closest_on_triangle.h"
 #include "core/mesh/mesh_error.h"
-#include "core/projection/euclidean_metric.h"
-#include "problems/shapes/random_solids.h"
 #include "problems/shapes/shapes.h"
-#include "tests/support/campaign.h"
+#include "tests/support/tracked_motions.h"
 
 namespace phongpd {
 namespace {
 
 using Eigen::Vector3d;
-using Motion = std::vector<Vector3d>;
+using testing::Motion;
 using State = PenetrationTracker::State;
 
-struct Space {
-  std::string name;
-  ContactSpace contact;
-  // The way to the other side of a wall is many times the wall, or there is
-  // none: no figure of the ratio is promised.
-  bool is_hard = false;
-};
-
-TriangleMesh Cube(double half) {
-  return MakeBox(Vector3d::Constant(-half), Vector3d::Constant(half));
-}
-
-// The first ten in the suite, all twenty in the campaign.
-std::vector<Space> Spaces(std::size_t count) {
-  const TriangleMesh cube = Cube(0.2);
-  const TriangleMesh turned = Rotated(cube, GenericRotation());
-  const TriangleMesh ball = MakeIcoBall(0.25, 1);
-  std::vector<Space> spaces;
-  const auto add = [&](const std::string& name, const TriangleMesh& a,
-                       const TriangleMesh& b, bool is_hard = false) {
-    if (spaces.size() < count) {
-      spaces.push_back({name, BuildContactSpace(a, b), is_hard});
-    }
-  };
-  add("cube + box", cube, MakeBox({-1, -0.7, -0.4}, {1, 0.7, 0.4}));
-  add("cube + L", cube, MakeL(2.0, 0.5, 0.6));
-  add("turned cube + U", turned, MakeU(2.0, 0.3, 0.6));
-  add("cube + plate with hole", cube, MakePlateWithHole(3.0, 0.2, 1.0));
-  add("ball + thin plate with round hole", ball,
-      MakePlateWithRoundHole(3.0, 0.02, 0.6, 24), true);
-  add("cube + hollow box", cube, MakeVessel(3.0, 2.0, 0.0), true);
-  add("ball + wrench", MakeUvBall(0.3, 12, 10), MakeWrench(1, 12, 12, 8, 8));
-  add("ball + torus", ball, MakeTorus(1.5, 0.4, 24, 10));
-  add("star + organic body", MakeStar(0.2, 0.4), MakeBlob(1.5, 2, 0.35, 1));
-  add("cubes that touch in an edge", cube,
-      Joined(MakeBox({0, 0, 0}, {1, 1, 1}),
-             MakeBox({1.4, 1.4, 0}, {2.4, 2.4, 1})));
-  add("turned cube + box with a window", turned, MakeVessel(3.0, 2.0, 0.8),
-      true);
-  add("cone + axes", MakeCone(0.5, 1.0, 20), MakeAxes(2.0, 0.3));
-  add("ball + cone", ball, MakeCone(1.0, 2.0, 40));
-  add("ball + knot", ball, MakeKnot(0.5, 0.2, 64, 8));
-  add("ball + scanned U", ball, MakeScan(MakeU(2.0, 0.3, 0.6), 0.2, 0.002, 3));
-  add("prism + star", MakePrism(0.2, 0.5, 7), MakeStar(0.5, 1.3));
-  add("needle + L", MakeBox({-0.01, -0.01, -1}, {0.01, 0.01, 1}),
-      MakeL(2.0, 0.5, 0.6), true);
-  add("cube + axes", turned, MakeAxes(2.0, 0.4));
-  add("organic bodies", MakeBlob(0.4, 1, 0.3, 2), MakeBlob(1.2, 2, 0.3, 3));
-  add("wrench + plate", MakeWrench(0.3, 8, 8, 6, 5),
-      MakePlateWithHole(3.0, 0.1, 1.2), true);
-  return spaces;
-}
-
-Vector3d Inside(const ContactSpace& contact, std::mt19937_64* random) {
-  for (;;) {
-    const Vector3d q = RandomPoint(contact.bounds(), random);
-    if (contact.bvh().Locate(q) == Location::kInside) return q;
-  }
-}
-
-// Straight and bent ways between interior points, and random walks that leave
-// and enter as it comes, in steps of all lengths.
-Motion MakeMotion(const ContactSpace& contact, int kind, int frames,
-                  std::mt19937_64* random) {
-  const Vector3d from = Inside(contact, random), to = Inside(contact, random);
-  const double diagonal = contact.length();
-  std::normal_distribution<double> normal;
-  const auto any = [&] {
-    return Vector3d(normal(*random), normal(*random), normal(*random));
-  };
-  const Vector3d bend =
-      kind == 1 ? Vector3d(0.1 * diagonal * any()) : Vector3d::Zero();
-  Motion motion;
-  Vector3d q = from;
-  for (int i = 0; i < frames; ++i) {
-    const double t = static_cast<double>(i) / (frames - 1);
-    if (kind < 2) {
-      q = from + t * (to - from) + 4.0 * t * (1.0 - t) * bend;
-    } else {
-      const double length =
-          std::pow(10.0, -1.5 - 2.0 * std::abs(normal(*random)));
-      q += length * diagonal * any() / 10.0;
-      if (i % 50 == 49) q = Inside(contact, random);
-    }
-    motion.push_back(q);
-  }
-  return motion;
-}
-
-double DistanceByAllTriangles(const TriangleMesh& mesh, const Vector3d& x) {
-  double least = std::numeric_limits<double>::infinity();
-  for (const Triangle& t : mesh.triangles) {
-    least = std::min(least,
-                     ClosestOnTriangle(mesh.vertices[t[0]], mesh.vertices[t[1]],
-                                       mesh.vertices[t[2]], x)
-                         .squared_distance);
-  }
-  return std::sqrt(least);
-}
-
-struct Figures {
-  long frames = 0, inside = 0, above = 0, left_elsewhere = 0, sliding = 0;
-  double ratios = 0.0;
-  long failures = 0;   // of the bounds, or off the surface
-  double worst = 0.0;  // |ΔPD| over its bound
-
-  double MeanRatio() const { return ratios / static_cast<double>(inside); }
-  double Above() const {
-    return static_cast<double>(above) / static_cast<double>(inside);
-  }
-};
-
-// Steps along the motion and holds every answer against the promises.
-void Follow(const Space& space, const PenetrationTracker& tracker,
-            const Motion& motion, Figures* figures) {
-  const EuclideanMetric euclidean(space.contact);
-  const double rounding = 1e-12 * space.contact.length();
-  const double speed = tracker.options().speed;
-  State state;
-  TrackerResult before;
-  for (std::size_t i = 0; i < motion.size(); ++i) {
-    const TrackerResult now = tracker.Step(motion[i], &state);
-    const double step = i == 0 ? 0.0 : (motion[i] - motion[i - 1]).norm();
-    const PenetrationResult truth = euclidean.Query(motion[i]);
-    bool ok = now.inside == truth.inside;
-    ++figures->frames;
-    if (now.inside) {
-      ++figures->inside;
-      ok = ok &&
-           std::abs(now.euclidean_depth + truth.signed_distance) <= rounding;
-      ok = ok && now.magnitude >= now.euclidean_depth - rounding;
-      ok = ok && (now.contact - motion[i] - now.pd).norm() <= rounding;
-      ok = ok && now.moved <= speed * step + rounding;
-      const bool sample = figures->frames % 16 == 0;
-      ok = ok && (!sample || DistanceByAllTriangles(space.contact.mesh(),
-                                                    now.contact) <= rounding);
-      if (before.inside) {
-        ok =
-            ok && (now.contact - before.contact).norm() <= now.moved + rounding;
-      }
-      figures->ratios += now.ratio;
-      figures->above += now.ratio > 3.0 * (1.0 + 1e-9) ? 1 : 0;
-      figures->sliding += now.status == TrackerStatus::kSliding ? 1 : 0;
-    } else {
-      ok = ok && now.pd == Vector3d::Zero() && now.magnitude == 0.0;
-    }
-    const bool left = now.status == TrackerStatus::kLeftElsewhere;
-    figures->left_elsewhere += left ? 1 : 0;
-    if (i > 0) {
-      const double change = (now.pd - before.pd).norm();
-      const double bound = (speed + 1.0) * step + rounding;
-      if (!left) figures->worst = std::max(figures->worst, change / bound);
-      // An exit is said to be elsewhere where it has to be, and only there.
-      ok = ok &&
-           (left ? !now.inside && before.inside && change > bound - 2 * rounding
-                 : change <= bound);
-    }
-    if (!ok) {
-      ++figures->failures;
-      ADD_FAILURE() << space.name << ", frame " << i << ": "
-                    << ToString(now.status) << ", |PD| " << now.magnitude
-                    << ", d " << now.euclidean_depth << ", moved " << now.moved
-                    << ", step " << step;
-    }
-    before = now;
-  }
-}
-
-// Failing once in a thousand would be failing: 10⁵ frames in the suite, 10⁶ on
-// 20 spaces in the long form.
-TEST(PenetrationTrackerCampaign, DepthNeverChangesFasterThanItsBound) {
-  const std::size_t count = testing::IsLongCampaign() ? 20 : 10;
-  const long frames = testing::CampaignCases(100000, 1000000);
-  testing::CampaignRow row;
-  row.item = "tracker";
-  row.subject = std::to_string(count) + " spaces, |dPD| over its bound";
-  row.bound = 1.0;
-  row.seed = 5;
-  for (const Space& space : Spaces(count)) {
-    const PenetrationTracker tracker(space.contact);
-    std::mt19937_64 random(row.seed);
-    Figures all, smooth;
-    const int length = 250;
-    const int motions =
-        static_cast<int>(frames / static_cast<long>(count) / length);
-    for (int m = 0; m < motions; ++m) {
-      const int kind = m % 3;
-      Figures& figures = kind < 2 ? smooth : all;
-      Follow(space, tracker, MakeMotion(space.contact, kind, length, &random),
-             &figures);
-    }
-    if (testing::IsLongCampaign())
-      std::printf(
-          "%-36s mean ratio %.3f, above 3: %.2f %%, elsewhere %ld, worst %.3f; "
-          "walks: %.3f, %.2f %%, %ld, %.3f\n",
-          space.name.c_str(), smooth.MeanRatio(), 100.0 * smooth.Above(),
-          smooth.left_elsewhere, smooth.worst, all.MeanRatio(),
-          100.0 * all.Above(), all.left_elsewhere, all.worst);
-    row.cases += smooth.frames + all.frames;
-    row.failures += smooth.failures + all.failures;
-    row.worst = std::max({row.worst, smooth.worst, all.worst});
-    EXPECT_LE(smooth.worst, 1.0) << space.name;
-    if (space.is_hard) continue;
-    EXPECT_LE(smooth.MeanRatio(), 1.1) << space.name;
-    EXPECT_LE(smooth.Above(), 0.01) << space.name;
-  }
-  EXPECT_EQ(row.failures, 0);
-  testing::ReportCampaign(row);
+TriangleMesh Cube() {
+  return MakeBox(Vector3d::Constant(-0.2), Vector3d::Constant(0.2));
 }
 
 // A quarter of the steps, at the same places: the curve is that of the motion,
@@ -245,11 +36,12 @@ TEST(PenetrationTrackerCampaign, DepthNeverChangesFasterThanItsBound) {
 TEST(PenetrationTracker, ShorterStepsGiveTheSameCurve) {
   long frames = 0, apart = 0;
   double mean = 0.0;
-  for (const Space& space : Spaces(5)) {
+  for (const testing::TrackedSpace& space : testing::TrackedSpaces(5)) {
     const PenetrationTracker tracker(space.contact);
     std::mt19937_64 random(7);
     for (int m = 0; m < 20; ++m) {
-      const Motion fine = MakeMotion(space.contact, m % 2, 1201, &random);
+      const Motion fine =
+          testing::MakeMotion(space.contact, m % 2, 1201, &random);
       State of_fine, of_coarse;
       for (std::size_t i = 0; i < fine.size(); ++i) {
         const Vector3d pd = tracker.Step(fine[i], &of_fine).pd;
@@ -302,14 +94,15 @@ double DistanceToPiece(const TriangleMesh& mesh,
 // 3 % of d until a place that has come within reach is noticed.
 TEST(PenetrationTracker, FollowsTheClosestPointOfItsPiece) {
   long following = 0, late = 0, elsewhere = 0;
-  for (const Space& space : Spaces(8)) {
+  for (const testing::TrackedSpace& space : testing::TrackedSpaces(8)) {
     const PenetrationTracker tracker(space.contact);
     const TriangleMesh& mesh = space.contact.mesh();
     const auto neighbors = TriangleNeighbors(mesh);
     std::mt19937_64 random(9);
     for (int m = 0; m < 6; ++m) {
       State state;
-      for (const Vector3d& q : MakeMotion(space.contact, m % 2, 200, &random)) {
+      for (const Vector3d& q :
+           testing::MakeMotion(space.contact, m % 2, 200, &random)) {
         const TrackerResult now = tracker.Step(q, &state);
         const double reach = 3.0 * now.euclidean_depth;
         if (now.status != TrackerStatus::kFollowing || now.magnitude > reach) {
@@ -336,7 +129,7 @@ TEST(PenetrationTracker, ScalesBitForBitWithTheInput) {
   const ContactSpace contact = TakeAsContactSpace(mesh);
   const PenetrationTracker tracker(contact);
   std::mt19937_64 random(6);
-  const Motion motion = MakeMotion(contact, 1, 400, &random);
+  const Motion motion = testing::MakeMotion(contact, 1, 400, &random);
   for (const double factor : {0x1p200, 0x1p-200}) {
     const PenetrationTracker scaled(TakeAsContactSpace(Scaled(mesh, factor)));
     State one, other;
@@ -452,12 +245,11 @@ TEST(PenetrationTracker, WhatIsNotFiniteIsInvalidAndChangesNothing) {
 
 TEST(PenetrationTracker, ARobotAtRestHasItsContactAtRest) {
   const PenetrationTracker tracker(
-      BuildContactSpace(Cube(0.2), MakeU(2.0, 0.3, 0.6)));
+      BuildContactSpace(Cube(), MakeU(2.0, 0.3, 0.6)));
   std::mt19937_64 random(3);
   State state;
-  for (const Vector3d& q :
-       MakeMotion(BuildContactSpace(Cube(0.2), MakeU(2.0, 0.3, 0.6)), 0, 100,
-                  &random)) {
+  for (const Vector3d& q : testing::MakeMotion(
+           BuildContactSpace(Cube(), MakeU(2.0, 0.3, 0.6)), 0, 100, &random)) {
     const TrackerResult first = tracker.Step(q, &state);
     for (int i = 0; i < 3; ++i) {
       const TrackerResult again = tracker.Step(q, &state);
@@ -491,7 +283,7 @@ TEST(PenetrationTracker, StatesAreValues) {
       BuildContactSpace(MakeIcoBall(0.25, 1), MakeU(2.0, 0.3, 0.6));
   const PenetrationTracker tracker(contact), copy = tracker;
   std::mt19937_64 random(4);
-  const Motion motion = MakeMotion(contact, 1, 600, &random);
+  const Motion motion = testing::MakeMotion(contact, 1, 600, &random);
   State state;
   std::vector<Vector3d> pd;
   State middle;
@@ -506,7 +298,7 @@ TEST(PenetrationTracker, StatesAreValues) {
   }
   // Another tracker's state is a new one.
   const PenetrationTracker other(contact);
-  const Vector3d q = Inside(contact, &random);
+  const Vector3d q = testing::InnerPoint(contact, &random);
   EXPECT_NEAR(other.Step(q, &state).ratio, 1.0, 1e-12);
 }
 
@@ -515,7 +307,7 @@ TEST(PenetrationTracker, ThreadsGetTheSameBits) {
       BuildContactSpace(MakeIcoBall(0.25, 1), MakeL(2.0, 0.5, 0.6));
   const PenetrationTracker tracker(contact);
   std::mt19937_64 random(8);
-  const Motion motion = MakeMotion(contact, 2, 2000, &random);
+  const Motion motion = testing::MakeMotion(contact, 2, 2000, &random);
   const auto sum = [&] {
     State state;
     double total = 0.0;
