@@ -13,7 +13,7 @@
 #include "core/mesh/mesh_io.h"
 #include "core/mesh/mesh_range.h"
 #include "problems/output/text.h"
-#include "problems/output/versions.h"
+#include "problems/studies/row_parts.h"
 
 namespace phongpd::cli {
 
@@ -208,9 +208,7 @@ nlohmann::ordered_json CommandSettings(const CLI::App& app,
   }
   Json& digests = settings["contents of scenes"] = Json::array();
   for (const SceneSource& scene : scenes) digests.push_back(scene.Digest());
-  for (const auto& [name, version] : Versions()) {
-    settings["versions"][name] = version;
-  }
+  settings["versions"] = VersionsRow();
   settings["program"] = ProgramDigest();
   return settings;
 }

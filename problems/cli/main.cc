@@ -18,6 +18,7 @@
 #include "core/files/interruption.h"
 #include "problems/cli/command.h"
 #include "problems/output/nearest_name.h"
+#include "problems/output/text.h"
 #include "problems/output/versions.h"
 
 namespace phongpd::cli {
@@ -145,11 +146,10 @@ int Run(int argc, char** argv) {
   for (const auto& [command, run] : commands) {
     if (command->parsed()) return run();
   }
-  std::string names;
-  for (const auto& entry : commands) {
-    names += (names.empty() ? "" : ", ") + entry.first->get_name();
-  }
-  return Fail(kBadInput, "expected a command: " + names + " (see --help)");
+  std::vector<std::string> names;
+  for (const auto& entry : commands) names.push_back(entry.first->get_name());
+  return Fail(kBadInput,
+              "expected a command: " + Joined(names) + " (see --help)");
 }
 
 // Says what the memory was needed for and where less does.

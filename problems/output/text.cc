@@ -21,10 +21,10 @@ std::string FormatPoint(const Eigen::Vector3d& point) {
          FormatDouble(point.z());
 }
 
-std::string Joined(const std::vector<std::string>& names) {
+std::string Joined(const std::vector<std::string>& cells, const char* between) {
   std::string text;
-  for (const std::string& name : names) {
-    text += (text.empty() ? "" : ", ") + name;
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    text += (i == 0 ? "" : between) + cells[i];
   }
   return text;
 }

@@ -33,8 +33,9 @@ std::string FormatPoint(const Eigen::Vector3d& point);
 // InputError "<what>: expected a finite number, found '<text>'".
 double ParseDouble(std::string_view text, const std::string& what);
 
-// "a, b, c".
-std::string Joined(const std::vector<std::string>& names);
+// "a, b, c", or with another text between them.
+std::string Joined(const std::vector<std::string>& cells,
+                   const char* between = ", ");
 
 // One cell of a CSV file (RFC 4180): quoted where it holds a comma, a quote or
 // a line's end.

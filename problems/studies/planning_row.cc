@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <nlohmann/json.hpp>
 
-#include "problems/output/versions.h"
-#include "problems/studies/length_row.h"
 #include "problems/studies/planning_study.h"
+#include "problems/studies/row_parts.h"
 
 namespace phongpd {
 
@@ -45,11 +44,9 @@ nlohmann::ordered_json PlanningRow(const PlanningStudy& study,
   row["path_length"] = n.length;
   row["path"] = Json::array();
   for (const Eigen::Vector3d& p : n.path) {
-    row["path"].push_back({p.x(), p.y(), p.z()});
+    row["path"].push_back(PointRow(p));
   }
-  row["versions"] = Json::object();
-  for (const auto& [name, version] : Versions())
-    row["versions"][name] = version;
+  row["versions"] = VersionsRow();
   return row;
 }
 

@@ -14,7 +14,7 @@
 #include <thread>
 
 #include "core/mesh/mesh_error.h"
-#include "problems/output/versions.h"
+#include "problems/studies/row_parts.h"
 
 namespace phongpd {
 namespace {
@@ -236,12 +236,10 @@ Json PackCommand(const std::vector<std::string>& arguments) {
     }
     is_output = is_flag && TakesOutput(argument);
   }
-  Json versions = Json::object();
-  for (const auto& [library, version] : Versions()) versions[library] = version;
   return {{"format", kFormat},
           {"arguments", packed},
           {"files", packer.files()},
-          {"versions", versions},
+          {"versions", VersionsRow()},
           {"environment", Environment()},
           {"run", nullptr}};
 }

@@ -1,16 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <nlohmann/json.hpp>
 
-#include "problems/output/versions.h"
-#include "problems/studies/length_row.h"
+#include "problems/studies/row_parts.h"
 #include "problems/studies/trajectory_study.h"
 
 namespace phongpd {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-Json PointRow(const Eigen::Vector3d& p) { return {p.x(), p.y(), p.z()}; }
 
 // null where the path is free.
 Json CrossingRow(const PathCheck& check) {
@@ -23,12 +20,6 @@ Json StageRow(const StageRecord& stage) {
           {"status", stage.status},       {"collision_free", stage.is_free},
           {"objective", stage.objective}, {"iterations", stage.iterations},
           {"seconds", stage.seconds}};
-}
-
-Json VersionsRow() {
-  Json row = Json::object();
-  for (const auto& [name, version] : Versions()) row[name] = version;
-  return row;
 }
 
 }  // namespace

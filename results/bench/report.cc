@@ -12,14 +12,6 @@
 namespace phongpd::bench {
 namespace {
 
-std::string Joined(const std::vector<std::string>& cells, const char* between) {
-  std::string line;
-  for (std::size_t i = 0; i < cells.size(); ++i) {
-    line += (i == 0 ? "" : between) + cells[i];
-  }
-  return line;
-}
-
 // Columns a terminal needs for UTF-8 text.
 std::size_t Width(const std::string& text) {
   return static_cast<std::size_t>(std::count_if(
@@ -135,7 +127,7 @@ std::string ToMarkdown(const std::vector<NamedTable>& tables,
     text += ToMarkdown(named.table) + "Rows: [" + named.file + "](" +
             named.file + ")\n\n";
   }
-  text += "## Figures\n\n";
+  if (!figures.empty()) text += "## Figures\n\n";
   for (const Figure& figure : figures) {
     text += "**" + figure.caption + "**\n\n![" + figure.caption + "](" +
             figure.file + ")\n\n";
