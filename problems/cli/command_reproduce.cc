@@ -11,6 +11,7 @@
 
 #include "problems/cli/command.h"
 #include "problems/output/output_files.h"
+#include "problems/output/temporary_folder.h"
 #include "problems/studies/reproduction.h"
 
 namespace phongpd::cli {
@@ -25,29 +26,6 @@ struct Flags {
   std::string folder;
   bool no_run = false;
   std::vector<std::string> command;
-};
-
-// A folder of our own that goes when this does.
-class TemporaryFolder {
- public:
-  TemporaryFolder() {
-    std::string name = (fs::temp_directory_path() / "phongpd-XXXXXX").string();
-    if (mkdtemp(name.data()) == nullptr) {
-      throw InputError(name + ": cannot make a temporary folder");
-    }
-    path_ = name;
-  }
-  ~TemporaryFolder() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-
-  const fs::path& path() const { return path_; }
-
- private:
-  fs::path path_;
 };
 
 CommandOutcome RunIn(const fs::path& folder, const TemporaryFolder& scratch,

@@ -12,49 +12,20 @@
 #include <fstream>
 #include <sstream>
 #include <stdexcept>
-#include <system_error>
 #include <vector>
 
 #include "core/mesh/mesh_error.h"
+#include "problems/output/temporary_folder.h"
 #include "problems/pictures/programs.h"
 
 extern char** environ;
 
 namespace phongpd {
-namespace fs = std::filesystem;
-
 namespace {
 
 std::string Browser() {
   return FindProgram({"chromium", "chromium-browser", "google-chrome"});
 }
-
-// Of this call only; gone with it.
-class Folder {
- public:
-  Folder() {
-    std::error_code error;
-    const fs::path parent = fs::temp_directory_path(error);
-    std::string name =
-        ((error ? fs::path("/tmp") : parent) / "phongpd-picture-XXXXXX")
-            .string();
-    if (mkdtemp(name.data()) == nullptr) {
-      throw InputError(name + ": no temporary folder for the browser (" +
-                       std::strerror(errno) + ")");
-    }
-    path_ = name;
-  }
-  ~Folder() {
-    std::error_code none;
-    fs::remove_all(path_, none);
-  }
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-  std::string File(const char* name) const { return (path_ / name).string(); }
-
- private:
-  fs::path path_;
-};
 
 // Runs the program with nothing on its standard streams; its exit status.
 int Run(std::vector<std::string> arguments) {
@@ -92,9 +63,9 @@ void RequireBrowser() {
 
 std::string StillPicture(const std::string& page, int width, int height) {
   RequireBrowser();
-  const Folder folder;
-  const std::string html = folder.File("page.html");
-  const std::string png = folder.File("picture.png");
+  const TemporaryFolder folder;
+  const std::string html = (folder.path() / "page.html").string();
+  const std::string png = (folder.path() / "picture.png").string();
   std::ofstream file(html, std::ios::binary);
   file << page;
   file.close();
@@ -108,7 +79,7 @@ std::string StillPicture(const std::string& page, int width, int height) {
       "--disable-extensions",
       "--no-first-run",
       "--disable-dev-shm-usage",
-      "--user-data-dir=" + folder.File("profile"),
+      "--user-data-dir=" + (folder.path() / "profile").string(),
       "--window-size=" + std::to_string(width) + "," + std::to_string(height),
       "--virtual-time-budget=4000",
       "--screenshot=" + png};
