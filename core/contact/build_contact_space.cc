@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <sys/resource.h>
 
-#include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <unordered_map>
@@ -114,16 +113,13 @@ ContactSpace BuildContactSpace(const TriangleMesh& robot,
   clock.Finish("check");
 
   const internal::GridPair pair =
-      internal::MakeGridPair(a, options.robot_name, b, options.obstacle_name);
+      internal::PlaceOperands(a, b, options, &report);
   const internal::GridFrame& frame = pair.frame;
   const internal::GridSolid& p = pair.obstacle;
   const internal::GridSolid& q = pair.reflected_robot;
   report.canonical_frame = frame.is_turned;
   report.grid_step = frame.rounding;
   const bool is_rounded = pair.IsRounded();
-  const double resolution = std::min(frame.rounding, frame.step);
-  internal::CheckResolution(p, b, resolution, options.obstacle_name, &report);
-  internal::CheckResolution(q, a, resolution, options.robot_name, &report);
   const internal::Convolution convolution = internal::ReducedConvolution(p, q);
   report.convolution_triangles = convolution.facets.size();
   clock.Finish("convolution");

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/contact/convolution_model.h"
 
-#include <algorithm>
 #include <utility>
 
 #include "core/mesh/finite.h"
@@ -39,14 +38,7 @@ struct ConvolutionModel::Data {
         internal::PrepareOperand(robot, OperandRole::kRobot, options, operands);
     const TriangleMesh b = internal::PrepareOperand(
         obstacle, OperandRole::kObstacle, options, operands);
-    internal::GridPair pair =
-        internal::MakeGridPair(a, options.robot_name, b, options.obstacle_name);
-    const double resolution = std::min(pair.frame.rounding, pair.frame.step);
-    internal::CheckResolution(pair.obstacle, b, resolution,
-                              options.obstacle_name, operands);
-    internal::CheckResolution(pair.reflected_robot, a, resolution,
-                              options.robot_name, operands);
-    return pair;
+    return internal::PlaceOperands(a, b, options, operands);
   }
 
   internal::GridPair pair;

@@ -76,6 +76,44 @@ void Apply(const std::string& kind, ApproximateMesh approximate,
   *solid = std::move(approximate.mesh);
 }
 
+// Says when rounding by up to `step` is coarse for this operand; nothing when
+// step is 0.
+void CheckResolution(const GridSolid& solid, const TriangleMesh& mesh,
+                     double step, const std::string& name,
+                     ContactSpaceReport* report) {
+  if (step == 0.0) return;  // nothing was rounded
+  const double bits = std::log2(ComputeBounds(mesh).Diagonal() / step);
+  const std::size_t facets = mesh.triangles.size() - solid.facets.size();
+  std::vector<bool> used(solid.vertices.size(), false);
+  std::vector<bool> was_used(mesh.vertices.size(), false);
+  for (const Triangle& t : solid.facets) {
+    for (const int v : t) used[v] = true;
+  }
+  for (const Triangle& t : mesh.triangles) {
+    for (const int v : t) was_used[v] = true;
+  }
+  const auto count = [](const std::vector<bool>& flags) {
+    return std::count(flags.begin(), flags.end(), true);
+  };
+  if (facets > 0 || bits < kEnoughBits) {
+    std::ostringstream text;
+    text.precision(3);
+    text << name << ": coordinates are rounded to " << step << ", "
+         << std::exp2(-bits) << " of its size, because the other operand is "
+         << "larger; " << count(was_used) - count(used) << " vertices and "
+         << facets << " facets collapsed";
+    // Without a larger one the details are just too small.
+    std::string line = text.str();
+    if (bits > kGridBits - 2) {
+      line = name + ": details below " + Rounded(step) + " (2^-38 of the " +
+             "larger operand) are lost; " +
+             std::to_string(count(was_used) - count(used)) + " vertices and " +
+             std::to_string(facets) + " facets collapsed";
+    }
+    report->warnings.push_back(line);
+  }
+}
+
 }  // namespace
 
 void AddStep(const ApproximationStep& step, Approximation* approximation) {
@@ -139,40 +177,17 @@ TriangleMesh PrepareOperand(const TriangleMesh& mesh, OperandRole role,
   return solid;
 }
 
-void CheckResolution(const GridSolid& solid, const TriangleMesh& mesh,
-                     double step, const std::string& name,
-                     ContactSpaceReport* report) {
-  if (step == 0.0) return;  // nothing was rounded
-  const double bits = std::log2(ComputeBounds(mesh).Diagonal() / step);
-  const std::size_t facets = mesh.triangles.size() - solid.facets.size();
-  std::vector<bool> used(solid.vertices.size(), false);
-  std::vector<bool> was_used(mesh.vertices.size(), false);
-  for (const Triangle& t : solid.facets) {
-    for (const int v : t) used[v] = true;
-  }
-  for (const Triangle& t : mesh.triangles) {
-    for (const int v : t) was_used[v] = true;
-  }
-  const auto count = [](const std::vector<bool>& flags) {
-    return std::count(flags.begin(), flags.end(), true);
-  };
-  if (facets > 0 || bits < kEnoughBits) {
-    std::ostringstream text;
-    text.precision(3);
-    text << name << ": coordinates are rounded to " << step << ", "
-         << std::exp2(-bits) << " of its size, because the other operand is "
-         << "larger; " << count(was_used) - count(used) << " vertices and "
-         << facets << " facets collapsed";
-    // Without a larger one the details are just too small.
-    std::string line = text.str();
-    if (bits > kGridBits - 2) {
-      line = name + ": details below " + Rounded(step) + " (2^-38 of the " +
-             "larger operand) are lost; " +
-             std::to_string(count(was_used) - count(used)) + " vertices and " +
-             std::to_string(facets) + " facets collapsed";
-    }
-    report->warnings.push_back(line);
-  }
+GridPair PlaceOperands(const TriangleMesh& robot, const TriangleMesh& obstacle,
+                       const ContactSpaceOptions& options,
+                       ContactSpaceReport* report) {
+  GridPair pair =
+      MakeGridPair(robot, options.robot_name, obstacle, options.obstacle_name);
+  const double resolution = std::min(pair.frame.rounding, pair.frame.step);
+  CheckResolution(pair.obstacle, obstacle, resolution, options.obstacle_name,
+                  report);
+  CheckResolution(pair.reflected_robot, robot, resolution, options.robot_name,
+                  report);
+  return pair;
 }
 
 void RefuseLostFacets(const GridSolid& obstacle, const TriangleMesh& b,

@@ -6,7 +6,7 @@
 #include "core/mesh/triangle_mesh.h"
 #include "core/minkowski/contact_space_options.h"
 #include "core/minkowski/contact_space_report.h"
-#include "core/minkowski/grid_solid.h"
+#include "core/minkowski/grid_pair.h"
 
 // What is done to the operands before the contact space is built, and said
 // about it.
@@ -25,12 +25,13 @@ TriangleMesh PrepareOperand(const TriangleMesh& mesh, OperandRole role,
 // Appends a step and updates kind, bound and conservativeness.
 void AddStep(const ApproximationStep& step, Approximation* approximation);
 
-// Says when rounding by up to `step`, 2^-38 of the larger operand, is coarse
-// for this one: facets that collapsed, fewer than 24 bits.  Nothing to say when
-// step is 0.
-void CheckResolution(const GridSolid& solid, const TriangleMesh& mesh,
-                     double step, const std::string& name,
-                     ContactSpaceReport* report);
+// Prepared operands on their common grid.  Adds a warning for each for which
+// rounding by 2^-38 of the larger one is coarse: facets that collapsed, fewer
+// than 24 bits.  Throws InputError naming the operand of which no solid is left
+// on the grid.
+GridPair PlaceOperands(const TriangleMesh& robot, const TriangleMesh& obstacle,
+                       const ContactSpaceOptions& options,
+                       ContactSpaceReport* report);
 
 // For a contact space that leaks: throws InputError naming the
 // operands that lost facets, by which they are no solids any more; returns
