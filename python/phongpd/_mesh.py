@@ -7,14 +7,14 @@ from typing import Union
 import numpy as np
 from numpy.typing import NDArray
 
-from . import _native
 from ._arguments import Floats
+from ._native import ContactSpace, Solid
 
 
 class MeshViews:
     """What a solid and a contact space show of their mesh."""
 
-    _native: Union[_native.Solid, _native.ContactSpace]
+    _native: Union[Solid, ContactSpace]
 
     @property
     def vertices(self) -> Floats:

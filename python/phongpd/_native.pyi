@@ -77,7 +77,6 @@ class Scene:
     name: str
     start: _Floats
     goal: _Floats
-    feasible: bool | None
     warnings: list[str]
     robot: Solid
     obstacles: list[Solid]
@@ -113,4 +112,3 @@ class Rows:
     def sparsity(self) -> tuple[_Ints, _Ints]: ...
     variables: int
     rows: int
-    length: float

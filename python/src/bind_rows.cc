@@ -16,12 +16,11 @@ namespace {
 class Rows {
  public:
   Rows(const Workshop& workshop, const std::string& metric, const Point& start,
-       const Point& goal, int waypoints, int samples_per_segment, int rows)
-      : length_(workshop.world().diagonal()) {
+       const Point& goal, int waypoints, int samples_per_segment, int rows) {
     const TrajectoryMetric chosen = ParseTrajectoryMetric(metric, "metric");
     SignedMetricOptions options = chosen.options;
     options.phong.field_options.smoothing_length =
-        chosen.smoothing_length.Resolve(length_).share;
+        workshop.world().Resolve(chosen.smoothing_length).share;
     std::vector<std::shared_ptr<const SignedMetric>> metrics;
     const nb::gil_scoped_release release;
     for (const ContactSpace& space :
@@ -42,7 +41,6 @@ class Rows {
 
   size_t variables() const { return static_cast<size_t>(rows_->variables()); }
   size_t rows() const { return static_cast<size_t>(rows_->rows()); }
-  double length() const { return length_; }
   nb::tuple Sparsity() const {
     return nb::make_tuple(Owned(row_, {row_.size()}),
                           Owned(column_, {column_.size()}));
@@ -80,7 +78,6 @@ class Rows {
 
  private:
   std::unique_ptr<NonPenetrationConstraint> rows_;
-  double length_;
   BranchSet branches_;
   std::vector<int> row_, column_;
 };
@@ -96,8 +93,7 @@ void BindRows(nb::module_& module) {
       .def("evaluate", &Rows::Evaluate)
       .def("sparsity", &Rows::Sparsity)
       .def_prop_ro("variables", &Rows::variables)
-      .def_prop_ro("rows", &Rows::rows)
-      .def_prop_ro("length", &Rows::length);
+      .def_prop_ro("rows", &Rows::rows);
 }
 
 }  // namespace phongpd::python

@@ -134,8 +134,6 @@ void BindScene(nb::module_& module) {
                    [](const Scene& scene) { return ToArray(scene.start); })
       .def_prop_ro("goal",
                    [](const Scene& scene) { return ToArray(scene.goal); })
-      .def_prop_ro("feasible",
-                   [](const Scene& scene) { return scene.feasible; })
       .def_prop_ro("warnings",
                    [](const Scene& scene) { return scene.warnings; })
       .def_prop_ro("robot",
