@@ -30,17 +30,6 @@ struct Flags : SeededRunFlags {
   bool verify = true;
 };
 
-AnswerClaims ClaimsOf(const PipelineResult& result) {
-  AnswerClaims claims;
-  if (result.certificate.free) claims.path = result.path;
-  claims.proves_separation =
-      result.status == TrajectoryStatus::kInfeasibleProved;
-  claims.start_is_blocked =
-      result.status == TrajectoryStatus::kStartInCollision;
-  claims.goal_is_blocked = result.status == TrajectoryStatus::kGoalInCollision;
-  return claims;
-}
-
 void Override(const Flags& flags, Scene* scene) {
   PenetrationSettings& settings = scene->penetration;
   if (!flags.metric.empty()) settings.metric = flags.metric;

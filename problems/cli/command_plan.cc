@@ -39,16 +39,6 @@ RunSummary Summarize(const nlohmann::ordered_json& row) {
           row.at("reason").get<std::string>()};
 }
 
-AnswerClaims ClaimsOf(const PlanningResult& result) {
-  AnswerClaims claims;
-  if (result.solved) claims.path = result.numbers.path;
-  claims.proves_separation = result.infeasible_proved;
-  claims.start_is_blocked =
-      result.status == ToString(PlanStatus::kInvalidStart);
-  claims.goal_is_blocked = result.status == ToString(PlanStatus::kInvalidGoal);
-  return claims;
-}
-
 void SetClearance(const Flags& flags, const std::string& planner,
                   Scene* scene) {
   if (flags.clearance.empty()) return;

@@ -36,6 +36,27 @@ std::optional<Verification> Verify(const Scene& scene, const World& world,
 
 }  // namespace
 
+AnswerClaims ClaimsOf(const PipelineResult& result) {
+  AnswerClaims claims;
+  if (result.certificate.free) claims.path = result.path;
+  claims.proves_separation =
+      result.status == TrajectoryStatus::kInfeasibleProved;
+  claims.start_is_blocked =
+      result.status == TrajectoryStatus::kStartInCollision;
+  claims.goal_is_blocked = result.status == TrajectoryStatus::kGoalInCollision;
+  return claims;
+}
+
+AnswerClaims ClaimsOf(const PlanningResult& result) {
+  AnswerClaims claims;
+  if (result.solved) claims.path = result.numbers.path;
+  claims.proves_separation = result.infeasible_proved;
+  claims.start_is_blocked =
+      result.status == ToString(PlanStatus::kInvalidStart);
+  claims.goal_is_blocked = result.status == ToString(PlanStatus::kInvalidGoal);
+  return claims;
+}
+
 bool AnswerCheck::Judge(const Scene& scene, const World& world,
                         const AnswerClaims& claims,
                         nlohmann::ordered_json* row) {

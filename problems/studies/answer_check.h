@@ -7,7 +7,9 @@
 #include <vector>
 
 #include "planners/exact/verification.h"
+#include "planners/trajectory/trajectory_pipeline.h"
 #include "problems/scenes/scene.h"
+#include "problems/studies/planning_study.h"
 #include "problems/world/world.h"
 
 namespace phongpd {
@@ -19,6 +21,9 @@ struct AnswerClaims {
   bool start_is_blocked = false;
   bool goal_is_blocked = false;
 };
+
+AnswerClaims ClaimsOf(const PipelineResult& result);
+AnswerClaims ClaimsOf(const PlanningResult& result);
 
 // The second judgement of the answers that a command writes, on the scene's
 // solids (planners/exact/verification.h).

@@ -52,11 +52,7 @@ std::string Workshop::Optimize(const Point& start, const Point& goal,
   const PipelineResult result = trajectories_.Run(chosen, options);
   nlohmann::ordered_json row =
       TrajectoryRow(trajectories_, chosen, options, result);
-  AnswerClaims claims;
-  if (result.certificate.free) claims.path = result.path;
-  claims.proves_separation =
-      result.status == TrajectoryStatus::kInfeasibleProved;
-  return Judged(scene, claims, &row);
+  return Judged(scene, ClaimsOf(result), &row);
 }
 
 std::string Workshop::Plan(const Point& start, const Point& goal,
@@ -80,10 +76,7 @@ std::string Workshop::Plan(const Point& start, const Point& goal,
   run.seed = seed;
   const PlanningResult result = study.Run(run);
   nlohmann::ordered_json row = PlanningRow(study, run, result);
-  AnswerClaims claims;
-  if (result.solved) claims.path = result.numbers.path;
-  claims.proves_separation = result.infeasible_proved;
-  return Judged(scene, claims, &row);
+  return Judged(scene, ClaimsOf(result), &row);
 }
 
 Scene Workshop::Between(const Point& start, const Point& goal) const {
