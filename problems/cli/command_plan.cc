@@ -42,12 +42,7 @@ RunSummary Summarize(const nlohmann::ordered_json& row) {
 void SetClearance(const Flags& flags, const std::string& planner,
                   Scene* scene) {
   if (flags.clearance.empty()) return;
-  if (!SeeksClearance(planner)) {
-    throw InputError(
-        "--clearance: expected a planner that seeks one (contact-surface or a "
-        "retraction), found " +
-        planner);
-  }
+  RequireSeeksClearance(planner, "--clearance");
   scene->planning.clearance =
       LengthFlag(flags.clearance, "--clearance", LengthRange::kAboveZero,
                  &scene->workspace);

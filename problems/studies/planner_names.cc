@@ -53,6 +53,15 @@ bool SeeksClearance(const std::string& planner) {
          planner.find("retraction") != std::string::npos;
 }
 
+void RequireSeeksClearance(const std::string& planner,
+                           const std::string& what) {
+  if (SeeksClearance(planner)) return;
+  throw InputError(what +
+                   ": expected a planner that seeks one (contact-surface or a "
+                   "retraction), found " +
+                   planner);
+}
+
 std::string DefaultPlanner(const std::string& model) {
   return model == "window" ? "rrt-connect" : kContactSurface;
 }

@@ -24,6 +24,8 @@ const std::vector<std::string>& RetractionNames();
 void CheckHasOmplLog(const std::string& planner);
 // Does the planner take a wanted clearance?  OMPL's own do not.
 bool SeeksClearance(const std::string& planner);
+// Throws InputError starting with `what` unless it does.
+void RequireSeeksClearance(const std::string& planner, const std::string& what);
 
 // The planners that do without the contact surface, from which they want
 // nothing but validity and motion checks: SurfaceFreePlannerNames().

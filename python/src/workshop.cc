@@ -64,6 +64,7 @@ std::string Workshop::Plan(const Point& start, const Point& goal,
   const std::lock_guard<std::mutex> lock(one_at_a_time_);
   Scene scene = Between(start, goal);
   if (!clearance.empty()) {
+    RequireSeeksClearance(planner, "clearance");
     scene.planning.clearance = ParseLength(clearance, "clearance");
     RequireLength(*scene.planning.clearance, LengthRange::kAboveZero,
                   world_.diagonal(), "clearance");

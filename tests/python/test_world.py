@@ -142,6 +142,7 @@ def test_scipy_solves_with_the_rows(world):
     lambda w: w.optimize(START, GOAL, waypoints=2.5),
     lambda w: w.optimize(START, GOAL, max_seconds=0),
     lambda w: w.plan(START, GOAL, planner="other"),
+    lambda w: w.plan(START, GOAL, planner="rrt-connect", clearance=0.01),
     lambda w: w.is_motion_free([START], [GOAL, GOAL]),
     lambda w: phongpd.World(5, {}),
     lambda w: phongpd.World(w.robot, {}),
