@@ -13,7 +13,7 @@ said() { # FILE: the lines of a command, as they were printed
 frame() { # PAGE TITLE
   printf '<iframe src="%s" title="%s" loading="lazy"></iframe>\n' "$1" "$2"
   printf '<p class="small"><a href="%s">Open it alone</a>: turn it, cut it, ' "$1"
-  printf 'play it; ? lists the keys.</p>\n'
+  printf 'play it, probe it; ? lists the keys.</p>\n'
 }
 
 {
@@ -46,7 +46,8 @@ exactly, and with a direction that turns continuously.</p>
 <p>A ball is pushed over the handle of a wrench. Press play: half-way the nearest way
 out is on the other side, and the Euclidean arrow flips within one frame. PhongPD
 follows one side until its branch ends and says when; the sliding contact moves over
-the surface at a bounded speed and never jumps.</p>
+the surface at a bounded speed and never jumps. Or push it yourself: the probe (P) lets
+you drag the ball and answers in the page, by the library compiled to WebAssembly.</p>
 HTML
   frame motion.html "Three metrics along one motion"
   said motion.txt

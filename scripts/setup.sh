@@ -6,12 +6,16 @@
 # and the tests open pages.
 set -euo pipefail
 
+# clang, lld and what they compile for wasm32 with: the queries that the pages
+# of the viewer run themselves.
 # Ipopt's package names blas and lapack to the linker without bringing them.
 packages=(
   g++ cmake make pkg-config libeigen3-dev libcgal-dev libgmp-dev libmpfr-dev
   libtbb-dev libfcl-dev libgtest-dev librapidcheck-dev libcli11-dev
   nlohmann-json3-dev coinor-libipopt-dev libblas-dev liblapack-dev libompl-dev
   libboost-serialization-dev libboost-filesystem-dev gnuplot-nox libjs-three
+  clang lld wasi-libc libc++-14-dev-wasm32 libc++abi-14-dev-wasm32
+  libclang-rt-14-dev-wasm32
   "$@"
 )
 

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/bvh/exact_sign.h"
 
-#include <CGAL/Gmpq.h>
+#include <boost/multiprecision/cpp_int.hpp>
+#include <cmath>
+#include <cstdint>
 
 namespace phongpd::internal {
 
@@ -81,11 +83,25 @@ bool IsModerate(double x) {
   return size == 0.0 || (size >= 1e-70 && size <= 1e70);
 }
 
-// Rationals rather than CGAL's kernel predicates: those stop the process with
-// SIGFPE on denormal input.
-using Rational = CGAL::Gmpq;
+// Integers rather than CGAL's kernel predicates: those stop the process with
+// SIGFPE on denormal input.  Of headers alone, so that queries also run where
+// there is no CGAL (the viewer's probe).
+using Integer = boost::multiprecision::cpp_int;
 
-int SignOf(const Rational& x) { return static_cast<int>(CGAL::sign(x)); }
+// x·2^1074, which is an integer for every finite double.
+Integer Scaled(double x) {
+  int exponent;
+  const double mantissa = std::frexp(x, &exponent);
+  Integer integer(static_cast<std::int64_t>(std::ldexp(mantissa, 53)));
+  const int shift = exponent - 53 + 1074;
+  // What a denormal number lacks in bits are zeros of its mantissa.
+  if (shift < 0) {
+    integer >>= static_cast<unsigned>(-shift);
+  } else {
+    integer <<= static_cast<unsigned>(shift);
+  }
+  return integer;
+}
 
 }  // namespace
 
@@ -95,9 +111,10 @@ int Orient2dExact(double ax, double ay, double bx, double by, double cx,
       IsModerate(cx) && IsModerate(cy)) {
     return Minor({bx, ax}, {cy, ay}, {by, ay}, {cx, ax}).Sign();
   }
-  const Rational x(ax), y(ay);
-  return SignOf((Rational(bx) - x) * (Rational(cy) - y) -
-                (Rational(by) - y) * (Rational(cx) - x));
+  const Integer x = Scaled(ax), y = Scaled(ay);
+  const Integer det =
+      (Scaled(bx) - x) * (Scaled(cy) - y) - (Scaled(by) - y) * (Scaled(cx) - x);
+  return det.sign();
 }
 
 int Orient3dExact(const double* a, const double* b, const double* c,
@@ -121,16 +138,17 @@ int Orient3dExact(const double* a, const double* b, const double* c,
     }
     return det.Sign();
   }
-  Rational u[3], v[3], w[3];
+  Integer u[3], v[3], w[3];
   for (int i = 0; i < 3; ++i) {
-    const Rational origin(a[i]);
-    u[i] = Rational(b[i]) - origin;
-    v[i] = Rational(c[i]) - origin;
-    w[i] = Rational(d[i]) - origin;
+    const Integer origin = Scaled(a[i]);
+    u[i] = Scaled(b[i]) - origin;
+    v[i] = Scaled(c[i]) - origin;
+    w[i] = Scaled(d[i]) - origin;
   }
-  return SignOf(w[0] * (u[1] * v[2] - u[2] * v[1]) +
-                w[1] * (u[2] * v[0] - u[0] * v[2]) +
-                w[2] * (u[0] * v[1] - u[1] * v[0]));
+  const Integer det = w[0] * (u[1] * v[2] - u[2] * v[1]) +
+                      w[1] * (u[2] * v[0] - u[0] * v[2]) +
+                      w[2] * (u[0] * v[1] - u[1] * v[0]);
+  return det.sign();
 }
 
 }  // namespace phongpd::internal

@@ -9,6 +9,8 @@ namespace phongpd {
 
 // Triangles a page draws without getting slow.
 inline constexpr std::size_t kMaxDisplayTriangles = 200000;
+// What a page takes for its probe, in doubles: some 45 bytes a triangle.
+inline constexpr std::size_t kMaxProbeTriangles = 100000;
 
 struct DisplayMesh {
   TriangleMesh mesh;

@@ -75,6 +75,11 @@ class DressedStage extends Stage {
       arrow.material.color.set(theme.mark);
       arrow.pale.color.copy(color);
     });
+    // They share one picture, so each has its own colour.
+    this.probeArrows.forEach((arrow, i) => {
+      arrow.material.color.copy(asColor(wayColor(name, i)));
+      arrow.pale.color.copy(asColor(wayColor(name, i)));
+    });
   }
 
   // Traces of a motion have the colours; its line is the theme's.

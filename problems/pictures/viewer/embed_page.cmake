@@ -8,7 +8,7 @@ set(page "")
 if(THREE)
   file(READ ${FOLDER}/viewer.html page)
   foreach(part IN ITEMS viewer.css geometry.js orbit.js stage.js dress.js
-                        panel.js viewer.js start.js)
+                        probe.js probe_panel.js panel.js viewer.js start.js)
     file(READ ${FOLDER}/${part} content)
     string(REPLACE "@${part}@" "${content}" page "${page}")
   endforeach()

@@ -4,11 +4,16 @@ class Orbit {
     this.target = new THREE.Vector3();
     this.changed = changed;
     this.pointers = new Map();
+    // May take a press of the pointer: gives what is called with its moves, or
+    // null.
+    this.grab = () => null;
+    this.grip = null;
     this.height = 1;
     this.home = {yaw: -0.9, pitch: 0.45, distance: 2.2, target: [0, 0, 0]};
     this.reset();
     element.addEventListener('contextmenu', e => e.preventDefault());
     element.addEventListener('pointerdown', e => {
+      this.grip = this.pointers.size === 0 ? this.grab(e) : null;
       this.pointers.set(e.pointerId, [e.clientX, e.clientY]);
       element.setPointerCapture(e.pointerId);
     });
@@ -55,6 +60,7 @@ class Orbit {
   drag(e) {
     const before = this.pointers.get(e.pointerId);
     if (!before) return;
+    if (this.grip) return this.grip(e);
     const spread = () => {
       const [a, b] = [...this.pointers.values()];
       return Math.hypot(a[0] - b[0], a[1] - b[1]);

@@ -12,6 +12,7 @@ const kKeys = [
   ['C', 'clipping plane'],
   ['O', 'see through solids'],
   ['K', 'contact space'],
+  ['P', 'probe: drag the robot, read its depth'],
   ['G', 'robot at stages'],
   ['T', 'light or dark'],
   ['S', 'save as PNG'],
@@ -57,7 +58,8 @@ class Panel {
     byId('facts').textContent = this.facts();
     this.makeTools();
     byId('panel').append(
-        this.legend(), this.ways(), this.display(), this.notes());
+        this.legend(), this.ways(), viewer.probe ? viewer.probe.section(this) : '',
+        this.display(), this.notes());
     if (stage.ways.some(way => way.points.length > 1)) this.makePlayer();
     this.makeHelp();
   }
@@ -176,7 +178,9 @@ class Panel {
     if (!rows.length) return '';
     const title = data.motion ? 'Penetration depth'
         : data.answers.length ? 'Answers' : 'Paths';
-    return this.section(title, ...rows);
+    const section = this.section(title, ...rows);
+    if (data.motion) section.className = 'traces';
+    return section;
   }
 
   display() {
@@ -316,6 +320,7 @@ class Panel {
       button.setAttribute('aria-pressed',
                           Number(button.dataset.way) === state.way);
     }
+    if (this.viewer.probe) this.viewer.probe.tell();
     if (!byId('scrub')) return;
     byId('scrub').value = Math.round(10000 * state.time);
     byId('speed').value = state.speed;

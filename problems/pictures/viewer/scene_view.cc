@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "problems/pictures/viewer/scene_view.h"
 
+#include "planners/exact/workspace.h"
+
 namespace phongpd {
 
 View SceneView(const Scene& scene,
@@ -17,6 +19,7 @@ View SceneView(const Scene& scene,
   for (const TriangleMesh& mesh : contact_spaces) {
     view.meshes.push_back({"contact space", ViewRole::kContactSpace, mesh});
   }
+  view.length = ContactBounds(scene.workspace).Diagonal();
   return view;
 }
 

@@ -220,27 +220,30 @@ class Stage {
         way.stages.add(ghost);
       }
     }
-    this.arrows = [];
-    const {motion, answers} = this.data;
+    const {motion, answers, probe} = this.data;
     const count = motion ? motion.traces.length : answers.length ? 1 : 0;
-    for (let i = 0; i < count; ++i) {
-      const group = new THREE.Group();
-      const material = new THREE.MeshPhongMaterial({shininess: 10});
-      const pale = this.ghostMaterial.clone();
-      const shaft = new THREE.Mesh(
-          new THREE.CylinderBufferGeometry(1, 1, 1, 16), material);
-      const head = new THREE.Mesh(
-          new THREE.ConeBufferGeometry(1, 1, 20), material);
-      const ghost = this.ghost(pale);
-      const ends = [0, 1].map(() => new THREE.Mesh(
-          new THREE.SphereBufferGeometry(0.007, 16, 12), material));
-      for (const part of [shaft, head, ...ends]) part.renderOrder = 30;
-      material.depthTest = false;
-      material.transparent = true;  // drawn after all else: never hidden
-      group.add(shaft, head, ghost, ...ends);
-      this.groups.traces.add(group);
-      this.arrows.push({group, shaft, head, ghost, ends, material, pale});
-    }
+    this.arrows = Array.from({length: count}, () => this.makeArrow());
+    this.probeArrows = probe ? kProbeMetrics.map(() => this.makeArrow()) : [];
+  }
+
+  makeArrow() {
+    const group = new THREE.Group();
+    const material = new THREE.MeshPhongMaterial({shininess: 10});
+    const pale = this.ghostMaterial.clone();
+    const shaft = new THREE.Mesh(
+        new THREE.CylinderBufferGeometry(1, 1, 1, 16), material);
+    const head = new THREE.Mesh(
+        new THREE.ConeBufferGeometry(1, 1, 20), material);
+    const ghost = this.ghost(pale);
+    const ends = [0, 1].map(() => new THREE.Mesh(
+        new THREE.SphereBufferGeometry(0.007, 16, 12), material));
+    for (const part of [shaft, head, ...ends]) part.renderOrder = 30;
+    material.depthTest = false;
+    material.transparent = true;  // drawn after all else: never hidden
+    group.add(shaft, head, ghost, ...ends);
+    group.visible = false;
+    this.groups.traces.add(group);
+    return {group, shaft, head, ghost, ends, material, pale};
   }
 
   addMarks() {
@@ -290,7 +293,7 @@ class Stage {
             raw: a.map((x, k) => x + share * (b[k] - x)), frame: i};
   }
 
-  setArrow(arrow, from, to) {
+  setArrow(arrow, from, to, width = 0.006) {
     const way = to.clone().sub(from), length = way.length();
     const isShown = length > 1e-6;
     arrow.shaft.visible = arrow.head.visible = isShown;
@@ -299,7 +302,7 @@ class Stage {
     const direction = way.clone().divideScalar(length);
     const turn = new THREE.Quaternion().setFromUnitVectors(
         new THREE.Vector3(0, 1, 0), direction);
-    const tip = Math.min(0.045, 0.45 * length), width = 0.006;
+    const tip = Math.min(0.045, 0.45 * length);
     arrow.shaft.quaternion.copy(turn);
     arrow.head.quaternion.copy(turn);
     arrow.shaft.scale.set(width, length - tip, width);
@@ -318,7 +321,9 @@ class Stage {
                                  : this.at([0, 0, 0]);
     this.robot.position.copy(place ? place.point : rest);
     this.robot.quaternion.set(0, 0, 0, 1);
-    for (const arrow of this.arrows) arrow.group.visible = false;
+    for (const arrow of [...this.arrows, ...this.probeArrows]) {
+      arrow.group.visible = false;
+    }
     if (!place) return null;
     const scale = this.data.scale;
     if (way.kind === 'motion') {

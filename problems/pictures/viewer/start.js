@@ -30,6 +30,10 @@ class LinkedViewer extends Viewer {
     if (state.bend) parts.bend = 1;
     if (state.theme !== first.theme) parts.theme = state.theme;
     if (state.speed !== 1) parts.speed = state.speed;
+    if (state.probe.on) {
+      parts.probe = [...state.probe.at, state.probe.smoothing,
+                     state.probe.metric].join(',');
+    }
     return Object.entries(parts).map(([k, v]) => k + '=' + v).join('&');
   }
 
@@ -63,6 +67,13 @@ class LinkedViewer extends Viewer {
     if (link.get('theme') in kThemes) state.theme = link.get('theme');
     const speed = parseFloat(link.get('speed'));
     if (speed > 0) state.speed = speed;
+    const probe = numbers('probe');
+    if (this.data.probe && probe.length === 5 &&
+        probe.every(Number.isFinite) && kProbeSmoothing.includes(probe[3]) &&
+        kProbeMetrics[probe[4]]) {
+      Object.assign(state.probe, {at: probe.slice(0, 3), smoothing: probe[3],
+                                  metric: probe[4], wanted: true});
+    }
     // For pictures: nothing but the scene, the robot at stages.
     if (link.get('still') === '1') {
       state.still = true;

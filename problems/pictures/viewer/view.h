@@ -66,8 +66,11 @@ struct View {
   std::string title;
   std::string unit = "units";      // what one unit of length is called
   std::vector<std::string> notes;  // what a person should know, a sentence each
-  std::vector<ViewMesh> meshes;    // fixed
-  TriangleMesh robot;              // at the origin; may be empty
+  // D, which shares of a length refer to; 0: the diagonal of the box around
+  // the contact spaces.
+  double length = 0.0;
+  std::vector<ViewMesh> meshes;  // fixed
+  TriangleMesh robot;            // at the origin; may be empty
   std::optional<Eigen::Vector3d> start, goal;
   std::vector<NamedPath> paths;
   ViewMotion motion;                // no frames: none

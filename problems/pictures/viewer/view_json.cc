@@ -9,6 +9,7 @@
 
 #include "problems/output/text.h"
 #include "problems/pictures/viewer/display_mesh.h"
+#include "problems/pictures/viewer/probe/probe_module.h"
 
 namespace phongpd {
 namespace {
@@ -69,6 +70,58 @@ Json MeshJson(const TriangleMesh& mesh, const std::string& name,
           {"shown", shown.mesh.triangles.size()},
           {"positions", Base64(positions)},
           {"indices", Base64(indices)}};
+}
+
+// For the probe: not as it is shown but as it is, in doubles.
+Json ExactJson(const TriangleMesh& mesh) {
+  std::string positions, indices;
+  for (const Vector3d& p : mesh.vertices) {
+    for (int k = 0; k < 3; ++k) Append(&positions, p[k]);
+  }
+  for (const Triangle& t : mesh.triangles) {
+    for (const int v : t) Append(&indices, static_cast<std::uint32_t>(v));
+  }
+  return {{"positions", Base64(positions)}, {"indices", Base64(indices)}};
+}
+
+// What the page needs for its probe; null without contact spaces, where they
+// are too large, or where the probe was not built.
+Json ProbeJson(const View& view, std::vector<std::string>* notes) {
+  BoundingBox box;
+  std::size_t triangles = 0;
+  for (const ViewMesh& mesh : view.meshes) {
+    if (mesh.role != ViewRole::kContactSpace || mesh.mesh.triangles.empty()) {
+      continue;
+    }
+    const BoundingBox own = ComputeBounds(mesh.mesh);
+    box = triangles == 0 ? own
+                         : BoundingBox{box.min.cwiseMin(own.min),
+                                       box.max.cwiseMax(own.max)};
+    triangles += mesh.mesh.triangles.size();
+  }
+  if (triangles == 0) return nullptr;
+  if (triangles > kMaxProbeTriangles) {
+    notes->push_back("The live probe is left out: contact spaces of " +
+                     std::to_string(triangles) + " triangles, at most " +
+                     std::to_string(kMaxProbeTriangles));
+    return nullptr;
+  }
+  const std::string module(internal::ProbeModule());
+  if (module.empty()) {
+    notes->push_back(
+        "There is no live probe: this program was built without clang, lld, "
+        "wasi-libc and libc++ for wasm32.");
+    return nullptr;
+  }
+  Json json = {{"module", Base64(module)},
+               {"length", view.length > 0.0 ? view.length : box.Diagonal()},
+               {"spaces", Json::array()}};
+  for (const ViewMesh& mesh : view.meshes) {
+    if (mesh.role == ViewRole::kContactSpace && !mesh.mesh.triangles.empty()) {
+      json["spaces"].push_back(ExactJson(mesh.mesh));
+    }
+  }
+  return json;
 }
 
 Json MotionJson(const ViewMotion& motion) {
@@ -159,6 +212,7 @@ Json ViewJson(const View& view) {
   for (const ViewAnswer& answer : view.answers) {
     json["answers"].push_back(AnswerJson(answer));
   }
+  json["probe"] = ProbeJson(view, &notes);
   json["notes"] = notes;
   return json;
 }

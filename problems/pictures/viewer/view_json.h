@@ -22,6 +22,8 @@ namespace phongpd {
 //   motion {positions[], traces[{name, pd[], status[]}]} or null
 //   answers[{position, orientation [w, x, y, z], status, depth, clearance,
 //     direction, on_a, on_b}]  on_a and on_b are null without witness points
+//   probe {module (base64 of WebAssembly), length (D), spaces[{positions
+//     (base64 of float64 triples), indices}]} or null
 // Meshes with more triangles than kMaxDisplayTriangles together are shown
 // coarser, and a note says so.
 nlohmann::ordered_json ViewJson(const View& view);

@@ -26,14 +26,17 @@ class Viewer {
     this.state.xray = this.isHidden;
     this.readLink();
     if (this.state.still) this.frame();
+    this.probe = this.data.probe ? new ProbePanel(this) : null;
     this.panel = new Panel(this);
     this.isReady = true;
     this.apply();
+    this.wake();
     window.addEventListener('resize', () => { this.frame(); this.changed(); });
     window.addEventListener('hashchange', () => {
       if (linkText() === this.hash()) return;
       this.readLink();
       this.apply();
+      this.wake();
     });
     window.addEventListener('keydown', e => this.key(e));
     this.last = performance.now();
@@ -59,6 +62,7 @@ class Viewer {
       clip: {on: false, axis: 'z', at: 0.5, flip: false},
       show: {obstacle: true, contact: true, mesh: true, robot: true,
              marks: true, stages: false},
+      probe: {on: false, at: null, smoothing: 0.1, metric: 1},
       xray: false, bend: false, theme: isDark ? 'dark' : 'light', still: false,
     };
   }
@@ -110,6 +114,14 @@ class Viewer {
     this.timer = setTimeout(() => this.keepLink(), 250);
   }
 
+  // Begins what the link asks for and takes its time.
+  wake() {
+    const {probe} = this.state;
+    if (!probe.wanted) return;
+    probe.wanted = false;
+    this.probe.turn(true);
+  }
+
   set(change) {
     change();
     this.apply();
@@ -119,7 +131,8 @@ class Viewer {
     const {state, stage} = this;
     document.documentElement.dataset.theme = state.theme;
     document.body.classList.toggle('still', state.still);
-    document.body.classList.toggle('motion', !!this.data.motion);
+    document.body.classList.toggle('motion', this.isSplit);
+    document.body.classList.toggle('probing', state.probe.on);
     for (const role of ['obstacle', 'contact', 'mesh', 'marks', 'stages']) {
       stage.groups[role].visible = state.show[role];
     }
@@ -182,9 +195,12 @@ class Viewer {
     });
   }
 
+  // Are there panes, one for each metric of a motion?
+  get isSplit() { return !!this.data.motion && !this.state.probe.on; }
+
   // A motion has one pane for each metric, side by side; all else has one.
   panes(width, height) {
-    const {motion} = this.data;
+    const motion = this.isSplit ? this.data.motion : null;
     const count = motion ? Math.max(1, motion.traces.length) : 1;
     const isNarrow = innerWidth <= 760, {still} = this.state;
     const isColumn = width < height;
@@ -232,6 +248,7 @@ class Viewer {
     stage.key.target.position.copy(this.orbit.target);
     stage.key.target.updateMatrixWorld();
     const place = stage.pose(state.way, state.time);
+    if (state.probe.on) this.probe.pose();
     const panes = this.panes(width, height);
     renderer.setScissorTest(false);
     // Opaque: as a part of another page what is behind a canvas may be black.
@@ -256,16 +273,16 @@ class Viewer {
       this.label(pane, i, panes.length);
     });
     this.scaleBar(panes[0].inner.height);
-    this.tell(place);
+    if (!state.probe.on) this.tell(place);
     document.documentElement.dataset.ready = '1';
   }
 
   // The robot has the colour of what it follows.
   dress(pane) {
-    const {stage, state} = this, isMotion = !!this.data.motion;
-    const i = isMotion ? pane : state.way;
+    const {stage, state} = this, isMotion = this.isSplit;
+    const i = isMotion ? pane : state.probe.on ? state.probe.metric : state.way;
     stage.robot.visible = state.show.robot &&
-        (!!this.data.robot || stage.ways.length > 0);
+        (!!this.data.robot || stage.ways.length > 0 || state.probe.on);
     stage.robotMaterial.color.copy(asColor(wayColor(state.theme, i)));
     // Of what cannot be cut, no cap.
     stage.groups.caps.visible = state.clip.on && !state.xray &&
@@ -284,7 +301,7 @@ class Viewer {
       if (color) label.style.color = color;
       byId('labels').append(label);
     };
-    if (this.data.motion) {
+    if (this.isSplit) {
       const trace = this.data.motion.traces[index];
       if (index > 0 && pane.x > 0) put('', pane.x, 0, null, 'rule');
       if (trace) {
@@ -363,7 +380,8 @@ class Viewer {
 
   key(e) {
     if (e.ctrlKey || e.metaKey || e.altKey) return;
-    if (e.target.tagName === 'SELECT') return;
+    if (e.target.tagName === 'SELECT' || e.target.type === 'number') return;
+    if (this.probe && this.probe.key(e)) return;
     const {state, orbit} = this;
     const look = (yaw, pitch) => {
       orbit.yaw = yaw;
@@ -383,6 +401,7 @@ class Viewer {
       z: () => look(-Math.PI / 2, Math.PI / 2),
       c: () => this.set(() => { state.clip.on = !state.clip.on; }),
       o: () => this.set(() => { state.xray = !state.xray; }),
+      p: () => { if (this.probe) this.probe.turn(!state.probe.on); },
       k: () => flip('contact'), g: () => flip('stages'),
       s: () => this.save(), l: () => this.link(),
       '?': () => this.panel.toggleHelp(),

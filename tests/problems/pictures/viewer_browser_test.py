@@ -9,7 +9,9 @@ control that does not do what it says.  Screenshots stay in FOLDER.  Exits with
 77, "skipped", without the browser (scripts/setup.sh chromium).
 """
 import base64
+import csv
 import json
+import math
 import os
 import pathlib
 import select
@@ -299,8 +301,8 @@ def work_controls(browser, checks, page):
           "viewer.state.theme === 'dark'", "a link keeps the state")
 
 
-def make_pages(program, folder):
-    """Pages of everything the program makes, by name."""
+def runner(program, folder):
+    """Runs the program in the folder."""
     def run(*arguments):
         done = subprocess.run(
             [program, *arguments], cwd=folder, capture_output=True, text=True,
@@ -308,7 +310,112 @@ def make_pages(program, folder):
             check=False)
         if done.returncode > 1:
             sys.exit(f"phongpd {' '.join(arguments)}: {done.stderr}")
+    return run
 
+
+def probe_like_the_program(browser, checks, run, folder):
+    """The live probe of the page that is open says what `query` says."""
+    points = [[0.3 + 0.1 * math.sin(0.2 * i), -1.2 + 2.4 * i / 150,
+               0.1 - 0.05 * i / 150] for i in range(151)]
+    (folder / "points.csv").write_text("x,y,z\n" + "".join(
+        f"{x!r},{y!r},{z!r}\n" for x, y, z in points))
+    browser.press("p")
+    browser.wait("viewer.state.probe.on")
+    for metric, name in enumerate(("euclidean", "phong", "sliding")):
+        more = ["--smoothing-length", "0.1"] if name == "phong" else []
+        run("query", "--contact-space", "contact.off", "--points", "points.csv",
+            "--output", "answers.csv", "--tracked", "--metric", name, *more)
+        with open(folder / "answers.csv", encoding="utf-8") as file:
+            expected = list(csv.DictReader(file))
+        found = browser.run(
+            "(() => { const {probe} = viewer.probe; probe.smooth(0.1);"
+            f"probe.forget(); return {json.dumps(points)}.map("
+            f"q => probe.answers(q)[{metric}]); }})()")
+        checks.expect(
+            [a["status"].replace(" ", "_").lower() for a in found] ==
+            [row["status"] for row in expected],
+            f"{name}: the probe has the program's statuses")
+        inside = [(a, row) for a, row in zip(found, expected) if a["inside"]]
+        checks.expect(len(inside) > 50, f"{name}: most points are inside")
+        worst = max(max(abs(a["distance"] - float(row["signed_distance"])),
+                        *(abs(a["contact"][k] - float(row["contact_" + axis]))
+                          for k, axis in enumerate("xyz")))
+                    for a, row in inside)
+        checks.expect(worst < 1e-11, f"{name}: the probe is off by {worst}")
+
+
+def work_probe(browser, checks, page):
+    """The probe's controls, on a page of a motion."""
+    holds, changes = checks.holds, checks.changes
+    browser.open(page)
+    holds("document.getElementById('probe').hidden", "the probe is off")
+    browser.click("#probe-on")
+    browser.wait("viewer.state.probe.on")
+    holds("document.querySelectorAll('#labels .pane').length === 0",
+          "the probe has one picture")
+    holds("document.getElementById('probe-answer-0').textContent"
+          ".includes('deep')", "it tells the depth")
+    browser.run("viewer.draw()")
+    x, y = browser.run(
+        "(() => { const p = viewer.stage.robot.position.clone().project("
+        "viewer.camera); const b = document.getElementById('canvas')"
+        ".getBoundingClientRect(); return [b.left + (p.x + 1) / 2 * b.width,"
+        "b.top + (1 - p.y) / 2 * b.height]; })()")
+    before = browser.run("[viewer.state.probe.at, viewer.orbit.yaw]")
+    browser.mouse("mousePressed", x, y, button="left", clickCount=1)
+    changes(lambda: browser.mouse("mouseMoved", x + 60, y - 30, button="left",
+                                  buttons=1), "dragging the robot")
+    browser.mouse("mouseReleased", x + 60, y - 30, button="left", clickCount=1)
+    holds(f"viewer.orbit.yaw === {before[1]}", "a drag of it turns no view")
+    moved = browser.run(
+        "(() => { const p = viewer.stage.robot.position.clone().project("
+        "viewer.camera); const b = document.getElementById('canvas')"
+        ".getBoundingClientRect(); return [b.left + (p.x + 1) / 2 * b.width,"
+        "b.top + (1 - p.y) / 2 * b.height]; })()")
+    checks.expect(abs(moved[0] - x - 60) < 1 and abs(moved[1] - y + 30) < 1,
+                  f"the robot follows the pointer: {moved}")
+    holds("viewer.probe.history.length === 2", "each place is asked once")
+    at = browser.run("viewer.state.probe.at")
+    browser.press("ArrowUp")
+    holds(f"Math.abs(Math.hypot(...viewer.state.probe.at.map((x, k) => x - "
+          f"{at}[k])) / viewer.data.scale - 0.01) < 1e-9", "a key moves it")
+    browser.run("(() => { const e = document.getElementById('probe-x');"
+                "e.value = '0.25'; e.dispatchEvent(new Event('change')); })()")
+    holds("viewer.state.probe.at[0] === 0.25", "a number places it")
+    browser.click('[data-probe="0"]')
+    holds("viewer.state.probe.metric === 0 && viewer.stage.probeArrows[0]"
+          ".group.visible", "a click shows where a metric sends it")
+    browser.run("(() => { const e = document.getElementById("
+                "'probe-smoothing'); e.value = '0'; e.dispatchEvent("
+                "new Event('change')); })()")
+    holds("viewer.probe.probe.smoothing === 0 && "
+          "viewer.probe.history.length === 1",
+          "another smoothing length begins anew")
+    browser.click("#link")
+    link = browser.run("location.hash")
+    at = browser.run("viewer.state.probe.at")
+    browser.open(page, link)
+    browser.wait("viewer.state.probe.on")
+    holds(f"JSON.stringify(viewer.state.probe.at) === '{json.dumps(at)}'"
+          ".replace(/ /g, '') && viewer.state.probe.metric === 0",
+          "a link keeps the probe")
+    browser.press("p")
+    holds("!viewer.state.probe.on && document.querySelectorAll("
+          "'#labels .pane').length === 3", "P ends it")
+    checks.quiet("probe")
+    # What is no contact space is refused in words.
+    browser.open(page)
+    browser.run("(() => { const s = viewer.data.probe.spaces[0];"
+                "s.indices = s.indices.slice(0, 16 * 20); })()")
+    browser.press("p")
+    browser.wait("document.getElementById('message').textContent"
+                 ".includes('closed, edge-manifold')")
+    holds("!viewer.state.probe.on", "and the page goes on without")
+    checks.quiet("broken probe")
+
+
+def make_pages(run, folder):
+    """Pages of everything the program makes, by name."""
     run("optimize", "u_axis", "--output", "phong.jsonl")
     run("optimize", "u_axis", "--metric", "euclidean", "--start", "straight",
         "--mu-strategy", "monotone", "--polish", "never", "--output",
@@ -344,7 +451,8 @@ def main():
         print("Skipped: no browser; install it by scripts/setup.sh chromium")
         return 77
     folder.mkdir(parents=True, exist_ok=True)
-    pages = make_pages(program, folder)
+    run = runner(program, folder)
+    pages = make_pages(run, folder)
     browser = Browser(chromium)
     checks = Checks(browser)
     try:
@@ -389,6 +497,12 @@ def main():
         checks.holds("document.querySelectorAll('#labels .pane').length === 3",
                      "a motion has a pane for each metric")
         checks.changes(lambda: browser.press("ArrowLeft"), "a frame of motion")
+        if browser.run("viewer.data.probe !== null"):
+            probe_like_the_program(browser, checks, run, folder)
+            browser.shoot(folder / "probe-light.png")
+            work_probe(browser, checks, pages["motion"])
+        else:
+            print("Skipped: built without the live probe", flush=True)
         browser.open(pages["depth"])
         checks.holds("document.querySelector('button.way small').textContent"
                      ".startsWith('penetrating, depth ')", "the depth is told")

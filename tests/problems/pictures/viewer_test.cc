@@ -109,7 +109,44 @@ TEST(ViewJson, HoldsMeshesToSinglePrecisionFarFromTheOrigin) {
   }
   EXPECT_EQ(json["meshes"][0]["role"], "obstacle");
   EXPECT_EQ(json["meshes"][1]["role"], "contact");
-  EXPECT_TRUE(json["notes"].empty());
+  // Without the compiler for it a note says that there is no probe.
+  EXPECT_EQ(json["notes"].size(), json["probe"].is_null() ? 1U : 0U);
+}
+
+TEST(ViewJson, HandsItsProbeContactSpacesToTheLastBit) {
+  View view = SomeView();
+  view.length = 2.5;
+  const Json json = ViewJson(view);
+  const Json& probe = json["probe"];
+  if (probe.is_null()) GTEST_SKIP() << "built without the live probe";
+  EXPECT_EQ(probe["length"], 2.5);
+  EXPECT_EQ(Decoded(probe["module"]).substr(0, 4), std::string("\0asm", 4));
+  ASSERT_EQ(probe["spaces"].size(), 1U);
+  const TriangleMesh& mesh = view.meshes[1].mesh;
+  const std::string positions = Decoded(probe["spaces"][0]["positions"]);
+  const std::string indices = Decoded(probe["spaces"][0]["indices"]);
+  ASSERT_EQ(positions.size(), 24 * mesh.vertices.size());
+  ASSERT_EQ(indices.size(), 12 * mesh.triangles.size());
+  for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      EXPECT_EQ(At<double>(positions, 24 * v + 8 * k),
+                mesh.vertices[v][static_cast<int>(k)]);
+    }
+  }
+  view.length = 0.0;
+  EXPECT_EQ(ViewJson(view)["probe"]["length"], ComputeBounds(mesh).Diagonal());
+}
+
+TEST(ViewJson, HasNoProbeWithoutContactSpaceOrForTooLargeOnes) {
+  View view = SomeView();
+  view.meshes[1].mesh = MakeIcoBall(1.0, 7);
+  const Json large = ViewJson(view);
+  EXPECT_TRUE(large["probe"].is_null());
+  EXPECT_NE(large["notes"].dump().find("probe is left out"), std::string::npos);
+  view.meshes.pop_back();
+  const Json none = ViewJson(view);
+  EXPECT_TRUE(none["probe"].is_null());
+  EXPECT_TRUE(none["notes"].empty());
 }
 
 TEST(ViewJson, NamesPathsAndSaysWhichAreFree) {

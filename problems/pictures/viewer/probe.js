@@ -1,0 +1,83 @@
+// The library's own queries in the page: what each metric says of a robot that
+// one drags about.
+
+// In the order, and so the colours, of motions.
+const kProbeMetrics = ['Euclidean PD', 'PhongPD', 'sliding contact'];
+const kProbeSliding = 2;
+const kQueryStates = ['ok', 'branch ended', 'Euclidean fallback', 'invalid'];
+const kTrackerStates =
+    ['following', 'sliding', 'left elsewhere', 'outside', 'invalid'];
+const kProbeNumbers = 12;  // of one metric (probe.cc)
+
+class Probe {
+  constructor(data) {
+    this.data = data.probe;
+    this.isReady = false;
+    this.smoothing = null;  // that the metrics are made for
+  }
+
+  // Compiles the module and hands it the contact spaces.  Rejects with a
+  // sentence.
+  async load() {
+    const nothing = () => 0;
+    const wasi = {environ_get: nothing, environ_sizes_get: nothing,
+                  fd_close: nothing, fd_seek: nothing, fd_write: nothing,
+                  proc_exit: nothing};
+    const made = await WebAssembly.instantiate(bytesOf(this.data.module), {
+      page: {fail: why => { throw new Error(this.textAt(why)); }},
+      wasi_snapshot_preview1: wasi,
+    });
+    this.calls = made.instance.exports;
+    this.calls._initialize();
+    for (const {positions, indices} of this.data.spaces) {
+      const p = new Float64Array(bytesOf(positions));
+      const t = new Int32Array(bytesOf(indices));
+      const at = this.calls.allocate(8 * p.length);
+      const from = this.calls.allocate(4 * t.length);
+      new Float64Array(this.calls.memory.buffer, at, p.length).set(p);
+      new Int32Array(this.calls.memory.buffer, from, t.length).set(t);
+      this.calls.add_space(at, p.length / 3, from, t.length / 3);
+    }
+    this.isReady = true;
+  }
+
+  textAt(address) {
+    const bytes = new Uint8Array(this.calls.memory.buffer, address);
+    return new TextDecoder().decode(
+        bytes.subarray(0, Math.min(bytes.indexOf(0), 500)));
+  }
+
+  // Of metrics with this smoothing length, a share of D.
+  smooth(share) {
+    if (this.smoothing === share) return;
+    this.calls.prepare(this.data.length, share);
+    this.smoothing = share;
+  }
+
+  // Where the robot was does not matter any more.
+  forget() { this.calls.forget(); }
+
+  // What each metric says of the robot at a point in the user's unit: of
+  // several contact spaces that in which it is deepest.
+  answers(point) {
+    const address = this.calls.query(...point);
+    const count = this.data.spaces.length, rows = kProbeMetrics.length;
+    const all = new Float64Array(this.calls.memory.buffer, address,
+                                 count * rows * kProbeNumbers);
+    return kProbeMetrics.map((name, metric) => {
+      let best = null;
+      for (let space = 0; space < count; ++space) {
+        const begin = (space * rows + metric) * kProbeNumbers;
+        const row = all.slice(begin, begin + kProbeNumbers);
+        if (!best || row[2] < best[2]) best = row;
+      }
+      const states = metric === kProbeSliding ? kTrackerStates
+          : kQueryStates;
+      return {
+        name, status: states[best[0]], inside: best[1] === 1,
+        distance: best[2], contact: [...best.slice(3, 6)],
+        direction: [...best.slice(6, 9)], gradient: [...best.slice(9, 12)],
+      };
+    });
+  }
+}

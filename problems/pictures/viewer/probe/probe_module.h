@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string_view>
+
+namespace phongpd::internal {
+
+// probe.cc as WebAssembly; empty if there was no compiler for it when this was
+// built.  Compiled in by embed_probe.cmake.
+std::string_view ProbeModule();
+
+}  // namespace phongpd::internal
