@@ -2,7 +2,9 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <utility>
 
+#include "planners/ompl/ompl_planning.h"
 #include "problems/cli/command.h"
 #include "problems/cli/seeded_runs.h"
 #include "problems/output/text.h"
@@ -27,10 +29,29 @@ struct Flags : SeededRunFlags {
   int rows = 0;
   bool no_line = false;
   bool per_obstacle = false;
+  std::string model;
+  WorldLimits limits;
   bool verify = true;
 };
 
+// What says how a metric is followed says nothing where none is.
+void RequireMetricIsFollowed(const Flags& flags, const Scene& scene) {
+  if (scene.trajectory.model != "window") return;
+  for (const auto& [name, value] :
+       {std::make_pair("--metric", flags.metric),
+        std::make_pair("--smoothing-length", flags.smoothing_length),
+        std::make_pair("--jacobian", flags.jacobian)}) {
+    if (value.empty()) continue;
+    throw InputError(std::string(name) +
+                     ": expected none with model window, which follows no "
+                     "penetration metric, found " +
+                     value + "; take --model full");
+  }
+}
+
 void Override(const Flags& flags, Scene* scene) {
+  if (!flags.model.empty()) scene->trajectory.model = flags.model;
+  RequireMetricIsFollowed(flags, *scene);
   PenetrationSettings& settings = scene->penetration;
   if (!flags.metric.empty()) settings.metric = flags.metric;
   if (!flags.jacobian.empty()) settings.jacobian = flags.jacobian;
@@ -105,6 +126,17 @@ RunSummary Summarize(const Flags& flags, const nlohmann::ordered_json& row) {
           Explanation(row)};
 }
 
+// What the model made of the run, on stderr.
+void TellModel(const TrajectoryStudy& study) {
+  if (study.model() != "window") return;
+  Note(
+      "model window: free space alone, so no metric is followed; rrt-connect "
+      "where the line collides, then the corridor" +
+      (study.refusal().empty()
+           ? std::string()
+           : ", as the whole is refused: " + study.refusal()));
+}
+
 int Optimize(const Flags& flags) {
   RequireRuns(flags.runs);
   const SceneSource source(flags.scene, flags.root);
@@ -114,7 +146,9 @@ int Optimize(const Flags& flags) {
                   [&flags](const auto& row) { return Summarize(flags, row); });
   TrajectoryStudy study(
       UserCache(flags.no_cache),
-      flags.per_obstacle ? SpaceLayout::kPerObstacle : SpaceLayout::kMerged);
+      flags.per_obstacle ? SpaceLayout::kPerObstacle : SpaceLayout::kMerged,
+      flags.limits);
+  SilenceOmpl();
   AnswerCheck check(flags.verify);
   for (int run = 0; run < flags.runs; ++run) {
     const std::uint64_t seed = flags.seed + static_cast<std::uint64_t>(run);
@@ -132,12 +166,17 @@ int Optimize(const Flags& flags) {
     if (run == runs.kept()) TellAbout(scene);
     if (is_kept) continue;
     const PipelineResult result = study.Run(metric, options);
+    if (run == runs.kept()) TellModel(study);
     nlohmann::ordered_json row = TrajectoryRow(study, metric, options, result);
     check.Judge(study.scene(), study.world(), ClaimsOf(result), &row);
     runs.Add(row);
   }
-  runs.Write(
-      [&study] { return SceneView(study.scene(), study.spaces().Meshes()); });
+  runs.Write([&study] {
+    // Free space alone has no contact space to show.
+    return study.model() == "window"
+               ? SceneView(study.scene())
+               : SceneView(study.scene(), study.spaces().Meshes());
+  });
   TellAboutSpaces(study.world(), study.triangles());
   const int code = runs.Commit();
   check.RequireNoFailure();
@@ -196,6 +235,14 @@ Command AddOptimize(CLI::App* app) {
       ->capture_default_str();
   app->add_flag("--per-obstacle", flags->per_obstacle,
                 "One contact space for each obstacle instead of a merged one");
+  app->add_option("--model", flags->model,
+                  "What is built to optimise in: all of the contact space "
+                  "(full), free space alone, at a fraction of the cost, where "
+                  "no metric is followed: rrt-connect and the corridor "
+                  "(window), or all of it where the limits below allow it "
+                  "(auto; scene's own if not set)")
+      ->check(CLI::IsMember({"auto", "window", "full"}));
+  AddBuildLimits(app, &flags->limits.max_seconds, &flags->limits.max_mib);
   AddRuns(app,
           "Of the first run; 0 is the scene as it stands, more draw start and "
           "goal of a family, and the noise",

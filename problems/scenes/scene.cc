@@ -207,6 +207,7 @@ void Read(const Json& value, const JsonPlace& place,
                                 LengthRange::kAboveZero);
   }
   Read(value, "max_segment_ratio", &settings->max_segment_ratio);
+  Read(value, "model", &settings->model);
   if (!value.contains("ipopt")) return;
   for (const auto& [key, option] : value["ipopt"].items()) {
     settings->ipopt[key] = OptionValue(option);

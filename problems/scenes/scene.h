@@ -36,6 +36,7 @@ struct TrajectorySettings {
   int samples_per_segment = 0;  // interior; 0: by the Lipschitz rule
   Length margin = Length::FromShare(0.01);  // distance kept, in (0, D]
   double max_segment_ratio = 1.6;           // longest over even segment length
+  std::string model = "auto";               // or "window", "full"
   // By Ipopt's own names.  A whole number in the file arrives as an int, also
   // for options that are real numbers.
   std::map<std::string, IpoptValue> ipopt;

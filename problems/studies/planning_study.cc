@@ -21,30 +21,13 @@ constexpr double kEnoughClearance = 0.01;
 
 PlanningStudy::PlanningStudy(const Scene& scene, const ContactSpaceCache& cache,
                              const WorldLimits& limits)
-    : scene_(scene), world_(scene.workspace, scene.name, cache, limits) {}
+    : scene_(scene),
+      world_(scene.workspace, scene.name, cache, limits),
+      choice_(scene.planning.model) {}
 
 PlanningStudy::PlanningStudy(const Scene& scene, const World& world)
-    : scene_(scene), world_(world) {
+    : scene_(scene), world_(world), choice_(scene.planning.model) {
   RequireSameSolids(scene.workspace, world, scene.name);
-}
-
-bool PlanningStudy::UsesWindow() {
-  if (uses_window_) return *uses_window_;
-  const std::string& model = scene_.planning.model;
-  if (model != "auto" && model != "window" && model != "full") {
-    throw InputError("model: expected auto, window or full, found '" + model +
-                     "'");
-  }
-  if (model != "window") {
-    try {
-      world_.Spaces(SpaceLayout::kSealed);
-    } catch (const BuildRefusal& refusal) {
-      if (model == "full") throw;
-      refusal_ = refusal.what();
-    }
-  }
-  uses_window_ = model == "window" || !refusal_.empty();
-  return *uses_window_;
 }
 
 const FreeSpace& PlanningStudy::Judge() {
@@ -205,13 +188,13 @@ void PlanningStudy::RunOmpl(const PlanningRun& run, PlanningResult* result) {
 void PlanningStudy::RequireSurfaceFree(const std::string& planner) const {
   if (!NeedsContactSurface(planner)) return;
   const std::string others = Joined(SurfaceFreePlannerNames());
-  if (refusal_.empty()) {
+  if (refusal().empty()) {
     throw InputError(
         "--planner: expected one that needs no contact surface with model "
         "window (" +
         others + "), found " + planner + "; take model full");
   }
-  throw BuildRefusal(refusal_ + "; or plan in free space alone (" + others +
+  throw BuildRefusal(refusal() + "; or plan in free space alone (" + others +
                      ")");
 }
 

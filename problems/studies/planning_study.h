@@ -12,6 +12,7 @@
 #include "planners/exact/contact_surface_planner.h"
 #include "planners/ompl/ompl_planning.h"
 #include "problems/scenes/scene.h"
+#include "problems/studies/model_choice.h"
 #include "problems/studies/planner_names.h"
 #include "problems/world/world.h"
 
@@ -40,14 +41,11 @@ struct PlanningResult {
 };
 
 // Plans on one scene.  What it plans in is built once for all runs, when the
-// first one needs it, by the scene's planning.model:
-//   full    the sealed contact space of its world,
-//   window  free space alone (World::Convolution), which is enough for planners
-//           that only check motions; their paths are exactly free all the same,
-//           and are shortened (ShortenPath) where they keep the wanted
-//           clearance, by default 0.01 D,
-//   auto    full; window where the limits of a build refuse the contact space
-//           and the planner can do with it.
+// first one needs it, by the scene's planning.model (model_choice.h): the
+// sealed contact space of its world, or free space alone.  That is enough for
+// planners that only check motions; their paths are exactly free all the same,
+// and are shortened (ShortenPath) where they keep the wanted clearance, by
+// default 0.01 D.
 class PlanningStudy {
  public:
   // Throws InputError.
@@ -76,7 +74,7 @@ class PlanningStudy {
   TriangleMesh VisibleMesh();
 
   // Why model auto took the window; empty: it did not.
-  const std::string& refusal() const { return refusal_; }
+  const std::string& refusal() const { return choice_.refusal(); }
 
   const Scene& scene() const { return scene_; }
   const World& world() const { return world_; }
@@ -88,8 +86,9 @@ class PlanningStudy {
   const PlanResult& exact() const { return exact_; }
 
  private:
-  // Decides once, and builds what the full model needs.
-  bool UsesWindow();
+  static constexpr SpaceLayout kLayout = SpaceLayout::kSealed;
+
+  bool UsesWindow() { return choice_.UsesWindow(world_, {kLayout}); }
   const FreeSpace& Judge();
   std::string PlannerOf(const PlanningRun& run);
   void RequireSurfaceFree(const std::string& planner) const;
@@ -105,8 +104,7 @@ class PlanningStudy {
 
   Scene scene_;
   World world_;
-  std::optional<bool> uses_window_;  // not yet decided: none
-  std::string refusal_;
+  ModelChoice choice_;
   std::unique_ptr<ContactSurfacePlanner> planner_;
   std::shared_ptr<const ContactModel> model_;
   PlanResult exact_;

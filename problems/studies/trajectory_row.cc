@@ -38,12 +38,20 @@ Json TrajectoryRow(const TrajectoryStudy& study, const TrajectoryMetric& metric,
       (ipopt.IsSolved() || result.status != TrajectoryStatus::kStalledFeasible);
   Json row;
   row["scene"] = study.scene().name;
-  row["metric"] = is_phong ? "phong" : "euclidean";
-  row["method"] = metric.name;
+  row["model"] = study.model();
+  // In free space alone there is none to follow.
+  const bool has_metric = study.model() != "window";
+  row["metric"] = !has_metric ? "none" : is_phong ? "phong" : "euclidean";
+  row["method"] = has_metric ? metric.name : "corridor";
   const World& world = study.world();
-  const std::optional<ResolvedLength> smoothing = study.SmoothingLength(metric);
-  row["smoothing_length"] = smoothing ? Json(smoothing->share) : Json(nullptr);
-  row["jacobian"] = is_exact ? "exact" : "direction";
+  const std::optional<ResolvedLength> of_metric = study.SmoothingLength(metric);
+  row["smoothing_length"] = nullptr;
+  Json smoothing = LengthRow({});
+  if (has_metric && of_metric) {
+    row["smoothing_length"] = of_metric->share;
+    smoothing = LengthRow(of_metric);
+  }
+  row["jacobian"] = !has_metric ? "none" : is_exact ? "exact" : "direction";
   row["policy"] = "commit";  // the only one: see results/retired.md
   row["start"] = ToString(options.start);
   row["start_noise"] = options.start_noise;
@@ -74,13 +82,11 @@ Json TrajectoryRow(const TrajectoryStudy& study, const TrajectoryMetric& metric,
   row["inf_du"] = ipopt.dual_infeasibility;
   // Smallest distance along the path, in the user's unit.
   const double clearance =
-      result.certificate.free
-          ? PathClearance(*study.spaces().free_space, result.path)
-          : 0.0;
+      result.certificate.free ? PathClearance(study.judge(), result.path) : 0.0;
   row["clearance"] = clearance;
   row["lengths"] = {
       {"D", world.diagonal()},
-      {"smoothing_length", LengthRow(smoothing)},
+      {"smoothing_length", smoothing},
       {"margin", LengthRow(world.Resolve(study.scene().trajectory.margin))},
       {"clearance", LengthRow(world.Resolve(Length::FromUnit(clearance)))}};
   row["missing_clearance"] = result.missing_clearance;

@@ -6,6 +6,7 @@
 
 #include "core/mesh/mesh_error.h"
 #include "problems/output/text.h"
+#include "problems/studies/window_trajectory.h"
 
 namespace phongpd {
 namespace {
@@ -75,17 +76,20 @@ TrajectoryMetric SceneMetric(const Scene& scene) {
 }
 
 void TrajectoryStudy::Enter(const Scene& scene) {
-  const bool is_known =
-      world_ && HaveSameSolids(scene.workspace, world_->workspace());
+  const bool is_known = world_ &&
+                        HaveSameSolids(scene.workspace, world_->workspace()) &&
+                        scene.trajectory.model == scene_.trajectory.model;
   scene_ = scene;
   if (is_known) return;
+  choice_ = ModelChoice(scene.trajectory.model);
   problems_.clear();
   repair_.reset();
-  world_.emplace(scene_.workspace, scene_.name, cache_);
+  world_.emplace(scene_.workspace, scene_.name, cache_, limits_);
 }
 
 void TrajectoryStudy::Enter(const Scene& scene, const World& world) {
   RequireSameSolids(scene.workspace, world, scene.name);
+  choice_ = ModelChoice(scene.trajectory.model);
   scene_ = scene;
   problems_.clear();
   repair_.reset();
@@ -160,6 +164,34 @@ bool TrajectoryStudy::Diagnose(PipelineResult* result) const {
   return true;
 }
 
+// Start repair needs the sealed space as well.
+bool TrajectoryStudy::UsesWindow(TrajectoryStart start) {
+  std::vector<SpaceLayout> layouts;
+  if (start != TrajectoryStart::kStraight) {
+    layouts.push_back(SpaceLayout::kSealed);
+  }
+  layouts.push_back(layout_);
+  return choice_.UsesWindow(world(), layouts);
+}
+
+const FreeSpace& TrajectoryStudy::judge() const {
+  return used_model_ == "window" ? *world().Convolution().free_space
+                                 : *spaces().free_space;
+}
+
+PipelineResult TrajectoryStudy::RunInWindow(const PipelineOptions& options) {
+  TrajectoryProblem problem = Settings();
+  problem.free_space = world().Convolution().free_space;
+  MotionDomain domain;
+  domain.free_space = problem.free_space;
+  domain.region =
+      scene_.workspace.bounds.IsEmpty()
+          ? SamplingRegion(*problem.free_space, scene_.start, scene_.goal)
+          : scene_.workspace.bounds;
+  return OptimizeInFreeSpace(problem, domain, options,
+                             scene_.planning.time_limit);
+}
+
 PipelineResult TrajectoryStudy::Run(const TrajectoryMetric& metric,
                                     const PipelineOptions& options) {
   // Bad options are refused, and blocked ends are told, before anything is
@@ -171,20 +203,31 @@ PipelineResult TrajectoryStudy::Run(const TrajectoryMetric& metric,
   TrajectoryPipeline(empty, nullptr, straight);
   metric.options.Validate();
   SmoothingLength(metric);
-  PipelineResult blocked;
-  if (!Diagnose(&blocked)) return blocked;
+  PipelineResult result;
+  used_model_ = "none";
+  if (!Diagnose(&result)) return result;
 
-  if (options.start != TrajectoryStart::kStraight && repair_ == nullptr) {
-    repair_ = std::make_shared<StartRepair>(world().Sealed());
+  const bool is_window = UsesWindow(options.start);
+  used_model_ = is_window ? "window" : "full";
+  if (is_window) {
+    result = RunInWindow(options);
+  } else {
+    result = RunInFull(metric, options);
   }
-  PipelineResult result =
-      TrajectoryPipeline(Problem(metric), repair_, options).Solve();
   const bool at_start = result.status == TrajectoryStatus::kStartInCollision;
   if (at_start || result.status == TrajectoryStatus::kGoalInCollision) {
     result.reason = BlockedByRounding(at_start ? scene_.start : scene_.goal,
                                       at_start ? "start" : "goal");
   }
   return result;
+}
+
+PipelineResult TrajectoryStudy::RunInFull(const TrajectoryMetric& metric,
+                                          const PipelineOptions& options) {
+  if (options.start != TrajectoryStart::kStraight && repair_ == nullptr) {
+    repair_ = std::make_shared<StartRepair>(world().Sealed());
+  }
+  return TrajectoryPipeline(Problem(metric), repair_, options).Solve();
 }
 
 PipelineOptions ScenePipelineOptions(const Scene& scene) {

@@ -11,6 +11,7 @@
 #include "constraints/signed_metric.h"
 #include "planners/trajectory/trajectory_pipeline.h"
 #include "problems/scenes/scene.h"
+#include "problems/studies/model_choice.h"
 #include "problems/world/world.h"
 
 namespace phongpd {
@@ -33,11 +34,15 @@ TrajectoryMetric SceneMetric(const Scene& scene);
 // Runs the trajectory pipeline on one scene after the other.  Contact spaces,
 // fields and repair graphs are kept while only start, goal and settings
 // change, as they do from seed to seed of a family.
+//
+// What it builds is the scene's trajectory.model (model_choice.h).  In free
+// space alone no metric is followed: OptimizeInFreeSpace (window_trajectory.h).
 class TrajectoryStudy {
  public:
   explicit TrajectoryStudy(const ContactSpaceCache& cache = {},
-                           SpaceLayout layout = SpaceLayout::kMerged)
-      : cache_(cache), layout_(layout) {}
+                           SpaceLayout layout = SpaceLayout::kMerged,
+                           const WorldLimits& limits = {})
+      : cache_(cache), layout_(layout), limits_(limits) {}
 
   // Makes `scene` the current one; builds nothing.  Throws InputError.
   void Enter(const Scene& scene);
@@ -51,10 +56,17 @@ class TrajectoryStudy {
   const WorldSpaces& spaces() const { return world().Spaces(layout_); }
   // Their triangles; 0: they are not built.
   std::size_t triangles() const;
+  // What the last run optimised in: "full", "window"; "none": it built nothing.
+  const std::string& model() const { return used_model_; }
+  // Why model auto took the window; empty: it did not.
+  const std::string& refusal() const { return choice_.refusal(); }
+  // The exact judge of the last run's path; of `model`.
+  const FreeSpace& judge() const;
 
   // Options other than those the scene sets (waypoints, margin, ...).  A start
   // or goal in collision is said before anything is built, with the obstacle
-  // and a bound of the depth.  Throws InputError.
+  // and a bound of the depth.  Throws InputError; BuildRefusal where a limit
+  // refuses what model full needs.
   PipelineResult Run(const TrajectoryMetric& metric,
                      const PipelineOptions& options);
 
@@ -70,9 +82,16 @@ class TrajectoryStudy {
   TrajectoryProblem Settings() const;
   SignedMetricOptions WorldOptions(const TrajectoryMetric& metric) const;
   bool Diagnose(PipelineResult* result) const;
+  bool UsesWindow(TrajectoryStart start);
+  PipelineResult RunInWindow(const PipelineOptions& options);
+  PipelineResult RunInFull(const TrajectoryMetric& metric,
+                           const PipelineOptions& options);
 
   ContactSpaceCache cache_;
   SpaceLayout layout_;
+  WorldLimits limits_;
+  ModelChoice choice_;
+  std::string used_model_ = "none";
   Scene scene_;
   std::optional<World> world_;
   std::map<std::string, TrajectoryProblem> problems_;  // by metric

@@ -6,7 +6,10 @@
 #include <cstdint>
 #include <cstring>
 #include <nlohmann/json.hpp>
+#include <utility>
 
+#include "core/contact/contact_space.h"
+#include "core/mesh/mesh_error.h"
 #include "problems/output/text.h"
 #include "problems/pictures/viewer/display_mesh.h"
 #include "problems/pictures/viewer/probe/probe_module.h"
@@ -84,8 +87,20 @@ Json ExactJson(const TriangleMesh& mesh) {
   return {{"positions", Base64(positions)}, {"indices", Base64(indices)}};
 }
 
+// Can metrics be made of it?  Parts of contact spaces are drawn, too.
+bool IsWhole(const ViewMesh& mesh) {
+  try {
+    ContactSpace::Parts parts;
+    parts.mesh = mesh.mesh;
+    const ContactSpace space(std::move(parts), mesh.name);
+    return true;
+  } catch (const InputError&) {
+    return false;
+  }
+}
+
 // What the page needs for its probe; null without contact spaces, where they
-// are too large, or where the probe was not built.
+// are shown in part or too large, or where the probe was not built.
 Json ProbeJson(const View& view, std::vector<std::string>* notes) {
   BoundingBox box;
   std::size_t triangles = 0;
@@ -105,6 +120,9 @@ Json ProbeJson(const View& view, std::vector<std::string>* notes) {
                      std::to_string(triangles) + " triangles, at most " +
                      std::to_string(kMaxProbeTriangles));
     return nullptr;
+  }
+  for (const ViewMesh& mesh : view.meshes) {
+    if (mesh.role == ViewRole::kContactSpace && !IsWhole(mesh)) return nullptr;
   }
   const std::string module(internal::ProbeModule());
   if (module.empty()) {
