@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# bench.sh [paper|queries|contact-space|lazy|convergence|planning|extremes|all]:
-# regenerates the tables and figures of results/.
+# bench.sh [paper|queries|contact-space|lazy|convergence|planning|extremes|trade|
+# all]: regenerates the tables and figures of results/.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 # The user's own cache is neither used nor filled.
@@ -10,10 +10,10 @@ export PHONGPD_CACHE_DIR=$PWD/build/cache
 suite=${1:-all}
 case $suite in
   paper | queries | contact-space | lazy | convergence | planning | extremes | \
-    all) ;;
+    trade | all) ;;
   *)
     echo "bench: expected paper, queries, contact-space, lazy," \
-      "convergence, planning, extremes or all, found $suite" >&2
+      "convergence, planning, extremes, trade or all, found $suite" >&2
     exit 2
     ;;
 esac
@@ -22,7 +22,12 @@ if [[ $suite == paper || $suite == all ]]; then
   build/paper_benchmark --output results/paper
 fi
 if [[ $suite == queries || $suite == all ]]; then
-  scripts/build.sh tracker_benchmark
+  scripts/setup.sh libbenchmark-dev valgrind
+  cmake --preset release -DPHONGPD_BUILD_QUERY_BENCHMARK=ON
+  scripts/build.sh phongpd query_benchmark query_instructions tracker_benchmark
+  scripts/count_queries.sh build/query_instructions > build/instructions.csv
+  build/query_benchmark --output results/queries \
+    --instructions build/instructions.csv
   build/tracker_benchmark --output results/queries
 fi
 if [[ $suite == contact-space || $suite == all ]]; then
@@ -102,4 +107,9 @@ if [[ $suite == extremes || $suite == all ]]; then
   build/motion_set --output results/extremes || (($? == 1))
   build/extremes_report --logs "$logs" --output results/extremes \
     --how "scripts/bench.sh extremes"
+fi
+# Last: it draws what the others measured.
+if [[ $suite == trade || $suite == all ]]; then
+  scripts/build.sh trade_report
+  build/trade_report --output results/trade
 fi

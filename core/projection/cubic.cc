@@ -72,16 +72,34 @@ double RootInBracket(const Cubic& c, double a, double b, double value_a,
   return s;
 }
 
-// Coefficients of the Bernstein form bound the values: no root if all have
-// the same sign by more than rounding.
-bool HasNoRoot(const Cubic& c, double low, double high) {
-  const double third = (high - low) / 3.0;
-  const double b0 = Value(c, low), b3 = Value(c, high);
-  const double b1 = b0 + third * Slope(c, low);
-  const double b2 = b3 - third * Slope(c, high);
+// What the Bernstein form says of the roots in [low, high].
+enum class Expected { kNone, kOne, kAny };
+
+// Coefficients of the Bernstein form bound the values, and those of the
+// derivative its values: no root if all of the first have the same sign by
+// more than rounding; one if the ends differ and the second do not.
+Expected ExpectRoots(const Cubic& c, double low, double high, double at_low,
+                     double at_high) {
+  const double size = high - low, third = size / 3.0;
+  const double slope_low = Slope(c, low), slope_high = Slope(c, high);
+  const double b1 = at_low + third * slope_low;
+  const double b2 = at_high - third * slope_high;
   const double margin = 4.0 * (Rounding(c, low) + Rounding(c, high));
-  return std::min({b0, b1, b2, b3}) > margin ||
-         std::max({b0, b1, b2, b3}) < -margin;
+  const double least = std::min({at_low, b1, b2, at_high});
+  const double most = std::max({at_low, b1, b2, at_high});
+  if (least > margin || most < -margin) return Expected::kNone;
+  if (!(std::min(at_low, at_high) < 0.0 && std::max(at_low, at_high) > 0.0)) {
+    return Expected::kAny;
+  }
+  const double middle = slope_low + size * (3.0 * c[3] * low + c[2]);
+  const double s = std::max(std::abs(low), std::abs(high));
+  const double slope_margin =
+      16.0 * kEpsilon *
+      ((3.0 * std::abs(c[3]) * s + 2.0 * std::abs(c[2])) * s + std::abs(c[1]));
+  return std::min({slope_low, middle, slope_high}) > slope_margin ||
+                 std::max({slope_low, middle, slope_high}) < -slope_margin
+             ? Expected::kOne
+             : Expected::kAny;
 }
 
 }  // namespace
@@ -90,9 +108,17 @@ CubicRoots SolveCubic(const Cubic& c, double low, double high) noexcept {
   CubicRoots roots;
   const double total =
       std::abs(c[0]) + std::abs(c[1]) + std::abs(c[2]) + std::abs(c[3]);
-  if (!(total > 0.0 && std::isfinite(total) && low <= high) ||
-      HasNoRoot(c, low, high)) {
-    return roots;
+  if (!(total > 0.0 && std::isfinite(total) && low <= high)) return roots;
+  const double at_low = Value(c, low), at_high = Value(c, high);
+  switch (ExpectRoots(c, low, high, at_low, at_high)) {
+    case Expected::kNone:
+      return roots;
+    case Expected::kOne:
+      roots.count = 1;
+      roots.root[0] = RootInBracket(c, low, high, at_low, at_high);
+      return roots;
+    case Expected::kAny:
+      break;
   }
   double point[4] = {low};
   const int inner = CriticalPoints(c, low, high, point + 1);

@@ -2,6 +2,7 @@
 #include "core/projection/field_projector.h"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 namespace phongpd {
@@ -12,6 +13,7 @@ namespace {
 constexpr double kOnSurface = 1e-13;
 // No interior point is deeper; the field frame has a diagonal in [1, 2).
 constexpr double kDiagonal = 2.0;
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 }  // namespace
 
 using Eigen::Vector3d;
@@ -28,25 +30,36 @@ FieldProjector::FieldProjector(PhongField field, FieldKind kind)
 int FieldProjector::Project(int triangle, const Vector3d& x, double max_depth,
                             const Vector3d& start,
                             std::array<Projection, 3>* found) const noexcept {
-  int count = 0;
+  if (kind_ != FieldKind::kTangentPlane) {
+    return Project(triangle, x, max_depth, 0.0, kInfinity, found);
+  }
+  TangentPlaneHit hit;
+  if (!ProjectOnTangentPlanes(field_, planes_, triangle, x, start, &hit) ||
+      !(hit.s <= kOnSurface && hit.s >= -max_depth)) {
+    return 0;
+  }
+  const Vector3d positive = hit.lambda.cwiseMax(0.0);
+  (*found)[0] = {triangle, positive / positive.sum(), std::min(hit.s, 0.0),
+                 std::max(-hit.s, 0.0)};
+  return 1;
+}
+
+int FieldProjector::Project(int triangle, const Vector3d& x, double max_depth,
+                            double least, double most,
+                            std::array<Projection, 3>* found) const noexcept {
   if (kind_ == FieldKind::kTangentPlane) {
-    TangentPlaneHit hit;
-    if (!ProjectOnTangentPlanes(field_, planes_, triangle, x, start, &hit) ||
-        !(hit.s <= kOnSurface && hit.s >= -max_depth)) {
-      return 0;
-    }
-    const Vector3d positive = hit.lambda.cwiseMax(0.0);
-    (*found)[count++] = {triangle, positive / positive.sum(),
-                         std::min(hit.s, 0.0), std::max(-hit.s, 0.0)};
-    return count;
+    return Project(triangle, x, max_depth, found);
   }
   const OffsetPrism& prism = prisms_[triangle];
   // |n(λ)| ≤ 1, so |s| may exceed the depth, without bound only in a field
   // that could not be kept admissible.
-  const double max_s =
-      std::min(max_depth, kDiagonal) / std::max(prism.min_norm, 1e-3);
+  double s_min = -std::min(
+      most, std::min(max_depth, kDiagonal) / std::max(prism.min_norm, 1e-3));
+  double s_max = least > 0.0 ? -least : kOnSurface;
+  if (s_min > s_max || !prism.Narrow(x, &s_min, &s_max)) return 0;
   std::array<NormalHit, 3> hits;
-  const int hit_count = prism.Project(x, -max_s, kOnSurface, &hits);
+  const int hit_count = prism.Project(x, s_min, s_max, &hits);
+  int count = 0;
   for (int i = 0; i < hit_count; ++i) {
     const double depth = -prism.SignedDepth(hits[i]);
     if (depth > max_depth) continue;

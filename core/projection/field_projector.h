@@ -46,6 +46,12 @@ class FieldProjector {
                    found);
   }
 
+  // The same where all that is looked for has −s in [least, most], least ≥ 0
+  // (normal field; the other takes no notice): fewer roots to be found.
+  int Project(int triangle, const Eigen::Vector3d& x, double max_depth,
+              double least, double most,
+              std::array<Projection, 3>* found) const noexcept;
+
   Eigen::Vector3d Point(const Projection& p) const {
     return prisms_[p.triangle].Point(p.lambda);
   }

@@ -13,6 +13,7 @@ namespace phongpd {
 
 namespace {
 
+using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 // Field frame: lengths are of order 1.
@@ -20,6 +21,8 @@ constexpr double kSlack = 1e-13;     // of s, at the interval's ends
 constexpr double kResidual = 1e-12;  // of an accepted hit
 constexpr double kMaxLambdaTolerance = 1e-9;
 constexpr double kMinLambdaTolerance = 1e-13;
+// Of what only saves work, beyond all of these.
+constexpr double kTolerant = 1e-7;
 
 // λ is a quotient of lengths by the altitudes of the offset triangle; this is
 // its rounding error for lengths known to 1e-14.
@@ -35,6 +38,51 @@ Vector3d OnTriangle(const Vector3d& lambda) {
   if (lambda.minCoeff() >= 0.0) return lambda;
   const Vector3d positive = lambda.cwiseMax(0.0);
   return positive / positive.sum();
+}
+
+// What Narrow needs to know of a prism.
+void PrepareNarrow(OffsetPrism* prism) {
+  const Vector3d& n = prism->cross_n;
+  const double at1 = prism->n0_n + prism->d1.dot(n);
+  const double at2 = prism->n0_n + prism->d2.dot(n);
+  const double least = std::min({prism->n0_n, at1, at2});
+  const double most = std::max({prism->n0_n, at1, at2});
+  const double sides = prism->e1.norm() * prism->e2.norm();
+  // Rounding of N and of its products is some 1e-16 of `sides`.
+  if (least > 1e-9 * sides) {
+    prism->over_most_n = (1.0 - kTolerant) / most;
+    prism->over_least_n = (1.0 + kTolerant) / least;
+    prism->plane_slack = kResidual + 1e-14 * sides / least;
+  }
+  prism->reach = std::max(
+      {prism->e1.norm(), prism->e2.norm(), (prism->e2 - prism->e1).norm()});
+  prism->turn = std::max(
+      {prism->d1.norm(), prism->d2.norm(), (prism->d2 - prism->d1).norm()});
+  const Vector3d sum = 3.0 * prism->n0 + prism->d1 + prism->d2;
+  int axis = 0;
+  sum.cwiseAbs().maxCoeff(&axis);
+  prism->u = (axis + 1) % 3;
+  prism->v = (axis + 2) % 3;
+  if (sum[axis] < 0.0) std::swap(prism->u, prism->v);
+}
+
+// A quadratic in Bernstein form: its least and largest coefficient bound it.
+struct Quadratic {
+  double first, middle, last;
+
+  double Least() const { return std::min({first, middle, last}); }
+  double Most() const { return std::max({first, middle, last}); }
+};
+
+double Cross(const Vector2d& a, const Vector2d& b) {
+  return a[0] * b[1] - a[1] * b[0];
+}
+
+// a(s) × b(s) for a, b linear in s, from their values at both ends.
+Quadratic Cross(const std::array<Vector2d, 2>& a,
+                const std::array<Vector2d, 2>& b) {
+  return {Cross(a[0], b[0]), 0.5 * (Cross(a[0], b[1]) + Cross(a[1], b[0])),
+          Cross(a[1], b[1])};
 }
 
 }  // namespace
@@ -57,6 +105,7 @@ OffsetPrism::OffsetPrism(const std::array<Vector3d, 3>& corners,
       ClosestOnTriangle(normals[0], normals[1], normals[2], Vector3d::Zero())
           .lambda;
   min_norm = Normal(lambda).norm();
+  PrepareNarrow(this);
 }
 
 Eigen::Matrix3d OffsetPrism::Jacobian(const NormalHit& hit) const {
@@ -118,6 +167,35 @@ int OffsetPrism::Project(const Vector3d& x, double s_min, double s_max,
     (*hits)[count++] = hit;
   }
   return count;
+}
+
+bool OffsetPrism::Narrow(const Vector3d& x, double* s_min,
+                         double* s_max) const noexcept {
+  const Vector3d x0 = q0 - x;
+  if (over_least_n > 0.0) {
+    const double height = -x0.dot(cross_n);
+    const double near = height * over_most_n, far = height * over_least_n;
+    *s_min = std::max(*s_min, std::min(near, far) - plane_slack);
+    *s_max = std::min(*s_max, std::max(near, far) + plane_slack);
+    if (*s_min > *s_max) return false;
+  }
+  std::array<Vector2d, 2> p0, p1, p2, a, b;
+  for (std::size_t end = 0; end < 2; ++end) {
+    const double s = end == 0 ? *s_min : *s_max;
+    a[end] = {e1[u] + s * d1[u], e1[v] + s * d1[v]};
+    b[end] = {e2[u] + s * d2[u], e2[v] + s * d2[v]};
+    p0[end] = {x0[u] + s * n0[u], x0[v] + s * n0[v]};
+    p1[end] = p0[end] + a[end];
+    p2[end] = p0[end] + b[end];
+  }
+  const double steep = std::max(std::abs(*s_min), std::abs(*s_max));
+  const double rounding = 1e-15 * (1.0 + steep) * (1.0 + steep) +
+                          2.0 * kResidual * (reach + steep * turn);
+  const Quadratic area = Cross(a, b);
+  if (!(area.Least() > rounding)) return true;
+  const double beyond = -rounding - kTolerant * area.Most();
+  return Cross(p1, p2).Most() >= beyond && Cross(p2, p0).Most() >= beyond &&
+         Cross(p0, p1).Most() >= beyond;
 }
 
 bool RefineHit(const OffsetPrism& prism, const Vector3d& x, int iterations,

@@ -35,6 +35,11 @@ struct OffsetPrism {
   Eigen::Vector3d cross_n, cross_m, cross_k;  // N, M, K
   double n0_n = 0.0, n0_m = 0.0, n0_k = 0.0;
   double min_norm = 0.0;  // least |n(λ)| on the triangle
+  // For Narrow.  Of n(λ)·N on the triangle 1/most and 1/least (0, 0 where N is
+  // too short beside them to tell), and by how much s rounds there.
+  double over_most_n = 0.0, over_least_n = 0.0, plane_slack = 0.0;
+  double reach = 0.0, turn = 0.0;  // longest |e|, largest |d|
+  int u = 0, v = 1;  // axes of a plane on which triangles turn left
 
   OffsetPrism() = default;
   OffsetPrism(const std::array<Eigen::Vector3d, 3>& corners,
@@ -63,6 +68,14 @@ struct OffsetPrism {
   // that contains x, one of its λ is given.
   int Project(const Eigen::Vector3d& x, double s_min, double s_max,
               std::array<NormalHit, 3>* hits) const noexcept;
+
+  // Shrinks [*s_min, *s_max] to what can hold a hit of Project, and is false
+  // where nothing can.  As p(λ) lies in the triangle's plane,
+  // s·n(λ)·N = (x − q₀)·N: that bounds s.  Seen along an axis, x then lies on
+  // the same side of each moving edge throughout, or it may not be beyond it.
+  // Beyond by the tolerances of Project does not count.
+  bool Narrow(const Eigen::Vector3d& x, double* s_min,
+              double* s_max) const noexcept;
 };
 
 // Newton on x = p(λ) + s n(λ), from *hit and without regard to λ ≥ 0.  True

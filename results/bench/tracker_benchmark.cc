@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Purpose: what each metric does along motions – jumps, depth ratio, time – of
 // Euclidean PD, PhongPD and the tracker, on the same motions in one run.
-// Writes CSV and README.md into a directory.
+// Writes CSV and tracker.md into a directory.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>
@@ -225,10 +225,11 @@ int Run(int argc, char** argv) {
   OutputDirectory out(options.directory);
   const std::string command =
       CommandLine("build/tracker_benchmark", argc, argv);
-  WriteReport(tables, {},
-              TrackerReadme(tables, rows) + "\n" +
-                  Circumstances(command, options.seed) + "\n",
-              &out);
+  for (const NamedTable& named : tables) {
+    out.Write(named.file, ToCsv(named.table));
+  }
+  out.Write("tracker.md", TrackerPage(tables, rows) + "\n" +
+                              Circumstances(command, options.seed) + "\n");
   out.Commit();
   return 0;
 }

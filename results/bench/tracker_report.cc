@@ -149,8 +149,8 @@ NamedTable TrackerTotals(const std::vector<TrackerRow>& rows) {
   return totals;
 }
 
-std::string TrackerReadme(const std::vector<NamedTable>& tables,
-                          const std::vector<TrackerRow>& rows) {
+std::string TrackerPage(const std::vector<NamedTable>& tables,
+                        const std::vector<TrackerRow>& rows) {
   return "# Metrics along motions\n\n"
          "What Euclidean PD, PhongPD (followed by its branch, smoothing length "
          "0, 0.1 and 0.2 of the diagonal) and `PenetrationTracker` (c = 3, "

@@ -28,10 +28,10 @@ struct TrackerRow {
 
 NamedTable TrackerTable(const std::vector<TrackerRow>& rows);
 
-// README.md: the rows, one a space and metric, added up, and where the tracker
+// tracker.md: the rows, one a space and metric, added up, and where the tracker
 // misses what was aimed at or a field does better than it.
-std::string TrackerReadme(const std::vector<NamedTable>& tables,
-                          const std::vector<TrackerRow>& rows);
+std::string TrackerPage(const std::vector<NamedTable>& tables,
+                        const std::vector<TrackerRow>& rows);
 
 // All spaces but the hard one together, a row a metric.
 NamedTable TrackerTotals(const std::vector<TrackerRow>& rows);

@@ -7,6 +7,7 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <cmath>
 #include <random>
 
 namespace phongpd {
@@ -126,6 +127,48 @@ TEST(NormalField, FindsAllThatNewtonFindsFromManyStarts) {
   }
   EXPECT_GT(found, 10000);
   EXPECT_GT(several, 20);
+}
+
+// Narrow saves work only: every hit there is lies in what it leaves.  Triangles
+// of any shape, needles to an aspect of 1e8 among them.
+TEST(NormalField, NarrowingLosesNoProjection) {
+  RandomPrisms random(11);
+  int hits_seen = 0, refused = 0, tight = 0;
+  for (int i = 0; i < 40000; ++i) {
+    const Vector3d corner = random.Point(), axis = random.Point().normalized();
+    const double size = std::pow(10.0, random.Uniform(-6.0, 0.0));
+    const double thin =
+        i % 4 == 0 ? std::pow(10.0, random.Uniform(-8.0, 0.0)) : 1.0;
+    const Vector3d along = size * random.Point();
+    const std::array<Vector3d, 3> corners = {
+        corner, corner + along,
+        corner + random.Uniform(0, 1) * along + thin * size * random.Point()};
+    const double spread = i % 2 ? 0.5 : 0.02;
+    const OffsetPrism prism(corners,
+                            {(axis + spread * random.Point()).normalized(),
+                             (axis + spread * random.Point()).normalized(),
+                             (axis + spread * random.Point()).normalized()});
+    NormalHit truth{random.Lambda(), random.Uniform(-2.0, 0.0)};
+    if (i % 3 == 0) truth.lambda[i % 5 % 3] = 0.0;
+    if (i % 7 == 0) truth.s *= 1e-12;
+    truth.lambda /= truth.lambda.sum();
+    const Vector3d x = i % 5 ? At(prism, truth) : random.Point();
+    std::array<NormalHit, 3> hits;
+    const int count = prism.Project(x, -2.5, 1e-13, &hits);
+    double s_min = -2.5, s_max = 1e-13;
+    const bool may_hold = prism.Narrow(x, &s_min, &s_max);
+    refused += may_hold ? 0 : 1;
+    tight += may_hold && s_max - s_min < 0.5 ? 1 : 0;
+    for (int k = 0; k < count; ++k) {
+      ++hits_seen;
+      ASSERT_TRUE(may_hold);
+      EXPECT_GE(hits[k].s, s_min);
+      EXPECT_LE(hits[k].s, s_max);
+    }
+  }
+  EXPECT_GT(hits_seen, 20000);
+  EXPECT_GT(refused, 2000);
+  EXPECT_GT(tight, 10000);
 }
 
 TEST(NormalField, IsLinearWhenAllNormalsAgree) {
