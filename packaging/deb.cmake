@@ -23,6 +23,24 @@ set(CPACK_DEBIAN_PACKAGE_PRIORITY optional)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
 
+# What Debian asks for, and what it refers to.
+set(date "${PHONGPD_CHANGELOG_DATE}")
+if(NOT date)
+  string(TIMESTAMP date "%a, %d %b %Y %H:%M:%S +0000" UTC)
+endif()
+set(folder ${PROJECT_BINARY_DIR}/debian)
+file(
+  WRITE ${folder}/changelog
+  "phongpd (${PROJECT_VERSION}) unstable; urgency=medium\n\n  * What changed is \
+told in CHANGELOG.md.gz beside this file.\n\n -- ${PHONGPD_MAINTAINER}  ${date}\n")
+configure_file(CHANGELOG.md ${folder}/CHANGELOG.md COPYONLY)
+set(changelogs "")
+foreach(file changelog CHANGELOG.md)
+  execute_process(COMMAND gzip -9nc ${folder}/${file}
+                  OUTPUT_FILE ${folder}/${file}.gz COMMAND_ERROR_IS_FATAL ANY)
+  list(APPEND changelogs ${folder}/${file}.gz)
+endforeach()
+
 set(about
     "Penetration depth of triangle meshes whose direction turns continuously,\n\
 on exact contact spaces; trajectories by Ipopt, planners for OMPL, and a\n\
@@ -42,8 +60,7 @@ function(phongpd_deb component package section summary text)
   set(folder ${CMAKE_INSTALL_DATADIR}/doc/${package})
   install(FILES packaging/debian/copyright DESTINATION ${folder}
           COMPONENT ${component})
-  install(FILES ${PROJECT_BINARY_DIR}/debian/changelog.gz DESTINATION ${folder}
-          COMPONENT ${component})
+  install(FILES ${changelogs} DESTINATION ${folder} COMPONENT ${component})
 endfunction()
 
 phongpd_deb(
@@ -98,5 +115,4 @@ install(FILES packaging/examples/CMakeLists.txt
         DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/libphongpd-dev/examples
         COMPONENT development)
 
-include(packaging/debian_changelog.cmake)
 include(CPack)

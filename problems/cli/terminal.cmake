@@ -22,12 +22,22 @@ function(phongpd_terminal_file file folder)
     COMMAND phongpd ${ARGN} > ${terminal}/${file}
     DEPENDS phongpd
     VERBATIM)
+  if(PHONGPD_GZIP AND file MATCHES "[.]1$")
+    # As man keeps its pages.
+    add_custom_command(
+      OUTPUT ${terminal}/${file}.gz
+      COMMAND ${PHONGPD_GZIP} -9nc ${terminal}/${file} > ${terminal}/${file}.gz
+      DEPENDS ${terminal}/${file}
+      VERBATIM)
+    string(APPEND file .gz)
+  endif()
   set(terminal_files ${terminal_files} ${terminal}/${file} PARENT_SCOPE)
   if(PHONGPD_INSTALL)
     install(FILES ${terminal}/${file} DESTINATION ${folder} COMPONENT program)
   endif()
 endfunction()
 
+find_program(PHONGPD_GZIP gzip)
 phongpd_terminal_file(phongpd.1 ${CMAKE_INSTALL_MANDIR}/man1 man)
 phongpd_terminal_file(
   phongpd ${CMAKE_INSTALL_DATADIR}/bash-completion/completions completion bash)

@@ -168,8 +168,9 @@ class CliCompletion : public Cli {
       }
     }
     ASSERT_GE(families.size(), 25U);
-    const std::map<std::string, Names> offers =
-        shell({"plan x --model ", "optimize ", "scenes write ", joined});
+    const std::vector<std::string> lines = {"plan x --model ", "optimize ",
+                                            "scenes write ", joined};
+    const std::map<std::string, Names> offers = shell(lines);
     for (const char* model : {"auto", "window", "full"}) {
       EXPECT_EQ(offers.at("plan x --model ").count(model), 1U) << model;
     }

@@ -73,7 +73,8 @@ TEST_F(CliMan, ManFormatsItWithoutAWarning) {
 
 TEST_F(CliMan, GroffFormatsItWithoutAWarning) {
   if (!HasProgram("groff")) GTEST_SKIP() << "groff is not installed";
-  const Outcome outcome = Formatted("groff -ww -man -Tutf8 -P-c");
+  const Outcome outcome =
+      Formatted("groff -ww -man -Tutf8 -P-c -P-b -P-u -P-o");
   EXPECT_EQ(outcome.code, 0);
   EXPECT_EQ(outcome.err, "");
   // As --help says it, quotes and dashes included.
