@@ -31,7 +31,8 @@ make_tools() {
 build_wheel() {
   rm -rf "$out"/phongpd-*.tar.gz "$work"
   mkdir -p "$work"
-  "$tools/bin/python" -m build --sdist --outdir "$out" . >"$work/sdist.log"
+  "$tools/bin/python" -m build --sdist --outdir "$out" . \
+    >"$work/sdist.log" 2>&1 || { cat "$work/sdist.log"; exit 1; }
   tar -C "$work" -xzf "$out"/phongpd-*.tar.gz
   export CMAKE_BUILD_PARALLEL_LEVEL=${CMAKE_BUILD_PARALLEL_LEVEL:-$(nproc)}
   say "compiling $(basename "$work"/phongpd-*), which takes minutes"
