@@ -46,10 +46,17 @@ endif()
 set(PHONGPD_COMMON_HEADERS <Eigen/Core> <algorithm> <functional> <map> <memory>
                            <string> <vector>)
 
-# The library, without sources.
+# The library, without sources; shared where BUILD_SHARED_LIBS says so, of the same
+# objects.  Until 1.0 a minor version may break what was compiled against the one
+# before it.
 function(phongpd_add_component component)
   set(target phongpd_${component})
-  add_library(${target} STATIC)
+  add_library(${target})
+  set_target_properties(
+    ${target}
+    PROPERTIES VERSION ${PROJECT_VERSION}
+               SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR}
+               DEFINE_SYMBOL "")
   add_library(phongpd::${component} ALIAS ${target})
   set_target_properties(${target} PROPERTIES EXPORT_NAME ${component})
   target_compile_features(${target} PUBLIC cxx_std_17)

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Sphinx: scripts/docs.sh runs it on what Doxygen made of the headers.
 import pathlib
+import re
 import sys
 
 here = pathlib.Path(__file__).parent
@@ -9,7 +10,8 @@ sys.path.insert(0, str(here.parent / "python"))
 project = "PhongPD"
 author = "the authors of PhongPD"
 copyright = "GPL-3.0-or-later"
-release = "0.1.0"
+release = re.search(r"\n  VERSION ([0-9.]+)",
+                    (here.parent / "CMakeLists.txt").read_text()).group(1)
 
 extensions = ["myst_parser", "breathe", "sphinx.ext.autodoc"]
 source_suffix = {".md": "markdown", ".rst": "restructuredtext"}

@@ -16,14 +16,17 @@
 #   fuzz         scripts/fuzz.sh for a while
 #   coverage     lines and branches, to results/extremes/coverage.md
 #   asan         tests with address and undefined-behaviour sanitizers
+#   packages     wheel and Debian packages, tried in roots of their own; what
+#                zsh, fish, man and groff say of completion and manual
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 # The user's own cache is neither used nor filled.
 export PHONGPD_CACHE_DIR=$PWD/build/cache
 
 readonly all=(format options clang cppcheck tidy fptrap determinism readme docs
-  tsan fuzz coverage asan)
-# Not tsan and coverage, which compile the library once more each, and docs.
+  tsan fuzz coverage asan packages)
+# Not tsan, coverage and packages, which compile the library once more each, and
+# docs.
 readonly quick=(format options clang cppcheck tidy fptrap determinism readme
   fuzz asan)
 readonly folders=(core constraints planners problems)
@@ -260,6 +263,40 @@ check_asan() {
   build_tests asan "${slice[@]}"
   ASAN_OPTIONS=detect_stack_use_after_return=1:check_initialization_order=1 \
     UBSAN_OPTIONS=print_stacktrace=1 run_tests asan
+}
+
+# The core as a shared library: its SONAME is the minor version, and an outside
+# project that links it runs where it was installed.
+check_shared() {
+  local none=() part place=$PWD/build/check/shared minor
+  for part in ORACLE IPOPT OMPL PROBLEMS PROGRAM EXAMPLES TESTS RESULTS; do
+    none+=("-DPHONGPD_BUILD_$part=OFF")
+  done
+  cmake -S . -B build-shared -D BUILD_SHARED_LIBS=ON "${none[@]}"
+  cmake --build build-shared --parallel "$(nproc)"
+  rm -rf "$place" && mkdir -p "$place"
+  cmake --install build-shared --prefix "$place/installed" >/dev/null
+  minor=$(sed -n 's/^  VERSION \([0-9]*\.[0-9]*\)\..*/\1/p' CMakeLists.txt)
+  objdump -p "$place/installed/lib/libphongpd_core.so" |
+    grep "SONAME *libphongpd_core[.]so[.]$minor\$"
+  cp examples/*.cc examples/*.off packaging/examples/CMakeLists.txt "$place"
+  cmake -S "$place" -B "$place/build" \
+    -D CMAKE_PREFIX_PATH="$place/installed" >/dev/null
+  cmake --build "$place/build"
+  "$place/build/01_depth" "$place/cube.off" "$place/u.off" |
+    grep 'Euclidean depth 0.3, out along 1 0 0'
+}
+
+check_packages() {
+  check_shared
+  # The tests leave out what is not there.
+  scripts/setup.sh zsh fish man-db groff
+  scripts/build.sh cli_completion_test cli_man_test
+  ctest --preset release --no-tests=error -L '^cli_(completion|man)_test$' \
+    --output-log build/check/terminal.log
+  if grep Skipped build/check/terminal.log; then return 1; fi
+  scripts/wheel.sh --test
+  scripts/deb.sh --test
 }
 
 case ${1:-quick} in

@@ -3,7 +3,8 @@
 # setup.sh [PACKAGE...]: installs the Debian packages PhongPD is built from and
 # the named ones, only those missing.  Needs the network only then; everything
 # else works offline.  Worth naming: chromium, by which phongpd view --png draws
-# and the tests open pages.
+# and the tests open pages; zsh, fish, man-db and groff, by which the tests try
+# completion and the manual page.
 set -euo pipefail
 
 # clang, lld and what they compile for wasm32 with: the queries that the pages

@@ -45,6 +45,8 @@ Command AddDepth(CLI::App* app);
 Command AddMerge(CLI::App* app);
 Command AddMinkowski(CLI::App* app);
 Command AddView(CLI::App* app);
+Command AddCompletion(CLI::App* app);
+Command AddMan(CLI::App* app);
 
 // Reads an operand file as a solid.  What the user should know goes to
 // stderr, one line a warning.  Throws InputError naming the file.

@@ -101,7 +101,7 @@ Command AddScenes(CLI::App* app) {
   CLI::App* const write = app->add_subcommand("write", "Write one scene");
   write->add_option("name", flags->name, "See scenes list")
       ->required()
-      ->type_name("NAME");
+      ->type_name("FAMILY");
   write->add_option("--set", flags->settings, "Set a knob")
       ->expected(1)
       ->take_all()

@@ -134,6 +134,9 @@ int Run(int argc, char** argv) {
   add("scenes", "List or write the procedural scenes", AddScenes);
   add("reproduce", "Pack a command with its inputs, to report what went wrong",
       AddReproduce);
+  add("completion", "Print what completes this program's words in a shell",
+      AddCompletion);
+  add("man", "Print the manual page, in roff", AddMan);
 
   try {
     std::vector<std::string> arguments = Arguments(argc, argv);

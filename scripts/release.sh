@@ -1,0 +1,73 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
+# release.sh --check [quick]: the release checklist, each item "ok" or "NO"; exit
+# code 1 unless all are ok.  quick leaves out what takes minutes.  Nothing is
+# published, tagged or changed.
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+
+readonly log=build/release.log
+failed=0
+item() { # TEXT COMMAND...
+  local text=$1
+  shift
+  if "$@" >>"$log" 2>&1; then
+    echo "ok  $text"
+  else
+    echo "NO  $text"
+    failed=$((failed + 1))
+  fi
+}
+
+version() { sed -n 's/^  VERSION \([0-9.]*\)$/\1/p' CMakeLists.txt; }
+agrees() { cmake -D SOURCE="$PWD" -P tests/packaging/versions_test.cmake; }
+is_dated() { grep -qE "^## $(version) \([0-9]{4}-[0-9]{2}-[0-9]{2}\)$" CHANGELOG.md; }
+is_clean() { git status --porcelain && [[ ! $(git status --porcelain) ]]; }
+is_new() { ! git rev-parse --verify --quiet "refs/tags/v$(version)"; }
+recipe_parses() {
+  scripts/setup.sh python3-yaml
+  /usr/bin/python3 - <<'END'
+import yaml
+recipe = yaml.safe_load(open("packaging/conda/recipe.yaml"))
+for output in recipe["outputs"]:
+    assert output["package"]["name"] and output["requirements"]["host"]
+END
+}
+# The recipes say where the source is only when there is a release.
+is_placed() {
+  ! grep -nE 'example\.invalid|0{40}' packaging/conda/recipe.yaml \
+    packaging/vcpkg/phongpd/portfile.cmake
+}
+
+case "$*" in
+  --check | '--check quick') ;;
+  *) echo "release: expected --check or --check quick, found '$*'" >&2; exit 2 ;;
+esac
+mkdir -p build
+: >"$log"
+echo "Release checklist of PhongPD $(version); what failed is told in $log"
+item "the version is the same everywhere" agrees
+item "CHANGELOG.md begins with '## $(version) (YYYY-MM-DD)'" is_dated
+item "there is no tag v$(version) yet" is_new
+item "nothing is uncommitted" is_clean
+item "the conda recipe parses" recipe_parses
+item "the recipes tell where the released source is" is_placed
+if [[ ${2:-} != quick ]]; then
+  item "the tests pass (scripts/test.sh)" scripts/test.sh
+  item "README's commands run (scripts/readme.sh)" scripts/readme.sh
+  item "the pages build (scripts/docs.sh)" scripts/docs.sh
+  item "sdist and wheel build and run (scripts/wheel.sh --test)" \
+    scripts/wheel.sh --test
+  item "Debian packages build and run (scripts/deb.sh --test)" \
+    scripts/deb.sh --test
+fi
+cat <<'END'
+By hand, then:
+  - Licences of what the wheel carries: Ipopt 3.11 is under EPL-1.0, which the
+    FSF holds incompatible with the GPL that PhongPD and CGAL are under. Settle
+    that before a wheel is published; packages that only link to a distribution's
+    Ipopt leave the question to it.
+  - Tag v<version>, upload, fill source and checksum into the recipes, and begin
+    the next "Unreleased" part of CHANGELOG.md.
+END
+((failed == 0))
