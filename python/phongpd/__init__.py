@@ -34,6 +34,7 @@ from ._world import Diagnosis, Plan, Roadmap, Trajectory, World
 __all__ = [
     "BuildCancelled", "BuildRefusal", "ContactSpace", "Depth", "DepthQuery",
     "Diagnosis", "EuclideanMetric", "InputError", "NonPenetrationRows",
-    "PenetrationTracker", "PhongMetric", "Plan", "QueryResult", "Roadmap", "Solid", "TrackedMotion", "Trajectory", "World",
-    "__version__", "depth", "minkowski",
+    "PenetrationTracker", "PhongMetric", "Plan", "QueryResult", "Roadmap",
+    "Solid", "TrackedMotion", "Trajectory", "World", "__version__", "depth",
+    "minkowski",
 ]

@@ -27,6 +27,9 @@ from ._work import SweepError, keep, run_batch
 # Tasks that are with the scheduler at a time, for each thread and at least:
 # enough for workers never to wait, few enough to cost little memory.
 TASKS_PER_THREAD, LEAST_TASKS = 20, 1000
+# Between two looks at what has arrived: rows are fetched in lots, as asking for
+# them one by one costs all sides more than making a short one.
+FETCH_SECONDS = 0.05
 # What Dask raises where the connection is cut in the middle of something.
 _CUT = (CancelledError, CommClosedError, OSError)
 
@@ -119,6 +122,7 @@ class _Driver:
         arrivals = as_completed(loop=client.loop)
         while waiting or self._sent:
             self._send(client, waiting, arrivals)
+            time.sleep(FETCH_SECONDS)
             lost = self._receive(client, arrivals.next_batch(block=True))
             if lost:
                 waiting.extendleft(reversed(lost))
