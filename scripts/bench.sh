@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# bench.sh [paper|queries|contact-space|lazy|convergence|planning|extremes|trade|
-# all]: regenerates the tables and figures of results/.
+# bench.sh [paper|queries|contact-space|lazy|convergence|planning|extremes|peers|
+# cluster|trade|all]: regenerates the tables and figures of results/.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 # The user's own cache is neither used nor filled.
@@ -10,10 +10,11 @@ export PHONGPD_CACHE_DIR=$PWD/build/cache
 suite=${1:-all}
 case $suite in
   paper | queries | contact-space | lazy | convergence | planning | extremes | \
-    trade | all) ;;
+    peers | cluster | trade | all) ;;
   *)
     echo "bench: expected paper, queries, contact-space, lazy," \
-      "convergence, planning, extremes, trade or all, found $suite" >&2
+      "convergence, planning, extremes, peers, cluster, trade or all, found" \
+      "$suite" >&2
     exit 2
     ;;
 esac
@@ -107,6 +108,30 @@ if [[ $suite == extremes || $suite == all ]]; then
   build/motion_set --output results/extremes || (($? == 1))
   build/extremes_report --logs "$logs" --output results/extremes \
     --how "scripts/bench.sh extremes"
+fi
+if [[ $suite == cluster || $suite == all ]]; then
+  scripts/python.sh
+  scripts/build.sh phongpd_python
+  PYTHONPATH=$PWD/build/python build/venv/bin/python \
+    results/bench/cluster_benchmark.py --output results/cluster \
+    --how "scripts/bench.sh cluster"
+fi
+if [[ $suite == peers || $suite == all ]]; then
+  # What wheels leave to the system: Open3D's.
+  scripts/setup.sh python3-dev python3-venv libusb-1.0-0 libgl1 libegl1 libgomp1
+  scripts/python.sh
+  scripts/build.sh phongpd_python
+  venv=build/venv-peers
+  [[ -x $venv/bin/python ]] || /usr/bin/python3 -m venv "$venv"
+  # One by one: a wheel that is not there is told, and keeps no other away.
+  for peer in numpy manifold3d coal python-fcl mujoco trimesh rtree scipy \
+    open3d-cpu casadi drake; do
+    "$venv/bin/pip" install --quiet --disable-pip-version-check "$peer" ||
+      echo "bench: $peer cannot be installed" >&2
+  done
+  PYTHONPATH=$PWD/build/python "$venv/bin/python" \
+    results/bench/peers_benchmark.py --output results/peers \
+    --how "scripts/bench.sh peers"
 fi
 # Last: it draws what the others measured.
 if [[ $suite == trade || $suite == all ]]; then

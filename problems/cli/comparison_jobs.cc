@@ -7,26 +7,12 @@
 
 #include "problems/cli/command.h"
 #include "problems/studies/comparison_rows.h"
+#include "problems/studies/comparison_run.h"
 
 namespace phongpd::cli {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-Json RunJob(const ComparisonJob& job, TrajectoryStudy* study) {
-  PipelineOptions options = job.protocol.options;
-  options.seed = job.seed;
-  // The scene's own Ipopt settings hold for every protocol.
-  options.optimizer.ipopt.ipopt_options =
-      ScenePipelineOptions(study->scene()).optimizer.ipopt.ipopt_options;
-  // A scene file differs from seed to seed by the start only.
-  const bool is_straight = options.start == TrajectoryStart::kStraight;
-  if (!job.source->is_family() && is_straight) options.start_noise = 0.01;
-  Json row = TrajectoryRow(*study, job.metric, options,
-                           study->Run(job.metric, options));
-  row["protocol"] = job.protocol.name;
-  return row;
-}
 
 // Throws InputError unless the line is the job's row.
 void CheckKept(const std::string& line, const ComparisonJob& job,
@@ -64,7 +50,8 @@ void RunJobs(const std::vector<ComparisonJob>& jobs,
       Progress(job.source->label() + ", seed " + std::to_string(job.seed));
       study.Enter(job.source->Load(job.seed));
     }
-    Json row = RunJob(job, &study);
+    Json row = RunComparison(
+        {job.seed, job.protocol, job.metric, job.source->is_family()}, &study);
     if (!keep_paths) row.erase("path");
     rows->Append(row.dump());
   }

@@ -25,15 +25,16 @@ where, expected, found.
 from ._contact import ContactSpace, EuclideanMetric, PhongMetric, QueryResult, \
     minkowski
 from ._depth import Depth, DepthQuery, depth
-from ._native import BuildCancelled, InputError, __version__
+from ._native import BuildCancelled, BuildRefusal, InputError, __version__
 from ._rows import NonPenetrationRows
 from ._solid import Solid
 from ._tracker import PenetrationTracker, TrackedMotion
 from ._world import Diagnosis, Plan, Roadmap, Trajectory, World
 
 __all__ = [
-    "BuildCancelled", "ContactSpace", "Depth", "DepthQuery", "Diagnosis",
-    "EuclideanMetric", "InputError", "NonPenetrationRows",
-    "PenetrationTracker", "PhongMetric", "Plan", "QueryResult", "Roadmap", "Solid", "TrackedMotion", "Trajectory", "World",
-    "__version__", "depth", "minkowski",
+    "BuildCancelled", "BuildRefusal", "ContactSpace", "Depth", "DepthQuery",
+    "Diagnosis", "EuclideanMetric", "InputError", "NonPenetrationRows",
+    "PenetrationTracker", "PhongMetric", "Plan", "QueryResult", "Roadmap",
+    "Solid", "TrackedMotion", "Trajectory", "World", "__version__", "depth",
+    "minkowski",
 ]

@@ -84,10 +84,11 @@ class World:
 
     def __init__(self, robot: Any, obstacles: Any, *,
                  bounds: ArrayLike | None = None, name: str = "world",
-                 cache: bool = False) -> None:
+                 cache: bool = False, max_mib: float = 0.0) -> None:
         """robot: Solid, file or mesh.  obstacles: one, or a dict of them by
         name.  bounds: (2, 3), least and greatest position of the robot; None:
-        none.  cache: keep contact spaces in the user's cache folder."""
+        none.  cache: keep contact spaces in the user's cache folder.
+        max_mib: of a build, as ContactSpace.build has it."""
         if not isinstance(obstacles, Mapping):
             obstacles = {"obstacle": obstacles}
         named = [(str(key), as_solid(value, str(key))._native)
@@ -100,18 +101,19 @@ class World:
                     f"bounds: expected shape (2, 3), found {corners.shape}")
             box = (point(corners[0], "bounds"), point(corners[1], "bounds"))
         self._open(_native.Scene.make(as_solid(robot, "robot")._native, named,
-                                      box, name), cache)
+                                      box, name), cache, max_mib)
 
-    def _open(self, scene: Any, cache: bool) -> None:
-        self._native = _native.World(scene, cache)
+    def _open(self, scene: Any, cache: bool, max_mib: float) -> None:
+        self._native = _native.World(scene, cache, float(max_mib))
 
     @classmethod
     def load(cls, scene: str | os.PathLike[str], *, seed: int | None = None,
-             cache: bool = False) -> World:
+             cache: bool = False, max_mib: float = 0.0) -> World:
         """Of a scene file, or of a family with knobs as the command line takes
-        them: "u_axis", "plate:thickness=0.02"; seed: of a family."""
+        them: "u_axis", "plate:thickness=0.02"; seed: of a family; the rest as
+        above."""
         world = cls.__new__(cls)
-        world._open(_native.Scene.load(os.fspath(scene), seed), cache)
+        world._open(_native.Scene.load(os.fspath(scene), seed), cache, max_mib)
         return world
 
     @property

@@ -160,7 +160,7 @@ void BindScene(nb::module_& module) {
 void BindWorld(nb::module_& module) {
   BindScene(module);
   nb::class_<Workshop>(module, "World")
-      .def(nb::init<const Scene&, bool>())
+      .def(nb::init<const Scene&, bool, double>())
       .def("optimize", &Workshop::Optimize)
       .def("plan", &Workshop::Plan)
       .def("diagnose", &DiagnosisOf)

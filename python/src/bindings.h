@@ -23,5 +23,6 @@ void BindContactSpace(nanobind::module_& module);
 void BindDepth(nanobind::module_& module);
 void BindWorld(nanobind::module_& module);
 void BindRows(nanobind::module_& module);
+void BindSweeps(nanobind::module_& module);
 
 }  // namespace phongpd::python

@@ -6,12 +6,16 @@
 
 #include "core/mesh/mesh_error.h"
 #include "core/minkowski/build_cancellation.h"
+#include "core/minkowski/build_refusal.h"
 #include "planners/ompl/ompl_planning.h"
 #include "python/src/bindings.h"
 
 NB_MODULE(_native, module) {
   namespace nb = nanobind;
-  nb::exception<phongpd::InputError>(module, "InputError", PyExc_ValueError);
+  const auto input_error = nb::exception<phongpd::InputError>(
+      module, "InputError", PyExc_ValueError);
+  // After its base, so that it is tried before it.
+  nb::exception<phongpd::BuildRefusal>(module, "BuildRefusal", input_error);
   nb::exception<phongpd::BuildCancelled>(module, "BuildCancelled");
   module.attr("__version__") = PHONGPD_VERSION;
   phongpd::SilenceOmpl();
@@ -20,4 +24,5 @@ NB_MODULE(_native, module) {
   phongpd::python::BindDepth(module);
   phongpd::python::BindWorld(module);
   phongpd::python::BindRows(module);
+  phongpd::python::BindSweeps(module);
 }

@@ -8,7 +8,6 @@
 #include "problems/studies/planning_study.h"
 
 namespace phongpd::python {
-namespace {
 
 using Eigen::Vector3d;
 namespace nb = nanobind;
@@ -19,12 +18,10 @@ ContactSpaceCache FolderOf(bool cache) {
   return folder;
 }
 
-}  // namespace
-
-Workshop::Workshop(const Scene& scene, bool cache)
+Workshop::Workshop(const Scene& scene, bool cache, double max_mib)
     : scene_(scene),
       cache_(FolderOf(cache)),
-      world_(scene.workspace, scene.name, cache_),
+      world_(scene.workspace, scene.name, cache_, {0.0, max_mib}),
       trajectories_(cache_) {}
 
 std::string Workshop::Optimize(const Point& start, const Point& goal,

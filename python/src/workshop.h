@@ -7,6 +7,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
+#include "core/contact/contact_space_cache.h"
 #include "problems/scenes/scene.h"
 #include "problems/studies/answer_check.h"
 #include "problems/studies/trajectory_study.h"
@@ -18,12 +19,15 @@ using Point = std::array<double, 3>;
 
 inline Eigen::Vector3d ToVector(const Point& p) { return {p[0], p[1], p[2]}; }
 
+// Keeps contact spaces in the user's cache folder, or nowhere.
+ContactSpaceCache FolderOf(bool cache);
+
 // A world and what has been prepared in it for one kind of question or the
 // other.  Ipopt runs once at a time in a process, and preparing is no question
 // for two threads at once: one mutex for all.
 class Workshop {
  public:
-  Workshop(const Scene& scene, bool cache);
+  Workshop(const Scene& scene, bool cache, double max_mib);
 
   const World& world() const { return world_; }
   const Scene& scene() const { return scene_; }

@@ -1,0 +1,216 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The sweeps there are, as jobs."""
+
+from __future__ import annotations
+
+import math
+import os
+from collections.abc import Iterable, Mapping, Sequence
+from pathlib import Path
+from typing import Any, Union
+
+import numpy as np
+from distributed import Client
+from numpy.typing import ArrayLike
+
+from .. import _native
+from .._arguments import Floats, length, rows, seconds, whole_number
+from .._native import InputError
+from .._solid import Solid, as_solid
+from ._jobs import Job, digest
+from ._run import Sweep, run
+from ._work import SweepError
+
+_Path = Union[str, "os.PathLike[str]"]
+
+
+def convergence(scenes: Sequence[_Path], *, seeds: Iterable[int],
+                output: _Path, metrics: Sequence[str] = ("phong@0.2",),
+                protocols: Sequence[str] = ("straight-adaptive",),
+                client: Client | None = None, max_mib: float | None = None,
+                cache: bool = False, batch: int = 1) -> Sweep:
+    """Trajectory optimisation of every scene from every seed, by every protocol
+    and metric: the rows of `phongpd compare`, whose `--rows` summarises them.
+
+    scenes: files, or families with knobs.  seeds: whole numbers from 1 on.
+    metrics, protocols: names as `phongpd compare --help` has them; the protocol
+    "pipeline" runs for one metric, phong@0.2.
+    """
+    subjects = _scenes(scenes, max_mib, cache)
+    methods = [(protocol, metric) for protocol in _texts(protocols, "protocols")
+               for metric in (["phong@0.2"] if protocol == "pipeline"
+                              else _texts(metrics, "metrics"))]
+    for protocol, metric in methods:
+        _native.check_method(protocol, metric)
+    numbers = _seeds(seeds)
+    jobs = [Job.of("convergence", subject,
+                   {"seed": seed, "protocol": protocol, "metric": metric})
+            for subject in subjects for seed in numbers
+            for protocol, metric in methods]
+    return run(jobs, subjects, output, client, batch)
+
+
+def planning(scenes: Sequence[_Path], *, seeds: Iterable[int], output: _Path,
+             planners: Sequence[str] = ("contact-surface",),
+             retraction: str = "phong", clearance: float | str | None = None,
+             max_seconds: float = 5.0, client: Client | None = None,
+             max_mib: float | None = None, cache: bool = False,
+             batch: int = 1) -> Sweep:
+    """A plan from start to goal of every scene by every planner and seed: the
+    rows of World.plan, with its arguments."""
+    subjects = _scenes(scenes, max_mib, cache)
+    room = length(clearance, "clearance")
+    names = _texts(planners, "planners")
+    for planner in names:
+        _native.check_planner(planner, retraction, room)
+    limit = seconds(max_seconds, "max_seconds")
+    if not math.isfinite(limit):
+        raise InputError("max_seconds: expected a finite number, found none")
+    options = {"retraction": retraction, "clearance": room,
+               "max_seconds": limit}
+    numbers = _seeds(seeds)
+    jobs = [Job.of("planning", subject,
+                   {"seed": seed, "planner": planner, **options})
+            for subject in subjects for seed in numbers
+            for planner in names]
+    return run(jobs, subjects, output, client, batch)
+
+
+def depth(robot: Any, obstacle: Any, positions: ArrayLike,
+          orientations: ArrayLike | None = None, *, output: _Path,
+          max_radius: float = math.inf, client: Client | None = None,
+          batch: int = 100) -> Sweep:
+    """Exact depth at many poses: the rows of DepthQuery.at, with `pose`, the
+    index of the pose.  Poses of one orientation should be neighbours."""
+    pair = _pair(robot, obstacle)
+    subject = digest(pair[0], pair[1], repr(float(max_radius)))
+    places = _finite(rows(positions, "positions", 3), "positions")
+    turns = _turns(orientations, len(places))
+    jobs = [Job.of("depth", subject,
+                   {"pose": i, "position": place, "orientation": turn})
+            for i, (place, turn) in enumerate(zip(places.tolist(), turns))]
+    return run(jobs, {subject: {**pair[2], "max_radius": float(max_radius)}},
+               output, client, batch)
+
+
+def contact_spaces(pairs: Mapping[str, tuple[Any, Any]], *, output: _Path,
+                   folder: _Path | None = None, client: Client | None = None,
+                   max_mib: float | None = None, cache: bool = False) -> Sweep:
+    """The contact space of every pair (robot, obstacle): the rows are its
+    reports, with `pair`, the name.
+
+    folder: where workers write NAME.off, each at once or not at all; it is the
+    same folder for all of them.  One task a pair: the engine builds in pieces
+    within a process only, so a pair needs a worker that it fits.
+    """
+    place = None if folder is None else _folder(folder)
+    jobs, subjects = [], {}
+    for name, solids in pairs.items():
+        robot, obstacle, arrays = _pair(*_two(name, solids))
+        file = "" if place is None else str(place / f"{_file_name(name)}.off")
+        subject = digest(robot, obstacle, file, max_mib)
+        subjects[subject] = {**arrays, "file": file, "max_mib": max_mib,
+                             "cache": bool(cache)}
+        jobs.append(Job.of("contact-space", subject, {"pair": name}))
+    sweep = run(jobs, subjects, output, client, 1)
+    if place is not None:
+        _require_files(sweep, place)
+    return sweep
+
+
+def _scenes(scenes: Sequence[_Path], max_mib: float | None,
+            cache: bool) -> dict[str, dict[str, Any]]:
+    if max_mib is not None and not float(max_mib) >= 0.0:
+        raise InputError(f"max_mib: expected 0 or more, found {max_mib!r}")
+    subjects: dict[str, dict[str, Any]] = {}
+    for text in _texts(scenes, "scenes"):
+        scene = os.path.abspath(text) if os.path.isfile(text) else text
+        content = _native.scene_digest(scene)
+        subject = digest(content, max_mib)
+        if subject in subjects:
+            raise InputError(f"scenes: expected different ones, found {text!r} "
+                             "twice")
+        subjects[subject] = {"scene": scene, "digest": content,
+                             "max_mib": max_mib, "cache": bool(cache)}
+    return subjects
+
+
+def _texts(values: Any, name: str) -> list[str]:
+    if isinstance(values, (str, os.PathLike)) or not isinstance(
+            values, Iterable):
+        raise InputError(f"{name}: expected a list of names, found {values!r}")
+    texts = [os.fspath(value) for value in values]
+    if not texts:
+        raise InputError(f"{name}: expected at least one, found none")
+    return texts
+
+
+def _seeds(seeds: Iterable[int]) -> list[int]:
+    if isinstance(seeds, (str, int)) or not isinstance(seeds, Iterable):
+        raise InputError(
+            f"seeds: expected whole numbers, range(1, 51) for example, found "
+            f"{seeds!r}")
+    return [whole_number(seed, "seeds", 1) for seed in seeds]
+
+
+def _pair(robot: Any, obstacle: Any) -> tuple[str, str, dict[str, Any]]:
+    """Digests of two solids, and what travels to the workers."""
+    solids = {"robot": as_solid(robot, "robot"),
+              "obstacle": as_solid(obstacle, "obstacle")}
+    one, other = (digest(solid.vertices.tobytes().hex(),
+                         solid.triangles.tobytes().hex())
+                  for solid in solids.values())
+    return one, other, {name: _arrays(solid) for name, solid in solids.items()}
+
+
+def _arrays(solid: Solid) -> tuple[Any, Any, str]:
+    return np.array(solid.vertices), np.array(solid.triangles), solid.name
+
+
+def _two(name: str, solids: Any) -> tuple[Any, Any]:
+    if not isinstance(solids, tuple) or len(solids) != 2:
+        raise InputError(
+            f"pairs: {name}: expected (robot, obstacle), found {solids!r}")
+    return solids
+
+
+def _file_name(name: str) -> str:
+    if not name or name.startswith(".") or "/" in name:
+        raise InputError(
+            f"pairs: expected names that can be files, found {name!r}")
+    return name
+
+
+def _folder(folder: _Path) -> Path:
+    path = Path(os.path.abspath(folder))
+    if not path.is_dir():
+        raise InputError(f"{folder}: expected a folder, found none")
+    return path
+
+
+def _require_files(sweep: Sweep, folder: Path) -> None:
+    """Rows may be older than the folder, or of workers that see another."""
+    for row in sweep.read():
+        file = folder / f"{row['pair']}.off"
+        if row["outcome"] == "done" and not file.is_file():
+            raise SweepError(
+                f"{file}: expected the contact space that {sweep.output} has a "
+                "row of, found none; workers and client need one folder; remove "
+                "the rows to build again")
+
+
+def _finite(values: Floats, name: str) -> Floats:
+    if not np.isfinite(values).all():
+        raise InputError(f"{name}: expected finite numbers, found others")
+    return values
+
+
+def _turns(orientations: ArrayLike | None, count: int) -> list[Any]:
+    if orientations is None:
+        return [None] * count
+    turns = _finite(rows(orientations, "orientations", 4), "orientations")
+    if len(turns) not in (1, count):
+        raise InputError(f"orientations: expected one or {count}, as there are "
+                         f"positions, found {len(turns)}")
+    found: list[Any] = np.broadcast_to(turns, (count, 4)).tolist()
+    return found

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What sweeps over many machines ask of the library: rows of comparisons, and
+// what can be told of them before one is run.
+#include <nanobind/stl/string.h>
+
+#include <algorithm>
+#include <mutex>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "problems/scenes/scene_source.h"
+#include "problems/studies/comparison_run.h"
+#include "problems/studies/planner_names.h"
+#include "python/src/bindings.h"
+#include "python/src/workshop.h"
+
+namespace phongpd::python {
+namespace {
+
+namespace nb = nanobind;
+
+// Rows of one scene or family; the world is kept while the solids stay.
+class Comparison {
+ public:
+  Comparison(const std::string& scene, double max_mib, bool cache)
+      : source_(scene), cache_(FolderOf(cache)), limits_{0.0, max_mib} {}
+
+  std::string Row(std::uint64_t seed, const std::string& protocol,
+                  const std::string& metric) {
+    const nb::gil_scoped_release release;
+    const std::lock_guard<std::mutex> lock(one_at_a_time_);
+    Enter(seed);
+    nlohmann::ordered_json row = RunComparison(
+        {seed, FindProtocol(protocol), ParseTrajectoryMetric(metric, "metrics"),
+         source_.is_family()},
+        &study_);
+    row.erase("path");
+    return row.dump();
+  }
+
+ private:
+  void Enter(std::uint64_t seed) {
+    if (entered_ == seed) return;
+    entered_.reset();
+    const Scene scene = source_.Load(seed);
+    if (!world_ || !HaveSameSolids(scene.workspace, world_->workspace())) {
+      world_.emplace(scene.workspace, scene.name, cache_, limits_);
+    }
+    study_.Enter(scene, *world_);
+    entered_ = seed;
+  }
+
+  SceneSource source_;
+  ContactSpaceCache cache_;
+  WorldLimits limits_;
+  std::optional<World> world_;
+  TrajectoryStudy study_;
+  std::optional<std::uint64_t> entered_;  // seed of the study's scene
+  std::mutex one_at_a_time_;
+};
+
+// Throws InputError for all that can be told to be wrong before there is a
+// scene.  An empty clearance is the scene's own.
+void CheckPlanner(const std::string& planner, const std::string& retraction,
+                  const std::string& clearance) {
+  const std::vector<std::string> names = PlannerNames();
+  if (std::find(names.begin(), names.end(), planner) == names.end()) {
+    throw InputError("planners: expected one that phongpd plan --help names, " +
+                     ("found '" + planner + "'"));
+  }
+  ParseRetraction(retraction, "retraction");
+  if (clearance.empty()) return;
+  RequireSeeksClearance(planner, "clearance");
+  ParseLength(clearance, "clearance");
+}
+
+}  // namespace
+
+void BindSweeps(nb::module_& module) {
+  nb::class_<Comparison>(module, "Comparison")
+      .def(nb::init<const std::string&, double, bool>())
+      .def("row", &Comparison::Row);
+  module.def("scene_digest", [](const std::string& scene) {
+    const nb::gil_scoped_release release;
+    return SceneSource(scene).Digest();
+  });
+  module.def("check_method",
+             [](const std::string& protocol, const std::string& metric) {
+               FindProtocol(protocol);
+               ParseTrajectoryMetric(metric, "metrics");
+             });
+  module.def("check_planner", &CheckPlanner);
+}
+
+}  // namespace phongpd::python

@@ -1,0 +1,57 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""PhongPD beside its peers in one run, each from its own wheel; see `--help`."""
+
+import argparse
+import importlib
+from pathlib import Path
+
+import peers_depth
+import peers_distance
+import peers_minkowski
+import peers_solvers
+from peers_report import write_report
+
+SEED = 1
+# Import name, and the package it comes in.
+PEERS = [("manifold3d", "manifold3d"), ("coal", "coal"), ("fcl", "python-fcl"),
+         ("mujoco", "mujoco"), ("trimesh", "trimesh"), ("open3d", "open3d-cpu"),
+         ("scipy", "scipy"), ("casadi", "casadi"), ("pydrake", "drake")]
+
+
+def load_all():
+    """Packages that load, and one line for each that does not."""
+    there, missing = [], []
+    for module, package in PEERS:
+        try:
+            importlib.import_module(module)
+            there.append(package)
+        except Exception as error:
+            missing.append(f"{package} does not load: {type(error).__name__}: "
+                           + " ".join(str(error).split())[:200])
+    return there, missing
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--output", type=Path, required=True,
+                        help="folder for README.md and the tables")
+    parser.add_argument("--how", default="results/bench/peers_benchmark.py",
+                        help="the command that README.md names")
+    arguments = parser.parse_args()
+    packages, failures = load_all()
+    depth, failed = peers_depth.run(SEED)
+    failures += failed
+    print("depth measured", flush=True)
+    distance, failed = peers_distance.run(SEED)
+    failures += failed
+    print("distances measured", flush=True)
+    solvers, failed = peers_solvers.run(range(SEED, SEED + 3))
+    failures += failed
+    print("solvers measured", flush=True)
+    sums = peers_minkowski.run()
+    write_report(arguments.output, arguments.how, SEED, packages, failures,
+                 sums, depth, distance, solvers)
+
+
+if __name__ == "__main__":
+    main()
