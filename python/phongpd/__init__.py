@@ -22,18 +22,21 @@ Whatever cannot be used raises InputError, a ValueError of one line: what,
 where, expected, found.
 """
 
-from ._contact import ContactSpace, EuclideanMetric, PhongMetric, QueryResult, \
-    minkowski
+from ._answers import Diagnosis, Plan, Trajectory
+from ._contact import ContactSpace, minkowski
 from ._depth import Depth, DepthQuery, depth
+from ._metrics import EuclideanMetric, Penetration, PhongMetric, QueryResult
 from ._native import BuildCancelled, InputError, __version__
 from ._rows import NonPenetrationRows
 from ._solid import Solid
 from ._tracker import PenetrationTracker, TrackedMotion
-from ._world import Diagnosis, Plan, Roadmap, Trajectory, World
+from ._view import View, view
+from ._world import Roadmap, World
 
 __all__ = [
     "BuildCancelled", "ContactSpace", "Depth", "DepthQuery", "Diagnosis",
-    "EuclideanMetric", "InputError", "NonPenetrationRows",
-    "PenetrationTracker", "PhongMetric", "Plan", "QueryResult", "Roadmap", "Solid", "TrackedMotion", "Trajectory", "World",
-    "__version__", "depth", "minkowski",
+    "EuclideanMetric", "InputError", "NonPenetrationRows", "Penetration",
+    "PenetrationTracker", "PhongMetric", "Plan", "QueryResult", "Roadmap",
+    "Solid", "TrackedMotion", "Trajectory", "View", "World", "__version__",
+    "depth", "minkowski", "view",
 ]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-from typing import Any
+from typing import Any, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
@@ -51,6 +51,18 @@ class Metric:
     @staticmethod
     def euclidean(space: ContactSpace) -> Metric: ...
     def query(self, points: _Floats, is_tracked: bool) -> dict[str, Any]: ...
+    def at(self, q: Sequence[float] | _Floats, after: Answer | None) -> Answer: ...
+
+class Answer:
+    point: _Floats
+    status: int
+    inside: bool
+    signed_distance: float
+    contact: _Floats
+    direction: _Floats
+    gradient: _Floats
+    penetration: _Floats
+    triangle: int
 
 class TrackerState:
     def __init__(self) -> None: ...
@@ -112,3 +124,14 @@ class Rows:
     def sparsity(self) -> tuple[_Ints, _Ints]: ...
     variables: int
     rows: int
+
+class View:
+    def __init__(self, title: str, notes: list[str]) -> None: ...
+    def add_mesh(self, name: str, role: str, vertices: _Floats,
+                 triangles: _Ints) -> None: ...
+    def set_robot(self, vertices: _Floats, triangles: _Ints) -> None: ...
+    def set_ends(self, ends: _Floats) -> None: ...
+    def add_path(self, name: str, points: _Floats, is_free: bool) -> None: ...
+    def add_answer(self, points: _Floats, orientation: _Floats, status: str,
+                   depth: float, clearance: float) -> None: ...
+    def page(self, most_triangles: int) -> str: ...

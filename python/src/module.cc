@@ -11,13 +11,18 @@
 
 NB_MODULE(_native, module) {
   namespace nb = nanobind;
+  // A notebook's kernel ends with everything alive.
+  nb::set_leak_warnings(false);
   nb::exception<phongpd::InputError>(module, "InputError", PyExc_ValueError);
   nb::exception<phongpd::BuildCancelled>(module, "BuildCancelled");
   module.attr("__version__") = PHONGPD_VERSION;
   phongpd::SilenceOmpl();
   phongpd::python::BindSolid(module);
   phongpd::python::BindContactSpace(module);
+  phongpd::python::BindMetrics(module);
+  phongpd::python::BindTracker(module);
   phongpd::python::BindDepth(module);
   phongpd::python::BindWorld(module);
   phongpd::python::BindRows(module);
+  phongpd::python::BindView(module);
 }
