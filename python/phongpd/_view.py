@@ -5,13 +5,13 @@ from __future__ import annotations
 
 import html
 import os
-from typing import Any, Iterable
+from typing import Any, Callable, Iterable
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _native
-from ._arguments import rows, whole_number
+from ._arguments import Floats, rows, whole_number
 from ._mesh import MeshViews
 from ._native import InputError
 
@@ -29,6 +29,8 @@ class Canvas:
         self._drawn: list[object] = []
         self._robot: MeshViews | None = None
         self.triangles = 0
+        self.is_free: Callable[[ArrayLike, ArrayLike], Any] | None = None
+        """Judges straight motions, once a world has been drawn."""
 
     def is_new(self, thing: object) -> bool:
         """Once for each thing."""
@@ -57,7 +59,13 @@ class Canvas:
         self._native.set_ends(rows(np.array([start, goal]), "ends", 3))
 
     def path(self, name: str, points: ArrayLike, free: bool) -> None:
-        self._native.add_path(name, rows(points, "path", 3), free)
+        self._native.add_path(name, _way(points), free)
+
+    def way(self, name: str, points: ArrayLike) -> None:
+        """A path of which nobody has said whether it is free."""
+        way = _way(points)
+        self.path(name, way, self.is_free is None
+                  or bool(np.all(self.is_free(way[:-1], way[1:]))))
 
     def answer(self, points: ArrayLike, orientation: ArrayLike, status: str,
                depth: float, clearance: float) -> None:
@@ -118,7 +126,9 @@ def view(*things: Any, title: str = "PhongPD", notes: Iterable[str] = (),
 
     things: Solid, ContactSpace, World, Trajectory, Plan, Depth, or an array
     (K, 3), the way of the robot's position; of at most one robot.  Those with
-    a name, `view(world, phong=one, euclid=other)`, have it in the legend.
+    a name, `view(world, phong=one, euclid=other)`, have it in the legend.  An
+    array after a world is judged in it, which builds the world's contact space
+    if it is not there; before one, or without, it counts as free.
     notes: what a person should know, a sentence each.
     """
     canvas = Canvas(title, notes)
@@ -126,12 +136,20 @@ def view(*things: Any, title: str = "PhongPD", notes: Iterable[str] = (),
         if isinstance(thing, Shown):
             thing._draw(canvas, name)
         elif isinstance(thing, (np.ndarray, list, tuple)):
-            canvas.path(name or "path", thing, True)
+            canvas.way(name or "path", thing)
         else:
             raise InputError(
                 "view: expected Solid, ContactSpace, World, Trajectory, Plan, "
                 f"Depth or an array (K, 3), found {type(thing).__name__}")
     return View(canvas)
+
+
+def _way(points: ArrayLike) -> Floats:
+    way = rows(points, "path", 3)
+    if not np.isfinite(way).all():
+        raise InputError("path: expected finite numbers, found others in "
+                         f"{int((~np.isfinite(way)).any(axis=1).sum())} rows")
+    return way
 
 
 def _table(facts: dict[str, Any]) -> str:

@@ -192,6 +192,7 @@ class World(Shown):
         for obstacle in self.obstacles:
             canvas.mesh(obstacle.name, "obstacle", obstacle)
         canvas.robot(self.robot)
+        canvas.is_free = self.is_motion_free
         if self._has_ends:
             canvas.ends(self.start, self.goal)
 

@@ -153,7 +153,8 @@ def test_a_view_joins_things_of_one_world(world, run, space, tmp_path):
     data = data_of((tmp_path / "page.html").read_text("utf-8"))
     assert data["title"] == "a <b> & c" and len(data["notes"]) == 1
     assert len(data["meshes"]) == 2
-    assert [p["name"] for p in data["paths"]] == ["plan", "phong", "line"]
+    assert [(p["name"], p["free"]) for p in data["paths"]] == [
+        ("plan", True), ("phong", True), ("line", False)]
     assert len(framed(page)) < 2e6
 
 
@@ -165,6 +166,8 @@ def test_what_cannot_be_shown_is_said(world, run, robot, obstacle):
             phongpd.view(*things)
     with pytest.raises(phongpd.InputError, match="path: expected"):
         phongpd.view(np.zeros((4, 2)))
+    with pytest.raises(phongpd.InputError, match="path: expected finite"):
+        phongpd.view(way=[(0, 0, 0), (0, np.nan, 0)])
     with pytest.raises(phongpd.InputError, match="most_triangles"):
         phongpd.view(robot).html(0)
 
