@@ -28,7 +28,7 @@ breathe_default_project = "phongpd"
 breathe_default_members = ("members",)
 
 # The compiled half is not needed to read docstrings.
-autodoc_mock_imports = ["phongpd._native"]
+autodoc_mock_imports = ["phongpd._native", "casadi", "cyipopt", "ompl"]
 autodoc_typehints = "none"  # shapes are in the docstrings
 autoclass_content = "both"
 autodoc_member_order = "bysource"

@@ -22,19 +22,21 @@ Whatever cannot be used raises InputError, a ValueError of one line: what,
 where, expected, found.
 """
 
-from ._contact import ContactSpace, EuclideanMetric, PhongMetric, QueryResult, \
-    minkowski
+from ._answers import Diagnosis, Plan, Trajectory
+from ._contact import ContactSpace, minkowski
 from ._depth import Depth, DepthQuery, depth
+from ._metrics import EuclideanMetric, Penetration, PhongMetric, QueryResult
 from ._native import BuildCancelled, BuildRefusal, InputError, __version__
 from ._rows import NonPenetrationRows
 from ._solid import Solid
 from ._tracker import PenetrationTracker, TrackedMotion
-from ._world import Diagnosis, Plan, Roadmap, Trajectory, World
+from ._view import View, view
+from ._world import Roadmap, World
 
 __all__ = [
     "BuildCancelled", "BuildRefusal", "ContactSpace", "Depth", "DepthQuery",
     "Diagnosis", "EuclideanMetric", "InputError", "NonPenetrationRows",
-    "PenetrationTracker", "PhongMetric", "Plan", "QueryResult", "Roadmap",
-    "Solid", "TrackedMotion", "Trajectory", "World", "__version__", "depth",
-    "minkowski",
+    "Penetration", "PenetrationTracker", "PhongMetric", "Plan", "QueryResult",
+    "Roadmap", "Solid", "TrackedMotion", "Trajectory", "View", "World",
+    "__version__", "depth", "minkowski", "view",
 ]

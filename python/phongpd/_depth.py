@@ -2,7 +2,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
@@ -11,11 +11,13 @@ from numpy.typing import ArrayLike
 from . import _native
 from ._arguments import Floats, is_single, rows
 from ._native import InputError
-from ._solid import as_solid
+from ._solid import Solid, as_solid
+from ._statuses import Answer, axes
+from ._view import Canvas, Shown
 
 
 @dataclass(frozen=True)
-class Depth:
+class Depth(Answer, Shown):
     """How deep two solids are in each other, or how far apart; user's unit."""
 
     status: str
@@ -46,6 +48,46 @@ class Depth:
     """What coordinates were rounded by; the answer is that of the given
     solids to 7 times that."""
     seconds: float
+    position: Floats
+    """(3,): where the robot was put ..."""
+    orientation: Floats
+    """(4,): ... and how it was turned: (w, x, y, z)."""
+    solids: tuple[Solid, Solid] | None = field(
+        default=None, repr=False, compare=False)
+    """Robot and obstacle; None after a way through pickle."""
+
+    _LIVE = ("solids",)
+
+    def to_row(self) -> dict[str, Any]:
+        """Flat, for pandas.DataFrame([one.to_row(), ...])."""
+        row: dict[str, Any] = {
+            **dict(zip("xyz", map(float, self.position))),
+            **{f"q{axis}": float(q) for axis, q in zip("wxyz", self.orientation)},
+            "status": self.status, "depth": self.depth,
+            "clearance": self.clearance}
+        for name in ("direction", "contact", "on_robot", "on_obstacle"):
+            row.update(axes(name, getattr(self, name)))
+        for name in ("robot_feature", "obstacle_feature"):
+            row[name] = getattr(self, name)[0]
+        for name in ("certified", "explored_radius", "level", "grid_step",
+                     "seconds"):
+            row[name] = getattr(self, name)
+        return row
+
+    def _draw(self, canvas: Canvas, name: str | None) -> None:
+        if self.solids is None:
+            raise InputError("view: expected an answer with its solids, found "
+                             "one that came through pickle")
+        if canvas.is_new(self.solids[1]):
+            canvas.mesh(self.solids[1].name, "obstacle", self.solids[1])
+        canvas.robot(self.solids[0])
+        canvas.answer(
+            [self.position, self.direction, self.on_robot, self.on_obstacle],
+            self.orientation, self.status, self.depth, self.clearance)
+
+    def _facts(self) -> dict[str, Any]:
+        return {"status": str(self), "certified": self.certified,
+                "level": self.level, "seconds": self.seconds}
 
     def __str__(self) -> str:
         if self.status == "separate":
@@ -69,10 +111,13 @@ class DepthQuery:
                  max_radius: float = math.inf,
                  max_seconds: float = 0.0) -> None:
         """max_radius, max_seconds: stop there, uncertified; 0 s: no limit."""
+        self._solids = as_solid(robot, "robot"), as_solid(obstacle, "obstacle")
         self._native = _native.DepthQuery(
-            as_solid(robot, "robot")._native,
-            as_solid(obstacle, "obstacle")._native, float(max_radius),
-            float(max_seconds))
+            self._solids[0]._native, self._solids[1]._native,
+            float(max_radius), float(max_seconds))
+
+    def __repr__(self) -> str:
+        return f"<DepthQuery: {self._solids[0]!r} in {self._solids[1]!r}>"
 
     @property
     def warnings(self) -> list[str]:
@@ -100,7 +145,10 @@ class DepthQuery:
                     f"orientations: expected one or {len(places)}, as there "
                     f"are positions, found {len(turns)}")
         columns = self._native.at(places, turns)
-        answers = [_row(columns, i) for i in range(len(places))]
+        columns["position"] = places.copy()
+        columns["orientation"] = np.tile((1.0, 0.0, 0.0, 0.0), (
+            len(places), 1)) if turns is None else turns.copy()
+        answers = [_row(columns, i, self._solids) for i in range(len(places))]
         return answers[0] if is_one else answers
 
 
@@ -113,10 +161,11 @@ def depth(robot: Any, obstacle: Any, at: ArrayLike = (0.0, 0.0, 0.0),
     return answer[0]  # type: ignore[index]
 
 
-def _row(columns: dict[str, Any], i: int) -> Depth:
+def _row(columns: dict[str, Any], i: int,
+         solids: tuple[Solid, Solid]) -> Depth:
     values = {}
     for name, column in columns.items():
         value = column[i]
         values[name] = value.item() if isinstance(value, np.generic) else value
     values["certified"] = bool(values["certified"])
-    return Depth(**values)
+    return Depth(**values, solids=solids)

@@ -23,6 +23,10 @@ class NonPenetrationRows:
                 "jac": rows.jacobian}
         scipy.optimize.minimize(f, u0, method="SLSQP", constraints=keep)
 
+    metric: as `phongpd optimize` names them.  Inside, the derivative of
+    "phong@0.2" is the metric's unit direction, which is continuous, and not the
+    slope of d, which jumps at edges; "phong@0.2/exact" has the slope.
+
     A Phong depth follows a branch.  Branches are chosen at the first u that is
     asked, and advanced by `accept` alone, best once an iteration: between two
     calls values are one smooth function.  `start` forgets them.
@@ -80,6 +84,7 @@ class NonPenetrationRows:
         # Solvers ask for value and derivative at the same u.
         waypoints = self._waypoints(u)
         key = waypoints.tobytes()
-        if self._last is None or self._last[0] != key:
-            self._last = key, self._native.evaluate(waypoints)
-        return self._last[1]
+        last = self._last  # another thread may replace it
+        if last is None or last[0] != key:
+            last = self._last = key, self._native.evaluate(waypoints)
+        return last[1]

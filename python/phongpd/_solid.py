@@ -11,9 +11,10 @@ from . import _native
 from ._arguments import rows
 from ._mesh import MeshViews
 from ._native import InputError, Solid as NativeSolid
+from ._view import Canvas, Shown
 
 
-class Solid(MeshViews):
+class Solid(MeshViews, Shown):
     """A closed triangle mesh that was checked once and never changes.
 
     Equal vertices are joined where that closes the surface, shells that face
@@ -77,6 +78,17 @@ class Solid(MeshViews):
     def warnings(self) -> list[str]:
         """What was done to it, and what is no error but worth knowing."""
         return self._native.warnings
+
+    def to_row(self) -> dict[str, Any]:
+        """For pandas.DataFrame([one.to_row(), ...])."""
+        return {"name": self.name, "vertices": len(self.vertices),
+                "triangles": len(self.triangles),
+                "components": self.components, "volume": self.volume}
+
+    def _draw(self, canvas: Canvas, name: str | None) -> None:
+        canvas.mesh(name or self.name, "mesh", self)
+
+    _facts = to_row
 
     def __repr__(self) -> str:
         return (f"<Solid {self.name!r}: {len(self.triangles)} triangles, "

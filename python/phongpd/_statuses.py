@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 from __future__ import annotations
 
-from typing import ClassVar, Tuple
+from dataclasses import fields
+from typing import Any, ClassVar, Tuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,3 +21,36 @@ class Statuses:
 
     def __len__(self) -> int:
         return len(self.status)
+
+
+def columns_of(answers: Any) -> dict[str, Any]:
+    """The fields of a dataclass as one-dimensional columns: vectors as three
+    of them, points as x, y, z, statuses as words."""
+    columns: dict[str, Any] = {}
+    for field in fields(answers):
+        value = getattr(answers, field.name)
+        if field.name == "status":
+            columns["status"] = answers.statuses
+        elif value.ndim == 1:
+            columns[field.name] = value
+        else:
+            prefix = "" if field.name == "points" else field.name + "_"
+            for k, axis in enumerate("xyz"):
+                columns[prefix + axis] = value[:, k]
+    return columns
+
+
+def axes(name: str, vector: Any) -> dict[str, float]:
+    """A vector as three entries of a row."""
+    return {f"{name}_{axis}": float(x) for axis, x in zip("xyz", vector)}
+
+
+class Answer:
+    """Mixed into results that know what they are answers about: a result that
+    is sent to another process goes without."""
+
+    _LIVE: ClassVar[Tuple[str, ...]] = ()
+
+    def __getstate__(self) -> dict[str, Any]:
+        return {key: value for key, value in self.__dict__.items()
+                if key not in self._LIVE}

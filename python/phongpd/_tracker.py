@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 from __future__ import annotations
 
+import threading
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -9,10 +11,11 @@ from numpy.typing import ArrayLike, NDArray
 from . import _native
 from ._arguments import Floats, rows
 from ._contact import ContactSpace, native_space
-from ._statuses import Statuses
+from ._native import InputError
+from ._statuses import Statuses, columns_of
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class TrackedMotion(Statuses):
     """A step a row; user's unit."""
 
@@ -39,6 +42,15 @@ class TrackedMotion(Statuses):
     triangle: NDArray[np.int32]
     """(N,): of the contact space; -1 outside."""
 
+    def to_columns(self) -> dict[str, Any]:
+        """One-dimensional columns, for pandas.DataFrame."""
+        return columns_of(self)
+
+    def __repr__(self) -> str:
+        deepest = float(self.depth.max()) if len(self) else 0.0
+        return (f"<TrackedMotion: {len(self)} steps, {int(self.inside.sum())} "
+                f"inside, at most {deepest:g} deep>")
+
 
 class PenetrationTracker:
     """Penetration depth of a robot that moves, without a jump.
@@ -57,12 +69,19 @@ class PenetrationTracker:
         self._native = _native.PenetrationTracker(
             native_space(space), float(ratio), float(speed))
         self._state = _native.TrackerState()
+        self._turn = threading.Lock()
 
     def follow(self, points: ArrayLike) -> TrackedMotion:
         """points: (N, 3), the next positions of the motion; goes on where the
-        last call ended.  Not for several threads at once: make one each."""
+        last call ended.  One motion, one thread: a second one is refused."""
         array = rows(points, "points", 3)
-        columns = self._native.follow(self._state, array)
+        if not self._turn.acquire(blocking=False):
+            raise InputError("tracker: expected one thread at a time, found "
+                             "another in it; make a tracker for each")
+        try:
+            columns = self._native.follow(self._state, array)
+        finally:
+            self._turn.release()
         columns["inside"] = columns["inside"].view(np.bool_)
         return TrackedMotion(points=array, **columns)
 

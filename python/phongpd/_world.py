@@ -4,77 +4,23 @@ from __future__ import annotations
 import json
 import os
 from collections.abc import Mapping
-from dataclasses import dataclass, field
 from typing import Any, Tuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _native
+from ._answers import Diagnosis, Plan, Trajectory
 from ._arguments import Floats, length, point, rows, seconds, whole_number
 from ._contact import ContactSpace
 from ._native import InputError
 from ._solid import Solid, as_solid
+from ._view import Canvas, Shown
 
 _Point = Tuple[float, float, float]
 
 
-@dataclass(frozen=True)
-class Diagnosis:
-    """Is a position free, and if not, why; exact, of the solids themselves."""
-
-    free: bool
-    contacts: list[dict[str, Any]]
-    """For each obstacle in the way: its name, a translation `depth_at_most`
-    along `direction` that leaves it."""
-    excesses: list[dict[str, Any]]
-    """For each bound that is not kept: axis, is_maximum, bound, by."""
-
-
-@dataclass(frozen=True)
-class Trajectory:
-    """One optimised trajectory; the row of `phongpd optimize` as `row`."""
-
-    status: str
-    """"solved" and what else there is: see `reason`."""
-    reason: str
-    free: bool
-    """The exact judge's word on the whole path."""
-    path: Floats = field(repr=False)
-    """(K, 3), from start to goal; empty without any."""
-    objective: float
-    clearance: float
-    """From contact and bounds, of the whole path; user's unit."""
-    iterations: int
-    seconds: float
-    row: dict[str, Any] = field(repr=False)
-
-    def _repr_html_(self) -> str:
-        return _table("trajectory", self, self.row.get("method"))
-
-
-@dataclass(frozen=True)
-class Plan:
-    """One answer of a planner; the row of `phongpd plan` as `row`."""
-
-    status: str
-    reason: str
-    solved: bool
-    """With a path that is free by exact tests."""
-    infeasible: bool
-    """Proved: start and goal lie in different cells of free space."""
-    path: Floats = field(repr=False)
-    """(K, 3); empty without any."""
-    length: float
-    clearance: float
-    seconds: float
-    row: dict[str, Any] = field(repr=False)
-
-    def _repr_html_(self) -> str:
-        return _table("plan", self, self.row.get("planner"))
-
-
-class World:
+class World(Shown):
     """A robot that translates among obstacles, perhaps within bounds.
 
     Contact spaces are built when something asks for them, once, and kept;
@@ -103,6 +49,8 @@ class World:
         self._open(_native.Scene.make(as_solid(robot, "robot")._native, named,
                                       box, name), cache, max_mib)
 
+        self._has_ends = False
+
     def _open(self, scene: Any, cache: bool, max_mib: float) -> None:
         self._native = _native.World(scene, cache, float(max_mib))
 
@@ -114,6 +62,7 @@ class World:
         above."""
         world = cls.__new__(cls)
         world._open(_native.Scene.load(os.fspath(scene), seed), cache, max_mib)
+        world._has_ends = True
         return world
 
     @property
@@ -202,7 +151,7 @@ class World:
             free=row["collision_free"], path=_path(row),
             objective=row["objective"], clearance=row["clearance"],
             iterations=row["iterations"], seconds=row["seconds"]["total"],
-            row=row)
+            row=row, world=self)
 
     def plan(self, start: ArrayLike | None = None,
              goal: ArrayLike | None = None, *,
@@ -217,15 +166,17 @@ class World:
         space by `retraction`.  clearance: to seek where there is room, a share
         of D or "0.5unit".
         """
+        ends = self._ends(start, goal)
         row = json.loads(self._native.plan(
-            *self._ends(start, goal), planner, retraction,
+            *ends, planner, retraction,
             length(clearance, "clearance"), seconds(max_seconds, "max_seconds"),
             whole_number(seed, "seed", 0)))
         return Plan(
             status=row["status"], reason=row["reason"], solved=row["solved"],
             infeasible=row["infeasible_proved"], path=_path(row),
             length=row["path_length"], clearance=row["clearance"],
-            seconds=row["seconds"]["solve"], row=row)
+            seconds=row["seconds"]["solve"], row=row, world=self,
+            ends=np.array(ends))
 
     def roadmap(self) -> Roadmap:
         """For many queries; building it costs what ten to three hundred calls
@@ -237,6 +188,20 @@ class World:
         return (point(self.start if start is None else start, "start"),
                 point(self.goal if goal is None else goal, "goal"))
 
+    def _draw(self, canvas: Canvas, name: str | None) -> None:
+        if not canvas.is_new(self):
+            return
+        for obstacle in self.obstacles:
+            canvas.mesh(obstacle.name, "obstacle", obstacle)
+        canvas.robot(self.robot)
+        canvas.is_free = self.is_motion_free
+        if self._has_ends:
+            canvas.ends(self.start, self.goal)
+
+    def _facts(self) -> dict[str, Any]:
+        return {"world": self.name, "obstacles": len(self.obstacles),
+                "D": self.length, "warnings": "; ".join(self.warnings)}
+
     def __repr__(self) -> str:
         return f"<World {self.name!r}: D {self.length:g}>"
 
@@ -247,6 +212,7 @@ class Roadmap:
 
     def __init__(self, world: World) -> None:
         self._native = _native.Roadmap(world._native)
+        self._world = world
 
     @property
     def nodes(self) -> int:
@@ -257,25 +223,19 @@ class Roadmap:
         return self._native.edges
 
     def plan(self, start: ArrayLike, goal: ArrayLike) -> Plan:
-        found = self._native.plan(point(start, "start"), point(goal, "goal"))
+        ends = point(start, "start"), point(goal, "goal")
+        found = self._native.plan(*ends)
         return Plan(
             status=found["status"], reason=found["reason"],
             solved=found["status"] == "solved",
             infeasible=found["status"] == "infeasible_proved",
             path=found["path"], length=found["length"],
-            clearance=found["clearance"], seconds=found["seconds"], row={})
+            clearance=found["clearance"], seconds=found["seconds"], row={},
+            world=self._world, ends=np.array(ends))
+
+    def __repr__(self) -> str:
+        return f"<Roadmap: {self.nodes} nodes, {self.edges} edges>"
 
 
 def _path(row: dict[str, Any]) -> Floats:
     return np.asarray(row["path"], dtype=np.float64).reshape(-1, 3)
-
-
-def _table(what: str, answer: Any, how: str | None) -> str:
-    cells = "".join(
-        f"<tr><th style='text-align:left'>{key}</th><td>{value}</td></tr>"
-        for key, value in (
-            ("status", answer.status), ("by", how or ""),
-            ("points", len(answer.path)),
-            ("clearance", f"{answer.clearance:.4g}"),
-            ("seconds", f"{answer.seconds:.3g}")))
-    return f"<table><caption>{what}</caption>{cells}</table>"

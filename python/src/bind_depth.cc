@@ -8,6 +8,7 @@
 #include "core/contact/depth.h"
 #include "python/src/arrays.h"
 #include "python/src/bindings.h"
+#include "python/src/computing.h"
 
 namespace phongpd::python {
 namespace {
@@ -26,7 +27,7 @@ nb::dict At(const DepthQuery& query, const Rows3& positions,
   const size_t count = positions.shape(0);
   std::vector<DepthResult> results(count);
   {
-    const nb::gil_scoped_release release;
+    const Computing computing;
     for (size_t i = 0; i < count; ++i) {
       RobotPose pose;
       pose.position = Row(positions, i);
@@ -92,7 +93,7 @@ void BindDepth(nb::module_& module) {
              options.max_seconds = max_seconds;
              options.robot_name = robot.name;
              options.obstacle_name = obstacle.name;
-             const nb::gil_scoped_release release;
+             const Computing computing;
              new (self) DepthQuery(*robot.mesh, *obstacle.mesh, options);
            })
       .def("at", &At, nb::arg("positions"),

@@ -3,10 +3,12 @@
 #include <nanobind/stl/string.h>
 
 #include <memory>
+#include <mutex>
 
 #include "constraints/non_penetration.h"
 #include "python/src/arrays.h"
 #include "python/src/bindings.h"
+#include "python/src/computing.h"
 #include "python/src/workshop.h"
 
 namespace phongpd::python {
@@ -22,7 +24,7 @@ class Rows {
     options.phong.field_options.smoothing_length =
         workshop.world().Resolve(chosen.smoothing_length).share;
     std::vector<std::shared_ptr<const SignedMetric>> metrics;
-    const nb::gil_scoped_release release;
+    const Computing computing;
     for (const ContactSpace& space :
          workshop.world().Spaces(SpaceLayout::kMerged).spaces) {
       metrics.push_back(std::make_shared<SignedMetric>(space, options));
@@ -48,11 +50,13 @@ class Rows {
 
   // Cold branches at u.
   void Start(const Rows3& u) {
-    const nb::gil_scoped_release release;
+    const Computing computing;
+    const std::lock_guard<std::mutex> lock(one_at_a_time_);
     branches_ = rows_->Start(u.data(), nullptr);
   }
   void Accept(const Rows3& u) {
-    const nb::gil_scoped_release release;
+    const Computing computing;
+    const std::lock_guard<std::mutex> lock(one_at_a_time_);
     if (branches_.branches.empty()) {
       branches_ = rows_->Start(u.data(), nullptr);
     }
@@ -62,7 +66,8 @@ class Rows {
   nb::tuple Evaluate(const Rows3& u) {
     std::vector<double> values(rows()), entries(row_.size());
     {
-      const nb::gil_scoped_release release;
+      const Computing computing;
+      const std::lock_guard<std::mutex> lock(one_at_a_time_);
       if (branches_.branches.empty()) {
         branches_ = rows_->Start(u.data(), nullptr);
       }
@@ -80,6 +85,7 @@ class Rows {
   std::unique_ptr<NonPenetrationConstraint> rows_;
   BranchSet branches_;
   std::vector<int> row_, column_;
+  std::mutex one_at_a_time_;  // of Python's threads
 };
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include "core/mesh/mesh_io.h"
 #include "python/src/arrays.h"
 #include "python/src/bindings.h"
+#include "python/src/computing.h"
 
 namespace phongpd::python {
 namespace {
@@ -25,12 +26,12 @@ Solid FromArrays(const Rows3& vertices, const Corners& triangles,
   for (size_t i = 0; i < mesh.triangles.size(); ++i) {
     for (size_t k = 0; k < 3; ++k) mesh.triangles[i][k] = triangles(i, k);
   }
-  const nb::gil_scoped_release release;
+  const Computing computing;
   return Checked(mesh, name);
 }
 
 Solid Read(const std::string& path, const std::string& name) {
-  const nb::gil_scoped_release release;
+  const Computing computing;
   return Checked(ReadMesh(path), name);
 }
 

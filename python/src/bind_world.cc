@@ -14,6 +14,7 @@
 #include "problems/scenes/scene_source.h"
 #include "python/src/arrays.h"
 #include "python/src/bindings.h"
+#include "python/src/computing.h"
 #include "python/src/workshop.h"
 
 namespace phongpd::python {
@@ -48,7 +49,7 @@ Scene MakeScene(const Solid& robot,
 
 nb::dict DiagnosisOf(const Workshop& workshop, const Point& q) {
   const Diagnosis found = [&] {
-    const nb::gil_scoped_release release;
+    const Computing computing;
     return workshop.world().Diagnose(ToVector(q));
   }();
   nb::list contacts, excesses;
@@ -77,7 +78,7 @@ nb::dict DiagnosisOf(const Workshop& workshop, const Point& q) {
 nb::object AreFree(const Workshop& workshop, const Rows3& a, const Rows3& b) {
   std::vector<unsigned char> free(a.shape(0));
   {
-    const nb::gil_scoped_release release;
+    const Computing computing;
     const FreeSpace& space =
         *workshop.world().Spaces(SpaceLayout::kMerged).free_space;
     for (size_t i = 0; i < free.size(); ++i) {
@@ -91,7 +92,7 @@ nb::object AreFree(const Workshop& workshop, const Rows3& a, const Rows3& b) {
 nb::object Clearances(const Workshop& workshop, const Rows3& points) {
   std::vector<double> clearance(points.shape(0));
   {
-    const nb::gil_scoped_release release;
+    const Computing computing;
     const FreeSpace& space =
         *workshop.world().Spaces(SpaceLayout::kMerged).free_space;
     for (size_t i = 0; i < clearance.size(); ++i) {
@@ -105,7 +106,7 @@ nb::object Clearances(const Workshop& workshop, const Rows3& points) {
 nb::dict PlanOf(const ContactRoadmap& roadmap, const Point& start,
                 const Point& goal) {
   const PlanResult result = [&] {
-    const nb::gil_scoped_release release;
+    const Computing computing;
     return roadmap.Plan(ToVector(start), ToVector(goal));
   }();
   nb::dict out;
@@ -125,7 +126,7 @@ void BindScene(nb::module_& module) {
       .def_static(
           "load",
           [](const std::string& text, std::optional<std::uint64_t> seed) {
-            const nb::gil_scoped_release release;
+            const Computing computing;
             return SceneSource(text).Load(seed);
           },
           nb::arg("text"), nb::arg("seed").none())
@@ -170,13 +171,13 @@ void BindWorld(nb::module_& module) {
       .def_prop_ro("length",
                    [](const Workshop& w) { return w.world().diagonal(); })
       .def("contact_spaces", [](const Workshop& w) {
-        const nb::gil_scoped_release release;
+        const Computing computing;
         return w.world().Spaces(SpaceLayout::kMerged).spaces;
       });
   nb::class_<ContactRoadmap>(module, "Roadmap")
       .def("__init__",
            [](ContactRoadmap* self, const Workshop& workshop) {
-             const nb::gil_scoped_release release;
+             const Computing computing;
              new (self) ContactRoadmap(workshop.world().Sealed());
            })
       .def("plan", &PlanOf)

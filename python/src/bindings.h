@@ -20,9 +20,12 @@ struct Solid {
 
 void BindSolid(nanobind::module_& module);
 void BindContactSpace(nanobind::module_& module);
+void BindMetrics(nanobind::module_& module);
+void BindTracker(nanobind::module_& module);
 void BindDepth(nanobind::module_& module);
 void BindWorld(nanobind::module_& module);
 void BindRows(nanobind::module_& module);
 void BindSweeps(nanobind::module_& module);
+void BindView(nanobind::module_& module);
 
 }  // namespace phongpd::python

@@ -12,6 +12,8 @@
 
 NB_MODULE(_native, module) {
   namespace nb = nanobind;
+  // A notebook's kernel ends with everything alive.
+  nb::set_leak_warnings(false);
   const auto input_error = nb::exception<phongpd::InputError>(
       module, "InputError", PyExc_ValueError);
   // After its base, so that it is tried before it.
@@ -21,8 +23,11 @@ NB_MODULE(_native, module) {
   phongpd::SilenceOmpl();
   phongpd::python::BindSolid(module);
   phongpd::python::BindContactSpace(module);
+  phongpd::python::BindMetrics(module);
+  phongpd::python::BindTracker(module);
   phongpd::python::BindDepth(module);
   phongpd::python::BindWorld(module);
   phongpd::python::BindRows(module);
   phongpd::python::BindSweeps(module);
+  phongpd::python::BindView(module);
 }

@@ -1,16 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "python/src/workshop.h"
 
-#include <nanobind/nanobind.h>
-
 #include <nlohmann/json.hpp>
 
 #include "problems/studies/planning_study.h"
+#include "python/src/computing.h"
 
 namespace phongpd::python {
 
 using Eigen::Vector3d;
-namespace nb = nanobind;
 
 ContactSpaceCache FolderOf(bool cache) {
   ContactSpaceCache folder;
@@ -29,7 +27,7 @@ std::string Workshop::Optimize(const Point& start, const Point& goal,
                                const std::string& margin, int waypoints,
                                std::uint64_t seed, double max_seconds,
                                bool is_straight) {
-  const nb::gil_scoped_release release;
+  const Computing computing;
   const std::lock_guard<std::mutex> lock(one_at_a_time_);
   Scene scene = Between(start, goal);
   if (!margin.empty()) {
@@ -57,7 +55,7 @@ std::string Workshop::Plan(const Point& start, const Point& goal,
                            const std::string& retraction,
                            const std::string& clearance, double max_seconds,
                            std::uint64_t seed) {
-  const nb::gil_scoped_release release;
+  const Computing computing;
   const std::lock_guard<std::mutex> lock(one_at_a_time_);
   Scene scene = Between(start, goal);
   if (!clearance.empty()) {

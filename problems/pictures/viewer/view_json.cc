@@ -40,13 +40,12 @@ void Append(std::string* bytes, Number number) {
 }
 
 // Within one page all meshes lose alike.
-std::size_t Share(std::size_t triangles, std::size_t all) {
-  if (all <= kMaxDisplayTriangles) return triangles;
+std::size_t Share(std::size_t triangles, std::size_t all, std::size_t most) {
+  if (all <= most) return triangles;
   const double share =
       static_cast<double>(triangles) / static_cast<double>(all);
   return std::max<std::size_t>(
-      1000, static_cast<std::size_t>(
-                share * static_cast<double>(kMaxDisplayTriangles)));
+      1000, static_cast<std::size_t>(share * static_cast<double>(most)));
 }
 
 Json MeshJson(const TriangleMesh& mesh, const std::string& name,
@@ -189,7 +188,7 @@ std::string Base64(const std::string& bytes) {
   return text;
 }
 
-Json ViewJson(const View& view) {
+Json ViewJson(const View& view, std::size_t most_triangles) {
   const BoundingBox box = ViewBounds(view);
   const Vector3d center = box.Center();
   double scale = std::max(box.Diagonal(), ComputeBounds(view.robot).Diagonal());
@@ -207,16 +206,18 @@ Json ViewJson(const View& view) {
   json["meshes"] = Json::array();
   for (const ViewMesh& mesh : view.meshes) {
     Json entry =
-        MeshJson(mesh.mesh, mesh.name, Share(mesh.mesh.triangles.size(), all),
-                 center, scale, &notes);
+        MeshJson(mesh.mesh, mesh.name,
+                 Share(mesh.mesh.triangles.size(), all, most_triangles), center,
+                 scale, &notes);
     entry["role"] = ToString(mesh.role);
     json["meshes"].push_back(std::move(entry));
   }
-  json["robot"] = view.robot.triangles.empty()
-                      ? Json(nullptr)
-                      : MeshJson(view.robot, "robot",
-                                 Share(view.robot.triangles.size(), all),
-                                 Vector3d::Zero(), scale, &notes);
+  json["robot"] =
+      view.robot.triangles.empty()
+          ? Json(nullptr)
+          : MeshJson(view.robot, "robot",
+                     Share(view.robot.triangles.size(), all, most_triangles),
+                     Vector3d::Zero(), scale, &notes);
   json["start"] = MaybePoint(view.start);
   json["goal"] = MaybePoint(view.goal);
   json["paths"] = Json::array();

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstddef>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
+#include "problems/pictures/viewer/display_mesh.h"
 #include "problems/pictures/viewer/view.h"
 
 namespace phongpd {
@@ -24,9 +26,10 @@ namespace phongpd {
 //     direction, on_a, on_b}]  on_a and on_b are null without witness points
 //   probe {module (base64 of WebAssembly), length (D), spaces[{positions
 //     (base64 of float64 triples), indices}]} or null
-// Meshes with more triangles than kMaxDisplayTriangles together are shown
-// coarser, and a note says so.
-nlohmann::ordered_json ViewJson(const View& view);
+// Meshes with more than `most_triangles` together are shown coarser, and a note
+// says so.
+nlohmann::ordered_json ViewJson(
+    const View& view, std::size_t most_triangles = kMaxDisplayTriangles);
 
 // RFC 4648, with padding.
 std::string Base64(const std::string& bytes);

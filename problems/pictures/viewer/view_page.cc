@@ -37,7 +37,7 @@ void RequireViewer() {
       "install the Debian package libjs-three and build again");
 }
 
-std::string ViewPage(const View& view) {
+std::string ViewPage(const View& view, std::size_t most_triangles) {
   RequireViewer();
   const std::string_view page = internal::PageTemplate();
   const auto mark = [page](std::string_view text) {
@@ -52,7 +52,7 @@ std::string ViewPage(const View& view) {
   std::string text(page.substr(0, title));
   text += Escaped(view.title);
   text += page.substr(title + kTitle.size(), data - title - kTitle.size());
-  text += ForScript(ViewJson(view));
+  text += ForScript(ViewJson(view, most_triangles));
   text += page.substr(data + kData.size());
   return text;
 }
