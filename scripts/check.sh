@@ -116,7 +116,7 @@ check_options() {
   done
   configures "" "${none[@]}"
   # What is not installed.
-  for part in fcl ompl CLI11 nlohmann_json GTest; do
+  for part in fcl ompl CLI11 nlohmann_json GTest assimp tinyxml2; do
     configures "Not built for want of .*the package" \
       "-DCMAKE_DISABLE_FIND_PACKAGE_$part=ON"
   done

@@ -16,7 +16,7 @@ packages=(
   nlohmann-json3-dev coinor-libipopt-dev libblas-dev liblapack-dev libompl-dev
   libboost-serialization-dev libboost-filesystem-dev gnuplot-nox libjs-three
   clang lld wasi-libc libc++-14-dev-wasm32 libc++abi-14-dev-wasm32
-  libclang-rt-14-dev-wasm32
+  libclang-rt-14-dev-wasm32 libassimp-dev libtinyxml2-dev zlib1g-dev
   "$@"
 )
 

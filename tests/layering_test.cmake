@@ -93,6 +93,19 @@ foreach(file IN LISTS files)
   endif()
 endforeach()
 
+# One file knows Assimp, and what it reads it reads in another process.
+file(GLOB_RECURSE files ${SOURCE}/problems/* ${SOURCE}/tests/*.cc
+     ${SOURCE}/results/*.cc)
+foreach(file IN LISTS files)
+  if(NOT file MATCHES "\\.(h|cc)$" OR file MATCHES "/assimp_mesh\\.cc$")
+    continue()
+  endif()
+  file(STRINGS ${file} includes REGEX "^ *# *include <assimp/")
+  if(includes)
+    list(APPEND failures "${file}: ${includes}")
+  endif()
+endforeach()
+
 # Two files know Ipopt.
 file(GLOB_RECURSE files ${SOURCE}/constraints/* ${SOURCE}/planners/*
      ${SOURCE}/problems/* ${SOURCE}/tests/*.cc ${SOURCE}/results/*.cc)

@@ -9,10 +9,12 @@
 #include <utility>
 
 #include "core/bounds/mesh_approximation.h"
+#include "core/mesh/counted.h"
 #include "core/mesh/finite.h"
 #include "core/mesh/mesh_error.h"
 #include "core/mesh/mesh_range.h"
 #include "core/solid/face_pairing.h"
+#include "core/solid/mesh_defects.h"
 #include "core/solid/self_intersection.h"
 
 namespace phongpd {
@@ -126,6 +128,17 @@ Faces CleanPart(const TriangleMesh& mesh, const std::vector<int>& first,
   return chosen;
 }
 
+// Says what a wrap made of the handles.
+void SayGenus(const TriangleMesh& before, const TriangleMesh& after,
+              RepairReport* report) {
+  const int was = SurfaceGenus(before), is = SurfaceGenus(after);
+  if (was == is) return;
+  report->actions.push_back(
+      "the genus is " + std::to_string(is) + " now" +
+      (was < 0 ? ", that of the file is not defined"
+               : ", it was " + std::to_string(was) + " with holes closed"));
+}
+
 }  // namespace
 
 TriangleMesh RepairSafely(const TriangleMesh& mesh, RepairReport* report) {
@@ -168,15 +181,21 @@ TriangleMesh RepairSafely(const TriangleMesh& mesh, RepairReport* report) {
     done.turned_faces += internal::OrientAlike(&clean);
     out.triangles.insert(out.triangles.end(), clean.begin(), clean.end());
   }
-  const auto say = [&done](std::size_t number, const char* what) {
+  const auto say = [&done](std::size_t number, const char* one,
+                           const char* many) {
     if (number == 0) return;
-    done.actions.push_back(std::to_string(number) + " " + what);
+    done.actions.push_back(Counted(number, one, many));
   };
-  say(done.duplicate_faces, "duplicate faces removed");
-  say(done.mirrored_faces, "faces removed that lay in pairs back to back");
-  say(done.degenerate_faces, "faces without area removed");
-  say(done.joined_vertices, "vertices joined with others of equal coordinates");
-  say(done.turned_faces, "faces turned like their neighbours");
+  say(done.duplicate_faces, "duplicate face removed",
+      "duplicate faces removed");
+  say(done.mirrored_faces, "face removed that lay back to back with another",
+      "faces removed that lay in pairs back to back");
+  say(done.degenerate_faces, "face without area removed",
+      "faces without area removed");
+  say(done.joined_vertices, "vertex joined with another of equal coordinates",
+      "vertices joined with others of equal coordinates");
+  say(done.turned_faces, "face turned like its neighbours",
+      "faces turned like their neighbours");
   if (report != nullptr) *report = done;
   return out;
 }
@@ -206,6 +225,7 @@ TriangleMesh RepairSolid(const TriangleMesh& mesh, const std::string& name,
     if (!has_area) throw;
     reason = error.what();
     if (reason.rfind(name + ": ", 0) == 0) reason.erase(0, name.size() + 2);
+    reason.erase(std::min(reason.find("; repair "), reason.size()));
   }
   const ApproximateMesh wrap = WrapTriangles(mended, wrap_alpha);
   repair_report->is_wrapped = true;
@@ -213,7 +233,9 @@ TriangleMesh RepairSolid(const TriangleMesh& mesh, const std::string& name,
   repair_report->wrap_alpha = wrap_alpha;
   repair_report->wrap_bound = wrap.bound;
   repair_report->actions.push_back("wrapped because it is no solid: " + reason);
-  return MakeSolid(wrap.mesh, name, mesh_report);
+  TriangleMesh solid = MakeSolid(wrap.mesh, name, mesh_report);
+  SayGenus(mended, solid, repair_report);
+  return solid;
 }
 
 }  // namespace phongpd

@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "core/mesh/counted.h"
 #include "core/mesh/triangle_quality.h"
 #include "core/mesh/union_find.h"
 #include "core/solid/mesh_check.h"
@@ -55,14 +56,16 @@ void DescribeSurface(const TriangleMesh& mesh, ContactSpaceReport* report) {
                      static_cast<long>(found.triangles) / 2;
   report->genus = static_cast<int>(found.components - euler / 2);
   if (found.self_intersections > 0) {
-    report->warnings.push_back(
-        std::to_string(found.self_intersections) +
-        " pairs of triangles meet: the solid touches itself, or vertices "
-        "closer than the rounding to double");
+    report->warnings.push_back(Counted(found.self_intersections,
+                                       "pair of triangles meets",
+                                       "pairs of triangles meet") +
+                               ": the solid touches itself, or vertices "
+                               "closer than the rounding to double");
   }
   if (found.degenerate_triangles > 0) {
-    report->warnings.push_back(std::to_string(found.degenerate_triangles) +
-                               " triangles have no area after rounding");
+    report->warnings.push_back(Counted(
+        found.degenerate_triangles, "triangle has no area after rounding",
+        "triangles have no area after rounding"));
   }
 }
 

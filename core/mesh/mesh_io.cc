@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/mesh/counted.h"
 #include "core/mesh/finite.h"
 #include "core/mesh/input_file.h"
 #include "core/mesh/polygon_soup.h"
@@ -104,8 +105,8 @@ TriangleMesh internal::ReadMeshBytes(MeshFormat format, std::string_view bytes,
   }
   if (mesh.triangles.empty()) {
     throw InputError(file + ": expected faces, found " +
-                     std::to_string(mesh.vertices.size()) +
-                     " vertices and no face; export it as a surface mesh");
+                     Counted(mesh.vertices.size(), "vertex", "vertices") +
+                     " and no face; export it as a surface mesh");
   }
   return mesh;
 }
@@ -132,7 +133,7 @@ void WriteMesh(const TriangleMesh& mesh, const std::string& path) {
     throw InputError(path +
                      ": cannot be written; expected a writable path "
                      "with room for " +
-                     std::to_string(mesh.triangles.size()) + " triangles");
+                     Counted(mesh.triangles.size(), "triangle"));
   }
 }
 

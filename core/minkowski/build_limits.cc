@@ -11,6 +11,7 @@
 #include <sstream>
 
 #include "core/minkowski/build_cancellation.h"
+#include "core/minkowski/build_observer.h"
 #include "core/minkowski/build_refusal.h"
 
 namespace phongpd {
@@ -21,9 +22,13 @@ std::atomic<unsigned> cancellations{0};
 static_assert(std::atomic<unsigned>::is_always_lock_free,
               "a signal handler may call CancelBuilds");
 
+std::atomic<BuildObserver> observer{nullptr};
+
 }  // namespace
 
 void CancelBuilds() { ++cancellations; }
+
+void ObserveBuilds(BuildObserver to_call) { observer = to_call; }
 
 namespace internal {
 namespace {
@@ -116,8 +121,10 @@ void BuildLimits::Check(const char* stage) const {
   if (calls_.fetch_add(1, std::memory_order_relaxed) % kCallsPerLook != 0) {
     return;
   }
-  std::ostringstream text;
   const double seconds = stopwatch_.Seconds();
+  const BuildObserver tell = observer.load(std::memory_order_relaxed);
+  if (tell != nullptr) tell({stage, seconds, predicted_.seconds});
+  std::ostringstream text;
   if (seconds > max_seconds_) {
     text << "expected a contact space within " << max_seconds_
          << " s (max_seconds), stopped after " << seconds << " s";

@@ -7,6 +7,8 @@
 #include <utility>
 
 #include "core/bounds/mesh_approximation.h"
+#include "core/mesh/counted.h"
+#include "core/solid/mesh_defects.h"
 
 namespace phongpd::internal {
 namespace {
@@ -33,8 +35,8 @@ const char* Described(const std::string& kind) {
 std::string Sentence(const ApproximationStep& step) {
   std::string text = step.operand + ": " + Described(step.kind) + ", " +
                      std::to_string(step.triangles_before) + " to " +
-                     std::to_string(step.triangles_after) +
-                     " triangles, at most " + Rounded(step.bound) + " away";
+                     Counted(step.triangles_after, "triangle") + ", at most " +
+                     Rounded(step.bound) + " away";
   if (step.is_surface_bound) text += " from the surface it had";
   text += step.is_conservative
               ? "; encloses it, gaps narrower than about twice that may close"
@@ -70,6 +72,11 @@ void Apply(const std::string& kind, ApproximateMesh approximate,
   step.triangles_after = approximate.mesh.triangles.size();
   AddStep(step, &report->approximation);
   report->warnings.push_back(Sentence(step));
+  const int was = SurfaceGenus(*solid), is = SurfaceGenus(approximate.mesh);
+  if (was != is) {
+    report->warnings.push_back(name + ": the genus was " + std::to_string(was) +
+                               " and is " + std::to_string(is) + " now");
+  }
   if (!approximate.note.empty()) {
     report->warnings.push_back(name + ": " + approximate.note);
   }
@@ -100,15 +107,16 @@ void CheckResolution(const GridSolid& solid, const TriangleMesh& mesh,
     text.precision(3);
     text << name << ": coordinates are rounded to " << step << ", "
          << std::exp2(-bits) << " of its size, because the other operand is "
-         << "larger; " << count(was_used) - count(used) << " vertices and "
-         << facets << " facets collapsed";
+         << "larger; "
+         << Counted(count(was_used) - count(used), "vertex", "vertices")
+         << " and " << Counted(facets, "facet") << " collapsed";
     // Without a larger one the details are just too small.
     std::string line = text.str();
     if (bits > kGridBits - 2) {
       line = name + ": details below " + Rounded(step) + " (2^-38 of the " +
              "larger operand) are lost; " +
-             std::to_string(count(was_used) - count(used)) + " vertices and " +
-             std::to_string(facets) + " facets collapsed";
+             Counted(count(was_used) - count(used), "vertex", "vertices") +
+             " and " + Counted(facets, "facet") + " collapsed";
     }
     report->warnings.push_back(line);
   }

@@ -7,8 +7,10 @@
 #include <sstream>
 #include <tuple>
 
+#include "core/mesh/counted.h"
 #include "core/mesh/finite.h"
 #include "core/mesh/mesh_range.h"
+#include "core/solid/mesh_defects.h"
 #include "core/solid/self_intersection.h"
 #include "core/solid/shell_orientation.h"
 
@@ -131,19 +133,25 @@ void ExamineGeometry(const TriangleMesh& mesh, MeshReport* report) {
 }
 
 void AddWarnings(MeshReport* report) {
-  const auto warn = [report](std::size_t count, const char* what) {
+  const auto warn = [report](std::size_t count, const char* one,
+                             const char* many) {
     if (count == 0) return;
-    report->warnings.push_back(std::to_string(count) + " " + what);
+    report->warnings.push_back(Counted(count, one, many));
   };
   warn(report->joined_vertices,
+       "vertex joined with another of equal coordinates: the surface was open "
+       "or not manifold without.",
        "vertices joined with others of equal coordinates: the surface was "
        "open or not manifold without.");
   warn(static_cast<std::size_t>(report->inverted_components),
+       "part was inside out and has been turned.",
        "parts were inside out and have been turned.");
-  warn(report->degenerate_triangles, "triangles have no area.");
-  warn(report->duplicate_vertices,
+  warn(report->degenerate_triangles, "triangle has no area.",
+       "triangles have no area.");
+  warn(report->duplicate_vertices, "vertex has the coordinates of another one.",
        "vertices have the coordinates of another one.");
   warn(report->duplicate_triangles,
+       "triangle has the same corners as another one.",
        "triangles have the same corners as another one.");
 }
 
@@ -201,28 +209,47 @@ void RequireUsable(const MeshReport& report, const std::string& name) {
   }
 }
 
-void RequireClosed(const MeshReport& report, const std::string& name) {
+// ", the first near (0, 0.5, 1)"
+std::string FirstPlace(const std::vector<MeshDefect>& defects) {
+  if (defects.empty()) return "";
+  const Eigen::Vector3d& place = defects.front().place;
+  std::ostringstream text;
+  text << ", the first near (" << place[0] << ", " << place[1] << ", "
+       << place[2] << ')';
+  return text.str();
+}
+
+constexpr char kHowToMend[] =
+    "; repair safe or wrap may mend it (flag --repair, key \"repair\" of a "
+    "scene), phongpd check marks the places; or ";
+
+void RequireClosed(const TriangleMesh& mesh, const MeshReport& report,
+                   const std::string& name) {
   if (BadEdges(report) == 0) return;
   std::ostringstream what;
   const char* separator = " ";
-  const auto list = [&](const char* before, std::size_t count,
-                        const char* after) {
+  const auto list = [&](const char* before, std::size_t count, const char* one,
+                        const char* many, const char* after) {
     if (count == 0) return;
-    what << separator << before << count << after;
+    what << separator << before << Counted(count, one, many) << after;
     separator = ", ";
   };
   what << "no closed surface; expected every edge between two triangles of "
           "one orientation, found";
-  list("open (", report.boundary_edges, " boundary edges)");
+  list("open (", report.boundary_edges, "boundary edge", "", ")");
   list("non-manifold (", report.non_manifold_edges,
-       " edges of three or more triangles)");
+       "edge of three or more triangles", "edges of three or more triangles",
+       ")");
   list("inconsistently oriented (", report.misoriented_edges,
-       " edges used twice in one direction)");
-  list("", report.duplicate_triangles, " duplicate triangles");
+       "edge used twice in one direction", "edges used twice in one direction",
+       ")");
+  list("", report.duplicate_triangles, "duplicate triangle", "", "");
   if (report.joined_vertices > 0) {
-    what << ", after joining " << report.joined_vertices << " equal vertices";
+    what << ", after joining "
+         << Counted(report.joined_vertices, "equal vertex", "equal vertices");
   }
-  what << "; close, clean or reorient the surface and export it again";
+  what << FirstPlace(FindEdgeDefects(mesh, 1)) << kHowToMend
+       << "close, clean or reorient the surface and export it again";
   Refuse(name, what.str());
 }
 
@@ -230,8 +257,8 @@ void RequireProper(const TriangleMesh& mesh, const MeshReport& report,
                    const std::string& name) {
   if (report.degenerate_triangles == report.triangles) {
     Refuse(name, "zero volume; expected a solid, found " +
-                     std::to_string(report.triangles) +
-                     " triangles, none of them with an area");
+                     Counted(report.triangles, "triangle") +
+                     ", none of them with an area");
   }
   const double diagonal = ComputeBounds(mesh).Diagonal();
   if (!(diagonal >= kMinDiagonal && diagonal <= kMaxDiagonal)) {
@@ -245,8 +272,9 @@ void RequireProper(const TriangleMesh& mesh, const MeshReport& report,
     Refuse(name,
            "self-intersecting; expected no crossing within a part, "
            "found " +
-               std::to_string(report.self_intersections) +
-               " pairs of triangles; separate or repair them");
+               Counted(report.self_intersections, "pair of triangles",
+                       "pairs of triangles") +
+               FirstPlace(FindDefects(mesh, 1)) + kHowToMend + "separate them");
   }
 }
 
@@ -295,7 +323,7 @@ TriangleMesh MakeSolid(const TriangleMesh& mesh, const std::string& name,
   }
   found.vertices = solid.vertices.size();
   found.triangles = solid.triangles.size();
-  RequireClosed(found, name);
+  RequireClosed(solid, found, name);
   ExamineGeometry(solid, &found);
   RequireProper(solid, found, name);
   found.degenerate_triangles += mesh.triangles.size() - solid.triangles.size();

@@ -60,9 +60,9 @@ const char* ToString(PlanStatus status) {
     case PlanStatus::kFailed:
       return "failed";
     case PlanStatus::kInvalidStart:
-      return "invalid_start";
+      return "start_in_collision";
     case PlanStatus::kInvalidGoal:
-      return "invalid_goal";
+      return "goal_in_collision";
   }
   return "";
 }

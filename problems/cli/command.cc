@@ -10,20 +10,15 @@
 
 #include "core/contact/content_hash.h"
 #include "core/files/descriptor.h"
+#include "core/mesh/counted.h"
 #include "core/mesh/mesh_io.h"
 #include "core/mesh/mesh_range.h"
+#include "problems/cli/flags.h"
+#include "problems/cli/operands.h"
 #include "problems/output/text.h"
 #include "problems/studies/row_parts.h"
 
 namespace phongpd::cli {
-
-TriangleMesh LoadSolid(const std::string& path, MeshReport* report) {
-  MeshReport own;
-  MeshReport& found = report != nullptr ? *report : own;
-  TriangleMesh solid = MakeSolid(ReadMesh(path), path, &found);
-  for (const std::string& line : NamedWarnings(found, path)) Warn(line);
-  return solid;
-}
 
 ContactSpace LoadOrBuild(const TriangleMesh& robot,
                          const TriangleMesh& obstacle,
@@ -31,6 +26,8 @@ ContactSpace LoadOrBuild(const TriangleMesh& robot,
   Progress("building the contact space");
   ContactSpace space =
       BuildContactSpaceCached(robot, obstacle, options, UserCache(!use_cache));
+  // Only now they are known to have a size.
+  WarnOfUnits(robot, options.robot_name, obstacle, options.obstacle_name);
   for (const std::string& warning : space.report().warnings) Warn(warning);
   return space;
 }
@@ -47,12 +44,12 @@ void AddBuildLimits(CLI::App* app, double* max_seconds, double* max_mib) {
                   "Refuse what is predicted to take longer, and stop "
                   "what does (0: never)")
       ->type_name("S")
-      ->check(CLI::NonNegativeNumber);
+      ->check(AtLeast(0.0));
   app->add_option("--max-mib", *max_mib,
                   "Refuse what is predicted to need more memory, and stop "
                   "what does (0: stop at nine tenths of what is free)")
       ->type_name("MIB")
-      ->check(CLI::NonNegativeNumber);
+      ->check(AtLeast(0.0));
 }
 
 void AddField(CLI::App* app, std::string* field) {
@@ -67,12 +64,12 @@ void AddSliding(CLI::App* app, PenetrationTrackerOptions* options) {
   app->add_option("--slide-ratio", options->ratio,
                   "Sliding contact: it makes for where the depth is at most "
                   "so many times the Euclidean; at least 1")
-      ->check(CLI::Range(1.0, 1e6))
+      ->check(Between(1.0, 1e6))
       ->capture_default_str();
   app->add_option("--slide-speed", options->speed,
                   "... moving at most so many times as far as the robot; the "
                   "depth changes by at most one more")
-      ->check(CLI::Range(1e-6, 1e6))
+      ->check(Between(1e-6, 1e6))
       ->capture_default_str();
 }
 
@@ -106,11 +103,11 @@ void TellAboutSpaces(const World& world, std::size_t triangles) {
   for (const std::string& warning : report.warnings) Warn(warning);
   if (world.BuiltConvolution() != nullptr) {
     Progress("free space alone: " +
-             std::to_string(world.BuiltConvolution()->facets) + " facets, " +
+             Counted(world.BuiltConvolution()->facets, "facet") + ", " +
              Rounded(report.seconds) + " s");
   }
   if (report.contact_spaces == 0) return;
-  Progress("contact space: " + std::to_string(triangles) + " triangles, " +
+  Progress("contact space: " + Counted(triangles, "triangle") + ", " +
            Rounded(report.seconds) + " s" +
            (report.from_cache ? " (kept from before)" : ""));
 }
@@ -158,20 +155,24 @@ void RequireRuns(int runs) {
                    std::to_string(runs));
 }
 
+std::string MeshText(const TriangleMesh& mesh, const std::string& path) {
+  return MeshContent(mesh, path == kStandardOutput ? "-.off" : path);
+}
+
 void DeclareMesh(OutputFiles* outputs, const std::string& path) {
-  MeshContent({{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {Triangle{0, 1, 2}}}, path);
+  MeshText({{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {Triangle{0, 1, 2}}}, path);
   outputs->Declare(path);
 }
 
 void WriteMeshTo(OutputFiles* outputs, const std::string& path,
                  const TriangleMesh& mesh) {
-  outputs->Write(path, MeshContent(mesh, path));
+  outputs->Write(path, MeshText(mesh, path));
 }
 
 void CommitAndTell(OutputFiles* outputs, const std::string& text) {
-  const bool is_silent = outputs->UseStandardOutput();
+  const bool holds_data = outputs->UseStandardOutput();
   outputs->Commit();
-  if (!is_silent) std::cout << text;
+  (holds_data ? std::cerr : std::cout) << text;
 }
 
 Eigen::Vector3d ParsePoint(const std::vector<std::string>& cells,
@@ -198,7 +199,8 @@ nlohmann::ordered_json CommandSettings(const CLI::App& app,
                                        const std::vector<SceneSource>& scenes) {
   using Json = nlohmann::ordered_json;
   static const std::set<std::string> others = {
-      "--help", "--output", "--html", "--svg", "--ompl-log", "--no-cache"};
+      "--help", "--output",   "--json",    "--html",
+      "--svg",  "--ompl-log", "--no-cache"};
   Json settings = {{"command", app.get_name()}};
   for (const CLI::Option* const option : app.get_options()) {
     const std::string name = option->get_name();
@@ -211,17 +213,6 @@ nlohmann::ordered_json CommandSettings(const CLI::App& app,
   settings["versions"] = VersionsRow();
   settings["program"] = ProgramDigest();
   return settings;
-}
-
-void Progress(const std::string& text) {
-  static const bool terminal = isatty(STDERR_FILENO) != 0;
-  if (terminal) std::cerr << text << '\n';
-  Stage() = text;
-}
-
-std::string& Stage() {
-  static std::string stage;
-  return stage;
 }
 
 void Note(const std::string& text) { std::cerr << "phongpd: " << text << '\n'; }

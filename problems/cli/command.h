@@ -14,7 +14,7 @@
 #include "core/mesh/triangle_mesh.h"
 #include "core/projection/penetration_tracker.h"
 #include "core/projection/phong_metric.h"
-#include "core/solid/mesh_check.h"
+#include "problems/cli/progress.h"
 #include "problems/output/output_files.h"
 #include "problems/scenes/scene_source.h"
 #include "problems/world/world.h"
@@ -47,10 +47,7 @@ Command AddMinkowski(CLI::App* app);
 Command AddView(CLI::App* app);
 Command AddCompletion(CLI::App* app);
 Command AddMan(CLI::App* app);
-
-// Reads an operand file as a solid.  What the user should know goes to
-// stderr, one line a warning.  Throws InputError naming the file.
-TriangleMesh LoadSolid(const std::string& path, MeshReport* report = nullptr);
+Command AddCheck(CLI::App* app);
 
 // The contact space of two solids, from the user's cache when `use_cache` and
 // it is there.  What the user should know goes to stderr.
@@ -103,14 +100,19 @@ void AddVerify(CLI::App* app, bool* verify);
 // Throws InputError unless --runs is at least 1.
 void RequireRuns(int runs);
 
-// Declares a mesh output, and fails now if its extension means nothing.
+// Declares a mesh output, and fails now if its extension means nothing; what
+// goes to standard output is OFF.
 void DeclareMesh(OutputFiles* outputs, const std::string& path);
+
+// The mesh as the named file holds it; OFF for standard output.
+std::string MeshText(const TriangleMesh& mesh, const std::string& path);
 
 // Writes the mesh to a declared output.
 void WriteMeshTo(OutputFiles* outputs, const std::string& path,
                  const TriangleMesh& mesh);
 
-// Commits, and then prints `text` unless an output is standard output.
+// Commits, and then prints `text`, words for people: on standard output, or on
+// standard error where an output is standard output.
 void CommitAndTell(OutputFiles* outputs, const std::string& text);
 
 // The three numbers of a flag, e.g. --from X Y Z.
@@ -121,11 +123,6 @@ Eigen::Vector3d ParsePoint(const std::vector<std::string>& cells,
 // names of outputs and --no-cache, its scenes, all versions and the program.
 nlohmann::ordered_json CommandSettings(const CLI::App& app,
                                        const std::vector<SceneSource>& scenes);
-
-// One progress line on stderr, only when that is a terminal.
-void Progress(const std::string& text);
-// The last of them, shown or not: what the command is at.
-std::string& Stage();
 
 // "phongpd: ..." on stderr.
 void Note(const std::string& text);

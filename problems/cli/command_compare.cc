@@ -1,15 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <string>
 #include <vector>
 
+#include "core/mesh/counted.h"
 #include "problems/cli/command.h"
 #include "problems/cli/comparison_jobs.h"
 #include "problems/cli/comparison_output.h"
+#include "problems/cli/flags.h"
+#include "problems/cli/operands.h"
 #include "problems/cli/shard.h"
+#include "problems/meshes/operand_notes.h"
 #include "problems/output/output_files.h"
 #include "problems/output/row_file.h"
 #include "problems/output/text.h"
@@ -26,6 +29,7 @@ using Json = nlohmann::ordered_json;
 struct Flags {
   std::vector<std::string> scenes;
   std::string root;  // of their mesh files; empty: anywhere
+  std::string repair = "reject";
   std::vector<std::string> metrics = {"euclidean", "phong@0", "phong@0.1",
                                       "phong@0.2"};
   std::vector<std::string> protocols = {
@@ -37,6 +41,7 @@ struct Flags {
   std::string rows;
   std::string output;
   bool keep_paths = false;
+  bool json = false;
   bool no_cache = false;
 };
 
@@ -53,7 +58,8 @@ Methods ReadMethods(const Flags& flags) {
   Methods methods;
   std::set<std::string> names;
   for (const std::string& text : flags.scenes) {
-    methods.sources.emplace_back(text, flags.root);
+    methods.sources.emplace_back(text, flags.root,
+                                 ParseRepair(flags.repair, "--repair"));
     const Scene scene = methods.sources.back().Load(flags.seed);
     // Rows know their scene by its name.
     if (!names.insert(scene.name).second) {
@@ -91,6 +97,20 @@ std::vector<ComparisonJob> Jobs(const Flags& flags, const Methods& methods,
   return jobs;
 }
 
+// Where the rows go: a file in the folder; without one standard output for
+// --json, nowhere (empty) otherwise.
+std::string DeclareRows(const Flags& flags, OutputFiles* outputs) {
+  std::string path;
+  if (!flags.output.empty()) {
+    outputs->MakeDirectory(flags.output);
+    path = flags.output + "/rows.jsonl";
+  } else if (flags.json) {
+    path = kStandardOutput;
+  }
+  if (!path.empty()) outputs->Declare(path);
+  return path;
+}
+
 int Compare(const CLI::App& app, const Flags& flags) {
   if (flags.scenes.empty() == flags.rows.empty()) {
     throw InputError(
@@ -98,7 +118,11 @@ int Compare(const CLI::App& app, const Flags& flags) {
         "wrote");
   }
   const Shard shard = ParseShard(flags.shard);
-  if (shard.IsWhole()) RequireGnuplot();
+  const bool has_folder = !flags.output.empty();
+  if (!has_folder && !shard.IsWhole()) {
+    throw InputError("--shard: expected --output DIR with it, found none");
+  }
+  if (shard.IsWhole() && has_folder) RequireGnuplot();
   Methods methods;
   std::vector<Json> rows;
   if (flags.rows.empty()) {
@@ -107,17 +131,13 @@ int Compare(const CLI::App& app, const Flags& flags) {
     rows = ReadComparison(flags.rows);
   }
   OutputFiles outputs;
-  outputs.MakeDirectory(flags.output);
-  const auto path = [&](const std::string& name) {
-    return flags.output + "/" + name;
-  };
-  const std::string rows_path = path("rows.jsonl");
-  outputs.Declare(rows_path);
+  const std::string rows_path = DeclareRows(flags, &outputs);
   std::string lines;
   std::unique_ptr<RowFile> file;
   const Json settings = CommandSettings(app, methods.sources);
   if (flags.rows.empty()) {
-    file = std::make_unique<RowFile>(outputs.Target(rows_path), settings);
+    file = std::make_unique<RowFile>(
+        rows_path.empty() ? "" : outputs.Target(rows_path), settings);
     RunJobs(Jobs(flags, methods, shard), UserCache(flags.no_cache),
             flags.keep_paths, file.get());
     lines = file->Content();
@@ -128,24 +148,24 @@ int Compare(const CLI::App& app, const Flags& flags) {
   } else {
     for (const Json& row : rows) lines += row.dump() + '\n';
   }
-  outputs.Write(rows_path, lines);
-  const auto commit = [&] {
-    outputs.Commit();
-    if (file != nullptr) file->Finish();
-  };
+  if (!rows_path.empty()) outputs.Write(rows_path, lines);
+  std::string words;
   if (!shard.IsWhole()) {
-    const std::string record = path(kShardFile);
+    const std::string record = flags.output + "/" + kShardFile;
     outputs.Declare(record);
     outputs.Write(record, ShardText(shard, settings, rows.size()));
-    commit();
-    std::cout << rows.size() << " rows; join the parts with phongpd merge\n";
-    return kDone;
+    words =
+        Counted(rows.size(), "row") + "; join the parts with phongpd merge\n";
+  } else if (has_folder) {
+    words = WriteSummaries(rows, flags.output, &outputs);
+  } else {
+    words = SummaryTable(rows);
   }
-  const std::string table = WriteSummaries(rows, flags.output, &outputs);
   rows.clear();  // to destroy JSON takes memory: not after the outputs are
                  // there
-  commit();
-  std::cout << table;
+  const bool rows_are_told = flags.json && has_folder;
+  CommitAndTell(&outputs, rows_are_told ? lines : words);
+  if (file != nullptr) file->Finish();
   return kDone;
 }
 
@@ -162,6 +182,7 @@ Command AddCompare(CLI::App* app) {
                   "Scene files, or FAMILY:key=value,... (see scenes list)")
       ->type_name("SCENE");
   AddRoot(app, &flags->root);
+  AddRepair(app, &flags->repair);
   app->add_option("--metrics", flags->metrics,
                   "euclidean, phong@L, phong@L/exact, phong@L/tangent-plane; L "
                   "is the smoothing length, 0.2 or 0.2D (a share of D) or "
@@ -177,7 +198,7 @@ Command AddCompare(CLI::App* app) {
       ->type_name("N")
       ->capture_default_str();
   app->add_option("--seed", flags->seed, "The first of them, at least 1")
-      ->check(CLI::PositiveNumber)
+      ->check(AtLeast(1.0))
       ->type_name("S")
       ->capture_default_str();
   app->add_option("--shard", flags->shard,
@@ -193,11 +214,15 @@ Command AddCompare(CLI::App* app) {
                   "Directory for rows.jsonl, rows.csv, summary.csv and "
                   "performance profiles. Until all rows are done they are in "
                   "rows.jsonl.partial, from which the same command goes on if "
-                  "it is interrupted, by a time limit for example")
-      ->required()
+                  "it is interrupted, by a time limit for example. If not set, "
+                  "the table on standard output is all")
       ->type_name("DIR");
+  AddJson(app, &flags->json, "The rows on standard output, as JSON Lines");
   AddNoCache(app, &flags->no_cache);
-  app->footer(
+  AddExamples(
+      app,
+      {"phongpd compare u_axis plate:thickness=0.02 --runs 10 --output cmp",
+       "phongpd compare u_axis --runs 2 --protocols pipeline --json"},
       "On several cores:  seq 0 7 | parallel phongpd compare SCENES --shard "
       "{}/8 --output part{}\n"
       "On a cluster:      sbatch --array=0-31 --wrap 'phongpd compare SCENES "

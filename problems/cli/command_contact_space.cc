@@ -11,6 +11,10 @@
 #include "problems/cli/command.h"
 #include "problems/cli/contact_space_file.h"
 #include "problems/cli/contact_space_report_json.h"
+#include "problems/cli/flags.h"
+#include "problems/cli/operands.h"
+#include "problems/meshes/any_mesh.h"
+#include "problems/meshes/operand_notes.h"
 #include "problems/output/output_files.h"
 #include "problems/output/text.h"
 #include "problems/studies/answer_check.h"
@@ -32,16 +36,10 @@ struct Flags {
   std::string repair = "reject";
   double max_seconds = 0.0;
   double max_mib = 0.0;
+  bool json = false;
   bool no_cache = false;
   bool verify = true;
 };
-
-Repair ParseRepair(const std::string& text) {
-  if (text == "reject") return Repair::kReject;
-  if (text == "safe") return Repair::kSafe;
-  if (text == "wrap") return Repair::kWrap;
-  throw InputError("--repair: expected reject, safe or wrap, found " + text);
-}
 
 std::size_t ParseTargetFaces(const std::string& text) {
   const double value = ParseDouble(text, "--target-faces");
@@ -60,7 +58,7 @@ ContactSpaceOptions OptionsOf(const Flags& flags) {
   options.robot_hull = flags.robot_hull;
   options.target_faces = ParseTargetFaces(flags.target_faces);
   options.wrap_alpha = ParseDouble(flags.wrap_alpha, "--wrap");
-  options.repair = ParseRepair(flags.repair);
+  options.repair = ParseRepair(flags.repair, "--repair");
   options.max_seconds = flags.max_seconds;
   options.max_mib = flags.max_mib;
   options.robot_name = flags.robot;
@@ -108,26 +106,26 @@ Json VerifySample(const Flags& flags, const TriangleMesh& robot,
 
 int BuildAndWrite(const Flags& flags) {
   OutputFiles outputs;
-  DeclareContactSpace(&outputs, flags.output);
-  if (!flags.report.empty()) outputs.Declare(flags.report);
+  if (!flags.output.empty()) DeclareContactSpace(&outputs, flags.output);
+  DeclareIfNamed(&outputs, flags.report, "--report", {".json"});
+  if (flags.json) RequireFreeStandardOutput(outputs);
   const ContactSpaceOptions options = OptionsOf(flags);
-  const TriangleMesh robot = ReadMesh(flags.robot);
-  const TriangleMesh obstacle = ReadMesh(flags.obstacle);
+  const TriangleMesh robot = LoadMesh(flags.robot);
+  const TriangleMesh obstacle = LoadMesh(flags.obstacle);
   const ContactSpace space =
       LoadOrBuild(robot, obstacle, options, !flags.no_cache);
   const Json verification = VerifySample(flags, robot, obstacle, space);
 
-  WriteContactSpaceTo(&outputs, flags.output, space);
-  if (!flags.report.empty()) {
-    const ContactSpaceReport& found = space.report();
-    Json report = ToJson(found);
-    report["robot"] = ToJson(found.robot, found.robot_repair, flags.robot);
-    report["obstacle"] =
-        ToJson(found.obstacle, found.obstacle_repair, flags.obstacle);
-    report["verification"] = verification;
-    outputs.Write(flags.report, report.dump(2) + '\n');
-  }
-  CommitAndTell(&outputs, Summary(flags.output, space.report()));
+  if (!flags.output.empty()) WriteContactSpaceTo(&outputs, flags.output, space);
+  const ContactSpaceReport& found = space.report();
+  Json report = ToJson(found);
+  report["robot"] = ToJson(found.robot, found.robot_repair, flags.robot);
+  report["obstacle"] =
+      ToJson(found.obstacle, found.obstacle_repair, flags.obstacle);
+  report["verification"] = verification;
+  const std::string text = report.dump(2) + '\n';
+  if (!flags.report.empty()) outputs.Write(flags.report, text);
+  CommitAndTell(&outputs, flags.json ? text : Summary(flags.output, found));
   return kDone;
 }
 
@@ -135,8 +133,9 @@ int BuildAndWrite(const Flags& flags) {
 
 Command AddContactSpace(CLI::App* app) {
   auto flags = std::make_shared<Flags>();
-  app->add_option("--robot", flags->robot,
-                  "Mesh of the translating robot (OFF, OBJ, STL, PLY)")
+  app->add_option(
+         "--robot", flags->robot,
+         std::string("Mesh of the translating robot (") + kMeshFormats + ")")
       ->required()
       ->type_name("FILE");
   app->add_option("--obstacle", flags->obstacle, "Mesh of the fixed obstacle")
@@ -145,11 +144,12 @@ Command AddContactSpace(CLI::App* app) {
   app->add_option(
          "--output", flags->output,
          "Contact space: a mesh in the format of its extension, or, as "
-         ".pcs, all of it (planes, kinds, report)")
-      ->required()
+         ".pcs, all of it (planes, kinds, report); if not set, only what "
+         "was built is told")
       ->type_name("FILE");
   app->add_option("--report", flags->report, "What was built, as JSON")
       ->type_name("FILE");
+  AddJson(app, &flags->json, "The report on standard output");
   app->add_flag("--robot-hull", flags->robot_hull,
                 "Take the robot's convex hull: contact space only grows");
   app->add_option("--target-faces", flags->target_faces,
@@ -159,16 +159,20 @@ Command AddContactSpace(CLI::App* app) {
                   "Wrap each operand, closing gaps below about twice ALPHA, a "
                   "fraction of its diagonal (0.002 to 1)")
       ->type_name("ALPHA");
-  app->add_option("--repair", flags->repair,
-                  "What to do about operands that are no solids: reject, safe "
-                  "(changes no solid) or wrap (approximates)")
-      ->capture_default_str()
-      ->type_name("KIND");
+  AddRepair(app, &flags->repair);
   app->add_flag("--outer-shell-only", flags->outer_shell_only,
                 "Leave out bounded free cavities");
   AddBuildLimits(app, &flags->max_seconds, &flags->max_mib);
   AddVerify(app, &flags->verify);
   AddNoCache(app, &flags->no_cache);
+  AddExamples(app,
+              {"phongpd contact-space --robot robot.off --obstacle wrench.stl",
+               "phongpd contact-space --robot robot.off --obstacle wrench.stl "
+               "--output contact.pcs",
+               "phongpd contact-space --robot robot.off --obstacle scan.ply "
+               "--repair wrap --target-faces 2000 --output contact.off",
+               "phongpd contact-space --robot robot.off --obstacle wrench.stl "
+               "--json | jq .genus"});
   return [flags] { return BuildAndWrite(*flags); };
 }
 

@@ -5,8 +5,13 @@
 #include <vector>
 
 #include "core/contact/depth.h"
+#include "core/mesh/counted.h"
 #include "core/mesh/mesh_io.h"
 #include "problems/cli/command.h"
+#include "problems/cli/flags.h"
+#include "problems/cli/operands.h"
+#include "problems/meshes/any_mesh.h"
+#include "problems/meshes/operand_notes.h"
 #include "problems/output/output_files.h"
 #include "problems/output/points_csv.h"
 #include "problems/output/text.h"
@@ -21,8 +26,9 @@ struct Flags {
   std::string b;
   std::vector<std::string> at;
   std::string poses;
-  std::string output = "/dev/stdout";
+  std::string output = kStandardOutput;
   std::string max_radius;
+  std::string repair = "reject";
   double max_seconds = 0.0;
   bool json = false;
 };
@@ -116,8 +122,8 @@ std::string Sentence(const Flags& flags, const DepthResult& r) {
          << Described(r.obstacle_feature) << '\n';
   }
   text << (r.certified ? "certified" : "NOT CERTIFIED") << ", level "
-       << ToString(r.level) << ", " << r.arranged_faces << " faces arranged, "
-       << Rounded(r.seconds) << " s\n";
+       << ToString(r.level) << ", " << Counted(r.arranged_faces, "face")
+       << " arranged, " << Rounded(r.seconds) << " s\n";
   return text.str();
 }
 
@@ -126,6 +132,13 @@ std::vector<RobotPose> PosesOf(const Flags& flags) {
   RobotPose pose;
   if (!flags.at.empty()) pose.position = ParsePoint(flags.at, "--at");
   return {pose};
+}
+
+// As it is where it must be a solid, which the query sees to; its features are
+// told by the vertices of the file then.
+TriangleMesh Operand(const std::string& path, const Flags& flags) {
+  const Repair repair = ParseRepair(flags.repair, "--repair");
+  return repair == Repair::kReject ? LoadMesh(path) : LoadSolid(path, repair);
 }
 
 int Depth(const Flags& flags) {
@@ -143,12 +156,16 @@ int Depth(const Flags& flags) {
                        flags.max_radius);
     }
   }
-  const DepthQuery query(ReadMesh(flags.a), ReadMesh(flags.b), options);
+  const TriangleMesh a = Operand(flags.a, flags), b = Operand(flags.b, flags);
+  const DepthQuery query(a, b, options);
+  WarnOfUnits(a, flags.a, b, flags.b);
   for (const std::string& warning : query.warnings()) Warn(warning);
   const bool is_table = !flags.json && !flags.poses.empty();
   std::string text = is_table ? kHeader : "";
   bool is_certified = true;
+  std::size_t done = 0;
   for (const RobotPose& pose : poses) {
+    ProgressOf("poses", done++, poses.size());
     const DepthResult result = query.At(pose);
     is_certified = is_certified && result.certified;
     if (flags.json) {
@@ -166,7 +183,8 @@ int Depth(const Flags& flags) {
 
 Command AddDepth(CLI::App* app) {
   auto flags = std::make_shared<Flags>();
-  app->add_option("A", flags->a, "Mesh of a solid (OFF, OBJ, STL, PLY)")
+  app->add_option("A", flags->a,
+                  std::string("Mesh of a solid (") + kMeshFormats + ")")
       ->required()
       ->type_name("FILE");
   app->add_option("B", flags->b, "Mesh of the other, which stays")
@@ -184,6 +202,7 @@ Command AddDepth(CLI::App* app) {
   app->add_option("--output", flags->output, "Where the answers go")
       ->capture_default_str()
       ->type_name("FILE");
+  AddRepair(app, &flags->repair);
   app->add_flag("--json", flags->json, "One JSON object for each pose");
   app->add_option("--max-radius", flags->max_radius,
                   "Look no farther than this; what is deeper comes as a bound, "
@@ -192,7 +211,12 @@ Command AddDepth(CLI::App* app) {
   app->add_option("--max-seconds", flags->max_seconds,
                   "Look no farther after this time for one pose (0: no limit)")
       ->type_name("S")
-      ->check(CLI::NonNegativeNumber);
+      ->check(AtLeast(0.0));
+  AddExamples(app, {"phongpd depth robot.off obstacle.stl",
+                    "phongpd depth robot.off obstacle.stl --at 0.3 0 0.1 "
+                    "--json",
+                    "phongpd depth robot.off obstacle.stl --pose poses.csv "
+                    "--output depth.csv"});
   return [flags] { return Depth(*flags); };
 }
 

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <iostream>
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -7,8 +6,10 @@
 #include <utility>
 #include <vector>
 
+#include "core/mesh/counted.h"
 #include "problems/cli/command.h"
 #include "problems/cli/comparison_output.h"
+#include "problems/cli/flags.h"
 #include "problems/cli/shard.h"
 #include "problems/output/output_files.h"
 #include "problems/pictures/gnuplot.h"
@@ -22,6 +23,7 @@ using Json = nlohmann::ordered_json;
 struct Flags {
   std::vector<std::string> folders;
   std::string output;
+  bool json = false;
 };
 
 struct Part {
@@ -109,25 +111,29 @@ std::vector<Json> Interleaved(const std::map<int, Part>& parts) {
 }
 
 int Merge(const Flags& flags) {
-  RequireGnuplot();
+  const bool has_folder = !flags.output.empty();
+  if (has_folder) RequireGnuplot();
   const std::map<int, Part> parts = ReadParts(flags.folders);
   std::vector<Json> rows = Interleaved(parts);
   if (rows.empty()) throw InputError("merge: expected rows, found none");
-  OutputFiles outputs;
-  outputs.MakeDirectory(flags.output);
-  const std::string path = flags.output + "/rows.jsonl";
-  outputs.Declare(path);
   std::string lines;
   for (const Json& row : rows) lines += row.dump() + '\n';
-  outputs.Write(path, lines);
-  const std::string table = WriteSummaries(rows, flags.output, &outputs);
+  OutputFiles outputs;
+  std::string table;
+  if (has_folder) {
+    outputs.MakeDirectory(flags.output);
+    const std::string path = flags.output + "/rows.jsonl";
+    outputs.Declare(path);
+    outputs.Write(path, lines);
+    table = WriteSummaries(rows, flags.output, &outputs);
+  } else {
+    table = SummaryTable(rows);
+  }
   const std::size_t count = rows.size();
   rows.clear();  // to destroy JSON takes memory: not after the outputs are
                  // there
-  outputs.Commit();
-  std::cout << table;
-  Note(std::to_string(count) + " rows of " + std::to_string(parts.size()) +
-       " parts");
+  CommitAndTell(&outputs, flags.json ? lines : table);
+  Note(Counted(count, "row") + " of " + Counted(parts.size(), "part"));
   return kDone;
 }
 
@@ -142,10 +148,12 @@ Command AddMerge(CLI::App* app) {
       ->type_name("DIR");
   app->add_option("--output", flags->output,
                   "Directory for rows.jsonl, in the order of one whole "
-                  "command, and what compare makes of it")
-      ->required()
+                  "command, and what compare makes of it; if not set, the "
+                  "table on standard output is all")
       ->type_name("DIR");
-  app->footer(
+  AddJson(app, &flags->json, "The rows on standard output, as JSON Lines");
+  AddExamples(
+      app, {"phongpd merge part* --output comparison"},
       "A part that is lost, repeated, cut short or of another command is "
       "named, and nothing is written.");
   return [flags] { return Merge(*flags); };

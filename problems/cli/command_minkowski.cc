@@ -8,6 +8,10 @@
 #include "problems/cli/command.h"
 #include "problems/cli/contact_space_file.h"
 #include "problems/cli/contact_space_report_json.h"
+#include "problems/cli/flags.h"
+#include "problems/cli/operands.h"
+#include "problems/meshes/any_mesh.h"
+#include "problems/meshes/operand_notes.h"
 #include "problems/output/output_files.h"
 
 namespace phongpd::cli {
@@ -18,9 +22,11 @@ struct Flags {
   std::string b;
   std::string output;
   std::string report;
+  std::string repair = "reject";
   bool difference = false;
   double max_seconds = 0.0;
   double max_mib = 0.0;
+  bool json = false;
   bool no_cache = false;
 };
 
@@ -34,36 +40,38 @@ TriangleMesh Reflected(TriangleMesh mesh) {
 // B ⊕ A the one of −A and B.
 int Sum(const Flags& flags) {
   OutputFiles outputs;
-  if (flags.difference) {
+  const bool has_output = !flags.output.empty();
+  if (has_output && flags.difference) {
     DeclareContactSpace(&outputs, flags.output);
-  } else {
+  } else if (has_output) {
     DeclareMesh(&outputs, flags.output);
   }
-  if (!flags.report.empty()) outputs.Declare(flags.report);
+  DeclareIfNamed(&outputs, flags.report, "--report", {".json"});
+  if (flags.json) RequireFreeStandardOutput(outputs);
   ContactSpaceOptions options;
+  options.repair = ParseRepair(flags.repair, "--repair");
   options.robot_name = flags.a;
   options.obstacle_name = flags.b;
   options.max_seconds = flags.max_seconds;
   options.max_mib = flags.max_mib;
-  TriangleMesh a = ReadMesh(flags.a);
-  const TriangleMesh b = ReadMesh(flags.b);
+  TriangleMesh a = LoadMesh(flags.a);
+  const TriangleMesh b = LoadMesh(flags.b);
   if (!flags.difference) a = Reflected(std::move(a));
   const ContactSpace space = LoadOrBuild(a, b, options, !flags.no_cache);
-  if (flags.difference) {
+  if (has_output && flags.difference) {
     WriteContactSpaceTo(&outputs, flags.output, space);
-  } else {
+  } else if (has_output) {
     WriteMeshTo(&outputs, flags.output, space.mesh());
   }
   const ContactSpaceReport& found = space.report();
-  if (!flags.report.empty()) {
-    nlohmann::ordered_json report = {
-        {"sum", flags.difference ? "B + (-A)" : "A + B"}};
-    report.update(ToJson(found));
-    report["a"] = ToJson(found.robot, found.robot_repair, flags.a);
-    report["b"] = ToJson(found.obstacle, found.obstacle_repair, flags.b);
-    outputs.Write(flags.report, report.dump(2) + '\n');
-  }
-  CommitAndTell(&outputs, Summary(flags.output, found));
+  nlohmann::ordered_json report = {
+      {"sum", flags.difference ? "B + (-A)" : "A + B"}};
+  report.update(ToJson(found));
+  report["a"] = ToJson(found.robot, found.robot_repair, flags.a);
+  report["b"] = ToJson(found.obstacle, found.obstacle_repair, flags.b);
+  const std::string text = report.dump(2) + '\n';
+  if (!flags.report.empty()) outputs.Write(flags.report, text);
+  CommitAndTell(&outputs, flags.json ? text : Summary(flags.output, found));
   return kDone;
 }
 
@@ -71,7 +79,8 @@ int Sum(const Flags& flags) {
 
 Command AddMinkowski(CLI::App* app) {
   auto flags = std::make_shared<Flags>();
-  app->add_option("A", flags->a, "Mesh of a solid (OFF, OBJ, STL, PLY)")
+  app->add_option("A", flags->a,
+                  std::string("Mesh of a solid (") + kMeshFormats + ")")
       ->required()
       ->type_name("FILE");
   app->add_option("B", flags->b, "Mesh of another")
@@ -82,13 +91,18 @@ Command AddMinkowski(CLI::App* app) {
                 "A and an obstacle B");
   app->add_option("--output", flags->output,
                   "Surface of the sum, in the format of its extension; of a "
-                  "difference also .pcs")
-      ->required()
+                  "difference also .pcs; if not set, only what was built is "
+                  "told")
       ->type_name("FILE");
   app->add_option("--report", flags->report, "What was built, as JSON")
       ->type_name("FILE");
+  AddRepair(app, &flags->repair);
+  AddJson(app, &flags->json, "The report on standard output");
   AddBuildLimits(app, &flags->max_seconds, &flags->max_mib);
   AddNoCache(app, &flags->no_cache);
+  AddExamples(app, {"phongpd minkowski tool.off part.stl --output sum.off",
+                    "phongpd minkowski tool.off part.stl --difference "
+                    "--output contact.pcs --report report.json"});
   return [flags] { return Sum(*flags); };
 }
 

@@ -6,11 +6,15 @@
 #include <vector>
 
 #include "core/contact/contact_space.h"
+#include "core/mesh/counted.h"
 #include "core/projection/euclidean_metric.h"
 #include "core/projection/phong_metric.h"
 #include "planners/exact/verification.h"
 #include "problems/cli/command.h"
 #include "problems/cli/contact_space_file.h"
+#include "problems/cli/flags.h"
+#include "problems/cli/operands.h"
+#include "problems/meshes/operand_notes.h"
 #include "problems/output/output_files.h"
 #include "problems/output/text.h"
 #include "problems/pictures/gnuplot.h"
@@ -29,6 +33,7 @@ struct Flags {
   std::string contact_space;
   std::string robot;
   std::string obstacle;
+  std::string repair = "reject";
   std::vector<std::string> from;
   std::vector<std::string> to;
   int frames = 0;
@@ -38,6 +43,7 @@ struct Flags {
   std::string output;
   std::string svg;
   std::string html;
+  bool json = false;
   bool no_cache = false;
   bool verify = true;
 };
@@ -46,8 +52,9 @@ struct Flags {
 std::optional<Workspace> ReadSolids(const Flags& flags) {
   if (!flags.contact_space.empty()) return std::nullopt;
   Workspace workspace;
-  workspace.robot = LoadSolid(flags.robot);
-  workspace.obstacles = {{flags.obstacle, LoadSolid(flags.obstacle)}};
+  const Repair repair = ParseRepair(flags.repair, "--repair");
+  workspace.robot = LoadSolid(flags.robot, repair);
+  workspace.obstacles = {{flags.obstacle, LoadSolid(flags.obstacle, repair)}};
   return workspace;
 }
 
@@ -70,6 +77,8 @@ std::string VerifyDepths(const Workspace& solids, const StraightMotion& motion,
   int confirmed = 0, all = 0;
   for (const MotionTrace& trace : traces) {
     for (int frame = 0; frame < motion.frames; ++frame, ++all) {
+      ProgressOf("verifying depths", static_cast<std::size_t>(all),
+                 traces.size() * static_cast<std::size_t>(motion.frames));
       const auto i = static_cast<std::size_t>(frame);
       PenetrationResult result = trace.results[i];
       // On its way a contact need not be where PD itself leaves the surface.
@@ -131,13 +140,14 @@ std::string Summary(const Flags& flags, const std::vector<MotionTrace>& traces,
     text << trace.metric << ": " << s.inside << " of " << flags.frames
          << " frames inside, |PD| up to " << FormatDouble(s.max_magnitude)
          << ", largest change " << FormatDouble(s.largest_change) << ", "
-         << s.jumps << " jumps > 5 % of the diagonal, ";
+         << Counted(s.jumps, "jump") << " > " << Rounded(kJump * diagonal)
+         << " (5 % of the diagonal), ";
     if (trace.metric == "sliding") {
-      text << s.sliding << " frames sliding, " << s.left_elsewhere
-           << " exits elsewhere\n";
+      text << Counted(s.sliding, "frame") << " sliding, "
+           << Counted(s.left_elsewhere, "exit") << " elsewhere\n";
     } else {
-      text << s.branch_ends << " branch ends, " << s.fallbacks
-           << " Euclidean fallbacks\n";
+      text << Counted(s.branch_ends, "branch end") << ", "
+           << Counted(s.fallbacks, "Euclidean fallback") << '\n';
     }
   }
   return text.str();
@@ -191,16 +201,13 @@ int Follow(const Flags& flags) {
   motion.frames = flags.frames;
   const std::vector<Length> lengths = SmoothingLengths(flags);
   flags.sliding.Validate();
+  const std::string target = AnswerTarget(flags.output);
   OutputFiles outputs;
-  outputs.Declare(flags.output);
-  if (!flags.html.empty()) {
-    outputs.Declare(flags.html);
-    RequireViewer();
-  }
-  if (!flags.svg.empty()) {
-    outputs.Declare(flags.svg);
-    RequireGnuplot();
-  }
+  outputs.Declare(target);
+  DeclareIfNamed(&outputs, flags.html, "--html", {".html", ".htm"});
+  DeclareIfNamed(&outputs, flags.svg, "--svg", {".svg"});
+  if (!flags.html.empty()) RequireViewer();
+  if (!flags.svg.empty()) RequireGnuplot();
 
   const std::optional<Workspace> solids = ReadSolids(flags);
   const ContactSpace contact = ContactSpaceOf(flags, solids);
@@ -209,7 +216,8 @@ int Follow(const Flags& flags) {
   std::string verified;
   if (solids && flags.verify)
     verified = VerifyDepths(*solids, motion, contact, traces);
-  outputs.Write(flags.output, MotionCsv(traces));
+  outputs.Write(target,
+                flags.json ? MotionJson(motion, traces) : MotionCsv(traces));
   if (!flags.svg.empty()) {
     outputs.Write(flags.svg,
                   MotionPage(traces, "Penetration depth from (" +
@@ -236,6 +244,7 @@ Command AddMotion(CLI::App* app) {
   app->add_option("--obstacle", flags->obstacle,
                   "... and mesh of the fixed obstacle")
       ->type_name("FILE");
+  AddRepair(app, &flags->repair);
   app->add_option("--from", flags->from, "First robot position")
       ->required()
       ->expected(3)
@@ -257,9 +266,11 @@ Command AddMotion(CLI::App* app) {
   AddField(app, &flags->field);
   AddSliding(app, &flags->sliding);
   app->add_option("--output", flags->output,
-                  "CSV file, one row a frame and metric")
-      ->required()
+                  "CSV file, one row a frame and metric (standard output if "
+                  "not set)")
       ->type_name("FILE");
+  AddJson(app, &flags->json,
+          "JSON Lines instead of CSV, with the position of every frame");
   app->add_option("--svg", flags->svg,
                   "Plot of x, y, z and magnitude (needs gnuplot)")
       ->type_name("FILE");
@@ -269,6 +280,12 @@ Command AddMotion(CLI::App* app) {
       ->type_name("FILE");
   AddVerify(app, &flags->verify);
   AddNoCache(app, &flags->no_cache);
+  AddExamples(
+      app, {"phongpd motion --robot robot.off --obstacle wrench.stl --from 0 "
+            "-1 0 --to 0 1 0 --frames 400",
+            "phongpd motion --contact-space contact.pcs --from 0 -1 0 --to 0 "
+            "1 0 --frames 400 --smoothing-length 0 0.1 --output motion.csv "
+            "--svg motion.svg"});
   return [flags] { return Follow(*flags); };
 }
 

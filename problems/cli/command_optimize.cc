@@ -6,7 +6,9 @@
 
 #include "planners/ompl/ompl_planning.h"
 #include "problems/cli/command.h"
+#include "problems/cli/flags.h"
 #include "problems/cli/seeded_runs.h"
+#include "problems/meshes/operand_notes.h"
 #include "problems/output/text.h"
 #include "problems/pictures/viewer/scene_view.h"
 #include "problems/scenes/scene_source.h"
@@ -139,7 +141,8 @@ void TellModel(const TrajectoryStudy& study) {
 
 int Optimize(const Flags& flags) {
   RequireRuns(flags.runs);
-  const SceneSource source(flags.scene, flags.root);
+  const SceneSource source(flags.scene, flags.root,
+                           ParseRepair(flags.repair, "--repair"));
   SeededRuns runs(flags, source,
                   "scene, metric, start, seed: status, iterations, objective, "
                   "clearance (user's unit), seconds",
@@ -165,6 +168,8 @@ int Optimize(const Flags& flags) {
     study.Enter(scene);
     if (run == runs.kept()) TellAbout(scene);
     if (is_kept) continue;
+    ProgressOf("runs", static_cast<std::size_t>(run - runs.kept()),
+               static_cast<std::size_t>(flags.runs - runs.kept()));
     const PipelineResult result = study.Run(metric, options);
     if (run == runs.kept()) TellModel(study);
     nlohmann::ordered_json row = TrajectoryRow(study, metric, options, result);
@@ -253,6 +258,12 @@ Command AddOptimize(CLI::App* app) {
   AddPictures(app, flags.get());
   AddVerify(app, &flags->verify);
   AddNoCache(app, &flags->no_cache);
+  AddExamples(
+      app, {"phongpd optimize u_axis",
+            "phongpd optimize scene.json --margin 2unit --output run.jsonl "
+            "--html run.html",
+            "phongpd optimize plate:thickness=0.02 --start straight --polish "
+            "never --seed 1 --runs 10 --json"});
   return [flags] { return Optimize(*flags); };
 }
 

@@ -4,7 +4,9 @@
 #include <string>
 
 #include "problems/cli/command.h"
+#include "problems/cli/flags.h"
 #include "problems/cli/seeded_runs.h"
+#include "problems/meshes/operand_notes.h"
 #include "problems/output/text.h"
 #include "problems/pictures/viewer/scene_view.h"
 #include "problems/scenes/scene_source.h"
@@ -66,7 +68,8 @@ void TellModel(const PlanningStudy& study, const PlanningRun& run,
 
 int Plan(const Flags& flags) {
   RequireRuns(flags.runs);
-  const SceneSource source(flags.scene, flags.root);
+  const SceneSource source(flags.scene, flags.root,
+                           ParseRepair(flags.repair, "--repair"));
   Scene scene = source.Load();
   PlanningRun run;
   run.planner = flags.planner.empty() ? scene.planning.planner : flags.planner;
@@ -91,6 +94,8 @@ int Plan(const Flags& flags) {
   AnswerCheck check(flags.verify);
   for (int i = runs.kept(); i < flags.runs; ++i) {
     run.seed = flags.seed + static_cast<std::uint64_t>(i);
+    ProgressOf("runs", static_cast<std::size_t>(i - runs.kept()),
+               static_cast<std::size_t>(flags.runs - runs.kept()));
     Progress("run " + std::to_string(i + 1) + " of " +
              std::to_string(flags.runs));
     const PlanningResult result = study.Run(run);
@@ -155,6 +160,12 @@ Command AddPlan(CLI::App* app) {
   AddPictures(app, flags.get());
   AddVerify(app, &flags->verify);
   AddNoCache(app, &flags->no_cache);
+  AddExamples(
+      app, {"phongpd plan tunnel:delta=0.001",
+            "phongpd plan scene.json --clearance 2unit --output plan.jsonl "
+            "--html plan.html",
+            "phongpd plan knot --model window --planner rrt-connect --runs 5 "
+            "--json"});
   return [flags] { return Plan(*flags); };
 }
 

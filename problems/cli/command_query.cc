@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
+#include "core/mesh/counted.h"
 #include "core/projection/euclidean_metric.h"
 #include "core/projection/phong_metric.h"
 #include "core/projection/query_batch.h"
 #include "problems/cli/command.h"
 #include "problems/cli/contact_space_file.h"
+#include "problems/cli/flags.h"
 #include "problems/output/output_files.h"
 #include "problems/output/points_csv.h"
 #include "problems/output/text.h"
@@ -15,6 +19,8 @@
 
 namespace phongpd::cli {
 namespace {
+
+using Json = nlohmann::ordered_json;
 
 struct Flags {
   std::string contact_space;
@@ -25,6 +31,7 @@ struct Flags {
   std::string smoothing_length = "0";
   std::string jacobian = "exact";
   bool tracked = false;
+  bool json = false;
   PenetrationTrackerOptions sliding;
 };
 
@@ -73,6 +80,7 @@ Answers Ask(const Flags& flags, const ContactSpace& contact,
   if (flags.metric == "sliding") {
     SlidingQuery query(contact, flags.sliding);
     for (const Eigen::Vector3d& q : points) {
+      ProgressOf("points", answers.results.size(), points.size());
       const SlidingAnswer answer = query.Next(q);
       answers.results.push_back(answer.result);
       answers.statuses.emplace_back(ToString(answer.status));
@@ -83,11 +91,18 @@ Answers Ask(const Flags& flags, const ContactSpace& contact,
   if (flags.tracked) {
     Branch branch;
     for (const Eigen::Vector3d& q : points) {
+      ProgressOf("points", answers.results.size(), points.size());
       answers.results.push_back(metric->Query(q, branch));
       branch = answers.results.back().branch;
     }
   } else {
-    answers.results = QueryBatch(*metric, points);
+    constexpr std::size_t kBatch = 1 << 16;
+    answers.results.resize(points.size());
+    for (std::size_t i = 0; i < points.size(); i += kBatch) {
+      ProgressOf("points", i, points.size());
+      QueryBatch(*metric, &points[i], std::min(kBatch, points.size() - i),
+                 &answers.results[i]);
+    }
   }
   for (const PenetrationResult& result : answers.results) {
     answers.statuses.emplace_back(StatusName(result.status));
@@ -102,6 +117,11 @@ bool IsUsual(const std::string& status) {
          status == ToString(TrackerStatus::kOutside);
 }
 
+constexpr char kHeader[] =
+    "x,y,z,status,inside,signed_distance,contact_x,contact_y,contact_z,"
+    "direction_x,direction_y,direction_z,gradient_x,gradient_y,gradient_z,"
+    "triangle\n";
+
 std::string Row(const Eigen::Vector3d& q, const std::string& status,
                 const PenetrationResult& result, bool exact_gradient) {
   return FormatPoint(q) + ',' + status + ',' + (result.inside ? "1," : "0,") +
@@ -112,19 +132,34 @@ std::string Row(const Eigen::Vector3d& q, const std::string& status,
          ',' + std::to_string(result.triangle) + '\n';
 }
 
+Json ToJson(const Eigen::Vector3d& v) { return {v[0], v[1], v[2]}; }
+
+// The same as one line of JSON.
+std::string JsonRow(const Eigen::Vector3d& q, const std::string& status,
+                    const PenetrationResult& result, bool exact_gradient) {
+  const Json row = {
+      {"position", ToJson(q)},
+      {"status", status},
+      {"inside", result.inside},
+      {"signed_distance", result.signed_distance},
+      {"contact", ToJson(result.contact)},
+      {"direction", ToJson(result.direction)},
+      {"gradient", ToJson(exact_gradient ? result.gradient : result.direction)},
+      {"triangle", result.triangle}};
+  return row.dump() + '\n';
+}
+
 int Query(const CLI::App& app, const Flags& flags) {
   RequireSense(app, flags);
+  const std::string target = AnswerTarget(flags.output);
   OutputFiles outputs;
-  outputs.Declare(flags.output);
+  outputs.Declare(target);
   const std::vector<Eigen::Vector3d> points = ReadPointsCsv(flags.points);
   const ContactSpace contact = LoadContactSpace(flags.contact_space);
   Progress("building the metric");
   const Answers answers = Ask(flags, contact, points);
 
-  std::string csv =
-      "x,y,z,status,inside,signed_distance,contact_x,contact_y,contact_z,"
-      "direction_x,direction_y,direction_z,gradient_x,gradient_y,gradient_z,"
-      "triangle\n";
+  std::string text = flags.json ? "" : kHeader;
   std::size_t inside = 0;
   std::size_t unusual = 0;
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -132,14 +167,15 @@ int Query(const CLI::App& app, const Flags& flags) {
     const std::string& status = answers.statuses[i];
     inside += result.inside ? 1 : 0;
     unusual += IsUsual(status) ? 0 : 1;
-    csv += Row(points[i], status, result, flags.jacobian == "exact");
+    text += (flags.json ? JsonRow : Row)(points[i], status, result,
+                                         flags.jacobian == "exact");
   }
-  outputs.Write(flags.output, csv);
+  outputs.Write(target, text);
   CommitAndTell(
       &outputs,
-      flags.output + ": " + std::to_string(points.size()) + " points, " +
-          std::to_string(inside) + " inside, " + std::to_string(unusual) +
-          " with another status than " +
+      (outputs.UseStandardOutput() ? "" : flags.output + ": ") +
+          Counted(points.size(), "point") + ", " + std::to_string(inside) +
+          " inside, " + std::to_string(unusual) + " with another status than " +
           (flags.metric == "sliding" ? "following or outside" : "ok") + "\n");
   TellIfTaken(flags.contact_space);
   return kDone;
@@ -153,9 +189,10 @@ Command AddQuery(CLI::App* app) {
   app->add_option("--points", flags->points, "CSV file with the columns x,y,z")
       ->required()
       ->type_name("FILE");
-  app->add_option("--output", flags->output, "CSV file, one row a point")
-      ->required()
+  app->add_option("--output", flags->output,
+                  "CSV file, one row a point (standard output if not set)")
       ->type_name("FILE");
+  AddJson(app, &flags->json, "JSON Lines instead of CSV, one object a point");
   app->add_option("--metric", flags->metric)
       ->description(
           "sliding: a contact that never jumps, it slides over the contact "
@@ -179,6 +216,11 @@ Command AddQuery(CLI::App* app) {
                 "Carry the branch (phong) or the contact (sliding) from row to "
                 "row");
   AddSliding(app, &flags->sliding);
+  AddExamples(app, {"phongpd query --contact-space contact.pcs --points p.csv",
+                    "phongpd query --contact-space contact.off --points p.csv "
+                    "--tracked --smoothing-length 0.1 --output depth.csv",
+                    "phongpd query --contact-space contact.pcs --points p.csv "
+                    "--json | head -1"});
   return [app, flags] { return Query(*app, *flags); };
 }
 

@@ -9,7 +9,9 @@
 #include <string>
 #include <vector>
 
+#include "core/mesh/counted.h"
 #include "problems/cli/command.h"
+#include "problems/cli/flags.h"
 #include "problems/output/output_files.h"
 #include "problems/output/temporary_folder.h"
 #include "problems/studies/reproduction.h"
@@ -25,6 +27,7 @@ struct Flags {
   std::string replay;
   std::string folder;
   bool no_run = false;
+  bool json = false;
   std::vector<std::string> command;
 };
 
@@ -42,8 +45,10 @@ std::string Ending(int exit_code, int signal) {
 }
 
 int Pack(const Flags& flags) {
+  const std::string target = AnswerTarget(flags.output);
   OutputFiles outputs;
-  outputs.Declare(flags.output);
+  DeclareIfNamed(&outputs, target, "--output", {".json"});
+  if (flags.json && !flags.output.empty()) RequireFreeStandardOutput(outputs);
   Json document = PackCommand(flags.command);
   PackedArguments(document, "reproduce");
   std::string ending = "not run";
@@ -60,14 +65,40 @@ int Pack(const Flags& flags) {
     ending = Ending(outcome.exit_code, outcome.signal);
   }
   outputs.Write(
-      flags.output,
+      target,
       document.dump(1, ' ', false, Json::error_handler_t::replace) + '\n');
-  const bool silent = outputs.UseStandardOutput();
-  outputs.Commit();
-  if (silent) return kDone;
-  std::cout << flags.output << ": " << document["files"].size()
-            << " files packed, " << ending << '\n';
+  const std::size_t files = document["files"].size();
+  const Json told = {{"file", flags.output}, {"files", files}, {"end", ending}};
+  const bool is_told = flags.json && !flags.output.empty();
+  CommitAndTell(&outputs, is_told ? told.dump() + '\n'
+                                  : target + ": " + Counted(files, "file") +
+                                        " packed, " + ending + '\n');
   return kDone;
+}
+
+int CompareAsJson(const Json& document, const CommandOutcome& now) {
+  const auto outcome = [](int exit_code, int signal, const std::string& out,
+                          const std::string& err) {
+    return Json({{"exit_code", exit_code},
+                 {"signal", signal},
+                 {"stdout", out},
+                 {"stderr", err}});
+  };
+  const Json& run = document.value("run", Json());
+  Json recorded, is_same;
+  if (run.is_object()) {
+    recorded = outcome(run.value("exit_code", -1), run.value("signal", 0),
+                       run.value("stdout", std::string()),
+                       run.value("stderr", std::string()));
+    is_same = recorded["exit_code"] == now.exit_code &&
+              recorded["signal"] == now.signal && recorded["stderr"] == now.err;
+  }
+  const Json told = {
+      {"same", is_same},
+      {"now", outcome(now.exit_code, now.signal, now.out, now.err)},
+      {"recorded", recorded}};
+  std::cout << told.dump(2, ' ', false, Json::error_handler_t::replace) << '\n';
+  return is_same.is_boolean() && !is_same.get<bool>() ? kNoAnswer : kDone;
 }
 
 int Replay(const Flags& flags) {
@@ -82,6 +113,7 @@ int Replay(const Flags& flags) {
   }
   PackedArguments(document, flags.replay);
   const CommandOutcome now = RunIn(folder, temporary, document, flags.replay);
+  if (flags.json) return CompareAsJson(document, now);
   std::cout << now.out;
   std::cerr << now.err;
   std::cout << Ending(now.exit_code, now.signal);
@@ -103,13 +135,9 @@ int Replay(const Flags& flags) {
 int Reproduce(const Flags& flags) {
   if (flags.replay.empty() == flags.command.empty()) {
     throw InputError(
-        "reproduce: expected --output FILE -- COMMAND ARGUMENTS, or --replay "
-        "FILE");
+        "reproduce: expected -- COMMAND ARGUMENTS, or --replay FILE");
   }
   if (!flags.replay.empty()) return Replay(flags);
-  if (flags.output.empty()) {
-    throw InputError("reproduce: expected --output FILE, found none");
-  }
   return Pack(flags);
 }
 
@@ -119,7 +147,8 @@ Command AddReproduce(CLI::App* app) {
   auto flags = std::make_shared<Flags>();
   app->add_option("--output", flags->output,
                   "JSON file with the command, its inputs, versions and "
-                  "outcome; no folder, user or host is named in it")
+                  "outcome; no folder, user or host is named in it (standard "
+                  "output if not set)")
       ->type_name("FILE");
   app->add_flag("--no-run", flags->no_run,
                 "Pack only, for a command that does not end");
@@ -134,10 +163,11 @@ Command AddReproduce(CLI::App* app) {
   app->add_option("command", flags->command,
                   "After --: the command to pack, as it was given to phongpd")
       ->type_name("COMMAND ARGUMENTS");
-  app->footer(
-      "phongpd reproduce --output report.json -- plan scene.json --output "
-      "p.jsonl\n"
-      "phongpd reproduce --replay report.json");
+  AddJson(app, &flags->json,
+          "What was packed or replayed as JSON on standard output");
+  AddExamples(app, {"phongpd reproduce --output report.json -- plan scene.json "
+                    "--output p.jsonl",
+                    "phongpd reproduce --replay report.json"});
   return [flags] { return Reproduce(*flags); };
 }
 

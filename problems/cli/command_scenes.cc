@@ -6,7 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "core/mesh/counted.h"
 #include "problems/cli/command.h"
+#include "problems/cli/flags.h"
 #include "problems/output/output_files.h"
 #include "problems/output/text.h"
 #include "problems/scenes/scene.h"
@@ -20,13 +22,39 @@ struct Flags {
   std::vector<std::string> settings;
   std::string output;
   std::string meshes;
+  bool json = false;
 };
+
+using Json = nlohmann::ordered_json;
 
 void ListKnobs(const std::vector<SceneKnob>& knobs) {
   for (const SceneKnob& knob : knobs) {
     std::cout << "    " << knob.key << '=' << FormatDouble(knob.value) << "  "
               << knob.meaning << '\n';
   }
+}
+
+Json ToJson(const std::vector<SceneKnob>& knobs) {
+  Json list = Json::array();
+  for (const SceneKnob& knob : knobs) {
+    list.push_back({{"key", knob.key},
+                    {"default", knob.value},
+                    {"meaning", knob.meaning}});
+  }
+  return list;
+}
+
+int ListAsJson() {
+  Json families = Json::array();
+  for (const SceneFamily& family : SceneFamilies()) {
+    families.push_back({{"name", family.name},
+                        {"summary", family.summary},
+                        {"knobs", ToJson(family.knobs)}});
+  }
+  const Json list = {{"families", families},
+                     {"common_knobs", ToJson(CommonSceneKnobs())}};
+  std::cout << list.dump(2) << '\n';
+  return kDone;
 }
 
 int List() {
@@ -53,15 +81,14 @@ std::map<std::string, double> Knobs(const std::vector<std::string>& settings) {
 }
 
 int Write(const Flags& flags) {
-  if (flags.output.empty() && flags.meshes.empty()) {
-    throw InputError("scenes write: expected --output, --meshes or both");
-  }
+  // With neither a file nor a folder the scene goes to standard output.
+  const bool is_asked = !flags.output.empty() || flags.meshes.empty();
+  const std::string target = is_asked ? AnswerTarget(flags.output) : "";
   std::string text;
   Scene scene;
   {
     // Gone before anything is written: to destroy it takes memory.
-    const nlohmann::ordered_json json =
-        MakeScene(flags.name, Knobs(flags.settings));
+    const Json json = MakeScene(flags.name, Knobs(flags.settings));
     // Built in any case: a scene whose solids cannot be made is bad input.
     scene = ParseScene(json, "scene " + flags.name);
     text = json.dump(2) + '\n';
@@ -69,10 +96,8 @@ int Write(const Flags& flags) {
   const TriangleMesh obstacle = JoinedObstacle(scene.workspace);
 
   OutputFiles outputs;
-  if (!flags.output.empty()) {
-    outputs.Declare(flags.output);
-    outputs.Write(flags.output, text);
-  }
+  DeclareIfNamed(&outputs, target, "--output", {".json", ".jsonc"});
+  if (flags.json) RequireFreeStandardOutput(outputs);
   const auto write = [&](const TriangleMesh& mesh, const std::string& path) {
     outputs.Declare(path);
     WriteMeshTo(&outputs, path, mesh);
@@ -82,12 +107,20 @@ int Write(const Flags& flags) {
     write(scene.workspace.robot, flags.meshes + "/robot.off");
     write(obstacle, flags.meshes + "/obstacle.off");
   }
+  if (is_asked) outputs.Write(target, text);
+  const std::size_t robot = scene.workspace.robot.triangles.size();
   const std::string skipped = SkippedObstaclesNote(scene);
+  const Json told = {{"scene", flags.name},
+                     {"robot_triangles", robot},
+                     {"obstacle_triangles", obstacle.triangles.size()},
+                     {"note", skipped}};
   CommitAndTell(&outputs,
-                flags.name + ": robot " +
-                    std::to_string(scene.workspace.robot.triangles.size()) +
-                    ", obstacle " + std::to_string(obstacle.triangles.size()) +
-                    " triangles\n" + skipped + (skipped.empty() ? "" : "\n"));
+                flags.json
+                    ? told.dump() + '\n'
+                    : flags.name + ": robot " + std::to_string(robot) +
+                          ", obstacle " +
+                          Counted(obstacle.triangles.size(), "triangle") +
+                          '\n' + skipped + (skipped.empty() ? "" : "\n"));
   return kDone;
 }
 
@@ -96,8 +129,9 @@ int Write(const Flags& flags) {
 Command AddScenes(CLI::App* app) {
   auto flags = std::make_shared<Flags>();
   app->require_subcommand(1);
-  const CLI::App* const list =
+  CLI::App* const list =
       app->add_subcommand("list", "Names and knobs with their defaults");
+  AddJson(list, &flags->json, "Names, knobs, defaults and meanings as JSON");
   CLI::App* const write = app->add_subcommand("write", "Write one scene");
   write->add_option("name", flags->name, "See scenes list")
       ->required()
@@ -106,14 +140,31 @@ Command AddScenes(CLI::App* app) {
       ->expected(1)
       ->take_all()
       ->type_name("KEY=VALUE");
-  write->add_option("--output", flags->output, "Scene file (JSON)")
+  write
+      ->add_option("--output", flags->output,
+                   "Scene file (JSON); standard output "
+                   "if neither it nor --meshes is set")
       ->type_name("FILE");
   write
       ->add_option("--meshes", flags->meshes,
                    "Directory for robot.off and obstacle.off, which the "
                    "other commands read")
       ->type_name("DIR");
-  return [flags, list] { return list->parsed() ? List() : Write(*flags); };
+  AddJson(write, &flags->json,
+          "What was written as JSON on standard output (the scene is JSON in "
+          "any case)");
+  AddExamples(app, {"phongpd scenes list",
+                    "phongpd scenes write tunnel --set delta=0.01 --output "
+                    "tunnel.json",
+                    "phongpd scenes write ball_wrench --meshes wrench"});
+  AddExamples(list, {"phongpd scenes list",
+                     "phongpd scenes list --json | jq '.families[].name'"});
+  AddExamples(write, {"phongpd scenes write tunnel --set delta=0.01 > t.json",
+                      "phongpd scenes write ball_wrench --meshes wrench"});
+  return [flags, list] {
+    if (!list->parsed()) return Write(*flags);
+    return flags->json ? ListAsJson() : List();
+  };
 }
 
 }  // namespace phongpd::cli

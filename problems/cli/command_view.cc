@@ -8,11 +8,14 @@
 #include <filesystem>
 #include <iostream>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "core/files/descriptor.h"
 #include "problems/cli/command.h"
+#include "problems/cli/flags.h"
+#include "problems/cli/operands.h"
 #include "problems/cli/view_inputs.h"
 #include "problems/output/output_files.h"
 #include "problems/pictures/programs.h"
@@ -32,17 +35,8 @@ struct Flags : ViewRequest {
   std::string unit = "units";
   std::string title;
   std::string html, glb, png;
+  bool json = false;
 };
-
-// A name that says something else is a slip.
-void RequireEnding(const std::string& path, const std::string& flag,
-                   const std::string& ending) {
-  if (path.empty() || path.rfind("/dev/", 0) == 0) return;
-  const std::string found = std::filesystem::path(path).extension().string();
-  if (found == ending) return;
-  throw InputError(flag + ": expected a name that ends in " + ending +
-                   ", found " + path);
-}
 
 // A new file of the user's own, which stays.
 std::string WriteTemporary(const std::string& page) {
@@ -78,14 +72,39 @@ void OpenOnDisplay(const std::string& path) {
   }
 }
 
+// What is shown, for --json; `page` is where.
+nlohmann::ordered_json Contents(const View& view, const std::string& page) {
+  using Json = nlohmann::ordered_json;
+  Json meshes = Json::array(), paths = Json::array();
+  for (const ViewMesh& mesh : view.meshes) {
+    meshes.push_back({{"name", mesh.name},
+                      {"role", ToString(mesh.role)},
+                      {"triangles", mesh.mesh.triangles.size()}});
+  }
+  for (const NamedPath& path : view.paths) {
+    paths.push_back({{"name", path.name},
+                     {"points", path.points.size()},
+                     {"free", path.is_free}});
+  }
+  return {{"page", page.empty() ? Json() : Json(page)},
+          {"title", view.title},
+          {"unit", view.unit},
+          {"robot_triangles", view.robot.triangles.size()},
+          {"meshes", meshes},
+          {"paths", paths},
+          {"frames", view.motion.positions.size()},
+          {"answers", view.answers.size()},
+          {"notes", view.notes}};
+}
+
 int Look(Flags flags) {
   if (!flags.from_cells.empty()) {
     flags.from = ParsePoint(flags.from_cells, "--from");
   }
   if (!flags.to_cells.empty()) flags.to = ParsePoint(flags.to_cells, "--to");
-  RequireEnding(flags.html, "--html", ".html");
-  RequireEnding(flags.glb, "--glb", ".glb");
-  RequireEnding(flags.png, "--png", ".png");
+  RequireEnding(flags.html, "--html", {".html", ".htm"});
+  RequireEnding(flags.glb, "--glb", {".glb"});
+  RequireEnding(flags.png, "--png", {".png"});
   const bool is_page =
       !flags.html.empty() || (flags.glb.empty() && flags.png.empty());
   if (is_page || !flags.png.empty()) RequireViewer();
@@ -94,6 +113,7 @@ int Look(Flags flags) {
   for (const std::string& path : {flags.html, flags.glb, flags.png}) {
     if (!path.empty()) outputs.Declare(path);
   }
+  if (flags.json) RequireFreeStandardOutput(outputs);
 
   View view = ReadThings(flags);
   view.unit = flags.unit;
@@ -107,11 +127,13 @@ int Look(Flags flags) {
     outputs.Write(flags.png, StillPicture(page, kPictureWidth, kPictureHeight));
   }
   outputs.Commit();
+  std::string path = flags.html;
   if (is_page && flags.html.empty()) {
-    const std::string path = WriteTemporary(page);
-    std::cout << path << '\n';
+    path = WriteTemporary(page);
+    if (!flags.json) std::cout << path << '\n';
     OpenOnDisplay(path);
   }
+  if (flags.json) std::cout << Contents(view, path).dump(2) << '\n';
   return kDone;
 }
 
@@ -120,7 +142,8 @@ int Look(Flags flags) {
 Command AddView(CLI::App* app) {
   auto flags = std::make_shared<Flags>();
   app->add_option("THING", flags->things,
-                  "Meshes, contact spaces (OFF, OBJ, PLY, STL, .pcs), a scene "
+                  "Meshes, contact spaces (OFF, OBJ, PLY, STL, DAE, glTF, GLB, "
+                  "3MF, robot.urdf#link, .pcs), a scene "
                   "(file or FAMILY:key=value,...), rows of optimize and plan, "
                   "a table of motion, answers of depth and query: several are "
                   "shown together. Without an output, a page is written to a "
@@ -159,14 +182,16 @@ Command AddView(CLI::App* app) {
       ->capture_default_str();
   app->add_option("--title", flags->title, "Of the page")->type_name("TEXT");
   AddRoot(app, &flags->root);
+  AddRepair(app, &flags->repair);
   AddNoCache(app, &flags->no_cache);
-  app->footer(
-      "Examples:\n"
-      "  phongpd view robot.off obstacle.off\n"
-      "  phongpd view u_axis --build --html u.html\n"
-      "  phongpd view phong.jsonl euclidean.jsonl --png paths.png\n"
-      "  phongpd view motion.csv contact.off --robot robot.off "
-      "--from 0 -1 0 --to 0 1 0\n");
+  AddJson(app, &flags->json,
+          "What is shown, and where its page is, as JSON on standard output");
+  AddExamples(
+      app, {"phongpd view robot.off obstacle.off",
+            "phongpd view u_axis --build --html u.html",
+            "phongpd view phong.jsonl euclidean.jsonl --png paths.png",
+            "phongpd view motion.csv contact.off --robot robot.off --from 0 -1 "
+            "0 --to 0 1 0"});
   return [flags] { return Look(*flags); };
 }
 

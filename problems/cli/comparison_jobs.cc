@@ -45,6 +45,7 @@ void RunJobs(const std::vector<ComparisonJob>& jobs,
   TrajectoryStudy study(cache);
   for (std::size_t i = kept; i < jobs.size(); ++i) {
     const ComparisonJob& job = jobs[i];
+    ProgressOf("rows", i - kept, jobs.size() - kept);
     if (i == kept || job.source != jobs[i - 1].source ||
         job.seed != jobs[i - 1].seed) {
       Progress(job.source->label() + ", seed " + std::to_string(job.seed));

@@ -28,6 +28,10 @@ std::string CellTable(const std::vector<ComparisonCell>& cells) {
 
 }  // namespace
 
+std::string SummaryTable(const std::vector<nlohmann::ordered_json>& rows) {
+  return CellTable(Summarize(rows));
+}
+
 std::string WriteSummaries(const std::vector<nlohmann::ordered_json>& rows,
                            const std::string& directory, OutputFiles* outputs) {
   const std::vector<ComparisonCell> cells = Summarize(rows);

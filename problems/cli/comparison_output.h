@@ -9,6 +9,9 @@
 
 namespace phongpd::cli {
 
+// The table for people alone, of rows that are written nowhere.
+std::string SummaryTable(const std::vector<nlohmann::ordered_json>& rows);
+
 // Writes what a comparison leaves in `directory` besides rows.jsonl:
 // summary.csv, rows.csv and the performance profiles.  Returns the table for
 // people.  Throws InputError; RequireGnuplot comes first.

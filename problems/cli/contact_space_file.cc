@@ -19,6 +19,7 @@ namespace {
 constexpr char kMark[] = "# contact space by phongpd\n";
 
 bool HasComments(const std::string& path) {
+  if (path == kStandardOutput) return true;  // OFF
   const std::size_t dot = path.find_last_of('.');
   std::string extension = dot == std::string::npos ? "" : path.substr(dot + 1);
   for (char& c : extension) c = static_cast<char>(std::tolower(c));
@@ -57,7 +58,7 @@ void WriteContactSpaceTo(OutputFiles* outputs, const std::string& path,
                          const ContactSpace& space) {
   outputs->Write(path, NamesContactSpaceFile(path)
                            ? ContactSpaceContent(space)
-                           : MeshContent(space.mesh(), path) +
+                           : MeshText(space.mesh(), path) +
                                  (HasComments(path) ? kMark : ""));
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "problems/cli/contact_space_report_json.h"
 
+#include "core/mesh/counted.h"
+#include "problems/output/output_files.h"
 #include "problems/output/text.h"
 
 namespace phongpd::cli {
@@ -38,10 +40,6 @@ Json ToJson(const Approximation& approximation) {
           {"bound", approximation.bound},
           {"conservative", approximation.is_conservative},
           {"steps", steps}};
-}
-
-std::string Plural(int count, const char* noun) {
-  return std::to_string(count) + ' ' + noun + (count == 1 ? "" : "s");
 }
 
 }  // namespace
@@ -102,14 +100,15 @@ std::string Summary(const std::string& file, const ContactSpaceReport& report) {
   TextStream text;
   double total = 0.0;
   for (const auto& [stage, time] : report.seconds) total += time;
-  text << file << ": " << report.triangles << " triangles, " << report.vertices
-       << " vertices, " << (report.closed ? "closed, " : "NOT CLOSED, ")
+  // Words that go beside a mesh on standard output name no file.
+  if (!file.empty() && file != kStandardOutput) text << file << ": ";
+  text << Counted(report.triangles, "triangle") << ", "
+       << Counted(report.vertices, "vertex", "vertices") << ", "
+       << (report.closed ? "closed, " : "NOT CLOSED, ")
        << (report.manifold ? "manifold, " : "NOT MANIFOLD, ")
-       << Plural(report.components, "component") << ", genus " << report.genus
-       << ", "
-       << (report.cavities == 1 ? "1 cavity"
-                                : Plural(report.cavities, "cavitie"))
-       << ", volume " << FormatDouble(report.volume) << '\n'
+       << Counted(report.components, "component") << ", genus " << report.genus
+       << ", " << Counted(report.cavities, "cavity", "cavities") << ", volume "
+       << FormatDouble(report.volume) << '\n'
        << "triangle quality: worst " << Rounded(report.worst_quality, 4)
        << ", median " << Rounded(report.median_quality, 4) << '\n'
        << (report.from_cache ? "from the cache; built in " : "built in ")

@@ -106,7 +106,11 @@ int Run(int argc, char** argv) {
       "Exit codes: 0 done, 1 ran but found no answer, 2 bad input or an output "
       "that cannot be written (nothing is), 3 internal error, or out of memory "
       "or threads; 128 + n ended by signal n, for example 130 by Ctrl-C.\n"
-      "Outputs are replaced together at the end or not at all.",
+      "Answers go to standard output where --output names no file (- is "
+      "standard output, too), words for people to standard error then; --json "
+      "makes answers JSON. Outputs are replaced together at the end or not at "
+      "all. What takes long tells on standard error how far it is; "
+      "PHONGPD_PROGRESS=never silences that.",
       "phongpd");
   app.set_version_flag("--version", VersionText);
   std::vector<std::pair<CLI::App*, Command>> commands;
@@ -119,6 +123,8 @@ int Run(int argc, char** argv) {
       AddDepth);
   add("minkowski", "Exact Minkowski sum of two meshes, or difference",
       AddMinkowski);
+  add("check", "Is a mesh a solid, and if not, what is wrong and where",
+      AddCheck);
   add("contact-space", "Build the contact space of two meshes",
       AddContactSpace);
   add("query", "Penetration depth at the points of a CSV file", AddQuery);
@@ -224,6 +230,7 @@ int Main(int argc, char** argv) {
   std::signal(SIGXFSZ, SIG_IGN);
   std::set_terminate(OnTerminate);
   try {
+    TellOfBuilds();
     const int code = Run(argc, argv);
     std::cout.flush();
     if (!std::cout) return Fail(kBadInput, "standard output: write failed");

@@ -6,6 +6,8 @@
 #include <utility>
 
 #include "problems/cli/command.h"
+#include "problems/cli/flags.h"
+#include "problems/cli/operands.h"
 #include "problems/pictures/path_picture.h"
 #include "problems/pictures/viewer/view_page.h"
 
@@ -18,12 +20,13 @@ void AddScene(CLI::App* app, SeededRunFlags* flags) {
       ->required()
       ->type_name("SCENE");
   AddRoot(app, &flags->root);
+  AddRepair(app, &flags->repair);
 }
 
 void AddRuns(CLI::App* app, const std::string& seed_help,
              SeededRunFlags* flags) {
   app->add_option("--seed", flags->seed, seed_help)
-      ->check(CLI::NonNegativeNumber)
+      ->check(AtLeast(0.0))
       ->type_name("S")
       ->capture_default_str();
   app->add_option("--runs", flags->runs, "Runs, with seeds S, S+1, ...")
@@ -36,9 +39,9 @@ void AddRowOutput(CLI::App* app, SeededRunFlags* flags) {
          "--output", flags->output,
          "JSON Lines, one object a run. Until all are done they are in "
          "FILE.partial, from which the same command goes on if it "
-         "is interrupted")
-      ->required()
+         "is interrupted. If not set, a line a run is all")
       ->type_name("FILE");
+  AddJson(app, &flags->json, "The rows on standard output without --output");
 }
 
 void AddPictures(CLI::App* app, SeededRunFlags* flags) {
@@ -79,12 +82,15 @@ NamedPath NamedPathOf(const nlohmann::ordered_json& row) {
 SeededRuns::SeededRuns(const SeededRunFlags& flags, const SceneSource& source,
                        const std::string& header, Summarizer summarize)
     : flags_(flags), header_(header + '\n'), summarize_(std::move(summarize)) {
+  target_ = flags.output;
+  if (target_.empty() && flags.json) target_ = kStandardOutput;
+  if (!target_.empty()) outputs_.Declare(target_);
+  DeclareIfNamed(&outputs_, flags.html, "--html", {".html", ".htm"});
+  DeclareIfNamed(&outputs_, flags.svg, "--svg", {".svg"});
   if (!flags.html.empty()) RequireViewer();
-  outputs_.Declare(flags.output);
-  if (!flags.html.empty()) outputs_.Declare(flags.html);
-  if (!flags.svg.empty()) outputs_.Declare(flags.svg);
-  rows_ = std::make_unique<RowFile>(outputs_.Target(flags.output),
-                                    CommandSettings(*flags.app, {source}));
+  rows_ =
+      std::make_unique<RowFile>(target_.empty() ? "" : outputs_.Target(target_),
+                                CommandSettings(*flags.app, {source}));
   kept_ = static_cast<int>(rows_->rows().size());
   if (kept_ == 0) return;
   Note("going on after " + std::to_string(kept_) + " of " +
@@ -110,13 +116,13 @@ void SeededRuns::Tell(const nlohmann::ordered_json& row) {
   RunSummary run = summarize_(row);
   are_all_answered_ = are_all_answered_ && run.path.is_free;
   paths_.push_back(std::move(run.path));
-  if (outputs_.UseStandardOutput()) return;
-  std::cout << std::exchange(header_, "") << run.line << '\n';
-  if (!run.why.empty()) std::cout << "  " << run.why << '\n';
+  std::ostream& out = outputs_.UseStandardOutput() ? std::cerr : std::cout;
+  out << std::exchange(header_, "") << run.line << '\n';
+  if (!run.why.empty()) out << "  " << run.why << '\n';
 }
 
 void SeededRuns::Write(const std::function<View()>& make_view) {
-  outputs_.Write(flags_.output, rows_->Content());
+  if (!target_.empty()) outputs_.Write(target_, rows_->Content());
   if (flags_.html.empty() && flags_.svg.empty()) return;
   View view = make_view();
   view.paths = paths_;

@@ -19,19 +19,22 @@ namespace phongpd::cli {
 
 struct SeededRunFlags {
   std::string scene;
-  std::string root;        // of its mesh files; empty: anywhere
-  std::uint64_t seed = 0;  // S
+  std::string root;               // of its mesh files; empty: anywhere
+  std::string repair = "reject";  // of those that do not say
+  std::uint64_t seed = 0;         // S
   int runs = 1;
   std::string time_limit;  // of a run; the command says what it limits
   std::string output;
   std::string html;
   std::string svg;
+  bool json = false;
   bool no_cache = false;
   const CLI::App* app = nullptr;  // that they were declared on
 };
 
-// Declare the argument SCENE and --root, --seed and --runs, --output, --html
-// and --svg.
+// Declare the argument SCENE, --root and --repair, --seed and --runs, --output
+// and
+// --json, --html and --svg.
 void AddScene(CLI::App* app, SeededRunFlags* flags);
 void AddRuns(CLI::App* app, const std::string& seed_help,
              SeededRunFlags* flags);
@@ -56,8 +59,10 @@ std::vector<Eigen::Vector3d> PathOf(const nlohmann::ordered_json& row);
 // planner, seed and status; free if the row says so.
 NamedPath NamedPathOf(const nlohmann::ordered_json& row);
 
-// A row of --output and a line on standard output for each run, and all paths
-// in the pictures.  Rows are kept as they come and taken up again (RowFile).
+// A row of --output and a line for people for each run, and all paths in the
+// pictures.  Without --output, rows go to standard output with --json, nowhere
+// otherwise; lines go to standard error where rows have standard output.  Rows
+// are kept as they come and taken up again (RowFile).
 class SeededRuns {
  public:
   // Declares the outputs; `header` is the line above those of the runs, and
@@ -85,6 +90,7 @@ class SeededRuns {
   void Tell(const nlohmann::ordered_json& row);
 
   const SeededRunFlags& flags_;
+  std::string target_;  // of the rows; empty: none
   std::string header_;  // until it is printed
   Summarizer summarize_;
   OutputFiles outputs_;

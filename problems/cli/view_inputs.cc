@@ -9,12 +9,14 @@
 
 #include "core/contact/contact_space_file.h"
 #include "core/mesh/input_file.h"
-#include "core/mesh/mesh_io.h"
 #include "core/mesh/mesh_range.h"
 #include "problems/cli/command.h"
 #include "problems/cli/contact_space_file.h"
+#include "problems/cli/operands.h"
 #include "problems/cli/seeded_runs.h"
 #include "problems/cli/view_tables.h"
+#include "problems/meshes/any_mesh.h"
+#include "problems/meshes/operand_notes.h"
 #include "problems/pictures/viewer/scene_view.h"
 #include "problems/scenes/scene_library.h"
 #include "problems/studies/motion.h"
@@ -26,7 +28,8 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::uintmax_t kMaxBytes = std::uintmax_t{1} << 30;
 constexpr char kKinds[] =
-    "a mesh or contact space (OFF, OBJ, PLY, STL, .pcs), a scene (file or "
+    "a mesh or contact space (OFF, OBJ, PLY, STL, DAE, glTF, GLB, 3MF, "
+    "robot.urdf#link, .pcs), a scene (file or "
     "FAMILY:key=value,...), rows of optimize or plan (JSON Lines), a motion "
     "(CSV), or depths (CSV, JSON)";
 
@@ -43,9 +46,8 @@ std::string Extension(const std::string& path) {
   return extension;
 }
 
-bool IsMesh(const std::string& extension) {
-  return extension == ".off" || extension == ".obj" || extension == ".ply" ||
-         extension == ".stl" || extension == ".pcs";
+bool IsMesh(const std::string& path) {
+  return NamesMesh(path) || NamesContactSpaceFile(path);
 }
 
 bool IsFamily(const std::string& thing) {
@@ -76,17 +78,33 @@ ViewAnswer AnswerOf(const Json& row) {
   return answer;
 }
 
+// Of query: the arrow leads from the position to its contact.
+ViewAnswer QueryAnswerOf(const Json& row) {
+  ViewAnswer answer;
+  answer.position = PointOf(row.at("position"));
+  answer.status = row.at("status").get<std::string>();
+  const double distance = row.at("signed_distance").get<double>();
+  answer.depth = std::max(0.0, -distance);
+  answer.clearance = std::max(0.0, distance);
+  answer.direction = PointOf(row.at("direction"));
+  answer.on_robot = answer.position;
+  answer.on_obstacle = PointOf(row.at("contact"));
+  answer.has_witness = answer.status != "invalid";
+  return answer;
+}
+
 // Collects things into a view.
 class Collector {
  public:
-  explicit Collector(const ViewRequest& request) : request_(request) {}
+  explicit Collector(const ViewRequest& request)
+      : request_(request), repair_(ParseRepair(request.repair, "--repair")) {}
 
   void Take(const std::string& thing) {
     if (IsFamily(thing) && !std::filesystem::exists(thing)) {
-      return TakeScene(SceneSource(thing, request_.root).Load());
+      return TakeScene(SceneSource(thing, request_.root, repair_).Load());
     }
     const std::string extension = Extension(thing);
-    if (IsMesh(extension)) return TakeMesh(thing);
+    if (IsMesh(thing)) return TakeMesh(thing);
     const std::string content = ReadInputFile(thing, kKinds, kMaxBytes);
     const std::size_t first = content.find_first_not_of(" \t\r\n");
     if (first == std::string::npos) FailUnknown(thing, "an empty file");
@@ -147,7 +165,7 @@ class Collector {
  private:
   static TriangleMesh Mesh(const std::string& path) {
     if (NamesContactSpaceFile(path)) return ReadContactSpace(path).mesh();
-    TriangleMesh mesh = ReadMesh(path);
+    TriangleMesh mesh = LoadMesh(path);
     RequireInRange(mesh, path);
     return mesh;
   }
@@ -216,7 +234,7 @@ class Collector {
       if (!whole.is_object() || !whole.contains("robot")) {
         FailUnknown(file, "JSON without robot, path or on_a");
       }
-      return TakeScene(SceneSource(file, request_.root).Load());
+      return TakeScene(SceneSource(file, request_.root, repair_).Load());
     }
     std::size_t number = 0;
     for (std::size_t at = 0; at < content.size();) {
@@ -230,7 +248,7 @@ class Collector {
   }
 
   static bool IsRow(const Json& json) {
-    return json.contains("on_a") ||
+    return json.contains("on_a") || json.contains("signed_distance") ||
            (json.contains("path") && json.contains("scene"));
   }
 
@@ -242,6 +260,8 @@ class Collector {
     try {
       if (row.contains("on_a")) {
         view_.answers.push_back(AnswerOf(row));
+      } else if (row.contains("signed_distance")) {
+        view_.answers.push_back(QueryAnswerOf(row));
       } else {
         TakeRun(row, where);
       }
@@ -276,6 +296,7 @@ class Collector {
   }
 
   const ViewRequest& request_;
+  Repair repair_;
   View view_;
   std::string scene_;  // none yet if empty
 };

@@ -15,6 +15,7 @@ struct ViewRequest {
   std::string robot;  // mesh that moves, for files without a scene
   std::optional<Eigen::Vector3d> from, to;  // of a motion's table
   std::string root;                         // of mesh files of scenes
+  std::string repair = "reject";            // of those
   bool build = false;  // build contact spaces of scenes, or take them kept
   bool no_cache = false;
 };

@@ -20,7 +20,7 @@ namespace {
 
 using internal::Descriptor;
 
-constexpr const char* kStandardOutput = "/dev/stdout";
+constexpr const char* kStandardOutputDevice = "/dev/stdout";
 constexpr mode_t kNewFile = 0666;
 constexpr std::size_t kLongestName = 180;  // of 255 with what is around it
 
@@ -42,6 +42,10 @@ void TryToWrite(const std::string& path, const F& write) {
 // Of all temporaries of one target; long names may share theirs.
 std::string TemporaryPrefix(const std::string& leaf) {
   return ".phongpd-" + leaf.substr(0, kLongestName) + "-";
+}
+
+bool IsStandardOutput(const std::string& path) {
+  return path == kStandardOutput || path == kStandardOutputDevice;
 }
 
 // Linux follows such links only if the administrator allows it, and resolving
@@ -162,11 +166,16 @@ void OutputFiles::Declare(const std::string& path) {
   file.path = path;
   // Behind a name in /dev or /proc there may be a file that somebody else has
   // open; it must not be replaced by another.
-  const bool device =
-      path.rfind("/dev/", 0) == 0 || path.rfind("/proc/", 0) == 0;
-  if (!device) RefuseForeignLink(path);
-  file.target =
-      device ? path : fs::weakly_canonical(fs::absolute(path), error).string();
+  const bool device = IsStandardOutput(path) || path.rfind("/dev/", 0) == 0 ||
+                      path.rfind("/proc/", 0) == 0;
+  if (IsStandardOutput(path)) {
+    file.target = kStandardOutputDevice;
+  } else if (device) {
+    file.target = path;
+  } else {
+    RefuseForeignLink(path);
+    file.target = fs::weakly_canonical(fs::absolute(path), error).string();
+  }
   if (error) FailToWrite(path, error.message());
   for (const File& other : files_) {
     if (other.target == file.target) {
@@ -209,7 +218,7 @@ const OutputFiles::File& OutputFiles::Find(const std::string& path) const {
 }
 
 void OutputFiles::Write(const std::string& path, std::string_view content) {
-  if (path == kStandardOutput) {
+  if (IsStandardOutput(path)) {
     std::cout << content << std::flush;
     if (!std::cout) FailToWrite(path, std::strerror(errno));
     return;
@@ -264,7 +273,7 @@ void OutputFiles::Commit() {
 
 bool OutputFiles::UseStandardOutput() const {
   for (const File& file : files_) {
-    if (file.path == kStandardOutput) return true;
+    if (IsStandardOutput(file.path)) return true;
   }
   return false;
 }

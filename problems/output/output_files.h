@@ -13,6 +13,9 @@
 
 namespace phongpd {
 
+// The name by which people mean standard output; a file of that name is ./-.
+inline constexpr char kStandardOutput[] = "-";
+
 // The files one command writes: all of them or none.
 //
 //   OutputFiles outputs;
@@ -30,7 +33,7 @@ namespace phongpd {
 // have put it there: it is somebody else's, in a folder they may write to.
 //
 // Targets that are no regular file (a device, a pipe) are written in place,
-// and /dev/stdout through standard output.
+// and /dev/stdout, or "-", through standard output.
 //
 // Throws InputError naming the file that cannot be written.
 class OutputFiles {

@@ -10,9 +10,10 @@
 #include <system_error>
 #include <utility>
 
+#include "core/bounds/mesh_repair.h"
 #include "core/mesh/input_file.h"
-#include "core/mesh/mesh_io.h"
-#include "core/solid/mesh_check.h"
+#include "problems/meshes/any_mesh.h"
+#include "problems/meshes/operand_notes.h"
 #include "problems/output/text.h"
 #include "problems/scenes/json_schema.h"
 #include "problems/scenes/scene_schema.h"
@@ -56,18 +57,29 @@ Matrix3d Rotation(const Json& value, const JsonPlace& place) {
   return rotation;
 }
 
-// Where the mesh files of a scene are.
+// Where the mesh files of a scene are, and what happens to those that are no
+// solids and do not say.
 struct MeshFolder {
   std::string directory;  // that relative paths start from
   std::string root;       // that all must lie below, if not empty
+  Repair repair = Repair::kReject;
 };
+
+Repair RepairOf(const Json& value, const MeshFolder& folder) {
+  if (!value.contains("repair")) return folder.repair;
+  return ParseRepair(value["repair"].get<std::string>(), "repair");
+}
 
 // The path of a mesh file that a scene names, checked against the root.
 std::string MeshPath(const Json& value, const JsonPlace& place,
                      const MeshFolder& folder) {
   namespace fs = std::filesystem;
-  const fs::path path = fs::path(folder.directory) / value.get<std::string>();
-  if (folder.root.empty()) return path.string();
+  const std::string text = value.get<std::string>();
+  // A link's name after # is no part of the path.
+  const std::size_t hash = std::min(text.rfind('#'), text.size());
+  const std::string link = text.substr(hash);
+  const fs::path path = fs::path(folder.directory) / text.substr(0, hash);
+  if (folder.root.empty()) return path.string() + link;
   std::error_code error;
   const fs::path root = fs::canonical(folder.root, error);
   if (error || !fs::is_directory(root, error)) {
@@ -84,7 +96,7 @@ std::string MeshPath(const Json& value, const JsonPlace& place,
                Shortened(value) + ", which is not; move it there");
   }
   // Not `path`: what has been checked is read.
-  return resolved.string();
+  return resolved.string() + link;
 }
 
 // A `solid` of the schema.  Steps that a scene leaves out do no arithmetic.
@@ -101,7 +113,7 @@ TriangleMesh Solid(const Json& value, const JsonPlace& place,
     name = mesh_place.Text();
     const std::string path = MeshPath(value["mesh"], mesh_place, folder);
     try {
-      mesh = ReadMesh(path);
+      mesh = ReadAnyMesh(path, warnings, folder.root);
     } catch (const InputError& error) {
       throw InputError(name + ": expected a mesh file, found " + error.what());
     }
@@ -118,9 +130,13 @@ TriangleMesh Solid(const Json& value, const JsonPlace& place,
     mesh = Translated(std::move(mesh), Point(value["position"]));
   }
   MeshReport report;
-  mesh = MakeSolid(mesh, name, &report);
-  for (const std::string& warning : report.warnings) {
-    warnings->push_back(name + ": " + warning);
+  RepairReport repaired;
+  mesh = RepairSolid(mesh, name, RepairOf(value, folder), kRepairAlpha, &report,
+                     &repaired);
+  for (const auto* lines : {&repaired.actions, &report.warnings}) {
+    for (const std::string& line : *lines) {
+      warnings->push_back(name + ": " + line);
+    }
   }
   return mesh;
 }
@@ -243,6 +259,20 @@ void RequireLengths(const Scene& scene, const JsonPlace& place) {
   }
 }
 
+// Shapes are made for each other; files may be in any unit.
+void NoteUnits(const Json& json, Scene* scene) {
+  const bool is_file = json["robot"].contains("mesh");
+  for (std::size_t i = 0; i < scene->workspace.obstacles.size(); ++i) {
+    if (!is_file && !json["obstacles"][i].contains("mesh")) continue;
+    const Obstacle& obstacle = scene->workspace.obstacles[i];
+    const std::string note = UnitsNote(scene->workspace.robot, "the robot",
+                                       obstacle.mesh, obstacle.id);
+    if (note.empty()) continue;
+    scene->warnings.push_back(note);
+    return;  // one will do
+  }
+}
+
 std::vector<Vector3d> Witness(const Json& value, const Scene& scene,
                               const JsonPlace& place) {
   std::vector<Vector3d> points;
@@ -266,7 +296,7 @@ const Json& SceneSchema() {
 
 Scene ParseScene(const Json& json, const std::string& file,
                  const std::string& directory, const std::string& name,
-                 const std::string& root) {
+                 const std::string& root, Repair repair) {
   RequireSchema(json, SceneSchema(), file);
   const JsonPlace place = {file, ""};
   Scene scene;
@@ -289,20 +319,22 @@ Scene ParseScene(const Json& json, const std::string& file,
   if (json.contains("witness")) {
     scene.witness = Witness(json["witness"], scene, place.Child("witness"));
   }
-  const MeshFolder folder = {directory, root};
+  const MeshFolder folder = {directory, root, repair};
   scene.workspace.robot =
       Solid(json["robot"], place.Child("robot"), folder, &scene.warnings);
   scene.workspace.obstacles = Obstacles(
       json["obstacles"], place.Child("obstacles"), folder, &scene.warnings);
   RequireLengths(scene, place);
+  NoteUnits(json, &scene);
   return scene;
 }
 
-Scene ReadScene(const std::string& path, const std::string& root) {
+Scene ReadScene(const std::string& path, const std::string& root,
+                Repair repair) {
   const std::string text = ReadInputFile(path, "a scene file", kMaxSceneBytes);
   const std::filesystem::path file(path);
   return ParseScene(ParseJson(text, path), path, file.parent_path().string(),
-                    file.stem().string(), root);
+                    file.stem().string(), root, repair);
 }
 
 std::string SkippedObstaclesNote(const Scene& scene) {

@@ -10,6 +10,7 @@
 #include <variant>
 #include <vector>
 
+#include "core/bounds/mesh_repair.h"
 #include "core/mesh/mesh_error.h"
 #include "core/mesh/triangle_mesh.h"
 #include "planners/exact/workspace.h"
@@ -82,14 +83,19 @@ inline constexpr std::uintmax_t kMaxSceneBytes = std::uintmax_t{1} << 28;
 // and ".." followed; others are refused before they are opened.  That guards
 // against scene files of strangers, not against somebody who changes the
 // folder at the same time.
-Scene ReadScene(const std::string& path, const std::string& root = "");
+//
+// `repair` is for solids without a key of that name
+// (core/bounds/mesh_repair.h); what was done is in the warnings, as are meshes
+// whose sizes suggest different units.
+Scene ReadScene(const std::string& path, const std::string& root = "",
+                Repair repair = Repair::kReject);
 
 // The same from a parsed document; errors start with `file`, mesh paths are
 // relative to `directory`.  A scene without a name is called `name`.
 Scene ParseScene(const nlohmann::ordered_json& json, const std::string& file,
                  const std::string& directory = ".",
                  const std::string& name = "scene",
-                 const std::string& root = "");
+                 const std::string& root = "", Repair repair = Repair::kReject);
 
 // "cannot be touched within the bounds, skipped: a, b", for people; empty if
 // all of ReachableObstacles (workspace.h).

@@ -16,8 +16,9 @@
 
 namespace phongpd {
 
-SceneSource::SceneSource(const std::string& text, const std::string& root)
-    : text_(text), root_(root), label_(text) {
+SceneSource::SceneSource(const std::string& text, const std::string& root,
+                         Repair repair)
+    : text_(text), root_(root), repair_(repair), label_(text) {
   const std::size_t colon = text.find(':');
   family_ = text.substr(0, colon);
   const std::vector<SceneFamily>& families = SceneFamilies();
@@ -51,7 +52,7 @@ SceneSource::SceneSource(const std::string& text, const std::string& root)
 }
 
 Scene SceneSource::Load(std::optional<std::uint64_t> seed) const {
-  if (is_file_) return ReadScene(text_, root_);
+  if (is_file_) return ReadScene(text_, root_, repair_);
   std::map<std::string, double> knobs = knobs_;
   if (seed) knobs["seed"] = static_cast<double>(*seed);
   Scene scene = ParseScene(MakeScene(family_, knobs), text_);

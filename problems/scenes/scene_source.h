@@ -15,8 +15,10 @@ namespace phongpd {
 class SceneSource {
  public:
   // Throws InputError if `text` names neither a file nor a family, or a knob
-  // is not key=number.  The file is not read yet.  `root`: see ReadScene.
-  explicit SceneSource(const std::string& text, const std::string& root = "");
+  // is not key=number.  The file is not read yet.  `root` and `repair`: see
+  // ReadScene.
+  explicit SceneSource(const std::string& text, const std::string& root = "",
+                       Repair repair = Repair::kReject);
 
   // As the user wrote it, for tables: a file without folder and extension.
   const std::string& label() const { return label_; }
@@ -34,6 +36,7 @@ class SceneSource {
  private:
   std::string text_;
   std::string root_;
+  Repair repair_ = Repair::kReject;
   std::string label_;
   bool is_file_ = false;
   std::string family_;

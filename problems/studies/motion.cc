@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "core/projection/penetration_tracker.h"
@@ -100,6 +101,26 @@ std::string MotionCsv(const std::vector<MotionTrace>& traces) {
     }
   }
   return csv;
+}
+
+std::string MotionJson(const StraightMotion& motion,
+                       const std::vector<MotionTrace>& traces) {
+  using Json = nlohmann::ordered_json;
+  const auto point = [](const Eigen::Vector3d& v) {
+    return Json({v[0], v[1], v[2]});
+  };
+  std::string lines;
+  for (int frame = 0; frame < motion.frames; ++frame) {
+    const auto i = static_cast<std::size_t>(frame);
+    for (const MotionTrace& trace : traces) {
+      const Json row = {
+          {"frame", frame},           {"position", point(motion.At(frame))},
+          {"metric", trace.metric},   {"status", trace.status[i]},
+          {"pd", point(trace.pd[i])}, {"magnitude", trace.pd[i].norm()}};
+      lines += row.dump() + '\n';
+    }
+  }
+  return lines;
 }
 
 std::string MotionPage(const std::vector<MotionTrace>& traces,

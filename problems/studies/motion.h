@@ -50,6 +50,10 @@ MotionSummary Summarize(const MotionTrace& trace, double jump_length);
 // frame,metric,status,pd_x,pd_y,pd_z,magnitude: one row a frame and metric.
 std::string MotionCsv(const std::vector<MotionTrace>& traces);
 
+// The same, and the position of every frame: an object a line.
+std::string MotionJson(const StraightMotion& motion,
+                       const std::vector<MotionTrace>& traces);
+
 // x, y, z and magnitude of every metric over the frames, on one SVG page.
 std::string MotionPage(const std::vector<MotionTrace>& traces,
                        const std::string& title);

@@ -20,6 +20,7 @@ nlohmann::ordered_json PlanningRow(const PlanningStudy& study,
                       : Json(run.retraction);
   row["seed"] = run.seed;
   row["status"] = result.status;
+  row["sampler_status"] = n.status.empty() ? Json(nullptr) : Json(n.status);
   row["reason"] = result.reason;
   row["solved"] = result.solved;
   row["infeasible_proved"] = result.infeasible_proved;

@@ -17,6 +17,15 @@ namespace {
 // ContactSurfaceOptions wants.
 constexpr double kEnoughClearance = 0.01;
 
+// OMPL's own word in the words of all planners; a sampler that has found
+// nothing was stopped by its time.
+std::string StatusOf(const OmplPlanningResult& result) {
+  if (result.solved) return ToString(PlanStatus::kSolved);
+  const bool is_time =
+      result.status == "Timeout" || result.status == "Approximate solution";
+  return is_time ? "time_limit" : ToString(PlanStatus::kFailed);
+}
+
 }  // namespace
 
 PlanningStudy::PlanningStudy(const Scene& scene, const ContactSpaceCache& cache,
@@ -108,20 +117,14 @@ std::string PlanningStudy::OmplLog(const PlanningRun& run, int runs) {
 }
 
 // False: start or goal is not free, and the result says so.
-bool PlanningStudy::Diagnose(const std::string& planner,
-                             PlanningResult* result) const {
+bool PlanningStudy::Diagnose(PlanningResult* result) const {
   for (const bool at_start : {true, false}) {
     const Diagnosis diagnosis =
         world_.Diagnose(at_start ? scene_.start : scene_.goal);
     if (diagnosis.IsFree()) continue;
     result->reason = diagnosis.Text(at_start ? "start" : "goal");
-    // In the words of the planner, as if it had been asked.
-    if (planner == kContactSurface) {
-      result->status = ToString(at_start ? PlanStatus::kInvalidStart
-                                         : PlanStatus::kInvalidGoal);
-    } else {
-      result->status = at_start ? "Invalid start" : "Invalid goal";
-    }
+    result->status = ToString(at_start ? PlanStatus::kInvalidStart
+                                       : PlanStatus::kInvalidGoal);
     return false;
   }
   return true;
@@ -171,14 +174,14 @@ void PlanningStudy::RunOmpl(const PlanningRun& run, PlanningResult* result) {
     result->numbers = PlanWithOmpl(Domain(), scene_.start, scene_.goal,
                                    result->planner, Options(run));
     if (result->numbers.collision_free) Shorten(run.seed, &result->numbers);
-    result->status = result->numbers.status;
+    result->status = StatusOf(result->numbers);
     return;
   }
   PrepareModel();
   const OmplPlanningOptions options = Options(run);
   result->numbers =
       PlanWithOmpl(model_, scene_.start, scene_.goal, result->planner, options);
-  result->status = result->numbers.status;
+  result->status = StatusOf(result->numbers);
   if (SeeksClearance(result->planner)) {
     result->wanted_clearance = world_.Resolve(
         Length::FromUnit(options.retraction.clearance * model_->diagonal()));
@@ -218,7 +221,7 @@ PlanningResult PlanningStudy::Run(const PlanningRun& run) {
       run.planner.empty() ? DefaultPlanner(scene_.planning.model) : run.planner;
   if (is_window) RequireSurfaceFree(result.planner);
   if (result.planner != kContactSurface) Options(run).Validate();
-  if (!Diagnose(result.planner, &result)) return result;
+  if (!Diagnose(&result)) return result;
   result.planner = PlannerOf(run);
   if (UsesWindow()) RequireSurfaceFree(result.planner);
   result.model = UsesWindow() ? "window" : "full";

@@ -95,7 +95,7 @@ class PlanningStudy {
   void PrepareModel();
   MotionDomain Domain();
   OmplPlanningOptions Options(const PlanningRun& run) const;
-  bool Diagnose(const std::string& planner, PlanningResult* result) const;
+  bool Diagnose(PlanningResult* result) const;
   void RunExact(PlanningResult* result);
   void RunOmpl(const PlanningRun& run, PlanningResult* result);
   void Shorten(std::uint64_t seed, OmplPlanningResult* numbers);

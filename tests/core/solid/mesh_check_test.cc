@@ -149,7 +149,7 @@ TEST(MakeSolid, RefusesPartsWithoutVolume) {
   sheet.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0.3}};
   sheet.triangles = {{0, 1, 2}, {0, 2, 1}};
   // Its two sides coincide, which the exact test sees first.
-  ExpectRefused(sheet, "1 pairs of triangles");
+  ExpectRefused(sheet, "1 pair of triangles");
   TriangleMesh needle = sheet;
   needle.vertices[2] = {0.5, 0, 0};
   ExpectRefused(needle, "none of them with an area");

@@ -116,9 +116,9 @@ TEST(Touching, IsCollisionForQueryJudgePlannerAndProof) {
         << one.what;
     if (!one.touches) continue;
     EXPECT_EQ(ToString(planner.Plan(one.at, one.goal).status),
-              std::string("invalid_start"));
+              std::string("start_in_collision"));
     EXPECT_EQ(ToString(planner.Plan(one.start, one.at).status),
-              std::string("invalid_goal"));
+              std::string("goal_in_collision"));
   }
 }
 
@@ -138,7 +138,7 @@ TEST(Touching, InAFaceAnEdgeOrAPointIsCollision) {
     EXPECT_FALSE(space.IsFree(goal, q));
     EXPECT_FALSE(CheckPath(space, {goal, q}).free);
     EXPECT_EQ(ToString(planner.Plan(q, goal).status),
-              std::string("invalid_start"));
+              std::string("start_in_collision"));
     EXPECT_NE(planner.Plan(q, goal).reason.find("touches"), std::string::npos);
     // The depth of a touch is zero, and it is not inside.
     EXPECT_FALSE(metric.Query(q).inside);

@@ -198,7 +198,7 @@ TEST_F(Cli, RefusesSlidingFlagsThatMakeNoSense) {
   const std::string sliding = query + "--metric sliding --tracked ";
   ExpectRefused(sliding + "--slide-ratio 0.9", {"--slide-ratio", "0.9"});
   ExpectRefused(sliding + "--slide-speed 0", {"--slide-speed", "0"});
-  ExpectRefused(sliding + "--slide-speed nan", {"slide speed", "nan"});
+  ExpectRefused(sliding + "--slide-speed nan", {"--slide-speed", "found nan"});
 }
 
 TEST_F(Cli, RefusesContactSpacesThatAreNone) {

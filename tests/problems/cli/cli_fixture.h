@@ -90,9 +90,9 @@ class Cli : public testing::Test {
   // What the shell is asked for; `before` are its variables or limits.
   std::string CommandLine(const std::string& arguments,
                           const std::string& before = "") const {
-    return "cd '" + Output("") + "' && " + before + " PHONGPD_CACHE_DIR='" +
-           File("cache") + "' '" PHONGPD_PROGRAM "' " + arguments +
-           " >../out 2>../err";
+    return "cd '" + Output("") + "' && " + before +
+           " PHONGPD_PROGRESS=never PHONGPD_CACHE_DIR='" + File("cache") +
+           "' '" PHONGPD_PROGRAM "' " + arguments + " >../out 2>../err";
   }
 
   // The exit code is 128 + the number of the signal that ended it, if any.

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "problems/cli/flags.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <filesystem>
+
+#include "core/mesh/mesh_error.h"
+#include "problems/output/text.h"
+
+namespace phongpd::cli {
+namespace {
+
+// Accepts numbers for which `is_good`.
+template <typename Test>
+CLI::Validator Numbers(const std::string& range, const Test& is_good) {
+  return CLI::Validator(
+      [range, is_good](const std::string& text) -> std::string {
+        double value = std::nan("");
+        const bool is_number = CLI::detail::lexical_cast(text, value);
+        if (is_number && is_good(value)) return "";
+        return "expected a number " + range + ", found " + text;
+      },
+      "");
+}
+
+bool IsNoFile(const std::string& path) {
+  return path.empty() || path == kStandardOutput || path.rfind("/dev/", 0) == 0;
+}
+
+}  // namespace
+
+void AddJson(CLI::App* app, bool* json, const std::string& what) {
+  app->add_flag("--json", *json, what);
+}
+
+std::string AnswerTarget(const std::string& output) {
+  return output.empty() ? kStandardOutput : output;
+}
+
+void RequireEnding(const std::string& path, const std::string& flag,
+                   const std::vector<std::string>& endings) {
+  if (IsNoFile(path)) return;
+  std::string found = std::filesystem::path(path).extension().string();
+  for (char& c : found) {
+    c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  }
+  if (std::find(endings.begin(), endings.end(), found) != endings.end()) return;
+  throw InputError(flag + ": expected a name that ends in " +
+                   Joined(endings, " or ") + ", found " + path);
+}
+
+void DeclareIfNamed(OutputFiles* outputs, const std::string& path,
+                    const std::string& flag,
+                    const std::vector<std::string>& endings) {
+  if (path.empty()) return;
+  RequireEnding(path, flag, endings);
+  outputs->Declare(path);
+}
+
+void RequireFreeStandardOutput(const OutputFiles& outputs) {
+  if (!outputs.UseStandardOutput()) return;
+  throw InputError(
+      "--json: expected standard output to be free, found another output "
+      "there; name a file");
+}
+
+CLI::Validator AtLeast(double least) {
+  return Numbers(">= " + FormatDouble(least),
+                 [least](double value) { return value >= least; });
+}
+
+CLI::Validator Between(double least, double most) {
+  return Numbers("from " + FormatDouble(least) + " to " + FormatDouble(most),
+                 [=](double value) { return value >= least && value <= most; });
+}
+
+void AddExamples(CLI::App* app, const std::vector<std::string>& lines,
+                 const std::string& before) {
+  std::string text = before.empty() ? "Examples:" : before + "\nExamples:";
+  for (const std::string& line : lines) text += "\n  " + line;
+  app->footer(text);
+}
+
+}  // namespace phongpd::cli

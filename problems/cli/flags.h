@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+#include <vector>
+
+#include "problems/output/output_files.h"
+
+// What flags of several commands have in common.
+namespace phongpd::cli {
+
+// Declares --json: the answer as JSON, to --output where that is its file, else
+// to standard output; `what` says of what it consists.
+void AddJson(CLI::App* app, bool* json, const std::string& what);
+
+// The name a command writes its answer to: standard output for none.
+std::string AnswerTarget(const std::string& output);
+
+// Throws InputError unless the name of a file says what the flag writes: ends
+// in one of `endings` (".svg"), in any case; standard output and devices have
+// no ending.  Empty names are no files.
+void RequireEnding(const std::string& path, const std::string& flag,
+                   const std::vector<std::string>& endings);
+
+// Declares an output that may be left out (empty), with a name as above.
+void DeclareIfNamed(OutputFiles* outputs, const std::string& path,
+                    const std::string& flag,
+                    const std::vector<std::string>& endings);
+
+// Refuse numbers outside of a range, and all that is none, in words; CLI11's
+// own write out the largest double.
+CLI::Validator AtLeast(double least);
+CLI::Validator Between(double least, double most);
+
+// Throws InputError where an output is standard output: --json is to be there.
+void RequireFreeStandardOutput(const OutputFiles& outputs);
+
+// The end of a command's --help: commands that work as they stand.
+void AddExamples(CLI::App* app, const std::vector<std::string>& lines,
+                 const std::string& before = "");
+
+}  // namespace phongpd::cli

@@ -1,0 +1,300 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "problems/meshes/assimp_mesh.h"
+
+#include <assimp/postprocess.h>
+#include <assimp/scene.h>
+#include <tinyxml2.h>
+
+#include <algorithm>
+#include <array>
+#include <assimp/Importer.hpp>
+#include <cctype>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <filesystem>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "core/contact/byte_stream.h"
+#include "core/mesh/counted.h"
+#include "core/mesh/finite.h"
+#include "core/mesh/input_file.h"
+#include "core/mesh/mesh_error.h"
+#include "core/mesh/mesh_io.h"
+#include "core/mesh/polygon_triangulation.h"
+#include "problems/meshes/sandbox.h"
+#include "problems/output/text.h"
+
+namespace phongpd {
+namespace {
+
+namespace fs = std::filesystem;
+using Eigen::Matrix4d;
+using Eigen::Vector3d;
+
+constexpr std::size_t kMaxTriangles = 50'000'000;
+constexpr int kMaxDepth = 1000;  // of nodes in nodes
+
+[[noreturn]] void Refuse(const std::string& file, const std::string& found) {
+  throw InputError(file + ": expected a mesh, found " + found);
+}
+
+std::string Extension(const std::string& path) {
+  std::string extension = fs::path(path).extension().string();
+  for (char& c : extension) {
+    c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  }
+  return extension;
+}
+
+Matrix4d MatrixOf(const aiMatrix4x4& m) {
+  Matrix4d matrix;
+  for (unsigned i = 0; i < 4; ++i) {
+    for (unsigned k = 0; k < 4; ++k) {
+      matrix(static_cast<int>(i), static_cast<int>(k)) = m[i][k];
+    }
+  }
+  return matrix;
+}
+
+// All triangles of a scene; vertices of equal coordinates are one, for what
+// Assimp splits by normals and textures was none.
+class Collector {
+ public:
+  Collector(const aiScene& scene, const std::string& file)
+      : scene_(scene), file_(file) {}
+
+  void Take(const aiNode& node, const Matrix4d& place, int depth = 0) {
+    if (depth > kMaxDepth) {
+      Refuse(file_, "more than " + std::to_string(kMaxDepth) +
+                        " nodes within each other");
+    }
+    for (unsigned i = 0; i < node.mNumMeshes; ++i) {
+      if (node.mMeshes[i] >= scene_.mNumMeshes) {
+        Refuse(file_, "a node with a mesh that there is none of");
+      }
+      Take(*scene_.mMeshes[node.mMeshes[i]], place);
+    }
+    for (unsigned i = 0; i < node.mNumChildren; ++i) {
+      const aiNode& child = *node.mChildren[i];
+      Take(child, place * MatrixOf(child.mTransformation), depth + 1);
+    }
+  }
+
+  TriangleMesh Finish() {
+    if (mesh_.triangles.empty()) {
+      Refuse(file_, "no face; export it as a surface mesh");
+    }
+    return std::move(mesh_);
+  }
+
+ private:
+  void Take(const aiMesh& part, const Matrix4d& place) {
+    if (part.mNumFaces > 0 && !part.HasPositions()) {
+      Refuse(file_, "faces without vertices");
+    }
+    std::vector<Vector3d> corners;
+    for (unsigned f = 0; f < part.mNumFaces; ++f) {
+      const aiFace& face = part.mFaces[f];
+      if (face.mNumIndices < 3) continue;  // points and lines
+      corners.clear();
+      for (unsigned k = 0; k < face.mNumIndices; ++k) {
+        corners.push_back(Corner(part, face.mIndices[k], place));
+      }
+      std::vector<int> ids;
+      for (const Vector3d& corner : corners) ids.push_back(IdOf(corner));
+      for (const auto& [a, b, c] : internal::TriangulatePolygon(corners)) {
+        mesh_.triangles.push_back({ids[a], ids[b], ids[c]});
+      }
+      if (mesh_.triangles.size() > kMaxTriangles) {
+        Refuse(file_, "more than " + std::to_string(kMaxTriangles) +
+                          " triangles; make it smaller");
+      }
+    }
+  }
+
+  Vector3d Corner(const aiMesh& part, unsigned index, const Matrix4d& place) {
+    if (index >= part.mNumVertices) {
+      Refuse(file_, "a face with an index out of range");
+    }
+    const aiVector3D& v = part.mVertices[index];
+    const Vector3d local(v.x, v.y, v.z);
+    const Vector3d corner =
+        place.topLeftCorner<3, 3>() * local + place.topRightCorner<3, 1>();
+    if (!IsFinite(corner)) {
+      Refuse(file_, "vertices with NaN or infinity; export it again");
+    }
+    return corner;
+  }
+
+  int IdOf(const Vector3d& v) {
+    const std::array<double, 3> key = {v[0], v[1], v[2]};
+    const int next = static_cast<int>(mesh_.vertices.size());
+    const auto [at, is_new] = ids_.emplace(key, next);
+    if (is_new) mesh_.vertices.push_back(v);
+    return at->second;
+  }
+
+  const aiScene& scene_;
+  const std::string& file_;
+  std::map<std::array<double, 3>, int> ids_;
+  TriangleMesh mesh_;
+};
+
+// "COLLADA, unit 0.0254 m, Z_UP".
+std::string ColladaFrame(const std::string& bytes, const std::string& file,
+                         double* metres) {
+  tinyxml2::XMLDocument document;
+  if (document.Parse(bytes.data(), bytes.size()) != tinyxml2::XML_SUCCESS) {
+    Refuse(file, std::string("no XML (") + document.ErrorStr() + ")");
+  }
+  const tinyxml2::XMLElement* const root = document.RootElement();
+  const tinyxml2::XMLElement* const asset =
+      root == nullptr ? nullptr : root->FirstChildElement("asset");
+  const tinyxml2::XMLElement* const unit =
+      asset == nullptr ? nullptr : asset->FirstChildElement("unit");
+  const tinyxml2::XMLElement* const up =
+      asset == nullptr ? nullptr : asset->FirstChildElement("up_axis");
+  // Both are COLLADA's defaults.
+  *metres = unit == nullptr ? 1.0 : unit->DoubleAttribute("meter", 1.0);
+  if (!(*metres > 0.0) || !std::isfinite(*metres)) {
+    Refuse(file, "a unit of " + FormatDouble(*metres) + " m");
+  }
+  const char* const axis = up == nullptr ? nullptr : up->GetText();
+  return "COLLADA, unit " + FormatDouble(*metres) + " m, " +
+         (axis == nullptr ? "Y_UP" : axis);
+}
+
+// Names of other files that a glTF file may read: beside or below it, no links.
+void RequireOwnBuffers(const nlohmann::json& json, const std::string& file) {
+  for (const char* list : {"buffers", "images"}) {
+    if (!json.contains(list) || !json[list].is_array()) continue;
+    for (const auto& item : json[list]) {
+      if (!item.is_object() || !item.contains("uri")) continue;
+      const std::string uri =
+          item["uri"].is_string() ? item["uri"].get<std::string>() : "..";
+      if (uri.rfind("data:", 0) == 0) continue;
+      const bool is_plain = uri.find("..") == std::string::npos &&
+                            uri.find_first_of("%:\\") == std::string::npos &&
+                            !fs::path(uri).is_absolute();
+      const fs::path path = fs::path(file).parent_path() / uri;
+      std::error_code error;
+      if (!is_plain || fs::is_symlink(path, error)) {
+        Refuse(file, "the buffer '" + uri.substr(0, 80) +
+                         "'; take one that lies beside the file, or .glb");
+      }
+    }
+  }
+}
+
+// The JSON of a glTF file, or of a GLB one: its first chunk.
+nlohmann::json GltfDocument(const std::string& bytes, bool is_binary,
+                            const std::string& file) {
+  constexpr std::size_t kHeader = 20;  // of the file and the chunk
+  std::string text = bytes;
+  if (is_binary) {
+    if (bytes.size() < kHeader) Refuse(file, "a file that is cut short");
+    std::uint32_t length = 0;
+    std::memcpy(&length, bytes.data() + 12, sizeof length);
+    text = bytes.substr(kHeader, length);
+  }
+  nlohmann::json json = nlohmann::json::parse(text, nullptr, false);
+  if (!json.is_object()) Refuse(file, "no JSON");
+  return json;
+}
+
+// Assimp leaves out triangles with indices out of range, without a word.
+void RequireAllTriangles(const nlohmann::json& json, const aiScene& scene,
+                         const std::string& file) {
+  const auto none = nlohmann::json::array();
+  std::uint64_t expected = 0, found = 0;
+  const auto count = [&](const nlohmann::json& accessor) -> std::uint64_t {
+    return json.at("accessors").at(accessor.get<std::size_t>()).at("count");
+  };
+  try {
+    for (const auto& mesh : json.value("meshes", none)) {
+      for (const auto& part : mesh.at("primitives")) {
+        const int mode = part.value("mode", 4);
+        if (mode < 4) continue;  // points and lines
+        const std::uint64_t corners = count(
+            part.contains("indices") ? part.at("indices")
+                                     : part.at("attributes").at("POSITION"));
+        const std::uint64_t strip = corners < 3 ? 0 : corners - 2;
+        expected += mode == 4 ? corners / 3 : strip;
+      }
+    }
+  } catch (const nlohmann::json::exception& error) {
+    Refuse(file, std::string("other JSON than glTF's (") + error.what() + ")");
+  }
+  for (unsigned i = 0; i < scene.mNumMeshes; ++i) {
+    const aiMesh& part = *scene.mMeshes[i];
+    for (unsigned f = 0; f < part.mNumFaces; ++f) {
+      found += part.mFaces[f].mNumIndices >= 3 ? 1 : 0;
+    }
+  }
+  if (found >= expected) return;
+  throw InputError(file + ": expected " + Counted(expected, "triangle") +
+                   ", found " + std::to_string(found) +
+                   ": the others have indices out of range; export it again");
+}
+
+std::string Import(const std::string& path, const std::string& bytes) {
+  const std::string extension = Extension(path);
+  double metres = 0.0;
+  std::string note;
+  bool keeps_root = true;
+  nlohmann::json gltf;
+  if (extension == ".dae") {
+    note = ColladaFrame(bytes, path, &metres) +
+           ": lengths and axes are the file's own, nothing is scaled or turned";
+    keeps_root = false;  // Assimp turns and scales the scene there
+  } else if (extension == ".3mf") {
+    note = "3MF: lengths are the file's own, millimetres unless it says other";
+  } else {
+    gltf = GltfDocument(bytes, extension == ".glb", path);
+    RequireOwnBuffers(gltf, path);
+    note = "glTF: metres, Y up";
+    metres = 1.0;
+  }
+  Assimp::Importer importer;
+  // Buffers beside a .gltf are found by its name.
+  const aiScene* const scene =
+      extension == ".gltf"
+          ? importer.ReadFile(path, 0)
+          : importer.ReadFileFromMemory(bytes.data(), bytes.size(), 0,
+                                        extension.c_str() + 1);
+  if (scene == nullptr || scene->mRootNode == nullptr) {
+    Refuse(path, std::string("what Assimp cannot read: ") +
+                     importer.GetErrorString());
+  }
+  if (gltf.is_object()) RequireAllTriangles(gltf, *scene, path);
+  Collector collector(*scene, path);
+  collector.Take(*scene->mRootNode,
+                 keeps_root ? MatrixOf(scene->mRootNode->mTransformation)
+                            : Matrix4d(Matrix4d::Identity()));
+  const TriangleMesh mesh = collector.Finish();
+  note += "; read in single precision, about 7 digits of every coordinate";
+  internal::ByteWriter writer;
+  writer(note, metres, mesh.vertices, mesh.triangles);
+  return writer.Take();
+}
+
+}  // namespace
+
+ImportedMesh ReadByAssimp(const std::string& path) {
+  constexpr std::uintmax_t kMaxBytes = std::uintmax_t{1} << 29;
+  const std::string bytes = ReadInputFile(path, "a mesh file", kMaxBytes);
+  if (bytes.empty()) Refuse(path, "an empty file");
+  const std::string answer =
+      RunInSandbox(path, [&] { return Import(path, bytes); });
+  ImportedMesh imported;
+  internal::ByteReader reader(answer);
+  reader(imported.note, imported.metres, imported.mesh.vertices,
+         imported.mesh.triangles);
+  if (!reader.Done()) Refuse(path, "one that its reader did not finish");
+  return imported;
+}
+
+}  // namespace phongpd

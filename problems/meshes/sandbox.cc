@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "problems/meshes/sandbox.h"
+
+#include <fcntl.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <cmath>
+#include <csignal>
+#include <cstring>
+#include <exception>
+#include <fstream>
+
+#include "core/files/descriptor.h"
+#include "core/mesh/mesh_error.h"
+
+namespace phongpd {
+namespace {
+
+using internal::Descriptor;
+
+// Sanitizers reserve terabytes of addresses.
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr bool kLimitsMemory = false;
+#else
+constexpr bool kLimitsMemory = true;
+#endif
+
+constexpr char kAnswer = 'a', kError = 'e';
+
+void Limit(const SandboxLimits& limits) {
+  const auto set = [](__rlimit_resource which, double value) {
+    rlimit limit;
+    if (getrlimit(which, &limit) != 0) return;
+    const auto wanted = static_cast<rlim_t>(value);
+    if (wanted < limit.rlim_cur) limit.rlim_cur = wanted;
+    setrlimit(which, &limit);
+  };
+  set(RLIMIT_CORE, 0.0);
+  set(RLIMIT_CPU, std::ceil(limits.max_seconds));
+  if (!kLimitsMemory) return;
+  double pages = 0.0;
+  std::ifstream("/proc/self/statm") >> pages;
+  set(RLIMIT_AS, pages * static_cast<double>(sysconf(_SC_PAGESIZE)) +
+                     limits.max_mib * 1024.0 * 1024.0);
+}
+
+// The handlers of the parent would remove its files.
+void ResetSignals() {
+  for (const int number : {SIGHUP, SIGINT, SIGQUIT, SIGTERM, SIGSEGV, SIGABRT,
+                           SIGFPE, SIGBUS, SIGILL, SIGXCPU, SIGPIPE}) {
+    std::signal(number, SIG_DFL);
+  }
+}
+
+[[noreturn]] void Child(const Descriptor& out,
+                        const std::function<std::string()>& work,
+                        const SandboxLimits& limits) {
+  ResetSignals();
+  const int nowhere = open("/dev/null", O_WRONLY | O_CLOEXEC);
+  if (nowhere >= 0) dup2(nowhere, STDERR_FILENO);
+  int code = 0;
+  try {
+    Limit(limits);
+    internal::WriteAll(out, kAnswer + work());
+  } catch (const std::bad_alloc&) {
+    code = 1;
+  } catch (const std::exception& error) {
+    try {
+      internal::WriteAll(out, std::string(1, kError) + error.what());
+    } catch (...) {
+      code = 1;
+    }
+  } catch (...) {
+    code = 1;
+  }
+  // No destructors: what they would remove is the parent's.
+  _exit(code);
+}
+
+std::string ReadToEnd(const Descriptor& in) {
+  std::string bytes;
+  std::array<char, 1 << 16> buffer;
+  for (;;) {
+    const ssize_t count = read(in.number(), buffer.data(), buffer.size());
+    if (count > 0) {
+      bytes.append(buffer.data(), static_cast<std::size_t>(count));
+    } else if (count == 0 || errno != EINTR) {
+      return bytes;
+    }
+  }
+}
+
+std::string Ending(int status) {
+  if (WIFSIGNALED(status)) {
+    return WTERMSIG(status) == SIGXCPU || WTERMSIG(status) == SIGKILL
+               ? "one that takes too long to read"
+               : "one that its reader crashes on";
+  }
+  return "one that needs too much memory to read";
+}
+
+}  // namespace
+
+std::string RunInSandbox(const std::string& what,
+                         const std::function<std::string()>& work,
+                         const SandboxLimits& limits) {
+  int ends[2];
+  if (pipe2(ends, O_CLOEXEC) != 0) {
+    throw InputError(what + ": cannot be read (" + std::strerror(errno) + ")");
+  }
+  const Descriptor in(ends[0]);
+  Descriptor out(ends[1]);
+  const pid_t child = fork();
+  if (child < 0) {
+    throw InputError(what + ": cannot be read (" + std::strerror(errno) + ")");
+  }
+  if (child == 0) Child(out, work, limits);
+  out = Descriptor();
+  std::string bytes = ReadToEnd(in);
+  int status = 0;
+  while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
+  }
+  if (status != 0 || bytes.empty()) {
+    throw InputError(what + ": expected a file that can be read, found " +
+                     Ending(status));
+  }
+  if (bytes.front() == kError) throw InputError(bytes.substr(1));
+  return bytes.substr(1);
+}
+
+}  // namespace phongpd

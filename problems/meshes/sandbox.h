@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <functional>
+#include <string>
+
+namespace phongpd {
+
+struct SandboxLimits {
+  double max_mib = 4096.0;     // that the process may grow by
+  double max_seconds = 120.0;  // of its processor time
+};
+
+// Runs `work` in a process of its own and returns the bytes that it returned.
+// What it writes to standard error is not seen.  For libraries that a file can
+// make crash, or run and allocate without end; `work` may use no threads.
+// Throws InputError "<what>: …" when the process ends in another way, and with
+// the words of an exception that left `work`.
+std::string RunInSandbox(const std::string& what,
+                         const std::function<std::string()>& work,
+                         const SandboxLimits& limits = {});
+
+}  // namespace phongpd
