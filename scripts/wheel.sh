@@ -36,8 +36,10 @@ build_wheel() {
   tar -C "$work" -xzf "$out"/phongpd-*.tar.gz
   export CMAKE_BUILD_PARALLEL_LEVEL=${CMAKE_BUILD_PARALLEL_LEVEL:-$(nproc)}
   say "compiling $(basename "$work"/phongpd-*), which takes minutes"
+  # Assimp alone would add 4 MB; without it COLLADA, glTF and 3MF are refused.
   "$tools/bin/pip" wheel --quiet --disable-pip-version-check --no-deps \
-    --wheel-dir "$work/plain" "$work"/phongpd-*/
+    --config-settings=cmake.define.PHONGPD_BUILD_ASSIMP=OFF --wheel-dir \
+    "$work/plain" "$work"/phongpd-*/
 }
 
 # What it loads, from the C library of this machine or from Debian's packages.
