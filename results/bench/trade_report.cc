@@ -57,7 +57,8 @@ Consumer Queries(const std::string& results) {
           "Query",
           "Jumps (of more than 5 % of D) against depth along motions through "
           "12 contact spaces, the hollow box apart; beside each the median "
-          "time of a step. Rows: `results/queries/totals.csv`.",
+          "time of a step. The tracker has no gradient for a solver. Rows: "
+          "`results/queries/totals.csv`.",
           "mean depth / Euclidean depth",
           "jumps in 1000 frames",
           "time of a step",
@@ -77,7 +78,10 @@ Consumer Trajectories(const std::string& results) {
       "Trajectory",
       "Ipopt from the straight, colliding line, 20 scenes of 50 seeds: runs "
       "that are not solved against the median over scenes of their median "
-      "iterations; beside each the same of seconds. Rows: "
+      "iterations; beside each the same of seconds. Where runs that are not "
+      "solved "
+      "differ by a point or two, that may be chance: the paired tests are in "
+      "`results/convergence/verdicts.csv`. Rows: "
       "`results/convergence/summary.csv`.",
       "median iterations",
       "runs not solved, %",
