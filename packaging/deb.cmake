@@ -81,9 +81,10 @@ phongpd_deb(
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
     "libcgal-dev (>= 5.5), libeigen3-dev (>= 3.4), libtbb-dev")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_RECOMMENDS
-    "coinor-libipopt-dev, libassimp-dev, libblas-dev, libboost-filesystem-dev, \
-libboost-serialization-dev, libcli11-dev, libfcl-dev, liblapack-dev, \
-libompl-dev, libtinyxml2-dev, nlohmann-json3-dev, pkg-config")
+    "coinor-libipopt-dev, libassimp-dev, libblas-dev, \
+libboost-filesystem-dev, libboost-serialization-dev, libcli11-dev, \
+libfcl-dev, liblapack-dev, libompl-dev, libtinyxml2-dev, \
+nlohmann-json3-dev, pkg-config, zlib1g-dev")
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS "gnuplot-nox | gnuplot")
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS "chromium, xdg-utils")
 # The module is made for one version of Python.

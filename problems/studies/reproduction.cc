@@ -113,6 +113,13 @@ class Packer {
   // The name under which an argument is repeated.
   std::string Input(const std::string& text) {
     std::error_code error;
+    // A link's name after # is no part of the file's.
+    const std::size_t hash = text.rfind('#');
+    if (hash != std::string::npos && hash > 0 &&
+        !fs::is_regular_file(text, error) &&
+        fs::is_regular_file(text.substr(0, hash), error)) {
+      return Input(text.substr(0, hash)) + text.substr(hash);
+    }
     if (!fs::is_regular_file(text, error)) {
       const bool names_place = text.find('/') != std::string::npos;
       return names_place && !IsDevice(text) ? "missing/" + FileName(text)
@@ -182,13 +189,13 @@ class Packer {
 
 bool TakesOutput(const std::string& flag) {
   static const std::vector<std::string> flags = {
-      "--output", "--report", "--html",     "--svg",
-      "--glb",    "--png",    "--ompl-log", "--meshes"};
+      "--output", "--report",   "--html",   "--svg",    "--glb",
+      "--png",    "--ompl-log", "--meshes", "--defects"};
   return std::find(flags.begin(), flags.end(), flag) != flags.end();
 }
 
 std::string OutputName(const std::string& text) {
-  return IsDevice(text) ? text : "outputs/" + FileName(text);
+  return IsDevice(text) || text == "-" ? text : "outputs/" + FileName(text);
 }
 
 // Which variables are set, not to what: their values may name folders.

@@ -102,7 +102,6 @@ class CliScenes : public Cli {
   void ExpectBadRunsRefused(const std::string& command) const {
     const std::string good = command + ' ' + Scene(TwoObstacles());
     const std::string rest = " --output o.jsonl";
-    ExpectRefused(good, {"--output"});
     ExpectRefused(good + " --output nowhere/o.jsonl", {"nowhere"});
     ExpectRefused(command + " none.json" + rest, {"none.json"});
     ExpectRefused(command + " hole:delta=1" + rest, {"delta"});

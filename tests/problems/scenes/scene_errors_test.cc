@@ -153,9 +153,11 @@ TEST(SceneErrors, NameFilePlaceExpectedAndFound) {
       {"/obstacles/1/shape/layers",
        {{"#."}, {".#"}},
        "s.json: /obstacles/1/shape: no closed surface; expected every edge "
-       "between two triangles of one orientation, found non-manifold (1 edges "
-       "of three or more triangles); close, clean or reorient the surface and "
-       "export it again"},
+       "between two triangles of one orientation, found non-manifold (1 edge "
+       "of three or more triangles), the first near (1, -1, 0.5); repair safe "
+       "or wrap may mend it (flag --repair, key \"repair\" of a scene), "
+       "phongpd check marks the places; or close, clean or reorient the "
+       "surface and export it again"},
       {"/penetration/metric", "manhattan",
        "s.json: /penetration/metric: expected one of \"phong\", "
        "\"euclidean\", found \"manhattan\""},
