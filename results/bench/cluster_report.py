@@ -70,8 +70,9 @@ def _simulated(times, outcomes):
               key=lambda name: getattr(largest, f"{name}_busy"))
     serial = getattr(largest, f"{who}_busy") / largest.tasks
     return [
-        "- Simulated with these rows, one a task: as long as there are tasks "
-        f"for all, 0.8 of the workers' time goes into rows up to {good} workers; "
+        "- Simulated with these rows, one a task: once tasks are submitted and "
+        f"while there are some for all, 0.8 of the workers' time goes into rows "
+        f"up to {good} workers; "
         f"{largest.workers} workers do {largest.steady_rows_per_second:.3g} rows "
         f"a second, efficiency {largest.steady_efficiency:.2g}.",
         "- Where it stops and why: scheduler and client are one process each, "
