@@ -85,6 +85,10 @@ class Outcome:
     tasks: int
     rows_per_second: float
     efficiency: float  # of the workers' time, the share spent on rows
+    # The same between the first and the last fifth of the tasks: without the
+    # start, and without the end, where some workers have nothing left.
+    steady_rows_per_second: float
+    steady_efficiency: float
     seconds: float
     scheduler_busy: float  # seconds
     client_busy: float
@@ -110,6 +114,7 @@ class Simulation:
         self._events, self._count = [], itertools.count()
         self._sent = []  # by the scheduler: receiver, message
         self._last = 0.0
+        self._ends = []  # when the client had a task's rows
 
     async def run(self):
         self._dask = _FakeScheduler(dashboard=False, dashboard_address="127.0.0.1:0")
@@ -127,10 +132,14 @@ class Simulation:
             when, _, what, arguments = heapq.heappop(self._events)
             await getattr(self, what)(when, *arguments)
         rows = sum(self._time_of.values())
+        fifth = len(self._ends) // 5
+        span = self._ends[-fifth] - self._ends[fifth]
+        steady = self._batch * (len(self._ends) - 2 * fifth) / span
         return Outcome(
             len(self._workers), self._batch, self._tasks,
             len(self._time_of) / self._last,
-            rows / (len(self._workers) * self._last),
+            rows / (len(self._workers) * self._last), steady,
+            steady * rows / len(self._time_of) / len(self._workers),
             self._last, self._scheduler.busy, self._client_machine.busy)
 
     def _at(self, when, what, *arguments):
@@ -161,6 +170,7 @@ class Simulation:
         cost = self._costs.client * len(keys)
         end = self._client_machine.work(now, cost)
         self._last = max(self._last, end)
+        self._ends += [end] * len(keys)
         self._in_flight -= len(keys)
         self._at(end + LATENCY, "_released", keys)
         self._submit(end)

@@ -29,6 +29,21 @@ def write_csv(path, header, rows):
                           for v in row] for row in rows)
 
 
+def read_csv(path):
+    """Rows without the header; what can be a number is one."""
+    with open(path, newline="", encoding="utf-8") as file:
+        return [[_value(text) for text in row] for row in csv.reader(file)][1:]
+
+
+def _value(text):
+    for kind in (int, float):
+        try:
+            return kind(text)
+        except ValueError:
+            pass
+    return text
+
+
 def _field(file, key):
     with open(file, encoding="utf-8") as lines:
         for line in lines:

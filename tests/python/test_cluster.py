@@ -201,7 +201,7 @@ def test_a_cut_wire_to_the_scheduler_costs_no_row(processes, truth, tmp_path):
             wire.restore()
         thread.join()
         assert result[0].rows == 16
-        assert result[0].reconnections == 2
+        assert result[0].reconnections >= 2
         assert timeless(output) == truth
         client.close()
 

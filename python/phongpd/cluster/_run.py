@@ -130,11 +130,7 @@ class _Driver:
 
     def _send(self, client: Client, waiting: deque[Batch],
               arrivals: as_completed) -> None:
-        # In lots: submitting one by one costs the client a millisecond each.
-        if not waiting or len(self._sent) > 3 * LEAST_TASKS // 4:
-            if not waiting or len(self._sent) > 3 * self._window(client) // 4:
-                return
-        room = self._window(client) - len(self._sent)
+        room = self._room(client) if waiting else 0
         lots: dict[str, list[Batch]] = {}
         for _ in range(min(room, len(waiting))):
             one = waiting.popleft()
@@ -209,8 +205,13 @@ class _Driver:
         return (f"{len(self._store)} rows are in {self._store.partial}, and the "
                 "same call goes on from there")
 
-    def _window(self, client: Client) -> int:
-        with contextlib.suppress(*_CUT):
-            threads = sum(int(count) for count in client.nthreads().values())
-            return max(LEAST_TASKS, TASKS_PER_THREAD * threads)
-        return LEAST_TASKS
+    def _room(self, client: Client) -> int:
+        """For how many tasks more; 0 until it is worth the while: submitting
+        them one by one costs the client a millisecond each."""
+        window = LEAST_TASKS
+        if len(self._sent) > 3 * window // 4:
+            with contextlib.suppress(*_CUT):
+                threads = sum(int(n) for n in client.nthreads().values())
+                window = max(window, TASKS_PER_THREAD * threads)
+        room = window - len(self._sent)
+        return room if 4 * room >= window else 0
