@@ -83,8 +83,8 @@ TEST(SceneErrors, NameFilePlaceExpectedAndFound) {
        "witness, found \"robto\" (nearest: \"robot\")"},
       {"/trajectory/waypoint", 3,
        "s.json: /trajectory: expected only the keys waypoints, "
-       "samples_per_segment, margin, max_segment_ratio, ipopt, found "
-       "\"waypoint\" (nearest: \"waypoints\")"},
+       "samples_per_segment, margin, max_segment_ratio, model, ipopt, "
+       "found \"waypoint\" (nearest: \"waypoints\")"},
       {"/goal", nullptr,
        "s.json: /goal: expected an array of 3 numbers, found nothing"},
       {"/robot", nullptr, "s.json: /robot: expected an object, found nothing"},
