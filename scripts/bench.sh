@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
 # bench.sh [paper|queries|contact-space|lazy|convergence|planning|extremes|peers|
-# cluster|trade|all]: regenerates the tables and figures of results/.
+# cluster|python|trade|all]: regenerates the tables and figures of results/.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 # The user's own cache is neither used nor filled.
@@ -10,11 +10,11 @@ export PHONGPD_CACHE_DIR=$PWD/build/cache
 suite=${1:-all}
 case $suite in
   paper | queries | contact-space | lazy | convergence | planning | extremes | \
-    peers | cluster | trade | all) ;;
+    peers | cluster | python | trade | all) ;;
   *)
     echo "bench: expected paper, queries, contact-space, lazy," \
-      "convergence, planning, extremes, peers, cluster, trade or all, found" \
-      "$suite" >&2
+      "convergence, planning, extremes, peers, cluster, python, trade or all," \
+      "found $suite" >&2
     exit 2
     ;;
 esac
@@ -132,6 +132,13 @@ if [[ $suite == peers || $suite == all ]]; then
   PYTHONPATH=$PWD/build/python "$venv/bin/python" \
     results/bench/peers_benchmark.py --output results/peers \
     --how "scripts/bench.sh peers"
+fi
+if [[ $suite == python || $suite == all ]]; then
+  scripts/python.sh
+  scripts/build.sh phongpd_python python_baseline
+  PYTHONPATH=build/python build/venv/bin/python \
+    results/bench/python_benchmark.py --baseline build/python_baseline \
+    --output results/python --how "scripts/bench.sh python"
 fi
 # Last: it draws what the others measured.
 if [[ $suite == trade || $suite == all ]]; then

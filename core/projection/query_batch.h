@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <functional>
 #include <vector>
 
 #include "core/projection/penetration_metric.h"
@@ -21,6 +22,14 @@ namespace phongpd {
 // elements; nothing is allocated.
 void QueryBatch(const PenetrationMetric& metric, const Eigen::Vector3d* points,
                 std::size_t count, PenetrationResult* results);
+
+// The same, of point(i) into keep(i, result), i < count, for callers with
+// layouts of their own: both are called once for each i, on any thread, several
+// at a time.
+void QueryBatch(
+    const PenetrationMetric& metric, std::size_t count,
+    const std::function<Eigen::Vector3d(std::size_t)>& point,
+    const std::function<void(std::size_t, const PenetrationResult&)>& keep);
 
 // The same, allocating its answer.
 std::vector<PenetrationResult> QueryBatch(

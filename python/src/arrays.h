@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 #include <initializer_list>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -25,6 +26,15 @@ using Corners =
     nb::ndarray<const int, nb::shape<-1, 3>, nb::c_contig, nb::device::cpu>;
 
 // A NumPy array of that shape which owns `values`.
+template <typename T>
+nb::object Owned(std::unique_ptr<T[]> values,
+                 std::initializer_list<size_t> shape) {
+  T* kept = values.release();
+  nb::capsule owner(kept,
+                    [](void* p) noexcept { delete[] static_cast<T*>(p); });
+  return nb::cast(
+      nb::ndarray<nb::numpy, T>(kept, shape.size(), shape.begin(), owner));
+}
 template <typename T>
 nb::object Owned(std::vector<T> values, std::initializer_list<size_t> shape) {
   auto* kept = new std::vector<T>(std::move(values));
@@ -71,11 +81,12 @@ inline nb::object ToArray(const std::vector<Eigen::Vector3d>& points) {
   return Owned(std::move(values), {points.size(), 3});
 }
 
-// Columns of an answer, one row a point, filled while Python runs on.
+// Columns of an answer, one row a point, filled while Python runs on.  Their
+// memory is touched by who fills it first, and not cleared before.
 template <typename T, size_t kWidth>
 class Column {
  public:
-  explicit Column(size_t rows) : rows_(rows), values_(rows * kWidth) {}
+  explicit Column(size_t rows) : rows_(rows), values_(new T[rows * kWidth]) {}
   T& operator[](size_t row) { return values_[row]; }
   void Set(size_t row, const Eigen::Vector3d& v) {
     for (size_t k = 0; k < 3; ++k) {
@@ -90,7 +101,7 @@ class Column {
 
  private:
   size_t rows_;
-  std::vector<T> values_;
+  std::unique_ptr<T[]> values_;
 };
 
 }  // namespace phongpd::python

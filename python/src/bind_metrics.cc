@@ -2,7 +2,6 @@
 #include <nanobind/stl/array.h>
 #include <nanobind/stl/string.h>
 
-#include <algorithm>
 #include <array>
 #include <memory>
 
@@ -66,17 +65,8 @@ nb::dict Query(const Metric& metric, const Rows3& rows, bool is_tracked) {
         keep(i, r);
       }
     } else {
-      // Answers are 200 bytes each: not all at once.
-      constexpr size_t kBlock = 4096;
-      std::vector<Eigen::Vector3d> points;
-      std::vector<PenetrationResult> results(std::min(count, kBlock));
-      for (size_t begin = 0; begin < count; begin += kBlock) {
-        const size_t size = std::min(kBlock, count - begin);
-        points.resize(size);
-        for (size_t i = 0; i < size; ++i) points[i] = Row(rows, begin + i);
-        QueryBatch(*metric.metric, points.data(), size, results.data());
-        for (size_t i = 0; i < size; ++i) keep(begin + i, results[i]);
-      }
+      QueryBatch(
+          *metric.metric, count, [&](size_t i) { return Row(rows, i); }, keep);
     }
   }
   nb::dict out;
