@@ -81,9 +81,11 @@ NamedPath NamedPathOf(const nlohmann::ordered_json& row) {
 
 SeededRuns::SeededRuns(const SeededRunFlags& flags, const SceneSource& source,
                        const std::string& header, Summarizer summarize)
-    : flags_(flags), header_(header + '\n'), summarize_(std::move(summarize)) {
-  target_ = flags.output;
-  if (target_.empty() && flags.json) target_ = kStandardOutput;
+    : flags_(flags),
+      target_(flags.output.empty() && flags.json ? kStandardOutput
+                                                 : flags.output),
+      header_(header + '\n'),
+      summarize_(std::move(summarize)) {
   if (!target_.empty()) outputs_.Declare(target_);
   DeclareIfNamed(&outputs_, flags.html, "--html", {".html", ".htm"});
   DeclareIfNamed(&outputs_, flags.svg, "--svg", {".svg"});

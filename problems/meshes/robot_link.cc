@@ -114,7 +114,7 @@ class LinkReader {
     }
     if (count == 1) return *found;
     std::string all = Joined(names);
-    if (all.size() > 400) all = all.substr(0, 400) + " ...";
+    if (all.size() > 400) all.replace(400, std::string::npos, " ...");
     if (names.empty()) Refuse("expected links with <collision>, found none");
     if (count > 1 && !link_.empty()) {
       Refuse("expected one link of this name, found " + std::to_string(count));
