@@ -105,7 +105,7 @@ TEST_F(CliModel, BuildsNothingForAnEndThatIsNotFree) {
   scene["goal"] = {0.1, 0, 0};
   const Json row = OneRow("plan " + Scene(scene) + " --model window", 1);
   EXPECT_EQ(row["model"], "none");
-  EXPECT_EQ(row["status"], "Invalid goal");
+  EXPECT_EQ(row["status"], "goal_in_collision");
   EXPECT_EQ(row["seconds"]["contact_space"], 0.0);
 }
 

@@ -128,8 +128,7 @@ TEST(PlanningModel, LimitsRefuseTheContactSpaceOnly) {
   EXPECT_THROW(full.Run(run), BuildRefusal);
   PlanningStudy window(SceneOf("hole:delta=0.1", "window"), {}, limits);
   EXPECT_THROW(window.Run(run), InputError);
-  PlanningStudy other(SceneOf("hole:delta=0.1", "some"));
-  EXPECT_THROW(other.Run(run), InputError);
+  EXPECT_THROW(PlanningStudy(SceneOf("hole:delta=0.1", "some")), InputError);
 }
 
 TEST(SurfaceFreePlanners, AreRefusedNothingButTheSurface) {
