@@ -49,7 +49,7 @@ void RunJobs(const std::vector<ComparisonJob>& jobs,
     if (i == kept || job.source != jobs[i - 1].source ||
         job.seed != jobs[i - 1].seed) {
       Progress(job.source->label() + ", seed " + std::to_string(job.seed));
-      study.Enter(job.source->Load(job.seed));
+      study.Enter(SceneToCompare(job.source->Load(job.seed)));
     }
     Json row = RunComparison(
         {job.seed, job.protocol, job.metric, job.source->is_family()}, &study);

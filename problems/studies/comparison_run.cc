@@ -5,6 +5,11 @@
 
 namespace phongpd {
 
+Scene SceneToCompare(Scene scene) {
+  scene.trajectory.model = "full";
+  return scene;
+}
+
 nlohmann::ordered_json RunComparison(const ComparisonRun& run,
                                      TrajectoryStudy* study) {
   PipelineOptions options = run.protocol.options;

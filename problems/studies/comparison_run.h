@@ -19,6 +19,10 @@ struct ComparisonRun {
   bool is_family = false;
 };
 
+// The scene as comparisons enter it: of model full, because metrics are what is
+// compared, and free space alone follows none.
+Scene SceneToCompare(Scene scene);
+
 // TrajectoryRow with the key `protocol`, wherever it is run: by phongpd
 // compare, or by a worker of phongpd.cluster.  Throws what TrajectoryStudy::Run
 // throws.

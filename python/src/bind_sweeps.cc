@@ -44,7 +44,7 @@ class Comparison {
   void Enter(std::uint64_t seed) {
     if (entered_ == seed) return;
     entered_.reset();
-    const Scene scene = source_.Load(seed);
+    const Scene scene = SceneToCompare(source_.Load(seed));
     if (!world_ || !HaveSameSolids(scene.workspace, world_->workspace())) {
       world_.emplace(scene.workspace, scene.name, cache_, limits_);
     }

@@ -36,6 +36,8 @@ std::string Workshop::Optimize(const Point& start, const Point& goal,
                   world_.diagonal(), "margin");
   }
   if (waypoints > 0) scene.trajectory.waypoints = waypoints;
+  // Whoever names a metric is told that it cannot be followed.
+  if (scene.trajectory.model == "auto") scene.trajectory.model = "full";
   PipelineOptions options = ScenePipelineOptions(scene);
   options.seed = seed;
   options.time_limit = max_seconds;

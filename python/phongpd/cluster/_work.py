@@ -9,6 +9,7 @@ few of them, and made anew where it is not there.
 
 from __future__ import annotations
 
+import dataclasses
 import json
 import os
 import threading
@@ -89,7 +90,8 @@ def _depth_row(job: Job, subject: dict[str, Any]) -> str:
         max_radius=subject["max_radius"]))
     what = job.arguments
     found = query.at(what["position"], what["orientation"])
-    body = {name: _plain(value) for name, value in vars(found).items()}
+    body = {one.name: _plain(getattr(found, one.name))
+            for one in dataclasses.fields(found) if one.name != "solids"}
     return json.dumps({**what, **body})
 
 
