@@ -139,6 +139,8 @@ _work.WORK["depth"] = poisoned
         with pytest.raises(cluster.SweepError) as error:
             cluster.depth(robot, obstacle, np.zeros((8, 3)), output=output,
                           client=client, batch=1)
+        # Dask cannot close a cluster one of whose workers is just starting.
+        client.wait_for_workers(2, timeout=60)
     text = str(error.value)
     assert text.startswith("1 rows could not be made")
     assert "'pose': 3" in text and "\n" not in text

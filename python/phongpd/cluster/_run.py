@@ -85,7 +85,13 @@ def _client(client: Client | None) -> Iterator[Client]:
         yield client
         return
     with LocalCluster(threads_per_worker=1) as cluster, Client(cluster) as own:
-        yield own
+        try:
+            yield own
+        finally:
+            # Dask cannot close a cluster one of whose workers, killed before,
+            # is just starting again: that would hide what went wrong.
+            with contextlib.suppress(TimeoutError):
+                own.wait_for_workers(len(cluster.workers), timeout=30)
 
 
 class _Driver:
