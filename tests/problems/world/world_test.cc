@@ -135,7 +135,8 @@ TEST(World, SkipsObstaclesOutOfReachAndSaysSo) {
 
 TEST(World, NeedsNoObstacleWithinReach) {
   Json json = Crowd();
-  json["obstacles"] = {Box("far", {1.0, 1.0, 1.0}, {30.0, 0.0, 0.0})};
+  json["obstacles"] =
+      Json::array({Box("far", {1.0, 1.0, 1.0}, {30.0, 0.0, 0.0})});
   const Scene scene = Parse(json);
   const World world = WorldOf(scene);
   for (const SpaceLayout layout :
