@@ -61,6 +61,14 @@ const char* ToString(CorridorStatus status) {
   return "not_free";
 }
 
+bool CorridorSummary::HasConverged() const {
+  const bool has_gained =
+      std::any_of(rounds.begin(), rounds.end(),
+                  [](const CorridorRound& round) { return round.is_accepted; });
+  return status == CorridorStatus::kConverged ||
+         (status == CorridorStatus::kSmallestTrust && has_gained);
+}
+
 CorridorSummary PolishInCorridor(const TrajectoryProblem& problem,
                                  const Path& path,
                                  const CorridorOptions& options) {

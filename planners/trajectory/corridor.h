@@ -52,6 +52,9 @@ struct CorridorSummary {
   double seconds = 0.0;
 
   bool IsFree() const { return status != CorridorStatus::kNotFree; }
+  // Is the path a local minimum, and not just the start path kept for want of
+  // an improvement that rounding would let pass?
+  bool HasConverged() const;
 };
 
 // Shortens an exactly free path without ever leaving free space.  A round:

@@ -45,7 +45,7 @@ class Run {
 
   PipelineResult Solve() {
     std::vector<Path> starts;
-    if (CheckEnds() && FindStarts(&starts)) {
+    if (CheckEnds(problem_, &result_) && FindStarts(&starts)) {
       for (std::size_t i = 0; i < starts.size(); ++i) {
         Candidate found = SolveRoute(starts[i], static_cast<int>(i));
         if (i == 0 || found.IsBetterThan(best_)) best_ = std::move(found);
@@ -76,23 +76,8 @@ class Run {
   }
   bool IsLate() const { return stopwatch_.Seconds() >= options_.time_limit; }
 
-  bool CheckEnds() {
-    const FreeSpace& space = *problem_.free_space;
-    if (!space.IsFree(problem_.start)) {
-      result_.status = TrajectoryStatus::kStartInCollision;
-    } else if (!space.IsFree(problem_.goal)) {
-      result_.status = TrajectoryStatus::kGoalInCollision;
-    } else {
-      return true;
-    }
-    return false;
-  }
-
   void Note(StageRecord record, const Path& path) {
-    record.is_free = CheckPath(*problem_.free_space, path).free;
-    record.objective = PathEnergy(problem_, path);
-    result_.iterations += record.iterations;
-    result_.stages.push_back(std::move(record));
+    AddStage(problem_, path, std::move(record), &result_);
   }
 
   Path NoisyLine() const {
@@ -240,11 +225,7 @@ class Run {
     candidate->path = std::move(summary.path);
     candidate->objective = summary.objective;
     candidate->missing_clearance = MissingClearance(problem_, candidate->path);
-    const bool has_gained = std::any_of(
-        summary.rounds.begin(), summary.rounds.end(),
-        [](const CorridorRound& round) { return round.is_accepted; });
-    if (summary.status == CorridorStatus::kConverged ||
-        (summary.status == CorridorStatus::kSmallestTrust && has_gained)) {
+    if (summary.HasConverged()) {
       candidate->status = TrajectoryStatus::kPolished;
       candidate->reason.clear();
     } else if (candidate->status != TrajectoryStatus::kSolved) {
@@ -300,6 +281,26 @@ bool HasFreePath(TrajectoryStatus status) {
   return status == TrajectoryStatus::kSolved ||
          status == TrajectoryStatus::kPolished ||
          status == TrajectoryStatus::kStalledFeasible;
+}
+
+bool CheckEnds(const TrajectoryProblem& problem, PipelineResult* result) {
+  const FreeSpace& space = *problem.free_space;
+  if (!space.IsFree(problem.start)) {
+    result->status = TrajectoryStatus::kStartInCollision;
+  } else if (!space.IsFree(problem.goal)) {
+    result->status = TrajectoryStatus::kGoalInCollision;
+  } else {
+    return true;
+  }
+  return false;
+}
+
+void AddStage(const TrajectoryProblem& problem, const Path& path,
+              StageRecord stage, PipelineResult* result) {
+  stage.is_free = CheckPath(*problem.free_space, path).free;
+  stage.objective = PathEnergy(problem, path);
+  result->iterations += stage.iterations;
+  result->stages.push_back(std::move(stage));
 }
 
 TrajectoryPipeline::TrajectoryPipeline(

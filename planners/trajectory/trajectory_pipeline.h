@@ -92,6 +92,15 @@ struct PipelineResult {
   double seconds = 0.0;
 };
 
+// What pipelines do alike, those of one's own as well.
+//
+// Are start and goal free?  Otherwise result->status says which is not.
+bool CheckEnds(const TrajectoryProblem& problem, PipelineResult* result);
+// Adds a step that gave `path`: its is_free and objective are the judge's word
+// and the energy of that, and its iterations count in the result's.
+void AddStage(const TrajectoryProblem& problem, const Path& path,
+              StageRecord stage, PipelineResult* result);
+
 // The default way to a trajectory:
 //
 //   start → Ipopt → exact judge → corridor where that is needed → exact judge

@@ -25,7 +25,7 @@ class Run {
         planner_seconds_(planner_seconds) {}
 
   PipelineResult Solve() {
-    if (EndsAreFree()) {
+    if (CheckEnds(problem_, &result_)) {
       for (int route = 0; route < options_.routes; ++route) {
         const Path start = FindStart(route);
         if (!start.empty()) Improve(start, route);
@@ -43,22 +43,8 @@ class Run {
     return std::max(1e-3, options_.time_limit - stopwatch_.Seconds());
   }
 
-  bool EndsAreFree() {
-    if (!problem_.free_space->IsFree(problem_.start)) {
-      result_.status = TrajectoryStatus::kStartInCollision;
-    } else if (!problem_.free_space->IsFree(problem_.goal)) {
-      result_.status = TrajectoryStatus::kGoalInCollision;
-    } else {
-      return true;
-    }
-    return false;
-  }
-
   void Note(StageRecord record, const Path& path) {
-    record.is_free = CheckPath(*problem_.free_space, path).free;
-    record.objective = PathEnergy(problem_, path);
-    result_.iterations += record.iterations;
-    result_.stages.push_back(std::move(record));
+    AddStage(problem_, path, std::move(record), &result_);
   }
 
   void Fail(const std::string& reason) {
@@ -129,12 +115,8 @@ class Run {
       Note({"corridor", route, ToString(summary.status), false, 0.0,
             summary.iterations, summary.seconds},
            summary.path);
-      const bool has_gained = std::any_of(
-          summary.rounds.begin(), summary.rounds.end(),
-          [](const CorridorRound& round) { return round.is_accepted; });
       reason = std::string("the corridor ") + ToString(summary.status);
-      if (summary.status == CorridorStatus::kConverged ||
-          (summary.status == CorridorStatus::kSmallestTrust && has_gained)) {
+      if (summary.HasConverged()) {
         status = TrajectoryStatus::kPolished;
         reason.clear();
       }
