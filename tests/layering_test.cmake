@@ -93,31 +93,25 @@ foreach(file IN LISTS files)
   endif()
 endforeach()
 
-# One file knows Assimp, and what it reads it reads in another process.
-file(GLOB_RECURSE files ${SOURCE}/problems/* ${SOURCE}/tests/*.cc
-     ${SOURCE}/results/*.cc)
-foreach(file IN LISTS files)
-  if(NOT file MATCHES "\\.(h|cc)$" OR file MATCHES "/assimp_mesh\\.cc$")
-    continue()
-  endif()
-  file(STRINGS ${file} includes REGEX "^ *# *include <assimp/")
-  if(includes)
-    list(APPEND failures "${file}: ${includes}")
-  endif()
-endforeach()
+# Sources below `folders` other than those that match `knowers` must not include
+# headers that match `pattern`.
+function(known_to knowers pattern folders)
+  list(TRANSFORM folders REPLACE "(.+)" "${SOURCE}/\\1/*.h;${SOURCE}/\\1/*.cc")
+  file(GLOB_RECURSE files ${folders})
+  list(FILTER files EXCLUDE REGEX ${knowers})
+  foreach(file IN LISTS files)
+    file(STRINGS ${file} includes REGEX "^ *# *include <${pattern}")
+    if(includes)
+      list(APPEND failures "${file}: ${includes}")
+    endif()
+  endforeach()
+  set(failures ${failures} PARENT_SCOPE)
+endfunction()
 
-# Two files know Ipopt.
-file(GLOB_RECURSE files ${SOURCE}/constraints/* ${SOURCE}/planners/*
-     ${SOURCE}/problems/* ${SOURCE}/tests/*.cc ${SOURCE}/results/*.cc)
-foreach(file IN LISTS files)
-  if(NOT file MATCHES "\\.(h|cc)$" OR file MATCHES "ipopt_(solve|options)\\.cc$")
-    continue()
-  endif()
-  file(STRINGS ${file} includes REGEX "^ *# *include <Ip[A-Z]")
-  if(includes)
-    list(APPEND failures "${file}: ${includes}")
-  endif()
-endforeach()
+# What Assimp reads it reads in another process.
+known_to("/assimp_mesh[.]cc$" "assimp/" "problems;tests;results")
+known_to("ipopt_(solve|options)[.]cc$" "Ip[A-Z]"
+         "constraints;planners;problems;tests;results")
 # OMPL belongs to planners/ompl; programs that measure may use it too.
 foreach(folder constraints planners/exact planners/retraction
         planners/trajectory problems)
