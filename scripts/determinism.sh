@@ -3,8 +3,7 @@
 # determinism.sh RUNS PROGRAM...: runs phongpd RUNS times with one thread and
 # with two, for each of the programs (by gcc, by clang), and compares every
 # output byte for byte; rows of results without seconds and compiler.  Prints
-# a table; fails if runs or threads of one program differ.  Where programs
-# differ from the first, the table says so.
+# a table; fails if runs, threads or programs differ.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
@@ -76,7 +75,8 @@ for file in "$work"/1/*.{off,csv,jsonl}; do
   for ((p = 0; p < ${#programs[@]}; ++p)); do
     first=$((p * per_program + 1))
     state="the same bytes"
-    cmp -s "$file" "$work/$first/$name" || state="other than the first's"
+    cmp -s "$file" "$work/$first/$name" ||
+      { state="other than the first's"; differ=1; }
     for ((k = first; k < first + per_program; ++k)); do
       if ! cmp -s "$work/$first/$name" "$work/$k/$name"; then
         state="run or threads change it"

@@ -7,6 +7,7 @@
 #include <map>
 #include <utility>
 
+#include "problems/shapes/random_vector.h"
 #include "problems/shapes/shapes.h"
 
 namespace phongpd {
@@ -182,8 +183,8 @@ Vector3d RandomPoint(const BoundingBox& box, std::mt19937_64* random) {
 
 Eigen::Matrix3d RandomRotation(std::mt19937_64* random) {
   std::normal_distribution<double> normal;
-  Eigen::Quaterniond q(normal(*random), normal(*random), normal(*random),
-                       normal(*random));
+  const Vector3d v = RandomVector(&normal, random);
+  const Eigen::Quaterniond q(normal(*random), v.x(), v.y(), v.z());
   return q.normalized().toRotationMatrix();
 }
 

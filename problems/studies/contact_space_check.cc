@@ -15,6 +15,7 @@
 #include "core/contact/contact_space.h"
 #include "core/solid/self_intersection.h"
 #include "problems/shapes/random_solids.h"
+#include "problems/shapes/random_vector.h"
 #include "problems/studies/self_overlap.h"
 
 namespace phongpd {
@@ -237,7 +238,7 @@ class Checker {
     const double far = 100 * ComputeBounds(space_->mesh()).Diagonal();
     std::uniform_real_distribution<double> unit(-1.0, 1.0);
     const auto offset = [&]() -> Vector3d {
-      return far * Vector3d(unit(random_), unit(random_), unit(random_));
+      return far * RandomVector(&unit, &random_);
     };
     const Vector3d robot = offset(), obstacle = offset();
     Compare(Build(Translated(a, robot), Translated(b, obstacle), "moved: "),

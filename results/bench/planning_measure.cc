@@ -12,6 +12,7 @@
 #include "problems/output/text.h"
 #include "problems/scenes/scene_source.h"
 #include "problems/shapes/random_solids.h"
+#include "problems/shapes/random_vector.h"
 #include "problems/studies/planning_study.h"
 #include "results/bench/report.h"
 
@@ -210,8 +211,7 @@ MotionRow MeasureMotions(const std::string& scene, std::uint64_t seed) {
     const SurfacePoint point = RandomSurfacePoint(mesh, &random);
     const auto near = [&] {
       return Vector3d(point.position +
-                      world.diagonal() *
-                          Vector3d(size(random), size(random), size(random)));
+                      world.diagonal() * RandomVector(&size, &random));
     };
     const Vector3d a = near(), b = near();
     if (!free_space.IsFree(a)) continue;

@@ -4,6 +4,7 @@
 #include <random>
 #include <utility>
 
+#include "problems/shapes/random_vector.h"
 #include "problems/shapes/shapes.h"
 #include "problems/studies/paper_benchmarks.h"
 
@@ -19,7 +20,7 @@ constexpr std::size_t kFrames = 100;
 Vector3d AnyDirection(std::mt19937_64* random) {
   std::uniform_real_distribution<double> unit(-1.0, 1.0);
   for (;;) {
-    const Vector3d d(unit(*random), unit(*random), unit(*random));
+    const Vector3d d = RandomVector(&unit, random);
     if (d.norm() > 0.1 && d.norm() < 1.0) return d.normalized();
   }
 }
@@ -31,7 +32,7 @@ std::vector<Vector3d> InteriorPoints(const ContactSpace& contact,
   const BoundingBox& box = contact.bounds();
   std::vector<Vector3d> points;
   while (points.size() < kPoints) {
-    const Vector3d u(unit(random), unit(random), unit(random));
+    const Vector3d u = RandomVector(&unit, &random);
     const Vector3d q = box.min + u.cwiseProduct(box.max - box.min);
     if (contact.bvh().Locate(q) == Location::kInside) points.push_back(q);
   }

@@ -13,6 +13,7 @@
 #include "core/contact/contact_space.h"
 #include "core/projection/euclidean_metric.h"
 #include "core/projection/phong_metric.h"
+#include "problems/shapes/random_vector.h"
 #include "problems/shapes/shapes.h"
 
 namespace {
@@ -42,9 +43,7 @@ std::vector<Vector3d> Frames(const ContactSpace& contact) {
   std::uniform_real_distribution<double> unit(-1.0, 1.0);
   const Vector3d center = contact.bounds().Center();
   const Vector3d half = 0.5 * (contact.bounds().max - contact.bounds().min);
-  const auto any = [&] {
-    return Vector3d(unit(random), unit(random), unit(random));
-  };
+  const auto any = [&] { return phongpd::RandomVector(&unit, &random); };
   std::vector<Vector3d> frames;
   while (frames.size() < 1000) {
     const Vector3d from = center + half.cwiseProduct(any());

@@ -15,6 +15,7 @@
 #include "core/projection/penetration_tracker.h"
 #include "core/projection/phong_metric.h"
 #include "problems/shapes/random_solids.h"
+#include "problems/shapes/random_vector.h"
 #include "problems/shapes/shapes.h"
 #include "problems/studies/paper_benchmarks.h"
 #include "results/bench/program.h"
@@ -74,9 +75,7 @@ std::vector<Motion> Motions(const ContactSpace& contact,
   std::uniform_real_distribution<double> unit(-1.0, 1.0);
   const Vector3d center = contact.bounds().Center();
   const Vector3d half = 0.5 * (contact.bounds().max - contact.bounds().min);
-  const auto any = [&] {
-    return Vector3d(unit(random), unit(random), unit(random));
-  };
+  const auto any = [&] { return RandomVector(&unit, &random); };
   const auto interior = [&] {
     for (;;) {
       const Vector3d q = center + half.cwiseProduct(any());

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "problems/shapes/random_solids.h"
+#include "problems/shapes/random_vector.h"
 #include "problems/shapes/shapes.h"
 
 namespace phongpd::testing {
@@ -64,9 +65,7 @@ Motion MakeMotion(const ContactSpace& contact, int kind, int frames,
                  to = InnerPoint(contact, random);
   const double diagonal = contact.length();
   std::normal_distribution<double> normal;
-  const auto any = [&] {
-    return Vector3d(normal(*random), normal(*random), normal(*random));
-  };
+  const auto any = [&] { return RandomVector(&normal, random); };
   const Vector3d bend =
       kind == 1 ? Vector3d(0.1 * diagonal * any()) : Vector3d::Zero();
   Motion motion;
