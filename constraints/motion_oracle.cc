@@ -23,7 +23,7 @@ constexpr int kLeafSize = 2;
 // Of the largest coordinate: more than sums and products of three round.
 constexpr double kSlack = 1e-14;
 
-struct Solid {
+struct TestedSolid {
   BoxTree tree;
   std::vector<Corners> corners;  // in the tree's order
   std::vector<int> triangles;    // of the mesh, in the tree's order
@@ -31,12 +31,10 @@ struct Solid {
   double largest = 0.0;          // absolute coordinate
 };
 
-Solid MakeSolidOf(const TriangleMesh& mesh, const std::string& name) {
-  if (mesh.triangles.empty()) {
-    throw InputError("motion oracle: the " + name +
-                     " needs at least one triangle, found none");
-  }
-  Solid solid;
+TestedSolid MakeTested(const Solid& given, const std::string& what) {
+  RequireNotEmpty(given, what);
+  const TriangleMesh& mesh = given.mesh();
+  TestedSolid solid;
   std::vector<Corners> corners;
   std::vector<BoundingBox> boxes;
   std::vector<int> triangles;
@@ -47,10 +45,6 @@ Solid MakeSolidOf(const TriangleMesh& mesh, const std::string& name) {
     Corners t;
     for (std::size_t k = 0; k < 3; ++k) {
       t[k] = mesh.vertices[static_cast<std::size_t>(mesh.triangles[i][k])];
-      if (!IsFinite(t[k])) {
-        throw InputError("motion oracle: the " + name +
-                         " needs finite vertices, found NaN or Inf");
-      }
       solid.largest = std::max(solid.largest, t[k].cwiseAbs().maxCoeff());
     }
     const auto component = static_cast<std::size_t>(label[i]);
@@ -73,8 +67,8 @@ Solid MakeSolidOf(const TriangleMesh& mesh, const std::string& name) {
 
 // The winding number of a solid around x = v + s·q, which is not on its
 // surface.
-int WindingNumber(const Solid& solid, const Vector3d& v, const Vector3d& q,
-                  int s) {
+int WindingNumber(const TestedSolid& solid, const Vector3d& v,
+                  const Vector3d& q, int s) {
   const Vector3d x = v + static_cast<double>(s) * q;
   const double slack = kSlack * (solid.largest + v.cwiseAbs().maxCoeff() +
                                  q.cwiseAbs().maxCoeff());
@@ -170,14 +164,13 @@ struct MotionOracle::Impl {
     return false;
   }
 
-  Solid robot, obstacle;
+  TestedSolid robot, obstacle;
 };
 
-MotionOracle::MotionOracle(const TriangleMesh& robot,
-                           const TriangleMesh& obstacle)
+MotionOracle::MotionOracle(const Solid& robot, const Solid& obstacle)
     : impl_(std::make_unique<Impl>()) {
-  impl_->robot = MakeSolidOf(robot, "robot");
-  impl_->obstacle = MakeSolidOf(obstacle, "obstacle");
+  impl_->robot = MakeTested(robot, "robot");
+  impl_->obstacle = MakeTested(obstacle, "obstacle");
 }
 
 MotionOracle::~MotionOracle() = default;

@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <memory>
 
-#include "core/mesh/triangle_mesh.h"
+#include "core/solid/solid.h"
 
 namespace phongpd {
 
@@ -29,9 +29,8 @@ struct MotionMeeting {
 // meet.  Costs about a microsecond a pair of triangles that come close.
 class MotionOracle {
  public:
-  // Both as MakeSolid returns them.  Throws InputError if one has no triangle
-  // or a vertex that is not finite.
-  MotionOracle(const TriangleMesh& robot, const TriangleMesh& obstacle);
+  // Throws InputError if one is empty.
+  MotionOracle(const Solid& robot, const Solid& obstacle);
   ~MotionOracle();
   MotionOracle(MotionOracle&&) noexcept;
   MotionOracle& operator=(MotionOracle&&) noexcept;

@@ -3,7 +3,7 @@
 #include <phongpd/constraints/motion_oracle.h>
 #include <phongpd/constraints/non_penetration.h>
 #include <phongpd/core/contact/contact_space.h>
-#include <phongpd/core/mesh/mesh_io.h>
+#include <phongpd/core/solid/solid.h>
 
 #include <Eigen/Dense>
 #include <iostream>
@@ -13,8 +13,7 @@ using Eigen::MatrixXd, Eigen::Vector3d, Eigen::VectorXd;
 
 int main(int argc, char** argv) {
   if (argc != 3) return 2;
-  const TriangleMesh robot = ReadMesh(argv[1]);
-  const TriangleMesh obstacle = ReadMesh(argv[2]);
+  const Solid robot = ReadSolid(argv[1]), obstacle = ReadSolid(argv[2]);
   const ContactSpace space = BuildContactSpace(robot, obstacle);
   const auto metric = std::make_shared<SignedMetric>(space);
 

@@ -5,7 +5,7 @@
 #include <ompl/base/ScopedState.h>
 #include <ompl/geometric/SimpleSetup.h>
 #include <phongpd/core/contact/contact_space.h>
-#include <phongpd/core/mesh/mesh_io.h>
+#include <phongpd/core/solid/solid.h>
 #include <phongpd/planners/exact/workspace.h>
 #include <phongpd/planners/ompl/contact_space_validity.h>
 #include <phongpd/planners/ompl/contact_surface_ompl_planner.h>
@@ -48,8 +48,8 @@ void Solve(const char* name, const phongpd::Workspace& workspace,
 int main(int argc, char** argv) {
   if (argc != 3) return 2;
   ompl::msg::setLogLevel(ompl::msg::LOG_WARN);
-  phongpd::Workspace workspace{phongpd::ReadMesh(argv[1]),
-                               {{"u", phongpd::ReadMesh(argv[2])}},
+  phongpd::Workspace workspace{phongpd::ReadSolid(argv[1]),
+                               {phongpd::ReadSolid(argv[2])},
                                {{-1.0, -1.0, -0.6}, {3.0, 3.0, 0.6}}};
   const Vector3d left(-0.8, 1.0, 0.0), gap(1.5, 1.0, 0.0);
   Solve("around the U", workspace, left, gap);

@@ -3,7 +3,7 @@
 // once; an answer is a path that is free by exact tests, or a proof that there
 // is none.
 #include <phongpd/core/contact/contact_space.h>
-#include <phongpd/core/mesh/mesh_io.h>
+#include <phongpd/core/solid/solid.h>
 #include <phongpd/planners/exact/contact_roadmap.h>
 #include <phongpd/planners/exact/workspace.h>
 
@@ -16,8 +16,8 @@ using Eigen::Vector3d;
 
 int main(int argc, char** argv) {
   if (argc != 3) return 2;
-  const phongpd::Workspace workspace{phongpd::ReadMesh(argv[1]),
-                                     {{"u", phongpd::ReadMesh(argv[2])}},
+  const phongpd::Workspace workspace{phongpd::ReadSolid(argv[1]),
+                                     {phongpd::ReadSolid(argv[2])},
                                      {{-1.0, -1.0, -0.6}, {3.0, 3.0, 0.6}}};
   const phongpd::ContactSpace space = phongpd::BuildContactSpace(
       workspace.robot, phongpd::MergedObstacle(workspace));

@@ -12,7 +12,7 @@
 #include "core/bounds/edge_collapse.h"
 #include "core/bounds/solid_distance.h"
 #include "core/bvh/triangle_bvh.h"
-#include "core/solid/mesh_check.h"
+#include "core/solid/solid.h"
 
 namespace phongpd {
 namespace {

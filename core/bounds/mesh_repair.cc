@@ -16,6 +16,7 @@
 #include "core/solid/face_pairing.h"
 #include "core/solid/mesh_defects.h"
 #include "core/solid/self_intersection.h"
+#include "core/solid/solid.h"
 
 namespace phongpd {
 namespace {
@@ -200,9 +201,9 @@ TriangleMesh RepairSafely(const TriangleMesh& mesh, RepairReport* report) {
   return out;
 }
 
-TriangleMesh RepairSolid(const TriangleMesh& mesh, const std::string& name,
-                         Repair repair, double wrap_alpha,
-                         MeshReport* mesh_report, RepairReport* repair_report) {
+Solid RepairSolid(const TriangleMesh& mesh, const std::string& name,
+                  Repair repair, double wrap_alpha, MeshReport* mesh_report,
+                  RepairReport* repair_report) {
   MeshReport unused_mesh_report;
   RepairReport unused_repair_report;
   if (mesh_report == nullptr) mesh_report = &unused_mesh_report;
@@ -233,7 +234,7 @@ TriangleMesh RepairSolid(const TriangleMesh& mesh, const std::string& name,
   repair_report->wrap_alpha = wrap_alpha;
   repair_report->wrap_bound = wrap.bound;
   repair_report->actions.push_back("wrapped because it is no solid: " + reason);
-  TriangleMesh solid = MakeSolid(wrap.mesh, name, mesh_report);
+  Solid solid = MakeSolid(wrap.mesh, name, mesh_report);
   SayGenus(mended, solid, repair_report);
   return solid;
 }

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/mesh/triangle_mesh.h"
-#include "core/solid/mesh_check.h"
+#include "core/solid/solid.h"
 
 namespace phongpd {
 
@@ -50,9 +50,9 @@ TriangleMesh RepairSafely(const TriangleMesh& mesh, RepairReport* report);
 // MakeSolid after a repair of the given kind; kReject is MakeSolid.  Throws
 // InputError as MakeSolid does; kWrap still refuses a mesh without any area,
 // with bad indices or without numbers.  Reports may be null.
-TriangleMesh RepairSolid(const TriangleMesh& mesh, const std::string& name,
-                         Repair repair, double wrap_alpha = kRepairAlpha,
-                         MeshReport* mesh_report = nullptr,
-                         RepairReport* repair_report = nullptr);
+Solid RepairSolid(const TriangleMesh& mesh, const std::string& name,
+                  Repair repair, double wrap_alpha = kRepairAlpha,
+                  MeshReport* mesh_report = nullptr,
+                  RepairReport* repair_report = nullptr);
 
 }  // namespace phongpd

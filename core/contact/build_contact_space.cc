@@ -21,6 +21,7 @@
 #include "core/minkowski/solid_collision.h"
 #include "core/minkowski/surface_assembly.h"
 #include "core/minkowski/zero_edges.h"
+#include "core/solid/solid.h"
 #include "core/stopwatch.h"
 
 namespace phongpd {
@@ -94,26 +95,25 @@ void RemoveZeroEdges(ContactSpace::Parts* space) {
   space->kind.resize(kept.size());
 }
 
-}  // namespace
+using internal::OperandRole;
 
-ContactSpace BuildContactSpace(const TriangleMesh& robot,
-                               const TriangleMesh& obstacle,
-                               const ContactSpaceOptions& options) {
+// Operands are Solids or meshes.
+template <typename Operand>
+ContactSpace Build(const Operand& robot, const Operand& obstacle,
+                   const ContactSpaceOptions& options) {
   ContactSpace::Parts out;
   ContactSpaceReport& report = out.report;
   StageClock clock(&report);
   internal::BuildLimits limits(options);
   limits.ObserveCancellation();
 
-  using internal::OperandRole;
-  const TriangleMesh a =
+  const Solid a =
       internal::PrepareOperand(robot, OperandRole::kRobot, options, &report);
-  const TriangleMesh b = internal::PrepareOperand(
-      obstacle, OperandRole::kObstacle, options, &report);
+  const Solid b = internal::PrepareOperand(obstacle, OperandRole::kObstacle,
+                                           options, &report);
   clock.Finish("check");
 
-  const internal::GridPair pair =
-      internal::PlaceOperands(a, b, options, &report);
+  const internal::GridPair pair = internal::PlaceOperands(a, b, &report);
   const internal::GridFrame& frame = pair.frame;
   const internal::GridSolid& p = pair.obstacle;
   const internal::GridSolid& q = pair.reflected_robot;
@@ -151,7 +151,7 @@ ContactSpace BuildContactSpace(const TriangleMesh& robot,
                                      judge, limits);
     } catch (const internal::LeakError&) {
       if (is_rounded) {
-        internal::RefuseLostFacets(p, b, q, a, frame.step, options);
+        internal::RefuseLostFacets(p, b, q, a, frame.step);
       }
       throw;
     }
@@ -180,6 +180,19 @@ ContactSpace BuildContactSpace(const TriangleMesh& robot,
   report.peak_mib = PeakMib();
   clock.Finish("report");
   return ContactSpace(std::move(out));
+}
+
+}  // namespace
+
+ContactSpace BuildContactSpace(const Solid& robot, const Solid& obstacle,
+                               const ContactSpaceOptions& options) {
+  return Build(robot, obstacle, internal::WithNames(options, robot, obstacle));
+}
+
+ContactSpace BuildContactSpace(const TriangleMesh& robot,
+                               const TriangleMesh& obstacle,
+                               const ContactSpaceOptions& options) {
+  return Build(robot, obstacle, options);
 }
 
 }  // namespace phongpd

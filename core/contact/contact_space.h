@@ -11,6 +11,7 @@
 #include "core/minkowski/contact_kind.h"
 #include "core/minkowski/contact_space_options.h"
 #include "core/minkowski/contact_space_report.h"
+#include "core/solid/solid.h"
 
 namespace phongpd {
 
@@ -95,11 +96,16 @@ class ContactSpace {
 // (design and references: core/README.md).  Operands may have any genus and
 // several, even overlapping, components.
 //
-// Both operands go through RepairSolid first: inside-out components are turned
-// and said in the report, anything unusable throws InputError; with the
-// default options nothing else is changed.  Throws
-// std::logic_error if the arrangement leaks (the unbounded cell turns out
-// occupied), which no valid input should cause.
+// Throws InputError, naming the operand, where no solid is left of it on the
+// grid, and BuildRefusal at the limits.  Throws std::logic_error if the
+// arrangement leaks (the unbounded cell turns out occupied), which no valid
+// input should cause.
+ContactSpace BuildContactSpace(const Solid& robot, const Solid& obstacle,
+                               const ContactSpaceOptions& options = {});
+
+// The same of meshes, which go through RepairSolid first, by the options'
+// names: inside-out components are turned and said in the report, anything
+// unusable throws InputError; with the default options nothing else is changed.
 ContactSpace BuildContactSpace(const TriangleMesh& robot,
                                const TriangleMesh& obstacle,
                                const ContactSpaceOptions& options = {});

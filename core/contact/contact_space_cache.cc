@@ -20,6 +20,7 @@
 #include "core/contact/content_hash.h"
 #include "core/files/descriptor.h"
 #include "core/files/temporary_file.h"
+#include "core/minkowski/operand.h"
 
 namespace phongpd {
 namespace {
@@ -224,10 +225,13 @@ std::string DefaultCacheDirectory() {
   return "";
 }
 
-ContactSpace BuildContactSpaceCached(const TriangleMesh& robot,
-                                     const TriangleMesh& obstacle,
-                                     const ContactSpaceOptions& options,
-                                     const ContactSpaceCache& cache) {
+namespace {
+
+// Operands are Solids or meshes.
+template <typename Operand>
+ContactSpace BuildCached(const Operand& robot, const Operand& obstacle,
+                         const ContactSpaceOptions& options,
+                         const ContactSpaceCache& cache) {
   if (cache.directory.empty()) {
     return BuildContactSpace(robot, obstacle, options);
   }
@@ -243,6 +247,23 @@ ContactSpace BuildContactSpaceCached(const TriangleMesh& robot,
   ContactSpace::Parts parts = built.parts();
   parts.report.warnings.push_back(file.warning());
   return ContactSpace(std::move(parts));
+}
+
+}  // namespace
+
+ContactSpace BuildContactSpaceCached(const Solid& robot, const Solid& obstacle,
+                                     const ContactSpaceOptions& options,
+                                     const ContactSpaceCache& cache) {
+  // The names are in the report, and so in the key.
+  return BuildCached(robot, obstacle,
+                     internal::WithNames(options, robot, obstacle), cache);
+}
+
+ContactSpace BuildContactSpaceCached(const TriangleMesh& robot,
+                                     const TriangleMesh& obstacle,
+                                     const ContactSpaceOptions& options,
+                                     const ContactSpaceCache& cache) {
+  return BuildCached(robot, obstacle, options, cache);
 }
 
 }  // namespace phongpd

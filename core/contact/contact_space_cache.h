@@ -33,6 +33,9 @@ std::string DefaultCacheDirectory();
 // where a file should be, are not read, and named in report.warnings.
 //
 // Throws what BuildContactSpace throws; failures are not kept.
+ContactSpace BuildContactSpaceCached(const Solid& robot, const Solid& obstacle,
+                                     const ContactSpaceOptions& options,
+                                     const ContactSpaceCache& cache);
 ContactSpace BuildContactSpaceCached(const TriangleMesh& robot,
                                      const TriangleMesh& obstacle,
                                      const ContactSpaceOptions& options,

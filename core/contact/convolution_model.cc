@@ -10,6 +10,7 @@
 #include "core/minkowski/convolution_space.h"
 #include "core/minkowski/grid_pair.h"
 #include "core/minkowski/operand.h"
+#include "core/solid/solid.h"
 #include "core/stopwatch.h"
 
 namespace phongpd {
@@ -17,51 +18,68 @@ namespace phongpd {
 using Eigen::Vector3d;
 
 struct ConvolutionModel::Data {
-  Data(const TriangleMesh& robot, const TriangleMesh& obstacle,
-       const ContactSpaceOptions& options, ContactSpaceReport* operands)
-      : Data(robot, obstacle, options, internal::BuildLimits(options),
-             operands) {}
-
-  Data(const TriangleMesh& robot, const TriangleMesh& obstacle,
-       const ContactSpaceOptions& options, const internal::BuildLimits& limits,
-       ContactSpaceReport* operands)
-      : pair(MakePair(robot, obstacle, options, operands)),
-        space(pair, &limits),
-        bounds(ComputeBounds(space.Mesh())) {}
-
-  static internal::GridPair MakePair(const TriangleMesh& robot,
-                                     const TriangleMesh& obstacle,
+  // Operands are Solids or meshes.
+  template <typename Operand>
+  static internal::GridPair MakePair(const Operand& robot,
+                                     const Operand& obstacle,
                                      const ContactSpaceOptions& options,
                                      ContactSpaceReport* operands) {
     using internal::OperandRole;
-    const TriangleMesh a =
+    const Solid a =
         internal::PrepareOperand(robot, OperandRole::kRobot, options, operands);
-    const TriangleMesh b = internal::PrepareOperand(
-        obstacle, OperandRole::kObstacle, options, operands);
-    return internal::PlaceOperands(a, b, options, operands);
+    const Solid b = internal::PrepareOperand(obstacle, OperandRole::kObstacle,
+                                             options, operands);
+    return internal::PlaceOperands(a, b, operands);
   }
 
+  template <typename Operand>
+  Data(const Operand& robot, const Operand& obstacle,
+       const ContactSpaceOptions& options)
+      : limits(options),
+        pair(MakePair(robot, obstacle, options, &operands)),
+        space(pair, &limits),
+        bounds(ComputeBounds(space.Mesh())) {
+    report.facets = space.facets();
+    report.grid_step = pair.frame.rounding;
+    report.approximation = operands.approximation;
+    report.warnings = operands.warnings;
+  }
+
+  internal::BuildLimits limits;
+  ContactSpaceReport operands;
   internal::GridPair pair;
   internal::ConvolutionSpace space;  // of the pair
   BoundingBox bounds;
   ConvolutionReport report;
 };
 
+namespace {
+
+void RequireNoShell(const ContactSpaceOptions& options) {
+  if (!options.outer_shell_only) return;
+  throw InputError(
+      "outer_shell_only: expected false for a convolution model, which knows "
+      "nothing of cavities, found true; build the contact space");
+}
+
+}  // namespace
+
+ConvolutionModel::ConvolutionModel(const Solid& robot, const Solid& obstacle,
+                                   const ContactSpaceOptions& options) {
+  RequireNoShell(options);
+  const Stopwatch stopwatch;
+  auto data = std::make_shared<Data>(
+      robot, obstacle, internal::WithNames(options, robot, obstacle));
+  data->report.seconds = stopwatch.Seconds();
+  data_ = std::move(data);
+}
+
 ConvolutionModel::ConvolutionModel(const TriangleMesh& robot,
                                    const TriangleMesh& obstacle,
                                    const ContactSpaceOptions& options) {
-  if (options.outer_shell_only) {
-    throw InputError(
-        "outer_shell_only: expected false for a convolution model, which knows "
-        "nothing of cavities, found true; build the contact space");
-  }
+  RequireNoShell(options);
   const Stopwatch stopwatch;
-  ContactSpaceReport operands;
-  auto data = std::make_shared<Data>(robot, obstacle, options, &operands);
-  data->report.facets = data->space.facets();
-  data->report.grid_step = data->pair.frame.rounding;
-  data->report.approximation = operands.approximation;
-  data->report.warnings = operands.warnings;
+  auto data = std::make_shared<Data>(robot, obstacle, options);
   data->report.seconds = stopwatch.Seconds();
   data_ = std::move(data);
 }

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "core/bounds/approximation.h"
-#include "core/mesh/triangle_mesh.h"
 #include "core/minkowski/contact_space_options.h"
+#include "core/solid/solid.h"
 
 namespace phongpd {
 
@@ -47,6 +47,8 @@ class ConvolutionModel {
   // same options; the limits hold for this build.  Throws InputError as that
   // does, also for outer_shell_only, as nothing is known of cavities, and
   // BuildRefusal when a limit is passed.
+  ConvolutionModel(const Solid& robot, const Solid& obstacle,
+                   const ContactSpaceOptions& options = {});
   ConvolutionModel(const TriangleMesh& robot, const TriangleMesh& obstacle,
                    const ContactSpaceOptions& options = {});
 

@@ -11,7 +11,7 @@
 
 #include "core/mesh/mesh_error.h"
 #include "core/minkowski/depth_search.h"
-#include "core/solid/mesh_check.h"
+#include "core/solid/solid.h"
 #include "core/stopwatch.h"
 
 namespace phongpd {
@@ -33,21 +33,22 @@ std::string Described(double value) {
 }
 
 // Nine tenths of the free memory, and messages with the operands' names.
-ContactSpaceOptions LimitsOf(const DepthOptions& options) {
+ContactSpaceOptions LimitsOf(const std::string& robot,
+                             const std::string& obstacle) {
   ContactSpaceOptions limits;
-  limits.robot_name = options.robot_name;
-  limits.obstacle_name = options.obstacle_name;
+  limits.robot_name = robot;
+  limits.obstacle_name = obstacle;
   return limits;
 }
 
 // The solids and their search at one orientation of the robot.
 struct PlacedPair {
-  PlacedPair(TriangleMesh the_robot, const TriangleMesh& obstacle,
-             const DepthOptions& options)
+  PlacedPair(TriangleMesh the_robot, const std::string& robot_name,
+             const Solid& obstacle)
       : robot(std::move(the_robot)),
-        pair(internal::MakeGridPair(robot, options.robot_name, obstacle,
-                                    options.obstacle_name)),
-        search(pair, LimitsOf(options)) {}
+        pair(internal::MakeGridPair(robot, robot_name, obstacle,
+                                    obstacle.name())),
+        search(pair, LimitsOf(robot_name, obstacle.name())) {}
 
   TriangleMesh robot;  // turned
   internal::GridPair pair;
@@ -82,6 +83,11 @@ std::vector<int> InputVertices(const TriangleMesh& mesh,
   return out;
 }
 
+const Solid& Present(const Solid& solid, const std::string& what) {
+  RequireNotEmpty(solid, what);
+  return solid;
+}
+
 }  // namespace
 
 const char* ToString(DepthStatus status) {
@@ -114,14 +120,21 @@ const char* ToString(ContactFeature::Kind kind) {
 }
 
 struct DepthQuery::Impl {
-  Impl(const TriangleMesh& the_robot, const TriangleMesh& the_obstacle,
-       DepthOptions the_options)
-      : options(std::move(the_options)),
-        robot(Prepared(the_robot, options.robot_name, &warnings)),
-        obstacle(Prepared(the_obstacle, options.obstacle_name, &warnings)),
-        robot_ids(InputVertices(the_robot, robot)),
-        obstacle_ids(InputVertices(the_obstacle, obstacle)),
-        unturned(robot, obstacle, options) {
+  // The solids, and the meshes whose vertices features are told in.
+  Impl(Solid the_robot, Solid the_obstacle, const TriangleMesh& given_robot,
+       const TriangleMesh& given_obstacle, const DepthOptions& the_options)
+      : options(the_options),
+        robot(std::move(the_robot)),
+        obstacle(std::move(the_obstacle)),
+        robot_ids(InputVertices(given_robot, robot)),
+        obstacle_ids(InputVertices(given_obstacle, obstacle)),
+        unturned(robot, robot.name(), obstacle) {
+    for (const Solid* solid : {&robot, &obstacle}) {
+      for (const std::string& line :
+           NamedWarnings(solid->report(), solid->name())) {
+        warnings.push_back(line);
+      }
+    }
     if (!(options.max_radius > 0.0)) {
       throw InputError("max_radius: expected a length > 0, found " +
                        Described(options.max_radius));
@@ -135,7 +148,7 @@ struct DepthQuery::Impl {
     if (!q.allFinite() ||
         !((q - frame.ToUser(Vector3d::Zero())).lpNorm<Eigen::Infinity>() <=
           kFarthest * size)) {
-      throw InputError(options.robot_name +
+      throw InputError(robot.name() +
                        ": expected a finite position within 1e15 times the "
                        "operands' size, found " +
                        Described(q[0]) + "," + Described(q[1]) + "," +
@@ -187,7 +200,7 @@ struct DepthQuery::Impl {
                    const Vector3d& q, DepthResult* result) const {
     if (found.of_robot.count == 0) return;
     result->on_robot = PointOf(found.of_robot, placed.robot.vertices) + q;
-    result->on_obstacle = PointOf(found.of_obstacle, obstacle.vertices);
+    result->on_obstacle = PointOf(found.of_obstacle, obstacle.mesh().vertices);
     result->robot_feature = FeatureOf(found.of_robot, robot_ids);
     result->obstacle_feature = FeatureOf(found.of_obstacle, obstacle_ids);
   }
@@ -205,27 +218,23 @@ struct DepthQuery::Impl {
   // Grid steps: a way this short is rounding, and has no direction.
   static constexpr double kShortWay = 0x1p-4;
 
-  static TriangleMesh Prepared(const TriangleMesh& mesh,
-                               const std::string& name,
-                               std::vector<std::string>* warnings) {
-    MeshReport report;
-    TriangleMesh solid = MakeSolid(mesh, name, &report);
-    for (const std::string& line : NamedWarnings(report, name)) {
-      warnings->push_back(line);
-    }
-    return solid;
-  }
-
   DepthOptions options;
   std::vector<std::string> warnings;
-  TriangleMesh robot, obstacle;
+  Solid robot, obstacle;
   std::vector<int> robot_ids, obstacle_ids;
   PlacedPair unturned;
 };
 
+DepthQuery::DepthQuery(const Solid& robot, const Solid& obstacle,
+                       DepthOptions options)
+    : impl_(std::make_unique<Impl>(Present(robot, "robot"),
+                                   Present(obstacle, "obstacle"), robot,
+                                   obstacle, options)) {}
 DepthQuery::DepthQuery(const TriangleMesh& robot, const TriangleMesh& obstacle,
                        DepthOptions options)
-    : impl_(std::make_unique<Impl>(robot, obstacle, std::move(options))) {}
+    : impl_(std::make_unique<Impl>(MakeSolid(robot, options.robot_name),
+                                   MakeSolid(obstacle, options.obstacle_name),
+                                   robot, obstacle, options)) {}
 DepthQuery::~DepthQuery() = default;
 DepthQuery::DepthQuery(DepthQuery&&) noexcept = default;
 DepthQuery& DepthQuery::operator=(DepthQuery&&) noexcept = default;
@@ -239,13 +248,13 @@ DepthResult DepthQuery::At(const Vector3d& q) const {
 
 DepthResult DepthQuery::At(const RobotPose& pose) const {
   const Stopwatch stopwatch;
-  CheckPose(pose, impl_->options.robot_name);
+  CheckPose(pose, impl_->robot.name());
   // −1 and 1 are the same rotation: none.
   if (pose.orientation.vec().isZero(0.0)) return At(pose.position);
   const Eigen::Matrix3d rotation =
       pose.orientation.normalized().toRotationMatrix();
-  const PlacedPair turned(Rotated(impl_->robot, rotation), impl_->obstacle,
-                          impl_->options);
+  const PlacedPair turned(Rotated(impl_->robot, rotation), impl_->robot.name(),
+                          impl_->obstacle);
   DepthResult result = impl_->Answer(turned, pose.position);
   result.seconds = stopwatch.Seconds();
   return result;
@@ -253,6 +262,12 @@ DepthResult DepthQuery::At(const RobotPose& pose) const {
 
 const std::vector<std::string>& DepthQuery::warnings() const {
   return impl_->warnings;
+}
+
+DepthResult PenetrationDepth(const Solid& robot, const Solid& obstacle,
+                             const RobotPose& pose,
+                             const DepthOptions& options) {
+  return DepthQuery(robot, obstacle, options).At(pose);
 }
 
 DepthResult PenetrationDepth(const TriangleMesh& robot,

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "core/mesh/triangle_mesh.h"
+#include "core/solid/solid.h"
 
 namespace phongpd {
 
@@ -90,7 +90,7 @@ struct DepthOptions {
   double max_radius = std::numeric_limits<double>::infinity();
   // Start no window after this; 0: no limit.
   double max_seconds = 0.0;
-  // Names used in error messages.
+  // What messages call operands that are meshes; a Solid has its own name.
   std::string robot_name = "robot";
   std::string obstacle_name = "obstacle";
 };
@@ -104,7 +104,11 @@ struct DepthOptions {
 // given in share what is precomputed; any other makes a new operand of it.
 class DepthQuery {
  public:
-  // Solids as MakeSolid accepts them; throws InputError naming the operand.
+  // Throws InputError naming the operand where no solid is left of it on the
+  // grid; meshes become solids by MakeSolid, by the options' names, which
+  // throws where they are none.
+  DepthQuery(const Solid& robot, const Solid& obstacle,
+             DepthOptions options = {});
   DepthQuery(const TriangleMesh& robot, const TriangleMesh& obstacle,
              DepthOptions options = {});
   ~DepthQuery();
@@ -129,6 +133,9 @@ class DepthQuery {
 };
 
 // The same once.
+DepthResult PenetrationDepth(const Solid& robot, const Solid& obstacle,
+                             const RobotPose& pose = {},
+                             const DepthOptions& options = {});
 DepthResult PenetrationDepth(const TriangleMesh& robot,
                              const TriangleMesh& obstacle,
                              const RobotPose& pose = {},

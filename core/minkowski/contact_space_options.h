@@ -15,7 +15,7 @@ struct ContactSpaceOptions {
   // Drop bounded free cavities: a translating robot cannot get there from
   // outside.  Kept and reported by default.
   bool outer_shell_only = false;
-  // What happens to operands that are no solids.
+  // What happens to operands that are meshes and no solids.
   Repair repair = Repair::kReject;
   // Approximations, each with a proved bound in the report; all off, in the
   // order they are applied in (mesh_approximation.h).  Alpha wrap of both
@@ -32,7 +32,8 @@ struct ContactSpaceOptions {
   // infinity: no limit.
   double max_seconds = 0.0;
   double max_mib = 0.0;
-  // Names used in error messages, e.g. the files the operands came from.
+  // What messages call operands that are meshes, e.g. the files they came
+  // from; a Solid has its own name.
   std::string robot_name = "robot";
   std::string obstacle_name = "obstacle";
 };

@@ -9,6 +9,7 @@
 #include "core/bounds/mesh_approximation.h"
 #include "core/mesh/counted.h"
 #include "core/solid/mesh_defects.h"
+#include "core/solid/solid.h"
 
 namespace phongpd::internal {
 namespace {
@@ -45,30 +46,30 @@ std::string Sentence(const ApproximationStep& step) {
   return text;
 }
 
-void WarnIfFarAway(const TriangleMesh& solid, const std::string& name,
-                   ContactSpaceReport* report) {
+void WarnIfFarAway(const Solid& solid, ContactSpaceReport* report) {
   const BoundingBox box = ComputeBounds(solid);
   const double farthest =
       box.min.cwiseAbs().cwiseMax(box.max.cwiseAbs()).maxCoeff();
   if (!(farthest > kFarAway * box.Diagonal())) return;
   report->warnings.push_back(
-      name + ": coordinates reach " + Rounded(farthest / box.Diagonal()) +
+      solid.name() + ": coordinates reach " +
+      Rounded(farthest / box.Diagonal()) +
       " times its diagonal, where doubles are " +
       Rounded(std::ldexp(farthest, -52) / box.Diagonal()) +
       " of it apart; move it nearer to the origin");
 }
 
 // Replaces *solid and reports it.
-void Apply(const std::string& kind, ApproximateMesh approximate,
-           const std::string& name, TriangleMesh* solid,
-           ContactSpaceReport* report) {
+void Apply(const std::string& kind, const ApproximateMesh& approximate,
+           Solid* solid, ContactSpaceReport* report) {
+  const std::string& name = solid->name();
   ApproximationStep step;
   step.operand = name;
   step.kind = kind;
   step.bound = approximate.bound;
   step.lower_bound = approximate.lower_bound;
   step.is_conservative = approximate.is_conservative;
-  step.triangles_before = solid->triangles.size();
+  step.triangles_before = solid->mesh().triangles.size();
   step.triangles_after = approximate.mesh.triangles.size();
   AddStep(step, &report->approximation);
   report->warnings.push_back(Sentence(step));
@@ -80,15 +81,16 @@ void Apply(const std::string& kind, ApproximateMesh approximate,
   if (!approximate.note.empty()) {
     report->warnings.push_back(name + ": " + approximate.note);
   }
-  *solid = std::move(approximate.mesh);
+  *solid = MakeSolid(approximate.mesh, name);
 }
 
 // Says when rounding by up to `step` is coarse for this operand; nothing when
 // step is 0.
-void CheckResolution(const GridSolid& solid, const TriangleMesh& mesh,
-                     double step, const std::string& name,
+void CheckResolution(const GridSolid& solid, const Solid& given, double step,
                      ContactSpaceReport* report) {
   if (step == 0.0) return;  // nothing was rounded
+  const TriangleMesh& mesh = given.mesh();
+  const std::string& name = given.name();
   const double bits = std::log2(ComputeBounds(mesh).Diagonal() / step);
   const std::size_t facets = mesh.triangles.size() - solid.facets.size();
   std::vector<bool> used(solid.vertices.size(), false);
@@ -122,7 +124,32 @@ void CheckResolution(const GridSolid& solid, const TriangleMesh& mesh,
   }
 }
 
+void RequireWrapAlpha(const ContactSpaceOptions& options) {
+  if (options.wrap_alpha >= 0.0) return;  // no for NaN
+  throw InputError("wrap alpha: expected a fraction of the diagonal, found " +
+                   Rounded(options.wrap_alpha));
+}
+
+// By its hull and by fewer triangles, as asked for.
+void Replace(bool is_robot, const ContactSpaceOptions& options, Solid* solid,
+             ContactSpaceReport* report) {
+  if (is_robot && options.robot_hull) {
+    Apply("robot-hull", ConvexHull(*solid), solid, report);
+  }
+  if (options.target_faces > 0) {
+    Apply("decimation", Decimate(*solid, options.target_faces), solid, report);
+  }
+  WarnIfFarAway(*solid, report);
+}
+
 }  // namespace
+
+ContactSpaceOptions WithNames(ContactSpaceOptions options, const Solid& robot,
+                              const Solid& obstacle) {
+  options.robot_name = robot.name();
+  options.obstacle_name = obstacle.name();
+  return options;
+}
 
 void AddStep(const ApproximationStep& step, Approximation* approximation) {
   approximation->steps.push_back(step);
@@ -139,13 +166,26 @@ void AddStep(const ApproximationStep& step, Approximation* approximation) {
   approximation->kind = joined;
 }
 
-TriangleMesh PrepareOperand(const TriangleMesh& mesh, OperandRole role,
-                            const ContactSpaceOptions& options,
-                            ContactSpaceReport* report) {
-  if (!(options.wrap_alpha >= 0.0)) {
-    throw InputError("wrap alpha: expected a fraction of the diagonal, found " +
-                     Rounded(options.wrap_alpha));
+Solid PrepareOperand(const Solid& solid, OperandRole role,
+                     const ContactSpaceOptions& options,
+                     ContactSpaceReport* report) {
+  const bool is_robot = role == OperandRole::kRobot;
+  RequireNotEmpty(solid, is_robot ? "robot" : "obstacle");
+  (is_robot ? report->robot : report->obstacle) = solid.report();
+  RequireWrapAlpha(options);
+  Solid prepared = solid;
+  if (options.wrap_alpha > 0.0) {
+    Apply("alpha-wrap", WrapSolid(solid, options.wrap_alpha), &prepared,
+          report);
   }
+  Replace(is_robot, options, &prepared, report);
+  return prepared;
+}
+
+Solid PrepareOperand(const TriangleMesh& mesh, OperandRole role,
+                     const ContactSpaceOptions& options,
+                     ContactSpaceReport* report) {
+  RequireWrapAlpha(options);
   const bool is_robot = role == OperandRole::kRobot;
   const std::string& name =
       is_robot ? options.robot_name : options.obstacle_name;
@@ -154,57 +194,45 @@ TriangleMesh PrepareOperand(const TriangleMesh& mesh, OperandRole role,
       is_robot ? report->robot_repair : report->obstacle_repair;
   const double alpha =
       options.wrap_alpha > 0.0 ? options.wrap_alpha : kRepairAlpha;
-  TriangleMesh solid =
+  Solid solid =
       RepairSolid(mesh, name, options.repair, alpha, &found, &repaired);
-  for (const auto* lines : {&repaired.actions, &found.warnings}) {
-    for (const std::string& line : *lines) {
-      report->warnings.push_back(name + ": " + line);
-    }
+  for (const std::string& line : repaired.actions) {
+    report->warnings.push_back(name + ": " + line);
   }
-  if (repaired.is_wrapped) {
-    ApproximationStep step;
-    step.operand = name;
-    step.kind = "alpha-wrap";
-    step.bound = repaired.wrap_bound;
-    step.is_surface_bound = true;
-    step.triangles_before = mesh.triangles.size();
-    step.triangles_after = solid.triangles.size();
-    AddStep(step, &report->approximation);
-    report->warnings.push_back(Sentence(step));
-  } else if (options.wrap_alpha > 0.0) {
-    Apply("alpha-wrap", WrapSolid(solid, alpha), name, &solid, report);
+  for (const std::string& line : NamedWarnings(found, name)) {
+    report->warnings.push_back(line);
   }
-  if (is_robot && options.robot_hull) {
-    Apply("robot-hull", ConvexHull(solid), name, &solid, report);
+  if (!repaired.is_wrapped) {
+    return PrepareOperand(solid, role, options, report);
   }
-  if (options.target_faces > 0) {
-    Apply("decimation", Decimate(solid, options.target_faces), name, &solid,
-          report);
-  }
-  WarnIfFarAway(solid, name, report);
+  ApproximationStep step;
+  step.operand = name;
+  step.kind = "alpha-wrap";
+  step.bound = repaired.wrap_bound;
+  step.is_surface_bound = true;
+  step.triangles_before = mesh.triangles.size();
+  step.triangles_after = solid.mesh().triangles.size();
+  AddStep(step, &report->approximation);
+  report->warnings.push_back(Sentence(step));
+  Replace(is_robot, options, &solid, report);
   return solid;
 }
 
-GridPair PlaceOperands(const TriangleMesh& robot, const TriangleMesh& obstacle,
-                       const ContactSpaceOptions& options,
+GridPair PlaceOperands(const Solid& robot, const Solid& obstacle,
                        ContactSpaceReport* report) {
-  GridPair pair =
-      MakeGridPair(robot, options.robot_name, obstacle, options.obstacle_name);
+  GridPair pair = MakeGridPair(robot, robot.name(), obstacle, obstacle.name());
   const double resolution = std::min(pair.frame.rounding, pair.frame.step);
-  CheckResolution(pair.obstacle, obstacle, resolution, options.obstacle_name,
-                  report);
-  CheckResolution(pair.reflected_robot, robot, resolution, options.robot_name,
-                  report);
+  CheckResolution(pair.obstacle, obstacle, resolution, report);
+  CheckResolution(pair.reflected_robot, robot, resolution, report);
   return pair;
 }
 
-void RefuseLostFacets(const GridSolid& obstacle, const TriangleMesh& b,
-                      const GridSolid& robot, const TriangleMesh& a,
-                      double step, const ContactSpaceOptions& options) {
+void RefuseLostFacets(const GridSolid& obstacle, const Solid& b,
+                      const GridSolid& robot, const Solid& a, double step) {
   std::string names;
-  if (robot.facets.size() < a.triangles.size()) names = options.robot_name;
-  if (obstacle.facets.size() < b.triangles.size()) {
-    names += (names.empty() ? "" : " and ") + options.obstacle_name;
+  if (robot.facets.size() < a.mesh().triangles.size()) names = a.name();
+  if (obstacle.facets.size() < b.mesh().triangles.size()) {
+    names += (names.empty() ? "" : " and ") + b.name();
   }
   if (names.empty()) return;
   throw InputError(names + ": too fine for the grid of " + Rounded(step) +

@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <string>
-
-#include "core/mesh/triangle_mesh.h"
 #include "core/minkowski/contact_space_options.h"
 #include "core/minkowski/contact_space_report.h"
 #include "core/minkowski/grid_pair.h"
+#include "core/solid/solid.h"
 
 // What is done to the operands before the contact space is built, and said
 // about it.
@@ -14,13 +12,23 @@ namespace phongpd::internal {
 
 enum class OperandRole { kRobot, kObstacle };
 
-// The solid to build with: repaired, wrapped, replaced by its hull (robot
-// only) and decimated as the options ask for, in this order.  Fills in the
-// operand's MeshReport and RepairReport, the approximation's steps and the
-// warnings.  Throws InputError naming the operand.
-TriangleMesh PrepareOperand(const TriangleMesh& mesh, OperandRole role,
-                            const ContactSpaceOptions& options,
-                            ContactSpaceReport* report);
+// The solid to build with: replaced by its hull (robot only) and decimated or
+// wrapped as the options ask for.  Fills in the operand's MeshReport, the
+// approximation's steps and the warnings; those of the solid's own report were
+// said when it was made.
+Solid PrepareOperand(const Solid& solid, OperandRole role,
+                     const ContactSpaceOptions& options,
+                     ContactSpaceReport* report);
+
+// The same of a mesh that is to be checked and repaired first, as the options
+// ask for; its name is theirs.  Throws InputError naming it.
+Solid PrepareOperand(const TriangleMesh& mesh, OperandRole role,
+                     const ContactSpaceOptions& options,
+                     ContactSpaceReport* report);
+
+// The options with the names of the solids.
+ContactSpaceOptions WithNames(ContactSpaceOptions options, const Solid& robot,
+                              const Solid& obstacle);
 
 // Appends a step and updates kind, bound and conservativeness.
 void AddStep(const ApproximationStep& step, Approximation* approximation);
@@ -29,15 +37,13 @@ void AddStep(const ApproximationStep& step, Approximation* approximation);
 // rounding by 2^-38 of the larger one is coarse: facets that collapsed, fewer
 // than 24 bits.  Throws InputError naming the operand of which no solid is left
 // on the grid.
-GridPair PlaceOperands(const TriangleMesh& robot, const TriangleMesh& obstacle,
-                       const ContactSpaceOptions& options,
+GridPair PlaceOperands(const Solid& robot, const Solid& obstacle,
                        ContactSpaceReport* report);
 
 // For a contact space that leaks: throws InputError naming the
 // operands that lost facets, by which they are no solids any more; returns
 // where none did.
-void RefuseLostFacets(const GridSolid& obstacle, const TriangleMesh& b,
-                      const GridSolid& robot, const TriangleMesh& a,
-                      double step, const ContactSpaceOptions& options);
+void RefuseLostFacets(const GridSolid& obstacle, const Solid& b,
+                      const GridSolid& robot, const Solid& a, double step);
 
 }  // namespace phongpd::internal

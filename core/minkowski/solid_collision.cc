@@ -19,7 +19,7 @@ using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Point = Kernel::Point_3;
 using SolidFacet = Kernel::Triangle_3;
 
-struct Solid {
+struct TestedSolid {
   std::vector<SolidFacet> facets;
   std::vector<Point> seeds;  // one vertex per component
   BoundingBox bounds;
@@ -29,7 +29,7 @@ struct Solid {
 Eigen::Vector3d Coordinates(const Point& p) { return {p.x(), p.y(), p.z()}; }
 
 // Grid coordinates are exact in double, and so are their boxes.
-void BuildTrees(Solid* solid) {
+void BuildTrees(TestedSolid* solid) {
   std::vector<BoundingBox> boxes;
   boxes.reserve(solid->facets.size());
   for (const SolidFacet& t : solid->facets) {
@@ -49,8 +49,8 @@ void BuildTrees(Solid* solid) {
   solid->seed_tree = BoxTree(boxes, 4);
 }
 
-Solid MakeSolidOf(const GridSolid& grid, double sign) {
-  Solid solid;
+TestedSolid MakeTested(const GridSolid& grid, double sign) {
+  TestedSolid solid;
   UnionFind sets(grid.vertices.size());
   const auto point = [&](int v) {
     const Eigen::Vector3d p = sign * ToDouble(grid.vertices[v]);
@@ -83,7 +83,7 @@ int Turn(const Point& a, const Point& b, const Point& p) {
 
 // Winding number of the solid around p (not on its surface): signed count of
 // facets above p.  Positive means inside, also where components overlap.
-int WindingNumber(const Solid& solid, const Point& p) {
+int WindingNumber(const TestedSolid& solid, const Point& p) {
   int winding = 0;
   const auto is_above = [&](const Eigen::Vector3d& low,
                             const Eigen::Vector3d& high) {
@@ -110,7 +110,7 @@ int WindingNumber(const Solid& solid, const Point& p) {
 }
 
 // Does `other` contain a seed of `solid` moved by `shift`?
-bool ContainsSeed(const Solid& other, const Solid& solid,
+bool ContainsSeed(const TestedSolid& other, const TestedSolid& solid,
                   const Kernel::Vector_3& shift) {
   // 2^39 + 2^40 with 12 fractional bits: exact, too.
   const Eigen::Vector3d s(shift.x(), shift.y(), shift.z());
@@ -132,7 +132,7 @@ bool ContainsSeed(const Solid& other, const Solid& solid,
 }
 
 // Does a facet of `robot` moved by `shift` meet one of `obstacle`?
-bool FacetsMeet(const Solid& obstacle, const Solid& robot,
+bool FacetsMeet(const TestedSolid& obstacle, const TestedSolid& robot,
                 const Kernel::Vector_3& shift) {
   const Eigen::Vector3d s(shift.x(), shift.y(), shift.z());
   // Exact, as are the sums.
@@ -166,14 +166,14 @@ bool FacetsMeet(const Solid& obstacle, const Solid& robot,
 }  // namespace
 
 struct SolidCollision::Impl {
-  Solid obstacle, robot;
+  TestedSolid obstacle, robot;
 };
 
 SolidCollision::SolidCollision(const GridSolid& obstacle,
                                const GridSolid& reflected_robot)
     : impl_(std::make_unique<Impl>()) {
-  impl_->obstacle = MakeSolidOf(obstacle, 1.0);
-  impl_->robot = MakeSolidOf(reflected_robot, -1.0);
+  impl_->obstacle = MakeTested(obstacle, 1.0);
+  impl_->robot = MakeTested(reflected_robot, -1.0);
   BuildTrees(&impl_->obstacle);
   BuildTrees(&impl_->robot);
 }

@@ -51,24 +51,4 @@ std::vector<std::string> NamedWarnings(const MeshReport& report,
 //    or touch: their union is meant.
 MeshReport ExamineMesh(const TriangleMesh& mesh);
 
-// Returns `mesh` as a solid that the contact-space builder accepts: finite,
-// valid indices, lengths in range (mesh_range.h), closed, edge-manifold,
-// consistently oriented, no self-intersection within a component, every shell
-// enclosing a volume and facing the right way.  What it does by itself:
-//  - Vertices with exactly equal coordinates are joined when that leaves
-//    fewer bad edges than before, as in files that repeat a vertex for every
-//    face or seam.  A mesh that is closed as it is keeps its duplicates.
-//  - Triangles that use a vertex twice and unused vertices are left out.
-//    Other zero-area triangles stay, because the surface needs them.
-//  - Shells (edge-connected parts) that face the wrong way are turned.  A
-//    shell faces outward when its volume is positive, or negative while it is
-//    a cavity of positive ones.  An outermost shell is turned together with
-//    what it encloses: a mirrored file gives the same solid.
-// Each is counted in the report and said in its warnings.
-//
-// Throws InputError, one line naming `name`, the defect and its count.
-// `report` may be null; otherwise it is filled before a throw too.
-TriangleMesh MakeSolid(const TriangleMesh& mesh, const std::string& name,
-                       MeshReport* report = nullptr);
-
 }  // namespace phongpd

@@ -12,22 +12,20 @@
 #include "core/mesh/finite.h"
 #include "core/mesh/union_find.h"
 #include "core/solid/face_pairing.h"
+#include "core/solid/mesh_examination.h"
 #include "core/solid/self_intersection.h"
 
 namespace phongpd {
 namespace {
 
 using Eigen::Vector3d;
+using internal::UsesVertexTwice;
 
 struct HalfEdge {
   int low, high;
   bool is_forward;
   int triangle;
 };
-
-bool UsesVertexTwice(const Triangle& t) {
-  return t[0] == t[1] || t[1] == t[2] || t[2] == t[0];
-}
 
 bool IsReadable(const TriangleMesh& mesh) {
   const int size = static_cast<int>(mesh.vertices.size());

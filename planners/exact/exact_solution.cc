@@ -14,9 +14,9 @@ std::string NameObstacles(const Workspace& workspace, const Vector3d& q) {
     names += (names.empty() ? "" : ", ") + name;
   };
   for (const int i : ReachableObstacles(workspace)) {
-    const Obstacle& obstacle = workspace.obstacles[static_cast<std::size_t>(i)];
-    if (MotionOracle(workspace.robot, obstacle.mesh).Collides(q)) {
-      add(obstacle.id);
+    const Solid& obstacle = workspace.obstacles[static_cast<std::size_t>(i)];
+    if (MotionOracle(workspace.robot, obstacle).Collides(q)) {
+      add(obstacle.name());
     }
   }
   const BoundingBox& bounds = workspace.bounds;

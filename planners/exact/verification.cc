@@ -9,6 +9,7 @@
 
 #include "constraints/motion_oracle.h"
 #include "core/mesh/finite.h"
+#include "core/solid/solid.h"
 #include "core/stopwatch.h"
 #include "planners/exact/separating_part.h"
 
@@ -145,14 +146,14 @@ struct Verifier::Impl {
              meeting.obstacle_triangle >= first_triangle[i + 1]) {
         ++i;
       }
-      what = " with obstacle '" + ids[i] + "'";
+      what = " with obstacle '" + names[i] + "'";
     }
     return at + " collides" + what + " at fraction " +
            std::to_string(meeting.fraction);
   }
 
   std::optional<MotionOracle> oracle;  // none: no obstacle
-  std::vector<std::string> ids;
+  std::vector<std::string> names;
   std::vector<int> first_triangle;  // of each obstacle, in the joined mesh
   BoundingBox bounds;
   double rounding = 0.0;
@@ -165,15 +166,16 @@ Verifier::Verifier(const Workspace& workspace)
   Impl& impl = *impl_;
   impl.bounds = workspace.bounds;
   // All of them: that some are out of reach is the planner's own finding.
-  TriangleMesh all;
-  for (const Obstacle& obstacle : workspace.obstacles) {
-    impl.ids.push_back(obstacle.id);
-    impl.first_triangle.push_back(static_cast<int>(all.triangles.size()));
-    all = Joined(all, obstacle.mesh);
+  const Solid all = JoinedSolids(workspace.obstacles, "obstacles");
+  int triangles = 0;
+  for (const Solid& obstacle : workspace.obstacles) {
+    impl.names.push_back(obstacle.name());
+    impl.first_triangle.push_back(triangles);
+    triangles += static_cast<int>(obstacle.mesh().triangles.size());
   }
   const BoundingBox robot = ComputeBounds(workspace.robot);
   BoundingBox operand = robot;
-  if (!all.triangles.empty()) {
+  if (!all.IsEmpty()) {
     impl.oracle.emplace(workspace.robot, all);
     operand = ComputeBounds(all);
     impl.diagonal =

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "core/mesh/mesh_error.h"
+#include "core/solid/solid.h"
 #include "planners/exact/free_space.h"
 
 namespace phongpd {
@@ -31,17 +32,13 @@ TriangleMesh BoxMesh(const BoundingBox& box) {
 }  // namespace
 
 void Workspace::Validate() const {
-  if (robot.triangles.empty()) {
-    throw InputError("robot: expected a solid, found no triangle");
-  }
-  std::set<std::string> ids;
-  for (const Obstacle& obstacle : obstacles) {
-    if (obstacle.mesh.triangles.empty()) {
-      throw InputError("obstacle '" + obstacle.id +
-                       "': expected a solid, found no triangle");
-    }
-    if (!ids.insert(obstacle.id).second) {
-      throw InputError("obstacle '" + obstacle.id + "': the id is used twice");
+  RequireNotEmpty(robot, "robot");
+  std::set<std::string> names;
+  for (const Solid& obstacle : obstacles) {
+    RequireNotEmpty(obstacle, "obstacle");
+    if (!names.insert(obstacle.name()).second) {
+      throw InputError("obstacle '" + obstacle.name() +
+                       "': the name is used twice");
     }
   }
   FreeSpace::CheckBounds(bounds);
@@ -51,32 +48,34 @@ void Workspace::Validate() const {
   }
 }
 
-TriangleMesh BoundsShell(const Workspace& workspace) {
+Solid BoundsShell(const Workspace& workspace) {
   const BoundingBox robot = ComputeBounds(workspace.robot);
   const BoundingBox inner = {workspace.bounds.min + robot.min,
                              workspace.bounds.max + robot.max};
   // As thick as the cavity is wide: thinner saves nothing, and the outside of
   // the shell stays far from everything inside.
   const double wall = (inner.max - inner.min).maxCoeff();
-  return Joined(BoxMesh({inner.min.array() - wall, inner.max.array() + wall}),
-                Reversed(BoxMesh(inner)));
+  return MakeSolid(
+      Joined(BoxMesh({inner.min.array() - wall, inner.max.array() + wall}),
+             Reversed(BoxMesh(inner))),
+      "bounds");
 }
 
-TriangleMesh JoinedObstacle(const Workspace& workspace) {
-  TriangleMesh joined;
+Solid JoinedObstacle(const Workspace& workspace) {
+  std::vector<Solid> parts;
   for (const int i : ReachableObstacles(workspace)) {
-    joined =
-        Joined(joined, workspace.obstacles[static_cast<std::size_t>(i)].mesh);
+    parts.push_back(workspace.obstacles[static_cast<std::size_t>(i)]);
   }
-  return joined;
+  return JoinedSolids(parts, "obstacles");
 }
 
-TriangleMesh MergedObstacle(const Workspace& workspace) {
-  TriangleMesh merged = JoinedObstacle(workspace);
-  if (!workspace.bounds.IsEmpty()) {
-    merged = Joined(merged, BoundsShell(workspace));
-  }
-  if (merged.triangles.empty()) {
+Solid MergedObstacle(const Workspace& workspace) {
+  const bool has_bounds = !workspace.bounds.IsEmpty();
+  std::vector<Solid> parts = {JoinedObstacle(workspace)};
+  if (has_bounds) parts.push_back(BoundsShell(workspace));
+  const Solid merged =
+      JoinedSolids(parts, has_bounds ? "obstacles and bounds" : "obstacles");
+  if (merged.IsEmpty()) {
     throw InputError("workspace: expected an obstacle or bounds, found none");
   }
   return merged;
@@ -89,7 +88,7 @@ BoundingBox ContactBounds(const Workspace& workspace) {
   BoundingBox box;
   for (std::size_t k = 0; k < reachable.size(); ++k) {
     const BoundingBox one = ComputeBounds(
-        workspace.obstacles[static_cast<std::size_t>(reachable[k])].mesh);
+        workspace.obstacles[static_cast<std::size_t>(reachable[k])]);
     if (k == 0) box = one;
     box.min = box.min.cwiseMin(one.min);
     box.max = box.max.cwiseMax(one.max);
@@ -101,7 +100,7 @@ std::vector<int> ReachableObstacles(const Workspace& workspace) {
   const BoundingBox robot = ComputeBounds(workspace.robot);
   std::vector<int> reachable;
   for (std::size_t i = 0; i < workspace.obstacles.size(); ++i) {
-    const BoundingBox box = ComputeBounds(workspace.obstacles[i].mesh);
+    const BoundingBox box = ComputeBounds(workspace.obstacles[i]);
     // The box of B ⊕ (−A), wider by more than it can be rounded.
     const double rounding =
         1e-12 * (robot.Diagonal() +

@@ -20,16 +20,36 @@
 
 namespace phongpd::cli {
 
-ContactSpace LoadOrBuild(const TriangleMesh& robot,
-                         const TriangleMesh& obstacle,
-                         const ContactSpaceOptions& options, bool use_cache) {
+namespace {
+
+// Operands are Solids or meshes.
+template <typename Operand>
+ContactSpace LoadOrBuildOf(const Operand& robot, const std::string& robot_name,
+                           const Operand& obstacle,
+                           const std::string& obstacle_name,
+                           const ContactSpaceOptions& options, bool use_cache) {
   Progress("building the contact space");
   ContactSpace space =
       BuildContactSpaceCached(robot, obstacle, options, UserCache(!use_cache));
   // Only now they are known to have a size.
-  WarnOfUnits(robot, options.robot_name, obstacle, options.obstacle_name);
+  WarnOfUnits(robot, robot_name, obstacle, obstacle_name);
   for (const std::string& warning : space.report().warnings) Warn(warning);
   return space;
+}
+
+}  // namespace
+
+ContactSpace LoadOrBuild(const Solid& robot, const Solid& obstacle,
+                         const ContactSpaceOptions& options, bool use_cache) {
+  return LoadOrBuildOf(robot, robot.name(), obstacle, obstacle.name(), options,
+                       use_cache);
+}
+
+ContactSpace LoadOrBuild(const TriangleMesh& robot,
+                         const TriangleMesh& obstacle,
+                         const ContactSpaceOptions& options, bool use_cache) {
+  return LoadOrBuildOf(robot, options.robot_name, obstacle,
+                       options.obstacle_name, options, use_cache);
 }
 
 CLI::Option* AddContactSpaceFile(CLI::App* app, std::string* path) {

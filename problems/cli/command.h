@@ -51,6 +51,8 @@ Command AddCheck(CLI::App* app);
 
 // The contact space of two solids, from the user's cache when `use_cache` and
 // it is there.  What the user should know goes to stderr.
+ContactSpace LoadOrBuild(const Solid& robot, const Solid& obstacle,
+                         const ContactSpaceOptions& options, bool use_cache);
 ContactSpace LoadOrBuild(const TriangleMesh& robot,
                          const TriangleMesh& obstacle,
                          const ContactSpaceOptions& options, bool use_cache);

@@ -9,6 +9,7 @@
 #include "core/bounds/mesh_repair.h"
 #include "core/mesh/counted.h"
 #include "core/solid/mesh_defects.h"
+#include "core/solid/solid.h"
 #include "problems/cli/command.h"
 #include "problems/cli/contact_space_report_json.h"
 #include "problems/cli/flags.h"
@@ -43,7 +44,7 @@ struct Finding {
   std::vector<MeshDefect> defects;
   bool is_solid = false;
   std::string reason;  // why not
-  TriangleMesh solid;
+  Solid solid;
   MeshReport report;
   RepairReport repair;
 };

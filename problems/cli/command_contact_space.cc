@@ -7,6 +7,7 @@
 
 #include "core/contact/contact_space.h"
 #include "core/mesh/mesh_io.h"
+#include "core/solid/solid.h"
 #include "planners/exact/verification.h"
 #include "problems/cli/command.h"
 #include "problems/cli/contact_space_file.h"
@@ -76,7 +77,7 @@ Json VerifySample(const Flags& flags, const TriangleMesh& robot,
   if (!flags.verify || !is_exact || space.report().from_cache) return nullptr;
   Workspace solids;
   solids.robot = MakeSolid(robot, flags.robot);
-  solids.obstacles = {{flags.obstacle, MakeSolid(obstacle, flags.obstacle)}};
+  solids.obstacles = {MakeSolid(obstacle, flags.obstacle)};
   const Verifier verifier(solids);
   constexpr std::size_t kPoints = 100;
   const std::vector<Triangle>& triangles = space.mesh().triangles;

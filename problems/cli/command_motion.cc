@@ -54,18 +54,14 @@ std::optional<Workspace> ReadSolids(const Flags& flags) {
   Workspace workspace;
   const Repair repair = ParseRepair(flags.repair, "--repair");
   workspace.robot = LoadSolid(flags.robot, repair);
-  workspace.obstacles = {{flags.obstacle, LoadSolid(flags.obstacle, repair)}};
+  workspace.obstacles = {LoadSolid(flags.obstacle, repair)};
   return workspace;
 }
 
 ContactSpace ContactSpaceOf(const Flags& flags,
                             const std::optional<Workspace>& solids) {
   if (!solids) return LoadContactSpace(flags.contact_space);
-  ContactSpaceOptions options;
-  options.robot_name = flags.robot;
-  options.obstacle_name = flags.obstacle;
-  return LoadOrBuild(solids->robot, solids->obstacles[0].mesh, options,
-                     !flags.no_cache);
+  return LoadOrBuild(solids->robot, solids->obstacles[0], {}, !flags.no_cache);
 }
 
 // Judges the depths of all frames again; returns a line for people.  Throws
@@ -163,8 +159,9 @@ View MotionView(const ContactSpace& contact,
   view.meshes = {{"contact space", ViewRole::kContactSpace, contact.mesh()}};
   if (solids) {
     view.robot = solids->robot;
-    for (const Obstacle& obstacle : solids->obstacles) {
-      view.meshes.push_back({obstacle.id, ViewRole::kObstacle, obstacle.mesh});
+    for (const Solid& obstacle : solids->obstacles) {
+      view.meshes.push_back(
+          {obstacle.name(), ViewRole::kObstacle, obstacle.mesh()});
     }
   } else {
     view.notes = {

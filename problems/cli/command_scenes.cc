@@ -108,7 +108,7 @@ int Write(const Flags& flags) {
     write(obstacle, flags.meshes + "/obstacle.off");
   }
   if (is_asked) outputs.Write(target, text);
-  const std::size_t robot = scene.workspace.robot.triangles.size();
+  const std::size_t robot = scene.workspace.robot.mesh().triangles.size();
   const std::string skipped = SkippedObstaclesNote(scene);
   const Json told = {{"scene", flags.name},
                      {"robot_triangles", robot},

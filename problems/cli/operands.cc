@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "core/solid/mesh_check.h"
+#include "core/solid/solid.h"
 #include "problems/cli/command.h"
 #include "problems/meshes/any_mesh.h"
 #include "problems/meshes/operand_notes.h"
@@ -28,11 +28,11 @@ TriangleMesh LoadMesh(const std::string& path) {
   return mesh;
 }
 
-TriangleMesh LoadSolid(const std::string& path, Repair repair) {
+Solid LoadSolid(const std::string& path, Repair repair) {
   MeshReport report;
   RepairReport repaired;
-  TriangleMesh solid = RepairSolid(LoadMesh(path), path, repair, kRepairAlpha,
-                                   &report, &repaired);
+  Solid solid = RepairSolid(LoadMesh(path), path, repair, kRepairAlpha, &report,
+                            &repaired);
   for (const std::string& action : repaired.actions) {
     Warn(path + ": " + action);
   }

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "core/bounds/mesh_repair.h"
-#include "core/mesh/triangle_mesh.h"
+#include "core/solid/solid.h"
 
 // How commands read the meshes that people name.
 namespace phongpd::cli {
@@ -19,8 +19,7 @@ TriangleMesh LoadMesh(const std::string& path);
 
 // Reads an operand as a solid, repaired as --repair asks; what was done goes to
 // standard error, too.  Throws InputError naming the file.
-TriangleMesh LoadSolid(const std::string& path,
-                       Repair repair = Repair::kReject);
+Solid LoadSolid(const std::string& path, Repair repair = Repair::kReject);
 
 // Warns where the sizes of two operands suggest different units.
 void WarnOfUnits(const TriangleMesh& a, const std::string& name_a,

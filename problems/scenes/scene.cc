@@ -12,6 +12,7 @@
 
 #include "core/bounds/mesh_repair.h"
 #include "core/mesh/input_file.h"
+#include "core/solid/solid.h"
 #include "problems/meshes/any_mesh.h"
 #include "problems/meshes/operand_notes.h"
 #include "problems/output/text.h"
@@ -100,9 +101,8 @@ std::string MeshPath(const Json& value, const JsonPlace& place,
 }
 
 // A `solid` of the schema.  Steps that a scene leaves out do no arithmetic.
-TriangleMesh Solid(const Json& value, const JsonPlace& place,
-                   const MeshFolder& folder,
-                   std::vector<std::string>* warnings) {
+Solid SolidAt(const Json& value, const JsonPlace& place,
+              const MeshFolder& folder, std::vector<std::string>* warnings) {
   TriangleMesh mesh;
   std::string name;
   if (value.contains("shape")) {
@@ -131,21 +131,21 @@ TriangleMesh Solid(const Json& value, const JsonPlace& place,
   }
   MeshReport report;
   RepairReport repaired;
-  mesh = RepairSolid(mesh, name, RepairOf(value, folder), kRepairAlpha, &report,
-                     &repaired);
+  const Solid solid = RepairSolid(mesh, name, RepairOf(value, folder),
+                                  kRepairAlpha, &report, &repaired);
   for (const auto* lines : {&repaired.actions, &report.warnings}) {
     for (const std::string& line : *lines) {
       warnings->push_back(name + ": " + line);
     }
   }
-  return mesh;
+  return solid;
 }
 
-std::vector<Obstacle> Obstacles(const Json& value, const JsonPlace& place,
-                                const MeshFolder& folder,
-                                std::vector<std::string>* warnings) {
+std::vector<Solid> Obstacles(const Json& value, const JsonPlace& place,
+                             const MeshFolder& folder,
+                             std::vector<std::string>* warnings) {
   std::set<std::string> ids;
-  std::vector<Obstacle> obstacles;
+  std::vector<Solid> obstacles;
   for (std::size_t i = 0; i < value.size(); ++i) {
     const JsonPlace here = place.Child(i);
     const std::string id = value[i].value("id", "obstacle" + std::to_string(i));
@@ -153,7 +153,7 @@ std::vector<Obstacle> Obstacles(const Json& value, const JsonPlace& place,
       here.Child("id").Fail("an id of its own",
                             Shortened(Json(id)) + " a second time");
     }
-    obstacles.push_back({id, Solid(value[i], here, folder, warnings)});
+    obstacles.push_back(SolidAt(value[i], here, folder, warnings).Named(id));
   }
   return obstacles;
 }
@@ -264,9 +264,9 @@ void NoteUnits(const Json& json, Scene* scene) {
   const bool is_file = json["robot"].contains("mesh");
   for (std::size_t i = 0; i < scene->workspace.obstacles.size(); ++i) {
     if (!is_file && !json["obstacles"][i].contains("mesh")) continue;
-    const Obstacle& obstacle = scene->workspace.obstacles[i];
+    const Solid& obstacle = scene->workspace.obstacles[i];
     const std::string note = UnitsNote(scene->workspace.robot, "the robot",
-                                       obstacle.mesh, obstacle.id);
+                                       obstacle, obstacle.name());
     if (note.empty()) continue;
     scene->warnings.push_back(note);
     return;  // one will do
@@ -321,7 +321,8 @@ Scene ParseScene(const Json& json, const std::string& file,
   }
   const MeshFolder folder = {directory, root, repair};
   scene.workspace.robot =
-      Solid(json["robot"], place.Child("robot"), folder, &scene.warnings);
+      SolidAt(json["robot"], place.Child("robot"), folder, &scene.warnings)
+          .Named("robot");
   scene.workspace.obstacles = Obstacles(
       json["obstacles"], place.Child("obstacles"), folder, &scene.warnings);
   RequireLengths(scene, place);
@@ -343,7 +344,7 @@ std::string SkippedObstaclesNote(const Scene& scene) {
   std::string list;
   for (std::size_t i = 0; i < scene.workspace.obstacles.size(); ++i) {
     if (kept.count(static_cast<int>(i)) > 0) continue;
-    list += (list.empty() ? "" : ", ") + scene.workspace.obstacles[i].id;
+    list += (list.empty() ? "" : ", ") + scene.workspace.obstacles[i].name();
   }
   if (list.empty()) return list;
   return "cannot be touched within the bounds, skipped: " + list;

@@ -68,10 +68,10 @@ std::string SceneSource::Digest() const {
     writer(std::string(std::istreambuf_iterator<char>(file), {}));
   }
   const Scene scene = Load();
-  writer(scene.start, scene.goal, scene.workspace.robot.vertices,
-         scene.workspace.robot.triangles);
-  for (const Obstacle& obstacle : scene.workspace.obstacles) {
-    writer(obstacle.mesh.vertices, obstacle.mesh.triangles);
+  writer(scene.start, scene.goal, scene.workspace.robot.mesh().vertices,
+         scene.workspace.robot.mesh().triangles);
+  for (const Solid& obstacle : scene.workspace.obstacles) {
+    writer(obstacle.mesh().vertices, obstacle.mesh().triangles);
   }
   return internal::ToHex(internal::HashContent(writer.Take()));
 }

@@ -102,13 +102,13 @@ Diagnosis Diagnose(const Workspace& workspace, const Vector3d& q) {
   }
   const BoundingBox robot = ComputeBounds(workspace.robot);
   for (std::size_t i = 0; i < workspace.obstacles.size(); ++i) {
-    const Obstacle& obstacle = workspace.obstacles[i];
-    if (!MayMeet(robot, ComputeBounds(obstacle.mesh), q)) continue;
-    const MotionOracle oracle(workspace.robot, obstacle.mesh);
+    const Solid& obstacle = workspace.obstacles[i];
+    if (!MayMeet(robot, ComputeBounds(obstacle), q)) continue;
+    const MotionOracle oracle(workspace.robot, obstacle);
     if (!oracle.Collides(q)) continue;
-    const WayOut way = BoundDepth(workspace.robot, obstacle.mesh, q, oracle);
+    const WayOut way = BoundDepth(workspace.robot, obstacle, q, oracle);
     diagnosis.contacts.push_back(
-        {static_cast<int>(i), obstacle.id, way.length, way.direction});
+        {static_cast<int>(i), obstacle.name(), way.length, way.direction});
   }
   return diagnosis;
 }

@@ -8,14 +8,26 @@
 #include <mutex>
 #include <utility>
 
+#include "core/contact/joined_contact_spaces.h"
 #include "core/mesh/mesh_error.h"
+#include "core/solid/solid.h"
 #include "core/stopwatch.h"
+#include "problems/world/obstacle_groups.h"
 
 namespace phongpd {
 namespace {
 
-bool IsSame(const TriangleMesh& a, const TriangleMesh& b) {
-  return a.vertices == b.vertices && a.triangles == b.triangles;
+// "a, b, c"; of many the first, and how many more.
+std::string NameOf(const std::vector<Solid>& solids) {
+  constexpr std::size_t kMost = 4;
+  std::string names;
+  for (std::size_t i = 0; i < std::min(solids.size(), kMost); ++i) {
+    names += (i == 0 ? "" : ", ") + solids[i].name();
+  }
+  if (solids.size() > kMost) {
+    names += " and " + std::to_string(solids.size() - kMost) + " more";
+  }
+  return names;
 }
 
 }  // namespace
@@ -50,26 +62,58 @@ struct World::Impl {
     Stopwatch stopwatch = {};
   };
 
-  ContactSpaceOptions Options(const std::string& what) const {
+  // Of which `spent` seconds are gone.
+  ContactSpaceOptions Options(double spent = 0.0) const {
+    constexpr double kNoTime = 1e-9;
     ContactSpaceOptions options;
-    options.robot_name = name + ": robot";
-    options.obstacle_name = name + ": " + what;
-    options.max_seconds = limits.max_seconds;
+    if (limits.max_seconds > 0.0) {
+      options.max_seconds = std::max(limits.max_seconds - spent, kNoTime);
+    }
     options.max_mib = limits.max_mib;
     return options;
   }
 
-  ContactSpace Build(const TriangleMesh& obstacle, const std::string& what) {
-    const Spent spent{this};
-    ContactSpace built = BuildContactSpaceCached(workspace.robot, obstacle,
-                                                 Options(what), cache);
+  // Its name in messages, of which the world's is the beginning.
+  Solid Called(const Solid& solid, const std::string& what) const {
+    return solid.Named(name + ": " + what);
+  }
+
+  // Of obstacles that one build must hold.
+  ContactSpace BuildPart(const Solid& obstacle, double spent) {
+    ContactSpace built = BuildContactSpaceCached(
+        Called(workspace.robot, "robot"), Called(obstacle, obstacle.name()),
+        Options(spent), cache);
     const std::lock_guard<std::mutex> lock(report_mutex);
-    ++report.contact_spaces;
-    report.from_cache = report.from_cache || built.report().from_cache;
+    ++report.parts;
+    report.parts_from_cache += built.report().from_cache ? 1 : 0;
+    report.from_cache = report.parts_from_cache > 0;
     report.warnings.insert(report.warnings.end(),
                            built.report().warnings.begin(),
                            built.report().warnings.end());
-    return built.WithLength(diagonal);
+    return built;
+  }
+
+  // One space of all of them, by `what` in messages.
+  ContactSpace Build(const std::vector<Solid>& obstacles,
+                     const std::string& what) {
+    const Spent spent{this};
+    const auto groups = ObstacleGroups(workspace.robot, obstacles);
+    std::vector<ContactSpace> parts;
+    for (const std::vector<int>& group : groups) {
+      std::vector<Solid> members;
+      for (const int i : group) {
+        members.push_back(obstacles[static_cast<std::size_t>(i)]);
+      }
+      const bool is_all = groups.size() == 1 && members.size() > 1;
+      parts.push_back(
+          BuildPart(JoinedSolids(members, is_all ? what : NameOf(members)),
+                    spent.stopwatch.Seconds()));
+    }
+    {
+      const std::lock_guard<std::mutex> lock(report_mutex);
+      ++report.contact_spaces;
+    }
+    return JoinedContactSpaces(parts).WithLength(diagonal);
   }
 
   std::unique_ptr<const WorldSpaces> BuildAll(SpaceLayout layout) {
@@ -79,15 +123,18 @@ struct World::Impl {
     const std::vector<int> reachable = ReachableObstacles(workspace);
     if (layout == SpaceLayout::kPerObstacle) {
       for (const int i : reachable) {
-        const Obstacle& obstacle =
+        const Solid& obstacle =
             workspace.obstacles[static_cast<std::size_t>(i)];
-        all->spaces.push_back(Build(obstacle.mesh, obstacle.id));
+        all->spaces.push_back(Build({obstacle}, obstacle.name()));
       }
-    } else if (is_sealed) {
+    } else if (is_sealed || !reachable.empty()) {
+      std::vector<Solid> obstacles;
+      for (const int i : reachable) {
+        obstacles.push_back(workspace.obstacles[static_cast<std::size_t>(i)]);
+      }
+      if (is_sealed) obstacles.push_back(BoundsShell(workspace));
       all->spaces.push_back(
-          Build(MergedObstacle(workspace), "obstacles and bounds"));
-    } else if (!reachable.empty()) {
-      all->spaces.push_back(Build(JoinedObstacle(workspace), "obstacles"));
+          Build(obstacles, is_sealed ? "obstacles and bounds" : "obstacles"));
     }
     for (const ContactSpace& space : all->spaces) {
       all->triangles += space.mesh().triangles.size();
@@ -103,7 +150,8 @@ struct World::Impl {
     if (!ReachableObstacles(workspace).empty()) {
       const Spent spent{this};
       const ConvolutionModel& model = all->models.emplace_back(
-          workspace.robot, JoinedObstacle(workspace), Options("obstacles"));
+          Called(workspace.robot, "robot"),
+          Called(JoinedObstacle(workspace), "obstacles"), Options());
       all->facets = model.report().facets;
       const std::lock_guard<std::mutex> lock(report_mutex);
       ++report.convolutions;
@@ -193,13 +241,14 @@ WorldReport World::Report() const {
 }
 
 bool HaveSameSolids(const Workspace& a, const Workspace& b) {
-  if (!IsSame(a.robot, b.robot) || a.obstacles.size() != b.obstacles.size() ||
+  if (!a.robot.HasSameMesh(b.robot) ||
+      a.obstacles.size() != b.obstacles.size() ||
       a.bounds.min != b.bounds.min || a.bounds.max != b.bounds.max) {
     return false;
   }
   for (std::size_t i = 0; i < a.obstacles.size(); ++i) {
-    if (a.obstacles[i].id != b.obstacles[i].id ||
-        !IsSame(a.obstacles[i].mesh, b.obstacles[i].mesh)) {
+    if (a.obstacles[i].name() != b.obstacles[i].name() ||
+        !a.obstacles[i].HasSameMesh(b.obstacles[i])) {
       return false;
     }
   }

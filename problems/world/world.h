@@ -44,18 +44,22 @@ struct WorldConvolution {
   std::size_t facets = 0;  // of the models
 };
 
-// What a world may spend on one build (ContactSpaceOptions).
+// What a world may spend on one contact space (ContactSpaceOptions).
 struct WorldLimits {
-  double max_seconds = 0.0;  // 0: no limit
+  double max_seconds = 0.0;  // on all parts of it; 0: no limit
   double max_mib = 0.0;      // 0: nine tenths of what is free
 };
 
 // What a world has built so far.
 struct WorldReport {
-  int contact_spaces = 0;   // built, or read from the cache: the full level
+  int contact_spaces = 0;  // built, or read from the cache: the full level
+  // Those of obstacles that are apart are built one by one (obstacle_groups.h),
+  // kept one by one and joined, so that what moves does not cost what stays.
+  int parts = 0;
+  int parts_from_cache = 0;
   int convolutions = 0;     // built: free space alone
   double seconds = 0.0;     // spent on them, and on what limits refused
-  bool from_cache = false;  // at least one of them
+  bool from_cache = false;  // at least one part of them
   std::vector<std::string> warnings;
 };
 

@@ -9,6 +9,7 @@
 #include "core/contact/contact_space_cache.h"
 #include "core/mesh/mesh_io.h"
 #include "core/minkowski/build_cancellation.h"
+#include "core/solid/solid.h"
 #include "python/src/arrays.h"
 #include "python/src/bindings.h"
 #include "python/src/computing.h"
@@ -48,24 +49,19 @@ ContactSpace Build(const Solid& robot, const Solid& obstacle, bool robot_hull,
   options.outer_shell_only = outer_shell_only;
   options.max_seconds = max_seconds;
   options.max_mib = max_mib;
-  options.robot_name = robot.name;
-  options.obstacle_name = obstacle.name;
   ContactSpaceCache folder;
   if (cache) folder.directory = DefaultCacheDirectory();
   return Interruptible([&] {
-    return BuildContactSpaceCached(*robot.mesh, *obstacle.mesh, options,
-                                   folder);
+    return BuildContactSpaceCached(robot, obstacle, options, folder);
   });
 }
 
 // The boundary of A ⊕ B: the contact space of −A and B.
 ContactSpace Sum(const Solid& a, const Solid& b, double max_seconds,
                  double max_mib, bool cache) {
-  Solid reflected = a;
-  TriangleMesh mesh = *a.mesh;
+  TriangleMesh mesh = a.mesh();
   for (Eigen::Vector3d& v : mesh.vertices) v = -v;
-  reflected.mesh =
-      std::make_shared<const TriangleMesh>(Reversed(std::move(mesh)));
+  const Solid reflected = MakeSolid(Reversed(std::move(mesh)), a.name());
   return Build(reflected, b, false, 0, 0.0, false, max_seconds, max_mib, cache);
 }
 
@@ -104,7 +100,7 @@ void BindContactSpace(nb::module_& module) {
       .def_static("sum", &Sum)
       .def_static("take",
                   [](const Solid& solid) {
-                    return TakeAsContactSpace(*solid.mesh, solid.name);
+                    return TakeAsContactSpace(solid, solid.name());
                   })
       .def("write",
            [](const ContactSpace& space, const std::string& path) {

@@ -91,10 +91,8 @@ void BindDepth(nb::module_& module) {
              DepthOptions options;
              options.max_radius = max_radius;
              options.max_seconds = max_seconds;
-             options.robot_name = robot.name;
-             options.obstacle_name = obstacle.name;
              const Computing computing;
-             new (self) DepthQuery(*robot.mesh, *obstacle.mesh, options);
+             new (self) DepthQuery(robot, obstacle, options);
            })
       .def("at", &At, nb::arg("positions"),
            nb::arg("orientations").none() = nb::none())

@@ -3,20 +3,13 @@
 #include <nanobind/stl/vector.h>
 
 #include "core/mesh/mesh_io.h"
+#include "core/solid/solid.h"
 #include "python/src/arrays.h"
 #include "python/src/bindings.h"
 #include "python/src/computing.h"
 
 namespace phongpd::python {
 namespace {
-
-Solid Checked(const TriangleMesh& mesh, const std::string& name) {
-  Solid solid;
-  solid.name = name;
-  solid.mesh = std::make_shared<const TriangleMesh>(
-      MakeSolid(mesh, name, &solid.report));
-  return solid;
-}
 
 Solid FromArrays(const Rows3& vertices, const Corners& triangles,
                  const std::string& name) {
@@ -27,12 +20,12 @@ Solid FromArrays(const Rows3& vertices, const Corners& triangles,
     for (size_t k = 0; k < 3; ++k) mesh.triangles[i][k] = triangles(i, k);
   }
   const Computing computing;
-  return Checked(mesh, name);
+  return MakeSolid(mesh, name);
 }
 
 Solid Read(const std::string& path, const std::string& name) {
   const Computing computing;
-  return Checked(ReadMesh(path), name);
+  return MakeSolid(ReadMesh(path), name);
 }
 
 }  // namespace
@@ -41,27 +34,25 @@ void BindSolid(nb::module_& module) {
   nb::class_<Solid>(module, "Solid")
       .def_static("from_arrays", &FromArrays)
       .def_static("read", &Read)
-      .def("write",
-           [](const Solid& solid, const std::string& path) {
-             WriteMesh(*solid.mesh, path);
-           })
-      .def_prop_ro("name", [](const Solid& solid) { return solid.name; })
+      .def("write", [](const Solid& solid,
+                       const std::string& path) { WriteMesh(solid, path); })
+      .def_prop_ro("name", [](const Solid& solid) { return solid.name(); })
       .def_prop_ro("vertices",
                    [](nb::handle self) {
-                     return View(nb::cast<const Solid&>(self).mesh->vertices,
+                     return View(nb::cast<const Solid&>(self).mesh().vertices,
                                  self);
                    })
       .def_prop_ro("triangles",
                    [](nb::handle self) {
-                     return View(nb::cast<const Solid&>(self).mesh->triangles,
+                     return View(nb::cast<const Solid&>(self).mesh().triangles,
                                  self);
                    })
       .def_prop_ro("volume",
-                   [](const Solid& solid) { return solid.report.volume; })
+                   [](const Solid& solid) { return solid.report().volume; })
       .def_prop_ro("components",
-                   [](const Solid& solid) { return solid.report.components; })
+                   [](const Solid& solid) { return solid.report().components; })
       .def_prop_ro("warnings", [](const Solid& solid) {
-        return NamedWarnings(solid.report, solid.name);
+        return NamedWarnings(solid.report(), solid.name());
       });
 }
 

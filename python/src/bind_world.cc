@@ -22,23 +22,15 @@ namespace {
 
 using Eigen::Vector3d;
 
-Solid AlreadyChecked(const TriangleMesh& mesh, const std::string& name) {
-  Solid solid;
-  solid.mesh = std::make_shared<const TriangleMesh>(mesh);
-  solid.name = name;
-  solid.report = ExamineMesh(mesh);
-  return solid;
-}
-
 Scene MakeScene(const Solid& robot,
                 const std::vector<std::pair<std::string, Solid>>& obstacles,
                 const std::optional<std::pair<Point, Point>>& bounds,
                 const std::string& name) {
   Scene scene;
   scene.name = name;
-  scene.workspace.robot = *robot.mesh;
+  scene.workspace.robot = robot;
   for (const auto& [id, solid] : obstacles) {
-    scene.workspace.obstacles.push_back({id, *solid.mesh});
+    scene.workspace.obstacles.push_back(solid.Named(id));
   }
   if (bounds) {
     scene.workspace.bounds = {ToVector(bounds->first),
@@ -138,17 +130,9 @@ void BindScene(nb::module_& module) {
       .def_prop_ro("warnings",
                    [](const Scene& scene) { return scene.warnings; })
       .def_prop_ro("robot",
-                   [](const Scene& scene) {
-                     return AlreadyChecked(scene.workspace.robot, "robot");
-                   })
+                   [](const Scene& scene) { return scene.workspace.robot; })
       .def_prop_ro("obstacles",
-                   [](const Scene& scene) {
-                     std::vector<Solid> solids;
-                     for (const Obstacle& o : scene.workspace.obstacles) {
-                       solids.push_back(AlreadyChecked(o.mesh, o.id));
-                     }
-                     return solids;
-                   })
+                   [](const Scene& scene) { return scene.workspace.obstacles; })
       .def_prop_ro("bounds", [](const Scene& scene) -> nb::object {
         const BoundingBox& box = scene.workspace.bounds;
         if (box.IsEmpty()) return nb::none();

@@ -3,20 +3,7 @@
 
 #include <nanobind/nanobind.h>
 
-#include <memory>
-#include <string>
-
-#include "core/mesh/triangle_mesh.h"
-#include "core/solid/mesh_check.h"
-
 namespace phongpd::python {
-
-// A checked solid (MakeSolid), shared and never changed.
-struct Solid {
-  std::shared_ptr<const TriangleMesh> mesh;
-  std::string name;
-  MeshReport report;
-};
 
 void BindSolid(nanobind::module_& module);
 void BindContactSpace(nanobind::module_& module);

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/minkowski/build_refusal.h"
+#include "core/solid/solid.h"
 #include "core/stopwatch.h"
 #include "planners/exact/free_space.h"
 #include "planners/exact/verification.h"
@@ -25,10 +26,11 @@ Scene ScannedKnots() {
   Scene scene;
   scene.name = "scanned knots";
   scene.workspace.robot =
-      Rotated(MakeScan(MakeKnot(0.3, 0.11, 128, 20), 0.05, 0.002, 4),
-              GenericRotation());
-  scene.workspace.obstacles = {
-      {"knot", MakeScan(MakeKnot(1.0, 0.35, 128, 20), 0.16, 0.005, 3)}};
+      MakeSolid(Rotated(MakeScan(MakeKnot(0.3, 0.11, 128, 20), 0.05, 0.002, 4),
+                        GenericRotation()),
+                "robot");
+  scene.workspace.obstacles = {MakeSolid(
+      MakeScan(MakeKnot(1.0, 0.35, 128, 20), 0.16, 0.005, 3), "knot")};
   scene.workspace.bounds = {Vector3d::Constant(-6.0), Vector3d::Constant(6.0)};
   scene.start = Vector3d::Constant(-4.0);
   scene.goal = Vector3d::Constant(4.0);
@@ -150,8 +152,9 @@ NamedTable LargePlanTable(double max_seconds) {
                      "CPU s", "wall s", "answer", "verified", "points",
                      "clearance", "full build", "its CPU s"},
                     one, [&](int, const auto& add) {
-                      add(scene.name, scene.workspace.robot.triangles.size(),
-                          scene.workspace.obstacles[0].mesh.triangles.size(),
+                      add(scene.name,
+                          scene.workspace.robot.mesh().triangles.size(),
+                          scene.workspace.obstacles[0].mesh().triangles.size(),
                           study.world().Convolution().facets, cpu, wall,
                           result.status, std::string(ToString(judged.verdict)),
                           result.numbers.path.size(), result.numbers.clearance,

@@ -14,10 +14,12 @@
 #include "constraints/translated_triangles.h"
 #include "core/contact/contact_space.h"
 #include "core/mesh/mesh_error.h"
+#include "core/solid/solid.h"
 #include "planners/exact/free_space.h"
 #include "problems/shapes/shapes.h"
 #include "problems/studies/random_pairs.h"
 #include "tests/support/campaign.h"
+#include "tests/support/oracle_of.h"
 #include "tests/support/solid_tools.h"
 
 namespace phongpd {
@@ -152,7 +154,7 @@ bool SegmentMeetsBox(const Vector3d& a, const Vector3d& b) {
 }
 
 TEST(MotionOracle, IsExactForTwoCubesOnALattice) {
-  const MotionOracle oracle(Box(-1.0, 1.0), Box(-1.0, 1.0));
+  const MotionOracle oracle = testing::OracleOf(Box(-1.0, 1.0), Box(-1.0, 1.0));
   std::mt19937_64 random(3);
   std::uniform_int_distribution<int> digit(-5, 5);
   for (int i = 0; i < 3000; ++i) {
@@ -168,7 +170,7 @@ TEST(MotionOracle, IsExactForTwoCubesOnALattice) {
 }
 
 TEST(MotionOracle, TellsTouchingFromAnUlpBeside) {
-  const MotionOracle oracle(Box(-1.0, 1.0), Box(-1.0, 1.0));
+  const MotionOracle oracle = testing::OracleOf(Box(-1.0, 1.0), Box(-1.0, 1.0));
   const double beside = std::nextafter(2.0, 3.0);
   for (int k = 0; k < 3; ++k) {
     for (const double sign : {-1.0, 1.0}) {
@@ -189,27 +191,28 @@ TEST(MotionOracle, TellsTouchingFromAnUlpBeside) {
 TEST(MotionOracle, KnowsCavitiesAndOverlappingBodies) {
   const TriangleMesh shell = Joined(Box(-3.0, 3.0), Reversed(Box(-2.0, 2.0)));
   const TriangleMesh ball = Box(-0.5, 0.5);
-  const MotionOracle cavity(ball, shell);
+  const MotionOracle cavity = testing::OracleOf(ball, shell);
   EXPECT_FALSE(cavity.Collides({0, 0, 0}, {1.25, 1.25, 1.25}));
   EXPECT_TRUE(cavity.Collides({0, 0, 0}, {1.5, 0, 0}));  // touches
   EXPECT_TRUE(cavity.Collides({0, 0, 0}, {9, 9, 9}));
   EXPECT_FALSE(cavity.Collides({9, 9, 9}, {9, 9, -9}));
   // The robot's cavity holds the obstacle.
-  EXPECT_FALSE(MotionOracle(shell, ball).Collides({0, 0, 0}, {1, 0, 0}));
+  EXPECT_FALSE(testing::OracleOf(shell, ball).Collides({0, 0, 0}, {1, 0, 0}));
   // A body in the cavity of another one: winding 1 there, 2 nowhere.
-  const MotionOracle filled(Box(-0.1, 0.1), Joined(shell, Box(-1.0, 1.0)));
+  const MotionOracle filled =
+      testing::OracleOf(Box(-0.1, 0.1), Joined(shell, Box(-1.0, 1.0)));
   EXPECT_TRUE(filled.Collides({0, 0, 0}));
   EXPECT_FALSE(filled.Collides({1.5, 0, 0}));
   // Deep in two bodies that overlap, no surface near.
-  const MotionOracle twice(Box(-0.1, 0.1),
-                           Joined(Box(-2.0, 1.0), Box(-1.0, 2.0)));
+  const MotionOracle twice =
+      testing::OracleOf(Box(-0.1, 0.1), Joined(Box(-2.0, 1.0), Box(-1.0, 2.0)));
   EXPECT_TRUE(twice.Collides({0, 0, 0}));
   EXPECT_TRUE(twice.Collides({1.5, 1.5, 1.5}));
   EXPECT_FALSE(twice.Collides({1.5, 1.5, -1.5}));
 }
 
 TEST(MotionOracle, SaysWhereSolidsMeetFirst) {
-  const MotionOracle oracle(Box(-1.0, 1.0), Box(-1.0, 1.0));
+  const MotionOracle oracle = testing::OracleOf(Box(-1.0, 1.0), Box(-1.0, 1.0));
   const MotionMeeting meeting = oracle.FirstMeeting({-6, 0, 0}, {2, 0, 0});
   EXPECT_TRUE(meeting.found);
   EXPECT_NEAR(meeting.fraction, 0.5, 1e-14);
@@ -221,12 +224,10 @@ TEST(MotionOracle, SaysWhereSolidsMeetFirst) {
 }
 
 TEST(MotionOracle, RefusesWhatIsNoPlaceOrSolid) {
-  const TriangleMesh box = Box(0.0, 1.0);
-  EXPECT_THROW(MotionOracle(box, TriangleMesh()), InputError);
+  const Solid box = MakeSolid(Box(0.0, 1.0), "box");
+  EXPECT_THROW(MotionOracle(box, Solid()), InputError);
+  EXPECT_THROW(MotionOracle(Solid(), box), InputError);
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  TriangleMesh broken = box;
-  broken.vertices[0].x() = nan;
-  EXPECT_THROW(MotionOracle(broken, box), InputError);
   EXPECT_THROW(MotionOracle(box, box).Collides({0, nan, 0}), InputError);
 }
 
@@ -235,7 +236,7 @@ TEST(MotionOracle, IsExactAtTheEndsOfTheRange) {
   for (const double scale : {1e-80, 1e-30, 1e30, 1e79}) {
     const double k = std::ldexp(1.0, std::ilogb(scale));
     const TriangleMesh cube = Scaled(Box(-1.0, 1.0), k);
-    const MotionOracle oracle(cube, cube);
+    const MotionOracle oracle = testing::OracleOf(cube, cube);
     EXPECT_TRUE(oracle.Collides(k * Vector3d(2, -5, 0), k * Vector3d(2, 5, 0)));
     EXPECT_FALSE(oracle.Collides(k * Vector3d(std::nextafter(2.0, 3.0), -5, 0),
                                  k * Vector3d(std::nextafter(2.0, 3.0), 5, 0)));
@@ -268,7 +269,7 @@ TEST(MotionOracleCampaign, AgreesWithTheContactSpaceOfRandomPairs) {
       const SolidPair pair = MakeRandomPair(kind, seed);
       const ContactSpace space = BuildContactSpace(pair.robot, pair.obstacle);
       const FreeSpace judge({space});
-      const MotionOracle oracle(pair.robot, pair.obstacle);
+      const MotionOracle oracle = testing::OracleOf(pair.robot, pair.obstacle);
       BoundingBox box = ComputeBounds(space.mesh());
       const double diagonal = box.Diagonal();
       box.min.array() -= 0.2 * diagonal;

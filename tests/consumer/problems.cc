@@ -9,8 +9,8 @@
 
 int main() {
   phongpd::Workspace workspace;
-  workspace.robot = Box(0.5);
-  workspace.obstacles = {{"box", Box(1.0)}};
+  workspace.robot = phongpd::MakeSolid(Box(0.5), "robot");
+  workspace.obstacles = {phongpd::MakeSolid(Box(1.0), "box")};
   workspace.bounds = {Eigen::Vector3d::Constant(-4.0),
                       Eigen::Vector3d::Constant(4.0)};
   const phongpd::World world(workspace);

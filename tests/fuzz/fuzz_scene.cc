@@ -39,7 +39,7 @@ void Scene(const std::uint8_t* data, std::size_t size) {
     CutCounts(&json);
     // A root that does not exist: mesh files are refused.
     const auto scene = ParseScene(json, "fuzz", ".", "scene", "fuzz-no-root");
-    Promise(!scene.workspace.robot.triangles.empty(), "a scene has a robot");
+    Promise(!scene.workspace.robot.IsEmpty(), "a scene has a robot");
     Promise(!scene.workspace.obstacles.empty(), "a scene has obstacles");
     Promise(scene.start.allFinite() && scene.goal.allFinite(),
             "start and goal are finite");

@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "core/contact/contact_space.h"
+#include "core/solid/solid.h"
 #include "problems/shapes/shapes.h"
 
 namespace phongpd::testing {
@@ -33,16 +34,15 @@ TriangleMesh BoxMesh(const Box& box) {
 }
 
 // A box, or an L of two.
-std::vector<Box> MakeRobot(int size, std::mt19937_64* random,
-                           TriangleMesh* mesh) {
+std::vector<Box> MakeRobot(int size, std::mt19937_64* random, Solid* solid) {
   if (Pick(0, 2, random) > 0 || size < 2) {
     const Vector3i corner = PickPoint(-2, 1, random);
     const Box box = {corner, corner + PickPoint(1, size, random)};
-    *mesh = BoxMesh(box);
+    *solid = MakeSolid(BoxMesh(box), "robot");
     return {box};
   }
   const int height = Pick(1, size, random);
-  *mesh = MakeL(size, 1.0, height);
+  *solid = MakeSolid(MakeL(size, 1.0, height), "robot");
   return {{Vector3i(0, 0, 0), Vector3i(size, 1, height)},
           {Vector3i(0, 0, 0), Vector3i(1, size, height)}};
 }
@@ -259,8 +259,8 @@ LatticeWorld MakeLatticeWorld(LatticeWorld::Family family, bool mapped,
       MakeRobot(family == LatticeWorld::Family::kVoxels ? 2 : 3, random,
                 &world.workspace.robot);
   for (const Box& box : MakeObstacles(family, random)) {
-    world.workspace.obstacles.push_back(
-        {std::to_string(world.workspace.obstacles.size()), BoxMesh(box)});
+    world.workspace.obstacles.push_back(MakeSolid(
+        BoxMesh(box), std::to_string(world.workspace.obstacles.size())));
     for (const Box& part : robot) {
       world.boxes.push_back({box[0] - part[1], box[1] - part[0]});
     }

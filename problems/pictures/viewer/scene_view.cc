@@ -13,8 +13,9 @@ View SceneView(const Scene& scene,
   view.robot = scene.workspace.robot;
   view.start = scene.start;
   view.goal = scene.goal;
-  for (const Obstacle& obstacle : scene.workspace.obstacles) {
-    view.meshes.push_back({obstacle.id, ViewRole::kObstacle, obstacle.mesh});
+  for (const Solid& obstacle : scene.workspace.obstacles) {
+    view.meshes.push_back(
+        {obstacle.name(), ViewRole::kObstacle, obstacle.mesh()});
   }
   for (const TriangleMesh& mesh : contact_spaces) {
     view.meshes.push_back({"contact space", ViewRole::kContactSpace, mesh});

@@ -13,7 +13,7 @@
 #include "core/bounds/convex_hull.h"
 #include "core/bounds/solid_distance.h"
 #include "core/bvh/triangle_bvh.h"
-#include "core/solid/mesh_check.h"
+#include "core/solid/solid.h"
 #include "problems/shapes/shapes.h"
 #include "tests/support/solid_tools.h"
 

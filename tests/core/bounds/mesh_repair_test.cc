@@ -10,6 +10,7 @@
 
 #include "core/bounds/mesh_approximation.h"
 #include "core/bvh/triangle_bvh.h"
+#include "core/solid/solid.h"
 #include "problems/shapes/shapes.h"
 #include "tests/support/solid_tools.h"
 

@@ -12,7 +12,7 @@
 #include <string>
 
 #include "core/mesh/mesh_io.h"
-#include "core/solid/mesh_check.h"
+#include "core/solid/solid.h"
 #include "problems/shapes/shapes.h"
 
 namespace phongpd {

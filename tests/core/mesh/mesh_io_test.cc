@@ -10,7 +10,7 @@
 #include <fstream>
 #include <string>
 
-#include "core/solid/mesh_check.h"
+#include "core/solid/solid.h"
 #include "problems/shapes/shapes.h"
 
 namespace phongpd {

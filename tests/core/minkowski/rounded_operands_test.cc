@@ -12,7 +12,7 @@
 
 #include "core/contact/contact_space.h"
 #include "core/minkowski/grid_solid.h"
-#include "core/solid/mesh_check.h"
+#include "core/solid/solid.h"
 #include "problems/shapes/shapes.h"
 #include "tests/support/campaign.h"
 #include "tests/support/contact_membership.h"

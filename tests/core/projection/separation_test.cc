@@ -14,7 +14,7 @@
 #include "constraints/oracle/collision_oracle.h"
 #include "core/bvh/triangle_bvh.h"
 #include "core/contact/contact_space.h"
-#include "core/solid/mesh_check.h"
+#include "core/solid/solid.h"
 #include "problems/shapes/shapes.h"
 #include "problems/studies/paper_benchmarks.h"
 #include "problems/studies/random_pairs.h"
@@ -147,8 +147,8 @@ struct Tally {
 
 // Poses of one pair: the same points by every route.
 Tally Separate(const Solids& solids, long poses, std::mt19937_64* random) {
-  const TriangleMesh robot = MakeSolid(solids.robot(), "robot");
-  const TriangleMesh obstacle = MakeSolid(solids.obstacle(), "obstacle");
+  const Solid robot = MakeSolid(solids.robot(), "robot");
+  const Solid obstacle = MakeSolid(solids.obstacle(), "obstacle");
   const TriangleMesh mesh = BuildContactSpace(robot, obstacle).mesh();
   const BoundingBox box = ComputeBounds(mesh);
   const double diagonal = box.Diagonal();

@@ -21,6 +21,7 @@
 #include "tests/support/campaign.h"
 #include "tests/support/exact_answers.h"
 #include "tests/support/metrics.h"
+#include "tests/support/oracle_of.h"
 #include "tests/support/solid_tools.h"
 
 namespace phongpd {
@@ -184,7 +185,7 @@ TEST(TouchingCampaign, MeansTheSameForQueryJudgeAndSolids) {
     const EuclideanMetric euclid(TakeAsContactSpace(mesh));
     const PhongMetric phong(TakeAsContactSpace(mesh));
     const FreeSpace free({TakeAsContactSpace(mesh)});
-    const MotionOracle solids(pair.robot, pair.obstacle);
+    const MotionOracle solids = testing::OracleOf(pair.robot, pair.obstacle);
     for (long i = 0; i < each; ++i) {
       // Coordinates of vertices of C_cont, or of a contact of two vertices.
       Vector3d q;

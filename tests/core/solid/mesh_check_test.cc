@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/solid/mesh_check.h"
-
 #include <gtest/gtest.h>
 
 #include <chrono>
@@ -9,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "core/solid/solid.h"
 #include "problems/shapes/shapes.h"
 
 namespace phongpd {
@@ -165,8 +164,9 @@ TEST(MakeSolid, RefusesSizesThatLoseDigits) {
   ExpectRefused(Scaled(UnitBox(), 1e-90), "size out of range");
   ExpectRefused(Scaled(UnitBox(), 1e90), "size out of range");
   for (const double scale : {1e-79, 1e-9, 1e9, 1e79}) {
-    EXPECT_EQ(MakeSolid(Scaled(MakeStar(1, 2), scale), "star").vertices.size(),
-              32u);
+    EXPECT_EQ(
+        MakeSolid(Scaled(MakeStar(1, 2), scale), "star").mesh().vertices.size(),
+        32u);
   }
 }
 
@@ -194,7 +194,8 @@ TEST(MakeSolid, JoinsVerticesOnlyWhereThatCloses) {
   // would make that edge non-manifold.
   const TriangleMesh touching =
       Joined(UnitBox(), Translated(UnitBox(), {1, 1, 0}));
-  EXPECT_EQ(MakeSolid(touching, "touching", &report).vertices.size(), 16u);
+  EXPECT_EQ(MakeSolid(touching, "touching", &report).mesh().vertices.size(),
+            16u);
   EXPECT_EQ(report.joined_vertices, 0u);
   EXPECT_EQ(report.duplicate_vertices, 2u);
   EXPECT_EQ(report.components, 2);
@@ -225,7 +226,7 @@ TEST(MakeSolid, KeepsZeroAreaTrianglesThatTheSurfaceNeeds) {
   mesh.triangles.push_back({8, b, c});
   mesh.triangles.push_back({a, b, 8});
   MeshReport report;
-  EXPECT_EQ(MakeSolid(mesh, "box", &report).triangles.size(), 14u);
+  EXPECT_EQ(MakeSolid(mesh, "box", &report).mesh().triangles.size(), 14u);
   EXPECT_EQ(report.degenerate_triangles, 1u);
   EXPECT_NEAR(report.volume, 1, 1e-15);
 }

@@ -13,7 +13,7 @@
 #include <utility>
 
 #include "core/mesh/mesh_error.h"
-#include "core/solid/mesh_check.h"
+#include "core/solid/solid.h"
 #include "problems/shapes/shapes.h"
 
 namespace phongpd {

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "core/bvh/triangle_bvh.h"
+#include "core/solid/solid.h"
 #include "planners/exact/exact_solution.h"
 #include "planners/exact/free_space.h"
 #include "planners/exact/path_shortening.h"
@@ -186,9 +187,10 @@ TEST(ContactSurfacePlanner, RefusesStartsAndGoalsThatAreNotFree) {
 
 TEST(ContactSurfacePlanner, NamesWhatIsInTheWay) {
   Workspace workspace;
-  workspace.robot = MakeBox(Vector3d::Constant(-0.5), Vector3d::Constant(0.5));
-  workspace.obstacles = {{"wall", MakeBox({1, -9, -9}, {2, 9, 9})},
-                         {"post", MakeBox({-4, 0, -9}, {-3, 1, 9})}};
+  workspace.robot = MakeSolid(
+      MakeBox(Vector3d::Constant(-0.5), Vector3d::Constant(0.5)), "robot");
+  workspace.obstacles = {MakeSolid(MakeBox({1, -9, -9}, {2, 9, 9}), "wall"),
+                         MakeSolid(MakeBox({-4, 0, -9}, {-3, 1, 9}), "post")};
   workspace.bounds = {Vector3d::Constant(-5.0), Vector3d::Constant(5.0)};
   ExactSolution solution = SolveExactly(workspace, {1.0, 3, 0}, {-1, 0, 0});
   EXPECT_EQ(solution.plan.status, PlanStatus::kInvalidStart);

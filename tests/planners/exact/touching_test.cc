@@ -9,6 +9,7 @@
 
 #include "core/contact/contact_space.h"
 #include "core/projection/euclidean_metric.h"
+#include "core/solid/solid.h"
 #include "planners/exact/contact_roadmap.h"
 #include "planners/exact/contact_surface_planner.h"
 #include "planners/exact/free_space.h"
@@ -93,10 +94,11 @@ TEST(Touching, IsCollisionForQueryJudgePlannerAndProof) {
   };
   for (const Touching& one : cases) {
     Workspace workspace;
-    workspace.robot = MakeBox(Vector3d::Zero(), Vector3d::Ones());
+    workspace.robot =
+        MakeSolid(MakeBox(Vector3d::Zero(), Vector3d::Ones()), "robot");
     for (const auto& box : one.boxes) {
-      workspace.obstacles.push_back({std::to_string(workspace.obstacles.size()),
-                                     MakeBox(box[0], box[1])});
+      workspace.obstacles.push_back(MakeSolid(
+          MakeBox(box[0], box[1]), std::to_string(workspace.obstacles.size())));
     }
     workspace.bounds = {Vector3d(-6, -6, -6), Vector3d(6, 6, 6)};
     const TriangleMesh contact =

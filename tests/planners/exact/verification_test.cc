@@ -12,6 +12,7 @@
 #include "core/contact/contact_space.h"
 #include "core/projection/euclidean_metric.h"
 #include "core/projection/phong_metric.h"
+#include "core/solid/solid.h"
 #include "planners/exact/contact_surface_planner.h"
 #include "planners/exact/exact_solution.h"
 #include "planners/exact/free_space.h"
@@ -33,8 +34,8 @@ TriangleMesh Box(double low, double high) {
 
 // C_obj = [−2, 2]³ in bounds [−9, 9]³.
 Workspace TwoCubes() {
-  return {Box(-1.0, 1.0),
-          {{"cube", Box(-1.0, 1.0)}},
+  return {MakeSolid(Box(-1.0, 1.0), "robot"),
+          {MakeSolid(Box(-1.0, 1.0), "cube")},
           {Vector3d::Constant(-9.0), Vector3d::Constant(9.0)}};
 }
 
@@ -92,9 +93,10 @@ TEST(VerifyBlocked, TellsFreeFromBlockedPlaces) {
 
 // The robot is inside a closed hollow box, or outside of it.
 Workspace HollowBox() {
-  return {Box(-0.5, 0.5),
-          {{"shell", Joined(Box(-3.0, 3.0), Reversed(Box(-2.0, 2.0)))}},
-          {Vector3d::Constant(-9.0), Vector3d::Constant(9.0)}};
+  return {
+      MakeSolid(Box(-0.5, 0.5), "robot"),
+      {MakeSolid(Joined(Box(-3.0, 3.0), Reversed(Box(-2.0, 2.0))), "shell")},
+      {Vector3d::Constant(-9.0), Vector3d::Constant(9.0)}};
 }
 
 TEST(VerifySeparation, ConfirmsAProofAndRefutesAWrongContactSpace) {
@@ -140,11 +142,11 @@ TEST(VerifySeparation, ConfirmsAProofAndRefutesAWrongContactSpace) {
 
 TEST(VerifyDepth, ConfirmsBothMetricsAndRefutesWrongDepths) {
   Workspace workspace;
-  workspace.robot = MakeCone(0.8, 1.6, 8);
-  workspace.obstacles = {{"U", MakeU(2.0, 0.4, 1.0)}};
+  workspace.robot = MakeSolid(MakeCone(0.8, 1.6, 8), "robot");
+  workspace.obstacles = {MakeSolid(MakeU(2.0, 0.4, 1.0), "U")};
   const Verifier verifier(workspace);
   const TriangleMesh contact =
-      BuildContactSpace(workspace.robot, workspace.obstacles[0].mesh).mesh();
+      BuildContactSpace(workspace.robot, workspace.obstacles[0]).mesh();
   const EuclideanMetric euclidean(TakeAsContactSpace(contact));
   const PhongMetric phong(TakeAsContactSpace(contact));
   const BoundingBox box = ComputeBounds(contact);
@@ -206,10 +208,10 @@ TEST(VerificationCampaign, ConfirmsThePlannerOnSceneFamilies) {
           << family << ' ' << seed << ": " << path.reason;
       // The same by way of a place in contact.
       Path wrong = plan.path;
-      const Obstacle& obstacle = scene.workspace.obstacles.front();
+      const TriangleMesh& obstacle = scene.workspace.obstacles.front();
       wrong.insert(wrong.begin() + 1,
-                   obstacle.mesh.vertices.front() -
-                       scene.workspace.robot.vertices.front());
+                   obstacle.vertices.front() -
+                       scene.workspace.robot.mesh().vertices.front());
       ++row.cases;
       const bool is_caught =
           verifier.VerifyPath(wrong).verdict != Verdict::kConfirmed;

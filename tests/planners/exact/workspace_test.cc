@@ -7,7 +7,7 @@
 
 #include "core/contact/contact_space.h"
 #include "core/mesh/mesh_error.h"
-#include "core/solid/mesh_check.h"
+#include "core/solid/solid.h"
 #include "planners/exact/exact_solution.h"
 #include "planners/exact/free_space.h"
 #include "problems/shapes/shapes.h"
@@ -19,16 +19,18 @@ using Eigen::Vector3d;
 
 Workspace CubeAmongTwoBoxes() {
   Workspace workspace;
-  workspace.robot = MakeBox({-0.25, 0.0, 0.0}, {0.25, 0.5, 0.5});
-  workspace.obstacles = {{"near", MakeBox({-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5})},
-                         {"far", MakeBox({9.0, 9.0, 9.0}, {10.0, 10.0, 10.0})}};
+  workspace.robot =
+      MakeSolid(MakeBox({-0.25, 0.0, 0.0}, {0.25, 0.5, 0.5}), "robot");
+  workspace.obstacles = {
+      MakeSolid(MakeBox({-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5}), "near"),
+      MakeSolid(MakeBox({9.0, 9.0, 9.0}, {10.0, 10.0, 10.0}), "far")};
   workspace.bounds = {Vector3d::Constant(-2.0), Vector3d::Constant(2.0)};
   return workspace;
 }
 
 TEST(Workspace, ConfinesTheRobotExactlyToTheBounds) {
   const Workspace workspace = CubeAmongTwoBoxes();
-  const TriangleMesh shell = BoundsShell(workspace);
+  const Solid shell = BoundsShell(workspace);
   EXPECT_EQ(ExamineMesh(shell).boundary_edges, 0u);
   const ContactSpace contact = BuildContactSpace(workspace.robot, shell);
   EXPECT_EQ(contact.report().cavities, 1);
@@ -45,10 +47,10 @@ TEST(Workspace, MergesWhatTheRobotCanReach) {
   Workspace workspace = CubeAmongTwoBoxes();
   EXPECT_EQ(ReachableObstacles(workspace), std::vector<int>{0});
   // One box and the shell: 12 + 24 triangles.
-  EXPECT_EQ(MergedObstacle(workspace).triangles.size(), 36u);
+  EXPECT_EQ(MergedObstacle(workspace).mesh().triangles.size(), 36u);
   workspace.bounds = FreeSpace::NoBounds();
   EXPECT_EQ(ReachableObstacles(workspace), (std::vector<int>{0, 1}));
-  EXPECT_EQ(MergedObstacle(workspace).triangles.size(), 24u);
+  EXPECT_EQ(MergedObstacle(workspace).mesh().triangles.size(), 24u);
 }
 
 // C_obj of `near` ends at x = 0.75, the bounds at 2.
@@ -71,7 +73,7 @@ TEST(Workspace, RefusesWhatCannotBeBuilt) {
   workspace.robot = {};
   EXPECT_THROW(workspace.Validate(), InputError);
   workspace = valid;
-  workspace.obstacles[1].id = "near";
+  workspace.obstacles[1] = workspace.obstacles[1].Named("near");
   EXPECT_THROW(workspace.Validate(), InputError);
   workspace = valid;
   workspace.bounds.max.y() = -2.0;

@@ -12,6 +12,7 @@
 
 #include "core/contact/contact_space.h"
 #include "core/mesh/mesh_error.h"
+#include "core/solid/solid.h"
 #include "planners/exact/workspace.h"
 #include "problems/shapes/shapes.h"
 #include "tests/support/path_problems.h"
@@ -178,15 +179,15 @@ TEST(TrajectoryPipeline, SaysWhyThereIsNoPath) {
 TEST(TrajectoryPipeline, TakesOneContactSpacePerObstacleAndBounds) {
   for (const double top : {0.55, 0.95}) {
     Workspace workspace;
-    workspace.robot =
-        MakeBox(Vector3d::Constant(-0.1), Vector3d::Constant(0.1));
+    workspace.robot = MakeSolid(
+        MakeBox(Vector3d::Constant(-0.1), Vector3d::Constant(0.1)), "robot");
     workspace.obstacles = {
-        {"left", MakeBox({-0.1, -2.0, -2.0}, {0.1, 0.2, top})},
-        {"right", MakeBox({-0.12, -0.1, -2.0}, {0.08, 2.0, top})}};
+        MakeSolid(MakeBox({-0.1, -2.0, -2.0}, {0.1, 0.2, top}), "left"),
+        MakeSolid(MakeBox({-0.12, -0.1, -2.0}, {0.08, 2.0, top}), "right")};
     workspace.bounds = {Vector3d::Constant(-1.0), Vector3d::Constant(1.0)};
     std::vector<ContactSpace> contacts;
-    for (const Obstacle& obstacle : workspace.obstacles) {
-      contacts.push_back(BuildContactSpace(workspace.robot, obstacle.mesh));
+    for (const Solid& obstacle : workspace.obstacles) {
+      contacts.push_back(BuildContactSpace(workspace.robot, obstacle));
     }
     TrajectoryProblem problem =
         MakeTrajectoryProblem(contacts, {}, workspace.bounds);

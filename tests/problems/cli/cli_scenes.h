@@ -138,13 +138,13 @@ class CliScenes : public Cli {
     EXPECT_EQ(path.front(), scene.start);
     EXPECT_EQ(path.back(), scene.goal);
     const Workspace& workspace = scene.workspace;
-    for (const Obstacle& obstacle : workspace.obstacles) {
-      const CollisionOracle oracle(workspace.robot, obstacle.mesh);
+    for (const Solid& obstacle : workspace.obstacles) {
+      const CollisionOracle oracle(workspace.robot, obstacle);
       for (std::size_t i = 0; i + 1 < path.size(); ++i) {
         for (int k = 0; k <= 20; ++k) {
           const Eigen::Vector3d q =
               path[i] + (path[i + 1] - path[i]) * (k / 20.0);
-          EXPECT_FALSE(oracle.Collides(q)) << obstacle.id << q.transpose();
+          EXPECT_FALSE(oracle.Collides(q)) << obstacle.name() << q.transpose();
         }
       }
     }

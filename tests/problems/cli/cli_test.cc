@@ -12,7 +12,7 @@
 #include "core/mesh/mesh_io.h"
 #include "core/projection/euclidean_metric.h"
 #include "core/projection/phong_metric.h"
-#include "core/solid/mesh_check.h"
+#include "core/solid/solid.h"
 #include "problems/scenes/scene_library.h"
 #include "problems/shapes/shapes.h"
 #include "tests/problems/cli/cli_fixture.h"

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "core/mesh/mesh_io.h"
-#include "core/solid/mesh_check.h"
+#include "core/solid/solid.h"
 #include "problems/shapes/shapes.h"
 #include "tests/problems/meshes/mesh_files.h"
 #include "tests/support/temporary_folder.h"

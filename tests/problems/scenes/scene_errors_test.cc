@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/solid/mesh_check.h"
+#include "core/solid/solid.h"
 #include "problems/scenes/json_schema.h"
 #include "problems/scenes/scene.h"
 

@@ -117,7 +117,7 @@ TEST(SceneFamilies, PlacementKeepsTheProblem) {
         name,
         {{"rotation_seed", kSeed}, {"scale", kScale}, {"offset", kOffset}});
     EXPECT_TRUE(placed.workspace.bounds.IsEmpty());
-    EXPECT_EQ(placed.workspace.obstacles.back().id, "bounds_shell");
+    EXPECT_EQ(placed.workspace.obstacles.back().name(), "bounds_shell");
     const CollisionOracle before(plain.workspace.robot,
                                  JoinedObstacle(plain.workspace));
     const CollisionOracle after(placed.workspace.robot,

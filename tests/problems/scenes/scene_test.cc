@@ -55,7 +55,7 @@ Json FullScene() {
 TEST(Scene, NeedsOnlySolidsStartAndGoal) {
   const Scene scene = ParseScene(SmallScene(), "s.json", ".", "small");
   EXPECT_EQ(scene.name, "small");
-  EXPECT_EQ(scene.workspace.obstacles.at(0).id, "obstacle0");
+  EXPECT_EQ(scene.workspace.obstacles.at(0).name(), "obstacle0");
   EXPECT_TRUE(scene.workspace.bounds.IsEmpty());
   EXPECT_EQ(scene.start, Vector3d(-3, 0, 0));
   EXPECT_EQ(scene.goal, Vector3d(3, 0, 0));
@@ -68,7 +68,7 @@ TEST(Scene, NeedsOnlySolidsStartAndGoal) {
 TEST(Scene, ReadsEverySetting) {
   const Scene scene = ParseScene(FullScene(), "s.json");
   EXPECT_EQ(scene.name, "full");
-  EXPECT_EQ(scene.workspace.obstacles.at(0).id, "cube");
+  EXPECT_EQ(scene.workspace.obstacles.at(0).name(), "cube");
   EXPECT_EQ(scene.workspace.bounds.min, Vector3d(-5, -5, -5));
   EXPECT_EQ(scene.workspace.bounds.max, Vector3d(5, 5, 5));
   EXPECT_EQ(scene.penetration.metric, "euclidean");
@@ -138,12 +138,12 @@ TEST(Scene, PlacesSolidsByRotationThenScaleThenPosition) {
   obstacle["position"] = {10, 20, 30};
   obstacle["rotation"] = {0, -1, 0, 1, 0, 0, 0, 0, 1};  // x to y
   const BoundingBox turned =
-      ComputeBounds(ParseScene(json, "s.json").workspace.obstacles[0].mesh);
+      ComputeBounds(ParseScene(json, "s.json").workspace.obstacles[0]);
   EXPECT_EQ(turned.min, Vector3d(9, 19.5, 28.5));
   EXPECT_EQ(turned.max, Vector3d(11, 20.5, 31.5));
   obstacle["rotation"] = {{"axis", {0, 0, 7}}, {"degrees", 90}};
   const BoundingBox same =
-      ComputeBounds(ParseScene(json, "s.json").workspace.obstacles[0].mesh);
+      ComputeBounds(ParseScene(json, "s.json").workspace.obstacles[0]);
   EXPECT_LT((same.min - turned.min).norm() + (same.max - turned.max).norm(),
             1e-14);
 }
@@ -160,7 +160,7 @@ TEST(Scene, ReadsMeshesBesideTheFileAndComments) {
   std::ofstream(path) << "// a comment\n" << json.dump() << "/* another */\n";
   const Scene scene = ReadScene(path);
   EXPECT_EQ(scene.name, "by_mesh");
-  EXPECT_EQ(ComputeBounds(scene.workspace.obstacles.at(0).mesh).max,
+  EXPECT_EQ(ComputeBounds(scene.workspace.obstacles.at(0)).max,
             Vector3d(1, 1, 1));
 
   std::ofstream(path) << "{\"robot\": 1, }";

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "core/solid/mesh_check.h"
+#include "core/solid/solid.h"
 #include "problems/shapes/random_solids.h"
 #include "problems/shapes/shapes.h"
 

@@ -3,18 +3,23 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstring>
 #include <functional>
 #include <limits>
+#include <random>
 #include <set>
 #include <string>
 #include <utility>
 
-#include "core/solid/mesh_check.h"
+#include "core/solid/solid.h"
+#include "problems/shapes/random_solids.h"
+#include "problems/shapes/random_vector.h"
 
 namespace phongpd {
 namespace {
@@ -358,6 +363,27 @@ TEST(Shapes, RefuseBadParametersByName) {
       EXPECT_EQ(what.find('\n'), std::string::npos) << what;
     }
   }
+}
+
+// One draw a statement, whatever order a compiler takes arguments in: the same
+// seed is the same scene everywhere.
+TEST(RandomVector, DrawsZThenYThenX) {
+  std::uniform_real_distribution<double> unit(-1.0, 1.0);
+  std::mt19937_64 random(3), again(3);
+  const Vector3d v = RandomVector(&unit, &random);
+  EXPECT_EQ(v.z(), unit(again));
+  EXPECT_EQ(v.y(), unit(again));
+  EXPECT_EQ(v.x(), unit(again));
+}
+
+TEST(RandomRotation, DrawsOneNumberAStatement) {
+  std::mt19937_64 random(3), again(3);
+  const Eigen::Matrix3d found = RandomRotation(&random);
+  std::normal_distribution<double> normal;
+  std::array<double, 4> draws;
+  for (double& draw : draws) draw = normal(again);
+  const Eigen::Quaterniond q(draws[3], draws[2], draws[1], draws[0]);
+  EXPECT_EQ(found, q.normalized().toRotationMatrix());
 }
 
 }  // namespace

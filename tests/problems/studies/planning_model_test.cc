@@ -47,10 +47,10 @@ TEST(PlanningModel, WindowPathsAreExactlyFree) {
     const std::vector<Vector3d>& path = result.numbers.path;
     EXPECT_EQ(path.front(), scene.start);
     EXPECT_EQ(path.back(), scene.goal);
-    for (const Obstacle& obstacle : scene.workspace.obstacles) {
-      const MotionOracle oracle(scene.workspace.robot, obstacle.mesh);
+    for (const Solid& obstacle : scene.workspace.obstacles) {
+      const MotionOracle oracle(scene.workspace.robot, obstacle);
       for (std::size_t k = 0; k + 1 < path.size(); ++k) {
-        EXPECT_FALSE(oracle.Collides(path[k], path[k + 1])) << obstacle.id;
+        EXPECT_FALSE(oracle.Collides(path[k], path[k + 1])) << obstacle.name();
       }
     }
     const FreeSpace& full = *study.spaces().free_space;

@@ -9,6 +9,7 @@
 #include "core/projection/euclidean_metric.h"
 #include "problems/shapes/random_solids.h"
 #include "problems/shapes/shapes.h"
+#include "tests/support/oracle_of.h"
 
 namespace phongpd {
 namespace {
@@ -19,7 +20,7 @@ using Eigen::Vector3d;
 TEST(DepthBound, IsTheDepthOfTwoBoxes) {
   const TriangleMesh robot = MakeBox({-0.1, -0.2, -0.3}, {0.1, 0.2, 0.3});
   const TriangleMesh obstacle = MakeBox({-1, -2, -3}, {1, 2, 3});
-  const MotionOracle oracle(robot, obstacle);
+  const MotionOracle oracle = testing::OracleOf(robot, obstacle);
   std::mt19937_64 random(1);
   std::uniform_real_distribution<double> share(-1.0, 1.0);
   for (int i = 0; i < 200; ++i) {
@@ -41,7 +42,7 @@ TEST(DepthBound, IsNeverLessThanTheDepthAndAWayOut) {
        {MakeTorus(1.0, 0.4, 24, 12), MakeIcoBall(1.0, 2),
         MakeU(2.0, 0.5, 1.0)}) {
     const EuclideanMetric metric(BuildContactSpace(robot, obstacle));
-    const MotionOracle oracle(robot, obstacle);
+    const MotionOracle oracle = testing::OracleOf(robot, obstacle);
     std::mt19937_64 random(2);
     const BoundingBox box = ComputeBounds(obstacle);
     int inside = 0;
@@ -65,7 +66,7 @@ TEST(DepthBound, IsNeverLessThanTheDepthAndAWayOut) {
 TEST(DepthBound, IsZeroWhereSolidsTouch) {
   const TriangleMesh robot = MakeBox({-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5});
   const TriangleMesh obstacle = MakeBox({-1, -1, -1}, {1, 1, 1});
-  const MotionOracle oracle(robot, obstacle);
+  const MotionOracle oracle = testing::OracleOf(robot, obstacle);
   for (const Vector3d& q :
        {Vector3d(1.5, 0, 0), Vector3d(0, -1.5, 1.5), Vector3d(1.5, 1.5, 1.5)}) {
     EXPECT_TRUE(oracle.Collides(q));

@@ -10,6 +10,7 @@
 
 #include "constraints/oracle/collision_oracle.h"
 #include "core/mesh/mesh_error.h"
+#include "core/solid/solid.h"
 #include "problems/shapes/random_solids.h"
 #include "problems/shapes/shapes.h"
 
@@ -25,10 +26,10 @@ TriangleMesh Box(const Vector3d& center, const Vector3d& size) {
 // A cube among a wall and a post that meet, and a box out of reach.
 Workspace Crowd() {
   Workspace workspace;
-  workspace.robot = Box({0, 0, 0}, {0.2, 0.2, 0.2});
-  workspace.obstacles = {{"wall", Box({0, 0, 0}, {0.2, 1, 1})},
-                         {"post", Box({0.2, 0, 0}, {0.4, 0.4, 2})},
-                         {"far", Box({5, 0, 0}, {1, 1, 1})}};
+  workspace.robot = MakeSolid(Box({0, 0, 0}, {0.2, 0.2, 0.2}), "robot");
+  workspace.obstacles = {MakeSolid(Box({0, 0, 0}, {0.2, 1, 1}), "wall"),
+                         MakeSolid(Box({0.2, 0, 0}, {0.4, 0.4, 2}), "post"),
+                         MakeSolid(Box({5, 0, 0}, {1, 1, 1}), "far")};
   workspace.bounds = {{-2, -2, -2}, {2, 2, 2}};
   return workspace;
 }
@@ -41,9 +42,9 @@ TEST(Diagnosis, AgreesWithFclOnWhatIsMet) {
     const Vector3d q =
         RandomPoint({{-0.6, -0.8, -1.4}, {0.8, 0.8, 1.4}}, &random);
     std::string expected, found;
-    for (const Obstacle& obstacle : workspace.obstacles) {
-      const CollisionOracle oracle(workspace.robot, obstacle.mesh);
-      if (oracle.Collides(q)) expected += obstacle.id + ' ';
+    for (const Solid& obstacle : workspace.obstacles) {
+      const CollisionOracle oracle(workspace.robot, obstacle);
+      if (oracle.Collides(q)) expected += obstacle.name() + ' ';
     }
     const Diagnosis diagnosis = Diagnose(workspace, q);
     for (const auto& contact : diagnosis.contacts) found += contact.name + ' ';
@@ -107,10 +108,10 @@ TEST(Diagnosis, RoundsDepthsUp) {
 
 TEST(Diagnosis, NamesFiveObstaclesAndCountsTheRest) {
   Workspace workspace;
-  workspace.robot = Box({0, 0, 0}, {4, 4, 4});
+  workspace.robot = MakeSolid(Box({0, 0, 0}, {4, 4, 4}), "robot");
   for (int i = 0; i < 8; ++i) {
     workspace.obstacles.push_back(
-        {"b" + std::to_string(i), Box({0.1 * i, 0, 0}, {1, 1, 1})});
+        MakeSolid(Box({0.1 * i, 0, 0}, {1, 1, 1}), "b" + std::to_string(i)));
   }
   const Diagnosis diagnosis = Diagnose(workspace, {0, 0, 0});
   EXPECT_EQ(diagnosis.contacts.size(), 8U);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/mesh/mesh_error.h"
+#include "core/solid/solid.h"
 #include "problems/scenes/scene.h"
 #include "problems/studies/planning_study.h"
 #include "problems/studies/trajectory_study.h"
@@ -109,7 +110,10 @@ TEST(World, IsSharedByAllThatPlanInIt) {
     // Bounds belong to the planners' space and not to the optimiser's.
     EXPECT_EQ(world.Report().contact_spaces, has_bounds ? 2 : 1);
     Scene other = scene;
-    other.workspace.obstacles[0].mesh.vertices[0].x() -= 1.0;
+    TriangleMesh moved = other.workspace.obstacles[0];
+    moved.vertices[0].x() -= 1.0;
+    other.workspace.obstacles[0] =
+        MakeSolid(moved, other.workspace.obstacles[0].name());
     EXPECT_THROW(PlanningStudy(other, world), InputError);
     EXPECT_THROW(trajectories.Enter(other, world), InputError);
   }

@@ -12,7 +12,7 @@
 
 #include "constraints/oracle/collision_oracle.h"
 #include "core/mesh/mesh_error.h"
-#include "core/solid/mesh_check.h"
+#include "core/solid/solid.h"
 #include "problems/scenes/scene.h"
 #include "problems/shapes/random_solids.h"
 
@@ -58,8 +58,8 @@ TEST_P(WorldLayouts, AgreeWithFclOnFreedom) {
   const World world = WorldOf(scene);
   const WorldSpaces& space = world.Spaces(GetParam());
   std::vector<CollisionOracle> oracles;
-  for (const Obstacle& obstacle : scene.workspace.obstacles) {
-    oracles.emplace_back(scene.workspace.robot, obstacle.mesh);
+  for (const Solid& obstacle : scene.workspace.obstacles) {
+    oracles.emplace_back(scene.workspace.robot, obstacle);
   }
   std::mt19937_64 random(5);
   int free = 0, beyond = 0;
@@ -209,10 +209,12 @@ TEST(World, IsKnownByItsSolidsNamesAndBounds) {
   const Workspace a = Parse(Crowd()).workspace;
   Workspace b = a;
   EXPECT_TRUE(HaveSameSolids(a, b));
-  b.obstacles[1].id = "rod";
+  b.obstacles[1] = b.obstacles[1].Named("rod");
   EXPECT_FALSE(HaveSameSolids(a, b));
   b = a;
-  b.obstacles[1].mesh.vertices[0].x() += 1e-15;
+  TriangleMesh moved = b.obstacles[1];
+  moved.vertices[0].x() += 1e-15;
+  b.obstacles[1] = MakeSolid(moved, b.obstacles[1].name());
   EXPECT_FALSE(HaveSameSolids(a, b));
   b = a;
   b.bounds.max.x() += 1.0;

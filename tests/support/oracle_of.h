@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "constraints/motion_oracle.h"
+
+namespace phongpd::testing {
+
+// The oracle of two meshes, once they are checked.
+inline MotionOracle OracleOf(const TriangleMesh& robot,
+                             const TriangleMesh& obstacle) {
+  return MotionOracle(MakeSolid(robot, "robot"),
+                      MakeSolid(obstacle, "obstacle"));
+}
+
+}  // namespace phongpd::testing
