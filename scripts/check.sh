@@ -248,7 +248,9 @@ check_coverage() {
     --filter '(core|constraints|planners)/' --csv build/check/coverage.csv
   mkdir -p results/extremes
   {
-    awk -F, -v slice="$SLICE" -f scripts/coverage.awk build/check/coverage.csv
+    # Headers once: not again by the link that users include them through.
+    grep -v '^build-coverage/' build/check/coverage.csv |
+      awk -F, -v slice="$SLICE" -f scripts/coverage.awk
     # From where they were compiled: paths may be relative to that.
     for folder in core constraints planners planners/trajectory; do
       (cd "build-coverage/$folder" && find CMakeFiles -name '*.gcda' | sort |
