@@ -127,9 +127,15 @@ void TellAboutSpaces(const World& world, std::size_t triangles) {
              Rounded(report.seconds) + " s");
   }
   if (report.contact_spaces == 0) return;
+  std::string kept;
+  if (report.parts_from_cache == report.parts) {
+    kept = " (kept from before)";
+  } else if (report.from_cache) {
+    kept = " (" + std::to_string(report.parts_from_cache) + " of " +
+           std::to_string(report.parts) + " parts kept from before)";
+  }
   Progress("contact space: " + Counted(triangles, "triangle") + ", " +
-           Rounded(report.seconds) + " s" +
-           (report.from_cache ? " (kept from before)" : ""));
+           Rounded(report.seconds) + " s" + kept);
 }
 
 Length LengthFlag(const std::string& text, const std::string& flag,
