@@ -160,6 +160,10 @@ struct DepthQuery::Impl {
     result.grid_step = frame.rounding;
     result.arranged_faces = found.faces;
     result.windows = found.windows;
+    for (const double reach : found.reaches) {
+      result.window_reaches.push_back(reach * frame.step);
+    }
+    if (frame.is_turned) result.window_axes = frame.rotation.transpose();
     result.certified = found.is_certified;
     result.explored_radius = found.radius * frame.step;
     if (found.is_full) {

@@ -82,6 +82,10 @@ struct DepthResult {
   double grid_step = 0.0;
   std::size_t arranged_faces = 0;  // over all windows
   int windows = 0;
+  // Those windows: cubes around q with these half-widths, in the order in which
+  // they were built, their sides along the columns of `window_axes`.
+  std::vector<double> window_reaches;
+  Eigen::Matrix3d window_axes = Eigen::Matrix3d::Identity();
   double seconds = 0.0;  // wall time of the query
 };
 

@@ -196,6 +196,7 @@ void DepthSearch::SearchWindows(const Vector3d& x, const SearchLimits& limits,
     if (!part.origins.empty()) {
       WindowCells cells(part, window, judge_, build_limits_);
       ++depth->windows;
+      depth->reaches.push_back(chooser.reach());
       depth->faces += static_cast<std::size_t>(cells.FaceCount());
       const WindowCells::Nearest nearest = cells.FindNearest(x);
       if (nearest.found && (!is_found || nearest.distance < depth->distance)) {

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstddef>
+#include <vector>
 
 #include "core/minkowski/build_limits.h"
 #include "core/minkowski/grid_pair.h"
@@ -34,6 +35,7 @@ struct GridDepth {
   double radius = 0.0;  // nothing of C_cont is nearer that was not looked at
   bool is_full = false;
   int windows = 0;
+  std::vector<double> reaches;  // half-widths of those, around x
   std::size_t faces = 0;
 };
 

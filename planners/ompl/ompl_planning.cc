@@ -80,6 +80,21 @@ std::vector<Vector3d> PointsOf(const ob::PathPtr& path) {
   return points;
 }
 
+GrownGraph GraphOf(const ob::PlannerData& data) {
+  GrownGraph graph;
+  std::vector<unsigned int> next;
+  for (unsigned int v = 0; v < data.numVertices(); ++v) {
+    graph.points.push_back(ToPoint(data.getVertex(v).getState()));
+    data.getEdges(v, next);
+    for (const unsigned int w : next) {
+      // Roadmaps have each edge both ways.
+      if (v > w && data.edgeExists(w, v)) continue;
+      graph.edges.emplace_back(v, w);
+    }
+  }
+  return graph;
+}
+
 void AddRetractionFigures(const RetractionPlanner& planner,
                           OmplPlanningResult* result) {
   const RetractionCounters& counters = planner.retractionCounters();
@@ -88,7 +103,7 @@ void AddRetractionFigures(const RetractionPlanner& planner,
   result->segment_checks += planner.slideCounters().segment_checks;
   result->retractions = counters.retractions;
   result->branch_ends = counters.branch_ends;
-  result->graph_states = planner.graph().points().size();
+  result->graph = {planner.graph().points(), planner.graph().edges()};
 }
 
 }  // namespace
@@ -209,7 +224,7 @@ OmplPlanningResult Plan(const MotionDomain& domain,
   } else {
     ob::PlannerData data(si);
     planner->getPlannerData(data);
-    result.graph_states = data.numVertices();
+    result.graph = GraphOf(data);
   }
   if (result.solved) {
     result.path = PointsOf(problem->getSolutionPath());

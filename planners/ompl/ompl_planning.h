@@ -6,6 +6,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "planners/ompl/motion_domain.h"
@@ -42,6 +43,13 @@ struct OmplPlanningOptions {
   void Validate() const;
 };
 
+// What a planner grew: configurations, and the straight free motions between
+// them by their numbers.  OMPL does not promise an order.
+struct GrownGraph {
+  std::vector<Eigen::Vector3d> points;
+  std::vector<std::pair<int, int>> edges;
+};
+
 struct OmplPlanningResult {
   bool solved = false;          // what the planner claims
   bool collision_free = false;  // CheckPath's word on the path
@@ -56,7 +64,7 @@ struct OmplPlanningResult {
   std::uint64_t segment_checks = 0;    // of a motion
   std::uint64_t retractions = 0;       // of colliding configurations
   std::uint64_t branch_ends = 0;
-  std::uint64_t graph_states = 0;
+  GrownGraph graph;
   double seconds = 0.0;  // of the planner alone
 };
 

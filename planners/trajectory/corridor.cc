@@ -16,6 +16,15 @@ using Eigen::VectorXd;
 constexpr double kSmallestTrust = 1e-3;  // of the first round's
 constexpr double kLeastGain = 1e-4;  // of the merit; two smaller ones end it
 
+// A slope of a segment against a plane that is rounding.
+constexpr double kLevel = 1e-9;
+
+// How far around a path the planes of a round are looked for, units of D: a
+// waypoint moves by at most √3 τ.
+double ReachOf(const TrajectoryProblem& problem, double trust) {
+  return 2.0 * trust + problem.margin;
+}
+
 template <typename T>
 void Check(const char* name, const char* range, bool holds, T value) {
   CheckOption(holds, "corridor", name, range, value);
@@ -92,8 +101,7 @@ CorridorSummary PolishInCorridor(const TrajectoryProblem& problem,
   const double price =
       options.restoring / std::max((springs.goal - springs.start).norm(), 1e-3);
   double trust = options.trust;
-  // A waypoint moves by at most √3 τ.
-  const double reach = 2.0 * trust + problem.margin;
+  const double reach = ReachOf(problem, trust);
   Corridor corridor = FindCorridor(problem, springs, path, reach);
   double merit = springs.Energy(now.data()) + price * corridor.TotalMissing();
   int small_gains = 0;
@@ -157,6 +165,38 @@ CorridorSummary PolishInCorridor(const TrajectoryProblem& problem,
   }
   summary.seconds = stopwatch.Seconds();
   return summary;
+}
+
+std::vector<CorridorPlane> PlanesAround(const TrajectoryProblem& problem,
+                                        const Path& path,
+                                        const CorridorOptions& options) {
+  problem.Validate();
+  options.Validate();
+  CheckStartPath(problem, path);
+  std::vector<CorridorPlane> planes;
+  if (!CheckPath(*problem.free_space, path).free) return planes;
+  const PathSprings springs(problem, PathLength(path));
+  const Corridor corridor =
+      FindCorridor(problem, springs, path, ReachOf(problem, options.trust));
+  for (std::size_t i = 0; i < corridor.planes.size(); ++i) {
+    for (const Corridor::Plane& plane : corridor.planes[i]) {
+      const Eigen::Vector3d& a = path[i];
+      const Eigen::Vector3d& b = path[i + 1];
+      // Halfway where both ends are as low, but for rounding.
+      const double rise = plane.normal.dot(b - a);
+      const bool is_level = std::abs(rise) <= kLevel * (b - a).norm();
+      const Eigen::Vector3d lowest = is_level     ? Eigen::Vector3d((a + b) / 2)
+                                     : rise > 0.0 ? a
+                                                  : b;
+      const double above =
+          plane.normal.dot((lowest - springs.center) / springs.unit) -
+          plane.level;
+      planes.push_back({static_cast<int>(i), plane.normal,
+                        lowest - above * springs.unit * plane.normal,
+                        plane.distance * springs.unit});
+    }
+  }
+  return planes;
 }
 
 double MissingClearance(const TrajectoryProblem& problem, const Path& path) {

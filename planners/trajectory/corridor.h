@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <Eigen/Core>
 #include <limits>
 #include <string>
 #include <vector>
@@ -86,6 +87,22 @@ struct CorridorSummary {
 CorridorSummary PolishInCorridor(const TrajectoryProblem& problem,
                                  const Path& path,
                                  const CorridorOptions& options = {});
+
+// A plane between a segment of a path and what is near it: all of the segment
+// is `distance` above it, the obstacle there below.  User's unit.
+struct CorridorPlane {
+  int segment = 0;                                   // point k → point k + 1
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();  // unit, to the segment
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();   // below its lowest point
+  double distance = 0.0;
+};
+
+// The planes that a round of PolishInCorridor would put around an exactly free
+// path, its answer for example: those within 2·trust + margin.  Empty for a
+// path that collides.  Throws like PolishInCorridor.
+std::vector<CorridorPlane> PlanesAround(const TrajectoryProblem& problem,
+                                        const Path& path,
+                                        const CorridorOptions& options = {});
 
 // The most that a segment of an exactly free path lacks of the clearance it
 // could have, which is `wanted` above: the margin where there is room for it.

@@ -52,6 +52,11 @@ Json ToJson(const Eigen::Vector3d& point, const ContactFeature& feature) {
           {"vertices", VerticesOf(feature)}};
 }
 
+// A row for each axis.
+Json AxesJson(const Eigen::Matrix3d& axes) {
+  return {ToJson(axes.col(0)), ToJson(axes.col(1)), ToJson(axes.col(2))};
+}
+
 Json ToJson(const RobotPose& pose, const DepthResult& r) {
   const Eigen::Quaterniond& turn = pose.orientation;
   return {{"position", ToJson(pose.position)},
@@ -69,6 +74,8 @@ Json ToJson(const RobotPose& pose, const DepthResult& r) {
           {"grid_step", r.grid_step},
           {"arranged_faces", r.arranged_faces},
           {"windows", r.windows},
+          {"window_reaches", r.window_reaches},
+          {"window_axes", AxesJson(r.window_axes)},
           {"seconds", r.seconds}};
 }
 

@@ -10,6 +10,7 @@
 #include "problems/cli/seeded_runs.h"
 #include "problems/meshes/operand_notes.h"
 #include "problems/output/text.h"
+#include "problems/pictures/viewer/run_view.h"
 #include "problems/pictures/viewer/scene_view.h"
 #include "problems/scenes/scene_source.h"
 #include "problems/studies/answer_check.h"
@@ -174,7 +175,8 @@ int Optimize(const Flags& flags) {
     if (run == runs.kept()) TellModel(study);
     nlohmann::ordered_json row = TrajectoryRow(study, metric, options, result);
     check.Judge(study.scene(), study.world(), ClaimsOf(result), &row);
-    runs.Add(row);
+    runs.Add(row, runs.HasPage() ? BehindTrajectory(study, options, result)
+                                 : ViewBehind());
   }
   runs.Write([&study] {
     // Free space alone has no contact space to show.
@@ -240,13 +242,9 @@ Command AddOptimize(CLI::App* app) {
       ->capture_default_str();
   app->add_flag("--per-obstacle", flags->per_obstacle,
                 "One contact space for each obstacle instead of a merged one");
-  app->add_option("--model", flags->model,
-                  "What is built to optimise in: all of the contact space "
-                  "(full), free space alone, at a fraction of the cost, where "
-                  "no metric is followed: rrt-connect and the corridor "
-                  "(window), or all of it where the limits below allow it "
-                  "(auto; scene's own if not set)")
-      ->check(CLI::IsMember({"auto", "window", "full"}));
+  AddModel(app, "optimise",
+           "where no metric is followed: rrt-connect and the corridor",
+           &flags->model);
   AddBuildLimits(app, &flags->limits.max_seconds, &flags->limits.max_mib);
   AddRuns(app,
           "Of the first run; 0 is the scene as it stands, more draw start and "

@@ -8,6 +8,7 @@
 #include "problems/cli/seeded_runs.h"
 #include "problems/meshes/operand_notes.h"
 #include "problems/output/text.h"
+#include "problems/pictures/viewer/run_view.h"
 #include "problems/pictures/viewer/scene_view.h"
 #include "problems/scenes/scene_source.h"
 #include "problems/studies/answer_check.h"
@@ -102,7 +103,7 @@ int Plan(const Flags& flags) {
     if (i == runs.kept()) TellModel(study, run, result);
     nlohmann::ordered_json row = PlanningRow(study, run, result);
     check.Judge(scene, study.world(), ClaimsOf(result), &row);
-    runs.Add(row);
+    runs.Add(row, runs.HasPage() ? BehindPlan(study, result) : ViewBehind());
   }
   runs.Write([&] { return SceneView(scene, {study.VisibleMesh()}); });
   const WorldSpaces* built = study.world().Built(SpaceLayout::kSealed);
@@ -133,13 +134,8 @@ Command AddPlan(CLI::App* app) {
                   "the nearest point, or to a random one")
       ->check(CLI::IsMember(RetractionNames()))
       ->capture_default_str();
-  app->add_option("--model", flags->model,
-                  "What is built to plan in: all of the contact space (full), "
-                  "free space alone, at a fraction of the cost and as exact, "
-                  "for planners that only check motions (window), or all of it "
-                  "where the limits below allow it (auto; scene's own if not "
-                  "set)")
-      ->check(CLI::IsMember({"auto", "window", "full"}));
+  AddModel(app, "plan", "as exact, for planners that only check motions",
+           &flags->model);
   AddBuildLimits(app, &flags->limits.max_seconds, &flags->limits.max_mib);
   app->add_option("--clearance", flags->clearance,
                   "To seek where there is room, more than 0 and at most D, the "

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "problems/cli/seeded_runs.h"
 
+#include <algorithm>
 #include <iostream>
 #include <limits>
 #include <utility>
@@ -55,6 +56,18 @@ void AddPictures(CLI::App* app, SeededRunFlags* flags) {
       ->type_name("FILE");
 }
 
+void AddModel(CLI::App* app, const std::string& doing,
+              const std::string& of_window, std::string* model) {
+  app->add_option("--model", *model,
+                  "What is built to " + doing +
+                      " in: all of the contact space (full), free space alone, "
+                      "at a fraction of the cost, " +
+                      of_window +
+                      " (window), or all of it where the limits below allow it "
+                      "(auto; scene's own if not set)")
+      ->check(CLI::IsMember({"auto", "window", "full"}));
+}
+
 double NumberAt(const nlohmann::ordered_json& row, const char* pointer) {
   const auto& value = row.at(nlohmann::ordered_json::json_pointer(pointer));
   return value.is_null() ? std::numeric_limits<double>::quiet_NaN()
@@ -70,11 +83,26 @@ std::vector<Eigen::Vector3d> PathOf(const nlohmann::ordered_json& row) {
   return path;
 }
 
+namespace {
+
+// "PhongPD, ℓ = 0.2" of "phong@0.2", as pages have it.
+std::string Spoken(const std::string& method) {
+  const std::string phong = "phong@";
+  if (method == "euclidean") return "Euclidean PD";
+  if (method.rfind(phong, 0) != 0) return method;
+  return "PhongPD, ℓ = " + method.substr(phong.size());
+}
+
+}  // namespace
+
 NamedPath NamedPathOf(const nlohmann::ordered_json& row) {
   const bool is_plan = row.contains("planner");
-  return {row.at(is_plan ? "planner" : "method").get<std::string>() +
-              ", seed " + row.at("seed").dump() + ": " +
-              row.at(is_plan ? "status" : "status_class").get<std::string>(),
+  std::string status =
+      row.at(is_plan ? "status" : "status_class").get<std::string>();
+  std::replace(status.begin(), status.end(), '_', ' ');
+  const std::string name =
+      row.at(is_plan ? "planner" : "method").get<std::string>();
+  return {Spoken(name) + " · seed " + row.at("seed").dump() + " · " + status,
           PathOf(row),
           row.at(is_plan ? "solved" : "collision_free").get<bool>()};
 }
@@ -109,9 +137,10 @@ SeededRuns::SeededRuns(const SeededRunFlags& flags, const SceneSource& source,
   }
 }
 
-void SeededRuns::Add(const nlohmann::ordered_json& row) {
+void SeededRuns::Add(const nlohmann::ordered_json& row, ViewBehind behind) {
   rows_->Append(row.dump());
   Tell(row);
+  paths_.back().behind = std::move(behind);
 }
 
 void SeededRuns::Tell(const nlohmann::ordered_json& row) {

@@ -33,13 +33,16 @@ struct SeededRunFlags {
 };
 
 // Declare the argument SCENE, --root and --repair, --seed and --runs, --output
-// and
-// --json, --html and --svg.
+// and --json, --html and --svg.
 void AddScene(CLI::App* app, SeededRunFlags* flags);
 void AddRuns(CLI::App* app, const std::string& seed_help,
              SeededRunFlags* flags);
 void AddRowOutput(CLI::App* app, SeededRunFlags* flags);
 void AddPictures(CLI::App* app, SeededRunFlags* flags);
+// Declares --model (model_choice.h) of what is built "to <doing>"; `of_window`
+// says what free space alone is good for.
+void AddModel(CLI::App* app, const std::string& doing,
+              const std::string& of_window, std::string* model);
 
 // What people see of a run; all of it comes from its row, so that a row kept
 // from an interrupted command tells the same.
@@ -56,7 +59,8 @@ double NumberAt(const nlohmann::ordered_json& row, const char* pointer);
 std::vector<Eigen::Vector3d> PathOf(const nlohmann::ordered_json& row);
 
 // The path of a row that optimize or plan wrote, named by its method or
-// planner, seed and status; free if the row says so.
+// planner, seed and status ("PhongPD, ℓ = 0.2 · seed 0 · solved"); free if the
+// row says so.
 NamedPath NamedPathOf(const nlohmann::ordered_json& row);
 
 // A row of --output and a line for people for each run, and all paths in the
@@ -76,8 +80,11 @@ class SeededRuns {
   // How many runs, the first ones, an interrupted command has left.
   int kept() const { return kept_; }
 
-  // Notes a run that is over.
-  void Add(const nlohmann::ordered_json& row);
+  // Will there be a page, which shows what lies behind a run as well?
+  bool HasPage() const { return !flags_.html.empty(); }
+
+  // Notes a run that is over, with what its page shows behind it.
+  void Add(const nlohmann::ordered_json& row, ViewBehind behind = {});
 
   // Writes the rows, and the pictures of the view with the paths of all runs;
   // without pictures nobody asks for it.

@@ -75,6 +75,12 @@ ViewAnswer AnswerOf(const Json& row) {
   answer.on_robot = PointOf(row.at("on_a").at("point"));
   answer.on_obstacle = PointOf(row.at("on_b").at("point"));
   answer.has_witness = row.at("on_a").at("feature") != "none";
+  if (!row.contains("window_reaches")) return answer;
+  answer.window_reaches = row.at("window_reaches").get<std::vector<double>>();
+  for (int k = 0; k < 3; ++k) {
+    answer.window_axes.col(k) =
+        PointOf(row.at("window_axes").at(static_cast<std::size_t>(k)));
+  }
   return answer;
 }
 

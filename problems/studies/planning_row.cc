@@ -38,7 +38,7 @@ nlohmann::ordered_json PlanningRow(const PlanningStudy& study,
   row["samples"] = n.samples;
   row["retractions"] = n.retractions;
   row["branch_ends"] = n.branch_ends;
-  row["graph_states"] = n.graph_states;
+  row["graph_states"] = n.graph.points.size();
   // 0: none was built.
   const WorldSpaces* built = study.world().Built(SpaceLayout::kSealed);
   row["contact_triangles"] = built == nullptr ? 0 : built->triangles;

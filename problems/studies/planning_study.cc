@@ -61,14 +61,20 @@ TriangleMesh PlanningStudy::VisibleMesh() {
     all = world_.Convolution().models.front().Mesh();
   }
   TriangleMesh visible;
-  visible.vertices = all.vertices;
+  std::vector<int> shown(all.vertices.size(), -1);  // their numbers there
   for (const Triangle& t : all.triangles) {
     const bool is_within = std::all_of(t.begin(), t.end(), [&](int v) {
-      const Eigen::Vector3d& p = visible.vertices[v];
+      const Eigen::Vector3d& p = all.vertices[v];
       return (p.array() >= region.min.array() - rounding).all() &&
              (p.array() <= region.max.array() + rounding).all();
     });
-    if (is_within) visible.triangles.push_back(t);
+    if (!is_within) continue;
+    for (const int v : t) {
+      if (shown[v] >= 0) continue;
+      shown[v] = static_cast<int>(visible.vertices.size());
+      visible.vertices.push_back(all.vertices[v]);
+    }
+    visible.triangles.push_back({shown[t[0]], shown[t[1]], shown[t[2]]});
   }
   return visible;
 }

@@ -14,6 +14,7 @@
 #include <thread>
 
 #include "core/mesh/mesh_error.h"
+#include "problems/meshes/any_mesh.h"
 #include "problems/studies/row_parts.h"
 
 namespace phongpd {
@@ -113,12 +114,10 @@ class Packer {
   // The name under which an argument is repeated.
   std::string Input(const std::string& text) {
     std::error_code error;
-    // A link's name after # is no part of the file's.
-    const std::size_t hash = text.rfind('#');
-    if (hash != std::string::npos && hash > 0 &&
-        !fs::is_regular_file(text, error) &&
-        fs::is_regular_file(text.substr(0, hash), error)) {
-      return Input(text.substr(0, hash)) + text.substr(hash);
+    const std::size_t end = FilePartOf(text);
+    if (end < text.size() && !fs::is_regular_file(text, error) &&
+        fs::is_regular_file(text.substr(0, end), error)) {
+      return Input(text.substr(0, end)) + text.substr(end);
     }
     if (!fs::is_regular_file(text, error)) {
       const bool names_place = text.find('/') != std::string::npos;

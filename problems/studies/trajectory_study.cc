@@ -179,6 +179,15 @@ const FreeSpace& TrajectoryStudy::judge() const {
                                  : *spaces().free_space;
 }
 
+std::vector<CorridorPlane> TrajectoryStudy::Corridor(
+    const Path& path, const CorridorOptions& options) const {
+  TrajectoryProblem problem = Settings();
+  problem.free_space = used_model_ == "window"
+                           ? world().Convolution().free_space
+                           : spaces().free_space;
+  return PlanesAround(problem, path, options);
+}
+
 PipelineResult TrajectoryStudy::RunInWindow(const PipelineOptions& options) {
   TrajectoryProblem problem = Settings();
   problem.free_space = world().Convolution().free_space;

@@ -7,6 +7,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "constraints/signed_metric.h"
 #include "planners/trajectory/trajectory_pipeline.h"
@@ -69,6 +70,11 @@ class TrajectoryStudy {
   // refuses what model full needs.
   PipelineResult Run(const TrajectoryMetric& metric,
                      const PipelineOptions& options);
+
+  // The planes around a path of the last run as its corridor had them; empty
+  // if it collides.  Throws like PlanesAround.
+  std::vector<CorridorPlane> Corridor(const Path& path,
+                                      const CorridorOptions& options) const;
 
   // The problem of the current scene; its metrics are shared between calls.
   TrajectoryProblem Problem(const TrajectoryMetric& metric);

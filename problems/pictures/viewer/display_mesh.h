@@ -12,6 +12,9 @@ inline constexpr std::size_t kMaxDisplayTriangles = 200000;
 // What a page takes for its probe, in doubles: some 45 bytes a triangle.
 inline constexpr std::size_t kMaxProbeTriangles = 100000;
 
+// Edges of what a planner grew that are drawn.
+inline constexpr std::size_t kMaxDisplayEdges = 50000;
+
 struct DisplayMesh {
   TriangleMesh mesh;
   double cell = 0.0;  // edge of the grid, user's unit; 0: the mesh as it is

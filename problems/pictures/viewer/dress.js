@@ -4,12 +4,14 @@ const kThemes = {
   light: {
     obstacle: 0xb4bac4, cap: 0x7d8694, edge: 0x3a424e, mesh: 0xc9c3b8,
     contact: 0x3d8fd1, mark: 0x1d232b, ghost: 0x8a929e, mesh2: 0x9fb3bd,
+    graph: 0x8a5a00, plane: 0x9c2f7a, window: 0x007a5e,
     paths: ['#0072b2', '#d55e00', '#009e73', '#b8578f', '#b07800', '#2f9bd0',
             '#5b4fa3', '#6b6b00'],
   },
   dark: {
     obstacle: 0x77818f, cap: 0xa9b3c2, edge: 0xc9d2df, mesh: 0x8c8577,
     contact: 0x58aef0, mark: 0xf1f4f8, ghost: 0x98a2b0, mesh2: 0x6d8794,
+    graph: 0xf0c060, plane: 0xff9be0, window: 0x4fe0b8,
     paths: ['#4eaaf0', '#ff8b3d', '#2fc89a', '#ee9bcb', '#f2c14e', '#9fdcff',
             '#a99bff', '#d6d64a'],
   },
@@ -28,7 +30,7 @@ const asColor = text => {
   return color;
 };
 
-class DressedStage extends Stage {
+class DressedStage extends FramedStage {
   setXray(isOn) {
     for (const solid of this.solids) {
       if (solid.entry.role === 'contact') continue;
@@ -46,7 +48,7 @@ class DressedStage extends Stage {
     for (const solid of this.solids) {
       if (solid.entry.role !== 'contact') continue;
       if (isOn && !solid.geometry.attributes.color) {
-        solid.geometry.setAttribute('color', bendColors(solid.mesh));
+        solid.geometry.setAttribute('color', bendColors(solid.mesh, solid.shaded.indices));
       }
       for (const faces of solid.faces) {
         faces.material.vertexColors =

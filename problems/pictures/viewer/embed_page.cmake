@@ -7,8 +7,26 @@ cmake_minimum_required(VERSION 3.23)
 set(page "")
 if(THREE)
   file(READ ${FOLDER}/viewer.html page)
-  foreach(part IN ITEMS viewer.css geometry.js orbit.js stage.js dress.js
-                        probe.js probe_panel.js panel.js viewer.js start.js)
+  foreach(
+    part IN
+    ITEMS viewer.css
+          dom.js
+          geometry.js
+          orbit.js
+          solids.js
+          overlays.js
+          stage.js
+          framing.js
+          dress.js
+          probe.js
+          probe_panel.js
+          section_map.js
+          chart.js
+          keys.js
+          panel.js
+          viewer.js
+          draw.js
+          start.js)
     file(READ ${FOLDER}/${part} content)
     string(REPLACE "@${part}@" "${content}" page "${page}")
   endforeach()

@@ -30,6 +30,31 @@ function facesOf(mesh) {
   return faces;
 }
 
+// Without what is on its own box and looks inwards: the walls that bounds make
+// of free space.  Of what is bounded by nothing but itself such sides look out.
+function withoutWalls(mesh) {
+  const {positions: p, indices: t} = mesh;
+  const low = [Infinity, Infinity, Infinity], high = low.map(x => -x);
+  for (const v of t) {
+    for (let k = 0; k < 3; ++k) {
+      low[k] = Math.min(low[k], p[3 * v + k]);
+      high[k] = Math.max(high[k], p[3 * v + k]);
+    }
+  }
+  const faces = facesOf(mesh);
+  const isWall = f => [0, 1, 2].some(k => {
+    const at = [0, 1, 2].map(c => p[3 * t[3 * f + c] + k]);
+    const normal = faces[4 * f + k];
+    return (normal > 0.5 && at.every(x => x === low[k])) ||
+        (normal < -0.5 && at.every(x => x === high[k]));
+  });
+  const indices = [];
+  for (let f = 0; f < t.length / 3; ++f) {
+    if (!isWall(f)) indices.push(t[3 * f], t[3 * f + 1], t[3 * f + 2]);
+  }
+  return {positions: p, indices: Uint32Array.from(indices)};
+}
+
 const kCrease = Math.cos(32 * Math.PI / 180);
 
 // Corners of their own for each triangle.  A corner's normal is the mean, by
@@ -149,13 +174,13 @@ function bendOf(mesh) {
   return bend.map((h, v) => area[v] > 0 ? Math.tanh(0.08 * h / area[v]) : 0);
 }
 
-// Blue valleys, orange ridges, nearly white between: told apart without red
-// and green.
-function bendColors(mesh) {
+// Of the corners, by their vertices: blue valleys, orange ridges, nearly white
+// between, told apart without red and green.
+function bendColors(mesh, corners) {
   const bend = bendOf(mesh);
-  const colors = new Float32Array(3 * mesh.indices.length);
+  const colors = new Float32Array(3 * corners.length);
   const ends = [[0.13, 0.42, 0.75], [0.9, 0.9, 0.88], [0.86, 0.42, 0.05]];
-  mesh.indices.forEach((v, i) => {
+  corners.forEach((v, i) => {
     const h = bend[v], share = Math.sqrt(Math.abs(h));
     const end = ends[h < 0 ? 0 : 2];
     for (let k = 0; k < 3; ++k) {

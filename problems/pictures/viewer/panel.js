@@ -1,55 +1,5 @@
 // Legend, switches, player and help.
 
-const kKeys = [
-  ['drag · one finger', 'turn'],
-  ['shift or right drag · two fingers', 'move'],
-  ['wheel · pinch, + −', 'zoom'],
-  ['space', 'play, pause'],
-  ['← →', 'robot back, on'],
-  ['1 … 9', 'follow that path'],
-  ['R', 'reset the view'],
-  ['X Y Z', 'look along an axis'],
-  ['C', 'clipping plane'],
-  ['O', 'see through solids'],
-  ['K', 'contact space'],
-  ['P', 'probe: drag the robot, read its depth'],
-  ['G', 'robot at stages'],
-  ['T', 'light or dark'],
-  ['S', 'save as PNG'],
-  ['L', 'link to this view'],
-  ['? · Esc', 'this help'],
-];
-
-function make(tag, attributes = {}, ...children) {
-  const element = document.createElement(tag);
-  for (const [key, value] of Object.entries(attributes)) {
-    if (key.startsWith('on')) {
-      element.addEventListener(key.slice(2), value);
-    } else if (value !== null && value !== false) {
-      element.setAttribute(key, value);
-    }
-  }
-  element.append(...children);
-  return element;
-}
-
-// Fonts need not have one.
-function linkIcon() {
-  const svg = document.createElementNS('http://www.w3.org/2000/svg', 'svg');
-  svg.setAttribute('viewBox', '0 0 16 16');
-  const path = document.createElementNS('http://www.w3.org/2000/svg', 'path');
-  path.setAttribute('d', 'M7 9a3 3 0 0 0 4.2 0l2.5-2.5a3 3 0 0 0-4.2-4.2L8.2 ' +
-      '3.6M9 7a3 3 0 0 0-4.2 0L2.3 9.5a3 3 0 0 0 4.2 4.2l1.3-1.3');
-  for (const [key, value] of Object.entries(
-           {fill: 'none', stroke: 'currentColor', 'stroke-width': 1.6})) {
-    path.setAttribute(key, value);
-  }
-  svg.append(path);
-  return svg;
-}
-
-const byId = id => document.getElementById(id);
-
 class Panel {
   constructor(viewer) {
     this.viewer = viewer;
@@ -112,9 +62,7 @@ class Panel {
   }
 
   legend() {
-    const {data, state, viewer} = {data: this.viewer.data,
-                                   state: this.viewer.state,
-                                   viewer: this.viewer};
+    const {viewer} = this, {data, state, stage: {overlays}} = viewer;
     const rows = [];
     const of = role => data.meshes.filter(m => m.role === role);
     const named = (list, many) => list.length === 1
@@ -142,6 +90,9 @@ class Panel {
     if (data.start || data.goal) row('marks', 'start and goal', 'mark');
     if (this.viewer.stage.ways.some(w => w.stages.children.length)) {
       row('stages', 'robot at stages', 'ghost');
+    }
+    for (const [key, {color}] of Object.entries(kOverlays)) {
+      if (overlays.has(key)) row(key, overlays.text(key), color);
     }
     if (rows.length === 0) {
       rows.push(make('p', {class: 'empty'},
@@ -221,10 +172,11 @@ class Panel {
       rows.push(this.check('bend', 'colour contact space by curvature',
                            state.bend,
                            isOn => viewer.set(() => { state.bend = isOn; })),
-                make('div', {id: 'bend-key', hidden: ''},
+                make('div', {id: 'bend-key', class: 'key', hidden: ''},
                      make('span', {}, 'valley'), make('i'),
                      make('span', {}, 'ridge')));
     }
+    if (viewer.map) rows.push(...viewer.map.rows());
     return rows.length ? this.section('Display', ...rows) : '';
   }
 
@@ -321,61 +273,11 @@ class Panel {
                           Number(button.dataset.way) === state.way);
     }
     if (this.viewer.probe) this.viewer.probe.tell();
+    if (this.viewer.map) this.viewer.map.tell();
     if (!byId('scrub')) return;
     byId('scrub').value = Math.round(10000 * state.time);
     byId('speed').value = state.speed;
     byId('play').textContent = state.playing ? '❚❚' : '▶';
     if (data.motion && byId('chart')) drawChart(this.viewer);
   }
-}
-
-const kChartLeft = 46, kChartRight = 12;
-
-// |PD| of every metric over the frames.
-function drawChart(viewer) {
-  const {data, state} = viewer, canvas = byId('chart');
-  const ratio = window.devicePixelRatio || 1;
-  const width = canvas.clientWidth, height = canvas.clientHeight;
-  canvas.width = width * ratio;
-  canvas.height = height * ratio;
-  const g = canvas.getContext('2d');
-  g.scale(ratio, ratio);
-  const style = getComputedStyle(document.body);
-  const lengths = data.motion.traces.map(
-      trace => trace.pd.map(p => Math.hypot(...p)));
-  const most = lengths.reduce(
-      (m, l) => l.reduce((a, b) => Math.max(a, b), m), 0) || 1;
-  const count = data.motion.positions.length;
-  const x = f => kChartLeft + f / Math.max(1, count - 1) *
-      (width - kChartLeft - kChartRight);
-  const y = value => height - 8 - value / most * (height - 18);
-  g.font = '11px system-ui, sans-serif';
-  g.fillStyle = g.strokeStyle = style.getPropertyValue('--soft');
-  g.textAlign = 'right';
-  g.fillText('|PD|', kChartLeft - 8, height / 2);
-  g.fillText(viewer.number(most), kChartLeft - 8, 14);
-  g.fillText('0', kChartLeft - 8, height - 5);
-  g.beginPath();
-  g.moveTo(kChartLeft, y(0));
-  g.lineTo(width - kChartRight, y(0));
-  g.stroke();
-  lengths.forEach((values, i) => {
-    g.strokeStyle = wayColor(state.theme, i);
-    g.lineWidth = 2;
-    g.beginPath();
-    // Of more frames than pixels, the least and the largest of each pixel.
-    const step = Math.max(1, Math.ceil(count / width));
-    for (let f = 0; f < count; f += step) {
-      const some = values.slice(f, f + step);
-      g.lineTo(x(f), y(Math.min(...some)));
-      if (step > 1) g.lineTo(x(f), y(Math.max(...some)));
-    }
-    g.stroke();
-  });
-  g.strokeStyle = style.getPropertyValue('--text');
-  g.lineWidth = 1;
-  g.beginPath();
-  g.moveTo(x(state.time * (count - 1)), 4);
-  g.lineTo(x(state.time * (count - 1)), height - 4);
-  g.stroke();
 }

@@ -12,13 +12,17 @@ const kProbeNumbers = 12;  // of one metric (probe.cc)
 class Probe {
   constructor(data) {
     this.data = data.probe;
-    this.isReady = false;
     this.smoothing = null;  // that the metrics are made for
   }
 
   // Compiles the module and hands it the contact spaces.  Rejects with a
   // sentence.
-  async load() {
+  load() {
+    if (!this.loading) this.loading = this.instantiate();
+    return this.loading;
+  }
+
+  async instantiate() {
     const nothing = () => 0;
     const wasi = {environ_get: nothing, environ_sizes_get: nothing,
                   fd_close: nothing, fd_seek: nothing, fd_write: nothing,
@@ -38,7 +42,6 @@ class Probe {
       new Int32Array(this.calls.memory.buffer, from, t.length).set(t);
       this.calls.add_space(at, p.length / 3, from, t.length / 3);
     }
-    this.isReady = true;
   }
 
   textAt(address) {
@@ -57,14 +60,20 @@ class Probe {
   // Where the robot was does not matter any more.
   forget() { this.calls.forget(); }
 
-  // What each metric says of the robot at a point in the user's unit: of
-  // several contact spaces that in which it is deepest.
-  answers(point) {
-    const address = this.calls.query(...point);
-    const count = this.data.spaces.length, rows = kProbeMetrics.length;
+  // What each metric says of the robot at a point in the user's unit, where it
+  // went from the point before.
+  answers(point) { return this.read(this.calls.query(...point), 3); }
+
+  // The same of the first two, Euclidean PD and PhongPD, wherever it was.
+  coldAnswers(point) { return this.read(this.calls.query_cold(...point), 2); }
+
+  // The first metrics' answers, `rows` of them for each contact space: of
+  // several that in which the robot is deepest.
+  read(address, rows) {
+    const count = this.data.spaces.length;
     const all = new Float64Array(this.calls.memory.buffer, address,
                                  count * rows * kProbeNumbers);
-    return kProbeMetrics.map((name, metric) => {
+    return kProbeMetrics.slice(0, rows).map((name, metric) => {
       let best = null;
       for (let space = 0; space < count; ++space) {
         const begin = (space * rows + metric) * kProbeNumbers;

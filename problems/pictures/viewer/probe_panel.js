@@ -75,7 +75,7 @@ class ProbePanel {
     if (!isOn) return viewer.set(() => { state.on = false; });
     if (!state.at) state.at = this.here();
     try {
-      if (!this.probe.isReady) await this.probe.load();
+      await this.probe.load();
       this.begin();
     } catch (error) {
       this.fail(error);
@@ -232,27 +232,11 @@ class ProbePanel {
 
   chart() {
     const {viewer, history} = this, canvas = byId('probe-chart');
-    const most = Math.max(1e-300, ...history.map(h => Math.max(...h)));
+    const series = kProbeMetrics.map((name, i) => history.map(h => h[i]));
+    const most = largest(series) || 1;
     const step = canvas.clientWidth / kProbeHistory;
-    drawDepths(viewer, canvas, kProbeMetrics.map(
-        (name, i) => history.map(h => h[i])), f => f * step,
+    drawDepths(canvas, viewer.state.theme, series, f => f * step,
                y => canvas.clientHeight - 4 -
                    y / most * (canvas.clientHeight - 8));
   }
-}
-
-// Lines of depths over their numbers; x and y place them.
-function drawDepths(viewer, canvas, series, x, y) {
-  const ratio = window.devicePixelRatio || 1;
-  canvas.width = canvas.clientWidth * ratio;
-  canvas.height = canvas.clientHeight * ratio;
-  const g = canvas.getContext('2d');
-  g.scale(ratio, ratio);
-  g.lineWidth = 2;
-  series.forEach((depths, i) => {
-    g.strokeStyle = wayColor(viewer.state.theme, i);
-    g.beginPath();
-    depths.forEach((depth, f) => g.lineTo(x(f), y(depth)));
-    g.stroke();
-  });
 }

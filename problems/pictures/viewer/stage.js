@@ -1,145 +1,14 @@
-// What stands on the stage, in lengths of the scene's size around its centre.
+// Who acts on the stage: the robot, its ways, arrows and marks.
 
-class Stage {
+class Stage extends Solids {
   constructor(data) {
-    this.data = data;
-    this.scene = new THREE.Scene();
-    this.plane = new THREE.Plane(new THREE.Vector3(-1, 0, 0), 10);
-    this.center = new THREE.Vector3(...data.center);
-    this.groups = {};
-    for (const name of ['obstacle', 'contact', 'mesh', 'caps', 'paths', 'marks',
-                        'stages', 'traces']) {
-      this.groups[name] = new THREE.Group();
-      this.scene.add(this.groups[name]);
-    }
-    this.solids = [];    // {mesh, edges, role}
-    this.glass = [];     // materials whose rims are denser
-    this.colored = [];   // [material, name of its colour in the theme]
-    // Nothing to see behind a contact space that is alone.
-    this.glassOpacity = data.meshes.every(m => m.role === 'contact') &&
-        !data.paths.length && !data.motion && !data.answers.length ? 0.42 : 0.2;
-    this.light();
-    for (const entry of data.meshes) this.addMesh(entry);
+    super(data);
     this.addCap();
     this.addRobot();
     this.ways = this.makeWays();
     this.addWays();
     this.addMarks();
-  }
-
-  // The user's coordinates to the stage's.
-  at(point) {
-    return new THREE.Vector3(...point).sub(this.center)
-        .divideScalar(this.data.scale);
-  }
-
-  light() {
-    const sky = new THREE.HemisphereLight(0xffffff, 0x9a958e, 0.66);
-    sky.position.set(0, 0, 1);
-    this.scene.add(sky);
-    this.key = new THREE.DirectionalLight(0xffffff, 0.55);
-    this.scene.add(this.key);
-    const fill = new THREE.DirectionalLight(0xdfe9ff, 0.2);
-    fill.position.set(-3, 2, -1);
-    this.scene.add(fill);
-  }
-
-  solid(color, more) {
-    const material = new THREE.MeshPhongMaterial({
-      shininess: 18, specular: 0x222222, side: THREE.DoubleSide,
-      polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1,
-      ...more,
-    });
-    this.colored.push([material, color]);
-    return material;
-  }
-
-  // Clear where one looks straight through it, dense at its rims.
-  makeGlass(material) {
-    material.transparent = true;
-    material.depthWrite = false;
-    material.onBeforeCompile = shader => {
-      shader.fragmentShader = shader.fragmentShader.replace(
-          '#include <premultiplied_alpha_fragment>',
-          'gl_FragColor.a *= mix(0.55, 2.6, pow(1.0 - abs(dot(normalize(' +
-          'vViewPosition), normal)), 2.5));\n' +
-          '#include <premultiplied_alpha_fragment>');
-    };
-    this.glass.push(material);
-  }
-
-  addMesh(entry) {
-    const mesh = decodeMesh(entry);
-    const geometry = shadedGeometry(mesh);
-    const group = new THREE.Group();
-    const clip = {clippingPlanes: [this.plane]};
-    const lines = new THREE.LineBasicMaterial(
-        {transparent: true, opacity: 0.55, ...clip});
-    // What was simplified for display has creases that the solid has not.
-    const isWhole = entry.shown === entry.triangles;
-    const edges = new THREE.LineSegments(
-        edgeGeometry(isWhole ? mesh : {positions: [], indices: []}), lines);
-    edges.renderOrder = 3;
-    const solid = {entry, mesh, geometry, edges, group, faces: []};
-    if (entry.role === 'contact') {
-      lines.opacity = 0.3;
-      this.colored.push([lines, 'contact']);
-      for (const side of [THREE.BackSide, THREE.FrontSide]) {
-        const material = this.solid('contact', {side, ...clip});
-        this.makeGlass(material);
-        material.opacity = this.glassOpacity;
-        const faces = new THREE.Mesh(geometry, material);
-        faces.renderOrder = side === THREE.BackSide ? 10 : 11;
-        solid.faces.push(faces);
-      }
-    } else {
-      this.colored.push([lines, 'edge']);
-      solid.faces.push(new THREE.Mesh(
-          geometry, this.solid(this.colorName(entry), {...clip})));
-      this.addStencil(solid);
-    }
-    group.add(...solid.faces, edges);
-    this.groups[entry.role].add(group);
-    this.solids.push(solid);
-  }
-
-  // Meshes side by side take turns.
-  colorName(entry) {
-    if (entry.role !== 'mesh') return entry.role;
-    const i = this.data.meshes.filter(m => m.role === 'mesh').indexOf(entry);
-    return ['mesh', 'mesh2', 'obstacle'][i % 3];
-  }
-
-  // Counts, at each pixel, how many of the solid's surfaces lie before the
-  // plane; where they do not cancel, the plane runs inside.
-  addStencil(solid) {
-    for (const [side, operation] of [
-             [THREE.BackSide, THREE.IncrementWrapStencilOp],
-             [THREE.FrontSide, THREE.DecrementWrapStencilOp]]) {
-      const material = new THREE.MeshBasicMaterial({
-        side, depthWrite: false, depthTest: false, colorWrite: false,
-        clippingPlanes: [this.plane], stencilWrite: true,
-        stencilFunc: THREE.AlwaysStencilFunc, stencilFail: operation,
-        stencilZFail: operation, stencilZPass: operation,
-      });
-      const mesh = new THREE.Mesh(solid.geometry, material);
-      mesh.renderOrder = -2;
-      this.groups.caps.add(mesh);
-    }
-  }
-
-  addCap() {
-    const material = new THREE.MeshBasicMaterial({
-      side: THREE.DoubleSide, stencilWrite: true, stencilRef: 0,
-      stencilFunc: THREE.NotEqualStencilFunc,
-      stencilFail: THREE.ReplaceStencilOp,
-      stencilZFail: THREE.ReplaceStencilOp,
-      stencilZPass: THREE.ReplaceStencilOp,
-    });
-    this.colored.push([material, 'cap']);
-    this.cap = new THREE.Mesh(new THREE.PlaneBufferGeometry(4, 4), material);
-    this.cap.renderOrder = -1;
-    this.groups.caps.add(this.cap);
+    this.overlays = new Overlays(this);
   }
 
   addRobot() {
@@ -269,7 +138,10 @@ class Stage {
       if (way.points.length === 0) return;
       const share = paths.length === 1
           ? 0.3 : 0.2 + 0.5 * i / (paths.length - 1);
-      this.labels.push({text: way.name, way: i,
+      // What sets paths apart: "PhongPD, ℓ = 0.2" of all that the legend says.
+      const short = way.name.split(' · ')[0];
+      const isOne = paths.filter(w => w.name.startsWith(short)).length === 1;
+      this.labels.push({text: isOne ? short : way.name, way: i,
                         point: this.placeOn(way, share).point});
     });
   }
@@ -352,88 +224,5 @@ class Stage {
       }
     }
     return place;
-  }
-
-  // Is most of the shown way behind obstacles, seen from the camera?
-  isHidden(camera) {
-    const solids = this.solids.filter(s => s.entry.role === 'obstacle');
-    const way = this.ways.find(w => w.points.length > 0);
-    const triangles = solids.reduce((n, s) => n + s.entry.shown, 0);
-    if (!way || solids.length === 0 || triangles > 60000) return false;
-    const ray = new THREE.Raycaster();
-    const count = 12;
-    let hidden = 0;
-    for (let i = 0; i < count; ++i) {
-      const point = this.placeOn(way, i / (count - 1)).point;
-      const direction = point.clone().sub(camera.position);
-      ray.far = direction.length() * 0.999;
-      ray.set(camera.position, direction.normalize());
-      if (ray.intersectObjects(solids.map(s => s.faces[0])).length) ++hidden;
-    }
-    return hidden > 0.55 * count;
-  }
-
-  setClip(clip) {
-    const axis = 'xyz'.indexOf(clip.axis);
-    const normal = new THREE.Vector3();
-    normal.setComponent(axis, clip.flip ? 1 : -1);
-    const low = this.box.min.getComponent(axis);
-    const high = this.box.max.getComponent(axis);
-    const level = low + (clip.at * 1.004 - 0.002) * (high - low);
-    this.plane.normal.copy(normal);
-    this.plane.constant = clip.on ? (clip.flip ? -level : level) : 10;
-    this.cap.position.set(0, 0, 0);
-    this.cap.position.setComponent(axis, level);
-    this.cap.lookAt(this.cap.position.clone().add(normal));
-    this.isClipped = clip.on;
-  }
-
-  // Around everything but a robot on its way.
-  get box() {
-    if (this.box_) return this.box_;
-    const box = new THREE.Box3();
-    for (const solid of this.solids) {
-      box.union(new THREE.Box3().setFromBufferAttribute(
-          solid.geometry.attributes.position));
-    }
-    for (const way of this.ways) way.points.forEach(p => box.expandByPoint(p));
-    for (const end of [this.data.start, this.data.goal]) {
-      if (end) box.expandByPoint(this.at(end));
-    }
-    const robot = new THREE.Box3().setFromBufferAttribute(
-        this.robotShape.attributes.position);
-    if (box.isEmpty()) {
-      box.copy(robot).translate(this.at([0, 0, 0]));
-    } else if (this.ways.length) {
-      const size = robot.getSize(new THREE.Vector3()).length() / 4;
-      box.expandByScalar(Math.min(size, 0.1));
-    }
-    return this.box_ = box;
-  }
-
-  // What the first view must hold: all, or of a motion where the robot is and
-  // is pushed to.
-  get focus() {
-    const {motion, scale} = this.data;
-    if (!motion || !this.robotShape) return this.box;
-    const box = new THREE.Box3();
-    motion.positions.forEach((q, f) => {
-      for (const {pd} of motion.traces) {
-        if (Math.hypot(...pd[f]) < 1e-6 * scale) continue;
-        box.expandByPoint(this.at(q));
-        box.expandByPoint(this.at(q.map((x, k) => x + pd[f][k])));
-      }
-    });
-    if (box.isEmpty()) return this.box;
-    this.robotShape.computeBoundingSphere();
-    box.expandByScalar(Math.max(1.3 * this.robotShape.boundingSphere.radius,
-                                0.05));
-    return box;
-  }
-
-  get corners() {
-    const {min, max} = this.focus;
-    return [0, 1, 2, 3, 4, 5, 6, 7].map(k => new THREE.Vector3(
-        k & 1 ? max.x : min.x, k & 2 ? max.y : min.y, k & 4 ? max.z : min.z));
   }
 }

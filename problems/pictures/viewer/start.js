@@ -9,7 +9,7 @@ function linkText() {
   }
 }
 
-class LinkedViewer extends Viewer {
+class LinkedViewer extends DrawnViewer {
   // The view as text: only what differs from the first one.
   hash() {
     const {state, orbit} = this, first = this.defaults();
@@ -28,6 +28,7 @@ class LinkedViewer extends Viewer {
     if (shown.length) parts.toggled = shown.join(',');
     parts.xray = state.xray ? 1 : 0;
     if (state.bend) parts.bend = 1;
+    if (state.map) parts.map = state.map;
     if (state.theme !== first.theme) parts.theme = state.theme;
     if (state.speed !== 1) parts.speed = state.speed;
     if (state.probe.on) {
@@ -64,6 +65,9 @@ class LinkedViewer extends Viewer {
     }
     if (link.has('xray')) state.xray = link.get('xray') === '1';
     state.bend = link.get('bend') === '1';
+    if (this.data.probe && link.get('map') in kMaps) {
+      state.map = link.get('map');
+    }
     if (link.get('theme') in kThemes) state.theme = link.get('theme');
     const speed = parseFloat(link.get('speed'));
     if (speed > 0) state.speed = speed;

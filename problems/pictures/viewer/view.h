@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/mesh/triangle_mesh.h"
@@ -28,11 +29,32 @@ struct ViewMesh {
   TriangleMesh mesh;
 };
 
+// Configurations and the straight motions between them, by their numbers.
+struct ViewGraph {
+  std::string name;  // in the legend: "retraction tree"
+  std::vector<Eigen::Vector3d> points;
+  std::vector<std::pair<int, int>> edges;
+};
+
+// A plane beside a path, drawn as a square.
+struct ViewPlane {
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();   // its middle
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();  // unit
+  double size = 0.0;                                 // its side
+};
+
+// What lies behind a path; shown with it.
+struct ViewBehind {
+  ViewGraph graph;                // that a planner grew; no points: none
+  std::vector<ViewPlane> planes;  // of the corridor it was optimised in
+};
+
 // A path of the robot's position, with a name for the legend.
 struct NamedPath {
   std::string name;
   std::vector<Eigen::Vector3d> points;
   bool is_free = true;
+  ViewBehind behind = {};
 };
 
 // One metric along a motion: PD(q) = q_c − q of every frame, 0 outside.
@@ -60,6 +82,10 @@ struct ViewAnswer {
   Eigen::Vector3d on_robot = Eigen::Vector3d::Zero();
   Eigen::Vector3d on_obstacle = Eigen::Vector3d::Zero();
   bool has_witness = false;  // are there such points?
+  // Of the boxes around the position that were modelled for it (DepthResult):
+  // half of their sides, and the directions of those, in columns.
+  std::vector<double> window_reaches;
+  Eigen::Matrix3d window_axes = Eigen::Matrix3d::Identity();
 };
 
 struct View {

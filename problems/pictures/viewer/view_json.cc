@@ -48,6 +48,26 @@ std::size_t Share(std::size_t triangles, std::size_t all, std::size_t most) {
       1000, static_cast<std::size_t>(share * static_cast<double>(most)));
 }
 
+// As the page draws them.
+std::string ShownPositions(const std::vector<Vector3d>& points,
+                           const Vector3d& center, double scale) {
+  std::string bytes;
+  for (const Vector3d& p : points) {
+    for (int k = 0; k < 3; ++k) {
+      Append(&bytes, static_cast<float>((p[k] - center[k]) / scale));
+    }
+  }
+  return bytes;
+}
+
+std::string CornerBytes(const TriangleMesh& mesh) {
+  std::string bytes;
+  for (const Triangle& t : mesh.triangles) {
+    for (const int v : t) Append(&bytes, static_cast<std::uint32_t>(v));
+  }
+  return bytes;
+}
+
 Json MeshJson(const TriangleMesh& mesh, const std::string& name,
               std::size_t most, const Vector3d& center, double scale,
               std::vector<std::string>* notes) {
@@ -58,36 +78,28 @@ Json MeshJson(const TriangleMesh& mesh, const std::string& name,
                      " triangles are shown, simplified on a grid of " +
                      Rounded(shown.cell) + " for display only");
   }
-  std::string positions, indices;
-  for (const Vector3d& p : shown.mesh.vertices) {
-    for (int k = 0; k < 3; ++k) {
-      Append(&positions, static_cast<float>((p[k] - center[k]) / scale));
-    }
-  }
-  for (const Triangle& t : shown.mesh.triangles) {
-    for (const int v : t) Append(&indices, static_cast<std::uint32_t>(v));
-  }
-  return {{"name", name},
-          {"triangles", mesh.triangles.size()},
-          {"shown", shown.mesh.triangles.size()},
-          {"positions", Base64(positions)},
-          {"indices", Base64(indices)}};
+  return {
+      {"name", name},
+      {"triangles", mesh.triangles.size()},
+      {"shown", shown.mesh.triangles.size()},
+      {"positions", Base64(ShownPositions(shown.mesh.vertices, center, scale))},
+      {"indices", Base64(CornerBytes(shown.mesh))}};
 }
 
 // For the probe: not as it is shown but as it is, in doubles.
 Json ExactJson(const TriangleMesh& mesh) {
-  std::string positions, indices;
+  std::string positions;
   for (const Vector3d& p : mesh.vertices) {
     for (int k = 0; k < 3; ++k) Append(&positions, p[k]);
   }
-  for (const Triangle& t : mesh.triangles) {
-    for (const int v : t) Append(&indices, static_cast<std::uint32_t>(v));
-  }
-  return {{"positions", Base64(positions)}, {"indices", Base64(indices)}};
+  return {{"positions", Base64(positions)},
+          {"indices", Base64(CornerBytes(mesh))}};
 }
 
-// Can metrics be made of it?  Parts of contact spaces are drawn, too.
+// Can metrics be made of it?  Parts of contact spaces are drawn, too: of bounds
+// the walls alone, which look inwards.
 bool IsWhole(const ViewMesh& mesh) {
+  if (!(SignedVolume(mesh.mesh) > 0.0)) return false;
   try {
     ContactSpace::Parts parts;
     parts.mesh = mesh.mesh;
@@ -121,7 +133,12 @@ Json ProbeJson(const View& view, std::vector<std::string>* notes) {
     return nullptr;
   }
   for (const ViewMesh& mesh : view.meshes) {
-    if (mesh.role == ViewRole::kContactSpace && !IsWhole(mesh)) return nullptr;
+    if (mesh.role != ViewRole::kContactSpace || IsWhole(mesh)) continue;
+    notes->push_back(
+        "There is no live probe: of the contact space only the part that "
+        "bounds "
+        "free space is shown.");
+    return nullptr;
   }
   const std::string module(internal::ProbeModule());
   if (module.empty()) {
@@ -151,6 +168,50 @@ Json MotionJson(const ViewMotion& motion) {
                               {"status", trace.status}});
   }
   return json;
+}
+
+Json GraphJson(const NamedPath& path, std::size_t number,
+               const Vector3d& center, double scale,
+               std::vector<std::string>* notes) {
+  const ViewGraph& graph = path.behind.graph;
+  const std::size_t count = graph.edges.size();
+  const std::size_t step = (count + kMaxDisplayEdges - 1) / kMaxDisplayEdges;
+  std::string indices;
+  std::size_t shown = 0;
+  for (std::size_t e = 0; e < count; e += step, ++shown) {
+    Append(&indices, static_cast<std::uint32_t>(graph.edges[e].first));
+    Append(&indices, static_cast<std::uint32_t>(graph.edges[e].second));
+  }
+  if (shown < count) {
+    notes->push_back(path.name + ": " + std::to_string(shown) + " of " +
+                     std::to_string(count) + " edges of the " + graph.name +
+                     " are shown");
+  }
+  return {{"path", number},
+          {"name", graph.name},
+          {"points", graph.points.size()},
+          {"edges", count},
+          {"positions", Base64(ShownPositions(graph.points, center, scale))},
+          {"indices", Base64(indices)}};
+}
+
+Json PlanesJson(const std::vector<ViewPlane>& planes, std::size_t number) {
+  Json list = Json::array();
+  for (const ViewPlane& plane : planes) {
+    list.push_back({{"point", PointJson(plane.point)},
+                    {"normal", PointJson(plane.normal)},
+                    {"size", plane.size}});
+  }
+  return {{"path", number}, {"planes", list}};
+}
+
+Json WindowsJson(const ViewAnswer& answer) {
+  if (answer.window_reaches.empty()) return nullptr;
+  Json axes = Json::array();
+  for (int k = 0; k < 3; ++k) {
+    axes.push_back(PointJson(answer.window_axes.col(k)));
+  }
+  return {{"reaches", answer.window_reaches}, {"axes", axes}};
 }
 
 Json AnswerJson(const ViewAnswer& answer) {
@@ -220,16 +281,27 @@ Json ViewJson(const View& view, std::size_t most_triangles) {
                      Vector3d::Zero(), scale, &notes);
   json["start"] = MaybePoint(view.start);
   json["goal"] = MaybePoint(view.goal);
-  json["paths"] = Json::array();
-  for (const NamedPath& path : view.paths) {
+  for (const char* list : {"paths", "graphs", "planes", "windows"}) {
+    json[list] = Json::array();
+  }
+  for (std::size_t i = 0; i < view.paths.size(); ++i) {
+    const NamedPath& path = view.paths[i];
     json["paths"].push_back({{"name", path.name},
                              {"free", path.is_free},
                              {"points", PointsJson(path.points)}});
+    const ViewBehind& behind = path.behind;
+    if (!behind.graph.points.empty()) {
+      json["graphs"].push_back(GraphJson(path, i, center, scale, &notes));
+    }
+    if (!behind.planes.empty()) {
+      json["planes"].push_back(PlanesJson(behind.planes, i));
+    }
   }
   json["motion"] = MotionJson(view.motion);
   json["answers"] = Json::array();
   for (const ViewAnswer& answer : view.answers) {
     json["answers"].push_back(AnswerJson(answer));
+    json["windows"].push_back(WindowsJson(answer));
   }
   json["probe"] = ProbeJson(view, &notes);
   json["notes"] = notes;

@@ -24,10 +24,16 @@ namespace phongpd {
 //   motion {positions[], traces[{name, pd[], status[]}]} or null
 //   answers[{position, orientation [w, x, y, z], status, depth, clearance,
 //     direction, on_a, on_b}]  on_a and on_b are null without witness points
+//   graphs[{path (its number), name, points, edges (how many there are),
+//     positions (base64 of float32 triples, as those of meshes), indices
+//     (base64 of uint32 pairs)}]
+//   planes[{path, planes[{point, normal, size}]}]
+//   windows[{reaches[], axes[3][x, y, z]} or null]  one for each answer
 //   probe {module (base64 of WebAssembly), length (D), spaces[{positions
 //     (base64 of float64 triples), indices}]} or null
-// Meshes with more than `most_triangles` together are shown coarser, and a note
-// says so.
+// Of graphs with more than kMaxDisplayEdges edges some are left out, and a note
+// says so.  Meshes with more than `most_triangles` together are shown coarser,
+// and a note says so.
 nlohmann::ordered_json ViewJson(
     const View& view, std::size_t most_triangles = kMaxDisplayTriangles);
 

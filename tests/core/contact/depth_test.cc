@@ -289,6 +289,32 @@ TEST(DepthQuery, KeepsToItsTimeLimit) {
   EXPECT_GE(late.depth, truth.depth);
 }
 
+// A certified answer lies in its last window, and nothing was left out of that.
+TEST(DepthQuery, TellsItsWindows) {
+  const TriangleMesh star = MakeStar(0.5, 1.2),
+                     torus = MakeTorus(2, 0.6, 32, 16);
+  const Eigen::Quaterniond turn(
+      Eigen::AngleAxisd(0.4, Vector3d(1, 2, 3).normalized()));
+  for (const RobotPose& pose : {RobotPose{Vector3d(2, 0, 0), {1, 0, 0, 0}},
+                                RobotPose{Vector3d(0, 2, 0.1), turn}}) {
+    const DepthResult found = PenetrationDepth(star, torus, pose);
+    ASSERT_TRUE(found.certified);
+    ASSERT_EQ(found.window_reaches.size(),
+              static_cast<std::size_t>(found.windows));
+    EXPECT_GE(found.window_reaches.back(), found.depth * (1.0 - 1e-12));
+    // Walls are rounded outwards by a step of the grid or two.
+    EXPECT_NEAR(found.window_reaches.back(), found.explored_radius,
+                1e-6 * found.window_reaches.back());
+    EXPECT_TRUE(found.window_axes.isUnitary(1e-14));
+    const Vector3d way =
+        found.window_axes.transpose() * (found.contact - pose.position);
+    EXPECT_LE(way.lpNorm<Eigen::Infinity>(),
+              found.window_reaches.back() * (1.0 + 1e-6));
+  }
+  EXPECT_TRUE(PenetrationDepth(star, torus, {Vector3d(9, 0, 0), {1, 0, 0, 0}})
+                  .window_reaches.empty());
+}
+
 TEST(DepthQuery, RefusesPosesThatAreNone) {
   const DepthQuery query(Cube(1), Cube(1));
   const double nan = std::numeric_limits<double>::quiet_NaN();

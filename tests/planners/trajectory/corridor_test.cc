@@ -93,6 +93,59 @@ TEST(MissingClearance, ExpectsNoMoreThanMostOfHalfAGap) {
   }
 }
 
+// By brute force over the contact space: each segment is above its planes by
+// what they say, and every triangle near it is behind one of them.
+TEST(PlanesAround, SeparateEverySegmentFromAllThatIsNear) {
+  const PathProblem source = MakePathProblem("Uaxis", 2);
+  const TrajectoryProblem problem = WithoutMetrics(source);
+  const CorridorOptions options;
+  const Path path = PolishInCorridor(problem, Repaired(source), options).path;
+  const std::vector<CorridorPlane> planes =
+      PlanesAround(problem, path, options);
+  ASSERT_GT(planes.size(), 10u);
+  const double tolerance = 1e-9 * problem.diagonal;
+  for (const CorridorPlane& plane : planes) {
+    ASSERT_GE(plane.segment, 0);
+    ASSERT_LT(plane.segment + 1, static_cast<int>(path.size()));
+    EXPECT_NEAR(plane.normal.norm(), 1.0, 1e-12);
+    const auto above = [&](const Vector3d& q) {
+      return plane.normal.dot(q - plane.point);
+    };
+    const double lowest =
+        std::min(above(path[plane.segment]), above(path[plane.segment + 1]));
+    EXPECT_NEAR(lowest, plane.distance, tolerance);
+    // Below its lowest point or, of a level one, its middle.
+    const Vector3d foot = plane.point + lowest * plane.normal;
+    const Vector3d& a = path[plane.segment];
+    const Vector3d& b = path[plane.segment + 1];
+    EXPECT_NEAR((foot - a).norm() + (foot - b).norm(), (b - a).norm(),
+                1e-7 * problem.diagonal);
+  }
+  for (int i = 0; i + 1 < static_cast<int>(path.size()); ++i) {
+    for (const Triangle& t : source.contact.triangles) {
+      // A point of the triangle that is near the segment's middle is enough to
+      // ask for a plane.
+      double nearest = 1e300;
+      for (const int v : t) {
+        nearest = std::min(nearest, (source.contact.vertices[v] -
+                                     0.5 * (path[i] + path[i + 1]))
+                                        .norm());
+      }
+      if (nearest > (2.0 * options.trust) * problem.diagonal) continue;
+      const bool is_behind = std::any_of(
+          planes.begin(), planes.end(), [&](const CorridorPlane& plane) {
+            return plane.segment == i &&
+                   std::all_of(t.begin(), t.end(), [&](int v) {
+                     return plane.normal.dot(source.contact.vertices[v] -
+                                             plane.point) <= tolerance;
+                   });
+          });
+      EXPECT_TRUE(is_behind) << "segment " << i;
+    }
+  }
+  EXPECT_TRUE(PlanesAround(problem, StraightPath(problem)).empty());
+}
+
 TEST(Corridor, EnergyFallsAndEveryRoundIsFree) {
   // A corridor of one round more each time: its path is the next iterate.
   PathProblem source = MakePathProblem("Uaxis", 2);

@@ -139,10 +139,15 @@ TEST(ViewJson, HandsItsProbeContactSpacesToTheLastBit) {
 
 TEST(ViewJson, HasNoProbeWithoutContactSpaceOrForTooLargeOnes) {
   View view = SomeView();
-  view.meshes[1].mesh = MakeIcoBall(1.0, 7);
-  const Json large = ViewJson(view);
-  EXPECT_TRUE(large["probe"].is_null());
-  EXPECT_NE(large["notes"].dump().find("probe is left out"), std::string::npos);
+  // The walls of bounds alone look inwards.
+  for (const auto& [mesh, words] :
+       {std::make_pair(MakeIcoBall(1.0, 7), "probe is left out"),
+        std::make_pair(Reversed(MakeIcoBall(1.0, 2)), "no live probe")}) {
+    view.meshes[1].mesh = mesh;
+    const Json json = ViewJson(view);
+    EXPECT_TRUE(json["probe"].is_null());
+    EXPECT_NE(json["notes"].dump().find(words), std::string::npos);
+  }
   view.meshes.pop_back();
   const Json none = ViewJson(view);
   EXPECT_TRUE(none["probe"].is_null());
@@ -159,6 +164,39 @@ TEST(ViewJson, NamesPathsAndSaysWhichAreFree) {
   EXPECT_EQ(json["paths"][1]["points"][1], Json({1004.0, 0.0, 0.0}));
   EXPECT_TRUE(json["paths"][2]["points"].empty());
   EXPECT_TRUE(json["motion"].is_null());
+}
+
+TEST(ViewJson, HoldsWhatLiesBehindAnswersWhereThereIsAny) {
+  View view = SomeView();
+  EXPECT_TRUE(ViewJson(view)["graphs"].empty());
+  ViewBehind& behind = view.paths[1].behind;
+  behind.graph = {"roadmap", {{0, 0, 0}, {1, 2, 3}, {4, 0, 0}}, {{0, 2}}};
+  behind.planes = {{{1, 2, 3}, {0, 0, 1}, 0.5}};
+  ViewAnswer answer;
+  view.answers = {answer, answer};
+  view.answers[1].window_reaches = {0.25, 2.0};
+  view.answers[1].window_axes.col(0) = Eigen::Vector3d(0, 1, 0);
+  Json json = ViewJson(view);
+  const Json& graph = json["graphs"].at(0);
+  EXPECT_EQ(graph["path"], 1);
+  EXPECT_EQ(graph["name"], "roadmap");
+  EXPECT_EQ(graph["points"], 3);
+  EXPECT_EQ(At<std::uint32_t>(Decoded(graph["indices"]), 4), 2U);
+  const std::string positions = Decoded(graph["positions"]);
+  const double scale = json["scale"], center = json["center"][2];
+  EXPECT_NEAR(At<float>(positions, 20) * scale + center, 3.0, 1e-6 * scale);
+  EXPECT_EQ(json["planes"][0]["planes"].dump(),
+            R"([{"point":[1.0,2.0,3.0],"normal":[0.0,0.0,1.0],"size":0.5}])");
+  EXPECT_TRUE(json["windows"].at(0).is_null());
+  EXPECT_EQ(json["windows"][1]["reaches"].dump(), "[0.25,2.0]");
+  EXPECT_EQ(json["windows"][1]["axes"][0].dump(), "[0.0,1.0,0.0]");
+  // Of a huge graph some edges.
+  behind.graph.edges.assign(2 * kMaxDisplayEdges + 1, {0, 1});
+  json = ViewJson(view);
+  EXPECT_EQ(json["graphs"][0]["edges"], 2 * kMaxDisplayEdges + 1);
+  EXPECT_LE(Decoded(json["graphs"][0]["indices"]).size(), 8 * kMaxDisplayEdges);
+  EXPECT_NE(json["notes"].dump().find("edges of the roadmap are shown"),
+            std::string::npos);
 }
 
 TEST(ViewJson, OfAnEmptyViewIsEmptyAndFinite) {

@@ -131,6 +131,23 @@ PROBE_EXPORT(forget) void Forget() {
   }
 }
 
+// The answers of Euclidean and Phong depth at (x, y, z), wherever the robot
+// was: two rows of kNumbers for each space in turn.  Valid until the next call.
+PROBE_EXPORT(query_cold)
+const double* QueryCold(double x, double y, double z) {
+  static std::vector<double> answers;
+  answers.assign(phongpd::All().size() * 2 * phongpd::kNumbers, 0.0);
+  double* out = answers.data();
+  const Eigen::Vector3d q(x, y, z);
+  for (const phongpd::Probed& probed : phongpd::All()) {
+    phongpd::Write(probed.euclidean->Query(q), out);
+    phongpd::Write(probed.phong->Query(q, phongpd::Branch()),
+                   out + phongpd::kNumbers);
+    out += 2 * phongpd::kNumbers;
+  }
+  return answers.data();
+}
+
 // The answers at (x, y, z), which goes on from the point before: kMetrics rows
 // of kNumbers for each space in turn.  Valid until the next call.
 PROBE_EXPORT(query) const double* Query(double x, double y, double z) {

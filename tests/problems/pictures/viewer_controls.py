@@ -1,0 +1,296 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Controls of the viewer's pages, worked by mouse and keys."""
+import csv
+import json
+import math
+
+from browser import LOOK
+
+
+def work_controls(browser, checks, page):
+    """Every control of a page with two runs."""
+    holds, changes = checks.holds, checks.changes
+    changes(lambda: browser.click("#show-contact"), "hiding the contact space")
+    holds("!viewer.stage.groups.contact.visible", "the box hides it")
+    browser.press("k")
+    holds("viewer.stage.groups.contact.visible", "K shows it again")
+    changes(lambda: browser.click("#show-obstacle"), "hiding the obstacle")
+    browser.click("#show-obstacle")
+    changes(lambda: browser.click("#show-robot"), "hiding the robot")
+    browser.click("#show-robot")
+    changes(lambda: browser.click("#show-marks"), "hiding start and goal")
+    browser.click("#show-marks")
+    changes(lambda: browser.press("g"), "the robot at stages")
+    browser.press("g")
+    changes(lambda: browser.click("#xray"), "seeing through solids")
+    browser.press("o")
+    holds("!viewer.state.xray", "O ends it")
+    changes(lambda: browser.click("#bend"), "colour by curvature")
+    holds("!document.getElementById('bend-key').hidden", "its key is shown")
+    browser.click("#bend")
+
+    changes(lambda: browser.click("#clip-on"), "cutting")
+    changes(lambda: browser.click("#clip-flip"), "the other side of the cut")
+    changes(lambda: browser.run(
+        "(() => { const e = document.getElementById('clip-at'); e.value = 250;"
+        "e.dispatchEvent(new Event('input')); })()"), "moving the plane")
+    changes(lambda: browser.run(
+        "(() => { const e = document.getElementById('clip-axis');"
+        "e.value = 'x'; e.dispatchEvent(new Event('change')); })()"),
+        "another axis of the plane")
+    browser.press("c")
+    holds("!viewer.state.clip.on", "C ends the cut")
+
+    yaw = browser.run("viewer.orbit.yaw")
+    browser.mouse("mousePressed", 400, 400, button="left", clickCount=1)
+    browser.mouse("mouseMoved", 490, 400, button="left", buttons=1)
+    browser.mouse("mouseReleased", 490, 400, button="left", clickCount=1)
+    turned = browser.run("viewer.orbit.yaw") - yaw
+    checks.expect(abs(turned + 0.5) < 1e-6, f"90 pixels turn by 0.5: {turned}")
+    browser.mouse("mousePressed", 400, 400, button="right", clickCount=1)
+    browser.mouse("mouseMoved", 430, 420, button="right", buttons=2)
+    browser.mouse("mouseReleased", 430, 420, button="right", clickCount=1)
+    holds("Math.hypot(...viewer.orbit.target.toArray().map("
+          "(x, k) => x - viewer.orbit.home.target[k])) > 0.01",
+          "the right button moves the view")
+    browser.mouse("mouseWheel", 400, 400, deltaX=0, deltaY=200)
+    browser.wait("viewer.orbit.distance > viewer.orbit.home.distance")
+    browser.click("#reset")
+    holds("viewer.orbit.distance === viewer.orbit.home.distance && "
+          "viewer.orbit.yaw === viewer.orbit.home.yaw", "reset brings it back")
+    browser.press("+")
+    holds("viewer.orbit.distance < viewer.orbit.home.distance", "+ is nearer")
+    browser.press("r")
+    changes(lambda: browser.press("z"), "looking from above")
+    holds("viewer.orbit.pitch > 1.5", "Z looks from above")
+    browser.press("r")
+
+    browser.run("(() => { const e = document.getElementById('scrub');"
+                "e.value = 10000; e.dispatchEvent(new Event('input')); })()")
+    holds("(viewer.draw(), viewer.stage.robot.position.distanceTo("
+          "viewer.stage.at(viewer.data.goal)) < 1e-6)", "the end is the goal")
+    browser.press("ArrowLeft")
+    holds("Math.abs(viewer.state.time - 0.99) < 1e-9", "the left key steps")
+    browser.run("viewer.set(() => { viewer.state.time = 0; })")
+    browser.click("#play")
+    browser.wait("viewer.state.time > 0.01")
+    holds("viewer.state.playing", "it plays")
+    browser.press(" ")
+    holds("!viewer.state.playing", "space pauses")
+    browser.run("(() => { const e = document.getElementById('speed');"
+                "e.value = '4'; e.dispatchEvent(new Event('change')); })()")
+    holds("viewer.state.speed === 4", "speed")
+    browser.click('button.way[data-way="1"]')
+    holds("viewer.state.way === 1", "a click on a path follows it")
+    browser.press("1")
+    holds("viewer.state.way === 0", "1 follows the first")
+
+    changes(lambda: browser.click("#theme"), "the theme")
+    holds("document.documentElement.dataset.theme === 'dark'", "it is dark")
+    browser.click("#ask")
+    holds("!document.getElementById('help').hidden", "? shows the keys")
+    browser.press("Escape")
+    holds("document.getElementById('help').hidden", "Esc hides them")
+    browser.click("#menu")
+    holds("getComputedStyle(document.getElementById('panel')).display === "
+          "'none'", "the menu hides the panel")
+    browser.click("#menu")
+    holds("viewer.picture().toDataURL('image/png').length > 10000",
+          "the picture to save is there")
+
+    # A link brings the same view.
+    browser.run("viewer.set(() => { Object.assign(viewer.state.clip, {on: true,"
+                "axis: 'y', at: 0.25}); viewer.state.time = 0.5;"
+                "viewer.orbit.turn(0.3, 0.1); })")
+    browser.click("#link")
+    link, look = browser.run("location.hash"), browser.run(LOOK)
+    checks.quiet("controls")
+    browser.open(page, link)
+    again = browser.run(LOOK)
+    difference = sum(abs(a - b) for a, b in zip(look, again))
+    checks.expect(difference < 20000, f"a link keeps the view ({difference})")
+    holds("viewer.state.clip.axis === 'y' && viewer.state.clip.on && "
+          "viewer.state.time === 0.5 && viewer.state.speed === 4 && "
+          "viewer.state.theme === 'dark'", "a link keeps the state")
+
+
+def probe_like_the_program(browser, checks, run, folder):
+    """The live probe of the page that is open says what `query` says."""
+    points = [[0.3 + 0.1 * math.sin(0.2 * i), -1.2 + 2.4 * i / 150,
+               0.1 - 0.05 * i / 150] for i in range(151)]
+    (folder / "points.csv").write_text("x,y,z\n" + "".join(
+        f"{x!r},{y!r},{z!r}\n" for x, y, z in points))
+    browser.press("p")
+    browser.wait("viewer.state.probe.on")
+    for metric, name in enumerate(("euclidean", "phong", "sliding")):
+        more = ["--smoothing-length", "0.1"] if name == "phong" else []
+        run("query", "--contact-space", "contact.off", "--points", "points.csv",
+            "--output", "answers.csv", "--tracked", "--metric", name, *more)
+        with open(folder / "answers.csv", encoding="utf-8") as file:
+            expected = list(csv.DictReader(file))
+        found = browser.run(
+            "(() => { const {probe} = viewer.probe; probe.smooth(0.1);"
+            f"probe.forget(); return {json.dumps(points)}.map("
+            f"q => probe.answers(q)[{metric}]); }})()")
+        checks.expect(
+            [a["status"].replace(" ", "_").lower() for a in found] ==
+            [row["status"] for row in expected],
+            f"{name}: the probe has the program's statuses")
+        inside = [(a, row) for a, row in zip(found, expected) if a["inside"]]
+        checks.expect(len(inside) > 50, f"{name}: most points are inside")
+        worst = max(max(abs(a["distance"] - float(row["signed_distance"])),
+                        *(abs(a["contact"][k] - float(row["contact_" + axis]))
+                          for k, axis in enumerate("xyz")))
+                    for a, row in inside)
+        checks.expect(worst < 1e-11, f"{name}: the probe is off by {worst}")
+
+
+def work_probe(browser, checks, page):
+    """The probe's controls, on a page of a motion."""
+    holds, changes = checks.holds, checks.changes
+    browser.open(page)
+    holds("document.getElementById('probe').hidden", "the probe is off")
+    browser.click("#probe-on")
+    browser.wait("viewer.state.probe.on")
+    holds("document.querySelectorAll('#labels .pane').length === 0",
+          "the probe has one picture")
+    holds("document.getElementById('probe-answer-0').textContent"
+          ".includes('deep')", "it tells the depth")
+    browser.run("viewer.draw()")
+    x, y = browser.run(
+        "(() => { const p = viewer.stage.robot.position.clone().project("
+        "viewer.camera); const b = document.getElementById('canvas')"
+        ".getBoundingClientRect(); return [b.left + (p.x + 1) / 2 * b.width,"
+        "b.top + (1 - p.y) / 2 * b.height]; })()")
+    before = browser.run("[viewer.state.probe.at, viewer.orbit.yaw]")
+    browser.mouse("mousePressed", x, y, button="left", clickCount=1)
+    changes(lambda: browser.mouse("mouseMoved", x + 60, y - 30, button="left",
+                                  buttons=1), "dragging the robot")
+    browser.mouse("mouseReleased", x + 60, y - 30, button="left", clickCount=1)
+    holds(f"viewer.orbit.yaw === {before[1]}", "a drag of it turns no view")
+    moved = browser.run(
+        "(() => { const p = viewer.stage.robot.position.clone().project("
+        "viewer.camera); const b = document.getElementById('canvas')"
+        ".getBoundingClientRect(); return [b.left + (p.x + 1) / 2 * b.width,"
+        "b.top + (1 - p.y) / 2 * b.height]; })()")
+    checks.expect(abs(moved[0] - x - 60) < 1 and abs(moved[1] - y + 30) < 1,
+                  f"the robot follows the pointer: {moved}")
+    holds("viewer.probe.history.length === 2", "each place is asked once")
+    at = browser.run("viewer.state.probe.at")
+    browser.press("ArrowUp")
+    holds(f"Math.abs(Math.hypot(...viewer.state.probe.at.map((x, k) => x - "
+          f"{at}[k])) / viewer.data.scale - 0.01) < 1e-9", "a key moves it")
+    browser.run("(() => { const e = document.getElementById('probe-x');"
+                "e.value = '0.25'; e.dispatchEvent(new Event('change')); })()")
+    holds("viewer.state.probe.at[0] === 0.25", "a number places it")
+    browser.click('[data-probe="0"]')
+    holds("viewer.state.probe.metric === 0 && viewer.stage.probeArrows[0]"
+          ".group.visible", "a click shows where a metric sends it")
+    browser.run("(() => { const e = document.getElementById("
+                "'probe-smoothing'); e.value = '0'; e.dispatchEvent("
+                "new Event('change')); })()")
+    holds("viewer.probe.probe.smoothing === 0 && "
+          "viewer.probe.history.length === 1",
+          "another smoothing length begins anew")
+    browser.click("#link")
+    link = browser.run("location.hash")
+    at = browser.run("viewer.state.probe.at")
+    browser.open(page, link)
+    browser.wait("viewer.state.probe.on")
+    holds(f"JSON.stringify(viewer.state.probe.at) === '{json.dumps(at)}'"
+          ".replace(/ /g, '') && viewer.state.probe.metric === 0",
+          "a link keeps the probe")
+    browser.press("p")
+    holds("!viewer.state.probe.on && document.querySelectorAll("
+          "'#labels .pane').length === 3", "P ends it")
+    checks.quiet("probe")
+    # What is no contact space is refused in words.
+    browser.open(page)
+    browser.run("(() => { const s = viewer.data.probe.spaces[0];"
+                "s.indices = s.indices.slice(0, 16 * 20); })()")
+    browser.press("p")
+    browser.wait("document.getElementById('message').textContent"
+                 ".includes('closed, edge-manifold')")
+    holds("!viewer.state.probe.on", "and the page goes on without")
+    checks.quiet("broken probe")
+
+
+def work_section(browser, checks, page):
+    """The cut through a contact space, coloured by what the metrics say."""
+    holds, changes = checks.holds, checks.changes
+    browser.open(page)
+    holds("document.getElementById('map').value === '' && "
+          "document.getElementById('map-key').hidden", "no colours at first")
+    choose = ("(() => { const e = document.getElementById('map');"
+              "e.value = '%s'; e.dispatchEvent(new Event('change')); })()")
+    for kind in ("euclidean", "phong", "ratio", "angle"):
+        browser.run("viewer.map.cells = 0")
+        changes(lambda kind=kind: (
+            browser.run(choose % kind),
+            browser.wait("viewer.map.cells === kMapCells")),
+            f"colours of the cut by {kind}")
+        holds("viewer.state.clip.on", "colours want a cut")
+        holds("!document.getElementById('map-key').hidden && "
+              "document.getElementById('map-high').textContent !== ''",
+              f"{kind}: the key tells the range")
+    # By the other route: the deepest point of the plane, by the probe's own
+    # queries, a step of the grid apart at most.
+    browser.run(choose % "euclidean")
+    browser.wait("viewer.map.cells === kMapCells && "
+                 "viewer.map.key.startsWith('euclidean')")
+    holds("""(() => {
+      const {min, max} = viewer.map.box, {probe} = viewer.probe;
+      const z = viewer.stage.clipLevel(viewer.state.clip);
+      const n = 60, scale = viewer.data.scale;
+      let most = 0;
+      for (let i = 0; i <= n; ++i) for (let j = 0; j <= n; ++j) {
+        const p = [min.x + i / n * (max.x - min.x),
+                   min.y + j / n * (max.y - min.y), z];
+        const q = p.map((x, k) => x * scale + viewer.data.center[k]);
+        most = Math.max(most, -probe.answers(q)[0].distance);
+      }
+      const step = scale * Math.max(max.x - min.x, max.y - min.y) / n;
+      return Math.abs(viewer.map.range.high - most) < step;
+    })()""", "the key's end is the greatest depth of the plane")
+    browser.click("#link")
+    link = browser.run("location.hash")
+    browser.open(page, link)
+    browser.wait("viewer.map.cells === kMapCells")
+    holds("viewer.state.map === 'euclidean'", "a link keeps the colours")
+    browser.press("c")
+    holds("!viewer.map.mesh.visible && "
+          "document.getElementById('map-key').hidden",
+          "without a cut there are no colours")
+    checks.quiet("section")
+
+
+def work_overlays(browser, checks, pages):
+    """What lies behind an answer: in the legend, and drawn where it is on."""
+    for name, kind, is_on in (("tree", "graphs", True),
+                              ("roadmap", "graphs", True),
+                              ("corridor", "planes", False),
+                              ("depth", "windows", True)):
+        browser.open(pages[name])
+        checks.holds(f"viewer.state.show.{kind} === {str(is_on).lower()} && "
+                     f"document.getElementById('show-{kind}').checked === "
+                     f"{str(is_on).lower()}", f"{name}: {kind} as at first")
+        checks.changes(lambda kind=kind: browser.click(f"#show-{kind}"),
+                       f"{name}: switching {kind}")
+        checks.holds(f"viewer.state.show.{kind} === {str(not is_on).lower()} "
+                     f"&& viewer.stage.overlays.parts.filter(p => p.kind === "
+                     f"'{kind}').every(p => p.object.visible === "
+                     f"{str(not is_on).lower()})", f"{name}: the box switches")
+        checks.quiet(name)
+    browser.open(pages["tree"])
+    checks.holds("document.getElementById('show-graphs').parentNode"
+                 ".textContent === 'retraction trees'", "the tree has its name")
+    # A tree's motions are free: none enters an obstacle's inside.
+    checks.holds("viewer.data.graphs.length === 1 && "
+                 "viewer.data.graphs[0].edges >= viewer.data.graphs[0].points "
+                 "- 2 && viewer.data.graphs[0].points > 10",
+                 "the run's tree is in the page")
+    browser.open(pages["trap"])
+    checks.holds("['graphs', 'planes', 'windows'].every(kind => "
+                 "!document.getElementById('show-' + kind))",
+                 "what a run has not is not offered")
+    checks.quiet("overlays")
