@@ -15,19 +15,17 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The extension in small letters, without a link's name.
-std::string ExtensionOf(const std::string& path) {
-  const std::size_t hash = path.rfind('#');
-  std::string extension = fs::path(path).extension().string();
-  if (hash != std::string::npos) {
-    // A file may have such a name, a link's has an extension before it.
-    const std::string before = fs::path(path.substr(0, hash)).extension();
-    if (before.size() == 4 || before.size() == 5) extension = before;
-  }
-  for (char& c : extension) {
+std::string Lowered(std::string text) {
+  for (char& c : text) {
     c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   }
-  return extension;
+  return text;
+}
+
+// The extension in small letters, without a link's name.
+std::string ExtensionOf(const std::string& path) {
+  return Lowered(
+      fs::path(path.substr(0, FilePartOf(path))).extension().string());
 }
 
 bool IsRobot(const std::string& extension) {
@@ -43,7 +41,19 @@ bool IsImported(const std::string& extension) {
 
 const char* const kMeshFormats =
     "OFF, OBJ, STL, PLY; COLLADA, glTF, GLB, 3MF in single precision; a link "
-    "of URDF or SDF as robot.urdf#link";
+    "of URDF or SDF as robot.urdf#link, all of a URDF as robot.urdf@joint=1.5";
+
+std::size_t FilePartOf(const std::string& name) {
+  const std::string lowered = Lowered(name);
+  std::size_t end = 0;
+  for (const std::string extension : {".urdf", ".sdf"}) {
+    for (const char mark : {'#', '@'}) {
+      const std::size_t at = lowered.rfind(extension + mark);
+      if (at != std::string::npos) end = std::max(end, at + extension.size());
+    }
+  }
+  return end > 0 ? end : name.size();
+}
 
 bool NamesMesh(const std::string& path) {
   const std::string extension = ExtensionOf(path);

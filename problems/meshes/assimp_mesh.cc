@@ -287,8 +287,8 @@ ImportedMesh ReadByAssimp(const std::string& path) {
   constexpr std::uintmax_t kMaxBytes = std::uintmax_t{1} << 29;
   const std::string bytes = ReadInputFile(path, "a mesh file", kMaxBytes);
   if (bytes.empty()) Refuse(path, "an empty file");
-  const std::string answer =
-      RunInSandbox(path, [&] { return Import(path, bytes); });
+  const std::string answer = RunInSandbox(
+      path, [&] { return Import(path, bytes); }, LimitsFor(bytes.size()));
   ImportedMesh imported;
   internal::ByteReader reader(answer);
   reader(imported.note, imported.metres, imported.mesh.vertices,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// In the place of assimp_mesh.cc and robot_link.cc, where their packages are
+// In the place of assimp_mesh.cc and robot_*.cc, where their packages are
 // missing.
 #include "core/mesh/mesh_error.h"
 #include "problems/meshes/assimp_mesh.h"
@@ -11,8 +11,9 @@ namespace {
 [[noreturn]] void Refuse(const std::string& path) {
   throw InputError(path +
                    ": expected a mesh in OFF, OBJ, STL or PLY, found another; "
-                   "this build is without Assimp and tinyxml2 "
-                   "(libassimp-dev, libtinyxml2-dev)");
+                   "this build, like wheels, is without Assimp and tinyxml2; "
+                   "export it as STL, or build from source with libassimp-dev "
+                   "and libtinyxml2-dev");
 }
 
 }  // namespace

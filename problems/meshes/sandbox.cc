@@ -6,6 +6,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cmath>
@@ -104,6 +105,13 @@ std::string Ending(int status) {
 }
 
 }  // namespace
+
+SandboxLimits LimitsFor(std::size_t bytes) {
+  const SandboxLimits most;
+  const double mib = static_cast<double>(bytes) / 0x1p20;
+  return {std::min(most.max_mib, 512.0 + 256.0 * mib),
+          std::min(most.max_seconds, 8.0 + 4.0 * mib)};
+}
 
 std::string RunInSandbox(const std::string& what,
                          const std::function<std::string()>& work,

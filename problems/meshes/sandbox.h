@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstddef>
 #include <functional>
 #include <string>
 
@@ -10,6 +11,10 @@ struct SandboxLimits {
   double max_mib = 4096.0;     // that the process may grow by
   double max_seconds = 120.0;  // of its processor time
 };
+
+// For the reader of a file of that many bytes: what its contents can need many
+// times over, so that a small one that says it is huge ends soon.
+SandboxLimits LimitsFor(std::size_t bytes);
 
 // Runs `work` in a process of its own and returns the bytes that it returned.
 // What it writes to standard error is not seen.  For libraries that a file can

@@ -76,11 +76,10 @@ std::string MeshPath(const Json& value, const JsonPlace& place,
                      const MeshFolder& folder) {
   namespace fs = std::filesystem;
   const std::string text = value.get<std::string>();
-  // A link's name after # is no part of the path.
-  const std::size_t hash = std::min(text.rfind('#'), text.size());
-  const std::string link = text.substr(hash);
-  const fs::path path = fs::path(folder.directory) / text.substr(0, hash);
-  if (folder.root.empty()) return path.string() + link;
+  const std::size_t end = FilePartOf(text);
+  const std::string part = text.substr(end);  // "#link"
+  const fs::path path = fs::path(folder.directory) / text.substr(0, end);
+  if (folder.root.empty()) return path.string() + part;
   std::error_code error;
   const fs::path root = fs::canonical(folder.root, error);
   if (error || !fs::is_directory(root, error)) {
@@ -97,7 +96,7 @@ std::string MeshPath(const Json& value, const JsonPlace& place,
                Shortened(value) + ", which is not; move it there");
   }
   // Not `path`: what has been checked is read.
-  return resolved.string() + link;
+  return resolved.string() + part;
 }
 
 // A `solid` of the schema.  Steps that a scene leaves out do no arithmetic.

@@ -24,6 +24,7 @@ class Solid(MeshViews, Shown):
     """
 
     _native: NativeSolid
+    _notes: list[str] = []  # of the file that it was read from
 
     def __init__(self, vertices: ArrayLike, triangles: ArrayLike,
                  name: str = "solid") -> None:
@@ -51,9 +52,16 @@ class Solid(MeshViews, Shown):
 
     @classmethod
     def read(cls, path: str | os.PathLike[str], name: str | None = None) -> Solid:
-        """Of an OFF, OBJ, STL or PLY file."""
+        """Of an OFF, OBJ, STL or PLY file; in single precision of COLLADA,
+        glTF, GLB or 3MF; of a link of URDF or SDF, `robot.urdf#link`, or of all
+        of a URDF, `robot.urdf@joint=1.5,other=0` (radians, metres).  What there
+        is to know of the file is in `warnings`.  Wheels are built without
+        Assimp and read the first four only; they say so in the error."""
         text = os.fspath(path)
-        return cls._of(_native.Solid.read(text, text if name is None else name))
+        native, notes = _native.Solid.read(text, text if name is None else name)
+        solid = cls._of(native)
+        solid._notes = notes
+        return solid
 
     @classmethod
     def from_trimesh(cls, mesh: Any, name: str = "solid") -> Solid:
@@ -77,7 +85,7 @@ class Solid(MeshViews, Shown):
     @property
     def warnings(self) -> list[str]:
         """What was done to it, and what is no error but worth knowing."""
-        return self._native.warnings
+        return self._native.warnings + self._notes
 
     def to_row(self) -> dict[str, Any]:
         """For pandas.DataFrame([one.to_row(), ...])."""

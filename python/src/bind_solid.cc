@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <nanobind/stl/pair.h>
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
 #include "core/mesh/mesh_io.h"
 #include "core/solid/solid.h"
+#include "problems/meshes/any_mesh.h"
 #include "python/src/arrays.h"
 #include "python/src/bindings.h"
 #include "python/src/computing.h"
@@ -23,9 +25,13 @@ Solid FromArrays(const Rows3& vertices, const Corners& triangles,
   return MakeSolid(mesh, name);
 }
 
-Solid Read(const std::string& path, const std::string& name) {
+// And what there is to know of the file.
+std::pair<Solid, std::vector<std::string>> Read(const std::string& path,
+                                                const std::string& name) {
   const Computing computing;
-  return MakeSolid(ReadMesh(path), name);
+  std::vector<std::string> notes;
+  Solid solid = MakeSolid(ReadAnyMesh(path, &notes), name);
+  return {std::move(solid), std::move(notes)};
 }
 
 }  // namespace

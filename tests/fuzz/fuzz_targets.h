@@ -16,6 +16,11 @@ void MeshObj(const std::uint8_t* data, std::size_t size);
 void MeshStl(const std::uint8_t* data, std::size_t size);
 void MeshPly(const std::uint8_t* data, std::size_t size);
 
+// A URDF or SDF file after a byte that says what of it is read (all of it, a
+// link, joint values): refused, or valid indices and finite coordinates.  No
+// mesh file is read.  Only where tinyxml2 is.
+void Robot(const std::uint8_t* data, std::size_t size);
+
 // A file of points: refused, or finite.
 void PointsCsv(const std::uint8_t* data, std::size_t size);
 
@@ -47,6 +52,9 @@ inline constexpr Target kTargets[] = {
     {"mesh_obj", MeshObj},     {"mesh_off", MeshOff},
     {"mesh_ply", MeshPly},     {"mesh_stl", MeshStl},
     {"points_csv", PointsCsv}, {"query", Query},
+#ifdef PHONGPD_FUZZES_ROBOTS
+    {"robot", Robot},
+#endif
     {"scene", Scene}};
 
 }  // namespace phongpd::fuzz
