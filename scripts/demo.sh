@@ -70,6 +70,7 @@ for scene in "$passage" "$passage,twin=1"; do
     --output "$demo/tunnel_rrt_connect.jsonl" | note tunnel
 done
 scripts/demo_page.sh "$demo"
+scripts/links.py "$demo" >"$demo/links.log" || { cat "$demo/links.log"; exit 1; }
 
 echo
 echo "Look at $demo/index.html"

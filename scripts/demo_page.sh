@@ -5,10 +5,33 @@
 set -euo pipefail
 cd "$1"
 
-said() { # FILE: the lines of a command, as they were printed
+# Numbers to four digits, and what HTML takes for its own.
+readable() {
+  awk '{
+    gsub(/&/, "\\&amp;"); gsub(/</, "\\&lt;"); text = ""
+    while (match($0, /[0-9]+\.[0-9][0-9][0-9][0-9][0-9]+(e[-+]?[0-9]+)?/)) {
+      text = text substr($0, 1, RSTART - 1) \
+        sprintf("%.4g", substr($0, RSTART, RLENGTH))
+      $0 = substr($0, RSTART + RLENGTH)
+    }
+    print text $0
+  }' "$1"
+}
+said() { # FILE: the lines of a command
   printf '<pre>'
-  sed 's/&/\&amp;/g; s/</\&lt;/g; s/>/\&gt;/g' "$1"
+  readable "$1"
   printf '</pre>\n'
+}
+table() { # FILE: rows "a, b: c, d" under a header of the same kind
+  echo '<div class="wide"><table>'
+  readable "$1" | awk '
+    /^ / { printf "<tr class=\"why\"><td colspan=\"%d\">%s</td></tr>\n", n, $0; next }
+    { sub(/: /, ", "); count = split($0, cell, ", "); tag = NR == 1 ? "th" : "td"
+      if (NR == 1) n = count
+      printf "<tr>"
+      for (i = 1; i <= count; ++i) printf "<%s>%s</%s>", tag, cell[i], tag
+      print "</tr>" }'
+  echo '</table></div>'
 }
 frame() { # PAGE TITLE
   printf '<iframe src="%s" title="%s" loading="lazy"></iframe>\n' "$1" "$2"
@@ -33,8 +56,13 @@ frame() { # PAGE TITLE
   p { max-width: 46em; }
   iframe { width: 100%; height: min(68vh, 640px); border: 1px solid var(--line);
            border-radius: 10px; box-sizing: border-box; }
-  pre { overflow-x: auto; font-size: 13px; line-height: 1.45; padding: 12px;
+  pre { white-space: pre-wrap; overflow-wrap: anywhere; font-size: 13px; line-height: 1.45; padding: 12px;
         border: 1px solid var(--line); border-radius: 10px; }
+  .wide { overflow-x: auto; }
+  table { border-collapse: collapse; font-size: 14px; width: 100%; }
+  th, td { text-align: left; padding: 4px 12px 4px 0; border-bottom: 1px solid var(--line);
+           overflow-wrap: anywhere; min-width: 4.5em; }
+  .why td { color: #888; padding-left: 16px; }
   .small { font-size: 14px; margin-top: 4px; }
   li { margin: 6px 0; max-width: 46em; }
 </style>
@@ -59,13 +87,13 @@ solved are about equal then. (Below: two lines with monotone mu, two with adapti
 the default pipeline, which repairs the start first.) The exact
 judge has the last word on every path.</p>'
   frame trap.html "Paths out of a trap"
-  said trap.txt
+  table trap.txt
   echo '</section><section><h2>A passage a thousandth wide, and a proof</h2>
 <p>The complete planner goes through a channel a thousandth wide in milliseconds. Closed
 by a ten-thousandth it says so and proves it: start and goal lie in different cells of
 free space. Samplers can only run out of time.</p>'
   frame tunnel.html "A path through a narrow passage"
-  said tunnel.txt
+  table tunnel.txt
   echo '</section><section><h2>Your own two meshes</h2>
 <p>STL, OBJ, OFF or PLY, closed, in one unit. Nothing is precomputed; the answer is the
 global one, with a certificate and the two points that touch.</p>'

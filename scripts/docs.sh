@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
 # docs.sh: builds the pages into build/site/html, a folder that any web server
-# serves and that needs no network.  Warnings are errors.
+# serves and that needs no network.  Warnings are errors, dead links too.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
@@ -11,4 +11,5 @@ mkdir -p build/site
 doxygen docs/Doxyfile
 /usr/bin/python3 -m sphinx -q -W --keep-going -b html -d build/site/doctrees \
   docs build/site/html
+scripts/links.py build/site/html
 echo "docs: build/site/html/index.html"

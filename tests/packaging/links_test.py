@@ -1,0 +1,52 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""links_test.py LINKS: the check of links finds what is dead, and only that."""
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+
+def failures(pages):
+    """What links.py says of these pages, and its exit code."""
+    with tempfile.TemporaryDirectory() as name:
+        for page, text in pages.items():
+            (pathlib.Path(name) / page).write_text(text)
+        done = subprocess.run([sys.executable, sys.argv[1], name],
+                              capture_output=True, text=True, check=False)
+        lines = [line[len(str(pathlib.Path(name).resolve())) + 1:]
+                 for line in done.stdout.splitlines()[:-1]]
+        return done.returncode, lines
+
+
+def main():
+    whole = {"a.html": '<a href="b.html#p">b</a><a href="#me" id="me">me</a>'
+                       '<a href="b.html#eye=1,2&t=3">a view</a>'
+                       '<a href="https://o.example/x">elsewhere</a>'
+                       '<img src="data:image/png;base64,AA=="><img src="c%20.svg">'
+                       '<link rel="stylesheet" href="s.css">',
+             "b.html": '<p id="p">', "c .svg": "<svg/>",
+             "s.css": 'a{background:url("c%20.svg")}'}
+    assert failures(whole) == (0, []), failures(whole)
+    for page, text, expected in (
+            ("a.html", '<a href="no.html">', "no such file"),
+            ("a.html", '<a href="b.html#no">', "no such place"),
+            ("a.html", '<iframe src="no.html"></iframe>', "no such file"),
+            ("a.html", '<script src="//o.example/a.js"></script>',
+             "loaded from elsewhere"),
+            ("a.html", '<link rel="stylesheet" href="https://o.example/a.css">',
+             "loaded from elsewhere"),
+            ("a.html", '<style>@import "https://o.example/a.css";</style>',
+             "loaded from elsewhere"),
+            ("s.css", "@font-face{src:url(https://o.example/f.woff2)}",
+             "loaded from elsewhere"),
+            ("s.css", "a{background:url(no.png)}", "no such file")):
+        code, lines = failures({**whole, page: text})
+        assert code == 1 and len(lines) == 1, (text, lines)
+        assert lines[0].startswith(page) and expected in lines[0], lines
+    assert failures({"only.txt": ""})[0] == 2
+    print("links.py tells dead links from live ones")
+
+
+if __name__ == "__main__":
+    main()
