@@ -11,5 +11,10 @@ mkdir -p build/site
 doxygen docs/Doxyfile
 /usr/bin/python3 -m sphinx -q -W --keep-going -b html -d build/site/doctrees \
   docs build/site/html
+# Debian's furo wants this from the root of a server of Debian's own.
+styles=build/site/html/_static/styles
+cp /usr/share/javascript/normalize.css/normalize.css $styles
+sed -i 's|/javascript/normalize.css/normalize.css|normalize.css|' \
+  $styles/furo.css
 scripts/links.py build/site/html
 echo "docs: build/site/html/index.html"

@@ -61,7 +61,7 @@ class RobotFile {
   // "; cylinders have ..." if there were any, for what is told of the mesh.
   std::string Roundness() const;
 
-  // The <origin> of an element of URDF; angles about the fixed axes x, y, z.
+  // The origin of an element of URDF; angles about the fixed axes x, y, z.
   Place OriginOf(const tinyxml2::XMLElement& element) const;
   // `count` numbers out of a text.
   std::vector<double> Numbers(const std::string& text, const std::string& what,

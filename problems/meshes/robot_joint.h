@@ -24,8 +24,8 @@ struct Joint {
   bool HasLimits() const { return kind == kRevolute || kind == kPrismatic; }
 };
 
-// Reads a <joint>.  Throws InputError for one of another type, without an axis
-// that it needs, or with what is no number.
+// Reads a joint element.  Throws InputError for one of another type, without an
+// axis that it needs, or with what is no number.
 Joint ReadJoint(const RobotFile& robot, const tinyxml2::XMLElement& element);
 
 // Throws InputError "FILE: joint 'NAME': what".

@@ -176,7 +176,7 @@ TEST_F(RobotPose, IsReadWhereverMeshesAre) {
              "bounds": {"min": [-9, -9, -9], "max": [9, 9, 9]},
              "start": [-5, 0, 0], "goal": [5, 0, 0]})";
   const Scene scene = SceneSource(At("scene.json"), At("")).Load();
-  EXPECT_EQ(scene.workspace.obstacles[0].mesh.triangles.size(), 60u);
+  EXPECT_EQ(scene.workspace.obstacles[0].mesh().triangles.size(), 60u);
 }
 
 TEST_F(RobotPose, RefusesWhatItDoesNotKnowInOneLine) {
