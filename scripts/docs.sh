@@ -16,5 +16,11 @@ styles=build/site/html/_static/styles
 cp /usr/share/javascript/normalize.css/normalize.css $styles
 sed -i 's|/javascript/normalize.css/normalize.css|normalize.css|' \
   $styles/furo.css
+# Its script imports another, which browsers do in modules only, and of files not
+# at all: both in one.
+parts=build/site/html/_static/scripts
+{ cat $parts/gumshoe-patched.js; grep -v '^import Gumshoe' $parts/furo.js; } \
+  >$parts/whole.js
+mv $parts/whole.js $parts/furo.js
 scripts/links.py build/site/html
 echo "docs: build/site/html/index.html"
