@@ -61,7 +61,7 @@ def make_pages(run, folder):
         "--output", "tree.jsonl", "--html", "tree.html")
     run("plan", "hole:delta=0.1", "--planner", "prm", "--time", "0.5",
         "--output", "roadmap.jsonl", "--html", "roadmap.html")
-    run("optimize", "hole:delta=0.1", "--polish", "always", "--output",
+    run("optimize", "u_axis", "--polish", "always", "--output",
         "corridor.jsonl", "--html", "corridor.html")
     (folder / "none.jsonl").write_text(
         '{"scene": "none", "planner": "prm", "seed": 1, "status": "timeout",'
