@@ -21,6 +21,10 @@ void Fail(const std::string& what, const std::string& found) {
   throw InputError("non-penetration constraint: " + what + ", found " + found);
 }
 
+bool IsChanged(const MetricRow& row, bool was_warm) {
+  return was_warm && row.inside && row.status == QueryStatus::kBranchEnded;
+}
+
 void Count(const MetricRow& row, bool was_warm, NonPenetrationCounts* counts) {
   if (counts == nullptr) return;
   ++(was_warm ? counts->warm : counts->cold);
@@ -138,6 +142,7 @@ template <typename Visit>
 void NonPenetrationConstraint::ForEachRow(const double* u,
                                           const BranchSet& branches,
                                           NonPenetrationCounts* counts,
+                                          BranchSet* next,
                                           const Visit& visit) const {
   const auto count = static_cast<std::size_t>(options_.rows);
   std::array<MetricRow, kMaxMetricRows> rows;       // of one space
@@ -155,6 +160,10 @@ void NonPenetrationConstraint::ForEachRow(const double* u,
       const Branch& previous = branches.branches[BranchIndex(s, m)];
       metrics_[m]->Query(q, previous, options_.rows, rows.data());
       Count(rows[0], previous.IsValid(), counts);
+      if (next != nullptr) {
+        next->branches[BranchIndex(s, m)] = rows[0].branch;
+        next->changes += IsChanged(rows[0], previous.IsValid()) ? 1 : 0;
+      }
       for (std::size_t k = 0; k < count; ++k) {
         if (!options_.merge_spaces) {
           visit(sample, rows[k]);
@@ -175,10 +184,13 @@ void NonPenetrationConstraint::ForEachRow(const double* u,
 bool NonPenetrationConstraint::Evaluate(const double* u,
                                         const BranchSet& branches,
                                         double* values, double* jacobian,
-                                        NonPenetrationCounts* counts) const {
+                                        NonPenetrationCounts* counts,
+                                        BranchSet* next) const {
   CheckSize(branches);
+  if (next != nullptr) CheckSize(*next);
   if (!IsFinite(u)) return false;
-  ForEachRow(u, branches, counts,
+  if (next != nullptr) next->changes = 0;
+  ForEachRow(u, branches, counts, next,
              [&](const Sample& sample, const MetricRow& row) {
                if (values != nullptr) {
                  *values++ = std::min(row.value / options_.frame.unit,
@@ -214,6 +226,7 @@ void NonPenetrationConstraint::Commit(const double* u, BranchSet* branches,
                                       NonPenetrationCounts* counts) const {
   CheckSize(*branches);
   if (!IsFinite(u)) return;
+  branches->changes = 0;
   for (int s = 0; s < samples(); ++s) {
     const Vector3d q = SamplePoint(s, u);
     for (std::size_t m = 0; m < metrics_.size(); ++m) {
@@ -221,13 +234,11 @@ void NonPenetrationConstraint::Commit(const double* u, BranchSet* branches,
       const bool was_warm = branch.IsValid();
       const MetricRow now = metrics_[m]->Query(q, branch);
       Count(now, was_warm, counts);
-      if (counts != nullptr && was_warm && now.inside &&
-          now.status == QueryStatus::kBranchEnded) {
-        ++counts->branch_changes;
-      }
+      branches->changes += IsChanged(now, was_warm) ? 1 : 0;
       branch = now.branch;
     }
   }
+  if (counts != nullptr) counts->branch_changes += branches->changes;
 }
 
 }  // namespace phongpd

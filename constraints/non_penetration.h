@@ -20,6 +20,8 @@ namespace phongpd {
 // ever changes a branch.
 struct BranchSet {
   std::vector<Branch> branches;
+  // That ended inside, at the last step, and are others now.
+  long changes = 0;
 };
 
 struct NonPenetrationCounts {
@@ -81,9 +83,12 @@ class NonPenetrationConstraint {
 
   // rows() values (in units of `unit`) and nonzeros() derivatives by u, from
   // one set of queries; either may be null.  False, and nothing of use written,
-  // if some u is not finite.  Does not allocate; counts may be null.
+  // if some u is not finite.  Does not allocate; counts may be null.  `next`,
+  // of the same size and not `branches` itself, receives the branches as Commit
+  // would advance them to u; null: they are not wanted.
   bool Evaluate(const double* u, const BranchSet& branches, double* values,
-                double* jacobian, NonPenetrationCounts* counts) const;
+                double* jacobian, NonPenetrationCounts* counts,
+                BranchSet* next = nullptr) const;
 
   // Cold branches at u: the beginning of a solve or of a round.
   BranchSet Start(const double* u, NonPenetrationCounts* counts) const;
@@ -105,7 +110,8 @@ class NonPenetrationConstraint {
   // visit(sample, row) for all rows in their order.
   template <typename Visit>
   void ForEachRow(const double* u, const BranchSet& branches,
-                  NonPenetrationCounts* counts, const Visit& visit) const;
+                  NonPenetrationCounts* counts, BranchSet* next,
+                  const Visit& visit) const;
   bool IsFinite(const double* u) const;
   void CheckSize(const BranchSet& branches) const;
   std::size_t BranchIndex(int sample, std::size_t space) const {

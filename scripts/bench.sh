@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# bench.sh [paper|queries|contact-space|lazy|convergence|planning|extremes|peers|
-# cluster|python|trade|all]: regenerates the tables and figures of results/.
+# bench.sh [paper|queries|contact-space|lazy|convergence|pipeline|planning|
+# extremes|peers|cluster|python|trade|all]: regenerates the tables and figures
+# of results/.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 # The user's own cache is neither used nor filled.
@@ -9,12 +10,12 @@ export PHONGPD_CACHE_DIR=$PWD/build/cache
 
 suite=${1:-all}
 case $suite in
-  paper | queries | contact-space | lazy | convergence | planning | extremes | \
-    peers | cluster | python | trade | all) ;;
+  paper | queries | contact-space | lazy | convergence | pipeline | planning | \
+    extremes | peers | cluster | python | trade | all) ;;
   *)
     echo "bench: expected paper, queries, contact-space, lazy," \
-      "convergence, planning, extremes, peers, cluster, python, trade or all," \
-      "found $suite" >&2
+      "convergence, pipeline, planning, extremes, peers, cluster, python," \
+      "trade or all, found $suite" >&2
     exit 2
     ;;
 esac
@@ -46,13 +47,7 @@ if [[ $suite == convergence || $suite == all ]]; then
   scripts/build.sh phongpd convergence_benchmark
   rows=build/convergence
   rm -rf "$rows"
-  scenes=(
-    u_axis u_trap l plate:thickness=0.1 plate:thickness=0.02
-    plate:thickness=0.005 long_plate torus_hole cone_axes ball_wrench
-    ball_convex clutter knot peg_tunnel:clearance=0.1 peg_tunnel:clearance=0.01
-    peg_tunnel:clearance=0.001 u_axis:edge=0.1 u_trap:edge=0.1 plate:edge=0.1
-    long_plate:edge=0.1
-  )
+  . scripts/convergence_scenes.sh
   # Development looked at seeds 1 to 50 and from 1001 on.
   seed=101
   # One process a core: Ipopt's linear solver is not thread-safe.
@@ -76,6 +71,11 @@ if [[ $suite == convergence || $suite == all ]]; then
   cat "$rows"/*/rows.jsonl > "$rows/all.jsonl"
   build/convergence_benchmark --rows "$rows/all.jsonl" \
     --output results/convergence --how "scripts/bench.sh convergence"
+fi
+if [[ $suite == pipeline || $suite == all ]]; then
+  scripts/build.sh phongpd
+  # A commit whose Ipopt solved its systems by MUMPS.
+  scripts/compare_pipeline.sh a937fda build/phongpd results/convergence
 fi
 if [[ $suite == planning || $suite == all ]]; then
   scripts/build.sh planning_benchmark voxel_worlds_test

@@ -36,6 +36,11 @@ IpoptSettings CorridorOptions::DefaultIpopt() {
   IpoptSettings settings;
   settings.max_iterations = 60;
   settings.stall_stop = false;
+  // A round is convex and starts near its solution: no large mu is needed to
+  // find the way, nor more digits than two rounds differ by.
+  settings.mu_strategy = IpoptSettings::MuStrategy::kMonotone;
+  settings.ipopt_options["mu_init"] = "1e-5";
+  settings.tolerance = 1e-5;
   // The path as it is touches its planes' offsets; Ipopt's default would push
   // it a hundredth of every range away first.
   for (const char* name :
@@ -101,8 +106,8 @@ CorridorSummary PolishInCorridor(const TrajectoryProblem& problem,
   const double price =
       options.restoring / std::max((springs.goal - springs.start).norm(), 1e-3);
   double trust = options.trust;
-  const double reach = ReachOf(problem, trust);
-  Corridor corridor = FindCorridor(problem, springs, path, reach);
+  Corridor corridor =
+      FindCorridor(problem, springs, path, ReachOf(problem, trust));
   double merit = springs.Energy(now.data()) + price * corridor.TotalMissing();
   int small_gains = 0;
   summary.status = CorridorStatus::kRoundLimit;
@@ -123,7 +128,8 @@ CorridorSummary PolishInCorridor(const TrajectoryProblem& problem,
         springs.ToPath(problem.start, run.x.data(), problem.goal);
     double gain = 0.0;
     if (CheckPath(*problem.free_space, moved).free) {
-      Corridor around = FindCorridor(problem, springs, moved, reach);
+      Corridor around =
+          FindCorridor(problem, springs, moved, ReachOf(problem, trust));
       const double there =
           springs.Energy(run.x.data()) + price * around.TotalMissing();
       gain = (merit - there) / merit;

@@ -151,9 +151,11 @@ void IpoptSettings::Validate() const {
 const char* IpoptVersion() { return IPOPT_VERSION; }
 
 void ApplyIpoptOptions(const IpoptSettings& settings,
+                       const std::string& linear_solver,
                        Ipopt::IpoptApplication* application) {
   std::map<std::string, std::string> options = {
-      {"linear_solver", "mumps"},
+      {"linear_solver", linear_solver},
+      {"linear_system_scaling", "none"},
       {"hessian_approximation", "exact"},
       {"honor_original_bounds", "yes"},  // the default changed in 3.14
       {"print_level", "0"},

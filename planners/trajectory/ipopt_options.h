@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <string>
+
 #include "planners/trajectory/ipopt_solve.h"
 
 namespace Ipopt {
@@ -9,10 +11,12 @@ class IpoptApplication;
 
 namespace phongpd {
 
-// Hands the settings to Ipopt, which then prints into settings.output.  Throws
-// InputError for an option of settings.ipopt_options that Ipopt does not know
-// or a value it refuses.
+// Hands the settings to Ipopt, which then prints into settings.output; the
+// linear solver is one for settings that name none.  Throws InputError for an
+// option of settings.ipopt_options that Ipopt does not know or a value it
+// refuses.
 void ApplyIpoptOptions(const IpoptSettings& settings,
+                       const std::string& linear_solver,
                        Ipopt::IpoptApplication* application);
 
 // Ipopt's ApplicationReturnStatus by its own name, and its class.

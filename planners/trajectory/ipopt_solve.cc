@@ -18,6 +18,7 @@
 #include "core/mesh/mesh_error.h"
 #include "core/stopwatch.h"
 #include "planners/trajectory/evaluated_program.h"
+#include "planners/trajectory/ipopt_condensed.h"
 #include "planners/trajectory/ipopt_options.h"
 #include "planners/trajectory/stop_rules.h"
 
@@ -37,6 +38,8 @@ namespace {
 using Eigen::VectorXd;
 using Ipopt::Index;
 using Ipopt::Number;
+
+constexpr char kGeneralSolver[] = "mumps";
 
 // Adds the time it lives.
 class TimeAdder {
@@ -266,12 +269,30 @@ auto InPlainErrors(const Work& work) -> decltype(work()) {
   }
 }
 
+// The solver made for such programs, unless an equality or the settings ask for
+// another.
+bool WantsCondensed(const NonlinearProgram& program,
+                    const IpoptSettings& settings) {
+  if (!CondensedSolver::IsAvailable() ||
+      settings.ipopt_options.count("linear_solver") > 0) {
+    return false;
+  }
+  VectorXd x_low(program.variables()), x_high(program.variables());
+  VectorXd g_low(program.rows()), g_high(program.rows());
+  program.Bounds(x_low.data(), x_high.data(), g_low.data(), g_high.data());
+  return (g_low.array() < g_high.array()).all();
+}
+
 IpoptRun Solve(NonlinearProgram* program, const VectorXd& start,
                const IpoptSettings& settings) {
   const Stopwatch stopwatch;
+  std::optional<CondensedSolver> condensed;
+  if (WantsCondensed(*program, settings)) condensed.emplace(program->rows());
   const Ipopt::SmartPtr<Ipopt::IpoptApplication> application =
       new Ipopt::IpoptApplication(false);  // no console
-  ApplyIpoptOptions(settings, Ipopt::GetRawPtr(application));
+  ApplyIpoptOptions(settings,
+                    condensed ? CondensedSolver::Name() : kGeneralSolver,
+                    Ipopt::GetRawPtr(application));
   const Ipopt::SmartPtr<ProgramAdapter> adapter =
       new ProgramAdapter(program, start, settings);
   // The empty name: no ipopt.opt of the current directory changes the result.
@@ -297,7 +318,7 @@ void CheckIpoptOptions(const IpoptSettings& settings) {
   InPlainErrors([&] {
     const Ipopt::SmartPtr<Ipopt::IpoptApplication> application =
         new Ipopt::IpoptApplication(false);
-    ApplyIpoptOptions(settings, Ipopt::GetRawPtr(application));
+    ApplyIpoptOptions(settings, kGeneralSolver, Ipopt::GetRawPtr(application));
   });
 }
 
@@ -310,7 +331,7 @@ IpoptRun SolveWithIpopt(NonlinearProgram* program, const VectorXd& start,
                      " finite numbers, found " + std::to_string(start.size()) +
                      (start.allFinite() ? "" : " with NaN or Inf"));
   }
-  // MUMPS keeps global state.
+  // MUMPS keeps global state, and so does CondensedSolver.
   static std::mutex one_at_a_time;
   const std::lock_guard<std::mutex> lock(one_at_a_time);
   return InPlainErrors([&] { return Solve(program, start, settings); });

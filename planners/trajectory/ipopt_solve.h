@@ -99,13 +99,14 @@ const char* IpoptVersion();
 // Throws InputError for ipopt_options that SolveWithIpopt would refuse.
 void CheckIpoptOptions(const IpoptSettings& settings);
 
-// Runs Ipopt (MUMPS) from `start`.  Values and Jacobian come from one
+// Runs Ipopt from `start`, with MUMPS or, where all rows are inequalities and
+// the settings name no linear_solver, the condensed system (ipopt_condensed.h):
+// the same steps in a fraction of the time.  Values and Jacobian come from one
 // evaluation and are remembered by the bytes of x, since Ipopt's new_x tells
 // tags apart, not points.  Silent, reads no option file, same input same
-// bytes.  Two solves at the same time in one process are not safe (MUMPS), so
-// a mutex lets them in one by one: use processes to go parallel.
-// Throws InputError for bad settings or a start that is not finite or has the
-// wrong size.
+// bytes.  Two solves at the same time in one process are not safe, so a mutex
+// lets them in one by one: use processes to go parallel. Throws InputError for
+// bad settings or a start that is not finite or has the wrong size.
 IpoptRun SolveWithIpopt(NonlinearProgram* program, const Eigen::VectorXd& start,
                         const IpoptSettings& settings);
 

@@ -2,6 +2,7 @@
 #include "planners/trajectory/trajectory_nlp.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace phongpd {
 
@@ -47,6 +48,8 @@ Path TrajectoryNlp::ToPath(const VectorXd& u) const {
 
 void TrajectoryNlp::Start(const VectorXd& u) {
   branches_ = contact_.Start(u.data(), &counts_);
+  next_ = branches_;
+  next_at_.resize(0);
 }
 
 void TrajectoryNlp::Bounds(double* x_low, double* x_high, double* g_low,
@@ -91,9 +94,11 @@ void TrajectoryNlp::ObjectiveGradient(const double* x, double* gradient) const {
 
 bool TrajectoryNlp::Constraints(const double* x, double* values,
                                 double* jacobian) {
-  if (!contact_.Evaluate(x, branches_, values, jacobian, &counts_)) {
+  next_at_.resize(0);
+  if (!contact_.Evaluate(x, branches_, values, jacobian, &counts_, &next_)) {
     return false;
   }
+  next_at_ = Eigen::Map<const VectorXd>(x, variables());
   values += contact_.rows();
   return springs_.Lengths(x, values, jacobian + contact_.nonzeros());
 }
@@ -104,9 +109,15 @@ void TrajectoryNlp::Hessian(const double* /*x*/, double objective_factor,
 }
 
 int TrajectoryNlp::Accept(const double* x) {
-  const long before = counts_.branch_changes;
-  contact_.Commit(x, &branches_, &counts_);
-  return static_cast<int>(counts_.branch_changes - before);
+  if (next_at_.size() > 0 &&
+      next_at_ == Eigen::Map<const VectorXd>(x, variables())) {
+    std::swap(branches_, next_);
+    next_at_.resize(0);
+    counts_.branch_changes += branches_.changes;
+  } else {
+    contact_.Commit(x, &branches_, &counts_);
+  }
+  return static_cast<int>(branches_.changes);
 }
 
 }  // namespace phongpd

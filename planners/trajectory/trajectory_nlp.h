@@ -61,6 +61,9 @@ class TrajectoryNlp : public NonlinearProgram {
   BoundingBox bounds_;
   NonPenetrationConstraint contact_;
   BranchSet branches_;
+  // What they become if the last point evaluated is accepted.
+  BranchSet next_;
+  Eigen::VectorXd next_at_;  // empty: none
   NonPenetrationCounts counts_;
 };
 

@@ -8,6 +8,7 @@
 #include "core/mesh/mesh_error.h"
 #include "core/stopwatch.h"
 #include "planners/exact/check_option.h"
+#include "planners/trajectory/no_gain.h"
 
 namespace phongpd {
 namespace {
@@ -15,6 +16,9 @@ namespace {
 // Of Ipopt from the colliding line, where there is a repaired start as well.
 // Most that arrive take half as many.
 constexpr int kLineIterations = 100;
+
+// Of the objective: a smaller gain is worth no search, and no other status.
+constexpr double kWorthwhile = 2e-3;
 
 // A path in hand and what is known of it.
 struct Candidate {
@@ -24,6 +28,7 @@ struct Candidate {
   double objective = 0.0;
   double missing_clearance = 0.0;  // of a free path
   int route = 0;
+  bool is_given_up = false;  // a better one is in hand
   TrajectorySummary ipopt;
 
   bool IsFree() const { return HasFreePath(status); }
@@ -48,14 +53,17 @@ class Run {
     if (CheckEnds(problem_, &result_) && FindStarts(&starts)) {
       for (std::size_t i = 0; i < starts.size(); ++i) {
         Candidate found = SolveRoute(starts[i], static_cast<int>(i));
-        if (i == 0 || found.IsBetterThan(best_)) best_ = std::move(found);
+        const bool is_better = !found.is_given_up && found.IsBetterThan(best_);
+        if (i == 0 || is_better) best_ = std::move(found);
       }
       if (options_.also_line && WantsLine(starts[0])) {
         const int route = static_cast<int>(starts.size());
         const Path line = StraightPath(problem_);
         Note({"start", route, "straight", false, 0.0, 0, 0.0}, line);
         Candidate found = SolveRoute(line, route);
-        if (found.IsBetterThan(best_)) best_ = std::move(found);
+        if (!found.is_given_up && found.IsBetterThan(best_)) {
+          best_ = std::move(found);
+        }
       }
       result_.status = best_.status;
       result_.reason = std::move(best_.reason);
@@ -142,7 +150,8 @@ class Run {
                            (options_.polish == PolishWhen::kNeeded &&
                             (candidate.status != TrajectoryStatus::kSolved ||
                              !candidate.KeepsClear()));
-    if (is_wanted && candidate.IsFree() && !IsLate()) {
+    if (is_wanted && candidate.IsFree() && !candidate.is_given_up &&
+        !IsLate()) {
       Polish(&candidate);
     }
     return candidate;
@@ -175,20 +184,41 @@ class Run {
         candidate->IsFree() ? MissingClearance(problem_, path) : 0.0;
   }
 
-  void Optimize(const Path& start, bool may_polish, Candidate* candidate) {
+  // Of Ipopt for one route; the line is what collides although another route
+  // is in hand.
+  TrajectoryOptions Settings(const Candidate& candidate,
+                             bool may_polish) const {
     TrajectoryOptions options = options_.optimizer;
-    // With a free start in hand the corridor is the better second round.
-    if (may_polish) options.max_rounds = 1;
+    if (may_polish) {
+      // With a free start in hand the corridor is the better second round, and
+      // Mehrotra's step, bold for Ipopt's usual rule of mu, wins time.
+      options.max_rounds = 1;
+      options.ipopt.ipopt_options.emplace("mu_oracle", "probing");
+    }
     // With another route in hand no long search is worth its time.
-    if (candidate->route > 0 && !candidate->IsFree()) {
+    if (candidate.route > 0 && !candidate.IsFree()) {
       options.max_rounds = 1;
       options.ipopt.max_iterations =
           std::min(options.ipopt.max_iterations, kLineIterations);
     }
     options.ipopt.time_limit = std::min(options.ipopt.time_limit, Left());
+    return options;
+  }
+
+  void Optimize(const Path& start, bool may_polish, Candidate* candidate) {
+    TrajectoryOptions options = Settings(*candidate, may_polish);
+    NoGain no_gain(best_.objective, kWorthwhile);
+    const bool is_second = candidate->route > 0 && !candidate->IsFree() &&
+                           best_.IsFree() && best_.KeepsClear();
+    if (is_second && options_.polish != PolishWhen::kNever) {
+      no_gain.Stop(&options.ipopt);
+    }
     candidate->ipopt = IpoptTrajectoryOptimizer(problem_, options).Solve(start);
     const TrajectorySummary& summary = candidate->ipopt;
-    const std::string word = ToString(summary.status);
+    candidate->is_given_up =
+        summary.status == SolveStatus::kCancelled && no_gain.has_ended();
+    const std::string word =
+        candidate->is_given_up ? "no_gain" : ToString(summary.status);
     result_.restoration_iterations += summary.restoration_iterations;
     result_.seconds_callbacks += summary.seconds_callbacks;
     Note({"ipopt", candidate->route, word, false, 0.0, summary.iterations,
@@ -196,17 +226,25 @@ class Run {
          summary.path);
     Candidate found;
     found.route = candidate->route;
+    found.is_given_up = candidate->is_given_up;
     found.ipopt = summary;
     Keep(summary.path, &found);
     const bool is_converged = summary.status == SolveStatus::kConverged ||
                               summary.status == SolveStatus::kAcceptable;
-    if (found.IsFree() && is_converged) {
+    // Ipopt may leave a start for a worse valley; the corridor never does.
+    const bool is_worse =
+        may_polish && found.IsFree() && candidate->KeepsClear() &&
+        candidate->objective < (1.0 - kWorthwhile) * found.objective;
+    if (found.IsFree() && is_converged && !is_worse) {
       found.status = TrajectoryStatus::kSolved;
       *candidate = std::move(found);
       return;
     }
     const std::string reason =
-        "Ipopt ended " + word + (found.IsFree() ? "" : ", its path collides");
+        is_converged && is_worse
+            ? "Ipopt converged to a worse path than its start"
+            : "Ipopt ended " + word +
+                  (found.IsFree() ? "" : ", its path collides");
     // A start that collides is no better than an end that does.
     if (!candidate->IsFree() || found.IsBetterThan(*candidate)) {
       *candidate = std::move(found);

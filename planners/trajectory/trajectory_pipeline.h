@@ -36,7 +36,8 @@ struct PipelineOptions {
   int routes = 1;  // ways around the obstacles to optimise, in [1, 8]
   // kRepaired: optimise from the colliding line as well, and keep the better
   // path.  The line ends in another valley now and then; that costs a second
-  // solve by Ipopt, of at most 100 iterations.
+  // solve by Ipopt, of at most 100 iterations, which is given up ("no_gain")
+  // once its nearly feasible iterates fall too slowly to gain 0.2 %.
   bool also_line = true;
   PolishWhen polish = PolishWhen::kNeeded;
   TrajectoryOptions optimizer;
@@ -109,7 +110,8 @@ void AddStage(const TrajectoryProblem& problem, const Path& path,
 // (MissingClearance), then the objective.  From a repaired start
 // Ipopt gets 3 rows a sample, from a colliding one 1 (TrajectoryOptions).  The
 // corridor starts from Ipopt's path where that is free and better than the
-// start, otherwise from the start; it follows the first round already, and
+// start, otherwise from the start, also where Ipopt converged to a path that is
+// longer than a start that keeps clear; it follows the first round already, and
 // Ipopt is skipped where a free start has less than half the margin (passages
 // narrower than it), because its program is mostly infeasible there.  Where
 // repair fails without a proof Ipopt is tried from the colliding line.

@@ -98,6 +98,8 @@ contact space, whatever the solver claims. Seeds draw start and goal such that
 the straight line collides; none was used for tuning.
 
 All raw rows: [rows.csv](rows.csv); per scene and method: [summary.csv](summary.csv).
+The pipeline with each metric, and its time before and after it was condensed:
+[pipeline.md](pipeline.md).
 
 )";
 

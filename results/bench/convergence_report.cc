@@ -83,31 +83,6 @@ Table Matrix(const Cells& cells, const std::string& protocol, std::string title,
   return table;
 }
 
-Table PipelineTable(const Cells& cells) {
-  Cells own;
-  for (const ComparisonCell& c : cells) {
-    if (c.protocol == "pipeline") own.push_back(c);
-  }
-  return MakeTable(
-      "The default pipeline",
-      "Repair, Ipopt, exact judge, corridor where needed. Converged: by Ipopt "
-      "or the corridor; the rest of the free paths stalled. Ratio: objective "
-      "over the best found by any method on that seed that keeps as clear "
-      "(margin wherever there is room, but for 10 % of it between samples). "
-      "Least clearance along a whole path, in diagonals; callbacks: share of "
-      "the time of all Ipopt runs and the corridor.",
-      {"scene", "exactly free", "converged", "mean ratio", "within 2 %",
-       "median iterations", "median ms", "callbacks", "least clearance"},
-      own, [](const ComparisonCell& c, const auto& add) {
-        add(c.scene, Shown(c.solved + c.free_only) + "/" + Shown(c.runs),
-            Shown(c.solved), Rounded(c.mean_ratio, 4),
-            Shown(c.within_2_percent), Rounded(c.median_iterations, 4),
-            Rounded(1e3 * c.median_seconds),
-            Rounded(100.0 * c.callback_share, 2) + " %",
-            Rounded(c.least_clearance));
-      });
-}
-
 bool Belongs(const std::string& scene, const SceneGroup& group) {
   const bool is_scanned = scene.find("edge=") != std::string::npos;
   if (is_scanned != group.is_scanned) return false;
@@ -213,7 +188,6 @@ std::vector<NamedTable> Tables(const ConvergenceResults& results) {
                 "time without the contact space.",
                 EffortText)});
   }
-  tables.push_back({"pipeline.csv", PipelineTable(cells)});
   tables.push_back({"verdicts.csv", VerdictTable(results)});
   tables.push_back({"losses.csv", LossTable(results)});
   tables.push_back(

@@ -199,6 +199,43 @@ TEST(NonPenetration, OnlyCommitAdvancesBranches) {
   EXPECT_LT((trial.values - accepted.values).cwiseAbs().maxCoeff(), 1e-9);
 }
 
+// Whoever evaluated a point need not ask again once it is accepted.
+TEST(NonPenetration, EvaluationTellsTheBranchesThatCommitWouldBring) {
+  const Metrics metrics{Metric(Rotated(MakeU(2.0, 0.4, 1.0), GenericRotation()),
+                               JacobianKind::kDirection),
+                        Metric(Ball({0.5, 0, 0}), JacobianKind::kDirection)};
+  for (const int count : {1, 3}) {
+    NonPenetrationOptions options;
+    options.rows = count;
+    const NonPenetrationConstraint rows(metrics, kStart, kGoal, kWaypoints,
+                                        std::vector<int>(kWaypoints + 1, 3),
+                                        options);
+    BranchSet committed = rows.Start(Line(0.1, 2).data(), nullptr);
+    long warm = 0;
+    for (unsigned seed = 3; seed < 13; ++seed) {
+      const VectorXd u = Line(0.6, seed);
+      BranchSet next = committed;
+      ASSERT_TRUE(
+          rows.Evaluate(u.data(), committed, nullptr, nullptr, nullptr, &next));
+      NonPenetrationCounts counts;
+      rows.Commit(u.data(), &committed, &counts);
+      ASSERT_EQ(next.branches.size(), committed.branches.size());
+      for (std::size_t i = 0; i < next.branches.size(); ++i) {
+        EXPECT_EQ(next.branches[i].triangle, committed.branches[i].triangle);
+        EXPECT_EQ(next.branches[i].lambda, committed.branches[i].lambda);
+        EXPECT_EQ(next.branches[i].s, committed.branches[i].s);
+      }
+      EXPECT_EQ(next.changes, counts.branch_changes);
+      warm += counts.warm;
+    }
+    EXPECT_GT(warm, 20);
+    BranchSet small;
+    EXPECT_THROW(rows.Evaluate(Line(0.1, 2).data(), committed, nullptr, nullptr,
+                               nullptr, &small),
+                 InputError);
+  }
+}
+
 TEST(NonPenetration, RefusesPointsThatAreNotFinite) {
   const Metrics metrics{Metric(Ball({0, 0, 0}), JacobianKind::kDirection)};
   NonPenetrationOptions options;

@@ -147,6 +147,42 @@ TEST(SolveWithIpopt, ReadsTheIteratesThatIpoptPrints) {
   }
 }
 
+// The condensed system and MUMPS solve the same equations.
+TEST(SolveWithIpopt, TakesTheStepsOfAGeneralSolver) {
+  for (const bool is_infeasible : {false, true}) {
+    Disc one, other;
+    one.offset = other.offset = is_infeasible ? 1.5 : 0.0;
+    IpoptSettings settings;
+    settings.stall_stop = false;
+    const IpoptRun condensed = SolveWithIpopt(&one, Point(3.0, -4.0), settings);
+    settings.ipopt_options["linear_solver"] = "mumps";
+    const IpoptRun general = SolveWithIpopt(&other, Point(3.0, -4.0), settings);
+    EXPECT_EQ(condensed.status, general.status);
+    EXPECT_LT((condensed.x - general.x).norm(), is_infeasible ? 1e-3 : 1e-6);
+    // In restoration, where nothing is left to converge to, rounding decides.
+    if (is_infeasible) continue;
+    ASSERT_EQ(condensed.iterations, general.iterations);
+    for (std::size_t i = 0; i < condensed.log.size(); ++i) {
+      EXPECT_NEAR(condensed.log[i].objective, general.log[i].objective, 1e-6);
+    }
+  }
+}
+
+// x² + y² = 1: an equality, which has no slack to eliminate.
+TEST(SolveWithIpopt, KeepsItsGeneralSolverForEqualities) {
+  class Circle : public Disc {
+    void Bounds(double* x_low, double* x_high, double* g_low,
+                double* g_high) const override {
+      Disc::Bounds(x_low, x_high, g_low, g_high);
+      g_low[0] = g_high[0];
+    }
+  };
+  Circle circle;
+  const IpoptRun run = SolveWithIpopt(&circle, Point(0.5, 3.0), {});
+  EXPECT_EQ(run.status, SolveStatus::kConverged);
+  EXPECT_LT((run.x - Point(2.0, 1.0) / std::sqrt(5.0)).norm(), 1e-6);
+}
+
 TEST(SolveWithIpopt, NamesOptionsThatIpoptDoesNotKnow) {
   const auto message = [](const std::string& name, const std::string& value) {
     Disc disc;

@@ -100,7 +100,7 @@ TEST(TrajectoryPipeline, PolishesWhatStallsOrCrosses) {
 // Routes come shortest first, but optimised another may be the best: around the
 // cone and the axes it is, by more than 1 %.
 TEST(TrajectoryPipeline, MoreRoutesAreNeverWorse) {
-  int better = 0;
+  int better = 0, others = 0;
   for (const auto& [family, seed] :
        {std::pair<const char*, unsigned>("cone_axes", 1),
         {"cone_axes", 4},
@@ -119,9 +119,11 @@ TEST(TrajectoryPipeline, MoreRoutesAreNeverWorse) {
     for (const StageRecord& stage : three.stages) tried.insert(stage.route);
     EXPECT_EQ(tried.size(), three.repair.routes.size());
     EXPECT_LE(three.objective, one.objective * (1.0 + 1e-9));
-    better += three.route > 0 && three.objective < 0.99 * one.objective;
+    better += three.objective < 0.99 * one.objective;
+    others += three.route > 0;
   }
   EXPECT_EQ(better, 2);
+  EXPECT_GE(others, 1);
 }
 
 // From the shortest route Ipopt ends on the far side; the line finds the near
@@ -144,6 +146,30 @@ TEST(TrajectoryPipeline, TheLineAsASecondStartIsNeverWorse) {
     EXPECT_EQ(has_line, one.repair.status == RepairStatus::kRepaired) << seed;
   }
   EXPECT_GE(better, 1);
+}
+
+// A search that cannot win ends early, and no corridor follows it.
+TEST(TrajectoryPipeline, GivesUpALineThatEndsNoBetter) {
+  int given_up = 0;
+  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+    const Case setup(MakePathProblem("Uaxis", seed));
+    const PipelineResult result = setup.Solve();
+    ExpectEvidence(setup.problem, result);
+    PipelineOptions alone;
+    alone.start = TrajectoryStart::kStraight;
+    alone.polish = PolishWhen::kNever;
+    const PipelineResult line = setup.Solve(alone);
+    for (std::size_t i = 0; i < result.stages.size(); ++i) {
+      if (result.stages[i].status != "no_gain") continue;
+      ++given_up;
+      EXPECT_EQ(result.stages[i].route, 1) << seed;
+      EXPECT_EQ(i + 1, result.stages.size()) << seed;
+      EXPECT_EQ(result.route, 0) << seed;
+      EXPECT_LT(result.stages[i].iterations, line.iterations) << seed;
+      EXPECT_GT(line.objective, 0.997 * result.objective) << seed;
+    }
+  }
+  EXPECT_GE(given_up, 1);
 }
 
 TEST(TrajectoryPipeline, StartsStraightWhenAsked) {
