@@ -62,7 +62,8 @@ class Viewer {
       clip: {on: false, axis: 'z', at: 0.5, flip: false},
       show: {obstacle: true, contact: true, mesh: true, robot: true,
              marks: true, stages: false},
-      probe: {on: false, at: null, smoothing: 0.1, metric: 1},
+      probe: {on: false, at: null, metric: 1,
+              smoothing: data.probe ? data.probe.smoothing_length : 0},
       xray: false, bend: false, theme: isDark ? 'dark' : 'light', still: false,
     };
   }
