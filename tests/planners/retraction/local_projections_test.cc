@@ -5,10 +5,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 #include <random>
 
-#include "problems/shapes/random_solids.h"
+#include "core/bvh/triangle_bvh.h"
 #include "problems/shapes/shapes.h"
 
 namespace phongpd {
@@ -60,32 +59,42 @@ TEST(LocalProjections, OutsideABoxAreItsNearestCornerOrEdgeOnce) {
 // No point of the surface within a small way is nearer, and the nearest one of
 // all is the first.
 TEST(LocalProjections, AreLeastAmongTheirSurroundingsOnAnyMesh) {
+  constexpr double kSmall = 1e-6;
   std::mt19937_64 random(7);
   std::uniform_real_distribution<double> unit(-1.0, 1.0);
   for (const TriangleMesh& mesh :
        {MakeU(2.0, 0.3, 0.6), MakeTorus(1.5, 0.4, 24, 10),
         MakePlateWithHole(3.0, 0.2, 1.0)}) {
-    std::vector<Vector3d> samples;
-    for (int i = 0; i < 20000; ++i) {
-      samples.push_back(RandomSurfacePoint(mesh, &random).position);
-    }
+    const TriangleBvh surface(mesh);
+    const auto closest = [&](const Vector3d& x) -> Vector3d {
+      const TriangleBvh::Closest found = surface.FindClosest(x);
+      const Triangle& t =
+          mesh.triangles[static_cast<std::size_t>(found.triangle)];
+      Vector3d point = Vector3d::Zero();
+      for (std::size_t k = 0; k < 3; ++k) {
+        point += found.lambda[static_cast<Eigen::Index>(k)] *
+                 mesh.vertices[static_cast<std::size_t>(t[k])];
+      }
+      return point;
+    };
     int several = 0;
-    for (int i = 0; i < 40; ++i) {
-      const Vector3d q(unit(random), unit(random), 0.2 * unit(random));
+    for (int i = 0; i < 200; ++i) {
+      const double x = unit(random), y = unit(random), z = unit(random);
+      const Vector3d q(x, y, 0.2 * z);
       const std::vector<LocalProjection> found = Find(mesh, q);
       ASSERT_FALSE(found.empty());
       several += found.size() > 1 ? 1 : 0;
-      double least = std::numeric_limits<double>::infinity();
-      for (const Vector3d& x : samples) {
-        least = std::min(least, (x - q).norm());
-        for (const LocalProjection& p : found) {
-          if ((x - p.point).norm() > 0.02) continue;
-          EXPECT_GE((x - q).norm(), p.distance * (1.0 - 1e-9));
+      EXPECT_NEAR(found.front().distance, surface.FindClosest(q).distance,
+                  1e-14);
+      for (const LocalProjection& p : found) {
+        for (int k = 0; k < 20; ++k) {
+          const double a = unit(random), b = unit(random), c = unit(random);
+          const Vector3d beside = closest(p.point + kSmall * Vector3d(a, b, c));
+          EXPECT_GE((beside - q).norm(), p.distance - 1e-12);
         }
       }
-      EXPECT_LE(found.front().distance, least);
     }
-    EXPECT_GT(several, 20);
+    EXPECT_GT(several, 100);
   }
 }
 

@@ -316,8 +316,8 @@ TEST(Retraction, NeverLeavesTheFreeSpaceOfTheOriginalMeshes) {
   EXPECT_GT(points, 300u);
 }
 
-// In a cube: six faces, whether seen along Phong directions or as local minima
-// of the distance, and as many random points.
+// In a cube: six faces are local minima of the distance; random points are as
+// many as there are Phong branches, whose normals lean towards the corners.
 TEST(Retraction, BaselinesHaveAsManyCandidatesAsTheyShould) {
   const auto model = std::make_shared<const ContactModel>(
       std::vector<ContactSpace>{BuildContactSpace(Cube(0.5), Cube(1.5))});
@@ -334,7 +334,7 @@ TEST(Retraction, BaselinesHaveAsManyCandidatesAsTheyShould) {
       .Retract(q, &random, &one);
   EXPECT_EQ(local.points.size(), 6U);
   EXPECT_EQ(drawn.points.size(), phong.points.size());
-  EXPECT_GE(phong.points.size(), 6U);
+  EXPECT_GE(phong.points.size(), 1U);
   ASSERT_EQ(one.points.size(), 1U);
   // The nearest comes first.
   EXPECT_LT((local.points[0].q - one.points[0].q).norm(), 1e-12);
