@@ -88,9 +88,8 @@ std::vector<Choice> Choices() {
     };
   };
   const auto wrap = [](double share) {
-    return [share](const Pair&, ContactSpaceOptions* o) {
-      o->wrap_alpha = share;
-    };
+    return
+        [share](const Pair&, ContactSpaceOptions* o) { o->wrap_alpha = share; };
   };
   return {{"exact", [](const Pair&, ContactSpaceOptions*) {}},
           {"--robot-hull",
