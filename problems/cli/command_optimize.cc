@@ -39,8 +39,9 @@ struct Flags : SeededRunFlags {
 
 // Figures: results/trade, `scripts/bench.sh trade`.
 constexpr char kPresetHelp[] =
-    "fast: no second optimisation from the colliding line; tight: 3 routes, "
-    "and the corridor always";
+    "fast: no second optimisation from the colliding line, 0.84 of balanced's "
+    "time, energy 0.60 % above the least found (balanced: 0.29 %); tight: 3 "
+    "routes and the corridor always, 3.3 times the time, 0.20 %";
 
 // What says how a metric is followed says nothing where none is.
 void RequireMetricIsFollowed(const Flags& flags, const Scene& scene) {
