@@ -22,7 +22,7 @@ enum class JacobianKind {
 
 struct SignedMetricOptions {
   MetricKind metric = MetricKind::kPhong;
-  PhongMetricOptions phong = DefaultPhong();  // kPhong only
+  PhongMetricOptions phong;  // kPhong only
   JacobianKind jacobian = JacobianKind::kDirection;
   double separation = 25.0;  // least angle between rows, degrees, in [1, 89]
   // Farthest that rows after the first may be, a share of D, > 0.  A
@@ -31,12 +31,6 @@ struct SignedMetricOptions {
 
   // Throws InputError naming the option, the range and the value.
   void Validate() const;
-  // ℓ = 0.2 D: what solves traps and plates from colliding starts.
-  static PhongMetricOptions DefaultPhong() {
-    PhongMetricOptions options;
-    options.field_options.smoothing_length = 0.2;
-    return options;
-  }
 };
 
 inline constexpr int kMaxMetricRows = 8;

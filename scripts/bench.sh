@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # bench.sh [paper|queries|contact-space|lazy|convergence|pipeline|planning|
 # extremes|peers|cluster|python|trade|all]: regenerates the tables and figures
-# of results/.
+# of results/.  continuity and retraction are parts of queries and planning.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 # The user's own cache is neither used nor filled.
@@ -11,11 +11,11 @@ export PHONGPD_CACHE_DIR=$PWD/build/cache
 suite=${1:-all}
 case $suite in
   paper | queries | contact-space | lazy | convergence | pipeline | planning | \
-    extremes | peers | cluster | python | trade | all) ;;
+    extremes | peers | cluster | python | trade | continuity | retraction | all) ;;
   *)
     echo "bench: expected paper, queries, contact-space, lazy," \
       "convergence, pipeline, planning, extremes, peers, cluster, python," \
-      "trade or all, found $suite" >&2
+      "trade, continuity, retraction or all, found $suite" >&2
     exit 2
     ;;
 esac
@@ -31,6 +31,11 @@ if [[ $suite == queries || $suite == all ]]; then
   build/query_benchmark --output results/queries \
     --instructions build/instructions.csv
   build/tracker_benchmark --output results/queries
+fi
+if [[ $suite == queries || $suite == continuity || $suite == all ]]; then
+  scripts/build.sh continuity_benchmark
+  build/continuity_benchmark --output results/queries \
+    --motions 20 --frames 300
 fi
 if [[ $suite == contact-space || $suite == all ]]; then
   # The competitors compile for minutes: only here, and remembered in build/.
@@ -86,6 +91,10 @@ if [[ $suite == planning || $suite == all ]]; then
   build/planning_benchmark --output results/planning \
     --voxel-worlds "$worlds"
 fi
+if [[ $suite == planning || $suite == retraction || $suite == all ]]; then
+  scripts/build.sh retraction_benchmark
+  build/retraction_benchmark --output results/planning --seeds 20
+fi
 if [[ $suite == extremes || $suite == all ]]; then
   # Every test program with a suite named *Campaign* takes part.
   mapfile -t tests < <(grep -rlE '^TEST(_[FP])?\([A-Za-z]*Campaign' tests \
@@ -140,8 +149,9 @@ if [[ $suite == python || $suite == all ]]; then
     results/bench/python_benchmark.py --baseline build/python_baseline \
     --output results/python --how "scripts/bench.sh python"
 fi
-# Last: it draws what the others measured.
+# Last: it draws what the others measured, too.
 if [[ $suite == trade || $suite == all ]]; then
-  scripts/build.sh trade_report
+  scripts/build.sh trade_benchmark trade_report
+  build/trade_benchmark --output results/trade --seeds 2
   build/trade_report --output results/trade
 fi

@@ -71,7 +71,7 @@ endforeach()
 # nothing of files and flags.
 forbid(problems/world "problems/(scenes|shapes|studies|pictures|cli)/")
 forbid(problems/world "(nlohmann|CLI)/")
-foreach(name diagnosis length world)
+foreach(name diagnosis length preset world)
   file(STRINGS ${SOURCE}/problems/world/${name}.h includes
        REGEX "problems/(output|world/depth)")
   if(includes)

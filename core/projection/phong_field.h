@@ -17,10 +17,14 @@ enum class NormalWeight {
   kUniform,  // plain average of adjacent facets: the paper's choice
 };
 
+// ℓ wherever nobody says another: from C++, by the program, in scene files,
+// from Python and in the viewer.  results/trade says why it is this one.
+inline constexpr double kDefaultSmoothingLength = 0.2;
+
 struct PhongFieldOptions {
   // ℓ as a share of D (ContactSpace::length); 0 is the paper's field.  Must be
   // in [0, 1].
-  double smoothing_length = 0.0;
+  double smoothing_length = kDefaultSmoothingLength;
   NormalWeight weight = NormalWeight::kAngle;
   // Admissibility c: n_i · N_f ≥ c for every vertex i and incident facet f.
   // Must be in (0, 1).
@@ -37,6 +41,13 @@ struct PhongFieldOptions {
 
   // Throws InputError naming the option, the range and the value.
   void Validate() const;
+
+  // ℓ = 0: the paper's field, but for the weight.
+  static PhongFieldOptions Unsmoothed() {
+    PhongFieldOptions options;
+    options.smoothing_length = 0.0;
+    return options;
+  }
 };
 
 // Counts of what building a field met; all of them are published figures.

@@ -11,7 +11,9 @@ namespace {
 constexpr std::pair<RetractionMetric, const char*> kMetrics[] = {
     {RetractionMetric::kPhong, "phong"},
     {RetractionMetric::kEuclidean, "euclidean"},
-    {RetractionMetric::kContactPoint, "contact-point"}};
+    {RetractionMetric::kLocalEuclidean, "euclidean-all"},
+    {RetractionMetric::kContactPoint, "contact-point"},
+    {RetractionMetric::kContactPoints, "contact-points"}};
 constexpr std::pair<BranchChoice, const char*> kChoices[] = {
     {BranchChoice::kAll, "all"},
     {BranchChoice::kRandom, "random"},

@@ -21,7 +21,7 @@ enum class LocalPlanner {
 // "collide-and-slide", "step-retract", "straight".
 std::string ToString(LocalPlanner planner);
 
-// "phong", "euclidean", "contact-point".
+// "phong", "euclidean", "euclidean-all", "contact-point", "contact-points".
 std::string ToString(RetractionMetric metric);
 // "all", "random", "novelty", "warm", "nearest".
 std::string ToString(BranchChoice choice);

@@ -36,6 +36,7 @@ struct Space {
         phong(contact, options),
         segments(contact.bvh()) {
     const TriangleMesh& mesh = contact.mesh();
+    neighbors = TriangleNeighbors(mesh);
     normals.reserve(mesh.triangles.size());
     for (const Triangle& t : mesh.triangles) {
       normals.push_back(UnitNormal(mesh, t));
@@ -47,6 +48,7 @@ struct Space {
   PhongMetric phong;
   const TriangleBvh& segments;  // of the contact space
   std::vector<Vector3d> normals;
+  std::vector<std::array<int, 3>> neighbors;
 };
 
 std::size_t Index(int i) { return static_cast<std::size_t>(i); }
@@ -134,6 +136,11 @@ const ContactSpace& ContactModel::space(int space) const {
 const PhongMetric& ContactModel::phong(int space) const {
   return impl_->spaces[Index(space)].phong;
 }
+const std::vector<std::array<int, 3>>& ContactModel::Neighbors(
+    int space) const {
+  return impl_->spaces[Index(space)].neighbors;
+}
+
 const Vector3d& ContactModel::Normal(int space, int triangle) const {
   return impl_->spaces[Index(space)].normals[Index(triangle)];
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <memory>
 #include <vector>
 
@@ -36,9 +37,10 @@ class ContactModel {
   // right for planning: a limited field with ℓ > 0 changes neither what is
   // solved nor the samples it takes.
   // Throws InputError for options, and if there is neither a space nor bounds.
-  explicit ContactModel(const std::vector<ContactSpace>& spaces,
-                        const BoundingBox& bounds = FreeSpace::NoBounds(),
-                        const PhongFieldOptions& field = {});
+  explicit ContactModel(
+      const std::vector<ContactSpace>& spaces,
+      const BoundingBox& bounds = FreeSpace::NoBounds(),
+      const PhongFieldOptions& field = PhongFieldOptions::Unsmoothed());
   ~ContactModel();
   ContactModel(ContactModel&&) noexcept;
   ContactModel& operator=(ContactModel&&) noexcept;
@@ -69,6 +71,9 @@ class ContactModel {
 
   // Outward unit normal of a triangle.
   const Eigen::Vector3d& Normal(int space, int triangle) const;
+
+  // TriangleNeighbors of the space's mesh.
+  const std::vector<std::array<int, 3>>& Neighbors(int space) const;
 
   // What the motion from a to b met; `check` is what free_space().Check said
   // of it, not free, and not at its start.  Of triangles met within rounding

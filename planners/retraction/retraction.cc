@@ -69,7 +69,7 @@ RetractionStatus Retraction::Retract(const Vector3d& q, std::mt19937_64* random,
     return RetractionStatus::kFree;
   }
   ++scratch->counters.retractions;
-  std::uint64_t before = scratch->counters.projections;
+  const std::uint64_t before = scratch->counters.projections;
   if (options_.metric == RetractionMetric::kEuclidean) {
     double distance = 0.0;
     const ContactModel::Facet nearest = model_->FindNearest(q, &distance);
@@ -77,6 +77,12 @@ RetractionStatus Retraction::Retract(const Vector3d& q, std::mt19937_64* random,
       ++scratch->counters.projections;
       Lift(nearest, scratch);
     }
+  } else if (options_.metric == RetractionMetric::kLocalEuclidean) {
+    for (std::size_t i = 0; i < model_->size(); ++i) {
+      ProjectLocally(static_cast<int>(i), q, scratch);
+    }
+  } else if (options_.metric == RetractionMetric::kContactPoints) {
+    DrawAsManyAsBranches(q, random, scratch);
   } else {
     for (std::size_t i = 0; i < model_->size(); ++i) {
       Project(static_cast<int>(i), q, random, scratch);
@@ -115,6 +121,38 @@ RetractionStatus Retraction::DrawContactPoint(
     if (Lift(facet, scratch)) return RetractionStatus::kRetracted;
   }
   return RetractionStatus::kNoClearance;
+}
+
+void Retraction::ProjectLocally(int space, const Vector3d& q,
+                                RetractionScratch* scratch) const {
+  const PhongMetric& metric = model_->phong(space);
+  if (!metric.IsInside(q)) return;
+  std::vector<LocalProjection>& found = scratch->local;
+  FindLocalProjections(model_->space(space).mesh(), model_->Neighbors(space), q,
+                       options_.depth_bound * model_->diagonal(),
+                       &scratch->local_scratch, &found);
+  scratch->counters.projections += found.size();
+  const std::size_t limit =
+      std::min(found.size(), Index(options_.max_branches));
+  for (std::size_t k = 0; k < limit; ++k) {
+    const LocalProjection& hit = found[k];
+    Lift({space, hit.triangle, hit.point, model_->Normal(space, hit.triangle)},
+         scratch);
+  }
+}
+
+void Retraction::DrawAsManyAsBranches(const Vector3d& q,
+                                      std::mt19937_64* random,
+                                      RetractionScratch* scratch) const {
+  std::size_t branches = 0;
+  for (std::size_t i = 0; i < model_->size(); ++i) {
+    model_->phong(static_cast<int>(i))
+        .QueryAll(q, options_.depth_bound * model_->diagonal(),
+                  &scratch->projections);
+    branches +=
+        std::min(scratch->projections.size(), Index(options_.max_branches));
+  }
+  for (std::size_t k = 0; k < branches; ++k) DrawContactPoint(random, scratch);
 }
 
 void Retraction::Project(int space, const Vector3d& q, std::mt19937_64* random,

@@ -9,19 +9,23 @@
 
 #include "core/projection/phong_metric.h"
 #include "planners/retraction/contact_model.h"
+#include "planners/retraction/local_projections.h"
 
 namespace phongpd {
 
 // What carries a colliding configuration to C_cont.
 enum class RetractionMetric {
-  kPhong,         // along Phong directions: many projections
-  kEuclidean,     // to the closest point: one
-  kContactPoint,  // not at all: a random point of a random triangle of C_cont,
-                  // whatever the configuration (the honest baseline)
+  kPhong,           // along Phong directions: many projections
+  kEuclidean,       // to the closest point: one
+  kLocalEuclidean,  // to every point that is the closest one around it: many
+  kContactPoint,   // not at all: a random point of a random triangle of C_cont,
+                   // whatever the configuration (the honest baseline)
+  kContactPoints,  // as many of those as the configuration has projections
+                   // along Phong directions, a baseline of equal strength
 };
 
-// Which of the projections of a configuration are taken.  The Euclidean metric
-// has one, so all choices are the same for it.
+// Which of the projections of a configuration are taken.  Only
+// kPhong has a choice: the baselines take what they list.
 enum class BranchChoice {
   kAll,      // each of them; one colliding sample lists the passage
   kRandom,   // one, uniformly
@@ -81,6 +85,8 @@ struct RetractionScratch {
   RetractionCounters counters;
 
   std::vector<PenetrationResult> projections;
+  std::vector<LocalProjection> local;
+  LocalProjectionScratch local_scratch;
   std::vector<Branch> warm;             // per contact space
   std::vector<std::vector<int>> taken;  // per contact space and triangle
 };
@@ -114,6 +120,10 @@ class Retraction {
  private:
   RetractionStatus DrawContactPoint(std::mt19937_64* random,
                                     RetractionScratch* scratch) const;
+  void ProjectLocally(int space, const Eigen::Vector3d& q,
+                      RetractionScratch* scratch) const;
+  void DrawAsManyAsBranches(const Eigen::Vector3d& q, std::mt19937_64* random,
+                            RetractionScratch* scratch) const;
   void Project(int space, const Eigen::Vector3d& q, std::mt19937_64* random,
                RetractionScratch* scratch) const;
   void Choose(int space, std::mt19937_64* random,

@@ -80,6 +80,18 @@ void AddField(CLI::App* app, std::string* field) {
       ->capture_default_str();
 }
 
+void AddPreset(CLI::App* app, const std::string& of, std::string* preset) {
+  app->add_option("--preset", *preset,
+                  "What is spent on a better path; every path is exact. " + of +
+                      ". Other options win over it (scene's own if not set, "
+                      "balanced if that says none)")
+      ->check(CLI::IsMember(PresetNames()));
+}
+
+void SetPreset(const std::string& preset, Scene* scene) {
+  if (!preset.empty()) scene->preset = ParsePreset(preset, "--preset");
+}
+
 void AddSliding(CLI::App* app, PenetrationTrackerOptions* options) {
   app->add_option("--slide-ratio", options->ratio,
                   "Sliding contact: it makes for where the depth is at most "

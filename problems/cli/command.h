@@ -72,6 +72,11 @@ PhongMetricOptions MetricOptions(const std::string& field,
                                  const Length& smoothing_length,
                                  const ContactSpace& contact);
 
+// Declares --preset, whose help says what each buys and costs `of`, and reads
+// it; empty: the scene's own.
+void AddPreset(CLI::App* app, const std::string& of, std::string* preset);
+void SetPreset(const std::string& preset, Scene* scene);
+
 // Declares --slide-ratio and --slide-speed of the tracker.
 void AddSliding(CLI::App* app, PenetrationTrackerOptions* options);
 

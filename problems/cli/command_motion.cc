@@ -37,7 +37,8 @@ struct Flags {
   std::vector<std::string> from;
   std::vector<std::string> to;
   int frames = 0;
-  std::vector<std::string> smoothing_lengths = {"0"};
+  std::vector<std::string> smoothing_lengths = {
+      FormatDouble(kDefaultSmoothingLength)};
   std::string field = "normal";
   PenetrationTrackerOptions sliding;
   std::string output;

@@ -20,22 +20,29 @@ namespace phongpd::cli {
 namespace {
 
 struct Flags : SeededRunFlags {
+  std::string preset;
   std::string metric;
   std::string smoothing_length;
   std::string margin;
   std::string jacobian;
   std::string start = "repaired";
   std::string mu_strategy = "adaptive";
-  std::string polish = "needed";
+  std::string polish;
   std::string noise = "0";
-  int routes = 1;
+  int routes = 0;  // the preset's
   int rows = 0;
-  bool no_line = false;
+  bool line = true;
   bool per_obstacle = false;
   std::string model;
   WorldLimits limits;
   bool verify = true;
 };
+
+// Figures: results/trade, `scripts/bench.sh trade`.
+constexpr char kPresetHelp[] =
+    "fast: no second optimisation from the colliding line, 0.84 of balanced's "
+    "time, energy 0.60 % above the least found (balanced: 0.29 %); tight: 3 "
+    "routes and the corridor always, 3.3 times the time, 0.20 %";
 
 // What says how a metric is followed says nothing where none is.
 void RequireMetricIsFollowed(const Flags& flags, const Scene& scene) {
@@ -53,6 +60,7 @@ void RequireMetricIsFollowed(const Flags& flags, const Scene& scene) {
 }
 
 void Override(const Flags& flags, Scene* scene) {
+  SetPreset(flags.preset, scene);
   if (!flags.model.empty()) scene->trajectory.model = flags.model;
   RequireMetricIsFollowed(flags, *scene);
   PenetrationSettings& settings = scene->penetration;
@@ -80,12 +88,14 @@ PipelineOptions Options(const Flags& flags, const Scene& scene,
         "--start-noise: expected --start straight with it, found " +
         flags.start);
   }
-  options.routes = flags.routes;
-  options.also_line = !flags.no_line;
+  if (flags.app->count("--routes") > 0) options.routes = flags.routes;
+  if (flags.app->count("--line") > 0) options.also_line = flags.line;
   options.seed = seed;
-  options.polish = flags.polish == "never"    ? PolishWhen::kNever
-                   : flags.polish == "always" ? PolishWhen::kAlways
-                                              : PolishWhen::kNeeded;
+  if (!flags.polish.empty()) {
+    options.polish = flags.polish == "never"    ? PolishWhen::kNever
+                     : flags.polish == "always" ? PolishWhen::kAlways
+                                                : PolishWhen::kNeeded;
+  }
   options.optimizer.rows = flags.rows;
   if (flags.mu_strategy == "monotone") {
     options.optimizer.ipopt.mu_strategy = IpoptSettings::MuStrategy::kMonotone;
@@ -195,6 +205,7 @@ int Optimize(const Flags& flags) {
 Command AddOptimize(CLI::App* app) {
   auto flags = std::make_shared<Flags>();
   AddScene(app, flags.get());
+  AddPreset(app, kPresetHelp, &flags->preset);
   app->add_option("--metric", flags->metric,
                   "Penetration depth inside obstacles (scene's own if not set)")
       ->check(CLI::IsMember({"phong", "euclidean"}));
@@ -222,12 +233,12 @@ Command AddOptimize(CLI::App* app) {
       ->type_name("F")
       ->capture_default_str();
   app->add_option("--routes", flags->routes,
-                  "Ways around the obstacles to optimise, 1 to 8")
-      ->type_name("N")
-      ->capture_default_str();
-  app->add_flag("--no-line", flags->no_line,
-                "Optimise from the repaired start alone, not from the "
-                "colliding line as well");
+                  "Ways around the obstacles to optimise, 1 to 8 (preset's own "
+                  "if not set)")
+      ->type_name("N");
+  app->add_flag("--line,!--no-line", flags->line,
+                "Optimise from the colliding line as well as from the "
+                "repaired start, or not (preset's own if not set)");
   app->add_option("--rows", flags->rows,
                   "Constraint rows a sample; 0: 3 from a free start, else 1")
       ->type_name("K")
@@ -237,9 +248,8 @@ Command AddOptimize(CLI::App* app) {
       ->capture_default_str();
   app->add_option("--polish", flags->polish,
                   "Corridor polish: never, where Ipopt did not converge to a "
-                  "free path, or always")
-      ->check(CLI::IsMember({"never", "needed", "always"}))
-      ->capture_default_str();
+                  "free path, or always (preset's own if not set)")
+      ->check(CLI::IsMember({"never", "needed", "always"}));
   app->add_flag("--per-obstacle", flags->per_obstacle,
                 "One contact space for each obstacle instead of a merged one");
   AddModel(app, "optimise",

@@ -20,7 +20,9 @@ namespace {
 struct Flags : SeededRunFlags {
   Flags() { seed = 1; }
 
+  std::string preset;
   std::string planner;
+  int routes = 0;
   std::string metric = "phong";
   std::string model;
   WorldLimits limits;
@@ -40,6 +42,22 @@ RunSummary Summarize(const nlohmann::ordered_json& row) {
               Rounded(NumberAt(row, "/path_length"), 4) + ", " +
               Rounded(NumberAt(row, "/clearance")),
           row.at("reason").get<std::string>()};
+}
+
+// Figures: results/trade, `scripts/bench.sh trade`.
+constexpr char kPresetHelp[] =
+    "Of contact-surface only. fast: 1 route, no links across gaps, 0.21 of "
+    "balanced's time, 1.4 % longer than the least found (balanced: 0.44 %); "
+    "tight: 8 routes on a coarser roadmap, 1.5 times the time, 0.08 %";
+
+// Samplers have nothing that these say.
+void RequireRoutesAreCompared(const Flags& flags, const std::string& planner) {
+  if (planner == kContactSurface) return;
+  for (const char* flag : {"--preset", "--routes"}) {
+    if (flags.app->count(flag) == 0) continue;
+    throw InputError(std::string(flag) + ": expected with planner " +
+                     kContactSurface + ", found with " + planner);
+  }
 }
 
 void SetClearance(const Flags& flags, const std::string& planner,
@@ -77,7 +95,10 @@ int Plan(const Flags& flags) {
   if (!flags.model.empty()) scene.planning.model = flags.model;
   const std::string planner =
       run.planner.empty() ? DefaultPlanner(scene.planning.model) : run.planner;
+  RequireRoutesAreCompared(flags, planner);
+  SetPreset(flags.preset, &scene);
   SetClearance(flags, planner, &scene);
+  run.routes = flags.routes;
   run.retraction = flags.metric;
   run.time_limit = scene.planning.time_limit;
   if (!flags.time_limit.empty()) {
@@ -123,19 +144,28 @@ int Plan(const Flags& flags) {
 Command AddPlan(CLI::App* app) {
   auto flags = std::make_shared<Flags>();
   AddScene(app, flags.get());
+  AddPreset(app, kPresetHelp, &flags->preset);
   app->add_option("--planner", flags->planner,
                   "contact-surface is complete, deterministic and proves "
                   "infeasibility; the others sample (scene's own if not set; "
                   "rrt-connect where only free space is modelled)")
       ->check(CLI::IsMember(PlannerNames()));
-  app->add_option("--metric", flags->metric,
-                  "How retraction planners carry colliding samples to the "
-                  "contact space: along all Phong branches, one of them, to "
-                  "the nearest point, or to a random one")
+  app->add_option(
+         "--metric", flags->metric,
+         "How retraction planners carry colliding samples to the "
+         "contact space: along all Phong branches, one of them, to "
+         "the nearest point (euclidean), to every point nearest "
+         "within its surroundings (euclidean-all), or to a random one, "
+         "or as many as there are Phong branches (contact-points)")
       ->check(CLI::IsMember(RetractionNames()))
       ->capture_default_str();
   AddModel(app, "plan", "as exact, for planners that only check motions",
            &flags->model);
+  app->add_option("--routes", flags->routes,
+                  "Ways of different kinds that contact-surface compares "
+                  "(preset's own if not set)")
+      ->check(Between(1, 1000))
+      ->type_name("N");
   AddBuildLimits(app, &flags->limits.max_seconds, &flags->limits.max_mib);
   app->add_option("--clearance", flags->clearance,
                   "To seek where there is room, more than 0 and at most D, the "

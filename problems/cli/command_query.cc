@@ -28,7 +28,7 @@ struct Flags {
   std::string output;
   std::string metric = "phong";
   std::string field = "normal";
-  std::string smoothing_length = "0";
+  std::string smoothing_length = FormatDouble(kDefaultSmoothingLength);
   std::string jacobian = "exact";
   bool tracked = false;
   bool json = false;

@@ -305,6 +305,10 @@ Scene ParseScene(const Json& json, const std::string& file,
   if (json.contains("bounds")) {
     scene.workspace.bounds = Bounds(json["bounds"], place.Child("bounds"));
   }
+  if (json.contains("preset")) {
+    scene.preset = ParsePreset(json["preset"].get<std::string>(),
+                               place.Child("preset").Text());
+  }
   if (json.contains("penetration")) {
     Read(json["penetration"], place.Child("penetration"), &scene.penetration);
   }

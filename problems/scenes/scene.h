@@ -13,8 +13,10 @@
 #include "core/bounds/mesh_repair.h"
 #include "core/mesh/mesh_error.h"
 #include "core/mesh/triangle_mesh.h"
+#include "core/projection/phong_field.h"
 #include "planners/exact/workspace.h"
 #include "problems/world/length.h"
+#include "problems/world/preset.h"
 
 // A problem as every command reads it: a robot R that translates, obstacles,
 // start and goal, and settings for queries, trajectories and planning.
@@ -24,10 +26,11 @@
 namespace phongpd {
 
 struct PenetrationSettings {
-  std::string metric = "phong";                      // or "euclidean"
-  std::string field = "normal";                      // or "tangent-plane"
-  Length smoothing_length = Length::FromShare(0.2);  // at most D; 0: the paper
-  std::string jacobian = "direction";                // or "exact"
+  std::string metric = "phong";  // or "euclidean"
+  std::string field = "normal";  // or "tangent-plane"
+  // At most D; 0: the paper.
+  Length smoothing_length = Length::FromShare(kDefaultSmoothingLength);
+  std::string jacobian = "direction";  // or "exact"
 };
 
 using IpoptValue = std::variant<int, double, std::string>;
@@ -58,6 +61,7 @@ struct Scene {
   Workspace workspace;  // at least one obstacle
   Eigen::Vector3d start = Eigen::Vector3d::Zero();
   Eigen::Vector3d goal = Eigen::Vector3d::Zero();
+  Preset preset = Preset::kBalanced;  // of trajectories and plans
   PenetrationSettings penetration;
   TrajectorySettings trajectory;
   PlanningSettings planning;

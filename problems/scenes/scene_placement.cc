@@ -222,7 +222,7 @@ Json Assembled(const std::string& name, SceneLayout layout,
   }
   json["penetration"] = {{"metric", "phong"},
                          {"field", "normal"},
-                         {"smoothing_length", 0.2},
+                         {"smoothing_length", kDefaultSmoothingLength},
                          {"jacobian", "direction"}};
   if (!is_around || !witness.empty()) {
     json["feasible"] = !witness.empty();

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "core/mesh/mesh_error.h"
+#include "planners/ompl/retraction_settings.h"
 #include "problems/output/text.h"
 
 namespace phongpd {
@@ -17,8 +18,9 @@ std::vector<std::string> PlannerNames() {
 
 const std::vector<std::string>& RetractionNames() {
   static const std::vector<std::string> names = {
-      "phong",         "phong-random", "phong-novelty", "phong-warm",
-      "phong-nearest", "euclidean",    "contact-point"};
+      "phong",         "phong-random",  "phong-novelty",
+      "phong-warm",    "phong-nearest", "euclidean",
+      "euclidean-all", "contact-point", "contact-points"};
   return names;
 }
 
@@ -36,10 +38,8 @@ RetractionOptions ParseRetraction(const std::string& text,
       BranchChoice::kAll, BranchChoice::kRandom, BranchChoice::kNovelty,
       BranchChoice::kWarm, BranchChoice::kNearest};
   if (index < 5) options.choice = kChoices[index];
-  if (text == "euclidean") options.metric = RetractionMetric::kEuclidean;
-  if (text == "contact-point") {
-    options.metric = RetractionMetric::kContactPoint;
-  }
+  // The others have the names of their metrics.
+  if (index >= 5) options.metric = RetractionMetricFromString(text);
   return options;
 }
 

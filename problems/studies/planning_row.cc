@@ -18,6 +18,17 @@ nlohmann::ordered_json PlanningRow(const PlanningStudy& study,
   row["metric"] = result.planner.find("retraction") == std::string::npos
                       ? Json(nullptr)
                       : Json(run.retraction);
+  row["preset"] = nullptr;
+  row["routes"] = nullptr;
+  row["spacing"] = nullptr;
+  row["gap_links"] = nullptr;
+  // Samplers have nothing that a preset sets.
+  if (result.surface) {
+    row["preset"] = ToString(study.scene().preset);
+    row["routes"] = result.surface->routes;
+    row["spacing"] = result.surface->spacing;
+    row["gap_links"] = result.surface->gap_links;
+  }
   row["seed"] = run.seed;
   row["status"] = result.status;
   row["sampler_status"] = n.status.empty() ? Json(nullptr) : Json(n.status);

@@ -136,11 +136,17 @@ bool PlanningStudy::Diagnose(PlanningResult* result) const {
   return true;
 }
 
-void PlanningStudy::RunExact(PlanningResult* result) {
+void PlanningStudy::RunExact(const PlanningRun& run, PlanningResult* result) {
+  ContactSurfaceOptions options;
+  ApplyPreset(scene_.preset, &options);
   if (planner_ == nullptr) {
-    planner_ = std::make_unique<ContactSurfacePlanner>(world_.Sealed());
+    planner_ =
+        std::make_unique<ContactSurfacePlanner>(world_.Sealed(), options);
   }
   PlanRequest request;
+  request.routes = run.routes;
+  if (run.routes > 0) options.routes = run.routes;
+  result->surface = options;
   request.clearance = WantedClearance();
   exact_ = planner_->Plan(scene_.start, scene_.goal, request);
   result->status = ToString(exact_.status);
@@ -232,7 +238,7 @@ PlanningResult PlanningStudy::Run(const PlanningRun& run) {
   if (UsesWindow()) RequireSurfaceFree(result.planner);
   result.model = UsesWindow() ? "window" : "full";
   if (result.planner == kContactSurface) {
-    RunExact(&result);
+    RunExact(run, &result);
   } else {
     RunOmpl(run, &result);
   }

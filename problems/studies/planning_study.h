@@ -22,6 +22,7 @@ struct PlanningRun {
   std::string planner;               // empty: the default of the model
   std::string retraction = "phong";  // retraction-* and prm-retraction
   double time_limit = 5.0;           // seconds; of OMPL's planners
+  int routes = 0;  // contact-surface only; ≥ 1; 0: by the scene's preset
   std::uint64_t seed = 1;
   // retraction-rrt and -forest count their samples until the first node here.
   std::function<bool(const Eigen::Vector3d& q)> in_passage;
@@ -36,6 +37,8 @@ struct PlanningResult {
   std::string status;
   std::string reason;
   OmplPlanningResult numbers;  // path, checks, ...; status is OMPL's
+  // With what contact-surface ran; none: another did.
+  std::optional<ContactSurfaceOptions> surface;
   // What was sought, resolved; none: the planner seeks none, or did not start.
   std::optional<ResolvedLength> wanted_clearance;
 };
@@ -96,7 +99,7 @@ class PlanningStudy {
   MotionDomain Domain();
   OmplPlanningOptions Options(const PlanningRun& run) const;
   bool Diagnose(PlanningResult* result) const;
-  void RunExact(PlanningResult* result);
+  void RunExact(const PlanningRun& run, PlanningResult* result);
   void RunOmpl(const PlanningRun& run, PlanningResult* result);
   void Shorten(std::uint64_t seed, OmplPlanningResult* numbers);
   // The wanted clearance in the user's unit; 0: the planner's own.

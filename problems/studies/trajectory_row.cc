@@ -15,6 +15,12 @@ Json CrossingRow(const PathCheck& check) {
   return {{"segment", check.segment}, {"fraction", check.motion.fraction}};
 }
 
+const char* ToString(PolishWhen polish) {
+  return polish == PolishWhen::kNever    ? "never"
+         : polish == PolishWhen::kAlways ? "always"
+                                         : "needed";
+}
+
 Json StageRow(const StageRecord& stage) {
   return {{"stage", stage.stage},         {"route", stage.route},
           {"status", stage.status},       {"collision_free", stage.is_free},
@@ -59,6 +65,10 @@ Json TrajectoryRow(const TrajectoryStudy& study, const TrajectoryMetric& metric,
                                IpoptSettings::MuStrategy::kAdaptive
                            ? "adaptive"
                            : "monotone";
+  row["preset"] = ToString(study.scene().preset);
+  row["routes"] = options.routes;
+  row["also_line"] = options.also_line;
+  row["polish"] = ToString(options.polish);
   row["rows"] = ipopt.rows;
   row["seed"] = options.seed;
   row["status"] = has_run ? ipopt.raw_status : std::string();

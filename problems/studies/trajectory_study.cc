@@ -239,8 +239,17 @@ PipelineResult TrajectoryStudy::RunInFull(const TrajectoryMetric& metric,
   return TrajectoryPipeline(Problem(metric), repair_, options).Solve();
 }
 
+void ApplyPreset(Preset preset, PipelineOptions* options) {
+  if (preset == Preset::kFast) options->also_line = false;
+  if (preset == Preset::kTight) {
+    options->routes = 3;
+    options->polish = PolishWhen::kAlways;
+  }
+}
+
 PipelineOptions ScenePipelineOptions(const Scene& scene) {
   PipelineOptions options;
+  ApplyPreset(scene.preset, &options);
   for (const auto& [name, value] : scene.trajectory.ipopt) {
     std::string text;
     if (const int* whole = std::get_if<int>(&value)) {

@@ -21,8 +21,9 @@ namespace phongpd {
 // "phong@L" with the smoothing length L (length.h), "phong@L/exact" with the
 // exact Jacobian, "phong@L/tangent-plane" with the paper's field.
 struct TrajectoryMetric {
-  std::string name = "phong@0.2";
-  Length smoothing_length = Length::FromShare(0.2);  // phong only
+  // phong only
+  Length smoothing_length = Length::FromShare(kDefaultSmoothingLength);
+  std::string name = "phong@" + smoothing_length.Text();
   SignedMetricOptions options;  // all else; `reach` is a share of D
 };
 
@@ -104,7 +105,11 @@ class TrajectoryStudy {
   std::shared_ptr<const StartRepair> repair_;
 };
 
-// The scene's Ipopt settings: the pipeline's defaults and the scene's own.
+// What the preset sets in options that are as they come (problems/world/
+// preset.h).
+void ApplyPreset(Preset preset, PipelineOptions* options);
+
+// The scene's preset and its Ipopt settings.
 PipelineOptions ScenePipelineOptions(const Scene& scene);
 
 // One row of results: everything but the scene's solids.  Keys as the command

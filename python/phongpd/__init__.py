@@ -11,7 +11,7 @@ share of D, the world's one length::
     tool = phongpd.Solid.read("tool.stl")
     print(phongpd.depth(tool, part))               # exact, as they lie
     space = phongpd.ContactSpace.build(tool, part)
-    phong = phongpd.PhongMetric(space, smoothing_length=0.2)
+    phong = phongpd.PhongMetric(space)
     answers = phong.query(points)                  # an N x 3 array
 
     world = phongpd.World(tool, {"part": part})

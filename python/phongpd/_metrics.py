@@ -158,15 +158,22 @@ class _Metric:
         return QueryResult(points=array, **columns)
 
 
+DEFAULT_SMOOTHING_LENGTH = _native.default_smoothing_length
+
+
 class PhongMetric(_Metric):
     """PhongPD: depth along a normal field that is continuous on the surface.
 
-    smoothing_length: a share of D in [0, 1]; 0 is the paper's field, 0.2 what
-    serves solvers best.  field: "normal" or "tangent-plane" (the paper's).
+    smoothing_length: a share of D in [0, 1]; 0 is the paper's field, None the
+    default everywhere, DEFAULT_SMOOTHING_LENGTH.  field: "normal" or
+    "tangent-plane" (the paper's).
     """
 
-    def __init__(self, space: ContactSpace, smoothing_length: float = 0.2,
+    def __init__(self, space: ContactSpace,
+                 smoothing_length: float | None = None,
                  field: str = "normal") -> None:
+        if smoothing_length is None:
+            smoothing_length = DEFAULT_SMOOTHING_LENGTH
         if field not in ("normal", "tangent-plane"):
             raise InputError(
                 f"field: expected 'normal' or 'tangent-plane', found {field!r}")

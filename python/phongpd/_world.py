@@ -132,20 +132,21 @@ class World(Shown):
                  goal: ArrayLike | None = None, *, metric: str = "",
                  margin: float | str | None = None, waypoints: int = 0,
                  seed: int = 1, max_seconds: float | None = None,
-                 straight: bool = False) -> Trajectory:
+                 straight: bool = False, preset: str = "") -> Trajectory:
         """A short smooth trajectory by Ipopt, judged exactly.
 
         start, goal: positions; the scene's own where it was loaded.
-        metric: "phong@0.2" (default), "phong@L" with a smoothing length,
-        "euclidean".  margin: distance kept, a share of D or "0.5unit".
+        metric: "phong@L" with a smoothing length, "euclidean"; "": the
+        scene's.  margin: distance kept, a share of D or "0.5unit".
         waypoints: free ones; 0: the scene's.  straight: start from the line
-        even where it collides, as comparisons do.
+        even where it collides, as comparisons do.  preset: "fast", "balanced"
+        or "tight" (phongpd optimize --help); "": the scene's.
         """
         row = json.loads(self._native.optimize(
             *self._ends(start, goal), metric, length(margin, "margin"),
             whole_number(waypoints, "waypoints", 0),
             whole_number(seed, "seed", 0), seconds(max_seconds, "max_seconds"),
-            straight))
+            straight, preset))
         return Trajectory(
             status=row["status_class"], reason=row["reason"],
             free=row["collision_free"], path=_path(row),
@@ -157,20 +158,20 @@ class World(Shown):
              goal: ArrayLike | None = None, *,
              planner: str = "contact-surface", retraction: str = "phong",
              clearance: float | str | None = None, max_seconds: float = 5.0,
-             seed: int = 1) -> Plan:
+             seed: int = 1, preset: str = "") -> Plan:
         """A path that is free by exact tests, or why there is none.
 
         planner: "contact-surface" is complete, deterministic and proves
         infeasibility; the others sample (names: `phongpd plan --help`), for
         `max_seconds`, by `seed`; retraction-* carry samples to the contact
         space by `retraction`.  clearance: to seek where there is room, a share
-        of D or "0.5unit".
+        of D or "0.5unit".  preset: of contact-surface, as of optimize.
         """
         ends = self._ends(start, goal)
         row = json.loads(self._native.plan(
             *ends, planner, retraction,
             length(clearance, "clearance"), seconds(max_seconds, "max_seconds"),
-            whole_number(seed, "seed", 0)))
+            whole_number(seed, "seed", 0), preset))
         return Plan(
             status=row["status"], reason=row["reason"], solved=row["solved"],
             infeasible=row["infeasible_proved"], path=_path(row),

@@ -97,6 +97,7 @@ Answer At(const Metric& metric, const Point& q, const Answer* after) {
 }  // namespace
 
 void BindMetrics(nb::module_& module) {
+  module.attr("default_smoothing_length") = kDefaultSmoothingLength;
   nb::class_<Metric>(module, "Metric")
       .def_static("phong", &Phong)
       .def_static("euclidean", &Euclidean)

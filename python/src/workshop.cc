@@ -26,7 +26,7 @@ std::string Workshop::Optimize(const Point& start, const Point& goal,
                                const std::string& metric,
                                const std::string& margin, int waypoints,
                                std::uint64_t seed, double max_seconds,
-                               bool is_straight) {
+                               bool is_straight, const std::string& preset) {
   const Computing computing;
   const std::lock_guard<std::mutex> lock(one_at_a_time_);
   Scene scene = Between(start, goal);
@@ -36,6 +36,7 @@ std::string Workshop::Optimize(const Point& start, const Point& goal,
                   world_.diagonal(), "margin");
   }
   if (waypoints > 0) scene.trajectory.waypoints = waypoints;
+  if (!preset.empty()) scene.preset = ParsePreset(preset, "preset");
   // Whoever names a metric is told that it cannot be followed.
   if (scene.trajectory.model == "auto") scene.trajectory.model = "full";
   PipelineOptions options = ScenePipelineOptions(scene);
@@ -56,7 +57,7 @@ std::string Workshop::Plan(const Point& start, const Point& goal,
                            const std::string& planner,
                            const std::string& retraction,
                            const std::string& clearance, double max_seconds,
-                           std::uint64_t seed) {
+                           std::uint64_t seed, const std::string& preset) {
   const Computing computing;
   const std::lock_guard<std::mutex> lock(one_at_a_time_);
   Scene scene = Between(start, goal);
@@ -65,6 +66,13 @@ std::string Workshop::Plan(const Point& start, const Point& goal,
     scene.planning.clearance = ParseLength(clearance, "clearance");
     RequireLength(*scene.planning.clearance, LengthRange::kAboveZero,
                   world_.diagonal(), "clearance");
+  }
+  if (!preset.empty()) {
+    if (planner != kContactSurface) {
+      throw InputError(std::string("preset: expected with planner ") +
+                       kContactSurface + ", found with " + planner);
+    }
+    scene.preset = ParsePreset(preset, "preset");
   }
   PlanningStudy study(scene, world_);
   PlanningRun run;

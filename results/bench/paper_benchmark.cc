@@ -22,6 +22,7 @@ std::vector<MotionTrace> TraceMoment(const ContactSpace& contact,
   traces.push_back(TraceMotion(EuclideanMetric(contact), motion, "euclidean",
                                "Euclidean PD"));
   PhongMetricOptions options;
+  options.field_options.smoothing_length = 0.0;  // the paper's field
   traces.push_back(TraceMotion(PhongMetric(contact, options), motion, "phong@0",
                                "PhongPD, ℓ = 0"));
   options.field_options.smoothing_length = 0.1;

@@ -39,7 +39,9 @@ double SecondsOfBatch(const PhongMetric& metric,
 
 // Both take turns; the median of the ratios.
 double BatchSpeedup(const QuerySpace& space) {
-  const PhongMetric metric(space.contact);
+  PhongMetricOptions options;
+  options.field_options.smoothing_length = 0.0;
+  const PhongMetric metric(space.contact, options);
   std::vector<Vector3d> points;
   for (int i = 0; i < 20; ++i) {
     points.insert(points.end(), space.points.begin(), space.points.end());
@@ -91,7 +93,9 @@ double BytesOf(const TriangleMesh& mesh) {
   const std::size_t before = Allocated();
   const ContactSpace contact = TakeAsContactSpace(mesh);
   contact.bvh();
-  const PhongMetric metric(contact);
+  PhongMetricOptions options;
+  options.field_options.smoothing_length = 0.0;
+  const PhongMetric metric(contact, options);
   return static_cast<double>(Allocated() - before) /
          static_cast<double>(mesh.triangles.size());
 }

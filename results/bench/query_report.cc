@@ -205,7 +205,9 @@ std::string QueryReadme(const std::vector<QueryRow>& rows,
          "How long one takes, by size of the contact space, beside CGAL's AABB "
          "tree and our own Euclidean query. What each metric does along a "
          "motion, jumps and depths, and the tracker's own numbers: "
-         "[tracker.md](tracker.md). Queries are measured by the CPU, batch and "
+         "[tracker.md](tracker.md); what any rule could do, and of which kind "
+         "each jump is: [continuity.md](continuity.md). Queries are measured "
+         "by the CPU, batch and "
          "process by the clock, which suffers from whatever else the machine "
          "does.\n\n"
          "## Aimed at and found\n\n" +

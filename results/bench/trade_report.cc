@@ -1,17 +1,21 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Purpose: what each knob buys and costs, from the rows other suites published:
-// one figure a consumer (query, trajectory, planning), and which choices no
-// other beats in both.  Measures nothing itself.
+// Purpose: what each knob buys and costs, from the rows that trade_benchmark
+// and other suites published: one figure a consumer, and which choices no other
+// beats in both.  Measures nothing itself.
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <fstream>
 #include <iostream>
+#include <iterator>
 #include <map>
 #include <sstream>
 #include <utility>
 
+#include "core/projection/phong_field.h"
 #include "problems/output/text.h"
 #include "problems/pictures/gnuplot.h"
 #include "results/bench/csv_table.h"
+#include "results/bench/paired_test.h"
 #include "results/bench/program.h"
 
 namespace phongpd::bench {
@@ -177,6 +181,102 @@ Consumer Planning(const std::string& results) {
           {panel}};
 }
 
+// Presets and knobs that trade_benchmark measured.
+Consumer Knobs(const std::string& results, const std::string& file,
+               const std::string& title, const std::string& of,
+               const std::vector<std::string>& consumers) {
+  const CsvTable rows = ReadCsvTable(results + "/trade/knobs.csv");
+  Consumer consumer{
+      file,
+      title,
+      "Processor time over that of the default on the same instance, its "
+      "median; " +
+          of +
+          " over the least that any choice found there, its mean, runs with an "
+          "answer. Rows: `results/trade/knobs.csv`.",
+      "time over the default's",
+      "excess, %",
+      "answered",
+      true,
+      {}};
+  for (const std::string& name : consumers) {
+    Panel panel{consumers.size() == 1 ? "" : name, {}};
+    for (std::size_t i = 0; i < rows.rows().size(); ++i) {
+      if (rows.Text(i, "consumer") != name) continue;
+      panel.choices.push_back(
+          {rows.Text(i, "choice"), rows.Number(i, "time"),
+           rows.Number(i, "mean excess, %"),
+           rows.Text(i, "answered") + "/" + rows.Text(i, "instances")});
+    }
+    consumer.panels.push_back(panel);
+  }
+  return consumer;
+}
+
+// Operands simplified before the contact space is built.
+Consumer Approximations(const std::string& results) {
+  struct Sum {
+    std::vector<double> build;
+    double error = 0.0, missed = 0.0;
+  };
+  const CsvTable rows = ReadCsvTable(results + "/trade/approximations.csv");
+  std::vector<std::pair<std::string, Sum>> sums;
+  for (std::size_t i = 0; i < rows.rows().size(); ++i) {
+    const std::string& choice = rows.Text(i, "choice");
+    auto same = std::find_if(sums.begin(), sums.end(),
+                             [&](const auto& s) { return s.first == choice; });
+    if (same == sums.end()) same = sums.insert(sums.end(), {choice, {}});
+    same->second.build.push_back(rows.Number(i, "time of build"));
+    same->second.error += rows.Number(i, "mean error, % of D");
+    same->second.missed += rows.Number(i, "missed, %");
+  }
+  Panel panel{"", {}};
+  for (const auto& [choice, sum] : sums) {
+    const auto pairs = static_cast<double>(sum.build.size());
+    panel.choices.push_back({choice, Quantile(sum.build, 0.5),
+                             sum.error / pairs,
+                             Rounded(sum.missed / pairs) + " %"});
+  }
+  return {"approximation",
+          "Approximated operands",
+          "Processor time of a build over that of the exact one, median of "
+          "six pairs, and the mean error of the Euclidean depth inside; beside "
+          "each how many colliding points are told free. Rows, pair by pair "
+          "and with the bound that the report proves: "
+          "`results/trade/approximations.csv`.",
+          "time of the build over the exact one's",
+          "mean error of depth, % of D",
+          "missed",
+          true,
+          {panel}};
+}
+
+// "`fast` takes 0.46 of the time of `balanced` and is 0.9 % longer ..."
+std::string PresetSentences(const std::string& results) {
+  const CsvTable rows = ReadCsvTable(results + "/trade/knobs.csv");
+  std::string text;
+  for (const auto& [consumer, what] :
+       {std::pair("optimize", "energy"), std::pair("plan", "length")}) {
+    for (const char* preset : {"fast", "balanced", "tight"}) {
+      for (std::size_t i = 0; i < rows.rows().size(); ++i) {
+        if (rows.Text(i, "consumer") != consumer ||
+            rows.Text(i, "choice") != preset) {
+          continue;
+        }
+        text += "- `" + std::string(consumer) + " --preset " + preset +
+                "`: " + rows.Text(i, "time") +
+                " of balanced's processor time, " + what + " " +
+                rows.Text(i, "mean excess, %") +
+                " % above the least that anything tried found (worst " +
+                rows.Text(i, "worst excess, %") + " %), exactly free paths " +
+                rows.Text(i, "answered") + " of " + rows.Text(i, "instances") +
+                ".\n";
+      }
+    }
+  }
+  return text;
+}
+
 // Names in the margin, in the order of the points, each led to its own.
 std::string Labels(const Panel& panel) {
   std::vector<Choice> choices = panel.choices;
@@ -267,6 +367,71 @@ std::string Findings(const std::vector<Consumer>& consumers) {
   return text;
 }
 
+std::string ReadText(const std::string& path) {
+  std::ifstream file(path);
+  if (!file) throw InputError(path + ": cannot be read");
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+// Two smoothing lengths seed by seed: who alone solves, who takes fewer
+// iterations where both do.
+std::string Duel(const CsvTable& rows, const std::string& protocol,
+                 const std::string& a, const std::string& b) {
+  struct Run {
+    bool solved = false;
+    double iterations = 0.0;
+  };
+  std::map<std::string, std::map<std::string, Run>> runs;
+  for (std::size_t i = 0; i < rows.rows().size(); ++i) {
+    if (rows.Text(i, "protocol") != protocol) continue;
+    runs[rows.Text(i, "scene") + ' ' + rows.Text(i, "seed")]
+        [rows.Text(i, "method")] = {rows.Text(i, "solved") == "true",
+                                    rows.Number(i, "iterations")};
+  }
+  int only_a = 0, only_b = 0, fewer_a = 0, fewer_b = 0;
+  for (const auto& [seed, methods] : runs) {
+    const auto first = methods.find(a), second = methods.find(b);
+    if (first == methods.end() || second == methods.end()) continue;
+    const Run &x = first->second, &y = second->second;
+    only_a += x.solved && !y.solved ? 1 : 0;
+    only_b += y.solved && !x.solved ? 1 : 0;
+    if (!x.solved || !y.solved) continue;
+    fewer_a += x.iterations < y.iterations ? 1 : 0;
+    fewer_b += y.iterations < x.iterations ? 1 : 0;
+  }
+  const auto told = [](int m, int n) {
+    return std::to_string(m) + " : " + std::to_string(n) +
+           " (p = " + Rounded(SignTest(m, n), 2) + ")";
+  };
+  return "- " + protocol + ", " + a + " : " + b + ": solved alone " +
+         told(only_a, only_b) + ", fewer iterations " + told(fewer_a, fewer_b) +
+         ".\n";
+}
+
+// What was decided by these rows.
+std::string Decisions(const std::string& results) {
+  const CsvTable rows = ReadCsvTable(results + "/convergence/rows.csv");
+  std::string text =
+      "\nQueries and motions have no preset. What one could set is how finely "
+      "the field resolves its smoothing length: [fields.csv](fields.csv) has "
+      "edges of ℓ/4, ℓ/2 (the default), ℓ and as they are, and what they "
+      "change in jumps and depth is of the order of chance.\n\n"
+      "One smoothing length for all, ℓ = " +
+      Rounded(kDefaultSmoothingLength) +
+      " D (`kDefaultSmoothingLength`), by the published seeds "
+      "(`results/convergence/rows.csv`; sign test, uncorrected) and by the "
+      "motions of fields.csv, where the lengths that smooth differ little in "
+      "jumps and ℓ = 0 jumps more:\n\n";
+  for (const char* protocol : {"straight-adaptive", "straight-monotone"}) {
+    for (const char* other : {"phong@0", "phong@0.05", "phong@0.1"}) {
+      text += Duel(rows, protocol, other, "phong@0.2");
+    }
+  }
+  return text +
+         "\nRetraction keeps ℓ = 0: it takes all branches, and smoothing "
+         "changes nothing there (`planners/retraction/contact_model.h`).\n";
+}
+
 int Run(int argc, char** argv) {
   CLI::App app("What each knob buys and costs: figures.");
   std::string directory, results = "results";
@@ -275,7 +440,17 @@ int Run(int argc, char** argv) {
       ->capture_default_str();
   CLI11_PARSE(app, argc, argv);
   const std::vector<Consumer> consumers = {
-      Queries(results), Trajectories(results), Planning(results)};
+      Queries(results),
+      Trajectories(results),
+      Planning(results),
+      Knobs(results, "optimize", "Presets and knobs of optimize",
+            "energy of the path", {"optimize"}),
+      Knobs(results, "plan", "Presets and knobs of contact-surface",
+            "length of the path", {"plan"}),
+      Knobs(results, "model", "Level of the model",
+            "what is built included; energy or length",
+            {"model: plan", "model: optimize"}),
+      Approximations(results)};
   std::vector<NamedTable> tables;
   std::vector<Figure> figures;
   for (const Consumer& consumer : consumers) {
@@ -288,13 +463,16 @@ int Run(int argc, char** argv) {
   OutputDirectory out(directory);
   WriteReport(tables, figures,
               "# Speed against accuracy\n\nWhat the choice of metric, "
-              "smoothing length and planner buys and costs, one figure a "
-              "consumer, from the rows that the other suites published; "
-              "nothing is measured here, so a figure is as good as the run "
-              "its rows come from.\n\n## Findings\n\n" +
-                  Findings(consumers) + "\n" + ToMarkdown(tables, figures) +
+              "smoothing length, planner, preset, model and approximation "
+              "buys and costs, one figure a consumer: from the rows that the "
+              "other suites published, and from those of "
+              "`build/trade_benchmark`.\n\n## Presets\n\n" +
+                  PresetSentences(results) + Decisions(results) +
+                  "\n## Findings\n\n" + Findings(consumers) + "\n" +
+                  ToMarkdown(tables, figures) +
                   "\nCommand: scripts/bench.sh trade. Seed and machine: those "
-                  "of the rows.\n",
+                  "of the rows; of what is measured here: " +
+                  ReadText(results + "/trade/measured.txt"),
               &out);
   out.Commit();
   std::cout << Findings(consumers) << std::flush;

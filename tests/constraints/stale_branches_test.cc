@@ -18,6 +18,7 @@
 #include "core/projection/phong_metric.h"
 #include "problems/shapes/shapes.h"
 #include "tests/support/campaign.h"
+#include "tests/support/metrics.h"
 #include "tests/support/solid_tools.h"
 
 namespace phongpd {
@@ -109,9 +110,8 @@ TEST(Branches, WithImpossibleMembersAreColdQueries) {
     bad.push_back({0, Vector3d(0.5, 0.25, 0.25), s});
   }
   for (const FieldKind field : {FieldKind::kNormal, FieldKind::kTangentPlane}) {
-    PhongMetricOptions options;
-    options.field = field;
-    const PhongMetric metric(TakeAsContactSpace(mesh), options);
+    const PhongMetric metric =
+        testing::UnsmoothedPhong(TakeAsContactSpace(mesh), field);
     for (const Vector3d& q : {Vector3d(0.2, 0.9, 0.4), Vector3d(1, 0.1, 0.3),
                               Vector3d(1, 1, 0.4), Vector3d(9, 9, 9)}) {
       const PenetrationResult cold = metric.Query(q);
@@ -138,9 +138,8 @@ TEST(StaleBranchesCampaign, GiveProjectionsOfThisSpaceOrSayThatTheyEnded) {
       options.field_options.smoothing_length = ell;
       metrics.emplace_back(TakeAsContactSpace(mesh), options);
     }
-    PhongMetricOptions options;
-    options.field = FieldKind::kTangentPlane;
-    metrics.emplace_back(TakeAsContactSpace(mesh), options);
+    metrics.push_back(testing::UnsmoothedPhong(TakeAsContactSpace(mesh),
+                                               FieldKind::kTangentPlane));
   }
   std::mt19937_64 random(kSeed);
   std::uniform_real_distribution<double> unit(0.0, 1.0);

@@ -9,6 +9,15 @@
 
 namespace phongpd::testing {
 
+// PhongPD of the paper's field, ℓ = 0, by either engine.
+inline PhongMetric UnsmoothedPhong(const ContactSpace& space,
+                                   FieldKind field = FieldKind::kNormal) {
+  PhongMetricOptions options;
+  options.field = field;
+  options.field_options.smoothing_length = 0.0;
+  return PhongMetric(space, options);
+}
+
 // The metrics that campaigns hold against each other: Euclidean PD, then
 // PhongPD without smoothing and with the length `ell` (a share of D).
 inline std::vector<std::unique_ptr<PenetrationMetric>> EuclideanAndPhong(

@@ -10,6 +10,7 @@
 
 #include "core/contact/contact_space.h"
 #include "core/mesh/mesh_error.h"
+#include "core/projection/phong_field.h"
 #include "problems/output/text.h"
 #include "problems/pictures/viewer/display_mesh.h"
 #include "problems/pictures/viewer/probe/probe_module.h"
@@ -149,6 +150,7 @@ Json ProbeJson(const View& view, std::vector<std::string>* notes) {
   }
   Json json = {{"module", Base64(module)},
                {"length", view.length > 0.0 ? view.length : box.Diagonal()},
+               {"smoothing_length", kDefaultSmoothingLength},
                {"spaces", Json::array()}};
   for (const ViewMesh& mesh : view.meshes) {
     if (mesh.role == ViewRole::kContactSpace && !mesh.mesh.triangles.empty()) {

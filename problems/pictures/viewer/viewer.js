@@ -64,7 +64,8 @@ class Viewer {
       show: {obstacle: true, contact: true, mesh: true, robot: true,
              marks: true, stages: false, graphs: true, planes: false,
              windows: true},
-      probe: {on: false, at: null, smoothing: 0.1, metric: 1},
+      probe: {on: false, at: null, metric: 1,
+              smoothing: data.probe ? data.probe.smoothing_length : 0},
       xray: false, bend: false, map: '', theme: isDark ? 'dark' : 'light', still: false,
     };
   }

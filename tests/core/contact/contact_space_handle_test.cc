@@ -16,6 +16,7 @@
 #include "planners/retraction/contact_model.h"
 #include "planners/trajectory/trajectory_problem.h"
 #include "problems/shapes/shapes.h"
+#include "tests/support/metrics.h"
 
 namespace phongpd {
 namespace {
@@ -30,7 +31,7 @@ TEST(ContactSpaceHandle, OneTreeServesEverythingThatTakesIt) {
   const ContactSpace space = SmallSpace();
   const long before = TriangleBvh::CountBuilt();
   const EuclideanMetric euclidean(space);
-  const PhongMetric phong(space);
+  const PhongMetric phong = testing::UnsmoothedPhong(space);
   const SignedMetric rows(space);
   const FreeSpace judge({space});
   const StartRepair repair(space);

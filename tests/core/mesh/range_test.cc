@@ -14,6 +14,7 @@
 #include "core/projection/euclidean_metric.h"
 #include "core/projection/phong_metric.h"
 #include "problems/shapes/shapes.h"
+#include "tests/support/metrics.h"
 
 namespace phongpd {
 namespace {
@@ -33,7 +34,7 @@ bool IsScaled(const PenetrationResult& a, const PenetrationResult& b,
 TEST(Range, IsTheSameContactSpaceAtEveryPowerOfTwo) {
   const TriangleMesh cone = MakeCone(0.8, 1.6, 8), u = MakeU(3, 1, 1);
   const ContactSpace one = BuildContactSpace(cone, u);
-  const PhongMetric metric(one);
+  const PhongMetric metric = testing::UnsmoothedPhong(one);
   for (const int power : {-264, -200, -100, 100, 200, 262}) {
     const double scale = std::ldexp(1.0, power);
     const ContactSpace space =
@@ -44,7 +45,7 @@ TEST(Range, IsTheSameContactSpaceAtEveryPowerOfTwo) {
     EXPECT_EQ(space.report().volume,
               std::ldexp(one.report().volume, 3 * power));
     EXPECT_EQ(space.report().worst_quality, one.report().worst_quality);
-    const PhongMetric scaled(space);
+    const PhongMetric scaled = testing::UnsmoothedPhong(space);
     int differ = 0, inside = 0;
     for (int i = 0; i < 1000; ++i) {
       const Vector3d q(1.5 * std::sin(1.1 * i), 1.5 * std::cos(2.3 * i),
@@ -129,7 +130,7 @@ TEST(Range, EndsByNameWithTheValueAndTheLimit) {
 TEST(Range, OfQueriesIsAllDoubles) {
   const TriangleMesh box = MakeBox({-1, -1, -1}, {1, 1, 1});
   const EuclideanMetric euclidean(TakeAsContactSpace(box));
-  const PhongMetric phong(TakeAsContactSpace(box));
+  const PhongMetric phong = testing::UnsmoothedPhong(TakeAsContactSpace(box));
   for (const double x : {1e10, 1e100, 1e155, 1e200, 1e300, 1e307, DBL_MAX}) {
     for (const Vector3d& q : {Vector3d(x, 0, 0), Vector3d(-x, x, x)}) {
       for (const PenetrationResult& result :

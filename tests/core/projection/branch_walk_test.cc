@@ -12,6 +12,7 @@
 
 #include "core/projection/phong_metric.h"
 #include "problems/shapes/shapes.h"
+#include "tests/support/metrics.h"
 
 namespace phongpd {
 namespace {
@@ -280,7 +281,7 @@ TEST(BranchWalk, LeavingTheSolidIsAnOutsideAnswerAndReentryIsShallow) {
 TEST(BranchWalk, LeavingElsewhereThanTheBranchLeadsIsSaid) {
   // In at the left of a thick plate, out at the right: the branch keeps
   // pointing left, and its depth of 2 drops to 0 in one frame.
-  const PhongMetric plate(
+  const PhongMetric plate = testing::UnsmoothedPhong(
       TakeAsContactSpace(MakeBox({-1, -50, -50}, {1, 50, 50})));
   const auto across = Track(plate, {{-1.5, 0.3, 0.2}, {1.5, 0.3, 0.2}}, 61);
   int ends = 0;

@@ -15,6 +15,7 @@
 #include "core/projection/phong_metric.h"
 #include "problems/shapes/random_solids.h"
 #include "problems/shapes/shapes.h"
+#include "tests/support/metrics.h"
 
 namespace phongpd {
 namespace {
@@ -186,7 +187,7 @@ TEST(ColdSearch, OfTiesTheFirstContactWins) {
   ExpectLeastEverywhere(MakeIcoBall(1.0, 3), 60);
   ExpectLeastEverywhere(
       MakeBox(Vector3d::Constant(-1.0), Vector3d::Constant(1.0)), 100);
-  const PhongMetric metric(TakeAsContactSpace(
+  const PhongMetric metric = testing::UnsmoothedPhong(TakeAsContactSpace(
       MakeBox(Vector3d::Constant(-1.0), Vector3d::Constant(1.0))));
   const PenetrationResult middle = metric.Query(Vector3d::Zero());
   EXPECT_LT((middle.contact - Vector3d(-1.0, 0.0, 0.0)).norm(), 1e-15);

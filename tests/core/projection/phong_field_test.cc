@@ -327,7 +327,8 @@ TEST(PhongField, SmoothFieldBelongsToTheShapeAndNotToTheMesh) {
 
 TEST(PhongField, PaperFieldOfABallNeedsNothing) {
   const TriangleMesh ball = MakeIcoBall(1.0, 3);
-  const PhongField field = BuildPhongField(TakeAsContactSpace(ball));
+  const PhongField field = BuildPhongField(TakeAsContactSpace(ball),
+                                           PhongFieldOptions::Unsmoothed());
   EXPECT_EQ(field.mesh.triangles.size(), ball.triangles.size());
   EXPECT_EQ(field.report.split_edges, 0u);
   EXPECT_EQ(field.report.limited_vertices, 0u);

@@ -13,6 +13,7 @@
 #include "core/projection/euclidean_metric.h"
 #include "core/projection/phong_metric.h"
 #include "problems/shapes/shapes.h"
+#include "tests/support/metrics.h"
 
 namespace phongpd {
 namespace {
@@ -32,7 +33,8 @@ TEST(QueryBatch, AnswersEachPointAloneWhateverTheNumberOfThreads) {
       BuildContactSpace(MakeIcoBall(0.3, 1), MakeU(2.0, 0.25, 0.5));
   PhongMetricOptions smooth;
   smooth.field_options.smoothing_length = 0.2;
-  const PhongMetric phong(space), smoothed(space, smooth);
+  const PhongMetric phong = testing::UnsmoothedPhong(space);
+  const PhongMetric smoothed(space, smooth);
   const EuclideanMetric euclidean(space);
   std::mt19937 engine(1);
   std::uniform_real_distribution<double> uniform(-0.1, 1.1);

@@ -12,6 +12,7 @@
 #include "core/projection/phong_metric.h"
 #include "problems/shapes/shapes.h"
 #include "tests/support/count_allocations.h"
+#include "tests/support/metrics.h"
 
 namespace phongpd {
 namespace {
@@ -36,10 +37,9 @@ double Sum(const PenetrationMetric& metric, int first, int last) {
 
 TEST(QueryCost, QueriesDoNotAllocate) {
   const TriangleMesh mesh = MakeTorus(1.0, 0.35, 40, 16);
-  PhongMetricOptions planes;
-  planes.field = FieldKind::kTangentPlane;
-  const PhongMetric phong(TakeAsContactSpace(mesh)),
-      newton(TakeAsContactSpace(mesh), planes);
+  const PhongMetric phong = testing::UnsmoothedPhong(TakeAsContactSpace(mesh));
+  const PhongMetric newton = testing::UnsmoothedPhong(TakeAsContactSpace(mesh),
+                                                      FieldKind::kTangentPlane);
   const EuclideanMetric euclidean(TakeAsContactSpace(mesh));
   std::vector<PenetrationResult> all;
   all.reserve(4096);
@@ -77,7 +77,8 @@ TEST(QueryCost, OrdinaryStepsOfTheTrackerDoNotAllocate) {
 }
 
 TEST(QueryCost, ThreadsGetTheSameBits) {
-  const PhongMetric metric(TakeAsContactSpace(MakeTorus(1.0, 0.35, 40, 16)));
+  const PhongMetric metric = testing::UnsmoothedPhong(
+      TakeAsContactSpace(MakeTorus(1.0, 0.35, 40, 16)));
   const double alone = Sum(metric, 0, 3000);
   double sums[2] = {0.0, 0.0};
   std::thread first([&] { sums[0] = Sum(metric, 0, 3000); });

@@ -183,7 +183,8 @@ TEST(TouchingCampaign, MeansTheSameForQueryJudgeAndSolids) {
     const TriangleMesh mesh =
         BuildContactSpace(pair.robot, pair.obstacle).mesh();
     const EuclideanMetric euclid(TakeAsContactSpace(mesh));
-    const PhongMetric phong(TakeAsContactSpace(mesh));
+    const PhongMetric phong =
+        testing::UnsmoothedPhong(TakeAsContactSpace(mesh));
     const FreeSpace free({TakeAsContactSpace(mesh)});
     const MotionOracle solids = testing::OracleOf(pair.robot, pair.obstacle);
     for (long i = 0; i < each; ++i) {

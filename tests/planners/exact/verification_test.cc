@@ -20,6 +20,7 @@
 #include "problems/scenes/scene_source.h"
 #include "problems/shapes/shapes.h"
 #include "tests/support/campaign.h"
+#include "tests/support/metrics.h"
 #include "tests/support/solid_tools.h"
 
 namespace phongpd {
@@ -148,7 +149,8 @@ TEST(VerifyDepth, ConfirmsBothMetricsAndRefutesWrongDepths) {
   const TriangleMesh contact =
       BuildContactSpace(workspace.robot, workspace.obstacles[0]).mesh();
   const EuclideanMetric euclidean(TakeAsContactSpace(contact));
-  const PhongMetric phong(TakeAsContactSpace(contact));
+  const PhongMetric phong =
+      testing::UnsmoothedPhong(TakeAsContactSpace(contact));
   const BoundingBox box = ComputeBounds(contact);
   std::mt19937_64 random(11);
   int inside = 0, beside = 0;

@@ -260,7 +260,8 @@ TEST(Retraction, CentresPointsInAChannelOfAnyWidth) {
     std::mt19937_64 random(3);
     for (const RetractionMetric metric :
          {RetractionMetric::kPhong, RetractionMetric::kEuclidean,
-          RetractionMetric::kContactPoint}) {
+          RetractionMetric::kLocalEuclidean, RetractionMetric::kContactPoint,
+          RetractionMetric::kContactPoints}) {
       const Retraction retraction = Make(model, metric, BranchChoice::kAll);
       RetractionScratch scratch;
       int in_channel = 0;
@@ -299,7 +300,8 @@ TEST(Retraction, NeverLeavesTheFreeSpaceOfTheOriginalMeshes) {
   std::size_t points = 0;
   for (const RetractionMetric metric :
        {RetractionMetric::kPhong, RetractionMetric::kEuclidean,
-        RetractionMetric::kContactPoint}) {
+        RetractionMetric::kLocalEuclidean, RetractionMetric::kContactPoint,
+        RetractionMetric::kContactPoints}) {
     const Retraction retraction = Make(model, metric, BranchChoice::kAll);
     for (int i = 0; i < 150; ++i) {
       retraction.Retract(testing::RandomPoint(model->region(), &random),
@@ -312,6 +314,30 @@ TEST(Retraction, NeverLeavesTheFreeSpaceOfTheOriginalMeshes) {
     }
   }
   EXPECT_GT(points, 300u);
+}
+
+// In a cube: six faces are local minima of the distance; random points are as
+// many as there are Phong branches, whose normals lean towards the corners.
+TEST(Retraction, BaselinesHaveAsManyCandidatesAsTheyShould) {
+  const auto model = std::make_shared<const ContactModel>(
+      std::vector<ContactSpace>{BuildContactSpace(Cube(0.5), Cube(1.5))});
+  std::mt19937_64 random(5);
+  const Vector3d q(0.1, -0.2, 0.3);
+  RetractionScratch phong, local, drawn, one;
+  Make(model, RetractionMetric::kPhong, BranchChoice::kAll)
+      .Retract(q, &random, &phong);
+  Make(model, RetractionMetric::kLocalEuclidean, BranchChoice::kAll)
+      .Retract(q, &random, &local);
+  Make(model, RetractionMetric::kContactPoints, BranchChoice::kAll)
+      .Retract(q, &random, &drawn);
+  Make(model, RetractionMetric::kEuclidean, BranchChoice::kAll)
+      .Retract(q, &random, &one);
+  EXPECT_EQ(local.points.size(), 6U);
+  EXPECT_EQ(drawn.points.size(), phong.points.size());
+  EXPECT_GE(phong.points.size(), 1U);
+  ASSERT_EQ(one.points.size(), 1U);
+  // The nearest comes first.
+  EXPECT_LT((local.points[0].q - one.points[0].q).norm(), 1e-12);
 }
 
 TEST(Retraction, HandlesSeveralContactSpaces) {

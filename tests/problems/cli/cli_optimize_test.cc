@@ -79,6 +79,28 @@ TEST_F(CliOptimize, ItsFreePathsAreFreeByFcl) {
   }
 }
 
+TEST_F(CliOptimize, PresetsAreToldAndOtherOptionsWinOverThem) {
+  Json scene = TwoObstacles();
+  const auto expect = [&](const std::string& flags, const char* preset,
+                          int routes, bool line, const char* polish) {
+    const Json row = OneRow("optimize " + Scene(scene) + flags, 0);
+    EXPECT_EQ(row["preset"], preset) << flags;
+    EXPECT_EQ(row["routes"], routes) << flags;
+    EXPECT_EQ(row["also_line"], line) << flags;
+    EXPECT_EQ(row["polish"], polish) << flags;
+  };
+  expect("", "balanced", 1, true, "needed");
+  expect(" --preset fast", "fast", 1, false, "needed");
+  expect(" --preset tight --routes 2", "tight", 2, true, "always");
+  scene["preset"] = "tight";
+  expect("", "tight", 3, true, "always");
+  expect(" --no-line --polish never", "tight", 3, false, "never");
+  expect(" --preset fast --line", "fast", 1, true, "needed");
+  scene["preset"] = "slow";
+  ExpectRefused("optimize " + Scene(scene), {"/preset", "slow"});
+  ExpectRefused("optimize u_axis --preset slow", {"--preset", "slow"});
+}
+
 TEST_F(CliOptimize, RepeatsItselfToTheByteButForSeconds) {
   ExpectRepeats("optimize " + Scene(TwoObstacles()) +
                     " --start straight --start-noise 0.1",

@@ -45,6 +45,22 @@ TEST_F(CliPlan, EveryPlannerAnswersWithTheDocumentedKeys) {
   }
 }
 
+TEST_F(CliPlan, PresetsAreOfTheContactSurfaceAndRoutesWinOverThem) {
+  const std::string plan = "plan hole:delta=0.05";
+  const Json fast = OneRow(plan + " --preset fast", 0);
+  EXPECT_EQ(fast["preset"], "fast");
+  EXPECT_EQ(fast["routes"], 1);
+  EXPECT_EQ(fast["gap_links"], 0);
+  const Json more = OneRow(plan + " --preset fast --routes 4", 0);
+  EXPECT_EQ(more["routes"], 4);
+  EXPECT_EQ(OneRow(plan, 0)["preset"], "balanced");
+  const Json sampler = OneRow(plan + " --planner retraction-forest", 0);
+  EXPECT_TRUE(sampler["preset"].is_null());
+  const std::string prm = plan + " --planner prm";
+  ExpectRefused(prm + " --preset fast", {"--preset", "contact-surface"});
+  ExpectRefused(prm + " --routes 2", {"--routes", "contact-surface"});
+}
+
 TEST_F(CliPlan, EveryRetractionSolvesAHole) {
   const phongpd::Scene scene = SceneSource("hole:delta=0.05").Load();
   for (const std::string& metric : RetractionNames()) {

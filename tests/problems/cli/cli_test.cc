@@ -77,9 +77,12 @@ TEST_F(Cli, QueryWritesTheDoublesOfTheLibrary) {
   PhongMetricOptions options;
   options.field_options.smoothing_length = 0.1;
   const PhongMetric phong(TakeAsContactSpace(contact), options);
+  const PhongMetric by_default(TakeAsContactSpace(contact));
   const EuclideanMetric euclidean(TakeAsContactSpace(contact));
   const std::vector<std::pair<std::string, const PenetrationMetric*>> metrics =
-      {{"--smoothing-length 0.1", &phong}, {"--metric euclidean", &euclidean}};
+      {{"--smoothing-length 0.1", &phong},
+       {"", &by_default},
+       {"--metric euclidean", &euclidean}};
   for (const auto& [flags, metric] : metrics) {
     const Outcome outcome =
         Run("query --contact-space c.off --points ../p.csv "

@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "results/bench/trade_measure.h"
+
+#include <algorithm>
+#include <ctime>
+#include <functional>
+#include <limits>
+#include <map>
+
+#include "planners/exact/contact_surface_planner.h"
+#include "problems/output/text.h"
+#include "problems/scenes/scene_source.h"
+#include "problems/studies/trajectory_study.h"
+#include "results/bench/report.h"
+
+namespace phongpd::bench {
+namespace {
+
+struct OptimizeChoice {
+  std::string name;
+  std::function<void(Scene*, PipelineOptions*)> apply;
+};
+
+std::vector<OptimizeChoice> OptimizeChoices() {
+  const auto options = [](const std::string& name, auto apply) {
+    return OptimizeChoice{name,
+                          [apply](Scene*, PipelineOptions* o) { apply(o); }};
+  };
+  const auto scene = [](const std::string& name, auto apply) {
+    return OptimizeChoice{name,
+                          [apply](Scene* s, PipelineOptions*) { apply(s); }};
+  };
+  using Options = PipelineOptions;
+  const auto preset = [&](Preset which) {
+    return options(ToString(which),
+                   [which](Options* o) { ApplyPreset(which, o); });
+  };
+  return {
+      preset(Preset::kBalanced), preset(Preset::kFast), preset(Preset::kTight),
+      options("--polish never",
+              [](Options* o) { o->polish = PolishWhen::kNever; }),
+      options("--polish always",
+              [](Options* o) { o->polish = PolishWhen::kAlways; }),
+      options("--rows 1", [](Options* o) { o->optimizer.rows = 1; }),
+      options("--routes 3", [](Options* o) { o->routes = 3; }),
+      // Interior samples of a segment; by the rule they are enough.
+      scene("samples 1",
+            [](Scene* s) { s->trajectory.samples_per_segment = 1; }),
+      scene("samples 8",
+            [](Scene* s) { s->trajectory.samples_per_segment = 8; }),
+      scene("waypoints 20", [](Scene* s) { s->trajectory.waypoints = 20; })};
+}
+
+struct PlanChoice {
+  std::string name;
+  std::function<void(ContactSurfaceOptions*)> apply;
+};
+
+std::vector<PlanChoice> PlanChoices() {
+  using Options = ContactSurfaceOptions;
+  const auto preset = [](Preset which) {
+    return PlanChoice{ToString(which),
+                      [which](Options* o) { ApplyPreset(which, o); }};
+  };
+  return {preset(Preset::kBalanced),
+          preset(Preset::kFast),
+          preset(Preset::kTight),
+          {"routes 1", [](Options* o) { o->routes = 1; }},
+          {"routes 8", [](Options* o) { o->routes = 8; }},
+          {"spacing 0.025", [](Options* o) { o->spacing = 0.025; }},
+          {"spacing 0.1", [](Options* o) { o->spacing = 0.1; }},
+          {"spacing 0.2", [](Options* o) { o->spacing = 0.2; }},
+          {"gap links 0", [](Options* o) { o->gap_links = 0; }},
+          {"gap links 1024", [](Options* o) { o->gap_links = 1024; }},
+          {"cuts 0", [](Options* o) { o->random_cuts = 0; }},
+          {"cuts 1000", [](Options* o) { o->random_cuts = 1000; }},
+          {"routes 8, spacing 0.1", [](Options* o) {
+             o->routes = 8;
+             o->spacing = 0.1;
+           }}};
+}
+
+const std::vector<std::string>& TrajectoryScenes() {
+  static const std::vector<std::string> scenes = {"u_axis",
+                                                  "u_trap",
+                                                  "plate:thickness=0.02",
+                                                  "torus_hole",
+                                                  "cone_axes",
+                                                  "clutter",
+                                                  "knot",
+                                                  "peg_tunnel:clearance=0.01"};
+  return scenes;
+}
+
+const std::vector<std::string>& PassageScenes() {
+  static const std::vector<std::string> scenes = {
+      "hole:delta=0.001",
+      "tunnel:delta=0.001,bends=3",
+      "keyhole:delta=0.001",
+      "comb:delta=0.001",
+      "snake:delta=0.001",
+      "bugtrap:delta=0.001",
+      "clutter_hole:delta=0.001",
+      "maze:delta=0.001,n=4",
+      "hole:delta=0.001,rotation_seed=1",
+      "maze:delta=0.001,n=3,rotation_seed=1",
+      "clutter",
+      "knot",
+      "u_trap",
+      "cone_axes"};
+  return scenes;
+}
+
+}  // namespace
+
+double ProcessorSeconds() {
+  return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
+}
+
+std::vector<TradeTrial> MeasureOptimize(const TradeOptions& options) {
+  std::vector<TradeTrial> trials;
+  for (const std::string& text : TrajectoryScenes()) {
+    const SceneSource source(text);
+    TrajectoryStudy study;
+    // What is built on first use is no part of any choice.
+    study.Enter(source.Load(options.seed));
+    study.Run(SceneMetric(study.scene()), ScenePipelineOptions(study.scene()));
+    for (int i = 0; i < options.seeds; ++i) {
+      const std::uint64_t seed = options.seed + static_cast<std::uint64_t>(i);
+      for (const OptimizeChoice& choice : OptimizeChoices()) {
+        Scene scene = source.Load(seed);
+        PipelineOptions pipeline = ScenePipelineOptions(scene);
+        pipeline.seed = seed;
+        choice.apply(&scene, &pipeline);
+        study.Enter(scene);
+        TradeTrial trial{"optimize",  text + " #" + std::to_string(seed),
+                         choice.name, 0.0,
+                         false,       0.0};
+        const double begin = ProcessorSeconds();
+        const PipelineResult result = study.Run(SceneMetric(scene), pipeline);
+        trial.seconds = ProcessorSeconds() - begin;
+        trial.answered = result.certificate.free;
+        trial.measure = result.objective;
+        trials.push_back(std::move(trial));
+      }
+    }
+  }
+  return trials;
+}
+
+std::vector<TradeTrial> MeasurePlan() {
+  std::vector<TradeTrial> trials;
+  for (const std::string& text : PassageScenes()) {
+    const Scene scene = SceneSource(text).Load();
+    const World world(scene.workspace, scene.name);
+    world.Sealed().bvh();
+    for (const PlanChoice& choice : PlanChoices()) {
+      ContactSurfaceOptions options;
+      choice.apply(&options);
+      TradeTrial trial{"plan", text, choice.name, 0.0, false, 0.0};
+      constexpr int kRepeats = 5;
+      const double begin = ProcessorSeconds();
+      for (int repeat = 0; repeat < kRepeats; ++repeat) {
+        const ContactSurfacePlanner planner(world.Sealed(), options);
+        const PlanResult result = planner.Plan(scene.start, scene.goal);
+        trial.answered = result.status == PlanStatus::kSolved;
+        trial.measure = result.length;
+      }
+      trial.seconds = (ProcessorSeconds() - begin) / kRepeats;
+      trials.push_back(std::move(trial));
+    }
+  }
+  return trials;
+}
+
+std::vector<TradeSum> Sum(const std::vector<TradeTrial>& trials) {
+  struct Base {
+    double seconds = -1.0;
+    double least = std::numeric_limits<double>::infinity();
+  };
+  std::map<std::string, Base> bases;
+  for (const TradeTrial& trial : trials) {
+    Base& base = bases[trial.consumer + '\n' + trial.instance];
+    if (base.seconds < 0.0) base.seconds = trial.seconds;
+    if (trial.answered) base.least = std::min(base.least, trial.measure);
+  }
+  struct Values {
+    std::vector<double> times, excess;
+  };
+  std::vector<TradeSum> sums;
+  std::vector<Values> values;
+  for (const TradeTrial& trial : trials) {
+    const auto same =
+        std::find_if(sums.begin(), sums.end(), [&](const TradeSum& s) {
+          return s.consumer == trial.consumer && s.choice == trial.choice;
+        });
+    const auto at = static_cast<std::size_t>(same - sums.begin());
+    if (same == sums.end()) {
+      sums.emplace_back();
+      sums.back().consumer = trial.consumer;
+      sums.back().choice = trial.choice;
+      values.emplace_back();
+    }
+    const Base& base = bases[trial.consumer + '\n' + trial.instance];
+    ++sums[at].instances;
+    values[at].times.push_back(trial.seconds / base.seconds);
+    if (!trial.answered) continue;
+    ++sums[at].answered;
+    values[at].excess.push_back(100.0 * (trial.measure / base.least - 1.0));
+  }
+  for (std::size_t i = 0; i < sums.size(); ++i) {
+    sums[i].time = Quantile(values[i].times, 0.5);
+    sums[i].slow = Quantile(values[i].times, 0.9);
+    sums[i].worst = Quantile(values[i].excess, 1.0);
+    for (const double e : values[i].excess) {
+      sums[i].excess += e / static_cast<double>(values[i].excess.size());
+    }
+  }
+  return sums;
+}
+
+}  // namespace phongpd::bench
