@@ -295,6 +295,42 @@ struct WindowCells::Impl {
     return side.is_zero();
   }
 
+  // Per half-edge: bit k where it lies in a wall across axis k.
+  std::vector<int> WallsOfEdges() const {
+    std::vector<int> walls(arrangement.half_edges.size(), 0);
+    for (const EdgeRing& ring : rings.rings) {
+      int bits = 0;
+      for (int k = ring.begin; k < ring.end; ++k) {
+        const int face = rings.spokes[k].face;
+        if (!IsWall(face)) continue;
+        bits |= 1 << LargestAxis(
+                    convolution.facets[arrangement.faces[face].facet].normal);
+      }
+      for (int k = ring.begin; bits != 0 && k < ring.end; ++k) {
+        walls[rings.spokes[k].half_edge] = bits;
+      }
+    }
+    return walls;
+  }
+
+  // Adds a face of C_cont.
+  void Write(int face, const std::vector<int>& walls,
+             SurfacePieceWriter* writer) const {
+    const ArrangementFace& f = arrangement.faces[face];
+    SurfacePiece& piece = writer->piece;
+    const int shift = static_cast<int>(piece.edges.size()) - f.begin;
+    const int side = writer->AddSide(groups.planes[groups.of_facet[f.facet]],
+                                     groups.reversed[f.facet] != 0,
+                                     convolution.facets[f.facet].kind);
+    for (int h = f.begin; h < f.end; ++h) {
+      const HalfEdge& e = arrangement.half_edges[h];
+      const int from = writer->AddPoint(e.from, points[e.from].definition);
+      const int to = writer->AddPoint(e.to, points[e.to].definition);
+      piece.edges.push_back({from, to, e.next + shift, walls[h]});
+    }
+    piece.faces.push_back({side, f.begin + shift, f.end + shift});
+  }
+
   int first_wall;
   BoundingBox box;
   Convolution convolution;
@@ -356,6 +392,25 @@ WindowCells::Nearest WindowCells::FindNearest(const Vector3d& q) {
     break;
   }
   return nearest;
+}
+
+SurfacePiece WindowCells::Surface() {
+  SurfacePieceWriter writer;
+  const std::vector<int> walls = impl_->WallsOfEdges();
+  for (Impl::Candidate& cell : impl_->candidates) {
+    const auto is_wall = [&](int side) { return impl_->IsWall(side / 2); };
+    if (std::all_of(cell.sides.begin(), cell.sides.end(), is_wall) ||
+        !impl_->IsFree(&cell)) {
+      continue;
+    }
+    for (const int side : cell.sides) {
+      if (!is_wall(side)) impl_->Write(side / 2, walls, &writer);
+    }
+  }
+  writer.piece.arranged = impl_->arrangement.faces.size();
+  writer.piece.cells = impl_->candidates.size();
+  writer.piece.judged = static_cast<std::size_t>(impl_->judged);
+  return std::move(writer.piece);
 }
 
 double WindowCells::SurfaceArea() {

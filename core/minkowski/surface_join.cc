@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/minkowski/surface_join.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <map>
+#include <stdexcept>
+#include <unordered_map>
+#include <utility>
+
+#include "core/minkowski/cells.h"
+#include "core/minkowski/edge_rings.h"
+
+namespace phongpd::internal {
+namespace {
+
+// A line in a wall across `axis` at `at`: coprime, without component there.
+struct WallLine {
+  int axis = 0;
+  std::int64_t at = 0;
+  GridPlane line;
+  bool operator==(const WallLine& o) const {
+    return axis == o.axis && at == o.at && line == o.line;
+  }
+};
+struct WallLineHash {
+  std::size_t operator()(const WallLine& l) const {
+    return GridPlaneHash()(l.line) ^ GridPointHash()({l.axis, l.at, 0});
+  }
+};
+
+class Joiner {
+ public:
+  explicit Joiner(JoinedSurface* out) : out_(out) {}
+
+  void Add(const SurfacePiece& piece) {
+    std::vector<int> sides, ids;
+    for (const SurfacePiece::Side& side : piece.sides) {
+      sides.push_back(SideOfPlane(piece.planes[side.plane], side));
+    }
+    for (const SurfacePiece::Point& point : piece.points) {
+      ids.push_back(out_->points.Add(Locate(DefinitionOf(piece, point))));
+    }
+    const int first = static_cast<int>(edges_.size());
+    for (const SurfacePiece::Edge& e : piece.edges) {
+      edges_.push_back({ids[e.from], ids[e.to], first + e.next, e.walls});
+    }
+    for (const SurfacePiece::Face& f : piece.faces) {
+      faces_.push_back({sides[f.side], first + f.begin, first + f.end});
+    }
+  }
+
+  // With edges in walls split where others end on their line.
+  Arrangement Take() {
+    FindLines();
+    Arrangement out;
+    std::vector<int> first_of(edges_.size());
+    for (const SurfacePiece::Face& f : faces_) {
+      const int face = static_cast<int>(out.faces.size());
+      const int begin = static_cast<int>(out.half_edges.size());
+      for (int h = f.begin; h < f.end; ++h) {
+        first_of[h] = static_cast<int>(out.half_edges.size());
+        int from = edges_[h].from;
+        for (const int point : InnerPoints(edges_[h], f.side)) {
+          const int next = static_cast<int>(out.half_edges.size()) + 1;
+          out.half_edges.push_back({from, point, face, next});
+          from = point;
+        }
+        out.half_edges.push_back({from, edges_[h].to, face, -1 - h});
+      }
+      out.faces.push_back(
+          {f.side, false, begin, static_cast<int>(out.half_edges.size())});
+    }
+    for (HalfEdge& e : out.half_edges) {
+      if (e.next < 0) e.next = first_of[edges_[-1 - e.next].next];
+    }
+    return out;
+  }
+
+ private:
+  int SideOfPlane(const GridPlane& plane, const SurfacePiece::Side& side) {
+    PlaneGroups& groups = out_->groups;
+    const auto [it, is_new] =
+        planes_.emplace(plane, static_cast<int>(groups.planes.size()));
+    if (is_new) {
+      groups.planes.push_back(plane);
+      for (const bool reversed : {false, true}) {
+        ConvolutionFacet facet;
+        facet.corners = {0, 0, 0};
+        facet.normal = reversed ? Negated(plane.normal) : plane.normal;
+        out_->sides.facets.push_back(facet);
+        groups.of_facet.push_back(it->second);
+        groups.reversed.push_back(reversed ? 1 : 0);
+      }
+    }
+    const int number = 2 * it->second + (side.is_reversed ? 1 : 0);
+    out_->sides.facets[number].kind = side.kind;
+    return number;
+  }
+
+  static PointDefinition DefinitionOf(const SurfacePiece& piece,
+                                      const SurfacePiece::Point& point) {
+    PointDefinition out;
+    out.kind = point.kind;
+    out.a = point.a;
+    out.b = point.b;
+    out.side_a = point.side_a;
+    out.side_b = point.side_b;
+    if (point.kind == PointDefinition::kPlanes) {
+      for (std::size_t k = 0; k < 3; ++k) {
+        out.planes[k] = piece.planes[point.planes[k]];
+      }
+    }
+    return out;
+  }
+
+  // Calls visit(line) for each wall that the edge of a face of `side` lies in.
+  template <typename Visit>
+  void ForEachLine(const SurfacePiece::Edge& edge, int side,
+                   const Visit& visit) const {
+    const GridPlane& plane = out_->groups.planes[side / 2];
+    for (int axis = 0; axis < 3; ++axis) {
+      if ((edge.walls >> axis & 1) == 0) continue;
+      WallLine wall;
+      wall.axis = axis;
+      wall.at = std::llround(out_->points.Approximate(edge.from)[axis]);
+      wall.line = plane;
+      wall.line.offset -= plane.normal[axis] * wall.at;
+      wall.line.normal[axis] = 0;
+      wall.line = Coprime(wall.line);
+      visit(wall);
+    }
+  }
+
+  void FindLines() {
+    for (const SurfacePiece::Face& f : faces_) {
+      for (int h = f.begin; h < f.end; ++h) {
+        ForEachLine(edges_[h], f.side, [&](const WallLine& wall) {
+          std::vector<int>& points = lines_[wall];
+          points.push_back(edges_[h].from);
+          points.push_back(edges_[h].to);
+        });
+      }
+    }
+    for (auto& [wall, points] : lines_) {
+      std::sort(points.begin(), points.end());
+      points.erase(std::unique(points.begin(), points.end()), points.end());
+      const int axis = AlongAxis(wall);
+      std::sort(points.begin(), points.end(),
+                [&](int a, int b) { return IsBefore(a, b, axis); });
+    }
+  }
+
+  // In which the line varies.
+  static int AlongAxis(const WallLine& wall) {
+    const int u = (wall.axis + 1) % 3, v = (wall.axis + 2) % 3;
+    return LargestAxis(wall.line.normal) == u ? v : u;
+  }
+
+  bool IsBefore(int a, int b, int axis) const {
+    if (a == b) return false;
+    const double difference =
+        out_->points.Approximate(a)[axis] - out_->points.Approximate(b)[axis];
+    if (std::abs(difference) > 2 * kPointError) return difference < 0.0;
+    return CompareCoordinate(out_->points[a], out_->points[b], axis) < 0;
+  }
+
+  // Points of other edges on this one, from its start to its end.
+  std::vector<int> InnerPoints(const SurfacePiece::Edge& edge, int side) const {
+    std::vector<int> inner;
+    ForEachLine(edge, side, [&](const WallLine& wall) {
+      const std::vector<int>& points = lines_.at(wall);
+      const int axis = AlongAxis(wall);
+      const bool forward = IsBefore(edge.from, edge.to, axis);
+      const int low = forward ? edge.from : edge.to;
+      const int high = forward ? edge.to : edge.from;
+      const auto before = [&](int a, int b) { return IsBefore(a, b, axis); };
+      const auto begin =
+          std::upper_bound(points.begin(), points.end(), low, before);
+      const auto end = std::lower_bound(begin, points.end(), high, before);
+      std::vector<int> found(begin, end);
+      if (!forward) std::reverse(found.begin(), found.end());
+      if (found.size() > inner.size()) inner = std::move(found);
+    });
+    return inner;
+  }
+
+  JoinedSurface* out_;
+  std::unordered_map<GridPlane, int, GridPlaneHash> planes_;
+  std::vector<SurfacePiece::Edge> edges_;
+  std::vector<SurfacePiece::Face> faces_;
+  std::unordered_map<WallLine, std::vector<int>, WallLineHash> lines_;
+};
+
+}  // namespace
+
+JoinedSurface JoinPieces(const std::vector<SurfacePiece>& pieces,
+                         const AssemblyOptions& options) {
+  assert(options.merge_coplanar && options.units_per_step == 2);
+  JoinedSurface out;
+  Joiner joiner(&out);
+  for (const SurfacePiece& piece : pieces) joiner.Add(piece);
+  const Arrangement faces = joiner.Take();
+  if (faces.faces.empty()) {
+    throw std::logic_error("contact space: no piece has a face");
+  }
+  // How far rays reach to find the outside.
+  GridPoint far{};
+  for (int id = 0; id < out.points.size(); ++id) {
+    for (int k = 0; k < 3; ++k) {
+      far[k] = std::max<std::int64_t>(
+          far[k], std::llround(std::abs(out.points.Approximate(id)[k])) + 1);
+    }
+  }
+  out.sides.points.push_back(far);
+  const EdgeRings rings = SortAroundEdges(out.sides, faces, out.points);
+  const FreeCells cells =
+      FindCellsOfSurface(out.sides, faces, rings, out.points);
+  out.cavities = cells.cavities;
+  out.surface =
+      AssembleSurface(faces, out.groups, rings, cells, options, &out.points);
+  return out;
+}
+
+}  // namespace phongpd::internal
