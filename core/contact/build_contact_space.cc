@@ -1,4 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <tbb/global_control.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
 #include <memory>
 #include <utility>
 
@@ -20,17 +24,32 @@
 namespace phongpd {
 namespace {
 
-// Fitted to solids of 12 to 20,000 triangles on 2 cores; coplanar solids have
-// far fewer faces and take as long.
-PredictedCost Predict(const internal::Convolution& convolution,
+// Of what a build does, this share goes faster with more threads.
+constexpr double kParallelShare = 0.65;
+
+double SpeedUp() {
+  using tbb::global_control;
+  const auto threads = static_cast<double>(std::min<std::size_t>(
+      global_control::active_value(global_control::max_allowed_parallelism),
+      static_cast<std::size_t>(
+          std::max(1, tbb::this_task_arena::max_concurrency()))));
+  return 1.0 / (1.0 - kParallelShare + kParallelShare / threads);
+}
+
+// Fitted to 90 pairs of solids of 12 to 5,000 triangles in one thread
+// (results/bench/guard_measure.h); `whole` facets before culling.
+PredictedCost Predict(std::size_t triangles, std::size_t whole, bool is_culled,
                       const internal::ExpectedCuts& cuts) {
-  const double facets = static_cast<double>(convolution.facets.size());
-  const double meetings = cuts.meetings;
+  const auto operands = static_cast<double>(triangles);
+  const auto facets = static_cast<double>(whole);
   PredictedCost cost;
-  cost.meetings = meetings;
-  cost.arrangement_faces = 0.75 * meetings;
-  cost.seconds = 3e-6 * facets + 5.5e-6 * meetings;
-  cost.mib = 5.0 + 3e-4 * facets + 8e-4 * meetings;
+  cost.meetings = cuts.meetings;
+  cost.arrangement_faces = 0.39 * cuts.meetings + 0.95 * cuts.crossings;
+  cost.seconds = (1.2e-6 * operands + (is_culled ? 1.5e-5 * facets : 0.0) +
+                  7.8e-6 * cuts.meetings + 1.17e-5 * cuts.crossings) /
+                 SpeedUp();
+  cost.mib = 3.4 + 3.6e-4 * operands + 7.6e-5 * facets +
+             4.4e-4 * cuts.meetings + 7.3e-4 * cuts.crossings;
   return cost;
 }
 
@@ -81,12 +100,14 @@ ContactSpace Build(const Operand& robot, const Operand& obstacle,
         internal::ExpectCuts(convolution, groups, *index);
     internal::OccupiedRegion occupied;
     if (IsWorthCulling(convolution, cuts.meetings)) {
-      occupied = internal::OccupiedRegion(p, q, convolution);
+      occupied = internal::OccupiedRegion(p, q, convolution, limits);
       internal::DropOccupied(occupied, &convolution, &groups);
       index = std::make_unique<internal::FacetIndex>(convolution);
       cuts = internal::ExpectCuts(convolution, groups, *index, &occupied);
     }
-    report.predicted = Predict(convolution, cuts);
+    report.predicted =
+        Predict(a.triangles.size() + b.triangles.size(),
+                report.convolution_triangles, !occupied.IsEmpty(), cuts);
     limits.Predict(report.predicted);
     clock.Finish("prediction");
     const internal::FacetIntersections intersections =

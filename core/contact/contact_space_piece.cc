@@ -155,7 +155,7 @@ ContactSpacePiece internal::BuildPiece(const TriangleMesh& robot,
   report.convolution_triangles = convolution.facets.size();
   PlaneGroups groups = GroupAndName(&convolution);
   const OccupiedRegion occupied(pair.obstacle, pair.reflected_robot,
-                                convolution);
+                                convolution, limits);
   DropOccupied(occupied, &convolution, &groups);
   clock.Finish("convolution");
   const std::vector<PlannedWindow> windows =

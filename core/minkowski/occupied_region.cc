@@ -18,8 +18,8 @@ using Eigen::Vector3d;
 // Points of each operand that are tried.
 constexpr std::size_t kSamples = 192;
 // A box with fewer facets is not worth splitting.
-constexpr std::size_t kFewFacets = 24;
-constexpr int kMaxDepth = 7;
+constexpr std::size_t kFewFacets = 40;
+constexpr int kMaxDepth = 6;
 // Boxes are taken larger by this: far above all rounding, of the distances and
 // of the points that are asked about.
 constexpr double kMarginSteps = 0x1p-4;
@@ -79,8 +79,9 @@ struct Sample {
 
 struct OccupiedRegion::Builder {
   Builder(const GridSolid& p, const GridSolid& q,
-          const Convolution& the_convolution)
+          const Convolution& the_convolution, const BuildLimits& the_limits)
       : convolution(the_convolution),
+        limits(the_limits),
         solids{BvhOf(p), BvhOf(q)},
         points{SurfacePoints(q), SurfacePoints(p)} {}
 
@@ -103,6 +104,7 @@ struct OccupiedRegion::Builder {
   void Build(const BoundingBox& box, const std::vector<int>& facets,
              std::vector<Sample> samples, const Vector3d& seen, int depth,
              Node* node) const {
+    limits.Look("culling");
     const Vector3d center = box.Center();
     const double radius = 0.5 * box.Diagonal() + margin;
     const double moved = (center - seen).norm();
@@ -139,15 +141,17 @@ struct OccupiedRegion::Builder {
   }
 
   const Convolution& convolution;
+  const BuildLimits& limits;
   std::array<TriangleBvh, 2> solids;
   std::array<std::vector<Vector3d>, 2> points;  // to move into each solid
   double margin = 0.0;
 };
 
 OccupiedRegion::OccupiedRegion(const GridSolid& p, const GridSolid& q,
-                               const Convolution& convolution) {
+                               const Convolution& convolution,
+                               const BuildLimits& limits) {
   std::vector<int> facets;
-  Builder builder(p, q, convolution);
+  Builder builder(p, q, convolution, limits);
   for (std::size_t f = 0; f < convolution.facets.size(); ++f) {
     Vector3d corners[3];
     builder.Corners(static_cast<int>(f), corners);

@@ -5,6 +5,7 @@
 #include <array>
 #include <memory>
 
+#include "core/minkowski/build_limits.h"
 #include "core/minkowski/convolution.h"
 #include "core/minkowski/grid_solid.h"
 
@@ -22,9 +23,10 @@ class OccupiedRegion {
  public:
   // Nothing is occupied.
   OccupiedRegion() = default;
-  // Of B = `p` and −A = `q`; the facets say where to look.
+  // Of B = `p` and −A = `q`; the facets say where to look.  Throws BuildRefusal
+  // when `limits` are passed.
   OccupiedRegion(const GridSolid& p, const GridSolid& q,
-                 const Convolution& convolution);
+                 const Convolution& convolution, const BuildLimits& limits);
 
   bool IsEmpty() const { return root_ == nullptr; }
   // Is all of it occupied?  Grid steps, moved by up to a 32nd of a step.
