@@ -66,8 +66,8 @@ void Fields(Stream* io, SurfacePiece::Edge& edge) {
 
 template <typename Stream>
 void Fields(Stream* io, SurfacePiece::Face& face) {
-  auto& [side, begin, end] = face;
-  (*io)(side, begin, end);
+  auto& [side, begin, end, cell] = face;
+  (*io)(side, begin, end, cell);
 }
 
 template <typename Stream>

@@ -14,7 +14,8 @@ constexpr std::size_t kProbes = 4;
 
 Eigen::Vector3d ProbePoint(const FaceGeometry& geometry,
                            const std::vector<double>& area,
-                           std::vector<int>* sides, double reach) {
+                           std::vector<int>* sides, double reach,
+                           double* found_gap) {
   const std::size_t probes = std::min(kProbes, sides->size());
   std::partial_sort(
       sides->begin(), sides->begin() + probes, sides->end(),
@@ -33,6 +34,7 @@ Eigen::Vector3d ProbePoint(const FaceGeometry& geometry,
       point = from + 0.41283 * gap * n;
     }
   }
+  if (found_gap != nullptr) *found_gap = best;
   return point;
 }
 

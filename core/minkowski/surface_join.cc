@@ -43,16 +43,44 @@ class Joiner {
       ids.push_back(out_->points.Add(Locate(DefinitionOf(piece, point))));
     }
     const int first = static_cast<int>(edges_.size());
+    int next_cell = cells_;
     for (const SurfacePiece::Edge& e : piece.edges) {
       edges_.push_back({ids[e.from], ids[e.to], first + e.next, e.walls});
     }
     for (const SurfacePiece::Face& f : piece.faces) {
-      faces_.push_back({sides[f.side], first + f.begin, first + f.end});
+      const int cell = f.cell < 0 ? -1 : cells_ + f.cell;
+      next_cell = std::max(next_cell, cell + 1);
+      faces_.push_back({sides[f.side], first + f.begin, first + f.end, cell});
     }
+    cells_ = next_cell;
   }
 
-  // With edges in walls split where others end on their line.
+  // With edges in walls split where others end on their line, and without the
+  // cells that turn out occupied.
   Arrangement Take() {
+    const Arrangement split = Split();
+    if (cells_ == 0) return split;
+    const std::vector<char> is_free = FindFreeFaces(split);
+    Arrangement out;
+    for (std::size_t f = 0; f < split.faces.size(); ++f) {
+      if (!is_free[f]) continue;
+      ArrangementFace face = split.faces[f];
+      const int shift = static_cast<int>(out.half_edges.size()) - face.begin;
+      for (int h = face.begin; h < face.end; ++h) {
+        HalfEdge e = split.half_edges[h];
+        e.face = static_cast<int>(out.faces.size());
+        e.next += shift;
+        out.half_edges.push_back(e);
+      }
+      face.begin += shift;
+      face.end += shift;
+      out.faces.push_back(face);
+    }
+    return out;
+  }
+
+ private:
+  Arrangement Split() {
     FindLines();
     Arrangement out;
     std::vector<int> first_of(edges_.size());
@@ -65,9 +93,11 @@ class Joiner {
         for (const int point : InnerPoints(edges_[h], f.side)) {
           const int next = static_cast<int>(out.half_edges.size()) + 1;
           out.half_edges.push_back({from, point, face, next});
+          in_wall_.push_back(1);
           from = point;
         }
         out.half_edges.push_back({from, edges_[h].to, face, -1 - h});
+        in_wall_.push_back(edges_[h].walls != 0 ? 1 : 0);
       }
       out.faces.push_back(
           {f.side, false, begin, static_cast<int>(out.half_edges.size())});
@@ -78,7 +108,46 @@ class Joiner {
     return out;
   }
 
- private:
+  // Thin cells are free where a free face goes on in them, beyond a wall.
+  std::vector<char> FindFreeFaces(const Arrangement& split) const {
+    std::unordered_map<GridPoint, int, GridPointHash> faces;  // side, ends
+    std::vector<std::vector<int>> of_cell(static_cast<std::size_t>(cells_));
+    std::vector<char> is_free(split.faces.size(), 0);
+    std::vector<int> open;
+    for (std::size_t f = 0; f < split.faces.size(); ++f) {
+      const int face = static_cast<int>(f), cell = faces_[f].cell;
+      if (cell < 0) {
+        is_free[f] = 1;
+        open.push_back(face);
+      } else {
+        of_cell[cell].push_back(face);
+      }
+      for (int h = split.faces[f].begin; h < split.faces[f].end; ++h) {
+        const HalfEdge& e = split.half_edges[h];
+        if (in_wall_[h]) {
+          faces.emplace(GridPoint{faces_[f].side, e.from, e.to}, face);
+        }
+      }
+    }
+    while (!open.empty()) {
+      const int face = open.back();
+      open.pop_back();
+      const ArrangementFace& f = split.faces[face];
+      for (int h = f.begin; h < f.end; ++h) {
+        if (!in_wall_[h]) continue;
+        const HalfEdge& e = split.half_edges[h];
+        const auto beyond =
+            faces.find(GridPoint{faces_[face].side, e.to, e.from});
+        if (beyond == faces.end() || is_free[beyond->second]) continue;
+        for (const int g : of_cell[faces_[beyond->second].cell]) {
+          is_free[g] = 1;
+          open.push_back(g);
+        }
+      }
+    }
+    return is_free;
+  }
+
   int SideOfPlane(const GridPlane& plane, const SurfacePiece::Side& side) {
     PlaneGroups& groups = out_->groups;
     const auto [it, is_new] =
@@ -190,6 +259,8 @@ class Joiner {
   std::unordered_map<GridPlane, int, GridPlaneHash> planes_;
   std::vector<SurfacePiece::Edge> edges_;
   std::vector<SurfacePiece::Face> faces_;
+  int cells_ = 0;              // thin ones
+  std::vector<char> in_wall_;  // per half-edge of Split
   std::unordered_map<WallLine, std::vector<int>, WallLineHash> lines_;
 };
 

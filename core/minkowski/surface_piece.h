@@ -34,6 +34,9 @@ struct SurfacePiece {
   struct Face {
     int side = 0;
     int begin = 0, end = 0;  // its half-edges
+    // Number of its cell where that is too thin in this window to be judged:
+    // free if it goes on beyond a wall as one that is.  −1: judged free.
+    int cell = -1;
   };
 
   std::vector<GridPlane> planes;

@@ -25,6 +25,9 @@ using Eigen::Vector3d;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // Half steps: far above the rounding of the arrangement's points.
 constexpr double kNearlyThere = 0x1p-6;
+// Half steps: a cell that goes on as far at one of its largest faces is judged
+// in it, whatever the rounding of points.
+constexpr double kSureGap = 0x1p-5;
 
 GridPoint Doubled(const GridPoint& p) { return p + p; }
 
@@ -198,6 +201,7 @@ struct WindowCells::Impl {
   struct Candidate {
     std::vector<int> sides;
     int judgement = -1;  // 1: free
+    double gap = 0.0;    // where it was judged
   };
 
   bool IsFree(Candidate* cell) {
@@ -205,7 +209,8 @@ struct WindowCells::Impl {
       // The probe may be anywhere in the window.
       const double reach = 100.0 * (box.max - box.min).maxCoeff();
       std::vector<int> sides = cell->sides;
-      const Vector3d probe = ProbePoint(geometry, area, &sides, reach);
+      const Vector3d probe =
+          ProbePoint(geometry, area, &sides, reach, &cell->gap);
       cell->judgement = judge.Collide(0.5 * probe) ? 0 : 1;
       ++judged;
     }
@@ -313,8 +318,18 @@ struct WindowCells::Impl {
     return walls;
   }
 
+  // Has a face of the cell an edge in a wall?
+  bool TouchesWall(const Candidate& cell, const std::vector<int>& walls) const {
+    return std::any_of(cell.sides.begin(), cell.sides.end(), [&](int side) {
+      const ArrangementFace& f = arrangement.faces[side / 2];
+      return !IsWall(side / 2) &&
+             std::any_of(walls.begin() + f.begin, walls.begin() + f.end,
+                         [](int bits) { return bits != 0; });
+    });
+  }
+
   // Adds a face of C_cont.
-  void Write(int face, const std::vector<int>& walls,
+  void Write(int face, const std::vector<int>& walls, int cell,
              SurfacePieceWriter* writer) const {
     const ArrangementFace& f = arrangement.faces[face];
     SurfacePiece& piece = writer->piece;
@@ -328,7 +343,7 @@ struct WindowCells::Impl {
       const int to = writer->AddPoint(e.to, points[e.to].definition);
       piece.edges.push_back({from, to, e.next + shift, walls[h]});
     }
-    piece.faces.push_back({side, f.begin + shift, f.end + shift});
+    piece.faces.push_back({side, f.begin + shift, f.end + shift, cell});
   }
 
   int first_wall;
@@ -397,15 +412,19 @@ WindowCells::Nearest WindowCells::FindNearest(const Vector3d& q) {
 SurfacePiece WindowCells::Surface() {
   SurfacePieceWriter writer;
   const std::vector<int> walls = impl_->WallsOfEdges();
+  int thin = 0;  // cells that others have to judge
   for (Impl::Candidate& cell : impl_->candidates) {
     const auto is_wall = [&](int side) { return impl_->IsWall(side / 2); };
-    if (std::all_of(cell.sides.begin(), cell.sides.end(), is_wall) ||
-        !impl_->IsFree(&cell)) {
-      continue;
-    }
+    if (std::all_of(cell.sides.begin(), cell.sides.end(), is_wall)) continue;
+    const bool is_free = impl_->IsFree(&cell);
+    const bool is_thin = cell.gap < kSureGap && impl_->TouchesWall(cell, walls);
+    if (!is_free && !is_thin) continue;
     for (const int side : cell.sides) {
-      if (!is_wall(side)) impl_->Write(side / 2, walls, &writer);
+      if (!is_wall(side)) {
+        impl_->Write(side / 2, walls, is_thin ? thin : -1, &writer);
+      }
     }
+    thin += is_thin ? 1 : 0;
   }
   writer.piece.arranged = impl_->arrangement.faces.size();
   writer.piece.cells = impl_->candidates.size();
