@@ -106,7 +106,7 @@ ContactSpace Build(const Operand& robot, const Operand& obstacle,
       cuts = internal::ExpectCuts(convolution, groups, *index, &occupied);
     }
     report.predicted =
-        Predict(a.triangles.size() + b.triangles.size(),
+        Predict(a.mesh().triangles.size() + b.mesh().triangles.size(),
                 report.convolution_triangles, !occupied.IsEmpty(), cuts);
     limits.Predict(report.predicted);
     clock.Finish("prediction");

@@ -3,11 +3,14 @@
 
 #include <tbb/parallel_for.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
+#include <map>
 #include <utility>
 #include <vector>
 
 #include "core/bvh/triangle_bvh.h"
+#include "core/mesh/union_find.h"
 #include "core/minkowski/window_convolution.h"
 
 namespace phongpd::internal {
@@ -43,6 +46,27 @@ TriangleBvh BvhOf(const GridSolid& solid) {
   }
   mesh.triangles = solid.facets;
   return TriangleBvh(mesh);
+}
+
+// Does a component face inwards, or enclose nothing?  Where such ones overlap,
+// parity does not tell what is inside, nor is all of the surface the solid's.
+bool HasCavity(const GridSolid& solid) {
+  UnionFind sets(solid.vertices.size());
+  for (const Triangle& t : solid.facets) {
+    sets.Join(t[0], t[1]);
+    sets.Join(t[0], t[2]);
+  }
+  std::map<int, double> volumes;
+  for (const Triangle& t : solid.facets) {
+    const int component = sets.Find(t[0]);
+    const Vector3d origin = ToDouble(solid.vertices[component]);
+    const Vector3d a = ToDouble(solid.vertices[t[0]]) - origin;
+    const Vector3d b = ToDouble(solid.vertices[t[1]]) - origin;
+    const Vector3d c = ToDouble(solid.vertices[t[2]]) - origin;
+    volumes[component] += a.dot(b.cross(c));
+  }
+  return std::any_of(volumes.begin(), volumes.end(),
+                     [](const auto& v) { return !(v.second > 0.0); });
 }
 
 // Corners, edges' and facets' middles, an even choice of each.
@@ -150,6 +174,7 @@ struct OccupiedRegion::Builder {
 OccupiedRegion::OccupiedRegion(const GridSolid& p, const GridSolid& q,
                                const Convolution& convolution,
                                const BuildLimits& limits) {
+  if (HasCavity(p) || HasCavity(q)) return;
   std::vector<int> facets;
   Builder builder(p, q, convolution, limits);
   for (std::size_t f = 0; f < convolution.facets.size(); ++f) {

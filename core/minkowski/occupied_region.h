@@ -19,6 +19,8 @@ namespace phongpd::internal {
 // points of B and the inside of −A.  A box is occupied if, moved by −s for one
 // of some points s of the surface of either operand, its circumscribed ball
 // lies inside the other one.  An octree, refined only where many facets are.
+// Solids with cavities occupy nothing, as far as this tells: where components
+// overlap, what is inside takes more than parity.
 class OccupiedRegion {
  public:
   // Nothing is occupied.
