@@ -288,6 +288,12 @@ JoinedSurface JoinPieces(const std::vector<SurfacePiece>& pieces,
   const EdgeRings rings = SortAroundEdges(out.sides, faces, out.points);
   const FreeCells cells =
       FindCellsOfSurface(out.sides, faces, rings, out.points);
+  for (int f = 0; f < static_cast<int>(faces.faces.size()); ++f) {
+    if (!cells.side_is_free[PlusSide(f)] || cells.side_is_free[MinusSide(f)]) {
+      throw std::logic_error(
+          "contact space: pieces do not fit together; build the whole");
+    }
+  }
   out.cavities = cells.cavities;
   out.surface =
       AssembleSurface(faces, out.groups, rings, cells, options, &out.points);

@@ -27,7 +27,7 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kNearlyThere = 0x1p-6;
 // Half steps: a cell that goes on as far at one of its largest faces is judged
 // in it, whatever the rounding of points.
-constexpr double kSureGap = 0x1p-5;
+constexpr double kSureGap = 0x1p-4;
 
 GridPoint Doubled(const GridPoint& p) { return p + p; }
 
@@ -201,16 +201,30 @@ struct WindowCells::Impl {
   struct Candidate {
     std::vector<int> sides;
     int judgement = -1;  // 1: free
-    double gap = 0.0;    // where it was judged
+    double gap = 0.0;    // or width of the face, where it was judged
   };
+
+  // About how wide a face is: twice its area over its outline.
+  double Width(int face) const {
+    const ArrangementFace& f = arrangement.faces[face];
+    double outline = 0.0;
+    for (int h = f.begin; h < f.end; ++h) {
+      const HalfEdge& e = arrangement.half_edges[h];
+      outline += (points.Approximate(e.to) - points.Approximate(e.from)).norm();
+    }
+    return outline > 0.0 ? 2.0 * area[face] / outline : 0.0;
+  }
 
   bool IsFree(Candidate* cell) {
     if (cell->judgement < 0) {
       // The probe may be anywhere in the window.
       const double reach = 100.0 * (box.max - box.min).maxCoeff();
       std::vector<int> sides = cell->sides;
+      int face = 0;
       const Vector3d probe =
-          ProbePoint(geometry, area, &sides, reach, &cell->gap);
+          ProbePoint(geometry, area, &sides, reach, &cell->gap, &face);
+      // Beside a needle, a point before it need not be in its cell.
+      cell->gap = std::min(cell->gap, Width(face));
       cell->judgement = judge.Collide(0.5 * probe) ? 0 : 1;
       ++judged;
     }
