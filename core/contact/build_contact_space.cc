@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <sys/resource.h>
+#include <tbb/global_control.h>
+#include <tbb/task_arena.h>
 
-#include <cmath>
-#include <numeric>
-#include <unordered_map>
+#include <algorithm>
+#include <memory>
 #include <utility>
 
+#include "core/contact/build_stages.h"
 #include "core/contact/contact_space.h"
-#include "core/contact/surface_description.h"
 #include "core/minkowski/build_limits.h"
 #include "core/minkowski/cells.h"
 #include "core/minkowski/convolution.h"
@@ -15,84 +15,52 @@
 #include "core/minkowski/facet_intersections.h"
 #include "core/minkowski/grid_pair.h"
 #include "core/minkowski/operand.h"
-#include "core/minkowski/patch_triangulation.h"
 #include "core/minkowski/plane_arrangement.h"
 #include "core/minkowski/plane_groups.h"
 #include "core/minkowski/solid_collision.h"
 #include "core/minkowski/surface_assembly.h"
-#include "core/minkowski/zero_edges.h"
 #include "core/solid/solid.h"
-#include "core/stopwatch.h"
 
 namespace phongpd {
 namespace {
 
-// Writes the wall time since the last call under the name of a stage.
-class StageClock {
- public:
-  explicit StageClock(ContactSpaceReport* report) : report_(report) {}
-  void Finish(const std::string& stage) {
-    report_->seconds.emplace_back(stage, stopwatch_.Seconds());
-    stopwatch_ = Stopwatch();
-  }
+// Of what a build does, this share goes faster with more threads.
+constexpr double kParallelShare = 0.65;
 
- private:
-  ContactSpaceReport* report_;
-  Stopwatch stopwatch_;
-};
-
-double PeakMib() {
-  rusage usage;
-  getrusage(RUSAGE_SELF, &usage);
-  return static_cast<double>(usage.ru_maxrss) / 1024.0;
+double SpeedUp() {
+  using tbb::global_control;
+  const auto threads = static_cast<double>(std::min<std::size_t>(
+      global_control::active_value(global_control::max_allowed_parallelism),
+      static_cast<std::size_t>(
+          std::max(1, tbb::this_task_arena::max_concurrency()))));
+  return 1.0 / (1.0 - kParallelShare + kParallelShare / threads);
 }
 
-// Fitted to solids of 12 to 20,000 triangles on 2 cores; coplanar solids have
-// far fewer faces and take as long.
-PredictedCost Predict(const internal::Convolution& convolution,
-                      double meetings) {
-  const double facets = static_cast<double>(convolution.facets.size());
+// Fitted to 90 pairs of solids of 12 to 5,000 triangles in one thread
+// (results/bench/guard_measure.h); `whole` facets before culling.
+PredictedCost Predict(std::size_t triangles, std::size_t whole, bool is_culled,
+                      const internal::ExpectedCuts& cuts) {
+  const auto operands = static_cast<double>(triangles);
+  const auto facets = static_cast<double>(whole);
   PredictedCost cost;
-  cost.meetings = meetings;
-  cost.arrangement_faces = 0.75 * meetings;
-  cost.seconds = 3e-6 * facets + 5.5e-6 * meetings;
-  cost.mib = 5.0 + 3e-4 * facets + 8e-4 * meetings;
+  cost.meetings = cuts.meetings;
+  cost.arrangement_faces = 0.39 * cuts.meetings + 0.95 * cuts.crossings;
+  cost.seconds = (1.2e-6 * operands + (is_culled ? 1.5e-5 * facets : 0.0) +
+                  7.8e-6 * cuts.meetings + 1.17e-5 * cuts.crossings) /
+                 SpeedUp();
+  cost.mib = 3.4 + 3.6e-4 * operands + 7.6e-5 * facets +
+             4.4e-4 * cuts.meetings + 7.3e-4 * cuts.crossings;
   return cost;
 }
 
-// Rounds the exact surface into the user's frame.
-void RoundSurface(const internal::ExactSurface& surface,
-                  const internal::ExactPoints& points,
-                  const internal::GridFrame& frame,
-                  const internal::Convolution& convolution,
-                  const internal::PlaneGroups& groups,
-                  ContactSpace::Parts* out) {
-  for (const int id : surface.vertex_points) {
-    out->mesh.vertices.push_back(
-        frame.ToUser(internal::WithExactIntegers(points[id])));
-  }
-  out->mesh.triangles = surface.triangles;
-  // Planes that made it to the surface, numbered by first appearance.
-  std::unordered_map<int, int> plane_ids;
-  out->plane.reserve(surface.facet.size());
-  out->kind.reserve(surface.facet.size());
-  for (const int facet : surface.facet) {
-    const int key = 2 * groups.of_facet[facet] + groups.reversed[facet];
-    const int next = static_cast<int>(plane_ids.size());
-    out->plane.push_back(plane_ids.emplace(key, next).first->second);
-    out->kind.push_back(convolution.facets[facet].kind);
-  }
-}
-
-// Distinct exact points may round to one.
-void RemoveZeroEdges(ContactSpace::Parts* space) {
-  const std::vector<int> kept = internal::CollapseZeroEdges(&space->mesh);
-  for (std::size_t t = 0; t < kept.size(); ++t) {
-    space->plane[t] = space->plane[kept[t]];
-    space->kind[t] = space->kind[kept[t]];
-  }
-  space->plane.resize(kept.size());
-  space->kind.resize(kept.size());
+// Facets of smooth and of small solids meet few others: hardly any of them are
+// inside.
+bool IsWorthCulling(const internal::Convolution& convolution, double meetings) {
+  constexpr double kManyMeetings = 6.0;  // of each facet
+  constexpr double kMuchWork = 20000.0;
+  return meetings > kMuchWork &&
+         meetings >
+             kManyMeetings * static_cast<double>(convolution.facets.size());
 }
 
 using internal::OperandRole;
@@ -103,7 +71,7 @@ ContactSpace Build(const Operand& robot, const Operand& obstacle,
                    const ContactSpaceOptions& options) {
   ContactSpace::Parts out;
   ContactSpaceReport& report = out.report;
-  StageClock clock(&report);
+  internal::StageClock clock(&report);
   internal::BuildLimits limits(options);
   limits.ObserveCancellation();
 
@@ -111,30 +79,40 @@ ContactSpace Build(const Operand& robot, const Operand& obstacle,
       internal::PrepareOperand(robot, OperandRole::kRobot, options, &report);
   const Solid b = internal::PrepareOperand(obstacle, OperandRole::kObstacle,
                                            options, &report);
+  limits.Look("check");
   clock.Finish("check");
 
   const internal::GridPair pair = internal::PlaceOperands(a, b, &report);
-  const internal::GridFrame& frame = pair.frame;
   const internal::GridSolid& p = pair.obstacle;
   const internal::GridSolid& q = pair.reflected_robot;
-  report.canonical_frame = frame.is_turned;
-  report.grid_step = frame.rounding;
-  const bool is_rounded = pair.IsRounded();
-  const internal::Convolution convolution = internal::ReducedConvolution(p, q);
+  internal::DescribeGrid(pair, &report);
+  internal::Convolution convolution =
+      internal::ReducedConvolution(p, q, &limits);
   report.convolution_triangles = convolution.facets.size();
   clock.Finish("convolution");
 
-  const internal::PlaneGroups groups = internal::GroupByPlane(convolution);
+  internal::PlaneGroups groups = internal::GroupAndName(&convolution);
   internal::ExactPoints points;
   internal::Arrangement arrangement;
   {
-    const internal::FacetIndex index(convolution);
-    report.predicted = Predict(
-        convolution, internal::PredictMeetings(convolution, groups, index));
+    auto index = std::make_unique<internal::FacetIndex>(convolution);
+    internal::ExpectedCuts cuts =
+        internal::ExpectCuts(convolution, groups, *index);
+    internal::OccupiedRegion occupied;
+    if (IsWorthCulling(convolution, cuts.meetings)) {
+      occupied = internal::OccupiedRegion(p, q, convolution, limits);
+      internal::DropOccupied(occupied, &convolution, &groups);
+      index = std::make_unique<internal::FacetIndex>(convolution);
+      cuts = internal::ExpectCuts(convolution, groups, *index, &occupied);
+    }
+    report.predicted =
+        Predict(a.mesh().triangles.size() + b.mesh().triangles.size(),
+                report.convolution_triangles, !occupied.IsEmpty(), cuts);
     limits.Predict(report.predicted);
     clock.Finish("prediction");
     const internal::FacetIntersections intersections =
-        internal::IntersectFacets(convolution, groups, index, limits, &points);
+        internal::IntersectFacets(convolution, groups, *index, limits, &points,
+                                  &occupied);
     clock.Finish("intersection");
     arrangement = internal::ArrangePlanes(convolution, groups, intersections,
                                           limits, &points);
@@ -144,14 +122,15 @@ ContactSpace Build(const Operand& robot, const Operand& obstacle,
 
   const internal::EdgeRings rings =
       internal::SortAroundEdges(convolution, arrangement, points);
+  limits.Look("cells");
   const internal::SolidCollision judge(p, q);
   const internal::FreeCells cells = [&] {
     try {
       return internal::FindFreeCells(convolution, arrangement, rings, points,
                                      judge, limits);
     } catch (const internal::LeakError&) {
-      if (is_rounded) {
-        internal::RefuseLostFacets(p, b, q, a, frame.step);
+      if (pair.IsRounded()) {
+        internal::RefuseLostFacets(p, b, q, a, pair.frame.step);
       }
       throw;
     }
@@ -167,18 +146,13 @@ ContactSpace Build(const Operand& robot, const Operand& obstacle,
   }
   clock.Finish("cells");
 
+  limits.Look("surface");
   const internal::PatchSurface patches = internal::AssembleSurface(
       arrangement, groups, rings, cells,
       {options.merge_coplanar, options.outer_shell_only}, &points);
-  const internal::ExactSurface surface =
-      internal::TriangulatePatches(patches, convolution, points);
-  RoundSurface(surface, points, frame, convolution, groups, &out);
-  RemoveZeroEdges(&out);
-  clock.Finish("surface");
-
-  internal::DescribeSurface(out.mesh, &report);
-  report.peak_mib = PeakMib();
-  clock.Finish("report");
+  limits.Look("surface");
+  internal::WriteSurface(patches, convolution, groups, points, pair.frame,
+                         &clock, &out);
   return ContactSpace(std::move(out));
 }
 

@@ -112,15 +112,23 @@ void BuildLimits::ObserveCancellation() {
   cancellations_ = cancellations.load();
 }
 
-void BuildLimits::Check(const char* stage) const {
+void BuildLimits::StopIfCancelled(const char* stage) const {
   if (is_cancellable_ &&
       cancellations.load(std::memory_order_relaxed) != cancellations_) {
     throw BuildCancelled(operands_ + ": the contact space was cancelled in " +
                          "its " + stage);
   }
-  if (calls_.fetch_add(1, std::memory_order_relaxed) % kCallsPerLook != 0) {
-    return;
+}
+
+void BuildLimits::Check(const char* stage) const {
+  StopIfCancelled(stage);
+  if (calls_.fetch_add(1, std::memory_order_relaxed) % kCallsPerLook == 0) {
+    Look(stage);
   }
+}
+
+void BuildLimits::Look(const char* stage) const {
+  StopIfCancelled(stage);
   const double seconds = stopwatch_.Seconds();
   const BuildObserver tell = observer.load(std::memory_order_relaxed);
   if (tell != nullptr) tell({stage, seconds, predicted_.seconds});

@@ -33,8 +33,11 @@ class BuildLimits {
   // the stage, or BuildCancelled.  From any thread; cheap enough for every
   // facet.
   void Check(const char* stage) const;
+  // The same, but looks each time: for what is done in one go.
+  void Look(const char* stage) const;
 
  private:
+  void StopIfCancelled(const char* stage) const;
   [[noreturn]] void Refuse(const std::string& what) const;
 
   std::string operands_;

@@ -14,7 +14,8 @@ constexpr std::size_t kProbes = 4;
 
 Eigen::Vector3d ProbePoint(const FaceGeometry& geometry,
                            const std::vector<double>& area,
-                           std::vector<int>* sides, double reach) {
+                           std::vector<int>* sides, double reach,
+                           double* found_gap, int* found_face) {
   const std::size_t probes = std::min(kProbes, sides->size());
   std::partial_sort(
       sides->begin(), sides->begin() + probes, sides->end(),
@@ -30,9 +31,11 @@ Eigen::Vector3d ProbePoint(const FaceGeometry& geometry,
     const double gap = geometry.FirstHit(from, n, 0.02 * reach, face).distance;
     if (gap > best) {
       best = gap;
+      if (found_face != nullptr) *found_face = face;
       point = from + 0.41283 * gap * n;
     }
   }
+  if (found_gap != nullptr) *found_gap = best;
   return point;
 }
 

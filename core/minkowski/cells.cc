@@ -73,12 +73,11 @@ int SideAcrossGap(const FaceGeometry& geometry, UnionFind* sides,
   return sides->Find(exit) == sides->Find(side) ? across : -1;
 }
 
-}  // namespace
-
-FreeCells FindFreeCells(const Convolution& convolution,
-                        const Arrangement& arrangement, const EdgeRings& rings,
-                        const ExactPoints& points, const SolidCollision& judge,
-                        const BuildLimits& limits) {
+// collide(probe) → whether the operands overlap at probe(); from any thread.
+template <typename Collide>
+FreeCells FindCells(const Convolution& convolution,
+                    const Arrangement& arrangement, const EdgeRings& rings,
+                    const ExactPoints& points, const Collide& collide) {
   const std::vector<ArrangementFace>& faces = arrangement.faces;
   const int count = static_cast<int>(faces.size());
   UnionFind sides = JoinSides(rings, faces.size());
@@ -133,8 +132,8 @@ FreeCells FindFreeCells(const Convolution& convolution,
   out.judged = static_cast<int>(judged.size());
   std::vector<char> collides(judged.size());
   tbb::parallel_for(std::size_t{0}, judged.size(), [&](std::size_t i) {
-    limits.Check("cells");
-    collides[i] = judge.Collide(ProbePoint(geometry, area, judged[i], reach));
+    collides[i] =
+        collide([&] { return ProbePoint(geometry, area, judged[i], reach); });
   });
   std::vector<int> free_sides;  // one of each free cell but the unbounded
   for (std::size_t i = 0; i < judged.size(); ++i) {
@@ -167,6 +166,27 @@ FreeCells FindFreeCells(const Convolution& convolution,
     out.side_is_outer[s] = cell == sides.Find(outer);
   }
   return out;
+}
+
+}  // namespace
+
+FreeCells FindFreeCells(const Convolution& convolution,
+                        const Arrangement& arrangement, const EdgeRings& rings,
+                        const ExactPoints& points, const SolidCollision& judge,
+                        const BuildLimits& limits) {
+  return FindCells(convolution, arrangement, rings, points,
+                   [&](const auto& probe) {
+                     limits.Check("cells");
+                     return judge.Collide(probe());
+                   });
+}
+
+FreeCells FindCellsOfSurface(const Convolution& convolution,
+                             const Arrangement& arrangement,
+                             const EdgeRings& rings,
+                             const ExactPoints& points) {
+  return FindCells(convolution, arrangement, rings, points,
+                   [](const auto&) { return false; });
 }
 
 }  // namespace phongpd::internal

@@ -37,4 +37,10 @@ FreeCells FindFreeCells(const Convolution& convolution,
                         const ExactPoints& points, const SolidCollision& judge,
                         const BuildLimits& limits);
 
+// The same for the faces between free and occupied space alone: every cell of
+// + sides is free.
+FreeCells FindCellsOfSurface(const Convolution& convolution,
+                             const Arrangement& arrangement,
+                             const EdgeRings& rings, const ExactPoints& points);
+
 }  // namespace phongpd::internal

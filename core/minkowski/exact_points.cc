@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <cstdint>
 
 namespace phongpd::internal {
 namespace {
@@ -18,6 +19,24 @@ std::uint64_t Mix(std::uint64_t h, std::uint64_t value) {
 }
 
 int SignOf(const Wide& value) { return value.sign(); }
+
+// The double nearest to x/w, w > 0.
+double NearestDouble(const Wide& x, const Wide& w) {
+  if (x.is_zero()) return 0.0;
+  // A quotient of two bits more than a double has, and a last one that says
+  // whether anything is left: converting it rounds as the quotient itself.
+  constexpr int kBits = 55;
+  const Wide magnitude = abs(x);
+  const int shift =
+      kBits - (static_cast<int>(msb(magnitude)) - static_cast<int>(msb(w)));
+  Wide quotient, rest;
+  divide_qr(shift > 0 ? Wide(magnitude << shift) : magnitude,
+            shift < 0 ? Wide(w << -shift) : w, quotient, rest);
+  std::uint64_t digits = 2 * quotient.convert_to<std::uint64_t>();
+  if (!rest.is_zero()) digits |= 1;
+  const double value = std::ldexp(static_cast<double>(digits), -shift - 1);
+  return x < 0 ? -value : value;
+}
 
 Wide WideDot(const GridNormal& n, const std::array<Wide, 3>& x) {
   return Wide(n[0]) * x[0] + Wide(n[1]) * x[1] + Wide(n[2]) * x[2];
@@ -108,20 +127,11 @@ LocatedPoint Locate(const PointDefinition& definition) {
   return {definition, Approximate(definition)};
 }
 
-Eigen::Vector3d WithExactIntegers(const LocatedPoint& point) {
-  Eigen::Vector3d x = point.approximate;
-  if (point.definition.kind == PointDefinition::kVertex) return x;
-  const Eigen::Vector3d nearest = x.array().round();
-  const auto may_be = [&](int k) {
-    return std::abs(x[k] - nearest[k]) <= kPointError;
-  };
-  if (!may_be(0) && !may_be(1) && !may_be(2)) return x;
-  const Homogeneous h = Evaluate(point.definition);
-  for (int k = 0; k < 3; ++k) {
-    const std::int64_t n = std::llround(nearest[k]);
-    if (may_be(k) && h.x[k] == h.w * n) x[k] = nearest[k];
-  }
-  return x;
+Eigen::Vector3d NearestDoubles(const PointDefinition& point, int units) {
+  const Homogeneous h = Evaluate(point);
+  Eigen::Vector3d nearest;
+  for (int k = 0; k < 3; ++k) nearest[k] = NearestDouble(h.x[k], h.w * units);
+  return nearest;
 }
 
 int CompareCoordinate(const LocatedPoint& p, const LocatedPoint& q, int axis) {

@@ -72,9 +72,9 @@ struct LocatedPoint {
 };
 LocatedPoint Locate(const PointDefinition& definition);
 
-// The approximation, but with integer coordinates exactly where the point has
-// them.
-Eigen::Vector3d WithExactIntegers(const LocatedPoint& point);
+// The doubles nearest to the coordinates divided by `units` > 0 (ties to even):
+// they depend on the point alone, not on its definition.
+Eigen::Vector3d NearestDoubles(const PointDefinition& point, int units = 1);
 
 // Sign of p[axis] − q[axis]; exact.
 int CompareCoordinate(const LocatedPoint& p, const LocatedPoint& q, int axis);

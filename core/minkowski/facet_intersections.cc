@@ -79,7 +79,9 @@ class Intersector {
     int count = 0;
     for (const int a : Corners(t)) {
       for (const int b : Corners(u)) {
-        if (a == b) shared[count++].point = point_ids_[a];
+        if (a != b) continue;
+        shared[count].a = a;
+        shared[count++].point = point_ids_[a];
       }
     }
     if (count >= 2) {
@@ -108,6 +110,10 @@ class Intersector {
     const int order = Compare(meeting->low, meeting->high, axis);
     meeting->is_point = order == 0;
     return order <= 0;
+  }
+
+  Eigen::Vector3d Approximate(const Crossing& c) const {
+    return Locate(c).approximate;
   }
 
   LocatedPoint LocateCrossing(const Crossing& c) const {
@@ -258,6 +264,46 @@ void ForEachMeeting(const PlaneGroups& groups, const FacetIndex& index,
       });
 }
 
+bool IsOccupied(const OccupiedRegion* occupied, const Eigen::Vector3d& a,
+                const Eigen::Vector3d& b) {
+  return occupied != nullptr && !occupied->IsEmpty() &&
+         occupied->Contains(a, b);
+}
+
+struct FlatSegment {
+  Eigen::Vector2d from, along;
+};
+
+// Seen along an axis.
+FlatSegment Flat(const Eigen::Vector3d& a, const Eigen::Vector3d& b, int axis) {
+  const int u = (axis + 1) % 3, v = (axis + 2) % 3;
+  return {{a[u], a[v]}, {b[u] - a[u], b[v] - a[v]}};
+}
+
+// Pairs that cross between their ends; of very many an even sample.
+double CountCrossings(const std::vector<FlatSegment>& segments) {
+  constexpr std::size_t kMost = 256;
+  const std::size_t stride = 1 + segments.size() / kMost;
+  const auto cross = [](const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+    return a[0] * b[1] - a[1] * b[0];
+  };
+  const auto splits = [&](const FlatSegment& s, const FlatSegment& t) {
+    const double a = cross(s.along, t.from - s.from);
+    const double b = cross(s.along, t.from + t.along - s.from);
+    return (a > 0.0 && b < 0.0) || (a < 0.0 && b > 0.0);
+  };
+  double count = 0.0;
+  for (std::size_t i = 0; i < segments.size(); i += stride) {
+    for (std::size_t j = 0; j < i; j += stride) {
+      count +=
+          splits(segments[i], segments[j]) && splits(segments[j], segments[i])
+              ? 1.0
+              : 0.0;
+    }
+  }
+  return count * static_cast<double>(stride * stride);
+}
+
 }  // namespace
 
 FacetIndex::FacetIndex(const Convolution& convolution)
@@ -273,8 +319,9 @@ FacetIndex::FacetIndex(const Convolution& convolution,
   tree = BoxTree(boxes, 4);
 }
 
-double PredictMeetings(const Convolution& convolution,
-                       const PlaneGroups& groups, const FacetIndex& index) {
+ExpectedCuts ExpectCuts(const Convolution& convolution,
+                        const PlaneGroups& groups, const FacetIndex& index,
+                        const OccupiedRegion* occupied) {
   constexpr int kSample = 1024;
   const int count = static_cast<int>(index.boxes.size());
   const int stride = std::max(1, count / kSample);
@@ -283,20 +330,35 @@ double PredictMeetings(const Convolution& convolution,
   std::vector<int> ids(convolution.points.size());
   std::iota(ids.begin(), ids.end(), 0);
   const Intersector intersector(convolution, groups, ids);
-  std::vector<int> found(static_cast<std::size_t>(samples), 0);
+  std::vector<ExpectedCuts> found(static_cast<std::size_t>(samples));
   tbb::parallel_for(0, samples, [&](int i) {
-    ForEachMeeting(groups, index, intersector, i * stride, -1,
-                   [&](const Meeting&) { ++found[i]; });
+    const int t = i * stride;
+    std::vector<FlatSegment> segments;
+    const int axis = LargestAxis(convolution.facets[t].normal);
+    ForEachMeeting(groups, index, intersector, t, -1, [&](const Meeting& m) {
+      const Eigen::Vector3d low = intersector.Approximate(m.low);
+      const Eigen::Vector3d high = intersector.Approximate(m.high);
+      if (IsOccupied(occupied, low, high)) return;
+      ++found[i].meetings;
+      if (!m.is_point) segments.push_back(Flat(low, high, axis));
+    });
+    found[i].crossings = CountCrossings(segments);
   });
-  const double sum = std::accumulate(found.begin(), found.end(), 0.0);
-  return 0.5 * sum * count / std::max(1, samples);
+  ExpectedCuts sum;
+  for (const ExpectedCuts& cuts : found) {
+    sum.meetings += 0.5 * cuts.meetings;
+    sum.crossings += cuts.crossings;
+  }
+  const double share = static_cast<double>(count) / std::max(1, samples);
+  return {share * sum.meetings, share * sum.crossings};
 }
 
 FacetIntersections IntersectFacets(const Convolution& convolution,
                                    const PlaneGroups& groups,
                                    const FacetIndex& index,
                                    const BuildLimits& limits,
-                                   ExactPoints* points) {
+                                   ExactPoints* points,
+                                   const OccupiedRegion* occupied) {
   FacetIntersections out;
   out.segments.resize(groups.members.size());
   out.point_ids.assign(convolution.points.size(), -1);
@@ -312,16 +374,22 @@ FacetIntersections IntersectFacets(const Convolution& convolution,
   SegmentWriter writer(groups, intersector, points, &out);
   const int count = static_cast<int>(index.boxes.size());
   std::vector<std::vector<Meeting>> meetings(std::min(count, kBlock));
+  const auto is_occupied = [&](const Meeting& m) {
+    return IsOccupied(occupied, intersector.Approximate(m.low),
+                      intersector.Approximate(m.high));
+  };
   for (int begin = 0; begin < count; begin += kBlock) {
     const int end = std::min(count, begin + kBlock);
     tbb::parallel_for(begin, end, [&](int t) {
       limits.Check("intersection");
       std::vector<Meeting>& found = meetings[t - begin];
       found.clear();
-      ForEachMeeting(groups, index, intersector, t, t,
-                     [&](const Meeting& m) { found.push_back(m); });
+      ForEachMeeting(groups, index, intersector, t, t, [&](const Meeting& m) {
+        if (!is_occupied(m)) found.push_back(m);
+      });
     });
     for (int t = begin; t < end; ++t) {
+      limits.Check("intersection");
       for (const Meeting& meeting : meetings[t - begin]) writer.Write(meeting);
     }
   }

@@ -8,6 +8,7 @@
 #include "core/minkowski/build_limits.h"
 #include "core/minkowski/convolution.h"
 #include "core/minkowski/exact_points.h"
+#include "core/minkowski/occupied_region.h"
 #include "core/minkowski/plane_groups.h"
 
 namespace phongpd::internal {
@@ -41,19 +42,28 @@ struct FacetIndex {
   BoxTree tree;
 };
 
-// Expected number of facet pairs that IntersectFacets will cut, from an even
-// sample of the facets; what every later stage costs grows with it.
-double PredictMeetings(const Convolution& convolution,
-                       const PlaneGroups& groups, const FacetIndex& index);
+// Expected counts, from an even sample of the facets: what every later stage
+// costs grows with them.
+struct ExpectedCuts {
+  double meetings = 0.0;  // facet pairs that IntersectFacets will cut
+  // Pairs of segments in which others cut a facet that cross in it, counted in
+  // each of the three facets.
+  double crossings = 0.0;
+};
+ExpectedCuts ExpectCuts(const Convolution& convolution,
+                        const PlaneGroups& groups, const FacetIndex& index,
+                        const OccupiedRegion* occupied = nullptr);
 
 // Intersects all facets of different planes whose boxes meet.  Sides are
 // decided in 128-bit integers, overlaps along the common line in double with
-// an exact fallback, and only end points that survive are constructed.
+// an exact fallback, and only end points that survive are constructed.  What
+// two facets share in the `occupied` region, if there is one, is left out.
 // Throws InputError when `limits` are passed.
 FacetIntersections IntersectFacets(const Convolution& convolution,
                                    const PlaneGroups& groups,
                                    const FacetIndex& index,
                                    const BuildLimits& limits,
-                                   ExactPoints* points);
+                                   ExactPoints* points,
+                                   const OccupiedRegion* occupied = nullptr);
 
 }  // namespace phongpd::internal

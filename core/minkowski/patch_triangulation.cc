@@ -72,7 +72,7 @@ class PatchTriangulator {
   };
 
   Eigen::Vector2d Flat(int vertex, const Projection& p) const {
-    const auto& x = points_.Approximate(surface_.vertex_points[vertex]);
+    const Eigen::Vector3d& x = surface_.positions[vertex];
     return {x[p.u], x[p.v]};
   }
 
@@ -117,8 +117,8 @@ class PatchTriangulator {
     for (const std::vector<int>& loop : patch.loops) {
       for (std::size_t k = 0; k < loop.size(); ++k) {
         const int v = loop[k], w = loop[(k + 1) % loop.size()];
-        const int from = surface_.vertex_points[v];
-        border[{from, surface_.vertex_points[w]}] = {v, w};
+        const int from = surface_.vertex_ranks[v];
+        border[{from, surface_.vertex_ranks[w]}] = {v, w};
         if (handles.count(from)) continue;
         const auto handle = cdt.insert(Exact(v, projection));
         handle->info() = from;
@@ -202,6 +202,7 @@ ExactSurface TriangulatePatches(const PatchSurface& surface,
   });
   ExactSurface out;
   out.vertex_points = surface.vertex_points;
+  out.positions = surface.positions;
   for (std::size_t i = 0; i < triangles.size(); ++i) {
     out.triangles.insert(out.triangles.end(), triangles[i].begin(),
                          triangles[i].end());

@@ -9,7 +9,9 @@ namespace phongpd::internal {
 
 // The triangulated boundary of the free cells, before rounding.
 struct ExactSurface {
-  std::vector<int> vertex_points;   // ExactPoints id of each vertex
+  std::vector<int> vertex_points;  // ExactPoints id of each vertex
+  // Nearest doubles to each vertex, grid steps.
+  std::vector<Eigen::Vector3d> positions;
   std::vector<Triangle> triangles;  // outward: normals point into free space
   std::vector<int> facet;           // convolution facet of each triangle
 };

@@ -207,6 +207,7 @@ Arrangement ArrangePlanes(const Convolution& convolution,
   });
   Arrangement out;
   for (PlaneResult& result : results) {
+    limits.Check("arrangement");
     std::vector<int> id_of(result.new_points.size());
     for (std::size_t i = 0; i < id_of.size(); ++i) {
       id_of[i] = points->Add(result.new_points[i]);

@@ -52,6 +52,15 @@ GridPlane PlaneOf(const GridNormal& normal, const GridPoint& p,
 
 }  // namespace
 
+GridPlane Coprime(GridPlane plane) {
+  GridNormal& n = plane.normal;
+  Int128 divisor = Gcd(Gcd(Gcd(n[0], n[1]), n[2]), plane.offset);
+  if ((n[0] != 0 ? n[0] : n[1] != 0 ? n[1] : n[2]) < 0) divisor = -divisor;
+  for (Int128& x : n) x /= divisor;
+  plane.offset /= divisor;
+  return plane;
+}
+
 PlaneGroups GroupByPlane(const Convolution& convolution) {
   const std::size_t count = convolution.facets.size();
   PlaneGroups groups;

@@ -24,4 +24,9 @@ struct PlaneGroups {
 // are numbered by first appearance.
 PlaneGroups GroupByPlane(const Convolution& convolution);
 
+// The same plane with coprime normal and offset, the first non-zero component
+// of the normal positive; one in which only two coordinates matter is a line of
+// a coordinate plane.  The normal is not zero.
+GridPlane Coprime(GridPlane plane);
+
 }  // namespace phongpd::internal

@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "core/mesh/union_find.h"
+#include "core/minkowski/surface_order.h"
 
 namespace phongpd::internal {
 namespace {
@@ -20,7 +21,13 @@ struct SheetEdge {
   int face = 0;    // of the arrangement
   int next = 0;
   int mate = -1;
-  bool sealed = false;  // stays a border although both sides are coplanar
+};
+
+// An edge of a patch's border without the vertices that were dropped from it.
+struct BorderEdge {
+  int from = 0, to = 0;
+  int first = 0, last = 0;  // half-edges it is made of
+  int middle = -1;          // a vertex put between its ends
 };
 
 class Assembler {
@@ -36,7 +43,6 @@ class Assembler {
     CollectEdges(cells);
     PairEdges(rings);
     NumberVertices();
-    SeparatePinchedEdges();
     assert(IsPaired());
     FormPatches();
     return Collect();
@@ -54,7 +60,7 @@ class Assembler {
       const ArrangementFace& face = arrangement_.faces[f];
       for (int h = face.begin; h < face.end; ++h) {
         sheet_of_[h] = static_cast<int>(edges_.size());
-        edges_.push_back({arrangement_.half_edges[h].from, f, 0, -1, false});
+        edges_.push_back({arrangement_.half_edges[h].from, f, 0, -1});
       }
     }
     for (std::size_t h = 0; h < sheet_of_.size(); ++h) {
@@ -122,73 +128,6 @@ class Assembler {
     return groups_.planes[groups_.of_facet[facet]];
   }
 
-  // A point of the edge about half way: where its two planes meet a plane
-  // across it.  −1 when the edge is too short for one.
-  int MiddlePoint(int e, const GridPlane& other) {
-    const LocatedPoint a = (*points_)[vertex_points_[edges_[e].vertex]];
-    const LocatedPoint b = (*points_)[vertex_points_[To(e)]];
-    const int axis =
-        LargestAxis(Eigen::Vector3d(b.approximate - a.approximate));
-    GridPlane across;
-    across.normal[axis] = Int128(1) << 20;
-    across.offset = static_cast<Int128>(
-        std::ldexp(0.5 * (a.approximate[axis] + b.approximate[axis]), 20));
-    if (SideOf(across, a) * SideOf(across, b) >= 0) return -1;
-    PointDefinition middle;
-    middle.kind = PointDefinition::kPlanes;
-    middle.planes = {PlaneOf(e), other, across};
-    return points_->Add(Locate(middle));
-  }
-
-  // Half-edges that two sheets of one solid share.
-  void SeparatePinchedEdges() {
-    using Owner = std::array<int, 3>;  // from < to, half-edge
-    std::vector<Owner> owners;
-    for (std::size_t e = 0; e < edges_.size(); ++e) {
-      const int from = edges_[e].vertex, to = To(static_cast<int>(e));
-      if (from < to) owners.push_back({from, to, static_cast<int>(e)});
-    }
-    std::sort(owners.begin(), owners.end());
-    pinned_.assign(vertex_points_.size(), 0);
-    for (auto first = owners.begin(), last = first; first != owners.end();
-         first = last) {
-      last = std::find_if(first, owners.end(), [&](const Owner& o) {
-        return o[0] != (*first)[0] || o[1] != (*first)[1];
-      });
-      if (last - first > 1) SeparateSheets({first, last});
-    }
-  }
-
-  void SeparateSheets(const std::vector<std::array<int, 3>>& sheets) {
-    const GridPlane& plane = PlaneOf(sheets[0][2]);
-    const GridPlane* other = nullptr;
-    for (const auto& sheet : sheets) {
-      for (const int f : {sheet[2], edges_[sheet[2]].mate}) {
-        if (!(PlaneOf(f) == plane)) other = &PlaneOf(f);
-      }
-    }
-    if (other == nullptr) return;
-    const int middle = MiddlePoint(sheets[0][2], *other);
-    if (middle < 0) return;
-    pinned_[sheets[0][0]] = pinned_[sheets[0][1]] = 1;
-    for (const auto& sheet : sheets) SplitSheet(sheet[2], middle);
-  }
-
-  void SplitSheet(int e, int point) {
-    const int vertex = static_cast<int>(vertex_points_.size());
-    vertex_points_.push_back(point);
-    pinned_.push_back(1);
-    const int m = edges_[e].mate;
-    const int e2 = static_cast<int>(edges_.size()), m2 = e2 + 1;
-    edges_.push_back({vertex, edges_[e].face, edges_[e].next, m, true});
-    edges_.push_back({vertex, edges_[m].face, edges_[m].next, e, true});
-    edges_[e].next = e2;
-    edges_[m].next = m2;
-    edges_[e].mate = m2;
-    edges_[m].mate = e2;
-    edges_[e].sealed = edges_[m].sealed = true;
-  }
-
   // Plane and orientation as one number.
   int OrientedPlane(int face) const {
     const int facet = arrangement_.faces[face].facet;
@@ -199,8 +138,7 @@ class Assembler {
     UnionFind sets(arrangement_.faces.size());
     for (const SheetEdge& e : edges_) {
       const int f = e.face, g = edges_[e.mate].face;
-      if (options_.merge_coplanar && !e.sealed &&
-          OrientedPlane(f) == OrientedPlane(g)) {
+      if (options_.merge_coplanar && OrientedPlane(f) == OrientedPlane(g)) {
         sets.Join(f, g);
       }
     }
@@ -209,8 +147,7 @@ class Assembler {
     std::map<int, int> ids;
     for (std::size_t e = 0; e < edges_.size(); ++e) {
       const int patch = sets.Find(edges_[e].face);
-      is_border_[e] =
-          edges_[e].sealed || patch != sets.Find(edges_[edges_[e].mate].face);
+      is_border_[e] = patch != sets.Find(edges_[edges_[e].mate].face);
       patch_of_[e] =
           ids.emplace(patch, static_cast<int>(ids.size())).first->second;
     }
@@ -230,7 +167,7 @@ class Assembler {
                      OrientedPlane(edges_[edges_[e].mate].face) / 2;
     }
     for (std::size_t v = 0; v < degree.size(); ++v) {
-      removable[v] = removable[v] && degree[v] == 2 && !pinned_[v];
+      removable[v] = removable[v] && degree[v] == 2;
     }
     return removable;
   }
@@ -276,79 +213,139 @@ class Assembler {
     return corners;
   }
 
-  // Has a patch that does not end at border edge e corners at both vertices?
-  bool IsSharedByThird(const PatchCorners& corners, int e, int from,
-                       int to) const {
+  // The borders over the vertices that stay.
+  std::vector<std::vector<BorderEdge>> DropVertices(
+      const std::vector<std::vector<int>>& loops) const {
+    const std::vector<char> removable = Removable();
+    std::vector<std::vector<BorderEdge>> borders;
+    for (const std::vector<int>& loop : loops) {
+      const std::size_t size = loop.size();
+      const auto vertex = [&](std::size_t k) {
+        return edges_[loop[k % size]].vertex;
+      };
+      std::size_t start = 0;
+      while (start < size && removable[vertex(start)]) ++start;
+      std::vector<BorderEdge> border;
+      for (std::size_t k = start; k < start + size;) {
+        std::size_t next = k + 1;
+        while (next < start + size && removable[vertex(next)]) ++next;
+        border.push_back({vertex(k), vertex(next), loop[k % size],
+                          loop[(next - 1) % size], -1});
+        k = next;
+      }
+      borders.push_back(std::move(border));
+    }
+    return borders;
+  }
+
+  // The mate of a border edge's last half-edge begins its other side: the less
+  // of both is the edge's name.
+  int NameOf(const BorderEdge& e) const {
+    return std::min(e.first, edges_[e.last].mate);
+  }
+
+  // Has a patch that does not end at border edge e corners at both its ends?
+  bool IsSharedByThird(const PatchCorners& corners, const BorderEdge& e) const {
     const auto at = [&](int v, int side) {
       return corners.patches.begin() + corners.begin[v + side];
     };
-    return std::any_of(at(from, 0), at(from, 1), [&](int patch) {
-      return patch != patch_of_[e] && patch != patch_of_[edges_[e].mate] &&
-             std::find(at(to, 0), at(to, 1), patch) != at(to, 1);
+    return std::any_of(at(e.from, 0), at(e.from, 1), [&](int patch) {
+      return patch != patch_of_[e.first] &&
+             patch != patch_of_[edges_[e.first].mate] &&
+             std::find(at(e.to, 0), at(e.to, 1), patch) != at(e.to, 1);
     });
   }
 
-  // Two sheets along one line may have different vertices on it; dropping
-  // them all would leave both with the same edge, or one with an edge that is
-  // a diagonal of the other's patch.  Keeps one.
-  void KeepEdgesDistinct(const std::vector<std::vector<int>>& loops,
-                         std::vector<char>* removable) const {
+  // Where a solid touches itself two sheets may have an edge with the same
+  // ends, or one has an edge that is a diagonal of another's patch.  Each such
+  // edge gets a vertex of its own between its ends.
+  void KeepEdgesDistinct(std::vector<std::vector<BorderEdge>>* borders) {
     const PatchCorners corners = CollectCorners();
-    for (bool changed = true; changed;) {
-      changed = false;
-      std::map<std::pair<int, int>, int> dropped;  // edge → a vertex left out
-      for (const std::vector<int>& loop : loops) {
-        const std::size_t size = loop.size();
-        const auto vertex = [&](std::size_t k) {
-          return edges_[loop[k % size]].vertex;
-        };
-        std::size_t start = 0;
-        while (start < size && (*removable)[vertex(start)]) ++start;
-        for (std::size_t k = start; k < start + size;) {
-          std::size_t next = k + 1;
-          while (next < start + size && (*removable)[vertex(next)]) ++next;
-          const int skipped = next > k + 1 ? vertex(k + 1) : -1;
-          const auto [it, is_new] =
-              dropped.try_emplace({vertex(k), vertex(next)}, skipped);
-          const int keep = it->second >= 0 ? it->second : skipped;
-          if (!is_new && keep >= 0) {
-            (*removable)[keep] = 0;
-            changed = true;
-          } else if (skipped >= 0 && IsSharedByThird(corners, loop[k % size],
-                                                     vertex(k), vertex(next))) {
-            (*removable)[skipped] = 0;
-            changed = true;
-          }
-          k = next;
-        }
+    std::vector<const BorderEdge*> by_ends;
+    for (const std::vector<BorderEdge>& border : *borders) {
+      for (const BorderEdge& e : border) {
+        if (e.first == NameOf(e)) by_ends.push_back(&e);
+      }
+    }
+    const auto ends = [](const BorderEdge* e) {
+      return std::minmax(e->from, e->to);
+    };
+    std::sort(by_ends.begin(), by_ends.end(),
+              [&](const BorderEdge* a, const BorderEdge* b) {
+                return ends(a) != ends(b) ? ends(a) < ends(b)
+                                          : a->first < b->first;
+              });
+    std::map<int, int> middle_of;  // edge's name → vertex
+    for (auto first = by_ends.begin(), last = first; first != by_ends.end();
+         first = last) {
+      while (last != by_ends.end() && ends(*last) == ends(*first)) ++last;
+      if (last - first == 1 && !IsSharedByThird(corners, **first)) continue;
+      const int point = MiddlePoint(first, last);
+      if (point < 0) continue;
+      for (auto e = first; e != last; ++e) {
+        middle_of[(*e)->first] = static_cast<int>(vertex_points_.size());
+        vertex_points_.push_back(point);
+      }
+    }
+    if (middle_of.empty()) return;
+    for (std::vector<BorderEdge>& border : *borders) {
+      for (BorderEdge& e : border) {
+        const auto it = middle_of.find(NameOf(e));
+        if (it != middle_of.end()) e.middle = it->second;
       }
     }
   }
 
-  PatchSurface Collect() const {
-    const std::vector<std::vector<int>> loops = BorderLoops();
-    std::vector<char> removable = Removable();
-    KeepEdgesDistinct(loops, &removable);
+  // A point about half way between the common ends of edges: where two planes
+  // that meet there meet a third one across.  −1 where there are no two, or
+  // the edge is too short for one.
+  int MiddlePoint(std::vector<const BorderEdge*>::const_iterator begin,
+                  std::vector<const BorderEdge*>::const_iterator end) {
+    const GridPlane& plane = PlaneOf((*begin)->first);
+    const GridPlane* other = nullptr;
+    for (auto e = begin; e != end; ++e) {
+      for (const int f : {(*e)->first, edges_[(*e)->first].mate}) {
+        if (!(PlaneOf(f) == plane)) other = &PlaneOf(f);
+      }
+    }
+    if (other == nullptr) return -1;
+    const LocatedPoint a = (*points_)[vertex_points_[(*begin)->from]];
+    const LocatedPoint b = (*points_)[vertex_points_[(*begin)->to]];
+    const int units = options_.units_per_step;
+    const Eigen::Vector3d from = NearestDoubles(a.definition, units);
+    const Eigen::Vector3d to = NearestDoubles(b.definition, units);
+    const int axis = LargestAxis(Eigen::Vector3d(to - from));
+    GridPlane across;
+    across.normal[axis] = Int128(1) << 20;
+    across.offset =
+        static_cast<Int128>(std::ldexp(0.5 * (from[axis] + to[axis]), 20)) *
+        units;
+    if (SideOf(across, a) * SideOf(across, b) >= 0) return -1;
+    PointDefinition middle;
+    middle.kind = PointDefinition::kPlanes;
+    middle.planes = {plane, *other, across};
+    return points_->Add(Locate(middle));
+  }
+
+  PatchSurface Collect() {
+    std::vector<std::vector<BorderEdge>> borders = DropVertices(BorderLoops());
+    KeepEdgesDistinct(&borders);
     PatchSurface out;
     out.patches.resize(patch_count_);
     for (std::size_t e = 0; e < edges_.size(); ++e) {
       out.patches[patch_of_[e]].facet =
           arrangement_.faces[edges_[e].face].facet;
     }
-    std::vector<int> id_of(vertex_points_.size(), -1);
-    for (const std::vector<int>& border : loops) {
+    out.vertex_points = vertex_points_;
+    for (const std::vector<BorderEdge>& border : borders) {
       std::vector<int> loop;
-      for (const int e : border) {
-        const int v = edges_[e].vertex;
-        if (removable[v]) continue;
-        if (id_of[v] < 0) {
-          id_of[v] = static_cast<int>(out.vertex_points.size());
-          out.vertex_points.push_back(vertex_points_[v]);
-        }
-        loop.push_back(id_of[v]);
+      for (const BorderEdge& e : border) {
+        loop.push_back(e.from);
+        if (e.middle >= 0) loop.push_back(e.middle);
       }
-      out.patches[patch_of_[border[0]]].loops.push_back(std::move(loop));
+      out.patches[patch_of_[border[0].first]].loops.push_back(std::move(loop));
     }
+    OrderSurface(*points_, options_.units_per_step, &out);
     return out;
   }
 
@@ -359,7 +356,6 @@ class Assembler {
   std::vector<int> sheet_of_;  // per half-edge of the arrangement
   std::vector<SheetEdge> edges_;
   std::vector<int> vertex_points_;
-  std::vector<char> pinned_;  // vertices that must stay
   std::vector<char> is_border_;
   std::vector<int> patch_of_;
   std::size_t patch_count_ = 0;

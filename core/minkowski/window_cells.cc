@@ -25,6 +25,9 @@ using Eigen::Vector3d;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // Half steps: far above the rounding of the arrangement's points.
 constexpr double kNearlyThere = 0x1p-6;
+// Half steps: a cell that goes on as far at one of its largest faces is judged
+// in it, whatever the rounding of points.
+constexpr double kSureGap = 0x1p-4;
 
 GridPoint Doubled(const GridPoint& p) { return p + p; }
 
@@ -198,14 +201,30 @@ struct WindowCells::Impl {
   struct Candidate {
     std::vector<int> sides;
     int judgement = -1;  // 1: free
+    double gap = 0.0;    // or width of the face, where it was judged
   };
+
+  // About how wide a face is: twice its area over its outline.
+  double Width(int face) const {
+    const ArrangementFace& f = arrangement.faces[face];
+    double outline = 0.0;
+    for (int h = f.begin; h < f.end; ++h) {
+      const HalfEdge& e = arrangement.half_edges[h];
+      outline += (points.Approximate(e.to) - points.Approximate(e.from)).norm();
+    }
+    return outline > 0.0 ? 2.0 * area[face] / outline : 0.0;
+  }
 
   bool IsFree(Candidate* cell) {
     if (cell->judgement < 0) {
       // The probe may be anywhere in the window.
       const double reach = 100.0 * (box.max - box.min).maxCoeff();
       std::vector<int> sides = cell->sides;
-      const Vector3d probe = ProbePoint(geometry, area, &sides, reach);
+      int face = 0;
+      const Vector3d probe =
+          ProbePoint(geometry, area, &sides, reach, &cell->gap, &face);
+      // Beside a needle, a point before it need not be in its cell.
+      cell->gap = std::min(cell->gap, Width(face));
       cell->judgement = judge.Collide(0.5 * probe) ? 0 : 1;
       ++judged;
     }
@@ -295,6 +314,52 @@ struct WindowCells::Impl {
     return side.is_zero();
   }
 
+  // Per half-edge: bit k where it lies in a wall across axis k.
+  std::vector<int> WallsOfEdges() const {
+    std::vector<int> walls(arrangement.half_edges.size(), 0);
+    for (const EdgeRing& ring : rings.rings) {
+      int bits = 0;
+      for (int k = ring.begin; k < ring.end; ++k) {
+        const int face = rings.spokes[k].face;
+        if (!IsWall(face)) continue;
+        bits |= 1 << LargestAxis(
+                    convolution.facets[arrangement.faces[face].facet].normal);
+      }
+      for (int k = ring.begin; bits != 0 && k < ring.end; ++k) {
+        walls[rings.spokes[k].half_edge] = bits;
+      }
+    }
+    return walls;
+  }
+
+  // Has a face of the cell an edge in a wall?
+  bool TouchesWall(const Candidate& cell, const std::vector<int>& walls) const {
+    return std::any_of(cell.sides.begin(), cell.sides.end(), [&](int side) {
+      const ArrangementFace& f = arrangement.faces[side / 2];
+      return !IsWall(side / 2) &&
+             std::any_of(walls.begin() + f.begin, walls.begin() + f.end,
+                         [](int bits) { return bits != 0; });
+    });
+  }
+
+  // Adds a face of C_cont.
+  void Write(int face, const std::vector<int>& walls, int cell,
+             SurfacePieceWriter* writer) const {
+    const ArrangementFace& f = arrangement.faces[face];
+    SurfacePiece& piece = writer->piece;
+    const int shift = static_cast<int>(piece.edges.size()) - f.begin;
+    const int side = writer->AddSide(groups.planes[groups.of_facet[f.facet]],
+                                     groups.reversed[f.facet] != 0,
+                                     convolution.facets[f.facet].kind);
+    for (int h = f.begin; h < f.end; ++h) {
+      const HalfEdge& e = arrangement.half_edges[h];
+      const int from = writer->AddPoint(e.from, points[e.from].definition);
+      const int to = writer->AddPoint(e.to, points[e.to].definition);
+      piece.edges.push_back({from, to, e.next + shift, walls[h]});
+    }
+    piece.faces.push_back({side, f.begin + shift, f.end + shift, cell});
+  }
+
   int first_wall;
   BoundingBox box;
   Convolution convolution;
@@ -356,6 +421,29 @@ WindowCells::Nearest WindowCells::FindNearest(const Vector3d& q) {
     break;
   }
   return nearest;
+}
+
+SurfacePiece WindowCells::Surface() {
+  SurfacePieceWriter writer;
+  const std::vector<int> walls = impl_->WallsOfEdges();
+  int thin = 0;  // cells that others have to judge
+  for (Impl::Candidate& cell : impl_->candidates) {
+    const auto is_wall = [&](int side) { return impl_->IsWall(side / 2); };
+    if (std::all_of(cell.sides.begin(), cell.sides.end(), is_wall)) continue;
+    const bool is_free = impl_->IsFree(&cell);
+    const bool is_thin = cell.gap < kSureGap && impl_->TouchesWall(cell, walls);
+    if (!is_free && !is_thin) continue;
+    for (const int side : cell.sides) {
+      if (!is_wall(side)) {
+        impl_->Write(side / 2, walls, is_thin ? thin : -1, &writer);
+      }
+    }
+    thin += is_thin ? 1 : 0;
+  }
+  writer.piece.arranged = impl_->arrangement.faces.size();
+  writer.piece.cells = impl_->candidates.size();
+  writer.piece.judged = static_cast<std::size_t>(impl_->judged);
+  return std::move(writer.piece);
 }
 
 double WindowCells::SurfaceArea() {

@@ -7,6 +7,7 @@
 
 #include "core/minkowski/build_limits.h"
 #include "core/minkowski/solid_collision.h"
+#include "core/minkowski/surface_piece.h"
 #include "core/minkowski/window_convolution.h"
 
 namespace phongpd::internal {
@@ -46,6 +47,9 @@ class WindowCells {
     int facet = -1;  // of the convolution, holds the point
   };
   Nearest FindNearest(const Eigen::Vector3d& q);
+
+  // C_cont in the window; judges every cell that has a facet.
+  SurfacePiece Surface();
 
   // Area of C_cont in the window, grid steps squared; judges every cell.
   double SurfaceArea();

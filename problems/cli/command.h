@@ -43,6 +43,7 @@ Command AddPlan(CLI::App* app);
 Command AddReproduce(CLI::App* app);
 Command AddDepth(CLI::App* app);
 Command AddMerge(CLI::App* app);
+Command AddJoin(CLI::App* app);
 Command AddMinkowski(CLI::App* app);
 Command AddView(CLI::App* app);
 Command AddCompletion(CLI::App* app);

@@ -6,6 +6,8 @@
 #include <string>
 
 #include "core/contact/contact_space.h"
+#include "core/contact/contact_space_piece.h"
+#include "core/mesh/counted.h"
 #include "core/mesh/mesh_io.h"
 #include "core/solid/solid.h"
 #include "planners/exact/verification.h"
@@ -14,6 +16,7 @@
 #include "problems/cli/contact_space_report_json.h"
 #include "problems/cli/flags.h"
 #include "problems/cli/operands.h"
+#include "problems/cli/shard.h"
 #include "problems/meshes/any_mesh.h"
 #include "problems/meshes/operand_notes.h"
 #include "problems/output/output_files.h"
@@ -30,6 +33,7 @@ struct Flags {
   std::string obstacle;
   std::string output;
   std::string report;
+  std::string piece;
   bool outer_shell_only = false;
   bool robot_hull = false;
   std::string target_faces = "0";
@@ -105,7 +109,30 @@ Json VerifySample(const Flags& flags, const TriangleMesh& robot,
           {"seconds", seconds}};
 }
 
+// One part of n, to be joined.
+int BuildAndWritePiece(const Flags& flags) {
+  const Shard part = ParseShard(flags.piece, "--piece");
+  if (flags.output.empty() || !flags.report.empty() || flags.json) {
+    throw InputError(
+        "--piece: expected --output and neither --report nor --json, which "
+        "phongpd join has for the whole, found " +
+        std::string(flags.output.empty() ? "no --output" : "one of them"));
+  }
+  OutputFiles outputs;
+  outputs.Declare(flags.output);
+  const ContactSpaceOptions options = OptionsOf(flags);
+  const ContactSpacePiece piece =
+      BuildContactSpacePiece(LoadMesh(flags.robot), LoadMesh(flags.obstacle),
+                             options, {part.index, part.count});
+  outputs.Write(flags.output, PieceContent(piece));
+  CommitAndTell(&outputs, flags.output + ": piece " + flags.piece + ", " +
+                              Counted(piece.faces(), "face") + " in " +
+                              Counted(piece.boxes(), "box", "boxes") + '\n');
+  return kDone;
+}
+
 int BuildAndWrite(const Flags& flags) {
+  if (!flags.piece.empty()) return BuildAndWritePiece(flags);
   OutputFiles outputs;
   if (!flags.output.empty()) DeclareContactSpace(&outputs, flags.output);
   DeclareIfNamed(&outputs, flags.report, "--report", {".json"});
@@ -163,6 +190,11 @@ Command AddContactSpace(CLI::App* app) {
   AddRepair(app, &flags->repair);
   app->add_flag("--outer-shell-only", flags->outer_shell_only,
                 "Leave out bounded free cavities");
+  app->add_option("--piece", flags->piece,
+                  "Build part i of n, 0 <= i < n, and write it to --output; "
+                  "all n together are what phongpd join makes the contact "
+                  "space of")
+      ->type_name("i/n");
   AddBuildLimits(app, &flags->max_seconds, &flags->max_mib);
   AddVerify(app, &flags->verify);
   AddNoCache(app, &flags->no_cache);
@@ -173,7 +205,9 @@ Command AddContactSpace(CLI::App* app) {
                "phongpd contact-space --robot robot.off --obstacle scan.ply "
                "--repair wrap --target-faces 2000 --output contact.off",
                "phongpd contact-space --robot robot.off --obstacle wrench.stl "
-               "--json | jq .genus"});
+               "--json | jq .genus",
+               "phongpd contact-space --robot robot.off --obstacle scan.ply "
+               "--piece 0/4 --output 0.piece"});
   return [flags] { return BuildAndWrite(*flags); };
 }
 

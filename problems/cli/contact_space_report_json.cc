@@ -111,9 +111,14 @@ std::string Summary(const std::string& file, const ContactSpaceReport& report) {
        << FormatDouble(report.volume) << '\n'
        << "triangle quality: worst " << Rounded(report.worst_quality, 4)
        << ", median " << Rounded(report.median_quality, 4) << '\n'
-       << (report.from_cache ? "from the cache; built in " : "built in ")
-       << Rounded(total, 4) << " s, peak " << Rounded(report.peak_mib, 4)
-       << " MiB, " << report.convolution_triangles << " convolution and "
+       << (report.from_cache ? "from the cache; " : "");
+  if (report.seconds.empty()) {
+    text << "joined, ";  // of pieces, which other processes built
+  } else {
+    text << "built in " << Rounded(total, 4) << " s, peak "
+         << Rounded(report.peak_mib, 4) << " MiB, ";
+  }
+  text << report.convolution_triangles << " convolution and "
        << report.arrangement_faces << " arrangement faces\n";
   return text.str();
 }

@@ -135,6 +135,7 @@ int Run(int argc, char** argv) {
   add("compare", "Compare penetration metrics in the trajectory optimiser",
       AddCompare);
   add("merge", "Join the parts of a comparison", AddMerge);
+  add("join", "Join the pieces of a contact space", AddJoin);
   add("plan", "Plan a path, or prove that there is none", AddPlan);
   add("view", "Look at meshes, scenes, paths, motions and depths", AddView);
   add("scenes", "List or write the procedural scenes", AddScenes);

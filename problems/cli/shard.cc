@@ -17,7 +17,7 @@ constexpr std::uintmax_t kMaxBytes = std::uintmax_t{64} << 20;
 
 }  // namespace
 
-Shard ParseShard(const std::string& text) {
+Shard ParseShard(const std::string& text, const std::string& flag) {
   const std::size_t slash = text.find('/');
   Shard shard;
   try {
@@ -32,7 +32,7 @@ Shard ParseShard(const std::string& text) {
     }
   } catch (const std::logic_error&) {  // no number, or too large
   }
-  throw InputError("--shard: expected i/n with 0 <= i < n, found '" + text +
+  throw InputError(flag + ": expected i/n with 0 <= i < n, found '" + text +
                    "'");
 }
 

@@ -16,8 +16,8 @@ struct Shard {
   bool Has(int problem) const { return problem % count == index; }
 };
 
-// Throws InputError naming --shard.
-Shard ParseShard(const std::string& text);
+// Throws InputError naming the flag.
+Shard ParseShard(const std::string& text, const std::string& flag = "--shard");
 
 // The file beside a part's rows.jsonl that says what part of what it is, and
 // how many rows it has; `settings` are CommandSettings.

@@ -16,6 +16,7 @@
 #include "problems/shapes/random_solids.h"
 #include "problems/shapes/shapes.h"
 #include "results/bench/free_space_measure.h"
+#include "results/bench/guard_measure.h"
 #include "results/bench/program.h"
 
 namespace phongpd::bench {
@@ -60,6 +61,8 @@ struct Options {
   int segments = 20000;
   double max_seconds = 60.0;
   double depth = 0.05;
+  int guard_pairs = 200;
+  bool guard_only = false;
   std::uint64_t seed = 1;
 };
 
@@ -153,7 +156,24 @@ int Run(int argc, char** argv) {
                  "Of a full build that is to be refused")
       ->capture_default_str();
   app.add_option("--seed", options.seed)->capture_default_str();
+  app.add_option("--guard-pairs", options.guard_pairs,
+                 "Pairs that predictions are held to")
+      ->capture_default_str();
+  app.add_flag("--guard-only", options.guard_only,
+               "Only predictions and limits: guard.csv, guard_verdict.csv");
   CLI11_PARSE(app, argc, argv);
+  // In processes of their own, before this one starts threads.
+  const std::vector<GuardRow> guard =
+      MeasureGuard(options.guard_pairs, options.seed);
+  std::cout << ToText(GuardVerdict(guard).table) << std::endl;
+  if (options.guard_only) {
+    OutputDirectory out(options.directory);
+    for (const NamedTable& t : {GuardVerdict(guard), GuardTable(guard)}) {
+      out.Write(t.file, ToCsv(t.table));
+    }
+    out.Commit();
+    return 0;
+  }
   std::vector<Row> rows;
   for (const Case& c : Cases()) {
     rows.push_back(Measure(c, options));
@@ -161,9 +181,10 @@ int Run(int argc, char** argv) {
   }
   std::vector<FreeSpaceRow> free_spaces;
   for (const Row& row : rows) free_spaces.push_back(row.free_space);
-  const std::vector<NamedTable> tables = {TableOf(rows),
-                                          FreeSpaceTable(free_spaces),
-                                          LargePlanTable(options.max_seconds)};
+  const std::vector<NamedTable> tables = {
+      TableOf(rows), FreeSpaceTable(free_spaces),
+      LargePlanTable(options.max_seconds), GuardVerdict(guard),
+      GuardTable(guard)};
   OutputDirectory out(options.directory);
   WriteReport(
       tables, {},

@@ -231,27 +231,36 @@ TEST(ExactPoints, HaveOneIdHoweverTheyAreDefined) {
   EXPECT_EQ(stored, distinct);
 }
 
-TEST(ExactPoints, KeepIntegerCoordinatesExactly) {
+TEST(NearestDoubles, DependOnThePointAlone) {
   const std::int64_t n = (std::int64_t{1} << 38) - 3;
   for (const PointDefinition& d : SamePointThreeWays({n, -n, 5})) {
-    LocatedPoint p = internal::Locate(d);
-    p.approximate += Eigen::Vector3d::Constant(0.5 * internal::kPointError);
-    if (d.kind == PointDefinition::kVertex) continue;  // as they are
     EXPECT_EQ(
-        internal::WithExactIntegers(p),
+        internal::NearestDoubles(d),
         Eigen::Vector3d(static_cast<double>(n), static_cast<double>(-n), 5.0));
+    EXPECT_EQ(internal::NearestDoubles(d, 2),
+              Eigen::Vector3d(0.5 * static_cast<double>(n),
+                              -0.5 * static_cast<double>(n), 2.5));
   }
-  // Only where they are: x = n + 2^-42 stays what it was.
-  PointDefinition d;
-  d.kind = PointDefinition::kEdge;
-  d.a = {n, 0, 0};
-  d.b = {n + 1, 0, 0};
-  d.side_a = 1;
-  d.side_b = -((internal::Int128{1} << 42) - 1);
-  LocatedPoint p = internal::Locate(d);
-  p.approximate[0] = static_cast<double>(n) + 0x1p-12;
-  EXPECT_EQ(internal::WithExactIntegers(p)[0], p.approximate[0]);
-  EXPECT_EQ(internal::WithExactIntegers(p)[1], 0.0);
+}
+
+TEST(NearestDoubles, AreNearestWithTiesToEven) {
+  // x = t on the edge from 0 to 1, t = a/(a + b).
+  const auto nearest = [](internal::Int128 a, internal::Int128 b) {
+    PointDefinition d;
+    d.kind = PointDefinition::kEdge;
+    d.b = {1, -1, 0};
+    d.side_a = a;
+    d.side_b = -b;
+    return internal::NearestDoubles(d);
+  };
+  EXPECT_EQ(nearest(1, 2), Eigen::Vector3d(1.0 / 3, -1.0 / 3, 0.0));
+  EXPECT_EQ(nearest(2, 1)[0], 2.0 / 3);
+  EXPECT_EQ(nearest(3, 7)[0], 0.3);
+  // Half way between two doubles, and a little more.
+  const internal::Int128 one = internal::Int128{1} << 54;
+  EXPECT_EQ(nearest(one / 2 + 1, one / 2 - 1)[0], 0.5 + 0x1p-53 - 0x1p-53);
+  EXPECT_EQ(nearest(one / 2 + 3, one / 2 - 3)[0], 0.5 + 0x1p-52);
+  EXPECT_EQ(nearest(2 * one + 5, 2 * one - 5)[0], 0.5 + 0x1p-53);
 }
 
 }  // namespace

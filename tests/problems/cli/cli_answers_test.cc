@@ -169,7 +169,7 @@ TEST_F(CliAnswers, ViewsAndReproductionsTellWhatTheyHold) {
 TEST_F(CliAnswers, EveryCommandShowsExamplesAndTakesJson) {
   for (const std::string command :
        {"check", "depth", "minkowski", "contact-space", "query", "motion",
-        "optimize", "compare", "merge", "plan", "view", "scenes list",
+        "optimize", "compare", "merge", "join", "plan", "view", "scenes list",
         "scenes write", "reproduce"}) {
     const Outcome help = Run(command + " --help");
     EXPECT_EQ(help.code, 0) << command;

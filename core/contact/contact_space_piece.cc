@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/contact/contact_space_piece.h"
+
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <map>
+#include <utility>
+
+#include "core/contact/build_stages.h"
+#include "core/contact/contact_space_bytes.h"
+#include "core/contact/piece_data.h"
+#include "core/mesh/mesh_error.h"
+#include "core/minkowski/build_limits.h"
+#include "core/minkowski/operand.h"
+#include "core/minkowski/surface_join.h"
+#include "core/minkowski/window_plan.h"
+#include "core/solid/solid.h"
+
+namespace phongpd {
+namespace {
+
+using internal::OperandRole;
+using internal::PlannedWindow;
+using internal::SurfacePiece;
+
+void Require(bool is_met, const std::string& message) {
+  if (!is_met) throw InputError(message);
+}
+
+std::string ToText(PieceNumber number) {
+  return std::to_string(number.index) + '/' + std::to_string(number.count);
+}
+
+// All that pieces of one build have in common, whatever its files are called
+// and whatever it may cost.
+internal::ContentHash DigestOf(const TriangleMesh& robot,
+                               const TriangleMesh& obstacle,
+                               ContactSpaceOptions options,
+                               std::size_t facets_of_box) {
+  options.max_seconds = options.max_mib = 0.0;
+  options.robot_name = options.obstacle_name = "";
+  return internal::HashContent(internal::KeyBytes(robot, obstacle, options) +
+                               std::to_string(facets_of_box));
+}
+
+// The windows of one part: a run of them, of an even share of all facets.
+std::vector<PlannedWindow> ShareOf(std::vector<PlannedWindow> windows,
+                                   PieceNumber number) {
+  double all = 0.0;
+  for (const PlannedWindow& w : windows) {
+    all += static_cast<double>(w.facets.size());
+  }
+  std::vector<PlannedWindow> share;
+  double before = 0.0;
+  for (PlannedWindow& w : windows) {
+    const auto facets = static_cast<double>(w.facets.size());
+    const double middle = (before + 0.5 * facets) / all * number.count;
+    before += facets;
+    if (static_cast<int>(middle) == number.index) {
+      share.push_back(std::move(w));
+    }
+  }
+  return share;
+}
+
+// One window at a time for each thread.
+std::vector<SurfacePiece> ArrangeWindows(
+    const std::vector<PlannedWindow>& windows,
+    const internal::Convolution& convolution,
+    const internal::SolidCollision& judge,
+    const internal::BuildLimits& limits) {
+  std::vector<SurfacePiece> pieces(windows.size());
+  tbb::parallel_for(std::size_t{0}, windows.size(), [&](std::size_t i) {
+    tbb::this_task_arena::isolate([&] {
+      pieces[i] =
+          internal::WindowCells(internal::PartOf(convolution, windows[i]),
+                                windows[i].window, judge, limits)
+              .Surface();
+    });
+  });
+  return pieces;
+}
+
+// Each part once, all of one build; by number.
+std::map<int, const ContactSpacePiece::Data*> Sorted(
+    const std::vector<ContactSpacePiece>& pieces) {
+  Require(!pieces.empty(), "join: expected pieces, found none");
+  const ContactSpacePiece::Data& first = pieces[0].data();
+  std::map<int, const ContactSpacePiece::Data*> sorted;
+  for (const ContactSpacePiece& piece : pieces) {
+    const ContactSpacePiece::Data& data = piece.data();
+    Require(
+        data.build == first.build && data.number.count == first.number.count,
+        data.name + ": expected a piece of the build that " + first.name +
+            " is of (" + std::to_string(first.number.count) +
+            " pieces), found one of another");
+    const auto [at, is_new] = sorted.emplace(data.number.index, &data);
+    Require(is_new, data.name + ": expected every piece once, found " +
+                        ToText(data.number) + " in " + at->second->name +
+                        ", too");
+  }
+  std::string missing;
+  for (int i = 0; i < first.number.count; ++i) {
+    if (sorted.count(i) != 0) continue;
+    missing += (missing.empty() ? "" : ", ") + ToText({i, first.number.count});
+  }
+  Require(missing.empty(),
+          "join: expected all " + std::to_string(first.number.count) +
+              " pieces, found " + std::to_string(sorted.size()) + "; without " +
+              missing);
+  return sorted;
+}
+
+}  // namespace
+
+PieceNumber ContactSpacePiece::number() const { return data_->number; }
+std::size_t ContactSpacePiece::boxes() const { return data_->boxes.size(); }
+std::size_t ContactSpacePiece::faces() const {
+  std::size_t count = 0;
+  for (const SurfacePiece& box : data_->boxes) count += box.faces.size();
+  return count;
+}
+
+ContactSpacePiece internal::BuildPiece(const TriangleMesh& robot,
+                                       const TriangleMesh& obstacle,
+                                       const ContactSpaceOptions& options,
+                                       PieceNumber number,
+                                       std::size_t facets_of_box) {
+  Require(0 <= number.index && number.index < number.count,
+          "piece: expected i/n with 0 <= i < n, found " + ToText(number));
+  Require(options.merge_coplanar,
+          "merge_coplanar: expected true for a piece of a contact space, found "
+          "false; build the whole");
+  auto data = std::make_shared<ContactSpacePiece::Data>();
+  ContactSpaceReport& report = data->report;
+  StageClock clock(&report);
+  BuildLimits limits(options);
+  limits.ObserveCancellation();
+  data->name = "piece " + ToText(number);
+  data->build = DigestOf(robot, obstacle, options, facets_of_box);
+  data->number = number;
+  data->outer_shell_only = options.outer_shell_only;
+
+  const Solid a = PrepareOperand(robot, OperandRole::kRobot, options, &report);
+  const Solid b =
+      PrepareOperand(obstacle, OperandRole::kObstacle, options, &report);
+  const GridPair pair = PlaceOperands(a, b, &report);
+  DescribeGrid(pair, &report);
+  data->frame = pair.frame;
+  data->frame.robot.clear();
+  data->frame.obstacle.clear();
+  Convolution convolution =
+      ReducedConvolution(pair.obstacle, pair.reflected_robot, &limits);
+  report.convolution_triangles = convolution.facets.size();
+  PlaneGroups groups = GroupAndName(&convolution);
+  const OccupiedRegion occupied(pair.obstacle, pair.reflected_robot,
+                                convolution, limits);
+  DropOccupied(occupied, &convolution, &groups);
+  clock.Finish("convolution");
+  const std::vector<PlannedWindow> windows =
+      ShareOf(PlanWindows(convolution, occupied, facets_of_box), number);
+  const SolidCollision judge(pair.obstacle, pair.reflected_robot);
+  data->boxes = ArrangeWindows(windows, convolution, judge, limits);
+  clock.Finish("boxes");
+  return ContactSpacePiece(std::move(data));
+}
+
+ContactSpacePiece BuildContactSpacePiece(const TriangleMesh& robot,
+                                         const TriangleMesh& obstacle,
+                                         const ContactSpaceOptions& options,
+                                         PieceNumber number) {
+  return internal::BuildPiece(robot, obstacle, options, number,
+                              internal::kFacetsOfBox);
+}
+
+ContactSpace JoinContactSpace(const std::vector<ContactSpacePiece>& pieces) {
+  const auto sorted = Sorted(pieces);
+  const ContactSpacePiece::Data& first = *sorted.begin()->second;
+  std::vector<SurfacePiece> boxes;
+  for (const auto& [index, data] : sorted) {
+    boxes.insert(boxes.end(), data->boxes.begin(), data->boxes.end());
+  }
+  internal::AssemblyOptions options;
+  options.outer_only = first.outer_shell_only;
+  options.units_per_step = 2;
+  const internal::JoinedSurface joined = internal::JoinPieces(boxes, options);
+
+  ContactSpace::Parts out;
+  ContactSpaceReport& report = out.report;
+  report = first.report;
+  for (const SurfacePiece& box : boxes) {
+    report.arrangement_faces += box.arranged;
+    report.cells += box.cells;
+    report.judged_cells += box.judged;
+  }
+  report.cavities = joined.cavities;
+  if (first.outer_shell_only) {
+    ApproximationStep step;
+    step.kind = "outer-shell";
+    step.dropped_cavities = joined.cavities;
+    internal::AddStep(step, &report.approximation);
+  }
+  internal::StageClock clock(&report);
+  internal::WriteSurface(joined.surface, joined.sides, joined.groups,
+                         joined.points, first.frame, &clock, &out);
+  report.seconds.clear();
+  report.peak_mib = 0.0;
+  return ContactSpace(std::move(out));
+}
+
+}  // namespace phongpd

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "core/contact/contact_space_piece.h"
+#include "core/contact/content_hash.h"
+#include "core/minkowski/grid_frame.h"
+#include "core/minkowski/surface_piece.h"
+
+namespace phongpd {
+
+struct ContactSpacePiece::Data {
+  std::string name;             // for errors; not in the file
+  internal::ContentHash build;  // operands, options, size of boxes, builder
+  PieceNumber number;
+  bool outer_shell_only = false;
+  internal::GridFrame frame;  // without the operands' vertices
+  ContactSpaceReport report;  // what is known of operands and convolution
+  std::vector<internal::SurfacePiece> boxes;
+};
+
+namespace internal {
+
+// Facets of the convolution in a box, at the most where that can be had.
+inline constexpr std::size_t kFacetsOfBox = 4096;
+
+// BuildContactSpacePiece with boxes of another size.
+ContactSpacePiece BuildPiece(const TriangleMesh& robot,
+                             const TriangleMesh& obstacle,
+                             const ContactSpaceOptions& options,
+                             PieceNumber number, std::size_t facets_of_box);
+
+}  // namespace internal
+}  // namespace phongpd

@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/minkowski/occupied_region.h"
+
+#include <tbb/parallel_for.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "core/bvh/triangle_bvh.h"
+#include "core/mesh/union_find.h"
+#include "core/minkowski/window_convolution.h"
+
+namespace phongpd::internal {
+namespace {
+
+using Eigen::Vector3d;
+
+// Points of each operand that are tried.
+constexpr std::size_t kSamples = 192;
+// A box with fewer facets is not worth splitting.
+constexpr std::size_t kFewFacets = 40;
+constexpr int kMaxDepth = 6;
+// Boxes are taken larger by this: far above all rounding, of the distances and
+// of the points that are asked about.
+constexpr double kMarginSteps = 0x1p-4;
+constexpr double kMarginShare = 1e-9;
+
+BoundingBox ChildOf(const BoundingBox& box, int child) {
+  const Vector3d center = box.Center();
+  BoundingBox out = box;
+  for (int k = 0; k < 3; ++k) {
+    ((child >> k & 1) != 0 ? out.min : out.max)[k] = center[k];
+  }
+  return out;
+}
+
+// The grid solid as a mesh that can be searched; coordinates stay exact.
+TriangleBvh BvhOf(const GridSolid& solid) {
+  TriangleMesh mesh;
+  mesh.vertices.reserve(solid.vertices.size());
+  for (const GridPoint& v : solid.vertices) {
+    mesh.vertices.push_back(ToDouble(v));
+  }
+  mesh.triangles = solid.facets;
+  return TriangleBvh(mesh);
+}
+
+// Does a component face inwards, or enclose nothing?  Where such ones overlap,
+// parity does not tell what is inside, nor is all of the surface the solid's.
+bool HasCavity(const GridSolid& solid) {
+  UnionFind sets(solid.vertices.size());
+  for (const Triangle& t : solid.facets) {
+    sets.Join(t[0], t[1]);
+    sets.Join(t[0], t[2]);
+  }
+  std::map<int, double> volumes;
+  for (const Triangle& t : solid.facets) {
+    const int component = sets.Find(t[0]);
+    const Vector3d origin = ToDouble(solid.vertices[component]);
+    const Vector3d a = ToDouble(solid.vertices[t[0]]) - origin;
+    const Vector3d b = ToDouble(solid.vertices[t[1]]) - origin;
+    const Vector3d c = ToDouble(solid.vertices[t[2]]) - origin;
+    volumes[component] += a.dot(b.cross(c));
+  }
+  return std::any_of(volumes.begin(), volumes.end(),
+                     [](const auto& v) { return !(v.second > 0.0); });
+}
+
+// Corners, edges' and facets' middles, an even choice of each.
+std::vector<Vector3d> SurfacePoints(const GridSolid& solid) {
+  const auto at = [&](int v) { return ToDouble(solid.vertices[v]); };
+  std::vector<Vector3d> corners, edges, facets, out;
+  for (std::size_t v = 0; v < solid.vertices.size(); ++v) {
+    if (!solid.neighbors[v].empty())
+      corners.push_back(ToDouble(solid.vertices[v]));
+  }
+  for (const GridEdge& e : solid.edges) {
+    edges.push_back(0.5 * (at(e.a) + at(e.b)));
+  }
+  for (const Triangle& t : solid.facets) {
+    facets.push_back((at(t[0]) + at(t[1]) + at(t[2])) / 3.0);
+  }
+  for (const std::vector<Vector3d>* points : {&corners, &edges, &facets}) {
+    const std::size_t most = std::min(points->size(), kSamples / 3);
+    for (std::size_t i = 0; i < most; ++i) {
+      out.push_back((*points)[i * points->size() / most]);
+    }
+  }
+  return out;
+}
+
+// A point of one operand and how deep the box's center, moved by it, is known
+// to lie in the other at the most; < 0 outside.
+struct Sample {
+  double depth;
+  int solid, point;
+};
+
+}  // namespace
+
+struct OccupiedRegion::Builder {
+  Builder(const GridSolid& p, const GridSolid& q,
+          const Convolution& the_convolution, const BuildLimits& the_limits)
+      : convolution(the_convolution),
+        limits(the_limits),
+        solids{BvhOf(p), BvhOf(q)},
+        points{SurfacePoints(q), SurfacePoints(p)} {}
+
+  // Of the box's center, moved, in the solid.
+  double DepthOf(const Sample& s, const Vector3d& center) const {
+    const Vector3d x = center - points[s.solid][s.point];
+    const double distance = solids[s.solid].FindClosest(x).distance;
+    return solids[s.solid].Locate(x) == Location::kInside ? distance
+                                                          : -distance;
+  }
+
+  void Corners(int facet, Vector3d corners[3]) const {
+    for (int k = 0; k < 3; ++k) {
+      corners[k] =
+          ToDouble(convolution.points[convolution.facets[facet].corners[k]]);
+    }
+  }
+
+  // `samples` by depth, deepest first, as known at `seen`.
+  void Build(const BoundingBox& box, const std::vector<int>& facets,
+             std::vector<Sample> samples, const Vector3d& seen, int depth,
+             Node* node) const {
+    limits.Look("culling");
+    const Vector3d center = box.Center();
+    const double radius = 0.5 * box.Diagonal() + margin;
+    const double moved = (center - seen).norm();
+    for (Sample& s : samples) {
+      s.depth += moved;
+      if (s.depth <= radius) continue;
+      s.depth = DepthOf(s, center);
+      if (s.depth <= radius) continue;
+      node->is_occupied = true;
+      return;
+    }
+    if (depth == kMaxDepth) return;
+    samples.erase(
+        std::remove_if(samples.begin(), samples.end(),
+                       [radius](const Sample& s) { return s.depth < -radius; }),
+        samples.end());
+    if (samples.empty()) return;
+    std::stable_sort(
+        samples.begin(), samples.end(),
+        [](const Sample& a, const Sample& b) { return a.depth > b.depth; });
+    node->children = std::make_unique<std::array<Node, 8>>();
+    tbb::parallel_for(0, 8, [&](int child) {
+      const BoundingBox part = ChildOf(box, child);
+      std::vector<int> inside;
+      for (const int f : facets) {
+        Vector3d corners[3];
+        Corners(f, corners);
+        if (!IsClearlyApart(corners, part)) inside.push_back(f);
+      }
+      if (inside.size() < kFewFacets) return;
+      Build(part, inside, samples, center, depth + 1,
+            &(*node->children)[child]);
+    });
+  }
+
+  const Convolution& convolution;
+  const BuildLimits& limits;
+  std::array<TriangleBvh, 2> solids;
+  std::array<std::vector<Vector3d>, 2> points;  // to move into each solid
+  double margin = 0.0;
+};
+
+OccupiedRegion::OccupiedRegion(const GridSolid& p, const GridSolid& q,
+                               const Convolution& convolution,
+                               const BuildLimits& limits) {
+  if (HasCavity(p) || HasCavity(q)) return;
+  std::vector<int> facets;
+  Builder builder(p, q, convolution, limits);
+  for (std::size_t f = 0; f < convolution.facets.size(); ++f) {
+    Vector3d corners[3];
+    builder.Corners(static_cast<int>(f), corners);
+    for (int k = 0; k < 3; ++k) {
+      if (f == 0 && k == 0) bounds_ = {corners[0], corners[0]};
+      bounds_.min = bounds_.min.cwiseMin(corners[k]);
+      bounds_.max = bounds_.max.cwiseMax(corners[k]);
+    }
+    facets.push_back(static_cast<int>(f));
+  }
+  builder.margin = std::max(kMarginSteps, kMarginShare * bounds_.Diagonal());
+  std::vector<Sample> samples;
+  for (int solid = 0; solid < 2; ++solid) {
+    for (std::size_t i = 0; i < builder.points[solid].size(); ++i) {
+      Sample s{0.0, solid, static_cast<int>(i)};
+      s.depth = builder.DepthOf(s, bounds_.Center());
+      samples.push_back(s);
+    }
+  }
+  root_ = std::make_unique<Node>();
+  builder.Build(bounds_, facets, std::move(samples), bounds_.Center(), 0,
+                root_.get());
+}
+
+template <typename Meets>
+bool OccupiedRegion::ContainsPart(const Node& node, const BoundingBox& box,
+                                  const Meets& meets) {
+  if (node.is_occupied || !meets(box)) return true;
+  if (node.children == nullptr) return false;
+  for (int child = 0; child < 8; ++child) {
+    if (!ContainsPart((*node.children)[child], ChildOf(box, child), meets)) {
+      return false;
+    }
+  }
+  return true;
+}
+
+bool OccupiedRegion::Contains(const BoundingBox& box) const {
+  const auto meets = [&box](const BoundingBox& node) {
+    return (node.min.array() <= box.max.array()).all() &&
+           (node.max.array() >= box.min.array()).all();
+  };
+  return root_ != nullptr && ContainsPart(*root_, bounds_, meets) &&
+         (box.min.array() >= bounds_.min.array()).all() &&
+         (box.max.array() <= bounds_.max.array()).all();
+}
+
+bool OccupiedRegion::Contains(const Vector3d corners[3]) const {
+  const auto meets = [corners](const BoundingBox& node) {
+    return !IsClearlyApart(corners, node);
+  };
+  return root_ != nullptr && ContainsPart(*root_, bounds_, meets);
+}
+
+}  // namespace phongpd::internal

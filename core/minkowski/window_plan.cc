@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/minkowski/window_plan.h"
+
+#include <algorithm>
+#include <cmath>
+#include <unordered_map>
+#include <utility>
+
+namespace phongpd::internal {
+namespace {
+
+using Eigen::Vector3d;
+
+// Half steps: a narrower window has no odd coordinate between its walls.
+constexpr std::int64_t kLeastWidth = 4;
+// A window of which both halves meet more of its facets than this is not split.
+constexpr double kUseless = 0.95;
+
+void Corners(const Convolution& convolution, int facet, Vector3d corners[3]) {
+  for (int k = 0; k < 3; ++k) {
+    corners[k] =
+        ToDouble(convolution.points[convolution.facets[facet].corners[k]]);
+  }
+}
+
+class Planner {
+ public:
+  Planner(const Convolution& convolution, const OccupiedRegion& occupied,
+          std::size_t most_facets, std::vector<PlannedWindow>* out)
+      : convolution_(convolution),
+        occupied_(occupied),
+        most_facets_(most_facets),
+        out_(out) {}
+
+  void Split(PlannedWindow whole) {
+    if (whole.facets.empty() || occupied_.Contains(whole.window.Box())) return;
+    const GridPoint size = whole.window.max - whole.window.min;
+    const int axis = LargestAxis(size);
+    if (whole.facets.size() <= most_facets_ || size[axis] < kLeastWidth) {
+      out_->push_back(std::move(whole));
+      return;
+    }
+    const std::int64_t middle =
+        (whole.window.min[axis] + size[axis] / 2) | 1;  // odd, as all walls
+    PlannedWindow low{whole.window, {}}, high{whole.window, {}};
+    low.window.max[axis] = high.window.min[axis] = middle;
+    Distribute(whole, &low);
+    Distribute(whole, &high);
+    const auto all = static_cast<double>(whole.facets.size());
+    const auto less =
+        static_cast<double>(std::min(low.facets.size(), high.facets.size()));
+    if (less > kUseless * all) {
+      out_->push_back(std::move(whole));
+      return;
+    }
+    whole.facets = {};
+    Split(std::move(low));
+    Split(std::move(high));
+  }
+
+ private:
+  void Distribute(const PlannedWindow& whole, PlannedWindow* part) const {
+    const BoundingBox box = part->window.Box();
+    for (const int f : whole.facets) {
+      Vector3d corners[3];
+      Corners(convolution_, f, corners);
+      if (!IsClearlyApart(corners, box)) part->facets.push_back(f);
+    }
+  }
+
+  const Convolution& convolution_;
+  const OccupiedRegion& occupied_;
+  std::size_t most_facets_;
+  std::vector<PlannedWindow>* out_;
+};
+
+}  // namespace
+
+std::vector<PlannedWindow> PlanWindows(const Convolution& convolution,
+                                       const OccupiedRegion& occupied,
+                                       std::size_t most_facets) {
+  PlannedWindow all;
+  for (std::size_t f = 0; f < convolution.facets.size(); ++f) {
+    all.facets.push_back(static_cast<int>(f));
+    for (const int corner : convolution.facets[f].corners) {
+      const GridPoint& p = convolution.points[corner];
+      for (int k = 0; k < 3; ++k) {
+        const bool first = f == 0 && corner == convolution.facets[0].corners[0];
+        const std::int64_t low = 2 * p[k] - 1, high = 2 * p[k] + 1;
+        all.window.min[k] = first ? low : std::min(all.window.min[k], low);
+        all.window.max[k] = first ? high : std::max(all.window.max[k], high);
+      }
+    }
+  }
+  std::vector<PlannedWindow> windows;
+  Planner(convolution, occupied, most_facets, &windows).Split(std::move(all));
+  return windows;
+}
+
+WindowConvolution PartOf(const Convolution& convolution,
+                         const PlannedWindow& window) {
+  WindowConvolution out;
+  std::unordered_map<int, int> numbers;
+  for (const int f : window.facets) {
+    ConvolutionFacet facet = convolution.facets[f];
+    for (int& corner : facet.corners) {
+      const auto [it, is_new] = numbers.emplace(
+          corner, static_cast<int>(out.convolution.points.size()));
+      if (is_new) out.convolution.points.push_back(convolution.points[corner]);
+      corner = it->second;
+    }
+    out.convolution.facets.push_back(facet);
+  }
+  return out;
+}
+
+}  // namespace phongpd::internal

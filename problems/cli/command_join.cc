@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "core/contact/contact_space_piece.h"
+#include "core/mesh/input_file.h"
+#include "core/mesh/mesh_io.h"
+#include "problems/cli/command.h"
+#include "problems/cli/contact_space_file.h"
+#include "problems/cli/contact_space_report_json.h"
+#include "problems/cli/flags.h"
+#include "problems/output/output_files.h"
+
+namespace phongpd::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct Flags {
+  std::vector<std::string> pieces;
+  std::string output;
+  std::string report;
+  bool json = false;
+};
+
+int Join(const Flags& flags) {
+  OutputFiles outputs;
+  if (!flags.output.empty()) DeclareContactSpace(&outputs, flags.output);
+  DeclareIfNamed(&outputs, flags.report, "--report", {".json"});
+  if (flags.json) RequireFreeStandardOutput(outputs);
+  std::vector<ContactSpacePiece> pieces;
+  for (const std::string& path : flags.pieces) {
+    pieces.push_back(ParsePiece(
+        ReadInputFile(path, "a piece of a contact space", kMaxMeshBytes),
+        path));
+  }
+  const ContactSpace space = JoinContactSpace(pieces);
+  pieces.clear();
+  if (!flags.output.empty()) WriteContactSpaceTo(&outputs, flags.output, space);
+  const ContactSpaceReport& found = space.report();
+  Json report = ToJson(found);
+  report["robot"] = ToJson(found.robot, found.robot_repair, "robot");
+  report["obstacle"] =
+      ToJson(found.obstacle, found.obstacle_repair, "obstacle");
+  const std::string text = report.dump(2) + '\n';
+  if (!flags.report.empty()) outputs.Write(flags.report, text);
+  CommitAndTell(&outputs, flags.json ? text : Summary(flags.output, found));
+  return kDone;
+}
+
+}  // namespace
+
+Command AddJoin(CLI::App* app) {
+  auto flags = std::make_shared<Flags>();
+  app->add_option("pieces", flags->pieces,
+                  "Files that contact-space --piece i/n wrote: all n, in any "
+                  "order")
+      ->required()
+      ->type_name("FILE");
+  app->add_option("--output", flags->output,
+                  "Contact space, as contact-space writes it: a mesh, or a "
+                  ".pcs file; if not set, only what was built is told")
+      ->type_name("FILE");
+  app->add_option("--report", flags->report, "What was built, as JSON")
+      ->type_name("FILE");
+  AddJson(app, &flags->json, "The report on standard output");
+  AddExamples(
+      app,
+      {"for i in 0 1 2 3; do phongpd contact-space --robot robot.off "
+       "--obstacle scan.ply --piece $i/4 --output $i.piece & done; wait",
+       "phongpd join *.piece --output contact.pcs"},
+      "The result is that of one whole build, to the last bit.  A piece that "
+      "is lost, repeated, cut short or of another build is named, and nothing "
+      "is written.");
+  return [flags] { return Join(*flags); };
+}
+
+}  // namespace phongpd::cli

@@ -1,0 +1,266 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "results/bench/guard_measure.h"
+
+#include <sys/resource.h>
+#include <tbb/global_control.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <functional>
+#include <iostream>
+#include <nlohmann/json.hpp>
+#include <random>
+#include <utility>
+
+#include "core/contact/contact_space.h"
+#include "core/minkowski/build_refusal.h"
+#include "core/stopwatch.h"
+#include "problems/shapes/random_solids.h"
+#include "problems/shapes/shapes.h"
+#include "results/bench/child_process.h"
+#include "results/bench/free_space_measure.h"
+
+namespace phongpd::bench {
+namespace {
+
+using Json = nlohmann::json;
+
+// A build that takes longer, wall time on a busy machine, is not measured.
+constexpr double kLimit = 120.0;
+// What is cheaper is no matter for a guard, nor can it be measured.
+constexpr double kLeastSeconds = 0.05;
+constexpr double kLeastMib = 16.0;
+
+struct Shape {
+  const char* name;
+  std::function<TriangleMesh()> make;
+};
+
+const std::vector<Shape>& Shapes() {
+  static const std::vector<Shape> shapes = {
+      {"box",
+       [] {
+         return MakeBox({-1, -1, -1}, {1, 1, 1});
+       }},
+      {"ball 220", [] { return MakeUvBall(1.0, 12, 11); }},
+      {"ball 1280", [] { return MakeIcoBall(1.0, 3); }},
+      {"cone", [] { return MakeCone(0.8, 1.6, 40); }},
+      {"axes", [] { return MakeAxes(1.0, 0.15); }},
+      {"wrench 192", [] { return MakeWrench(1.0, 12, 12, 8, 8); }},
+      {"wrench 772", [] { return MakeWrench(); }},
+      {"torus 576", [] { return MakeTorus(1.0, 0.35, 24, 12); }},
+      {"torus 2400", [] { return MakeTorus(1.0, 0.35, 60, 20); }},
+      {"L", [] { return MakeL(1, 0.3, 0.5); }},
+      {"U", [] { return MakeU(2, 0.5, 1); }},
+      {"plate", [] { return MakePlateWithRoundHole(2, 0.4, 0.6, 32); }},
+      {"prism", [] { return MakePrism(0.5, 2.0, 24); }},
+      {"vessel", [] { return MakeVessel(2, 1.6, 0.5); }},
+      {"star", [] { return MakeStar(0.5, 1.2); }},
+      {"blob 320", [] { return MakeBlob(1, 2, 0.35, 5); }},
+      {"blob 1280", [] { return MakeBlob(1, 3, 0.35, 1); }},
+      {"blob 5120", [] { return MakeBlob(1, 4, 0.35, 2); }},
+      {"knot 768", [] { return MakeKnot(0.4, 0.16, 48, 8); }},
+      {"knot 1536", [] { return MakeKnot(0.4, 0.18, 96, 8); }},
+      {"scanned torus",
+       [] { return MakeScan(MakeTorus(1, 0.35, 40, 20), 0.1, 0.002, 3); }},
+      {"scanned L", [] { return MakeScan(MakeL(1, 0.3, 0.5), 0.1, 0.002, 3); }},
+  };
+  return shapes;
+}
+
+struct Pair {
+  const Shape *robot, *obstacle;
+  double scale;  // of the robot
+  bool is_turned;
+  std::uint64_t seed;
+
+  TriangleMesh Robot() const {
+    std::mt19937_64 random(seed);
+    TriangleMesh mesh = Scaled(robot->make(), scale);
+    return is_turned ? Rotated(mesh, RandomRotation(&random)) : mesh;
+  }
+};
+
+std::vector<Pair> Pairs(int count, std::uint64_t seed) {
+  std::mt19937_64 random(seed);
+  std::uniform_int_distribution<std::size_t> any(0, Shapes().size() - 1);
+  std::uniform_real_distribution<double> scale(0.15, 1.0);
+  std::vector<Pair> pairs;
+  for (int i = 0; i < count; ++i) {
+    const Shape& robot = Shapes()[any(random)];
+    const Shape& obstacle = Shapes()[any(random)];
+    pairs.push_back({&robot, &obstacle, scale(random), i % 4 != 0, random()});
+  }
+  return pairs;
+}
+
+double ResidentMib() {
+  std::ifstream in("/proc/self/statm");
+  double all = 0.0, resident = 0.0;
+  in >> all >> resident;
+  return resident * static_cast<double>(sysconf(_SC_PAGESIZE)) / 0x1p20;
+}
+
+double PeakMib() {
+  rusage usage;
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<double>(usage.ru_maxrss) / 1024.0;
+}
+
+// In a child: builds with the limits and says what it took.
+Json Build(const Pair& pair, double max_seconds, double max_mib) {
+  const tbb::global_control one(tbb::global_control::max_allowed_parallelism,
+                                1);
+  const TriangleMesh robot = pair.Robot(), obstacle = pair.obstacle->make();
+  ContactSpaceOptions options;
+  options.max_seconds = max_seconds;
+  options.max_mib = max_mib;
+  Json out = {{"a", robot.triangles.size()}, {"b", obstacle.triangles.size()}};
+  const double before = ResidentMib(), start = CpuSeconds();
+  const Stopwatch stopwatch;
+  try {
+    const ContactSpace space = BuildContactSpace(robot, obstacle, options);
+    const ContactSpaceReport& report = space.report();
+    out["refused"] = false;
+    out["facets"] = report.convolution_triangles;
+    out["faces"] = report.arrangement_faces;
+    out["triangles"] = report.triangles;
+    out["predicted"] = {report.predicted.meetings,
+                        report.predicted.arrangement_faces,
+                        report.predicted.seconds, report.predicted.mib};
+  } catch (const BuildRefusal&) {
+    out["refused"] = true;
+  }
+  out["wall"] = stopwatch.Seconds();
+  out["seconds"] = CpuSeconds() - start;
+  out["mib"] = PeakMib() - before;
+  return out;
+}
+
+// Null where the child did not come to an end.
+Json BuildInChild(const Pair& pair, double max_seconds, double max_mib) {
+  const ChildOutcome outcome = RunInChild(
+      [&] { return Build(pair, max_seconds, max_mib).dump(); }, kLimit);
+  if (outcome.status != ChildStatus::kDone) {
+    std::cout << pair.robot->name << " + " << pair.obstacle->name << ": "
+              << (outcome.status == ChildStatus::kStopped ? "stopped"
+                                                          : outcome.output)
+              << std::endl;
+    return nullptr;
+  }
+  return Json::parse(outcome.output);
+}
+
+double Factor(double predicted, double found, double least) {
+  const double a = std::max(predicted, least), b = std::max(found, least);
+  return std::max(a / b, b / a);
+}
+
+}  // namespace
+
+std::vector<GuardRow> MeasureGuard(int pairs, std::uint64_t seed) {
+  std::vector<GuardRow> rows;
+  for (const Pair& pair : Pairs(pairs, seed)) {
+    const Json whole = BuildInChild(pair, 0.0, 0.0);
+    if (whole.is_null()) continue;
+    GuardRow row;
+    row.robot = pair.robot->name;
+    row.obstacle = pair.obstacle->name;
+    row.robot_triangles = whole["a"];
+    row.obstacle_triangles = whole["b"];
+    row.facets = whole["facets"];
+    row.faces = whole["faces"];
+    row.triangles = whole["triangles"];
+    row.seconds = whole["seconds"];
+    row.mib = whole["mib"];
+    row.predicted_meetings = whole["predicted"][0];
+    row.predicted_faces = whole["predicted"][1];
+    row.predicted_seconds = whole["predicted"][2];
+    row.predicted_mib = whole["predicted"][3];
+    if (row.seconds > 2.0 * kLeastSeconds) {
+      const double limit = 0.5 * row.seconds;
+      const Json stopped = BuildInChild(pair, limit, 0.0);
+      if (!stopped.is_null()) {
+        row.time_passed = stopped["wall"].get<double>() / limit;
+      }
+    }
+    if (row.mib > 2.0 * kLeastMib) {
+      const double limit = 0.5 * row.mib;
+      const Json stopped = BuildInChild(pair, 0.0, limit);
+      if (!stopped.is_null()) {
+        row.memory_passed = stopped["mib"].get<double>() / limit;
+      }
+    }
+    rows.push_back(std::move(row));
+  }
+  return rows;
+}
+
+NamedTable GuardTable(const std::vector<GuardRow>& rows) {
+  return {
+      "guard.csv",
+      MakeTable(
+          "Predicted and found",
+          "Builds in one thread, processor time and growth of the process; "
+          "and how far wall time and memory had come, over the limit, when a "
+          "limit of half of them refused the build (0: too small to try).",
+          {"robot", "obstacle", "triangles of A", "triangles of B", "facets",
+           "faces", "triangles", "meetings predicted", "faces predicted",
+           "CPU s", "predicted s", "MiB", "predicted MiB", "time over limit",
+           "memory over limit"},
+          rows, [](const GuardRow& r, const auto& add) {
+            add(r.robot, r.obstacle, r.robot_triangles, r.obstacle_triangles,
+                r.facets, r.faces, r.triangles, r.predicted_meetings,
+                r.predicted_faces, r.seconds, r.predicted_seconds, r.mib,
+                r.predicted_mib, r.time_passed, r.memory_passed);
+          })};
+}
+
+NamedTable GuardVerdict(const std::vector<GuardRow>& rows) {
+  struct Line {
+    std::string what;
+    std::size_t pairs;
+    double within_2, within_4, worst;
+    std::size_t passed;
+    double worst_passed;
+  };
+  const auto verdict = [&](const char* what, double GuardRow::*predicted,
+                           double GuardRow::*found, double GuardRow::*over,
+                           double least) {
+    Line line{what, rows.size(), 0.0, 0.0, 0.0, 0, 0.0};
+    for (const GuardRow& r : rows) {
+      const double factor = Factor(r.*predicted, r.*found, least);
+      line.within_2 += factor <= 2.0 ? 1.0 : 0.0;
+      line.within_4 += factor <= 4.0 ? 1.0 : 0.0;
+      line.worst = std::max(line.worst, factor);
+      line.passed += r.*over > 1.5 ? 1 : 0;
+      line.worst_passed = std::max(line.worst_passed, r.*over);
+    }
+    const double count =
+        std::max<double>(1.0, static_cast<double>(rows.size()));
+    line.within_2 /= count;
+    line.within_4 /= count;
+    return line;
+  };
+  const std::vector<Line> lines = {
+      verdict("time", &GuardRow::predicted_seconds, &GuardRow::seconds,
+              &GuardRow::time_passed, kLeastSeconds),
+      verdict("memory", &GuardRow::predicted_mib, &GuardRow::mib,
+              &GuardRow::memory_passed, kLeastMib)};
+  return {"guard_verdict.csv",
+          MakeTable(
+              "The guard",
+              "Share of the pairs whose prediction is within a factor of what "
+              "was found, both at least 0.05 s and 16 MiB; and builds that "
+              "came beyond 1.5 times a limit of half of what they need.",
+              {"of", "pairs", "within a factor of 2", "of 4", "worst factor",
+               "beyond 1.5 limits", "farthest"},
+              lines, [](const Line& l, const auto& add) {
+                add(l.what, l.pairs, l.within_2, l.within_4, l.worst, l.passed,
+                    l.worst_passed);
+              })};
+}
+
+}  // namespace phongpd::bench
