@@ -68,12 +68,14 @@ Command AddJoin(CLI::App* app) {
   AddJson(app, &flags->json, "The report on standard output");
   AddExamples(
       app,
-      {"for i in 0 1 2 3; do phongpd contact-space --robot robot.off "
-       "--obstacle scan.ply --piece $i/4 --output $i.piece & done; wait",
-       "phongpd join *.piece --output contact.pcs"},
-      "The result is that of one whole build, to the last bit.  A piece that "
-      "is lost, repeated, cut short or of another build is named, and nothing "
-      "is written.");
+      {"phongpd contact-space --robot robot.off --obstacle scan.ply --piece "
+       "0/2 --output 0.piece",
+       "phongpd contact-space --robot robot.off --obstacle scan.ply --piece "
+       "1/2 --output 1.piece",
+       "phongpd join 0.piece 1.piece --output contact.pcs"},
+      "The pieces may be built at once, on several machines.  The result is "
+      "that of one whole build.  A piece that is lost, repeated, cut short or "
+      "of another build is named, and nothing is written.");
   return [flags] { return Join(*flags); };
 }
 

@@ -185,8 +185,8 @@ int Optimize(const Flags& flags) {
     if (run == runs.kept()) TellModel(study);
     nlohmann::ordered_json row = TrajectoryRow(study, metric, options, result);
     check.Judge(study.scene(), study.world(), ClaimsOf(result), &row);
-    runs.Add(row, runs.HasPage() ? BehindTrajectory(study, options, result)
-                                 : ViewBehind());
+    runs.Add(row, runs.ShowsBehind() ? BehindTrajectory(study, options, result)
+                                     : ViewBehind());
   }
   runs.Write([&study] {
     // Free space alone has no contact space to show.

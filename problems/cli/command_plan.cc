@@ -124,7 +124,8 @@ int Plan(const Flags& flags) {
     if (i == runs.kept()) TellModel(study, run, result);
     nlohmann::ordered_json row = PlanningRow(study, run, result);
     check.Judge(scene, study.world(), ClaimsOf(result), &row);
-    runs.Add(row, runs.HasPage() ? BehindPlan(study, result) : ViewBehind());
+    runs.Add(row,
+             runs.ShowsBehind() ? BehindPlan(study, result) : ViewBehind());
   }
   runs.Write([&] { return SceneView(scene, {study.VisibleMesh()}); });
   const WorldSpaces* built = study.world().Built(SpaceLayout::kSealed);

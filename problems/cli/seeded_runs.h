@@ -80,8 +80,10 @@ class SeededRuns {
   // How many runs, the first ones, an interrupted command has left.
   int kept() const { return kept_; }
 
-  // Will there be a page, which shows what lies behind a run as well?
-  bool HasPage() const { return !flags_.html.empty(); }
+  // Will the page show what lies behind the run?  That of a single run does: no
+  // row holds it, and the pages of several must not tell whether a command was
+  // interrupted.
+  bool ShowsBehind() const { return !flags_.html.empty() && flags_.runs == 1; }
 
   // Notes a run that is over, with what its page shows behind it.
   void Add(const nlohmann::ordered_json& row, ViewBehind behind = {});

@@ -10,8 +10,9 @@
 #include "core/mesh/triangle_mesh.h"
 
 // A public set of straight motions with rational ground truth: "motion set
-// v2".  The set is a stream, defined by this code, a seed and a length; the
-// hash of the stream says whether two people have the same one.
+// v3".  The set is a stream, defined by this code, a seed and a length; the
+// hash of the stream says whether two people have the same one.  Version 3 since
+// contact spaces, whose features motions graze, are ordered by their points.
 //
 // A motion a → b is blocked iff the closed segment shares a point with the
 // closed set C_obj = B ⊕ (−A): touching counts as meeting.  C_obj is a union
@@ -21,7 +22,7 @@
 // no rounding.
 namespace phongpd::bench {
 
-constexpr int kMotionSetVersion = 2;
+constexpr int kMotionSetVersion = 3;
 constexpr int kMotionGridBits = 20;  // a unit of length is 2²⁰ steps
 
 using GridVector = Eigen::Matrix<std::int64_t, 3, 1>;

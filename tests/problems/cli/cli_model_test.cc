@@ -15,7 +15,7 @@ namespace {
 using CliModel = CliScenes;
 
 // Below what is predicted for any contact space.
-constexpr char kTooLittle[] = " --max-mib 4";
+constexpr char kTooLittle[] = " --max-mib 3";
 
 TEST_F(CliModel, WindowPlansWithoutTheContactSpace) {
   Json json = TwoObstacles();

@@ -79,7 +79,8 @@ TEST(SceneErrors, NameFilePlaceExpectedAndFound) {
   const std::vector<Case> cases = {
       {"/robto", 1,
        "s.json: expected only the keys $schema, name, robot, obstacles, "
-       "bounds, start, goal, penetration, trajectory, planning, feasible, "
+       "bounds, start, goal, preset, penetration, trajectory, planning, "
+       "feasible, "
        "witness, found \"robto\" (nearest: \"robot\")"},
       {"/trajectory/waypoint", 3,
        "s.json: /trajectory: expected only the keys waypoints, "

@@ -113,7 +113,7 @@ TEST(PlanningModel, WorldsConvolutionIsTheFreeSpaceOfItsContactSpace) {
 }
 
 TEST(PlanningModel, LimitsRefuseTheContactSpaceOnly) {
-  const WorldLimits limits = {0.0, 4.0};
+  const WorldLimits limits = {0.0, 3.0};
   PlanningRun run;
   run.time_limit = 20.0;
   PlanningStudy automatic(SceneOf("hole:delta=0.1", "auto"), {}, limits);
