@@ -12,6 +12,7 @@
 #include "core/contact/piece_data.h"
 #include "core/mesh/mesh_error.h"
 #include "core/minkowski/build_limits.h"
+#include "core/minkowski/cells.h"
 #include "core/minkowski/operand.h"
 #include "core/minkowski/surface_join.h"
 #include "core/minkowski/window_plan.h"
@@ -174,6 +175,21 @@ ContactSpacePiece BuildContactSpacePiece(const TriangleMesh& robot,
                               internal::kFacetsOfBox);
 }
 
+namespace {
+
+internal::JoinedSurface Joined(const std::vector<SurfacePiece>& boxes,
+                               const internal::AssemblyOptions& options) {
+  try {
+    return internal::JoinPieces(boxes, options);
+  } catch (const internal::LeakError&) {
+    throw InputError(
+        "contact space by pieces: expected pieces that fit together, found "
+        "cells beside their borders too thin to be judged; build the whole");
+  }
+}
+
+}  // namespace
+
 ContactSpace JoinContactSpace(const std::vector<ContactSpacePiece>& pieces) {
   const auto sorted = Sorted(pieces);
   const ContactSpacePiece::Data& first = *sorted.begin()->second;
@@ -184,7 +200,7 @@ ContactSpace JoinContactSpace(const std::vector<ContactSpacePiece>& pieces) {
   internal::AssemblyOptions options;
   options.outer_only = first.outer_shell_only;
   options.units_per_step = 2;
-  const internal::JoinedSurface joined = internal::JoinPieces(boxes, options);
+  const internal::JoinedSurface joined = Joined(boxes, options);
 
   ContactSpace::Parts out;
   ContactSpaceReport& report = out.report;

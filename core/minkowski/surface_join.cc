@@ -290,8 +290,7 @@ JoinedSurface JoinPieces(const std::vector<SurfacePiece>& pieces,
       FindCellsOfSurface(out.sides, faces, rings, out.points);
   for (int f = 0; f < static_cast<int>(faces.faces.size()); ++f) {
     if (!cells.side_is_free[PlusSide(f)] || cells.side_is_free[MinusSide(f)]) {
-      throw std::logic_error(
-          "contact space: pieces do not fit together; build the whole");
+      throw LeakError("contact space: pieces do not fit together");
     }
   }
   out.cavities = cells.cavities;

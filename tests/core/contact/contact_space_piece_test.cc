@@ -75,6 +75,10 @@ void ExpectRefused(const Action& action,
   }
 }
 
+// What joining says where a cell cannot be judged.
+constexpr char kDoNotFit[] =
+    "contact space by pieces: expected pieces that fit";
+
 // Case i of the random pairs: builds it whole and by pieces; what differs.
 std::string CompareCase(PairKind kind, std::uint64_t seed, long i,
                         std::size_t* boxes) {
@@ -91,7 +95,7 @@ std::string CompareCase(PairKind kind, std::uint64_t seed, long i,
         AllPieces(pair, count, facets_of_box, options);
     for (const ContactSpacePiece& piece : pieces) *boxes += piece.boxes();
     return Difference(JoinContactSpace(pieces), whole);
-  } catch (const std::logic_error& error) {
+  } catch (const InputError& error) {
     return error.what();
   }
 }
@@ -103,6 +107,7 @@ TEST(ContactSpacePieces, JoinedAreTheWholeBuildOfRandomPairs) {
   row.item = "pieces";
   row.subject = "joined pieces against the whole build, bit for bit";
   std::size_t boxes = 0;
+  long refused = 0;
   for (long i = 0; i < cases; ++i) {
     const PairKind kind = kinds[static_cast<std::size_t>(i) % kinds.size()];
     const auto seed = static_cast<std::uint64_t>(i) / kinds.size();
@@ -111,10 +116,15 @@ TEST(ContactSpacePieces, JoinedAreTheWholeBuildOfRandomPairs) {
       continue;  // seconds each
     }
     const std::string difference = CompareCase(kind, seed, i, &boxes);
+    ++row.cases;
+    if (difference.rfind(kDoNotFit, 0) == 0) {
+      ++refused;
+      continue;
+    }
     EXPECT_EQ(difference, "") << Name(kind) << ", seed " << seed;
     row.failures += difference.empty() ? 0 : 1;
-    ++row.cases;
   }
+  EXPECT_LE(refused, row.cases / 200);
   EXPECT_GT(boxes, 5 * static_cast<std::size_t>(row.cases));
   testing::ReportCampaign(row);
 }
@@ -128,7 +138,7 @@ TEST(ContactSpacePieces, FormerFailures) {
         std::tuple{PairKind::kManyBoxes, 4, 49L}}) {
     const std::string difference =
         CompareCase(kind, static_cast<std::uint64_t>(seed), i, &boxes);
-    EXPECT_TRUE(difference.empty() || difference.rfind("contact space", 0) == 0)
+    EXPECT_TRUE(difference.empty() || difference.rfind(kDoNotFit, 0) == 0)
         << difference;
   }
 }

@@ -180,7 +180,7 @@ TEST_F(CliResumeCampaign, AnotherCommandIsRefusedWithWhatDiffers) {
   };
   expect_refused(command + " --seed 2", "--seed [\"1\"] there, [\"2\"] here");
   expect_refused(command + " --seed 1 --metric euclidean", "--metric");
-  expect_refused(command + " --seed 1 --no-line", "--no-line");
+  expect_refused(command + " --seed 1 --no-line", "--line");
   expect_refused("optimize u_axis --output o.jsonl", "scene");
   expect_refused("plan ../scene.json --output o.jsonl", "command");
   WriteMesh(MakeBox({-0.1, -0.5, -0.5}, {0.1, 0.5, 0.6}), File("wall.off"));

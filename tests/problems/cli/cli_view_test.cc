@@ -86,7 +86,7 @@ TEST_F(CliView, PutsRunsAndPlansOfOneSceneBesideEachOther) {
           "runs.jsonl");
   const Json data = Data("../plan.jsonl ../runs.jsonl " + scene);
   ASSERT_EQ(data["paths"].size(), 3U);
-  EXPECT_EQ(data["paths"][0]["name"], "contact-surface, seed 1: solved");
+  EXPECT_EQ(data["paths"][0]["name"], "contact-surface · seed 1 · solved");
   EXPECT_EQ(data["paths"][0]["free"], true);
   std::size_t row = 0;
   for (const std::string& line : Split(Content(File("runs.jsonl")), '\n')) {

@@ -22,9 +22,10 @@ def work_controls(browser, checks, page):
     browser.click("#show-marks")
     changes(lambda: browser.press("g"), "the robot at stages")
     browser.press("g")
+    # A path that solids hide is seen through them from the beginning.
     changes(lambda: browser.click("#xray"), "seeing through solids")
     browser.press("o")
-    holds("!viewer.state.xray", "O ends it")
+    holds("viewer.state.xray === viewer.isHidden", "O takes it back")
     changes(lambda: browser.click("#bend"), "colour by curvature")
     holds("!document.getElementById('bend-key').hidden", "its key is shown")
     browser.click("#bend")
