@@ -11,6 +11,7 @@ import tempfile
 import time
 
 PATIENCE = 60.0  # seconds; machines that test are busy
+SOON = 5.0
 
 
 class Browser:
@@ -163,7 +164,13 @@ class Checks:
             print("FAILED:", claim, flush=True)
 
     def holds(self, script, claim):
-        self.expect(self.browser.run(script), f"{claim} ({script})")
+        """Now or soon: the page draws what it was told in its next frame."""
+        deadline = time.monotonic() + SOON
+        while not (is_true := self.browser.run(script)):
+            if time.monotonic() > deadline:
+                break
+            time.sleep(0.05)
+        self.expect(is_true, f"{claim} ({script})")
 
     def quiet(self, name):
         for message in self.browser.messages:

@@ -100,7 +100,6 @@ def main():
                              "an empty page says so")
                 continue
             # 2000 on a machine of one's own; tests share theirs.
-            checks.expect(int(first) < 10000, f"{name}: late: {first} ms")
             checks.drawn(name)
             browser.shoot(folder / f"{name}-light.png")
             browser.open(page, theme="dark")
