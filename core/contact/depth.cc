@@ -230,12 +230,12 @@ struct DepthQuery::Impl {
 };
 
 DepthQuery::DepthQuery(const Solid& robot, const Solid& obstacle,
-                       DepthOptions options)
+                       const DepthOptions& options)
     : impl_(std::make_unique<Impl>(Present(robot, "robot"),
                                    Present(obstacle, "obstacle"), robot,
                                    obstacle, options)) {}
 DepthQuery::DepthQuery(const TriangleMesh& robot, const TriangleMesh& obstacle,
-                       DepthOptions options)
+                       const DepthOptions& options)
     : impl_(std::make_unique<Impl>(MakeSolid(robot, options.robot_name),
                                    MakeSolid(obstacle, options.obstacle_name),
                                    robot, obstacle, options)) {}

@@ -112,9 +112,9 @@ class DepthQuery {
   // grid; meshes become solids by MakeSolid, by the options' names, which
   // throws where they are none.
   DepthQuery(const Solid& robot, const Solid& obstacle,
-             DepthOptions options = {});
+             const DepthOptions& options = {});
   DepthQuery(const TriangleMesh& robot, const TriangleMesh& obstacle,
-             DepthOptions options = {});
+             const DepthOptions& options = {});
   ~DepthQuery();
   DepthQuery(DepthQuery&&) noexcept;
   DepthQuery& operator=(DepthQuery&&) noexcept;

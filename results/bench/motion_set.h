@@ -11,8 +11,9 @@
 
 // A public set of straight motions with rational ground truth: "motion set
 // v3".  The set is a stream, defined by this code, a seed and a length; the
-// hash of the stream says whether two people have the same one.  Version 3 since
-// contact spaces, whose features motions graze, are ordered by their points.
+// hash of the stream says whether two people have the same one.  Version 3
+// since contact spaces, whose features motions graze, are ordered by their
+// points.
 //
 // A motion a → b is blocked iff the closed segment shares a point with the
 // closed set C_obj = B ⊕ (−A): touching counts as meeting.  C_obj is a union

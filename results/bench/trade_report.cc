@@ -194,7 +194,7 @@ Consumer Knobs(const std::string& results, const std::string& file,
           of +
           " over the least that any choice found there, its mean, runs with an "
           "answer. Rows: `results/trade/knobs.csv`.",
-      "time over the default's",
+      "time over that of the default",
       "excess, %",
       "answered",
       true,
@@ -244,7 +244,7 @@ Consumer Approximations(const std::string& results) {
           "each how many colliding points are told free. Rows, pair by pair "
           "and with the bound that the report proves: "
           "`results/trade/approximations.csv`.",
-          "time of the build over the exact one's",
+          "time of the build over that of the exact one",
           "mean error of depth, % of D",
           "missed",
           true,
