@@ -252,7 +252,8 @@ TEST(IpoptTrajectoryOptimizer, StopsAtTheLimits) {
   summary = IpoptTrajectoryOptimizer(problem, options).Solve();
   EXPECT_EQ(summary.status, SolveStatus::kTimeLimit);
   EXPECT_EQ(summary.rounds, 1);
-  EXPECT_LE(summary.iterations, 1);
+  // A tick of the processor's clock may be as long as several of them.
+  EXPECT_LT(summary.iterations, 20);
   options = {};
   options.ipopt.is_cancelled = [] { return true; };
   summary = IpoptTrajectoryOptimizer(problem, options).Solve();
