@@ -8,6 +8,7 @@
 
 #include "core/mesh/mesh_error.h"
 #include "core/mesh/triangle_quality.h"
+#include "core/solid/mesh_examination.h"
 
 namespace phongpd {
 namespace {
@@ -42,20 +43,6 @@ void AddSeconds(const ContactSpaceReport& one, ContactSpaceReport* sum) {
       same->second += seconds;
     }
   }
-}
-
-void AddOperand(const MeshReport& one, MeshReport* sum) {
-  sum->vertices += one.vertices;
-  sum->triangles += one.triangles;
-  sum->components += one.components;
-  sum->degenerate_triangles += one.degenerate_triangles;
-  sum->duplicate_vertices += one.duplicate_vertices;
-  sum->duplicate_triangles += one.duplicate_triangles;
-  sum->joined_vertices += one.joined_vertices;
-  sum->inverted_components += one.inverted_components;
-  sum->volume += one.volume;
-  sum->warnings.insert(sum->warnings.end(), one.warnings.begin(),
-                       one.warnings.end());
 }
 
 void Add(const ContactSpaceReport& one, ContactSpaceReport* sum) {
@@ -94,7 +81,10 @@ void Add(const ContactSpaceReport& one, ContactSpaceReport* sum) {
   sum->approximation.steps.insert(sum->approximation.steps.end(),
                                   one.approximation.steps.begin(),
                                   one.approximation.steps.end());
-  AddOperand(one.obstacle, &sum->obstacle);
+  internal::AddCounts(one.obstacle, &sum->obstacle);
+  sum->obstacle.warnings.insert(sum->obstacle.warnings.end(),
+                                one.obstacle.warnings.begin(),
+                                one.obstacle.warnings.end());
   sum->warnings.insert(sum->warnings.end(), one.warnings.begin(),
                        one.warnings.end());
 }

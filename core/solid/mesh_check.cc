@@ -158,6 +158,18 @@ void AddWarnings(MeshReport* report) {
        "triangles have the same corners as another one.");
 }
 
+void AddCounts(const MeshReport& part, MeshReport* whole) {
+  whole->vertices += part.vertices;
+  whole->triangles += part.triangles;
+  whole->components += part.components;
+  whole->degenerate_triangles += part.degenerate_triangles;
+  whole->duplicate_vertices += part.duplicate_vertices;
+  whole->duplicate_triangles += part.duplicate_triangles;
+  whole->joined_vertices += part.joined_vertices;
+  whole->inverted_components += part.inverted_components;
+  whole->volume += part.volume;
+}
+
 }  // namespace internal
 
 MeshReport ExamineMesh(const TriangleMesh& mesh) {

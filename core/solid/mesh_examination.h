@@ -30,4 +30,8 @@ void ExamineGeometry(const TriangleMesh& mesh, MeshReport* report);
 // The report's warnings, from its counts.
 void AddWarnings(MeshReport* report);
 
+// Adds the counts and the volume of a part to those of the whole; warnings,
+// which need the part's name, are the caller's.
+void AddCounts(const MeshReport& part, MeshReport* whole);
+
 }  // namespace phongpd::internal

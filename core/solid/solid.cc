@@ -215,15 +215,7 @@ Solid JoinedSolids(const std::vector<Solid>& solids, const std::string& name) {
           {t[0] + first, t[1] + first, t[2] + first});
     }
     const MeshReport& one = solid.report();
-    sum.vertices += one.vertices;
-    sum.triangles += one.triangles;
-    sum.components += one.components;
-    sum.degenerate_triangles += one.degenerate_triangles;
-    sum.duplicate_vertices += one.duplicate_vertices;
-    sum.duplicate_triangles += one.duplicate_triangles;
-    sum.joined_vertices += one.joined_vertices;
-    sum.inverted_components += one.inverted_components;
-    sum.volume += one.volume;
+    internal::AddCounts(one, &sum);
     for (const std::string& line : NamedWarnings(one, solid.name())) {
       sum.warnings.push_back(line);
     }
