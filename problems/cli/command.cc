@@ -11,6 +11,7 @@
 #include "core/contact/content_hash.h"
 #include "core/files/descriptor.h"
 #include "core/mesh/counted.h"
+#include "core/mesh/mesh_error.h"
 #include "core/mesh/mesh_io.h"
 #include "core/mesh/mesh_range.h"
 #include "problems/cli/flags.h"
@@ -253,7 +254,9 @@ nlohmann::ordered_json CommandSettings(const CLI::App& app,
   return settings;
 }
 
-void Note(const std::string& text) { std::cerr << "phongpd: " << text << '\n'; }
+void Note(const std::string& text) {
+  std::cerr << "phongpd: " << OneLine(text) << '\n';
+}
 
 void Warn(const std::string& text) { Note("warning: " + text); }
 

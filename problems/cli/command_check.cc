@@ -17,6 +17,7 @@
 #include "problems/meshes/any_mesh.h"
 #include "problems/meshes/operand_notes.h"
 #include "problems/output/defect_mesh.h"
+#include "problems/output/json_text.h"
 #include "problems/output/output_files.h"
 #include "problems/output/text.h"
 
@@ -168,7 +169,7 @@ int Check(const Flags& flags) {
   for (const std::string& file : flags.files) {
     const Finding finding = Examine(file, repair);
     are_solids = are_solids && finding.is_solid;
-    text += flags.json ? ToJson(finding).dump() + '\n' : Words(finding);
+    text += flags.json ? JsonText(ToJson(finding)) + '\n' : Words(finding);
     if (!flags.defects.empty()) {
       outputs.Write(
           flags.defects,

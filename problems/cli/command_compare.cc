@@ -13,6 +13,7 @@
 #include "problems/cli/operands.h"
 #include "problems/cli/shard.h"
 #include "problems/meshes/operand_notes.h"
+#include "problems/output/json_text.h"
 #include "problems/output/output_files.h"
 #include "problems/output/row_file.h"
 #include "problems/output/text.h"
@@ -146,7 +147,7 @@ int Compare(const CLI::App& app, const Flags& flags) {
       rows.push_back(Json::parse(row));
     }
   } else {
-    for (const Json& row : rows) lines += row.dump() + '\n';
+    for (const Json& row : rows) lines += JsonText(row) + '\n';
   }
   if (!rows_path.empty()) outputs.Write(rows_path, lines);
   std::string words;

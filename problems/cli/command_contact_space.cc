@@ -19,6 +19,7 @@
 #include "problems/cli/shard.h"
 #include "problems/meshes/any_mesh.h"
 #include "problems/meshes/operand_notes.h"
+#include "problems/output/json_text.h"
 #include "problems/output/output_files.h"
 #include "problems/output/text.h"
 #include "problems/studies/answer_check.h"
@@ -151,7 +152,7 @@ int BuildAndWrite(const Flags& flags) {
   report["obstacle"] =
       ToJson(found.obstacle, found.obstacle_repair, flags.obstacle);
   report["verification"] = verification;
-  const std::string text = report.dump(2) + '\n';
+  const std::string text = JsonText(report, 2) + '\n';
   if (!flags.report.empty()) outputs.Write(flags.report, text);
   CommitAndTell(&outputs, flags.json ? text : Summary(flags.output, found));
   return kDone;

@@ -12,6 +12,7 @@
 #include "problems/cli/operands.h"
 #include "problems/meshes/any_mesh.h"
 #include "problems/meshes/operand_notes.h"
+#include "problems/output/json_text.h"
 #include "problems/output/output_files.h"
 #include "problems/output/points_csv.h"
 #include "problems/output/text.h"
@@ -176,7 +177,7 @@ int Depth(const Flags& flags) {
     const DepthResult result = query.At(pose);
     is_certified = is_certified && result.certified;
     if (flags.json) {
-      text += ToJson(pose, result).dump() + '\n';
+      text += JsonText(ToJson(pose, result)) + '\n';
     } else {
       text += is_table ? Row(pose, result) : Sentence(flags, result);
     }

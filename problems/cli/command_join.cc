@@ -11,6 +11,7 @@
 #include "problems/cli/contact_space_file.h"
 #include "problems/cli/contact_space_report_json.h"
 #include "problems/cli/flags.h"
+#include "problems/output/json_text.h"
 #include "problems/output/output_files.h"
 
 namespace phongpd::cli {
@@ -44,7 +45,7 @@ int Join(const Flags& flags) {
   report["robot"] = ToJson(found.robot, found.robot_repair, "robot");
   report["obstacle"] =
       ToJson(found.obstacle, found.obstacle_repair, "obstacle");
-  const std::string text = report.dump(2) + '\n';
+  const std::string text = JsonText(report, 2) + '\n';
   if (!flags.report.empty()) outputs.Write(flags.report, text);
   CommitAndTell(&outputs, flags.json ? text : Summary(flags.output, found));
   return kDone;

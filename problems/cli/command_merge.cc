@@ -11,6 +11,7 @@
 #include "problems/cli/comparison_output.h"
 #include "problems/cli/flags.h"
 #include "problems/cli/shard.h"
+#include "problems/output/json_text.h"
 #include "problems/output/output_files.h"
 #include "problems/pictures/gnuplot.h"
 #include "problems/studies/comparison_rows.h"
@@ -117,7 +118,7 @@ int Merge(const Flags& flags) {
   std::vector<Json> rows = Interleaved(parts);
   if (rows.empty()) throw InputError("merge: expected rows, found none");
   std::string lines;
-  for (const Json& row : rows) lines += row.dump() + '\n';
+  for (const Json& row : rows) lines += JsonText(row) + '\n';
   OutputFiles outputs;
   std::string table;
   if (has_folder) {

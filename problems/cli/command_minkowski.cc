@@ -12,6 +12,7 @@
 #include "problems/cli/operands.h"
 #include "problems/meshes/any_mesh.h"
 #include "problems/meshes/operand_notes.h"
+#include "problems/output/json_text.h"
 #include "problems/output/output_files.h"
 
 namespace phongpd::cli {
@@ -69,7 +70,7 @@ int Sum(const Flags& flags) {
   report.update(ToJson(found));
   report["a"] = ToJson(found.robot, found.robot_repair, flags.a);
   report["b"] = ToJson(found.obstacle, found.obstacle_repair, flags.b);
-  const std::string text = report.dump(2) + '\n';
+  const std::string text = JsonText(report, 2) + '\n';
   if (!flags.report.empty()) outputs.Write(flags.report, text);
   CommitAndTell(&outputs, flags.json ? text : Summary(flags.output, found));
   return kDone;

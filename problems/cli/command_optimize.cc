@@ -9,6 +9,7 @@
 #include "problems/cli/flags.h"
 #include "problems/cli/seeded_runs.h"
 #include "problems/meshes/operand_notes.h"
+#include "problems/output/json_text.h"
 #include "problems/output/text.h"
 #include "problems/pictures/viewer/run_view.h"
 #include "problems/pictures/viewer/scene_view.h"
@@ -119,7 +120,7 @@ std::string Explanation(const nlohmann::ordered_json& row) {
   if (!crossing.is_null()) {
     text += (text.empty() ? "" : "; ") +
             std::string("the path first collides in segment ") +
-            crossing.at("segment").dump() + " at fraction " +
+            JsonText(crossing.at("segment")) + " at fraction " +
             FormatDouble(NumberAt(crossing, "/fraction"));
   }
   return text;
@@ -127,12 +128,12 @@ std::string Explanation(const nlohmann::ordered_json& row) {
 
 RunSummary Summarize(const Flags& flags, const nlohmann::ordered_json& row) {
   const std::string metric = row.at("method").get<std::string>();
-  const std::string outcome =
-      row.at("seed").dump() + ": " + row.at("status_class").get<std::string>();
+  const std::string outcome = JsonText(row.at("seed")) + ": " +
+                              row.at("status_class").get<std::string>();
   return {NamedPathOf(row),
           row.at("scene").get<std::string>() + ", " + metric + ", " +
               flags.start + ", " + outcome + ", " +
-              row.at("iterations").dump() + ", " +
+              JsonText(row.at("iterations")) + ", " +
               Rounded(NumberAt(row, "/objective"), 5) + ", " +
               Rounded(NumberAt(row, "/clearance"), 3) + ", " +
               Rounded(NumberAt(row, "/seconds/total"), 3),

@@ -7,6 +7,7 @@
 #include "problems/cli/flags.h"
 #include "problems/cli/seeded_runs.h"
 #include "problems/meshes/operand_notes.h"
+#include "problems/output/json_text.h"
 #include "problems/output/text.h"
 #include "problems/pictures/viewer/run_view.h"
 #include "problems/pictures/viewer/scene_view.h"
@@ -34,7 +35,7 @@ struct Flags : SeededRunFlags {
 RunSummary Summarize(const nlohmann::ordered_json& row) {
   const std::string planner = row.at("planner").get<std::string>();
   const std::string outcome =
-      row.at("seed").dump() + ": " + row.at("status").get<std::string>();
+      JsonText(row.at("seed")) + ": " + row.at("status").get<std::string>();
   return {NamedPathOf(row),
           row.at("scene").get<std::string>() + ", " + planner + ", " + outcome +
               ", " + Rounded(NumberAt(row, "/seconds/solve")) + ", " +

@@ -12,6 +12,7 @@
 #include "problems/cli/command.h"
 #include "problems/cli/contact_space_file.h"
 #include "problems/cli/flags.h"
+#include "problems/output/json_text.h"
 #include "problems/output/output_files.h"
 #include "problems/output/points_csv.h"
 #include "problems/output/text.h"
@@ -146,7 +147,7 @@ std::string JsonRow(const Eigen::Vector3d& q, const std::string& status,
       {"direction", ToJson(result.direction)},
       {"gradient", ToJson(exact_gradient ? result.gradient : result.direction)},
       {"triangle", result.triangle}};
-  return row.dump() + '\n';
+  return JsonText(row) + '\n';
 }
 
 int Query(const CLI::App& app, const Flags& flags) {

@@ -12,6 +12,7 @@
 #include "core/mesh/counted.h"
 #include "problems/cli/command.h"
 #include "problems/cli/flags.h"
+#include "problems/output/json_text.h"
 #include "problems/output/output_files.h"
 #include "problems/output/temporary_folder.h"
 #include "problems/studies/reproduction.h"
@@ -64,13 +65,11 @@ int Pack(const Flags& flags) {
                        {"stderr", outcome.err}};
     ending = Ending(outcome.exit_code, outcome.signal);
   }
-  outputs.Write(
-      target,
-      document.dump(1, ' ', false, Json::error_handler_t::replace) + '\n');
+  outputs.Write(target, JsonText(document, 1) + '\n');
   const std::size_t files = document["files"].size();
   const Json told = {{"file", flags.output}, {"files", files}, {"end", ending}};
   const bool is_told = flags.json && !flags.output.empty();
-  CommitAndTell(&outputs, is_told ? told.dump() + '\n'
+  CommitAndTell(&outputs, is_told ? JsonText(told) + '\n'
                                   : target + ": " + Counted(files, "file") +
                                         " packed, " + ending + '\n');
   return kDone;
@@ -97,7 +96,7 @@ int CompareAsJson(const Json& document, const CommandOutcome& now) {
       {"same", is_same},
       {"now", outcome(now.exit_code, now.signal, now.out, now.err)},
       {"recorded", recorded}};
-  std::cout << told.dump(2, ' ', false, Json::error_handler_t::replace) << '\n';
+  std::cout << JsonText(told, 2) << '\n';
   return is_same.is_boolean() && !is_same.get<bool>() ? kNoAnswer : kDone;
 }
 

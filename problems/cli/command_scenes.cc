@@ -9,6 +9,7 @@
 #include "core/mesh/counted.h"
 #include "problems/cli/command.h"
 #include "problems/cli/flags.h"
+#include "problems/output/json_text.h"
 #include "problems/output/output_files.h"
 #include "problems/output/text.h"
 #include "problems/scenes/scene.h"
@@ -53,7 +54,7 @@ int ListAsJson() {
   }
   const Json list = {{"families", families},
                      {"common_knobs", ToJson(CommonSceneKnobs())}};
-  std::cout << list.dump(2) << '\n';
+  std::cout << JsonText(list, 2) << '\n';
   return kDone;
 }
 
@@ -91,7 +92,7 @@ int Write(const Flags& flags) {
     const Json json = MakeScene(flags.name, Knobs(flags.settings));
     // Built in any case: a scene whose solids cannot be made is bad input.
     scene = ParseScene(json, "scene " + flags.name);
-    text = json.dump(2) + '\n';
+    text = JsonText(json, 2) + '\n';
   }
   const TriangleMesh obstacle = JoinedObstacle(scene.workspace);
 
@@ -116,7 +117,7 @@ int Write(const Flags& flags) {
                      {"note", skipped}};
   CommitAndTell(&outputs,
                 flags.json
-                    ? told.dump() + '\n'
+                    ? JsonText(told) + '\n'
                     : flags.name + ": robot " + std::to_string(robot) +
                           ", obstacle " +
                           Counted(obstacle.triangles.size(), "triangle") +

@@ -17,6 +17,7 @@
 #include "problems/cli/flags.h"
 #include "problems/cli/operands.h"
 #include "problems/cli/view_inputs.h"
+#include "problems/output/json_text.h"
 #include "problems/output/output_files.h"
 #include "problems/pictures/programs.h"
 #include "problems/pictures/viewer/gltf.h"
@@ -133,7 +134,7 @@ int Look(Flags flags) {
     if (!flags.json) std::cout << path << '\n';
     OpenOnDisplay(path);
   }
-  if (flags.json) std::cout << Contents(view, path).dump(2) << '\n';
+  if (flags.json) std::cout << JsonText(Contents(view, path), 2) << '\n';
   return kDone;
 }
 

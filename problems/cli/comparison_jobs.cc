@@ -6,6 +6,7 @@
 #include <string>
 
 #include "problems/cli/command.h"
+#include "problems/output/json_text.h"
 #include "problems/studies/comparison_rows.h"
 #include "problems/studies/comparison_run.h"
 
@@ -54,7 +55,7 @@ void RunJobs(const std::vector<ComparisonJob>& jobs,
     Json row = RunComparison(
         {job.seed, job.protocol, job.metric, job.source->is_family()}, &study);
     if (!keep_paths) row.erase("path");
-    rows->Append(row.dump());
+    rows->Append(JsonText(row));
   }
 }
 

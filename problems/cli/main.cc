@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "core/files/interruption.h"
+#include "core/mesh/mesh_error.h"
 #include "problems/cli/command.h"
 #include "problems/output/nearest_name.h"
 #include "problems/output/text.h"
@@ -34,16 +35,7 @@ std::string VersionText() {
 
 // Errors are one line, whatever the message they come from looks like.
 int Fail(ExitCode code, const std::string& message) {
-  std::string line;
-  for (const char c : message) {
-    if (c != '\n' && c != '\r') {
-      line += c;
-    } else if (!line.empty() && line.back() != ' ') {
-      line += ' ';
-    }
-  }
-  while (!line.empty() && line.back() == ' ') line.pop_back();
-  std::cerr << "phongpd: " << line << '\n';
+  std::cerr << "phongpd: " << OneLine(message) << '\n';
   return code;
 }
 

@@ -11,6 +11,7 @@
 #include <mutex>
 #include <string_view>
 
+#include "core/mesh/mesh_error.h"
 #include "core/minkowski/build_observer.h"
 #include "problems/output/text.h"
 
@@ -42,7 +43,7 @@ struct Reporter {
   }
   void Tell(const std::string& text) {
     if (is_silent) return;
-    std::cerr << text + '\n';
+    std::cerr << OneLine(text) + '\n';
     told = Clock::now();
   }
 };

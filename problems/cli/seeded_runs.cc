@@ -9,6 +9,7 @@
 #include "problems/cli/command.h"
 #include "problems/cli/flags.h"
 #include "problems/cli/operands.h"
+#include "problems/output/json_text.h"
 #include "problems/pictures/path_picture.h"
 #include "problems/pictures/viewer/view_page.h"
 
@@ -102,7 +103,7 @@ NamedPath NamedPathOf(const nlohmann::ordered_json& row) {
   std::replace(status.begin(), status.end(), '_', ' ');
   const std::string name =
       row.at(is_plan ? "planner" : "method").get<std::string>();
-  return {Spoken(name) + " · seed " + row.at("seed").dump() + " · " + status,
+  return {Spoken(name) + " · seed " + JsonText(row.at("seed")) + " · " + status,
           PathOf(row),
           row.at(is_plan ? "solved" : "collision_free").get<bool>()};
 }
@@ -138,7 +139,7 @@ SeededRuns::SeededRuns(const SeededRunFlags& flags, const SceneSource& source,
 }
 
 void SeededRuns::Add(const nlohmann::ordered_json& row, ViewBehind behind) {
-  rows_->Append(row.dump());
+  rows_->Append(JsonText(row));
   Tell(row);
   paths_.back().behind = std::move(behind);
 }

@@ -6,6 +6,7 @@
 
 #include "core/mesh/input_file.h"
 #include "core/mesh/mesh_error.h"
+#include "problems/output/json_text.h"
 
 namespace phongpd::cli {
 namespace {
@@ -42,7 +43,7 @@ std::string ShardText(const Shard& shard, Json settings, std::size_t rows) {
                                      std::to_string(shard.count)},
                        {"rows", rows},
                        {"command", std::move(settings)}};
-  return record.dump(2) + '\n';
+  return JsonText(record, 2) + '\n';
 }
 
 ShardRecord ReadShard(const std::string& folder) {
@@ -64,7 +65,7 @@ ShardRecord ReadShard(const std::string& folder) {
     throw InputError(path + ": " + error.what());
   }
   found.rows = record["rows"].get<std::size_t>();
-  found.command = record["command"].dump();
+  found.command = JsonText(record["command"]);
   return found;
 }
 

@@ -11,6 +11,7 @@
 #include <system_error>
 
 #include "core/files/temporary_file.h"
+#include "problems/output/json_text.h"
 
 namespace phongpd {
 namespace {
@@ -34,7 +35,7 @@ std::string Difference(const Json& there, const Json& here) {
     const Json other = there.contains(key) ? there.at(key) : Json();
     if (other == value) continue;
     if (other.is_object() && value.is_object()) return Difference(other, value);
-    return key + " " + other.dump() + " there, " + value.dump() + " here";
+    return key + " " + JsonText(other) + " there, " + JsonText(value) + " here";
   }
   return "it has settings unknown here";
 }
@@ -47,7 +48,7 @@ RowFile::RowFile(const std::string& target, const Json& command) {
   const std::filesystem::path path(path_);
   leaf_ = path.filename().string();
   const std::string header =
-      Json({{"what", kWhat}, {"command", command}}).dump() + '\n';
+      JsonText(Json({{"what", kWhat}, {"command", command}})) + '\n';
   try {
     folder_ = internal::OpenFolder(path.parent_path().string());
     Open();

@@ -7,6 +7,7 @@
 
 #include "core/mesh/input_file.h"
 #include "core/mesh/mesh_error.h"
+#include "problems/output/json_text.h"
 #include "problems/output/text.h"
 
 namespace phongpd {
@@ -64,7 +65,7 @@ void CheckComparisonRow(const Json& row, const std::string& where) {
                       : kind == Kind::number_float ? "number"
                                                    : "whole number") +
                      " at " + key + ", found " +
-                     (is_there ? row.at(place).dump() : "none"));
+                     (is_there ? JsonText(row.at(place)) : "none"));
   }
 }
 

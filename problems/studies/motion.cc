@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/projection/penetration_tracker.h"
+#include "problems/output/json_text.h"
 #include "problems/output/text.h"
 #include "problems/pictures/gnuplot.h"
 
@@ -117,7 +118,7 @@ std::string MotionJson(const StraightMotion& motion,
           {"frame", frame},           {"position", point(motion.At(frame))},
           {"metric", trace.metric},   {"status", trace.status[i]},
           {"pd", point(trace.pd[i])}, {"magnitude", trace.pd[i].norm()}};
-      lines += row.dump() + '\n';
+      lines += JsonText(row) + '\n';
     }
   }
   return lines;

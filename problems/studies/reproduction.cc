@@ -15,6 +15,7 @@
 
 #include "core/mesh/mesh_error.h"
 #include "problems/meshes/any_mesh.h"
+#include "problems/output/json_text.h"
 #include "problems/studies/row_parts.h"
 
 namespace phongpd {
@@ -149,7 +150,7 @@ class Packer {
   void Add(const std::string& name, const std::string& content) {
     bool is_text = content.find('\0') == std::string::npos;
     try {
-      Json(content).dump();
+      JsonText(Json(content));
     } catch (const Json::type_error&) {  // no UTF-8
       is_text = false;
     }
@@ -173,7 +174,7 @@ class Packer {
       std::string name = mesh;
       if (!IsContained(mesh)) {
         name = "meshes/" + std::to_string(++renamed) + "/" + FileName(mesh);
-        Replace(Json(mesh).dump(), Json(name).dump(), scene);
+        Replace(JsonText(Json(mesh)), JsonText(Json(name)), scene);
       }
       std::error_code error;
       const fs::path path = from / mesh;
@@ -266,7 +267,7 @@ std::vector<std::string> PackedArguments(const Json& document,
       }
     }
     if (!IsContained(file["name"].get<std::string>())) {
-      Refuse(name, "the file name " + file["name"].dump());
+      Refuse(name, "the file name " + JsonText(file["name"]));
     }
   }
   std::vector<std::string> arguments;
@@ -279,7 +280,7 @@ std::vector<std::string> PackedArguments(const Json& document,
     const std::string value =
         equals == std::string::npos ? text : text.substr(equals + 1);
     if (!value.empty() && !IsDevice(value) && !IsContained(value)) {
-      Refuse(name, "the argument " + argument.dump());
+      Refuse(name, "the argument " + JsonText(argument));
     }
   }
   if (arguments.empty() || arguments.front() == "reproduce") {

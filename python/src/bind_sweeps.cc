@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "problems/output/json_text.h"
 #include "problems/scenes/scene_source.h"
 #include "problems/studies/comparison_run.h"
 #include "problems/studies/planner_names.h"
@@ -37,7 +38,7 @@ class Comparison {
          source_.is_family()},
         &study_);
     row.erase("path");
-    return row.dump();
+    return JsonText(row);
   }
 
  private:

@@ -11,6 +11,7 @@
 #include <sstream>
 
 #include "core/mesh/mesh_error.h"
+#include "problems/output/json_text.h"
 #include "results/bench/program.h"
 
 namespace phongpd::bench {
@@ -213,7 +214,7 @@ int Run(int argc, char** argv) {
           " minutes of tests. Machine: " + Machine() +
           ". Versions: " + VersionList() + ".\n";
   std::string lines;
-  for (const Json& row : rows) lines += row.dump() + '\n';
+  for (const Json& row : rows) lines += JsonText(row) + '\n';
   OutputDirectory out(directory);
   out.Write("rows.jsonl", lines);
   out.Write("README.md", text);

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "core/mesh/mesh_error.h"
+#include "problems/output/json_text.h"
 #include "problems/output/text.h"
 
 namespace phongpd {
@@ -322,8 +323,7 @@ class GlbWriter {
     if (!bytes_.empty()) {
       gltf_["buffers"] = {{{"byteLength", bytes_.size()}}};
     }
-    std::string json =
-        gltf_.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+    std::string json = JsonText(gltf_);
     Pad(&json, ' ');
     std::string glb;
     const auto number = [&glb](std::uint64_t value) {

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "core/mesh/mesh_error.h"
+#include "problems/output/json_text.h"
 #include "problems/output/text.h"
 #include "problems/pictures/viewer/page_template.h"
 #include "problems/pictures/viewer/view_json.h"
@@ -17,8 +18,7 @@ namespace {
 std::string ForScript(const nlohmann::ordered_json& json) {
   std::string text;
   // Names may come from files with bytes that are no UTF-8.
-  for (const char c :
-       json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)) {
+  for (const char c : JsonText(json)) {
     if (c == '<') {
       text += "\\u003c";
     } else {

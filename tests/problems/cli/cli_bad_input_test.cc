@@ -269,5 +269,33 @@ TEST_F(Cli, AFailedWriteIsBadInputToo) {
       {"/dev/full"});
 }
 
+// Names that Linux allows: no UTF-8, two lines, a terminal's escape.
+TEST_F(Cli, TakesAndRefusesFilesWhateverTheirNames) {
+  for (const std::string odd : {"bad\xff", "two\nlines", "red\x1b[31m"}) {
+    const std::string file = "../" + odd + ".off",
+                      gone = "../no" + odd + ".off";
+    std::filesystem::copy_file(File("box.off"), File(odd + ".off"));
+    const auto quoted = [](const std::string& name) {
+      return "'" + name + "'";
+    };
+    for (const std::string command :
+         {"check NAME --json", "depth NAME ../cone.off --json",
+          "minkowski NAME ../cone.off --json --output ../sum.off",
+          "contact-space --robot NAME --obstacle ../cone.off --json --output "
+          "../space.off",
+          "view NAME --json --html ../page.html"}) {
+      const auto with = [&](const std::string& name) {
+        std::string text = command;
+        return text.replace(text.find("NAME"), 4, quoted(name));
+      };
+      const Outcome outcome = Run(with(file));
+      EXPECT_EQ(outcome.code, 0) << command << '\n' << outcome.err;
+      EXPECT_TRUE(nlohmann::json::accept(outcome.out)) << outcome.out;
+      ExpectRefused(with(gone), {"expected"});
+      EXPECT_EQ(Run(with(gone)).err.find('\x1b'), std::string::npos) << command;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace phongpd
