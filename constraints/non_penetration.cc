@@ -67,9 +67,7 @@ NonPenetrationConstraint::NonPenetrationConstraint(
     Fail("the frame needs a finite centre and a unit > 0",
          std::to_string(options_.frame.unit));
   }
-  rows_per_sample_ =
-      options.rows *
-      (options.merge_spaces ? 1 : static_cast<int>(metrics_.size()));
+  rows_per_sample_ = options.rows * static_cast<int>(metrics_.size());
   for (int i = 0; i <= waypoints_; ++i) {
     const int count = samples_per_segment[static_cast<std::size_t>(i)];
     if (count < 0) Fail("sample counts must be ≥ 0", std::to_string(count));
@@ -145,17 +143,10 @@ void NonPenetrationConstraint::ForEachRow(const double* u,
                                           BranchSet* next,
                                           const Visit& visit) const {
   const auto count = static_cast<std::size_t>(options_.rows);
-  std::array<MetricRow, kMaxMetricRows> rows;       // of one space
-  std::array<MetricRow, kMaxMetricRows + 1> least;  // of all, ascending
-  // Repeated rows only fill up; ties keep the order of the spaces.
-  const auto before = [](const MetricRow& a, const MetricRow& b) {
-    if (a.is_repeated != b.is_repeated) return b.is_repeated;
-    return a.value < b.value;
-  };
+  std::array<MetricRow, kMaxMetricRows> rows;  // of one space
   for (int s = 0; s < samples(); ++s) {
     const Sample& sample = samples_[static_cast<std::size_t>(s)];
     const Vector3d q = SamplePoint(s, u);
-    std::size_t kept = 0;
     for (std::size_t m = 0; m < metrics_.size(); ++m) {
       const Branch& previous = branches.branches[BranchIndex(s, m)];
       metrics_[m]->Query(q, previous, options_.rows, rows.data());
@@ -164,20 +155,8 @@ void NonPenetrationConstraint::ForEachRow(const double* u,
         next->branches[BranchIndex(s, m)] = rows[0].branch;
         next->changes += IsChanged(rows[0], previous.IsValid()) ? 1 : 0;
       }
-      for (std::size_t k = 0; k < count; ++k) {
-        if (!options_.merge_spaces) {
-          visit(sample, rows[k]);
-          continue;
-        }
-        MetricRow* const end = least.data() + kept;
-        MetricRow* const at =
-            std::upper_bound(least.data(), end, rows[k], before);
-        std::move_backward(at, end, end + 1);
-        *at = rows[k];
-        kept = std::min(kept + 1, count);
-      }
+      for (std::size_t k = 0; k < count; ++k) visit(sample, rows[k]);
     }
-    for (std::size_t k = 0; k < kept; ++k) visit(sample, least[k]);
   }
 }
 

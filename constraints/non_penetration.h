@@ -40,10 +40,9 @@ struct PathFrame {
 
 struct NonPenetrationOptions {
   PathFrame frame;
-  int rows = 1;  // K in [1, kMaxMetricRows]
-  // Several contact spaces: K rows a sample for each of them, or the K least
-  // of all their rows.
-  bool merge_spaces = false;
+  // K in [1, kMaxMetricRows]; of several contact spaces each has K rows a
+  // sample.
+  int rows = 1;
 };
 
 // The rows d(sample) ≥ margin of a polyline through N free waypoints,

@@ -13,11 +13,14 @@ namespace phongpd {
 
 using Eigen::Vector3d;
 
+namespace {
+
+const double kCosSeparation =
+    std::cos(kRowSeparation * 3.14159265358979323846 / 180.0);
+
+}  // namespace
+
 void SignedMetricOptions::Validate() const {
-  if (!(separation >= 1.0 && separation <= 89.0)) {
-    throw InputError("separation: expected 1 to 89 degrees, found " +
-                     std::to_string(separation));
-  }
   if (!(reach > 0.0)) {
     throw InputError("reach: expected a share of D > 0, found " +
                      std::to_string(reach));
@@ -29,8 +32,6 @@ SignedMetric::SignedMetric(const ContactSpace& space,
                            const SignedMetricOptions& options)
     : options_(options), space_(space) {
   options_.Validate();
-  constexpr double kDegree = 3.14159265358979323846 / 180.0;
-  cos_separation_ = std::cos(options_.separation * kDegree);
   if (options_.metric == MetricKind::kPhong) {
     metric_ = std::make_shared<PhongMetric>(space, options_.phong);
   } else {
@@ -69,7 +70,7 @@ void SignedMetric::Query(const Vector3d& q, const Branch& previous, int count,
     rows[k] = rows[0];
     FeatureSearch::Feature feature;
     has_more =
-        has_more && features_->FindNext(q, taken.data(), k, cos_separation_,
+        has_more && features_->FindNext(q, taken.data(), k, kCosSeparation,
                                         reach_, &feature);
     rows[k].is_repeated = !has_more;
     if (!has_more) continue;

@@ -24,7 +24,6 @@ struct SignedMetricOptions {
   MetricKind metric = MetricKind::kPhong;
   PhongMetricOptions phong;  // kPhong only
   JacobianKind jacobian = JacobianKind::kDirection;
-  double separation = 25.0;  // least angle between rows, degrees, in [1, 89]
   // Farthest that rows after the first may be, a share of D, > 0.  A
   // wall farther off says nothing a margin needs, and is what costs time.
   double reach = 0.1;
@@ -34,6 +33,8 @@ struct SignedMetricOptions {
 };
 
 inline constexpr int kMaxMetricRows = 8;
+// Least angle between the directions of two rows, degrees.
+inline constexpr double kRowSeparation = 25.0;
 // Longest gradient a row may have; longer ones are cut to this length.  A
 // constraint d ≥ m needs the order of 1; near a fold |∇d| → ∞.
 inline constexpr double kMaxRowGradient = 5.0;
@@ -59,7 +60,7 @@ struct MetricRow {
 // options: they change how a solver gets out, not what is feasible.
 //
 // Rows (outside): row 0 is d; row k is the distance to the nearest triangle
-// within `reach` whose direction differs by more than `separation` from those
+// within `reach` whose direction differs by more than kRowSeparation from those
 // of rows 0 … k−1.
 // All are necessary for d ≥ m, so extra rows never change the feasible set;
 // they show the solver the second wall of a channel before it hits it.
@@ -87,7 +88,6 @@ class SignedMetric {
  private:
   SignedMetricOptions options_;
   ContactSpace space_;
-  double cos_separation_ = 0.0;
   double reach_ = 0.0;  // user's unit
   std::shared_ptr<const PenetrationMetric> metric_;
   std::shared_ptr<const FeatureSearch> features_;

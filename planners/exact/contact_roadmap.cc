@@ -20,6 +20,15 @@ namespace {
 
 using Eigen::Vector3d;
 
+// Triangles, and points of edges if triangles are fewer, that get a link across
+// the gap in front of them.
+constexpr int kGapLinks = 1000;
+// A start or goal joins kStops of the nodes it sees among the kNeighbors
+// nearest ones, and as many near what it meets first on the straight way to
+// the other.
+constexpr int kNeighbors = 32;
+constexpr int kStops = 6;
+
 template <typename T>
 void Require(bool holds, const char* option, const char* range, T value) {
   CheckOption(holds, "contact roadmap", option, range, value);
@@ -30,9 +39,6 @@ void Require(bool holds, const char* option, const char* range, T value) {
 void ContactRoadmapOptions::Validate() const {
   Require(spacing >= 1e-3 && spacing <= 1.0, "spacing", "in [0.001, 1]",
           spacing);
-  Require(gap_links >= 0, "gap_links", "≥ 0", gap_links);
-  Require(neighbors >= 1, "neighbors", "≥ 1", neighbors);
-  Require(stops >= 1, "stops", "≥ 1", stops);
 }
 
 void RoadmapRequest::Validate() const {
@@ -48,8 +54,8 @@ struct ContactRoadmap::Impl {
       : planner(std::move(given_planner)),
         surface(given_surface),
         options((given_options.Validate(), given_options)),
-        graph(surface, options.spacing * surface.bounds.Diagonal(),
-              options.gap_links) {}
+        graph(surface, options.spacing * surface.bounds.Diagonal(), kGapLinks) {
+  }
 
   std::vector<Vector3d> Route(const Vector3d& start, const Vector3d& goal,
                               double clearance) const;
@@ -82,14 +88,14 @@ std::vector<Vector3d> ContactRoadmap::Impl::Route(const Vector3d& start,
                                                   double clearance) const {
   const auto attach = [&](const Vector3d& q, const Vector3d& other) {
     std::vector<LiftedGraph::Stop> stops;
-    graph.See(q, q, clearance, options.neighbors, options.stops, &stops);
+    graph.See(q, q, clearance, kNeighbors, kStops, &stops);
     // And what is in the way: the nearest nodes may lie behind.
     const TriangleBvh::Hit hit = surface.segments.FirstHit(q, other);
     if (hit.Found()) {
-      graph.See(q, q + hit.fraction * (other - q), clearance, options.neighbors,
-                options.stops, &stops);
+      graph.See(q, q + hit.fraction * (other - q), clearance, kNeighbors,
+                kStops, &stops);
     }
-    if (stops.empty()) stops = graph.Descend(q, clearance, options.stops);
+    if (stops.empty()) stops = graph.Descend(q, clearance, kStops);
     return stops;
   };
   std::unique_ptr<RouteTable::Scratch> scratch = Take();

@@ -10,17 +10,9 @@
 namespace phongpd {
 
 struct ContactRoadmapOptions {
-  // Distance between nodes on an edge, a fraction of the mesh's diagonal, and
-  // how many triangles, and points of edges if triangles are fewer, get a link
-  // across the gap in front of them.  More: shorter raw paths, longer build
-  // and queries.  In [1e-3, 1], ≥ 0.
+  // Distance between nodes on an edge, a fraction of the mesh's diagonal, in
+  // [1e-3, 1].  Smaller: shorter raw paths, longer build and queries.
   double spacing = 0.1;
-  int gap_links = 1000;
-  // A start or goal joins `stops` of the nodes it sees among the `neighbors`
-  // nearest ones, and as many near what it meets first on the straight way to
-  // the other; both at least 1.
-  int neighbors = 32;
-  int stops = 6;
 
   // Throws InputError naming the option, the range and the value.
   void Validate() const;

@@ -26,6 +26,8 @@ constexpr double kSameRoute = 1e-3;
 // for: their best parts make the routes.  Each takes as long as the first.
 constexpr int kCandidates = 8;
 
+constexpr int kRandomCuts = 120;  // of the straightening
+
 template <typename T>
 void Check(const char* name, const char* range, bool holds, T value) {
   CheckOption(holds, "start repair", name, range, value);
@@ -67,7 +69,6 @@ void StartRepairOptions::Validate() const {
   Check("diagonal", "0 to 1e150", diagonal >= 0.0 && diagonal <= 1e150,
         diagonal);
   Check("routes", "1 to 8", routes >= 1 && routes <= 8, routes);
-  Check("random_cuts", "at least 0", random_cuts >= 0, random_cuts);
 }
 
 const char* ToString(RepairStatus status) {
@@ -180,7 +181,7 @@ Path StartRepair::Impl::Shorten(const Path& path,
                                 double clearance) const {
   ShorteningOptions shortening;
   shortening.clearance = clearance;
-  shortening.random_cuts = options.random_cuts;
+  shortening.random_cuts = kRandomCuts;
   shortening.seed = options.seed;
   return ShortenPath(path, segments, shortening);
 }

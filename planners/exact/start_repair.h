@@ -18,7 +18,6 @@ struct StartRepairOptions {
   double margin = 0.01;   // wished clearance, a fraction of `diagonal`, > 0
   double diagonal = 0.0;  // user's unit; 0: D of the contact space
   int routes = 1;         // to return, in [1, 8]: of the best parts of 8 ways
-  int random_cuts = 120;  // of the straightening
   std::uint64_t seed = 1;
 
   // Throws InputError naming the option, the range and the value.

@@ -55,7 +55,6 @@ void CheckIsAmong(const std::vector<std::string>& names,
 ob::PlannerPtr Configured(const std::shared_ptr<RetractionPlanner>& planner,
                           const OmplPlanningOptions& options) {
   planner->setRetractionOptions(options.retraction);
-  planner->setLocalPlanner(LocalPlannerFromString(options.local_planner));
   planner->setSeed(options.seed);
   return planner;
 }
@@ -131,7 +130,6 @@ void OmplPlanningOptions::Validate() const {
                      std::to_string(time_limit));
   }
   retraction.Validate();
-  LocalPlannerFromString(local_planner);
 }
 
 void SetStartAndGoal(const Vector3d& start, const Vector3d& goal,

@@ -34,8 +34,6 @@ struct OmplPlanningOptions {
   // second thread and repeats only up to when that one notices a solution.
   std::uint64_t seed = 1;
   RetractionOptions retraction;  // retraction-* and prm-retraction
-  // retraction-rrt and -forest: collide-and-slide, step-retract, straight.
-  std::string local_planner = "collide-and-slide";
   // retraction-rrt and -forest: is q within the passage of interest?
   std::function<bool(const Eigen::Vector3d& q)> in_passage;
 

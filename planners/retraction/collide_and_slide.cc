@@ -13,6 +13,8 @@ namespace {
 
 using Eigen::Vector3d;
 
+constexpr std::size_t kMaxMoves = 100;  // of one slide
+
 // A body that moves towards a target, and what it last ran into.
 class Slider {
  public:
@@ -119,7 +121,6 @@ void SlideOptions::Validate() const {
   check(clearance > 0.0 && clearance <= 1.0, "clearance", "in (0, 1]",
         clearance);
   check(step > 0.0 && step <= 1.0, "step", "in (0, 1]", step);
-  check(max_moves >= 1, "max_moves", "≥ 1", max_moves);
 }
 
 SlideStatus CollideAndSlide(const ContactModel& model,
@@ -136,8 +137,7 @@ SlideStatus CollideAndSlide(const ContactModel& model,
   path->push_back(a);
   if (a == b) return SlideStatus::kReached;
   Slider slider(model, options, a, path, counters);
-  const std::size_t limit = static_cast<std::size_t>(options.max_moves);
-  while (path->size() <= limit) {
+  while (path->size() <= kMaxMoves) {
     const std::size_t before = path->size();
     Vector3d n_1, n_2, n_3;
     Outcome outcome = slider.Move(b - slider.at(), true, &n_1);
@@ -168,7 +168,7 @@ SlideStatus StepRetract(const Retraction& retraction,
   if (a == b) return SlideStatus::kReached;
   const double longest = options.step * model.diagonal();
   double step = longest;
-  while (path->size() <= static_cast<std::size_t>(options.max_moves)) {
+  while (path->size() <= kMaxMoves) {
     const Vector3d at = path->back();
     const double left = (b - at).norm();
     const bool last = left <= step;

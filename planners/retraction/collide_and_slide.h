@@ -22,8 +22,6 @@ struct SlideOptions {
   // Largest standoff from what is slid along, as a fraction of the region's
   // diagonal; half the free gap where that is less.  (0, 1].
   double clearance = 1e-2;
-  // Moves of one slide; ≥ 1.
-  int max_moves = 100;
   // Step of StepRetract as a fraction of the diagonal, in (0, 1].
   double step = 2e-2;
 
@@ -33,7 +31,7 @@ struct SlideOptions {
 enum class SlideStatus {
   kReached,    // the path ends in b
   kStopped,    // at a place from which no slide comes closer to b
-  kMoveLimit,  // max_moves used up
+  kMoveLimit,  // a hundred moves
   kInvalid,    // a is not free, or b is not finite
 };
 

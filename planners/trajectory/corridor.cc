@@ -13,6 +13,7 @@ namespace {
 
 using Eigen::VectorXd;
 
+constexpr double kRestoring = 50.0;      // P, the price of missing clearance
 constexpr double kSmallestTrust = 1e-3;  // of the first round's
 constexpr double kLeastGain = 1e-4;  // of the merit; two smaller ones end it
 
@@ -35,7 +36,7 @@ void Check(const char* name, const char* range, bool holds, T value) {
 IpoptSettings CorridorOptions::DefaultIpopt() {
   IpoptSettings settings;
   settings.max_iterations = 60;
-  settings.stall_stop = false;
+  settings.stall_iterations = 0;
   // A round is convex and starts near its solution: no large mu is needed to
   // find the way, nor more digits than two rounds differ by.
   settings.mu_strategy = IpoptSettings::MuStrategy::kMonotone;
@@ -51,10 +52,7 @@ IpoptSettings CorridorOptions::DefaultIpopt() {
 }
 
 void CorridorOptions::Validate() const {
-  Check("trust", "in (0, 1]", trust > 0.0 && trust <= 1.0, trust);
   Check("max_rounds", "at least 1", max_rounds >= 1, max_rounds);
-  Check("restoring", "in [0, 1e6]", restoring >= 0.0 && restoring <= 1e6,
-        restoring);
   Check("time_limit", "> 0 seconds", time_limit > 0.0, time_limit);
   ipopt.Validate();
 }
@@ -104,8 +102,8 @@ CorridorSummary PolishInCorridor(const TrajectoryProblem& problem,
     springs.eta = std::max(springs.eta, springs.Step(i, now.data()).norm());
   }
   const double price =
-      options.restoring / std::max((springs.goal - springs.start).norm(), 1e-3);
-  double trust = options.trust;
+      kRestoring / std::max((springs.goal - springs.start).norm(), 1e-3);
+  double trust = kFirstTrust;
   Corridor corridor =
       FindCorridor(problem, springs, path, ReachOf(problem, trust));
   double merit = springs.Energy(now.data()) + price * corridor.TotalMissing();
@@ -153,7 +151,7 @@ CorridorSummary PolishInCorridor(const TrajectoryProblem& problem,
       summary.status = CorridorStatus::kConverged;
       break;
     }
-    if (trust < kSmallestTrust * options.trust) {
+    if (trust < kSmallestTrust * kFirstTrust) {
       summary.status = CorridorStatus::kSmallestTrust;
       break;
     }
@@ -174,16 +172,14 @@ CorridorSummary PolishInCorridor(const TrajectoryProblem& problem,
 }
 
 std::vector<CorridorPlane> PlanesAround(const TrajectoryProblem& problem,
-                                        const Path& path,
-                                        const CorridorOptions& options) {
+                                        const Path& path) {
   problem.Validate();
-  options.Validate();
   CheckStartPath(problem, path);
   std::vector<CorridorPlane> planes;
   if (!CheckPath(*problem.free_space, path).free) return planes;
   const PathSprings springs(problem, PathLength(path));
   const Corridor corridor =
-      FindCorridor(problem, springs, path, ReachOf(problem, options.trust));
+      FindCorridor(problem, springs, path, ReachOf(problem, kFirstTrust));
   for (std::size_t i = 0; i < corridor.planes.size(); ++i) {
     for (const Corridor::Plane& plane : corridor.planes[i]) {
       const Eigen::Vector3d& a = path[i];

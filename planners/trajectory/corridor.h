@@ -11,11 +11,11 @@
 
 namespace phongpd {
 
+// τ of the first round, a share of D.
+inline constexpr double kFirstTrust = 0.05;
+
 struct CorridorOptions {
-  double trust = 0.05;  // τ of the first round, fraction of D, in (0, 1]
-  int max_rounds = 40;  // ≥ 1
-  // Price of missing clearance (below), ≥ 0; 0: what is missing stays missing.
-  double restoring = 50.0;
+  int max_rounds = 40;                                          // ≥ 1
   double time_limit = std::numeric_limits<double>::infinity();  // seconds
   IpoptSettings ipopt = DefaultIpopt();                         // of one round
 
@@ -71,7 +71,7 @@ struct CorridorSummary {
 //            0 ≤ s_i ≤ wanted_i − clearance_i of segment i now (or fixed at 0)
 //            |p − p_now|_∞ ≤ τ,  |Δp| ≤ h,
 //
-//     by Ipopt; f, ℓ₀, D and h are TrajectoryProblem's, P is `restoring`, and
+//     by Ipopt; f, ℓ₀, D and h are TrajectoryProblem's, P is 50, and
 //     wanted is the margin or, between opposite planes, 0.95 of half the gap.
 //  3. The step is kept if the exact judge finds it free and the merit, the
 //     same objective with the true missing clearances, fell; Ipopt's own word
@@ -98,11 +98,10 @@ struct CorridorPlane {
 };
 
 // The planes that a round of PolishInCorridor would put around an exactly free
-// path, its answer for example: those within 2·trust + margin.  Empty for a
-// path that collides.  Throws like PolishInCorridor.
+// path, its answer for example: those within 2τ + margin, τ = kFirstTrust.
+// Empty for a path that collides.  Throws like PolishInCorridor.
 std::vector<CorridorPlane> PlanesAround(const TrajectoryProblem& problem,
-                                        const Path& path,
-                                        const CorridorOptions& options = {});
+                                        const Path& path);
 
 // The most that a segment of an exactly free path lacks of the clearance it
 // could have, which is `wanted` above: the margin where there is room for it.

@@ -116,12 +116,9 @@ TrajectorySummary IpoptTrajectoryOptimizer::Solve(
   if (summary.rows == 0) {
     summary.rows = CheckPath(space, start_path).free ? 3 : 1;
   }
-  TrajectoryNlpOptions nlp_options;
-  nlp_options.rows = summary.rows;
-  nlp_options.merge_spaces = options_.merge_spaces;
   IpoptSettings settings = options_.ipopt;
   while (true) {
-    TrajectoryNlp nlp(problem_, summary.samples, start_length, nlp_options);
+    TrajectoryNlp nlp(problem_, summary.samples, start_length, summary.rows);
     const Eigen::VectorXd u = nlp.ToVariables(summary.path);
     nlp.Start(u);
     settings.time_limit =

@@ -16,7 +16,6 @@ struct TrajectoryOptions {
   // K rows a sample; 0: 3 from a start path that is free, 1 from one that
   // collides (there more rows contradict each other on thin parts).
   int rows = 0;
-  bool merge_spaces = false;  // K rows over all contact spaces together
   // Solves, ≥ 1.  Where the solver claims a solution, or ran out of iterations,
   // and the judge finds a crossing, the segments that cross get twice the
   // samples and the next round starts from there; also after rounds that ended

@@ -141,10 +141,7 @@ void IpoptSettings::Validate() const {
   check(max_iterations >= 0, "max_iterations", "≥ 0", max_iterations);
   check(tolerance > 0.0 && tolerance < 1.0, "tolerance", "in (0, 1)",
         tolerance);
-  check(stall_iterations >= 1, "stall_iterations", "≥ 1", stall_iterations);
-  check(stall_improvement >= 0.0 && stall_improvement < 1.0,
-        "stall_improvement", "in [0, 1)", stall_improvement);
-  check(feasibility >= 0.0, "feasibility", "≥ 0", feasibility);
+  check(stall_iterations >= 0, "stall_iterations", "≥ 0", stall_iterations);
   check(time_limit > 0.0, "time_limit", "> 0 seconds", time_limit);
 }
 

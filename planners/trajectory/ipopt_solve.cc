@@ -76,7 +76,7 @@ class ProgramAdapter : public Ipopt::TNLP {
     run.x = x_;
     run.objective = evaluated_.Objective(x_.data());
     run.violation = evaluated_.Violation(x_.data());
-    run.is_feasible = run.violation <= settings_.feasibility;
+    run.is_feasible = run.violation <= kFeasibility;
     run.iterations = std::max(0, static_cast<int>(run.log.size()) - 1);
   }
 

@@ -43,6 +43,9 @@ struct IterationRecord {
   int branch_changes = 0;  // NonlinearProgram::Accept
 };
 
+// Largest violation of a row with which an iterate counts as feasible.
+inline constexpr double kFeasibility = 1e-6;
+
 struct IpoptSettings {
   enum class MuStrategy { kAdaptive, kMonotone };
 
@@ -50,12 +53,9 @@ struct IpoptSettings {
   double tolerance = 1e-6;   // Ipopt's tol, > 0
   MuStrategy mu_strategy = MuStrategy::kAdaptive;
   // Stop after this many iterations in which the best feasible iterate (no row
-  // violated by more than `feasibility`) gained less than `stall_improvement`
-  // of its objective, and return it.
-  bool stall_stop = true;
+  // violated by more than kFeasibility) gained less than a thousandth of its
+  // objective, and return it.  0: never.
   int stall_iterations = 30;
-  double stall_improvement = 1e-3;
-  double feasibility = 1e-6;
   double time_limit = std::numeric_limits<double>::infinity();  // seconds
   // Ipopt's own options by name, values as text; they win over the above.  A
   // name or value Ipopt does not know is an InputError that names it.
@@ -81,7 +81,7 @@ struct IpoptRun {
   // The solution where the status is ok; otherwise the best feasible iterate,
   // and the last iterate if there is none.
   Eigen::VectorXd x;
-  bool is_feasible = false;          // x, to IpoptSettings::feasibility
+  bool is_feasible = false;          // x, to kFeasibility
   double objective = 0.0;            // at x
   double violation = 0.0;            // at x
   double dual_infeasibility = -1.0;  // of the last iterate; −1: not known

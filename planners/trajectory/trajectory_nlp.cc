@@ -15,28 +15,22 @@ using Eigen::VectorXd;
 // them, in units of D; more than Ipopt's relaxation of 1e-8.
 constexpr double kBoundInset = 1e-6;
 
-NonPenetrationOptions ContactOptions(const PathSprings& springs,
-                                     const TrajectoryNlpOptions& options) {
-  NonPenetrationOptions contact;
-  contact.frame = {springs.center, springs.unit};
-  contact.rows = options.rows;
-  contact.merge_spaces = options.merge_spaces;
-  return contact;
+NonPenetrationOptions ContactOptions(const PathSprings& springs, int rows) {
+  return {{springs.center, springs.unit}, rows};
 }
 
 }  // namespace
 
 TrajectoryNlp::TrajectoryNlp(const TrajectoryProblem& problem,
                              const std::vector<int>& samples,
-                             double start_length,
-                             const TrajectoryNlpOptions& options)
+                             double start_length, int rows)
     : start_(problem.start),
       goal_(problem.goal),
       margin_(problem.margin),
       springs_(problem, start_length),
       bounds_(problem.free_space->bounds()),
       contact_(problem.metrics, problem.start, problem.goal, problem.waypoints,
-               samples, ContactOptions(springs_, options)) {}
+               samples, ContactOptions(springs_, rows)) {}
 
 VectorXd TrajectoryNlp::ToVariables(const Path& path) const {
   return springs_.ToVariables(path);

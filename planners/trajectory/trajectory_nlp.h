@@ -11,11 +11,6 @@
 
 namespace phongpd {
 
-struct TrajectoryNlpOptions {
-  int rows = 1;  // K
-  bool merge_spaces = false;
-};
-
 // A TrajectoryProblem as a nonlinear program in u, waypoint = centre + D·u with
 // the centre half way between start and goal.  Rows, in this order: those of
 // NonPenetrationConstraint (units of D), then |u_{i+1} − u_i|²/η ≤ η for the
@@ -23,10 +18,10 @@ struct TrajectoryNlpOptions {
 // exactly, and nothing of the contact rows.
 class TrajectoryNlp : public NonlinearProgram {
  public:
-  // `samples`: one count per segment; `start_length` decides h.
+  // `samples`: one count per segment; `start_length` decides h; `rows`: K of
+  // NonPenetrationOptions.
   TrajectoryNlp(const TrajectoryProblem& problem,
-                const std::vector<int>& samples, double start_length,
-                const TrajectoryNlpOptions& options);
+                const std::vector<int>& samples, double start_length, int rows);
 
   Eigen::VectorXd ToVariables(const Path& path) const;
   // The ends are exactly start and goal.

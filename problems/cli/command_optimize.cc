@@ -186,7 +186,7 @@ int Optimize(const Flags& flags) {
     if (run == runs.kept()) TellModel(study);
     nlohmann::ordered_json row = TrajectoryRow(study, metric, options, result);
     check.Judge(study.scene(), study.world(), ClaimsOf(result), &row);
-    runs.Add(row, runs.ShowsBehind() ? BehindTrajectory(study, options, result)
+    runs.Add(row, runs.ShowsBehind() ? BehindTrajectory(study, result)
                                      : ViewBehind());
   }
   runs.Write([&study] {

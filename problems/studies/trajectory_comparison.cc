@@ -33,7 +33,7 @@ PipelineOptions OneSolve(TrajectoryStart start, bool is_adaptive) {
   using Mu = IpoptSettings::MuStrategy;
   options.optimizer.ipopt.mu_strategy =
       is_adaptive ? Mu::kAdaptive : Mu::kMonotone;
-  options.optimizer.ipopt.stall_stop = is_adaptive;
+  if (!is_adaptive) options.optimizer.ipopt.stall_iterations = 0;
   options.also_line = false;
   const bool is_repaired = start == TrajectoryStart::kRepaired;
   options.optimizer.rows = is_adaptive && is_repaired ? 3 : 1;

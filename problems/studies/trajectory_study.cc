@@ -179,13 +179,12 @@ const FreeSpace& TrajectoryStudy::judge() const {
                                  : *spaces().free_space;
 }
 
-std::vector<CorridorPlane> TrajectoryStudy::Corridor(
-    const Path& path, const CorridorOptions& options) const {
+std::vector<CorridorPlane> TrajectoryStudy::Corridor(const Path& path) const {
   TrajectoryProblem problem = Settings();
   problem.free_space = used_model_ == "window"
                            ? world().Convolution().free_space
                            : spaces().free_space;
-  return PlanesAround(problem, path, options);
+  return PlanesAround(problem, path);
 }
 
 PipelineResult TrajectoryStudy::RunInWindow(const PipelineOptions& options) {

@@ -74,8 +74,7 @@ class TrajectoryStudy {
 
   // The planes around a path of the last run as its corridor had them; empty
   // if it collides.  Throws like PlanesAround.
-  std::vector<CorridorPlane> Corridor(const Path& path,
-                                      const CorridorOptions& options) const;
+  std::vector<CorridorPlane> Corridor(const Path& path) const;
 
   // The problem of the current scene; its metrics are shared between calls.
   TrajectoryProblem Problem(const TrajectoryMetric& metric);

@@ -18,30 +18,27 @@ TEST(ConstraintCost, EvaluatingDoesNotAllocate) {
   const auto metric = std::make_shared<SignedMetric>(
       TakeAsContactSpace(MakeTorus(1.0, 0.35, 40, 16)));
   const std::vector<int> samples(9, 2);
-  for (const bool merge : {false, true}) {
-    NonPenetrationOptions options;
-    options.rows = 3;
-    options.merge_spaces = merge;
-    const NonPenetrationConstraint rows({metric, metric}, {-2, 0.1, 0},
-                                        {2, 0, 0.1}, 8, samples, options);
-    std::vector<double> u(static_cast<std::size_t>(rows.variables()));
-    for (std::size_t i = 0; i < u.size(); ++i) {
-      u[i] = 1.2 * std::sin(static_cast<double>(3 * i));
-    }
-    std::vector<double> values(static_cast<std::size_t>(rows.rows()));
-    std::vector<double> jacobian(static_cast<std::size_t>(rows.nonzeros()));
-    NonPenetrationCounts counts;
-    BranchSet branches = rows.Start(u.data(), &counts);
-    const long before = allocations;
-    for (int i = 0; i < 200; ++i) {
-      u[static_cast<std::size_t>(i) % u.size()] += 1e-3 * i;
-      ASSERT_TRUE(rows.Evaluate(u.data(), branches, values.data(),
-                                jacobian.data(), &counts));
-      rows.Commit(u.data(), &branches, &counts);
-    }
-    EXPECT_EQ(allocations, before);
-    EXPECT_GT(counts.warm, 100);
+  NonPenetrationOptions options;
+  options.rows = 3;
+  const NonPenetrationConstraint rows({metric, metric}, {-2, 0.1, 0},
+                                      {2, 0, 0.1}, 8, samples, options);
+  std::vector<double> u(static_cast<std::size_t>(rows.variables()));
+  for (std::size_t i = 0; i < u.size(); ++i) {
+    u[i] = 1.2 * std::sin(static_cast<double>(3 * i));
   }
+  std::vector<double> values(static_cast<std::size_t>(rows.rows()));
+  std::vector<double> jacobian(static_cast<std::size_t>(rows.nonzeros()));
+  NonPenetrationCounts counts;
+  BranchSet branches = rows.Start(u.data(), &counts);
+  const long before = allocations;
+  for (int i = 0; i < 200; ++i) {
+    u[static_cast<std::size_t>(i) % u.size()] += 1e-3 * i;
+    ASSERT_TRUE(rows.Evaluate(u.data(), branches, values.data(),
+                              jacobian.data(), &counts));
+    rows.Commit(u.data(), &branches, &counts);
+  }
+  EXPECT_EQ(allocations, before);
+  EXPECT_GT(counts.warm, 100);
 }
 
 }  // namespace

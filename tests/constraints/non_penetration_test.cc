@@ -80,13 +80,6 @@ TEST(NonPenetration, CountsRowsAndPatternBySampleWaypointAndSpace) {
   const NonPenetrationConstraint all(three, kStart, kGoal, kWaypoints, two,
                                      twice);
   EXPECT_EQ(all.rows(), 6 * dense.rows());
-  NonPenetrationOptions merged;
-  merged.rows = 2;
-  merged.merge_spaces = true;
-  EXPECT_EQ(
-      NonPenetrationConstraint(three, kStart, kGoal, kWaypoints, two, merged)
-          .rows(),
-      2 * dense.rows());
   std::vector<int> row(static_cast<std::size_t>(dense.nonzeros())), col(row);
   dense.Sparsity(row.data(), col.data());
   std::set<std::pair<int, int>> entries;
@@ -127,48 +120,45 @@ TEST(NonPenetration, ValuesAreTheMetricAtTheSamples) {
 }
 
 TEST(NonPenetration, ExactJacobianIsTheDerivativeForSeveralSpaces) {
-  for (const bool merge : {false, true}) {
-    NonPenetrationOptions options;
-    options.frame.unit = 3.0;
-    options.rows = 2;
-    options.merge_spaces = merge;
-    const Metrics metrics{
-        Metric(Ball({-0.7, 0.2, 0.0}), JacobianKind::kExact),
-        Metric(Rotated(MakeBox({0.2, -0.5, -0.4}, {1.2, 0.5, 0.6}),
-                       GenericRotation()),
-               JacobianKind::kExact)};
-    const NonPenetrationConstraint rows(metrics, kStart, kGoal, kWaypoints,
-                                        {0, 1, 2, 3, 2, 1, 0}, options);
-    std::vector<int> row(static_cast<std::size_t>(rows.nonzeros())), col(row);
-    rows.Sparsity(row.data(), col.data());
-    int off = 0, compared = 0;
-    for (unsigned seed = 0; seed < 10; ++seed) {
-      const VectorXd u = Line(0.2, seed, options.frame);
-      const BranchSet branches = rows.Start(u.data(), nullptr);
-      const Rows at = Evaluate(rows, u, branches, nullptr);
-      Eigen::MatrixXd dense =
-          Eigen::MatrixXd::Zero(rows.rows(), rows.variables());
-      for (std::size_t i = 0; i < row.size(); ++i) {
-        dense(row[i], col[i]) = at.jacobian[static_cast<int>(i)];
-      }
-      const double h = 1e-7;
-      for (int j = 0; j < rows.variables(); ++j) {
-        VectorXd ahead = u, behind = u;
-        ahead[j] += h;
-        behind[j] -= h;
-        const VectorXd difference =
-            (Evaluate(rows, ahead, branches, nullptr).values -
-             Evaluate(rows, behind, branches, nullptr).values) /
-            (2.0 * h);
-        for (int i = 0; i < rows.rows(); ++i) {
-          ++compared;
-          off += std::abs(difference[i] - dense(i, j)) > 1e-5 ? 1 : 0;
-        }
+  NonPenetrationOptions options;
+  options.frame.unit = 3.0;
+  options.rows = 2;
+  const Metrics metrics{
+      Metric(Ball({-0.7, 0.2, 0.0}), JacobianKind::kExact),
+      Metric(Rotated(MakeBox({0.2, -0.5, -0.4}, {1.2, 0.5, 0.6}),
+                     GenericRotation()),
+             JacobianKind::kExact)};
+  const NonPenetrationConstraint rows(metrics, kStart, kGoal, kWaypoints,
+                                      {0, 1, 2, 3, 2, 1, 0}, options);
+  std::vector<int> row(static_cast<std::size_t>(rows.nonzeros())), col(row);
+  rows.Sparsity(row.data(), col.data());
+  int off = 0, compared = 0;
+  for (unsigned seed = 0; seed < 10; ++seed) {
+    const VectorXd u = Line(0.2, seed, options.frame);
+    const BranchSet branches = rows.Start(u.data(), nullptr);
+    const Rows at = Evaluate(rows, u, branches, nullptr);
+    Eigen::MatrixXd dense =
+        Eigen::MatrixXd::Zero(rows.rows(), rows.variables());
+    for (std::size_t i = 0; i < row.size(); ++i) {
+      dense(row[i], col[i]) = at.jacobian[static_cast<int>(i)];
+    }
+    const double h = 1e-7;
+    for (int j = 0; j < rows.variables(); ++j) {
+      VectorXd ahead = u, behind = u;
+      ahead[j] += h;
+      behind[j] -= h;
+      const VectorXd difference =
+          (Evaluate(rows, ahead, branches, nullptr).values -
+           Evaluate(rows, behind, branches, nullptr).values) /
+          (2.0 * h);
+      for (int i = 0; i < rows.rows(); ++i) {
+        ++compared;
+        off += std::abs(difference[i] - dense(i, j)) > 1e-5 ? 1 : 0;
       }
     }
-    EXPECT_GT(compared, 5000);
-    EXPECT_LE(off, compared / 1000);
   }
+  EXPECT_GT(compared, 5000);
+  EXPECT_LE(off, compared / 1000);
 }
 
 // Points a solver tries and rejects leave no trace.

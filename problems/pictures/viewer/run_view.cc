@@ -45,7 +45,6 @@ ViewBehind BehindPlan(const PlanningStudy& study,
 }
 
 ViewBehind BehindTrajectory(const TrajectoryStudy& study,
-                            const PipelineOptions& options,
                             const PipelineResult& result) {
   ViewBehind behind;
   const bool has_corridor =
@@ -55,8 +54,7 @@ ViewBehind BehindTrajectory(const TrajectoryStudy& study,
                            stage.route == result.route && stage.is_free;
                   });
   if (!has_corridor || !HasFreePath(result.status)) return behind;
-  for (const CorridorPlane& plane :
-       study.Corridor(result.path, options.corridor)) {
+  for (const CorridorPlane& plane : study.Corridor(result.path)) {
     const auto k = static_cast<std::size_t>(plane.segment);
     behind.planes.push_back({plane.point, plane.normal,
                              (result.path[k + 1] - result.path[k]).norm()});

@@ -16,7 +16,6 @@ ViewBehind BehindPlan(const PlanningStudy& study, const PlanningResult& result);
 
 // The planes of the corridor that the path was optimised in.
 ViewBehind BehindTrajectory(const TrajectoryStudy& study,
-                            const PipelineOptions& options,
                             const PipelineResult& result);
 
 }  // namespace phongpd

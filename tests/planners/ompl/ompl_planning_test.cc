@@ -167,9 +167,6 @@ TEST_F(OmplPlanning, RefusesBadInput) {
     options.time_limit = limit;
     EXPECT_THROW(Plan(passage, "prm", options), InputError) << limit;
   }
-  options = {};
-  options.local_planner = "fly";
-  EXPECT_THROW(Plan(passage, "retraction-rrt", options), InputError);
   EXPECT_THROW(PlanWithOmpl(passage.model, {std::nan(""), 0.0, 0.0},
                             passage.scene.goal, "prm", {}),
                InputError);

@@ -103,9 +103,6 @@ TEST(CollideAndSlide, RefusesWhatIsNotFree) {
                InputError);
   options.clearance = -1.0;
   EXPECT_THROW(options.Validate(), InputError);
-  options = {};
-  options.max_moves = 0;
-  EXPECT_THROW(options.Validate(), InputError);
 }
 
 // From the middle of a hole both ways out are one slide each, whatever the

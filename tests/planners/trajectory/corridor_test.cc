@@ -98,10 +98,8 @@ TEST(MissingClearance, ExpectsNoMoreThanMostOfHalfAGap) {
 TEST(PlanesAround, SeparateEverySegmentFromAllThatIsNear) {
   const PathProblem source = MakePathProblem("Uaxis", 2);
   const TrajectoryProblem problem = WithoutMetrics(source);
-  const CorridorOptions options;
-  const Path path = PolishInCorridor(problem, Repaired(source), options).path;
-  const std::vector<CorridorPlane> planes =
-      PlanesAround(problem, path, options);
+  const Path path = PolishInCorridor(problem, Repaired(source)).path;
+  const std::vector<CorridorPlane> planes = PlanesAround(problem, path);
   ASSERT_GT(planes.size(), 10u);
   const double tolerance = 1e-9 * problem.diagonal;
   for (const CorridorPlane& plane : planes) {
@@ -131,7 +129,7 @@ TEST(PlanesAround, SeparateEverySegmentFromAllThatIsNear) {
                                      0.5 * (path[i] + path[i + 1]))
                                         .norm());
       }
-      if (nearest > (2.0 * options.trust) * problem.diagonal) continue;
+      if (nearest > (2.0 * kFirstTrust) * problem.diagonal) continue;
       const bool is_behind = std::any_of(
           planes.begin(), planes.end(), [&](const CorridorPlane& plane) {
             return plane.segment == i &&
@@ -215,15 +213,6 @@ TEST(Corridor, RestoresMissingClearance) {
   EXPECT_GE(PathClearance(*problem.free_space, summary.path), 0.999 * margin);
   EXPECT_GT(summary.rounds.front().missing, -1e-15);
   EXPECT_LT(summary.rounds.back().missing, 1e-6);
-
-  // Without the price the clearance stays, and the energy only falls.
-  CorridorOptions keep;
-  keep.restoring = 0.0;
-  const CorridorSummary kept = PolishInCorridor(problem, start, keep);
-  EXPECT_LE(kept.objective, PathEnergy(problem, start));
-  EXPECT_LT(kept.objective, summary.objective);
-  EXPECT_TRUE(CheckPath(*problem.free_space, kept.path).free);
-  EXPECT_GE(kept.clearance, 0.9e-5);
 }
 
 TEST(Corridor, CentresItselfInAPassageNarrowerThanTheMargin) {
@@ -382,10 +371,7 @@ TEST(Corridor, RefusesWhatItCannotUse) {
   EXPECT_THROW(PolishInCorridor(problem, {problem.start, problem.goal}),
                InputError);
   CorridorOptions options;
-  options.trust = 0.0;
-  EXPECT_THROW(PolishInCorridor(problem, line, options), InputError);
-  options = {};
-  options.restoring = -1.0;
+  options.max_rounds = 0;
   EXPECT_THROW(PolishInCorridor(problem, line, options), InputError);
 }
 

@@ -85,7 +85,7 @@ TEST(SolveWithIpopt, FindsTheNearestPointOfADisc) {
     IpoptSettings settings;
     settings.mu_strategy = strategy;
     settings.tolerance = 1e-9;
-    settings.stall_stop = false;
+    settings.stall_iterations = 0;
     const IpoptRun run = SolveWithIpopt(&disc, Point(0.0, 0.0), settings);
     EXPECT_EQ(run.status, SolveStatus::kConverged);
     EXPECT_EQ(run.raw_status, "Solve_Succeeded");
@@ -115,7 +115,7 @@ TEST(SolveWithIpopt, ReadsTheIteratesThatIpoptPrints) {
     std::string text;
     IpoptSettings settings;
     settings.output = &text;
-    settings.stall_stop = false;
+    settings.stall_iterations = 0;
     settings.ipopt_options["print_level"] = "5";
     const IpoptRun run = SolveWithIpopt(&disc, Point(3.0, -4.0), settings);
     EXPECT_EQ(run.status, is_infeasible ? SolveStatus::kInfeasible
@@ -153,7 +153,7 @@ TEST(SolveWithIpopt, TakesTheStepsOfAGeneralSolver) {
     Disc one, other;
     one.offset = other.offset = is_infeasible ? 1.5 : 0.0;
     IpoptSettings settings;
-    settings.stall_stop = false;
+    settings.stall_iterations = 0;
     const IpoptRun condensed = SolveWithIpopt(&one, Point(3.0, -4.0), settings);
     settings.ipopt_options["linear_solver"] = "mumps";
     const IpoptRun general = SolveWithIpopt(&other, Point(3.0, -4.0), settings);
@@ -222,10 +222,8 @@ TEST(SolveWithIpopt, RefusesBadSettingsAndStarts) {
   };
   refused([](IpoptSettings* s) { s->max_iterations = -1; });
   refused([&](IpoptSettings* s) { s->tolerance = nan; });
-  refused([](IpoptSettings* s) { s->stall_iterations = 0; });
-  refused([&](IpoptSettings* s) { s->stall_improvement = nan; });
+  refused([](IpoptSettings* s) { s->stall_iterations = -1; });
   refused([](IpoptSettings* s) { s->time_limit = 0.0; });
-  refused([&](IpoptSettings* s) { s->feasibility = nan; });
 }
 
 TEST(SolveWithIpopt, PassesOnWhatACallbackThrows) {
@@ -291,7 +289,7 @@ TEST(SolveWithIpopt, StallReturnsTheBestFeasibleIterate) {
   }
   double best = std::numeric_limits<double>::infinity();
   for (const IterationRecord& record : run.log) {
-    if (record.violation <= settings.feasibility) {
+    if (record.violation <= kFeasibility) {
       best = std::min(best, record.objective);
     }
   }

@@ -37,12 +37,12 @@ TrajectoryProblem TrapProblem(JacobianKind jacobian, int waypoints) {
 }
 
 TrajectoryNlp MakeNlp(const TrajectoryProblem& problem, int samples,
-                      const TrajectoryNlpOptions& options) {
+                      int rows = 1) {
   return TrajectoryNlp(
       problem,
       std::vector<int>(static_cast<std::size_t>(problem.waypoints) + 1,
                        samples),
-      0.0, options);
+      0.0, rows);
 }
 
 VectorXd Noisy(const TrajectoryNlp& nlp, const TrajectoryProblem& problem,
@@ -73,9 +73,7 @@ bool PassesChecker(TrajectoryNlp* nlp, const VectorXd& u,
 
 TEST(TrajectoryNlp, PassesIpoptsDerivativeCheckerAtSmoothPoints) {
   const TrajectoryProblem problem = TrapProblem(JacobianKind::kExact, 6);
-  TrajectoryNlpOptions options;
-  options.rows = 2;
-  TrajectoryNlp nlp = MakeNlp(problem, 2, options);
+  TrajectoryNlp nlp = MakeNlp(problem, 2, 2);
   int points = 0, inside = 0;
   for (unsigned seed = 0; points < 100; ++seed) {
     const VectorXd u = Noisy(nlp, problem, 0.1, seed);
@@ -99,7 +97,7 @@ TEST(TrajectoryNlp, PassesIpoptsDerivativeCheckerAtSmoothPoints) {
 
 TEST(TrajectoryNlp, HessianIsTheDerivativeOfTheSmoothRowsGradient) {
   const TrajectoryProblem problem = TrapProblem(JacobianKind::kDirection, 5);
-  TrajectoryNlp nlp = MakeNlp(problem, 1, {});
+  TrajectoryNlp nlp = MakeNlp(problem, 1);
   const VectorXd u = Noisy(nlp, problem, 0.1, 1);
   nlp.Start(u);
   std::mt19937_64 random(2);
@@ -151,7 +149,7 @@ TEST(TrajectoryNlp, HessianIsTheDerivativeOfTheSmoothRowsGradient) {
 
 TEST(TrajectoryNlp, ValuesAreEnergyMarginsAndLengths) {
   const TrajectoryProblem problem = TrapProblem(JacobianKind::kDirection, 7);
-  TrajectoryNlp nlp = MakeNlp(problem, 2, {});
+  TrajectoryNlp nlp = MakeNlp(problem, 2);
   const VectorXd straight = nlp.ToVariables(StraightPath(problem));
   EXPECT_NEAR(nlp.Objective(straight.data()), 1.0, 1e-12);
   const VectorXd u = Noisy(nlp, problem, 0.1, 5);
@@ -180,7 +178,7 @@ TEST(TrajectoryNlp, KeepsWaypointsStrictlyWithinBounds) {
   const BoundingBox bounds = {Vector3d(-3, -2.5, -2), Vector3d(3, 2.5, 4)};
   problem.free_space = std::make_shared<FreeSpace>(
       std::vector<ContactSpace>{TakeAsContactSpace(Trap())}, bounds);
-  const TrajectoryNlp nlp = MakeNlp(problem, 1, {});
+  const TrajectoryNlp nlp = MakeNlp(problem, 1);
   VectorXd low(nlp.variables()), high(low), g_low(nlp.rows()), g_high(g_low);
   nlp.Bounds(low.data(), high.data(), g_low.data(), g_high.data());
   for (const Vector3d& p : nlp.ToPath(low)) {
@@ -217,12 +215,12 @@ TEST(TrajectoryNlp, IsCommittedOnlyAtAcceptedIterates) {
       problem.metrics = {
           std::make_shared<SignedMetric>(TakeAsContactSpace(Trap()), euclid)};
     }
-    Recorder nlp(problem, std::vector<int>(41, 2), 0.0, {});
+    Recorder nlp(problem, std::vector<int>(41, 2), 0.0, 1);
     const VectorXd u = nlp.ToVariables(StraightPath(problem));
     nlp.Start(u);
     IpoptSettings settings;
     settings.mu_strategy = IpoptSettings::MuStrategy::kMonotone;
-    settings.stall_stop = false;
+    settings.stall_iterations = 0;
     const IpoptRun run = SolveWithIpopt(&nlp, u, settings);
     EXPECT_LE(nlp.accepted.size(), run.log.size());
     EXPECT_EQ(run.restoration_iterations > 0, !is_phong);
@@ -307,7 +305,7 @@ TEST(TrajectoryProblem, NamesBadFields) {
 
 TEST(TrajectoryNlp, RefusesPointsWhoseRowsAreNotFinite) {
   const TrajectoryProblem problem = TrapProblem(JacobianKind::kExact, 3);
-  TrajectoryNlp nlp = MakeNlp(problem, 1, {});
+  TrajectoryNlp nlp = MakeNlp(problem, 1);
   const VectorXd line = nlp.ToVariables(StraightPath(problem));
   nlp.Start(line);
   VectorXd values(nlp.rows()), jacobian(nlp.jacobian_nonzeros());
