@@ -107,11 +107,16 @@ CorridorSummary PolishInCorridor(const TrajectoryProblem& problem,
   Corridor corridor =
       FindCorridor(problem, springs, path, ReachOf(problem, trust));
   double merit = springs.Energy(now.data()) + price * corridor.TotalMissing();
+  const std::function<Path(const VectorXd&)> path_of = [&](const VectorXd& x) {
+    return springs.ToPath(problem.start, x.data(), problem.goal);
+  };
   int small_gains = 0;
   summary.status = CorridorStatus::kRoundLimit;
   while (static_cast<int>(summary.rounds.size()) < options.max_rounds) {
     CorridorProgram program(problem, springs, corridor, now, trust, price);
     IpoptSettings settings = options.ipopt;
+    TellPaths(options.on_path, static_cast<int>(summary.rounds.size()), path_of,
+              &settings);
     settings.time_limit =
         std::min(settings.time_limit,
                  std::max(1e-3, options.time_limit - stopwatch.Seconds()));
@@ -122,8 +127,7 @@ CorridorSummary PolishInCorridor(const TrajectoryProblem& problem,
     round.trust = trust;
     round.planes = corridor.CountPlanes();
     round.iterations = run.iterations;
-    const Path moved =
-        springs.ToPath(problem.start, run.x.data(), problem.goal);
+    const Path moved = path_of(run.x);
     double gain = 0.0;
     if (CheckPath(*problem.free_space, moved).free) {
       Corridor around =

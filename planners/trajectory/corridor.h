@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "planners/trajectory/ipopt_solve.h"
+#include "planners/trajectory/path_history.h"
 #include "planners/trajectory/trajectory_problem.h"
 
 namespace phongpd {
@@ -18,6 +19,7 @@ struct CorridorOptions {
   int max_rounds = 40;                                          // ≥ 1
   double time_limit = std::numeric_limits<double>::infinity();  // seconds
   IpoptSettings ipopt = DefaultIpopt();                         // of one round
+  PathObserver on_path;  // told of every iterate of every round
 
   // Throws InputError naming the field.
   void Validate() const;

@@ -116,11 +116,14 @@ TrajectorySummary IpoptTrajectoryOptimizer::Solve(
   if (summary.rows == 0) {
     summary.rows = CheckPath(space, start_path).free ? 3 : 1;
   }
-  IpoptSettings settings = options_.ipopt;
   while (true) {
     TrajectoryNlp nlp(problem_, summary.samples, start_length, summary.rows);
     const Eigen::VectorXd u = nlp.ToVariables(summary.path);
     nlp.Start(u);
+    IpoptSettings settings = options_.ipopt;
+    const std::function<Path(const Eigen::VectorXd&)> path_of =
+        [&nlp](const Eigen::VectorXd& x) { return nlp.ToPath(x); };
+    TellPaths(options_.on_path, summary.rounds, path_of, &settings);
     settings.time_limit =
         std::max(1e-3, options_.ipopt.time_limit - stopwatch.Seconds());
     const IpoptRun run = SolveWithIpopt(&nlp, u, settings);

@@ -5,6 +5,7 @@
 
 #include "constraints/non_penetration.h"
 #include "planners/trajectory/ipopt_solve.h"
+#include "planners/trajectory/path_history.h"
 #include "planners/trajectory/trajectory_problem.h"
 
 namespace phongpd {
@@ -22,6 +23,7 @@ struct TrajectoryOptions {
   // infeasible or in numerical trouble, where a new start near the old end
   // finds a way out of some traps.
   int max_rounds = 4;
+  PathObserver on_path;  // told of every iterate of every round
 
   // Throws InputError naming the field.
   void Validate() const;

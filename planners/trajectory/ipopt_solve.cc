@@ -203,7 +203,7 @@ class ProgramAdapter : public Ipopt::TNLP {
       run.dual_infeasibility = record.dual_infeasibility;
     }
     run.log.push_back(record);
-    if (settings_.on_iteration) settings_.on_iteration(record);
+    if (settings_.on_iteration) settings_.on_iteration(record, x_);
     return stop_.MustStop(record, x_);
   }
 

@@ -63,7 +63,10 @@ struct IpoptSettings {
   // Called once an iteration.  They may not solve; what they throw ends the
   // solve and reaches its caller.
   std::function<bool()> is_cancelled;
-  std::function<void(const IterationRecord&)> on_iteration;
+  // With the iterate's variables.  The first regular iterate after a
+  // restoration comes again, under the number of the restoration's last one.
+  std::function<void(const IterationRecord&, const Eigen::VectorXd&)>
+      on_iteration;
   std::string* output = nullptr;  // receives what Ipopt prints (print_level)
 
   // Throws InputError naming the field.

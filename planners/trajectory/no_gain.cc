@@ -12,11 +12,12 @@ constexpr double kStepsLeft = 10.0;
 }  // namespace
 
 void NoGain::Stop(IpoptSettings* settings) {
-  settings->on_iteration =
-      [this, next = settings->on_iteration](const IterationRecord& record) {
-        See(record);
-        if (next) next(record);
-      };
+  settings->on_iteration = [this, next = settings->on_iteration](
+                               const IterationRecord& record,
+                               const Eigen::VectorXd& x) {
+    See(record);
+    if (next) next(record, x);
+  };
   settings->is_cancelled = [this, next = settings->is_cancelled] {
     return has_ended_ || (next && next());
   };

@@ -213,6 +213,7 @@ class Run {
     if (is_second && options_.polish != PolishWhen::kNever) {
       no_gain.Stop(&options.ipopt);
     }
+    options.on_path = OfStage(options_.on_path, "ipopt", candidate->route);
     candidate->ipopt = IpoptTrajectoryOptimizer(problem_, options).Solve(start);
     const TrajectorySummary& summary = candidate->ipopt;
     candidate->is_given_up =
@@ -255,6 +256,7 @@ class Run {
   void Polish(Candidate* candidate) {
     CorridorOptions options = options_.corridor;
     options.time_limit = std::min(options.time_limit, Left());
+    options.on_path = OfStage(options_.on_path, "corridor", candidate->route);
     CorridorSummary summary =
         PolishInCorridor(problem_, candidate->path, options);
     Note({"corridor", candidate->route, ToString(summary.status), false, 0.0,
@@ -331,6 +333,17 @@ bool CheckEnds(const TrajectoryProblem& problem, PipelineResult* result) {
     return true;
   }
   return false;
+}
+
+PathObserver OfStage(const PathObserver& observer, const std::string& stage,
+                     int route) {
+  if (!observer) return {};
+  return [observer, stage, route](const PathIterate& iterate) {
+    PathIterate told = iterate;
+    told.stage = stage;
+    told.route = route;
+    observer(told);
+  };
 }
 
 void AddStage(const TrajectoryProblem& problem, const Path& path,

@@ -44,6 +44,9 @@ struct PipelineOptions {
   CorridorOptions corridor;
   std::uint64_t seed = 1;  // of straightening and noise
   double time_limit = std::numeric_limits<double>::infinity();  // seconds
+  // Told of every iterate of every stage; set it here, not in `optimizer` and
+  // `corridor`.
+  PathObserver on_path;
 
   // Throws InputError naming the field.
   void Validate() const;
@@ -97,6 +100,9 @@ struct PipelineResult {
 //
 // Are start and goal free?  Otherwise result->status says which is not.
 bool CheckEnds(const TrajectoryProblem& problem, PipelineResult* result);
+// The observer with the stage and route that iterates belong to; none for none.
+PathObserver OfStage(const PathObserver& observer, const std::string& stage,
+                     int route);
 // Adds a step that gave `path`: its is_free and objective are the judge's word
 // and the energy of that, and its iterations count in the result's.
 void AddStage(const TrajectoryProblem& problem, const Path& path,

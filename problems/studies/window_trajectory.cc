@@ -111,6 +111,7 @@ class Run {
     if (options_.polish != PolishWhen::kNever) {
       CorridorOptions corridor = options_.corridor;
       corridor.time_limit = std::min(corridor.time_limit, Left());
+      corridor.on_path = OfStage(options_.on_path, "corridor", route);
       summary = PolishInCorridor(problem_, start, corridor);
       Note({"corridor", route, ToString(summary.status), false, 0.0,
             summary.iterations, summary.seconds},

@@ -229,7 +229,7 @@ TEST(SolveWithIpopt, RefusesBadSettingsAndStarts) {
 TEST(SolveWithIpopt, PassesOnWhatACallbackThrows) {
   Disc disc;
   IpoptSettings settings;
-  settings.on_iteration = [](const IterationRecord& record) {
+  settings.on_iteration = [](const IterationRecord& record, const VectorXd&) {
     if (record.iteration == 2) throw std::out_of_range("two");
   };
   EXPECT_THROW(SolveWithIpopt(&disc, Point(0.1, 0.2), settings),
@@ -258,7 +258,10 @@ TEST(SolveWithIpopt, TellsWhyItStopped) {
   int asked = 0;
   settings.is_cancelled = [&] { return ++asked == 3; };
   std::vector<IterationRecord> seen;
-  settings.on_iteration = [&](const IterationRecord& r) { seen.push_back(r); };
+  settings.on_iteration = [&](const IterationRecord& r, const VectorXd& x) {
+    seen.push_back(r);
+    EXPECT_EQ(r.objective, disc.Objective(x.data()));
+  };
   const IpoptRun cancelled = SolveWithIpopt(&disc, start, settings);
   EXPECT_EQ(cancelled.status, SolveStatus::kCancelled);
   EXPECT_EQ(cancelled.raw_status, "User_Requested_Stop");

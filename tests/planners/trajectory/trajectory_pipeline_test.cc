@@ -175,6 +175,50 @@ TEST(TrajectoryPipeline, GivesUpALineThatEndsNoBetter) {
   EXPECT_LT(spent, needed);
 }
 
+// As many as the stages count, from each stage's start to its end, and the
+// answer is that of a run that nobody watches.
+TEST(TrajectoryPipeline, TellsThePathOfEveryIteration) {
+  const Case setup(MakePathProblem("plate0.1", 2));
+  PipelineOptions options;
+  options.polish = PolishWhen::kAlways;
+  const PipelineResult unseen = setup.Solve(options);
+  std::vector<PathIterate> told;
+  options.on_path = [&](const PathIterate& iterate) {
+    const auto same = [&](const PathIterate& other) {
+      return other.stage == iterate.stage && other.route == iterate.route &&
+             other.round == iterate.round &&
+             other.record.iteration == iterate.record.iteration;
+    };
+    if (!told.empty() && same(told.back())) told.pop_back();
+    told.push_back(iterate);
+  };
+  const PipelineResult result = setup.Solve(options);
+  EXPECT_EQ(result.path, unseen.path);
+  EXPECT_EQ(result.iterations, unseen.iterations);
+
+  int corridors = 0;
+  for (const StageRecord& stage : result.stages) {
+    if (stage.iterations == 0) continue;
+    corridors += stage.stage == "corridor" ? 1 : 0;
+    int iterations = 0;
+    for (const PathIterate& iterate : told) {
+      if (iterate.stage != stage.stage || iterate.route != stage.route) {
+        continue;
+      }
+      // The first of each round is its start.
+      iterations += iterate.record.iteration > 0 ? 1 : 0;
+      ASSERT_EQ(iterate.path.size(), result.path.size());
+      EXPECT_EQ(iterate.path.front(), setup.problem.start);
+      EXPECT_EQ(iterate.path.back(), setup.problem.goal);
+    }
+    EXPECT_EQ(iterations, stage.iterations) << stage.stage;
+  }
+  EXPECT_GT(corridors, 0);
+  // Ipopt begins where the stage does.
+  EXPECT_NEAR(PathEnergy(setup.problem, told.front().path),
+              result.stages[0].objective, 1e-6);
+}
+
 TEST(TrajectoryPipeline, StartsStraightWhenAsked) {
   const Case setup(MakePathProblem("longplate", 1));
   PipelineOptions options;
