@@ -11,6 +11,7 @@
 #include "problems/cli/operands.h"
 #include "problems/output/json_text.h"
 #include "problems/pictures/path_picture.h"
+#include "problems/pictures/viewer/behind_json.h"
 #include "problems/pictures/viewer/view_page.h"
 
 namespace phongpd::cli {
@@ -134,12 +135,17 @@ SeededRuns::SeededRuns(const SeededRunFlags& flags, const SceneSource& source,
                        std::to_string(seed) + "; remove the file");
     }
     Tell(row);
+    const std::string& aside = rows_->asides()[paths_.size() - 1];
+    if (ShowsBehind() && !aside.empty()) {
+      paths_.back().behind = BehindOf(nlohmann::ordered_json::parse(aside));
+    }
     ++seed;
   }
 }
 
 void SeededRuns::Add(const nlohmann::ordered_json& row, ViewBehind behind) {
-  rows_->Append(JsonText(row));
+  rows_->Append(JsonText(row),
+                ShowsBehind() ? JsonText(BehindJson(behind)) : "");
   Tell(row);
   paths_.back().behind = std::move(behind);
 }
@@ -158,6 +164,11 @@ void SeededRuns::Write(const std::function<View()>& make_view) {
   if (flags_.html.empty() && flags_.svg.empty()) return;
   View view = make_view();
   view.paths = paths_;
+  if (!ShowsBehind() && !flags_.html.empty()) {
+    view.notes.push_back(
+        "What lies behind a run, such as its iterations or trees, is on the "
+        "page of a single run (--runs 1).");
+  }
   if (!flags_.html.empty()) outputs_.Write(flags_.html, ViewPage(view));
   if (!flags_.svg.empty()) outputs_.Write(flags_.svg, PathSvg(view));
 }

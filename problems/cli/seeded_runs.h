@@ -80,9 +80,8 @@ class SeededRuns {
   // How many runs, the first ones, an interrupted command has left.
   int kept() const { return kept_; }
 
-  // Will the page show what lies behind the run?  That of a single run does: no
-  // row holds it, and the pages of several must not tell whether a command was
-  // interrupted.
+  // Will the page show what lies behind the run?  That of a single run does,
+  // which is kept beside its row until the page is written.
   bool ShowsBehind() const { return !flags_.html.empty() && flags_.runs == 1; }
 
   // Notes a run that is over, with what its page shows behind it.

@@ -19,6 +19,9 @@ namespace {
 using Json = nlohmann::ordered_json;
 using internal::Descriptor;
 
+// JSON writes it as \t.
+constexpr char kBeforeAside = '\t';
+
 constexpr char kWhat[] = "phongpd, rows of an unfinished command";
 
 [[noreturn]] void Fail(const std::string& path, const std::string& reason) {
@@ -29,13 +32,27 @@ Json Parsed(const std::string& line) {
   return Json::parse(line, nullptr, false);
 }
 
+// A setting as its user would say it: values of a flag side by side.
+std::string Spoken(const Json& value) {
+  if (value.is_null() || value == "") return "not given";
+  if (value.is_string()) return value.get<std::string>();
+  if (!value.is_array()) return JsonText(value);
+  std::string text;
+  for (const Json& item : value)
+    text += (text.empty() ? "" : " ") + Spoken(item);
+  return text.empty() ? "none" : text;
+}
+
 // The first thing that two commands disagree about.
 std::string Difference(const Json& there, const Json& here) {
+  constexpr std::size_t kTelling = 60;  // characters; digests are longer
   for (const auto& [key, value] : here.items()) {
     const Json other = there.contains(key) ? there.at(key) : Json();
     if (other == value) continue;
     if (other.is_object() && value.is_object()) return Difference(other, value);
-    return key + " " + JsonText(other) + " there, " + JsonText(value) + " here";
+    const std::string was = Spoken(other), is = Spoken(value);
+    if (was.size() > kTelling || is.size() > kTelling) return key + " differ";
+    return key + ": " + was + " there, " + is + " here";
   }
   return "it has settings unknown here";
 }
@@ -126,12 +143,19 @@ void RowFile::TakeUp(const std::string& content, const Json& command,
   }
   const Json first = Parsed(content.substr(0, end));
   std::size_t at = end == std::string::npos ? content.size() : end + 1;
-  std::vector<std::string> rows;
+  std::vector<std::string> rows, asides;
   for (std::size_t next; (next = content.find('\n', at)) != std::string::npos;
        at = next + 1) {
-    std::string row = content.substr(at, next - at);
+    std::string row = content.substr(at, next - at), aside;
+    const std::size_t tab = row.find(kBeforeAside);
+    if (tab != std::string::npos) {
+      aside = row.substr(tab + 1);
+      row.resize(tab);
+      if (!Parsed(aside).is_object()) break;
+    }
     if (!Parsed(row).is_object()) break;
     rows.push_back(std::move(row));
+    asides.push_back(std::move(aside));
   }
   const std::string count = std::to_string(rows.size()) + " rows";
   if (!first.is_object() || !first.contains("command") ||
@@ -151,11 +175,14 @@ void RowFile::TakeUp(const std::string& content, const Json& command,
   }
   size_ = at;
   rows_ = std::move(rows);
+  asides_ = std::move(asides);
 }
 
-void RowFile::Append(const std::string& row) {
+void RowFile::Append(const std::string& row, const std::string& aside) {
   rows_.reserve(rows_.size() + 1);
-  std::string line = row;
+  asides_.reserve(asides_.size() + 1);
+  std::string kept = row, beside = aside;
+  const std::string line = aside.empty() ? row : row + kBeforeAside + aside;
   if (file_.IsOpen()) {
     try {
       internal::WriteAll(file_, line + '\n');
@@ -169,7 +196,8 @@ void RowFile::Append(const std::string& row) {
     size_ += line.size() + 1;
     on_signal_.Forget();
   }
-  rows_.push_back(std::move(line));
+  rows_.push_back(std::move(kept));
+  asides_.push_back(std::move(beside));
 }
 
 std::string RowFile::Content() const {

@@ -13,10 +13,10 @@ namespace phongpd {
 
 // The rows of a long command, kept as they come, so that the same command goes
 // on where it was interrupted: FILE.partial beside the output FILE, first a
-// line that says what the rows depend on, then each row as one line of JSON,
-// handed to the system as soon as it is there (what ends the process takes no
-// row away; a power cut may take the last ones).  A last line that is torn does
-// not count and is written over.
+// line that says what the rows depend on, then each row as one line of JSON
+// (a tab and its aside behind it), handed to the system as soon as it is there
+// (what ends the process takes no row away; a power cut may take the last
+// ones).  A last line that is torn does not count and is written over.
 //
 // One process at a time (flock).  Only a regular file of the user's own that
 // nobody else can write to is taken up; links are not followed.
@@ -36,7 +36,9 @@ class RowFile {
   const std::string& path() const { return path_; }
   // Those of an interrupted run first, byte for byte; without line ends.
   const std::vector<std::string>& rows() const { return rows_; }
-  void Append(const std::string& row);
+  // JSON that was kept with each row and is no part of it; empty: none.
+  const std::vector<std::string>& asides() const { return asides_; }
+  void Append(const std::string& row, const std::string& aside = "");
 
   // All rows as lines.
   std::string Content() const;
@@ -56,7 +58,7 @@ class RowFile {
   bool is_new_ = false;
   internal::RemovedOnSignal on_signal_;  // while there is no row
   std::size_t size_ = 0;                 // of the file up to the last row
-  std::vector<std::string> rows_;
+  std::vector<std::string> rows_, asides_;
 };
 
 }  // namespace phongpd

@@ -178,9 +178,11 @@ TEST_F(CliResumeCampaign, AnotherCommandIsRefusedWithWhatDiffers) {
     EXPECT_EQ(Content(Output("o.jsonl.partial")), kept);
     EXPECT_EQ(Names(), std::set<std::string>{"o.jsonl.partial"});
   };
-  expect_refused(command + " --seed 2", "--seed [\"1\"] there, [\"2\"] here");
-  expect_refused(command + " --seed 1 --metric euclidean", "--metric");
-  expect_refused(command + " --seed 1 --no-line", "--line");
+  expect_refused(command + " --seed 2", "--seed: 1 there, 2 here");
+  expect_refused(command + " --seed 1 --metric euclidean",
+                 "--metric: not given there, euclidean here");
+  expect_refused(command + " --seed 1 --no-line",
+                 "--line: not given there, false here");
   expect_refused("optimize u_axis --output o.jsonl", "scene");
   expect_refused("plan ../scene.json --output o.jsonl", "command");
   WriteMesh(MakeBox({-0.1, -0.5, -0.5}, {0.1, 0.5, 0.6}), File("wall.off"));
@@ -189,6 +191,36 @@ TEST_F(CliResumeCampaign, AnotherCommandIsRefusedWithWhatDiffers) {
   scene["trajectory"]["margin"] = 0.02;
   Scene(scene);
   expect_refused(command + " --seed 1", "contents of scenes");
+}
+
+// The page of a run whose row was there already: it shows all the same what
+// lies behind the run.
+TEST_F(CliResumeCampaign, APageThatFailedComesWithWhatLiesBehind) {
+  const std::string command = "plan " + Scene(TwoObstacles()) +
+                              " --planner retraction-rrt --seed 5 --output "
+                              "o.jsonl --html o.html";
+  ASSERT_EQ(Run(command).code, 0);
+  const auto graphs = [this] {
+    const std::string page = Content(Output("o.html"));
+    const std::string open = "id=\"view-data\">";
+    const std::size_t begin = page.find(open) + open.size();
+    return Json::parse(
+        page.substr(begin, page.find("</script>", begin) - begin))["graphs"];
+  };
+  const Json whole = graphs();
+  ASSERT_EQ(whole.size(), 1U);
+  fs::remove_all(folder_ / "run");
+  fs::create_directory(folder_ / "run");
+  // Room for the rows, none for the page.
+  const Outcome failed = Run(command, "ulimit -f 200 &&");
+  EXPECT_EQ(failed.code, 2) << failed.err;
+  EXPECT_EQ(Names(), std::set<std::string>({"o.jsonl.partial"}));
+  const Outcome outcome = Run(command);
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_NE(outcome.err.find("going on after 1 of 1"), std::string::npos);
+  EXPECT_EQ(graphs(), whole);
+  EXPECT_EQ(Rows("o.jsonl").size(), 1U);
+  EXPECT_EQ(Rows("o.jsonl")[0].find('\t'), std::string::npos);
 }
 
 TEST_F(CliResumeCampaign, ATornRowIsDoneAgain) {

@@ -51,6 +51,28 @@ class RowFileTest : public testing::TemporaryFolder {
   const Rows kRows = {R"({"seed": 5,  "x": 1.50})", R"({"seed":6,"y":"ü"})"};
 };
 
+TEST_F(RowFileTest, KeepsAsidesApartFromTheRows) {
+  const std::string aside = R"({"tab":"\\t","x":[0.1]})";
+  {
+    const auto file = Open(kCommand);
+    file->Append(kRows[0], aside);
+    file->Append(kRows[1]);
+  }
+  {
+    const auto file = Open(kCommand);
+    EXPECT_EQ(file->rows(), kRows);
+    EXPECT_EQ(file->asides(), Rows({aside, ""}));
+    EXPECT_EQ(file->Content(), kRows[0] + '\n' + kRows[1] + '\n');
+    file->Append(kRows[0], aside);
+  }
+  // An aside that is torn takes its row with it.
+  const std::string text = Content("o.jsonl.partial");
+  Put("o.jsonl.partial", text.substr(0, text.size() - 3) + '\n');
+  const auto file = Open(kCommand);
+  EXPECT_EQ(file->rows(), kRows);
+  file->Finish();
+}
+
 TEST_F(RowFileTest, KeepsRowsByteForByteAndGoesOn) {
   Interrupted(kRows);
   const auto file = Open(kCommand);
@@ -99,11 +121,11 @@ TEST_F(RowFileTest, RowsOfAnotherCommandAreRefusedAndKept) {
   const std::string whole = Interrupted(kRows);
   Json other = kCommand;
   other["seed"] = 7;
-  ExpectRefused(other, "seed 5 there, 7 here");
+  ExpectRefused(other, "seed: 5 there, 7 here");
   ExpectRefused(other, "2 rows");
   other = kCommand;
   other["versions"]["b"] = "3";
-  ExpectRefused(other, "b \"2\" there, \"3\" here");
+  ExpectRefused(other, "b: 2 there, 3 here");
   other = kCommand;
   other.erase("seed");
   ExpectRefused(other, "another command");
