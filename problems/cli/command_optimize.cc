@@ -104,7 +104,8 @@ PipelineOptions Options(const Flags& flags, const Scene& scene,
   if (!flags.time_limit.empty()) {
     options.time_limit = ParseDouble(flags.time_limit, "--time");
   }
-  options.optimizer.ipopt.on_iteration = [](const IterationRecord& record) {
+  options.optimizer.ipopt.on_iteration = [](const IterationRecord& record,
+                                            const Eigen::VectorXd&) {
     if (record.iteration % 25 != 0) return;
     Progress("  iteration " + std::to_string(record.iteration) +
              ", objective " + FormatDouble(record.objective) + ", violation " +
@@ -170,7 +171,13 @@ int Optimize(const Flags& flags) {
     // Seed 0 is the scene as it stands.
     Scene scene = seed == 0 ? source.Load() : source.Load(seed);
     Override(flags, &scene);
-    const PipelineOptions options = Options(flags, scene, seed);
+    PipelineOptions options = Options(flags, scene, seed);
+    PathHistory history;
+    if (runs.ShowsBehind()) {
+      options.on_path = [&history](const PathIterate& iterate) {
+        history.Add(iterate);
+      };
+    }
     const TrajectoryMetric metric = SceneMetric(scene);
     Progress("run " + std::to_string(run + 1) + " of " +
              std::to_string(flags.runs) + ": " + metric.name);
@@ -186,13 +193,12 @@ int Optimize(const Flags& flags) {
     if (run == runs.kept()) TellModel(study);
     nlohmann::ordered_json row = TrajectoryRow(study, metric, options, result);
     check.Judge(study.scene(), study.world(), ClaimsOf(result), &row);
-    runs.Add(row, runs.ShowsBehind() ? BehindTrajectory(study, result)
+    runs.Add(row, runs.ShowsBehind() ? BehindTrajectory(study, result, history)
                                      : ViewBehind());
   }
   runs.Write([&study] {
-    // Free space alone has no contact space to show.
     return study.model() == "window"
-               ? SceneView(study.scene())
+               ? WindowView(study.scene(), study.world())
                : SceneView(study.scene(), study.spaces().Meshes());
   });
   TellAboutSpaces(study.world(), study.triangles());

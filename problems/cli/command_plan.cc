@@ -126,9 +126,13 @@ int Plan(const Flags& flags) {
     nlohmann::ordered_json row = PlanningRow(study, run, result);
     check.Judge(scene, study.world(), ClaimsOf(result), &row);
     runs.Add(row,
-             runs.ShowsBehind() ? BehindPlan(study, result) : ViewBehind());
+             runs.ShowsBehind() ? BehindPlan(&study, result) : ViewBehind());
   }
-  runs.Write([&] { return SceneView(scene, {study.VisibleMesh()}); });
+  runs.Write([&] {
+    return study.world().BuiltConvolution() != nullptr
+               ? WindowView(scene, study.world())
+               : SceneView(scene, {study.VisibleMesh()});
+  });
   const WorldSpaces* built = study.world().Built(SpaceLayout::kSealed);
   TellAboutSpaces(study.world(), built == nullptr ? 0 : built->triangles);
   if (!flags.ompl_log.empty()) {

@@ -5,16 +5,20 @@
 #include <cctype>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <utility>
 
 #include "core/contact/contact_space_file.h"
+#include "core/mesh/counted.h"
 #include "core/mesh/input_file.h"
 #include "core/mesh/mesh_range.h"
 #include "problems/cli/command.h"
 #include "problems/cli/contact_space_file.h"
 #include "problems/cli/operands.h"
 #include "problems/cli/seeded_runs.h"
+#include "problems/cli/view_rows.h"
 #include "problems/cli/view_tables.h"
+#include "problems/cli/view_windows.h"
 #include "problems/meshes/any_mesh.h"
 #include "problems/meshes/operand_notes.h"
 #include "problems/pictures/viewer/scene_view.h"
@@ -57,48 +61,6 @@ bool IsFamily(const std::string& thing) {
                      [&](const SceneFamily& f) { return f.name == name; });
 }
 
-Eigen::Vector3d PointOf(const Json& json) {
-  return {json.at(0).get<double>(), json.at(1).get<double>(),
-          json.at(2).get<double>()};
-}
-
-ViewAnswer AnswerOf(const Json& row) {
-  ViewAnswer answer;
-  answer.position = PointOf(row.at("position"));
-  const Json& turn = row.at("orientation");
-  answer.orientation = {turn.at(0).get<double>(), turn.at(1).get<double>(),
-                        turn.at(2).get<double>(), turn.at(3).get<double>()};
-  answer.status = row.at("status").get<std::string>();
-  answer.depth = row.at("depth").get<double>();
-  answer.clearance = row.at("clearance").get<double>();
-  answer.direction = PointOf(row.at("direction"));
-  answer.on_robot = PointOf(row.at("on_a").at("point"));
-  answer.on_obstacle = PointOf(row.at("on_b").at("point"));
-  answer.has_witness = row.at("on_a").at("feature") != "none";
-  if (!row.contains("window_reaches")) return answer;
-  answer.window_reaches = row.at("window_reaches").get<std::vector<double>>();
-  for (int k = 0; k < 3; ++k) {
-    answer.window_axes.col(k) =
-        PointOf(row.at("window_axes").at(static_cast<std::size_t>(k)));
-  }
-  return answer;
-}
-
-// Of query: the arrow leads from the position to its contact.
-ViewAnswer QueryAnswerOf(const Json& row) {
-  ViewAnswer answer;
-  answer.position = PointOf(row.at("position"));
-  answer.status = row.at("status").get<std::string>();
-  const double distance = row.at("signed_distance").get<double>();
-  answer.depth = std::max(0.0, -distance);
-  answer.clearance = std::max(0.0, distance);
-  answer.direction = PointOf(row.at("direction"));
-  answer.on_robot = answer.position;
-  answer.on_obstacle = PointOf(row.at("contact"));
-  answer.has_witness = answer.status != "invalid";
-  return answer;
-}
-
 // Collects things into a view.
 class Collector {
  public:
@@ -118,6 +80,7 @@ class Collector {
       case TableKind::kMotion:
         return TakeMotion(ParseTraces(content, thing), thing);
       case TableKind::kDepth:
+        has_windowless_table_ = true;
         return TakeAnswers(ParseDepthTable(content, thing));
       case TableKind::kQuery:
         return TakeAnswers(ParseQueryTable(content, thing));
@@ -135,6 +98,16 @@ class Collector {
   }
 
   View Finish() {
+    const int paths = static_cast<int>(view_.paths.size());
+    if (request_.build && stage_) {
+      ShowModel(*stage_, UserCache(request_.no_cache),
+                window_runs_ > 0 && window_runs_ == paths, &view_);
+    } else if (window_runs_ > 0) {
+      view_.notes.push_back("Free space alone was modelled for " +
+                            Counted(window_runs_, "run") +
+                            " (model window); --build shows what that was.");
+    }
+    TellOfDepthWindows(has_windowless_table_, &view_);
     if (!request_.robot.empty()) {
       if (!view_.robot.triangles.empty()) {
         throw InputError(
@@ -189,14 +162,8 @@ class Collector {
                        " and " + scene.name + "; look at one at a time");
     }
     scene_ = scene.name;
-    std::vector<TriangleMesh> spaces;
-    if (request_.build) {
-      Progress("building the contact space");
-      const World world(scene.workspace, scene.name,
-                        UserCache(request_.no_cache));
-      spaces = world.Spaces(SpaceLayout::kMerged).Meshes();
-    }
-    View view = SceneView(scene, spaces);
+    stage_ = scene;
+    View view = SceneView(scene);
     view_.title = view.title;
     view_.robot = view.robot;
     view_.start = view.start;
@@ -265,7 +232,7 @@ class Collector {
     }
     try {
       if (row.contains("on_a")) {
-        view_.answers.push_back(AnswerOf(row));
+        view_.answers.push_back(DepthAnswerOf(row));
       } else if (row.contains("signed_distance")) {
         view_.answers.push_back(QueryAnswerOf(row));
       } else {
@@ -281,6 +248,7 @@ class Collector {
     const std::string scene = row.at("scene").get<std::string>();
     const std::uint64_t seed = row.at("seed").get<std::uint64_t>();
     view_.paths.push_back(NamedPathOf(row));
+    window_runs_ += row.value("model", "") == "window" ? 1 : 0;
     if (scene == scene_) return;
     if (!scene_.empty()) {
       throw InputError(where + ": expected runs of the scene " + scene_ +
@@ -304,7 +272,10 @@ class Collector {
   const ViewRequest& request_;
   Repair repair_;
   View view_;
-  std::string scene_;  // none yet if empty
+  std::string scene_;           // none yet if empty
+  std::optional<Scene> stage_;  // that scene, where it is at hand
+  int window_runs_ = 0;         // of the paths
+  bool has_windowless_table_ = false;
 };
 
 }  // namespace

@@ -187,15 +187,16 @@ std::vector<CorridorPlane> TrajectoryStudy::Corridor(const Path& path) const {
   return PlanesAround(problem, path);
 }
 
+BoundingBox TrajectoryStudy::Region() const {
+  if (!scene_.workspace.bounds.IsEmpty()) return scene_.workspace.bounds;
+  return SamplingRegion(*world().Convolution().free_space, scene_.start,
+                        scene_.goal);
+}
+
 PipelineResult TrajectoryStudy::RunInWindow(const PipelineOptions& options) {
   TrajectoryProblem problem = Settings();
   problem.free_space = world().Convolution().free_space;
-  MotionDomain domain;
-  domain.free_space = problem.free_space;
-  domain.region =
-      scene_.workspace.bounds.IsEmpty()
-          ? SamplingRegion(*problem.free_space, scene_.start, scene_.goal)
-          : scene_.workspace.bounds;
+  const MotionDomain domain = {problem.free_space, Region()};
   return OptimizeInFreeSpace(problem, domain, options,
                              scene_.planning.time_limit);
 }

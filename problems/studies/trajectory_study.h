@@ -76,6 +76,13 @@ class TrajectoryStudy {
   // if it collides.  Throws like PlanesAround.
   std::vector<CorridorPlane> Corridor(const Path& path) const;
 
+  // Where a path is looked for in free space alone: the bounds, or
+  // SamplingRegion; models that.
+  BoundingBox Region() const;
+
+  // Of a path in the current scene (trajectory_problem.h).
+  double Energy(const Path& path) const { return PathEnergy(Settings(), path); }
+
   // The problem of the current scene; its metrics are shared between calls.
   TrajectoryProblem Problem(const TrajectoryMetric& metric);
 

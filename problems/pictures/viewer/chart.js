@@ -52,8 +52,8 @@ function drawChart(viewer) {
   };
   g.font = '11px system-ui, sans-serif';
   g.fillStyle = style.getPropertyValue('--soft');
+  g.fillText('|PD|, ' + data.unit, kChartLeft + 4, 14);
   g.textAlign = 'right';
-  g.fillText('|PD|', kChartLeft - 8, height / 2);
   g.fillText(viewer.number(most), kChartLeft - 8, 14);
   g.fillText('0', kChartLeft - 8, height - 5);
   line('--soft', kChartLeft, y(0), width - kChartRight, y(0));

@@ -53,6 +53,7 @@ class DrawnViewer extends Viewer {
     stage.key.position.z += 0.6 * this.orbit.distance;
     stage.key.target.position.copy(this.orbit.target);
     stage.key.target.updateMatrixWorld();
+    stage.iterates.show(state.way, state.probe.on ? null : state.iterate);
     const place = stage.pose(state.way, state.time);
     stage.overlays.show(state.show, state.probe.on ? -1 : state.way,
                         place ? place.frame : 0);
@@ -149,10 +150,18 @@ class DrawnViewer extends Viewer {
     byId('scalebar').querySelector('b').textContent = this.text(nice);
   }
 
+  // "penetrating, depth 0.3 units"
+  answerText(answer) {
+    return answer.status +
+        (answer.depth > 0 ? ', depth ' + this.text(answer.depth)
+         : answer.clearance > 0 ? ', ' + this.text(answer.clearance) + ' apart'
+         : '');
+  }
+
   // What there is to know where the robot is.
   tell(place) {
     const {data, state, stage} = this, where = byId('where');
-    const way = stage.ways[state.way];
+    const way = stage.iterates.shown || stage.ways[state.way];
     if (!place || !way) return;
     const point = '(' + place.raw.map(x => this.number(x)).join(', ') + ')';
     if (way.kind === 'path') {
@@ -174,10 +183,7 @@ class DrawnViewer extends Viewer {
       });
     } else {
       const answer = data.answers[place.frame];
-      const text = answer.status +
-          (answer.depth > 0 ? ', depth ' + this.text(answer.depth)
-           : answer.clearance > 0 ? ', ' + this.text(answer.clearance) +
-               ' apart' : '');
+      const text = this.answerText(answer);
       for (const small of document.querySelectorAll('button.way small')) {
         small.textContent = text;
       }

@@ -15,12 +15,15 @@ if(THREE)
           orbit.js
           solids.js
           overlays.js
+          iterates.js
           stage.js
           framing.js
           dress.js
           probe.js
           probe_panel.js
+          color_key.js
           section_map.js
+          surface_map.js
           chart.js
           keys.js
           panel.js

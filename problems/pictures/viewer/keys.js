@@ -6,6 +6,7 @@ const kKeys = [
   ['wheel · pinch, + −', 'zoom'],
   ['space', 'play, pause'],
   ['← →', 'robot back, on'],
+  [', .', 'an iteration of the optimiser back, on'],
   ['1 … 9', 'follow that path'],
   ['R', 'reset the view'],
   ['X Y Z', 'look along an axis'],
@@ -37,6 +38,7 @@ function actOnKey(viewer, e) {
   const actions = {
     ' ': () => viewer.togglePlay(),
     ArrowLeft: () => viewer.step(-1), ArrowRight: () => viewer.step(1),
+    ',': () => viewer.stepIterate(-1), '.': () => viewer.stepIterate(1),
     '+': () => orbit.zoom(1 / 1.15), '=': () => orbit.zoom(1 / 1.15),
     '-': () => orbit.zoom(1.15),
     r: () => viewer.reset(), t: () => viewer.toggleTheme(),

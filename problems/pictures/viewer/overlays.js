@@ -6,6 +6,7 @@ const kOverlays = {
   graphs: {color: 'graph'},  // named by itself
   planes: {text: 'planes of the corridor', color: 'plane'},
   windows: {text: 'windows that were built', color: 'window'},
+  regions: {text: 'free space that was modelled', color: 'window'},
 };
 
 class Overlays {
@@ -13,9 +14,10 @@ class Overlays {
   constructor(stage) {
     this.stage = stage;
     this.parts = [];  // {kind, way, frame, object}
-    const {graphs, planes, windows} = stage.data;
+    const {graphs, planes, regions, windows} = stage.data;
     for (const graph of graphs) this.addGraph(graph);
     for (const some of planes) this.addPlanes(some);
+    for (const region of regions) this.addRegion(region);
     windows.forEach((window, i) => { if (window) this.addWindows(window, i); });
   }
 
@@ -101,26 +103,39 @@ class Overlays {
     this.add({kind: 'planes', way: path, object});
   }
 
+  // The edges of a box whose middle and half sides (three vectors) are given.
+  boxEnds(center, sides) {
+    const corner = k => sides.reduce(
+        (p, side, d) => p.addScaledVector(side, k >> d & 1 ? 1 : -1),
+        center.clone());
+    const ends = [];
+    for (let k = 0; k < 8; ++k) {
+      for (let d = 0; d < 3; ++d) {
+        if (k >> d & 1) continue;
+        ends.push(...corner(k).toArray(), ...corner(k | 1 << d).toArray());
+      }
+    }
+    return ends;
+  }
+
+  addRegion({path, min, max}) {
+    const half = max.map((x, k) => (x - min[k]) / 2 / this.stage.data.scale);
+    const sides = half.map((x, k) => new THREE.Vector3().setComponent(k, x));
+    const ends = this.boxEnds(
+        this.stage.at(max.map((x, k) => (x + min[k]) / 2)), sides);
+    this.add({kind: 'regions', way: path,
+              object: this.lines('window', ends, 0.6)});
+  }
+
   // Cubes around the position that was asked about.
   addWindows({reaches, axes}, frame) {
     const {stage} = this;
     const way = stage.ways.findIndex(w => w.kind === 'answers');
     const center = stage.ways[way].points[frame];
     const sides = axes.map(axis => new THREE.Vector3(...axis));
-    const ends = [];
-    const corner = (k, reach) => sides.reduce(
-        (p, side, d) => p.addScaledVector(
-            side, (k >> d & 1 ? 1 : -1) * reach / stage.data.scale),
-        center.clone());
-    for (const reach of reaches) {
-      for (let k = 0; k < 8; ++k) {
-        for (let d = 0; d < 3; ++d) {
-          if (k >> d & 1) continue;
-          ends.push(...corner(k, reach).toArray(),
-                    ...corner(k | 1 << d, reach).toArray());
-        }
-      }
-    }
+    const ends = reaches.flatMap(reach => this.boxEnds(
+        center, sides.map(side => side.clone().multiplyScalar(
+            reach / stage.data.scale))));
     this.add({kind: 'windows', way, frame,
               object: this.lines('window', ends, 0.9)});
   }

@@ -1,5 +1,8 @@
 // Legend, switches, player and help.
 
+// Of meshes that are not all of a contact space (view.h).
+const kConvolutionName = 'facets of free space\'s model';
+
 class Panel {
   constructor(viewer) {
     this.viewer = viewer;
@@ -24,7 +27,11 @@ class Panel {
     const paths = stage.ways.filter(way => way.kind === 'path');
     if (paths.length) facts.push(count(paths.length, 'path'));
     if (data.motion) facts.push(count(data.motion.positions.length, 'frame'));
-    if (data.answers.length) facts.push(count(data.answers.length, 'answer'));
+    if (data.answers.length === 1) {
+      facts.push(this.viewer.answerText(data.answers[0]));
+    } else if (data.answers.length) {
+      facts.push(count(data.answers.length, 'answer'));
+    }
     return facts.join(' · ');
   }
 
@@ -76,7 +83,11 @@ class Panel {
       row('obstacle', of('obstacle').length === 1
           ? 'obstacle' : named(of('obstacle'), 'obstacles'), 'obstacle');
     }
-    if (of('contact').length) row('contact', 'contact space', 'contact');
+    if (of('contact').length) {
+      const names = new Set(of('contact').map(m => m.name));
+      row('contact', names.has(kConvolutionName) ? kConvolutionName
+          : 'contact space', 'contact');
+    }
     if (of('mesh').length === 1) row('mesh', of('mesh')[0].name, 'mesh');
     if (of('mesh').length > 1) {
       row('mesh', of('mesh').length + ' meshes');
@@ -87,6 +98,11 @@ class Panel {
       }
     }
     if (data.robot) row('robot', 'robot', 'robot');
+    if (data.robot && data.answers.some(a => a.depth > 0)) {
+      rows.push(make('p', {class: 'row part'},
+                     make('i', {class: 'swatch pale', 'data-way-swatch': 1}),
+                     make('span', {}, 'robot, where it is pushed out to')));
+    }
     if (data.start || data.goal) row('marks', 'start and goal', 'mark');
     if (this.viewer.stage.ways.some(w => w.stages.children.length)) {
       row('stages', 'robot at stages', 'ghost');
@@ -171,12 +187,17 @@ class Panel {
     if (data.meshes.some(m => m.role === 'contact')) {
       rows.push(this.check('bend', 'colour contact space by curvature',
                            state.bend,
-                           isOn => viewer.set(() => { state.bend = isOn; })),
+                           isOn => viewer.set(() => {
+                             state.bend = isOn;
+                             if (isOn) state.surface = '';
+                           })),
                 make('div', {id: 'bend-key', class: 'key', hidden: ''},
                      make('span', {}, 'valley'), make('i'),
                      make('span', {}, 'ridge')));
     }
-    if (viewer.map) rows.push(...viewer.map.rows());
+    if (viewer.map) {
+      rows.push(...viewer.surface.rows(), ...viewer.map.rows());
+    }
     return rows.length ? this.section('Display', ...rows) : '';
   }
 
@@ -207,6 +228,7 @@ class Panel {
         make('button', {id: 'play', type: 'button', title: 'Play (space)',
                         onclick: () => viewer.togglePlay()}, '▶'),
         scrub, speed, make('output', {id: 'where'})));
+    if (data.iterates.length) byId('player').append(this.iterationRow());
     if (data.motion && data.motion.traces.length) {
       byId('player').prepend(make('canvas', {
         id: 'chart', 'aria-label': 'Length of PD over the frames',
@@ -214,6 +236,37 @@ class Panel {
         onpointermove: e => { if (e.buttons) this.scrubChart(e); },
       }));
     }
+  }
+
+  // Beside time: iterations, where the page holds them.
+  iterationRow() {
+    const viewer = this.viewer;
+    return make(
+        'div', {id: 'iterations', class: 'bar'},
+        make('button', {id: 'play-iterate', type: 'button',
+                        title: 'Play the iterations',
+                        onclick: () => viewer.toggleIterations()}, '▶'),
+        make('label', {for: 'scrub-iterate'}, 'iteration'),
+        make('input', {id: 'scrub-iterate', type: 'range', min: 0,
+                       oninput: e => {
+                         viewer.state.running = 0;
+                         viewer.iterateTo(Number(e.target.value));
+                       }}),
+        make('output', {id: 'which-iterate'}));
+  }
+
+  showIterations() {
+    const {viewer} = this, {state, stage} = viewer;
+    const row = byId('iterations');
+    if (!row) return;
+    const count = viewer.iterations;
+    row.hidden = count === 0;
+    if (row.hidden) return;
+    byId('scrub-iterate').max = count - 1;
+    byId('scrub-iterate').value =
+        state.iterate === null ? count - 1 : state.iterate;
+    byId('play-iterate').textContent = state.running ? '❚❚' : '▶';
+    byId('which-iterate').textContent = stage.iterates.text(viewer);
   }
 
   scrubChart(e) {
@@ -265,6 +318,9 @@ class Panel {
     for (const i of document.querySelectorAll('[data-way-color]')) {
       i.style.color = stage.colorOf(state.theme, Number(i.dataset.wayColor));
     }
+    for (const i of document.querySelectorAll('[data-way-swatch]')) {
+      i.style.background = wayColor(state.theme, Number(i.dataset.waySwatch));
+    }
     for (const i of document.querySelectorAll('[data-trace]')) {
       i.style.color = wayColor(state.theme, Number(i.dataset.trace));
     }
@@ -274,6 +330,8 @@ class Panel {
     }
     if (this.viewer.probe) this.viewer.probe.tell();
     if (this.viewer.map) this.viewer.map.tell();
+    if (this.viewer.surface) this.viewer.surface.tell();
+    this.showIterations();
     if (!byId('scrub')) return;
     byId('scrub').value = Math.round(10000 * state.time);
     byId('speed').value = state.speed;

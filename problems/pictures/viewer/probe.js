@@ -67,17 +67,22 @@ class Probe {
   // The same of the first two, Euclidean PD and PhongPD, wherever it was.
   coldAnswers(point) { return this.read(this.calls.query_cold(...point), 2); }
 
+  // The same of one of the contact spaces.
+  coldAnswersOf(space, point) {
+    return this.read(this.calls.query_cold(...point), 2, space, space + 1);
+  }
+
   // The first metrics' answers, `rows` of them for each contact space: of
-  // several that in which the robot is deepest.
-  read(address, rows) {
+  // several, from `begin` to before `end`, that in which the robot is deepest.
+  read(address, rows, begin = 0, end = this.data.spaces.length) {
     const count = this.data.spaces.length;
     const all = new Float64Array(this.calls.memory.buffer, address,
                                  count * rows * kProbeNumbers);
     return kProbeMetrics.slice(0, rows).map((name, metric) => {
       let best = null;
-      for (let space = 0; space < count; ++space) {
-        const begin = (space * rows + metric) * kProbeNumbers;
-        const row = all.slice(begin, begin + kProbeNumbers);
+      for (let space = begin; space < end; ++space) {
+        const at = (space * rows + metric) * kProbeNumbers;
+        const row = all.slice(at, at + kProbeNumbers);
         if (!best || row[2] < best[2]) best = row;
       }
       const states = metric === kProbeSliding ? kTrackerStates

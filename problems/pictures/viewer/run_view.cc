@@ -27,15 +27,68 @@ ViewGraph RoutesOf(const PlanResult& exact) {
   return graph;
 }
 
+bool WasPolished(const PipelineResult& result) {
+  return HasFreePath(result.status) &&
+         std::any_of(result.stages.begin(), result.stages.end(),
+                     [&](const StageRecord& stage) {
+                       return stage.stage == "corridor" &&
+                              stage.route == result.route && stage.is_free;
+                     });
+}
+
+std::vector<ViewPlane> CorridorAround(const TrajectoryStudy& study,
+                                      const Path& path) {
+  std::vector<ViewPlane> planes;
+  for (const CorridorPlane& plane : study.Corridor(path)) {
+    const auto k = static_cast<std::size_t>(plane.segment);
+    planes.push_back(
+        {plane.point, plane.normal, (path[k + 1] - path[k]).norm()});
+  }
+  return planes;
+}
+
+// "Ipopt from the line", "corridor, round 2".
+std::string SpokenStage(const PathIterate& iterate,
+                        const PipelineResult& result) {
+  const bool is_corridor = iterate.stage == "corridor";
+  std::string text = is_corridor ? "corridor" : "Ipopt";
+  for (const StageRecord& stage : result.stages) {
+    if (is_corridor || stage.stage != "start") continue;
+    if (stage.route != iterate.route) continue;
+    text += stage.status == "straight" ? " from the line"
+                                       : " from the repaired start";
+  }
+  if (is_corridor || iterate.round > 0) {
+    text += ", round " + std::to_string(iterate.round + 1);
+  }
+  return text;
+}
+
+ViewIterates IteratesOf(const TrajectoryStudy& study,
+                        const PipelineResult& result,
+                        const PathHistory& history) {
+  ViewIterates iterates;
+  iterates.count = history.count();
+  for (const PathHistory::Entry& entry : history.Kept()) {
+    const PathIterate& iterate = entry.iterate;
+    iterates.kept.push_back({entry.number, SpokenStage(iterate, result),
+                             iterate.record.is_restoration,
+                             CheckPath(study.judge(), iterate.path).free,
+                             study.Energy(iterate.path),
+                             iterate.record.violation, iterate.path});
+  }
+  return iterates;
+}
+
 }  // namespace
 
-ViewBehind BehindPlan(const PlanningStudy& study,
-                      const PlanningResult& result) {
+ViewBehind BehindPlan(PlanningStudy* study, const PlanningResult& result) {
   ViewBehind behind;
+  if (result.model == "window") behind.window = study->Region();
   if (result.planner == kContactSurface) {
     // One route is the path itself.
-    if (study.exact().routes.size() > 1) {
-      behind.graph = RoutesOf(study.exact());
+    if (study->exact().routes.size() > 1) {
+      behind.graph = RoutesOf(study->exact());
     }
   } else {
     behind.graph = {GrownBy(result.planner), result.numbers.graph.points,
@@ -45,19 +98,13 @@ ViewBehind BehindPlan(const PlanningStudy& study,
 }
 
 ViewBehind BehindTrajectory(const TrajectoryStudy& study,
-                            const PipelineResult& result) {
+                            const PipelineResult& result,
+                            const PathHistory& history) {
   ViewBehind behind;
-  const bool has_corridor =
-      std::any_of(result.stages.begin(), result.stages.end(),
-                  [&](const StageRecord& stage) {
-                    return stage.stage == "corridor" &&
-                           stage.route == result.route && stage.is_free;
-                  });
-  if (!has_corridor || !HasFreePath(result.status)) return behind;
-  for (const CorridorPlane& plane : study.Corridor(result.path)) {
-    const auto k = static_cast<std::size_t>(plane.segment);
-    behind.planes.push_back({plane.point, plane.normal,
-                             (result.path[k + 1] - result.path[k]).norm()});
+  if (study.model() == "window") behind.window = study.Region();
+  behind.iterates = IteratesOf(study, result, history);
+  if (WasPolished(result)) {
+    behind.planes = CorridorAround(study, result.path);
   }
   return behind;
 }

@@ -24,4 +24,13 @@ View SceneView(const Scene& scene,
   return view;
 }
 
+View WindowView(const Scene& scene, const World& world) {
+  View view = SceneView(scene);
+  for (const ConvolutionModel& model : world.Convolution().models) {
+    view.meshes.push_back(
+        {kConvolutionName, ViewRole::kContactSpace, model.Mesh()});
+  }
+  return view;
+}
+
 }  // namespace phongpd

@@ -6,6 +6,7 @@
 #include "core/mesh/triangle_mesh.h"
 #include "problems/pictures/viewer/view.h"
 #include "problems/scenes/scene.h"
+#include "problems/world/world.h"
 
 namespace phongpd {
 
@@ -13,5 +14,8 @@ namespace phongpd {
 // built for it.
 View SceneView(const Scene& scene,
                const std::vector<TriangleMesh>& contact_spaces = {});
+// The same with all that free space's model has of a contact space; none in a
+// world without obstacles.
+View WindowView(const Scene& scene, const World& world);
 
 }  // namespace phongpd

@@ -12,21 +12,6 @@ const kMaps = {
 };
 const kMapCells = 128;       // along the longer side
 const kMapCellsInHand = 40;  // while the plane moves
-// Of some values the largest are few and far off: those above this share of
-// all have the last colour.
-const kMapShare = 0.98;
-
-// Told apart without red and green, and in print: dark to light (viridis).
-const kMapColors = [[68, 1, 84], [59, 82, 139], [33, 145, 140], [94, 201, 98],
-                    [253, 231, 37]];
-
-function mapColor(share) {
-  const at = Math.min(1, Math.max(0, share)) * (kMapColors.length - 1);
-  const i = Math.min(kMapColors.length - 2, Math.floor(at));
-  return kMapColors[i].map(
-      (c, k) => Math.round(c + (at - i) * (kMapColors[i + 1][k] - c)));
-}
-
 class SectionMap {
   constructor(viewer) {
     this.viewer = viewer;
@@ -130,14 +115,9 @@ class SectionMap {
 
   setTexture(samples, columns, rows, cell) {
     const values = samples.map(sample => sample.value);
-    const sorted = values.filter(Number.isFinite).sort((x, y) => x - y);
     const map = kMaps[this.viewer.state.map];
-    const last = sorted.length ? sorted[sorted.length - 1] : 0;
-    const low = map.least || 0;
-    const high = map.isLength || !sorted.length
-        ? last : sorted[Math.floor(kMapShare * (sorted.length - 1))];
-    this.range = {low, high: Math.max(high, low), isCut: high < last,
-                  isEmpty: !sorted.length};
+    this.range = scaleOf(values, map, !map.isLength);
+    const {low, high} = this.range;
     const pixels = new Uint8Array(4 * values.length);
     values.forEach((value, i) => {
       const share = high > low ? (value - low) / (high - low) : 0;
@@ -156,46 +136,21 @@ class SectionMap {
     material.needsUpdate = true;
   }
 
-  // "0.31 units", "≥ 2.4×".
-  text(value, isHigh) {
-    const map = kMaps[this.viewer.state.map];
-    if (map.isLength) return this.viewer.text(value);
-    return (isHigh && this.range.isCut ? '≥ ' : '') +
-        this.viewer.number(value) + map.unit;
-  }
-
   // Its controls, for the panel.
   rows() {
     const {viewer} = this, {state} = viewer;
-    const kinds = Object.entries(kMaps).map(
-        ([value, {text}]) => make('option', {value}, text));
-    return [
-      make('label', {class: 'row wide'},
-           make('span', {}, 'colour the cut by'),
-           make('select', {
-             id: 'map', 'aria-label': 'Colour of the cut',
-             onchange: e => viewer.set(() => {
-               state.map = e.target.value;
-               if (state.map) state.clip.on = true;
-             }),
-           }, make('option', {value: ''}, 'nothing'), ...kinds)),
-      make('div', {id: 'map-key', class: 'key', hidden: ''},
-           make('span', {id: 'map-low'}), make('i'),
-           make('span', {id: 'map-high'})),
-      make('p', {id: 'map-empty', class: 'soft', hidden: ''},
-           'Nothing penetrates at this plane.'),
-    ];
+    return colorRows('map', 'colour the cut by', kMaps,
+                     kind => viewer.set(() => {
+                       state.map = kind;
+                       if (kind) state.clip.on = true;
+                     }), 'Nothing penetrates at this plane.');
   }
 
   // Puts the state into them.
   tell() {
     const {state} = this.viewer;
-    byId('map').value = state.map;
-    const isShown = !!state.map && state.clip.on && !!this.range;
-    byId('map-key').hidden = !isShown || this.range.isEmpty;
-    byId('map-empty').hidden = !isShown || !this.range.isEmpty;
-    if (!isShown) return;
-    byId('map-low').textContent = this.text(this.range.low, false);
-    byId('map-high').textContent = this.text(this.range.high, true);
+    const isShown = !!state.map && state.clip.on;
+    tellColors(this.viewer, 'map', state.map, isShown ? this.range : null,
+               kMaps[state.map]);
   }
 }

@@ -1,5 +1,23 @@
 // Who acts on the stage: the robot, its ways, arrows and marks.
 
+const kPathRadius = 0.0038;
+
+// From the first point to each, along them.
+function lengthsOf(points) {
+  const lengths = [0];
+  for (let i = 1; i < points.length; ++i) {
+    lengths.push(lengths[i - 1] + points[i].distanceTo(points[i - 1]));
+  }
+  return lengths;
+}
+
+// Of a way; dashed where it collides.
+function pathGeometry(way, radius) {
+  const points = thinned(way.points, 1500);
+  return tubeGeometry(way.free ? [points] : dashes(points, 0.022, 0.014),
+                      radius);
+}
+
 class Stage extends Solids {
   constructor(data) {
     super(data);
@@ -9,6 +27,7 @@ class Stage extends Solids {
     this.addWays();
     this.addMarks();
     this.overlays = new Overlays(this);
+    this.iterates = new Iterates(this);
   }
 
   addRobot() {
@@ -57,19 +76,12 @@ class Stage extends Solids {
                  name: answers.length === 1 ? 'pose' : 'poses',
                  points: raw.map(p => this.at(p))});
     }
-    for (const way of ways) {
-      way.lengths = [0];
-      for (let i = 1; i < way.points.length; ++i) {
-        way.lengths.push(way.lengths[i - 1] +
-                         way.points[i].distanceTo(way.points[i - 1]));
-      }
-    }
+    for (const way of ways) way.lengths = lengthsOf(way.points);
     return ways;
   }
 
   addWays() {
     this.wayMaterials = [];
-    const radius = 0.0038;
     for (const way of this.ways) {
       const material = new THREE.MeshPhongMaterial(
           {shininess: 10, side: THREE.DoubleSide});
@@ -79,10 +91,8 @@ class Stage extends Solids {
       way.stages = new THREE.Group();
       this.groups.stages.add(way.stages);
       if (way.points.length < 2 || way.kind === 'answers') continue;
-      const points = thinned(way.points, 1500);
-      const pieces = way.free ? [points] : dashes(points, 0.022, 0.014);
-      const r = way.kind === 'motion' ? radius * 0.5 : radius;
-      way.group.add(new THREE.Mesh(tubeGeometry(pieces, r), material));
+      const radius = way.kind === 'motion' ? kPathRadius / 2 : kPathRadius;
+      way.group.add(new THREE.Mesh(pathGeometry(way, radius), material));
       for (let i = 0; i <= 6; ++i) {
         const ghost = this.ghost(this.ghostMaterial);
         ghost.position.copy(this.placeOn(way, i / 6).point);
@@ -186,7 +196,7 @@ class Stage extends Solids {
 
   // The robot at t of a way, with arrows of what is known there.
   pose(index, t) {
-    const way = this.ways[index];
+    const way = this.iterates.shown || this.ways[index];
     const place = way ? this.placeOn(way, t) : null;
     // A robot without a way stands at the start, or where it was modelled.
     const rest = this.data.start ? this.at(this.data.start)

@@ -29,7 +29,11 @@ class LinkedViewer extends DrawnViewer {
     parts.xray = state.xray ? 1 : 0;
     if (state.bend) parts.bend = 1;
     if (state.map) parts.map = state.map;
+    if (state.surface) {
+      Object.assign(parts, {surface: state.surface, below: state.below});
+    }
     if (state.theme !== first.theme) parts.theme = state.theme;
+    if (state.iterate !== null) parts.iter = state.iterate;
     if (state.speed !== 1) parts.speed = state.speed;
     if (state.probe.on) {
       parts.probe = [...state.probe.at, state.probe.smoothing,
@@ -53,6 +57,9 @@ class LinkedViewer extends DrawnViewer {
     if (this.stage.ways[way] && this.stage.ways[way].points.length) {
       state.way = way;
     }
+    const iterate = parseInt(link.get('iter'), 10);
+    state.iterate = iterate >= 0 && iterate < this.iterations - 1
+        ? iterate : null;
     if (link.has('cut')) {
       const [axis, at, flip] = link.get('cut').split(',');
       if (['x', 'y', 'z'].includes(axis) && at >= 0 && at <= 1) {
@@ -67,6 +74,11 @@ class LinkedViewer extends DrawnViewer {
     state.bend = link.get('bend') === '1';
     if (this.data.probe && link.get('map') in kMaps) {
       state.map = link.get('map');
+    }
+    if (this.data.probe && link.get('surface') in kSurfaceMaps) {
+      state.surface = link.get('surface');
+      const below = parseFloat(link.get('below'));
+      if (kSurfaceDepths.includes(below)) state.below = below;
     }
     if (link.get('theme') in kThemes) state.theme = link.get('theme');
     const speed = parseFloat(link.get('speed'));

@@ -23,6 +23,10 @@ enum class ViewRole {
 // "obstacle", "contact" or "mesh".
 const char* ToString(ViewRole role);
 
+// The name of a mesh that is all that is known of a contact space where only
+// free space was modelled: it, and facets that it hides (ConvolutionModel).
+inline constexpr char kConvolutionName[] = "facets of free space's model";
+
 struct ViewMesh {
   std::string name;
   ViewRole role = ViewRole::kMesh;
@@ -43,10 +47,31 @@ struct ViewPlane {
   double size = 0.0;                                 // its side
 };
 
+// The path as it was in an iteration of the optimiser.
+struct ViewIterate {
+  std::size_t number = 0;  // of all iterations of the run, from 0
+  std::string stage;       // "Ipopt from the line", "corridor, round 2"
+  bool is_restoration = false;
+  bool is_free = false;    // the exact judge's word
+  double objective = 0.0;  // energy of the path; the line has 1
+  double violation = 0.0;  // of the worst row, share of D
+  std::vector<Eigen::Vector3d> points;
+};
+
+// The iterations of a run, or evenly some of them with the first and the last.
+struct ViewIterates {
+  std::size_t count = 0;  // of all
+  std::vector<ViewIterate> kept;
+};
+
 // What lies behind a path; shown with it.
 struct ViewBehind {
   ViewGraph graph;                // that a planner grew; no points: none
   std::vector<ViewPlane> planes;  // of the corridor it was optimised in
+  ViewIterates iterates;          // that led to it
+  // What was modelled around it, where that was free space alone; empty: more
+  // was.
+  BoundingBox window = ComputeBounds(TriangleMesh());
 };
 
 // A path of the robot's position, with a name for the legend.
@@ -76,6 +101,7 @@ struct ViewAnswer {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();
   Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();
   std::string status;
+  bool is_depth = false;   // by DepthQuery, which builds windows
   double depth = 0.0;      // of penetration
   double clearance = 0.0;  // where they are apart
   Eigen::Vector3d direction = Eigen::Vector3d::Zero();

@@ -3,8 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
-#include <cstring>
 #include <nlohmann/json.hpp>
 #include <utility>
 
@@ -13,15 +11,20 @@
 #include "core/projection/phong_field.h"
 #include "problems/output/text.h"
 #include "problems/pictures/viewer/display_mesh.h"
+#include "problems/pictures/viewer/page_numbers.h"
 #include "problems/pictures/viewer/probe/probe_module.h"
+#include "problems/pictures/viewer/view_json_behind.h"
 
 namespace phongpd {
 namespace {
 
 using Eigen::Vector3d;
+using internal::AppendNumber;
+using internal::Base64;
+using internal::CornerBytes;
+using internal::PointJson;
+using internal::ShownPositions;
 using Json = nlohmann::ordered_json;
-
-Json PointJson(const Vector3d& p) { return {p.x(), p.y(), p.z()}; }
 
 Json PointsJson(const std::vector<Vector3d>& points) {
   Json json = Json::array();
@@ -33,13 +36,6 @@ Json MaybePoint(const std::optional<Vector3d>& p) {
   return p ? PointJson(*p) : Json(nullptr);
 }
 
-template <typename Number>
-void Append(std::string* bytes, Number number) {
-  char raw[sizeof number];
-  std::memcpy(raw, &number, sizeof number);
-  bytes->append(raw, sizeof number);
-}
-
 // Within one page all meshes lose alike.
 std::size_t Share(std::size_t triangles, std::size_t all, std::size_t most) {
   if (all <= most) return triangles;
@@ -49,28 +45,8 @@ std::size_t Share(std::size_t triangles, std::size_t all, std::size_t most) {
       1000, static_cast<std::size_t>(share * static_cast<double>(most)));
 }
 
-// As the page draws them.
-std::string ShownPositions(const std::vector<Vector3d>& points,
-                           const Vector3d& center, double scale) {
-  std::string bytes;
-  for (const Vector3d& p : points) {
-    for (int k = 0; k < 3; ++k) {
-      Append(&bytes, static_cast<float>((p[k] - center[k]) / scale));
-    }
-  }
-  return bytes;
-}
-
-std::string CornerBytes(const TriangleMesh& mesh) {
-  std::string bytes;
-  for (const Triangle& t : mesh.triangles) {
-    for (const int v : t) Append(&bytes, static_cast<std::uint32_t>(v));
-  }
-  return bytes;
-}
-
 Json MeshJson(const TriangleMesh& mesh, const std::string& name,
-              std::size_t most, const Vector3d& center, double scale,
+              std::size_t most, const internal::PageFrame& frame,
               std::vector<std::string>* notes) {
   const DisplayMesh shown = MeshForDisplay(mesh, most);
   if (shown.cell > 0.0) {
@@ -79,19 +55,18 @@ Json MeshJson(const TriangleMesh& mesh, const std::string& name,
                      " triangles are shown, simplified on a grid of " +
                      Rounded(shown.cell) + " for display only");
   }
-  return {
-      {"name", name},
-      {"triangles", mesh.triangles.size()},
-      {"shown", shown.mesh.triangles.size()},
-      {"positions", Base64(ShownPositions(shown.mesh.vertices, center, scale))},
-      {"indices", Base64(CornerBytes(shown.mesh))}};
+  return {{"name", name},
+          {"triangles", mesh.triangles.size()},
+          {"shown", shown.mesh.triangles.size()},
+          {"positions", Base64(ShownPositions(shown.mesh.vertices, frame))},
+          {"indices", Base64(CornerBytes(shown.mesh))}};
 }
 
 // For the probe: not as it is shown but as it is, in doubles.
 Json ExactJson(const TriangleMesh& mesh) {
   std::string positions;
   for (const Vector3d& p : mesh.vertices) {
-    for (int k = 0; k < 3; ++k) Append(&positions, p[k]);
+    for (int k = 0; k < 3; ++k) AppendNumber(&positions, p[k]);
   }
   return {{"positions", Base64(positions)},
           {"indices", Base64(CornerBytes(mesh))}};
@@ -135,6 +110,12 @@ Json ProbeJson(const View& view, std::vector<std::string>* notes) {
   }
   for (const ViewMesh& mesh : view.meshes) {
     if (mesh.role != ViewRole::kContactSpace || IsWhole(mesh)) continue;
+    if (mesh.name == kConvolutionName) {
+      notes->push_back(
+          "There is no live probe: free space alone was modelled, which tells "
+          "no depth.");
+      return nullptr;
+    }
     notes->push_back(
         "There is no live probe: of the contact space only the part that "
         "bounds "
@@ -172,41 +153,6 @@ Json MotionJson(const ViewMotion& motion) {
   return json;
 }
 
-Json GraphJson(const NamedPath& path, std::size_t number,
-               const Vector3d& center, double scale,
-               std::vector<std::string>* notes) {
-  const ViewGraph& graph = path.behind.graph;
-  const std::size_t count = graph.edges.size();
-  const std::size_t step = (count + kMaxDisplayEdges - 1) / kMaxDisplayEdges;
-  std::string indices;
-  std::size_t shown = 0;
-  for (std::size_t e = 0; e < count; e += step, ++shown) {
-    Append(&indices, static_cast<std::uint32_t>(graph.edges[e].first));
-    Append(&indices, static_cast<std::uint32_t>(graph.edges[e].second));
-  }
-  if (shown < count) {
-    notes->push_back(path.name + ": " + std::to_string(shown) + " of " +
-                     std::to_string(count) + " edges of the " + graph.name +
-                     " are shown");
-  }
-  return {{"path", number},
-          {"name", graph.name},
-          {"points", graph.points.size()},
-          {"edges", count},
-          {"positions", Base64(ShownPositions(graph.points, center, scale))},
-          {"indices", Base64(indices)}};
-}
-
-Json PlanesJson(const std::vector<ViewPlane>& planes, std::size_t number) {
-  Json list = Json::array();
-  for (const ViewPlane& plane : planes) {
-    list.push_back({{"point", PointJson(plane.point)},
-                    {"normal", PointJson(plane.normal)},
-                    {"size", plane.size}});
-  }
-  return {{"path", number}, {"planes", list}};
-}
-
 Json WindowsJson(const ViewAnswer& answer) {
   if (answer.window_reaches.empty()) return nullptr;
   Json axes = Json::array();
@@ -231,26 +177,6 @@ Json AnswerJson(const ViewAnswer& answer) {
 
 }  // namespace
 
-std::string Base64(const std::string& bytes) {
-  constexpr char kDigits[] =
-      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  text.reserve((bytes.size() + 2) / 3 * 4);
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    std::uint32_t group = 0;
-    for (std::size_t k = 0; k < 3; ++k) {
-      group <<= 8U;
-      if (i + k < bytes.size())
-        group |= static_cast<unsigned char>(bytes[i + k]);
-    }
-    for (std::size_t k = 0; k < 4; ++k) {
-      const bool is_padding = i + k > bytes.size();
-      text += is_padding ? '=' : kDigits[(group >> (18U - 6U * k)) & 63U];
-    }
-  }
-  return text;
-}
-
 Json ViewJson(const View& view, std::size_t most_triangles) {
   const BoundingBox box = ViewBounds(view);
   const Vector3d center = box.Center();
@@ -270,8 +196,8 @@ Json ViewJson(const View& view, std::size_t most_triangles) {
   for (const ViewMesh& mesh : view.meshes) {
     Json entry =
         MeshJson(mesh.mesh, mesh.name,
-                 Share(mesh.mesh.triangles.size(), all, most_triangles), center,
-                 scale, &notes);
+                 Share(mesh.mesh.triangles.size(), all, most_triangles),
+                 {center, scale}, &notes);
     entry["role"] = ToString(mesh.role);
     json["meshes"].push_back(std::move(entry));
   }
@@ -280,10 +206,11 @@ Json ViewJson(const View& view, std::size_t most_triangles) {
           ? Json(nullptr)
           : MeshJson(view.robot, "robot",
                      Share(view.robot.triangles.size(), all, most_triangles),
-                     Vector3d::Zero(), scale, &notes);
+                     {Vector3d::Zero(), scale}, &notes);
   json["start"] = MaybePoint(view.start);
   json["goal"] = MaybePoint(view.goal);
-  for (const char* list : {"paths", "graphs", "planes", "windows"}) {
+  for (const char* list :
+       {"paths", "graphs", "planes", "iterates", "regions", "windows"}) {
     json[list] = Json::array();
   }
   for (std::size_t i = 0; i < view.paths.size(); ++i) {
@@ -291,13 +218,7 @@ Json ViewJson(const View& view, std::size_t most_triangles) {
     json["paths"].push_back({{"name", path.name},
                              {"free", path.is_free},
                              {"points", PointsJson(path.points)}});
-    const ViewBehind& behind = path.behind;
-    if (!behind.graph.points.empty()) {
-      json["graphs"].push_back(GraphJson(path, i, center, scale, &notes));
-    }
-    if (!behind.planes.empty()) {
-      json["planes"].push_back(PlanesJson(behind.planes, i));
-    }
+    internal::AddBehind(path, i, {center, scale}, &json, &notes);
   }
   json["motion"] = MotionJson(view.motion);
   json["answers"] = Json::array();

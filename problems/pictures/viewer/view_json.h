@@ -3,7 +3,6 @@
 
 #include <cstddef>
 #include <nlohmann/json_fwd.hpp>
-#include <string>
 
 #include "problems/pictures/viewer/display_mesh.h"
 #include "problems/pictures/viewer/view.h"
@@ -28,16 +27,18 @@ namespace phongpd {
 //     positions (base64 of float32 triples, as those of meshes), indices
 //     (base64 of uint32 pairs)}]
 //   planes[{path, planes[{point, normal, size}]}]
+//   iterates[{path, count (of all iterations), kept[{number, stage,
+//     restoration, free, objective, violation}], points (of each), positions
+//     (base64 of float32 triples, as those of meshes, one path after the
+//     other)}]
+//   regions[{path, min, max}]  that were modelled around paths
 //   windows[{reaches[], axes[3][x, y, z]} or null]  one for each answer
 //   probe {module (base64 of WebAssembly), length (D), spaces[{positions
 //     (base64 of float64 triples), indices}]} or null
 // Of graphs with more than kMaxDisplayEdges edges some are left out, and a note
-// says so.  Meshes with more than `most_triangles` together are shown coarser,
-// and a note says so.
+// says so; another where not every iteration is there.  Meshes with more than
+// `most_triangles` together are shown coarser, and a note says so.
 nlohmann::ordered_json ViewJson(
     const View& view, std::size_t most_triangles = kMaxDisplayTriangles);
-
-// RFC 4648, with padding.
-std::string Base64(const std::string& bytes);
 
 }  // namespace phongpd

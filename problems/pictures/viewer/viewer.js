@@ -28,6 +28,7 @@ class Viewer {
     if (this.state.still) this.frame();
     this.probe = this.data.probe ? new ProbePanel(this) : null;
     this.map = this.probe ? new SectionMap(this) : null;
+    this.surface = this.probe ? new SurfaceMap(this) : null;
     this.panel = new Panel(this);
     this.isReady = true;
     this.apply();
@@ -60,13 +61,16 @@ class Viewer {
         : data.answers.length ? 0 : 0.6;
     return {
       time: t, playing: false, speed: 1, way: 0,
+      // Of the way's iterations; null: its answer.
+      iterate: null, running: 0,
       clip: {on: false, axis: 'z', at: 0.5, flip: false},
       show: {obstacle: true, contact: true, mesh: true, robot: true,
              marks: true, stages: false, graphs: true, planes: false,
-             windows: true},
+             windows: true, regions: true},
       probe: {on: false, at: null, metric: 1,
               smoothing: data.probe ? data.probe.smoothing_length : 0},
-      xray: false, bend: false, map: '', theme: isDark ? 'dark' : 'light', still: false,
+      xray: false, bend: false, map: '', surface: '', below: 0.05,
+      theme: isDark ? 'dark' : 'light', still: false,
     };
   }
 
@@ -107,8 +111,11 @@ class Viewer {
   // Three digits; what is rounding beside the scene's size is zero.
   number(value) {
     const isZero = Math.abs(value) < 1e-6 * this.data.scale;
-    return String(isZero ? 0 : Number(value.toPrecision(3)));
+    return isZero ? '0' : this.digits(value);
   }
+
+  // Three of them.
+  digits(value) { return String(Number(value.toPrecision(3))); }
 
   changed() {
     this.isDirty = true;
@@ -145,6 +152,7 @@ class Viewer {
     stage.setClip(state.clip);
     this.dress(0);
     if (this.map) this.map.show();
+    if (this.surface) this.surface.show();
     this.panel.show();
     this.changed();
   }
@@ -160,7 +168,9 @@ class Viewer {
   follow(way) {
     const found = this.stage.ways[way];
     if (!found || found.points.length === 0) return;
-    this.set(() => { this.state.way = way; });
+    this.set(() => {
+      Object.assign(this.state, {way, iterate: null, running: 0});
+    });
   }
 
   togglePlay() {
@@ -176,8 +186,48 @@ class Viewer {
     });
   }
 
+  // The iterations of the way that is followed, one more for its answer; 0:
+  // there are none.
+  get iterations() {
+    const {iterates} = this.stage.ways[this.state.way] || {};
+    return iterates ? iterates.kept.length + 1 : 0;
+  }
+
+  // To an iteration by its number among those kept; beyond the last: the
+  // answer.
+  iterateTo(index) {
+    const last = this.iterations - 1;
+    if (last < 0) return;
+    const at = Math.min(last, Math.max(0, Math.floor(index)));
+    this.set(() => { this.state.iterate = at === last ? null : at; });
+  }
+
+  stepIterate(direction) {
+    const {iterate} = this.state;
+    this.state.running = 0;
+    this.iterateTo((iterate === null ? this.iterations - 1 : iterate) +
+                   direction);
+  }
+
+  // From the first iteration where the answer is shown, or on.
+  toggleIterations() {
+    const {state} = this;
+    if (state.running) return this.set(() => { state.running = 0; });
+    state.running = 1 + (state.iterate || 0);
+    this.iterateTo(state.running - 1);
+  }
+
+  advanceIterations(seconds) {
+    const {state} = this;
+    state.running += seconds * state.speed * kIteratesPerSecond;
+    if (state.running - 1 >= this.iterations - 1) state.running = 0;
+    this.iterateTo(state.running ? state.running - 1 : this.iterations - 1);
+  }
+
   advance(seconds) {
     const {state} = this;
+    if (state.running) this.advanceIterations(seconds);
+    if (this.surface) this.surface.advance();
     if (!state.playing) return;
     state.time += seconds * state.speed / kDuration;
     if (state.time >= 1) {

@@ -114,6 +114,53 @@ TEST_F(CliView, BringsTheSceneOfAFamilyAlong) {
   EXPECT_EQ(data["start"], data["paths"][0]["points"][0]);
 }
 
+// Rows say that free space alone was modelled; with --build it is shown.
+TEST_F(CliView, ShowsWhatPlansInFreeSpaceAloneHadBuilt) {
+  const std::string scene = Scene(TwoObstacles());
+  Prepare("plan " + scene + " --model window", "w.jsonl");
+  const Json plain = Data(scene + " ../w.jsonl");
+  EXPECT_TRUE(plain["regions"].empty());
+  EXPECT_NE(plain["notes"].dump().find("--build shows"), std::string::npos);
+  const Json built = Data(scene + " ../w.jsonl --build");
+  ASSERT_EQ(built["regions"].size(), 1U);
+  EXPECT_EQ(built["meshes"].back()["name"], "facets of free space's model");
+  EXPECT_EQ(built["notes"].dump().find("--build shows"), std::string::npos);
+  // The path lies in the region that was searched.
+  for (const Json& q : built["paths"][0]["points"]) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      EXPECT_GE(q[k], built["regions"][0]["min"][k]);
+      EXPECT_LE(q[k], built["regions"][0]["max"][k]);
+    }
+  }
+  // The command's own page shows the same.
+  ASSERT_EQ(Run("plan " + scene + " --model window --html p.html").code, 0);
+  const Json page = TakeData("p.html");
+  EXPECT_EQ(page["regions"], built["regions"]);
+  EXPECT_EQ(page["meshes"].back(), built["meshes"].back());
+}
+
+TEST_F(CliView, KeepsTheIterationsOfOneRunForItsPage) {
+  const std::string scene = Scene(TwoObstacles());
+  Prepare("optimize " + scene, "o.jsonl");
+  const Json row = Json::parse(Content(folder_ / "o.jsonl"));
+  ASSERT_EQ(Run("optimize " + scene + " --html p.html --output o.jsonl").code,
+            0);
+  // Nobody sees in the row that there was a page.
+  EXPECT_EQ(WithoutSeconds(Json::parse(Content(Output("o.jsonl")))),
+            WithoutSeconds(row));
+  const Json page = TakeData("p.html");
+  ASSERT_EQ(page["iterates"].size(), 1U);
+  const Json& iterates = page["iterates"][0];
+  EXPECT_EQ(iterates["points"], row["path"].size());
+  // A start for each solve, and its iterations.
+  EXPECT_GT(iterates["count"], row["iterations"]);
+  EXPECT_EQ(iterates["kept"].size(), iterates["count"]);
+  ASSERT_EQ(Run("optimize " + scene + " --runs 2 --html p.html").code, 0);
+  const Json both = TakeData("p.html");
+  EXPECT_TRUE(both["iterates"].empty());
+  EXPECT_NE(both["notes"].dump().find("of a single run"), std::string::npos);
+}
+
 TEST_F(CliView, TakesMotionsWithWhatTheTableDoesNotHold) {
   Prepare(
       "motion --robot ../cone.off --obstacle ../box.off --from -3 0 0.1 "

@@ -19,7 +19,8 @@ import sys
 import viewer_references
 from browser import Browser, Checks
 from viewer_controls import (probe_like_the_program, work_controls,
-                             work_overlays, work_probe, work_section)
+                             work_iterations, work_overlays, work_probe,
+                             work_section, work_surface)
 
 
 def runner(program, folder):
@@ -134,12 +135,14 @@ def main():
             browser.shoot(folder / "probe-light.png")
             work_probe(browser, checks, pages["motion"])
             work_section(browser, checks, pages["contact"])
+            work_surface(browser, checks, pages["contact"])
             viewer_references.compare(browser, checks, folder)
         else:
             # The reference of the cut's colours needs it, too.
             print("Skipped: the live probe, which this build is without, and "
                   "the reference views", flush=True)
         work_overlays(browser, checks, pages)
+        work_iterations(browser, checks, pages["corridor"])
         browser.open(pages["depth"])
         checks.holds("document.querySelector('button.way small').textContent"
                      ".startsWith('penetrating, depth ')", "the depth is told")

@@ -265,6 +265,107 @@ def work_section(browser, checks, page):
     checks.quiet("section")
 
 
+def work_surface(browser, checks, page):
+    """The contact surface, coloured by what the metrics say below it."""
+    holds, changes = checks.holds, checks.changes
+    browser.open(page)
+    holds("document.getElementById('surface').value === '' && "
+          "document.getElementById('surface-key').hidden && "
+          "!viewer.surface.mesh.visible", "no colours at first")
+    choose = ("(() => { const e = document.getElementById('%s');"
+              "e.value = '%s'; e.dispatchEvent(new Event('change')); })()")
+    done = "viewer.surface.range && viewer.surface.left === null"
+    for kind in ("lean", "angle", "ratio", "phong", "euclidean"):
+        changes(lambda kind=kind: (
+            browser.run(choose % ("surface", kind)), browser.wait(done)),
+            f"colours of the surface by {kind}")
+        holds("!document.getElementById('surface-key').hidden && "
+              "document.getElementById('surface-high').textContent !== ''",
+              f"{kind}: the key tells the range")
+    # By another route: below a facet by h the nearest way out is h long, or
+    # shorter; in the middle of large facets that is it.
+    holds("""(() => {
+      const {values, samples} = viewer.surface;
+      const h = 0.05 * viewer.data.probe.length;
+      const inside = values.filter(Number.isFinite);
+      return inside.length > 0.9 * samples.length &&
+          inside.every(v => v > 0 && v < h * (1 + 1e-9)) &&
+          Math.max(...inside) > h * (1 - 1e-9) &&
+          document.getElementById('surface-high').textContent
+              .includes(viewer.text(Math.max(...inside)));
+    })()""", "no depth is more than that of the place, and some are it")
+    changes(lambda: (browser.run(choose % ("below", "0.2")),
+                     browser.wait(done)), "another depth of the question")
+    browser.click("#link")
+    link = browser.run("location.hash")
+    browser.open(page, link)
+    browser.wait(done)
+    holds("viewer.state.surface === 'euclidean' && viewer.state.below === 0.2",
+          "a link keeps the colours")
+    browser.click("#bend")
+    holds("viewer.state.surface === '' && !viewer.surface.mesh.visible && "
+          "viewer.stage.solids[0].faces[0].visible",
+          "curvature takes their place")
+    checks.quiet("surface")
+
+
+def work_iterations(browser, checks, page):
+    """Iterations of the optimiser, beside time, on the page of a run."""
+    holds, changes = checks.holds, checks.changes
+    browser.open(page)
+    holds("viewer.state.iterate === null && "
+          "document.getElementById('which-iterate').textContent"
+          ".startsWith('the answer')", "the answer is shown at first")
+    scrub = ("(() => { const e = document.getElementById('scrub-iterate');"
+             "e.value = '%s'; e.dispatchEvent(new Event('input')); })()")
+    changes(lambda: browser.run(scrub % 0), "the first iteration")
+    holds("document.getElementById('which-iterate').textContent"
+          ".startsWith('0 of ')", "it is told which")
+    # By another route: the energy of what is drawn is the row's, and that of
+    # the answer is less than that of the first iterate.
+    holds("""(() => {
+      const {iterates} = viewer.stage, way = viewer.stage.ways[0];
+      const energy = p => {
+        let sum = 0;
+        for (let i = 1; i < p.length; ++i) {
+          sum += p[i].reduce((s, x, k) => s + (x - p[i - 1][k]) ** 2, 0);
+        }
+        const line = p[0].reduce(
+            (s, x, k) => s + (x - p[p.length - 1][k]) ** 2, 0);
+        return (p.length - 1) * sum / line;
+      };
+      return way.iterates.kept.length > 5 &&
+          way.iterates.kept.every((kept, i) => Math.abs(
+              energy(iterates.at(way, i).raw) / kept.objective - 1) < 1e-4);
+    })()""", "every iterate has its energy")
+    holds("viewer.data.iterates[0].kept.some(kept => !kept.free) && "
+          "viewer.data.iterates[0].kept.some(kept => kept.free)",
+          "some collide, some are free")
+    browser.press(".")
+    holds("viewer.state.iterate === 1", ". is the next")
+    browser.press(",")
+    holds("viewer.state.iterate === 0", ", is the one before")
+    browser.run("(() => { const e = document.getElementById('scrub');"
+                "e.value = 0; e.dispatchEvent(new Event('input')); })()")
+    holds("(viewer.draw(), viewer.stage.robot.position.distanceTo("
+          "viewer.stage.at(viewer.data.start)) < 1e-5)",
+          "the robot follows the iterate")
+    browser.click("#link")
+    link = browser.run("location.hash")
+    browser.open(page, link)
+    holds("viewer.state.iterate === 0 && viewer.stage.iterates.shown !== null",
+          "a link keeps the iteration")
+    browser.run("viewer.set(() => { viewer.state.speed = 4; })")
+    browser.click("#play-iterate")
+    browser.wait("viewer.state.iterate > 0")
+    browser.wait("viewer.state.running === 0 && viewer.state.iterate === null")
+    holds("viewer.stage.iterates.shown === null", "they end at the answer")
+    browser.run(scrub % 1)
+    browser.press("r")
+    holds("viewer.state.iterate === null", "reset shows the answer")
+    checks.quiet("iterations")
+
+
 def work_overlays(browser, checks, pages):
     """What lies behind an answer: in the legend, and drawn where it is on."""
     for name, kind, is_on in (("tree", "graphs", True),
@@ -292,6 +393,7 @@ def work_overlays(browser, checks, pages):
                  "the run's tree is in the page")
     browser.open(pages["trap"])
     checks.holds("['graphs', 'planes', 'windows'].every(kind => "
-                 "!document.getElementById('show-' + kind))",
+                 "!document.getElementById('show-' + kind)) && "
+                 "!document.getElementById('iterations')",
                  "what a run has not is not offered")
     checks.quiet("overlays")

@@ -3,7 +3,6 @@
 
 #include <cmath>
 #include <cstdint>
-#include <cstring>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -11,14 +10,18 @@
 #include "core/mesh/mesh_error.h"
 #include "problems/pictures/viewer/display_mesh.h"
 #include "problems/pictures/viewer/gltf.h"
+#include "problems/pictures/viewer/page_numbers.h"
 #include "problems/pictures/viewer/view_json.h"
 #include "problems/pictures/viewer/view_page.h"
 #include "problems/shapes/shapes.h"
+#include "tests/support/page_numbers.h"
 
 namespace phongpd {
 namespace {
 
 using Eigen::Vector3d;
+using testing::At;
+using testing::Decoded;
 using Json = nlohmann::ordered_json;
 
 // A box far from the origin, a robot, two paths, of which one collides.
@@ -39,31 +42,6 @@ View SomeView() {
   return view;
 }
 
-std::string Decoded(const std::string& base64) {
-  static const std::string digits =
-      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string bytes;
-  std::uint32_t buffer = 0;
-  int bits = 0;
-  for (const char c : base64) {
-    if (c == '=') break;
-    buffer = buffer << 6U | static_cast<std::uint32_t>(digits.find(c));
-    bits += 6;
-    if (bits < 8) continue;
-    bits -= 8;
-    bytes += static_cast<char>(buffer >> bits & 255U);
-  }
-  return bytes;
-}
-
-template <typename Number>
-Number At(const std::string& bytes, std::size_t offset) {
-  Number number;
-  EXPECT_LE(offset + sizeof number, bytes.size());
-  std::memcpy(&number, bytes.data() + offset, sizeof number);
-  return number;
-}
-
 // RFC 4648, section 10.
 TEST(Base64, IsThatOfTheStandard) {
   const std::vector<std::pair<std::string, std::string>> pairs = {
@@ -75,7 +53,7 @@ TEST(Base64, IsThatOfTheStandard) {
       {"fooba", "Zm9vYmE="},
       {"foobar", "Zm9vYmFy"}};
   for (const auto& [bytes, text] : pairs) {
-    EXPECT_EQ(Base64(bytes), text);
+    EXPECT_EQ(internal::Base64(bytes), text);
     EXPECT_EQ(Decoded(text), bytes);
   }
 }
@@ -164,39 +142,6 @@ TEST(ViewJson, NamesPathsAndSaysWhichAreFree) {
   EXPECT_EQ(json["paths"][1]["points"][1], Json({1004.0, 0.0, 0.0}));
   EXPECT_TRUE(json["paths"][2]["points"].empty());
   EXPECT_TRUE(json["motion"].is_null());
-}
-
-TEST(ViewJson, HoldsWhatLiesBehindAnswersWhereThereIsAny) {
-  View view = SomeView();
-  EXPECT_TRUE(ViewJson(view)["graphs"].empty());
-  ViewBehind& behind = view.paths[1].behind;
-  behind.graph = {"roadmap", {{0, 0, 0}, {1, 2, 3}, {4, 0, 0}}, {{0, 2}}};
-  behind.planes = {{{1, 2, 3}, {0, 0, 1}, 0.5}};
-  ViewAnswer answer;
-  view.answers = {answer, answer};
-  view.answers[1].window_reaches = {0.25, 2.0};
-  view.answers[1].window_axes.col(0) = Eigen::Vector3d(0, 1, 0);
-  Json json = ViewJson(view);
-  const Json& graph = json["graphs"].at(0);
-  EXPECT_EQ(graph["path"], 1);
-  EXPECT_EQ(graph["name"], "roadmap");
-  EXPECT_EQ(graph["points"], 3);
-  EXPECT_EQ(At<std::uint32_t>(Decoded(graph["indices"]), 4), 2U);
-  const std::string positions = Decoded(graph["positions"]);
-  const double scale = json["scale"], center = json["center"][2];
-  EXPECT_NEAR(At<float>(positions, 20) * scale + center, 3.0, 1e-6 * scale);
-  EXPECT_EQ(json["planes"][0]["planes"].dump(),
-            R"([{"point":[1.0,2.0,3.0],"normal":[0.0,0.0,1.0],"size":0.5}])");
-  EXPECT_TRUE(json["windows"].at(0).is_null());
-  EXPECT_EQ(json["windows"][1]["reaches"].dump(), "[0.25,2.0]");
-  EXPECT_EQ(json["windows"][1]["axes"][0].dump(), "[0.0,1.0,0.0]");
-  // Of a huge graph some edges.
-  behind.graph.edges.assign(2 * kMaxDisplayEdges + 1, {0, 1});
-  json = ViewJson(view);
-  EXPECT_EQ(json["graphs"][0]["edges"], 2 * kMaxDisplayEdges + 1);
-  EXPECT_LE(Decoded(json["graphs"][0]["indices"]).size(), 8 * kMaxDisplayEdges);
-  EXPECT_NE(json["notes"].dump().find("edges of the roadmap are shown"),
-            std::string::npos);
 }
 
 TEST(ViewJson, OfAnEmptyViewIsEmptyAndFinite) {

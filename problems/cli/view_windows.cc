@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "problems/cli/view_windows.h"
+
+#include <utility>
+
+#include "problems/cli/command.h"
+#include "problems/pictures/viewer/scene_view.h"
+#include "problems/studies/trajectory_study.h"
+
+namespace phongpd::cli {
+
+void ShowModel(const Scene& scene, const ContactSpaceCache& cache,
+               bool is_window, View* view) {
+  Progress(is_window ? "building the model of free space"
+                     : "building the contact space");
+  const World world(scene.workspace, scene.name, cache);
+  View built =
+      is_window ? WindowView(scene, world)
+                : SceneView(scene, world.Spaces(SpaceLayout::kMerged).Meshes());
+  for (ViewMesh& mesh : built.meshes) {
+    if (mesh.role != ViewRole::kContactSpace) continue;
+    view->meshes.push_back(std::move(mesh));
+  }
+  if (!is_window) return;
+  TrajectoryStudy study;
+  study.Enter(scene, world);
+  for (NamedPath& path : view->paths) path.behind.window = study.Region();
+}
+
+void TellOfDepthWindows(bool is_table, View* view) {
+  if (is_table) {
+    view->notes.push_back(
+        "Tables do not hold the windows that were built for their depths; "
+        "answers with --json do.");
+    return;
+  }
+  bool has_depths = false, has_windows = false;
+  for (const ViewAnswer& answer : view->answers) {
+    has_depths |= answer.is_depth;
+    has_windows |= !answer.window_reaches.empty();
+  }
+  if (has_depths && !has_windows) {
+    view->notes.push_back("No windows were built for these depths.");
+  }
+}
+
+}  // namespace phongpd::cli
