@@ -16,6 +16,7 @@ styles=build/site/html/_static/styles
 cp /usr/share/javascript/normalize.css/normalize.css $styles
 sed -i 's|/javascript/normalize.css/normalize.css|normalize.css|' \
   $styles/furo.css
+scripts/docs_dark.py $styles/furo.css
 # Its script imports another, which browsers do in modules only, and of files not
 # at all: both in one.
 parts=build/site/html/_static/scripts

@@ -6,7 +6,7 @@ const kOverlays = {
   graphs: {color: 'graph'},  // named by itself
   planes: {text: 'planes of the corridor', color: 'plane'},
   windows: {text: 'windows that were built', color: 'window'},
-  regions: {text: 'free space that was modelled', color: 'window'},
+  regions: {text: 'box that was searched', color: 'window'},
 };
 
 class Overlays {
