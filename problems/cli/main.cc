@@ -18,7 +18,7 @@
 #include "core/files/interruption.h"
 #include "core/mesh/mesh_error.h"
 #include "problems/cli/command.h"
-#include "problems/output/nearest_name.h"
+#include "problems/cli/parse_errors.h"
 #include "problems/output/text.h"
 #include "problems/output/versions.h"
 
@@ -51,45 +51,6 @@ std::vector<std::string> Arguments(int argc, char** argv) {
     arguments.push_back(argument);
   }
   return arguments;
-}
-
-// Commands and flags that there are none of: said before what is missing, and
-// with the nearest name.  `arguments` are in reverse.
-void RefuseUnknownNames(const CLI::App& app,
-                        const std::vector<std::string>& arguments) {
-  if (arguments.empty() || arguments.back()[0] == '-') return;
-  const std::string& name = arguments.back();
-  std::vector<std::string> names;
-  const CLI::App* command = nullptr;
-  for (const CLI::App* const one : app.get_subcommands(nullptr)) {
-    names.push_back(one->get_name());
-    if (one->get_name() == name) command = one;
-  }
-  if (command == nullptr) {
-    throw InputError("expected a command, found '" + name +
-                     "' (see phongpd --help)" + DidYouMean(name, names));
-  }
-  std::vector<std::string> flags;
-  const auto take = [&flags](const CLI::App& of) {
-    for (const CLI::Option* const option : of.get_options()) {
-      for (const std::string& flag : option->get_lnames()) {
-        flags.push_back("--" + flag);
-      }
-    }
-  };
-  take(*command);
-  for (const CLI::App* const below : command->get_subcommands(nullptr)) {
-    take(*below);
-  }
-  for (std::size_t i = arguments.size() - 1; i-- > 0;) {
-    if (arguments[i] == "--") return;
-    if (arguments[i].compare(0, 2, "--") != 0) continue;
-    const std::string flag = arguments[i].substr(0, arguments[i].find('='));
-    if (std::find(flags.begin(), flags.end(), flag) != flags.end()) continue;
-    throw InputError(name + ": expected one of its flags, found '" + flag +
-                     "' (see phongpd " + name + " --help)" +
-                     DidYouMean(flag, flags));
-  }
 }
 
 int Run(int argc, char** argv) {
@@ -137,13 +98,13 @@ int Run(int argc, char** argv) {
       AddCompletion);
   add("man", "Print the manual page, in roff", AddMan);
 
+  const std::vector<std::string> arguments = Arguments(argc, argv);
   try {
-    std::vector<std::string> arguments = Arguments(argc, argv);
     RefuseUnknownNames(app, arguments);
-    app.parse(std::move(arguments));
+    app.parse(std::vector<std::string>(arguments));
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);  // help, version
-    return Fail(kBadInput, std::string(error.what()) + " (see --help)");
+    return Fail(kBadInput, Explained(error, app, arguments));
   }
   for (const auto& [command, run] : commands) {
     if (command->parsed()) return run();

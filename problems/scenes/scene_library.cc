@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "core/mesh/mesh_error.h"
+#include "problems/output/nearest_name.h"
+#include "problems/output/text.h"
 #include "problems/scenes/scene_placement.h"
 #include "problems/scenes/scene_recipes.h"
 
@@ -14,12 +17,17 @@ using Json = nlohmann::ordered_json;
 using Values = std::map<std::string, double>;
 
 template <typename Items, typename Name>
-std::string Listed(const Items& items, Name name) {
-  std::string list;
-  for (const auto& item : items) {
-    list += (list.empty() ? "" : ", ") + name(item);
-  }
-  return list;
+std::vector<std::string> Names(const Items& items, Name name) {
+  std::vector<std::string> names;
+  for (const auto& item : items) names.push_back(name(item));
+  return names;
+}
+
+[[noreturn]] void FailUnknown(const std::string& what,
+                              const std::vector<std::string>& names,
+                              const std::string& found) {
+  throw InputError(what + Joined(names) + "; found '" + found + "'" +
+                   DidYouMean(found, names));
 }
 
 }  // namespace
@@ -41,10 +49,9 @@ Json MakeScene(const std::string& name, const Values& knobs) {
       std::find_if(families.begin(), families.end(),
                    [&](const SceneFamily& f) { return f.name == name; });
   if (family == families.end()) {
-    throw InputError(
-        "scene: expected one of " +
-        Listed(families, [](const SceneFamily& f) { return f.name; }) +
-        ", found '" + name + "'");
+    FailUnknown("scene: expected one of ",
+                Names(families, [](const SceneFamily& f) { return f.name; }),
+                name);
   }
   std::vector<SceneKnob> known = family->knobs;
   known.insert(known.end(), CommonSceneKnobs().begin(),
@@ -53,9 +60,8 @@ Json MakeScene(const std::string& name, const Values& knobs) {
   for (const SceneKnob& knob : known) values[knob.key] = knob.value;
   for (const auto& [key, value] : knobs) {
     if (values.count(key) == 0) {
-      throw InputError("scene " + name + ": expected one of the knobs " +
-                       Listed(known, [](const SceneKnob& k) { return k.key; }) +
-                       ", found '" + key + "'");
+      FailUnknown("scene " + name + ": expected one of the knobs ",
+                  Names(known, [](const SceneKnob& k) { return k.key; }), key);
     }
     values[key] = value;
   }

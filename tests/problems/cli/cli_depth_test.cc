@@ -157,7 +157,8 @@ TEST_F(Cli, MinkowskiRefusesBadInput) {
   ExpectRefused("minkowski ../missing.off ../box.off --output s.off",
                 {"missing.off"});
   ExpectRefused("minkowski ../box.off ../box.off --output s.what", {"s.what"});
-  ExpectRefused("minkowski ../box.off", {"B is required"});
+  ExpectRefused("minkowski ../box.off",
+                {"expected B, found none (see phongpd minkowski --help)"});
 }
 
 }  // namespace

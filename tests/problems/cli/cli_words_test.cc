@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What is asked of every command is asked of every command: the list of them is
+// the program's own, and so are their flags.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <regex>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "tests/problems/cli/cli_scenes.h"
+
+namespace phongpd {
+namespace {
+
+class CliWords : public CliScenes {
+ protected:
+  // The paths of all commands: "plan", "scenes list", ...
+  std::vector<std::string> Commands() const {
+    std::vector<std::string> commands;
+    for (const std::string& name : Below("")) {
+      const std::vector<std::string> below = Below(name);
+      if (below.empty()) commands.push_back(name);
+      for (const std::string& more : below) {
+        commands.push_back(name + " " + more);
+      }
+    }
+    return commands;
+  }
+
+  std::string Help(const std::string& command) const {
+    const Outcome help = Run(command + " --help");
+    EXPECT_EQ(help.code, 0) << command;
+    return help.out;
+  }
+
+  // "  --planner TEXT:{a,b} ...": the flag and what stands behind it.
+  struct Flag {
+    std::string name;
+    std::string value;  // the rest of its line
+  };
+  static std::vector<Flag> Flags(const std::string& help) {
+    std::vector<Flag> flags;
+    static const std::regex pattern("^  (?:-[a-z],)?(--[a-z-]+)[^ ]* *(.*)$");
+    for (const std::string& line : Split(help, '\n')) {
+      std::smatch match;
+      if (!std::regex_match(line, match, pattern)) continue;
+      flags.push_back({match[1].str(), match[2].str()});
+    }
+    return flags;
+  }
+
+  // Refused in one short line that has all the words.
+  void ExpectLine(const std::string& command,
+                  const std::vector<std::string>& words) const {
+    const Outcome outcome = Run(command);
+    EXPECT_EQ(outcome.code, 2) << command;
+    EXPECT_TRUE(outcome.out.empty()) << command << outcome.out;
+    EXPECT_EQ(Split(outcome.err, '\n').size(), 1U) << command << outcome.err;
+    EXPECT_FALSE(HasLongNumber(outcome.err)) << command << outcome.err;
+    for (const std::string& word : words) {
+      EXPECT_NE(outcome.err.find(word), std::string::npos)
+          << command << ": no " << word << " in " << outcome.err;
+    }
+  }
+
+  static bool HasLongNumber(const std::string& text) {
+    return std::regex_search(text, std::regex("[0-9]{20}|e\\+?30[0-9]"));
+  }
+
+ private:
+  std::vector<std::string> Below(const std::string& command) const {
+    std::vector<std::string> names;
+    bool is_list = false;
+    static const std::regex pattern("^  ([a-z-]+) .*$");
+    for (const std::string& line : Split(Help(command), '\n')) {
+      std::smatch match;
+      if (line.rfind("Subcommands:", 0) == 0) {
+        is_list = true;
+      } else if (is_list && std::regex_match(line, match, pattern)) {
+        names.push_back(match[1].str());
+      }
+    }
+    return names;
+  }
+};
+
+TEST_F(CliWords, EveryHelpHasExamplesThatAreOfItsCommandAndNoEndlessNumber) {
+  const std::vector<std::string> commands = Commands();
+  EXPECT_GE(commands.size(), 17U);
+  for (const std::string& command : commands) {
+    const std::string help = Help(command);
+    const std::size_t examples = help.find("Examples:\n");
+    ASSERT_NE(examples, std::string::npos) << command;
+    EXPECT_NE(help.find("\n  phongpd " + command, examples), std::string::npos)
+        << command;
+    EXPECT_FALSE(HasLongNumber(help)) << command;
+    // What they call by flags, they have.
+    std::set<std::string> names;
+    for (const Flag& flag : Flags(help)) names.insert(flag.name);
+    static const std::regex flag(" (--[a-z-]+)");
+    const std::string text = help.substr(examples);
+    for (std::sregex_iterator i(text.begin(), text.end(), flag), end; i != end;
+         ++i) {
+      // Behind "--" comes another command.
+      if (text.find(" -- ") != std::string::npos) continue;
+      EXPECT_EQ(names.count((*i)[1].str()), 1U)
+          << command << " has no " << (*i)[1].str();
+    }
+  }
+}
+
+TEST_F(CliWords, AnswersOfAllCommandsComeAsJsonToo) {
+  // Text for other programs, in their own formats.
+  const std::set<std::string> texts = {"completion", "man"};
+  for (const std::string& command : Commands()) {
+    const bool has_json = Help(command).find("\n  --json") != std::string::npos;
+    EXPECT_EQ(has_json, texts.count(command) == 0) << command;
+  }
+}
+
+TEST_F(CliWords, MistypedNamesAreAnsweredWithTheNearest) {
+  std::vector<std::string> first;
+  for (const std::string& command : Commands()) {
+    // A letter too many, in the command and in each of its flags.
+    const std::size_t last = command.size() - 1;
+    ExpectLine(
+        command.substr(0, last) + "x" + command.substr(last),
+        {"did you mean " + command.substr(command.find(' ') == std::string::npos
+                                              ? 0
+                                              : command.find(' ') + 1)});
+    for (const Flag& flag : Flags(Help(command))) {
+      if (flag.name == "--help" || flag.name == "--at") continue;
+      std::string wrong = flag.name;
+      wrong.insert(wrong.size() - 1, "q");
+      ExpectLine(command + " " + wrong, {"did you mean " + flag.name});
+    }
+  }
+  ExpectLine("plan u_axs", {"did you mean u_axis?"});
+  ExpectLine("scenes write u_axs", {"did you mean u_axis?"});
+  ExpectLine("plan tunnel:delt=0.1", {"did you mean delta?"});
+  ExpectLine("scenes", {"expected list or write, found nothing"});
+}
+
+TEST_F(CliWords, ValuesOfAListAreAnsweredWithTheNearest) {
+  int lists = 0;
+  static const std::regex choices("^[A-Z ]*:?\\{([^}]*)\\}.*$");
+  for (const std::string& command : Commands()) {
+    for (const Flag& flag : Flags(Help(command))) {
+      std::smatch match;
+      if (!std::regex_match(flag.value, match, choices)) continue;
+      const std::string name = Split(match[1].str(), ',').back();
+      ExpectLine(command + " " + flag.name + " " + name + "x",
+                 {flag.name + ": expected one of ", "found '" + name + "x'",
+                  "did you mean " + name});
+      ++lists;
+    }
+  }
+  EXPECT_GT(lists, 10);
+}
+
+// Numbers that are none, and values that are missing.
+TEST_F(CliWords, WrongNumbersAndMissingValuesAreToldInWords) {
+  ExpectLine("plan u_axis --runs 1e400",
+             {"--runs: expected a number within range, found 1e400"});
+  ExpectLine("depth a b --at 1 2",
+             {"--at: expected at least 3 values, found 2"});
+  ExpectLine("depth a", {"expected B, found none (see phongpd depth --help)"});
+  ExpectLine("optimize u_axis --seed", {"--seed", "found none"});
+  for (const std::string& command : Commands()) {
+    for (const Flag& flag : Flags(Help(command))) {
+      static const std::regex number("^(N|F|S|K|SECONDS|MIB) .*$");
+      if (!std::regex_match(flag.value, number)) continue;
+      const Outcome outcome = Run(command + " " + flag.name + " 1e999x");
+      EXPECT_EQ(outcome.code, 2) << command << ' ' << flag.name;
+      EXPECT_FALSE(HasLongNumber(outcome.err)) << outcome.err;
+    }
+  }
+}
+
+// Wherever a picture or a page can be asked for.
+TEST_F(CliWords, OutputsOfAnotherKindAreRefused) {
+  const std::string pair = " --robot ../cone.off --obstacle ../box.off ";
+  const std::string motion =
+      "motion" + pair + "--from -3 0 0 --to 3 0 0 --frames 3 ";
+  for (const std::string& command :
+       {motion, std::string("optimize u_axis "), std::string("plan u_axis ")}) {
+    ExpectLine(command + "--svg p.png", {"--svg", "ends in .svg", "p.png"});
+    ExpectLine(command + "--html p.svg", {"--html", ".html", "p.svg"});
+  }
+  ExpectLine("view ../box.off --html p.png", {"--html", "p.png"});
+  ExpectLine("view ../box.off --glb p.gltf", {"--glb", "p.gltf"});
+  ExpectLine("view ../box.off --png p.svg", {"--png", "p.svg"});
+  ExpectLine("contact-space" + pair + "--output c.png", {"c.png"});
+  ExpectLine("contact-space" + pair + "--output c.off --report r.csv",
+             {"--report", "r.csv"});
+  ExpectLine("minkowski ../box.off ../cone.off --output c.html", {"c.html"});
+  ExpectLine("check ../box.off --defects d.html", {"d.html"});
+  EXPECT_TRUE(std::filesystem::is_empty(folder_ / "run"));
+}
+
+}  // namespace
+}  // namespace phongpd
