@@ -13,7 +13,9 @@ void WriteReport(const std::vector<NamedTable>& tables,
     out->Write(named.file, ToCsv(named.table));
   }
   for (const Figure& figure : figures) out->Write(figure.file, figure.svg);
-  out->Write("README.md", readme);
+  const Pages pages = SplitReadme(readme);
+  out->Write("README.md", pages.readme);
+  if (!pages.tables.empty()) out->Write("tables.md", pages.tables);
 }
 
 int RunProgram(const std::string& name, int (*run)(int argc, char** argv),

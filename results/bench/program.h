@@ -10,7 +10,8 @@
 // The frame of every benchmark program.
 namespace phongpd::bench {
 
-// Writes the rows of all tables, all figures and README.md.
+// Writes the rows of all tables, all figures and README.md, with tables.md
+// beside it where they are long.
 void WriteReport(const std::vector<NamedTable>& tables,
                  const std::vector<Figure>& figures, const std::string& readme,
                  OutputDirectory* out);

@@ -135,6 +135,23 @@ std::string ToMarkdown(const std::vector<NamedTable>& tables,
   return text;
 }
 
+Pages SplitReadme(const std::string& text) {
+  const std::string heading = "## Tables\n\n";
+  const std::size_t begin = text.find(heading);
+  if (begin == std::string::npos) return {text, ""};
+  const std::size_t end =
+      std::min(text.find("## Figures\n", begin), text.size());
+  const std::string tables = text.substr(begin, end - begin);
+  if (std::count(tables.begin(), tables.end(), '\n') <= kMostTableLines) {
+    return {text, ""};
+  }
+  return {text.substr(0, begin) + "All tables: [tables.md](tables.md).\n" +
+              (end < text.size() ? "\n" : "") + text.substr(end),
+          text.substr(0, text.find('\n')) +
+              ": tables\n\nWhat they say: [README.md](README.md).\n\n" +
+              tables.substr(heading.size())};
+}
+
 double Quantile(std::vector<double> values, double fraction) {
   if (values.empty()) return 0.0;
   const auto last = static_cast<double>(values.size() - 1);

@@ -74,6 +74,15 @@ std::string CommandLine(const std::string& program, int argc, char** argv);
 std::string ToMarkdown(const std::vector<NamedTable>& tables,
                        const std::vector<Figure>& figures);
 
+// A README is to be read at once: its section "## Tables", where that is longer
+// than kMostTableLines, goes to a page of its own, to which it links.
+inline constexpr std::ptrdiff_t kMostTableLines = 80;
+struct Pages {
+  std::string readme;
+  std::string tables;  // tables.md; empty: the README has them
+};
+Pages SplitReadme(const std::string& text);
+
 // Value below which the given fraction of `values` lies; 0 when empty.
 double Quantile(std::vector<double> values, double fraction);
 
