@@ -13,7 +13,7 @@ class DrawnViewer extends Viewer {
     const hasPanel = !isNarrow && !document.body.classList.contains('open');
     // What the page lays over the canvas.
     const right = hasPanel && !still ? 288 : 0;
-    const top = isNarrow ? 100 : count > 1 ? 120 : 60;
+    const top = isNarrow ? (motion ? 86 : 100) : count > 1 ? 120 : 60;
     const bottom = still ? 50 : motion ? (isNarrow ? 175 : 150)
         : isNarrow ? 120 : 80;
     const panes = [];
