@@ -1,7 +1,7 @@
 // What the first view holds, and what the cutting plane goes through.
 
 class FramedStage extends Stage {
-  // Is most of the shown way behind obstacles, seen from the camera?
+  // Is a good part of the shown way behind obstacles, seen from the camera?
   isHidden(camera) {
     const solids = this.solids.filter(s => s.entry.role === 'obstacle');
     const way = this.ways.find(w => w.points.length > 0);
@@ -17,7 +17,7 @@ class FramedStage extends Stage {
       ray.set(camera.position, direction.normalize());
       if (ray.intersectObjects(solids.map(s => s.faces[0])).length) ++hidden;
     }
-    return hidden > 0.55 * count;
+    return hidden > 0.35 * count;
   }
 
   // Around everything but a robot on its way.

@@ -60,9 +60,13 @@ class Overlays {
     indices.forEach((v, i) => ends.set(positions.subarray(3 * v, 3 * v + 3),
                                        3 * i));
     const object = new THREE.Group();
-    object.add(this.lines('graph', ends, 0.75));
+    // Of thousands each is faint, or they hide the path that came of them.
+    const opacity = 0.75 * Math.max(0.1, Math.min(
+        1, Math.sqrt(300 / Math.max(1, indices.length / 2))));
+    object.add(this.lines('graph', ends, opacity));
     const material = new THREE.PointsMaterial(
-        {size: 3, sizeAttenuation: false, transparent: true, opacity: 0.9});
+        {size: 3, sizeAttenuation: false, transparent: true,
+         opacity: Math.min(0.9, 1.2 * opacity)});
     this.stage.colored.push([material, 'graph']);
     const geometry = new THREE.BufferGeometry();
     geometry.setAttribute('position', new THREE.BufferAttribute(positions, 3));

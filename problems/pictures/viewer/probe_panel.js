@@ -232,6 +232,8 @@ class ProbePanel {
 
   chart() {
     const {viewer, history} = this, canvas = byId('probe-chart');
+    canvas.hidden = history.length < 2;
+    if (canvas.hidden) return;
     const series = kProbeMetrics.map((name, i) => history.map(h => h[i]));
     const most = largest(series) || 1;
     const step = canvas.clientWidth / kProbeHistory;

@@ -166,20 +166,6 @@ TEST_F(CliAnswers, ViewsAndReproductionsTellWhatTheyHold) {
   EXPECT_EQ(replayed["now"]["exit_code"], 0);
 }
 
-TEST_F(CliAnswers, EveryCommandShowsExamplesAndTakesJson) {
-  for (const std::string command :
-       {"check", "depth", "minkowski", "contact-space", "query", "motion",
-        "optimize", "compare", "merge", "join", "plan", "view", "scenes list",
-        "scenes write", "reproduce"}) {
-    const Outcome help = Run(command + " --help");
-    EXPECT_EQ(help.code, 0) << command;
-    EXPECT_NE(help.out.find("Examples:\n  phongpd "), std::string::npos)
-        << command;
-    EXPECT_NE(help.out.find("--json"), std::string::npos) << command;
-    EXPECT_EQ(help.out.find("00000000"), std::string::npos) << command;
-  }
-}
-
 TEST_F(CliAnswers, RangesAreToldInWords) {
   const std::string depth = "depth ../box.off ../cone.off ";
   ExpectRefused(depth + "--max-seconds -1",
