@@ -29,6 +29,13 @@ double HalfArea(const BoundingBox& box) {
   return d.x() * d.y() + d.y() * d.z() + d.z() * d.x();
 }
 
+// An item where it is sorted, with what that takes.
+struct SortedItem {
+  BoundingBox box;
+  Vector3d middle;
+  int number;
+};
+
 struct Range {
   int node;
   int first;
@@ -36,55 +43,56 @@ struct Range {
   int depth;
 };
 
-// Splits order[first, last) and returns the first position of the right part.
+// Splits items[first, last) and returns the first position of the right part.
 class Splitter {
  public:
-  explicit Splitter(const std::vector<BoundingBox>& boxes) : boxes_(boxes) {}
+  using Iterator = std::vector<SortedItem>::iterator;
 
-  int Split(const Range& range, std::vector<int>* order) const {
-    const auto begin = order->begin() + range.first;
-    const auto end = order->begin() + range.last;
+  static int Split(const Range& range, std::vector<SortedItem>* items) {
+    const Iterator begin = items->begin() + range.first;
+    const Iterator end = items->begin() + range.last;
     Vector3d low = Vector3d::Constant(kInfinity);
     Vector3d high = Vector3d::Constant(-kInfinity);
-    for (auto it = begin; it != end; ++it) {
-      low = low.cwiseMin(Middle(*it));
-      high = high.cwiseMax(Middle(*it));
+    for (Iterator it = begin; it != end; ++it) {
+      low = low.cwiseMin(it->middle);
+      high = high.cwiseMax(it->middle);
     }
     int axis = 0;
     const double extent = (high - low).maxCoeff(&axis);
     if (range.depth < BoxTree::kSplitDepth && extent > 0.0) {
       const int bin = BestBin(begin, end, low[axis], extent, axis);
-      const auto middle = std::partition(begin, end, [&](int item) {
-        return BinOf(item, low[axis], extent, axis) <= bin;
-      });
+      const Iterator middle =
+          std::partition(begin, end, [&](const SortedItem& item) {
+            return BinOf(item, low[axis], extent, axis) <= bin;
+          });
       if (middle != begin && middle != end) {
-        return static_cast<int>(middle - order->begin());
+        return static_cast<int>(middle - items->begin());
       }
     }
-    const auto middle = begin + (range.last - range.first) / 2;
-    std::nth_element(begin, middle, end, [&](int a, int b) {
-      return Middle(a)[axis] < Middle(b)[axis];
-    });
-    return static_cast<int>(middle - order->begin());
+    const Iterator middle = begin + (range.last - range.first) / 2;
+    std::nth_element(begin, middle, end,
+                     [axis](const SortedItem& a, const SortedItem& b) {
+                       return a.middle[axis] < b.middle[axis];
+                     });
+    return static_cast<int>(middle - items->begin());
   }
 
  private:
-  Vector3d Middle(int item) const { return boxes_[item].Center(); }
-
-  int BinOf(int item, double low, double extent, int axis) const {
-    const double position = (Middle(item)[axis] - low) / extent * kBins;
+  static int BinOf(const SortedItem& item, double low, double extent,
+                   int axis) {
+    const double position = (item.middle[axis] - low) / extent * kBins;
     return std::clamp(static_cast<int>(position), 0, kBins - 1);
   }
 
   // The bin after which a cut is cheapest by surface area.
-  int BestBin(std::vector<int>::iterator begin, std::vector<int>::iterator end,
-              double low, double extent, int axis) const {
+  static int BestBin(Iterator begin, Iterator end, double low, double extent,
+                     int axis) {
     std::array<BoundingBox, kBins> box;
     std::array<int, kBins> count{};
     box.fill(EmptyBox());
-    for (auto it = begin; it != end; ++it) {
+    for (Iterator it = begin; it != end; ++it) {
       const int bin = BinOf(*it, low, extent, axis);
-      Extend(boxes_[*it], &box[bin]);
+      Extend(it->box, &box[bin]);
       ++count[bin];
     }
     std::array<double, kBins> right_cost{};
@@ -110,8 +118,6 @@ class Splitter {
     }
     return best_bin;
   }
-
-  const std::vector<BoundingBox>& boxes_;
 };
 
 // What both traversals rely on: children come in pairs behind their parent and
@@ -155,11 +161,11 @@ class Splitter {
 
 BoxTree::BoxTree(const std::vector<BoundingBox>& boxes, int leaf_size) {
   if (boxes.empty()) return;
-  order_.resize(boxes.size());
+  std::vector<SortedItem> items;
+  items.reserve(boxes.size());
   for (std::size_t i = 0; i < boxes.size(); ++i) {
-    order_[i] = static_cast<int>(i);
+    items.push_back({boxes[i], boxes[i].Center(), static_cast<int>(i)});
   }
-  const Splitter splitter(boxes);
   nodes_.emplace_back();
   std::vector<Range> open{{0, 0, static_cast<int>(boxes.size()), 0}};
   while (!open.empty()) {
@@ -167,7 +173,7 @@ BoxTree::BoxTree(const std::vector<BoundingBox>& boxes, int leaf_size) {
     open.pop_back();
     BoundingBox box = EmptyBox();
     for (int i = range.first; i < range.last; ++i) {
-      Extend(boxes[order_[i]], &box);
+      Extend(items[i].box, &box);
     }
     Node node;
     node.min = box.min;
@@ -176,7 +182,7 @@ BoxTree::BoxTree(const std::vector<BoundingBox>& boxes, int leaf_size) {
       node.first = range.first;
       node.count = range.last - range.first;
     } else {
-      const int middle = splitter.Split(range, &order_);
+      const int middle = Splitter::Split(range, &items);
       node.first = static_cast<int>(nodes_.size());
       nodes_.resize(nodes_.size() + 2);
       open.push_back({node.first, range.first, middle, range.depth + 1});
@@ -184,6 +190,8 @@ BoxTree::BoxTree(const std::vector<BoundingBox>& boxes, int leaf_size) {
     }
     nodes_[range.node] = node;
   }
+  order_.reserve(items.size());
+  for (const SortedItem& item : items) order_.push_back(item.number);
   assert(IsSound(nodes_, order_, boxes));
 }
 

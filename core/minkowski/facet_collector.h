@@ -2,14 +2,47 @@
 #pragma once
 
 #include <algorithm>
-#include <unordered_map>
-#include <unordered_set>
+#include <cstddef>
 #include <utility>
+#include <vector>
 
 #include "core/minkowski/convolution.h"
 #include "core/minkowski/touching_features.h"
 
 namespace phongpd::internal {
+
+// Numbers distinct keys 0, 1, ... as they come: a table of numbers, twice as
+// long as there are keys at least, searched from each key's place on.
+template <typename Key, typename Hash>
+class KeyNumbers {
+ public:
+  // The number of `key` among `keys`, which are those numbered so far; where it
+  // is none of them that it gets, keys->size(), and is appended.
+  int Number(const Key& key, std::vector<Key>* keys) {
+    if (2 * (keys->size() + 1) > slots_.size()) Grow(*keys);
+    std::size_t at = Hash()(key) & (slots_.size() - 1);
+    for (; slots_[at] >= 0; at = (at + 1) & (slots_.size() - 1)) {
+      if ((*keys)[static_cast<std::size_t>(slots_[at])] == key) {
+        return slots_[at];
+      }
+    }
+    slots_[at] = static_cast<int>(keys->size());
+    keys->push_back(key);
+    return slots_[at];
+  }
+
+ private:
+  void Grow(const std::vector<Key>& keys) {
+    slots_.assign(std::max<std::size_t>(64, 2 * slots_.size()), -1);
+    for (std::size_t i = 0; i < keys.size(); ++i) {
+      std::size_t at = Hash()(keys[i]) & (slots_.size() - 1);
+      while (slots_[at] >= 0) at = (at + 1) & (slots_.size() - 1);
+      slots_[at] = static_cast<int>(i);
+    }
+  }
+
+  std::vector<int> slots_;  // a power of two of them; −1: free
+};
 
 // Collects facets over shared, distinct points; a triangle generated twice
 // (several contacts at one place) is kept once.
@@ -51,23 +84,22 @@ class FacetCollector {
   };
 
   int Point(const GridPoint& sum) {
-    const auto [it, is_new] =
-        ids_.emplace(sum, static_cast<int>(out_->points.size()));
-    if (is_new) out_->points.push_back(sum);
-    return it->second;
+    return point_numbers_.Number(sum, &out_->points);
   }
   void Add(const Triangle& t, const GridNormal& n, ContactKind kind,
            int source) {
     Triangle first = t;
     std::rotate(first.begin(), std::min_element(first.begin(), first.end()),
                 first.end());
-    if (!seen_.insert(first).second) return;
+    const auto next = static_cast<int>(seen_.size());
+    if (seen_numbers_.Number(first, &seen_) != next) return;
     out_->facets.push_back({t, n, source, kind});
   }
 
   Convolution* out_;
-  std::unordered_map<GridPoint, int, GridPointHash> ids_;
-  std::unordered_set<Triangle, TriangleHash> seen_;
+  KeyNumbers<GridPoint, GridPointHash> point_numbers_;
+  KeyNumbers<Triangle, TriangleHash> seen_numbers_;
+  std::vector<Triangle> seen_;
 };
 
 }  // namespace phongpd::internal

@@ -8,11 +8,13 @@
 #include <CGAL/Object.h>
 #include <CGAL/box_intersection_d.h>
 #include <CGAL/intersections.h>
-#include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
 #include <array>
 #include <utility>
+
+#include "core/bvh/box_tree.h"
 
 namespace phongpd::internal {
 namespace {
@@ -22,8 +24,6 @@ using Exact = CGAL::Exact_predicates_exact_constructions_kernel;
 using Point = Kernel::Point_3;
 using Corners = std::array<Point, 3>;
 using Box = CGAL::Box_intersection_d::Box_with_info_d<double, 3, std::size_t>;
-
-constexpr std::size_t kBatch = 1 << 16;
 
 Corners CornersOf(const TriangleMesh& mesh, const Triangle& triangle) {
   const auto point = [&mesh](int v) {
@@ -145,34 +145,45 @@ std::size_t CountSelfIntersections(const TriangleMesh& mesh,
                                    const std::vector<int>& labels,
                                    std::size_t limit,
                                    std::vector<TrianglePair>* pairs) {
-  std::vector<Box> boxes =
-      BoxesOf(mesh, ProperTriangles(mesh, ComputeBounds(mesh)));
-  // Pairs are judged in parallel, in batches that bound the memory.
-  std::vector<TrianglePair> batch;
+  const std::vector<std::size_t> proper =
+      ProperTriangles(mesh, ComputeBounds(mesh));
+  std::vector<BoundingBox> boxes;
+  boxes.reserve(proper.size());
+  for (const std::size_t t : proper) {
+    const auto& [i, j, k] = mesh.triangles[t];
+    const Eigen::Vector3d& a = mesh.vertices[i];
+    const Eigen::Vector3d& b = mesh.vertices[j];
+    const Eigen::Vector3d& c = mesh.vertices[k];
+    boxes.push_back({a.cwiseMin(b).cwiseMin(c), a.cwiseMax(b).cwiseMax(c)});
+  }
+  const BoxTree tree(boxes, 4);
+  // Of each triangle, those after it that it meets.
+  std::vector<std::vector<std::size_t>> met(proper.size());
+  tbb::parallel_for(std::size_t{0}, proper.size(), [&](std::size_t i) {
+    const BoundingBox& box = boxes[i];
+    const auto overlaps = [&box](const auto& other) {
+      return (other.min.array() <= box.max.array()).all() &&
+             (other.max.array() >= box.min.array()).all();
+    };
+    tree.ForEach([&](int node) { return overlaps(tree.nodes()[node]); },
+                 [&](int position) {
+                   const int item = tree.order()[position];
+                   const auto j = static_cast<std::size_t>(item);
+                   if (j > i && overlaps(boxes[j]) &&
+                       labels[proper[i]] == labels[proper[j]] &&
+                       MeetProperly(mesh, proper[i], proper[j])) {
+                     met[i].push_back(j);
+                   }
+                   return true;
+                 });
+    std::sort(met[i].begin(), met[i].end());
+  });
   std::size_t count = 0;
-  const auto judge = [&] {
-    std::vector<char> is_meeting(batch.size());
-    tbb::parallel_for(
-        tbb::blocked_range<std::size_t>(0, batch.size(), 256),
-        [&](const tbb::blocked_range<std::size_t>& range) {
-          for (std::size_t i = range.begin(); i < range.end(); ++i) {
-            is_meeting[i] = MeetProperly(mesh, batch[i].first, batch[i].second);
-          }
-        });
-    for (std::size_t i = 0; i < batch.size(); ++i) {
-      if (!is_meeting[i]) continue;
-      if (count++ < limit) pairs->push_back(batch[i]);
+  for (std::size_t i = 0; i < met.size(); ++i) {
+    for (const std::size_t j : met[i]) {
+      if (count++ < limit) pairs->emplace_back(proper[i], proper[j]);
     }
-    batch.clear();
-  };
-  CGAL::box_self_intersection_d(boxes.begin(), boxes.end(),
-                                [&](const Box& a, const Box& b) {
-                                  if (labels[a.info()] != labels[b.info()])
-                                    return;
-                                  batch.emplace_back(a.info(), b.info());
-                                  if (batch.size() == kBatch) judge();
-                                });
-  judge();
+  }
   return count;
 }
 

@@ -23,7 +23,8 @@ bool IsDegenerate(const TriangleMesh& mesh, const Triangle& triangle);
 bool MeetProperly(const TriangleMesh& mesh, std::size_t s, std::size_t t);
 
 // Pairs of triangles with equal labels that meet properly: how many.  The
-// first `limit` of them are appended to *pairs, which may be null.
+// first `limit` of them, by their numbers, the lower one first, are appended to
+// *pairs, which may be null where that is 0.
 using TrianglePair = std::pair<std::size_t, std::size_t>;
 std::size_t CountSelfIntersections(const TriangleMesh& mesh,
                                    const std::vector<int>& labels,
