@@ -45,8 +45,9 @@ if [[ $suite == contact-space || $suite == all ]]; then
   build/contact_space_benchmark --output results/contact-space
 fi
 if [[ $suite == lazy || $suite == all ]]; then
-  scripts/build.sh lazy_benchmark
+  scripts/build.sh lazy_benchmark culling_benchmark
   build/lazy_benchmark --output results/lazy --queries 60
+  build/culling_benchmark --output results/lazy
 fi
 if [[ $suite == convergence || $suite == all ]]; then
   scripts/build.sh phongpd convergence_benchmark

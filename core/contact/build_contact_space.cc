@@ -8,6 +8,7 @@
 
 #include "core/contact/build_stages.h"
 #include "core/contact/contact_space.h"
+#include "core/contact/culled_build.h"
 #include "core/minkowski/build_limits.h"
 #include "core/minkowski/cells.h"
 #include "core/minkowski/convolution.h"
@@ -36,8 +37,18 @@ double SpeedUp() {
   return 1.0 / (1.0 - kParallelShare + kParallelShare / threads);
 }
 
-// Fitted to 90 pairs of solids of 12 to 5,000 triangles in one thread
-// (results/bench/guard_measure.h); `whole` facets before culling.
+// Processor seconds of one thread: of arranging what is expected, and all that
+// follows; of looking for what is occupied in a convolution of that many
+// facets.  Fitted to the pairs of results/lazy/culling.csv and some twice as
+// coarse.
+double ArrangementSeconds(const internal::ExpectedCuts& cuts) {
+  return 5.9e-6 * cuts.meetings + 8.8e-6 * cuts.crossings;
+}
+double CullingSeconds(std::size_t facets) {
+  return 0.03 + 1.0e-5 * static_cast<double>(facets);
+}
+
+// As those; `whole` facets before culling.
 PredictedCost Predict(std::size_t triangles, std::size_t whole, bool is_culled,
                       const internal::ExpectedCuts& cuts) {
   const auto operands = static_cast<double>(triangles);
@@ -45,30 +56,34 @@ PredictedCost Predict(std::size_t triangles, std::size_t whole, bool is_culled,
   PredictedCost cost;
   cost.meetings = cuts.meetings;
   cost.arrangement_faces = 0.39 * cuts.meetings + 0.95 * cuts.crossings;
-  cost.seconds = (1.2e-6 * operands + (is_culled ? 1.5e-5 * facets : 0.0) +
-                  7.8e-6 * cuts.meetings + 1.17e-5 * cuts.crossings) /
-                 SpeedUp();
+  cost.seconds =
+      (1.2e-6 * operands + (is_culled ? CullingSeconds(whole) : 0.0) +
+       ArrangementSeconds(cuts)) /
+      SpeedUp();
   cost.mib = 3.4 + 3.6e-4 * operands + 7.6e-5 * facets +
              4.4e-4 * cuts.meetings + 7.3e-4 * cuts.crossings;
   return cost;
 }
 
 // Facets of smooth and of small solids meet few others: hardly any of them are
-// inside.
-bool IsWorthCulling(const internal::Convolution& convolution, double meetings) {
-  constexpr double kManyMeetings = 6.0;  // of each facet
-  constexpr double kMuchWork = 20000.0;
-  return meetings > kMuchWork &&
-         meetings >
-             kManyMeetings * static_cast<double>(convolution.facets.size());
+// inside, and to find that out takes as long as to arrange them
+// (results/lazy/culling.md).
+bool IsWorthCulling(const internal::ExpectedCuts& cuts, std::size_t facets) {
+  constexpr double kMuchSeconds = 0.2;
+  constexpr double kMuchMore = 3.0;
+  return ArrangementSeconds(cuts) >
+         std::max(kMuchSeconds, kMuchMore * CullingSeconds(facets));
 }
 
+using internal::Culling;
+using internal::CullingReport;
 using internal::OperandRole;
 
 // Operands are Solids or meshes.
 template <typename Operand>
 ContactSpace Build(const Operand& robot, const Operand& obstacle,
-                   const ContactSpaceOptions& options) {
+                   const ContactSpaceOptions& options, Culling culling,
+                   CullingReport* culled) {
   ContactSpace::Parts out;
   ContactSpaceReport& report = out.report;
   internal::StageClock clock(&report);
@@ -92,18 +107,28 @@ ContactSpace Build(const Operand& robot, const Operand& obstacle,
   clock.Finish("convolution");
 
   internal::PlaneGroups groups = internal::GroupAndName(&convolution);
+  limits.Look("prediction");
   internal::ExactPoints points;
   internal::Arrangement arrangement;
   {
     auto index = std::make_unique<internal::FacetIndex>(convolution);
+    limits.Look("prediction");
     internal::ExpectedCuts cuts =
-        internal::ExpectCuts(convolution, groups, *index);
+        internal::ExpectCuts(convolution, groups, *index, limits);
     internal::OccupiedRegion occupied;
-    if (IsWorthCulling(convolution, cuts.meetings)) {
+    culled->facets = convolution.facets.size();
+    culled->meetings = culled->meetings_left = cuts.meetings;
+    if (culling == Culling::kAlways ||
+        (culling == Culling::kWhereItPays &&
+         IsWorthCulling(cuts, convolution.facets.size()))) {
       occupied = internal::OccupiedRegion(p, q, convolution, limits);
       internal::DropOccupied(occupied, &convolution, &groups);
       index = std::make_unique<internal::FacetIndex>(convolution);
-      cuts = internal::ExpectCuts(convolution, groups, *index, &occupied);
+      cuts =
+          internal::ExpectCuts(convolution, groups, *index, limits, &occupied);
+      culled->was_tried = !occupied.IsEmpty();
+      culled->dropped = culled->facets - convolution.facets.size();
+      culled->meetings_left = cuts.meetings;
     }
     report.predicted =
         Predict(a.mesh().triangles.size() + b.mesh().triangles.size(),
@@ -121,7 +146,7 @@ ContactSpace Build(const Operand& robot, const Operand& obstacle,
   clock.Finish("arrangement");
 
   const internal::EdgeRings rings =
-      internal::SortAroundEdges(convolution, arrangement, points);
+      internal::SortAroundEdges(convolution, arrangement, points, &limits);
   limits.Look("cells");
   const internal::SolidCollision judge(p, q);
   const internal::FreeCells cells = [&] {
@@ -149,10 +174,10 @@ ContactSpace Build(const Operand& robot, const Operand& obstacle,
   limits.Look("surface");
   const internal::PatchSurface patches = internal::AssembleSurface(
       arrangement, groups, rings, cells,
-      {options.merge_coplanar, options.outer_shell_only}, &points);
+      {options.merge_coplanar, options.outer_shell_only, 1, &limits}, &points);
   limits.Look("surface");
   internal::WriteSurface(patches, convolution, groups, points, pair.frame,
-                         &clock, &out);
+                         &limits, &clock, &out);
   return ContactSpace(std::move(out));
 }
 
@@ -160,13 +185,24 @@ ContactSpace Build(const Operand& robot, const Operand& obstacle,
 
 ContactSpace BuildContactSpace(const Solid& robot, const Solid& obstacle,
                                const ContactSpaceOptions& options) {
-  return Build(robot, obstacle, internal::WithNames(options, robot, obstacle));
+  CullingReport culled;
+  return Build(robot, obstacle, internal::WithNames(options, robot, obstacle),
+               Culling::kWhereItPays, &culled);
 }
 
 ContactSpace BuildContactSpace(const TriangleMesh& robot,
                                const TriangleMesh& obstacle,
                                const ContactSpaceOptions& options) {
-  return Build(robot, obstacle, options);
+  CullingReport culled;
+  return internal::BuildCulled(robot, obstacle, options, Culling::kWhereItPays,
+                               &culled);
+}
+
+ContactSpace internal::BuildCulled(const TriangleMesh& robot,
+                                   const TriangleMesh& obstacle,
+                                   const ContactSpaceOptions& options,
+                                   Culling culling, CullingReport* report) {
+  return Build(robot, obstacle, options, culling, report);
 }
 
 }  // namespace phongpd

@@ -104,11 +104,12 @@ void DropOccupied(const OccupiedRegion& occupied, Convolution* convolution,
 
 void WriteSurface(const PatchSurface& surface, const Convolution& sides,
                   const PlaneGroups& groups, const ExactPoints& points,
-                  const GridFrame& frame, StageClock* clock,
-                  ContactSpace::Parts* out) {
-  RoundSurface(TriangulatePatches(surface, sides, points), frame, sides, groups,
-               out);
+                  const GridFrame& frame, const BuildLimits* limits,
+                  StageClock* clock, ContactSpace::Parts* out) {
+  RoundSurface(TriangulatePatches(surface, sides, points, limits), frame, sides,
+               groups, out);
   RemoveZeroEdges(out);
+  if (limits != nullptr) limits->Look("surface");
   clock->Finish("surface");
   DescribeSurface(out->mesh, &out->report);
   out->report.peak_mib = PeakMib();

@@ -47,9 +47,10 @@ void DropOccupied(const OccupiedRegion& occupied, Convolution* convolution,
 
 // Triangulates the surface, rounds it into the user's frame and describes it.
 // What `sides` and `groups` are of need not be all facets that were arranged.
+// Throws BuildRefusal when `limits`, if there are any, are passed.
 void WriteSurface(const PatchSurface& surface, const Convolution& sides,
                   const PlaneGroups& groups, const ExactPoints& points,
-                  const GridFrame& frame, StageClock* clock,
-                  ContactSpace::Parts* out);
+                  const GridFrame& frame, const BuildLimits* limits,
+                  StageClock* clock, ContactSpace::Parts* out);
 
 }  // namespace phongpd::internal

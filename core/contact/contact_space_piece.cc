@@ -219,7 +219,7 @@ ContactSpace JoinContactSpace(const std::vector<ContactSpacePiece>& pieces) {
   }
   internal::StageClock clock(&report);
   internal::WriteSurface(joined.surface, joined.sides, joined.groups,
-                         joined.points, first.frame, &clock, &out);
+                         joined.points, first.frame, nullptr, &clock, &out);
   report.seconds.clear();
   report.peak_mib = 0.0;
   return ContactSpace(std::move(out));

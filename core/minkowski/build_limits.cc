@@ -37,8 +37,10 @@ constexpr double kNone = std::numeric_limits<double>::infinity();
 constexpr double kMib = 1024.0 * 1024.0;
 // Of what is free; the rest is for what a build leaves to its caller.
 constexpr double kFreeShare = 0.9;
-// Reading the resident set takes a microsecond, a facet not much more.
-constexpr unsigned kCallsPerLook = 64;
+// Reading the resident set takes some ten microseconds, in which little grows.
+constexpr double kMemoryEvery = 1e-3;  // seconds
+// Reading the clock is no matter beside a few facets.
+constexpr unsigned kCallsPerLook = 8;
 
 // The first number of a file of one, or infinity.
 double NumberIn(const char* path) {
@@ -132,19 +134,27 @@ void BuildLimits::Look(const char* stage) const {
   const double seconds = stopwatch_.Seconds();
   const BuildObserver tell = observer.load(std::memory_order_relaxed);
   if (tell != nullptr) tell({stage, seconds, predicted_.seconds});
-  std::ostringstream text;
   if (seconds > max_seconds_) {
+    std::ostringstream text;
     text << "expected a contact space within " << max_seconds_
          << " s (max_seconds), stopped after " << seconds << " s";
-  } else {
-    const double mib = Process().resident - first_mib_;
-    if (mib <= max_mib_) return;
-    text << "expected a contact space of at most " << max_mib_ << " MiB ("
-         << (is_automatic_ ? "nine tenths of the memory that was free"
-                           : "max_mib")
-         << "), stopped at " << mib << " MiB";
+    RefuseIn(stage, text.str());
   }
-  text << " in its " << stage;
+  if (seconds < next_memory_.load(std::memory_order_relaxed)) return;
+  next_memory_.store(seconds + kMemoryEvery, std::memory_order_relaxed);
+  const double mib = Process().resident - first_mib_;
+  if (mib <= max_mib_) return;
+  std::ostringstream text;
+  text << "expected a contact space of at most " << max_mib_ << " MiB ("
+       << (is_automatic_ ? "nine tenths of the memory that was free"
+                         : "max_mib")
+       << "), stopped at " << mib << " MiB";
+  RefuseIn(stage, text.str());
+}
+
+void BuildLimits::RefuseIn(const char* stage, const std::string& what) const {
+  std::ostringstream text;
+  text << what << " in its " << stage;
   if (predicted_.seconds > 0.0) {
     text << " (predicted: " << predicted_.seconds << " s and " << predicted_.mib
          << " MiB)";

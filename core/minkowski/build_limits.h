@@ -33,12 +33,13 @@ class BuildLimits {
   // the stage, or BuildCancelled.  From any thread; cheap enough for every
   // facet.
   void Check(const char* stage) const;
-  // The same, but looks each time: for what is done in one go.
+  // The same, but looks at the clock each time: for what is done in one go.
   void Look(const char* stage) const;
 
  private:
   void StopIfCancelled(const char* stage) const;
   [[noreturn]] void Refuse(const std::string& what) const;
+  [[noreturn]] void RefuseIn(const char* stage, const std::string& what) const;
 
   std::string operands_;
   double max_seconds_, max_mib_;  // infinity: none
@@ -49,6 +50,7 @@ class BuildLimits {
   bool is_cancellable_ = false;
   unsigned cancellations_ = 0;  // before this build
   mutable std::atomic<unsigned> calls_{0};
+  mutable std::atomic<double> next_memory_{0.0};  // when it is read again
 };
 
 }  // namespace phongpd::internal

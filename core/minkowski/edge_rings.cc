@@ -9,6 +9,8 @@
 #include <cmath>
 #include <tuple>
 
+#include "core/minkowski/build_limits.h"
+
 namespace phongpd::internal {
 namespace {
 
@@ -147,7 +149,11 @@ class RingSorter {
 
 EdgeRings SortAroundEdges(const Convolution& convolution,
                           const Arrangement& arrangement,
-                          const ExactPoints& points) {
+                          const ExactPoints& points,
+                          const BuildLimits* limits) {
+  const auto check = [limits] {
+    if (limits != nullptr) limits->Check("cells");
+  };
   struct Entry {
     int low, high;
     Spoke spoke;
@@ -168,6 +174,7 @@ EdgeRings SortAroundEdges(const Convolution& convolution,
   EdgeRings out;
   out.spokes.reserve(entries.size());
   for (const Entry& e : entries) {
+    check();
     const int at = static_cast<int>(out.spokes.size());
     if (out.rings.empty() || out.rings.back().low != e.low ||
         out.rings.back().high != e.high) {
@@ -178,6 +185,7 @@ EdgeRings SortAroundEdges(const Convolution& convolution,
   }
   const RingSorter sorter(convolution, arrangement, points);
   tbb::parallel_for(std::size_t{0}, out.rings.size(), [&](std::size_t r) {
+    check();
     const EdgeRing& ring = out.rings[r];
     sorter.Sort(ring, out.spokes.data() + ring.begin,
                 out.spokes.data() + ring.end);

@@ -38,10 +38,12 @@ struct EdgeRings {
 
 // Sorts the faces around every edge.  All of them contain the edge, so their
 // order follows from the facet normals alone: in double where the angles are
-// clearly apart, else in exact integers.
+// clearly apart, else in exact integers.  Throws BuildRefusal when `limits`, if
+// there are any, are passed.
 EdgeRings SortAroundEdges(const Convolution& convolution,
                           const Arrangement& arrangement,
-                          const ExactPoints& points);
+                          const ExactPoints& points,
+                          const BuildLimits* limits = nullptr);
 
 // The 2·`faces` sides, joined where they face each other around an edge: sides
 // of one set look into one cell.  A cell whose boundary has several parts that

@@ -145,13 +145,19 @@ int CompareCoordinate(const LocatedPoint& p, const LocatedPoint& q, int axis) {
   return SignOf(h.x[axis] * g.w - g.x[axis] * h.w);
 }
 
+RoundedPlane::RoundedPlane(const GridPlane& plane)
+    : normal_(ToDouble(plane.normal)),
+      offset_(static_cast<double>(plane.offset)),
+      // kPointError in each coordinate, and rounding of products below
+      // 2^39·|n| and of the offset, which is of that size.
+      error_(normal_.lpNorm<1>() * 2 * kPointError) {}
+
 int SideOf(const GridPlane& plane, const LocatedPoint& p) {
-  const Eigen::Vector3d n = ToDouble(plane.normal);
-  const double value = n.dot(p.approximate) - static_cast<double>(plane.offset);
-  // kPointError in each coordinate, and rounding of products below 2^39·|n|
-  // and of the offset, which is of that size.
-  if (std::abs(value) > n.lpNorm<1>() * 2 * kPointError) return Sign(value);
-  const PointDefinition& d = p.definition;
+  const int side = RoundedPlane(plane).Side(p.approximate);
+  return side != 0 ? side : ExactSideOf(plane, p.definition);
+}
+
+int ExactSideOf(const GridPlane& plane, const PointDefinition& d) {
   switch (d.kind) {
     case PointDefinition::kVertex:
       return Sign(Dot(plane.normal, d.a) - plane.offset);

@@ -79,8 +79,28 @@ Eigen::Vector3d NearestDoubles(const PointDefinition& point, int units = 1);
 // Sign of p[axis] − q[axis]; exact.
 int CompareCoordinate(const LocatedPoint& p, const LocatedPoint& q, int axis);
 
+// A plane in double: what tells the side of nearly every point.
+class RoundedPlane {
+ public:
+  RoundedPlane() = default;
+  explicit RoundedPlane(const GridPlane& plane);
+
+  // Sign of normal·x − offset for a point of the grid or one that is known up
+  // to kPointError; 0 where rounding could decide.
+  int Side(const Eigen::Vector3d& x) const {
+    const double value = normal_.dot(x) - offset_;
+    return value > error_ ? 1 : value < -error_ ? -1 : 0;
+  }
+
+ private:
+  Eigen::Vector3d normal_ = Eigen::Vector3d::Zero();
+  double offset_ = 0.0, error_ = 0.0;
+};
+
 // Sign of normal·p − offset; exact.
 int SideOf(const GridPlane& plane, const LocatedPoint& p);
+// The same where RoundedPlane does not tell.
+int ExactSideOf(const GridPlane& plane, const PointDefinition& p);
 
 bool SamePoint(const LocatedPoint& p, const LocatedPoint& q);
 

@@ -69,9 +69,18 @@ class Intersector {
  public:
   Intersector(const Convolution& convolution, const PlaneGroups& groups,
               const std::vector<int>& point_ids)
-      : convolution_(convolution), groups_(groups), point_ids_(point_ids) {}
+      : convolution_(convolution), groups_(groups), point_ids_(point_ids) {
+    for (const GridPlane& plane : groups.planes) planes_.emplace_back(plane);
+    corners_.reserve(convolution.facets.size());
+    for (const ConvolutionFacet& f : convolution.facets) {
+      corners_.push_back({ToDouble(convolution.points[f.corners[0]]),
+                          ToDouble(convolution.points[f.corners[1]]),
+                          ToDouble(convolution.points[f.corners[2]])});
+    }
+  }
 
   bool Intersect(int t, int u, Meeting* meeting) const {
+    if (IsBeside(t, u) || IsBeside(u, t)) return false;
     meeting->first = t;
     meeting->second = u;
     meeting->is_point = false;
@@ -129,6 +138,15 @@ class Intersector {
  private:
   const Triangle& Corners(int facet) const {
     return convolution_.facets[facet].corners;
+  }
+
+  // Is the facet clearly on one side of the other's plane?
+  bool IsBeside(int facet, int of) const {
+    const RoundedPlane& plane = planes_[groups_.of_facet[of]];
+    const std::array<Eigen::Vector3d, 3>& corners = corners_[facet];
+    const int side = plane.Side(corners[0]);
+    return side != 0 && plane.Side(corners[1]) == side &&
+           plane.Side(corners[2]) == side;
   }
 
   Sides SidesOf(int facet, int plane_facet) const {
@@ -192,9 +210,12 @@ class Intersector {
     vertex.a = convolution_.points[c.a];
     return internal::Locate(vertex);
   }
+
   const Convolution& convolution_;
   const PlaneGroups& groups_;
   const std::vector<int>& point_ids_;
+  std::vector<RoundedPlane> planes_;                     // of the groups
+  std::vector<std::array<Eigen::Vector3d, 3>> corners_;  // of the facets
 };
 
 // Turns meetings into segments of the planes, adding the points they need.
@@ -321,6 +342,7 @@ FacetIndex::FacetIndex(const Convolution& convolution,
 
 ExpectedCuts ExpectCuts(const Convolution& convolution,
                         const PlaneGroups& groups, const FacetIndex& index,
+                        const BuildLimits& limits,
                         const OccupiedRegion* occupied) {
   constexpr int kSample = 1024;
   const int count = static_cast<int>(index.boxes.size());
@@ -332,6 +354,7 @@ ExpectedCuts ExpectCuts(const Convolution& convolution,
   const Intersector intersector(convolution, groups, ids);
   std::vector<ExpectedCuts> found(static_cast<std::size_t>(samples));
   tbb::parallel_for(0, samples, [&](int i) {
+    limits.Check("prediction");
     const int t = i * stride;
     std::vector<FlatSegment> segments;
     const int axis = LargestAxis(convolution.facets[t].normal);
@@ -363,6 +386,7 @@ FacetIntersections IntersectFacets(const Convolution& convolution,
   out.segments.resize(groups.members.size());
   out.point_ids.assign(convolution.points.size(), -1);
   for (const ConvolutionFacet& facet : convolution.facets) {
+    limits.Check("intersection");
     for (const int v : facet.corners) {
       if (out.point_ids[v] >= 0) continue;
       PointDefinition vertex;
@@ -394,6 +418,7 @@ FacetIntersections IntersectFacets(const Convolution& convolution,
     }
   }
   tbb::parallel_for(std::size_t{0}, out.segments.size(), [&](std::size_t g) {
+    limits.Check("intersection");
     std::vector<PlaneSegment>& s = out.segments[g];
     std::sort(s.begin(), s.end());
     s.erase(std::unique(s.begin(), s.end(),

@@ -52,6 +52,7 @@ struct ExpectedCuts {
 };
 ExpectedCuts ExpectCuts(const Convolution& convolution,
                         const PlaneGroups& groups, const FacetIndex& index,
+                        const BuildLimits& limits,
                         const OccupiedRegion* occupied = nullptr);
 
 // Intersects all facets of different planes whose boxes meet.  Sides are

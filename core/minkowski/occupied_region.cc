@@ -5,12 +5,16 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <limits>
 #include <map>
 #include <utility>
 #include <vector>
 
+#include "core/bvh/segment_reach.h"
 #include "core/bvh/triangle_bvh.h"
 #include "core/mesh/union_find.h"
+#include "core/minkowski/coarse_depth.h"
+#include "core/minkowski/inner_balls.h"
 #include "core/minkowski/window_convolution.h"
 
 namespace phongpd::internal {
@@ -18,11 +22,12 @@ namespace {
 
 using Eigen::Vector3d;
 
-// Points of each operand that are tried.
-constexpr std::size_t kSamples = 192;
+// Balls in each operand that are tried; corners, and edges.
+constexpr std::size_t kBalls = 64;
+constexpr std::size_t kPoints = 32;
 // A box with fewer facets is not worth splitting.
-constexpr std::size_t kFewFacets = 40;
-constexpr int kMaxDepth = 6;
+constexpr std::size_t kFewFacets = 10;
+constexpr int kMaxDepth = 7;
 // Boxes are taken larger by this: far above all rounding, of the distances and
 // of the points that are asked about.
 constexpr double kMarginSteps = 0x1p-4;
@@ -35,17 +40,6 @@ BoundingBox ChildOf(const BoundingBox& box, int child) {
     ((child >> k & 1) != 0 ? out.min : out.max)[k] = center[k];
   }
   return out;
-}
-
-// The grid solid as a mesh that can be searched; coordinates stay exact.
-TriangleBvh BvhOf(const GridSolid& solid) {
-  TriangleMesh mesh;
-  mesh.vertices.reserve(solid.vertices.size());
-  for (const GridPoint& v : solid.vertices) {
-    mesh.vertices.push_back(ToDouble(v));
-  }
-  mesh.triangles = solid.facets;
-  return TriangleBvh(mesh);
 }
 
 // Does a component face inwards, or enclose nothing?  Where such ones overlap,
@@ -69,34 +63,30 @@ bool HasCavity(const GridSolid& solid) {
                      [](const auto& v) { return !(v.second > 0.0); });
 }
 
-// Corners, edges' and facets' middles, an even choice of each.
-std::vector<Vector3d> SurfacePoints(const GridSolid& solid) {
+// Corners and edges' middles, an even choice of each: what balls do not reach.
+void AddSurfacePoints(const GridSolid& solid, std::vector<InnerBall>* out) {
   const auto at = [&](int v) { return ToDouble(solid.vertices[v]); };
-  std::vector<Vector3d> corners, edges, facets, out;
+  std::vector<Vector3d> corners, edges;
   for (std::size_t v = 0; v < solid.vertices.size(); ++v) {
-    if (!solid.neighbors[v].empty())
-      corners.push_back(ToDouble(solid.vertices[v]));
+    if (!solid.neighbors[v].empty()) corners.push_back(at(static_cast<int>(v)));
   }
   for (const GridEdge& e : solid.edges) {
     edges.push_back(0.5 * (at(e.a) + at(e.b)));
   }
-  for (const Triangle& t : solid.facets) {
-    facets.push_back((at(t[0]) + at(t[1]) + at(t[2])) / 3.0);
-  }
-  for (const std::vector<Vector3d>* points : {&corners, &edges, &facets}) {
-    const std::size_t most = std::min(points->size(), kSamples / 3);
+  for (const std::vector<Vector3d>* points : {&corners, &edges}) {
+    const std::size_t most = std::min(points->size(), kPoints);
     for (std::size_t i = 0; i < most; ++i) {
-      out.push_back((*points)[i * points->size() / most]);
+      out->push_back({(*points)[i * points->size() / most], 0.0});
     }
   }
-  return out;
 }
 
-// A point of one operand and how deep the box's center, moved by it, is known
-// to lie in the other at the most; < 0 outside.
+// One of the balls moved to a solid, and how far it reaches into that at the
+// most (its radius and the depth of its center); < 0: apart.
 struct Sample {
-  double depth;
-  int solid, point;
+  double overlap;
+  int solid, ball;
+  int near = -1;  // position of a triangle that was the closest nearby
 };
 
 }  // namespace
@@ -107,14 +97,32 @@ struct OccupiedRegion::Builder {
       : convolution(the_convolution),
         limits(the_limits),
         solids{BvhOf(p), BvhOf(q)},
-        points{SurfacePoints(q), SurfacePoints(p)} {}
+        depths{CoarseDepth(solids[0]), CoarseDepth(solids[1])} {
+    balls[0] = InnerBalls(q, solids[1], kBalls);
+    balls[1] = InnerBalls(p, solids[0], kBalls);
+    AddSurfacePoints(q, &balls[0]);
+    AddSurfacePoints(p, &balls[1]);
+  }
 
-  // Of the box's center, moved, in the solid.
-  double DepthOf(const Sample& s, const Vector3d& center) const {
-    const Vector3d x = center - points[s.solid][s.point];
-    const double distance = solids[s.solid].FindClosest(x).distance;
-    return solids[s.solid].Locate(x) == Location::kInside ? distance
-                                                          : -distance;
+  // Sets what the ball overlaps by with the box's center as configuration, or
+  // a bound of it that tells whether it is above `wanted`, and tells.
+  bool Overlaps(const Vector3d& center, double wanted, Sample* s) const {
+    const InnerBall& ball = balls[s->solid][s->ball];
+    const Vector3d x = center - ball.center;
+    const CoarseDepth::Bounds depth = depths[s->solid].At(x);
+    s->overlap = std::min(s->overlap, ball.radius + depth.most);
+    if (ball.radius + depth.least > wanted) return true;
+    if (s->overlap <= wanted) return false;
+    const TriangleBvh& solid = solids[s->solid];
+    const double distance = SurfaceDistance(solid, x, &s->near);
+    // Where the surface is far or near enough it need not be known on which
+    // side x is.
+    if (ball.radius - distance > wanted) return true;
+    s->overlap = std::min(s->overlap, ball.radius + distance);
+    if (s->overlap <= wanted) return false;
+    if (solid.Locate(x) == Location::kInside) return true;
+    s->overlap = ball.radius - distance;
+    return false;
   }
 
   void Corners(int facet, Vector3d corners[3]) const {
@@ -124,7 +132,7 @@ struct OccupiedRegion::Builder {
     }
   }
 
-  // `samples` by depth, deepest first, as known at `seen`.
+  // `samples` by overlap, most first, as known at `seen`.
   void Build(const BoundingBox& box, const std::vector<int>& facets,
              std::vector<Sample> samples, const Vector3d& seen, int depth,
              Node* node) const {
@@ -133,22 +141,21 @@ struct OccupiedRegion::Builder {
     const double radius = 0.5 * box.Diagonal() + margin;
     const double moved = (center - seen).norm();
     for (Sample& s : samples) {
-      s.depth += moved;
-      if (s.depth <= radius) continue;
-      s.depth = DepthOf(s, center);
-      if (s.depth <= radius) continue;
+      s.overlap += moved;
+      if (s.overlap <= radius || !Overlaps(center, radius, &s)) continue;
       node->is_occupied = true;
       return;
     }
     if (depth == kMaxDepth) return;
-    samples.erase(
-        std::remove_if(samples.begin(), samples.end(),
-                       [radius](const Sample& s) { return s.depth < -radius; }),
-        samples.end());
+    samples.erase(std::remove_if(samples.begin(), samples.end(),
+                                 [radius](const Sample& s) {
+                                   return s.overlap < -radius;
+                                 }),
+                  samples.end());
     if (samples.empty()) return;
     std::stable_sort(
         samples.begin(), samples.end(),
-        [](const Sample& a, const Sample& b) { return a.depth > b.depth; });
+        [](const Sample& a, const Sample& b) { return a.overlap > b.overlap; });
     node->children = std::make_unique<std::array<Node, 8>>();
     tbb::parallel_for(0, 8, [&](int child) {
       const BoundingBox part = ChildOf(box, child);
@@ -167,7 +174,8 @@ struct OccupiedRegion::Builder {
   const Convolution& convolution;
   const BuildLimits& limits;
   std::array<TriangleBvh, 2> solids;
-  std::array<std::vector<Vector3d>, 2> points;  // to move into each solid
+  std::array<CoarseDepth, 2> depths;            // in them
+  std::array<std::vector<InnerBall>, 2> balls;  // to move into each solid
   double margin = 0.0;
 };
 
@@ -190,10 +198,9 @@ OccupiedRegion::OccupiedRegion(const GridSolid& p, const GridSolid& q,
   builder.margin = std::max(kMarginSteps, kMarginShare * bounds_.Diagonal());
   std::vector<Sample> samples;
   for (int solid = 0; solid < 2; ++solid) {
-    for (std::size_t i = 0; i < builder.points[solid].size(); ++i) {
-      Sample s{0.0, solid, static_cast<int>(i)};
-      s.depth = builder.DepthOf(s, bounds_.Center());
-      samples.push_back(s);
+    for (std::size_t i = 0; i < builder.balls[solid].size(); ++i) {
+      samples.push_back({std::numeric_limits<double>::infinity(), solid,
+                         static_cast<int>(i)});
     }
   }
   root_ = std::make_unique<Node>();
@@ -222,6 +229,17 @@ bool OccupiedRegion::Contains(const BoundingBox& box) const {
   return root_ != nullptr && ContainsPart(*root_, bounds_, meets) &&
          (box.min.array() >= bounds_.min.array()).all() &&
          (box.max.array() <= bounds_.max.array()).all();
+}
+
+bool OccupiedRegion::Contains(const Vector3d& a, const Vector3d& b) const {
+  if (root_ == nullptr) return false;
+  const double largest = std::max(bounds_.min.cwiseAbs().maxCoeff(),
+                                  bounds_.max.cwiseAbs().maxCoeff());
+  const SegmentReach segment(a, b, largest);
+  const auto meets = [&segment](const BoundingBox& node) {
+    return segment.Meets({node.min, node.max});
+  };
+  return ContainsPart(*root_, bounds_, meets);
 }
 
 bool OccupiedRegion::Contains(const Vector3d corners[3]) const {

@@ -34,10 +34,7 @@ class OccupiedRegion {
   // Is all of it occupied?  Grid steps, moved by up to a 32nd of a step.
   bool Contains(const BoundingBox& box) const;
   bool Contains(const Eigen::Vector3d corners[3]) const;
-  bool Contains(const Eigen::Vector3d& a, const Eigen::Vector3d& b) const {
-    const Eigen::Vector3d corners[3] = {a, b, b};
-    return Contains(corners);
-  }
+  bool Contains(const Eigen::Vector3d& a, const Eigen::Vector3d& b) const;
 
  private:
   struct Node {

@@ -13,6 +13,8 @@
 #include <stdexcept>
 #include <unordered_map>
 
+#include "core/minkowski/build_limits.h"
+
 namespace phongpd::internal {
 namespace {
 
@@ -194,10 +196,12 @@ class PatchTriangulator {
 
 ExactSurface TriangulatePatches(const PatchSurface& surface,
                                 const Convolution& convolution,
-                                const ExactPoints& points) {
+                                const ExactPoints& points,
+                                const BuildLimits* limits) {
   const PatchTriangulator triangulator(surface, convolution, points);
   std::vector<std::vector<Triangle>> triangles(surface.patches.size());
   tbb::parallel_for(std::size_t{0}, triangles.size(), [&](std::size_t i) {
+    if (limits != nullptr) limits->Check("surface");
     triangles[i] = triangulator.Run(surface.patches[i]);
   });
   ExactSurface out;

@@ -19,9 +19,11 @@ struct ExactSurface {
 // Triangulates every patch over its border vertices alone: constrained
 // Delaunay with exact predicates; triangles and convex quadrilaterals, which
 // are most patches, directly.  Throws std::logic_error when a border does not
-// bound an area, which an arrangement cannot produce.
+// bound an area, which an arrangement cannot produce, and BuildRefusal when
+// `limits`, if there are any, are passed.
 ExactSurface TriangulatePatches(const PatchSurface& surface,
                                 const Convolution& convolution,
-                                const ExactPoints& points);
+                                const ExactPoints& points,
+                                const BuildLimits* limits = nullptr);
 
 }  // namespace phongpd::internal

@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "core/mesh/union_find.h"
+#include "core/minkowski/build_limits.h"
 
 namespace phongpd::internal {
 namespace {
@@ -43,7 +44,8 @@ void PlanarGraph::AddSegment(int from, int to, const GridPlane& cutter,
                              const Coverage& net) {
   assert(from == to || (SideOf(cutter, vertices_[from]) == 0 &&
                         SideOf(cutter, vertices_[to]) == 0));
-  Segment s{from, to, cutter, net, {}, Flat(from), Flat(to)};
+  Segment s{from, to, cutter,     RoundedPlane(cutter),
+            net,  {}, Flat(from), Flat(to)};
   const Vector2d low = s.low.cwiseMin(s.high).array() - 2 * kPointError;
   s.high = s.low.cwiseMax(s.high).array() + 2 * kPointError;
   s.low = low;
@@ -60,12 +62,9 @@ GridPlane PlanarGraph::CutterAlong(const GridPoint& a,
 
 int PlanarGraph::Side(const Segment& segment, int vertex) const {
   if (vertex == segment.from || vertex == segment.to) return 0;
-  return SideOf(segment.cutter, vertices_[vertex]);
-}
-
-// The coordinate in which the segment varies most.
-int PlanarGraph::Axis(const Segment& s) const {
-  return std::abs(s.direction[0]) >= std::abs(s.direction[1]) ? u_ : v_;
+  const LocatedPoint& p = vertices_[vertex];
+  const int side = segment.rounded.Side(p.approximate);
+  return side != 0 ? side : ExactSideOf(segment.cutter, p.definition);
 }
 
 // For a vertex on the segment's line.
@@ -124,14 +123,20 @@ void PlanarGraph::Cross(Segment* s, Segment* t) {
   touch(t_to, t->to, s);
 }
 
-void PlanarGraph::CrossAll() {
+void PlanarGraph::CrossAll(const BuildLimits* limits) {
   std::vector<int> order(segments_.size());
   std::iota(order.begin(), order.end(), 0);
   std::sort(order.begin(), order.end(), [this](int a, int b) {
     return segments_[a].low[0] < segments_[b].low[0];
   });
+  const auto split = [this](int vertex, Segment* at) {
+    if (Side(*at, vertex) == 0 && StrictlyBetween(vertex, *at)) {
+      at->inner.push_back(vertex);
+    }
+  };
   std::vector<int> active;
   for (const int i : order) {
+    if (limits != nullptr) limits->Check("arrangement");
     Segment& s = segments_[i];
     std::size_t kept = 0;
     for (const int j : active) {
@@ -140,18 +145,12 @@ void PlanarGraph::CrossAll() {
       active[kept++] = j;
       if (t.high[1] < s.low[1] || s.high[1] < t.low[1]) continue;
       // Point-like segments are vertices other segments may run through.
-      if (t.from == t.to) {
-        if (s.from != s.to) {
-          if (Side(s, t.from) == 0 && StrictlyBetween(t.from, s)) {
-            s.inner.push_back(t.from);
-          }
-        }
-      } else if (s.from == s.to) {
-        if (Side(t, s.from) == 0 && StrictlyBetween(s.from, t)) {
-          t.inner.push_back(s.from);
-        }
-      } else {
+      if (s.from != s.to && t.from != t.to) {
         Cross(&s, &t);
+      } else if (s.from != s.to) {
+        split(t.from, &s);
+      } else if (t.from != t.to) {
+        split(s.from, &t);
       }
     }
     active.resize(kept);
@@ -179,7 +178,7 @@ void PlanarGraph::SplitSegments() {
     if (s.from == s.to) continue;
     const int axis = Axis(s);
     const int sign = Compare(s.to, s.from, axis);
-    std::vector<int>& chain = s.inner;
+    auto& chain = s.inner;
     std::sort(chain.begin(), chain.end(), [&](int a, int b) {
       return a != b && sign * Compare(a, b, axis) < 0;
     });
@@ -218,9 +217,9 @@ std::array<Wide, 2> PlanarGraph::ExactDirection(int half_edge) const {
 }
 
 // Counter-clockwise, starting just after the direction −u.
-void PlanarGraph::SortOutgoing(std::vector<int>* half_edges) const {
+void PlanarGraph::SortOutgoing(Few* half_edges) const {
   if (half_edges->size() < 2) return;
-  std::vector<std::pair<double, int>> order;
+  boost::container::small_vector<std::pair<double, int>, 8> order;
   for (const int h : *half_edges) {
     const Vector2d d = Direction(h);
     order.emplace_back(std::atan2(d[1], d[0]), h);
@@ -252,11 +251,11 @@ void PlanarGraph::SortOutgoing(std::vector<int>* half_edges) const {
 }
 
 void PlanarGraph::LinkLoops() {
-  outgoing_.assign(vertices_.size(), {});
+  outgoing_.assign(vertices_.size(), Few());
   const int count = 2 * static_cast<int>(edges_.size());
   for (int h = 0; h < count; ++h) outgoing_[From(h)].push_back(h);
   next_.resize(count);
-  for (std::vector<int>& out : outgoing_) {
+  for (Few& out : outgoing_) {
     SortOutgoing(&out);
     for (std::size_t k = 0; k < out.size(); ++k) {
       // The half-edge arriving opposite out[k] turns left-most: clockwise.
@@ -280,8 +279,7 @@ std::vector<PlanarGraph::Component> PlanarGraph::FindComponents() const {
   }
   std::vector<Component> components;
   for (auto& [root, c] : found) {
-    // All edges leave the smallest vertex to the right; left of the last one
-    // lies the outside.
+    // All edges leave it to the right; left of the last one is the outside.
     c.outer = outgoing_[c.corner].back();
     components.push_back(c);
   }
@@ -364,7 +362,7 @@ int PlanarGraph::HalfEdgeLeftOf(const Component& component,
   };
   // How far left of the corner a box begins; nothing behind the left end of
   // the closest edge can come between.
-  const double kNever = std::numeric_limits<double>::infinity();
+  constexpr double kNever = std::numeric_limits<double>::infinity();
   tree.NearestFirst(
       std::numeric_limits<double>::max(),
       [&](int index) {
@@ -380,7 +378,7 @@ int PlanarGraph::HalfEdgeLeftOf(const Component& component,
         return at[0] - std::min(Flat(a)[0], Flat(b)[0]) + kBoxMargin;
       });
   if (closest < 0) return -1;
-  // The component lies right of the upward half-edge: left of the other.
+  // It lies right of the upward half-edge: left of the other.
   const auto [a, b] = edges_[closest].end;
   return Compare(a, b, v_) < 0 ? 2 * closest + 1 : 2 * closest;
 }
@@ -476,9 +474,9 @@ void PlanarGraph::SpreadCoverage() {
   }
 }
 
-void PlanarGraph::Build() {
+void PlanarGraph::Build(const BuildLimits* limits) {
   OrientSegments();
-  CrossAll();
+  CrossAll(limits);
   SplitSegments();
   LinkLoops();
   assert(HasLoops());

@@ -3,6 +3,8 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <boost/container/small_vector.hpp>
+#include <cmath>
 #include <unordered_map>
 #include <vector>
 
@@ -11,6 +13,8 @@
 
 namespace phongpd::internal {
 
+class BuildLimits;
+
 // Number of facets to the left of an edge, per orientation class.
 using Coverage = std::array<int, 2>;
 
@@ -18,6 +22,9 @@ using Coverage = std::array<int, 2>;
 // Everything is decided exactly; see exact_points.h.
 class PlanarGraph {
  public:
+  // Hardly ever more than a few: none is allocated for them.
+  using Few = boost::container::small_vector<int, 4>;
+
   explicit PlanarGraph(const GridPlane& plane);
 
   // Adds a vertex (with distinct points only) and returns its index.
@@ -30,15 +37,17 @@ class PlanarGraph {
   // The plane through the segment a–b of grid points, across this plane.
   GridPlane CutterAlong(const GridPoint& a, const GridPoint& b) const;
 
-  // Crosses all segments, splits them, forms faces and their coverage.
-  void Build();
+  // Crosses all segments, splits them, forms faces and their coverage.  Throws
+  // BuildRefusal when `limits`, if there are any, are passed.
+  void Build(const BuildLimits* limits = nullptr);
 
   // After Build: half-edge 2e runs along edge e, 2e + 1 back.  Faces lie on
   // the left of their half-edges, seen with the plane's normal towards the
   // eye, or on the right where IsMirrored.
   struct Face {
     Coverage coverage{};
-    std::vector<int> loops;  // one half-edge of every border loop
+    // One half-edge of every border loop.
+    boost::container::small_vector<int, 2> loops;
   };
   const std::vector<Face>& faces() const { return faces_; }
   const std::vector<LocatedPoint>& vertices() const { return vertices_; }
@@ -53,8 +62,9 @@ class PlanarGraph {
   struct Segment {
     int from, to;
     GridPlane cutter;
+    RoundedPlane rounded;  // the cutter
     Coverage net;
-    std::vector<int> inner;  // vertices strictly between the ends
+    Few inner;  // vertices strictly between the ends
     Eigen::Vector2d low, high;
     // The direction from → to is turn · (plane normal × cutter normal).
     int turn = 1;
@@ -76,16 +86,19 @@ class PlanarGraph {
   int Compare(int v, int w, int axis) const {
     return CompareCoordinate(vertices_[v], vertices_[w], axis);
   }
-  int Axis(const Segment& segment) const;
+  // The coordinate in which the segment varies most.
+  int Axis(const Segment& s) const {
+    return std::abs(s.direction[0]) >= std::abs(s.direction[1]) ? u_ : v_;
+  }
   bool StrictlyBetween(int vertex, const Segment& segment) const;
   int AddCrossing(const Segment& s, const Segment& t);
-  void CrossAll();
+  void CrossAll(const BuildLimits* limits);
   void Cross(Segment* s, Segment* t);
   void OrientSegments();
   void SplitSegments();
   std::array<Wide, 2> ExactDirection(int half_edge) const;
   Eigen::Vector2d Direction(int half_edge) const;
-  void SortOutgoing(std::vector<int>* half_edges) const;
+  void SortOutgoing(Few* half_edges) const;
   void LinkLoops();
   // Does every half-edge go on where it ends, and none twice?
   bool HasLoops() const;
@@ -110,7 +123,7 @@ class PlanarGraph {
   std::unordered_multimap<GridPoint, int, GridPointHash> cells_;
   std::vector<Segment> segments_;
   std::vector<Edge> edges_;
-  std::vector<std::vector<int>> outgoing_;  // per vertex, counter-clockwise
+  std::vector<Few> outgoing_;  // per vertex, counter-clockwise
   std::vector<int> next_;
   std::vector<int> face_of_;  // per half-edge
   std::vector<Face> faces_;   // 0 is the unbounded one

@@ -23,10 +23,11 @@ class PlaneArranger {
  public:
   PlaneArranger(const Convolution& convolution, const PlaneGroups& groups,
                 const FacetIntersections& intersections,
-                const ExactPoints& points, int group)
+                const BuildLimits& limits, const ExactPoints& points, int group)
       : convolution_(convolution),
         groups_(groups),
         ids_(intersections.point_ids),
+        limits_(limits),
         points_(points),
         group_(group),
         members_(groups.members[group]),
@@ -138,7 +139,7 @@ class PlaneArranger {
       graph.AddSegment(vertex(s.from), vertex(s.to), groups_.planes[s.cutter],
                        Coverage{});
     }
-    graph.Build();
+    graph.Build(&limits_);
     for (std::size_t v = id_of.size(); v < graph.vertices().size(); ++v) {
       id_of.push_back(-1 - static_cast<int>(result->new_points.size()));
       result->new_points.push_back(graph.vertices()[v]);
@@ -183,6 +184,7 @@ class PlaneArranger {
   const Convolution& convolution_;
   const PlaneGroups& groups_;
   const std::vector<int>& ids_;
+  const BuildLimits& limits_;
   const ExactPoints& points_;
   int group_;
   const std::vector<int>& members_;
@@ -201,7 +203,7 @@ Arrangement ArrangePlanes(const Convolution& convolution,
   std::vector<PlaneResult> results(count);
   tbb::parallel_for(std::size_t{0}, count, [&](std::size_t g) {
     limits.Check("arrangement");
-    PlaneArranger(convolution, groups, intersections, *points,
+    PlaneArranger(convolution, groups, intersections, limits, *points,
                   static_cast<int>(g))
         .Run(&results[g]);
   });

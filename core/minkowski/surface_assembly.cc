@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "core/mesh/union_find.h"
+#include "core/minkowski/build_limits.h"
 #include "core/minkowski/surface_order.h"
 
 namespace phongpd::internal {
@@ -41,14 +42,21 @@ class Assembler {
 
   PatchSurface Run(const EdgeRings& rings, const FreeCells& cells) {
     CollectEdges(cells);
+    Look();
     PairEdges(rings);
     NumberVertices();
     assert(IsPaired());
+    Look();
     FormPatches();
+    Look();
     return Collect();
   }
 
  private:
+  void Look() const {
+    if (options_.limits != nullptr) options_.limits->Look("surface");
+  }
+
   // Half-edges of all faces that separate free from occupied.
   void CollectEdges(const FreeCells& cells) {
     const std::vector<char>& wanted =

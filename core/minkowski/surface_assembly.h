@@ -23,10 +23,13 @@ struct PatchSurface {
   std::vector<Patch> patches;
 };
 
+class BuildLimits;
+
 struct AssemblyOptions {
   bool merge_coplanar = true;
-  bool outer_only = false;  // leave out the shells of cavities
-  int units_per_step = 1;   // of the points' coordinates
+  bool outer_only = false;              // leave out the shells of cavities
+  int units_per_step = 1;               // of the points' coordinates
+  const BuildLimits* limits = nullptr;  // of the build; null: none
 };
 
 // Takes the free sides whose opposite side is occupied.  Around an edge with

@@ -49,26 +49,33 @@ ConeTree ArcTree(const GridSolid& s, const std::vector<ConvexEdge>& edges) {
 
 bool IsClearlyApart(const Vector3d corners[3], const BoundingBox& box) {
   const Vector3d center = box.Center(), half = 0.5 * (box.max - box.min);
-  Vector3d t[3];
-  double reach = half.lpNorm<Eigen::Infinity>();
-  for (int k = 0; k < 3; ++k) {
-    t[k] = corners[k] - center;
-    reach = std::max(reach, t[k].lpNorm<Eigen::Infinity>());
+  const Vector3d t[3] = {corners[0] - center, corners[1] - center,
+                         corners[2] - center};
+  const Vector3d low = t[0].cwiseMin(t[1]).cwiseMin(t[2]);
+  const Vector3d high = t[0].cwiseMax(t[1]).cwiseMax(t[2]);
+  const double reach =
+      std::max({half.maxCoeff(), -low.minCoeff(), high.maxCoeff()});
+  const double slack = kClearShare * reach;
+  if (((low - half).array() > slack).any() ||
+      ((high + half).array() < -slack).any()) {
+    return true;
   }
-  const auto separates = [&](const Vector3d& axis) {
-    const double a = axis.dot(t[0]), b = axis.dot(t[1]), c = axis.dot(t[2]);
-    const double room =
-        axis.cwiseAbs().dot(half) + kClearShare * reach * axis.lpNorm<1>();
-    return std::min({a, b, c}) > room || std::max({a, b, c}) < -room;
-  };
   const Vector3d edges[3] = {t[1] - t[0], t[2] - t[1], t[0] - t[2]};
-  for (int k = 0; k < 3; ++k) {
-    if (separates(Vector3d::Unit(k))) return true;
+  const Vector3d n = edges[0].cross(edges[1]);
+  if (std::abs(n.dot(t[0])) > n.cwiseAbs().dot(half) + slack * n.lpNorm<1>()) {
+    return true;
   }
-  if (separates(edges[0].cross(edges[1]))) return true;
-  for (const Vector3d& e : edges) {
+  // The axis e × unit(k) has two components; both ends of e look alike along
+  // it.
+  for (int i = 0; i < 3; ++i) {
+    const Vector3d &e = edges[i], &a = t[i], &b = t[(i + 2) % 3];
     for (int k = 0; k < 3; ++k) {
-      if (separates(e.cross(Vector3d::Unit(k)))) return true;
+      const int u = (k + 1) % 3, v = (k + 2) % 3;
+      const double p = e[v] * a[u] - e[u] * a[v];
+      const double q = e[v] * b[u] - e[u] * b[v];
+      const double room = std::abs(e[v]) * (half[u] + slack) +
+                          std::abs(e[u]) * (half[v] + slack);
+      if (std::min(p, q) > room || std::max(p, q) < -room) return true;
     }
   }
   return false;

@@ -124,7 +124,8 @@ TEST(ContactSpacePieces, JoinedAreTheWholeBuildOfRandomPairs) {
     EXPECT_EQ(difference, "") << Name(kind) << ", seed " << seed;
     row.failures += difference.empty() ? 0 : 1;
   }
-  EXPECT_LE(refused, row.cases / 200);
+  // Nine of 2,500, or of few cases one.
+  EXPECT_LE(refused, std::max(1L, row.cases / 200));
   EXPECT_GT(boxes, 5 * static_cast<std::size_t>(row.cases));
   testing::ReportCampaign(row);
 }
@@ -134,7 +135,8 @@ TEST(ContactSpacePieces, JoinedAreTheWholeBuildOfRandomPairs) {
 TEST(ContactSpacePieces, FormerFailures) {
   std::size_t boxes = 0;
   for (const auto& [kind, seed, i] :
-       {std::tuple{PairKind::kJittered, 24, 244L},
+       {std::tuple{PairKind::kJittered, 5, 54L},
+        std::tuple{PairKind::kJittered, 24, 244L},
         std::tuple{PairKind::kManyBoxes, 4, 49L}}) {
     const std::string difference =
         CompareCase(kind, static_cast<std::uint64_t>(seed), i, &boxes);
