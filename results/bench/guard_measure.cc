@@ -15,6 +15,7 @@
 #include <utility>
 
 #include "core/contact/contact_space.h"
+#include "core/contact/culled_build.h"
 #include "core/minkowski/build_refusal.h"
 #include "core/stopwatch.h"
 #include "problems/shapes/random_solids.h"
@@ -109,6 +110,15 @@ double PeakMib() {
   return static_cast<double>(usage.ru_maxrss) / 1024.0;
 }
 
+// "... stopped after 1 s in its cells (predicted: ...": cells.
+std::string StageOf(const std::string& refusal) {
+  const std::string mark = " in its ";
+  const std::size_t at = refusal.find(mark);
+  if (at == std::string::npos) return "prediction";
+  const std::size_t begin = at + mark.size();
+  return refusal.substr(begin, refusal.find_first_of(" ;", begin) - begin);
+}
+
 // In a child: builds with the limits and says what it took.
 Json Build(const Pair& pair, double max_seconds, double max_mib) {
   const tbb::global_control one(tbb::global_control::max_allowed_parallelism,
@@ -121,17 +131,21 @@ Json Build(const Pair& pair, double max_seconds, double max_mib) {
   const double before = ResidentMib(), start = CpuSeconds();
   const Stopwatch stopwatch;
   try {
-    const ContactSpace space = BuildContactSpace(robot, obstacle, options);
+    internal::CullingReport culled;
+    const ContactSpace space = internal::BuildCulled(
+        robot, obstacle, options, internal::Culling::kWhereItPays, &culled);
     const ContactSpaceReport& report = space.report();
     out["refused"] = false;
     out["facets"] = report.convolution_triangles;
+    out["culled"] = culled.was_tried;
     out["faces"] = report.arrangement_faces;
     out["triangles"] = report.triangles;
     out["predicted"] = {report.predicted.meetings,
                         report.predicted.arrangement_faces,
                         report.predicted.seconds, report.predicted.mib};
-  } catch (const BuildRefusal&) {
+  } catch (const BuildRefusal& refusal) {
     out["refused"] = true;
+    out["stage"] = StageOf(refusal.what());
   }
   out["wall"] = stopwatch.Seconds();
   out["seconds"] = CpuSeconds() - start;
@@ -171,6 +185,7 @@ std::vector<GuardRow> MeasureGuard(int pairs, std::uint64_t seed) {
     row.robot_triangles = whole["a"];
     row.obstacle_triangles = whole["b"];
     row.facets = whole["facets"];
+    row.is_culled = whole["culled"];
     row.faces = whole["faces"];
     row.triangles = whole["triangles"];
     row.seconds = whole["seconds"];
@@ -184,6 +199,7 @@ std::vector<GuardRow> MeasureGuard(int pairs, std::uint64_t seed) {
       const Json stopped = BuildInChild(pair, limit, 0.0);
       if (!stopped.is_null()) {
         row.time_passed = stopped["wall"].get<double>() / limit;
+        row.time_stage = stopped.value("stage", "none");
       }
     }
     if (row.mib > 2.0 * kLeastMib) {
@@ -191,6 +207,7 @@ std::vector<GuardRow> MeasureGuard(int pairs, std::uint64_t seed) {
       const Json stopped = BuildInChild(pair, 0.0, limit);
       if (!stopped.is_null()) {
         row.memory_passed = stopped["mib"].get<double>() / limit;
+        row.memory_stage = stopped.value("stage", "none");
       }
     }
     rows.push_back(std::move(row));
@@ -207,14 +224,15 @@ NamedTable GuardTable(const std::vector<GuardRow>& rows) {
           "and how far wall time and memory had come, over the limit, when a "
           "limit of half of them refused the build (0: too small to try).",
           {"robot", "obstacle", "triangles of A", "triangles of B", "facets",
-           "faces", "triangles", "meetings predicted", "faces predicted",
-           "CPU s", "predicted s", "MiB", "predicted MiB", "time over limit",
-           "memory over limit"},
+           "culled", "faces", "triangles", "meetings predicted",
+           "faces predicted", "CPU s", "predicted s", "MiB", "predicted MiB",
+           "time over limit", "in its", "memory over limit", "in its stage"},
           rows, [](const GuardRow& r, const auto& add) {
             add(r.robot, r.obstacle, r.robot_triangles, r.obstacle_triangles,
-                r.facets, r.faces, r.triangles, r.predicted_meetings,
-                r.predicted_faces, r.seconds, r.predicted_seconds, r.mib,
-                r.predicted_mib, r.time_passed, r.memory_passed);
+                r.facets, std::string(r.is_culled ? "yes" : "no"), r.faces,
+                r.triangles, r.predicted_meetings, r.predicted_faces, r.seconds,
+                r.predicted_seconds, r.mib, r.predicted_mib, r.time_passed,
+                r.time_stage, r.memory_passed, r.memory_stage);
           })};
 }
 

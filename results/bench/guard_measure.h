@@ -16,12 +16,14 @@ struct GuardRow {
   std::string robot, obstacle;
   int robot_triangles = 0, obstacle_triangles = 0;
   int facets = 0, faces = 0, triangles = 0;
+  bool is_culled = false;
   double seconds = 0.0, mib = 0.0;  // processor time, growth of the process
   double predicted_meetings = 0.0, predicted_faces = 0.0;
   double predicted_seconds = 0.0, predicted_mib = 0.0;
   // Wall time and growth until a limit of half of them refused the build, over
   // the limit; 0: too small to be tried.
   double time_passed = 0.0, memory_passed = 0.0;
+  std::string time_stage, memory_stage;  // where it was stopped
 };
 
 // Random pairs of the project's shapes, turned and aligned, 12 to some 20,000
