@@ -69,8 +69,8 @@ PredictedCost Predict(std::size_t triangles, std::size_t whole, bool is_culled,
 // inside, and to find that out takes as long as to arrange them
 // (results/lazy/culling.md).
 bool IsWorthCulling(const internal::ExpectedCuts& cuts, std::size_t facets) {
-  constexpr double kMuchSeconds = 0.2;
-  constexpr double kMuchMore = 3.0;
+  constexpr double kMuchSeconds = 0.22;
+  constexpr double kMuchMore = 2.0;
   return ArrangementSeconds(cuts) >
          std::max(kMuchSeconds, kMuchMore * CullingSeconds(facets));
 }
@@ -92,12 +92,14 @@ ContactSpace Build(const Operand& robot, const Operand& obstacle,
 
   const Solid a =
       internal::PrepareOperand(robot, OperandRole::kRobot, options, &report);
+  limits.Look("check");
   const Solid b = internal::PrepareOperand(obstacle, OperandRole::kObstacle,
                                            options, &report);
   limits.Look("check");
   clock.Finish("check");
 
   const internal::GridPair pair = internal::PlaceOperands(a, b, &report);
+  limits.Look("grid");
   const internal::GridSolid& p = pair.obstacle;
   const internal::GridSolid& q = pair.reflected_robot;
   internal::DescribeGrid(pair, &report);

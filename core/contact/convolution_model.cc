@@ -23,12 +23,15 @@ struct ConvolutionModel::Data {
   static internal::GridPair MakePair(const Operand& robot,
                                      const Operand& obstacle,
                                      const ContactSpaceOptions& options,
+                                     const internal::BuildLimits& limits,
                                      ContactSpaceReport* operands) {
     using internal::OperandRole;
     const Solid a =
         internal::PrepareOperand(robot, OperandRole::kRobot, options, operands);
+    limits.Look("check");
     const Solid b = internal::PrepareOperand(obstacle, OperandRole::kObstacle,
                                              options, operands);
+    limits.Look("check");
     return internal::PlaceOperands(a, b, operands);
   }
 
@@ -36,7 +39,7 @@ struct ConvolutionModel::Data {
   Data(const Operand& robot, const Operand& obstacle,
        const ContactSpaceOptions& options)
       : limits(options),
-        pair(MakePair(robot, obstacle, options, &operands)),
+        pair(MakePair(robot, obstacle, options, limits, &operands)),
         space(pair, &limits),
         bounds(ComputeBounds(space.Mesh())) {
     report.facets = space.facets();

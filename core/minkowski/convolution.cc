@@ -22,16 +22,14 @@ using Eigen::Vector3d;
 std::vector<int> TouchedVertices(const GridNormal& n, const VertexStars& stars,
                                  const GaussTree& caps, int turn) {
   const TouchingFacet facet(n, turn);
-  std::vector<int> candidates, touched;
+  std::vector<int> touched;
   for (const Vector3d& side : {facet.unit(), Vector3d(-facet.unit())}) {
-    caps.ForEachNear({side, 0.0}, [&](int v) { candidates.push_back(v); });
+    caps.ForEachNear({side, 0.0}, [&](int v) {
+      if (facet.Touches(stars, v)) touched.push_back(v);
+    });
   }
-  std::sort(candidates.begin(), candidates.end());
-  candidates.erase(std::unique(candidates.begin(), candidates.end()),
-                   candidates.end());
-  for (const int v : candidates) {
-    if (facet.Touches(stars, v)) touched.push_back(v);
-  }
+  std::sort(touched.begin(), touched.end());
+  touched.erase(std::unique(touched.begin(), touched.end()), touched.end());
   return touched;
 }
 
@@ -53,6 +51,7 @@ Convolution ReducedConvolution(const GridSolid& p, const GridSolid& q,
     const int turn = kind == ContactKind::kObstacleFacet ? 1 : -1;
     std::vector<std::vector<int>> touched(facets.facets.size());
     tbb::parallel_for(std::size_t{0}, touched.size(), [&](std::size_t f) {
+      check();
       touched[f] = TouchedVertices(facets.normals[f], stars, caps, turn);
     });
     for (std::size_t f = 0; f < touched.size(); ++f) {
@@ -74,16 +73,14 @@ Convolution ReducedConvolution(const GridSolid& p, const GridSolid& q,
   const GaussTree arcs(ArcCaps(qe));
   const tbb::blocked_range<std::size_t> all(0, pe.size());
   tbb::parallel_for(all, [&](const tbb::blocked_range<std::size_t>& range) {
-    std::vector<int> candidates;
     for (std::size_t i = range.begin(); i < range.end(); ++i) {
       check();
-      candidates.clear();
-      arcs.ForEachNear(ArcCap(pe[i]), [&](int j) { candidates.push_back(j); });
-      std::sort(candidates.begin(), candidates.end());
-      for (const int j : candidates) {
+      arcs.ForEachNear(ArcCap(pe[i]), [&](int j) {
         const int side = CommonSide(pe[i], qe[j]);
         if (side != 0) hits[i].push_back({j, side});
-      }
+      });
+      std::sort(hits[i].begin(), hits[i].end(),
+                [](const Hit& a, const Hit& b) { return a.edge < b.edge; });
     }
   });
   for (std::size_t i = 0; i < pe.size(); ++i) {

@@ -160,7 +160,8 @@ int Run(int argc, char** argv) {
                  "Pairs that predictions are held to")
       ->capture_default_str();
   app.add_flag("--guard-only", options.guard_only,
-               "Only predictions and limits: guard.csv, guard_verdict.csv");
+               "Only predictions and limits: guard.csv, guard_verdict.csv, "
+               "guard.md");
   CLI11_PARSE(app, argc, argv);
   // In processes of their own, before this one starts threads.
   const std::vector<GuardRow> guard =
@@ -168,9 +169,14 @@ int Run(int argc, char** argv) {
   std::cout << ToText(GuardVerdict(guard).table) << std::endl;
   if (options.guard_only) {
     OutputDirectory out(options.directory);
-    for (const NamedTable& t : {GuardVerdict(guard), GuardTable(guard)}) {
-      out.Write(t.file, ToCsv(t.table));
-    }
+    const std::vector<NamedTable> tables = {GuardVerdict(guard),
+                                            GuardTable(guard)};
+    for (const NamedTable& t : tables) out.Write(t.file, ToCsv(t.table));
+    out.Write("guard.md",
+              "# Predictions and limits\n\n" + ToMarkdown({tables[0]}, {}) +
+                  "\nAll pairs: [guard.csv](guard.csv)\n\n" +
+                  Circumstances(CommandLine("build/lazy_benchmark", argc, argv),
+                                options.seed));
     out.Commit();
     return 0;
   }
