@@ -4,11 +4,11 @@
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
-#include <map>
 #include <utility>
 
 #include "core/contact/build_stages.h"
 #include "core/contact/contact_space_bytes.h"
+#include "core/contact/piece_cover.h"
 #include "core/contact/piece_data.h"
 #include "core/mesh/mesh_error.h"
 #include "core/minkowski/build_limits.h"
@@ -24,13 +24,10 @@ namespace {
 using internal::OperandRole;
 using internal::PlannedWindow;
 using internal::SurfacePiece;
+using internal::ToText;
 
 void Require(bool is_met, const std::string& message) {
   if (!is_met) throw InputError(message);
-}
-
-std::string ToText(PieceNumber number) {
-  return std::to_string(number.index) + '/' + std::to_string(number.count);
 }
 
 // All that pieces of one build have in common, whatever its files are called
@@ -81,36 +78,6 @@ std::vector<SurfacePiece> ArrangeWindows(
     });
   });
   return pieces;
-}
-
-// Each part once, all of one build; by number.
-std::map<int, const ContactSpacePiece::Data*> Sorted(
-    const std::vector<ContactSpacePiece>& pieces) {
-  Require(!pieces.empty(), "join: expected pieces, found none");
-  const ContactSpacePiece::Data& first = pieces[0].data();
-  std::map<int, const ContactSpacePiece::Data*> sorted;
-  for (const ContactSpacePiece& piece : pieces) {
-    const ContactSpacePiece::Data& data = piece.data();
-    Require(
-        data.build == first.build && data.number.count == first.number.count,
-        data.name + ": expected a piece of the build that " + first.name +
-            " is of (" + std::to_string(first.number.count) +
-            " pieces), found one of another");
-    const auto [at, is_new] = sorted.emplace(data.number.index, &data);
-    Require(is_new, data.name + ": expected every piece once, found " +
-                        ToText(data.number) + " in " + at->second->name +
-                        ", too");
-  }
-  std::string missing;
-  for (int i = 0; i < first.number.count; ++i) {
-    if (sorted.count(i) != 0) continue;
-    missing += (missing.empty() ? "" : ", ") + ToText({i, first.number.count});
-  }
-  Require(missing.empty(),
-          "join: expected all " + std::to_string(first.number.count) +
-              " pieces, found " + std::to_string(sorted.size()) + "; without " +
-              missing);
-  return sorted;
 }
 
 }  // namespace
@@ -191,10 +158,10 @@ internal::JoinedSurface Joined(const std::vector<SurfacePiece>& boxes,
 }  // namespace
 
 ContactSpace JoinContactSpace(const std::vector<ContactSpacePiece>& pieces) {
-  const auto sorted = Sorted(pieces);
-  const ContactSpacePiece::Data& first = *sorted.begin()->second;
+  const auto ordered = internal::InOrder(pieces);
+  const ContactSpacePiece::Data& first = *ordered.front();
   std::vector<SurfacePiece> boxes;
-  for (const auto& [index, data] : sorted) {
+  for (const ContactSpacePiece::Data* data : ordered) {
     boxes.insert(boxes.end(), data->boxes.begin(), data->boxes.end());
   }
   internal::AssemblyOptions options;

@@ -20,7 +20,8 @@ namespace phongpd {
 // Boxes in which the operands surely overlap, or which no facet of the
 // convolution meets, are left out.
 
-// i of n, 0 ≤ i < n.
+// i of n, 0 ≤ i < n.  Parts 2i and 2i + 1 of 2n are together what i of n is, so
+// that one that takes too much memory can be built in halves, again and again.
 struct PieceNumber {
   int index = 0;
   int count = 1;
@@ -51,11 +52,12 @@ ContactSpacePiece BuildContactSpacePiece(const TriangleMesh& robot,
                                          const ContactSpaceOptions& options,
                                          PieceNumber number);
 
-// All n parts of one build, in any order.  Of the report, all that is of the
-// operands and of the surface is as in BuildContactSpace; faces and cells are
-// those of all boxes together; nothing is said of time, memory and prediction,
-// so that the result does not depend on n.  Throws InputError naming the part
-// that is missing, there twice, or of another build.
+// All n parts of one build, or some of them in halves, in any order.  Of the
+// report, all that is of the operands and of the surface is as in
+// BuildContactSpace; faces and cells are those of all boxes together; nothing
+// is said of time, memory and prediction, so that the result does not depend on
+// n, nor on halves.  Throws InputError naming the part that is missing, there
+// twice, or of another build.
 //
 // The surface is that of BuildContactSpace, mesh, planes and kinds alike; or,
 // where a cell beside the border of a box is so thin that no point of it can be

@@ -57,7 +57,7 @@ Command AddJoin(CLI::App* app) {
   auto flags = std::make_shared<Flags>();
   app->add_option("pieces", flags->pieces,
                   "Files that contact-space --piece i/n wrote: all n, in any "
-                  "order")
+                  "order; 2i/2n and 2i+1/2n stand for i/n")
       ->required()
       ->type_name("FILE");
   app->add_option("--output", flags->output,

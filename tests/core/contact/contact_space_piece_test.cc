@@ -218,6 +218,67 @@ TEST(ContactSpacePieces, FilesJoinToTheSameWhateverTheirNumber) {
   }
 }
 
+// Piece i of n of the pair below, in boxes of 60 facets.
+ContactSpacePiece StarAndTorus(int i, int n) {
+  return internal::BuildPiece(MakeStar(0.5, 1.2), MakeTorus(2, 0.6, 12, 6), {},
+                              {i, n}, 60);
+}
+
+TEST(ContactSpacePieces, HalvesStandForTheirWhole) {
+  const ContactSpace whole =
+      BuildContactSpace(MakeStar(0.5, 1.2), MakeTorus(2, 0.6, 12, 6));
+  for (const int n : {1, 3}) {
+    for (int halved = 0; halved < n; halved += 2) {
+      std::size_t boxes = 0;
+      std::vector<ContactSpacePiece> pieces;
+      for (int i = 0; i < n; ++i) {
+        if (i != halved) pieces.push_back(StarAndTorus(i, n));
+      }
+      // One half as a whole, the other in halves again.
+      for (const auto& [i, count] :
+           {std::pair{4 * halved + 3, 4 * n}, std::pair{2 * halved, 2 * n},
+            std::pair{4 * halved + 2, 4 * n}}) {
+        pieces.push_back(StarAndTorus(i, count));
+        boxes += pieces.back().boxes();
+      }
+      EXPECT_EQ(boxes, StarAndTorus(halved, n).boxes());
+      EXPECT_TRUE(AreSame(JoinContactSpace(pieces), whole)) << n;
+    }
+  }
+}
+
+TEST(ContactSpacePieces, HalvesThatAreNoWholeAreNamed) {
+  const auto join = [](const std::vector<PieceNumber>& numbers) {
+    std::vector<ContactSpacePiece> pieces;
+    for (const auto& [i, n] : numbers) {
+      pieces.push_back(
+          ParsePiece(PieceContent(StarAndTorus(i, n)),
+                     std::to_string(i) + "of" + std::to_string(n)));
+    }
+    JoinContactSpace(pieces);
+  };
+  ExpectRefused(
+      [&] {
+        join({{0, 3}, {2, 6}, {2, 3}});
+      },
+      {"expected all 3 pieces, found 3; without 3/6"});
+  ExpectRefused([&] { join({{5, 12}, {0, 3}}); }, {"without 4/12, 3/6, 2/3"});
+  ExpectRefused(
+      [&] {
+        join({{0, 3}, {1, 3}, {3, 6}, {2, 3}});
+      },
+      {"3of6: expected every piece once, found what is in 3/6 in "
+       "1of3, too, which is 1/3"});
+  ExpectRefused(
+      [&] {
+        join({{0, 3}, {3, 9}, {4, 9}, {5, 9}, {2, 3}});
+      },
+      {"of3: expected a piece of the build",
+       "or some of them in "
+       "halves"});
+  ExpectRefused([&] { join({{0, 20}}); }, {"without 1/20, ", ", 8/20, more"});
+}
+
 TEST(ContactSpacePieces, LostRepeatedForeignAndCutOnesAreNamed) {
   const SolidPair pair = PairOf(Cube(1), MakeVessel(4, 3, 0));
   const auto pieces = [&](int count, const ContactSpaceOptions& options) {
