@@ -27,6 +27,7 @@ from ._contact import ContactSpace, minkowski
 from ._depth import Depth, DepthQuery, depth
 from ._metrics import EuclideanMetric, Penetration, PhongMetric, QueryResult
 from ._native import BuildCancelled, BuildRefusal, InputError, __version__
+from ._piece import ContactSpacePiece
 from ._rows import NonPenetrationRows
 from ._solid import Solid
 from ._tracker import PenetrationTracker, TrackedMotion
@@ -34,9 +35,9 @@ from ._view import View, view
 from ._world import Roadmap, World
 
 __all__ = [
-    "BuildCancelled", "BuildRefusal", "ContactSpace", "Depth", "DepthQuery",
-    "Diagnosis", "EuclideanMetric", "InputError", "NonPenetrationRows",
-    "Penetration", "PenetrationTracker", "PhongMetric", "Plan", "QueryResult",
-    "Roadmap", "Solid", "TrackedMotion", "Trajectory", "View", "World",
-    "__version__", "depth", "minkowski", "view",
+    "BuildCancelled", "BuildRefusal", "ContactSpace", "ContactSpacePiece",
+    "Depth", "DepthQuery", "Diagnosis", "EuclideanMetric", "InputError",
+    "NonPenetrationRows", "Penetration", "PenetrationTracker", "PhongMetric",
+    "Plan", "QueryResult", "Roadmap", "Solid", "TrackedMotion", "Trajectory",
+    "View", "World", "__version__", "depth", "minkowski", "view",
 ]

@@ -1,12 +1,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 from __future__ import annotations
 
+import os
 from typing import Any
 
 from . import _native
 from ._arguments import whole_number
 from ._mesh import MeshViews
 from ._native import ContactSpace as NativeSpace, InputError
+from ._piece import joined
 from ._solid import as_solid
 from ._view import Canvas, Shown
 
@@ -51,6 +53,30 @@ class ContactSpace(MeshViews, Shown):
         """A closed mesh taken for a contact space: one that was saved, or the
         boundary of forbidden positions found in another way."""
         return cls(_native.ContactSpace.take(as_solid(solid, "mesh")._native))
+
+    @classmethod
+    def join(cls, pieces: Any) -> ContactSpace:
+        """Of all parts of one build (ContactSpacePiece), or their files, in any
+        order: the surface that build makes, to the last bit.  Its report says
+        nothing of time and memory.
+
+        Raises InputError naming the part that is missing, there twice, cut
+        short or of another build; and, for few and degenerate solids, where a
+        cell beside the border of a box is too thin to be judged: build the
+        whole then.
+        """
+        return cls(joined(pieces))
+
+    @classmethod
+    def read(cls, path: str | os.PathLike[str]) -> ContactSpace:
+        """Of a .pcs file, bit for bit what was written.  Of any other file
+        ContactSpace.take(path) takes the mesh."""
+        return cls(_native.ContactSpace.read(os.fspath(path)))
+
+    def write(self, path: str | os.PathLike[str]) -> None:
+        """OFF, OBJ, STL or PLY by the ending; as .pcs, with planes, kinds and
+        report, for read and for `phongpd`."""
+        super().write(path)
 
     @property
     def length(self) -> float:

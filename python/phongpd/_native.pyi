@@ -40,11 +40,29 @@ class ContactSpace:
             cache: bool) -> ContactSpace: ...
     @staticmethod
     def take(solid: Solid) -> ContactSpace: ...
+    @staticmethod
+    def read(path: str) -> ContactSpace: ...
     def write(self, path: str) -> None: ...
     vertices: _Floats
     triangles: _Ints
     length: float
     report: dict[str, Any]
+
+class ContactSpacePiece:
+    @staticmethod
+    def build(robot: Solid, obstacle: Solid, index: int, count: int,
+              robot_hull: bool, target_faces: int, wrap: float,
+              outer_shell_only: bool, max_seconds: float,
+              max_mib: float) -> ContactSpacePiece: ...
+    @staticmethod
+    def read(path: str) -> ContactSpacePiece: ...
+    def content(self) -> bytes: ...
+    index: int
+    count: int
+    boxes: int
+    faces: int
+
+def join(pieces: Sequence[ContactSpacePiece]) -> ContactSpace: ...
 
 class Metric:
     @staticmethod

@@ -1,54 +1,24 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <nanobind/stl/string.h>
 
-#include <chrono>
-#include <future>
-#include <memory>
-
 #include "core/contact/contact_space.h"
 #include "core/contact/contact_space_cache.h"
+#include "core/contact/contact_space_file.h"
 #include "core/mesh/mesh_io.h"
-#include "core/minkowski/build_cancellation.h"
 #include "core/solid/solid.h"
 #include "python/src/arrays.h"
 #include "python/src/bindings.h"
-#include "python/src/computing.h"
+#include "python/src/build_options.h"
+#include "python/src/interruptible.h"
 
 namespace phongpd::python {
 namespace {
 
-// work() on another thread, so that Ctrl-C reaches Python meanwhile: it stops
-// the build and comes up as KeyboardInterrupt.
-template <typename Work>
-auto Interruptible(const Work& work) {
-  const InProgress mark;
-  auto result = std::async(std::launch::async, work);
-  const auto is_done = [&result] {
-    const nb::gil_scoped_release release;
-    return result.wait_for(std::chrono::milliseconds(50)) ==
-           std::future_status::ready;
-  };
-  while (!is_done()) {
-    if (PyErr_CheckSignals() == 0) continue;
-    nb::python_error error;
-    // It may only be about to begin.
-    do CancelBuilds();
-    while (!is_done());
-    throw error;
-  }
-  return result.get();
-}
-
 ContactSpace Build(const Solid& robot, const Solid& obstacle, bool robot_hull,
                    size_t target_faces, double wrap, bool outer_shell_only,
                    double max_seconds, double max_mib, bool cache) {
-  ContactSpaceOptions options;
-  options.robot_hull = robot_hull;
-  options.target_faces = target_faces;
-  options.wrap_alpha = wrap;
-  options.outer_shell_only = outer_shell_only;
-  options.max_seconds = max_seconds;
-  options.max_mib = max_mib;
+  const ContactSpaceOptions options = BuildOptions(
+      robot_hull, target_faces, wrap, outer_shell_only, max_seconds, max_mib);
   ContactSpaceCache folder;
   if (cache) folder.directory = DefaultCacheDirectory();
   return Interruptible([&] {
@@ -63,6 +33,20 @@ ContactSpace Sum(const Solid& a, const Solid& b, double max_seconds,
   for (Eigen::Vector3d& v : mesh.vertices) v = -v;
   const Solid reflected = MakeSolid(Reversed(std::move(mesh)), a.name());
   return Build(reflected, b, false, 0, 0.0, false, max_seconds, max_mib, cache);
+}
+
+void Write(const ContactSpace& space, const std::string& path) {
+  const Computing computing;
+  if (NamesContactSpaceFile(path)) {
+    WriteContactSpace(space, path);
+  } else {
+    WriteMesh(space.mesh(), path);
+  }
+}
+
+ContactSpace Read(const std::string& path) {
+  const Computing computing;
+  return ReadContactSpace(path);
 }
 
 nb::dict Report(const ContactSpace& space) {
@@ -102,10 +86,8 @@ void BindContactSpace(nb::module_& module) {
                   [](const Solid& solid) {
                     return TakeAsContactSpace(solid, solid.name());
                   })
-      .def("write",
-           [](const ContactSpace& space, const std::string& path) {
-             WriteMesh(space.mesh(), path);
-           })
+      .def_static("read", &Read)
+      .def("write", &Write)
       .def_prop_ro("vertices",
                    [](nb::handle self) {
                      return View(

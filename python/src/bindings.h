@@ -7,6 +7,7 @@ namespace phongpd::python {
 
 void BindSolid(nanobind::module_& module);
 void BindContactSpace(nanobind::module_& module);
+void BindPiece(nanobind::module_& module);
 void BindMetrics(nanobind::module_& module);
 void BindTracker(nanobind::module_& module);
 void BindDepth(nanobind::module_& module);

@@ -23,6 +23,7 @@ NB_MODULE(_native, module) {
   phongpd::SilenceOmpl();
   phongpd::python::BindSolid(module);
   phongpd::python::BindContactSpace(module);
+  phongpd::python::BindPiece(module);
   phongpd::python::BindMetrics(module);
   phongpd::python::BindTracker(module);
   phongpd::python::BindDepth(module);

@@ -145,7 +145,7 @@ class Simulation:
     def _at(self, when, what, *arguments):
         heapq.heappush(self._events, (when, next(self._count), what, arguments))
 
-    # The client, as _run._Driver does it.
+    # The client, as _run.Driver does it.
 
     def _submit(self, now):
         if not self._todo or self._in_flight > 3 * self._window // 4:

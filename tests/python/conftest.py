@@ -19,6 +19,21 @@ def make_box(low, high, name="box"):
     return phongpd.Solid(*box_arrays(low, high), name)
 
 
+def make_torus(major, minor, around, across, name="torus"):
+    """Turns about z; `around` times `across` quads, in two triangles each."""
+    u, v = np.meshgrid(np.arange(around) * (2 * np.pi / around),
+                       np.arange(across) * (2 * np.pi / across), indexing="ij")
+    ring = major + minor * np.cos(v)
+    vertices = np.stack([ring * np.cos(u), ring * np.sin(u),
+                         minor * np.sin(v)], axis=-1).reshape(-1, 3)
+    i, j = (k.ravel() for k in np.indices((around, across)))
+    a, b = i * across + j, (i + 1) % around * across + j
+    right = (j + 1) % across - j
+    triangles = np.vstack([np.stack([a, b, b + right], axis=1),
+                           np.stack([a, b + right, a + right], axis=1)])
+    return phongpd.Solid(vertices, triangles, name)
+
+
 @pytest.fixture
 def robot():
     return make_box((0, 0, 0), (1, 1, 1), "robot")

@@ -136,7 +136,7 @@ def test_tasks_that_overlap_give_each_row_once(client, jobs, truth, tmp_path):
     some = jobs[0][:8]
     order = {job.key: i for i, job in enumerate(some)}
     with _run.RowStore(tmp_path / "rows.jsonl", order) as store:
-        driver = _run._Driver(jobs[1], store)
+        driver = _run.Driver(jobs[1], store)
         driver.run(client, [Batch(tuple(some[:6])), Batch(tuple(some[2:])),
                             Batch(tuple(some[:6])[::-1])])
         store.finish()

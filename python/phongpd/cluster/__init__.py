@@ -31,6 +31,9 @@ starts workers on this machine's cores.  What all of them do:
   made, because every worker that tries dies of them for example, raise
   SweepError in the end, when all others are there.
 
+contact_space is no sweep: it builds one contact space by pieces, which are files
+in a folder, and joins them.
+
 Scene files must be readable on the workers by the same path.
 """
 
@@ -40,10 +43,12 @@ except ImportError as error:
     raise ImportError("phongpd.cluster: expected Dask's package distributed, "
                       "found none; pip install 'phongpd[cluster]'") from error
 
+from ._pieces import PieceBuild, contact_space
 from ._rows import TIMING_FIELDS, without_timing
 from ._run import Sweep
 from ._sweeps import contact_spaces, convergence, depth, planning
 from ._work import SweepError
 
-__all__ = ["Sweep", "SweepError", "TIMING_FIELDS", "contact_spaces",
-           "convergence", "depth", "planning", "without_timing"]
+__all__ = ["PieceBuild", "Sweep", "SweepError", "TIMING_FIELDS",
+           "contact_space", "contact_spaces", "convergence", "depth",
+           "planning", "without_timing"]

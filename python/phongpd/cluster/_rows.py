@@ -81,6 +81,11 @@ class RowStore:
         self._size += len(data)
         return True
 
+    def state(self) -> str:
+        """What is safe, for who is told that something went wrong."""
+        return (f"{len(self)} rows are in {self.partial}, and the same call "
+                "goes on from there")
+
     def lines(self) -> Iterator[bytes]:
         """Those that are there, with their ends, in the order of the sweep."""
         whole = -1

@@ -12,7 +12,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from concurrent.futures import CancelledError
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, Protocol
 
 from distributed import Client, Future, KilledWorker, LocalCluster, \
     as_completed
@@ -66,9 +66,9 @@ def run(jobs: Sequence[Job], subjects: Mapping[str, dict[str, Any]],
     with RowStore(path, indices(jobs)) as store:
         kept = len(store)
         missing = [job for job in jobs if job.key not in store]
-        driver = _Driver(subjects, store)
+        driver = Driver(subjects, store)
         if missing:
-            with _client(client) as connected:
+            with connection(client) as connected:
                 driver.run(connected, list(batches(missing, size)))
         store.finish()
     return Sweep(path, len(jobs), kept, driver.repeated, driver.reconnections,
@@ -76,7 +76,8 @@ def run(jobs: Sequence[Job], subjects: Mapping[str, dict[str, Any]],
 
 
 @contextlib.contextmanager
-def _client(client: Client | None) -> Iterator[Client]:
+def connection(client: Client | None) -> Iterator[Client]:
+    """The client, or one to workers on this machine's cores."""
     if client is not None:
         if not isinstance(client, Client) or client.asynchronous:
             raise InputError(
@@ -94,11 +95,21 @@ def _client(client: Client | None) -> Iterator[Client]:
                 own.wait_for_workers(len(cluster.workers), timeout=30)
 
 
-class _Driver:
+class Store(Protocol):
+    """Where rows go."""
+
+    def add(self, key: str, line: str) -> bool:
+        """False: a row of that key is there already; it stays."""
+
+    def state(self) -> str:
+        """What is safe, for who is told that something went wrong."""
+
+
+class Driver:
     """One sweep's tasks: which wait, which are with the scheduler."""
 
     def __init__(self, subjects: Mapping[str, dict[str, Any]],
-                 store: RowStore) -> None:
+                 store: Store) -> None:
         self._subjects = subjects
         self._store = store
         self._shared: dict[str, Future[Any]] = {}
@@ -183,7 +194,7 @@ class _Driver:
     def _note_failure(self, one: Batch, future: Future[Any]) -> None:
         error = future.exception()
         if isinstance(error, SweepError):
-            raise SweepError(f"{error}; {self._state()}")
+            raise SweepError(f"{error}; {self._store.state()}")
         if isinstance(error, KilledWorker) and not one.is_alone:
             self._suspects.append(one)
             return
@@ -196,7 +207,7 @@ class _Driver:
         while client.status == "connecting":
             time.sleep(0.05)
         if client.status != "running":
-            raise SweepError(f"the scheduler is gone; {self._state()}")
+            raise SweepError(f"the scheduler is gone; {self._store.state()}")
         self.reconnections += 1
 
     def _failure(self) -> SweepError:
@@ -205,11 +216,7 @@ class _Driver:
         return SweepError(
             f"{count} rows could not be made, the first of them "
             f"{one.jobs[0].kind} {one.jobs[0].arguments}: "
-            f"{' '.join(reason.split())}; {self._state()}")
-
-    def _state(self) -> str:
-        return (f"{len(self._store)} rows are in {self._store.partial}, and the "
-                "same call goes on from there")
+            f"{' '.join(reason.split())}; {self._store.state()}")
 
     def _room(self, client: Client) -> int:
         """For how many tasks more; 0 until it is worth the while: submitting

@@ -7,7 +7,7 @@ import math
 import os
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
-from typing import Any, Union
+from typing import Any
 
 import numpy as np
 from distributed import Client
@@ -16,16 +16,13 @@ from numpy.typing import ArrayLike
 from .. import _native
 from .._arguments import Floats, length, rows, seconds, whole_number
 from .._native import InputError
-from .._solid import Solid, as_solid
 from ._jobs import Job, digest
 from ._run import Sweep, run
+from ._solids import PathLike, folder_of, limit_of, pair_of
 from ._work import SweepError
 
-_Path = Union[str, "os.PathLike[str]"]
-
-
-def convergence(scenes: Sequence[_Path], *, seeds: Iterable[int],
-                output: _Path, metrics: Sequence[str] = ("phong@0.2",),
+def convergence(scenes: Sequence[PathLike], *, seeds: Iterable[int],
+                output: PathLike, metrics: Sequence[str] = ("phong@0.2",),
                 protocols: Sequence[str] = ("straight-adaptive",),
                 client: Client | None = None, max_mib: float | None = None,
                 cache: bool = False, batch: int = 1) -> Sweep:
@@ -50,7 +47,7 @@ def convergence(scenes: Sequence[_Path], *, seeds: Iterable[int],
     return run(jobs, subjects, output, client, batch)
 
 
-def planning(scenes: Sequence[_Path], *, seeds: Iterable[int], output: _Path,
+def planning(scenes: Sequence[PathLike], *, seeds: Iterable[int], output: PathLike,
              planners: Sequence[str] = ("contact-surface",),
              retraction: str = "phong", clearance: float | str | None = None,
              max_seconds: float = 5.0, client: Client | None = None,
@@ -77,12 +74,12 @@ def planning(scenes: Sequence[_Path], *, seeds: Iterable[int], output: _Path,
 
 
 def depth(robot: Any, obstacle: Any, positions: ArrayLike,
-          orientations: ArrayLike | None = None, *, output: _Path,
+          orientations: ArrayLike | None = None, *, output: PathLike,
           max_radius: float = math.inf, client: Client | None = None,
           batch: int = 100) -> Sweep:
     """Exact depth at many poses: the rows of DepthQuery.at, with `pose`, the
     index of the pose.  Poses of one orientation should be neighbours."""
-    pair = _pair(robot, obstacle)
+    pair = pair_of(robot, obstacle)
     subject = digest(pair[0], pair[1], repr(float(max_radius)))
     places = _finite(rows(positions, "positions", 3), "positions")
     turns = _turns(orientations, len(places))
@@ -93,20 +90,21 @@ def depth(robot: Any, obstacle: Any, positions: ArrayLike,
                output, client, batch)
 
 
-def contact_spaces(pairs: Mapping[str, tuple[Any, Any]], *, output: _Path,
-                   folder: _Path | None = None, client: Client | None = None,
+def contact_spaces(pairs: Mapping[str, tuple[Any, Any]], *, output: PathLike,
+                   folder: PathLike | None = None, client: Client | None = None,
                    max_mib: float | None = None, cache: bool = False) -> Sweep:
     """The contact space of every pair (robot, obstacle): the rows are its
     reports, with `pair`, the name.
 
     folder: where workers write NAME.off, each at once or not at all; it is the
-    same folder for all of them.  One task a pair: the engine builds in pieces
-    within a process only, so a pair needs a worker that it fits.
+    same folder for all of them.  One task a pair, so a pair needs a worker that
+    it fits; contact_space builds one pair by pieces.
     """
-    place = None if folder is None else _folder(folder)
+    max_mib = limit_of(max_mib)
+    place = None if folder is None else folder_of(folder)
     jobs, subjects = [], {}
     for name, solids in pairs.items():
-        robot, obstacle, arrays = _pair(*_two(name, solids))
+        robot, obstacle, arrays = pair_of(*_two(name, solids))
         file = "" if place is None else str(place / f"{_file_name(name)}.off")
         subject = digest(robot, obstacle, file, max_mib)
         subjects[subject] = {**arrays, "file": file, "max_mib": max_mib,
@@ -118,10 +116,9 @@ def contact_spaces(pairs: Mapping[str, tuple[Any, Any]], *, output: _Path,
     return sweep
 
 
-def _scenes(scenes: Sequence[_Path], max_mib: float | None,
+def _scenes(scenes: Sequence[PathLike], max_mib: float | None,
             cache: bool) -> dict[str, dict[str, Any]]:
-    if max_mib is not None and not float(max_mib) >= 0.0:
-        raise InputError(f"max_mib: expected 0 or more, found {max_mib!r}")
+    max_mib = limit_of(max_mib)
     subjects: dict[str, dict[str, Any]] = {}
     for text in _texts(scenes, "scenes"):
         scene = os.path.abspath(text) if os.path.isfile(text) else text
@@ -153,20 +150,6 @@ def _seeds(seeds: Iterable[int]) -> list[int]:
     return [whole_number(seed, "seeds", 1) for seed in seeds]
 
 
-def _pair(robot: Any, obstacle: Any) -> tuple[str, str, dict[str, Any]]:
-    """Digests of two solids, and what travels to the workers."""
-    solids = {"robot": as_solid(robot, "robot"),
-              "obstacle": as_solid(obstacle, "obstacle")}
-    one, other = (digest(solid.vertices.tobytes().hex(),
-                         solid.triangles.tobytes().hex())
-                  for solid in solids.values())
-    return one, other, {name: _arrays(solid) for name, solid in solids.items()}
-
-
-def _arrays(solid: Solid) -> tuple[Any, Any, str]:
-    return np.array(solid.vertices), np.array(solid.triangles), solid.name
-
-
 def _two(name: str, solids: Any) -> tuple[Any, Any]:
     if not isinstance(solids, tuple) or len(solids) != 2:
         raise InputError(
@@ -179,13 +162,6 @@ def _file_name(name: str) -> str:
         raise InputError(
             f"pairs: expected names that can be files, found {name!r}")
     return name
-
-
-def _folder(folder: _Path) -> Path:
-    path = Path(os.path.abspath(folder))
-    if not path.is_dir():
-        raise InputError(f"{folder}: expected a folder, found none")
-    return path
 
 
 def _require_files(sweep: Sweep, folder: Path) -> None:

@@ -13,6 +13,8 @@ import dataclasses
 import json
 import os
 import threading
+import time
+import uuid
 from collections import OrderedDict
 from collections.abc import Callable
 from pathlib import Path
@@ -24,8 +26,10 @@ from .. import _native
 from .._contact import ContactSpace
 from .._depth import DepthQuery
 from .._native import BuildRefusal, InputError
-from .._solid import Solid
+from .._piece import ContactSpacePiece
 from ._jobs import Batch, Job
+from ._piece_files import PieceFile
+from ._solids import solid_of
 
 KEPT_SUBJECTS = 4
 # Of a worker's memory limit, what builds may take: Dask pauses a worker at
@@ -86,7 +90,7 @@ def _planning_row(job: Job, subject: dict[str, Any]) -> str:
 
 def _depth_row(job: Job, subject: dict[str, Any]) -> str:
     query = _kept(job, subject, lambda: DepthQuery(
-        _solid(subject["robot"]), _solid(subject["obstacle"]),
+        solid_of(subject["robot"]), solid_of(subject["obstacle"]),
         max_radius=subject["max_radius"]))
     what = job.arguments
     found = query.at(what["position"], what["orientation"])
@@ -97,10 +101,50 @@ def _depth_row(job: Job, subject: dict[str, Any]) -> str:
 
 def _contact_space_row(job: Job, subject: dict[str, Any]) -> str:
     space = ContactSpace.build(
-        _solid(subject["robot"]), _solid(subject["obstacle"]),
+        solid_of(subject["robot"]), solid_of(subject["obstacle"]),
         max_mib=_max_mib(subject), cache=subject["cache"])
     if subject["file"]:
         _write(space, Path(subject["file"]))
+    return _report_row(job, space)
+
+
+def _piece_row(job: Job, subject: dict[str, Any]) -> str:
+    what = job.arguments
+    robot, obstacle = _kept(job, subject, lambda: (
+        solid_of(subject["robot"]), solid_of(subject["obstacle"])))
+    begin = time.perf_counter()
+    built: list[str] = []
+
+    def fill(part: PieceFile) -> None:
+        if part.path.exists():
+            return
+        if not part.is_begun_in_halves():
+            try:
+                _write(ContactSpacePiece.build(
+                    robot, obstacle, part.index, part.count,
+                    max_mib=_max_mib(subject), **subject["options"]), part.path)
+                built.append(str(part))
+                return
+            except BuildRefusal:
+                if not part.may_be_halved():
+                    raise
+        for half in part.halves():
+            fill(half)
+
+    fill(PieceFile(Path(subject["folder"]), subject["name"], what["index"],
+                   what["count"]))
+    return json.dumps({**what, "built": built,
+                       "seconds": time.perf_counter() - begin})
+
+
+def _join_row(job: Job, subject: dict[str, Any]) -> str:
+    space = ContactSpace.join(
+        [Path(subject["folder"]) / name for name in subject["files"]])
+    _write(space, Path(subject["output"]))
+    return _report_row(job, space)
+
+
+def _report_row(job: Job, space: ContactSpace) -> str:
     return json.dumps({**job.arguments, "length": space.length,
                        **_plain(space.report)})
 
@@ -110,6 +154,8 @@ WORK: dict[str, Callable[[Job, dict[str, Any]], str]] = {
     "planning": _planning_row,
     "depth": _depth_row,
     "contact-space": _contact_space_row,
+    "piece": _piece_row,
+    "join": _join_row,
 }
 
 _kept_subjects: OrderedDict[tuple[str, str], Any] = OrderedDict()
@@ -141,10 +187,6 @@ def _same_scene(job: Job, subject: dict[str, Any]) -> str:
     return scene
 
 
-def _solid(arrays: tuple[Any, Any, str]) -> Solid:
-    return Solid(*arrays)
-
-
 def _plain(value: Any) -> Any:
     if isinstance(value, dict):
         return {key: _plain(one) for key, one in value.items()}
@@ -156,10 +198,11 @@ def _plain(value: Any) -> Any:
     return None if isinstance(value, float) and not np.isfinite(value) else value
 
 
-def _write(space: ContactSpace, path: Path) -> None:
-    part = path.with_name(f".{path.stem}-{os.getpid()}.part{path.suffix}")
+def _write(thing: ContactSpace | ContactSpacePiece, path: Path) -> None:
+    """At once or not at all."""
+    part = path.with_name(f".{path.stem}-{uuid.uuid4().hex}.part{path.suffix}")
     try:
-        space.write(part)
+        thing.write(part)
         os.replace(part, path)
     except (OSError, InputError) as error:
         raise SweepError(f"{path}: a worker cannot write it: {error}") from None
