@@ -31,6 +31,8 @@ starts workers on this machine's cores.  What all of them do:
   made, because every worker that tries dies of them for example, raise
   SweepError in the end, when all others are there.
 
+write_parquet makes columns of rows, whenever asked.
+
 contact_space is no sweep: it builds one contact space by pieces, which are files
 in a folder, and joins them.
 
@@ -43,6 +45,7 @@ except ImportError as error:
     raise ImportError("phongpd.cluster: expected Dask's package distributed, "
                       "found none; pip install 'phongpd[cluster]'") from error
 
+from ._parquet import write_parquet
 from ._pieces import PieceBuild, contact_space
 from ._rows import TIMING_FIELDS, without_timing
 from ._run import Sweep
@@ -51,4 +54,4 @@ from ._work import SweepError
 
 __all__ = ["PieceBuild", "Sweep", "SweepError", "TIMING_FIELDS",
            "contact_space", "contact_spaces", "convergence", "depth",
-           "planning", "without_timing"]
+           "planning", "without_timing", "write_parquet"]

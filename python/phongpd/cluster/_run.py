@@ -21,6 +21,7 @@ from distributed.comm.core import CommClosedError
 from .._arguments import whole_number
 from .._native import InputError
 from ._jobs import Batch, Job, batches, digest, indices
+from ._parquet import write_parquet
 from ._rows import RowStore
 from ._work import SweepError, keep, run_batch
 
@@ -54,6 +55,10 @@ class Sweep:
         with open(self.output, encoding="utf-8") as file:
             for line in file:
                 yield json.loads(line)
+
+    def write_parquet(self, path: str | os.PathLike[str]) -> int:
+        """The rows as columns, by cluster.write_parquet."""
+        return write_parquet(self.output, path)
 
 
 def run(jobs: Sequence[Job], subjects: Mapping[str, dict[str, Any]],
