@@ -39,6 +39,21 @@ is_placed() {
     packaging/vcpkg/phongpd/portfile.cmake
 }
 
+# What is under two licences that the FSF holds incompatible says in every form
+# that it is handed on in what is permitted.
+permits_ipopt() {
+  local told permission file
+  permission='grant you additional permission to'
+  for file in LICENSE-EXCEPTION packaging/debian/copyright; do
+    tr -s ' \n' ' ' <"$file" | grep -qF "$permission" || return 1
+  done
+  for told in README.md packaging/conda/recipe.yaml \
+    packaging/vcpkg/phongpd/portfile.cmake; do
+    grep -qF LICENSE-EXCEPTION "$told" || return 1
+  done
+  grep -qF "## What may be handed on" docs/install.md
+}
+
 case "$*" in
   --check | '--check quick') ;;
   *) echo "release: expected --check or --check quick, found '$*'" >&2; exit 2 ;;
@@ -52,6 +67,8 @@ item "there is no tag v$(version) yet" is_new
 item "nothing is uncommitted" is_clean
 item "the conda recipe parses" recipe_parses
 item "the recipes tell where the released source is" is_placed
+item "the permission to combine with Ipopt is in all that is shipped" \
+  permits_ipopt
 if [[ ${2:-} != quick ]]; then
   item "the tests pass (scripts/test.sh)" scripts/test.sh
   item "README's commands run (scripts/readme.sh)" scripts/readme.sh
@@ -63,10 +80,9 @@ if [[ ${2:-} != quick ]]; then
 fi
 cat <<'END'
 By hand, then:
-  - Licences of what the wheel carries: Ipopt 3.11 is under EPL-1.0, which the
-    FSF holds incompatible with the GPL that PhongPD and CGAL are under. Settle
-    that before a wheel is published; packages that only link to a distribution's
-    Ipopt leave the question to it.
+  - Publish the source distribution, and no wheel or Debian package: those hold or
+    load Ipopt beside CGAL's GPL packages (docs/install.md, "What may be handed
+    on").
   - Tag v<version>, upload, fill source and checksum into the recipes, and begin
     the next "Unreleased" part of CHANGELOG.md.
 END

@@ -68,6 +68,8 @@ add_licences() {
   local path name package inside licences
   inside=$(echo "$work"/unpacked/phongpd-*)
   licences=$(echo "$inside"/*.dist-info/licenses)
+  [[ -e $licences/LICENSE-EXCEPTION ]] ||
+    { say "expected LICENSE-EXCEPTION in the wheel, found none"; exit 1; }
   while read -r path; do
     name=$(basename "$(realpath "$path")")
     compgen -G "$inside/phongpd.libs/${name%%.*}-*" >/dev/null || continue

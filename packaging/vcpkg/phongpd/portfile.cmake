@@ -31,4 +31,5 @@ if("tools" IN_LIST FEATURES)
 endif()
 file(REMOVE_RECURSE "${CURRENT_PACKAGES_DIR}/debug/include"
      "${CURRENT_PACKAGES_DIR}/debug/share")
-vcpkg_install_copyright(FILE_LIST ${SOURCE_PATH}/LICENSE)
+vcpkg_install_copyright(FILE_LIST ${SOURCE_PATH}/LICENSE
+                                  ${SOURCE_PATH}/LICENSE-EXCEPTION)
