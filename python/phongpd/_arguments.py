@@ -14,7 +14,8 @@ from ._native import InputError
 Floats = NDArray[np.float64]
 
 
-def _numbers(value: ArrayLike, name: str, shape: str) -> Floats:
+def numbers(value: ArrayLike, name: str, shape: str) -> Floats:
+    """As they are; C-contiguous, of doubles."""
     try:
         array = np.asarray(value)
     except ValueError as error:  # rows of different lengths
@@ -29,7 +30,7 @@ def _numbers(value: ArrayLike, name: str, shape: str) -> Floats:
 
 def rows(value: ArrayLike, name: str, width: int) -> Floats:
     """An array of shape (N, width); a single row is one of (1, width)."""
-    array = _numbers(value, name, f"(N, {width})")
+    array = numbers(value, name, f"(N, {width})")
     if array.ndim == 1 and array.shape[0] == width:
         array = array[np.newaxis, :]
     if array.size == 0 and array.ndim <= 2:
@@ -46,20 +47,52 @@ def is_single(value: Any, width: int) -> bool:
 
 def point(value: ArrayLike, name: str) -> tuple[float, float, float]:
     """Three finite numbers."""
-    array = _numbers(value, name, "(3,)")
+    array = numbers(value, name, "(3,)")
     if array.shape != (3,) or not np.isfinite(array).all():
-        raise InputError(f"{name}: expected three finite numbers, found {value!r}")
+        raise InputError(f"{name}: expected three finite numbers, "
+                         f"found {_told(value)}")
     return float(array[0]), float(array[1]), float(array[2])
 
 
-def whole_number(value: Any, name: str, least: int) -> int:
+def real(value: Any, name: str) -> float:
+    """A number, finite or not."""
+    try:
+        return float(value)
+    except (TypeError, ValueError, OverflowError):
+        raise InputError(
+            f"{name}: expected a number, found {_told(value)}") from None
+
+
+def flag(value: Any, name: str) -> bool:
+    if isinstance(value, (bool, np.bool_)):
+        return bool(value)
+    raise InputError(f"{name}: expected True or False, found {_told(value)}")
+
+
+def text(value: Any, name: str) -> str:
+    if isinstance(value, str):
+        return value
+    raise InputError(f"{name}: expected a text, found {_told(value)}")
+
+
+def _told(value: Any) -> str:
+    """In one line that is no longer than one."""
+    said = " ".join(repr(value).split())
+    return said if len(said) <= 60 else said[:57] + "..."
+
+
+def whole_number(value: Any, name: str, least: int,
+                 most: int = 2 ** 31 - 1) -> int:
     if isinstance(value, bool) or not hasattr(value, "__index__"):
-        raise InputError(f"{name}: expected a whole number, found {value!r}")
+        raise InputError(f"{name}: expected a whole number, found {_told(value)}")
     number = value.__index__()
     if number < least:
         raise InputError(
             f"{name}: expected a whole number of at least {least}, "
             f"found {number}")
+    if number > most:
+        raise InputError(f"{name}: expected a whole number of at most {most}, "
+                         f"found {_told(number)}")
     return int(number)
 
 
@@ -67,9 +100,10 @@ def seconds(value: Any, name: str) -> float:
     """More than 0; None: no limit."""
     if value is None:
         return math.inf
-    number = float(value)
+    number = real(value, name)
     if not number > 0.0:
-        raise InputError(f"{name}: expected seconds, more than 0, found {value!r}")
+        raise InputError(f"{name}: expected seconds, more than 0, "
+                         f"found {_told(value)}")
     return number
 
 
@@ -79,7 +113,7 @@ def length(value: Any, name: str) -> str:
         return ""
     if isinstance(value, str):
         return value
-    number = float(value)
+    number = real(value, name)
     if not math.isfinite(number):
-        raise InputError(f"{name}: expected a finite length, found {value!r}")
+        raise InputError(f"{name}: expected a finite length, found {_told(value)}")
     return repr(number)

@@ -5,7 +5,7 @@ import os
 from typing import Any
 
 from . import _native
-from ._arguments import whole_number
+from ._arguments import flag, real, whole_number
 from ._mesh import MeshViews
 from ._native import ContactSpace as NativeSpace, InputError
 from ._piece import joined
@@ -44,9 +44,12 @@ class ContactSpace(MeshViews, Shown):
         """
         return cls(_native.ContactSpace.build(
             as_solid(robot, "robot")._native,
-            as_solid(obstacle, "obstacle")._native, robot_hull,
-            whole_number(target_faces, "target_faces", 0), float(wrap),
-            outer_shell_only, float(max_seconds), float(max_mib), cache))
+            as_solid(obstacle, "obstacle")._native,
+            flag(robot_hull, "robot_hull"),
+            whole_number(target_faces, "target_faces", 0), real(wrap, "wrap"),
+            flag(outer_shell_only, "outer_shell_only"),
+            real(max_seconds, "max_seconds"), real(max_mib, "max_mib"),
+            flag(cache, "cache")))
 
     @classmethod
     def take(cls, solid: Any) -> ContactSpace:
@@ -117,11 +120,12 @@ def minkowski(a: Any, b: Any, *, difference: bool = False,
     """The exact Minkowski sum a + b of two solids; with `difference` b + (-a),
     the contact space of a robot a and an obstacle b."""
     one, other = as_solid(a, "a"), as_solid(b, "b")
-    if difference:
+    if flag(difference, "difference"):
         return ContactSpace.build(one, other, max_seconds=max_seconds,
                                   max_mib=max_mib, cache=cache)
     return ContactSpace(_native.ContactSpace.sum(
-        one._native, other._native, float(max_seconds), float(max_mib), cache))
+        one._native, other._native, real(max_seconds, "max_seconds"),
+        real(max_mib, "max_mib"), flag(cache, "cache")))
 
 
 def native_space(space: ContactSpace) -> _native.ContactSpace:

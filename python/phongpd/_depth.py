@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _native
-from ._arguments import Floats, is_single, rows
+from ._arguments import Floats, is_single, point, real, rows
 from ._native import InputError
 from ._solid import Solid, as_solid
 from ._statuses import Answer, axes
@@ -114,7 +114,7 @@ class DepthQuery:
         self._solids = as_solid(robot, "robot"), as_solid(obstacle, "obstacle")
         self._native = _native.DepthQuery(
             self._solids[0]._native, self._solids[1]._native,
-            float(max_radius), float(max_seconds))
+            real(max_radius, "max_radius"), real(max_seconds, "max_seconds"))
 
     def __repr__(self) -> str:
         return f"<DepthQuery: {self._solids[0]!r} in {self._solids[1]!r}>"
@@ -132,8 +132,8 @@ class DepthQuery:
         for all; None: the robot as it was given.  Other orientations than the
         last cost a new preparation of the robot.
         """
-        is_one = is_single(positions, 3)
         places = rows(positions, "positions", 3)
+        is_one = is_single(positions, 3)
         turns = None
         if orientations is not None:
             turns = rows(orientations, "orientations", 4)
@@ -157,8 +157,10 @@ def depth(robot: Any, obstacle: Any, at: ArrayLike = (0.0, 0.0, 0.0),
     """Exact depth of two solids (Solid, file or mesh with vertices and faces)
     as they lie, or with the robot turned by a quaternion (w, x, y, z) and
     moved."""
-    answer = DepthQuery(robot, obstacle).at(rows(at, "at", 3), orientation)
-    return answer[0]  # type: ignore[index]
+    query, turn = DepthQuery(robot, obstacle), rows(orientation, "orientation", 4)
+    if len(turn) != 1:
+        raise InputError(f"orientation: expected one, found {len(turn)}")
+    return query.at(point(at, "at"), turn)  # type: ignore[return-value]
 
 
 def _row(columns: dict[str, Any], i: int,

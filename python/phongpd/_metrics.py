@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _native
-from ._arguments import Floats, rows
+from ._arguments import Floats, flag, real, rows
 from ._contact import ContactSpace, native_space
 from ._native import InputError
 from ._statuses import Statuses, axes, columns_of
@@ -153,7 +153,7 @@ class _Metric:
         cores.  Points that are not finite have status invalid.
         """
         array = rows(points, "points", 3)
-        columns = self._native.query(array, tracked)
+        columns = self._native.query(array, flag(tracked, "tracked"))
         columns["inside"] = columns["inside"].view(np.bool_)
         return QueryResult(points=array, **columns)
 
@@ -178,7 +178,8 @@ class PhongMetric(_Metric):
             raise InputError(
                 f"field: expected 'normal' or 'tangent-plane', found {field!r}")
         self._native = _native.Metric.phong(
-            native_space(space), float(smoothing_length), field == "tangent-plane")
+            native_space(space), real(smoothing_length, "smoothing_length"),
+            field == "tangent-plane")
 
 
 class EuclideanMetric(_Metric):

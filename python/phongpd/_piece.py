@@ -5,7 +5,7 @@ import os
 from typing import Any
 
 from . import _native
-from ._arguments import whole_number
+from ._arguments import flag, real, whole_number
 from ._native import ContactSpacePiece as NativePiece, InputError
 from ._solid import as_solid
 
@@ -45,9 +45,11 @@ class ContactSpacePiece:
                              f"found {number}")
         return cls(NativePiece.build(
             as_solid(robot, "robot")._native,
-            as_solid(obstacle, "obstacle")._native, number, parts, robot_hull,
-            whole_number(target_faces, "target_faces", 0), float(wrap),
-            outer_shell_only, float(max_seconds), float(max_mib)))
+            as_solid(obstacle, "obstacle")._native, number, parts,
+            flag(robot_hull, "robot_hull"),
+            whole_number(target_faces, "target_faces", 0), real(wrap, "wrap"),
+            flag(outer_shell_only, "outer_shell_only"),
+            real(max_seconds, "max_seconds"), real(max_mib, "max_mib")))
 
     @classmethod
     def read(cls, path: str | os.PathLike[str]) -> ContactSpacePiece:

@@ -5,9 +5,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _native
-from ._arguments import Floats, point, rows, whole_number
+from ._arguments import Floats, numbers, point, text, whole_number
 from ._native import InputError
-from ._world import World
+from ._world import World, native_world
 
 
 class NonPenetrationRows:
@@ -36,7 +36,7 @@ class NonPenetrationRows:
                  waypoints: int = 40, samples_per_segment: int = 4,
                  metric: str = "phong@0.2", rows_per_sample: int = 1) -> None:
         self._native = _native.Rows(
-            world._native, metric, point(start, "start"), point(goal, "goal"),
+            native_world(world), text(metric, "metric"), point(start, "start"), point(goal, "goal"),
             whole_number(waypoints, "waypoints", 1),
             whole_number(samples_per_segment, "samples_per_segment", 0),
             whole_number(rows_per_sample, "rows_per_sample", 1))
@@ -75,10 +75,11 @@ class NonPenetrationRows:
         return dense
 
     def _waypoints(self, u: ArrayLike) -> Floats:
-        if np.size(u) != self.shape[1]:
+        array = numbers(u, "waypoints", f"({self.shape[1]},)")
+        if array.size != self.shape[1]:
             raise InputError(f"waypoints: expected {self.shape[1]} numbers, "
-                             f"found {np.size(u)}")
-        return rows(np.reshape(u, (-1, 3)), "waypoints", 3)
+                             f"found {array.size}")
+        return array.reshape(-1, 3)
 
     def _evaluate(self, u: ArrayLike) -> tuple[Floats, Floats]:
         # Solvers ask for value and derivative at the same u.

@@ -29,7 +29,11 @@ class Solid(MeshViews, Shown):
     def __init__(self, vertices: ArrayLike, triangles: ArrayLike,
                  name: str = "solid") -> None:
         """vertices: (N, 3), any unit; triangles: (M, 3), whole numbers."""
-        corners = np.asarray(triangles)
+        try:
+            corners = np.asarray(triangles)
+        except ValueError as error:  # rows of different lengths
+            raise InputError(f"{name}: triangles: expected whole numbers of "
+                             f"shape (M, 3), found {error}") from None
         if corners.dtype.kind not in "iu" or corners.ndim != 2 \
                 or corners.shape[1] != 3:
             raise InputError(

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _native
-from ._arguments import Floats, rows
+from ._arguments import Floats, real, rows
 from ._contact import ContactSpace, native_space
 from ._native import InputError
 from ._statuses import Statuses, columns_of
@@ -67,7 +67,7 @@ class PenetrationTracker:
     def __init__(self, space: ContactSpace, ratio: float = 3.0,
                  speed: float = 10.0) -> None:
         self._native = _native.PenetrationTracker(
-            native_space(space), float(ratio), float(speed))
+            native_space(space), real(ratio, "ratio"), real(speed, "speed"))
         self._state = _native.TrackerState()
         self._turn = threading.Lock()
 

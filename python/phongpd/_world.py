@@ -11,12 +11,14 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _native
 from ._answers import Diagnosis, Plan, Trajectory
-from ._arguments import Floats, length, point, rows, seconds, whole_number
+from ._arguments import Floats, flag, length, point, real, rows, seconds, \
+    text, whole_number
 from ._contact import ContactSpace
 from ._native import InputError
 from ._solid import Solid, as_solid
 from ._view import Canvas, Shown
 
+_MOST_SEED = 2 ** 64 - 1
 _Point = Tuple[float, float, float]
 
 
@@ -47,12 +49,13 @@ class World(Shown):
                     f"bounds: expected shape (2, 3), found {corners.shape}")
             box = (point(corners[0], "bounds"), point(corners[1], "bounds"))
         self._open(_native.Scene.make(as_solid(robot, "robot")._native, named,
-                                      box, name), cache, max_mib)
+                                      box, text(name, "name")), cache, max_mib)
 
         self._has_ends = False
 
     def _open(self, scene: Any, cache: bool, max_mib: float) -> None:
-        self._native = _native.World(scene, cache, float(max_mib))
+        self._native = _native.World(scene, flag(cache, "cache"),
+                                     real(max_mib, "max_mib"))
 
     @classmethod
     def load(cls, scene: str | os.PathLike[str], *, seed: int | None = None,
@@ -61,7 +64,10 @@ class World(Shown):
         them: "u_axis", "plate:thickness=0.02"; seed: of a family; the rest as
         above."""
         world = cls.__new__(cls)
-        world._open(_native.Scene.load(os.fspath(scene), seed), cache, max_mib)
+        if seed is not None:
+            seed = whole_number(seed, "seed", 0, _MOST_SEED)
+        world._open(_native.Scene.load(_scene_name(scene), seed), cache,
+                    max_mib)
         world._has_ends = True
         return world
 
@@ -143,10 +149,11 @@ class World(Shown):
         or "tight" (phongpd optimize --help); "": the scene's.
         """
         row = json.loads(self._native.optimize(
-            *self._ends(start, goal), metric, length(margin, "margin"),
+            *self._ends(start, goal), text(metric, "metric"), length(margin, "margin"),
             whole_number(waypoints, "waypoints", 0),
-            whole_number(seed, "seed", 0), seconds(max_seconds, "max_seconds"),
-            straight, preset))
+            whole_number(seed, "seed", 0, _MOST_SEED),
+            seconds(max_seconds, "max_seconds"), flag(straight, "straight"),
+            text(preset, "preset")))
         return Trajectory(
             status=row["status_class"], reason=row["reason"],
             free=row["collision_free"], path=_path(row),
@@ -169,9 +176,9 @@ class World(Shown):
         """
         ends = self._ends(start, goal)
         row = json.loads(self._native.plan(
-            *ends, planner, retraction,
+            *ends, text(planner, "planner"), text(retraction, "retraction"),
             length(clearance, "clearance"), seconds(max_seconds, "max_seconds"),
-            whole_number(seed, "seed", 0), preset))
+            whole_number(seed, "seed", 0, _MOST_SEED), text(preset, "preset")))
         return Plan(
             status=row["status"], reason=row["reason"], solved=row["solved"],
             infeasible=row["infeasible_proved"], path=_path(row),
@@ -186,8 +193,15 @@ class World(Shown):
 
     def _ends(self, start: ArrayLike | None,
               goal: ArrayLike | None) -> tuple[_Point, _Point]:
-        return (point(self.start if start is None else start, "start"),
-                point(self.goal if goal is None else goal, "goal"))
+        return (self._end(start, "start", self.start),
+                self._end(goal, "goal", self.goal))
+
+    def _end(self, given: ArrayLike | None, name: str,
+             of_scene: Floats) -> _Point:
+        if given is None and not self._has_ends:
+            raise InputError(f"{name}: expected three finite numbers, found "
+                             "None, and the world was not loaded with one")
+        return point(of_scene if given is None else given, name)
 
     def _draw(self, canvas: Canvas, name: str | None) -> None:
         if not canvas.is_new(self):
@@ -212,7 +226,7 @@ class Roadmap:
     proofs.  Thread-safe."""
 
     def __init__(self, world: World) -> None:
-        self._native = _native.Roadmap(world._native)
+        self._native = _native.Roadmap(native_world(world))
         self._world = world
 
     @property
@@ -236,6 +250,19 @@ class Roadmap:
 
     def __repr__(self) -> str:
         return f"<Roadmap: {self.nodes} nodes, {self.edges} edges>"
+
+
+def native_world(world: World) -> _native.World:
+    if isinstance(world, World):
+        return world._native
+    raise InputError(f"world: expected a World, found {type(world).__name__}")
+
+
+def _scene_name(scene: Any) -> str:
+    if isinstance(scene, (str, os.PathLike)):
+        return os.fspath(scene)
+    raise InputError("scene: expected a file or a family, found "
+                     f"{type(scene).__name__}")
 
 
 def _path(row: dict[str, Any]) -> Floats:

@@ -24,9 +24,9 @@ class Rows {
     options.phong.field_options.smoothing_length =
         workshop.world().Resolve(chosen.smoothing_length).share;
     std::vector<std::shared_ptr<const SignedMetric>> metrics;
+    const std::vector<ContactSpace>& spaces = workshop.Spaces().spaces;
     const Computing computing;
-    for (const ContactSpace& space :
-         workshop.world().Spaces(SpaceLayout::kMerged).spaces) {
+    for (const ContactSpace& space : spaces) {
       metrics.push_back(std::make_shared<SignedMetric>(space, options));
     }
     NonPenetrationOptions layout;

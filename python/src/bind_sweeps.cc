@@ -15,6 +15,7 @@
 #include "problems/studies/comparison_run.h"
 #include "problems/studies/planner_names.h"
 #include "python/src/bindings.h"
+#include "python/src/interruptible.h"
 #include "python/src/workshop.h"
 
 namespace phongpd::python {
@@ -30,15 +31,16 @@ class Comparison {
 
   std::string Row(std::uint64_t seed, const std::string& protocol,
                   const std::string& metric) {
-    const nb::gil_scoped_release release;
-    const std::lock_guard<std::mutex> lock(one_at_a_time_);
-    Enter(seed);
-    nlohmann::ordered_json row = RunComparison(
-        {seed, FindProtocol(protocol), ParseTrajectoryMetric(metric, "metrics"),
-         source_.is_family()},
-        &study_);
-    row.erase("path");
-    return JsonText(row);
+    return Interruptible([&] {
+      const std::lock_guard<std::mutex> lock(one_at_a_time_);
+      Enter(seed);
+      nlohmann::ordered_json row = RunComparison(
+          {seed, FindProtocol(protocol),
+           ParseTrajectoryMetric(metric, "metrics"), source_.is_family()},
+          &study_);
+      row.erase("path");
+      return JsonText(row);
+    });
   }
 
  private:
@@ -81,10 +83,11 @@ void CheckPlanner(const std::string& planner, const std::string& retraction,
 
 void BindSweeps(nb::module_& module) {
   nb::class_<Comparison>(module, "Comparison")
-      .def(nb::init<const std::string&, double, bool>())
+      .def(nb::init<const std::string&, double, bool>(),
+           nb::call_guard<Computing>())
       .def("row", &Comparison::Row);
   module.def("scene_digest", [](const std::string& scene) {
-    const nb::gil_scoped_release release;
+    const Computing computing;
     return SceneSource(scene).Digest();
   });
   module.def("check_method",

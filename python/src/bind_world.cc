@@ -14,7 +14,7 @@
 #include "problems/scenes/scene_source.h"
 #include "python/src/arrays.h"
 #include "python/src/bindings.h"
-#include "python/src/computing.h"
+#include "python/src/interruptible.h"
 #include "python/src/workshop.h"
 
 namespace phongpd::python {
@@ -69,10 +69,9 @@ nb::dict DiagnosisOf(const Workshop& workshop, const Point& q) {
 
 nb::object AreFree(const Workshop& workshop, const Rows3& a, const Rows3& b) {
   std::vector<unsigned char> free(a.shape(0));
+  const FreeSpace& space = *workshop.Spaces().free_space;
   {
     const Computing computing;
-    const FreeSpace& space =
-        *workshop.world().Spaces(SpaceLayout::kMerged).free_space;
     for (size_t i = 0; i < free.size(); ++i) {
       free[i] = space.IsFree(Row(a, i), Row(b, i));
     }
@@ -83,10 +82,9 @@ nb::object AreFree(const Workshop& workshop, const Rows3& a, const Rows3& b) {
 
 nb::object Clearances(const Workshop& workshop, const Rows3& points) {
   std::vector<double> clearance(points.shape(0));
+  const FreeSpace& space = *workshop.Spaces().free_space;
   {
     const Computing computing;
-    const FreeSpace& space =
-        *workshop.world().Spaces(SpaceLayout::kMerged).free_space;
     for (size_t i = 0; i < clearance.size(); ++i) {
       clearance[i] = space.Clearance(Row(points, i));
     }
@@ -154,15 +152,13 @@ void BindWorld(nb::module_& module) {
       .def_prop_ro("scene", &Workshop::scene)
       .def_prop_ro("length",
                    [](const Workshop& w) { return w.world().diagonal(); })
-      .def("contact_spaces", [](const Workshop& w) {
-        const Computing computing;
-        return w.world().Spaces(SpaceLayout::kMerged).spaces;
-      });
+      .def("contact_spaces",
+           [](const Workshop& w) { return w.Spaces().spaces; });
   nb::class_<ContactRoadmap>(module, "Roadmap")
       .def("__init__",
            [](ContactRoadmap* self, const Workshop& workshop) {
-             const Computing computing;
-             new (self) ContactRoadmap(workshop.world().Sealed());
+             new (self) ContactRoadmap(Interruptible(
+                 [&] { return ContactRoadmap(workshop.world().Sealed()); }));
            })
       .def("plan", &PlanOf)
       .def_prop_ro("nodes",

@@ -11,7 +11,8 @@
 namespace phongpd::python {
 
 // work() on another thread, so that Ctrl-C reaches Python meanwhile: it stops
-// the build and comes up as KeyboardInterrupt.
+// the build of a contact space in it, waits for all else, and comes up as
+// KeyboardInterrupt.  Called with Python's lock; work() runs without it.
 template <typename Work>
 auto Interruptible(const Work& work) {
   const InProgress mark;

@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "problems/studies/planning_study.h"
-#include "python/src/computing.h"
+#include "python/src/interruptible.h"
 
 namespace phongpd::python {
 
@@ -22,35 +22,47 @@ Workshop::Workshop(const Scene& scene, bool cache, double max_mib)
       world_(scene.workspace, scene.name, cache_, {0.0, max_mib}),
       trajectories_(cache_) {}
 
+const WorldSpaces& Workshop::Spaces() const {
+  if (!is_built_) {
+    Interruptible([&] {
+      world_.Spaces(SpaceLayout::kMerged);
+      return true;
+    });
+    is_built_ = true;
+  }
+  return world_.Spaces(SpaceLayout::kMerged);
+}
+
 std::string Workshop::Optimize(const Point& start, const Point& goal,
                                const std::string& metric,
                                const std::string& margin, int waypoints,
                                std::uint64_t seed, double max_seconds,
                                bool is_straight, const std::string& preset) {
-  const Computing computing;
-  const std::lock_guard<std::mutex> lock(one_at_a_time_);
-  Scene scene = Between(start, goal);
-  if (!margin.empty()) {
-    scene.trajectory.margin = ParseLength(margin, "margin");
-    RequireLength(scene.trajectory.margin, LengthRange::kAboveZero,
-                  world_.diagonal(), "margin");
-  }
-  if (waypoints > 0) scene.trajectory.waypoints = waypoints;
-  if (!preset.empty()) scene.preset = ParsePreset(preset, "preset");
-  // Whoever names a metric is told that it cannot be followed.
-  if (scene.trajectory.model == "auto") scene.trajectory.model = "full";
-  PipelineOptions options = ScenePipelineOptions(scene);
-  options.seed = seed;
-  options.time_limit = max_seconds;
-  if (is_straight) options.start = TrajectoryStart::kStraight;
-  trajectories_.Enter(scene, world_);
-  const TrajectoryMetric chosen = metric.empty()
-                                      ? SceneMetric(scene)
-                                      : ParseTrajectoryMetric(metric, "metric");
-  const PipelineResult result = trajectories_.Run(chosen, options);
-  nlohmann::ordered_json row =
-      TrajectoryRow(trajectories_, chosen, options, result);
-  return Judged(scene, ClaimsOf(result), &row);
+  return Interruptible([&] {
+    const std::lock_guard<std::mutex> lock(one_at_a_time_);
+    Scene scene = Between(start, goal);
+    if (!margin.empty()) {
+      scene.trajectory.margin = ParseLength(margin, "margin");
+      RequireLength(scene.trajectory.margin, LengthRange::kAboveZero,
+                    world_.diagonal(), "margin");
+    }
+    if (waypoints > 0) scene.trajectory.waypoints = waypoints;
+    if (!preset.empty()) scene.preset = ParsePreset(preset, "preset");
+    // Whoever names a metric is told that it cannot be followed.
+    if (scene.trajectory.model == "auto") scene.trajectory.model = "full";
+    PipelineOptions options = ScenePipelineOptions(scene);
+    options.seed = seed;
+    options.time_limit = max_seconds;
+    if (is_straight) options.start = TrajectoryStart::kStraight;
+    trajectories_.Enter(scene, world_);
+    const TrajectoryMetric chosen =
+        metric.empty() ? SceneMetric(scene)
+                       : ParseTrajectoryMetric(metric, "metric");
+    const PipelineResult result = trajectories_.Run(chosen, options);
+    nlohmann::ordered_json row =
+        TrajectoryRow(trajectories_, chosen, options, result);
+    return Judged(scene, ClaimsOf(result), &row);
+  });
 }
 
 std::string Workshop::Plan(const Point& start, const Point& goal,
@@ -58,31 +70,32 @@ std::string Workshop::Plan(const Point& start, const Point& goal,
                            const std::string& retraction,
                            const std::string& clearance, double max_seconds,
                            std::uint64_t seed, const std::string& preset) {
-  const Computing computing;
-  const std::lock_guard<std::mutex> lock(one_at_a_time_);
-  Scene scene = Between(start, goal);
-  if (!clearance.empty()) {
-    RequireSeeksClearance(planner, "clearance");
-    scene.planning.clearance = ParseLength(clearance, "clearance");
-    RequireLength(*scene.planning.clearance, LengthRange::kAboveZero,
-                  world_.diagonal(), "clearance");
-  }
-  if (!preset.empty()) {
-    if (planner != kContactSurface) {
-      throw InputError(std::string("preset: expected with planner ") +
-                       kContactSurface + ", found with " + planner);
+  return Interruptible([&] {
+    const std::lock_guard<std::mutex> lock(one_at_a_time_);
+    Scene scene = Between(start, goal);
+    if (!clearance.empty()) {
+      RequireSeeksClearance(planner, "clearance");
+      scene.planning.clearance = ParseLength(clearance, "clearance");
+      RequireLength(*scene.planning.clearance, LengthRange::kAboveZero,
+                    world_.diagonal(), "clearance");
     }
-    scene.preset = ParsePreset(preset, "preset");
-  }
-  PlanningStudy study(scene, world_);
-  PlanningRun run;
-  run.planner = planner;
-  run.retraction = retraction;
-  run.time_limit = max_seconds;
-  run.seed = seed;
-  const PlanningResult result = study.Run(run);
-  nlohmann::ordered_json row = PlanningRow(study, run, result);
-  return Judged(scene, ClaimsOf(result), &row);
+    if (!preset.empty()) {
+      if (planner != kContactSurface) {
+        throw InputError(std::string("preset: expected with planner ") +
+                         kContactSurface + ", found with " + planner);
+      }
+      scene.preset = ParsePreset(preset, "preset");
+    }
+    PlanningStudy study(scene, world_);
+    PlanningRun run;
+    run.planner = planner;
+    run.retraction = retraction;
+    run.time_limit = max_seconds;
+    run.seed = seed;
+    const PlanningResult result = study.Run(run);
+    nlohmann::ordered_json row = PlanningRow(study, run, result);
+    return Judged(scene, ClaimsOf(result), &row);
+  });
 }
 
 Scene Workshop::Between(const Point& start, const Point& goal) const {

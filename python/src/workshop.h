@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <atomic>
 #include <cstdint>
 #include <mutex>
 #include <nlohmann/json_fwd.hpp>
@@ -31,9 +32,12 @@ class Workshop {
 
   const World& world() const { return world_; }
   const Scene& scene() const { return scene_; }
+  // All obstacles' contact spaces, built when first asked for: Ctrl-C stops
+  // that.  Called with Python's lock.
+  const WorldSpaces& Spaces() const;
 
   // A row as `phongpd optimize` writes it, judged.  Empty texts and 0: the
-  // scene's own.
+  // scene's own.  Ctrl-C stops what is built for it, as in Plan.
   std::string Optimize(const Point& start, const Point& goal,
                        const std::string& metric, const std::string& margin,
                        int waypoints, std::uint64_t seed, double max_seconds,
@@ -55,6 +59,7 @@ class Workshop {
   World world_;
   TrajectoryStudy trajectories_;
   std::mutex one_at_a_time_;
+  mutable std::atomic<bool> is_built_{false};  // Spaces()
 };
 
 }  // namespace phongpd::python

@@ -2,6 +2,7 @@
 # What programs do to objects: many threads, forks, objects that go while they
 # work.  Truth: the same question asked alone.
 import gc
+import json
 import os
 import signal
 import threading
@@ -12,6 +13,7 @@ import numpy as np
 import phongpd
 import pytest
 from conftest import box_arrays, make_box
+from phongpd import _native
 
 START, GOAL = (-1, 0.1, 0), (3, 0, 0.1)
 POINTS = np.random.default_rng(11).uniform(-1, 2, (5000, 3))
@@ -122,6 +124,74 @@ def test_threads_may_share_rows_and_depth_queries(world, robot, obstacle):
     assert in_threads(
         lambda i: [query.at((0, 0, 0), turns[i]).depth for _ in range(20)]
     ) == [[depth] * 20 for depth in alone]
+
+
+def comparison_row(study, seed):
+    row = json.loads(study.row(seed, "straight-adaptive", "phong@0.2"))
+    return [row[name] for name in ("seed", "status", "iterations", "objective",
+                                   "collision_free")]
+
+
+def test_threads_may_share_a_comparison():
+    alone = [comparison_row(_native.Comparison("u_axis", 0.0, False), seed)
+             for seed in (1, 2, 3)]
+    shared = _native.Comparison("u_axis", 0.0, False)
+    found = in_threads(lambda i: [comparison_row(shared, seed)
+                                  for seed in np.roll((1, 2, 3), i).tolist()])
+    assert found == [np.roll(np.array(alone, dtype=object), i, axis=0).tolist()
+                     for i in range(4)]
+
+
+def test_a_comparison_may_go_while_it_works():
+    truth = comparison_row(_native.Comparison("u_axis", 0.0, False), 1)
+    found = in_threads(lambda i: comparison_row(
+        _native.Comparison("u_axis", 0.0, False), 1))
+    gc.collect()
+    assert found == [truth] * 4
+
+
+def test_other_threads_run_while_a_row_is_made():
+    study = _native.Comparison("plate:thickness=0.02", 0.0, False)
+    ticks, is_over = [], threading.Event()
+
+    def tick():
+        while not is_over.is_set():
+            ticks.append(time.monotonic())
+            time.sleep(0.001)
+
+    thread = threading.Thread(target=tick)
+    thread.start()
+    study.row(1, "straight-adaptive", "euclidean")
+    is_over.set()
+    thread.join()
+    # A row of a tenth of a second at the least; with the lock held: one tick.
+    assert len(ticks) > 5
+
+
+@pytest.mark.filterwarnings("ignore::DeprecationWarning")
+def test_a_fork_amid_a_row_is_refused_in_one_line():
+    study = _native.Comparison("u_axis", 0.0, False)
+    is_over = threading.Event()
+
+    def work():
+        seed = 1
+        while not is_over.is_set():
+            study.row(seed, "straight-adaptive", "euclidean")
+            seed += 1
+
+    thread = threading.Thread(target=work)
+    thread.start()
+    time.sleep(0.05)
+    other = _native.Comparison("u_axis", 0.0, False)
+    # Between two rows the fork is as good as any other.
+    said = {child(lambda: comparison_row(other, 1)[0]) for _ in range(5)}
+    is_over.set()
+    thread.join()
+    refused = said - {"1"}
+    assert len(refused) == 1
+    assert refused.pop().startswith(
+        "InputError: phongpd: this process was forked while")
+    assert child(lambda: comparison_row(other, 1)[0]) == "1"
 
 
 def test_a_tracker_is_for_one_thread(space):

@@ -2,11 +2,6 @@
 # Truth: boxes in closed form, the exact planner against itself, differences of
 # values, a solver of SciPy's.
 import json
-import os
-import signal
-import subprocess
-import sys
-import time
 
 import numpy as np
 import phongpd
@@ -154,34 +149,3 @@ def test_bad_input_is_said_in_one_line(world, call):
     with pytest.raises(phongpd.InputError) as error:
         call(world)
     assert "\n" not in str(error.value)
-
-
-def test_ctrl_c_stops_a_build():
-    # Minutes of work: a sphere of 20,000 triangles full of dents in itself.
-    program = """
-import numpy as np, phongpd
-n, m = 100, 100
-t, p = np.meshgrid(np.linspace(0, 2 * np.pi, n, endpoint=False),
-                   np.linspace(0, 2 * np.pi, m, endpoint=False), indexing="ij")
-r = 1 + 0.3 * np.cos(p) * (1 + 0.5 * np.sin(9 * t))
-v = np.stack([r * np.cos(t), r * np.sin(t), 0.3 * np.sin(p)], -1).reshape(-1, 3)
-i, j = np.meshgrid(np.arange(n), np.arange(m), indexing="ij")
-a, b = i * m + j, (i + 1) % n * m + j
-c, d = (i + 1) % n * m + (j + 1) % m, i * m + (j + 1) % m
-f = np.vstack([np.stack([x.ravel() for x in k], -1)
-               for k in ((a, b, c), (a, c, d))])
-knot = phongpd.Solid(v, f)
-print("begin", flush=True)
-try:
-    phongpd.ContactSpace.build(knot, knot)
-except KeyboardInterrupt:
-    print("stopped", flush=True)
-"""
-    process = subprocess.Popen([sys.executable, "-c", program],
-                               stdout=subprocess.PIPE, text=True)
-    assert process.stdout.readline() == "begin\n"
-    time.sleep(1)
-    os.kill(process.pid, signal.SIGINT)
-    out, _ = process.communicate(timeout=120)
-    assert out == "stopped\n"
-    assert process.returncode == 0
