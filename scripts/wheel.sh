@@ -102,11 +102,12 @@ repair() {
 # In a fresh environment of this machine's Python, from the source distribution's
 # neighbours: our tests.
 test_here() {
-  local tests='pytest>=7 scipy>=1.8'
+  local tests='pytest>=7 scipy>=1.8 pandas>=1.5' wheel
   rm -rf "$work/venv"
   /usr/bin/python3 -m venv "$work/venv"
+  wheel=$(echo "$out"/phongpd-*.whl)
   "$work/venv/bin/pip" install --quiet --disable-pip-version-check \
-    "$out"/phongpd-*.whl $tests
+    "$wheel[cluster,parquet]" $tests
   (cd "$work" && PHONGPD_CACHE_DIR=$work/cache venv/bin/python -m pytest \
     -q -p no:cacheprovider ../../../tests/python)
 }

@@ -1,4 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
+import os
+
 import numpy as np
 import phongpd
 import pytest
@@ -32,6 +34,15 @@ def make_torus(major, minor, around, across, name="torus"):
     triangles = np.vstack([np.stack([a, b, b + right], axis=1),
                            np.stack([a, b + right, a + right], axis=1)])
     return phongpd.Solid(vertices, triangles, name)
+
+
+@pytest.fixture
+def program():
+    """The command line; a wheel has none."""
+    path = os.environ.get("PHONGPD_PROGRAM")
+    if not path:
+        pytest.skip("PHONGPD_PROGRAM names no program to compare with")
+    return path
 
 
 @pytest.fixture

@@ -3,7 +3,6 @@
 # mid-run.  Truth: the rows of the same jobs, one after the other in this
 # process, and of the command line.
 import json
-import os
 import subprocess
 import sys
 import threading
@@ -83,9 +82,9 @@ def test_batches_and_one_worker_of_threads_give_the_same(truth, tmp_path):
     assert timeless(done.output) == truth
 
 
-def test_rows_are_those_of_the_command_line(truth, tmp_path):
+def test_rows_are_those_of_the_command_line(truth, program, tmp_path):
     subprocess.run(
-        [os.environ["PHONGPD_PROGRAM"], "compare", "u_axis", "--metrics",
+        [program, "compare", "u_axis", "--metrics",
          *METRICS, "--protocols", "straight-adaptive", "--runs",
          str(len(SEEDS)), "--shard", "0/2", "--output", tmp_path],
         check=True, capture_output=True)

@@ -70,8 +70,8 @@ def test_options_are_those_of_a_build(pair):
                         ContactSpace.build(*pair, **options))
 
 
-def test_files_are_read_by_the_program_and_written_by_it(pair, whole, tmp_path):
-    program = os.environ["PHONGPD_PROGRAM"]
+def test_files_are_read_by_the_program_and_written_by_it(pair, whole, program,
+                                                         tmp_path):
     for solid in pair:
         solid.write(tmp_path / f"{solid.name}.off")
     files = [tmp_path / f"{i}.piece" for i in range(2)]
