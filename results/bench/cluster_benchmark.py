@@ -15,19 +15,20 @@ import tempfile
 import time
 from pathlib import Path
 
+import cluster_depth
 import psutil
 from cluster_report import TASKS_PER_WORKER, write_report
 from cluster_simulation import Costs, simulate
 from distributed import Client
 from distributed.deploy.subprocess import SubprocessCluster
 from python_report import read_csv
-from phongpd import cluster
 from phongpd.cluster import _run
 from phongpd.cluster._jobs import Job
 
 SEED = 1
 BUSY = "4 x 8"  # processes x threads that costs are taken from
-PAIRS, SEEDS = 5, range(1, 4)
+PARTS = ["overhead", "speed_up", "row_times", "check"]
+SEEDS = range(1, 4)  # of the rows that the simulation takes the times of
 SIMULATED = [(n, 1) for n in (1, 2, 10, 50, 100, 200, 500, 1000)] + [
     (n, 10) for n in (200, 1000)]
 
@@ -75,29 +76,16 @@ def measure_overhead(processes, threads, plan):
             spent = [sum(map(processor_seconds, side)) - b
                      for side, b in zip(sides, before)]
             rows.append((f"{processes} x {threads}", batch, 1e3 * pause, tasks,
-                         *(1e3 * s / tasks for s in (wall, *spent))))
+                         *(1e3 * s / tasks for s in (wall, *spent)),
+                         os.getloadavg()[0]))
     return rows
 
 
-def measure_speed_up(folder):
-    """The same rows on one worker and on two, in turn."""
-    walls = []
-    with workers_of_their_own(1) as one, workers_of_their_own(2) as two:
-        for pair in range(-1, PAIRS):  # the first one builds what is kept
-            took = []
-            for client in (one, two)[::1 if pair % 2 else -1]:
-                output = folder / f"rows-{pair}-{len(took)}.jsonl"
-                begin = time.perf_counter()
-                done = cluster.convergence(
-                    ["u_axis", "plate:thickness=0.02", "l"], seeds=SEEDS,
-                    metrics=["euclidean", "phong@0.2"], output=output,
-                    client=client)
-                took.append(time.perf_counter() - begin)
-            if pair >= 0:
-                ones, twos = took if pair % 2 else took[::-1]
-                walls.append((pair, done.rows, ones, twos, ones / twos,
-                              os.getloadavg()[0]))
-    return walls
+def measure_speed_up(costs):
+    """A hundred thousand rows on one worker and on two, in turn."""
+    with tempfile.TemporaryDirectory() as folder, \
+            workers_of_their_own(1) as one, workers_of_their_own(2) as two:
+        return cluster_depth.measure(one, two, SEED, Path(folder), costs)
 
 
 def row_times():
@@ -149,25 +137,31 @@ def simulate_all(times, costs):
         costs)) for workers, batch in SIMULATED]
 
 
-def measure():
-    """Overhead, speed-up, times of rows, and the check of the simulation."""
+def measure_all_overhead():
     overhead = measure_overhead(1, 1, [
         *[(1, 500, 0.0)] * 3, *[(1, 200, 0.02)] * 3, (100, 50, 0.0)])
-    overhead += measure_overhead(4, 8, [(1, 3000, 0.0)] * 3)
-    print("overhead measured", flush=True)
-    with tempfile.TemporaryDirectory() as folder:
-        speed_up = measure_speed_up(Path(folder))
-    print("speed-up measured", flush=True)
-    times = row_times()
-    return overhead, speed_up, times, check_simulation(times, costs_of(overhead))
+    return overhead + measure_overhead(4, 8, [(1, 3000, 0.0)] * 3)
 
 
-def measured(folder):
-    """The same from the tables that an earlier run has left."""
-    tables = [read_csv(folder / f"{name}.csv")
-              for name in ("overhead", "speed_up", "row_times", "check")]
-    tables[2] = [row[0] for row in tables[2]]
-    return tables
+def tables(folder, parts):
+    """Overhead, speed-up, times of rows, and the check of the simulation:
+    measured, or as an earlier run has left them."""
+    found = {}
+
+    def find(name, measure):
+        if name in parts:
+            found[name] = measure()
+            print(f"{name} measured", flush=True)
+        else:
+            found[name] = read_csv(folder / f"{name}.csv")
+        return found[name]
+
+    costs = costs_of(find("overhead", measure_all_overhead))
+    find("speed_up", lambda: measure_speed_up(costs))
+    find("row_times", lambda: [[seconds] for seconds in row_times()])
+    times = found["row_times"] = [row[0] for row in found["row_times"]]
+    find("check", lambda: check_simulation(times, costs))
+    return found
 
 
 def main():
@@ -176,17 +170,17 @@ def main():
                         help="folder for README.md and the tables")
     parser.add_argument("--how", default="results/bench/cluster_benchmark.py",
                         help="the command that README.md names")
-    parser.add_argument("--simulate-only", action="store_true",
-                        help="measure nothing: take the tables in the folder, "
-                        "but for the simulated ones")
+    parser.add_argument("--measure", nargs="*", default=PARTS, choices=PARTS,
+                        help="what to measure; the others are the tables in the "
+                        "folder, but for what is simulated with them")
     arguments = parser.parse_args()
     logging.disable(logging.WARNING)
-    overhead, speed_up, times, checks = (
-        measured(arguments.output) if arguments.simulate_only else measure())
+    found = tables(arguments.output, arguments.measure)
+    overhead, times = found["overhead"], found["row_times"]
     costs = costs_of(overhead)
-    outcomes = simulate_all(times, costs)
-    write_report(arguments.output, arguments.how, SEED, overhead, speed_up,
-                 times, costs, checks, outcomes)
+    write_report(arguments.output, arguments.how, SEED, overhead,
+                 found["speed_up"], times, costs, found["check"],
+                 simulate_all(times, costs))
 
 
 if __name__ == "__main__":

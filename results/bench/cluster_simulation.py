@@ -19,13 +19,16 @@ from collections import deque
 from dataclasses import dataclass
 
 from distributed import Client, Scheduler
-from distributed.scheduler import ClientState
+from distributed.scheduler import DEFAULT_EXTENSIONS, ClientState
 from phongpd.cluster import _run
 from phongpd.cluster._jobs import Job, batches
 from phongpd.cluster._work import keep, run_batch
 
 CLIENT = "client"
 LATENCY = 0.5e-3  # seconds, one way
+# Stealing looks at workers that are not there, and fails at every transition.
+_EXTENSIONS = {name: extension for name, extension in DEFAULT_EXTENSIONS.items()
+               if name != "stealing"}
 # Of a worker's first heartbeat.
 _METRICS = {"memory": 1, "cpu": 0, "managed_bytes": 0, "spilled_bytes": {
     "memory": 0, "disk": 0}, "event_loop_interval": 0.02, "task_counts": {},
@@ -117,7 +120,9 @@ class Simulation:
         self._ends = []  # when the client had a task's rows
 
     async def run(self):
-        self._dask = _FakeScheduler(dashboard=False, dashboard_address="127.0.0.1:0")
+        self._dask = _FakeScheduler(
+            dashboard=False, dashboard_address="127.0.0.1:0",
+            extensions=_EXTENSIONS)
         for i, address in enumerate(self._workers):
             await self._dask.add_worker(
                 _Mailbox(address, self._sent), address=address, status="running", server_id=address,
