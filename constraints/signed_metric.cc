@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include "constraints/feature_search.h"
 #include "core/mesh/mesh_error.h"
@@ -18,6 +19,15 @@ namespace {
 const double kCosSeparation =
     std::cos(kRowSeparation * 3.14159265358979323846 / 180.0);
 
+std::shared_ptr<const PenetrationMetric> MakeMetric(
+    const ContactSpace& space, const SignedMetricOptions& options) {
+  options.Validate();
+  if (options.metric == MetricKind::kPhong) {
+    return std::make_shared<PhongMetric>(space, options.phong);
+  }
+  return std::make_shared<EuclideanMetric>(space);
+}
+
 }  // namespace
 
 void SignedMetricOptions::Validate() const {
@@ -30,12 +40,16 @@ void SignedMetricOptions::Validate() const {
 
 SignedMetric::SignedMetric(const ContactSpace& space,
                            const SignedMetricOptions& options)
-    : options_(options), space_(space) {
+    : SignedMetric(space, MakeMetric(space, options), options) {}
+
+SignedMetric::SignedMetric(const ContactSpace& space,
+                           std::shared_ptr<const PenetrationMetric> metric,
+                           const SignedMetricOptions& options)
+    : options_(options), space_(space), metric_(std::move(metric)) {
   options_.Validate();
-  if (options_.metric == MetricKind::kPhong) {
-    metric_ = std::make_shared<PhongMetric>(space, options_.phong);
-  } else {
-    metric_ = std::make_shared<EuclideanMetric>(space);
+  if (metric_ == nullptr) {
+    throw InputError(
+        "signed metric: expected a penetration metric, found null");
   }
   reach_ = options_.reach * space.length();
   features_ = std::make_shared<FeatureSearch>(space);

@@ -71,6 +71,12 @@ class SignedMetric {
   // Throws InputError for options.
   explicit SignedMetric(const ContactSpace& space,
                         const SignedMetricOptions& options = {});
+  // With a metric of one's own inside C_obj instead of `options.metric` and
+  // `options.phong`.  It is of this space, and outside and on C_cont it answers
+  // as EuclideanMetric does.  Throws InputError for null, too.
+  SignedMetric(const ContactSpace& space,
+               std::shared_ptr<const PenetrationMetric> metric,
+               const SignedMetricOptions& options);
 
   const SignedMetricOptions& options() const { return options_; }
   const ContactSpace& space() const { return space_; }

@@ -19,6 +19,7 @@
 #include "problems/output/text.h"
 #include "problems/pictures/gnuplot.h"
 #include "problems/scenes/scene_source.h"
+#include "problems/studies/study_metrics.h"
 #include "problems/studies/trajectory_comparison.h"
 #include "problems/studies/trajectory_study.h"
 
@@ -69,7 +70,7 @@ Methods ReadMethods(const Flags& flags) {
     }
   }
   for (const std::string& text : flags.metrics) {
-    methods.metrics.push_back(ParseTrajectoryMetric(text, "--metrics"));
+    methods.metrics.push_back(ParseStudyMetric(text, "--metrics"));
   }
   for (const std::string& name : flags.protocols) {
     methods.protocols.push_back(FindProtocol(name));
@@ -187,7 +188,10 @@ Command AddCompare(CLI::App* app) {
   app->add_option("--metrics", flags->metrics,
                   "euclidean, phong@L, phong@L/exact, phong@L/tangent-plane; L "
                   "is the smoothing length, 0.2 or 0.2D (a share of D) or "
-                  "0.5unit (the scene's unit)")
+                  "0.5unit (the scene's unit). For this study alone: followed "
+                  "(Euclid's local minimum, followed), mixed@L (Euclid's "
+                  "value, Phong's direction), faded@L (the same, Euclid's "
+                  "direction where walls are near each other)")
       ->expected(1, -1)
       ->type_name("NAME")
       ->capture_default_str();

@@ -47,7 +47,10 @@ Json TrajectoryRow(const TrajectoryStudy& study, const TrajectoryMetric& metric,
   row["model"] = study.model();
   // In free space alone there is none to follow.
   const bool has_metric = study.model() != "window";
-  row["metric"] = !has_metric ? "none" : is_phong ? "phong" : "euclidean";
+  row["metric"] = !has_metric   ? "none"
+                  : metric.make ? metric.kind
+                  : is_phong    ? "phong"
+                                : "euclidean";
   row["method"] = has_metric ? metric.name : "corridor";
   const World& world = study.world();
   const std::optional<ResolvedLength> of_metric = study.SmoothingLength(metric);

@@ -140,7 +140,9 @@ TrajectoryProblem TrajectoryStudy::Problem(const TrajectoryMetric& metric) {
     problem.free_space = spaces().free_space;
     for (const ContactSpace& space : spaces().spaces) {
       problem.metrics.push_back(
-          std::make_shared<SignedMetric>(space, of_world));
+          metric.make ? std::make_shared<SignedMetric>(
+                            space, metric.make(space, of_world.phong), of_world)
+                      : std::make_shared<SignedMetric>(space, of_world));
     }
     found = problems_.emplace(metric.name, std::move(problem)).first;
   }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <memory>
 #include <nlohmann/json_fwd.hpp>
@@ -25,6 +26,12 @@ struct TrajectoryMetric {
   Length smoothing_length = Length::FromShare(kDefaultSmoothingLength);
   std::string name = "phong@" + smoothing_length.Text();
   SignedMetricOptions options;  // all else; `reach` is a share of D
+  // A metric of a study's own in place of options.metric, ℓ in `options`
+  // resolved; empty: none.
+  std::function<std::shared_ptr<const PenetrationMetric>(
+      const ContactSpace& space, const PhongMetricOptions& options)>
+      make;
+  std::string kind;  // what rows call it then
 };
 
 // Throws InputError starting with `what`.

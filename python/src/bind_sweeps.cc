@@ -14,6 +14,7 @@
 #include "problems/scenes/scene_source.h"
 #include "problems/studies/comparison_run.h"
 #include "problems/studies/planner_names.h"
+#include "problems/studies/study_metrics.h"
 #include "python/src/bindings.h"
 #include "python/src/interruptible.h"
 #include "python/src/workshop.h"
@@ -35,8 +36,8 @@ class Comparison {
       const std::lock_guard<std::mutex> lock(one_at_a_time_);
       Enter(seed);
       nlohmann::ordered_json row = RunComparison(
-          {seed, FindProtocol(protocol),
-           ParseTrajectoryMetric(metric, "metrics"), source_.is_family()},
+          {seed, FindProtocol(protocol), ParseStudyMetric(metric, "metrics"),
+           source_.is_family()},
           &study_);
       row.erase("path");
       return JsonText(row);
@@ -93,7 +94,7 @@ void BindSweeps(nb::module_& module) {
   module.def("check_method",
              [](const std::string& protocol, const std::string& metric) {
                FindProtocol(protocol);
-               ParseTrajectoryMetric(metric, "metrics");
+               ParseStudyMetric(metric, "metrics");
              });
   module.def("check_planner", &CheckPlanner);
 }

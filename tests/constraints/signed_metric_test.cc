@@ -15,6 +15,7 @@
 
 #include "core/bvh/triangle_bvh.h"
 #include "core/mesh/mesh_error.h"
+#include "core/projection/euclidean_metric.h"
 #include "problems/shapes/shapes.h"
 
 namespace phongpd {
@@ -293,6 +294,27 @@ TEST(SignedMetric, ScalesBitForBitWithTheInput) {
       EXPECT_EQ(a[k].gradient, b[k].gradient);
     }
   }
+}
+
+TEST(SignedMetric, FollowsAMetricOfOnesOwn) {
+  const ContactSpace space = TakeAsContactSpace(TurnedU());
+  const auto own = std::make_shared<EuclideanMetric>(space);
+  const SignedMetric with_own(space, own, {});  // options say Phong
+  const SignedMetric euclidean(
+      space, Options(MetricKind::kEuclidean, JacobianKind::kDirection));
+  std::mt19937_64 random(9);
+  for (int i = 0; i < 500; ++i) {
+    const Vector3d q = RandomPoint(space.bounds(), 0.2, &random);
+    MetricRow a[2], b[2];
+    with_own.Query(q, Branch(), 2, a);
+    euclidean.Query(q, Branch(), 2, b);
+    for (int k = 0; k < 2; ++k) {
+      EXPECT_EQ(a[k].value, b[k].value);
+      EXPECT_EQ(a[k].gradient, b[k].gradient);
+      EXPECT_EQ(a[k].is_repeated, b[k].is_repeated);
+    }
+  }
+  EXPECT_THROW(SignedMetric(space, nullptr, {}), InputError);
 }
 
 TEST(SignedMetric, NamesBadOptions) {
