@@ -88,9 +88,7 @@ std::vector<ComparisonJob> Jobs(const Flags& flags, const Methods& methods,
       if (!shard.Has(problem)) continue;
       const std::uint64_t seed = flags.seed + static_cast<std::uint64_t>(run);
       for (const TrajectoryProtocol& protocol : methods.protocols) {
-        const std::vector<TrajectoryMetric> only = {TrajectoryMetric()};
-        for (const TrajectoryMetric& metric :
-             protocol.uses_every_metric ? methods.metrics : only) {
+        for (const TrajectoryMetric& metric : methods.metrics) {
           jobs.push_back({&source, seed, protocol, metric});
         }
       }

@@ -46,7 +46,7 @@ std::string WriteSummaries(const std::vector<nlohmann::ordered_json>& rows,
     const bool is_there = std::any_of(
         cells.begin(), cells.end(),
         [&](const ComparisonCell& c) { return c.protocol == protocol.name; });
-    if (!is_there || !protocol.uses_every_metric) continue;
+    if (!is_there) continue;
     const std::pair<const char*, const char*> measures[] = {
         {"iterations", "iterations"},
         {"jacobians", "evaluations/jacobian"},

@@ -148,19 +148,19 @@ const std::vector<TrajectoryProtocol>& TrajectoryProtocols() {
   static const std::vector<TrajectoryProtocol> protocols = {
       {"straight-monotone",
        "straight start, Ipopt's monotone mu, no stall stop, 1 row a sample",
-       OneSolve(Start::kStraight, false), true},
+       OneSolve(Start::kStraight, false)},
       {"straight-adaptive",
        "straight start, adaptive mu, stall stop, 1 row a sample",
-       OneSolve(Start::kStraight, true), true},
+       OneSolve(Start::kStraight, true)},
       {"repaired-monotone",
        "repaired start, monotone mu, no stall stop, 1 row a sample",
-       OneSolve(Start::kRepaired, false), true},
+       OneSolve(Start::kRepaired, false)},
       {"repaired-adaptive",
        "repaired start, adaptive mu, stall stop, 3 rows a sample",
-       OneSolve(Start::kRepaired, true), true},
+       OneSolve(Start::kRepaired, true)},
       {"pipeline",
        "the default of optimize: repair, Ipopt, judge, corridor where needed",
-       PipelineOptions(), false},
+       PipelineOptions()},
   };
   return protocols;
 }

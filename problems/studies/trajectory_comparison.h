@@ -15,7 +15,6 @@ struct TrajectoryProtocol {
   std::string name;
   std::string meaning;
   PipelineOptions options;
-  bool uses_every_metric = true;  // false: the default metric alone
 };
 
 // straight-monotone, straight-adaptive, repaired-monotone, repaired-adaptive:

@@ -16,8 +16,8 @@ std::string RepairLine(const std::vector<Json>& rows) {
   std::vector<double> seconds;
   for (const Json& row : rows) {
     const long triangles = row.at("contact_triangles").get<long>();
-    if (row.at("protocol") == "pipeline" && triangles >= 5000 &&
-        triangles <= 20000) {
+    if (row.at("protocol") == "pipeline" && row.at("method") == kPreset &&
+        triangles >= 5000 && triangles <= 20000) {
       seconds.push_back(row.at("seconds").at("repair").get<double>());
     }
   }
@@ -89,7 +89,7 @@ std::string Findings(const ConvergenceResults& results) {
     int met = 0, all = 0;
     std::string others;
     for (const ComparisonCell& c : cells) {
-      if (c.protocol != "pipeline") continue;
+      if (c.protocol != "pipeline" || c.method != kPreset) continue;
       ++all;
       if (is_met(c)) {
         ++met;
@@ -110,7 +110,7 @@ std::string Findings(const ConvergenceResults& results) {
       "pipeline, Ipopt claims a solution that collides (the pipeline never "
       "returns it)",
       has_claims ? "some" : "none", !has_claims);
-  return text;
+  return text + "\n## What helps\n\n" + DuelLines(results);
 }
 
 }  // namespace phongpd::bench

@@ -83,15 +83,6 @@ Table Matrix(const Cells& cells, const std::string& protocol, std::string title,
   return table;
 }
 
-bool Belongs(const std::string& scene, const SceneGroup& group) {
-  const bool is_scanned = scene.find("edge=") != std::string::npos;
-  if (is_scanned != group.is_scanned) return false;
-  return std::any_of(group.scenes.begin(), group.scenes.end(),
-                     [&](const std::string& prefix) {
-                       return scene.compare(0, prefix.size(), prefix) == 0;
-                     });
-}
-
 // ℓ against depth excess, solved share and iterations, one curve a group.
 std::string TradeOffFigure(const ConvergenceResults& results,
                            const std::string& protocol) {
@@ -157,6 +148,15 @@ std::string TradeOffFigure(const ConvergenceResults& results,
 
 }  // namespace
 
+bool Belongs(const std::string& scene, const SceneGroup& group) {
+  const bool is_scanned = scene.find("edge=") != std::string::npos;
+  if (is_scanned != group.is_scanned) return false;
+  return std::any_of(group.scenes.begin(), group.scenes.end(),
+                     [&](const std::string& prefix) {
+                       return scene.compare(0, prefix.size(), prefix) == 0;
+                     });
+}
+
 const std::vector<SceneGroup>& SceneGroups() {
   static const std::vector<SceneGroup> groups = {
       {"traps", {"u_axis", "u_trap", "l"}, false},
@@ -174,9 +174,7 @@ std::vector<NamedTable> Tables(const ConvergenceResults& results) {
       " Solved / runs; s: of them by a stall stop, exactly free but not proved "
       "optimal; +f: exactly free, not solved; c: claimed solved but collides.";
   for (const TrajectoryProtocol& protocol : TrajectoryProtocols()) {
-    if (!protocol.uses_every_metric || Methods(cells, protocol.name).empty()) {
-      continue;
-    }
+    if (Methods(cells, protocol.name).empty()) continue;
     tables.push_back(
         {protocol.name + "-solved.csv",
          Matrix(cells, protocol.name, protocol.name + ": solved",
@@ -189,6 +187,7 @@ std::vector<NamedTable> Tables(const ConvergenceResults& results) {
                 EffortText)});
   }
   tables.push_back({"verdicts.csv", VerdictTable(results)});
+  tables.push_back({"what-helps.csv", WhatHelpsTable(results)});
   tables.push_back({"losses.csv", LossTable(results)});
   tables.push_back(
       {"excess.csv",
@@ -217,10 +216,7 @@ std::vector<Figure> Figures(const ConvergenceResults& results) {
          TradeOffFigure(results, protocol)});
   }
   for (const TrajectoryProtocol& protocol : TrajectoryProtocols()) {
-    if (!protocol.uses_every_metric ||
-        Methods(results.cells, protocol.name).size() < 2) {
-      continue;
-    }
+    if (Methods(results.cells, protocol.name).size() < 2) continue;
     const std::pair<const char*, const char*> measures[] = {
         {"iterations", "iterations"},
         {"jacobians", "evaluations/jacobian"},

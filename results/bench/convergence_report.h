@@ -29,6 +29,7 @@ struct SceneGroup {
   bool is_scanned = false;          // obstacles with a knob `edge`
 };
 const std::vector<SceneGroup>& SceneGroups();
+bool Belongs(const std::string& scene, const SceneGroup& group);
 
 struct ConvergenceResults {
   std::vector<nlohmann::ordered_json> rows;
@@ -49,6 +50,10 @@ std::string SolvedText(const ComparisonCell& cell);
 // PhongPD against Euclidean PD, seed by seed, and what lies behind losses
 // (convergence_verdicts.cc).
 Table VerdictTable(const ConvergenceResults& results);
+// The study's own metrics (problems/studies/study_metrics.h) against both.
+Table WhatHelpsTable(const ConvergenceResults& results);
+// Its rows over all scenes, a line each.
+std::string DuelLines(const ConvergenceResults& results);
 Table LossTable(const ConvergenceResults& results);
 
 std::vector<NamedTable> Tables(const ConvergenceResults& results);

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "problems/output/text.h"
+#include "results/bench/convergence_duels.h"
 #include "results/bench/convergence_report.h"
 
 namespace phongpd::bench {
@@ -13,115 +14,196 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr char kRival[] = "euclidean";
-constexpr double kTie = 0.05;  // of the seeds
+constexpr char kDirected[] = "mixed@0.2";
+constexpr char kMany[] = "all";
 
-// The runs of both metrics on one seed; null if there was none.
-struct Duel {
-  const Json* phong = nullptr;
-  const Json* euclid = nullptr;
-
-  bool IsWonBy(const Json* Duel::*one, const Json* Duel::*other) const {
-    const auto is_solved = [](const Json* row) {
-      return row != nullptr && row->at("solved").get<bool>();
-    };
-    return is_solved(this->*one) && !is_solved(this->*other);
-  }
+struct Match {
+  std::string where, protocol, own, rival;
+  Duel duel;
 };
 
-// By scene and seed, of one protocol.
-using Duels = std::map<std::string, std::map<long, Duel>>;
-
-Duels FindDuels(const std::vector<Json>& rows, const std::string& protocol) {
-  Duels duels;
-  for (const Json& row : rows) {
-    if (row.at("protocol") != protocol) continue;
-    Duel& duel =
-        duels[row.at("scene").get<std::string>()][row.at("seed").get<long>()];
-    if (row.at("method") == kPreset) duel.phong = &row;
-    if (row.at("method") == kRival) duel.euclid = &row;
-  }
-  return duels;
-}
-
-// Calls visit(Phong's cell, its duels by seed, seeds only Phong solved, seeds
-// only Euclid solved) for every scene and protocol in which both metrics ran.
-template <typename Visit>
-void ForEachPair(const ConvergenceResults& results, const Visit& visit) {
-  for (const TrajectoryProtocol& protocol : TrajectoryProtocols()) {
-    if (!protocol.uses_every_metric) continue;
-    const Duels duels = FindDuels(results.rows, protocol.name);
-    for (const ComparisonCell& c : results.cells) {
-      if (c.protocol != protocol.name || c.method != kPreset ||
-          Find(results.cells, c.scene, c.protocol, kRival) == nullptr) {
-        continue;
-      }
-      int phong = 0, euclid = 0;
-      for (const auto& [seed, duel] : duels.at(c.scene)) {
-        phong += duel.IsWonBy(&Duel::phong, &Duel::euclid);
-        euclid += duel.IsWonBy(&Duel::euclid, &Duel::phong);
-      }
-      visit(c, duels.at(c.scene), phong, euclid);
+std::vector<std::string> ScenesOf(const ConvergenceResults& results) {
+  std::vector<std::string> scenes;
+  for (const ComparisonCell& c : results.cells) {
+    if (std::find(scenes.begin(), scenes.end(), c.scene) == scenes.end()) {
+      scenes.push_back(c.scene);
     }
   }
+  return scenes;
 }
 
-double Share(int phong, int euclid, const ComparisonCell& cell) {
-  return static_cast<double>(phong - euclid) / static_cast<double>(cell.runs);
+void Judge(std::vector<Match>* matches) {
+  std::vector<Duel*> duels;
+  for (Match& match : *matches) duels.push_back(&match.duel);
+  Correct(duels);
+}
+
+std::string Ratio(int a, int b) { return Shown(a) + " : " + Shown(b); }
+
+constexpr char kTests[] =
+    "Solved alone: seeds that one of the two alone solved, and the difference "
+    "of the solved shares in points with its 95 % interval. Fewer iterations: "
+    "seeds on which either took fewer (a run that is not solved took more than "
+    "any), and the median of own over the rival's where both solved, with its "
+    "95 % interval. p: two-sided sign test after Holm's correction over all "
+    "tests of the table; win or loss below 0.05, else tie.";
+
+const std::vector<std::string>& TestHeader() {
+  static const std::vector<std::string> header = {
+      "solved alone",     "points", "p", "solved",
+      "fewer iterations", "ratio",  "p", "iterations"};
+  return header;
+}
+
+void AppendTests(const Duel& duel, std::vector<std::string>* row) {
+  const std::vector<std::string> cells = {Ratio(duel.only_own, duel.only_rival),
+                                          duel.SolvedEffect(),
+                                          Rounded(duel.p_solved, 2),
+                                          duel.SolvedVerdict(),
+                                          Ratio(duel.fewer, duel.more),
+                                          duel.IterationsEffect(),
+                                          Rounded(duel.p_iterations, 2),
+                                          duel.IterationsVerdict()};
+  row->insert(row->end(), cells.begin(), cells.end());
+}
+
+// The preset against Euclid, scene by scene.
+std::vector<Match> SceneMatches(const ConvergenceResults& results) {
+  const Arena arena(results.rows);
+  std::vector<Match> matches;
+  for (const TrajectoryProtocol& protocol : TrajectoryProtocols()) {
+    for (const std::string& scene : ScenesOf(results)) {
+      Match match{scene, protocol.name, kPreset, kRival,
+                  arena.Fight(protocol.name, kPreset, kRival, {scene})};
+      if (match.duel.problems > 0) matches.push_back(std::move(match));
+    }
+  }
+  Judge(&matches);
+  return matches;
+}
+
+std::vector<Match> GroupMatches(const ConvergenceResults& results) {
+  const Arena arena(results.rows);
+  const std::pair<const char*, const char*> pairs[] = {
+      {kPreset, kRival},      {"followed", kRival},     {kDirected, kRival},
+      {"faded@0.2", kRival},  {kPreset, "followed"},    {kDirected, kPreset},
+      {"faded@0.2", kPreset}, {"faded@0.2", kDirected},
+  };
+  const std::vector<std::string> all = ScenesOf(results);
+  std::vector<std::pair<std::string, std::vector<std::string>>> groups;
+  groups.emplace_back(kMany, all);
+  for (const SceneGroup& group : SceneGroups()) {
+    groups.emplace_back(group.name, std::vector<std::string>());
+    for (const std::string& scene : all) {
+      if (Belongs(scene, group)) groups.back().second.push_back(scene);
+    }
+  }
+  std::vector<Match> matches;
+  for (const auto& [own, rival] : pairs) {
+    for (const TrajectoryProtocol& protocol : TrajectoryProtocols()) {
+      for (const auto& [name, scenes] : groups) {
+        Match match{name, protocol.name, own, rival,
+                    arena.Fight(protocol.name, own, rival, scenes)};
+        if (match.duel.problems > 0) matches.push_back(std::move(match));
+      }
+    }
+  }
+  Judge(&matches);
+  return matches;
 }
 
 double Number(const Json* row, const char* key) {
   return row->at(Json::json_pointer(key)).get<double>();
 }
 
+// The runs of the preset and of Euclid on the seeds of a cell that Euclid
+// alone solved.
+std::vector<std::pair<const Json*, const Json*>> LostRuns(
+    const ConvergenceResults& results, const Match& match) {
+  std::map<long, std::map<std::string, const Json*>> runs;
+  for (const Json& row : results.rows) {
+    if (row.at("protocol") != match.protocol || row.at("scene") != match.where)
+      continue;
+    runs[row.at("seed").get<long>()][RowText(row, "method")] = &row;
+  }
+  std::vector<std::pair<const Json*, const Json*>> lost;
+  for (auto& [seed, methods] : runs) {
+    const Json* own = methods[kPreset];
+    const Json* rival = methods[kRival];
+    if (own == nullptr || rival == nullptr) continue;
+    if (!own->at("solved").get<bool>() && rival->at("solved").get<bool>()) {
+      lost.emplace_back(own, rival);
+    }
+  }
+  return lost;
+}
+
 }  // namespace
 
 Table VerdictTable(const ConvergenceResults& results) {
   Table table{"PhongPD (ℓ = 0.2) against Euclidean PD, paired by seed",
-              "Seeds that only one of the two solved. Win or loss: more than "
-              "5 % of the seeds apart; tie otherwise.",
-              {"scene", "protocol", "only Phong", "only Euclid", "verdict"},
+              kTests,
+              {"scene", "protocol"},
               {}};
-  ForEachPair(results, [&](const ComparisonCell& cell, const auto&, int phong,
-                           int euclid) {
-    const double apart = Share(phong, euclid, cell);
-    table.rows.push_back({cell.scene, cell.protocol, Shown(phong),
-                          Shown(euclid),
-                          apart > kTie    ? "win"
-                          : apart < -kTie ? "**loss**"
-                                          : "tie"});
-  });
+  table.header.insert(table.header.end(), TestHeader().begin(),
+                      TestHeader().end());
+  for (const Match& match : SceneMatches(results)) {
+    std::vector<std::string> row = {match.where, match.protocol};
+    AppendTests(match.duel, &row);
+    table.rows.push_back(std::move(row));
+  }
+  return table;
+}
+
+Table WhatHelpsTable(const ConvergenceResults& results) {
+  Table table{
+      "What of PhongPD helps: memory, depth or direction",
+      std::string(
+          "`followed`: Euclid's local minimum, followed along accepted "
+          "iterates, its exact gradient. `mixed`: Euclid's value, Phong's "
+          "direction as the derivative. `faded`: the same, its direction "
+          "fading to Euclid's where less than ℓ of free way is left beyond "
+          "the contact. First against second, scenes of a group together. ") +
+          kTests,
+      {"first", "second", "protocol", "scenes", "runs"},
+      {}};
+  table.header.insert(table.header.end(), TestHeader().begin(),
+                      TestHeader().end());
+  for (const Match& match : GroupMatches(results)) {
+    std::vector<std::string> row = {match.own, match.rival, match.protocol,
+                                    match.where, Shown(match.duel.problems)};
+    AppendTests(match.duel, &row);
+    table.rows.push_back(std::move(row));
+  }
   return table;
 }
 
 Table LossTable(const ConvergenceResults& results) {
   Table table{
       "Where Euclidean PD solves more, and why",
-      "The seeds that only Euclidean PD solved. Exactly free: PhongPD ended "
-      "free all the same, but unconverged. Branch ends: of PhongPD, median; "
-      "inside a solid its continuous branches end, and where a path dips into "
-      "the walls on both sides of a channel again and again each end is a jump "
-      "like Euclid's. Restoration: share of the iterations, PhongPD and "
-      "Euclid. "
-      "Objective: PhongPD's over Euclid's, median; below 1 the unconverged "
-      "path "
-      "goes the shorter way.",
+      "Where PhongPD is behind by more than 5 % of the seeds, by chance or not "
+      "(the tests are above): the seeds that only Euclidean PD solved. Exactly "
+      "free: PhongPD ended free all the same, but unconverged. Branch ends: of "
+      "PhongPD, median; inside a solid its continuous branches end, and where "
+      "a path dips into the walls on both sides of a channel again and again "
+      "each end is a jump like Euclid's. Restoration: share of the iterations, "
+      "PhongPD and Euclid. Objective: PhongPD's over Euclid's, median; below 1 "
+      "the unconverged path goes the shorter way.",
       {"scene", "protocol", "lost", "exactly free", "branch ends",
        "restoration", "objective"},
       {}};
-  ForEachPair(results, [&](const ComparisonCell& cell, const auto& duels,
-                           int phong, int euclid) {
-    if (Share(phong, euclid, cell) >= -kTie) return;
+  for (const Match& match : SceneMatches(results)) {
+    const Duel& duel = match.duel;
+    if (20 * (duel.only_rival - duel.only_own) <= duel.problems) continue;
     int free = 0;
     std::vector<double> ends, ratios;
     double all[2] = {0.0, 0.0}, restoring[2] = {0.0, 0.0};
-    for (const auto& [seed, duel] : duels) {
-      if (!duel.IsWonBy(&Duel::euclid, &Duel::phong)) continue;
-      free += duel.phong->at("collision_free").template get<bool>();
-      ends.push_back(Number(duel.phong, "/queries/branch_ends"));
-      ratios.push_back(Number(duel.phong, "/objective") /
-                       Number(duel.euclid, "/objective"));
+    for (const auto& [own, rival] : LostRuns(results, match)) {
+      free += own->at("collision_free").get<bool>();
+      ends.push_back(Number(own, "/queries/branch_ends"));
+      ratios.push_back(Number(own, "/objective") / Number(rival, "/objective"));
       for (const int k : {0, 1}) {
-        const Json* row = k == 0 ? duel.phong : duel.euclid;
+        const Json* row = k == 0 ? own : rival;
         all[k] += Number(row, "/iterations");
         restoring[k] += Number(row, "/restoration_iterations");
       }
@@ -129,12 +211,27 @@ Table LossTable(const ConvergenceResults& results) {
     const auto percent = [&](int k) {
       return Rounded(100.0 * restoring[k] / std::max(1.0, all[k]), 2) + " %";
     };
-    table.rows.push_back({cell.scene, cell.protocol, Shown(euclid), Shown(free),
-                          Rounded(Quantile(ends, 0.5)),
+    table.rows.push_back({match.where, match.protocol, Shown(duel.only_rival),
+                          Shown(free), Rounded(Quantile(ends, 0.5)),
                           percent(0) + ", " + percent(1),
                           Rounded(Quantile(ratios, 0.5))});
-  });
+  }
   return table;
+}
+
+std::string DuelLines(const ConvergenceResults& results) {
+  std::string text;
+  for (const Match& match : GroupMatches(results)) {
+    if (match.where != kMany) continue;
+    const Duel& duel = match.duel;
+    text += "- " + match.own + " against " + match.rival + ", " +
+            match.protocol + ": solved alone " +
+            Ratio(duel.only_own, duel.only_rival) + " (" +
+            duel.SolvedVerdict() + "), fewer iterations " +
+            Ratio(duel.fewer, duel.more) + ", median ratio " +
+            duel.IterationsEffect() + " (" + duel.IterationsVerdict() + ").\n";
+  }
+  return text;
 }
 
 }  // namespace phongpd::bench

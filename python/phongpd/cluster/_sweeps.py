@@ -30,13 +30,11 @@ def convergence(scenes: Sequence[PathLike], *, seeds: Iterable[int],
     and metric: the rows of `phongpd compare`, whose `--rows` summarises them.
 
     scenes: files, or families with knobs.  seeds: whole numbers from 1 on.
-    metrics, protocols: names as `phongpd compare --help` has them; the protocol
-    "pipeline" runs for one metric, phong@0.2.
+    metrics, protocols: names as `phongpd compare --help` has them.
     """
     subjects = _scenes(scenes, max_mib, cache)
     methods = [(protocol, metric) for protocol in _texts(protocols, "protocols")
-               for metric in (["phong@0.2"] if protocol == "pipeline"
-                              else _texts(metrics, "metrics"))]
+               for metric in _texts(metrics, "metrics")]
     for protocol, metric in methods:
         _native.check_method(protocol, metric)
     numbers = _seeds(seeds)

@@ -35,7 +35,7 @@ TEST_F(CliCompare, ShardsMergeIntoTheWhole) {
     }
     return lines;
   };
-  EXPECT_EQ(rows("whole").size(), 2U * 2U * 3U);
+  EXPECT_EQ(rows("whole").size(), 2U * 2U * 4U);
   EXPECT_EQ(rows("whole"), rows("merged"));
   // A quoted label holds one comma; without the columns of seconds.
   const auto cells = [&](const std::string& folder) {
@@ -52,7 +52,7 @@ TEST_F(CliCompare, ShardsMergeIntoTheWhole) {
     }
     return lines;
   };
-  EXPECT_EQ(cells("whole").size(), 1U + 2U * 3U);
+  EXPECT_EQ(cells("whole").size(), 1U + 2U * 4U);
   EXPECT_EQ(cells("whole"), cells("merged"));
   for (const char* name :
        {"rows.csv", "profile-straight-adaptive-iterations.svg",
@@ -61,6 +61,33 @@ TEST_F(CliCompare, ShardsMergeIntoTheWhole) {
     EXPECT_FALSE(Content(Output(std::string("merged/") + name)).empty())
         << name;
   }
+}
+
+// Once every pipeline ran with phong@0.2, whatever was asked; and the metrics
+// of the study alone are known here.
+TEST_F(CliCompare, EveryProtocolFollowsTheMetricAsked) {
+  const Outcome found =
+      Run("compare " + Scene(TwoObstacles()) +
+          " --runs 1 --metrics euclidean phong@0.1 followed mixed@0.1 "
+          "faded@0.1 --protocols pipeline straight-adaptive --json");
+  ASSERT_EQ(found.code, 0) << found.err;
+  std::vector<std::string> methods;
+  for (const std::string& line : Split(found.out, '\n')) {
+    const Json row = Json::parse(line);
+    const std::string method = row.at("method");
+    EXPECT_EQ(row.at("metric"), method.substr(0, method.find('@')));
+    EXPECT_EQ(row.at("smoothing_length").is_null(),
+              method == "euclidean" || method == "followed");
+    methods.push_back(row.at("protocol").get<std::string>() + " " + method);
+  }
+  std::vector<std::string> expected;
+  for (const char* protocol : {"pipeline ", "straight-adaptive "}) {
+    for (const char* method :
+         {"euclidean", "phong@0.1", "followed", "mixed@0.1", "faded@0.1"}) {
+      expected.push_back(std::string(protocol) + method);
+    }
+  }
+  EXPECT_EQ(methods, expected);
 }
 
 TEST_F(CliCompare, PartsThatAreLostRepeatedOrCutShortAreNamed) {
