@@ -33,9 +33,10 @@ if [[ $suite == queries || $suite == all ]]; then
   build/tracker_benchmark --output results/queries
 fi
 if [[ $suite == queries || $suite == continuity || $suite == all ]]; then
+  scripts/models.sh build/models
   scripts/build.sh continuity_benchmark
-  build/continuity_benchmark --output results/queries \
-    --motions 20 --frames 300
+  build/continuity_benchmark --output results/queries --models build/models \
+    --motions 10 --frames 300
 fi
 if [[ $suite == contact-space || $suite == all ]]; then
   # The competitors compile for minutes: only here, and remembered in build/.
@@ -74,6 +75,14 @@ if [[ $suite == convergence || $suite == all ]]; then
     --runs 10
   shards repaired --protocols repaired-monotone repaired-adaptive pipeline \
     --metrics euclidean phong@0 phong@0.2
+  # What the study alone follows: fewer seeds; from repaired starts where
+  # metrics differ.
+  shards study --protocols straight-monotone straight-adaptive \
+    --metrics followed mixed@0.2 faded@0.2 --runs 20
+  scenes=(clutter peg_tunnel:clearance=0.1 peg_tunnel:clearance=0.01
+    peg_tunnel:clearance=0.001)
+  shards tunnels --protocols repaired-monotone \
+    --metrics followed mixed@0.2 faded@0.2 --runs 20
   cat "$rows"/*/rows.jsonl > "$rows/all.jsonl"
   build/convergence_benchmark --rows "$rows/all.jsonl" \
     --output results/convergence --how "scripts/bench.sh convergence"

@@ -3,148 +3,24 @@
 // held motions, of which kind it is, and the least number of jumps that any
 // rule could have on the same motions.  Writes CSV, SVG and continuity.md.
 #include <CLI/CLI.hpp>
-#include <array>
+#include <algorithm>
 #include <iostream>
-#include <numeric>
+#include <iterator>
 #include <sstream>
+#include <utility>
 
-#include "core/projection/euclidean_metric.h"
-#include "core/projection/phong_metric.h"
 #include "problems/pictures/gnuplot.h"
-#include "results/bench/jump_classes.h"
+#include "results/bench/continuity_measure.h"
+#include "results/bench/model_spaces.h"
 #include "results/bench/program.h"
-#include "results/bench/yardstick.h"
 
 namespace phongpd::bench {
 namespace {
 
-struct Options {
-  std::string directory;
-  int motions = 10;
-  int frames = 200;
-  std::uint64_t seed = 2;
-};
+using Row = ContinuityRow;
 
-// A metric, or the yardstick for some c, on one contact space or all of them.
-struct Row {
-  std::string space, rule;
-  int frames = 0;  // inside
-  int jumps = 0;
-  std::array<int, kJumpClasses> classes = {};  // of metrics
-  bool is_bound = false;
-  double ratio = 0.0;          // c of a bound
-  std::vector<double> ratios;  // of metrics: depth over Euclidean depth
-
-  double Mean() const {
-    return is_bound
-               ? ratio
-               : std::accumulate(ratios.begin(), ratios.end(), 0.0) /
-                     std::max<double>(1.0, static_cast<double>(ratios.size()));
-  }
-};
-
-const std::vector<double>& Ratios() {
-  static const std::vector<double> ratios = {1.1, 1.33, 1.5, 2.0, 3.0};
-  return ratios;
-}
-
-struct Case {
-  const MotionSpace& space;
-  std::vector<Motion> motions;
-  std::vector<std::vector<double>> depths;
-};
-
-Row Follow(const Case& held, const std::string& name,
-           const BeginFollowing& begin, bool has_branches) {
-  const double jump = kMotionJump * held.space.contact.length();
-  Row row;
-  row.space = held.space.name;
-  row.rule = name;
-  for (std::size_t m = 0; m < held.motions.size(); ++m) {
-    const Motion& motion = held.motions[m];
-    Follower follow = begin();
-    Eigen::Vector3d last = Eigen::Vector3d::Zero();
-    for (std::size_t i = 0; i < motion.size(); ++i) {
-      const Follower before = follow;
-      const MotionStep step = follow(motion[i]);
-      if (held.depths[m][i] > 0.0) {
-        ++row.frames;
-        row.ratios.push_back(step.pd.norm() / held.depths[m][i]);
-      }
-      if (i > 0 && (step.pd - last).norm() > jump) {
-        ++row.jumps;
-        const JumpClass kind = ClassOfJump(before, motion[i - 1], motion[i],
-                                           last, jump, has_branches);
-        ++row.classes[static_cast<std::size_t>(kind)];
-      }
-      last = step.pd;
-    }
-  }
-  return row;
-}
-
-std::vector<Row> MeasureSpace(const MotionSpace& space,
-                              const Options& options) {
-  const EuclideanMetric euclidean(space.contact);
-  Case held{
-      space,
-      MakeMotions(space.contact, options.motions, options.frames, options.seed),
-      {}};
-  for (const Motion& motion : held.motions) {
-    held.depths.push_back(EuclideanDepths(euclidean, motion));
-  }
-  std::vector<Row> rows;
-  rows.push_back(Follow(held, "euclidean", FollowMetric(euclidean), false));
-  for (const double ell : {0.0, 0.1, 0.2}) {
-    PhongMetricOptions phong;
-    phong.field_options.smoothing_length = ell;
-    const PhongMetric metric(space.contact, phong);
-    rows.push_back(
-        Follow(held, "phong@" + Rounded(ell), FollowMetric(metric), true));
-  }
-  const PenetrationTracker tracker(space.contact);
-  rows.push_back(Follow(held, "tracker", FollowTracker(tracker), true));
-  const Yardstick yardstick(space.contact);
-  std::vector<int> least(Ratios().size(), 0);
-  for (std::size_t m = 0; m < held.motions.size(); ++m) {
-    const std::vector<int> of_motion =
-        yardstick.LeastJumps(held.motions[m], held.depths[m], Ratios());
-    for (std::size_t c = 0; c < least.size(); ++c) least[c] += of_motion[c];
-  }
-  for (std::size_t c = 0; c < least.size(); ++c) {
-    Row row;
-    row.space = space.name;
-    row.rule = "any rule, c = " + Rounded(Ratios()[c]);
-    row.frames = rows.front().frames;
-    row.jumps = least[c];
-    row.is_bound = true;
-    row.ratio = Ratios()[c];
-    rows.push_back(std::move(row));
-  }
-  return rows;
-}
-
-std::vector<Row> Totals(const std::vector<Row>& rows) {
-  std::vector<Row> totals;
-  for (const Row& row : rows) {
-    if (row.space.find("hollow") != std::string::npos) continue;
-    auto same = std::find_if(totals.begin(), totals.end(),
-                             [&](const Row& r) { return r.rule == row.rule; });
-    if (same == totals.end()) {
-      totals.push_back(row);
-      totals.back().space = "all but the hollow box";
-      continue;
-    }
-    same->frames += row.frames;
-    same->jumps += row.jumps;
-    for (std::size_t k = 0; k < same->classes.size(); ++k) {
-      same->classes[k] += row.classes[k];
-    }
-    same->ratios.insert(same->ratios.end(), row.ratios.begin(),
-                        row.ratios.end());
-  }
-  return totals;
-}
+constexpr char kProcedural[] = "procedural";
+constexpr char kModels[] = "models";
 
 Table RowTable(const std::vector<Row>& rows) {
   return MakeTable(
@@ -155,16 +31,17 @@ Table RowTable(const std::vector<Row>& rows) {
       "contact. Steep: no jump where the step is divided by 32768. Ratio: "
       "depth over Euclidean depth; of `any rule` it is the bound c that holds "
       "at every frame.",
-      {"contact space", "rule", "frames inside", "jumps", "fold inside",
-       "exit elsewhere", "steep", "bug", "mean ratio", "99 %"},
+      {"contact space", "motions", "rule", "frames inside", "jumps",
+       "fold inside", "exit elsewhere", "steep", "bug", "mean ratio", "99 %"},
       rows, [](const Row& r, const auto& add) {
         const std::string none = "–";
         const auto count = [&](int k) {
           return r.is_bound ? none
                             : Shown(r.classes[static_cast<std::size_t>(k)]);
         };
-        add(r.space, r.rule, r.frames, r.jumps, count(0), count(1), count(2),
-            count(3), r.is_bound ? "≤ " + Rounded(r.ratio) : Rounded(r.Mean()),
+        add(r.space, r.motions, r.rule, r.frames, r.jumps, count(0), count(1),
+            count(2), count(3),
+            r.is_bound ? "≤ " + Rounded(r.ratio) : Rounded(r.Mean()),
             r.is_bound ? none : Rounded(Quantile(r.ratios, 0.99)));
       });
 }
@@ -212,6 +89,33 @@ std::string Findings(const std::vector<Row>& totals) {
          ".\n";
 }
 
+std::string NamesOf(const std::vector<MotionSpace>& spaces) {
+  std::string names;
+  for (const MotionSpace& space : spaces) {
+    names += (names.empty() ? "" : ", ") + space.name + " (" +
+             std::to_string(space.contact.mesh().triangles.size()) + ")";
+  }
+  return names;
+}
+
+// What was measured, and what was not there.
+std::string Contents(const std::vector<MotionSpace>& procedural,
+                     const std::vector<MotionSpace>& models,
+                     const std::vector<std::string>& missing) {
+  std::string text =
+      "Contact spaces (triangles), procedural: " + NamesOf(procedural) +
+      ". Models that others made: " +
+      (models.empty() ? "none" : NamesOf(models)) + ".";
+  if (!missing.empty()) {
+    text += " Not there:";
+    for (const std::string& file : missing) text += " " + file;
+    text += ".";
+  }
+  return text +
+         " Motions: straight and curved ways between interior points, and "
+         "random walks.\n\n";
+}
+
 constexpr char kIntroduction[] =
     R"(# Continuity against what is possible
 
@@ -226,40 +130,66 @@ own depth is, at some frames, more than c times the Euclidean one.
 
 int Run(int argc, char** argv) {
   CLI::App app("Continuity against what is possible.");
-  Options options;
-  app.add_option("--output", options.directory, "Directory to write into")
-      ->required();
-  app.add_option("--motions", options.motions)->capture_default_str();
+  ContinuityOptions options;
+  std::string directory, folder;
+  app.add_option("--output", directory, "Directory to write into")->required();
+  app.add_option("--models", folder,
+                 "Folder of models (scripts/models.sh); if not set, without");
+  app.add_option("--motions", options.motions, "Of each kind, a space")
+      ->capture_default_str();
   app.add_option("--frames", options.frames)->capture_default_str();
   app.add_option("--seed", options.seed)->capture_default_str();
   CLI11_PARSE(app, argc, argv);
   RequireGnuplot();
+  const std::vector<MotionSpace> procedural = MotionSpaces();
+  std::vector<std::string> missing;
+  std::vector<MotionSpace> models;
+  if (!folder.empty()) models = ModelSpaces(folder, &missing);
   std::vector<Row> rows;
-  for (const MotionSpace& space : MotionSpaces()) {
-    const std::vector<Row> of_space = MeasureSpace(space, options);
+  const auto measure = [&](const MotionSpace& space) {
+    const std::vector<Row> of_space = MeasureContinuity(space, options);
     rows.insert(rows.end(), of_space.begin(), of_space.end());
     std::cerr << space.name << std::endl;
+  };
+  for (const MotionSpace& space : procedural) measure(space);
+  const std::size_t first_of_models = rows.size();
+  for (const MotionSpace& space : models) measure(space);
+  const std::vector<Row> of_models(
+      rows.begin() + static_cast<std::ptrdiff_t>(first_of_models), rows.end());
+  const std::vector<Row> of_procedural(
+      rows.begin(),
+      rows.begin() + static_cast<std::ptrdiff_t>(first_of_models));
+  const std::vector<Row> totals = TotalsOf(rows, "all", "all");
+  std::vector<Row> grouped = totals;
+  for (const auto& [name, members] :
+       {std::make_pair(kProcedural, &of_procedural),
+        std::make_pair(kModels, &of_models)}) {
+    for (const char* kind : {kWays, kWalks}) {
+      std::vector<Row> own;
+      std::copy_if(members->begin(), members->end(), std::back_inserter(own),
+                   [&](const Row& row) { return row.motions == kind; });
+      const std::vector<Row> group = TotalsOf(own, name, kind);
+      grouped.insert(grouped.end(), group.begin(), group.end());
+    }
   }
-  const std::vector<Row> totals = Totals(rows);
-  const Table all = RowTable(totals);
-  const Table each = RowTable(rows);
-  OutputDirectory out(options.directory);
-  out.Write("continuity.csv", ToCsv(each));
+  Table shown = RowTable(grouped);
+  shown.title = "Contact spaces together, all but the hollow box";
+  OutputDirectory out(directory);
+  out.Write("continuity.csv", ToCsv(RowTable(rows)));
   out.Write("continuity.svg", Draw(totals));
-  Table shown = all;
-  shown.title = "Contact spaces together";
   out.Write(
       "continuity.md",
-      kIntroduction + Findings(totals) +
+      kIntroduction + Contents(procedural, models, missing) + Findings(totals) +
           "\n![Jumps against depth: what any rule must have, and what each "
           "metric has.](continuity.svg)\n\n" +
-          ToMarkdown(shown) + "\n" + ToMarkdown(each) +
-          "\nRows: [continuity.csv](continuity.csv)\n\n" +
+          ToMarkdown(shown) +
+          "\nSpace by space, the hollow box with them: "
+          "[continuity.csv](continuity.csv)\n\n" +
           Circumstances(CommandLine("build/continuity_benchmark", argc, argv),
                         options.seed) +
           "\n");
   out.Commit();
-  std::cout << ToText(all);
+  std::cout << ToText(shown);
   return 0;
 }
 

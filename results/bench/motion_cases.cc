@@ -40,28 +40,75 @@ std::vector<MotionSpace> MotionSpaces() {
   return spaces;
 }
 
+namespace {
+
+// Random points of a contact space.
+class Points {
+ public:
+  Points(const ContactSpace& contact, std::uint64_t seed)
+      : contact_(contact),
+        random_(seed),
+        center_(contact.bounds().Center()),
+        half_(0.5 * (contact.bounds().max - contact.bounds().min)) {}
+
+  Vector3d Any() { return RandomVector(&unit_, &random_); }
+  Vector3d Normal() { return RandomVector(&normal_, &random_); }
+  const Vector3d& half() const { return half_; }
+  Vector3d Interior() {
+    for (;;) {
+      const Vector3d q = center_ + half_.cwiseProduct(Any());
+      if (contact_.bvh().Locate(q) == Location::kInside) return q;
+    }
+  }
+
+ private:
+  const ContactSpace& contact_;
+  std::mt19937_64 random_;
+  std::uniform_real_distribution<double> unit_{-1.0, 1.0};
+  std::normal_distribution<double> normal_;
+  Vector3d center_, half_;
+};
+
+}  // namespace
+
 std::vector<Motion> MakeMotions(const ContactSpace& contact, int count,
                                 int frames, std::uint64_t seed) {
-  std::mt19937_64 random(seed);
-  std::uniform_real_distribution<double> unit(-1.0, 1.0);
-  const Vector3d center = contact.bounds().Center();
-  const Vector3d half = 0.5 * (contact.bounds().max - contact.bounds().min);
-  const auto any = [&] { return RandomVector(&unit, &random); };
-  const auto interior = [&] {
-    for (;;) {
-      const Vector3d q = center + half.cwiseProduct(any());
-      if (contact.bvh().Locate(q) == Location::kInside) return q;
-    }
-  };
+  Points points(contact, seed);
   std::vector<Motion> motions;
   for (int i = 0; i < count; ++i) {
-    const Vector3d from = interior(), to = interior();
-    const Vector3d bend = i % 2 == 0 ? Vector3d::Zero()
-                                     : Vector3d(0.5 * half.cwiseProduct(any()));
+    const Vector3d from = points.Interior(), to = points.Interior();
+    const Vector3d bend =
+        i % 2 == 0 ? Vector3d::Zero()
+                   : Vector3d(0.5 * points.half().cwiseProduct(points.Any()));
     Motion motion;
     for (int frame = 0; frame < frames; ++frame) {
       const double t = static_cast<double>(frame) / (frames - 1);
       motion.push_back(from + t * (to - from) + 4.0 * t * (1.0 - t) * bend);
+    }
+    motions.push_back(std::move(motion));
+  }
+  return motions;
+}
+
+std::vector<Motion> MakeWalks(const ContactSpace& contact, int count,
+                              int frames, std::uint64_t seed) {
+  constexpr double kTurn = 0.33;
+  const BoundingBox& box = contact.bounds();
+  const double step = 0.003 * box.Diagonal();
+  Points points(contact, seed);
+  std::vector<Motion> motions;
+  for (int i = 0; i < count; ++i) {
+    Motion motion = {points.Interior()};
+    Vector3d heading = points.Normal().normalized();
+    while (static_cast<int>(motion.size()) < frames) {
+      heading = (heading + kTurn * points.Normal()).normalized();
+      for (int axis = 0; axis < 3; ++axis) {
+        const double next = motion.back()[axis] + step * heading[axis];
+        if (next < box.min[axis] || next > box.max[axis]) {
+          heading[axis] = -heading[axis];
+        }
+      }
+      motion.push_back(motion.back() + step * heading);
     }
     motions.push_back(std::move(motion));
   }

@@ -30,6 +30,12 @@ using Motion = std::vector<Eigen::Vector3d>;
 std::vector<Motion> MakeMotions(const ContactSpace& contact, int motions,
                                 int frames, std::uint64_t seed);
 
+// Random walks from interior points: steps of 0.003 of the bounding box's
+// diagonal, each in the direction of the one before and a third of a standard
+// normal vector; the sides of the box throw them back.
+std::vector<Motion> MakeWalks(const ContactSpace& contact, int motions,
+                              int frames, std::uint64_t seed);
+
 struct MotionStep {
   Eigen::Vector3d pd;
   bool left_elsewhere;  // outside, where the frame before led elsewhere
