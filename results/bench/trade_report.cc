@@ -17,6 +17,7 @@
 #include "results/bench/csv_table.h"
 #include "results/bench/paired_test.h"
 #include "results/bench/program.h"
+#include "results/bench/trade_defaults.h"
 
 namespace phongpd::bench {
 namespace {
@@ -471,8 +472,8 @@ int Run(int argc, char** argv) {
               "other suites published, and from those of "
               "`build/trade_benchmark`.\n\n## Presets\n\n" +
                   PresetSentences(results) + Decisions(results) +
-                  "\n## Findings\n\n" + Findings(consumers) + "\n" +
-                  ToMarkdown(tables, figures) +
+                  DefaultSentences(results) + "\n## Findings\n\n" +
+                  Findings(consumers) + "\n" + ToMarkdown(tables, figures) +
                   "\nCommand: scripts/bench.sh trade. Seed and machine: those "
                   "of the rows; of what is measured here: " +
                   ReadText(results + "/trade/measured.txt"),
