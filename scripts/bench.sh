@@ -75,13 +75,9 @@ if [[ $suite == convergence || $suite == all ]]; then
     --runs 10
   shards repaired --protocols repaired-monotone repaired-adaptive pipeline \
     --metrics euclidean phong@0 phong@0.2
-  # What the study alone follows: fewer seeds; from repaired starts where
-  # metrics differ.
+  # What the study alone follows, on fewer seeds.
   shards study --protocols straight-monotone straight-adaptive \
-    --metrics followed mixed@0.2 faded@0.2 --runs 20
-  scenes=(clutter peg_tunnel:clearance=0.1 peg_tunnel:clearance=0.01
-    peg_tunnel:clearance=0.001)
-  shards tunnels --protocols repaired-monotone \
+    repaired-monotone repaired-adaptive \
     --metrics followed mixed@0.2 faded@0.2 --runs 20
   cat "$rows"/*/rows.jsonl > "$rows/all.jsonl"
   build/convergence_benchmark --rows "$rows/all.jsonl" \

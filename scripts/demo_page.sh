@@ -107,7 +107,7 @@ Python: <code>phongpd.depth("tool.stl", "part.stl")</code>.</p>
 <li>You want the least translation that parts two solids: Euclidean depth is that, and
 PhongPD is never less deep.</li>
 <li>Narrow tunnels: in the widest published one Euclidean PD solves 27 of 50 runs from a
-colliding start, PhongPD 21.</li>
+colliding start, PhongPD 19.</li>
 <li>You only want a free path: take the planner or the default pipeline; the metric
 hardly matters there.</li>
 <li>A cold query costs more than a Euclidean one; a warm one costs less.</li>

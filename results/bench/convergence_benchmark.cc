@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iostream>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <random>
 #include <set>
@@ -103,6 +104,28 @@ The pipeline with each metric, and its time before and after it was condensed:
 
 )";
 
+// Which protocols were not run on all scenes, and where those rows are.
+std::string Gaps(const std::vector<ComparisonCell>& cells) {
+  std::set<std::string> all;
+  std::map<std::string, std::set<std::string>> of_protocol;
+  for (const ComparisonCell& c : cells) {
+    all.insert(c.scene);
+    of_protocol[c.protocol].insert(c.scene);
+  }
+  std::string text;
+  for (const TrajectoryProtocol& protocol : TrajectoryProtocols()) {
+    const std::size_t there = of_protocol[protocol.name].size();
+    if (there == all.size()) continue;
+    text += (text.empty() ? "Not run on all scenes by this build: "
+                          : std::string(", ")) +
+            protocol.name + " (" + std::to_string(there) + " of " +
+            std::to_string(all.size()) + ")";
+  }
+  if (text.empty()) return text;
+  return text +
+         "; on all of them by an earlier one: [repaired.md](repaired.md).\n\n";
+}
+
 int Run(int argc, char** argv) {
   CLI::App app("Tables and figures of results/convergence.");
   std::string directory, file, how;
@@ -132,8 +155,8 @@ int Run(int argc, char** argv) {
   const std::vector<Figure> figures = Figures(results);
   WriteReport(
       tables, figures,
-      kIntroduction + Findings(results) + '\n' + ToMarkdown(tables, figures) +
-          '\n' +
+      kIntroduction + Gaps(results.cells) + Findings(results) + '\n' +
+          ToMarkdown(tables, figures) + '\n' +
           Circumstances(how.empty() ? CommandLine("build/convergence_benchmark",
                                                   argc, argv)
                                     : how,

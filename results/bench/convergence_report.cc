@@ -74,11 +74,13 @@ Table Matrix(const Cells& cells, const std::string& protocol, std::string title,
   table.header.insert(table.header.end(), methods.begin(), methods.end());
   for (const std::string& scene : Scenes(cells)) {
     std::vector<std::string> row = {scene};
+    bool has_run = false;
     for (const std::string& method : methods) {
       const ComparisonCell* c = Find(cells, scene, protocol, method);
       row.push_back(c == nullptr ? "–" : text(*c));
+      has_run = has_run || c != nullptr;
     }
-    table.rows.push_back(std::move(row));
+    if (has_run) table.rows.push_back(std::move(row));
   }
   return table;
 }

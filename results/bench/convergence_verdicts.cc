@@ -48,11 +48,14 @@ constexpr char kTests[] =
     "95 % interval. p: two-sided sign test after Holm's correction over all "
     "tests of the table; win or loss below 0.05, else tie.";
 
-const std::vector<std::string>& TestHeader() {
-  static const std::vector<std::string> header = {
-      "solved alone",     "points", "p", "solved",
-      "fewer iterations", "ratio",  "p", "iterations"};
-  return header;
+// A table with columns for the labels of a match and for its tests.
+Table EmptyTestTable(const std::string& title, const std::string& note,
+                     std::vector<std::string> labels) {
+  for (const char* column : {"solved alone", "points", "p of that", "solved",
+                             "fewer iterations", "ratio", "p", "iterations"}) {
+    labels.emplace_back(column);
+  }
+  return {title, note + kTests, std::move(labels), {}};
 }
 
 void AppendTests(const Duel& duel, std::vector<std::string>* row) {
@@ -141,39 +144,29 @@ std::vector<std::pair<const Json*, const Json*>> LostRuns(
 }  // namespace
 
 Table VerdictTable(const ConvergenceResults& results) {
-  Table table{"PhongPD (ℓ = 0.2) against Euclidean PD, paired by seed",
-              kTests,
-              {"scene", "protocol"},
-              {}};
-  table.header.insert(table.header.end(), TestHeader().begin(),
-                      TestHeader().end());
+  Table table =
+      EmptyTestTable("PhongPD (ℓ = 0.2) against Euclidean PD, paired by seed",
+                     "", {"scene", "protocol"});
   for (const Match& match : SceneMatches(results)) {
-    std::vector<std::string> row = {match.where, match.protocol};
-    AppendTests(match.duel, &row);
-    table.rows.push_back(std::move(row));
+    table.rows.push_back({match.where, match.protocol});
+    AppendTests(match.duel, &table.rows.back());
   }
   return table;
 }
 
 Table WhatHelpsTable(const ConvergenceResults& results) {
-  Table table{
+  Table table = EmptyTestTable(
       "What of PhongPD helps: memory, depth or direction",
-      std::string(
-          "`followed`: Euclid's local minimum, followed along accepted "
-          "iterates, its exact gradient. `mixed`: Euclid's value, Phong's "
-          "direction as the derivative. `faded`: the same, its direction "
-          "fading to Euclid's where less than ℓ of free way is left beyond "
-          "the contact. First against second, scenes of a group together. ") +
-          kTests,
-      {"first", "second", "protocol", "scenes", "runs"},
-      {}};
-  table.header.insert(table.header.end(), TestHeader().begin(),
-                      TestHeader().end());
+      "`followed`: Euclid's local minimum, followed along accepted iterates, "
+      "its exact gradient. `mixed`: Euclid's value, Phong's direction as the "
+      "derivative. `faded`: the same, its direction fading to Euclid's where "
+      "less than ℓ of free way is left beyond the contact. First against "
+      "second, scenes of a group together. ",
+      {"first", "second", "protocol", "scenes", "runs"});
   for (const Match& match : GroupMatches(results)) {
-    std::vector<std::string> row = {match.own, match.rival, match.protocol,
-                                    match.where, Shown(match.duel.problems)};
-    AppendTests(match.duel, &row);
-    table.rows.push_back(std::move(row));
+    table.rows.push_back({match.own, match.rival, match.protocol, match.where,
+                          Shown(match.duel.problems)});
+    AppendTests(match.duel, &table.rows.back());
   }
   return table;
 }
