@@ -104,7 +104,7 @@ The pipeline with each metric, and its time before and after it was condensed:
 
 )";
 
-// Which protocols were not run on all scenes, and where those rows are.
+// Which protocols were not run on all scenes.
 std::string Gaps(const std::vector<ComparisonCell>& cells) {
   std::set<std::string> all;
   std::map<std::string, std::set<std::string>> of_protocol;
@@ -116,14 +116,11 @@ std::string Gaps(const std::vector<ComparisonCell>& cells) {
   for (const TrajectoryProtocol& protocol : TrajectoryProtocols()) {
     const std::size_t there = of_protocol[protocol.name].size();
     if (there == all.size()) continue;
-    text += (text.empty() ? "Not run on all scenes by this build: "
-                          : std::string(", ")) +
+    text += (text.empty() ? "Not run on all scenes: " : std::string(", ")) +
             protocol.name + " (" + std::to_string(there) + " of " +
             std::to_string(all.size()) + ")";
   }
-  if (text.empty()) return text;
-  return text +
-         "; on all of them by an earlier one: [repaired.md](repaired.md).\n\n";
+  return text.empty() ? text : text + ".\n\n";
 }
 
 int Run(int argc, char** argv) {

@@ -15,7 +15,9 @@ using Json = nlohmann::ordered_json;
 
 constexpr char kRival[] = "euclidean";
 constexpr char kDirected[] = "mixed@0.2";
+constexpr char kFaded[] = "faded@0.2";
 constexpr char kMany[] = "all";
+constexpr char kNarrow[] = "holes and tunnels";  // of SceneGroups
 
 struct Match {
   std::string where, protocol, own, rival;
@@ -88,9 +90,9 @@ std::vector<Match> SceneMatches(const ConvergenceResults& results) {
 std::vector<Match> GroupMatches(const ConvergenceResults& results) {
   const Arena arena(results.rows);
   const std::pair<const char*, const char*> pairs[] = {
-      {kPreset, kRival},      {"followed", kRival},     {kDirected, kRival},
-      {"faded@0.2", kRival},  {kPreset, "followed"},    {kDirected, kPreset},
-      {"faded@0.2", kPreset}, {"faded@0.2", kDirected},
+      {kPreset, kRival}, {"followed", kRival},  {kDirected, kRival},
+      {kFaded, kRival},  {kPreset, "followed"}, {kDirected, kPreset},
+      {kFaded, kPreset}, {kFaded, kDirected},
   };
   const std::vector<std::string> all = ScenesOf(results);
   std::vector<std::pair<std::string, std::vector<std::string>>> groups;
@@ -215,11 +217,15 @@ Table LossTable(const ConvergenceResults& results) {
 std::string DuelLines(const ConvergenceResults& results) {
   std::string text;
   for (const Match& match : GroupMatches(results)) {
-    if (match.where != kMany) continue;
+    // Fading is for narrow passages.
+    const bool is_told =
+        match.where == kMany || (match.own == kFaded && match.where == kNarrow);
+    if (!is_told) continue;
     const Duel& duel = match.duel;
     text += "- " + match.own + " against " + match.rival + ", " +
-            match.protocol + ": solved alone " +
-            Ratio(duel.only_own, duel.only_rival) + " (" +
+            match.protocol +
+            (match.where == kMany ? std::string() : ", " + match.where) +
+            ": solved alone " + Ratio(duel.only_own, duel.only_rival) + " (" +
             duel.SolvedVerdict() + "), fewer iterations " +
             Ratio(duel.fewer, duel.more) + ", median ratio " +
             duel.IterationsEffect() + " (" + duel.IterationsVerdict() + ").\n";
