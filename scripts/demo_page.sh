@@ -74,7 +74,7 @@ exactly, and with a direction that turns continuously.</p>
 <p>A ball is pushed over the handle of a wrench. Press play: half-way the nearest way
 out is on the other side, and the Euclidean arrow flips within one frame. PhongPD
 follows one side until its branch ends and says when; the sliding contact moves over
-the surface at a bounded speed and never jumps. Or push it yourself: the probe (P) lets
+the surface at a bounded speed and does not jump while the ball is inside. Or push it yourself: the probe (P) lets
 you drag the ball and answers in the page, by the library compiled to WebAssembly.</p>
 HTML
   frame motion.html "Three metrics along one motion"
