@@ -230,7 +230,7 @@ TEST_F(CliCompletion, ZshOffersValues) {
 
 TEST_F(CliCompletion, OtherShellsAreRefused) {
   ExpectRefused("completion tcsh", {"shell", "tcsh", "bash", "zsh", "fish"});
-  ExpectRefused("completion", {"shell", "required"});
+  ExpectRefused("completion", {"shell", "expected", "none"});
 }
 
 }  // namespace
