@@ -104,7 +104,10 @@ NamedPath NamedPathOf(const nlohmann::ordered_json& row) {
   std::replace(status.begin(), status.end(), '_', ' ');
   const std::string name =
       row.at(is_plan ? "planner" : "method").get<std::string>();
-  return {Spoken(name) + " · seed " + JsonText(row.at("seed")) + " · " + status,
+  // Of one metric from either start, which are paths of one page.
+  const bool is_straight = !is_plan && row.value("start", "") == "straight";
+  return {Spoken(name) + " · seed " + JsonText(row.at("seed")) +
+              (is_straight ? " · straight start · " : " · ") + status,
           PathOf(row),
           row.at(is_plan ? "solved" : "collision_free").get<bool>()};
 }

@@ -94,8 +94,9 @@ TEST_F(CliView, PutsRunsAndPlansOfOneSceneBesideEachOther) {
     const Json& path = data["paths"][++row];
     EXPECT_EQ(path["points"], run["path"]);
     EXPECT_EQ(path["free"], run["collision_free"]);
-    EXPECT_EQ(path["name"].get<std::string>().find("PhongPD, ℓ = 0.2 · seed "),
-              0U);
+    const std::string name = path["name"];
+    EXPECT_EQ(name.find("PhongPD, ℓ = 0.2 · seed "), 0U);
+    EXPECT_NE(name.find(" · straight start · "), std::string::npos) << name;
   }
   EXPECT_EQ(data["meshes"].size(), 2U);
   // Alone, rows of a file's scene have a path and say what is missing.
