@@ -64,3 +64,22 @@ def space(robot, obstacle):
 def world(robot, obstacle):
     return phongpd.World(robot, {"obstacle": obstacle},
                          bounds=[[-3, -3, -3], [4, 4, 4]])
+
+
+@pytest.fixture(scope="module")
+def processes(tmp_path_factory):
+    """A scheduler of Dask and two workers, each a process of its own."""
+    from cluster_processes import Processes  # not all that is tested has Dask
+    with Processes(tmp_path_factory.mktemp("dask")) as all_of_them:
+        all_of_them.start_scheduler()
+        for _ in range(2):
+            all_of_them.start_worker()
+        yield all_of_them
+
+
+@pytest.fixture
+def client(processes):
+    from distributed import Client
+    with Client(processes.address, set_as_default=False) as one:
+        one.wait_for_workers(2, timeout=60)
+        yield one

@@ -48,22 +48,6 @@ def truth(jobs):
     return [json.dumps(cluster.without_timing(json.loads(row))) for row in rows]
 
 
-@pytest.fixture(scope="module")
-def processes(tmp_path_factory):
-    with Processes(tmp_path_factory.mktemp("dask")) as all_of_them:
-        all_of_them.start_scheduler()
-        for _ in range(2):
-            all_of_them.start_worker()
-        yield all_of_them
-
-
-@pytest.fixture
-def client(processes):
-    with Client(processes.address, set_as_default=False) as one:
-        one.wait_for_workers(2, timeout=60)
-        yield one
-
-
 def test_rows_are_those_of_one_process_and_tasks_have_names(
         client, truth, tmp_path):
     done = sweep(client, tmp_path / "rows.jsonl")

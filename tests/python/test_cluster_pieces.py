@@ -35,22 +35,6 @@ def whole(pair, tmp_path_factory):
     return file.read_bytes()
 
 
-@pytest.fixture(scope="module")
-def processes(tmp_path_factory):
-    with Processes(tmp_path_factory.mktemp("dask")) as all_of_them:
-        all_of_them.start_scheduler()
-        for _ in range(2):
-            all_of_them.start_worker()
-        yield all_of_them
-
-
-@pytest.fixture
-def client(processes):
-    with Client(processes.address, set_as_default=False) as one:
-        one.wait_for_workers(2, timeout=60)
-        yield one
-
-
 @pytest.fixture
 def here():
     """Workers that are threads of this process."""
