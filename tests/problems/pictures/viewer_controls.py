@@ -7,6 +7,12 @@ import math
 from browser import LOOK
 
 
+def entered(element, value, event="change"):
+    """JavaScript that gives an element a value as if somebody had."""
+    return (f"(() => {{ const e = document.getElementById('{element}');"
+            f"e.value = '{value}'; e.dispatchEvent(new Event('{event}')); }})()")
+
+
 def work_controls(browser, checks, page):
     """Every control of a page with two runs."""
     holds, changes = checks.holds, checks.changes
@@ -32,13 +38,10 @@ def work_controls(browser, checks, page):
 
     changes(lambda: browser.click("#clip-on"), "cutting")
     changes(lambda: browser.click("#clip-flip"), "the other side of the cut")
-    changes(lambda: browser.run(
-        "(() => { const e = document.getElementById('clip-at'); e.value = 250;"
-        "e.dispatchEvent(new Event('input')); })()"), "moving the plane")
-    changes(lambda: browser.run(
-        "(() => { const e = document.getElementById('clip-axis');"
-        "e.value = 'x'; e.dispatchEvent(new Event('change')); })()"),
-        "another axis of the plane")
+    changes(lambda: browser.run(entered("clip-at", "250", "input")),
+            "moving the plane")
+    changes(lambda: browser.run(entered("clip-axis", "x")),
+            "another axis of the plane")
     browser.press("c")
     holds("!viewer.state.clip.on", "C ends the cut")
 
@@ -66,8 +69,7 @@ def work_controls(browser, checks, page):
     holds("viewer.orbit.pitch > 1.5", "Z looks from above")
     browser.press("r")
 
-    browser.run("(() => { const e = document.getElementById('scrub');"
-                "e.value = 10000; e.dispatchEvent(new Event('input')); })()")
+    browser.run(entered("scrub", "10000", "input"))
     holds("(viewer.draw(), viewer.stage.robot.position.distanceTo("
           "viewer.stage.at(viewer.data.goal)) < 1e-6)", "the end is the goal")
     browser.press("ArrowLeft")
@@ -78,8 +80,7 @@ def work_controls(browser, checks, page):
     holds("viewer.state.playing", "it plays")
     browser.press(" ")
     holds("!viewer.state.playing", "space pauses")
-    browser.run("(() => { const e = document.getElementById('speed');"
-                "e.value = '4'; e.dispatchEvent(new Event('change')); })()")
+    browser.run(entered("speed", "4"))
     holds("viewer.state.speed === 4", "speed")
     browser.click('button.way[data-way="1"]')
     holds("viewer.state.way === 1", "a click on a path follows it")
@@ -181,8 +182,7 @@ def work_probe(browser, checks, page):
     browser.press("ArrowUp")
     holds(f"Math.abs(Math.hypot(...viewer.state.probe.at.map((x, k) => x - "
           f"{at}[k])) / viewer.data.scale - 0.01) < 1e-9", "a key moves it")
-    browser.run("(() => { const e = document.getElementById('probe-x');"
-                "e.value = '0.25'; e.dispatchEvent(new Event('change')); })()")
+    browser.run(entered("probe-x", "0.25"))
     holds("viewer.state.probe.at[0] === 0.25", "a number places it")
     browser.click('[data-probe="0"]')
     holds("viewer.state.probe.metric === 0 && viewer.stage.probeArrows[0]"
@@ -222,12 +222,10 @@ def work_section(browser, checks, page):
     browser.open(page)
     holds("document.getElementById('map').value === '' && "
           "document.getElementById('map-key').hidden", "no colours at first")
-    choose = ("(() => { const e = document.getElementById('map');"
-              "e.value = '%s'; e.dispatchEvent(new Event('change')); })()")
     for kind in ("euclidean", "phong", "ratio", "angle"):
         browser.run("viewer.map.cells = 0")
         changes(lambda kind=kind: (
-            browser.run(choose % kind),
+            browser.run(entered("map", kind)),
             browser.wait("viewer.map.cells === kMapCells")),
             f"colours of the cut by {kind}")
         holds("viewer.state.clip.on", "colours want a cut")
@@ -236,7 +234,7 @@ def work_section(browser, checks, page):
               f"{kind}: the key tells the range")
     # By the other route: the deepest point of the plane, by the probe's own
     # queries, a step of the grid apart at most.
-    browser.run(choose % "euclidean")
+    browser.run(entered("map", "euclidean"))
     browser.wait("viewer.map.cells === kMapCells && "
                  "viewer.map.key.startsWith('euclidean')")
     holds("""(() => {
@@ -272,12 +270,10 @@ def work_surface(browser, checks, page):
     holds("document.getElementById('surface').value === '' && "
           "document.getElementById('surface-key').hidden && "
           "!viewer.surface.mesh.visible", "no colours at first")
-    choose = ("(() => { const e = document.getElementById('%s');"
-              "e.value = '%s'; e.dispatchEvent(new Event('change')); })()")
     done = "viewer.surface.range && viewer.surface.left === null"
     for kind in ("lean", "angle", "ratio", "phong", "euclidean"):
         changes(lambda kind=kind: (
-            browser.run(choose % ("surface", kind)), browser.wait(done)),
+            browser.run(entered("surface", kind)), browser.wait(done)),
             f"colours of the surface by {kind}")
         holds("!document.getElementById('surface-key').hidden && "
               "document.getElementById('surface-high').textContent !== ''",
@@ -294,7 +290,7 @@ def work_surface(browser, checks, page):
           document.getElementById('surface-high').textContent
               .includes(viewer.text(Math.max(...inside)));
     })()""", "no depth is more than that of the place, and some are it")
-    changes(lambda: (browser.run(choose % ("below", "0.2")),
+    changes(lambda: (browser.run(entered("below", "0.2")),
                      browser.wait(done)), "another depth of the question")
     browser.click("#link")
     link = browser.run("location.hash")
@@ -316,9 +312,8 @@ def work_iterations(browser, checks, page):
     holds("viewer.state.iterate === null && "
           "document.getElementById('which-iterate').textContent"
           ".startsWith('the answer')", "the answer is shown at first")
-    scrub = ("(() => { const e = document.getElementById('scrub-iterate');"
-             "e.value = '%s'; e.dispatchEvent(new Event('input')); })()")
-    changes(lambda: browser.run(scrub % 0), "the first iteration")
+    changes(lambda: browser.run(entered("scrub-iterate", "0", "input")),
+            "the first iteration")
     holds("document.getElementById('which-iterate').textContent"
           ".startsWith('0 of ')", "it is told which")
     # By another route: the energy of what is drawn is the row's, and that of
@@ -345,8 +340,7 @@ def work_iterations(browser, checks, page):
     holds("viewer.state.iterate === 1", ". is the next")
     browser.press(",")
     holds("viewer.state.iterate === 0", ", is the one before")
-    browser.run("(() => { const e = document.getElementById('scrub');"
-                "e.value = 0; e.dispatchEvent(new Event('input')); })()")
+    browser.run(entered("scrub", "0", "input"))
     holds("(viewer.draw(), viewer.stage.robot.position.distanceTo("
           "viewer.stage.at(viewer.data.start)) < 1e-5)",
           "the robot follows the iterate")
@@ -360,7 +354,7 @@ def work_iterations(browser, checks, page):
     browser.wait("viewer.state.iterate > 0")
     browser.wait("viewer.state.running === 0 && viewer.state.iterate === null")
     holds("viewer.stage.iterates.shown === null", "they end at the answer")
-    browser.run(scrub % 1)
+    browser.run(entered("scrub-iterate", "1", "input"))
     browser.press("r")
     holds("viewer.state.iterate === null", "reset shows the answer")
     checks.quiet("iterations")
