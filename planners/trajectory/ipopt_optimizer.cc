@@ -66,8 +66,8 @@ void Judge(const TrajectoryProblem& problem, TrajectorySummary* summary) {
 
 void TrajectoryOptions::Validate() const {
   ipopt.Validate();
-  CheckOption(rows >= 0 && rows <= kMaxMetricRows, "trajectory", "rows",
-              "0 (by the start path) to 8", rows);
+  CheckOption(rows >= 1 && rows <= kMaxMetricRows, "trajectory", "rows",
+              "1 to 8", rows);
   static_assert(kMaxMetricRows == 8, "the message says so");
   CheckOption(max_rounds >= 1, "trajectory", "max_rounds", "≥ 1", max_rounds);
 }
@@ -112,12 +112,8 @@ TrajectorySummary IpoptTrajectoryOptimizer::Solve(
   const double start_length = PathLength(start_path);
   summary.samples.assign(static_cast<std::size_t>(problem_.waypoints) + 1,
                          SamplesPerSegment(problem_, start_length));
-  summary.rows = options_.rows;
-  if (summary.rows == 0) {
-    summary.rows = CheckPath(space, start_path).free ? 3 : 1;
-  }
   while (true) {
-    TrajectoryNlp nlp(problem_, summary.samples, start_length, summary.rows);
+    TrajectoryNlp nlp(problem_, summary.samples, start_length, options_.rows);
     const Eigen::VectorXd u = nlp.ToVariables(summary.path);
     nlp.Start(u);
     IpoptSettings settings = options_.ipopt;

@@ -14,9 +14,11 @@ struct TrajectoryOptions {
   // A round's iterations, tolerance, strategy and stops; time_limit is for all
   // rounds together.
   IpoptSettings ipopt;
-  // K rows a sample; 0: 3 from a start path that is free, 1 from one that
-  // collides (there more rows contradict each other on thin parts).
-  int rows = 0;
+  // K rows a sample, 1 to 8.  More hold thin and narrow parts better in one
+  // solve, and contradict each other there where the start collides; the
+  // pipeline, which judges and polishes, is as good with one in less time
+  // (results/trade/defaults.md).
+  int rows = 1;
   // Solves, ≥ 1.  Where the solver claims a solution, or ran out of iterations,
   // and the judge finds a crossing, the segments that cross get twice the
   // samples and the next round starts from there; also after rounds that ended
@@ -42,7 +44,6 @@ struct TrajectorySummary {
   double objective = 0.0;       // energy of `path`
   double violation = 0.0;  // inf_pr: largest of any row at `path`, units of D
   double dual_infeasibility = -1.0;  // inf_du; −1: not known
-  int rows = 0;                      // K that was used
   std::vector<int> samples;          // of each segment, in the last round
 
   int rounds = 0;

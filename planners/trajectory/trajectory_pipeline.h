@@ -113,8 +113,7 @@ void AddStage(const TrajectoryProblem& problem, const Path& path,
 //   start → Ipopt → exact judge → corridor where that is needed → exact judge
 //
 // for each route; of the exactly free paths the best one wins, clearance first
-// (MissingClearance), then the objective.  From a repaired start
-// Ipopt gets 3 rows a sample, from a colliding one 1 (TrajectoryOptions).  The
+// (MissingClearance), then the objective.  The
 // corridor starts from Ipopt's path where that is free and better than the
 // start, otherwise from the start, also where Ipopt converged to a path that is
 // longer than a start that keeps clear; it follows the first round already, and

@@ -31,7 +31,7 @@ struct Flags : SeededRunFlags {
   std::string polish;
   std::string noise = "0";
   int routes = 0;  // the preset's
-  int rows = 0;
+  int rows = TrajectoryOptions().rows;
   bool line = true;
   bool per_obstacle = false;
   std::string model;
@@ -246,8 +246,7 @@ Command AddOptimize(CLI::App* app) {
   app->add_flag("--line,!--no-line", flags->line,
                 "Optimise from the colliding line as well as from the "
                 "repaired start, or not (preset's own if not set)");
-  app->add_option("--rows", flags->rows,
-                  "Constraint rows a sample; 0: 3 from a free start, else 1")
+  app->add_option("--rows", flags->rows, "Constraint rows a sample, 1 to 8")
       ->type_name("K")
       ->capture_default_str();
   app->add_option("--mu-strategy", flags->mu_strategy, "Ipopt's own")

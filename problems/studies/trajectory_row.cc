@@ -72,7 +72,7 @@ Json TrajectoryRow(const TrajectoryStudy& study, const TrajectoryMetric& metric,
   row["routes"] = options.routes;
   row["also_line"] = options.also_line;
   row["polish"] = ToString(options.polish);
-  row["rows"] = ipopt.rows;
+  row["rows"] = has_run ? options.optimizer.rows : 0;
   row["seed"] = options.seed;
   row["status"] = has_run ? ipopt.raw_status : std::string();
   row["solver_class"] = has_run ? ToString(ipopt.status) : "not_run";

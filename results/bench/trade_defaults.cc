@@ -37,9 +37,8 @@ std::string DefaultSentences(const std::string& results) {
          "\nDecided: the planner's spacing stays; so little time, and no "
          "length, "
          "is no reason to change every published path. Of rows the optimiser "
-         "is "
-         "to take one from free starts, too, when the tables of the pipeline "
-         "that rest on three are next run; `--rows 1` has it now.\n";
+         "takes one a sample from free starts, too, where it took three until "
+         "this table spoke for one.\n";
 }
 
 }  // namespace phongpd::bench

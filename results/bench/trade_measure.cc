@@ -41,7 +41,7 @@ std::vector<OptimizeChoice> OptimizeChoices() {
               [](Options* o) { o->polish = PolishWhen::kNever; }),
       options("--polish always",
               [](Options* o) { o->polish = PolishWhen::kAlways; }),
-      options("--rows 1", [](Options* o) { o->optimizer.rows = 1; }),
+      options("--rows 3", [](Options* o) { o->optimizer.rows = 3; }),
       options("--routes 3", [](Options* o) { o->routes = 3; }),
       // Interior samples of a segment; by the rule they are enough.
       scene("samples 1",

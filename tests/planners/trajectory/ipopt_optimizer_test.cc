@@ -64,7 +64,6 @@ TEST(IpoptTrajectoryOptimizer, PhongLeavesATrapWhereEuclidIsCaught) {
       const TrajectorySummary summary =
           IpoptTrajectoryOptimizer(problem, options).Solve();
       ExpectEvidence(problem, summary);
-      EXPECT_EQ(summary.rows, 1);
       const int i = kind == MetricKind::kPhong ? 0 : 1;
       solved[i] += summary.IsSolved() ? 1 : 0;
     }
