@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <tbb/global_control.h>
-#include <tbb/task_arena.h>
-
-#include <algorithm>
 #include <memory>
+#include <optional>
+#include <string>
 #include <utility>
+#include <vector>
 
+#include "core/contact/build_by_boxes.h"
+#include "core/contact/build_prediction.h"
 #include "core/contact/build_stages.h"
+#include "core/contact/build_switches.h"
 #include "core/contact/contact_space.h"
-#include "core/contact/culled_build.h"
 #include "core/minkowski/build_limits.h"
+#include "core/minkowski/build_refusal.h"
 #include "core/minkowski/cells.h"
 #include "core/minkowski/convolution.h"
 #include "core/minkowski/edge_rings.h"
@@ -25,186 +27,222 @@
 namespace phongpd {
 namespace {
 
-// Of what a build does, this share goes faster with more threads.
-constexpr double kParallelShare = 0.65;
-
-double SpeedUp() {
-  using tbb::global_control;
-  const auto threads = static_cast<double>(std::min<std::size_t>(
-      global_control::active_value(global_control::max_allowed_parallelism),
-      static_cast<std::size_t>(
-          std::max(1, tbb::this_task_arena::max_concurrency()))));
-  return 1.0 / (1.0 - kParallelShare + kParallelShare / threads);
-}
-
-// Processor seconds of one thread: of arranging what is expected, and all that
-// follows; of looking for what is occupied in a convolution of that many
-// facets.  Fitted to the pairs of results/lazy/culling.csv and some twice as
-// coarse.
-double ArrangementSeconds(const internal::ExpectedCuts& cuts) {
-  return 5.9e-6 * cuts.meetings + 8.8e-6 * cuts.crossings;
-}
-double CullingSeconds(std::size_t facets) {
-  return 0.03 + 1.0e-5 * static_cast<double>(facets);
-}
-
-// As those; `whole` facets before culling.
-PredictedCost Predict(std::size_t triangles, std::size_t whole, bool is_culled,
-                      const internal::ExpectedCuts& cuts) {
-  const auto operands = static_cast<double>(triangles);
-  const auto facets = static_cast<double>(whole);
-  PredictedCost cost;
-  cost.meetings = cuts.meetings;
-  cost.arrangement_faces = 0.39 * cuts.meetings + 0.95 * cuts.crossings;
-  cost.seconds =
-      (1.2e-6 * operands + (is_culled ? CullingSeconds(whole) : 0.0) +
-       ArrangementSeconds(cuts)) /
-      SpeedUp();
-  cost.mib = 3.4 + 3.6e-4 * operands + 7.6e-5 * facets +
-             4.4e-4 * cuts.meetings + 7.3e-4 * cuts.crossings;
-  return cost;
-}
-
-// Facets of smooth and of small solids meet few others: hardly any of them are
-// inside, and to find that out takes as long as to arrange them
-// (results/lazy/culling.md).
-bool IsWorthCulling(const internal::ExpectedCuts& cuts, std::size_t facets) {
-  constexpr double kMuchSeconds = 0.22;
-  constexpr double kMuchMore = 2.0;
-  return ArrangementSeconds(cuts) >
-         std::max(kMuchSeconds, kMuchMore * CullingSeconds(facets));
-}
-
+using internal::Boxes;
+using internal::BuildSwitches;
 using internal::Culling;
 using internal::CullingReport;
 using internal::OperandRole;
 
-// Operands are Solids or meshes.
-template <typename Operand>
-ContactSpace Build(const Operand& robot, const Operand& obstacle,
-                   const ContactSpaceOptions& options, Culling culling,
-                   CullingReport* culled) {
-  ContactSpace::Parts out;
-  ContactSpaceReport& report = out.report;
-  internal::StageClock clock(&report);
-  internal::BuildLimits limits(options);
-  limits.ObserveCancellation();
-
-  const Solid a =
-      internal::PrepareOperand(robot, OperandRole::kRobot, options, &report);
-  limits.Look("check");
-  const Solid b = internal::PrepareOperand(obstacle, OperandRole::kObstacle,
-                                           options, &report);
-  limits.Look("check");
-  clock.Finish("check");
-
-  const internal::GridPair pair = internal::PlaceOperands(a, b, &report);
-  limits.Look("grid");
-  const internal::GridSolid& p = pair.obstacle;
-  const internal::GridSolid& q = pair.reflected_robot;
-  internal::DescribeGrid(pair, &report);
-  internal::Convolution convolution =
-      internal::ReducedConvolution(p, q, &limits);
-  report.convolution_triangles = convolution.facets.size();
-  clock.Finish("convolution");
-
-  internal::PlaneGroups groups = internal::GroupAndName(&convolution);
-  limits.Look("prediction");
-  internal::ExactPoints points;
-  internal::Arrangement arrangement;
-  {
-    auto index = std::make_unique<internal::FacetIndex>(convolution);
-    limits.Look("prediction");
-    internal::ExpectedCuts cuts =
-        internal::ExpectCuts(convolution, groups, *index, limits);
-    internal::OccupiedRegion occupied;
-    culled->facets = convolution.facets.size();
-    culled->meetings = culled->meetings_left = cuts.meetings;
-    if (culling == Culling::kAlways ||
-        (culling == Culling::kWhereItPays &&
-         IsWorthCulling(cuts, convolution.facets.size()))) {
-      occupied = internal::OccupiedRegion(p, q, convolution, limits);
-      internal::DropOccupied(occupied, &convolution, &groups);
-      index = std::make_unique<internal::FacetIndex>(convolution);
-      cuts =
-          internal::ExpectCuts(convolution, groups, *index, limits, &occupied);
-      culled->was_tried = !occupied.IsEmpty();
-      culled->dropped = culled->facets - convolution.facets.size();
-      culled->meetings_left = cuts.meetings;
-    }
-    report.predicted =
-        Predict(a.mesh().triangles.size() + b.mesh().triangles.size(),
-                report.convolution_triangles, !occupied.IsEmpty(), cuts);
-    limits.Predict(report.predicted);
-    clock.Finish("prediction");
-    const internal::FacetIntersections intersections =
-        internal::IntersectFacets(convolution, groups, *index, limits, &points,
-                                  &occupied);
-    clock.Finish("intersection");
-    arrangement = internal::ArrangePlanes(convolution, groups, intersections,
-                                          limits, &points);
+// One build, a stage after the other; each reads what those before it left.
+class Builder {
+ public:
+  Builder(const ContactSpaceOptions& options, const BuildSwitches& switches)
+      : options_(options), switches_(switches), limits_(options) {
+    limits_.ObserveCancellation();
   }
-  report.arrangement_faces = arrangement.faces.size();
-  clock.Finish("arrangement");
 
-  const internal::EdgeRings rings =
-      internal::SortAroundEdges(convolution, arrangement, points, &limits);
-  limits.Look("cells");
-  const internal::SolidCollision judge(p, q);
-  const internal::FreeCells cells = [&] {
+  const CullingReport& culled() const { return culled_; }
+
+  // Operands are Solids or meshes.
+  template <typename Operand>
+  ContactSpace Build(const Operand& robot, const Operand& obstacle) {
+    a_ = internal::PrepareOperand(robot, OperandRole::kRobot, options_,
+                                  &report_);
+    limits_.Look("check");
+    b_ = internal::PrepareOperand(obstacle, OperandRole::kObstacle, options_,
+                                  &report_);
+    limits_.Look("check");
+    clock_.Finish("check");
+    Convolve();
+    Sample();
+    if (IsByBoxes()) {
+      BuildByBoxes();
+    } else {
+      BuildWhole();
+    }
+    return ContactSpace(std::move(out_));
+  }
+
+ private:
+  void Convolve() {
+    pair_ = internal::PlaceOperands(*a_, *b_, &report_);
+    limits_.Look("grid");
+    internal::DescribeGrid(pair_, &report_);
+    convolution_ = internal::ReducedConvolution(
+        pair_.obstacle, pair_.reflected_robot, &limits_);
+    report_.convolution_triangles = convolution_.facets.size();
+    clock_.Finish("convolution");
+    groups_ = internal::GroupAndName(&convolution_);
+    limits_.Look("prediction");
+  }
+
+  // Expects cuts, and leaves out what is occupied where that pays.
+  void Sample() {
+    index_ = std::make_unique<internal::FacetIndex>(convolution_);
+    limits_.Look("prediction");
+    sample_.triangles =
+        a_->mesh().triangles.size() + b_->mesh().triangles.size();
+    sample_.facets = convolution_.facets.size();
+    sample_.cuts =
+        internal::ExpectCuts(convolution_, groups_, *index_, limits_);
+    culled_.facets = sample_.facets;
+    culled_.meetings = sample_.cuts.meetings;
+    if (switches_.culling == Culling::kAlways ||
+        (switches_.culling == Culling::kWhereItPays &&
+         internal::IsWorthCulling(sample_.cuts, sample_.facets))) {
+      Cull();
+    }
+    culled_.meetings_left = sample_.cuts.meetings;
+  }
+
+  void Cull() {
+    occupied_ = internal::OccupiedRegion(pair_.obstacle, pair_.reflected_robot,
+                                         convolution_, limits_);
+    internal::DropOccupied(occupied_, &convolution_, &groups_);
+    index_ = std::make_unique<internal::FacetIndex>(convolution_);
+    sample_.cuts = internal::ExpectCuts(convolution_, groups_, *index_, limits_,
+                                        &occupied_);
+    sample_.is_culled = culled_.was_tried = !occupied_.IsEmpty();
+    culled_.dropped = culled_.facets - convolution_.facets.size();
+  }
+
+  // Boxes where the memory of one arrangement is not there; see
+  // ContactSpaceOptions.  Throws BuildRefusal where not for them either.
+  bool IsByBoxes() {
+    report_.predicted = internal::PredictWhole(sample_);
+    const PredictedCost boxes = internal::PredictByBoxes(sample_);
+    const bool is_by_boxes =
+        options_.merge_coplanar && (switches_.boxes == Boxes::kAlways ||
+                                    (limits_.IsAboveMemory(report_.predicted) &&
+                                     boxes.mib < report_.predicted.mib));
+    if (is_by_boxes) report_.predicted = boxes;
+    limits_.Predict(report_.predicted);
+    clock_.Finish("prediction");
+    return is_by_boxes;
+  }
+
+  void BuildByBoxes() {
+    index_.reset();
+    std::vector<internal::SurfacePiece> boxes;
+    {
+      const std::vector<internal::PlannedWindow> plan = internal::PlanWindows(
+          convolution_, occupied_,
+          switches_.facets_of_box > 0 ? switches_.facets_of_box
+                                      : internal::kFacetsOfBox);
+      report_.method += " in " + std::to_string(plan.size()) + " boxes";
+      const internal::SolidCollision judge(pair_.obstacle,
+                                           pair_.reflected_robot);
+      boxes = internal::ArrangeBoxes(plan, convolution_, judge, limits_);
+    }
+    clock_.Finish("boxes");
+    convolution_ = {};
+    groups_ = {};
     try {
-      return internal::FindFreeCells(convolution, arrangement, rings, points,
-                                     judge, limits);
+      internal::WriteJoinedSurface(boxes, options_.outer_shell_only,
+                                   pair_.frame, &limits_, &clock_, &out_);
     } catch (const internal::LeakError&) {
-      if (pair.IsRounded()) {
-        internal::RefuseLostFacets(p, b, q, a, pair.frame.step);
+      throw BuildRefusal(
+          options_.robot_name + " and " + options_.obstacle_name +
+          ": expected boxes that fit together, found cells beside their "
+          "borders too thin to be judged; raise max_mib, so that it is built "
+          "in one");
+    }
+  }
+
+  void BuildWhole() {
+    internal::ExactPoints points;
+    const internal::Arrangement arrangement = Arrange(&points);
+    report_.arrangement_faces = arrangement.faces.size();
+    clock_.Finish("arrangement");
+
+    const internal::EdgeRings rings =
+        internal::SortAroundEdges(convolution_, arrangement, points, &limits_);
+    limits_.Look("cells");
+    const internal::FreeCells cells = FindCells(arrangement, rings, points);
+    report_.cells = static_cast<std::size_t>(cells.cells);
+    report_.judged_cells = static_cast<std::size_t>(cells.judged);
+    internal::SayCavities(cells.cavities, options_.outer_shell_only, &report_);
+    clock_.Finish("cells");
+
+    limits_.Look("surface");
+    const internal::PatchSurface patches = internal::AssembleSurface(
+        arrangement, groups_, rings, cells,
+        {options_.merge_coplanar, options_.outer_shell_only, 1, &limits_},
+        &points);
+    limits_.Look("surface");
+    internal::WriteSurface(patches, convolution_, groups_, points, pair_.frame,
+                           &limits_, &clock_, &out_);
+  }
+
+  // Leaves no index: the arrangement is what takes memory.
+  internal::Arrangement Arrange(internal::ExactPoints* points) {
+    const internal::FacetIntersections intersections =
+        internal::IntersectFacets(convolution_, groups_, *index_, limits_,
+                                  points, &occupied_);
+    clock_.Finish("intersection");
+    internal::Arrangement arrangement = internal::ArrangePlanes(
+        convolution_, groups_, intersections, limits_, points);
+    index_.reset();
+    return arrangement;
+  }
+
+  internal::FreeCells FindCells(const internal::Arrangement& arrangement,
+                                const internal::EdgeRings& rings,
+                                const internal::ExactPoints& points) {
+    const internal::SolidCollision judge(pair_.obstacle, pair_.reflected_robot);
+    try {
+      return internal::FindFreeCells(convolution_, arrangement, rings, points,
+                                     judge, limits_);
+    } catch (const internal::LeakError&) {
+      if (pair_.IsRounded()) {
+        internal::RefuseLostFacets(pair_.obstacle, *b_, pair_.reflected_robot,
+                                   *a_, pair_.frame.step);
       }
       throw;
     }
-  }();
-  report.cells = static_cast<std::size_t>(cells.cells);
-  report.judged_cells = static_cast<std::size_t>(cells.judged);
-  report.cavities = cells.cavities;
-  if (options.outer_shell_only) {
-    ApproximationStep step;
-    step.kind = "outer-shell";
-    step.dropped_cavities = cells.cavities;
-    internal::AddStep(step, &report.approximation);
   }
-  clock.Finish("cells");
 
-  limits.Look("surface");
-  const internal::PatchSurface patches = internal::AssembleSurface(
-      arrangement, groups, rings, cells,
-      {options.merge_coplanar, options.outer_shell_only, 1, &limits}, &points);
-  limits.Look("surface");
-  internal::WriteSurface(patches, convolution, groups, points, pair.frame,
-                         &limits, &clock, &out);
-  return ContactSpace(std::move(out));
-}
+  const ContactSpaceOptions& options_;
+  BuildSwitches switches_;
+  CullingReport culled_;
+  internal::BuildLimits limits_;
+  ContactSpace::Parts out_;
+  ContactSpaceReport& report_ = out_.report;
+  internal::StageClock clock_{&report_};
+
+  std::optional<Solid> a_, b_;  // robot and obstacle as they are built
+  internal::GridPair pair_;
+  internal::Convolution convolution_;
+  internal::PlaneGroups groups_;
+  std::unique_ptr<internal::FacetIndex> index_;
+  internal::OccupiedRegion occupied_;
+  internal::BuildSample sample_;
+};
 
 }  // namespace
 
 ContactSpace BuildContactSpace(const Solid& robot, const Solid& obstacle,
                                const ContactSpaceOptions& options) {
-  CullingReport culled;
-  return Build(robot, obstacle, internal::WithNames(options, robot, obstacle),
-               Culling::kWhereItPays, &culled);
+  const ContactSpaceOptions named =
+      internal::WithNames(options, robot, obstacle);
+  return Builder(named, {}).Build(robot, obstacle);
 }
 
 ContactSpace BuildContactSpace(const TriangleMesh& robot,
                                const TriangleMesh& obstacle,
                                const ContactSpaceOptions& options) {
-  CullingReport culled;
-  return internal::BuildCulled(robot, obstacle, options, Culling::kWhereItPays,
-                               &culled);
+  return Builder(options, {}).Build(robot, obstacle);
 }
 
-ContactSpace internal::BuildCulled(const TriangleMesh& robot,
-                                   const TriangleMesh& obstacle,
-                                   const ContactSpaceOptions& options,
-                                   Culling culling, CullingReport* report) {
-  return Build(robot, obstacle, options, culling, report);
+ContactSpace internal::BuildSwitched(const TriangleMesh& robot,
+                                     const TriangleMesh& obstacle,
+                                     const ContactSpaceOptions& options,
+                                     const BuildSwitches& switches,
+                                     CullingReport* report) {
+  Builder builder(options, switches);
+  ContactSpace space = builder.Build(robot, obstacle);
+  if (report != nullptr) *report = builder.culled();
+  return space;
 }
 
 }  // namespace phongpd

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/contact/surface_description.h"
+#include "core/minkowski/operand.h"
 #include "core/minkowski/patch_triangulation.h"
 #include "core/minkowski/zero_edges.h"
 
@@ -100,6 +101,15 @@ void DropOccupied(const OccupiedRegion& occupied, Convolution* convolution,
   }
   facets.resize(count);
   *groups = std::move(kept);
+}
+
+void SayCavities(int cavities, bool outer_only, ContactSpaceReport* report) {
+  report->cavities = cavities;
+  if (!outer_only) return;
+  ApproximationStep step;
+  step.kind = "outer-shell";
+  step.dropped_cavities = cavities;
+  AddStep(step, &report->approximation);
 }
 
 void WriteSurface(const PatchSurface& surface, const Convolution& sides,

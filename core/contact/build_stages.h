@@ -45,6 +45,10 @@ PlaneGroups GroupAndName(Convolution* convolution);
 void DropOccupied(const OccupiedRegion& occupied, Convolution* convolution,
                   PlaneGroups* groups);
 
+// Bounded free cells, and that they were dropped if only the outer shell is
+// asked for.
+void SayCavities(int cavities, bool outer_only, ContactSpaceReport* report);
+
 // Triangulates the surface, rounds it into the user's frame and describes it.
 // What `sides` and `groups` are of need not be all facets that were arranged.
 // Throws BuildRefusal when `limits`, if there are any, are passed.

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/contact/contact_space_piece.h"
 
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
-
 #include <utility>
 
+#include "core/contact/build_by_boxes.h"
 #include "core/contact/build_stages.h"
 #include "core/contact/contact_space_bytes.h"
 #include "core/contact/piece_cover.h"
@@ -14,7 +12,6 @@
 #include "core/minkowski/build_limits.h"
 #include "core/minkowski/cells.h"
 #include "core/minkowski/operand.h"
-#include "core/minkowski/surface_join.h"
 #include "core/minkowski/window_plan.h"
 #include "core/solid/solid.h"
 
@@ -60,24 +57,6 @@ std::vector<PlannedWindow> ShareOf(std::vector<PlannedWindow> windows,
     }
   }
   return share;
-}
-
-// One window at a time for each thread.
-std::vector<SurfacePiece> ArrangeWindows(
-    const std::vector<PlannedWindow>& windows,
-    const internal::Convolution& convolution,
-    const internal::SolidCollision& judge,
-    const internal::BuildLimits& limits) {
-  std::vector<SurfacePiece> pieces(windows.size());
-  tbb::parallel_for(std::size_t{0}, windows.size(), [&](std::size_t i) {
-    tbb::this_task_arena::isolate([&] {
-      pieces[i] =
-          internal::WindowCells(internal::PartOf(convolution, windows[i]),
-                                windows[i].window, judge, limits)
-              .Surface();
-    });
-  });
-  return pieces;
 }
 
 }  // namespace
@@ -129,7 +108,7 @@ ContactSpacePiece internal::BuildPiece(const TriangleMesh& robot,
   const std::vector<PlannedWindow> windows =
       ShareOf(PlanWindows(convolution, occupied, facets_of_box), number);
   const SolidCollision judge(pair.obstacle, pair.reflected_robot);
-  data->boxes = ArrangeWindows(windows, convolution, judge, limits);
+  data->boxes = ArrangeBoxes(windows, convolution, judge, limits);
   clock.Finish("boxes");
   return ContactSpacePiece(std::move(data));
 }
@@ -142,21 +121,6 @@ ContactSpacePiece BuildContactSpacePiece(const TriangleMesh& robot,
                               internal::kFacetsOfBox);
 }
 
-namespace {
-
-internal::JoinedSurface Joined(const std::vector<SurfacePiece>& boxes,
-                               const internal::AssemblyOptions& options) {
-  try {
-    return internal::JoinPieces(boxes, options);
-  } catch (const internal::LeakError&) {
-    throw InputError(
-        "contact space by pieces: expected pieces that fit together, found "
-        "cells beside their borders too thin to be judged; build the whole");
-  }
-}
-
-}  // namespace
-
 ContactSpace JoinContactSpace(const std::vector<ContactSpacePiece>& pieces) {
   const auto ordered = internal::InOrder(pieces);
   const ContactSpacePiece::Data& first = *ordered.front();
@@ -164,29 +128,18 @@ ContactSpace JoinContactSpace(const std::vector<ContactSpacePiece>& pieces) {
   for (const ContactSpacePiece::Data* data : ordered) {
     boxes.insert(boxes.end(), data->boxes.begin(), data->boxes.end());
   }
-  internal::AssemblyOptions options;
-  options.outer_only = first.outer_shell_only;
-  options.units_per_step = 2;
-  const internal::JoinedSurface joined = Joined(boxes, options);
-
   ContactSpace::Parts out;
   ContactSpaceReport& report = out.report;
   report = first.report;
-  for (const SurfacePiece& box : boxes) {
-    report.arrangement_faces += box.arranged;
-    report.cells += box.cells;
-    report.judged_cells += box.judged;
-  }
-  report.cavities = joined.cavities;
-  if (first.outer_shell_only) {
-    ApproximationStep step;
-    step.kind = "outer-shell";
-    step.dropped_cavities = joined.cavities;
-    internal::AddStep(step, &report.approximation);
-  }
   internal::StageClock clock(&report);
-  internal::WriteSurface(joined.surface, joined.sides, joined.groups,
-                         joined.points, first.frame, nullptr, &clock, &out);
+  try {
+    internal::WriteJoinedSurface(boxes, first.outer_shell_only, first.frame,
+                                 nullptr, &clock, &out);
+  } catch (const internal::LeakError&) {
+    throw InputError(
+        "contact space by pieces: expected pieces that fit together, found "
+        "cells beside their borders too thin to be judged; build the whole");
+  }
   report.seconds.clear();
   report.peak_mib = 0.0;
   return ContactSpace(std::move(out));

@@ -24,9 +24,6 @@ struct ContactSpacePiece::Data {
 
 namespace internal {
 
-// Facets of the convolution in a box, at the most where that can be had.
-inline constexpr std::size_t kFacetsOfBox = 4096;
-
 // BuildContactSpacePiece with boxes of another size.
 ContactSpacePiece BuildPiece(const TriangleMesh& robot,
                              const TriangleMesh& obstacle,

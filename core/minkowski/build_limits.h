@@ -26,6 +26,11 @@ class BuildLimits {
   // if that is above an explicit limit.
   void Predict(const PredictedCost& cost);
 
+  // Is more memory predicted than this build may take, whoever set the limit?
+  bool IsAboveMemory(const PredictedCost& cost) const {
+    return cost.mib > max_mib_;
+  }
+
   // From now on CancelBuilds stops this build, too.
   void ObserveCancellation();
 

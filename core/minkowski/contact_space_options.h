@@ -29,7 +29,10 @@ struct ContactSpaceOptions {
   // is above them, and stopped where the build itself passes them:
   // BuildRefusal. Seconds; 0: no limit.  MiB by which the process grows; 0:
   // nine tenths of what is free when the build begins, which only stops;
-  // infinity: no limit.
+  // infinity: no limit.  Where all facets at once are predicted to need more
+  // memory they are arranged by boxes, which takes about the same time and
+  // gives the same bytes (the report's `method` says so); not with
+  // merge_coplanar = false.
   double max_seconds = 0.0;
   double max_mib = 0.0;
   // What messages call operands that are meshes, e.g. the files they came

@@ -67,8 +67,9 @@ void AddBuildLimits(CLI::App* app, double* max_seconds, double* max_mib) {
       ->type_name("S")
       ->check(AtLeast(0.0));
   app->add_option("--max-mib", *max_mib,
-                  "Refuse what is predicted to need more memory, and stop "
-                  "what does (0: stop at nine tenths of what is free)")
+                  "Build by boxes what is predicted to need more memory in "
+                  "one, refuse what needs more even so, and stop what does "
+                  "(0: nine tenths of what is free, and only stop)")
       ->type_name("MIB")
       ->check(AtLeast(0.0));
 }

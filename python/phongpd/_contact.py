@@ -40,6 +40,8 @@ class ContactSpace(MeshViews, Shown):
         alpha wrap with a share of the operand's diagonal.
         max_seconds, max_mib: what is predicted to take more is refused, what
         does is stopped; 0: no limit, and nine tenths of the free memory.
+        What would need more memory in one is built by boxes, to the same
+        bytes (`report["method"]`).
         cache: keep the result in the user's cache folder and look there first.
         """
         return cls(_native.ContactSpace.build(

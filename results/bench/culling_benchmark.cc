@@ -10,7 +10,7 @@
 #include <array>
 #include <iostream>
 
-#include "core/contact/culled_build.h"
+#include "core/contact/build_switches.h"
 #include "problems/shapes/shapes.h"
 #include "problems/studies/hidden_pairs.h"
 #include "results/bench/free_space_measure.h"
@@ -54,8 +54,8 @@ Row Measure(const HiddenPair& pair, int repeats) {
     for (std::size_t way = 0; way < kWays.size(); ++way) {
       CullingReport report;
       const double start = CpuSeconds();
-      const ContactSpace space = internal::BuildCulled(
-          pair.robot, pair.obstacle, {}, kWays[way], &report);
+      const ContactSpace space = internal::BuildSwitched(
+          pair.robot, pair.obstacle, {}, {kWays[way]}, &report);
       seconds[way].push_back(CpuSeconds() - start);
       row.predicted[way] = space.report().predicted.seconds;
       row.faces[way] = space.report().arrangement_faces;

@@ -14,8 +14,8 @@
 #include <random>
 #include <utility>
 
+#include "core/contact/build_switches.h"
 #include "core/contact/contact_space.h"
-#include "core/contact/culled_build.h"
 #include "core/minkowski/build_refusal.h"
 #include "core/stopwatch.h"
 #include "problems/shapes/random_solids.h"
@@ -120,7 +120,8 @@ std::string StageOf(const std::string& refusal) {
 }
 
 // In a child: builds with the limits and says what it took.
-Json Build(const Pair& pair, double max_seconds, double max_mib) {
+Json Build(const Pair& pair, double max_seconds, double max_mib,
+           internal::Boxes boxes) {
   const tbb::global_control one(tbb::global_control::max_allowed_parallelism,
                                 1);
   const TriangleMesh robot = pair.Robot(), obstacle = pair.obstacle->make();
@@ -132,8 +133,10 @@ Json Build(const Pair& pair, double max_seconds, double max_mib) {
   const Stopwatch stopwatch;
   try {
     internal::CullingReport culled;
-    const ContactSpace space = internal::BuildCulled(
-        robot, obstacle, options, internal::Culling::kWhereItPays, &culled);
+    internal::BuildSwitches switches;
+    switches.boxes = boxes;
+    const ContactSpace space =
+        internal::BuildSwitched(robot, obstacle, options, switches, &culled);
     const ContactSpaceReport& report = space.report();
     out["refused"] = false;
     out["facets"] = report.convolution_triangles;
@@ -154,9 +157,10 @@ Json Build(const Pair& pair, double max_seconds, double max_mib) {
 }
 
 // Null where the child did not come to an end.
-Json BuildInChild(const Pair& pair, double max_seconds, double max_mib) {
+Json BuildInChild(const Pair& pair, double max_seconds, double max_mib,
+                  internal::Boxes boxes = internal::Boxes::kWhereMemoryEnds) {
   const ChildOutcome outcome = RunInChild(
-      [&] { return Build(pair, max_seconds, max_mib).dump(); }, kLimit);
+      [&] { return Build(pair, max_seconds, max_mib, boxes).dump(); }, kLimit);
   if (outcome.status != ChildStatus::kDone) {
     std::cout << pair.robot->name << " + " << pair.obstacle->name << ": "
               << (outcome.status == ChildStatus::kStopped ? "stopped"
@@ -209,6 +213,12 @@ std::vector<GuardRow> MeasureGuard(int pairs, std::uint64_t seed) {
         row.memory_passed = stopped["mib"].get<double>() / limit;
         row.memory_stage = stopped.value("stage", "none");
       }
+      const Json boxes = BuildInChild(pair, 0.0, 0.0, internal::Boxes::kAlways);
+      if (!boxes.is_null() && !boxes["refused"]) {
+        row.boxes_seconds = boxes["seconds"];
+        row.boxes_mib = boxes["mib"];
+        row.predicted_boxes_mib = boxes["predicted"][3];
+      }
     }
     rows.push_back(std::move(row));
   }
@@ -222,17 +232,36 @@ NamedTable GuardTable(const std::vector<GuardRow>& rows) {
           "Predicted and found",
           "Builds in one thread, processor time and growth of the process; "
           "and how far wall time and memory had come, over the limit, when a "
-          "limit of half of them refused the build (0: too small to try).",
-          {"robot", "obstacle", "triangles of A", "triangles of B", "facets",
-           "culled", "faces", "triangles", "meetings predicted",
-           "faces predicted", "CPU s", "predicted s", "MiB", "predicted MiB",
-           "time over limit", "in its", "memory over limit", "in its stage"},
+          "limit of half of them refused the build, or let boxes do it (0: too "
+          "small to try).",
+          {"robot",
+           "obstacle",
+           "triangles of A",
+           "triangles of B",
+           "facets",
+           "culled",
+           "faces",
+           "triangles",
+           "meetings predicted",
+           "faces predicted",
+           "CPU s",
+           "predicted s",
+           "MiB",
+           "predicted MiB",
+           "time over limit",
+           "in its",
+           "memory over limit",
+           "in its stage",
+           "by boxes, CPU s",
+           "by boxes, MiB",
+           "predicted"},
           rows, [](const GuardRow& r, const auto& add) {
             add(r.robot, r.obstacle, r.robot_triangles, r.obstacle_triangles,
                 r.facets, std::string(r.is_culled ? "yes" : "no"), r.faces,
                 r.triangles, r.predicted_meetings, r.predicted_faces, r.seconds,
                 r.predicted_seconds, r.mib, r.predicted_mib, r.time_passed,
-                r.time_stage, r.memory_passed, r.memory_stage);
+                r.time_stage, r.memory_passed, r.memory_stage, r.boxes_seconds,
+                r.boxes_mib, r.predicted_boxes_mib);
           })};
 }
 
@@ -278,6 +307,37 @@ NamedTable GuardVerdict(const std::vector<GuardRow>& rows) {
               lines, [](const Line& l, const auto& add) {
                 add(l.what, l.pairs, l.within_2, l.within_4, l.worst, l.passed,
                     l.worst_passed);
+              })};
+}
+
+NamedTable BoxesVerdict(const std::vector<GuardRow>& rows) {
+  struct Line {
+    std::string of;
+    std::vector<double> seconds, mib, prediction;
+  };
+  std::vector<Line> lines = {{"below 64 MiB in one", {}, {}, {}},
+                             {"64 to 256 MiB", {}, {}, {}},
+                             {"from 256 MiB", {}, {}, {}}};
+  for (const GuardRow& r : rows) {
+    if (r.boxes_mib <= 0.0) continue;
+    Line& line = lines[r.mib < 64.0 ? 0 : r.mib < 256.0 ? 1 : 2];
+    line.seconds.push_back(r.boxes_seconds / r.seconds);
+    line.mib.push_back(r.boxes_mib / r.mib);
+    line.prediction.push_back(
+        Factor(r.predicted_boxes_mib, r.boxes_mib, kLeastMib));
+  }
+  return {"guard_boxes.csv",
+          MakeTable(
+              "By boxes",
+              "Built by boxes over built in one, one thread: processor time "
+              "and growth of the process, median and the largest; and how far "
+              "the memory predicted for it is off, worst factor.",
+              {"of", "pairs", "time", "largest time", "memory",
+               "largest memory", "prediction off by"},
+              lines, [](const Line& l, const auto& add) {
+                add(l.of, l.mib.size(), Quantile(l.seconds, 0.5),
+                    Quantile(l.seconds, 1.0), Quantile(l.mib, 0.5),
+                    Quantile(l.mib, 1.0), Quantile(l.prediction, 1.0));
               })};
 }
 

@@ -24,6 +24,9 @@ struct GuardRow {
   // the limit; 0: too small to be tried.
   double time_passed = 0.0, memory_passed = 0.0;
   std::string time_stage, memory_stage;  // where it was stopped
+  // The same by boxes; nothing where the whole is too small to be tried, or
+  // where boxes do not fit together.
+  double boxes_seconds = 0.0, boxes_mib = 0.0, predicted_boxes_mib = 0.0;
 };
 
 // Random pairs of the project's shapes, turned and aligned, 12 to some 20,000
@@ -33,5 +36,7 @@ std::vector<GuardRow> MeasureGuard(int pairs, std::uint64_t seed);
 // The rows, and what they come to.
 NamedTable GuardTable(const std::vector<GuardRow>& rows);
 NamedTable GuardVerdict(const std::vector<GuardRow>& rows);
+// What boxes spare, and cost.
+NamedTable BoxesVerdict(const std::vector<GuardRow>& rows);
 
 }  // namespace phongpd::bench

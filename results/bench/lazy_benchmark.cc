@@ -169,11 +169,12 @@ int Run(int argc, char** argv) {
   std::cout << ToText(GuardVerdict(guard).table) << std::endl;
   if (options.guard_only) {
     OutputDirectory out(options.directory);
-    const std::vector<NamedTable> tables = {GuardVerdict(guard),
-                                            GuardTable(guard)};
+    const std::vector<NamedTable> tables = {
+        GuardVerdict(guard), BoxesVerdict(guard), GuardTable(guard)};
     for (const NamedTable& t : tables) out.Write(t.file, ToCsv(t.table));
     out.Write("guard.md",
-              "# Predictions and limits\n\n" + ToMarkdown({tables[0]}, {}) +
+              "# Predictions and limits\n\n" +
+                  ToMarkdown({tables[0], tables[1]}, {}) +
                   "\nAll pairs: [guard.csv](guard.csv)\n\n" +
                   Circumstances(CommandLine("build/lazy_benchmark", argc, argv),
                                 options.seed));
@@ -187,10 +188,12 @@ int Run(int argc, char** argv) {
   }
   std::vector<FreeSpaceRow> free_spaces;
   for (const Row& row : rows) free_spaces.push_back(row.free_space);
-  const std::vector<NamedTable> tables = {
-      TableOf(rows), FreeSpaceTable(free_spaces),
-      LargePlanTable(options.max_seconds), GuardVerdict(guard),
-      GuardTable(guard)};
+  const std::vector<NamedTable> tables = {TableOf(rows),
+                                          FreeSpaceTable(free_spaces),
+                                          LargePlanTable(options.max_seconds),
+                                          GuardVerdict(guard),
+                                          BoxesVerdict(guard),
+                                          GuardTable(guard)};
   OutputDirectory out(options.directory);
   WriteReport(
       tables, {},
@@ -199,7 +202,8 @@ int Run(int argc, char** argv) {
       "configurations below random points of C_cont, at most 5 % of its "
       "diagonal deep. Every answer is compared with the whole contact "
       "space's. `ConvolutionModel` tells free space without either.\n\n" +
-          ToMarkdown(tables, {}) + "\n" +
+          ToMarkdown({tables.begin(), tables.end() - 1}, {}) +
+          "\nAll pairs of the guard: [guard.csv](guard.csv)\n\n" +
           Circumstances(CommandLine("build/lazy_benchmark", argc, argv),
                         options.seed),
       &out);

@@ -5,6 +5,8 @@
 #include <cstdlib>
 #include <new>
 
+#include "tests/support/sanitizer.h"
+
 // Counts every allocation of the process.  It replaces operator new, so one
 // source of a program includes it, a test of what a query costs.  The thread
 // sanitizer has an operator new of its own: nothing is counted under it, and
@@ -13,17 +15,15 @@ namespace {
 std::atomic<long> allocations{0};
 }  // namespace
 
-#if defined(__has_feature)
-#if __has_feature(thread_sanitizer)
-#define PHONGPD_HAS_ANOTHER_NEW
-#endif
-#endif
-
-#ifndef PHONGPD_HAS_ANOTHER_NEW
+#if !PHONGPD_THREAD_SANITIZER
 void* operator new(std::size_t size) {
   ++allocations;
   if (void* memory = std::malloc(size > 0 ? size : 1)) return memory;
   throw std::bad_alloc();
+}
+void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
+  ++allocations;
+  return std::malloc(size > 0 ? size : 1);
 }
 void operator delete(void* memory) noexcept { std::free(memory); }
 void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }

@@ -17,12 +17,14 @@
 #include "problems/shapes/shapes.h"
 #include "problems/studies/random_pairs.h"
 #include "tests/support/campaign.h"
+#include "tests/support/same_space.h"
 #include "tests/support/solid_tools.h"
 
 namespace phongpd {
 namespace {
 
 using testing::Cube;
+using testing::DifferenceOf;
 
 std::vector<ContactSpacePiece> AllPieces(const SolidPair& pair, int count,
                                          std::size_t facets_of_box,
@@ -35,28 +37,8 @@ std::vector<ContactSpacePiece> AllPieces(const SolidPair& pair, int count,
   return pieces;
 }
 
-// What is not the same to the last bit: mesh, planes, kinds, and what is said
-// of the surface.  Empty: nothing.
-std::string Difference(const ContactSpace& a, const ContactSpace& b) {
-  const ContactSpaceReport &r = a.report(), &s = b.report();
-  std::string text;
-  const auto tell = [&text](bool is_same, const std::string& what) {
-    if (!is_same) text += what + "; ";
-  };
-  tell(a.mesh().vertices == b.mesh().vertices, "vertices");
-  tell(a.mesh().triangles == b.mesh().triangles,
-       "triangles " + std::to_string(r.triangles) + " for " +
-           std::to_string(s.triangles));
-  tell(a.plane() == b.plane(), "planes");
-  tell(a.kind() == b.kind(), "kinds");
-  tell(r.cavities == s.cavities, "cavities " + std::to_string(r.cavities) +
-                                     " for " + std::to_string(s.cavities));
-  tell(r.components == s.components && r.genus == s.genus, "topology");
-  tell(r.volume == s.volume, "volume");
-  return text;
-}
 bool AreSame(const ContactSpace& a, const ContactSpace& b) {
-  return Difference(a, b).empty();
+  return DifferenceOf(a, b).empty();
 }
 
 // Does the message of the InputError hold all `words`?
@@ -94,7 +76,7 @@ std::string CompareCase(PairKind kind, std::uint64_t seed, long i,
     const std::vector<ContactSpacePiece> pieces =
         AllPieces(pair, count, facets_of_box, options);
     for (const ContactSpacePiece& piece : pieces) *boxes += piece.boxes();
-    return Difference(JoinContactSpace(pieces), whole);
+    return DifferenceOf(JoinContactSpace(pieces), whole);
   } catch (const InputError& error) {
     return error.what();
   }

@@ -67,7 +67,7 @@ std::vector<double> Gaps() {
 }
 
 struct Ray {
-  Vector3d foot, direction;
+  Vector3d foot = Vector3d::Zero(), direction = Vector3d::Zero();
   bool is_facet = false;  // along its normal, from its inside
 };
 

@@ -29,7 +29,6 @@ struct FaultyCommand {
 class CliFaultCampaign : public CliProcess {
  protected:
   void SetUp() override {
-    if (kIsSanitized) GTEST_SKIP() << "sanitizers are preloaded themselves";
     CliProcess::SetUp();
     Scene(TwoObstacles());
     WriteText("points.csv", "x,y,z\n0.3,0,0.1\n3,0,-0.1\n");

@@ -12,6 +12,7 @@
 
 #include "tests/problems/cli/cli_process.h"
 #include "tests/support/campaign.h"
+#include "tests/support/sanitizer.h"
 
 namespace phongpd {
 namespace {
@@ -127,7 +128,7 @@ TEST_F(CliLimitsCampaign, FoldersMayNotBeWrittenTo) {
 
 // Address space for less and less of the work.
 TEST_F(CliLimitsCampaign, MemoryRunsOut) {
-  if (kIsSanitized) GTEST_SKIP() << "sanitizers need address space";
+  if (testing::kIsSanitized) GTEST_SKIP() << "sanitizers need address space";
   WriteMesh(MakeIcoBall(1.0, 3), File("ball.off"));
   WriteMesh(MakeL(3, 1, 1), File("l.off"));
   const std::string command =

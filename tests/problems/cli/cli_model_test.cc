@@ -8,6 +8,7 @@
 
 #include "problems/studies/planning_study.h"
 #include "tests/problems/cli/cli_scenes.h"
+#include "tests/support/sanitizer.h"
 
 namespace phongpd {
 namespace {
@@ -74,9 +75,13 @@ TEST_F(CliModel, AutoTakesTheWindowWhereTheContactSpaceIsRefused) {
     EXPECT_EQ(row["planner"], planner.empty() ? "rrt-connect" : planner);
     ExpectFree(row, scene);
     const Outcome outcome = Run(command + " --output o.jsonl");
-    for (const char* part : {"model window", "max_mib", "predicted"}) {
+    for (const char* part : {"model window", "max_mib"}) {
       EXPECT_NE(outcome.err.find(part), std::string::npos) << outcome.err;
     }
+    // With what is freed kept back it is passed before anything is predicted.
+    EXPECT_TRUE(testing::kIsSanitized ||
+                outcome.err.find("predicted") != std::string::npos)
+        << outcome.err;
   }
 }
 

@@ -18,13 +18,6 @@
 // Runs commands that are interrupted.
 namespace phongpd {
 
-// Limits of memory and preloaded libraries do not go with sanitizers.
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr bool kIsSanitized = true;
-#else
-constexpr bool kIsSanitized = false;
-#endif
-
 class CliProcess : public CliScenes {
  protected:
   // Starts the command; returns its process.
