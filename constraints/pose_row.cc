@@ -39,7 +39,7 @@ Vector3d Along(const TriangleMesh& mesh, const ContactFeature& edge) {
 
 }  // namespace
 
-PoseRow::PoseRow(const TriangleMesh& robot, const TriangleMesh& obstacle,
+PoseRow::PoseRow(const Solid& robot, const Solid& obstacle,
                  const DepthOptions& options)
     : query_(robot, obstacle, options), robot_(robot), obstacle_(obstacle) {}
 

@@ -53,7 +53,7 @@ struct PoseRowValue {
 class PoseRow {
  public:
   // Throws InputError as DepthQuery does.
-  PoseRow(const TriangleMesh& robot, const TriangleMesh& obstacle,
+  PoseRow(const Solid& robot, const Solid& obstacle,
           const DepthOptions& options = {});
 
   // Throws InputError as DepthQuery::At does.  Thread-safe.
@@ -66,7 +66,7 @@ class PoseRow {
   Eigen::Vector3d Differences(const RobotPose& pose) const;
 
   DepthQuery query_;
-  TriangleMesh robot_, obstacle_;
+  Solid robot_, obstacle_;
 };
 
 }  // namespace phongpd

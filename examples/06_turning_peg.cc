@@ -3,7 +3,7 @@
 // it.  Rows on exact depth at poses, solved by Ipopt to a local optimum, judged
 // exactly at 1,000 poses (not between them).
 #include <phongpd/constraints/pose_row.h>
-#include <phongpd/core/mesh/mesh_io.h>
+#include <phongpd/core/solid/solid.h>
 #include <phongpd/planners/trajectory/ipopt_solve.h>
 
 #include <iostream>
@@ -70,7 +70,7 @@ struct Passage final : NonlinearProgram {
 
 int main(int argc, char** argv) {
   if (argc != 3) return 2;
-  const TriangleMesh peg = ReadMesh(argv[1]), slot = ReadMesh(argv[2]);
+  const Solid peg = ReadSolid(argv[1]), slot = ReadSolid(argv[2]);
   const PoseRow row(peg, slot);
   Passage passage(row);
   Eigen::VectorXd x(passage.variables());

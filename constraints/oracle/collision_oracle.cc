@@ -60,9 +60,9 @@ std::unique_ptr<SurfaceMesh> ToSurfaceMesh(const TriangleMesh& mesh) {
 // The union of the bodies less their cavities: points of winding number > 0.
 // Components are asked one by one, because overlapping bodies make the parity
 // of all surfaces together wrong.
-class Solid {
+class Bodies {
  public:
-  explicit Solid(const TriangleMesh& mesh) {
+  explicit Bodies(const TriangleMesh& mesh) {
     int count = 0;
     const std::vector<int> label = LabelComponents(mesh, &count);
     std::vector<TriangleMesh> parts(static_cast<std::size_t>(count));
@@ -103,19 +103,6 @@ class Solid {
   std::vector<Component> components_;
 };
 
-void RequireSolid(const TriangleMesh& mesh, const char* name) {
-  const std::string what = std::string("collision oracle: the ") + name;
-  if (mesh.triangles.empty()) {
-    throw InputError(what + " needs at least one triangle, found none");
-  }
-  // A NaN in an exact predicate would end the process.
-  for (const Eigen::Vector3d& v : mesh.vertices) {
-    if (!IsFinite(v)) {
-      throw InputError(what + " needs finite vertices, found NaN or Inf");
-    }
-  }
-}
-
 }  // namespace
 
 struct CollisionOracle::Impl {
@@ -124,15 +111,14 @@ struct CollisionOracle::Impl {
         obstacle(obstacle_mesh),
         surfaces(robot_mesh, obstacle_mesh) {}
 
-  Solid robot;
-  Solid obstacle;
+  Bodies robot;
+  Bodies obstacle;
   FclSurfaces surfaces;
 };
 
-CollisionOracle::CollisionOracle(const TriangleMesh& robot,
-                                 const TriangleMesh& obstacle) {
-  RequireSolid(robot, "robot");
-  RequireSolid(obstacle, "obstacle");
+CollisionOracle::CollisionOracle(const Solid& robot, const Solid& obstacle) {
+  RequireNotEmpty(robot, "collision oracle: robot");
+  RequireNotEmpty(obstacle, "collision oracle: obstacle");
   impl_ = std::make_unique<Impl>(robot, obstacle);
 }
 

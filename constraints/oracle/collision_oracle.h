@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <memory>
 
-#include "core/mesh/triangle_mesh.h"
+#include "core/solid/solid.h"
 
 namespace phongpd {
 
@@ -17,9 +17,8 @@ namespace phongpd {
 // cavities that hold it; bodies may overlap.
 class CollisionOracle {
  public:
-  // Both meshes as MakeSolid returns them.  Throws InputError if one has no
-  // triangle or a vertex that is not finite.
-  CollisionOracle(const TriangleMesh& robot, const TriangleMesh& obstacle);
+  // Throws InputError for a solid without triangles.
+  CollisionOracle(const Solid& robot, const Solid& obstacle);
   ~CollisionOracle();
   CollisionOracle(CollisionOracle&&) noexcept;
   CollisionOracle& operator=(CollisionOracle&&) noexcept;

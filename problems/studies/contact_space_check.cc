@@ -189,7 +189,8 @@ class Checker {
   }
 
   void CheckPoints() {
-    oracle_ = std::make_unique<CollisionOracle>(pair_.robot, pair_.obstacle);
+    oracle_ = std::make_unique<CollisionOracle>(
+        MakeSolid(pair_.robot, "robot"), MakeSolid(pair_.obstacle, "obstacle"));
     const BoundingBox box = ComputeBounds(space_->mesh());
     for (int i = 0; i < options_.points; ++i) {
       CheckPoint(RandomPoint(box, &random_), nullptr);

@@ -39,7 +39,7 @@ struct Tally {
 Tally CompareWithDifferences(const TriangleMesh& robot,
                              const TriangleMesh& obstacle, int poses,
                              unsigned seed) {
-  const PoseRow row(robot, obstacle);
+  const PoseRow row(MakeSolid(robot, "robot"), MakeSolid(obstacle, "obstacle"));
   const double size = ComputeBounds(robot).Diagonal();
   const BoundingBox box = ComputeBounds(obstacle);
   std::mt19937 engine(seed);
@@ -97,8 +97,9 @@ TEST(PoseRow, SeveralContactsAtOnceAreToldAndRight) {
 
 // A bar over a slab: its lowest corner is at z − sin|θ|·½ − cos θ·0.1.
 TEST(PoseRow, OfABarOverASlabIsItsLowestCorner) {
-  const PoseRow row(MakeBox({-0.5, -0.1, -0.1}, {0.5, 0.1, 0.1}),
-                    MakeBox({-9, -9, -1}, {9, 9, 0}));
+  const PoseRow row(
+      MakeSolid(MakeBox({-0.5, -0.1, -0.1}, {0.5, 0.1, 0.1}), "bar"),
+      MakeSolid(MakeBox({-9, -9, -1}, {9, 9, 0}), "slab"));
   for (const double height : {0.8, 0.3, 0.05}) {
     for (const double angle : {-0.6, -0.1, 0.2, 0.9}) {
       const RobotPose pose = {
@@ -118,7 +119,7 @@ TEST(PoseRow, OfABarOverASlabIsItsLowestCorner) {
 }
 
 TEST(PoseRow, RefusesPosesThatAreNone) {
-  const TriangleMesh box = MakeBox({0, 0, 0}, {1, 1, 1});
+  const Solid box = MakeSolid(MakeBox({0, 0, 0}, {1, 1, 1}), "box");
   const PoseRow row(box, box);
   EXPECT_THROW(row.At({Vector3d::Constant(NAN), Quaterniond::Identity()}),
                InputError);

@@ -7,9 +7,9 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
-#include "constraints/oracle/collision_oracle.h"
 #include "core/minkowski/build_limits.h"
 #include "problems/shapes/shapes.h"
+#include "tests/support/fcl_oracle_of.h"
 #include "tests/support/sanitizer.h"
 #include "tests/support/solid_tools.h"
 
@@ -32,7 +32,7 @@ void ExpectSound(const ContactSpaceReport& report) {
 // hit: everywhere, and a hair to either side of it.
 void ExpectSeparates(const TriangleMesh& robot, const TriangleMesh& obstacle,
                      const TriangleMesh& surface, int samples) {
-  const CollisionOracle oracle(robot, obstacle);
+  const CollisionOracle oracle = testing::FclOracleOf(robot, obstacle);
   const BoundingBox box = ComputeBounds(surface);
   std::mt19937_64 random(7);
   for (int i = 0; i < samples; ++i) {
