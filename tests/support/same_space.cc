@@ -18,7 +18,11 @@ std::string DifferenceOf(const ContactSpace& a, const ContactSpace& b) {
   tell(r.cavities == s.cavities, "cavities " + std::to_string(r.cavities) +
                                      " for " + std::to_string(s.cavities));
   tell(r.components == s.components && r.genus == s.genus, "topology");
+  tell(r.closed == s.closed && r.manifold == s.manifold, "kind of surface");
   tell(r.volume == s.volume, "volume");
+  tell(r.worst_quality == s.worst_quality &&
+           r.median_quality == s.median_quality,
+       "quality");
   tell(r.convolution_triangles == s.convolution_triangles, "convolution");
   return text;
 }

@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <limits>
 #include <random>
 #include <string>
@@ -14,46 +13,38 @@
 #include "core/mesh/mesh_io.h"
 #include "core/solid/solid.h"
 #include "problems/shapes/shapes.h"
+#include "tests/support/temporary_folder.h"
 
 namespace phongpd {
 namespace {
 
-std::string TestPath(const std::string& file) {
-  const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-  return testing::TempDir() + test->name() + "_" + file;
-}
-
-std::string Contents(const std::string& path) {
-  std::ifstream in(path, std::ios::binary);
-  return std::string(std::istreambuf_iterator<char>(in), {});
-}
-
-void Store(const std::string& path, const std::string& content) {
-  std::ofstream(path, std::ios::binary) << content;
-}
-
 // One line that starts with the path, says `part`, and nothing on the streams.
 void ExpectRefusal(const std::string& path, const std::string& part) {
-  testing::internal::CaptureStdout();
-  testing::internal::CaptureStderr();
+  ::testing::internal::CaptureStdout();
+  ::testing::internal::CaptureStderr();
   std::string what = "accepted";
   try {
     ReadMesh(path);
   } catch (const InputError& error) {
     what = error.what();
   }
-  EXPECT_EQ(testing::internal::GetCapturedStdout(), "") << path;
-  EXPECT_EQ(testing::internal::GetCapturedStderr(), "") << path;
+  EXPECT_EQ(::testing::internal::GetCapturedStdout(), "") << path;
+  EXPECT_EQ(::testing::internal::GetCapturedStderr(), "") << path;
   EXPECT_EQ(what.rfind(path + ": ", 0), 0u) << what;
   EXPECT_NE(what.find(part), std::string::npos) << what << "\n" << part;
   EXPECT_EQ(what.find('\n'), std::string::npos) << what;
 }
 
-void ExpectRefused(const std::string& file, const std::string& content,
-                   const std::string& part) {
-  Store(TestPath(file), content);
-  ExpectRefusal(TestPath(file), part);
-}
+class MeshReader : public testing::TemporaryFolder {
+ protected:
+  void ExpectRefused(const std::string& file, const std::string& content,
+                     const std::string& part) const {
+    Put(file, content);
+    ExpectRefusal(At(file), part);
+  }
+};
+
+using MeshWriter = testing::TemporaryFolder;
 
 std::string PlyHeader(const std::string& coordinate, const std::string& count) {
   return "ply\nformat ascii 1.0\nelement vertex " + count + "\nproperty " +
@@ -63,13 +54,13 @@ std::string PlyHeader(const std::string& coordinate, const std::string& count) {
          "end_header\n";
 }
 
-TEST(ReadMesh, RefusesPathsThatAreNoMeshFile) {
-  ExpectRefusal(TestPath("missing.off"), "found nothing; check the path");
-  ExpectRefusal(TestPath("missing.xyz"), "found \".xyz\"");
-  ExpectRefusal(TestPath("noextension"), "found none");
+TEST_F(MeshReader, RefusesPathsThatAreNoMeshFile) {
+  ExpectRefusal(At("missing.off"), "found nothing; check the path");
+  ExpectRefusal(At("missing.xyz"), "found \".xyz\"");
+  ExpectRefusal(At("noextension"), "found none");
   ExpectRefusal("", "unknown mesh format");
-  std::filesystem::create_directories(TestPath("folder.off"));
-  ExpectRefusal(TestPath("folder.off"), "found a directory");
+  std::filesystem::create_directories(At("folder.off"));
+  ExpectRefusal(At("folder.off"), "found a directory");
   for (const char* file : {"e.off", "e.obj", "e.stl", "e.ply"}) {
     ExpectRefused(file, "", "found an empty file");
     ExpectRefused(file, "\n", "expected");
@@ -79,7 +70,7 @@ TEST(ReadMesh, RefusesPathsThatAreNoMeshFile) {
   }
 }
 
-TEST(ReadMesh, RefusesFilesWithoutFaces) {
+TEST_F(MeshReader, RefusesFilesWithoutFaces) {
   ExpectRefused("a.off", "OFF\n3 0 0\n0 0 0\n1 0 0\n0 1 0\n", "no face");
   ExpectRefused("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nl 1 2\n", "no face");
   ExpectRefused("a.stl", "solid a\nendsolid a\n", "no face");
@@ -89,7 +80,7 @@ TEST(ReadMesh, RefusesFilesWithoutFaces) {
                 "no face");
 }
 
-TEST(ReadMesh, RefusesIndicesOutOfRange) {
+TEST_F(MeshReader, RefusesIndicesOutOfRange) {
   const std::string v = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
   ExpectRefused("a.obj", v + "f 1 2 3\nf 1 2 4\n",
                 "1 faces with an index out of range, the first is 1");
@@ -108,7 +99,7 @@ TEST(ReadMesh, RefusesIndicesOutOfRange) {
   ExpectRefused("a.ply", ply + "3 0 1 -1\n", "1 faces with an index");
 }
 
-TEST(ReadMesh, RefusesCountsThatTheFileCannotHold) {
+TEST_F(MeshReader, RefusesCountsThatTheFileCannotHold) {
   ExpectRefused("a.off", "OFF\n2000000000 1 0\n0 0 0\n", "2000000000 vertices");
   ExpectRefused("a.off", "OFF\n1 2000000000 0\n0 0 0\n", "2000000000 faces");
   ExpectRefused("a.off", "OFF\n-1 1 0\n0 0 0\n", "expected");
@@ -118,7 +109,7 @@ TEST(ReadMesh, RefusesCountsThatTheFileCannotHold) {
   ExpectRefused("a.ply", PlyHeader("float", "many"), "PLY");
 }
 
-TEST(ReadMesh, RefusesPlyCoordinatesThatAreNotReal) {
+TEST_F(MeshReader, RefusesPlyCoordinatesThatAreNotReal) {
   ExpectRefused("a.ply", PlyHeader("int", "3") + "0 0 0\n1 0 0\n0 1 0\n3 0 1 2",
                 "expected float or double, found int");
   ExpectRefused("a.ply",
@@ -127,7 +118,7 @@ TEST(ReadMesh, RefusesPlyCoordinatesThatAreNotReal) {
                 "found 1 of them");
 }
 
-TEST(ReadMesh, RefusesNonFiniteCoordinatesWithTheirCount) {
+TEST_F(MeshReader, RefusesNonFiniteCoordinatesWithTheirCount) {
   std::string stl(80, ' ');
   const std::uint32_t one = 1;
   stl.append(reinterpret_cast<const char*>(&one), 4);
@@ -150,16 +141,16 @@ TEST(ReadMesh, RefusesNonFiniteCoordinatesWithTheirCount) {
 }
 
 // The files that WriteMesh makes of one star, cut and damaged.
-TEST(ReadMesh, SurvivesEveryTruncation) {
+TEST_F(MeshReader, SurvivesEveryTruncation) {
   const TriangleMesh star = MakeStar(1, 2);
   for (const std::string file : {"s.off", "s.obj", "s.stl", "s.ply"}) {
-    WriteMesh(star, TestPath(file));
-    const std::string whole = Contents(TestPath(file));
+    WriteMesh(star, At(file));
+    const std::string whole = Content(file);
     std::size_t refused = 0, tried = 0;
     for (std::size_t size = 0; size < whole.size(); size += 31, ++tried) {
-      Store(TestPath(file), whole.substr(0, size));
+      Put(file, whole.substr(0, size));
       try {
-        const TriangleMesh mesh = ReadMesh(TestPath(file));
+        const TriangleMesh mesh = ReadMesh(At(file));
         // OBJ has no end mark, so a cut one may be a smaller mesh.
         EXPECT_TRUE(file == "s.obj" || size + 12 > whole.size()) << size;
         ExamineMesh(mesh);
@@ -171,20 +162,20 @@ TEST(ReadMesh, SurvivesEveryTruncation) {
   }
 }
 
-TEST(ReadMesh, SurvivesDamagedBytes) {
+TEST_F(MeshReader, SurvivesDamagedBytes) {
   std::mt19937 random(7);
   const TriangleMesh box = MakeBox({0, 0, 0}, {1, 2, 4});
   for (const std::string file : {"b.off", "b.obj", "b.stl", "b.ply"}) {
-    WriteMesh(box, TestPath(file));
-    const std::string whole = Contents(TestPath(file));
+    WriteMesh(box, At(file));
+    const std::string whole = Content(file);
     int read = 0;
     for (int run = 0; run < 400; ++run) {
       std::string damaged = whole;
       const std::string alphabet = "0123456789-.e #/\n\t\\\x7f\xff nan";
       damaged[random() % damaged.size()] = alphabet[random() % alphabet.size()];
-      Store(TestPath(file), damaged);
+      Put(file, damaged);
       try {
-        const TriangleMesh mesh = ReadMesh(TestPath(file));
+        const TriangleMesh mesh = ReadMesh(At(file));
         ++read;
         MakeSolid(mesh, file);
       } catch (const InputError& error) {
@@ -195,17 +186,17 @@ TEST(ReadMesh, SurvivesDamagedBytes) {
   }
 }
 
-TEST(WriteMesh, RefusesBeforeItWrites) {
+TEST_F(MeshWriter, RefusesBeforeItWrites) {
   TriangleMesh mesh = MakeBox({0, 0, 0}, {1, 1, 1});
-  EXPECT_THROW(WriteMesh(mesh, TestPath("a.step")), InputError);
-  EXPECT_THROW(WriteMesh(mesh, TestPath("no/such/folder/a.off")), InputError);
+  EXPECT_THROW(WriteMesh(mesh, At("a.step")), InputError);
+  EXPECT_THROW(WriteMesh(mesh, At("no/such/folder/a.off")), InputError);
   mesh.vertices[7].x() = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_THROW(WriteMesh(mesh, TestPath("a.off")), InputError);
+  EXPECT_THROW(WriteMesh(mesh, At("a.off")), InputError);
   mesh = MakeBox({0, 0, 0}, {1, 1, 1});
   mesh.triangles[0][1] = 8;
-  EXPECT_THROW(WriteMesh(mesh, TestPath("a.off")), InputError);
-  EXPECT_FALSE(std::filesystem::exists(TestPath("a.step")));
-  EXPECT_FALSE(std::filesystem::exists(TestPath("a.off")));
+  EXPECT_THROW(WriteMesh(mesh, At("a.off")), InputError);
+  EXPECT_FALSE(std::filesystem::exists(At("a.step")));
+  EXPECT_FALSE(std::filesystem::exists(At("a.off")));
 }
 
 }  // namespace

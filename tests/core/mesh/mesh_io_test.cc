@@ -7,27 +7,25 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
-#include <fstream>
 #include <string>
 
 #include "core/solid/solid.h"
 #include "problems/shapes/shapes.h"
+#include "tests/support/temporary_folder.h"
 
 namespace phongpd {
 namespace {
 
 using Eigen::Vector3d;
 
-std::string TestPath(const std::string& file) {
-  const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-  return testing::TempDir() + test->name() + "_" + file;
-}
-
-TriangleMesh ReadText(const std::string& file, const std::string& content) {
-  const std::string path = TestPath(file);
-  std::ofstream(path, std::ios::binary) << content;
-  return ReadMesh(path);
-}
+class MeshIo : public testing::TemporaryFolder {
+ protected:
+  TriangleMesh ReadText(const std::string& file,
+                        const std::string& content) const {
+    Put(file, content);
+    return ReadMesh(At(file));
+  }
+};
 
 // `value` as the bytes of a T, in either order.
 template <typename T>
@@ -77,22 +75,22 @@ double SolidVolume(const TriangleMesh& mesh) {
   return report.volume;
 }
 
-TEST(MeshIo, ReadsBackTheSameDoubles) {
+TEST_F(MeshIo, ReadsBackTheSameDoubles) {
   TriangleMesh mesh = Rotated(MakeStar(0.1, 1.0 / 3.0), GenericRotation());
   mesh.vertices[0] = {5e-324, -1e-300, 1.7976931348623157e308};
   mesh.vertices[1] = {0.1, -0.0, 1.000000001};
   mesh.vertices[2] = {1e-9, 123456789.123456789, -1e6 - 1e-6};
   for (const char* file : {"m.off", "m.obj", "m.ply"}) {
-    WriteMesh(mesh, TestPath(file));
-    const TriangleMesh read = ReadMesh(TestPath(file));
+    WriteMesh(mesh, At(file));
+    const TriangleMesh read = ReadMesh(At(file));
     ASSERT_EQ(read.vertices.size(), mesh.vertices.size()) << file;
     for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
       EXPECT_TRUE(HasSameBits(read.vertices[v], mesh.vertices[v])) << file;
     }
     EXPECT_EQ(read.triangles, mesh.triangles) << file;
   }
-  WriteMesh(mesh, TestPath("m.stl"));
-  const TriangleMesh read = ReadMesh(TestPath("m.stl"));
+  WriteMesh(mesh, At("m.stl"));
+  const TriangleMesh read = ReadMesh(At("m.stl"));
   EXPECT_EQ(read.vertices.size(), mesh.vertices.size());
   const std::vector<Vector3d> expected = Corners(mesh), found = Corners(read);
   ASSERT_EQ(found.size(), expected.size());
@@ -101,27 +99,26 @@ TEST(MeshIo, ReadsBackTheSameDoubles) {
   }
 }
 
-TEST(MeshIo, WritesTheSameBytesAgain) {
+TEST_F(MeshIo, WritesTheSameBytesAgain) {
   const TriangleMesh mesh = Rotated(MakeWrench(), GenericRotation());
   for (const char* file : {"m.off", "m.obj", "m.ply", "m.stl"}) {
     std::string bytes[2];
     for (std::string& content : bytes) {
-      WriteMesh(mesh, TestPath(file));
-      std::ifstream in(TestPath(file), std::ios::binary);
-      content.assign(std::istreambuf_iterator<char>(in), {});
+      WriteMesh(mesh, At(file));
+      content = Content(file);
     }
     EXPECT_EQ(bytes[0], bytes[1]);
     EXPECT_GT(bytes[0].size(), 386u * 20);
   }
 }
 
-TEST(MeshIo, ReadsExtensionsInAnyCase) {
+TEST_F(MeshIo, ReadsExtensionsInAnyCase) {
   EXPECT_EQ(ReadText("a.OBJ", kTetrahedronObj).triangles.size(), 4u);
   EXPECT_EQ(ReadText("a.Off", kCubeOff).triangles.size(), 12u);
   EXPECT_EQ(ReadText("a.b.pLy", kTetrahedronPly).triangles.size(), 4u);
 }
 
-TEST(MeshIo, ReadsLinesThatEndInCrLf) {
+TEST_F(MeshIo, ReadsLinesThatEndInCrLf) {
   EXPECT_NEAR(
       SolidVolume(ReadText("a.obj", WithLineEnds(kTetrahedronObj, "\r\n"))),
       1.0 / 6, 1e-16);
@@ -129,13 +126,12 @@ TEST(MeshIo, ReadsLinesThatEndInCrLf) {
       SolidVolume(ReadText("a.ply", WithLineEnds(kTetrahedronPly, "\r\n"))),
       1.0 / 6, 1e-16);
   EXPECT_EQ(SolidVolume(ReadText("a.off", WithLineEnds(kCubeOff, "\r\n"))), 1);
-  WriteMesh(MakeStar(1, 2), TestPath("star.stl"));
-  std::ifstream in(TestPath("star.stl"), std::ios::binary);
-  const std::string stl(std::istreambuf_iterator<char>(in), {});
-  EXPECT_EQ(ReadText("a.stl", WithLineEnds(stl, "\r\n")).vertices.size(), 32u);
+  WriteMesh(MakeStar(1, 2), At("star.stl"));
+  const std::string stl = WithLineEnds(Content("star.stl"), "\r\n");
+  EXPECT_EQ(ReadText("a.stl", stl).vertices.size(), 32u);
 }
 
-TEST(MeshIo, ReadsBinaryStl) {
+TEST_F(MeshIo, ReadsBinaryStl) {
   const TriangleMesh box = MakeBox({0, 0, 0}, {1, 2, 4});
   // Some writers say solid.
   for (const std::string start : {"", "solid ", "solid of facet normal\n"}) {
@@ -154,7 +150,7 @@ TEST(MeshIo, ReadsBinaryStl) {
   }
 }
 
-TEST(MeshIo, ReadsBinaryPlyInBothByteOrders) {
+TEST_F(MeshIo, ReadsBinaryPlyInBothByteOrders) {
   const TriangleMesh star = Rotated(MakeStar(1, 2), GenericRotation());
   for (const bool is_big_endian : {false, true}) {
     std::string ply = std::string("ply\nformat binary_") +
@@ -179,7 +175,7 @@ TEST(MeshIo, ReadsBinaryPlyInBothByteOrders) {
   }
 }
 
-TEST(MeshIo, ReadsTheStatementsOfObjThatOthersWrite) {
+TEST_F(MeshIo, ReadsTheStatementsOfObjThatOthersWrite) {
   const TriangleMesh mesh = ReadText(
       "a.obj",
       "# a comment\nmtllib a.mtl\no part\ng  side one\nusemtl Red Paint\n"
@@ -190,7 +186,7 @@ TEST(MeshIo, ReadsTheStatementsOfObjThatOthersWrite) {
   EXPECT_NEAR(SolidVolume(mesh), 1.0 / 6, 1e-16);
 }
 
-TEST(MeshIo, ReadsTheHeadersOfOffThatOthersWrite) {
+TEST_F(MeshIo, ReadsTheHeadersOfOffThatOthersWrite) {
   const std::string body(kCubeOff + 4);
   for (const std::string head :
        {"OFF ", "# made by\n# hand\nOFF\n", "COFF\n", "OFF\n\n\n"}) {
@@ -205,7 +201,7 @@ TEST(MeshIo, ReadsTheHeadersOfOffThatOthersWrite) {
   EXPECT_EQ(SolidVolume(ReadText("a.off", colored)), 1.0);
 }
 
-TEST(MeshIo, ReadsBinaryOff) {
+TEST_F(MeshIo, ReadsBinaryOff) {
   std::string off = "OFF BINARY\n";
   const TriangleMesh box = MakeBox({0, 0, 0}, {1, 2, 4});
   for (const int count : {8, 12, 0}) off += Bytes<std::int32_t>(count, true);
@@ -220,7 +216,7 @@ TEST(MeshIo, ReadsBinaryOff) {
   EXPECT_EQ(SolidVolume(ReadText("box.off", off)), 8.0);
 }
 
-TEST(MeshIo, TriangulatesPolygonsThatAreNotConvex) {
+TEST_F(MeshIo, TriangulatesPolygonsThatAreNotConvex) {
   // A U-shaped prism of two octagons and eight quads; the fan around the
   // first corner of an octagon would leave it.
   const double u[8][2] = {{1, 2}, {2, 2}, {2, 3}, {0, 3},
@@ -250,22 +246,22 @@ TEST(MeshIo, TriangulatesPolygonsThatAreNotConvex) {
   }
 }
 
-TEST(MeshIo, SkipsFacesWithFewerThanThreeCorners) {
+TEST_F(MeshIo, SkipsFacesWithFewerThanThreeCorners) {
   const TriangleMesh mesh =
       ReadText("a.obj", std::string(kTetrahedronObj) + "f 1 2\nf 1\nf\n");
   EXPECT_EQ(mesh.triangles.size(), 4u);
 }
 
-TEST(MeshIo, KeepsVerticesApartExceptInStl) {
+TEST_F(MeshIo, KeepsVerticesApartExceptInStl) {
   TriangleMesh two =
       Joined(MakeBox({0, 0, 0}, {1, 1, 1}), MakeBox({0, 0, 0}, {1, 1, 1}));
   two.vertices.emplace_back(5, 5, 5);  // unused
   for (const char* file : {"m.off", "m.obj", "m.ply"}) {
-    WriteMesh(two, TestPath(file));
-    EXPECT_EQ(ReadMesh(TestPath(file)).vertices.size(), 17u) << file;
+    WriteMesh(two, At(file));
+    EXPECT_EQ(ReadMesh(At(file)).vertices.size(), 17u) << file;
   }
-  WriteMesh(two, TestPath("m.stl"));
-  EXPECT_EQ(ReadMesh(TestPath("m.stl")).vertices.size(), 8u);
+  WriteMesh(two, At("m.stl"));
+  EXPECT_EQ(ReadMesh(At("m.stl")).vertices.size(), 8u);
 }
 
 }  // namespace
