@@ -37,20 +37,21 @@ void Count(const MetricRow& row, bool was_warm, NonPenetrationCounts* counts) {
 NonPenetrationConstraint::NonPenetrationConstraint(
     std::vector<std::shared_ptr<const SignedMetric>> metrics,
     const Vector3d& start, const Vector3d& goal, int waypoints,
-    const std::vector<int>& samples_per_segment,
-    const NonPenetrationOptions& options)
+    const std::vector<int>& samples_per_segment, int rows,
+    const PathFrame& frame)
     : metrics_(std::move(metrics)),
       start_(start),
       goal_(goal),
       waypoints_(waypoints),
-      options_(options) {
+      rows_per_space_(rows),
+      frame_(frame) {
   if (metrics_.empty()) Fail("needs at least one contact space", "none");
   for (const auto& metric : metrics_) {
     if (metric == nullptr) Fail("needs a metric for each space", "a null one");
   }
-  if (options.rows < 1 || options.rows > kMaxMetricRows) {
+  if (rows < 1 || rows > kMaxMetricRows) {
     Fail("rows must be 1 to " + std::to_string(kMaxMetricRows),
-         std::to_string(options.rows));
+         std::to_string(rows));
   }
   if (waypoints < 1) {
     Fail("needs at least one free waypoint", std::to_string(waypoints));
@@ -62,12 +63,12 @@ NonPenetrationConstraint::NonPenetrationConstraint(
   if (!phongpd::IsFinite(start) || !phongpd::IsFinite(goal)) {
     Fail("start and goal must be finite", "NaN or Inf");
   }
-  if (!(options_.frame.unit > 0.0) || !std::isfinite(options_.frame.unit) ||
-      !phongpd::IsFinite(options_.frame.center)) {
+  if (!(frame_.unit > 0.0) || !std::isfinite(frame_.unit) ||
+      !phongpd::IsFinite(frame_.center)) {
     Fail("the frame needs a finite centre and a unit > 0",
-         std::to_string(options_.frame.unit));
+         std::to_string(frame_.unit));
   }
-  rows_per_sample_ = options.rows * static_cast<int>(metrics_.size());
+  rows_per_sample_ = rows * static_cast<int>(metrics_.size());
   for (int i = 0; i <= waypoints_; ++i) {
     const int count = samples_per_segment[static_cast<std::size_t>(i)];
     if (count < 0) Fail("sample counts must be ≥ 0", std::to_string(count));
@@ -106,8 +107,7 @@ Vector3d NonPenetrationConstraint::Waypoint(int index, const double* u) const {
   if (index == 0) return start_;
   if (index == waypoints_ + 1) return goal_;
   const double* p = u + 3 * (index - 1);
-  return options_.frame.center +
-         options_.frame.unit * Vector3d(p[0], p[1], p[2]);
+  return frame_.center + frame_.unit * Vector3d(p[0], p[1], p[2]);
 }
 
 Vector3d NonPenetrationConstraint::SamplePoint(int sample,
@@ -121,7 +121,7 @@ Vector3d NonPenetrationConstraint::SamplePoint(int sample,
 bool NonPenetrationConstraint::IsFinite(const double* u) const {
   // Sums of a few numbers far below the largest double stay finite.
   constexpr double kLargest = std::numeric_limits<double>::max() / 16.0;
-  const double limit = kLargest / std::max(1.0, options_.frame.unit);
+  const double limit = kLargest / std::max(1.0, frame_.unit);
   return std::all_of(u, u + variables(), [&](double x) {
     return std::islessequal(std::abs(x), limit);
   });
@@ -142,14 +142,14 @@ void NonPenetrationConstraint::ForEachRow(const double* u,
                                           NonPenetrationCounts* counts,
                                           BranchSet* next,
                                           const Visit& visit) const {
-  const auto count = static_cast<std::size_t>(options_.rows);
+  const auto count = static_cast<std::size_t>(rows_per_space_);
   std::array<MetricRow, kMaxMetricRows> rows;  // of one space
   for (int s = 0; s < samples(); ++s) {
     const Sample& sample = samples_[static_cast<std::size_t>(s)];
     const Vector3d q = SamplePoint(s, u);
     for (std::size_t m = 0; m < metrics_.size(); ++m) {
       const Branch& previous = branches.branches[BranchIndex(s, m)];
-      metrics_[m]->Query(q, previous, options_.rows, rows.data());
+      metrics_[m]->Query(q, previous, rows_per_space_, rows.data());
       Count(rows[0], previous.IsValid(), counts);
       if (next != nullptr) {
         next->branches[BranchIndex(s, m)] = rows[0].branch;
@@ -172,7 +172,7 @@ bool NonPenetrationConstraint::Evaluate(const double* u,
   ForEachRow(u, branches, counts, next,
              [&](const Sample& sample, const MetricRow& row) {
                if (values != nullptr) {
-                 *values++ = std::min(row.value / options_.frame.unit,
+                 *values++ = std::min(row.value / frame_.unit,
                                       std::numeric_limits<double>::max());
                }
                if (jacobian == nullptr) return;

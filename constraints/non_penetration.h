@@ -38,13 +38,6 @@ struct PathFrame {
   double unit = 1.0;
 };
 
-struct NonPenetrationOptions {
-  PathFrame frame;
-  // K in [1, kMaxMetricRows]; of several contact spaces each has K rows a
-  // sample.
-  int rows = 1;
-};
-
 // The rows d(sample) ≥ margin of a polyline through N free waypoints,
 //
 //   start = p_0, p_1, …, p_N, p_{N+1} = goal,   variables u = (u_1, …, u_N),
@@ -62,13 +55,13 @@ struct NonPenetrationOptions {
 class NonPenetrationConstraint {
  public:
   // At least one metric, waypoints ≥ 1, N+1 sample counts ≥ 0, finite start
-  // and goal, unit > 0.
-  // Throws InputError.
+  // and goal, K = rows in [1, kMaxMetricRows] (of several contact spaces each
+  // has K rows a sample), unit > 0.  Throws InputError.
   NonPenetrationConstraint(
       std::vector<std::shared_ptr<const SignedMetric>> metrics,
       const Eigen::Vector3d& start, const Eigen::Vector3d& goal, int waypoints,
-      const std::vector<int>& samples_per_segment,
-      const NonPenetrationOptions& options = {});
+      const std::vector<int>& samples_per_segment, int rows = 1,
+      const PathFrame& frame = {});
 
   int variables() const { return 3 * waypoints_; }
   int samples() const { return static_cast<int>(samples_.size()); }
@@ -120,7 +113,8 @@ class NonPenetrationConstraint {
   std::vector<std::shared_ptr<const SignedMetric>> metrics_;
   Eigen::Vector3d start_, goal_;
   int waypoints_ = 0;
-  NonPenetrationOptions options_;
+  int rows_per_space_ = 1;  // K
+  PathFrame frame_;
   int rows_per_sample_ = 1;  // K, or K times the number of spaces
   int nonzeros_ = 0;
   std::vector<Sample> samples_;

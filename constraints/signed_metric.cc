@@ -31,10 +31,6 @@ std::shared_ptr<const PenetrationMetric> MakeMetric(
 }  // namespace
 
 void SignedMetricOptions::Validate() const {
-  if (!(reach > 0.0)) {
-    throw InputError("reach: expected a share of D > 0, found " +
-                     std::to_string(reach));
-  }
   if (metric == MetricKind::kPhong) phong.Validate();
 }
 
@@ -51,7 +47,7 @@ SignedMetric::SignedMetric(const ContactSpace& space,
     throw InputError(
         "signed metric: expected a penetration metric, found null");
   }
-  reach_ = options_.reach * space.length();
+  reach_ = kRowReach * space.length();
   features_ = std::make_shared<FeatureSearch>(space);
 }
 

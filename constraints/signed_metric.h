@@ -24,9 +24,6 @@ struct SignedMetricOptions {
   MetricKind metric = MetricKind::kPhong;
   PhongMetricOptions phong;  // kPhong only
   JacobianKind jacobian = JacobianKind::kDirection;
-  // Farthest that rows after the first may be, a share of D, > 0.  A
-  // wall farther off says nothing a margin needs, and is what costs time.
-  double reach = 0.1;
 
   // Throws InputError naming the option, the range and the value.
   void Validate() const;
@@ -35,6 +32,9 @@ struct SignedMetricOptions {
 inline constexpr int kMaxMetricRows = 8;
 // Least angle between the directions of two rows, degrees.
 inline constexpr double kRowSeparation = 25.0;
+// Farthest that rows after the first may be, a share of D.  A wall farther off
+// says nothing a margin needs, and is what costs time.
+inline constexpr double kRowReach = 0.1;
 // Longest gradient a row may have; longer ones are cut to this length.  A
 // constraint d ≥ m needs the order of 1; near a fold |∇d| → ∞.
 inline constexpr double kMaxRowGradient = 5.0;
@@ -60,12 +60,12 @@ struct MetricRow {
 // options: they change how a solver gets out, not what is feasible.
 //
 // Rows (outside): row 0 is d; row k is the distance to the nearest triangle
-// within `reach` whose direction differs by more than kRowSeparation from those
-// of rows 0 … k−1.
-// All are necessary for d ≥ m, so extra rows never change the feasible set;
-// they show the solver the second wall of a channel before it hits it.
-// Inside, and where no further feature exists, the remaining rows repeat row 0
-// with is_repeated: the pattern stays, and no row claims what is not known.
+// within kRowReach whose direction differs by more than kRowSeparation from
+// those of rows 0 … k−1. All are necessary for d ≥ m, so extra rows never
+// change the feasible set; they show the solver the second wall of a channel
+// before it hits it. Inside, and where no further feature exists, the remaining
+// rows repeat row 0 with is_repeated: the pattern stays, and no row claims what
+// is not known.
 class SignedMetric {
  public:
   // Throws InputError for options.

@@ -113,13 +113,13 @@ class FieldBuilder {
 
   // base_ = n₀, or the least correction of it that is admissible.
   void AverageFacets() {
-    base_ = VertexNormals(field_.mesh, facets_, options_.weight);
+    base_ = VertexNormals(field_.mesh, facets_, NormalWeight::kAngle);
     limited_.assign(base_.size(), 0);
     inadmissible_.assign(base_.size(), 0);
     const auto fans = FacetFans();
     for (std::size_t v = 0; v < base_.size(); ++v) {
       Vector3d& n = base_[v];
-      if (!n.isZero(0.0) && MinFacetDot(n, fans[v]) >= options_.limiter) {
+      if (!n.isZero(0.0) && MinFacetDot(n, fans[v]) >= kNormalLimiter) {
         continue;
       }
       const Vector3d best = BestNormal(fans[v]);
@@ -128,7 +128,7 @@ class FieldBuilder {
       } else {
         limited_[v] = 1;
         n = n.isZero(0.0) ? best
-                          : LimitNormal(n, best, fans[v], options_.limiter);
+                          : LimitNormal(n, best, fans[v], kNormalLimiter);
       }
     }
     FillMissing();
@@ -272,8 +272,7 @@ class FieldBuilder {
       field_.normals[v] = n;
       if (inadmissible_[v]) continue;
       // Where even the best direction stays below c, that one is all there is.
-      const double c =
-          std::min(options_.limiter, MinFacetDot(base_[v], fans[v]));
+      const double c = std::min(kNormalLimiter, MinFacetDot(base_[v], fans[v]));
       field_.normals[v] = LimitNormal(n, base_[v], fans[v], c);
       limited_[v] = field_.normals[v] != n ? 1 : 0;
     }
@@ -331,7 +330,6 @@ void PhongFieldOptions::Validate() const {
   // Written so that NaN fails.
   CheckRange("smoothing_length", smoothing_length,
              smoothing_length >= 0.0 && smoothing_length <= 1.0, "[0, 1]");
-  CheckRange("limiter", limiter, limiter > 0.0 && limiter < 1.0, "(0, 1)");
   CheckRange("max_edge", max_edge, max_edge >= 0.0 && max_edge <= 1.0,
              "[0, 1]");
 }

@@ -10,13 +10,6 @@
 
 namespace phongpd {
 
-// How facet normals are averaged into the vertex normal n₀.
-enum class NormalWeight {
-  kAngle,    // by the facet's angle at the vertex: independent of how coplanar
-             // patches are triangulated (default)
-  kUniform,  // plain average of adjacent facets: the paper's choice
-};
-
 // ℓ wherever nobody says another: from C++, by the program, in scene files,
 // from Python and in the viewer.  results/trade says why it is this one.
 inline constexpr double kDefaultSmoothingLength = 0.2;
@@ -25,10 +18,6 @@ struct PhongFieldOptions {
   // ℓ as a share of D (ContactSpace::length); 0 is the paper's field.  Must be
   // in [0, 1].
   double smoothing_length = kDefaultSmoothingLength;
-  NormalWeight weight = NormalWeight::kAngle;
-  // Admissibility c: n_i · N_f ≥ c for every vertex i and incident facet f.
-  // Must be in (0, 1).
-  double limiter = 0.1;
   // Longest edge of the field mesh as a share of D; longer edges are split at
   // mid-points (which leaves the surface as it is).  0: ℓ/2, or no bound for ℓ
   // = 0.  A diffusion that edges longer than ℓ do not resolve is a property of
@@ -42,7 +31,8 @@ struct PhongFieldOptions {
   // Throws InputError naming the option, the range and the value.
   void Validate() const;
 
-  // ℓ = 0: the paper's field, but for the weight.
+  // ℓ = 0: the paper's field, but for the weight of facets: their angle at the
+  // vertex, where the paper averages them plainly.
   static PhongFieldOptions Unsmoothed() {
     PhongFieldOptions options;
     options.smoothing_length = 0.0;
@@ -50,12 +40,15 @@ struct PhongFieldOptions {
   }
 };
 
+// Admissibility c: n_i · N_f ≥ c for every vertex i and incident facet f.
+inline constexpr double kNormalLimiter = 0.1;
+
 // Counts of what building a field met; all of them are published figures.
 struct PhongFieldReport {
   std::size_t split_edges = 0;  // by length, inadmissibility or the 90° rule
   // Turned by the limiter: the smoothed normal towards n₀, or n₀ itself towards
   // the direction that maximises min_f n·N_f.  Where even that direction stays
-  // below `limiter` (needle tips) it is what the vertex gets.
+  // below kNormalLimiter (needle tips) it is what the vertex gets.
   std::size_t limited_vertices = 0;
   // No direction has n·N_f > 0 for all facets (pinched or folded vertices).
   // Edges there are halved three times first, so n·N_f ≤ 0 happens only within

@@ -5,12 +5,18 @@
 #include <vector>
 
 #include "core/mesh/triangle_mesh.h"
-#include "core/projection/phong_field.h"
 
 // Facet and vertex normals of a closed, outward mesh.  Results do not depend,
 // to the last bit, on the order of the triangles nor on which of a triangle's
 // vertices comes first: contributions are summed in the order of their values.
 namespace phongpd {
+
+// How facet normals are averaged into the vertex normal n₀.
+enum class NormalWeight {
+  kAngle,    // by the facet's angle at the vertex: independent of how coplanar
+             // patches are triangulated; what fields are made of
+  kUniform,  // plain average of adjacent facets: the paper's choice
+};
 
 // Unit facet normals N_f, taken from the two shortest edges.  A triangle whose
 // altitude on its longest edge is ≤ 1e-12 × the diagonal of the bounding box

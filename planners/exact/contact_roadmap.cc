@@ -28,6 +28,7 @@ constexpr int kGapLinks = 1000;
 // the other.
 constexpr int kNeighbors = 32;
 constexpr int kStops = 6;
+constexpr int kRandomCuts = 20;  // of the shortening
 
 template <typename T>
 void Require(bool holds, const char* option, const char* range, T value) {
@@ -36,26 +37,17 @@ void Require(bool holds, const char* option, const char* range, T value) {
 
 }  // namespace
 
-void ContactRoadmapOptions::Validate() const {
-  Require(spacing >= 1e-3 && spacing <= 1.0, "spacing", "in [0.001, 1]",
-          spacing);
-}
-
 void RoadmapRequest::Validate() const {
-  Require(random_cuts >= 0, "random_cuts", "≥ 0", random_cuts);
   Require(clearance >= 0.0 && std::isfinite(clearance), "clearance",
           "≥ 0 and finite", clearance);
 }
 
 struct ContactRoadmap::Impl {
   Impl(std::shared_ptr<const ContactSurfacePlanner> given_planner,
-       const PlanningSurface& given_surface,
-       const ContactRoadmapOptions& given_options)
+       const PlanningSurface& given_surface, double spacing)
       : planner(std::move(given_planner)),
         surface(given_surface),
-        options((given_options.Validate(), given_options)),
-        graph(surface, options.spacing * surface.bounds.Diagonal(), kGapLinks) {
-  }
+        graph(surface, spacing * surface.bounds.Diagonal(), kGapLinks) {}
 
   std::vector<Vector3d> Route(const Vector3d& start, const Vector3d& goal,
                               double clearance) const;
@@ -75,7 +67,6 @@ struct ContactRoadmap::Impl {
 
   std::shared_ptr<const ContactSurfacePlanner> planner;
   const PlanningSurface& surface;
-  ContactRoadmapOptions options;
   LiftedGraph graph;
   double build_seconds = 0.0;
   mutable std::atomic<long> queries{0}, lazy_searches{0};
@@ -106,23 +97,22 @@ std::vector<Vector3d> ContactRoadmap::Impl::Route(const Vector3d& start,
 }
 
 ContactRoadmap::ContactRoadmap(
-    std::shared_ptr<const ContactSurfacePlanner> planner,
-    const ContactRoadmapOptions& options) {
+    std::shared_ptr<const ContactSurfacePlanner> planner, double spacing) {
   if (!planner) {
     throw InputError("contact roadmap: expected a planner, found none");
   }
+  Require(spacing >= 1e-3 && spacing <= 1.0, "spacing", "in [0.001, 1]",
+          spacing);
   const Stopwatch stopwatch;
   const PlanningSurface& surface = planner->surface();
-  impl_ = std::make_unique<Impl>(std::move(planner), surface, options);
+  impl_ = std::make_unique<Impl>(std::move(planner), surface, spacing);
   impl_->build_seconds = stopwatch.Seconds();
 }
 
 ContactRoadmap::ContactRoadmap(const ContactSpace& merged,
-                               const ContactRoadmapOptions& options,
                                const ContactSurfaceOptions& planner_options)
     : ContactRoadmap(std::make_shared<const ContactSurfacePlanner>(
-                         merged, planner_options),
-                     options) {}
+          merged, planner_options)) {}
 
 ContactRoadmap::~ContactRoadmap() = default;
 ContactRoadmap::ContactRoadmap(ContactRoadmap&&) noexcept = default;
@@ -173,8 +163,8 @@ PlanResult ContactRoadmap::Plan(const Vector3d& start, const Vector3d& goal,
       sparse.clearance = result.wanted_clearance;
       sparse.random_cuts = 0;
       sparse.pulls = 0;
-      surface.Keep(ShortenPath(path, surface.segments, sparse),
-                   request.random_cuts, &result);
+      surface.Keep(ShortenPath(path, surface.segments, sparse), kRandomCuts,
+                   &result);
       result.raw_path = std::move(path);
     } else {
       surface.Offer(path, path, &result);

@@ -9,21 +9,15 @@
 
 namespace phongpd {
 
-struct ContactRoadmapOptions {
-  // Distance between nodes on an edge, a fraction of the mesh's diagonal, in
-  // [1e-3, 1].  Smaller: shorter raw paths, longer build and queries.
-  double spacing = 0.1;
-
-  // Throws InputError naming the option, the range and the value.
-  void Validate() const;
-};
+// Distance between nodes on an edge, a fraction of the mesh's diagonal, in
+// [1e-3, 1].  Smaller: shorter raw paths, longer build and queries.
+inline constexpr double kRoadmapSpacing = 0.1;
 
 // What one query may ask differently.
 struct RoadmapRequest {
   // Centre and shorten the route.  Without: as the roadmap has it.
   bool shorten = true;
-  int random_cuts = 20;    // of the shortening, ≥ 0
-  double clearance = 0.0;  // user's unit, ≥ 0, finite; 0: by the options
+  double clearance = 0.0;  // user's unit, ≥ 0, finite; 0: kEnoughClearance
 
   // Throws InputError naming the option, the range and the value.
   void Validate() const;
@@ -56,12 +50,11 @@ struct RoadmapReport {
 class ContactRoadmap {
  public:
   // On the planner's contact space, with its wanted clearance.  Throws
-  // InputError for options and for no planner.
+  // InputError for a spacing out of range and for no planner.
   explicit ContactRoadmap(std::shared_ptr<const ContactSurfacePlanner> planner,
-                          const ContactRoadmapOptions& options = {});
+                          double spacing = kRoadmapSpacing);
   // Builds the planner, too; throws InputError like it.
   explicit ContactRoadmap(const ContactSpace& merged,
-                          const ContactRoadmapOptions& options = {},
                           const ContactSurfaceOptions& planner_options = {});
   ~ContactRoadmap();
   ContactRoadmap(ContactRoadmap&&) noexcept;

@@ -68,8 +68,6 @@ const char* ToString(PlanStatus status) {
 }
 
 void ContactSurfaceOptions::Validate() const {
-  Require(clearance > 0.0 && clearance <= 0.5, "clearance", "in (0, 0.5]",
-          clearance);
   Require(spacing >= 1e-3 && spacing <= 1.0, "spacing", "in [0.001, 1]",
           spacing);
   Require(gap_links >= 0, "gap_links", "≥ 0", gap_links);
@@ -98,7 +96,7 @@ struct ContactSurfacePlanner::Impl {
   }
   void Recombine(PlanResult* result) const;
   void FindPath(const Vector3d& start, const Vector3d& goal,
-                const PlanRequest& request, PlanResult* result) const;
+                const PlanRequest& request, bool all, PlanResult* result) const;
 
   PlanningSurface surface;
   SurfaceGraph graph;
@@ -166,10 +164,9 @@ void ContactSurfacePlanner::Impl::Recombine(PlanResult* result) const {
 
 void ContactSurfacePlanner::Impl::FindPath(const Vector3d& start,
                                            const Vector3d& goal,
-                                           const PlanRequest& request,
+                                           const PlanRequest& request, bool all,
                                            PlanResult* result) const {
   const ContactSurfaceOptions& options = surface.options;
-  const bool all = request.all_routes;
   const int routes = request.routes > 0 ? request.routes : options.routes;
   if (surface.IsClearWay(start, goal, result->wanted_clearance)) {
     std::vector<Vector3d> path = {start};
@@ -273,11 +270,18 @@ double ContactSurfacePlanner::build_seconds() const {
 PlanResult ContactSurfacePlanner::Plan(const Vector3d& start,
                                        const Vector3d& goal,
                                        const PlanRequest& request) const {
+  return Plan(start, goal, request, false);
+}
+
+PlanResult ContactSurfacePlanner::Plan(const Vector3d& start,
+                                       const Vector3d& goal,
+                                       const PlanRequest& request,
+                                       bool all_routes) const {
   request.Validate();
   const Stopwatch stopwatch;
   PlanResult result = impl_->surface.Begin(start, goal, request.clearance);
   if (result.reason.empty()) {
-    impl_->FindPath(start, goal, request, &result);
+    impl_->FindPath(start, goal, request, all_routes, &result);
   }
   result.seconds = stopwatch.Seconds();
   return result;

@@ -2,8 +2,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <cstdint>
-#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -25,10 +23,11 @@ enum class PlanStatus {
 };
 const char* ToString(PlanStatus status);
 
+// Clearance that is enough for who names none, a share of the diagonal of the
+// cell's hull; passages narrower than twice that are taken in the middle.
+inline constexpr double kEnoughClearance = 0.01;
+
 struct ContactSurfaceOptions {
-  // Clearance that is enough, a fraction of the diagonal of the cell's hull;
-  // passages narrower than twice that are taken in the middle.  In (0, 0.5].
-  double clearance = 0.01;
   // Distance between roadmap points on an edge, a fraction of the mesh's
   // diagonal.  Smaller: shorter routes, longer searches.  In [1e-3, 1].
   double spacing = 0.05;
@@ -38,11 +37,7 @@ struct ContactSurfaceOptions {
   // Routes of different kinds that are compared after shortening, at least 1;
   // fewer where the first is about as short as the straight line.
   int routes = 3;
-  int random_cuts = 200;   // of the shortening, ≥ 0
-  std::uint64_t seed = 1;  // of those
-  // Names what is in the way at q, for messages.  Plan calls it: whoever plans
-  // in several threads needs one that is thread-safe.
-  std::function<std::string(const Eigen::Vector3d& q)> name_obstacle;
+  int random_cuts = 200;  // of the shortening, ≥ 0
 
   // Throws InputError naming the option, the range and the value.
   void Validate() const;
@@ -50,11 +45,8 @@ struct ContactSurfaceOptions {
 
 // What one query may ask differently.
 struct PlanRequest {
-  double clearance = 0.0;  // user's unit, ≥ 0, finite; 0: by the options
+  double clearance = 0.0;  // user's unit, ≥ 0, finite; 0: kEnoughClearance
   int routes = 0;          // ≥ 0; 0: by the options
-  // All of them, however long; otherwise only while they may become the
-  // shortest.
-  bool all_routes = false;
 
   // Throws InputError naming the option, the range and the value.
   void Validate() const;
@@ -124,7 +116,13 @@ class ContactSurfacePlanner {
 
  private:
   friend class ContactRoadmap;
+  friend class StartRepair;
   struct Impl;
+
+  // All: as many routes as are asked for, however long; otherwise only while
+  // they may become the shortest.
+  PlanResult Plan(const Eigen::Vector3d& start, const Eigen::Vector3d& goal,
+                  const PlanRequest& request, bool all_routes) const;
 
   const PlanningSurface& surface() const;
 

@@ -25,7 +25,7 @@ struct ExactSolution {
 ExactSolution SolveExactly(const Workspace& workspace,
                            const Eigen::Vector3d& start,
                            const Eigen::Vector3d& goal,
-                           ContactSurfaceOptions options = {},
+                           const ContactSurfaceOptions& options = {},
                            const ContactSpaceOptions& contact_options = {});
 
 // The ids of what the robot touches at q: obstacles, and "bounds"; separated

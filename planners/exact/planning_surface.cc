@@ -87,7 +87,6 @@ void PlanningSurface::Keep(std::vector<Vector3d> raw_path, int random_cuts,
   ShorteningOptions shortening;
   shortening.clearance = result->wanted_clearance;
   shortening.random_cuts = random_cuts;
-  shortening.seed = options.seed;
   std::vector<Vector3d> path = ShortenPath(raw_path, segments, shortening);
   Offer(std::move(raw_path), std::move(path), result);
 }
@@ -113,7 +112,7 @@ void PlanningSurface::Offer(std::vector<Vector3d> raw_path,
 
 double PlanningSurface::WantedClearance(int cell) const {
   const BoundingBox& hull = cell >= 0 ? piece_bounds_[cell] : bounds;
-  return options.clearance * hull.Diagonal();
+  return kEnoughClearance * hull.Diagonal();
 }
 
 double PlanningSurface::ClearanceOf(const std::vector<Vector3d>& path) const {
@@ -140,9 +139,7 @@ std::string PlanningSurface::WhyInvalid(const char* which,
            << -contact.Answer(q, Location::kInside).signed_distance
            << " deep in";
   }
-  const std::string name =
-      options.name_obstacle ? options.name_obstacle(q) : "";
-  reason << (name.empty() ? " an obstacle" : " '" + name + "'");
+  reason << ' ' << kUnnamed;
   return reason.str();
 }
 

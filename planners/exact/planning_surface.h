@@ -14,6 +14,9 @@
 
 namespace phongpd {
 
+// What reasons call that which is in the way: a contact space knows no names.
+inline constexpr char kUnnamed[] = "an obstacle";
+
 // The merged contact space as planners need it, and what every query begins
 // and ends with.  Thread-safe; stays where it is, its members refer to each
 // other.
@@ -45,7 +48,7 @@ struct PlanningSurface {
   void Keep(std::vector<Eigen::Vector3d> raw_path, int random_cuts,
             PlanResult* result) const;
 
-  // By the options, in the cell of that number: a share of its hull.
+  // Enough in the cell of that number: kEnoughClearance of its hull.
   double WantedClearance(int cell) const;
   // Of a path that is free, at most what it has at its start.
   double ClearanceOf(const std::vector<Eigen::Vector3d>& path) const;

@@ -28,6 +28,8 @@ constexpr int kCandidates = 8;
 
 constexpr int kRandomCuts = 120;  // of the straightening
 
+constexpr double kClearance = 0.01;  // that is wished, of D
+
 template <typename T>
 void Check(const char* name, const char* range, bool holds, T value) {
   CheckOption(holds, "start repair", name, range, value);
@@ -65,9 +67,8 @@ bool IsSame(const Path& one, const Path& other) {
 void StartRepairOptions::Validate() const {
   Check("waypoints", "1 to 10000", waypoints >= 1 && waypoints <= 10000,
         waypoints);
-  Check("margin", "in (0, 1)", margin > 0.0 && margin < 1.0, margin);
-  Check("diagonal", "0 to 1e150", diagonal >= 0.0 && diagonal <= 1e150,
-        diagonal);
+  Check("clearance", "0 to 1e150", clearance >= 0.0 && clearance <= 1e150,
+        clearance);
   Check("routes", "1 to 8", routes >= 1 && routes <= 8, routes);
 }
 
@@ -98,9 +99,10 @@ struct StartRepair::Impl {
 
   std::vector<double> FindContacts(const Path& path) const;
   std::vector<Path> PlanLine(const Path& path, const PlanRequest& request,
-                             StartRepairResult* result) const;
+                             bool all, StartRepairResult* result) const;
   Path LeadAround(const Path& path, const std::vector<double>& contacts,
-                  const PlanRequest& request, StartRepairResult* result) const;
+                  const PlanRequest& request, bool all,
+                  StartRepairResult* result) const;
   Path Shorten(const Path& path, const StartRepairOptions& options,
                double clearance) const;
   Path Resample(Path path, const StartRepairOptions& options,
@@ -130,8 +132,9 @@ std::vector<double> StartRepair::Impl::FindContacts(const Path& path) const {
 // the shortest one.
 std::vector<Path> StartRepair::Impl::PlanLine(const Path& path,
                                               const PlanRequest& request,
+                                              bool all,
                                               StartRepairResult* result) const {
-  PlanResult plan = planner.Plan(path.front(), path.back(), request);
+  PlanResult plan = planner.Plan(path.front(), path.back(), request, all);
   Count(plan, result);
   result->reason = plan.reason;
   if (plan.status == PlanStatus::kInfeasibleProved) {
@@ -144,7 +147,7 @@ std::vector<Path> StartRepair::Impl::PlanLine(const Path& path,
 // empty if that fails.
 Path StartRepair::Impl::LeadAround(const Path& path,
                                    const std::vector<double>& contacts,
-                                   const PlanRequest& request,
+                                   const PlanRequest& request, bool all,
                                    StartRepairResult* result) const {
   const double end = static_cast<double>(path.size() - 1);
   Path out = {path.front()};
@@ -159,7 +162,7 @@ Path StartRepair::Impl::LeadAround(const Path& path,
       after = 0.5 * (contacts[next - 1] + free_until);
       const Vector3d to = PointAt(path, after);
       if (!space.IsFree(to)) continue;
-      plan = planner.Plan(PointAt(path, before), to, request);
+      plan = planner.Plan(PointAt(path, before), to, request, all);
       Count(plan, result);
       if (plan.status == PlanStatus::kSolved) break;
     }
@@ -225,15 +228,16 @@ void StartRepair::Impl::Repair(const Path& path,
     result->routes.push_back(std::move(sampled));
     return;
   }
-  const double length = options.diagonal > 0.0 ? options.diagonal : diagonal;
+  const double wished =
+      options.clearance > 0.0 ? options.clearance : kClearance * diagonal;
   PlanRequest request;
   // Shortening gives a part of the clearance away.
-  request.clearance = options.margin * length / kClearanceKept;
+  request.clearance = wished / kClearanceKept;
   request.routes = kCandidates;
-  request.all_routes = options.routes > 1;
+  const bool all = options.routes > 1;
   std::vector<Path> found;
   if (path.size() > 2) {
-    Path around = LeadAround(path, contacts, request, result);
+    Path around = LeadAround(path, contacts, request, all, result);
     if (!around.empty()) {
       found.push_back(Shorten(around, options, request.clearance));
     }
@@ -242,7 +246,7 @@ void StartRepair::Impl::Repair(const Path& path,
   // is no path are its own ends.
   if (found.empty()) {
     result->runs = 1;
-    found = PlanLine(path, request, result);
+    found = PlanLine(path, request, all, result);
   }
   std::stable_sort(found.begin(), found.end(),
                    [](const Path& a, const Path& b) {

@@ -14,10 +14,10 @@
 namespace phongpd {
 
 struct StartRepairOptions {
-  int waypoints = 40;     // N ≥ 1 free points between start and goal
-  double margin = 0.01;   // wished clearance, a fraction of `diagonal`, > 0
-  double diagonal = 0.0;  // user's unit; 0: D of the contact space
-  int routes = 1;         // to return, in [1, 8]: of the best parts of 8 ways
+  int waypoints = 40;  // N ≥ 1 free points between start and goal
+  // Wished, user's unit, ≥ 0; 0: 0.01 of D of the contact space.
+  double clearance = 0.0;
+  int routes = 1;  // to return, in [1, 8]: of the best parts of 8 ways
   std::uint64_t seed = 1;
 
   // Throws InputError naming the option, the range and the value.
@@ -52,7 +52,8 @@ struct StartRepairResult {
 //
 //  1. Colliding run: from just before the first contact to just after a place
 //     where the path is free again, the next one that can be reached.
-//  2. It becomes the shortest path on the contact space, lifted to the margin
+//  2. It becomes the shortest path on the contact space, lifted to the
+//  clearance
 //     or to the middle of the gap and shortened (contact_surface_planner.h).
 //     For a path of two points that is the whole path.
 //  3. The joined path is shortened again and resampled with every corner a

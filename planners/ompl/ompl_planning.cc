@@ -102,7 +102,8 @@ void AddRetractionFigures(const RetractionPlanner& planner,
   result->segment_checks += planner.slideCounters().segment_checks;
   result->retractions = counters.retractions;
   result->branch_ends = counters.branch_ends;
-  result->graph = {planner.graph().points(), planner.graph().edges()};
+  result->graph = {planner.graph().points(), planner.graph().edges(),
+                   planner.samplesAtPoints()};
 }
 
 }  // namespace
@@ -199,14 +200,7 @@ OmplPlanningResult Plan(const MotionDomain& domain,
             .asString();
     return result;
   }
-  auto* own = dynamic_cast<RetractionPlanner*>(planner.get());
-  if (own != nullptr && options.in_passage) {
-    own->setWatch([&result, &options, own](const Vector3d& q) {
-      if (result.samples_to_passage < 0 && options.in_passage(q)) {
-        result.samples_to_passage = static_cast<std::int64_t>(own->samples());
-      }
-    });
-  }
+  const auto* own = dynamic_cast<const RetractionPlanner*>(planner.get());
   const Stopwatch stopwatch;
   const ob::PlannerStatus status =
       planner->solve(ob::timedPlannerTerminationCondition(options.time_limit));

@@ -3,7 +3,6 @@
 
 #include <Eigen/Core>
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <string>
 #include <utility>
@@ -34,8 +33,6 @@ struct OmplPlanningOptions {
   // second thread and repeats only up to when that one notices a solution.
   std::uint64_t seed = 1;
   RetractionOptions retraction;  // retraction-* and prm-retraction
-  // retraction-rrt and -forest: is q within the passage of interest?
-  std::function<bool(const Eigen::Vector3d& q)> in_passage;
 
   // Throws InputError.
   void Validate() const;
@@ -46,6 +43,9 @@ struct OmplPlanningOptions {
 struct GrownGraph {
   std::vector<Eigen::Vector3d> points;
   std::vector<std::pair<int, int>> edges;
+  // retraction-rrt and -forest: how many uniform samples there were when each
+  // point was added, in this order.  Empty for OMPL's own planners.
+  std::vector<std::uint64_t> samples;
 };
 
 struct OmplPlanningResult {
@@ -56,8 +56,6 @@ struct OmplPlanningResult {
   double length = 0.0;
   double clearance = 0.0;  // of the whole path from contact; 0 if none is free
   std::uint64_t samples = 0;  // uniform ones; 0 for OMPL's own planners
-  // Samples until the first node in_passage; −1: none, or not asked for.
-  std::int64_t samples_to_passage = -1;
   std::uint64_t collision_checks = 0;  // of a configuration
   std::uint64_t segment_checks = 0;    // of a motion
   std::uint64_t retractions = 0;       // of colliding configurations

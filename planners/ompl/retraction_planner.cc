@@ -62,7 +62,6 @@ void RetractionPlanner::DeclareParams() {
 
 void RetractionPlanner::setRetractionOptions(const RetractionOptions& options) {
   retraction_ = retraction_.WithOptions(options);
-  slide_options_.clearance = options.clearance;
 }
 
 const RetractionOptions& RetractionPlanner::retractionOptions() const {
@@ -72,10 +71,6 @@ const RetractionOptions& RetractionPlanner::retractionOptions() const {
 void RetractionPlanner::setSeed(std::uint64_t seed) {
   seed_ = static_cast<std::uint32_t>(seed);
   random_.seed(seed);
-}
-
-void RetractionPlanner::setWatch(std::function<void(const Vector3d&)> watch) {
-  watch_ = std::move(watch);
 }
 
 void RetractionPlanner::checkValidity() {
@@ -97,6 +92,7 @@ void RetractionPlanner::clear() {
   goals_.clear();
   targets_.clear();
   samples_ = 0;
+  samples_at_points_.clear();
   scratch_ = {};
   slides_ = {};
   ClearNeighbors();
@@ -178,12 +174,13 @@ bool RetractionPlanner::Slide(int from, const Vector3d& to) {
   SlideStatus status = SlideStatus::kStopped;
   switch (local_planner_) {
     case LocalPlanner::kCollideAndSlide:
-      status = CollideAndSlide(retraction_.model(), slide_options_, a, to,
-                               &path_, &slides_);
+      status =
+          CollideAndSlide(retraction_.model(), retraction_.options().clearance,
+                          a, to, &path_, &slides_);
       break;
     case LocalPlanner::kStepRetract:
-      status = StepRetract(retraction_, slide_options_, a, to, &random_,
-                           &scratch_, &path_, &slides_);
+      status = StepRetract(retraction_, a, to, &random_, &scratch_, &path_,
+                           &slides_);
       break;
     case LocalPlanner::kStraight:
       ++slides_.slides;
@@ -206,14 +203,13 @@ bool RetractionPlanner::Slide(int from, const Vector3d& to) {
 }
 
 int RetractionPlanner::AddSlide(int from, int to) {
-  if (watch_) {
-    for (std::size_t k = 1; k < path_.size(); ++k) watch_(path_[k]);
-  }
-  return graph_.AddPath(from, path_, to);
+  const int last = graph_.AddPath(from, path_, to);
+  samples_at_points_.resize(graph_.points().size(), samples_);
+  return last;
 }
 
 int RetractionPlanner::AddPoint(const Vector3d& q) {
-  if (watch_) watch_(q);
+  samples_at_points_.push_back(samples_);
   return graph_.AddPoint(q);
 }
 

@@ -5,7 +5,6 @@
 #include <ompl/base/goals/GoalSampleableRegion.h>
 
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <random>
 #include <string>
@@ -45,12 +44,13 @@ class RetractionPlanner : public ompl::base::Planner {
   const RetractionOptions& retractionOptions() const;
   void setLocalPlanner(LocalPlanner planner) { local_planner_ = planner; }
   void setSeed(std::uint64_t seed);
-  // Calls watch(q) for every point added: benchmarks ask when the first one
-  // is inside a passage.
-  void setWatch(std::function<void(const Eigen::Vector3d&)> watch);
 
   // Since the last clear().
   std::uint64_t samples() const { return samples_; }
+  // How many samples there were when each point of graph() was added.
+  const std::vector<std::uint64_t>& samplesAtPoints() const {
+    return samples_at_points_;
+  }
   const RetractionCounters& retractionCounters() const {
     return scratch_.counters;
   }
@@ -90,15 +90,14 @@ class RetractionPlanner : public ompl::base::Planner {
 
   Retraction retraction_;
   RetractionScratch scratch_;
-  SlideOptions slide_options_;
   SlideCounters slides_;
   LocalPlanner local_planner_ = LocalPlanner::kCollideAndSlide;
   std::mt19937_64 random_;
   std::uint32_t seed_ = 0;
   std::uint64_t samples_ = 0;
+  std::vector<std::uint64_t> samples_at_points_;
   std::vector<Eigen::Vector3d> targets_;  // of the last sample, not yet used
   bool exact_ = false;  // the motion validator is the model's own
-  std::function<void(const Eigen::Vector3d&)> watch_;
   ompl::base::State* from_ = nullptr;
   ompl::base::State* to_ = nullptr;
   mutable std::vector<ompl::base::State*> states_;  // for planner data

@@ -113,20 +113,6 @@ void DeclareRetractionParams(
       },
       [](const RetractionOptions& options) { return options.clearance; },
       "0.001:0.001:0.1");
-  declare(
-      "depth_bound",
-      [](double value, RetractionOptions* options) {
-        options->depth_bound = value;
-      },
-      [](const RetractionOptions& options) { return options.depth_bound; },
-      "0.1:0.1:2");
-  declare(
-      "max_branches",
-      [](int value, RetractionOptions* options) {
-        options->max_branches = value;
-      },
-      [](const RetractionOptions& options) { return options.max_branches; },
-      "1:1:256");
 }
 
 }  // namespace phongpd

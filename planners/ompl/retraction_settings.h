@@ -33,9 +33,9 @@ BranchChoice BranchChoiceFromString(const std::string& name);
 // The names of local planners, separated by commas: a range of OMPL's.
 std::string LocalPlannerRange();
 
-// Declares metric, choice, clearance, depth_bound and max_branches on *params
-// with their ranges.  Setting one calls set(changed options), which may throw
-// InputError and then must leave everything as it was.
+// Declares metric, choice and clearance on *params with their ranges.  Setting
+// one calls set(changed options), which may throw InputError and then must
+// leave everything as it was.
 void DeclareRetractionParams(
     const std::function<RetractionOptions()>& get,
     const std::function<void(const RetractionOptions&)>& set,

@@ -14,15 +14,15 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr std::size_t kMaxMoves = 100;  // of one slide
+constexpr double kStep = 2e-2;  // of StepRetract, of the region's diagonal
 
 // A body that moves towards a target, and what it last ran into.
 class Slider {
  public:
-  Slider(const ContactModel& model, const SlideOptions& options,
-         const Vector3d& start, std::vector<Vector3d>* path,
-         SlideCounters* counters)
+  Slider(const ContactModel& model, double clearance, const Vector3d& start,
+         std::vector<Vector3d>* path, SlideCounters* counters)
       : model_(model),
-        clearance_(options.clearance * model.diagonal()),
+        clearance_(clearance * model.diagonal()),
         at_(start),
         path_(*path),
         counters_(*counters) {}
@@ -113,22 +113,13 @@ Vector3d AlongCrease(const Vector3d& motion, const Vector3d& n_1,
 
 }  // namespace
 
-void SlideOptions::Validate() const {
-  const auto check = [](bool holds, const char* name, const char* range,
-                        auto value) {
-    CheckOption(holds, "slide", name, range, value);
-  };
-  check(clearance > 0.0 && clearance <= 1.0, "clearance", "in (0, 1]",
-        clearance);
-  check(step > 0.0 && step <= 1.0, "step", "in (0, 1]", step);
-}
-
-SlideStatus CollideAndSlide(const ContactModel& model,
-                            const SlideOptions& options, const Vector3d& a,
-                            const Vector3d& b, std::vector<Vector3d>* path,
+SlideStatus CollideAndSlide(const ContactModel& model, double clearance,
+                            const Vector3d& a, const Vector3d& b,
+                            std::vector<Vector3d>* path,
                             SlideCounters* counters) {
   using Outcome = Slider::Outcome;
-  options.Validate();
+  CheckOption(clearance > 0.0 && clearance <= 1.0, "slide", "clearance",
+              "in (0, 1]", clearance);
   path->clear();
   ++counters->slides;
   if (!IsFinite(b) || !model.free_space().IsFree(a)) {
@@ -136,7 +127,7 @@ SlideStatus CollideAndSlide(const ContactModel& model,
   }
   path->push_back(a);
   if (a == b) return SlideStatus::kReached;
-  Slider slider(model, options, a, path, counters);
+  Slider slider(model, clearance, a, path, counters);
   while (path->size() <= kMaxMoves) {
     const std::size_t before = path->size();
     Vector3d n_1, n_2, n_3;
@@ -153,20 +144,18 @@ SlideStatus CollideAndSlide(const ContactModel& model,
   return SlideStatus::kMoveLimit;
 }
 
-SlideStatus StepRetract(const Retraction& retraction,
-                        const SlideOptions& options, const Vector3d& a,
+SlideStatus StepRetract(const Retraction& retraction, const Vector3d& a,
                         const Vector3d& b, std::mt19937_64* random,
                         RetractionScratch* scratch, std::vector<Vector3d>* path,
                         SlideCounters* counters) {
   const ContactModel& model = retraction.model();
   const FreeSpace& space = model.free_space();
-  options.Validate();
   path->clear();
   ++counters->slides;
   if (!IsFinite(b) || !space.IsFree(a)) return SlideStatus::kInvalid;
   path->push_back(a);
   if (a == b) return SlideStatus::kReached;
-  const double longest = options.step * model.diagonal();
+  const double longest = kStep * model.diagonal();
   double step = longest;
   while (path->size() <= kMaxMoves) {
     const Vector3d at = path->back();

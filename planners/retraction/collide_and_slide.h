@@ -16,17 +16,7 @@ namespace phongpd {
 // Both return the polyline they moved along.  It is exactly free (each segment
 // passed FreeSpace::IsFree), its points between a and b keep the model's floor,
 // and every point of a collide-and-slide is closer to b than the one before.
-// Thread-safe with a path, counters, scratch and engine per thread.  Both throw
-// InputError for options.
-struct SlideOptions {
-  // Largest standoff from what is slid along, as a fraction of the region's
-  // diagonal; half the free gap where that is less.  (0, 1].
-  double clearance = 1e-2;
-  // Step of StepRetract as a fraction of the diagonal, in (0, 1].
-  double step = 2e-2;
-
-  void Validate() const;  // throws InputError
-};
+// Thread-safe with a path, counters, scratch and engine per thread.
 
 enum class SlideStatus {
   kReached,    // the path ends in b
@@ -46,8 +36,10 @@ struct SlideCounters {
 // the facet by its standoff, go on without the part of the motion along the
 // facet's normal, and between two facets along their crease.  Three tests a
 // move, no projection.  The path is cleared first and starts with a.
-SlideStatus CollideAndSlide(const ContactModel& model,
-                            const SlideOptions& options,
+// `clearance`: largest standoff from what is slid along, as a fraction of the
+// region's diagonal; half the free gap where that is less.  Throws InputError
+// unless it is in (0, 1].
+SlideStatus CollideAndSlide(const ContactModel& model, double clearance,
                             const Eigen::Vector3d& a, const Eigen::Vector3d& b,
                             std::vector<Eigen::Vector3d>* path,
                             SlideCounters* counters);
@@ -56,8 +48,7 @@ SlideStatus CollideAndSlide(const ContactModel& model,
 // the point closest to the step, of those the retraction offers), tested
 // exactly, until no step comes closer to b.  One retraction a step: more work
 // than CollideAndSlide, and it stops at corners where that one turns.
-SlideStatus StepRetract(const Retraction& retraction,
-                        const SlideOptions& options, const Eigen::Vector3d& a,
+SlideStatus StepRetract(const Retraction& retraction, const Eigen::Vector3d& a,
                         const Eigen::Vector3d& b, std::mt19937_64* random,
                         RetractionScratch* scratch,
                         std::vector<Eigen::Vector3d>* path,

@@ -43,9 +43,6 @@ void RetractionOptions::Validate() const {
   };
   check(clearance > 0.0 && clearance <= 1.0, "clearance", "in (0, 1]",
         clearance);
-  check(depth_bound > 0.0 && depth_bound <= 10.0, "depth_bound", "in (0, 10]",
-        depth_bound);
-  check(max_branches >= 1, "max_branches", "≥ 1", max_branches);
 }
 
 Retraction::Retraction(std::shared_ptr<const ContactModel> model,
@@ -129,11 +126,11 @@ void Retraction::ProjectLocally(int space, const Vector3d& q,
   if (!metric.IsInside(q)) return;
   std::vector<LocalProjection>& found = scratch->local;
   FindLocalProjections(model_->space(space).mesh(), model_->Neighbors(space), q,
-                       options_.depth_bound * model_->diagonal(),
+                       kRetractionDepth * model_->diagonal(),
                        &scratch->local_scratch, &found);
   scratch->counters.projections += found.size();
   const std::size_t limit =
-      std::min(found.size(), Index(options_.max_branches));
+      std::min(found.size(), Index(kMaxRetractionBranches));
   for (std::size_t k = 0; k < limit; ++k) {
     const LocalProjection& hit = found[k];
     Lift({space, hit.triangle, hit.point, model_->Normal(space, hit.triangle)},
@@ -147,10 +144,10 @@ void Retraction::DrawAsManyAsBranches(const Vector3d& q,
   std::size_t branches = 0;
   for (std::size_t i = 0; i < model_->size(); ++i) {
     model_->phong(static_cast<int>(i))
-        .QueryAll(q, options_.depth_bound * model_->diagonal(),
+        .QueryAll(q, kRetractionDepth * model_->diagonal(),
                   &scratch->projections);
     branches +=
-        std::min(scratch->projections.size(), Index(options_.max_branches));
+        std::min(scratch->projections.size(), Index(kMaxRetractionBranches));
   }
   for (std::size_t k = 0; k < branches; ++k) DrawContactPoint(random, scratch);
 }
@@ -173,11 +170,10 @@ void Retraction::Project(int space, const Vector3d& q, std::mt19937_64* random,
     if (!answer.inside) return;
     found.push_back(answer);
   } else {
-    metric.QueryAll(q, options_.depth_bound * model_->diagonal(), &found);
+    metric.QueryAll(q, kRetractionDepth * model_->diagonal(), &found);
     if (found.empty() && metric.IsInside(q)) {
       const PenetrationResult answer = metric.Query(q);
-      if (-answer.signed_distance <=
-          options_.depth_bound * model_->diagonal()) {
+      if (-answer.signed_distance <= kRetractionDepth * model_->diagonal()) {
         found.push_back(answer);
       }
     }
@@ -204,7 +200,7 @@ void Retraction::Choose(int space, std::mt19937_64* random,
     taken->resize(model_->space(space).mesh().triangles.size());
   }
   const std::size_t limit =
-      std::min(found.size(), Index(options_.max_branches));
+      std::min(found.size(), Index(kMaxRetractionBranches));
   for (std::size_t k = 0; k < limit; ++k) {
     std::size_t chosen = k;
     if (options_.choice == BranchChoice::kRandom) {

@@ -34,18 +34,19 @@ enum class BranchChoice {
   kNearest,  // the one of least depth
 };
 
+// Deepest projection listed, as a fraction of the region's diagonal.  Measured
+// on a hole: bounds below 0.2 cost 3-300 × the samples.
+inline constexpr double kRetractionDepth = 1.0;
+// Projections lifted per configuration, shallowest first.  It bounds the work
+// in scenes where one configuration has hundreds.
+inline constexpr int kMaxRetractionBranches = 64;
+
 struct RetractionOptions {
   RetractionMetric metric = RetractionMetric::kPhong;
   BranchChoice choice = BranchChoice::kAll;
   // Largest clearance asked for, as a fraction of the region's diagonal; what
   // a point gets is at most half the free gap in front of its facet.  (0, 1].
   double clearance = 1e-2;
-  // Deepest projection listed, as a fraction of the diagonal.  (0, 10].
-  // Measured on a hole: bounds below 0.2 cost 3-300 × the samples.
-  double depth_bound = 1.0;
-  // Projections lifted per configuration, shallowest first; ≥ 1.  It bounds
-  // the work in scenes where one configuration has hundreds.
-  int max_branches = 64;
 
   void Validate() const;  // throws InputError
 };
@@ -54,7 +55,7 @@ enum class RetractionStatus {
   kFree,          // q is free already: it is the point
   kRetracted,     // at least one point
   kNoProjection,  // q is on a contact surface, or only beyond the bounds, or
-                  // too deep for depth_bound
+                  // deeper than kRetractionDepth
   kNoClearance,   // projections, but no free point in front of any of them
   kInvalid,       // q is not finite
 };

@@ -13,6 +13,7 @@ namespace {
 
 using Eigen::VectorXd;
 
+constexpr int kMaxRounds = 40;
 constexpr double kRestoring = 50.0;      // P, the price of missing clearance
 constexpr double kSmallestTrust = 1e-3;  // of the first round's
 constexpr double kLeastGain = 1e-4;  // of the merit; two smaller ones end it
@@ -26,14 +27,8 @@ double ReachOf(const TrajectoryProblem& problem, double trust) {
   return 2.0 * trust + problem.margin;
 }
 
-template <typename T>
-void Check(const char* name, const char* range, bool holds, T value) {
-  CheckOption(holds, "corridor", name, range, value);
-}
-
-}  // namespace
-
-IpoptSettings CorridorOptions::DefaultIpopt() {
+// Of one round.
+IpoptSettings RoundSettings() {
   IpoptSettings settings;
   settings.max_iterations = 60;
   settings.stall_iterations = 0;
@@ -41,7 +36,7 @@ IpoptSettings CorridorOptions::DefaultIpopt() {
   // find the way, nor more digits than two rounds differ by.
   settings.mu_strategy = IpoptSettings::MuStrategy::kMonotone;
   settings.ipopt_options["mu_init"] = "1e-5";
-  settings.tolerance = 1e-5;
+  settings.ipopt_options["tol"] = "1e-5";
   // The path as it is touches its planes' offsets; Ipopt's default would push
   // it a hundredth of every range away first.
   for (const char* name :
@@ -51,11 +46,7 @@ IpoptSettings CorridorOptions::DefaultIpopt() {
   return settings;
 }
 
-void CorridorOptions::Validate() const {
-  Check("max_rounds", "at least 1", max_rounds >= 1, max_rounds);
-  Check("time_limit", "> 0 seconds", time_limit > 0.0, time_limit);
-  ipopt.Validate();
-}
+}  // namespace
 
 const char* ToString(CorridorStatus status) {
   switch (status) {
@@ -82,11 +73,18 @@ bool CorridorSummary::HasConverged() const {
 }
 
 CorridorSummary PolishInCorridor(const TrajectoryProblem& problem,
-                                 const Path& path,
-                                 const CorridorOptions& options) {
+                                 const Path& path, double time_limit,
+                                 const PathObserver& on_path) {
+  return PolishRounds(problem, path, kMaxRounds, time_limit, on_path);
+}
+
+CorridorSummary PolishRounds(const TrajectoryProblem& problem, const Path& path,
+                             int max_rounds, double time_limit,
+                             const PathObserver& on_path) {
   const Stopwatch stopwatch;
   problem.Validate();
-  options.Validate();
+  CheckOption(time_limit > 0.0, "corridor", "time_limit", "> 0 seconds",
+              time_limit);
   CheckStartPath(problem, path);
   CorridorSummary summary;
   summary.path = path;
@@ -112,14 +110,12 @@ CorridorSummary PolishInCorridor(const TrajectoryProblem& problem,
   };
   int small_gains = 0;
   summary.status = CorridorStatus::kRoundLimit;
-  while (static_cast<int>(summary.rounds.size()) < options.max_rounds) {
+  while (static_cast<int>(summary.rounds.size()) < max_rounds) {
     CorridorProgram program(problem, springs, corridor, now, trust, price);
-    IpoptSettings settings = options.ipopt;
-    TellPaths(options.on_path, static_cast<int>(summary.rounds.size()), path_of,
+    IpoptSettings settings = RoundSettings();
+    TellPaths(on_path, static_cast<int>(summary.rounds.size()), path_of,
               &settings);
-    settings.time_limit =
-        std::min(settings.time_limit,
-                 std::max(1e-3, options.time_limit - stopwatch.Seconds()));
+    settings.time_limit = std::max(1e-3, time_limit - stopwatch.Seconds());
     const IpoptRun run = SolveWithIpopt(&program, program.Start(), settings);
     summary.iterations += run.iterations;
 
@@ -159,7 +155,7 @@ CorridorSummary PolishInCorridor(const TrajectoryProblem& problem,
       summary.status = CorridorStatus::kSmallestTrust;
       break;
     }
-    if (stopwatch.Seconds() > options.time_limit) {
+    if (stopwatch.Seconds() > time_limit) {
       summary.status = CorridorStatus::kTimeLimit;
       break;
     }

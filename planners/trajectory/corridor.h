@@ -15,21 +15,10 @@ namespace phongpd {
 // τ of the first round, a share of D.
 inline constexpr double kFirstTrust = 0.05;
 
-struct CorridorOptions {
-  int max_rounds = 40;                                          // ≥ 1
-  double time_limit = std::numeric_limits<double>::infinity();  // seconds
-  IpoptSettings ipopt = DefaultIpopt();                         // of one round
-  PathObserver on_path;  // told of every iterate of every round
-
-  // Throws InputError naming the field.
-  void Validate() const;
-  static IpoptSettings DefaultIpopt();
-};
-
 enum class CorridorStatus {
   kConverged,      // two rounds gained less than 1e-4 of the merit
   kSmallestTrust,  // no step of any size was an improvement
-  kRoundLimit,
+  kRoundLimit,     // forty
   kTimeLimit,
   kNotFree,  // the start path collides: nothing was done
 };
@@ -84,11 +73,13 @@ struct CorridorSummary {
 // segment's, and once none is missing f falls monotonically.  It finds a local
 // minimum of the way the start path takes.  No penetration metric is used.
 //
-// `path`: N + 2 points from start to goal; throws InputError for another
-// shape.  problem.metrics are not looked at.
-CorridorSummary PolishInCorridor(const TrajectoryProblem& problem,
-                                 const Path& path,
-                                 const CorridorOptions& options = {});
+// `path`: N + 2 points from start to goal; throws InputError for another shape,
+// and for a time limit (seconds) that is not > 0.  problem.metrics are not
+// looked at.  on_path is told of every iterate of every round.
+CorridorSummary PolishInCorridor(
+    const TrajectoryProblem& problem, const Path& path,
+    double time_limit = std::numeric_limits<double>::infinity(),
+    const PathObserver& on_path = {});
 
 // A plane between a segment of a path and what is near it: all of the segment
 // is `distance` above it, the obstacle there below.  User's unit.

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "planners/trajectory/corridor.h"
 #include "planners/trajectory/nonlinear_program.h"
 #include "planners/trajectory/path_springs.h"
 
@@ -25,6 +26,11 @@ struct Corridor {
   int CountPlanes() const;
   double TotalMissing() const;
 };
+
+// PolishInCorridor, stopped after that many rounds ≥ 1.
+CorridorSummary PolishRounds(const TrajectoryProblem& problem, const Path& path,
+                             int max_rounds, double time_limit,
+                             const PathObserver& on_path);
 
 Corridor FindCorridor(const TrajectoryProblem& problem,
                       const PathSprings& springs, const Path& path,

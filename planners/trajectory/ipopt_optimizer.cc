@@ -85,7 +85,7 @@ IpoptTrajectoryOptimizer::IpoptTrajectoryOptimizer(
 }
 
 TrajectorySummary IpoptTrajectoryOptimizer::Solve(
-    const Path& start_path) const {
+    const Path& start_path, const PathObserver& on_path) const {
   const Stopwatch stopwatch;
   CheckStartPath(problem_, start_path);
   const FreeSpace& space = *problem_.free_space;
@@ -119,7 +119,7 @@ TrajectorySummary IpoptTrajectoryOptimizer::Solve(
     IpoptSettings settings = options_.ipopt;
     const std::function<Path(const Eigen::VectorXd&)> path_of =
         [&nlp](const Eigen::VectorXd& x) { return nlp.ToPath(x); };
-    TellPaths(options_.on_path, summary.rounds, path_of, &settings);
+    TellPaths(on_path, summary.rounds, path_of, &settings);
     settings.time_limit =
         std::max(1e-3, options_.ipopt.time_limit - stopwatch.Seconds());
     const IpoptRun run = SolveWithIpopt(&nlp, u, settings);

@@ -25,7 +25,6 @@ struct TrajectoryOptions {
   // infeasible or in numerical trouble, where a new start near the old end
   // finds a way out of some traps.
   int max_rounds = 4;
-  PathObserver on_path;  // told of every iterate of every round
 
   // Throws InputError naming the field.
   void Validate() const;
@@ -71,8 +70,9 @@ class IpoptTrajectoryOptimizer {
   // From a path of N+2 points that begins at start and ends at goal; it may
   // collide.  Throws InputError for another shape.  kInvalidStart or
   // kInvalidGoal where the judge refuses an end.  One solve at a time in a
-  // process (SolveWithIpopt).
-  TrajectorySummary Solve(const Path& start_path) const;
+  // process (SolveWithIpopt).  on_path is told of every iterate of every round.
+  TrajectorySummary Solve(const Path& start_path,
+                          const PathObserver& on_path = {}) const;
   // From the straight line.
   TrajectorySummary Solve() const { return Solve(StraightPath(problem_)); }
 

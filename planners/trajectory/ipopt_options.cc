@@ -6,8 +6,6 @@
 #include <IpIpoptApplication.hpp>
 #include <IpReturnCodes.hpp>
 #include <cmath>
-#include <cstdarg>
-#include <cstdio>
 #include <limits>
 #include <map>
 #include <string>
@@ -18,30 +16,6 @@
 namespace phongpd {
 
 namespace {
-
-// Ipopt prints into a string.
-class StringJournal : public Ipopt::Journal {
- public:
-  StringJournal(std::string* text, int level)
-      : Ipopt::Journal("phongpd", static_cast<Ipopt::EJournalLevel>(level)),
-        text_(text) {}
-
- protected:
-  void PrintImpl(Ipopt::EJournalCategory, Ipopt::EJournalLevel,
-                 const char* text) override {
-    *text_ += text;
-  }
-  void PrintfImpl(Ipopt::EJournalCategory, Ipopt::EJournalLevel,
-                  const char* format, va_list arguments) override {
-    char line[1024];
-    std::vsnprintf(line, sizeof(line), format, arguments);
-    *text_ += line;
-  }
-  void FlushBufferImpl() override {}
-
- private:
-  std::string* text_;
-};
 
 void Fail(const std::string& name, const std::string& expected,
           const std::string& found) {
@@ -139,8 +113,6 @@ void IpoptSettings::Validate() const {
     CheckOption(holds, "Ipopt settings", name, range, value);
   };
   check(max_iterations >= 0, "max_iterations", "≥ 0", max_iterations);
-  check(tolerance > 0.0 && tolerance < 1.0, "tolerance", "in (0, 1)",
-        tolerance);
   check(stall_iterations >= 0, "stall_iterations", "≥ 0", stall_iterations);
   check(time_limit > 0.0, "time_limit", "> 0 seconds", time_limit);
 }
@@ -161,18 +133,13 @@ void ApplyIpoptOptions(const IpoptSettings& settings,
        settings.mu_strategy == IpoptSettings::MuStrategy::kAdaptive
            ? "adaptive"
            : "monotone"},
-      {"max_iter", std::to_string(settings.max_iterations)}};
-  application->Options()->SetNumericValue("tol", settings.tolerance);
+      {"max_iter", std::to_string(settings.max_iterations)},
+      {"tol", "1e-6"}};
   for (const auto& [name, value] : settings.ipopt_options) {
     options[name] = value;
   }
   for (const auto& [name, value] : options) {
     ApplyOne(name, value, application);
-  }
-  if (settings.output != nullptr) {
-    Ipopt::Index level = 0;
-    application->Options()->GetIntegerValue("print_level", level, "");
-    application->Jnlst()->AddJournal(new StringJournal(settings.output, level));
   }
 }
 

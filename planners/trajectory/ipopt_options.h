@@ -11,10 +11,9 @@ class IpoptApplication;
 
 namespace phongpd {
 
-// Hands the settings to Ipopt, which then prints into settings.output; the
-// linear solver is one for settings that name none.  Throws InputError for an
-// option of settings.ipopt_options that Ipopt does not know or a value it
-// refuses.
+// Hands the settings to Ipopt; the linear solver is one for settings that name
+// none.  Throws InputError for an option of settings.ipopt_options that Ipopt
+// does not know or a value it refuses.
 void ApplyIpoptOptions(const IpoptSettings& settings,
                        const std::string& linear_solver,
                        Ipopt::IpoptApplication* application);

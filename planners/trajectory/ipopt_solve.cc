@@ -203,8 +203,9 @@ class ProgramAdapter : public Ipopt::TNLP {
       run.dual_infeasibility = record.dual_infeasibility;
     }
     run.log.push_back(record);
-    if (settings_.on_iteration) settings_.on_iteration(record, x_);
-    return stop_.MustStop(record, x_);
+    const bool goes_on =
+        !settings_.on_iteration || settings_.on_iteration(record, x_);
+    return stop_.MustStop(record, x_, !goes_on);
   }
 
   // Copies the accepted iterate into x_.

@@ -50,24 +50,22 @@ struct IpoptSettings {
   enum class MuStrategy { kAdaptive, kMonotone };
 
   int max_iterations = 200;  // ≥ 0
-  double tolerance = 1e-6;   // Ipopt's tol, > 0
   MuStrategy mu_strategy = MuStrategy::kAdaptive;
   // Stop after this many iterations in which the best feasible iterate (no row
   // violated by more than kFeasibility) gained less than a thousandth of its
   // objective, and return it.  0: never.
   int stall_iterations = 30;
   double time_limit = std::numeric_limits<double>::infinity();  // seconds
-  // Ipopt's own options by name, values as text; they win over the above.  A
-  // name or value Ipopt does not know is an InputError that names it.
+  // Ipopt's own options by name, values as text; they win over the above and
+  // over a `tol` of 1e-6.  A name or value Ipopt does not know is an InputError
+  // that names it.  What it prints goes to the file `output_file`.
   std::map<std::string, std::string> ipopt_options;
-  // Called once an iteration.  They may not solve; what they throw ends the
-  // solve and reaches its caller.
-  std::function<bool()> is_cancelled;
-  // With the iterate's variables.  The first regular iterate after a
-  // restoration comes again, under the number of the restoration's last one.
-  std::function<void(const IterationRecord&, const Eigen::VectorXd&)>
+  // Called once an iteration, with the iterate's variables; false ends the
+  // solve (kCancelled).  It may not solve; what it throws ends the solve and
+  // reaches its caller.  The first regular iterate after a restoration comes
+  // again, under the number of the restoration's last one.
+  std::function<bool(const IterationRecord&, const Eigen::VectorXd&)>
       on_iteration;
-  std::string* output = nullptr;  // receives what Ipopt prints (print_level)
 
   // Throws InputError naming the field.
   void Validate() const;

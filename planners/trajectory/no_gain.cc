@@ -16,10 +16,8 @@ void NoGain::Stop(IpoptSettings* settings) {
                                const IterationRecord& record,
                                const Eigen::VectorXd& x) {
     See(record);
-    if (next) next(record, x);
-  };
-  settings->is_cancelled = [this, next = settings->is_cancelled] {
-    return has_ended_ || (next && next());
+    const bool goes_on = !next || next(record, x);
+    return goes_on && !has_ended_;
   };
 }
 

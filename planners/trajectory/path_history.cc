@@ -21,7 +21,7 @@ void TellPaths(const PathObserver& observer, int round,
       [observer, round, &path_of, next = settings->on_iteration](
           const IterationRecord& record, const Eigen::VectorXd& x) {
         observer({"", 0, round, record, path_of(x)});
-        if (next) next(record, x);
+        return !next || next(record, x);
       };
 }
 

@@ -11,7 +11,7 @@ constexpr double kStallGain = 1e-3;
 }  // namespace
 
 bool StopRules::MustStop(const IterationRecord& record,
-                         const Eigen::VectorXd& x) {
+                         const Eigen::VectorXd& x, bool is_cancelled) {
   if (record.violation <= kFeasibility) {
     if (!has_best_ || record.objective < best_objective_) {
       best_x_ = x;
@@ -25,7 +25,7 @@ bool StopRules::MustStop(const IterationRecord& record,
     has_best_ = true;
   }
   ++stalled_;
-  if (settings_.is_cancelled && settings_.is_cancelled()) {
+  if (is_cancelled) {
     reason_ = SolveStatus::kCancelled;
   } else if (stopwatch_.Seconds() > settings_.time_limit) {
     reason_ = SolveStatus::kTimeLimit;

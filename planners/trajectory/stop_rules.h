@@ -17,7 +17,8 @@ class StopRules {
   explicit StopRules(const IpoptSettings& settings) : settings_(settings) {}
 
   // Notes the accepted iterate x; true if the solver must stop.
-  bool MustStop(const IterationRecord& record, const Eigen::VectorXd& x);
+  bool MustStop(const IterationRecord& record, const Eigen::VectorXd& x,
+                bool is_cancelled);
 
   // Why it must, once it must.
   std::optional<SolveStatus> reason() const { return reason_; }

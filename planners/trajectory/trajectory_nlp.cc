@@ -15,10 +15,6 @@ using Eigen::VectorXd;
 // them, in units of D; more than Ipopt's relaxation of 1e-8.
 constexpr double kBoundInset = 1e-6;
 
-NonPenetrationOptions ContactOptions(const PathSprings& springs, int rows) {
-  return {{springs.center, springs.unit}, rows};
-}
-
 }  // namespace
 
 TrajectoryNlp::TrajectoryNlp(const TrajectoryProblem& problem,
@@ -30,7 +26,7 @@ TrajectoryNlp::TrajectoryNlp(const TrajectoryProblem& problem,
       springs_(problem, start_length),
       bounds_(problem.free_space->bounds()),
       contact_(problem.metrics, problem.start, problem.goal, problem.waypoints,
-               samples, ContactOptions(springs_, rows)) {}
+               samples, rows, {springs_.center, springs_.unit}) {}
 
 VectorXd TrajectoryNlp::ToVariables(const Path& path) const {
   return springs_.ToVariables(path);

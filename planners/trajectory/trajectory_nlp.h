@@ -19,7 +19,7 @@ namespace phongpd {
 class TrajectoryNlp : public NonlinearProgram {
  public:
   // `samples`: one count per segment; `start_length` decides h; `rows`: K of
-  // NonPenetrationOptions.
+  // NonPenetrationConstraint.
   TrajectoryNlp(const TrajectoryProblem& problem,
                 const std::vector<int>& samples, double start_length, int rows);
 

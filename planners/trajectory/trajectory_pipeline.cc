@@ -107,8 +107,7 @@ class Run {
       StartRepairOptions repair;
       repair.waypoints = problem_.waypoints;
       // A path along the surface itself is no start.
-      repair.margin = std::max(problem_.margin, 1e-6);
-      repair.diagonal = Diagonal(problem_);
+      repair.clearance = std::max(problem_.margin, 1e-6) * Diagonal(problem_);
       repair.routes = options_.routes;
       repair.seed = options_.seed;
       result_.repair = repair_->Repair(problem_.start, problem_.goal, repair);
@@ -213,8 +212,9 @@ class Run {
     if (is_second && options_.polish != PolishWhen::kNever) {
       no_gain.Stop(&options.ipopt);
     }
-    options.on_path = OfStage(options_.on_path, "ipopt", candidate->route);
-    candidate->ipopt = IpoptTrajectoryOptimizer(problem_, options).Solve(start);
+    candidate->ipopt =
+        IpoptTrajectoryOptimizer(problem_, options)
+            .Solve(start, OfStage(options_.on_path, "ipopt", candidate->route));
     const TrajectorySummary& summary = candidate->ipopt;
     candidate->is_given_up =
         summary.status == SolveStatus::kCancelled && no_gain.has_ended();
@@ -254,11 +254,9 @@ class Run {
   }
 
   void Polish(Candidate* candidate) {
-    CorridorOptions options = options_.corridor;
-    options.time_limit = std::min(options.time_limit, Left());
-    options.on_path = OfStage(options_.on_path, "corridor", candidate->route);
-    CorridorSummary summary =
-        PolishInCorridor(problem_, candidate->path, options);
+    CorridorSummary summary = PolishInCorridor(
+        problem_, candidate->path, Left(),
+        OfStage(options_.on_path, "corridor", candidate->route));
     Note({"corridor", candidate->route, ToString(summary.status), false, 0.0,
           summary.iterations, summary.seconds},
          summary.path);
@@ -294,7 +292,6 @@ void PipelineOptions::Validate() const {
         start_noise);
   check(time_limit > 0.0, "time_limit", "> 0 seconds", time_limit);
   optimizer.Validate();
-  corridor.Validate();
 }
 
 const char* ToString(TrajectoryStatus status) {
@@ -361,7 +358,6 @@ TrajectoryPipeline::TrajectoryPipeline(
   problem_.Validate();
   options_.Validate();
   CheckIpoptOptions(options_.optimizer.ipopt);
-  CheckIpoptOptions(options_.corridor.ipopt);
   if (repair_ == nullptr && options_.start != TrajectoryStart::kStraight) {
     throw InputError(
         "trajectory: start: only a straight one goes without start repair");

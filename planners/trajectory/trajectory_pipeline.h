@@ -41,11 +41,9 @@ struct PipelineOptions {
   bool also_line = true;
   PolishWhen polish = PolishWhen::kNeeded;
   TrajectoryOptions optimizer;
-  CorridorOptions corridor;
   std::uint64_t seed = 1;  // of straightening and noise
   double time_limit = std::numeric_limits<double>::infinity();  // seconds
-  // Told of every iterate of every stage; set it here, not in `optimizer` and
-  // `corridor`.
+  // Told of every iterate of every stage.
   PathObserver on_path;
 
   // Throws InputError naming the field.

@@ -106,10 +106,12 @@ PipelineOptions Options(const Flags& flags, const Scene& scene,
   }
   options.optimizer.ipopt.on_iteration = [](const IterationRecord& record,
                                             const Eigen::VectorXd&) {
-    if (record.iteration % 25 != 0) return;
-    Progress("  iteration " + std::to_string(record.iteration) +
-             ", objective " + FormatDouble(record.objective) + ", violation " +
-             FormatDouble(record.violation));
+    if (record.iteration % 25 == 0) {
+      Progress("  iteration " + std::to_string(record.iteration) +
+               ", objective " + FormatDouble(record.objective) +
+               ", violation " + FormatDouble(record.violation));
+    }
+    return true;
   };
   return options;
 }

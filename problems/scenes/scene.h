@@ -52,7 +52,7 @@ struct PlanningSettings {
   double time_limit = 5.0;     // seconds
   // Wanted clearance, in (0, D]: how far paths and samples are lifted off
   // contact where there is room.  None: the planner's own, 0.01 of the diagonal
-  // of what it plans in (ContactSurfaceOptions, RetractionOptions).
+  // of what it plans in (kEnoughClearance, RetractionOptions).
   std::optional<Length> clearance;
 };
 

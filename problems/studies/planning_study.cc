@@ -13,10 +13,6 @@
 namespace phongpd {
 namespace {
 
-// Clearance that is enough for a path in free space alone, of D: as much as
-// ContactSurfaceOptions wants.
-constexpr double kEnoughClearance = 0.01;
-
 // OMPL's own word in the words of all planners; a sampler that has found
 // nothing was stopped by its time.
 std::string StatusOf(const OmplPlanningResult& result) {
@@ -99,7 +95,6 @@ OmplPlanningOptions PlanningStudy::Options(const PlanningRun& run) const {
   OmplPlanningOptions options;
   options.time_limit = run.time_limit;
   options.seed = run.seed;
-  options.in_passage = run.in_passage;
   options.retraction = ParseRetraction(run.retraction, "--metric");
   if (model_ != nullptr && scene_.planning.clearance) {
     // Measured by the region; where that is smaller than the wish, nothing in

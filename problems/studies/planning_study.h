@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
@@ -24,8 +23,6 @@ struct PlanningRun {
   double time_limit = 5.0;           // seconds; of OMPL's planners
   int routes = 0;  // contact-surface only; ≥ 1; 0: by the scene's preset
   std::uint64_t seed = 1;
-  // retraction-rrt and -forest count their samples until the first node here.
-  std::function<bool(const Eigen::Vector3d& q)> in_passage;
 };
 
 // What one run gave; every path is judged exactly.

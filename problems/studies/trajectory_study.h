@@ -25,7 +25,7 @@ struct TrajectoryMetric {
   // phong only
   Length smoothing_length = Length::FromShare(kDefaultSmoothingLength);
   std::string name = "phong@" + smoothing_length.Text();
-  SignedMetricOptions options;  // all else; `reach` is a share of D
+  SignedMetricOptions options;  // all else
   // A metric of a study's own in place of options.metric, ℓ in `options`
   // resolved; empty: none.
   std::function<std::shared_ptr<const PenetrationMetric>(

@@ -109,10 +109,8 @@ class Run {
     TrajectoryStatus status = TrajectoryStatus::kStalledFeasible;
     std::string reason = "polish never";
     if (options_.polish != PolishWhen::kNever) {
-      CorridorOptions corridor = options_.corridor;
-      corridor.time_limit = std::min(corridor.time_limit, Left());
-      corridor.on_path = OfStage(options_.on_path, "corridor", route);
-      summary = PolishInCorridor(problem_, start, corridor);
+      summary = PolishInCorridor(problem_, start, Left(),
+                                 OfStage(options_.on_path, "corridor", route));
       Note({"corridor", route, ToString(summary.status), false, 0.0,
             summary.iterations, summary.seconds},
            summary.path);

@@ -29,13 +29,11 @@ class Rows {
     for (const ContactSpace& space : spaces) {
       metrics.push_back(std::make_shared<SignedMetric>(space, options));
     }
-    NonPenetrationOptions layout;
-    layout.rows = rows;
     rows_ = std::make_unique<NonPenetrationConstraint>(
         std::move(metrics), ToVector(start), ToVector(goal), waypoints,
         std::vector<int>(static_cast<size_t>(waypoints) + 1,
                          samples_per_segment),
-        layout);
+        rows);
     row_.resize(static_cast<size_t>(rows_->nonzeros()));
     column_.resize(row_.size());
     rows_->Sparsity(row_.data(), column_.data());

@@ -68,7 +68,18 @@ std::function<bool(const Vector3d&)> InPassage(const PlanningStudy& study,
   };
 }
 
-SamplerRun RunOnce(PlanningStudy* study, const PlanningRun& run) {
+// Uniform samples until the planner had its first point there; −1: it had none,
+// or does not count them.
+double SamplesTo(const std::function<bool(const Vector3d&)>& is_there,
+                 const GrownGraph& graph) {
+  if (!is_there) return -1.0;
+  for (std::size_t i = 0; i < graph.samples.size(); ++i) {
+    if (is_there(graph.points[i])) return static_cast<double>(graph.samples[i]);
+  }
+  return -1.0;
+}
+
+SamplerRun RunOnce(PlanningStudy* study, const PlanningRun& run, double delta) {
   const PlanningResult result = study->Run(run);
   const OmplPlanningResult& n = result.numbers;
   SamplerRun measured;
@@ -76,7 +87,7 @@ SamplerRun RunOnce(PlanningStudy* study, const PlanningRun& run) {
   measured.is_false = n.solved && !n.collision_free;
   measured.seconds = n.seconds;
   measured.samples = static_cast<double>(n.samples);
-  measured.samples_to_passage = static_cast<double>(n.samples_to_passage);
+  measured.samples_to_passage = SamplesTo(InPassage(*study, delta), n.graph);
   measured.collision_checks = static_cast<double>(n.collision_checks);
   measured.segment_checks = static_cast<double>(n.segment_checks);
   measured.retractions = static_cast<double>(n.retractions);
@@ -177,12 +188,11 @@ std::vector<SamplerRow> MeasureSamplers(
     run.planner = planner.substr(0, space);
     if (space != std::string::npos) run.retraction = planner.substr(space + 1);
     run.time_limit = options.limit;
-    run.in_passage = InPassage(study, problem.delta);
     int solved = 0;
     for (int i = 0; i < options.seeds; ++i) {
       if (i == options.hopeless && solved == 0) break;
       run.seed = options.seed + static_cast<std::uint64_t>(i);
-      row.runs.push_back(RunOnce(&study, run));
+      row.runs.push_back(RunOnce(&study, run, problem.delta));
       solved += row.runs.back().is_solved;
     }
     rows.push_back(std::move(row));

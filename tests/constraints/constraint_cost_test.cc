@@ -18,10 +18,8 @@ TEST(ConstraintCost, EvaluatingDoesNotAllocate) {
   const auto metric = std::make_shared<SignedMetric>(
       TakeAsContactSpace(MakeTorus(1.0, 0.35, 40, 16)));
   const std::vector<int> samples(9, 2);
-  NonPenetrationOptions options;
-  options.rows = 3;
   const NonPenetrationConstraint rows({metric, metric}, {-2, 0.1, 0},
-                                      {2, 0, 0.1}, 8, samples, options);
+                                      {2, 0, 0.1}, 8, samples, 3);
   std::vector<double> u(static_cast<std::size_t>(rows.variables()));
   for (std::size_t i = 0; i < u.size(); ++i) {
     u[i] = 1.2 * std::sin(static_cast<double>(3 * i));

@@ -75,10 +75,7 @@ TEST(NonPenetration, CountsRowsAndPatternBySampleWaypointAndSpace) {
   EXPECT_EQ(dense.nonzeros(),
             3 * kWaypoints + 2 * (2 * 3 + (kWaypoints - 1) * 6));
   const Metrics three(3, Metric(Ball({0, 0, 0}), JacobianKind::kExact));
-  NonPenetrationOptions twice;
-  twice.rows = 2;
-  const NonPenetrationConstraint all(three, kStart, kGoal, kWaypoints, two,
-                                     twice);
+  const NonPenetrationConstraint all(three, kStart, kGoal, kWaypoints, two, 2);
   EXPECT_EQ(all.rows(), 6 * dense.rows());
   std::vector<int> row(static_cast<std::size_t>(dense.nonzeros())), col(row);
   dense.Sparsity(row.data(), col.data());
@@ -94,12 +91,10 @@ TEST(NonPenetration, ValuesAreTheMetricAtTheSamples) {
   PathFrame frame;
   frame.center = Vector3d(0.3, 0.2, 0.1);
   frame.unit = 2.5;
-  NonPenetrationOptions options;
-  options.frame = frame;
   const auto metric = Metric(Ball({0, 0, 0}), JacobianKind::kDirection);
   const NonPenetrationConstraint rows({metric}, kStart, kGoal, kWaypoints,
-                                      std::vector<int>(kWaypoints + 1, 2),
-                                      options);
+                                      std::vector<int>(kWaypoints + 1, 2), 1,
+                                      frame);
   const VectorXd u = Line(0.05, 1, frame);
   const Rows found = Evaluate(rows, u, rows.Start(u.data(), nullptr), nullptr);
   int sample = 0;
@@ -120,21 +115,20 @@ TEST(NonPenetration, ValuesAreTheMetricAtTheSamples) {
 }
 
 TEST(NonPenetration, ExactJacobianIsTheDerivativeForSeveralSpaces) {
-  NonPenetrationOptions options;
-  options.frame.unit = 3.0;
-  options.rows = 2;
+  PathFrame frame;
+  frame.unit = 3.0;
   const Metrics metrics{
       Metric(Ball({-0.7, 0.2, 0.0}), JacobianKind::kExact),
       Metric(Rotated(MakeBox({0.2, -0.5, -0.4}, {1.2, 0.5, 0.6}),
                      GenericRotation()),
              JacobianKind::kExact)};
   const NonPenetrationConstraint rows(metrics, kStart, kGoal, kWaypoints,
-                                      {0, 1, 2, 3, 2, 1, 0}, options);
+                                      {0, 1, 2, 3, 2, 1, 0}, 2, frame);
   std::vector<int> row(static_cast<std::size_t>(rows.nonzeros())), col(row);
   rows.Sparsity(row.data(), col.data());
   int off = 0, compared = 0;
   for (unsigned seed = 0; seed < 10; ++seed) {
-    const VectorXd u = Line(0.2, seed, options.frame);
+    const VectorXd u = Line(0.2, seed, frame);
     const BranchSet branches = rows.Start(u.data(), nullptr);
     const Rows at = Evaluate(rows, u, branches, nullptr);
     Eigen::MatrixXd dense =
@@ -165,10 +159,8 @@ TEST(NonPenetration, ExactJacobianIsTheDerivativeForSeveralSpaces) {
 TEST(NonPenetration, OnlyCommitAdvancesBranches) {
   const Metrics metrics{Metric(Rotated(MakeU(2.0, 0.4, 1.0), GenericRotation()),
                                JacobianKind::kDirection)};
-  NonPenetrationOptions options;
   const NonPenetrationConstraint rows(metrics, kStart, kGoal, kWaypoints,
-                                      std::vector<int>(kWaypoints + 1, 3),
-                                      options);
+                                      std::vector<int>(kWaypoints + 1, 3));
   const VectorXd u = Line(0.1, 2);
   NonPenetrationCounts counts;
   BranchSet branches = rows.Start(u.data(), &counts);
@@ -195,11 +187,9 @@ TEST(NonPenetration, EvaluationTellsTheBranchesThatCommitWouldBring) {
                                JacobianKind::kDirection),
                         Metric(Ball({0.5, 0, 0}), JacobianKind::kDirection)};
   for (const int count : {1, 3}) {
-    NonPenetrationOptions options;
-    options.rows = count;
     const NonPenetrationConstraint rows(metrics, kStart, kGoal, kWaypoints,
                                         std::vector<int>(kWaypoints + 1, 3),
-                                        options);
+                                        count);
     BranchSet committed = rows.Start(Line(0.1, 2).data(), nullptr);
     long warm = 0;
     for (unsigned seed = 3; seed < 13; ++seed) {
@@ -228,11 +218,8 @@ TEST(NonPenetration, EvaluationTellsTheBranchesThatCommitWouldBring) {
 
 TEST(NonPenetration, RefusesPointsThatAreNotFinite) {
   const Metrics metrics{Metric(Ball({0, 0, 0}), JacobianKind::kDirection)};
-  NonPenetrationOptions options;
-  options.rows = 3;
   const NonPenetrationConstraint rows(metrics, kStart, kGoal, kWaypoints,
-                                      std::vector<int>(kWaypoints + 1, 1),
-                                      options);
+                                      std::vector<int>(kWaypoints + 1, 1), 3);
   VectorXd u = Line(0.0, 0);
   BranchSet branches = rows.Start(u.data(), nullptr);
   VectorXd values(rows.rows()), jacobian(rows.nonzeros());
@@ -262,11 +249,9 @@ TEST(NonPenetration, NamesBadInput) {
   EXPECT_THROW(make({nullptr}, kStart, kWaypoints, samples), InputError);
   EXPECT_THROW(make(metrics, kStart, 0, {1}), InputError);
   EXPECT_THROW(make(metrics, kStart, kWaypoints, {1, 2}), InputError);
-  NonPenetrationOptions nine;
-  nine.rows = 9;
-  EXPECT_THROW(NonPenetrationConstraint(metrics, kStart, kGoal, kWaypoints,
-                                        samples, nine),
-               InputError);
+  EXPECT_THROW(
+      NonPenetrationConstraint(metrics, kStart, kGoal, kWaypoints, samples, 9),
+      InputError);
   EXPECT_THROW(make(metrics, Vector3d(NAN, 0, 0), kWaypoints, samples),
                InputError);
 }
@@ -289,10 +274,8 @@ TEST(NonPenetration, GivesValuesOrJacobianAlone) {
 
 TEST(NonPenetration, ValuesBeyondAllDoublesAreTheLargest) {
   const Metrics metrics{Metric(Ball({0, 0, 0}), JacobianKind::kExact)};
-  NonPenetrationOptions options;
-  options.frame = {Vector3d(1e20, 0, 0), 1e-300};
-  const NonPenetrationConstraint rows(metrics, kStart, kGoal, 1, {0, 0},
-                                      options);
+  const NonPenetrationConstraint rows(metrics, kStart, kGoal, 1, {0, 0}, 1,
+                                      {Vector3d(1e20, 0, 0), 1e-300});
   const VectorXd u = VectorXd::Zero(3);
   const Rows at = Evaluate(rows, u, rows.Start(u.data(), nullptr), nullptr);
   EXPECT_EQ(at.values[0], std::numeric_limits<double>::max());

@@ -97,17 +97,6 @@ TEST(PhongField, IsAdmissibleForEverySmoothingLength) {
   }
 }
 
-TEST(PhongField, TightLimiterHoldsToo) {
-  PhongFieldOptions options = Ell(0.3);
-  options.limiter = 0.3;
-  for (const NamedShape& shape : Shapes()) {
-    if (shape.name == "star") continue;  // its tips' best direction has 0.24
-    const PhongField field =
-        BuildPhongField(TakeAsContactSpace(shape.mesh), options);
-    EXPECT_GE(LeastDot(field, shape.mesh), 0.3 - 1e-12) << shape.name;
-  }
-}
-
 TEST(PhongField, NeedleTipGetsTheBestDirectionThereIs) {
   // n·N_f = sin(half opening angle) of the cone at best, less the facets'
   // sagitta: below the limiter, above zero.
@@ -381,9 +370,6 @@ TEST(PhongField, RefusesBadInputByName) {
             std::string::npos);
   EXPECT_NE(message(box, Ell(nan)).find("smoothing_length"), std::string::npos);
   PhongFieldOptions options;
-  options.limiter = 0.0;
-  EXPECT_NE(message(box, options).find("limiter"), std::string::npos);
-  options = {};
   options.max_edge = 1e-5;
   EXPECT_NE(message(box, options).find("max_edge"), std::string::npos);
   TriangleMesh open = box;

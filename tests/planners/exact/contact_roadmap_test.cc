@@ -319,31 +319,26 @@ TEST(ContactRoadmap, AnswersTheSameFromSeveralThreadsAndWhenRebuilt) {
 }
 
 TEST(ContactRoadmap, RefusesOptionsAndRequestsOutOfRange) {
-  const TriangleMesh mesh = VesselSpace();
+  const ContactSpace vessel = TakeAsContactSpace(VesselSpace());
+  const auto planner = std::make_shared<const ContactSurfacePlanner>(vessel);
   for (const double spacing : {0.0, 2.0, std::nan("")}) {
-    ContactRoadmapOptions options;
-    options.spacing = spacing;
-    EXPECT_THROW(ContactRoadmap(TakeAsContactSpace(mesh), options), InputError)
-        << spacing;
+    EXPECT_THROW(ContactRoadmap(planner, spacing), InputError) << spacing;
   }
   EXPECT_THROW(ContactRoadmap(std::shared_ptr<const ContactSurfacePlanner>()),
                InputError);
-  const ContactRoadmap roadmap(TakeAsContactSpace(mesh));
+  const ContactRoadmap roadmap(vessel);
   RoadmapRequest request;
-  request.random_cuts = -1;
+  request.clearance = -1.0;
   EXPECT_THROW(roadmap.Plan({0, 0, 0}, {1, 0, 0}, request), InputError);
-  request = {};
   request.clearance = std::numeric_limits<double>::infinity();
   EXPECT_THROW(roadmap.Plan({0, 0, 0}, {1, 0, 0}, request), InputError);
 }
 
 // Bare: a roadmap of the least size is as complete.
 TEST(ContactRoadmap, SolvesWithTheLeastOptions) {
-  ContactRoadmapOptions least;
-  least.spacing = 1.0;
   for (const char* family : kFamilies) {
     const Problem problem(family, {{"delta", 1e-4}});
-    const ContactRoadmap roadmap(problem.planner, least);
+    const ContactRoadmap roadmap(problem.planner, 1.0);
     EXPECT_LT(roadmap.report().nodes, problem.roadmap.report().nodes);
     const PlanResult result =
         roadmap.Plan(problem.scene.start, problem.scene.goal);

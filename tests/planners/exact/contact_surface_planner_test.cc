@@ -227,7 +227,7 @@ TEST(ContactSurfacePlanner, RepeatsItselfToTheBit) {
 
 TEST(ContactSurfacePlanner, RefusesOptionsOutOfRange) {
   ContactSurfaceOptions options;
-  options.clearance = 0.0;
+  options.routes = 0;
   EXPECT_THROW(
       ContactSurfacePlanner(TakeAsContactSpace(VesselSpace()), options),
       InputError);

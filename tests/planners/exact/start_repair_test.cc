@@ -59,7 +59,7 @@ TEST(StartRepair, GoesTheShortestWayAroundABox) {
   const StartRepair repair(TakeAsContactSpace(Cube(1.0)));
   const Vector3d start(-2.0, 0.0, 0.9), goal(2.0, 0.0, 0.9);
   StartRepairOptions options;
-  options.margin = 1e-4;
+  options.clearance = 1e-4 * repair.diagonal();
   const StartRepairResult result = repair.Repair(start, goal, options);
   ASSERT_EQ(result.status, RepairStatus::kRepaired);
   const double shortest = 2.0 * std::hypot(1.0, 0.1) + 2.0;
@@ -192,7 +192,7 @@ TEST(StartRepair, RefusesBadInput) {
   options.waypoints = 0;
   EXPECT_THROW(repair.Repair(q, -q, options), InputError);
   options = {};
-  options.margin = 0.0;
+  options.clearance = -1.0;
   EXPECT_THROW(repair.Repair(q, -q, options), InputError);
   options = {};
   options.routes = 9;

@@ -105,14 +105,20 @@ TEST_F(OmplPlanning, NeedsFarFewerSamplesWithAllBranches) {
       OmplPlanningOptions options;
       options.seed = seed;
       options.retraction.metric = metric;
-      options.in_passage = [](const Vector3d& q) {
-        return std::abs(q.x()) < 0.12;
-      };
       const OmplPlanningResult result =
           Plan(passage, "retraction-forest", options);
       EXPECT_TRUE(result.collision_free || !result.solved);
       samples.push_back(result.samples);
-      first.push_back(result.samples_to_passage);
+      const std::vector<Vector3d>& points = result.graph.points;
+      EXPECT_EQ(result.graph.samples.size(), points.size());
+      const auto in_passage = std::find_if(
+          points.begin(), points.end(),
+          [](const Vector3d& q) { return std::abs(q.x()) < 0.12; });
+      first.push_back(in_passage == points.end()
+                          ? -1
+                          : static_cast<std::int64_t>(
+                                result.graph.samples[static_cast<std::size_t>(
+                                    in_passage - points.begin())]));
     }
     std::sort(samples.begin(), samples.end());
     std::sort(first.begin(), first.end());

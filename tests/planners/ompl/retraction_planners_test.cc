@@ -220,8 +220,8 @@ TYPED_TEST(RetractionPlanners, DeclareParametersAndProgress) {
   const testing::Passage passage = testing::MakePassage("hole", 1e-2);
   Setup<TypeParam> setup(passage);
   ob::ParamSet& params = setup.planner->params();
-  for (const char* name : {"metric", "choice", "clearance", "depth_bound",
-                           "max_branches", "local_planner", "seed"}) {
+  for (const char* name :
+       {"metric", "choice", "clearance", "local_planner", "seed"}) {
     ASSERT_TRUE(params.hasParam(name)) << name;
     EXPECT_FALSE(params[name].getRangeSuggestion().empty()) << name;
     EXPECT_TRUE(params.setParam(name, params[name].getValue())) << name;

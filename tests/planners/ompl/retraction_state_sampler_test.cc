@@ -86,23 +86,23 @@ TEST(RetractionStateSampler, DeclaresItsParametersWithRanges) {
   std::map<std::string, std::string> values;
   sampler.params().getParams(values);
   values.erase("nr_attempts");  // OMPL's own
-  EXPECT_EQ(values.size(), 5u);
+  EXPECT_EQ(values.size(), 3u);
   EXPECT_EQ(values["metric"], "phong");
   EXPECT_EQ(values["choice"], "all");
-  EXPECT_EQ(values["max_branches"], "64");
+  EXPECT_EQ(values["clearance"], "0.01");
   for (const auto& [name, value] : values) {
     EXPECT_FALSE(sampler.params()[name].getRangeSuggestion().empty()) << name;
   }
   EXPECT_TRUE(sampler.params().setParam("metric", "euclidean"));
   EXPECT_TRUE(sampler.params().setParam("choice", "random"));
-  EXPECT_TRUE(sampler.params().setParam("depth_bound", "0.5"));
+  EXPECT_TRUE(sampler.params().setParam("clearance", "0.5"));
   EXPECT_EQ(sampler.options().metric, RetractionMetric::kEuclidean);
   EXPECT_EQ(sampler.options().choice, BranchChoice::kRandom);
-  EXPECT_EQ(sampler.options().depth_bound, 0.5);
+  EXPECT_EQ(sampler.options().clearance, 0.5);
   EXPECT_THROW(sampler.params().setParam("metric", "manhattan"), InputError);
   EXPECT_THROW(sampler.params().setParam("clearance", "-1"), InputError);
   EXPECT_EQ(sampler.options().metric, RetractionMetric::kEuclidean);
-  EXPECT_EQ(sampler.options().clearance, RetractionOptions().clearance);
+  EXPECT_EQ(sampler.options().clearance, 0.5);
 }
 
 TEST(RetractionStateSampler, RefusesOtherSpacesAndNoModel) {

@@ -22,12 +22,14 @@ using Path = std::vector<Vector3d>;
 using testing::BoxModel;
 using testing::Cube;
 
+constexpr double kClearance = 1e-2;  // of the diagonal
+
 TEST(CollideAndSlide, GoesStraightWhereNothingIsInTheWay) {
   const auto model = BoxModel();
   Path path;
   SlideCounters counters;
   const Vector3d a(1.5, 1.5, -1.5), b(1.5, -1.5, 1.5);
-  EXPECT_EQ(CollideAndSlide(*model, {}, a, b, &path, &counters),
+  EXPECT_EQ(CollideAndSlide(*model, kClearance, a, b, &path, &counters),
             SlideStatus::kReached);
   EXPECT_EQ(path, (Path{a, b}));
   EXPECT_EQ(counters.segment_checks, 1u);
@@ -36,12 +38,11 @@ TEST(CollideAndSlide, GoesStraightWhereNothingIsInTheWay) {
 
 TEST(CollideAndSlide, SlidesAlongAFaceAndRoundItsEdge) {
   const auto model = BoxModel();
-  const SlideOptions options;
-  const double standoff = options.clearance * model->diagonal();
+  const double standoff = kClearance * model->diagonal();
   Path path;
   SlideCounters counters;
   const Vector3d a(-1.8, -0.6, 0.1), b(1.2, 1.7, 0.1);
-  ASSERT_EQ(CollideAndSlide(*model, options, a, b, &path, &counters),
+  ASSERT_EQ(CollideAndSlide(*model, kClearance, a, b, &path, &counters),
             SlideStatus::kReached);
   ASSERT_GE(path.size(), 3u);
   // The first stop is in front of the face x = −1.
@@ -54,18 +55,18 @@ TEST(CollideAndSlide, StopsWhereNoSlideComesCloser) {
   Path path;
   SlideCounters counters;
   // Straight through the box: its projection on the face is the end.
-  EXPECT_EQ(CollideAndSlide(*model, {}, {-1.8, 0.2, 0.3}, {1.8, 0.1, 0.0},
-                            &path, &counters),
+  EXPECT_EQ(CollideAndSlide(*model, kClearance, {-1.8, 0.2, 0.3},
+                            {1.8, 0.1, 0.0}, &path, &counters),
             SlideStatus::kStopped);
   EXPECT_LT((path.back() - Vector3d(-1.0 - 1e-2 * model->diagonal(), 0.1, 0.0))
                 .norm(),
             1e-9);
   // A target inside the box, and one beyond the bounds.
-  EXPECT_EQ(CollideAndSlide(*model, {}, {-1.8, 0.2, 0.3}, {0.0, 0.1, 0.0},
-                            &path, &counters),
+  EXPECT_EQ(CollideAndSlide(*model, kClearance, {-1.8, 0.2, 0.3},
+                            {0.0, 0.1, 0.0}, &path, &counters),
             SlideStatus::kStopped);
-  EXPECT_EQ(CollideAndSlide(*model, {}, {-1.8, 0.2, 0.3}, {-5.0, 0.1, 1.9},
-                            &path, &counters),
+  EXPECT_EQ(CollideAndSlide(*model, kClearance, {-1.8, 0.2, 0.3},
+                            {-5.0, 0.1, 1.9}, &path, &counters),
             SlideStatus::kStopped);
   EXPECT_LT(path.back().x(), -1.9);
 }
@@ -79,7 +80,7 @@ TEST(CollideAndSlide, FollowsTheCreaseOfTwoPlanes) {
   Path path;
   SlideCounters counters;
   const SlideStatus status = CollideAndSlide(
-      *model, {}, {1.5, 1.6, 0.2}, {-0.5, -0.7, 2.6}, &path, &counters);
+      *model, kClearance, {1.5, 1.6, 0.2}, {-0.5, -0.7, 2.6}, &path, &counters);
   EXPECT_EQ(status, SlideStatus::kReached);
   EXPECT_TRUE(CheckPath(model->free_space(), path).free);
   EXPECT_GE(path.size(), 4u);
@@ -89,20 +90,19 @@ TEST(CollideAndSlide, RefusesWhatIsNotFree) {
   const auto model = BoxModel();
   Path path;
   SlideCounters counters;
-  EXPECT_EQ(CollideAndSlide(*model, {}, {0.0, 0.0, 0.0}, {1.5, 0.0, 0.0}, &path,
-                            &counters),
+  EXPECT_EQ(CollideAndSlide(*model, kClearance, {0.0, 0.0, 0.0},
+                            {1.5, 0.0, 0.0}, &path, &counters),
             SlideStatus::kInvalid);
   EXPECT_TRUE(path.empty());
-  EXPECT_EQ(CollideAndSlide(*model, {}, {1.5, 0.0, 0.0},
+  EXPECT_EQ(CollideAndSlide(*model, kClearance, {1.5, 0.0, 0.0},
                             {std::nan(""), 0.0, 0.0}, &path, &counters),
             SlideStatus::kInvalid);
-  SlideOptions options;
-  options.clearance = std::nan("");
-  EXPECT_THROW(CollideAndSlide(*model, options, {1.5, 0.0, 0.0},
-                               {1.5, 0.5, 0.0}, &path, &counters),
-               InputError);
-  options.clearance = -1.0;
-  EXPECT_THROW(options.Validate(), InputError);
+  for (const double clearance : {std::nan(""), -1.0, 0.0, 1.5}) {
+    EXPECT_THROW(CollideAndSlide(*model, clearance, {1.5, 0.0, 0.0},
+                                 {1.5, 0.5, 0.0}, &path, &counters),
+                 InputError)
+        << clearance;
+  }
 }
 
 // From the middle of a hole both ways out are one slide each, whatever the
@@ -118,9 +118,9 @@ TEST(CollideAndSlide, LeavesChannelsOfAnyWidth) {
       Path path;
       SlideCounters counters;
       for (const Vector3d& end : {passage.scene.start, passage.scene.goal}) {
-        ASSERT_EQ(
-            CollideAndSlide(*passage.model, {}, middle, end, &path, &counters),
-            SlideStatus::kReached)
+        ASSERT_EQ(CollideAndSlide(*passage.model, kClearance, middle, end,
+                                  &path, &counters),
+                  SlideStatus::kReached)
             << turned << ' ' << delta;
         EXPECT_TRUE(CheckPath(passage.model->free_space(), path).free);
       }
@@ -154,9 +154,10 @@ TEST(CollideAndSlide, NeverTunnelsThroughClosedPassages) {
           if (scratch.points.empty()) continue;
           const Vector3d b = scratch.points[random() % scratch.points.size()].q;
           const SlideStatus status =
-              k % 2 == 0 ? CollideAndSlide(*model, {}, at, b, &path, &counters)
-                         : StepRetract(retraction, {}, at, b, &random, &scratch,
-                                       &path, &counters);
+              k % 2 == 0
+                  ? CollideAndSlide(*model, kClearance, at, b, &path, &counters)
+                  : StepRetract(retraction, at, b, &random, &scratch, &path,
+                                &counters);
           ASSERT_NE(status, SlideStatus::kInvalid);
           unfree += !CheckPath(model->free_space(), path).free;
           for (std::size_t i = 1; i < path.size(); ++i) {
@@ -187,7 +188,7 @@ TEST(StepRetract, FollowsAFaceWithBothMetrics) {
     options.metric = metric;
     const Retraction retraction(model, options);
     const bool euclidean = metric == RetractionMetric::kEuclidean;
-    EXPECT_EQ(StepRetract(retraction, {}, {-1.8, -0.6, 0.1}, {-0.2, 1.7, 0.1},
+    EXPECT_EQ(StepRetract(retraction, {-1.8, -0.6, 0.1}, {-0.2, 1.7, 0.1},
                           &random, &scratch, &path, &counters),
               euclidean ? SlideStatus::kReached : SlideStatus::kStopped);
     EXPECT_TRUE(CheckPath(model->free_space(), path).free);

@@ -216,35 +216,35 @@ TEST(Retraction, SaysWhyThereIsNoPoint) {
   const auto model = BoxModel();
   std::mt19937_64 random(1);
   RetractionScratch scratch;
-  RetractionOptions options;
-  options.depth_bound = 1e-3;
-  const Retraction shallow(model, options);
-  EXPECT_EQ(shallow.Retract({0.0, 0.1, 0.2}, &random, &scratch),
-            RetractionStatus::kNoProjection);
-  EXPECT_EQ(shallow.Retract({std::nan(""), 0.0, 0.0}, &random, &scratch),
+  const Retraction retraction(model);
+  EXPECT_EQ(retraction.Retract({std::nan(""), 0.0, 0.0}, &random, &scratch),
             RetractionStatus::kInvalid);
-  EXPECT_EQ(shallow.Retract({1.5, 0.0, 0.0}, &random, &scratch),
+  EXPECT_EQ(retraction.Retract({1.5, 0.0, 0.0}, &random, &scratch),
             RetractionStatus::kFree);
   ASSERT_EQ(scratch.points.size(), 1u);
   EXPECT_EQ(scratch.points[0].q, Vector3d(1.5, 0.0, 0.0));
-  // All of the box's surface lies beyond these bounds.
-  const BoundingBox bounds = {Vector3d::Constant(-0.5),
-                              Vector3d::Constant(0.5)};
-  const Retraction caught(std::make_shared<const ContactModel>(
-      std::vector<ContactSpace>{BuildContactSpace(Cube(0.5), Cube(1.5))},
-      bounds));
-  EXPECT_EQ(caught.Retract({0.1, 0.2, 0.3}, &random, &scratch),
+  // All of the box's surface lies beyond these bounds, and in the last ones
+  // farther away than their diagonal.
+  const auto within = [&](double half) {
+    const BoundingBox bounds = {Vector3d::Constant(-half),
+                                Vector3d::Constant(half)};
+    return Retraction(std::make_shared<const ContactModel>(
+        std::vector<ContactSpace>{BuildContactSpace(Cube(0.5), Cube(1.5))},
+        bounds));
+  };
+  EXPECT_EQ(within(0.5).Retract({0.1, 0.2, 0.3}, &random, &scratch),
             RetractionStatus::kNoClearance);
+  EXPECT_EQ(within(0.2).Retract({0.0, 0.1, 0.1}, &random, &scratch),
+            RetractionStatus::kNoProjection);
 }
 
 TEST(Retraction, RefusesOptionsOutOfRange) {
   const auto model = BoxModel();
-  for (int bad = 0; bad < 4; ++bad) {
+  for (int bad = 0; bad < 3; ++bad) {
     RetractionOptions options;
     if (bad == 0) options.clearance = 0.0;
     if (bad == 1) options.clearance = 1.5;
-    if (bad == 2) options.depth_bound = std::nan("");
-    if (bad == 3) options.max_branches = 0;
+    if (bad == 2) options.clearance = std::nan("");
     EXPECT_THROW(Retraction(model, options), InputError) << bad;
   }
   EXPECT_THROW(Retraction(nullptr), InputError);

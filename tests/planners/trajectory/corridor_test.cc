@@ -150,11 +150,11 @@ TEST(Corridor, EnergyFallsAndEveryRoundIsFree) {
   TrajectoryProblem problem = WithoutMetrics(source);
   problem.margin = 0.005;  // what the start has is more
   const Path start = Repaired(source);
-  CorridorOptions options;
+  constexpr double kForever = std::numeric_limits<double>::infinity();
   double previous = PathEnergy(problem, start);
   for (int rounds = 1; rounds <= 6; ++rounds) {
-    options.max_rounds = rounds;
-    const CorridorSummary summary = PolishInCorridor(problem, start, options);
+    const CorridorSummary summary =
+        PolishRounds(problem, start, rounds, kForever, {});
     ASSERT_TRUE(CheckPath(*problem.free_space, summary.path).free);
     EXPECT_LE(summary.objective, previous * (1.0 + 1e-12));
     EXPECT_GE(PathClearance(*problem.free_space, summary.path),
@@ -370,9 +370,7 @@ TEST(Corridor, RefusesWhatItCannotUse) {
   EXPECT_TRUE(summary.rounds.empty());
   EXPECT_THROW(PolishInCorridor(problem, {problem.start, problem.goal}),
                InputError);
-  CorridorOptions options;
-  options.max_rounds = 0;
-  EXPECT_THROW(PolishInCorridor(problem, line, options), InputError);
+  EXPECT_THROW(PolishInCorridor(problem, line, 0.0), InputError);
 }
 
 }  // namespace

@@ -249,7 +249,8 @@ TEST(IpoptTrajectoryOptimizer, StopsAtTheLimits) {
   // A tick of the processor's clock may be as long as several of them.
   EXPECT_LT(summary.iterations, 20);
   options = {};
-  options.ipopt.is_cancelled = [] { return true; };
+  options.ipopt.on_iteration = [](const IterationRecord&,
+                                  const Eigen::VectorXd&) { return false; };
   summary = IpoptTrajectoryOptimizer(problem, options).Solve();
   EXPECT_EQ(summary.status, SolveStatus::kCancelled);
   EXPECT_EQ(summary.rounds, 1);

@@ -331,7 +331,7 @@ TEST(TrajectoryPipeline, RefusesBadOptions) {
   options.time_limit = 0.0;
   EXPECT_THROW(options.Validate(), InputError);
   options = {};
-  options.corridor.max_rounds = 0;
+  options.optimizer.max_rounds = 0;
   EXPECT_THROW(options.Validate(), InputError);
   const Case setup(MakePathProblem("plate0.1", 0));
   options = {};
