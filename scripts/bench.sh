@@ -1,8 +1,10 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
 # bench.sh [paper|queries|contact-space|lazy|convergence|pipeline|planning|
-# extremes|peers|cluster|python|trade|all]: regenerates the tables and figures
-# of results/.  continuity and retraction are parts of queries and planning.
+# extremes|peers|cluster|python|trade|slice|all]: regenerates the tables and
+# figures of results/.  continuity and retraction are parts of queries and
+# planning.  slice makes some published rows anew and compares them
+# (results/reproduction.md); it is no part of all.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 # The user's own cache is neither used nor filled.
@@ -11,11 +13,12 @@ export PHONGPD_CACHE_DIR=$PWD/build/cache
 suite=${1:-all}
 case $suite in
   paper | queries | contact-space | lazy | convergence | pipeline | planning | \
-    extremes | peers | cluster | python | trade | continuity | retraction | all) ;;
+    extremes | peers | cluster | python | trade | continuity | retraction | \
+    slice | all) ;;
   *)
     echo "bench: expected paper, queries, contact-space, lazy," \
       "convergence, pipeline, planning, extremes, peers, cluster, python," \
-      "trade, continuity, retraction or all, found $suite" >&2
+      "trade, continuity, retraction, slice or all, found $suite" >&2
     exit 2
     ;;
 esac
@@ -154,6 +157,10 @@ if [[ $suite == python || $suite == all ]]; then
   PYTHONPATH=build/python build/venv/bin/python \
     results/bench/python_benchmark.py --baseline build/python_baseline \
     --output results/python --how "scripts/bench.sh python"
+fi
+if [[ $suite == slice ]]; then
+  scripts/build.sh reproduction
+  build/reproduction --output results --how "scripts/bench.sh slice"
 fi
 # Last: it draws what the others measured, too.
 if [[ $suite == trade || $suite == all ]]; then
