@@ -20,6 +20,10 @@ constexpr int kLineIterations = 100;
 // Of the objective: a smaller gain is worth no search, and no other status.
 constexpr double kWorthwhile = 2e-3;
 
+// A path that keeps clear has a few percent more than a start that does not;
+// one that has this much more took another way around.
+constexpr double kOtherValley = 1.1;
+
 // A path in hand and what is known of it.
 struct Candidate {
   TrajectoryStatus status = TrajectoryStatus::kFailed;
@@ -131,7 +135,7 @@ class Run {
   }
 
   Candidate SolveRoute(const Path& start, int route) {
-    Candidate candidate;
+    Candidate candidate, aside;
     candidate.route = route;
     Keep(start, &candidate);
     if (candidate.IsFree()) {
@@ -143,7 +147,7 @@ class Run {
       candidate.reason = "the start has too little clearance for Ipopt's rows";
       Note({"ipopt", route, "skipped", false, 0.0, 0, 0.0}, start);
     } else if (!IsLate()) {
-      Optimize(start, may_polish, &candidate);
+      Optimize(start, may_polish, &candidate, &aside);
     }
     const bool is_wanted = options_.polish == PolishWhen::kAlways ||
                            (options_.polish == PolishWhen::kNeeded &&
@@ -153,7 +157,8 @@ class Run {
         !IsLate()) {
       Polish(&candidate);
     }
-    return candidate;
+    const bool lacks_clearance = aside.IsFree() && !candidate.KeepsClear();
+    return lacks_clearance && aside.IsBetterThan(candidate) ? aside : candidate;
   }
 
   // A repaired path keeps to the middle of passages.  Where it has less than
@@ -204,7 +209,9 @@ class Run {
     return options;
   }
 
-  void Optimize(const Path& start, bool may_polish, Candidate* candidate) {
+  // `aside`: what it found, where the start is the better thing to polish.
+  void Optimize(const Path& start, bool may_polish, Candidate* candidate,
+                Candidate* aside) {
     TrajectoryOptions options = Settings(*candidate, may_polish);
     NoGain no_gain(best_.objective, kWorthwhile);
     const bool is_second = candidate->route > 0 && !candidate->IsFree() &&
@@ -233,9 +240,10 @@ class Run {
     const bool is_converged = summary.status == SolveStatus::kConverged ||
                               summary.status == SolveStatus::kAcceptable;
     // Ipopt may leave a start for a worse valley; the corridor never does.
-    const bool is_worse =
-        may_polish && found.IsFree() && candidate->KeepsClear() &&
-        candidate->objective < (1.0 - kWorthwhile) * found.objective;
+    const double allowed =
+        candidate->KeepsClear() ? 1.0 / (1.0 - kWorthwhile) : kOtherValley;
+    const bool is_worse = may_polish && found.IsFree() &&
+                          found.objective > allowed * candidate->objective;
     if (found.IsFree() && is_converged && !is_worse) {
       found.status = TrajectoryStatus::kSolved;
       *candidate = std::move(found);
@@ -247,7 +255,14 @@ class Run {
             : "Ipopt ended " + word +
                   (found.IsFree() ? "" : ", its path collides");
     // A start that collides is no better than an end that does.
-    if (!candidate->IsFree() || found.IsBetterThan(*candidate)) {
+    if (is_worse) {
+      *aside = std::move(found);
+      aside->reason = reason;
+      if (is_converged) {
+        aside->status = TrajectoryStatus::kSolved;
+        aside->reason.clear();
+      }
+    } else if (!candidate->IsFree() || found.IsBetterThan(*candidate)) {
       *candidate = std::move(found);
     }
     candidate->reason = reason;

@@ -184,16 +184,8 @@ class Panel {
       rows.push(this.check('xray', 'see through solids', state.xray,
                            isOn => viewer.set(() => { state.xray = isOn; })));
     }
-    if (data.meshes.some(m => m.role === 'contact')) {
-      rows.push(this.check('bend', 'colour contact space by curvature',
-                           state.bend,
-                           isOn => viewer.set(() => {
-                             state.bend = isOn;
-                             if (isOn) state.surface = '';
-                           })),
-                make('div', {id: 'bend-key', class: 'key', hidden: ''},
-                     make('span', {}, 'valley'), make('i'),
-                     make('span', {}, 'ridge')));
+    if (viewer.surface || data.meshes.some(m => m.role === 'contact')) {
+      rows.push(...surfaceColorRows(viewer));
     }
     if (viewer.map) {
       rows.push(...viewer.surface.rows(), ...viewer.map.rows());
@@ -301,8 +293,10 @@ class Panel {
     }
     check('clip-on', state.clip.on);
     check('xray', state.xray);
-    check('bend', state.bend);
-    if (byId('bend-key')) byId('bend-key').hidden = !state.bend;
+    if (byId('surface')) {
+      byId('surface').value = state.surface;
+      byId('bend-key').hidden = state.surface !== kBend;
+    }
     if (byId('clip-at')) {
       byId('clip-at').value = 1000 * state.clip.at;
       byId('clip-axis').value = state.clip.axis;

@@ -27,11 +27,9 @@ class LinkedViewer extends DrawnViewer {
         key => state.show[key] !== first.show[key]);
     if (shown.length) parts.toggled = shown.join(',');
     parts.xray = state.xray ? 1 : 0;
-    if (state.bend) parts.bend = 1;
     if (state.map) parts.map = state.map;
-    if (state.surface) {
-      Object.assign(parts, {surface: state.surface, below: state.below});
-    }
+    if (state.surface) parts.surface = state.surface;
+    if (state.surface in kSurfaceMaps) parts.below = state.below;
     if (state.theme !== first.theme) parts.theme = state.theme;
     if (state.iterate !== null) parts.iter = state.iterate;
     if (state.speed !== 1) parts.speed = state.speed;
@@ -71,10 +69,10 @@ class LinkedViewer extends DrawnViewer {
       if (key in state.show) state.show[key] = !first.show[key];
     }
     if (link.has('xray')) state.xray = link.get('xray') === '1';
-    state.bend = link.get('bend') === '1';
     if (this.data.probe && link.get('map') in kMaps) {
       state.map = link.get('map');
     }
+    if (link.get('surface') === kBend) state.surface = kBend;
     if (this.data.probe && link.get('surface') in kSurfaceMaps) {
       state.surface = link.get('surface');
       const below = parseFloat(link.get('below'));

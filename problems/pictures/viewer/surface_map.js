@@ -9,12 +9,27 @@ const kSurfaceMaps = {
          of: (e, p, normal) => 180 / Math.PI * Math.acos(Math.min(
              1, normal.reduce((s, x, k) => s + x * p.direction[k], 0)))},
 };
+// What the shape alone tells, without asking any metric (dress.js).
+const kBend = 'bend';
 const kSurfaceDepths = [0.02, 0.05, 0.1, 0.2];  // shares of D
 const kSurfaceSamples = 16000;  // more where the surface has more facets
 const kSurfaceSlice = 40;       // milliseconds of a frame
 // Off the edges, where facets meet; share of a facet.
 const kSurfaceInset = 0.04;
 const kThinner = [0.62, 0.62, 0.62];  // where the robot would be out again
+
+// What the contact space is coloured by, one thing at a time: for the panel, of
+// pages without a probe as well.
+function surfaceColorRows(viewer) {
+  const bend = {[kBend]: {text: 'curvature'}};
+  return [
+    ...colorRows('surface', 'colour the contact space by',
+                 viewer.surface ? {...kSurfaceMaps, ...bend} : bend,
+                 kind => viewer.set(() => { viewer.state.surface = kind; }),
+                 'Nothing is that thick.'),
+    make('div', {id: 'bend-key', class: 'key', hidden: ''},
+         make('span', {}, 'valley'), make('i'), make('span', {}, 'ridge'))];
+}
 
 class SurfaceMap {
   constructor(viewer) {
@@ -36,12 +51,14 @@ class SurfaceMap {
     viewer.stage.groups.contact.add(this.mesh);
   }
 
-  get isOn() { return !!this.viewer.state.surface; }
+  // By what a metric says.
+  get isOn() { return this.viewer.state.surface in kSurfaceMaps; }
 
   // Shows what the state wants, as far as it is known; the rest comes frame by
   // frame (advance).
   show() {
-    const {surface, probe} = this.viewer.state;
+    const {surface: kind, probe} = this.viewer.state;
+    const surface = this.isOn ? kind : '';
     const key = surface
         ? [surface, this.viewer.state.below, probe.smoothing].join() : '';
     for (const solid of this.viewer.stage.solids) {
@@ -187,7 +204,7 @@ class SurfaceMap {
     this.viewer.changed();
   }
 
-  // Its controls, for the panel.
+  // How it is asked, for the panel.
   rows() {
     const {viewer} = this, {state} = viewer;
     const below = make(
@@ -195,13 +212,7 @@ class SurfaceMap {
                    onchange: e => viewer.set(
                        () => { state.below = Number(e.target.value); })},
         ...kSurfaceDepths.map(d => make('option', {value: d}, d + ' D')));
-    const rows = colorRows('surface', 'colour the contact space by',
-                           kSurfaceMaps, kind => viewer.set(() => {
-                             state.surface = kind;
-                             if (kind) state.bend = false;
-                           }), 'Nothing is that thick.');
-    return [...rows,
-            make('label', {id: 'surface-below', class: 'row'},
+    return [make('label', {id: 'surface-below', class: 'row'},
                  make('span', {}, 'asked below it, by'), below),
             make('p', {id: 'surface-left', class: 'soft'})];
   }

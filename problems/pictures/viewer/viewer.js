@@ -69,7 +69,7 @@ class Viewer {
              windows: true, regions: false},
       probe: {on: false, at: null, metric: 1,
               smoothing: data.probe ? data.probe.smoothing_length : 0},
-      xray: false, bend: false, map: '', surface: '', below: 0.05,
+      xray: false, map: '', surface: '', below: 0.05,
       theme: isDark ? 'dark' : 'light', still: false,
     };
   }
@@ -147,7 +147,8 @@ class Viewer {
       stage.groups[role].visible = state.show[role];
     }
     if (stage.isXray !== state.xray) stage.setXray(state.xray);
-    if (!!stage.isBend !== state.bend) stage.setBend(state.bend);
+    const isBend = state.surface === kBend;
+    if (!!stage.isBend !== isBend) stage.setBend(isBend);
     stage.setTheme(state.theme);
     stage.setClip(state.clip);
     this.dress(0);

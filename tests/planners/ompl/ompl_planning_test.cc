@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/mesh/mesh_error.h"
 #include "tests/support/passages.h"
@@ -114,8 +115,9 @@ TEST_F(OmplPlanning, NeedsFarFewerSamplesWithAllBranches) {
       const auto in_passage = std::find_if(
           points.begin(), points.end(),
           [](const Vector3d& q) { return std::abs(q.x()) < 0.12; });
+      // None in the time there was: more than were drawn.
       first.push_back(in_passage == points.end()
-                          ? -1
+                          ? std::numeric_limits<std::int64_t>::max()
                           : static_cast<std::int64_t>(
                                 result.graph.samples[static_cast<std::size_t>(
                                     in_passage - points.begin())]));
@@ -133,7 +135,7 @@ TEST_F(OmplPlanning, NeedsFarFewerSamplesWithAllBranches) {
   EXPECT_GE(euclidean, 500u);
   EXPECT_GT(phong_first, 0);
   EXPECT_LE(phong_first, static_cast<std::int64_t>(phong));
-  EXPECT_GE(euclidean_first, 10 * phong_first);
+  EXPECT_GE(euclidean_first / 10, phong_first);
 }
 
 TEST_F(OmplPlanning, SolvesTheNarrowestPassages) {

@@ -35,10 +35,9 @@ TEST(RetractionCost, AllocatesNothingAfterAWarmUp) {
                              &random, &scratch);
           if (scratch.points.empty()) continue;
           const Vector3d to = scratch.points.back().q;
-          CollideAndSlide(*passage.model, {}, at, to, &path, &counters);
+          CollideAndSlide(*passage.model, 0.0, at, to, &path, &counters);
           at = path.back();
-          StepRetract(retraction, {}, at, to, &random, &scratch, &path,
-                      &counters);
+          StepRetract(retraction, at, to, &random, &scratch, &path, &counters);
         }
       };
       run();

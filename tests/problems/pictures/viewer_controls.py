@@ -32,9 +32,10 @@ def work_controls(browser, checks, page):
     changes(lambda: browser.click("#xray"), "seeing through solids")
     browser.press("o")
     holds("viewer.state.xray === viewer.isHidden", "O takes it back")
-    changes(lambda: browser.click("#bend"), "colour by curvature")
+    changes(lambda: browser.run(entered("surface", "bend")),
+            "colour by curvature")
     holds("!document.getElementById('bend-key').hidden", "its key is shown")
-    browser.click("#bend")
+    browser.run(entered("surface", ""))
 
     changes(lambda: browser.click("#clip-on"), "cutting")
     changes(lambda: browser.click("#clip-flip"), "the other side of the cut")
@@ -298,10 +299,17 @@ def work_surface(browser, checks, page):
     browser.wait(done)
     holds("viewer.state.surface === 'euclidean' && viewer.state.below === 0.2",
           "a link keeps the colours")
-    browser.click("#bend")
-    holds("viewer.state.surface === '' && !viewer.surface.mesh.visible && "
-          "viewer.stage.solids[0].faces[0].visible",
+    browser.run(entered("surface", "bend"))
+    holds("!viewer.surface.mesh.visible && viewer.stage.isBend && "
+          "viewer.stage.solids[0].faces[0].visible && "
+          "document.getElementById('surface-below').hidden && "
+          "document.getElementById('surface-key').hidden",
           "curvature takes their place")
+    browser.click("#link")
+    link = browser.run("location.hash")
+    browser.open(page, link)
+    holds("viewer.state.surface === 'bend' && viewer.stage.isBend",
+          "a link keeps curvature")
     checks.quiet("surface")
 
 

@@ -10,10 +10,10 @@
 #include <random>
 #include <vector>
 
-#include "constraints/oracle/collision_oracle.h"
 #include "core/contact/contact_space.h"
 #include "core/projection/euclidean_metric.h"
 #include "core/projection/phong_metric.h"
+#include "tests/support/fcl_oracle_of.h"
 
 namespace phongpd {
 namespace {
@@ -34,7 +34,7 @@ struct Built {
       : benchmark(b),
         contact(BuildContactSpace(b.robot, b.obstacle)),
         box(contact.bounds()),
-        oracle(b.robot, b.obstacle),
+        oracle(testing::FclOracleOf(b.robot, b.obstacle)),
         euclidean(contact),
         phong(MakePhong(contact, 0.0)),
         smoothed(MakePhong(contact, 0.1)) {}
@@ -74,7 +74,7 @@ const Built& Get(std::size_t index) {
   return *built[index];
 }
 
-class PaperBenchmarkTest : public testing::TestWithParam<std::size_t> {};
+class PaperBenchmarkTest : public ::testing::TestWithParam<std::size_t> {};
 
 TEST_P(PaperBenchmarkTest, InsideIsWhereTheOriginalMeshesCollide) {
   const Built& b = Get(GetParam());
@@ -212,7 +212,7 @@ TEST_P(PaperBenchmarkTest, SwappingTheOperandsNegatesPd) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, PaperBenchmarkTest,
-                         testing::Values(std::size_t{0}, std::size_t{1},
+                         ::testing::Values(std::size_t{0}, std::size_t{1},
                                          std::size_t{2}),
                          [](const auto& test) {
                            return PaperBenchmarks()[test.param].name;
