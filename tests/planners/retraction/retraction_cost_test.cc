@@ -35,7 +35,7 @@ TEST(RetractionCost, AllocatesNothingAfterAWarmUp) {
                              &random, &scratch);
           if (scratch.points.empty()) continue;
           const Vector3d to = scratch.points.back().q;
-          CollideAndSlide(*passage.model, 0.0, at, to, &path, &counters);
+          CollideAndSlide(*passage.model, 1e-2, at, to, &path, &counters);
           at = path.back();
           StepRetract(retraction, at, to, &random, &scratch, &path, &counters);
         }
