@@ -41,9 +41,9 @@ struct Flags : SeededRunFlags {
 
 // Figures: results/trade, `scripts/bench.sh trade`.
 constexpr char kPresetHelp[] =
-    "fast: no second optimisation from the colliding line, 0.84 of balanced's "
-    "time, energy 0.60 % above the least found (balanced: 0.29 %); tight: 3 "
-    "routes and the corridor always, 3.3 times the time, 0.20 %";
+    "fast: no second optimisation from the colliding line, 0.62 of balanced's "
+    "time, energy 0.43 % above the least found (balanced: 0.43 %); tight: 3 "
+    "routes and the corridor always, 2.2 times the time, 0.31 %";
 
 // What says how a metric is followed says nothing where none is.
 void RequireMetricIsFollowed(const Flags& flags, const Scene& scene) {

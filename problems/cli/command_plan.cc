@@ -47,9 +47,9 @@ RunSummary Summarize(const nlohmann::ordered_json& row) {
 
 // Figures: results/trade, `scripts/bench.sh trade`.
 constexpr char kPresetHelp[] =
-    "Of contact-surface only. fast: 1 route, no links across gaps, 0.21 of "
-    "balanced's time, 1.4 % longer than the least found (balanced: 0.44 %); "
-    "tight: 8 routes on a coarser roadmap, 1.5 times the time, 0.08 %";
+    "Of contact-surface only. fast: 1 route, no links across gaps, 0.23 of "
+    "balanced's time, 1.4 % longer than the least found (balanced: 0.58 %); "
+    "tight: 8 routes on a coarser roadmap, 1.6 times the time, 0.07 %";
 
 // Samplers have nothing that these say.
 void RequireRoutesAreCompared(const Flags& flags, const std::string& planner) {
