@@ -21,16 +21,17 @@ namespace {
 
 using Eigen::Vector3d;
 
-// A small scanned knot that passes a larger one.
+// A small scanned knot that passes a larger one; both too thin for much of what
+// their facets cut to be hidden in either.
 Scene ScannedKnots() {
   Scene scene;
   scene.name = "scanned knots";
   scene.workspace.robot =
-      MakeSolid(Rotated(MakeScan(MakeKnot(0.3, 0.11, 128, 20), 0.05, 0.002, 4),
+      MakeSolid(Rotated(MakeScan(MakeKnot(0.5, 0.06, 160, 16), 0.055, 0.002, 4),
                         GenericRotation()),
                 "robot");
   scene.workspace.obstacles = {MakeSolid(
-      MakeScan(MakeKnot(1.0, 0.35, 128, 20), 0.16, 0.005, 3), "knot")};
+      MakeScan(MakeKnot(1.0, 0.12, 160, 16), 0.11, 0.004, 3), "knot")};
   scene.workspace.bounds = {Vector3d::Constant(-6.0), Vector3d::Constant(6.0)};
   scene.start = Vector3d::Constant(-4.0);
   scene.goal = Vector3d::Constant(4.0);
