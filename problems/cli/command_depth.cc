@@ -151,7 +151,7 @@ TriangleMesh Operand(const std::string& path, const Flags& flags) {
 
 int Depth(const Flags& flags) {
   OutputFiles outputs;
-  outputs.Declare(flags.output);
+  DeclareTable(&outputs, flags.output, "--output");
   const std::vector<RobotPose> poses = PosesOf(flags);
   DepthOptions options;
   options.robot_name = flags.a;

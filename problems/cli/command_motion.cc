@@ -201,7 +201,7 @@ int Follow(const Flags& flags) {
   flags.sliding.Validate();
   const std::string target = AnswerTarget(flags.output);
   OutputFiles outputs;
-  outputs.Declare(target);
+  DeclareTable(&outputs, target, "--output");
   DeclareIfNamed(&outputs, flags.html, "--html", {".html", ".htm"});
   DeclareIfNamed(&outputs, flags.svg, "--svg", {".svg"});
   if (!flags.html.empty()) RequireViewer();

@@ -154,7 +154,7 @@ int Query(const CLI::App& app, const Flags& flags) {
   RequireSense(app, flags);
   const std::string target = AnswerTarget(flags.output);
   OutputFiles outputs;
-  outputs.Declare(target);
+  DeclareTable(&outputs, target, "--output");
   const std::vector<Eigen::Vector3d> points = ReadPointsCsv(flags.points);
   const ContactSpace contact = LoadContactSpace(flags.contact_space);
   Progress("building the metric");

@@ -25,6 +25,15 @@ CLI::Validator Numbers(const std::string& range, const Test& is_good) {
       "");
 }
 
+// In small letters, with the point.
+std::string EndingOf(const std::string& path) {
+  std::string ending = std::filesystem::path(path).extension().string();
+  for (char& c : ending) {
+    c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  }
+  return ending;
+}
+
 bool IsNoFile(const std::string& path) {
   return path.empty() || path == kStandardOutput || path.rfind("/dev/", 0) == 0;
 }
@@ -42,10 +51,7 @@ std::string AnswerTarget(const std::string& output) {
 void RequireEnding(const std::string& path, const std::string& flag,
                    const std::vector<std::string>& endings) {
   if (IsNoFile(path)) return;
-  std::string found = std::filesystem::path(path).extension().string();
-  for (char& c : found) {
-    c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  }
+  const std::string found = EndingOf(path);
   if (std::find(endings.begin(), endings.end(), found) != endings.end()) return;
   throw InputError(flag + ": expected a name that ends in " +
                    Joined(endings, " or ") + ", found " + path);
@@ -56,6 +62,21 @@ void DeclareIfNamed(OutputFiles* outputs, const std::string& path,
                     const std::vector<std::string>& endings) {
   if (path.empty()) return;
   RequireEnding(path, flag, endings);
+  outputs->Declare(path);
+}
+
+void DeclareTable(OutputFiles* outputs, const std::string& path,
+                  const std::string& flag) {
+  static const std::vector<std::string> others = {
+      ".png", ".jpg", ".jpeg", ".gif", ".svg", ".pdf",  ".html", ".htm", ".off",
+      ".obj", ".stl", ".ply",  ".glb", ".pcs", ".gltf", ".dae",  ".3mf"};
+  const std::string found = IsNoFile(path) ? "" : EndingOf(path);
+  if (std::find(others.begin(), others.end(), found) != others.end()) {
+    throw InputError(flag +
+                     ": expected the name of a table, such as .jsonl, "
+                     ".csv or .json, found " +
+                     path);
+  }
   outputs->Declare(path);
 }
 

@@ -193,6 +193,20 @@ TEST_F(CliWords, OutputsOfAnotherKindAreRefused) {
     ExpectLine(command + "--svg p.png", {"--svg", "ends in .svg", "p.png"});
     ExpectLine(command + "--html p.svg", {"--html", ".html", "p.svg"});
   }
+  WriteText("points.csv", "x,y,z\n0.3,0,0.1\n");
+  for (const std::string& command :
+       {motion,
+        std::string("query --contact-space ../box.off --points ../points.csv "),
+        std::string("depth ../cone.off ../box.off "),
+        std::string("optimize u_axis "), std::string("plan u_axis ")}) {
+    for (const char* name : {"r.png", "r.HTML", "r.off", "r.svg", "r.pcs"}) {
+      ExpectLine(command + "--output " + name,
+                 {"--output", "table", ".csv", name});
+    }
+  }
+  ExpectLine("reproduce --output r.png -- check ../box.off",
+             {"--output", ".json", "r.png"});
+  ExpectLine("scenes write u_axis --output r.png", {"--output", "r.png"});
   ExpectLine("view ../box.off --html p.png", {"--html", "p.png"});
   ExpectLine("view ../box.off --glb p.gltf", {"--glb", "p.gltf"});
   ExpectLine("view ../box.off --png p.svg", {"--png", "p.svg"});
