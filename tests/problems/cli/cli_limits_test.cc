@@ -83,7 +83,8 @@ TEST_F(CliLimitsCampaign, WhatSigkillLeavesGoesWithTheNextRun) {
   const auto duration = Duration(kBuild + "--no-cache");
   long left = 0;
   const long tries = testing::CampaignCases(10, 100);
-  for (long i = 0; i < tries; ++i) {
+  // More until one was killed while there were temporaries, a short while.
+  for (long i = 0; i < tries || (left == 0 && i < 30 * tries); ++i) {
     PutOld(outputs);
     Interrupt(kBuild + "--no-cache", RandomTime(duration), SIGKILL);
     left += Names() == outputs ? 0 : 1;
