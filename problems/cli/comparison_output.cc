@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "problems/output/text.h"
+#include "problems/studies/performance_profile.h"
 #include "problems/studies/trajectory_comparison.h"
 
 namespace phongpd::cli {

@@ -64,6 +64,15 @@ void RequireGnuplot() {
       "Debian package gnuplot-nox");
 }
 
+std::string GnuplotText(const std::string& text) {
+  std::string quoted = "'";
+  for (const char c : text) {
+    quoted += c;
+    if (c == '\'') quoted += c;
+  }
+  return quoted + "'";
+}
+
 std::string RenderSvg(const std::string& script, int width, int height) {
   RequireGnuplot();
   const File input = AnonymousFile();

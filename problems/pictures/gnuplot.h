@@ -10,6 +10,9 @@ namespace phongpd {
 // Throws InputError if the program gnuplot is not on PATH.
 void RequireGnuplot();
 
+// The text between single quotes, where gnuplot reads all as it stands.
+std::string GnuplotText(const std::string& text);
+
 // Runs `script` (which carries its data as $name << EOD blocks) through
 // gnuplot's SVG terminal of the given size in pixels and returns the picture.
 // Throws InputError without gnuplot or room for its temporary files, and

@@ -21,16 +21,6 @@ constexpr std::array<const char*, 5> kLineStyles = {
     "lc rgb '#000000' lw 1.3", "lc rgb '#009E73' lw 1.8 dt (2,3)",
     "lc rgb '#B04080' lw 1.8 dt (12,4,2,4)"};
 
-// Between single quotes gnuplot reads everything as it stands.
-std::string Quoted(const std::string& text) {
-  std::string quoted = "'";
-  for (const char c : text) {
-    quoted += c;
-    if (c == '\'') quoted += c;
-  }
-  return quoted + "'";
-}
-
 std::string DataBlock(const MotionTrace& trace, std::size_t number) {
   std::string block = "$trace" + std::to_string(number) + " << EOD\n";
   for (std::size_t i = 0; i < trace.pd.size(); ++i) {
@@ -130,7 +120,7 @@ std::string MotionPage(const std::vector<MotionTrace>& traces,
   for (std::size_t k = 0; k < traces.size(); ++k) {
     script += DataBlock(traces[k], k);
   }
-  script += "set multiplot layout 4,1 title " + Quoted(title) +
+  script += "set multiplot layout 4,1 title " + GnuplotText(title) +
             " noenhanced font ',16' margins 0.11,0.97,0.07,0.89 "
             "spacing 0,0.025\n"
             "set grid lc rgb '#DDDDDD'\nset offsets 0,0,graph 0.08,graph "
@@ -152,7 +142,7 @@ std::string MotionPage(const std::vector<MotionTrace>& traces,
       script += (k == 0 ? "$trace" : ", $trace") + std::to_string(k) +
                 " using 1:" + std::to_string(panel + 2) + " with lines " +
                 kLineStyles[k % kLineStyles.size()] + " title " +
-                Quoted(traces[k].label);
+                GnuplotText(traces[k].label);
     }
     script += '\n';
   }

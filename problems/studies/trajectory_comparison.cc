@@ -10,7 +10,6 @@
 
 #include "core/mesh/mesh_error.h"
 #include "problems/output/text.h"
-#include "problems/pictures/gnuplot.h"
 
 namespace phongpd {
 namespace {
@@ -38,16 +37,6 @@ PipelineOptions OneSolve(TrajectoryStart start, bool is_adaptive) {
   const bool is_repaired = start == TrajectoryStart::kRepaired;
   options.optimizer.rows = is_adaptive && is_repaired ? 3 : 1;
   return options;
-}
-
-// A string of gnuplot's, taken literally.
-std::string Quoted(const std::string& text) {
-  std::string quoted = "'";
-  for (const char c : text) {
-    if (c == '\'') quoted += c;
-    quoted += c;
-  }
-  return quoted + '\'';
 }
 
 using CellKey = std::array<std::string, 3>;
@@ -234,11 +223,12 @@ std::vector<ProfileCurve> ProfileCurves(const std::vector<Json>& rows,
     if (!is_known) curves.push_back({method, {}, 0});
   }
   for (ProfileCurve& curve : curves) {
-    curve.problems = static_cast<int>(problems.size());
     for (const auto& entry : problems) {
       const std::map<std::string, double>& values = entry.second;
       const auto own = values.find(curve.method);
-      if (own == values.end() || !(own->second < kNever)) continue;
+      if (own == values.end()) continue;  // was not asked
+      ++curve.problems;
+      if (!(own->second < kNever)) continue;
       double best = kNever;
       for (const auto& value : values) best = std::min(best, value.second);
       curve.ratios.push_back(own->second / best);
@@ -246,38 +236,6 @@ std::vector<ProfileCurve> ProfileCurves(const std::vector<Json>& rows,
     std::sort(curve.ratios.begin(), curve.ratios.end());
   }
   return curves;
-}
-
-std::string PerformanceProfile(const std::vector<Json>& rows,
-                               const std::string& protocol,
-                               const std::string& measure) {
-  constexpr double kLargest = 100.0;
-  const std::vector<ProfileCurve> curves =
-      ProfileCurves(rows, protocol, measure);
-  TextStream script;
-  std::string plots;
-  for (std::size_t k = 0; k < curves.size(); ++k) {
-    const ProfileCurve& curve = curves[k];
-    script << "$m" << k << " << EOD\n1 0\n";
-    for (const double ratio : curve.ratios) {
-      if (ratio > kLargest) break;
-      script << FormatDouble(ratio) << ' ' << curve.Share(ratio) << '\n';
-    }
-    script << kLargest << ' ' << curve.Share(kLargest) << "\nEOD\n";
-    plots += (plots.empty() ? "plot $m" : ", $m") + std::to_string(k) +
-             " using 1:2 with steps lw 2 title " + Quoted(curve.method);
-  }
-  const int problems = curves.empty() ? 0 : curves.front().problems;
-  // Names of methods hold '@', which is markup to gnuplot.
-  script << "set logscale x\nset xrange [1:" << kLargest
-         << "]\nset yrange [0:1]\n"
-         << "set xlabel '" << measure << " over the least of all methods'\n"
-         << "set ylabel 'share of problems solved'\n"
-         << "set key right bottom noenhanced\nset title "
-         << Quoted(protocol + ", " + std::to_string(problems) + " problems")
-         << '\n'
-         << plots << '\n';
-  return RenderSvg(script.str(), 720, 440);
 }
 
 }  // namespace phongpd

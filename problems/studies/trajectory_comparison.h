@@ -57,7 +57,7 @@ struct ProfileCurve {
   std::string method;
   std::vector<double> ratios;  // measure over the least of all methods, of the
                                // problems it solved; ascending
-  int problems = 0;            // of the protocol, solved by any method or not
+  int problems = 0;            // that it was asked, solved by it or not
 
   // In [0, 1].
   double Share(double factor) const;
@@ -67,9 +67,5 @@ struct ProfileCurve {
 std::vector<ProfileCurve> ProfileCurves(
     const std::vector<nlohmann::ordered_json>& rows,
     const std::string& protocol, const std::string& measure);
-// The same as an SVG.
-std::string PerformanceProfile(const std::vector<nlohmann::ordered_json>& rows,
-                               const std::string& protocol,
-                               const std::string& measure);
 
 }  // namespace phongpd

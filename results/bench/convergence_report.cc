@@ -8,6 +8,7 @@
 
 #include "problems/output/text.h"
 #include "problems/pictures/gnuplot.h"
+#include "problems/studies/performance_profile.h"
 
 namespace phongpd::bench {
 

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/mesh/mesh_error.h"
+#include "problems/studies/performance_profile.h"
 
 namespace phongpd {
 namespace {
@@ -157,7 +158,7 @@ TEST(ComparisonCsv, QuotesNamesWithCommas) {
             std::string::npos);
 }
 
-TEST(ProfileCurves, AreSharesOfAllProblemsOfTheProtocol) {
+TEST(ProfileCurves, AreSharesOfTheProblemsThatAMethodWasAsked) {
   const std::vector<Json> rows = {
       // a: best on 1 (tie) and 2; b: twice a on 2; nobody solves 4.
       Row({"a", 1, true, 1.0, 10}),
@@ -169,11 +170,12 @@ TEST(ProfileCurves, AreSharesOfAllProblemsOfTheProtocol) {
       Row({"a", 4, false}),
       Row({"b", 4, false}),
       Row({"c", 4, false}),
+      Row({"d", 2, true, 1.0, 80}),
       Row({"a", 5, true, 1.0, 1, "solved", "plate", "pipeline"})};
   for (const char* measure : {"iterations", "evaluations/jacobian"}) {
     const std::vector<ProfileCurve> curves =
         ProfileCurves(rows, "straight-monotone", measure);
-    ASSERT_EQ(curves.size(), 3U);
+    ASSERT_EQ(curves.size(), 4U);
     EXPECT_EQ(curves[0].method, "a");
     EXPECT_EQ(curves[0].problems, 4);
     EXPECT_EQ(curves[0].ratios, std::vector<double>({1.0, 1.0}));
@@ -183,7 +185,12 @@ TEST(ProfileCurves, AreSharesOfAllProblemsOfTheProtocol) {
     EXPECT_EQ(curves[1].Share(1.0), 0.5);
     EXPECT_EQ(curves[1].Share(1.99), 0.5);
     EXPECT_EQ(curves[1].Share(2.0), 0.75);
+    EXPECT_EQ(curves[2].problems, 1);
     EXPECT_EQ(curves[2].Share(100.0), 0.0);
+    // Of one that it was asked one.
+    EXPECT_EQ(curves[3].problems, 1);
+    EXPECT_EQ(curves[3].Share(3.99), 0.0);
+    EXPECT_EQ(curves[3].Share(4.0), 1.0);
   }
   EXPECT_EQ(
       ProfileCurves(rows, "straight-monotone", "seconds/total")[1].Share(1.0),
@@ -198,7 +205,7 @@ TEST(PerformanceProfile, ShowsTheNamesOfMethods) {
                          "straight-monotone", "iterations");
   EXPECT_NE(svg.find("phong@0.1"), std::string::npos);
   EXPECT_NE(svg.find("s_so"), std::string::npos);
-  EXPECT_NE(svg.find("straight-monotone, 1 problems"), std::string::npos);
+  EXPECT_NE(svg.find("straight-monotone, 1 problem;"), std::string::npos);
 }
 
 class ReadComparisonTest : public testing::Test {
