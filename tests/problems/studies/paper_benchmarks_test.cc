@@ -213,7 +213,7 @@ TEST_P(PaperBenchmarkTest, SwappingTheOperandsNegatesPd) {
 
 INSTANTIATE_TEST_SUITE_P(All, PaperBenchmarkTest,
                          ::testing::Values(std::size_t{0}, std::size_t{1},
-                                         std::size_t{2}),
+                                           std::size_t{2}),
                          [](const auto& test) {
                            return PaperBenchmarks()[test.param].name;
                          });
