@@ -111,15 +111,15 @@ void AddStage(const TrajectoryProblem& problem, const Path& path,
 //   start → Ipopt → exact judge → corridor where that is needed → exact judge
 //
 // for each route; of the exactly free paths the best one wins, clearance first
-// (MissingClearance), then the objective.  The corridor starts from Ipopt's path
-// where that is free and better than the start, otherwise from the start, also
-// where Ipopt left it for another valley: its path costs more than a start that
-// keeps clear, or a tenth more than one that does not.  Such a path is kept for
-// the case that the corridor gains no clearance.  The corridor follows the
-// first round already, and Ipopt is skipped where a free start has less than
-// half the margin (passages narrower than it), because its program is mostly
-// infeasible there.  Where repair fails without a proof Ipopt is tried from the
-// colliding line.
+// (MissingClearance), then the objective.  The corridor starts from Ipopt's
+// path where that is free and better than the start, otherwise from the start,
+// also where Ipopt left it for another valley: its path costs more than a start
+// that keeps clear, or a tenth more than one that does not.  Such a path is
+// kept for the case that the corridor gains no clearance.  The corridor follows
+// the first round already, and Ipopt is skipped where a free start has less
+// than half the margin (passages narrower than it), because its program is
+// mostly infeasible there.  Where repair fails without a proof Ipopt is tried
+// from the colliding line.
 //
 // Lengths are relative to D and positions to the middle of start and goal, so
 // that unit and offset do not matter.  Same arguments, same bytes but for
