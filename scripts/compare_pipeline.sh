@@ -37,8 +37,17 @@ program() { # COMMIT|PROGRAM: prints the program
     cmake --build build --target phongpd --parallel "$(nproc)" > /dev/null)
   echo "$folder/source/build/phongpd"
 }
+# Files as the tables name them, whatever machine this is: by their place in the
+# project, or their name alone; commits stay as they are.
+shown() { # COMMIT|FILE
+  local place=$1
+  [[ ! -e $1 ]] || place=$(realpath --relative-to=. "$1")
+  [[ $place != ../* && $place != /* ]] || place=${place##*/}
+  echo "$place"
+}
 before=$(program "$1")
 after=$(program "$2")
+how="scripts/compare_pipeline.sh $(shown "$1") $(shown "$2") $(shown "$3")"
 . scripts/convergence_scenes.sh
 rows=$PWD/build/compare/pipeline
 rm -rf "$rows"
@@ -70,4 +79,4 @@ done
 python3 results/bench/pipeline_report.py --before "$rows/before.jsonl" \
   --after "$rows/after.jsonl" --metrics "$rows/metrics.jsonl" \
   --rivals results/convergence/rows.csv --output "$output" \
-  --how "scripts/compare_pipeline.sh $*"
+  --how "$how${4:+ $4}${5:+ $5}"
