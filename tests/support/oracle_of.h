@@ -5,11 +5,10 @@
 
 namespace phongpd::testing {
 
-// The oracle of two meshes, once they are checked.
-inline MotionOracle OracleOf(const TriangleMesh& robot,
-                             const TriangleMesh& obstacle) {
-  return MotionOracle(MakeSolid(robot, "robot"),
-                      MakeSolid(obstacle, "obstacle"));
+// The oracle of two meshes, once they are checked: ours, or CollisionOracle.
+template <typename Oracle = MotionOracle>
+Oracle OracleOf(const TriangleMesh& robot, const TriangleMesh& obstacle) {
+  return Oracle(MakeSolid(robot, "robot"), MakeSolid(obstacle, "obstacle"));
 }
 
 }  // namespace phongpd::testing

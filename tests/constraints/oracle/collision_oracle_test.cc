@@ -10,13 +10,13 @@
 
 #include "core/mesh/mesh_error.h"
 #include "problems/shapes/shapes.h"
-#include "tests/support/fcl_oracle_of.h"
+#include "tests/support/oracle_of.h"
 
 namespace phongpd {
 namespace {
 
 using Eigen::Vector3d;
-using testing::FclOracleOf;
+using testing::OracleOf;
 
 TriangleMesh Cube(double side, const Vector3d& center = Vector3d::Zero()) {
   const Vector3d half = Vector3d::Constant(0.5 * side);
@@ -31,7 +31,7 @@ Vector3d RandomPoint(std::mt19937_64* random, double half_width) {
 }
 
 TEST(CollisionOracle, DecidesCubesByTheirIntervals) {
-  const CollisionOracle oracle = FclOracleOf(Cube(1.0), Cube(3.0));
+  const auto oracle = OracleOf<CollisionOracle>(Cube(1.0), Cube(3.0));
   std::mt19937_64 random(1);
   int hits = 0;
   for (int i = 0; i < 20000; ++i) {
@@ -46,16 +46,16 @@ TEST(CollisionOracle, DecidesCubesByTheirIntervals) {
 }
 
 TEST(CollisionOracle, SeesARobotInsideAndARobotAround) {
-  const CollisionOracle inside = FclOracleOf(Cube(0.1), Cube(2.0));
+  const auto inside = OracleOf<CollisionOracle>(Cube(0.1), Cube(2.0));
   EXPECT_TRUE(inside.Collides({0.3, -0.2, 0.5}));
   EXPECT_FALSE(inside.Collides({1.2, 0.0, 0.0}));
-  const CollisionOracle around = FclOracleOf(Cube(2.0), Cube(0.1));
+  const auto around = OracleOf<CollisionOracle>(Cube(2.0), Cube(0.1));
   EXPECT_TRUE(around.Collides({0.3, -0.2, 0.5}));
   EXPECT_FALSE(around.Collides({1.2, 0.0, 0.0}));
 }
 
 TEST(CollisionOracle, TouchingIsDecidedOnBothSidesOfContact) {
-  const CollisionOracle oracle = FclOracleOf(Cube(1.0), Cube(1.0));
+  const auto oracle = OracleOf<CollisionOracle>(Cube(1.0), Cube(1.0));
   for (int axis = 0; axis < 3; ++axis) {
     Vector3d q(0.1, 0.2, 0.3);
     q[axis] = 1.0 - 1e-12;
@@ -67,7 +67,7 @@ TEST(CollisionOracle, TouchingIsDecidedOnBothSidesOfContact) {
 
 TEST(CollisionOracle, TheCavityOfAVesselIsFree) {
   const TriangleMesh vessel = MakeVessel(4.0, 2.0, 0.0);
-  const CollisionOracle oracle = FclOracleOf(Cube(0.5), vessel);
+  const auto oracle = OracleOf<CollisionOracle>(Cube(0.5), vessel);
   std::mt19937_64 random(2);
   int in_cavity = 0;
   for (int i = 0; i < 5000; ++i) {
@@ -80,7 +80,7 @@ TEST(CollisionOracle, TheCavityOfAVesselIsFree) {
   }
   EXPECT_GT(in_cavity, 50);
   // The same with the roles exchanged: the robot is the vessel.
-  const CollisionOracle mirrored = FclOracleOf(vessel, Cube(0.5));
+  const auto mirrored = OracleOf<CollisionOracle>(vessel, Cube(0.5));
   EXPECT_FALSE(mirrored.Collides({0.1, 0.2, -0.3}));
   EXPECT_TRUE(mirrored.Collides({0.1, 0.2, -0.9}));
 }
@@ -90,7 +90,7 @@ TEST(CollisionOracle, OverlappingComponentsAreAUnion) {
   const TriangleMesh obstacle =
       Joined(MakeBox({-3.0, -1.0, -1.0}, {1.0, 1.0, 1.0}),
              MakeBox({-1.0, -1.5, -1.5}, {3.0, 1.5, 1.5}));
-  const CollisionOracle oracle = FclOracleOf(Cube(0.1), obstacle);
+  const auto oracle = OracleOf<CollisionOracle>(Cube(0.1), obstacle);
   EXPECT_TRUE(oracle.Collides({0.0, 0.2, 0.1}));
   EXPECT_TRUE(oracle.Collides({-2.0, 0.2, 0.1}));
   EXPECT_TRUE(oracle.Collides({2.0, 0.2, 0.1}));
@@ -100,7 +100,7 @@ TEST(CollisionOracle, OverlappingComponentsAreAUnion) {
 
 TEST(CollisionOracle, ABodyInsideACavityIsSolid) {
   const TriangleMesh obstacle = Joined(MakeVessel(6.0, 4.0, 0.0), Cube(1.0));
-  const CollisionOracle oracle = FclOracleOf(Cube(0.1), obstacle);
+  const auto oracle = OracleOf<CollisionOracle>(Cube(0.1), obstacle);
   EXPECT_TRUE(oracle.Collides({0.1, 0.1, 0.1}));
   EXPECT_FALSE(oracle.Collides({1.0, 1.0, 1.0}));
   EXPECT_TRUE(oracle.Collides({2.5, 0.0, 0.0}));
@@ -111,16 +111,19 @@ TEST(CollisionOracle, EveryComponentOfBothSidesIsTried) {
   // Only the second component of each can meet the other.
   const TriangleMesh robot = Joined(Cube(0.2, {100.0, 0.0, 0.0}), Cube(0.2));
   const TriangleMesh obstacle = Joined(Cube(0.2, {0.0, 100.0, 0.0}), Cube(2.0));
-  EXPECT_TRUE(FclOracleOf(robot, obstacle).Collides({0.1, 0.1, 0.1}));
-  EXPECT_TRUE(FclOracleOf(obstacle, robot).Collides({0.1, 0.1, 0.1}));
-  EXPECT_FALSE(FclOracleOf(robot, obstacle).Collides({5.0, 0.0, 0.0}));
+  EXPECT_TRUE(
+      OracleOf<CollisionOracle>(robot, obstacle).Collides({0.1, 0.1, 0.1}));
+  EXPECT_TRUE(
+      OracleOf<CollisionOracle>(obstacle, robot).Collides({0.1, 0.1, 0.1}));
+  EXPECT_FALSE(
+      OracleOf<CollisionOracle>(robot, obstacle).Collides({5.0, 0.0, 0.0}));
 }
 
 TEST(CollisionOracle, SwappingRolesMirrorsTheConfiguration) {
   const TriangleMesh cone = MakeCone(0.8, 1.6, 12);
   const TriangleMesh axes = MakeAxes(2.0, 0.2);
-  const CollisionOracle oracle = FclOracleOf(cone, axes);
-  const CollisionOracle swapped = FclOracleOf(axes, cone);
+  const auto oracle = OracleOf<CollisionOracle>(cone, axes);
+  const auto swapped = OracleOf<CollisionOracle>(axes, cone);
   std::mt19937_64 random(3);
   for (int i = 0; i < 3000; ++i) {
     const Vector3d q = RandomPoint(&random, 3.0);
@@ -132,7 +135,7 @@ TEST(CollisionOracle, RefusesWhatItCannotJudge) {
   const Solid cube = MakeSolid(Cube(1.0), "cube");
   EXPECT_THROW(CollisionOracle(Solid(), cube), InputError);
   EXPECT_THROW(CollisionOracle(cube, Solid()), InputError);
-  const CollisionOracle oracle = FclOracleOf(Cube(1.0), Cube(1.0));
+  const auto oracle = OracleOf<CollisionOracle>(Cube(1.0), Cube(1.0));
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const double inf = std::numeric_limits<double>::infinity();
   EXPECT_THROW(oracle.Collides({nan, 0.0, 0.0}), InputError);

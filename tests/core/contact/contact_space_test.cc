@@ -7,9 +7,10 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
+#include "constraints/oracle/collision_oracle.h"
 #include "core/minkowski/build_limits.h"
 #include "problems/shapes/shapes.h"
-#include "tests/support/fcl_oracle_of.h"
+#include "tests/support/oracle_of.h"
 #include "tests/support/sanitizer.h"
 #include "tests/support/solid_tools.h"
 
@@ -32,7 +33,7 @@ void ExpectSound(const ContactSpaceReport& report) {
 // hit: everywhere, and a hair to either side of it.
 void ExpectSeparates(const TriangleMesh& robot, const TriangleMesh& obstacle,
                      const TriangleMesh& surface, int samples) {
-  const CollisionOracle oracle = testing::FclOracleOf(robot, obstacle);
+  const auto oracle = testing::OracleOf<CollisionOracle>(robot, obstacle);
   const BoundingBox box = ComputeBounds(surface);
   std::mt19937_64 random(7);
   for (int i = 0; i < samples; ++i) {

@@ -8,11 +8,12 @@
 #include <cmath>
 #include <string>
 
+#include "constraints/oracle/collision_oracle.h"
 #include "core/bounds/solid_distance.h"
 #include "core/bvh/triangle_bvh.h"
 #include "core/contact/contact_space.h"
 #include "problems/shapes/shapes.h"
-#include "tests/support/fcl_oracle_of.h"
+#include "tests/support/oracle_of.h"
 #include "tests/support/solid_tools.h"
 
 namespace phongpd {
@@ -39,7 +40,7 @@ bool Says(const ContactSpaceReport& report, const std::string& words) {
 void ExpectWithinBound(const TriangleMesh& robot, const TriangleMesh& obstacle,
                        const ContactSpace& c, int samples) {
   ExpectSound(c.report());
-  const CollisionOracle oracle = testing::FclOracleOf(robot, obstacle);
+  const auto oracle = testing::OracleOf<CollisionOracle>(robot, obstacle);
   const ContactSpace exact = BuildContactSpace(robot, obstacle);
   const TriangleBvh exact_tree(exact.mesh()), tree(c.mesh());
   const BoundingBox box = ComputeBounds(c.mesh());

@@ -8,11 +8,12 @@
 #include <limits>
 #include <random>
 
+#include "constraints/oracle/collision_oracle.h"
 #include "core/bvh/triangle_bvh.h"
 #include "core/contact/contact_space.h"
 #include "core/mesh/mesh_error.h"
 #include "problems/shapes/shapes.h"
-#include "tests/support/fcl_oracle_of.h"
+#include "tests/support/oracle_of.h"
 #include "tests/support/solid_tools.h"
 
 namespace phongpd {
@@ -83,7 +84,7 @@ TEST(FreeSpace, AgreesWithDenseChecksOfTheOriginalMeshes) {
       Rotated(MakeTorus(1.0, 0.3, 16, 8), testing::RandomRotation(&random));
   const ContactSpace contact = BuildContactSpace(robot, obstacle);
   const FreeSpace space({contact});
-  const CollisionOracle oracle = testing::FclOracleOf(robot, obstacle);
+  const auto oracle = testing::OracleOf<CollisionOracle>(robot, obstacle);
   BoundingBox box = ComputeBounds(contact.mesh());
   box.min *= 1.3;
   box.max *= 1.3;

@@ -9,11 +9,12 @@
 
 #include <random>
 
+#include "constraints/oracle/collision_oracle.h"
 #include "core/contact/contact_space.h"
 #include "core/mesh/mesh_error.h"
 #include "planners/retraction/retraction.h"
 #include "problems/shapes/shapes.h"
-#include "tests/support/fcl_oracle_of.h"
+#include "tests/support/oracle_of.h"
 #include "tests/support/passages.h"
 #include "tests/support/solid_tools.h"
 
@@ -116,7 +117,7 @@ TEST(ContactSpaceMotionValidator, AgreesWithDenseChecksOfTheOriginalMeshes) {
   const auto model = std::make_shared<const ContactModel>(
       std::vector<ContactSpace>{TakeAsContactSpace(contact)});
   const ob::SpaceInformationPtr si = MakeSpaceInformation(model);
-  const CollisionOracle oracle = testing::FclOracleOf(robot, obstacle);
+  const auto oracle = testing::OracleOf<CollisionOracle>(robot, obstacle);
   const double diagonal = model->diagonal();
   Motion motion(si);
   int free = 0, blocked = 0;

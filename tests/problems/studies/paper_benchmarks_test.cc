@@ -10,10 +10,11 @@
 #include <random>
 #include <vector>
 
+#include "constraints/oracle/collision_oracle.h"
 #include "core/contact/contact_space.h"
 #include "core/projection/euclidean_metric.h"
 #include "core/projection/phong_metric.h"
-#include "tests/support/fcl_oracle_of.h"
+#include "tests/support/oracle_of.h"
 
 namespace phongpd {
 namespace {
@@ -34,7 +35,7 @@ struct Built {
       : benchmark(b),
         contact(BuildContactSpace(b.robot, b.obstacle)),
         box(contact.bounds()),
-        oracle(testing::FclOracleOf(b.robot, b.obstacle)),
+        oracle(testing::OracleOf<CollisionOracle>(b.robot, b.obstacle)),
         euclidean(contact),
         phong(MakePhong(contact, 0.0)),
         smoothed(MakePhong(contact, 0.1)) {}
