@@ -36,15 +36,29 @@ std::uint64_t SeedOf(const CsvTable& table, std::size_t row,
   return static_cast<std::uint64_t>(table.Number(row, column));
 }
 
+// One published file, and those of its rows that are made anew.
+struct PublishedFile {
+  Slice slice;
+  CsvTable table;
+  std::vector<std::size_t> rows;
+};
+
+PublishedFile Open(const Published& published, const std::string& file,
+                   const std::string& compared) {
+  PublishedFile opened{{}, published.Read(file), {}};
+  opened.slice.file = file;
+  opened.slice.compared = compared;
+  opened.slice.published = opened.table.rows().size();
+  opened.rows = Spread(opened.slice.published, published.rows);
+  return opened;
+}
+
 // As phongpd compare runs them.
 Slice RemakeConvergence(const Published& published) {
-  Slice slice;
-  slice.file = "convergence/rows.csv";
-  slice.compared = "all but seconds";
-  const CsvTable table = published.Read(slice.file);
-  slice.published = table.rows().size();
+  auto [slice, table, rows] =
+      Open(published, "convergence/rows.csv", "all but seconds");
   TrajectoryStudy study;
-  for (const std::size_t row : Spread(slice.published, published.rows)) {
+  for (const std::size_t row : rows) {
     const std::string& scene = table.Text(row, "scene");
     const std::string& protocol = table.Text(row, "protocol");
     const std::string& method = table.Text(row, "method");
@@ -77,20 +91,21 @@ PlanningProblem FindProblem(const std::vector<PlanningProblem>& problems,
 
 const Table& FindTable(const std::vector<NamedTable>& tables,
                        const std::string& file) {
-  return std::find_if(
-             tables.begin(), tables.end(),
-             [&](const NamedTable& named) { return named.file == file; })
-      ->table;
+  const auto found =
+      std::find_if(tables.begin(), tables.end(),
+                   [&](const NamedTable& named) { return named.file == file; });
+  if (found == tables.end()) {
+    throw InputError("reproduction: no table is called " + file);
+  }
+  return found->table;
 }
 
 // The complete planner.
 Slice RemakeExact(const Published& published) {
-  Slice slice;
-  slice.file = "planning/exact.csv";
-  slice.compared = "all but times and the ratio to the best path of all runs";
-  const CsvTable table = published.Read(slice.file);
-  slice.published = table.rows().size();
-  for (const std::size_t row : Spread(slice.published, published.rows)) {
+  auto [slice, table, rows] =
+      Open(published, "planning/exact.csv",
+           "all but times and the ratio to the best path of all runs");
+  for (const std::size_t row : rows) {
     const std::string& scene = table.Text(row, "scene");
     std::cerr << scene << '\n';
     PlanningResults found;
@@ -105,14 +120,11 @@ Slice RemakeExact(const Published& published) {
 
 // Sampling planners, one run each.
 Slice RemakeSamplers(const Published& published) {
-  Slice slice;
-  slice.file = "planning/runs.csv";
-  slice.compared =
+  auto [slice, table, rows] = Open(
+      published, "planning/runs.csv",
       "all but seconds, of runs solved by this library's planners, which get a "
       "minute now; whether it was solved, of OMPL's planners, which take more "
-      "than one thread, and of runs that time ended";
-  const CsvTable table = published.Read(slice.file);
-  slice.published = table.rows().size();
+      "than one thread, and of runs that time ended");
   std::vector<PlanningProblem> problems = SamplerProblems();
   for (const PlanningProblem& problem : NarrowingProblems()) {
     problems.push_back(problem);
@@ -120,7 +132,7 @@ Slice RemakeSamplers(const Published& published) {
   const std::set<std::string> times = {"seconds", "run"};
   std::set<std::string> counts(table.header().begin(), table.header().end());
   for (const char* kept : {"scene", "planner", "solved"}) counts.erase(kept);
-  for (const std::size_t row : Spread(slice.published, published.rows)) {
+  for (const std::size_t row : rows) {
     const std::string& scene = table.Text(row, "scene");
     const std::string& planner = table.Text(row, "planner");
     const std::uint64_t run = SeedOf(table, row, "run");
@@ -170,13 +182,10 @@ std::vector<Slice> RemakePaper(const Published& published) {
   std::vector<Slice> slices = {frames};
   const std::vector<NamedTable> tables = PaperTables(results, options);
   for (const char* file : {"random_motions.csv", "coverage.csv"}) {
-    Slice totals;
-    totals.file = std::string("paper/") + file;
-    totals.compared = "all";
-    const CsvTable table = published.Read(totals.file);
+    auto [totals, table, rows] =
+        Open(published, std::string("paper/") + file, "all");
     const CsvTable found(ToCsv(FindTable(tables, file)), file);
-    totals.published = table.rows().size();
-    for (const std::size_t row : Spread(totals.published, published.rows)) {
+    for (const std::size_t row : rows) {
       CompareRow(table, row, found, row, {},
                  table.rows()[row][0] + ", " + table.rows()[row][1], &totals);
     }
