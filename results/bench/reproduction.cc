@@ -194,7 +194,7 @@ std::vector<Slice> RemakePaper(const Published& published) {
   return slices;
 }
 
-std::string Report(const std::vector<Slice>& slices, const std::string& why,
+std::string Report(const std::vector<Slice>& slices,
                    const std::string& command) {
   std::size_t remade = 0, identical = 0, rounded = 0;
   for (const Slice& slice : slices) {
@@ -224,14 +224,17 @@ std::string Report(const std::vector<Slice>& slices, const std::string& why,
                     add(s.file, d.row, d.column, d.published, d.found);
                   }
                 });
-  if (!deviations.rows.empty()) text += '\n' + ToMarkdown(deviations);
-  if (!why.empty()) text += "\nWhat is known of them: " + why + "\n";
+  if (!deviations.rows.empty()) {
+    text += '\n' + ToMarkdown(deviations) +
+            "\nWhat is known of them, written by hand: "
+            "[deviations.md](deviations.md).\n";
+  }
   return text + '\n' + Circumstances(command, PaperOptions().seed);
 }
 
 int Run(int argc, char** argv) {
   CLI::App app("Makes a slice of the published rows anew and compares.");
-  std::string directory, why, how;
+  std::string directory, how;
   Published published{"results", 40};
   std::vector<std::string> parts = {"paper", "planning", "convergence"};
   app.add_option("--output", directory, "Directory to write into")->required();
@@ -243,7 +246,6 @@ int Run(int argc, char** argv) {
   app.add_option("--parts", parts, "Only these")
       ->check(CLI::IsMember(parts))
       ->delimiter(',');
-  app.add_option("--why", why, "What is known of the deviations");
   app.add_option("--how", how, "The command that runs this");
   CLI11_PARSE(app, argc, argv);
   SilenceOmpl();
@@ -258,7 +260,7 @@ int Run(int argc, char** argv) {
   }
   if (wanted("convergence")) slices.push_back(RemakeConvergence(published));
   const std::string text =
-      Report(slices, why,
+      Report(slices,
              how.empty() ? CommandLine("build/reproduction", argc, argv) : how);
   OutputDirectory out(directory);
   out.Write("reproduction.md", text);
