@@ -113,7 +113,7 @@ class FieldBuilder {
 
   // base_ = n₀, or the least correction of it that is admissible.
   void AverageFacets() {
-    base_ = VertexNormals(field_.mesh, facets_, NormalWeight::kAngle);
+    base_ = VertexNormals(field_.mesh, facets_);
     limited_.assign(base_.size(), 0);
     inadmissible_.assign(base_.size(), 0);
     const auto fans = FacetFans();

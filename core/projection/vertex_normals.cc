@@ -109,9 +109,8 @@ std::vector<Vector3d> FacetNormals(const TriangleMesh& mesh) {
   return normals;
 }
 
-std::vector<Vector3d> VertexNormals(const TriangleMesh& mesh,
-                                    const std::vector<Vector3d>& facet_normals,
-                                    NormalWeight weight) {
+std::vector<Vector3d> VertexNormals(
+    const TriangleMesh& mesh, const std::vector<Vector3d>& facet_normals) {
   std::vector<Contribution> list;
   list.reserve(3 * mesh.triangles.size());
   for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
@@ -119,16 +118,12 @@ std::vector<Vector3d> VertexNormals(const TriangleMesh& mesh,
     if (normal.isZero(0.0)) continue;
     const Triangle& t = mesh.triangles[f];
     for (std::size_t k = 0; k < 3; ++k) {
-      double w = 1.0;
-      if (weight == NormalWeight::kAngle) {
-        const Vector3d& v = mesh.vertices[static_cast<std::size_t>(t[k])];
-        const Vector3d a =
-            mesh.vertices[static_cast<std::size_t>(t[(k + 1) % 3])] - v;
-        const Vector3d b =
-            mesh.vertices[static_cast<std::size_t>(t[(k + 2) % 3])] - v;
-        w = std::atan2(a.cross(b).norm(), a.dot(b));
-      }
-      list.push_back({t[k], w, normal});
+      const Vector3d& v = mesh.vertices[static_cast<std::size_t>(t[k])];
+      const Vector3d a =
+          mesh.vertices[static_cast<std::size_t>(t[(k + 1) % 3])] - v;
+      const Vector3d b =
+          mesh.vertices[static_cast<std::size_t>(t[(k + 2) % 3])] - v;
+      list.push_back({t[k], std::atan2(a.cross(b).norm(), a.dot(b)), normal});
     }
   }
   return Average(std::move(list), mesh.vertices.size(), true);

@@ -11,13 +11,6 @@
 // vertices comes first: contributions are summed in the order of their values.
 namespace phongpd {
 
-// How facet normals are averaged into the vertex normal n₀.
-enum class NormalWeight {
-  kAngle,    // by the facet's angle at the vertex: independent of how coplanar
-             // patches are triangulated; what fields are made of
-  kUniform,  // plain average of adjacent facets: the paper's choice
-};
-
 // Unit facet normals N_f, taken from the two shortest edges.  A triangle whose
 // altitude on its longest edge is ≤ 1e-12 × the diagonal of the bounding box
 // has no direction worth the name after rounding: its normal is zero, and it
@@ -25,13 +18,13 @@ enum class NormalWeight {
 std::vector<Eigen::Vector3d> FacetNormals(const TriangleMesh& mesh);
 
 // Unit vertex normals n₀ = Σ w_f N_f / |Σ w_f N_f| over the facets around each
-// vertex.  kAngle: w_f is the facet's angle at the vertex, atan2(|a×b|, a·b),
-// so that the way a flat patch is cut into triangles does not matter;
-// kUniform: w_f = 1.  Zero where the sum vanishes (|Σ w_f N_f| ≤ 1e-12 Σ w_f)
-// or no facet has a normal.
+// vertex; w_f is the facet's angle there, atan2(|a×b|, a·b), so that the way a
+// flat patch is cut into triangles does not matter, as it does to the paper's
+// plain average.  Zero where the sum vanishes (|Σ w_f N_f| ≤ 1e-12 Σ w_f) or no
+// facet has a normal.
 std::vector<Eigen::Vector3d> VertexNormals(
-    const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& facet_normals,
-    NormalWeight weight);
+    const TriangleMesh& mesh,
+    const std::vector<Eigen::Vector3d>& facet_normals);
 
 // Area means Σ A_f N_f / Σ A_f around each vertex, of length ≤ 1 (NOT unit):
 // the L² projection of the facet normals on the vertices, with lumped mass.

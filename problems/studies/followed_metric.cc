@@ -19,8 +19,7 @@ constexpr double kOnSurface = 1e-13;
 FollowedMetric::FollowedMetric(const ContactSpace& space)
     : surface_(space),
       walk_(space),
-      vertex_normals_(
-          VertexNormals(space.mesh(), space.normals(), NormalWeight::kAngle)) {}
+      vertex_normals_(VertexNormals(space.mesh(), space.normals())) {}
 
 Vector3d FollowedMetric::SheetNormal(const MeshPoint& point) const {
   const std::vector<Vector3d>& normals = surface_.space().normals();
