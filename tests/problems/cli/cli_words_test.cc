@@ -204,6 +204,14 @@ TEST_F(CliWords, OutputsOfAnotherKindAreRefused) {
                  {"--output", "table", ".csv", name});
     }
   }
+  // Any other name, or none that is a file's.
+  for (const char* name : {"rows", "r.txt", "r.csv", "r.png.jsonl", "-"}) {
+    const std::string query =
+        "query --contact-space ../box.off --points ../points.csv --output ";
+    EXPECT_EQ(Run(query + name).code, 0) << name;
+  }
+  std::filesystem::remove_all(folder_ / "run");
+  std::filesystem::create_directory(folder_ / "run");
   ExpectLine("reproduce --output r.png -- check ../box.off",
              {"--output", ".json", "r.png"});
   ExpectLine("scenes write u_axis --output r.png", {"--output", "r.png"});
