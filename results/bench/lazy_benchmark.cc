@@ -62,7 +62,6 @@ struct Options {
   double max_seconds = 60.0;
   double depth = 0.05;
   int guard_pairs = 200;
-  bool guard_only = false;
   std::uint64_t seed = 1;
 };
 
@@ -159,28 +158,11 @@ int Run(int argc, char** argv) {
   app.add_option("--guard-pairs", options.guard_pairs,
                  "Pairs that predictions are held to")
       ->capture_default_str();
-  app.add_flag("--guard-only", options.guard_only,
-               "Only predictions and limits: guard.csv, guard_verdict.csv, "
-               "guard.md");
   CLI11_PARSE(app, argc, argv);
   // In processes of their own, before this one starts threads.
   const std::vector<GuardRow> guard =
       MeasureGuard(options.guard_pairs, options.seed);
   std::cout << ToText(GuardVerdict(guard).table) << std::endl;
-  if (options.guard_only) {
-    OutputDirectory out(options.directory);
-    const std::vector<NamedTable> tables = {
-        GuardVerdict(guard), BoxesVerdict(guard), GuardTable(guard)};
-    for (const NamedTable& t : tables) out.Write(t.file, ToCsv(t.table));
-    out.Write("guard.md",
-              "# Predictions and limits\n\n" +
-                  ToMarkdown({tables[0], tables[1]}, {}) +
-                  "\nAll pairs: [guard.csv](guard.csv)\n\n" +
-                  Circumstances(CommandLine("build/lazy_benchmark", argc, argv),
-                                options.seed));
-    out.Commit();
-    return 0;
-  }
   std::vector<Row> rows;
   for (const Case& c : Cases()) {
     rows.push_back(Measure(c, options));
