@@ -61,8 +61,8 @@ ContactSpacePiece BuildContactSpacePiece(const TriangleMesh& robot,
 //
 // The surface is that of BuildContactSpace, mesh, planes and kinds alike; or,
 // where a cell beside the border of a box is so thin that no point of it can be
-// judged, there is none and InputError says to build the whole: 9 of 2,500
-// random pairs, all degenerate (contact_space_piece_test).
+// judged, there is none and InputError says to build the whole: 10 of 2,500
+// random pairs, all degenerate (contact_space_piece_test in its long form).
 ContactSpace JoinContactSpace(const std::vector<ContactSpacePiece>& pieces);
 
 // A part as a file for machines of one kind, with a checksum (as .pcs files,

@@ -48,8 +48,10 @@ std::string Compare(const SolidPair& pair, const ContactSpaceOptions& options,
   }
 }
 
-TEST(BuildByBoxes, GivesTheSurfaceOfOneArrangementOfRandomPairs) {
+TEST(BuildByBoxesCampaign, GivesTheSurfaceOfOneArrangementOfRandomPairs) {
   const long cases = testing::CampaignCases(80, 2000);
+  testing::CampaignRow row;
+  row.item = "boxes";
   long refused = 0;
   for (long i = 0; i < cases; ++i) {
     const std::vector<PairKind>& kinds = AllPairKinds();
@@ -61,13 +63,18 @@ TEST(BuildByBoxes, GivesTheSurfaceOfOneArrangementOfRandomPairs) {
     const std::string difference = Compare(
         MakeRandomPair(kind, seed), options,
         {i % 2 == 0 ? Culling::kAlways : Culling::kNever, Boxes::kAlways, 40});
+    ++row.cases;
     if (difference.find(kTooThin) != std::string::npos) {
       ++refused;
       continue;
     }
     EXPECT_EQ(difference, "") << Name(kind) << ", seed " << seed;
+    row.failures += difference.empty() ? 0 : 1;
   }
   EXPECT_LE(refused, std::max(1L, cases / 100));
+  row.subject = "built by boxes against in one, bit for bit; " +
+                std::to_string(refused) + " refused by name";
+  testing::ReportCampaign(row);
 }
 
 // The real switch: a limit of memory that one arrangement would pass.
