@@ -279,6 +279,16 @@ GridSolid MakeGridSolid(const std::vector<GridPoint>& vertices,
   return solid;
 }
 
+TriangleMesh ToMesh(const GridSolid& solid) {
+  TriangleMesh mesh;
+  mesh.vertices.reserve(solid.vertices.size());
+  for (const GridPoint& p : solid.vertices) {
+    mesh.vertices.push_back(ToDouble(p));
+  }
+  mesh.triangles = solid.facets;
+  return mesh;
+}
+
 std::vector<BoundingBox> FacetBoxes(const GridSolid& solid) {
   std::vector<BoundingBox> boxes;
   boxes.reserve(solid.facets.size());

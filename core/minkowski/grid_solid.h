@@ -26,6 +26,9 @@ struct GridSolid {
   std::vector<std::vector<int>> neighbors;  // vertices joined by an edge
 };
 
+// The same in grid steps, exactly: doubles hold grid points.
+TriangleMesh ToMesh(const GridSolid& solid);
+
 // Of each facet, exact in double.
 std::vector<BoundingBox> FacetBoxes(const GridSolid& solid);
 

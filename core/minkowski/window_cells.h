@@ -6,24 +6,12 @@
 #include <vector>
 
 #include "core/minkowski/build_limits.h"
+#include "core/minkowski/grid_window.h"
 #include "core/minkowski/solid_collision.h"
 #include "core/minkowski/surface_piece.h"
 #include "core/minkowski/window_convolution.h"
 
 namespace phongpd::internal {
-
-// A box in q-space in half grid steps, all its coordinates odd: no grid point
-// and no facet along an axis lies in a wall.
-struct GridWindow {
-  GridPoint min, max;
-
-  // The box of half-width `reach` ≥ 1 around q (grid steps), rounded outwards.
-  static GridWindow Around(const Eigen::Vector3d& q, double reach);
-  // In grid steps.
-  BoundingBox Box() const;
-  // Of a point in it to the nearest wall, grid steps; ≤ 0 outside.
-  double WallDistance(const Eigen::Vector3d& q) const;
-};
 
 // The part of C_cont in a window, exactly: the convolution's facets there and
 // the six walls as facets of their own, which look into the window, so that

@@ -5,8 +5,9 @@
 #include <vector>
 
 #include "core/minkowski/convolution.h"
+#include "core/minkowski/grid_window.h"
 #include "core/minkowski/occupied_region.h"
-#include "core/minkowski/window_cells.h"
+#include "core/minkowski/window_convolution.h"
 
 namespace phongpd::internal {
 
