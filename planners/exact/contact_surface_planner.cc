@@ -82,8 +82,9 @@ void PlanRequest::Validate() const {
 }
 
 struct ContactSurfacePlanner::Impl {
-  Impl(const ContactSpace& space, const ContactSurfaceOptions& options)
-      : surface(space, options),
+  Impl(const ContactSpace& space, const ContactSurfaceOptions& options,
+       ObstacleNames names)
+      : surface(space, options, std::move(names)),
         graph(surface.contact.mesh(), surface.neighbors, surface.segments,
               surface.cells, options.spacing * surface.bounds.Diagonal(),
               options.gap_links) {}
@@ -245,9 +246,10 @@ void ContactSurfacePlanner::Impl::FindPath(const Vector3d& start,
 }
 
 ContactSurfacePlanner::ContactSurfacePlanner(
-    const ContactSpace& merged, const ContactSurfaceOptions& options) {
+    const ContactSpace& merged, const ContactSurfaceOptions& options,
+    ObstacleNames names) {
   const Stopwatch stopwatch;
-  impl_ = std::make_unique<Impl>(merged, options);
+  impl_ = std::make_unique<Impl>(merged, options, std::move(names));
   impl_->build_seconds = stopwatch.Seconds();
 }
 

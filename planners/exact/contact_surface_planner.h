@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -42,6 +43,10 @@ struct ContactSurfaceOptions {
   // Throws InputError naming the option, the range and the value.
   void Validate() const;
 };
+
+// What the robot touches at a configuration, for the reasons of a plan: a
+// contact space knows no names.  Thread-safe; empty for nothing it knows.
+using ObstacleNames = std::function<std::string(const Eigen::Vector3d&)>;
 
 // What one query may ask differently.
 struct PlanRequest {
@@ -99,9 +104,11 @@ struct PlanResult {
 class ContactSurfacePlanner {
  public:
   // The one contact space of all obstacles, and of bounds (MergedObstacle),
-  // cavities included.  Throws InputError for options.
+  // cavities included.  Without names, or where they know none, a start or
+  // goal that is not free is in "an obstacle".  Throws InputError for options.
   explicit ContactSurfacePlanner(const ContactSpace& merged,
-                                 const ContactSurfaceOptions& options = {});
+                                 const ContactSurfaceOptions& options = {},
+                                 ObstacleNames names = {});
   ~ContactSurfacePlanner();
   ContactSurfacePlanner(ContactSurfacePlanner&&) noexcept;
   ContactSurfacePlanner& operator=(ContactSurfacePlanner&&) noexcept;

@@ -3,7 +3,6 @@
 
 #include "constraints/motion_oracle.h"
 #include "core/stopwatch.h"
-#include "planners/exact/planning_surface.h"
 
 namespace phongpd {
 
@@ -28,22 +27,6 @@ std::string NameObstacles(const Workspace& workspace, const Vector3d& q) {
   return names;
 }
 
-namespace {
-
-// In the reason why start or goal is not free.
-void NameWhatIsInTheWay(const Workspace& workspace, const Vector3d& start,
-                        const Vector3d& goal, PlanResult* plan) {
-  const bool is_start = plan->status == PlanStatus::kInvalidStart;
-  if (!is_start && plan->status != PlanStatus::kInvalidGoal) return;
-  const std::size_t at = plan->reason.rfind(kUnnamed);
-  if (at == std::string::npos) return;  // not finite
-  const std::string names = NameObstacles(workspace, is_start ? start : goal);
-  if (names.empty()) return;  // touched on the contact space, as rounded, only
-  plan->reason.replace(at, std::string::npos, "'" + names + "'");
-}
-
-}  // namespace
-
 ExactSolution SolveExactly(const Workspace& workspace, const Vector3d& start,
                            const Vector3d& goal,
                            const ContactSurfaceOptions& options,
@@ -56,10 +39,11 @@ ExactSolution SolveExactly(const Workspace& workspace, const Vector3d& start,
       workspace.robot, MergedObstacle(workspace), contact_options);
   solution.contact_space_seconds = stopwatch.Seconds();
   solution.contact_space = space.report();
-  const ContactSurfacePlanner planner(space, options);
+  const ContactSurfacePlanner planner(space, options, [&](const Vector3d& q) {
+    return NameObstacles(workspace, q);
+  });
   solution.planner_seconds = planner.build_seconds();
   solution.plan = planner.Plan(start, goal);
-  NameWhatIsInTheWay(workspace, start, goal, &solution.plan);
   return solution;
 }
 

@@ -17,13 +17,15 @@ namespace phongpd {
 using Eigen::Vector3d;
 
 PlanningSurface::PlanningSurface(const ContactSpace& space,
-                                 const ContactSurfaceOptions& given_options)
+                                 const ContactSurfaceOptions& given_options,
+                                 ObstacleNames names)
     : options((given_options.Validate(), given_options)),
       contact(space),
       segments(contact.bvh()),
       bounds(space.bounds()),
       neighbors(FreeNeighbors(contact.mesh())),
-      cells(contact.mesh(), neighbors, segments) {
+      cells(contact.mesh(), neighbors, segments),
+      names_(std::move(names)) {
   const double infinity = std::numeric_limits<double>::infinity();
   const BoundingBox no_point = {Vector3d::Constant(infinity),
                                 Vector3d::Constant(-infinity)};
@@ -139,7 +141,8 @@ std::string PlanningSurface::WhyInvalid(const char* which,
            << -contact.Answer(q, Location::kInside).signed_distance
            << " deep in";
   }
-  reason << ' ' << kUnnamed;
+  const std::string names = names_ ? names_(q) : "";
+  reason << (names.empty() ? " an obstacle" : " '" + names + "'");
   return reason.str();
 }
 

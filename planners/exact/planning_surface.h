@@ -14,16 +14,14 @@
 
 namespace phongpd {
 
-// What reasons call that which is in the way: a contact space knows no names.
-inline constexpr char kUnnamed[] = "an obstacle";
-
 // The merged contact space as planners need it, and what every query begins
 // and ends with.  Thread-safe; stays where it is, its members refer to each
 // other.
 struct PlanningSurface {
   // Throws InputError for options.
   PlanningSurface(const ContactSpace& space,
-                  const ContactSurfaceOptions& given_options);
+                  const ContactSurfaceOptions& given_options,
+                  ObstacleNames names);
   PlanningSurface(const PlanningSurface&) = delete;
   PlanningSurface& operator=(const PlanningSurface&) = delete;
 
@@ -64,6 +62,7 @@ struct PlanningSurface {
   std::string WhyInvalid(const char* which, const Eigen::Vector3d& q) const;
   CellCertificate Locate(const Eigen::Vector3d& q) const;
 
+  ObstacleNames names_;
   std::vector<BoundingBox> piece_bounds_;
 };
 
