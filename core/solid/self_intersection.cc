@@ -10,6 +10,7 @@
 #include <CGAL/intersections.h>
 #include <tbb/parallel_for.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <utility>
@@ -34,6 +35,50 @@ Corners CornersOf(const TriangleMesh& mesh, const Triangle& triangle) {
 }
 
 Kernel::Triangle_3 ToTriangle(const Corners& c) { return {c[0], c[1], c[2]}; }
+
+// The plane of a triangle in double, and which side of it a point surely lies
+// on: most pairs of neighbours are decided by that.
+class RoundedTriangle {
+ public:
+  RoundedTriangle(const TriangleMesh& mesh, const Triangle& t)
+      : corners_{mesh.vertices[t[0]], mesh.vertices[t[1]],
+                 mesh.vertices[t[2]]} {
+    const Eigen::Vector3d u = corners_[1] - corners_[0];
+    const Eigen::Vector3d v = corners_[2] - corners_[0];
+    normal_ = u.cross(v);
+    reach_ = u.cwiseAbs().cwiseMax(v.cwiseAbs());
+  }
+
+  // Do all corners of `other` that are none of this one's surely lie on one
+  // side?  Then the two share common corners at most, or a common edge.
+  bool IsBeside(const RoundedTriangle& other) const {
+    int side = 0;
+    for (const Eigen::Vector3d& p : other.corners_) {
+      if (p == corners_[0] || p == corners_[1] || p == corners_[2]) continue;
+      const int at = Side(p);
+      if (at == 0 || at == -side) return false;
+      side = at;
+    }
+    return side != 0;
+  }
+
+ private:
+  // 0 where rounding might decide it.  The determinant has six products of one
+  // coordinate difference along each axis, and at most eight roundings reach
+  // any of them: 6 · 8 · 2^-53 of the product of the largest.
+  int Side(const Eigen::Vector3d& p) const {
+    const Eigen::Vector3d d = p - corners_[0];
+    const Eigen::Vector3d m = d.cwiseAbs().cwiseMax(reach_);
+    // No product leaves the range of doubles.
+    if (!(m.minCoeff() > 1e-90 && m.maxCoeff() < 1e90)) return 0;
+    const double bound = 1e-14 * m[0] * m[1] * m[2];
+    const double height = normal_.dot(d);
+    return height > bound ? 1 : height < -bound ? -1 : 0;
+  }
+
+  std::array<Eigen::Vector3d, 3> corners_;
+  Eigen::Vector3d normal_, reach_;
+};
 
 // Rotates the equal corners of two triangles to the front; returns how many.
 int AlignCommonCorners(Corners* a, Corners* b) {
@@ -156,6 +201,11 @@ std::size_t CountSelfIntersections(const TriangleMesh& mesh,
     const Eigen::Vector3d& c = mesh.vertices[k];
     boxes.push_back({a.cwiseMin(b).cwiseMin(c), a.cwiseMax(b).cwiseMax(c)});
   }
+  std::vector<RoundedTriangle> rounded;
+  rounded.reserve(proper.size());
+  for (const std::size_t t : proper) {
+    rounded.emplace_back(mesh, mesh.triangles[t]);
+  }
   const BoxTree tree(boxes, 4);
   // Of each triangle, those after it that it meets.
   std::vector<std::vector<std::size_t>> met(proper.size());
@@ -171,6 +221,8 @@ std::size_t CountSelfIntersections(const TriangleMesh& mesh,
                    const auto j = static_cast<std::size_t>(item);
                    if (j > i && overlaps(boxes[j]) &&
                        labels[proper[i]] == labels[proper[j]] &&
+                       !rounded[i].IsBeside(rounded[j]) &&
+                       !rounded[j].IsBeside(rounded[i]) &&
                        MeetProperly(mesh, proper[i], proper[j])) {
                      met[i].push_back(j);
                    }
