@@ -104,14 +104,12 @@ def findings(table):
         f"of {load:.2g} on {os.cpu_count()} cores.",
         "- What of that is ours: two workers spent "
         f"{work:.3g} times the processor time of one on the same rows, and each "
-        f"had {had[1]:.2g} of a core, the one alone {had[0]:.2g}. A ratio below "
-        f"2 × {had[1]:.2g} / {had[0]:.2g} = {2 * had[1] / had[0]:.3g} is what "
-        "waiting for tasks costs; the rest is what other jobs take, and says "
-        "nothing of an idle machine.",
+        f"had {had[1]:.2g} of a core, the one alone {had[0]:.2g}: scheduler, "
+        "client and other jobs have the rest of the cores.",
         "- The simulation, given the times of the tasks, predicts the wall time "
         f"of the {len(table)} runs within {100 * statistics.median(errors):.2g} % "
-        f"(median), {100 * max(errors):.2g} % (worst): it knows nothing of other "
-        "jobs, for which every message waits.",
+        f"(median), {100 * max(errors):.2g} % (worst): it knows nothing of cores "
+        "that are shared, with scheduler and client or with other jobs.",
     ]
 
 

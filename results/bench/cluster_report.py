@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """results/cluster/README.md and its tables."""
 
+import os
 import statistics
 
 import cluster_depth
-from python_report import machine, markdown, versions, write_csv
+from python_report import machine, versions, write_csv, write_tables
 
 TASKS_PER_WORKER = 8
 OVERHEAD = ["workers x threads", "rows a task", "row, ms", "tasks",
@@ -36,12 +37,12 @@ def _measured(overhead, speed_up):
     def processors(**wanted):
         return sum(_median(overhead, k, **wanted) for k in (5, 6, 7))
 
-    load = f"(load average {statistics.median(r[8] for r in overhead):.2g})"
+    load = statistics.median(row[8] for row in overhead)
     return [
         "- Overhead of a task beside rows of 20 ms, one worker: "
-        f"{wall(_1=1, _2=20.0):.2g} ms of wall time (aim: at most 5), on a "
-        f"machine shared with other jobs {load}, which delay every message. "
-        "Processor time of a task, all processes together: "
+        f"{wall(_1=1, _2=20.0):.2g} ms of wall time (aim: at most 5), at a load "
+        f"average of {load:.2g} on {os.cpu_count()} cores, of which these "
+        "processes are a part; other jobs delay every message. Processor time of a task, all processes together: "
         f"{processors(_0='1 x 1', _1=1, _2=20.0):.2g} ms where tasks come one by "
         f"one, {processors(_0='4 x 8'):.2g} ms where they come in a stream.",
         "- Rows without any work wait for round trips: "
@@ -113,8 +114,8 @@ def write_report(folder, how, seed, overhead, speed_up, times, costs, checks,
          "the simulated wall."),
         ("check.csv", "The simulation beside the real thing", CHECK, checks,
          "Rows that pause for as long as the real ones take; efficiency: pauses "
-         "over wall time times threads. The simulation knows nothing of other jobs "
-         "on the machine, which delay every message and every process here "
+         "over wall time times threads. The simulation gives every thread a core "
+         "of its own, and knows nothing of other jobs, which delay every message "
          "(load average above)."),
         ("scaling.csv", "Scaling, simulated", SCALING, scaling,
          f"{TASKS_PER_WORKER} tasks a worker, for at least 10 workers; steady: "
@@ -125,10 +126,8 @@ def write_report(folder, how, seed, overhead, speed_up, times, costs, checks,
             *_simulated(times, outcomes), "",
             _SIMULATED.format(scheduler=1e3 * costs.scheduler,
                               client=1e3 * costs.client,
-                              worker=1e3 * costs.worker), "## Tables", ""]
-    for file, title, header, rows, note in tables:
-        write_csv(folder / file, header, rows)
-        text.append(markdown(title, note, header, rows, file))
+                              worker=1e3 * costs.worker),
+            write_tables(folder, "Sweeps on Dask", tables), ""]
     write_csv(folder / "row_times.csv", ["processor seconds"],
               [(s,) for s in times])
     text += ["Times of rows, for the simulation: [row_times.csv](row_times.csv)",

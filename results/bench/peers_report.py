@@ -5,7 +5,7 @@ import peers_depth
 import peers_distance
 import peers_minkowski
 import peers_solvers
-from python_report import machine, markdown, versions, write_csv
+from python_report import machine, versions, write_tables
 
 
 def _sums(rows):
@@ -110,15 +110,12 @@ def write_report(folder, how, seed, packages, failures, sums, depth, distance,
          "Free: every point of the path, exactly.")]
     lines = [*_sums(sums), *_depth(depth), *_distance(distance),
              *_solvers(solvers)]
+    led = write_tables(folder, "PhongPD beside its peers", tables)
     if failures:
         lines += ["", "What did not run:", "", *(f"- {f}" for f in failures)]
     text = ["# PhongPD beside its peers", "",
             "All in one run, each from its own wheel; times are processor time "
             "of all threads, so that what else the machine does counts little.",
-            "", *lines, "", WHAT_FOR, "## Tables", ""]
-    for file, title, header, rows, note in tables:
-        write_csv(folder / file, header, rows)
-        text.append(markdown(title, note, header, rows, file))
-    text += [f"Command: {how}. Seed: {seed}. Machine: {machine()}. Versions: "
-             f"{versions('numpy', *packages)}.", ""]
+            "", *lines, "", WHAT_FOR, led, "", f"Command: {how}. Seed: {seed}. Machine: {machine()}. Versions: "
+            f"{versions('numpy', *packages)}.", ""]
     (folder / "README.md").write_text("\n".join(text), encoding="utf-8")

@@ -29,6 +29,18 @@ def write_csv(path, header, rows):
                           for v in row] for row in rows)
 
 
+def write_tables(folder, title, tables):
+    """tables.md beside README.md, and the rows of each table, which is (file,
+    title, header, rows, note).  Returns the line of README.md that leads there.
+    """
+    text = [f"# {title}: tables", "", "What they say: [README.md](README.md).", ""]
+    for file, name, header, rows, note in tables:
+        write_csv(folder / file, header, rows)
+        text.append(markdown(name, note, header, rows, file))
+    (folder / "tables.md").write_text("\n".join(text), encoding="utf-8")
+    return "All tables: [tables.md](tables.md)."
+
+
 def read_csv(path):
     """Rows without the header; what can be a number is one."""
     with open(path, newline="", encoding="utf-8") as file:
