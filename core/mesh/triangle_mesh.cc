@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <limits>
 
+#include "core/mesh/edge_sides.h"
 #include "core/mesh/union_find.h"
 
 namespace phongpd {
@@ -67,33 +68,18 @@ std::vector<int> LabelComponents(const TriangleMesh& mesh, int* count) {
 }
 
 std::vector<std::array<int, 3>> TriangleNeighbors(const TriangleMesh& mesh) {
-  struct HalfEdge {
-    int low, high;  // its end points, sorted: the two sides of an edge match
-    int triangle, corner;
-  };
-  std::vector<HalfEdge> half_edges;
-  half_edges.reserve(3 * mesh.triangles.size());
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    for (int k = 0; k < 3; ++k) {
-      const auto [low, high] =
-          std::minmax({mesh.triangles[t][k], mesh.triangles[t][(k + 1) % 3]});
-      half_edges.push_back({low, high, static_cast<int>(t), k});
-    }
-  }
-  // Sorted rather than hashed: no bad case for vertices of high valence.
-  std::sort(half_edges.begin(), half_edges.end(),
-            [](const HalfEdge& a, const HalfEdge& b) {
-              return a.low != b.low ? a.low < b.low : a.high < b.high;
-            });
+  using internal::EdgeSide;
+  const std::vector<EdgeSide> sides = internal::SortedEdgeSides(
+      mesh.triangles, internal::FoldedTriangles::kKept);
   std::vector<std::array<int, 3>> neighbors(mesh.triangles.size(),
                                             {-1, -1, -1});
-  for (std::size_t i = 0; i + 1 < half_edges.size(); ++i) {
-    const HalfEdge& a = half_edges[i];
-    const HalfEdge& b = half_edges[i + 1];
-    if (a.low != b.low || a.high != b.high) continue;
-    neighbors[a.triangle][a.corner] = b.triangle;
-    neighbors[b.triangle][b.corner] = a.triangle;
-  }
+  internal::ForEachEdge(sides, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin + 1; i < end; ++i) {
+      const EdgeSide &a = sides[i - 1], &b = sides[i];
+      neighbors[a.triangle][a.corner] = b.triangle;
+      neighbors[b.triangle][b.corner] = a.triangle;
+    }
+  });
   return neighbors;
 }
 

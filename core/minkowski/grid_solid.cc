@@ -5,9 +5,9 @@
 #include <cassert>
 #include <cmath>
 #include <map>
-#include <tuple>
 #include <utility>
 
+#include "core/mesh/edge_sides.h"
 #include "core/mesh/mesh_error.h"
 #include "core/mesh/union_find.h"
 #include "core/minkowski/grid_repair.h"
@@ -175,48 +175,40 @@ std::size_t FirstBehind(const GridSolid& solid, const Half& f,
 // vertices may carry several: they are paired through the solid, as only then
 // an edge is convex where the solid is.
 void BuildEdges(GridSolid* solid, const std::string& name) {
-  std::vector<Half> halves;
-  halves.reserve(3 * solid->facets.size());
-  for (std::size_t f = 0; f < solid->facets.size(); ++f) {
-    const Triangle& t = solid->facets[f];
-    for (int k = 0; k < 3; ++k) {
-      halves.push_back(
-          {t[k], t[(k + 1) % 3], t[(k + 2) % 3], static_cast<int>(f)});
-    }
-  }
-  const auto key = [](const Half& h) {
-    return std::make_tuple(std::min(h.a, h.b), std::max(h.a, h.b), h.a > h.b,
-                           h.facet);
-  };
-  std::sort(halves.begin(), halves.end(),
-            [&key](const Half& x, const Half& y) { return key(x) < key(y); });
+  const std::vector<EdgeSide> sides =
+      SortedEdgeSides(solid->facets, FoldedTriangles::kKept);
   solid->neighbors.assign(solid->vertices.size(), {});
-  for (std::size_t begin = 0, end = 0; begin < halves.size(); begin = end) {
-    const int low = std::min(halves[begin].a, halves[begin].b);
-    const int high = std::max(halves[begin].a, halves[begin].b);
-    std::size_t turn = begin;  // first half-edge high→low
-    while (end < halves.size() &&
-           std::min(halves[end].a, halves[end].b) == low &&
-           std::max(halves[end].a, halves[end].b) == high) {
-      if (halves[end].a == low) turn = end + 1;
-      ++end;
+  std::vector<Half> halves;  // of one edge, those low→high first
+  ForEachEdge(sides, [&](std::size_t begin, std::size_t end) {
+    halves.clear();
+    std::size_t turn = 0;  // the first one back
+    for (const bool is_forward : {true, false}) {
+      turn = halves.size();
+      for (std::size_t i = begin; i < end; ++i) {
+        if (sides[i].is_forward != is_forward) continue;
+        const Triangle& t = solid->facets[sides[i].triangle];
+        const int k = sides[i].corner;
+        halves.push_back(
+            {t[k], t[(k + 1) % 3], t[(k + 2) % 3], sides[i].triangle});
+      }
     }
-    if (turn - begin != end - turn) {
+    if (2 * turn != halves.size()) {
       throw InputError(name + ": expected a closed mesh, found an edge with " +
-                       std::to_string(end - begin) + " triangles");
+                       std::to_string(halves.size()) + " triangles");
     }
-    for (std::size_t k = 0; begin + k < turn; ++k) {
-      const Half& forward = halves[begin + k];
+    const int low = sides[begin].low, high = sides[begin].high;
+    for (std::size_t k = 0; k < turn; ++k) {
+      const Half& forward = halves[k];
       // Those before are taken.
-      std::swap(halves[turn + k],
-                halves[FirstBehind(*solid, forward, halves, turn + k, end)]);
+      std::swap(halves[turn + k], halves[FirstBehind(*solid, forward, halves,
+                                                     turn + k, halves.size())]);
       const Half& backward = halves[turn + k];
       solid->edges.push_back({low, high, forward.apex, backward.apex,
                               forward.facet, backward.facet});
     }
     solid->neighbors[low].push_back(high);
     solid->neighbors[high].push_back(low);
-  }
+  });
 }
 
 // What every predicate of the engine relies on: coordinates of kGridBits,

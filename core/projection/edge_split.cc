@@ -4,18 +4,12 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "core/mesh/edge_sides.h"
+
 namespace phongpd {
 namespace {
 
 std::size_t At(int k) { return static_cast<std::size_t>(k); }
-
-struct HalfEdge {
-  int low;
-  int high;
-  int triangle;
-  int side;
-  bool forward;
-};
 
 // Cuts one triangle along its marked edges, longest first.
 class TriangleCutter {
@@ -64,45 +58,28 @@ class TriangleCutter {
 
 EdgeTable MakeEdgeTable(const std::vector<Triangle>& triangles,
                         std::size_t* bad_edges) {
-  std::vector<HalfEdge> halves;
-  halves.reserve(3 * triangles.size());
-  for (std::size_t t = 0; t < triangles.size(); ++t) {
-    for (int k = 0; k < 3; ++k) {
-      const int i = triangles[t][At(k)];
-      const int j = triangles[t][At((k + 1) % 3)];
-      halves.push_back(
-          {std::min(i, j), std::max(i, j), static_cast<int>(t), k, i < j});
-    }
-  }
-  std::sort(halves.begin(), halves.end(),
-            [](const HalfEdge& a, const HalfEdge& b) {
-              if (a.low != b.low) return a.low < b.low;
-              if (a.high != b.high) return a.high < b.high;
-              return a.triangle < b.triangle;
-            });
+  using internal::EdgeSide;
+  const std::vector<EdgeSide> sides =
+      internal::SortedEdgeSides(triangles, internal::FoldedTriangles::kKept);
   EdgeTable table;
-  table.vertices.reserve(halves.size() / 2);
-  table.triangles.reserve(halves.size() / 2);
+  table.vertices.reserve(sides.size() / 2);
+  table.triangles.reserve(sides.size() / 2);
   table.triangle_edges.assign(triangles.size(), {-1, -1, -1});
   *bad_edges = 0;
-  for (std::size_t begin = 0, end = 0; begin < halves.size(); begin = end) {
-    const HalfEdge& first = halves[begin];
-    while (end < halves.size() && halves[end].low == first.low &&
-           halves[end].high == first.high) {
-      ++end;
-    }
-    if (end - begin != 2 || first.forward == halves[begin + 1].forward ||
+  internal::ForEachEdge(sides, [&](std::size_t begin, std::size_t end) {
+    const EdgeSide& first = sides[begin];
+    if (end - begin != 2 || first.is_forward == sides[begin + 1].is_forward ||
         first.low == first.high) {
       ++*bad_edges;
-      continue;
+      return;
     }
     const int id = static_cast<int>(table.vertices.size());
     table.vertices.push_back({first.low, first.high});
-    table.triangles.push_back({first.triangle, halves[begin + 1].triangle});
+    table.triangles.push_back({first.triangle, sides[begin + 1].triangle});
     for (std::size_t h = begin; h < end; ++h) {
-      table.triangle_edges[At(halves[h].triangle)][At(halves[h].side)] = id;
+      table.triangle_edges[At(sides[h].triangle)][At(sides[h].corner)] = id;
     }
-  }
+  });
   return table;
 }
 

@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "core/mesh/counted.h"
+#include "core/mesh/edge_sides.h"
 #include "core/mesh/finite.h"
 #include "core/solid/mesh_defects.h"
 #include "core/solid/mesh_examination.h"
@@ -13,10 +14,6 @@
 
 namespace phongpd {
 namespace internal {
-
-bool UsesVertexTwice(const Triangle& t) {
-  return t[0] == t[1] || t[1] == t[2] || t[2] == t[0];
-}
 
 std::vector<bool> UsedVertices(const TriangleMesh& mesh) {
   std::vector<bool> used(mesh.vertices.size(), false);
@@ -61,34 +58,16 @@ void CountVerticesAndIndices(const TriangleMesh& mesh, MeshReport* report) {
 }
 
 void CountEdges(const TriangleMesh& mesh, MeshReport* report) {
-  struct HalfEdge {
-    int low, high;
-    bool is_forward;
-  };
-  std::vector<HalfEdge> half_edges;
-  half_edges.reserve(3 * mesh.triangles.size());
-  for (const Triangle& t : mesh.triangles) {
-    if (internal::UsesVertexTwice(t)) continue;
-    for (int k = 0; k < 3; ++k) {
-      const int from = t[k], to = t[(k + 1) % 3];
-      half_edges.push_back({std::min(from, to), std::max(from, to), from < to});
-    }
-  }
-  std::sort(half_edges.begin(), half_edges.end(),
-            [](const HalfEdge& a, const HalfEdge& b) {
-              return a.low != b.low ? a.low < b.low : a.high < b.high;
-            });
-  for (std::size_t i = 0, end = 0; i < half_edges.size(); i = end) {
-    const HalfEdge& edge = half_edges[i];
-    for (end = i; end < half_edges.size(); ++end) {
-      const HalfEdge& e = half_edges[end];
-      if (e.low != edge.low || e.high != edge.high) break;
-    }
-    report->boundary_edges += end - i == 1;
-    report->non_manifold_edges += end - i > 2;
+  using internal::EdgeSide;
+  const std::vector<EdgeSide> sides = internal::SortedEdgeSides(
+      mesh.triangles, internal::FoldedTriangles::kLeftOut);
+  internal::ForEachEdge(sides, [&](std::size_t begin, std::size_t end) {
+    const std::size_t count = end - begin;
+    report->boundary_edges += count == 1;
+    report->non_manifold_edges += count > 2;
     report->misoriented_edges +=
-        end - i == 2 && edge.is_forward == half_edges[i + 1].is_forward;
-  }
+        count == 2 && sides[begin].is_forward == sides[begin + 1].is_forward;
+  });
 }
 
 void CountDuplicates(const TriangleMesh& mesh, MeshReport* report) {

@@ -9,10 +9,10 @@
 #include <tuple>
 #include <utility>
 
+#include "core/mesh/edge_sides.h"
 #include "core/mesh/finite.h"
 #include "core/mesh/union_find.h"
 #include "core/solid/face_pairing.h"
-#include "core/solid/mesh_examination.h"
 #include "core/solid/self_intersection.h"
 
 namespace phongpd {
@@ -20,12 +20,6 @@ namespace {
 
 using Eigen::Vector3d;
 using internal::UsesVertexTwice;
-
-struct HalfEdge {
-  int low, high;
-  bool is_forward;
-  int triangle;
-};
 
 bool IsReadable(const TriangleMesh& mesh) {
   const int size = static_cast<int>(mesh.vertices.size());
@@ -75,43 +69,11 @@ TriangleMesh AsSolidSees(const TriangleMesh& mesh) {
   return seen;
 }
 
-// Sorted, those of one edge next to each other.
-std::vector<HalfEdge> HalfEdgesOf(const TriangleMesh& mesh) {
-  std::vector<HalfEdge> edges;
-  edges.reserve(3 * mesh.triangles.size());
-  for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
-    const Triangle& t = mesh.triangles[f];
-    if (UsesVertexTwice(t)) continue;
-    for (int k = 0; k < 3; ++k) {
-      const int from = t[k], to = t[(k + 1) % 3];
-      edges.push_back({std::min(from, to), std::max(from, to), from < to,
-                       static_cast<int>(f)});
-    }
-  }
-  std::sort(edges.begin(), edges.end(),
-            [](const HalfEdge& a, const HalfEdge& b) {
-              return std::tie(a.low, a.high, a.triangle) <
-                     std::tie(b.low, b.high, b.triangle);
-            });
-  return edges;
-}
-
-// Calls visit(begin, end) for the half-edges of every edge.
-template <typename Visit>
-void ForEachEdge(const std::vector<HalfEdge>& edges, const Visit& visit) {
-  for (std::size_t i = 0, end = 0; i < edges.size(); i = end) {
-    for (end = i; end < edges.size() && edges[end].low == edges[i].low &&
-                  edges[end].high == edges[i].high;) {
-      ++end;
-    }
-    visit(i, end);
-  }
-}
-
 std::vector<MeshDefect> BadEdges(const TriangleMesh& mesh) {
-  const std::vector<HalfEdge> edges = HalfEdgesOf(mesh);
+  const std::vector<internal::EdgeSide> edges = internal::SortedEdgeSides(
+      mesh.triangles, internal::FoldedTriangles::kLeftOut);
   std::vector<MeshDefect> defects;
-  ForEachEdge(edges, [&](std::size_t begin, std::size_t end) {
+  internal::ForEachEdge(edges, [&](std::size_t begin, std::size_t end) {
     MeshDefect defect;
     if (end - begin == 1) {
       defect.kind = DefectKind::kOpenEdge;
@@ -226,18 +188,19 @@ int SurfaceGenus(const TriangleMesh& mesh) {
   auto& faces = seen.triangles;
   faces.erase(std::remove_if(faces.begin(), faces.end(), UsesVertexTwice),
               faces.end());
-  const std::vector<HalfEdge> half_edges = HalfEdgesOf(seen);
+  const std::vector<internal::EdgeSide> sides =
+      internal::SortedEdgeSides(faces, internal::FoldedTriangles::kKept);
   long edges = 0;
   bool is_surface = true;
   internal::UnionFind loops(seen.vertices.size());
   std::map<int, int> boundary;  // of a vertex: how many open edges
-  ForEachEdge(half_edges, [&](std::size_t begin, std::size_t end) {
+  internal::ForEachEdge(sides, [&](std::size_t begin, std::size_t end) {
     ++edges;
     is_surface = is_surface && end - begin <= 2;
     if (end - begin != 1) return;
-    loops.Join(half_edges[begin].low, half_edges[begin].high);
-    ++boundary[half_edges[begin].low];
-    ++boundary[half_edges[begin].high];
+    loops.Join(sides[begin].low, sides[begin].high);
+    ++boundary[sides[begin].low];
+    ++boundary[sides[begin].high];
   });
   long discs = 0;
   for (const auto& [vertex, count] : boundary) {

@@ -9,8 +9,6 @@
 // may refuse a mesh before the dear ones are asked.
 namespace phongpd::internal {
 
-bool UsesVertexTwice(const Triangle& t);
-
 // Of each vertex: does a triangle use it?  Requires valid indices.
 std::vector<bool> UsedVertices(const TriangleMesh& mesh);
 

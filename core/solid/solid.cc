@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/mesh/counted.h"
+#include "core/mesh/edge_sides.h"
 #include "core/mesh/mesh_io.h"
 #include "core/mesh/mesh_range.h"
 #include "core/solid/mesh_defects.h"

@@ -44,6 +44,7 @@ file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/core/bvh/*.cc
 list(FILTER sources EXCLUDE REGEX "query_batch")  # has threads
 list(APPEND sources ${PROJECT_SOURCE_DIR}/core/contact/contact_space.cc
      ${PROJECT_SOURCE_DIR}/core/mesh/mesh_error.cc
+     ${PROJECT_SOURCE_DIR}/core/mesh/edge_sides.cc
      ${PROJECT_SOURCE_DIR}/core/mesh/sorted_mesh.cc
      ${PROJECT_SOURCE_DIR}/core/mesh/triangle_mesh.cc
      ${CMAKE_CURRENT_LIST_DIR}/probe.cc)
