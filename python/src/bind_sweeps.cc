@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What sweeps over many machines ask of the library: rows of comparisons, and
-// what can be told of them before one is run.
+// What sweeps over many machines ask of the library: rows of comparisons, what
+// can be told of them before one is run, and to leave other workers their
+// cores.
 #include <nanobind/stl/string.h>
+#include <tbb/global_control.h>
 
 #include <algorithm>
 #include <mutex>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "problems/output/json_text.h"
@@ -65,6 +68,19 @@ class Comparison {
   std::mutex one_at_a_time_;
 };
 
+// At most so many threads of this process compute, until it is released; of
+// several limits the least.
+class ThreadLimit {
+ public:
+  explicit ThreadLimit(std::size_t threads)
+      : control_(std::in_place, tbb::global_control::max_allowed_parallelism,
+                 std::max<std::size_t>(threads, 1)) {}
+  void Release() { control_.reset(); }
+
+ private:
+  std::optional<tbb::global_control> control_;
+};
+
 // Throws InputError for all that can be told to be wrong before there is a
 // scene.  An empty clearance is the scene's own.
 void CheckPlanner(const std::string& planner, const std::string& retraction,
@@ -87,6 +103,9 @@ void BindSweeps(nb::module_& module) {
       .def(nb::init<const std::string&, double, bool>(),
            nb::call_guard<Computing>())
       .def("row", &Comparison::Row);
+  nb::class_<ThreadLimit>(module, "ThreadLimit")
+      .def(nb::init<std::size_t>())
+      .def("release", &ThreadLimit::Release);
   module.def("scene_digest", [](const std::string& scene) {
     const Computing computing;
     return SceneSource(scene).Digest();

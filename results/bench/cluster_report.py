@@ -108,7 +108,7 @@ def write_report(folder, how, seed, overhead, speed_up, times, costs, checks,
          "client and workers are processes of their own on loopback."),
         ("speed_up.csv", "Two workers against one", cluster_depth.COLUMNS,
          speed_up,
-         "Depth of a box in another; both clusters are there all the time and take "
+         "Depth at random poses; both clusters are there all the time and take "
          "turns, each slice in the other order. In tasks: wall time of the tasks "
          "as workers tell it; what they had of the cores is in it, and so it is in "
          "the simulated wall."),

@@ -13,7 +13,7 @@ import pytest
 from cluster_processes import Processes, Wire, rows_in, wait_for
 from distributed import Client, LocalCluster
 from phongpd import cluster
-from phongpd.cluster import _run, _sweeps
+from phongpd.cluster import _run, _sweeps, _work
 from phongpd.cluster._jobs import Batch
 from phongpd.cluster._work import run_batch
 
@@ -64,6 +64,47 @@ def test_batches_and_one_worker_of_threads_give_the_same(truth, tmp_path):
                       dashboard_address=None) as local, Client(local) as client:
         done = sweep(client, tmp_path / "rows.jsonl", batch=5)
     assert timeless(done.output) == truth
+
+
+def test_tasks_use_the_threads_of_their_worker(monkeypatch, tmp_path):
+    asked = []
+
+    class Limit:
+        def __init__(self, threads):
+            asked.append(threads)
+
+        def release(self):
+            asked.append("released")
+
+    monkeypatch.setattr(_work._native, "ThreadLimit", Limit)
+    with LocalCluster(n_workers=1, threads_per_worker=3, processes=False,
+                      dashboard_address=None) as local, Client(local) as client:
+        cluster.convergence(["u_axis"], seeds=[1], metrics=["euclidean"],
+                            output=tmp_path / "rows.jsonl", client=client)
+    assert asked == [3, "released"]
+    # Elsewhere nothing is limited.
+    run_batch(Batch(()), {})
+    assert len(asked) == 2
+
+
+def test_a_limit_holds_until_it_is_released():
+    code = """
+import os
+import phongpd
+from phongpd import _native
+def threads():
+    return len(os.listdir("/proc/self/task"))
+def build():
+    world = phongpd.World.load("ball_wrench")
+    phongpd.ContactSpace.build(world.robot, world.obstacles[0], cache=False)
+    return threads()
+limit = _native.ThreadLimit(1)
+before = threads()
+assert build() == before
+limit.release()
+assert os.cpu_count() == 1 or build() > before
+"""
+    subprocess.run([sys.executable, "-c", code], check=True)
 
 
 def test_rows_are_those_of_the_command_line(truth, program, tmp_path):

@@ -54,6 +54,11 @@ class Batch:
         content = digest(self.is_alone, [job.key for job in self.jobs])
         return f"phongpd-{self.jobs[0].kind}-0{content}"
 
+    def __dask_tokenize__(self) -> str:
+        """For Dask, which would go through all arguments of all jobs to name
+        what it submits, before the first worker has anything to do."""
+        return self.name
+
     def alone(self) -> Iterator[Batch]:
         """Its jobs as tasks of their own."""
         return (Batch((job,), is_alone=True) for job in self.jobs)

@@ -9,6 +9,7 @@ few of them, and made anew where it is not there.
 
 from __future__ import annotations
 
+import contextlib
 import dataclasses
 import json
 import os
@@ -16,11 +17,12 @@ import threading
 import time
 import uuid
 from collections import OrderedDict
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
 import numpy as np
+from distributed import get_worker
 
 from .. import _native
 from .._contact import ContactSpace
@@ -44,7 +46,24 @@ class SweepError(RuntimeError):
 def run_batch(batch: Batch, subject: dict[str, Any]) -> list[tuple[str, str]]:
     """The rows of a task by key, as lines.  What the library refuses is a row
     that says so; anything else is raised."""
-    return [(job.key, _line(job, subject)) for job in batch.jobs]
+    with _threads_of_worker():
+        return [(job.key, _line(job, subject)) for job in batch.jobs]
+
+
+@contextlib.contextmanager
+def _threads_of_worker() -> Iterator[None]:
+    """On a worker, the library uses as many threads as the worker has: other
+    workers have the other cores."""
+    try:
+        threads = get_worker().state.nthreads
+    except ValueError:  # not on a worker
+        yield
+        return
+    limit = _native.ThreadLimit(threads)
+    try:
+        yield
+    finally:
+        limit.release()
 
 
 def keep(subject: dict[str, Any]) -> dict[str, Any]:
@@ -210,7 +229,6 @@ def _write(thing: ContactSpace | ContactSpacePiece, path: Path) -> None:
 
 def _memory_limit() -> tuple[float, int]:
     """MiB of this worker (0: none), and threads that share them."""
-    from distributed import get_worker
     try:
         worker = get_worker()
     except ValueError:  # not on a worker
