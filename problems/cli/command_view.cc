@@ -9,6 +9,7 @@
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -36,6 +37,7 @@ struct Flags : ViewRequest {
   std::string unit = "units";
   std::string title;
   std::string html, glb, png;
+  std::optional<double> moment;
   bool json = false;
 };
 
@@ -110,6 +112,10 @@ int Look(Flags flags) {
       !flags.html.empty() || (flags.glb.empty() && flags.png.empty());
   if (is_page || !flags.png.empty()) RequireViewer();
   if (!flags.png.empty()) RequireBrowser();
+  if (flags.moment && flags.png.empty()) {
+    throw InputError("--moment: expected --png FILE with it, found none; a "
+                     "page plays all moments");
+  }
   OutputFiles outputs;
   for (const std::string& path : {flags.html, flags.glb, flags.png}) {
     if (!path.empty()) outputs.Declare(path);
@@ -125,7 +131,8 @@ int Look(Flags flags) {
   if (!flags.glb.empty()) outputs.Write(flags.glb, ViewGlb(view));
   if (!flags.png.empty()) {
     Progress("drawing the picture");
-    outputs.Write(flags.png, StillPicture(page, kPictureWidth, kPictureHeight));
+    outputs.Write(flags.png, StillPicture(page, kPictureWidth, kPictureHeight,
+                                          flags.moment));
   }
   outputs.Commit();
   std::string path = flags.html;
@@ -164,6 +171,11 @@ Command AddView(CLI::App* app) {
                   "Still picture, 1600 x 1000, the robot at stages along its "
                   "way (needs the browser chromium)")
       ->type_name("FILE");
+  app->add_option("--moment", flags->moment,
+                  "Of --png: the robot at this share of its way alone, and not "
+                  "at stages")
+      ->check(Between(0.0, 1.0))
+      ->type_name("SHARE");
   app->add_option("--robot", flags->robot,
                   "Mesh of what moves, for tables that do not hold it")
       ->type_name("FILE");

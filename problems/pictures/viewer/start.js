@@ -88,10 +88,10 @@ class LinkedViewer extends DrawnViewer {
       Object.assign(state.probe, {at: probe.slice(0, 3), smoothing: probe[3],
                                   metric: probe[4], wanted: true});
     }
-    // For pictures: nothing but the scene, the robot at stages.
+    // For pictures: nothing but the scene, the robot at stages, or at one moment.
     if (link.get('still') === '1') {
       state.still = true;
-      state.show.stages = true;
+      state.show.stages = !link.has('t');
     }
   }
 

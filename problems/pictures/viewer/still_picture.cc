@@ -61,7 +61,8 @@ void RequireBrowser() {
       "save a picture there");
 }
 
-std::string StillPicture(const std::string& page, int width, int height) {
+std::string StillPicture(const std::string& page, int width, int height,
+                         std::optional<double> moment) {
   RequireBrowser();
   const TemporaryFolder folder;
   const std::string html = (folder.path() / "page.html").string();
@@ -85,7 +86,8 @@ std::string StillPicture(const std::string& page, int width, int height) {
       "--screenshot=" + png};
   // The browser refuses to confine pages for root; this one is our own.
   if (geteuid() == 0) command.push_back("--no-sandbox");
-  command.push_back("file://" + html + "#still=1&theme=light");
+  command.push_back("file://" + html + "#still=1&theme=light" +
+                    (moment ? "&t=" + std::to_string(*moment) : ""));
   const int status = Run(command);
   std::ifstream picture(png, std::ios::binary);
   std::ostringstream content;

@@ -278,6 +278,9 @@ TEST_F(CliView, RefusesWhatIsNothingToLookAt) {
   ExpectRefused("view u_axis --html v.png", {"--html", ".html", "v.png"});
   ExpectRefused("view u_axis --glb v.gltf", {"--glb", ".glb"});
   ExpectRefused("view u_axis --png v.svg", {"--png", ".png"});
+  ExpectRefused("view none.off --moment 0.5", {"--moment", "--png"});
+  ExpectRefused("view none.off --png p.png --moment 1.5", {"--moment", "1.5"});
+  ExpectRefused("view none.off --png p.png --moment nan", {"--moment", "nan"});
 }
 
 }  // namespace
