@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # bench.sh [paper|queries|contact-space|lazy|convergence|pipeline|planning|
 # extremes|peers|cluster|python|trade|slice|all]: regenerates the tables and
-# figures of results/.  continuity and retraction are parts of queries and
-# planning.  slice makes some published rows anew and compares them
+# figures of results/.  continuity is a part of queries, retraction and widths are
+# parts of planning.  slice makes some published rows anew and compares them
 # (results/reproduction.md); it is no part of all.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
@@ -14,11 +14,11 @@ suite=${1:-all}
 case $suite in
   paper | queries | contact-space | lazy | convergence | pipeline | planning | \
     extremes | peers | cluster | python | trade | continuity | retraction | \
-    slice | all) ;;
+    widths | slice | all) ;;
   *)
     echo "bench: expected paper, queries, contact-space, lazy," \
       "convergence, pipeline, planning, extremes, peers, cluster, python," \
-      "trade, continuity, retraction, slice or all, found $suite" >&2
+      "trade, continuity, retraction, widths, slice or all, found $suite" >&2
     exit 2
     ;;
 esac
@@ -99,6 +99,10 @@ if [[ $suite == planning || $suite == all ]]; then
         " disagreements (PHONGPD_VOXEL_WORLDS=1700 voxel_worlds_test)" }')
   build/planning_benchmark --output results/planning \
     --voxel-worlds "$worlds"
+fi
+if [[ $suite == planning || $suite == widths || $suite == all ]]; then
+  scripts/build.sh width_benchmark
+  build/width_benchmark --output results/planning
 fi
 if [[ $suite == planning || $suite == retraction || $suite == all ]]; then
   scripts/build.sh retraction_benchmark

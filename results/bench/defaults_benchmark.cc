@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Purpose: are the defaults right?  The planner's spacing and the optimiser's
-// rows a sample against their challengers, instance by instance in one process:
-// processor time, and the length or energy of what is found.  Writes
-// defaults.csv and defaults.md.
+// Purpose: are the defaults right?  The planner's spacing, the optimiser's rows
+// a sample and its second start against their challengers, instance by instance
+// in one process: processor time, and the length or energy of what is found.
+// Writes defaults.csv and defaults.md.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
@@ -126,10 +126,13 @@ std::vector<Contest> ContestSpacing(const std::vector<Scene>& scenes,
   return contests;
 }
 
-Outcome OptimizeOnce(TrajectoryStudy* study, std::uint64_t seed, int rows) {
+using Change = std::function<void(PipelineOptions*)>;
+
+Outcome OptimizeOnce(TrajectoryStudy* study, std::uint64_t seed,
+                     const Change& change) {
   PipelineOptions options = ScenePipelineOptions(study->scene());
   options.seed = seed;
-  options.optimizer.rows = rows;
+  change(&options);
   const PipelineResult found = study->Run(SceneMetric(study->scene()), options);
   return {found.certificate.free,
           found.status == TrajectoryStatus::kSolved ||
@@ -137,25 +140,28 @@ Outcome OptimizeOnce(TrajectoryStudy* study, std::uint64_t seed, int rows) {
           0.0, found.objective};
 }
 
-Contest ContestRows(const std::vector<std::string>& scenes, std::uint64_t seed,
-                    int seeds) {
+Contest ContestOptimize(const std::string& incumbent,
+                        const std::string& challenger, const Change& change,
+                        const std::vector<std::string>& scenes,
+                        std::uint64_t seed, int seeds) {
   Contest contest;
   contest.consumer = "optimize";
-  contest.incumbent = "rows 1";
-  contest.challenger = "rows 3";
+  contest.incumbent = incumbent;
+  contest.challenger = challenger;
+  const Change none = [](PipelineOptions*) {};
   for (const std::string& text : scenes) {
     const SceneSource source(text);
     TrajectoryStudy study;
     // What is built on first use is no part of either.
     study.Enter(source.Load(seed));
-    OptimizeOnce(&study, seed, 1);
+    OptimizeOnce(&study, seed, none);
     for (int i = 0; i < seeds; ++i) {
       const std::uint64_t own = seed + static_cast<std::uint64_t>(i);
       study.Enter(source.Load(own));
-      Race([&] { return OptimizeOnce(&study, own, 1); },
-           [&] { return OptimizeOnce(&study, own, 3); }, &contest);
+      Race([&] { return OptimizeOnce(&study, own, none); },
+           [&] { return OptimizeOnce(&study, own, change); }, &contest);
     }
-    std::cerr << text << std::endl;
+    std::cerr << challenger << ", " << text << std::endl;
   }
   return contest;
 }
@@ -239,7 +245,12 @@ int Run(int argc, char** argv) {
   CLI11_PARSE(app, argc, argv);
   std::vector<Contest> contests =
       ContestSpacing(PlanScenes(scenes, seed, seeds), incumbent, challengers);
-  contests.push_back(ContestRows(scenes, seed, seeds));
+  contests.push_back(ContestOptimize(
+      "rows 1", "rows 3", [](PipelineOptions* o) { o->optimizer.rows = 3; },
+      scenes, seed, seeds));
+  contests.push_back(ContestOptimize(
+      "also_line", "the repaired start alone",
+      [](PipelineOptions* o) { o->also_line = false; }, scenes, seed, seeds));
   Correct(&contests);
   const Table table = ContestTable(contests);
   OutputDirectory out(directory);
