@@ -7,36 +7,13 @@
 #include <random>
 #include <utility>
 
-#include "core/minkowski/build_refusal.h"
-#include "core/solid/solid.h"
-#include "core/stopwatch.h"
 #include "planners/exact/free_space.h"
-#include "planners/exact/verification.h"
 #include "problems/shapes/random_solids.h"
-#include "problems/shapes/shapes.h"
-#include "problems/studies/planning_study.h"
 
 namespace phongpd::bench {
 namespace {
 
 using Eigen::Vector3d;
-
-// A small scanned knot that passes a larger one; both too thin for much of what
-// their facets cut to be hidden in either.
-Scene ScannedKnots() {
-  Scene scene;
-  scene.name = "scanned knots";
-  scene.workspace.robot =
-      MakeSolid(Rotated(MakeScan(MakeKnot(0.5, 0.06, 160, 16), 0.055, 0.002, 4),
-                        GenericRotation()),
-                "robot");
-  scene.workspace.obstacles = {MakeSolid(
-      MakeScan(MakeKnot(1.0, 0.12, 160, 16), 0.11, 0.004, 3), "knot")};
-  scene.workspace.bounds = {Vector3d::Constant(-6.0), Vector3d::Constant(6.0)};
-  scene.start = Vector3d::Constant(-4.0);
-  scene.goal = Vector3d::Constant(4.0);
-  return scene;
-}
 
 double MicrosecondsPer(std::size_t count, double start) {
   return 1e6 * (CpuSeconds() - start) /
@@ -118,49 +95,6 @@ NamedTable FreeSpaceTable(const std::vector<FreeSpaceRow>& rows) {
                     r.disagreements, r.worst_clearance, r.full_microseconds,
                     r.microseconds);
               })};
-}
-
-NamedTable LargePlanTable(double max_seconds) {
-  SilenceOmpl();
-  Scene scene = ScannedKnots();
-  scene.planning.model = "window";
-  PlanningStudy study(scene);
-  double start = CpuSeconds();
-  const Stopwatch stopwatch;
-  const PlanningResult result = study.Run({});
-  const double cpu = CpuSeconds() - start, wall = stopwatch.Seconds();
-  const Verification judged =
-      Verifier(scene.workspace).VerifyPath(result.numbers.path);
-
-  const World limited(scene.workspace, scene.name, {}, {max_seconds, 0.0});
-  std::string whole = "built";
-  start = CpuSeconds();
-  try {
-    limited.Spaces(SpaceLayout::kSealed);
-  } catch (const BuildRefusal& refusal) {
-    const std::string what = refusal.what();
-    whole = what.substr(0, what.find(';'));
-  }
-  const std::vector<int> one = {0};
-  return {"large_plan.csv",
-          MakeTable("A motion where the whole contact space is too much",
-                    "By `rrt-connect` with model window, judged again on the "
-                    "original solids; and what a full build that is limited "
-                    "to " +
-                        Rounded(max_seconds) +
-                        " s of wall time says, and its CPU time until then.",
-                    {"scene", "triangles of A", "triangles of B", "facets",
-                     "CPU s", "wall s", "answer", "verified", "points",
-                     "clearance", "full build", "its CPU s"},
-                    one, [&](int, const auto& add) {
-                      add(scene.name,
-                          scene.workspace.robot.mesh().triangles.size(),
-                          scene.workspace.obstacles[0].mesh().triangles.size(),
-                          study.world().Convolution().facets, cpu, wall,
-                          result.status, std::string(ToString(judged.verdict)),
-                          result.numbers.path.size(), result.numbers.clearance,
-                          whole, CpuSeconds() - start);
-                    })};
 }
 
 }  // namespace phongpd::bench

@@ -36,9 +36,4 @@ FreeSpaceRow MeasureFreeSpace(const std::string& name,
 
 NamedTable FreeSpaceTable(const std::vector<FreeSpaceRow>& rows);
 
-// A motion among two bodies of some 20 thousand triangles, planned in free
-// space alone and judged on the original solids, and what a build of the whole
-// contact space with `max_seconds` says.
-NamedTable LargePlanTable(double max_seconds);
-
 }  // namespace phongpd::bench

@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "results/bench/large_scene_measure.h"
+
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <utility>
+#include <vector>
+
+#include "core/minkowski/build_refusal.h"
+#include "core/solid/solid.h"
+#include "planners/exact/free_space.h"
+#include "planners/exact/verification.h"
+#include "planners/ompl/ompl_planning.h"
+#include "problems/shapes/random_solids.h"
+#include "problems/shapes/shapes.h"
+#include "problems/studies/planning_study.h"
+#include "problems/studies/trajectory_study.h"
+#include "results/bench/child_process.h"
+#include "results/bench/free_space_measure.h"
+
+namespace phongpd::bench {
+namespace {
+
+using Eigen::Vector3d;
+using Json = nlohmann::json;
+
+constexpr double kLimit = 600.0;  // seconds of a task, far above all
+
+// A small scanned knot that passes a larger one; both too thin for much of what
+// their facets cut to be hidden in either.
+Scene ScannedKnots() {
+  Scene scene;
+  scene.name = "scanned knots";
+  scene.workspace.robot =
+      MakeSolid(Rotated(MakeScan(MakeKnot(0.5, 0.06, 160, 16), 0.055, 0.002, 4),
+                        GenericRotation()),
+                "robot");
+  scene.workspace.obstacles = {MakeSolid(
+      MakeScan(MakeKnot(1.0, 0.12, 160, 16), 0.11, 0.004, 3), "knot")};
+  scene.workspace.bounds = {Vector3d::Constant(-6.0), Vector3d::Constant(6.0)};
+  scene.start = Vector3d::Constant(-4.0);
+  scene.goal = Vector3d::Constant(4.0);
+  return scene;
+}
+
+// What is found, and the exact judge's word on it.
+Json Judged(const Scene& scene, const std::string& answer,
+            const std::vector<Vector3d>& path, double clearance) {
+  const Verification judged = Verifier(scene.workspace).VerifyPath(path);
+  return {{"answer", answer},
+          {"verified", ToString(judged.verdict)},
+          {"points", path.size()},
+          {"clearance", clearance}};
+}
+
+Json Plan() {
+  SilenceOmpl();
+  Scene scene = ScannedKnots();
+  scene.planning.model = "window";
+  PlanningStudy study(scene);
+  const PlanningResult found = study.Run({});
+  Json row =
+      Judged(scene, found.status, found.numbers.path, found.numbers.clearance);
+  row["facets"] = study.world().Convolution().facets;
+  return row;
+}
+
+Json Optimize() {
+  SilenceOmpl();
+  Scene scene = ScannedKnots();
+  scene.trajectory.model = "window";
+  TrajectoryStudy study;
+  study.Enter(scene);
+  const PipelineResult found =
+      study.Run(SceneMetric(scene), ScenePipelineOptions(scene));
+  return Judged(
+      scene, ToString(found.status), found.path,
+      PathClearance(*study.world().Convolution().free_space, found.path));
+}
+
+// Refused, as it should be.
+Json BuildWhole(double max_seconds) {
+  const Scene scene = ScannedKnots();
+  const World limited(scene.workspace, scene.name, {}, {max_seconds, 0.0});
+  std::string said = "built";
+  try {
+    limited.Spaces(SpaceLayout::kSealed);
+  } catch (const BuildRefusal& refusal) {
+    said = refusal.what();
+    said = said.substr(0, said.find(';'));
+  }
+  return {{"answer", said}};
+}
+
+struct Row {
+  std::string task;
+  Json found;
+  double wall = 0.0, mib = 0.0;
+};
+
+Row Measure(const std::string& task, const std::function<Json()>& work) {
+  Row row;
+  row.task = task;
+  const ChildOutcome outcome = RunInChild(
+      [&work] {
+        Json found = work();
+        found["cpu"] = CpuSeconds();
+        return found.dump();
+      },
+      kLimit);
+  row.found = outcome.status == ChildStatus::kDone
+                  ? Json::parse(outcome.output)
+                  : Json{{"answer", "failed: " + outcome.output}, {"cpu", 0.0}};
+  row.wall = outcome.seconds;
+  row.mib = outcome.peak_mib;
+  return row;
+}
+
+}  // namespace
+
+NamedTable LargeSceneTable(double max_seconds) {
+  std::vector<Row> rows;
+  rows.push_back(Measure("plan, rrt-connect", Plan));
+  rows.push_back(Measure("optimize", Optimize));
+  rows.push_back(Measure("the whole contact space",
+                         [max_seconds] { return BuildWhole(max_seconds); }));
+  const Scene scene = ScannedKnots();
+  const auto triangles = [](const Solid& solid) {
+    return std::to_string(solid.mesh().triangles.size());
+  };
+  return {"large_scene.csv",
+          MakeTable(
+              "Where the whole contact space is too much",
+              "Two scanned knots of " + triangles(scene.workspace.robot) +
+                  " and " + triangles(scene.workspace.obstacles[0]) +
+                  " triangles, a convolution of " +
+                  std::to_string(rows[0].found.value("facets", 0L)) +
+                  " facets: a motion from one side to the other, planned and "
+                  "optimised with model window from the two meshes on, judged "
+                  "again on the original solids; and what a full build that is "
+                  "limited to " +
+                  Rounded(max_seconds) +
+                  " s of wall time says. Each in a process of its own.",
+              {"task", "CPU s", "wall s", "peak MiB", "answer", "verified",
+               "points", "clearance"},
+              rows, [](const Row& row, const auto& add) {
+                const Json& found = row.found;
+                const bool is_path = found.contains("points");
+                add(row.task, found["cpu"].get<double>(), row.wall, row.mib,
+                    found["answer"].get<std::string>(),
+                    is_path ? found["verified"].get<std::string>() : "–",
+                    is_path ? Shown(found["points"].get<std::size_t>()) : "–",
+                    is_path ? Rounded(found["clearance"].get<double>()) : "–");
+              })};
+}
+
+}  // namespace phongpd::bench

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "results/bench/report.h"
+
+namespace phongpd::bench {
+
+// A motion among two bodies of some 20 thousand triangles, planned and then
+// optimised in free space alone, each judged on the original solids; and what a
+// build of the whole contact space with `max_seconds` says.  In processes of
+// their own: the caller must not have started threads.
+NamedTable LargeSceneTable(double max_seconds);
+
+}  // namespace phongpd::bench
