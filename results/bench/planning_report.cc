@@ -9,7 +9,7 @@
 #include <sstream>
 
 #include "problems/output/text.h"
-#include "problems/pictures/gnuplot.h"
+#include "problems/pictures/step_figure.h"
 
 namespace phongpd::bench {
 namespace {
@@ -142,12 +142,16 @@ Table MotionTable(const PlanningResults& results) {
       });
 }
 
+StepCurve::Role RoleOf(const std::string& planner) {
+  if (planner == "retraction-forest phong") return StepCurve::Role::kMain;
+  return planner == "retraction-forest euclidean" ? StepCurve::Role::kBaseline
+                                                  : StepCurve::Role::kOther;
+}
+
 // Share of runs solved within a time, one curve a planner.
 std::string TimeFigure(const PlanningResults& results,
                        const std::string& scene) {
-  std::ostringstream script;
-  std::string plots;
-  int block = 0;
+  std::vector<StepCurve> curves;
   for (const SamplerRow& row : results.samplers) {
     if (row.problem.scene != scene) continue;
     std::vector<double> seconds;
@@ -156,28 +160,23 @@ std::string TimeFigure(const PlanningResults& results,
     }
     if (seconds.empty()) continue;
     std::sort(seconds.begin(), seconds.end());
-    script << "$p" << block << " << EOD\n1e-5 0\n";
+    StepCurve curve = {row.planner, RoleOf(row.planner), {}};
     for (std::size_t i = 0; i < seconds.size(); ++i) {
-      script << seconds[i] << ' '
-             << static_cast<double>(i + 1) /
-                    static_cast<double>(row.runs.size())
-             << '\n';
+      // The limit is looked at between steps: what ends just after it counts.
+      const double at = std::min(seconds[i], results.options.limit);
+      curve.points.emplace_back(at, static_cast<double>(i + 1) /
+                                        static_cast<double>(row.runs.size()));
     }
-    script << results.options.limit << ' '
-           << static_cast<double>(seconds.size()) /
-                  static_cast<double>(row.runs.size())
-           << "\nEOD\n";
-    plots += (plots.empty() ? "plot $p" : ", $p") + std::to_string(block) +
-             " using 1:2 with steps lw 2 title '" + row.planner + "'";
-    ++block;
+    curves.push_back(std::move(curve));
   }
-  if (plots.empty()) return "";
-  script << "set logscale x\nset xrange [1e-4:" << results.options.limit
-         << "]\nset yrange [0:1.02]\nset xlabel 'seconds'\n"
-         << "set ylabel 'share of runs solved'\nset key outside right\n"
-         << "set title '" << scene << "' noenhanced\n"
-         << plots << '\n';
-  return RenderSvg(script.str(), 900, 380);
+  if (curves.empty()) return "";
+  StepFrame frame;
+  frame.title = scene + "; higher and further left is better";
+  frame.x = "seconds";
+  frame.y = "share of runs solved";
+  frame.least = 1e-5;
+  frame.most = results.options.limit;
+  return StepFigure(curves, frame);
 }
 
 }  // namespace
