@@ -113,8 +113,9 @@ int Look(Flags flags) {
   if (is_page || !flags.png.empty()) RequireViewer();
   if (!flags.png.empty()) RequireBrowser();
   if (flags.moment && flags.png.empty()) {
-    throw InputError("--moment: expected --png FILE with it, found none; a "
-                     "page plays all moments");
+    throw InputError(
+        "--moment: expected --png FILE with it, found none; a "
+        "page plays all moments");
   }
   OutputFiles outputs;
   for (const std::string& path : {flags.html, flags.glb, flags.png}) {
