@@ -107,9 +107,13 @@ int Run(int argc, char** argv) {
   if (!worlds.empty()) {
     text += "Random voxel worlds against flood fill: " + worlds + ".\n\n";
   }
-  text += "Every run of the samplers: [runs.csv](runs.csv).\n\n" +
-          ToMarkdown(tables, figures) + '\n' +
-          Circumstances(command, results.options.seed);
+  text +=
+      "Every run of the samplers: [runs.csv](runs.csv). Retraction against "
+      "baselines of equal strength: [baselines.md](baselines.md). How narrow a "
+      "passage each planner takes in 1, 10 and 60 s: "
+      "[widths.md](widths.md).\n\n" +
+      ToMarkdown(tables, figures) + '\n' +
+      Circumstances(command, results.options.seed);
   WriteReport(tables, figures, text, &out);
   out.Commit();
   std::cout << Findings(results);
