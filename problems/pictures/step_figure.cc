@@ -38,15 +38,23 @@ double HeightOf(const StepCurve& curve, double x) {
   return height;
 }
 
+// Where half of its steps are done; 0 without any.
+double MiddleOf(const StepCurve& curve) {
+  const std::size_t count = curve.points.size();
+  return count == 0 ? 0.0 : curve.points[count / 2].first;
+}
+
 // Their names beside the ends of the curves, evenly apart.
 std::string CurveLabels(const std::vector<StepCurve>& curves,
                         const std::vector<std::string>& styles, double end) {
   std::vector<std::size_t> order(curves.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t i, std::size_t j) {
-                     return HeightOf(curves[i], end) > HeightOf(curves[j], end);
-                   });
+  std::stable_sort(
+      order.begin(), order.end(), [&](std::size_t i, std::size_t j) {
+        const double a = HeightOf(curves[i], end);
+        const double b = HeightOf(curves[j], end);
+        return a != b ? a > b : MiddleOf(curves[i]) < MiddleOf(curves[j]);
+      });
   TextStream script;
   for (std::size_t i = 0; i < order.size(); ++i) {
     const StepCurve& curve = curves[order[i]];
@@ -85,7 +93,8 @@ std::string StepFigure(const std::vector<StepCurve>& curves,
   // Names hold '@' and '_', which are markup to gnuplot.
   script << "set logscale x\nset xrange [" << frame.least << ':' << frame.most
          << "]\nset yrange [0:1.03]\nset ytics 0,0.2,1\nset rmargin "
-         << std::max<std::size_t>(longest, 16) + 3 << '\n'
+         << 3 + 4 * std::max<std::size_t>(longest, 18) / 5
+         << "\nset format x '%g'\n"
          << "set grid lc rgb '#DDDDDD'\n"
          << "set xlabel " << GnuplotText(frame.x) << " noenhanced\n"
          << "set ylabel " << GnuplotText(frame.y) << " noenhanced\n"

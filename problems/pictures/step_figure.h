@@ -25,8 +25,8 @@ struct StepFrame {
   double least = 1.0, most = 1e2;  // of x, which is logarithmic; y: 0 to 1
 };
 
-// The curves as an SVG, each named at its end, the highest on top.  Throws what
-// RenderSvg does.
+// The curves as an SVG, each named at its end: the highest on top, of equals
+// the first to rise.  Throws what RenderSvg does.
 std::string StepFigure(const std::vector<StepCurve>& curves,
                        const StepFrame& frame);
 
