@@ -86,8 +86,8 @@ Json BuildWhole(double max_seconds) {
   try {
     limited.Spaces(SpaceLayout::kSealed);
   } catch (const BuildRefusal& refusal) {
-    said = refusal.what();
-    said = said.substr(0, said.find(';'));
+    const std::string what = refusal.what();
+    said = what.substr(0, what.find(';'));
   }
   return {{"answer", said}};
 }
