@@ -9,6 +9,7 @@
 #include "core/minkowski/build_limits.h"
 
 namespace phongpd::internal {
+
 using Eigen::Vector2d;
 
 PlanarGraph::PlanarGraph(const GridPlane& plane)

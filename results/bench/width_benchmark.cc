@@ -97,12 +97,10 @@ std::vector<Passage> Measure(const std::string& scene,
 }
 
 Table WidthTable(const std::vector<Passage>& passages) {
-  std::string limits = "Solved within 1, 10 and 60 s, of the runs";
   return MakeTable(
       "Passages from wide to narrow",
-      limits +
-          ", and the median time of those solved. –: not asked, as no run "
-          "solved the next wider passage in 60 s.",
+      "Solved within 1, 10 and 60 s, of the runs, and the median time of those "
+      "solved. –: not asked, as no run solved the next wider passage in 60 s.",
       {"scene", "δ", "planner", "1 s", "10 s", "60 s", "runs", "median s"},
       passages, [](const Passage& passage, const auto& add) {
         const std::string& scene = passage.problem.family;
