@@ -14,111 +14,148 @@ using Eigen::Vector3d;
 constexpr int kBins = 16;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-BoundingBox EmptyBox() {
-  return {Vector3d::Constant(kInfinity), Vector3d::Constant(-kInfinity)};
+// A box as its upper and its negated lower bounds, so that one maximum extends
+// it: building the tree does little else.
+using Extent = Eigen::Array<double, 6, 1>;
+
+Extent NoExtent() { return Extent::Constant(-kInfinity); }
+
+void Extend(const Extent& other, Extent* extent) {
+  *extent = extent->max(other);
 }
 
-void Extend(const BoundingBox& other, BoundingBox* box) {
-  box->min = box->min.cwiseMin(other.min);
-  box->max = box->max.cwiseMax(other.max);
+Extent ExtentOf(const Vector3d& min, const Vector3d& max) {
+  Extent extent;
+  extent << max.array(), -min.array();
+  return extent;
 }
 
-double HalfArea(const BoundingBox& box) {
-  if (box.IsEmpty()) return 0.0;
-  const Vector3d d = box.max - box.min;
+double HalfArea(const Extent& e) {
+  const Vector3d d = e.head<3>() + e.tail<3>();
   return d.x() * d.y() + d.y() * d.z() + d.z() * d.x();
 }
 
-// An item where it is sorted, with what that takes.
-struct SortedItem {
-  BoundingBox box;
-  Vector3d middle;
+struct Item {
+  Extent box;
   int number;
+  int bin;  // of the range that is being split
+
+  double Middle(int axis) const { return 0.5 * (box[axis] - box[axis + 3]); }
 };
 
+// What a node is made of.
 struct Range {
   int node;
   int first;
   int last;  // one past the end
   int depth;
+  Extent box;  // of the items
 };
 
-// Splits items[first, last) and returns the first position of the right part.
-class Splitter {
- public:
-  using Iterator = std::vector<SortedItem>::iterator;
+using Iterator = std::vector<Item>::iterator;
 
-  static int Split(const Range& range, std::vector<SortedItem>* items) {
-    const Iterator begin = items->begin() + range.first;
-    const Iterator end = items->begin() + range.last;
-    Vector3d low = Vector3d::Constant(kInfinity);
-    Vector3d high = Vector3d::Constant(-kInfinity);
+Extent BoxOf(Iterator begin, Iterator end) {
+  Extent box = NoExtent();
+  for (Iterator it = begin; it != end; ++it) Extend(it->box, &box);
+  return box;
+}
+
+// Of the boxes' centres, twice as far from the origin.
+Extent TwiceTheMiddles(Iterator begin, Iterator end) {
+  Extent extent = NoExtent();
+  for (Iterator it = begin; it != end; ++it) {
+    const Eigen::Array3d twice = it->box.head<3>() - it->box.tail<3>();
+    Extent middle;
+    middle << twice, -twice;
+    Extend(middle, &extent);
+  }
+  return extent;
+}
+
+// The items of a range sorted into bins along one axis.  The first and the last
+// bin are never empty.
+class Bins {
+ public:
+  // Sorts them.
+  Bins(Iterator begin, Iterator end, double low, double extent, int axis) {
     for (Iterator it = begin; it != end; ++it) {
-      low = low.cwiseMin(it->middle);
-      high = high.cwiseMax(it->middle);
-    }
-    int axis = 0;
-    const double extent = (high - low).maxCoeff(&axis);
-    if (range.depth < BoxTree::kSplitDepth && extent > 0.0) {
-      const int bin = BestBin(begin, end, low[axis], extent, axis);
-      const Iterator middle =
-          std::partition(begin, end, [&](const SortedItem& item) {
-            return BinOf(item, low[axis], extent, axis) <= bin;
-          });
-      if (middle != begin && middle != end) {
-        return static_cast<int>(middle - items->begin());
+      const double position = (it->Middle(axis) - low) / extent * kBins;
+      it->bin = std::clamp(static_cast<int>(position), 0, kBins - 1);
+      if (count_[it->bin]++ == 0) {
+        box_[it->bin] = it->box;
+      } else {
+        Extend(it->box, &box_[it->bin]);
       }
     }
-    const Iterator middle = begin + (range.last - range.first) / 2;
-    std::nth_element(begin, middle, end,
-                     [axis](const SortedItem& a, const SortedItem& b) {
-                       return a.middle[axis] < b.middle[axis];
-                     });
-    return static_cast<int>(middle - items->begin());
   }
 
- private:
-  static int BinOf(const SortedItem& item, double low, double extent,
-                   int axis) {
-    const double position = (item.middle[axis] - low) / extent * kBins;
-    return std::clamp(static_cast<int>(position), 0, kBins - 1);
-  }
-
-  // The bin after which a cut is cheapest by surface area.
-  static int BestBin(Iterator begin, Iterator end, double low, double extent,
-                     int axis) {
-    std::array<BoundingBox, kBins> box;
-    std::array<int, kBins> count{};
-    box.fill(EmptyBox());
-    for (Iterator it = begin; it != end; ++it) {
-      const int bin = BinOf(*it, low, extent, axis);
-      Extend(it->box, &box[bin]);
-      ++count[bin];
-    }
-    std::array<double, kBins> right_cost{};
-    BoundingBox sum = EmptyBox();
+  // The bin after which a cut is cheapest by surface area; the boxes of what is
+  // before and behind the cut.
+  int BestCut(Extent* left, Extent* right) const {
+    std::array<Extent, kBins> behind;
+    std::array<double, kBins> cost_behind;
+    Extent sum = NoExtent();
     int items = 0;
-    for (std::size_t i = kBins - 1; i > 0; --i) {
-      Extend(box[i], &sum);
-      items += count[i];
-      right_cost[i - 1] = HalfArea(sum) * items;
+    for (int i = kBins - 1; i > 0; --i) {
+      if (count_[i] > 0) {
+        Extend(box_[i], &sum);
+        items += count_[i];
+      }
+      if (count_[i - 1] == 0) continue;
+      behind[i - 1] = sum;
+      cost_behind[i - 1] = HalfArea(sum) * items;
     }
-    sum = EmptyBox();
+    sum = NoExtent();
     items = 0;
     double best = kInfinity;
     int best_bin = 0;
-    for (std::size_t i = 0; i + 1 < kBins; ++i) {
-      Extend(box[i], &sum);
-      items += count[i];
-      const double cost = HalfArea(sum) * items + right_cost[i];
-      if (cost < best) {
+    for (int i = 0; i + 1 < kBins; ++i) {
+      // Behind an empty bin the cut is the one before it.
+      if (count_[i] == 0) continue;
+      Extend(box_[i], &sum);
+      items += count_[i];
+      const double cost = HalfArea(sum) * items + cost_behind[i];
+      if (cost < best || i == 0) {
         best = cost;
-        best_bin = static_cast<int>(i);
+        best_bin = i;
+        *left = sum;
+        *right = behind[i];
       }
     }
     return best_bin;
   }
+
+ private:
+  std::array<Extent, kBins> box_;  // where there is something
+  std::array<int, kBins> count_{};
 };
+
+// Sorts the items of a range into those of the nodes `child` and child + 1.
+void Split(const Range& range, int child, std::vector<Item>* items, Range* left,
+           Range* right) {
+  const Iterator begin = items->begin() + range.first;
+  const Iterator end = items->begin() + range.last;
+  *left = {child, range.first, range.last, range.depth + 1, NoExtent()};
+  *right = {child + 1, range.first, range.last, range.depth + 1, NoExtent()};
+  const Extent middles = 0.5 * TwiceTheMiddles(begin, end);
+  int axis = 0;
+  const double extent = (middles.head<3>() + middles.tail<3>()).maxCoeff(&axis);
+  Iterator middle;
+  if (range.depth < BoxTree::kSplitDepth && extent > 0.0) {
+    const Bins bins(begin, end, -middles[axis + 3], extent, axis);
+    const int cut = bins.BestCut(&left->box, &right->box);
+    middle = std::partition(
+        begin, end, [cut](const Item& item) { return item.bin <= cut; });
+  } else {
+    middle = begin + (range.last - range.first) / 2;
+    std::nth_element(begin, middle, end, [axis](const Item& a, const Item& b) {
+      return a.Middle(axis) < b.Middle(axis);
+    });
+    left->box = BoxOf(begin, middle);
+    right->box = BoxOf(middle, end);
+  }
+  left->last = right->first = static_cast<int>(middle - items->begin());
+}
 
 // What both traversals rely on: children come in pairs behind their parent and
 // lie within it, no path overflows the traversals' stack, and every item is in
@@ -161,37 +198,34 @@ class Splitter {
 
 BoxTree::BoxTree(const std::vector<BoundingBox>& boxes, int leaf_size) {
   if (boxes.empty()) return;
-  std::vector<SortedItem> items;
+  std::vector<Item> items;
   items.reserve(boxes.size());
   for (std::size_t i = 0; i < boxes.size(); ++i) {
-    items.push_back({boxes[i], boxes[i].Center(), static_cast<int>(i)});
+    items.push_back(
+        {ExtentOf(boxes[i].min, boxes[i].max), static_cast<int>(i), 0});
   }
   nodes_.emplace_back();
-  std::vector<Range> open{{0, 0, static_cast<int>(boxes.size()), 0}};
+  std::vector<Range> open{{0, 0, static_cast<int>(boxes.size()), 0,
+                           BoxOf(items.begin(), items.end())}};
   while (!open.empty()) {
     const Range range = open.back();
     open.pop_back();
-    BoundingBox box = EmptyBox();
-    for (int i = range.first; i < range.last; ++i) {
-      Extend(items[i].box, &box);
-    }
     Node node;
-    node.min = box.min;
-    node.max = box.max;
+    node.min = -range.box.tail<3>();
+    node.max = range.box.head<3>();
     if (range.last - range.first <= leaf_size) {
       node.first = range.first;
       node.count = range.last - range.first;
     } else {
-      const int middle = Splitter::Split(range, &items);
       node.first = static_cast<int>(nodes_.size());
       nodes_.resize(nodes_.size() + 2);
-      open.push_back({node.first, range.first, middle, range.depth + 1});
-      open.push_back({node.first + 1, middle, range.last, range.depth + 1});
+      open.resize(open.size() + 2);
+      Split(range, node.first, &items, &open[open.size() - 2], &open.back());
     }
     nodes_[range.node] = node;
   }
   order_.reserve(items.size());
-  for (const SortedItem& item : items) order_.push_back(item.number);
+  for (const Item& item : items) order_.push_back(item.number);
   assert(IsSound(nodes_, order_, boxes));
 }
 

@@ -41,7 +41,7 @@ struct ConvolutionModel::Data {
       : limits(options),
         pair(MakePair(robot, obstacle, options, limits, &operands)),
         space(pair, &limits),
-        bounds(ComputeBounds(space.Mesh())) {
+        bounds(space.Bounds()) {
     report.facets = space.facets();
     report.grid_step = pair.frame.rounding;
     report.approximation = operands.approximation;

@@ -2,6 +2,7 @@
 #include "core/minkowski/convolution_space.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "core/mesh/finite.h"
 
@@ -98,6 +99,18 @@ std::vector<std::array<Vector3d, 3>> ConvolutionSpace::FacetsNear(
     }
   });
   return near;
+}
+
+BoundingBox ConvolutionSpace::Bounds() const {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  BoundingBox bounds{Vector3d::Constant(kInfinity),
+                     Vector3d::Constant(-kInfinity)};
+  for (const Vector3d& v : mesh_.vertices) {
+    const Vector3d q = pair_.frame.ToUser(v);
+    bounds.min = bounds.min.cwiseMin(q);
+    bounds.max = bounds.max.cwiseMax(q);
+  }
+  return bounds;
 }
 
 TriangleMesh ConvolutionSpace::Mesh() const {

@@ -58,6 +58,8 @@ class ConvolutionSpace {
   std::vector<std::array<Eigen::Vector3d, 3>> FacetsNear(
       const Eigen::Vector3d& a, const Eigen::Vector3d& b, double radius) const;
 
+  // Of the convolution, in the user's frame; rounded.
+  BoundingBox Bounds() const;
   std::size_t facets() const { return mesh_.triangles.size(); }
   // The user's frame; rounded.
   TriangleMesh Mesh() const;

@@ -11,8 +11,9 @@
 
 namespace phongpd::internal {
 
-// Numbers distinct keys 0, 1, ... as they come: a table of numbers, twice as
-// long as there are keys at least, searched from each key's place on.
+// Numbers distinct keys, triples of integers, 0, 1, ... as they come: a table
+// of numbers, twice as long as there are keys at least, searched from each
+// key's place on.
 template <typename Key, typename Hash>
 class KeyNumbers {
  public:
@@ -22,7 +23,7 @@ class KeyNumbers {
     if (2 * (keys->size() + 1) > slots_.size()) Grow(*keys);
     std::size_t at = Hash()(key) & (slots_.size() - 1);
     for (; slots_[at] >= 0; at = (at + 1) & (slots_.size() - 1)) {
-      if ((*keys)[static_cast<std::size_t>(slots_[at])] == key) {
+      if (IsEqual((*keys)[static_cast<std::size_t>(slots_[at])], key)) {
         return slots_[at];
       }
     }
@@ -32,6 +33,11 @@ class KeyNumbers {
   }
 
  private:
+  // A call of memcmp costs more than three comparisons.
+  static bool IsEqual(const Key& a, const Key& b) {
+    return ((a[0] ^ b[0]) | (a[1] ^ b[1]) | (a[2] ^ b[2])) == 0;
+  }
+
   void Grow(const std::vector<Key>& keys) {
     slots_.assign(std::max<std::size_t>(64, 2 * slots_.size()), -1);
     for (std::size_t i = 0; i < keys.size(); ++i) {

@@ -13,6 +13,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <utility>
 
 #include "core/bvh/box_tree.h"
@@ -20,6 +21,7 @@
 namespace phongpd::internal {
 namespace {
 
+using Eigen::Vector3d;
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Exact = CGAL::Exact_predicates_exact_constructions_kernel;
 using Point = Kernel::Point_3;
@@ -28,7 +30,7 @@ using Box = CGAL::Box_intersection_d::Box_with_info_d<double, 3, std::size_t>;
 
 Corners CornersOf(const TriangleMesh& mesh, const Triangle& triangle) {
   const auto point = [&mesh](int v) {
-    const Eigen::Vector3d& p = mesh.vertices[v];
+    const Vector3d& p = mesh.vertices[v];
     return Point(p.x(), p.y(), p.z());
   };
   return {point(triangle[0]), point(triangle[1]), point(triangle[2])};
@@ -36,25 +38,37 @@ Corners CornersOf(const TriangleMesh& mesh, const Triangle& triangle) {
 
 Kernel::Triangle_3 ToTriangle(const Corners& c) { return {c[0], c[1], c[2]}; }
 
-// The plane of a triangle in double, and which side of it a point surely lies
-// on: most pairs of neighbours are decided by that.
+// A triangle in double, and where points surely lie beside it: most pairs of
+// neighbours are decided by that.
 class RoundedTriangle {
  public:
   RoundedTriangle(const TriangleMesh& mesh, const Triangle& t)
       : corners_{mesh.vertices[t[0]], mesh.vertices[t[1]],
                  mesh.vertices[t[2]]} {
-    const Eigen::Vector3d u = corners_[1] - corners_[0];
-    const Eigen::Vector3d v = corners_[2] - corners_[0];
+    const Vector3d u = corners_[1] - corners_[0];
+    const Vector3d v = corners_[2] - corners_[0];
     normal_ = u.cross(v);
     reach_ = u.cwiseAbs().cwiseMax(v.cwiseAbs());
+    normal_.cwiseAbs().maxCoeff(&axis_);
+    turn_ = Turn(corners_[0], corners_[1], corners_[2]);
+  }
+
+  // Do the two surely share common corners at most, or a common edge?
+  bool IsBeside(const RoundedTriangle& other) const {
+    return IsOnOneSide(other) || IsBehindAnEdge(other);
+  }
+
+ private:
+  bool IsCorner(const Vector3d& p) const {
+    return p == corners_[0] || p == corners_[1] || p == corners_[2];
   }
 
   // Do all corners of `other` that are none of this one's surely lie on one
-  // side?  Then the two share common corners at most, or a common edge.
-  bool IsBeside(const RoundedTriangle& other) const {
+  // side of its plane?
+  bool IsOnOneSide(const RoundedTriangle& other) const {
     int side = 0;
-    for (const Eigen::Vector3d& p : other.corners_) {
-      if (p == corners_[0] || p == corners_[1] || p == corners_[2]) continue;
+    for (const Vector3d& p : other.corners_) {
+      if (IsCorner(p)) continue;
       const int at = Side(p);
       if (at == 0 || at == -side) return false;
       side = at;
@@ -62,13 +76,31 @@ class RoundedTriangle {
     return side != 0;
   }
 
- private:
-  // 0 where rounding might decide it.  The determinant has six products of one
-  // coordinate difference along each axis, and at most eight roundings reach
-  // any of them: 6 · 8 · 2^-53 of the product of the largest.
-  int Side(const Eigen::Vector3d& p) const {
-    const Eigen::Vector3d d = p - corners_[0];
-    const Eigen::Vector3d m = d.cwiseAbs().cwiseMax(reach_);
+  // Seen along the axis that the normal is nearest to: does a line through one
+  // edge part the two, but for ends of the edge that are common?  So it is with
+  // neighbours in one plane.
+  bool IsBehindAnEdge(const RoundedTriangle& other) const {
+    if (turn_ == 0) return false;
+    for (int k = 0; k < 3; ++k) {
+      const Vector3d& a = corners_[k];
+      const Vector3d& b = corners_[(k + 1) % 3];
+      const auto is_behind = [&](const Vector3d& p) {
+        return p == a || p == b || Turn(a, b, p) == -turn_;
+      };
+      if (std::all_of(other.corners_.begin(), other.corners_.end(),
+                      is_behind)) {
+        return true;
+      }
+    }
+    return false;
+  }
+
+  // Of the plane; 0 where rounding might decide it.  The determinant has six
+  // products of one coordinate difference along each axis, and at most eight
+  // roundings reach any of them: 6 · 8 · 2^-53 of the product of the largest.
+  int Side(const Vector3d& p) const {
+    const Vector3d d = p - corners_[0];
+    const Vector3d m = d.cwiseAbs().cwiseMax(reach_);
     // No product leaves the range of doubles.
     if (!(m.minCoeff() > 1e-90 && m.maxCoeff() < 1e90)) return 0;
     const double bound = 1e-14 * m[0] * m[1] * m[2];
@@ -76,8 +108,23 @@ class RoundedTriangle {
     return height > bound ? 1 : height < -bound ? -1 : 0;
   }
 
-  std::array<Eigen::Vector3d, 3> corners_;
-  Eigen::Vector3d normal_, reach_;
+  // Of a, b, p as seen along the axis; 0 where rounding might decide it: three
+  // roundings reach either product, and one their difference.
+  int Turn(const Vector3d& a, const Vector3d& b, const Vector3d& p) const {
+    const int x = (axis_ + 1) % 3, y = (axis_ + 2) % 3;
+    const double left = (b[x] - a[x]) * (p[y] - a[y]);
+    const double right = (b[y] - a[y]) * (p[x] - a[x]);
+    const double size = std::abs(left) + std::abs(right);
+    // Nothing was lost below or beyond the range of doubles.
+    if (!(size > 1e-180 && size < 1e180)) return 0;
+    const double turn = left - right, bound = 1e-15 * size;
+    return turn > bound ? 1 : turn < -bound ? -1 : 0;
+  }
+
+  std::array<Vector3d, 3> corners_;
+  Vector3d normal_, reach_;
+  int axis_ = 0;  // nearest to the normal
+  int turn_;      // of the corners, as seen along it
 };
 
 // Rotates the equal corners of two triangles to the front; returns how many.
@@ -163,9 +210,9 @@ std::vector<std::size_t> ProperTriangles(const TriangleMesh& mesh,
   std::vector<std::size_t> proper;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     const auto& [i, j, k] = mesh.triangles[t];
-    const Eigen::Vector3d& a = mesh.vertices[i];
-    const Eigen::Vector3d& b = mesh.vertices[j];
-    const Eigen::Vector3d& c = mesh.vertices[k];
+    const Vector3d& a = mesh.vertices[i];
+    const Vector3d& b = mesh.vertices[j];
+    const Vector3d& c = mesh.vertices[k];
     const bool is_near =
         (a.cwiseMin(b).cwiseMin(c).array() <= region.max.array()).all() &&
         (a.cwiseMax(b).cwiseMax(c).array() >= region.min.array()).all();
@@ -196,9 +243,9 @@ std::size_t CountSelfIntersections(const TriangleMesh& mesh,
   boxes.reserve(proper.size());
   for (const std::size_t t : proper) {
     const auto& [i, j, k] = mesh.triangles[t];
-    const Eigen::Vector3d& a = mesh.vertices[i];
-    const Eigen::Vector3d& b = mesh.vertices[j];
-    const Eigen::Vector3d& c = mesh.vertices[k];
+    const Vector3d& a = mesh.vertices[i];
+    const Vector3d& b = mesh.vertices[j];
+    const Vector3d& c = mesh.vertices[k];
     boxes.push_back({a.cwiseMin(b).cwiseMin(c), a.cwiseMax(b).cwiseMax(c)});
   }
   std::vector<RoundedTriangle> rounded;
@@ -207,36 +254,44 @@ std::size_t CountSelfIntersections(const TriangleMesh& mesh,
     rounded.emplace_back(mesh, mesh.triangles[t]);
   }
   const BoxTree tree(boxes, 4);
-  // Of each triangle, those after it that it meets.
-  std::vector<std::vector<std::size_t>> met(proper.size());
-  tbb::parallel_for(std::size_t{0}, proper.size(), [&](std::size_t i) {
-    const BoundingBox& box = boxes[i];
-    const auto overlaps = [&box](const auto& other) {
-      return (other.min.array() <= box.max.array()).all() &&
-             (other.max.array() >= box.min.array()).all();
-    };
-    tree.ForEach([&](int node) { return overlaps(tree.nodes()[node]); },
-                 [&](int position) {
-                   const int item = tree.order()[position];
-                   const auto j = static_cast<std::size_t>(item);
-                   if (j > i && overlaps(boxes[j]) &&
-                       labels[proper[i]] == labels[proper[j]] &&
-                       !rounded[i].IsBeside(rounded[j]) &&
-                       !rounded[j].IsBeside(rounded[i]) &&
-                       MeetProperly(mesh, proper[i], proper[j])) {
-                     met[i].push_back(j);
-                   }
-                   return true;
-                 });
-    std::sort(met[i].begin(), met[i].end());
-  });
-  std::size_t count = 0;
-  for (std::size_t i = 0; i < met.size(); ++i) {
-    for (const std::size_t j : met[i]) {
-      if (count++ < limit) pairs->emplace_back(proper[i], proper[j]);
-    }
+  std::vector<int> leaves;
+  for (std::size_t n = 0; n < tree.nodes().size(); ++n) {
+    if (tree.nodes()[n].IsLeaf()) leaves.push_back(static_cast<int>(n));
   }
-  return count;
+  const auto overlap = [](const auto& a, const auto& b) {
+    return (a.min.array() <= b.max.array()).all() &&
+           (a.max.array() >= b.min.array()).all();
+  };
+  const auto meet = [&](std::size_t i, std::size_t j) {
+    return overlap(boxes[i], boxes[j]) &&
+           labels[proper[i]] == labels[proper[j]] &&
+           !rounded[i].IsBeside(rounded[j]) &&
+           !rounded[j].IsBeside(rounded[i]) &&
+           MeetProperly(mesh, proper[i], proper[j]);
+  };
+  // Of each leaf, its items and those after them that they meet.
+  std::vector<std::vector<TrianglePair>> met(leaves.size());
+  tbb::parallel_for(std::size_t{0}, leaves.size(), [&](std::size_t l) {
+    const BoxTree::Node& leaf = tree.nodes()[leaves[l]];
+    tree.ForEach(
+        [&](int node) { return overlap(tree.nodes()[node], leaf); },
+        [&](int position) {
+          const auto j = static_cast<std::size_t>(tree.order()[position]);
+          for (int own = leaf.first; own < leaf.first + leaf.count; ++own) {
+            const auto i = static_cast<std::size_t>(tree.order()[own]);
+            if (j > i && meet(i, j)) met[l].emplace_back(proper[i], proper[j]);
+          }
+          return true;
+        });
+  });
+  std::vector<TrianglePair> all;
+  for (const std::vector<TrianglePair>& of_leaf : met) {
+    all.insert(all.end(), of_leaf.begin(), of_leaf.end());
+  }
+  std::sort(all.begin(), all.end());
+  const std::size_t told = std::min(limit, all.size());
+  if (told > 0) pairs->insert(pairs->end(), all.begin(), all.begin() + told);
+  return all.size();
 }
 
 bool Intersect(const TriangleMesh& a, const TriangleMesh& b) {

@@ -91,6 +91,29 @@ TEST(SelfIntersections, AgreeWithConstructedIntersectionsOfRandomSoups) {
   EXPECT_GT(total, 1000u);
 }
 
+// In one plane nothing but lines through edges parts triangles.
+TEST(SelfIntersections, AgreeWithConstructedIntersectionsInOnePlane) {
+  std::mt19937 random(3);
+  const Eigen::Matrix3d turn =
+      Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, 2, 3).normalized())
+          .toRotationMatrix();
+  std::size_t total = 0;
+  for (const double scale : {1.0, 1e-95}) {
+    for (int run = 0; run < 40; ++run) {
+      TriangleMesh mesh = RandomSoup(14, 24, 4, &random);
+      for (Eigen::Vector3d& v : mesh.vertices) v.z() = 1.0;
+      // Some stay in the plane exactly, some to rounding.
+      if (run % 2 == 1) mesh = Rotated(mesh, turn);
+      mesh = Scaled(mesh, scale);
+      const std::vector<int> labels(24, 0);
+      const std::size_t expected = CountBruteForce(mesh, labels);
+      EXPECT_EQ(CountSelfIntersections(mesh, labels), expected) << scale;
+      total += expected;
+    }
+  }
+  EXPECT_GT(total, 1000u);
+}
+
 // Corners that were on planes and edges of others are off them by their last
 // bits: what doubles say of a side is wrong about as often as right.
 TEST(SelfIntersections, AgreeWithConstructedIntersectionsOfTurnedGrids) {
