@@ -15,7 +15,7 @@
 // struct (`Fields`, found by argument-dependent lookup) both writes and reads
 // it:
 //
-//   template <typename Stream>
+//   `template <typename Stream>`
 //   void Fields(Stream* io, Thing& thing) {
 //     auto& [count, names] = thing;  // does not compile when one is missing
 //     (*io)(count, names);
