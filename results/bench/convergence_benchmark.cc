@@ -17,6 +17,7 @@
 #include "problems/shapes/random_solids.h"
 #include "problems/world/world.h"
 #include "results/bench/convergence_report.h"
+#include "results/bench/csv_table.h"
 #include "results/bench/program.h"
 
 namespace phongpd::bench {
@@ -89,6 +90,29 @@ std::vector<DepthExcess> MeasureAll(const std::vector<std::string>& scenes,
   return all;
 }
 
+// What the trade-off is drawn of, as it was published.
+ConvergenceResults ReadPublished(const std::string& directory) {
+  ConvergenceResults results;
+  const CsvTable summary = ReadCsvTable(directory + "/summary.csv");
+  for (std::size_t i = 0; i < summary.rows().size(); ++i) {
+    ComparisonCell& cell = results.cells.emplace_back();
+    cell.scene = summary.Text(i, "scene");
+    cell.protocol = summary.Text(i, "protocol");
+    cell.method = summary.Text(i, "method");
+    cell.runs = static_cast<int>(summary.Number(i, "runs"));
+    cell.solved = static_cast<int>(summary.Number(i, "solved"));
+    cell.median_iterations = summary.Number(i, "median_iterations");
+  }
+  const CsvTable excess = ReadCsvTable(directory + "/excess.csv");
+  for (std::size_t i = 0; i < excess.rows().size(); ++i) {
+    DepthExcess& row = results.excess.emplace_back();
+    row.scene = excess.Text(i, "scene");
+    row.smoothing_length = excess.Number(i, "ℓ");
+    row.mean = excess.Number(i, "mean excess");
+  }
+  return results;
+}
+
 constexpr char kIntroduction[] =
     R"(# Convergence of the trajectory optimiser: PhongPD beside Euclidean PD
 
@@ -128,13 +152,24 @@ int Run(int argc, char** argv) {
   std::string directory, file, how;
   int points = 2000;
   std::uint64_t seed = 1;
-  app.add_option("--rows", file, "Rows of phongpd compare")->required();
+  app.add_option(
+      "--rows", file,
+      "Rows of phongpd compare; without, the trade-off is drawn anew "
+      "from what is published in the directory");
   app.add_option("--output", directory, "Directory to write into")->required();
   app.add_option("--points", points)->capture_default_str();
   app.add_option("--seed", seed)->capture_default_str();
   app.add_option("--how", how, "The command that made the rows");
   CLI11_PARSE(app, argc, argv);
   RequireGnuplot();
+  if (file.empty()) {
+    OutputDirectory out(directory);
+    for (const Figure& figure : TradeOffFigures(ReadPublished(directory))) {
+      out.Write(figure.file, figure.svg);
+    }
+    out.Commit();
+    return 0;
+  }
   ConvergenceResults results;
   results.rows = ReadComparison(file);
   results.cells = Summarize(results.rows);

@@ -110,7 +110,11 @@ std::string Findings(const ConvergenceResults& results) {
       "pipeline, Ipopt claims a solution that collides (the pipeline never "
       "returns it)",
       has_claims ? "some" : "none", !has_claims);
-  return text + "\n## What helps\n\n" + DuelLines(results);
+  return text + "\n## Won and lost\n\n" + DuelLines(results) +
+         "\nWhich part of PhongPD it is that helps, its memory, depth or "
+         "direction, and each scene by itself: "
+         "[what-helps.csv](what-helps.csv), [verdicts.csv](verdicts.csv), "
+         "[losses.csv](losses.csv).\n";
 }
 
 }  // namespace phongpd::bench

@@ -2,6 +2,7 @@
 #include "results/bench/convergence_report.h"
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -208,27 +209,39 @@ std::vector<NamedTable> Tables(const ConvergenceResults& results) {
   return tables;
 }
 
-std::vector<Figure> Figures(const ConvergenceResults& results) {
+std::vector<Figure> TradeOffFigures(const ConvergenceResults& results) {
   std::vector<Figure> figures;
-  for (const char* protocol : {"straight-monotone", "straight-adaptive"}) {
+  for (const char* name : {"straight-monotone", "straight-adaptive"}) {
+    const std::string protocol = name;
     if (Methods(results.cells, protocol).empty()) continue;
     figures.push_back(
-        {std::string("trade-off-") + protocol + ".svg",
-         "Speed against accuracy: what a longer smoothing length costs in "
-         "depth and gains in convergence, from straight, colliding starts.",
+        {"trade-off-" + protocol + ".svg",
+         "Speed against accuracy, " + protocol +
+             ": what a longer smoothing length costs in depth (left) and gains "
+             "in convergence from straight, colliding starts.",
          TradeOffFigure(results, protocol)});
   }
+  return figures;
+}
+
+std::vector<Figure> Figures(const ConvergenceResults& results) {
+  std::vector<Figure> figures = TradeOffFigures(results);
   for (const TrajectoryProtocol& protocol : TrajectoryProtocols()) {
     if (Methods(results.cells, protocol.name).size() < 2) continue;
-    const std::pair<const char*, const char*> measures[] = {
-        {"iterations", "iterations"},
-        {"jacobians", "evaluations/jacobian"},
-        {"seconds", "seconds/total"}};
-    for (const auto& [name, measure] : measures) {
+    // Name, place in a row, in words.
+    const std::array<const char*, 3> measures[] = {
+        {"iterations", "iterations", "iterations"},
+        {"jacobians", "evaluations/jacobian", "Jacobians"},
+        {"seconds", "seconds/total", "seconds"}};
+    for (const auto& [name, measure, words] : measures) {
       figures.push_back(
           {"profile-" + protocol.name + "-" + name + ".svg",
-           "Performance profile (Dolan and Moré) over all scenes and seeds.",
-           PerformanceProfile(results.rows, protocol.name, measure)});
+           "Performance profile (Dolan and Moré), " + protocol.name +
+               ": the share of all problems solved with at most x times the "
+               "fewest " +
+               words + " of any metric.",
+           PerformanceProfile(results.rows, protocol.name, measure),
+           std::string(name) != "iterations"});
     }
   }
   return figures;

@@ -52,11 +52,13 @@ std::string SolvedText(const ComparisonCell& cell);
 Table VerdictTable(const ConvergenceResults& results);
 // The study's own metrics (problems/studies/study_metrics.h) against both.
 Table WhatHelpsTable(const ConvergenceResults& results);
-// Its rows over all scenes, a line each.
+// PhongPD against Euclidean PD over all scenes, a line for each protocol.
 std::string DuelLines(const ConvergenceResults& results);
 Table LossTable(const ConvergenceResults& results);
 
 std::vector<NamedTable> Tables(const ConvergenceResults& results);
+// ℓ against depth, share solved and iterations: of cells and excess alone.
+std::vector<Figure> TradeOffFigures(const ConvergenceResults& results);
 std::vector<Figure> Figures(const ConvergenceResults& results);
 // Targets met and missed: the text above the tables (convergence_findings.cc).
 std::string Findings(const ConvergenceResults& results);

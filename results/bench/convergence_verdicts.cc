@@ -217,15 +217,14 @@ Table LossTable(const ConvergenceResults& results) {
 std::string DuelLines(const ConvergenceResults& results) {
   std::string text;
   for (const Match& match : GroupMatches(results)) {
-    // Fading is for narrow passages.
-    const bool is_told =
-        match.where == kMany || (match.own == kFaded && match.where == kNarrow);
-    if (!is_told) continue;
+    if (match.where != kMany || match.own != kPreset ||
+        match.rival != "euclidean") {
+      continue;
+    }
     const Duel& duel = match.duel;
     text += "- " + match.own + " against " + match.rival + ", " +
-            match.protocol +
-            (match.where == kMany ? std::string() : ", " + match.where) +
-            ": solved alone " + Ratio(duel.only_own, duel.only_rival) + " (" +
+            match.protocol + ": solved alone " +
+            Ratio(duel.only_own, duel.only_rival) + " (" +
             duel.SolvedVerdict() + "), fewer iterations " +
             Ratio(duel.fewer, duel.more) + ", median ratio " +
             duel.IterationsEffect() + " (" + duel.IterationsVerdict() + ").\n";

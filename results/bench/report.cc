@@ -128,11 +128,17 @@ std::string ToMarkdown(const std::vector<NamedTable>& tables,
             named.file + ")\n\n";
   }
   if (!figures.empty()) text += "## Figures\n\n";
+  std::string linked;
   for (const Figure& figure : figures) {
+    if (figure.is_linked) {
+      linked += (linked.empty() ? "More: [" : ", [") + figure.file + "](" +
+                figure.file + ")";
+      continue;
+    }
     text += "**" + figure.caption + "**\n\n![" + figure.caption + "](" +
             figure.file + ")\n\n";
   }
-  return text;
+  return linked.empty() ? text : text + linked + ".\n\n";
 }
 
 Pages SplitReadme(const std::string& text) {

@@ -51,6 +51,7 @@ struct Figure {
   std::string file;  // name in the output directory
   std::string caption;
   std::string svg;
+  bool is_linked = false;  // by its name, below those that are shown
 };
 
 std::string ToCsv(const Table& table);
