@@ -59,9 +59,10 @@ frame() { # PAGE TITLE
   pre { white-space: pre-wrap; overflow-wrap: anywhere; font-size: 13px; line-height: 1.45; padding: 12px;
         border: 1px solid var(--line); border-radius: 10px; }
   .wide { overflow-x: auto; }
+  .why td { white-space: normal; }
   table { border-collapse: collapse; font-size: 14px; width: 100%; }
   th, td { text-align: left; padding: 4px 12px 4px 0; border-bottom: 1px solid var(--line);
-           overflow-wrap: anywhere; min-width: 4.5em; }
+           min-width: 4.5em; }
   .why td { color: #888; padding-left: 16px; }
   .small { font-size: 14px; margin-top: 4px; }
   li { margin: 6px 0; max-width: 46em; }
