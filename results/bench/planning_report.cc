@@ -202,6 +202,13 @@ std::vector<NamedTable> Tables(const PlanningResults& results) {
       {"motions.csv", MotionTable(results)}};
 }
 
+// A straight passage, one with bends, and one that is turned: the others look
+// like one of them.
+bool IsShown(const std::string& scene) {
+  return scene == "hole:delta=0.001" || scene == "tunnel:delta=0.001,bends=3" ||
+         scene == "bugtrap:delta=0.001,rotation_seed=1";
+}
+
 std::vector<Figure> Figures(const PlanningResults& results) {
   std::vector<Figure> figures;
   std::set<std::string> seen;
@@ -214,7 +221,9 @@ std::vector<Figure> Figures(const PlanningResults& results) {
     for (char& c : file) {
       if (c == ':' || c == ',' || c == '=') c = '-';
     }
-    figures.push_back({file, "Solved within a time: " + scene + ".", svg});
+    figures.push_back({file,
+                       "The share of runs solved within a time: " + scene + ".",
+                       svg, !IsShown(scene)});
   }
   return figures;
 }
