@@ -10,12 +10,15 @@
 #include "problems/cli/command.h"
 #include "problems/cli/flags.h"
 #include "problems/cli/operands.h"
+#include "problems/cli/view_rows.h"
+#include "problems/cli/view_windows.h"
 #include "problems/meshes/any_mesh.h"
 #include "problems/meshes/operand_notes.h"
 #include "problems/output/json_text.h"
 #include "problems/output/output_files.h"
 #include "problems/output/points_csv.h"
 #include "problems/output/text.h"
+#include "problems/pictures/viewer/view_page.h"
 
 namespace phongpd::cli {
 namespace {
@@ -28,6 +31,7 @@ struct Flags {
   std::vector<std::string> at;
   std::string poses;
   std::string output = kStandardOutput;
+  std::string html;
   std::string max_radius;
   std::string repair = "reject";
   double max_seconds = 0.0;
@@ -152,6 +156,8 @@ TriangleMesh Operand(const std::string& path, const Flags& flags) {
 int Depth(const Flags& flags) {
   OutputFiles outputs;
   DeclareTable(&outputs, flags.output, "--output");
+  DeclareIfNamed(&outputs, flags.html, "--html", {".html", ".htm"});
+  if (!flags.html.empty()) RequireViewer();
   const std::vector<RobotPose> poses = PosesOf(flags);
   DepthOptions options;
   options.robot_name = flags.a;
@@ -170,12 +176,16 @@ int Depth(const Flags& flags) {
   for (const std::string& warning : query.warnings()) Warn(warning);
   const bool is_table = !flags.json && !flags.poses.empty();
   std::string text = is_table ? kHeader : "";
+  View view;
   bool is_certified = true;
   std::size_t done = 0;
   for (const RobotPose& pose : poses) {
     ProgressOf("poses", done++, poses.size());
     const DepthResult result = query.At(pose);
     is_certified = is_certified && result.certified;
+    if (!flags.html.empty()) {
+      view.answers.push_back(DepthAnswerOf(ToJson(pose, result)));
+    }
     if (flags.json) {
       text += JsonText(ToJson(pose, result)) + '\n';
     } else {
@@ -183,6 +193,13 @@ int Depth(const Flags& flags) {
     }
   }
   outputs.Write(flags.output, text);
+  if (!flags.html.empty()) {
+    view.title = flags.a + " in " + flags.b;
+    view.robot = a;
+    view.meshes.push_back({flags.b, ViewRole::kObstacle, b});
+    TellOfDepthWindows(false, &view);
+    outputs.Write(flags.html, ViewPage(view));
+  }
   outputs.Commit();
   return is_certified ? kDone : kNoAnswer;
 }
@@ -212,6 +229,10 @@ Command AddDepth(CLI::App* app) {
       ->type_name("FILE");
   AddRepair(app, &flags->repair);
   app->add_flag("--json", flags->json, "One JSON object for each pose");
+  app->add_option("--html", flags->html,
+                  "Page with both meshes, the way out, the points that touch "
+                  "after it and the windows that were built (as view makes it)")
+      ->type_name("FILE");
   app->add_option("--max-radius", flags->max_radius,
                   "Look no farther than this; what is deeper comes as a bound, "
                   "with exit code 1")
@@ -222,7 +243,8 @@ Command AddDepth(CLI::App* app) {
       ->check(AtLeast(0.0));
   AddExamples(app, {"phongpd depth robot.off obstacle.stl",
                     "phongpd depth robot.off obstacle.stl --at 0.3 0 0.1 "
-                    "--json",
+                    "--html depth.html",
+                    "phongpd depth robot.off obstacle.stl --json",
                     "phongpd depth robot.off obstacle.stl --pose poses.csv "
                     "--output depth.csv"});
   return [flags] { return Depth(*flags); };

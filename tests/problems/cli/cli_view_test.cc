@@ -162,6 +162,24 @@ TEST_F(CliView, KeepsTheIterationsOfOneRunForItsPage) {
   EXPECT_NE(both["notes"].dump().find("of a single run"), std::string::npos);
 }
 
+TEST_F(CliView, DepthShowsItsAnswersWithBothMeshes) {
+  WriteText("poses.csv", "x,y,z,qw,qx,qy,qz\n0.5,0,0,1,0,0,0\n7,0,0,1,0,0,0\n");
+  Prepare(
+      "depth ../cone.off ../box.off --pose ../poses.csv --json --html d.html",
+      "d.jsonl");
+  const Json page = TakeData("d.html");
+  EXPECT_EQ(Names(page["meshes"]), Strings({"../box.off"}));
+  EXPECT_EQ(page["meshes"][0]["role"], "obstacle");
+  EXPECT_EQ(page["robot"]["triangles"], 14);
+  ASSERT_EQ(page["answers"].size(), 2U);
+  // The same that view makes of the answers.
+  const Json data = Data("../d.jsonl ../box.off --robot ../cone.off");
+  EXPECT_EQ(data["answers"], page["answers"]);
+  EXPECT_EQ(data["robot"], page["robot"]);
+  ExpectRefused("depth ../cone.off ../box.off --html d.png",
+                {"--html", ".html", "d.png"});
+}
+
 TEST_F(CliView, TakesMotionsWithWhatTheTableDoesNotHold) {
   Prepare(
       "motion --robot ../cone.off --obstacle ../box.off --from -3 0 0.1 "
