@@ -60,16 +60,16 @@ Extent BoxOf(Iterator begin, Iterator end) {
   return box;
 }
 
-// Of the boxes' centres, twice as far from the origin.
-Extent TwiceTheMiddles(Iterator begin, Iterator end) {
-  Extent extent = NoExtent();
+// Of the boxes' centres.
+Extent MiddlesOf(Iterator begin, Iterator end) {
+  Extent extent = NoExtent();  // twice as far from the origin
   for (Iterator it = begin; it != end; ++it) {
     const Eigen::Array3d twice = it->box.head<3>() - it->box.tail<3>();
     Extent middle;
     middle << twice, -twice;
     Extend(middle, &extent);
   }
-  return extent;
+  return 0.5 * extent;
 }
 
 // The items of a range sorted into bins along one axis.  The first and the last
@@ -137,7 +137,7 @@ void Split(const Range& range, int child, std::vector<Item>* items, Range* left,
   const Iterator end = items->begin() + range.last;
   *left = {child, range.first, range.last, range.depth + 1, NoExtent()};
   *right = {child + 1, range.first, range.last, range.depth + 1, NoExtent()};
-  const Extent middles = 0.5 * TwiceTheMiddles(begin, end);
+  const Extent middles = MiddlesOf(begin, end);
   int axis = 0;
   const double extent = (middles.head<3>() + middles.tail<3>()).maxCoeff(&axis);
   Iterator middle;
