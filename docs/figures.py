@@ -221,7 +221,7 @@ class Field:
     """A polygon's boundary, cut finely, with normals diffused over it."""
 
     def __init__(self, shape, ell, steps=60):
-        points, normals, weights = [], [], []
+        points = []
         for a, b in edges(shape):
             for k in range(steps):
                 points.append(a + (k / steps) * (b - a))
