@@ -73,6 +73,19 @@ TriangleMesh RandomSoup(int vertices, int triangles, int grid,
   return mesh;
 }
 
+// Expects the count to be that of the other route, and returns it.
+std::size_t ExpectAgreement(const TriangleMesh& mesh,
+                            const std::vector<int>& labels) {
+  const std::size_t expected = CountBruteForce(mesh, labels);
+  EXPECT_EQ(CountSelfIntersections(mesh, labels), expected);
+  return expected;
+}
+
+Eigen::Matrix3d Turn() {
+  return Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, 2, 3).normalized())
+      .toRotationMatrix();
+}
+
 TEST(SelfIntersections, AgreeWithConstructedIntersectionsOfRandomSoups) {
   std::mt19937 random(1);
   std::size_t total = 0;
@@ -83,9 +96,7 @@ TEST(SelfIntersections, AgreeWithConstructedIntersectionsOfRandomSoups) {
       const TriangleMesh mesh = RandomSoup(14, 24, grid, &random);
       std::vector<int> labels;
       for (int t = 0; t < 24; ++t) labels.push_back(t % 5 == 0);
-      const std::size_t expected = CountBruteForce(mesh, labels);
-      EXPECT_EQ(CountSelfIntersections(mesh, labels), expected);
-      total += expected;
+      total += ExpectAgreement(mesh, labels);
     }
   }
   EXPECT_GT(total, 1000u);
@@ -94,9 +105,7 @@ TEST(SelfIntersections, AgreeWithConstructedIntersectionsOfRandomSoups) {
 // In one plane nothing but lines through edges parts triangles.
 TEST(SelfIntersections, AgreeWithConstructedIntersectionsInOnePlane) {
   std::mt19937 random(3);
-  const Eigen::Matrix3d turn =
-      Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, 2, 3).normalized())
-          .toRotationMatrix();
+  const Eigen::Matrix3d turn = Turn();
   std::size_t total = 0;
   for (const double scale : {1.0, 1e-95}) {
     for (int run = 0; run < 40; ++run) {
@@ -105,10 +114,8 @@ TEST(SelfIntersections, AgreeWithConstructedIntersectionsInOnePlane) {
       // Some stay in the plane exactly, some to rounding.
       if (run % 2 == 1) mesh = Rotated(mesh, turn);
       mesh = Scaled(mesh, scale);
-      const std::vector<int> labels(24, 0);
-      const std::size_t expected = CountBruteForce(mesh, labels);
-      EXPECT_EQ(CountSelfIntersections(mesh, labels), expected) << scale;
-      total += expected;
+      SCOPED_TRACE(scale);
+      total += ExpectAgreement(mesh, std::vector<int>(24, 0));
     }
   }
   EXPECT_GT(total, 1000u);
@@ -118,18 +125,14 @@ TEST(SelfIntersections, AgreeWithConstructedIntersectionsInOnePlane) {
 // bits: what doubles say of a side is wrong about as often as right.
 TEST(SelfIntersections, AgreeWithConstructedIntersectionsOfTurnedGrids) {
   std::mt19937 random(2);
-  const Eigen::Matrix3d turn =
-      Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, 2, 3).normalized())
-          .toRotationMatrix();
+  const Eigen::Matrix3d turn = Turn();
   std::size_t total = 0;
   for (const double scale : {1.0, 1e-30, 1e30, 1e-95}) {
     for (int run = 0; run < 25; ++run) {
       TriangleMesh mesh = RandomSoup(14, 24, 2, &random);
       for (Eigen::Vector3d& v : mesh.vertices) v = scale * (turn * v);
-      const std::vector<int> labels(24, 0);
-      const std::size_t expected = CountBruteForce(mesh, labels);
-      EXPECT_EQ(CountSelfIntersections(mesh, labels), expected) << scale;
-      total += expected;
+      SCOPED_TRACE(scale);
+      total += ExpectAgreement(mesh, std::vector<int>(24, 0));
     }
   }
   EXPECT_GT(total, 1000u);
