@@ -17,7 +17,6 @@ constexpr char kRival[] = "euclidean";
 constexpr char kDirected[] = "mixed@0.2";
 constexpr char kFaded[] = "faded@0.2";
 constexpr char kMany[] = "all";
-constexpr char kNarrow[] = "holes and tunnels";  // of SceneGroups
 
 struct Match {
   std::string where, protocol, own, rival;

@@ -12,7 +12,7 @@ enum class JumpClass {
   kSteep,      // continuous: gone where the step is divided
   kBug,        // none of these
 };
-constexpr int kJumpClasses = 4;
+inline constexpr int kJumpClasses = 4;
 const char* ToString(JumpClass kind);
 
 // The class of a jump from `a` to `b`; `before` is the follower that has

@@ -23,7 +23,7 @@
 // no rounding.
 namespace phongpd::bench {
 
-constexpr int kMotionSetVersion = 3;
+inline constexpr int kMotionSetVersion = 3;
 constexpr int kMotionGridBits = 20;  // a unit of length is 2²⁰ steps
 
 using GridVector = Eigen::Matrix<std::int64_t, 3, 1>;
@@ -56,7 +56,7 @@ enum class MotionClass {
   kThroughVertex,  // through or from a vertex
   kNearMiss,       // one of the last three, moved by one step along an axis
 };
-constexpr int kMotionClasses = 6;
+inline constexpr int kMotionClasses = 6;
 std::string Name(MotionClass kind);
 
 struct Motion {
