@@ -40,9 +40,9 @@ struct ConvolutionModel::Data {
        const ContactSpaceOptions& options)
       : limits(options),
         pair(MakePair(robot, obstacle, options, limits, &operands)),
-        space(pair, &limits),
+        space(pair, limits.max_mib()),
         bounds(space.Bounds()) {
-    report.facets = space.facets();
+    limits.Look("convolution");
     report.grid_step = pair.frame.rounding;
     report.approximation = operands.approximation;
     report.warnings = operands.warnings;
@@ -123,6 +123,7 @@ const BoundingBox& ConvolutionModel::bounds() const { return data_->bounds; }
 const ConvolutionReport& ConvolutionModel::report() const {
   return data_->report;
 }
+std::size_t ConvolutionModel::facets() const { return data_->space.facets(); }
 TriangleMesh ConvolutionModel::Mesh() const { return data_->space.Mesh(); }
 
 }  // namespace phongpd

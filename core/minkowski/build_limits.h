@@ -31,6 +31,9 @@ class BuildLimits {
     return cost.mib > max_mib_;
   }
 
+  // What it may take, whoever set the limit.
+  double max_mib() const { return max_mib_; }
+
   // From now on CancelBuilds stops this build, too.
   void ObserveCancellation();
 

@@ -35,8 +35,8 @@ class ConeTree {
 // (VertexCaps tells a vertex's normals up to their sign).
 enum class NormalMatch { kEqual, kEqualOrOpposite };
 
-// visit(i, j) for every feature i of P and j of Q whose boxes have a sum within
-// `window` and whose caps overlap; in no stated order.
+// visit(i, j) → bool for every feature i of P and j of Q whose boxes have a sum
+// within `window` and whose caps overlap; in no stated order; false stops.
 template <typename Visit>
 void ForEachPairIn(const ConeTree& p, const ConeTree& q, NormalMatch match,
                    const BoundingBox& window, const Visit& visit) {
@@ -64,10 +64,9 @@ void ForEachPairIn(const ConeTree& p, const ConeTree& q, NormalMatch match,
                may_match(p.Normals(i), q.Normals(j));
       },
       [&](int k, int l) {
-        if (caps_meet(p.Cap(k), q.Cap(l)) && is_in_window(p.Box(k), q.Box(l))) {
-          visit(p.tree().order()[k], q.tree().order()[l]);
-        }
-        return true;
+        return !caps_meet(p.Cap(k), q.Cap(l)) ||
+               !is_in_window(p.Box(k), q.Box(l)) ||
+               visit(p.tree().order()[k], q.tree().order()[l]);
       });
 }
 

@@ -2,27 +2,39 @@
 #include "core/minkowski/convolution_space.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
+#include "core/bvh/segment_reach.h"
 #include "core/mesh/finite.h"
+#include "core/minkowski/convolution.h"
 
 namespace phongpd::internal {
 namespace {
 
 using Eigen::Vector3d;
 
-// Grid points are exact in double.
-TriangleMesh AsMesh(const Convolution& convolution) {
-  TriangleMesh mesh;
-  mesh.vertices.reserve(convolution.points.size());
-  for (const GridPoint& p : convolution.points) {
-    mesh.vertices.push_back(ToDouble(p));
-  }
-  mesh.triangles.reserve(convolution.facets.size());
-  for (const ConvolutionFacet& f : convolution.facets) {
-    mesh.triangles.push_back(f.corners);
-  }
-  return mesh;
+constexpr double kNone = std::numeric_limits<double>::infinity();
+constexpr double kMib = 1024.0 * 1024.0;
+
+using Corners = std::array<Vector3d, 3>;
+
+// By their coordinates, so that those of several cells come out once each.
+void KeepDistinct(std::vector<Corners>* facets) {
+  const auto coordinates = [](const Corners& t) {
+    return std::array<double, 9>{t[0][0], t[0][1], t[0][2], t[1][0], t[1][1],
+                                 t[1][2], t[2][0], t[2][1], t[2][2]};
+  };
+  std::sort(facets->begin(), facets->end(),
+            [&](const Corners& a, const Corners& b) {
+              return coordinates(a) < coordinates(b);
+            });
+  facets->erase(std::unique(facets->begin(), facets->end()), facets->end());
+}
+
+Corners CornersOf(const TriangleMesh& mesh, int triangle) {
+  const Triangle& t = mesh.triangles[static_cast<std::size_t>(triangle)];
+  return {mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]};
 }
 
 // Of a radius: what rounding between the frames may take of it.
@@ -30,15 +42,12 @@ constexpr double kSlack = 1.0 + 0x1p-40;
 
 }  // namespace
 
-ConvolutionSpace::ConvolutionSpace(const GridPair& pair,
-                                   const BuildLimits* limits)
+ConvolutionSpace::ConvolutionSpace(const GridPair& pair, double max_mib)
     : pair_(pair),
       judge_(pair.obstacle, pair.reflected_robot),
-      mesh_(AsMesh(
-          ReducedConvolution(pair.obstacle, pair.reflected_robot, limits))) {
-  bounds_ = ComputeBounds(mesh_);
-  bvh_ = TriangleBvh(mesh_);
-}
+      cells_(pair.obstacle, pair.reflected_robot,
+             max_mib < 0x1p40 ? static_cast<std::size_t>(max_mib * kMib)
+                              : std::numeric_limits<std::size_t>::max()) {}
 
 Vector3d ConvolutionSpace::ToGrid(const Vector3d& q) const {
   return RoundedToFractions(pair_.frame.ToGrid(q));
@@ -47,75 +56,148 @@ Vector3d ConvolutionSpace::ToGrid(const Vector3d& q) const {
 bool ConvolutionSpace::IsFree(const Vector3d& q) const {
   const Vector3d x = ToGrid(q);
   if (!IsFinite(x)) return false;
-  const bool is_within = (x.array() >= bounds_.min.array()).all() &&
-                         (x.array() <= bounds_.max.array()).all();
+  const BoundingBox& box = cells_.bounds();
+  const bool is_within = (x.array() >= box.min.array()).all() &&
+                         (x.array() <= box.max.array()).all();
   return !is_within || !judge_.Collide(x);
 }
 
 bool ConvolutionSpace::IsFree(const Vector3d& a, const Vector3d& b) const {
   const Vector3d from = ToGrid(a), to = ToGrid(b);
-  return IsFinite(to) && IsFree(a) && !bvh_.Meets(from, to);
+  if (!IsFinite(to) || !IsFree(a)) return false;
+  const SegmentReach reach(from, to, cells_.largest());
+  bool meets = false;
+  cells_.NearestFirst(
+      1.0,
+      [&](const BoxTree::Node& box) {
+        return reach.Meets(box) ? reach.Entry(box) - 1.0 : kNone;
+      },
+      [&](const ConvolutionCells::Leaf& leaf) {
+        meets = leaf.bvh.Meets(from, to);
+        return meets ? -kNone : 1.0;
+      });
+  return !meets;
 }
 
 double ConvolutionSpace::FirstContact(const Vector3d& a,
                                       const Vector3d& b) const {
-  const Vector3d to = ToGrid(b);
+  const Vector3d from = ToGrid(a), to = ToGrid(b);
   if (!IsFinite(to)) return 0.0;
-  const TriangleBvh::Hit hit = bvh_.FirstHit(ToGrid(a), to);
-  return hit.Found() ? hit.fraction : 2.0;
+  const SegmentReach reach(from, to, cells_.largest());
+  double first = 2.0;
+  cells_.NearestFirst(
+      first,
+      [&](const BoxTree::Node& box) {
+        return reach.Meets(box) ? reach.Entry(box) : kNone;
+      },
+      [&](const ConvolutionCells::Leaf& leaf) {
+        const TriangleBvh::Hit hit = leaf.bvh.FirstHit(from, to);
+        if (hit.Found()) first = std::min(first, hit.fraction);
+        return first;
+      });
+  return first;
 }
 
 ConvolutionSpace::Nearest ConvolutionSpace::FindNearest(
     const Vector3d& q) const {
   const Vector3d x = ToGrid(q);
-  const TriangleBvh::Closest closest = bvh_.FindClosest(x);
-  Vector3d point = Vector3d::Zero();
-  for (int k = 0; k < 3; ++k) {
-    point += closest.lambda[k] *
-             mesh_.vertices[mesh_.triangles[closest.triangle][k]];
-  }
-  return {pair_.frame.ToUser(point), closest.distance * pair_.frame.step};
+  double least = kNone;
+  Vector3d nearest = Vector3d::Zero();
+  cells_.NearestFirst(
+      kNone,
+      [&](const BoxTree::Node& box) {
+        return std::sqrt(box.SquaredDistance(x));
+      },
+      [&](const ConvolutionCells::Leaf& leaf) {
+        const TriangleBvh::Closest closest = leaf.bvh.FindClosest(x);
+        if (closest.distance < least) {
+          least = closest.distance;
+          const Corners corners = CornersOf(leaf.mesh, closest.triangle);
+          nearest.setZero();
+          for (int k = 0; k < 3; ++k) nearest += closest.lambda[k] * corners[k];
+        }
+        return least;
+      });
+  return {pair_.frame.ToUser(nearest), least * pair_.frame.step};
 }
 
 double ConvolutionSpace::Distance(const Vector3d& a, const Vector3d& b,
                                   double limit) const {
+  const Vector3d from = ToGrid(a), to = ToGrid(b);
   const double step = pair_.frame.step;
-  return std::min(limit,
-                  step * bvh_.Distance(ToGrid(a), ToGrid(b), limit / step));
+  const SegmentReach reach(from, to, cells_.largest());
+  double least = limit / step;
+  cells_.NearestFirst(
+      least,
+      [&](const BoxTree::Node& box) {
+        return std::isinf(least) || reach.Meets(box, least) ? reach.Gap(box)
+                                                            : kNone;
+      },
+      [&](const ConvolutionCells::Leaf& leaf) {
+        return least = leaf.bvh.Distance(from, to, least);
+      });
+  return std::min(limit, step * least);
 }
 
-std::vector<std::array<Vector3d, 3>> ConvolutionSpace::FacetsNear(
-    const Vector3d& a, const Vector3d& b, double radius) const {
-  std::vector<std::array<Vector3d, 3>> near;
+std::vector<Corners> ConvolutionSpace::FacetsNear(const Vector3d& a,
+                                                  const Vector3d& b,
+                                                  double radius) const {
+  std::vector<Corners> near;
   const Vector3d from = ToGrid(a), to = ToGrid(b);
   if (!IsFinite(from) || !IsFinite(to)) return near;
   // In grid steps the segment is rounded by less than one.
-  const double reach = kSlack * radius / pair_.frame.step + 1.0;
-  bvh_.ForEachDoubt(from, to, reach, [&](int triangle, double) {
-    std::array<Vector3d, 3>& corners = near.emplace_back();
-    for (std::size_t k = 0; k < 3; ++k) {
-      corners[k] =
-          pair_.frame.ToUser(mesh_.vertices[mesh_.triangles[triangle][k]]);
-    }
-  });
+  const double distance = kSlack * radius / pair_.frame.step + 1.0;
+  const SegmentReach reach(from, to, cells_.largest());
+  cells_.NearestFirst(
+      kNone,
+      [&](const BoxTree::Node& box) {
+        return reach.Meets(box, distance) ? 0.0 : kNone;
+      },
+      [&](const ConvolutionCells::Leaf& leaf) {
+        leaf.bvh.ForEachDoubt(from, to, distance, [&](int triangle, double) {
+          near.push_back(CornersOf(leaf.mesh, triangle));
+        });
+        return kNone;
+      });
+  KeepDistinct(&near);
+  for (Corners& t : near) {
+    for (Vector3d& q : t) q = pair_.frame.ToUser(q);
+  }
   return near;
 }
 
 BoundingBox ConvolutionSpace::Bounds() const {
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  BoundingBox bounds{Vector3d::Constant(kInfinity),
-                     Vector3d::Constant(-kInfinity)};
-  for (const Vector3d& v : mesh_.vertices) {
-    const Vector3d q = pair_.frame.ToUser(v);
-    bounds.min = bounds.min.cwiseMin(q);
-    bounds.max = bounds.max.cwiseMax(q);
+  // A box of sums is the sum of boxes in any frame; one of the grid's corners
+  // is no corner of it where the grid is turned.
+  const Vector3d origin = pair_.frame.ToUser(Vector3d::Zero());
+  BoundingBox sum{origin, origin};
+  for (const GridSolid* solid : {&pair_.obstacle, &pair_.reflected_robot}) {
+    BoundingBox box{Vector3d::Constant(kNone), Vector3d::Constant(-kNone)};
+    for (const Triangle& t : solid->facets) {
+      for (const int v : t) {
+        const Vector3d q = pair_.frame.ToUser(ToDouble(solid->vertices[v]));
+        box.min = box.min.cwiseMin(q);
+        box.max = box.max.cwiseMax(q);
+      }
+    }
+    sum.min += box.min - origin;
+    sum.max += box.max - origin;
   }
-  return bounds;
+  return sum;
 }
 
 TriangleMesh ConvolutionSpace::Mesh() const {
-  TriangleMesh mesh = mesh_;
-  for (Vector3d& v : mesh.vertices) v = pair_.frame.ToUser(v);
+  const Convolution all =
+      ReducedConvolution(pair_.obstacle, pair_.reflected_robot);
+  TriangleMesh mesh;
+  mesh.vertices.reserve(all.points.size());
+  for (const GridPoint& p : all.points) {
+    mesh.vertices.push_back(pair_.frame.ToUser(ToDouble(p)));
+  }
+  mesh.triangles.reserve(all.facets.size());
+  for (const ConvolutionFacet& f : all.facets) {
+    mesh.triangles.push_back(f.corners);
+  }
   return mesh;
 }
 

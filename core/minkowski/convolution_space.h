@@ -4,17 +4,18 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstddef>
+#include <limits>
 #include <vector>
 
-#include "core/bvh/triangle_bvh.h"
-#include "core/minkowski/convolution.h"
+#include "core/minkowski/convolution_cells.h"
 #include "core/minkowski/grid_pair.h"
 #include "core/minkowski/solid_collision.h"
 
 namespace phongpd::internal {
 
 // What the reduced convolution alone tells of free space, exactly and without
-// an arrangement.
+// an arrangement; of it only the cells that questions lead to are made
+// (convolution_cells.h), each once.
 //
 // Directly behind each of its facets the operands overlap, and C_cont is part
 // of it.  A segment that starts free first meets it from the front, and what is
@@ -27,9 +28,11 @@ namespace phongpd::internal {
 // step (2^-50 of the operands), for which the answers are exact.  Thread-safe.
 class ConvolutionSpace {
  public:
-  // Keeps a reference.  Throws BuildRefusal when `limits` are passed.
-  explicit ConvolutionSpace(const GridPair& pair,
-                            const BuildLimits* limits = nullptr);
+  // Keeps a reference.  What questions lead to is kept up to `max_mib`, and
+  // beyond that made anew each time.
+  explicit ConvolutionSpace(
+      const GridPair& pair,
+      double max_mib = std::numeric_limits<double>::infinity());
 
   // Does A + q meet B nowhere?  False for non-finite q, and for q so far away
   // that it has no place on the grid.
@@ -54,14 +57,15 @@ class ConvolutionSpace {
                   double limit) const;
 
   // Corners of the facets within `radius` ≥ 0 of a segment, and perhaps of
-  // some a little farther.
+  // some a little farther; by their corners on the grid.
   std::vector<std::array<Eigen::Vector3d, 3>> FacetsNear(
       const Eigen::Vector3d& a, const Eigen::Vector3d& b, double radius) const;
 
   // Of the convolution, in the user's frame; rounded.
   BoundingBox Bounds() const;
-  std::size_t facets() const { return mesh_.triangles.size(); }
-  // The user's frame; rounded.
+  // Those made so far; some may be counted several times.
+  std::size_t facets() const { return cells_.facets(); }
+  // The whole convolution, made for this; the user's frame, rounded.
   TriangleMesh Mesh() const;
 
  private:
@@ -70,9 +74,7 @@ class ConvolutionSpace {
 
   const GridPair& pair_;
   SolidCollision judge_;
-  BoundingBox bounds_;  // of the convolution, grid steps
-  TriangleMesh mesh_;   // grid steps, exact
-  TriangleBvh bvh_;
+  ConvolutionCells cells_;
 };
 
 }  // namespace phongpd::internal

@@ -3,7 +3,8 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <utility>
+#include <array>
+#include <limits>
 
 #include "core/minkowski/facet_collector.h"
 
@@ -100,16 +101,43 @@ FeatureSums::FeatureSums(const GridSolid& p, const GridSolid& q)
 }
 
 WindowConvolution FeatureSums::Within(const BoundingBox& window) const {
-  using Pair = std::pair<int, int>;
+  return *Within(window, std::numeric_limits<std::size_t>::max());
+}
+
+std::optional<WindowConvolution> FeatureSums::Within(const BoundingBox& window,
+                                                     std::size_t most) const {
+  // Of P and of Q, and the side of CommonSide for edges.
+  using Sum = std::array<int, 3>;
+  std::array<std::vector<Sum>, 3> sums;
+  std::size_t found = 0;
+  const auto add_to = [&](std::vector<Sum>* list, const Sum& sum) {
+    list->push_back(sum);
+    return ++found <= most;
+  };
+  const auto find_facets = [&](const Operand& facets, const Operand& others,
+                               std::vector<Sum>* list) {
+    ForEachPairIn(facets.facets, others.vertices, NormalMatch::kEqualOrOpposite,
+                  window, [&](int f, int v) {
+                    return !facets.touching[f].Touches(others.stars, v) ||
+                           add_to(list, {f, v, 0});
+                  });
+  };
+  find_facets(p_, q_, &sums[0]);
+  if (found <= most) find_facets(q_, p_, &sums[1]);
+  if (found <= most) {
+    ForEachPairIn(p_.arcs, q_.arcs, NormalMatch::kEqual, window,
+                  [&](int e, int g) {
+                    const int side = CommonSide(p_.edges[e], q_.edges[g]);
+                    return side == 0 || add_to(&sums[2], {e, g, side});
+                  });
+  }
+  if (found > most) return std::nullopt;
+
   WindowConvolution out;
   FacetCollector collect(&out.convolution);
-  std::vector<Pair> pairs;
   int source = 0;
   // In the order of ReducedConvolution, whatever the trees look like.
-  const auto sorted = [&pairs]() -> const std::vector<Pair>& {
-    std::sort(pairs.begin(), pairs.end());
-    return pairs;
-  };
+  for (std::vector<Sum>& list : sums) std::sort(list.begin(), list.end());
   const auto keep = [&](std::size_t before, const SumOrigin& origin) {
     std::vector<ConvolutionFacet>& facets = out.convolution.facets;
     std::size_t kept = before;
@@ -124,32 +152,19 @@ WindowConvolution FeatureSums::Within(const BoundingBox& window) const {
     }
     facets.resize(kept);
   };
-  const auto add_facets = [&](const Operand& facets, const Operand& others,
-                              ContactKind kind) {
-    const bool of_p = kind == ContactKind::kObstacleFacet;
-    pairs.clear();
-    ForEachPairIn(facets.facets, others.vertices, NormalMatch::kEqualOrOpposite,
-                  window, [&](int f, int v) {
-                    if (facets.touching[f].Touches(others.stars, v)) {
-                      pairs.emplace_back(f, v);
-                    }
-                  });
-    for (const auto& [f, v] : sorted()) {
-      const std::size_t before = out.convolution.facets.size();
-      collect.AddFacet(facets.solid, f, others.solid.vertices[v], kind,
-                       source++);
-      keep(before, of_p ? SumOrigin{f, v} : SumOrigin{v, f});
-    }
-  };
-  add_facets(p_, q_, ContactKind::kObstacleFacet);
-  add_facets(q_, p_, ContactKind::kRobotFacet);
-
-  pairs.clear();
-  ForEachPairIn(p_.arcs, q_.arcs, NormalMatch::kEqual, window,
-                [&](int e, int g) { pairs.emplace_back(e, g); });
-  for (const auto& [e, g] : sorted()) {
-    const int side = CommonSide(p_.edges[e], q_.edges[g]);
-    if (side == 0) continue;
+  for (const auto& [f, v, none] : sums[0]) {
+    const std::size_t before = out.convolution.facets.size();
+    collect.AddFacet(p_.solid, f, q_.solid.vertices[v],
+                     ContactKind::kObstacleFacet, source++);
+    keep(before, {f, v});
+  }
+  for (const auto& [f, v, none] : sums[1]) {
+    const std::size_t before = out.convolution.facets.size();
+    collect.AddFacet(q_.solid, f, p_.solid.vertices[v],
+                     ContactKind::kRobotFacet, source++);
+    keep(before, {v, f});
+  }
+  for (const auto& [e, g, side] : sums[2]) {
     const std::size_t before = out.convolution.facets.size();
     collect.AddEdges(p_.solid, p_.edges[e], q_.solid, q_.edges[g], side,
                      source++);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "core/minkowski/cone_tree.h"
@@ -37,6 +39,10 @@ class FeatureSums {
 
   // Grid steps.
   WindowConvolution Within(const BoundingBox& window) const;
+  // The same, or nothing as soon as more than `most` sums are found: boxes of
+  // two features whose sum meets the window, and which touch.
+  std::optional<WindowConvolution> Within(const BoundingBox& window,
+                                          std::size_t most) const;
 
   // Of all sums, grid steps.
   const BoundingBox& bounds() const { return bounds_; }

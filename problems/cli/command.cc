@@ -137,8 +137,8 @@ void TellAboutSpaces(const World& world, std::size_t triangles) {
   for (const std::string& warning : report.warnings) Warn(warning);
   if (world.BuiltConvolution() != nullptr) {
     Progress("free space alone: " +
-             Counted(world.BuiltConvolution()->facets, "facet") + ", " +
-             Rounded(report.seconds) + " s");
+             Counted(world.BuiltConvolution()->facets(), "facet") +
+             " modelled, ready after " + Rounded(report.seconds) + " s");
   }
   if (report.contact_spaces == 0) return;
   std::string kept;

@@ -152,7 +152,6 @@ struct World::Impl {
       const ConvolutionModel& model = all->models.emplace_back(
           Called(workspace.robot, "robot"),
           Called(JoinedObstacle(workspace), "obstacles"), Options());
-      all->facets = model.report().facets;
       const std::lock_guard<std::mutex> lock(report_mutex);
       ++report.convolutions;
       report.warnings.insert(report.warnings.end(),
@@ -175,6 +174,12 @@ struct World::Impl {
   std::mutex report_mutex;
   WorldReport report;
 };
+
+std::size_t WorldConvolution::facets() const {
+  std::size_t facets = 0;
+  for (const ConvolutionModel& model : models) facets += model.facets();
+  return facets;
+}
 
 World::World(Workspace workspace, const std::string& name,
              const ContactSpaceCache& cache, const WorldLimits& limits)

@@ -35,13 +35,15 @@ struct WorldSpaces {
   std::vector<TriangleMesh> Meshes() const;
 };
 
-// Free space alone, without contact spaces: what there is to build for whoever
-// only asks whether motions are free and how much room they have.
+// Free space alone, without contact spaces, and of the convolution only what
+// questions lead to: all there is to model for whoever only asks whether
+// motions are free and how much room they have.
 struct WorldConvolution {
   std::vector<ConvolutionModel> models;  // one of all obstacles, or none
   // Of that and the bounds.
   std::shared_ptr<const FreeSpace> free_space;
-  std::size_t facets = 0;  // of the models
+
+  std::size_t facets() const;  // modelled so far
 };
 
 // What a world may spend on one contact space (ContactSpaceOptions).

@@ -17,13 +17,16 @@ double CpuSeconds();
 
 struct FreeSpaceRow {
   std::string name;
-  std::size_t robot = 0, obstacle = 0;  // triangles
-  double full_seconds = 0.0;            // CPU
-  double seconds = 0.0;                 // CPU
-  std::size_t facets = 0;
+  std::size_t robot = 0, obstacle = 0;   // triangles
+  double full_seconds = 0.0;             // CPU
+  double seconds = 0.0;                  // CPU, until questions can be asked
+  double first_milliseconds = 0.0;       // CPU, of the first motion check
+  std::size_t facets = 0, modelled = 0;  // of the convolution; of it by all
+                                         // checks, some several times
   int segments = 0, free = 0, disagreements = 0;
-  double worst_clearance = 0.0;                        // difference, share of D
-  double full_microseconds = 0.0, microseconds = 0.0;  // per motion check
+  double worst_clearance = 0.0;  // difference, share of D
+  // CPU, per motion check: of all, what they model included, and once more.
+  double full_microseconds = 0.0, microseconds = 0.0, again_microseconds = 0.0;
 };
 
 // Random segments in the box of the contact space, a tenth of its size on

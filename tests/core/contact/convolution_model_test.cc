@@ -89,7 +89,8 @@ TEST(ConvolutionModel, AgreesWithTheContactSpaceOnEverySegment) {
     const FreeSpace truth({space});
     const ConvolutionModel model(pair.robot, pair.obstacle);
     const FreeSpace found = FreeSpace::OfConvolutions({model});
-    EXPECT_EQ(model.report().facets, space.report().convolution_triangles);
+    EXPECT_EQ(model.Mesh().triangles.size(),
+              space.report().convolution_triangles);
     EXPECT_EQ(model.report().grid_step, space.report().grid_step);
     const double diagonal = space.bounds().Diagonal();
     EXPECT_LT((model.bounds().min - space.bounds().min).norm(),
