@@ -114,9 +114,16 @@ double ConvolutionModel::Clearance(const Vector3d& a, const Vector3d& b,
   return IsFree(a, b) ? data_->space.Distance(a, b, limit) : 0.0;
 }
 
-std::vector<std::array<Vector3d, 3>> ConvolutionModel::FacetsNear(
-    const Vector3d& a, const Vector3d& b, double radius) const {
-  return data_->space.FacetsNear(a, b, radius);
+std::vector<Separator> ConvolutionModel::FindSeparators(const Vector3d& a,
+                                                        const Vector3d& b,
+                                                        double radius,
+                                                        double slack) const {
+  std::vector<Separator> separators;
+  for (const auto& facet : data_->space.FindSeparating(a, b, radius, slack)) {
+    const Separator one = SeparatorOf(facet, a, b);
+    if (one.distance <= radius) separators.push_back(one);
+  }
+  return separators;
 }
 
 const BoundingBox& ConvolutionModel::bounds() const { return data_->bounds; }

@@ -2,13 +2,13 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <array>
 #include <cstddef>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "core/bounds/approximation.h"
+#include "core/bvh/separators.h"
 #include "core/minkowski/contact_space_options.h"
 #include "core/solid/solid.h"
 
@@ -79,11 +79,13 @@ class ConvolutionModel {
   double Clearance(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
                    double limit) const;
 
-  // Corners of the convolution's facets within `radius` ≥ 0 of the segment
-  // between finite points, and of some a little farther.  What C_cont has
-  // there is part of them; others are hidden inside C_obj.
-  std::vector<std::array<Eigen::Vector3d, 3>> FacetsNear(
-      const Eigen::Vector3d& a, const Eigen::Vector3d& b, double radius) const;
+  // Facets of the convolution whose planes keep the segment between finite
+  // points from all others within `radius` ≥ 0, `slack` ≥ 0 (separators.h).
+  // What C_cont has there is part of them; others are hidden inside C_obj.
+  // Facets that the planes hide are not modelled for it.
+  std::vector<Separator> FindSeparators(const Eigen::Vector3d& a,
+                                        const Eigen::Vector3d& b, double radius,
+                                        double slack) const;
 
   // Of C_cont.
   const BoundingBox& bounds() const;

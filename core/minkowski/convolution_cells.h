@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <memory>
 #include <utility>
+#include <vector>
 
 #include "core/bvh/box_tree.h"
 #include "core/bvh/triangle_bvh.h"
@@ -46,6 +47,41 @@ class ConvolutionCells {
                     const Visit& visit) const {
     Search<Bound, Visit>{*this, bound, visit, limit}.In(root_, bound(root_.box),
                                                         true);
+  }
+
+  // The boxes in the order of their keys: key(box) → lower bound; needs(key,
+  // box) → is what is in it to be looked at?, asked of each in its turn;
+  // visit(leaf), which lives until done() has returned, which is called last.
+  template <typename Key, typename Needs, typename Visit, typename Done>
+  void BestFirst(const Key& key, const Needs& needs, const Visit& visit,
+                 const Done& done) const {
+    struct Waiting {
+      double key;
+      const Cell* cell;
+      bool is_kept;
+    };
+    const auto is_later = [](const Waiting& a, const Waiting& b) {
+      return a.key > b.key;
+    };
+    std::vector<Waiting> queue = {{key(root_.box), &root_, true}};
+    std::vector<std::unique_ptr<const Content>> mine;
+    while (!queue.empty()) {
+      std::pop_heap(queue.begin(), queue.end(), is_later);
+      const Waiting next = queue.back();
+      queue.pop_back();
+      if (!needs(next.key, next.cell->box)) continue;
+      mine.emplace_back();
+      const Content& content = Look(*next.cell, next.is_kept, &mine.back());
+      const bool is_kept = mine.back() == nullptr;
+      if (is_kept) mine.pop_back();
+      if (content.leaf != nullptr) visit(*content.leaf);
+      for (int k = 0; content.halves != nullptr && k < 2; ++k) {
+        const Cell& half = content.halves[k];
+        queue.push_back({key(half.box), &half, is_kept});
+        std::push_heap(queue.begin(), queue.end(), is_later);
+      }
+    }
+    done();
   }
 
   // Of all sums.

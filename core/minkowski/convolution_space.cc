@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "core/bvh/segment_reach.h"
+#include "core/bvh/separators.h"
 #include "core/mesh/finite.h"
 #include "core/minkowski/convolution.h"
 
@@ -18,19 +19,6 @@ constexpr double kNone = std::numeric_limits<double>::infinity();
 constexpr double kMib = 1024.0 * 1024.0;
 
 using Corners = std::array<Vector3d, 3>;
-
-// By their coordinates, so that those of several cells come out once each.
-void KeepDistinct(std::vector<Corners>* facets) {
-  const auto coordinates = [](const Corners& t) {
-    return std::array<double, 9>{t[0][0], t[0][1], t[0][2], t[1][0], t[1][1],
-                                 t[1][2], t[2][0], t[2][1], t[2][2]};
-  };
-  std::sort(facets->begin(), facets->end(),
-            [&](const Corners& a, const Corners& b) {
-              return coordinates(a) < coordinates(b);
-            });
-  facets->erase(std::unique(facets->begin(), facets->end()), facets->end());
-}
 
 Corners CornersOf(const TriangleMesh& mesh, int triangle) {
   const Triangle& t = mesh.triangles[static_cast<std::size_t>(triangle)];
@@ -139,31 +127,29 @@ double ConvolutionSpace::Distance(const Vector3d& a, const Vector3d& b,
   return std::min(limit, step * least);
 }
 
-std::vector<Corners> ConvolutionSpace::FacetsNear(const Vector3d& a,
-                                                  const Vector3d& b,
-                                                  double radius) const {
-  std::vector<Corners> near;
+std::vector<Corners> ConvolutionSpace::FindSeparating(const Vector3d& a,
+                                                      const Vector3d& b,
+                                                      double radius,
+                                                      double slack) const {
   const Vector3d from = ToGrid(a), to = ToGrid(b);
-  if (!IsFinite(from) || !IsFinite(to)) return near;
+  if (!IsFinite(from) || !IsFinite(to)) return {};
   // In grid steps the segment is rounded by less than one.
-  const double distance = kSlack * radius / pair_.frame.step + 1.0;
-  const SegmentReach reach(from, to, cells_.largest());
-  cells_.NearestFirst(
-      kNone,
-      [&](const BoxTree::Node& box) {
-        return reach.Meets(box, distance) ? 0.0 : kNone;
+  const double step = pair_.frame.step;
+  SeparatorSearch search(from, to, kSlack * radius / step + 1.0, slack / step);
+  cells_.BestFirst(
+      [&](const BoxTree::Node& box) { return search.Gap(box); },
+      [&](double gap, const BoxTree::Node& box) {
+        search.AdvanceTo(gap);
+        return search.Needs(box);
       },
-      [&](const ConvolutionCells::Leaf& leaf) {
-        leaf.bvh.ForEachDoubt(from, to, distance, [&](int triangle, double) {
-          near.push_back(CornersOf(leaf.mesh, triangle));
-        });
-        return kNone;
-      });
-  KeepDistinct(&near);
-  for (Corners& t : near) {
+      [&](const ConvolutionCells::Leaf& leaf) { search.Add(leaf.bvh); },
+      [&] { search.AdvanceTo(kNone); });
+  std::vector<Corners> facets;
+  for (const Separator& found : search.found()) {
+    Corners& t = facets.emplace_back(found.corners);
     for (Vector3d& q : t) q = pair_.frame.ToUser(q);
   }
-  return near;
+  return facets;
 }
 
 BoundingBox ConvolutionSpace::Bounds() const {

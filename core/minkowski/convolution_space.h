@@ -56,10 +56,12 @@ class ConvolutionSpace {
   double Distance(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
                   double limit) const;
 
-  // Corners of the facets within `radius` ≥ 0 of a segment, and perhaps of
-  // some a little farther; by their corners on the grid.
-  std::vector<std::array<Eigen::Vector3d, 3>> FacetsNear(
-      const Eigen::Vector3d& a, const Eigen::Vector3d& b, double radius) const;
+  // Corners of the facets whose planes keep a free segment from all others
+  // within `radius` ≥ 0 (separators.h), `slack` in the user's unit; facets of
+  // cells that are all behind such planes are never made.
+  std::vector<std::array<Eigen::Vector3d, 3>> FindSeparating(
+      const Eigen::Vector3d& a, const Eigen::Vector3d& b, double radius,
+      double slack) const;
 
   // Of the convolution, in the user's frame; rounded.
   BoundingBox Bounds() const;

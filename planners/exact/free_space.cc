@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "planners/exact/free_space.h"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
 
-#include "core/bvh/segment_triangle_distance.h"
 #include "core/bvh/triangle_bvh.h"
 #include "core/mesh/finite.h"
 #include "core/mesh/mesh_error.h"
@@ -20,23 +18,6 @@ using Eigen::Vector3d;
 // Can distances from q be told?  q and q − centre must be finite.
 bool Accepts(const TriangleBvh& tree, const Vector3d& q) {
   return IsFinite(q - tree.center());
-}
-
-// How a triangle and a segment are to each other.
-FreeSpace::NearTriangle ToldApart(const std::array<Vector3d, 3>& corners,
-                                  const Vector3d& a, const Vector3d& b) {
-  FreeSpace::NearTriangle found;
-  found.corners = corners;
-  const SegmentTrianglePair pair = ClosestPair(
-      Vector3d::Zero(), b - a, corners[0] - a, corners[1] - a, corners[2] - a);
-  found.distance = std::sqrt(pair.squared_distance);
-  found.normal = (pair.on_segment - pair.on_triangle).stableNormalized();
-  // Wherever rounding put the pair, the triangle is below its plane.
-  found.level = -std::numeric_limits<double>::infinity();
-  for (const Vector3d& q : corners) {
-    found.level = std::max(found.level, found.normal.dot(q));
-  }
-  return found;
 }
 
 }  // namespace
@@ -190,36 +171,31 @@ double FreeSpace::Clearance(const Vector3d& q) const {
   return clearance;
 }
 
-std::vector<FreeSpace::NearTriangle> FreeSpace::FindNear(const Vector3d& a,
-                                                         const Vector3d& b,
-                                                         double radius) const {
-  std::vector<NearTriangle> near;
-  if (!IsFinite(a) || !IsFinite(b) || !std::isgreaterequal(radius, 0.0)) {
-    return near;
+std::vector<Separator> FreeSpace::FindSeparators(const Vector3d& a,
+                                                 const Vector3d& b,
+                                                 double radius,
+                                                 double slack) const {
+  std::vector<Separator> found;
+  if (!IsFinite(a) || !IsFinite(b) || !std::isgreaterequal(radius, 0.0) ||
+      !std::isgreaterequal(slack, 0.0)) {
+    return found;
   }
-  for (const ContactSpace& space : impl_->spaces) {
-    if (!Accepts(space.bvh(), a) || !Accepts(space.bvh(), b)) continue;
-    const TriangleMesh& mesh = space.mesh();
-    space.bvh().ForEachDoubt(a, b, radius, [&](int triangle, double) {
-      const Triangle& t = mesh.triangles[triangle];
-      const NearTriangle found = ToldApart(
-          {mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]}, a,
-          b);
-      if (found.distance <= radius) near.push_back(found);
-    });
+  SeparatorSearch search(a, b, radius, slack);
+  for (const TriangleBvh* tree : impl_->trees) {
+    if (Accepts(*tree, a) && Accepts(*tree, b)) search.Add(*tree);
   }
+  search.AdvanceTo(std::numeric_limits<double>::infinity());
+  found = search.found();
   for (const ConvolutionModel& model : impl_->models) {
-    for (const std::array<Vector3d, 3>& corners :
-         model.FacetsNear(a, b, radius)) {
-      const NearTriangle found = ToldApart(corners, a, b);
-      if (found.distance <= radius) near.push_back(found);
+    for (const Separator& one : model.FindSeparators(a, b, radius, slack)) {
+      found.push_back(one);
     }
   }
-  std::stable_sort(near.begin(), near.end(),
-                   [](const NearTriangle& one, const NearTriangle& other) {
+  std::stable_sort(found.begin(), found.end(),
+                   [](const Separator& one, const Separator& other) {
                      return one.distance < other.distance;
                    });
-  return near;
+  return found;
 }
 
 double FreeSpace::Clearance(const Vector3d& a, const Vector3d& b) const {

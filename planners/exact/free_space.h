@@ -2,10 +2,10 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <array>
 #include <memory>
 #include <vector>
 
+#include "core/bvh/separators.h"
 #include "core/contact/contact_space.h"
 #include "core/contact/convolution_model.h"
 #include "core/mesh/triangle_mesh.h"
@@ -70,22 +70,14 @@ class FreeSpace {
   // convex, so its ends tell their distance.
   double Clearance(const Eigen::Vector3d& a, const Eigen::Vector3d& b) const;
 
-  // The contact triangles within `radius` of a segment, the nearest first
-  // (bounds have none).  Of convolution models all facets, those hidden behind
-  // C_cont too.  Rounded; nothing for non-finite points or a radius
-  // that is not ≥ 0.
-  struct NearTriangle {
-    double distance = 0.0;
-    // Unit, from the triangle's closest point to the segment's; zero where
-    // they meet.  No point of the triangle is above the plane normal · x =
-    // level, none of the segment below that of level + distance.
-    Eigen::Vector3d normal = Eigen::Vector3d::Zero();
-    double level = 0.0;
-    std::array<Eigen::Vector3d, 3> corners;
-  };
-  std::vector<NearTriangle> FindNear(const Eigen::Vector3d& a,
-                                     const Eigen::Vector3d& b,
-                                     double radius) const;
+  // Planes that keep a segment from all contact triangles within `radius`, the
+  // nearest first (bounds have none): of triangles those that are not behind,
+  // or no more than `slack` above, the plane of a nearer one (separators.h).
+  // Of convolution models facets, those hidden behind C_cont too.  Rounded;
+  // nothing for non-finite points or lengths that are not ≥ 0.
+  std::vector<Separator> FindSeparators(const Eigen::Vector3d& a,
+                                        const Eigen::Vector3d& b, double radius,
+                                        double slack) const;
 
   // Empty where the answers come from convolution models, and the other way
   // round.

@@ -56,26 +56,17 @@ Corridor FindCorridor(const TrajectoryProblem& problem,
   Corridor corridor;
   const double unit = springs.unit;
   for (std::size_t i = 0; i + 1 < path.size(); ++i) {
-    const auto near =
-        problem.free_space->FindNear(path[i], path[i + 1], reach * unit);
+    const std::vector<Separator> separators =
+        problem.free_space->FindSeparators(path[i], path[i + 1], reach * unit,
+                                           kRounding * unit);
     std::vector<Corridor::Plane> planes;
-    for (const FreeSpace::NearTriangle& triangle : near) {
-      const auto is_behind = [&](const Corridor::Plane& plane) {
-        return std::all_of(
-            triangle.corners.begin(), triangle.corners.end(),
-            [&](const Vector3d& q) {
-              return plane.normal.dot((q - springs.center) / unit) <=
-                     plane.level + kRounding;
-            });
-      };
-      if (std::any_of(planes.begin(), planes.end(), is_behind)) continue;
-      planes.push_back(
-          {triangle.normal,
-           (triangle.level - triangle.normal.dot(springs.center)) / unit,
-           triangle.distance / unit});
+    for (const Separator& one : separators) {
+      planes.push_back({one.normal,
+                        (one.level - one.normal.dot(springs.center)) / unit,
+                        one.distance / unit});
     }
     const double wanted = Attainable(planes, problem.margin);
-    const double clearance = near.empty() ? wanted : near[0].distance / unit;
+    const double clearance = planes.empty() ? wanted : planes[0].distance;
     corridor.wanted.push_back(wanted);
     corridor.missing.push_back(std::max(0.0, wanted - clearance));
     corridor.planes.push_back(std::move(planes));

@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -187,37 +189,62 @@ TEST(ConvolutionModel, AgreesWithRationalArithmeticOnLatticeWorlds) {
   EXPECT_GT(blocked, 1000);
 }
 
-TEST(ConvolutionModel, TellsTheTrianglesNearASegment) {
+// Behind their planes are all facets nearby, and they are as near as C_cont.
+TEST(ConvolutionModel, FindsTheSeparatorsOfASegment) {
   std::mt19937_64 random(7);
-  const TriangleMesh robot = MakeStar(0.3, 0.7);
-  const TriangleMesh obstacle = MakeTorus(2, 0.6, 12, 6);
-  const FreeSpace truth({BuildContactSpace(robot, obstacle)});
-  const ConvolutionModel model(robot, obstacle);
-  const FreeSpace found = FreeSpace::OfConvolutions({model});
-  int told = 0;
-  for (int i = 0; i < 300; ++i) {
-    const Vector3d a = testing::RandomPoint(model.bounds(), &random);
-    const Vector3d b =
-        a + 0.1 * (testing::RandomPoint(model.bounds(), &random) - a);
-    if (!truth.IsFree(a, b)) continue;
-    const double radius = 0.4;
-    const auto near = found.FindNear(a, b, radius);
-    const auto expected = truth.FindNear(a, b, radius);
-    ASSERT_EQ(near.empty(), expected.empty());
-    if (near.empty()) continue;
-    EXPECT_NEAR(near.front().distance, expected.front().distance, 1e-12);
-    for (const FreeSpace::NearTriangle& triangle : near) {
-      for (const Vector3d& q : triangle.corners) {
-        ASSERT_LE(triangle.normal.dot(q), triangle.level);
+  std::size_t told = 0, around = 0;
+  for (const Pair& pair : Pairs()) {
+    SCOPED_TRACE(pair.name);
+    const ContactSpace contact = BuildContactSpace(pair.robot, pair.obstacle);
+    const FreeSpace truth({contact});
+    const ConvolutionModel model(pair.robot, pair.obstacle);
+    const FreeSpace found = FreeSpace::OfConvolutions({model});
+    const TriangleMesh facets = model.Mesh();
+    const double size = contact.bounds().Diagonal(), slack = 1e-9 * size;
+    for (int i = 0; i < 200; ++i) {
+      const Vector3d a = testing::RandomPoint(model.bounds(), &random);
+      const Vector3d b =
+          a + 0.1 * (testing::RandomPoint(model.bounds(), &random) - a);
+      if (!truth.IsFree(a, b)) continue;
+      const double radius = 0.1 * size;
+      const auto near = found.FindSeparators(a, b, radius, slack);
+      const auto expected = truth.FindSeparators(a, b, radius, slack);
+      ASSERT_EQ(near.empty(), expected.empty());
+      if (near.empty()) continue;
+      EXPECT_NEAR(near.front().distance, expected.front().distance,
+                  1e-12 * size);
+      for (std::size_t k = 0; k < near.size(); ++k) {
+        ASSERT_TRUE(k == 0 || near[k - 1].distance <= near[k].distance);
+        for (const Vector3d& q : near[k].corners) {
+          ASSERT_LE(near[k].normal.dot(q), near[k].level);
+        }
+        // Closer than that, rounding turns the normal.
+        if (near[k].distance < 1e-5 * size) continue;
+        for (const Vector3d& q : {a, b}) {
+          ASSERT_GE(near[k].normal.dot(q),
+                    near[k].level + near[k].distance - 1e-10 * size);
+        }
       }
-      for (const Vector3d& q : {a, b}) {
-        ASSERT_GE(triangle.normal.dot(q),
-                  triangle.level + triangle.distance - 1e-12);
+      for (const Triangle& t : facets.triangles) {
+        std::array<Vector3d, 3> corners;
+        for (std::size_t k = 0; k < 3; ++k) {
+          corners[k] = facets.vertices[t[k]];
+        }
+        if (SeparatorOf(corners, a, b).distance > 0.999 * radius) continue;
+        ++around;
+        ASSERT_TRUE(
+            std::any_of(near.begin(), near.end(), [&](const Separator& plane) {
+              return std::all_of(
+                  corners.begin(), corners.end(), [&](const Vector3d& q) {
+                    return plane.normal.dot(q) <= plane.level + 2.0 * slack;
+                  });
+            }));
       }
+      told += near.size();
     }
-    told += static_cast<int>(near.size());
   }
-  EXPECT_GT(told, 500);
+  EXPECT_GT(told, 1000U);
+  EXPECT_GT(around, 20U * told);
 }
 
 TEST(ConvolutionModel, StopsAtTheBounds) {
@@ -254,7 +281,7 @@ TEST(ConvolutionModel, HasNothingFreeAtPointsThatAreNotFinite) {
     EXPECT_FALSE(space.Check(q, bad).free);
     EXPECT_EQ(space.Clearance(bad), 0.0);
     EXPECT_EQ(space.Clearance(q, bad), 0.0);
-    EXPECT_TRUE(space.FindNear(q, bad, 1.0).empty());
+    EXPECT_TRUE(space.FindSeparators(q, bad, 1.0, 0.0).empty());
     EXPECT_EQ(model.FindNearest(bad).distance, 0.0);
     EXPECT_EQ(model.FirstContact(q, bad), 0.0);
     EXPECT_EQ(model.FirstContact(bad, q), 0.0);

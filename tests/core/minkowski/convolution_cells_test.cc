@@ -166,11 +166,11 @@ TEST(ConvolutionCells, ModelOnlyWhatQuestionsLeadTo) {
     const Vector3d b = a + 0.1 * (testing::RandomPoint(box, &random) - a);
     const double contact = space.FirstContact(a, b);
     const double distance = space.Distance(a, b, size.norm());
-    const auto near = space.FacetsNear(a, b, 0.05);
+    const auto near = space.FindSeparating(a, b, 0.05, 1e-9);
     const std::size_t facets = space.facets();
     EXPECT_EQ(space.FirstContact(a, b), contact);
     EXPECT_EQ(space.Distance(a, b, size.norm()), distance);
-    EXPECT_EQ(space.FacetsNear(a, b, 0.05), near);
+    EXPECT_EQ(space.FindSeparating(a, b, 0.05, 1e-9), near);
     EXPECT_EQ(space.facets(), facets);
   }
 }
@@ -191,7 +191,8 @@ TEST(ConvolutionCells, AnswerTheSameWithoutRoomToKeepAnything) {
         EXPECT_EQ(space.FirstContact(a, b), truth.FirstContact(a, b));
         EXPECT_EQ(space.FindNearest(a).distance, truth.FindNearest(a).distance);
         EXPECT_EQ(space.Distance(a, b, 0.5), truth.Distance(a, b, 0.5));
-        EXPECT_EQ(space.FacetsNear(a, b, 0.05), truth.FacetsNear(a, b, 0.05));
+        EXPECT_EQ(space.FindSeparating(a, b, 0.05, 1e-9),
+                  truth.FindSeparating(a, b, 0.05, 1e-9));
       }
       // 150 bytes a facet, nearly.
       EXPECT_LT(static_cast<double>(space.facets()),

@@ -111,42 +111,75 @@ TEST(FreeSpace, AgreesWithDenseChecksOfTheOriginalMeshes) {
   EXPECT_GT(blocked, 50);
 }
 
-TEST(FreeSpace, FindsTheTrianglesNearASegment) {
-  const TriangleMesh mesh =
-      Translated(MakeTorus(1.0, 0.3, 16, 8), {1000.0, 0.0, 0.0});
-  const FreeSpace space({TakeAsContactSpace(mesh)});
-  std::mt19937_64 random(11);
-  const BoundingBox box = ComputeBounds(mesh);
-  int found = 0;
-  for (int i = 0; i < 200; ++i) {
-    const Vector3d a = testing::RandomPoint(box, &random);
-    const Vector3d b = a + 0.1 * (testing::RandomPoint(box, &random) - a);
-    if (!space.IsFree(a, b)) continue;
-    const double radius = 0.3;
-    const auto near = space.FindNear(a, b, radius);
-    std::size_t expected = 0;
-    for (const Triangle& t : mesh.triangles) {
-      // Truth: TriangleBvh on the triangle alone.
-      const TriangleMesh one = {
-          {mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]},
-          {{0, 1, 2}}};
-      expected += TriangleBvh(one).Distance(a, b, 2.0 * radius) <= radius;
-    }
-    ASSERT_EQ(near.size(), expected);
-    for (std::size_t k = 0; k < near.size(); ++k) {
-      const FreeSpace::NearTriangle& triangle = near[k];
-      ASSERT_TRUE(k == 0 || near[k - 1].distance <= triangle.distance);
-      for (const Vector3d& q : triangle.corners) {
-        ASSERT_LE(triangle.normal.dot(q), triangle.level);
-      }
-      for (const Vector3d& q : {a, b}) {
-        ASSERT_GE(triangle.normal.dot(q),
-                  triangle.level + triangle.distance - 1e-11);
-      }
-    }
-    found += static_cast<int>(near.size());
+// Truth: every triangle by itself, the nearest first.
+std::vector<Separator> SeparatorsByForce(const TriangleMesh& mesh,
+                                         const Vector3d& a, const Vector3d& b,
+                                         double radius, double slack) {
+  std::vector<Separator> all, kept;
+  for (const Triangle& t : mesh.triangles) {
+    const Separator one = SeparatorOf(
+        {mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]}, a, b);
+    if (one.distance <= radius) all.push_back(one);
   }
-  EXPECT_GT(found, 500);
+  std::stable_sort(all.begin(), all.end(),
+                   [](const Separator& one, const Separator& other) {
+                     return one.distance < other.distance;
+                   });
+  for (const Separator& one : all) {
+    const bool is_hidden =
+        std::any_of(kept.begin(), kept.end(), [&](const Separator& plane) {
+          return std::all_of(
+              one.corners.begin(), one.corners.end(), [&](const Vector3d& q) {
+                return plane.normal.dot(q) <= plane.level + slack;
+              });
+        });
+    if (!is_hidden) kept.push_back(one);
+  }
+  return kept;
+}
+
+TEST(FreeSpace, FindsTheSeparatorsOfASegment) {
+  for (const Vector3d& place : {Vector3d(0, 0, 0), Vector3d(1000, 0, 0)}) {
+    const TriangleMesh mesh = Translated(MakeTorus(1.0, 0.3, 24, 12), place);
+    const FreeSpace space({TakeAsContactSpace(mesh)});
+    std::mt19937_64 random(11);
+    const BoundingBox box = ComputeBounds(mesh);
+    std::size_t found = 0;
+    for (int i = 0; i < 300; ++i) {
+      const Vector3d a = testing::RandomPoint(box, &random);
+      const Vector3d b = a + 0.1 * (testing::RandomPoint(box, &random) - a);
+      if (!space.IsFree(a, b)) continue;
+      const double radius = i % 2 == 0 ? 0.3 : 1.0, slack = 1e-10;
+      const auto separators = space.FindSeparators(a, b, radius, slack);
+      const auto expected = SeparatorsByForce(mesh, a, b, radius, slack);
+      ASSERT_EQ(separators.size(), expected.size());
+      for (std::size_t k = 0; k < separators.size(); ++k) {
+        const Separator& one = separators[k];
+        ASSERT_NEAR(one.distance, expected[k].distance, 1e-12);
+        ASSERT_TRUE(one.normal.isApprox(expected[k].normal, 1e-9));
+        for (const Vector3d& q : one.corners) {
+          ASSERT_LE(one.normal.dot(q), one.level);
+        }
+        for (const Vector3d& q : {a, b}) {
+          ASSERT_GE(one.normal.dot(q), one.level + one.distance - 1e-11);
+        }
+      }
+      found += separators.size();
+    }
+    EXPECT_GT(found, 400U);
+  }
+}
+
+TEST(FreeSpace, TakesAllTrianglesThatASegmentMeetsForSeparators) {
+  const FreeSpace space({TakeAsContactSpace(testing::Cube(1))});
+  // Through two faces, along a diagonal of one of them.
+  const auto met =
+      space.FindSeparators({0.0, 0.0, -2.0}, {0.0, 0.0, 2.0}, 0, 0);
+  ASSERT_EQ(met.size(), 4U);
+  for (const Separator& one : met) {
+    EXPECT_EQ(one.distance, 0.0);
+    EXPECT_EQ(one.normal, Vector3d::Zero());
+  }
 }
 
 TEST(PathClearance, IsTheSmallestDistanceAlongThePath) {
@@ -181,13 +214,15 @@ TEST(FreeSpace, HasNothingFreeAtPointsThatAreNotFinite) {
     EXPECT_EQ(space.Check(q, bad).fraction, 0.0);
     EXPECT_EQ(space.Clearance(bad), 0.0);
     EXPECT_EQ(space.Clearance(q, bad), 0.0);
-    EXPECT_TRUE(space.FindNear(q, bad, 1.0).empty());
+    EXPECT_TRUE(space.FindSeparators(q, bad, 1.0, 0.0).empty());
     EXPECT_EQ(CheckPath(space, {q, bad, q}).segment, 0);
     EXPECT_EQ(PathClearance(space, {q, bad, q}), 0.0);
   }
-  EXPECT_TRUE(space.FindNear(q, q, std::nan("")).empty());
-  EXPECT_TRUE(space.FindNear(q, q, -1.0).empty());
-  EXPECT_EQ(space.FindNear(q, q, 1e3).size(), 12u);
+  for (const double bad_length : {std::nan(""), -1.0}) {
+    EXPECT_TRUE(space.FindSeparators(q, q, bad_length, 0.0).empty());
+    EXPECT_TRUE(space.FindSeparators(q, q, 1.0, bad_length).empty());
+  }
+  EXPECT_EQ(space.FindSeparators(q, q, 1e3, 0.0).size(), 1u);
 }
 
 TEST(FreeSpace, RefusesBoundsThatAreNotFinite) {

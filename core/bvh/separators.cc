@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/bvh/separators.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <tuple>
+
+#include "core/bvh/segment_triangle_distance.h"
+
+namespace phongpd {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+// Of a box's distance: what rounding may add to it, or take from a triangle's.
+constexpr double kRounding = 1e-12;
+
+std::array<Vector3d, 3> CornersAt(const TriangleBvh& tree, int position) {
+  const TriangleCorners& t = tree.corners()[position];
+  return {t[0], t[1], t[2]};
+}
+
+}  // namespace
+
+Separator SeparatorOf(const std::array<Vector3d, 3>& corners, const Vector3d& a,
+                      const Vector3d& b) {
+  Separator found;
+  found.corners = corners;
+  const SegmentTrianglePair pair = ClosestPair(
+      Vector3d::Zero(), b - a, corners[0] - a, corners[1] - a, corners[2] - a);
+  found.distance = std::sqrt(pair.squared_distance);
+  found.normal = (pair.on_segment - pair.on_triangle).stableNormalized();
+  // Wherever rounding put the pair, the triangle is below its plane.
+  found.level = -kInfinity;
+  for (const Vector3d& q : corners) {
+    found.level = std::max(found.level, found.normal.dot(q));
+  }
+  return found;
+}
+
+SeparatorSearch::SeparatorSearch(const Vector3d& a, const Vector3d& b,
+                                 double radius, double slack)
+    : a_(a), b_(b), radius_(radius), slack_(slack) {}
+
+bool SeparatorSearch::Needs(const BoxTree::Node& box) const {
+  if (!(Gap(box) <= radius_)) return false;
+  const Vector3d center = 0.5 * (box.min - a_) + 0.5 * (box.max - a_);
+  const Vector3d half = 0.5 * (box.max - box.min);
+  for (std::size_t i = 0; i < found_.size(); ++i) {
+    const Vector3d& n = found_[i].normal;
+    if (found_[i].distance > 0.0 &&
+        n.dot(center) + n.cwiseAbs().dot(half) <= levels_[i] + slack_) {
+      return false;
+    }
+  }
+  return true;
+}
+
+double SeparatorSearch::Gap(const BoxTree::Node& box) const {
+  const Vector3d low = a_.cwiseMin(b_), high = a_.cwiseMax(b_);
+  return (1.0 - kRounding) *
+         (box.min - high).cwiseMax(low - box.max).cwiseMax(0.0).norm();
+}
+
+bool SeparatorSearch::IsHidden(const std::array<Vector3d, 3>& corners) const {
+  for (std::size_t i = 0; i < found_.size(); ++i) {
+    if (found_[i].distance > 0.0 &&
+        std::all_of(corners.begin(), corners.end(), [&](const Vector3d& q) {
+          return found_[i].normal.dot(q - a_) <= levels_[i] + slack_;
+        })) {
+      return true;
+    }
+  }
+  return false;
+}
+
+void SeparatorSearch::Take(const Separator& separator) {
+  double level = -kInfinity;
+  for (const Vector3d& q : separator.corners) {
+    level = std::max(level, separator.normal.dot(q - a_));
+  }
+  found_.push_back(separator);
+  levels_.push_back(level);
+}
+
+// Of what is equally far, nodes come first, then triangles by their place: the
+// order does not depend on the shape of the tree.
+bool SeparatorSearch::IsLater(const Waiting& a, const Waiting& b) {
+  return std::make_tuple(a.distance, a.node < 0, a.tree, a.position) >
+         std::make_tuple(b.distance, b.node < 0, b.tree, b.position);
+}
+
+void SeparatorSearch::Push(const Waiting& item) {
+  queue_.push_back(item);
+  std::push_heap(queue_.begin(), queue_.end(), IsLater);
+}
+
+void SeparatorSearch::Add(const TriangleBvh& tree) {
+  if (tree.tree().nodes().empty()) return;
+  trees_.push_back(&tree);
+  const BoxTree::Node& root = tree.tree().nodes()[0];
+  if (Needs(root)) Push({Gap(root), static_cast<int>(trees_.size()) - 1, 0, 0});
+}
+
+void SeparatorSearch::AdvanceTo(double distance) {
+  while (!queue_.empty() && queue_.front().distance < distance) {
+    std::pop_heap(queue_.begin(), queue_.end(), IsLater);
+    const Waiting item = queue_.back();
+    queue_.pop_back();
+    Open(item);
+  }
+}
+
+void SeparatorSearch::Open(const Waiting& item) {
+  const TriangleBvh& tree = *trees_[item.tree];
+  if (item.node < 0) {
+    const std::array<Vector3d, 3> corners = CornersAt(tree, item.position);
+    if (!IsHidden(corners)) Take(SeparatorOf(corners, a_, b_));
+    return;
+  }
+  const BoxTree::Node& node = tree.tree().nodes()[item.node];
+  if (!Needs(node)) return;
+  for (int k = 0; !node.IsLeaf() && k < 2; ++k) {
+    const BoxTree::Node& child = tree.tree().nodes()[node.first + k];
+    if (Needs(child)) Push({Gap(child), item.tree, node.first + k, 0});
+  }
+  for (int i = node.first; i < node.first + node.count; ++i) {
+    const std::array<Vector3d, 3> corners = CornersAt(tree, i);
+    if (IsHidden(corners)) continue;
+    const double distance = SeparatorOf(corners, a_, b_).distance;
+    if (distance <= radius_) Push({distance, item.tree, -1, i});
+  }
+}
+
+}  // namespace phongpd
