@@ -55,6 +55,11 @@ class TriangleBvh {
   // z), so it never meets an edge or a vertex, and vertical triangles never
   // count.  The surface itself is found without it, by the exact signs.
   Location Locate(const Eigen::Vector3d& q) const;
+  // How often a closed, oriented surface winds around q, found as above: with
+  // shells that face outwards and cavities that face into them, more than 0
+  // inside also where components overlap.  0 on the surface, outside, and for q
+  // that is not finite.
+  int WindingNumber(const Eigen::Vector3d& q) const;
 
   // Segments a b: finite points.  A triangle without area is skipped: on a
   // closed surface its points belong to its neighbours.
@@ -134,6 +139,11 @@ class TriangleBvh {
   static long CountBuilt();
 
  private:
+  struct Winding {
+    int number = 0;
+    bool on_surface = false;
+  };
+  Winding FindWinding(const Eigen::Vector3d& q) const;
   Hit First(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
             double radius) const noexcept;
 

@@ -32,9 +32,9 @@ bool ContainsSeenAlong(int axis, const Vector3d& a, const Vector3d& b,
   return (ab >= 0 && bc >= 0 && ca >= 0) || (ab <= 0 && bc <= 0 && ca <= 0);
 }
 
-enum class Crossing { kNone, kBeyond, kTouch };
+enum class Crossing { kNone, kOut, kIn, kTouch };
 
-// What the ray from q along ±z does with triangle a, b, c.
+// What the ray from q along ±z does with triangle a, b, c: leaves, enters.
 Crossing Cross(const Vector3d& a, const Vector3d& b, const Vector3d& c,
                const Vector3d& q, bool upward) {
   const int ab = Orient2d(a.x(), a.y(), b.x(), b.y(), q.x(), q.y());
@@ -53,22 +53,22 @@ Crossing Cross(const Vector3d& a, const Vector3d& b, const Vector3d& c,
   if (turn != Perturbed(bc, b, c) || turn != Perturbed(ca, c, a)) {
     return Crossing::kNone;
   }
-  return (side != turn) == upward ? Crossing::kBeyond : Crossing::kNone;
+  if ((side != turn) != upward) return Crossing::kNone;
+  return (turn > 0) == upward ? Crossing::kOut : Crossing::kIn;
 }
 
 }  // namespace
 
-Location TriangleBvh::Locate(const Vector3d& q) const {
-  if (!IsFinite(q) || tree_.nodes().empty()) return Location::kOutside;
+TriangleBvh::Winding TriangleBvh::FindWinding(const Vector3d& q) const {
+  Winding found;
+  if (!IsFinite(q) || tree_.nodes().empty()) return found;
   const BoxTree::Node& root = tree_.nodes().front();
   if ((q.array() < root.min.array()).any() ||
       (q.array() > root.max.array()).any()) {
-    return Location::kOutside;
+    return found;
   }
   // The shorter way out meets fewer boxes.
   const bool upward = root.max.z() - q.z() < q.z() - root.min.z();
-  bool inside = false;
-  bool touched = false;
   tree_.ForEach(
       [&](int index) {
         const BoxTree::Node& node = tree_.nodes()[index];
@@ -79,12 +79,23 @@ Location TriangleBvh::Locate(const Vector3d& q) const {
       [&](int position) {
         const TriangleCorners& t = corners_[position];
         const Crossing crossing = Cross(t[0], t[1], t[2], q, upward);
-        touched = crossing == Crossing::kTouch;
-        inside ^= crossing == Crossing::kBeyond;
-        return !touched;
+        found.on_surface = crossing == Crossing::kTouch;
+        found.number += crossing == Crossing::kOut ? 1 : 0;
+        found.number -= crossing == Crossing::kIn ? 1 : 0;
+        return !found.on_surface;
       });
-  if (touched) return Location::kOnSurface;
-  return inside ? Location::kInside : Location::kOutside;
+  return found;
+}
+
+Location TriangleBvh::Locate(const Vector3d& q) const {
+  const Winding winding = FindWinding(q);
+  if (winding.on_surface) return Location::kOnSurface;
+  return winding.number % 2 != 0 ? Location::kInside : Location::kOutside;
+}
+
+int TriangleBvh::WindingNumber(const Vector3d& q) const {
+  const Winding winding = FindWinding(q);
+  return winding.on_surface ? 0 : winding.number;
 }
 
 }  // namespace phongpd

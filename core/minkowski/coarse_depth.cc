@@ -47,7 +47,7 @@ CoarseDepth::CoarseDepth(const TriangleBvh& bvh) {
         const Vector3d x = min_ + spacing_.cwiseProduct(Vector3d(i, j, k));
         const double distance = SurfaceDistance(bvh, x, &near);
         depths_[Index(i, j, k)] =
-            bvh.Locate(x) == Location::kInside ? distance : -distance;
+            bvh.WindingNumber(x) > 0 ? distance : -distance;
       }
     }
   });

@@ -78,7 +78,7 @@ InnerBall BallAt(const Seed& seed, const GridSolid& solid,
     if (!(depth > 0.0)) break;
     radius = std::min(radius, chord.squaredNorm() / (2.0 * depth));
   }
-  if (bvh.Locate(ball.center) == Location::kInside) ball.radius = distance;
+  if (bvh.WindingNumber(ball.center) > 0) ball.radius = distance;
   return ball;
 }
 

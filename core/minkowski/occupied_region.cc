@@ -42,8 +42,8 @@ BoundingBox ChildOf(const BoundingBox& box, int child) {
   return out;
 }
 
-// Does a component face inwards, or enclose nothing?  Where such ones overlap,
-// parity does not tell what is inside, nor is all of the surface the solid's.
+// Does a component face inwards, or enclose nothing?  Such a one may lie where
+// the solid is not, and so may its surface.
 bool HasCavity(const GridSolid& solid) {
   UnionFind sets(solid.vertices.size());
   for (const Triangle& t : solid.facets) {
@@ -97,30 +97,34 @@ struct OccupiedRegion::Builder {
       : convolution(the_convolution),
         limits(the_limits),
         solids{BvhOf(p), BvhOf(q)},
+        holds_surface{!HasCavity(p), !HasCavity(q)},
         depths{CoarseDepth(solids[0]), CoarseDepth(solids[1])} {
     balls[0] = InnerBalls(q, solids[1], kBalls);
     balls[1] = InnerBalls(p, solids[0], kBalls);
-    AddSurfacePoints(q, &balls[0]);
-    AddSurfacePoints(p, &balls[1]);
+    if (holds_surface[1]) AddSurfacePoints(q, &balls[0]);
+    if (holds_surface[0]) AddSurfacePoints(p, &balls[1]);
   }
 
   // Sets what the ball overlaps by with the box's center as configuration, or
   // a bound of it that tells whether it is above `wanted`, and tells.
   bool Overlaps(const Vector3d& center, double wanted, Sample* s) const {
     const InnerBall& ball = balls[s->solid][s->ball];
+    const bool is_held = holds_surface[s->solid];
     const Vector3d x = center - ball.center;
     const CoarseDepth::Bounds depth = depths[s->solid].At(x);
     s->overlap = std::min(s->overlap, ball.radius + depth.most);
-    if (ball.radius + depth.least > wanted) return true;
+    if (ball.radius + depth.least > wanted && (is_held || depth.least > 0.0)) {
+      return true;
+    }
     if (s->overlap <= wanted) return false;
     const TriangleBvh& solid = solids[s->solid];
     const double distance = SurfaceDistance(solid, x, &s->near);
     // Where the surface is far or near enough it need not be known on which
     // side x is.
-    if (ball.radius - distance > wanted) return true;
+    if (is_held && ball.radius - distance > wanted) return true;
     s->overlap = std::min(s->overlap, ball.radius + distance);
     if (s->overlap <= wanted) return false;
-    if (solid.Locate(x) == Location::kInside) return true;
+    if (solid.WindingNumber(x) > 0) return true;
     s->overlap = ball.radius - distance;
     return false;
   }
@@ -174,7 +178,8 @@ struct OccupiedRegion::Builder {
   const Convolution& convolution;
   const BuildLimits& limits;
   std::array<TriangleBvh, 2> solids;
-  std::array<CoarseDepth, 2> depths;            // in them
+  std::array<bool, 2> holds_surface;  // surely is all of its surface in it
+  std::array<CoarseDepth, 2> depths;  // in them
   std::array<std::vector<InnerBall>, 2> balls;  // to move into each solid
   double margin = 0.0;
 };
@@ -182,7 +187,6 @@ struct OccupiedRegion::Builder {
 OccupiedRegion::OccupiedRegion(const GridSolid& p, const GridSolid& q,
                                const Convolution& convolution,
                                const BuildLimits& limits) {
-  if (HasCavity(p) || HasCavity(q)) return;
   std::vector<int> facets;
   Builder builder(p, q, convolution, limits);
   for (std::size_t f = 0; f < convolution.facets.size(); ++f) {

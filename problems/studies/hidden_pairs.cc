@@ -53,6 +53,15 @@ TriangleMesh MakeBars(double length, double width) {
   return bars;
 }
 
+// A solid within the walls of a box, as bounds make them.
+TriangleMesh InBounds(const TriangleMesh& solid, double reach) {
+  const auto box = [](double half) {
+    return MakeBox(Eigen::Vector3d::Constant(-half),
+                   Eigen::Vector3d::Constant(half));
+  };
+  return Joined(solid, Joined(box(reach + 0.5), Reversed(box(reach))));
+}
+
 }  // namespace
 
 TriangleMesh MakeHilbertTube(int cells) {
@@ -94,6 +103,11 @@ std::vector<HiddenPair> HiddenPairs(int detail) {
       Joined(Joined(star, Translated(Turned(star), {0.7, 0, 0})),
              Translated(star, {0.2, 0.9, 0.1}));
   const TriangleMesh turned_cells = Turned(Scaled(few_cells, 0.6));
+  const TriangleMesh hollow =
+      Joined(MakeIcoBall(2.0, 1 + d), Reversed(MakeIcoBall(1.3, 1 + d)));
+  // A third ball fills part of the cavity and of its wall.
+  const TriangleMesh opened =
+      Joined(hollow, Translated(MakeIcoBall(1.2, d), {1.1, 0.2, 0.1}));
   return {
       {"star + knot", star, thick_knot, true},
       {"turned star + knot", Turned(star), knot, true},
@@ -131,6 +145,11 @@ std::vector<HiddenPair> HiddenPairs(int detail) {
       {"star + shell", Scaled(star, 0.5), shell, false},
       {"star + vessel", Scaled(star, 0.5), vessel, true},
       {"knot + shell", Scaled(knot, 0.4), shell, false},
+      {"star + knot in bounds", star, InBounds(thick_knot, 3.0), true},
+      {"knot + knot in wide bounds", knot, InBounds(knot, 6.0), true},
+      {"star + hollow ball", Scaled(star, 0.7), hollow, true},
+      {"hollow ball + knot", Scaled(hollow, 0.5), knot, true},
+      {"knot + filled hollow ball", Scaled(knot, 0.4), opened, true},
   };
 }
 

@@ -197,5 +197,53 @@ TEST(ExactSign, RoutesAgreeOnNearlyDegenerateInput) {
   for (const int count : signs) EXPECT_GT(count, 200);
 }
 
+// Truth: boxes that hold the point.
+TEST(TriangleBvhInside, CountsHowOftenComponentsHoldAPoint) {
+  std::mt19937_64 random(5);
+  const auto coordinate = [&] { return static_cast<double>(random() % 9); };
+  int most = 0, least = 0;
+  for (int run = 0; run < 60; ++run) {
+    struct Box {
+      Vector3d min, max;
+      int sign;
+    };
+    std::vector<Box> boxes;
+    TriangleMesh mesh;
+    for (int i = 0; i < 5; ++i) {
+      const Vector3d min(coordinate(), coordinate(), coordinate());
+      const Vector3d max = min + Vector3d(1.0, 1.0, 1.0) +
+                           Vector3d(coordinate(), coordinate(), coordinate());
+      boxes.push_back({min, max, i % 3 == 2 ? -1 : 1});
+      const TriangleMesh outward = MakeBox(min, max);
+      const TriangleMesh box =
+          boxes.back().sign < 0 ? Reversed(outward) : outward;
+      mesh = i == 0 ? box : Joined(mesh, box);
+    }
+    const TriangleBvh tree(mesh);
+    for (int i = 0; i < 300; ++i) {
+      // Above and below edges and corners, on surfaces, and anywhere.
+      Vector3d q(coordinate(), coordinate(), coordinate());
+      if (i % 2 == 0) q += 0.5 * Vector3d(i % 3, i % 5 % 2, 1.0);
+      int expected = 0;
+      bool on_surface = false;
+      for (const Box& box : boxes) {
+        const bool is_within = (q.array() >= box.min.array()).all() &&
+                               (q.array() <= box.max.array()).all();
+        const bool is_inside = (q.array() > box.min.array()).all() &&
+                               (q.array() < box.max.array()).all();
+        expected += is_inside ? box.sign : 0;
+        on_surface = on_surface || (is_within && !is_inside);
+      }
+      if (on_surface) expected = 0;
+      ASSERT_EQ(tree.WindingNumber(q), expected) << q.transpose();
+      most = std::max(most, expected);
+      least = std::min(least, expected);
+    }
+    EXPECT_EQ(tree.WindingNumber({std::nan(""), 0.0, 0.0}), 0);
+  }
+  EXPECT_GE(most, 3);
+  EXPECT_EQ(least, -1);
+}
+
 }  // namespace
 }  // namespace phongpd
