@@ -76,7 +76,9 @@ void TellModel(const PlanningStudy& study, const PlanningRun& run,
   if (result.model != "window") return;
   std::string text = "model window: free space alone";
   if (!study.refusal().empty()) text += ", as the whole is refused";
-  text += ", by " + result.planner;
+  text += study.scene().planning.model == "auto" && study.refusal().empty()
+              ? ", which is enough for " + result.planner
+              : ", by " + result.planner;
   if (run.planner.empty()) {
     text += " (the default contact-surface needs the whole)";
     if (study.scene().planning.clearance) {

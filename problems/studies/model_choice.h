@@ -13,7 +13,8 @@ namespace phongpd {
 //   full    all of it,
 //   window  free space alone (World::Convolution), which is enough for motion
 //           checks and distances from outside,
-//   auto    full; window where the limits of a build refuse that.
+//   auto    full; window where the limits of a build refuse that.  A study
+//           that knows the window to be enough need not ask.
 class ModelChoice {
  public:
   // Throws InputError unless `model` is one of the three.

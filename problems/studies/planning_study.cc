@@ -35,6 +35,14 @@ PlanningStudy::PlanningStudy(const Scene& scene, const World& world)
   RequireSameSolids(scene.workspace, world, scene.name);
 }
 
+// Of auto the cheapest that is enough: no contact space is built for who only
+// asks whether motions are free (results/trade, "model: plan").
+void PlanningStudy::ChooseModel(const std::string& planner) {
+  is_window_enough_ = scene_.planning.model == "auto" && !planner.empty() &&
+                      !NeedsContactSurface(planner) &&
+                      world_.Built(kLayout) == nullptr;
+}
+
 const FreeSpace& PlanningStudy::Judge() {
   return UsesWindow() ? *world_.Convolution().free_space : *spaces().free_space;
 }
@@ -108,6 +116,7 @@ OmplPlanningOptions PlanningStudy::Options(const PlanningRun& run) const {
 std::string PlanningStudy::OmplLog(const PlanningRun& run, int runs) {
   const std::string planner = PlannerOf(run);
   CheckHasOmplLog(planner);
+  ChooseModel(planner);
   if (UsesWindow()) {
     return OmplBenchmarkLog(Domain(), scene_.start, scene_.goal, scene_.name,
                             planner, runs, Options(run));
@@ -229,6 +238,7 @@ PlanningResult PlanningStudy::Run(const PlanningRun& run) {
   if (is_window) RequireSurfaceFree(result.planner);
   if (result.planner != kContactSurface) Options(run).Validate();
   if (!Diagnose(&result)) return result;
+  ChooseModel(run.planner);
   result.planner = PlannerOf(run);
   if (UsesWindow()) RequireSurfaceFree(result.planner);
   result.model = UsesWindow() ? "window" : "full";

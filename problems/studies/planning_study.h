@@ -73,7 +73,7 @@ class PlanningStudy {
   // for pictures.
   TriangleMesh VisibleMesh();
 
-  // Why model auto took the window; empty: it did not.
+  // Why model auto had to take the window; empty: it had not.
   const std::string& refusal() const { return choice_.refusal(); }
 
   const Scene& scene() const { return scene_; }
@@ -88,7 +88,11 @@ class PlanningStudy {
  private:
   static constexpr SpaceLayout kLayout = SpaceLayout::kSealed;
 
-  bool UsesWindow() { return choice_.UsesWindow(world_, {kLayout}); }
+  bool UsesWindow() {
+    return is_window_enough_ || choice_.UsesWindow(world_, {kLayout});
+  }
+  // For the planner of a run that is to come.
+  void ChooseModel(const std::string& planner);
   const FreeSpace& Judge();
   std::string PlannerOf(const PlanningRun& run);
   void RequireSurfaceFree(const std::string& planner) const;
@@ -105,6 +109,7 @@ class PlanningStudy {
   Scene scene_;
   World world_;
   ModelChoice choice_;
+  bool is_window_enough_ = false;  // for the last run, model auto
   std::unique_ptr<ContactSurfacePlanner> planner_;
   std::shared_ptr<const ContactModel> model_;
   PlanResult exact_;

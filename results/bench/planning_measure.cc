@@ -177,7 +177,9 @@ ExactRow MeasureExact(const PlanningProblem& problem) {
 std::vector<SamplerRow> MeasureSamplers(
     const PlanningProblem& problem, const std::vector<std::string>& planners,
     const PlanningOptions& options) {
-  PlanningStudy study(SceneSource(problem.scene).Load());
+  Scene scene = SceneSource(problem.scene).Load();
+  scene.planning.model = "full";  // the same for all planners
+  PlanningStudy study(scene);
   std::vector<SamplerRow> rows;
   for (const std::string& planner : planners) {
     SamplerRow row;

@@ -67,21 +67,40 @@ TEST_F(CliModel, AutoIsFullWhereTheContactSpaceFits) {
 TEST_F(CliModel, AutoTakesTheWindowWhereTheContactSpaceIsRefused) {
   const std::string good = "plan " + Scene(TwoObstacles()) + kTooLittle;
   const phongpd::Scene scene = ReadScene(File("scene.json"));
-  for (const std::string planner : {"", "rrt-connect", "prm"}) {
-    const std::string command =
-        good + " --time 3" + (planner.empty() ? "" : " --planner " + planner);
-    const Json row = OneRow(command, 0);
-    EXPECT_EQ(row["model"], "window");
-    EXPECT_EQ(row["planner"], planner.empty() ? "rrt-connect" : planner);
-    ExpectFree(row, scene);
-    const Outcome outcome = Run(command + " --output o.jsonl");
-    for (const char* part : {"model window", "max_mib"}) {
-      EXPECT_NE(outcome.err.find(part), std::string::npos) << outcome.err;
+  const std::string command = good + " --time 3";
+  const Json row = OneRow(command, 0);
+  EXPECT_EQ(row["model"], "window");
+  EXPECT_EQ(row["planner"], "rrt-connect");
+  ExpectFree(row, scene);
+  const Outcome outcome = Run(command + " --output o.jsonl");
+  for (const char* part : {"model window", "max_mib"}) {
+    EXPECT_NE(outcome.err.find(part), std::string::npos) << outcome.err;
+  }
+  // With what is freed kept back it is passed before anything is predicted.
+  EXPECT_TRUE(testing::kIsSanitized ||
+              outcome.err.find("predicted") != std::string::npos)
+      << outcome.err;
+}
+
+// Limits of a build that is not needed refuse nothing.
+TEST_F(CliModel, AutoTakesTheWindowWhereThatIsEnough) {
+  const std::string good = "plan " + Scene(TwoObstacles()) + " --time 3";
+  const phongpd::Scene scene = ReadScene(File("scene.json"));
+  for (const std::string planner : {"rrt-connect", "prm"}) {
+    for (const std::string limit : {"", kTooLittle}) {
+      const std::string command = good + " --planner " + planner + limit;
+      const Json row = OneRow(command, 0);
+      EXPECT_EQ(row["model"], "window");
+      EXPECT_EQ(row["planner"], planner);
+      EXPECT_EQ(row["contact_triangles"], 0);
+      ExpectFree(row, scene);
+      const Outcome outcome = Run(command + " --output o.jsonl");
+      EXPECT_NE(outcome.err.find("which is enough for " + planner),
+                std::string::npos)
+          << outcome.err;
     }
-    // With what is freed kept back it is passed before anything is predicted.
-    EXPECT_TRUE(testing::kIsSanitized ||
-                outcome.err.find("predicted") != std::string::npos)
-        << outcome.err;
+    EXPECT_EQ(OneRow(good + " --model full --planner " + planner, 0)["model"],
+              "full");
   }
 }
 

@@ -131,6 +131,24 @@ TEST(PlanningModel, LimitsRefuseTheContactSpaceOnly) {
   EXPECT_THROW(PlanningStudy(SceneOf("hole:delta=0.1", "some")), InputError);
 }
 
+TEST(PlanningModel, AutoBuildsNoContactSpaceForWhoNeedsNone) {
+  PlanningStudy study(SceneOf("hole:delta=0.1", "auto"));
+  PlanningRun sampler, exact;
+  sampler.planner = "rrt-connect";
+  sampler.time_limit = 20.0;
+  const PlanningResult first = study.Run(sampler);
+  EXPECT_TRUE(first.solved);
+  EXPECT_EQ(first.model, "window");
+  EXPECT_EQ(study.world().Report().contact_spaces, 0);
+  const PlanningResult second = study.Run(exact);
+  EXPECT_TRUE(second.solved);
+  EXPECT_EQ(second.model, "full");
+  // What is there already is cheaper than anything.
+  EXPECT_EQ(study.Run(sampler).model, "full");
+  EXPECT_EQ(study.world().Report().contact_spaces, 1);
+  EXPECT_EQ(study.refusal(), "");
+}
+
 TEST(SurfaceFreePlanners, AreRefusedNothingButTheSurface) {
   const Scene scene = SceneOf("hole:delta=0.1", "window");
   PlanningStudy study(scene);
