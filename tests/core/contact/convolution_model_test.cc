@@ -10,6 +10,7 @@
 #include <cmath>
 #include <limits>
 #include <random>
+#include <string>
 #include <vector>
 
 #include "core/contact/contact_space.h"
@@ -17,6 +18,8 @@
 #include "core/minkowski/build_refusal.h"
 #include "planners/exact/free_space.h"
 #include "problems/shapes/shapes.h"
+#include "problems/studies/hidden_pairs.h"
+#include "tests/support/campaign.h"
 #include "tests/support/lattice_world.h"
 #include "tests/support/solid_tools.h"
 
@@ -299,6 +302,49 @@ TEST(ConvolutionModel, RefusesWhatItCannotBuild) {
   options = {};
   options.max_seconds = 1e-9;
   EXPECT_THROW(ConvolutionModel(Cube(1), Cube(1), options), BuildRefusal);
+}
+
+// Many pairs with much that is hidden, overlapping components and cavities; in
+// the long form a million segments.
+TEST(ConvolutionModelCampaign, AgreesWithTheContactSpaceOnManySegments) {
+  const std::vector<HiddenPair> pairs = HiddenPairs(1);
+  const auto every = static_cast<std::size_t>(testing::CampaignCases(4, 1));
+  const long segments = testing::CampaignCases(400, 25000);
+  testing::CampaignRow row;
+  row.item = "5 exact motion checks";
+  row.subject = "free space in cells beside the contact space, " +
+                std::to_string(pairs.size()) + " pairs";
+  row.bound = 1e-12;
+  row.unit = "L";
+  row.seed = 14;
+  std::mt19937_64 random(row.seed);
+  long free = 0;
+  for (std::size_t p = 0; p < pairs.size(); p += every) {
+    SCOPED_TRACE(pairs[p].name);
+    const ContactSpace space =
+        BuildContactSpace(pairs[p].robot, pairs[p].obstacle);
+    const FreeSpace truth({space});
+    const FreeSpace found = FreeSpace::OfConvolutions(
+        {ConvolutionModel(pairs[p].robot, pairs[p].obstacle)});
+    for (long i = 0; i < segments; ++i) {
+      const Vector3d a = testing::RandomPoint(space.bounds(), &random);
+      Vector3d b = testing::RandomPoint(space.bounds(), &random);
+      if (i % 2 == 0) b = a + 0.1 * (b - a);
+      const bool is_free = truth.IsFree(a, b);
+      free += is_free ? 1 : 0;
+      row.failures += found.IsFree(a, b) == is_free ? 0 : 1;
+      if (is_free && i % 20 == 0) {
+        row.worst = std::max(
+            row.worst, std::abs(found.Clearance(a, b) - truth.Clearance(a, b)) /
+                           space.length());
+      }
+      ++row.cases;
+    }
+  }
+  EXPECT_EQ(row.failures, 0);
+  EXPECT_LT(row.worst, row.bound);
+  EXPECT_GT(free, row.cases / 10);
+  testing::ReportCampaign(row);
 }
 
 }  // namespace
