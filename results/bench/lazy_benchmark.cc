@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Purpose: depth of two meshes from windows of the contact space, nothing
 // precomputed, and motion checks from the convolution alone, beside building
-// the whole and asking that, in one binary and one run.  Writes CSV and
-// README.md into a directory.
+// the whole and asking that, in one binary and one run.  Writes CSV, a figure
+// and README.md into a directory.
 #include <CLI/CLI.hpp>
 #include <cmath>
 #include <functional>
@@ -13,12 +13,14 @@
 #include "core/contact/depth.h"
 #include "core/projection/euclidean_metric.h"
 #include "core/stopwatch.h"
+#include "problems/pictures/gnuplot.h"
 #include "problems/shapes/random_solids.h"
 #include "problems/shapes/shapes.h"
 #include "results/bench/free_space_measure.h"
 #include "results/bench/guard_measure.h"
 #include "results/bench/large_scene_measure.h"
 #include "results/bench/program.h"
+#include "results/bench/volume_measure.h"
 
 namespace phongpd::bench {
 namespace {
@@ -73,6 +75,7 @@ struct Row {
   std::vector<double> cpu_ms, wall_ms, faces, turned_ms;
   double worst_error = 0.0;  // share of the diagonal
   FreeSpaceRow free_space;
+  std::vector<VolumeRow> volumes;
   int uncertified = 0, wrong = 0;
 };
 
@@ -91,6 +94,8 @@ Row Measure(const Case& c, const Options& options) {
   row.free_space =
       MeasureFreeSpace(c.name, robot, obstacle, space, row.full_seconds,
                        options.segments, options.seed);
+  row.volumes = MeasureVolumes(c.name, robot, obstacle, space, row.full_seconds,
+                               options.seed);
   start = CpuSeconds();
   const DepthQuery query(robot, obstacle);
   row.handle_seconds = CpuSeconds() - start;
@@ -163,6 +168,7 @@ int Run(int argc, char** argv) {
                  "Pairs that predictions are held to")
       ->capture_default_str();
   CLI11_PARSE(app, argc, argv);
+  RequireGnuplot();
   // In processes of their own, before this one starts threads.
   const std::vector<GuardRow> guard =
       MeasureGuard(options.guard_pairs, options.seed);
@@ -175,20 +181,28 @@ int Run(int argc, char** argv) {
     std::cout << ToText(TableOf({rows.back()}).table) << std::endl;
   }
   std::vector<FreeSpaceRow> free_spaces;
-  for (const Row& row : rows) free_spaces.push_back(row.free_space);
+  std::vector<VolumeRow> volumes;
+  for (const Row& row : rows) {
+    free_spaces.push_back(row.free_space);
+    volumes.insert(volumes.end(), row.volumes.begin(), row.volumes.end());
+  }
+  const Figure figure = VolumeFigure(volumes);
   const std::vector<NamedTable> tables = {
       TableOf(rows),       FreeSpaceTable(free_spaces), large,
-      GuardVerdict(guard), BoxesVerdict(guard),         GuardTable(guard)};
+      GuardVerdict(guard), BoxesVerdict(guard),         VolumeTable(volumes),
+      GuardTable(guard)};
   OutputDirectory out(options.directory);
   WriteReport(
-      tables, {},
+      tables, {figure},
       "# Answers without the whole contact space\n\n"
       "`DepthQuery` beside `BuildContactSpace` and `EuclideanMetric`: random "
       "configurations below random points of C_cont, at most 5 % of its "
       "diagonal deep. Every answer is compared with the whole contact "
       "space's. `ConvolutionModel` tells free space without either.\n\n" +
-          ToMarkdown({tables.begin(), tables.end() - 1}, {}) +
-          "\nAll pairs of the guard: [guard.csv](guard.csv)\n\n" +
+          VolumeVerdict(volumes) + "\n\n" +
+          ToMarkdown({tables.begin(), tables.end() - 2}, {figure}) +
+          "\nAll boxes: [volume.csv](volume.csv). All pairs of the guard: "
+          "[guard.csv](guard.csv)\n\n" +
           Circumstances(CommandLine("build/lazy_benchmark", argc, argv),
                         options.seed),
       &out);

@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "results/bench/volume_measure.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <random>
+
+#include "core/contact/convolution_model.h"
+#include "core/minkowski/build_limits.h"
+#include "core/minkowski/grid_pair.h"
+#include "core/minkowski/grid_window.h"
+#include "core/minkowski/solid_collision.h"
+#include "core/minkowski/window_cells.h"
+#include "core/minkowski/window_convolution.h"
+#include "core/solid/solid.h"
+#include "problems/pictures/gnuplot.h"
+#include "problems/shapes/random_solids.h"
+#include "results/bench/free_space_measure.h"
+
+namespace phongpd::bench {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr std::array kVolumes = {1e-4, 1e-3, 1e-2, 0.03, 0.1, 0.3, 1.0};
+constexpr int kBoxes = 5;
+constexpr int kMotions = 100;
+constexpr std::array kLevels = {"free space", "window"};
+// Told apart by colour-blind readers, none of them yellow.
+constexpr std::array kColors = {"#0072B2", "#D55E00", "#009E73", "#CC79A7",
+                                "#56B4E9", "#444444", "#A0522D"};
+
+// `all` made smaller, around a point of it as far as it stays within.
+BoundingBox BoxAround(const BoundingBox& all, double volume,
+                      const Vector3d& center) {
+  const Vector3d size = std::cbrt(volume) * (all.max - all.min);
+  const Vector3d min =
+      (center - 0.5 * size).cwiseMax(all.min).cwiseMin(all.max - size);
+  return {min, min + size};
+}
+
+double FreeSpaceSeconds(const TriangleMesh& robot, const TriangleMesh& obstacle,
+                        const BoundingBox& box, std::mt19937_64* random) {
+  const double start = CpuSeconds();
+  const ConvolutionModel model(robot, obstacle);
+  for (int i = 0; i < kMotions; ++i) {
+    const Vector3d from = RandomPoint(box, random);
+    static_cast<void>(model.IsFree(from, RandomPoint(box, random)));
+  }
+  return CpuSeconds() - start;
+}
+
+double WindowSeconds(const TriangleMesh& robot, const TriangleMesh& obstacle,
+                     double volume, const Vector3d& center) {
+  const double start = CpuSeconds();
+  const Solid a = MakeSolid(robot, "robot"),
+              b = MakeSolid(obstacle, "obstacle");
+  const internal::GridPair pair =
+      internal::MakeGridPair(a.mesh(), "robot", b.mesh(), "obstacle");
+  const internal::FeatureSums sums(pair.obstacle, pair.reflected_robot);
+  const internal::SolidCollision judge(pair.obstacle, pair.reflected_robot);
+  const internal::BuildLimits limits({});
+  const BoundingBox box =
+      BoxAround(sums.bounds(), volume, pair.frame.ToGrid(center));
+  internal::GridWindow window;
+  for (int k = 0; k < 3; ++k) {
+    window.min[k] = 2 * static_cast<std::int64_t>(std::floor(box.min[k])) - 1;
+    window.max[k] = 2 * static_cast<std::int64_t>(std::ceil(box.max[k])) + 1;
+  }
+  internal::WindowCells cells(sums.Within(window.Box()), window, judge, limits);
+  static_cast<void>(cells.SurfaceArea());
+  return CpuSeconds() - start;
+}
+
+}  // namespace
+
+std::vector<VolumeRow> MeasureVolumes(const std::string& pair,
+                                      const TriangleMesh& robot,
+                                      const TriangleMesh& obstacle,
+                                      const ContactSpace& space,
+                                      double full_seconds, std::uint64_t seed) {
+  std::vector<VolumeRow> rows;
+  for (const char* level : kLevels) {
+    for (const double volume : kVolumes) {
+      std::mt19937_64 random(seed);
+      std::vector<double> shares;
+      for (int i = 0; i < kBoxes; ++i) {
+        const Vector3d center =
+            RandomSurfacePoint(space.mesh(), &random).position;
+        const BoundingBox box = BoxAround(space.bounds(), volume, center);
+        const double seconds =
+            level == kLevels[0]
+                ? FreeSpaceSeconds(robot, obstacle, box, &random)
+                : WindowSeconds(robot, obstacle, volume, center);
+        shares.push_back(seconds / full_seconds);
+      }
+      rows.push_back({pair, level, volume, Quantile(shares, 0.5),
+                      *std::max_element(shares.begin(), shares.end())});
+    }
+  }
+  return rows;
+}
+
+NamedTable VolumeTable(const std::vector<VolumeRow>& rows) {
+  return {
+      "volume.csv",
+      MakeTable("Cost against volume touched",
+                "CPU time over that of the full build, from the two meshes "
+                "on: median and largest of five boxes.",
+                {"pair", "level", "volume, share", "cost, share", "largest"},
+                rows, [](const VolumeRow& r, const auto& add) {
+                  add(r.pair, r.level, r.volume, r.cost, r.largest);
+                })};
+}
+
+std::string VolumeVerdict(const std::vector<VolumeRow>& rows) {
+  std::string text;
+  for (const char* level : kLevels) {
+    std::string losses;
+    for (const VolumeRow& r : rows) {
+      if (r.level != level || r.volume < 1.0 || r.cost <= 1.0) continue;
+      losses +=
+          (losses.empty() ? "" : ", ") + r.pair + " (" + Rounded(r.cost) + ")";
+    }
+    text += std::string(text.empty() ? "" : " ") +
+            (level == kLevels[0] ? "Free space" : "The window") +
+            (losses.empty() ? " costs less than the whole even for all of the "
+                              "box, in every pair."
+                            : " loses to the whole where it is asked for all "
+                              "of the box: " +
+                                  losses + ".");
+  }
+  return text;
+}
+
+Figure VolumeFigure(const std::vector<VolumeRow>& rows) {
+  std::vector<std::string> pairs;
+  for (const VolumeRow& r : rows) {
+    if (std::find(pairs.begin(), pairs.end(), r.pair) == pairs.end()) {
+      pairs.push_back(r.pair);
+    }
+  }
+  std::string script;
+  std::array<std::string, kLevels.size()> plots;
+  for (std::size_t l = 0; l < kLevels.size(); ++l) {
+    for (std::size_t p = 0; p < pairs.size(); ++p) {
+      const std::string name = "$d" + std::to_string(l) + std::to_string(p);
+      script += name + " << EOD\n";
+      for (const VolumeRow& r : rows) {
+        if (r.pair != pairs[p] || r.level != kLevels[l]) continue;
+        script += FormatDouble(r.volume) + ' ' + FormatDouble(r.cost) + '\n';
+      }
+      script += "EOD\n";
+      plots[l] += name + " w lp pt " + std::to_string(p + 4) +
+                  " ps 0.6 lw 2 lc rgb '" + kColors[p % kColors.size()] +
+                  "' t " + GnuplotText(pairs[p]) + ", ";
+    }
+  }
+  script +=
+      "set termoption noenhanced\nset multiplot layout 1,2\nset logscale xy\n"
+      "set grid lc rgb '#DDDDDD'\nset xrange [8e-5:1.2]\nset yrange [5e-3:5]\n"
+      "set xlabel 'volume touched, share of the box of C_cont'\n"
+      "set ylabel 'CPU time / full build'\nset format '%g'\n"
+      "set bmargin at screen 0.3\n";
+  for (std::size_t l = 0; l < kLevels.size(); ++l) {
+    script += l == 0 ? "unset key\n"
+                     : "set key at screen 0.98,0.02 right bottom horizontal "
+                       "maxrows 2 samplen 2\n";
+    script += std::string("set title '") + kLevels[l] + "'\nplot " + plots[l] +
+              "1 w l dt 2 lw 1.5 lc rgb '#888888' t 'the whole'\n";
+  }
+  script += "unset multiplot\n";
+  return {
+      "volume.svg",
+      "Cost against the volume that is touched: free space costs hundredths "
+      "of the whole until most of it is asked for, a window grows with what "
+      "is in it",
+      RenderSvg(script, 1000, 520)};
+}
+
+}  // namespace phongpd::bench
