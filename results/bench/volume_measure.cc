@@ -161,12 +161,14 @@ Figure VolumeFigure(const std::vector<VolumeRow>& rows) {
       "set termoption noenhanced\nset multiplot layout 1,2\nset logscale xy\n"
       "set grid lc rgb '#DDDDDD'\nset xrange [8e-5:1.2]\nset yrange [5e-3:5]\n"
       "set xlabel 'volume touched, share of the box of C_cont'\n"
-      "set ylabel 'CPU time / full build'\nset format '%g'\n"
-      "set bmargin at screen 0.3\n";
+      "set ylabel 'CPU time / full build'\nset format '%g'\n";
   for (std::size_t l = 0; l < kLevels.size(); ++l) {
-    script += l == 0 ? "unset key\n"
-                     : "set key at screen 0.98,0.02 right bottom horizontal "
-                       "maxrows 2 samplen 2\n";
+    // The names stand beside both.
+    script += l == 0 ? "unset key\nset lmargin at screen 0.07\n"
+                       "set rmargin at screen 0.37\n"
+                     : "set key at screen 0.99,0.85 right top\n"
+                       "set lmargin at screen 0.45\n"
+                       "set rmargin at screen 0.75\n";
     script += std::string("set title '") + kLevels[l] + "'\nplot " + plots[l] +
               "1 w l dt 2 lw 1.5 lc rgb '#888888' t 'the whole'\n";
   }
@@ -176,7 +178,7 @@ Figure VolumeFigure(const std::vector<VolumeRow>& rows) {
       "Cost against the volume that is touched: free space costs hundredths "
       "of the whole until most of it is asked for, a window grows with what "
       "is in it",
-      RenderSvg(script, 1000, 520)};
+      RenderSvg(script, 1000, 400)};
 }
 
 }  // namespace phongpd::bench
