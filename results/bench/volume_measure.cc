@@ -165,10 +165,10 @@ Figure VolumeFigure(const std::vector<VolumeRow>& rows) {
   for (std::size_t l = 0; l < kLevels.size(); ++l) {
     // The names stand beside both.
     script += l == 0 ? "unset key\nset lmargin at screen 0.07\n"
-                       "set rmargin at screen 0.37\n"
-                     : "set key at screen 0.99,0.85 right top\n"
-                       "set lmargin at screen 0.45\n"
-                       "set rmargin at screen 0.75\n";
+                       "set rmargin at screen 0.36\n"
+                     : "set key at screen 0.995,0.85 right top samplen 1.5\n"
+                       "set lmargin at screen 0.44\n"
+                       "set rmargin at screen 0.73\n";
     script += std::string("set title '") + kLevels[l] + "'\nplot " + plots[l] +
               "1 w l dt 2 lw 1.5 lc rgb '#888888' t 'the whole'\n";
   }
