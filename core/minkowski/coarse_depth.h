@@ -15,8 +15,8 @@ double SurfaceDistance(const TriangleBvh& bvh, const Eigen::Vector3d& x,
                        int* near);
 
 // Bounds of how deep points are in a solid, below the nearest surface (< 0:
-// outside, by winding numbers), from a grid of 24³ points: where that decides no
-// triangle is looked at.
+// outside, by winding numbers), from a grid of 24³ points: where that decides
+// no triangle is looked at.
 class CoarseDepth {
  public:
   // At least one triangle.

@@ -25,8 +25,8 @@ TriangleBvh BvhOf(const GridSolid& solid);
 // medial axis point approximation using nearest neighbors, 2012).  Balls that
 // add little to a larger one are left out.
 //
-// What is inside is told by winding numbers; where components overlap, balls end
-// at either surface.
+// What is inside is told by winding numbers; where components overlap, balls
+// end at either surface.
 std::vector<InnerBall> InnerBalls(const GridSolid& solid,
                                   const TriangleBvh& bvh, std::size_t most);
 

@@ -18,8 +18,8 @@ namespace phongpd::internal {
 // With s in −A, q − s in the inside of B puts q inside B ⊕ (−A); likewise with
 // points of B and the inside of −A.  A box is occupied if, moved by −s for one
 // of some points s of either operand, its circumscribed ball lies inside the
-// other one, by winding numbers.  An octree, refined only where many facets are.
-// The points are centers of balls in the operands and, of those without
+// other one, by winding numbers.  An octree, refined only where many facets
+// are. The points are centers of balls in the operands and, of those without
 // cavities, some of the surface.
 class OccupiedRegion {
  public:
