@@ -19,8 +19,9 @@ sed -i 's|/javascript/normalize.css/normalize.css|normalize.css|' \
   $styles/furo.css
 scripts/docs_dark.py $styles/furo.css
 # Two columns of the index do not fit a narrow screen.
-echo '@media (max-width:46em) { .indextable td { display: block } }' \
-  >>$styles/furo.css
+echo '@media (max-width:46em) {
+  .indextable td { display: block; width: auto !important }
+}' >>$styles/furo.css
 # Its script imports another, which browsers do in modules only, and of files not
 # at all: both in one.
 parts=build/site/html/_static/scripts
