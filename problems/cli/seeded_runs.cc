@@ -65,8 +65,8 @@ void AddModel(CLI::App* app, const std::string& doing,
                       " in: all of the contact space (full), free space alone, "
                       "at a fraction of the cost, " +
                       of_window +
-                      " (window), or all of it where the limits below allow it "
-                      "(auto; scene's own if not set)")
+                      " (window), or all of it where it is needed and the "
+                      "limits below allow it (auto; scene's own if not set)")
       ->check(CLI::IsMember({"auto", "window", "full"}));
 }
 
