@@ -49,9 +49,10 @@ readonly extreme=(
 )
 # Those whose code under test runs in several threads.
 readonly threaded=(
-  contact_space_test exact_surface_test mesh_approximation_test query_cost_test
-  query_batch_test self_intersection_test contact_roadmap_test
-  contact_surface_planner_test contact_space_handle_test world_test
+  contact_space_test convolution_cells_test exact_surface_test
+  mesh_approximation_test query_cost_test query_batch_test
+  self_intersection_test contact_roadmap_test contact_surface_planner_test
+  contact_space_handle_test world_test
 )
 
 say() { printf 'check: %s\n' "$*"; }
