@@ -29,9 +29,21 @@ Separator SeparatorOf(const std::array<Vector3d, 3>& corners, const Vector3d& a,
                       const Vector3d& b) {
   Separator found;
   found.corners = corners;
-  const SegmentTrianglePair pair = ClosestPair(
-      Vector3d::Zero(), b - a, corners[0] - a, corners[1] - a, corners[2] - a);
-  found.distance = std::sqrt(pair.squared_distance);
+  // From a, and a power of two smaller: squares are finite, whatever the unit.
+  std::array<Vector3d, 4> from_a = {
+      0.5 * b - 0.5 * a, 0.5 * corners[0] - 0.5 * a, 0.5 * corners[1] - 0.5 * a,
+      0.5 * corners[2] - 0.5 * a};
+  double largest = 0.0;
+  for (const Vector3d& x : from_a) {
+    largest = std::max(largest, x.cwiseAbs().maxCoeff());
+  }
+  const int exponent = largest > 0.0 ? std::ilogb(largest) : 0;
+  for (Vector3d& x : from_a) {
+    for (double& coordinate : x) coordinate = std::ldexp(coordinate, -exponent);
+  }
+  const SegmentTrianglePair pair =
+      ClosestPair(Vector3d::Zero(), from_a[0], from_a[1], from_a[2], from_a[3]);
+  found.distance = std::ldexp(std::sqrt(pair.squared_distance), exponent + 1);
   found.normal = (pair.on_segment - pair.on_triangle).stableNormalized();
   // Wherever rounding put the pair, the triangle is below its plane.
   found.level = -kInfinity;
@@ -61,8 +73,10 @@ bool SeparatorSearch::Needs(const BoxTree::Node& box) const {
 
 double SeparatorSearch::Gap(const BoxTree::Node& box) const {
   const Vector3d low = a_.cwiseMin(b_), high = a_.cwiseMax(b_);
+  const Vector3d gap = (box.min - high).cwiseMax(low - box.max).cwiseMax(0.0);
+  const double distance = gap.norm();
   return (1.0 - kRounding) *
-         (box.min - high).cwiseMax(low - box.max).cwiseMax(0.0).norm();
+         (std::isfinite(distance) ? distance : gap.stableNorm());
 }
 
 bool SeparatorSearch::IsHidden(const std::array<Vector3d, 3>& corners) const {

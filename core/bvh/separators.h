@@ -22,7 +22,7 @@ struct Separator {
   std::array<Eigen::Vector3d, 3> corners;
 };
 
-// Of one triangle and the segment a b; coordinates whose squares are finite.
+// Of one triangle and the segment a b; finite coordinates, in any unit.
 Separator SeparatorOf(const std::array<Eigen::Vector3d, 3>& corners,
                       const Eigen::Vector3d& a, const Eigen::Vector3d& b);
 

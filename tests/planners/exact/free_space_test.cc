@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -167,6 +169,27 @@ TEST(FreeSpace, FindsTheSeparatorsOfASegment) {
       found += separators.size();
     }
     EXPECT_GT(found, 400U);
+  }
+}
+
+TEST(FreeSpace, SeparatorsScaleBitForBit) {
+  std::mt19937_64 random(12);
+  const BoundingBox box = {Vector3d::Constant(-1.0), Vector3d::Constant(1.0)};
+  for (int i = 0; i < 200; ++i) {
+    std::array<Vector3d, 5> q;
+    for (Vector3d& x : q) x = testing::RandomPoint(box, &random);
+    const Separator one = SeparatorOf({q[0], q[1], q[2]}, q[3], q[4]);
+    for (const int exponent : {-1000, -600, 600, 1020}) {
+      std::array<Vector3d, 5> scaled = q;
+      for (Vector3d& x : scaled) {
+        for (double& c : x) c = std::ldexp(c, exponent);
+      }
+      const Separator other =
+          SeparatorOf({scaled[0], scaled[1], scaled[2]}, scaled[3], scaled[4]);
+      EXPECT_EQ(other.distance, std::ldexp(one.distance, exponent));
+      EXPECT_EQ(other.normal, one.normal);
+      EXPECT_EQ(other.level, std::ldexp(one.level, exponent));
+    }
   }
 }
 
