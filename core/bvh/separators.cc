@@ -44,7 +44,8 @@ Separator SeparatorOf(const std::array<Vector3d, 3>& corners, const Vector3d& a,
   const SegmentTrianglePair pair =
       ClosestPair(Vector3d::Zero(), from_a[0], from_a[1], from_a[2], from_a[3]);
   found.distance = std::ldexp(std::sqrt(pair.squared_distance), exponent + 1);
-  found.normal = (pair.on_segment - pair.on_triangle).stableNormalized();
+  const Vector3d apart = pair.on_segment - pair.on_triangle;
+  if (!apart.isZero(0.0)) found.normal = apart.stableNormalized();
   // Wherever rounding put the pair, the triangle is below its plane.
   found.level = -kInfinity;
   for (const Vector3d& q : corners) {
