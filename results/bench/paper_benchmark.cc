@@ -4,6 +4,8 @@
 // README.md into a directory.
 #include <CLI/CLI.hpp>
 #include <iostream>
+#include <string>
+#include <vector>
 
 #include "core/projection/euclidean_metric.h"
 #include "core/projection/phong_metric.h"
@@ -29,6 +31,19 @@ std::vector<MotionTrace> TraceMoment(const ContactSpace& contact,
   traces.push_back(TraceMotion(PhongMetric(contact, options), motion,
                                "phong@0.1", "PhongPD, ℓ = 0.1"));
   return traces;
+}
+
+// What to see in a figure of traces, in one sentence.
+std::string Seen(const std::vector<MotionTrace>& traces, double jump_length) {
+  std::string text = ". Jumps by more than " + Rounded(jump_length) +
+                     " from frame to frame, greatest depth in brackets:";
+  for (const MotionTrace& trace : traces) {
+    const MotionSummary summary = Summarize(trace, jump_length);
+    text += std::string(&trace == &traces.front() ? " " : "; ") + trace.label +
+            ": " + std::to_string(summary.jumps) + " (" +
+            Rounded(summary.max_magnitude) + ")";
+  }
+  return text;
 }
 
 int Run(int argc, char** argv) {
@@ -59,8 +74,10 @@ int Run(int argc, char** argv) {
       const std::string stem = benchmark.name + "_" + motion.name;
       const std::string caption = benchmark.title + ": " + motion.summary;
       out.Write(stem + ".csv", MotionCsv(result.traces[i]));
-      figures.push_back(
-          {stem + ".svg", caption, MotionPage(result.traces[i], caption)});
+      figures.push_back({stem + ".svg",
+                         caption + Seen(result.traces[i],
+                                        options.jump * result.space->length()),
+                         MotionPage(result.traces[i], caption)});
     }
   }
   const PaperMotion moment = PaperMoment();
@@ -68,9 +85,11 @@ int Run(int argc, char** argv) {
   const std::vector<MotionTrace> traces =
       TraceMoment(*wrench.space, moment.motion);
   out.Write("moment.csv", MotionCsv(traces));
-  figures.push_back({"moment.svg", moment.summary,
-                     MomentFigure(wrench.benchmark, wrench.space->mesh(),
-                                  moment.motion, traces)});
+  figures.push_back(
+      {"moment.svg",
+       moment.summary + Seen(traces, options.jump * wrench.space->length()),
+       MomentFigure(wrench.benchmark, wrench.space->mesh(), moment.motion,
+                    traces)});
 
   const std::vector<NamedTable> tables = PaperTables(results, options);
   WriteReport(tables, figures,
