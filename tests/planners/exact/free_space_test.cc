@@ -113,15 +113,21 @@ TEST(FreeSpace, AgreesWithDenseChecksOfTheOriginalMeshes) {
   EXPECT_GT(blocked, 50);
 }
 
-// Truth: every triangle by itself, the nearest first.
+// Truth: every triangle by itself, the nearest first; how far it is, by its own
+// tree.
 std::vector<Separator> SeparatorsByForce(const TriangleMesh& mesh,
                                          const Vector3d& a, const Vector3d& b,
                                          double radius, double slack) {
   std::vector<Separator> all, kept;
   for (const Triangle& t : mesh.triangles) {
-    const Separator one = SeparatorOf(
-        {mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]}, a, b);
-    if (one.distance <= radius) all.push_back(one);
+    const std::array<Vector3d, 3> corners = {
+        mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]};
+    const TriangleBvh alone(
+        TriangleMesh{{corners.begin(), corners.end()}, {{0, 1, 2}}});
+    const double distance = alone.Distance(a, b, 2.0 * radius);
+    if (!(distance <= radius)) continue;
+    all.push_back(SeparatorOf(corners, a, b));
+    EXPECT_NEAR(all.back().distance, distance, 1e-12);
   }
   std::stable_sort(all.begin(), all.end(),
                    [](const Separator& one, const Separator& other) {
