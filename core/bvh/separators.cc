@@ -18,14 +18,9 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // Of a box's distance: what rounding may add to it, or take from a triangle's.
 constexpr double kRounding = 1e-12;
 
-std::array<Vector3d, 3> CornersAt(const TriangleBvh& tree, int position) {
-  const TriangleCorners& t = tree.corners()[position];
-  return {t[0], t[1], t[2]};
-}
-
 }  // namespace
 
-Separator SeparatorOf(const std::array<Vector3d, 3>& corners, const Vector3d& a,
+Separator SeparatorOf(const TriangleCorners& corners, const Vector3d& a,
                       const Vector3d& b) {
   Separator found;
   found.corners = corners;
@@ -59,17 +54,20 @@ SeparatorSearch::SeparatorSearch(const Vector3d& a, const Vector3d& b,
     : a_(a), b_(b), radius_(radius), slack_(slack) {}
 
 bool SeparatorSearch::Needs(const BoxTree::Node& box) const {
-  if (!(Gap(box) <= radius_)) return false;
+  return Gap(box) <= radius_ && !IsHidden(box);
+}
+
+bool SeparatorSearch::IsHidden(const BoxTree::Node& box) const {
   const Vector3d center = 0.5 * (box.min - a_) + 0.5 * (box.max - a_);
   const Vector3d half = 0.5 * (box.max - box.min);
   for (std::size_t i = 0; i < found_.size(); ++i) {
     const Vector3d& n = found_[i].normal;
     if (found_[i].distance > 0.0 &&
         n.dot(center) + n.cwiseAbs().dot(half) <= levels_[i] + slack_) {
-      return false;
+      return true;
     }
   }
-  return true;
+  return false;
 }
 
 double SeparatorSearch::Gap(const BoxTree::Node& box) const {
@@ -80,7 +78,7 @@ double SeparatorSearch::Gap(const BoxTree::Node& box) const {
          (std::isfinite(distance) ? distance : gap.stableNorm());
 }
 
-bool SeparatorSearch::IsHidden(const std::array<Vector3d, 3>& corners) const {
+bool SeparatorSearch::IsHidden(const TriangleCorners& corners) const {
   for (std::size_t i = 0; i < found_.size(); ++i) {
     if (found_[i].distance > 0.0 &&
         std::all_of(corners.begin(), corners.end(), [&](const Vector3d& q) {
@@ -116,8 +114,13 @@ void SeparatorSearch::Push(const Waiting& item) {
 void SeparatorSearch::Add(const TriangleBvh& tree) {
   if (tree.tree().nodes().empty()) return;
   trees_.push_back(&tree);
-  const BoxTree::Node& root = tree.tree().nodes()[0];
-  if (Needs(root)) Push({Gap(root), static_cast<int>(trees_.size()) - 1, 0, 0});
+  Offer(static_cast<int>(trees_.size()) - 1, 0);
+}
+
+void SeparatorSearch::Offer(int tree, int node) {
+  const BoxTree::Node& box = trees_[tree]->tree().nodes()[node];
+  const double gap = Gap(box);
+  if (gap <= radius_ && !IsHidden(box)) Push({gap, tree, node, 0});
 }
 
 void SeparatorSearch::AdvanceTo(double distance) {
@@ -132,18 +135,17 @@ void SeparatorSearch::AdvanceTo(double distance) {
 void SeparatorSearch::Open(const Waiting& item) {
   const TriangleBvh& tree = *trees_[item.tree];
   if (item.node < 0) {
-    const std::array<Vector3d, 3> corners = CornersAt(tree, item.position);
+    const TriangleCorners& corners = tree.corners()[item.position];
     if (!IsHidden(corners)) Take(SeparatorOf(corners, a_, b_));
     return;
   }
   const BoxTree::Node& node = tree.tree().nodes()[item.node];
-  if (!Needs(node)) return;
+  if (IsHidden(node)) return;
   for (int k = 0; !node.IsLeaf() && k < 2; ++k) {
-    const BoxTree::Node& child = tree.tree().nodes()[node.first + k];
-    if (Needs(child)) Push({Gap(child), item.tree, node.first + k, 0});
+    Offer(item.tree, node.first + k);
   }
   for (int i = node.first; i < node.first + node.count; ++i) {
-    const std::array<Vector3d, 3> corners = CornersAt(tree, i);
+    const TriangleCorners& corners = tree.corners()[i];
     if (IsHidden(corners)) continue;
     const double distance = SeparatorOf(corners, a_, b_).distance;
     if (distance <= radius_) Push({distance, item.tree, -1, i});

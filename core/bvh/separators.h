@@ -2,11 +2,11 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <array>
 #include <vector>
 
 #include "core/bvh/box_tree.h"
 #include "core/bvh/triangle_bvh.h"
+#include "core/bvh/triangle_corners.h"
 
 namespace phongpd {
 
@@ -19,12 +19,12 @@ struct Separator {
   // meet.
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();
   double level = 0.0;
-  std::array<Eigen::Vector3d, 3> corners;
+  TriangleCorners corners;
 };
 
 // Of one triangle and the segment a b; finite coordinates, in any unit.
-Separator SeparatorOf(const std::array<Eigen::Vector3d, 3>& corners,
-                      const Eigen::Vector3d& a, const Eigen::Vector3d& b);
+Separator SeparatorOf(const TriangleCorners& corners, const Eigen::Vector3d& a,
+                      const Eigen::Vector3d& b);
 
 // Planes that keep a segment from all triangles nearby, few of them: triangles
 // are taken in the order of their distance, and those behind the plane of an
@@ -63,8 +63,11 @@ class SeparatorSearch {
   };
   static bool IsLater(const Waiting& a, const Waiting& b);
 
-  bool IsHidden(const std::array<Eigen::Vector3d, 3>& corners) const;
+  // Behind a plane found so far.
+  bool IsHidden(const BoxTree::Node& box) const;
+  bool IsHidden(const TriangleCorners& corners) const;
   void Take(const Separator& separator);
+  void Offer(int tree, int node);
   void Push(const Waiting& item);
   void Open(const Waiting& item);
 

@@ -18,13 +18,6 @@ using Eigen::Vector3d;
 constexpr double kNone = std::numeric_limits<double>::infinity();
 constexpr double kMib = 1024.0 * 1024.0;
 
-using Corners = std::array<Vector3d, 3>;
-
-Corners CornersOf(const TriangleMesh& mesh, int triangle) {
-  const Triangle& t = mesh.triangles[static_cast<std::size_t>(triangle)];
-  return {mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]};
-}
-
 // Of a radius: what rounding between the frames may take of it.
 constexpr double kSlack = 1.0 + 0x1p-40;
 
@@ -100,9 +93,11 @@ ConvolutionSpace::Nearest ConvolutionSpace::FindNearest(
         const TriangleBvh::Closest closest = leaf.bvh.FindClosest(x);
         if (closest.distance < least) {
           least = closest.distance;
-          const Corners corners = CornersOf(leaf.mesh, closest.triangle);
+          const Triangle& t = leaf.mesh.triangles[closest.triangle];
           nearest.setZero();
-          for (int k = 0; k < 3; ++k) nearest += closest.lambda[k] * corners[k];
+          for (int k = 0; k < 3; ++k) {
+            nearest += closest.lambda[k] * leaf.mesh.vertices[t[k]];
+          }
         }
         return least;
       });
@@ -127,10 +122,8 @@ double ConvolutionSpace::Distance(const Vector3d& a, const Vector3d& b,
   return std::min(limit, step * least);
 }
 
-std::vector<Corners> ConvolutionSpace::FindSeparating(const Vector3d& a,
-                                                      const Vector3d& b,
-                                                      double radius,
-                                                      double slack) const {
+std::vector<TriangleCorners> ConvolutionSpace::FindSeparating(
+    const Vector3d& a, const Vector3d& b, double radius, double slack) const {
   const Vector3d from = ToGrid(a), to = ToGrid(b);
   if (!IsFinite(from) || !IsFinite(to)) return {};
   // In grid steps the segment is rounded by less than one.
@@ -144,9 +137,9 @@ std::vector<Corners> ConvolutionSpace::FindSeparating(const Vector3d& a,
       },
       [&](const ConvolutionCells::Leaf& leaf) { search.Add(leaf.bvh); },
       [&] { search.AdvanceTo(kNone); });
-  std::vector<Corners> facets;
+  std::vector<TriangleCorners> facets;
   for (const Separator& found : search.found()) {
-    Corners& t = facets.emplace_back(found.corners);
+    TriangleCorners& t = facets.emplace_back(found.corners);
     for (Vector3d& q : t) q = pair_.frame.ToUser(q);
   }
   return facets;

@@ -2,11 +2,11 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <array>
 #include <cstddef>
 #include <limits>
 #include <vector>
 
+#include "core/bvh/triangle_corners.h"
 #include "core/minkowski/convolution_cells.h"
 #include "core/minkowski/grid_pair.h"
 #include "core/minkowski/solid_collision.h"
@@ -59,9 +59,10 @@ class ConvolutionSpace {
   // Corners of the facets whose planes keep a free segment from all others
   // within `radius` ≥ 0 (separators.h), `slack` in the user's unit; facets of
   // cells that are all behind such planes are never made.
-  std::vector<std::array<Eigen::Vector3d, 3>> FindSeparating(
-      const Eigen::Vector3d& a, const Eigen::Vector3d& b, double radius,
-      double slack) const;
+  std::vector<TriangleCorners> FindSeparating(const Eigen::Vector3d& a,
+                                              const Eigen::Vector3d& b,
+                                              double radius,
+                                              double slack) const;
 
   // Of the convolution, in the user's frame; rounded.
   BoundingBox Bounds() const;
