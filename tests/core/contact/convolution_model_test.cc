@@ -59,6 +59,20 @@ std::vector<Pair> Pairs() {
   };
 }
 
+// The same free space by its contact space and by the convolution alone.
+struct Spaces {
+  Spaces(const TriangleMesh& robot, const TriangleMesh& obstacle)
+      : contact(BuildContactSpace(robot, obstacle)),
+        truth({contact}),
+        model(robot, obstacle),
+        found(FreeSpace::OfConvolutions({model})) {}
+
+  ContactSpace contact;
+  FreeSpace truth;
+  ConvolutionModel model;
+  FreeSpace found;
+};
+
 struct Counts {
   int free = 0, blocked = 0, distances = 0;
 };
@@ -90,10 +104,8 @@ TEST(ConvolutionModel, AgreesWithTheContactSpaceOnEverySegment) {
   Counts counts;
   for (const Pair& pair : Pairs()) {
     SCOPED_TRACE(pair.name);
-    const ContactSpace space = BuildContactSpace(pair.robot, pair.obstacle);
-    const FreeSpace truth({space});
-    const ConvolutionModel model(pair.robot, pair.obstacle);
-    const FreeSpace found = FreeSpace::OfConvolutions({model});
+    const Spaces spaces(pair.robot, pair.obstacle);
+    const auto& [space, truth, model, found] = spaces;
     EXPECT_EQ(model.Mesh().triangles.size(),
               space.report().convolution_triangles);
     EXPECT_EQ(model.report().grid_step, space.report().grid_step);
@@ -135,10 +147,8 @@ TEST(ConvolutionModel, AgreesWithTheContactSpaceWhereItIsTouched) {
                 MakePlateWithHole(4, 1, 2)},
        }) {
     SCOPED_TRACE(pair.name);
-    const ContactSpace space = BuildContactSpace(pair.robot, pair.obstacle);
-    const FreeSpace truth({space});
-    const FreeSpace found = FreeSpace::OfConvolutions(
-        {ConvolutionModel(pair.robot, pair.obstacle)});
+    const Spaces spaces(pair.robot, pair.obstacle);
+    const auto& [space, truth, model, found] = spaces;
     const std::vector<Vector3d>& corners = space.mesh().vertices;
     // Coordinates of corners, mixed, half a cube off, or kept.
     const auto pick = [&] {
@@ -198,10 +208,8 @@ TEST(ConvolutionModel, FindsTheSeparatorsOfASegment) {
   std::size_t told = 0, around = 0;
   for (const Pair& pair : Pairs()) {
     SCOPED_TRACE(pair.name);
-    const ContactSpace contact = BuildContactSpace(pair.robot, pair.obstacle);
-    const FreeSpace truth({contact});
-    const ConvolutionModel model(pair.robot, pair.obstacle);
-    const FreeSpace found = FreeSpace::OfConvolutions({model});
+    const Spaces spaces(pair.robot, pair.obstacle);
+    const auto& [contact, truth, model, found] = spaces;
     const TriangleMesh facets = model.Mesh();
     const double size = contact.bounds().Diagonal(), slack = 1e-9 * size;
     for (int i = 0; i < 200; ++i) {
@@ -321,11 +329,8 @@ TEST(ConvolutionModelCampaign, AgreesWithTheContactSpaceOnManySegments) {
   long free = 0;
   for (std::size_t p = 0; p < pairs.size(); p += every) {
     SCOPED_TRACE(pairs[p].name);
-    const ContactSpace space =
-        BuildContactSpace(pairs[p].robot, pairs[p].obstacle);
-    const FreeSpace truth({space});
-    const FreeSpace found = FreeSpace::OfConvolutions(
-        {ConvolutionModel(pairs[p].robot, pairs[p].obstacle)});
+    const Spaces spaces(pairs[p].robot, pairs[p].obstacle);
+    const auto& [space, truth, model, found] = spaces;
     for (long i = 0; i < segments; ++i) {
       const Vector3d a = testing::RandomPoint(space.bounds(), &random);
       Vector3d b = testing::RandomPoint(space.bounds(), &random);
