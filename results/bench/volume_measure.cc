@@ -26,7 +26,8 @@ using Eigen::Vector3d;
 constexpr std::array kVolumes = {1e-4, 1e-3, 1e-2, 0.03, 0.1, 0.3, 1.0};
 constexpr int kBoxes = 5;
 constexpr int kMotions = 100;
-constexpr std::array kLevels = {"free space", "window"};
+constexpr char kFreeSpace[] = "free space";
+constexpr std::array<const char*, 2> kLevels = {kFreeSpace, "window"};
 // Told apart by colour-blind readers, none of them yellow.
 constexpr std::array kColors = {"#0072B2", "#D55E00", "#009E73", "#CC79A7",
                                 "#56B4E9", "#444444", "#A0522D"};
@@ -81,7 +82,7 @@ std::vector<VolumeRow> MeasureVolumes(const std::string& pair,
                                       const ContactSpace& space,
                                       double full_seconds, std::uint64_t seed) {
   std::vector<VolumeRow> rows;
-  for (const char* level : kLevels) {
+  for (const std::string level : kLevels) {
     for (const double volume : kVolumes) {
       std::mt19937_64 random(seed);
       std::vector<double> shares;
@@ -90,7 +91,7 @@ std::vector<VolumeRow> MeasureVolumes(const std::string& pair,
             RandomSurfacePoint(space.mesh(), &random).position;
         const BoundingBox box = BoxAround(space.bounds(), volume, center);
         const double seconds =
-            level == kLevels[0]
+            level == kFreeSpace
                 ? FreeSpaceSeconds(robot, obstacle, box, &random)
                 : WindowSeconds(robot, obstacle, volume, center);
         shares.push_back(seconds / full_seconds);
@@ -116,7 +117,7 @@ NamedTable VolumeTable(const std::vector<VolumeRow>& rows) {
 
 std::string VolumeVerdict(const std::vector<VolumeRow>& rows) {
   std::string text;
-  for (const char* level : kLevels) {
+  for (const std::string level : kLevels) {
     std::string losses;
     for (const VolumeRow& r : rows) {
       if (r.level != level || r.volume < 1.0 || r.cost <= 1.0) continue;
@@ -124,7 +125,7 @@ std::string VolumeVerdict(const std::vector<VolumeRow>& rows) {
           (losses.empty() ? "" : ", ") + r.pair + " (" + Rounded(r.cost) + ")";
     }
     text += std::string(text.empty() ? "" : " ") +
-            (level == kLevels[0] ? "Free space" : "The window") +
+            (level == kFreeSpace ? "Free space" : "The window") +
             (losses.empty() ? " costs less than the whole even for all of the "
                               "box, in every pair."
                             : " loses to the whole where it is asked for all "
