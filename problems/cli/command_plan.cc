@@ -131,9 +131,8 @@ int Plan(const Flags& flags) {
              runs.ShowsBehind() ? BehindPlan(&study, result) : ViewBehind());
   }
   runs.Write([&] {
-    return study.world().BuiltConvolution() != nullptr
-               ? WindowView(scene, study.world())
-               : SceneView(scene, {study.VisibleMesh()});
+    return study.RunsInWindow(run) ? WindowView(scene, study.world())
+                                   : SceneView(scene, {study.VisibleMesh()});
   });
   const WorldSpaces* built = study.world().Built(SpaceLayout::kSealed);
   TellAboutSpaces(study.world(), built == nullptr ? 0 : built->triangles);

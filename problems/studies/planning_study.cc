@@ -43,6 +43,11 @@ void PlanningStudy::ChooseModel(const std::string& planner) {
                       world_.Built(kLayout) == nullptr;
 }
 
+bool PlanningStudy::RunsInWindow(const PlanningRun& run) {
+  ChooseModel(run.planner);
+  return UsesWindow();
+}
+
 const FreeSpace& PlanningStudy::Judge() {
   return UsesWindow() ? *world_.Convolution().free_space : *spaces().free_space;
 }

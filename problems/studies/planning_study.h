@@ -62,6 +62,11 @@ class PlanningStudy {
   // refuses the contact space that is needed.
   PlanningResult Run(const PlanningRun& run);
 
+  // Is a run of this kind one in free space alone?  The same whether it was
+  // made here or is kept from before.  Builds the full model where it takes
+  // that to know.
+  bool RunsInWindow(const PlanningRun& run);
+
   // The log of OMPL's own benchmark of one of its planners, for the
   // statistics script that comes with OMPL.  Throws like CheckHasOmplLog.
   std::string OmplLog(const PlanningRun& run, int runs);
@@ -91,7 +96,7 @@ class PlanningStudy {
   bool UsesWindow() {
     return is_window_enough_ || choice_.UsesWindow(world_, {kLayout});
   }
-  // For the planner of a run that is to come.
+  // For the planner of a run.
   void ChooseModel(const std::string& planner);
   const FreeSpace& Judge();
   std::string PlannerOf(const PlanningRun& run);
