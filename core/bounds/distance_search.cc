@@ -18,7 +18,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kRounding = 1e-14;  // of the diagonal
+constexpr double kDistanceRounding = 1e-14;  // of the diagonal
 
 void PlanLongestCut(Piece* piece) {
   double longest = -1.0;
@@ -261,7 +261,7 @@ DistanceBounds FarthestPoint(std::vector<Piece> pieces,
   }
   bounds.upper = std::max(bounds.lower, settled);
   if (!open.empty()) bounds.upper = std::max(bounds.upper, open.top().upper);
-  bounds.upper += kRounding * diagonal;
+  bounds.upper += kDistanceRounding * diagonal;
   return bounds;
 }
 

@@ -5,6 +5,8 @@
 #include <array>
 #include <cassert>
 
+#include "core/mesh/numbers.h"
+
 namespace phongpd {
 
 namespace {
@@ -12,7 +14,7 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr int kBins = 16;
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+using internal::kInfinity;
 
 // A box as its upper and its negated lower bounds, so that one maximum extends
 // it: building the tree does little else.

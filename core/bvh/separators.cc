@@ -4,19 +4,19 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <tuple>
 
 #include "core/bvh/segment_triangle_distance.h"
+#include "core/mesh/numbers.h"
 
 namespace phongpd {
 namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+using internal::kInfinity;
 // Of a box's distance: what rounding may add to it, or take from a triangle's.
-constexpr double kRounding = 1e-12;
+constexpr double kBoxRounding = 1e-12;
 
 }  // namespace
 
@@ -74,7 +74,7 @@ double SeparatorSearch::Gap(const BoxTree::Node& box) const {
   const Vector3d low = a_.cwiseMin(b_), high = a_.cwiseMax(b_);
   const Vector3d gap = (box.min - high).cwiseMax(low - box.max).cwiseMax(0.0);
   const double distance = gap.norm();
-  return (1.0 - kRounding) *
+  return (1.0 - kBoxRounding) *
          (std::isfinite(distance) ? distance : gap.stableNorm());
 }
 

@@ -11,7 +11,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-std::atomic<long> built{0};
+std::atomic<long> built_trees{0};
 
 }  // namespace
 
@@ -26,10 +26,10 @@ TriangleBvh::TriangleBvh(const TriangleMesh& mesh) : corners_(CornersOf(mesh)) {
   center_ = bounds.Center();
   const double diagonal = bounds.Diagonal();
   if (diagonal > 0.0) scale_ = std::ldexp(1.0, -std::ilogb(diagonal));
-  ++built;
+  ++built_trees;
 }
 
-long TriangleBvh::CountBuilt() { return built; }
+long TriangleBvh::CountBuilt() { return built_trees; }
 
 TriangleBvh::Closest TriangleBvh::FindClosest(
     const Vector3d& q) const noexcept {

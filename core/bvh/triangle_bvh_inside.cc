@@ -3,6 +3,7 @@
 #include "core/bvh/exact_sign.h"
 #include "core/bvh/triangle_bvh.h"
 #include "core/mesh/finite.h"
+#include "core/mesh/numbers.h"
 
 namespace phongpd {
 
@@ -10,7 +11,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-int Sign(double x) { return (x > 0.0) - (x < 0.0); }
+using internal::Sign;
 
 // Sign of the turn a, b, q + (ε, ε²) given the unperturbed one: the derivative
 // of the determinant by q_x is a_y − b_y, by q_y it is b_x − a_x.

@@ -14,7 +14,7 @@ namespace {
 // PHONGPD_BUILDER is a digest of the sources of core/mesh and
 // core/mesh to core/contact and the version of CGAL, so that a result of other
 // code is never taken for one of this.
-constexpr std::uint32_t kFormat = 1;
+constexpr std::uint32_t kCacheFormat = 1;
 
 }  // namespace
 
@@ -100,7 +100,7 @@ namespace internal {
 std::string KeyBytes(const TriangleMesh& robot, const TriangleMesh& obstacle,
                      const ContactSpaceOptions& options) {
   ByteWriter writer;
-  writer(kFormat, std::string(PHONGPD_BUILDER), robot, obstacle, options);
+  writer(kCacheFormat, std::string(PHONGPD_BUILDER), robot, obstacle, options);
   return writer.Take();
 }
 

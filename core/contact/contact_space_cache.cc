@@ -28,7 +28,7 @@ namespace {
 namespace fs = std::filesystem;
 using internal::Descriptor;
 
-const char kExtension[] = ".contact-space";
+const char kCacheExtension[] = ".contact-space";
 const char kTemporary[] = "unfinished-";
 // Written by a process that is gone, when this old; sooner where files can be
 // locked.
@@ -91,7 +91,7 @@ class CacheFile {
       : cache_(cache), folder_(cache.directory) {
     const internal::ContentHash key =
         internal::HashContent(internal::KeyBytes(robot, obstacle, options));
-    name_ = internal::ToHex(key) + kExtension;
+    name_ = internal::ToHex(key) + kCacheExtension;
     path_ = fs::path(cache.directory) / name_;
     // The counts catch what little the hash may miss.
     internal::ByteWriter writer;
@@ -190,7 +190,7 @@ class CacheFile {
         fs::remove(it->path(), gone);
         continue;
       }
-      if (it->path().extension() != kExtension) continue;
+      if (it->path().extension() != kCacheExtension) continue;
       entries.push_back({used, bytes, it->path()});
       total += bytes;
     }

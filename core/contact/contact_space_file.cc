@@ -18,37 +18,39 @@
 namespace phongpd {
 namespace {
 
-constexpr std::string_view kExtension = ".pcs";
+constexpr std::string_view kSpaceExtension = ".pcs";
 
-const char kAgain[] = "; write it anew by phongpd contact-space";
+const char kWriteSpaceAnew[] = "; write it anew by phongpd contact-space";
 
 // The version is to be raised when the bytes of ContactSpace::Parts change,
 // which tests/data/box.pcs, a file of version 1, finds.
-constexpr internal::SealedFormat kFormat = {
+constexpr internal::SealedFormat kSpaceFormat = {
     "phongpd contact space\n", 1,
-    "a contact space written by phongpd contact-space to a .pcs file", kAgain};
+    "a contact space written by phongpd contact-space to a .pcs file",
+    kWriteSpaceAnew};
 
 }  // namespace
 
 bool NamesContactSpaceFile(const std::string& path) {
-  if (path.size() < kExtension.size()) return false;
-  std::string end = path.substr(path.size() - kExtension.size());
+  if (path.size() < kSpaceExtension.size()) return false;
+  std::string end = path.substr(path.size() - kSpaceExtension.size());
   for (char& c : end) {
     c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   }
-  return end == kExtension;
+  return end == kSpaceExtension;
 }
 
 std::string ContactSpaceContent(const ContactSpace& space) {
   internal::ByteWriter length;
   length(space.HasOwnLength() ? space.length() : 0.0);
-  return internal::SealedFile(kFormat,
+  return internal::SealedFile(kSpaceFormat,
                               length.Take() + internal::ToBytes(space.parts()));
 }
 
 ContactSpace ParseContactSpace(const std::string& bytes,
                                const std::string& name) {
-  const std::string_view content = internal::ContentOf(kFormat, bytes, name);
+  const std::string_view content =
+      internal::ContentOf(kSpaceFormat, bytes, name);
   double length = 0.0;
   internal::ByteReader reader(content.substr(0, sizeof length));
   reader(length);
@@ -58,7 +60,7 @@ ContactSpace ParseContactSpace(const std::string& bytes,
     throw InputError(name +
                      ": expected a contact space behind a valid checksum, "
                      "found none" +
-                     kAgain);
+                     kWriteSpaceAnew);
   }
   ContactSpace space(std::move(parts), name);
   return length > 0.0 ? space.WithLength(length) : space;

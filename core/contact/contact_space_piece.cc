@@ -23,7 +23,7 @@ using internal::PlannedWindow;
 using internal::SurfacePiece;
 using internal::ToText;
 
-void Require(bool is_met, const std::string& message) {
+void RequireOfPiece(bool is_met, const std::string& message) {
   if (!is_met) throw InputError(message);
 }
 
@@ -74,11 +74,13 @@ ContactSpacePiece internal::BuildPiece(const TriangleMesh& robot,
                                        const ContactSpaceOptions& options,
                                        PieceNumber number,
                                        std::size_t facets_of_box) {
-  Require(0 <= number.index && number.index < number.count,
-          "piece: expected i/n with 0 <= i < n, found " + ToText(number));
-  Require(options.merge_coplanar,
-          "merge_coplanar: expected true for a piece of a contact space, found "
-          "false; build the whole");
+  RequireOfPiece(
+      0 <= number.index && number.index < number.count,
+      "piece: expected i/n with 0 <= i < n, found " + ToText(number));
+  RequireOfPiece(
+      options.merge_coplanar,
+      "merge_coplanar: expected true for a piece of a contact space, found "
+      "false; build the whole");
   auto data = std::make_shared<ContactSpacePiece::Data>();
   ContactSpaceReport& report = data->report;
   StageClock clock(&report);

@@ -15,7 +15,7 @@ using Data = ContactSpacePiece::Data;
 // Of the missing ones.
 constexpr std::size_t kMostNamed = 8;
 
-void Require(bool is_met, const std::string& message) {
+void RequireOfJoin(bool is_met, const std::string& message) {
   if (!is_met) throw InputError(message);
 }
 
@@ -32,11 +32,12 @@ void RequireOneBuild(const std::vector<ContactSpacePiece>& pieces, int finest) {
   for (const ContactSpacePiece& piece : pieces) {
     const Data& data = piece.data();
     const int count = data.number.count;
-    Require(data.build == first.build && finest % count == 0 &&
-                IsPowerOfTwo(finest / count),
-            data.name + ": expected a piece of the build that " + first.name +
-                " is of (" + std::to_string(first.number.count) +
-                " pieces, or some of them in halves), found one of another");
+    RequireOfJoin(
+        data.build == first.build && finest % count == 0 &&
+            IsPowerOfTwo(finest / count),
+        data.name + ": expected a piece of the build that " + first.name +
+            " is of (" + std::to_string(first.number.count) +
+            " pieces, or some of them in halves), found one of another");
   }
 }
 
@@ -69,7 +70,7 @@ std::string ToText(PieceNumber number) {
 }
 
 std::vector<const Data*> InOrder(const std::vector<ContactSpacePiece>& pieces) {
-  Require(!pieces.empty(), "join: expected pieces, found none");
+  RequireOfJoin(!pieces.empty(), "join: expected pieces, found none");
   int finest = 0, coarsest = pieces[0].number().count;
   for (const ContactSpacePiece& piece : pieces) {
     finest = std::max(finest, piece.number().count);
@@ -101,9 +102,10 @@ std::vector<const Data*> InOrder(const std::vector<ContactSpacePiece>& pieces) {
     ordered.push_back(span.data);
   }
   NameBetween(end, finest, coarsest, finest, &missing);
-  Require(missing.empty(),
-          "join: expected all " + std::to_string(coarsest) + " pieces, found " +
-              std::to_string(pieces.size()) + "; without " + Joined(missing));
+  RequireOfJoin(missing.empty(),
+                "join: expected all " + std::to_string(coarsest) +
+                    " pieces, found " + std::to_string(pieces.size()) +
+                    "; without " + Joined(missing));
   return ordered;
 }
 

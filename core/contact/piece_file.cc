@@ -13,11 +13,12 @@
 namespace phongpd::internal {
 namespace {
 
-const char kAgain[] = "; write it anew by phongpd contact-space --piece";
+const char kWritePieceAnew[] =
+    "; write it anew by phongpd contact-space --piece";
 
-constexpr SealedFormat kFormat = {
+constexpr SealedFormat kPieceFormat = {
     "phongpd piece of a contact space\n", 1,
-    "a piece written by phongpd contact-space --piece", kAgain};
+    "a piece written by phongpd contact-space --piece", kWritePieceAnew};
 
 // Either way: what is written is put together again as it was.
 template <typename Stream>
@@ -98,7 +99,7 @@ bool IsIndex(int i, std::size_t size) {
 }
 
 // Can it be joined without looking again?
-bool IsValid(const SurfacePiece& piece) {
+bool IsValidPiece(const SurfacePiece& piece) {
   const std::size_t planes = piece.planes.size(), edges = piece.edges.size();
   for (const SurfacePiece::Side& side : piece.sides) {
     if (!IsIndex(side.plane, planes)) return false;
@@ -156,7 +157,7 @@ std::string PieceContent(const ContactSpacePiece& piece) {
   writer(data.build, data.number.index, data.number.count,
          data.outer_shell_only, data.frame, internal::ToBytes(about),
          data.boxes);
-  return internal::SealedFile(internal::kFormat, writer.Take());
+  return internal::SealedFile(internal::kPieceFormat, writer.Take());
 }
 
 ContactSpacePiece ParsePiece(const std::string& bytes,
@@ -165,17 +166,18 @@ ContactSpacePiece ParsePiece(const std::string& bytes,
   data->name = name;
   std::string about;
   internal::ByteReader reader(
-      internal::ContentOf(internal::kFormat, bytes, name));
+      internal::ContentOf(internal::kPieceFormat, bytes, name));
   reader(data->build, data->number.index, data->number.count,
          data->outer_shell_only, data->frame, about, data->boxes);
   ContactSpace::Parts parts;
   if (!reader.Done() || !internal::FromBytes(about, &parts) ||
       data->number.index < 0 || data->number.index >= data->number.count ||
-      !std::all_of(data->boxes.begin(), data->boxes.end(), internal::IsValid)) {
+      !std::all_of(data->boxes.begin(), data->boxes.end(),
+                   internal::IsValidPiece)) {
     throw InputError(name +
                      ": expected a piece of a contact space behind a valid "
                      "checksum, found none" +
-                     internal::kAgain);
+                     internal::kWritePieceAnew);
   }
   data->report = std::move(parts.report);
   return ContactSpacePiece(std::move(data));

@@ -5,10 +5,10 @@
 #include <numeric>
 #include <tuple>
 
+#include "core/mesh/numbers.h"
+
 namespace phongpd::internal {
 namespace {
-
-std::size_t At(int k) { return static_cast<std::size_t>(k); }
 
 // Calls visit(side) for all of them, triangle by triangle.
 template <typename Visit>

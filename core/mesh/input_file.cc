@@ -17,14 +17,14 @@ namespace {
 
 constexpr int kPatienceMs = 1000;  // for the first writer of a pipe
 
-class Descriptor {
+class InputDescriptor {
  public:
-  explicit Descriptor(int number) : number_(number) {}
-  ~Descriptor() {
+  explicit InputDescriptor(int number) : number_(number) {}
+  ~InputDescriptor() {
     if (number_ >= 0) close(number_);
   }
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
+  InputDescriptor(const InputDescriptor&) = delete;
+  InputDescriptor& operator=(const InputDescriptor&) = delete;
   int number() const { return number_; }
 
  private:
@@ -111,7 +111,7 @@ class InputFile {
   const std::string& path_;
   const char* kind_;
   std::uintmax_t max_bytes_;
-  Descriptor file_;
+  InputDescriptor file_;
   int open_error_;
 };
 

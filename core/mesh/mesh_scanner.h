@@ -37,10 +37,10 @@ void MakeQuiet(Real* x) {
   using Bits =
       std::conditional_t<sizeof(Real) == 4, std::uint32_t, std::uint64_t>;
   static_assert(sizeof(Bits) == sizeof(Real));
-  constexpr Real kInfinity = std::numeric_limits<Real>::infinity();
+  constexpr Real kInfinite = std::numeric_limits<Real>::infinity();
   Bits bits, infinity;
   std::memcpy(&bits, x, sizeof bits);
-  std::memcpy(&infinity, &kInfinity, sizeof infinity);
+  std::memcpy(&infinity, &kInfinite, sizeof infinity);
   const bool is_nan = static_cast<Bits>(bits << 1) > infinity << 1;
   if (is_nan) *x = std::numeric_limits<Real>::quiet_NaN();
 }

@@ -21,10 +21,10 @@ struct FaceInfo {
   Side side = Side::kUnknown;
 };
 using VertexBase = CGAL::Triangulation_vertex_base_with_info_2<int, Kernel>;
-using FaceBase = CGAL::Constrained_triangulation_face_base_2<
+using SidedFaceBase = CGAL::Constrained_triangulation_face_base_2<
     Kernel, CGAL::Triangulation_face_base_with_info_2<FaceInfo, Kernel>>;
 using Cdt = CGAL::Constrained_Delaunay_triangulation_2<
-    Kernel, CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>,
+    Kernel, CGAL::Triangulation_data_structure_2<VertexBase, SidedFaceBase>,
     CGAL::No_constraint_intersection_tag>;
 
 // Inserts the loops as constraints; false when they are not simple.

@@ -5,12 +5,14 @@
 #include <cstddef>
 #include <utility>
 
+#include "core/mesh/numbers.h"
+
 namespace phongpd {
 namespace {
 
 using Eigen::Vector3d;
 
-std::size_t At(int k) { return static_cast<std::size_t>(k); }
+using internal::At;
 
 }  // namespace
 

@@ -4,15 +4,15 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cstddef>
-#include <limits>
 
 #include "core/mesh/edge_sides.h"
+#include "core/mesh/numbers.h"
 #include "core/mesh/union_find.h"
 
 namespace phongpd {
 
 BoundingBox ComputeBounds(const TriangleMesh& mesh) {
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  using internal::kInfinity;
   BoundingBox box{Eigen::Vector3d::Constant(kInfinity),
                   Eigen::Vector3d::Constant(-kInfinity)};
   for (const Triangle& triangle : mesh.triangles) {

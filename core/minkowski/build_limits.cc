@@ -34,7 +34,6 @@ namespace internal {
 namespace {
 
 constexpr double kNone = std::numeric_limits<double>::infinity();
-constexpr double kMib = 1024.0 * 1024.0;
 // Of what is free; the rest is for what a build leaves to its caller.
 constexpr double kFreeShare = 0.9;
 // Reading the resident set takes some ten microseconds, in which little grows.

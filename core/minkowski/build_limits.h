@@ -10,6 +10,8 @@
 
 namespace phongpd::internal {
 
+inline constexpr double kMib = 1024.0 * 1024.0;  // bytes
+
 // What this process can still take, MiB: the machine's available memory, or
 // what a control group or RLIMIT_AS leaves of it.
 double AvailableMib();

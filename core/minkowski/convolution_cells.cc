@@ -13,7 +13,7 @@ using Eigen::Vector3d;
 constexpr std::size_t kMostSums = 400;
 // Halves may hold more, by this factor: where thousands of facets share a
 // corner, no box around it would ever meet few.
-constexpr double kGrowth = 1.1;
+constexpr double kHalfGrowth = 1.1;
 
 // Grid points are exact in double.
 TriangleMesh AsMesh(const Convolution& convolution) {
@@ -107,7 +107,7 @@ std::unique_ptr<const ConvolutionCells::Content> ConvolutionCells::Find(
     half.box = cell.box;
     (k == 0 ? half.box.max : half.box.min)[axis] = middle;
     half.most =
-        static_cast<std::size_t>(kGrowth * static_cast<double>(cell.most));
+        static_cast<std::size_t>(kHalfGrowth * static_cast<double>(cell.most));
   }
   return content;
 }

@@ -8,6 +8,8 @@
 #include "core/bvh/segment_reach.h"
 #include "core/bvh/separators.h"
 #include "core/mesh/finite.h"
+#include "core/mesh/numbers.h"
+#include "core/minkowski/build_limits.h"
 #include "core/minkowski/convolution.h"
 
 namespace phongpd::internal {
@@ -15,11 +17,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kNone = std::numeric_limits<double>::infinity();
-constexpr double kMib = 1024.0 * 1024.0;
-
 // Of a radius: what rounding between the frames may take of it.
-constexpr double kSlack = 1.0 + 0x1p-40;
+constexpr double kRadiusSlack = 1.0 + 0x1p-40;
 
 }  // namespace
 
@@ -51,11 +50,11 @@ bool ConvolutionSpace::IsFree(const Vector3d& a, const Vector3d& b) const {
   cells_.NearestFirst(
       1.0,
       [&](const BoxTree::Node& box) {
-        return reach.Meets(box) ? reach.Entry(box) - 1.0 : kNone;
+        return reach.Meets(box) ? reach.Entry(box) - 1.0 : kInfinity;
       },
       [&](const ConvolutionCells::Leaf& leaf) {
         meets = leaf.bvh.Meets(from, to);
-        return meets ? -kNone : 1.0;
+        return meets ? -kInfinity : 1.0;
       });
   return !meets;
 }
@@ -69,7 +68,7 @@ double ConvolutionSpace::FirstContact(const Vector3d& a,
   cells_.NearestFirst(
       first,
       [&](const BoxTree::Node& box) {
-        return reach.Meets(box) ? reach.Entry(box) : kNone;
+        return reach.Meets(box) ? reach.Entry(box) : kInfinity;
       },
       [&](const ConvolutionCells::Leaf& leaf) {
         const TriangleBvh::Hit hit = leaf.bvh.FirstHit(from, to);
@@ -82,10 +81,10 @@ double ConvolutionSpace::FirstContact(const Vector3d& a,
 ConvolutionSpace::Nearest ConvolutionSpace::FindNearest(
     const Vector3d& q) const {
   const Vector3d x = ToGrid(q);
-  double least = kNone;
+  double least = kInfinity;
   Vector3d nearest = Vector3d::Zero();
   cells_.NearestFirst(
-      kNone,
+      kInfinity,
       [&](const BoxTree::Node& box) {
         return std::sqrt(box.SquaredDistance(x));
       },
@@ -114,7 +113,7 @@ double ConvolutionSpace::Distance(const Vector3d& a, const Vector3d& b,
       least,
       [&](const BoxTree::Node& box) {
         return std::isinf(least) || reach.Meets(box, least) ? reach.Gap(box)
-                                                            : kNone;
+                                                            : kInfinity;
       },
       [&](const ConvolutionCells::Leaf& leaf) {
         return least = leaf.bvh.Distance(from, to, least);
@@ -128,7 +127,8 @@ std::vector<TriangleCorners> ConvolutionSpace::FindSeparating(
   if (!IsFinite(from) || !IsFinite(to)) return {};
   // In grid steps the segment is rounded by less than one.
   const double step = pair_.frame.step;
-  SeparatorSearch search(from, to, kSlack * radius / step + 1.0, slack / step);
+  SeparatorSearch search(from, to, kRadiusSlack * radius / step + 1.0,
+                         slack / step);
   cells_.BestFirst(
       [&](const BoxTree::Node& box) { return search.Gap(box); },
       [&](double gap, const BoxTree::Node& box) {
@@ -136,7 +136,7 @@ std::vector<TriangleCorners> ConvolutionSpace::FindSeparating(
         return search.Needs(box);
       },
       [&](const ConvolutionCells::Leaf& leaf) { search.Add(leaf.bvh); },
-      [&] { search.AdvanceTo(kNone); });
+      [&] { search.AdvanceTo(kInfinity); });
   std::vector<TriangleCorners> facets;
   for (const Separator& found : search.found()) {
     TriangleCorners& t = facets.emplace_back(found.corners);
@@ -151,7 +151,8 @@ BoundingBox ConvolutionSpace::Bounds() const {
   const Vector3d origin = pair_.frame.ToUser(Vector3d::Zero());
   BoundingBox sum{origin, origin};
   for (const GridSolid* solid : {&pair_.obstacle, &pair_.reflected_robot}) {
-    BoundingBox box{Vector3d::Constant(kNone), Vector3d::Constant(-kNone)};
+    BoundingBox box{Vector3d::Constant(kInfinity),
+                    Vector3d::Constant(-kInfinity)};
     for (const Triangle& t : solid->facets) {
       for (const int v : t) {
         const Vector3d q = pair_.frame.ToUser(ToDouble(solid->vertices[v]));

@@ -17,7 +17,7 @@ using Eigen::Vector3d;
 // Facets that the first window holds, and how many times as many every further
 // one: found by trying (results/lazy).
 constexpr std::size_t kFirstFacets = 64;
-constexpr double kGrowth = 4.0;
+constexpr double kWindowGrowth = 4.0;
 // Of the sums' extent: where the search for the first window starts.
 constexpr double kFirstShare = 0x1p-7;
 // Grid steps; a smaller window holds nothing.
@@ -221,7 +221,8 @@ void DepthSearch::SearchWindows(const Vector3d& x, const SearchLimits& limits,
       return;
     }
     facets = static_cast<std::size_t>(
-        kGrowth * static_cast<double>(std::max(facets, part.origins.size())));
+        kWindowGrowth *
+        static_cast<double>(std::max(facets, part.origins.size())));
   }
 }
 

@@ -17,7 +17,7 @@ namespace {
 using Eigen::Vector3d;
 
 // Angles closer than this are told apart exactly (radians).
-constexpr double kAngleGap = 1e-6;
+constexpr double kRingGap = 1e-6;
 // An edge this long (grid steps) shows which way it runs although its ends
 // are rounded.
 constexpr double kLongEdge = 1.0;
@@ -87,7 +87,7 @@ class RingSorter {
               [](const auto& x, const auto& y) { return x.first < y.first; });
     for (std::size_t k = 0; k < count; ++k) {
       const double next = k + 1 < count ? order[k + 1].first : 2 * M_PI;
-      if (next - order[k].first < kAngleGap) return false;
+      if (next - order[k].first < kRingGap) return false;
     }
     for (std::size_t k = 0; k < count; ++k) begin[k] = order[k].second;
     return true;

@@ -18,7 +18,7 @@ namespace {
 
 constexpr double kMiss = std::numeric_limits<double>::infinity();
 // Grid steps: far above what rounding moves a ray at a box.
-constexpr double kBoxMargin = 0x1p-4;
+constexpr double kRayBoxMargin = 0x1p-4;
 
 // Where the ray enters the box, or infinity.  A direction component of zero
 // is handled apart: 0 · ∞ is not a number.
@@ -147,8 +147,8 @@ void FaceGeometry::BuildTree() {
       box.min = box.min.cwiseMin(From(h));
       box.max = box.max.cwiseMax(From(h));
     }
-    box.min.array() -= kBoxMargin;
-    box.max.array() += kBoxMargin;
+    box.min.array() -= kRayBoxMargin;
+    box.max.array() += kRayBoxMargin;
   });
   tree_ = BoxTree(boxes, 4);
 }

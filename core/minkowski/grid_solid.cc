@@ -15,7 +15,7 @@
 namespace phongpd::internal {
 namespace {
 
-using HalfEdge = std::pair<int, int>;
+using EdgeEnds = std::pair<int, int>;
 
 GridNormal FacetNormal(const std::vector<GridPoint>& vertices,
                        const Triangle& t) {
@@ -59,16 +59,16 @@ void DissolveCollinearFacets(std::vector<Triangle>* facets,
   };
   if (std::none_of(facets->begin(), facets->end(), is_flat)) return;
 
-  std::multimap<HalfEdge, int> owner;
+  std::multimap<EdgeEnds, int> owner;
   const auto attach = [&](int f) {
     const Triangle& t = (*facets)[f];
     for (int k = 0; k < 3; ++k)
-      owner.emplace(HalfEdge(t[k], t[(k + 1) % 3]), f);
+      owner.emplace(EdgeEnds(t[k], t[(k + 1) % 3]), f);
   };
   const auto detach = [&](int f) {
     const Triangle& t = (*facets)[f];
     for (int k = 0; k < 3; ++k) {
-      auto range = owner.equal_range(HalfEdge(t[k], t[(k + 1) % 3]));
+      auto range = owner.equal_range(EdgeEnds(t[k], t[(k + 1) % 3]));
       for (auto it = range.first; it != range.second; ++it) {
         if (it->second == f) {
           owner.erase(it);
@@ -106,7 +106,7 @@ void DissolveCollinearFacets(std::vector<Triangle>* facets,
     }
     const int c = t[longest], a = t[(longest + 1) % 3];
     const int b = t[(longest + 2) % 3];
-    const auto it = owner.find(HalfEdge(a, c));
+    const auto it = owner.find(EdgeEnds(a, c));
     if (it == owner.end()) {
       throw InputError(name +
                        ": expected a closed mesh, found a boundary edge "

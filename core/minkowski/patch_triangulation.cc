@@ -18,24 +18,26 @@
 namespace phongpd::internal {
 namespace {
 
-using Kernel = CGAL::Exact_predicates_exact_constructions_kernel;
-using VertexBase = CGAL::Triangulation_vertex_base_with_info_2<int, Kernel>;
-using FaceBase = CGAL::Constrained_triangulation_face_base_2<
-    Kernel, CGAL::Triangulation_face_base_with_info_2<bool, Kernel>>;
+using ExactKernel = CGAL::Exact_predicates_exact_constructions_kernel;
+using NumberedVertexBase =
+    CGAL::Triangulation_vertex_base_with_info_2<int, ExactKernel>;
+using MarkedFaceBase = CGAL::Constrained_triangulation_face_base_2<
+    ExactKernel, CGAL::Triangulation_face_base_with_info_2<bool, ExactKernel>>;
 using Triangulation = CGAL::Constrained_Delaunay_triangulation_2<
-    Kernel, CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>,
+    ExactKernel,
+    CGAL::Triangulation_data_structure_2<NumberedVertexBase, MarkedFaceBase>,
     CGAL::No_constraint_intersection_tag>;
 
 // An integer as a sum of doubles of one sign: exact, and with a tight interval.
-Kernel::FT ToExact(const Wide& value) {
+ExactKernel::FT ToExact(const Wide& value) {
   const Wide magnitude = abs(value);
   const Wide mask = (Wide(1) << 52) - 1;
-  Kernel::FT sum(0);
+  ExactKernel::FT sum(0);
   for (int shift = 0; (magnitude >> shift) != 0; shift += 52) {
     const Wide digits = (magnitude >> shift) & mask;
     if (digits == 0) continue;
     const double part = std::ldexp(digits.convert_to<double>(), shift);
-    sum += Kernel::FT(value < 0 ? -part : part);
+    sum += ExactKernel::FT(value < 0 ? -part : part);
   }
   return sum;
 }
@@ -97,13 +99,13 @@ class PatchTriangulator {
     return {{l[1], l[2], l[3]}, {l[1], l[3], l[0]}};
   }
 
-  Kernel::Point_2 Exact(int vertex, const Projection& p) const {
+  ExactKernel::Point_2 Exact(int vertex, const Projection& p) const {
     const LocatedPoint point = points_[surface_.vertex_points[vertex]];
     if (point.definition.kind == PointDefinition::kVertex) {
       return {point.approximate[p.u], point.approximate[p.v]};
     }
     const Homogeneous h = Evaluate(point.definition);
-    const Kernel::FT w = ToExact(h.w);
+    const ExactKernel::FT w = ToExact(h.w);
     return {ToExact(h.x[p.u]) / w, ToExact(h.x[p.v]) / w};
   }
 

@@ -17,12 +17,12 @@ namespace {
 using Eigen::Vector2d;
 
 // Directions closer than this are compared exactly (radians).
-constexpr double kAngleGap = 1e-9;
+constexpr double kDirectionGap = 1e-9;
 // Where an edge passes is known in double up to this (grid steps), or else it
 // is too level to tell.
 constexpr double kSteepError = 1.0;
 // Grid steps by which boxes of edges are wider: far above kPointError.
-constexpr double kBoxMargin = 1.0;
+constexpr double kEdgeBoxMargin = 1.0;
 
 }  // namespace
 
@@ -51,11 +51,11 @@ void PlanarGraph::SortOutgoing(Few* half_edges) const {
   }
   std::sort(order.begin(), order.end());
   bool clear =
-      order.front().first + 2 * M_PI - order.back().first > kAngleGap &&
-      M_PI - order.back().first > kAngleGap &&
-      order.front().first + M_PI > kAngleGap;
+      order.front().first + 2 * M_PI - order.back().first > kDirectionGap &&
+      M_PI - order.back().first > kDirectionGap &&
+      order.front().first + M_PI > kDirectionGap;
   for (std::size_t k = 0; k + 1 < order.size(); ++k) {
-    clear = clear && order[k + 1].first - order[k].first > kAngleGap;
+    clear = clear && order[k + 1].first - order[k].first > kDirectionGap;
   }
   if (clear) {
     for (std::size_t k = 0; k < order.size(); ++k) {
@@ -200,7 +200,7 @@ int PlanarGraph::HalfEdgeLeftOf(const Component& component,
         visit(tree.order()[position]);
         if (closest < 0) return std::numeric_limits<double>::max();
         const auto [a, b] = edges_[closest].end;
-        return at[0] - std::min(Flat(a)[0], Flat(b)[0]) + kBoxMargin;
+        return at[0] - std::min(Flat(a)[0], Flat(b)[0]) + kEdgeBoxMargin;
       });
   if (closest < 0) return -1;
   // It lies right of the upward half-edge: left of the other.
@@ -214,8 +214,8 @@ BoxTree PlanarGraph::EdgeTree() const {
   boxes.reserve(edges_.size());
   for (const Edge& e : edges_) {
     const Vector2d p = Flat(e.end[0]), q = Flat(e.end[1]);
-    const Vector2d low = p.cwiseMin(q).array() - kBoxMargin;
-    const Vector2d high = p.cwiseMax(q).array() + kBoxMargin;
+    const Vector2d low = p.cwiseMin(q).array() - kEdgeBoxMargin;
+    const Vector2d high = p.cwiseMax(q).array() + kEdgeBoxMargin;
     boxes.push_back({{low[0], low[1], 0.0}, {high[0], high[1], 0.0}});
   }
   return BoxTree(boxes, 4);

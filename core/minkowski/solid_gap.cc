@@ -18,14 +18,14 @@ namespace {
 using Eigen::Vector3d;
 using Corners = std::array<Vector3d, 3>;
 
-struct TrianglePair {
+struct FacetPair {
   Vector3d on_t = Vector3d::Zero(), on_u = Vector3d::Zero();
   double squared_distance = std::numeric_limits<double>::infinity();
 };
 
 // Disjoint triangles are closest where an edge of one is closest to the other.
-TrianglePair ClosestPoints(const Corners& t, const Corners& u) {
-  TrianglePair best;
+FacetPair ClosestPoints(const Corners& t, const Corners& u) {
+  FacetPair best;
   for (int side = 0; side < 2; ++side) {
     const Corners& edges = side == 0 ? t : u;
     const Corners& other = side == 0 ? u : t;
@@ -89,7 +89,7 @@ SolidGap::Nearest SolidGap::Find(const Vector3d& x) const {
         const Corners t = p_corners(f);
         for (int l = b.first; l < b.first + b.count; ++l) {
           const int g = q_tree_.order()[l];
-          const TrianglePair pair = ClosestPoints(t, placed_corners(g));
+          const FacetPair pair = ClosestPoints(t, placed_corners(g));
           if (pair.squared_distance >= least) continue;
           least = pair.squared_distance;
           best.on_p = pair.on_t / scale;

@@ -4,10 +4,10 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <utility>
 
+#include "core/mesh/numbers.h"
 #include "core/mesh/union_find.h"
 #include "core/minkowski/cell_probe.h"
 #include "core/minkowski/edge_rings.h"
@@ -22,7 +22,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // Half steps: far above the rounding of the arrangement's points.
 constexpr double kNearlyThere = 0x1p-6;
 // Half steps: a cell that goes on as far at one of its largest faces is judged

@@ -16,7 +16,8 @@ constexpr std::int64_t kLeastWidth = 4;
 // A window of which both halves meet more of its facets than this is not split.
 constexpr double kUseless = 0.95;
 
-void Corners(const Convolution& convolution, int facet, Vector3d corners[3]) {
+void CopyCorners(const Convolution& convolution, int facet,
+                 Vector3d corners[3]) {
   for (int k = 0; k < 3; ++k) {
     corners[k] =
         ToDouble(convolution.points[convolution.facets[facet].corners[k]]);
@@ -63,7 +64,7 @@ class Planner {
     const BoundingBox box = part->window.Box();
     for (const int f : whole.facets) {
       Vector3d corners[3];
-      Corners(convolution_, f, corners);
+      CopyCorners(convolution_, f, corners);
       if (!IsClearlyApart(corners, box)) part->facets.push_back(f);
     }
   }

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/mesh/numbers.h"
+
 namespace phongpd {
 
 namespace {
@@ -16,10 +18,10 @@ constexpr double kContraction = 0.2;    // < ¼, see the header
 constexpr double kShortestMove = 1e-8;  // a cut below this is a fold
 constexpr double kSnap = 1e-14;         // of λ, onto an edge or vertex
 constexpr double kAtEdge = 1e-12;       // of λ, no progress is possible
-constexpr int kMaxSteps = 4096;
+constexpr int kMaxWalkSteps = 4096;
 constexpr int kMaxStalls = 24;
 
-int Sign(double x) { return (x > 0.0) - (x < 0.0); }
+using internal::Sign;
 
 // J and its inverse (rows: cofactors / det) at a point of a prism.
 struct Local {
@@ -126,7 +128,7 @@ bool BranchWalk::Follow(const FieldProjector& projector, const Vector3d& x_b,
   double sign = 0.0;
   double shorten = 1.0;  // after a cut move that met a wall at once
   int stalls = 0;
-  for (int step = 0; step < kMaxSteps; ++step) {
+  for (int step = 0; step < kMaxWalkSteps; ++step) {
     const OffsetPrism& prism = projector.prisms()[*triangle];
     const Local local(prism, *hit, x_b);
     if (sign == 0.0) sign = Sign(local.det);

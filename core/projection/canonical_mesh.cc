@@ -2,15 +2,15 @@
 #include "core/projection/canonical_mesh.h"
 
 #include <cmath>
-#include <cstddef>
 #include <utility>
 
+#include "core/mesh/numbers.h"
 #include "core/mesh/sorted_mesh.h"
 
 namespace phongpd {
 namespace {
 
-std::size_t At(int k) { return static_cast<std::size_t>(k); }
+using internal::At;
 
 }  // namespace
 

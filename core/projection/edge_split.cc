@@ -5,11 +5,12 @@
 #include <cstddef>
 
 #include "core/mesh/edge_sides.h"
+#include "core/mesh/numbers.h"
 
 namespace phongpd {
 namespace {
 
-std::size_t At(int k) { return static_cast<std::size_t>(k); }
+using internal::At;
 
 // Cuts one triangle along its marked edges, longest first.
 class TriangleCutter {

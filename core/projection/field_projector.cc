@@ -2,8 +2,9 @@
 #include "core/projection/field_projector.h"
 
 #include <algorithm>
-#include <limits>
 #include <utility>
+
+#include "core/mesh/numbers.h"
 
 namespace phongpd {
 
@@ -13,7 +14,7 @@ namespace {
 constexpr double kOnSurface = 1e-13;
 // No interior point is deeper; the field frame has a diagonal in [1, 2).
 constexpr double kDiagonal = 2.0;
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+using internal::kInfinity;
 }  // namespace
 
 using Eigen::Vector3d;

@@ -7,11 +7,13 @@
 #include <cstddef>
 #include <utility>
 
+#include "core/mesh/numbers.h"
+
 namespace phongpd {
 namespace {
 
 // Slack of the triangle inequalities, relative to the diagonal.
-constexpr double kSlack = 1e-10;
+constexpr double kTriangleSlack = 1e-10;
 // Cotangent sums above −kCocircular·(|cot α| + |cot β|) are cocircular up to
 // rounding: flipping those could go on for ever.
 constexpr double kCocircular = 1e-12;
@@ -35,7 +37,7 @@ struct IntrinsicTriangle {
 };
 
 int Next(int k) { return (k + 1) % 3; }
-std::size_t At(int k) { return static_cast<std::size_t>(k); }
+using internal::At;
 
 // Kahan's stable area of a triangle from its edge lengths.
 double Area(double a, double b, double c) {
@@ -53,7 +55,7 @@ class IntrinsicTriangulation {
     const auto neighbors = TriangleNeighbors(mesh);
     triangles_.resize(mesh.triangles.size());
     double shortfall = 0.0;
-    const double slack = kSlack * ComputeBounds(mesh).Diagonal();
+    const double slack = kTriangleSlack * ComputeBounds(mesh).Diagonal();
     for (std::size_t t = 0; t < triangles_.size(); ++t) {
       IntrinsicTriangle& tri = triangles_[t];
       tri.vertex = mesh.triangles[t];

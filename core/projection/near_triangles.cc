@@ -16,17 +16,17 @@ constexpr std::size_t kMost = 256;
 constexpr std::size_t kFew = 48;
 constexpr double kMostSteps = 16.0, kFewestSteps = 1.0;
 // Rounding of distances, frame of SurfaceWalk.
-constexpr double kRounding = 1e-14;
+constexpr double kFootRounding = 1e-14;
 constexpr double kPlaneRounding = 1e-11;
 // sin² of a triangle's angle between its two edges, below which its plane is
 // not used.
-constexpr double kFlat = 1e-4;
+constexpr double kFlatTriangle = 1e-4;
 
 void SetPlane(const TriangleCorners& t, Vector3d* normal, double* offset) {
   const Vector3d u = t[1] - t[0], v = t[2] - t[0];
   const Vector3d n = u.cross(v);
   const double squared = n.squaredNorm();
-  if (!(squared > kFlat * u.squaredNorm() * v.squaredNorm())) return;
+  if (!(squared > kFlatTriangle * u.squaredNorm() * v.squaredNorm())) return;
   *normal = n / std::sqrt(squared);
   *offset = normal->dot(t[0]);
 }
@@ -39,9 +39,9 @@ SurfaceFoot NearTriangles::FindClosest(const SurfaceWalk& walk,
   SurfaceFoot best = seed;
   double distance = std::sqrt(best.squared_distance);
   const double gone = (x - anchor_).norm();
-  if (distance + gone + kRounding <= radius_) {
+  if (distance + gone + kFootRounding <= radius_) {
     for (const Near& near : near_) {
-      if (near.far - gone - kRounding >= distance) continue;
+      if (near.far - gone - kFootRounding >= distance) continue;
       // No point of the triangle is closer than its plane.
       const double above = std::abs(near.normal.dot(x) - near.offset);
       if (above > distance + kPlaneRounding) continue;

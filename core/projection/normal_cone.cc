@@ -14,7 +14,7 @@ using Eigen::Vector3d;
 // All lengths below are relative to unit vectors.
 constexpr double kOrigin = 1e-9;        // |v| that counts as the origin
 constexpr double kImprovement = 1e-14;  // of |v|² that counts as progress
-constexpr int kMaxSteps = 200;          // of the closest-point iteration
+constexpr int kMaxClosestSteps = 200;   // of the closest-point iteration
 constexpr int kBisections = 50;         // of the blend, in [0, 1]
 
 // At most four affinely independent points, the support of the closest point.
@@ -87,7 +87,7 @@ Vector3d BestNormal(const std::vector<Vector3d>& facets) {
   }
   if (simplex.size == 0) return Vector3d::Zero();
   Vector3d v = simplex.point[0];
-  for (int step = 0; step < kMaxSteps; ++step) {
+  for (int step = 0; step < kMaxClosestSteps; ++step) {
     const Vector3d* support = nullptr;
     for (const Vector3d& facet : facets) {
       if (facet.isZero(0.0)) continue;

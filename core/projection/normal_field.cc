@@ -17,8 +17,8 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 // Field frame: lengths are of order 1.
-constexpr double kSlack = 1e-13;     // of s, at the interval's ends
-constexpr double kResidual = 1e-12;  // of an accepted hit
+constexpr double kEndSlack = 1e-13;     // of s, at the interval's ends
+constexpr double kHitResidual = 1e-12;  // of an accepted hit
 constexpr double kMaxLambdaTolerance = 1e-9;
 constexpr double kMinLambdaTolerance = 1e-13;
 // Of what only saves work, beyond all of these.
@@ -52,7 +52,7 @@ void PrepareNarrow(OffsetPrism* prism) {
   if (least > 1e-9 * sides) {
     prism->over_most_n = (1.0 - kTolerant) / most;
     prism->over_least_n = (1.0 + kTolerant) / least;
-    prism->plane_slack = kResidual + 1e-14 * sides / least;
+    prism->plane_slack = kHitResidual + 1e-14 * sides / least;
   }
   prism->reach = std::max(
       {prism->e1.norm(), prism->e2.norm(), (prism->e2 - prism->e1).norm()});
@@ -137,7 +137,7 @@ int OffsetPrism::Project(const Vector3d& x, double s_min, double s_max,
   const Cubic f = {x0.dot(cross_n), n0_n + x0.dot(cross_m),
                    n0_m + x0.dot(cross_k), n0_k};
   int count = 0;
-  for (const double s : SolveCubic(f, s_min - kSlack, s_max + kSlack)) {
+  for (const double s : SolveCubic(f, s_min - kEndSlack, s_max + kEndSlack)) {
     const Vector3d a = e1 + s * d1;
     const Vector3d b = e2 + s * d2;
     const Vector3d r = -(x0 + s * n0);  // = λ₁a + λ₂b
@@ -151,7 +151,7 @@ int OffsetPrism::Project(const Vector3d& x, double s_min, double s_max,
       // A fold of the whole offset triangle, e.g. the centre of a ball.
       const TrianglePoint nearest =
           ClosestOnTriangle(Vector3d::Zero(), a, b, r);
-      if (nearest.squared_distance > kResidual * kResidual) continue;
+      if (nearest.squared_distance > kHitResidual * kHitResidual) continue;
       hit.lambda = nearest.lambda;
     } else {
       const double l1 = r.cross(b).dot(c) / squared_area;
@@ -190,7 +190,7 @@ bool OffsetPrism::Narrow(const Vector3d& x, double* s_min,
   }
   const double steep = std::max(std::abs(*s_min), std::abs(*s_max));
   const double rounding = 1e-15 * (1.0 + steep) * (1.0 + steep) +
-                          2.0 * kResidual * (reach + steep * turn);
+                          2.0 * kHitResidual * (reach + steep * turn);
   const Quadratic area = Cross(a, b);
   if (!(area.Least() > rounding)) return true;
   const double beyond = -rounding - kTolerant * area.Most();
@@ -220,7 +220,7 @@ bool RefineHit(const OffsetPrism& prism, const Vector3d& x, int iterations,
     hit->s += r.dot(a.cross(b)) * inverse;
   }
   *hit = best;
-  return best_residual < kResidual * kResidual;
+  return best_residual < kHitResidual * kHitResidual;
 }
 
 std::vector<OffsetPrism> BuildOffsetPrisms(const PhongField& field) {

@@ -27,7 +27,7 @@ constexpr double kBelieveLength = 0.03;
 // Squared distances that agree to this are of one place, or as good.
 constexpr double kSame = 1.0 + 1e-12;
 // Of a step, so that rounding does not exceed its bound.
-constexpr double kSlack = 1.0 - 1e-12;
+constexpr double kStepSlack = 1.0 - 1e-12;
 // Triangles of a descent: more are rare.
 constexpr std::size_t kUsualDescent = 64;
 
@@ -189,7 +189,7 @@ struct PenetrationTracker::Impl {
   bool Move(const Vector3d& x, Data* data, double* moved) const {
     Position* const state = &data->position;
     const double step = (x - state->x).norm();
-    const double budget = kSlack * options.speed * step;
+    const double budget = kStepSlack * options.speed * step;
     *moved = 0.0;
     SurfaceFoot local = walk.Descend(state->contact, x, &data->descent);
     SurfaceFoot seed = walk.FootOn(state->nearest.triangle, x);

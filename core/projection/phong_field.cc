@@ -10,6 +10,7 @@
 #include <string>
 
 #include "core/mesh/mesh_error.h"
+#include "core/mesh/numbers.h"
 #include "core/projection/canonical_mesh.h"
 #include "core/projection/edge_split.h"
 #include "core/projection/normal_cone.h"
@@ -35,7 +36,7 @@ constexpr std::size_t kMaxTriangles = 4000000;
 // Edges are split to this multiple of ℓ (measured: see the header).
 constexpr double kEdgePerEll = 0.5;
 
-std::size_t At(int k) { return static_cast<std::size_t>(k); }
+using internal::At;
 
 [[noreturn]] void Refuse(const std::string& what) {
   throw InputError("Phong field: " + what);

@@ -3,7 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+
+#include "core/mesh/numbers.h"
 
 namespace phongpd {
 
@@ -11,7 +12,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+using internal::kInfinity;
 constexpr double kTie = 1e-13;         // of depths, field frame
 constexpr double kSameContact = 1e-9;  // of contacts, field frame
 

@@ -2,19 +2,20 @@
 #include "core/projection/prism_tree.h"
 
 #include <cmath>
-#include <limits>
 #include <utility>
+
+#include "core/mesh/numbers.h"
 
 namespace phongpd {
 namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+using internal::kInfinity;
 // |n(λ)| from which normals bound anything.
 constexpr double kLeastNorm = 1e-3;
 // Bounds of normals smaller than this are moved away from 0.
-constexpr double kFlat = 2e-6;
+constexpr double kFlatNormals = 2e-6;
 
 struct NormalBounds {
   Vector3d min = Vector3d::Constant(kInfinity);
@@ -83,8 +84,8 @@ struct PrismTree::Builder {
     for (int i = 0; i < 3; ++i) {
       const auto k = static_cast<std::size_t>(i);
       double low = bounds.min[i] - kWide, high = bounds.max[i] + kWide;
-      if (std::abs(low) < kFlat) low = -kFlat;
-      if (std::abs(high) < kFlat) high = kFlat;
+      if (std::abs(low) < kFlatNormals) low = -kFlatNormals;
+      if (std::abs(high) < kFlatNormals) high = kFlatNormals;
       node->min[k][child] = static_cast<float>(box.min[i] - kWide);
       node->max[k][child] = static_cast<float>(box.max[i] + kWide);
       node->over_min[k][child] = static_cast<float>(1.0 / low);

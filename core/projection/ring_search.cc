@@ -3,8 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <vector>
+
+#include "core/mesh/numbers.h"
 
 namespace phongpd {
 
@@ -12,7 +13,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+using internal::kInfinity;
 
 // Lets `triangle` offer a projection closer to `contact` than *best.
 void Offer(const FieldProjector& projector, const Vector3d& x,

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <cstddef>
 
+#include "core/mesh/numbers.h"
+
 namespace phongpd {
 namespace {
 
@@ -22,10 +24,10 @@ constexpr double kOutside = 1e-9;  // λ ≥ −kOutside is on the triangle
 // Newton has left for good.  Leaving at 2 misses twice as many projections
 // from the centroid, leaving at 1000 hardly fewer.
 constexpr double kFarOutside = 10.0;
-constexpr double kStep = 1e-13;      // Newton step that counts as none
-constexpr double kCorner = 1e-14;    // S below: λ is the corner, use the limit
-constexpr double kRounding = 1e-15;  // residual that no step can improve
-constexpr double kResidual = 1e-12;  // of Ψ r, relative to diagonal + |r|
+constexpr double kStep = 1e-13;    // Newton step that counts as none
+constexpr double kCorner = 1e-14;  // S below: λ is the corner, use the limit
+constexpr double kRootRounding = 1e-15;  // residual that no step can improve
+constexpr double kRootResidual = 1e-12;  // of Ψ r, relative to diagonal + |r|
 // Near a corner ∂Ψ is taken this far towards the centroid, see below.
 constexpr double kNudge = 1e-6;
 constexpr int kNewtonSteps = 30;
@@ -33,7 +35,7 @@ constexpr int kProcrustesSteps = 50;
 constexpr double kProcrustesChange = 1e-15;
 constexpr double kFold = 1e-12;  // det J relative to its columns
 
-std::size_t At(int k) { return static_cast<std::size_t>(k); }
+using internal::At;
 
 // Ort(M): orthogonal factor of the polar decomposition, a reflection when
 // det M < 0.  In two dimensions M ± cof M is a multiple of it.
@@ -183,11 +185,11 @@ Vector3d Row(const Basis& basis, Eigen::Index k) {
   return basis.row(k).transpose();
 }
 
-struct Corners {
+struct FieldCorners {
   std::array<Vector3d, 3> q;
   std::array<Vector3d, 3> n;
 
-  Corners(const PhongField& field, int triangle) {
+  FieldCorners(const PhongField& field, int triangle) {
     const Triangle& t = field.mesh.triangles[At(triangle)];
     for (std::size_t k = 0; k < 3; ++k) {
       q[k] = field.mesh.vertices[At(t[k])];
@@ -223,7 +225,7 @@ NormalJet UnitNormal(const PlaneJet& plane, const Vector3d& linear) {
 }
 
 // Newton on Ψ(λ)(p(λ) − x) = 0; true when it settles on λ ≥ −kOutside.
-bool Newton(const Corners& c, const Frames& frames, const Vector3d& x,
+bool Newton(const FieldCorners& c, const Frames& frames, const Vector3d& x,
             Outside outside, Vector3d* solution) {
   const Vector3d e_1 = c.q[1] - c.q[0];
   const Vector3d e_2 = c.q[2] - c.q[0];
@@ -231,7 +233,7 @@ bool Newton(const Corners& c, const Frames& frames, const Vector3d& x,
   bool settled = false;
   for (int step = 0; step < kNewtonSteps && !settled; ++step) {
     const PlaneJet plane = EvaluateJet(frames, lambda, outside);
-    const Vector3d r = Corners::Mix(c.q, lambda) - x;
+    const Vector3d r = FieldCorners::Mix(c.q, lambda) - x;
     Matrix2d jacobian;
     jacobian.col(0) = plane.psi * e_1 + plane.along[0] * r;
     jacobian.col(1) = plane.psi * e_2 + plane.along[1] * r;
@@ -241,19 +243,20 @@ bool Newton(const Corners& c, const Frames& frames, const Vector3d& x,
     // Written so that NaN, from a singular Jacobian, ends the search.
     if (!(lambda.cwiseAbs().maxCoeff() <= kFarOutside)) return false;
     settled = delta.cwiseAbs().maxCoeff() <= kStep ||
-              residual.norm() <= kRounding * (1.0 + r.norm());
+              residual.norm() <= kRootRounding * (1.0 + r.norm());
   }
   if (lambda.minCoeff() < -kOutside) return false;
-  const Vector3d r = Corners::Mix(c.q, lambda) - x;
+  const Vector3d r = FieldCorners::Mix(c.q, lambda) - x;
   const PlaneJet plane = EvaluateJet(frames, lambda, Outside::kClamped);
-  if (!((plane.psi * r).norm() <= kResidual * (1.0 + r.norm()))) return false;
+  if (!((plane.psi * r).norm() <= kRootResidual * (1.0 + r.norm())))
+    return false;
   *solution = lambda;
   return true;
 }
 
 // ∇s of x = p(λ) + s n̂(λ): the last row of J⁻¹, J = [e_1 + s ∂_1 n̂,
 // e_2 + s ∂_2 n̂, n̂].
-Vector3d DepthGradient(const Corners& c, const NormalJet& jet, double s) {
+Vector3d DepthGradient(const FieldCorners& c, const NormalJet& jet, double s) {
   const Vector3d u = c.q[1] - c.q[0] + s * jet.slope[0];
   const Vector3d v = c.q[2] - c.q[0] + s * jet.slope[1];
   const Vector3d cross = u.cross(v);
@@ -282,17 +285,17 @@ TangentPlaneField BuildTangentPlaneField(const PhongField& field) {
 Vector3d TangentPlaneNormal(const PhongField& field,
                             const TangentPlaneField& planes, int triangle,
                             const Vector3d& lambda) noexcept {
-  const Corners c(field, triangle);
+  const FieldCorners c(field, triangle);
   const PlaneJet plane =
       EvaluateJet(planes.frames[At(triangle)], lambda, Outside::kClamped);
-  return UnitNormal(plane, Corners::Mix(c.n, lambda)).normal;
+  return UnitNormal(plane, FieldCorners::Mix(c.n, lambda)).normal;
 }
 
 bool ProjectOnTangentPlanes(const PhongField& field,
                             const TangentPlaneField& planes, int triangle,
                             const Vector3d& x, const Vector3d& start_lambda,
                             TangentPlaneHit* hit) noexcept {
-  const Corners c(field, triangle);
+  const FieldCorners c(field, triangle);
   const Frames& frames = planes.frames[At(triangle)];
   Vector3d lambda = start_lambda;
   if (!Newton(c, frames, x, Outside::kContinued, &lambda) &&
@@ -300,14 +303,14 @@ bool ProjectOnTangentPlanes(const PhongField& field,
     return false;
   }
   const PlaneJet plane = EvaluateJet(frames, lambda, Outside::kClamped);
-  const Vector3d r = Corners::Mix(c.q, lambda) - x;
-  NormalJet jet = UnitNormal(plane, Corners::Mix(c.n, lambda));
+  const Vector3d r = FieldCorners::Mix(c.q, lambda) - x;
+  NormalJet jet = UnitNormal(plane, FieldCorners::Mix(c.n, lambda));
   if (SymmetricSum(lambda) < kNudge) {
     // At a corner the slope of the field depends on the direction of approach.
     const Vector3d inner =
         lambda + kNudge * (Vector3d::Constant(1.0 / 3.0) - lambda);
     jet.slope = UnitNormal(EvaluateJet(frames, inner, Outside::kClamped),
-                           Corners::Mix(c.n, inner))
+                           FieldCorners::Mix(c.n, inner))
                     .slope;
   }
   hit->lambda = lambda;

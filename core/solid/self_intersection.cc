@@ -25,10 +25,10 @@ using Eigen::Vector3d;
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Exact = CGAL::Exact_predicates_exact_constructions_kernel;
 using Point = Kernel::Point_3;
-using Corners = std::array<Point, 3>;
+using CornerPoints = std::array<Point, 3>;
 using Box = CGAL::Box_intersection_d::Box_with_info_d<double, 3, std::size_t>;
 
-Corners CornersOf(const TriangleMesh& mesh, const Triangle& triangle) {
+CornerPoints CornersOf(const TriangleMesh& mesh, const Triangle& triangle) {
   const auto point = [&mesh](int v) {
     const Vector3d& p = mesh.vertices[v];
     return Point(p.x(), p.y(), p.z());
@@ -36,7 +36,9 @@ Corners CornersOf(const TriangleMesh& mesh, const Triangle& triangle) {
   return {point(triangle[0]), point(triangle[1]), point(triangle[2])};
 }
 
-Kernel::Triangle_3 ToTriangle(const Corners& c) { return {c[0], c[1], c[2]}; }
+Kernel::Triangle_3 ToTriangle(const CornerPoints& c) {
+  return {c[0], c[1], c[2]};
+}
 
 // A triangle in double, and where points surely lie beside it: most pairs of
 // neighbours are decided by that.
@@ -128,7 +130,7 @@ class RoundedTriangle {
 };
 
 // Rotates the equal corners of two triangles to the front; returns how many.
-int AlignCommonCorners(Corners* a, Corners* b) {
+int AlignCommonCorners(CornerPoints* a, CornerPoints* b) {
   int common = 0;
   for (int i = 0; i < 3; ++i) {
     for (int j = common; j < 3; ++j) {
@@ -154,7 +156,7 @@ bool AreOnOneEdge(const Exact::Triangle_3& triangle, const Exact::Point_3& p,
 
 // Whether the common part of two triangles, which is not empty, lies on an
 // edge of each.  Constructs it: slow, but needed for few pairs.
-bool TouchAlongEdges(const Corners& a, const Corners& b) {
+bool TouchAlongEdges(const CornerPoints& a, const CornerPoints& b) {
   const CGAL::Cartesian_converter<Kernel, Exact> to_exact;
   const Exact::Triangle_3 s = to_exact(ToTriangle(a));
   const Exact::Triangle_3 t = to_exact(ToTriangle(b));
@@ -170,7 +172,7 @@ bool TouchAlongEdges(const Corners& a, const Corners& b) {
 }
 
 // Whether one of two proper triangles has a point inside the other.
-bool MeetProperly(Corners a, Corners b) {
+bool MeetProperly(CornerPoints a, CornerPoints b) {
   switch (AlignCommonCorners(&a, &b)) {
     case 0:
       return CGAL::do_intersect(ToTriangle(a), ToTriangle(b)) &&
@@ -198,7 +200,7 @@ std::vector<Box> BoxesOf(const TriangleMesh& mesh,
   std::vector<Box> boxes;
   boxes.reserve(triangles.size());
   for (const std::size_t t : triangles) {
-    const Corners c = CornersOf(mesh, mesh.triangles[t]);
+    const CornerPoints c = CornersOf(mesh, mesh.triangles[t]);
     boxes.emplace_back(c[0].bbox() + c[1].bbox() + c[2].bbox(), t);
   }
   return boxes;
@@ -224,7 +226,7 @@ std::vector<std::size_t> ProperTriangles(const TriangleMesh& mesh,
 }  // namespace
 
 bool IsDegenerate(const TriangleMesh& mesh, const Triangle& triangle) {
-  const Corners c = CornersOf(mesh, triangle);
+  const CornerPoints c = CornersOf(mesh, triangle);
   return CGAL::collinear(c[0], c[1], c[2]);
 }
 

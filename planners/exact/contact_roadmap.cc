@@ -28,18 +28,19 @@ constexpr int kGapLinks = 1000;
 // the other.
 constexpr int kNeighbors = 32;
 constexpr int kStops = 6;
-constexpr int kRandomCuts = 20;  // of the shortening
+constexpr int kShorteningCuts = 20;  // of the shortening
 
 template <typename T>
-void Require(bool holds, const char* option, const char* range, T value) {
+void RequireOfRoadmap(bool holds, const char* option, const char* range,
+                      T value) {
   CheckOption(holds, "contact roadmap", option, range, value);
 }
 
 }  // namespace
 
 void RoadmapRequest::Validate() const {
-  Require(clearance >= 0.0 && std::isfinite(clearance), "clearance",
-          "≥ 0 and finite", clearance);
+  RequireOfRoadmap(clearance >= 0.0 && std::isfinite(clearance), "clearance",
+                   "≥ 0 and finite", clearance);
 }
 
 struct ContactRoadmap::Impl {
@@ -101,8 +102,8 @@ ContactRoadmap::ContactRoadmap(
   if (!planner) {
     throw InputError("contact roadmap: expected a planner, found none");
   }
-  Require(spacing >= 1e-3 && spacing <= 1.0, "spacing", "in [0.001, 1]",
-          spacing);
+  RequireOfRoadmap(spacing >= 1e-3 && spacing <= 1.0, "spacing",
+                   "in [0.001, 1]", spacing);
   const Stopwatch stopwatch;
   const PlanningSurface& surface = planner->surface();
   impl_ = std::make_unique<Impl>(std::move(planner), surface, spacing);
@@ -163,7 +164,7 @@ PlanResult ContactRoadmap::Plan(const Vector3d& start, const Vector3d& goal,
       sparse.clearance = result.wanted_clearance;
       sparse.random_cuts = 0;
       sparse.pulls = 0;
-      surface.Keep(ShortenPath(path, surface.segments, sparse), kRandomCuts,
+      surface.Keep(ShortenPath(path, surface.segments, sparse), kShorteningCuts,
                    &result);
       result.raw_path = std::move(path);
     } else {

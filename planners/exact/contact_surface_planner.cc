@@ -45,7 +45,8 @@ bool IsKnown(const std::vector<std::vector<Vector3d>>& raw_paths,
 }
 
 template <typename T>
-void Require(bool holds, const char* option, const char* range, T value) {
+void RequireOfPlanner(bool holds, const char* option, const char* range,
+                      T value) {
   CheckOption(holds, "contact-surface planner", option, range, value);
 }
 
@@ -68,17 +69,17 @@ const char* ToString(PlanStatus status) {
 }
 
 void ContactSurfaceOptions::Validate() const {
-  Require(spacing >= 1e-3 && spacing <= 1.0, "spacing", "in [0.001, 1]",
-          spacing);
-  Require(gap_links >= 0, "gap_links", "≥ 0", gap_links);
-  Require(routes >= 1, "routes", "≥ 1", routes);
-  Require(random_cuts >= 0, "random_cuts", "≥ 0", random_cuts);
+  RequireOfPlanner(spacing >= 1e-3 && spacing <= 1.0, "spacing",
+                   "in [0.001, 1]", spacing);
+  RequireOfPlanner(gap_links >= 0, "gap_links", "≥ 0", gap_links);
+  RequireOfPlanner(routes >= 1, "routes", "≥ 1", routes);
+  RequireOfPlanner(random_cuts >= 0, "random_cuts", "≥ 0", random_cuts);
 }
 
 void PlanRequest::Validate() const {
-  Require(clearance >= 0.0 && std::isfinite(clearance), "clearance",
-          "≥ 0 and finite", clearance);
-  Require(routes >= 0, "routes", "≥ 0", routes);
+  RequireOfPlanner(clearance >= 0.0 && std::isfinite(clearance), "clearance",
+                   "≥ 0 and finite", clearance);
+  RequireOfPlanner(routes >= 0, "routes", "≥ 0", routes);
 }
 
 struct ContactSurfacePlanner::Impl {

@@ -3,10 +3,10 @@
 
 #include <algorithm>
 #include <array>
-#include <limits>
 #include <optional>
 #include <utility>
 
+#include "core/mesh/numbers.h"
 #include "planners/exact/free_space.h"
 #include "planners/exact/path_lift.h"
 #include "planners/exact/surface_sight.h"
@@ -16,7 +16,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+using internal::kInfinity;
 
 // Of a way that keeps such a share of the wanted clearance: a path that is
 // free of narrow places is worth a detour.

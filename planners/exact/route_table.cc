@@ -2,14 +2,15 @@
 #include "planners/exact/route_table.h"
 
 #include <algorithm>
-#include <limits>
+
+#include "core/mesh/numbers.h"
 
 namespace phongpd {
 namespace {
 
 using Scratch = RouteTable::Scratch;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+using internal::kInfinity;
 
 void Begin(std::size_t nodes, Scratch* s) {
   if (s->round.size() != nodes) {

@@ -26,7 +26,7 @@ constexpr double kSameRoute = 1e-3;
 // for: their best parts make the routes.  Each takes as long as the first.
 constexpr int kCandidates = 8;
 
-constexpr int kRandomCuts = 120;  // of the straightening
+constexpr int kStraighteningCuts = 120;  // of the straightening
 
 constexpr double kClearance = 0.01;  // that is wished, of D
 
@@ -184,7 +184,7 @@ Path StartRepair::Impl::Shorten(const Path& path,
                                 double clearance) const {
   ShorteningOptions shortening;
   shortening.clearance = clearance;
-  shortening.random_cuts = kRandomCuts;
+  shortening.random_cuts = kStraighteningCuts;
   shortening.seed = options.seed;
   return ShortenPath(path, segments, shortening);
 }

@@ -9,6 +9,7 @@
 #include "core/bvh/triangle_bvh.h"
 #include "core/mesh/finite.h"
 #include "core/mesh/mesh_error.h"
+#include "core/mesh/numbers.h"
 #include "core/mesh/unit_normal.h"
 #include "core/projection/contact_surface.h"
 #include "core/projection/euclidean_metric.h"
@@ -51,7 +52,7 @@ struct Space {
   std::vector<std::array<int, 3>> neighbors;
 };
 
-std::size_t Index(int i) { return static_cast<std::size_t>(i); }
+using internal::At;
 
 // Around all that an unbounded cell holds, of its diagonal.
 constexpr double kRoom = 0.1;
@@ -131,18 +132,18 @@ ContactModel& ContactModel::operator=(ContactModel&&) noexcept = default;
 const FreeSpace& ContactModel::free_space() const { return impl_->free_space; }
 const BoundingBox& ContactModel::region() const { return impl_->region; }
 const ContactSpace& ContactModel::space(int space) const {
-  return impl_->spaces[Index(space)].contact;
+  return impl_->spaces[At(space)].contact;
 }
 const PhongMetric& ContactModel::phong(int space) const {
-  return impl_->spaces[Index(space)].phong;
+  return impl_->spaces[At(space)].phong;
 }
 const std::vector<std::array<int, 3>>& ContactModel::Neighbors(
     int space) const {
-  return impl_->spaces[Index(space)].neighbors;
+  return impl_->spaces[At(space)].neighbors;
 }
 
 const Vector3d& ContactModel::Normal(int space, int triangle) const {
-  return impl_->spaces[Index(space)].normals[Index(triangle)];
+  return impl_->spaces[At(space)].normals[At(triangle)];
 }
 
 ContactModel::Facet ContactModel::FacetMet(const Vector3d& a, const Vector3d& b,
@@ -171,10 +172,10 @@ ContactModel::Facet ContactModel::FacetMet(const Vector3d& a, const Vector3d& b,
   double opposed = facet.normal.dot(motion);
   if (opposed < -1e-9 * length) return facet;
   // The motion enters through an edge of a facet it is (nearly) parallel to.
-  const Space& space = impl_->spaces[Index(check.obstacle)];
+  const Space& space = impl_->spaces[At(check.obstacle)];
   const double reach = check.fraction + impl_->touch / length;
   space.segments.ForEachHit(a, b, [&](int triangle, double fraction) {
-    const Vector3d& normal = space.normals[Index(triangle)];
+    const Vector3d& normal = space.normals[At(triangle)];
     if (fraction > reach || normal.dot(motion) >= opposed) return;
     opposed = normal.dot(motion);
     facet.triangle = triangle;
@@ -202,7 +203,7 @@ ContactModel::Facet ContactModel::FindNearest(const Vector3d& q,
     facet.space = static_cast<int>(i);
     facet.triangle = answer.triangle;
     facet.point = answer.contact;
-    facet.normal = impl_->spaces[i].normals[Index(answer.triangle)];
+    facet.normal = impl_->spaces[i].normals[At(answer.triangle)];
   }
   const BoundingBox& bounds = impl_->free_space.bounds();
   for (int k = 0; k < 3 && !bounds.IsEmpty(); ++k) {

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "core/bvh/closest_on_triangle.h"
+#include "core/mesh/numbers.h"
 
 namespace phongpd {
 namespace {
@@ -14,20 +15,19 @@ namespace {
 // that share a foot compute it each for itself.
 constexpr double kRounding = 1e-12;
 
-std::size_t Index(int i) { return static_cast<std::size_t>(i); }
+using internal::At;
 
 TrianglePoint Closest(const TriangleMesh& mesh, const Triangle& t,
                       const Eigen::Vector3d& q) {
-  return ClosestOnTriangle(mesh.vertices[Index(t[0])],
-                           mesh.vertices[Index(t[1])],
-                           mesh.vertices[Index(t[2])], q);
+  return ClosestOnTriangle(mesh.vertices[At(t[0])], mesh.vertices[At(t[1])],
+                           mesh.vertices[At(t[2])], q);
 }
 
 Eigen::Vector3d PointAt(const TriangleMesh& mesh, const Triangle& t,
                         const Eigen::Vector3d& lambda) {
-  return lambda[0] * mesh.vertices[Index(t[0])] +
-         lambda[1] * mesh.vertices[Index(t[1])] +
-         lambda[2] * mesh.vertices[Index(t[2])];
+  return lambda[0] * mesh.vertices[At(t[0])] +
+         lambda[1] * mesh.vertices[At(t[1])] +
+         lambda[2] * mesh.vertices[At(t[2])];
 }
 
 }  // namespace
@@ -46,7 +46,7 @@ void FindLocalProjections(const TriangleMesh& mesh,
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
     of_triangle[i] = Closest(mesh, mesh.triangles[i], q).squared_distance;
     for (const int v : mesh.triangles[i]) {
-      of_vertex[Index(v)] = std::min(of_vertex[Index(v)], of_triangle[i]);
+      of_vertex[At(v)] = std::min(of_vertex[At(v)], of_triangle[i]);
     }
   }
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
@@ -61,12 +61,12 @@ void FindLocalProjections(const TriangleMesh& mesh,
     const auto zeros = (closest.lambda.array() == 0.0).count();
     for (int k = 0; k < 3 && zeros == 1; ++k) {
       if (closest.lambda[k] != 0.0) continue;
-      const int other = neighbors[i][Index((k + 1) % 3)];
-      is_local = other >= 0 && is_least(of_triangle[Index(other)]);
+      const int other = neighbors[i][At((k + 1) % 3)];
+      is_local = other >= 0 && is_least(of_triangle[At(other)]);
     }
     for (int k = 0; k < 3 && zeros == 2; ++k) {
       if (closest.lambda[k] == 0.0) continue;
-      is_local = is_least(of_vertex[Index(t[Index(k)])]);
+      is_local = is_least(of_vertex[At(t[At(k)])]);
     }
     if (!is_local) continue;
     const Eigen::Vector3d point = PointAt(mesh, t, closest.lambda);

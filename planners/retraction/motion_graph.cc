@@ -6,12 +6,14 @@
 #include <limits>
 #include <queue>
 
+#include "core/mesh/numbers.h"
+
 namespace phongpd {
 namespace {
 
 using Eigen::Vector3d;
 
-std::size_t Index(int i) { return static_cast<std::size_t>(i); }
+using internal::At;
 
 }  // namespace
 
@@ -39,14 +41,14 @@ void MotionGraph::AddEdge(int a, int b) {
   edges_.emplace_back(a, b);
   int root = Root(a), leaf = Root(b);
   if (root == leaf) return;
-  if (size_[Index(root)] < size_[Index(leaf)]) std::swap(root, leaf);
-  parent_[Index(leaf)] = root;
-  size_[Index(root)] += size_[Index(leaf)];
+  if (size_[At(root)] < size_[At(leaf)]) std::swap(root, leaf);
+  parent_[At(leaf)] = root;
+  size_[At(root)] += size_[At(leaf)];
 }
 
 // By size the trees are logarithmically deep; no compression, so it is const.
 int MotionGraph::Root(int point) const {
-  while (parent_[Index(point)] != point) point = parent_[Index(point)];
+  while (parent_[At(point)] != point) point = parent_[At(point)];
   return point;
 }
 
@@ -54,33 +56,31 @@ std::vector<Vector3d> MotionGraph::ShortestPath(int a, int b) const {
   if (!AreConnected(a, b)) return {};
   std::vector<std::vector<int>> neighbors(points_.size());
   for (const auto& [i, j] : edges_) {
-    neighbors[Index(i)].push_back(j);
-    neighbors[Index(j)].push_back(i);
+    neighbors[At(i)].push_back(j);
+    neighbors[At(j)].push_back(i);
   }
   std::vector<double> length(points_.size(),
                              std::numeric_limits<double>::infinity());
   std::vector<int> previous(points_.size(), -1);
   using Entry = std::pair<double, int>;
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
-  length[Index(a)] = 0.0;
+  length[At(a)] = 0.0;
   queue.emplace(0.0, a);
   while (!queue.empty()) {
     const auto [so_far, i] = queue.top();
     queue.pop();
     if (i == b) break;
-    if (so_far > length[Index(i)]) continue;
-    for (const int j : neighbors[Index(i)]) {
-      const double along =
-          so_far + (points_[Index(j)] - points_[Index(i)]).norm();
-      if (along >= length[Index(j)]) continue;
-      length[Index(j)] = along;
-      previous[Index(j)] = i;
+    if (so_far > length[At(i)]) continue;
+    for (const int j : neighbors[At(i)]) {
+      const double along = so_far + (points_[At(j)] - points_[At(i)]).norm();
+      if (along >= length[At(j)]) continue;
+      length[At(j)] = along;
+      previous[At(j)] = i;
       queue.emplace(along, j);
     }
   }
   std::vector<Vector3d> path;
-  for (int i = b; i >= 0; i = previous[Index(i)])
-    path.push_back(points_[Index(i)]);
+  for (int i = b; i >= 0; i = previous[At(i)]) path.push_back(points_[At(i)]);
   std::reverse(path.begin(), path.end());
   return path;
 }

@@ -8,6 +8,7 @@
 
 #include "core/mesh/finite.h"
 #include "core/mesh/mesh_error.h"
+#include "core/mesh/numbers.h"
 #include "planners/exact/check_option.h"
 
 namespace phongpd {
@@ -15,7 +16,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-std::size_t Index(int i) { return static_cast<std::size_t>(i); }
+using internal::At;
 
 // In [0, size); the same on every platform, unlike uniform_int_distribution.
 std::size_t RandomIndex(std::size_t size, std::mt19937_64* random) {
@@ -104,15 +105,15 @@ RetractionStatus Retraction::DrawContactPoint(
     facet.space = space;
     facet.triangle =
         static_cast<int>(RandomIndex(mesh.triangles.size(), random));
-    const Triangle& t = mesh.triangles[Index(facet.triangle)];
+    const Triangle& t = mesh.triangles[At(facet.triangle)];
     double u = RandomUnit(random), v = RandomUnit(random);
     if (u + v > 1.0) {
       u = 1.0 - u;
       v = 1.0 - v;
     }
-    const Vector3d& origin = mesh.vertices[Index(t[0])];
-    facet.point = origin + u * (mesh.vertices[Index(t[1])] - origin) +
-                  v * (mesh.vertices[Index(t[2])] - origin);
+    const Vector3d& origin = mesh.vertices[At(t[0])];
+    facet.point = origin + u * (mesh.vertices[At(t[1])] - origin) +
+                  v * (mesh.vertices[At(t[2])] - origin);
     facet.normal = model_->Normal(space, facet.triangle);
     ++scratch->counters.projections;
     if (Lift(facet, scratch)) return RetractionStatus::kRetracted;
@@ -129,8 +130,7 @@ void Retraction::ProjectLocally(int space, const Vector3d& q,
                        kRetractionDepth * model_->diagonal(),
                        &scratch->local_scratch, &found);
   scratch->counters.projections += found.size();
-  const std::size_t limit =
-      std::min(found.size(), Index(kMaxRetractionBranches));
+  const std::size_t limit = std::min(found.size(), At(kMaxRetractionBranches));
   for (std::size_t k = 0; k < limit; ++k) {
     const LocalProjection& hit = found[k];
     Lift({space, hit.triangle, hit.point, model_->Normal(space, hit.triangle)},
@@ -147,7 +147,7 @@ void Retraction::DrawAsManyAsBranches(const Vector3d& q,
         .QueryAll(q, kRetractionDepth * model_->diagonal(),
                   &scratch->projections);
     branches +=
-        std::min(scratch->projections.size(), Index(kMaxRetractionBranches));
+        std::min(scratch->projections.size(), At(kMaxRetractionBranches));
   }
   for (std::size_t k = 0; k < branches; ++k) DrawContactPoint(random, scratch);
 }
@@ -160,7 +160,7 @@ void Retraction::Project(int space, const Vector3d& q, std::mt19937_64* random,
   if (options_.choice == BranchChoice::kWarm ||
       options_.choice == BranchChoice::kNearest) {
     scratch->warm.resize(model_->size());
-    Branch& warm = scratch->warm[Index(space)];
+    Branch& warm = scratch->warm[At(space)];
     const bool follow = options_.choice == BranchChoice::kWarm;
     const PenetrationResult answer = metric.Query(q, follow ? warm : Branch());
     warm = answer.branch;
@@ -196,26 +196,25 @@ void Retraction::Choose(int space, std::mt19937_64* random,
   std::vector<int>* taken = nullptr;
   if (options_.choice == BranchChoice::kNovelty) {
     scratch->taken.resize(model_->size());
-    taken = &scratch->taken[Index(space)];
+    taken = &scratch->taken[At(space)];
     taken->resize(model_->space(space).mesh().triangles.size());
   }
-  const std::size_t limit =
-      std::min(found.size(), Index(kMaxRetractionBranches));
+  const std::size_t limit = std::min(found.size(), At(kMaxRetractionBranches));
   for (std::size_t k = 0; k < limit; ++k) {
     std::size_t chosen = k;
     if (options_.choice == BranchChoice::kRandom) {
       chosen = k + RandomIndex(found.size() - k, random);
     } else if (taken != nullptr) {
       for (std::size_t i = k; i < found.size(); ++i) {
-        if ((*taken)[Index(found[i].triangle)] <
-            (*taken)[Index(found[chosen].triangle)]) {
+        if ((*taken)[At(found[i].triangle)] <
+            (*taken)[At(found[chosen].triangle)]) {
           chosen = i;
         }
       }
     }
     std::swap(found[k], found[chosen]);
     const PenetrationResult& hit = found[k];
-    if (taken != nullptr) ++(*taken)[Index(hit.triangle)];
+    if (taken != nullptr) ++(*taken)[At(hit.triangle)];
     const ContactModel::Facet contact = {space, hit.triangle, hit.contact,
                                          model_->Normal(space, hit.triangle)};
     if (Lift(contact, scratch) && !all) return;

@@ -17,8 +17,8 @@ namespace phongpd {
 
 namespace {
 
-void Fail(const std::string& name, const std::string& expected,
-          const std::string& found) {
+void FailOption(const std::string& name, const std::string& expected,
+                const std::string& found) {
   throw InputError("Ipopt option '" + name + "': expected " + expected +
                    ", found '" + found + "'");
 }
@@ -32,7 +32,7 @@ double ParseNumber(const std::string& name, const std::string& text) {
   } catch (const std::exception&) {
   }
   if (used != text.size() || !std::isfinite(value)) {
-    Fail(name, "a number", text);
+    FailOption(name, "a number", text);
   }
   return value;
 }
@@ -49,26 +49,26 @@ void ApplyOne(const std::string& name, const std::string& text,
   bool is_set = false;
   if (option->Type() == Ipopt::OT_String) {
     if (!option->IsValidStringSetting(text)) {
-      Fail(name, "one of Ipopt's settings", text);
+      FailOption(name, "one of Ipopt's settings", text);
     }
     is_set = options->SetStringValue(name, text);
   } else {
     const double value = ParseNumber(name, text);
     if (option->Type() == Ipopt::OT_Number) {
       if (!option->IsValidNumberSetting(value)) {
-        Fail(name, "a number in Ipopt's range", text);
+        FailOption(name, "a number in Ipopt's range", text);
       }
       is_set = options->SetNumericValue(name, value);
     } else {
       const auto whole = static_cast<Ipopt::Index>(
           std::abs(value) < 2e9 ? value : std::nan(""));
       if (value != whole || !option->IsValidIntegerSetting(whole)) {
-        Fail(name, "a whole number in Ipopt's range", text);
+        FailOption(name, "a whole number in Ipopt's range", text);
       }
       is_set = options->SetIntegerValue(name, whole);
     }
   }
-  if (!is_set) Fail(name, "a value Ipopt accepts", text);
+  if (!is_set) FailOption(name, "a value Ipopt accepts", text);
 }
 
 }  // namespace

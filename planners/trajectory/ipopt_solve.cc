@@ -220,7 +220,7 @@ class ProgramAdapter : public Ipopt::TNLP {
     }
 #else
     if (data == nullptr || quantities == nullptr) return false;
-    Ipopt::SmartPtr<const Ipopt::Vector> current = data->curr()->x();
+    Ipopt::SmartPtr<const Ipopt::Vector> iterate = data->curr()->x();
     if (mode == Ipopt::RegularMode) {
       auto* nlp = dynamic_cast<Ipopt::OrigIpoptNLP*>(
           Ipopt::GetRawPtr(quantities->GetIpoptNLP()));
@@ -231,12 +231,12 @@ class ProgramAdapter : public Ipopt::TNLP {
       // The restoration's variables are (x, slacks…); its NLP does not know
       // the adapter, so the one of the last regular iteration sorts x.
       const auto* compound =
-          dynamic_cast<const Ipopt::CompoundVector*>(Ipopt::GetRawPtr(current));
+          dynamic_cast<const Ipopt::CompoundVector*>(Ipopt::GetRawPtr(iterate));
       if (compound == nullptr) return false;
-      current = compound->GetComp(0);
+      iterate = compound->GetComp(0);
     }
     if (adapter_ == nullptr) return false;
-    adapter_->ResortX(*current, x.data());
+    adapter_->ResortX(*iterate, x.data());
 #endif
     if (!x.allFinite()) return false;
     x_ = x;

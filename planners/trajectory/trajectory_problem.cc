@@ -15,8 +15,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-void Fail(const std::string& field, const std::string& expected,
-          const std::string& found) {
+void FailField(const std::string& field, const std::string& expected,
+               const std::string& found) {
   throw InputError("trajectory: " + field + ": expected " + expected +
                    ", found " + found);
 }
@@ -25,33 +25,35 @@ void Fail(const std::string& field, const std::string& expected,
 
 void TrajectoryProblem::Validate() const {
   for (const auto& metric : metrics) {
-    if (metric == nullptr) Fail("metrics", "one per contact space", "null");
+    if (metric == nullptr)
+      FailField("metrics", "one per contact space", "null");
   }
-  if (free_space == nullptr) Fail("free_space", "the exact judge", "null");
-  if (!IsFinite(start)) Fail("start", "finite numbers", "NaN or Inf");
-  if (!IsFinite(goal)) Fail("goal", "finite numbers", "NaN or Inf");
+  if (free_space == nullptr) FailField("free_space", "the exact judge", "null");
+  if (!IsFinite(start)) FailField("start", "finite numbers", "NaN or Inf");
+  if (!IsFinite(goal)) FailField("goal", "finite numbers", "NaN or Inf");
   if (waypoints < 1 || waypoints > 10000) {
-    Fail("waypoints", "1 to 10000", std::to_string(waypoints));
+    FailField("waypoints", "1 to 10000", std::to_string(waypoints));
   }
   if (samples_per_segment < 0 || samples_per_segment > kMaxSamplesPerSegment) {
-    Fail("samples_per_segment", "0 (by rule) to 1000",
-         std::to_string(samples_per_segment));
+    FailField("samples_per_segment", "0 (by rule) to 1000",
+              std::to_string(samples_per_segment));
   }
   if (!(margin >= 0.0 && margin <= 1.0)) {
-    Fail("margin", "a fraction of the diagonal in [0, 1]",
-         std::to_string(margin));
+    FailField("margin", "a fraction of the diagonal in [0, 1]",
+              std::to_string(margin));
   }
   if (!(max_segment_ratio >= 1.0 && max_segment_ratio <= 1e6)) {
-    Fail("max_segment_ratio", "1 to 1e6", std::to_string(max_segment_ratio));
+    FailField("max_segment_ratio", "1 to 1e6",
+              std::to_string(max_segment_ratio));
   }
   if (!(diagonal >= 0.0) || !std::isfinite(diagonal)) {
-    Fail("diagonal", "≥ 0 (0: of the contact spaces)",
-         std::to_string(diagonal));
+    FailField("diagonal", "≥ 0 (0: of the contact spaces)",
+              std::to_string(diagonal));
   }
   const double reach = (goal - start).stableNorm() / Diagonal(*this);
   if (!(reach < 1e6)) {
-    Fail("start and goal", "less than 1e6 diagonals apart",
-         std::to_string(reach));
+    FailField("start and goal", "less than 1e6 diagonals apart",
+              std::to_string(reach));
   }
 }
 

@@ -20,16 +20,18 @@
 #include "problems/output/json_text.h"
 #include "problems/output/output_files.h"
 #include "problems/output/text.h"
+#include "problems/pictures/viewer/page_numbers.h"
 
 namespace phongpd::cli {
 namespace {
 
+using internal::PointJson;
 using Json = nlohmann::ordered_json;
 
 // Of a kind of defect, for people and in JSON.
 constexpr std::size_t kShownPlaces = 3, kListedPlaces = 1000;
 
-struct Flags {
+struct CheckFlags {
   std::vector<std::string> files;
   std::string repair = "reject";
   std::string defects;
@@ -67,9 +69,7 @@ Finding Examine(const std::string& file, Repair repair) {
   return finding;
 }
 
-Json PointJson(const Eigen::Vector3d& p) { return {p[0], p[1], p[2]}; }
-
-Json ToJson(const Finding& finding) {
+Json FindingJson(const Finding& finding) {
   Json places = Json::array();
   std::map<DefectKind, std::size_t> counts;
   for (const MeshDefect& defect : finding.defects) {
@@ -82,8 +82,8 @@ Json ToJson(const Finding& finding) {
   for (const auto& [kind, count] : counts) totals[ToString(kind)] = count;
   const BoundingBox box = ComputeBounds(finding.mesh);
   const int genus = SurfaceGenus(finding.mesh);
-  Json json = cli::ToJson(finding.is_solid ? finding.report : finding.examined,
-                          finding.repair, finding.file);
+  Json json = ToJson(finding.is_solid ? finding.report : finding.examined,
+                     finding.repair, finding.file);
   json["solid"] = finding.is_solid;
   json["reason"] = finding.reason;
   json["genus"] = genus < 0 ? Json() : Json(genus);
@@ -152,7 +152,7 @@ std::string Words(const Finding& finding) {
   return text.str();
 }
 
-int Check(const Flags& flags) {
+int Check(const CheckFlags& flags) {
   const bool writes = !flags.defects.empty() || !flags.output.empty();
   if (writes && flags.files.size() != 1) {
     throw InputError(
@@ -169,7 +169,7 @@ int Check(const Flags& flags) {
   for (const std::string& file : flags.files) {
     const Finding finding = Examine(file, repair);
     are_solids = are_solids && finding.is_solid;
-    text += flags.json ? JsonText(ToJson(finding)) + '\n' : Words(finding);
+    text += flags.json ? JsonText(FindingJson(finding)) + '\n' : Words(finding);
     if (!flags.defects.empty()) {
       outputs.Write(
           flags.defects,
@@ -187,7 +187,7 @@ int Check(const Flags& flags) {
 }  // namespace
 
 Command AddCheck(CLI::App* app) {
-  auto flags = std::make_shared<Flags>();
+  auto flags = std::make_shared<CheckFlags>();
   app->add_option("MESH", flags->files,
                   std::string("Meshes to examine (") + kMeshFormats + ")")
       ->required()

@@ -28,7 +28,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-struct Flags {
+struct CompareFlags {
   std::vector<std::string> scenes;
   std::string root;  // of their mesh files; empty: anywhere
   std::string repair = "reject";
@@ -55,7 +55,7 @@ struct Methods {
 };
 
 // Throws InputError for all that can be told to be wrong before a run.
-Methods ReadMethods(const Flags& flags) {
+Methods ReadMethods(const CompareFlags& flags) {
   RequireRuns(flags.runs);
   Methods methods;
   std::set<std::string> names;
@@ -79,8 +79,8 @@ Methods ReadMethods(const Flags& flags) {
 }
 
 // Those of the shard, in the order of their rows.
-std::vector<ComparisonJob> Jobs(const Flags& flags, const Methods& methods,
-                                const Shard& shard) {
+std::vector<ComparisonJob> Jobs(const CompareFlags& flags,
+                                const Methods& methods, const Shard& shard) {
   std::vector<ComparisonJob> jobs;
   int problem = 0;
   for (const SceneSource& source : methods.sources) {
@@ -99,7 +99,7 @@ std::vector<ComparisonJob> Jobs(const Flags& flags, const Methods& methods,
 
 // Where the rows go: a file in the folder; without one standard output for
 // --json, nowhere (empty) otherwise.
-std::string DeclareRows(const Flags& flags, OutputFiles* outputs) {
+std::string DeclareRows(const CompareFlags& flags, OutputFiles* outputs) {
   std::string path;
   if (!flags.output.empty()) {
     outputs->MakeDirectory(flags.output);
@@ -111,7 +111,7 @@ std::string DeclareRows(const Flags& flags, OutputFiles* outputs) {
   return path;
 }
 
-int Compare(const CLI::App& app, const Flags& flags) {
+int Compare(const CLI::App& app, const CompareFlags& flags) {
   if (flags.scenes.empty() == flags.rows.empty()) {
     throw InputError(
         "compare: expected scenes, or --rows with what shards "
@@ -172,7 +172,7 @@ int Compare(const CLI::App& app, const Flags& flags) {
 }  // namespace
 
 Command AddCompare(CLI::App* app) {
-  auto flags = std::make_shared<Flags>();
+  auto flags = std::make_shared<CompareFlags>();
   std::string protocols = "Ways of running:";
   for (const TrajectoryProtocol& protocol : TrajectoryProtocols()) {
     protocols += " " + protocol.name + " (" + protocol.meaning + ");";

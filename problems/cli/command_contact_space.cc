@@ -29,7 +29,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-struct Flags {
+struct ContactSpaceFlags {
   std::string robot;
   std::string obstacle;
   std::string output;
@@ -58,7 +58,7 @@ std::size_t ParseTargetFaces(const std::string& text) {
 }
 
 // The flags that change the operands or the result.
-ContactSpaceOptions OptionsOf(const Flags& flags) {
+ContactSpaceOptions OptionsOf(const ContactSpaceFlags& flags) {
   ContactSpaceOptions options;
   options.outer_shell_only = flags.outer_shell_only;
   options.robot_hull = flags.robot_hull;
@@ -75,7 +75,7 @@ ContactSpaceOptions OptionsOf(const Flags& flags) {
 // Middles of up to 100 triangles, judged on the operands; null where these are
 // not the files' solids, or were judged when the cache was filled.  Throws
 // std::runtime_error for a point that is not on the contact surface.
-Json VerifySample(const Flags& flags, const TriangleMesh& robot,
+Json VerifySample(const ContactSpaceFlags& flags, const TriangleMesh& robot,
                   const TriangleMesh& obstacle, const ContactSpace& space) {
   const bool is_exact =
       space.report().approximation.kind == "none" && flags.repair == "reject";
@@ -111,7 +111,7 @@ Json VerifySample(const Flags& flags, const TriangleMesh& robot,
 }
 
 // One part of n, to be joined.
-int BuildAndWritePiece(const Flags& flags) {
+int BuildAndWritePiece(const ContactSpaceFlags& flags) {
   const Shard part = ParseShard(flags.piece, "--piece");
   if (flags.output.empty() || !flags.report.empty() || flags.json) {
     throw InputError(
@@ -132,7 +132,7 @@ int BuildAndWritePiece(const Flags& flags) {
   return kDone;
 }
 
-int BuildAndWrite(const Flags& flags) {
+int BuildAndWrite(const ContactSpaceFlags& flags) {
   if (!flags.piece.empty()) return BuildAndWritePiece(flags);
   OutputFiles outputs;
   if (!flags.output.empty()) DeclareContactSpace(&outputs, flags.output);
@@ -161,7 +161,7 @@ int BuildAndWrite(const Flags& flags) {
 }  // namespace
 
 Command AddContactSpace(CLI::App* app) {
-  auto flags = std::make_shared<Flags>();
+  auto flags = std::make_shared<ContactSpaceFlags>();
   app->add_option(
          "--robot", flags->robot,
          std::string("Mesh of the translating robot (") + kMeshFormats + ")")

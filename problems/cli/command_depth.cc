@@ -18,14 +18,16 @@
 #include "problems/output/output_files.h"
 #include "problems/output/points_csv.h"
 #include "problems/output/text.h"
+#include "problems/pictures/viewer/page_numbers.h"
 #include "problems/pictures/viewer/view_page.h"
 
 namespace phongpd::cli {
 namespace {
 
+using internal::PointJson;
 using Json = nlohmann::ordered_json;
 
-struct Flags {
+struct DepthFlags {
   std::string a;
   std::string b;
   std::vector<std::string> at;
@@ -49,30 +51,29 @@ std::string Described(const ContactFeature& feature) {
   return text;
 }
 
-Json ToJson(const Eigen::Vector3d& v) { return {v[0], v[1], v[2]}; }
-
-Json ToJson(const Eigen::Vector3d& point, const ContactFeature& feature) {
-  return {{"point", ToJson(point)},
+Json FeatureJson(const Eigen::Vector3d& point, const ContactFeature& feature) {
+  return {{"point", PointJson(point)},
           {"feature", ToString(feature.kind)},
           {"vertices", VerticesOf(feature)}};
 }
 
 // A row for each axis.
 Json AxesJson(const Eigen::Matrix3d& axes) {
-  return {ToJson(axes.col(0)), ToJson(axes.col(1)), ToJson(axes.col(2))};
+  return {PointJson(axes.col(0)), PointJson(axes.col(1)),
+          PointJson(axes.col(2))};
 }
 
-Json ToJson(const RobotPose& pose, const DepthResult& r) {
+Json AnswerJson(const RobotPose& pose, const DepthResult& r) {
   const Eigen::Quaterniond& turn = pose.orientation;
-  return {{"position", ToJson(pose.position)},
+  return {{"position", PointJson(pose.position)},
           {"orientation", {turn.w(), turn.x(), turn.y(), turn.z()}},
           {"status", ToString(r.status)},
           {"depth", r.depth},
           {"clearance", r.clearance},
-          {"direction", ToJson(r.direction)},
-          {"contact", ToJson(r.contact)},
-          {"on_a", ToJson(r.on_robot, r.robot_feature)},
-          {"on_b", ToJson(r.on_obstacle, r.obstacle_feature)},
+          {"direction", PointJson(r.direction)},
+          {"contact", PointJson(r.contact)},
+          {"on_a", FeatureJson(r.on_robot, r.robot_feature)},
+          {"on_b", FeatureJson(r.on_obstacle, r.obstacle_feature)},
           {"certified", r.certified},
           {"explored_radius", r.explored_radius},
           {"level", ToString(r.level)},
@@ -84,13 +85,13 @@ Json ToJson(const RobotPose& pose, const DepthResult& r) {
           {"seconds", r.seconds}};
 }
 
-constexpr const char* kHeader =
+constexpr const char* kDepthHeader =
     "x,y,z,qw,qx,qy,qz,status,depth,clearance,direction_x,direction_y,"
     "direction_z,contact_x,contact_y,contact_z,on_a_x,on_a_y,on_a_z,on_b_x,"
     "on_b_y,on_b_z,feature_a,feature_b,certified,explored_radius,level,"
     "seconds\n";
 
-std::string Row(const RobotPose& pose, const DepthResult& r) {
+std::string DepthRow(const RobotPose& pose, const DepthResult& r) {
   const Eigen::Quaterniond& turn = pose.orientation;
   std::string row = FormatPoint(pose.position);
   for (const double x : {turn.w(), turn.x(), turn.y(), turn.z()}) {
@@ -109,7 +110,7 @@ std::string Row(const RobotPose& pose, const DepthResult& r) {
 }
 
 // For people.
-std::string Sentence(const Flags& flags, const DepthResult& r) {
+std::string Sentence(const DepthFlags& flags, const DepthResult& r) {
   TextStream text;
   switch (r.status) {
     case DepthStatus::kSeparate:
@@ -139,7 +140,7 @@ std::string Sentence(const Flags& flags, const DepthResult& r) {
   return text.str();
 }
 
-std::vector<RobotPose> PosesOf(const Flags& flags) {
+std::vector<RobotPose> PosesOf(const DepthFlags& flags) {
   if (!flags.poses.empty()) return ReadPosesCsv(flags.poses);
   RobotPose pose;
   if (!flags.at.empty()) pose.position = ParsePoint(flags.at, "--at");
@@ -148,12 +149,12 @@ std::vector<RobotPose> PosesOf(const Flags& flags) {
 
 // As it is where it must be a solid, which the query sees to; its features are
 // told by the vertices of the file then.
-TriangleMesh Operand(const std::string& path, const Flags& flags) {
+TriangleMesh Operand(const std::string& path, const DepthFlags& flags) {
   const Repair repair = ParseRepair(flags.repair, "--repair");
   return repair == Repair::kReject ? LoadMesh(path) : LoadSolid(path, repair);
 }
 
-int Depth(const Flags& flags) {
+int Depth(const DepthFlags& flags) {
   OutputFiles outputs;
   DeclareTable(&outputs, flags.output, "--output");
   DeclareIfNamed(&outputs, flags.html, "--html", {".html", ".htm"});
@@ -175,7 +176,7 @@ int Depth(const Flags& flags) {
   WarnOfUnits(a, flags.a, b, flags.b);
   for (const std::string& warning : query.warnings()) Warn(warning);
   const bool is_table = !flags.json && !flags.poses.empty();
-  std::string text = is_table ? kHeader : "";
+  std::string text = is_table ? kDepthHeader : "";
   View view;
   bool is_certified = true;
   std::size_t done = 0;
@@ -184,12 +185,12 @@ int Depth(const Flags& flags) {
     const DepthResult result = query.At(pose);
     is_certified = is_certified && result.certified;
     if (!flags.html.empty()) {
-      view.answers.push_back(DepthAnswerOf(ToJson(pose, result)));
+      view.answers.push_back(DepthAnswerOf(AnswerJson(pose, result)));
     }
     if (flags.json) {
-      text += JsonText(ToJson(pose, result)) + '\n';
+      text += JsonText(AnswerJson(pose, result)) + '\n';
     } else {
-      text += is_table ? Row(pose, result) : Sentence(flags, result);
+      text += is_table ? DepthRow(pose, result) : Sentence(flags, result);
     }
   }
   outputs.Write(flags.output, text);
@@ -207,7 +208,7 @@ int Depth(const Flags& flags) {
 }  // namespace
 
 Command AddDepth(CLI::App* app) {
-  auto flags = std::make_shared<Flags>();
+  auto flags = std::make_shared<DepthFlags>();
   app->add_option("A", flags->a,
                   std::string("Mesh of a solid (") + kMeshFormats + ")")
       ->required()

@@ -19,14 +19,14 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-struct Flags {
+struct JoinFlags {
   std::vector<std::string> pieces;
   std::string output;
   std::string report;
   bool json = false;
 };
 
-int Join(const Flags& flags) {
+int Join(const JoinFlags& flags) {
   OutputFiles outputs;
   if (!flags.output.empty()) DeclareContactSpace(&outputs, flags.output);
   DeclareIfNamed(&outputs, flags.report, "--report", {".json"});
@@ -54,7 +54,7 @@ int Join(const Flags& flags) {
 }  // namespace
 
 Command AddJoin(CLI::App* app) {
-  auto flags = std::make_shared<Flags>();
+  auto flags = std::make_shared<JoinFlags>();
   app->add_option("pieces", flags->pieces,
                   "Files that contact-space --piece i/n wrote: all n, in any "
                   "order; 2i/2n and 2i+1/2n stand for i/n")

@@ -21,7 +21,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-struct Flags {
+struct MergeFlags {
   std::vector<std::string> folders;
   std::string output;
   bool json = false;
@@ -111,7 +111,7 @@ std::vector<Json> Interleaved(const std::map<int, Part>& parts) {
   return all;
 }
 
-int Merge(const Flags& flags) {
+int Merge(const MergeFlags& flags) {
   const bool has_folder = !flags.output.empty();
   if (has_folder) RequireGnuplot();
   const std::map<int, Part> parts = ReadParts(flags.folders);
@@ -141,7 +141,7 @@ int Merge(const Flags& flags) {
 }  // namespace
 
 Command AddMerge(CLI::App* app) {
-  auto flags = std::make_shared<Flags>();
+  auto flags = std::make_shared<MergeFlags>();
   app->add_option("parts", flags->folders,
                   "Directories that compare --shard i/n wrote: all n, in any "
                   "order")

@@ -18,7 +18,7 @@
 namespace phongpd::cli {
 namespace {
 
-struct Flags {
+struct MinkowskiFlags {
   std::string a;
   std::string b;
   std::string output;
@@ -39,7 +39,7 @@ TriangleMesh Reflected(TriangleMesh mesh) {
 
 // The contact space of a robot A and an obstacle B is that of B ⊕ (−A), and so
 // B ⊕ A the one of −A and B.
-int Sum(const Flags& flags) {
+int Sum(const MinkowskiFlags& flags) {
   OutputFiles outputs;
   const bool has_output = !flags.output.empty();
   if (has_output && flags.difference) {
@@ -79,7 +79,7 @@ int Sum(const Flags& flags) {
 }  // namespace
 
 Command AddMinkowski(CLI::App* app) {
-  auto flags = std::make_shared<Flags>();
+  auto flags = std::make_shared<MinkowskiFlags>();
   app->add_option("A", flags->a,
                   std::string("Mesh of a solid (") + kMeshFormats + ")")
       ->required()

@@ -29,7 +29,7 @@ namespace {
 // A change of PD between two frames that counts as a jump, in diagonals.
 constexpr double kJump = 0.05;
 
-struct Flags {
+struct MotionFlags {
   std::string contact_space;
   std::string robot;
   std::string obstacle;
@@ -50,7 +50,7 @@ struct Flags {
 };
 
 // The two meshes, where they are given.
-std::optional<Workspace> ReadSolids(const Flags& flags) {
+std::optional<Workspace> ReadSolids(const MotionFlags& flags) {
   if (!flags.contact_space.empty()) return std::nullopt;
   Workspace workspace;
   const Repair repair = ParseRepair(flags.repair, "--repair");
@@ -59,7 +59,7 @@ std::optional<Workspace> ReadSolids(const Flags& flags) {
   return workspace;
 }
 
-ContactSpace ContactSpaceOf(const Flags& flags,
+ContactSpace ContactSpaceOf(const MotionFlags& flags,
                             const std::optional<Workspace>& solids) {
   if (!solids) return LoadContactSpace(flags.contact_space);
   return LoadOrBuild(solids->robot, solids->obstacles[0], {}, !flags.no_cache);
@@ -94,7 +94,7 @@ std::string VerifyDepths(const Workspace& solids, const StraightMotion& motion,
          " of " + std::to_string(all) + " depths, the others within rounding\n";
 }
 
-std::vector<Length> SmoothingLengths(const Flags& flags) {
+std::vector<Length> SmoothingLengths(const MotionFlags& flags) {
   std::vector<Length> lengths;
   std::set<std::string> seen;
   for (const std::string& text : flags.smoothing_lengths) {
@@ -108,7 +108,8 @@ std::vector<Length> SmoothingLengths(const Flags& flags) {
   return lengths;
 }
 
-std::vector<MotionTrace> Trace(const Flags& flags, const ContactSpace& contact,
+std::vector<MotionTrace> Trace(const MotionFlags& flags,
+                               const ContactSpace& contact,
                                const std::vector<Length>& lengths,
                                const StraightMotion& motion) {
   std::vector<MotionTrace> traces;
@@ -129,8 +130,8 @@ std::vector<MotionTrace> Trace(const Flags& flags, const ContactSpace& contact,
   return traces;
 }
 
-std::string Summary(const Flags& flags, const std::vector<MotionTrace>& traces,
-                    double diagonal) {
+std::string Summary(const MotionFlags& flags,
+                    const std::vector<MotionTrace>& traces, double diagonal) {
   TextStream text;
   for (const MotionTrace& trace : traces) {
     const MotionSummary s = Summarize(trace, kJump * diagonal);
@@ -182,7 +183,7 @@ View MotionView(const ContactSpace& contact,
   return view;
 }
 
-int Follow(const Flags& flags) {
+int Follow(const MotionFlags& flags) {
   const bool pair = !flags.robot.empty() && !flags.obstacle.empty();
   const bool either = !flags.robot.empty() || !flags.obstacle.empty();
   if (either != pair || either == !flags.contact_space.empty()) {
@@ -234,7 +235,7 @@ int Follow(const Flags& flags) {
 }  // namespace
 
 Command AddMotion(CLI::App* app) {
-  auto flags = std::make_shared<Flags>();
+  auto flags = std::make_shared<MotionFlags>();
   AddContactSpaceFile(app, &flags->contact_space);
   app->add_option("--robot", flags->robot,
                   "Or: mesh of the translating robot ...")

@@ -20,7 +20,7 @@
 namespace phongpd::cli {
 namespace {
 
-struct Flags : SeededRunFlags {
+struct OptimizeFlags : SeededRunFlags {
   std::string preset;
   std::string metric;
   std::string smoothing_length;
@@ -40,13 +40,13 @@ struct Flags : SeededRunFlags {
 };
 
 // Figures: results/trade, `scripts/bench.sh trade`.
-constexpr char kPresetHelp[] =
+constexpr char kOptimizePresetHelp[] =
     "fast: no second optimisation from the colliding line, 0.62 of balanced's "
     "time, energy 0.43 % above the least found (balanced: 0.43 %); tight: 3 "
     "routes and the corridor always, 2.2 times the time, 0.31 %";
 
 // What says how a metric is followed says nothing where none is.
-void RequireMetricIsFollowed(const Flags& flags, const Scene& scene) {
+void RequireMetricIsFollowed(const OptimizeFlags& flags, const Scene& scene) {
   if (scene.trajectory.model != "window") return;
   for (const auto& [name, value] :
        {std::make_pair("--metric", flags.metric),
@@ -60,7 +60,7 @@ void RequireMetricIsFollowed(const Flags& flags, const Scene& scene) {
   }
 }
 
-void Override(const Flags& flags, Scene* scene) {
+void Override(const OptimizeFlags& flags, Scene* scene) {
   SetPreset(flags.preset, scene);
   if (!flags.model.empty()) scene->trajectory.model = flags.model;
   RequireMetricIsFollowed(flags, *scene);
@@ -78,7 +78,7 @@ void Override(const Flags& flags, Scene* scene) {
   }
 }
 
-PipelineOptions Options(const Flags& flags, const Scene& scene,
+PipelineOptions Options(const OptimizeFlags& flags, const Scene& scene,
                         std::uint64_t seed) {
   PipelineOptions options = ScenePipelineOptions(scene);
   options.start = ParseStart(flags.start);
@@ -129,7 +129,8 @@ std::string Explanation(const nlohmann::ordered_json& row) {
   return text;
 }
 
-RunSummary Summarize(const Flags& flags, const nlohmann::ordered_json& row) {
+RunSummary SummarizeTrajectory(const OptimizeFlags& flags,
+                               const nlohmann::ordered_json& row) {
   const std::string metric = row.at("method").get<std::string>();
   const std::string outcome = JsonText(row.at("seed")) + ": " +
                               row.at("status_class").get<std::string>();
@@ -144,7 +145,7 @@ RunSummary Summarize(const Flags& flags, const nlohmann::ordered_json& row) {
 }
 
 // What the model made of the run, on stderr.
-void TellModel(const TrajectoryStudy& study) {
+void TellTrajectoryModel(const TrajectoryStudy& study) {
   if (study.model() != "window") return;
   Note(
       "model window: free space alone, so no metric is followed; rrt-connect "
@@ -154,14 +155,15 @@ void TellModel(const TrajectoryStudy& study) {
            : ", as the whole is refused: " + study.refusal()));
 }
 
-int Optimize(const Flags& flags) {
+int Optimize(const OptimizeFlags& flags) {
   RequireRuns(flags.runs);
   const SceneSource source(flags.scene, flags.root,
                            ParseRepair(flags.repair, "--repair"));
-  SeededRuns runs(flags, source,
-                  "scene, metric, start, seed: status, iterations, objective, "
-                  "clearance (user's unit), seconds",
-                  [&flags](const auto& row) { return Summarize(flags, row); });
+  SeededRuns runs(
+      flags, source,
+      "scene, metric, start, seed: status, iterations, objective, "
+      "clearance (user's unit), seconds",
+      [&flags](const auto& row) { return SummarizeTrajectory(flags, row); });
   TrajectoryStudy study(
       UserCache(flags.no_cache),
       flags.per_obstacle ? SpaceLayout::kPerObstacle : SpaceLayout::kMerged,
@@ -192,7 +194,7 @@ int Optimize(const Flags& flags) {
     ProgressOf("runs", static_cast<std::size_t>(run - runs.kept()),
                static_cast<std::size_t>(flags.runs - runs.kept()));
     const PipelineResult result = study.Run(metric, options);
-    if (run == runs.kept()) TellModel(study);
+    if (run == runs.kept()) TellTrajectoryModel(study);
     nlohmann::ordered_json row = TrajectoryRow(study, metric, options, result);
     check.Judge(study.scene(), study.world(), ClaimsOf(result), &row);
     runs.Add(row, runs.ShowsBehind() ? BehindTrajectory(study, result, history)
@@ -212,9 +214,9 @@ int Optimize(const Flags& flags) {
 }  // namespace
 
 Command AddOptimize(CLI::App* app) {
-  auto flags = std::make_shared<Flags>();
+  auto flags = std::make_shared<OptimizeFlags>();
   AddScene(app, flags.get());
-  AddPreset(app, kPresetHelp, &flags->preset);
+  AddPreset(app, kOptimizePresetHelp, &flags->preset);
   app->add_option("--metric", flags->metric,
                   "Penetration depth inside obstacles (scene's own if not set)")
       ->check(CLI::IsMember({"phong", "euclidean"}));

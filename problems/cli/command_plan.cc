@@ -18,8 +18,8 @@
 namespace phongpd::cli {
 namespace {
 
-struct Flags : SeededRunFlags {
-  Flags() { seed = 1; }
+struct PlanFlags : SeededRunFlags {
+  PlanFlags() { seed = 1; }
 
   std::string preset;
   std::string planner;
@@ -32,7 +32,7 @@ struct Flags : SeededRunFlags {
   bool verify = true;
 };
 
-RunSummary Summarize(const nlohmann::ordered_json& row) {
+RunSummary SummarizePlan(const nlohmann::ordered_json& row) {
   const std::string planner = row.at("planner").get<std::string>();
   const std::string outcome =
       JsonText(row.at("seed")) + ": " + row.at("status").get<std::string>();
@@ -46,13 +46,14 @@ RunSummary Summarize(const nlohmann::ordered_json& row) {
 }
 
 // Figures: results/trade, `scripts/bench.sh trade`.
-constexpr char kPresetHelp[] =
+constexpr char kPlanPresetHelp[] =
     "Of contact-surface only. fast: 1 route, no links across gaps, 0.23 of "
     "balanced's time, 1.4 % longer than the least found (balanced: 0.58 %); "
     "tight: 8 routes on a coarser roadmap, 1.6 times the time, 0.07 %";
 
 // Samplers have nothing that these say.
-void RequireRoutesAreCompared(const Flags& flags, const std::string& planner) {
+void RequireRoutesAreCompared(const PlanFlags& flags,
+                              const std::string& planner) {
   if (planner == kContactSurface) return;
   for (const char* flag : {"--preset", "--routes"}) {
     if (flags.app->count(flag) == 0) continue;
@@ -61,7 +62,7 @@ void RequireRoutesAreCompared(const Flags& flags, const std::string& planner) {
   }
 }
 
-void SetClearance(const Flags& flags, const std::string& planner,
+void SetClearance(const PlanFlags& flags, const std::string& planner,
                   Scene* scene) {
   if (flags.clearance.empty()) return;
   RequireSeeksClearance(planner, "--clearance");
@@ -71,8 +72,8 @@ void SetClearance(const Flags& flags, const std::string& planner,
 }
 
 // What the model made of the run, on stderr.
-void TellModel(const PlanningStudy& study, const PlanningRun& run,
-               const PlanningResult& result) {
+void TellPlanModel(const PlanningStudy& study, const PlanningRun& run,
+                   const PlanningResult& result) {
   if (result.model != "window") return;
   std::string text = "model window: free space alone";
   if (!study.refusal().empty()) text += ", as the whole is refused";
@@ -88,7 +89,7 @@ void TellModel(const PlanningStudy& study, const PlanningRun& run,
   Note(text + (study.refusal().empty() ? "" : ": " + study.refusal()));
 }
 
-int Plan(const Flags& flags) {
+int Plan(const PlanFlags& flags) {
   RequireRuns(flags.runs);
   const SceneSource source(flags.scene, flags.root,
                            ParseRepair(flags.repair, "--repair"));
@@ -111,7 +112,7 @@ int Plan(const Flags& flags) {
   SeededRuns runs(flags, source,
                   "scene, planner, seed: status, seconds (without contact "
                   "space), points, length, clearance (user's unit)",
-                  Summarize);
+                  SummarizePlan);
   if (!flags.ompl_log.empty()) runs.outputs().Declare(flags.ompl_log);
   SilenceOmpl();
   PlanningStudy study(scene, UserCache(flags.no_cache), flags.limits);
@@ -124,7 +125,7 @@ int Plan(const Flags& flags) {
     Progress("run " + std::to_string(i + 1) + " of " +
              std::to_string(flags.runs));
     const PlanningResult result = study.Run(run);
-    if (i == runs.kept()) TellModel(study, run, result);
+    if (i == runs.kept()) TellPlanModel(study, run, result);
     nlohmann::ordered_json row = PlanningRow(study, run, result);
     check.Judge(scene, study.world(), ClaimsOf(result), &row);
     runs.Add(row,
@@ -149,9 +150,9 @@ int Plan(const Flags& flags) {
 }  // namespace
 
 Command AddPlan(CLI::App* app) {
-  auto flags = std::make_shared<Flags>();
+  auto flags = std::make_shared<PlanFlags>();
   AddScene(app, flags.get());
-  AddPreset(app, kPresetHelp, &flags->preset);
+  AddPreset(app, kPlanPresetHelp, &flags->preset);
   app->add_option("--planner", flags->planner,
                   "contact-surface is complete, deterministic and proves "
                   "infeasibility; the others sample (scene's own if not set; "

@@ -16,14 +16,16 @@
 #include "problems/output/output_files.h"
 #include "problems/output/points_csv.h"
 #include "problems/output/text.h"
+#include "problems/pictures/viewer/page_numbers.h"
 #include "problems/studies/sliding.h"
 
 namespace phongpd::cli {
 namespace {
 
+using internal::PointJson;
 using Json = nlohmann::ordered_json;
 
-struct Flags {
+struct QueryFlags {
   std::string contact_space;
   std::string points;
   std::string output;
@@ -36,7 +38,7 @@ struct Flags {
   PenetrationTrackerOptions sliding;
 };
 
-std::unique_ptr<PenetrationMetric> MakeMetric(const Flags& flags,
+std::unique_ptr<PenetrationMetric> MakeMetric(const QueryFlags& flags,
                                               const ContactSpace& contact) {
   if (flags.metric == "euclidean") {
     return std::make_unique<EuclideanMetric>(contact);
@@ -49,7 +51,7 @@ std::unique_ptr<PenetrationMetric> MakeMetric(const Flags& flags,
 }
 
 // Refuses what would be ignored, or not what it says.
-void RequireSense(const CLI::App& app, const Flags& flags) {
+void RequireSense(const CLI::App& app, const QueryFlags& flags) {
   if (flags.metric == "sliding") {
     if (!flags.tracked) {
       throw InputError(
@@ -74,7 +76,7 @@ struct Answers {
 };
 
 // Those of a sequence one after the other, all others on all cores.
-Answers Ask(const Flags& flags, const ContactSpace& contact,
+Answers Ask(const QueryFlags& flags, const ContactSpace& contact,
             const std::vector<Eigen::Vector3d>& points) {
   Answers answers;
   answers.statuses.reserve(points.size());
@@ -118,13 +120,13 @@ bool IsUsual(const std::string& status) {
          status == ToString(TrackerStatus::kOutside);
 }
 
-constexpr char kHeader[] =
+constexpr char kQueryHeader[] =
     "x,y,z,status,inside,signed_distance,contact_x,contact_y,contact_z,"
     "direction_x,direction_y,direction_z,gradient_x,gradient_y,gradient_z,"
     "triangle\n";
 
-std::string Row(const Eigen::Vector3d& q, const std::string& status,
-                const PenetrationResult& result, bool exact_gradient) {
+std::string QueryRow(const Eigen::Vector3d& q, const std::string& status,
+                     const PenetrationResult& result, bool exact_gradient) {
   return FormatPoint(q) + ',' + status + ',' + (result.inside ? "1," : "0,") +
          FormatDouble(result.signed_distance) + ',' +
          FormatPoint(result.contact) + ',' + FormatPoint(result.direction) +
@@ -133,24 +135,22 @@ std::string Row(const Eigen::Vector3d& q, const std::string& status,
          ',' + std::to_string(result.triangle) + '\n';
 }
 
-Json ToJson(const Eigen::Vector3d& v) { return {v[0], v[1], v[2]}; }
-
 // The same as one line of JSON.
 std::string JsonRow(const Eigen::Vector3d& q, const std::string& status,
                     const PenetrationResult& result, bool exact_gradient) {
-  const Json row = {
-      {"position", ToJson(q)},
-      {"status", status},
-      {"inside", result.inside},
-      {"signed_distance", result.signed_distance},
-      {"contact", ToJson(result.contact)},
-      {"direction", ToJson(result.direction)},
-      {"gradient", ToJson(exact_gradient ? result.gradient : result.direction)},
-      {"triangle", result.triangle}};
+  const Json row = {{"position", PointJson(q)},
+                    {"status", status},
+                    {"inside", result.inside},
+                    {"signed_distance", result.signed_distance},
+                    {"contact", PointJson(result.contact)},
+                    {"direction", PointJson(result.direction)},
+                    {"gradient", PointJson(exact_gradient ? result.gradient
+                                                          : result.direction)},
+                    {"triangle", result.triangle}};
   return JsonText(row) + '\n';
 }
 
-int Query(const CLI::App& app, const Flags& flags) {
+int Query(const CLI::App& app, const QueryFlags& flags) {
   RequireSense(app, flags);
   const std::string target = AnswerTarget(flags.output);
   OutputFiles outputs;
@@ -160,7 +160,7 @@ int Query(const CLI::App& app, const Flags& flags) {
   Progress("building the metric");
   const Answers answers = Ask(flags, contact, points);
 
-  std::string text = flags.json ? "" : kHeader;
+  std::string text = flags.json ? "" : kQueryHeader;
   std::size_t inside = 0;
   std::size_t unusual = 0;
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -168,8 +168,8 @@ int Query(const CLI::App& app, const Flags& flags) {
     const std::string& status = answers.statuses[i];
     inside += result.inside ? 1 : 0;
     unusual += IsUsual(status) ? 0 : 1;
-    text += (flags.json ? JsonRow : Row)(points[i], status, result,
-                                         flags.jacobian == "exact");
+    text += (flags.json ? JsonRow : QueryRow)(points[i], status, result,
+                                              flags.jacobian == "exact");
   }
   outputs.Write(target, text);
   CommitAndTell(
@@ -185,7 +185,7 @@ int Query(const CLI::App& app, const Flags& flags) {
 }  // namespace
 
 Command AddQuery(CLI::App* app) {
-  auto flags = std::make_shared<Flags>();
+  auto flags = std::make_shared<QueryFlags>();
   AddContactSpaceFile(app, &flags->contact_space)->required();
   app->add_option("--points", flags->points, "CSV file with the columns x,y,z")
       ->required()

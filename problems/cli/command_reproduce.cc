@@ -23,7 +23,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-struct Flags {
+struct ReproduceFlags {
   std::string output;
   std::string replay;
   std::string folder;
@@ -45,7 +45,7 @@ std::string Ending(int exit_code, int signal) {
                         : "signal " + std::to_string(signal);
 }
 
-int Pack(const Flags& flags) {
+int Pack(const ReproduceFlags& flags) {
   const std::string target = AnswerTarget(flags.output);
   OutputFiles outputs;
   DeclareIfNamed(&outputs, target, "--output", {".json"});
@@ -100,7 +100,7 @@ int CompareAsJson(const Json& document, const CommandOutcome& now) {
   return is_same.is_boolean() && !is_same.get<bool>() ? kNoAnswer : kDone;
 }
 
-int Replay(const Flags& flags) {
+int Replay(const ReproduceFlags& flags) {
   std::ifstream stream(flags.replay, std::ios::binary);
   const Json document = Json::parse(stream, nullptr, false);
   const TemporaryFolder temporary;
@@ -131,7 +131,7 @@ int Replay(const Flags& flags) {
   return same_end && same_words ? kDone : kNoAnswer;
 }
 
-int Reproduce(const Flags& flags) {
+int Reproduce(const ReproduceFlags& flags) {
   if (flags.replay.empty() == flags.command.empty()) {
     throw InputError(
         "reproduce: expected -- COMMAND ARGUMENTS, or --replay FILE");
@@ -143,7 +143,7 @@ int Reproduce(const Flags& flags) {
 }  // namespace
 
 Command AddReproduce(CLI::App* app) {
-  auto flags = std::make_shared<Flags>();
+  auto flags = std::make_shared<ReproduceFlags>();
   app->add_option("--output", flags->output,
                   "JSON file with the command, its inputs, versions and "
                   "outcome; no folder, user or host is named in it (standard "

@@ -18,7 +18,7 @@
 namespace phongpd::cli {
 namespace {
 
-struct Flags {
+struct ScenesFlags {
   std::string name;
   std::vector<std::string> settings;
   std::string output;
@@ -35,7 +35,7 @@ void ListKnobs(const std::vector<SceneKnob>& knobs) {
   }
 }
 
-Json ToJson(const std::vector<SceneKnob>& knobs) {
+Json KnobsJson(const std::vector<SceneKnob>& knobs) {
   Json list = Json::array();
   for (const SceneKnob& knob : knobs) {
     list.push_back({{"key", knob.key},
@@ -50,10 +50,10 @@ int ListAsJson() {
   for (const SceneFamily& family : SceneFamilies()) {
     families.push_back({{"name", family.name},
                         {"summary", family.summary},
-                        {"knobs", ToJson(family.knobs)}});
+                        {"knobs", KnobsJson(family.knobs)}});
   }
   const Json list = {{"families", families},
-                     {"common_knobs", ToJson(CommonSceneKnobs())}};
+                     {"common_knobs", KnobsJson(CommonSceneKnobs())}};
   std::cout << JsonText(list, 2) << '\n';
   return kDone;
 }
@@ -81,7 +81,7 @@ std::map<std::string, double> Knobs(const std::vector<std::string>& settings) {
   return knobs;
 }
 
-int Write(const Flags& flags) {
+int Write(const ScenesFlags& flags) {
   // With neither a file nor a folder the scene goes to standard output.
   const bool is_asked = !flags.output.empty() || flags.meshes.empty();
   const std::string target = is_asked ? AnswerTarget(flags.output) : "";
@@ -128,7 +128,7 @@ int Write(const Flags& flags) {
 }  // namespace
 
 Command AddScenes(CLI::App* app) {
-  auto flags = std::make_shared<Flags>();
+  auto flags = std::make_shared<ScenesFlags>();
   app->require_subcommand(1);
   CLI::App* const list =
       app->add_subcommand("list", "Names and knobs with their defaults");

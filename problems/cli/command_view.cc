@@ -30,9 +30,11 @@ extern char** environ;
 namespace phongpd::cli {
 namespace {
 
+using Json = nlohmann::ordered_json;
+
 constexpr int kPictureWidth = 1600, kPictureHeight = 1000;
 
-struct Flags : ViewRequest {
+struct ViewFlags : ViewRequest {
   std::vector<std::string> from_cells, to_cells;
   std::string unit = "units";
   std::string title;
@@ -76,8 +78,7 @@ void OpenOnDisplay(const std::string& path) {
 }
 
 // What is shown, for --json; `page` is where.
-nlohmann::ordered_json Contents(const View& view, const std::string& page) {
-  using Json = nlohmann::ordered_json;
+Json Contents(const View& view, const std::string& page) {
   Json meshes = Json::array(), paths = Json::array();
   for (const ViewMesh& mesh : view.meshes) {
     meshes.push_back({{"name", mesh.name},
@@ -100,7 +101,7 @@ nlohmann::ordered_json Contents(const View& view, const std::string& page) {
           {"notes", view.notes}};
 }
 
-int Look(Flags flags) {
+int Look(ViewFlags flags) {
   if (!flags.from_cells.empty()) {
     flags.from = ParsePoint(flags.from_cells, "--from");
   }
@@ -149,7 +150,7 @@ int Look(Flags flags) {
 }  // namespace
 
 Command AddView(CLI::App* app) {
-  auto flags = std::make_shared<Flags>();
+  auto flags = std::make_shared<ViewFlags>();
   app->add_option("THING", flags->things,
                   "Meshes, contact spaces (OFF, OBJ, PLY, STL, DAE, glTF, GLB, "
                   "3MF, robot.urdf#link, .pcs), a scene "

@@ -10,7 +10,7 @@ namespace {
 
 // What stands before the tables.  `path` is the command so far: " scenes
 // write". Bash splits --flag=value into three words.
-constexpr char kHead[] =
+constexpr char kBashHead[] =
     R"(# Completion of phongpd for bash, by: phongpd completion bash
 _phongpd() {
   local word=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD-1]}
@@ -21,7 +21,7 @@ _phongpd() {
     case "$path ${COMP_WORDS[i]}" in
 )";
 
-constexpr char kAfterCommands[] = R"(        path+=" ${COMP_WORDS[i]}" ;;
+constexpr char kBashAfterCommands[] = R"(        path+=" ${COMP_WORDS[i]}" ;;
     esac
   done
   if [[ $word == = ]]; then
@@ -60,8 +60,8 @@ bool TakesFiles(const Argument& argument) {
 }
 
 // words=... files=... for a value of that argument.
-std::string Offer(const Argument& argument,
-                  const std::vector<std::string>& families) {
+std::string OfferInBash(const Argument& argument,
+                        const std::vector<std::string>& families) {
   std::string words;
   if (argument.kind == ValueKind::kScene) words = Joined(families, " ");
   if (argument.kind == ValueKind::kChoice) {
@@ -80,8 +80,8 @@ std::string ValueCases(const CommandNode& node,
     for (const std::string& name : flag.names) {
       patterns.push_back('\'' + PathOf(node) + ' ' + name + '\'');
     }
-    text +=
-        "    " + Joined(patterns, "|") + ") " + Offer(flag, families) + " ;;\n";
+    text += "    " + Joined(patterns, "|") + ") " +
+            OfferInBash(flag, families) + " ;;\n";
   }
   return text;
 }
@@ -123,8 +123,8 @@ std::string BashCompletion(const CommandNode& program,
     values += ValueCases(*node, families);
     next += NextCase(*node, families);
   }
-  return kHead + ("      " + Joined(paths, "|")) + ")\n" + kAfterCommands +
-         values + kAfterValues + next + kTail;
+  return kBashHead + ("      " + Joined(paths, "|")) + ")\n" +
+         kBashAfterCommands + values + kAfterValues + next + kTail;
 }
 
 }  // namespace phongpd::cli

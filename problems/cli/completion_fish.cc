@@ -9,7 +9,7 @@ namespace phongpd::cli {
 namespace {
 
 // __phongpd_at scenes write: is that the command that is being completed?
-constexpr char kHead[] =
+constexpr char kFishHead[] =
     R"(# Completion of phongpd for fish, by: phongpd completion fish
 function __phongpd_at
     set -l path
@@ -17,7 +17,7 @@ function __phongpd_at
         switch (string join -- ' ' $path $word)
             case )";
 
-constexpr char kAfterCommands[] = R"(
+constexpr char kFishAfterCommands[] = R"(
                 set path $path $word
         end
     end
@@ -26,7 +26,7 @@ end
 complete -c phongpd -f
 )";
 
-std::string Quoted(const std::string& text) {
+std::string QuotedForFish(const std::string& text) {
   std::string quoted = "'";
   for (const char c : text) {
     if (c == '\'' || c == '\\') quoted += '\\';
@@ -42,17 +42,17 @@ std::string At(const CommandNode& node) {
 }
 
 // How fish is told what a value may be.
-std::string Offer(const Argument& argument,
-                  const std::vector<std::string>& families) {
+std::string OfferInFish(const Argument& argument,
+                        const std::vector<std::string>& families) {
   switch (argument.kind) {
     case ValueKind::kFile:
       return " -F";
     case ValueKind::kFolder:
       return " -f -a '(__fish_complete_directories)'";
     case ValueKind::kScene:
-      return " -F -a " + Quoted(Joined(families, " "));
+      return " -F -a " + QuotedForFish(Joined(families, " "));
     case ValueKind::kChoice:
-      return " -f -a " + Quoted(Joined(argument.choices, " "));
+      return " -f -a " + QuotedForFish(Joined(argument.choices, " "));
     case ValueKind::kNone:
     case ValueKind::kOther:
       break;
@@ -66,8 +66,9 @@ std::string Flag(const CommandNode& node, const Argument& flag,
   for (const std::string& name : flag.names) {
     line += name[1] == '-' ? " -l " + name.substr(2) : " -s " + name.substr(1);
   }
-  if (flag.kind != ValueKind::kNone) line += " -r" + Offer(flag, families);
-  return line + " -d " + Quoted(Shortened(flag.help)) + '\n';
+  if (flag.kind != ValueKind::kNone)
+    line += " -r" + OfferInFish(flag, families);
+  return line + " -d " + QuotedForFish(Shortened(flag.help)) + '\n';
 }
 
 }  // namespace
@@ -78,20 +79,20 @@ std::string FishCompletion(const CommandNode& program,
   std::string lines;
   for (const CommandNode* const node : AllNodes(program)) {
     if (!node->path.empty()) {
-      paths.push_back(Quoted(Joined(node->path, " ")));
+      paths.push_back(QuotedForFish(Joined(node->path, " ")));
     }
     for (const CommandNode& below : node->commands) {
       lines += At(*node) + " -a " + below.path.back() + " -d " +
-               Quoted(Shortened(below.summary)) + '\n';
+               QuotedForFish(Shortened(below.summary)) + '\n';
     }
     for (const Argument& argument : node->positionals) {
-      lines += At(*node) + Offer(argument, families) + '\n';
+      lines += At(*node) + OfferInFish(argument, families) + '\n';
     }
     for (const Argument& flag : node->flags) {
       lines += Flag(*node, flag, families);
     }
   }
-  return kHead + Joined(paths, " ") + kAfterCommands + lines;
+  return kFishHead + Joined(paths, " ") + kFishAfterCommands + lines;
 }
 
 }  // namespace phongpd::cli

@@ -24,7 +24,7 @@ constexpr char kDispatch[] = R"(  if (( CURRENT == 2 )); then
 )";
 
 // `text` in single quotes, `special` ones behind a backslash.
-std::string Quoted(const std::string& text) {
+std::string QuotedForZsh(const std::string& text) {
   std::string quoted = "'";
   for (const char c : text) quoted += c == '\'' ? "'\\''" : std::string(1, c);
   return quoted + '\'';
@@ -72,7 +72,7 @@ std::string Values(const Argument& argument) {
 }
 
 // One word of _arguments for each name of a flag.
-std::string Flags(const CommandNode& node) {
+std::string FlagsOf(const CommandNode& node) {
   std::string lines;
   for (const Argument& flag : node.flags) {
     for (const std::string& name : flag.names) {
@@ -80,9 +80,10 @@ std::string Flags(const CommandNode& node) {
       const bool may_join =
           flag.kind != ValueKind::kNone && name.compare(0, 2, "--") == 0;
       lines += "    " +
-               Quoted((flag.repeats ? "*" : "") + name + (may_join ? "=" : "") +
-                      '[' + Guarded(Shortened(flag.help), "[]:\\") + ']' +
-                      Values(flag)) +
+               QuotedForZsh((flag.repeats ? "*" : "") + name +
+                            (may_join ? "=" : "") + '[' +
+                            Guarded(Shortened(flag.help), "[]:\\") + ']' +
+                            Values(flag)) +
                '\n';
     }
   }
@@ -92,7 +93,8 @@ std::string Flags(const CommandNode& node) {
 std::string Positionals(const CommandNode& node) {
   std::string lines;
   for (const Argument& argument : node.positionals) {
-    lines += "    " + Quoted((argument.repeats ? "*" : "") + Values(argument)) +
+    lines += "    " +
+             QuotedForZsh((argument.repeats ? "*" : "") + Values(argument)) +
              '\n';
   }
   return lines;
@@ -102,22 +104,22 @@ std::string Function(const CommandNode& node) {
   const std::string name = FunctionOf(node);
   std::string text = name + "() {\n";
   if (node.commands.empty()) {
-    return text + "  local -a flags=(\n" + Flags(node) + Positionals(node) +
+    return text + "  local -a flags=(\n" + FlagsOf(node) + Positionals(node) +
            "  )\n  _arguments $flags\n}\n";
   }
   text += "  local -a commands=(\n";
   for (const CommandNode& below : node.commands) {
     text += "    " +
-            Quoted(Guarded(below.path.back(), ":") + ':' +
-                   Guarded(Shortened(below.summary), "\\")) +
+            QuotedForZsh(Guarded(below.path.back(), ":") + ':' +
+                         Guarded(Shortened(below.summary), "\\")) +
             '\n';
   }
   std::string dispatch = kDispatch;
   for (std::size_t at; (at = dispatch.find("FUNCTION")) != std::string::npos;) {
     dispatch.replace(at, 8, name);
   }
-  return text + "  )\n  local -a flags=(\n" + Flags(node) + "  )\n" + dispatch +
-         "}\n";
+  return text + "  )\n  local -a flags=(\n" + FlagsOf(node) + "  )\n" +
+         dispatch + "}\n";
 }
 
 }  // namespace

@@ -14,7 +14,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 // Far above what the settings of a command with thousands of scenes take.
-constexpr std::uintmax_t kMaxBytes = std::uintmax_t{64} << 20;
+constexpr std::uintmax_t kMaxShardBytes = std::uintmax_t{64} << 20;
 
 }  // namespace
 
@@ -49,7 +49,7 @@ std::string ShardText(const Shard& shard, Json settings, std::size_t rows) {
 ShardRecord ReadShard(const std::string& folder) {
   const std::string path = folder + "/" + kShardFile;
   const Json record = Json::parse(
-      ReadInputFile(path, "part of a phongpd compare --shard", kMaxBytes),
+      ReadInputFile(path, "part of a phongpd compare --shard", kMaxShardBytes),
       nullptr, false);
   if (!record.is_object() || !record.contains("shard") ||
       !record["shard"].is_string() || !record.contains("rows") ||

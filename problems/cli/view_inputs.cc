@@ -30,7 +30,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::uintmax_t kMaxBytes = std::uintmax_t{1} << 30;
+constexpr std::uintmax_t kMaxThingBytes = std::uintmax_t{1} << 30;
 constexpr char kKinds[] =
     "a mesh or contact space (OFF, OBJ, PLY, STL, DAE, glTF, GLB, 3MF, "
     "robot.urdf#link, .pcs), a scene (file or "
@@ -73,7 +73,7 @@ class Collector {
     }
     const std::string extension = Extension(thing);
     if (IsMesh(thing)) return TakeMesh(thing);
-    const std::string content = ReadInputFile(thing, kKinds, kMaxBytes);
+    const std::string content = ReadInputFile(thing, kKinds, kMaxThingBytes);
     const std::size_t first = content.find_first_not_of(" \t\r\n");
     if (first == std::string::npos) FailUnknown(thing, "an empty file");
     switch (KindOfTable(content)) {

@@ -35,7 +35,7 @@ using Eigen::Matrix4d;
 using Eigen::Vector3d;
 
 constexpr std::size_t kMaxTriangles = 50'000'000;
-constexpr int kMaxDepth = 1000;  // of nodes in nodes
+constexpr int kMaxNodeDepth = 1000;  // of nodes in nodes
 
 [[noreturn]] void Refuse(const std::string& file, const std::string& found) {
   throw InputError(file + ": expected a mesh, found " + found);
@@ -67,8 +67,8 @@ class Collector {
       : scene_(scene), file_(file) {}
 
   void Take(const aiNode& node, const Matrix4d& place, int depth = 0) {
-    if (depth > kMaxDepth) {
-      Refuse(file_, "more than " + std::to_string(kMaxDepth) +
+    if (depth > kMaxNodeDepth) {
+      Refuse(file_, "more than " + std::to_string(kMaxNodeDepth) +
                         " nodes within each other");
     }
     for (unsigned i = 0; i < node.mNumMeshes; ++i) {

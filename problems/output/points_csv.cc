@@ -31,7 +31,7 @@ struct Header {
   std::vector<std::size_t> place;  // of each name
 };
 
-std::string Joined(const Names& names) {
+std::string WithCommas(const Names& names) {
   std::string text;
   for (const std::string& name : names) {
     text += (text.empty() ? "" : ",") + name;
@@ -55,7 +55,7 @@ Header ReadHeader(std::string_view line, const Names& names,
     }
     if (found != 1) {
       throw InputError(path + ":1: expected a header with the columns " +
-                       Joined(names) + ", found column " + name + " " +
+                       WithCommas(names) + ", found column " + name + " " +
                        std::to_string(found) + " times");
     }
     header.place.push_back(place);
@@ -76,7 +76,7 @@ void ParseColumns(std::string_view content, const std::string& file,
   };
   if (content.empty()) {
     throw InputError(file + ": expected a header with the columns " +
-                     Joined(names) + ", found an empty file");
+                     WithCommas(names) + ", found an empty file");
   }
   const Header header = ReadHeader(take_line(), names, file);
   std::vector<double> values(names.size());

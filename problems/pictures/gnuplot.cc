@@ -57,7 +57,7 @@ std::string FirstTextLine(const std::string& text) {
 
 // Of lines that name no colour: apart for colour-blind readers (Okabe and Ito,
 // and two of Tol's), and none so light that it fades on white.
-constexpr char kColors[] =
+constexpr char kLineColors[] =
     "set linetype 1 lc rgb '#0060B0'\nset linetype 2 lc rgb '#D55E00'\n"
     "set linetype 3 lc rgb '#009E73'\nset linetype 4 lc rgb '#E69F00'\n"
     "set linetype 5 lc rgb '#CC79A7'\nset linetype 6 lc rgb '#56B4E9'\n"
@@ -90,7 +90,7 @@ std::string RenderSvg(const std::string& script, int width, int height) {
       "set encoding utf8\nset terminal svg size " + std::to_string(width) +
       "," + std::to_string(height) +
       " dynamic enhanced font 'sans-serif,13' background rgb 'white'\n" +
-      kColors + script + "\n";
+      kLineColors + script + "\n";
   if (std::fwrite(all.data(), 1, all.size(), input.get()) != all.size() ||
       std::fflush(input.get()) != 0) {
     throw InputError(std::string("plots: a temporary file for gnuplot cannot "

@@ -15,10 +15,10 @@ namespace {
 using Eigen::Vector3d;
 using Edge = std::pair<Vector3d, Vector3d>;
 
-constexpr const char* kColors[] = {"#0072b2", "#d55e00", "#009e73",
-                                   "#cc79a7", "#e69f00", "#56b4e9"};
+constexpr const char* kPictureColors[] = {"#0072b2", "#d55e00", "#009e73",
+                                          "#cc79a7", "#e69f00", "#56b4e9"};
 
-const char* Color(std::size_t path) { return kColors[path % 6]; }
+const char* Color(std::size_t path) { return kPictureColors[path % 6]; }
 
 Vector3d Normal(const TriangleMesh& mesh, const Triangle& t) {
   const Vector3d& a = mesh.vertices[t[0]];

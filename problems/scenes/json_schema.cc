@@ -14,16 +14,16 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr int kMaxDepth = 100;
+constexpr int kMaxNesting = 100;
 
 std::string Dump(const Json& value) {
   return value.dump(-1, ' ', true, Json::error_handler_t::replace);
 }
 
-std::string Quoted(const std::string& text) { return Dump(Json(text)); }
+std::string QuotedJson(const std::string& text) { return Dump(Json(text)); }
 
 // Insertions, deletions and replacements that turn one text into the other.
-std::size_t EditDistance(const std::string& a, const std::string& b) {
+std::size_t EditsBetween(const std::string& a, const std::string& b) {
   std::vector<std::size_t> row(b.size() + 1);
   for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
   for (std::size_t i = 1; i <= a.size(); ++i) {
@@ -147,7 +147,7 @@ class Validator {
       list += (list.empty() ? "" : ", ") + name;
       // A long key is near to nothing; its distances would take long.
       const std::size_t distance =
-          key.size() > 100 ? least : EditDistance(key, name);
+          key.size() > 100 ? least : EditsBetween(key, name);
       if (distance >= least) continue;
       least = distance;
       nearest = name;
@@ -163,9 +163,9 @@ class Validator {
     int count = 0;
     for (const Json& alternative : alternatives) {
       const auto key = alternative["required"][0].get<std::string>();
-      list += (list.empty() ? "" : " or ") + Quoted(key);
+      list += (list.empty() ? "" : " or ") + QuotedJson(key);
       if (!value.contains(key)) continue;
-      found += (count++ == 0 ? "" : " and ") + Quoted(key);
+      found += (count++ == 0 ? "" : " and ") + QuotedJson(key);
     }
     if (count == 1) return;
     place.Fail("either " + list, count == 0 ? "neither" : found);
@@ -270,9 +270,9 @@ Json ParseJson(const std::string& text, const std::string& file) {
   std::vector<std::set<std::string>> keys;
   const auto watch = [&](int depth, Json::parse_event_t event, Json& parsed) {
     using Event = Json::parse_event_t;
-    if (depth > kMaxDepth) {
+    if (depth > kMaxNesting) {
       throw InputError(file + ": expected nesting of at most " +
-                       std::to_string(kMaxDepth) + " levels, found more");
+                       std::to_string(kMaxNesting) + " levels, found more");
     }
     if (event == Event::object_start) keys.emplace_back();
     if (event == Event::object_end) keys.pop_back();

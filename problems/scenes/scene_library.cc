@@ -17,7 +17,7 @@ using Json = nlohmann::ordered_json;
 using Values = std::map<std::string, double>;
 
 template <typename Items, typename Name>
-std::vector<std::string> Names(const Items& items, Name name) {
+std::vector<std::string> NamesOf(const Items& items, Name name) {
   std::vector<std::string> names;
   for (const auto& item : items) names.push_back(name(item));
   return names;
@@ -50,7 +50,7 @@ Json MakeScene(const std::string& name, const Values& knobs) {
                    [&](const SceneFamily& f) { return f.name == name; });
   if (family == families.end()) {
     FailUnknown("scene: expected one of ",
-                Names(families, [](const SceneFamily& f) { return f.name; }),
+                NamesOf(families, [](const SceneFamily& f) { return f.name; }),
                 name);
   }
   std::vector<SceneKnob> known = family->knobs;
@@ -61,7 +61,8 @@ Json MakeScene(const std::string& name, const Values& knobs) {
   for (const auto& [key, value] : knobs) {
     if (values.count(key) == 0) {
       FailUnknown("scene " + name + ": expected one of the knobs ",
-                  Names(known, [](const SceneKnob& k) { return k.key; }), key);
+                  NamesOf(known, [](const SceneKnob& k) { return k.key; }),
+                  key);
     }
     values[key] = value;
   }

@@ -14,6 +14,8 @@
 namespace phongpd {
 namespace {
 
+using Json = nlohmann::ordered_json;
+
 // Colour-blind safe, and told apart by width and dash without any colour; thin
 // lines come later and stay visible on top of wide ones.
 constexpr std::array<const char*, 5> kLineStyles = {
@@ -96,7 +98,6 @@ std::string MotionCsv(const std::vector<MotionTrace>& traces) {
 
 std::string MotionJson(const StraightMotion& motion,
                        const std::vector<MotionTrace>& traces) {
-  using Json = nlohmann::ordered_json;
   const auto point = [](const Eigen::Vector3d& v) {
     return Json({v[0], v[1], v[2]});
   };

@@ -5,11 +5,14 @@
 #include "problems/studies/row_parts.h"
 
 namespace phongpd {
+namespace {
 
-nlohmann::ordered_json PlanningRow(const PlanningStudy& study,
-                                   const PlanningRun& run,
-                                   const PlanningResult& result) {
-  using Json = nlohmann::ordered_json;
+using Json = nlohmann::ordered_json;
+
+}  // namespace
+
+Json PlanningRow(const PlanningStudy& study, const PlanningRun& run,
+                 const PlanningResult& result) {
   const OmplPlanningResult& n = result.numbers;
   Json row;
   row["scene"] = study.scene().name;

@@ -29,7 +29,7 @@ constexpr std::uintmax_t kLargestInput = 512ULL << 20;
 const std::string kDigits =
     "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
 
-std::string Base64(const std::string& bytes) {
+std::string ToBase64(const std::string& bytes) {
   std::string text;
   for (std::size_t i = 0; i < bytes.size(); i += 3) {
     const std::size_t count = std::min<std::size_t>(3, bytes.size() - i);
@@ -156,7 +156,7 @@ class Packer {
     }
     files_.push_back({{"name", name},
                       {"encoding", is_text ? "text" : "base64"},
-                      {"content", is_text ? content : Base64(content)}});
+                      {"content", is_text ? content : ToBase64(content)}});
   }
 
   // If `scene` is a scene file, the meshes beside it; names that say where

@@ -21,7 +21,7 @@ double Checked(double value, const char* kind) {
 }
 
 // What may stand in a message, on one line.
-std::string Quoted(const std::string& text) {
+std::string Excerpt(const std::string& text) {
   constexpr std::size_t kLongest = 40;
   std::string quoted = "'" + text.substr(0, kLongest);
   for (char& c : quoted) {
@@ -80,7 +80,7 @@ Length ParseLength(const std::string& text, const std::string& what) {
     // Below: what a length is, not what a number is.
   }
   // −0 is a zero with a sign that nobody means.
-  if (!(value >= 0.0)) Refuse(what, kLengthSyntax, Quoted(text));
+  if (!(value >= 0.0)) Refuse(what, kLengthSyntax, Excerpt(text));
   value = std::abs(value);
   return is_unit ? Length::FromUnit(value) : Length::FromShare(value);
 }

@@ -17,6 +17,8 @@ enum class ChildStatus {
   kCrashed,  // ended by a signal
 };
 
+inline bool IsDone(ChildStatus status) { return status == ChildStatus::kDone; }
+
 struct ChildOutcome {
   ChildStatus status = ChildStatus::kCrashed;
   std::string output;     // what the work returned, or what() it threw

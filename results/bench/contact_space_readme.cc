@@ -7,8 +7,6 @@
 namespace phongpd::bench {
 namespace {
 
-bool IsDone(ChildStatus status) { return status == ChildStatus::kDone; }
-
 std::string Targets(const ContactSpaceResults& results) {
   std::string text;
   for (const CaseResult& c : results.cases) {

@@ -10,8 +10,6 @@
 namespace phongpd::bench {
 namespace {
 
-bool IsDone(ChildStatus status) { return status == ChildStatus::kDone; }
-
 // The figure, or why there is none.
 std::string Outcome(ChildStatus status, double value, double limit) {
   switch (status) {

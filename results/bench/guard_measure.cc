@@ -29,7 +29,7 @@ namespace {
 using Json = nlohmann::json;
 
 // A build that takes longer, wall time on a busy machine, is not measured.
-constexpr double kLimit = 120.0;
+constexpr double kGuardLimit = 120.0;
 // What is cheaper is no matter for a guard, nor can it be measured.
 constexpr double kLeastSeconds = 0.05;
 constexpr double kLeastMib = 16.0;
@@ -160,7 +160,8 @@ Json Build(const Pair& pair, double max_seconds, double max_mib,
 Json BuildInChild(const Pair& pair, double max_seconds, double max_mib,
                   internal::Boxes boxes = internal::Boxes::kWhereMemoryEnds) {
   const ChildOutcome outcome = RunInChild(
-      [&] { return Build(pair, max_seconds, max_mib, boxes).dump(); }, kLimit);
+      [&] { return Build(pair, max_seconds, max_mib, boxes).dump(); },
+      kGuardLimit);
   if (outcome.status != ChildStatus::kDone) {
     std::cout << pair.robot->name << " + " << pair.obstacle->name << ": "
               << (outcome.status == ChildStatus::kStopped ? "stopped"

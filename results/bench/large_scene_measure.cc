@@ -25,7 +25,7 @@ namespace {
 using Eigen::Vector3d;
 using Json = nlohmann::json;
 
-constexpr double kLimit = 600.0;  // seconds of a task, far above all
+constexpr double kTaskLimit = 600.0;  // seconds of a task, far above all
 
 // A small scanned knot that passes a larger one; both too thin for much of what
 // their facets cut to be hidden in either.
@@ -103,14 +103,15 @@ Json BuildWhole(double max_seconds) {
   return {{"answer", said}};
 }
 
-struct Row {
+struct TaskRow {
   std::string task;
   Json found;
   double wall = 0.0, mib = 0.0;
 };
 
-Row Measure(const std::string& task, const std::function<Json()>& work) {
-  Row row;
+TaskRow MeasureTask(const std::string& task,
+                    const std::function<Json()>& work) {
+  TaskRow row;
   row.task = task;
   const ChildOutcome outcome = RunInChild(
       [&work] {
@@ -118,7 +119,7 @@ Row Measure(const std::string& task, const std::function<Json()>& work) {
         found["cpu"] = CpuSeconds();
         return found.dump();
       },
-      kLimit);
+      kTaskLimit);
   row.found = outcome.status == ChildStatus::kDone
                   ? Json::parse(outcome.output)
                   : Json{{"answer", "failed: " + outcome.output}, {"cpu", 0.0}};
@@ -130,11 +131,12 @@ Row Measure(const std::string& task, const std::function<Json()>& work) {
 }  // namespace
 
 NamedTable LargeSceneTable(double max_seconds) {
-  std::vector<Row> rows;
-  rows.push_back(Measure("plan, rrt-connect", Plan));
-  rows.push_back(Measure("optimize", Optimize));
-  rows.push_back(Measure("the whole contact space",
-                         [max_seconds] { return BuildWhole(max_seconds); }));
+  std::vector<TaskRow> rows;
+  rows.push_back(MeasureTask("plan, rrt-connect", Plan));
+  rows.push_back(MeasureTask("optimize", Optimize));
+  rows.push_back(MeasureTask("the whole contact space", [max_seconds] {
+    return BuildWhole(max_seconds);
+  }));
   const Scene scene = ScannedKnots();
   const auto triangles = [](const Solid& solid) {
     return std::to_string(solid.mesh().triangles.size());
@@ -146,7 +148,7 @@ NamedTable LargeSceneTable(double max_seconds) {
                   " and " + triangles(scene.workspace.obstacles[0]) +
                   " triangles, a convolution of " +
                   std::to_string(
-                      Measure("", CountFacets).found.value("facets", 0L)) +
+                      MeasureTask("", CountFacets).found.value("facets", 0L)) +
                   " facets: a motion from one side to the other, planned and "
                   "optimised with model window from the two meshes on, judged "
                   "again on the original solids; and what a full build that is "
@@ -155,7 +157,7 @@ NamedTable LargeSceneTable(double max_seconds) {
                   " s of wall time says. Each in a process of its own.",
               {"task", "CPU s", "wall s", "peak MiB", "answer", "verified",
                "points", "clearance", "facets modelled"},
-              rows, [](const Row& row, const auto& add) {
+              rows, [](const TaskRow& row, const auto& add) {
                 const Json& found = row.found;
                 const bool is_path = found.contains("points");
                 add(row.task, found["cpu"].get<double>(), row.wall, row.mib,

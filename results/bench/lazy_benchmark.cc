@@ -68,7 +68,7 @@ struct Options {
   std::uint64_t seed = 1;
 };
 
-struct Row {
+struct CaseRow {
   std::string name;
   std::size_t robot = 0, obstacle = 0, full_faces = 0;
   double full_seconds = 0.0, full_wall = 0.0, handle_seconds = 0.0;
@@ -79,8 +79,8 @@ struct Row {
   int uncertified = 0, wrong = 0;
 };
 
-Row Measure(const Case& c, const Options& options) {
-  Row row;
+CaseRow Measure(const Case& c, const Options& options) {
+  CaseRow row;
   row.name = c.name;
   const TriangleMesh robot = c.robot(), obstacle = c.obstacle();
   row.robot = robot.triangles.size();
@@ -131,7 +131,7 @@ Row Measure(const Case& c, const Options& options) {
   return row;
 }
 
-NamedTable TableOf(const std::vector<Row>& rows) {
+NamedTable TableOf(const std::vector<CaseRow>& rows) {
   return {
       "depth.csv",
       MakeTable(
@@ -144,7 +144,7 @@ NamedTable TableOf(const std::vector<Row>& rows) {
            "wall s", "its faces", "query made, CPU s", "answer, CPU ms", "95 %",
            "wall ms", "faces arranged, median", "turned, CPU ms",
            "worst error / diagonal", "not certified", "wrong"},
-          rows, [](const Row& r, const auto& add) {
+          rows, [](const CaseRow& r, const auto& add) {
             add(r.name, r.robot, r.obstacle, r.full_seconds, r.full_wall,
                 r.full_faces, r.handle_seconds, Quantile(r.cpu_ms, 0.5),
                 Quantile(r.cpu_ms, 0.95), Quantile(r.wall_ms, 0.5),
@@ -175,14 +175,14 @@ int Run(int argc, char** argv) {
   std::cout << ToText(GuardVerdict(guard).table) << std::endl;
   const NamedTable large = LargeSceneTable(options.max_seconds);
   std::cout << ToText(large.table) << std::endl;
-  std::vector<Row> rows;
+  std::vector<CaseRow> rows;
   for (const Case& c : Cases()) {
     rows.push_back(Measure(c, options));
     std::cout << ToText(TableOf({rows.back()}).table) << std::endl;
   }
   std::vector<FreeSpaceRow> free_spaces;
   std::vector<VolumeRow> volumes;
-  for (const Row& row : rows) {
+  for (const CaseRow& row : rows) {
     free_spaces.push_back(row.free_space);
     volumes.insert(volumes.end(), row.volumes.begin(), row.volumes.end());
   }

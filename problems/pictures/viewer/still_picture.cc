@@ -28,7 +28,7 @@ std::string Browser() {
 }
 
 // Runs the program with nothing on its standard streams; its exit status.
-int Run(std::vector<std::string> arguments) {
+int RunBrowser(std::vector<std::string> arguments) {
   std::vector<char*> pointers;
   for (std::string& argument : arguments) pointers.push_back(argument.data());
   pointers.push_back(nullptr);
@@ -88,7 +88,7 @@ std::string StillPicture(const std::string& page, int width, int height,
   if (geteuid() == 0) command.push_back("--no-sandbox");
   command.push_back("file://" + html + "#still=1&theme=light" +
                     (moment ? "&t=" + std::to_string(*moment) : ""));
-  const int status = Run(command);
+  const int status = RunBrowser(command);
   std::ifstream picture(png, std::ios::binary);
   std::ostringstream content;
   content << picture.rdbuf();
