@@ -43,6 +43,15 @@ endfunction()
 if(CMAKE_CXX_COMPILER_LAUNCHER)
   set(CMAKE_DISABLE_PRECOMPILE_HEADERS ON)
 endif()
+# Several sources of a target are compiled as one, which parses the headers and
+# instantiates the templates they share once.  A cache of objects does better by
+# single sources: it recompiles only those that an edit has changed.
+set(PHONGPD_UNITY_BUILD_DEFAULT ON)
+if(CMAKE_CXX_COMPILER_LAUNCHER)
+  set(PHONGPD_UNITY_BUILD_DEFAULT OFF)
+endif()
+option(PHONGPD_UNITY_BUILD "Compile several sources at once"
+       ${PHONGPD_UNITY_BUILD_DEFAULT})
 set(PHONGPD_COMMON_HEADERS <Eigen/Core> <algorithm> <functional> <map> <memory>
                            <string> <vector>)
 
@@ -61,6 +70,50 @@ function(phongpd_add_component component)
   set_target_properties(${target} PROPERTIES EXPORT_NAME ${component})
   target_compile_features(${target} PUBLIC cxx_std_17)
   target_link_libraries(${target} PRIVATE $<BUILD_INTERFACE:phongpd_flags>)
+  # When this folder and those below it have added their sources.
+  cmake_language(EVAL CODE
+                 "cmake_language(DEFER CALL phongpd_unite ${target} 10)")
+endfunction()
+
+# Compiles the target's sources in groups of about SIZE neighbours: an edit
+# compiles one group anew.  Those that a folder has put into a UNITY_GROUP of its
+# own, as it does with what is slow to parse, stay there; generated ones are
+# data, and stay alone.
+function(phongpd_unite target size)
+  if(NOT PHONGPD_UNITY_BUILD)
+    return()
+  endif()
+  # Headers are parsed so seldom that to precompile them takes longer.
+  set_target_properties(
+    ${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP
+                         DISABLE_PRECOMPILE_HEADERS ON)
+  # Of gcc: members of types that only this file knows are a fault in a header,
+  # for which it takes a source that another one includes.
+  target_compile_options(
+    ${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
+  get_target_property(all ${target} SOURCES)
+  set(sources "")
+  foreach(source IN LISTS all)
+    get_source_file_property(group ${source} TARGET_DIRECTORY ${target}
+                             UNITY_GROUP)
+    get_source_file_property(is_generated ${source} TARGET_DIRECTORY ${target}
+                             GENERATED)
+    get_source_file_property(is_single ${source} TARGET_DIRECTORY ${target}
+                             SKIP_UNITY_BUILD_INCLUSION)
+    if(source MATCHES "\\.cc$"
+       AND NOT (group OR is_single OR is_generated))
+      list(APPEND sources ${source})
+    endif()
+  endforeach()
+  list(LENGTH sources count)
+  math(EXPR groups "(${count} + ${size} - 1) / ${size}")
+  set(number 0)
+  foreach(source IN LISTS sources)
+    math(EXPR group "${number} * ${groups} / ${count} + 1")
+    set_source_files_properties(
+      ${source} TARGET_DIRECTORY ${target} PROPERTIES UNITY_GROUP ${group})
+    math(EXPR number "${number} + 1")
+  endforeach()
 endfunction()
 
 # Sources and public headers, relative to the folder that calls it.
