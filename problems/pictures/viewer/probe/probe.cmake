@@ -48,11 +48,31 @@ list(APPEND sources ${PROJECT_SOURCE_DIR}/core/contact/contact_space.cc
      ${PROJECT_SOURCE_DIR}/core/mesh/sorted_mesh.cc
      ${PROJECT_SOURCE_DIR}/core/mesh/triangle_mesh.cc
      ${CMAKE_CURRENT_LIST_DIR}/probe.cc)
+set(folder ${CMAKE_CURRENT_BINARY_DIR}/probe)
+file(MAKE_DIRECTORY ${folder})
+# By itself each source parses what it shares with the others.
+if(PHONGPD_UNITY_BUILD)
+  list(LENGTH sources count)
+  math(EXPR half "${count} / 2")
+  set(units "")
+  foreach(number RANGE 1)
+    math(EXPR first "${number} * ${half}")
+    set(length ${half})
+    if(number EQUAL 1)
+      set(length -1)
+    endif()
+    list(SUBLIST sources ${first} ${length} part)
+    list(TRANSFORM part REPLACE "(.+)" "#include \"\\1\"\n")
+    string(CONCAT text ${part})
+    file(CONFIGURE OUTPUT ${folder}/unity_${number}.cc CONTENT "${text}" @ONLY)
+    list(APPEND units ${folder}/unity_${number}.cc)
+  endforeach()
+  set(sources ${units})
+endif()
 set(objects "")
-file(MAKE_DIRECTORY ${CMAKE_CURRENT_BINARY_DIR}/probe)
 foreach(source IN LISTS sources)
   get_filename_component(name ${source} NAME_WE)
-  set(object ${CMAKE_CURRENT_BINARY_DIR}/probe/${name}.o)
+  set(object ${folder}/${name}.o)
   add_custom_command(
     OUTPUT ${object}
     COMMAND
