@@ -9,7 +9,6 @@
 namespace phongpd::internal {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr double kMinLength = 1e-70, kMaxLength = 1e70;
 
 }  // namespace

@@ -13,10 +13,10 @@ namespace phongpd {
 namespace {
 
 using Eigen::Vector3d;
+using internal::kPi;
 using internal::UnitRandom;
 
 constexpr int kWaves = 12;
-constexpr double kPi = 3.14159265358979323846;
 
 struct Wave {
   Vector3d number;  // radians a radius

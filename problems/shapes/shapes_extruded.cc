@@ -18,6 +18,7 @@ namespace {
 
 using Eigen::Vector2d;
 using Eigen::Vector3d;
+using internal::kPi;
 using internal::RequireCount;
 using internal::RequireLength;
 using internal::RequireLengthBelow;
@@ -120,7 +121,6 @@ TriangleMesh MakeWrench(double scale, int hole, int ring, int jaw, int throat) {
   RequireCount("MakeWrench", "jaw", jaw, 4);
   RequireCount("MakeWrench", "throat", throat, 3);
 
-  constexpr double kPi = 3.14159265358979323846;
   constexpr double kRing = 1.0, kHole = 0.6, kHandle = 0.35, kLength = 5.0;
   constexpr double kJaw = 1.2, kGap = 0.55, kThickness = 0.5, kDepth = 0.1;
   const Vector2d ring_center(-0.5 * kLength, 0), jaw_center(0.5 * kLength, 0);

@@ -12,7 +12,11 @@
 
 namespace phongpd {
 
+namespace {
+
 using Json = nlohmann::ordered_json;
+
+}  // namespace
 
 std::string RowText(const Json& row, const char* key) {
   return row.at(key).get<std::string>();

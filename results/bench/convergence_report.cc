@@ -13,8 +13,12 @@
 
 namespace phongpd::bench {
 
+namespace {
+
 using Json = nlohmann::ordered_json;
 using Cells = std::vector<ComparisonCell>;
+
+}  // namespace
 
 const ComparisonCell* Find(const Cells& cells, const std::string& scene,
                            const std::string& protocol,

@@ -158,15 +158,15 @@ std::vector<TradeTrial> MeasurePlan() {
       ContactSurfaceOptions options;
       choice.apply(&options);
       TradeTrial trial{"plan", text, choice.name, 0.0, false, 0.0};
-      constexpr int kRepeats = 5;
+      constexpr int kPlans = 5;
       const double begin = ProcessorSeconds();
-      for (int repeat = 0; repeat < kRepeats; ++repeat) {
+      for (int repeat = 0; repeat < kPlans; ++repeat) {
         const ContactSurfacePlanner planner(world.Sealed(), options);
         const PlanResult result = planner.Plan(scene.start, scene.goal);
         trial.answered = result.status == PlanStatus::kSolved;
         trial.measure = result.length;
       }
-      trial.seconds = (ProcessorSeconds() - begin) / kRepeats;
+      trial.seconds = (ProcessorSeconds() - begin) / kPlans;
       trials.push_back(std::move(trial));
     }
   }
