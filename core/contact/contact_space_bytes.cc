@@ -128,7 +128,7 @@ bool IsValid(const ContactSpace::Parts& space) {
     }
   }
   for (const ContactKind kind : space.kind) {
-    if (kind < ContactKind::kObstacleFacet || kind > ContactKind::kEdges) {
+    if (kind < ContactKind::kObstacleFacet || kind > ContactKind::kNone) {
       return false;
     }
   }

@@ -97,8 +97,10 @@ class ConvolutionModel {
   // this, at the time and memory of the whole convolution.
   TriangleMesh Mesh() const;
 
- private:
   struct Data;
+  const Data& data() const { return *data_; }
+
+ private:
   std::shared_ptr<const Data> data_;
 };
 

@@ -8,6 +8,7 @@ enum class ContactKind {
   kObstacleFacet,  // facet of the obstacle on a vertex of the robot
   kRobotFacet,     // vertex of the obstacle on a facet of the robot
   kEdges,          // an edge of each
+  kNone,           // nothing: a wall around what was modelled
 };
 
 }  // namespace phongpd

@@ -257,6 +257,8 @@ void DepthSearch::TellFeatures(const WindowConvolution& part, int facet,
       depth->of_robot = {2, {g.a, g.b, -1}, {1.0 - t, t, 0.0}};
       break;
     }
+    case ContactKind::kNone:  // walls have no origin and answer nothing
+      break;
   }
 }
 

@@ -2,6 +2,9 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
+#include <optional>
+#include <vector>
 
 #include "core/minkowski/convolution.h"
 
@@ -18,10 +21,25 @@ struct GridWindow {
   BoundingBox Box() const;
   // Of a point in it to the nearest wall, grid steps; ≤ 0 outside.
   double WallDistance(const Eigen::Vector3d& q) const;
+  // Low and high half across the longest side; none where that is too narrow.
+  std::optional<std::array<GridWindow, 2>> Halves() const;
 };
 
-// The convolution in half steps, and behind it the window's walls: 12 facets,
-// each pair of a source of its own, that look into the window.
-Convolution WithWalls(const Convolution& part, const GridWindow& window);
+// A rectangle of a wall, half steps.
+struct WallPatch {
+  int axis = 0;          // across which the wall lies
+  bool is_high = false;  // the window's wall at max[axis]
+  GridPoint min{}, max{};
+  int beyond = -1;  // what is there: a number of the caller's
+};
+
+// The six walls, a patch each.
+std::vector<WallPatch> WholeWalls(const GridWindow& window);
+
+// The convolution in half steps, and behind it the walls that `patches` make
+// up: two facets a patch, each pair of a source of its own, that look into the
+// window.
+Convolution WithWalls(const Convolution& part,
+                      const std::vector<WallPatch>& patches);
 
 }  // namespace phongpd::internal

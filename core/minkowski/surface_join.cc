@@ -30,6 +30,20 @@ struct WallLineHash {
   }
 };
 
+// Walls of windows are the only planes across an axis with an odd offset.
+bool IsWall(const GridPlane& plane) {
+  const int axis = LargestAxis(plane.normal);
+  return plane.normal[axis] == 1 && plane.normal[(axis + 1) % 3] == 0 &&
+         plane.normal[(axis + 2) % 3] == 0 && plane.offset % 2 != 0;
+}
+
+GridPlane WallPlane(int axis, std::int64_t at) {
+  GridPlane plane;
+  plane.normal[axis] = 1;
+  plane.offset = at;
+  return plane;
+}
+
 class Joiner {
  public:
   explicit Joiner(JoinedSurface* out) : out_(out) {}
@@ -51,6 +65,10 @@ class Joiner {
       const int cell = f.cell < 0 ? -1 : cells_ + f.cell;
       next_cell = std::max(next_cell, cell + 1);
       faces_.push_back({sides[f.side], first + f.begin, first + f.end, cell});
+      if (!IsWallSide(sides[f.side])) continue;
+      for (int h = first + f.begin; h < first + f.end; ++h) {
+        edges_[h].walls |= WallsThrough(edges_[h]);
+      }
     }
     cells_ = next_cell;
   }
@@ -124,7 +142,8 @@ class Joiner {
       }
       for (int h = split.faces[f].begin; h < split.faces[f].end; ++h) {
         const HalfEdge& e = split.half_edges[h];
-        if (in_wall_[h]) {
+        // A wall tells nothing of what goes on in it.
+        if (in_wall_[h] && !IsWallSide(faces_[f].side)) {
           faces.emplace(GridPoint{faces_[f].side, e.from, e.to}, face);
         }
       }
@@ -184,16 +203,50 @@ class Joiner {
     return out;
   }
 
+  bool IsWallSide(int side) const {
+    return IsWall(out_->groups.planes[side / 2]);
+  }
+
+  // Bit k where an edge of a wall lies in a plane across axis k in which there
+  // are walls, too.
+  int WallsThrough(const SurfacePiece::Edge& edge) const {
+    int bits = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+      const Eigen::Vector3d& from = out_->points.Approximate(edge.from);
+      const Eigen::Vector3d& to = out_->points.Approximate(edge.to);
+      if (std::abs(from[axis] - to[axis]) > 2 * kPointError) continue;
+      const std::int64_t at = std::llround(from[axis]);
+      const GridPlane plane = WallPlane(axis, at);
+      if (at % 2 != 0 && SideOf(plane, out_->points[edge.from]) == 0 &&
+          SideOf(plane, out_->points[edge.to]) == 0) {
+        bits |= 1 << axis;
+      }
+    }
+    return bits;
+  }
+
   // Calls visit(line) for each wall that the edge of a face of `side` lies in.
+  // An edge of a face that lies in a wall itself runs where another one crosses
+  // it, or is found once more on its other side, in C_cont.
   template <typename Visit>
   void ForEachLine(const SurfacePiece::Edge& edge, int side,
                    const Visit& visit) const {
-    const GridPlane& plane = out_->groups.planes[side / 2];
+    const GridPlane& own = out_->groups.planes[side / 2];
     for (int axis = 0; axis < 3; ++axis) {
       if ((edge.walls >> axis & 1) == 0) continue;
       WallLine wall;
       wall.axis = axis;
       wall.at = std::llround(out_->points.Approximate(edge.from)[axis]);
+      GridPlane plane = own;
+      if (IsWall(own) && own.normal[axis] != 0) {
+        int other = 0;
+        while (other < 3 && (other == axis || (edge.walls >> other & 1) == 0)) {
+          ++other;
+        }
+        if (other == 3) continue;
+        plane = WallPlane(
+            other, std::llround(out_->points.Approximate(edge.from)[other]));
+      }
       wall.line = plane;
       wall.line.offset -= plane.normal[axis] * wall.at;
       wall.line.normal[axis] = 0;
@@ -238,6 +291,7 @@ class Joiner {
   // Points of other edges on this one, from its start to its end.
   std::vector<int> InnerPoints(const SurfacePiece::Edge& edge, int side) const {
     std::vector<int> inner;
+    int lines = 0;
     ForEachLine(edge, side, [&](const WallLine& wall) {
       const std::vector<int>& points = lines_.at(wall);
       const int axis = AlongAxis(wall);
@@ -248,9 +302,13 @@ class Joiner {
       const auto begin =
           std::upper_bound(points.begin(), points.end(), low, before);
       const auto end = std::lower_bound(begin, points.end(), high, before);
-      std::vector<int> found(begin, end);
-      if (!forward) std::reverse(found.begin(), found.end());
-      if (found.size() > inner.size()) inner = std::move(found);
+      inner.insert(inner.end(), begin, end);
+      // The same points, or some of them, on the edge of two walls.
+      if (lines++ > 0) {
+        std::sort(inner.begin(), inner.end(), before);
+        inner.erase(std::unique(inner.begin(), inner.end()), inner.end());
+      }
+      if (!forward) std::reverse(inner.begin(), inner.end());
     });
     return inner;
   }

@@ -27,6 +27,7 @@ constexpr double kNearlyThere = 0x1p-6;
 // Half steps: a cell that goes on as far at one of its largest faces is judged
 // in it, whatever the rounding of points.
 constexpr double kSureGap = 0x1p-4;
+constexpr std::size_t kWholeWalls = 6;
 
 double SquaredDistanceToEdge(const Vector3d& a, const Vector3d& b,
                              Vector3d* nearest) {
@@ -43,19 +44,63 @@ double SquaredDistanceToEdge(const Vector3d& a, const Vector3d& b,
 // All in half steps.
 struct WindowCells::Impl {
   Impl(const WindowConvolution& sums, const GridWindow& window,
-       const SolidCollision& the_judge, const BuildLimits& limits)
+       std::vector<WallPatch> the_patches, const SolidCollision& the_judge,
+       const BuildLimits& limits)
       : first_wall(static_cast<int>(sums.convolution.facets.size())),
         box{ToDouble(window.min), ToDouble(window.max)},
-        convolution(WithWalls(sums.convolution, window)),
+        patches(std::move(the_patches)),
+        convolution(WithWalls(sums.convolution, patches)),
         groups(GroupByPlane(convolution)),
         judge(the_judge) {
     const FacetIndex index(convolution, box);
-    const FacetIntersections intersections =
+    FacetIntersections intersections =
         IntersectFacets(convolution, groups, index, limits, &points);
+    if (patches.size() > kWholeWalls) CutAlongPatches(&intersections);
     arrangement =
         ArrangePlanes(convolution, groups, intersections, limits, &points);
     rings = SortAroundEdges(convolution, arrangement, points);
     FindCells();
+  }
+
+  // Patches of one wall lie in one plane, in which the borders between them
+  // would be lost.
+  void CutAlongPatches(FacetIntersections* intersections) {
+    std::map<std::pair<int, std::int64_t>, int> cutters;  // planes by number
+    for (std::size_t k = 0; k < patches.size(); ++k) {
+      const int facet = first_wall + 2 * static_cast<int>(k);
+      std::vector<PlaneSegment>& segments =
+          intersections->segments[groups.of_facet[facet]];
+      for (const int half : {facet, facet + 1}) {
+        const Triangle& t = convolution.facets[half].corners;
+        // Corners 0, 1, 2 and 0, 2, 3: all sides but the diagonal 0–2.
+        for (const int side : {half == facet ? 0 : 1, half == facet ? 1 : 2}) {
+          const int a = t[side], b = t[(side + 1) % 3];
+          const GridPoint& p = convolution.points[a];
+          const GridPoint along = convolution.points[b] - p;
+          const int across = 3 - patches[k].axis - LargestAxis(along);
+          const auto [it, is_new] =
+              cutters.emplace(std::pair(across, p[across]),
+                              static_cast<int>(groups.planes.size()));
+          if (is_new) {
+            GridPlane plane;
+            plane.normal[across] = 1;
+            plane.offset = p[across];
+            groups.planes.push_back(plane);
+          }
+          const auto [from, to] = std::minmax(
+              {intersections->point_ids[a], intersections->point_ids[b]});
+          segments.push_back({from, to, it->second});
+        }
+      }
+    }
+    for (std::vector<PlaneSegment>& s : intersections->segments) {
+      std::sort(s.begin(), s.end());
+      s.erase(std::unique(s.begin(), s.end(),
+                          [](const PlaneSegment& a, const PlaneSegment& b) {
+                            return a.from == b.from && a.to == b.to;
+                          }),
+              s.end());
+    }
   }
 
   bool IsWall(int face) const {
@@ -125,6 +170,7 @@ struct WindowCells::Impl {
       if (arrangement.faces[f].two_sided) occupied[sides.Find(PlusSide(f))] = 1;
     }
     std::map<int, int> ids;
+    candidate_of.assign(arrangement.faces.size(), -1);
     for (int f = 0; f < count; ++f) {
       const int cell = sides.Find(PlusSide(f));
       if (!inside[f] || occupied[cell]) continue;
@@ -132,6 +178,7 @@ struct WindowCells::Impl {
           ids.emplace(cell, static_cast<int>(candidates.size()));
       if (is_new) candidates.emplace_back();
       candidates[it->second].sides.push_back(PlusSide(f));
+      candidate_of[f] = it->second;
     }
     area.resize(arrangement.faces.size());
     if (candidates.size() > 4) geometry.BuildTree();
@@ -285,7 +332,94 @@ struct WindowCells::Impl {
     });
   }
 
-  // Adds a face of C_cont.
+  // Is it for others to judge, beyond a wall?
+  bool IsThin(const Candidate& cell, const std::vector<int>& walls) const {
+    return cell.gap < kSureGap && TouchesWall(cell, walls);
+  }
+
+  bool IsAllOfWalls(const Candidate& cell) const {
+    return std::all_of(cell.sides.begin(), cell.sides.end(),
+                       [&](int side) { return IsWall(side / 2); });
+  }
+
+  // The cell that a part of C_cont inside the window sees from its largest
+  // face: they are of one room.  −1: rounding could decide.
+  int CellAround(const Candidate& island) const {
+    const int side = *std::max_element(
+        island.sides.begin(), island.sides.end(),
+        [&](int a, int b) { return area[a / 2] < area[b / 2]; });
+    const int face = side / 2;
+    const Vector3d n = geometry.Normal(face);
+    const FaceGeometry::Hit hit =
+        geometry.FirstHit(geometry.InteriorPoint(face), n,
+                          4.0 * (box.max - box.min).maxCoeff(), face);
+    const bool is_seen = hit.face >= 0 && hit.distance > kSureGap &&
+                         geometry.Normal(hit.face).dot(n) < 0.0;
+    return is_seen ? candidate_of[hit.face] : -1;
+  }
+
+  // Numbers the rooms.
+  int FindRooms(const std::vector<int>& walls) {
+    std::vector<char> is_room(candidates.size());
+    for (std::size_t c = 0; c < candidates.size(); ++c) {
+      is_room[c] = IsFree(&candidates[c]) || IsThin(candidates[c], walls);
+    }
+    UnionFind same(candidates.size());
+    for (std::size_t c = 0; c < candidates.size(); ++c) {
+      const std::vector<int>& sides = candidates[c].sides;
+      if (!is_room[c] || std::any_of(sides.begin(), sides.end(),
+                                     [&](int s) { return IsWall(s / 2); })) {
+        continue;
+      }
+      const int around = CellAround(candidates[c]);
+      if (around >= 0 && is_room[static_cast<std::size_t>(around)]) {
+        same.Join(static_cast<int>(c), around);
+      }
+    }
+    int count = 0;
+    room_of.assign(candidates.size(), -1);
+    for (std::size_t c = 0; c < candidates.size(); ++c) {
+      if (!is_room[c]) continue;
+      int& room = room_of[static_cast<std::size_t>(
+          same.Find(static_cast<int>(c)))];  // the smallest: met first
+      if (room < 0) room = count++;
+      room_of[c] = room;
+    }
+    return count;
+  }
+
+  BoundingBox BoxOf(int face) const {
+    const ArrangementFace& f = arrangement.faces[face];
+    BoundingBox out;
+    for (int h = f.begin; h < f.end; ++h) {
+      const Vector3d& p = points.Approximate(arrangement.half_edges[h].from);
+      out.min = h == f.begin ? p : out.min.cwiseMin(p);
+      out.max = h == f.begin ? p : out.max.cwiseMax(p);
+    }
+    return out;
+  }
+
+  // The patch that a face of a wall lies in.
+  int PatchOf(int face, const BoundingBox& around) const {
+    const WallPatch& wall = patches[static_cast<std::size_t>(
+        (arrangement.faces[face].facet - first_wall) / 2)];
+    const Vector3d middle = around.Center();
+    for (std::size_t k = 0; k < patches.size(); ++k) {
+      const WallPatch& p = patches[k];
+      if (p.axis != wall.axis || p.is_high != wall.is_high) continue;
+      const Vector3d low = ToDouble(p.min), high = ToDouble(p.max);
+      bool is_within = true;
+      for (int i = 0; i < 3; ++i) {
+        is_within =
+            is_within &&
+            (i == p.axis || (low[i] <= middle[i] && middle[i] <= high[i]));
+      }
+      if (is_within) return static_cast<int>(k);
+    }
+    return -1;  // not reached: the patches make up the wall
+  }
+
+  // Adds a face of C_cont, or of a wall.
   void Write(int face, const std::vector<int>& walls, int cell,
              SurfacePieceWriter* writer) const {
     const ArrangementFace& f = arrangement.faces[face];
@@ -303,8 +437,15 @@ struct WindowCells::Impl {
     piece.faces.push_back({side, f.begin + shift, f.end + shift, cell});
   }
 
+  void Count(SurfacePiece* piece) const {
+    piece->arranged = arrangement.faces.size();
+    piece->cells = candidates.size();
+    piece->judged = static_cast<std::size_t>(judged);
+  }
+
   int first_wall;
   BoundingBox box;
+  std::vector<WallPatch> patches;
   Convolution convolution;
   PlaneGroups groups;
   const SolidCollision& judge;
@@ -314,13 +455,20 @@ struct WindowCells::Impl {
   FaceGeometry geometry{convolution, arrangement, points};
   std::vector<double> area;
   std::vector<Candidate> candidates;
+  std::vector<int> candidate_of;  // per face, in front of it; −1: none
+  std::vector<int> room_of;       // per candidate, −1: occupied
   int judged = 0;
 };
 
 WindowCells::WindowCells(const WindowConvolution& sums,
                          const GridWindow& window, const SolidCollision& judge,
                          const BuildLimits& limits)
-    : impl_(std::make_unique<Impl>(sums, window, judge, limits)) {}
+    : WindowCells(sums, window, WholeWalls(window), judge, limits) {}
+WindowCells::WindowCells(const WindowConvolution& sums,
+                         const GridWindow& window,
+                         const std::vector<WallPatch>& patches,
+                         const SolidCollision& judge, const BuildLimits& limits)
+    : impl_(std::make_unique<Impl>(sums, window, patches, judge, limits)) {}
 WindowCells::~WindowCells() = default;
 
 WindowCells::Nearest WindowCells::FindNearest(const Vector3d& q) {
@@ -371,22 +519,75 @@ SurfacePiece WindowCells::Surface() {
   const std::vector<int> walls = impl_->WallsOfEdges();
   int thin = 0;  // cells that others have to judge
   for (Impl::Candidate& cell : impl_->candidates) {
-    const auto is_wall = [&](int side) { return impl_->IsWall(side / 2); };
-    if (std::all_of(cell.sides.begin(), cell.sides.end(), is_wall)) continue;
+    if (impl_->IsAllOfWalls(cell)) continue;
     const bool is_free = impl_->IsFree(&cell);
-    const bool is_thin = cell.gap < kSureGap && impl_->TouchesWall(cell, walls);
+    const bool is_thin = impl_->IsThin(cell, walls);
     if (!is_free && !is_thin) continue;
     for (const int side : cell.sides) {
-      if (!is_wall(side)) {
+      if (!impl_->IsWall(side / 2)) {
         impl_->Write(side / 2, walls, is_thin ? thin : -1, &writer);
       }
     }
     thin += is_thin ? 1 : 0;
   }
-  writer.piece.arranged = impl_->arrangement.faces.size();
-  writer.piece.cells = impl_->candidates.size();
-  writer.piece.judged = static_cast<std::size_t>(impl_->judged);
+  impl_->Count(&writer.piece);
   return std::move(writer.piece);
+}
+
+WindowRooms WindowCells::Rooms() {
+  WindowRooms out;
+  SurfacePieceWriter writer;
+  const std::vector<int> walls = impl_->WallsOfEdges();
+  out.rooms.resize(static_cast<std::size_t>(impl_->FindRooms(walls)));
+  int thin = 0;
+  for (std::size_t c = 0; c < impl_->candidates.size(); ++c) {
+    const int room = impl_->room_of[c];
+    if (room < 0) continue;
+    const Impl::Candidate& cell = impl_->candidates[c];
+    const bool is_thin = impl_->IsThin(cell, walls);
+    for (const int side : cell.sides) {
+      const int face = side / 2;
+      int patch = -1;
+      if (impl_->IsWall(face)) {
+        const BoundingBox around = impl_->BoxOf(face);
+        patch = impl_->PatchOf(face, around);
+        out.rooms[static_cast<std::size_t>(room)].openings.push_back(
+            {patch, around});
+      }
+      impl_->Write(face, walls, is_thin ? thin : -1, &writer);
+      out.room.push_back(room);
+      out.patch.push_back(patch);
+    }
+    thin += is_thin ? 1 : 0;
+  }
+  impl_->Count(&writer.piece);
+  out.piece = std::move(writer.piece);
+  return out;
+}
+
+std::vector<int> WindowCells::RoomsAt(const Vector3d& q) {
+  if (impl_->room_of.empty()) impl_->FindRooms(impl_->WallsOfEdges());
+  std::vector<std::pair<double, int>> distances;  // of rooms
+  double least = kInfinity;
+  for (std::size_t c = 0; c < impl_->candidates.size(); ++c) {
+    if (impl_->room_of[c] < 0) continue;
+    double squared = kInfinity;
+    for (const int side : impl_->candidates[c].sides) {
+      squared = std::min(
+          squared,
+          impl_->NearestOn(side / 2, 2.0 * q, squared).squared_distance);
+    }
+    distances.emplace_back(std::sqrt(squared), impl_->room_of[c]);
+    least = std::min(least, distances.back().first);
+  }
+  std::vector<int> rooms;
+  for (const auto& [distance, room] : distances) {
+    if (distance > least + kNearlyThere) continue;
+    if (std::find(rooms.begin(), rooms.end(), room) == rooms.end()) {
+      rooms.push_back(room);
+    }
+  }
+  return rooms;
 }
 
 double WindowCells::SurfaceArea() {

@@ -11,18 +11,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-// Half steps: a narrower window has no odd coordinate between its walls.
-constexpr std::int64_t kLeastWidth = 4;
 // A window of which both halves meet more of its facets than this is not split.
 constexpr double kUseless = 0.95;
-
-void CopyCorners(const Convolution& convolution, int facet,
-                 Vector3d corners[3]) {
-  for (int k = 0; k < 3; ++k) {
-    corners[k] =
-        ToDouble(convolution.points[convolution.facets[facet].corners[k]]);
-  }
-}
 
 class Planner {
  public:
@@ -35,18 +25,14 @@ class Planner {
 
   void Split(PlannedWindow whole) {
     if (whole.facets.empty() || occupied_.Contains(whole.window.Box())) return;
-    const GridPoint size = whole.window.max - whole.window.min;
-    const int axis = LargestAxis(size);
-    if (whole.facets.size() <= most_facets_ || size[axis] < kLeastWidth) {
+    const auto halves = whole.window.Halves();
+    if (whole.facets.size() <= most_facets_ || !halves) {
       out_->push_back(std::move(whole));
       return;
     }
-    const std::int64_t middle =
-        (whole.window.min[axis] + size[axis] / 2) | 1;  // odd, as all walls
-    PlannedWindow low{whole.window, {}}, high{whole.window, {}};
-    low.window.max[axis] = high.window.min[axis] = middle;
-    Distribute(whole, &low);
-    Distribute(whole, &high);
+    PlannedWindow low{(*halves)[0], {}}, high{(*halves)[1], {}};
+    low.facets = FacetsIn(convolution_, whole.facets, low.window.Box());
+    high.facets = FacetsIn(convolution_, whole.facets, high.window.Box());
     const auto all = static_cast<double>(whole.facets.size());
     const auto less =
         static_cast<double>(std::min(low.facets.size(), high.facets.size()));
@@ -60,15 +46,6 @@ class Planner {
   }
 
  private:
-  void Distribute(const PlannedWindow& whole, PlannedWindow* part) const {
-    const BoundingBox box = part->window.Box();
-    for (const int f : whole.facets) {
-      Vector3d corners[3];
-      CopyCorners(convolution_, f, corners);
-      if (!IsClearlyApart(corners, box)) part->facets.push_back(f);
-    }
-  }
-
   const Convolution& convolution_;
   const OccupiedRegion& occupied_;
   std::size_t most_facets_;
@@ -76,6 +53,21 @@ class Planner {
 };
 
 }  // namespace
+
+std::vector<int> FacetsIn(const Convolution& convolution,
+                          const std::vector<int>& facets,
+                          const BoundingBox& box) {
+  std::vector<int> out;
+  for (const int f : facets) {
+    Vector3d corners[3];
+    for (int k = 0; k < 3; ++k) {
+      corners[k] =
+          ToDouble(convolution.points[convolution.facets[f].corners[k]]);
+    }
+    if (!IsClearlyApart(corners, box)) out.push_back(f);
+  }
+  return out;
+}
 
 std::vector<PlannedWindow> PlanWindows(const Convolution& convolution,
                                        const OccupiedRegion& occupied,

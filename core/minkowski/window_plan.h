@@ -24,6 +24,12 @@ std::vector<PlannedWindow> PlanWindows(const Convolution& convolution,
                                        const OccupiedRegion& occupied,
                                        std::size_t most_facets);
 
+// Of these facets of the convolution those that meet a box, and perhaps some
+// that do not.
+std::vector<int> FacetsIn(const Convolution& convolution,
+                          const std::vector<int>& facets,
+                          const BoundingBox& box);
+
 // The part of the convolution that a window is to be built from.
 WindowConvolution PartOf(const Convolution& convolution,
                          const PlannedWindow& window);

@@ -5,8 +5,6 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <array>
 #include <random>
 #include <set>
 
@@ -15,13 +13,16 @@
 #include "core/minkowski/grid_pair.h"
 #include "planners/exact/free_space.h"
 #include "problems/shapes/shapes.h"
+#include "tests/support/facet_corners.h"
 #include "tests/support/solid_tools.h"
 
 namespace phongpd::internal {
 namespace {
 
 using Eigen::Vector3d;
+using testing::AllCorners;
 using testing::Cube;
+using testing::FacetCorners;
 
 struct Pair {
   const char* name;
@@ -41,17 +42,6 @@ std::vector<Pair> Pairs() {
   };
 }
 
-// A facet by its corners, the least first.
-std::array<GridPoint, 3> Corners(const Convolution& c,
-                                 const ConvolutionFacet& f) {
-  std::array<GridPoint, 3> t;
-  for (std::size_t k = 0; k < 3; ++k) {
-    t[k] = c.points[static_cast<std::size_t>(f.corners[k])];
-  }
-  std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
-  return t;
-}
-
 TEST(FeatureSums, TellTheWholeConvolutionInItsBox) {
   for (const Pair& pair : Pairs()) {
     SCOPED_TRACE(pair.name);
@@ -61,12 +51,8 @@ TEST(FeatureSums, TellTheWholeConvolutionInItsBox) {
         ReducedConvolution(grid.obstacle, grid.reflected_robot);
     const WindowConvolution part = sums.Within(sums.bounds());
     ASSERT_EQ(part.origins.size(), part.convolution.facets.size());
-    std::set<std::array<GridPoint, 3>> expected, found;
-    for (const auto& f : all.facets) expected.insert(Corners(all, f));
-    for (const auto& f : part.convolution.facets) {
-      found.insert(Corners(part.convolution, f));
-    }
-    EXPECT_EQ(expected, found);
+    const std::set<FacetCorners> expected = AllCorners(all);
+    EXPECT_EQ(expected, AllCorners(part.convolution));
 
     // In a smaller box: all that touch it, by the boxes of those that do not.
     std::mt19937_64 random(3);
@@ -74,24 +60,11 @@ TEST(FeatureSums, TellTheWholeConvolutionInItsBox) {
       BoundingBox box;
       box.min = box.max = testing::RandomPoint(sums.bounds(), &random);
       box.max += 0.1 * (sums.bounds().max - sums.bounds().min);
-      const WindowConvolution in_box = sums.Within(box);
-      std::set<std::array<GridPoint, 3>> there;
-      for (const auto& f : in_box.convolution.facets) {
-        there.insert(Corners(in_box.convolution, f));
-        EXPECT_EQ(expected.count(Corners(in_box.convolution, f)), 1U);
-      }
-      for (const auto& t : expected) {
-        if (there.count(t) != 0) continue;
-        // Left out: no point of a fine sampling of it is in the box.
-        for (int u = 0; u <= 20; ++u) {
-          for (int v = 0; u + v <= 20; ++v) {
-            const Vector3d x = (u * ToDouble(t[0]) + v * ToDouble(t[1]) +
-                                (20 - u - v) * ToDouble(t[2])) /
-                               20.0;
-            EXPECT_FALSE((x.array() > box.min.array()).all() &&
-                         (x.array() < box.max.array()).all());
-          }
-        }
+      const std::set<FacetCorners> there =
+          AllCorners(sums.Within(box).convolution);
+      for (const FacetCorners& t : there) EXPECT_EQ(expected.count(t), 1U);
+      for (const FacetCorners& t : expected) {
+        EXPECT_TRUE(there.count(t) != 0 || !testing::IsSeenIn(t, box));
       }
     }
   }
