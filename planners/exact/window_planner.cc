@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "planners/exact/window_planner.h"
+
+#include <algorithm>
+#include <limits>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/contact/free_space_flood.h"
+#include "core/mesh/finite.h"
+#include "core/stopwatch.h"
+#include "planners/exact/path_shortening.h"
+
+namespace phongpd {
+namespace {
+
+using Eigen::Vector3d;
+using Outcome = FreeSpaceFlood::Outcome;
+
+// A straight way is taken that keeps this share of its ends' clearance.
+constexpr double kStraightShare = 0.4;
+// Where ends that met are not connected after all, so much more is explored
+// before they are looked at again.
+constexpr double kMoreShare = 0.5;
+
+// A path that keeps less than this share of the clearance its ends would allow
+// is looked for once more, and not more often than so.
+constexpr double kPoor = 0.25;
+constexpr int kFurtherRounds = 3;
+
+// As the contact-surface planner compares routes: clearance is worth a tenth of
+// the length.
+bool IsBetter(const PlanResult& found, const PlanResult& best) {
+  if (best.status != PlanStatus::kSolved) return true;
+  if (found.status != PlanStatus::kSolved) return false;
+  const double share = found.clearance < 0.7 * best.clearance   ? 0.9
+                       : best.clearance < 0.7 * found.clearance ? 1.1
+                                                                : 1.0;
+  return found.length < share * best.length;
+}
+
+bool IsEnclosed(Outcome outcome) {
+  return outcome == Outcome::kStartEnclosed ||
+         outcome == Outcome::kGoalEnclosed;
+}
+
+}  // namespace
+
+WindowPlanner::WindowPlanner(const ConvolutionModel& sealed,
+                             const ContactSurfaceOptions& options,
+                             ObstacleNames names)
+    : model_(sealed),
+      options_((options.Validate(), options)),
+      names_(std::move(names)),
+      space_(FreeSpace::OfConvolutions({sealed})) {}
+
+bool WindowPlanner::TryStraight(const Vector3d& start, const Vector3d& goal,
+                                double clearance, PlanResult* result) const {
+  if (!space_.IsFree(start, goal)) return false;
+  const double least = space_.Clearance(start, goal);
+  const double ends =
+      std::min({clearance, space_.Clearance(start), space_.Clearance(goal)});
+  if (start != goal && least < kStraightShare * ends) return false;
+  result->status = PlanStatus::kSolved;
+  result->path = {start};
+  if (start != goal) result->path.push_back(goal);
+  result->raw_path = result->path;
+  result->routes = {result->path};
+  result->length = (goal - start).norm();
+  result->clearance = least;
+  return true;
+}
+
+// From walls to all of free space.
+void WindowPlanner::Widen(const Vector3d& start, const Vector3d& goal,
+                          PlanResult* result) const {
+  const auto join_ends = [&](std::vector<Vector3d>* path) {
+    if (path->front() != start) path->insert(path->begin(), start);
+    if (path->back() != goal) path->push_back(goal);
+  };
+  ShorteningOptions shortening;
+  shortening.clearance = result->wanted_clearance;
+  shortening.random_cuts = options_.random_cuts;
+  join_ends(&result->raw_path);
+  for (std::vector<Vector3d>& route : result->routes) join_ends(&route);
+  join_ends(&result->path);
+  if (!CheckPath(space_, result->path).free) {
+    result->status = PlanStatus::kFailed;
+    result->reason = "a path was found that is closed by rounding";
+    return;
+  }
+  result->path = ShortenPath(result->path, space_, shortening);
+  result->length = PathLength(result->path);
+  result->clearance = PathClearance(space_, result->path);
+}
+
+void WindowPlanner::Explore(const Vector3d& start, const Vector3d& goal,
+                            const PlanRequest& request, WindowPlan* out) const {
+  const double enough =
+      kPoor * std::min({request.clearance, space_.Clearance(start),
+                        space_.Clearance(goal)});
+  FreeSpaceFlood flood(model_, start, goal);
+  PlanResult& best = out->plan;
+  std::size_t more = std::numeric_limits<std::size_t>::max() / 2;
+  int further = kFurtherRounds;
+  for (bool is_enclosed = false; !is_enclosed;) {
+    const Outcome outcome = flood.Explore(more);
+    is_enclosed = IsEnclosed(outcome);
+    PlanResult found;
+    try {
+      const ContactSpace surface = flood.Surface();
+      found = ContactSurfacePlanner(surface, options_, names_)
+                  .Plan(flood.start(), flood.goal(), request);
+      if (found.status == PlanStatus::kSolved) Widen(start, goal, &found);
+      if (IsBetter(found, best)) {
+        best = std::move(found);
+        const bool is_proof =
+            is_enclosed && best.status == PlanStatus::kInfeasibleProved;
+        out->surface = is_proof ? flood.EnclosingSurface() : surface;
+      }
+    } catch (const std::logic_error&) {
+      if (best.status != PlanStatus::kSolved) {
+        best.reason =
+            "cells at the walls of boxes are too thin to be judged; take the "
+            "full contact space";
+      }
+    }
+    if (best.status == PlanStatus::kSolved &&
+        (best.clearance >= enough || further-- == 0)) {
+      break;
+    }
+    more = static_cast<std::size_t>(kMoreShare *
+                                    static_cast<double>(flood.faces()));
+  }
+  out->boxes = flood.boxes();
+  out->faces = flood.faces();
+}
+
+WindowPlan WindowPlanner::Plan(const Vector3d& start, const Vector3d& goal,
+                               const PlanRequest& request) const {
+  request.Validate();
+  const Stopwatch stopwatch;
+  WindowPlan out;
+  PlanResult& result = out.plan;
+  for (const bool at_start : {true, false}) {
+    const Vector3d& q = at_start ? start : goal;
+    if (IsFinite(q) && space_.IsFree(q)) continue;
+    const std::string names = names_ && IsFinite(q) ? names_(q) : "";
+    result.status =
+        at_start ? PlanStatus::kInvalidStart : PlanStatus::kInvalidGoal;
+    result.reason = std::string(at_start ? "start" : "goal") +
+                    (IsFinite(q) ? " touches or is in " : " is not finite") +
+                    (!IsFinite(q)    ? ""
+                     : names.empty() ? "an obstacle"
+                                     : "'" + names + "'");
+    result.seconds = stopwatch.Seconds();
+    return out;
+  }
+  PlanRequest wish = request;
+  if (wish.clearance <= 0.0) {
+    wish.clearance = kEnoughClearance * model_.bounds().Diagonal();
+  }
+  if (!TryStraight(start, goal, wish.clearance, &result)) {
+    Explore(start, goal, wish, &out);
+  }
+  result.wanted_clearance = wish.clearance;
+  result.seconds = stopwatch.Seconds();
+  return out;
+}
+
+}  // namespace phongpd
