@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
+#include <utility>
 
 #include "problems/cli/command.h"
 #include "problems/cli/flags.h"
@@ -71,20 +73,36 @@ void SetClearance(const PlanFlags& flags, const std::string& planner,
                  &scene->workspace);
 }
 
+// The last run may be one that was kept from before: `explored` has no surface
+// where the straight way was enough.
+View PageOf(const PlanningRun& run, std::optional<WindowPlan> explored,
+            PlanningStudy* study) {
+  const Scene& scene = study->scene();
+  if (!study->RunsInWindow(run)) {
+    return SceneView(scene, {study->VisibleMesh()});
+  }
+  if (!run.planner.empty() && run.planner != kContactSurface) {
+    return WindowView(scene, study->world());
+  }
+  if (!explored) explored = study->Run(run).explored;
+  return explored && explored->surface
+             ? ExploredView(scene, study->VisibleMesh(*explored->surface))
+             : SceneView(scene);
+}
+
 // What the model made of the run, on stderr.
-void TellPlanModel(const PlanningStudy& study, const PlanningRun& run,
-                   const PlanningResult& result) {
+void TellPlanModel(const PlanningStudy& study, const PlanningResult& result) {
   if (result.model != "window") return;
   std::string text = "model window: free space alone";
   if (!study.refusal().empty()) text += ", as the whole is refused";
   text += study.scene().planning.model == "auto" && study.refusal().empty()
               ? ", which is enough for " + result.planner
               : ", by " + result.planner;
-  if (run.planner.empty()) {
-    text += " (the default contact-surface needs the whole)";
-    if (study.scene().planning.clearance) {
-      text += ", which seeks no clearance";
-    }
+  if (result.explored) {
+    text += result.explored->boxes == 0
+                ? ", which took the straight way"
+                : ", which built of the contact space " +
+                      std::to_string(result.explored->boxes) + " boxes";
   }
   Note(text + (study.refusal().empty() ? "" : ": " + study.refusal()));
 }
@@ -98,7 +116,7 @@ int Plan(const PlanFlags& flags) {
   run.planner = flags.planner.empty() ? scene.planning.planner : flags.planner;
   if (!flags.model.empty()) scene.planning.model = flags.model;
   const std::string planner =
-      run.planner.empty() ? DefaultPlanner(scene.planning.model) : run.planner;
+      run.planner.empty() ? kContactSurface : run.planner;
   RequireRoutesAreCompared(flags, planner);
   SetPreset(flags.preset, &scene);
   SetClearance(flags, planner, &scene);
@@ -118,6 +136,7 @@ int Plan(const PlanFlags& flags) {
   PlanningStudy study(scene, UserCache(flags.no_cache), flags.limits);
   TellAbout(scene);
   AnswerCheck check(flags.verify);
+  std::optional<WindowPlan> explored;
   for (int i = runs.kept(); i < flags.runs; ++i) {
     run.seed = flags.seed + static_cast<std::uint64_t>(i);
     ProgressOf("runs", static_cast<std::size_t>(i - runs.kept()),
@@ -125,16 +144,14 @@ int Plan(const PlanFlags& flags) {
     Progress("run " + std::to_string(i + 1) + " of " +
              std::to_string(flags.runs));
     const PlanningResult result = study.Run(run);
-    if (i == runs.kept()) TellPlanModel(study, run, result);
+    if (i == runs.kept()) TellPlanModel(study, result);
     nlohmann::ordered_json row = PlanningRow(study, run, result);
     check.Judge(scene, study.world(), ClaimsOf(result), &row);
+    explored = result.explored;
     runs.Add(row,
              runs.ShowsBehind() ? BehindPlan(&study, result) : ViewBehind());
   }
-  runs.Write([&] {
-    return study.RunsInWindow(run) ? WindowView(scene, study.world())
-                                   : SceneView(scene, {study.VisibleMesh()});
-  });
+  runs.Write([&] { return PageOf(run, std::move(explored), &study); });
   const WorldSpaces* built = study.world().Built(SpaceLayout::kSealed);
   TellAboutSpaces(study.world(), built == nullptr ? 0 : built->triangles);
   if (!flags.ompl_log.empty()) {
@@ -155,8 +172,8 @@ Command AddPlan(CLI::App* app) {
   AddPreset(app, kPlanPresetHelp, &flags->preset);
   app->add_option("--planner", flags->planner,
                   "contact-surface is complete, deterministic and proves "
-                  "infeasibility; the others sample (scene's own if not set; "
-                  "rrt-connect where only free space is modelled)")
+                  "infeasibility; the others sample (scene's own if not set, "
+                  "or contact-surface)")
       ->check(CLI::IsMember(PlannerNames()));
   app->add_option(
          "--metric", flags->metric,
@@ -167,7 +184,9 @@ Command AddPlan(CLI::App* app) {
          "or as many as there are Phong branches (contact-points)")
       ->check(CLI::IsMember(RetractionNames()))
       ->capture_default_str();
-  AddModel(app, "plan", "as exact, for planners that only check motions",
+  AddModel(app, "plan",
+           "as exact, for planners that only check motions, with what leads "
+           "from start to goal of the contact space for contact-surface",
            &flags->model);
   app->add_option("--routes", flags->routes,
                   "Ways of different kinds that contact-surface compares "

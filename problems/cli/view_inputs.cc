@@ -24,6 +24,7 @@
 #include "problems/pictures/viewer/scene_view.h"
 #include "problems/scenes/scene_library.h"
 #include "problems/studies/motion.h"
+#include "problems/studies/planner_names.h"
 
 namespace phongpd::cli {
 namespace {
@@ -99,7 +100,10 @@ class Collector {
 
   View Finish() {
     const int paths = static_cast<int>(view_.paths.size());
-    if (request_.build && stage_) {
+    if (request_.build && stage_ && explored_runs_ > 0 &&
+        explored_runs_ == paths) {
+      ShowExplored(*stage_, exploring_, UserCache(request_.no_cache), &view_);
+    } else if (request_.build && stage_) {
       ShowModel(*stage_, UserCache(request_.no_cache),
                 window_runs_ > 0 && window_runs_ == paths, &view_);
     } else if (window_runs_ > 0) {
@@ -248,7 +252,12 @@ class Collector {
     const std::string scene = row.at("scene").get<std::string>();
     const std::uint64_t seed = row.at("seed").get<std::uint64_t>();
     view_.paths.push_back(NamedPathOf(row));
-    window_runs_ += row.value("model", "") == "window" ? 1 : 0;
+    const bool is_window = row.value("model", "") == "window";
+    window_runs_ += is_window ? 1 : 0;
+    if (is_window && row.value("planner", "") == kContactSurface) {
+      ++explored_runs_;
+      exploring_ = ExploringRunOf(row);
+    }
     if (scene == scene_) return;
     if (!scene_.empty()) {
       throw InputError(where + ": expected runs of the scene " + scene_ +
@@ -275,6 +284,8 @@ class Collector {
   std::string scene_;           // none yet if empty
   std::optional<Scene> stage_;  // that scene, where it is at hand
   int window_runs_ = 0;         // of the paths
+  int explored_runs_ = 0;       // of those, by contact-surface
+  ExploringRun exploring_;      // the last of these
   bool has_windowless_table_ = false;
 };
 

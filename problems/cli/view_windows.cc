@@ -1,13 +1,38 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "problems/cli/view_windows.h"
 
+#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "problems/cli/command.h"
 #include "problems/pictures/viewer/scene_view.h"
+#include "problems/studies/planning_study.h"
 #include "problems/studies/trajectory_study.h"
 
 namespace phongpd::cli {
+
+ExploringRun ExploringRunOf(const nlohmann::json& row) {
+  return {row.at("preset"), row.at("routes"),
+          row.at("lengths").at("wanted_clearance").at("unit")};
+}
+
+void ShowExplored(Scene scene, const ExploringRun& of,
+                  const ContactSpaceCache& cache, View* view) {
+  Progress("exploring free space");
+  scene.planning.model = "window";
+  scene.preset = ParsePreset(of.preset, "preset");
+  scene.planning.clearance = Length::FromUnit(of.clearance);
+  PlanningStudy study(scene, cache);
+  PlanningRun run;
+  run.planner = kContactSurface;
+  run.routes = of.routes;
+  const PlanningResult result = study.Run(run);
+  if (result.explored && result.explored->surface) {
+    const TriangleMesh mesh = study.VisibleMesh(*result.explored->surface);
+    view->meshes.push_back({kExploredName, ViewRole::kContactSpace, mesh});
+  }
+  for (NamedPath& path : view->paths) path.behind.window = study.Region();
+}
 
 void ShowModel(const Scene& scene, const ContactSpaceCache& cache,
                bool is_window, View* view) {

@@ -22,8 +22,9 @@ std::optional<Verification> Verify(const Scene& scene, const World& world,
                                                           : scene.goal);
   }
   if (claims.path.empty()) {
-    return verifier.VerifySeparation(world.Sealed().mesh(), scene.start,
-                                     scene.goal);
+    const ContactSpace& surface =
+        claims.surface ? *claims.surface : world.Sealed();
+    return verifier.VerifySeparation(surface.mesh(), scene.start, scene.goal);
   }
   if (claims.path.front() != scene.start || claims.path.back() != scene.goal) {
     Verification elsewhere;
@@ -51,6 +52,7 @@ AnswerClaims ClaimsOf(const PlanningResult& result) {
   AnswerClaims claims;
   if (result.solved) claims.path = result.numbers.path;
   claims.proves_separation = result.infeasible_proved;
+  if (result.explored) claims.surface = result.explored->surface;
   claims.start_is_blocked =
       result.status == ToString(PlanStatus::kInvalidStart);
   claims.goal_is_blocked = result.status == ToString(PlanStatus::kInvalidGoal);

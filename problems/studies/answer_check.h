@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,8 @@ namespace phongpd {
 struct AnswerClaims {
   std::vector<Eigen::Vector3d> path;  // free, from start to goal
   bool proves_separation = false;     // there is none
+  // What the proof rests on; none: the world's sealed space.
+  std::optional<ContactSpace> surface;
   bool start_is_blocked = false;
   bool goal_is_blocked = false;
 };

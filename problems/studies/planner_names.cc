@@ -62,13 +62,13 @@ void RequireSeeksClearance(const std::string& planner,
                    planner);
 }
 
-std::string DefaultPlanner(const std::string& model) {
-  return model == "window" ? "rrt-connect" : kContactSurface;
+bool ChecksMotionsOnly(const std::string& planner) {
+  const std::vector<std::string> names = SurfaceFreePlannerNames();
+  return std::find(names.begin(), names.end(), planner) != names.end();
 }
 
-bool NeedsContactSurface(const std::string& planner) {
-  const std::vector<std::string> others = SurfaceFreePlannerNames();
-  return std::find(others.begin(), others.end(), planner) == others.end();
+bool NeedsWholeSurface(const std::string& planner) {
+  return planner != kContactSurface && !ChecksMotionsOnly(planner);
 }
 
 }  // namespace phongpd

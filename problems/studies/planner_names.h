@@ -29,9 +29,9 @@ void RequireSeeksClearance(const std::string& planner, const std::string& what);
 
 // The planners that do without the contact surface, from which they want
 // nothing but validity and motion checks: SurfaceFreePlannerNames().
-bool NeedsContactSurface(const std::string& planner);
-
-// contact-surface; rrt-connect for the model "window".
-std::string DefaultPlanner(const std::string& model);
+bool ChecksMotionsOnly(const std::string& planner);
+// Those that need all of the contact surface: not those, nor contact-surface,
+// which can model what of it leads from start to goal (WindowPlanner).
+bool NeedsWholeSurface(const std::string& planner);
 
 }  // namespace phongpd

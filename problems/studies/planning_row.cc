@@ -56,6 +56,12 @@ Json PlanningRow(const PlanningStudy& study, const PlanningRun& run,
   // 0: none was built.
   const WorldSpaces* built = study.world().Built(SpaceLayout::kSealed);
   row["contact_triangles"] = built == nullptr ? 0 : built->triangles;
+  row["explored_boxes"] = nullptr;
+  row["explored_faces"] = nullptr;
+  if (result.explored) {
+    row["explored_boxes"] = result.explored->boxes;
+    row["explored_faces"] = result.explored->faces;
+  }
   row["path_length"] = n.length;
   row["path"] = Json::array();
   for (const Eigen::Vector3d& p : n.path) {

@@ -38,8 +38,8 @@ PlanningStudy::PlanningStudy(const Scene& scene, const World& world)
 // Of auto the cheapest that is enough: no contact space is built for who only
 // asks whether motions are free (results/trade, "model: plan").
 void PlanningStudy::ChooseModel(const std::string& planner) {
-  is_window_enough_ = scene_.planning.model == "auto" && !planner.empty() &&
-                      !NeedsContactSurface(planner) &&
+  is_window_enough_ = scene_.planning.model == "auto" &&
+                      ChecksMotionsOnly(planner) &&
                       world_.Built(kLayout) == nullptr;
 }
 
@@ -61,17 +61,19 @@ BoundingBox PlanningStudy::Region() {
 }
 
 TriangleMesh PlanningStudy::VisibleMesh() {
+  return VisibleMesh(world_.Sealed());
+}
+
+TriangleMesh PlanningStudy::VisibleMesh(const ContactSpace& explored) {
   const BoundingBox region = Region();
   const double rounding = 1e-9 * region.Diagonal();
-  TriangleMesh all;
-  if (!UsesWindow()) {
-    all = world_.Sealed().mesh();
-  } else if (!world_.Convolution().models.empty()) {
-    all = world_.Convolution().models.front().Mesh();
-  }
+  const TriangleMesh& all = explored.mesh();
+  const std::vector<ContactKind>& kinds = explored.kind();
   TriangleMesh visible;
   std::vector<int> shown(all.vertices.size(), -1);  // their numbers there
-  for (const Triangle& t : all.triangles) {
+  for (std::size_t i = 0; i < all.triangles.size(); ++i) {
+    if (!kinds.empty() && kinds[i] == ContactKind::kNone) continue;
+    const Triangle& t = all.triangles[i];
     const bool is_within = std::all_of(t.begin(), t.end(), [&](int v) {
       const Eigen::Vector3d& p = all.vertices[v];
       return (p.array() >= region.min.array() - rounding).all() &&
@@ -119,7 +121,8 @@ OmplPlanningOptions PlanningStudy::Options(const PlanningRun& run) const {
 }
 
 std::string PlanningStudy::OmplLog(const PlanningRun& run, int runs) {
-  const std::string planner = PlannerOf(run);
+  const std::string planner =
+      run.planner.empty() ? kContactSurface : run.planner;
   CheckHasOmplLog(planner);
   ChooseModel(planner);
   if (UsesWindow()) {
@@ -145,19 +148,52 @@ bool PlanningStudy::Diagnose(PlanningResult* result) const {
   return true;
 }
 
-void PlanningStudy::RunExact(const PlanningRun& run, PlanningResult* result) {
+ContactSurfaceOptions PlanningStudy::SurfaceOptions() const {
   ContactSurfaceOptions options;
   ApplyPreset(scene_.preset, &options);
-  if (planner_ == nullptr) {
-    planner_ =
-        std::make_unique<ContactSurfacePlanner>(world_.Sealed(), options);
-  }
+  return options;
+}
+
+PlanRequest PlanningStudy::Request(const PlanningRun& run) const {
   PlanRequest request;
   request.routes = run.routes;
-  if (run.routes > 0) options.routes = run.routes;
-  result->surface = options;
   request.clearance = WantedClearance();
-  exact_ = planner_->Plan(scene_.start, scene_.goal, request);
+  return request;
+}
+
+void PlanningStudy::RunExact(const PlanningRun& run, PlanningResult* result) {
+  if (planner_ == nullptr) {
+    planner_ = std::make_unique<ContactSurfacePlanner>(world_.Sealed(),
+                                                       SurfaceOptions());
+  }
+  exact_ = planner_->Plan(scene_.start, scene_.goal, Request(run));
+  TellExact(run, *spaces().free_space, result);
+  // The first query pays for the planner's tables, too.
+  result->numbers.seconds += planner_->build_seconds();
+}
+
+void PlanningStudy::RunInWindow(const PlanningRun& run,
+                                PlanningResult* result) {
+  if (window_planner_ == nullptr) {
+    window_planner_ = std::make_unique<WindowPlanner>(
+        world_.SealedConvolution(), SurfaceOptions());
+  }
+  try {
+    result->explored =
+        window_planner_->Plan(scene_.start, scene_.goal, Request(run));
+  } catch (const BuildRefusal& error) {
+    throw BuildRefusal(std::string(error.what()) +
+                       "; or plan without proofs (" +
+                       Joined(SurfaceFreePlannerNames()) + ")");
+  }
+  exact_ = result->explored->plan;
+  TellExact(run, window_planner_->free_space(), result);
+}
+
+void PlanningStudy::TellExact(const PlanningRun& run, const FreeSpace& judge,
+                              PlanningResult* result) const {
+  result->surface = SurfaceOptions();
+  if (run.routes > 0) result->surface->routes = run.routes;
   result->status = ToString(exact_.status);
   result->reason = exact_.reason;
   result->infeasible_proved = exact_.status == PlanStatus::kInfeasibleProved;
@@ -166,10 +202,8 @@ void PlanningStudy::RunExact(const PlanningRun& run, PlanningResult* result) {
   result->numbers.clearance = exact_.clearance;
   result->numbers.segment_checks =
       static_cast<std::uint64_t>(exact_.lift.tests);
-  // The first query pays for the planner's tables, too.
-  result->numbers.seconds = exact_.seconds + planner_->build_seconds();
-  result->numbers.collision_free =
-      CheckPath(*spaces().free_space, exact_.path).free;
+  result->numbers.seconds = exact_.seconds;
+  result->numbers.collision_free = CheckPath(judge, exact_.path).free;
   result->wanted_clearance =
       world_.Resolve(Length::FromUnit(exact_.wanted_clearance));
 }
@@ -209,23 +243,18 @@ void PlanningStudy::RunOmpl(const PlanningRun& run, PlanningResult* result) {
   }
 }
 
-void PlanningStudy::RequireSurfaceFree(const std::string& planner) const {
-  if (!NeedsContactSurface(planner)) return;
-  const std::string others = Joined(SurfaceFreePlannerNames());
+void PlanningStudy::RequireRunsInWindow(const std::string& planner) const {
+  if (!NeedsWholeSurface(planner)) return;
+  const std::string others =
+      std::string(kContactSurface) + ", " + Joined(SurfaceFreePlannerNames());
   if (refusal().empty()) {
     throw InputError(
-        "--planner: expected one that needs no contact surface with model "
-        "window (" +
+        "--planner: expected one that does without the whole contact surface "
+        "with model window (" +
         others + "), found " + planner + "; take model full");
   }
   throw BuildRefusal(refusal() + "; or plan in free space alone (" + others +
                      ")");
-}
-
-// Builds the full model where it takes that to know.
-std::string PlanningStudy::PlannerOf(const PlanningRun& run) {
-  if (!run.planner.empty()) return run.planner;
-  return DefaultPlanner(UsesWindow() ? "window" : "full");
 }
 
 PlanningResult PlanningStudy::Run(const PlanningRun& run) {
@@ -238,17 +267,15 @@ PlanningResult PlanningStudy::Run(const PlanningRun& run) {
   // Before anything is built.
   const bool is_window = scene_.planning.model == "window";
   PlanningResult result;
-  result.planner =
-      run.planner.empty() ? DefaultPlanner(scene_.planning.model) : run.planner;
-  if (is_window) RequireSurfaceFree(result.planner);
+  result.planner = run.planner.empty() ? kContactSurface : run.planner;
+  if (is_window) RequireRunsInWindow(result.planner);
   if (result.planner != kContactSurface) Options(run).Validate();
   if (!Diagnose(&result)) return result;
-  ChooseModel(run.planner);
-  result.planner = PlannerOf(run);
-  if (UsesWindow()) RequireSurfaceFree(result.planner);
+  ChooseModel(result.planner);
+  if (UsesWindow()) RequireRunsInWindow(result.planner);
   result.model = UsesWindow() ? "window" : "full";
   if (result.planner == kContactSurface) {
-    RunExact(run, &result);
+    UsesWindow() ? RunInWindow(run, &result) : RunExact(run, &result);
   } else {
     RunOmpl(run, &result);
   }

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "planners/exact/contact_surface_planner.h"
+#include "planners/exact/window_planner.h"
 #include "planners/ompl/ompl_planning.h"
 #include "problems/scenes/scene.h"
 #include "problems/studies/model_choice.h"
@@ -18,7 +19,7 @@
 namespace phongpd {
 
 struct PlanningRun {
-  std::string planner;               // empty: the default of the model
+  std::string planner;               // empty: contact-surface
   std::string retraction = "phong";  // retraction-* and prm-retraction
   double time_limit = 5.0;           // seconds; of OMPL's planners
   int routes = 0;  // contact-surface only; ≥ 1; 0: by the scene's preset
@@ -38,6 +39,9 @@ struct PlanningResult {
   std::optional<ContactSurfaceOptions> surface;
   // What was sought, resolved; none: the planner seeks none, or did not start.
   std::optional<ResolvedLength> wanted_clearance;
+  // What of free space contact-surface explored in the window; none: it did
+  // not run there, or needed nothing.
+  std::optional<WindowPlan> explored;
 };
 
 // Plans on one scene.  What it plans in is built once for all runs, when the
@@ -45,7 +49,8 @@ struct PlanningResult {
 // sealed contact space of its world, or free space alone.  That is enough for
 // planners that only check motions; their paths are exactly free all the same,
 // and are shortened (ShortenPath) where they keep the wanted clearance, by
-// default 0.01 D.
+// default 0.01 D.  contact-surface builds of the contact space what leads from
+// start to goal then (WindowPlanner): anew for each run.
 class PlanningStudy {
  public:
   // Throws InputError.
@@ -58,8 +63,8 @@ class PlanningStudy {
 
   // A start or goal that is not free is said before anything is built.  Throws
   // InputError for an unknown planner or retraction, and for a planner that
-  // needs the contact surface with model window; BuildRefusal where a limit
-  // refuses the contact space that is needed.
+  // needs all of the contact surface with model window; BuildRefusal where a
+  // limit refuses the contact space that is needed.
   PlanningResult Run(const PlanningRun& run);
 
   // Is a run of this kind one in free space alone?  The same whether it was
@@ -74,9 +79,10 @@ class PlanningStudy {
   // Where paths can be: the bounds, or the box around the cells of start and
   // goal (SamplingRegion).
   BoundingBox Region();
-  // The triangles of the contact space, or of the convolution, in that region,
-  // for pictures.
+  // The triangles of the contact space in that region, for pictures.
   TriangleMesh VisibleMesh();
+  // The same of what a run in the window explored, without its walls.
+  TriangleMesh VisibleMesh(const ContactSpace& explored);
 
   // Why model auto had to take the window; empty: it had not.
   const std::string& refusal() const { return choice_.refusal(); }
@@ -99,13 +105,18 @@ class PlanningStudy {
   // For the planner of a run.
   void ChooseModel(const std::string& planner);
   const FreeSpace& Judge();
-  std::string PlannerOf(const PlanningRun& run);
-  void RequireSurfaceFree(const std::string& planner) const;
+  void RequireRunsInWindow(const std::string& planner) const;
   void PrepareModel();
   MotionDomain Domain();
   OmplPlanningOptions Options(const PlanningRun& run) const;
   bool Diagnose(PlanningResult* result) const;
+  ContactSurfaceOptions SurfaceOptions() const;
+  PlanRequest Request(const PlanningRun& run) const;
   void RunExact(const PlanningRun& run, PlanningResult* result);
+  void RunInWindow(const PlanningRun& run, PlanningResult* result);
+  // What both have to say of exact_.
+  void TellExact(const PlanningRun& run, const FreeSpace& judge,
+                 PlanningResult* result) const;
   void RunOmpl(const PlanningRun& run, PlanningResult* result);
   void Shorten(std::uint64_t seed, OmplPlanningResult* numbers);
   // The wanted clearance in the user's unit; 0: the planner's own.
@@ -116,6 +127,7 @@ class PlanningStudy {
   ModelChoice choice_;
   bool is_window_enough_ = false;  // for the last run, model auto
   std::unique_ptr<ContactSurfacePlanner> planner_;
+  std::unique_ptr<WindowPlanner> window_planner_;
   std::shared_ptr<const ContactModel> model_;
   PlanResult exact_;
 };

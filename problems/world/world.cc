@@ -145,18 +145,22 @@ struct World::Impl {
     return all;
   }
 
+  ConvolutionModel BuildModel(const Solid& obstacle, const std::string& what) {
+    const Spent spent{this};
+    ConvolutionModel model(Called(workspace.robot, "robot"),
+                           Called(obstacle, what), Options());
+    const std::lock_guard<std::mutex> lock(report_mutex);
+    ++report.convolutions;
+    report.warnings.insert(report.warnings.end(),
+                           model.report().warnings.begin(),
+                           model.report().warnings.end());
+    return model;
+  }
+
   std::unique_ptr<const WorldConvolution> BuildConvolution() {
     auto all = std::make_unique<WorldConvolution>();
     if (!ReachableObstacles(workspace).empty()) {
-      const Spent spent{this};
-      const ConvolutionModel& model = all->models.emplace_back(
-          Called(workspace.robot, "robot"),
-          Called(JoinedObstacle(workspace), "obstacles"), Options());
-      const std::lock_guard<std::mutex> lock(report_mutex);
-      ++report.convolutions;
-      report.warnings.insert(report.warnings.end(),
-                             model.report().warnings.begin(),
-                             model.report().warnings.end());
+      all->models.push_back(BuildModel(JoinedObstacle(workspace), "obstacles"));
     }
     all->free_space = std::make_shared<FreeSpace>(
         FreeSpace::OfConvolutions(all->models, workspace.bounds));
@@ -171,6 +175,8 @@ struct World::Impl {
   std::array<Slot, 3> slots;
   std::mutex convolution_mutex;  // held while building
   std::unique_ptr<const WorldConvolution> convolution;
+  std::mutex sealed_mutex;  // held while building
+  std::unique_ptr<const ConvolutionModel> sealed_convolution;
   std::mutex report_mutex;
   WorldReport report;
 };
@@ -238,6 +244,21 @@ const WorldConvolution& World::Convolution() const {
 const WorldConvolution* World::BuiltConvolution() const {
   const std::lock_guard<std::mutex> lock(impl_->convolution_mutex);
   return impl_->convolution.get();
+}
+
+const ConvolutionModel& World::SealedConvolution() const {
+  // Without bounds there is nothing to seal.
+  if (impl_->workspace.bounds.IsEmpty()) return Convolution().models.front();
+  const std::lock_guard<std::mutex> lock(impl_->sealed_mutex);
+  if (impl_->sealed_convolution == nullptr) {
+    // As in Spaces.
+    tbb::this_task_arena::isolate([&] {
+      impl_->sealed_convolution =
+          std::make_unique<const ConvolutionModel>(impl_->BuildModel(
+              MergedObstacle(impl_->workspace), "obstacles and bounds"));
+    });
+  }
+  return *impl_->sealed_convolution;
 }
 
 WorldReport World::Report() const {

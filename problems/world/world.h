@@ -116,6 +116,9 @@ class World {
   const WorldConvolution& Convolution() const;
   // Null before Convolution.
   const WorldConvolution* BuiltConvolution() const;
+  // Of all that Sealed is of, the bounds too: what is explored to tell cells
+  // apart (WindowPlanner).
+  const ConvolutionModel& SealedConvolution() const;
   WorldReport Report() const;
 
  private:

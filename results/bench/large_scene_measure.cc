@@ -54,12 +54,14 @@ Json Judged(const Scene& scene, const std::string& answer,
           {"clearance", clearance}};
 }
 
-Json Plan() {
+Json Plan(const std::string& planner) {
   SilenceOmpl();
   Scene scene = ScannedKnots();
   scene.planning.model = "window";
   PlanningStudy study(scene);
-  const PlanningResult found = study.Run({});
+  PlanningRun run;
+  run.planner = planner;
+  const PlanningResult found = study.Run(run);
   Json row =
       Judged(scene, found.status, found.numbers.path, found.numbers.clearance);
   row["facets"] = study.world().Convolution().facets();
@@ -132,7 +134,10 @@ TaskRow MeasureTask(const std::string& task,
 
 NamedTable LargeSceneTable(double max_seconds) {
   std::vector<TaskRow> rows;
-  rows.push_back(MeasureTask("plan, rrt-connect", Plan));
+  rows.push_back(
+      MeasureTask("plan, rrt-connect", [] { return Plan("rrt-connect"); }));
+  rows.push_back(MeasureTask("plan, contact-surface",
+                             [] { return Plan(kContactSurface); }));
   rows.push_back(MeasureTask("optimize", Optimize));
   rows.push_back(MeasureTask("the whole contact space", [max_seconds] {
     return BuildWhole(max_seconds);

@@ -1,7 +1,9 @@
 // Legend, switches, player and help.
 
 // Of meshes that are not all of a contact space (view.h).
-const kConvolutionName = 'facets of free space\'s model';
+// Of meshes that are not all of a contact space (view.h).
+const kPartNames = ['facets of free space\'s model',
+    'contact space that was explored'];
 
 class Panel {
   constructor(viewer) {
@@ -85,8 +87,8 @@ class Panel {
     }
     if (of('contact').length) {
       const names = new Set(of('contact').map(m => m.name));
-      row('contact', names.has(kConvolutionName) ? kConvolutionName
-          : 'contact space', 'contact');
+      row('contact', kPartNames.find(name => names.has(name))
+          || 'contact space', 'contact');
     }
     if (of('mesh').length === 1) row('mesh', of('mesh')[0].name, 'mesh');
     if (of('mesh').length > 1) {

@@ -24,6 +24,12 @@ View SceneView(const Scene& scene,
   return view;
 }
 
+View ExploredView(const Scene& scene, const TriangleMesh& explored) {
+  View view = SceneView(scene);
+  view.meshes.push_back({kExploredName, ViewRole::kContactSpace, explored});
+  return view;
+}
+
 View WindowView(const Scene& scene, const World& world) {
   View view = SceneView(scene);
   for (const ConvolutionModel& model : world.Convolution().models) {

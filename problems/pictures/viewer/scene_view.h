@@ -14,6 +14,8 @@ namespace phongpd {
 // built for it.
 View SceneView(const Scene& scene,
                const std::vector<TriangleMesh>& contact_spaces = {});
+// The same with the part of the contact space that was built.
+View ExploredView(const Scene& scene, const TriangleMesh& explored);
 // The same with all that free space's model has of a contact space; none in a
 // world without obstacles.
 View WindowView(const Scene& scene, const World& world);

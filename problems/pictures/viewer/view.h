@@ -27,6 +27,9 @@ const char* ToString(ViewRole role);
 // free space was modelled: it, and facets that it hides (ConvolutionModel).
 inline constexpr char kConvolutionName[] = "facets of free space's model";
 
+// The name of one that is a part of a contact space, where no more was built.
+inline constexpr char kExploredName[] = "contact space that was explored";
+
 struct ViewMesh {
   std::string name;
   ViewRole role = ViewRole::kMesh;

@@ -117,8 +117,7 @@ Json ProbeJson(const View& view, std::vector<std::string>* notes) {
       return nullptr;
     }
     notes->push_back(
-        "There is no live probe: of the contact space only the part that "
-        "bounds "
+        "There is no live probe: of the contact space only a part that bounds "
         "free space is shown.");
     return nullptr;
   }

@@ -40,10 +40,14 @@ TEST_F(CliModel, WindowPlansWithoutTheContactSpace) {
 TEST_F(CliModel, TakesAPlannerThatServesTheModel) {
   const std::string good = "plan " + Scene(TwoObstacles());
   const Json row = OneRow(good + " --model window", 0);
-  EXPECT_EQ(row["planner"], "rrt-connect");
+  EXPECT_EQ(row["planner"], "contact-surface");
   EXPECT_EQ(row["model"], "window");
+  EXPECT_EQ(row["contact_triangles"], 0);
+  EXPECT_EQ(row["verified"], "confirmed");
+  EXPECT_GT(row["explored_boxes"], 0);
+  EXPECT_GT(row["explored_faces"], 0);
   const Outcome outcome = Run(good + " --model window --output o.jsonl");
-  for (const char* part : {"model window", "rrt-connect", "contact-surface"}) {
+  for (const char* part : {"model window", "contact-surface", " boxes"}) {
     EXPECT_NE(outcome.err.find(part), std::string::npos) << outcome.err;
   }
   Json scene = TwoObstacles();
@@ -70,7 +74,7 @@ TEST_F(CliModel, AutoTakesTheWindowWhereTheContactSpaceIsRefused) {
   const std::string command = good + " --time 3";
   const Json row = OneRow(command, 0);
   EXPECT_EQ(row["model"], "window");
-  EXPECT_EQ(row["planner"], "rrt-connect");
+  EXPECT_EQ(row["planner"], "contact-surface");
   ExpectFree(row, scene);
   const Outcome outcome = Run(command + " --output o.jsonl");
   for (const char* part : {"model window", "max_mib"}) {
@@ -108,14 +112,16 @@ TEST_F(CliModel, RefusesWhatThePlannerCannotDoWith) {
   const std::string good =
       "plan " + Scene(TwoObstacles()) + " --output o.jsonl";
   for (const std::string& planner : PlannerNames()) {
-    if (!NeedsContactSurface(planner)) continue;
+    if (!NeedsWholeSurface(planner)) continue;
     ExpectRefused(good + " --model window --planner " + planner,
                   {"window", "rrt-connect", planner, "full"});
     ExpectRefused(good + kTooLittle + " --planner " + planner,
                   {"max_mib", "predicted", "rrt-connect"});
   }
   ExpectRefused(good + kTooLittle + " --model full", {"max_mib", "predicted"});
-  ExpectRefused(good + " --model window --clearance 0.1",
+  ExpectRefused(good +
+                    " --model window --planner rrt-connect "
+                    "--clearance 0.1",
                 {"--clearance", "rrt-connect"});
   ExpectRefused(good + " --model some", {"--model", "some", "window"});
   Json scene = TwoObstacles();

@@ -118,26 +118,32 @@ TEST_F(CliView, BringsTheSceneOfAFamilyAlong) {
 // Rows say that free space alone was modelled; with --build it is shown.
 TEST_F(CliView, ShowsWhatPlansInFreeSpaceAloneHadBuilt) {
   const std::string scene = Scene(TwoObstacles());
-  Prepare("plan " + scene + " --model window", "w.jsonl");
-  const Json plain = Data(scene + " ../w.jsonl");
-  EXPECT_TRUE(plain["regions"].empty());
-  EXPECT_NE(plain["notes"].dump().find("--build shows"), std::string::npos);
-  const Json built = Data(scene + " ../w.jsonl --build");
-  ASSERT_EQ(built["regions"].size(), 1U);
-  EXPECT_EQ(built["meshes"].back()["name"], "facets of free space's model");
-  EXPECT_EQ(built["notes"].dump().find("--build shows"), std::string::npos);
-  // The path lies in the region that was searched.
-  for (const Json& q : built["paths"][0]["points"]) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      EXPECT_GE(q[k], built["regions"][0]["min"][k]);
-      EXPECT_LE(q[k], built["regions"][0]["max"][k]);
+  const std::pair<const char*, const char*> planners[] = {
+      {" --planner prm --time 0.3", "facets of free space's model"},
+      {"", "contact space that was explored"}};
+  for (const auto& [planner, name] : planners) {
+    const std::string plan = "plan " + scene + " --model window" + planner;
+    Prepare(plan, "w.jsonl");
+    const Json plain = Data(scene + " ../w.jsonl");
+    EXPECT_TRUE(plain["regions"].empty());
+    EXPECT_NE(plain["notes"].dump().find("--build shows"), std::string::npos);
+    const Json built = Data(scene + " ../w.jsonl --build");
+    ASSERT_EQ(built["regions"].size(), 1U);
+    EXPECT_EQ(built["meshes"].back()["name"], name);
+    EXPECT_EQ(built["notes"].dump().find("--build shows"), std::string::npos);
+    // The path lies in the region that was searched.
+    for (const Json& q : built["paths"][0]["points"]) {
+      for (std::size_t k = 0; k < 3; ++k) {
+        EXPECT_GE(q[k], built["regions"][0]["min"][k]);
+        EXPECT_LE(q[k], built["regions"][0]["max"][k]);
+      }
     }
+    // The command's own page shows the same.
+    ASSERT_EQ(Run(plan + " --html p.html").code, 0);
+    const Json page = TakeData("p.html");
+    EXPECT_EQ(page["regions"], built["regions"]);
+    EXPECT_EQ(page["meshes"].back(), built["meshes"].back());
   }
-  // The command's own page shows the same.
-  ASSERT_EQ(Run("plan " + scene + " --model window --html p.html").code, 0);
-  const Json page = TakeData("p.html");
-  EXPECT_EQ(page["regions"], built["regions"]);
-  EXPECT_EQ(page["meshes"].back(), built["meshes"].back());
 }
 
 TEST_F(CliView, KeepsTheIterationsOfOneRunForItsPage) {

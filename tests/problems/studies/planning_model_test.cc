@@ -36,9 +36,9 @@ TEST(PlanningModel, WindowPathsAreExactlyFree) {
     const Scene scene = SceneOf(name, "window");
     PlanningStudy study(scene);
     PlanningRun run;
+    run.planner = "rrt-connect";
     run.time_limit = 20.0;
     const PlanningResult result = study.Run(run);
-    EXPECT_EQ(result.planner, "rrt-connect");
     EXPECT_EQ(result.model, "window");
     ASSERT_TRUE(result.solved) << result.status;
     EXPECT_EQ(study.world().Report().contact_spaces, 0);
@@ -67,6 +67,7 @@ TEST(PlanningModel, ShorteningKeepsClearanceAndEnds) {
   double shortest = 1e300;
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
     PlanningRun run;
+    run.planner = "rrt-connect";
     run.time_limit = 20.0;
     run.seed = seed;
     const PlanningResult result = study.Run(run);
@@ -120,14 +121,14 @@ TEST(PlanningModel, LimitsRefuseTheContactSpaceOnly) {
   const PlanningResult result = automatic.Run(run);
   EXPECT_TRUE(result.solved);
   EXPECT_EQ(result.model, "window");
-  EXPECT_EQ(result.planner, "rrt-connect");
+  EXPECT_EQ(result.planner, "contact-surface");
   EXPECT_NE(automatic.refusal().find("max_mib"), std::string::npos);
   run.planner = "retraction-forest";
   EXPECT_THROW(automatic.Run(run), BuildRefusal);
   PlanningStudy full(SceneOf("hole:delta=0.1", "full"), {}, limits);
   EXPECT_THROW(full.Run(run), BuildRefusal);
   PlanningStudy window(SceneOf("hole:delta=0.1", "window"), {}, limits);
-  EXPECT_THROW(window.Run(run), InputError);
+  EXPECT_THROW(window.Run(run), InputError);  // of the same planner
   EXPECT_THROW(PlanningStudy(SceneOf("hole:delta=0.1", "some")), InputError);
 }
 
@@ -159,7 +160,7 @@ TEST(SurfaceFreePlanners, AreRefusedNothingButTheSurface) {
   for (const std::string& name : OmplPlannerNames()) {
     OmplPlanningOptions options;
     options.time_limit = 0.2;
-    if (NeedsContactSurface(name)) {
+    if (NeedsWholeSurface(name)) {
       EXPECT_THROW(PlanWithOmpl(domain, scene.start, scene.goal, name, options),
                    InputError)
           << name;
