@@ -138,7 +138,8 @@ class World(Shown):
                  goal: ArrayLike | None = None, *, metric: str = "",
                  margin: float | str | None = None, waypoints: int = 0,
                  seed: int = 1, max_seconds: float | None = None,
-                 straight: bool = False, preset: str = "") -> Trajectory:
+                 straight: bool = False, preset: str = "",
+                 model: str = "") -> Trajectory:
         """A short smooth trajectory by Ipopt, judged exactly.
 
         start, goal: positions; the scene's own where it was loaded.
@@ -146,14 +147,17 @@ class World(Shown):
         scene's.  margin: distance kept, a share of D or "0.5unit".
         waypoints: free ones; 0: the scene's.  straight: start from the line
         even where it collides, as comparisons do.  preset: "fast", "balanced"
-        or "tight" (phongpd optimize --help); "": the scene's.
+        or "tight" (phongpd optimize --help); "": the scene's.  model: "full",
+        the whole contact space; "window", free space alone and no metric;
+        "auto", window where limits refuse the whole; "": the scene's, full
+        where that is auto.
         """
         row = json.loads(self._native.optimize(
             *self._ends(start, goal), text(metric, "metric"), length(margin, "margin"),
             whole_number(waypoints, "waypoints", 0),
             whole_number(seed, "seed", 0, _MOST_SEED),
             seconds(max_seconds, "max_seconds"), flag(straight, "straight"),
-            text(preset, "preset")))
+            text(preset, "preset"), text(model, "model")))
         return Trajectory(
             status=row["status_class"], reason=row["reason"],
             free=row["collision_free"], path=_path(row),
@@ -165,20 +169,25 @@ class World(Shown):
              goal: ArrayLike | None = None, *,
              planner: str = "contact-surface", retraction: str = "phong",
              clearance: float | str | None = None, max_seconds: float = 5.0,
-             seed: int = 1, preset: str = "") -> Plan:
+             seed: int = 1, preset: str = "", model: str = "") -> Plan:
         """A path that is free by exact tests, or why there is none.
 
         planner: "contact-surface" is complete, deterministic and proves
         infeasibility; the others sample (names: `phongpd plan --help`), for
         `max_seconds`, by `seed`; retraction-* carry samples to the contact
         space by `retraction`.  clearance: to seek where there is room, a share
-        of D or "0.5unit".  preset: of contact-surface, as of optimize.
+        of D or "0.5unit".  preset: of contact-surface, as of optimize.  model:
+        "full", the whole contact space; "window", of it what leads from start
+        to goal, and free space alone for planners that only check motions;
+        "auto", the window for those, and where limits refuse the whole; "":
+        the scene's.
         """
         ends = self._ends(start, goal)
         row = json.loads(self._native.plan(
             *ends, text(planner, "planner"), text(retraction, "retraction"),
             length(clearance, "clearance"), seconds(max_seconds, "max_seconds"),
-            whole_number(seed, "seed", 0, _MOST_SEED), text(preset, "preset")))
+            whole_number(seed, "seed", 0, _MOST_SEED), text(preset, "preset"),
+            text(model, "model")))
         return Plan(
             status=row["status"], reason=row["reason"], solved=row["solved"],
             infeasible=row["infeasible_proved"], path=_path(row),

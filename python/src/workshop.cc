@@ -37,7 +37,8 @@ std::string Workshop::Optimize(const Point& start, const Point& goal,
                                const std::string& metric,
                                const std::string& margin, int waypoints,
                                std::uint64_t seed, double max_seconds,
-                               bool is_straight, const std::string& preset) {
+                               bool is_straight, const std::string& preset,
+                               const std::string& model) {
   return Interruptible([&] {
     const std::lock_guard<std::mutex> lock(one_at_a_time_);
     Scene scene = Between(start, goal);
@@ -48,8 +49,17 @@ std::string Workshop::Optimize(const Point& start, const Point& goal,
     }
     if (waypoints > 0) scene.trajectory.waypoints = waypoints;
     if (!preset.empty()) scene.preset = ParsePreset(preset, "preset");
+    if (!model.empty()) scene.trajectory.model = model;
     // Whoever names a metric is told that it cannot be followed.
-    if (scene.trajectory.model == "auto") scene.trajectory.model = "full";
+    if (model.empty() && scene.trajectory.model == "auto") {
+      scene.trajectory.model = "full";
+    }
+    if (!metric.empty() && scene.trajectory.model == "window") {
+      throw InputError(
+          "metric: expected none with model window, which follows no metric, "
+          "found " +
+          metric);
+    }
     PipelineOptions options = ScenePipelineOptions(scene);
     options.seed = seed;
     options.time_limit = max_seconds;
@@ -69,7 +79,8 @@ std::string Workshop::Plan(const Point& start, const Point& goal,
                            const std::string& planner,
                            const std::string& retraction,
                            const std::string& clearance, double max_seconds,
-                           std::uint64_t seed, const std::string& preset) {
+                           std::uint64_t seed, const std::string& preset,
+                           const std::string& model) {
   return Interruptible([&] {
     const std::lock_guard<std::mutex> lock(one_at_a_time_);
     Scene scene = Between(start, goal);
@@ -86,6 +97,7 @@ std::string Workshop::Plan(const Point& start, const Point& goal,
       }
       scene.preset = ParsePreset(preset, "preset");
     }
+    if (!model.empty()) scene.planning.model = model;
     PlanningStudy study(scene, world_);
     PlanningRun run;
     run.planner = planner;

@@ -41,13 +41,15 @@ class Workshop {
   std::string Optimize(const Point& start, const Point& goal,
                        const std::string& metric, const std::string& margin,
                        int waypoints, std::uint64_t seed, double max_seconds,
-                       bool is_straight, const std::string& preset);
+                       bool is_straight, const std::string& preset,
+                       const std::string& model);
 
   // A row as `phongpd plan` writes it, judged.
   std::string Plan(const Point& start, const Point& goal,
                    const std::string& planner, const std::string& retraction,
                    const std::string& clearance, double max_seconds,
-                   std::uint64_t seed, const std::string& preset);
+                   std::uint64_t seed, const std::string& preset,
+                   const std::string& model);
 
  private:
   Scene Between(const Point& start, const Point& goal) const;

@@ -64,6 +64,29 @@ def test_a_plan_is_free_and_a_wall_is_a_proof(robot):
     assert world.is_motion_free(way.path[:-1], way.path[1:]).all()
 
 
+def test_a_plan_in_the_window_is_as_sure_as_one_in_the_whole(robot):
+    wall = make_box((1.5, -9, -9), (2, 9, 9))
+    world = phongpd.World(robot, {"wall": wall},
+                          bounds=[[-3, -3, -3], [4, 3, 3]])
+    proof = world.plan((-1, 0, 0), (3, 0, 0), model="window")
+    assert proof.infeasible and proof.row["model"] == "window"
+    assert proof.row["verified"] == "confirmed"
+    assert proof.row["explored_boxes"] > 0
+    assert proof.row["contact_triangles"] == 0
+    way = world.plan((-1, 0, 0), (0, 1, 1), model="window")
+    assert way.solved
+    assert world.is_motion_free(way.path[:-1], way.path[1:]).all()
+    with pytest.raises(phongpd.InputError, match="model: expected auto"):
+        world.plan((-1, 0, 0), (0, 1, 1), model="half")
+
+
+def test_a_trajectory_in_the_window_follows_no_metric(world):
+    run = world.optimize(START, GOAL, model="window")
+    assert run.free and run.row["model"] == "window"
+    with pytest.raises(phongpd.InputError, match="metric: expected none"):
+        world.optimize(START, GOAL, model="window", metric="euclidean")
+
+
 def test_a_roadmap_answers_like_the_planner(world):
     roadmap = world.roadmap()
     random = np.random.default_rng(8)

@@ -119,7 +119,7 @@ TEST_F(CliView, BringsTheSceneOfAFamilyAlong) {
 TEST_F(CliView, ShowsWhatPlansInFreeSpaceAloneHadBuilt) {
   const std::string scene = Scene(TwoObstacles());
   const std::pair<const char*, const char*> planners[] = {
-      {" --planner prm --time 0.3", "facets of free space's model"},
+      {" --planner rrt-connect", "facets of free space's model"},
       {"", "contact space that was explored"}};
   for (const auto& [planner, name] : planners) {
     const std::string plan = "plan " + scene + " --model window" + planner;
