@@ -15,7 +15,10 @@ namespace {
 constexpr double kHalfGrowth = 1.1;
 // Sums of features of the largest boxes of which the facets are found; smaller
 // ones choose of these.
-constexpr std::size_t kMostSumsOfBox = 2048;
+constexpr std::size_t kMostSumsOfBox = 500;
+// To find that a box has more takes longest: so many halvings after one are
+// made unseen.
+constexpr int kUncounted = 2;
 
 }  // namespace
 
@@ -32,6 +35,10 @@ void BoxPartition::Know(int number) {
   if (box.is_known) return;
   box.is_known = true;
   const auto halves = box.part.window.Halves();
+  if (box.of == nullptr && halves && box.uncounted > 0) {
+    Halve(number, *halves, box.uncounted - 1);
+    return;
+  }
   if (box.of == nullptr) {
     std::optional<WindowConvolution> found =
         sums_.Within(box.part.window.Box(),
@@ -46,15 +53,17 @@ void BoxPartition::Know(int number) {
   }
   const bool is_leaf =
       !halves || (box.of != nullptr && box.part.facets.size() <= box.most);
-  if (!is_leaf) Halve(number, *halves);
+  if (!is_leaf) Halve(number, *halves, kUncounted);
 }
 
-void BoxPartition::Halve(int number, const std::array<GridWindow, 2>& windows) {
+void BoxPartition::Halve(int number, const std::array<GridWindow, 2>& windows,
+                         int uncounted) {
   Box& box = boxes_[static_cast<std::size_t>(number)];
   box.halves = static_cast<int>(boxes_.size());
   for (const GridWindow& window : windows) {
     Box& half = boxes_.emplace_back();
     half.part.window = window;
+    half.uncounted = uncounted;
     half.most =
         static_cast<std::size_t>(kHalfGrowth * static_cast<double>(box.most));
     if (box.of == nullptr) continue;

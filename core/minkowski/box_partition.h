@@ -45,7 +45,8 @@ class BoxPartition {
     std::shared_ptr<const Convolution> of;  // null: not known, or taken
     std::size_t most = 0;
     bool is_known = false;
-    int halves = -1;  // the first of two; −1: a leaf, if known
+    int uncounted = 0;  // levels that are halved unseen, with its own
+    int halves = -1;    // the first of two; −1: a leaf, if known
   };
   struct Range {  // closed, quarter steps
     GridPoint min, max;
@@ -55,7 +56,7 @@ class BoxPartition {
     return boxes_[static_cast<std::size_t>(box)];
   }
   void Know(int box);
-  void Halve(int box, const std::array<GridWindow, 2>& windows);
+  void Halve(int box, const std::array<GridWindow, 2>& windows, int uncounted);
   void Collect(int box, const Range& range, std::vector<int>* leaves);
 
   const FeatureSums& sums_;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -8,6 +9,7 @@
 #include "core/mesh/counted.h"
 #include "core/mesh/mesh_io.h"
 #include "problems/cli/command.h"
+#include "problems/cli/depth_phong.h"
 #include "problems/cli/flags.h"
 #include "problems/cli/operands.h"
 #include "problems/cli/view_rows.h"
@@ -35,6 +37,7 @@ struct DepthFlags {
   std::string output = kStandardOutput;
   std::string html;
   std::string max_radius;
+  std::string smoothing_length;
   std::string repair = "reject";
   double max_seconds = 0.0;
   bool json = false;
@@ -89,7 +92,7 @@ constexpr const char* kDepthHeader =
     "x,y,z,qw,qx,qy,qz,status,depth,clearance,direction_x,direction_y,"
     "direction_z,contact_x,contact_y,contact_z,on_a_x,on_a_y,on_a_z,on_b_x,"
     "on_b_y,on_b_z,feature_a,feature_b,certified,explored_radius,level,"
-    "seconds\n";
+    "seconds";
 
 std::string DepthRow(const RobotPose& pose, const DepthResult& r) {
   const Eigen::Quaterniond& turn = pose.orientation;
@@ -106,7 +109,7 @@ std::string DepthRow(const RobotPose& pose, const DepthResult& r) {
   return row + ',' + Described(r.robot_feature) + ',' +
          Described(r.obstacle_feature) + (r.certified ? ",1," : ",0,") +
          FormatDouble(r.explored_radius) + ',' + ToString(r.level) + ',' +
-         FormatDouble(r.seconds) + '\n';
+         FormatDouble(r.seconds);
 }
 
 // For people.
@@ -175,8 +178,20 @@ int Depth(const DepthFlags& flags) {
   const DepthQuery query(a, b, options);
   WarnOfUnits(a, flags.a, b, flags.b);
   for (const std::string& warning : query.warnings()) Warn(warning);
+  std::optional<DepthPhong> phong;
+  if (!flags.smoothing_length.empty()) {
+    ContactSpaceOptions limits;
+    limits.robot_name = flags.a;
+    limits.obstacle_name = flags.b;
+    limits.max_seconds = flags.max_seconds;
+    phong.emplace(flags.smoothing_length, a, b, limits);
+  }
   const bool is_table = !flags.json && !flags.poses.empty();
-  std::string text = is_table ? kDepthHeader : "";
+  std::string text;
+  if (is_table) {
+    text =
+        std::string(kDepthHeader) + (phong ? DepthPhong::kColumns : "") + '\n';
+  }
   View view;
   bool is_certified = true;
   std::size_t done = 0;
@@ -187,10 +202,18 @@ int Depth(const DepthFlags& flags) {
     if (!flags.html.empty()) {
       view.answers.push_back(DepthAnswerOf(AnswerJson(pose, result)));
     }
+    std::optional<WindowPhongResult> with_phong;
+    if (phong) with_phong = phong->At(pose);
     if (flags.json) {
-      text += JsonText(AnswerJson(pose, result)) + '\n';
+      Json answer = AnswerJson(pose, result);
+      if (phong) answer["phong"] = phong->AsJson(*with_phong);
+      text += JsonText(answer) + '\n';
+    } else if (is_table) {
+      text += DepthRow(pose, result) +
+              (phong ? DepthPhong::AsCells(*with_phong) : "") + '\n';
     } else {
-      text += is_table ? DepthRow(pose, result) : Sentence(flags, result);
+      text += Sentence(flags, result) +
+              (phong ? phong->AsSentence(*with_phong) : "");
     }
   }
   outputs.Write(flags.output, text);
@@ -234,18 +257,25 @@ Command AddDepth(CLI::App* app) {
                   "Page with both meshes, the way out, the points that touch "
                   "after it and the windows that were built (as view makes it)")
       ->type_name("FILE");
+  app->add_option("--smoothing-length", flags->smoothing_length,
+                  "PhongPD beside the Euclidean depth, by this length: 0 from "
+                  "windows around the position, any other from the whole "
+                  "contact space (share of its diagonal D, or 0.5unit)")
+      ->type_name("LENGTH");
   app->add_option("--max-radius", flags->max_radius,
                   "Look no farther than this; what is deeper comes as a bound, "
                   "with exit code 1")
       ->type_name("LENGTH");
   app->add_option("--max-seconds", flags->max_seconds,
-                  "Look no farther after this time for one pose (0: no limit)")
+                  "Look no farther after this time for one pose (0: no limit); "
+                  "PhongPD that takes longer is refused")
       ->type_name("S")
       ->check(AtLeast(0.0));
   AddExamples(app, {"phongpd depth robot.off obstacle.stl",
                     "phongpd depth robot.off obstacle.stl --at 0.3 0 0.1 "
                     "--html depth.html",
                     "phongpd depth robot.off obstacle.stl --json",
+                    "phongpd depth robot.off obstacle.stl --smoothing-length 0",
                     "phongpd depth robot.off obstacle.stl --pose poses.csv "
                     "--output depth.csv"});
   return [flags] { return Depth(*flags); };

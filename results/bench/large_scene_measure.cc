@@ -64,7 +64,8 @@ Json Plan(const std::string& planner) {
   const PlanningResult found = study.Run(run);
   Json row =
       Judged(scene, found.status, found.numbers.path, found.numbers.clearance);
-  row["facets"] = study.world().Convolution().facets();
+  row["facets"] = found.explored ? found.explored->faces
+                                 : study.world().Convolution().facets();
   return row;
 }
 

@@ -78,6 +78,52 @@ TEST_F(Cli, DepthAnswersARowForEveryPose) {
   EXPECT_EQ(cell(2, "certified"), "1");
 }
 
+TEST_F(Cli, DepthTellsPhongPDWhereASmoothingLengthAsksForIt) {
+  const std::string command = "depth ../ball.off ../box.off --at 0.3 0.1 0.7";
+  WriteMesh(MakeIcoBall(0.3, 1), File("ball.off"));
+  ASSERT_EQ(Run("contact-space --robot ../ball.off --obstacle ../box.off "
+                "--output ../c.pcs")
+                .code,
+            0);
+  WriteText("q.csv", "x,y,z\n0.3,0.1,0.7\n");
+  for (const std::string length : {"0", "0.1", "0.3unit"}) {
+    const std::string flag = " --smoothing-length " + length;
+    const Json answer = Json::parse(Run(command + flag + " --json").out);
+    const Json& phong = answer["phong"];
+    EXPECT_EQ(phong["status"], "ok");
+    EXPECT_EQ(phong["level"],
+              length == "0" ? answer["phong"]["level"] : "full");
+    EXPECT_GE(phong["depth"], answer["depth"]);
+    const Json whole = Json::parse(
+        Run("query --contact-space ../c.pcs --points ../q.csv --json" + flag)
+            .out);
+    EXPECT_NEAR(phong["depth"].get<double>(),
+                -whole["signed_distance"].get<double>(), 1e-12);
+    const Outcome text = Run(command + flag);
+    EXPECT_NE(text.out.find("PhongPD, ℓ = " + length + ": depth "),
+              std::string::npos)
+        << text.out;
+  }
+  WriteText("poses.csv",
+            "x,y,z,qw,qx,qy,qz\n0.3,0.1,0.7,1,0,0,0\n"
+            "0.3,0.1,0.7,0.70710678118654757,0,0,0.70710678118654757\n"
+            "7,0,0,1,0,0,0\n");
+  ASSERT_EQ(Run("depth ../box.off ../box.off --pose ../poses.csv "
+                "--smoothing-length 0 --output ../d.csv")
+                .code,
+            0);
+  const std::vector<std::string> lines = Split(Content(File("d.csv")), '\n');
+  ASSERT_EQ(lines.size(), 4U);
+  const std::vector<std::string> header = Split(lines[0], ',');
+  EXPECT_EQ(header.back(), "phong_level");
+  for (std::size_t i = 1; i < lines.size(); ++i) {
+    EXPECT_EQ(Split(lines[i], ',').size(), header.size());
+  }
+  EXPECT_EQ(Split(lines[3], ',').back(), "none");
+  ExpectRefused(command + " --smoothing-length -1", {"--smoothing-length"});
+  ExpectRefused(command + " --smoothing-length 9unit", {"--smoothing-length"});
+}
+
 TEST_F(Cli, DepthRefusesPosesThatAreNoneWithFileAndRow) {
   const std::string command = "depth ../box.off ../box.off --pose ../p.csv";
   const std::string header = "x,y,z,qw,qx,qy,qz\n0,0,0,1,0,0,0\n";
