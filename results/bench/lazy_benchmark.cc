@@ -21,6 +21,7 @@
 #include "results/bench/large_scene_measure.h"
 #include "results/bench/program.h"
 #include "results/bench/volume_measure.h"
+#include "results/bench/window_phong_measure.h"
 
 namespace phongpd::bench {
 namespace {
@@ -76,6 +77,7 @@ struct CaseRow {
   double worst_error = 0.0;  // share of the diagonal
   FreeSpaceRow free_space;
   std::vector<VolumeRow> volumes;
+  WindowPhongRow phong;
   int uncertified = 0, wrong = 0;
 };
 
@@ -96,6 +98,8 @@ CaseRow Measure(const Case& c, const Options& options) {
                        options.segments, options.seed);
   row.volumes = MeasureVolumes(c.name, robot, obstacle, space, row.full_seconds,
                                options.seed);
+  row.phong = MeasureWindowPhong(c.name, robot, obstacle, space,
+                                 row.full_seconds, options.depth, options.seed);
   start = CpuSeconds();
   const DepthQuery query(robot, obstacle);
   row.handle_seconds = CpuSeconds() - start;
@@ -169,6 +173,7 @@ int Run(int argc, char** argv) {
       ->capture_default_str();
   CLI11_PARSE(app, argc, argv);
   RequireGnuplot();
+  OutputDirectory out(options.directory);
   // In processes of their own, before this one starts threads.
   const std::vector<GuardRow> guard =
       MeasureGuard(options.guard_pairs, options.seed);
@@ -182,23 +187,30 @@ int Run(int argc, char** argv) {
   }
   std::vector<FreeSpaceRow> free_spaces;
   std::vector<VolumeRow> volumes;
+  std::vector<WindowPhongRow> phong;
   for (const CaseRow& row : rows) {
+    phong.push_back(row.phong);
     free_spaces.push_back(row.free_space);
     volumes.insert(volumes.end(), row.volumes.begin(), row.volumes.end());
   }
   const Figure figure = VolumeFigure(volumes);
-  const std::vector<NamedTable> tables = {
-      TableOf(rows),       FreeSpaceTable(free_spaces), large,
-      GuardVerdict(guard), BoxesVerdict(guard),         VolumeTable(volumes),
-      GuardTable(guard)};
-  OutputDirectory out(options.directory);
+  const std::vector<NamedTable> tables = {TableOf(rows),
+                                          WindowPhongTable(phong),
+                                          FreeSpaceTable(free_spaces),
+                                          large,
+                                          GuardVerdict(guard),
+                                          BoxesVerdict(guard),
+                                          VolumeTable(volumes),
+                                          GuardTable(guard)};
   WriteReport(
       tables, {figure},
       "# Answers without the whole contact space\n\n"
       "`DepthQuery` beside `BuildContactSpace` and `EuclideanMetric`: random "
       "configurations below random points of C_cont, at most 5 % of its "
       "diagonal deep. Every answer is compared with the whole contact "
-      "space's. `ConvolutionModel` tells free space without either.\n\n" +
+      "space's, and so is PhongPD's from windows. `ConvolutionModel` tells "
+      "free "
+      "space without either.\n\n" +
           VolumeVerdict(volumes) + "\n\n" +
           ToMarkdown({tables.begin(), tables.end() - 2}, {figure}) +
           "\nAll boxes: [volume.csv](volume.csv). All pairs of the guard: "
