@@ -76,10 +76,14 @@ build_tests() { # PRESET PROGRAMS...: everything in full
 
 # Compiler commands of the folders named, one a line, from build-clang/; without
 # what a build writes there first.
-compile_commands() { # FOLDER...
+compile_commands() { # [-DOPTION...] FOLDER...
   scripts/setup.sh clang
-  cmake --preset clang >/dev/null
-  local pattern
+  local options=() pattern
+  while [[ $1 == -D* ]]; do
+    options+=("$1")
+    shift
+  done
+  cmake --preset clang "${options[@]}" >/dev/null
   pattern=$(IFS='|' && echo "$*")
   sed -n 's/^  "command": "\(.*\)",$/\1/p' build-clang/compile_commands.json |
     sed 's/\\"/"/g; s/\\\\/\\/g' | grep -E " $PWD/(build-clang/)?($pattern)/" |
@@ -143,11 +147,15 @@ check_options() {
 }
 
 # The front end only: all of its diagnostics, in half the time.  full builds.
+# Sources singly, and in the groups that a build without a cache compiles, where
+# they see each other's names.
 check_clang() {
   scripts/setup.sh clang
   if whole; then PRESET=clang scripts/build.sh; return; fi
-  compile_commands "${folders[@]}" tests results examples |
-    sed 's/ -o [^ ]* -c / -fsyntax-only -c /' >build/check/clang.commands
+  {
+    compile_commands "${folders[@]}" tests results examples
+    compile_commands -DPHONGPD_UNITY_BUILD=ON "${folders[@]}" | grep /Unity/
+  } | sed 's/ -o [^ ]* -c / -fsyntax-only -c /' >build/check/clang.commands
   local count
   count=$(wc -l <build/check/clang.commands)
   say "clang: $count sources"

@@ -9,9 +9,6 @@
 namespace phongpd {
 
 namespace {
-// How far outside the surface (field frame) still counts as on it: q_o is
-// known to be inside exactly, but the field frame rounds.
-constexpr double kOnSurface = 1e-13;
 // No interior point is deeper; the field frame has a diagonal in [1, 2).
 constexpr double kDiagonal = 2.0;
 using internal::kInfinity;

@@ -28,6 +28,10 @@ struct Projection {
 // of a field, triangle by triangle.
 class FieldProjector {
  public:
+  // How far outside the surface (field frame) still counts as on it: which side
+  // a point is on is known exactly, but the field frame rounds.
+  static constexpr double kOnSurface = 1e-13;
+
   FieldProjector(PhongField field, FieldKind kind);
 
   const PhongField& field() const { return field_; }

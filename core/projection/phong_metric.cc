@@ -141,22 +141,20 @@ PenetrationResult PhongMetric::Query(const Vector3d& q_o,
     return is_inside ? impl.Cold(q_o, QueryStatus::kOk)
                      : impl.surface.Answer(q_o, location);
   }
-  // Depth 0 is what the field frame can resolve.
-  constexpr double kOnSurface = 1e-13;
   Projection now = impl.Follow(impl.ToProjection(previous),
                                impl.projector.field().ToField(q_o));
   if (!is_inside) {
     PenetrationResult result = impl.surface.Answer(q_o, location);
     // Out where the branch leads, its depth goes through 0; out elsewhere, PD
     // jumps from the branch's depth to 0.
-    if (!now.IsValid() || now.s < -kOnSurface) {
+    if (!now.IsValid() || now.s < -FieldProjector::kOnSurface) {
       result.status = QueryStatus::kBranchEnded;
     }
     return result;
   }
   // Inside, a branch with s > 0 has left C_obj on the way and is another
   // solution's continuation.
-  if (!now.IsValid() || now.s > kOnSurface) {
+  if (!now.IsValid() || now.s > FieldProjector::kOnSurface) {
     return impl.Cold(q_o, QueryStatus::kBranchEnded);
   }
   now.s = std::min(now.s, 0.0);

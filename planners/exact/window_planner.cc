@@ -17,7 +17,7 @@ namespace phongpd {
 namespace {
 
 using Eigen::Vector3d;
-using Outcome = FreeSpaceFlood::Outcome;
+using FloodOutcome = FreeSpaceFlood::Outcome;
 
 // A straight way is taken that keeps this share of its ends' clearance.
 constexpr double kStraightShare = 0.4;
@@ -41,9 +41,9 @@ bool IsBetter(const PlanResult& found, const PlanResult& best) {
   return found.length < share * best.length;
 }
 
-bool IsEnclosed(Outcome outcome) {
-  return outcome == Outcome::kStartEnclosed ||
-         outcome == Outcome::kGoalEnclosed;
+bool IsEnclosed(FloodOutcome outcome) {
+  return outcome == FloodOutcome::kStartEnclosed ||
+         outcome == FloodOutcome::kGoalEnclosed;
 }
 
 }  // namespace
@@ -106,7 +106,7 @@ void WindowPlanner::Explore(const Vector3d& start, const Vector3d& goal,
   std::size_t more = std::numeric_limits<std::size_t>::max() / 2;
   int further = kFurtherRounds;
   for (bool is_enclosed = false; !is_enclosed;) {
-    const Outcome outcome = flood.Explore(more);
+    const FloodOutcome outcome = flood.Explore(more);
     is_enclosed = IsEnclosed(outcome);
     PlanResult found;
     try {
