@@ -147,32 +147,35 @@ NamedTable LargeSceneTable(double max_seconds) {
   const auto triangles = [](const Solid& solid) {
     return std::to_string(solid.mesh().triangles.size());
   };
-  return {"large_scene.csv",
-          MakeTable(
-              "Where the whole contact space is too much",
-              "Two scanned knots of " + triangles(scene.workspace.robot) +
-                  " and " + triangles(scene.workspace.obstacles[0]) +
-                  " triangles, a convolution of " +
-                  std::to_string(
-                      MeasureTask("", CountFacets).found.value("facets", 0L)) +
-                  " facets: a motion from one side to the other, planned and "
-                  "optimised with model window from the two meshes on, judged "
-                  "again on the original solids; and what a full build that is "
-                  "limited to " +
-                  Rounded(max_seconds) +
-                  " s of wall time says. Each in a process of its own.",
-              {"task", "CPU s", "wall s", "peak MiB", "answer", "verified",
-               "points", "clearance", "facets modelled"},
-              rows, [](const TaskRow& row, const auto& add) {
-                const Json& found = row.found;
-                const bool is_path = found.contains("points");
-                add(row.task, found["cpu"].get<double>(), row.wall, row.mib,
-                    found["answer"].get<std::string>(),
-                    is_path ? found["verified"].get<std::string>() : "–",
-                    is_path ? Shown(found["points"].get<std::size_t>()) : "–",
-                    is_path ? Rounded(found["clearance"].get<double>()) : "–",
-                    is_path ? Shown(found["facets"].get<std::size_t>()) : "–");
-              })};
+  return {
+      "large_scene.csv",
+      MakeTable(
+          "Where the whole contact space is too much",
+          "Two scanned knots of " + triangles(scene.workspace.robot) + " and " +
+              triangles(scene.workspace.obstacles[0]) +
+              " triangles, a convolution of " +
+              std::to_string(
+                  MeasureTask("", CountFacets).found.value("facets", 0L)) +
+              " facets: a motion from one side to the other, planned and "
+              "optimised with model window from the two meshes on, judged "
+              "again on the original solids; and what a full build that is "
+              "limited to " +
+              Rounded(max_seconds) +
+              " s of wall time says. Each in a process of its own. Modelled "
+              "are facets of the convolution, or, by contact-surface, the "
+              "faces of what it arranged.",
+          {"task", "CPU s", "wall s", "peak MiB", "answer", "verified",
+           "points", "clearance", "modelled"},
+          rows, [](const TaskRow& row, const auto& add) {
+            const Json& found = row.found;
+            const bool is_path = found.contains("points");
+            add(row.task, found["cpu"].get<double>(), row.wall, row.mib,
+                found["answer"].get<std::string>(),
+                is_path ? found["verified"].get<std::string>() : "–",
+                is_path ? Shown(found["points"].get<std::size_t>()) : "–",
+                is_path ? Rounded(found["clearance"].get<double>()) : "–",
+                is_path ? Shown(found["facets"].get<std::size_t>()) : "–");
+          })};
 }
 
 }  // namespace phongpd::bench

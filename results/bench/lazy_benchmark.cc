@@ -209,9 +209,8 @@ int Run(int argc, char** argv) {
       "configurations below random points of C_cont, at most 5 % of its "
       "diagonal deep. Every answer is compared with the whole contact "
       "space's, and so is PhongPD's from windows. `ConvolutionModel` tells "
-      "free "
-      "space without either.\n\n" +
-          VolumeVerdict(volumes) + "\n\n" +
+      "free space without either.\n\n" +
+          VolumeVerdict(volumes) + " " + WindowPhongVerdict(phong) + "\n\n" +
           ToMarkdown({tables.begin(), tables.end() - 2}, {figure}) +
           "\nAll boxes: [volume.csv](volume.csv). All pairs of the guard: "
           "[guard.csv](guard.csv)\n\n" +

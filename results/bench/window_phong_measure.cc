@@ -76,4 +76,20 @@ NamedTable WindowPhongTable(const std::vector<WindowPhongRow>& rows) {
           })};
 }
 
+std::string WindowPhongVerdict(const std::vector<WindowPhongRow>& rows) {
+  std::string losses;
+  for (const WindowPhongRow& r : rows) {
+    const double share = Quantile(r.seconds, 0.5) / r.whole_seconds;
+    if (share <= 1.0) continue;
+    losses +=
+        (losses.empty() ? "" : ", ") + r.name + " (" + Rounded(share) + ")";
+  }
+  return losses.empty()
+             ? "An answer of PhongPD from windows, in the median, costs less "
+               "than the whole in every pair."
+             : "An answer of PhongPD from windows, in the median, costs more "
+               "than the whole in " +
+                   losses + ".";
+}
+
 }  // namespace phongpd::bench
