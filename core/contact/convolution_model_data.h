@@ -35,7 +35,7 @@ struct ConvolutionModel::Data {
       : options(the_options),
         limits(options),
         pair(MakePair(robot, obstacle, options, limits, &operands)),
-        space(pair, limits.max_mib()),
+        space(pair, [this] { return limits.max_mib(); }),
         bounds(space.Bounds()) {
     limits.Look("convolution");
     report.grid_step = pair.frame.rounding;

@@ -48,11 +48,6 @@ double NumberIn(const char* path) {
   return in >> number ? number : kNone;
 }
 
-// Pages of the whole process and of its resident set, as MiB.
-struct ProcessMib {
-  double all = 0.0, resident = 0.0;
-};
-
 ProcessMib Process() {
   std::ifstream in("/proc/self/statm");
   double all = 0.0, resident = 0.0;
@@ -61,35 +56,50 @@ ProcessMib Process() {
   return {all * page, resident * page};
 }
 
-}  // namespace
-
-double AvailableMib() {
-  double available = kNone;
+// What the machine has left, and its control group.
+double UnusedMib() {
+  double unused = kNone;
   std::ifstream in("/proc/meminfo");
   std::string name, unit;
   for (double value = 0.0; in >> name >> value; std::getline(in, unit)) {
-    if (name == "MemAvailable:") available = value / 1024.0;
+    if (name == "MemAvailable:") unused = value / 1024.0;
   }
   const double most = NumberIn("/sys/fs/cgroup/memory.max");
   const double used = NumberIn("/sys/fs/cgroup/memory.current");
   if (std::isfinite(most) && std::isfinite(used)) {
-    available = std::min(available, (most - used) / kMib);
+    unused = std::min(unused, (most - used) / kMib);
   }
-  rlimit limit;
-  if (getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY) {
-    available = std::min(
-        available, static_cast<double>(limit.rlim_cur) / kMib - Process().all);
-  }
-  return std::max(0.0, available);
+  return unused;
 }
+
+// Address space that a process of this size may still take.
+double AddressSpaceMib(double size) {
+  rlimit limit;
+  return getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY
+             ? static_cast<double>(limit.rlim_cur) / kMib - size
+             : kNone;
+}
+
+}  // namespace
 
 BuildLimits::BuildLimits(const ContactSpaceOptions& options)
     : operands_(options.robot_name + " and " + options.obstacle_name),
       max_seconds_(options.max_seconds > 0.0 ? options.max_seconds : kNone),
-      max_mib_(options.max_mib),
       is_automatic_(!(options.max_mib > 0.0)),
-      first_mib_(Process().resident) {
-  if (is_automatic_) max_mib_ = kFreeShare * AvailableMib();
+      first_(Process()),
+      max_mib_(is_automatic_ ? -1.0 : options.max_mib),
+      next_memory_(kMemoryEvery) {}
+
+double BuildLimits::max_mib() const {
+  const double known = max_mib_.load(std::memory_order_relaxed);
+  if (known >= 0.0) return known;
+  // As it was in the beginning: threads have taken address space since.
+  const double taken = std::max(0.0, Process().resident - first_.resident);
+  const double free =
+      std::min(UnusedMib() + taken, AddressSpaceMib(first_.all));
+  const double found = kFreeShare * std::max(0.0, free);
+  max_mib_.store(found, std::memory_order_relaxed);
+  return found;
 }
 
 void BuildLimits::Predict(const PredictedCost& cost) {
@@ -105,7 +115,7 @@ void BuildLimits::Predict(const PredictedCost& cost) {
   check("max_seconds", max_seconds_, cost.seconds, "s");
   // A prediction may be several times too high: no reason to refuse what
   // nobody has limited.
-  if (!is_automatic_) check("max_mib", max_mib_, cost.mib, "MiB");
+  if (!is_automatic_) check("max_mib", max_mib(), cost.mib, "MiB");
 }
 
 void BuildLimits::ObserveCancellation() {
@@ -141,10 +151,10 @@ void BuildLimits::Look(const char* stage) const {
   }
   if (seconds < next_memory_.load(std::memory_order_relaxed)) return;
   next_memory_.store(seconds + kMemoryEvery, std::memory_order_relaxed);
-  const double mib = Process().resident - first_mib_;
-  if (mib <= max_mib_) return;
+  const double mib = Process().resident - first_.resident;
+  if (mib <= max_mib()) return;
   std::ostringstream text;
-  text << "expected a contact space of at most " << max_mib_ << " MiB ("
+  text << "expected a contact space of at most " << max_mib() << " MiB ("
        << (is_automatic_ ? "nine tenths of the memory that was free"
                          : "max_mib")
        << "), stopped at " << mib << " MiB";

@@ -12,9 +12,10 @@ namespace phongpd::internal {
 
 inline constexpr double kMib = 1024.0 * 1024.0;  // bytes
 
-// What this process can still take, MiB: the machine's available memory, or
-// what a control group or RLIMIT_AS leaves of it.
-double AvailableMib();
+// Address space and resident set of the process, MiB.
+struct ProcessMib {
+  double all = 0.0, resident = 0.0;
+};
 
 // The limits of one build, asked from within its loops: what was predicted is
 // a guide, what was passed is a fact.  Time counts from construction; memory
@@ -30,11 +31,14 @@ class BuildLimits {
 
   // Is more memory predicted than this build may take, whoever set the limit?
   bool IsAboveMemory(const PredictedCost& cost) const {
-    return cost.mib > max_mib_;
+    return cost.mib > max_mib();
   }
 
-  // What it may take, whoever set the limit.
-  double max_mib() const { return max_mib_; }
+  // What it may take, whoever set the limit.  If nobody did, nine tenths of
+  // what was free in the beginning: of the machine, and of what a control group
+  // or RLIMIT_AS leaves of it.  Found when first asked for, which takes longer
+  // than a small model.
+  double max_mib() const;
 
   // From now on CancelBuilds stops this build, too.
   void ObserveCancellation();
@@ -52,15 +56,16 @@ class BuildLimits {
   [[noreturn]] void RefuseIn(const char* stage, const std::string& what) const;
 
   std::string operands_;
-  double max_seconds_, max_mib_;  // infinity: none
-  bool is_automatic_;             // max_mib_ is a share of what is free
-  double first_mib_;
+  double max_seconds_;  // infinity: none
+  bool is_automatic_;   // max_mib_ is a share of what is free
+  ProcessMib first_;
   Stopwatch stopwatch_;
   PredictedCost predicted_;
   bool is_cancellable_ = false;
   unsigned cancellations_ = 0;  // before this build
   mutable std::atomic<unsigned> calls_{0};
-  mutable std::atomic<double> next_memory_{0.0};  // when it is read again
+  mutable std::atomic<double> max_mib_;      // negative: not known yet
+  mutable std::atomic<double> next_memory_;  // seconds, when it is read again
 };
 
 }  // namespace phongpd::internal

@@ -2,7 +2,10 @@
 #include "core/minkowski/convolution_cells.h"
 
 #include <optional>
+#include <utility>
 #include <vector>
+
+#include "core/minkowski/build_limits.h"
 
 namespace phongpd::internal {
 namespace {
@@ -48,8 +51,8 @@ std::size_t BytesOf(const TriangleMesh& mesh, const TriangleBvh& bvh) {
 ConvolutionCells::Cell::~Cell() { delete content.load(); }
 
 ConvolutionCells::ConvolutionCells(const GridSolid& p, const GridSolid& q,
-                                   std::size_t max_bytes)
-    : sums_(p, q), max_bytes_(max_bytes) {
+                                   std::function<double()> max_mib)
+    : sums_(p, q), max_mib_(std::move(max_mib)) {
   root_.box.min = sums_.bounds().min;
   root_.box.max = sums_.bounds().max;
   root_.most = kMostSums;
@@ -72,7 +75,8 @@ const ConvolutionCells::Content& ConvolutionCells::Look(
     bytes += BytesOf((*mine)->leaf->mesh, (*mine)->leaf->bvh);
     facets = (*mine)->leaf->mesh.triangles.size();
   }
-  if (bytes_.fetch_add(bytes) + bytes > max_bytes_) {
+  if (static_cast<double>(bytes_.fetch_add(bytes) + bytes) / kMib >
+      max_mib_()) {
     bytes_ -= bytes;
     return **mine;
   }

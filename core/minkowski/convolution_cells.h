@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cstddef>
+#include <functional>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -27,10 +28,11 @@ namespace phongpd::internal {
 // it.  Grid steps.
 class ConvolutionCells {
  public:
-  // Keeps references.  What is found is kept up to `max_bytes`; beyond that it
-  // is found anew for everybody who looks, and answers stay the same.
+  // Keeps references.  What is found is kept up to max_mib(), asked each time;
+  // beyond that it is found anew for everybody who looks, and answers stay the
+  // same.
   ConvolutionCells(const GridSolid& p, const GridSolid& q,
-                   std::size_t max_bytes);
+                   std::function<double()> max_mib);
   ~ConvolutionCells();
 
   // Facets of one cell, their corners exact: at least one.
@@ -136,7 +138,7 @@ class ConvolutionCells {
 
   FeatureSums sums_;
   double largest_;
-  std::size_t max_bytes_;
+  std::function<double()> max_mib_;
   Cell root_;
   mutable std::atomic<std::size_t> bytes_{0}, facets_{0};
 };

@@ -3,13 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <utility>
 
 #include "core/bvh/segment_reach.h"
 #include "core/bvh/separators.h"
 #include "core/mesh/finite.h"
 #include "core/mesh/numbers.h"
-#include "core/minkowski/build_limits.h"
 #include "core/minkowski/convolution.h"
 
 namespace phongpd::internal {
@@ -22,12 +21,11 @@ constexpr double kRadiusSlack = 1.0 + 0x1p-40;
 
 }  // namespace
 
-ConvolutionSpace::ConvolutionSpace(const GridPair& pair, double max_mib)
+ConvolutionSpace::ConvolutionSpace(const GridPair& pair,
+                                   std::function<double()> max_mib)
     : pair_(pair),
       judge_(pair.obstacle, pair.reflected_robot),
-      cells_(pair.obstacle, pair.reflected_robot,
-             max_mib < 0x1p40 ? static_cast<std::size_t>(max_mib * kMib)
-                              : std::numeric_limits<std::size_t>::max()) {}
+      cells_(pair.obstacle, pair.reflected_robot, std::move(max_mib)) {}
 
 Vector3d ConvolutionSpace::ToGrid(const Vector3d& q) const {
   return RoundedToFractions(pair_.frame.ToGrid(q));

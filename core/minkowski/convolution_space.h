@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <functional>
 #include <limits>
 #include <vector>
 
@@ -28,11 +29,12 @@ namespace phongpd::internal {
 // step (2^-50 of the operands), for which the answers are exact.  Thread-safe.
 class ConvolutionSpace {
  public:
-  // Keeps a reference.  What questions lead to is kept up to `max_mib`, and
+  // Keeps a reference.  What questions lead to is kept up to max_mib(), and
   // beyond that made anew each time.
   explicit ConvolutionSpace(
-      const GridPair& pair,
-      double max_mib = std::numeric_limits<double>::infinity());
+      const GridPair& pair, std::function<double()> max_mib = [] {
+        return std::numeric_limits<double>::infinity();
+      });
 
   // Does A + q meet B nowhere?  False for non-finite q, and for q so far away
   // that it has no place on the grid.

@@ -8,6 +8,7 @@
 #include <CGAL/Object.h>
 #include <CGAL/box_intersection_d.h>
 #include <CGAL/intersections.h>
+#include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
 #include <Eigen/Geometry>
@@ -27,6 +28,10 @@ using Exact = CGAL::Exact_predicates_exact_constructions_kernel;
 using Point = Kernel::Point_3;
 using CornerPoints = std::array<Point, 3>;
 using Box = CGAL::Box_intersection_d::Box_with_info_d<double, 3, std::size_t>;
+
+// Leaves of four triangles that one task compares: a small mesh wakes no
+// thread.
+constexpr std::size_t kLeavesOfTask = 16;
 
 CornerPoints CornersOf(const TriangleMesh& mesh, const Triangle& triangle) {
   const auto point = [&mesh](int v) {
@@ -273,7 +278,7 @@ std::size_t CountSelfIntersections(const TriangleMesh& mesh,
   };
   // Of each leaf, its items and those after them that they meet.
   std::vector<std::vector<TrianglePair>> met(leaves.size());
-  tbb::parallel_for(std::size_t{0}, leaves.size(), [&](std::size_t l) {
+  const auto find_of = [&](std::size_t l) {
     const BoxTree::Node& leaf = tree.nodes()[leaves[l]];
     tree.ForEach(
         [&](int node) { return overlap(tree.nodes()[node], leaf); },
@@ -285,7 +290,12 @@ std::size_t CountSelfIntersections(const TriangleMesh& mesh,
           }
           return true;
         });
-  });
+  };
+  tbb::parallel_for(
+      tbb::blocked_range<std::size_t>(0, leaves.size(), kLeavesOfTask),
+      [&](const tbb::blocked_range<std::size_t>& range) {
+        for (std::size_t l = range.begin(); l < range.end(); ++l) find_of(l);
+      });
   std::vector<TrianglePair> all;
   for (const std::vector<TrianglePair>& of_leaf : met) {
     all.insert(all.end(), of_leaf.begin(), of_leaf.end());

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,8 @@ namespace phongpd::bench {
 
 // CPU time of the whole process, seconds: what a busy machine does not change.
 double CpuSeconds();
+// The median of five runs.
+double MedianCpuSeconds(const std::function<void()>& work);
 
 struct FreeSpaceRow {
   std::string name;

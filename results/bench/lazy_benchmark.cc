@@ -87,11 +87,14 @@ CaseRow Measure(const Case& c, const Options& options) {
   const TriangleMesh robot = c.robot(), obstacle = c.obstacle();
   row.robot = robot.triangles.size();
   row.obstacle = obstacle.triangles.size();
-  double start = CpuSeconds();
-  const Stopwatch stopwatch;
+  std::vector<double> walls;
+  row.full_seconds = MedianCpuSeconds([&] {
+    const Stopwatch stopwatch;
+    static_cast<void>(BuildContactSpace(robot, obstacle));
+    walls.push_back(stopwatch.Seconds());
+  });
+  row.full_wall = Quantile(walls, 0.5);
   const ContactSpace space = BuildContactSpace(robot, obstacle);
-  row.full_seconds = CpuSeconds() - start;
-  row.full_wall = stopwatch.Seconds();
   row.full_faces = space.report().arrangement_faces;
   row.free_space =
       MeasureFreeSpace(c.name, robot, obstacle, space, row.full_seconds,
@@ -100,9 +103,9 @@ CaseRow Measure(const Case& c, const Options& options) {
                                options.seed);
   row.phong = MeasureWindowPhong(c.name, robot, obstacle, space,
                                  row.full_seconds, options.depth, options.seed);
-  start = CpuSeconds();
+  row.handle_seconds =
+      MedianCpuSeconds([&] { DepthQuery asked(robot, obstacle); });
   const DepthQuery query(robot, obstacle);
-  row.handle_seconds = CpuSeconds() - start;
 
   const EuclideanMetric metric(space);
   const double diagonal = space.length();
@@ -116,7 +119,7 @@ CaseRow Measure(const Case& c, const Options& options) {
     if (!truth.inside || -truth.signed_distance > options.depth * diagonal) {
       continue;
     }
-    start = CpuSeconds();
+    double start = CpuSeconds();
     const DepthResult found = query.At(pose.position);
     row.cpu_ms.push_back(1e3 * (CpuSeconds() - start));
     row.wall_ms.push_back(1e3 * found.seconds);
@@ -140,8 +143,9 @@ NamedTable TableOf(const std::vector<CaseRow>& rows) {
       "depth.csv",
       MakeTable(
           "Depth of at most 5 % of the diagonal",
-          "CPU time of the process: that of one full build (wall time "
-          "beside it), of making the query from two meshes, and of one answer "
+          "CPU time of the process: that of a full build (wall time beside "
+          "it) and of making the query from two meshes, medians of five, and "
+          "of one answer "
           "(median and 95 %; wall time beside it); of an answer at "
           "a turned pose, which makes a new operand.",
           {"pair", "triangles of A", "triangles of B", "full build, CPU s",

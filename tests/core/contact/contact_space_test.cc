@@ -2,10 +2,14 @@
 #include "core/contact/contact_space.h"
 
 #include <gtest/gtest.h>
+#include <sys/mman.h>
+#include <sys/resource.h>
 #include <tbb/global_control.h>
+#include <unistd.h>
 
 #include <Eigen/Geometry>
 #include <cmath>
+#include <fstream>
 
 #include "constraints/oracle/collision_oracle.h"
 #include "core/minkowski/build_limits.h"
@@ -339,8 +343,35 @@ TEST(ContactSpace, StopsABuildThatPassesALimit) {
   }
 }
 
+// Whenever it is asked for, and whatever threads have reserved by then.
+TEST(ContactSpace, MayTakeNineTenthsOfWhatWasFreeInTheBeginning) {
+  const ContactSpaceOptions options;
+  EXPECT_GT(internal::BuildLimits(options).max_mib(), 0.0);
+  if (testing::kIsSanitized) GTEST_SKIP() << "sanitizers need address space";
+  double pages = 0.0;
+  std::ifstream("/proc/self/statm") >> pages;
+  rlimit before;
+  ASSERT_EQ(getrlimit(RLIMIT_AS, &before), 0);
+  rlimit limit = before;
+  const std::size_t mib = std::size_t{1} << 20;
+  limit.rlim_cur =
+      static_cast<rlim_t>(pages) * static_cast<rlim_t>(sysconf(_SC_PAGESIZE)) +
+      200 * mib;
+  ASSERT_EQ(setrlimit(RLIMIT_AS, &limit), 0);
+  const internal::BuildLimits early(options), late(options);
+  const double expected = early.max_mib();
+  void* const reserved =
+      mmap(nullptr, 150 * mib, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+  const double found = late.max_mib();
+  const double now = internal::BuildLimits(options).max_mib();
+  EXPECT_EQ(munmap(reserved, 150 * mib), 0);
+  ASSERT_EQ(setrlimit(RLIMIT_AS, &before), 0);
+  EXPECT_NEAR(expected, 0.9 * 200.0, 1.0);
+  EXPECT_NEAR(found, expected, 1.0);
+  EXPECT_NEAR(now, expected - 0.9 * 150.0, 1.0);
+}
+
 TEST(ContactSpace, StopsBeforeItFillsTheMemory) {
-  EXPECT_GT(internal::AvailableMib(), 0.0);
   ContactSpaceOptions options;
   options.max_mib = 0.25;
   internal::BuildLimits limits(options);

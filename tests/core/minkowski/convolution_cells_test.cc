@@ -6,7 +6,7 @@
 
 #include <algorithm>
 #include <array>
-#include <limits>
+#include <cmath>
 #include <random>
 #include <set>
 #include <thread>
@@ -26,7 +26,6 @@ using Eigen::Vector3d;
 using testing::Cube;
 
 using Corners = std::array<std::array<double, 3>, 3>;
-constexpr std::size_t kUnlimited = std::numeric_limits<std::size_t>::max();
 
 struct Pair {
   const char* name;
@@ -78,7 +77,7 @@ TEST(ConvolutionCells, HoldTheWholeConvolution) {
       mesh.triangles.push_back(f.corners);
     }
     const ConvolutionCells cells(grid.obstacle, grid.reflected_robot,
-                                 kUnlimited);
+                                 [] { return HUGE_VAL; });
     EXPECT_EQ(cells.facets(), 0U);
     std::set<Corners> found;
     std::size_t held = 0, leaves = 0;
@@ -183,7 +182,7 @@ TEST(ConvolutionCells, AnswerTheSameWithoutRoomToKeepAnything) {
     const ConvolutionSpace truth(grid);
     const BoundingBox box = truth.Bounds();
     for (const double max_mib : {0.0, 0.05}) {
-      const ConvolutionSpace space(grid, max_mib);
+      const ConvolutionSpace space(grid, [max_mib] { return max_mib; });
       for (int i = 0; i < 20; ++i) {
         const Vector3d a = testing::RandomPoint(box, &random);
         const Vector3d b = a + 0.3 * (testing::RandomPoint(box, &random) - a);
@@ -205,7 +204,8 @@ TEST(ConvolutionCells, AnswerTheSameToManyThreadsAtOnce) {
   const GridPair grid =
       MakeGridPair(MakeStar(0.5, 1.2), "a", MakeTorus(2, 0.6, 24, 12), "b");
   for (const double max_mib : {0.3, 1e3}) {
-    const ConvolutionSpace space(grid, max_mib), truth(grid);
+    const ConvolutionSpace space(grid, [max_mib] { return max_mib; }),
+        truth(grid);
     std::mt19937_64 random(11);
     std::vector<std::pair<Vector3d, Vector3d>> motions;
     std::vector<double> expected;
