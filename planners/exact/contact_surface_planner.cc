@@ -216,7 +216,8 @@ void ContactSurfacePlanner::Impl::FindPath(const Vector3d& start,
       continue;
     }
     // A route this long will not become the shortest one.
-    if (!all && found > 0 && PathLength(path) > kHopeless * result->length) {
+    if (!all && surface.IsCertain(result->clearance) &&
+        PathLength(path) > kHopeless * result->length) {
       break;
     }
     ++found;
@@ -225,7 +226,8 @@ void ContactSurfacePlanner::Impl::FindPath(const Vector3d& start,
       raw_paths.push_back(path);
       Keep(std::move(path), result);
     }
-    if (!all && result->length < kStraight * straight &&
+    if (!all && surface.IsCertain(result->clearance) &&
+        result->length < kStraight * straight &&
         (result->clearance >= clear || found >= kNarrowRoutes)) {
       break;
     }

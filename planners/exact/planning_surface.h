@@ -39,7 +39,14 @@ struct PlanningSurface {
   bool IsClearWay(const Eigen::Vector3d& start, const Eigen::Vector3d& goal,
                   double clearance) const;
 
-  // Makes a free path the result unless that is better already.
+  // Does a path of that clearance stay free whatever rounding did to the
+  // surface?  With less it may lead where solids touch.
+  bool IsCertain(double clearance) const {
+    return clearance > cells.rounding();
+  }
+
+  // Makes a free path the result unless that is better already: certain where
+  // the other is not, or shorter.
   void Offer(std::vector<Eigen::Vector3d> raw_path,
              std::vector<Eigen::Vector3d> path, PlanResult* result) const;
   // The same after it has been centred and shortened.

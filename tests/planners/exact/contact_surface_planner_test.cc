@@ -18,6 +18,7 @@
 #include "planners/exact/exact_solution.h"
 #include "planners/exact/free_space.h"
 #include "planners/exact/path_shortening.h"
+#include "planners/exact/planning_surface.h"
 #include "problems/scenes/scene.h"
 #include "problems/scenes/scene_library.h"
 #include "problems/shapes/shapes.h"
@@ -215,6 +216,29 @@ TEST(ContactSurfacePlanner, SolvesTrivialProblemsTrivially) {
   EXPECT_DOUBLE_EQ(result.clearance, 1.5);
   result = planner.Plan(q, -q);
   EXPECT_EQ(result.path, (std::vector<Vector3d>{q, -q}));
+}
+
+// Over the top of a cube, straight along it so close that rounding may have
+// opened the way, or in an arc twice as long; whichever is offered first.
+TEST(ContactSurfacePlanner, PrefersWaysThatRoundingDidNotOpen) {
+  const PlanningSurface surface(
+      TakeAsContactSpace(MakeBox({-1, -1, -1}, {1, 1, 1})), {}, {});
+  for (const double share : {1e-3, 0.5, 2.0, 1e3}) {
+    const double height = 1.0 + share * surface.cells.rounding();
+    const std::vector<Vector3d> close = {
+        {-2, 0, 1.5}, {-1, 0, height}, {1, 0, height}, {2, 0, 1.5}};
+    const std::vector<Vector3d> arc = {{-2, 0, 1.5}, {0, 0, 5}, {2, 0, 1.5}};
+    ASSERT_GT(PathLength(arc), 1.5 * PathLength(close));
+    const bool is_certain = share > 1.0;
+    for (const bool is_close_first : {true, false}) {
+      PlanResult result;
+      surface.Offer({}, is_close_first ? close : arc, &result);
+      surface.Offer({}, is_close_first ? arc : close, &result);
+      ASSERT_EQ(result.status, PlanStatus::kSolved);
+      EXPECT_EQ(result.path, is_certain ? close : arc) << share;
+      EXPECT_EQ(surface.IsCertain(result.clearance), true) << share;
+    }
+  }
 }
 
 TEST(ContactSurfacePlanner, RepeatsItselfToTheBit) {

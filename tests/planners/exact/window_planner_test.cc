@@ -119,6 +119,39 @@ TEST(WindowPlannerCampaign, AgreesWithTheWholeContactSpace) {
   testing::ReportCampaign(row);
 }
 
+// Solids that touch along an edge: the surface, rounded, leaves slits of 1e-16
+// there, through which the shortest way leads and no robot comes.
+TEST(WindowPlanner, TakesNoWayThatOnlyRoundingOpened) {
+  struct Slit {
+    std::uint64_t seed;
+    Vector3d start, goal;
+  };
+  for (const Slit& slit :
+       {Slit{101,
+             {3.7257472798169129, 0.42737157145226684, 1.1018589125591502},
+             {5.2177734351097289, 0.67236397924965474, -0.18260474440787255}},
+        Slit{166,
+             {1.6850620761546329, -0.42035871285173121, -1.8625378335982101},
+             {0.87705621517630361, -1.6634191569591652, -2.5066382541377266}},
+        Slit{193,
+             {-4.0277192192052764, 4.9698171440143328, -4.9745566858705992},
+             {0.74914911038051357, 1.6552099056117267, -1.0681480820083002}}}) {
+    const SolidPair pair = MakeRandomPair(PairKind::kEdgeTouch, slit.seed);
+    const ConvolutionModel model(pair.robot, pair.obstacle);
+    FreeSpaceFlood flood(model, slit.start, slit.goal);
+    ASSERT_EQ(flood.Explore(100000), FreeSpaceFlood::Outcome::kMet);
+    const PlanResult walled = ContactSurfacePlanner(flood.Surface())
+                                  .Plan(flood.start(), flood.goal());
+    ASSERT_EQ(walled.status, PlanStatus::kSolved);
+    const WindowPlanner planner(model);
+    EXPECT_TRUE(CheckPath(planner.free_space(), walled.path).free) << slit.seed;
+    EXPECT_GT(walled.clearance, walled.rounding) << slit.seed;
+    const PlanResult found = planner.Plan(slit.start, slit.goal).plan;
+    ASSERT_EQ(found.status, PlanStatus::kSolved) << found.reason;
+    EXPECT_TRUE(CheckPath(planner.free_space(), found.path).free) << slit.seed;
+  }
+}
+
 SolidPair PairOf(TriangleMesh robot, TriangleMesh obstacle) {
   SolidPair pair;
   pair.robot = std::move(robot);
