@@ -96,11 +96,11 @@ class CliFaultCampaign : public CliProcess {
     for (const std::string& name : command.outputs) {
       WriteText("run/" + name, "old");
     }
-    const Outcome outcome = Run(
+    const Outcome outcome = RunWatched(
         command.arguments, std::string("LD_PRELOAD='") + PHONGPD_FAIL_CALLS +
                                "' PHONGPD_FAIL_CALL=" + fault);
     const bool is_done = outcome.code == 0;
-    if (IsBeforeMain(outcome)) return "";
+    if (!outcome.has_begun) return "";
     if (!is_done && outcome.code != 2 && outcome.code != 3) {
       return "ends with " + std::to_string(outcome.code) + " " + outcome.err;
     }

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <charconv>
-#include <csignal>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -50,16 +49,8 @@ struct Outcome {
   int code = -1;
   std::string out;
   std::string err;
+  bool has_begun = true;  // false: libraries were not even loaded (RunWatched)
 };
-
-// There was no memory for the loader, or for the static objects of libraries:
-// main, which has words for it, was never reached.
-inline bool IsBeforeMain(const Outcome& outcome) {
-  return outcome.code == 127 ||
-         outcome.err.find("shared librar") != std::string::npos ||
-         (outcome.code == 128 + SIGABRT &&
-          outcome.err.find("terminate called after throwing") == 0);
-}
 
 // Every test runs in a directory of its own, with a cache of its own.
 class Cli : public testing::Test {
@@ -104,6 +95,28 @@ class Cli : public testing::Test {
         WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
     outcome.out = Content(folder_ / "out");
     outcome.err = Content(folder_ / "err");
+    return outcome;
+  }
+
+  // The same, and by the loader's own account whether it handed over to the
+  // program: where libraries find no memory they end in many ways, and main,
+  // which has words for it, was never reached.
+  Outcome RunWatched(const std::string& arguments,
+                     const std::string& before) const {
+    Outcome outcome =
+        Run(arguments, before + " LD_DEBUG=files LD_DEBUG_OUTPUT='" +
+                           File("loader") + "'");
+    outcome.has_begun = false;
+    std::vector<std::filesystem::path> accounts;
+    for (const auto& entry : std::filesystem::directory_iterator(folder_)) {
+      if (entry.path().stem() == "loader") accounts.push_back(entry.path());
+    }
+    for (const std::filesystem::path& account : accounts) {
+      outcome.has_begun =
+          outcome.has_begun ||
+          Content(account).find("transferring control") != std::string::npos;
+      std::filesystem::remove(account);
+    }
     return outcome;
   }
 

@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <csignal>
 #include <filesystem>
 #include <set>
 #include <string>
@@ -145,8 +146,8 @@ TEST_F(CliLimitsCampaign, MemoryRunsOut) {
     const long kib = 45000 + 50000 * i / steps;
     PutOld(outputs);
     const Outcome outcome =
-        Run(command, "ulimit -v " + std::to_string(kib) + " &&");
-    if (IsBeforeMain(outcome)) continue;
+        RunWatched(command, "ulimit -v " + std::to_string(kib) + " &&");
+    if (!outcome.has_begun) continue;
     ++report.cases;
     const bool is_done = outcome.code == 0;
     // GMP says so itself, and aborts.
