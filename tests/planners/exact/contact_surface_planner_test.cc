@@ -236,7 +236,7 @@ TEST(ContactSurfacePlanner, PrefersWaysThatRoundingDidNotOpen) {
       surface.Offer({}, is_close_first ? arc : close, &result);
       ASSERT_EQ(result.status, PlanStatus::kSolved);
       EXPECT_EQ(result.path, is_certain ? close : arc) << share;
-      EXPECT_EQ(surface.IsCertain(result.clearance), true) << share;
+      EXPECT_TRUE(surface.IsCertain(result.clearance)) << share;
     }
   }
 }
