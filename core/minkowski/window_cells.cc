@@ -1,21 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/minkowski/window_cells.h"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <utility>
 
-#include "core/mesh/numbers.h"
 #include "core/mesh/union_find.h"
 #include "core/minkowski/cell_probe.h"
-#include "core/minkowski/edge_rings.h"
-#include "core/minkowski/exact_points.h"
-#include "core/minkowski/face_geometry.h"
-#include "core/minkowski/facet_intersections.h"
-#include "core/minkowski/plane_arrangement.h"
-#include "core/minkowski/plane_groups.h"
+#include "core/minkowski/window_arrangement.h"
 
 namespace phongpd::internal {
 namespace {
@@ -27,136 +20,16 @@ constexpr double kNearlyThere = 0x1p-6;
 // Half steps: a cell that goes on as far at one of its largest faces is judged
 // in it, whatever the rounding of points.
 constexpr double kSureGap = 0x1p-4;
-constexpr std::size_t kWholeWalls = 6;
-
-double SquaredDistanceToEdge(const Vector3d& a, const Vector3d& b,
-                             Vector3d* nearest) {
-  const Vector3d along = b - a;
-  const double length = along.squaredNorm();
-  const double t =
-      length > 0.0 ? std::clamp(-a.dot(along) / length, 0.0, 1.0) : 0.0;
-  *nearest = a + t * along;
-  return nearest->squaredNorm();
-}
 
 }  // namespace
 
 // All in half steps.
-struct WindowCells::Impl {
+struct WindowCells::Impl : WindowArrangement {
   Impl(const WindowConvolution& sums, const GridWindow& window,
-       std::vector<WallPatch> the_patches, const SolidCollision& the_judge,
-       const BuildLimits& limits)
-      : first_wall(static_cast<int>(sums.convolution.facets.size())),
-        box{ToDouble(window.min), ToDouble(window.max)},
-        patches(std::move(the_patches)),
-        convolution(WithWalls(sums.convolution, patches)),
-        groups(GroupByPlane(convolution)),
-        judge(the_judge) {
-    const FacetIndex index(convolution, box);
-    FacetIntersections intersections =
-        IntersectFacets(convolution, groups, index, limits, &points);
-    if (patches.size() > kWholeWalls) CutAlongPatches(&intersections);
-    arrangement =
-        ArrangePlanes(convolution, groups, intersections, limits, &points);
-    rings = SortAroundEdges(convolution, arrangement, points);
+       const std::vector<WallPatch>& the_patches,
+       const SolidCollision& the_judge, const BuildLimits& limits)
+      : WindowArrangement(sums, window, the_patches, limits), judge(the_judge) {
     FindCells();
-  }
-
-  // Patches of one wall lie in one plane, in which the borders between them
-  // would be lost.
-  void CutAlongPatches(FacetIntersections* intersections) {
-    std::map<std::pair<int, std::int64_t>, int> cutters;  // planes by number
-    for (std::size_t k = 0; k < patches.size(); ++k) {
-      const int facet = first_wall + 2 * static_cast<int>(k);
-      std::vector<PlaneSegment>& segments =
-          intersections->segments[groups.of_facet[facet]];
-      for (const int half : {facet, facet + 1}) {
-        const Triangle& t = convolution.facets[half].corners;
-        // Corners 0, 1, 2 and 0, 2, 3: all sides but the diagonal 0–2.
-        for (const int side : {half == facet ? 0 : 1, half == facet ? 1 : 2}) {
-          const int a = t[side], b = t[(side + 1) % 3];
-          const GridPoint& p = convolution.points[a];
-          const GridPoint along = convolution.points[b] - p;
-          const int across = 3 - patches[k].axis - LargestAxis(along);
-          const auto [it, is_new] =
-              cutters.emplace(std::pair(across, p[across]),
-                              static_cast<int>(groups.planes.size()));
-          if (is_new) {
-            GridPlane plane;
-            plane.normal[across] = 1;
-            plane.offset = p[across];
-            groups.planes.push_back(plane);
-          }
-          const auto [from, to] = std::minmax(
-              {intersections->point_ids[a], intersections->point_ids[b]});
-          segments.push_back({from, to, it->second});
-        }
-      }
-    }
-    for (std::vector<PlaneSegment>& s : intersections->segments) {
-      std::sort(s.begin(), s.end());
-      s.erase(std::unique(s.begin(), s.end(),
-                          [](const PlaneSegment& a, const PlaneSegment& b) {
-                            return a.from == b.from && a.to == b.to;
-                          }),
-              s.end());
-    }
-  }
-
-  bool IsWall(int face) const {
-    return arrangement.faces[face].facet >= first_wall;
-  }
-
-  // Faces are joined where they share an edge that is in no wall: each such
-  // part is in the window or outside.  One that has an edge in a wall shows
-  // which by the side of the wall it lies on.
-  std::vector<char> FindInside() const {
-    const std::size_t count = arrangement.faces.size();
-    UnionFind parts(count);
-    std::vector<char> inside(count, 0), known(count, 0);
-    std::vector<std::pair<int, char>> told;
-    for (const EdgeRing& ring : rings.rings) {
-      const int size = ring.end - ring.begin;
-      const auto spoke = [&](int k) -> const Spoke& {
-        return rings.spokes[ring.begin + k % size];
-      };
-      int wall = 0;
-      while (wall < size && !IsWall(spoke(wall).face)) ++wall;
-      if (wall == size) {
-        for (int k = 0; k + 1 < size; ++k) {
-          parts.Join(spoke(k).face, spoke(k + 1).face);
-        }
-        continue;
-      }
-      // What follows a wall up to the next one lies on the side that the wall
-      // has there.
-      char is_inside = 0;
-      for (int k = wall; k < wall + size; ++k) {
-        const Spoke& s = spoke(k);
-        if (IsWall(s.face)) {
-          is_inside = s.SideToNext() == PlusSide(s.face);
-        } else {
-          told.emplace_back(s.face, is_inside);
-        }
-      }
-    }
-    for (const auto& [face, is_inside] : told) {
-      inside[parts.Find(face)] = is_inside;
-      known[parts.Find(face)] = 1;
-    }
-    std::vector<char> result(count, 0);
-    for (std::size_t f = 0; f < count; ++f) {
-      const int face = static_cast<int>(f), part = parts.Find(face);
-      if (!known[part]) {  // it touches no wall
-        const Vector3d& p = points.Approximate(
-            arrangement.half_edges[arrangement.faces[f].begin].from);
-        inside[part] = (p.array() > box.min.array()).all() &&
-                       (p.array() < box.max.array()).all();
-        known[part] = 1;
-      }
-      result[f] = IsWall(face) || inside[part];
-    }
-    return result;
   }
 
   void FindCells() {
@@ -219,107 +92,6 @@ struct WindowCells::Impl {
       ++judged;
     }
     return cell->judgement == 1;
-  }
-
-  struct FacePoint {
-    double squared_distance = kInfinity;
-    Vector3d offset = Vector3d::Zero();  // from q
-  };
-
-  // The point of a face nearest to q, found relative to q.
-  FacePoint NearestOn(int face, const Vector3d& q, double limit) const {
-    const ArrangementFace& f = arrangement.faces[face];
-    const ConvolutionFacet& facet = convolution.facets[f.facet];
-    const Vector3d n = ToDouble(facet.normal).normalized();
-    const double height =
-        n.dot(ToDouble(convolution.points[facet.corners[0]]) - q);
-    FacePoint best;
-    if (height * height >= limit) return best;
-    const Vector3d foot = height * n;
-    const int axis = LargestAxis(n), u = (axis + 1) % 3, v = (axis + 2) % 3;
-    bool holds_foot = false;
-    for (int h = f.begin; h < f.end; ++h) {
-      const HalfEdge& e = arrangement.half_edges[h];
-      const Vector3d a = points.Approximate(e.from) - q;
-      const Vector3d b = points.Approximate(e.to) - q;
-      Vector3d nearest;
-      const double squared = SquaredDistanceToEdge(a, b, &nearest);
-      if (squared < best.squared_distance) best = {squared, nearest};
-      if ((a[v] > foot[v]) == (b[v] > foot[v])) continue;
-      const double at =
-          a[u] + (foot[v] - a[v]) * ((b[u] - a[u]) / (b[v] - a[v]));
-      if (at > foot[u]) holds_foot = !holds_foot;
-    }
-    if (holds_foot && height * height < best.squared_distance) {
-      best = {height * height, foot};
-    }
-    return best;
-  }
-
-  // The convolution facet that the face is part of at a point of it: coplanar
-  // facets are arranged together.
-  int FacetAt(int face, const Vector3d& point) const {
-    const int representative = arrangement.faces[face].facet;
-    const int group = groups.of_facet[representative];
-    int best = representative;
-    double least = kInfinity;
-    for (const int f : groups.members[group]) {
-      if (groups.reversed[f] != groups.reversed[representative]) continue;
-      const double squared = SquaredDistanceInPlane(f, point);
-      if (squared < least) {
-        least = squared;
-        best = f;
-      }
-    }
-    return best;
-  }
-
-  // Of a point in a facet's plane to the facet.
-  double SquaredDistanceInPlane(int f, const Vector3d& point) const {
-    const ConvolutionFacet& facet = convolution.facets[f];
-    const Vector3d n = ToDouble(facet.normal);
-    bool inside = true;
-    double least = kInfinity;
-    for (int k = 0; k < 3; ++k) {
-      const Vector3d a = ToDouble(convolution.points[facet.corners[k]]) - point;
-      const Vector3d b =
-          ToDouble(convolution.points[facet.corners[(k + 1) % 3]]) - point;
-      Vector3d nearest;
-      least = std::min(least, SquaredDistanceToEdge(a, b, &nearest));
-      if (n.dot((b - a).cross(-a)) < 0.0) inside = false;
-    }
-    return inside ? 0.0 : least;
-  }
-
-  // Of a point within 2^-12 of a grid step: does it lie in the face's plane?
-  bool LiesInPlane(int face, const Vector3d& q) const {
-    const ConvolutionFacet& facet =
-        convolution.facets[arrangement.faces[face].facet];
-    const GridPoint& origin = convolution.points[facet.corners[0]];
-    Wide side = 0;
-    for (int k = 0; k < 3; ++k) {
-      const Wide x = std::llround(std::ldexp(q[k], 11));
-      side += Wide(facet.normal[k]) * (x - (Wide(origin[k]) << 11));
-    }
-    return side.is_zero();
-  }
-
-  // Per half-edge: bit k where it lies in a wall across axis k.
-  std::vector<int> WallsOfEdges() const {
-    std::vector<int> walls(arrangement.half_edges.size(), 0);
-    for (const EdgeRing& ring : rings.rings) {
-      int bits = 0;
-      for (int k = ring.begin; k < ring.end; ++k) {
-        const int face = rings.spokes[k].face;
-        if (!IsWall(face)) continue;
-        bits |= 1 << LargestAxis(
-                    convolution.facets[arrangement.faces[face].facet].normal);
-      }
-      for (int k = ring.begin; bits != 0 && k < ring.end; ++k) {
-        walls[rings.spokes[k].half_edge] = bits;
-      }
-    }
-    return walls;
   }
 
   // Has a face of the cell an edge in a wall?
@@ -388,37 +160,6 @@ struct WindowCells::Impl {
     return count;
   }
 
-  BoundingBox BoxOf(int face) const {
-    const ArrangementFace& f = arrangement.faces[face];
-    BoundingBox out;
-    for (int h = f.begin; h < f.end; ++h) {
-      const Vector3d& p = points.Approximate(arrangement.half_edges[h].from);
-      out.min = h == f.begin ? p : out.min.cwiseMin(p);
-      out.max = h == f.begin ? p : out.max.cwiseMax(p);
-    }
-    return out;
-  }
-
-  // The patch that a face of a wall lies in.
-  int PatchOf(int face, const BoundingBox& around) const {
-    const WallPatch& wall = patches[static_cast<std::size_t>(
-        (arrangement.faces[face].facet - first_wall) / 2)];
-    const Vector3d middle = around.Center();
-    for (std::size_t k = 0; k < patches.size(); ++k) {
-      const WallPatch& p = patches[k];
-      if (p.axis != wall.axis || p.is_high != wall.is_high) continue;
-      const Vector3d low = ToDouble(p.min), high = ToDouble(p.max);
-      bool is_within = true;
-      for (int i = 0; i < 3; ++i) {
-        is_within =
-            is_within &&
-            (i == p.axis || (low[i] <= middle[i] && middle[i] <= high[i]));
-      }
-      if (is_within) return static_cast<int>(k);
-    }
-    return -1;  // not reached: the patches make up the wall
-  }
-
   // Adds a face of C_cont, or of a wall.
   void Write(int face, const std::vector<int>& walls, int cell,
              SurfacePieceWriter* writer) const {
@@ -443,16 +184,7 @@ struct WindowCells::Impl {
     piece->judged = static_cast<std::size_t>(judged);
   }
 
-  int first_wall;
-  BoundingBox box;
-  std::vector<WallPatch> patches;
-  Convolution convolution;
-  PlaneGroups groups;
   const SolidCollision& judge;
-  ExactPoints points;
-  Arrangement arrangement;
-  EdgeRings rings;
-  FaceGeometry geometry{convolution, arrangement, points};
   std::vector<double> area;
   std::vector<Candidate> candidates;
   std::vector<int> candidate_of;  // per face, in front of it; −1: none
