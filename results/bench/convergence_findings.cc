@@ -32,6 +32,10 @@ std::string RepairLine(const std::vector<Json>& rows) {
 
 }  // namespace
 
+std::string WonAndLost(const ConvergenceResults& results) {
+  return "## Won and lost\n\n" + DuelLines(results) + '\n';
+}
+
 std::string Findings(const ConvergenceResults& results) {
   const Cells& cells = results.cells;
   std::string text = "## Targets\n\n";
@@ -110,8 +114,8 @@ std::string Findings(const ConvergenceResults& results) {
       "pipeline, Ipopt claims a solution that collides (the pipeline never "
       "returns it)",
       has_claims ? "some" : "none", !has_claims);
-  return text + "\n## Won and lost\n\n" + DuelLines(results) +
-         "\nWhich part of PhongPD it is that helps, its memory, depth or "
+  return text + '\n' + WonAndLost(results) +
+         "Which part of PhongPD it is that helps, its memory, depth or "
          "direction, and each scene by itself: "
          "[what-helps.csv](what-helps.csv), [verdicts.csv](verdicts.csv), "
          "[losses.csv](losses.csv).\n";

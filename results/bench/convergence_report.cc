@@ -159,19 +159,22 @@ std::string TradeOffFigure(const ConvergenceResults& results,
 bool Belongs(const std::string& scene, const SceneGroup& group) {
   const bool is_scanned = scene.find("edge=") != std::string::npos;
   if (is_scanned != group.is_scanned) return false;
-  return std::any_of(group.scenes.begin(), group.scenes.end(),
-                     [&](const std::string& prefix) {
-                       return scene.compare(0, prefix.size(), prefix) == 0;
-                     });
+  const std::string family = scene.substr(0, scene.find(':'));
+  return std::find(group.families.begin(), group.families.end(), family) !=
+         group.families.end();
 }
 
 const std::vector<SceneGroup>& SceneGroups() {
   static const std::vector<SceneGroup> groups = {
       {"traps", {"u_axis", "u_trap", "l"}, false},
       {"plates", {"plate", "long_plate"}, false},
-      {"scanned traps, plates", {"u_", "plate", "long_plate"}, true},
-      {"holes and tunnels", {"torus", "peg_tunnel"}, false},
-      {"other", {"cone_axes", "ball_", "clutter", "knot"}, false}};
+      {"scanned traps, plates",
+       {"u_axis", "u_trap", "plate", "long_plate"},
+       true},
+      {"holes and tunnels", {"torus_hole", "peg_tunnel"}, false},
+      {"other",
+       {"cone_axes", "ball_wrench", "ball_convex", "clutter", "knot"},
+       false}};
   return groups;
 }
 

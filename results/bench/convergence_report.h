@@ -25,8 +25,8 @@ struct DepthExcess {
 // Scene labels by what kind of trouble they are.
 struct SceneGroup {
   std::string name;
-  std::vector<std::string> scenes;  // labels begin with one of these
-  bool is_scanned = false;          // obstacles with a knob `edge`
+  std::vector<std::string> families;  // labels without their knobs
+  bool is_scanned = false;            // obstacles with a knob `edge`
 };
 const std::vector<SceneGroup>& SceneGroups();
 bool Belongs(const std::string& scene, const SceneGroup& group);
@@ -60,7 +60,9 @@ std::vector<NamedTable> Tables(const ConvergenceResults& results);
 // ℓ against depth, share solved and iterations: of cells and excess alone.
 std::vector<Figure> TradeOffFigures(const ConvergenceResults& results);
 std::vector<Figure> Figures(const ConvergenceResults& results);
-// Targets met and missed: the text above the tables (convergence_findings.cc).
+// Targets met and missed, then those duels: the text above the tables
+// (convergence_findings.cc).
+std::string WonAndLost(const ConvergenceResults& results);
 std::string Findings(const ConvergenceResults& results);
 
 }  // namespace phongpd::bench

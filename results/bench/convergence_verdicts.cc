@@ -213,6 +213,25 @@ Table LossTable(const ConvergenceResults& results) {
   return table;
 }
 
+namespace {
+
+// Converged, stalled and else exactly free runs of all scenes.
+std::string EndsText(const ConvergenceResults& results,
+                     const std::string& protocol, const std::string& method) {
+  int runs = 0, converged = 0, stalled = 0, free = 0;
+  for (const ComparisonCell& c : results.cells) {
+    if (c.protocol != protocol || c.method != method) continue;
+    runs += c.runs;
+    converged += c.solved - c.stalled;
+    stalled += c.stalled;
+    free += c.free_only;
+  }
+  return method + " " + Shown(converged) + " converged, " + Shown(stalled) +
+         " stalled, " + Shown(free) + " else free of " + Shown(runs);
+}
+
+}  // namespace
+
 std::string DuelLines(const ConvergenceResults& results) {
   std::string text;
   for (const Match& match : GroupMatches(results)) {
@@ -226,7 +245,9 @@ std::string DuelLines(const ConvergenceResults& results) {
             Ratio(duel.only_own, duel.only_rival) + " (" +
             duel.SolvedVerdict() + "), fewer iterations " +
             Ratio(duel.fewer, duel.more) + ", median ratio " +
-            duel.IterationsEffect() + " (" + duel.IterationsVerdict() + ").\n";
+            duel.IterationsEffect() + " (" + duel.IterationsVerdict() +
+            "). Ends: " + EndsText(results, match.protocol, match.own) + "; " +
+            EndsText(results, match.protocol, match.rival) + ".\n";
   }
   return text;
 }

@@ -2,6 +2,7 @@
 #include "results/bench/report.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <fstream>
 #include <thread>
@@ -160,11 +161,14 @@ Pages SplitReadme(const std::string& text) {
 
 double Quantile(std::vector<double> values, double fraction) {
   if (values.empty()) return 0.0;
-  const auto last = static_cast<double>(values.size() - 1);
-  const auto place =
-      values.begin() + static_cast<std::ptrdiff_t>(fraction * last);
-  std::nth_element(values.begin(), place, values.end());
-  return *place;
+  const double place = fraction * static_cast<double>(values.size() - 1);
+  const auto below =
+      values.begin() + static_cast<std::ptrdiff_t>(std::floor(place));
+  std::nth_element(values.begin(), below, values.end());
+  const double rest = place - std::floor(place);
+  if (rest == 0.0) return *below;
+  const double above = *std::min_element(below + 1, values.end());
+  return *below + rest * (above - *below);
 }
 
 }  // namespace phongpd::bench

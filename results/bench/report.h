@@ -84,7 +84,9 @@ struct Pages {
 };
 Pages SplitReadme(const std::string& text);
 
-// Value below which the given fraction of `values` lies; 0 when empty.
+// Value below which the given fraction of `values` lies, linear between the two
+// nearest: 0.5 is the median, of an even number the middle of the two in the
+// middle.  0 when empty.
 double Quantile(std::vector<double> values, double fraction);
 
 }  // namespace phongpd::bench
