@@ -23,6 +23,8 @@ constexpr int kHalvings = 6;
 constexpr std::size_t kSamples = 500;
 // Of the diagonal: what a depth may be short of.
 constexpr double kDepthTolerance = 1e-9;
+// From one step away from the surface to the next.
+constexpr double kShorter = 0.125;
 
 std::string Text(const Vector3d& q) {
   std::string text = "(";
@@ -115,13 +117,16 @@ struct Verifier::Impl {
     return kDepthTolerance * diagonal + 2.0 * rounding;
   }
 
-  // Is the robot free at x + δ n, or in contact at x − δ n, or else so at
-  // that distance in another direction?
+  // Is the robot free at x + s n, or in contact at x − s n, for a step s ≤ δ,
+  // or else so at δ in another direction?  A step passes through what is
+  // thinner; a shorter one that shows the surface shows it nearer to x.
   Verdict Beside(const Vector3d& x, const Vector3d& n, double delta,
                  bool wants_free, long* tests) const {
-    const Vector3d beside = x + (wants_free ? delta : -delta) * n;
-    if (Touches(beside, beside, tests) != wants_free) {
-      return Verdict::kConfirmed;
+    for (double step = delta; step >= least_step; step *= kShorter) {
+      const Vector3d beside = x + (wants_free ? step : -step) * n;
+      if (Touches(beside, beside, tests) != wants_free) {
+        return Verdict::kConfirmed;
+      }
     }
     for (const Vector3d& direction : Directions()) {
       const Vector3d other = x + delta * direction;
@@ -157,7 +162,8 @@ struct Verifier::Impl {
   std::vector<int> first_triangle;  // of each obstacle, in the joined mesh
   BoundingBox bounds;
   double rounding = 0.0;
-  double diagonal = 0.0;  // of the contact space
+  double least_step = 0.0;  // that the rounding of points to doubles leaves
+  double diagonal = 0.0;    // of the contact space
 };
 
 Verifier::Verifier(const Workspace& workspace)
@@ -189,7 +195,8 @@ Verifier::Verifier(const Workspace& workspace)
                                              shell.max.cwiseMax(operand.max)}));
     largest += LargestCoordinate(shell);
   }
-  impl.rounding = 0x1p-35 * reach + 0x1p-48 * largest;
+  impl.least_step = 0x1p-48 * largest;
+  impl.rounding = 0x1p-35 * reach + impl.least_step;
 }
 
 Verifier::~Verifier() = default;

@@ -72,17 +72,19 @@ class Verifier {
 
   // A depth, or a distance, of the obstacles without bounds; L is the diagonal
   // of their contact space and δ = 1e-9 L + 2 · rounding.  Inside: at q the
-  // robot collides, and at q_c + δ n̂ it does not, so the depth is no less
+  // robot collides, and at q_c + s n̂ it does not, so the depth is no less
   // than it should be by more than δ.  Outside: from q to δ before q_c it is
-  // free, and δ behind q_c it is not.  kWithinRounding: free, or in contact,
-  // in another direction at that distance from q_c.  Not judged: that no way
+  // free, and s behind q_c it is not.  The step s is δ, or shorter where that
+  // passes through a wall or a gap, down to 2⁻⁴⁸ · c.  kWithinRounding: free,
+  // or in contact, in another direction δ from q_c.  Not judged: that no way
   // out is shorter.
   Verification VerifyDepth(const Eigen::Vector3d& q,
                            const PenetrationResult& result) const;
 
   // "x is on the contact surface, n, of length 1, points into free space", of
-  // the obstacles without bounds: at x + δ n the robot is free, at x − δ n it
-  // is not.  kWithinRounding: so in other directions.
+  // the obstacles without bounds: at x + s n the robot is free, at x − s n it
+  // is not, each for a step s as of VerifyDepth.  kWithinRounding: so in other
+  // directions.
   Verification VerifySurface(const Eigen::Vector3d& x,
                              const Eigen::Vector3d& n) const;
 
