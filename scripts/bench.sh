@@ -154,6 +154,8 @@ if [[ $suite == peers || $suite == all ]]; then
   PYTHONPATH=$PWD/build/python "$venv/bin/python" \
     results/bench/peers_benchmark.py --output results/peers \
     --how "scripts/bench.sh peers"
+  "$venv/bin/python" results/bench/peers_motions.py --output results/peers \
+    --how "scripts/bench.sh peers"
 fi
 if [[ $suite == python || $suite == all ]]; then
   scripts/python.sh

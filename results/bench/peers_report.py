@@ -77,6 +77,8 @@ WHAT_FOR = """\
   triangle meshes that are not convex their "depth" is that of one pair of
   triangles (coal, FCL) or of the convex hulls (MuJoCo): made for contact forces
   at small overlaps, not for the way out of deep ones, as asked here.
+- Whether a motion is free, FCL answers too, but not of meshes:
+  [motions.md](motions.md).
 - Open3D and trimesh answer distances to any mesh, closed or not; Open3D in
   single precision and on all cores. Neither knows a contact space: for two
   bodies somebody has to build it first.
