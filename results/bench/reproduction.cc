@@ -224,11 +224,7 @@ std::string Report(const std::vector<Slice>& slices,
                     add(s.file, d.row, d.column, d.published, d.found);
                   }
                 });
-  if (!deviations.rows.empty()) {
-    text += '\n' + ToMarkdown(deviations) +
-            "\nWhat is known of them, written by hand: "
-            "[deviations.md](deviations.md).\n";
-  }
+  if (!deviations.rows.empty()) text += '\n' + ToMarkdown(deviations);
   return text + '\n' + Circumstances(command, PaperOptions().seed);
 }
 
