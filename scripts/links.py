@@ -1,11 +1,15 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 """links.py FOLDER...: are the pages in these folders whole?
+links.py --markdown FOLDER: the same of the links between its *.md
 
 Every link of every *.html to a file must lead to one, with the place after # in
 it, and no page may load anything from elsewhere (scripts, styles, pictures,
 fonts, frames); links to other sites are only counted.  One line for each
 failure; exit code 1 if there is any, 2 for a folder without pages.
+
+Of *.md, which must lead to files and to headings (as GitHub calls their places:
+small letters, - for blanks), those in folders named build* or .* are left out.
 """
 import html.parser
 import pathlib
@@ -105,6 +109,56 @@ class Check:
                 self.follow(path, target)
 
 
+def without_code(text):
+    text = re.sub(r"^ *```.*?^ *```", "", text, flags=re.S | re.M)
+    return re.sub(r"`[^`\n]*`", lambda code: "x" * len(code.group()), text)
+
+
+def places(text):
+    """Of headings, a second of the same name with -1, and of <a id="">."""
+    found, seen = set(re.findall(r"""<a (?:id|name)=["']([^"']+)""", text)), {}
+    text = re.sub(r"^ *```.*?^ *```", "", text, flags=re.S | re.M)
+    for heading in re.findall(r"^#{1,6} +(.*?) *#*$", text, re.M):
+        heading = re.sub(r"\[([^]]*)\]\([^)]*\)", r"\1", heading)
+        name = re.sub(r"[^\w\- ]", "", heading.lower()).replace(" ", "-")
+        count = seen.get(name, 0)
+        seen[name] = count + 1
+        found.add(f"{name}-{count}" if count else name)
+    return found
+
+
+def check_markdown(root):
+    """One line a dead link, and how many pages there are."""
+    pages = [path for path in sorted(root.rglob("*.md"))
+             if not any(part.startswith((".", "build", "node_modules"))
+                        for part in path.relative_to(root).parts)]
+    failures = []
+    for path in pages:
+        text = without_code(path.read_text(encoding="utf-8"))
+        for target in re.findall(r"\]\(<?([^)\s>]+)>?(?: \"[^\"]*\")?\)", text):
+            if is_inside(target) or is_elsewhere(target):
+                continue
+            name, _, place = target.partition("#")
+            end = path.parent / urllib.parse.unquote(name) if name else path
+            if not end.exists():
+                failures.append(f"{path}: {target}: there is no such file")
+            elif (place and end.suffix == ".md" and urllib.parse.unquote(place)
+                  not in places(end.read_text(encoding="utf-8"))):
+                failures.append(f"{path}: {target}: no such place in it")
+    return pages, failures
+
+
+def main_markdown(folder):
+    pages, failures = check_markdown(pathlib.Path(folder))
+    if not pages:
+        print(f"links: {folder}: expected *.md, found none", file=sys.stderr)
+        return 2
+    for failure in failures:
+        print(failure)
+    print(f"links: {len(pages)} pages, {len(failures)} failures")
+    return 1 if failures else 0
+
+
 def main():
     check, count = Check(), 0
     for folder in map(pathlib.Path, sys.argv[1:]):
@@ -126,4 +180,5 @@ def main():
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(main_markdown(sys.argv[2]) if sys.argv[1:2] == ["--markdown"]
+             else main())

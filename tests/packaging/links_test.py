@@ -7,12 +7,12 @@ import sys
 import tempfile
 
 
-def failures(pages):
+def failures(pages, *how):
     """What links.py says of these pages, and its exit code."""
     with tempfile.TemporaryDirectory() as name:
         for page, text in pages.items():
             (pathlib.Path(name) / page).write_text(text)
-        done = subprocess.run([sys.executable, sys.argv[1], name],
+        done = subprocess.run([sys.executable, sys.argv[1], *how, name],
                               capture_output=True, text=True, check=False)
         lines = [line[len(str(pathlib.Path(name).resolve())) + 1:]
                  for line in done.stdout.splitlines()[:-1]]
@@ -45,6 +45,20 @@ def main():
         assert code == 1 and len(lines) == 1, (text, lines)
         assert lines[0].startswith(page) and expected in lines[0], lines
     assert failures({"only.txt": ""})[0] == 2
+    markdown = {"a.md": "# Of `x` & [y](b.md): z\n[b](b.md#what-helps-1) "
+                        "[me](#of-x--y-z) [c](c%20.csv)\n[i](https://o.example#n)\n"
+                        "`[no](no.md)`\n```\n[no](no.md)\n# No\n```\n",
+                "b.md": "## What helps\n## What helps\n", "c .csv": ""}
+    assert failures(markdown, "--markdown") == (0, []), failures(
+        markdown, "--markdown")
+    for text, expected in (("[b](no.md)", "no such file"),
+                           ("[b](b.md#what-help)", "no such place"),
+                           ("[b](b.md#what-helps-2)", "no such place"),
+                           ("[b](#no)", "no such place")):
+        code, lines = failures({**markdown, "a.md": text}, "--markdown")
+        assert code == 1 and len(lines) == 1, (text, lines)
+        assert lines[0].startswith("a.md") and expected in lines[0], lines
+    assert failures({"only.txt": ""}, "--markdown")[0] == 2
     print("links.py tells dead links from live ones")
 
 
