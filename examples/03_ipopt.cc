@@ -16,7 +16,7 @@ int main(int argc, char** argv) {
   try {
     const phongpd::Scene scene = phongpd::ReadScene(argv[1]);
     phongpd::TrajectoryStudy study;
-    study.Enter(scene);  // builds the contact space, once for all runs
+    study.Enter(scene);  // builds nothing: Run does, once for all runs
     const phongpd::PipelineResult result = study.Run(
         phongpd::SceneMetric(scene), phongpd::ScenePipelineOptions(scene));
 

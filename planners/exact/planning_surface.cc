@@ -100,12 +100,9 @@ void PlanningSurface::Offer(std::vector<Vector3d> raw_path,
   const double length = PathLength(path);
   const double clearance = ClearanceOf(path);
   if (result->status == PlanStatus::kSolved) {
-    const bool was_certain = IsCertain(result->clearance);
-    if (IsCertain(clearance) == was_certain) {
-      // Clearance is worth a tenth of the length.
-      const double share = clearance < 0.7 * result->clearance ? 0.9 : 1.0;
-      if (length >= share * result->length) return;
-    } else if (was_certain) {
+    const RouteOrder order(cells.rounding());
+    if (!order.IsBetter({length, clearance},
+                        {result->length, result->clearance})) {
       return;
     }
   }

@@ -11,6 +11,7 @@
 #include "core/projection/contact_surface.h"
 #include "planners/exact/contact_surface_planner.h"
 #include "planners/exact/free_cells.h"
+#include "planners/exact/route_order.h"
 
 namespace phongpd {
 
@@ -42,11 +43,10 @@ struct PlanningSurface {
   // Does a path of that clearance stay free whatever rounding did to the
   // surface?  With less it may lead where solids touch.
   bool IsCertain(double clearance) const {
-    return clearance > cells.rounding();
+    return RouteOrder(cells.rounding()).IsCertain(clearance);
   }
 
-  // Makes a free path the result unless that is better already: certain where
-  // the other is not, or shorter.
+  // Makes a free path the result if it is better (RouteOrder).
   void Offer(std::vector<Eigen::Vector3d> raw_path,
              std::vector<Eigen::Vector3d> path, PlanResult* result) const;
   // The same after it has been centred and shortened.

@@ -12,6 +12,7 @@
 #include "core/mesh/finite.h"
 #include "core/stopwatch.h"
 #include "planners/exact/path_shortening.h"
+#include "planners/exact/route_order.h"
 
 namespace phongpd {
 namespace {
@@ -30,15 +31,12 @@ constexpr double kMoreShare = 0.5;
 constexpr double kPoor = 0.25;
 constexpr int kFurtherRounds = 3;
 
-// As the contact-surface planner compares routes: clearance is worth a tenth of
-// the length.
 bool IsBetter(const PlanResult& found, const PlanResult& best) {
   if (best.status != PlanStatus::kSolved) return true;
   if (found.status != PlanStatus::kSolved) return false;
-  const double share = found.clearance < 0.7 * best.clearance   ? 0.9
-                       : best.clearance < 0.7 * found.clearance ? 1.1
-                                                                : 1.0;
-  return found.length < share * best.length;
+  // The surface of each exploration has a rounding of its own.
+  return RouteOrder(std::max(found.rounding, best.rounding))
+      .IsBetter({found.length, found.clearance}, {best.length, best.clearance});
 }
 
 bool IsEnclosed(FloodOutcome outcome) {

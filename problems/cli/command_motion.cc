@@ -174,11 +174,7 @@ View MotionView(const ContactSpace& contact,
     view.motion.positions.push_back(motion.At(frame));
   }
   for (const MotionTrace& trace : traces) {
-    ViewTrace shown{trace.label, trace.pd, {}};
-    for (const PenetrationResult& result : trace.results) {
-      shown.status.push_back(StatusName(result.status));
-    }
-    view.motion.traces.push_back(std::move(shown));
+    view.motion.traces.push_back({trace.label, trace.pd, trace.status});
   }
   return view;
 }
