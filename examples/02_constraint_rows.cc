@@ -2,6 +2,7 @@
 // 02_constraint_rows ROBOT OBSTACLE: non-penetration rows in your own solver.
 #include <phongpd/constraints/motion_oracle.h>
 #include <phongpd/constraints/non_penetration.h>
+#include <phongpd/constraints/sampling_rule.h>
 #include <phongpd/core/contact/contact_space.h>
 #include <phongpd/core/solid/solid.h>
 
@@ -17,11 +18,14 @@ int main(int argc, char** argv) {
   const ContactSpace space = BuildContactSpace(robot, obstacle);
   const auto metric = std::make_shared<SignedMetric>(space);
 
-  // A polyline through 12 free points u, 4 samples in each of its 13 segments.
+  // A polyline through 12 free points u; samples in each of its 13 segments by
+  // the rule, for segments up to 1.6 times those of the straight line.
   constexpr double kMargin = 0.05, kWeight = 1e4;
   const Vector3d start(-1.0, 0.1, 0.0), goal(3.0, -0.1, 0.1);
+  const int samples =
+      SamplesByRule(1.6 * (goal - start).norm() / 13, kMargin, 1000);
   const NonPenetrationConstraint rows({metric}, start, goal, 12,
-                                      std::vector<int>(13, 4));
+                                      std::vector<int>(13, samples));
   const int n = rows.variables(), m = rows.rows(), e = rows.nonzeros();
   Eigen::VectorXi row(e), col(e);
   rows.Sparsity(row.data(), col.data());

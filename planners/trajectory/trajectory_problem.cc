@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "constraints/sampling_rule.h"
 #include "core/mesh/finite.h"
 #include "core/mesh/mesh_error.h"
 
@@ -132,12 +133,9 @@ double MaxSegment(const TrajectoryProblem& problem, double start_length) {
 
 int SamplesPerSegment(const TrajectoryProblem& problem, double start_length) {
   if (problem.samples_per_segment > 0) return problem.samples_per_segment;
-  if (!(problem.margin > 0.0)) return 0;
-  const double spacing = 2.0 * problem.margin * Diagonal(problem);
-  const double ratio = MaxSegment(problem, start_length) / spacing;
-  // The least S with S + 1 > ratio.
-  return static_cast<int>(
-      std::min(std::floor(ratio), static_cast<double>(kMaxSamplesPerSegment)));
+  return SamplesByRule(MaxSegment(problem, start_length),
+                       problem.margin * Diagonal(problem),
+                       kMaxSamplesPerSegment);
 }
 
 }  // namespace phongpd

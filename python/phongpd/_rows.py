@@ -1,11 +1,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 from __future__ import annotations
 
+import math
+
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _native
-from ._arguments import Floats, numbers, point, text, whole_number
+from ._arguments import Floats, length, numbers, point, real, text, \
+    whole_number
 from ._native import InputError
 from ._world import World, native_world
 
@@ -14,14 +17,29 @@ class NonPenetrationRows:
     """Constraint rows d(sample) >= margin of a path, for a solver of your own.
 
     The path runs from start through N free waypoints to goal; samples are the
-    waypoints and `samples_per_segment` inner points of every segment.  d is
-    the signed metric: distance outside, minus the depth inside.  Values and
-    derivatives by the waypoints' 3N coordinates; the pattern never changes::
+    waypoints and inner points of every segment.  d is the signed metric:
+    distance outside, minus the depth inside.  Values and derivatives by the
+    waypoints' 3N coordinates; the pattern never changes::
 
         rows = phongpd.NonPenetrationRows(world, start, goal, waypoints=20)
-        keep = {"type": "ineq", "fun": lambda u: rows.value(u) - margin,
+        keep = {"type": "ineq", "fun": lambda u: rows.value(u) - rows.margin,
                 "jac": rows.jacobian}
-        scipy.optimize.minimize(f, u0, method="SLSQP", constraints=keep)
+        found = scipy.optimize.minimize(f, u0, method="SLSQP", constraints=keep)
+        path = rows.path(found.x)
+        if not world.is_motion_free(path[:-1], path[1:]).all():
+            raise RuntimeError("the path collides, whatever the solver says")
+
+    margin: to keep, a share of D or "0.5unit"; None: the scene's, 0.01.
+
+    samples_per_segment: 0, as many as the Lipschitz rule asks for: d changes
+    no faster than the path moves, so S with S + 1 > h / (2 margin) inner points
+    leave nothing out between them where no segment is longer than h =
+    max_segment (user's unit; None: 1.6 times those of the straight line).  One
+    row a segment sees to that, at the end of the others and told alike: margin
+    + h - length >= margin.  The start and goal must have the margin.  Where
+    the way around is longer than 1.6 times the line, give max_segment.  With a
+    number of your own there are no such rows, and nothing is known of what lies
+    between samples.
 
     metric: as `phongpd optimize` names them.  Inside, the derivative of
     "phong@0.2" is the metric's unit direction, which is continuous, and not the
@@ -33,17 +51,48 @@ class NonPenetrationRows:
     """
 
     def __init__(self, world: World, start: ArrayLike, goal: ArrayLike, *,
-                 waypoints: int = 40, samples_per_segment: int = 4,
+                 waypoints: int = 40, margin: float | str | None = None,
+                 samples_per_segment: int = 0,
+                 max_segment: float | None = None,
                  metric: str = "phong@0.2", rows_per_sample: int = 1) -> None:
+        longest = 0.0 if max_segment is None else real(max_segment, "max_segment")
+        if max_segment is not None and not 0.0 < longest < math.inf:
+            raise InputError(
+                f"max_segment: expected a finite length > 0, found {longest}")
+        self._ends = (np.array(point(start, "start")),
+                      np.array(point(goal, "goal")))
         self._native = _native.Rows(
             native_world(world), text(metric, "metric"), point(start, "start"), point(goal, "goal"),
             whole_number(waypoints, "waypoints", 1),
+            length(margin, "margin"),
             whole_number(samples_per_segment, "samples_per_segment", 0),
+            longest,
             whole_number(rows_per_sample, "rows_per_sample", 1))
         self.pattern: tuple[NDArray[np.int32], NDArray[np.int32]] = \
             self._native.sparsity()
         """Row and column of each entry of the Jacobian, zero-based."""
         self._last: tuple[bytes, tuple[Floats, Floats]] | None = None
+
+    @property
+    def margin(self) -> float:
+        """What the rows are to keep; user's unit."""
+        return self._native.margin
+
+    @property
+    def max_segment(self) -> float:
+        """h, which holds where samples are by the rule; user's unit."""
+        return self._native.max_segment
+
+    @property
+    def samples_per_segment(self) -> int:
+        """Inner points of a segment, given or by the rule."""
+        return self._native.samples_per_segment
+
+    def path(self, u: ArrayLike) -> Floats:
+        """(N + 2, 3): from start through the waypoints u to goal; what
+        World.is_motion_free is to judge."""
+        start, goal = self._ends
+        return np.vstack([start, self._waypoints(u), goal])
 
     @property
     def shape(self) -> tuple[int, int]:
@@ -61,7 +110,7 @@ class NonPenetrationRows:
         self._native.accept(self._waypoints(u))
 
     def value(self, u: ArrayLike) -> Floats:
-        """(rows,): d at every sample, user's unit."""
+        """(rows,): d at every sample, then the segments' rows; user's unit."""
         return self._evaluate(u)[0]
 
     def entries(self, u: ArrayLike) -> Floats:

@@ -10,7 +10,10 @@
     solver = casadi.nlpsol("solver", "ipopt", {"x": u, "f": f(u), "g": keep(u)}, {
         "ipopt.hessian_approximation": "limited-memory",
         "iteration_callback": advance})
-    found = solver(x0=u0, lbg=margin)
+    found = solver(x0=u0, lbg=rows.margin)
+    path = rows.path(found["x"])
+    if not world.is_motion_free(path[:-1], path[1:]).all():
+        raise RuntimeError("the path collides, whatever the solver says")
 
 First derivatives only: a solver that wants the exact Hessian of what holds
 these rows cannot be made.  Keep the objects as long as the functions made of
@@ -29,7 +32,7 @@ from ._rows import NonPenetrationRows
 
 
 class NonPenetration(casadi.Callback):  # type: ignore[misc]
-    """g(u) = d at every sample of the path, user's unit.
+    """g(u) = the rows, to be >= rows.margin; user's unit.
 
     u: (3N, 1), waypoints as x y z; g: (rows, 1).  Its Jacobian is the rows'
     own, as sparse as the path.  u that is not finite is CasADi's evaluation error,

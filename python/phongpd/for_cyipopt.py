@@ -4,10 +4,13 @@
     from phongpd.for_cyipopt import NonPenetrationProblem
 
     rows = phongpd.NonPenetrationRows(world, start, goal, waypoints=20)
-    program = NonPenetrationProblem(rows, f, gradient, margin=0.01)
+    program = NonPenetrationProblem(rows, f, gradient)
     ipopt = program.problem()
     ipopt.add_option("tol", 1e-6)
     u, info = ipopt.solve(u0)
+    path = rows.path(u)
+    if not world.is_motion_free(path[:-1], path[1:]).all():
+        raise RuntimeError("the path collides, whatever the solver says")
 
 cyipopt compiles itself against an Ipopt that is there (coinor-libipopt-dev).
 """
@@ -26,10 +29,10 @@ from ._rows import NonPenetrationRows
 
 
 class NonPenetrationProblem:
-    """min f(u) subject to d(sample) >= margin, as cyipopt wants a program.
+    """min f(u) subject to rows(u) >= rows.margin, as cyipopt wants a program.
 
     objective, gradient: of u, (3N,), the waypoints as x y z; gradient returns
-    (3N,).  margin: user's unit.  Without second derivatives of d Ipopt's own
+    (3N,).  Without second derivatives of d Ipopt's own
     L-BFGS is taken.  The branches of the rows follow the solver once an
     iteration, at its iterate: the point at which the Jacobian was asked last.
     (Ipopt before 3.14, as Debian 12 has it, hands the iterate to nobody.)
@@ -37,15 +40,11 @@ class NonPenetrationProblem:
 
     def __init__(self, rows: NonPenetrationRows,
                  objective: Callable[[Floats], float],
-                 gradient: Callable[[Floats], Floats],
-                 margin: float = 0.0) -> None:
+                 gradient: Callable[[Floats], Floats]) -> None:
         if not isinstance(rows, NonPenetrationRows):
             raise InputError("rows: expected NonPenetrationRows, found "
                              f"{type(rows).__name__}")
-        if not np.isfinite(margin):
-            raise InputError(f"margin: expected a finite length, found {margin}")
         self._rows = rows
-        self.margin = float(margin)
         self.objective, self.gradient = objective, gradient
         self._iterate: Floats | None = None
 
@@ -55,13 +54,13 @@ class NonPenetrationProblem:
         m, n = self._rows.shape
         ipopt = cyipopt.Problem(
             n=n, m=m, problem_obj=self, lb=np.full(n, -np.inf),
-            ub=np.full(n, np.inf), cl=np.full(m, self.margin),
+            ub=np.full(n, np.inf), cl=np.full(m, self._rows.margin),
             cu=np.full(m, np.inf))
         ipopt.add_option("hessian_approximation", "limited-memory")
         return ipopt
 
     def constraints(self, u: Floats) -> Floats:
-        """(rows,): d at every sample."""
+        """(rows,): of NonPenetrationRows."""
         return self._rows.value(u)
 
     def jacobianstructure(self) -> tuple[NDArray[np.int32], NDArray[np.int32]]:

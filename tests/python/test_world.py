@@ -130,8 +130,7 @@ def test_rows_are_the_signed_metric_and_their_jacobian_its_slope(world):
 def test_scipy_solves_with_the_rows(world):
     optimize = pytest.importorskip("scipy.optimize")
     rows = phongpd.NonPenetrationRows(world, START, GOAL, waypoints=8,
-                                      samples_per_segment=3)
-    margin = 0.05
+                                      margin="0.05unit")
 
     def energy(u):
         steps = np.diff(np.vstack([[START], u.reshape(-1, 3), [GOAL]]), axis=0)
@@ -144,10 +143,10 @@ def test_scipy_solves_with_the_rows(world):
     found = optimize.minimize(
         energy, u, jac=True, method="SLSQP", callback=rows.accept,
         options={"maxiter": 200},
-        constraints={"type": "ineq", "fun": lambda u: rows.value(u) - margin,
+        constraints={"type": "ineq", "fun": lambda u: rows.value(u) - rows.margin,
                      "jac": rows.jacobian})
-    path = np.vstack([[START], found.x.reshape(-1, 3), [GOAL]])
-    assert rows.value(found.x).min() > margin - 1e-6
+    path = rows.path(found.x)
+    assert rows.value(found.x).min() > rows.margin - 1e-6
     assert world.is_motion_free(path[:-1], path[1:]).all()
 
 
