@@ -6,7 +6,10 @@
 #include <algorithm>
 #include <iostream>
 #include <iterator>
+#include <map>
+#include <set>
 #include <sstream>
+#include <string>
 #include <utility>
 
 #include "problems/pictures/gnuplot.h"
@@ -116,6 +119,28 @@ std::string Contents(const std::vector<MotionSpace>& procedural,
          "random walks.\n\n";
 }
 
+// The hollow box counted with the others.
+std::string OnAllSpaces(const std::vector<Row>& rows) {
+  std::vector<std::string> rules;
+  std::set<std::string> spaces;
+  std::map<std::string, std::pair<int, int>> sums;  // jumps, frames
+  for (const Row& row : rows) {
+    spaces.insert(row.space);
+    if (sums.count(row.rule) == 0) rules.push_back(row.rule);
+    sums[row.rule].first += row.jumps;
+    sums[row.rule].second += row.frames;
+  }
+  std::string text;
+  for (const std::string& rule : rules) {
+    text += (text.empty() ? "- All of this is without the hollow box. On all " +
+                                Shown(spaces.size()) + " spaces, jumps in " +
+                                Shown(sums[rule].second) + " frames: "
+                          : std::string("; ")) +
+            rule + " " + Shown(sums[rule].first);
+  }
+  return text + ".\n";
+}
+
 constexpr char kIntroduction[] =
     R"(# Continuity against what is possible
 
@@ -180,6 +205,7 @@ int Run(int argc, char** argv) {
   out.Write(
       "continuity.md",
       kIntroduction + Contents(procedural, models, missing) + Findings(totals) +
+          OnAllSpaces(rows) +
           "\n![Jumps against depth: what any rule must have, and what each "
           "metric has.](continuity.svg)\n\n" +
           ToMarkdown(shown) +
