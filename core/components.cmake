@@ -116,12 +116,46 @@ function(phongpd_unite target size)
   endforeach()
 endfunction()
 
+# Copies a public header to <build>/include/phongpd, where outsiders find it in
+# the tree, and from where it is installed.  Sources include each other as
+# "core/...", from the root of the tree; a project that has a file of that name
+# must not meet it in ours, nor ours in its own, so there it is <phongpd/core/...>.
+# An edit of it configures anew.  RESULT: the copy.
+function(phongpd_public_header header result)
+  cmake_path(ABSOLUTE_PATH header NORMALIZE)
+  cmake_path(RELATIVE_PATH header BASE_DIRECTORY ${PROJECT_SOURCE_DIR}
+             OUTPUT_VARIABLE name)
+  set(copy ${PROJECT_BINARY_DIR}/include/phongpd/${name})
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${header})
+  file(READ ${header} text)
+  string(REGEX REPLACE "(#include )\"([a-z]+/[^\"\n]*)\"" "\\1<phongpd/\\2>"
+                       text "${text}")
+  if(text MATCHES "#include \"[^\n]*")
+    message(FATAL_ERROR "${name}: expected paths from the root of the tree, "
+                        "found ${CMAKE_MATCH_0}")
+  endif()
+  set(before "")
+  if(EXISTS ${copy})
+    file(READ ${copy} before)
+  endif()
+  # As it was, it keeps its date, and nothing is compiled.
+  if(NOT text STREQUAL before)
+    file(WRITE ${copy} "${text}")
+  endif()
+  set(${result} ${copy} PARENT_SCOPE)
+endfunction()
+
 # Sources and public headers, relative to the folder that calls it.
 function(phongpd_component_sources component)
   cmake_parse_arguments(PARSE_ARGV 1 files "" "" "SOURCES;HEADERS")
   target_sources(phongpd_${component} PRIVATE ${files_SOURCES})
+  set(copies "")
+  foreach(header IN LISTS files_HEADERS)
+    phongpd_public_header(${header} copy)
+    list(APPEND copies ${copy})
+  endforeach()
   target_sources(phongpd_${component} PUBLIC FILE_SET HEADERS BASE_DIRS
-                 ${PROJECT_SOURCE_DIR} FILES ${files_HEADERS})
+                 ${PROJECT_BINARY_DIR}/include FILES ${copies})
 endfunction()
 
 # Installs it as PhongPD<component>Targets, by which the package config knows
@@ -136,7 +170,7 @@ function(phongpd_install_component component)
     ARCHIVE COMPONENT development
     LIBRARY COMPONENT development
     FILE_SET HEADERS
-    DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/phongpd
+    DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
     COMPONENT development)
   install(
     EXPORT PhongPD${component}Targets

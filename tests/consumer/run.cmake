@@ -9,7 +9,8 @@ endfunction()
 
 set(work ${BUILD}/consumer)
 set(prefix ${BUILD}/install)
-file(REMOVE_RECURSE ${prefix} ${work} ${work}-all ${work}-missing)
+file(REMOVE_RECURSE ${prefix} ${work} ${work}-all ${work}-tree
+     ${work}-missing)
 run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${prefix} --component
     development)
 file(GLOB_RECURSE headers RELATIVE ${prefix}/include ${prefix}/include/*.h)
@@ -19,8 +20,8 @@ if(NOT "phongpd/core/mesh/triangle_mesh.h" IN_LIST headers
 endif()
 
 # The core asks for none of the other components' libraries.
-set(configure ${CMAKE_COMMAND} -S ${SOURCE}/tests/consumer
-              -D CMAKE_PREFIX_PATH=${prefix})
+set(configure ${CMAKE_COMMAND} -S ${SOURCE}/tests/consumer -D
+              PHONGPD_SOURCE=${SOURCE} -D CMAKE_PREFIX_PATH=${prefix})
 run(${configure} -B ${work} -D COMPONENTS=core -D CMAKE_BUILD_TYPE=Release)
 run(${CMAKE_COMMAND} --build ${work})
 file(
@@ -37,8 +38,8 @@ if(NOT output MATCHES "\n2: 0\n$" OR NOT output MATCHES "\n0: -(1\\.[89]|2)")
   message(FATAL_ERROR "unexpected answer of the consumer:\n${output}")
 endif()
 
-# Nobody who wants planners needs FCL.
-run(${configure} -B ${work}-all -D COMPONENTS=planners -D
+# Nobody who wants planners or worlds needs FCL.
+run(${configure} -B ${work}-all -D COMPONENTS=planners,problems -D
     CMAKE_DISABLE_FIND_PACKAGE_fcl=ON)
 # All components that were built: each header on its own, and the planners.
 file(GLOB_RECURSE components ${prefix}/*/PhongPD*Targets.cmake)
@@ -53,6 +54,12 @@ foreach(component ipopt ompl problems)
     run(${work}-all/use_${component})
   endif()
 endforeach()
+
+# The same of the tree as a part of the project; libraries are not built again.
+run(${configure} -B ${work}-tree -D COMPONENTS=core,planners,problems -D
+    WAY=subdirectory -D COMPILE_ONLY=ON -D HEADERS=${prefix}/include)
+run(${CMAKE_COMMAND} --build ${work}-tree --parallel 2 --target own_last
+    use_core headers_of_core headers_of_planners headers_of_problems)
 
 execute_process(
   COMMAND ${configure} -B ${work}-missing -D COMPONENTS=nonsense
