@@ -249,6 +249,20 @@ std::string DuelLines(const ConvergenceResults& results) {
             "). Ends: " + EndsText(results, match.protocol, match.own) + "; " +
             EndsText(results, match.protocol, match.rival) + ".\n";
   }
+  // No part of the tables' family of tests.
+  const std::string exact = std::string(kPreset) + "/exact";
+  const std::string protocol = "straight-adaptive";
+  const Duel duel =
+      Arena(results.rows).Fight(protocol, exact, kRival, ScenesOf(results));
+  if (duel.problems > 0) {
+    text +=
+        "- " + exact + " (the exact gradient, not the direction) against " +
+        kRival + ", " + protocol + ", " + Shown(duel.problems) +
+        " runs of each: solved alone " + Ratio(duel.only_own, duel.only_rival) +
+        ", fewer iterations " + Ratio(duel.fewer, duel.more) +
+        " (p = " + Rounded(duel.p_iterations, 2) +
+        ", uncorrected). Ends: " + EndsText(results, protocol, exact) + ".\n";
+  }
   return text;
 }
 

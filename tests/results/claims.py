@@ -346,3 +346,19 @@ claim("core/README.md", "{:.2g} of it for builds below 64 MiB, {:.2g} from 256 M
       float(GUARD[-1]["memory"]), min(of("lazy/guard_boxes.csv", "time")),
       max(of("lazy/guard_boxes.csv", "time")))
 assert re.match("below 64", GUARD[0]["of"]) and re.match("from 256", GUARD[-1]["of"])
+
+
+# Campaigns.
+def refused(item):
+    """How many of how many, none of which failed."""
+    rows = where("extremes/rows.jsonl", item=item, failures=0)
+    assert len(rows) == 1
+    return (int(re.search(r"(\d+) (?:refused|proofs)", rows[0]["subject"]).group(1)),
+            rows[0]["cases"])
+
+
+claim("core/README.md", "{} of {:,} random pairs, all of them", *refused("pieces"))
+claim("docs/cluster.md", "({} of {:,} random ones)", *refused("pieces"))
+claim("docs/promises.md", "{} of {:,} random pairs, in boxes", *refused("boxes"))
+claim("planners/README.md", "Of {1:,} plans on random pairs each has the full planner's "
+      "status; {0} are proofs", *refused("window planner"))

@@ -3,6 +3,7 @@
 results/.  An empty answer is an error: a claim on nothing holds always."""
 import csv
 import functools
+import json
 import pathlib
 import re
 
@@ -12,7 +13,8 @@ SOURCE = pathlib.Path(__file__).resolve().parents[2]
 @functools.lru_cache(None)
 def table(name):
     with open(SOURCE / "results" / name, newline="", encoding="utf-8") as file:
-        rows = list(csv.DictReader(file))
+        rows = ([json.loads(line) for line in file] if name.endswith(".jsonl")
+                else list(csv.DictReader(file)))
     if not rows:
         raise ValueError(f"results/{name}: expected rows, found none")
     return rows
