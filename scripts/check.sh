@@ -11,7 +11,7 @@
 #   fptrap       tests with invalid floating-point operations trapped
 #   determinism  the same bytes again, with one thread and two, by gcc and clang
 #   tsan         tests with TBB's loops on plain threads, thread sanitizer
-#   readme       the commands of README, as they stand
+#   readme       every block of README and docs, compiled and run as it stands
 #   docs         the pages, warnings as errors
 #   fuzz         scripts/fuzz.sh for a while
 #   coverage     lines and branches, to results/extremes/coverage.md
@@ -111,7 +111,7 @@ check_options() {
   }
   # What is switched off, and what is said of that which stands on it.
   local -A above=([CORE]=phongpd::constraints [CONSTRAINTS]=phongpd::planners
-    [ORACLE]=phongpd::problems [PLANNERS]=phongpd::ipopt
+    [ORACLE]=phongpd::studies [PLANNERS]=phongpd::ipopt
     [IPOPT]=phongpd::studies [OMPL]=phongpd::studies
     [PROBLEMS]=phongpd::studies [STUDIES]="the program"
     [PROGRAM]="the tests")

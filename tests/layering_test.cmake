@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # cmake -D SOURCE=... -P layering_test.cmake: who may include whom.
 #   core <- constraints <- planners <- problems <- tests, results, examples
-#   core <- constraints/oracle <- problems
+#   core <- constraints/oracle <- problems/studies
 #   core: files, mesh <- bvh <- solid <- bounds <- minkowski <- contact
 #     <- projection
 cmake_minimum_required(VERSION 3.23)
@@ -39,8 +39,11 @@ while(floors)
 endwhile()
 forbid(constraints "(planners|problems|tests|results)/")
 forbid(constraints/oracle "constraints/[a-z_]+\\.h")
-# Planners, and who wants only these, do without FCL.
+# Planners and worlds, and who wants only these, do without FCL.
 forbid(planners "constraints/oracle/")
+foreach(folder meshes output scenes shapes world)
+  forbid(problems/${folder} "constraints/oracle/")
+endforeach()
 forbid(planners "(problems|tests|results)/")
 forbid(problems "(tests|results|examples)/")
 forbid(examples "(tests|results)/")

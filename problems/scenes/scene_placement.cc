@@ -8,7 +8,7 @@
 #include <random>
 #include <utility>
 
-#include "constraints/oracle/collision_oracle.h"
+#include "constraints/motion_oracle.h"
 #include "problems/output/text.h"
 #include "problems/scenes/scene.h"
 #include "problems/scenes/scene_detour.h"
@@ -78,24 +78,14 @@ BoundingBox ContactBounds(const Scene& scene) {
   return {obstacle.min - robot.max, obstacle.max - robot.min};
 }
 
-bool LineCollides(const CollisionOracle& oracle, const Vector3d& a,
-                  const Vector3d& b) {
-  constexpr int kSamples = 256;
-  for (int i = 0; i <= kSamples; ++i) {
-    const double t = static_cast<double>(i) / kSamples;
-    if (oracle.Collides((1.0 - t) * a + t * b)) return true;
-  }
-  return false;
-}
-
 // Start and goal on a sphere that holds the contact space, opposite each
 // other up to 0.3 rad.
 void DrawDirection(const Scene& scene, std::mt19937_64* random,
                    SceneLayout* layout) {
   const BoundingBox box = ContactBounds(scene);
   const double radius = 0.55 * box.Diagonal();
-  const CollisionOracle oracle(scene.workspace.robot,
-                               JoinedObstacle(scene.workspace));
+  const MotionOracle oracle(scene.workspace.robot,
+                            JoinedObstacle(scene.workspace));
   std::uniform_real_distribution<double> tilt(-0.3, 0.3);
   constexpr int kTrials = 1000;
   for (int trial = 0; trial < kTrials; ++trial) {
@@ -104,7 +94,7 @@ void DrawDirection(const Scene& scene, std::mt19937_64* random,
     const Vector3d v = Eigen::AngleAxisd(tilt(*random), frame.col(1)) * u;
     layout->start = box.Center() - radius * u;
     layout->goal = box.Center() + radius * v;
-    if (LineCollides(oracle, layout->start, layout->goal)) return;
+    if (oracle.Collides(layout->start, layout->goal)) return;
   }
   throw InputError("seed: no straight line collides");
 }
