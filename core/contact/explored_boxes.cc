@@ -108,17 +108,22 @@ GridWindow ExploredBoxes::Around(double share) const {
 
 BoundingBox ExploredBoxes::Reach() const { return Around(kReachShare).Box(); }
 
-WindowCells ExploredBoxes::Arrange(int box) {
-  return WindowCells(partition_.Take(box), partition_.window(box),
-                     partition_.Walls(box), judge_, *limits_);
-}
-
-const ExploredBoxes::Box& ExploredBoxes::Explore(int box) {
+const ExploredBoxes::Box& ExploredBoxes::Explore(
+    int box, const std::vector<Vector3d>& points) {
   const auto known = explored_.find(box);
   if (known != explored_.end()) return known->second;
   limits_->Look("exploration");
-  WindowCells cells = Arrange(box);
-  Box added{partition_.Walls(box), cells.Rooms()};
+  const GridWindow& window = partition_.window(box);
+  Box added;
+  added.patches = partition_.Walls(box);
+  WindowCells cells(partition_.Take(box), window, added.patches, judge_,
+                    *limits_);
+  added.rooms = cells.Rooms();
+  for (const Vector3d& q : points) {
+    added.rooms_of_points.emplace_back();
+    if (window.WallDistance(q) < 0.0) continue;
+    added.rooms_of_points.back() = cells.RoomsAt(q);
+  }
   faces_ += added.rooms.piece.arranged;
   return explored_.emplace(box, std::move(added)).first->second;
 }
@@ -126,10 +131,6 @@ const ExploredBoxes::Box& ExploredBoxes::Explore(int box) {
 const ExploredBoxes::Box* ExploredBoxes::Find(int box) const {
   const auto known = explored_.find(box);
   return known == explored_.end() ? nullptr : &known->second;
-}
-
-std::vector<int> ExploredBoxes::RoomsAt(int box, const Vector3d& q) {
-  return Arrange(box).RoomsAt(q);
 }
 
 ContactSpace::Parts ExploredBoxes::Surface(

@@ -24,6 +24,9 @@ class ExploredBoxes {
   struct Box {
     std::vector<WallPatch> patches;  // of its walls, by the boxes beyond
     WindowRooms rooms;
+    // Of each point asked for the rooms it is in: none where another box holds
+    // it, more than one where rounding could decide.
+    std::vector<std::vector<int>> rooms_of_points;
   };
 
   // Boxes meet about `most_facets` of the convolution.  Keeps the model.
@@ -44,17 +47,15 @@ class ExploredBoxes {
   }
   const GridWindow& window(int box) const { return partition_.window(box); }
 
-  // Arranges a box unless that was done.  Throws BuildRefusal at the limits,
-  // and BuildCancelled.
-  const Box& Explore(int box);
+  // Arranges a box unless that was done.  `points`, grid steps, free: those
+  // whose rooms are asked for, here and not later, because another arrangement
+  // of the box may number its rooms otherwise.  Throws BuildRefusal at the
+  // limits, and BuildCancelled.
+  const Box& Explore(int box, const std::vector<Eigen::Vector3d>& points = {});
   // Null before Explore.
   const Box* Find(int box) const;
   const std::map<int, Box>& explored() const { return explored_; }
   std::size_t faces() const { return faces_; }  // in all arrangements
-
-  // The rooms that a free q in a box, grid steps, is in: more than one where
-  // rounding could decide.  Arranges it anew.
-  std::vector<int> RoomsAt(int box, const Eigen::Vector3d& q);
 
   // The boundary of rooms that are kept, of boxes that were explored: C_cont,
   // walls where they go on in other boxes than these, and a box around all
@@ -70,8 +71,6 @@ class ExploredBoxes {
   BoundingBox Reach() const;
 
  private:
-  WindowCells Arrange(int box);
-
   const ConvolutionModel model_;
   const GridPair& pair_;
   std::optional<BuildLimits> limits_;

@@ -69,17 +69,19 @@ struct FreeSpaceFlood::Impl {
       configurations[end] =
           points[end] == x ? q : boxes.frame().ToUser(points[end]);
     }
-    for (const int end : {0, 1}) Begin(end);
+    Begin();
   }
 
   // Explores all boxes that come near an end, so that no wall does.
-  void Begin(int end) {
-    const Vector3d& x = points[end];
-    for (const int box : boxes.In({x.array() - 1.0, x.array() + 1.0})) {
-      if (boxes.Find(box) == nullptr) Explore(box, end);
-      if (boxes.window(box).WallDistance(x) < 0.0) continue;
-      for (const int room : boxes.RoomsAt(box, x)) {
-        Reach(box, room, end, 0.0, 2.0 * x);
+  void Begin() {
+    for (const int end : {0, 1}) {
+      const Vector3d& x = points[static_cast<std::size_t>(end)];
+      for (const int box : boxes.In({x.array() - 1.0, x.array() + 1.0})) {
+        if (boxes.Find(box) == nullptr) Explore(box, end);
+        for (const int room :
+             boxes.Find(box)->rooms_of_points[static_cast<std::size_t>(end)]) {
+          Reach(box, room, end, 0.0, 2.0 * x);
+        }
       }
     }
   }
@@ -169,7 +171,7 @@ struct FreeSpaceFlood::Impl {
 
   // Arranges a box and reaches what of it is beside rooms that were reached.
   void Explore(int number, int end) {
-    const Box& added = boxes.Explore(number);
+    const Box& added = boxes.Explore(number, points);
     reached[number].resize(added.rooms.rooms.size());
     spent[static_cast<std::size_t>(end)] += added.rooms.piece.arranged;
     struct Entry {
@@ -235,8 +237,9 @@ struct FreeSpaceFlood::Impl {
   internal::ExploredBoxes boxes;
   std::map<int, ReachedRooms> reached;  // of each box, per room
   std::array<std::priority_queue<Waiting>, 2> waiting;
-  std::array<std::size_t, 2> spent = {0, 0};  // faces
-  std::array<Vector3d, 2> points, configurations;
+  std::array<std::size_t, 2> spent = {0, 0};                // faces
+  std::vector<Vector3d> points = std::vector<Vector3d>(2);  // the ends
+  std::array<Vector3d, 2> configurations;
   bool has_met = false, was_told = false;
 };
 

@@ -6,6 +6,7 @@
 #include <limits>
 #include <numeric>
 #include <optional>
+#include <stdexcept>
 #include <utility>
 
 namespace phongpd::internal {
@@ -140,7 +141,7 @@ std::vector<WallPatch> BoxPartition::Walls(int leaf) {
 WindowConvolution BoxPartition::Take(int leaf) {
   Know(leaf);
   Box& box = boxes_[static_cast<std::size_t>(leaf)];
-  if (box.of == nullptr) return sums_.Within(box.part.window.Box());
+  if (box.of == nullptr) throw std::logic_error("taken twice, or no leaf");
   WindowConvolution sums = PartOf(*box.of, box.part);
   box.of = nullptr;
   box.part.facets = {};

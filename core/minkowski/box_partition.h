@@ -34,15 +34,15 @@ class BoxPartition {
   // window, or −1 beyond the whole.
   std::vector<WallPatch> Walls(int leaf);
 
-  // The facets of the convolution that meet a window: found with it, kept until
-  // they are taken, and found anew for whoever asks again.
+  // The facets of the convolution that meet a window: found with it, and kept
+  // until they are taken, once.
   WindowConvolution Take(int leaf);
 
  private:
   struct Box {
     // Its facets: some of a convolution that a larger box was found with.
     PlannedWindow part;
-    std::shared_ptr<const Convolution> of;  // null: not known, or taken
+    std::shared_ptr<const Convolution> of;  // null: not known, or handed on
     std::size_t most = 0;
     bool is_known = false;
     int uncounted = 0;  // levels that are halved unseen, with its own
