@@ -65,7 +65,8 @@ class Builder {
 
  private:
   void Convolve() {
-    pair_ = internal::PlaceOperands(*a_, *b_, &report_);
+    pair_ = internal::PlaceOperands(
+        *a_, *b_, internal::LatticeDivisor::kGreatest, &report_);
     limits_.Look("grid");
     internal::DescribeGrid(pair_, &report_);
     convolution_ = internal::ReducedConvolution(

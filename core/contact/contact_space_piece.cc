@@ -94,7 +94,7 @@ ContactSpacePiece internal::BuildPiece(const TriangleMesh& robot,
   const Solid a = PrepareOperand(robot, OperandRole::kRobot, options, &report);
   const Solid b =
       PrepareOperand(obstacle, OperandRole::kObstacle, options, &report);
-  const GridPair pair = PlaceOperands(a, b, &report);
+  const GridPair pair = PlaceOperands(a, b, LatticeDivisor::kGreatest, &report);
   DescribeGrid(pair, &report);
   data->frame = pair.frame;
   data->frame.robot.clear();

@@ -26,7 +26,8 @@ struct ConvolutionModel::Data {
     const Solid b = internal::PrepareOperand(obstacle, OperandRole::kObstacle,
                                              options, operands);
     limits.Look("check");
-    return internal::PlaceOperands(a, b, operands);
+    return internal::PlaceOperands(a, b, internal::LatticeDivisor::kPowerOfTwo,
+                                   operands);
   }
 
   template <typename Operand>

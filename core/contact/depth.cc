@@ -47,7 +47,8 @@ struct PlacedPair {
              const Solid& obstacle)
       : robot(std::move(the_robot)),
         pair(internal::MakeGridPair(robot, robot_name, obstacle,
-                                    obstacle.name())),
+                                    obstacle.name(),
+                                    internal::LatticeDivisor::kPowerOfTwo)),
         search(pair, LimitsOf(robot_name, obstacle.name())) {}
 
   TriangleMesh robot;  // turned

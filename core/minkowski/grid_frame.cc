@@ -136,10 +136,11 @@ std::int64_t Reduce(const GridPoint& corner, std::int64_t divisor,
 // too many for the grid.
 bool PlaceIntegers(const Operands& operands, std::vector<GridPoint> robot,
                    std::vector<GridPoint> obstacle, const LatticeUnit& unit,
-                   GridFrame* frame) {
+                   LatticeDivisor kind, GridFrame* frame) {
   GridPoint robot_corner, obstacle_corner, robot_center, obstacle_center;
   std::int64_t divisor = DivisorFromCorner(robot, 0, &robot_corner);
   divisor = DivisorFromCorner(obstacle, divisor, &obstacle_corner);
+  if (kind == LatticeDivisor::kPowerOfTwo) divisor &= -divisor;
   const std::int64_t reach =
       std::max(Reduce(robot_corner, divisor, &robot, &robot_center),
                Reduce(obstacle_corner, divisor, &obstacle, &obstacle_center));
@@ -163,7 +164,8 @@ bool PlaceIntegers(const Operands& operands, std::vector<GridPoint> robot,
   return true;
 }
 
-bool PlaceExactly(const Operands& operands, GridFrame* frame) {
+bool PlaceExactly(const Operands& operands, LatticeDivisor divisor,
+                  GridFrame* frame) {
   std::vector<double> coordinates;
   for (const Vertices* v : {&operands.robot, &operands.obstacle}) {
     for (const Vector3d& p : v->points) {
@@ -171,11 +173,14 @@ bool PlaceExactly(const Operands& operands, GridFrame* frame) {
     }
   }
   const std::optional<LatticeUnit> unit = FindExactUnit(coordinates);
-  return unit &&
-         PlaceIntegers(
-             operands, Counts(operands.robot.points, Vector3d::Zero(), *unit),
-             Counts(operands.obstacle.points, Vector3d::Zero(), *unit), *unit,
-             frame);
+  if (!unit) return false;
+  const auto place = [&](LatticeDivisor kind) {
+    return PlaceIntegers(
+        operands, Counts(operands.robot.points, Vector3d::Zero(), *unit),
+        Counts(operands.obstacle.points, Vector3d::Zero(), *unit), *unit, kind,
+        frame);
+  };
+  return place(divisor) || place(LatticeDivisor::kGreatest);
 }
 
 bool PlaceUpToNoise(const Operands& operands, double noise, GridFrame* frame) {
@@ -196,9 +201,10 @@ bool PlaceUpToNoise(const Operands& operands, double noise, GridFrame* frame) {
   unit.scale = std::frexp(*length, &unit.exponent);
   frame->origin = obstacle_corner - robot_corner;
   frame->rounding = 2 * noise;
-  return PlaceIntegers(
-      operands, Counts(operands.robot.points, robot_corner, unit),
-      Counts(operands.obstacle.points, obstacle_corner, unit), unit, frame);
+  return PlaceIntegers(operands,
+                       Counts(operands.robot.points, robot_corner, unit),
+                       Counts(operands.obstacle.points, obstacle_corner, unit),
+                       unit, LatticeDivisor::kGreatest, frame);
 }
 
 // One value for all coordinates of an axis that differ by noise.
@@ -249,11 +255,12 @@ Eigen::Vector3d GridFrame::ToGrid(const Vector3d& q) const {
   return x;
 }
 
-GridFrame PlaceOnGrid(const TriangleMesh& robot, const TriangleMesh& obstacle) {
+GridFrame PlaceOnGrid(const TriangleMesh& robot, const TriangleMesh& obstacle,
+                      LatticeDivisor divisor) {
   GridFrame frame;
   Operands operands{Vertices(robot), Vertices(obstacle)};
   double noise = kInputNoise * operands.Largest();
-  if (PlaceExactly(operands, &frame)) return frame;
+  if (PlaceExactly(operands, divisor, &frame)) return frame;
   frame = GridFrame();
   if (PlaceUpToNoise(operands, noise, &frame)) return frame;
   frame = GridFrame();

@@ -40,10 +40,18 @@ struct GridFrame {
   double stride = 1.0;
 };
 
+// What integers of one unit are divided by.
+enum class LatticeDivisor {
+  kGreatest,    // their greatest common divisor: the scale makes no difference
+  kPowerOfTwo,  // the part of it that any configuration can be divided by
+                // without rounding, unless the grid is too small for the rest
+};
+
 // The first of these that fits:
 // 1. All coordinates are multiples of one unit 2^m·5^k (lattice.h): they
-//    become integers without common factor, times a power of two.  Nothing is
-//    rounded, and neither scale nor place of the operands makes a difference.
+//    become integers without common factor, or without a common factor of two,
+//    times a power of two.  Nothing is rounded, and neither scale nor place of
+//    the operands makes a difference.
 // 2. They are, measured from the operand's least corner, multiples of any
 //    unit up to the rounding of the input.
 // 3. The same in a turned frame (canonical_frame.h).
@@ -51,6 +59,7 @@ struct GridFrame {
 //    operand; in the turned frame those of one operand that differ by no more
 //    than the input's rounding become one first.
 // Requires solids: finite coordinates, no empty extent.
-GridFrame PlaceOnGrid(const TriangleMesh& robot, const TriangleMesh& obstacle);
+GridFrame PlaceOnGrid(const TriangleMesh& robot, const TriangleMesh& obstacle,
+                      LatticeDivisor divisor = LatticeDivisor::kGreatest);
 
 }  // namespace phongpd::internal

@@ -5,9 +5,10 @@ namespace phongpd::internal {
 
 GridPair MakeGridPair(const TriangleMesh& robot, const std::string& robot_name,
                       const TriangleMesh& obstacle,
-                      const std::string& obstacle_name) {
+                      const std::string& obstacle_name,
+                      LatticeDivisor divisor) {
   GridPair pair;
-  pair.frame = PlaceOnGrid(robot, obstacle);
+  pair.frame = PlaceOnGrid(robot, obstacle, divisor);
   const GridFrame& frame = pair.frame;
   const RoundedFrom of_obstacle = {obstacle, frame.step, frame.rounding};
   const RoundedFrom of_robot = {robot, frame.step, frame.rounding};

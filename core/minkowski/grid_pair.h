@@ -17,10 +17,12 @@ struct GridPair {
   bool IsRounded() const { return frame.rounding > 0.0; }
 };
 
-// Two solids (PrepareOperand).  Throws InputError naming the operand of which
+// Two solids (PrepareOperand); kPowerOfTwo where configurations are asked for.
+// Throws InputError naming the operand of which
 // no solid is left on the grid.
 GridPair MakeGridPair(const TriangleMesh& robot, const std::string& robot_name,
                       const TriangleMesh& obstacle,
-                      const std::string& obstacle_name);
+                      const std::string& obstacle_name,
+                      LatticeDivisor divisor = LatticeDivisor::kGreatest);
 
 }  // namespace phongpd::internal

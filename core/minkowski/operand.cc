@@ -219,8 +219,9 @@ Solid PrepareOperand(const TriangleMesh& mesh, OperandRole role,
 }
 
 GridPair PlaceOperands(const Solid& robot, const Solid& obstacle,
-                       ContactSpaceReport* report) {
-  GridPair pair = MakeGridPair(robot, robot.name(), obstacle, obstacle.name());
+                       LatticeDivisor divisor, ContactSpaceReport* report) {
+  GridPair pair =
+      MakeGridPair(robot, robot.name(), obstacle, obstacle.name(), divisor);
   const double resolution = std::min(pair.frame.rounding, pair.frame.step);
   CheckResolution(pair.obstacle, obstacle, resolution, report);
   CheckResolution(pair.reflected_robot, robot, resolution, report);

@@ -38,7 +38,7 @@ void AddStep(const ApproximationStep& step, Approximation* approximation);
 // than 24 bits.  Throws InputError naming the operand of which no solid is left
 // on the grid.
 GridPair PlaceOperands(const Solid& robot, const Solid& obstacle,
-                       ContactSpaceReport* report);
+                       LatticeDivisor divisor, ContactSpaceReport* report);
 
 // For a contact space that leaks: throws InputError naming the
 // operands that lost facets, by which they are no solids any more; returns
