@@ -19,16 +19,6 @@ using Box = std::array<Vector3i, 2>;
 using Rational = CGAL::Exact_rational;
 using RationalPoint = std::array<Rational, 3>;
 
-int Pick(int low, int high, std::mt19937_64* random) {
-  return low +
-         static_cast<int>((*random)() % static_cast<unsigned>(high - low + 1));
-}
-
-Vector3i PickPoint(int low, int high, std::mt19937_64* random) {
-  const int x = Pick(low, high, random), y = Pick(low, high, random);
-  return {x, y, Pick(low, high, random)};
-}
-
 TriangleMesh BoxMesh(const Box& box) {
   return MakeBox(box[0].cast<double>(), box[1].cast<double>());
 }
@@ -101,7 +91,19 @@ std::vector<Box> MakeObstacles(LatticeWorld::Family family,
   return boxes;
 }
 
-void FloodFill(LatticeWorld* world) {
+}  // namespace
+
+int Pick(int low, int high, std::mt19937_64* random) {
+  return low +
+         static_cast<int>((*random)() % static_cast<unsigned>(high - low + 1));
+}
+
+Vector3i PickPoint(int low, int high, std::mt19937_64* random) {
+  const int x = Pick(low, high, random), y = Pick(low, high, random);
+  return {x, y, Pick(low, high, random)};
+}
+
+void LabelCells(LatticeWorld* world) {
   const BoundingBox& bounds = world->workspace.bounds;
   for (int k = 0; k < 3; ++k) {
     const std::size_t i = static_cast<std::size_t>(k);
@@ -130,19 +132,27 @@ void FloodFill(LatticeWorld* world) {
     }
     return at;
   };
-  std::vector<LatticeWorld::Cell> cells;
   LatticeWorld::Cell cell;
+  for (const Box& box : world->boxes) {
+    LatticeWorld::Cell low, high;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const int i = static_cast<int>(k);
+      low[k] = std::max(world->min[k], 2 * box[0][i]);
+      high[k] = std::min(world->max[k], 2 * box[1][i]);
+    }
+    for (cell[2] = low[2]; cell[2] <= high[2]; ++cell[2]) {
+      for (cell[1] = low[1]; cell[1] <= high[1]; ++cell[1]) {
+        for (cell[0] = low[0]; cell[0] <= high[0]; ++cell[0]) {
+          world->labels[index(cell)] = kFilled;
+        }
+      }
+    }
+  }
+  std::vector<LatticeWorld::Cell> cells;
   for (cell[2] = world->min[2]; cell[2] <= world->max[2]; ++cell[2]) {
     for (cell[1] = world->min[1]; cell[1] <= world->max[1]; ++cell[1]) {
       for (cell[0] = world->min[0]; cell[0] <= world->max[0]; ++cell[0]) {
         cells.push_back(cell);
-        const Vector3i h(cell[0], cell[1], cell[2]);
-        for (const Box& box : world->boxes) {
-          if ((h.array() >= 2 * box[0].array()).all() &&
-              (h.array() <= 2 * box[1].array()).all()) {
-            world->labels[index(cell)] = kFilled;
-          }
-        }
       }
     }
   }
@@ -168,6 +178,8 @@ void FloodFill(LatticeWorld* world) {
     ++parts;
   }
 }
+
+namespace {
 
 RationalPoint BeforeMap(const Eigen::Matrix3i& map, const Vector3d& q) {
   RationalPoint p;
@@ -278,7 +290,7 @@ LatticeWorld MakeLatticeWorld(LatticeWorld::Family family, bool mapped,
                               (high + PickPoint(-1, 2, random)).cast<double>()};
     world.name += " in bounds";
   }
-  FloodFill(&world);
+  LabelCells(&world);
   const bool is_full =
       *std::max_element(world.labels.begin(), world.labels.end()) < 0;
   if (is_full) return MakeLatticeWorld(family, mapped, random);

@@ -45,6 +45,13 @@ struct LatticeWorld {
   bool IsFree(const std::vector<Eigen::Vector3d>& path) const;
 };
 
+// Any integer from low to high, and a point of three.
+int Pick(int low, int high, std::mt19937_64* random);
+Eigen::Vector3i PickPoint(int low, int high, std::mt19937_64* random);
+
+// Sets min, max and labels by boxes and bounds.
+void LabelCells(LatticeWorld* world);
+
 LatticeWorld MakeLatticeWorld(LatticeWorld::Family family, bool mapped,
                               std::mt19937_64* random);
 
