@@ -118,6 +118,9 @@ bool IsValid(const ContactSpace::Parts& space) {
   for (const std::size_t size : {space.plane.size(), space.kind.size()}) {
     if (size != triangles && size != 0) return false;
   }
+  for (const int plane : space.plane) {
+    if (plane < 0 || static_cast<std::size_t>(plane) >= triangles) return false;
+  }
   for (const Eigen::Vector3d& v : space.mesh.vertices) {
     if (!IsFinite(v)) return false;
   }

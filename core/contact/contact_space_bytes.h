@@ -21,8 +21,9 @@ std::string KeyBytes(const TriangleMesh& robot, const TriangleMesh& obstacle,
 
 std::string ToBytes(const ContactSpace::Parts& space);
 // False, with *space in no particular state, unless `bytes` is a contact
-// space to the last byte, with valid indices, finite vertices, known kinds, and
-// planes and kinds of all triangles or of none.
+// space to the last byte, with valid indices, finite vertices, known kinds,
+// planes below the number of triangles, and planes and kinds of all triangles
+// or of none.
 // Memory stays below 100 times the bytes, whatever they claim.
 bool FromBytes(std::string_view bytes, ContactSpace::Parts* space);
 

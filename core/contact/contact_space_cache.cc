@@ -20,6 +20,7 @@
 #include "core/contact/content_hash.h"
 #include "core/files/descriptor.h"
 #include "core/files/temporary_file.h"
+#include "core/mesh/mesh_error.h"
 #include "core/minkowski/operand.h"
 
 namespace phongpd {
@@ -124,12 +125,16 @@ class CacheFile {
       return false;
     }
     if (!IsContent(file, static_cast<std::uintmax_t>(status.st_size), space)) {
-      warning_ = "the cache file " + path_.string() +
-                 " was damaged and has been replaced";
+      SayDamaged();
       return false;
     }
     futimens(file.number(), nullptr);  // now it is not the longest unused one
     return true;
+  }
+
+  void SayDamaged() {
+    warning_ = "the cache file " + path_.string() +
+               " was damaged and has been replaced";
   }
 
   // Failures are no more than that: the next call finds no file.
@@ -239,7 +244,11 @@ ContactSpace BuildCached(const Operand& robot, const Operand& obstacle,
   ContactSpace::Parts kept;
   if (file.Read(&kept)) {
     kept.report.from_cache = true;
-    return ContactSpace(std::move(kept));
+    try {
+      return ContactSpace(std::move(kept));
+    } catch (const InputError&) {  // its mesh bounds no solid
+      file.SayDamaged();
+    }
   }
   ContactSpace built = BuildContactSpace(robot, obstacle, options);
   file.Write(built.parts());

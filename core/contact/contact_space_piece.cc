@@ -137,14 +137,20 @@ ContactSpace JoinContactSpace(const std::vector<ContactSpacePiece>& pieces) {
   try {
     internal::WriteJoinedSurface(boxes, first.outer_shell_only, first.frame,
                                  nullptr, &clock, &out);
-  } catch (const internal::LeakError&) {
+  } catch (const internal::SurfaceError&) {
     throw InputError(
-        "contact space by pieces: expected pieces that fit together, found "
-        "cells beside their borders too thin to be judged; build the whole");
+        first.name +
+        (ordered.size() == 1
+             ? ""
+             : " and " + std::to_string(ordered.size() - 1) + " more") +
+        ": expected pieces that fit together, found borders that do not (cells "
+        "beside them too thin to be judged, or other contents than were "
+        "written); write them anew by phongpd contact-space --piece, or build "
+        "the whole");
   }
   report.seconds.clear();
   report.peak_mib = 0.0;
-  return ContactSpace(std::move(out));
+  return ContactSpace(std::move(out), first.name);
 }
 
 }  // namespace phongpd

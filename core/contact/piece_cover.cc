@@ -38,6 +38,12 @@ void RequireOneBuild(const std::vector<ContactSpacePiece>& pieces, int finest) {
         data.name + ": expected a piece of the build that " + first.name +
             " is of (" + std::to_string(first.number.count) +
             " pieces, or some of them in halves), found one of another");
+    RequireOfJoin(HaveOneFrame(data.frame, first.frame) &&
+                      data.outer_shell_only == first.outer_shell_only,
+                  data.name + ": expected the grid and the shells of " +
+                      first.name +
+                      ", which is of the same build, found others; write both "
+                      "anew by phongpd contact-space --piece");
   }
 }
 

@@ -24,6 +24,9 @@ struct ContactSpacePiece::Data {
 
 namespace internal {
 
+// To the last bit, but for the operands' vertices, which no piece keeps.
+bool HaveOneFrame(const GridFrame& a, const GridFrame& b);
+
 // BuildContactSpacePiece with boxes of another size.
 ContactSpacePiece BuildPiece(const TriangleMesh& robot,
                              const TriangleMesh& obstacle,

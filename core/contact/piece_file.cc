@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <utility>
 
 #include "core/contact/byte_stream.h"
 #include "core/contact/contact_space_bytes.h"
+#include "core/contact/piece_cover.h"
 #include "core/contact/piece_data.h"
 #include "core/contact/sealed_file.h"
 #include "core/mesh/mesh_error.h"
+#include "core/minkowski/piece_check.h"
 
 namespace phongpd::internal {
 namespace {
@@ -94,57 +95,33 @@ void Fields(Stream* io, GridFrame& frame) {
 
 namespace {
 
-bool IsIndex(int i, std::size_t size) {
-  return i >= 0 && static_cast<std::size_t>(i) < size;
-}
-
-// Can it be joined without looking again?
-bool IsValidPiece(const SurfacePiece& piece) {
-  const std::size_t planes = piece.planes.size(), edges = piece.edges.size();
-  for (const SurfacePiece::Side& side : piece.sides) {
-    if (!IsIndex(side.plane, planes)) return false;
-    if (side.kind < ContactKind::kObstacleFacet ||
-        side.kind > ContactKind::kEdges) {
-      return false;
-    }
+// Would it place what is joined somewhere?  Turned by a rotation, up to
+// rounding, and with all numbers where a mesh's may be.
+bool IsValidFrame(const GridFrame& frame) {
+  constexpr double kLeast = 1e-160, kMost = 1e150;
+  const auto is_length = [](double x) { return kLeast <= x && x <= kMost; };
+  if (!is_length(frame.step) || !is_length(frame.unit.scale) ||
+      !is_length(frame.stride) || std::abs(frame.unit.exponent) > 1100 ||
+      !is_length(std::abs(frame.unit.Length(frame.stride))) ||
+      !(frame.rounding >= 0.0 && frame.rounding <= kMost)) {
+    return false;
   }
-  for (const SurfacePiece::Point& point : piece.points) {
-    if (point.kind < PointDefinition::kVertex ||
-        point.kind > PointDefinition::kPlanes) {
-      return false;
-    }
-    for (const int plane : point.planes) {
-      if (point.kind == PointDefinition::kPlanes && !IsIndex(plane, planes)) {
-        return false;
-      }
-    }
-  }
-  for (const SurfacePiece::Edge& e : piece.edges) {
-    if (!IsIndex(e.from, piece.points.size()) ||
-        !IsIndex(e.to, piece.points.size()) || !IsIndex(e.next, edges)) {
-      return false;
-    }
-  }
-  std::vector<bool> follows(edges, false);
-  std::size_t at = 0;  // faces follow each other
-  for (const SurfacePiece::Face& f : piece.faces) {
-    if (!IsIndex(f.side, piece.sides.size()) ||
-        f.begin != static_cast<int>(at) || f.end <= f.begin) {
-      return false;
-    }
-    // And their borders close.
-    for (int e = f.begin; e < f.end; ++e) {
-      const int next = IsIndex(e, edges) ? piece.edges[e].next : -1;
-      if (next < f.begin || next >= f.end || follows[next]) return false;
-      if (piece.edges[next].from != piece.edges[e].to) return false;
-      follows[next] = true;
-    }
-    at = static_cast<std::size_t>(f.end);
-  }
-  return at == edges;
+  const Eigen::Matrix3d& turn = frame.rotation;
+  return (turn * turn.transpose() - Eigen::Matrix3d::Identity())
+                 .lpNorm<Eigen::Infinity>() < 1e-9 &&
+         frame.origin.lpNorm<Eigen::Infinity>() <= kMost &&
+         frame.shift.lpNorm<Eigen::Infinity>() <= kMost;
 }
 
 }  // namespace
+
+bool HaveOneFrame(const GridFrame& a, const GridFrame& b) {
+  ByteWriter of_a, of_b;
+  of_a(a);
+  of_b(b);
+  return of_a.Take() == of_b.Take();
+}
+
 }  // namespace phongpd::internal
 
 namespace phongpd {
@@ -164,20 +141,30 @@ ContactSpacePiece ParsePiece(const std::string& bytes,
                              const std::string& name) {
   auto data = std::make_shared<ContactSpacePiece::Data>();
   data->name = name;
+  const auto require = [&](bool is_met, const std::string& defect) {
+    if (!is_met) {
+      throw InputError(name + ": " + defect + internal::kWritePieceAnew);
+    }
+  };
   std::string about;
   internal::ByteReader reader(
       internal::ContentOf(internal::kPieceFormat, bytes, name));
   reader(data->build, data->number.index, data->number.count,
          data->outer_shell_only, data->frame, about, data->boxes);
   ContactSpace::Parts parts;
-  if (!reader.Done() || !internal::FromBytes(about, &parts) ||
-      data->number.index < 0 || data->number.index >= data->number.count ||
-      !std::all_of(data->boxes.begin(), data->boxes.end(),
-                   internal::IsValidPiece)) {
-    throw InputError(name +
-                     ": expected a piece of a contact space behind a valid "
-                     "checksum, found none" +
-                     internal::kWritePieceAnew);
+  require(reader.Done() && internal::FromBytes(about, &parts) &&
+              parts.mesh.triangles.empty(),
+          "expected a piece of a contact space behind a valid checksum, found "
+          "none");
+  require(data->number.index >= 0 && data->number.index < data->number.count,
+          "expected the number i/n of a piece with 0 <= i < n, found " +
+              internal::ToText(data->number));
+  require(internal::IsValidFrame(data->frame),
+          "expected a step > 0, a rotation and finite lengths of the grid, "
+          "found others");
+  for (std::size_t i = 0; i < data->boxes.size(); ++i) {
+    const std::string defect = internal::PieceDefect(data->boxes[i]);
+    require(defect.empty(), "box " + std::to_string(i) + ": " + defect);
   }
   data->report = std::move(parts.report);
   return ContactSpacePiece(std::move(data));

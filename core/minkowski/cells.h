@@ -10,9 +10,15 @@
 
 namespace phongpd::internal {
 
-// The unbounded cell is occupied: the arrangement leaks.
-struct LeakError : std::logic_error {
+// Faces are not the whole boundary of a region.  Of operands it is a defect of
+// the library; of pieces from files it is the files'.
+struct SurfaceError : std::logic_error {
   using std::logic_error::logic_error;
+};
+
+// The unbounded cell is occupied: the arrangement leaks.
+struct LeakError : SurfaceError {
+  using SurfaceError::SurfaceError;
 };
 
 // Which sides of the arrangement look into free space.

@@ -43,7 +43,7 @@ std::array<Wide, 3> WideCross(const GridNormal& a, const GridNormal& b);
 
 // What defines a point.
 struct PointDefinition {
-  enum Kind {
+  enum Kind : int {
     kVertex,  // a grid point: a
     kEdge,  // edge a–b cuts a plane: a + (b − a)·side_a/(side_a − side_b)
     kPlanes,  // three planes meet

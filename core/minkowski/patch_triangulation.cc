@@ -10,10 +10,10 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <stdexcept>
 #include <unordered_map>
 
 #include "core/minkowski/build_limits.h"
+#include "core/minkowski/cells.h"
 
 namespace phongpd::internal {
 namespace {
@@ -129,10 +129,7 @@ class PatchTriangulator {
         handles.emplace(from, handle);
       }
     }
-    for (const auto& [points, vertices] : border) {
-      cdt.insert_constraint(handles.at(points.first),
-                            handles.at(points.second));
-    }
+    Constrain(border, handles, &cdt);
     std::vector<Triangulation::Face_handle> stack;
     const auto enter = [&stack](Triangulation::Face_handle face) {
       if (face->info()) return;
@@ -164,9 +161,34 @@ class PatchTriangulator {
       triangles.push_back(t);
     }
     if (border_edges != border.size()) {
-      throw std::logic_error("contact space: a patch border bounds no area");
+      throw NoArea();
     }
     return triangles;
+  }
+
+  static SurfaceError NoArea() {
+    return SurfaceError("contact space: a patch border bounds no area");
+  }
+
+  // Borders neither cross nor run through a point of theirs: every edge of them
+  // is one of the triangulation, or else no turn around a point would find it.
+  template <typename Handles>
+  static void Constrain(const Border& border, const Handles& handles,
+                        Triangulation* cdt) {
+    try {
+      for (const auto& [points, vertices] : border) {
+        if (points.first == points.second) throw NoArea();
+        cdt->insert_constraint(handles.at(points.first),
+                               handles.at(points.second));
+      }
+    } catch (const Triangulation::Intersection_of_constraints_exception&) {
+      throw SurfaceError("contact space: a patch border crosses itself");
+    }
+    for (const auto& [points, vertices] : border) {
+      if (!cdt->is_edge(handles.at(points.first), handles.at(points.second))) {
+        throw NoArea();
+      }
+    }
   }
 
   // The edge opposite corner k, with the face on its left.

@@ -3,11 +3,9 @@
 
 #include <algorithm>
 #include <array>
-#include <cassert>
 #include <cmath>
 #include <map>
 #include <numeric>
-#include <stdexcept>
 
 #include "core/mesh/union_find.h"
 #include "core/minkowski/build_limits.h"
@@ -44,8 +42,8 @@ class Assembler {
     CollectEdges(cells);
     Look();
     PairEdges(rings);
+    RequirePaired();
     NumberVertices();
-    assert(IsPaired());
     Look();
     FormPatches();
     Look();
@@ -94,7 +92,7 @@ class Assembler {
           if (spoke(j).forward) closing = sheet_of_[spoke(j).half_edge];
         }
         if (closing < 0) {
-          throw std::logic_error("contact space: surface is not closed");
+          throw SurfaceError("contact space: surface is not closed");
         }
         edges_[open].mate = closing;
         edges_[closing].mate = open;
@@ -102,16 +100,15 @@ class Assembler {
     }
   }
 
-  int To(int e) const { return edges_[edges_[e].next].vertex; }
-
-  // Has every half-edge one mate, which runs back between the same vertices?
-  bool IsPaired() const {
+  // Has every half-edge one mate?  They run between the same points, one each
+  // way, as PairEdges takes them.
+  void RequirePaired() const {
     for (std::size_t e = 0; e < edges_.size(); ++e) {
       const int mate = edges_[e].mate;
-      if (mate < 0 || edges_[mate].mate != static_cast<int>(e)) return false;
-      if (To(mate) != edges_[e].vertex) return false;
+      if (mate < 0 || edges_[mate].mate != static_cast<int>(e)) {
+        throw SurfaceError("contact space: surface is not closed");
+      }
     }
-    return true;
   }
 
   // Gives every fan of faces around a point a vertex of its own.

@@ -5,7 +5,6 @@
 #include <cassert>
 #include <cmath>
 #include <map>
-#include <stdexcept>
 #include <unordered_map>
 #include <utility>
 
@@ -29,6 +28,11 @@ struct WallLineHash {
     return GridPlaneHash()(l.line) ^ GridPointHash()({l.axis, l.at, 0});
   }
 };
+
+// Half-edges that one of a piece is split into, on the average, at the most:
+// on a line of n edges' ends, 2 n - 1 parts lie beside at most four faces in
+// each of at most four windows.
+constexpr std::size_t kMostSplits = 32;
 
 // Walls of windows are the only planes across an axis with an odd offset.
 bool IsWall(const GridPlane& plane) {
@@ -114,6 +118,10 @@ class Joiner {
           in_wall_.push_back(1);
           from = point;
         }
+        // In a line of two walls no more than a few faces lie side by side.
+        if (out.half_edges.size() > kMostSplits * edges_.size()) {
+          throw SurfaceError("contact space: pieces overlap in a wall");
+        }
         out.half_edges.push_back({from, edges_[h].to, face, -1 - h});
         in_wall_.push_back(edges_[h].walls != 0 ? 1 : 0);
       }
@@ -185,22 +193,6 @@ class Joiner {
     const int number = 2 * it->second + (side.is_reversed ? 1 : 0);
     out_->sides.facets[number].kind = side.kind;
     return number;
-  }
-
-  static PointDefinition DefinitionOf(const SurfacePiece& piece,
-                                      const SurfacePiece::Point& point) {
-    PointDefinition out;
-    out.kind = point.kind;
-    out.a = point.a;
-    out.b = point.b;
-    out.side_a = point.side_a;
-    out.side_b = point.side_b;
-    if (point.kind == PointDefinition::kPlanes) {
-      for (std::size_t k = 0; k < 3; ++k) {
-        out.planes[k] = piece.planes[point.planes[k]];
-      }
-    }
-    return out;
   }
 
   bool IsWallSide(int side) const {
@@ -332,7 +324,7 @@ JoinedSurface JoinPieces(const std::vector<SurfacePiece>& pieces,
   for (const SurfacePiece& piece : pieces) joiner.Add(piece);
   const Arrangement faces = joiner.Take();
   if (faces.faces.empty()) {
-    throw std::logic_error("contact space: no piece has a face");
+    throw SurfaceError("contact space: no piece has a face");
   }
   // How far rays reach to find the outside.
   GridPoint far{};

@@ -3,6 +3,22 @@
 
 namespace phongpd::internal {
 
+PointDefinition DefinitionOf(const SurfacePiece& piece,
+                             const SurfacePiece::Point& point) {
+  PointDefinition out;
+  out.kind = point.kind;
+  out.a = point.a;
+  out.b = point.b;
+  out.side_a = point.side_a;
+  out.side_b = point.side_b;
+  if (point.kind == PointDefinition::kPlanes) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      out.planes[k] = piece.planes[point.planes[k]];
+    }
+  }
+  return out;
+}
+
 int SurfacePieceWriter::AddPlane(const GridPlane& plane) {
   const auto [it, is_new] =
       planes_.emplace(plane, static_cast<int>(piece.planes.size()));

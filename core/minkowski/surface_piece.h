@@ -48,6 +48,9 @@ struct SurfacePiece {
   std::size_t arranged = 0, cells = 0, judged = 0;
 };
 
+PointDefinition DefinitionOf(const SurfacePiece& piece,
+                             const SurfacePiece::Point& point);
+
 // Numbers what is entered by first appearance.
 class SurfacePieceWriter {
  public:

@@ -8,10 +8,12 @@
 
 #include "core/contact/contact_space.h"
 #include "core/contact/contact_space_bytes.h"
+#include "core/contact/contact_space_piece.h"
 #include "problems/shapes/shapes.h"
 #include "tests/fuzz/byte_source.h"
 #include "tests/fuzz/fuzz_targets.h"
 #include "tests/fuzz/promise.h"
+#include "tests/fuzz/resealed.h"
 
 namespace phongpd::fuzz {
 namespace {
@@ -88,6 +90,26 @@ void Cache(const std::uint8_t* data, std::size_t size) {
   const std::string written = internal::ToBytes(space);
   Promise(internal::FromBytes(written, &again), "what is written is read");
   Promise(internal::ToBytes(again) == written, "and is the same");
+}
+
+void Piece(const std::uint8_t* data, std::size_t size) {
+  static const tbb::global_control one(
+      tbb::global_control::max_allowed_parallelism, 1);
+  static const std::string file =
+      PieceContent(BuildContactSpacePiece(Seeds()[0], Seeds()[0], {}, {0, 1}));
+  const std::string_view bytes(reinterpret_cast<const char*>(data), size);
+  try {
+    const ContactSpacePiece piece = ParsePiece(Resealed(file, bytes), "fuzz");
+    const phongpd::ContactSpace space = JoinContactSpace({piece});
+    Promise(space.report().closed, "a contact space is closed");
+    for (const Eigen::Vector3d& v : space.mesh().vertices) {
+      Promise(v.allFinite(), "its vertices are finite");
+    }
+  } catch (const InputError& error) {
+    // Or that other parts are missing.
+    const bool is_of_join = std::string(error.what()).rfind("join", 0) == 0;
+    PromiseReadable(error, is_of_join ? "join" : "fuzz");
+  }
 }
 
 void ContactSpace(const std::uint8_t* data, std::size_t size) {

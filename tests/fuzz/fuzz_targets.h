@@ -33,6 +33,10 @@ void Scene(const std::uint8_t* data, std::size_t size);
 // refused, or the same after writing and reading again.
 void Cache(const std::uint8_t* data, std::size_t size);
 
+// The contents of a piece of a contact space, their checksum taken as right:
+// refused, or joined to a closed contact space with finite vertices.
+void Piece(const std::uint8_t* data, std::size_t size);
+
 // Two small solids, changed as the bytes say (vertices onto each other or next
 // to each other, turned and doubled triangles, scales, offsets): refused, or
 // a closed contact space of finite volume.
@@ -48,10 +52,11 @@ struct Target {
   void (*run)(const std::uint8_t* data, std::size_t size);
 };
 inline constexpr Target kTargets[] = {
-    {"cache", Cache},          {"contact_space", ContactSpace},
-    {"mesh_obj", MeshObj},     {"mesh_off", MeshOff},
-    {"mesh_ply", MeshPly},     {"mesh_stl", MeshStl},
-    {"points_csv", PointsCsv}, {"query", Query},
+    {"cache", Cache},      {"contact_space", ContactSpace},
+    {"mesh_obj", MeshObj}, {"mesh_off", MeshOff},
+    {"mesh_ply", MeshPly}, {"mesh_stl", MeshStl},
+    {"piece", Piece},      {"points_csv", PointsCsv},
+    {"query", Query},
 #ifdef PHONGPD_FUZZES_ROBOTS
     {"robot", Robot},
 #endif
