@@ -130,19 +130,36 @@ SeededRuns::SeededRuns(const SeededRunFlags& flags, const SceneSource& source,
   if (kept_ == 0) return;
   Note("going on after " + std::to_string(kept_) + " of " +
        std::to_string(flags.runs) + " runs in " + rows_->path());
-  std::uint64_t seed = flags.seed;
-  for (const std::string& line : rows_->rows()) {
-    const auto row = nlohmann::ordered_json::parse(line);
-    if (row.value("seed", seed + 1) != seed || kept_ > flags.runs) {
-      throw InputError(rows_->path() + ": expected a row of seed " +
-                       std::to_string(seed) + "; remove the file");
+  if (kept_ > flags.runs) {
+    throw InputError(rows_->path() + ": expected at most " +
+                     std::to_string(flags.runs) + " rows, found " +
+                     std::to_string(kept_) + "; remove the file");
+  }
+  for (int i = 0; i < kept_; ++i) {
+    const std::uint64_t seed = flags.seed + static_cast<std::uint64_t>(i);
+    try {
+      TakeUp(static_cast<std::size_t>(i), seed);
+    } catch (const nlohmann::json::exception& error) {
+      throw InputError(rows_->path() + ": expected in row " +
+                       std::to_string(i + 1) +
+                       " what this command writes, found something else (" +
+                       error.what() + "); remove the file");
     }
-    Tell(row);
-    const std::string& aside = rows_->asides()[paths_.size() - 1];
-    if (ShowsBehind() && !aside.empty()) {
-      paths_.back().behind = BehindOf(nlohmann::ordered_json::parse(aside));
-    }
-    ++seed;
+  }
+}
+
+void SeededRuns::TakeUp(std::size_t i, std::uint64_t seed) {
+  const auto row = nlohmann::ordered_json::parse(rows_->rows()[i]);
+  if (row.at("seed") != seed) {
+    throw InputError(rows_->path() + ": expected in row " +
+                     std::to_string(i + 1) + " seed " + std::to_string(seed) +
+                     ", found " + JsonText(row.at("seed")).substr(0, 40) +
+                     "; remove the file");
+  }
+  Tell(row);
+  const std::string& aside = rows_->asides()[i];
+  if (ShowsBehind() && !aside.empty()) {
+    paths_.back().behind = BehindOf(nlohmann::ordered_json::parse(aside));
   }
 }
 

@@ -96,6 +96,8 @@ class SeededRuns {
 
  private:
   void Tell(const nlohmann::ordered_json& row);
+  // Kept row i.
+  void TakeUp(std::size_t i, std::uint64_t seed);
 
   const SeededRunFlags& flags_;
   std::string target_;  // of the rows; empty: none

@@ -5,6 +5,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -28,7 +29,30 @@ constexpr char kWhat[] = "phongpd, rows of an unfinished command";
   throw InputError(path + ": " + reason);
 }
 
+// Of what a row of ours nests; each level takes stack where it is compared.
+constexpr int kMostLevels = 64;
+
+bool IsShallow(const std::string& line) {
+  int level = 0, most = 0;
+  bool is_text = false;
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    const char c = line[i];
+    if (is_text && c == '\\') {
+      ++i;
+    } else if (c == '"') {
+      is_text = !is_text;
+    } else if (!is_text && (c == '[' || c == '{')) {
+      most = std::max(most, ++level);
+    } else if (!is_text && (c == ']' || c == '}')) {
+      --level;
+    }
+  }
+  return most <= kMostLevels;
+}
+
+// Discarded where it is no JSON, or not like a row's.
 Json Parsed(const std::string& line) {
+  if (!IsShallow(line)) return Json(Json::value_t::discarded);
   return Json::parse(line, nullptr, false);
 }
 
@@ -159,7 +183,7 @@ void RowFile::TakeUp(const std::string& content, const Json& command,
   }
   const std::string count = std::to_string(rows.size()) + " rows";
   if (!first.is_object() || !first.contains("command") ||
-      first.value("what", "") != kWhat) {
+      !first.contains("what") || first.at("what") != kWhat) {
     Fail(path_,
          "expected rows of an interrupted phongpd, found something "
          "else; remove it or choose another output");

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The program on files of its own with other contents: pieces and contact
+// spaces with a valid checksum, and rows that an interrupted command kept.  It
+// answers or refuses them (0, 1, 2), and never dies of them.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "core/mesh/mesh_io.h"
+#include "problems/shapes/shapes.h"
+#include "tests/fuzz/resealed.h"
+#include "tests/problems/cli/cli_process.h"
+#include "tests/support/campaign.h"
+#include "tests/support/mutated_bytes.h"
+#include "tests/support/solid_tools.h"
+
+namespace phongpd {
+namespace {
+
+using testing::Mutated;
+
+class CliMutatedFiles : public CliProcess {
+ protected:
+  // Runs the command on a file of mutated content; a refusal names the file.
+  void Try(const std::string& command, const std::string& file,
+           const std::string& content) {
+    WriteText("run/" + file, content);
+    const Outcome outcome = Run(command);
+    EXPECT_GE(outcome.code, 0) << command;
+    EXPECT_LE(outcome.code, 2) << command << ": " << outcome.err;
+    EXPECT_EQ(outcome.err.find("internal error"), std::string::npos);
+    if (outcome.code == 2) {
+      EXPECT_NE(outcome.err.find(file), std::string::npos) << outcome.err;
+      ++refused_;
+    } else {
+      ++answered_;
+    }
+    ++cases_;
+  }
+  void Report(const char* subject) const {
+    testing::CampaignRow row;
+    row.item = "mutated files";
+    row.subject = std::string(subject) + ": " + std::to_string(refused_) +
+                  " refused, " + std::to_string(answered_) + " answered";
+    row.cases = cases_;
+    testing::ReportCampaign(row);
+  }
+
+  std::mt19937_64 mutations_{29};
+  long cases_ = 0, refused_ = 0, answered_ = 0;
+};
+
+TEST_F(CliMutatedFiles, PiecesAndContactSpaces) {
+  WriteMesh(testing::Cube(1), File("robot.off"));
+  WriteMesh(MakeVessel(4, 3, 0), File("obstacle.off"));
+  const std::string build =
+      "contact-space --robot ../robot.off --obstacle ../obstacle.off ";
+  ASSERT_EQ(Run(build + "--piece 0/1 --output a.piece").code, 0);
+  ASSERT_EQ(Run(build + "--output a.pcs").code, 0);
+  const std::string piece = Content(Output("a.piece"));
+  const std::string space = Content(Output("a.pcs"));
+  WriteText("points.csv", "x,y,z\n0,0,0\n1,0.2,0.1\n");
+  const long cases = testing::CampaignCases(25, 400);
+  for (long i = 0; i < cases; ++i) {
+    Try("join a.piece --json", "a.piece",
+        fuzz::Resealed(piece,
+                       Mutated(fuzz::ContentOfSealed(piece), &mutations_)));
+    Try("query --contact-space a.pcs --points ../points.csv --json", "a.pcs",
+        fuzz::Resealed(space,
+                       Mutated(fuzz::ContentOfSealed(space), &mutations_)));
+  }
+  Report("join and query");
+}
+
+// Rows of runs that were interrupted.
+TEST_F(CliMutatedFiles, RowsKept) {
+  const std::string scene = Scene(TwoObstacles());
+  const std::string command = "plan " + scene + " --runs 3 --output o.jsonl";
+  const std::string kept = "o.jsonl.partial";
+  std::string first;
+  for (int i = 1; first.empty() && i < 200; ++i) {
+    Interrupt(command, std::chrono::milliseconds(5 * i), SIGKILL);
+    const std::string rows = std::filesystem::exists(Output(kept))
+                                 ? Content(Output(kept))
+                                 : std::string();
+    if (std::count(rows.begin(), rows.end(), '\n') >= 2) first = rows;
+    std::filesystem::remove(Output("o.jsonl"));
+  }
+  if (first.empty()) GTEST_SKIP() << "never killed between two rows";
+  std::vector<std::string> changed = {
+      R"({"what":3,"command":{}})"
+      "\n",
+      "{\"what\":" + std::string(100000, '[') + "\n",
+      first.substr(0, first.find('\n') + 1) + "{\"seed\":1}\n",
+      first.substr(0, first.find('\n') + 1) + "{\"seed\":\"x\"}\n",
+      first.substr(0, first.find('\n') + 1) + "{}\n"};
+  const long cases = testing::CampaignCases(25, 400);
+  for (long i = 0; i < cases; ++i) {
+    changed.push_back(Mutated(first, &mutations_));
+  }
+  for (const std::string& content : changed) {
+    std::filesystem::remove(Output("o.jsonl"));
+    WriteText("run/" + kept, content);
+    std::filesystem::permissions(Output(kept),
+                                 std::filesystem::perms::owner_read |
+                                     std::filesystem::perms::owner_write);
+    Try(command, kept, content);
+  }
+  EXPECT_GT(refused_, 5);
+  Report("plan");
+}
+
+}  // namespace
+}  // namespace phongpd
