@@ -15,7 +15,9 @@
 #include "problems/pictures/viewer/scene_view.h"
 #include "problems/scenes/scene_source.h"
 #include "problems/studies/answer_check.h"
+#include "problems/studies/clearance_wish.h"
 #include "problems/studies/trajectory_study.h"
+#include "problems/world/bare_length.h"
 
 namespace phongpd::cli {
 namespace {
@@ -34,6 +36,7 @@ struct OptimizeFlags : SeededRunFlags {
   int rows = TrajectoryOptions().rows;
   bool line = true;
   bool per_obstacle = false;
+  bool require = false;
   std::string model;
   WorldLimits limits;
   bool verify = true;
@@ -73,8 +76,8 @@ void Override(const OptimizeFlags& flags, Scene* scene) {
                    LengthRange::kFromZero, &scene->workspace);
   }
   if (!flags.margin.empty()) {
-    scene->trajectory.margin = LengthFlag(
-        flags.margin, "--margin", LengthRange::kAboveZero, &scene->workspace);
+    scene->trajectory.margin = ParseClearance(
+        flags.margin, "--margin", ContactBounds(scene->workspace).Diagonal());
   }
 }
 
@@ -189,7 +192,13 @@ int Optimize(const OptimizeFlags& flags) {
     // The pictures need the last scene.
     if (is_kept && run + 1 < flags.runs) continue;
     study.Enter(scene);
-    if (run == runs.kept()) TellAbout(scene);
+    const ClearanceWish wish =
+        WishOfTrajectory(scene, !flags.margin.empty(), flags.require);
+    if (run == runs.kept()) {
+      TellAbout(scene);
+      const std::string beyond = BeyondTheEnds(study.world(), scene, wish);
+      if (!beyond.empty()) Warn(beyond);
+    }
     if (is_kept) continue;
     ProgressOf("runs", static_cast<std::size_t>(run - runs.kept()),
                static_cast<std::size_t>(flags.runs - runs.kept()));
@@ -197,6 +206,7 @@ int Optimize(const OptimizeFlags& flags) {
     if (run == runs.kept()) TellTrajectoryModel(study);
     nlohmann::ordered_json row = TrajectoryRow(study, metric, options, result);
     check.Judge(study.scene(), study.world(), ClaimsOf(result), &row);
+    TellClearance(study.world(), scene, wish, &row);
     runs.Add(row, runs.ShowsBehind() ? BehindTrajectory(study, result, history)
                                      : ViewBehind());
   }
@@ -227,8 +237,12 @@ Command AddOptimize(CLI::App* app) {
       ->type_name("LENGTH");
   app->add_option("--margin", flags->margin,
                   "Distance to keep, more than 0 and at most D, told like "
-                  "--smoothing-length (scene's own if not set)")
+                  "--smoothing-length; a share above 0.1 has to say D "
+                  "(scene's own if not set)")
       ->type_name("LENGTH");
+  app->add_flag("--require", flags->require,
+                "Less than the margin is no answer: status_class "
+                "clearance_missed, exit code 1");
   app->add_option("--jacobian", flags->jacobian,
                   "Of Phong depth: its continuous direction, or the exact "
                   "gradient (scene's own if not set)")

@@ -15,7 +15,9 @@
 #include "problems/pictures/viewer/scene_view.h"
 #include "problems/scenes/scene_source.h"
 #include "problems/studies/answer_check.h"
+#include "problems/studies/clearance_wish.h"
 #include "problems/studies/planning_study.h"
+#include "problems/world/bare_length.h"
 
 namespace phongpd::cli {
 namespace {
@@ -30,6 +32,7 @@ struct PlanFlags : SeededRunFlags {
   std::string model;
   WorldLimits limits;
   std::string clearance;
+  bool require = false;
   std::string ompl_log;
   bool verify = true;
 };
@@ -69,8 +72,8 @@ void SetClearance(const PlanFlags& flags, const std::string& planner,
   if (flags.clearance.empty()) return;
   RequireSeeksClearance(planner, "--clearance");
   scene->planning.clearance =
-      LengthFlag(flags.clearance, "--clearance", LengthRange::kAboveZero,
-                 &scene->workspace);
+      ParseClearance(flags.clearance, "--clearance",
+                     ContactBounds(scene->workspace).Diagonal());
 }
 
 // The last run may be one that was kept from before: `explored` has no surface
@@ -135,6 +138,12 @@ int Plan(const PlanFlags& flags) {
   SilenceOmpl();
   PlanningStudy study(scene, UserCache(flags.no_cache), flags.limits);
   TellAbout(scene);
+  const ClearanceWish wish = WishOfPlan(scene, flags.require);
+  if (flags.require && !wish.asked) {
+    throw InputError("--require: expected --clearance, found none");
+  }
+  const std::string beyond = BeyondTheEnds(study.world(), scene, wish);
+  if (!beyond.empty()) Warn(beyond);
   AnswerCheck check(flags.verify);
   std::optional<WindowPlan> explored;
   for (int i = runs.kept(); i < flags.runs; ++i) {
@@ -147,6 +156,7 @@ int Plan(const PlanFlags& flags) {
     if (i == runs.kept()) TellPlanModel(study, result);
     nlohmann::ordered_json row = PlanningRow(study, run, result);
     check.Judge(scene, study.world(), ClaimsOf(result), &row);
+    TellClearance(study.world(), scene, wish, &row);
     explored = result.explored;
     runs.Add(row,
              runs.ShowsBehind() ? BehindPlan(&study, result) : ViewBehind());
@@ -197,9 +207,12 @@ Command AddPlan(CLI::App* app) {
   app->add_option("--clearance", flags->clearance,
                   "To seek where there is room, more than 0 and at most D, the "
                   "diagonal of the obstacles' contact space: 0.01 or 0.01D is "
-                  "a share of D, 0.5unit is in the scene's unit (scene's own "
-                  "if not set)")
+                  "a share of D, 0.5unit is in the scene's unit; a share "
+                  "above 0.1 has to say D (scene's own if not set)")
       ->type_name("LENGTH");
+  app->add_flag("--require", flags->require,
+                "Less than the clearance is no answer: status "
+                "clearance_missed, exit code 1");
   app->add_option("--time", flags->time_limit,
                   "Limit of a run by a sampler, seconds (scene's own if not "
                   "set)")

@@ -7,6 +7,7 @@
 
 #include "problems/cli/command.h"
 #include "problems/output/json_text.h"
+#include "problems/studies/clearance_wish.h"
 #include "problems/studies/comparison_rows.h"
 #include "problems/studies/comparison_run.h"
 
@@ -51,6 +52,13 @@ void RunJobs(const std::vector<ComparisonJob>& jobs,
         job.seed != jobs[i - 1].seed) {
       Progress(job.source->label() + ", seed " + std::to_string(job.seed));
       study.Enter(SceneToCompare(job.source->Load(job.seed)));
+      const std::string beyond =
+          BeyondTheEnds(study.world(), study.scene(),
+                        WishOfTrajectory(study.scene(), false, false));
+      if (!beyond.empty()) {
+        Warn(job.source->label() + ", seed " + std::to_string(job.seed) + ": " +
+             beyond);
+      }
     }
     Json row = RunComparison(
         {job.seed, job.protocol, job.metric, job.source->is_family()}, &study);

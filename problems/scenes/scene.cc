@@ -19,6 +19,7 @@
 #include "problems/scenes/json_schema.h"
 #include "problems/scenes/scene_schema.h"
 #include "problems/scenes/scene_shapes.h"
+#include "problems/world/bare_length.h"
 
 namespace phongpd {
 namespace {
@@ -177,11 +178,16 @@ void Read(const Json& value, const char* key, double* number) {
   if (value.contains(key)) *number = value[key].get<double>();
 }
 
-// A number is a share of D.
+// As flags tell them (bare_length.h); a clearance or margin where the range is
+// above zero.
 Length LengthAt(const Json& value, const JsonPlace& place, LengthRange range) {
-  const Length length =
-      value.is_string() ? ParseLength(value.get<std::string>(), place.Text())
-                        : Length::FromShare(value.get<double>());
+  const std::string text = value.is_string()
+                               ? value.get<std::string>()
+                               : FormatDouble(value.get<double>());
+  if (range == LengthRange::kAboveZero) {
+    return ParseClearance(text, place.Text(), 0.0);
+  }
+  const Length length = ParseLength(text, place.Text());
   RequireLength(length, range, 0.0, place.Text());
   return length;
 }

@@ -166,7 +166,7 @@ TEST_F(CliOptimize, ProvesThatThereIsNoPath) {
 
 TEST_F(CliOptimize, KeepsWhatClearanceThereIsBelowTheMargin) {
   Json scene = TwoObstacles();
-  scene["trajectory"]["margin"] = 0.4;  // of the diagonal; the room is less
+  scene["trajectory"]["margin"] = "0.4D";  // of the diagonal; the room is less
   const Json row = OneRow("optimize " + Scene(scene), 0);
   EXPECT_EQ(row["collision_free"], true);
   EXPECT_LT(row["lengths"]["clearance"]["share"].get<double>(), 0.4);

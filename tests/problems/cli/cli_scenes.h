@@ -120,7 +120,7 @@ class CliScenes : public Cli {
                     {flag + ": expected a length >= 0 as 0.01 or 0.01D",
                      "found '" + value + "'"});
     }
-    ExpectRefused(command + ' ' + flag + " 1.5",
+    ExpectRefused(command + ' ' + flag + " 1.5D",
                   {flag, "at most 1 (the world's diagonal D)", "found 1.5"});
     ExpectRefused(command + ' ' + flag + " 2.8unit",
                   {flag, "at most 2.7", "unit", "found 2.8unit"});

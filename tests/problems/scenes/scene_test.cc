@@ -46,7 +46,7 @@ Json FullScene() {
       {"ipopt",
        {{"tol", 1e-6}, {"max_iter", 50}, {"mu_strategy", "adaptive"}}}};
   scene["planning"] = {
-      {"planner", "prm"}, {"time_limit", 1}, {"clearance", 0.5}};
+      {"planner", "prm"}, {"time_limit", 1}, {"clearance", "0.5D"}};
   scene["feasible"] = true;
   scene["witness"] = {{-3, 0, 0}, {0, 0, 4}, {3, 0, 0}};
   return scene;
