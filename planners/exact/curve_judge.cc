@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "planners/exact/curve_judge.h"
+
+#include <algorithm>
+#include <vector>
+
+namespace phongpd {
+namespace {
+
+using Eigen::Vector3d;
+
+// Shares of the largest coordinate: of a distance or a height above a plane;
+// and of a point that a split has moved, for each degree.
+constexpr double kDistanceRounding = 0x1p-44;
+constexpr double kSplitRounding = 0x1p-52;
+
+double LargestCoordinate(const BoundingBox& box) {
+  return box.IsEmpty()
+             ? 0.0
+             : box.min.cwiseAbs().cwiseMax(box.max.cwiseAbs()).maxCoeff();
+}
+
+double LargestCoordinate(const FreeSpace& space, const Trajectory& curve) {
+  double largest = LargestCoordinate(space.bounds());
+  for (const ContactSpace& one : space.spaces()) {
+    largest = std::max(largest, LargestCoordinate(one.bounds()));
+  }
+  for (const ConvolutionModel& one : space.convolutions()) {
+    largest = std::max(largest, LargestCoordinate(one.bounds()));
+  }
+  for (const CurvePiece& piece : curve.pieces()) {
+    for (int i = 0; i <= piece.degree(); ++i) {
+      largest = std::max(largest, piece.point(i).cwiseAbs().maxCoeff());
+    }
+  }
+  return largest;
+}
+
+// One piece after the other, each from its start: the first part that is not
+// free ends it.
+class Judge {
+ public:
+  Judge(const FreeSpace& space, const Trajectory& curve,
+        const CurveJudgeOptions& options)
+      : space_(space),
+        options_(options),
+        largest_(LargestCoordinate(space, curve)) {}
+
+  CurveCheck Run(const Trajectory& curve) {
+    const bool begins =
+        !curve.empty() && IsFree(curve.pieces().front().front(), 0.0, 0);
+    bool free = begins;
+    for (std::size_t i = 0; free && i < curve.pieces().size(); ++i) {
+      piece_ = static_cast<int>(i);
+      const CurvePiece& piece = curve.pieces()[i];
+      free = piece.degree() == 1 ? CheckStraight(piece, curve.StartOf(i))
+                                 : CheckPart(piece, curve.StartOf(i), 0.0);
+      if (free) check_.free_until = curve.StartOf(i + 1);
+    }
+    if (free) {
+      check_.verdict = CurveVerdict::kFree;
+      check_.time = check_.free_until;
+    }
+    return check_;
+  }
+
+ private:
+  // Of a configuration of the curve; says where it collides.
+  bool IsFree(const Vector3d& q, double time, int piece) {
+    if (space_.IsFree(q)) return true;
+    check_.verdict = CurveVerdict::kCollides;
+    check_.time = time;
+    check_.piece = piece;
+    check_.configuration = q;
+    return false;
+  }
+
+  bool CheckStraight(const CurvePiece& piece, double start) {
+    ++check_.tests;
+    if (space_.IsFree(piece.front(), piece.back())) return true;
+    const MotionCheck motion = space_.Check(piece.front(), piece.back());
+    const double fraction = std::clamp(motion.fraction, 0.0, 1.0);
+    check_.verdict = CurveVerdict::kCollides;
+    check_.time = start + fraction * piece.duration();
+    check_.free_until = check_.time;
+    check_.piece = piece_;
+    check_.configuration = piece.At(fraction);
+    return false;
+  }
+
+  // Requires that the part's start is free; `moved`: how far its points may be
+  // from those of the curve, by rounding.
+  bool CheckPart(const CurvePiece& part, double start, double moved) {
+    ++check_.tests;
+    if (IsHullFree(part, moved)) {
+      check_.free_until = start + part.duration();
+      return true;
+    }
+    const double middle = start + 0.5 * part.duration();
+    if (check_.tests >= options_.max_tests || Size(part) <= Resolution()) {
+      check_.verdict = CurveVerdict::kUndecided;
+      check_.time = middle;
+      check_.piece = piece_;
+      check_.configuration = part.At(0.5);
+      return false;
+    }
+    const auto half = part.Split(0.5);
+    moved += part.degree() * kSplitRounding * largest_;
+    return CheckPart(half[0], start, moved) &&
+           IsFree(half[1].front(), middle, piece_) &&
+           CheckPart(half[1], middle, moved);
+  }
+
+  bool IsHullFree(const CurvePiece& part, double moved) {
+    const double rounding = kDistanceRounding * largest_ + moved;
+    if (!IsWithinBounds(part, rounding) ||
+        !space_.IsFree(part.front(), part.back())) {
+      return false;
+    }
+    const double reach = part.Bend() * (1.0 + kDistanceRounding) + rounding;
+    const auto separators =
+        space_.FindSeparators(part.front(), part.back(), reach, 0.0);
+    return std::all_of(
+        separators.begin(), separators.end(), [&](const Separator& plane) {
+          for (int i = 0; i <= part.degree(); ++i) {
+            // From a corner, not from the origin: few digits are lost.
+            double height = plane.normal.dot(part.point(i) - plane.corners[0]);
+            for (const Vector3d& corner : plane.corners) {
+              height =
+                  std::min(height, plane.normal.dot(part.point(i) - corner));
+            }
+            if (!(height > rounding)) return false;
+          }
+          return true;
+        });
+  }
+
+  bool IsWithinBounds(const CurvePiece& part, double rounding) const {
+    const BoundingBox& bounds = space_.bounds();
+    if (bounds.IsEmpty()) return true;
+    for (int i = 0; i <= part.degree(); ++i) {
+      const auto q = part.point(i).array();
+      if (!((q - bounds.min.array() > rounding).all() &&
+            (bounds.max.array() - q > rounding).all())) {
+        return false;
+      }
+    }
+    return true;
+  }
+
+  static double Size(const CurvePiece& part) {
+    Vector3d low = part.front(), high = low;
+    for (int i = 1; i <= part.degree(); ++i) {
+      low = low.cwiseMin(part.point(i));
+      high = high.cwiseMax(part.point(i));
+    }
+    return (high - low).maxCoeff();
+  }
+  double Resolution() const {
+    return std::max(options_.resolution, 4.0 * kDistanceRounding) * largest_;
+  }
+
+  const FreeSpace& space_;
+  const CurveJudgeOptions& options_;
+  const double largest_;
+  int piece_ = 0;
+  CurveCheck check_;
+};
+
+}  // namespace
+
+const char* ToString(CurveVerdict verdict) {
+  switch (verdict) {
+    case CurveVerdict::kFree:
+      return "free";
+    case CurveVerdict::kCollides:
+      return "collides";
+    case CurveVerdict::kUndecided:
+      return "undecided";
+  }
+  return "unknown";
+}
+
+CurveCheck CheckCurve(const FreeSpace& space, const Trajectory& curve,
+                      const CurveJudgeOptions& options) {
+  return Judge(space, curve, options).Run(curve);
+}
+
+}  // namespace phongpd
