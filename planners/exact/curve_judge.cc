@@ -13,6 +13,8 @@ using Eigen::Vector3d;
 // and of a point that a split has moved, for each degree.
 constexpr double kDistanceRounding = 0x1p-44;
 constexpr double kSplitRounding = 0x1p-52;
+// And of a part that is not split further.
+constexpr double kResolution = 0x1p-40;
 
 double LargestCoordinate(const BoundingBox& box) {
   return box.IsEmpty()
@@ -40,21 +42,19 @@ double LargestCoordinate(const FreeSpace& space, const Trajectory& curve) {
 // free ends it.
 class Judge {
  public:
-  Judge(const FreeSpace& space, const Trajectory& curve,
-        const CurveJudgeOptions& options)
+  Judge(const FreeSpace& space, const Trajectory& curve, long max_tests)
       : space_(space),
-        options_(options),
+        max_tests_(max_tests),
         largest_(LargestCoordinate(space, curve)) {}
 
   CurveCheck Run(const Trajectory& curve) {
-    const bool begins =
-        !curve.empty() && IsFree(curve.pieces().front().front(), 0.0, 0);
-    bool free = begins;
+    bool free = !curve.empty();
     for (std::size_t i = 0; free && i < curve.pieces().size(); ++i) {
       piece_ = static_cast<int>(i);
       const CurvePiece& piece = curve.pieces()[i];
-      free = piece.degree() == 1 ? CheckStraight(piece, curve.StartOf(i))
-                                 : CheckPart(piece, curve.StartOf(i), 0.0);
+      const double start = curve.StartOf(i);
+      free = piece.degree() == 1 ? CheckStraight(piece, start)
+                                 : CheckCurved(piece, start);
       if (free) check_.free_until = curve.StartOf(i + 1);
     }
     if (free) {
@@ -65,31 +65,28 @@ class Judge {
   }
 
  private:
-  // Of a configuration of the curve; says where it collides.
-  bool IsFree(const Vector3d& q, double time, int piece) {
-    if (space_.IsFree(q)) return true;
-    check_.verdict = CurveVerdict::kCollides;
-    check_.time = time;
-    check_.piece = piece;
-    check_.configuration = q;
-    return false;
-  }
-
   bool CheckStraight(const CurvePiece& piece, double start) {
     ++check_.tests;
     if (space_.IsFree(piece.front(), piece.back())) return true;
     const MotionCheck motion = space_.Check(piece.front(), piece.back());
     const double fraction = std::clamp(motion.fraction, 0.0, 1.0);
-    check_.verdict = CurveVerdict::kCollides;
-    check_.time = start + fraction * piece.duration();
-    check_.free_until = check_.time;
-    check_.piece = piece_;
-    check_.configuration = piece.At(fraction);
-    return false;
+    const double time = start + fraction * piece.duration();
+    check_.free_until = time;
+    return Fail(CurveVerdict::kCollides, time, piece.At(fraction));
   }
 
-  // Requires that the part's start is free; `moved`: how far its points may be
-  // from those of the curve, by rounding.
+  bool CheckCurved(const CurvePiece& piece, double start) {
+    collides_ = false;
+    const double end = start + piece.duration();
+    if (!LooksFree(piece.front(), start)) return FailWhereItCollides();
+    LooksFree(piece.back(), end);
+    if (!CheckPart(piece, start, 0.0)) return false;
+    return !collides_ || FailWhereItCollides();
+  }
+
+  // Of a part that starts free, of a curve that may collide at its end, or
+  // after it; `moved`: how far its points may be from those of the curve, by
+  // rounding.
   bool CheckPart(const CurvePiece& part, double start, double moved) {
     ++check_.tests;
     if (IsHullFree(part, moved)) {
@@ -97,18 +94,39 @@ class Judge {
       return true;
     }
     const double middle = start + 0.5 * part.duration();
-    if (check_.tests >= options_.max_tests || Size(part) <= Resolution()) {
-      check_.verdict = CurveVerdict::kUndecided;
-      check_.time = middle;
-      check_.piece = piece_;
-      check_.configuration = part.At(0.5);
-      return false;
+    if (check_.tests >= max_tests_ || Size(part) <= kResolution * largest_) {
+      return collides_ ? FailWhereItCollides()
+                       : Fail(CurveVerdict::kUndecided, middle, part.At(0.5));
     }
     const auto half = part.Split(0.5);
     moved += part.degree() * kSplitRounding * largest_;
-    return CheckPart(half[0], start, moved) &&
-           IsFree(half[1].front(), middle, piece_) &&
-           CheckPart(half[1], middle, moved);
+    // What is known to collide later tells a collision from a doubt before.
+    const bool is_middle_free = LooksFree(half[1].front(), middle);
+    if (!CheckPart(half[0], start, moved)) return false;
+    return is_middle_free ? CheckPart(half[1], middle, moved)
+                          : FailWhereItCollides();
+  }
+
+  // Of a configuration of the curve; remembers the last that is not free, which
+  // is the earliest, as parts are halved.
+  bool LooksFree(const Vector3d& q, double time) {
+    if (space_.IsFree(q)) return true;
+    collides_ = true;
+    collision_time_ = time;
+    collision_ = q;
+    return false;
+  }
+
+  bool FailWhereItCollides() {
+    return Fail(CurveVerdict::kCollides, collision_time_, collision_);
+  }
+
+  bool Fail(CurveVerdict verdict, double time, const Vector3d& configuration) {
+    check_.verdict = verdict;
+    check_.time = time;
+    check_.piece = piece_;
+    check_.configuration = configuration;
+    return false;
   }
 
   bool IsHullFree(const CurvePiece& part, double moved) {
@@ -156,14 +174,13 @@ class Judge {
     }
     return (high - low).maxCoeff();
   }
-  double Resolution() const {
-    return std::max(options_.resolution, 4.0 * kDistanceRounding) * largest_;
-  }
-
   const FreeSpace& space_;
-  const CurveJudgeOptions& options_;
+  const long max_tests_;
   const double largest_;
   int piece_ = 0;
+  bool collides_ = false;  // so, after what is looked at:
+  double collision_time_ = 0.0;
+  Vector3d collision_ = Vector3d::Zero();
   CurveCheck check_;
 };
 
@@ -182,8 +199,8 @@ const char* ToString(CurveVerdict verdict) {
 }
 
 CurveCheck CheckCurve(const FreeSpace& space, const Trajectory& curve,
-                      const CurveJudgeOptions& options) {
-  return Judge(space, curve, options).Run(curve);
+                      long max_tests) {
+  return Judge(space, curve, max_tests).Run(curve);
 }
 
 }  // namespace phongpd

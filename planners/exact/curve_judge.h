@@ -15,21 +15,13 @@ enum class CurveVerdict {
 };
 const char* ToString(CurveVerdict verdict);  // free, collides, undecided
 
-struct CurveJudgeOptions {
-  // A part of a curve that is no longer than this and still neither free nor
-  // colliding is undecided: a share of the largest coordinate of the curve, of
-  // what it moves among and of the bounds, as much as that rounds to or more.
-  double resolution = 0x1p-40;
-  // Hulls that are looked at before the rest is undecided.
-  long max_tests = 1'000'000;
-};
-
 struct CurveCheck {
   CurveVerdict verdict = CurveVerdict::kUndecided;  // also of an empty curve
   // Everything before is free; the duration for kFree.
   double free_until = 0.0;
   // Of kCollides: when, in which piece, and where, q(time) rounded, which
-  // collides exactly.  Of kUndecided: in the middle of what is not.
+  // collides exactly (of a straight piece the motion does, at about there).  Of
+  // kUndecided: in the middle of what is not.
   double time = 0.0;
   int piece = -1;
   Eigen::Vector3d configuration = Eigen::Vector3d::Zero();
@@ -40,7 +32,7 @@ struct CurveCheck {
 
 // Is the robot free for all t?  No samples: each part of the curve is in the
 // hull H of its Bézier points, and that is free if its chord is, by the exact
-// judge, and H meets no contact triangle. Triangles farther from the chord
+// judge, and H meets no contact triangle.  Triangles farther from the chord
 // than the curve bends away from it are not in reach; the others are told
 // apart by the plane of the pair closest to each other (separators.h), if all
 // points of H are above it, or by that of a nearer one.  A part that this does
@@ -51,10 +43,14 @@ struct CurveCheck {
 // taken off beforehand.  Straight pieces of degree 1 are judged exactly.
 // A curve that touches is not free.
 //
+// Undecided: a part no longer than 2⁻⁴⁰ of the largest coordinate (of the
+// curve, of what it moves among, and of the bounds) is neither free nor
+// colliding, or `max_tests` hulls were looked at.
+//
 // Costs a few microseconds a piece that is clear of contact, and grows with
 // the logarithm of the curve's clearance along flat contact, with the square
 // root of its inverse around corners.  Thread-safe.
 CurveCheck CheckCurve(const FreeSpace& space, const Trajectory& curve,
-                      const CurveJudgeOptions& options = {});
+                      long max_tests = 1'000'000);
 
 }  // namespace phongpd
