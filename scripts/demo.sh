@@ -22,6 +22,8 @@ run() {
 more() { run "$@" | tail -n +2; }
 # Also for the page.
 note() { tee -a "$demo/$1.txt"; }
+# Before its other columns the strategy a run of the trap had for mu.
+with_mu() { sed "s/^scene,/mu, scene,/; t; s/^\([^ ]\)/$1, \1/"; }
 rm -f "$demo"/*.txt
 
 mv "$demo/index.html" "$demo/benchmarks.html"
@@ -40,20 +42,20 @@ run depth "$wrench/robot.off" "$wrench/obstacle.off" | note depth
 
 echo
 echo "A trajectory out of a trap: plain Ipopt from the straight line with monotone"
-echo "mu, as the comparison asks, and with adaptive mu, which gets both metrics out"
-echo "in more or fewer iterations; then the default pipeline:"
+echo "mu, as the comparison asks, and with adaptive mu; then the default pipeline:"
 plain=(--start straight --mu-strategy monotone --polish never)
 run optimize u_axis --metric euclidean "${plain[@]}" \
   --output "$demo/trap_euclidean.jsonl" --svg "$demo/trap_euclidean.svg" |
-  note trap
+  with_mu monotone | note trap
 more optimize u_axis --smoothing-length 0.2 "${plain[@]}" \
-  --output "$demo/trap_phong.jsonl" --svg "$demo/trap_phong.svg" | note trap
+  --output "$demo/trap_phong.jsonl" --svg "$demo/trap_phong.svg" |
+  with_mu monotone | note trap
 for metric in euclidean phong; do
   more optimize u_axis --metric "$metric" --start straight --polish never \
-    --output "$demo/trap_adaptive_$metric.jsonl" | note trap
+    --output "$demo/trap_adaptive_$metric.jsonl" | with_mu adaptive | note trap
 done
 more optimize u_axis --output "$demo/trap_pipeline.jsonl" \
-  --svg "$demo/trap_pipeline.svg" | note trap
+  --svg "$demo/trap_pipeline.svg" | with_mu adaptive | note trap
 run view "$demo/trap_euclidean.jsonl" "$demo/trap_phong.jsonl" \
   "$demo/trap_pipeline.jsonl" --build --html "$demo/trap.html" >/dev/null
 
@@ -65,9 +67,9 @@ run plan "$passage" --output "$demo/tunnel.jsonl" \
 more plan "$passage,twin=1" --output "$demo/tunnel_twin.jsonl" | note tunnel
 more plan "$passage" --planner retraction-forest \
   --output "$demo/tunnel_forest.jsonl" | note tunnel
-for scene in "$passage" "$passage,twin=1"; do
-  more plan "$scene" --planner rrt-connect --time 1 \
-    --output "$demo/tunnel_rrt_connect.jsonl" | note tunnel
+for twin in "" _twin; do
+  more plan "$passage${twin:+,twin=1}" --planner rrt-connect --time 1 \
+    --output "$demo/tunnel${twin}_rrt_connect.jsonl" | note tunnel
 done
 scripts/demo_page.sh "$demo"
 scripts/links.py "$demo" >"$demo/links.log" || { cat "$demo/links.log"; exit 1; }

@@ -3,6 +3,7 @@
 # demo_page.sh DIR: writes DIR/index.html, the story of what scripts/demo.sh has
 # put there: pages as frames, and the lines that its commands printed (*.txt).
 set -euo pipefail
+scripts=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 cd "$1"
 
 # Numbers to four digits, and what HTML takes for its own.
@@ -32,6 +33,11 @@ table() { # FILE: rows "a, b: c, d" under a header of the same kind
       for (i = 1; i <= count; ++i) printf "<%s>%s</%s>", tag, cell[i], tag
       print "</tr>" }'
   echo '</table></div>'
+}
+rows() { # KIND FILE...: sentences of the rows, by nobody's expectation
+  echo '<p>'
+  "$scripts/demo_sentences.py" "$@"
+  echo '</p>'
 }
 frame() { # PAGE TITLE
   printf '<iframe src="%s" title="%s" loading="lazy"></iframe>\n' "$1" "$2"
@@ -81,18 +87,20 @@ HTML
   frame motion.html "Three metrics along one motion"
   said motion.txt
   echo '</section><section><h2>Out of a trap</h2>
-<p>Ipopt starts on the straight line, through the wall of a U. With monotone mu, the
-strategy of the comparison, Euclidean depth keeps it there; with adaptive mu both
-metrics get out, PhongPD in fewer iterations. Over many scenes and seeds the numbers
-solved are about equal then. (Below: two lines with monotone mu, two with adaptive, and
-the default pipeline, which repairs the start first.) The exact
-judge has the last word on every path.</p>'
+<p>Ipopt starts on the straight line, through the wall of a U. The exact
+judge has the last word on every path. This is one seed; over many scenes and seeds
+Euclidean depth and PhongPD solve about as many with adaptive mu.</p>'
+  rows trap trap_euclidean.jsonl trap_phong.jsonl trap_adaptive_euclidean.jsonl \
+    trap_adaptive_phong.jsonl trap_pipeline.jsonl
   frame trap.html "Paths out of a trap"
   table trap.txt
   echo '</section><section><h2>A passage a thousandth wide, and a proof</h2>
-<p>The complete planner goes through a channel a thousandth wide in milliseconds. Closed
-by a ten-thousandth it says so and proves it: start and goal lie in different cells of
-free space. Samplers can only run out of time.</p>'
+<p>A channel a thousandth wide, and the same closed by a ten-thousandth. A proof says
+that start and goal lie in different cells of free space; a sampler can find a path, and
+never prove that there is none. Seconds are those of the search; the contact space,
+where one is built, comes before.</p>'
+  rows tunnel tunnel.jsonl tunnel_twin.jsonl tunnel_forest.jsonl \
+    tunnel_rrt_connect.jsonl tunnel_twin_rrt_connect.jsonl
   frame tunnel.html "A path through a narrow passage"
   table tunnel.txt
   echo '</section><section><h2>Your own two meshes</h2>

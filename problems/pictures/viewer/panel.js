@@ -15,6 +15,7 @@ class Panel {
     byId('panel').append(
         this.legend(), this.ways(), viewer.probe ? viewer.probe.section(this) : '',
         this.display(), this.notes());
+    document.body.classList.toggle('wayless', stage.ways.length === 0);
     if (stage.ways.some(way => way.points.length > 1)) this.makePlayer();
     this.makeHelp();
   }
@@ -148,7 +149,7 @@ class Panel {
     const title = data.motion ? 'Penetration depth'
         : data.answers.length ? 'Answers' : 'Paths';
     const section = this.section(title, ...rows);
-    if (data.motion) section.className = 'traces';
+    section.className = data.motion ? 'ways traces' : 'ways';
     return section;
   }
 

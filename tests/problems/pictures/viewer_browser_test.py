@@ -108,6 +108,13 @@ def main():
                          f"{name}: dark where the reader prefers it")
             checks.drawn(name + ", dark")
             browser.shoot(folder / f"{name}-dark.png")
+            # A slider that is there can be taken, whatever the width.
+            for width in (320, 400, 759, 761, 800, 850, 900, 1000, 1101, 1280):
+                browser.open(page, width=width)
+                checks.holds("[...document.querySelectorAll('#scrub, "
+                             "#scrub-iterate')].every(e => !e.offsetParent || "
+                             "e.getBoundingClientRect().width >= 100)",
+                             f"{name}: sliders have room at {width}")
             browser.open(page, width=400, height=800)
             checks.holds("document.documentElement.scrollWidth <= 400 && "
                          "[...document.querySelectorAll('header, #tools, "

@@ -1,0 +1,66 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""demo_sentences_test.py SCRIPT: what the demo's page says follows the rows, for
+every outcome that a row can have."""
+import html
+import json
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+SCRIPT = sys.argv[1]
+
+
+def said(kind, rows):
+    with tempfile.TemporaryDirectory() as folder:
+        file = pathlib.Path(folder, "rows.jsonl")
+        file.write_text("".join(json.dumps(row) + "\n" for row in rows))
+        return subprocess.run([sys.executable, SCRIPT, kind, str(file)],
+                              check=True, capture_output=True,
+                              text=True).stdout.splitlines()
+
+
+def run(metric, mu, free, start="straight"):
+    return {"metric": metric, "mu_strategy": mu, "start": start, "iterations": 7,
+            "collision_free": free, "reason": "" if free else "limit < 8"}
+
+
+for first in (False, True):
+    for second in (False, True):
+        lines = said("trap", [run("euclidean", "monotone", first),
+                              run("phong", "monotone", second),
+                              run("euclidean", "adaptive", second),
+                              run("phong", "adaptive", first),
+                              run("phong", "adaptive", True, "repaired")])
+        assert len(lines) == 3, lines
+        for line, name, outcomes in zip(
+                lines, ("With monotone mu", "With adaptive mu",
+                        "The default pipeline"),
+                ((first, second), (second, first), (True,))):
+            assert line.startswith(name), line
+            assert "limit <" not in line
+            parts = html.unescape(line).split(": ", 1)[1]
+            parts = parts.replace("; 7", ", 7").split("; ")
+            assert len(parts) == len(outcomes), parts
+            for part, free in zip(parts, outcomes):
+                assert ("gets out in 7 iterations" in part) == free, part
+                assert ("does not get out (limit < 8" in part) != free, part
+
+
+def plan(planner, scene, status):
+    return {"planner": planner, "scene": scene, "status": status,
+            "solved": status == "solved",
+            "infeasible_proved": status == "infeasible_proved",
+            "seconds": {"solve": 0.00041}}
+
+
+for status, word in (("solved", "finds a path through"),
+                     ("infeasible_proved", "that there is none"),
+                     ("time_limit", "(time limit)"), ("failed", "(failed)")):
+    for scene, channel in (("t:d=1", "open"), ("t:d=1,twin=1", "closed")):
+        (line,) = said("tunnel", [plan("rrt-connect", scene, status)])
+        assert word in line and f"the {channel} channel" in line, line
+        assert "0.00041 s" in line and line.startswith("rrt-connect "), line
+        assert ("proves nothing" in line) == ("(" in word), line
+print("demo sentences: all follow the rows")
