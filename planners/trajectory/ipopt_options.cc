@@ -9,6 +9,7 @@
 #include <limits>
 #include <map>
 #include <string>
+#include <string_view>
 
 #include "core/mesh/mesh_error.h"
 #include "planners/exact/check_option.h"
@@ -16,6 +17,73 @@
 namespace phongpd {
 
 namespace {
+
+// What may be set: options that change numbers and no more.  The others write
+// files, print, load libraries by name, promise of the program what it does not
+// keep, or are of solvers that are not used.
+constexpr std::string_view kNumericOptions =
+    " accept_after_max_steps accept_every_trial_step acceptable_compl_inf_tol "
+    "acceptable_constr_viol_tol acceptable_dual_inf_tol acceptable_iter "
+    "acceptable_obj_change_tol acceptable_tol adaptive_mu_globalization "
+    "adaptive_mu_kkt_norm_type adaptive_mu_kkterror_red_fact "
+    "adaptive_mu_kkterror_red_iters adaptive_mu_monotone_init_factor "
+    "adaptive_mu_restore_previous_iterate alpha_for_y alpha_for_y_tol "
+    "alpha_min_frac alpha_red_factor barrier_tol_factor bound_frac "
+    "bound_mult_init_method bound_mult_init_val bound_mult_reset_threshold "
+    "bound_push bound_relax_factor compl_inf_tol constr_mult_init_max "
+    "constr_mult_reset_threshold constr_viol_tol "
+    "constraint_violation_norm_type corrector_compl_avrg_red_fact "
+    "corrector_type delta derivative_test derivative_test_perturbation "
+    "derivative_test_tol diverging_iterates_tol dual_inf_tol eta_phi "
+    "evaluate_orig_obj_at_resto_trial expect_infeasible_problem "
+    "expect_infeasible_problem_ctol expect_infeasible_problem_ytol "
+    "fast_step_computation filter_margin_fact filter_max_margin "
+    "filter_reset_trigger first_hessian_perturbation fixed_mu_oracle "
+    "fixed_variable_treatment gamma_phi gamma_theta hessian_approximation "
+    "honor_original_bounds jacobian_regularization_exponent "
+    "jacobian_regularization_value kappa_d kappa_sigma kappa_soc "
+    "least_square_init_duals least_square_init_primal "
+    "limited_memory_aug_solver limited_memory_init_val "
+    "limited_memory_init_val_max limited_memory_init_val_min "
+    "limited_memory_initialization limited_memory_max_history "
+    "limited_memory_max_skipping limited_memory_update_type "
+    "line_search_method linear_scaling_on_demand linear_solver "
+    "linear_system_scaling max_cpu_time max_filter_resets "
+    "max_hessian_perturbation max_iter max_refinement_steps max_resto_iter "
+    "max_soc max_soft_resto_iters max_wall_time mehrotra_algorithm "
+    "min_hessian_perturbation min_refinement_steps "
+    "mu_allow_fast_monotone_decrease mu_init mu_linear_decrease_factor mu_max "
+    "mu_max_fact mu_min mu_oracle mu_strategy mu_superlinear_decrease_power "
+    "mu_target mumps_dep_tol mumps_mem_percent mumps_permuting_scaling "
+    "mumps_pivot_order mumps_pivtol mumps_pivtolmax mumps_scaling "
+    "neg_curv_test_tol nlp_lower_bound_inf nlp_scaling_constr_target_gradient "
+    "nlp_scaling_max_gradient nlp_scaling_method nlp_scaling_min_value "
+    "nlp_scaling_obj_target_gradient nlp_upper_bound_inf nu_inc nu_init "
+    "obj_max_inc obj_scaling_factor perturb_always_cd perturb_dec_fact "
+    "perturb_inc_fact perturb_inc_fact_first point_perturbation_radius "
+    "quality_function_balancing_term quality_function_centrality "
+    "quality_function_max_section_steps quality_function_norm_type "
+    "quality_function_section_qf_tol quality_function_section_sigma_tol "
+    "recalc_y recalc_y_feas_tol required_infeasibility_reduction "
+    "residual_improvement_factor residual_ratio_max residual_ratio_singular "
+    "resto_failure_feasibility_threshold resto_penalty_parameter "
+    "resto_proximity_weight rho s_max s_phi s_theta sigma_max sigma_min "
+    "skip_corr_if_neg_curv skip_corr_in_monotone_mode slack_bound_frac "
+    "slack_bound_push slack_move soft_resto_pderror_reduction_factor tau_min "
+    "theta_max_fact theta_min_fact tiny_step_tol tiny_step_y_tol tol "
+    "watchdog_shortened_iter_trigger watchdog_trial_iter_max ";
+
+// The values of such options that Ipopt can be built without: of linear_solver
+// and nlp_scaling_method there are some with which it then ends the process,
+// and others search for a library.
+struct Choice {
+  std::string_view name;
+  std::string_view values[2];
+};
+constexpr Choice kChoices[] = {
+    {"linear_solver", {"mumps", "mumps"}},
+    {"linear_system_scaling", {"none", "slack-based"}},
+    {"nlp_scaling_method", {"none", "gradient-based"}}};
 
 void FailOption(const std::string& name, const std::string& expected,
                 const std::string& found) {
@@ -35,6 +103,23 @@ double ParseNumber(const std::string& name, const std::string& text) {
     FailOption(name, "a number", text);
   }
   return value;
+}
+
+// Throws unless a user may set the option to this.
+void RequireNumeric(const std::string& name, const std::string& text) {
+  if (kNumericOptions.find(" " + name + " ") == std::string_view::npos) {
+    throw InputError("Ipopt option '" + name +
+                     "': expected one that changes numbers only, found one "
+                     "that does more; leave it out");
+  }
+  for (const auto& [of, values] : kChoices) {
+    if (name != of || text == values[0] || text == values[1]) continue;
+    FailOption(
+        name,
+        std::string(values[0]) +
+            (values[0] == values[1] ? "" : " or " + std::string(values[1])),
+        text);
+  }
 }
 
 void ApplyOne(const std::string& name, const std::string& text,
@@ -135,7 +220,14 @@ void ApplyIpoptOptions(const IpoptSettings& settings,
            : "monotone"},
       {"max_iter", std::to_string(settings.max_iterations)},
       {"tol", "1e-6"}};
+  if (!settings.print_file.empty()) {
+    options["output_file"] = settings.print_file;
+    options["file_print_level"] = "5";
+  }
   for (const auto& [name, value] : settings.ipopt_options) {
+    if (Ipopt::IsValid(application->RegOptions()->GetOption(name))) {
+      RequireNumeric(name, value);
+    }  // else ApplyOne says so
     options[name] = value;
   }
   for (const auto& [name, value] : options) {

@@ -13,7 +13,8 @@ namespace phongpd {
 
 // Hands the settings to Ipopt; the linear solver is one for settings that name
 // none.  Throws InputError for an option of settings.ipopt_options that Ipopt
-// does not know or a value it refuses.
+// does not know, that does more than change numbers, or a value it refuses or
+// ends the process with.
 void ApplyIpoptOptions(const IpoptSettings& settings,
                        const std::string& linear_solver,
                        Ipopt::IpoptApplication* application);

@@ -57,9 +57,12 @@ struct IpoptSettings {
   int stall_iterations = 30;
   double time_limit = std::numeric_limits<double>::infinity();  // seconds
   // Ipopt's own options by name, values as text; they win over the above and
-  // over a `tol` of 1e-6.  A name or value Ipopt does not know is an InputError
-  // that names it.  What it prints goes to the file `output_file`.
+  // over a `tol` of 1e-6.  They may come from a stranger's scene: only those
+  // that change numbers are taken.  Any other, and a name or value Ipopt does
+  // not know, is an InputError that names it.
   std::map<std::string, std::string> ipopt_options;
+  // The file that gets what Ipopt prints at its level 5; empty: none.
+  std::string print_file;
   // Called once an iteration, with the iterate's variables; false ends the
   // solve (kCancelled).  It may not solve; what it throws ends the solve and
   // reaches its caller.  The first regular iterate after a restoration comes

@@ -107,6 +107,22 @@ def test_scenes_of_the_library_load():
         phongpd.World.load("no_such_scene")
 
 
+# The second ended the interpreter.
+@pytest.mark.parametrize("option, value", [
+    ("output_file", "precious.txt"),
+    ("nlp_scaling_method", "equilibration-based"),
+    ("linear_solver", "ma97"),
+])
+def test_scenes_set_numbers_of_ipopt_only(tmp_path, option, value):
+    box = {"shape": {"type": "box", "size": [1, 1, 1]}}
+    scene = tmp_path / "scene.json"
+    scene.write_text(json.dumps({
+        "robot": box, "obstacles": [box], "start": [-2, 0, 0],
+        "goal": [2, 0, 0], "trajectory": {"ipopt": {option: value}}}))
+    with pytest.raises(phongpd.InputError, match=option):
+        phongpd.World.load(str(scene)).optimize()
+
+
 def test_rows_are_the_signed_metric_and_their_jacobian_its_slope(world):
     rows = phongpd.NonPenetrationRows(world, START, GOAL, waypoints=6,
                                       samples_per_segment=3, metric="euclidean")

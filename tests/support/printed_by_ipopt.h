@@ -13,8 +13,7 @@
 
 namespace phongpd::testing {
 
-// Solves, and returns what Ipopt printed at that level by its own option
-// `output_file`.
+// Solves, and returns what Ipopt printed.
 inline std::string PrintedByIpopt(NonlinearProgram* program,
                                   const Eigen::VectorXd& start,
                                   IpoptSettings settings, IpoptRun* run) {
@@ -25,8 +24,7 @@ inline std::string PrintedByIpopt(NonlinearProgram* program,
     return "";
   }
   const std::string path = folder + "/ipopt.txt";
-  settings.ipopt_options["output_file"] = path;
-  settings.ipopt_options["file_print_level"] = "5";
+  settings.print_file = path;
   *run = SolveWithIpopt(program, start, settings);
   std::ostringstream text;
   text << std::ifstream(path).rdbuf();
