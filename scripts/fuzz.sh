@@ -60,7 +60,7 @@ build=build-asan
 # least libFuzzer can tell.  What all of an input holds is bounded by the
 # memory of the process; solids and queries need more than bytes do.
 declare -A malloc_mib=([contact_space]=64 [piece]=64 [query]=64 [scene]=16)
-declare -A max_len=([cache]=1024 [piece]=4096)
+declare -A max_len=([cache]=1024 [gltf]=1024 [piece]=4096)
 # Weighing inputs by rare features takes two thirds of the time where one run
 # has 10^4 of them, and reaches no more.
 declare -A entropic=([contact_space]=0)

@@ -81,12 +81,18 @@ void RequireValid(const PolygonSoup& soup, const std::string& path) {
 }  // namespace
 
 TriangleMesh ReadMesh(const std::string& path) {
-  const MeshFormat format = FormatOf(path);
-  const std::string bytes = ReadInputFile(path, "a mesh file", kMaxMeshBytes);
+  FormatOf(path);  // refused before it is read
+  return internal::ReadMeshBytes(
+      ReadInputFile(path, "a mesh file", kMaxMeshBytes), path);
+}
+
+TriangleMesh internal::ReadMeshBytes(std::string_view bytes,
+                                     const std::string& file) {
+  const MeshFormat format = FormatOf(file);
   if (bytes.empty()) {
-    throw InputError(path + ": expected a mesh, found an empty file");
+    throw InputError(file + ": expected a mesh, found an empty file");
   }
-  return internal::ReadMeshBytes(format, bytes, path);
+  return ReadMeshBytes(format, bytes, file);
 }
 
 TriangleMesh internal::ReadMeshBytes(MeshFormat format, std::string_view bytes,

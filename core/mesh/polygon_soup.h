@@ -41,6 +41,8 @@ PolygonSoup ReadPly(std::string_view bytes, const std::string& file);
 // ReadMesh of a file that has been read: checks and triangulates its soup.
 TriangleMesh ReadMeshBytes(MeshFormat format, std::string_view bytes,
                            const std::string& file);
+// The same in the format that the file's name says.
+TriangleMesh ReadMeshBytes(std::string_view bytes, const std::string& file);
 
 // Writes text with 17 significant digits, through CGAL; false when the stream
 // failed.  Requires finite points and valid indices.

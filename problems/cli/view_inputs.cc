@@ -211,7 +211,7 @@ class Collector {
       if (!whole.is_object() || !whole.contains("robot")) {
         FailUnknown(file, "JSON without robot, path or on_a");
       }
-      return TakeScene(SceneSource(file, request_.root, repair_).Load());
+      return TakeScene(ParseSceneFile(content, file, request_.root, repair_));
     }
     std::size_t number = 0;
     for (std::size_t at = 0; at < content.size();) {

@@ -4,10 +4,11 @@
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
-#include <system_error>
 
 #include "core/mesh/mesh_io.h"
+#include "core/mesh/polygon_soup.h"
 #include "problems/meshes/assimp_mesh.h"
+#include "problems/meshes/files_beside.h"
 #include "problems/meshes/robot_link.h"
 
 namespace phongpd {
@@ -68,32 +69,14 @@ TriangleMesh ReadAnyMesh(const std::string& path,
   if (warnings == nullptr) warnings = &unused;
   const std::string extension = ExtensionOf(path);
   if (IsRobot(extension)) return ReadRobotLink(path, root, warnings);
-  RequireBelow(path, root);
   if (IsImported(extension)) {
-    ImportedMesh imported = ReadByAssimp(path);
+    ImportedMesh imported = ReadByAssimp(path, root);
     warnings->push_back(path + ": " + imported.note);
     return std::move(imported.mesh);
   }
-  return ReadMesh(path);
-}
-
-void RequireBelow(const std::string& path, const std::string& root) {
-  if (root.empty()) return;
-  std::error_code error;
-  const fs::path folder = fs::canonical(root, error);
-  if (error || !fs::is_directory(folder, error)) {
-    throw InputError(root +
-                     ": expected the root folder of mesh files, found "
-                     "none");
-  }
-  const fs::path resolved = fs::weakly_canonical(path, error);
-  const bool is_below =
-      !error && std::mismatch(folder.begin(), folder.end(), resolved.begin(),
-                              resolved.end())
-                        .first == folder.end();
-  if (is_below) return;
-  throw InputError(path + ": expected a file below the root " + root +
-                   ", found one elsewhere; move it there");
+  if (root.empty()) return ReadMesh(path);
+  return internal::ReadMeshBytes(
+      ReadMeshFile(path, root, "a mesh file", kMaxMeshBytes), path);
 }
 
 }  // namespace phongpd

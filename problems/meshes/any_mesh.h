@@ -39,9 +39,11 @@ std::size_t FilePartOf(const std::string& name);
 //
 // The result is as that of ReadMesh: valid indices, finite coordinates, no
 // other promise.  A `root` that is not empty is a folder that all files must
-// lie below, links and ".." followed.  Assimp reads in a process of its own,
-// with limits of memory and time by the file's size: what a file makes of it
-// ends there.
+// lie below, links and ".." followed; then all must be regular files.  Files
+// that a glTF or COLLADA file names must be regular ones beside or below it,
+// without links and "..", always (files_beside.h).  Assimp reads in a process
+// of its own, with limits of memory and time by the file's size: what a file
+// makes of it ends there.
 //
 // Throws InputError, one line "FILE: what, expected, found": what ReadMesh
 // refuses; files that give no mesh; links that there are none of or several;
@@ -49,9 +51,5 @@ std::size_t FilePartOf(const std::string& name);
 TriangleMesh ReadAnyMesh(const std::string& path,
                          std::vector<std::string>* warnings = nullptr,
                          const std::string& root = "");
-
-// Throws InputError unless `path`, links and ".." followed, lies below the
-// folder `root`; an empty root is everywhere.
-void RequireBelow(const std::string& path, const std::string& root);
 
 }  // namespace phongpd

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "problems/meshes/assimp_mesh.h"
 
+#include <assimp/MemoryIOWrapper.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 #include <tinyxml2.h>
 
 #include <algorithm>
 #include <array>
+#include <assimp/IOSystem.hpp>
 #include <assimp/Importer.hpp>
 #include <cctype>
 #include <cmath>
@@ -20,12 +22,13 @@
 #include "core/contact/byte_stream.h"
 #include "core/mesh/counted.h"
 #include "core/mesh/finite.h"
-#include "core/mesh/input_file.h"
 #include "core/mesh/mesh_error.h"
 #include "core/mesh/mesh_io.h"
 #include "core/mesh/polygon_triangulation.h"
+#include "problems/meshes/files_beside.h"
 #include "problems/meshes/sandbox.h"
 #include "problems/output/text.h"
+#include "problems/scenes/json_schema.h"
 
 namespace phongpd {
 namespace {
@@ -33,7 +36,9 @@ namespace {
 namespace fs = std::filesystem;
 using Eigen::Matrix4d;
 using Eigen::Vector3d;
+using Json = nlohmann::ordered_json;
 
+constexpr std::uintmax_t kMaxBytes = std::uintmax_t{1} << 29;  // of a file
 constexpr std::size_t kMaxTriangles = 50'000'000;
 constexpr int kMaxNodeDepth = 1000;  // of nodes in nodes
 
@@ -143,6 +148,60 @@ class Collector {
   TriangleMesh mesh_;
 };
 
+// What Assimp may open: the file, from memory, and others in its folder or
+// below.
+class OwnFiles : public Assimp::IOSystem {
+ public:
+  // What it is told the file is called.
+  static std::string Name(const std::string& path) {
+    return kFolder + fs::path(path).filename().string();
+  }
+
+  OwnFiles(const std::string& path, const std::string& bytes,
+           const FilesBeside& folder)
+      : path_(path), name_(Name(path)), bytes_(bytes), folder_(folder) {}
+
+  bool Exists(const char* name) const override { return name == name_; }
+  char getOsSeparator() const override { return '/'; }
+  void Close(Assimp::IOStream* file) override { delete file; }
+
+  Assimp::IOStream* Open(const char* name, const char* mode) override {
+    if (name == name_) return Stream(bytes_, false);
+    if (mode[0] != 'r') return nullptr;
+    std::string rest = name;
+    if (rest.rfind(kFolder, 0) == 0) rest.erase(0, kFolder.size());
+    try {
+      return Stream(folder_.Read(rest, path_ + ": '" + rest.substr(0, 80) + "'",
+                                 "a file beside or below it", kMaxBytes),
+                    true);
+    } catch (const InputError& error) {
+      refusal_ = error.what();
+      return nullptr;
+    }
+  }
+
+  // Of a file that was asked for; empty: none was refused.
+  const std::string& refusal() const { return refusal_; }
+
+ private:
+  static Assimp::IOStream* Stream(const std::string& bytes, bool owns) {
+    const auto* data = reinterpret_cast<const std::uint8_t*>(bytes.data());
+    if (owns) {
+      auto* const copy = new std::uint8_t[bytes.size()];
+      std::copy(data, data + bytes.size(), copy);
+      data = copy;
+    }
+    return new Assimp::MemoryIOStream(data, bytes.size(), owns);
+  }
+
+  inline static const std::string kFolder = "./";
+  const std::string& path_;
+  const std::string name_;
+  const std::string& bytes_;
+  const FilesBeside& folder_;
+  std::string refusal_;
+};
+
 // "COLLADA, unit 0.0254 m, Z_UP".
 std::string ColladaFrame(const std::string& bytes, const std::string& file,
                          double* metres) {
@@ -167,31 +226,9 @@ std::string ColladaFrame(const std::string& bytes, const std::string& file,
          (axis == nullptr ? "Y_UP" : axis);
 }
 
-// Names of other files that a glTF file may read: beside or below it, no links.
-void RequireOwnBuffers(const nlohmann::json& json, const std::string& file) {
-  for (const char* list : {"buffers", "images"}) {
-    if (!json.contains(list) || !json[list].is_array()) continue;
-    for (const auto& item : json[list]) {
-      if (!item.is_object() || !item.contains("uri")) continue;
-      const std::string uri =
-          item["uri"].is_string() ? item["uri"].get<std::string>() : "..";
-      if (uri.rfind("data:", 0) == 0) continue;
-      const bool is_plain = uri.find("..") == std::string::npos &&
-                            uri.find_first_of("%:\\") == std::string::npos &&
-                            !fs::path(uri).is_absolute();
-      const fs::path path = fs::path(file).parent_path() / uri;
-      std::error_code error;
-      if (!is_plain || fs::is_symlink(path, error)) {
-        Refuse(file, "the buffer '" + uri.substr(0, 80) +
-                         "'; take one that lies beside the file, or .glb");
-      }
-    }
-  }
-}
-
 // The JSON of a glTF file, or of a GLB one: its first chunk.
-nlohmann::json GltfDocument(const std::string& bytes, bool is_binary,
-                            const std::string& file) {
+Json GltfDocument(const std::string& bytes, bool is_binary,
+                  const std::string& file) {
   constexpr std::size_t kHeader = 20;  // of the file and the chunk
   std::string text = bytes;
   if (is_binary) {
@@ -200,17 +237,18 @@ nlohmann::json GltfDocument(const std::string& bytes, bool is_binary,
     std::memcpy(&length, bytes.data() + 12, sizeof length);
     text = bytes.substr(kHeader, length);
   }
-  nlohmann::json json = nlohmann::json::parse(text, nullptr, false);
-  if (!json.is_object()) Refuse(file, "no JSON");
+  // A key twice would mean one thing here and another to Assimp.
+  Json json = ParseJson(text, file);
+  if (!json.is_object()) Refuse(file, "no JSON object");
   return json;
 }
 
 // Assimp leaves out triangles with indices out of range, without a word.
-void RequireAllTriangles(const nlohmann::json& json, const aiScene& scene,
+void RequireAllTriangles(const Json& json, const aiScene& scene,
                          const std::string& file) {
-  const auto none = nlohmann::json::array();
+  const auto none = Json::array();
   std::uint64_t expected = 0, found = 0;
-  const auto count = [&](const nlohmann::json& accessor) -> std::uint64_t {
+  const auto count = [&](const Json& accessor) -> std::uint64_t {
     return json.at("accessors").at(accessor.get<std::size_t>()).at("count");
   };
   try {
@@ -225,7 +263,7 @@ void RequireAllTriangles(const nlohmann::json& json, const aiScene& scene,
         expected += mode == 4 ? corners / 3 : strip;
       }
     }
-  } catch (const nlohmann::json::exception& error) {
+  } catch (const Json::exception& error) {
     Refuse(file, std::string("other JSON than glTF's (") + error.what() + ")");
   }
   for (unsigned i = 0; i < scene.mNumMeshes; ++i) {
@@ -240,12 +278,13 @@ void RequireAllTriangles(const nlohmann::json& json, const aiScene& scene,
                    ": the others have indices out of range; export it again");
 }
 
-std::string Import(const std::string& path, const std::string& bytes) {
+std::string Import(const std::string& path, const std::string& bytes,
+                   const FilesBeside& folder) {
   const std::string extension = Extension(path);
   double metres = 0.0;
   std::string note;
   bool keeps_root = true;
-  nlohmann::json gltf;
+  Json gltf;
   if (extension == ".dae") {
     note = ColladaFrame(bytes, path, &metres) +
            ": lengths and axes are the file's own, nothing is scaled or turned";
@@ -254,17 +293,15 @@ std::string Import(const std::string& path, const std::string& bytes) {
     note = "3MF: lengths are the file's own, millimetres unless it says other";
   } else {
     gltf = GltfDocument(bytes, extension == ".glb", path);
-    RequireOwnBuffers(gltf, path);
     note = "glTF: metres, Y up";
     metres = 1.0;
   }
   Assimp::Importer importer;
-  // Buffers beside a .gltf are found by its name.
-  const aiScene* const scene =
-      extension == ".gltf"
-          ? importer.ReadFile(path, 0)
-          : importer.ReadFileFromMemory(bytes.data(), bytes.size(), 0,
-                                        extension.c_str() + 1);
+  auto* const files = new OwnFiles(path, bytes, folder);
+  importer.SetIOHandler(files);  // which owns it
+  const aiScene* const scene = importer.ReadFile(OwnFiles::Name(path), 0);
+  // Also where it went on without.
+  if (!files->refusal().empty()) throw InputError(files->refusal());
   if (scene == nullptr || scene->mRootNode == nullptr) {
     Refuse(path, std::string("what Assimp cannot read: ") +
                      importer.GetErrorString());
@@ -283,12 +320,13 @@ std::string Import(const std::string& path, const std::string& bytes) {
 
 }  // namespace
 
-ImportedMesh ReadByAssimp(const std::string& path) {
-  constexpr std::uintmax_t kMaxBytes = std::uintmax_t{1} << 29;
-  const std::string bytes = ReadInputFile(path, "a mesh file", kMaxBytes);
+ImportedMesh ReadByAssimp(const std::string& path, const std::string& root) {
+  const std::string bytes = ReadMeshFile(path, root, "a mesh file", kMaxBytes);
   if (bytes.empty()) Refuse(path, "an empty file");
+  const FilesBeside folder(path, root);
   const std::string answer = RunInSandbox(
-      path, [&] { return Import(path, bytes); }, LimitsFor(bytes.size()));
+      path, [&] { return Import(path, bytes, folder); },
+      LimitsFor(bytes.size()));
   ImportedMesh imported;
   internal::ByteReader reader(answer);
   reader(imported.note, imported.metres, imported.mesh.vertices,

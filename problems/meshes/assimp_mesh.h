@@ -15,7 +15,8 @@ struct ImportedMesh {
   double metres = 0.0;
 };
 
-// The triangles of a COLLADA, glTF, GLB or 3MF file; see ReadAnyMesh.
-ImportedMesh ReadByAssimp(const std::string& path);
+// The triangles of a COLLADA, glTF, GLB or 3MF file below `root`, if that is
+// not empty; see ReadAnyMesh.
+ImportedMesh ReadByAssimp(const std::string& path, const std::string& root);
 
 }  // namespace phongpd

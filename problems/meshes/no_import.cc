@@ -18,7 +18,10 @@ namespace {
 
 }  // namespace
 
-ImportedMesh ReadByAssimp(const std::string& path) { Refuse(path); }
+ImportedMesh ReadByAssimp(const std::string& path,
+                          const std::string& /*root*/) {
+  Refuse(path);
+}
 
 TriangleMesh ReadRobotLink(const std::string& path, const std::string&,
                            std::vector<std::string>*) {

@@ -232,7 +232,6 @@ TriangleMesh RobotFile::MeshFile(const XMLElement& shape) {
       Value(shape, is_sdf_ ? "uri" : "filename");
   if (!name || name->empty()) Refuse("mesh: expected a file, found none");
   const std::string path = PathOf(*name);
-  RequireBelow(path, root_);
   TriangleMesh mesh;
   // A robot in a robot would have no end.
   std::string extension =
@@ -241,7 +240,7 @@ TriangleMesh RobotFile::MeshFile(const XMLElement& shape) {
     c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   }
   if (extension == ".dae") {
-    ImportedMesh imported = ReadByAssimp(path);
+    ImportedMesh imported = ReadByAssimp(path, root_);
     mesh = Scaled(std::move(imported.mesh), imported.metres);
     warnings_.push_back(path + ": " + imported.note +
                         "; then by its unit "

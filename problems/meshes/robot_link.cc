@@ -6,9 +6,9 @@
 #include <algorithm>
 
 #include "core/mesh/counted.h"
-#include "core/mesh/input_file.h"
 #include "core/mesh/mesh_error.h"
 #include "problems/meshes/any_mesh.h"
+#include "problems/meshes/files_beside.h"
 #include "problems/meshes/robot_file.h"
 #include "problems/meshes/robot_pose.h"
 #include "problems/output/nearest_name.h"
@@ -71,9 +71,8 @@ TriangleMesh ReadRobotLink(const std::string& path, const std::string& root,
   constexpr std::uintmax_t kMaxBytes = std::uintmax_t{1} << 26;
   const std::size_t end = FilePartOf(path);
   const std::string file = path.substr(0, end);
-  RequireBelow(file, root);
-  return ParseRobot(ReadInputFile(file, "a URDF or SDF file", kMaxBytes), file,
-                    path.substr(end), root, warnings);
+  return ParseRobot(ReadMeshFile(file, root, "a URDF or SDF file", kMaxBytes),
+                    file, path.substr(end), root, warnings);
 }
 
 TriangleMesh ParseRobot(const std::string& bytes, const std::string& file,

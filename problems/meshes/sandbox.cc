@@ -2,6 +2,8 @@
 #include "problems/meshes/sandbox.h"
 
 #include <fcntl.h>
+#include <poll.h>
+#include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -9,6 +11,7 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <chrono>
 #include <cmath>
 #include <csignal>
 #include <cstring>
@@ -57,10 +60,12 @@ void ResetSignals() {
   }
 }
 
-[[noreturn]] void Child(const Descriptor& out,
+[[noreturn]] void Child(pid_t parent, const Descriptor& out,
                         const std::function<std::string()>& work,
                         const SandboxLimits& limits) {
   ResetSignals();
+  // It ends with its parent, which may have ended before that was said.
+  if (prctl(PR_SET_PDEATHSIG, SIGKILL) != 0 || getppid() != parent) _exit(1);
   const int nowhere = open("/dev/null", O_WRONLY | O_CLOEXEC);
   if (nowhere >= 0) dup2(nowhere, STDERR_FILENO);
   int code = 0;
@@ -82,15 +87,22 @@ void ResetSignals() {
   _exit(code);
 }
 
-std::string ReadToEnd(const Descriptor& in) {
-  std::string bytes;
+// Until the other end is closed, at most that long; whether it was.
+bool ReadToEnd(const Descriptor& in, double seconds, std::string* bytes) {
+  using Clock = std::chrono::steady_clock;
+  const auto end = Clock::now() + std::chrono::duration<double>(seconds);
   std::array<char, 1 << 16> buffer;
   for (;;) {
+    const std::chrono::duration<double, std::milli> left = end - Clock::now();
+    pollfd waiting = {in.number(), POLLIN, 0};
+    const int ready = poll(&waiting, 1, std::max(0, int(left.count()) + 1));
+    if (ready == 0) return false;
+    if (ready < 0 && errno == EINTR) continue;
     const ssize_t count = read(in.number(), buffer.data(), buffer.size());
     if (count > 0) {
-      bytes.append(buffer.data(), static_cast<std::size_t>(count));
+      bytes->append(buffer.data(), static_cast<std::size_t>(count));
     } else if (count == 0 || errno != EINTR) {
-      return bytes;
+      return true;
     }
   }
 }
@@ -109,8 +121,9 @@ std::string Ending(int status) {
 SandboxLimits LimitsFor(std::size_t bytes) {
   const SandboxLimits most;
   const double mib = static_cast<double>(bytes) / 0x1p20;
-  return {std::min(most.max_mib, 512.0 + 256.0 * mib),
-          std::min(most.max_seconds, 8.0 + 4.0 * mib)};
+  const double seconds = std::min(most.max_seconds, 8.0 + 4.0 * mib);
+  return {std::min(most.max_mib, 512.0 + 256.0 * mib), seconds,
+          std::min(most.max_wait_seconds, 10.0 * seconds)};
 }
 
 std::string RunInSandbox(const std::string& what,
@@ -122,13 +135,15 @@ std::string RunInSandbox(const std::string& what,
   }
   const Descriptor in(ends[0]);
   Descriptor out(ends[1]);
+  const pid_t parent = getpid();
   const pid_t child = fork();
   if (child < 0) {
     throw InputError(what + ": cannot be read (" + std::strerror(errno) + ")");
   }
-  if (child == 0) Child(out, work, limits);
+  if (child == 0) Child(parent, out, work, limits);
   out = Descriptor();
-  std::string bytes = ReadToEnd(in);
+  std::string bytes;
+  if (!ReadToEnd(in, limits.max_wait_seconds, &bytes)) kill(child, SIGKILL);
   int status = 0;
   while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
   }

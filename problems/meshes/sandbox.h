@@ -10,6 +10,8 @@ namespace phongpd {
 struct SandboxLimits {
   double max_mib = 4096.0;     // that the process may grow by
   double max_seconds = 120.0;  // of its processor time
+  // By the clock, for what waits: far more, as the machine may be busy.
+  double max_wait_seconds = 600.0;
 };
 
 // For the reader of a file of that many bytes: what its contents can need many
@@ -17,8 +19,9 @@ struct SandboxLimits {
 SandboxLimits LimitsFor(std::size_t bytes);
 
 // Runs `work` in a process of its own and returns the bytes that it returned.
-// What it writes to standard error is not seen.  For libraries that a file can
-// make crash, or run and allocate without end; `work` may use no threads.
+// What it writes to standard error is not seen, and it ends when this process
+// does.  For libraries that a file can make crash, or run and allocate without
+// end; `work` may use no threads.
 // Throws InputError "<what>: …" when the process ends in another way, and with
 // the words of an exception that left `work`.
 std::string RunInSandbox(const std::string& what,

@@ -6,14 +6,15 @@
 #include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <set>
-#include <system_error>
 #include <utility>
 
 #include "core/bounds/mesh_repair.h"
 #include "core/mesh/input_file.h"
 #include "core/solid/solid.h"
 #include "problems/meshes/any_mesh.h"
+#include "problems/meshes/files_beside.h"
 #include "problems/meshes/operand_notes.h"
 #include "problems/output/text.h"
 #include "problems/scenes/json_schema.h"
@@ -81,23 +82,12 @@ std::string MeshPath(const Json& value, const JsonPlace& place,
   const std::string part = text.substr(end);  // "#link"
   const fs::path path = fs::path(folder.directory) / text.substr(0, end);
   if (folder.root.empty()) return path.string() + part;
-  std::error_code error;
-  const fs::path root = fs::canonical(folder.root, error);
-  if (error || !fs::is_directory(root, error)) {
-    throw InputError(folder.root +
-                     ": expected the root folder of mesh files, found none");
-  }
-  const fs::path resolved = fs::weakly_canonical(path, error);
-  const bool is_below =
-      !error &&
-      std::mismatch(root.begin(), root.end(), resolved.begin(), resolved.end())
-              .first == root.end();
-  if (!is_below) {
+  const std::optional<fs::path> below = PathBelow(path.string(), folder.root);
+  if (!below) {
     place.Fail("a mesh file below the root " + folder.root,
                Shortened(value) + ", which is not; move it there");
   }
-  // Not `path`: what has been checked is read.
-  return resolved.string() + part;
+  return (fs::path(folder.root) / *below).string() + part;
 }
 
 // A `solid` of the schema.  Steps that a scene leaves out do no arithmetic.
@@ -341,10 +331,17 @@ Scene ParseScene(const Json& json, const std::string& file,
 
 Scene ReadScene(const std::string& path, const std::string& root,
                 Repair repair) {
-  const std::string text = ReadInputFile(path, "a scene file", kMaxSceneBytes);
+  return ParseSceneFile(ReadInputFile(path, "a scene file", kMaxSceneBytes),
+                        path, root, repair);
+}
+
+Scene ParseSceneFile(const std::string& text, const std::string& path,
+                     const std::string& root, Repair repair) {
   const std::filesystem::path file(path);
-  return ParseScene(ParseJson(text, path), path, file.parent_path().string(),
-                    file.stem().string(), root, repair);
+  const bool has_folder = std::filesystem::is_regular_file(file);
+  return ParseScene(ParseJson(text, path), path,
+                    has_folder ? file.parent_path().string() : ".",
+                    has_folder ? file.stem().string() : "scene", root, repair);
 }
 
 std::string SkippedObstaclesNote(const Scene& scene) {

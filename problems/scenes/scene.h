@@ -84,15 +84,21 @@ inline constexpr std::uintmax_t kMaxSceneBytes = std::uintmax_t{1} << 28;
 // goal, shapes and mesh files that give no solid.
 //
 // A `root` that is not empty is a folder that mesh files must lie below, links
-// and ".." followed; others are refused before they are opened.  That guards
-// against scene files of strangers, not against somebody who changes the
-// folder at the same time.
+// and ".." followed; others are refused before they are opened.  What has been
+// checked is what is read, also of files that mesh files name, and only regular
+// files are (files_beside.h).
 //
 // `repair` is for solids without a key of that name
 // (core/bounds/mesh_repair.h); what was done is in the warnings, as are meshes
 // whose sizes suggest different units.
 Scene ReadScene(const std::string& path, const std::string& root = "",
                 Repair repair = Repair::kReject);
+
+// The same of the file's bytes.  The path may be of a pipe that they came from:
+// then relative mesh paths are from the working directory.
+Scene ParseSceneFile(const std::string& text, const std::string& path,
+                     const std::string& root = "",
+                     Repair repair = Repair::kReject);
 
 // The same from a parsed document; errors start with `file`, mesh paths are
 // relative to `directory`.  A scene without a name is called `name`.

@@ -3,13 +3,12 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "core/contact/byte_stream.h"
 #include "core/contact/content_hash.h"
+#include "core/mesh/input_file.h"
 #include "problems/output/nearest_name.h"
 #include "problems/output/text.h"
 #include "problems/scenes/scene_library.h"
@@ -36,6 +35,7 @@ SceneSource::SceneSource(const std::string& text, const std::string& root,
                        DidYouMean(family_, names));
     }
     is_file_ = true;
+    content_ = ReadInputFile(text, "a scene file", kMaxSceneBytes);
     label_ = std::filesystem::path(text).stem().string();
     return;
   }
@@ -52,7 +52,7 @@ SceneSource::SceneSource(const std::string& text, const std::string& root,
 }
 
 Scene SceneSource::Load(std::optional<std::uint64_t> seed) const {
-  if (is_file_) return ReadScene(text_, root_, repair_);
+  if (is_file_) return ParseSceneFile(content_, text_, root_, repair_);
   std::map<std::string, double> knobs = knobs_;
   if (seed) knobs["seed"] = static_cast<double>(*seed);
   Scene scene = ParseScene(MakeScene(family_, knobs), text_);
@@ -62,11 +62,7 @@ Scene SceneSource::Load(std::optional<std::uint64_t> seed) const {
 
 std::string SceneSource::Digest() const {
   internal::ByteWriter writer;
-  writer(text_);
-  if (is_file_) {
-    std::ifstream file(text_, std::ios::binary);
-    writer(std::string(std::istreambuf_iterator<char>(file), {}));
-  }
+  writer(text_, content_);
   const Scene scene = Load();
   writer(scene.start, scene.goal, scene.workspace.robot.mesh().vertices,
          scene.workspace.robot.mesh().triangles);

@@ -15,8 +15,8 @@ namespace phongpd {
 class SceneSource {
  public:
   // Throws InputError if `text` names neither a file nor a family, or a knob
-  // is not key=number.  The file is not read yet.  `root` and `repair`: see
-  // ReadScene.
+  // is not key=number.  A file is read here, once, as it may be a pipe; throws
+  // what ReadInputFile refuses.  `root` and `repair`: see ReadScene.
   explicit SceneSource(const std::string& text, const std::string& root = "",
                        Repair repair = Repair::kReject);
 
@@ -25,7 +25,7 @@ class SceneSource {
   // A family has a scene for every seed (knob `seed`); a file is one scene.
   bool is_family() const { return !is_file_; }
 
-  // Reads or makes it.  A seed is ignored by a file, and overrides the knob of
+  // Parses or makes it.  A seed is ignored by a file, and overrides the knob of
   // a family.  Throws InputError like ReadScene and MakeScene.
   Scene Load(std::optional<std::uint64_t> seed = std::nullopt) const;
 
@@ -39,6 +39,7 @@ class SceneSource {
   Repair repair_ = Repair::kReject;
   std::string label_;
   bool is_file_ = false;
+  std::string content_;  // of the file
   std::string family_;
   std::map<std::string, double> knobs_;
 };

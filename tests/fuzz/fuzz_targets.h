@@ -21,6 +21,11 @@ void MeshPly(const std::uint8_t* data, std::size_t size);
 // mesh file is read.  Only where tinyxml2 is.
 void Robot(const std::uint8_t* data, std::size_t size);
 
+// A glTF file in the folder of a stranger, with ways out of it: refused, or a
+// mesh of what lies in the folder.  Assimp reads it in a process of its own, of
+// which the fuzzer sees the outcome.  Only where Assimp is.
+void Gltf(const std::uint8_t* data, std::size_t size);
+
 // A file of points: refused, or finite.
 void PointsCsv(const std::uint8_t* data, std::size_t size);
 
@@ -58,7 +63,7 @@ inline constexpr Target kTargets[] = {
     {"piece", Piece},      {"points_csv", PointsCsv},
     {"query", Query},
 #ifdef PHONGPD_FUZZES_ROBOTS
-    {"robot", Robot},
+    {"gltf", Gltf},            {"robot", Robot},
 #endif
     {"scene", Scene}};
 
