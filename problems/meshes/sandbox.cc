@@ -67,7 +67,10 @@ void ResetSignals() {
   // It ends with its parent, which may have ended before that was said.
   if (prctl(PR_SET_PDEATHSIG, SIGKILL) != 0 || getppid() != parent) _exit(1);
   const int nowhere = open("/dev/null", O_WRONLY | O_CLOEXEC);
-  if (nowhere >= 0) dup2(nowhere, STDERR_FILENO);
+  // Nor is what the parent has yet to print printed here as well.
+  for (const int number : {STDOUT_FILENO, STDERR_FILENO}) {
+    if (nowhere >= 0 && number != out.number()) dup2(nowhere, number);
+  }
   int code = 0;
   try {
     Limit(limits);

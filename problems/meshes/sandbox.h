@@ -19,11 +19,10 @@ struct SandboxLimits {
 SandboxLimits LimitsFor(std::size_t bytes);
 
 // Runs `work` in a process of its own and returns the bytes that it returned.
-// What it writes to standard error is not seen, and it ends when this process
-// does.  For libraries that a file can make crash, or run and allocate without
-// end; `work` may use no threads.
-// Throws InputError "<what>: …" when the process ends in another way, and with
-// the words of an exception that left `work`.
+// What it prints is not seen, and it ends when this process does.  For
+// libraries that a file can make crash, or run and allocate without end; `work`
+// may use no threads. Throws InputError "<what>: …" when the process ends in
+// another way, and with the words of an exception that left `work`.
 std::string RunInSandbox(const std::string& what,
                          const std::function<std::string()>& work,
                          const SandboxLimits& limits = {});

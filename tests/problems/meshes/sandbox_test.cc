@@ -8,6 +8,7 @@
 
 #include <cerrno>
 #include <csignal>
+#include <cstdio>
 #include <string>
 
 #include "core/mesh/mesh_error.h"
@@ -31,6 +32,19 @@ TEST(Sandbox, EndsWhatWaitsWithoutUsingTheProcessor) {
   EXPECT_EQ(what,
             "file: expected a file that can be read, found one that takes too "
             "long to read");
+}
+
+// An answer on standard output is the parent's alone.
+TEST(Sandbox, PrintsNothing) {
+  testing::internal::CaptureStdout();
+  std::printf("once, ");
+  RunInSandbox("file", [] {
+    std::printf("never");
+    std::fflush(stdout);
+    return std::string("done");
+  });
+  std::fflush(stdout);
+  EXPECT_EQ(testing::internal::GetCapturedStdout(), "once, ");
 }
 
 TEST(Sandbox, ReturnsWhatWasMadeSlowly) {
