@@ -113,7 +113,8 @@ endfunction()
 
 # What Assimp reads it reads in another process.
 known_to("/assimp_mesh[.]cc$" "assimp/" "problems;tests;results")
-known_to("ipopt_(solve|options)[.]cc$" "Ip[A-Z]"
+# The options' test asks Ipopt itself which there are.
+known_to("ipopt_(solve|options|options_test)[.]cc$" "Ip[A-Z]"
          "constraints;planners;problems;tests;results")
 # OMPL belongs to planners/ompl; programs that measure may use it too.
 foreach(folder constraints planners/exact planners/retraction

@@ -63,7 +63,7 @@ inline constexpr Target kTargets[] = {
     {"piece", Piece},      {"points_csv", PointsCsv},
     {"query", Query},
 #ifdef PHONGPD_FUZZES_ROBOTS
-    {"gltf", Gltf},            {"robot", Robot},
+    {"gltf", Gltf},        {"robot", Robot},
 #endif
     {"scene", Scene}};
 
