@@ -139,12 +139,15 @@ class World(Shown):
                  margin: float | str | None = None, waypoints: int = 0,
                  seed: int = 1, max_seconds: float | None = None,
                  straight: bool = False, preset: str = "",
-                 model: str = "") -> Trajectory:
+                 model: str = "", require: bool = False) -> Trajectory:
         """A short smooth trajectory by Ipopt, judged exactly.
 
         start, goal: positions; the scene's own where it was loaded.
         metric: "phong@L" with a smoothing length, "euclidean"; "": the
-        scene's.  margin: distance kept, a share of D or "0.5unit".
+        scene's.  margin: distance kept, a share of D or "0.5unit" (shares above
+        0.1 as "0.5D"); what is kept less is in `reason` and in row["lengths"],
+        with the room of start and goal, and with `require` the status is
+        "clearance_missed".
         waypoints: free ones; 0: the scene's.  straight: start from the line
         even where it collides, as comparisons do.  preset: "fast", "balanced"
         or "tight" (phongpd optimize --help); "": the scene's.  model: "full",
@@ -157,7 +160,8 @@ class World(Shown):
             whole_number(waypoints, "waypoints", 0),
             whole_number(seed, "seed", 0, _MOST_SEED),
             seconds(max_seconds, "max_seconds"), flag(straight, "straight"),
-            text(preset, "preset"), text(model, "model")))
+            text(preset, "preset"), text(model, "model"),
+            flag(require, "require")))
         return Trajectory(
             status=row["status_class"], reason=row["reason"],
             free=row["collision_free"], path=_path(row),
@@ -169,14 +173,16 @@ class World(Shown):
              goal: ArrayLike | None = None, *,
              planner: str = "contact-surface", retraction: str = "phong",
              clearance: float | str | None = None, max_seconds: float = 5.0,
-             seed: int = 1, preset: str = "", model: str = "") -> Plan:
+             seed: int = 1, preset: str = "", model: str = "",
+             require: bool = False) -> Plan:
         """A path that is free by exact tests, or why there is none.
 
         planner: "contact-surface" is complete, deterministic and proves
         infeasibility; the others sample (names: `phongpd plan --help`), for
         `max_seconds`, by `seed`; retraction-* carry samples to the contact
         space by `retraction`.  clearance: to seek where there is room, a share
-        of D or "0.5unit".  preset: of contact-surface, as of optimize.  model:
+        of D or "0.5unit" (shares above 0.1 as "0.5D"); what is kept less is told
+        as optimize tells it, `require` too.  preset: of contact-surface, as of optimize.  model:
         "full", the whole contact space; "window", of it what leads from start
         to goal, and free space alone for planners that only check motions;
         "auto", the window for those, and where limits refuse the whole; "":
@@ -187,7 +193,7 @@ class World(Shown):
             *ends, text(planner, "planner"), text(retraction, "retraction"),
             length(clearance, "clearance"), seconds(max_seconds, "max_seconds"),
             whole_number(seed, "seed", 0, _MOST_SEED), text(preset, "preset"),
-            text(model, "model")))
+            text(model, "model"), flag(require, "require")))
         return Plan(
             status=row["status"], reason=row["reason"], solved=row["solved"],
             infeasible=row["infeasible_proved"], path=_path(row),

@@ -9,6 +9,7 @@
 #include "constraints/sampling_rule.h"
 #include "planners/trajectory/trajectory_problem.h"
 #include "problems/output/text.h"
+#include "problems/world/bare_length.h"
 #include "python/src/arrays.h"
 #include "python/src/bindings.h"
 #include "python/src/computing.h"
@@ -37,9 +38,9 @@ class Rows {
       throw InputError("start and goal: expected finite numbers, found others");
     }
     const World& world = workshop.world();
-    const Length wanted = margin.empty() ? workshop.scene().trajectory.margin
-                                         : ParseLength(margin, "margin");
-    RequireLength(wanted, LengthRange::kAboveZero, world.diagonal(), "margin");
+    const Length wanted =
+        margin.empty() ? workshop.scene().trajectory.margin
+                       : ParseClearance(margin, "margin", world.diagonal());
     margin_ = world.Resolve(wanted).unit;
     max_segment_ = max_segment > 0.0 ? max_segment
                                      : LongestSegment(start_, goal_, waypoints);

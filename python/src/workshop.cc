@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "problems/studies/planning_study.h"
+#include "problems/world/bare_length.h"
 #include "python/src/interruptible.h"
 
 namespace phongpd::python {
@@ -38,14 +39,13 @@ std::string Workshop::Optimize(const Point& start, const Point& goal,
                                const std::string& margin, int waypoints,
                                std::uint64_t seed, double max_seconds,
                                bool is_straight, const std::string& preset,
-                               const std::string& model) {
+                               const std::string& model, bool is_required) {
   return Interruptible([&] {
     const std::lock_guard<std::mutex> lock(one_at_a_time_);
     Scene scene = Between(start, goal);
     if (!margin.empty()) {
-      scene.trajectory.margin = ParseLength(margin, "margin");
-      RequireLength(scene.trajectory.margin, LengthRange::kAboveZero,
-                    world_.diagonal(), "margin");
+      scene.trajectory.margin =
+          ParseClearance(margin, "margin", world_.diagonal());
     }
     if (waypoints > 0) scene.trajectory.waypoints = waypoints;
     if (!preset.empty()) scene.preset = ParsePreset(preset, "preset");
@@ -71,7 +71,8 @@ std::string Workshop::Optimize(const Point& start, const Point& goal,
     const PipelineResult result = trajectories_.Run(chosen, options);
     nlohmann::ordered_json row =
         TrajectoryRow(trajectories_, chosen, options, result);
-    return Judged(scene, ClaimsOf(result), &row);
+    return Judged(scene, ClaimsOf(result),
+                  WishOfTrajectory(scene, !margin.empty(), is_required), &row);
   });
 }
 
@@ -80,15 +81,14 @@ std::string Workshop::Plan(const Point& start, const Point& goal,
                            const std::string& retraction,
                            const std::string& clearance, double max_seconds,
                            std::uint64_t seed, const std::string& preset,
-                           const std::string& model) {
+                           const std::string& model, bool is_required) {
   return Interruptible([&] {
     const std::lock_guard<std::mutex> lock(one_at_a_time_);
     Scene scene = Between(start, goal);
     if (!clearance.empty()) {
       RequireSeeksClearance(planner, "clearance");
-      scene.planning.clearance = ParseLength(clearance, "clearance");
-      RequireLength(*scene.planning.clearance, LengthRange::kAboveZero,
-                    world_.diagonal(), "clearance");
+      scene.planning.clearance =
+          ParseClearance(clearance, "clearance", world_.diagonal());
     }
     if (!preset.empty()) {
       if (planner != kContactSurface) {
@@ -98,6 +98,10 @@ std::string Workshop::Plan(const Point& start, const Point& goal,
       scene.preset = ParsePreset(preset, "preset");
     }
     if (!model.empty()) scene.planning.model = model;
+    const ClearanceWish wish = WishOfPlan(scene, is_required);
+    if (is_required && !wish.asked) {
+      throw InputError("require: expected a clearance with it, found none");
+    }
     PlanningStudy study(scene, world_);
     PlanningRun run;
     run.planner = planner;
@@ -106,7 +110,7 @@ std::string Workshop::Plan(const Point& start, const Point& goal,
     run.seed = seed;
     const PlanningResult result = study.Run(run);
     nlohmann::ordered_json row = PlanningRow(study, run, result);
-    return Judged(scene, ClaimsOf(result), &row);
+    return Judged(scene, ClaimsOf(result), wish, &row);
   });
 }
 
@@ -124,10 +128,12 @@ Scene Workshop::Between(const Point& start, const Point& goal) const {
 }
 
 std::string Workshop::Judged(const Scene& scene, const AnswerClaims& claims,
+                             const ClearanceWish& wish,
                              nlohmann::ordered_json* row) const {
   AnswerCheck check(true);
   check.Judge(scene, world_, claims, row);
   check.RequireNoFailure();
+  TellClearance(world_, scene, wish, row);
   return row->dump();
 }
 

@@ -11,6 +11,7 @@
 #include "core/contact/contact_space_cache.h"
 #include "problems/scenes/scene.h"
 #include "problems/studies/answer_check.h"
+#include "problems/studies/clearance_wish.h"
 #include "problems/studies/trajectory_study.h"
 #include "problems/world/world.h"
 
@@ -42,18 +43,19 @@ class Workshop {
                        const std::string& metric, const std::string& margin,
                        int waypoints, std::uint64_t seed, double max_seconds,
                        bool is_straight, const std::string& preset,
-                       const std::string& model);
+                       const std::string& model, bool is_required);
 
   // A row as `phongpd plan` writes it, judged.
   std::string Plan(const Point& start, const Point& goal,
                    const std::string& planner, const std::string& retraction,
                    const std::string& clearance, double max_seconds,
                    std::uint64_t seed, const std::string& preset,
-                   const std::string& model);
+                   const std::string& model, bool is_required);
 
  private:
   Scene Between(const Point& start, const Point& goal) const;
   std::string Judged(const Scene& scene, const AnswerClaims& claims,
+                     const ClearanceWish& wish,
                      nlohmann::ordered_json* row) const;
 
   Scene scene_;

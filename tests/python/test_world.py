@@ -187,3 +187,34 @@ def test_bad_input_is_said_in_one_line(world, call):
     with pytest.raises(phongpd.InputError) as error:
         call(world)
     assert "\n" not in str(error.value)
+
+
+def test_a_missed_clearance_is_said_and_an_error_where_required(world):
+    room = world.clearance([START, GOAL])
+    asked = 1.5 * room.max()
+    for ask in (
+            lambda **o: world.plan(START, GOAL, clearance=f"{asked}unit", **o),
+            lambda **o: world.optimize(START, GOAL, margin=f"{asked}unit", **o)):
+        found = ask()
+        lengths = found.row["lengths"]
+        assert [lengths[end]["unit"] for end in ("start_room", "goal_room")] \
+            == pytest.approx(room)
+        assert found.row["clearance_shortfall"] == pytest.approx(
+            asked - found.clearance)
+        assert "the start has" in found.reason
+        assert found.status != "clearance_missed"
+        missed = ask(require=True)
+        assert missed.status == "clearance_missed"
+        assert world.is_motion_free(missed.path[:-1], missed.path[1:]).all()
+    with pytest.raises(phongpd.InputError, match="clearance"):
+        world.plan(START, GOAL, require=True)
+
+
+def test_a_large_share_has_to_say_that_it_is_one(world):
+    for call in (lambda v: world.plan(START, GOAL, clearance=v),
+                 lambda v: world.optimize(START, GOAL, margin=v),
+                 lambda v: phongpd.NonPenetrationRows(world, START, GOAL,
+                                                      margin=v)):
+        for value in (0.5, "0.5", 20):
+            with pytest.raises(phongpd.InputError, match="did you mean"):
+                call(value)

@@ -103,7 +103,7 @@ def _planning_row(job: Job, subject: dict[str, Any]) -> str:
     row: str = world.plan(
         tuple(scene.start), tuple(scene.goal), what["planner"],
         what["retraction"], what["clearance"], what["max_seconds"],
-        what["seed"], "", "")
+        what["seed"], "", "", False)
     return row
 
 
