@@ -1,0 +1,280 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "planners/trajectory/curve_optimizer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "core/mesh/finite.h"
+#include "core/mesh/mesh_error.h"
+#include "core/stopwatch.h"
+#include "planners/exact/check_option.h"
+#include "planners/exact/curve_judge.h"
+#include "planners/trajectory/curve_cells.h"
+#include "planners/trajectory/curve_program.h"
+#include "planners/trajectory/knot_curve.h"
+
+namespace phongpd {
+namespace {
+
+using Eigen::Vector3d;
+using internal::CurveStep;
+using internal::KnotCurve;
+using internal::PieceCells;
+
+constexpr double kTrust = 0.05;  // τ, of D
+constexpr double kSigma = 0.03;  // σ of the first round
+constexpr double kLargestSigma = 0.5;
+constexpr double kGoodStep = 0.5;  // a smaller share of what was predicted asks
+                                   // for a shorter step
+constexpr double kSmallestSigma = 1e-5;
+constexpr int kPieces = 3;      // of a segment of the path
+constexpr int kMaxRounds = 60;  // of a size of pieces
+// So many rounds in a row that gain less, a share of the time, end it.
+constexpr int kSmallGains = 2;
+constexpr double kSmallGain = 1e-3;
+// What rounding may leave above a limit is scaled away.
+constexpr double kAboveLimit = 0x1p-48;
+constexpr double kMoreAbove = 8.0;  // by each further scaling
+constexpr int kScalings = 8;
+
+double MissingOf(const std::vector<PieceCells>& cells, double margin) {
+  double missing = 0.0;
+  for (const PieceCells& of_piece : cells) {
+    missing += std::max(0.0, margin - of_piece.distance);
+  }
+  return missing;
+}
+
+// So much of a step, within the limits.
+KnotCurve Moved(const KnotCurve& curve, const KnotCurve& change, double share,
+                const MotionLimits& limits) {
+  KnotCurve moved = curve;
+  for (std::size_t k = 0; k < curve.knots.size(); ++k) {
+    moved.knots[k].p += share * change.knots[k].p;
+    moved.knots[k].v += share * change.knots[k].v;
+    moved.knots[k].a += share * change.knots[k].a;
+  }
+  for (std::size_t i = 0; i < curve.durations.size(); ++i) {
+    moved.durations[i] *= std::exp(share * change.durations[i]);
+  }
+  moved.Slow(internal::SlowingOf(moved, limits));
+  return moved;
+}
+
+// The least time at which it keeps the limits, proved.
+bool FitTime(const MotionLimits& limits, Trajectory* trajectory) {
+  double rounding = kAboveLimit;
+  for (int i = 0; i < kScalings; ++i, rounding *= kMoreAbove) {
+    const LimitUse use = BoundLimitUse(*trajectory, limits);
+    if (i > 0 && use.IsKept()) return true;
+    *trajectory = trajectory->Slowed(use.SlowingNeeded() * (1.0 + rounding));
+  }
+  return false;
+}
+
+class Optimizer {
+ public:
+  Optimizer(const FreeSpace& space, double diagonal,
+            const CurveOptions& options)
+      : space_(space), options_(options), diagonal_(diagonal) {
+    settings_.limits = options.limits;
+    settings_.diagonal = diagonal;
+    settings_.margin = options.margin;
+    settings_.trust = kTrust * diagonal;
+    settings_.sigma = kSigma;
+  }
+
+  CurveSummary Run(const std::vector<Vector3d>& path) {
+    if (CheckPath(space_, path).free) Start(path);
+    if (!summary_.trajectory.empty()) {
+      const int halvings = static_cast<int>(options_.effort);
+      for (int i = 0; i <= halvings && RunRounds(); ++i) {
+        if (i < halvings && !Halve()) break;
+      }
+      Report();
+    }
+    summary_.seconds = stopwatch_.Seconds();
+    return summary_;
+  }
+
+ private:
+  void Start(const std::vector<Vector3d>& path) {
+    auto corners = internal::DropCorners(space_, path, options_.margin);
+    if (corners.size() < 2) corners = path;
+    corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
+    now_ = internal::StopAtCorners(corners, options_.limits, kPieces);
+    // On the path but for rounding, by which it may still touch.
+    if (!Keep(now_)) return;
+    summary_.stops_duration = summary_.duration;
+    summary_.first_seconds = stopwatch_.Seconds();
+  }
+
+  // Becomes the answer if it is free and within the limits, both proved.
+  bool Keep(const KnotCurve& curve) {
+    Trajectory fitted = curve.ToTrajectory();
+    if (!CheckCurve(space_, fitted).IsFree()) return false;
+    // Other durations, the same points.
+    if (!FitTime(options_.limits, &fitted)) return false;
+    summary_.trajectory = std::move(fitted);
+    summary_.duration = summary_.trajectory.duration();
+    return true;
+  }
+
+  bool MustEnd() {
+    const bool is_interrupted =
+        options_.is_interrupted && options_.is_interrupted();
+    if (is_interrupted) summary_.status = CurveStatus::kInterrupted;
+    const bool is_late = stopwatch_.Seconds() > options_.time_limit;
+    if (is_late && !is_interrupted) summary_.status = CurveStatus::kTimeLimit;
+    return is_interrupted || is_late;
+  }
+
+  std::vector<PieceCells> CellsOf(const KnotCurve& curve) const {
+    std::vector<PieceCells> cells;
+    for (int i = 0; i < curve.pieces(); ++i) {
+      cells.push_back(internal::FindCells(space_, curve.PointsOf(i),
+                                          settings_.trust, options_.margin));
+    }
+    return cells;
+  }
+
+  double MeritOf(const KnotCurve& curve,
+                 const std::vector<PieceCells>& cells) const {
+    return options_.margin > 0.0
+               ? settings_.weights.missing * MissingOf(cells, options_.margin) /
+                     (diagonal_ * curve.pieces())
+               : 0.0;
+  }
+
+  // False if it must end.
+  bool RunRounds() {
+    cells_ = CellsOf(now_);
+    int small_gains = 0;
+    for (int i = 0; i < kMaxRounds; ++i) {
+      if (MustEnd()) return false;
+      small_gains = RunRound() < kSmallGain ? small_gains + 1 : 0;
+      if (small_gains >= kSmallGains || settings_.sigma < kSmallestSigma) {
+        summary_.status = CurveStatus::kConverged;
+        return true;
+      }
+    }
+    summary_.status = CurveStatus::kRoundLimit;
+    return true;
+  }
+
+  double GainOf(const KnotCurve& curve) const {
+    return 1.0 - curve.Duration() / now_.Duration();
+  }
+
+  // What the merit fell by, a share of the time; or should have fallen by, if
+  // the step is not taken.
+  double RunRound() {
+    CurveRound round;
+    round.sigma = settings_.sigma;
+    round.pieces = now_.pieces();
+    for (const PieceCells& cells : cells_) round.planes += cells.planes;
+    const CurveStep step = internal::SolveCurveProgram(now_, cells_, settings_);
+    round.rows = step.rows;
+    round.iterations = step.iterations;
+    round.predicted = step.predicted;
+    KnotCurve moved = Moved(now_, step.change, 1.0, options_.limits);
+    double gain = GainOf(moved);
+    // A step that only restores clearance is as good as any.
+    const double ratio =
+        step.predicted > 0.0 ? gain / step.predicted : kGoodStep;
+    if (ratio < kGoodStep) {
+      // gain(x) = predicted · x − (predicted − gain) x² is largest there.
+      const double share = 0.5 / (1.0 - ratio);
+      KnotCurve less = Moved(now_, step.change, share, options_.limits);
+      if (GainOf(less) > gain) {
+        moved = std::move(less);
+        gain = GainOf(moved);
+      }
+    }
+    std::vector<PieceCells> cells;
+    bool is_better = options_.margin > 0.0 || gain > 0.0;
+    if (is_better && options_.margin > 0.0) {
+      cells = CellsOf(moved);
+      gain += MeritOf(now_, cells_) - MeritOf(moved, cells);
+      is_better = gain > 0.0;
+    }
+    round.is_accepted = is_better && Keep(moved);
+    if (round.is_accepted) {
+      now_ = std::move(moved);
+      cells_ = options_.margin > 0.0 ? std::move(cells) : CellsOf(now_);
+    }
+    ChangeSigma(round.is_accepted ? ratio : -1.0);
+    round.duration = now_.Duration();
+    round.gain = gain;
+    summary_.rounds.push_back(round);
+    return round.is_accepted ? gain : step.predicted;
+  }
+
+  // By the share of what was predicted that came true.
+  void ChangeSigma(double ratio) {
+    if (ratio < 0.0) {
+      settings_.sigma *= 0.3;
+    } else if (ratio < 0.3) {
+      settings_.sigma *= 0.5;
+    } else if (ratio > 0.7) {
+      settings_.sigma = std::min(2.0 * settings_.sigma, kLargestSigma);
+    }
+  }
+
+  bool Halve() {
+    KnotCurve halved = now_.Halved();
+    halved.Slow(internal::SlowingOf(halved, options_.limits));
+    if (!Keep(halved)) return false;
+    now_ = std::move(halved);
+    return true;
+  }
+
+  // Cells know all that is within their reach.
+  void Report() {
+    const double reach = settings_.trust + options_.margin;
+    double clearance = std::numeric_limits<double>::infinity();
+    for (const CurvePiece& piece : summary_.trajectory.pieces()) {
+      KnotCurve::Points points;
+      for (int j = 0; j < 6; ++j) points.col(j) = piece.point(j);
+      const PieceCells cells =
+          internal::FindCells(space_, points, settings_.trust, options_.margin);
+      const double by_chord =
+          space_.Clearance(piece.front(), piece.back()) - piece.Bend();
+      clearance = std::min(clearance,
+                           std::max(by_chord, std::min(cells.distance, reach)));
+    }
+    summary_.clearance = clearance;
+    summary_.margin = std::min(options_.margin, clearance);
+  }
+
+  const Stopwatch stopwatch_;
+  const FreeSpace& space_;
+  const CurveOptions& options_;
+  const double diagonal_;
+  internal::CurveProgramOptions settings_;
+  KnotCurve now_;
+  std::vector<PieceCells> cells_;
+  CurveSummary summary_;
+};
+
+}  // namespace
+
+CurveSummary OptimizeCurve(const FreeSpace& space, double diagonal,
+                           const std::vector<Vector3d>& free_path,
+                           const CurveOptions& options) {
+  options.Validate();
+  CheckOption(diagonal > 0.0 && std::isfinite(diagonal), "curve", "diagonal",
+              "a finite length > 0", diagonal);
+  if (!std::all_of(free_path.begin(), free_path.end(), IsFinite)) {
+    throw InputError("path: expected finite points, found NaN or Inf");
+  }
+  if (std::all_of(free_path.begin(), free_path.end(),
+                  [&](const Vector3d& q) { return q == free_path[0]; })) {
+    throw InputError("path: expected two different points at least, found " +
+                     std::string(free_path.empty() ? "none" : "one"));
+  }
+  return Optimizer(space, diagonal, options).Run(free_path);
+}
+
+}  // namespace phongpd

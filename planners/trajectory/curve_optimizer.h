@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+#include <functional>
+#include <limits>
+#include <vector>
+
+#include "constraints/trajectory.h"
+#include "planners/exact/free_space.h"
+
+namespace phongpd {
+
+// How long to look for a faster curve.
+enum class CurveEffort {
+  kFast,      // three pieces a segment of the path
+  kBalanced,  // halved once: 1 % above the least time where little is in the
+              // way
+  kTight,     // halved twice: 0.2 %, for twice the work
+};
+const char* ToString(CurveEffort effort);  // fast, balanced, tight
+
+struct CurveOptions {
+  MotionLimits limits;  // one at least for each axis
+  double margin = 0.0;  // clearance wished for, user's unit, ≥ 0
+  CurveEffort effort = CurveEffort::kBalanced;
+  double time_limit = std::numeric_limits<double>::infinity();  // seconds, > 0
+  // Asked between rounds; true ends it as the time limit does.
+  std::function<bool()> is_interrupted;
+
+  // Throws InputError naming the option, the range and the value.
+  void Validate() const;
+};
+
+enum class CurveStatus {
+  kConverged,   // rounds gain next to nothing
+  kRoundLimit,  // still gained
+  kTimeLimit,
+  kInterrupted,
+  kNotFree,  // the path given collides: no trajectory
+};
+const char* ToString(CurveStatus status);
+
+struct CurveRound {
+  double duration = 0.0;  // after the round, of the curve kept
+  double sigma = 0.0;     // how far durations may change, ln
+  // What it was to fall by and what it fell by, or would have: shares.
+  double predicted = 0.0, gain = 0.0;
+  int pieces = 0, planes = 0, rows = 0, iterations = 0;
+  bool is_accepted = false;
+};
+
+struct CurveSummary {
+  CurveStatus status = CurveStatus::kNotFree;
+  // Free for all t and within the limits for all t, proved (curve_judge.h,
+  // BoundLimitUse); at rest at both ends; of class C².  Empty if kNotFree.
+  Trajectory trajectory;
+  double duration = 0.0;
+  double clearance = 0.0;  // a lower bound, rounded; user's unit
+  double margin = 0.0;     // what of the margin wished for is kept
+  std::vector<CurveRound> rounds;
+  double stops_duration = 0.0;  // of the first certified answer
+  double first_seconds = 0.0;   // until that
+  double seconds = 0.0;
+};
+
+// A fast curve in time near a free polyline, from rest to rest: pieces of
+// degree 5, planner's path to machine's motion.
+//
+// It begins with a motion that stops at the path's corners, which is an answer
+// already, and goes on in rounds: half-spaces between the pieces and what is
+// near them, a convex program within them (curve_program.h), time scaled so
+// that the limits hold exactly.  What a round says is kept only if it is
+// faster and the judge of curves finds it free.  Then pieces are halved, and it
+// goes on.  So it always has a certified curve, whenever it ends, and without a
+// margin its duration falls round by round.  It finds a local minimum, of the
+// way the path takes.
+//
+// `diagonal` D > 0 is the length that steps and tolerances refer to.
+// `free_path`: two different points at least.  Throws InputError for options
+// and points that are not finite.
+CurveSummary OptimizeCurve(const FreeSpace& space, double diagonal,
+                           const std::vector<Eigen::Vector3d>& free_path,
+                           const CurveOptions& options);
+
+}  // namespace phongpd

@@ -1,0 +1,258 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "planners/trajectory/curve_program.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "planners/trajectory/curve_interior_point.h"
+
+namespace phongpd::internal {
+namespace {
+
+using Eigen::Vector3d;
+
+// Clearance that a round leaves: this share of what there is, but no less than
+// so much of D, below which most of it is kept.
+constexpr double kKept = 0.1;
+constexpr double kFloor = 1e-6;
+constexpr double kKeptBelow = 0.9;
+constexpr double kSlowest = -0.6;  // of t
+// A limit that is not there is replaced in the jerk's term by so many times
+// the largest that there is.
+constexpr double kNoLimit = 1e100;
+
+// Differences of order k of points, times what makes derivatives of them.
+constexpr std::array<std::array<double, 4>, 4> kDifference = {
+    {{1, 0, 0, 0}, {-1, 1, 0, 0}, {1, -2, 1, 0}, {-1, 3, -3, 1}}};
+constexpr std::array<double, 4> kFactor = {1.0, 5.0, 20.0, 60.0};
+
+class Builder {
+ public:
+  Builder(const KnotCurve& now, const std::vector<PieceCells>& cells,
+          const CurveProgramOptions& options)
+      : now_(now), cells_(cells), options_(options) {}
+
+  CurveProgram Build() {
+    const int n = now_.pieces();
+    const double total = now_.Duration();
+    CurveProgram program;
+    program.pieces.resize(n);
+    const Vector3d jerk = JerkScale();
+    for (int k = 0; k <= n; ++k) {
+      const double before = now_.durations[std::max(k - 1, 0)];
+      const double after = now_.durations[std::min(k, n - 1)];
+      program.pace.push_back(0.5 * (before + after));
+    }
+    for (int i = 0; i < n; ++i) {
+      CurveProgram::Piece& piece = program.pieces[i];
+      const double h = now_.durations[i];
+      piece.before = h / program.pace[i];
+      piece.after = h / program.pace[i + 1];
+      piece.share = h / total;
+      const KnotCurve::Points b = now_.PointsOf(i);
+      const KnotCurve::State& s0 = now_.knots[i];
+      const KnotCurve::State& s1 = now_.knots[i + 1];
+      piece.by_eta.setZero();
+      piece.by_eta.col(1) = (h / 5.0) * s0.v;
+      piece.by_eta.col(2) = (2.0 * h / 5.0) * s0.v + (h * h / 10.0) * s0.a;
+      piece.by_eta.col(3) = -(2.0 * h / 5.0) * s1.v + (h * h / 10.0) * s1.a;
+      piece.by_eta.col(4) = -(h / 5.0) * s1.v;
+      piece.by_eta /= options_.trust;
+      AddLimits(b, h, &piece);
+      AddClearance(cells_[i], &piece);
+      AddTrust(&piece);
+      AddJerk(b, h, jerk, &piece);
+      piece.log_duration = std::log(h);
+    }
+    CurveProgram::Row slowest;
+    slowest.t = -1.0;
+    slowest.constant = kSlowest;
+    program.pieces[0].rows.push_back(slowest);
+    program.evenness = options_.weights.evenness / n;
+    program.missing = options_.margin > 0.0
+                          ? options_.weights.missing * options_.trust /
+                                (options_.diagonal * n)
+                          : 0.0;
+    return program;
+  }
+
+ private:
+  // Σ_j w_j ΔB_j of a derivative of order k at its point j, in units of τ, its
+  // change by η and its value, all as shares of 1/scale.
+  void AddLimits(const KnotCurve::Points& b, double h,
+                 CurveProgram::Piece* piece) const {
+    const PieceDerivatives of(b, h);
+    const MotionLimits& limits = options_.limits;
+    for (int j = 0; j < 5; ++j) {
+      AddLimit(1, j, h, of.velocity.col(j), limits.velocity, piece);
+    }
+    for (int j = 0; j < 4; ++j) {
+      AddLimit(2, j, h, of.acceleration.col(j), limits.acceleration, piece);
+    }
+    for (int j = 0; j < 3; ++j) {
+      AddLimit(3, j, h, of.jerk.col(j), limits.jerk, piece);
+    }
+  }
+
+  void AddLimit(int order, int j, double h, const Vector3d& value,
+                const Vector3d& limit, CurveProgram::Piece* piece) const {
+    CurveProgram::Row row;
+    row.first = j;
+    row.last = j + order;
+    row.t = -order;
+    row.constant = -1.0;
+    const double scale = kFactor[order] / std::pow(h, order) * options_.trust;
+    const auto set_weights = [&](double by) {
+      for (int k = 0; k <= order; ++k) {
+        row.weight[j + k] = by * kDifference[order][k];
+      }
+    };
+    if (options_.limits.by_norm) {
+      if (limit[0] > kNoLimit) return;
+      row.kind = CurveProgram::Row::kNorm;
+      set_weights(scale / limit[0]);
+      row.value = value / limit[0];
+      row.value_by_eta = -order * value / limit[0];
+      piece->rows.push_back(row);
+      return;
+    }
+    row.kind = CurveProgram::Row::kAxis;
+    for (int axis = 0; axis < 3; ++axis) {
+      if (limit[axis] > kNoLimit) continue;
+      row.axis = axis;
+      for (const double sign : {1.0, -1.0}) {
+        set_weights(sign * scale / limit[axis]);
+        row.eta = -sign * order * value[axis] / limit[axis];
+        row.constant = sign * value[axis] / limit[axis] - 1.0;
+        row.is_mirrored = sign < 0.0;
+        piece->rows.push_back(row);
+      }
+    }
+  }
+
+  void AddClearance(const PieceCells& cells, CurveProgram::Piece* piece) const {
+    const double tau = options_.trust;
+    for (const ClearanceRow& one : cells.rows) {
+      CurveProgram::Row row;
+      row.kind = CurveProgram::Row::kDirection;
+      row.first = one.first;
+      row.last = one.last;
+      row.weight = one.weight;
+      row.direction = -one.normal;
+      const double floor = kFloor * options_.diagonal;
+      const double kept = one.distance > floor ? std::max(kKept * one.distance,
+                                                          kKeptBelow * floor)
+                                               : kKeptBelow * one.distance;
+      row.constant = (kept - one.gap) / tau;
+      piece->rows.push_back(row);
+      if (options_.margin > kept) {
+        row.constant = (options_.margin - one.gap) / tau;
+        row.missing = -1.0;
+        piece->rows.push_back(row);
+        piece->missing =
+            std::max(piece->missing, (options_.margin - one.gap) / tau);
+      }
+    }
+    CurveProgram::Row row;
+    row.kind = CurveProgram::Row::kScalar;
+    row.missing = -1.0;
+    if (options_.margin > 0.0) piece->rows.push_back(row);
+  }
+
+  void AddTrust(CurveProgram::Piece* piece) const {
+    CurveProgram::Row row;
+    row.kind = CurveProgram::Row::kAxis;
+    row.constant = -1.0;
+    for (int j = 0; j < 6; ++j) {
+      row.weight.setZero();
+      row.first = row.last = j;
+      for (row.axis = 0; row.axis < 3; ++row.axis) {
+        for (const double sign : {1.0, -1.0}) {
+          row.weight[j] = sign;
+          row.is_mirrored = sign < 0.0;
+          piece->rows.push_back(row);
+        }
+      }
+    }
+    CurveProgram::Row eta;
+    eta.kind = CurveProgram::Row::kScalar;
+    eta.constant = -1.0;
+    for (const double sign : {1.0, -1.0}) {
+      eta.eta = sign / options_.sigma;
+      eta.is_mirrored = sign < 0.0;
+      piece->rows.push_back(eta);
+    }
+  }
+
+  // weight · share · ∫ |(J + ΔJ)/scale|² ds.
+  void AddJerk(const KnotCurve::Points& b, double h, const Vector3d& scale,
+               CurveProgram::Piece* piece) const {
+    const PieceDerivatives of(b, h);
+    for (int axis = 0; axis < 3; ++axis) {
+      const double by = kFactor[3] / (h * h * h) * options_.trust / scale[axis];
+      for (int j = 0; j < 3; ++j) {
+        auto row = piece->jerk[axis].row(j);
+        row.setZero();
+        for (int k = 0; k <= 3; ++k) row[j + k] = by * kDifference[3][k];
+        row[6] = -3.0 * of.jerk(axis, j) / scale[axis];
+        row[7] = of.jerk(axis, j) / scale[axis];
+      }
+    }
+    piece->jerk_weight = options_.weights.jerk * piece->share;
+  }
+
+  Vector3d JerkScale() const {
+    Vector3d largest = Vector3d::Zero();
+    for (int i = 0; i < now_.pieces(); ++i) {
+      const PieceDerivatives of(now_.PointsOf(i), now_.durations[i]);
+      largest = largest.cwiseMax(of.jerk.cwiseAbs().rowwise().maxCoeff());
+    }
+    const Vector3d limit = options_.limits.by_norm
+                               ? Vector3d::Constant(options_.limits.jerk[0])
+                               : options_.limits.jerk;
+    const double most = largest.maxCoeff();
+    for (int axis = 0; axis < 3; ++axis) {
+      largest[axis] = limit[axis] < kNoLimit ? limit[axis] : most;
+    }
+    return largest;
+  }
+
+  const KnotCurve& now_;
+  const std::vector<PieceCells>& cells_;
+  const CurveProgramOptions& options_;
+};
+
+}  // namespace
+
+CurveStep SolveCurveProgram(const KnotCurve& now,
+                            const std::vector<PieceCells>& cells,
+                            const CurveProgramOptions& options) {
+  const CurveProgram program = Builder(now, cells, options).Build();
+  CurveInteriorPoint solver(program);
+  const CurveInteriorPoint::Result result = solver.Solve();
+
+  CurveStep step;
+  step.iterations = result.iterations;
+  step.rows = result.rows;
+  const int n = now.pieces();
+  step.change.knots.resize(n + 1);
+  double total = 0.0;
+  for (int k = 0; k < n; ++k) {
+    const auto x =
+        result.x.segment<BlockTridiagonal::kSize>(BlockTridiagonal::kSize * k);
+    const double pace = program.pace[k], tau = options.trust;
+    if (k > 0) {
+      step.change.knots[k] = {tau * x.segment<3>(0),
+                              (5.0 * tau / pace) * x.segment<3>(3),
+                              (20.0 * tau / (pace * pace)) * x.segment<3>(6)};
+    }
+    step.change.durations.push_back(x[9]);
+    total += now.durations[k] * std::exp(x[9]);
+  }
+  step.predicted =
+      1.0 - total * (1.0 + result.x[result.x.size() - 1]) / now.Duration();
+  return step;
+}
+
+}  // namespace phongpd::internal

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "constraints/trajectory.h"
+#include "planners/trajectory/curve_cells.h"
+#include "planners/trajectory/knot_curve.h"
+
+namespace phongpd::internal {
+
+// What the terms of the objective weigh beside the time, which is 1.
+struct CurveWeights {
+  double jerk = 1e-3;      // of the mean of |jerk/limit|²
+  double evenness = 1e-3;  // of the mean square of ln h_{i+1} − ln h_i
+  double missing = 50.0;   // of the mean missing clearance, as a share of D
+};
+
+struct CurveProgramOptions {
+  MotionLimits limits;
+  CurveWeights weights;
+  double diagonal = 1.0;  // D
+  double margin = 0.0;    // user's unit
+  double trust = 0.0;     // τ, user's unit
+  double sigma = 0.03;    // σ
+};
+
+struct CurveStep {
+  // Changes of the curve; of its durations those of ln h.
+  KnotCurve change;
+  double predicted = 0.0;  // what the time falls by, a share
+  int iterations = 0;
+  int rows = 0;
+};
+
+// One round: the convex program about a curve that keeps the limits, with the
+// changes Δs of its inner knots, η_i of ln h_i, a common t of the pace and the
+// missing clearance m_i ≥ 0 of piece i as unknowns,
+//
+//   min  t + Σ (h_i/T)(η_i + η_i²/2) + jerk + evenness + missing
+//   s.t. n·Σ w_j (B_j + ΔB_j) ≥ kept            rows of its cells
+//        n·Σ w_j (B_j + ΔB_j) ≥ margin − m_i
+//        |ΔB_j|∞ ≤ τ,  |η_i| ≤ σ,  t ≥ −0.6
+//        |V + ΔV| ≤ v(1 + t), |A + ΔA| ≤ a(1 + 2t), |J + ΔJ| ≤ j(1 + 3t)
+//
+// for all Bézier points B, V, A, J of the curve and its derivatives, to first
+// order in (Δs, η).  kept = 0.1 of the distance now, or as much as does not
+// decay to rounding.  Δs = 0 is feasible, so any answer but an optimal one is
+// a step too.
+//
+// By a primal-dual interior point method (Mehrotra's predictor and corrector)
+// from within: all iterates keep all rows.  Knots know their neighbours: work
+// and memory are linear in the pieces.
+//
+// What it neglects is of second order: a share of the step is feasible too, and
+// closer to what is predicted.
+CurveStep SolveCurveProgram(const KnotCurve& now,
+                            const std::vector<PieceCells>& cells,
+                            const CurveProgramOptions& options);
+
+}  // namespace phongpd::internal
