@@ -16,19 +16,19 @@ constexpr double kSplitRounding = 0x1p-52;
 // And of a part that is not split further.
 constexpr double kResolution = 0x1p-40;
 
-double LargestCoordinate(const BoundingBox& box) {
+double FarthestCoordinate(const BoundingBox& box) {
   return box.IsEmpty()
              ? 0.0
              : box.min.cwiseAbs().cwiseMax(box.max.cwiseAbs()).maxCoeff();
 }
 
-double LargestCoordinate(const FreeSpace& space, const Trajectory& curve) {
-  double largest = LargestCoordinate(space.bounds());
+double FarthestCoordinate(const FreeSpace& space, const Trajectory& curve) {
+  double largest = FarthestCoordinate(space.bounds());
   for (const ContactSpace& one : space.spaces()) {
-    largest = std::max(largest, LargestCoordinate(one.bounds()));
+    largest = std::max(largest, FarthestCoordinate(one.bounds()));
   }
   for (const ConvolutionModel& one : space.convolutions()) {
-    largest = std::max(largest, LargestCoordinate(one.bounds()));
+    largest = std::max(largest, FarthestCoordinate(one.bounds()));
   }
   for (const CurvePiece& piece : curve.pieces()) {
     for (int i = 0; i <= piece.degree(); ++i) {
@@ -45,7 +45,7 @@ class Judge {
   Judge(const FreeSpace& space, const Trajectory& curve, long max_tests)
       : space_(space),
         max_tests_(max_tests),
-        largest_(LargestCoordinate(space, curve)) {}
+        largest_(FarthestCoordinate(space, curve)) {}
 
   CurveCheck Run(const Trajectory& curve) {
     bool free = !curve.empty();
