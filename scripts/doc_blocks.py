@@ -18,7 +18,7 @@ import subprocess
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
-CPP_CONTEXT = """#include <phongpd/problems/world/world.h>
+CPP_CONTEXT = """#include <phongpd/planners/world/world.h>
 
 #include <iostream>
 #include <vector>

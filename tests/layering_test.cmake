@@ -4,6 +4,7 @@
 #   core <- constraints/oracle <- problems/studies
 #   core: files, mesh <- bvh <- solid <- bounds <- minkowski <- contact
 #     <- projection
+#   core/minkowski: operands <- convolution <- arrangement <- cells <- windows
 cmake_minimum_required(VERSION 3.23)
 
 set(failures "")
@@ -37,11 +38,19 @@ while(floors)
     forbid(core/files "core/(${floor}|${above})/")
   endif()
 endwhile()
+set(stages operands convolution arrangement cells windows)
+while(stages)
+  list(POP_FRONT stages stage)
+  list(JOIN stages "|" later)
+  if(later)
+    forbid(core/minkowski/${stage} "core/minkowski/(${later})/")
+  endif()
+endwhile()
 forbid(constraints "(planners|problems|tests|results)/")
 forbid(constraints/oracle "constraints/[a-z_]+\\.h")
 # Planners and worlds, and who wants only these, do without FCL.
 forbid(planners "constraints/oracle/")
-foreach(folder meshes output scenes shapes world)
+foreach(folder meshes output scenes shapes)
   forbid(problems/${folder} "constraints/oracle/")
 endforeach()
 forbid(planners "(problems|tests|results)/")
@@ -70,13 +79,12 @@ foreach(header IN LISTS public)
   endforeach()
 endforeach()
 
-# Worlds know nothing of who fills or shows them, and what is installed of them
-# nothing of files and flags.
-forbid(problems/world "problems/(scenes|shapes|studies|pictures|cli)/")
-forbid(problems/world "(nlohmann|CLI)/")
+# Worlds know nothing of files and flags, and what is installed of them nothing
+# of how they find what they say.
+forbid(planners/world "(nlohmann|CLI)/")
 foreach(name diagnosis length preset world)
-  file(STRINGS ${SOURCE}/problems/world/${name}.h includes
-       REGEX "problems/(output|world/depth)")
+  file(STRINGS ${SOURCE}/planners/world/${name}.h includes
+       REGEX "planners/world/(depth|obstacle)")
   if(includes)
     list(APPEND failures "${name}.h is installed without: ${includes}")
   endif()

@@ -4,8 +4,8 @@
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
-#include "core/minkowski/surface_join.h"
-#include "core/minkowski/window_cells.h"
+#include "core/minkowski/cells/surface_join.h"
+#include "core/minkowski/windows/window_cells.h"
 
 namespace phongpd::internal {
 

@@ -5,9 +5,9 @@
 
 #include "core/contact/build_stages.h"
 #include "core/minkowski/build_limits.h"
-#include "core/minkowski/solid_collision.h"
-#include "core/minkowski/surface_piece.h"
-#include "core/minkowski/window_plan.h"
+#include "core/minkowski/cells/surface_piece.h"
+#include "core/minkowski/operands/solid_collision.h"
+#include "core/minkowski/windows/window_plan.h"
 
 // C_cont in boxes of q-space, each arranged for itself, joined to the surface
 // that one arrangement gives: memory is that of the boxes in flight and of the

@@ -3,8 +3,8 @@
 
 #include <cstddef>
 
+#include "core/minkowski/arrangement/facet_intersections.h"
 #include "core/minkowski/contact_space_report.h"
-#include "core/minkowski/facet_intersections.h"
 
 // What a build will cost, before it is done.  Fitted to the pairs of
 // results/lazy; the report's word is a guide, BuildLimits is what holds.

@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "core/contact/surface_description.h"
-#include "core/minkowski/operand.h"
-#include "core/minkowski/patch_triangulation.h"
-#include "core/minkowski/zero_edges.h"
+#include "core/minkowski/arrangement/zero_edges.h"
+#include "core/minkowski/cells/patch_triangulation.h"
+#include "core/minkowski/operands/operand.h"
 
 namespace phongpd::internal {
 namespace {

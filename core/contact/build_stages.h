@@ -4,13 +4,13 @@
 #include <string>
 
 #include "core/contact/contact_space.h"
-#include "core/minkowski/convolution.h"
-#include "core/minkowski/exact_points.h"
-#include "core/minkowski/grid_frame.h"
-#include "core/minkowski/grid_pair.h"
-#include "core/minkowski/occupied_region.h"
-#include "core/minkowski/plane_groups.h"
-#include "core/minkowski/surface_assembly.h"
+#include "core/minkowski/arrangement/plane_groups.h"
+#include "core/minkowski/cells/surface_assembly.h"
+#include "core/minkowski/convolution/convolution.h"
+#include "core/minkowski/convolution/occupied_region.h"
+#include "core/minkowski/operands/exact_points.h"
+#include "core/minkowski/operands/grid_frame.h"
+#include "core/minkowski/operands/grid_pair.h"
 #include "core/stopwatch.h"
 
 // What builds of a contact space share, whole or by pieces.

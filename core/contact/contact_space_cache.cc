@@ -21,7 +21,7 @@
 #include "core/files/descriptor.h"
 #include "core/files/temporary_file.h"
 #include "core/mesh/mesh_error.h"
-#include "core/minkowski/operand.h"
+#include "core/minkowski/operands/operand.h"
 
 namespace phongpd {
 namespace {

@@ -10,9 +10,9 @@
 #include "core/contact/piece_data.h"
 #include "core/mesh/mesh_error.h"
 #include "core/minkowski/build_limits.h"
-#include "core/minkowski/cells.h"
-#include "core/minkowski/operand.h"
-#include "core/minkowski/window_plan.h"
+#include "core/minkowski/cells/cells.h"
+#include "core/minkowski/operands/operand.h"
+#include "core/minkowski/windows/window_plan.h"
 #include "core/solid/solid.h"
 
 namespace phongpd {

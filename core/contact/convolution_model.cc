@@ -6,7 +6,7 @@
 #include "core/contact/convolution_model_data.h"
 #include "core/mesh/finite.h"
 #include "core/mesh/mesh_error.h"
-#include "core/minkowski/operand.h"
+#include "core/minkowski/operands/operand.h"
 #include "core/stopwatch.h"
 
 namespace phongpd {

@@ -4,9 +4,9 @@
 #include "core/contact/convolution_model.h"
 #include "core/minkowski/build_limits.h"
 #include "core/minkowski/contact_space_report.h"
-#include "core/minkowski/convolution_space.h"
-#include "core/minkowski/grid_pair.h"
-#include "core/minkowski/operand.h"
+#include "core/minkowski/convolution/convolution_space.h"
+#include "core/minkowski/operands/grid_pair.h"
+#include "core/minkowski/operands/operand.h"
 #include "core/solid/solid.h"
 
 namespace phongpd {

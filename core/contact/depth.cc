@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "core/mesh/mesh_error.h"
-#include "core/minkowski/depth_search.h"
+#include "core/minkowski/windows/depth_search.h"
 #include "core/solid/solid.h"
 #include "core/stopwatch.h"
 

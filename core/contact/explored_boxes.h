@@ -9,11 +9,11 @@
 
 #include "core/contact/contact_space.h"
 #include "core/contact/convolution_model.h"
-#include "core/minkowski/box_partition.h"
 #include "core/minkowski/build_limits.h"
-#include "core/minkowski/grid_pair.h"
-#include "core/minkowski/solid_collision.h"
-#include "core/minkowski/window_cells.h"
+#include "core/minkowski/operands/grid_pair.h"
+#include "core/minkowski/operands/solid_collision.h"
+#include "core/minkowski/windows/box_partition.h"
+#include "core/minkowski/windows/window_cells.h"
 
 namespace phongpd::internal {
 

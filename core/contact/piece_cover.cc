@@ -6,6 +6,7 @@
 
 #include "core/contact/piece_data.h"
 #include "core/mesh/mesh_error.h"
+#include "core/number_text.h"
 
 namespace phongpd::internal {
 namespace {
@@ -59,14 +60,6 @@ void NameBetween(long begin, long end, int coarsest, int finest,
     begin += size;
   }
   if (begin < end && names->size() == kMostNamed) names->push_back("more");
-}
-
-std::string Joined(const std::vector<std::string>& names) {
-  std::string text;
-  for (const std::string& name : names) {
-    text += (text.empty() ? "" : ", ") + name;
-  }
-  return text;
 }
 
 }  // namespace

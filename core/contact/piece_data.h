@@ -7,8 +7,8 @@
 
 #include "core/contact/contact_space_piece.h"
 #include "core/contact/content_hash.h"
-#include "core/minkowski/grid_frame.h"
-#include "core/minkowski/surface_piece.h"
+#include "core/minkowski/cells/surface_piece.h"
+#include "core/minkowski/operands/grid_frame.h"
 
 namespace phongpd {
 

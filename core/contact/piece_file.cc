@@ -9,7 +9,7 @@
 #include "core/contact/piece_data.h"
 #include "core/contact/sealed_file.h"
 #include "core/mesh/mesh_error.h"
-#include "core/minkowski/piece_check.h"
+#include "core/minkowski/cells/piece_check.h"
 
 namespace phongpd::internal {
 namespace {

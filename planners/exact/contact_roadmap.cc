@@ -7,10 +7,10 @@
 #include <utility>
 #include <vector>
 
+#include "constraints/free_space.h"
 #include "core/mesh/mesh_error.h"
 #include "core/stopwatch.h"
 #include "planners/exact/check_option.h"
-#include "planners/exact/free_space.h"
 #include "planners/exact/lifted_graph.h"
 #include "planners/exact/path_shortening.h"
 #include "planners/exact/planning_surface.h"

@@ -6,8 +6,8 @@
 #include <optional>
 #include <utility>
 
+#include "constraints/free_space.h"
 #include "core/mesh/numbers.h"
-#include "planners/exact/free_space.h"
 #include "planners/exact/path_lift.h"
 #include "planners/exact/surface_sight.h"
 

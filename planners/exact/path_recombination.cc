@@ -7,8 +7,8 @@
 #include <queue>
 #include <utility>
 
+#include "constraints/free_space.h"
 #include "core/bvh/triangle_bvh.h"
-#include "planners/exact/free_space.h"
 
 namespace phongpd {
 namespace {

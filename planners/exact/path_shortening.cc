@@ -5,8 +5,8 @@
 #include <cmath>
 #include <random>
 
+#include "constraints/free_space.h"
 #include "core/bvh/triangle_bvh.h"
-#include "planners/exact/free_space.h"
 
 namespace phongpd {
 namespace {

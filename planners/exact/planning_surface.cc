@@ -6,9 +6,9 @@
 #include <sstream>
 #include <utility>
 
+#include "constraints/free_space.h"
 #include "core/mesh/finite.h"
 #include "planners/exact/free_neighbors.h"
-#include "planners/exact/free_space.h"
 #include "planners/exact/path_centering.h"
 #include "planners/exact/path_shortening.h"
 

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
+#include "constraints/free_space.h"
 #include "core/contact/contact_space.h"
 #include "planners/exact/contact_surface_planner.h"
-#include "planners/exact/free_space.h"
 
 namespace phongpd {
 

@@ -5,10 +5,10 @@
 #include <cstddef>
 #include <optional>
 
+#include "constraints/free_space.h"
 #include "core/contact/contact_space.h"
 #include "core/contact/convolution_model.h"
 #include "planners/exact/contact_surface_planner.h"
-#include "planners/exact/free_space.h"
 
 namespace phongpd {
 

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <set>
 
+#include "constraints/free_space.h"
 #include "core/mesh/mesh_error.h"
 #include "core/solid/solid.h"
-#include "planners/exact/free_space.h"
 
 namespace phongpd {
 namespace {

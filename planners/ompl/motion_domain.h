@@ -3,7 +3,7 @@
 
 #include <memory>
 
-#include "planners/exact/free_space.h"
+#include "constraints/free_space.h"
 #include "planners/retraction/contact_model.h"
 
 namespace phongpd {

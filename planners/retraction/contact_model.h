@@ -6,10 +6,10 @@
 #include <memory>
 #include <vector>
 
+#include "constraints/free_space.h"
 #include "core/contact/contact_space.h"
 #include "core/projection/phong_field.h"
 #include "core/projection/phong_metric.h"
-#include "planners/exact/free_space.h"
 
 namespace phongpd {
 

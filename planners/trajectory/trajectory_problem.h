@@ -5,8 +5,8 @@
 #include <memory>
 #include <vector>
 
+#include "constraints/free_space.h"
 #include "constraints/signed_metric.h"
-#include "planners/exact/free_space.h"
 
 namespace phongpd {
 

@@ -14,10 +14,10 @@
 #include "core/mesh/triangle_mesh.h"
 #include "core/projection/penetration_tracker.h"
 #include "core/projection/phong_metric.h"
+#include "planners/world/world.h"
 #include "problems/cli/progress.h"
 #include "problems/output/output_files.h"
 #include "problems/scenes/scene_source.h"
-#include "problems/world/world.h"
 
 // What the commands of the phongpd program share.
 namespace phongpd::cli {

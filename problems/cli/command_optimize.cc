@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "planners/ompl/ompl_planning.h"
+#include "planners/world/bare_length.h"
 #include "problems/cli/command.h"
 #include "problems/cli/flags.h"
 #include "problems/cli/seeded_runs.h"
@@ -17,7 +18,6 @@
 #include "problems/studies/answer_check.h"
 #include "problems/studies/clearance_wish.h"
 #include "problems/studies/trajectory_study.h"
-#include "problems/world/bare_length.h"
 
 namespace phongpd::cli {
 namespace {

@@ -9,7 +9,7 @@
 #include "core/contact/depth.h"
 #include "core/mesh/triangle_mesh.h"
 #include "core/projection/window_phong.h"
-#include "problems/world/length.h"
+#include "planners/world/length.h"
 
 namespace phongpd::cli {
 

@@ -13,6 +13,7 @@
 #include "core/bounds/mesh_repair.h"
 #include "core/mesh/input_file.h"
 #include "core/solid/solid.h"
+#include "planners/world/bare_length.h"
 #include "problems/meshes/any_mesh.h"
 #include "problems/meshes/files_beside.h"
 #include "problems/meshes/operand_notes.h"
@@ -20,7 +21,6 @@
 #include "problems/scenes/json_schema.h"
 #include "problems/scenes/scene_schema.h"
 #include "problems/scenes/scene_shapes.h"
-#include "problems/world/bare_length.h"
 
 namespace phongpd {
 namespace {

@@ -15,8 +15,8 @@
 #include "core/mesh/triangle_mesh.h"
 #include "core/projection/phong_field.h"
 #include "planners/exact/workspace.h"
-#include "problems/world/length.h"
-#include "problems/world/preset.h"
+#include "planners/world/length.h"
+#include "planners/world/preset.h"
 
 // A problem as every command reads it: a robot R that translates, obstacles,
 // start and goal, and settings for queries, trajectories and planning.

@@ -9,9 +9,9 @@
 
 #include "planners/exact/verification.h"
 #include "planners/trajectory/trajectory_pipeline.h"
+#include "planners/world/world.h"
 #include "problems/scenes/scene.h"
 #include "problems/studies/planning_study.h"
-#include "problems/world/world.h"
 
 namespace phongpd {
 

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "planners/world/room.h"
 #include "problems/output/text.h"
 #include "problems/studies/row_parts.h"
-#include "problems/world/room.h"
 
 namespace phongpd {
 namespace {

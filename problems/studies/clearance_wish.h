@@ -6,8 +6,8 @@
 #include <optional>
 #include <string>
 
+#include "planners/world/world.h"
 #include "problems/scenes/scene.h"
-#include "problems/world/world.h"
 
 namespace phongpd {
 

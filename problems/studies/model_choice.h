@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "problems/world/world.h"
+#include "planners/world/world.h"
 
 namespace phongpd {
 

@@ -11,10 +11,10 @@
 #include "planners/exact/contact_surface_planner.h"
 #include "planners/exact/window_planner.h"
 #include "planners/ompl/ompl_planning.h"
+#include "planners/world/world.h"
 #include "problems/scenes/scene.h"
 #include "problems/studies/model_choice.h"
 #include "problems/studies/planner_names.h"
-#include "problems/world/world.h"
 
 namespace phongpd {
 

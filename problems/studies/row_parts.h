@@ -5,8 +5,8 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "planners/world/length.h"
 #include "problems/output/versions.h"
-#include "problems/world/length.h"
 
 // What rows of results have in common.
 namespace phongpd {

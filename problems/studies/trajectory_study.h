@@ -12,9 +12,9 @@
 
 #include "constraints/signed_metric.h"
 #include "planners/trajectory/trajectory_pipeline.h"
+#include "planners/world/world.h"
 #include "problems/scenes/scene.h"
 #include "problems/studies/model_choice.h"
-#include "problems/world/world.h"
 
 namespace phongpd {
 
@@ -118,7 +118,7 @@ class TrajectoryStudy {
   std::shared_ptr<const StartRepair> repair_;
 };
 
-// What the preset sets in options that are as they come (problems/world/
+// What the preset sets in options that are as they come (planners/world/
 // preset.h).
 void ApplyPreset(Preset preset, PipelineOptions* options);
 

@@ -3,8 +3,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "planners/world/bare_length.h"
 #include "problems/studies/planning_study.h"
-#include "problems/world/bare_length.h"
 #include "python/src/interruptible.h"
 
 namespace phongpd::python {

@@ -9,11 +9,11 @@
 #include <string>
 
 #include "core/contact/contact_space_cache.h"
+#include "planners/world/world.h"
 #include "problems/scenes/scene.h"
 #include "problems/studies/answer_check.h"
 #include "problems/studies/clearance_wish.h"
 #include "problems/studies/trajectory_study.h"
-#include "problems/world/world.h"
 
 namespace phongpd::python {
 

@@ -7,7 +7,7 @@
 #include <random>
 #include <utility>
 
-#include "planners/exact/free_space.h"
+#include "constraints/free_space.h"
 #include "problems/shapes/random_solids.h"
 
 namespace phongpd::bench {

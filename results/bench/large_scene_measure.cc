@@ -6,10 +6,10 @@
 #include <utility>
 #include <vector>
 
+#include "constraints/free_space.h"
 #include "core/contact/convolution_model.h"
 #include "core/minkowski/build_refusal.h"
 #include "core/solid/solid.h"
-#include "planners/exact/free_space.h"
 #include "planners/exact/verification.h"
 #include "planners/ompl/ompl_planning.h"
 #include "problems/shapes/random_solids.h"

@@ -16,9 +16,9 @@
 #include <optional>
 #include <sstream>
 
+#include "constraints/free_space.h"
 #include "constraints/oracle/fcl_surfaces.h"
 #include "core/stopwatch.h"
-#include "planners/exact/free_space.h"
 #include "planners/ompl/ompl_planning.h"
 #include "results/bench/motion_set.h"
 #include "results/bench/program.h"

@@ -8,10 +8,10 @@
 #include <random>
 #include <utility>
 
+#include "constraints/free_space.h"
 #include "planners/exact/contact_roadmap.h"
-#include "planners/exact/free_space.h"
+#include "planners/world/world.h"
 #include "problems/scenes/scene_source.h"
-#include "problems/world/world.h"
 
 namespace phongpd::bench {
 namespace {

@@ -11,11 +11,11 @@
 #include <random>
 #include <vector>
 
+#include "constraints/free_space.h"
 #include "constraints/translated_triangles.h"
 #include "core/contact/contact_space.h"
 #include "core/mesh/mesh_error.h"
 #include "core/solid/solid.h"
-#include "planners/exact/free_space.h"
 #include "problems/shapes/shapes.h"
 #include "problems/studies/random_pairs.h"
 #include "tests/support/campaign.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A world: what is wrong with a goal, and a way around a box.
 #include <phongpd/planners/exact/contact_surface_planner.h>
-#include <phongpd/problems/world/world.h>
+#include <phongpd/planners/world/world.h>
 
 #include <iostream>
 

@@ -15,7 +15,7 @@ run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${prefix} --component
     development)
 file(GLOB_RECURSE headers RELATIVE ${prefix}/include ${prefix}/include/*.h)
 if(NOT "phongpd/core/mesh/triangle_mesh.h" IN_LIST headers
-   OR "phongpd/core/minkowski/convolution.h" IN_LIST headers)
+   OR "phongpd/core/minkowski/convolution/convolution.h" IN_LIST headers)
   message(FATAL_ERROR "installed headers are not the public ones: ${headers}")
 endif()
 

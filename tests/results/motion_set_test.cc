@@ -7,8 +7,8 @@
 #include <memory>
 #include <vector>
 
+#include "constraints/free_space.h"
 #include "core/bvh/triangle_bvh.h"
-#include "planners/exact/free_space.h"
 #include "tests/support/campaign.h"
 
 namespace phongpd::bench {

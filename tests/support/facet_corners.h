@@ -5,7 +5,7 @@
 #include <array>
 #include <set>
 
-#include "core/minkowski/convolution.h"
+#include "core/minkowski/convolution/convolution.h"
 
 namespace phongpd::testing {
 

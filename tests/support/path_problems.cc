@@ -7,8 +7,8 @@
 #include <random>
 #include <stdexcept>
 
+#include "constraints/free_space.h"
 #include "core/contact/contact_space.h"
-#include "planners/exact/free_space.h"
 #include "problems/shapes/shapes.h"
 #include "tests/support/solid_tools.h"
 

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <utility>
 
-#include "core/minkowski/exact_points.h"
+#include "core/minkowski/operands/exact_points.h"
 
 // The engine's points in unbounded rationals, by textbook formulas: the other
 // route of tests of its fixed-width predicates.

@@ -4,9 +4,9 @@
 #include <vector>
 
 #include "core/mesh/triangle_mesh.h"
+#include "planners/world/world.h"
 #include "problems/pictures/viewer/view.h"
 #include "problems/scenes/scene.h"
-#include "problems/world/world.h"
 
 namespace phongpd {
 

@@ -13,10 +13,10 @@
 #include <string>
 #include <vector>
 
+#include "constraints/free_space.h"
 #include "core/contact/contact_space.h"
 #include "core/mesh/mesh_error.h"
 #include "core/minkowski/build_refusal.h"
-#include "planners/exact/free_space.h"
 #include "problems/shapes/shapes.h"
 #include "problems/studies/hidden_pairs.h"
 #include "tests/support/campaign.h"

@@ -11,10 +11,10 @@
 #include <random>
 #include <vector>
 
+#include "constraints/free_space.h"
 #include "core/contact/contact_space.h"
 #include "core/minkowski/build_cancellation.h"
 #include "core/minkowski/build_refusal.h"
-#include "planners/exact/free_space.h"
 #include "problems/shapes/shapes.h"
 #include "tests/support/sanitizer.h"
 #include "tests/support/solid_tools.h"

@@ -10,7 +10,7 @@
 #include "core/bounds/mesh_repair.h"
 #include "core/contact/contact_space.h"
 #include "core/mesh/mesh_range.h"
-#include "core/minkowski/canonical_frame.h"
+#include "core/minkowski/operands/canonical_frame.h"
 #include "core/projection/euclidean_metric.h"
 #include "core/projection/phong_metric.h"
 #include "problems/shapes/shapes.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Truth: volumes and areas in whole numbers, and the whole convolution.
-#include "core/minkowski/box_partition.h"
+#include "core/minkowski/windows/box_partition.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include <stdexcept>
 #include <tuple>
 
-#include "core/minkowski/grid_pair.h"
+#include "core/minkowski/operands/grid_pair.h"
 #include "problems/shapes/shapes.h"
 #include "tests/support/facet_corners.h"
 #include "tests/support/solid_tools.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Truth: the whole convolution, and the same questions without a limit.
-#include "core/minkowski/convolution_cells.h"
+#include "core/minkowski/convolution/convolution_cells.h"
 
 #include <gtest/gtest.h>
 
@@ -12,9 +12,9 @@
 #include <thread>
 #include <vector>
 
-#include "core/minkowski/convolution.h"
-#include "core/minkowski/convolution_space.h"
-#include "core/minkowski/grid_pair.h"
+#include "core/minkowski/convolution/convolution.h"
+#include "core/minkowski/convolution/convolution_space.h"
+#include "core/minkowski/operands/grid_pair.h"
 #include "problems/shapes/random_solids.h"
 #include "problems/shapes/shapes.h"
 #include "tests/support/solid_tools.h"

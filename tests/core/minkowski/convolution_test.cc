@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Truth: every pair of features tried, signs of exact integers.
-#include "core/minkowski/convolution.h"
+#include "core/minkowski/convolution/convolution.h"
 
 #include <gtest/gtest.h>
 
@@ -8,8 +8,8 @@
 #include <map>
 #include <random>
 
-#include "core/minkowski/gauss_tree.h"
-#include "core/minkowski/grid_frame.h"
+#include "core/minkowski/convolution/gauss_tree.h"
+#include "core/minkowski/operands/grid_frame.h"
 #include "problems/shapes/shapes.h"
 #include "tests/support/solid_tools.h"
 

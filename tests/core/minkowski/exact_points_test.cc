@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Truth: the same points in unbounded rationals, planes met by elimination.
-#include "core/minkowski/exact_points.h"
+#include "core/minkowski/operands/exact_points.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Truth: integer volumes, and every pair of facets compared corner by corner.
-#include "core/minkowski/grid_solid.h"
+#include "core/minkowski/operands/grid_solid.h"
 
 #include <gtest/gtest.h>
 

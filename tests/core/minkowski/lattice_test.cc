@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Which coordinates are integers of some unit, and what the grid makes of it.
-#include "core/minkowski/lattice.h"
+#include "core/minkowski/operands/lattice.h"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 
 #include "core/contact/contact_space.h"
 #include "core/mesh/mesh_io.h"
-#include "core/minkowski/grid_frame.h"
+#include "core/minkowski/operands/grid_frame.h"
 #include "problems/shapes/random_solids.h"
 #include "problems/shapes/shapes.h"
 

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Truth: the exact collision test, at points of boxes that are said to be
 // occupied.
-#include "core/minkowski/occupied_region.h"
+#include "core/minkowski/convolution/occupied_region.h"
 
 #include <gtest/gtest.h>
 
 #include <random>
 
-#include "core/minkowski/convolution.h"
-#include "core/minkowski/grid_pair.h"
-#include "core/minkowski/solid_collision.h"
-#include "core/minkowski/window_convolution.h"
+#include "core/minkowski/convolution/convolution.h"
+#include "core/minkowski/convolution/window_convolution.h"
+#include "core/minkowski/operands/grid_pair.h"
+#include "core/minkowski/operands/solid_collision.h"
 #include "problems/shapes/random_solids.h"
 #include "problems/shapes/shapes.h"
 #include "tests/support/solid_tools.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Truth: which polygons contain the points just left of a half-edge, and how
 // often segments cross, in unbounded rationals.
-#include "core/minkowski/planar_graph.h"
+#include "core/minkowski/arrangement/planar_graph.h"
 
 #include <gtest/gtest.h>
 

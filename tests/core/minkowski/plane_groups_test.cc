@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Truth: every pair of facets, corner by corner, in rationals.
-#include "core/minkowski/plane_groups.h"
+#include "core/minkowski/arrangement/plane_groups.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/minkowski/grid_frame.h"
+#include "core/minkowski/operands/grid_frame.h"
 #include "problems/shapes/shapes.h"
 #include "tests/support/rationals.h"
 

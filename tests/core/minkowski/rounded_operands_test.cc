@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "core/contact/contact_space.h"
-#include "core/minkowski/grid_solid.h"
+#include "core/minkowski/operands/grid_solid.h"
 #include "core/solid/solid.h"
 #include "problems/shapes/shapes.h"
 #include "tests/support/campaign.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Ties between parallel features against a turn that is really made: about the
 // same axis, by a rational rotation of angle 2^-999, in exact integers.
-#include "core/minkowski/symbolic_turn.h"
+#include "core/minkowski/convolution/symbolic_turn.h"
 
 #include <gtest/gtest.h>
 
@@ -10,8 +10,8 @@
 #include <random>
 #include <set>
 
-#include "core/minkowski/convolution.h"
-#include "core/minkowski/grid_solid.h"
+#include "core/minkowski/convolution/convolution.h"
+#include "core/minkowski/operands/grid_solid.h"
 #include "problems/shapes/random_solids.h"
 
 namespace phongpd::internal {

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Truth: the whole convolution, the whole contact space, and exact motion
 // checks on it.
-#include "core/minkowski/window_cells.h"
+#include "core/minkowski/windows/window_cells.h"
 
 #include <gtest/gtest.h>
 
 #include <random>
 #include <set>
 
+#include "constraints/free_space.h"
 #include "core/contact/contact_space.h"
-#include "core/minkowski/convolution_space.h"
-#include "core/minkowski/grid_pair.h"
-#include "planners/exact/free_space.h"
+#include "core/minkowski/convolution/convolution_space.h"
+#include "core/minkowski/operands/grid_pair.h"
 #include "problems/shapes/shapes.h"
 #include "tests/support/facet_corners.h"
 #include "tests/support/solid_tools.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Edges of length zero, put in by hand: the truth is the mesh without them.
-#include "core/minkowski/zero_edges.h"
+#include "core/minkowski/arrangement/zero_edges.h"
 
 #include <gtest/gtest.h>
 

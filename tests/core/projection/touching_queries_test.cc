@@ -11,11 +11,11 @@
 #include <utility>
 #include <vector>
 
+#include "constraints/free_space.h"
 #include "constraints/motion_oracle.h"
 #include "core/contact/contact_space.h"
 #include "core/projection/euclidean_metric.h"
 #include "core/projection/phong_metric.h"
-#include "planners/exact/free_space.h"
 #include "problems/shapes/shapes.h"
 #include "problems/studies/random_pairs.h"
 #include "tests/support/campaign.h"

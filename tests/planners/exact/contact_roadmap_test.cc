@@ -16,9 +16,9 @@
 #include <utility>
 #include <vector>
 
+#include "constraints/free_space.h"
 #include "core/contact/contact_space.h"
 #include "core/mesh/mesh_error.h"
-#include "planners/exact/free_space.h"
 #include "planners/exact/workspace.h"
 #include "problems/scenes/scene.h"
 #include "problems/scenes/scene_library.h"

@@ -13,10 +13,10 @@
 #include <thread>
 #include <vector>
 
+#include "constraints/free_space.h"
 #include "core/bvh/triangle_bvh.h"
 #include "core/solid/solid.h"
 #include "planners/exact/exact_solution.h"
-#include "planners/exact/free_space.h"
 #include "planners/exact/path_shortening.h"
 #include "planners/exact/planning_surface.h"
 #include "problems/scenes/scene.h"

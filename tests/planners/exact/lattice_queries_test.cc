@@ -9,13 +9,13 @@
 #include <string>
 #include <vector>
 
+#include "constraints/free_space.h"
 #include "core/bvh/triangle_bvh.h"
 #include "core/contact/contact_space.h"
 #include "planners/exact/contact_roadmap.h"
 #include "planners/exact/contact_surface_planner.h"
 #include "planners/exact/exact_solution.h"
 #include "planners/exact/free_neighbors.h"
-#include "planners/exact/free_space.h"
 #include "planners/exact/path_lift.h"
 #include "planners/exact/surface_graph.h"
 #include "problems/scenes/scene.h"

@@ -6,9 +6,9 @@
 
 #include <vector>
 
+#include "constraints/free_space.h"
 #include "core/bvh/triangle_bvh.h"
 #include "core/mesh/unit_normal.h"
-#include "planners/exact/free_space.h"
 #include "planners/exact/surface_graph.h"
 #include "planners/exact/surface_sight.h"
 #include "problems/shapes/shapes.h"

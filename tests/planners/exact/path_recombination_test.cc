@@ -10,8 +10,8 @@
 #include <limits>
 #include <random>
 
+#include "constraints/free_space.h"
 #include "core/bvh/triangle_bvh.h"
-#include "planners/exact/free_space.h"
 #include "problems/shapes/shapes.h"
 
 namespace phongpd {

@@ -8,8 +8,8 @@
 #include <random>
 #include <string>
 
+#include "constraints/free_space.h"
 #include "core/mesh/mesh_error.h"
-#include "planners/exact/free_space.h"
 
 namespace phongpd {
 namespace {

@@ -7,12 +7,12 @@
 #include <string>
 #include <vector>
 
+#include "constraints/free_space.h"
 #include "core/contact/contact_space.h"
 #include "core/projection/euclidean_metric.h"
 #include "core/solid/solid.h"
 #include "planners/exact/contact_roadmap.h"
 #include "planners/exact/contact_surface_planner.h"
-#include "planners/exact/free_space.h"
 #include "planners/exact/workspace.h"
 #include "problems/shapes/shapes.h"
 

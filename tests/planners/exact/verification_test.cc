@@ -9,13 +9,13 @@
 #include <random>
 #include <vector>
 
+#include "constraints/free_space.h"
 #include "core/contact/contact_space.h"
 #include "core/projection/euclidean_metric.h"
 #include "core/projection/phong_metric.h"
 #include "core/solid/solid.h"
 #include "planners/exact/contact_surface_planner.h"
 #include "planners/exact/exact_solution.h"
-#include "planners/exact/free_space.h"
 #include "problems/scenes/scene.h"
 #include "problems/scenes/scene_source.h"
 #include "problems/shapes/shapes.h"

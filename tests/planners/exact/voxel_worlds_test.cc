@@ -8,9 +8,9 @@
 #include <utility>
 #include <vector>
 
+#include "constraints/free_space.h"
 #include "planners/exact/contact_roadmap.h"
 #include "planners/exact/contact_surface_planner.h"
-#include "planners/exact/free_space.h"
 #include "tests/support/solid_tools.h"
 #include "tests/support/voxel_world.h"
 

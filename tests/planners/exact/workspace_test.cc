@@ -5,11 +5,11 @@
 
 #include <cmath>
 
+#include "constraints/free_space.h"
 #include "core/contact/contact_space.h"
 #include "core/mesh/mesh_error.h"
 #include "core/solid/solid.h"
 #include "planners/exact/exact_solution.h"
-#include "planners/exact/free_space.h"
 #include "problems/shapes/shapes.h"
 
 namespace phongpd {

@@ -6,9 +6,9 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "planners/world/world.h"
 #include "problems/scenes/scene_source.h"
 #include "problems/studies/answer_check.h"
-#include "problems/world/world.h"
 #include "tests/problems/cli/cli_scenes.h"
 
 namespace phongpd {

@@ -5,9 +5,9 @@
 #include <memory>
 #include <string>
 
+#include "constraints/free_space.h"
 #include "core/mesh/mesh_error.h"
 #include "core/minkowski/build_refusal.h"
-#include "planners/exact/free_space.h"
 #include "planners/trajectory/corridor.h"
 #include "problems/scenes/scene_source.h"
 #include "problems/studies/trajectory_study.h"

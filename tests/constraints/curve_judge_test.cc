@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Truth: the curve against every triangle in rationals, and closed forms.
+#include "constraints/curve_judge.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <random>
+#include <vector>
+
+#include "core/contact/contact_space.h"
+#include "problems/shapes/shapes.h"
+#include "tests/support/campaign.h"
+#include "tests/support/curve_truth.h"
+#include "tests/support/solid_tools.h"
+
+namespace phongpd {
+namespace {
+
+using Eigen::Vector3d;
+using testing::Cube;
+using testing::CurveTruth;
+
+// Contact space of a cube of side 0.5 against one of side 1.5: half-width 1.
+FreeSpace AroundCube(const BoundingBox& bounds = FreeSpace::NoBounds()) {
+  return FreeSpace({BuildContactSpace(Cube(0.5), Cube(1.5))}, bounds);
+}
+
+// Over the cube at height z(s) = 1 + gap + (2s − 1)², exact where gap + 2 is.
+Trajectory Arch(double gap) {
+  return Trajectory({CurvePiece(
+      {{-1.5, 0.0, 2.0 + gap}, {0.0, 0.0, gap}, {1.5, 0.0, 2.0 + gap}}, 2.0)});
+}
+
+TEST(CurveJudge, ProvesAnArchFreeDownToItsResolution) {
+  const FreeSpace space = AroundCube();
+  for (const double gap : {1.0, 1e-3, 1e-6, 1e-9, 1e-11}) {
+    const CurveCheck check = CheckCurve(space, Arch(gap));
+    EXPECT_EQ(check.verdict, CurveVerdict::kFree) << gap;
+    EXPECT_DOUBLE_EQ(check.free_until, 2.0);
+    // Flat contact: two halvings of a parabola bring its hull down to itself.
+    EXPECT_LE(check.tests, 300) << gap;
+  }
+}
+
+TEST(CurveJudge, CallsNoCurveFreeThatTouches) {
+  const FreeSpace space = AroundCube();
+  const CurveCheck touch = CheckCurve(space, Arch(0.0));
+  EXPECT_EQ(touch.verdict, CurveVerdict::kCollides);
+  EXPECT_DOUBLE_EQ(touch.time, 1.0);
+  EXPECT_EQ(touch.configuration, Vector3d(0.0, 0.0, 1.0));
+  EXPECT_FALSE(space.IsFree(touch.configuration));
+  for (const double depth : {1e-15, 1e-12, 1e-6, 0.1}) {
+    const CurveCheck check = CheckCurve(space, Arch(-depth));
+    EXPECT_NE(check.verdict, CurveVerdict::kFree) << depth;
+    // It meets the cube at s = ½ ± ½√depth.
+    EXPECT_LE(check.free_until, 1.0 - std::sqrt(depth) + 1e-12) << depth;
+  }
+}
+
+TEST(CurveJudge, FindsACollisionThatSamplesMiss) {
+  const TriangleMesh wall = MakeBox({-1e-9, -1.0, -1.0}, {1e-9, 1.0, 1.0});
+  const FreeSpace space({BuildContactSpace(Cube(1e-9), wall)});
+  const Trajectory through({CurvePiece(
+      {{-0.7, 0.0, 0.0}, {-0.1, 0.3, 0.2}, {0.2, -0.2, 0.1}, {0.4, 0.1, 0.0}},
+      1.0)});
+  EXPECT_NE(CheckCurve(space, through).verdict, CurveVerdict::kFree);
+}
+
+TEST(CurveJudge, JudgesPolylinesExactly) {
+  const FreeSpace space = AroundCube();
+  const double beside = std::nextafter(1.0, 2.0);
+  const auto along = [](double y) {
+    return Trajectory::Along({{-2.0, y, 0.0}, {2.0, y, 0.0}, {2.0, 3.0, 0.0}});
+  };
+  EXPECT_TRUE(CheckCurve(space, along(beside)).IsFree());
+  const CurveCheck touch = CheckCurve(space, along(1.0));
+  EXPECT_EQ(touch.verdict, CurveVerdict::kCollides);
+  EXPECT_DOUBLE_EQ(touch.time, 0.25);
+  EXPECT_EQ(touch.piece, 0);
+}
+
+TEST(CurveJudge, HoldsCurvesWithinTheBounds) {
+  const BoundingBox bounds = {Vector3d::Constant(-3.0),
+                              Vector3d::Constant(3.0)};
+  const FreeSpace space = AroundCube(bounds);
+  const auto bow = [](double top) {  // its summit is at `top`
+    return Trajectory({CurvePiece(
+        {{-2.0, 0.0, 1.5}, {0.0, 0.0, 2.0 * top - 1.5}, {2.0, 0.0, 1.5}},
+        1.0)});
+  };
+  EXPECT_TRUE(CheckCurve(space, bow(3.0 - 1e-9)).IsFree());
+  const CurveCheck touch = CheckCurve(space, bow(3.0));
+  EXPECT_EQ(touch.verdict, CurveVerdict::kCollides);
+  EXPECT_EQ(touch.configuration[2], 3.0);
+}
+
+TEST(CurveJudge, IsUndecidedWhereItMayLookNoFurther) {
+  const FreeSpace space = AroundCube();
+  const CurveCheck check = CheckCurve(space, Arch(1e-6), 1);
+  EXPECT_EQ(check.verdict, CurveVerdict::kUndecided);
+  EXPECT_LT(check.free_until, 1.0);
+  EXPECT_EQ(CheckCurve(space, Trajectory()).verdict, CurveVerdict::kUndecided);
+}
+
+// Starts somewhere free, its other points about as far as the next obstacle:
+// hits, misses and near misses.
+CurvePiece RandomPiece(const FreeSpace& space, const ContactSpace& contact,
+                       std::mt19937_64* random) {
+  std::uniform_int_distribution<int> degree(2, CurvePiece::kMaxDegree);
+  std::vector<Vector3d> points;
+  do {
+    points = {testing::RandomPoint(contact.bounds(), random)};
+  } while (!space.IsFree(points[0]));
+  std::normal_distribution<double> normal(0.0, 0.15);
+  const double length = (contact.bounds().max - contact.bounds().min).norm();
+  for (int i = degree(*random); i > 0; --i) {
+    points.push_back(points.back() + length * Vector3d(normal(*random),
+                                                       normal(*random),
+                                                       normal(*random)));
+  }
+  return CurvePiece(points, 1.0);
+}
+
+// Touches the surface at height `gap` above x, n: x + gap n + u s + k s² n.
+CurvePiece GrazingPiece(const ContactSpace& contact, double gap,
+                        std::mt19937_64* random) {
+  const SurfacePoint at = testing::RandomSurfacePoint(contact.mesh(), random);
+  std::uniform_real_distribution<double> unit(0.02, 0.3);
+  Vector3d along = at.normal.unitOrthogonal() * unit(*random);
+  const double rise = unit(*random);
+  const Vector3d foot = at.position + gap * at.normal;
+  // Of s ∈ [−1, 1]: q(s) = foot + s·along + s²·rise·n.
+  const Vector3d high = foot + rise * at.normal;
+  return CurvePiece({high - along, foot - rise * at.normal, high + along}, 1.0);
+}
+
+struct Tally {
+  long cases = 0, wrong_free = 0, wrong_collision = 0, undecided = 0;
+};
+
+void Compare(const FreeSpace& space, const ContactSpace& contact,
+             const CurvePiece& piece, Tally* tally) {
+  if (!space.IsFree(piece.front())) return;
+  ++tally->cases;
+  const CurveCheck check = CheckCurve(space, Trajectory({piece}));
+  const CurveTruth truth = testing::MeetsSurface(piece, contact.mesh());
+  if (check.IsFree() && truth != CurveTruth::kMisses) ++tally->wrong_free;
+  if (check.verdict == CurveVerdict::kCollides) {
+    if (truth == CurveTruth::kMisses) ++tally->wrong_collision;
+    EXPECT_FALSE(space.IsFree(check.configuration));
+  }
+  if (check.verdict == CurveVerdict::kUndecided) ++tally->undecided;
+}
+
+std::vector<ContactSpace> ContactSpaces() {
+  std::mt19937_64 random(2901);
+  std::vector<ContactSpace> spaces = {
+      BuildContactSpace(Cube(0.5), Cube(1.5)),
+      BuildContactSpace(Cube(0.3), MakeTorus(1.0, 0.4, 20, 12)),
+      BuildContactSpace(MakeStar(0.2, 0.5), MakeL(2.0, 0.6, 0.8))};
+  for (int i = 0; i < 3; ++i) {
+    TriangleMesh voxels = testing::RandomVoxelSolid(4, 0.4, &random);
+    const Eigen::Matrix3d turn = testing::RandomRotation(&random);
+    if (i > 0) {
+      for (Vector3d& p : voxels.vertices) p = turn * p;
+    }
+    spaces.push_back(BuildContactSpace(Cube(0.4), voxels));
+  }
+  return spaces;
+}
+
+TEST(CurveJudgeCampaign, CallsNothingFreeThatRationalsSeeMeet) {
+  const long each = testing::CampaignCases(40, 20'000);
+  Tally random_pieces, grazing;
+  std::mt19937_64 random(2902);
+  for (const ContactSpace& contact : ContactSpaces()) {
+    const FreeSpace space({contact});
+    for (long i = 0; i < each; ++i) {
+      Compare(space, contact, RandomPiece(space, contact, &random),
+              &random_pieces);
+    }
+    // Truth and judge round q(t) alike only above some ulps.
+    for (const double gap : {1e-3, 1e-6, 1e-9, 1e-12, 1e-15, 0.0, -1e-15,
+                             -1e-12, -1e-9, -1e-6, -1e-3}) {
+      for (long i = 0; i < each / 10; ++i) {
+        Compare(space, contact, GrazingPiece(contact, gap, &random), &grazing);
+      }
+    }
+  }
+  EXPECT_EQ(random_pieces.wrong_free, 0);
+  EXPECT_EQ(random_pieces.wrong_collision, 0);
+  EXPECT_EQ(grazing.wrong_free, 0);
+  EXPECT_LE(random_pieces.undecided, random_pieces.cases / 1000);
+  EXPECT_GE(random_pieces.cases, 6 * each);
+  EXPECT_GE(grazing.cases, each);
+  testing::ReportCampaign(
+      {"5 exact motion checks", "random pieces of curves, rational truth",
+       random_pieces.cases, random_pieces.wrong_free, 0.0, 0.0, "", 2902});
+  testing::ReportCampaign(
+      {"5 exact motion checks", "grazing pieces of curves, rational truth",
+       grazing.cases, grazing.wrong_free, 0.0, 0.0, "", 2902});
+}
+
+TEST(CurveJudge, AnswersTheSameOfConvolutions) {
+  const TriangleMesh robot = MakeStar(0.2, 0.5),
+                     obstacle = MakeL(2.0, 0.6, 0.8);
+  const ContactSpace contact = BuildContactSpace(robot, obstacle);
+  const FreeSpace whole({contact});
+  const FreeSpace lazy =
+      FreeSpace::OfConvolutions({ConvolutionModel(robot, obstacle)});
+  std::mt19937_64 random(2903);
+  int free = 0;
+  for (int i = 0; i < 300; ++i) {
+    const Trajectory curve({RandomPiece(whole, contact, &random)});
+    const CurveVerdict verdict = CheckCurve(whole, curve).verdict;
+    EXPECT_EQ(CheckCurve(lazy, curve).verdict, verdict) << i;
+    free += verdict == CurveVerdict::kFree;
+  }
+  EXPECT_GE(free, 30);
+  EXPECT_LE(free, 270);
+}
+
+}  // namespace
+}  // namespace phongpd

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "planners/world/length.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <random>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/mesh/mesh_error.h"
+
+namespace phongpd {
+namespace {
+
+template <typename Call>
+std::string ErrorOf(const Call& call) {
+  try {
+    call();
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+TEST(Length, ResolvesInBothWays) {
+  const ResolvedLength share = Length::FromShare(0.25).Resolve(8.0);
+  EXPECT_EQ(share.share, 0.25);
+  EXPECT_EQ(share.unit, 2.0);
+  const ResolvedLength unit = Length::FromUnit(2.0).Resolve(8.0);
+  EXPECT_EQ(unit.share, 0.25);
+  EXPECT_EQ(unit.unit, 2.0);
+  EXPECT_NE(Length::FromShare(2.0), Length::FromUnit(2.0));
+}
+
+// What was given must not pass through a product and a quotient.
+TEST(Length, KeepsWhatWasGivenToTheBit) {
+  std::mt19937_64 random(3);
+  std::uniform_real_distribution<double> exponent(-6.0, 6.0);
+  for (int i = 0; i < 1000; ++i) {
+    const double value = std::pow(10.0, exponent(random));
+    const double diagonal = std::pow(10.0, exponent(random));
+    EXPECT_EQ(Length::FromShare(value).Resolve(diagonal).share, value);
+    EXPECT_EQ(Length::FromUnit(value).Resolve(diagonal).unit, value);
+    for (const Length& length :
+         {Length::FromShare(value), Length::FromUnit(value)}) {
+      EXPECT_EQ(ParseLength(length.Text(), "x"), length);
+    }
+  }
+}
+
+TEST(Length, IsReadAsNumberShareOrUnit) {
+  const std::vector<std::pair<std::string, Length>> cases = {
+      {"0.01", Length::FromShare(0.01)},   {"0.01D", Length::FromShare(0.01)},
+      {"0.01 D", Length::FromShare(0.01)}, {"0.5unit", Length::FromUnit(0.5)},
+      {"0.5 unit", Length::FromUnit(0.5)}, {"1e-3unit", Length::FromUnit(1e-3)},
+      {"+2unit", Length::FromUnit(2.0)},   {"0", Length()},
+      {"-0unit", Length::FromUnit(0.0)},   {"1", Length::FromShare(1.0)}};
+  for (const auto& [text, length] : cases) {
+    EXPECT_EQ(ParseLength(text, "x"), length) << text;
+  }
+}
+
+TEST(Length, RefusesOtherTextInOneLine) {
+  const std::string expected =
+      "--margin: expected a length >= 0 as 0.01 or 0.01D (a share of the "
+      "world's diagonal D) or 0.5unit (the user's unit), found ";
+  for (const std::string text :
+       {"",         "D",    "unit",      "-1",      "-0.5unit",
+        "-1D",      "nan",  "inf",       "infunit", "0.5units",
+        "0.5 m",    "0.5d", "5%",        "5 %D",    "0.5D unit",
+        "unit 0.5", "0,5",  "1e999unit", " 1",      "1 "}) {
+    EXPECT_EQ(ErrorOf([&] { ParseLength(text, "--margin"); }),
+              expected + "'" + text + "'");
+  }
+  EXPECT_EQ(ErrorOf([&] { ParseLength("1\n2", "--margin"); }),
+            expected + "'1?2'");
+  EXPECT_EQ(ErrorOf([&] { ParseLength(std::string(99, 'x'), "--margin"); }),
+            expected + "'" + std::string(40, 'x') + "...'");
+}
+
+TEST(Length, RefusesNumbersThatAreNone) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const double inf = std::numeric_limits<double>::infinity();
+  for (const double value : {-1.0, nan, inf, -inf}) {
+    EXPECT_THROW(Length::FromShare(value), InputError) << value;
+    EXPECT_THROW(Length::FromUnit(value), InputError) << value;
+  }
+  for (const double diagonal : {0.0, -1.0, nan, inf}) {
+    EXPECT_THROW(Length::FromUnit(1.0).Resolve(diagonal), InputError);
+  }
+}
+
+TEST(Length, IsCheckedAgainstItsRange) {
+  const auto error = [](const Length& length, LengthRange range,
+                        double diagonal) {
+    return ErrorOf([&] { RequireLength(length, range, diagonal, "m"); });
+  };
+  constexpr auto kFromZero = LengthRange::kFromZero;
+  constexpr auto kAboveZero = LengthRange::kAboveZero;
+  EXPECT_EQ(error(Length(), kFromZero, 4.0), "no error");
+  EXPECT_EQ(error(Length(), kAboveZero, 4.0),
+            "m: expected a length > 0, found 0");
+  EXPECT_EQ(error(Length::FromUnit(0.0), kAboveZero, 4.0),
+            "m: expected a length > 0, found 0unit");
+  EXPECT_EQ(error(Length::FromShare(1.0), kAboveZero, 4.0), "no error");
+  EXPECT_EQ(error(Length::FromShare(2.0), kAboveZero, 0.0),
+            "m: expected at most 1 (the world's diagonal D), found 2");
+  EXPECT_EQ(error(Length::FromUnit(4.0), kAboveZero, 4.0), "no error");
+  EXPECT_EQ(error(Length::FromUnit(5.0), kAboveZero, 4.0),
+            "m: expected at most 4unit (the world's diagonal D), found 5unit");
+  EXPECT_EQ(error(Length::FromUnit(5.0), kAboveZero, 0.0), "no error");
+}
+
+}  // namespace
+}  // namespace phongpd
