@@ -172,6 +172,7 @@ class Collector {
     view_.robot = view.robot;
     view_.start = view.start;
     view_.goal = view.goal;
+    view_.bounds = view.bounds;
     view_.length = view.length;
     Append(&view_.meshes, std::move(view.meshes));
     Append(&view_.notes, std::move(view.notes));

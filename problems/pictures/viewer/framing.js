@@ -32,6 +32,14 @@ class FramedStage extends Stage {
     for (const end of [this.data.start, this.data.goal]) {
       if (end) box.expandByPoint(this.at(end));
     }
+    // A scene alone: the room it has tells where things are, if it is no waste.
+    const {bounds} = this.data;
+    if (bounds && this.ways.length === 0) {
+      const all = box.clone();
+      for (const p of [bounds.min, bounds.max]) all.expandByPoint(this.at(p));
+      const length = b => b.getSize(new THREE.Vector3()).length();
+      if (length(all) < 4 * length(box)) box.copy(all);
+    }
     const robot = new THREE.Box3().setFromBufferAttribute(
         this.robotShape.attributes.position);
     if (box.isEmpty()) {

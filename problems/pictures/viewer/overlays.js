@@ -1,12 +1,13 @@
 // What lies behind an answer: what a planner grew, the planes around an
 // optimised path, the windows that a depth was found in.  Each belongs to a path
-// or an answer, and is drawn while that is followed.
+// or an answer, and is drawn while that is followed; the bounds always are.
 
 const kOverlays = {
   graphs: {color: 'graph'},  // named by itself
   planes: {text: 'planes of the corridor', color: 'plane'},
   windows: {text: 'windows that were built', color: 'window'},
   regions: {text: 'box that was searched', color: 'window'},
+  bounds: {text: 'bounds of the position', color: 'window'},
 };
 
 class Overlays {
@@ -14,10 +15,11 @@ class Overlays {
   constructor(stage) {
     this.stage = stage;
     this.parts = [];  // {kind, way, frame, object}
-    const {graphs, planes, regions, windows} = stage.data;
+    const {bounds, graphs, planes, regions, windows} = stage.data;
     for (const graph of graphs) this.addGraph(graph);
     for (const some of planes) this.addPlanes(some);
     for (const region of regions) this.addRegion(region);
+    if (bounds) this.add({kind: 'bounds', object: this.box(bounds)});
     windows.forEach((window, i) => { if (window) this.addWindows(window, i); });
   }
 
@@ -33,7 +35,7 @@ class Overlays {
   // Those of the way that is followed, at its frame.
   show(shown, way, frame) {
     for (const part of this.parts) {
-      part.object.visible = shown[part.kind] && part.way === way &&
+      part.object.visible = shown[part.kind] && (part.way === undefined || part.way === way) &&
           (part.frame === undefined || part.frame === frame);
     }
   }
@@ -122,13 +124,16 @@ class Overlays {
     return ends;
   }
 
-  addRegion({path, min, max}) {
+  box({min, max}) {
     const half = max.map((x, k) => (x - min[k]) / 2 / this.stage.data.scale);
     const sides = half.map((x, k) => new THREE.Vector3().setComponent(k, x));
     const ends = this.boxEnds(
         this.stage.at(max.map((x, k) => (x + min[k]) / 2)), sides);
-    this.add({kind: 'regions', way: path,
-              object: this.lines('window', ends, 0.6)});
+    return this.lines('window', ends, 0.6);
+  }
+
+  addRegion(region) {
+    this.add({kind: 'regions', way: region.path, object: this.box(region)});
   }
 
   // Cubes around the position that was asked about.

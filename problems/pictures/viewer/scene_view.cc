@@ -13,6 +13,7 @@ View SceneView(const Scene& scene,
   view.robot = scene.workspace.robot;
   view.start = scene.start;
   view.goal = scene.goal;
+  view.bounds = scene.workspace.bounds;
   for (const Solid& obstacle : scene.workspace.obstacles) {
     view.meshes.push_back(
         {obstacle.name(), ViewRole::kObstacle, obstacle.mesh()});

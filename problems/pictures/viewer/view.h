@@ -127,6 +127,7 @@ struct View {
   std::vector<ViewMesh> meshes;  // fixed
   TriangleMesh robot;            // at the origin; may be empty
   std::optional<Eigen::Vector3d> start, goal;
+  BoundingBox bounds = ComputeBounds(TriangleMesh());  // of q; empty: none
   std::vector<NamedPath> paths;
   ViewMotion motion;                // no frames: none
   std::vector<ViewAnswer> answers;  // one robot, a pose each

@@ -208,6 +208,10 @@ Json ViewJson(const View& view, std::size_t most_triangles) {
                      {Vector3d::Zero(), scale}, &notes);
   json["start"] = MaybePoint(view.start);
   json["goal"] = MaybePoint(view.goal);
+  json["bounds"] = view.bounds.IsEmpty()
+                       ? Json(nullptr)
+                       : Json({{"min", PointJson(view.bounds.min)},
+                               {"max", PointJson(view.bounds.max)}});
   for (const char* list :
        {"paths", "graphs", "planes", "iterates", "regions", "windows"}) {
     json[list] = Json::array();
