@@ -64,6 +64,10 @@ const char* ToString(PlanStatus status) {
       return "start_in_collision";
     case PlanStatus::kInvalidGoal:
       return "goal_in_collision";
+    case PlanStatus::kStartOutOfBounds:
+      return "start_out_of_bounds";
+    case PlanStatus::kGoalOutOfBounds:
+      return "goal_out_of_bounds";
   }
   return "";
 }

@@ -21,6 +21,8 @@ enum class PlanStatus {
   kFailed,            // neither; `reason` says why
   kInvalidStart,      // not free
   kInvalidGoal,
+  kStartOutOfBounds,  // said by who has looked at the bounds apart; to a
+  kGoalOutOfBounds,   // planner the walls of a sealed space are obstacles
 };
 const char* ToString(PlanStatus status);
 

@@ -323,6 +323,10 @@ const char* ToString(TrajectoryStatus status) {
       return "start_in_collision";
     case TrajectoryStatus::kGoalInCollision:
       return "goal_in_collision";
+    case TrajectoryStatus::kStartOutOfBounds:
+      return "start_out_of_bounds";
+    case TrajectoryStatus::kGoalOutOfBounds:
+      return "goal_out_of_bounds";
     case TrajectoryStatus::kFailed:
       break;
   }

@@ -57,6 +57,8 @@ enum class TrajectoryStatus {
   kInfeasibleProved,
   kStartInCollision,
   kGoalInCollision,
+  kStartOutOfBounds,  // and in no collision
+  kGoalOutOfBounds,
   kFailed,  // no free path; see `reason`
 };
 const char* ToString(TrajectoryStatus status);

@@ -35,6 +35,9 @@ struct Diagnosis {
   std::vector<Excess> excesses;
 
   bool IsFree() const { return contacts.empty() && excesses.empty(); }
+  bool IsOnlyOutOfBounds() const {
+    return contacts.empty() && !excesses.empty();
+  }
 
   // One sentence that calls q `which`, "goal (5,0,0) is not strictly within
   // the bounds: x is 3 above the maximum 2"; depths are rounded up.  Empty

@@ -242,6 +242,7 @@ Command AddDepth(CLI::App* app) {
   CLI::Option* const at =
       app->add_option("--at", flags->at, "Move A by this first")
           ->expected(3)
+          ->delimiter(',')
           ->type_name("X Y Z");
   app->add_option("--pose", flags->poses,
                   "CSV file with the columns x,y,z,qw,qx,qy,qz: turn A, then "

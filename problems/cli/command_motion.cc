@@ -243,10 +243,12 @@ Command AddMotion(CLI::App* app) {
   app->add_option("--from", flags->from, "First robot position")
       ->required()
       ->expected(3)
+      ->delimiter(',')
       ->type_name("X Y Z");
   app->add_option("--to", flags->to, "Last robot position")
       ->required()
       ->expected(3)
+      ->delimiter(',')
       ->type_name("X Y Z");
   app->add_option("--frames", flags->frames, "Number of positions, at least 2")
       ->required()

@@ -184,9 +184,11 @@ Command AddView(CLI::App* app) {
   app->add_option("--from", flags->from_cells,
                   "First position of a motion's table ...")
       ->expected(3)
+      ->delimiter(',')
       ->type_name("X Y Z");
   app->add_option("--to", flags->to_cells, "... and its last")
       ->expected(3)
+      ->delimiter(',')
       ->type_name("X Y Z");
   app->add_flag(
       "--build", flags->build,

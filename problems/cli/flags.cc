@@ -80,6 +80,21 @@ void DeclareTable(OutputFiles* outputs, const std::string& path,
   outputs->Declare(path);
 }
 
+void DeclareRowFile(OutputFiles* outputs, const std::string& path,
+                    const std::string& flag) {
+  const std::string found = IsNoFile(path) ? "" : EndingOf(path);
+  if (found == ".csv" || found == ".tsv" || found == ".xlsx" ||
+      found == ".parquet") {
+    throw InputError(flag +
+                     ": expected the name of rows, one line of JSON a run, "
+                     "such as .jsonl, found " +
+                     path +
+                     "; of those, pandas.read_json(FILE, lines=True) makes a "
+                     "table");
+  }
+  DeclareTable(outputs, path, flag);
+}
+
 void RequireFreeStandardOutput(const OutputFiles& outputs) {
   if (!outputs.UseStandardOutput()) return;
   throw InputError(

@@ -28,10 +28,13 @@ void DeclareIfNamed(OutputFiles* outputs, const std::string& path,
                     const std::string& flag,
                     const std::vector<std::string>& endings);
 
-// Declares an output of rows or values, which may have any name but one that
-// promises a picture, a page, a mesh or a contact space.
+// Declares an output of values, which may have any name but one that promises
+// a picture, a page, a mesh or a contact space.
 void DeclareTable(OutputFiles* outputs, const std::string& path,
                   const std::string& flag);
+// The same of rows, JSON Lines, which no table's name may hide.
+void DeclareRowFile(OutputFiles* outputs, const std::string& path,
+                    const std::string& flag);
 
 // Refuse numbers outside of a range, and all that is none, in words; CLI11's
 // own write out the largest double.

@@ -120,7 +120,7 @@ SeededRuns::SeededRuns(const SeededRunFlags& flags, const SceneSource& source,
                                                  : flags.output),
       header_(header + '\n'),
       summarize_(std::move(summarize)) {
-  if (!target_.empty()) DeclareTable(&outputs_, target_, "--output");
+  if (!target_.empty()) DeclareRowFile(&outputs_, target_, "--output");
   DeclareIfNamed(&outputs_, flags.html, "--html", {".html", ".htm"});
   DeclareIfNamed(&outputs_, flags.svg, "--svg", {".svg"});
   if (!flags.html.empty()) RequireViewer();

@@ -2,6 +2,7 @@
 #include "problems/output/nearest_name.h"
 
 #include <algorithm>
+#include <cctype>
 
 namespace phongpd {
 namespace {
@@ -26,6 +27,15 @@ std::size_t EditDistance(const std::string& a, const std::string& b) {
   return d[n][m];
 }
 
+std::string Letters(const std::string& name) {
+  std::string letters;
+  for (const char c : name) {
+    if (c == '-' || c == '_' || c == ' ') continue;
+    letters += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  }
+  return letters;
+}
+
 }  // namespace
 
 std::string DidYouMean(const std::string& word,
@@ -33,10 +43,11 @@ std::string DidYouMean(const std::string& word,
   // Nobody mistypes a name of hundreds of letters.
   constexpr std::size_t kLongest = 64;
   if (word.size() > kLongest) return "";
-  std::size_t least = word.size() / 3 + 1;
+  const std::string letters = Letters(word);
+  std::size_t least = letters.size() / 3 + 1;
   std::string nearest;
   for (const std::string& name : names) {
-    const std::size_t distance = EditDistance(word, name);
+    const std::size_t distance = EditDistance(letters, Letters(name));
     if (distance >= least) continue;
     least = distance;
     nearest = name;

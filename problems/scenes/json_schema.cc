@@ -7,6 +7,7 @@
 #include <set>
 #include <vector>
 
+#include "problems/output/nearest_name.h"
 #include "problems/output/text.h"
 
 namespace phongpd {
@@ -22,22 +23,6 @@ std::string Dump(const Json& value) {
 
 std::string QuotedJson(const std::string& text) { return Dump(Json(text)); }
 
-// Insertions, deletions and replacements that turn one text into the other.
-std::size_t EditsBetween(const std::string& a, const std::string& b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
-  for (std::size_t i = 1; i <= a.size(); ++i) {
-    std::size_t diagonal = row[0];
-    row[0] = i;
-    for (std::size_t j = 1; j <= b.size(); ++j) {
-      const std::size_t replaced = diagonal + (a[i - 1] != b[j - 1]);
-      diagonal = row[j];
-      row[j] = std::min({row[j] + 1, row[j - 1] + 1, replaced});
-    }
-  }
-  return row.back();
-}
-
 class Validator {
  public:
   explicit Validator(const Json& root) : root_(root) {}
@@ -48,6 +33,8 @@ class Validator {
     if (schema.contains("anyOf")) {
       for (const Json& alternative : schema["anyOf"]) {
         if (IsOfType(value, alternative["type"])) {
+          // All that is possible is said where this one is not met.
+          if (!MeetsLimits(value, Resolved(alternative))) break;
           return Check(value, alternative, place);
         }
       }
@@ -141,20 +128,10 @@ class Validator {
 
   [[noreturn]] static void Refuse(const std::string& key, const Json& known,
                                   const JsonPlace& place) {
-    std::string list, nearest;
-    std::size_t least = std::string::npos;
-    for (const auto& [name, schema] : known.items()) {
-      list += (list.empty() ? "" : ", ") + name;
-      // A long key is near to nothing; its distances would take long.
-      const std::size_t distance =
-          key.size() > 100 ? least : EditsBetween(key, name);
-      if (distance >= least) continue;
-      least = distance;
-      nearest = name;
-    }
-    std::string found = Shortened(Json(key));
-    if (!nearest.empty()) found += " (nearest: \"" + nearest + "\")";
-    place.Fail("only the keys " + list, found);
+    std::vector<std::string> names;
+    for (const auto& [name, schema] : known.items()) names.push_back(name);
+    place.Fail("only the keys " + Joined(names),
+               Shortened(Json(key)) + DidYouMean(key, names));
   }
 
   static void RequireOne(const Json& value, const Json& alternatives,

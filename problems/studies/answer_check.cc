@@ -43,8 +43,11 @@ AnswerClaims ClaimsOf(const PipelineResult& result) {
   claims.proves_separation =
       result.status == TrajectoryStatus::kInfeasibleProved;
   claims.start_is_blocked =
-      result.status == TrajectoryStatus::kStartInCollision;
-  claims.goal_is_blocked = result.status == TrajectoryStatus::kGoalInCollision;
+      result.status == TrajectoryStatus::kStartInCollision ||
+      result.status == TrajectoryStatus::kStartOutOfBounds;
+  claims.goal_is_blocked =
+      result.status == TrajectoryStatus::kGoalInCollision ||
+      result.status == TrajectoryStatus::kGoalOutOfBounds;
   return claims;
 }
 
@@ -54,8 +57,11 @@ AnswerClaims ClaimsOf(const PlanningResult& result) {
   claims.proves_separation = result.infeasible_proved;
   if (result.explored) claims.surface = result.explored->surface;
   claims.start_is_blocked =
-      result.status == ToString(PlanStatus::kInvalidStart);
-  claims.goal_is_blocked = result.status == ToString(PlanStatus::kInvalidGoal);
+      result.status == ToString(PlanStatus::kInvalidStart) ||
+      result.status == ToString(PlanStatus::kStartOutOfBounds);
+  claims.goal_is_blocked =
+      result.status == ToString(PlanStatus::kInvalidGoal) ||
+      result.status == ToString(PlanStatus::kGoalOutOfBounds);
   return claims;
 }
 

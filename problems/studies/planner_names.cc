@@ -5,6 +5,7 @@
 
 #include "core/mesh/mesh_error.h"
 #include "planners/ompl/retraction_settings.h"
+#include "problems/output/nearest_name.h"
 #include "problems/output/text.h"
 
 namespace phongpd {
@@ -31,7 +32,7 @@ RetractionOptions ParseRetraction(const std::string& text,
   const auto found = std::find(names.begin(), names.end(), text);
   if (found == names.end()) {
     throw InputError(what + ": expected one of " + Joined(names) + "; found '" +
-                     text + "'");
+                     text + "'" + DidYouMean(text, names));
   }
   const std::ptrdiff_t index = found - names.begin();
   constexpr BranchChoice kChoices[] = {

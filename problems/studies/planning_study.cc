@@ -8,6 +8,7 @@
 #include "core/minkowski/build_refusal.h"
 #include "core/stopwatch.h"
 #include "planners/exact/path_shortening.h"
+#include "problems/output/nearest_name.h"
 #include "problems/output/text.h"
 
 namespace phongpd {
@@ -141,8 +142,12 @@ bool PlanningStudy::Diagnose(PlanningResult* result) const {
         world_.Diagnose(at_start ? scene_.start : scene_.goal);
     if (diagnosis.IsFree()) continue;
     result->reason = diagnosis.Text(at_start ? "start" : "goal");
-    result->status = ToString(at_start ? PlanStatus::kInvalidStart
-                                       : PlanStatus::kInvalidGoal);
+    const PlanStatus status = diagnosis.IsOnlyOutOfBounds()
+                                  ? at_start ? PlanStatus::kStartOutOfBounds
+                                             : PlanStatus::kGoalOutOfBounds
+                              : at_start ? PlanStatus::kInvalidStart
+                                         : PlanStatus::kInvalidGoal;
+    result->status = ToString(status);
     return false;
   }
   return true;
@@ -262,7 +267,8 @@ PlanningResult PlanningStudy::Run(const PlanningRun& run) {
   if (!run.planner.empty() &&
       std::find(names.begin(), names.end(), run.planner) == names.end()) {
     throw InputError("--planner: expected one of " + Joined(names) +
-                     "; found '" + run.planner + "'");
+                     "; found '" + run.planner + "'" +
+                     DidYouMean(run.planner, names));
   }
   // Before anything is built.
   const bool is_window = scene_.planning.model == "window";

@@ -158,8 +158,11 @@ bool TrajectoryStudy::Diagnose(PipelineResult* result) const {
     const Diagnosis diagnosis =
         world().Diagnose(at_start ? scene_.start : scene_.goal);
     if (diagnosis.IsFree()) continue;
-    result->status = at_start ? TrajectoryStatus::kStartInCollision
-                              : TrajectoryStatus::kGoalInCollision;
+    result->status = diagnosis.IsOnlyOutOfBounds()
+                         ? at_start ? TrajectoryStatus::kStartOutOfBounds
+                                    : TrajectoryStatus::kGoalOutOfBounds
+                     : at_start ? TrajectoryStatus::kStartInCollision
+                                : TrajectoryStatus::kGoalInCollision;
     result->reason = diagnosis.Text(at_start ? "start" : "goal");
     return false;
   }

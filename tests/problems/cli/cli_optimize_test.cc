@@ -134,10 +134,10 @@ TEST_F(CliOptimize, TellsWhichEndIsHowDeepInWhat) {
          {"start (0.1,0,0)", "at most 0.1 deep in wall"});
   expect("goal", {0.6, 0.1, 0}, "goal_in_collision",
          {"at most 0.25 deep in post"});
-  expect("goal", {5, 0, 0}, "goal_in_collision",
+  expect("goal", {5, 0, 0}, "goal_out_of_bounds",
          {"goal (5,0,0)",
           "not strictly within the bounds: x is 3 above the maximum 2"});
-  expect("goal", {2, 0, 0}, "goal_in_collision",
+  expect("goal", {2, 0, 0}, "goal_out_of_bounds",
          {"not strictly within the bounds: x is on the maximum 2"});
 }
 

@@ -144,6 +144,8 @@ TEST_F(CliWords, MistypedNamesAreAnsweredWithTheNearest) {
   ExpectLine("plan u_axs", {"did you mean u_axis?"});
   ExpectLine("scenes write u_axs", {"did you mean u_axis?"});
   ExpectLine("plan tunnel:delt=0.1", {"did you mean delta?"});
+  ExpectLine("plan u_axis --planner RRTConnect",
+             {"found 'RRTConnect'", "did you mean rrt-connect?"});
   ExpectLine("scenes", {"expected list or write, found nothing"});
 }
 
@@ -179,6 +181,28 @@ TEST_F(CliWords, WrongNumbersAndMissingValuesAreToldInWords) {
       const Outcome outcome = Run(command + " " + flag.name + " 1e999x");
       EXPECT_EQ(outcome.code, 2) << command << ' ' << flag.name;
       EXPECT_FALSE(HasLongNumber(outcome.err)) << outcome.err;
+    }
+  }
+}
+
+TEST_F(CliWords, PointsAreWrittenWithBlanksOrCommas) {
+  const std::string depth = "depth ../cone.off ../box.off --json --at ";
+  EXPECT_EQ(Run(depth + "1,0.5,-2").out, Run(depth + "1 0.5 -2").out);
+  EXPECT_EQ(Run(depth + "-1,0.5,2").out, Run(depth + "-1 0.5 2").out);
+  const std::string motion =
+      "motion --robot ../cone.off --obstacle ../box.off --frames 3 ";
+  EXPECT_EQ(Run(motion + "--from -3,0,0 --to 3,0,0").out,
+            Run(motion + "--from -3 0 0 --to 3 0 0").out);
+  ExpectLine("depth a b --at 1,2",
+             {"--at: expected at least 3 values, found 2"});
+  ExpectLine("depth ../cone.off ../box.off --at 1,2,x", {"--at", "'x'"});
+}
+
+TEST_F(CliWords, RowsAreNotWrittenUnderTheNameOfATable) {
+  for (const std::string command : {"plan u_axis", "optimize u_axis"}) {
+    for (const char* name : {"r.csv", "r.CSV", "r.tsv", "r.parquet"}) {
+      ExpectLine(command + " --output " + name, {"--output", "one line of JSON",
+                                                 ".jsonl", name, "lines=True"});
     }
   }
 }

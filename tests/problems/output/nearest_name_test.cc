@@ -17,8 +17,19 @@ TEST(NearestName, IsFoundForOneSlipInThreeLetters) {
   EXPECT_EQ(DidYouMean("longplate", names), "; did you mean long_plate?");
 }
 
+TEST(NearestName, CountsNeitherCapitalsNorWhatStandsBetweenWords) {
+  const std::vector<std::string> names = {"prm", "rrt-connect", "prm-bridge"};
+  for (const std::string word :
+       {"RRTConnect", "rrt_connect", "RRT Connect", "RrtConect"}) {
+    EXPECT_EQ(DidYouMean(word, names), "; did you mean rrt-connect?") << word;
+  }
+  EXPECT_EQ(DidYouMean("PRM", names), "; did you mean prm?");
+}
+
 TEST(NearestName, IsNoneWhereNothingIsNear) {
   EXPECT_EQ(DidYouMean("query", {"optimize", "plan"}), "");
+  EXPECT_EQ(DidYouMean("velocity", {"robot", "repair", "planning"}), "");
+  EXPECT_EQ(DidYouMean("--velocity", {"--repair", "--unit"}), "");
   EXPECT_EQ(DidYouMean("x", {"y"}), "");
   EXPECT_EQ(DidYouMean("", {"plan"}), "");
   EXPECT_EQ(DidYouMean("plan", {}), "");

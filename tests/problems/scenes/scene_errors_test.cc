@@ -81,11 +81,16 @@ TEST(SceneErrors, NameFilePlaceExpectedAndFound) {
        "s.json: expected only the keys $schema, name, robot, obstacles, "
        "bounds, start, goal, preset, penetration, trajectory, planning, "
        "feasible, "
-       "witness, found \"robto\" (nearest: \"robot\")"},
+       "witness, found \"robto\"; did you mean robot?"},
+      {"/velocity", 3,
+       "s.json: expected only the keys $schema, name, robot, obstacles, "
+       "bounds, start, goal, preset, penetration, trajectory, planning, "
+       "feasible, "
+       "witness, found \"velocity\""},
       {"/trajectory/waypoint", 3,
        "s.json: /trajectory: expected only the keys waypoints, "
        "samples_per_segment, margin, max_segment_ratio, model, ipopt, "
-       "found \"waypoint\" (nearest: \"waypoints\")"},
+       "found \"waypoint\"; did you mean waypoints?"},
       {"/goal", nullptr,
        "s.json: /goal: expected an array of 3 numbers, found nothing"},
       {"/robot", nullptr, "s.json: /robot: expected an object, found nothing"},
@@ -120,6 +125,10 @@ TEST(SceneErrors, NameFilePlaceExpectedAndFound) {
       {"/obstacles/0/rotation", 90,
        "s.json: /obstacles/0/rotation: expected an array of 9 numbers or an "
        "object with \"axis\", \"degrees\", found 90"},
+      {"/obstacles/0/rotation",
+       {0, 0, 90},
+       "s.json: /obstacles/0/rotation: expected an array of 9 numbers or an "
+       "object with \"axis\", \"degrees\", found [0,0,90]"},
       {"/obstacles/0/rotation/axis",
        {0, 0, 0},
        "s.json: /obstacles/0/rotation/axis: expected a direction, found "

@@ -3,6 +3,7 @@
 // solids (MotionOracle) and in the whole contact space.
 #include <gtest/gtest.h>
 
+#include <nlohmann/json.hpp>
 #include <random>
 #include <string>
 #include <thread>
@@ -11,8 +12,10 @@
 #include "constraints/motion_oracle.h"
 #include "core/mesh/mesh_error.h"
 #include "core/minkowski/build_refusal.h"
+#include "problems/scenes/scene.h"
 #include "problems/scenes/scene_source.h"
 #include "problems/shapes/random_solids.h"
+#include "problems/studies/planner_names.h"
 #include "problems/studies/planning_study.h"
 
 namespace phongpd {
@@ -25,6 +28,14 @@ Scene SceneOf(const std::string& name, const std::string& model) {
   Scene scene = SceneSource(name).Load();
   scene.planning.model = model;
   return scene;
+}
+
+// What is in help is in scenes, and the other way round.
+TEST(PlanningModel, ScenesTakeEveryPlannerByTheNamesOfHelp) {
+  const auto& planning = SceneSchema().at(
+      nlohmann::ordered_json::json_pointer("/properties/planning/properties"));
+  EXPECT_EQ(planning["planner"]["enum"].get<std::vector<std::string>>(),
+            PlannerNames());
 }
 
 TEST(PlanningModel, WindowPathsAreExactlyFree) {
