@@ -33,8 +33,8 @@ class Validator {
     if (schema.contains("anyOf")) {
       for (const Json& alternative : schema["anyOf"]) {
         if (IsOfType(value, alternative["type"])) {
-          // All that is possible is said where this one is not met.
-          if (!MeetsLimits(value, Resolved(alternative))) break;
+          // Three angles are meant as something else than a cut-off matrix.
+          if (value.is_array() && !MeetsLimits(value, alternative)) break;
           return Check(value, alternative, place);
         }
       }
