@@ -25,7 +25,7 @@ NO_MEASUREMENT = {
         "ℓ = 0.1", "ℓ = 0.2", "ℓ is 0.2 D", "0 is the paper's field", "C++17", "Debian 12",
         "Ipopt up to 3.13", "0700", "0600", "Exit code 0", "1: ran", "2: bad input",
         "3: a fault", "128 + n", "glTF or 3MF", "`kill -9`", "seed 22 does 22 to 104",
-        "the rows of 5 to 21"],
+        "the rows of 5 to 21", "above 0.1 has to say which", "(exit code 1)"],
     "docs/choosing.md": [
         "ℓ = 0.2", "FCL 0.7", "2026-11-23", "60 to 1,008 triangles",
         "at 100 random overlapping poses", "within 1 % of", "PhongPD 0.1.0",
