@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "planners/exact/free_space.h"
+#include "constraints/free_space.h"
 #include "planners/trajectory/knot_curve.h"
 
 namespace phongpd::internal {

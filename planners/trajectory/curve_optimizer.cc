@@ -5,11 +5,11 @@
 #include <cmath>
 #include <string>
 
+#include "constraints/curve_judge.h"
 #include "core/mesh/finite.h"
 #include "core/mesh/mesh_error.h"
 #include "core/stopwatch.h"
 #include "planners/exact/check_option.h"
-#include "planners/exact/curve_judge.h"
 #include "planners/trajectory/curve_cells.h"
 #include "planners/trajectory/curve_program.h"
 #include "planners/trajectory/knot_curve.h"

@@ -6,8 +6,8 @@
 #include <limits>
 #include <vector>
 
+#include "constraints/free_space.h"
 #include "constraints/trajectory.h"
-#include "planners/exact/free_space.h"
 
 namespace phongpd {
 

@@ -5,8 +5,8 @@
 #include <array>
 #include <vector>
 
+#include "constraints/free_space.h"
 #include "constraints/trajectory.h"
-#include "planners/exact/free_space.h"
 
 namespace phongpd::internal {
 

@@ -10,10 +10,10 @@
 #include <cmath>
 #include <limits>
 
+#include "constraints/curve_judge.h"
 #include "constraints/oracle/collision_oracle.h"
 #include "core/mesh/mesh_error.h"
 #include "planners/exact/contact_surface_planner.h"
-#include "planners/exact/curve_judge.h"
 #include "tests/support/passages.h"
 #include "tests/support/path_problems.h"
 
