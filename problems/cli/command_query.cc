@@ -196,8 +196,9 @@ Command AddQuery(CLI::App* app) {
   AddJson(app, &flags->json, "JSON Lines instead of CSV, one object a point");
   app->add_option("--metric", flags->metric)
       ->description(
-          "sliding: a contact that never jumps, it slides over the contact "
-          "surface along the motion that the rows are; needs --tracked.  Its "
+          "sliding: a contact that does not jump inside, it slides over the "
+          "contact surface along the motion that the rows are; needs "
+          "--tracked.  Its "
           "status is following, sliding (the contact is on its way), outside, "
           "left_elsewhere (outside, the depth jumped to zero) or invalid; its "
           "gradient that with the contact held, equal to direction")
