@@ -7,8 +7,8 @@
 namespace phongpd {
 
 Length ParseClearance(const std::string& text, const std::string& what,
-                      double diagonal) {
-  const Length length = ParseLength(text, what);
+                      double diagonal, const std::string& unit) {
+  const Length length = ParseLength(text, what, unit);
   if (length.is_share() && length.value() > kLargestBareShare &&
       text.back() != 'D') {
     const std::string number = FormatDouble(length.value());
@@ -17,7 +17,7 @@ Length ParseClearance(const std::string& text, const std::string& what,
                      ": did you mean " + number + "unit? or " + number +
                      "D, a share of the world's diagonal D");
   }
-  RequireLength(length, LengthRange::kAboveZero, diagonal, what);
+  RequireLength(length, LengthRange::kAboveZero, diagonal, what, unit);
   return length;
 }
 

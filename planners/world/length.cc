@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "planners/world/length.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/mesh/mesh_error.h"
@@ -41,11 +42,26 @@ bool Strip(const std::string& suffix, std::string* text) {
   return true;
 }
 
-}  // namespace
+std::string LengthSyntax(const std::string& unit) {
+  if (unit.empty()) {
+    return "a length >= 0 as 0.01 or 0.01D (a share of the world's diagonal D) "
+           "or 0.5unit (the user's unit)";
+  }
+  return "a length >= 0 as 20 or 20" + unit +
+         " (the scene's unit) or 0.01D (a share of the world's diagonal D)";
+}
 
-const char* const kLengthSyntax =
-    "a length >= 0 as 0.01 or 0.01D (a share of the world's diagonal D) or "
-    "0.5unit (the user's unit)";
+// Why `text` is no length where it is one in a unit that is not the user's.
+std::string OtherUnitNote(const std::string& text, const std::string& unit) {
+  const std::string named = UnitNamedIn(text);
+  if (named.empty() || named == unit) return "";
+  return unit.empty()
+             ? ": the user's unit has no name; a scene's \"unit\": \"" + named +
+                   "\" gives it one"
+             : ": the scene's unit is " + unit + ", and nothing is converted";
+}
+
+}  // namespace
 
 Length Length::FromShare(double share) {
   return Length(Checked(share, "share of D"), true);
@@ -65,14 +81,37 @@ ResolvedLength Length::Resolve(double diagonal) const {
                    : ResolvedLength{value_, value_ / diagonal};
 }
 
-std::string Length::Text() const {
-  return FormatDouble(value_) + (is_share_ ? "" : "unit");
+std::string Length::Text(const std::string& unit) const {
+  const std::string name = unit.empty() ? "unit" : unit;
+  const std::string share = unit.empty() ? "" : "D";
+  return FormatDouble(value_) + (is_share_ ? share : name);
 }
 
-Length ParseLength(const std::string& text, const std::string& what) {
+const std::vector<std::string>& UnitNames() {
+  static const std::vector<std::string> names = {"nm", "um", "mm", "cm", "dm",
+                                                 "m",  "km", "in", "ft"};
+  return names;
+}
+
+std::string UnitNamedIn(const std::string& text) {
+  // All letters at the end: "mm" ends with "m", but does not name it.
+  const auto is_letter = [](char c) {
+    return ('a' <= c && c <= 'z') || ('A' <= c && c <= 'Z');
+  };
+  const auto begin = std::find_if_not(text.rbegin(), text.rend(), is_letter);
+  const std::string word(begin.base(), text.end());
+  const std::vector<std::string>& names = UnitNames();
+  const bool is_unit =
+      std::find(names.begin(), names.end(), word) != names.end();
+  return is_unit ? word : "";
+}
+
+Length ParseLength(const std::string& text, const std::string& what,
+                   const std::string& unit) {
   std::string number = text;
-  const bool is_unit = Strip("unit", &number);
-  if (!is_unit) Strip("D", &number);
+  const bool is_named = !unit.empty() && UnitNamedIn(text) == unit;
+  const bool is_unit = Strip(is_named ? unit : "unit", &number);
+  const bool is_share = !is_unit && (Strip("D", &number) || unit.empty());
   double value = -1.0;
   try {
     value = ParseDouble(number, what);
@@ -80,25 +119,24 @@ Length ParseLength(const std::string& text, const std::string& what) {
     // Below: what a length is, not what a number is.
   }
   // −0 is a zero with a sign that nobody means.
-  if (!(value >= 0.0)) Refuse(what, kLengthSyntax, Excerpt(text));
+  if (!(value >= 0.0)) {
+    Refuse(what, LengthSyntax(unit), Excerpt(text) + OtherUnitNote(text, unit));
+  }
   value = std::abs(value);
-  return is_unit ? Length::FromUnit(value) : Length::FromShare(value);
+  return is_share ? Length::FromShare(value) : Length::FromUnit(value);
 }
 
 void RequireLength(const Length& length, LengthRange range, double diagonal,
-                   const std::string& what) {
+                   const std::string& what, const std::string& unit) {
   if (range == LengthRange::kAboveZero && length.value() == 0.0) {
-    Refuse(what, "a length > 0", length.Text());
+    Refuse(what, "a length > 0", length.Text(unit));
   }
-  if (length.is_share() && length.value() > 1.0) {
-    Refuse(what, "at most 1 (the world's diagonal D)", length.Text());
-  }
-  if (!length.is_share() && diagonal > 0.0 && length.value() > diagonal) {
-    Refuse(
-        what,
-        "at most " + FormatDouble(diagonal) + "unit (the world's diagonal D)",
-        length.Text());
-  }
+  const double most = length.is_share() ? 1.0 : diagonal;
+  if (!(most > 0.0) || length.value() <= most) return;
+  const Length limit =
+      length.is_share() ? Length::FromShare(most) : Length::FromUnit(most);
+  Refuse(what, "at most " + limit.Text(unit) + " (the world's diagonal D)",
+         length.Text(unit));
 }
 
 }  // namespace phongpd

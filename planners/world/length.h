@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 namespace phongpd {
 
@@ -28,8 +29,9 @@ class Length {
   // Throws InputError unless `diagonal` (D) is finite and > 0.
   ResolvedLength Resolve(double diagonal) const;
 
-  // "0.2" (a share) or "0.5unit"; ParseLength reads back the same length.
-  std::string Text() const;
+  // "0.2" (a share) or "0.5unit"; where the unit has a name "0.2D" or "0.5mm".
+  // ParseLength, given the same name, reads back the same length.
+  std::string Text(const std::string& unit = "") const;
 
   friend bool operator==(const Length& a, const Length& b) {
     return a.is_share_ == b.is_share_ && a.value_ == b.value_;
@@ -43,20 +45,28 @@ class Length {
   bool is_share_ = true;
 };
 
-// How a length is written: "0.01" or "0.01D", a share of D, or "0.5unit", in
-// the user's unit; blanks may stand before D and unit.
-extern const char* const kLengthSyntax;
+// What a user's unit may be called: "mm", "m", ...  A name says what numbers
+// are; nothing is converted.
+const std::vector<std::string>& UnitNames();
 
-// Reads that.  Throws InputError "WHAT: expected ..., found 'TEXT'" for
-// anything else, negative numbers among them.
-Length ParseLength(const std::string& text, const std::string& what);
+// The one that `text` ends with, "mm" of "20mm"; empty: none.
+std::string UnitNamedIn(const std::string& text);
+
+// Reads a length: "0.01D", a share of D, or "0.5unit", in the user's unit;
+// blanks may stand before D and unit.  A bare number is a share of D.  Where
+// the user's unit has a name, `unit`, "0.5mm" is read too, and a bare number is
+// in it.  Throws InputError "WHAT: expected ..., found 'TEXT'" for anything
+// else, negative numbers and other units among them.
+Length ParseLength(const std::string& text, const std::string& what,
+                   const std::string& unit = "");
 
 // Which lengths an option takes; none takes more than D.
 enum class LengthRange { kFromZero, kAboveZero };
 
 // Throws InputError "WHAT: expected ..., found LENGTH" for lengths out of
-// range.  Without D (0) lengths in the user's unit pass that may be too long.
+// range, told in `unit` if it has that name.  Without D (0) lengths in the
+// user's unit pass that may be too long.
 void RequireLength(const Length& length, LengthRange range, double diagonal,
-                   const std::string& what);
+                   const std::string& what, const std::string& unit = "");
 
 }  // namespace phongpd

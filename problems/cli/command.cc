@@ -153,11 +153,12 @@ void TellAboutSpaces(const World& world, std::size_t triangles) {
 }
 
 Length LengthFlag(const std::string& text, const std::string& flag,
-                  LengthRange range, const Workspace* workspace) {
-  const Length length = ParseLength(text, flag);
-  RequireLength(
-      length, range,
-      workspace == nullptr ? 0.0 : ContactBounds(*workspace).Diagonal(), flag);
+                  LengthRange range, const Scene* scene) {
+  const std::string unit = scene == nullptr ? "" : scene->unit;
+  const double diagonal =
+      scene == nullptr ? 0.0 : ContactBounds(scene->workspace).Diagonal();
+  const Length length = ParseLength(text, flag, unit);
+  RequireLength(length, range, diagonal, flag, unit);
   return length;
 }
 

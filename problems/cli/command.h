@@ -90,9 +90,10 @@ void TellAbout(const Scene& scene);
 void TellAboutSpaces(const World& world, std::size_t triangles);
 
 // Reads a flag that is a length; throws InputError naming it for what is none
-// and, if `workspace` is given, for what is out of range in its world.
+// and, if `scene` is given, for what is out of range in its world; lengths
+// are in its unit then, as its file has them.
 Length LengthFlag(const std::string& text, const std::string& flag,
-                  LengthRange range, const Workspace* workspace = nullptr);
+                  LengthRange range, const Scene* scene = nullptr);
 
 // Declares --no-cache, and the cache it leaves: the user's own, or none.
 void AddNoCache(CLI::App* app, bool* no_cache);

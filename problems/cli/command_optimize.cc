@@ -73,11 +73,12 @@ void Override(const OptimizeFlags& flags, Scene* scene) {
   if (!flags.smoothing_length.empty()) {
     settings.smoothing_length =
         LengthFlag(flags.smoothing_length, "--smoothing-length",
-                   LengthRange::kFromZero, &scene->workspace);
+                   LengthRange::kFromZero, scene);
   }
   if (!flags.margin.empty()) {
-    scene->trajectory.margin = ParseClearance(
-        flags.margin, "--margin", ContactBounds(scene->workspace).Diagonal());
+    scene->trajectory.margin =
+        ParseClearance(flags.margin, "--margin",
+                       ContactBounds(scene->workspace).Diagonal(), scene->unit);
   }
 }
 
@@ -233,7 +234,8 @@ Command AddOptimize(CLI::App* app) {
   app->add_option("--smoothing-length", flags->smoothing_length,
                   "Of the Phong field, 0 (the paper) to D, the diagonal of the "
                   "obstacles' contact space: 0.1 or 0.1D is a share of D, "
-                  "0.5unit is in the scene's unit (scene's own if not set)")
+                  "0.5unit is in the scene's unit; where that has a name, "
+                  "20mm and 20 are in it (scene's own if not set)")
       ->type_name("LENGTH");
   app->add_option("--margin", flags->margin,
                   "Distance to keep, more than 0 and at most D, told like "

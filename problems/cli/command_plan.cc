@@ -73,7 +73,7 @@ void SetClearance(const PlanFlags& flags, const std::string& planner,
   RequireSeeksClearance(planner, "--clearance");
   scene->planning.clearance =
       ParseClearance(flags.clearance, "--clearance",
-                     ContactBounds(scene->workspace).Diagonal());
+                     ContactBounds(scene->workspace).Diagonal(), scene->unit);
 }
 
 // The last run may be one that was kept from before: `explored` has no surface
@@ -208,7 +208,8 @@ Command AddPlan(CLI::App* app) {
                   "To seek where there is room, more than 0 and at most D, the "
                   "diagonal of the obstacles' contact space: 0.01 or 0.01D is "
                   "a share of D, 0.5unit is in the scene's unit; a share "
-                  "above 0.1 has to say D (scene's own if not set)")
+                  "above 0.1 has to say D; where the scene's unit has a name, "
+                  "20mm and 20 are in it (scene's own if not set)")
       ->type_name("LENGTH");
   app->add_flag("--require", flags->require,
                 "Less than the clearance is no answer: status "

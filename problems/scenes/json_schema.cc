@@ -41,7 +41,7 @@ class Validator {
       place.Fail(Described(schema), Shortened(value));
     }
     if (!MeetsLimits(value, schema)) {
-      place.Fail(Described(schema), Shortened(value));
+      place.Fail(Described(schema), Shortened(value) + Nearest(value, schema));
     }
     if (value.is_object()) CheckObject(value, schema, place);
     if (value.is_array() && schema.contains("items")) {
@@ -146,6 +146,13 @@ class Validator {
     }
     if (count == 1) return;
     place.Fail("either " + list, count == 0 ? "neither" : found);
+  }
+
+  // Which choice was meant, if one is near.
+  static std::string Nearest(const Json& value, const Json& schema) {
+    if (!schema.contains("enum") || !value.is_string()) return "";
+    return DidYouMean(value.get<std::string>(),
+                      schema["enum"].get<std::vector<std::string>>());
   }
 
   // What a schema asks for, in words.

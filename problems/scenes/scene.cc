@@ -170,15 +170,16 @@ void Read(const Json& value, const char* key, double* number) {
 
 // As flags tell them (bare_length.h); a clearance or margin where the range is
 // above zero.
-Length LengthAt(const Json& value, const JsonPlace& place, LengthRange range) {
+Length LengthAt(const Json& value, const JsonPlace& place, LengthRange range,
+                const std::string& unit) {
   const std::string text = value.is_string()
                                ? value.get<std::string>()
                                : FormatDouble(value.get<double>());
   if (range == LengthRange::kAboveZero) {
-    return ParseClearance(text, place.Text(), 0.0);
+    return ParseClearance(text, place.Text(), 0.0, unit);
   }
-  const Length length = ParseLength(text, place.Text());
-  RequireLength(length, range, 0.0, place.Text());
+  const Length length = ParseLength(text, place.Text(), unit);
+  RequireLength(length, range, 0.0, place.Text(), unit);
   return length;
 }
 
@@ -187,14 +188,14 @@ void Read(const Json& value, const char* key, int* number) {
   if (value.contains(key)) *number = static_cast<int>(value[key].get<double>());
 }
 
-void Read(const Json& value, const JsonPlace& place,
+void Read(const Json& value, const JsonPlace& place, const std::string& unit,
           PenetrationSettings* settings) {
   Read(value, "metric", &settings->metric);
   Read(value, "field", &settings->field);
   if (value.contains("smoothing_length")) {
     settings->smoothing_length =
         LengthAt(value["smoothing_length"], place.Child("smoothing_length"),
-                 LengthRange::kFromZero);
+                 LengthRange::kFromZero, unit);
   }
   Read(value, "jacobian", &settings->jacobian);
 }
@@ -209,13 +210,13 @@ IpoptValue OptionValue(const Json& value) {
   return number;
 }
 
-void Read(const Json& value, const JsonPlace& place,
+void Read(const Json& value, const JsonPlace& place, const std::string& unit,
           TrajectorySettings* settings) {
   Read(value, "waypoints", &settings->waypoints);
   Read(value, "samples_per_segment", &settings->samples_per_segment);
   if (value.contains("margin")) {
     settings->margin = LengthAt(value["margin"], place.Child("margin"),
-                                LengthRange::kAboveZero);
+                                LengthRange::kAboveZero, unit);
   }
   Read(value, "max_segment_ratio", &settings->max_segment_ratio);
   Read(value, "model", &settings->model);
@@ -225,14 +226,14 @@ void Read(const Json& value, const JsonPlace& place,
   }
 }
 
-void Read(const Json& value, const JsonPlace& place,
+void Read(const Json& value, const JsonPlace& place, const std::string& unit,
           PlanningSettings* settings) {
   Read(value, "planner", &settings->planner);
   Read(value, "model", &settings->model);
   Read(value, "time_limit", &settings->time_limit);
   if (value.contains("clearance")) {
     settings->clearance = LengthAt(value["clearance"], place.Child("clearance"),
-                                   LengthRange::kAboveZero);
+                                   LengthRange::kAboveZero, unit);
   }
 }
 
@@ -242,7 +243,7 @@ void RequireLengths(const Scene& scene, const JsonPlace& place) {
   const auto require = [&](const Length& length, LengthRange range,
                            const char* section, const char* key) {
     RequireLength(length, range, diagonal,
-                  place.Child(section).Child(key).Text());
+                  place.Child(section).Child(key).Text(), scene.unit);
   };
   require(scene.penetration.smoothing_length, LengthRange::kFromZero,
           "penetration", "smoothing_length");
@@ -296,6 +297,7 @@ Scene ParseScene(const Json& json, const std::string& file,
   const JsonPlace place = {file, ""};
   Scene scene;
   scene.name = json.value("name", name);
+  scene.unit = json.value("unit", "");
   scene.start = Point(json["start"]);
   scene.goal = Point(json["goal"]);
   if (json.contains("bounds")) {
@@ -306,13 +308,16 @@ Scene ParseScene(const Json& json, const std::string& file,
                                place.Child("preset").Text());
   }
   if (json.contains("penetration")) {
-    Read(json["penetration"], place.Child("penetration"), &scene.penetration);
+    Read(json["penetration"], place.Child("penetration"), scene.unit,
+         &scene.penetration);
   }
   if (json.contains("trajectory")) {
-    Read(json["trajectory"], place.Child("trajectory"), &scene.trajectory);
+    Read(json["trajectory"], place.Child("trajectory"), scene.unit,
+         &scene.trajectory);
   }
   if (json.contains("planning")) {
-    Read(json["planning"], place.Child("planning"), &scene.planning);
+    Read(json["planning"], place.Child("planning"), scene.unit,
+         &scene.planning);
   }
   if (json.contains("feasible")) scene.feasible = json["feasible"].get<bool>();
   if (json.contains("witness")) {

@@ -58,6 +58,9 @@ struct PlanningSettings {
 
 struct Scene {
   std::string name;
+  // What the unit of its lengths is called, one of UnitNames (length.h); empty:
+  // it has no name, and lengths without a unit are shares of D.
+  std::string unit;
   Workspace workspace;  // at least one obstacle
   Eigen::Vector3d start = Eigen::Vector3d::Zero();
   Eigen::Vector3d goal = Eigen::Vector3d::Zero();

@@ -16,7 +16,9 @@ using Json = nlohmann::ordered_json;
 // Of what is asked: solvers keep their constraints to within so much.
 constexpr double kTolerance = 1e-6;
 
-std::string Told(double length) { return Rounded(length, 4) + "unit"; }
+std::string Told(const Scene& scene, double length) {
+  return Rounded(length, 4) + (scene.unit.empty() ? "unit" : scene.unit);
+}
 
 const char* StatusKey(const Json& row) {
   return row.contains("status_class") ? "status_class" : "status";
@@ -45,8 +47,9 @@ std::string BeyondTheEnds(const World& world, const Scene& scene,
   // Ends that are not free are told of by themselves.
   if (!(start > 0.0 && goal > 0.0)) return "";
   if (std::min(start, goal) >= (1.0 - kTolerance) * asked) return "";
-  return "no path keeps the " + wish.name + " of " + Told(asked) +
-         ": the start has " + Told(start) + ", the goal " + Told(goal);
+  return "no path keeps the " + wish.name + " of " + Told(scene, asked) +
+         ": the start has " + Told(scene, start) + ", the goal " +
+         Told(scene, goal);
 }
 
 void TellClearance(const World& world, const Scene& scene,
@@ -71,10 +74,10 @@ void TellClearance(const World& world, const Scene& scene,
   if (is_kept || !(wish.is_own || wish.is_required)) return;
   std::string reason = row->at("reason").get<std::string>();
   if (!reason.empty()) reason += "; ";
-  (*row)["reason"] = reason + "the path keeps " + Told(kept) + " of the " +
-                     wish.name + " of " + Told(asked->unit) +
-                     "; the start has " + Told(start->unit) + ", the goal " +
-                     Told(goal->unit);
+  (*row)["reason"] =
+      reason + "the path keeps " + Told(scene, kept) + " of the " + wish.name +
+      " of " + Told(scene, asked->unit) + "; the start has " +
+      Told(scene, start->unit) + ", the goal " + Told(scene, goal->unit);
   if (!wish.is_required) return;
   (*row)[StatusKey(*row)] = kClearanceMissed;
   (*row)["solved"] = false;

@@ -41,6 +41,7 @@ Json PlanningRow(const PlanningStudy& study, const PlanningRun& run,
   row["collision_free"] = n.collision_free;
   row["clearance"] = n.clearance;
   row["lengths"] = {
+      {"unit", UnitRow(study.scene().unit)},
       {"D", study.world().diagonal()},
       {"wanted_clearance", LengthRow(result.wanted_clearance)},
       {"clearance",

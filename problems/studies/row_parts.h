@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <string>
 
 #include "planners/world/length.h"
 #include "problems/output/versions.h"
@@ -28,6 +29,12 @@ inline nlohmann::ordered_json LengthRow(
     const std::optional<ResolvedLength>& length) {
   if (!length) return nullptr;
   return {{"share", length->share}, {"unit", length->unit}};
+}
+
+// What the user's unit is called; null where it has no name.
+inline nlohmann::ordered_json UnitRow(const std::string& unit) {
+  if (unit.empty()) return nullptr;
+  return unit;
 }
 
 }  // namespace phongpd

@@ -98,6 +98,7 @@ Json TrajectoryRow(const TrajectoryStudy& study, const TrajectoryMetric& metric,
       result.certificate.free ? PathClearance(study.judge(), result.path) : 0.0;
   row["clearance"] = clearance;
   row["lengths"] = {
+      {"unit", UnitRow(study.scene().unit)},
       {"D", world.diagonal()},
       {"smoothing_length", smoothing},
       {"margin", LengthRow(world.Resolve(study.scene().trajectory.margin))},

@@ -108,7 +108,8 @@ def seconds(value: Any, name: str) -> float:
 
 
 def length(value: Any, name: str) -> str:
-    """A share of D as a number, "0.5unit" in the user's unit; None: default."""
+    """A number, a share of D or in the scene's unit if that has a name, or a
+    text with the unit, "0.5unit"; None: default."""
     if value is None:
         return ""
     if isinstance(value, str):

@@ -107,6 +107,7 @@ class Scene:
     @staticmethod
     def load(text: str, seed: int | None) -> Scene: ...
     name: str
+    unit: str
     start: _Floats
     goal: _Floats
     warnings: list[str]

@@ -29,7 +29,7 @@ class NonPenetrationRows:
         if not world.is_motion_free(path[:-1], path[1:]).all():
             raise RuntimeError("the path collides, whatever the solver says")
 
-    margin: to keep, a share of D or "0.5unit"; None: the scene's, 0.01.
+    margin: to keep, as World.optimize takes it; None: the scene's, 0.01.
 
     samples_per_segment: 0, as many as the Lipschitz rule asks for: d changes
     no faster than the path moves, so S with S + 1 > h / (2 margin) inner points

@@ -76,6 +76,12 @@ class World(Shown):
         return self._native.scene.name
 
     @property
+    def unit(self) -> str:
+        """What the unit is called in the scene file it was loaded from, "mm";
+        "": it has no name."""
+        return self._native.scene.unit
+
+    @property
     def robot(self) -> Solid:
         return Solid._of(self._native.scene.robot)
 
@@ -145,7 +151,8 @@ class World(Shown):
         start, goal: positions; the scene's own where it was loaded.
         metric: "phong@L" with a smoothing length, "euclidean"; "": the
         scene's.  margin: distance kept, a share of D or "0.5unit" (shares above
-        0.1 as "0.5D"); what is kept less is in `reason` and in row["lengths"],
+        0.1 as "0.5D"), and where the scene's unit has a name 20 or "20mm" in
+        it; what is kept less is in `reason` and in row["lengths"],
         with the room of start and goal, and with `require` the status is
         "clearance_missed".
         waypoints: free ones; 0: the scene's.  straight: start from the line
@@ -181,12 +188,12 @@ class World(Shown):
         infeasibility; the others sample (names: `phongpd plan --help`), for
         `max_seconds`, by `seed`; retraction-* carry samples to the contact
         space by `retraction`.  clearance: to seek where there is room, a share
-        of D or "0.5unit" (shares above 0.1 as "0.5D"); what is kept less is told
-        as optimize tells it, `require` too.  preset: of contact-surface, as of optimize.  model:
-        "full", the whole contact space; "window", of it what leads from start
-        to goal, and free space alone for planners that only check motions;
-        "auto", the window for those, and where limits refuse the whole; "":
-        the scene's.
+        of D or "0.5unit", told as optimize takes it; what is kept less is told
+        as there, `require` too.  preset: of contact-surface, as of optimize.
+        model: "full", the whole contact space; "window", of it what leads from
+        start to goal, and free space alone for planners that only check
+        motions; "auto", the window for those, and where limits refuse the
+        whole; "": the scene's.
         """
         ends = self._ends(start, goal)
         row = json.loads(self._native.plan(

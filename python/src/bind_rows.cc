@@ -40,7 +40,8 @@ class Rows {
     const World& world = workshop.world();
     const Length wanted =
         margin.empty() ? workshop.scene().trajectory.margin
-                       : ParseClearance(margin, "margin", world.diagonal());
+                       : ParseClearance(margin, "margin", world.diagonal(),
+                                        workshop.scene().unit);
     margin_ = world.Resolve(wanted).unit;
     max_segment_ = max_segment > 0.0 ? max_segment
                                      : LongestSegment(start_, goal_, waypoints);

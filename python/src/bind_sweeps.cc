@@ -93,7 +93,8 @@ void CheckPlanner(const std::string& planner, const std::string& retraction,
   ParseRetraction(retraction, "retraction");
   if (clearance.empty()) return;
   RequireSeeksClearance(planner, "clearance");
-  ParseLength(clearance, "clearance");
+  // Whether the unit is the scene's, the scene will say.
+  ParseLength(clearance, "clearance", UnitNamedIn(clearance));
 }
 
 }  // namespace

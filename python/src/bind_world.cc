@@ -121,6 +121,7 @@ void BindScene(nb::module_& module) {
           },
           nb::arg("text"), nb::arg("seed").none())
       .def_prop_ro("name", [](const Scene& scene) { return scene.name; })
+      .def_prop_ro("unit", [](const Scene& scene) { return scene.unit; })
       .def_prop_ro("start",
                    [](const Scene& scene) { return ToArray(scene.start); })
       .def_prop_ro("goal",

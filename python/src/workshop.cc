@@ -45,7 +45,7 @@ std::string Workshop::Optimize(const Point& start, const Point& goal,
     Scene scene = Between(start, goal);
     if (!margin.empty()) {
       scene.trajectory.margin =
-          ParseClearance(margin, "margin", world_.diagonal());
+          ParseClearance(margin, "margin", world_.diagonal(), scene.unit);
     }
     if (waypoints > 0) scene.trajectory.waypoints = waypoints;
     if (!preset.empty()) scene.preset = ParsePreset(preset, "preset");
@@ -88,7 +88,7 @@ std::string Workshop::Plan(const Point& start, const Point& goal,
     if (!clearance.empty()) {
       RequireSeeksClearance(planner, "clearance");
       scene.planning.clearance =
-          ParseClearance(clearance, "clearance", world_.diagonal());
+          ParseClearance(clearance, "clearance", world_.diagonal(), scene.unit);
     }
     if (!preset.empty()) {
       if (planner != kContactSurface) {

@@ -210,6 +210,27 @@ def test_a_missed_clearance_is_said_and_an_error_where_required(world):
         world.plan(START, GOAL, require=True)
 
 
+def test_lengths_are_in_a_unit_that_has_a_name(tmp_path):
+    box = {"shape": {"type": "box", "size": [1, 1, 1]}}
+    scene = {"unit": "mm", "robot": box, "obstacles": [box],
+             "start": [-3, 0, 0], "goal": [3, 0, 0]}
+    path = tmp_path / "scene.json"
+    path.write_text(json.dumps(scene))
+    world = phongpd.World.load(path)
+    assert world.unit == "mm"
+    for length in (0.5, "0.5", "0.5mm", "0.5 mm", "0.5unit"):
+        for found in (world.plan(clearance=length), world.optimize(margin=length)):
+            lengths = found.row["lengths"]
+            assert lengths["unit"] == "mm"
+            assert lengths["asked_clearance"]["unit"] == 0.5
+    for ask in (lambda: world.plan(clearance="0.5cm"),
+                lambda: world.optimize(margin="0.5cm"),
+                lambda: phongpd.NonPenetrationRows(
+                    world, world.start, world.goal, waypoints=2, margin="0.5cm")):
+        with pytest.raises(phongpd.InputError, match="unit is mm"):
+            ask()
+
+
 def test_a_large_share_has_to_say_that_it_is_one(world):
     for call in (lambda v: world.plan(START, GOAL, clearance=v),
                  lambda v: world.optimize(START, GOAL, margin=v),

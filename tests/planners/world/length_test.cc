@@ -70,7 +70,7 @@ TEST(Length, RefusesOtherTextInOneLine) {
   for (const std::string text :
        {"",         "D",    "unit",      "-1",      "-0.5unit",
         "-1D",      "nan",  "inf",       "infunit", "0.5units",
-        "0.5 m",    "0.5d", "5%",        "5 %D",    "0.5D unit",
+        "0.5 M",    "0.5d", "5%",        "5 %D",    "0.5D unit",
         "unit 0.5", "0,5",  "1e999unit", " 1",      "1 "}) {
     EXPECT_EQ(ErrorOf([&] { ParseLength(text, "--margin"); }),
               expected + "'" + text + "'");
@@ -79,6 +79,51 @@ TEST(Length, RefusesOtherTextInOneLine) {
             expected + "'1?2'");
   EXPECT_EQ(ErrorOf([&] { ParseLength(std::string(99, 'x'), "--margin"); }),
             expected + "'" + std::string(40, 'x') + "...'");
+}
+
+TEST(Length, IsReadInAUnitThatHasAName) {
+  for (const std::string& unit : UnitNames()) {
+    for (const auto& text : {"20" + unit, "20 " + unit, std::string("20unit"),
+                             std::string("20"), std::string("2e1")}) {
+      EXPECT_EQ(ParseLength(text, "x", unit), Length::FromUnit(20.0)) << text;
+    }
+    EXPECT_EQ(ParseLength("20D", "x", unit), Length::FromShare(20.0));
+    EXPECT_EQ(ParseLength("0.3 D", "x", unit), Length::FromShare(0.3));
+    EXPECT_EQ(UnitNamedIn("20" + unit), unit);
+    for (const Length& length :
+         {Length::FromShare(0.3), Length::FromUnit(0.3)}) {
+      EXPECT_EQ(ParseLength(length.Text(unit), "x", unit), length);
+    }
+    for (const std::string text :
+         {"", "-1", "-1mm", "mm", "20 mm ", "mm20", "20mmm", "20unitmm",
+          "20mmD", "nan", "inf"}) {
+      EXPECT_THROW(ParseLength(text, "x", unit), InputError) << text;
+    }
+  }
+  for (const std::string text : {"20", "20mmm", "20Mm", "20unit", "mm2", ""}) {
+    EXPECT_EQ(UnitNamedIn(text), "") << text;
+  }
+}
+
+// Nothing is converted: another unit's name is no length.
+TEST(Length, IsRefusedInAnotherUnit) {
+  for (const std::string& unit : UnitNames()) {
+    for (const std::string& other : UnitNames()) {
+      if (other == unit) continue;
+      EXPECT_EQ(ErrorOf([&] { ParseLength("20" + other, "--margin", unit); }),
+                "--margin: expected a length >= 0 as 20 or 20" + unit +
+                    " (the scene's unit) or 0.01D (a share of the world's "
+                    "diagonal D), found '20" +
+                    other + "': the scene's unit is " + unit +
+                    ", and nothing is converted");
+    }
+    EXPECT_EQ(
+        ErrorOf([&] { ParseLength("20" + unit, "--margin"); }),
+        "--margin: expected a length >= 0 as 0.01 or 0.01D (a share of "
+        "the world's diagonal D) or 0.5unit (the user's unit), found '20" +
+            unit + "': the user's unit has no name; a scene's \"unit\": \"" +
+            unit + "\" gives it one");
+  }
 }
 
 TEST(Length, RefusesNumbersThatAreNone) {
@@ -112,6 +157,18 @@ TEST(Length, IsCheckedAgainstItsRange) {
   EXPECT_EQ(error(Length::FromUnit(5.0), kAboveZero, 4.0),
             "m: expected at most 4unit (the world's diagonal D), found 5unit");
   EXPECT_EQ(error(Length::FromUnit(5.0), kAboveZero, 0.0), "no error");
+  const auto in_mm = [](const Length& length) {
+    return ErrorOf([&] {
+      RequireLength(length, LengthRange::kAboveZero, 4.0, "m", "mm");
+    });
+  };
+  EXPECT_EQ(in_mm(Length::FromUnit(4.0)), "no error");
+  EXPECT_EQ(in_mm(Length::FromUnit(5.0)),
+            "m: expected at most 4mm (the world's diagonal D), found 5mm");
+  EXPECT_EQ(in_mm(Length::FromShare(2.0)),
+            "m: expected at most 1D (the world's diagonal D), found 2D");
+  EXPECT_EQ(in_mm(Length::FromUnit(0.0)),
+            "m: expected a length > 0, found 0mm");
 }
 
 }  // namespace

@@ -76,7 +76,7 @@ TEST(SmoothingLength, IsOneByDefaultEverywhere) {
   EXPECT_EQ(SceneSource("u_axis").Load().penetration.smoothing_length, length);
   EXPECT_EQ(SceneSchema()["properties"]["penetration"]["properties"]
                          ["smoothing_length"]["default"],
-            kDefaultSmoothingLength);
+            length.Text("mm"));
   EXPECT_EQ(PhongFieldOptions::Unsmoothed().smoothing_length, 0.0);
 }
 

@@ -118,5 +118,50 @@ TEST_F(CliClearance, ALargeShareHasToSayThatItIsOne) {
   }
 }
 
+// The unit's name changes how lengths are written, and nothing else.
+TEST_F(CliClearance, IsInTheScenesUnitIfThatHasAName) {
+  const std::string plain = Scene(TwoObstacles());
+  Json scene = TwoObstacles();
+  scene["unit"] = "mm";
+  const std::string named = Scene(scene, "mm.json");
+  for (const Asking& a : kAsking) {
+    const std::string flag = ' ' + a.flag + ' ';
+    const auto row = [&](const std::string& rest) {
+      return OneRow(a.command + ' ' + rest, 0);
+    };
+    const Json truth = row(plain + flag + "0.4unit");
+    EXPECT_TRUE(truth["lengths"]["unit"].is_null());
+    Json with = scene;
+    with[a.command == "plan" ? "planning" : "trajectory"][a.name] = 0.4;
+    for (const std::string& rest :
+         {named + flag + "0.4", named + flag + "0.4mm",
+          named + flag + "0.4unit", Scene(with, "own.json")}) {
+      const Json same = row(rest);
+      EXPECT_EQ(same["lengths"]["unit"], "mm");
+      ExpectTold(same, 0.4);
+      EXPECT_EQ(same["path"], truth["path"]) << rest;
+    }
+    EXPECT_EQ(row(named + flag + "0.01D")["path"],
+              row(plain + flag + "0.01")["path"]);
+    const std::string reason = row(named + flag + "0.6mm")["reason"];
+    EXPECT_NE(reason.find("of the " + a.name +
+                          " of 0.6mm; the start has 0.5mm, the goal 0.5mm"),
+              std::string::npos)
+        << reason;
+    const auto refused = [&](const std::string& rest,
+                             const std::vector<std::string>& words) {
+      ExpectRefused(a.command + ' ' + rest + " --output o.jsonl", words);
+    };
+    for (const std::string other : {"cm", "m", "in"}) {
+      refused(named + flag + "20" + other,
+              {a.flag, "20mm", "found '20" + other + "'",
+               "the scene's unit is mm, and nothing is converted"});
+    }
+    refused(plain + flag + "20mm",
+            {a.flag, "found '20mm'", "the user's unit has no name"});
+    refused(named + flag + "20", {a.flag, "at most 2.7", "found 20mm"});
+  }
+}
+
 }  // namespace
 }  // namespace phongpd

@@ -78,8 +78,9 @@ TEST(SceneErrors, NameFilePlaceExpectedAndFound) {
   };
   const std::vector<Case> cases = {
       {"/robto", 1,
-       "s.json: expected only the keys $schema, name, robot, obstacles, "
-       "bounds, start, goal, preset, penetration, trajectory, planning, "
+       "s.json: expected only the keys $schema, name, unit, robot, "
+       "obstacles, bounds, start, goal, preset, penetration, trajectory, "
+       "planning, "
        "feasible, "
        "witness, found \"robto\"; did you mean robot?"},
       {"/velocity", 3,
@@ -172,11 +173,11 @@ TEST(SceneErrors, NameFilePlaceExpectedAndFound) {
        "s.json: /penetration/metric: expected one of \"phong\", "
        "\"euclidean\", found \"manhattan\""},
       {"/penetration/smoothing_length", 1.5,
-       "s.json: /penetration/smoothing_length: expected a number >= 0 and <= "
-       "1, found 1.5"},
+       "s.json: /penetration/smoothing_length: expected at most 1 (the world's "
+       "diagonal D), found 1.5"},
       {"/penetration/smoothing_length", -0.5,
-       "s.json: /penetration/smoothing_length: expected a number >= 0 and <= "
-       "1, found -0.5"},
+       "s.json: /penetration/smoothing_length: expected a number >= 0, found "
+       "-0.5"},
       {"/penetration/smoothing_length", "1.5D",
        "s.json: /penetration/smoothing_length: expected at most 1 (the world's "
        "diagonal D), found 1.5"},
@@ -185,14 +186,15 @@ TEST(SceneErrors, NameFilePlaceExpectedAndFound) {
       {"/trajectory/margin", "0.01 m",
        "s.json: /trajectory/margin: expected a length >= 0 as 0.01 or 0.01D "
        "(a share of the world's diagonal D) or 0.5unit (the user's unit), "
-       "found '0.01 m'"},
+       "found '0.01 m': the user's unit has no name; a scene's \"unit\": "
+       "\"m\" gives it one"},
       {"/trajectory/margin", "-1unit",
        "s.json: /trajectory/margin: expected a length >= 0 as 0.01 or 0.01D "
        "(a share of the world's diagonal D) or 0.5unit (the user's unit), "
        "found '-1unit'"},
       {"/trajectory/margin", true,
-       "s.json: /trajectory/margin: expected a number >= 0 and <= 1 or a text "
-       "that is not empty, found true"},
+       "s.json: /trajectory/margin: expected a number >= 0 or a text that is "
+       "not empty, found true"},
       {"/planning/clearance", "0unit",
        "s.json: /planning/clearance: expected a length > 0, found 0unit"},
       {"/trajectory/waypoints", 2.5,

@@ -7,6 +7,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/mesh/mesh_io.h"
@@ -27,6 +28,20 @@ Json SmallScene() {
           {"obstacles", Json::array({{{"shape", Box(2)}}})},
           {"start", {-3, 0, 0}},
           {"goal", {3, 0, 0}}};
+}
+
+// What a small scene with `value` at `pointer` is refused with.
+std::string ErrorWith(const std::string& pointer, const Json& value,
+                      const std::string& unit = "m") {
+  Json scene = SmallScene();
+  scene["unit"] = unit;
+  scene[Json::json_pointer(pointer)] = value;
+  try {
+    ParseScene(scene, "s.json");
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "no error";
 }
 
 Json FullScene() {
@@ -100,6 +115,81 @@ TEST(Scene, ReadsLengthsInUnitsOrAsShares) {
   EXPECT_EQ(scene.trajectory.margin, Length::FromShare(0.02));
   EXPECT_EQ(scene.planning.clearance, Length::FromUnit(0.125));
   EXPECT_FALSE(ParseScene(SmallScene(), "s.json").planning.clearance);
+}
+
+TEST(Scene, ReadsBareLengthsInItsUnitIfThatHasAName) {
+  EXPECT_EQ(ParseScene(SmallScene(), "s.json").unit, "");
+  for (const std::string& unit : UnitNames()) {
+    Json json = SmallScene();
+    json["unit"] = unit;
+    // Defaults are shares whatever the unit is called.
+    const Scene plain = ParseScene(json, "s.json");
+    EXPECT_EQ(plain.unit, unit);
+    EXPECT_EQ(plain.trajectory.margin, TrajectorySettings().margin);
+    EXPECT_EQ(plain.penetration.smoothing_length,
+              PenetrationSettings().smoothing_length);
+    for (const Json& length : {Json(1.5), Json("1.5"), Json("1.5" + unit),
+                               Json("1.5 " + unit), Json("1.5unit")}) {
+      json["penetration"]["smoothing_length"] = length;
+      json["trajectory"]["margin"] = length;
+      json["planning"]["clearance"] = length;
+      const Scene scene = ParseScene(json, "s.json");
+      EXPECT_EQ(scene.penetration.smoothing_length, Length::FromUnit(1.5));
+      EXPECT_EQ(scene.trajectory.margin, Length::FromUnit(1.5)) << length;
+      EXPECT_EQ(scene.planning.clearance, Length::FromUnit(1.5)) << length;
+      // Nothing is converted.
+      EXPECT_EQ(scene.goal, plain.goal);
+      EXPECT_EQ(scene.workspace.robot.mesh().vertices,
+                plain.workspace.robot.mesh().vertices);
+    }
+    json["trajectory"]["margin"] = "0.5D";
+    EXPECT_EQ(ParseScene(json, "s.json").trajectory.margin,
+              Length::FromShare(0.5));
+  }
+}
+
+TEST(Scene, RefusesUnitsWithoutANameInOneLine) {
+  const std::string expected =
+      "s.json: /unit: expected one of \"nm\", \"um\", \"mm\", \"cm\", \"dm\", "
+      "\"m\", \"km\", \"in\", \"ft\", found ";
+  for (const auto& [unit, found] : std::vector<std::pair<Json, std::string>>{
+           {"MM", "\"MM\"; did you mean mm?"},
+           {"mmm", "\"mmm\"; did you mean mm?"},
+           {"D", "\"D\""},
+           {"unit", "\"unit\""},
+           {"", "\"\""},
+           {20, "20"}}) {
+    EXPECT_EQ(ErrorWith("/unit", unit), expected + found);
+  }
+}
+
+TEST(Scene, RefusesLengthsInOtherUnits) {
+  for (const std::string place :
+       {"/penetration/smoothing_length", "/trajectory/margin",
+        "/planning/clearance"}) {
+    const auto error = [&](const Json& length) {
+      return ErrorWith(place, length, "mm");
+    };
+    const std::string start = "s.json: " + place + ": expected ";
+    EXPECT_EQ(error("20cm"),
+              start +
+                  "a length >= 0 as 20 or 20mm (the scene's unit) or 0.01D "
+                  "(a share of the world's diagonal D), found '20cm': the "
+                  "scene's unit is mm, and nothing is converted");
+    EXPECT_EQ(error("2D"),
+              start + "at most 1D (the world's diagonal D), found 2D");
+    for (const Json& length : {Json(1e6), Json("1e6mm"), Json("1e6unit")}) {
+      const std::string found = error(length);
+      EXPECT_EQ(found.find(start + "at most "), 0U) << found;
+      EXPECT_NE(found.find("mm (the world's diagonal D), found 1e+06mm"),
+                std::string::npos)
+          << found;
+    }
+  }
+}
+
+TEST(Scene, SchemaAndCodeHaveTheSameUnits) {
+  EXPECT_EQ(SceneSchema()["properties"]["unit"]["enum"], Json(UnitNames()));
 }
 
 // The schema's defaults are what a reader of the file sees; the structs' are
