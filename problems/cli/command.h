@@ -40,6 +40,7 @@ Command AddScenes(CLI::App* app);
 Command AddOptimize(CLI::App* app);
 Command AddCompare(CLI::App* app);
 Command AddPlan(CLI::App* app);
+Command AddRetime(CLI::App* app);
 Command AddReproduce(CLI::App* app);
 Command AddDepth(CLI::App* app);
 Command AddMerge(CLI::App* app);

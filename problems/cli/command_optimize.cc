@@ -9,6 +9,7 @@
 #include "problems/cli/command.h"
 #include "problems/cli/flags.h"
 #include "problems/cli/seeded_runs.h"
+#include "problems/cli/timed_answer.h"
 #include "problems/meshes/operand_notes.h"
 #include "problems/output/json_text.h"
 #include "problems/output/text.h"
@@ -32,6 +33,8 @@ struct OptimizeFlags : SeededRunFlags {
   std::string mu_strategy = "adaptive";
   std::string polish;
   std::string noise = "0";
+  std::string in_time;  // limits of motion
+  std::string rate;
   int routes = 0;  // the preset's
   int rows = TrajectoryOptions().rows;
   bool line = true;
@@ -159,10 +162,51 @@ void TellTrajectoryModel(const TrajectoryStudy& study) {
            : ", as the whole is refused: " + study.refusal()));
 }
 
+// With limits the answer is a curve in time (timed_trajectory.h): of the
+// paper's optimiser nothing runs, and what would steer it says nothing.
+int OptimizeInTime(const OptimizeFlags& flags, const MotionLimits& limits,
+                   Scene scene) {
+  for (const char* name :
+       {"--metric", "--smoothing-length", "--jacobian", "--start",
+        "--start-noise", "--routes", "--line", "--rows", "--mu-strategy",
+        "--polish", "--per-obstacle", "--runs", "--html", "--svg",
+        "--verify"}) {
+    if (flags.app->count(name) == 0) continue;
+    throw InputError(std::string(name) +
+                     ": expected none for a motion in time, found one; with "
+                     "--limits none the answer is a path without time");
+  }
+  Override(flags, &scene);
+  TimedFlags timed;
+  timed.rate = flags.rate;
+  timed.time_limit = flags.time_limit;
+  timed.output = flags.output;
+  timed.json = flags.json;
+  timed.no_cache = flags.no_cache;
+  timed.has_margin = !flags.margin.empty();
+  timed.require = flags.require;
+  timed.world = flags.limits;
+  return AnswerInTime(scene, limits, timed,
+                      [&](const World& world, const CurveOptions& options) {
+                        return PlanInTime(scene, world, options);
+                      });
+}
+
 int Optimize(const OptimizeFlags& flags) {
   RequireRuns(flags.runs);
   const SceneSource source(flags.scene, flags.root,
                            ParseRepair(flags.repair, "--repair"));
+  // Seed 0 is the scene as it stands.
+  const auto load = [&](std::uint64_t seed) {
+    return seed == 0 ? source.Load() : source.Load(seed);
+  };
+  const Scene first = load(flags.seed);
+  if (const auto limits = LimitsOf(flags.in_time, first)) {
+    return OptimizeInTime(flags, *limits, first);
+  }
+  if (!flags.rate.empty()) {
+    throw InputError("--rate: expected --limits with it, found none");
+  }
   SeededRuns runs(
       flags, source,
       "scene, metric, start, seed: status, iterations, objective, "
@@ -176,8 +220,7 @@ int Optimize(const OptimizeFlags& flags) {
   AnswerCheck check(flags.verify);
   for (int run = 0; run < flags.runs; ++run) {
     const std::uint64_t seed = flags.seed + static_cast<std::uint64_t>(run);
-    // Seed 0 is the scene as it stands.
-    Scene scene = seed == 0 ? source.Load() : source.Load(seed);
+    Scene scene = run == 0 ? first : load(seed);
     Override(flags, &scene);
     PipelineOptions options = Options(flags, scene, seed);
     PathHistory history;
@@ -278,6 +321,10 @@ Command AddOptimize(CLI::App* app) {
       ->check(CLI::IsMember({"never", "needed", "always"}));
   app->add_flag("--per-obstacle", flags->per_obstacle,
                 "One contact space for each obstacle instead of a merged one");
+  AddTimed(app,
+           "a certified curve in time instead of a path; scene's own if not "
+           "set; none: a path",
+           &flags->in_time, &flags->rate);
   AddModel(app, "optimise",
            "where no metric is followed: rrt-connect and the corridor",
            &flags->model);
@@ -289,6 +336,10 @@ Command AddOptimize(CLI::App* app) {
   app->add_option("--time", flags->time_limit, "Limit of a run, seconds")
       ->type_name("S");
   AddRowOutput(app, flags.get());
+  CLI::Option* const output = app->get_option("--output");
+  output->description(output->get_description() +
+                      ". With --limits Bézier pieces as JSON, or FILE.csv: "
+                      "rows in time");
   AddPictures(app, flags.get());
   AddVerify(app, &flags->verify);
   AddNoCache(app, &flags->no_cache);
@@ -296,6 +347,7 @@ Command AddOptimize(CLI::App* app) {
       app, {"phongpd optimize u_axis",
             "phongpd optimize scene.json --margin 2unit --output run.jsonl "
             "--html run.html",
+            "phongpd optimize u_axis --limits 1,2,10 --output trajectory.csv",
             "phongpd optimize plate:thickness=0.02 --start straight --polish "
             "never --seed 1 --runs 10 --json"});
   return [flags] { return Optimize(*flags); };

@@ -85,6 +85,8 @@ int Run(int argc, char** argv) {
       AddMotion);
   add("optimize", "Optimise a trajectory with Ipopt, exactly judged",
       AddOptimize);
+  add("retime", "Time a path of one's own: a certified curve within limits",
+      AddRetime);
   add("compare", "Compare penetration metrics in the trajectory optimiser",
       AddCompare);
   add("merge", "Join the parts of a comparison", AddMerge);

@@ -237,6 +237,18 @@ void Read(const Json& value, const JsonPlace& place, const std::string& unit,
   }
 }
 
+MotionLimits Limits(const Json& value) {
+  const auto limit = [&](const char* key) -> Vector3d {
+    const Json& one = value[key];
+    return one.is_array() ? Point(one) : Vector3d::Constant(one.get<double>());
+  };
+  MotionLimits limits;
+  limits.velocity = limit("velocity");
+  limits.acceleration = limit("acceleration");
+  limits.jerk = limit("jerk");
+  return limits;
+}
+
 // Again, now that D is known.
 void RequireLengths(const Scene& scene, const JsonPlace& place) {
   const double diagonal = ContactBounds(scene.workspace).Diagonal();
@@ -307,6 +319,7 @@ Scene ParseScene(const Json& json, const std::string& file,
     scene.preset = ParsePreset(json["preset"].get<std::string>(),
                                place.Child("preset").Text());
   }
+  if (json.contains("limits")) scene.limits = Limits(json["limits"]);
   if (json.contains("penetration")) {
     Read(json["penetration"], place.Child("penetration"), scene.unit,
          &scene.penetration);

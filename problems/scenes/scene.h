@@ -10,6 +10,7 @@
 #include <variant>
 #include <vector>
 
+#include "constraints/trajectory.h"
 #include "core/bounds/mesh_repair.h"
 #include "core/mesh/mesh_error.h"
 #include "core/mesh/triangle_mesh.h"
@@ -64,7 +65,8 @@ struct Scene {
   Workspace workspace;  // at least one obstacle
   Eigen::Vector3d start = Eigen::Vector3d::Zero();
   Eigen::Vector3d goal = Eigen::Vector3d::Zero();
-  Preset preset = Preset::kBalanced;  // of trajectories and plans
+  Preset preset = Preset::kBalanced;   // of trajectories and plans
+  std::optional<MotionLimits> limits;  // none: paths without time
   PenetrationSettings penetration;
   TrajectorySettings trajectory;
   PlanningSettings planning;

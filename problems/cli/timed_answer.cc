@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "problems/cli/timed_answer.h"
+
+#include <nlohmann/json.hpp>
+
+#include "core/mesh/mesh_error.h"
+#include "problems/cli/command.h"
+#include "problems/cli/flags.h"
+#include "problems/output/json_text.h"
+#include "problems/output/text.h"
+#include "problems/studies/clearance_wish.h"
+
+namespace phongpd::cli {
+namespace {
+
+using TimedJson = nlohmann::ordered_json;
+
+constexpr double kDefaultRate = 100.0;  // Hz
+constexpr double kMostRate = 1e6;
+
+bool IsTable(const std::string& output) {
+  const std::size_t point = output.rfind('.');
+  if (point == std::string::npos) return false;
+  std::string ending = output.substr(point);
+  for (char& c : ending) {
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  }
+  return ending == ".csv";
+}
+
+double RateOf(const TimedFlags& flags) {
+  if (flags.rate.empty()) return kDefaultRate;
+  const double rate = ParseDouble(flags.rate, "--rate");
+  if (!(rate > 0.0 && rate <= kMostRate)) {
+    throw InputError("--rate: expected a number above 0 and at most " +
+                     FormatDouble(kMostRate) + " (Hz), found " + flags.rate);
+  }
+  if (!IsTable(flags.output)) {
+    throw InputError(
+        "--rate: expected --output FILE.csv, which it is the rate of, found " +
+        (flags.output.empty() ? "none" : flags.output));
+  }
+  return rate;
+}
+
+std::string Percent(double share) { return Rounded(100.0 * share) + " %"; }
+
+// For people.
+std::string TimedSentence(const TimedTrajectory& timed, const TimedJson& row) {
+  const std::string name = row.at("scene").get<std::string>() + ": ";
+  const std::string reason = row.at("reason").get<std::string>();
+  const std::string more = reason.empty() ? "\n" : "; " + reason + "\n";
+  if (timed.curve.trajectory.empty()) {
+    return name + "no trajectory, " + row.at("status").get<std::string>() +
+           more;
+  }
+  return name + Rounded(timed.curve.duration, 6) + " s, " +
+         (timed.is_certified ? "certified" : "not certified") + ", " +
+         row.at("status").get<std::string>() + ", clearance " +
+         Rounded(timed.curve.clearance) + " (user's unit) at least; of the " +
+         "limits " + Percent(timed.use.velocity) + " of velocity, " +
+         Percent(timed.use.acceleration) + " of acceleration, " +
+         Percent(timed.use.jerk) + " of jerk" + more;
+}
+
+}  // namespace
+
+void AddTimed(CLI::App* app, const std::string& of_none, std::string* limits,
+              std::string* rate) {
+  app->add_option("--limits", *limits,
+                  "V,A,J: of velocity, acceleration and jerk, in the scene's "
+                  "unit and seconds, each one number or x/y/z (" +
+                      of_none + ")")
+      ->type_name("V,A,J");
+  app->add_option("--rate", *rate,
+                  "Rows a second of an --output FILE.csv, more than 0 and at "
+                  "most 1e6 (100 if not set)")
+      ->type_name("HZ");
+}
+
+std::optional<MotionLimits> LimitsOf(const std::string& flag,
+                                     const Scene& scene) {
+  if (flag == "none") return std::nullopt;
+  if (flag.empty()) return scene.limits;
+  return ParseLimits(flag, "--limits");
+}
+
+int AnswerInTime(
+    const Scene& scene, const MotionLimits& limits, const TimedFlags& flags,
+    const std::function<TimedTrajectory(const World&, const CurveOptions&)>&
+        ask) {
+  const double rate = RateOf(flags);
+  const bool is_table = IsTable(flags.output);
+  if (flags.json && is_table) {
+    throw InputError("--json: expected --output FILE.json, found " +
+                     flags.output);
+  }
+  OutputFiles outputs;
+  const std::string target =
+      flags.json ? AnswerTarget(flags.output) : flags.output;
+  DeclareIfNamed(&outputs, target, "--output", {".json", ".jsonl", ".csv"});
+  const World world(scene.workspace, scene.name, UserCache(flags.no_cache),
+                    flags.world);
+  CurveOptions options = SceneCurveOptions(scene, world, limits);
+  if (!flags.time_limit.empty()) {
+    options.time_limit = ParseDouble(flags.time_limit, "--time");
+  }
+  options.Validate();
+  TellAbout(scene);
+  const ClearanceWish wish =
+      WishOfTrajectory(scene, flags.has_margin, flags.require);
+  const std::string beyond = BeyondTheEnds(world, scene, wish);
+  if (!beyond.empty()) Warn(beyond);
+  Progress("a motion in time");
+  const TimedTrajectory timed = ask(world, options);
+  TimedJson row = TimedRow(scene, world, options, timed);
+  TellClearance(world, scene, wish, &row);
+  const WorldSpaces* const built = world.Built(SpaceLayout::kSealed);
+  TellAboutSpaces(world, built == nullptr ? 0 : built->triangles);
+  if (!target.empty()) {
+    outputs.Write(target, is_table ? TimedCsv(timed.curve.trajectory, rate)
+                                   : JsonText(row) + '\n');
+  }
+  CommitAndTell(&outputs, TimedSentence(timed, row));
+  return row.at("solved").get<bool>() ? kDone : kNoAnswer;
+}
+
+}  // namespace phongpd::cli

@@ -1,0 +1,391 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// phongpd optimize --limits and retime as users run them.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "problems/scenes/scene_source.h"
+#include "tests/problems/cli/cli_scenes.h"
+
+namespace phongpd {
+namespace {
+
+using Eigen::Vector3d;
+
+// A Bézier piece as the file has it.
+struct Piece {
+  double duration = 0.0;
+  std::vector<Vector3d> points;
+};
+
+// De Casteljau.
+Vector3d PointAt(std::vector<Vector3d> points, double s) {
+  while (points.size() > 1) {
+    for (std::size_t i = 0; i + 1 < points.size(); ++i) {
+      points[i] += s * (points[i + 1] - points[i]);
+    }
+    points.pop_back();
+  }
+  return points.front();
+}
+
+// By time, of order 1, 2, ...
+Piece DerivativeOf(Piece piece, int order) {
+  for (; order > 0; --order) {
+    const double n = static_cast<double>(piece.points.size()) - 1.0;
+    for (std::size_t i = 0; i + 1 < piece.points.size(); ++i) {
+      piece.points[i] =
+          (piece.points[i + 1] - piece.points[i]) * (n / piece.duration);
+    }
+    piece.points.pop_back();
+  }
+  return piece;
+}
+
+Vector3d At(const Piece& piece, int order, double s) {
+  return PointAt(DerivativeOf(piece, order).points, s);
+}
+
+class CliTimed : public CliScenes {
+ protected:
+  // The JSON that a command wrote to run/t.json.
+  Json Answer(const std::string& command, int code) const {
+    const Outcome outcome = Run(command + " --output t.json");
+    EXPECT_EQ(outcome.code, code) << command << outcome.out << outcome.err;
+    const std::string text = Content(Output("t.json"));
+    std::filesystem::remove(Output("t.json"));
+    return text.empty() ? Json::object() : Json::parse(text);
+  }
+
+  static Vector3d PointOf(const Json& p) {
+    EXPECT_EQ(p.size(), 3U);
+    return {p[0].get<double>(), p[1].get<double>(), p[2].get<double>()};
+  }
+
+  static std::vector<Piece> PiecesOf(const Json& row) {
+    std::vector<Piece> pieces;
+    for (const Json& one : row.at("pieces")) {
+      Piece piece;
+      piece.duration = one.at("duration").get<double>();
+      for (const Json& p : one.at("points")) piece.points.push_back(PointOf(p));
+      EXPECT_EQ(piece.points.size(), 6U);
+      pieces.push_back(piece);
+    }
+    return pieces;
+  }
+
+  // What the row promises, on the curve as it is written: free by FCL on the
+  // solids and within the bounds, within the limits, of class C², from rest to
+  // rest between these ends.
+  static void ExpectKept(const Json& row, const phongpd::Scene& scene,
+                         const Vector3d& start, const Vector3d& goal,
+                         const std::array<Vector3d, 3>& limits) {
+    EXPECT_EQ(row.at("certified"), true);
+    EXPECT_EQ(row.at("solved"), true);
+    const std::vector<Piece> pieces = PiecesOf(row);
+    ASSERT_FALSE(pieces.empty());
+    EXPECT_EQ(pieces.front().points.front(), start);
+    EXPECT_EQ(pieces.back().points.back(), goal);
+    std::vector<CollisionOracle> oracles;
+    for (const Solid& obstacle : scene.workspace.obstacles) {
+      oracles.emplace_back(scene.workspace.robot, obstacle);
+    }
+    const BoundingBox& bounds = scene.workspace.bounds;
+    std::array<double, 3> used = {};
+    double duration = 0.0, gap = 0.0;
+    int hits = 0;
+    std::array<Vector3d, 2> before = {Vector3d::Zero(), Vector3d::Zero()};
+    Vector3d end = start;
+    const auto jump = [&](const Piece& piece, double s) {
+      for (std::size_t k = 0; k < 2; ++k) {
+        const Vector3d now = At(piece, static_cast<int>(k) + 1, s);
+        if (s == 0.0) {
+          gap =
+              std::max(gap, (now - before[k]).cwiseQuotient(limits[k]).norm());
+        }
+        before[k] = now;
+      }
+    };
+    for (const Piece& piece : pieces) {
+      ASSERT_GT(piece.duration, 0.0);
+      EXPECT_EQ(piece.points.front(), end);
+      end = piece.points.back();
+      duration += piece.duration;
+      jump(piece, 0.0);
+      jump(piece, 1.0);
+      constexpr int kSamples = 200;
+      for (int i = 0; i <= kSamples; ++i) {
+        const double s = static_cast<double>(i) / kSamples;
+        for (std::size_t k = 0; k < 3; ++k) {
+          used[k] = std::max(used[k], At(piece, static_cast<int>(k) + 1, s)
+                                          .cwiseAbs()
+                                          .cwiseQuotient(limits[k])
+                                          .maxCoeff());
+        }
+        const Vector3d q = PointAt(piece.points, s);
+        hits += !bounds.IsEmpty() && ((q.array() <= bounds.min.array()).any() ||
+                                      (q.array() >= bounds.max.array()).any());
+        for (const CollisionOracle& oracle : oracles) {
+          hits += oracle.Collides(q);
+        }
+      }
+    }
+    EXPECT_EQ(hits, 0);
+    EXPECT_LT(gap, 1e-7) << "not C²";
+    EXPECT_LT(before[0].norm(), 1e-9 * limits[0].norm()) << "no rest";
+    EXPECT_LT(before[1].norm(), 1e-7 * limits[1].norm()) << "no rest";
+    EXPECT_NEAR(row.at("duration").get<double>(), duration, 1e-12 * duration);
+    const char* const names[] = {"velocity", "acceleration", "jerk"};
+    for (std::size_t k = 0; k < 3; ++k) {
+      EXPECT_LE(used[k], 1.0 + 1e-9) << names[k];
+      // Upper bounds, and no idle ones.
+      const double told = row.at("limits_used").at(names[k]).get<double>();
+      EXPECT_LE(told, 1.0);
+      EXPECT_GE(told, used[k] * (1.0 - 1e-9));
+      EXPECT_EQ(PointOf(row.at("limits").at(names[k])), limits[k]);
+    }
+    EXPECT_GT(*std::max_element(used.begin(), used.end()), 0.9);
+  }
+
+  static std::array<Vector3d, 3> Same(double v, double a, double j) {
+    return {Vector3d::Constant(v), Vector3d::Constant(a),
+            Vector3d::Constant(j)};
+  }
+
+  // A detour over the wall, as somebody would draw it.
+  void WriteDetour() const {
+    WriteText("detour.csv",
+              "x,y,z\n-1.5,0,0\n-0.5,1,0\n0,1.2,0\n1,1,0\n1.5,0,0\n");
+  }
+};
+
+TEST_F(CliTimed, WritesACurveThatKeepsWhatItPromises) {
+  Scene(TwoObstacles());
+  const phongpd::Scene scene = ReadScene(File("scene.json"));
+  const std::array<Vector3d, 3> uneven = {
+      Vector3d(1, 0.5, 2), Vector3d(2, 2, 2), Vector3d(10, 20, 10)};
+  for (const std::string flags : {"", " --model window", " --preset fast"}) {
+    const Json row =
+        Answer("optimize ../scene.json --limits 1,2,10" + flags, 0);
+    ExpectKept(row, scene, scene.start, scene.goal, Same(1, 2, 10));
+    EXPECT_EQ(row["scene"], "two");
+    EXPECT_EQ(row["planner"], "contact-surface");
+    EXPECT_EQ(row["model"], flags == " --model window" ? "window" : "full");
+    EXPECT_GT(row["clearance"].get<double>(), 0.0);
+    EXPECT_EQ(row["lengths"]["clearance"]["unit"], row["clearance"]);
+    EXPECT_LE(row["duration"], row["stops_duration"]);
+    EXPECT_GE(row["length"].get<double>(), 3.0);
+  }
+  const Json by_axis =
+      Answer("optimize ../scene.json --limits 1/0.5/2,2,10/20/10", 0);
+  ExpectKept(by_axis, scene, scene.start, scene.goal, uneven);
+  const Json family = Answer("optimize u_trap:triangles=80 --limits 1,2,10", 0);
+  const phongpd::Scene trap = SceneSource("u_trap:triangles=80").Load();
+  ExpectKept(family, trap, trap.start, trap.goal, Same(1, 2, 10));
+}
+
+TEST_F(CliTimed, TakesTheLimitsOfTheScene) {
+  Json json = TwoObstacles();
+  json["limits"] = {
+      {"velocity", 1}, {"acceleration", {2, 2, 2}}, {"jerk", 10.0}};
+  const Json row = Answer("optimize " + Scene(json), 0);
+  const phongpd::Scene scene = ReadScene(File("scene.json"));
+  ExpectKept(row, scene, scene.start, scene.goal, Same(1, 2, 10));
+  const Json other = Answer("optimize ../scene.json --limits 2,4,20", 0);
+  ExpectKept(other, scene, scene.start, scene.goal, Same(2, 4, 20));
+  // The flag wins; none of them: a path without time, as ever.
+  const Json path = OneRow("optimize ../scene.json --limits none", 0);
+  EXPECT_EQ(path["status_class"].is_string(), true);
+  EXPECT_FALSE(path.contains("pieces"));
+}
+
+TEST_F(CliTimed, WritesRowsInTimeAtTheRate) {
+  const std::string command =
+      "optimize " + Scene(TwoObstacles()) + " --limits 1,2,10";
+  const Json row = Answer(command, 0);
+  const std::vector<Piece> pieces = PiecesOf(row);
+  const double duration = row["duration"].get<double>();
+  for (const double rate : {100.0, 37.5}) {
+    const std::string flag =
+        rate == 100.0 ? "" : " --rate 37.5";  // the default
+    ASSERT_EQ(Run(command + flag + " --output t.csv").code, 0);
+    const std::vector<std::string> lines =
+        Split(Content(Output("t.csv")), '\n');
+    EXPECT_EQ(lines.at(0), "t,x,y,z,vx,vy,vz,ax,ay,az");
+    const auto steps = static_cast<std::size_t>(std::floor(duration * rate));
+    ASSERT_GE(lines.size(), steps + 2);
+    ASSERT_LE(lines.size(), steps + 3);  // and the end
+    for (std::size_t i = 1; i < lines.size(); ++i) {
+      const std::vector<std::string> cells = Split(lines[i], ',');
+      ASSERT_EQ(cells.size(), 10U) << lines[i];
+      std::array<double, 10> v;
+      for (std::size_t k = 0; k < 10; ++k) v[k] = Number(cells[k]);
+      const double t =
+          i + 1 == lines.size() ? duration : static_cast<double>(i - 1) / rate;
+      EXPECT_NEAR(v[0], t, 1e-12 * duration);
+      // The same curve at that time.
+      double left = v[0];
+      std::size_t at = 0;
+      while (at + 1 < pieces.size() && left > pieces[at].duration) {
+        left -= pieces[at++].duration;
+      }
+      const double s = left / pieces[at].duration;
+      for (int order = 0; order < 3; ++order) {
+        const Vector3d told(v[1 + 3 * order], v[2 + 3 * order],
+                            v[3 + 3 * order]);
+        EXPECT_LT((told - At(pieces[at], order, s)).norm(), 1e-6)
+            << lines[i] << " order " << order;
+      }
+    }
+  }
+}
+
+TEST_F(CliTimed, RetimesAPathOfOnesOwn) {
+  Scene(TwoObstacles());
+  WriteDetour();
+  const phongpd::Scene scene = ReadScene(File("scene.json"));
+  const Json row =
+      Answer("retime ../detour.csv --scene ../scene.json --limits 1,2,10", 0);
+  ExpectKept(row, scene, {-1.5, 0, 0}, {1.5, 0, 0}, Same(1, 2, 10));
+  EXPECT_EQ(row["planner"], nullptr);
+  EXPECT_EQ(row["path"].size(), 5U);
+  EXPECT_LT(row["duration"], row["stops_duration"]);
+  // The scene's own start and goal count for nothing.
+  WriteText("back.csv", "x,y,z\n1,-1,0.5\n-1,-1,0.5\n");
+  const Json back =
+      Answer("retime ../back.csv --scene ../scene.json --limits 1,2,10", 0);
+  ExpectKept(back, scene, {1, -1, 0.5}, {-1, -1, 0.5}, Same(1, 2, 10));
+}
+
+TEST_F(CliTimed, TellsWhereAPathCollides) {
+  Scene(TwoObstacles());
+  // Robot and wall meet from x = −0.2: at 1.2 of the 2 from −1.4.
+  WriteText("through.csv", "x,y,z\n-1.5,0,0\n-1.4,0,0\n0.6,0,0\n1.5,0,0\n");
+  const Json row =
+      Answer("retime ../through.csv --scene ../scene.json --limits 1,2,10", 1);
+  EXPECT_EQ(row["status"], "not_free");
+  EXPECT_EQ(row["certified"], false);
+  EXPECT_EQ(row["solved"], false);
+  EXPECT_TRUE(row["pieces"].empty());
+  const std::string reason = row["reason"].get<std::string>();
+  for (const std::string word : {"segment 1", "fraction 0.6", "wall"}) {
+    EXPECT_NE(reason.find(word), std::string::npos) << reason;
+  }
+  const Outcome told = Run(
+      "retime ../through.csv --scene ../scene.json --limits 1,2,10 --output "
+      "t.csv");
+  EXPECT_EQ(told.code, 1);
+  EXPECT_NE(told.out.find("no trajectory, not_free"), std::string::npos);
+  EXPECT_EQ(Content(Output("t.csv")), "t,x,y,z,vx,vy,vz,ax,ay,az\n");
+}
+
+TEST_F(CliTimed, SaysWhyThereIsNoMotion) {
+  Json blocked = TwoObstacles();
+  blocked["start"] = {0.1, 0, 0};
+  const Json start =
+      Answer("optimize " + Scene(blocked) + " --limits 1,2,10", 1);
+  EXPECT_EQ(start["status"], "start_in_collision");
+  EXPECT_NE(start["reason"].get<std::string>().find("wall"), std::string::npos);
+  const Json shut =
+      Answer("optimize " + Scene(ShutOff()) + " --limits 1,2,10", 1);
+  EXPECT_EQ(shut["status"], "infeasible_proved");
+  // More room than there is, as a wish and as a condition.
+  const std::string wide =
+      "optimize " + Scene(TwoObstacles()) + " --limits 1,2,10 --margin 0.4D";
+  EXPECT_EQ(Answer(wide, 0)["certified"], true);
+  const Json missed = Answer(wide + " --require", 1);
+  EXPECT_EQ(missed["status"], "clearance_missed");
+  EXPECT_EQ(missed["certified"], true);
+  EXPECT_EQ(missed["solved"], false);
+}
+
+TEST_F(CliTimed, RefusesBadLimitsInOneLine) {
+  Scene(TwoObstacles());
+  WriteDetour();
+  const std::string rest = " --output t.json --limits=";
+  for (const std::string command :
+       {"optimize ../scene.json",
+        "retime ../detour.csv --scene ../scene.json"}) {
+    const auto refused = [&](const std::string& limits,
+                             const std::vector<std::string>& words) {
+      ExpectRefused(command + rest + limits, words);
+    };
+    refused("0,2,10", {"--limits: velocity of x", "above 0", "found 0"});
+    refused("1,-2,10", {"--limits: acceleration of x", "found -2"});
+    refused("1,2,nan", {"--limits: jerk of x", "nan"});
+    refused("1,2,inf", {"--limits: jerk of x", "inf"});
+    refused("1,2/2/0,10", {"acceleration of z", "found 0"});
+    refused("1/1,2,10", {"velocity", "x/y/z", "'1/1'"});
+    refused("1//1,2,10", {"velocity of y"});
+    refused("1,2", {"V,A,J", "'1,2'"});
+    refused("1,2,10,5", {"V,A,J"});
+    refused("fast", {"V,A,J", "'fast'"});
+    refused("1e300,1e300,1e300", {"of x, found none"});
+    const std::string good = command + " --limits 1,2,10";
+    for (const std::string rate : {"0", "-5", "nan", "1e9", "often"}) {
+      ExpectRefused(good + " --output t.csv --rate=" + rate, {"--rate", rate});
+    }
+    ExpectRefused(good + " --output t.json --rate 50", {"--rate", "t.json"});
+    ExpectRefused(good + " --rate 50", {"--rate", "FILE.csv"});
+    ExpectRefused(good + " --output t.csv --json", {"--json", "t.csv"});
+    ExpectRefused(good + " --output t.svg", {"--output", ".json", "t.svg"});
+    ExpectRefused(good + " --output t.json --time 0", {"time", "0"});
+    ExpectBadLengthsRefused(good + " --output t.json", "--margin");
+  }
+}
+
+TEST_F(CliTimed, RefusesWhatMakesNoSense) {
+  const std::string good = "optimize " + Scene(TwoObstacles());
+  const std::string timed = good + " --output t.json --limits 1,2,10";
+  for (const std::string flag :
+       {"--metric euclidean", "--start straight", "--rows 2", "--runs 3",
+        "--html t.html", "--polish never", "--per-obstacle"}) {
+    ExpectRefused(timed + ' ' + flag, {Split(flag, ' ')[0], "--limits none"});
+  }
+  ExpectRefused(good + " --output o.jsonl --rate 50", {"--rate", "--limits"});
+  WriteDetour();
+  ExpectRefused("retime ../detour.csv --scene ../scene.json --output t.json",
+                {"--limits", "found none"});
+  WriteText("one.csv", "x,y,z\n1,2,3\n");
+  WriteText("still.csv", "x,y,z\n1,1,1\n1,1,1\n");
+  const std::string rest = " --scene ../scene.json --limits 1,2,10";
+  ExpectRefused("retime ../one.csv" + rest, {"one.csv", "two rows"});
+  ExpectRefused("retime ../still.csv" + rest, {"two different places"});
+  ExpectRefused("retime ../none.csv" + rest, {"none.csv"});
+  Json json = TwoObstacles();
+  json["goal"] = json["start"];
+  ExpectRefused("optimize " + Scene(json) + " --limits 1,2,10",
+                {"two different places", "(-1.5,0,0)"});
+}
+
+TEST_F(CliTimed, RefusesBadLimitsOfScenes) {
+  const auto refused = [&](const Json& limits,
+                           const std::vector<std::string>& words) {
+    Json json = TwoObstacles();
+    json["limits"] = limits;
+    ExpectRefused("optimize " + Scene(json) + " --output t.json", words);
+  };
+  const Json good = {{"velocity", 1}, {"acceleration", 2}, {"jerk", 10}};
+  for (const char* key : {"velocity", "acceleration", "jerk"}) {
+    const std::string place = std::string("/limits/") + key;
+    Json bad = good;
+    bad.erase(key);
+    refused(bad, {"scene.json", place, "nothing"});
+    for (const Json& value : std::vector<Json>{0, -1, "fast", {1, 1}}) {
+      bad[key] = value;
+      refused(bad, {place, "a number > 0"});
+    }
+    bad[key] = {1, 0, 1};
+    refused(bad, {place + "/1", "a number > 0", "found 0"});
+  }
+  Json slip = good;
+  slip["jerks"] = 3;
+  refused(slip, {"/limits", "jerks", "jerk"});
+}
+
+}  // namespace
+}  // namespace phongpd
