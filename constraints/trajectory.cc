@@ -9,6 +9,7 @@
 #include "core/mesh/finite.h"
 #include "core/mesh/mesh_error.h"
 #include "core/mesh/numbers.h"
+#include "core/number_text.h"
 
 namespace phongpd {
 namespace {
@@ -20,6 +21,9 @@ constexpr double kRelativeRounding = 64.0 * 0x1p-53;
 
 // A trajectory is written out sample by sample: more are a slip of the unit.
 constexpr double kMostSamples = 1e8;
+
+// Of a limit: durations remain numbers.
+constexpr double kLeastLimit = 1e-50;
 
 // Five nodes and weights of Gauss and Legendre on [−1, 1].
 constexpr std::array<double, 5> kNodes = {
@@ -104,7 +108,7 @@ CurvePiece::CurvePiece(const std::vector<Vector3d>& points, double duration)
   if (!(duration > 0.0) || !std::isfinite(duration)) {
     throw InputError(
         "curve: expected a duration above 0 and finite, in seconds, found " +
-        std::to_string(duration));
+        FormatDouble(duration));
   }
   std::copy(points.begin(), points.end(), points_.begin());
 }
@@ -198,7 +202,11 @@ Trajectory::Sample Trajectory::At(double t) const {
   const auto end = std::upper_bound(times_.begin(), times_.end() - 1, t);
   const auto i = static_cast<std::size_t>(end - times_.begin());
   const CurvePiece& piece = pieces_[i];
-  const double s = std::clamp((t - StartOf(i)) / piece.duration(), 0.0, 1.0);
+  // The end to the last bit, wherever the sum of durations was rounded to.
+  const double s =
+      t >= times_[i]
+          ? 1.0
+          : std::clamp((t - StartOf(i)) / piece.duration(), 0.0, 1.0);
   const CurvePiece velocity = piece.Derivative();
   Sample sample;
   sample.time = std::clamp(t, 0.0, duration());
@@ -216,8 +224,8 @@ std::vector<Trajectory::Sample> Trajectory::Samples(double rate) const {
   if (!(rate > 0.0) || !(rate * duration() <= kMostSamples)) {
     throw InputError("rate: expected samples a second above 0, and at most " +
                      std::to_string(static_cast<long>(kMostSamples)) +
-                     " samples in all, found " + std::to_string(rate) +
-                     " for a motion of " + std::to_string(duration()) + " s");
+                     " samples in all, found " + FormatDouble(rate) +
+                     " for a motion of " + FormatDouble(duration()) + " s");
   }
   std::vector<Sample> samples;
   if (empty()) return samples;
@@ -282,12 +290,13 @@ double Trajectory::JointGap(int k) const {
 void MotionLimits::Validate() const {
   const auto check = [&](const Vector3d& limit, const char* name) {
     for (int axis = 0; axis < (by_norm ? 1 : 3); ++axis) {
-      if (limit[axis] > 0.0 && std::isfinite(limit[axis])) continue;
+      if (limit[axis] >= kLeastLimit && std::isfinite(limit[axis])) continue;
       const std::string which =
           by_norm ? std::string() : std::string(" of ") + "xyz"[axis];
       throw InputError(std::string("limits: ") + name + which +
-                       ": expected a number above 0, found " +
-                       std::to_string(limit[axis]));
+                       ": expected a number above 0, " +
+                       FormatDouble(kLeastLimit) + " at least, found " +
+                       FormatDouble(limit[axis]));
     }
   };
   check(velocity, "velocity");

@@ -149,6 +149,17 @@ TEST(Trajectory, SamplesEndsAndEqualSteps) {
   EXPECT_EQ(samples.back().position, Cubic(2.0).back());
 }
 
+TEST(Trajectory, EndsWhereItsLastPieceEndsHoweverDurationsRound) {
+  std::vector<CurvePiece> pieces;
+  for (int i = 0; i < 50; ++i) {
+    pieces.emplace_back(Vector3d(i, 0.1 * i, 0),
+                        Vector3d(i + 1, 0.1 * (i + 1), 0), 0.1 + i / 7.0);
+  }
+  const Trajectory curve(pieces);
+  EXPECT_EQ(curve.At(curve.duration()).position, curve.pieces().back().back());
+  EXPECT_EQ(curve.Samples(3.0).back().position, curve.pieces().back().back());
+}
+
 TEST(Trajectory, RefusesWhatIsNoMotionInOneLine) {
   EXPECT_NE(Message([] {
               CurvePiece(Vector3d::Zero(), Vector3d::Zero(), 0.0);

@@ -315,6 +315,7 @@ TEST_F(CliTimed, RefusesBadLimitsInOneLine) {
       ExpectRefused(command + rest + limits, words);
     };
     refused("0,2,10", {"--limits: velocity of x", "above 0", "found 0"});
+    refused("1e-200,1,1", {"limits: velocity of x", "1e-50 at least"});
     refused("1,-2,10", {"--limits: acceleration of x", "found -2"});
     refused("1,2,nan", {"--limits: jerk of x", "nan"});
     refused("1,2,inf", {"--limits: jerk of x", "inf"});
