@@ -14,9 +14,8 @@ namespace phongpd {
 // How long to look for a faster curve.
 enum class CurveEffort {
   kFast,      // three pieces a segment of the path
-  kBalanced,  // halved once: 1 % above the least time where little is in the
-              // way
-  kTight,     // halved twice: 0.2 %, for twice the work
+  kBalanced,  // then each piece halved, once
+  kTight,     // twice: a little faster a curve, for a multiple of the work
 };
 const char* ToString(CurveEffort effort);  // fast, balanced, tight
 
