@@ -50,6 +50,7 @@ std::string TimedSentence(const TimedTrajectory& timed, const TimedJson& row) {
   const std::string name = row.at("scene").get<std::string>() + ": ";
   const std::string reason = row.at("reason").get<std::string>();
   const std::string more = reason.empty() ? "\n" : "; " + reason + "\n";
+  const TimedJson& unit = row.at("lengths").at("unit");
   if (timed.curve.trajectory.empty()) {
     return name + "no trajectory, " + row.at("status").get<std::string>() +
            more;
@@ -57,10 +58,11 @@ std::string TimedSentence(const TimedTrajectory& timed, const TimedJson& row) {
   return name + Rounded(timed.curve.duration, 6) + " s, " +
          (timed.is_certified ? "certified" : "not certified") + ", " +
          row.at("status").get<std::string>() + ", clearance " +
-         Rounded(timed.curve.clearance) + " (user's unit) at least; of the " +
-         "limits " + Percent(timed.use.velocity) + " of velocity, " +
-         Percent(timed.use.acceleration) + " of acceleration, " +
-         Percent(timed.use.jerk) + " of jerk" + more;
+         Rounded(timed.curve.clearance) +
+         (unit.is_null() ? "unit" : unit.get<std::string>()) +
+         " at least; of the limits " + Percent(timed.use.velocity) +
+         " of velocity, " + Percent(timed.use.acceleration) +
+         " of acceleration, " + Percent(timed.use.jerk) + " of jerk" + more;
 }
 
 }  // namespace
