@@ -76,18 +76,13 @@ TEST(SceneErrors, NameFilePlaceExpectedAndFound) {
     Json value;
     std::string message;
   };
+  const std::string keys =
+      "s.json: expected only the keys $schema, name, unit, robot, obstacles, "
+      "bounds, start, goal, preset, limits, penetration, trajectory, planning, "
+      "feasible, witness, ";
   const std::vector<Case> cases = {
-      {"/robto", 1,
-       "s.json: expected only the keys $schema, name, unit, robot, "
-       "obstacles, bounds, start, goal, preset, penetration, trajectory, "
-       "planning, "
-       "feasible, "
-       "witness, found \"robto\"; did you mean robot?"},
-      {"/velocity", 3,
-       "s.json: expected only the keys $schema, name, robot, obstacles, "
-       "bounds, start, goal, preset, penetration, trajectory, planning, "
-       "feasible, "
-       "witness, found \"velocity\""},
+      {"/robto", 1, keys + "found \"robto\"; did you mean robot?"},
+      {"/velocity", 3, keys + "found \"velocity\""},
       {"/trajectory/waypoint", 3,
        "s.json: /trajectory: expected only the keys waypoints, "
        "samples_per_segment, margin, max_segment_ratio, model, ipopt, "
