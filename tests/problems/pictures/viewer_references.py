@@ -23,7 +23,9 @@ FOLDER = pathlib.Path(__file__).resolve().parent / "references"
 
 # By name: the page, its link, size and theme.
 VIEWS = {
-    "plan": ("routes", "#eye=-0.9,0.55,0.26,0,0,0&t=0.6&way=0&xray=0",
+    "plan": ("routes", "#eye=-0.9,0.55,0.26,0,0,0&t=0.6&way=0&xray=0"
+             # Thin lines across all of it differ most by smoothing.
+             "&toggled=bounds",
              400, 300, "light"),
     "section": ("contact", "#eye=-0.9,0.9,0.75,0,0,0&cut=z,0.5,0&map=phong",
                 400, 300, "light"),
