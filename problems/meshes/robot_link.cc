@@ -68,11 +68,12 @@ TriangleMesh ShapesOfLink(RobotFile* robot, const std::string& name,
 
 TriangleMesh ReadRobotLink(const std::string& path, const std::string& root,
                            std::vector<std::string>* warnings) {
-  constexpr std::uintmax_t kMaxBytes = std::uintmax_t{1} << 26;
+  constexpr std::uintmax_t kMaxRobotBytes = std::uintmax_t{1} << 26;
   const std::size_t end = FilePartOf(path);
   const std::string file = path.substr(0, end);
-  return ParseRobot(ReadMeshFile(file, root, "a URDF or SDF file", kMaxBytes),
-                    file, path.substr(end), root, warnings);
+  return ParseRobot(
+      ReadMeshFile(file, root, "a URDF or SDF file", kMaxRobotBytes), file,
+      path.substr(end), root, warnings);
 }
 
 TriangleMesh ParseRobot(const std::string& bytes, const std::string& file,
