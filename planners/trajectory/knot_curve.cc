@@ -96,13 +96,13 @@ KnotCurve KnotCurve::Halved() const {
 }
 
 PieceDerivatives::PieceDerivatives(const KnotCurve::Points& points,
-                                   double duration) {
-  velocity = (5.0 / duration) * (points.rightCols<5>() - points.leftCols<5>());
-  acceleration =
-      (4.0 / duration) * (velocity.rightCols<4>() - velocity.leftCols<4>());
-  jerk = (3.0 / duration) *
-         (acceleration.rightCols<3>() - acceleration.leftCols<3>());
-}
+                                   double duration)
+    : velocity((5.0 / duration) *
+               (points.rightCols<5>() - points.leftCols<5>())),
+      acceleration((4.0 / duration) *
+                   (velocity.rightCols<4>() - velocity.leftCols<4>())),
+      jerk((3.0 / duration) *
+           (acceleration.rightCols<3>() - acceleration.leftCols<3>())) {}
 
 double SlowingOf(const KnotCurve& curve, const MotionLimits& limits) {
   double velocity = 0.0, acceleration = 0.0, jerk = 0.0;
