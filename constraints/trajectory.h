@@ -113,7 +113,8 @@ struct MotionLimits {
 
   static constexpr double kNone = 1e300;  // as good as no limit
 
-  // Throws InputError that names the limit and the axis: > 0, and finite.
+  // Throws InputError that names the limit and the axis: finite, and at least
+  // 1e-50, so that durations remain numbers.
   void Validate() const;
 };
 
