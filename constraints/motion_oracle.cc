@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "constraints/curve_hull.h"
 #include "constraints/translated_triangles.h"
 #include "core/bvh/box_tree.h"
 #include "core/bvh/box_tree_pairs.h"
@@ -89,10 +90,11 @@ int WindingNumber(const TestedSolid& solid, const Vector3d& v,
   return winding;
 }
 
-// Conservative: may A + q meet B for boxes A, B and q on the segment?
+// Conservative: may A + q meet B for boxes A, B and q on the segment, or no
+// farther from it than the slack, by axis?
 class Segment {
  public:
-  Segment(const Vector3d& a, const Vector3d& b, double slack)
+  Segment(const Vector3d& a, const Vector3d& b, const Vector3d& slack)
       : middle_(0.5 * a + 0.5 * b), half_(0.5 * (b - a)), slack_(slack) {}
 
   bool Reaches(const BoxTree::Node& robot,
@@ -101,7 +103,7 @@ class Segment {
     const Vector3d low = obstacle.min - robot.max;
     const Vector3d high = obstacle.max - robot.min;
     const Vector3d t = middle_ - 0.5 * (low + high);
-    const Vector3d h = (0.5 * (high - low)).array() + slack_;
+    const Vector3d h = 0.5 * (high - low) + slack_;
     for (int k = 0; k < 3; ++k) {
       if (std::abs(t[k]) > std::abs(half_[k]) + h[k]) return false;
     }
@@ -116,8 +118,7 @@ class Segment {
   }
 
  private:
-  Vector3d middle_, half_;
-  double slack_;
+  Vector3d middle_, half_, slack_;
 };
 
 void RequireFinite(const Vector3d& q) {
@@ -133,9 +134,21 @@ struct MotionOracle::Impl {
   template <typename Visit>
   void ForEachMeeting(const Vector3d& a, const Vector3d& b,
                       const Visit& visit) const {
+    ForEachInReach(a, b, Vector3d::Zero(), [&](std::size_t i, std::size_t j) {
+      return !internal::MeetWhileMoving(robot.corners[i], obstacle.corners[j],
+                                        a, b) ||
+             visit(i, j);
+    });
+  }
+
+  // The same for all pairs that may meet, `beside` the way at most.
+  template <typename Visit>
+  void ForEachInReach(const Vector3d& a, const Vector3d& b,
+                      const Vector3d& beside, const Visit& visit) const {
     const double reach = robot.largest + obstacle.largest +
-                         a.cwiseAbs().maxCoeff() + b.cwiseAbs().maxCoeff();
-    const Segment segment(a, b, kSlack * reach);
+                         a.cwiseAbs().maxCoeff() + b.cwiseAbs().maxCoeff() +
+                         beside.maxCoeff();
+    const Segment segment(a, b, beside.array() + kSlack * reach);
     const auto& robots = robot.tree.nodes();
     const auto& obstacles = obstacle.tree.nodes();
     ForEachPair(
@@ -145,11 +158,8 @@ struct MotionOracle::Impl {
                                  obstacles[static_cast<std::size_t>(o)]);
         },
         [&](int r, int o) {
-          const auto i = static_cast<std::size_t>(r);
-          const auto j = static_cast<std::size_t>(o);
-          return !internal::MeetWhileMoving(robot.corners[i],
-                                            obstacle.corners[j], a, b) ||
-                 visit(i, j);
+          return visit(static_cast<std::size_t>(r),
+                       static_cast<std::size_t>(o));
         });
   }
 
@@ -212,6 +222,27 @@ MotionMeeting MotionOracle::FirstMeeting(const Vector3d& a,
     first = {true, 0.0, -1, -1};
   }
   return first;
+}
+
+internal::HullGap MotionOracle::FindHullGap(
+    const internal::CurveHull& hull) const {
+  const int n = hull.size() - 1;
+  const Vector3d a = hull.At(0), b = hull.At(n);
+  Vector3d beside = Vector3d::Zero();
+  for (int i = 0; i <= n; ++i) {
+    const Vector3d on_chord = a + (static_cast<double>(i) / n) * (b - a);
+    beside = beside.cwiseMax(hull.high(i) - on_chord)
+                 .cwiseMax(on_chord - hull.low(i));
+  }
+  internal::HullGap found;
+  const Impl& impl = *impl_;
+  impl.ForEachInReach(a, b, beside, [&](std::size_t i, std::size_t j) {
+    const internal::HullGap gap = internal::FindHullGap(
+        impl.robot.corners[i], impl.obstacle.corners[j], hull);
+    if (!gap.is_apart) found = gap;
+    return gap.is_apart;
+  });
+  return found;
 }
 
 }  // namespace phongpd

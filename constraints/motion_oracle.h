@@ -7,6 +7,10 @@
 #include "core/solid/solid.h"
 
 namespace phongpd {
+namespace internal {
+class CurveHull;
+struct HullGap;
+}  // namespace internal
 
 // Where two solids meet during a straight motion of one of them.
 struct MotionMeeting {
@@ -43,6 +47,10 @@ class MotionOracle {
   // The same, and where they meet first; slower, where they do.
   MotionMeeting FirstMeeting(const Eigen::Vector3d& a,
                              const Eigen::Vector3d& b) const;
+
+  // Are the surfaces apart for all q of the hull (curve_hull.h)?  Else the gap
+  // of a pair of triangles for which that is not proved.
+  internal::HullGap FindHullGap(const internal::CurveHull& hull) const;
 
  private:
   struct Impl;

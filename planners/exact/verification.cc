@@ -11,6 +11,7 @@
 #include "core/mesh/finite.h"
 #include "core/solid/solid.h"
 #include "core/stopwatch.h"
+#include "planners/exact/curve_verification.h"
 #include "planners/exact/separating_part.h"
 
 namespace phongpd {
@@ -69,6 +70,8 @@ const char* ToString(Verdict verdict) {
       return "confirmed";
     case Verdict::kWithinRounding:
       return "within_rounding";
+    case Verdict::kUndecided:
+      return "undecided";
     case Verdict::kRefuted:
       break;
   }
@@ -144,17 +147,18 @@ struct Verifier::Impl {
       return at + " is not strictly within the bounds";
     }
     const MotionMeeting meeting = oracle->FirstMeeting(a, b);
-    std::string what;
-    if (meeting.obstacle_triangle >= 0) {
-      std::size_t i = 0;
-      while (i + 1 < first_triangle.size() &&
-             meeting.obstacle_triangle >= first_triangle[i + 1]) {
-        ++i;
-      }
-      what = " with obstacle '" + names[i] + "'";
-    }
-    return at + " collides" + what + " at fraction " +
+    return at + " collides" + WithObstacle(meeting) + " at fraction " +
            std::to_string(meeting.fraction);
+  }
+
+  std::string WithObstacle(const MotionMeeting& meeting) const {
+    if (meeting.obstacle_triangle < 0) return "";
+    std::size_t i = 0;
+    while (i + 1 < first_triangle.size() &&
+           meeting.obstacle_triangle >= first_triangle[i + 1]) {
+      ++i;
+    }
+    return " with obstacle '" + names[i] + "'";
   }
 
   std::optional<MotionOracle> oracle;  // none: no obstacle
@@ -227,6 +231,25 @@ Verification Verifier::VerifyPath(const std::vector<Vector3d>& path) const {
     result.verdict = is_close ? Verdict::kWithinRounding : Verdict::kRefuted;
     if (!is_close) break;
   }
+  result.seconds = stopwatch.Seconds();
+  return result;
+}
+
+Verification Verifier::VerifyCurve(const Trajectory& curve) const {
+  const Stopwatch stopwatch;
+  if (curve.empty()) return Answer(Verdict::kRefuted, "the curve has no piece");
+  const Impl& impl = *impl_;
+  internal::CurveGround ground;
+  ground.oracle = impl.oracle ? &*impl.oracle : nullptr;
+  ground.bounds = impl.bounds;
+  ground.rounding = impl.rounding;
+  ground.least_step = impl.least_step;
+  ground.directions = &Directions();
+  ground.name_obstacle = [&](const Vector3d& q) {
+    return impl.oracle ? impl.WithObstacle(impl.oracle->FirstMeeting(q, q))
+                       : std::string();
+  };
+  Verification result = internal::VerifyCurve(ground, curve);
   result.seconds = stopwatch.Seconds();
   return result;
 }
