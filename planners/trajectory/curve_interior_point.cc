@@ -79,7 +79,7 @@ void CurveInteriorPoint::AddObjective() {
     AddGradient(i, gradient, &linear_);
     AddMatrix(i, &matrix, &hessian_);
   }
-  linear_[linear_.size() - 1] = 1.0;
+  linear_[linear_.size() - 1] = program_.t;
 }
 
 CurveInteriorPoint::Local CurveInteriorPoint::ToLocal(int piece,
@@ -353,7 +353,7 @@ bool CurveInteriorPoint::Begin(VectorXd* x, int* rows) {
       if (state.row->t < 0.0) of_t -= state.row->t / slack;
     }
   }
-  const double mu = 1.0 / of_t;
+  const double mu = program_.t / of_t;
   for (int i = 0; program_.missing > 0.0 && i < pieces_; ++i) {
     int count = 0;
     for (const State& state : states_[i]) count += state.row->missing < 0.0;

@@ -47,6 +47,7 @@ struct CurveProgram {
   std::vector<double> pace;  // of each knot
   double evenness = 0.0;     // price of Σ (ln h_{i+1} − ln h_i)²
   double missing = 0.0;      // price of Σ m; 0: no m
+  double t = 1.0;            // price of t
 };
 
 class CurveInteriorPoint {

@@ -2,8 +2,10 @@
 #include "planners/trajectory/curve_optimizer.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include "constraints/curve_judge.h"
 #include "core/mesh/finite.h"
@@ -11,6 +13,7 @@
 #include "core/stopwatch.h"
 #include "planners/exact/check_option.h"
 #include "planners/trajectory/curve_cells.h"
+#include "planners/trajectory/curve_ends.h"
 #include "planners/trajectory/curve_program.h"
 #include "planners/trajectory/knot_curve.h"
 
@@ -37,6 +40,18 @@ constexpr double kSmallGain = 1e-3;
 constexpr double kAboveLimit = 0x1p-48;
 constexpr double kMoreAbove = 8.0;  // by each further scaling
 constexpr int kScalings = 8;
+// Of ends in motion the velocity is what was asked for but for this share.
+constexpr double kSlowedAtEnds = 1e-11;
+// A step that passes the limits is corrected where it leads, durations changing
+// by less each time, ln, and with some room below the limits for what that
+// neglects.  Where it fails the step is halved so often.
+constexpr std::array<double, 3> kCorrections = {1e-2, 1e-3, 1e-4};
+constexpr double kSpare = 2e-4;
+constexpr int kShorterSteps = 3;
+
+bool IsAtRest(const CurveEnd& end) {
+  return end.velocity.isZero(0.0) && end.acceleration.isZero(0.0);
+}
 
 double MissingOf(const std::vector<PieceCells>& cells, double margin) {
   double missing = 0.0;
@@ -46,9 +61,8 @@ double MissingOf(const std::vector<PieceCells>& cells, double margin) {
   return missing;
 }
 
-// So much of a step, within the limits.
-KnotCurve Moved(const KnotCurve& curve, const KnotCurve& change, double share,
-                const MotionLimits& limits) {
+// So much of a step.
+KnotCurve Moved(const KnotCurve& curve, const KnotCurve& change, double share) {
   KnotCurve moved = curve;
   for (std::size_t k = 0; k < curve.knots.size(); ++k) {
     moved.knots[k].p += share * change.knots[k].p;
@@ -58,17 +72,20 @@ KnotCurve Moved(const KnotCurve& curve, const KnotCurve& change, double share,
   for (std::size_t i = 0; i < curve.durations.size(); ++i) {
     moved.durations[i] *= std::exp(share * change.durations[i]);
   }
-  moved.Slow(internal::SlowingOf(moved, limits));
   return moved;
 }
 
-// The least time at which it keeps the limits, proved.
-bool FitTime(const MotionLimits& limits, Trajectory* trajectory) {
+// The least time at which it keeps the limits, proved; not slowed by more than
+// rounding if it has an end in motion.
+bool FitTime(const MotionLimits& limits, bool is_at_rest,
+             Trajectory* trajectory) {
   double rounding = kAboveLimit;
   for (int i = 0; i < kScalings; ++i, rounding *= kMoreAbove) {
     const LimitUse use = BoundLimitUse(*trajectory, limits);
-    if (i > 0 && use.IsKept()) return true;
-    *trajectory = trajectory->Slowed(use.SlowingNeeded() * (1.0 + rounding));
+    if (use.IsKept() && (i > 0 || !is_at_rest)) return true;
+    const double slowing = use.SlowingNeeded() * (1.0 + rounding);
+    if (!is_at_rest && slowing > 1.0 + kSlowedAtEnds) return false;
+    *trajectory = trajectory->Slowed(slowing);
   }
   return false;
 }
@@ -83,6 +100,7 @@ class Optimizer {
     settings_.margin = options.margin;
     settings_.trust = kTrust * diagonal;
     settings_.sigma = kSigma;
+    settings_.keeps_pace = !IsAtRest(options.start) || !IsAtRest(options.end);
   }
 
   CurveSummary Run(const std::vector<Vector3d>& path) {
@@ -100,14 +118,38 @@ class Optimizer {
 
  private:
   void Start(const std::vector<Vector3d>& path) {
-    auto corners = internal::DropCorners(space_, path, options_.margin);
-    if (corners.size() < 2) corners = path;
-    corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
-    now_ = internal::StopAtCorners(corners, options_.limits, kPieces);
+    now_ = Joined(path);
     // On the path but for rounding, by which it may still touch.
     if (!Keep(now_)) return;
     summary_.stops_duration = summary_.duration;
     summary_.first_seconds = stopwatch_.Seconds();
+  }
+
+  // A stop from the start, stops at the path's corners, and a start that leads
+  // to the end.
+  KnotCurve Joined(std::vector<Vector3d> path) const {
+    const MotionLimits& limits = options_.limits;
+    const KnotCurve::State first = {path.front(), options_.start.velocity,
+                                    options_.start.acceleration};
+    const KnotCurve::State last = {path.back(), -options_.end.velocity,
+                                   options_.end.acceleration};
+    const internal::Stop begin =
+        internal::FindStop(space_, diagonal_, first, path, limits, false);
+    path = begin.path;
+    std::reverse(path.begin(), path.end());
+    const internal::Stop end =
+        internal::FindStop(space_, diagonal_, last, path, limits, true);
+    path = end.path;
+    std::reverse(path.begin(), path.end());
+    auto corners = internal::DropCorners(space_, path, options_.margin);
+    if (corners.size() < 2) corners = path;
+    corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
+    KnotCurve stops;
+    if (corners.size() > 1) {
+      stops = internal::StopAtCorners(corners, limits, kPieces);
+    }
+    return internal::Joined(internal::Joined(begin.curve, stops),
+                            internal::Backwards(end.curve));
   }
 
   // Becomes the answer if it is free and within the limits, both proved.
@@ -115,7 +157,7 @@ class Optimizer {
     Trajectory fitted = curve.ToTrajectory();
     if (!CheckCurve(space_, fitted).IsFree()) return false;
     // Other durations, the same points.
-    if (!FitTime(options_.limits, &fitted)) return false;
+    if (!FitTime(options_.limits, !settings_.keeps_pace, &fitted)) return false;
     summary_.trajectory = std::move(fitted);
     summary_.duration = summary_.trajectory.duration();
     return true;
@@ -163,6 +205,30 @@ class Optimizer {
     return true;
   }
 
+  // So much of a step, slowed so that the limits hold; where the pace is kept,
+  // so much that they do, or nothing.
+  KnotCurve WithinLimits(const KnotCurve& change, double share) const {
+    KnotCurve moved = Moved(now_, change, share);
+    if (!settings_.keeps_pace) {
+      moved.Slow(internal::SlowingOf(moved, options_.limits));
+      return moved;
+    }
+    for (int i = 0; i <= kShorterSteps; ++i, share *= 0.5) {
+      moved = Moved(now_, change, share);
+      internal::CurveProgramOptions correction = settings_;
+      correction.spare = kSpare;
+      for (const double sigma : kCorrections) {
+        if (internal::SlowingOf(moved, options_.limits) <= 1.0) return moved;
+        correction.sigma = std::min(sigma, settings_.sigma);
+        const CurveStep step =
+            internal::SolveCurveProgram(moved, CellsOf(moved), correction);
+        moved = Moved(moved, step.change, 1.0);
+      }
+      if (internal::SlowingOf(moved, options_.limits) <= 1.0) return moved;
+    }
+    return now_;
+  }
+
   double GainOf(const KnotCurve& curve) const {
     return 1.0 - curve.Duration() / now_.Duration();
   }
@@ -178,7 +244,7 @@ class Optimizer {
     round.rows = step.rows;
     round.iterations = step.iterations;
     round.predicted = step.predicted;
-    KnotCurve moved = Moved(now_, step.change, 1.0, options_.limits);
+    KnotCurve moved = WithinLimits(step.change, 1.0);
     double gain = GainOf(moved);
     // A step that only restores clearance is as good as any.
     const double ratio =
@@ -186,7 +252,7 @@ class Optimizer {
     if (ratio < kGoodStep) {
       // gain(x) = predicted · x − (predicted − gain) x² is largest there.
       const double share = 0.5 / (1.0 - ratio);
-      KnotCurve less = Moved(now_, step.change, share, options_.limits);
+      KnotCurve less = WithinLimits(step.change, share);
       if (GainOf(less) > gain) {
         moved = std::move(less);
         gain = GainOf(moved);
@@ -224,7 +290,9 @@ class Optimizer {
 
   bool Halve() {
     KnotCurve halved = now_.Halved();
-    halved.Slow(internal::SlowingOf(halved, options_.limits));
+    if (!settings_.keeps_pace) {
+      halved.Slow(internal::SlowingOf(halved, options_.limits));
+    }
     if (!Keep(halved)) return false;
     now_ = std::move(halved);
     return true;

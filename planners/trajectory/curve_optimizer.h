@@ -19,8 +19,15 @@ enum class CurveEffort {
 };
 const char* ToString(CurveEffort effort);  // fast, balanced, tight
 
+// How a motion begins or ends; at rest unless said.
+struct CurveEnd {
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();
+  Eigen::Vector3d acceleration = Eigen::Vector3d::Zero();
+};
+
 struct CurveOptions {
   MotionLimits limits;  // one at least for each axis
+  CurveEnd start, end;  // within the limits, for a moment longer too
   double margin = 0.0;  // clearance wished for, user's unit, ≥ 0
   CurveEffort effort = CurveEffort::kBalanced;
   double time_limit = std::numeric_limits<double>::infinity();  // seconds, > 0
@@ -52,7 +59,8 @@ struct CurveRound {
 struct CurveSummary {
   CurveStatus status = CurveStatus::kNotFree;
   // Free for all t and within the limits for all t, proved (curve_judge.h,
-  // BoundLimitUse); at rest at both ends; of class C².  Empty if kNotFree.
+  // BoundLimitUse); at both ends as asked for, to rounding; of class C².  Empty
+  // if kNotFree.
   Trajectory trajectory;
   double duration = 0.0;
   double clearance = 0.0;  // a lower bound, rounded; user's unit
@@ -63,8 +71,8 @@ struct CurveSummary {
   double seconds = 0.0;
 };
 
-// A fast curve in time near a free polyline, from rest to rest: pieces of
-// degree 5, planner's path to machine's motion.
+// A fast curve in time near a free polyline: pieces of degree 5, planner's path
+// to machine's motion.
 //
 // It begins with a motion that stops at the path's corners, which is an answer
 // already, and goes on in rounds: half-spaces between the pieces and what is
@@ -76,8 +84,9 @@ struct CurveSummary {
 // way the path takes.
 //
 // `diagonal` D > 0 is the length that steps and tolerances refer to.
-// `free_path`: two different points at least.  Throws InputError for options
-// and points that are not finite.
+// `free_path`: two different points at least.  Throws InputError for options,
+// for points that are not finite, and, before the first round, if an end in
+// motion leaves no free way to stop: with the distance that takes.
 CurveSummary OptimizeCurve(const FreeSpace& space, double diagonal,
                            const std::vector<Eigen::Vector3d>& free_path,
                            const CurveOptions& options);

@@ -3,12 +3,16 @@
 #include <cmath>
 #include <string>
 
+#include "core/mesh/finite.h"
 #include "core/mesh/mesh_error.h"
+#include "core/number_text.h"
 #include "planners/exact/check_option.h"
 #include "planners/trajectory/curve_optimizer.h"
 
 namespace phongpd {
 namespace {
+
+using Eigen::Vector3d;
 
 // Without any an axis would be there at once.
 void CheckAxes(const MotionLimits& limits) {
@@ -21,6 +25,55 @@ void CheckAxes(const MotionLimits& limits) {
         "limits: expected one of velocity, acceleration and jerk at least" +
         (limits.by_norm ? std::string() : std::string(" of ") + "xyz"[axis]) +
         ", found none: it would be there at once");
+  }
+}
+
+// Within the limits there, and when the acceleration has faded as fast as it
+// can: towards the end of the motion, or backwards in time (`sign` −1).
+void CheckEnd(const CurveEnd& end, const MotionLimits& limits, double sign,
+              const std::string& name) {
+  const auto fail = [&](const std::string& what, const std::string& range,
+                        double value) {
+    throw InputError("curve: " + name + " " + what + ": expected " + range +
+                     ", found " + FormatDouble(value));
+  };
+  if (!IsFinite(end.velocity) || !IsFinite(end.acceleration)) {
+    throw InputError("curve: " + name +
+                     " velocity and acceleration: expected finite numbers, "
+                     "found NaN or Inf");
+  }
+  const auto check = [&](const std::string& axis, double v, double a,
+                         double later, int k) {
+    if (v > limits.velocity[k]) {
+      fail("velocity" + axis,
+           "at most the limit, " + FormatDouble(limits.velocity[k]), v);
+    }
+    if (a > limits.acceleration[k]) {
+      fail("acceleration" + axis,
+           "at most the limit, " + FormatDouble(limits.acceleration[k]), a);
+    }
+    if (later > limits.velocity[k]) {
+      fail("acceleration" + axis,
+           "one that can fade before the velocity passes its limit, " +
+               FormatDouble(limits.velocity[k]) + " (it passes " +
+               Rounded(later) + ")",
+           a);
+    }
+  };
+  const auto later = [&](const Vector3d& v, const Vector3d& a, double jerk) {
+    const double size = a.norm();
+    return Vector3d(sign * v + (0.5 * size / jerk) * a);
+  };
+  const Vector3d &v = end.velocity, &a = end.acceleration;
+  if (limits.by_norm) {
+    check("", v.norm(), a.norm(), later(v, a, limits.jerk[0]).norm(), 0);
+    return;
+  }
+  for (int k = 0; k < 3; ++k) {
+    const Vector3d of_axis = later(v[k] * Vector3d::UnitX(),
+                                   a[k] * Vector3d::UnitX(), limits.jerk[k]);
+    check(std::string(" of ") + "xyz"[k], std::abs(v[k]), std::abs(a[k]),
+          std::abs(of_axis[0]), k);
   }
 }
 
@@ -57,6 +110,8 @@ const char* ToString(CurveStatus status) {
 void CurveOptions::Validate() const {
   limits.Validate();
   CheckAxes(limits);
+  CheckEnd(start, limits, 1.0, "start");
+  CheckEnd(end, limits, -1.0, "end");
   CheckOption(margin >= 0.0 && std::isfinite(margin), "curve", "margin",
               "a finite length >= 0", margin);
   CheckOption(time_limit > 0.0, "curve", "time_limit", "> 0 seconds",

@@ -17,7 +17,8 @@ using Eigen::Vector3d;
 constexpr double kKept = 0.1;
 constexpr double kFloor = 1e-6;
 constexpr double kKeptBelow = 0.9;
-constexpr double kSlowest = -0.6;  // of t
+constexpr double kSlowest = -0.6;   // of t
+constexpr double kPriceOfT = 20.0;  // where the pace is kept
 // A limit that is not there is replaced in the jerk's term by so many times
 // the largest that there is.
 constexpr double kNoLimit = 1e100;
@@ -59,7 +60,7 @@ class Builder {
       piece.by_eta.col(3) = -(2.0 * h / 5.0) * s1.v + (h * h / 10.0) * s1.a;
       piece.by_eta.col(4) = -(h / 5.0) * s1.v;
       piece.by_eta /= options_.trust;
-      AddLimits(b, h, &piece);
+      AddLimits(i, b, h, &piece);
       AddClearance(cells_[i], &piece);
       AddTrust(&piece);
       AddJerk(b, h, jerk, &piece);
@@ -67,8 +68,9 @@ class Builder {
     }
     CurveProgram::Row slowest;
     slowest.t = -1.0;
-    slowest.constant = kSlowest;
+    slowest.constant = options_.keeps_pace ? 0.0 : kSlowest;
     program.pieces[0].rows.push_back(slowest);
+    if (options_.keeps_pace) program.t = kPriceOfT;
     program.evenness = options_.weights.evenness / n;
     program.missing = options_.margin > 0.0
                           ? options_.weights.missing * options_.trust /
@@ -80,19 +82,33 @@ class Builder {
  private:
   // Σ_j w_j ΔB_j of a derivative of order k at its point j, in units of τ, its
   // change by η and its value, all as shares of 1/scale.
-  void AddLimits(const KnotCurve::Points& b, double h,
+  void AddLimits(int i, const KnotCurve::Points& b, double h,
                  CurveProgram::Piece* piece) const {
     const PieceDerivatives of(b, h);
     const MotionLimits& limits = options_.limits;
     for (int j = 0; j < 5; ++j) {
+      if (IsGiven(i, 1, j)) continue;
       AddLimit(1, j, h, of.velocity.col(j), limits.velocity, piece);
     }
     for (int j = 0; j < 4; ++j) {
+      if (IsGiven(i, 2, j)) continue;
       AddLimit(2, j, h, of.acceleration.col(j), limits.acceleration, piece);
     }
     for (int j = 0; j < 3; ++j) {
       AddLimit(3, j, h, of.jerk.col(j), limits.jerk, piece);
     }
+  }
+
+  // Points of derivatives that are what an end in motion says: they may be at
+  // the limit.
+  bool IsGiven(int i, int order, int j) const {
+    const auto is_given = [&](const KnotCurve::State& end, int from_end) {
+      return !(end.v.isZero(0.0) && end.a.isZero(0.0)) &&
+             from_end <= (order == 1 && end.a.isZero(0.0) ? 1 : 0);
+    };
+    return (i == 0 && is_given(now_.knots.front(), j)) ||
+           (i + 1 == now_.pieces() &&
+            is_given(now_.knots.back(), 5 - order - j));
   }
 
   void AddLimit(int order, int j, double h, const Vector3d& value,
@@ -101,7 +117,8 @@ class Builder {
     row.first = j;
     row.last = j + order;
     row.t = -order;
-    row.constant = -1.0;
+    const double most = 1.0 - options_.spare;
+    row.constant = -most;
     const double scale = kFactor[order] / std::pow(h, order) * options_.trust;
     const auto set_weights = [&](double by) {
       for (int k = 0; k <= order; ++k) {
@@ -124,7 +141,7 @@ class Builder {
       for (const double sign : {1.0, -1.0}) {
         set_weights(sign * scale / limit[axis]);
         row.eta = -sign * order * value[axis] / limit[axis];
-        row.constant = sign * value[axis] / limit[axis] - 1.0;
+        row.constant = sign * value[axis] / limit[axis] - most;
         row.is_mirrored = sign < 0.0;
         piece->rows.push_back(row);
       }
@@ -250,8 +267,8 @@ CurveStep SolveCurveProgram(const KnotCurve& now,
     step.change.durations.push_back(x[9]);
     total += now.durations[k] * std::exp(x[9]);
   }
-  step.predicted =
-      1.0 - total * (1.0 + result.x[result.x.size() - 1]) / now.Duration();
+  const double t = options.keeps_pace ? 0.0 : result.x[result.x.size() - 1];
+  step.predicted = 1.0 - total * (1.0 + t) / now.Duration();
   return step;
 }
 

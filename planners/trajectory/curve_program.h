@@ -24,6 +24,12 @@ struct CurveProgramOptions {
   double margin = 0.0;    // user's unit
   double trust = 0.0;     // τ, user's unit
   double sigma = 0.03;    // σ
+  // Of a curve with an end in motion: such states are kept, so that no pace
+  // can make up for limits that are passed.  Then limits are less by `spare`,
+  // a share, t ≥ 0 says by how much they are passed nevertheless, and has a
+  // price so high that it should not be.
+  bool keeps_pace = false;
+  double spare = 0.0;
 };
 
 struct CurveStep {
