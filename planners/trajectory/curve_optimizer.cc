@@ -117,17 +117,9 @@ class Optimizer {
   }
 
  private:
-  void Start(const std::vector<Vector3d>& path) {
-    now_ = Joined(path);
-    // On the path but for rounding, by which it may still touch.
-    if (!Keep(now_)) return;
-    summary_.stops_duration = summary_.duration;
-    summary_.first_seconds = stopwatch_.Seconds();
-  }
-
-  // A stop from the start, stops at the path's corners, and a start that leads
-  // to the end.
-  KnotCurve Joined(std::vector<Vector3d> path) const {
+  // A stop from the start, stops at the path's corners, and a run-up to the
+  // end.
+  void Start(std::vector<Vector3d> path) {
     const MotionLimits& limits = options_.limits;
     const KnotCurve::State first = {path.front(), options_.start.velocity,
                                     options_.start.acceleration};
@@ -148,8 +140,29 @@ class Optimizer {
     if (corners.size() > 1) {
       stops = internal::StopAtCorners(corners, limits, kPieces);
     }
-    return internal::Joined(internal::Joined(begin.curve, stops),
-                            internal::Backwards(end.curve));
+    const auto join = [&](const KnotCurve& middle) {
+      return internal::Joined(internal::Joined(begin.curve, middle),
+                              internal::Backwards(end.curve));
+    };
+    now_ = join(stops);
+    // On the path but for rounding, by which it may still touch.
+    if (!Keep(now_)) return;
+    summary_.stops_duration = summary_.duration;
+    summary_.first_seconds = stopwatch_.Seconds();
+    if (!settings_.keeps_pace || stops.knots.empty()) return;
+    // What begins and ends at rest takes longer steps.
+    KnotCurve faster = join(OptimizedFromRest(stops));
+    if (Keep(faster)) now_ = std::move(faster);
+  }
+
+  KnotCurve OptimizedFromRest(const KnotCurve& stops) const {
+    CurveOptions options = options_;
+    options.start = options.end = {};
+    options.time_limit -= stopwatch_.Seconds();
+    Optimizer optimizer(space_, diagonal_, options);
+    optimizer.now_ = stops;
+    optimizer.RunRounds();
+    return optimizer.now_;
   }
 
   // Becomes the answer if it is free and within the limits, both proved.
