@@ -10,6 +10,7 @@
 #include "constraints/curve_judge.h"
 #include "core/mesh/finite.h"
 #include "core/mesh/mesh_error.h"
+#include "core/number_text.h"
 #include "core/stopwatch.h"
 #include "planners/exact/check_option.h"
 #include "planners/trajectory/curve_cells.h"
@@ -24,6 +25,8 @@ using Eigen::Vector3d;
 using internal::CurveStep;
 using internal::KnotCurve;
 using internal::PieceCells;
+using internal::ViaKnot;
+using Path = std::vector<Vector3d>;
 
 constexpr double kTrust = 0.05;  // τ, of D
 constexpr double kSigma = 0.03;  // σ of the first round
@@ -103,7 +106,7 @@ class Optimizer {
     settings_.keeps_pace = !IsAtRest(options.start) || !IsAtRest(options.end);
   }
 
-  CurveSummary Run(const std::vector<Vector3d>& path) {
+  CurveSummary Run(const Path& path) {
     if (CheckPath(space_, path).free) Start(path);
     if (!summary_.trajectory.empty()) {
       const int halvings = static_cast<int>(options_.effort);
@@ -117,56 +120,106 @@ class Optimizer {
   }
 
  private:
+  // The path from place to place.
+  std::vector<Path> LegsOf(const Path& path) const {
+    std::vector<Path> legs;
+    auto from = path.begin();
+    for (const CurveVia& via : options_.via) {
+      const auto to = std::find(from, path.end(), via.point);
+      legs.emplace_back(from, to + 1);
+      from = to;
+    }
+    legs.emplace_back(from, path.end());
+    return legs;
+  }
+
+  // Stops at the corners of all legs, and the knots at which they meet.
+  KnotCurve StopOnLegs(const std::vector<Path>& legs, int first_knot) {
+    KnotCurve all;
+    for (std::size_t i = 0; i < legs.size(); ++i) {
+      auto corners = internal::DropCorners(space_, legs[i], options_.margin);
+      if (corners.size() < 2) corners = legs[i];
+      corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
+      if (corners.size() > 1) {
+        all = internal::Joined(
+            all, internal::StopAtCorners(corners, options_.limits, kPieces));
+      }
+      if (i < options_.via.size()) {
+        const CurveVia& via = options_.via[i];
+        settings_.via.push_back(
+            {first_knot + all.pieces(), via.point, via.tolerance});
+      }
+    }
+    return all;
+  }
+
+  // Without those that are an end of the curve: they stay where they are.
+  static std::vector<ViaKnot> InnerKnots(std::vector<ViaKnot> via,
+                                         int first_knot, int pieces) {
+    for (ViaKnot& one : via) one.knot -= first_knot;
+    via.erase(std::remove_if(via.begin(), via.end(),
+                             [&](const ViaKnot& one) {
+                               return one.knot == 0 || one.knot == pieces;
+                             }),
+              via.end());
+    return via;
+  }
+
   // A stop from the start, stops at the path's corners, and a run-up to the
   // end.
-  void Start(std::vector<Vector3d> path) {
+  void Start(const Path& path) {
     const MotionLimits& limits = options_.limits;
     const KnotCurve::State first = {path.front(), options_.start.velocity,
                                     options_.start.acceleration};
     const KnotCurve::State last = {path.back(), -options_.end.velocity,
                                    options_.end.acceleration};
-    const internal::Stop begin =
-        internal::FindStop(space_, diagonal_, first, path, limits, false);
-    path = begin.path;
-    std::reverse(path.begin(), path.end());
+    std::vector<Path> legs = LegsOf(path);
+    const internal::Stop begin = internal::FindStop(
+        space_, diagonal_, first, legs.front(), limits, false);
+    legs.front() = begin.path;
+    std::reverse(legs.back().begin(), legs.back().end());
     const internal::Stop end =
-        internal::FindStop(space_, diagonal_, last, path, limits, true);
-    path = end.path;
-    std::reverse(path.begin(), path.end());
-    auto corners = internal::DropCorners(space_, path, options_.margin);
-    if (corners.size() < 2) corners = path;
-    corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
-    KnotCurve stops;
-    if (corners.size() > 1) {
-      stops = internal::StopAtCorners(corners, limits, kPieces);
-    }
+        internal::FindStop(space_, diagonal_, last, legs.back(), limits, true);
+    legs.back() = end.path;
+    std::reverse(legs.back().begin(), legs.back().end());
+    const int first_knot = begin.curve.pieces();
+    const KnotCurve stops = StopOnLegs(legs, first_knot);
     const auto join = [&](const KnotCurve& middle) {
       return internal::Joined(internal::Joined(begin.curve, middle),
                               internal::Backwards(end.curve));
     };
     now_ = join(stops);
+    settings_.via = InnerKnots(settings_.via, 0, now_.pieces());
     // On the path but for rounding, by which it may still touch.
     if (!Keep(now_)) return;
     summary_.stops_duration = summary_.duration;
     summary_.first_seconds = stopwatch_.Seconds();
     if (!settings_.keeps_pace || stops.knots.empty()) return;
     // What begins and ends at rest takes longer steps.
-    KnotCurve faster = join(OptimizedFromRest(stops));
+    KnotCurve faster = join(OptimizedFromRest(stops, first_knot));
     if (Keep(faster)) now_ = std::move(faster);
   }
 
-  KnotCurve OptimizedFromRest(const KnotCurve& stops) const {
+  KnotCurve OptimizedFromRest(const KnotCurve& stops, int first_knot) const {
     CurveOptions options = options_;
     options.start = options.end = {};
     options.time_limit -= stopwatch_.Seconds();
     Optimizer optimizer(space_, diagonal_, options);
     optimizer.now_ = stops;
+    optimizer.settings_.via =
+        InnerKnots(settings_.via, first_knot, stops.pieces());
     optimizer.RunRounds();
     return optimizer.now_;
   }
 
-  // Becomes the answer if it is free and within the limits, both proved.
+  // Becomes the answer if it passes its places, is free and within the limits,
+  // both proved.
   bool Keep(const KnotCurve& curve) {
+    for (const ViaKnot& via : settings_.via) {
+      if (!((curve.knots[via.knot].p - via.point).norm() <= via.tolerance)) {
+        return false;
+      }
+    }
     Trajectory fitted = curve.ToTrajectory();
     if (!CheckCurve(space_, fitted).IsFree()) return false;
     // Other durations, the same points.
@@ -306,6 +359,7 @@ class Optimizer {
     if (!settings_.keeps_pace) {
       halved.Slow(internal::SlowingOf(halved, options_.limits));
     }
+    for (ViaKnot& via : settings_.via) via.knot *= 2;
     if (!Keep(halved)) return false;
     now_ = std::move(halved);
     return true;
@@ -339,6 +393,56 @@ class Optimizer {
   CurveSummary summary_;
 };
 
+// One curve after the other, from rest to rest between places to rest at.
+CurveSummary OptimizeWithRests(const FreeSpace& space, double diagonal,
+                               const Path& path, const CurveOptions& options) {
+  const Stopwatch stopwatch;
+  CurveSummary all;
+  all.status = CurveStatus::kConverged;
+  all.clearance = std::numeric_limits<double>::infinity();
+  all.margin = options.margin;
+  std::vector<CurvePiece> pieces;
+  CurveOptions part = options;
+  part.via.clear();
+  auto from = path.begin(), at = from;
+  for (std::size_t i = 0; i <= options.via.size(); ++i) {
+    const bool is_last = i == options.via.size();
+    if (!is_last) {
+      at = std::find(at, path.end(), options.via[i].point);
+      if (!(options.via[i].dwell > 0.0)) {
+        part.via.push_back(options.via[i]);
+        continue;
+      }
+    }
+    const Path way(from, is_last ? path.end() : at + 1);
+    part.end = is_last ? options.end : CurveEnd{};
+    part.time_limit = std::max(options.time_limit - stopwatch.Seconds(),
+                               std::numeric_limits<double>::min());
+    const double before = stopwatch.Seconds();
+    const CurveSummary one = OptimizeCurve(space, diagonal, way, part);
+    if (one.trajectory.empty()) return one;
+    const auto& found = one.trajectory.pieces();
+    pieces.insert(pieces.end(), found.begin(), found.end());
+    if (all.status == CurveStatus::kConverged) all.status = one.status;
+    all.rounds.insert(all.rounds.end(), one.rounds.begin(), one.rounds.end());
+    all.stops_duration += one.stops_duration;
+    all.clearance = std::min(all.clearance, one.clearance);
+    all.margin = std::min(all.margin, one.margin);
+    all.first_seconds = before + one.first_seconds;
+    if (is_last) break;
+    const CurveVia& via = options.via[i];
+    pieces.emplace_back(std::vector<Vector3d>(6, via.point), via.dwell);
+    all.stops_duration += via.dwell;
+    from = at;
+    part.start = {};
+    part.via.clear();
+  }
+  all.trajectory = Trajectory(std::move(pieces));
+  all.duration = all.trajectory.duration();
+  all.seconds = stopwatch.Seconds();
+  return all;
+}
+
 }  // namespace
 
 CurveSummary OptimizeCurve(const FreeSpace& space, double diagonal,
@@ -355,7 +459,19 @@ CurveSummary OptimizeCurve(const FreeSpace& space, double diagonal,
     throw InputError("path: expected two different points at least, found " +
                      std::string(free_path.empty() ? "none" : "one"));
   }
-  return Optimizer(space, diagonal, options).Run(free_path);
+  auto at = free_path.begin();
+  for (std::size_t i = 0; i < options.via.size(); ++i) {
+    at = std::find(at, free_path.end(), options.via[i].point);
+    if (at != free_path.end()) continue;
+    throw InputError("curve: via " + std::to_string(i) +
+                     ": expected a point of the path, in order, found (" +
+                     FormatPoint(options.via[i].point) + ")");
+  }
+  const bool rests =
+      std::any_of(options.via.begin(), options.via.end(),
+                  [](const CurveVia& via) { return via.dwell > 0.0; });
+  return rests ? OptimizeWithRests(space, diagonal, free_path, options)
+               : Optimizer(space, diagonal, options).Run(free_path);
 }
 
 }  // namespace phongpd

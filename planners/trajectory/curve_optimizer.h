@@ -25,10 +25,18 @@ struct CurveEnd {
   Eigen::Vector3d acceleration = Eigen::Vector3d::Zero();
 };
 
+// A place to pass on the way.
+struct CurveVia {
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();
+  double tolerance = 0.0;  // the curve comes as close, user's unit; > 0
+  double dwell = 0.0;      // seconds to rest there; at the point itself if > 0
+};
+
 struct CurveOptions {
-  MotionLimits limits;  // one at least for each axis
-  CurveEnd start, end;  // within the limits, for a moment longer too
-  double margin = 0.0;  // clearance wished for, user's unit, ≥ 0
+  MotionLimits limits;        // one at least for each axis
+  CurveEnd start, end;        // within the limits, for a moment longer too
+  std::vector<CurveVia> via;  // in order, each a point of the path
+  double margin = 0.0;        // clearance wished for, user's unit, ≥ 0
   CurveEffort effort = CurveEffort::kBalanced;
   double time_limit = std::numeric_limits<double>::infinity();  // seconds, > 0
   // Asked between rounds; true ends it as the time limit does.
@@ -60,7 +68,7 @@ struct CurveSummary {
   CurveStatus status = CurveStatus::kNotFree;
   // Free for all t and within the limits for all t, proved (curve_judge.h,
   // BoundLimitUse); at both ends as asked for, to rounding; of class C².  Empty
-  // if kNotFree.
+  // if kNotFree.  It passes the places of `via`, in order.
   Trajectory trajectory;
   double duration = 0.0;
   double clearance = 0.0;  // a lower bound, rounded; user's unit

@@ -77,6 +77,21 @@ void CheckEnd(const CurveEnd& end, const MotionLimits& limits, double sign,
   }
 }
 
+void CheckVia(const CurveVia& via, std::size_t number) {
+  const std::string which = "curve: via " + std::to_string(number) + ": ";
+  if (!IsFinite(via.point)) {
+    throw InputError(which + "expected a finite point, found NaN or Inf");
+  }
+  if (!(via.tolerance > 0.0) || !std::isfinite(via.tolerance)) {
+    throw InputError(which + "expected a tolerance above 0, found " +
+                     FormatDouble(via.tolerance));
+  }
+  if (!(via.dwell >= 0.0) || !std::isfinite(via.dwell)) {
+    throw InputError(which + "expected a dwell of 0 seconds or more, found " +
+                     FormatDouble(via.dwell));
+  }
+}
+
 }  // namespace
 
 const char* ToString(CurveEffort effort) {
@@ -112,6 +127,7 @@ void CurveOptions::Validate() const {
   CheckAxes(limits);
   CheckEnd(start, limits, 1.0, "start");
   CheckEnd(end, limits, -1.0, "end");
+  for (std::size_t i = 0; i < via.size(); ++i) CheckVia(via[i], i);
   CheckOption(margin >= 0.0 && std::isfinite(margin), "curve", "margin",
               "a finite length >= 0", margin);
   CheckOption(time_limit > 0.0, "curve", "time_limit", "> 0 seconds",

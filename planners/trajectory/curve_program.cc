@@ -66,6 +66,7 @@ class Builder {
       AddJerk(b, h, jerk, &piece);
       piece.log_duration = std::log(h);
     }
+    for (const ViaKnot& via : options_.via) AddVia(via, &program);
     CurveProgram::Row slowest;
     slowest.t = -1.0;
     slowest.constant = options_.keeps_pace ? 0.0 : kSlowest;
@@ -146,6 +147,16 @@ class Builder {
         piece->rows.push_back(row);
       }
     }
+  }
+
+  void AddVia(const ViaKnot& via, CurveProgram* program) const {
+    CurveProgram::Row row;
+    row.kind = CurveProgram::Row::kNorm;
+    row.first = row.last = 0;
+    row.weight[0] = options_.trust / via.tolerance;
+    row.value = (now_.knots[via.knot].p - via.point) / via.tolerance;
+    row.constant = -1.0;
+    program->pieces[via.knot].rows.push_back(row);
   }
 
   void AddClearance(const PieceCells& cells, CurveProgram::Piece* piece) const {

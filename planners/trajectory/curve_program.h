@@ -17,6 +17,13 @@ struct CurveWeights {
   double missing = 50.0;   // of the mean missing clearance, as a share of D
 };
 
+// A knot that stays close to a point.
+struct ViaKnot {
+  int knot = 0;  // neither the first nor the last
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();
+  double tolerance = 0.0;  // > 0
+};
+
 struct CurveProgramOptions {
   MotionLimits limits;
   CurveWeights weights;
@@ -30,6 +37,7 @@ struct CurveProgramOptions {
   // price so high that it should not be.
   bool keeps_pace = false;
   double spare = 0.0;
+  std::vector<ViaKnot> via;
 };
 
 struct CurveStep {
@@ -47,6 +55,7 @@ struct CurveStep {
 //   min  t + Σ (h_i/T)(η_i + η_i²/2) + jerk + evenness + missing
 //   s.t. n·Σ w_j (B_j + ΔB_j) ≥ kept            rows of its cells
 //        n·Σ w_j (B_j + ΔB_j) ≥ margin − m_i
+//        |p_k + Δp_k − point| ≤ tolerance    of knots that pass a place
 //        |ΔB_j|∞ ≤ τ,  |η_i| ≤ σ,  t ≥ −0.6
 //        |V + ΔV| ≤ v(1 + t), |A + ΔA| ≤ a(1 + 2t), |J + ΔJ| ≤ j(1 + 3t)
 //
