@@ -4,15 +4,22 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <random>
+#include <string>
 #include <vector>
 
 #include "constraints/curve_judge.h"
 #include "constraints/motion_oracle.h"
 #include "core/contact/contact_space.h"
-#include "core/stopwatch.h"
+#include "planners/exact/contact_surface_planner.h"
+#include "planners/exact/exact_solution.h"
 #include "planners/exact/verification.h"
+#include "planners/trajectory/curve_optimizer.h"
+#include "problems/scenes/scene.h"
+#include "problems/scenes/scene_source.h"
 #include "problems/shapes/shapes.h"
 #include "tests/support/campaign.h"
 #include "tests/support/curve_truth.h"
@@ -279,6 +286,48 @@ TEST(CurveVerificationCampaign, FindsWhatIsPlantedOnTheCurve) {
   testing::ReportCampaign({"verification",
                            "small boxes planted on free curves, found", planted,
                            planted - found, 0.0, 0.0, "", 3104});
+}
+
+// Curves as users get them, of the contact spaces: confirmed on the solids.
+TEST(CurveVerificationCampaign, ConfirmsCurvesOfSceneFamilies) {
+  testing::CampaignRow row;
+  row.item = "verification";
+  row.subject = "curves in time on scene families, on the solids";
+  row.unit = "s";
+  const std::vector<std::string> families =
+      testing::IsLongCampaign()
+          ? std::vector<std::string>{"u_axis",  "plate",   "tunnel", "hole",
+                                     "keyhole", "bugtrap", "clutter"}
+          : std::vector<std::string>{"u_axis", "plate", "tunnel"};
+  const long seeds = testing::CampaignCases(2, 10);
+  for (const std::string& family : families) {
+    for (long seed = 1; seed <= seeds; ++seed) {
+      const Scene scene =
+          SceneSource(family).Load(static_cast<std::uint64_t>(seed));
+      const PlanResult plan =
+          SolveExactly(scene.workspace, scene.start, scene.goal).plan;
+      if (plan.status != PlanStatus::kSolved) continue;
+      const ContactSpace contact = BuildContactSpace(
+          scene.workspace.robot, JoinedObstacle(scene.workspace));
+      CurveOptions options;
+      options.limits.velocity.setConstant(1.0);
+      options.limits.acceleration.setConstant(2.0);
+      options.limits.jerk.setConstant(10.0);
+      const CurveSummary curve =
+          OptimizeCurve(FreeSpace({contact}, scene.workspace.bounds),
+                        contact.bounds().Diagonal(), plan.path, options);
+      ASSERT_FALSE(curve.trajectory.empty()) << family << ' ' << seed;
+      ++row.cases;
+      const Verification found =
+          Verifier(scene.workspace).VerifyCurve(curve.trajectory);
+      row.failures += found.verdict == Verdict::kConfirmed ? 0 : 1;
+      row.worst = std::max(row.worst, found.seconds);
+      EXPECT_EQ(found.verdict, Verdict::kConfirmed)
+          << family << ' ' << seed << ": " << found.reason;
+    }
+  }
+  EXPECT_GE(row.cases, 3 * seeds - 1);
+  ReportCampaign(row);
 }
 
 }  // namespace
