@@ -40,7 +40,7 @@ readonly slice=(
   phong_field_test phong_metric_test query_cost_test tangent_plane_field_test
   contact_roadmap_test contact_surface_planner_test free_cells_test
   free_space_test start_repair_test workspace_test
-  motion_graph_test retraction_test scene_errors_test
+  motion_graph_test retraction_test scene_errors_test scene_mutations_test
 )
 # Those, besides, that feed what is no number, or next to none.
 readonly extreme=(
