@@ -9,9 +9,7 @@
 #include <vector>
 
 #include "core/mesh/mesh_error.h"
-#include "core/mesh/mesh_io.h"
 #include "problems/meshes/any_mesh.h"
-#include "problems/shapes/shapes.h"
 #include "tests/problems/meshes/mesh_files.h"
 #include "tests/problems/meshes/watched_folder.h"
 
@@ -20,21 +18,6 @@ namespace {
 
 class FilesOfStrangers : public testing::WatchedFolder {
  protected:
-  void SetUp() override {
-    WatchedFolder::SetUp();
-    for (const char* name : {"root/ok", "root/sub/ok", "secret/data"}) {
-      Put(std::string(name) + ".bin", testing::GltfBuffer(Block()));
-      WriteMesh(Block(), At(std::string(name) + ".off"));
-    }
-    Watch();
-  }
-
-  static TriangleMesh Block() { return MakeBox({0, 0, 0}, {1, 2, 3}); }
-
-  static std::string Gltf(const std::string& uri) {
-    return testing::GltfJson(Block(), "\"uri\":\"" + uri + "\",");
-  }
-
   // What reading it says, or "read".
   std::string Outcome(const std::string& name, const std::string& root) {
     std::string what = "read";
@@ -135,20 +118,9 @@ TEST_F(FilesOfStrangers, OfMeshesNamedByNameAreBelowTheRootAndRegular) {
 }
 
 TEST_F(FilesOfStrangers, OfRobotsAreTheSame) {
-  const auto urdf = [](const std::string& file) {
-    return "<robot name='r'><link name='a'><collision><geometry><mesh "
-           "filename='" +
-           file + "'/></geometry></collision></link></robot>";
-  };
-  const auto sdf = [](const std::string& file) {
-    return "<sdf version='1.6'><model name='m'><link name='a'><collision "
-           "name='c'><geometry><mesh><uri>" +
-           file + "</uri></mesh></geometry></collision></link></model></sdf>";
-  };
-  Put("root/out.gltf", Gltf("d/data.bin"));
   for (const std::string kind : {"root/a.urdf", "root/a.sdf"}) {
     const auto put = [&](const std::string& file) {
-      Put(kind, kind == "root/a.sdf" ? sdf(file) : urdf(file));
+      Put(kind, kind == "root/a.sdf" ? Sdf(file) : Urdf(file));
     };
     put("sub/ok.off");
     EXPECT_EQ(Outcome(kind, At("root")), "read");
@@ -169,12 +141,8 @@ TEST_F(FilesOfStrangers, OfRobotsAreTheSame) {
 
 // They name pictures and materials, which nobody needs.
 TEST_F(FilesOfStrangers, OfOtherFormatsAreNotOpened) {
-  std::string dae = testing::Collada(Block(), "");
-  dae.insert(dae.find("<library_geometries>"),
-             "<library_images><image id='i'><init_from>../secret/data.bin"
-             "</init_from></image><image id='j'><init_from>fifo.bin"
-             "</init_from></image></library_images>");
-  Put("root/a.dae", dae);
+  Put("root/a.dae",
+      ColladaWith(Image("../secret/data.bin") + Image("fifo.bin")));
   EXPECT_EQ(Outcome("root/a.dae", At("root")), "read");
   Put("root/a.obj",
       "mtllib fifo.bin\nmtllib ../secret/data.bin\nv 0 0 0\n"

@@ -9,10 +9,8 @@
 #include <vector>
 
 #include "core/mesh/mesh_error.h"
-#include "core/mesh/mesh_io.h"
 #include "problems/meshes/any_mesh.h"
 #include "problems/scenes/scene.h"
-#include "problems/shapes/shapes.h"
 #include "tests/problems/meshes/mesh_files.h"
 #include "tests/problems/meshes/mutated.h"
 #include "tests/problems/meshes/watched_folder.h"
@@ -25,20 +23,6 @@ constexpr std::uint64_t kSeed = 29;
 
 class StrangersCampaign : public testing::WatchedFolder {
  protected:
-  void SetUp() override {
-    WatchedFolder::SetUp();
-    for (const char* name : {"root/ok", "root/sub/ok", "secret/data"}) {
-      Put(std::string(name) + ".bin", testing::GltfBuffer(Block()));
-      WriteMesh(Block(), At(std::string(name) + ".off"));
-    }
-    Put("secret/data.gltf",
-        testing::GltfJson(Block(), "\"uri\":\"data.bin\","));
-    Put("root/out.gltf", testing::GltfJson(Block(), "\"uri\":\"d/data.bin\","));
-    Watch();
-  }
-
-  static TriangleMesh Block() { return MakeBox({0, 0, 0}, {1, 2, 3}); }
-
   std::size_t Below(std::size_t n) {
     return std::uniform_int_distribution<std::size_t>(0, n - 1)(random_);
   }
@@ -76,9 +60,7 @@ class StrangersCampaign : public testing::WatchedFolder {
     std::string bytes;
     const std::string way = Way(".bin"), mesh = Way(".off");
     if (*extension == ".gltf") {
-      const std::string twice = Below(2) == 0 ? ",\"uri\":\"ok.bin\"" : "";
-      bytes =
-          testing::GltfJson(Block(), "\"uri\":\"" + way + "\"" + twice + ",");
+      bytes = Gltf(way + (Below(2) == 0 ? "\",\"uri\":\"ok.bin" : ""));
     } else if (*extension == ".glb") {
       bytes = testing::Glb(Block());
       // Of the same length, as chunks have one.
@@ -87,20 +69,11 @@ class StrangersCampaign : public testing::WatchedFolder {
     } else if (*extension == ".3mf") {
       bytes = testing::ThreeMf(Block());
     } else if (*extension == ".dae") {
-      bytes = testing::Collada(Block(), "");
-      bytes.insert(bytes.find("<library_geometries>"),
-                   "<library_images><image id='i'><init_from>" + way +
-                       "</init_from></image></library_images>");
+      bytes = ColladaWith(Image(way));
     } else if (*extension == ".urdf") {
-      bytes =
-          "<robot name='r'><link name='a'><collision><geometry><mesh "
-          "filename='" +
-          mesh + "'/></geometry></collision></link></robot>";
+      bytes = Urdf(mesh);
     } else if (*extension == ".sdf") {
-      bytes =
-          "<sdf version='1.6'><model name='m'><link name='a'><collision "
-          "name='c'><geometry><mesh><uri>" +
-          mesh + "</uri></mesh></geometry></collision></link></model></sdf>";
+      bytes = Sdf(mesh);
     } else {
       bytes = R"({"robot":{"shape":{"type":"box","size":[1,1,1]}},)"
               R"("obstacles":[{"mesh":")" +
