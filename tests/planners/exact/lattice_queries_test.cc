@@ -20,6 +20,7 @@
 #include "planners/exact/surface_graph.h"
 #include "problems/scenes/scene.h"
 #include "tests/support/campaign.h"
+#include "tests/support/flood_truth.h"
 #include "tests/support/lattice_world.h"
 
 namespace phongpd {
@@ -45,12 +46,8 @@ Pair RandomPair(const LatticeWorld& world, std::mt19937_64* random) {
   };
   const LatticeWorld::Cell start = pick((*random)() % 16 > 0);
   const LatticeWorld::Cell goal = pick((*random)() % 16 > 0);
-  const int from = world.Label(start), to = world.Label(goal);
   return {world.Point(start), world.Point(goal),
-          from < 0     ? PlanStatus::kInvalidStart
-          : to < 0     ? PlanStatus::kInvalidGoal
-          : from == to ? PlanStatus::kSolved
-                       : PlanStatus::kInfeasibleProved};
+          testing::FloodTruth(world.Label(start), world.Label(goal))};
 }
 
 struct Tally {
@@ -83,15 +80,6 @@ void Judge(const LatticeWorld& world, const FreeSpace& space, const Pair& pair,
                 << result.reason;
 }
 
-ContactSurfaceOptions Cheap() {
-  ContactSurfaceOptions options;
-  options.routes = 1;
-  options.random_cuts = 0;
-  options.spacing = 1.0;
-  options.gap_links = 0;
-  return options;
-}
-
 template <typename Answer>
 void Report(const char* item, const Tally& tally, const Answer& subject) {
   testing::CampaignRow row;
@@ -122,7 +110,7 @@ void ForEachWorld(long worlds, const ContactSurfaceOptions& options,
 
 TEST(LatticeCampaign, AnswersEveryQueryRight) {
   Tally tally;
-  ForEachWorld(CampaignCases(40, 200), Cheap(),
+  ForEachWorld(CampaignCases(40, 200), testing::LeastSettings(),
                [&](const LatticeWorld& world, const FreeSpace& space,
                    const auto& planner, std::mt19937_64* random) {
                  const long queries = CampaignCases(120, 5000);
@@ -190,7 +178,8 @@ TEST(LatticeCampaign, ConnectsTheLatticeAroundAPrism) {
   const TriangleMesh contact =
       BuildContactSpace(scene.workspace.robot, MergedObstacle(scene.workspace))
           .mesh();
-  const ContactSurfacePlanner planner(TakeAsContactSpace(contact), Cheap());
+  const ContactSurfacePlanner planner(TakeAsContactSpace(contact),
+                                      testing::LeastSettings());
   const FreeSpace space({TakeAsContactSpace(contact)});
   std::mt19937_64 random(kSeed);
   const BoundingBox box = ComputeBounds(contact);
@@ -228,7 +217,7 @@ TEST(LatticeCampaign, ConnectsTheLatticeAroundAPrism) {
 TEST(PathLift, FreesEverySegmentBetweenSitesOfATriangle) {
   int segments_lifted = 0, blocked = 0;
   ForEachWorld(
-      20, Cheap(),
+      20, testing::LeastSettings(),
       [&](const LatticeWorld& world, const FreeSpace&, const auto& planner,
           std::mt19937_64*) {
         const TriangleMesh& mesh = world.contact_space;

@@ -17,6 +17,7 @@
 #include "planners/exact/verification.h"
 #include "planners/exact/window_planner.h"
 #include "tests/support/campaign.h"
+#include "tests/support/flood_truth.h"
 #include "tests/support/voxel_pair.h"
 
 namespace phongpd {
@@ -28,22 +29,12 @@ using testing::VoxelPair;
 
 constexpr std::uint64_t kSeed = 29;
 
-// One way is enough: what is judged is whether there is one.
-ContactSurfaceOptions Cheap() {
-  ContactSurfaceOptions options;
-  options.routes = 1;
-  options.random_cuts = 0;
-  options.spacing = 1.0;
-  options.gap_links = 0;
-  return options;
-}
-
 // Both planners on one pair, and their judge.
 struct Planners {
   Planners(const Solid& robot, const Solid& obstacle)
       : space(BuildContactSpace(robot, obstacle)),
-        full(space, Cheap()),
-        window(ConvolutionModel(robot, obstacle), Cheap()),
+        full(space, testing::LeastSettings()),
+        window(ConvolutionModel(robot, obstacle), testing::LeastSettings()),
         verifier(Workspace{robot, {obstacle}}) {}
 
   // What is wrong with an answer, or nothing.
@@ -118,11 +109,7 @@ TEST_P(VoxelPairsCampaign, FullAndWindowAnswerAsTheFloodFillTells) {
       const VoxelPair::Quarters from = pair.RandomPoint(&random);
       const VoxelPair::Quarters to = pair.RandomPoint(&random);
       const int at_from = pair.Label(from), at_to = pair.Label(to);
-      const PlanStatus truth = at_from < 0 ? PlanStatus::kInvalidStart
-                               : at_to < 0 ? PlanStatus::kInvalidGoal
-                               : at_from == at_to
-                                   ? PlanStatus::kSolved
-                                   : PlanStatus::kInfeasibleProved;
+      const PlanStatus truth = testing::FloodTruth(at_from, at_to);
       const Vector3d start = pair.Point(from), goal = pair.Point(to);
       std::ostringstream what;
       what.precision(17);
