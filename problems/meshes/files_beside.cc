@@ -66,10 +66,14 @@ std::string Reason(int error) {
   }
 }
 
+std::string BelowRoot(const std::string& root) {
+  return " below the root " + root;
+}
+
 fs::path RequiredBelow(const std::string& path, const std::string& root) {
   std::optional<fs::path> below = PathBelow(path, root);
   if (below) return *std::move(below);
-  throw InputError(path + ": expected a file below the root " + root +
+  throw InputError(path + ": expected a file" + BelowRoot(root) +
                    ", found one elsewhere; move it there");
 }
 
@@ -118,7 +122,8 @@ std::optional<fs::path> PathBelow(const std::string& path,
   return below;
 }
 
-FilesBeside::FilesBeside(const std::string& path, const std::string& root) {
+FilesBeside::FilesBeside(const std::string& path, const std::string& root)
+    : root_(root) {
   const fs::path parent = fs::path(path).parent_path();
   if (root.empty()) {
     folder_ = OpenRoot(parent.empty() ? "." : parent.string());
@@ -128,15 +133,17 @@ FilesBeside::FilesBeside(const std::string& path, const std::string& root) {
       OpenWithoutLinks(OpenRoot(root), RequiredBelow(path, root).parent_path(),
                        O_PATH | O_DIRECTORY);
   if (!folder_.IsOpen()) {
-    throw InputError(path + ": expected a file below the root " + root +
-                     ", found " + Reason(errno));
+    throw InputError(path + ": expected a file" + BelowRoot(root) + ", found " +
+                     Reason(errno));
   }
 }
 
 std::string FilesBeside::Read(const fs::path& name, const std::string& file,
                               const std::string& kind,
                               std::uintmax_t max_bytes) const {
-  return ReadRegular(folder_, name, file, kind, max_bytes);
+  return ReadRegular(folder_, name, file,
+                     root_.empty() ? kind : kind + ',' + BelowRoot(root_),
+                     max_bytes);
 }
 
 std::string ReadMeshFile(const std::string& path, const std::string& root,

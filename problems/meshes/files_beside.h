@@ -27,12 +27,14 @@ class FilesBeside {
 
   // The bytes of a regular file; never waits.  `name` is relative, without
   // "..".  Throws InputError "FILE: expected KIND, found ..." where FILE is how
-  // a message calls it: for nothing, links, devices, pipes, folders, and more
-  // than `max_bytes` bytes.
+  // a message calls it, and KIND is followed by the root where there is one:
+  // for nothing, links, devices, pipes, folders, and more than `max_bytes`
+  // bytes.
   std::string Read(const std::filesystem::path& name, const std::string& file,
                    const std::string& kind, std::uintmax_t max_bytes) const;
 
  private:
+  std::string root_;
   internal::Descriptor folder_;
 };
 

@@ -69,7 +69,14 @@ TEST_F(FilesOfStrangers, OfGlTFAreBesideOrBelowItAndRegular) {
   for (const std::string& bad : ways_out_) {
     Put("root/a.gltf", Gltf(bad));
     ExpectRefused("root/a.gltf", "a.gltf: '");
-    ExpectRefused("root/a.gltf", "expected a file beside or below it, found");
+    const std::string expected = "expected a file beside or below it";
+    ExpectRefused("root/a.gltf", expected);
+    EXPECT_NE(
+        Outcome("root/a.gltf", At("root"))
+            .find(expected + ", below the root " + At("root") + ", found "),
+        std::string::npos);
+    EXPECT_NE(Outcome("root/a.gltf", "").find(expected + ", found "),
+              std::string::npos);
   }
   Put("root/a.gltf", Gltf("d/data.bin"));
   ExpectRefused("root/a.gltf", "'d/data.bin'");
@@ -136,6 +143,7 @@ TEST_F(FilesOfStrangers, OfRobotsAreTheSame) {
     ExpectRefused(kind, "a pipe");
     put("out.gltf");
     ExpectRefused(kind, "expected a file beside or below it");
+    ExpectRefused(kind, "below the root " + At("root"), true);
   }
 }
 
