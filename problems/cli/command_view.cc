@@ -36,7 +36,7 @@ constexpr int kPictureWidth = 1600, kPictureHeight = 1000;
 
 struct ViewFlags : ViewRequest {
   std::vector<std::string> from_cells, to_cells;
-  std::string unit = "units";
+  std::string unit;
   std::string title;
   std::string html, glb, png;
   std::optional<double> moment;
@@ -125,7 +125,7 @@ int Look(ViewFlags flags) {
   if (flags.json) RequireFreeStandardOutput(outputs);
 
   View view = ReadThings(flags);
-  view.unit = flags.unit;
+  if (!flags.unit.empty()) view.unit = flags.unit;
   if (!flags.title.empty()) view.title = flags.title;
   const std::string page =
       is_page || !flags.png.empty() ? ViewPage(view) : std::string();
@@ -194,9 +194,10 @@ Command AddView(CLI::App* app) {
       "--build", flags->build,
       "Build the contact space of a scene, or take it from the cache, "
       "and show it");
-  app->add_option("--unit", flags->unit, "What a unit of length is called")
-      ->type_name("NAME")
-      ->capture_default_str();
+  app->add_option("--unit", flags->unit,
+                  "What a unit of length is called (as the scene calls it, or "
+                  "units, if not set)")
+      ->type_name("NAME");
   app->add_option("--title", flags->title, "Of the page")->type_name("TEXT");
   AddRoot(app, &flags->root);
   AddRepair(app, &flags->repair);

@@ -169,6 +169,7 @@ class Collector {
     stage_ = scene;
     View view = SceneView(scene);
     view_.title = view.title;
+    view_.unit = view.unit;
     view_.robot = view.robot;
     view_.start = view.start;
     view_.goal = view.goal;
@@ -272,6 +273,8 @@ class Collector {
     }
     scene_ = scene;
     view_.title = scene;
+    const Json unit = row.value(Json::json_pointer("/lengths/unit"), Json());
+    if (unit.is_string()) view_.unit = unit.get<std::string>();
   }
 
   template <typename T>

@@ -55,6 +55,10 @@ class Canvas:
         self.triangles += len(mesh.triangles)
         self._native.set_robot(mesh.vertices, mesh.triangles)
 
+    def unit(self, name: str) -> None:
+        """What a unit of length is called."""
+        self._native.set_unit(name)
+
     def ends(self, start: ArrayLike, goal: ArrayLike) -> None:
         self._native.set_ends(rows(np.array([start, goal]), "ends", 3))
 

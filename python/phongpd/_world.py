@@ -232,6 +232,8 @@ class World(Shown):
             canvas.mesh(obstacle.name, "obstacle", obstacle)
         canvas.robot(self.robot)
         canvas.is_free = self.is_motion_free
+        if self.unit:
+            canvas.unit(self.unit)
         if self._has_ends:
             canvas.ends(self.start, self.goal)
 

@@ -67,6 +67,8 @@ void BindView(nb::module_& module) {
            [](Picture* view, const Rows3& vertices, const Corners& triangles) {
              view->robot = ToMesh(vertices, triangles);
            })
+      .def("set_unit",
+           [](Picture* view, const std::string& name) { view->unit = name; })
       .def("set_ends",
            [](Picture* view, const Rows3& ends) {
              view->start = Row(ends, 0);

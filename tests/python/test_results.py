@@ -158,6 +158,18 @@ def test_a_view_joins_things_of_one_world(world, run, space, tmp_path):
     assert len(framed(page)) < 2e6
 
 
+@pytest.mark.parametrize("unit", [None, "mm"])
+def test_a_view_calls_lengths_as_the_scene_does(unit, tmp_path):
+    box = {"shape": {"type": "box", "size": [1, 1, 1]}}
+    scene = {"robot": box, "obstacles": [box], "start": [-3, 0, 0],
+             "goal": [3, 0, 0], **({"unit": unit} if unit else {})}
+    path = tmp_path / "scene.json"
+    path.write_text(json.dumps(scene))
+    world = phongpd.World.load(path)
+    for shown in (world, world.plan(), phongpd.view(world.optimize())):
+        assert data_of(framed(shown))["unit"] == (unit or "units")
+
+
 def test_what_cannot_be_shown_is_said(world, run, robot, obstacle):
     other = phongpd.World(robot, obstacle)
     for things in (["text"], [world, other], [5],

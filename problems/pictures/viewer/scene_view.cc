@@ -9,6 +9,7 @@ View SceneView(const Scene& scene,
                const std::vector<TriangleMesh>& contact_spaces) {
   View view;
   view.title = scene.name;
+  if (!scene.unit.empty()) view.unit = scene.unit;
   view.notes = scene.warnings;
   view.robot = scene.workspace.robot;
   view.start = scene.start;

@@ -107,6 +107,28 @@ TEST_F(CliView, PutsRunsAndPlansOfOneSceneBesideEachOther) {
                 {"plan.jsonl:1", "u_axis", "two"});
 }
 
+// Of a scene, of its rows alone, and of the pages that commands write.
+TEST_F(CliView, CallsAUnitOfLengthAsTheSceneDoes) {
+  for (const std::string unit : {"", "mm", "in"}) {
+    Json json = TwoObstacles();
+    if (!unit.empty()) json["unit"] = unit;
+    const std::string scene = Scene(json);
+    const std::string expected = unit.empty() ? "units" : unit;
+    Prepare("plan " + scene + " --html ../p.html", "p.jsonl");
+    Prepare("optimize " + scene + " --html ../o.html", "o.jsonl");
+    for (const char* page : {"p.html", "o.html"}) {
+      std::filesystem::rename(File(page), Output(page));
+      EXPECT_EQ(TakeData(page)["unit"], expected) << page;
+    }
+    for (const std::string& things :
+         {scene, std::string("../p.jsonl"), std::string("../o.jsonl"),
+          "../p.jsonl " + scene, scene + " --build"}) {
+      EXPECT_EQ(Data(things)["unit"], expected) << things;
+      EXPECT_EQ(Data(things + " --unit inch")["unit"], "inch") << things;
+    }
+  }
+}
+
 TEST_F(CliView, BringsTheSceneOfAFamilyAlong) {
   Prepare("plan u_axis", "u.jsonl");
   const Json data = Data("../u.jsonl");
