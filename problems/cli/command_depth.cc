@@ -158,6 +158,7 @@ TriangleMesh Operand(const std::string& path, const DepthFlags& flags) {
 }
 
 int Depth(const DepthFlags& flags) {
+  const AnswerForm form = FormOf(flags.output, flags.json);
   OutputFiles outputs;
   DeclareTable(&outputs, flags.output, "--output");
   DeclareIfNamed(&outputs, flags.html, "--html", {".html", ".htm"});
@@ -186,7 +187,9 @@ int Depth(const DepthFlags& flags) {
     limits.max_seconds = flags.max_seconds;
     phong.emplace(flags.smoothing_length, a, b, limits);
   }
-  const bool is_table = !flags.json && !flags.poses.empty();
+  const bool is_json = form == AnswerForm::kJson;
+  const bool is_table =
+      !is_json && (form == AnswerForm::kCsv || !flags.poses.empty());
   std::string text;
   if (is_table) {
     text =
@@ -204,7 +207,7 @@ int Depth(const DepthFlags& flags) {
     }
     std::optional<WindowPhongResult> with_phong;
     if (phong) with_phong = phong->At(pose);
-    if (flags.json) {
+    if (is_json) {
       Json answer = AnswerJson(pose, result);
       if (phong) answer["phong"] = phong->AsJson(*with_phong);
       text += JsonText(answer) + '\n';
@@ -249,7 +252,10 @@ Command AddDepth(CLI::App* app) {
                   "move it; an answer for each")
       ->excludes(at)
       ->type_name("FILE");
-  app->add_option("--output", flags->output, "Where the answers go")
+  app->add_option("--output", flags->output,
+                  "Where the answers go: rows of CSV or objects of JSON, as "
+                  "its name says, FILE.csv or FILE.json; else CSV with --pose, "
+                  "and a few sentences without")
       ->capture_default_str()
       ->type_name("FILE");
   AddRepair(app, &flags->repair);

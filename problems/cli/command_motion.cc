@@ -196,6 +196,7 @@ int Follow(const MotionFlags& flags) {
   motion.frames = flags.frames;
   const std::vector<Length> lengths = SmoothingLengths(flags);
   flags.sliding.Validate();
+  const bool is_json = FormOf(flags.output, flags.json) == AnswerForm::kJson;
   const std::string target = AnswerTarget(flags.output);
   OutputFiles outputs;
   DeclareTable(&outputs, target, "--output");
@@ -212,7 +213,7 @@ int Follow(const MotionFlags& flags) {
   if (solids && flags.verify)
     verified = VerifyDepths(*solids, motion, contact, traces);
   outputs.Write(target,
-                flags.json ? MotionJson(motion, traces) : MotionCsv(traces));
+                is_json ? MotionJson(motion, traces) : MotionCsv(traces));
   if (!flags.svg.empty()) {
     outputs.Write(flags.svg,
                   MotionPage(traces, "Penetration depth from (" +
@@ -264,7 +265,7 @@ Command AddMotion(CLI::App* app) {
   AddSliding(app, &flags->sliding);
   app->add_option("--output", flags->output,
                   "CSV file, one row a frame and metric (standard output if "
-                  "not set)")
+                  "not set); JSON Lines where its name ends in .json or .jsonl")
       ->type_name("FILE");
   AddJson(app, &flags->json,
           "JSON Lines instead of CSV, with the position of every frame");

@@ -152,6 +152,7 @@ std::string JsonRow(const Eigen::Vector3d& q, const std::string& status,
 
 int Query(const CLI::App& app, const QueryFlags& flags) {
   RequireSense(app, flags);
+  const bool is_json = FormOf(flags.output, flags.json) == AnswerForm::kJson;
   const std::string target = AnswerTarget(flags.output);
   OutputFiles outputs;
   DeclareTable(&outputs, target, "--output");
@@ -160,7 +161,7 @@ int Query(const CLI::App& app, const QueryFlags& flags) {
   Progress("building the metric");
   const Answers answers = Ask(flags, contact, points);
 
-  std::string text = flags.json ? "" : kQueryHeader;
+  std::string text = is_json ? "" : kQueryHeader;
   std::size_t inside = 0;
   std::size_t unusual = 0;
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -168,8 +169,8 @@ int Query(const CLI::App& app, const QueryFlags& flags) {
     const std::string& status = answers.statuses[i];
     inside += result.inside ? 1 : 0;
     unusual += IsUsual(status) ? 0 : 1;
-    text += (flags.json ? JsonRow : QueryRow)(points[i], status, result,
-                                              flags.jacobian == "exact");
+    text += (is_json ? JsonRow : QueryRow)(points[i], status, result,
+                                           flags.jacobian == "exact");
   }
   outputs.Write(target, text);
   CommitAndTell(
@@ -191,7 +192,8 @@ Command AddQuery(CLI::App* app) {
       ->required()
       ->type_name("FILE");
   app->add_option("--output", flags->output,
-                  "CSV file, one row a point (standard output if not set)")
+                  "CSV file, one row a point (standard output if not set); "
+                  "JSON Lines where its name ends in .json or .jsonl")
       ->type_name("FILE");
   AddJson(app, &flags->json, "JSON Lines instead of CSV, one object a point");
   app->add_option("--metric", flags->metric)

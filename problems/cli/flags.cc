@@ -48,6 +48,16 @@ std::string AnswerTarget(const std::string& output) {
   return output.empty() ? kStandardOutput : output;
 }
 
+AnswerForm FormOf(const std::string& output, bool json) {
+  const std::string found = EndingOf(output);
+  if (found == ".csv") {
+    if (!json) return AnswerForm::kCsv;
+    throw InputError("--json: expected --output FILE.json, found " + output);
+  }
+  const bool is_json = json || found == ".json" || found == ".jsonl";
+  return is_json ? AnswerForm::kJson : AnswerForm::kUsual;
+}
+
 void RequireEnding(const std::string& path, const std::string& flag,
                    const std::vector<std::string>& endings) {
   if (IsNoFile(path)) return;

@@ -17,6 +17,12 @@ void AddJson(CLI::App* app, bool* json, const std::string& what);
 // The name a command writes its answer to: standard output for none.
 std::string AnswerTarget(const std::string& output);
 
+// How an answer is written: as the name of its file ends, in .csv, .json or
+// .jsonl; else as JSON where --json asks for it, or as the command usually
+// does. Throws InputError where --json meets a .csv.
+enum class AnswerForm { kUsual, kCsv, kJson };
+AnswerForm FormOf(const std::string& output, bool json);
+
 // Throws InputError unless the name of a file says what the flag writes: ends
 // in one of `endings` (".svg"), in any case; standard output and devices have
 // no ending.  Empty names are no files.

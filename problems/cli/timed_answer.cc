@@ -18,16 +18,6 @@ using TimedJson = nlohmann::ordered_json;
 constexpr double kDefaultRate = 100.0;  // Hz
 constexpr double kMostRate = 1e6;
 
-bool IsTable(const std::string& output) {
-  const std::size_t point = output.rfind('.');
-  if (point == std::string::npos) return false;
-  std::string ending = output.substr(point);
-  for (char& c : ending) {
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  }
-  return ending == ".csv";
-}
-
 double RateOf(const TimedFlags& flags) {
   if (flags.rate.empty()) return kDefaultRate;
   const double rate = ParseDouble(flags.rate, "--rate");
@@ -35,7 +25,7 @@ double RateOf(const TimedFlags& flags) {
     throw InputError("--rate: expected a number above 0 and at most " +
                      FormatDouble(kMostRate) + " (Hz), found " + flags.rate);
   }
-  if (!IsTable(flags.output)) {
+  if (FormOf(flags.output, false) != AnswerForm::kCsv) {
     throw InputError(
         "--rate: expected --output FILE.csv, which it is the rate of, found " +
         (flags.output.empty() ? "none" : flags.output));
@@ -92,11 +82,7 @@ int AnswerInTime(
     const std::function<TimedTrajectory(const World&, const CurveOptions&)>&
         ask) {
   const double rate = RateOf(flags);
-  const bool is_table = IsTable(flags.output);
-  if (flags.json && is_table) {
-    throw InputError("--json: expected --output FILE.json, found " +
-                     flags.output);
-  }
+  const bool is_table = FormOf(flags.output, flags.json) == AnswerForm::kCsv;
   OutputFiles outputs;
   const std::string target =
       flags.json ? AnswerTarget(flags.output) : flags.output;

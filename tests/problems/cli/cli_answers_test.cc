@@ -3,6 +3,7 @@
 // apart from data.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -87,6 +88,56 @@ TEST_F(CliAnswers, QueryAndMotionAnswerAsTheyWriteFiles) {
       Split(Split(Content(File("m.csv")), '\n')[8], ',');
   EXPECT_EQ(frames[7]["status"], frame[2]);
   EXPECT_EQ(frames[7]["magnitude"].get<double>(), Number(frame[6]));
+}
+
+// Whatever is asked for, and whether --json is there or not.
+TEST_F(CliAnswers, FilesHoldWhatTheirNamesSay) {
+  WriteText("poses.csv", "x,y,z,qw,qx,qy,qz\n0.3,0,0,1,0,0,0\n9,0,0,1,0,0,0\n");
+  const std::string depth = "depth ../cone.off ../box.off";
+  for (const std::string& command :
+       {depth, depth + " --at 0.3 0 0", depth + " --smoothing-length 0",
+        depth + " --pose ../poses.csv",
+        std::string("query --contact-space ../box.off --points ../p.csv"),
+        std::string("motion --robot ../cone.off --obstacle ../box.off --from "
+                    "-3 0 0.1 --to 3 0 0.1 --frames 5")}) {
+    const std::vector<Json> rows = Rows(command + " --json");
+    for (const std::string name : {"t.csv", "t.CSV"}) {
+      ASSERT_EQ(Run(command + " --output " + name).code, 0) << command;
+      const std::vector<std::string> lines = Split(Content(Output(name)), '\n');
+      ASSERT_EQ(lines.size(), rows.size() + 1) << command << name;
+      const std::vector<std::string> header = Split(lines[0], ',');
+      const auto status = std::find(header.begin(), header.end(), "status");
+      ASSERT_NE(status, header.end()) << lines[0];
+      for (std::size_t i = 0; i < rows.size(); ++i) {
+        const std::vector<std::string> cells = Split(lines[i + 1], ',');
+        ASSERT_EQ(cells.size(), header.size()) << command;
+        EXPECT_EQ(rows[i]["status"],
+                  cells[static_cast<std::size_t>(status - header.begin())]);
+      }
+      std::filesystem::remove(Output(name));
+    }
+    for (const std::string name : {"t.json", "t.jsonl", "t.JSON"}) {
+      for (const char* flag : {"", " --json"}) {
+        ASSERT_EQ(Run(command + " --output " + name + flag).code, 0);
+        std::vector<Json> found;
+        for (const std::string& line : Split(Content(Output(name)), '\n')) {
+          found.push_back(Json::parse(line, nullptr, false));
+          ASSERT_FALSE(found.back().is_discarded()) << command << name;
+        }
+        ASSERT_EQ(found.size(), rows.size()) << command << name;
+        for (std::size_t i = 0; i < rows.size(); ++i) {
+          EXPECT_EQ(found[i]["status"], rows[i]["status"]);
+          EXPECT_EQ(found[i].size(), rows[i].size());
+        }
+        std::filesystem::remove(Output(name));
+      }
+    }
+    ExpectRefused(command + " --json --output t.csv",
+                  {"--json", "FILE.json", "t.csv"});
+  }
+  // Another name says nothing.
+  ASSERT_EQ(Run(depth + " --output t.txt").code, 0);
+  EXPECT_EQ(Content(Output("t.txt")).rfind("penetrating: depth ", 0), 0U);
 }
 
 TEST_F(CliAnswers, ContactSpacesAreToldWithoutAFileAndMeshesGoToPipes) {
