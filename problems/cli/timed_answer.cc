@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "problems/cli/timed_answer.h"
 
+#include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "core/mesh/mesh_error.h"
@@ -31,6 +33,38 @@ double RateOf(const TimedFlags& flags) {
         (flags.output.empty() ? "none" : flags.output));
   }
   return rate;
+}
+
+// Which no motion over `way` is shorter than: per axis at its velocity v all
+// the time; from rest to rest half of it at acceleration a, half at −a, or at
+// jerk j, −j, j by 1 : 2 : 1.
+double LeastDuration(const Eigen::Vector3d& way, const CurveOptions& options) {
+  const MotionLimits& limits = options.limits;
+  const auto rests = [](const CurveEnd& end) {
+    return end.velocity.isZero(0.0) && end.acceleration.isZero(0.0);
+  };
+  const bool has_rests = rests(options.start) && rests(options.end);
+  double least = 0.0;
+  for (int k = 0; k < 3; ++k) {
+    const double d = std::abs(way[k]);
+    least = std::max(least, d / limits.velocity[k]);
+    if (!has_rests) continue;
+    least = std::max({least, 2.0 * std::sqrt(d / limits.acceleration[k]),
+                      std::cbrt(32.0 * d / limits.jerk[k])});
+  }
+  return least;
+}
+
+// Throws InputError where TimedCsv would, once the motion is known, have too
+// many rows however fast that is.
+void RequireFewRows(const Scene& scene, const CurveOptions& options,
+                    double rate) {
+  constexpr double kMostRows = 1e7;  // of TimedCsv
+  const double least = LeastDuration(scene.goal - scene.start, options);
+  if (least * rate <= kMostRows) return;
+  throw InputError("--rate: expected at most " + FormatDouble(kMostRows) +
+                   " rows for a motion that takes " + Rounded(least) +
+                   " s at least, found " + FormatDouble(rate) + " Hz");
 }
 
 std::string Percent(double share) { return Rounded(100.0 * share) + " %"; }
@@ -94,6 +128,7 @@ int AnswerInTime(
     options.time_limit = ParseDouble(flags.time_limit, "--time");
   }
   options.Validate();
+  if (is_table) RequireFewRows(scene, options, rate);
   TellAbout(scene);
   const ClearanceWish wish =
       WishOfTrajectory(scene, flags.has_margin, flags.require);
