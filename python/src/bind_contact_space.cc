@@ -10,6 +10,7 @@
 #include "python/src/bindings.h"
 #include "python/src/build_options.h"
 #include "python/src/interruptible.h"
+#include "python/src/words.h"
 
 namespace phongpd::python {
 namespace {
@@ -52,10 +53,11 @@ ContactSpace Read(const std::string& path) {
 nb::dict Report(const ContactSpace& space) {
   const ContactSpaceReport& report = space.report();
   nb::dict seconds, out;
-  for (const auto& [stage, time] : report.seconds)
-    seconds[stage.c_str()] = time;
+  for (const auto& [stage, time] : report.seconds) {
+    seconds[OneLine(stage).c_str()] = time;
+  }
   nb::list warnings;
-  for (const std::string& line : report.warnings) warnings.append(line);
+  for (const std::string& line : Lines(report.warnings)) warnings.append(line);
   out["triangles"] = report.triangles;
   out["vertices"] = report.vertices;
   out["closed"] = report.closed;
@@ -65,10 +67,10 @@ nb::dict Report(const ContactSpace& space) {
   out["cavities"] = report.cavities;
   out["volume"] = report.volume;
   out["self_intersections"] = report.self_intersections;
-  out["method"] = report.method;
+  out["method"] = OneLine(report.method);
   out["from_cache"] = report.from_cache;
   out["grid_step"] = report.grid_step;
-  out["approximation"] = report.approximation.kind;
+  out["approximation"] = OneLine(report.approximation.kind);
   out["approximation_bound"] = report.approximation.bound;
   out["seconds"] = seconds;
   out["peak_mib"] = report.peak_mib;

@@ -9,6 +9,7 @@
 #include "python/src/arrays.h"
 #include "python/src/bindings.h"
 #include "python/src/computing.h"
+#include "python/src/words.h"
 
 namespace phongpd::python {
 namespace {
@@ -96,7 +97,9 @@ void BindDepth(nb::module_& module) {
            })
       .def("at", &At, nb::arg("positions"),
            nb::arg("orientations").none() = nb::none())
-      .def_prop_ro("warnings", &DepthQuery::warnings);
+      .def_prop_ro("warnings", [](const DepthQuery& query) {
+        return Lines(query.warnings());
+      });
 }
 
 }  // namespace phongpd::python

@@ -9,6 +9,7 @@
 #include "python/src/arrays.h"
 #include "python/src/bindings.h"
 #include "python/src/computing.h"
+#include "python/src/words.h"
 
 namespace phongpd::python {
 namespace {
@@ -31,7 +32,7 @@ std::pair<Solid, std::vector<std::string>> Read(const std::string& path,
   const Computing computing;
   std::vector<std::string> notes;
   Solid solid = MakeSolid(ReadAnyMesh(path, &notes), name);
-  return {std::move(solid), std::move(notes)};
+  return {std::move(solid), Lines(std::move(notes))};
 }
 
 }  // namespace
@@ -58,7 +59,7 @@ void BindSolid(nb::module_& module) {
       .def_prop_ro("components",
                    [](const Solid& solid) { return solid.report().components; })
       .def_prop_ro("warnings", [](const Solid& solid) {
-        return NamedWarnings(solid.report(), solid.name());
+        return Lines(NamedWarnings(solid.report(), solid.name()));
       });
 }
 

@@ -15,6 +15,7 @@
 #include "python/src/arrays.h"
 #include "python/src/bindings.h"
 #include "python/src/interruptible.h"
+#include "python/src/words.h"
 #include "python/src/workshop.h"
 
 namespace phongpd::python {
@@ -127,7 +128,7 @@ void BindScene(nb::module_& module) {
       .def_prop_ro("goal",
                    [](const Scene& scene) { return ToArray(scene.goal); })
       .def_prop_ro("warnings",
-                   [](const Scene& scene) { return scene.warnings; })
+                   [](const Scene& scene) { return Lines(scene.warnings); })
       .def_prop_ro("robot",
                    [](const Scene& scene) { return scene.workspace.robot; })
       .def_prop_ro("obstacles",

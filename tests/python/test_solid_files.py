@@ -79,3 +79,24 @@ def test_refuses_in_one_line(robot_file, tmp_path):
         with pytest.raises(phongpd.InputError, match=words) as error:
             phongpd.Solid.read(name)
         assert "\n" not in str(error.value)
+
+
+def test_words_of_files_that_are_no_utf_8_are_told(robot_file, tmp_path):
+    path = tmp_path / "t.dae"
+    path.write_bytes(
+        b"<COLLADA xmlns='http://www.collada.org/2005/11/COLLADASchema' "
+        b"version='1.4.1'><asset><up_axis>\xffUP</up_axis></asset>"
+        b"<library_geometries><geometry id='g'><mesh><source id='p'>"
+        b"<float_array id='a' count='12'>0 0 0 1 0 0 0 1 0 0 0 1</float_array>"
+        b"<technique_common><accessor source='#a' count='4' stride='3'>"
+        b"<param name='X' type='float'/><param name='Y' type='float'/>"
+        b"<param name='Z' type='float'/></accessor></technique_common></source>"
+        b"<vertices id='v'><input semantic='POSITION' source='#p'/></vertices>"
+        b"<triangles count='4'><input semantic='VERTEX' source='#v' offset='0'/>"
+        b"<p>0 2 1 0 1 3 0 3 2 1 2 3</p></triangles></mesh></geometry>"
+        b"</library_geometries><library_visual_scenes><visual_scene id='s'>"
+        b"<node id='n'><instance_geometry url='#g'/></node></visual_scene>"
+        b"</library_visual_scenes><scene><instance_visual_scene url='#s'/></scene>"
+        b"</COLLADA>")
+    solid = phongpd.Solid.read(path)
+    assert any("?UP" in line for line in solid.warnings)
