@@ -3,6 +3,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "problems/studies/clearance_wish.h"
+
 namespace phongpd {
 
 Scene SceneToCompare(Scene scene) {
@@ -21,6 +23,8 @@ nlohmann::ordered_json RunComparison(const ComparisonRun& run,
   if (!run.is_family && is_straight) options.start_noise = 0.01;
   nlohmann::ordered_json row = TrajectoryRow(*study, run.metric, options,
                                              study->Run(run.metric, options));
+  TellClearance(study->world(), study->scene(),
+                WishOfTrajectory(study->scene(), false, false), &row);
   row["protocol"] = run.protocol.name;
   return row;
 }

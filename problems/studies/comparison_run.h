@@ -23,9 +23,9 @@ struct ComparisonRun {
 // compared, and free space alone follows none.
 Scene SceneToCompare(Scene scene);
 
-// TrajectoryRow with the key `protocol`, wherever it is run: by phongpd
-// compare, or by a worker of phongpd.cluster.  Throws what TrajectoryStudy::Run
-// throws.
+// TrajectoryRow with what TellClearance says and the key `protocol`, wherever
+// it is run: by phongpd compare, or by a worker of phongpd.cluster.  Throws
+// what TrajectoryStudy::Run throws.
 nlohmann::ordered_json RunComparison(const ComparisonRun& run,
                                      TrajectoryStudy* study);
 

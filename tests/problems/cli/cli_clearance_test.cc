@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 #include "tests/problems/cli/cli_scenes.h"
 
@@ -84,6 +85,42 @@ TEST_F(CliClearance, IsAnErrorWhereItIsRequired) {
   }
   ExpectRefused("plan " + two + " --require --output o.jsonl",
                 {"--require", "--clearance"});
+}
+
+// Rows of compare are rows of optimize, of several ways of running.
+TEST_F(CliClearance, IsSaidInEveryRowOfCompare) {
+  Json scene = TwoObstacles();
+  scene["trajectory"]["margin"] = "0.6unit";
+  std::vector<std::string> keys =
+      Keys(OneRow("optimize " + Scene(scene) + " --polish never", 0));
+  for (const char* key : {"path", "verified"}) {
+    keys.erase(std::find(keys.begin(), keys.end(), key));
+  }
+  keys.push_back("protocol");
+  std::sort(keys.begin(), keys.end());
+  const Outcome outcome =
+      Run("compare " + Scene(scene) +
+          " --runs 2 --protocols straight-adaptive pipeline --metrics "
+          "euclidean phong@0.2 --json");
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const std::vector<std::string> lines = Split(outcome.out, '\n');
+  ASSERT_EQ(lines.size(), 8U);
+  int free = 0;
+  for (const std::string& line : lines) {
+    const Json row = Json::parse(line);
+    std::vector<std::string> found = Keys(row);
+    std::sort(found.begin(), found.end());
+    EXPECT_EQ(found, keys);
+    if (row["collision_free"].get<bool>()) {
+      ++free;
+      ExpectTold(row, 0.6);
+      EXPECT_NE(row["reason"].get<std::string>().find("of the margin of 0.6"),
+                std::string::npos);
+    } else {
+      EXPECT_TRUE(row["clearance_shortfall"].is_null());
+    }
+  }
+  EXPECT_GE(free, 4);
 }
 
 TEST_F(CliClearance, IsSaidByCompareBeforeItRuns) {
