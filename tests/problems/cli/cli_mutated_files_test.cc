@@ -4,6 +4,9 @@
 // answers or refuses them (0, 1, 2), and never dies of them.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <chrono>
+#include <csignal>
 #include <filesystem>
 #include <random>
 #include <string>
@@ -19,6 +22,8 @@
 
 namespace phongpd {
 namespace {
+
+namespace fs = std::filesystem;
 
 using testing::Mutated;
 
@@ -76,41 +81,91 @@ TEST_F(CliMutatedFiles, PiecesAndContactSpaces) {
 }
 
 // Rows of runs that were interrupted.
-TEST_F(CliMutatedFiles, RowsKept) {
-  const std::string scene = Scene(TwoObstacles());
-  const std::string command = "plan " + scene + " --runs 3 --output o.jsonl";
-  const std::string kept = "o.jsonl.partial";
-  std::string first;
-  for (int i = 1; first.empty() && i < 200; ++i) {
-    Interrupt(command, std::chrono::milliseconds(5 * i), SIGKILL);
-    const std::string rows = std::filesystem::exists(Output(kept))
-                                 ? Content(Output(kept))
-                                 : std::string();
-    if (std::count(rows.begin(), rows.end(), '\n') >= 2) first = rows;
-    std::filesystem::remove(Output("o.jsonl"));
+class CliMutatedRows : public CliMutatedFiles {
+ protected:
+  // `command` writes run/OUTPUT, and until it has all rows OUTPUT.partial.
+  void TryRowsKept(const std::string& command, const std::string& output) {
+    const std::string kept = output + ".partial";
+    const std::string first = Interrupted(command, output, kept);
+    if (first.empty()) GTEST_SKIP() << "never killed between two rows";
+    const std::string header = first.substr(0, first.find('\n') + 1);
+    std::vector<std::string> changed = {
+        R"({"what":3,"command":{}})"
+        "\n",
+        "{\"what\":" + std::string(100000, '[') + "\n",
+        header + "{\"seed\":1}\n", header + "{\"seed\":\"x\"}\n",
+        header + "{}\n"};
+    const long cases = testing::CampaignCases(25, 400);
+    for (long i = 0; i < cases; ++i) {
+      changed.push_back(Mutated(first, &mutations_));
+    }
+    for (const std::string& content : changed) {
+      Clear(kept);
+      WriteText("run/" + kept, content);
+      fs::permissions(Output(kept),
+                      fs::perms::owner_read | fs::perms::owner_write);
+      Try(command, kept, content);
+    }
+    EXPECT_GT(refused_, 5);
+    Report(command.substr(0, command.find(' ')).c_str());
   }
-  if (first.empty()) GTEST_SKIP() << "never killed between two rows";
-  std::vector<std::string> changed = {
-      R"({"what":3,"command":{}})"
-      "\n",
-      "{\"what\":" + std::string(100000, '[') + "\n",
-      first.substr(0, first.find('\n') + 1) + "{\"seed\":1}\n",
-      first.substr(0, first.find('\n') + 1) + "{\"seed\":\"x\"}\n",
-      first.substr(0, first.find('\n') + 1) + "{}\n"};
+
+  // An empty run/ but for the folder of `file`.
+  void Clear(const std::string& file) const {
+    fs::remove_all(folder_ / "run");
+    fs::create_directories(fs::path(Output(file)).parent_path());
+  }
+
+ private:
+  // What was kept when the command was killed with a row at least; empty: it
+  // was too fast for that.
+  std::string Interrupted(const std::string& command, const std::string& output,
+                          const std::string& kept) const {
+    for (int i = 1; i < 200; ++i) {
+      Interrupt(command, std::chrono::milliseconds(5 * i), SIGKILL);
+      const std::string rows =
+          fs::exists(Output(kept)) ? Content(Output(kept)) : std::string();
+      if (std::count(rows.begin(), rows.end(), '\n') >= 2) return rows;
+      fs::remove(Output(output));
+    }
+    return "";
+  }
+};
+
+TEST_F(CliMutatedRows, OfPlan) {
+  TryRowsKept("plan " + Scene(TwoObstacles()) + " --runs 3 --output o.jsonl",
+              "o.jsonl");
+}
+
+TEST_F(CliMutatedRows, OfOptimize) {
+  TryRowsKept("optimize " + Scene(TwoObstacles()) +
+                  " --start straight --polish never --runs 3 --output o.jsonl",
+              "o.jsonl");
+}
+
+TEST_F(CliMutatedRows, OfCompare) {
+  TryRowsKept("compare " + Scene(TwoObstacles()) +
+                  " --runs 2 --metrics euclidean phong@0.2 --protocols "
+                  "straight-adaptive --output d",
+              "d/rows.jsonl");
+}
+
+// Those of a comparison that is done, which is told anew.
+TEST_F(CliMutatedRows, OfCompareThatAreSummarised) {
+  ASSERT_EQ(Run("compare " + Scene(TwoObstacles()) +
+                " --runs 2 --metrics euclidean phong@0.2 --protocols "
+                "straight-adaptive --output ../d")
+                .code,
+            0);
+  const std::string rows = Content(File("d/rows.jsonl"));
   const long cases = testing::CampaignCases(25, 400);
   for (long i = 0; i < cases; ++i) {
-    changed.push_back(Mutated(first, &mutations_));
-  }
-  for (const std::string& content : changed) {
-    std::filesystem::remove(Output("o.jsonl"));
-    WriteText("run/" + kept, content);
-    std::filesystem::permissions(Output(kept),
-                                 std::filesystem::perms::owner_read |
-                                     std::filesystem::perms::owner_write);
-    Try(command, kept, content);
+    Clear("rows.jsonl");
+    Try("compare --rows rows.jsonl --output e", "rows.jsonl",
+        Mutated(rows, &mutations_));
   }
   EXPECT_GT(refused_, 5);
-  Report("plan");
+  Report("compare --rows");
 }
 
 }  // namespace
