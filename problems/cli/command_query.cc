@@ -43,11 +43,14 @@ std::unique_ptr<PenetrationMetric> MakeMetric(const QueryFlags& flags,
   if (flags.metric == "euclidean") {
     return std::make_unique<EuclideanMetric>(contact);
   }
-  return std::make_unique<PhongMetric>(
-      contact,
-      MetricOptions(flags.field,
-                    ParseLength(flags.smoothing_length, "--smoothing-length"),
-                    contact));
+  const auto options = MetricOptions(
+      flags.field, ParseLength(flags.smoothing_length, "--smoothing-length"),
+      contact);
+  try {
+    return std::make_unique<PhongMetric>(contact, options);
+  } catch (const InputError& error) {
+    throw InputError(flags.contact_space + ": " + error.what());
+  }
 }
 
 // Refuses what would be ignored, or not what it says.

@@ -229,6 +229,14 @@ TEST_F(CliAnswers, RangesAreToldInWords) {
       {"expected a number from 1 to 1e+06, found 1e9"});
 }
 
+// It is a matter of the length and of the file.
+TEST_F(CliAnswers, ContactSpacesThatAFieldCannotBeSplitForAreNamed) {
+  ExpectRefused(
+      "query --contact-space ../box.off --points ../p.csv --smoothing-length "
+      "1e-6",
+      {"box.off: Phong field: splitting needs more than"});
+}
+
 TEST_F(CliAnswers, SizesOfDifferentUnitsAreSuspected) {
   WriteMesh(Scaled(MakeBox({-1, -1, -1}, {1, 1, 1}), 1000.0), File("mm.off"));
   const std::string words = "is one in metres and the other in millimetres?";
