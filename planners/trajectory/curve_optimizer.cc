@@ -16,6 +16,7 @@
 #include "planners/trajectory/curve_cells.h"
 #include "planners/trajectory/curve_ends.h"
 #include "planners/trajectory/curve_program.h"
+#include "planners/trajectory/curve_rests.h"
 #include "planners/trajectory/knot_curve.h"
 
 namespace phongpd {
@@ -51,10 +52,6 @@ constexpr double kSlowedAtEnds = 1e-11;
 constexpr std::array<double, 3> kCorrections = {1e-2, 1e-3, 1e-4};
 constexpr double kSpare = 2e-4;
 constexpr int kShorterSteps = 3;
-
-bool IsAtRest(const CurveEnd& end) {
-  return end.velocity.isZero(0.0) && end.acceleration.isZero(0.0);
-}
 
 double MissingOf(const std::vector<PieceCells>& cells, double margin) {
   double missing = 0.0;
@@ -103,15 +100,19 @@ class Optimizer {
     settings_.margin = options.margin;
     settings_.trust = kTrust * diagonal;
     settings_.sigma = kSigma;
-    settings_.keeps_pace = !IsAtRest(options.start) || !IsAtRest(options.end);
+    settings_.keeps_pace = !options.start.IsAtRest() || !options.end.IsAtRest();
   }
 
   CurveSummary Run(const Path& path) {
     if (CheckPath(space_, path).free) Start(path);
     if (!summary_.trajectory.empty()) {
       const int halvings = static_cast<int>(options_.effort);
-      for (int i = 0; i <= halvings && RunRounds(); ++i) {
-        if (i < halvings && !Halve()) break;
+      for (int i = 0; i <= halvings; ++i) {
+        if (i > 0 && !Halve()) break;
+        if (!RunRounds()) break;
+        if (!IsFastEnough()) continue;
+        KeepDuration();
+        if (!RunRounds()) break;
       }
       Report();
     }
@@ -260,8 +261,10 @@ class Optimizer {
     cells_ = CellsOf(now_);
     int small_gains = 0;
     for (int i = 0; i < kMaxRounds; ++i) {
+      if (IsFastEnough()) break;
       if (MustEnd()) return false;
-      small_gains = RunRound() < kSmallGain ? small_gains + 1 : 0;
+      const double gain = is_calm_ ? RunCalmRound() : RunRound();
+      small_gains = gain < kSmallGain ? small_gains + 1 : 0;
       if (small_gains >= kSmallGains || settings_.sigma < kSmallestSigma) {
         summary_.status = CurveStatus::kConverged;
         return true;
@@ -269,6 +272,56 @@ class Optimizer {
     }
     summary_.status = CurveStatus::kRoundLimit;
     return true;
+  }
+
+  bool IsFastEnough() const {
+    return !is_calm_ && options_.duration > 0.0 &&
+           now_.Duration() <= options_.duration;
+  }
+
+  // From now on the curve takes the time asked for.
+  void KeepDuration() {
+    now_.Slow(options_.duration / now_.Duration());
+    is_calm_ = settings_.keeps_pace = true;
+    settings_.sigma = kSigma;
+    settings_.jerk_scale = internal::JerkScale(now_, options_.limits);
+    Keep(now_);
+  }
+
+  // What the mean of the squared jerk fell by, a share.
+  double RunCalmRound() {
+    CurveRound round;
+    round.sigma = settings_.sigma;
+    round.pieces = now_.pieces();
+    for (const PieceCells& cells : cells_) round.planes += cells.planes;
+    const auto jerk_of = [&](const KnotCurve& curve) {
+      return internal::MeanSquaredJerk(curve, settings_.jerk_scale);
+    };
+    // It is as T⁻⁶ of the same way: so neither longer nor shorter is better.
+    const double before = jerk_of(now_);
+    settings_.weights.jerk = 1.0 / (6.0 * before);
+    const CurveStep step = internal::SolveCurveProgram(now_, cells_, settings_);
+    round.rows = step.rows;
+    round.iterations = step.iterations;
+    double share = 1.0;
+    for (int i = 0; i <= kShorterSteps && !round.is_accepted; ++i) {
+      if (i > 0) share *= 0.5;
+      KnotCurve moved = Moved(now_, step.change, share);
+      moved.Slow(options_.duration / moved.Duration());
+      round.gain = 1.0 - jerk_of(moved) / before;
+      if (!(round.gain > 0.0) ||
+          internal::SlowingOf(moved, options_.limits) > 1.0 || !Keep(moved)) {
+        continue;
+      }
+      round.is_accepted = true;
+      now_ = std::move(moved);
+      cells_ = CellsOf(now_);
+    }
+    settings_.sigma *= !round.is_accepted ? 0.3 : share < 1.0 ? share : 2.0;
+    settings_.sigma = std::min(settings_.sigma, kLargestSigma);
+    round.duration = now_.Duration();
+    summary_.rounds.push_back(round);
+    return round.is_accepted ? round.gain : kSmallGain;
   }
 
   // So much of a step, slowed so that the limits hold; where the pace is kept,
@@ -367,6 +420,11 @@ class Optimizer {
 
   // Cells know all that is within their reach.
   void Report() {
+    if (options_.duration > 0.0 && !is_calm_) {
+      summary_.status = CurveStatus::kDurationTooShort;
+      summary_.trajectory = Trajectory();
+      return;
+    }
     const double reach = settings_.trust + options_.margin;
     double clearance = std::numeric_limits<double>::infinity();
     for (const CurvePiece& piece : summary_.trajectory.pieces()) {
@@ -388,60 +446,11 @@ class Optimizer {
   const CurveOptions& options_;
   const double diagonal_;
   internal::CurveProgramOptions settings_;
+  bool is_calm_ = false;  // of the duration asked for
   KnotCurve now_;
   std::vector<PieceCells> cells_;
   CurveSummary summary_;
 };
-
-// One curve after the other, from rest to rest between places to rest at.
-CurveSummary OptimizeWithRests(const FreeSpace& space, double diagonal,
-                               const Path& path, const CurveOptions& options) {
-  const Stopwatch stopwatch;
-  CurveSummary all;
-  all.status = CurveStatus::kConverged;
-  all.clearance = std::numeric_limits<double>::infinity();
-  all.margin = options.margin;
-  std::vector<CurvePiece> pieces;
-  CurveOptions part = options;
-  part.via.clear();
-  auto from = path.begin(), at = from;
-  for (std::size_t i = 0; i <= options.via.size(); ++i) {
-    const bool is_last = i == options.via.size();
-    if (!is_last) {
-      at = std::find(at, path.end(), options.via[i].point);
-      if (!(options.via[i].dwell > 0.0)) {
-        part.via.push_back(options.via[i]);
-        continue;
-      }
-    }
-    const Path way(from, is_last ? path.end() : at + 1);
-    part.end = is_last ? options.end : CurveEnd{};
-    part.time_limit = std::max(options.time_limit - stopwatch.Seconds(),
-                               std::numeric_limits<double>::min());
-    const double before = stopwatch.Seconds();
-    const CurveSummary one = OptimizeCurve(space, diagonal, way, part);
-    if (one.trajectory.empty()) return one;
-    const auto& found = one.trajectory.pieces();
-    pieces.insert(pieces.end(), found.begin(), found.end());
-    if (all.status == CurveStatus::kConverged) all.status = one.status;
-    all.rounds.insert(all.rounds.end(), one.rounds.begin(), one.rounds.end());
-    all.stops_duration += one.stops_duration;
-    all.clearance = std::min(all.clearance, one.clearance);
-    all.margin = std::min(all.margin, one.margin);
-    all.first_seconds = before + one.first_seconds;
-    if (is_last) break;
-    const CurveVia& via = options.via[i];
-    pieces.emplace_back(std::vector<Vector3d>(6, via.point), via.dwell);
-    all.stops_duration += via.dwell;
-    from = at;
-    part.start = {};
-    part.via.clear();
-  }
-  all.trajectory = Trajectory(std::move(pieces));
-  all.duration = all.trajectory.duration();
-  all.seconds = stopwatch.Seconds();
-  return all;
-}
 
 }  // namespace
 
@@ -470,8 +479,9 @@ CurveSummary OptimizeCurve(const FreeSpace& space, double diagonal,
   const bool rests =
       std::any_of(options.via.begin(), options.via.end(),
                   [](const CurveVia& via) { return via.dwell > 0.0; });
-  return rests ? OptimizeWithRests(space, diagonal, free_path, options)
-               : Optimizer(space, diagonal, options).Run(free_path);
+  return rests
+             ? internal::OptimizeWithRests(space, diagonal, free_path, options)
+             : Optimizer(space, diagonal, options).Run(free_path);
 }
 
 }  // namespace phongpd

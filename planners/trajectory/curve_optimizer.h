@@ -23,6 +23,10 @@ const char* ToString(CurveEffort effort);  // fast, balanced, tight
 struct CurveEnd {
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();
   Eigen::Vector3d acceleration = Eigen::Vector3d::Zero();
+
+  bool IsAtRest() const {
+    return velocity.isZero(0.0) && acceleration.isZero(0.0);
+  }
 };
 
 // A place to pass on the way.
@@ -36,7 +40,10 @@ struct CurveOptions {
   MotionLimits limits;        // one at least for each axis
   CurveEnd start, end;        // within the limits, for a moment longer too
   std::vector<CurveVia> via;  // in order, each a point of the path
-  double margin = 0.0;        // clearance wished for, user's unit, ≥ 0
+  // Seconds that it takes, with as little jerk as can be found; 0: as few as
+  // can be.  From rest to rest, without a dwell.
+  double duration = 0.0;
+  double margin = 0.0;  // clearance wished for, user's unit, ≥ 0
   CurveEffort effort = CurveEffort::kBalanced;
   double time_limit = std::numeric_limits<double>::infinity();  // seconds, > 0
   // Asked between rounds; true ends it as the time limit does.
@@ -52,6 +59,9 @@ enum class CurveStatus {
   kTimeLimit,
   kInterrupted,
   kNotFree,  // the path given collides: no trajectory
+  // No curve as fast as the duration asked for was found: no trajectory, and
+  // `duration` is the least that is known.
+  kDurationTooShort,
 };
 const char* ToString(CurveStatus status);
 
@@ -68,7 +78,7 @@ struct CurveSummary {
   CurveStatus status = CurveStatus::kNotFree;
   // Free for all t and within the limits for all t, proved (curve_judge.h,
   // BoundLimitUse); at both ends as asked for, to rounding; of class C².  Empty
-  // if kNotFree.  It passes the places of `via`, in order.
+  // if kNotFree or kDurationTooShort.  It passes the places of `via`, in order.
   Trajectory trajectory;
   double duration = 0.0;
   double clearance = 0.0;  // a lower bound, rounded; user's unit
@@ -88,8 +98,9 @@ struct CurveSummary {
 // that the limits hold exactly.  What a round says is kept only if it is
 // faster and the judge of curves finds it free.  Then pieces are halved, and it
 // goes on.  So it always has a certified curve, whenever it ends, and without a
-// margin its duration falls round by round.  It finds a local minimum, of the
-// way the path takes.
+// margin its duration falls round by round.  Of a given duration the mean of
+// |q'''|² falls instead, each axis as a share of its limit.  It finds a local
+// minimum, of the way the path takes.
 //
 // `diagonal` D > 0 is the length that steps and tolerances refer to.
 // `free_path`: two different points at least.  Throws InputError for options,

@@ -116,6 +116,8 @@ const char* ToString(CurveStatus status) {
       return "time_limit";
     case CurveStatus::kInterrupted:
       return "interrupted";
+    case CurveStatus::kDurationTooShort:
+      return "duration_too_short";
     case CurveStatus::kNotFree:
       break;
   }
@@ -128,6 +130,15 @@ void CurveOptions::Validate() const {
   CheckEnd(start, limits, 1.0, "start");
   CheckEnd(end, limits, -1.0, "end");
   for (std::size_t i = 0; i < via.size(); ++i) CheckVia(via[i], i);
+  CheckOption(duration >= 0.0 && std::isfinite(duration), "curve", "duration",
+              "0 or a finite number of seconds", duration);
+  const bool rests = std::any_of(
+      via.begin(), via.end(), [](const CurveVia& v) { return v.dwell > 0.0; });
+  if (duration > 0.0 && (rests || !start.IsAtRest() || !end.IsAtRest())) {
+    throw InputError(
+        "curve: duration: expected a start and an end at rest, and no dwell, "
+        "where it is given");
+  }
   CheckOption(margin >= 0.0 && std::isfinite(margin), "curve", "margin",
               "a finite length >= 0", margin);
   CheckOption(time_limit > 0.0, "curve", "time_limit", "> 0 seconds",

@@ -39,7 +39,9 @@ class Builder {
     const double total = now_.Duration();
     CurveProgram program;
     program.pieces.resize(n);
-    const Vector3d jerk = JerkScale();
+    const Vector3d jerk = options_.jerk_scale.isZero(0.0)
+                              ? JerkScale(now_, options_.limits)
+                              : options_.jerk_scale;
     for (int k = 0; k <= n; ++k) {
       const double before = now_.durations[std::max(k - 1, 0)];
       const double after = now_.durations[std::min(k, n - 1)];
@@ -230,28 +232,44 @@ class Builder {
     piece->jerk_weight = options_.weights.jerk * piece->share;
   }
 
-  Vector3d JerkScale() const {
-    Vector3d largest = Vector3d::Zero();
-    for (int i = 0; i < now_.pieces(); ++i) {
-      const PieceDerivatives of(now_.PointsOf(i), now_.durations[i]);
-      largest = largest.cwiseMax(of.jerk.cwiseAbs().rowwise().maxCoeff());
-    }
-    const Vector3d limit = options_.limits.by_norm
-                               ? Vector3d::Constant(options_.limits.jerk[0])
-                               : options_.limits.jerk;
-    const double most = largest.maxCoeff();
-    for (int axis = 0; axis < 3; ++axis) {
-      largest[axis] = limit[axis] < kNoLimit ? limit[axis] : most;
-    }
-    return largest;
-  }
-
   const KnotCurve& now_;
   const std::vector<PieceCells>& cells_;
   const CurveProgramOptions& options_;
 };
 
 }  // namespace
+
+Vector3d JerkScale(const KnotCurve& curve, const MotionLimits& limits) {
+  Vector3d largest = Vector3d::Zero();
+  for (int i = 0; i < curve.pieces(); ++i) {
+    const PieceDerivatives of(curve.PointsOf(i), curve.durations[i]);
+    largest = largest.cwiseMax(of.jerk.cwiseAbs().rowwise().maxCoeff());
+  }
+  const Vector3d limit =
+      limits.by_norm ? Vector3d::Constant(limits.jerk[0]) : limits.jerk;
+  const double most = largest.maxCoeff();
+  for (int axis = 0; axis < 3; ++axis) {
+    largest[axis] = limit[axis] < kNoLimit ? limit[axis] : most;
+  }
+  return largest;
+}
+
+double MeanSquaredJerk(const KnotCurve& curve, const Vector3d& scale) {
+  double sum = 0.0;
+  for (int i = 0; i < curve.pieces(); ++i) {
+    const double h = curve.durations[i];
+    const Eigen::Matrix3d jerk = scale.cwiseInverse().asDiagonal() *
+                                 PieceDerivatives(curve.PointsOf(i), h).jerk;
+    // ∫ of products of the quadratic Bernstein polynomials: 1/5, 1/10, 1/30;
+    // 2/15.
+    const Vector3d a = jerk.col(0), b = jerk.col(1), c = jerk.col(2);
+    sum += h *
+           (6.0 * (a.dot(a) + a.dot(b) + b.dot(c) + c.dot(c)) + 4.0 * b.dot(b) +
+            2.0 * a.dot(c)) /
+           30.0;
+  }
+  return sum / curve.Duration();
+}
 
 CurveStep SolveCurveProgram(const KnotCurve& now,
                             const std::vector<PieceCells>& cells,

@@ -38,7 +38,13 @@ struct CurveProgramOptions {
   bool keeps_pace = false;
   double spare = 0.0;
   std::vector<ViaKnot> via;
+  // Of the jerk's term; 0: the limits, or the largest there is.
+  Eigen::Vector3d jerk_scale = Eigen::Vector3d::Zero();
 };
+
+Eigen::Vector3d JerkScale(const KnotCurve& curve, const MotionLimits& limits);
+// The mean of |jerk/scale|² over the time.
+double MeanSquaredJerk(const KnotCurve& curve, const Eigen::Vector3d& scale);
 
 struct CurveStep {
   // Changes of the curve; of its durations those of ln h.

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "planners/trajectory/curve_optimizer.h"
+
+namespace phongpd::internal {
+
+// OptimizeCurve where options.via has places to rest at, each a point of the
+// path: one curve after the other, from rest to rest between them.
+CurveSummary OptimizeWithRests(const FreeSpace& space, double diagonal,
+                               const std::vector<Eigen::Vector3d>& path,
+                               const CurveOptions& options);
+
+}  // namespace phongpd::internal
