@@ -116,13 +116,18 @@ merge() {
   mv "$least" "$kept"
 }
 
+if [[ $amount == merge ]]; then
+  for target in "${targets[@]}"; do merge "$target"; done
+  exit
+fi
+# One on each processor.
 failed=0
-[[ $amount == merge ]] || echo "target,runs,seconds,corpus,crashes"
+echo "target,runs,seconds,corpus,crashes"
+running=()
 for target in "${targets[@]}"; do
-  if [[ $amount == merge ]]; then
-    merge "$target"
-  else
-    run "$target" || failed=1
-  fi
+  while (($(jobs -rp | wc -l) >= $(nproc))); do sleep 0.2; done
+  run "$target" &
+  running+=($!)
 done
+for one in "${running[@]}"; do wait "$one" || failed=1; done
 exit "$failed"
