@@ -110,7 +110,7 @@ TEST_F(CliTimedRefusals, MoreRowsThanThereMayBeBeforeTheMotionIsKnown) {
   const std::string shut = Scene(ShutOff(), "shut.json");
   WritePath();
   for (const std::string& command : {"optimize " + scene, "optimize " + shut,
-                                    "retime ../path.csv --scene " + scene}) {
+                                     "retime ../path.csv --scene " + scene}) {
     for (const auto& [limits, seconds] : {std::pair("0.2,2,10", "15 s"),
                                           {"1,0.01,10", "34.6 s"},
                                           {"1,2,0.001", "45.8 s"},
