@@ -4,7 +4,6 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Geometry>
 #include <cmath>
 #include <random>
 #include <vector>
@@ -12,6 +11,7 @@
 #include "core/contact/contact_space.h"
 #include "problems/shapes/shapes.h"
 #include "tests/support/campaign.h"
+#include "tests/support/curve_problems.h"
 #include "tests/support/curve_truth.h"
 #include "tests/support/solid_tools.h"
 
@@ -19,18 +19,17 @@ namespace phongpd {
 namespace {
 
 using Eigen::Vector3d;
+using testing::Arch;
 using testing::Cube;
 using testing::CurveTruth;
+using testing::GrazingPiece;
+using testing::RandomPiece;
+
+constexpr double kSpread = 0.15;
 
 // Contact space of a cube of side 0.5 against one of side 1.5: half-width 1.
 FreeSpace AroundCube(const BoundingBox& bounds = FreeSpace::NoBounds()) {
   return FreeSpace({BuildContactSpace(Cube(0.5), Cube(1.5))}, bounds);
-}
-
-// Over the cube at height z(s) = 1 + gap + (2s − 1)², exact where gap + 2 is.
-Trajectory Arch(double gap) {
-  return Trajectory({CurvePiece(
-      {{-1.5, 0.0, 2.0 + gap}, {0.0, 0.0, gap}, {1.5, 0.0, 2.0 + gap}}, 2.0)});
 }
 
 TEST(CurveJudge, ProvesAnArchFreeDownToItsResolution) {
@@ -104,38 +103,6 @@ TEST(CurveJudge, IsUndecidedWhereItMayLookNoFurther) {
   EXPECT_EQ(CheckCurve(space, Trajectory()).verdict, CurveVerdict::kUndecided);
 }
 
-// Starts somewhere free, its other points about as far as the next obstacle:
-// hits, misses and near misses.
-CurvePiece RandomPiece(const FreeSpace& space, const ContactSpace& contact,
-                       std::mt19937_64* random) {
-  std::uniform_int_distribution<int> degree(2, CurvePiece::kMaxDegree);
-  std::vector<Vector3d> points;
-  do {
-    points = {testing::RandomPoint(contact.bounds(), random)};
-  } while (!space.IsFree(points[0]));
-  std::normal_distribution<double> normal(0.0, 0.15);
-  const double length = (contact.bounds().max - contact.bounds().min).norm();
-  for (int i = degree(*random); i > 0; --i) {
-    points.push_back(points.back() + length * Vector3d(normal(*random),
-                                                       normal(*random),
-                                                       normal(*random)));
-  }
-  return CurvePiece(points, 1.0);
-}
-
-// Touches the surface at height `gap` above x, n: x + gap n + u s + k s² n.
-CurvePiece GrazingPiece(const ContactSpace& contact, double gap,
-                        std::mt19937_64* random) {
-  const SurfacePoint at = testing::RandomSurfacePoint(contact.mesh(), random);
-  std::uniform_real_distribution<double> unit(0.02, 0.3);
-  Vector3d along = at.normal.unitOrthogonal() * unit(*random);
-  const double rise = unit(*random);
-  const Vector3d foot = at.position + gap * at.normal;
-  // Of s ∈ [−1, 1]: q(s) = foot + s·along + s²·rise·n.
-  const Vector3d high = foot + rise * at.normal;
-  return CurvePiece({high - along, foot - rise * at.normal, high + along}, 1.0);
-}
-
 struct Tally {
   long cases = 0, wrong_free = 0, wrong_collision = 0, undecided = 0;
 };
@@ -178,7 +145,7 @@ TEST(CurveJudgeCampaign, CallsNothingFreeThatRationalsSeeMeet) {
   for (const ContactSpace& contact : ContactSpaces()) {
     const FreeSpace space({contact});
     for (long i = 0; i < each; ++i) {
-      Compare(space, contact, RandomPiece(space, contact, &random),
+      Compare(space, contact, RandomPiece(space, contact, kSpread, &random),
               &random_pieces);
     }
     // Truth and judge round q(t) alike only above some ulps.
@@ -213,7 +180,7 @@ TEST(CurveJudge, AnswersTheSameOfConvolutions) {
   std::mt19937_64 random(2903);
   int free = 0;
   for (int i = 0; i < 300; ++i) {
-    const Trajectory curve({RandomPiece(whole, contact, &random)});
+    const Trajectory curve({RandomPiece(whole, contact, kSpread, &random)});
     const CurveVerdict verdict = CheckCurve(whole, curve).verdict;
     EXPECT_EQ(CheckCurve(lazy, curve).verdict, verdict) << i;
     free += verdict == CurveVerdict::kFree;

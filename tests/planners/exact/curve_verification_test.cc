@@ -3,7 +3,6 @@
 // surface in rationals; obstacles planted on the curve.
 #include <gtest/gtest.h>
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -14,21 +13,20 @@
 #include "constraints/curve_judge.h"
 #include "constraints/motion_oracle.h"
 #include "core/contact/contact_space.h"
-#include "planners/exact/contact_surface_planner.h"
-#include "planners/exact/exact_solution.h"
 #include "planners/exact/verification.h"
 #include "planners/trajectory/curve_optimizer.h"
-#include "problems/scenes/scene.h"
-#include "problems/scenes/scene_source.h"
 #include "problems/shapes/shapes.h"
 #include "tests/support/campaign.h"
+#include "tests/support/curve_problems.h"
 #include "tests/support/curve_truth.h"
+#include "tests/support/planned_scenes.h"
 #include "tests/support/solid_tools.h"
 
 namespace phongpd {
 namespace {
 
 using Eigen::Vector3d;
+using testing::Arch;
 using testing::Cube;
 using testing::CurveTruth;
 
@@ -41,12 +39,6 @@ Workspace Of(const TriangleMesh& robot, const TriangleMesh& obstacle) {
 
 // A cube of side 0.5 over one of 1.5: in contact at |q|∞ = 1.
 Verifier AroundCube() { return Verifier(Of(Cube(0.5), Cube(1.5))); }
-
-// Over the cube at height z(s) = 1 + gap + (2s − 1)², exact where gap + 2 is.
-Trajectory Arch(double gap) {
-  return Trajectory({CurvePiece(
-      {{-1.5, 0.0, 2.0 + gap}, {0.0, 0.0, gap}, {1.5, 0.0, 2.0 + gap}}, 2.0)});
-}
 
 TEST(VerifyCurve, ConfirmsArchesAndRefutesOnesThatCross) {
   const Verifier verifier = AroundCube();
@@ -136,35 +128,9 @@ TEST(VerifyCurve, RefutesCurvesWithinASolid) {
             Verdict::kConfirmed);
 }
 
-// Starts free, its points about as far from each other as the obstacle.
 Trajectory RandomCurve(const FreeSpace& space, const ContactSpace& contact,
                        std::mt19937_64* random) {
-  std::uniform_int_distribution<int> degree(2, CurvePiece::kMaxDegree);
-  std::vector<Vector3d> points;
-  do {
-    points = {testing::RandomPoint(contact.bounds(), random)};
-  } while (!space.IsFree(points[0]));
-  std::normal_distribution<double> normal(0.0, 0.12);
-  const double length = (contact.bounds().max - contact.bounds().min).norm();
-  for (int i = degree(*random); i > 0; --i) {
-    points.push_back(points.back() + length * Vector3d(normal(*random),
-                                                       normal(*random),
-                                                       normal(*random)));
-  }
-  return Trajectory({CurvePiece(points, 1.0)});
-}
-
-// Comes as near as `gap` to a point of the surface, and leaves.
-Trajectory GrazingCurve(const ContactSpace& contact, double gap,
-                        std::mt19937_64* random) {
-  const SurfacePoint at = testing::RandomSurfacePoint(contact.mesh(), random);
-  std::uniform_real_distribution<double> unit(0.02, 0.3);
-  const Vector3d along = at.normal.unitOrthogonal() * unit(*random);
-  const double rise = unit(*random);
-  const Vector3d foot = at.position + gap * at.normal;
-  const Vector3d high = foot + rise * at.normal;
-  return Trajectory(
-      {CurvePiece({high - along, foot - rise * at.normal, high + along}, 1.0)});
+  return Trajectory({testing::RandomPiece(space, contact, 0.12, random)});
 }
 
 struct Pair {
@@ -228,7 +194,7 @@ TEST(CurveVerificationCampaign, AgreesWithRationals) {
     for (const double gap : {1e-3, 1e-6, 1e-9, 1e-12, 1e-15, 0.0, -1e-15,
                              -1e-12, -1e-9, -1e-6, -1e-3}) {
       for (long i = 0; i < each / 10; ++i) {
-        const Trajectory curve = GrazingCurve(contact, gap, &random);
+        const Trajectory curve({testing::GrazingPiece(contact, gap, &random)});
         if (!space.IsFree(curve.pieces()[0].front())) continue;
         // Others are rounded, by less than this.
         const bool is_clear = pair.is_exact || std::abs(gap) > 5e-10;
@@ -294,39 +260,25 @@ TEST(CurveVerificationCampaign, ConfirmsCurvesOfSceneFamilies) {
   row.item = "verification";
   row.subject = "curves in time on scene families, on the solids";
   row.unit = "s";
-  const std::vector<std::string> families =
-      testing::IsLongCampaign()
-          ? std::vector<std::string>{"u_axis",  "plate",   "tunnel", "hole",
-                                     "keyhole", "bugtrap", "clutter"}
-          : std::vector<std::string>{"u_axis", "plate", "tunnel"};
-  const long seeds = testing::CampaignCases(2, 10);
-  for (const std::string& family : families) {
-    for (long seed = 1; seed <= seeds; ++seed) {
-      const Scene scene =
-          SceneSource(family).Load(static_cast<std::uint64_t>(seed));
-      const PlanResult plan =
-          SolveExactly(scene.workspace, scene.start, scene.goal).plan;
-      if (plan.status != PlanStatus::kSolved) continue;
-      const ContactSpace contact = BuildContactSpace(
-          scene.workspace.robot, JoinedObstacle(scene.workspace));
-      CurveOptions options;
-      options.limits.velocity.setConstant(1.0);
-      options.limits.acceleration.setConstant(2.0);
-      options.limits.jerk.setConstant(10.0);
-      const CurveSummary curve =
-          OptimizeCurve(FreeSpace({contact}, scene.workspace.bounds),
-                        contact.bounds().Diagonal(), plan.path, options);
-      ASSERT_FALSE(curve.trajectory.empty()) << family << ' ' << seed;
-      ++row.cases;
-      const Verification found =
-          Verifier(scene.workspace).VerifyCurve(curve.trajectory);
-      row.failures += found.verdict == Verdict::kConfirmed ? 0 : 1;
-      row.worst = std::max(row.worst, found.seconds);
-      EXPECT_EQ(found.verdict, Verdict::kConfirmed)
-          << family << ' ' << seed << ": " << found.reason;
-    }
+  for (const testing::PlannedScene& planned : testing::PlannedScenes()) {
+    const Workspace& workspace = planned.scene.workspace;
+    const ContactSpace contact =
+        BuildContactSpace(workspace.robot, JoinedObstacle(workspace));
+    CurveOptions options;
+    options.limits = testing::PlainLimits();
+    const CurveSummary curve =
+        OptimizeCurve(FreeSpace({contact}, workspace.bounds),
+                      contact.bounds().Diagonal(), planned.path, options);
+    ASSERT_FALSE(curve.trajectory.empty()) << planned.name;
+    ++row.cases;
+    const Verification found =
+        Verifier(workspace).VerifyCurve(curve.trajectory);
+    row.failures += found.verdict == Verdict::kConfirmed ? 0 : 1;
+    row.worst = std::max(row.worst, found.seconds);
+    EXPECT_EQ(found.verdict, Verdict::kConfirmed)
+        << planned.name << ": " << found.reason;
   }
-  EXPECT_GE(row.cases, 3 * seeds - 1);
+  EXPECT_GE(row.cases, 3 * testing::PlannedSceneSeeds() - 1);
   ReportCampaign(row);
 }
 

@@ -15,12 +15,10 @@
 #include "core/projection/phong_metric.h"
 #include "core/solid/solid.h"
 #include "planners/exact/contact_surface_planner.h"
-#include "planners/exact/exact_solution.h"
-#include "problems/scenes/scene.h"
-#include "problems/scenes/scene_source.h"
 #include "problems/shapes/shapes.h"
 #include "tests/support/campaign.h"
 #include "tests/support/metrics.h"
+#include "tests/support/planned_scenes.h"
 #include "tests/support/solid_tools.h"
 
 namespace phongpd {
@@ -189,39 +187,26 @@ TEST(VerificationCampaign, ConfirmsThePlannerOnSceneFamilies) {
   testing::CampaignRow row;
   row.item = "verification";
   row.subject = "paths and proofs of the complete planner on scene families";
-  const std::vector<std::string> families =
-      testing::IsLongCampaign()
-          ? std::vector<std::string>{"u_axis",  "plate",   "tunnel", "hole",
-                                     "keyhole", "bugtrap", "clutter"}
-          : std::vector<std::string>{"u_axis", "plate", "tunnel"};
-  const long seeds = testing::CampaignCases(2, 10);
-  for (const std::string& family : families) {
-    for (long seed = 1; seed <= seeds; ++seed) {
-      const Scene scene =
-          SceneSource(family).Load(static_cast<std::uint64_t>(seed));
-      const Verifier verifier(scene.workspace);
-      const PlanResult plan =
-          SolveExactly(scene.workspace, scene.start, scene.goal).plan;
-      if (plan.status != PlanStatus::kSolved) continue;
-      ++row.cases;
-      const Verification path = verifier.VerifyPath(plan.path);
-      row.failures += path.verdict == Verdict::kConfirmed ? 0 : 1;
-      EXPECT_EQ(path.verdict, Verdict::kConfirmed)
-          << family << ' ' << seed << ": " << path.reason;
-      // The same by way of a place in contact.
-      Path wrong = plan.path;
-      const TriangleMesh& obstacle = scene.workspace.obstacles.front();
-      wrong.insert(wrong.begin() + 1,
-                   obstacle.vertices.front() -
-                       scene.workspace.robot.mesh().vertices.front());
-      ++row.cases;
-      const bool is_caught =
-          verifier.VerifyPath(wrong).verdict != Verdict::kConfirmed;
-      row.failures += is_caught ? 0 : 1;
-      EXPECT_TRUE(is_caught) << family << ' ' << seed;
-    }
+  for (const testing::PlannedScene& planned : testing::PlannedScenes()) {
+    const Workspace& workspace = planned.scene.workspace;
+    const Verifier verifier(workspace);
+    ++row.cases;
+    const Verification path = verifier.VerifyPath(planned.path);
+    row.failures += path.verdict == Verdict::kConfirmed ? 0 : 1;
+    EXPECT_EQ(path.verdict, Verdict::kConfirmed)
+        << planned.name << ": " << path.reason;
+    // The same by way of a place in contact.
+    Path wrong = planned.path;
+    wrong.insert(wrong.begin() + 1,
+                 workspace.obstacles.front().mesh().vertices.front() -
+                     workspace.robot.mesh().vertices.front());
+    ++row.cases;
+    const bool is_caught =
+        verifier.VerifyPath(wrong).verdict != Verdict::kConfirmed;
+    row.failures += is_caught ? 0 : 1;
+    EXPECT_TRUE(is_caught) << planned.name;
   }
-  EXPECT_GT(row.cases, 2 * seeds);
+  EXPECT_GT(row.cases, 2 * testing::PlannedSceneSeeds());
   ReportCampaign(row);
 }
 

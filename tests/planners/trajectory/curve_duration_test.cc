@@ -7,11 +7,10 @@
 #include <limits>
 
 #include "constraints/curve_judge.h"
-#include "core/mesh/mesh_error.h"
-#include "planners/exact/contact_surface_planner.h"
 #include "planners/trajectory/curve_optimizer.h"
 #include "tests/support/campaign.h"
-#include "tests/support/path_problems.h"
+#include "tests/support/curve_problems.h"
+#include "tests/support/expect_refused.h"
 
 namespace phongpd {
 namespace {
@@ -21,9 +20,7 @@ using Path = std::vector<Vector3d>;
 
 CurveOptions Options() {
   CurveOptions options;
-  options.limits.velocity.setConstant(1.0);
-  options.limits.acceleration.setConstant(2.0);
-  options.limits.jerk.setConstant(10.0);
+  options.limits = testing::PlainLimits();
   return options;
 }
 
@@ -75,27 +72,21 @@ TEST(OptimizeCurveOfDuration, SaysTheLeastThatIsKnown) {
 TEST(OptimizeCurveOfDurationCampaign, IsCalmerThanTheFastestSlowedDown) {
   const long seeds = testing::CampaignCases(1, 10);
   long cases = 0, wrong = 0;
-  for (const std::string family : {"Uaxis", "L", "plate0.02", "hole", "torus",
-                                   "cone_axes", "clutter", "channel0.001"}) {
+  for (const std::string& family : testing::CurveFamilies()) {
     for (long seed = 1; seed <= seeds; ++seed) {
-      const testing::PathProblem problem =
-          testing::MakePathProblem(family, static_cast<int>(seed));
-      const ContactSpace contact = TakeAsContactSpace(problem.contact);
-      const FreeSpace space({contact});
-      const double diagonal = ComputeBounds(problem.contact).Diagonal();
-      const PlanResult plan =
-          ContactSurfacePlanner(contact).Plan(problem.start, problem.goal);
+      const testing::FreePath one =
+          testing::PlanFreePath(family, static_cast<std::uint64_t>(seed));
       CurveOptions options = Options();
       if (seed % 2 == 0) options.limits.by_norm = true;
       const CurveSummary fast =
-          OptimizeCurve(space, diagonal, plan.path, options);
+          OptimizeCurve(one.space, one.diagonal, one.path, options);
       for (const double factor : {1.05, 1.5, 3.0}) {
         options.duration = factor * fast.duration;
         const CurveSummary calm =
-            OptimizeCurve(space, diagonal, plan.path, options);
+            OptimizeCurve(one.space, one.diagonal, one.path, options);
         ++cases;
         ASSERT_FALSE(calm.trajectory.empty()) << family << ' ' << factor;
-        EXPECT_TRUE(CheckCurve(space, calm.trajectory).IsFree());
+        EXPECT_TRUE(CheckCurve(one.space, calm.trajectory).IsFree());
         EXPECT_TRUE(BoundLimitUse(calm.trajectory, options.limits).IsKept());
         EXPECT_NEAR(calm.trajectory.duration(), options.duration,
                     1e-9 * options.duration);
@@ -116,14 +107,8 @@ TEST(OptimizeCurveOfDurationCampaign, IsCalmerThanTheFastestSlowedDown) {
 
 TEST(OptimizeCurveOfDuration, RefusesWhatItDoesNotDo) {
   const auto expect_error = [](const CurveOptions& options) {
-    try {
-      options.Validate();
-      ADD_FAILURE() << "no error";
-    } catch (const InputError& error) {
-      const std::string text = error.what();
-      EXPECT_EQ(text.find("curve: duration: expected"), 0U) << text;
-      EXPECT_EQ(text.find('\n'), std::string::npos) << text;
-    }
+    testing::ExpectRefused([&] { options.Validate(); },
+                           "curve: duration: expected");
   };
   CurveOptions options = Options();
   for (const double bad : {-1.0, std::numeric_limits<double>::infinity(),

@@ -10,30 +10,21 @@
 #include <limits>
 #include <random>
 
-#include "constraints/curve_judge.h"
 #include "core/mesh/mesh_error.h"
-#include "planners/exact/contact_surface_planner.h"
 #include "planners/trajectory/curve_optimizer.h"
 #include "tests/support/campaign.h"
-#include "tests/support/path_problems.h"
+#include "tests/support/curve_problems.h"
+#include "tests/support/expect_refused.h"
 
 namespace phongpd {
 namespace {
 
 using Eigen::Vector3d;
 using internal::KnotCurve;
+using testing::PlainLimits;
 using Path = std::vector<Vector3d>;
 
-constexpr double kV = 1.0, kA = 2.0, kJ = 10.0;
-
-MotionLimits Limits(bool by_norm = false) {
-  MotionLimits limits;
-  limits.velocity.setConstant(kV);
-  limits.acceleration.setConstant(kA);
-  limits.jerk.setConstant(kJ);
-  limits.by_norm = by_norm;
-  return limits;
-}
+constexpr double kV = 1.0, kA = 2.0, kJ = 10.0;  // of PlainLimits
 
 CurveOptions With(const MotionLimits& limits) {
   CurveOptions options;
@@ -55,7 +46,7 @@ TEST(CurveEnds, StopsStraightInTheLeastTime) {
       state.v = speed * direction;
       const double stretch = 1.0 / direction.cwiseAbs().maxCoeff();
       const double time = StopTime(speed, kA * stretch, kJ * stretch);
-      const KnotCurve stop = internal::StopsFrom(state, Limits(), 1.0)[0];
+      const KnotCurve stop = internal::StopsFrom(state, PlainLimits(), 1.0)[0];
       EXPECT_NEAR(stop.Duration(), time, 2e-6 * time);
       EXPECT_LT((stop.knots.back().p - 0.5 * time * state.v).norm(),
                 2e-6 * time * speed);
@@ -66,7 +57,7 @@ TEST(CurveEnds, StopsStraightInTheLeastTime) {
   KnotCurve::State braking;
   braking.v = Vector3d(0.3, 0, 0);
   braking.a = Vector3d(-kA, 0, 0);
-  EXPECT_NEAR(internal::StopsFrom(braking, Limits(), 1.0)[0].Duration(),
+  EXPECT_NEAR(internal::StopsFrom(braking, PlainLimits(), 1.0)[0].Duration(),
               0.05 + kA / kJ, 2e-6);
 }
 
@@ -86,7 +77,7 @@ CurveEnd RandomEnd(bool by_norm, std::mt19937_64* random) {
   if (which == 4) end.velocity.setZero();
   if (which == 5) end.acceleration = -0.5 * end.velocity;
   for (int i = 0; i < 40; ++i) {  // until it is allowed
-    CurveOptions options = With(Limits(by_norm));
+    CurveOptions options = With(PlainLimits(by_norm));
     options.start = options.end = end;
     try {
       options.Validate();
@@ -112,23 +103,17 @@ void ExpectEnd(const CurvePiece& piece, bool is_first, const CurveEnd& end) {
 
 void ExpectCertified(const FreeSpace& space, const Path& path,
                      const CurveOptions& options, const CurveSummary& summary) {
-  const Trajectory& curve = summary.trajectory;
-  ASSERT_FALSE(curve.empty());
-  EXPECT_TRUE(CheckCurve(space, curve).IsFree());
-  EXPECT_TRUE(BoundLimitUse(curve, options.limits).IsKept());
-  EXPECT_EQ(curve.pieces().front().front(), path.front());
-  EXPECT_EQ(curve.pieces().back().back(), path.back());
-  ExpectEnd(curve.pieces().front(), true, options.start);
-  ExpectEnd(curve.pieces().back(), false, options.end);
-  EXPECT_LT(curve.JointGap(1), 1e-7 * kV);
-  EXPECT_LT(curve.JointGap(2), 1e-6 * kA);
-  EXPECT_LE(summary.duration, summary.stops_duration * (1.0 + 1e-9));
+  ASSERT_NO_FATAL_FAILURE(
+      testing::ExpectCertified(space, path, options.limits, summary));
+  const std::vector<CurvePiece>& pieces = summary.trajectory.pieces();
+  ExpectEnd(pieces.front(), true, options.start);
+  ExpectEnd(pieces.back(), false, options.end);
 }
 
 TEST(OptimizeCurveEnds, GoesThroughAtFullSpeed) {
   const FreeSpace space{std::vector<ContactSpace>{}};
   const Path path = {Vector3d::Zero(), Vector3d(3.0, 0.0, 0.0)};
-  CurveOptions options = With(Limits());
+  CurveOptions options = With(PlainLimits());
   options.effort = CurveEffort::kBalanced;
   options.start.velocity = options.end.velocity = Vector3d(kV, 0.0, 0.0);
   const CurveSummary summary = OptimizeCurve(space, 3.0, path, options);
@@ -155,7 +140,7 @@ TEST(OptimizeCurveEnds, AreKeptInTheOpen) {
     const Path path = {Vector3d(place(random), place(random), place(random)),
                        Vector3d(place(random), place(random), place(random))};
     const bool by_norm = i % 3 == 0;
-    CurveOptions options = With(Limits(by_norm));
+    CurveOptions options = With(PlainLimits(by_norm));
     if (i % 4 != 1) options.start = RandomEnd(by_norm, &random);
     if (i % 4 != 2) options.end = RandomEnd(by_norm, &random);
     const CurveSummary summary = OptimizeCurve(space, 2.0, path, options);
@@ -167,34 +152,19 @@ TEST(OptimizeCurveEnds, AreKeptInTheOpen) {
   EXPECT_GT(gains[gains.size() / 2], 1.2);
 }
 
-struct Case {
-  FreeSpace space{std::vector<ContactSpace>{}};
-  double diagonal = 1.0;
-  Path path;
-};
-
-Case MakeCase(const std::string& family, int seed) {
-  const testing::PathProblem problem = testing::MakePathProblem(family, seed);
-  const ContactSpace contact = TakeAsContactSpace(problem.contact);
-  const PlanResult plan =
-      ContactSurfacePlanner(contact).Plan(problem.start, problem.goal);
-  return {FreeSpace({contact}), ComputeBounds(problem.contact).Diagonal(),
-          plan.path};
-}
-
 // All of them certified, or refused where the straight stop does collide.
 TEST(OptimizeCurveEndsCampaign, AreKeptInClutterOrRefusedWithTheReason) {
   std::mt19937_64 random(3112);
   const long each = testing::CampaignCases(4, 40);
   const int seeds = testing::IsLongCampaign() ? 2 : 1;
   long certified = 0, refused = 0, wrong = 0;
-  for (const std::string family : {"Uaxis", "L", "plate0.02", "hole", "torus",
-                                   "cone_axes", "clutter", "channel0.001"}) {
+  for (const std::string& family : testing::CurveFamilies()) {
     for (int seed = 1; seed <= seeds; ++seed) {
-      const Case one = MakeCase(family, seed);
+      const testing::FreePath one =
+          testing::PlanFreePath(family, static_cast<std::uint64_t>(seed));
       for (long i = 0; i < each; ++i) {
         const bool by_norm = i % 3 == 0;
-        CurveOptions options = With(Limits(by_norm));
+        CurveOptions options = With(PlainLimits(by_norm));
         if (i % 4 != 1) options.start = RandomEnd(by_norm, &random);
         if (i % 4 != 2) options.end = RandomEnd(by_norm, &random);
         if (i % 2 == 1) {  // long stops
@@ -246,7 +216,7 @@ TEST(OptimizeCurveEndsCampaign, AreKeptInClutterOrRefusedWithTheReason) {
 }
 
 TEST(OptimizeCurveEnds, SayTheDistanceOfAStopThatIsTooLong) {
-  const Case one = MakeCase("plate0.1", 1);
+  const testing::FreePath one = testing::PlanFreePath("plate0.1", 1);
   // Straight at the plate, from a place that is closer than a stop is long.
   const Vector3d start = one.path.front();
   Vector3d towards = one.path.back() - start;
@@ -254,7 +224,7 @@ TEST(OptimizeCurveEnds, SayTheDistanceOfAStopThatIsTooLong) {
   const MotionCheck hit = one.space.Check(start, one.path.back());
   ASSERT_LT(hit.fraction, 1.0);
   const double gap = hit.fraction * (one.path.back() - start).norm();
-  CurveOptions options = With(Limits(true));
+  CurveOptions options = With(PlainLimits(true));
   options.limits.velocity.setConstant(10.0);
   options.limits.jerk.setConstant(1e4);
   // As fast as needs twice the gap: d = v (v/a + a/j)/2.
@@ -274,36 +244,29 @@ TEST(OptimizeCurveEnds, SayTheDistanceOfAStopThatIsTooLong) {
 }
 
 void ExpectError(const CurveOptions& options, const std::string& part) {
-  try {
-    options.Validate();
-    ADD_FAILURE() << "no error that says: " << part;
-  } catch (const InputError& error) {
-    const std::string text = error.what();
-    EXPECT_NE(text.find(part), std::string::npos) << text;
-    EXPECT_EQ(text.find('\n'), std::string::npos) << text;
-  }
+  testing::ExpectRefused([&] { options.Validate(); }, part);
 }
 
 TEST(OptimizeCurveEnds, AreRefusedBeyondTheLimits) {
-  CurveOptions options = With(Limits());
+  CurveOptions options = With(PlainLimits());
   options.start.velocity = Vector3d(0.0, -1.1, 0.0);
   ExpectError(options, "start velocity of y: expected at most the limit, 1");
-  options = With(Limits(true));
+  options = With(PlainLimits(true));
   options.end.velocity = Vector3d(0.8, 0.8, 0.0);
   ExpectError(options, "end velocity: expected at most the limit, 1");
-  options = With(Limits());
+  options = With(PlainLimits());
   options.end.acceleration = Vector3d(0.0, 0.0, 2.1);
   ExpectError(options, "end acceleration of z");
   // Faster and faster, and no time left to stop that.
-  options = With(Limits());
+  options = With(PlainLimits());
   options.start = {Vector3d(0.95, 0, 0), Vector3d(1.5, 0, 0)};
   ExpectError(options, "start acceleration of x: expected one that can fade");
-  options = With(Limits());
+  options = With(PlainLimits());
   options.end = {Vector3d(0.95, 0, 0), Vector3d(1.5, 0, 0)};
   options.Validate();  // that is what it comes from
   options.end.acceleration *= -1.0;
   ExpectError(options, "end acceleration of x: expected one that can fade");
-  options = With(Limits());
+  options = With(PlainLimits());
   options.end.velocity[1] = std::numeric_limits<double>::quiet_NaN();
   ExpectError(options, "NaN");
 }

@@ -8,11 +8,11 @@
 #include <limits>
 #include <random>
 
-#include "constraints/curve_judge.h"
-#include "core/mesh/mesh_error.h"
 #include "planners/exact/contact_surface_planner.h"
 #include "planners/trajectory/curve_optimizer.h"
 #include "tests/support/campaign.h"
+#include "tests/support/curve_problems.h"
+#include "tests/support/expect_refused.h"
 #include "tests/support/path_problems.h"
 #include "tests/support/solid_tools.h"
 
@@ -24,10 +24,7 @@ using Path = std::vector<Vector3d>;
 
 CurveOptions Options(bool by_norm = false) {
   CurveOptions options;
-  options.limits.velocity.setConstant(1.0);
-  options.limits.acceleration.setConstant(2.0);
-  options.limits.jerk.setConstant(10.0);
-  options.limits.by_norm = by_norm;
+  options.limits = testing::PlainLimits(by_norm);
   options.effort = CurveEffort::kFast;
   return options;
 }
@@ -73,17 +70,9 @@ void ExpectPassed(const Trajectory& curve, const std::vector<CurveVia>& via) {
 
 void ExpectCertified(const FreeSpace& space, const Path& path,
                      const CurveOptions& options, const CurveSummary& summary) {
-  const Trajectory& curve = summary.trajectory;
-  ASSERT_FALSE(curve.empty());
-  EXPECT_TRUE(CheckCurve(space, curve).IsFree());
-  EXPECT_TRUE(BoundLimitUse(curve, options.limits).IsKept());
-  EXPECT_EQ(curve.pieces().front().front(), path.front());
-  EXPECT_EQ(curve.pieces().back().back(), path.back());
-  EXPECT_EQ(summary.duration, curve.duration());
-  EXPECT_LT(curve.JointGap(1), 1e-7);
-  EXPECT_LT(curve.JointGap(2), 1e-6);
-  EXPECT_LE(summary.duration, summary.stops_duration * (1.0 + 1e-9));
-  ExpectPassed(curve, options.via);
+  ASSERT_NO_FATAL_FAILURE(
+      testing::ExpectCertified(space, path, options.limits, summary));
+  ExpectPassed(summary.trajectory, options.via);
 }
 
 TEST(OptimizeCurveVia, PassesAPlaceFasterThanItStopsThere) {
@@ -132,8 +121,7 @@ TEST(OptimizeCurveViaCampaign, PassesRandomPlacesInClutter) {
   std::mt19937_64 random(3121);
   const long each = testing::CampaignCases(3, 40);
   long cases = 0, wrong = 0;
-  for (const std::string family : {"Uaxis", "L", "plate0.02", "hole", "torus",
-                                   "cone_axes", "clutter", "channel0.001"}) {
+  for (const std::string& family : testing::CurveFamilies()) {
     const testing::PathProblem problem = testing::MakePathProblem(family, 1);
     const ContactSpace contact = TakeAsContactSpace(problem.contact);
     const FreeSpace space({contact});
@@ -174,14 +162,9 @@ TEST(OptimizeCurveViaCampaign, PassesRandomPlacesInClutter) {
 
 void ExpectError(const CurveOptions& options, const std::string& part) {
   const FreeSpace space{std::vector<ContactSpace>{}};
-  try {
-    OptimizeCurve(space, 1.0, {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}, options);
-    ADD_FAILURE() << "no error that says: " << part;
-  } catch (const InputError& error) {
-    const std::string text = error.what();
-    EXPECT_NE(text.find(part), std::string::npos) << text;
-    EXPECT_EQ(text.find('\n'), std::string::npos) << text;
-  }
+  const Path path = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}};
+  testing::ExpectRefused([&] { OptimizeCurve(space, 1.0, path, options); },
+                         part);
 }
 
 TEST(OptimizeCurveVia, RefusesWhatIsNoPlaceOnTheWay) {
