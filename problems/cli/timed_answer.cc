@@ -40,10 +40,7 @@ double RateOf(const TimedFlags& flags) {
 // jerk j, −j, j by 1 : 2 : 1.
 double LeastDuration(const Eigen::Vector3d& way, const CurveOptions& options) {
   const MotionLimits& limits = options.limits;
-  const auto rests = [](const CurveEnd& end) {
-    return end.velocity.isZero(0.0) && end.acceleration.isZero(0.0);
-  };
-  const bool has_rests = rests(options.start) && rests(options.end);
+  const bool has_rests = options.start.IsAtRest() && options.end.IsAtRest();
   double least = 0.0;
   for (int k = 0; k < 3; ++k) {
     const double d = std::abs(way[k]);
@@ -59,10 +56,9 @@ double LeastDuration(const Eigen::Vector3d& way, const CurveOptions& options) {
 // many rows however fast that is.
 void RequireFewRows(const Scene& scene, const CurveOptions& options,
                     double rate) {
-  constexpr double kMostRows = 1e7;  // of TimedCsv
   const double least = LeastDuration(scene.goal - scene.start, options);
-  if (least * rate <= kMostRows) return;
-  throw InputError("--rate: expected at most " + FormatDouble(kMostRows) +
+  if (least * rate <= kMostTimedRows) return;
+  throw InputError("--rate: expected at most " + FormatDouble(kMostTimedRows) +
                    " rows for a motion that takes " + Rounded(least) +
                    " s at least, found " + FormatDouble(rate) + " Hz");
 }

@@ -237,10 +237,10 @@ Json TimedRow(const Scene& scene, const World& world,
 std::string TimedCsv(const Trajectory& trajectory, double rate) {
   std::string text = "t,x,y,z,vx,vy,vz,ax,ay,az\n";
   if (trajectory.empty()) return text;
-  constexpr double kMostRows = 1e7;
-  if (trajectory.duration() * rate > kMostRows) {
-    throw InputError("--rate: expected at most " + FormatDouble(kMostRows) +
-                     " rows for the " + Rounded(trajectory.duration()) +
+  if (trajectory.duration() * rate > kMostTimedRows) {
+    throw InputError("--rate: expected at most " +
+                     FormatDouble(kMostTimedRows) + " rows for the " +
+                     Rounded(trajectory.duration()) +
                      " s of the motion, found " + FormatDouble(rate) + " Hz");
   }
   for (const Trajectory::Sample& sample : trajectory.Samples(rate)) {

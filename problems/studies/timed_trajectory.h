@@ -56,8 +56,12 @@ nlohmann::ordered_json TimedRow(const Scene& scene, const World& world,
                                 const CurveOptions& options,
                                 const TimedTrajectory& timed);
 
+// No more rows in a table of a motion.
+inline constexpr double kMostTimedRows = 1e7;
+
 // "t,x,y,z,vx,vy,vz,ax,ay,az" at 0, 1/rate, 2/rate, ... and at the end; of an
-// empty trajectory the names only.  Throws InputError for more than 10⁷ rows.
+// empty trajectory the names only.  Throws InputError for more than
+// kMostTimedRows.
 std::string TimedCsv(const Trajectory& trajectory, double rate);
 
 }  // namespace phongpd
