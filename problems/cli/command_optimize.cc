@@ -169,8 +169,7 @@ int OptimizeInTime(const OptimizeFlags& flags, const MotionLimits& limits,
   for (const char* name :
        {"--metric", "--smoothing-length", "--jacobian", "--start",
         "--start-noise", "--routes", "--line", "--rows", "--mu-strategy",
-        "--polish", "--per-obstacle", "--runs", "--html", "--svg",
-        "--verify"}) {
+        "--polish", "--per-obstacle", "--runs", "--html", "--svg"}) {
     if (flags.app->count(name) == 0) continue;
     throw InputError(std::string(name) +
                      ": expected none for a motion in time, found one; with "
@@ -185,6 +184,7 @@ int OptimizeInTime(const OptimizeFlags& flags, const MotionLimits& limits,
   timed.no_cache = flags.no_cache;
   timed.has_margin = !flags.margin.empty();
   timed.require = flags.require;
+  timed.verify = flags.verify;
   timed.world = flags.limits;
   return AnswerInTime(scene, limits, timed,
                       [&](const World& world, const CurveOptions& options) {

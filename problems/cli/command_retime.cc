@@ -92,6 +92,7 @@ Command AddRetime(CLI::App* app) {
                   "Bézier pieces as JSON, or FILE.csv: rows in time (a "
                   "sentence is all if not set)")
       ->type_name("FILE");
+  AddVerify(app, &flags->verify);
   AddJson(app, &flags->json, "The JSON on standard output without --output");
   AddNoCache(app, &flags->no_cache);
   AddExamples(app, {"phongpd retime path.csv --scene scene.json --limits "

@@ -10,6 +10,7 @@
 #include "problems/cli/flags.h"
 #include "problems/output/json_text.h"
 #include "problems/output/text.h"
+#include "problems/studies/answer_check.h"
 #include "problems/studies/clearance_wish.h"
 
 namespace phongpd::cli {
@@ -76,8 +77,8 @@ std::string TimedSentence(const TimedTrajectory& timed, const TimedJson& row) {
            more;
   }
   return name + Rounded(timed.curve.duration, 6) + " s, " +
-         (timed.is_certified ? "certified" : "not certified") + ", " +
-         row.at("status").get<std::string>() + ", clearance " +
+         (row.at("certified").get<bool>() ? "certified" : "not certified") +
+         ", " + row.at("status").get<std::string>() + ", clearance " +
          Rounded(timed.curve.clearance) +
          (unit.is_null() ? "unit" : unit.get<std::string>()) +
          " at least; of the limits " + Percent(timed.use.velocity) +
@@ -133,6 +134,8 @@ int AnswerInTime(
   Progress("a motion in time");
   const TimedTrajectory timed = ask(world, options);
   TimedJson row = TimedRow(scene, world, options, timed);
+  AnswerCheck check(flags.verify);
+  check.Judge(scene, world, ClaimsOf(timed), &row);
   TellClearance(world, scene, wish, &row);
   const WorldSpaces* const built = world.Built(SpaceLayout::kSealed);
   TellAboutSpaces(world, built == nullptr ? 0 : built->triangles);
@@ -141,6 +144,7 @@ int AnswerInTime(
                                    : JsonText(row) + '\n');
   }
   CommitAndTell(&outputs, TimedSentence(timed, row));
+  check.RequireNoFailure();
   return row.at("solved").get<bool>() ? kDone : kNoAnswer;
 }
 

@@ -23,6 +23,7 @@ struct TimedFlags {
   bool no_cache = false;
   bool has_margin = false;  // by a flag
   bool require = false;     // the margin
+  bool verify = true;       // on the solids
   WorldLimits world;
 };
 

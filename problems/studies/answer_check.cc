@@ -13,7 +13,9 @@ namespace {
 std::optional<Verification> Verify(const Scene& scene, const World& world,
                                    const AnswerClaims& claims) {
   const bool is_blocked = claims.start_is_blocked || claims.goal_is_blocked;
-  if (claims.path.empty() && !claims.proves_separation && !is_blocked) {
+  const bool has_curve = !claims.curve.empty();
+  const bool has_path = has_curve || !claims.path.empty();
+  if (!has_path && !claims.proves_separation && !is_blocked) {
     return std::nullopt;
   }
   const Verifier verifier(scene.workspace);
@@ -21,18 +23,31 @@ std::optional<Verification> Verify(const Scene& scene, const World& world,
     return verifier.VerifyBlocked(claims.start_is_blocked ? scene.start
                                                           : scene.goal);
   }
-  if (claims.path.empty()) {
+  if (!has_path) {
     const ContactSpace& surface =
         claims.surface ? *claims.surface : world.Sealed();
     return verifier.VerifySeparation(surface.mesh(), scene.start, scene.goal);
   }
-  if (claims.path.front() != scene.start || claims.path.back() != scene.goal) {
+  const Eigen::Vector3d& first =
+      has_curve ? claims.curve.pieces().front().front() : claims.path.front();
+  const Eigen::Vector3d& last =
+      has_curve ? claims.curve.pieces().back().back() : claims.path.back();
+  if (first != scene.start || last != scene.goal) {
     Verification elsewhere;
     elsewhere.verdict = Verdict::kRefuted;
     elsewhere.reason = "the path does not lead from start to goal";
     return elsewhere;
   }
-  return verifier.VerifyPath(claims.path);
+  return has_curve ? verifier.VerifyCurve(claims.curve)
+                   : verifier.VerifyPath(claims.path);
+}
+
+// Of a planner's own status.
+void SayBlockedEnds(const std::string& status, AnswerClaims* claims) {
+  claims->start_is_blocked = status == ToString(PlanStatus::kInvalidStart) ||
+                             status == ToString(PlanStatus::kStartOutOfBounds);
+  claims->goal_is_blocked = status == ToString(PlanStatus::kInvalidGoal) ||
+                            status == ToString(PlanStatus::kGoalOutOfBounds);
 }
 
 }  // namespace
@@ -56,12 +71,17 @@ AnswerClaims ClaimsOf(const PlanningResult& result) {
   if (result.solved) claims.path = result.numbers.path;
   claims.proves_separation = result.infeasible_proved;
   if (result.explored) claims.surface = result.explored->surface;
-  claims.start_is_blocked =
-      result.status == ToString(PlanStatus::kInvalidStart) ||
-      result.status == ToString(PlanStatus::kStartOutOfBounds);
-  claims.goal_is_blocked =
-      result.status == ToString(PlanStatus::kInvalidGoal) ||
-      result.status == ToString(PlanStatus::kGoalOutOfBounds);
+  SayBlockedEnds(result.status, &claims);
+  return claims;
+}
+
+AnswerClaims ClaimsOf(const TimedTrajectory& timed) {
+  AnswerClaims claims;
+  if (timed.is_certified) claims.curve = timed.curve.trajectory;
+  claims.proves_separation =
+      timed.status == ToString(PlanStatus::kInfeasibleProved);
+  claims.surface = timed.surface;
+  SayBlockedEnds(timed.status, &claims);
   return claims;
 }
 
@@ -79,8 +99,8 @@ bool AnswerCheck::Judge(const Scene& scene, const World& world,
   for (const char* key : {"status", "status_class"}) {
     if (row->contains(key)) (*row)[key] = "verification_failed";
   }
-  for (const char* key :
-       {"solved", "infeasible_proved", "collision_free", "solver_path_free"}) {
+  for (const char* key : {"solved", "infeasible_proved", "collision_free",
+                          "solver_path_free", "certified"}) {
     if (row->contains(key)) (*row)[key] = false;
   }
   (*row)["reason"] = found->reason;

@@ -168,6 +168,7 @@ TimedTrajectory PlanInTime(const Scene& scene, const World& world,
   timed.status = plan.status;
   timed.reason = plan.reason;
   timed.plan_seconds = plan.numbers.seconds;
+  if (plan.explored) timed.surface = plan.explored->surface;
   if (!plan.solved) return timed;
   timed.path = plan.numbers.path;
   FindCurve(plan.model == "window" ? *world.Convolution().free_space

@@ -3,10 +3,12 @@
 
 #include <Eigen/Core>
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "constraints/trajectory.h"
+#include "core/contact/contact_space.h"
 #include "planners/trajectory/curve_optimizer.h"
 #include "planners/world/world.h"
 #include "problems/scenes/scene.h"
@@ -25,7 +27,9 @@ struct TimedTrajectory {
   std::string status;                 // of the curve, or what came before it
   std::string reason;                 // one sentence where the status needs one
   std::vector<Eigen::Vector3d> path;  // that it began with
-  CurveSummary curve;                 // no trajectory: none was found
+  // What a proof that there is none rests on; none: the world's sealed space.
+  std::optional<ContactSpace> surface;
+  CurveSummary curve;  // no trajectory: none was found
   // Free and within the limits for all t, judged once more as it is.
   bool is_certified = false;
   LimitUse use;  // upper bounds

@@ -86,6 +86,7 @@ class CliTimed : public CliScenes {
                          const std::array<Vector3d, 3>& limits) {
     EXPECT_EQ(row.at("certified"), true);
     EXPECT_EQ(row.at("solved"), true);
+    EXPECT_EQ(row.at("verified"), "confirmed");
     const std::vector<Piece> pieces = PiecesOf(row);
     ASSERT_FALSE(pieces.empty());
     EXPECT_EQ(pieces.front().points.front(), start);

@@ -33,26 +33,52 @@ TEST_F(CliVerify, ConfirmsPathsProofsAndBlockedEnds) {
   }
 }
 
+TEST_F(CliVerify, JudgesAnswersInTime) {
+  const auto answer = [&](const std::string& command, int code) {
+    const Outcome outcome = Run(command + " --limits 1,2,10 --json");
+    EXPECT_EQ(outcome.code, code) << outcome.err;
+    return Json::parse(outcome.out);
+  };
+  const std::string good = "optimize " + Scene(TwoObstacles());
+  EXPECT_EQ(answer(good, 0)["verified"], "confirmed");
+  EXPECT_TRUE(answer(good + " --no-verify", 0)["verified"].is_null());
+  const std::string shut = "optimize " + Scene(ShutOff(), "shut.json");
+  for (const std::string model : {"full", "window"}) {
+    const Json proof = answer(shut + " --model " + model, 1);
+    EXPECT_EQ(proof["status"], "infeasible_proved");
+    EXPECT_EQ(proof["verified"], "confirmed") << model;
+  }
+  Json blocked = TwoObstacles();
+  blocked["goal"] = {0, 0, 0};
+  EXPECT_EQ(answer("optimize " + Scene(blocked, "blocked.json"), 1)["verified"],
+            "confirmed");
+}
+
 // What a wrong contact space or a broken planner would claim.
 TEST(AnswerCheck, TakesBackWhatTheSolidsRefute) {
   const Scene scene = SceneSource("u_axis").Load();
   const World world(scene.workspace, scene.name);
   using Json = nlohmann::ordered_json;
-  const Json written = {{"status", "solved"},     {"reason", ""},
-                        {"solved", true},         {"infeasible_proved", true},
-                        {"collision_free", true}, {"seconds", Json::object()}};
-  AnswerClaims through, proof, blocked, elsewhere;
+  const Json written = {{"status", "solved"},       {"reason", ""},
+                        {"solved", true},           {"infeasible_proved", true},
+                        {"collision_free", true},   {"certified", true},
+                        {"seconds", Json::object()}};
+  AnswerClaims through, proof, blocked, elsewhere, curve, other_curve;
   through.path = {scene.start, scene.goal};  // through the arms of the U
   proof.proves_separation = true;
   blocked.start_is_blocked = true;
   elsewhere.path = {scene.start};
-  for (const AnswerClaims& claims : {through, proof, blocked, elsewhere}) {
+  curve.curve = Trajectory::Along({scene.start, scene.goal});
+  other_curve.curve = Trajectory::Along({scene.goal, scene.start});
+  for (const AnswerClaims& claims :
+       {through, proof, blocked, elsewhere, curve, other_curve}) {
     AnswerCheck check(true);
     Json row = written;
     EXPECT_FALSE(check.Judge(scene, world, claims, &row));
     EXPECT_EQ(row["verified"], "refuted");
     EXPECT_EQ(row["status"], "verification_failed");
-    for (const char* key : {"solved", "infeasible_proved", "collision_free"}) {
+    for (const char* key :
+         {"solved", "infeasible_proved", "collision_free", "certified"}) {
       EXPECT_EQ(row[key], false) << key;
     }
     EXPECT_FALSE(row["reason"].get<std::string>().empty());
