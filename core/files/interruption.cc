@@ -30,6 +30,9 @@ enum Phase { kRunning, kSignalsWait, kDying };
 std::atomic<int> phase{kRunning};
 std::atomic<int> waiting_signal{0};
 
+enum Question { kNobodyAnswers, kMayAsk, kHasAsked };
+std::atomic<int> question{kNobodyAnswers};
+
 static_assert(std::atomic<int>::is_always_lock_free);
 
 std::mutex one_waits;
@@ -72,6 +75,11 @@ void Die(int signal) {
 
 extern "C" void OnSignal(int signal) {
   const int error = errno;
+  int may_ask = kMayAsk;
+  if (signal == SIGINT &&
+      question.compare_exchange_strong(may_ask, kHasAsked)) {
+    return;
+  }
   int running = kRunning;
   if (phase.compare_exchange_strong(running, kDying)) {
     Die(signal);
@@ -164,5 +172,11 @@ SignalsWait::~SignalsWait() {
   one_waits.unlock();
   if (signal != 0) raise(signal);
 }
+
+InterruptAsks::InterruptAsks() { question.store(kMayAsk); }
+
+InterruptAsks::~InterruptAsks() { question.store(kNobodyAnswers); }
+
+bool InterruptAsks::HasAsked() const { return question.load() == kHasAsked; }
 
 }  // namespace phongpd::internal

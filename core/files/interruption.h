@@ -49,4 +49,16 @@ class SignalsWait {
   SignalsWait& operator=(const SignalsWait&) = delete;
 };
 
+// While this lives the first Ctrl-C (SIGINT) asks for the best answer so far
+// instead of ending the process, as the next one does.  One at a time.
+class InterruptAsks {
+ public:
+  InterruptAsks();
+  ~InterruptAsks();
+  InterruptAsks(const InterruptAsks&) = delete;
+  InterruptAsks& operator=(const InterruptAsks&) = delete;
+
+  bool HasAsked() const;
+};
+
 }  // namespace phongpd::internal

@@ -151,6 +151,34 @@ TEST_F(TemporaryFileTest, SignalsWaitForAChangeInProgress) {
   EXPECT_EQ(Names(), std::set<std::string>{"whole"});
 }
 
+TEST_F(TemporaryFileTest, TheFirstCtrlCAsksAndTheNextEnds) {
+  const int again = EndWithTemporary([] {
+    const InterruptAsks ctrl_c;
+    raise(SIGINT);
+    raise(SIGINT);
+  });
+  EXPECT_TRUE(WIFSIGNALED(again));
+  EXPECT_EQ(WTERMSIG(again), SIGINT);
+  const int other = EndWithTemporary([] {
+    const InterruptAsks ctrl_c;
+    raise(SIGTERM);
+  });
+  EXPECT_EQ(WTERMSIG(other), SIGTERM);
+  const int later = EndWithTemporary([] {
+    { const InterruptAsks ctrl_c; }
+    raise(SIGINT);
+  });
+  EXPECT_EQ(WTERMSIG(later), SIGINT);
+  EXPECT_TRUE(Names().empty());
+  const int asked = EndWithTemporary([] {
+    const InterruptAsks ctrl_c;
+    if (ctrl_c.HasAsked()) abort();
+    raise(SIGINT);
+    if (!ctrl_c.HasAsked()) abort();
+  });
+  EXPECT_TRUE(WIFEXITED(asked));
+}
+
 TEST_F(TemporaryFileTest, FailuresNameTheirReason) {
   TemporaryFile file(open_, "x-");
   fs::create_directory(folder_ / "x");
