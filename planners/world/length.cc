@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "core/mesh/mesh_error.h"
 #include "core/number_text.h"
@@ -91,6 +92,14 @@ const std::vector<std::string>& UnitNames() {
   static const std::vector<std::string> names = {"nm", "um", "mm", "cm", "dm",
                                                  "m",  "km", "in", "ft"};
   return names;
+}
+
+double MetresOf(const std::string& unit) {
+  static const std::map<std::string, double> metres = {
+      {"nm", 1e-9}, {"um", 1e-6}, {"mm", 1e-3},   {"cm", 1e-2},  {"dm", 1e-1},
+      {"m", 1.0},   {"km", 1e3},  {"in", 0.0254}, {"ft", 0.3048}};
+  const auto found = metres.find(unit);
+  return found == metres.end() ? 1.0 : found->second;
 }
 
 std::string UnitNamedIn(const std::string& text) {

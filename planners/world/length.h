@@ -49,6 +49,9 @@ class Length {
 // are; nothing is converted.
 const std::vector<std::string>& UnitNames();
 
+// Of one of them, in metres; 1 for any other text.
+double MetresOf(const std::string& unit);
+
 // The one that `text` ends with, "mm" of "20mm"; empty: none.
 std::string UnitNamedIn(const std::string& text);
 

@@ -33,8 +33,7 @@ struct OptimizeFlags : SeededRunFlags {
   std::string mu_strategy = "adaptive";
   std::string polish;
   std::string noise = "0";
-  std::string in_time;  // limits of motion
-  std::string rate;
+  MotionWords motion;
   int routes = 0;  // the preset's
   int rows = TrajectoryOptions().rows;
   bool line = true;
@@ -176,8 +175,9 @@ int OptimizeInTime(const OptimizeFlags& flags, const MotionLimits& limits,
                      "--limits none the answer is a path without time");
   }
   Override(flags, &scene);
+  SetTask(flags.motion, &scene);
   TimedFlags timed;
-  timed.rate = flags.rate;
+  timed.motion = flags.motion;
   timed.time_limit = flags.time_limit;
   timed.output = flags.output;
   timed.json = flags.json;
@@ -201,12 +201,10 @@ int Optimize(const OptimizeFlags& flags) {
     return seed == 0 ? source.Load() : source.Load(seed);
   };
   const Scene first = load(flags.seed);
-  if (const auto limits = LimitsOf(flags.in_time, first)) {
+  if (const auto limits = LimitsOf(flags.motion, first)) {
     return OptimizeInTime(flags, *limits, first);
   }
-  if (!flags.rate.empty()) {
-    throw InputError("--rate: expected --limits with it, found none");
-  }
+  RequireNoMotion(flags.motion);
   SeededRuns runs(
       flags, source,
       "scene, metric, start, seed: status, iterations, objective, "
@@ -321,10 +319,10 @@ Command AddOptimize(CLI::App* app) {
       ->check(CLI::IsMember({"never", "needed", "always"}));
   app->add_flag("--per-obstacle", flags->per_obstacle,
                 "One contact space for each obstacle instead of a merged one");
-  AddTimed(app,
-           "a certified curve in time instead of a path; scene's own if not "
-           "set; none: a path",
-           &flags->in_time, &flags->rate);
+  AddMotion(app,
+            "a certified curve in time instead of a path; scene's own if not "
+            "set; none: a path",
+            "scene's own if not set", &flags->motion);
   AddModel(app, "optimise",
            "where no metric is followed: rrt-connect and the corridor",
            &flags->model);
@@ -338,8 +336,8 @@ Command AddOptimize(CLI::App* app) {
   AddRowOutput(app, flags.get());
   CLI::Option* const output = app->get_option("--output");
   output->description(output->get_description() +
-                      ". With --limits Bézier pieces as JSON, or FILE.csv: "
-                      "rows in time");
+                      ". With --limits Bézier pieces as JSON, rows in time as "
+                      "FILE.csv or, for ROS 2, FILE.yaml, lines as FILE.gcode");
   AddPictures(app, flags.get());
   AddVerify(app, &flags->verify);
   AddNoCache(app, &flags->no_cache);
@@ -348,6 +346,8 @@ Command AddOptimize(CLI::App* app) {
             "phongpd optimize scene.json --margin 2unit --output run.jsonl "
             "--html run.html",
             "phongpd optimize u_axis --limits 1,2,10 --output trajectory.csv",
+            "phongpd optimize plate_hole --limits 1,2,10 --via "
+            "0,0,0,0.01unit,0.5 --json",
             "phongpd optimize plate:thickness=0.02 --start straight --polish "
             "never --seed 1 --runs 10 --json"});
   return [flags] { return Optimize(*flags); };

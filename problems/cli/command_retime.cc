@@ -41,6 +41,9 @@ int Retime(RetimeFlags flags) {
   Scene scene = source.Load();
   scene.start = path.front();
   scene.goal = path.back();
+  scene.via.clear();
+  scene.duration = 0.0;
+  SetTask(flags.motion, &scene);
   SetPreset(flags.preset, &scene);
   flags.has_margin = !flags.margin.empty();
   if (flags.has_margin) {
@@ -48,7 +51,7 @@ int Retime(RetimeFlags flags) {
         ParseClearance(flags.margin, "--margin",
                        ContactBounds(scene.workspace).Diagonal(), scene.unit);
   }
-  const std::optional<MotionLimits> limits = LimitsOf(flags.limits, scene);
+  const std::optional<MotionLimits> limits = LimitsOf(flags.motion, scene);
   if (!limits) {
     throw InputError(
         "--limits: expected V,A,J, or limits in the scene, found none");
@@ -74,7 +77,10 @@ Command AddRetime(CLI::App* app) {
       ->type_name("SCENE");
   AddRoot(app, &flags->root);
   AddRepair(app, &flags->repair);
-  AddTimed(app, "scene's own if not set", &flags->limits, &flags->rate);
+  AddMotion(app, "scene's own if not set", "none if not set, not the scene's",
+            &flags->motion);
+  CLI::Option* const via = app->get_option("--via");
+  via->description(via->get_description() + "; a point of the path");
   AddPreset(app, kRetimePresetHelp, &flags->preset);
   app->add_option("--margin", flags->margin,
                   "Distance to keep where there is room, more than 0 and at "
@@ -89,8 +95,9 @@ Command AddRetime(CLI::App* app) {
                   "Limit of the search for a faster curve, seconds")
       ->type_name("S");
   app->add_option("--output", flags->output,
-                  "Bézier pieces as JSON, or FILE.csv: rows in time (a "
-                  "sentence is all if not set)")
+                  "Bézier pieces as JSON, rows in time as FILE.csv or, for "
+                  "ROS 2, FILE.yaml, lines as FILE.gcode (a sentence is all if "
+                  "not set)")
       ->type_name("FILE");
   AddVerify(app, &flags->verify);
   AddJson(app, &flags->json, "The JSON on standard output without --output");

@@ -25,15 +25,6 @@ CLI::Validator Numbers(const std::string& range, const Test& is_good) {
       "");
 }
 
-// In small letters, with the point.
-std::string EndingOf(const std::string& path) {
-  std::string ending = std::filesystem::path(path).extension().string();
-  for (char& c : ending) {
-    c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  }
-  return ending;
-}
-
 bool IsNoFile(const std::string& path) {
   return path.empty() || path == kStandardOutput || path.rfind("/dev/", 0) == 0;
 }
@@ -42,6 +33,14 @@ bool IsNoFile(const std::string& path) {
 
 void AddJson(CLI::App* app, bool* json, const std::string& what) {
   app->add_flag("--json", *json, what);
+}
+
+std::string EndingOf(const std::string& path) {
+  std::string ending = std::filesystem::path(path).extension().string();
+  for (char& c : ending) {
+    c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  }
+  return ending;
 }
 
 std::string AnswerTarget(const std::string& output) {

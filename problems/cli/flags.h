@@ -17,6 +17,9 @@ void AddJson(CLI::App* app, bool* json, const std::string& what);
 // The name a command writes its answer to: standard output for none.
 std::string AnswerTarget(const std::string& output);
 
+// How the name of a file ends, in small letters, with the point.
+std::string EndingOf(const std::string& path);
+
 // How an answer is written: as the name of its file ends, in .csv, .json or
 // .jsonl; else as JSON where --json asks for it, or as the command usually
 // does. Throws InputError where --json meets a .csv.

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "core/files/interruption.h"
 #include "core/mesh/mesh_error.h"
 #include "problems/cli/command.h"
 #include "problems/cli/flags.h"
@@ -12,6 +13,7 @@
 #include "problems/output/text.h"
 #include "problems/studies/answer_check.h"
 #include "problems/studies/clearance_wish.h"
+#include "problems/studies/motion_file.h"
 
 namespace phongpd::cli {
 namespace {
@@ -21,16 +23,41 @@ using TimedJson = nlohmann::ordered_json;
 constexpr double kDefaultRate = 100.0;  // Hz
 constexpr double kMostRate = 1e6;
 
+// By the name of the output.
+enum class MotionForm { kJson, kCsv, kRos, kGcode };
+
+const std::vector<std::string> kMotionEndings = {".json", ".jsonl", ".csv",
+                                                 ".yaml", ".gcode", ".nc"};
+
+MotionForm MotionFormOf(const TimedFlags& flags) {
+  if (FormOf(flags.output, flags.json) == AnswerForm::kCsv) {
+    return MotionForm::kCsv;
+  }
+  const std::string ending = EndingOf(flags.output);
+  const MotionForm form = ending == ".yaml" ? MotionForm::kRos
+                          : ending == ".gcode" || ending == ".nc"
+                              ? MotionForm::kGcode
+                              : MotionForm::kJson;
+  if (flags.json && form != MotionForm::kJson) {
+    throw InputError("--json: expected --output FILE.json, found " +
+                     flags.output);
+  }
+  return form;
+}
+
 double RateOf(const TimedFlags& flags) {
-  if (flags.rate.empty()) return kDefaultRate;
-  const double rate = ParseDouble(flags.rate, "--rate");
+  const std::string& text = flags.motion.rate;
+  if (text.empty()) return kDefaultRate;
+  const double rate = ParseDouble(text, "--rate");
   if (!(rate > 0.0 && rate <= kMostRate)) {
     throw InputError("--rate: expected a number above 0 and at most " +
-                     FormatDouble(kMostRate) + " (Hz), found " + flags.rate);
+                     FormatDouble(kMostRate) + " (Hz), found " + text);
   }
-  if (FormOf(flags.output, false) != AnswerForm::kCsv) {
+  const MotionForm form = MotionFormOf(flags);
+  if (form != MotionForm::kCsv && form != MotionForm::kRos) {
     throw InputError(
-        "--rate: expected --output FILE.csv, which it is the rate of, found " +
+        "--rate: expected --output FILE.csv or FILE.yaml, which it is the rate "
+        "of, found " +
         (flags.output.empty() ? "none" : flags.output));
   }
   return rate;
@@ -66,6 +93,26 @@ void RequireFewRows(const Scene& scene, const CurveOptions& options,
 
 std::string Percent(double share) { return Rounded(100.0 * share) + " %"; }
 
+std::string MotionText(MotionForm form, const World& world, const Scene& scene,
+                       const TimedTrajectory& timed, const TimedJson& row,
+                       double rate) {
+  // A machine reads no status: it gets answers only.
+  const Trajectory trajectory =
+      row.at("solved").get<bool>() ? timed.curve.trajectory : Trajectory();
+  switch (form) {
+    case MotionForm::kCsv:
+      return TimedCsv(trajectory, rate);
+    case MotionForm::kRos:
+      return RosTrajectory(trajectory, rate, scene.unit);
+    case MotionForm::kGcode:
+      return MotionGcode(*world.Convolution().free_space, trajectory,
+                         scene.unit);
+    case MotionForm::kJson:
+      break;
+  }
+  return JsonText(row) + '\n';
+}
+
 // For people.
 std::string TimedSentence(const TimedTrajectory& timed, const TimedJson& row) {
   const std::string name = row.at("scene").get<std::string>() + ": ";
@@ -88,24 +135,62 @@ std::string TimedSentence(const TimedTrajectory& timed, const TimedJson& row) {
 
 }  // namespace
 
-void AddTimed(CLI::App* app, const std::string& of_none, std::string* limits,
-              std::string* rate) {
-  app->add_option("--limits", *limits,
+void AddMotion(CLI::App* app, const std::string& without_limits,
+               const std::string& without_task, MotionWords* words) {
+  app->add_option("--limits", words->limits,
                   "V,A,J: of velocity, acceleration and jerk, in the scene's "
                   "unit and seconds, each one number or x/y/z (" +
-                      of_none + ")")
+                      without_limits + ")")
       ->type_name("V,A,J");
-  app->add_option("--rate", *rate,
-                  "Rows a second of an --output FILE.csv, more than 0 and at "
-                  "most 1e6 (100 if not set)")
+  app->add_option(
+         "--via", words->via,
+         "A place to pass on the way, again for the next one: LENGTH is "
+         "how close to come, more than 0 and at most D (0.001D if not "
+         "set; 0.01D is a share of D, 0.5unit in the scene's unit), "
+         "DWELL seconds to rest there, at the place itself (" +
+             without_task + ")")
+      ->type_name("X,Y,Z[,LENGTH[,DWELL]]")
+      ->allow_extra_args(false);
+  app->add_option(
+         "--duration", words->duration,
+         "Seconds that the motion takes, with as little jerk as can be "
+         "found; 0: as few as can be (" +
+             without_task + ")")
+      ->type_name("S");
+  app->add_option("--rate", words->rate,
+                  "Rows a second of an --output FILE.csv or FILE.yaml, more "
+                  "than 0 and at most 1e6 (100 if not set)")
       ->type_name("HZ");
 }
 
-std::optional<MotionLimits> LimitsOf(const std::string& flag,
+std::optional<MotionLimits> LimitsOf(const MotionWords& words,
                                      const Scene& scene) {
-  if (flag == "none") return std::nullopt;
-  if (flag.empty()) return scene.limits;
-  return ParseLimits(flag, "--limits");
+  if (words.limits == "none") return std::nullopt;
+  if (words.limits.empty()) return scene.limits;
+  return ParseLimits(words.limits, "--limits");
+}
+
+void RequireNoMotion(const MotionWords& words) {
+  for (const auto& [flag, is_given] :
+       {std::pair("--rate", !words.rate.empty()),
+        std::pair("--via", !words.via.empty()),
+        std::pair("--duration", !words.duration.empty())}) {
+    if (!is_given) continue;
+    throw InputError(std::string(flag) +
+                     ": expected --limits with it, found none");
+  }
+}
+
+void SetTask(const MotionWords& words, Scene* scene) {
+  if (!words.duration.empty()) {
+    scene->duration = ParseDouble(words.duration, "--duration");
+  }
+  if (words.via.empty()) return;
+  scene->via.clear();
+  const double diagonal = ContactBounds(scene->workspace).Diagonal();
+  for (const std::string& text : words.via) {
+    scene->via.push_back(ParseVia(text, "--via", diagonal, scene->unit));
+  }
 }
 
 int AnswerInTime(
@@ -113,11 +198,15 @@ int AnswerInTime(
     const std::function<TimedTrajectory(const World&, const CurveOptions&)>&
         ask) {
   const double rate = RateOf(flags);
-  const bool is_table = FormOf(flags.output, flags.json) == AnswerForm::kCsv;
+  const MotionForm form = MotionFormOf(flags);
+  const bool has_rate = form == MotionForm::kCsv || form == MotionForm::kRos;
+  if (form == MotionForm::kRos || form == MotionForm::kGcode) {
+    RequireUnit(scene.unit, "--output " + flags.output);
+  }
   OutputFiles outputs;
   const std::string target =
       flags.json ? AnswerTarget(flags.output) : flags.output;
-  DeclareIfNamed(&outputs, target, "--output", {".json", ".jsonl", ".csv"});
+  DeclareIfNamed(&outputs, target, "--output", kMotionEndings);
   const World world(scene.workspace, scene.name, UserCache(flags.no_cache),
                     flags.world);
   CurveOptions options = SceneCurveOptions(scene, world, limits);
@@ -125,14 +214,24 @@ int AnswerInTime(
     options.time_limit = ParseDouble(flags.time_limit, "--time");
   }
   options.Validate();
-  if (is_table) RequireFewRows(scene, options, rate);
+  if (has_rate) RequireFewRows(scene, options, rate);
   TellAbout(scene);
   const ClearanceWish wish =
       WishOfTrajectory(scene, flags.has_margin, flags.require);
   const std::string beyond = BeyondTheEnds(world, scene, wish);
   if (!beyond.empty()) Warn(beyond);
   Progress("a motion in time");
+  // Asked for the first time when there is a curve.
+  std::optional<internal::InterruptAsks> ctrl_c;
+  options.is_interrupted = [&ctrl_c] {
+    if (!ctrl_c) {
+      ctrl_c.emplace();
+      Progress("looking for a faster curve; Ctrl-C takes the best so far");
+    }
+    return ctrl_c->HasAsked();
+  };
   const TimedTrajectory timed = ask(world, options);
+  ctrl_c.reset();
   TimedJson row = TimedRow(scene, world, options, timed);
   AnswerCheck check(flags.verify);
   check.Judge(scene, world, ClaimsOf(timed), &row);
@@ -140,8 +239,7 @@ int AnswerInTime(
   const WorldSpaces* const built = world.Built(SpaceLayout::kSealed);
   TellAboutSpaces(world, built == nullptr ? 0 : built->triangles);
   if (!target.empty()) {
-    outputs.Write(target, is_table ? TimedCsv(timed.curve.trajectory, rate)
-                                   : JsonText(row) + '\n');
+    outputs.Write(target, MotionText(form, world, scene, timed, row, rate));
   }
   CommitAndTell(&outputs, TimedSentence(timed, row));
   check.RequireNoFailure();

@@ -249,6 +249,23 @@ MotionLimits Limits(const Json& value) {
   return limits;
 }
 
+std::vector<SceneVia> ViaPlaces(const Json& value, const JsonPlace& place,
+                                const std::string& unit) {
+  std::vector<SceneVia> places;
+  for (std::size_t i = 0; i < value.size(); ++i) {
+    SceneVia via;
+    via.point = Point(value[i]["point"]);
+    if (value[i].contains("tolerance")) {
+      via.tolerance =
+          LengthAt(value[i]["tolerance"], place.Child(i).Child("tolerance"),
+                   LengthRange::kAboveZero, unit);
+    }
+    Read(value[i], "dwell", &via.dwell);
+    places.push_back(via);
+  }
+  return places;
+}
+
 // Again, now that D is known.
 void RequireLengths(const Scene& scene, const JsonPlace& place) {
   const double diagonal = ContactBounds(scene.workspace).Diagonal();
@@ -261,6 +278,11 @@ void RequireLengths(const Scene& scene, const JsonPlace& place) {
           "penetration", "smoothing_length");
   require(scene.trajectory.margin, LengthRange::kAboveZero, "trajectory",
           "margin");
+  for (std::size_t i = 0; i < scene.via.size(); ++i) {
+    RequireLength(scene.via[i].tolerance, LengthRange::kAboveZero, diagonal,
+                  place.Child("via").Child(i).Child("tolerance").Text(),
+                  scene.unit);
+  }
   if (scene.planning.clearance) {
     require(*scene.planning.clearance, LengthRange::kAboveZero, "planning",
             "clearance");
@@ -320,6 +342,10 @@ Scene ParseScene(const Json& json, const std::string& file,
                                place.Child("preset").Text());
   }
   if (json.contains("limits")) scene.limits = Limits(json["limits"]);
+  if (json.contains("via")) {
+    scene.via = ViaPlaces(json["via"], place.Child("via"), scene.unit);
+  }
+  Read(json, "duration", &scene.duration);
   if (json.contains("penetration")) {
     Read(json["penetration"], place.Child("penetration"), scene.unit,
          &scene.penetration);

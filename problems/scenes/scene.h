@@ -57,6 +57,13 @@ struct PlanningSettings {
   std::optional<Length> clearance;
 };
 
+// A place that a motion in time passes on its way.
+struct SceneVia {
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();
+  Length tolerance = Length::FromShare(0.001);  // it comes as close, (0, D]
+  double dwell = 0.0;  // seconds to rest there, at the point itself
+};
+
 struct Scene {
   std::string name;
   // What the unit of its lengths is called, one of UnitNames (length.h); empty:
@@ -67,6 +74,10 @@ struct Scene {
   Eigen::Vector3d goal = Eigen::Vector3d::Zero();
   Preset preset = Preset::kBalanced;   // of trajectories and plans
   std::optional<MotionLimits> limits;  // none: paths without time
+  // Of a motion in time: the places on its way, in order, and the seconds that
+  // it takes; 0: as few as can be.
+  std::vector<SceneVia> via;
+  double duration = 0.0;
   PenetrationSettings penetration;
   TrajectorySettings trajectory;
   PlanningSettings planning;

@@ -7,6 +7,7 @@
 #include "constraints/curve_judge.h"
 #include "core/mesh/mesh_error.h"
 #include "core/number_text.h"
+#include "planners/world/bare_length.h"
 #include "problems/studies/planning_study.h"
 #include "problems/studies/row_parts.h"
 
@@ -48,6 +49,9 @@ Vector3d ParseLimit(const std::string& text, const std::string& what) {
   return limit;
 }
 
+// Of a place on the way.
+std::string ViaName(std::size_t i) { return "via " + std::to_string(i); }
+
 // What nothing needs to be built for.
 void RequireMotion(const std::vector<Vector3d>& path,
                    const CurveOptions& options) {
@@ -66,6 +70,11 @@ void FindCurve(const FreeSpace& space, double diagonal,
                const CurveOptions& options, TimedTrajectory* timed) {
   timed->curve = OptimizeCurve(space, diagonal, timed->path, options);
   timed->status = ToString(timed->curve.status);
+  if (timed->curve.status == CurveStatus::kDurationTooShort) {
+    timed->reason = "the fastest that was found takes " +
+                    Rounded(timed->curve.duration, 6) + " s, not " +
+                    Rounded(options.duration, 6);
+  }
   const Trajectory& trajectory = timed->curve.trajectory;
   if (trajectory.empty()) return;
   timed->use = BoundLimitUse(trajectory, options.limits);
@@ -96,10 +105,77 @@ std::string Collision(const World& world, const std::vector<Vector3d>& path,
                              : diagnosis.Text("q"));
 }
 
+// The first of these places that is not free, or nothing.
+std::string BlockedVia(const World& world, const std::vector<CurveVia>& via) {
+  for (std::size_t i = 0; i < via.size(); ++i) {
+    const Diagnosis diagnosis = world.Diagnose(via[i].point);
+    if (!diagnosis.IsFree()) return diagnosis.Text(ViaName(i));
+  }
+  return "";
+}
+
+// "from the start to via 0"
+std::string LegName(std::size_t leg, std::size_t legs) {
+  return "from " + (leg == 0 ? "the start" : ViaName(leg - 1)) + " to " +
+         (leg + 1 == legs ? "the goal" : ViaName(leg));
+}
+
+// The paths of contact-surface from place to place as one; false, and why,
+// where one is missing.
+bool FindPath(const Scene& scene, const World& world,
+              const std::vector<Vector3d>& places, TimedTrajectory* timed) {
+  Scene planned = scene;
+  planned.planning.model = scene.trajectory.model;
+  planned.planning.clearance = scene.trajectory.margin;
+  PlanningRun run;
+  run.planner = kContactSurface;
+  const std::size_t legs = places.size() - 1;
+  timed->path = {places.front()};
+  for (std::size_t i = 0; i < legs; ++i) {
+    planned.start = places[i];
+    planned.goal = places[i + 1];
+    if (planned.start == planned.goal) continue;
+    PlanningStudy study(planned, world);
+    const PlanningResult plan = study.Run(run);
+    timed->planner = plan.planner;
+    timed->model = plan.model;
+    timed->plan_seconds += plan.numbers.seconds;
+    if (plan.solved) {
+      timed->path.insert(timed->path.end(), plan.numbers.path.begin() + 1,
+                         plan.numbers.path.end());
+      continue;
+    }
+    timed->path.clear();
+    timed->status = plan.status;
+    timed->reason = plan.reason;
+    if (plan.infeasible_proved && legs > 1) {
+      timed->status = ToString(PlanStatus::kFailed);
+      timed->reason = LegName(i, legs) +
+                      ": no path, proved for these places, not for places "
+                      "near them";
+    } else if (plan.infeasible_proved && plan.explored) {
+      timed->surface = plan.explored->surface;
+    }
+    return false;
+  }
+  return true;
+}
+
 Json LimitsRow(const MotionLimits& limits) {
   return {{"velocity", PointRow(limits.velocity)},
           {"acceleration", PointRow(limits.acceleration)},
           {"jerk", PointRow(limits.jerk)}};
+}
+
+Json ViaRow(const World& world, const std::vector<CurveVia>& places) {
+  Json row = Json::array();
+  for (const CurveVia& via : places) {
+    const Length tolerance = Length::FromUnit(via.tolerance);
+    row.push_back({{"point", PointRow(via.point)},
+                   {"tolerance", LengthRow(world.Resolve(tolerance))},
+                   {"dwell", via.dwell}});
+  }
+  return row;
 }
 
 Json PiecesRow(const Trajectory& trajectory) {
@@ -143,37 +219,59 @@ MotionLimits ParseLimits(const std::string& text, const std::string& what) {
   return limits;
 }
 
+SceneVia ParseVia(const std::string& text, const std::string& what,
+                  double diagonal, const std::string& unit) {
+  const std::vector<std::string> cells = CutAt(',', text);
+  if (cells.size() < 3 || cells.size() > 5) {
+    throw InputError(what +
+                     ": expected X,Y,Z[,LENGTH[,DWELL]], a place, how close to "
+                     "come and seconds to rest there, found '" +
+                     text + "'");
+  }
+  SceneVia via;
+  for (int axis = 0; axis < 3; ++axis) {
+    via.point[axis] = ParseDouble(cells[static_cast<std::size_t>(axis)],
+                                  what + ": " + "xyz"[axis]);
+  }
+  if (cells.size() > 3) {
+    via.tolerance = ParseClearance(cells[3], what + ": LENGTH", diagonal, unit);
+  }
+  if (cells.size() > 4) via.dwell = ParseDouble(cells[4], what + ": DWELL");
+  return via;
+}
+
 CurveOptions SceneCurveOptions(const Scene& scene, const World& world,
                                const MotionLimits& limits) {
   CurveOptions options;
   options.limits = limits;
   options.margin = world.Resolve(scene.trajectory.margin).unit;
   options.effort = EffortOf(scene.preset);
+  options.duration = scene.duration;
+  for (const SceneVia& via : scene.via) {
+    options.via.push_back(
+        {via.point, world.Resolve(via.tolerance).unit, via.dwell});
+  }
   return options;
 }
 
 TimedTrajectory PlanInTime(const Scene& scene, const World& world,
                            const CurveOptions& options) {
-  RequireMotion({scene.start, scene.goal}, options);
-  Scene planned = scene;
-  planned.planning.model = scene.trajectory.model;
-  planned.planning.clearance = scene.trajectory.margin;
-  PlanningStudy study(planned, world);
-  PlanningRun run;
-  run.planner = kContactSurface;
-  const PlanningResult plan = study.Run(run);
+  std::vector<Vector3d> places = {scene.start};
+  for (const CurveVia& via : options.via) places.push_back(via.point);
+  places.push_back(scene.goal);
+  RequireMotion(places, options);
+  // Said by the planner before it builds anything.
+  if (!world.Diagnose(scene.goal).IsFree()) places = {scene.start, scene.goal};
   TimedTrajectory timed;
-  timed.planner = plan.planner;
-  timed.model = plan.model;
-  timed.status = plan.status;
-  timed.reason = plan.reason;
-  timed.plan_seconds = plan.numbers.seconds;
-  if (plan.explored) timed.surface = plan.explored->surface;
-  if (!plan.solved) return timed;
-  timed.path = plan.numbers.path;
-  FindCurve(plan.model == "window" ? *world.Convolution().free_space
-                                   : *study.spaces().free_space,
-            world.diagonal(), options, &timed);
+  timed.reason = BlockedVia(world, options.via);
+  if (!timed.reason.empty()) {
+    timed.status = "via_not_free";
+  } else if (FindPath(scene, world, places, &timed)) {
+    FindCurve(timed.model == "window"
+                  ? *world.Convolution().free_space
+                  : *world.Spaces(SpaceLayout::kSealed).free_space,
+              world.diagonal(), options, &timed);
+  }
   return timed;
 }
 
@@ -211,9 +309,12 @@ Json TimedRow(const Scene& scene, const World& world,
   row["certified"] = timed.is_certified;
   row["collision_free"] = timed.is_certified;
   row["duration"] = curve.trajectory.duration();
+  row["asked_duration"] =
+      options.duration > 0.0 ? Json(options.duration) : Json(nullptr);
   row["stops_duration"] = curve.stops_duration;
   row["length"] = curve.trajectory.ArcLength();
   row["limits"] = LimitsRow(options.limits);
+  row["via"] = ViaRow(world, options.via);
   row["limits_used"] = {{"velocity", timed.use.velocity},
                         {"acceleration", timed.use.acceleration},
                         {"jerk", timed.use.jerk}};
@@ -233,23 +334,6 @@ Json TimedRow(const Scene& scene, const World& world,
   row["pieces"] = PiecesRow(curve.trajectory);
   row["versions"] = VersionsRow();
   return row;
-}
-
-std::string TimedCsv(const Trajectory& trajectory, double rate) {
-  std::string text = "t,x,y,z,vx,vy,vz,ax,ay,az\n";
-  if (trajectory.empty()) return text;
-  if (trajectory.duration() * rate > kMostTimedRows) {
-    throw InputError("--rate: expected at most " +
-                     FormatDouble(kMostTimedRows) + " rows for the " +
-                     Rounded(trajectory.duration()) +
-                     " s of the motion, found " + FormatDouble(rate) + " Hz");
-  }
-  for (const Trajectory::Sample& sample : trajectory.Samples(rate)) {
-    text += FormatDouble(sample.time) + ',' + FormatPoint(sample.position) +
-            ',' + FormatPoint(sample.velocity) + ',' +
-            FormatPoint(sample.acceleration) + '\n';
-  }
-  return text;
 }
 
 }  // namespace phongpd

@@ -20,6 +20,11 @@ namespace phongpd {
 // else, and for numbers that are not above 0.
 MotionLimits ParseLimits(const std::string& text, const std::string& what);
 
+// Reads "X,Y,Z[,LENGTH[,DWELL]]", a place on the way, LENGTH as ParseClearance
+// does.  Throws InputError starting with `what`.
+SceneVia ParseVia(const std::string& text, const std::string& what,
+                  double diagonal, const std::string& unit);
+
 // A motion in time that answers a scene, or why there is none.
 struct TimedTrajectory {
   std::string planner;                // of the path; empty: it was given
@@ -36,18 +41,22 @@ struct TimedTrajectory {
   double plan_seconds = 0.0;
 };
 
-// The scene's preset and margin.
+// The scene's preset, margin, places on the way and duration.
 CurveOptions SceneCurveOptions(const Scene& scene, const World& world,
                                const MotionLimits& limits);
 
-// From the scene's start to its goal: along the path of contact-surface, in the
-// scene's trajectory.model (model_choice.h).  Throws InputError for bad
-// options, and where start and goal are the same, before anything is built;
-// what PlanningStudy::Run throws.
+// From the scene's start to its goal by way of options.via: along the paths of
+// contact-surface from place to place, in the scene's trajectory.model
+// (model_choice.h).  A place that is not free has the status via_not_free.
+// Where no path leads from one to the next, that is no proof for places within
+// their tolerances: the status is failed.  Throws InputError for bad options,
+// and where all places are the same, before anything is built; what
+// PlanningStudy::Run throws.
 TimedTrajectory PlanInTime(const Scene& scene, const World& world,
                            const CurveOptions& options);
 
-// Near a path of somebody's own; the scene's start and goal count for nothing.
+// Near a path of somebody's own, of which options.via are points; the scene's
+// start and goal count for nothing.
 // Asks free space alone, which is enough.  A path that collides has the status
 // not_free and the place as reason.  Throws InputError as above, and for paths
 // without two different points.
@@ -59,13 +68,5 @@ TimedTrajectory TimePath(const World& world,
 nlohmann::ordered_json TimedRow(const Scene& scene, const World& world,
                                 const CurveOptions& options,
                                 const TimedTrajectory& timed);
-
-// No more rows in a table of a motion.
-inline constexpr double kMostTimedRows = 1e7;
-
-// "t,x,y,z,vx,vy,vz,ax,ay,az" at 0, 1/rate, 2/rate, ... and at the end; of an
-// empty trajectory the names only.  Throws InputError for more than
-// kMostTimedRows.
-std::string TimedCsv(const Trajectory& trajectory, double rate);
 
 }  // namespace phongpd

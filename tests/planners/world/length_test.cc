@@ -171,5 +171,21 @@ TEST(Length, IsCheckedAgainstItsRange) {
             "m: expected a length > 0, found 0mm");
 }
 
+// By other units: a kilometre is 10³ m, a foot 12 inches, an inch 25.4 mm.
+TEST(Length, UnitsAreSoManyMetres) {
+  for (const std::string& name : UnitNames()) {
+    EXPECT_EQ(MetresOf(name) == 1.0, name == "m") << name;
+  }
+  EXPECT_DOUBLE_EQ(MetresOf("km"), 1e3);
+  EXPECT_DOUBLE_EQ(MetresOf("dm") * 10.0, 1.0);
+  EXPECT_DOUBLE_EQ(MetresOf("cm") * 100.0, 1.0);
+  EXPECT_DOUBLE_EQ(MetresOf("mm") * 1e3, 1.0);
+  EXPECT_DOUBLE_EQ(MetresOf("um") * 1e6, 1.0);
+  EXPECT_DOUBLE_EQ(MetresOf("nm") * 1e9, 1.0);
+  EXPECT_DOUBLE_EQ(MetresOf("in"), 25.4 * MetresOf("mm"));
+  EXPECT_DOUBLE_EQ(MetresOf("ft"), 12.0 * MetresOf("in"));
+  EXPECT_EQ(MetresOf("parsec"), 1.0);
+}
+
 }  // namespace
 }  // namespace phongpd

@@ -48,8 +48,30 @@ TEST_F(CliTimedRefusals, RefusesBadLimitsInOneLine) {
     ExpectRefused(good + " --output t.json --rate 50", {"--rate", "t.json"});
     ExpectRefused(good + " --rate 50", {"--rate", "FILE.csv"});
     ExpectRefused(good + " --output t.csv --json", {"--json", "t.csv"});
+    for (const std::string name : {"t.yaml", "t.gcode", "t.nc"}) {
+      ExpectRefused(good + " --json --output " + name, {"--json", name});
+      ExpectRefused(good + " --output " + name, {"--output " + name, "unit"});
+    }
     ExpectRefused(good + " --output t.svg", {"--output", ".json", "t.svg"});
     ExpectRefused(good + " --output t.json --time 0", {"time", "0"});
+    for (const std::string via :
+         {"1,2", "1,2,3,0.1,0,0", "1,2,nan", "x,2,3", ""}) {
+      ExpectRefused(good + " --output t.json --via='" + via + "'", {"--via"});
+    }
+    ExpectRefused(good + " --output t.json --via=-1.5,0,0,0",
+                  {"--via: LENGTH", "> 0", "found 0"});
+    ExpectRefused(good + " --output t.json --via=-1.5,0,0,0.5",
+                  {"--via: LENGTH", "0.5D"});
+    ExpectRefused(good + " --output t.json --via=-1.5,0,0,2D",
+                  {"--via: LENGTH", "at most 1"});
+    ExpectRefused(good + " --output t.json --via=-1.5,0,0,0.01,-1",
+                  {"via 0", "dwell", "-1"});
+    for (const std::string duration : {"-1", "nan", "inf", "soon"}) {
+      ExpectRefused(good + " --output t.json --duration=" + duration,
+                    {"duration", duration});
+    }
+    ExpectRefused(good + " --output t.json --duration 9 --via=-1.5,0,0,0.01,1",
+                  {"duration", "no dwell"});
     ExpectBadLengthsRefused(good + " --output t.json", "--margin");
   }
 }
@@ -62,7 +84,10 @@ TEST_F(CliTimedRefusals, RefusesWhatMakesNoSense) {
         "--html t.html", "--polish never", "--per-obstacle"}) {
     ExpectRefused(timed + ' ' + flag, {Split(flag, ' ')[0], "--limits none"});
   }
-  ExpectRefused(good + " --output o.jsonl --rate 50", {"--rate", "--limits"});
+  for (const std::string flag : {"--rate 50", "--via 0,1,0", "--duration 9"}) {
+    ExpectRefused(good + " --output o.jsonl " + flag,
+                  {Split(flag, ' ')[0], "--limits"});
+  }
   WritePath();
   ExpectRefused("retime ../path.csv --scene ../scene.json --output t.json",
                 {"--limits", "found none"});

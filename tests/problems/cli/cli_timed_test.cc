@@ -157,6 +157,32 @@ class CliTimed : public CliScenes {
             Vector3d::Constant(j)};
   }
 
+  // Ends of pieces come as close to the places, one after the other, and where
+  // it is to dwell it stands still so long.
+  static void ExpectPassed(const Json& row) {
+    const std::vector<Piece> pieces = PiecesOf(row);
+    std::size_t at = 0;
+    for (const Json& via : row.at("via")) {
+      const Vector3d place = PointOf(via.at("point"));
+      const double tolerance = via.at("tolerance").at("unit").get<double>();
+      const double dwell = via.at("dwell").get<double>();
+      double rest = 0.0;
+      bool is_passed = false;
+      while (at < pieces.size() && !is_passed) {
+        is_passed = (pieces[at].points.back() - place).norm() <= tolerance;
+        ++at;
+      }
+      EXPECT_TRUE(is_passed) << via.dump();
+      for (std::size_t i = at; i < pieces.size(); ++i) {
+        const bool stands =
+            std::all_of(pieces[i].points.begin(), pieces[i].points.end(),
+                        [&](const Vector3d& point) { return point == place; });
+        rest += stands ? pieces[i].duration : 0.0;
+      }
+      EXPECT_NEAR(rest, dwell, 1e-12 * dwell) << via.dump();
+    }
+  }
+
   // A detour over the wall, as somebody would draw it.
   void WriteDetour() const {
     WriteText("detour.csv",
@@ -302,6 +328,147 @@ TEST_F(CliTimed, SaysWhyThereIsNoMotion) {
   EXPECT_EQ(missed["status"], "clearance_missed");
   EXPECT_EQ(missed["certified"], true);
   EXPECT_EQ(missed["solved"], false);
+  // What a machine reads is answers only.
+  EXPECT_EQ(Run(wide + " --require --output t.csv").code, 1);
+  EXPECT_EQ(Content(Output("t.csv")), "t,x,y,z,vx,vy,vz,ax,ay,az\n");
+}
+
+TEST_F(CliTimed, PassesPlacesOnTheWay) {
+  Json json = TwoObstacles();
+  const std::string command = "optimize " + Scene(json) + " --limits 1,2,10";
+  const phongpd::Scene scene = ReadScene(File("scene.json"));
+  const Json free = Answer(command, 0);
+  EXPECT_TRUE(free["via"].empty());
+  EXPECT_EQ(free["asked_duration"], nullptr);
+  const Json row =
+      Answer(command + " --via=-1,-1.2,0 --via 0,1.5,0.3,0.05unit,0.25", 0);
+  ExpectKept(row, scene, scene.start, scene.goal, Same(1, 2, 10));
+  ASSERT_EQ(row["via"].size(), 2U);
+  EXPECT_EQ(row["via"][0]["tolerance"]["share"], 0.001);
+  EXPECT_EQ(row["via"][1]["tolerance"]["unit"], 0.05);
+  EXPECT_EQ(row["via"][1]["dwell"], 0.25);
+  ExpectPassed(row);
+  EXPECT_GT(row["duration"], free["duration"]);
+  // The same places in the scene; a flag wins over all of them.
+  json["via"] = {
+      {{"point", {-1, -1.2, 0}}},
+      {{"point", {0, 1.5, 0.3}}, {"tolerance", "0.05unit"}, {"dwell", 0.25}}};
+  json["limits"] = {{"velocity", 1}, {"acceleration", 2}, {"jerk", 10}};
+  const Json own = Answer("optimize " + Scene(json), 0);
+  EXPECT_EQ(own["pieces"], row["pieces"]);
+  const Json other = Answer("optimize ../scene.json --via 0,1.5,0.3,0.01D", 0);
+  ASSERT_EQ(other["via"].size(), 1U);
+  ExpectPassed(other);
+  // A place on a path of one's own, and not the scene's.
+  WriteDetour();
+  const std::string retime = "retime ../detour.csv --scene ../scene.json";
+  EXPECT_TRUE(Answer(retime, 0)["via"].empty());
+  const Json stop = Answer(retime + " --via 0,1.2,0,0.01unit,0.5", 0);
+  ExpectKept(stop, scene, scene.start, scene.goal, Same(1, 2, 10));
+  ExpectPassed(stop);
+}
+
+TEST_F(CliTimed, TakesTheTimeAskedFor) {
+  Json json = TwoObstacles();
+  const std::string command = "optimize " + Scene(json) + " --limits 1,2,10";
+  const double least = Answer(command, 0)["duration"].get<double>();
+  const Json calm = Answer(command + " --duration 6", 0);
+  EXPECT_NEAR(calm["duration"].get<double>(), 6.0, 1e-9);
+  EXPECT_EQ(calm["asked_duration"], 6.0);
+  EXPECT_EQ(calm["verified"], "confirmed");
+  EXPECT_LT(calm["limits_used"]["jerk"], 0.9);
+  const Json hasty = Answer(command + " --duration 1.5", 1);
+  EXPECT_EQ(hasty["status"], "duration_too_short");
+  EXPECT_TRUE(hasty["pieces"].empty());
+  EXPECT_EQ(hasty["verified"], nullptr);
+  const std::string reason = hasty["reason"].get<std::string>();
+  EXPECT_NE(reason.find("the fastest that was found takes "), std::string::npos)
+      << reason;
+  EXPECT_NE(reason.find("not 1.5"), std::string::npos) << reason;
+  json["limits"] = {{"velocity", 1}, {"acceleration", 2}, {"jerk", 10}};
+  json["duration"] = 6;
+  const std::string own = "optimize " + Scene(json);
+  EXPECT_EQ(Answer(own, 0)["pieces"], calm["pieces"]);
+  EXPECT_EQ(Answer(own + " --duration 0", 0)["duration"], least);
+}
+
+TEST_F(CliTimed, WritesWhatMachinesRead) {
+  Json json = TwoObstacles();
+  json["unit"] = "mm";
+  const std::string command = "optimize " + Scene(json) + " --limits 1,2,10";
+  ASSERT_EQ(Run(command + " --output t.csv --rate 20").code, 0);
+  ASSERT_EQ(Run(command + " --output t.yaml --rate 20").code, 0);
+  const std::string yaml = Content(Output("t.yaml"));
+  const auto rows = Split(Content(Output("t.csv")), '\n').size() - 1;
+  std::size_t points = 0;
+  for (std::size_t at = 0;
+       (at = yaml.find("- positions: [", at)) != std::string::npos; ++at) {
+    ++points;
+  }
+  EXPECT_EQ(points, rows);
+  EXPECT_NE(yaml.find("- positions: [-0.0015, 0, 0]"), std::string::npos);
+  for (const std::string name : {"t.gcode", "t.nc"}) {
+    ASSERT_EQ(Run(command + " --output " + name).code, 0);
+    const std::string gcode = Content(Output(name));
+    EXPECT_NE(gcode.find("G21 ; mm\n"), std::string::npos) << gcode;
+    EXPECT_NE(gcode.find("G1 X1.50000 Y0.00000 Z0.00000 F"), std::string::npos)
+        << gcode;
+  }
+}
+
+TEST_F(CliTimed, EndsAtCtrlCWithTheBestSoFar) {
+  // A hundred places to pass: a search of many seconds.
+  std::string path = "x,y,z\n-1.5,0,0\n", places;
+  for (int i = 0; i < 100; ++i) {
+    const std::string place = "-1.8," +
+                              std::to_string(i % 2 == 0 ? 1.2 : -1.2) + "," +
+                              std::to_string(1.8 - 0.035 * i);
+    path += place + "\n";
+    if (i < 99) places += " --via=" + place;
+  }
+  WriteText("long.csv", path);
+  const std::string command =
+      "retime ../long.csv --scene " + Scene(TwoObstacles()) +
+      " --limits 1,2,10 --preset tight --output t.json" + places;
+  // Where it comes before there is a curve, it ends the program as ever.
+  Outcome outcome;
+  for (int seconds = 1; seconds < 60; seconds *= 2) {
+    outcome =
+        Run(command, "timeout --preserve-status -s INT " +
+                         std::to_string(seconds) + " env --default-signal=INT");
+    if (outcome.code == 0) break;
+    EXPECT_EQ(outcome.code, 128 + 2);
+  }
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const Json row = Json::parse(Content(Output("t.json")));
+  EXPECT_EQ(row["status"], "interrupted");
+  EXPECT_EQ(row["certified"], true);
+  EXPECT_EQ(row["verified"], "confirmed");
+}
+
+TEST_F(CliTimed, SaysWhichPlaceIsNotReached) {
+  const std::string rest = " --limits 1,2,10 --via ";
+  const Json within =
+      Answer("optimize " + Scene(TwoObstacles()) + rest + "0,0,0.1", 1);
+  EXPECT_EQ(within["status"], "via_not_free");
+  EXPECT_EQ(within["verified"], nullptr);
+  const std::string why = within["reason"].get<std::string>();
+  EXPECT_EQ(why.find("via 0"), 0U) << why;
+  EXPECT_NE(why.find("wall"), std::string::npos) << why;
+  // What is proved of these places is not of those near them.
+  const Json shut = Answer("optimize " + Scene(ShutOff()) + rest +
+                               "-1,0,0 --via 1,0,0 --via 1,0.1,0",
+                           1);
+  EXPECT_EQ(shut["status"], "failed");
+  EXPECT_EQ(shut["verified"], nullptr);
+  EXPECT_EQ(shut["reason"],
+            "from via 0 to via 1: no path, proved for these places, not for "
+            "places near them");
+  // An end that is not free is said first.
+  Json blocked = ShutOff();
+  blocked["goal"] = {0.1, 0, 0};
+  EXPECT_EQ(Answer("optimize " + Scene(blocked) + rest + "1,0,0", 1)["status"],
+            "goal_in_collision");
 }
 
 }  // namespace

@@ -51,8 +51,8 @@ TEST(SceneErrors, NameFilePlaceExpectedAndFound) {
   };
   const std::string keys =
       "s.json: expected only the keys $schema, name, unit, robot, obstacles, "
-      "bounds, start, goal, preset, limits, penetration, trajectory, planning, "
-      "feasible, witness, ";
+      "bounds, start, goal, preset, limits, via, duration, penetration, "
+      "trajectory, planning, feasible, witness, ";
   const std::vector<Case> cases = {
       {"/robto", 1, keys + "found \"robto\"; did you mean robot?"},
       {"/velocity", 3, keys + "found \"velocity\""},
@@ -163,6 +163,17 @@ TEST(SceneErrors, NameFilePlaceExpectedAndFound) {
       {"/trajectory/margin", true,
        "s.json: /trajectory/margin: expected a number >= 0 or a text that is "
        "not empty, found true"},
+      {"/via/0/point", nullptr,
+       "s.json: /via/0/point: expected an array of 3 numbers, found nothing"},
+      {"/via/0/tolerance", 0,
+       "s.json: /via/0/tolerance: expected a length > 0, found 0"},
+      {"/via/0/dwell", -1,
+       "s.json: /via/0/dwell: expected a number >= 0 and <= 1e+09, found -1"},
+      {"/via/0/rest", 1,
+       "s.json: /via/0: expected only the keys point, tolerance, dwell, found "
+       "\"rest\""},
+      {"/duration", -1,
+       "s.json: /duration: expected a number >= 0 and <= 1e+09, found -1"},
       {"/planning/clearance", "0unit",
        "s.json: /planning/clearance: expected a length > 0, found 0unit"},
       {"/trajectory/waypoints", 2.5,
@@ -196,7 +207,7 @@ TEST(SceneErrors, NameFilePlaceExpectedAndFound) {
 TEST(SceneErrors, NameLengthsBeyondTheWorld) {
   for (const std::string place :
        {"/penetration/smoothing_length", "/trajectory/margin",
-        "/planning/clearance"}) {
+        "/via/0/tolerance", "/planning/clearance"}) {
     const std::string error = ErrorWith(place, "1e6unit");
     EXPECT_EQ(error.find("s.json: " + place + ": expected at most "), 0U)
         << error;

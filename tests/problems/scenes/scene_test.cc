@@ -62,6 +62,9 @@ Json FullScene() {
        {{"tol", 1e-6}, {"max_iter", 50}, {"mu_strategy", "adaptive"}}}};
   scene["planning"] = {
       {"planner", "prm"}, {"time_limit", 1}, {"clearance", "0.5D"}};
+  scene["via"] = {{{"point", {0, 0, 4}}},
+                  {{"point", {1, 0, 4}}, {"tolerance", 0.05}, {"dwell", 2}}};
+  scene["duration"] = 7.5;
   scene["feasible"] = true;
   scene["witness"] = {{-3, 0, 0}, {0, 0, 4}, {3, 0, 0}};
   return scene;
@@ -101,6 +104,14 @@ TEST(Scene, ReadsEverySetting) {
   EXPECT_EQ(scene.planning.planner, "prm");
   EXPECT_EQ(scene.planning.time_limit, 1.0);
   EXPECT_EQ(scene.planning.clearance, Length::FromShare(0.5));
+  ASSERT_EQ(scene.via.size(), 2U);
+  EXPECT_EQ(scene.via[0].point, Vector3d(0, 0, 4));
+  EXPECT_EQ(scene.via[0].tolerance, SceneVia().tolerance);
+  EXPECT_EQ(scene.via[0].dwell, 0.0);
+  EXPECT_EQ(scene.via[1].point, Vector3d(1, 0, 4));
+  EXPECT_EQ(scene.via[1].tolerance, Length::FromShare(0.05));
+  EXPECT_EQ(scene.via[1].dwell, 2.0);
+  EXPECT_EQ(scene.duration, 7.5);
   EXPECT_EQ(scene.feasible, true);
   EXPECT_EQ(scene.witness.at(1), Vector3d(0, 0, 4));
 }
@@ -205,7 +216,16 @@ TEST(Scene, SchemaAndStructsHaveTheSameDefaults) {
       written[section][key] = schema.at("default");
     }
   }
+  const Json& keys = SceneSchema()["properties"];
+  written["duration"] = keys["duration"]["default"];
+  const Json& of_via = keys["via"]["items"]["properties"];
+  written["via"] = {{{"point", {0, 0, 4}},
+                     {"tolerance", of_via["tolerance"]["default"]},
+                     {"dwell", of_via["dwell"]["default"]}}};
   const Scene a = ParseScene(written, "a"), b = ParseScene(SmallScene(), "b");
+  EXPECT_EQ(a.duration, b.duration);
+  EXPECT_EQ(a.via.at(0).tolerance, SceneVia().tolerance);
+  EXPECT_EQ(a.via.at(0).dwell, SceneVia().dwell);
   EXPECT_EQ(a.penetration.metric, b.penetration.metric);
   EXPECT_EQ(a.penetration.field, b.penetration.field);
   EXPECT_EQ(a.penetration.smoothing_length, b.penetration.smoothing_length);

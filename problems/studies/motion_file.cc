@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "problems/studies/motion_file.h"
+
+#include <charconv>
+#include <cmath>
+#include <vector>
+
+#include "core/mesh/mesh_error.h"
+#include "core/number_text.h"
+#include "planners/world/length.h"
+
+namespace phongpd {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kGcodeTolerance = 0.01;  // mm
+constexpr double kGcodeSeconds = 0.05;    // of a line
+constexpr int kFinerTolerances = 10;      // by a quarter each
+
+void RequireFewRows(const Trajectory& trajectory, double rate) {
+  if (trajectory.duration() * rate <= kMostTimedRows) return;
+  throw InputError("--rate: expected at most " + FormatDouble(kMostTimedRows) +
+                   " rows for the " + Rounded(trajectory.duration()) +
+                   " s of the motion, found " + FormatDouble(rate) + " Hz");
+}
+
+std::string YamlPoint(const Vector3d& p) {
+  return "[" + FormatDouble(p.x()) + ", " + FormatDouble(p.y()) + ", " +
+         FormatDouble(p.z()) + "]\n";
+}
+
+// In mm, as it is written: to 10 nm.
+std::string Millimetres(double length) {
+  char text[512];
+  const auto end = std::to_chars(text, text + sizeof text, length,
+                                 std::chars_format::fixed, 5);
+  return {text, end.ptr};
+}
+
+struct Line {
+  Vector3d end;  // mm, as it is written
+  double seconds = 0.0;
+};
+
+Vector3d Written(const Vector3d& mm) {
+  return mm.unaryExpr(
+      [](double x) { return ParseDouble(Millimetres(x), "G-code"); });
+}
+
+// So that a part of the curve is no farther from its line than the tolerance,
+// which is in the curve's own unit.
+void Divide(const CurvePiece& piece, double tolerance, double to_mm,
+            std::vector<Line>* lines) {
+  if (piece.Bend() > tolerance || piece.duration() > kGcodeSeconds) {
+    if (static_cast<double>(lines->size()) > kMostTimedRows) {
+      throw InputError("G-code: expected at most " +
+                       FormatDouble(kMostTimedRows) +
+                       " lines for the motion, found more");
+    }
+    const auto halves = piece.Split(0.5);
+    for (const CurvePiece& half : halves) {
+      Divide(half, tolerance, to_mm, lines);
+    }
+    return;
+  }
+  const Line line = {Written(to_mm * piece.back()), piece.duration()};
+  // Less than is written; nothing leads to the first.
+  if (lines->size() > 1 && lines->back().end == line.end) {
+    lines->back().seconds += line.seconds;
+  } else {
+    lines->push_back(line);
+  }
+}
+
+// The first is where it begins.
+std::vector<Line> LinesWithin(const Trajectory& trajectory, double tolerance,
+                              double to_mm) {
+  std::vector<Line> lines = {
+      {Written(to_mm * trajectory.pieces().front().front()), 0.0}};
+  for (const CurvePiece& piece : trajectory.pieces()) {
+    // A rest is a line of its own.
+    const bool rests = piece.Bend() == 0.0 && piece.front() == piece.back();
+    if (rests) {
+      lines.push_back({lines.back().end, piece.duration()});
+      continue;
+    }
+    Divide(piece, tolerance, to_mm, &lines);
+  }
+  return lines;
+}
+
+bool AreFree(const FreeSpace& space, const std::vector<Line>& lines,
+             double to_mm) {
+  std::vector<Vector3d> path;
+  for (const Line& line : lines) path.push_back(line.end / to_mm);
+  return CheckPath(space, path).free;
+}
+
+std::string Words(const Vector3d& p) {
+  return "X" + Millimetres(p.x()) + " Y" + Millimetres(p.y()) + " Z" +
+         Millimetres(p.z());
+}
+
+}  // namespace
+
+void RequireUnit(const std::string& unit, const std::string& what) {
+  if (!unit.empty()) return;
+  throw InputError(what +
+                   ": expected a scene with a \"unit\", to know how long a "
+                   "millimetre is, found none");
+}
+
+std::string TimedCsv(const Trajectory& trajectory, double rate) {
+  std::string text = "t,x,y,z,vx,vy,vz,ax,ay,az\n";
+  if (trajectory.empty()) return text;
+  RequireFewRows(trajectory, rate);
+  for (const Trajectory::Sample& sample : trajectory.Samples(rate)) {
+    text += FormatDouble(sample.time) + ',' + FormatPoint(sample.position) +
+            ',' + FormatPoint(sample.velocity) + ',' +
+            FormatPoint(sample.acceleration) + '\n';
+  }
+  return text;
+}
+
+std::string RosTrajectory(const Trajectory& trajectory, double rate,
+                          const std::string& unit) {
+  RequireUnit(unit, "ROS");
+  const double metres = MetresOf(unit);
+  std::string text =
+      "# trajectory_msgs/JointTrajectory, metres and seconds\n"
+      "joint_names: [x, y, z]\n";
+  if (trajectory.empty()) return text + "points: []\n";
+  RequireFewRows(trajectory, rate);
+  text += "points:\n";
+  for (const Trajectory::Sample& sample : trajectory.Samples(rate)) {
+    double seconds = std::floor(sample.time);
+    double nanoseconds = std::round(1e9 * (sample.time - seconds));
+    if (nanoseconds >= 1e9) {
+      seconds += 1.0;
+      nanoseconds = 0.0;
+    }
+    text += "- positions: " + YamlPoint(metres * sample.position) +
+            "  velocities: " + YamlPoint(metres * sample.velocity) +
+            "  accelerations: " + YamlPoint(metres * sample.acceleration) +
+            "  time_from_start: {sec: " +
+            std::to_string(static_cast<long long>(seconds)) + ", nanosec: " +
+            std::to_string(static_cast<long long>(nanoseconds)) + "}\n";
+  }
+  return text;
+}
+
+std::string MotionGcode(const FreeSpace& space, const Trajectory& trajectory,
+                        const std::string& unit) {
+  RequireUnit(unit, "G-code");
+  if (trajectory.empty()) return "; no motion\n";
+  if (trajectory.duration() / kGcodeSeconds > kMostTimedRows) {
+    throw InputError("G-code: expected a motion of at most " +
+                     FormatDouble(kMostTimedRows * kGcodeSeconds) +
+                     " s, found " + Rounded(trajectory.duration()) + " s");
+  }
+  const double to_mm = 1e3 * MetresOf(unit);
+  double tolerance = kGcodeTolerance;
+  std::vector<Line> lines;
+  for (int i = 0;; ++i, tolerance *= 0.25) {
+    lines = LinesWithin(trajectory, tolerance / to_mm, to_mm);
+    if (AreFree(space, lines, to_mm)) break;
+    if (i < kFinerTolerances) continue;
+    throw InputError(
+        "G-code: expected a curve whose lines to 10 nm are free, found one "
+        "closer to contact");
+  }
+  std::string text =
+      "; " + Rounded(trajectory.duration(), 6) + " s, " +
+      std::to_string(lines.size() - 1) + " lines within " +
+      Rounded(tolerance, 3) +
+      " mm of the certified curve, free by the exact judge\n"
+      "; begins at " +
+      Words(lines.front().end) +
+      ": nothing here leads there\n"
+      "G21 ; mm\nG90 ; positions, not steps\nG94 ; mm a minute\n";
+  for (std::size_t i = 1; i < lines.size(); ++i) {
+    const double length = (lines[i].end - lines[i - 1].end).norm();
+    text += length > 0.0
+                ? "G1 " + Words(lines[i].end) + " F" +
+                      Millimetres(60.0 * length / lines[i].seconds) + "\n"
+                : "G4 P" + FormatDouble(lines[i].seconds) + " ; s\n";
+  }
+  return text;
+}
+
+}  // namespace phongpd
