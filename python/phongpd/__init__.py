@@ -17,6 +17,7 @@ share of D, the world's one length::
     world = phongpd.World(tool, {"part": part})
     run = world.optimize(start, goal)              # Ipopt, exactly judged
     plan = world.plan(start, goal)                 # or a proof that there is none
+    motion = world.optimize_in_time(start, goal, limits=(1, 2, 10))
 
 Whatever cannot be used raises InputError, a ValueError of one line: what,
 where, expected, found.
@@ -26,6 +27,7 @@ from ._answers import Diagnosis, Plan, Trajectory
 from ._contact import ContactSpace, minkowski
 from ._depth import Depth, DepthQuery, depth
 from ._metrics import EuclideanMetric, Penetration, PhongMetric, QueryResult
+from ._motion import Motion
 from ._native import BuildCancelled, BuildRefusal, InputError, __version__
 from ._piece import ContactSpacePiece
 from ._rows import NonPenetrationRows
@@ -37,7 +39,7 @@ from ._world import Roadmap, World
 __all__ = [
     "BuildCancelled", "BuildRefusal", "ContactSpace", "ContactSpacePiece",
     "Depth", "DepthQuery", "Diagnosis", "EuclideanMetric", "InputError",
-    "NonPenetrationRows", "Penetration", "PenetrationTracker", "PhongMetric",
-    "Plan", "QueryResult", "Roadmap", "Solid", "TrackedMotion", "Trajectory",
-    "View", "World", "__version__", "depth", "minkowski", "view",
+    "Motion", "NonPenetrationRows", "Penetration", "PenetrationTracker",
+    "PhongMetric", "Plan", "QueryResult", "Roadmap", "Solid", "TrackedMotion",
+    "Trajectory", "View", "World", "__version__", "depth", "minkowski", "view",
 ]

@@ -107,6 +107,49 @@ def seconds(value: Any, name: str) -> float:
     return number
 
 
+def motion_limits(value: Any) -> tuple[tuple[float, float, float],
+                                       tuple[float, float, float],
+                                       tuple[float, float, float]]:
+    """(velocity, acceleration, jerk), each one number or of x, y and z."""
+    try:
+        v, a, j = value
+    except (TypeError, ValueError):
+        raise InputError("limits: expected (velocity, acceleration, jerk), each "
+                         "a number or one of x, y and z, found "
+                         f"{_told(value)}") from None
+
+    def one(limit: Any, name: str) -> tuple[float, float, float]:
+        array = numbers(limit, f"limits: {name}", "() or (3,)")
+        if array.shape not in ((1,), (3,)):  # a number is one of (1,)
+            raise InputError(f"limits: {name}: expected a number or three, "
+                             f"found {_told(limit)}")
+        x, y, z = np.broadcast_to(array, (3,))
+        return float(x), float(y), float(z)
+
+    return one(v, "velocity"), one(a, "acceleration"), one(j, "jerk")
+
+
+def places_on_the_way(
+        via: ArrayLike, tolerance: Any, dwell: ArrayLike,
+) -> list[tuple[tuple[float, float, float], str, float]]:
+    """Places (M, 3), a length, or one for each of them, and seconds, or so."""
+    places = rows(via, "via", 3)
+    count = len(places)
+    if isinstance(tolerance, (list, tuple, np.ndarray)):
+        close = [length(one, "tolerance") for one in tolerance]
+    else:
+        close = [length(tolerance, "tolerance")] * count
+    rests = numbers(dwell, "dwell", "() or (M,)")
+    if rests.shape == (1,):
+        rests = np.full(count, rests[0])
+    for name, found in (("tolerance", len(close)), ("dwell", rests.size)):
+        if found != count or rests.ndim != 1:
+            raise InputError(f"{name}: expected one, or one for each of the "
+                             f"{count} places of via, found {found}")
+    return [(point(place, f"via {i}"), close[i], float(rests[i]))
+            for i, place in enumerate(places)]
+
+
 def length(value: Any, name: str) -> str:
     """A number, a share of D or in the scene's unit if that has a name, or a
     text with the unit, "0.5unit"; None: default."""

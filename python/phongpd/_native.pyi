@@ -114,6 +114,15 @@ class Scene:
     robot: Solid
     obstacles: list[Solid]
     bounds: _Floats | None
+    limits: _Floats | None
+    via: list[tuple[_Point, str, float]]
+    duration: float
+
+class MotionWishes:
+    def __init__(self, limits: tuple[_Point, _Point, _Point],
+                 via: list[tuple[_Point, str, float]], duration: float,
+                 margin: str, preset: str, max_seconds: float,
+                 is_required: bool) -> None: ...
 
 class World:
     def __init__(self, scene: Scene, cache: bool,
@@ -122,6 +131,9 @@ class World:
                  waypoints: int, seed: int, max_seconds: float,
                  is_straight: bool, preset: str, model: str,
                  is_required: bool) -> str: ...
+    def optimize_in_time(self, start: _Point, goal: _Point, model: str,
+                         wishes: MotionWishes) -> str: ...
+    def retime(self, path: list[_Point], wishes: MotionWishes) -> str: ...
     def plan(self, start: _Point, goal: _Point, planner: str, retraction: str,
              clearance: str, max_seconds: float, seed: int,
              preset: str, model: str, is_required: bool) -> str: ...

@@ -128,8 +128,8 @@ def view(*things: Any, title: str = "PhongPD", notes: Iterable[str] = (),
          **named: Any) -> View:
     """One picture of several things.
 
-    things: Solid, ContactSpace, World, Trajectory, Plan, Depth, or an array
-    (K, 3), the way of the robot's position; of at most one robot.  Those with
+    things: Solid, ContactSpace, World, Trajectory, Plan, Motion, Depth, or an
+    array (K, 3), the way of the robot's position; of at most one robot.  Those with
     a name, `view(world, phong=one, euclid=other)`, have it in the legend.  An
     array after a world is judged in it, which builds the world's contact space
     if it is not there; before one, or without, it counts as free.
@@ -144,7 +144,8 @@ def view(*things: Any, title: str = "PhongPD", notes: Iterable[str] = (),
         else:
             raise InputError(
                 "view: expected Solid, ContactSpace, World, Trajectory, Plan, "
-                f"Depth or an array (K, 3), found {type(thing).__name__}")
+                "Motion, Depth or an array (K, 3), found "
+                f"{type(thing).__name__}")
     return View(canvas)
 
 

@@ -11,9 +11,10 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _native
 from ._answers import Diagnosis, Plan, Trajectory
-from ._arguments import Floats, flag, length, point, real, rows, seconds, \
-    text, whole_number
+from ._arguments import Floats, flag, length, motion_limits, \
+    places_on_the_way, point, real, rows, seconds, text, whole_number
 from ._contact import ContactSpace
+from ._motion import Motion, motion_of
 from ._native import InputError
 from ._solid import Solid, as_solid
 from ._view import Canvas, Shown
@@ -140,6 +141,12 @@ class World(Shown):
         """(N,): distance to contact and bounds; 0 where not free."""
         return self._native.clearances(rows(points, "points", 3))
 
+    @property
+    def limits(self) -> Floats | None:
+        """(3, 3): of velocity, acceleration and jerk, by x, y and z, where the
+        scene it was loaded from has them."""
+        return self._native.scene.limits
+
     def optimize(self, start: ArrayLike | None = None,
                  goal: ArrayLike | None = None, *, metric: str = "",
                  margin: float | str | None = None, waypoints: int = 0,
@@ -175,6 +182,66 @@ class World(Shown):
             objective=row["objective"], clearance=row["clearance"],
             iterations=row["iterations"], seconds=row["seconds"]["total"],
             row=row, world=self)
+
+    def optimize_in_time(
+            self, start: ArrayLike | None = None,
+            goal: ArrayLike | None = None, *, limits: Any = None,
+            via: ArrayLike | None = None, tolerance: Any = None,
+            dwell: ArrayLike = 0.0, duration: float | None = None,
+            margin: float | str | None = None,
+            max_seconds: float | None = None, preset: str = "",
+            model: str = "", require: bool = False) -> Motion:
+        """A fast curve in time that is free and keeps the limits for all t,
+        proved; from rest to rest.
+
+        limits: (velocity, acceleration, jerk), each one number or of x, y and
+        z, user's units and seconds; None: the scene's.  via: (M, 3), places to
+        pass on the way, in order, each within `tolerance`, a length as
+        optimize takes them, 0.001 of D if None; `dwell`: seconds to rest at
+        it; both one for all, or one for each.  None: the scene's places.
+        duration: seconds that it takes, with as little jerk as can be found;
+        0: as few as can be; None: the scene's.  max_seconds: of the search for
+        a faster curve; there is one before.  The rest as optimize has it.
+        """
+        scene = self._native.scene
+        wishes = self._wishes(
+            limits, scene.via if via is None
+            else places_on_the_way(via, tolerance, dwell),
+            scene.duration if duration is None else duration,
+            margin, max_seconds, preset, require)
+        return motion_of(json.loads(self._native.optimize_in_time(
+            *self._ends(start, goal), text(model, "model"), wishes)), self)
+
+    def retime(self, path: ArrayLike, *, limits: Any = None,
+               via: ArrayLike | None = None, tolerance: Any = None,
+               dwell: ArrayLike = 0.0, duration: float = 0.0,
+               margin: float | str | None = None,
+               max_seconds: float | None = None, preset: str = "",
+               require: bool = False) -> Motion:
+        """The same near a free path (K, 3) of one's own, of which the places of
+        `via` are points; they and the duration of the scene count for nothing.
+        """
+        points = [point(p, "path") for p in rows(path, "path", 3)]
+        if len(points) < 2:
+            raise InputError("path: expected two points at least, found "
+                             f"{len(points)}")
+        wishes = self._wishes(
+            limits, [] if via is None
+            else places_on_the_way(via, tolerance, dwell),
+            duration, margin, max_seconds, preset, require)
+        return motion_of(json.loads(self._native.retime(points, wishes)), self)
+
+    def _wishes(self, limits: Any, via: list[tuple[_Point, str, float]],
+                duration: Any, margin: Any, max_seconds: Any, preset: Any,
+                require: Any) -> _native.MotionWishes:
+        known = self.limits if limits is None else limits
+        if known is None:
+            raise InputError("limits: expected (velocity, acceleration, jerk), "
+                             "found None, and the scene has none")
+        return _native.MotionWishes(
+            motion_limits(known), via, real(duration, "duration"),
+            length(margin, "margin"), text(preset, "preset"),
+            seconds(max_seconds, "max_seconds"), flag(require, "require"))
 
     def plan(self, start: ArrayLike | None = None,
              goal: ArrayLike | None = None, *,

@@ -3,6 +3,7 @@
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/pair.h>
 #include <nanobind/stl/string.h>
+#include <nanobind/stl/tuple.h>
 #include <nanobind/stl/vector.h>
 
 #include <array>
@@ -127,6 +128,25 @@ void BindScene(nb::module_& module) {
                    [](const Scene& scene) { return ToArray(scene.start); })
       .def_prop_ro("goal",
                    [](const Scene& scene) { return ToArray(scene.goal); })
+      .def_prop_ro("limits",
+                   [](const Scene& scene) -> nb::object {
+                     if (!scene.limits) return nb::none();
+                     const MotionLimits& l = *scene.limits;
+                     return ToArray(std::vector<Vector3d>{
+                         l.velocity, l.acceleration, l.jerk});
+                   })
+      .def_prop_ro("via",
+                   [](const Scene& scene) {
+                     std::vector<std::tuple<Point, std::string, double>> all;
+                     for (const SceneVia& via : scene.via) {
+                       all.emplace_back(
+                           Point{via.point.x(), via.point.y(), via.point.z()},
+                           via.tolerance.Text(scene.unit), via.dwell);
+                     }
+                     return all;
+                   })
+      .def_prop_ro("duration",
+                   [](const Scene& scene) { return scene.duration; })
       .def_prop_ro("warnings",
                    [](const Scene& scene) { return Lines(scene.warnings); })
       .def_prop_ro("robot",
@@ -144,9 +164,20 @@ void BindScene(nb::module_& module) {
 
 void BindWorld(nb::module_& module) {
   BindScene(module);
+  nb::class_<MotionWishes>(module, "MotionWishes")
+      .def("__init__",
+           [](MotionWishes* self, const std::array<Point, 3>& limits,
+              const std::vector<std::tuple<Point, std::string, double>>& via,
+              double duration, const std::string& margin,
+              const std::string& preset, double max_seconds, bool is_required) {
+             new (self) MotionWishes{limits, via,         duration,   margin,
+                                     preset, max_seconds, is_required};
+           });
   nb::class_<Workshop>(module, "World")
       .def(nb::init<const Scene&, bool, double>())
       .def("optimize", &Workshop::Optimize)
+      .def("optimize_in_time", &Workshop::OptimizeInTime)
+      .def("retime", &Workshop::Retime)
       .def("plan", &Workshop::Plan)
       .def("diagnose", &DiagnosisOf)
       .def("are_free", &AreFree)

@@ -5,6 +5,7 @@
 
 #include "planners/world/bare_length.h"
 #include "problems/studies/planning_study.h"
+#include "problems/studies/timed_trajectory.h"
 #include "python/src/interruptible.h"
 
 namespace phongpd::python {
@@ -73,6 +74,70 @@ std::string Workshop::Optimize(const Point& start, const Point& goal,
         TrajectoryRow(trajectories_, chosen, options, result);
     return Judged(scene, ClaimsOf(result),
                   WishOfTrajectory(scene, !margin.empty(), is_required), &row);
+  });
+}
+
+template <typename Ask>
+std::string Workshop::InTime(Scene scene, const MotionWishes& wishes,
+                             const std::atomic<bool>& is_asked,
+                             const Ask& ask) {
+  const bool has_margin = !wishes.margin.empty();
+  if (has_margin) {
+    scene.trajectory.margin =
+        ParseClearance(wishes.margin, "margin", world_.diagonal(), scene.unit);
+  }
+  if (!wishes.preset.empty()) {
+    scene.preset = ParsePreset(wishes.preset, "preset");
+  }
+  scene.duration = wishes.duration;
+  scene.via.clear();
+  for (const auto& [point, tolerance, dwell] : wishes.via) {
+    SceneVia via;
+    via.point = ToVector(point);
+    via.dwell = dwell;
+    if (!tolerance.empty()) {
+      via.tolerance = ParseLength(tolerance, "tolerance", scene.unit);
+      RequireLength(via.tolerance, LengthRange::kAboveZero, world_.diagonal(),
+                    "tolerance", scene.unit);
+    }
+    scene.via.push_back(via);
+  }
+  const MotionLimits limits = {ToVector(wishes.limits[0]),
+                               ToVector(wishes.limits[1]),
+                               ToVector(wishes.limits[2])};
+  CurveOptions options = SceneCurveOptions(scene, world_, limits);
+  options.time_limit = wishes.max_seconds;
+  options.is_interrupted = [&is_asked] { return is_asked.load(); };
+  const TimedTrajectory timed = ask(scene, options);
+  nlohmann::ordered_json row = TimedRow(scene, world_, options, timed);
+  return Judged(scene, ClaimsOf(timed),
+                WishOfTrajectory(scene, has_margin, wishes.is_required), &row);
+}
+
+std::string Workshop::OptimizeInTime(const Point& start, const Point& goal,
+                                     const std::string& model,
+                                     const MotionWishes& wishes) {
+  return Interruptible([&](const std::atomic<bool>& is_asked) {
+    const std::lock_guard<std::mutex> lock(one_at_a_time_);
+    Scene scene = Between(start, goal);
+    if (!model.empty()) scene.trajectory.model = model;
+    return InTime(scene, wishes, is_asked,
+                  [&](const Scene& asked, const CurveOptions& options) {
+                    return PlanInTime(asked, world_, options);
+                  });
+  });
+}
+
+std::string Workshop::Retime(const std::vector<Point>& path,
+                             const MotionWishes& wishes) {
+  return Interruptible([&](const std::atomic<bool>& is_asked) {
+    const std::lock_guard<std::mutex> lock(one_at_a_time_);
+    std::vector<Vector3d> points;
+    for (const Point& p : path) points.push_back(ToVector(p));
+    return InTime(Between(path.front(), path.back()), wishes, is_asked,
+                  [&](const Scene&, const CurveOptions& options) {
+                    return TimePath(world_, points, options);
+                  });
   });
 }
 

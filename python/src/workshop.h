@@ -7,6 +7,8 @@
 #include <mutex>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
+#include <tuple>
+#include <vector>
 
 #include "core/contact/contact_space_cache.h"
 #include "planners/world/world.h"
@@ -23,6 +25,17 @@ inline Eigen::Vector3d ToVector(const Point& p) { return {p[0], p[1], p[2]}; }
 
 // Keeps contact spaces in the user's cache folder, or nowhere.
 ContactSpaceCache FolderOf(bool cache);
+
+// What a motion in time is to do, as Python tells it: lengths are texts.
+struct MotionWishes {
+  std::array<Point, 3> limits;  // of velocity, acceleration and jerk
+  std::vector<std::tuple<Point, std::string, double>> via;  // tolerance, dwell
+  double duration;
+  std::string margin;
+  std::string preset;
+  double max_seconds;
+  bool is_required;
+};
 
 // A world and what has been prepared in it for one kind of question or the
 // other.  Ipopt runs once at a time in a process, and preparing is no question
@@ -45,6 +58,14 @@ class Workshop {
                        bool is_straight, const std::string& preset,
                        const std::string& model, bool is_required);
 
+  // A row as `phongpd optimize --limits` writes it, judged.
+  std::string OptimizeInTime(const Point& start, const Point& goal,
+                             const std::string& model,
+                             const MotionWishes& wishes);
+  // As `phongpd retime` writes it.
+  std::string Retime(const std::vector<Point>& path,
+                     const MotionWishes& wishes);
+
   // A row as `phongpd plan` writes it, judged.
   std::string Plan(const Point& start, const Point& goal,
                    const std::string& planner, const std::string& retraction,
@@ -54,6 +75,10 @@ class Workshop {
 
  private:
   Scene Between(const Point& start, const Point& goal) const;
+  // Asks for a motion of that scene, and writes the row of the answer.
+  template <typename Ask>
+  std::string InTime(Scene scene, const MotionWishes& wishes,
+                     const std::atomic<bool>& is_asked, const Ask& ask);
   std::string Judged(const Scene& scene, const AnswerClaims& claims,
                      const ClearanceWish& wish,
                      nlohmann::ordered_json* row) const;

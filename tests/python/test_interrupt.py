@@ -50,6 +50,7 @@ print(phongpd.depth(knot, knot, at=(9, 0, 0)).status, world.diagnose(START).free
     "phongpd.minkowski(knot, knot)",
     "world.plan(START, GOAL)",
     "world.optimize(START, GOAL)",
+    "world.optimize_in_time(START, GOAL, limits=(1, 2, 10))",
     "world.is_free([START])",
     "world.contact_spaces()",
     "world.roadmap()",
@@ -69,3 +70,41 @@ def test_ctrl_c_stops_a_build(call, tmp_path):
         process.kill()
     assert out == "stopped\nseparate True\n"
     assert process.returncode == 0
+
+
+# A search of many seconds for a faster curve through a hundred places.
+SEARCH = """
+import numpy as np, phongpd
+box = np.array([[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)]) * 1.0
+faces = [[0, 1, 3], [0, 3, 2], [4, 6, 7], [4, 7, 5], [0, 4, 5], [0, 5, 1],
+         [2, 3, 7], [2, 7, 6], [0, 2, 6], [0, 6, 4], [1, 5, 7], [1, 7, 3]]
+cube = phongpd.Solid(box, faces)
+world = phongpd.World(cube, cube)
+path = [(-3, 9 * (-1) ** i, 0.1 * i) for i in range(100)]
+def search(**more):
+    return world.retime(path, via=path[1:-1], limits=(1, 2, 10), preset="tight",
+                        **more)
+some = search(max_seconds=1.5)
+assert some.certified and some.status == "time_limit", some
+print("begin", flush=True)
+try:
+    search()
+    print("done", flush=True)
+except KeyboardInterrupt:
+    print("stopped", flush=True)
+"""
+
+
+def test_ctrl_c_stops_a_search(tmp_path):
+    process = subprocess.Popen([sys.executable, "-c", SEARCH], cwd=tmp_path,
+                               stdout=subprocess.PIPE, text=True)
+    try:
+        assert process.stdout.readline() == "begin\n"
+        time.sleep(1)
+        begin = time.monotonic()
+        os.kill(process.pid, signal.SIGINT)
+        out, _ = process.communicate(timeout=120)
+    finally:
+        process.kill()
+    assert out == "stopped\n"
+    assert time.monotonic() - begin < 60

@@ -1,0 +1,173 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Motions in time."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from math import comb
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ._arguments import Floats, numbers, real
+from ._native import InputError
+from ._statuses import Answer
+from ._view import Canvas, Shown
+
+if TYPE_CHECKING:
+    from ._world import World
+
+# A picture of a curve is a polyline.
+_PICTURE_POINTS = 400
+
+
+@dataclass(frozen=True)
+class Motion(Answer, Shown):
+    """A curve in time that a machine can follow, or why there is none; the row
+    of `phongpd optimize --limits` or `phongpd retime` as `row`."""
+
+    status: str
+    """"converged", "round_limit" or "time_limit" of a curve; without one see
+    docs/outputs.md."""
+    reason: str
+    solved: bool
+    """Certified, and with the margin if that was required."""
+    certified: bool
+    """For all t, not at samples: free, and within the limits."""
+    duration: float
+    """Seconds; 0 without a curve."""
+    clearance: float
+    """A lower bound along the curve; user's unit."""
+    durations: Floats = field(repr=False)
+    """(N,): seconds of each piece."""
+    points: Floats = field(repr=False)
+    """(N, 6, 3): the Bézier points of each piece; of class C²."""
+    path: Floats = field(repr=False)
+    """(K, 3): the polyline that it began with."""
+    row: dict[str, Any] = field(repr=False)
+    world: World | None = field(default=None, repr=False, compare=False)
+    """That it is a motion in; None after a way through pickle."""
+
+    _LIVE = ("world",)
+
+    def at(self, times: ArrayLike, order: int = 0) -> Floats:
+        """(M, 3): position (order 0), velocity (1), acceleration (2) or jerk
+        (3) at seconds in [0, duration], summed in double; where two pieces
+        meet, of the later one."""
+        t = numbers(times, "times", "(M,)")
+        if t.ndim != 1:
+            raise InputError(f"times: expected shape (M,), found {t.shape}")
+        if order not in (0, 1, 2, 3):
+            raise InputError(f"order: expected 0, 1, 2 or 3, found {order!r}")
+        if not ((t >= 0.0) & (t <= self.duration)).all():
+            raise InputError("times: expected seconds from 0 to the duration, "
+                             f"{self.duration:.6g}, found others")
+        if not len(self.durations):
+            if len(t):
+                raise InputError(
+                    f"at: expected a motion with a curve, found {self.status}")
+            return np.empty((0, 3))
+        begins = np.concatenate([[0.0], np.cumsum(self.durations)[:-1]])
+        piece: NDArray[np.intp] = np.searchsorted(begins, t, side="right") - 1
+        length = self.durations[piece]
+        s = np.clip((t - begins[piece]) / length, 0.0, 1.0)[:, np.newaxis]
+        control = self.points
+        for k in range(order):
+            control = np.diff(control, axis=1) * (
+                (5 - k) / self.durations[:, np.newaxis, np.newaxis])
+        degree = control.shape[1] - 1
+        weights = np.stack(
+            [comb(degree, i) * s[:, 0] ** i * (1.0 - s[:, 0]) ** (degree - i)
+             for i in range(degree + 1)], axis=1)
+        found: Floats = np.einsum("mi,mik->mk", weights, control[piece])
+        return found
+
+    def plot(self, axes: Any = None) -> Any:
+        """Position, velocity, acceleration and jerk of x, y and z over time,
+        the limits dashed, by matplotlib, which has to be there.  axes: four of
+        its axes; None: of a new figure.  Returns them."""
+        from matplotlib import pyplot
+        if axes is None:
+            _, axes = pyplot.subplots(4, 1, sharex=True, figsize=(7, 8),
+                                      constrained_layout=True)
+        unit = self.row["lengths"]["unit"] or "unit"
+        times = np.linspace(0.0, self.duration, _PICTURE_POINTS)
+        names = ("position", "velocity", "acceleration", "jerk")
+        for order, (name, one) in enumerate(zip(names, axes)):
+            if len(self.durations):
+                values = self.at(times, order)
+                for k, axis in enumerate("xyz"):
+                    one.plot(times, values[:, k], label=axis, color=f"C{k}")
+            limits = self.row["limits"].get(name, ())
+            for limit in sorted({*limits, *(-x for x in limits)}):
+                one.axhline(limit, color="0.5", linestyle="--", linewidth=0.8)
+            power = {0: "", 1: "/s"}.get(order, f"/s{'²³'[order - 2]}")
+            one.set_ylabel(f"{name} ({unit}{power})")
+        axes[0].legend(loc="upper left")
+        axes[-1].set_xlabel("t (s)")
+        return axes
+
+    def samples(self, rate: float = 100.0) -> Floats:
+        """(M, 10): the columns t,x,y,z,vx,vy,vz,ax,ay,az every 1/rate seconds
+        and at the end, as `--output FILE.csv` writes them."""
+        hertz = real(rate, "rate")
+        if not 0.0 < hertz <= 1e6:
+            raise InputError("rate: expected a number above 0 and at most 1e6 "
+                             f"(Hz), found {hertz:g}")
+        if not len(self.durations):
+            return np.empty((0, 10))
+        if self.duration * hertz > 1e7:
+            raise InputError("rate: expected at most 1e7 rows for the "
+                             f"{self.duration:.6g} s of the motion, found "
+                             f"{hertz:g} Hz")
+        times = np.arange(np.floor(self.duration * hertz) + 1.0) / hertz
+        times = np.append(times[times < self.duration], self.duration)
+        return np.column_stack([times, *(self.at(times, k) for k in range(3))])
+
+    def to_row(self) -> dict[str, Any]:
+        """Flat, for pandas.DataFrame([one.to_row(), ...])."""
+        used = self.row["limits_used"]
+        return {"scene": self.row["scene"], "status": self.status,
+                "reason": self.reason, "solved": self.solved,
+                "certified": self.certified, "verified": self.row["verified"],
+                "duration": self.duration,
+                "stops_duration": self.row["stops_duration"],
+                "length": self.row["length"], "clearance": self.clearance,
+                "pieces": len(self.durations),
+                **{f"{name}_used": share for name, share in used.items()}}
+
+    def _draw(self, canvas: Canvas, name: str | None) -> None:
+        if self.world is None:
+            raise InputError("view: expected an answer with its world, found "
+                             "one that came through pickle")
+        self.world._draw(canvas, None)
+        if len(self.durations):
+            times = np.linspace(0.0, self.duration, _PICTURE_POINTS)
+            canvas.path(name or "motion", self.at(times), self.certified)
+
+    def _facts(self) -> dict[str, Any]:
+        return self.to_row()
+
+    def __str__(self) -> str:
+        because = f" ({self.reason})" if self.reason else ""
+        if not len(self.durations):
+            return f"no motion, {self.status}{because}"
+        return (f"{self.duration:.6g} s, "
+                f"{'certified' if self.certified else 'NOT CERTIFIED'}, "
+                f"{self.status}{because}: {len(self.durations)} pieces, "
+                f"clearance {self.clearance:.6g} at least")
+
+
+def motion_of(row: dict[str, Any], world: World) -> Motion:
+    """Of a row that the program writes, too."""
+    pieces = row["pieces"]
+    return Motion(
+        status=row["status"], reason=row["reason"], solved=row["solved"],
+        certified=row["certified"], duration=row["duration"],
+        clearance=row["clearance"],
+        durations=np.array([p["duration"] for p in pieces], dtype=np.float64),
+        points=np.array([p["points"] for p in pieces],
+                        dtype=np.float64).reshape(-1, 6, 3),
+        path=np.asarray(row["path"], dtype=np.float64).reshape(-1, 3),
+        row=row, world=world)
