@@ -17,6 +17,7 @@ using Eigen::Vector3d;
 constexpr double kGcodeTolerance = 0.01;  // mm
 constexpr double kGcodeSeconds = 0.05;    // of a line
 constexpr int kFinerTolerances = 10;      // by a quarter each
+constexpr int kMostHalvings = 60;
 
 void RequireFewRows(const Trajectory& trajectory, double rate) {
   if (trajectory.duration() * rate <= kMostTimedRows) return;
@@ -51,8 +52,13 @@ Vector3d Written(const Vector3d& mm) {
 // So that a part of the curve is no farther from its line than the tolerance,
 // which is in the curve's own unit.
 void Divide(const CurvePiece& piece, double tolerance, double to_mm,
-            std::vector<Line>* lines) {
+            int halvings, std::vector<Line>* lines) {
   if (piece.Bend() > tolerance || piece.duration() > kGcodeSeconds) {
+    if (halvings == kMostHalvings) {
+      throw InputError("G-code: expected a curve whose coordinates tell " +
+                       Rounded(tolerance * to_mm) + " mm apart, found one at " +
+                       FormatPoint(piece.front()));
+    }
     if (static_cast<double>(lines->size()) > kMostTimedRows) {
       throw InputError("G-code: expected at most " +
                        FormatDouble(kMostTimedRows) +
@@ -60,7 +66,7 @@ void Divide(const CurvePiece& piece, double tolerance, double to_mm,
     }
     const auto halves = piece.Split(0.5);
     for (const CurvePiece& half : halves) {
-      Divide(half, tolerance, to_mm, lines);
+      Divide(half, tolerance, to_mm, halvings + 1, lines);
     }
     return;
   }
@@ -85,7 +91,7 @@ std::vector<Line> LinesWithin(const Trajectory& trajectory, double tolerance,
       lines.push_back({lines.back().end, piece.duration()});
       continue;
     }
-    Divide(piece, tolerance, to_mm, &lines);
+    Divide(piece, tolerance, to_mm, 0, &lines);
   }
   return lines;
 }

@@ -261,7 +261,9 @@ TimedTrajectory PlanInTime(const Scene& scene, const World& world,
   places.push_back(scene.goal);
   RequireMotion(places, options);
   // Said by the planner before it builds anything.
-  if (!world.Diagnose(scene.goal).IsFree()) places = {scene.start, scene.goal};
+  if (scene.start != scene.goal && !world.Diagnose(scene.goal).IsFree()) {
+    places = {scene.start, scene.goal};
+  }
   TimedTrajectory timed;
   timed.reason = BlockedVia(world, options.via);
   if (!timed.reason.empty()) {

@@ -469,6 +469,15 @@ TEST_F(CliTimed, SaysWhichPlaceIsNotReached) {
   blocked["goal"] = {0.1, 0, 0};
   EXPECT_EQ(Answer("optimize " + Scene(blocked) + rest + "1,0,0", 1)["status"],
             "goal_in_collision");
+  // There and back again, if one can be there.
+  Json loop = TwoObstacles();
+  loop["goal"] = loop["start"];
+  const Json back = Answer("optimize " + Scene(loop) + rest + "1.5,0,0", 0);
+  EXPECT_EQ(back["certified"], true);
+  ExpectPassed(back);
+  loop["start"] = loop["goal"] = {0.1, 0, 0};
+  EXPECT_EQ(Answer("optimize " + Scene(loop) + rest + "1.5,0,0", 1)["status"],
+            "start_in_collision");
 }
 
 }  // namespace

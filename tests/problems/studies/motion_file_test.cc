@@ -168,6 +168,12 @@ TEST(MotionGcode, RefusesWhatHasNoMillimetres) {
   testing::ExpectRefused([&] { MotionGcode(space, touching, "mm"); },
                          "closer to contact");
   EXPECT_EQ(MotionGcode(space, {}, "mm"), "; no motion\n");
+  // So far away that a hundredth of a millimetre is nothing.
+  const Vector3d far(1e20, 3e20, 7e20);
+  const Trajectory away(
+      {CurvePiece({far, 1.1 * far, {2e20, 0, 0}, {0, 2e20, 1e20}}, 1.0)});
+  testing::ExpectRefused([&] { MotionGcode(space, away, "mm"); },
+                         "tell 0.01 mm apart");
 }
 
 }  // namespace
