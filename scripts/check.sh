@@ -158,21 +158,24 @@ check_options() {
       { cat "$log"; return 1; }
   }
   takes subdirectory -DCOMPONENTS=core,ipopt,ompl -DCOMPILE_ONLY=ON
-  # Not optimised: it is compiled for this alone.
-  takes fetch -DCOMPONENTS=core -DCMAKE_BUILD_TYPE=None
-  build/check/fetch/use_core examples/cube.off examples/cube.off
+  if whole; then
+    # Not optimised: it is compiled for this alone.
+    takes fetch -DCOMPONENTS=core -DCMAKE_BUILD_TYPE=None
+    build/check/fetch/use_core examples/cube.off examples/cube.off
+  fi
 }
 
-# The front end only: all of its diagnostics, in half the time.  full builds.
-# Sources singly: the groups in which a build without a cache compiles them, where
-# they see each other's names, are built by clang for fuzz and asan.  The headers
+# full builds.  In quick what fuzz and asan do not build by clang as well, which
+# is the library, in the groups of a build without a cache: the program, tests and
+# benchmarks, by the front end only, which has all of the diagnostics.  The headers
 # that all tests parse are parsed once.
 check_clang() {
   scripts/setup.sh clang
-  if whole; then PRESET=clang scripts/build.sh; return; fi
+  if whole; then PRESET=clang scripts/build.sh all benchmarks; return; fi
   local list=build/check/clang.commands count
   compile_commands -DCMAKE_DISABLE_PRECOMPILE_HEADERS=OFF \
-    "${folders[@]}" tests results examples >"$list.all"
+    problems/cli problems/CMakeFiles/phongpd.dir tests results examples |
+    awk '!seen[$NF]++' >"$list.all"
   each() { (cd build-clang && tr '\n' '\0' |
     xargs -0 -n 1 -P "$(nproc)" bash -c); }
   sed -n 's/\( -x c++-header \)-o [^ ]* -c \(.*\)[.]cxx$/\1-o \2.pch -c \2.cxx/p' \
