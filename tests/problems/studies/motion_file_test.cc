@@ -57,8 +57,8 @@ std::vector<double> Numbers(const std::string& text) {
 
 TEST(RosTrajectory, HasTheSamplesInMetres) {
   const Trajectory curve = OverTheCube();
-  for (const auto& [unit, metres] :
-       {std::pair("mm", 1e-3), {"m", 1.0}, {"in", 0.0254}}) {
+  for (const std::string unit : {"mm", "m", "in"}) {
+    const double metres = unit == "mm" ? 1e-3 : unit == "m" ? 1.0 : 0.0254;
     const auto lines = Lines(RosTrajectory(curve, 3.0, unit));
     const auto samples = curve.Samples(3.0);
     EXPECT_EQ(lines.at(1), "joint_names: [x, y, z]");
