@@ -42,23 +42,27 @@ readonly slice=(
   free_space_test start_repair_test workspace_test
   motion_graph_test retraction_test scene_errors_test scene_mutations_test
 )
-# Of these the tests that do the same thousands of times: more than half of all
-# the time, and next to nothing that the sanitizers see only then.
+# Of those, what quick builds for the address sanitizer: of each folder something,
+# and little of what the fuzzers run under it already.
+readonly sanitized=(
+  collision_oracle_test contact_roadmap_test contact_space_cache_test
+  contact_space_test contact_surface_planner_test euclidean_metric_test
+  free_cells_test mesh_repair_test motion_graph_test non_penetration_test
+  phong_field_test phong_metric_test retraction_test scene_errors_test
+  start_repair_test triangle_bvh_inside_test triangle_mesh_test zero_edges_test
+)
+# Of these the tests that do the same thousands of times: half of all the time, and
+# next to nothing that the sanitizers see only then.
 readonly repeating=(
   ContactRoadmap.PassesWhateverIsWideEnough
   ContactSpace.SeparatesFreeFromHitForGenericSolids
   ContactSurfacePlanner.PassesWhateverIsWideEnough
-  Cubic.RootsAwayFromFoldsAreThoseOf128BitArithmetic
-  Cubic.CountsRootsOnBothSidesOfAFold
-  NormalField.FindsAllThatNewtonFindsFromManyStarts
   PhongField.IsAdmissibleForEverySmoothingLength
   PhongMetric.ColdQueryIsTheLeastDepthOfAllTriangles
   PhongMetric.HitIsAProjectionAndNotShallowerThanEuclidean
   PhongMetric.QueryAllListsEveryProjectionWithinTheBoundOnce
   RepairSolid.RefusesWhatOnlyAWrapCanMend
-  SceneMutations.RandomDocumentsAreReadOrRefused
   StartRepair.FreesEveryPathOfTheFamilies
-  TriangleBvhSegments.MeasuresTheDistanceOfSegments
 )
 # Those, besides, that feed what is no number, or next to none.
 readonly extreme=(
@@ -204,10 +208,11 @@ check_tidy() {
       grep -v build-clang)
   else
     # In groups, which include sources to parse their headers once; those with
-    # CGAL take minutes each.
+    # CGAL take minutes each, and those of core/minkowski half of what is left.
     checks=(--checks=-bugprone-suspicious-include)
     files=$(compile_commands -DPHONGPD_UNITY_BUILD=ON core constraints |
-      sed -n 's/.* \(.*\/Unity\/.*\)/\1/p' | grep -v cgal)
+      sed -n 's/.* \(.*\/Unity\/.*\)/\1/p' | grep -v cgal |
+      xargs grep -L /core/minkowski/)
   fi
   say "tidy: $(wc -w <<<"$files") sources or groups of them"
   # The count of what it left out in system headers is no news.
@@ -300,7 +305,7 @@ check_coverage() {
 
 check_asan() {
   scripts/setup.sh clang libclang-rt-14-dev
-  build_tests asan "${slice[@]}"
+  build_tests asan "${sanitized[@]}"
   local left_out=
   whole || left_out="^($(IFS='|' && echo "${repeating[*]}"))\$"
   ASAN_OPTIONS=detect_stack_use_after_return=1:check_initialization_order=1 \
