@@ -6,9 +6,9 @@
 #include <ompl/geometric/SimpleSetup.h>
 #include <phongpd/core/contact/contact_space.h>
 #include <phongpd/core/solid/solid.h>
-#include <phongpd/planners/exact/workspace.h>
 #include <phongpd/planners/ompl/contact_space_validity.h>
 #include <phongpd/planners/ompl/contact_surface_ompl_planner.h>
+#include <phongpd/planners/world/workspace.h>
 
 #include <iostream>
 

@@ -5,7 +5,7 @@
 #include <phongpd/core/contact/contact_space.h>
 #include <phongpd/core/solid/solid.h>
 #include <phongpd/planners/exact/contact_roadmap.h>
-#include <phongpd/planners/exact/workspace.h>
+#include <phongpd/planners/world/workspace.h>
 
 #include <iostream>
 #include <map>
@@ -40,7 +40,7 @@ int main(int argc, char** argv) {
     const phongpd::PlanResult plan = roadmap.Plan(start, goal);
     ++answers[phongpd::ToString(plan.status)];
     seconds += plan.seconds;
-    if (plan.status != phongpd::PlanStatus::kSolved) continue;
+    if (plan.status != phongpd::PathStatus::kSolved) continue;
     length += plan.length;
     straight += (goal - start).norm();
   }

@@ -120,7 +120,7 @@ check_format() {
 
 check_options() {
   local log=build/check/options.log part
-  local parts=(CORE CONSTRAINTS ORACLE PLANNERS IPOPT OMPL PROBLEMS STUDIES
+  local parts=(CORE CONSTRAINTS ORACLE PLANNERS IPOPT OMPL SOLVE PROBLEMS STUDIES
     PROGRAM EXAMPLES TESTS RESULTS)
   configures() { # MESSAGE OPTION...
     say "options ${*:2}"
@@ -132,8 +132,8 @@ check_options() {
   # What is switched off, and what is said of that which stands on it.
   local -A above=([CORE]=phongpd::constraints [CONSTRAINTS]=phongpd::planners
     [ORACLE]=phongpd::studies [PLANNERS]=phongpd::ipopt
-    [IPOPT]=phongpd::studies [OMPL]=phongpd::studies
-    [PROBLEMS]=phongpd::studies [STUDIES]="the program"
+    [IPOPT]=phongpd::solve [OMPL]=phongpd::solve
+    [SOLVE]=phongpd::studies [PROBLEMS]=phongpd::studies [STUDIES]="the program"
     [PROGRAM]="the tests")
   local none=()
   for part in "${parts[@]}"; do
@@ -316,7 +316,7 @@ check_asan() {
 # project that links it runs where it was installed.
 check_shared() {
   local none=() part place=$PWD/build/check/shared minor
-  for part in ORACLE IPOPT OMPL PROBLEMS PROGRAM EXAMPLES TESTS RESULTS; do
+  for part in ORACLE IPOPT OMPL SOLVE PROBLEMS PROGRAM EXAMPLES TESTS RESULTS; do
     none+=("-DPHONGPD_BUILD_$part=OFF")
   done
   cmake -S . -B build-shared -D BUILD_SHARED_LIBS=ON "${none[@]}"

@@ -63,11 +63,12 @@ test_library() {
     grep -q "Euclidean depth 0.3, out along 1 0 0" out'
   install $(dpkg-deb --field "$1" Recommends | tr -d ',')
   there 'cd /tmp/examples
-    parts=core,constraints,planners,ipopt,ompl,studies
+    parts=core,planners,ipopt,ompl,solve
     cmake -S . -B all -D COMPONENTS=$parts >/cmake.log
     cmake --build all --parallel 2 >>/cmake.log
-    all/03_ipopt u.json | tee out
+    all/03_ipopt cube.off u.off | tee out
     grep -q "the judge says free" out
+    all/08_world cube.off u.off | grep "confirmed on the solids"
     all/04_ompl cube.off u.off | grep "no way around: no path, proved"'
 }
 

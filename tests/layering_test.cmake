@@ -57,6 +57,14 @@ forbid(planners "(problems|tests|results)/")
 forbid(problems "(tests|results|examples)/")
 forbid(examples "(tests|results)/")
 
+# Worlds are what planners plan in; each kind of planner is by itself, and solve
+# is the door to all of them.
+forbid(planners/world "planners/(exact|retraction|trajectory|ompl|solve)/")
+forbid(planners/exact "planners/(retraction|trajectory|ompl|solve)/")
+forbid(planners/retraction "planners/(trajectory|ompl|solve)/")
+forbid(planners/trajectory "planners/(retraction|ompl|solve)/")
+forbid(planners/ompl "planners/(trajectory|solve)/")
+
 # Heavy libraries stay out of what users include.
 file(STRINGS ${SOURCE}/core/CMakeLists.txt public REGEX "^    [a-z_/]+\\.h")
 if(NOT public)
@@ -125,7 +133,7 @@ known_to("/assimp_mesh[.]cc$" "assimp/" "problems;tests;results")
 known_to("ipopt_(solve|options|options_test)[.]cc$" "Ip[A-Z]"
          "constraints;planners;problems;tests;results")
 # OMPL belongs to planners/ompl; programs that measure may use it too.
-foreach(folder constraints planners/exact planners/retraction
+foreach(folder constraints planners/world planners/exact planners/retraction
         planners/trajectory problems)
   forbid(${folder} "ompl/")
 endforeach()

@@ -154,7 +154,7 @@ PlanResult ContactRoadmap::Plan(const Vector3d& start, const Vector3d& goal,
     }
     if (path.empty()) {
       ++impl_->lazy_searches;
-      PlanRequest lazy;
+      RouteRequest lazy;
       lazy.clearance = request.clearance;
       result = impl_->planner->Plan(start, goal, lazy);
     } else if (request.shorten) {

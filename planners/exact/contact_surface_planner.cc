@@ -52,26 +52,6 @@ void RequireOfPlanner(bool holds, const char* option, const char* range,
 
 }  // namespace
 
-const char* ToString(PlanStatus status) {
-  switch (status) {
-    case PlanStatus::kSolved:
-      return "solved";
-    case PlanStatus::kInfeasibleProved:
-      return "infeasible_proved";
-    case PlanStatus::kFailed:
-      return "failed";
-    case PlanStatus::kInvalidStart:
-      return "start_in_collision";
-    case PlanStatus::kInvalidGoal:
-      return "goal_in_collision";
-    case PlanStatus::kStartOutOfBounds:
-      return "start_out_of_bounds";
-    case PlanStatus::kGoalOutOfBounds:
-      return "goal_out_of_bounds";
-  }
-  return "";
-}
-
 void ContactSurfaceOptions::Validate() const {
   RequireOfPlanner(spacing >= 1e-3 && spacing <= 1.0, "spacing",
                    "in [0.001, 1]", spacing);
@@ -80,7 +60,19 @@ void ContactSurfaceOptions::Validate() const {
   RequireOfPlanner(random_cuts >= 0, "random_cuts", "≥ 0", random_cuts);
 }
 
-void PlanRequest::Validate() const {
+void ApplyPreset(Preset preset, ContactSurfaceOptions* options) {
+  // The first route alone; nor does a link across a gap find another.
+  if (preset == Preset::kFast) {
+    options->routes = 1;
+    options->gap_links = 0;
+  }
+  if (preset == Preset::kTight) {
+    options->routes = 8;
+    options->spacing = 0.2;
+  }
+}
+
+void RouteRequest::Validate() const {
   RequireOfPlanner(clearance >= 0.0 && std::isfinite(clearance), "clearance",
                    "≥ 0 and finite", clearance);
   RequireOfPlanner(routes >= 0, "routes", "≥ 0", routes);
@@ -102,7 +94,8 @@ struct ContactSurfacePlanner::Impl {
   }
   void Recombine(PlanResult* result) const;
   void FindPath(const Vector3d& start, const Vector3d& goal,
-                const PlanRequest& request, bool all, PlanResult* result) const;
+                const RouteRequest& request, bool all,
+                PlanResult* result) const;
 
   PlanningSurface surface;
   SurfaceGraph graph;
@@ -170,8 +163,8 @@ void ContactSurfacePlanner::Impl::Recombine(PlanResult* result) const {
 
 void ContactSurfacePlanner::Impl::FindPath(const Vector3d& start,
                                            const Vector3d& goal,
-                                           const PlanRequest& request, bool all,
-                                           PlanResult* result) const {
+                                           const RouteRequest& request,
+                                           bool all, PlanResult* result) const {
   const ContactSurfaceOptions& options = surface.options;
   const int routes = request.routes > 0 ? request.routes : options.routes;
   if (surface.IsClearWay(start, goal, result->wanted_clearance)) {
@@ -240,7 +233,7 @@ void ContactSurfacePlanner::Impl::FindPath(const Vector3d& start,
       if (site.triangle >= 0) avoided[site.triangle] = 1;
     }
   }
-  if (result->status == PlanStatus::kSolved) return Recombine(result);
+  if (result->status == PathStatus::kSolved) return Recombine(result);
   const bool decided = result->start.cell != FreeCells::kUndecided &&
                        result->goal.cell != FreeCells::kUndecided;
   result->reason =
@@ -278,13 +271,13 @@ double ContactSurfacePlanner::build_seconds() const {
 
 PlanResult ContactSurfacePlanner::Plan(const Vector3d& start,
                                        const Vector3d& goal,
-                                       const PlanRequest& request) const {
+                                       const RouteRequest& request) const {
   return Plan(start, goal, request, false);
 }
 
 PlanResult ContactSurfacePlanner::Plan(const Vector3d& start,
                                        const Vector3d& goal,
-                                       const PlanRequest& request,
+                                       const RouteRequest& request,
                                        bool all_routes) const {
   request.Validate();
   const Stopwatch stopwatch;

@@ -10,21 +10,12 @@
 #include "core/contact/contact_space.h"
 #include "planners/exact/free_cells.h"
 #include "planners/exact/path_lift.h"
+#include "planners/world/path_status.h"
+#include "planners/world/preset.h"
 
 namespace phongpd {
 
 struct PlanningSurface;
-
-enum class PlanStatus {
-  kSolved,            // path free by exact tests
-  kInfeasibleProved,  // start and goal lie in different cells
-  kFailed,            // neither; `reason` says why
-  kInvalidStart,      // not free
-  kInvalidGoal,
-  kStartOutOfBounds,  // said by who has looked at the bounds apart; to a
-  kGoalOutOfBounds,   // planner the walls of a sealed space are obstacles
-};
-const char* ToString(PlanStatus status);
 
 // Clearance that is enough for who names none, a share of the diagonal of the
 // cell's hull; passages narrower than twice that are taken in the middle.
@@ -46,12 +37,16 @@ struct ContactSurfaceOptions {
   void Validate() const;
 };
 
+// What the preset sets in options that are as they come.  Whoever wants
+// another value sets it afterwards.
+void ApplyPreset(Preset preset, ContactSurfaceOptions* options);
+
 // What the robot touches at a configuration, for the reasons of a plan: a
 // contact space knows no names.  Thread-safe; empty for nothing it knows.
 using ObstacleNames = std::function<std::string(const Eigen::Vector3d&)>;
 
 // What one query may ask differently.
-struct PlanRequest {
+struct RouteRequest {
   double clearance = 0.0;  // user's unit, ≥ 0, finite; 0: kEnoughClearance
   int routes = 0;          // ≥ 0; 0: by the options
 
@@ -68,7 +63,7 @@ struct CellCertificate {
 };
 
 struct PlanResult {
-  PlanStatus status = PlanStatus::kFailed;
+  PathStatus status = PathStatus::kFailed;
   std::string reason;                     // one sentence unless solved
   std::vector<Eigen::Vector3d> path;      // from start to goal, shortened
   std::vector<Eigen::Vector3d> raw_path;  // as lifted off the surface
@@ -118,7 +113,7 @@ class ContactSurfacePlanner {
   // Thread-safe.  Same arguments, same result but for `seconds`.  A start or
   // goal that is not finite is an invalid one; throws InputError for requests.
   PlanResult Plan(const Eigen::Vector3d& start, const Eigen::Vector3d& goal,
-                  const PlanRequest& request = {}) const;
+                  const RouteRequest& request = {}) const;
 
   const FreeCells& cells() const;
   double build_seconds() const;
@@ -131,7 +126,7 @@ class ContactSurfacePlanner {
   // All: as many routes as are asked for, however long; otherwise only while
   // they may become the shortest.
   PlanResult Plan(const Eigen::Vector3d& start, const Eigen::Vector3d& goal,
-                  const PlanRequest& request, bool all_routes) const;
+                  const RouteRequest& request, bool all_routes) const;
 
   const PlanningSurface& surface() const;
 

@@ -48,12 +48,12 @@ PlanResult PlanningSurface::Begin(const Vector3d& start, const Vector3d& goal,
       static_cast<long>(contact.space().report().self_intersections);
   result.reason = WhyInvalid("start", start);
   if (!result.reason.empty()) {
-    result.status = PlanStatus::kInvalidStart;
+    result.status = PathStatus::kStartInCollision;
     return result;
   }
   result.reason = WhyInvalid("goal", goal);
   if (!result.reason.empty()) {
-    result.status = PlanStatus::kInvalidGoal;
+    result.status = PathStatus::kGoalInCollision;
     return result;
   }
   result.start = Locate(start);
@@ -63,7 +63,7 @@ PlanResult PlanningSurface::Begin(const Vector3d& start, const Vector3d& goal,
   const bool decided = cell != FreeCells::kUndecided &&
                        result.goal.cell != FreeCells::kUndecided;
   if (decided && cell != result.goal.cell) {
-    result.status = PlanStatus::kInfeasibleProved;
+    result.status = PathStatus::kInfeasibleProved;
     result.reason = "start and goal lie in different cells of free space";
   }
   return result;
@@ -99,14 +99,14 @@ void PlanningSurface::Offer(std::vector<Vector3d> raw_path,
   result->routes.push_back(path);
   const double length = PathLength(path);
   const double clearance = ClearanceOf(path);
-  if (result->status == PlanStatus::kSolved) {
+  if (result->status == PathStatus::kSolved) {
     const RouteOrder order(cells.rounding());
     if (!order.IsBetter({length, clearance},
                         {result->length, result->clearance})) {
       return;
     }
   }
-  result->status = PlanStatus::kSolved;
+  result->status = PathStatus::kSolved;
   result->reason.clear();
   result->raw_path = std::move(raw_path);
   result->path = std::move(path);

@@ -98,10 +98,10 @@ struct StartRepair::Impl {
         diagonal(merged.length()) {}
 
   std::vector<double> FindContacts(const Path& path) const;
-  std::vector<Path> PlanLine(const Path& path, const PlanRequest& request,
+  std::vector<Path> PlanLine(const Path& path, const RouteRequest& request,
                              bool all, StartRepairResult* result) const;
   Path LeadAround(const Path& path, const std::vector<double>& contacts,
-                  const PlanRequest& request, bool all,
+                  const RouteRequest& request, bool all,
                   StartRepairResult* result) const;
   Path Shorten(const Path& path, const StartRepairOptions& options,
                double clearance) const;
@@ -131,13 +131,13 @@ std::vector<double> StartRepair::Impl::FindContacts(const Path& path) const {
 // The straight way replaced as a whole, which leaves the planner free to find
 // the shortest one.
 std::vector<Path> StartRepair::Impl::PlanLine(const Path& path,
-                                              const PlanRequest& request,
+                                              const RouteRequest& request,
                                               bool all,
                                               StartRepairResult* result) const {
   PlanResult plan = planner.Plan(path.front(), path.back(), request, all);
   Count(plan, result);
   result->reason = plan.reason;
-  if (plan.status == PlanStatus::kInfeasibleProved) {
+  if (plan.status == PathStatus::kInfeasibleProved) {
     result->status = RepairStatus::kInfeasibleProved;
   }
   return std::move(plan.routes);
@@ -147,7 +147,7 @@ std::vector<Path> StartRepair::Impl::PlanLine(const Path& path,
 // empty if that fails.
 Path StartRepair::Impl::LeadAround(const Path& path,
                                    const std::vector<double>& contacts,
-                                   const PlanRequest& request, bool all,
+                                   const RouteRequest& request, bool all,
                                    StartRepairResult* result) const {
   const double end = static_cast<double>(path.size() - 1);
   Path out = {path.front()};
@@ -164,9 +164,9 @@ Path StartRepair::Impl::LeadAround(const Path& path,
       if (!space.IsFree(to)) continue;
       plan = planner.Plan(PointAt(path, before), to, request, all);
       Count(plan, result);
-      if (plan.status == PlanStatus::kSolved) break;
+      if (plan.status == PathStatus::kSolved) break;
     }
-    if (plan.status != PlanStatus::kSolved) return {};
+    if (plan.status != PathStatus::kSolved) return {};
     AppendBetween(path, done, before, &out);
     out.insert(out.end(), plan.path.begin(), plan.path.end());
     ++result->runs;
@@ -230,7 +230,7 @@ void StartRepair::Impl::Repair(const Path& path,
   }
   const double wished =
       options.clearance > 0.0 ? options.clearance : kClearance * diagonal;
-  PlanRequest request;
+  RouteRequest request;
   // Shortening gives a part of the clearance away.
   request.clearance = wished / kClearanceKept;
   request.routes = kCandidates;

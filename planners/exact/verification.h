@@ -9,7 +9,7 @@
 #include "constraints/trajectory.h"
 #include "core/mesh/triangle_mesh.h"
 #include "core/projection/penetration_metric.h"
-#include "planners/exact/workspace.h"
+#include "planners/world/workspace.h"
 
 namespace phongpd {
 

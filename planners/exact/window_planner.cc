@@ -32,8 +32,8 @@ constexpr double kPoor = 0.25;
 constexpr int kFurtherRounds = 3;
 
 bool IsBetter(const PlanResult& found, const PlanResult& best) {
-  if (best.status != PlanStatus::kSolved) return true;
-  if (found.status != PlanStatus::kSolved) return false;
+  if (best.status != PathStatus::kSolved) return true;
+  if (found.status != PathStatus::kSolved) return false;
   // The surface of each exploration has a rounding of its own.
   return RouteOrder(std::max(found.rounding, best.rounding))
       .IsBetter({found.length, found.clearance}, {best.length, best.clearance});
@@ -61,7 +61,7 @@ bool WindowPlanner::TryStraight(const Vector3d& start, const Vector3d& goal,
   const double ends =
       std::min({clearance, space_.Clearance(start), space_.Clearance(goal)});
   if (start != goal && least < kStraightShare * ends) return false;
-  result->status = PlanStatus::kSolved;
+  result->status = PathStatus::kSolved;
   result->path = {start};
   if (start != goal) result->path.push_back(goal);
   result->raw_path = result->path;
@@ -85,7 +85,7 @@ void WindowPlanner::Widen(const Vector3d& start, const Vector3d& goal,
   for (std::vector<Vector3d>& route : result->routes) join_ends(&route);
   join_ends(&result->path);
   if (!CheckPath(space_, result->path).free) {
-    result->status = PlanStatus::kFailed;
+    result->status = PathStatus::kFailed;
     result->reason = "a path was found that is closed by rounding";
     return;
   }
@@ -95,7 +95,8 @@ void WindowPlanner::Widen(const Vector3d& start, const Vector3d& goal,
 }
 
 void WindowPlanner::Explore(const Vector3d& start, const Vector3d& goal,
-                            const PlanRequest& request, WindowPlan* out) const {
+                            const RouteRequest& request,
+                            WindowPlan* out) const {
   const double enough =
       kPoor * std::min({request.clearance, space_.Clearance(start),
                         space_.Clearance(goal)});
@@ -111,21 +112,21 @@ void WindowPlanner::Explore(const Vector3d& start, const Vector3d& goal,
       const ContactSpace surface = flood.Surface();
       found = ContactSurfacePlanner(surface, options_, names_)
                   .Plan(flood.start(), flood.goal(), request);
-      if (found.status == PlanStatus::kSolved) Widen(start, goal, &found);
+      if (found.status == PathStatus::kSolved) Widen(start, goal, &found);
       if (IsBetter(found, best)) {
         best = std::move(found);
         const bool is_proof =
-            is_enclosed && best.status == PlanStatus::kInfeasibleProved;
+            is_enclosed && best.status == PathStatus::kInfeasibleProved;
         out->surface = is_proof ? flood.EnclosingSurface() : surface;
       }
     } catch (const std::logic_error&) {
-      if (best.status != PlanStatus::kSolved) {
+      if (best.status != PathStatus::kSolved) {
         best.reason =
             "cells at the walls of boxes are too thin to be judged; take the "
             "full contact space";
       }
     }
-    if (best.status == PlanStatus::kSolved &&
+    if (best.status == PathStatus::kSolved &&
         (best.clearance >= enough || further-- == 0)) {
       break;
     }
@@ -137,7 +138,7 @@ void WindowPlanner::Explore(const Vector3d& start, const Vector3d& goal,
 }
 
 WindowPlan WindowPlanner::Plan(const Vector3d& start, const Vector3d& goal,
-                               const PlanRequest& request) const {
+                               const RouteRequest& request) const {
   request.Validate();
   const Stopwatch stopwatch;
   WindowPlan out;
@@ -147,7 +148,7 @@ WindowPlan WindowPlanner::Plan(const Vector3d& start, const Vector3d& goal,
     if (IsFinite(q) && space_.IsFree(q)) continue;
     const std::string names = names_ && IsFinite(q) ? names_(q) : "";
     result.status =
-        at_start ? PlanStatus::kInvalidStart : PlanStatus::kInvalidGoal;
+        at_start ? PathStatus::kStartInCollision : PathStatus::kGoalInCollision;
     result.reason = std::string(at_start ? "start" : "goal") +
                     (IsFinite(q) ? " touches or is in " : " is not finite") +
                     (!IsFinite(q)    ? ""
@@ -156,7 +157,7 @@ WindowPlan WindowPlanner::Plan(const Vector3d& start, const Vector3d& goal,
     result.seconds = stopwatch.Seconds();
     return out;
   }
-  PlanRequest wish = request;
+  RouteRequest wish = request;
   if (wish.clearance <= 0.0) {
     wish.clearance = kEnoughClearance * model_.bounds().Diagonal();
   }

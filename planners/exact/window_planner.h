@@ -50,7 +50,7 @@ class WindowPlanner {
   // InputError for requests, BuildRefusal where one exploration passes the
   // model's limits, BuildCancelled.
   WindowPlan Plan(const Eigen::Vector3d& start, const Eigen::Vector3d& goal,
-                  const PlanRequest& request = {}) const;
+                  const RouteRequest& request = {}) const;
 
   // All of it, as the model tells.
   const FreeSpace& free_space() const { return space_; }
@@ -60,7 +60,7 @@ class WindowPlanner {
                    double clearance, PlanResult* result) const;
   // Until there is an answer.
   void Explore(const Eigen::Vector3d& start, const Eigen::Vector3d& goal,
-               const PlanRequest& request, WindowPlan* out) const;
+               const RouteRequest& request, WindowPlan* out) const;
   void Widen(const Eigen::Vector3d& start, const Eigen::Vector3d& goal,
              PlanResult* result) const;
 

@@ -68,8 +68,8 @@ ob::PlannerStatus ContactSurfaceOmplPlanner::solve(
     for (const Vector3d& start : starts_) {
       if (ptc && goals_.size() > 1) return ob::PlannerStatus::TIMEOUT;
       result_ = Plan(start, goals_.back());
-      all_proved &= result_.status == PlanStatus::kInfeasibleProved;
-      if (result_.status != PlanStatus::kSolved) continue;
+      all_proved &= result_.status == PathStatus::kInfeasibleProved;
+      if (result_.status != PathStatus::kSolved) continue;
       if (AddSolution()) return ob::PlannerStatus::EXACT_SOLUTION;
       result_.reason = "the path is not valid for the space information";
     }

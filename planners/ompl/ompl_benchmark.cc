@@ -24,8 +24,8 @@ class NamelessBenchmark : public ompl::tools::Benchmark {
 std::string Log(const MotionDomain& domain,
                 const std::shared_ptr<const ContactModel>& model,
                 const Eigen::Vector3d& start, const Eigen::Vector3d& goal,
-                const std::string& experiment, const std::string& planner,
-                int runs, const OmplPlanningOptions& options) {
+                const std::string& experiment, PlannerId planner, int runs,
+                const OmplPlanningOptions& options) {
   if (runs < 1) {
     throw InputError("runs: expected at least 1, found " +
                      std::to_string(runs));
@@ -54,9 +54,8 @@ std::string Log(const MotionDomain& domain,
 std::string OmplBenchmarkLog(const std::shared_ptr<const ContactModel>& model,
                              const Eigen::Vector3d& start,
                              const Eigen::Vector3d& goal,
-                             const std::string& experiment,
-                             const std::string& planner, int runs,
-                             const OmplPlanningOptions& options) {
+                             const std::string& experiment, PlannerId planner,
+                             int runs, const OmplPlanningOptions& options) {
   return Log(DomainOf(model), model, start, goal, experiment, planner, runs,
              options);
 }
@@ -64,9 +63,8 @@ std::string OmplBenchmarkLog(const std::shared_ptr<const ContactModel>& model,
 std::string OmplBenchmarkLog(const MotionDomain& domain,
                              const Eigen::Vector3d& start,
                              const Eigen::Vector3d& goal,
-                             const std::string& experiment,
-                             const std::string& planner, int runs,
-                             const OmplPlanningOptions& options) {
+                             const std::string& experiment, PlannerId planner,
+                             int runs, const OmplPlanningOptions& options) {
   return Log(domain, nullptr, start, goal, experiment, planner, runs, options);
 }
 

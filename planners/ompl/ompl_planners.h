@@ -17,14 +17,14 @@ namespace phongpd {
 void SetStartAndGoal(const Eigen::Vector3d& start, const Eigen::Vector3d& goal,
                      ompl::base::ProblemDefinition* problem);
 
-// A planner by one of OmplPlannerNames, for a space information as
+// Any planner but contact-surface, for a space information as
 // MakeSpaceInformation makes it (whose valid-state sampler it sets where the
 // name says so).  For ompl::tools::Benchmark and for programs that use OMPL
 // themselves.  One space information holds one valid-state sampler: give each
-// prm-* planner its own.  The model may be null for SurfaceFreePlannerNames.
-// Throws InputError.
+// prm-* planner its own.  The model may be null for those
+// that do not retract.  Throws InputError.
 ompl::base::PlannerPtr MakeOmplPlanner(
-    const std::string& name, const ompl::base::SpaceInformationPtr& si,
+    PlannerId planner, const ompl::base::SpaceInformationPtr& si,
     const std::shared_ptr<const ContactModel>& model,
     const OmplPlanningOptions& options = {});
 

@@ -36,20 +36,16 @@ ob::ValidStateSamplerPtr Allocate(const ob::SpaceInformation* si) {
   return std::make_shared<Sampler>(si);
 }
 
-// Does it ask for the contact surface?
-bool NeedsSurface(const std::string& name) {
-  return name.find("retraction") != std::string::npos;
-}
-
-void CheckIsAmong(const std::vector<std::string>& names,
-                  const std::string& name) {
-  if (std::find(names.begin(), names.end(), name) != names.end()) return;
-  std::string list;
-  for (const std::string& known : names) {
-    list += (list.empty() ? "" : ", ") + known;
+// Throws InputError for planners that are not made here, or not without a
+// model.
+void RequireOmplPlanner(PlannerId planner, bool has_model) {
+  if (planner == PlannerId::kContactSurface) {
+    throw InputError("planner: expected one of OMPL's or a retraction, found " +
+                     std::string(ToString(planner)));
   }
-  throw InputError("planner: expected one of " + list + ", found '" + name +
-                   "'");
+  if (has_model || !Retracts(planner)) return;
+  throw InputError(std::string("planner: expected a contact model with ") +
+                   ToString(planner) + ", found none");
 }
 
 ob::PlannerPtr Configured(const std::shared_ptr<RetractionPlanner>& planner,
@@ -57,6 +53,25 @@ ob::PlannerPtr Configured(const std::shared_ptr<RetractionPlanner>& planner,
   planner->setRetractionOptions(options.retraction);
   planner->setSeed(options.seed);
   return planner;
+}
+
+// Of PRM; null: uniform samples.
+ob::ValidStateSamplerAllocator SamplerOf(
+    PlannerId planner, const std::shared_ptr<const ContactModel>& model,
+    const OmplPlanningOptions& options) {
+  switch (planner) {
+    case PlannerId::kPrmObstacleBased:
+      return Allocate<ob::ObstacleBasedValidStateSampler>;
+    case PlannerId::kPrmGaussian:
+      return Allocate<ob::GaussianValidStateSampler>;
+    case PlannerId::kPrmBridge:
+      return Allocate<ob::BridgeTestValidStateSampler>;
+    case PlannerId::kPrmRetraction:
+      return RetractionStateSamplerAllocator(model, options.retraction,
+                                             options.seed);
+    default:
+      return nullptr;
+  }
 }
 
 // OMPL logs an error when its generator is seeded a second time, but does it;
@@ -108,22 +123,6 @@ void AddRetractionFigures(const RetractionPlanner& planner,
 
 }  // namespace
 
-const std::vector<std::string>& OmplPlannerNames() {
-  static const std::vector<std::string> names = {
-      "retraction-rrt",     "retraction-forest",
-      "rrt-connect",        "prm",
-      "prm-obstacle-based", "prm-gaussian",
-      "prm-bridge",         "prm-retraction"};
-  return names;
-}
-
-std::vector<std::string> SurfaceFreePlannerNames() {
-  std::vector<std::string> names = OmplPlannerNames();
-  names.erase(std::remove_if(names.begin(), names.end(), NeedsSurface),
-              names.end());
-  return names;
-}
-
 void OmplPlanningOptions::Validate() const {
   // OMPL counts ticks in 64 bits.
   if (!(time_limit > 0.0 && time_limit <= 1e9)) {
@@ -146,32 +145,23 @@ void SetStartAndGoal(const Vector3d& start, const Vector3d& goal,
   problem->setStartAndGoalStates(from, to);
 }
 
-ob::PlannerPtr MakeOmplPlanner(const std::string& name,
+ob::PlannerPtr MakeOmplPlanner(PlannerId planner,
                                const ob::SpaceInformationPtr& si,
                                const std::shared_ptr<const ContactModel>& model,
                                const OmplPlanningOptions& options) {
-  CheckIsAmong(model ? OmplPlannerNames() : SurfaceFreePlannerNames(), name);
+  RequireOmplPlanner(planner, model != nullptr);
   options.Validate();
-  if (name == "retraction-rrt") {
-    return Configured(std::make_shared<RetractionRRT>(si, model), options);
+  switch (planner) {
+    case PlannerId::kRetractionRrt:
+      return Configured(std::make_shared<RetractionRRT>(si, model), options);
+    case PlannerId::kRetractionForest:
+      return Configured(std::make_shared<RetractionForest>(si, model), options);
+    case PlannerId::kRrtConnect:
+      return std::make_shared<og::RRTConnect>(si);
+    default:
+      break;
   }
-  if (name == "retraction-forest") {
-    return Configured(std::make_shared<RetractionForest>(si, model), options);
-  }
-  if (name == "rrt-connect") return std::make_shared<og::RRTConnect>(si);
-  si->clearValidStateSamplerAllocator();
-  if (name == "prm-obstacle-based") {
-    si->setValidStateSamplerAllocator(
-        Allocate<ob::ObstacleBasedValidStateSampler>);
-  } else if (name == "prm-gaussian") {
-    si->setValidStateSamplerAllocator(Allocate<ob::GaussianValidStateSampler>);
-  } else if (name == "prm-bridge") {
-    si->setValidStateSamplerAllocator(
-        Allocate<ob::BridgeTestValidStateSampler>);
-  } else if (name == "prm-retraction") {
-    si->setValidStateSamplerAllocator(RetractionStateSamplerAllocator(
-        model, options.retraction, options.seed));
-  }
+  si->setValidStateSamplerAllocator(SamplerOf(planner, model, options));
   return std::make_shared<og::PRM>(si);
 }
 
@@ -180,11 +170,10 @@ namespace {
 OmplPlanningResult Plan(const MotionDomain& domain,
                         const std::shared_ptr<const ContactModel>& model,
                         const Vector3d& start, const Vector3d& goal,
-                        const std::string& name,
-                        const OmplPlanningOptions& options) {
+                        PlannerId id, const OmplPlanningOptions& options) {
   SeedOmpl(options.seed);
   const ob::SpaceInformationPtr si = MakeSpaceInformation(domain);
-  const ob::PlannerPtr planner = MakeOmplPlanner(name, si, model, options);
+  const ob::PlannerPtr planner = MakeOmplPlanner(id, si, model, options);
   auto problem = std::make_shared<ob::ProblemDefinition>(si);
   SetStartAndGoal(start, goal, problem.get());
   planner->setProblemDefinition(problem);
@@ -233,17 +222,16 @@ OmplPlanningResult Plan(const MotionDomain& domain,
 
 OmplPlanningResult PlanWithOmpl(
     const std::shared_ptr<const ContactModel>& model, const Vector3d& start,
-    const Vector3d& goal, const std::string& name,
-    const OmplPlanningOptions& options) {
+    const Vector3d& goal, PlannerId id, const OmplPlanningOptions& options) {
   if (!model) throw InputError("planner: expected a contact model, found none");
-  return Plan(DomainOf(model), model, start, goal, name, options);
+  return Plan(DomainOf(model), model, start, goal, id, options);
 }
 
 OmplPlanningResult PlanWithOmpl(const MotionDomain& domain,
                                 const Vector3d& start, const Vector3d& goal,
-                                const std::string& name,
+                                PlannerId id,
                                 const OmplPlanningOptions& options) {
-  return Plan(domain, nullptr, start, goal, name, options);
+  return Plan(domain, nullptr, start, goal, id, options);
 }
 
 // OMPL_VERSION is empty in Debian's package.

@@ -10,20 +10,11 @@
 
 #include "planners/ompl/motion_domain.h"
 #include "planners/retraction/retraction.h"
+#include "planners/world/planner_id.h"
 
 // OMPL's planners on a contact model, or on free space alone, without a type of
 // OMPL's.
 namespace phongpd {
-
-// retraction-rrt, retraction-forest: this library's.  rrt-connect, prm: OMPL's
-// with uniform samples; prm-obstacle-based, prm-gaussian, prm-bridge: PRM with
-// OMPL's samplers for narrow passages; prm-retraction: PRM with
-// RetractionStateSampler.  All of them use the exact motion validator.
-const std::vector<std::string>& OmplPlannerNames();
-// Those of them that ask for validity and motion checks only: rrt-connect, prm,
-// prm-obstacle-based, prm-gaussian, prm-bridge.  All others need a
-// ContactModel.
-std::vector<std::string> SurfaceFreePlannerNames();
 
 struct OmplPlanningOptions {
   double time_limit = 1.0;  // seconds, in (0, 1e9]
@@ -64,20 +55,20 @@ struct OmplPlanningResult {
   double seconds = 0.0;  // of the planner alone
 };
 
-// One run.  Throws InputError for an unknown name, bad options, a missing
-// model or a start or goal that is not finite; a start or goal in collision
-// is a status ("Invalid start", "Invalid goal").  OMPL's log is not touched;
-// SilenceOmpl turns it off.
+// One run of any planner but contact-surface, all with the exact motion
+// validator.  Throws InputError for that one, bad options, a missing model or a
+// start or goal that is not finite; a start or goal in collision is a status
+// ("Invalid start", "Invalid goal").  OMPL's log is not touched; SilenceOmpl
+// turns it off.
 OmplPlanningResult PlanWithOmpl(
     const std::shared_ptr<const ContactModel>& model,
     const Eigen::Vector3d& start, const Eigen::Vector3d& goal,
-    const std::string& name, const OmplPlanningOptions& options = {});
+    PlannerId planner, const OmplPlanningOptions& options = {});
 
-// The same by one of SurfaceFreePlannerNames; throws InputError for others.
+// The same by a planner that does not retract; throws InputError for others.
 OmplPlanningResult PlanWithOmpl(const MotionDomain& domain,
                                 const Eigen::Vector3d& start,
-                                const Eigen::Vector3d& goal,
-                                const std::string& name,
+                                const Eigen::Vector3d& goal, PlannerId planner,
                                 const OmplPlanningOptions& options = {});
 
 // Runs ompl::tools::Benchmark on one planner and returns its log, which
@@ -86,16 +77,14 @@ OmplPlanningResult PlanWithOmpl(const MotionDomain& domain,
 std::string OmplBenchmarkLog(const std::shared_ptr<const ContactModel>& model,
                              const Eigen::Vector3d& start,
                              const Eigen::Vector3d& goal,
-                             const std::string& experiment,
-                             const std::string& planner, int runs,
-                             const OmplPlanningOptions& options = {});
-// The same by one of SurfaceFreePlannerNames; throws InputError for others.
+                             const std::string& experiment, PlannerId planner,
+                             int runs, const OmplPlanningOptions& options = {});
+// The same by a planner that does not retract; throws InputError for others.
 std::string OmplBenchmarkLog(const MotionDomain& domain,
                              const Eigen::Vector3d& start,
                              const Eigen::Vector3d& goal,
-                             const std::string& experiment,
-                             const std::string& planner, int runs,
-                             const OmplPlanningOptions& options = {});
+                             const std::string& experiment, PlannerId planner,
+                             int runs, const OmplPlanningOptions& options = {});
 
 // Of the OMPL this was compiled with, "1.5.2".
 std::string OmplVersion();

@@ -106,7 +106,7 @@ class Optimizer {
   CurveSummary Run(const Path& path) {
     if (CheckPath(space_, path).free) Start(path);
     if (!summary_.trajectory.empty()) {
-      const int halvings = static_cast<int>(options_.effort);
+      const int halvings = static_cast<int>(options_.preset);
       for (int i = 0; i <= halvings; ++i) {
         if (i > 0 && !Halve()) break;
         if (!RunRounds()) break;
@@ -233,9 +233,9 @@ class Optimizer {
   bool MustEnd() {
     const bool is_interrupted =
         options_.is_interrupted && options_.is_interrupted();
-    if (is_interrupted) summary_.status = CurveStatus::kInterrupted;
+    if (is_interrupted) summary_.status = PathStatus::kInterrupted;
     const bool is_late = stopwatch_.Seconds() > options_.time_limit;
-    if (is_late && !is_interrupted) summary_.status = CurveStatus::kTimeLimit;
+    if (is_late && !is_interrupted) summary_.status = PathStatus::kTimeLimit;
     return is_interrupted || is_late;
   }
 
@@ -266,11 +266,11 @@ class Optimizer {
       const double gain = is_calm_ ? RunCalmRound() : RunRound();
       small_gains = gain < kSmallGain ? small_gains + 1 : 0;
       if (small_gains >= kSmallGains || settings_.sigma < kSmallestSigma) {
-        summary_.status = CurveStatus::kConverged;
+        summary_.status = PathStatus::kConverged;
         return true;
       }
     }
-    summary_.status = CurveStatus::kRoundLimit;
+    summary_.status = PathStatus::kRoundLimit;
     return true;
   }
 
@@ -421,7 +421,7 @@ class Optimizer {
   // Cells know all that is within their reach.
   void Report() {
     if (options_.duration > 0.0 && !is_calm_) {
-      summary_.status = CurveStatus::kDurationTooShort;
+      summary_.status = PathStatus::kDurationTooShort;
       summary_.trajectory = Trajectory();
       return;
     }

@@ -8,16 +8,10 @@
 
 #include "constraints/free_space.h"
 #include "constraints/trajectory.h"
+#include "planners/world/path_status.h"
+#include "planners/world/preset.h"
 
 namespace phongpd {
-
-// How long to look for a faster curve.
-enum class CurveEffort {
-  kFast,      // three pieces a segment of the path
-  kBalanced,  // then each piece halved, once
-  kTight,     // twice: a little faster a curve, for a multiple of the work
-};
-const char* ToString(CurveEffort effort);  // fast, balanced, tight
 
 // How a motion begins or ends; at rest unless said.
 struct CurveEnd {
@@ -44,7 +38,10 @@ struct CurveOptions {
   // can be.  From rest to rest, without a dwell.
   double duration = 0.0;
   double margin = 0.0;  // clearance wished for, user's unit, ≥ 0
-  CurveEffort effort = CurveEffort::kBalanced;
+  // How long to look for a faster curve: with three pieces a segment of the
+  // path (fast), then each piece halved, once (balanced), twice (tight: a
+  // little faster a curve, for a multiple of the work).
+  Preset preset = Preset::kBalanced;
   double time_limit = std::numeric_limits<double>::infinity();  // seconds, > 0
   // Asked between rounds; true ends it as the time limit does.
   std::function<bool()> is_interrupted;
@@ -52,18 +49,6 @@ struct CurveOptions {
   // Throws InputError naming the option, the range and the value.
   void Validate() const;
 };
-
-enum class CurveStatus {
-  kConverged,   // rounds gain next to nothing
-  kRoundLimit,  // still gained
-  kTimeLimit,
-  kInterrupted,
-  kNotFree,  // the path given collides: no trajectory
-  // No curve as fast as the duration asked for was found: no trajectory, and
-  // `duration` is the least that is known.
-  kDurationTooShort,
-};
-const char* ToString(CurveStatus status);
 
 struct CurveRound {
   double duration = 0.0;  // after the round, of the curve kept
@@ -75,7 +60,7 @@ struct CurveRound {
 };
 
 struct CurveSummary {
-  CurveStatus status = CurveStatus::kNotFree;
+  PathStatus status = PathStatus::kNotFree;
   // Free for all t and within the limits for all t, proved (curve_judge.h,
   // BoundLimitUse); at both ends as asked for, to rounding; of class C².  Empty
   // if kNotFree or kDurationTooShort.  It passes the places of `via`, in order.

@@ -94,36 +94,6 @@ void CheckVia(const CurveVia& via, std::size_t number) {
 
 }  // namespace
 
-const char* ToString(CurveEffort effort) {
-  switch (effort) {
-    case CurveEffort::kFast:
-      return "fast";
-    case CurveEffort::kBalanced:
-      return "balanced";
-    case CurveEffort::kTight:
-      break;
-  }
-  return "tight";
-}
-
-const char* ToString(CurveStatus status) {
-  switch (status) {
-    case CurveStatus::kConverged:
-      return "converged";
-    case CurveStatus::kRoundLimit:
-      return "round_limit";
-    case CurveStatus::kTimeLimit:
-      return "time_limit";
-    case CurveStatus::kInterrupted:
-      return "interrupted";
-    case CurveStatus::kDurationTooShort:
-      return "duration_too_short";
-    case CurveStatus::kNotFree:
-      break;
-  }
-  return "not_free";
-}
-
 void CurveOptions::Validate() const {
   limits.Validate();
   CheckAxes(limits);

@@ -16,7 +16,7 @@ CurveSummary OptimizeWithRests(const FreeSpace& space, double diagonal,
                                const CurveOptions& options) {
   const Stopwatch stopwatch;
   CurveSummary all;
-  all.status = CurveStatus::kConverged;
+  all.status = PathStatus::kConverged;
   all.clearance = std::numeric_limits<double>::infinity();
   all.margin = options.margin;
   std::vector<CurvePiece> pieces;
@@ -41,7 +41,7 @@ CurveSummary OptimizeWithRests(const FreeSpace& space, double diagonal,
     if (one.trajectory.empty()) return one;
     const auto& found = one.trajectory.pieces();
     pieces.insert(pieces.end(), found.begin(), found.end());
-    if (all.status == CurveStatus::kConverged) all.status = one.status;
+    if (all.status == PathStatus::kConverged) all.status = one.status;
     all.rounds.insert(all.rounds.end(), one.rounds.begin(), one.rounds.end());
     all.stops_duration += one.stops_duration;
     all.clearance = std::min(all.clearance, one.clearance);

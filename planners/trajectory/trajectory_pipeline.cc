@@ -26,7 +26,7 @@ constexpr double kOtherValley = 1.1;
 
 // A path in hand and what is known of it.
 struct Candidate {
-  TrajectoryStatus status = TrajectoryStatus::kFailed;
+  PathStatus status = PathStatus::kFailed;
   std::string reason;
   Path path;
   double objective = 0.0;
@@ -119,7 +119,7 @@ class Run {
     }
     const RepairStatus status = result_.repair.status;
     if (status == RepairStatus::kInfeasibleProved) {
-      result_.status = TrajectoryStatus::kInfeasibleProved;
+      result_.status = PathStatus::kInfeasibleProved;
       result_.reason = result_.repair.reason;
     } else if (starts->empty()) {
       starts->push_back(NoisyLine());
@@ -149,10 +149,10 @@ class Run {
     } else if (!IsLate()) {
       Optimize(start, may_polish, &candidate, &aside);
     }
-    const bool is_wanted = options_.polish == PolishWhen::kAlways ||
-                           (options_.polish == PolishWhen::kNeeded &&
-                            (candidate.status != TrajectoryStatus::kSolved ||
-                             !candidate.KeepsClear()));
+    const bool is_wanted =
+        options_.polish == PolishWhen::kAlways ||
+        (options_.polish == PolishWhen::kNeeded &&
+         (candidate.status != PathStatus::kSolved || !candidate.KeepsClear()));
     if (is_wanted && candidate.IsFree() && !candidate.is_given_up &&
         !IsLate()) {
       Polish(&candidate);
@@ -180,8 +180,8 @@ class Run {
   // Makes the path the candidate, as free or not free, not converged.
   void Keep(const Path& path, Candidate* candidate) {
     candidate->status = CheckPath(*problem_.free_space, path).free
-                            ? TrajectoryStatus::kStalledFeasible
-                            : TrajectoryStatus::kFailed;
+                            ? PathStatus::kStalledFeasible
+                            : PathStatus::kFailed;
     candidate->path = path;
     candidate->objective = PathEnergy(problem_, path);
     candidate->missing_clearance =
@@ -245,7 +245,7 @@ class Run {
     const bool is_worse = may_polish && found.IsFree() &&
                           found.objective > allowed * candidate->objective;
     if (found.IsFree() && is_converged && !is_worse) {
-      found.status = TrajectoryStatus::kSolved;
+      found.status = PathStatus::kSolved;
       *candidate = std::move(found);
       return;
     }
@@ -259,7 +259,7 @@ class Run {
       *aside = std::move(found);
       aside->reason = reason;
       if (is_converged) {
-        aside->status = TrajectoryStatus::kSolved;
+        aside->status = PathStatus::kSolved;
         aside->reason.clear();
       }
     } else if (!candidate->IsFree() || found.IsBetterThan(*candidate)) {
@@ -279,9 +279,9 @@ class Run {
     candidate->objective = summary.objective;
     candidate->missing_clearance = MissingClearance(problem_, candidate->path);
     if (summary.HasConverged()) {
-      candidate->status = TrajectoryStatus::kPolished;
+      candidate->status = PathStatus::kPolished;
       candidate->reason.clear();
-    } else if (candidate->status != TrajectoryStatus::kSolved) {
+    } else if (candidate->status != PathStatus::kSolved) {
       candidate->reason +=
           std::string(", the corridor ") + ToString(summary.status);
     }
@@ -309,42 +309,12 @@ void PipelineOptions::Validate() const {
   optimizer.Validate();
 }
 
-const char* ToString(TrajectoryStatus status) {
-  switch (status) {
-    case TrajectoryStatus::kSolved:
-      return "solved";
-    case TrajectoryStatus::kPolished:
-      return "polished";
-    case TrajectoryStatus::kStalledFeasible:
-      return "stalled_feasible";
-    case TrajectoryStatus::kInfeasibleProved:
-      return "infeasible_proved";
-    case TrajectoryStatus::kStartInCollision:
-      return "start_in_collision";
-    case TrajectoryStatus::kGoalInCollision:
-      return "goal_in_collision";
-    case TrajectoryStatus::kStartOutOfBounds:
-      return "start_out_of_bounds";
-    case TrajectoryStatus::kGoalOutOfBounds:
-      return "goal_out_of_bounds";
-    case TrajectoryStatus::kFailed:
-      break;
-  }
-  return "failed";
-}
-
-bool HasFreePath(TrajectoryStatus status) {
-  return status == TrajectoryStatus::kSolved ||
-         status == TrajectoryStatus::kPolished ||
-         status == TrajectoryStatus::kStalledFeasible;
-}
-
 bool CheckEnds(const TrajectoryProblem& problem, PipelineResult* result) {
   const FreeSpace& space = *problem.free_space;
   if (!space.IsFree(problem.start)) {
-    result->status = TrajectoryStatus::kStartInCollision;
+    result->status = PathStatus::kStartInCollision;
   } else if (!space.IsFree(problem.goal)) {
-    result->status = TrajectoryStatus::kGoalInCollision;
+    result->status = PathStatus::kGoalInCollision;
   } else {
     return true;
   }

@@ -11,6 +11,8 @@
 #include "planners/trajectory/corridor.h"
 #include "planners/trajectory/ipopt_optimizer.h"
 #include "planners/trajectory/trajectory_problem.h"
+#include "planners/world/path_status.h"
+#include "planners/world/preset.h"
 
 namespace phongpd {
 
@@ -50,21 +52,6 @@ struct PipelineOptions {
   void Validate() const;
 };
 
-enum class TrajectoryStatus {
-  kSolved,           // Ipopt converged, exactly free
-  kPolished,         // the corridor converged, exactly free
-  kStalledFeasible,  // exactly free, but nothing converged; see `reason`
-  kInfeasibleProved,
-  kStartInCollision,
-  kGoalInCollision,
-  kStartOutOfBounds,  // and in no collision
-  kGoalOutOfBounds,
-  kFailed,  // no free path; see `reason`
-};
-const char* ToString(TrajectoryStatus status);
-// The first three: there is an exactly free path.
-bool HasFreePath(TrajectoryStatus status);
-
 // One step of the pipeline.
 struct StageRecord {
   std::string stage;     // "start", "ipopt", "corridor"
@@ -78,7 +65,7 @@ struct StageRecord {
 
 // No member is NaN or infinite.
 struct PipelineResult {
-  TrajectoryStatus status = TrajectoryStatus::kFailed;
+  PathStatus status = PathStatus::kFailed;
   std::string reason;  // where the status needs one; one sentence
   Path path;           // N+2 points; empty without any
   // Evidence: the judge's word on `path`, free or the first crossing.

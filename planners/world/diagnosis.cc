@@ -21,9 +21,9 @@ std::string Called(const Vector3d& q, const std::string& which) {
 // With three digits, and no less than `value` but for the rounding of double.
 std::string RoundedUp(double value) {
   constexpr int kDigits = 3;
-  constexpr double kRounding = 1e-12;
+  constexpr double kRoundUp = 1e-12;
   const std::string nearest = Rounded(value, kDigits);
-  if (ParseDouble(nearest, "depth") >= value * (1.0 - kRounding)) {
+  if (ParseDouble(nearest, "depth") >= value * (1.0 - kRoundUp)) {
     return nearest;
   }
   const double step =

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "planners/exact/workspace.h"
+#include "planners/world/workspace.h"
 
 namespace phongpd {
 

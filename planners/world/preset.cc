@@ -27,16 +27,4 @@ Preset ParsePreset(const std::string& text, const std::string& what) {
   return static_cast<Preset>(found - names.begin());
 }
 
-void ApplyPreset(Preset preset, ContactSurfaceOptions* options) {
-  // The first route alone; nor does a link across a gap find another.
-  if (preset == Preset::kFast) {
-    options->routes = 1;
-    options->gap_links = 0;
-  }
-  if (preset == Preset::kTight) {
-    options->routes = 8;
-    options->spacing = 0.2;
-  }
-}
-
 }  // namespace phongpd

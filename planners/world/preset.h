@@ -4,8 +4,6 @@
 #include <string>
 #include <vector>
 
-#include "planners/exact/contact_surface_planner.h"
-
 namespace phongpd {
 
 // How much is spent on a better answer.  Every answer is exact whichever is
@@ -23,9 +21,5 @@ const char* ToString(Preset preset);
 const std::vector<std::string>& PresetNames();
 // Throws InputError starting with `what`.
 Preset ParsePreset(const std::string& text, const std::string& what);
-
-// What the preset sets in options that are as they come.  Whoever wants
-// another value sets it afterwards.
-void ApplyPreset(Preset preset, ContactSurfaceOptions* options);
 
 }  // namespace phongpd

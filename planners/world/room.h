@@ -3,7 +3,7 @@
 
 #include <Eigen/Core>
 
-#include "planners/exact/workspace.h"
+#include "planners/world/workspace.h"
 
 namespace phongpd {
 

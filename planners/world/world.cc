@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 #include <mutex>
 #include <utility>
 
@@ -179,6 +180,13 @@ struct World::Impl {
   std::unique_ptr<const ConvolutionModel> sealed_convolution;
   std::mutex report_mutex;
   WorldReport report;
+  // Of a type, the last ones with their tags, the oldest first.
+  struct Shelf {
+    std::mutex mutex;  // held while making
+    std::vector<std::pair<std::string, std::shared_ptr<const void>>> items;
+  };
+  std::mutex shelves_mutex;
+  std::map<std::string, Shelf> shelves;
 };
 
 std::size_t WorldConvolution::facets() const {
@@ -264,6 +272,25 @@ const ConvolutionModel& World::SealedConvolution() const {
 WorldReport World::Report() const {
   const std::lock_guard<std::mutex> lock(impl_->report_mutex);
   return impl_->report;
+}
+
+std::shared_ptr<const void> World::KeptAny(
+    const std::string& type, const std::string& tag,
+    const std::function<std::shared_ptr<const void>()>& make) const {
+  Impl::Shelf& shelf = [&]() -> Impl::Shelf& {
+    const std::lock_guard<std::mutex> lock(impl_->shelves_mutex);
+    return impl_->shelves[type];
+  }();
+  const std::lock_guard<std::mutex> lock(shelf.mutex);
+  for (const auto& [known, item] : shelf.items) {
+    if (known == tag) return item;
+  }
+  std::shared_ptr<const void> made;
+  // As in Spaces.
+  tbb::this_task_arena::isolate([&] { made = make(); });
+  if (shelf.items.size() == kMostKept) shelf.items.erase(shelf.items.begin());
+  shelf.items.emplace_back(tag, made);
+  return made;
 }
 
 bool HaveSameSolids(const Workspace& a, const Workspace& b) {

@@ -3,16 +3,18 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <functional>
 #include <memory>
 #include <string>
+#include <typeinfo>
 #include <vector>
 
 #include "constraints/free_space.h"
 #include "core/contact/contact_space.h"
 #include "core/contact/contact_space_cache.h"
-#include "planners/exact/workspace.h"
 #include "planners/world/diagnosis.h"
 #include "planners/world/length.h"
+#include "planners/world/workspace.h"
 
 namespace phongpd {
 
@@ -121,7 +123,25 @@ class World {
   const ConvolutionModel& SealedConvolution() const;
   WorldReport Report() const;
 
+  // What others make of a world and need again: tables of a planner, metrics.
+  // Made on first use, and kept as long as `tag` is among the last
+  // kMostKept of its type.  Thread-safe; whoever asks for what is being made
+  // waits for it.  Throws what `make` throws, and keeps nothing then.
+  template <typename T>
+  std::shared_ptr<const T> Kept(const std::string& tag,
+                                const std::function<T()>& make) const {
+    return std::static_pointer_cast<const T>(KeptAny(
+        typeid(T).name(), tag, [&make]() -> std::shared_ptr<const void> {
+          return std::make_shared<const T>(make());
+        }));
+  }
+  static constexpr std::size_t kMostKept = 32;
+
  private:
+  std::shared_ptr<const void> KeptAny(
+      const std::string& type, const std::string& tag,
+      const std::function<std::shared_ptr<const void>()>& make) const;
+
   struct Impl;
   std::shared_ptr<Impl> impl_;
 };

@@ -7,6 +7,7 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <stdexcept>
 
 #include "core/contact/content_hash.h"
 #include "core/files/descriptor.h"
@@ -154,7 +155,7 @@ void TellAboutSpaces(const World& world, std::size_t triangles) {
 
 Length LengthFlag(const std::string& text, const std::string& flag,
                   LengthRange range, const Scene* scene) {
-  const std::string unit = scene == nullptr ? "" : scene->unit;
+  const std::string unit = scene == nullptr ? "" : scene->workspace.unit;
   const double diagonal =
       scene == nullptr ? 0.0 : ContactBounds(scene->workspace).Diagonal();
   const Length length = ParseLength(text, flag, unit);
@@ -254,6 +255,11 @@ nlohmann::ordered_json CommandSettings(const CLI::App& app,
   settings["versions"] = VersionsRow();
   settings["program"] = ProgramDigest();
   return settings;
+}
+
+void FailVerification(const std::string& what) {
+  throw std::runtime_error("verification on the original solids failed: " +
+                           what);
 }
 
 void Note(const std::string& text) {

@@ -134,6 +134,10 @@ Eigen::Vector3d ParsePoint(const std::vector<std::string>& cells,
 nlohmann::ordered_json CommandSettings(const CLI::App& app,
                                        const std::vector<SceneSource>& scenes);
 
+// Throws std::runtime_error: an answer that is wrong on the original solids is
+// a fault of the program.
+[[noreturn]] void FailVerification(const std::string& what);
+
 // "phongpd: ..." on stderr.
 void Note(const std::string& text);
 

@@ -21,7 +21,6 @@
 #include "problems/scenes/scene_source.h"
 #include "problems/studies/study_metrics.h"
 #include "problems/studies/trajectory_comparison.h"
-#include "problems/studies/trajectory_study.h"
 
 namespace phongpd::cli {
 namespace {
@@ -50,7 +49,7 @@ struct CompareFlags {
 // What is compared.
 struct Methods {
   std::vector<SceneSource> sources;
-  std::vector<TrajectoryMetric> metrics;
+  std::vector<StudyMetric> metrics;
   std::vector<TrajectoryProtocol> protocols;
 };
 
@@ -88,7 +87,7 @@ std::vector<ComparisonJob> Jobs(const CompareFlags& flags,
       if (!shard.Has(problem)) continue;
       const std::uint64_t seed = flags.seed + static_cast<std::uint64_t>(run);
       for (const TrajectoryProtocol& protocol : methods.protocols) {
-        for (const TrajectoryMetric& metric : methods.metrics) {
+        for (const StudyMetric& metric : methods.metrics) {
           jobs.push_back({&source, seed, protocol, metric});
         }
       }

@@ -22,7 +22,6 @@
 #include "problems/output/json_text.h"
 #include "problems/output/output_files.h"
 #include "problems/output/text.h"
-#include "problems/studies/answer_check.h"
 
 namespace phongpd::cli {
 namespace {

@@ -19,7 +19,6 @@
 #include "problems/output/text.h"
 #include "problems/pictures/gnuplot.h"
 #include "problems/pictures/viewer/view_page.h"
-#include "problems/studies/answer_check.h"
 #include "problems/studies/motion.h"
 #include "problems/studies/sliding.h"
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -15,10 +16,10 @@
 #include "problems/output/text.h"
 #include "problems/pictures/viewer/run_view.h"
 #include "problems/pictures/viewer/scene_view.h"
+#include "problems/scenes/kept_world.h"
+#include "problems/scenes/scene_requests.h"
 #include "problems/scenes/scene_source.h"
-#include "problems/studies/answer_check.h"
-#include "problems/studies/clearance_wish.h"
-#include "problems/studies/trajectory_study.h"
+#include "problems/studies/answer_row.h"
 
 namespace phongpd::cli {
 namespace {
@@ -52,7 +53,7 @@ constexpr char kOptimizePresetHelp[] =
 
 // What says how a metric is followed says nothing where none is.
 void RequireMetricIsFollowed(const OptimizeFlags& flags, const Scene& scene) {
-  if (scene.trajectory.model != "window") return;
+  if (scene.trajectory.model != Model::kWindow) return;
   for (const auto& [name, value] :
        {std::make_pair("--metric", flags.metric),
         std::make_pair("--smoothing-length", flags.smoothing_length),
@@ -67,27 +68,42 @@ void RequireMetricIsFollowed(const OptimizeFlags& flags, const Scene& scene) {
 
 void Override(const OptimizeFlags& flags, Scene* scene) {
   SetPreset(flags.preset, scene);
-  if (!flags.model.empty()) scene->trajectory.model = flags.model;
+  if (!flags.model.empty()) {
+    scene->trajectory.model = ParseModel(flags.model, "--model");
+  }
   RequireMetricIsFollowed(flags, *scene);
-  PenetrationSettings& settings = scene->penetration;
-  if (!flags.metric.empty()) settings.metric = flags.metric;
-  if (!flags.jacobian.empty()) settings.jacobian = flags.jacobian;
+  PenetrationSpec& spec = scene->penetration;
+  if (!flags.metric.empty()) {
+    spec.metric = ParseMetricKind(flags.metric, "--metric");
+  }
+  if (!flags.jacobian.empty()) {
+    spec.jacobian = ParseJacobianKind(flags.jacobian, "--jacobian");
+  }
   if (!flags.smoothing_length.empty()) {
-    settings.smoothing_length =
+    spec.smoothing_length =
         LengthFlag(flags.smoothing_length, "--smoothing-length",
                    LengthRange::kFromZero, scene);
   }
   if (!flags.margin.empty()) {
-    scene->trajectory.margin =
-        ParseClearance(flags.margin, "--margin",
-                       ContactBounds(scene->workspace).Diagonal(), scene->unit);
+    scene->trajectory.margin = ParseClearance(
+        flags.margin, "--margin", ContactBounds(scene->workspace).Diagonal(),
+        scene->workspace.unit);
   }
 }
 
-PipelineOptions Options(const OptimizeFlags& flags, const Scene& scene,
-                        std::uint64_t seed) {
-  PipelineOptions options = ScenePipelineOptions(scene);
-  options.start = ParseStart(flags.start);
+OptimizeRequest RequestOf(const OptimizeFlags& flags, const Scene& scene,
+                          std::uint64_t seed) {
+  OptimizeRequest request = OptimizeRequestOf(scene);
+  request.limits.reset();
+  // Also where it is what it would be without the flag.
+  if (!flags.margin.empty()) request.margin = scene.trajectory.margin;
+  request.requires_margin = flags.require;
+  request.is_per_obstacle = flags.per_obstacle;
+  request.verifies = flags.verify;
+  PipelineOptions& options = request.options;
+  // Repair is done by the complete planner: two words for the same.
+  options.start = flags.start == "straight" ? TrajectoryStart::kStraight
+                                            : TrajectoryStart::kRepaired;
   options.start_noise = ParseDouble(flags.noise, "--start-noise");
   if (options.start_noise > 0.0 &&
       options.start != TrajectoryStart::kStraight) {
@@ -119,7 +135,7 @@ PipelineOptions Options(const OptimizeFlags& flags, const Scene& scene,
     }
     return true;
   };
-  return options;
+  return request;
 }
 
 // "why not", for people, and where the path crosses.
@@ -141,6 +157,7 @@ RunSummary SummarizeTrajectory(const OptimizeFlags& flags,
   const std::string outcome = JsonText(row.at("seed")) + ": " +
                               row.at("status_class").get<std::string>();
   return {NamedPathOf(row),
+          row.at("status_class") == ToString(PathStatus::kClearanceMissed),
           row.at("scene").get<std::string>() + ", " + metric + ", " +
               flags.start + ", " + outcome + ", " +
               JsonText(row.at("iterations")) + ", " +
@@ -151,18 +168,18 @@ RunSummary SummarizeTrajectory(const OptimizeFlags& flags,
 }
 
 // What the model made of the run, on stderr.
-void TellTrajectoryModel(const TrajectoryStudy& study) {
-  if (study.model() != "window") return;
+void TellTrajectoryModel(const PathEvidence& evidence) {
+  if (evidence.model != Model::kWindow) return;
   Note(
       "model window: free space alone, so no metric is followed; rrt-connect "
       "where the line collides, then the corridor" +
-      (study.refusal().empty()
+      (evidence.refusal.empty()
            ? std::string()
-           : ", as the whole is refused: " + study.refusal()));
+           : ", as the whole is refused: " + evidence.refusal));
 }
 
-// With limits the answer is a curve in time (timed_trajectory.h): of the
-// paper's optimiser nothing runs, and what would steer it says nothing.
+// With limits the answer is a motion in time (optimize.h): of the paper's
+// optimiser nothing runs, and what would steer it says nothing.
 int OptimizeInTime(const OptimizeFlags& flags, const MotionLimits& limits,
                    Scene scene) {
   for (const char* name :
@@ -176,6 +193,7 @@ int OptimizeInTime(const OptimizeFlags& flags, const MotionLimits& limits,
   }
   Override(flags, &scene);
   SetTask(flags.motion, &scene);
+  scene.limits = limits;
   TimedFlags timed;
   timed.motion = flags.motion;
   timed.time_limit = flags.time_limit;
@@ -186,13 +204,10 @@ int OptimizeInTime(const OptimizeFlags& flags, const MotionLimits& limits,
   timed.require = flags.require;
   timed.verify = flags.verify;
   timed.world = flags.limits;
-  return AnswerInTime(scene, limits, timed,
-                      [&](const World& world, const CurveOptions& options) {
-                        return PlanInTime(scene, world, options);
-                      });
+  return AnswerInTime(scene, timed, Optimize);
 }
 
-int Optimize(const OptimizeFlags& flags) {
+int AnswerOptimize(const OptimizeFlags& flags) {
   RequireRuns(flags.runs);
   const SceneSource source(flags.scene, flags.root,
                            ParseRepair(flags.repair, "--repair"));
@@ -210,56 +225,59 @@ int Optimize(const OptimizeFlags& flags) {
       "scene, metric, start, seed: status, iterations, objective, "
       "clearance (user's unit), seconds",
       [&flags](const auto& row) { return SummarizeTrajectory(flags, row); });
-  TrajectoryStudy study(
-      UserCache(flags.no_cache),
-      flags.per_obstacle ? SpaceLayout::kPerObstacle : SpaceLayout::kMerged,
-      flags.limits);
+  KeptWorld worlds(UserCache(flags.no_cache), flags.limits);
+  // Of the last run; the pictures need its scene.
+  Scene scene = first;
+  std::optional<Model> model;
   SilenceOmpl();
-  AnswerCheck check(flags.verify);
+  std::string refuted;
   for (int run = 0; run < flags.runs; ++run) {
     const std::uint64_t seed = flags.seed + static_cast<std::uint64_t>(run);
-    Scene scene = run == 0 ? first : load(seed);
+    if (run > 0) scene = load(seed);
     Override(flags, &scene);
-    PipelineOptions options = Options(flags, scene, seed);
+    OptimizeRequest request = RequestOf(flags, scene, seed);
     PathHistory history;
     if (runs.ShowsBehind()) {
-      options.on_path = [&history](const PathIterate& iterate) {
+      request.options.on_path = [&history](const PathIterate& iterate) {
         history.Add(iterate);
       };
     }
-    const TrajectoryMetric metric = SceneMetric(scene);
     Progress("run " + std::to_string(run + 1) + " of " +
-             std::to_string(flags.runs) + ": " + metric.name);
+             std::to_string(flags.runs) + ": " + request.penetration.Name());
     const bool is_kept = run < runs.kept();
-    // The pictures need the last scene.
     if (is_kept && run + 1 < flags.runs) continue;
-    study.Enter(scene);
-    const ClearanceWish wish =
-        WishOfTrajectory(scene, !flags.margin.empty(), flags.require);
+    const World& world = worlds.Of(scene);
     if (run == runs.kept()) {
       TellAbout(scene);
-      const std::string beyond = BeyondTheEnds(study.world(), scene, wish);
+      const std::string beyond = MarginBeyondReach(world, request);
       if (!beyond.empty()) Warn(beyond);
     }
     if (is_kept) continue;
     ProgressOf("runs", static_cast<std::size_t>(run - runs.kept()),
                static_cast<std::size_t>(flags.runs - runs.kept()));
-    const PipelineResult result = study.Run(metric, options);
-    if (run == runs.kept()) TellTrajectoryModel(study);
-    nlohmann::ordered_json row = TrajectoryRow(study, metric, options, result);
-    check.Judge(study.scene(), study.world(), ClaimsOf(result), &row);
-    TellClearance(study.world(), scene, wish, &row);
-    runs.Add(row, runs.ShowsBehind() ? BehindTrajectory(study, result, history)
-                                     : ViewBehind());
+    const PathAnswer answer = Optimize(world, request);
+    model = answer.evidence.model;
+    if (run == runs.kept()) TellTrajectoryModel(answer.evidence);
+    if (answer.status == PathStatus::kVerificationFailed && refuted.empty()) {
+      refuted = scene.name + ": " + answer.reason;
+    }
+    runs.Add(PolylineRow(scene, world, request, answer),
+             runs.ShowsBehind()
+                 ? BehindTrajectory(world, request, answer, history)
+                 : ViewBehind());
   }
-  runs.Write([&study] {
-    return study.model() == "window"
-               ? WindowView(study.scene(), study.world())
-               : SceneView(study.scene(), study.spaces().Meshes());
+  const World& world = worlds.Of(scene);
+  const SpaceLayout layout =
+      flags.per_obstacle ? SpaceLayout::kPerObstacle : SpaceLayout::kMerged;
+  runs.Write([&] {
+    return model == Model::kWindow
+               ? WindowView(scene, world)
+               : SceneView(scene, world.Spaces(layout).Meshes());
   });
-  TellAboutSpaces(study.world(), study.triangles());
+  const WorldSpaces* const built = world.Built(layout);
+  TellAboutSpaces(world, built == nullptr ? 0 : built->triangles);
   const int code = runs.Commit();
-  check.RequireNoFailure();
+  if (!refuted.empty()) FailVerification(refuted);
   return code;
 }
 
@@ -350,7 +368,7 @@ Command AddOptimize(CLI::App* app) {
             "0,0,0,0.01unit,0.5 --json",
             "phongpd optimize plate:thickness=0.02 --start straight --polish "
             "never --seed 1 --runs 10 --json"});
-  return [flags] { return Optimize(*flags); };
+  return [flags] { return AnswerOptimize(*flags); };
 }
 
 }  // namespace phongpd::cli

@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "planners/retraction/retraction_names.h"
 #include "planners/world/bare_length.h"
 #include "problems/cli/command.h"
 #include "problems/cli/flags.h"
@@ -14,10 +15,9 @@
 #include "problems/output/text.h"
 #include "problems/pictures/viewer/run_view.h"
 #include "problems/pictures/viewer/scene_view.h"
+#include "problems/scenes/scene_requests.h"
 #include "problems/scenes/scene_source.h"
-#include "problems/studies/answer_check.h"
-#include "problems/studies/clearance_wish.h"
-#include "problems/studies/planning_study.h"
+#include "problems/studies/answer_row.h"
 
 namespace phongpd::cli {
 namespace {
@@ -42,6 +42,7 @@ RunSummary SummarizePlan(const nlohmann::ordered_json& row) {
   const std::string outcome =
       JsonText(row.at("seed")) + ": " + row.at("status").get<std::string>();
   return {NamedPathOf(row),
+          row.at("status") == ToString(PathStatus::kClearanceMissed),
           row.at("scene").get<std::string>() + ", " + planner + ", " + outcome +
               ", " + Rounded(NumberAt(row, "/seconds/solve")) + ", " +
               std::to_string(row.at("path").size()) + ", " +
@@ -57,120 +58,132 @@ constexpr char kPlanPresetHelp[] =
     "tight: 8 routes on a coarser roadmap, 1.6 times the time, 0.07 %";
 
 // Samplers have nothing that these say.
-void RequireRoutesAreCompared(const PlanFlags& flags,
-                              const std::string& planner) {
-  if (planner == kContactSurface) return;
+void RequireRoutesAreCompared(const PlanFlags& flags, PlannerId planner) {
+  if (planner == PlannerId::kContactSurface) return;
   for (const char* flag : {"--preset", "--routes"}) {
     if (flags.app->count(flag) == 0) continue;
     throw InputError(std::string(flag) + ": expected with planner " +
-                     kContactSurface + ", found with " + planner);
+                     ToString(PlannerId::kContactSurface) + ", found with " +
+                     ToString(planner));
   }
 }
 
-void SetClearance(const PlanFlags& flags, const std::string& planner,
-                  Scene* scene) {
-  if (flags.clearance.empty()) return;
-  RequireSeeksClearance(planner, "--clearance");
-  scene->planning.clearance =
-      ParseClearance(flags.clearance, "--clearance",
-                     ContactBounds(scene->workspace).Diagonal(), scene->unit);
+// The scene as the flags change it, and what they ask beyond it.
+PlanRequest RequestOf(const PlanFlags& flags, Scene* scene) {
+  PlanningSettings& settings = scene->planning;
+  if (!flags.planner.empty()) {
+    settings.planner = ParsePlanner(flags.planner, "--planner");
+  }
+  if (!flags.model.empty()) settings.model = ParseModel(flags.model, "--model");
+  RequireRoutesAreCompared(flags, settings.planner);
+  SetPreset(flags.preset, scene);
+  if (!flags.clearance.empty()) {
+    RequireSeeksClearance(settings.planner, "--clearance");
+    settings.clearance = ParseClearance(
+        flags.clearance, "--clearance",
+        ContactBounds(scene->workspace).Diagonal(), scene->workspace.unit);
+  }
+  if (!flags.time_limit.empty()) {
+    settings.time_limit = ParseDouble(flags.time_limit, "--time");
+  }
+  PlanRequest request = PlanRequestOf(*scene);
+  request.routes = flags.routes;
+  request.retraction = ParseRetraction(flags.metric, "--metric");
+  request.requires_clearance = flags.require;
+  request.verifies = flags.verify;
+  return request;
 }
 
-// The last run may be one that was kept from before: `explored` has no surface
-// where the straight way was enough.
-View PageOf(const PlanningRun& run, std::optional<WindowPlan> explored,
-            PlanningStudy* study) {
-  const Scene& scene = study->scene();
-  if (!study->RunsInWindow(run)) {
-    return SceneView(scene, {study->VisibleMesh()});
+// `explored`: by the last run; none where the straight way was enough.
+View PageOf(const Scene& scene, const World& world, const PlanRequest& request,
+            std::optional<ContactSpace> explored) {
+  if (!PlansInWindow(world, request)) {
+    return SceneView(
+        scene, {VisibleMesh(world.Sealed(), PlanningRegion(world, request))});
   }
-  if (!run.planner.empty() && run.planner != kContactSurface) {
-    return WindowView(scene, study->world());
+  if (request.planner != PlannerId::kContactSurface) {
+    return WindowView(scene, world);
   }
-  if (!explored) explored = study->Run(run).explored;
-  return explored && explored->surface
-             ? ExploredView(scene, study->VisibleMesh(*explored->surface))
+  if (!explored) explored = Plan(world, request).evidence.surface;
+  return explored
+             ? ExploredView(scene, VisibleMesh(*explored,
+                                               PlanningRegion(world, request)))
              : SceneView(scene);
 }
 
 // What the model made of the run, on stderr.
-void TellPlanModel(const PlanningStudy& study, const PlanningResult& result) {
-  if (result.model != "window") return;
+void TellPlanModel(const PlanRequest& request, const PathAnswer& answer) {
+  const PathEvidence& evidence = answer.evidence;
+  if (evidence.model != Model::kWindow) return;
+  const std::string planner = ToString(request.planner);
   std::string text = "model window: free space alone";
-  if (!study.refusal().empty()) text += ", as the whole is refused";
-  text += study.scene().planning.model == "auto" && study.refusal().empty()
-              ? ", which is enough for " + result.planner
-              : ", by " + result.planner;
-  if (result.explored) {
-    text += result.explored->boxes == 0
-                ? ", which took the straight way"
-                : ", which built of the contact space " +
-                      std::to_string(result.explored->boxes) + " boxes";
+  if (!evidence.refusal.empty()) text += ", as the whole is refused";
+  text += request.model == Model::kAuto && evidence.refusal.empty()
+              ? ", which is enough for " + planner
+              : ", by " + planner;
+  if (const auto boxes = answer.plan->explored_boxes) {
+    text += *boxes == 0 ? ", which took the straight way"
+                        : ", which built of the contact space " +
+                              std::to_string(*boxes) + " boxes";
   }
-  Note(text + (study.refusal().empty() ? "" : ": " + study.refusal()));
+  Note(text + (evidence.refusal.empty() ? "" : ": " + evidence.refusal));
 }
 
-int Plan(const PlanFlags& flags) {
+int AnswerPlan(const PlanFlags& flags) {
   RequireRuns(flags.runs);
   const SceneSource source(flags.scene, flags.root,
                            ParseRepair(flags.repair, "--repair"));
   Scene scene = source.Load();
-  PlanningRun run;
-  run.planner = flags.planner.empty() ? scene.planning.planner : flags.planner;
-  if (!flags.model.empty()) scene.planning.model = flags.model;
-  const std::string planner =
-      run.planner.empty() ? kContactSurface : run.planner;
-  RequireRoutesAreCompared(flags, planner);
-  SetPreset(flags.preset, &scene);
-  SetClearance(flags, planner, &scene);
-  run.routes = flags.routes;
-  run.retraction = flags.metric;
-  run.time_limit = scene.planning.time_limit;
-  if (!flags.time_limit.empty()) {
-    run.time_limit = ParseDouble(flags.time_limit, "--time");
+  PlanRequest request = RequestOf(flags, &scene);
+  const bool has_log = !flags.ompl_log.empty();
+  if (has_log && request.planner == PlannerId::kContactSurface) {
+    throw InputError("--ompl-log: expected a planner of OMPL, found " +
+                     std::string(ToString(request.planner)));
   }
-  if (!flags.ompl_log.empty()) CheckHasOmplLog(planner);
+  if (flags.require && !request.clearance) {
+    throw InputError("--require: expected --clearance, found none");
+  }
   SeededRuns runs(flags, source,
                   "scene, planner, seed: status, seconds (without contact "
                   "space), points, length, clearance (user's unit)",
                   SummarizePlan);
-  if (!flags.ompl_log.empty()) runs.outputs().Declare(flags.ompl_log);
+  if (has_log) runs.outputs().Declare(flags.ompl_log);
   SilenceOmpl();
-  PlanningStudy study(scene, UserCache(flags.no_cache), flags.limits);
+  const World world(scene.workspace, scene.name, UserCache(flags.no_cache),
+                    flags.limits);
   TellAbout(scene);
-  const ClearanceWish wish = WishOfPlan(scene, flags.require);
-  if (flags.require && !wish.asked) {
-    throw InputError("--require: expected --clearance, found none");
-  }
-  const std::string beyond = BeyondTheEnds(study.world(), scene, wish);
+  const std::string beyond = ClearanceBeyondReach(world, request);
   if (!beyond.empty()) Warn(beyond);
-  AnswerCheck check(flags.verify);
-  std::optional<WindowPlan> explored;
+  std::string refuted;
+  // The last run may be one that was kept from before: it has no surface.
+  std::optional<ContactSpace> explored;
   for (int i = runs.kept(); i < flags.runs; ++i) {
-    run.seed = flags.seed + static_cast<std::uint64_t>(i);
+    request.seed = flags.seed + static_cast<std::uint64_t>(i);
     ProgressOf("runs", static_cast<std::size_t>(i - runs.kept()),
                static_cast<std::size_t>(flags.runs - runs.kept()));
     Progress("run " + std::to_string(i + 1) + " of " +
              std::to_string(flags.runs));
-    const PlanningResult result = study.Run(run);
-    if (i == runs.kept()) TellPlanModel(study, result);
-    nlohmann::ordered_json row = PlanningRow(study, run, result);
-    check.Judge(scene, study.world(), ClaimsOf(result), &row);
-    TellClearance(study.world(), scene, wish, &row);
-    explored = result.explored;
-    runs.Add(row,
-             runs.ShowsBehind() ? BehindPlan(&study, result) : ViewBehind());
+    const PathAnswer answer = Plan(world, request);
+    if (i == runs.kept()) TellPlanModel(request, answer);
+    if (answer.status == PathStatus::kVerificationFailed && refuted.empty()) {
+      refuted = scene.name + ": " + answer.reason;
+    }
+    explored = answer.evidence.surface;
+    runs.Add(
+        PlanRow(scene, world, request, answer),
+        runs.ShowsBehind() ? BehindPlan(world, request, answer) : ViewBehind());
   }
-  runs.Write([&] { return PageOf(run, std::move(explored), &study); });
-  const WorldSpaces* built = study.world().Built(SpaceLayout::kSealed);
-  TellAboutSpaces(study.world(), built == nullptr ? 0 : built->triangles);
-  if (!flags.ompl_log.empty()) {
+  runs.Write(
+      [&] { return PageOf(scene, world, request, std::move(explored)); });
+  const WorldSpaces* built = world.Built(SpaceLayout::kSealed);
+  TellAboutSpaces(world, built == nullptr ? 0 : built->triangles);
+  if (has_log) {
     Progress("running OMPL's benchmark");
-    run.seed = flags.seed + static_cast<std::uint64_t>(flags.runs) - 1;
-    runs.outputs().Write(flags.ompl_log, study.OmplLog(run, flags.runs));
+    request.seed = flags.seed + static_cast<std::uint64_t>(flags.runs) - 1;
+    runs.outputs().Write(flags.ompl_log, OmplLog(world, request, flags.runs));
   }
   const int code = runs.Commit();
-  check.RequireNoFailure();
+  if (!refuted.empty()) FailVerification(refuted);
   return code;
 }
 
@@ -233,7 +246,7 @@ Command AddPlan(CLI::App* app) {
             "--html plan.html",
             "phongpd plan knot --model window --planner rrt-connect --runs 5 "
             "--json"});
-  return [flags] { return Plan(*flags); };
+  return [flags] { return AnswerPlan(*flags); };
 }
 
 }  // namespace phongpd::cli

@@ -30,7 +30,7 @@ constexpr char kRetimePresetHelp[] =
     "How long a faster curve is looked for; tight takes twice the time of "
     "balanced";
 
-int Retime(RetimeFlags flags) {
+int AnswerRetime(RetimeFlags flags) {
   const std::vector<Eigen::Vector3d> path = ReadPointsCsv(flags.path);
   if (path.size() < 2) {
     throw InputError(flags.path + ": expected two rows at least, found " +
@@ -47,18 +47,19 @@ int Retime(RetimeFlags flags) {
   SetPreset(flags.preset, &scene);
   flags.has_margin = !flags.margin.empty();
   if (flags.has_margin) {
-    scene.trajectory.margin =
-        ParseClearance(flags.margin, "--margin",
-                       ContactBounds(scene.workspace).Diagonal(), scene.unit);
+    scene.trajectory.margin = ParseClearance(
+        flags.margin, "--margin", ContactBounds(scene.workspace).Diagonal(),
+        scene.workspace.unit);
   }
   const std::optional<MotionLimits> limits = LimitsOf(flags.motion, scene);
   if (!limits) {
     throw InputError(
         "--limits: expected V,A,J, or limits in the scene, found none");
   }
-  return AnswerInTime(scene, *limits, flags,
-                      [&](const World& world, const CurveOptions& options) {
-                        return TimePath(world, path, options);
+  scene.limits = limits;
+  return AnswerInTime(scene, flags,
+                      [&](const World& world, const OptimizeRequest& request) {
+                        return Retime(world, path, request);
                       });
 }
 
@@ -106,7 +107,7 @@ Command AddRetime(CLI::App* app) {
                     "500,2000,20000 --output t.json",
                     "phongpd retime path.csv --scene scene.json --limits "
                     "1/1/0.5,2,10 --rate 250 --output t.csv"});
-  return [flags] { return Retime(*flags); };
+  return [flags] { return AnswerRetime(*flags); };
 }
 
 }  // namespace phongpd::cli

@@ -7,7 +7,7 @@
 
 #include "problems/cli/command.h"
 #include "problems/output/json_text.h"
-#include "problems/studies/clearance_wish.h"
+#include "problems/scenes/kept_world.h"
 #include "problems/studies/comparison_rows.h"
 #include "problems/studies/comparison_run.h"
 
@@ -23,11 +23,11 @@ void CheckKept(const std::string& line, const ComparisonJob& job,
   CheckComparisonRow(row, where);
   if (row.at("seed") == job.seed &&
       RowText(row, "protocol") == job.protocol.name &&
-      RowText(row, "method") == job.metric.name) {
+      RowText(row, "method") == job.metric.Name()) {
     return;
   }
   throw InputError(where + ": expected seed " + std::to_string(job.seed) +
-                   ", " + job.protocol.name + ", " + job.metric.name +
+                   ", " + job.protocol.name + ", " + job.metric.Name() +
                    "; found another; remove the file");
 }
 
@@ -44,24 +44,25 @@ void RunJobs(const std::vector<ComparisonJob>& jobs,
     Note("going on after " + std::to_string(kept) + " of " +
          std::to_string(jobs.size()) + " rows in " + rows->path());
   }
-  TrajectoryStudy study(cache);
+  KeptWorld worlds(cache);
+  Scene scene;
   for (std::size_t i = kept; i < jobs.size(); ++i) {
     const ComparisonJob& job = jobs[i];
+    const ComparisonRun run = {job.seed, job.protocol, job.metric,
+                               job.source->is_family()};
     ProgressOf("rows", i - kept, jobs.size() - kept);
     if (i == kept || job.source != jobs[i - 1].source ||
         job.seed != jobs[i - 1].seed) {
       Progress(job.source->label() + ", seed " + std::to_string(job.seed));
-      study.Enter(SceneToCompare(job.source->Load(job.seed)));
+      scene = job.source->Load(job.seed);
       const std::string beyond =
-          BeyondTheEnds(study.world(), study.scene(),
-                        WishOfTrajectory(study.scene(), false, false));
+          MarginBeyondReach(worlds.Of(scene), RequestOf(scene, run));
       if (!beyond.empty()) {
         Warn(job.source->label() + ", seed " + std::to_string(job.seed) + ": " +
              beyond);
       }
     }
-    Json row = RunComparison(
-        {job.seed, job.protocol, job.metric, job.source->is_family()}, &study);
+    Json row = RunComparison(scene, worlds.Of(scene), run);
     if (!keep_paths) row.erase("path");
     rows->Append(JsonText(row));
   }

@@ -7,8 +7,8 @@
 #include "core/contact/contact_space_cache.h"
 #include "problems/output/row_file.h"
 #include "problems/scenes/scene_source.h"
+#include "problems/studies/study_metrics.h"
 #include "problems/studies/trajectory_comparison.h"
-#include "problems/studies/trajectory_study.h"
 
 namespace phongpd::cli {
 
@@ -17,7 +17,7 @@ struct ComparisonJob {
   const SceneSource* source;
   std::uint64_t seed;
   TrajectoryProtocol protocol;
-  TrajectoryMetric metric;
+  StudyMetric metric;
 };
 
 // Appends the rows that are not there yet; those that are must be of the first

@@ -7,7 +7,7 @@
 #include <sstream>
 
 #include "core/mesh/mesh_error.h"
-#include "problems/output/nearest_name.h"
+#include "core/nearest_name.h"
 #include "problems/output/text.h"
 
 namespace phongpd::cli {

@@ -13,7 +13,6 @@
 #include "problems/pictures/path_picture.h"
 #include "problems/pictures/viewer/behind_json.h"
 #include "problems/pictures/viewer/view_page.h"
-#include "problems/studies/clearance_wish.h"
 
 namespace phongpd::cli {
 
@@ -174,7 +173,7 @@ void SeededRuns::Add(const nlohmann::ordered_json& row, ViewBehind behind) {
 void SeededRuns::Tell(const nlohmann::ordered_json& row) {
   RunSummary run = summarize_(row);
   are_all_answered_ =
-      are_all_answered_ && run.path.is_free && !IsClearanceMissed(row);
+      are_all_answered_ && run.path.is_free && !run.misses_clearance;
   paths_.push_back(std::move(run.path));
   std::ostream& out = outputs_.UseStandardOutput() ? std::cerr : std::cout;
   out << std::exchange(header_, "") << run.line << '\n';

@@ -39,17 +39,18 @@ void AddRuns(CLI::App* app, const std::string& seed_help,
              SeededRunFlags* flags);
 void AddRowOutput(CLI::App* app, SeededRunFlags* flags);
 void AddPictures(CLI::App* app, SeededRunFlags* flags);
-// Declares --model (model_choice.h) of what is built "to <doing>"; `of_window`
-// says what free space alone is good for.
+// Declares --model (planners/world/model.h) of what is built "to <doing>";
+// `of_window` says what free space alone is good for.
 void AddModel(CLI::App* app, const std::string& doing,
               const std::string& of_window, std::string* model);
 
 // What people see of a run; all of it comes from its row, so that a row kept
 // from an interrupted command tells the same.
 struct RunSummary {
-  NamedPath path;    // not free: no answer
-  std::string line;  // on standard output
-  std::string why;   // the answer is not what it might be; or empty
+  NamedPath path;                 // not free: no answer
+  bool misses_clearance = false;  // which was required: none either
+  std::string line;               // on standard output
+  std::string why;  // the answer is not what it might be; or empty
 };
 using Summarizer = std::function<RunSummary(const nlohmann::ordered_json&)>;
 

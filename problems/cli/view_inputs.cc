@@ -12,6 +12,7 @@
 #include "core/mesh/counted.h"
 #include "core/mesh/input_file.h"
 #include "core/mesh/mesh_range.h"
+#include "planners/world/planner_id.h"
 #include "problems/cli/command.h"
 #include "problems/cli/contact_space_file.h"
 #include "problems/cli/operands.h"
@@ -24,7 +25,6 @@
 #include "problems/pictures/viewer/scene_view.h"
 #include "problems/scenes/scene_library.h"
 #include "problems/studies/motion.h"
-#include "problems/studies/planner_names.h"
 
 namespace phongpd::cli {
 namespace {
@@ -256,7 +256,8 @@ class Collector {
     view_.paths.push_back(NamedPathOf(row));
     const bool is_window = row.value("model", "") == "window";
     window_runs_ += is_window ? 1 : 0;
-    if (is_window && row.value("planner", "") == kContactSurface) {
+    if (is_window &&
+        row.value("planner", "") == ToString(PlannerId::kContactSurface)) {
       ++explored_runs_;
       exploring_ = ExploringRunOf(row);
     }

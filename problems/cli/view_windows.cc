@@ -5,9 +5,9 @@
 #include <utility>
 
 #include "problems/cli/command.h"
+#include "problems/pictures/viewer/run_view.h"
 #include "problems/pictures/viewer/scene_view.h"
-#include "problems/studies/planning_study.h"
-#include "problems/studies/trajectory_study.h"
+#include "problems/scenes/scene_requests.h"
 
 namespace phongpd::cli {
 
@@ -16,22 +16,24 @@ ExploringRun ExploringRunOf(const nlohmann::json& row) {
           row.at("lengths").at("wanted_clearance").at("unit")};
 }
 
-void ShowExplored(Scene scene, const ExploringRun& of,
+void ShowExplored(const Scene& scene, const ExploringRun& of,
                   const ContactSpaceCache& cache, View* view) {
   Progress("exploring free space");
-  scene.planning.model = "window";
-  scene.preset = ParsePreset(of.preset, "preset");
-  scene.planning.clearance = Length::FromUnit(of.clearance);
-  PlanningStudy study(scene, cache);
-  PlanningRun run;
-  run.planner = kContactSurface;
-  run.routes = of.routes;
-  const PlanningResult result = study.Run(run);
-  if (result.explored && result.explored->surface) {
-    const TriangleMesh mesh = study.VisibleMesh(*result.explored->surface);
-    view->meshes.push_back({kExploredName, ViewRole::kContactSpace, mesh});
+  PlanRequest request = PlanRequestOf(scene);
+  request.planner = PlannerId::kContactSurface;
+  request.model = Model::kWindow;
+  request.preset = ParsePreset(of.preset, "preset");
+  request.clearance = Length::FromUnit(of.clearance);
+  request.routes = of.routes;
+  request.verifies = false;  // it was
+  const World world(scene.workspace, scene.name, cache);
+  const PathAnswer answer = Plan(world, request);
+  const BoundingBox region = PlanningRegion(world, request);
+  if (answer.evidence.surface) {
+    view->meshes.push_back({kExploredName, ViewRole::kContactSpace,
+                            VisibleMesh(*answer.evidence.surface, region)});
   }
-  for (NamedPath& path : view->paths) path.behind.window = study.Region();
+  for (NamedPath& path : view->paths) path.behind.window = region;
 }
 
 void ShowModel(const Scene& scene, const ContactSpaceCache& cache,
@@ -47,9 +49,8 @@ void ShowModel(const Scene& scene, const ContactSpaceCache& cache,
     view->meshes.push_back(std::move(mesh));
   }
   if (!is_window) return;
-  TrajectoryStudy study;
-  study.Enter(scene, world);
-  for (NamedPath& path : view->paths) path.behind.window = study.Region();
+  const BoundingBox region = WindowRegion(world, scene.start, scene.goal);
+  for (NamedPath& path : view->paths) path.behind.window = region;
 }
 
 void TellOfDepthWindows(bool is_table, View* view) {

@@ -24,7 +24,7 @@ ExploringRun ExploringRunOf(const nlohmann::json& row);
 
 // Explores that anew and shows the part of the contact space that it is, with
 // the box that was searched.  Throws as the plan does.
-void ShowExplored(Scene scene, const ExploringRun& of,
+void ShowExplored(const Scene& scene, const ExploringRun& of,
                   const ContactSpaceCache& cache, View* view);
 
 // Builds what the scene's paths were made in, or takes it from the cache, and

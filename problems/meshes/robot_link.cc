@@ -7,11 +7,11 @@
 
 #include "core/mesh/counted.h"
 #include "core/mesh/mesh_error.h"
+#include "core/nearest_name.h"
 #include "problems/meshes/any_mesh.h"
 #include "problems/meshes/files_beside.h"
 #include "problems/meshes/robot_file.h"
 #include "problems/meshes/robot_pose.h"
-#include "problems/output/nearest_name.h"
 #include "problems/output/text.h"
 
 namespace phongpd {

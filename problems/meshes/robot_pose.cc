@@ -9,9 +9,9 @@
 #include <utility>
 
 #include "core/mesh/counted.h"
+#include "core/nearest_name.h"
 #include "problems/meshes/robot_file.h"
 #include "problems/meshes/robot_joint.h"
-#include "problems/output/nearest_name.h"
 #include "problems/output/text.h"
 
 namespace phongpd {

@@ -7,7 +7,7 @@
 #include <set>
 #include <vector>
 
-#include "problems/output/nearest_name.h"
+#include "core/nearest_name.h"
 #include "problems/output/text.h"
 
 namespace phongpd {

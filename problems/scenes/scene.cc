@@ -160,8 +160,12 @@ BoundingBox Bounds(const Json& value, const JsonPlace& place) {
   return box;
 }
 
-void Read(const Json& value, const char* key, std::string* text) {
-  if (value.contains(key)) *text = value[key].get<std::string>();
+// One of several words.
+template <typename Parse, typename Kind>
+void Read(const Json& value, const JsonPlace& place, const char* key,
+          const Parse& parse, Kind* kind) {
+  if (!value.contains(key)) return;
+  *kind = parse(value[key].get<std::string>(), place.Child(key).Text());
 }
 
 void Read(const Json& value, const char* key, double* number) {
@@ -189,15 +193,15 @@ void Read(const Json& value, const char* key, int* number) {
 }
 
 void Read(const Json& value, const JsonPlace& place, const std::string& unit,
-          PenetrationSettings* settings) {
-  Read(value, "metric", &settings->metric);
-  Read(value, "field", &settings->field);
+          PenetrationSpec* settings) {
+  Read(value, place, "metric", ParseMetricKind, &settings->metric);
+  Read(value, place, "field", ParseFieldKind, &settings->field);
   if (value.contains("smoothing_length")) {
     settings->smoothing_length =
         LengthAt(value["smoothing_length"], place.Child("smoothing_length"),
                  LengthRange::kFromZero, unit);
   }
-  Read(value, "jacobian", &settings->jacobian);
+  Read(value, place, "jacobian", ParseJacobianKind, &settings->jacobian);
 }
 
 IpoptValue OptionValue(const Json& value) {
@@ -219,7 +223,7 @@ void Read(const Json& value, const JsonPlace& place, const std::string& unit,
                                 LengthRange::kAboveZero, unit);
   }
   Read(value, "max_segment_ratio", &settings->max_segment_ratio);
-  Read(value, "model", &settings->model);
+  Read(value, place, "model", ParseModel, &settings->model);
   if (!value.contains("ipopt")) return;
   for (const auto& [key, option] : value["ipopt"].items()) {
     settings->ipopt[key] = OptionValue(option);
@@ -228,8 +232,8 @@ void Read(const Json& value, const JsonPlace& place, const std::string& unit,
 
 void Read(const Json& value, const JsonPlace& place, const std::string& unit,
           PlanningSettings* settings) {
-  Read(value, "planner", &settings->planner);
-  Read(value, "model", &settings->model);
+  Read(value, place, "planner", ParsePlanner, &settings->planner);
+  Read(value, place, "model", ParseModel, &settings->model);
   Read(value, "time_limit", &settings->time_limit);
   if (value.contains("clearance")) {
     settings->clearance = LengthAt(value["clearance"], place.Child("clearance"),
@@ -249,11 +253,11 @@ MotionLimits Limits(const Json& value) {
   return limits;
 }
 
-std::vector<SceneVia> ViaPlaces(const Json& value, const JsonPlace& place,
-                                const std::string& unit) {
-  std::vector<SceneVia> places;
+std::vector<Via> ViaPlaces(const Json& value, const JsonPlace& place,
+                           const std::string& unit) {
+  std::vector<Via> places;
   for (std::size_t i = 0; i < value.size(); ++i) {
-    SceneVia via;
+    Via via;
     via.point = Point(value[i]["point"]);
     if (value[i].contains("tolerance")) {
       via.tolerance =
@@ -272,7 +276,7 @@ void RequireLengths(const Scene& scene, const JsonPlace& place) {
   const auto require = [&](const Length& length, LengthRange range,
                            const char* section, const char* key) {
     RequireLength(length, range, diagonal,
-                  place.Child(section).Child(key).Text(), scene.unit);
+                  place.Child(section).Child(key).Text(), scene.workspace.unit);
   };
   require(scene.penetration.smoothing_length, LengthRange::kFromZero,
           "penetration", "smoothing_length");
@@ -281,7 +285,7 @@ void RequireLengths(const Scene& scene, const JsonPlace& place) {
   for (std::size_t i = 0; i < scene.via.size(); ++i) {
     RequireLength(scene.via[i].tolerance, LengthRange::kAboveZero, diagonal,
                   place.Child("via").Child(i).Child("tolerance").Text(),
-                  scene.unit);
+                  scene.workspace.unit);
   }
   if (scene.planning.clearance) {
     require(*scene.planning.clearance, LengthRange::kAboveZero, "planning",
@@ -331,7 +335,7 @@ Scene ParseScene(const Json& json, const std::string& file,
   const JsonPlace place = {file, ""};
   Scene scene;
   scene.name = json.value("name", name);
-  scene.unit = json.value("unit", "");
+  scene.workspace.unit = json.value("unit", "");
   scene.start = Point(json["start"]);
   scene.goal = Point(json["goal"]);
   if (json.contains("bounds")) {
@@ -343,19 +347,20 @@ Scene ParseScene(const Json& json, const std::string& file,
   }
   if (json.contains("limits")) scene.limits = Limits(json["limits"]);
   if (json.contains("via")) {
-    scene.via = ViaPlaces(json["via"], place.Child("via"), scene.unit);
+    scene.via =
+        ViaPlaces(json["via"], place.Child("via"), scene.workspace.unit);
   }
   Read(json, "duration", &scene.duration);
   if (json.contains("penetration")) {
-    Read(json["penetration"], place.Child("penetration"), scene.unit,
+    Read(json["penetration"], place.Child("penetration"), scene.workspace.unit,
          &scene.penetration);
   }
   if (json.contains("trajectory")) {
-    Read(json["trajectory"], place.Child("trajectory"), scene.unit,
+    Read(json["trajectory"], place.Child("trajectory"), scene.workspace.unit,
          &scene.trajectory);
   }
   if (json.contains("planning")) {
-    Read(json["planning"], place.Child("planning"), scene.unit,
+    Read(json["planning"], place.Child("planning"), scene.workspace.unit,
          &scene.planning);
   }
   if (json.contains("feasible")) scene.feasible = json["feasible"].get<bool>();

@@ -14,10 +14,13 @@
 #include "core/bounds/mesh_repair.h"
 #include "core/mesh/mesh_error.h"
 #include "core/mesh/triangle_mesh.h"
-#include "core/projection/phong_field.h"
-#include "planners/exact/workspace.h"
 #include "planners/world/length.h"
+#include "planners/world/model.h"
+#include "planners/world/penetration_spec.h"
+#include "planners/world/planner_id.h"
 #include "planners/world/preset.h"
+#include "planners/world/via.h"
+#include "planners/world/workspace.h"
 
 // A problem as every command reads it: a robot R that translates, obstacles,
 // start and goal, and settings for queries, trajectories and planning.
@@ -26,14 +29,6 @@
 // file format is scene.schema.json.
 namespace phongpd {
 
-struct PenetrationSettings {
-  std::string metric = "phong";  // or "euclidean"
-  std::string field = "normal";  // or "tangent-plane"
-  // At most D; 0: the paper.
-  Length smoothing_length = Length::FromShare(kDefaultSmoothingLength);
-  std::string jacobian = "direction";  // or "exact"
-};
-
 using IpoptValue = std::variant<int, double, std::string>;
 
 struct TrajectorySettings {
@@ -41,34 +36,24 @@ struct TrajectorySettings {
   int samples_per_segment = 0;  // interior; 0: by the Lipschitz rule
   Length margin = Length::FromShare(0.01);  // distance kept, in (0, D]
   double max_segment_ratio = 1.6;           // longest over even segment length
-  std::string model = "auto";               // or "window", "full"
+  Model model = Model::kAuto;
   // By Ipopt's own names.  A whole number in the file arrives as an int, also
   // for options that are real numbers.
   std::map<std::string, IpoptValue> ipopt;
 };
 
 struct PlanningSettings {
-  std::string planner;         // empty: the default (PlanningStudy)
-  std::string model = "auto";  // or "window", "full"
-  double time_limit = 5.0;     // seconds
+  PlannerId planner = PlannerId::kContactSurface;
+  Model model = Model::kAuto;
+  double time_limit = 5.0;  // seconds
   // Wanted clearance, in (0, D]: how far paths and samples are lifted off
   // contact where there is room.  None: the planner's own, 0.01 of the diagonal
   // of what it plans in (kEnoughClearance, RetractionOptions).
   std::optional<Length> clearance;
 };
 
-// A place that a motion in time passes on its way.
-struct SceneVia {
-  Eigen::Vector3d point = Eigen::Vector3d::Zero();
-  Length tolerance = Length::FromShare(0.001);  // it comes as close, (0, D]
-  double dwell = 0.0;  // seconds to rest there, at the point itself
-};
-
 struct Scene {
   std::string name;
-  // What the unit of its lengths is called, one of UnitNames (length.h); empty:
-  // it has no name, and lengths without a unit are shares of D.
-  std::string unit;
   Workspace workspace;  // at least one obstacle
   Eigen::Vector3d start = Eigen::Vector3d::Zero();
   Eigen::Vector3d goal = Eigen::Vector3d::Zero();
@@ -76,9 +61,9 @@ struct Scene {
   std::optional<MotionLimits> limits;  // none: paths without time
   // Of a motion in time: the places on its way, in order, and the seconds that
   // it takes; 0: as few as can be.
-  std::vector<SceneVia> via;
+  std::vector<Via> via;
   double duration = 0.0;
-  PenetrationSettings penetration;
+  PenetrationSpec penetration;
   TrajectorySettings trajectory;
   PlanningSettings planning;
   // What the scene's maker knows: whether a path exists, and a free one from

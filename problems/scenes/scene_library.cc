@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/mesh/mesh_error.h"
-#include "problems/output/nearest_name.h"
+#include "core/nearest_name.h"
 #include "problems/output/text.h"
 #include "problems/scenes/scene_placement.h"
 #include "problems/scenes/scene_recipes.h"

@@ -9,7 +9,7 @@
 #include "core/contact/byte_stream.h"
 #include "core/contact/content_hash.h"
 #include "core/mesh/input_file.h"
-#include "problems/output/nearest_name.h"
+#include "core/nearest_name.h"
 #include "problems/output/text.h"
 #include "problems/scenes/scene_library.h"
 

@@ -3,28 +3,33 @@
 
 #include <nlohmann/json.hpp>
 
-#include "problems/studies/clearance_wish.h"
+#include "problems/scenes/scene_requests.h"
+#include "problems/studies/answer_row.h"
 
 namespace phongpd {
 
-Scene SceneToCompare(Scene scene) {
-  scene.trajectory.model = "full";
-  return scene;
+OptimizeRequest RequestOf(const Scene& scene, const ComparisonRun& run) {
+  OptimizeRequest request = OptimizeRequestOf(scene);
+  request.limits.reset();
+  request.model = Model::kFull;
+  request.penetration = run.metric.penetration;
+  request.own_metric = run.metric.own;
+  request.verifies = false;
+  // The scene's own Ipopt settings hold for every protocol.
+  const auto ipopt_options = request.options.optimizer.ipopt.ipopt_options;
+  request.options = run.protocol.options;
+  request.options.optimizer.ipopt.ipopt_options = ipopt_options;
+  request.options.seed = run.seed;
+  const bool is_straight = request.options.start == TrajectoryStart::kStraight;
+  if (!run.is_family && is_straight) request.options.start_noise = 0.01;
+  return request;
 }
 
-nlohmann::ordered_json RunComparison(const ComparisonRun& run,
-                                     TrajectoryStudy* study) {
-  PipelineOptions options = run.protocol.options;
-  options.seed = run.seed;
-  // The scene's own Ipopt settings hold for every protocol.
-  options.optimizer.ipopt.ipopt_options =
-      ScenePipelineOptions(study->scene()).optimizer.ipopt.ipopt_options;
-  const bool is_straight = options.start == TrajectoryStart::kStraight;
-  if (!run.is_family && is_straight) options.start_noise = 0.01;
-  nlohmann::ordered_json row = TrajectoryRow(*study, run.metric, options,
-                                             study->Run(run.metric, options));
-  TellClearance(study->world(), study->scene(),
-                WishOfTrajectory(study->scene(), false, false), &row);
+nlohmann::ordered_json RunComparison(const Scene& scene, const World& world,
+                                     const ComparisonRun& run) {
+  const OptimizeRequest request = RequestOf(scene, run);
+  nlohmann::ordered_json row =
+      PolylineRow(scene, world, request, Optimize(world, request));
   row["protocol"] = run.protocol.name;
   return row;
 }

@@ -4,29 +4,31 @@
 #include <cstdint>
 #include <nlohmann/json_fwd.hpp>
 
+#include "planners/world/world.h"
+#include "problems/scenes/scene.h"
+#include "problems/studies/study_metrics.h"
 #include "problems/studies/trajectory_comparison.h"
-#include "problems/studies/trajectory_study.h"
 
 namespace phongpd {
 
-// What gives one row of a comparison in the study's current scene.
+// What gives one row of a comparison on a scene.
 struct ComparisonRun {
   std::uint64_t seed = 1;
   TrajectoryProtocol protocol;
-  TrajectoryMetric metric;
+  StudyMetric metric;
   // A scene file differs from seed to seed by the start of the solver only, a
   // family of scenes by itself.
   bool is_family = false;
 };
 
-// The scene as comparisons enter it: of model full, because metrics are what is
-// compared, and free space alone follows none.
-Scene SceneToCompare(Scene scene);
+// What is asked of Optimize: a polyline in the whole model, because metrics are
+// what is compared, and free space alone follows none.
+OptimizeRequest RequestOf(const Scene& scene, const ComparisonRun& run);
 
-// TrajectoryRow with what TellClearance says and the key `protocol`, wherever
-// it is run: by phongpd compare, or by a worker of phongpd.cluster.  Throws
-// what TrajectoryStudy::Run throws.
-nlohmann::ordered_json RunComparison(const ComparisonRun& run,
-                                     TrajectoryStudy* study);
+// PolylineRow with the key `protocol`, wherever it is run: by phongpd compare,
+// or by a worker of phongpd.cluster.  `world` is the scene's.  Throws what
+// Optimize throws.
+nlohmann::ordered_json RunComparison(const Scene& scene, const World& world,
+                                     const ComparisonRun& run);
 
 }  // namespace phongpd

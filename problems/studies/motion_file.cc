@@ -19,13 +19,6 @@ constexpr double kGcodeSeconds = 0.05;    // of a line
 constexpr int kFinerTolerances = 10;      // by a quarter each
 constexpr int kMostHalvings = 60;
 
-void RequireFewRows(const Trajectory& trajectory, double rate) {
-  if (trajectory.duration() * rate <= kMostTimedRows) return;
-  throw InputError("--rate: expected at most " + FormatDouble(kMostTimedRows) +
-                   " rows for the " + Rounded(trajectory.duration()) +
-                   " s of the motion, found " + FormatDouble(rate) + " Hz");
-}
-
 std::string YamlPoint(const Vector3d& p) {
   return "[" + FormatDouble(p.x()) + ", " + FormatDouble(p.y()) + ", " +
          FormatDouble(p.z()) + "]\n";
@@ -117,10 +110,17 @@ void RequireUnit(const std::string& unit, const std::string& what) {
                    "millimetre is, found none");
 }
 
+void RequireFewRows(double seconds, double rate) {
+  if (seconds * rate <= kMostTimedRows) return;
+  throw InputError("--rate: expected at most " + FormatDouble(kMostTimedRows) +
+                   " rows for a motion that takes " + Rounded(seconds) +
+                   " s or more, found " + FormatDouble(rate) + " Hz");
+}
+
 std::string TimedCsv(const Trajectory& trajectory, double rate) {
   std::string text = "t,x,y,z,vx,vy,vz,ax,ay,az\n";
   if (trajectory.empty()) return text;
-  RequireFewRows(trajectory, rate);
+  RequireFewRows(trajectory.duration(), rate);
   for (const Trajectory::Sample& sample : trajectory.Samples(rate)) {
     text += FormatDouble(sample.time) + ',' + FormatPoint(sample.position) +
             ',' + FormatPoint(sample.velocity) + ',' +
@@ -137,7 +137,7 @@ std::string RosTrajectory(const Trajectory& trajectory, double rate,
       "# trajectory_msgs/JointTrajectory, metres and seconds\n"
       "joint_names: [x, y, z]\n";
   if (trajectory.empty()) return text + "points: []\n";
-  RequireFewRows(trajectory, rate);
+  RequireFewRows(trajectory.duration(), rate);
   text += "points:\n";
   for (const Trajectory::Sample& sample : trajectory.Samples(rate)) {
     double seconds = std::floor(sample.time);

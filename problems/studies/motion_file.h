@@ -12,6 +12,10 @@ namespace phongpd {
 // No more rows in a file of a motion.
 inline constexpr double kMostTimedRows = 1e7;
 
+// Throws InputError where a motion of so many seconds has more rows than that,
+// `rate` a second.
+void RequireFewRows(double seconds, double rate);
+
 // "t,x,y,z,vx,vy,vz,ax,ay,az" at 0, 1/rate, 2/rate, ... and at the end; of an
 // empty trajectory the names only.  Throws InputError for more than
 // kMostTimedRows.

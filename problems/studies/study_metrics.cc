@@ -85,25 +85,25 @@ std::shared_ptr<const PenetrationMetric> MakeFadedMetric(
   return std::make_shared<DirectedMetric>(space, options, true);
 }
 
-TrajectoryMetric ParseStudyMetric(const std::string& text,
-                                  const std::string& what) {
+StudyMetric ParseStudyMetric(const std::string& text, const std::string& what) {
+  StudyMetric metric;
   if (text == "followed") {
-    TrajectoryMetric metric = ParseTrajectoryMetric("euclidean", what);
-    metric.name = metric.kind = text;
-    metric.make = [](const ContactSpace& space, const PhongMetricOptions&) {
-      return MakeFollowedMetric(space);
-    };
+    metric.penetration.metric = MetricKind::kEuclidean;
+    metric.own = OwnMetric{
+        text, text, [](const ContactSpace& space, const PhongMetricOptions&) {
+          return MakeFollowedMetric(space);
+        }};
     return metric;
   }
   std::string rest = text;
   const bool is_mixed = TakePrefix("mixed@", &rest);
   if (!is_mixed && !TakePrefix("faded@", &rest)) {
-    return ParseTrajectoryMetric(text, what);
+    metric.penetration = ParsePenetration(text, what);
+    return metric;
   }
-  TrajectoryMetric metric = ParseTrajectoryMetric("phong@" + rest, what);
-  metric.name = text;
-  metric.kind = is_mixed ? "mixed" : "faded";
-  metric.make = is_mixed ? MakeMixedMetric : MakeFadedMetric;
+  metric.penetration = ParsePenetration("phong@" + rest, what);
+  metric.own = OwnMetric{is_mixed ? "mixed" : "faded", text,
+                         is_mixed ? MakeMixedMetric : MakeFadedMetric};
   return metric;
 }
 

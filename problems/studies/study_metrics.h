@@ -2,12 +2,13 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "core/contact/contact_space.h"
 #include "core/projection/penetration_metric.h"
 #include "core/projection/phong_metric.h"
-#include "problems/studies/trajectory_study.h"
+#include "planners/solve/optimize.h"
 
 // Metrics that the convergence study alone follows, to tell what of PhongPD it
 // is that helps a solver: the memory of a branch, the depth, or the direction.
@@ -39,9 +40,16 @@ std::shared_ptr<const PenetrationMetric> MakeMixedMetric(
 std::shared_ptr<const PenetrationMetric> MakeFadedMetric(
     const ContactSpace& space, const PhongMetricOptions& options);
 
+// What an optimiser of the study follows.
+struct StudyMetric {
+  PenetrationSpec penetration;
+  std::optional<OwnMetric> own;  // one of the above
+
+  std::string Name() const { return own ? own->name : penetration.Name(); }
+};
+
 // The metrics above by name, "followed", "mixed@L" and "faded@L", and all that
-// ParseTrajectoryMetric takes.  Throws InputError starting with `what`.
-TrajectoryMetric ParseStudyMetric(const std::string& text,
-                                  const std::string& what);
+// ParsePenetration takes.  Throws InputError starting with `what`.
+StudyMetric ParseStudyMetric(const std::string& text, const std::string& what);
 
 }  // namespace phongpd

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 from __future__ import annotations
 
-import json
 import os
 from collections.abc import Mapping
 from typing import Any, Tuple
@@ -169,13 +168,14 @@ class World(Shown):
         "auto", window where limits refuse the whole; "": the scene's, full
         where that is auto.
         """
-        row = json.loads(self._native.optimize(
-            *self._ends(start, goal), text(metric, "metric"), length(margin, "margin"),
-            whole_number(waypoints, "waypoints", 0),
-            whole_number(seed, "seed", 0, _MOST_SEED),
-            seconds(max_seconds, "max_seconds"), flag(straight, "straight"),
-            text(preset, "preset"), text(model, "model"),
-            flag(require, "require")))
+        row = self._native.optimize(
+            *self._ends(start, goal), metric=text(metric, "metric"),
+            margin=length(margin, "margin"),
+            waypoints=whole_number(waypoints, "waypoints", 0),
+            seed=whole_number(seed, "seed", 0, _MOST_SEED),
+            max_seconds=seconds(max_seconds, "max_seconds"),
+            straight=flag(straight, "straight"), preset=text(preset, "preset"),
+            model=text(model, "model"), require=flag(require, "require"))
         return Trajectory(
             status=row["status_class"], reason=row["reason"],
             free=row["collision_free"], path=_path(row),
@@ -209,8 +209,8 @@ class World(Shown):
             else places_on_the_way(via, tolerance, dwell),
             scene.duration if duration is None else duration,
             margin, max_seconds, preset, require)
-        return motion_of(json.loads(self._native.optimize_in_time(
-            *self._ends(start, goal), text(model, "model"), wishes)), self)
+        return motion_of(self._native.optimize_in_time(
+            *self._ends(start, goal), text(model, "model"), wishes), self)
 
     def retime(self, path: ArrayLike, *, limits: Any = None,
                via: ArrayLike | None = None, tolerance: Any = None,
@@ -229,7 +229,7 @@ class World(Shown):
             limits, [] if via is None
             else places_on_the_way(via, tolerance, dwell),
             duration, margin, max_seconds, preset, require)
-        return motion_of(json.loads(self._native.retime(points, wishes)), self)
+        return motion_of(self._native.retime(points, wishes), self)
 
     def _wishes(self, limits: Any, via: list[tuple[_Point, str, float]],
                 duration: Any, margin: Any, max_seconds: Any, preset: Any,
@@ -263,11 +263,14 @@ class World(Shown):
         whole; "": the scene's.
         """
         ends = self._ends(start, goal)
-        row = json.loads(self._native.plan(
-            *ends, text(planner, "planner"), text(retraction, "retraction"),
-            length(clearance, "clearance"), seconds(max_seconds, "max_seconds"),
-            whole_number(seed, "seed", 0, _MOST_SEED), text(preset, "preset"),
-            text(model, "model"), flag(require, "require")))
+        row = self._native.plan(
+            *ends, planner=text(planner, "planner"),
+            retraction=text(retraction, "retraction"),
+            clearance=length(clearance, "clearance"),
+            max_seconds=seconds(max_seconds, "max_seconds"),
+            seed=whole_number(seed, "seed", 0, _MOST_SEED),
+            preset=text(preset, "preset"), model=text(model, "model"),
+            require=flag(require, "require"))
         return Plan(
             status=row["status"], reason=row["reason"], solved=row["solved"],
             infeasible=row["infeasible_proved"], path=_path(row),

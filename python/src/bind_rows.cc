@@ -5,11 +5,7 @@
 #include <memory>
 #include <mutex>
 
-#include "constraints/non_penetration.h"
-#include "constraints/sampling_rule.h"
-#include "planners/trajectory/trajectory_problem.h"
-#include "planners/world/bare_length.h"
-#include "problems/output/text.h"
+#include "planners/world/non_penetration_rows.h"
 #include "python/src/arrays.h"
 #include "python/src/bindings.h"
 #include "python/src/computing.h"
@@ -18,163 +14,68 @@
 namespace phongpd::python {
 namespace {
 
-// Of samples by the rule, as the optimiser has it (TrajectoryProblem).
-double LongestSegment(const Eigen::Vector3d& start, const Eigen::Vector3d& goal,
-                      int waypoints) {
-  const TrajectoryProblem problem;
-  return problem.max_segment_ratio * (goal - start).norm() / (waypoints + 1);
-}
-
-// The rows of a polyline, and the branches that the caller's solver is on.
-// With samples by the rule (0), N+1 rows margin + h − |p_{i+1} − p_i| come
-// last: all rows ≥ margin is free motion then, as both ends keep the margin.
+// NonPenetrationRows for Python's threads.
 class Rows {
  public:
   Rows(const Workshop& workshop, const std::string& metric, const Point& start,
        const Point& goal, int waypoints, const std::string& margin,
-       int samples_per_segment, double max_segment, int rows)
-      : start_(ToVector(start)), goal_(ToVector(goal)), waypoints_(waypoints) {
-    if (!start_.allFinite() || !goal_.allFinite()) {
-      throw InputError("start and goal: expected finite numbers, found others");
-    }
-    const World& world = workshop.world();
-    const Length wanted =
-        margin.empty() ? workshop.scene().trajectory.margin
-                       : ParseClearance(margin, "margin", world.diagonal(),
-                                        workshop.scene().unit);
-    margin_ = world.Resolve(wanted).unit;
-    max_segment_ = max_segment > 0.0 ? max_segment
-                                     : LongestSegment(start_, goal_, waypoints);
-    is_by_rule_ = samples_per_segment == 0;
-    if (is_by_rule_) {
-      samples_per_segment =
-          SamplesByRule(max_segment_, margin_, kMaxSamplesPerSegment);
-      RequireRoomAtEnds(*workshop.Spaces().free_space);
-    }
-    samples_per_segment_ = samples_per_segment;
-    const TrajectoryMetric chosen = ParseTrajectoryMetric(metric, "metric");
-    SignedMetricOptions options = chosen.options;
-    options.phong.field_options.smoothing_length =
-        workshop.world().Resolve(chosen.smoothing_length).share;
-    std::vector<std::shared_ptr<const SignedMetric>> metrics;
-    const std::vector<ContactSpace>& spaces = workshop.Spaces().spaces;
+       int samples_per_segment, double max_segment, int rows) {
+    RowsOptions options;
+    options.waypoints = waypoints;
+    options.margin = margin.empty() ? workshop.scene().trajectory.margin
+                                    : workshop.Clearance(margin, "margin");
+    options.penetration = ParsePenetration(metric, "metric");
+    options.samples_per_segment = samples_per_segment;
+    options.max_segment = max_segment;
+    options.rows_per_sample = rows;
+    workshop.Spaces();  // Ctrl-C stops that
     const Computing computing;
-    for (const ContactSpace& space : spaces) {
-      metrics.push_back(std::make_shared<SignedMetric>(space, options));
-    }
-    rows_ = std::make_unique<NonPenetrationConstraint>(
-        std::move(metrics), ToVector(start), ToVector(goal), waypoints,
-        std::vector<int>(static_cast<size_t>(waypoints) + 1,
-                         samples_per_segment),
-        rows);
-    row_.resize(static_cast<size_t>(rows_->nonzeros()));
-    column_.resize(row_.size());
-    rows_->Sparsity(row_.data(), column_.data());
-    for (int i = 0; i < segment_rows(); ++i) {
-      for (int end = i - 1; end <= i; ++end) {  // its free waypoints
-        if (end < 0 || end == waypoints_) continue;
-        for (int axis = 0; axis < 3; ++axis) {
-          row_.push_back(rows_->rows() + i);
-          column_.push_back(3 * end + axis);
-        }
-      }
-    }
+    rows_ = std::make_unique<NonPenetrationRows>(
+        workshop.world(), ToVector(start), ToVector(goal), options);
   }
 
-  size_t variables() const { return static_cast<size_t>(rows_->variables()); }
-  size_t rows() const {
-    return static_cast<size_t>(rows_->rows() + segment_rows());
-  }
-  double margin() const { return margin_; }
-  double max_segment() const { return max_segment_; }
-  int samples_per_segment() const { return samples_per_segment_; }
+  const NonPenetrationRows& rows() const { return *rows_; }
   nb::tuple Sparsity() const {
-    return nb::make_tuple(Owned(row_, {row_.size()}),
-                          Owned(column_, {column_.size()}));
+    const size_t count = rows_->row().size();
+    return nb::make_tuple(Owned(rows_->row(), {count}),
+                          Owned(rows_->column(), {count}));
   }
 
   // Cold branches at u.
   void Start(const Rows3& u) {
     const Computing computing;
     const std::lock_guard<std::mutex> lock(one_at_a_time_);
-    branches_ = rows_->Start(u.data(), nullptr);
+    rows_->Start(Flat(u));
   }
   void Accept(const Rows3& u) {
     const Computing computing;
     const std::lock_guard<std::mutex> lock(one_at_a_time_);
-    if (branches_.branches.empty()) {
-      branches_ = rows_->Start(u.data(), nullptr);
-    }
-    rows_->Commit(u.data(), &branches_, nullptr);
+    rows_->Accept(Flat(u));
   }
   // Values and entries of the pattern.
   nb::tuple Evaluate(const Rows3& u) {
-    std::vector<double> values(rows()), entries(row_.size());
+    const auto m = static_cast<size_t>(rows_->rows());
+    const auto e = static_cast<size_t>(rows_->nonzeros());
+    std::vector<double> values(m), entries(e);
     {
       const Computing computing;
       const std::lock_guard<std::mutex> lock(one_at_a_time_);
-      if (branches_.branches.empty()) {
-        branches_ = rows_->Start(u.data(), nullptr);
-      }
-      if (!rows_->Evaluate(u.data(), branches_, values.data(), entries.data(),
-                           nullptr)) {
-        throw InputError("waypoints: expected finite numbers, found others");
-      }
-      AddSegments(u.data(), &values, &entries);
+      rows_->Evaluate(Flat(u), Flat(&values), Flat(&entries));
     }
-    const size_t m = values.size(), e = entries.size();
     return nb::make_tuple(Owned(std::move(values), {m}),
                           Owned(std::move(entries), {e}));
   }
 
  private:
-  int segment_rows() const { return is_by_rule_ ? waypoints_ + 1 : 0; }
-
-  // Without that the rule says nothing of the first and last segment.
-  void RequireRoomAtEnds(const FreeSpace& space) const {
-    for (const bool at_start : {true, false}) {
-      const double room = space.Clearance(at_start ? start_ : goal_);
-      if (room >= margin_) continue;
-      throw InputError("margin: expected at most " + FormatDouble(room) +
-                       "unit, the room of the " +
-                       (at_start ? "start" : "goal") + ", found " +
-                       FormatDouble(margin_) +
-                       "unit; less, or samples_per_segment of your own");
-    }
+  static Eigen::Map<const Eigen::VectorXd> Flat(const Rows3& u) {
+    return {u.data(), static_cast<Eigen::Index>(u.size())};
+  }
+  static Eigen::Map<Eigen::VectorXd> Flat(std::vector<double>* numbers) {
+    return {numbers->data(), static_cast<Eigen::Index>(numbers->size())};
   }
 
-  Eigen::Vector3d Waypoint(int i, const double* u) const {
-    if (i == 0) return start_;
-    if (i > waypoints_) return goal_;
-    return Eigen::Map<const Eigen::Vector3d>(u + 3 * (i - 1));
-  }
-
-  void AddSegments(const double* u, std::vector<double>* values,
-                   std::vector<double>* entries) const {
-    auto value = values->begin() + rows_->rows();
-    auto entry = entries->begin() + rows_->nonzeros();
-    for (int i = 0; i < segment_rows(); ++i) {
-      const Eigen::Vector3d step = Waypoint(i + 1, u) - Waypoint(i, u);
-      *value++ = margin_ + max_segment_ - step.norm();
-      const Eigen::Vector3d along = step.stableNormalized();  // 0 of 0
-      for (const int end : {i, i + 1}) {
-        if (end == 0 || end == waypoints_ + 1) continue;
-        for (int axis = 0; axis < 3; ++axis) {
-          *entry++ = end == i ? along[axis] : -along[axis];
-        }
-      }
-    }
-  }
-
-  const Eigen::Vector3d start_, goal_;
-  const int waypoints_;
-  double margin_ = 0.0, max_segment_ = 0.0;
-  bool is_by_rule_ = false;
-  int samples_per_segment_ = 0;
-  std::unique_ptr<NonPenetrationConstraint> rows_;
-  BranchSet branches_;
-  std::vector<int> row_, column_;
-  std::mutex one_at_a_time_;  // of Python's threads
+  std::unique_ptr<NonPenetrationRows> rows_;
+  std::mutex one_at_a_time_;
 };
 
 }  // namespace
@@ -187,11 +88,14 @@ void BindRows(nb::module_& module) {
       .def("accept", &Rows::Accept)
       .def("evaluate", &Rows::Evaluate)
       .def("sparsity", &Rows::Sparsity)
-      .def_prop_ro("margin", &Rows::margin)
-      .def_prop_ro("max_segment", &Rows::max_segment)
-      .def_prop_ro("samples_per_segment", &Rows::samples_per_segment)
-      .def_prop_ro("variables", &Rows::variables)
-      .def_prop_ro("rows", &Rows::rows);
+      .def_prop_ro("margin", [](const Rows& r) { return r.rows().margin(); })
+      .def_prop_ro("max_segment",
+                   [](const Rows& r) { return r.rows().max_segment(); })
+      .def_prop_ro("samples_per_segment",
+                   [](const Rows& r) { return r.rows().samples_per_segment(); })
+      .def_prop_ro("variables",
+                   [](const Rows& r) { return r.rows().variables(); })
+      .def_prop_ro("rows", [](const Rows& r) { return r.rows().rows(); });
 }
 
 }  // namespace phongpd::python

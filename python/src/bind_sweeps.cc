@@ -13,10 +13,12 @@
 #include <utility>
 #include <vector>
 
+#include "planners/retraction/retraction_names.h"
+#include "planners/world/planner_id.h"
 #include "problems/output/json_text.h"
+#include "problems/scenes/kept_world.h"
 #include "problems/scenes/scene_source.h"
 #include "problems/studies/comparison_run.h"
-#include "problems/studies/planner_names.h"
 #include "problems/studies/study_metrics.h"
 #include "python/src/bindings.h"
 #include "python/src/interruptible.h"
@@ -31,40 +33,31 @@ namespace nb = nanobind;
 class Comparison {
  public:
   Comparison(const std::string& scene, double max_mib, bool cache)
-      : source_(scene), cache_(FolderOf(cache)), limits_{0.0, max_mib} {}
+      : source_(scene), worlds_(FolderOf(cache), {0.0, max_mib}) {}
 
   std::string Row(std::uint64_t seed, const std::string& protocol,
                   const std::string& metric) {
     return Interruptible([&] {
       const std::lock_guard<std::mutex> lock(one_at_a_time_);
-      Enter(seed);
+      if (seed_ != seed) {
+        seed_.reset();
+        loaded_ = source_.Load(seed);
+        seed_ = seed;
+      }
       nlohmann::ordered_json row = RunComparison(
+          loaded_, worlds_.Of(loaded_),
           {seed, FindProtocol(protocol), ParseStudyMetric(metric, "metrics"),
-           source_.is_family()},
-          &study_);
+           source_.is_family()});
       row.erase("path");
       return JsonText(row);
     });
   }
 
  private:
-  void Enter(std::uint64_t seed) {
-    if (entered_ == seed) return;
-    entered_.reset();
-    const Scene scene = SceneToCompare(source_.Load(seed));
-    if (!world_ || !HaveSameSolids(scene.workspace, world_->workspace())) {
-      world_.emplace(scene.workspace, scene.name, cache_, limits_);
-    }
-    study_.Enter(scene, *world_);
-    entered_ = seed;
-  }
-
   SceneSource source_;
-  ContactSpaceCache cache_;
-  WorldLimits limits_;
-  std::optional<World> world_;
-  TrajectoryStudy study_;
-  std::optional<std::uint64_t> entered_;  // seed of the study's scene
+  KeptWorld worlds_;
+  Scene loaded_;
+  std::optional<std::uint64_t> seed_;  // that it was loaded with
   std::mutex one_at_a_time_;
 };
 
@@ -85,14 +78,10 @@ class ThreadLimit {
 // scene.  An empty clearance is the scene's own.
 void CheckPlanner(const std::string& planner, const std::string& retraction,
                   const std::string& clearance) {
-  const std::vector<std::string> names = PlannerNames();
-  if (std::find(names.begin(), names.end(), planner) == names.end()) {
-    throw InputError("planners: expected one that phongpd plan --help names, " +
-                     ("found '" + planner + "'"));
-  }
+  const PlannerId id = ParsePlanner(planner, "planners");
   ParseRetraction(retraction, "retraction");
   if (clearance.empty()) return;
-  RequireSeeksClearance(planner, "clearance");
+  RequireSeeksClearance(id, "clearance");
   // Whether the unit is the scene's, the scene will say.
   ParseLength(clearance, "clearance", UnitNamedIn(clearance));
 }

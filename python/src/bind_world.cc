@@ -11,11 +11,14 @@
 #include <optional>
 #include <utility>
 
+#include "core/mesh/mesh_error.h"
 #include "planners/exact/contact_roadmap.h"
+#include "planners/retraction/retraction_names.h"
 #include "problems/scenes/scene_source.h"
 #include "python/src/arrays.h"
 #include "python/src/bindings.h"
 #include "python/src/interruptible.h"
+#include "python/src/json_objects.h"
 #include "python/src/words.h"
 #include "python/src/workshop.h"
 
@@ -95,6 +98,66 @@ nb::object Clearances(const Workshop& workshop, const Rows3& points) {
   return Owned(std::move(clearance), {count});
 }
 
+// Empty texts and 0: the scene's own.
+nb::object OptimizeWith(Workshop& workshop, const Point& start,
+                        const Point& goal, const std::string& metric,
+                        const std::string& margin, int waypoints,
+                        std::uint64_t seed, double max_seconds,
+                        bool is_straight, const std::string& preset,
+                        const std::string& model, bool is_required) {
+  OptimizeRequest request = workshop.OptimizeBetween(start, goal);
+  if (!preset.empty()) ApplyPreset(ParsePreset(preset, "preset"), &request);
+  if (!margin.empty()) request.margin = workshop.Clearance(margin, "margin");
+  if (waypoints > 0) request.waypoints = waypoints;
+  // Whoever names a metric is told that it cannot be followed.
+  if (!model.empty()) {
+    request.model = ParseModel(model, "model");
+  } else if (request.model == Model::kAuto) {
+    request.model = Model::kFull;
+  }
+  if (!metric.empty()) {
+    if (request.model == Model::kWindow) {
+      throw InputError(
+          "metric: expected none with model window, which follows no metric, "
+          "found " +
+          metric);
+    }
+    request.penetration = ParsePenetration(metric, "metric");
+  }
+  request.requires_margin = is_required;
+  request.options.seed = seed;
+  request.options.time_limit = max_seconds;
+  if (is_straight) request.options.start = TrajectoryStart::kStraight;
+  return ToObject(workshop.Optimize(request));
+}
+
+nb::object PlanWith(Workshop& workshop, const Point& start, const Point& goal,
+                    const std::string& planner, const std::string& retraction,
+                    const std::string& clearance, double max_seconds,
+                    std::uint64_t seed, const std::string& preset,
+                    const std::string& model, bool is_required) {
+  PlanRequest request = workshop.PlanBetween(start, goal);
+  request.planner = ParsePlanner(planner, "planner");
+  request.retraction = ParseRetraction(retraction, "retraction");
+  if (!clearance.empty()) {
+    RequireSeeksClearance(request.planner, "clearance");
+    request.clearance = workshop.Clearance(clearance, "clearance");
+  }
+  if (!preset.empty()) {
+    if (request.planner != PlannerId::kContactSurface) {
+      throw InputError(std::string("preset: expected with planner ") +
+                       ToString(PlannerId::kContactSurface) + ", found with " +
+                       planner);
+    }
+    request.preset = ParsePreset(preset, "preset");
+  }
+  if (!model.empty()) request.model = ParseModel(model, "model");
+  request.requires_clearance = is_required;
+  request.time_limit = max_seconds;
+  request.seed = seed;
+  return ToObject(workshop.Plan(request));
+}
+
 nb::dict PlanOf(const ContactRoadmap& roadmap, const Point& start,
                 const Point& goal) {
   const PlanResult result = [&] {
@@ -123,7 +186,8 @@ void BindScene(nb::module_& module) {
           },
           nb::arg("text"), nb::arg("seed").none())
       .def_prop_ro("name", [](const Scene& scene) { return scene.name; })
-      .def_prop_ro("unit", [](const Scene& scene) { return scene.unit; })
+      .def_prop_ro("unit",
+                   [](const Scene& scene) { return scene.workspace.unit; })
       .def_prop_ro("start",
                    [](const Scene& scene) { return ToArray(scene.start); })
       .def_prop_ro("goal",
@@ -138,10 +202,10 @@ void BindScene(nb::module_& module) {
       .def_prop_ro("via",
                    [](const Scene& scene) {
                      std::vector<std::tuple<Point, std::string, double>> all;
-                     for (const SceneVia& via : scene.via) {
+                     for (const Via& via : scene.via) {
                        all.emplace_back(
                            Point{via.point.x(), via.point.y(), via.point.z()},
-                           via.tolerance.Text(scene.unit), via.dwell);
+                           via.tolerance.Text(scene.workspace.unit), via.dwell);
                      }
                      return all;
                    })
@@ -175,10 +239,30 @@ void BindWorld(nb::module_& module) {
            });
   nb::class_<Workshop>(module, "World")
       .def(nb::init<const Scene&, bool, double>())
-      .def("optimize", &Workshop::Optimize)
-      .def("optimize_in_time", &Workshop::OptimizeInTime)
-      .def("retime", &Workshop::Retime)
-      .def("plan", &Workshop::Plan)
+      .def("optimize", &OptimizeWith, nb::arg("start"), nb::arg("goal"),
+           nb::kw_only(), nb::arg("metric"), nb::arg("margin"),
+           nb::arg("waypoints"), nb::arg("seed"), nb::arg("max_seconds"),
+           nb::arg("straight"), nb::arg("preset"), nb::arg("model"),
+           nb::arg("require"))
+      .def("optimize_in_time",
+           [](Workshop& workshop, const Point& start, const Point& goal,
+              const std::string& model, const MotionWishes& wishes) {
+             OptimizeRequest request =
+                 workshop.MotionBetween(start, goal, wishes);
+             if (!model.empty()) request.model = ParseModel(model, "model");
+             return ToObject(workshop.Optimize(request));
+           })
+      .def("retime",
+           [](Workshop& workshop, const std::vector<Point>& path,
+              const MotionWishes& wishes) {
+             return ToObject(workshop.Retime(
+                 path,
+                 workshop.MotionBetween(path.front(), path.back(), wishes)));
+           })
+      .def("plan", &PlanWith, nb::arg("start"), nb::arg("goal"), nb::kw_only(),
+           nb::arg("planner"), nb::arg("retraction"), nb::arg("clearance"),
+           nb::arg("max_seconds"), nb::arg("seed"), nb::arg("preset"),
+           nb::arg("model"), nb::arg("require"))
       .def("diagnose", &DiagnosisOf)
       .def("are_free", &AreFree)
       .def("clearances", &Clearances)

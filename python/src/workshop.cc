@@ -1,16 +1,28 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "python/src/workshop.h"
 
-#include <nlohmann/json.hpp>
+#include <stdexcept>
 
+#include "core/mesh/mesh_error.h"
 #include "planners/world/bare_length.h"
-#include "problems/studies/planning_study.h"
-#include "problems/studies/timed_trajectory.h"
+#include "problems/scenes/scene_requests.h"
+#include "problems/studies/answer_row.h"
 #include "python/src/interruptible.h"
 
 namespace phongpd::python {
 
 using Eigen::Vector3d;
+
+namespace {
+
+// A wrong answer is a fault of the library.
+void RequireVerified(const PathAnswer& answer) {
+  if (answer.status != PathStatus::kVerificationFailed) return;
+  throw std::runtime_error("verification on the original solids failed: " +
+                           answer.reason);
+}
+
+}  // namespace
 
 ContactSpaceCache FolderOf(bool cache) {
   ContactSpaceCache folder;
@@ -20,9 +32,7 @@ ContactSpaceCache FolderOf(bool cache) {
 
 Workshop::Workshop(const Scene& scene, bool cache, double max_mib)
     : scene_(scene),
-      cache_(FolderOf(cache)),
-      world_(scene.workspace, scene.name, cache_, {0.0, max_mib}),
-      trajectories_(cache_) {}
+      world_(scene.workspace, scene.name, FolderOf(cache), {0.0, max_mib}) {}
 
 const WorldSpaces& Workshop::Spaces() const {
   if (!is_built_) {
@@ -35,147 +45,86 @@ const WorldSpaces& Workshop::Spaces() const {
   return world_.Spaces(SpaceLayout::kMerged);
 }
 
-std::string Workshop::Optimize(const Point& start, const Point& goal,
-                               const std::string& metric,
-                               const std::string& margin, int waypoints,
-                               std::uint64_t seed, double max_seconds,
-                               bool is_straight, const std::string& preset,
-                               const std::string& model, bool is_required) {
-  return Interruptible([&] {
-    const std::lock_guard<std::mutex> lock(one_at_a_time_);
-    Scene scene = Between(start, goal);
-    if (!margin.empty()) {
-      scene.trajectory.margin =
-          ParseClearance(margin, "margin", world_.diagonal(), scene.unit);
-    }
-    if (waypoints > 0) scene.trajectory.waypoints = waypoints;
-    if (!preset.empty()) scene.preset = ParsePreset(preset, "preset");
-    if (!model.empty()) scene.trajectory.model = model;
-    // Whoever names a metric is told that it cannot be followed.
-    if (model.empty() && scene.trajectory.model == "auto") {
-      scene.trajectory.model = "full";
-    }
-    if (!metric.empty() && scene.trajectory.model == "window") {
-      throw InputError(
-          "metric: expected none with model window, which follows no metric, "
-          "found " +
-          metric);
-    }
-    PipelineOptions options = ScenePipelineOptions(scene);
-    options.seed = seed;
-    options.time_limit = max_seconds;
-    if (is_straight) options.start = TrajectoryStart::kStraight;
-    trajectories_.Enter(scene, world_);
-    const TrajectoryMetric chosen =
-        metric.empty() ? SceneMetric(scene)
-                       : ParseTrajectoryMetric(metric, "metric");
-    const PipelineResult result = trajectories_.Run(chosen, options);
-    nlohmann::ordered_json row =
-        TrajectoryRow(trajectories_, chosen, options, result);
-    return Judged(scene, ClaimsOf(result),
-                  WishOfTrajectory(scene, !margin.empty(), is_required), &row);
-  });
+Length Workshop::Clearance(const std::string& text,
+                           const std::string& what) const {
+  return ParseClearance(text, what, world_.diagonal(), scene_.workspace.unit);
 }
 
-template <typename Ask>
-std::string Workshop::InTime(Scene scene, const MotionWishes& wishes,
-                             const std::atomic<bool>& is_asked,
-                             const Ask& ask) {
-  const bool has_margin = !wishes.margin.empty();
-  if (has_margin) {
-    scene.trajectory.margin =
-        ParseClearance(wishes.margin, "margin", world_.diagonal(), scene.unit);
+PlanRequest Workshop::PlanBetween(const Point& start, const Point& goal) const {
+  return PlanRequestOf(Between(start, goal));
+}
+
+OptimizeRequest Workshop::OptimizeBetween(const Point& start,
+                                          const Point& goal) const {
+  OptimizeRequest request = OptimizeRequestOf(Between(start, goal));
+  request.limits.reset();
+  return request;
+}
+
+OptimizeRequest Workshop::MotionBetween(const Point& start, const Point& goal,
+                                        const MotionWishes& wishes) const {
+  OptimizeRequest request = OptimizeBetween(start, goal);
+  request.limits.emplace();
+  request.limits->velocity = ToVector(wishes.limits[0]);
+  request.limits->acceleration = ToVector(wishes.limits[1]);
+  request.limits->jerk = ToVector(wishes.limits[2]);
+  if (!wishes.margin.empty()) {
+    request.margin = Clearance(wishes.margin, "margin");
   }
   if (!wishes.preset.empty()) {
-    scene.preset = ParsePreset(wishes.preset, "preset");
+    request.preset = ParsePreset(wishes.preset, "preset");
   }
-  scene.duration = wishes.duration;
-  scene.via.clear();
+  request.duration = wishes.duration;
+  request.via.clear();
+  const std::string& unit = scene_.workspace.unit;
   for (const auto& [point, tolerance, dwell] : wishes.via) {
-    SceneVia via;
+    Via via;
     via.point = ToVector(point);
     via.dwell = dwell;
     if (!tolerance.empty()) {
-      via.tolerance = ParseLength(tolerance, "tolerance", scene.unit);
+      via.tolerance = ParseLength(tolerance, "tolerance", unit);
       RequireLength(via.tolerance, LengthRange::kAboveZero, world_.diagonal(),
-                    "tolerance", scene.unit);
+                    "tolerance", unit);
     }
-    scene.via.push_back(via);
+    request.via.push_back(via);
   }
-  const MotionLimits limits = {ToVector(wishes.limits[0]),
-                               ToVector(wishes.limits[1]),
-                               ToVector(wishes.limits[2])};
-  CurveOptions options = SceneCurveOptions(scene, world_, limits);
-  options.time_limit = wishes.max_seconds;
-  options.is_interrupted = [&is_asked] { return is_asked.load(); };
-  const TimedTrajectory timed = ask(scene, options);
-  nlohmann::ordered_json row = TimedRow(scene, world_, options, timed);
-  return Judged(scene, ClaimsOf(timed),
-                WishOfTrajectory(scene, has_margin, wishes.is_required), &row);
+  request.requires_margin = wishes.is_required;
+  request.options.time_limit = wishes.max_seconds;
+  return request;
 }
 
-std::string Workshop::OptimizeInTime(const Point& start, const Point& goal,
-                                     const std::string& model,
-                                     const MotionWishes& wishes) {
-  return Interruptible([&](const std::atomic<bool>& is_asked) {
-    const std::lock_guard<std::mutex> lock(one_at_a_time_);
-    Scene scene = Between(start, goal);
-    if (!model.empty()) scene.trajectory.model = model;
-    return InTime(scene, wishes, is_asked,
-                  [&](const Scene& asked, const CurveOptions& options) {
-                    return PlanInTime(asked, world_, options);
-                  });
-  });
-}
-
-std::string Workshop::Retime(const std::vector<Point>& path,
-                             const MotionWishes& wishes) {
-  return Interruptible([&](const std::atomic<bool>& is_asked) {
-    const std::lock_guard<std::mutex> lock(one_at_a_time_);
-    std::vector<Vector3d> points;
-    for (const Point& p : path) points.push_back(ToVector(p));
-    return InTime(Between(path.front(), path.back()), wishes, is_asked,
-                  [&](const Scene&, const CurveOptions& options) {
-                    return TimePath(world_, points, options);
-                  });
-  });
-}
-
-std::string Workshop::Plan(const Point& start, const Point& goal,
-                           const std::string& planner,
-                           const std::string& retraction,
-                           const std::string& clearance, double max_seconds,
-                           std::uint64_t seed, const std::string& preset,
-                           const std::string& model, bool is_required) {
+Workshop::Row Workshop::Plan(const PlanRequest& request) {
   return Interruptible([&] {
     const std::lock_guard<std::mutex> lock(one_at_a_time_);
-    Scene scene = Between(start, goal);
-    if (!clearance.empty()) {
-      RequireSeeksClearance(planner, "clearance");
-      scene.planning.clearance =
-          ParseClearance(clearance, "clearance", world_.diagonal(), scene.unit);
-    }
-    if (!preset.empty()) {
-      if (planner != kContactSurface) {
-        throw InputError(std::string("preset: expected with planner ") +
-                         kContactSurface + ", found with " + planner);
-      }
-      scene.preset = ParsePreset(preset, "preset");
-    }
-    if (!model.empty()) scene.planning.model = model;
-    const ClearanceWish wish = WishOfPlan(scene, is_required);
-    if (is_required && !wish.asked) {
-      throw InputError("require: expected a clearance with it, found none");
-    }
-    PlanningStudy study(scene, world_);
-    PlanningRun run;
-    run.planner = planner;
-    run.retraction = retraction;
-    run.time_limit = max_seconds;
-    run.seed = seed;
-    const PlanningResult result = study.Run(run);
-    nlohmann::ordered_json row = PlanningRow(study, run, result);
-    return Judged(scene, ClaimsOf(result), wish, &row);
+    const PathAnswer answer = phongpd::Plan(world_, request);
+    RequireVerified(answer);
+    return PlanRow(scene_, world_, request, answer);
+  });
+}
+
+Workshop::Row Workshop::Optimize(const OptimizeRequest& request) {
+  return Interruptible([&](const std::atomic<bool>& is_asked) {
+    const std::lock_guard<std::mutex> lock(one_at_a_time_);
+    OptimizeRequest asked = request;
+    asked.is_interrupted = [&is_asked] { return is_asked.load(); };
+    const PathAnswer answer = phongpd::Optimize(world_, asked);
+    RequireVerified(answer);
+    return request.limits ? MotionRow(scene_, world_, request, answer)
+                          : PolylineRow(scene_, world_, request, answer);
+  });
+}
+
+Workshop::Row Workshop::Retime(const std::vector<Point>& path,
+                               const OptimizeRequest& request) {
+  return Interruptible([&](const std::atomic<bool>& is_asked) {
+    const std::lock_guard<std::mutex> lock(one_at_a_time_);
+    OptimizeRequest asked = request;
+    asked.is_interrupted = [&is_asked] { return is_asked.load(); };
+    Path points;
+    for (const Point& p : path) points.push_back(ToVector(p));
+    const PathAnswer answer = phongpd::Retime(world_, points, asked);
+    RequireVerified(answer);
+    return MotionRow(scene_, world_, request, answer);
   });
 }
 
@@ -187,19 +136,7 @@ Scene Workshop::Between(const Point& start, const Point& goal) const {
     if (q.allFinite()) continue;
     throw InputError("start and goal: expected finite numbers, found others");
   }
-  scene.witness.clear();
-  scene.feasible.reset();
   return scene;
-}
-
-std::string Workshop::Judged(const Scene& scene, const AnswerClaims& claims,
-                             const ClearanceWish& wish,
-                             nlohmann::ordered_json* row) const {
-  AnswerCheck check(true);
-  check.Judge(scene, world_, claims, row);
-  check.RequireNoFailure();
-  TellClearance(world_, scene, wish, row);
-  return row->dump();
 }
 
 }  // namespace phongpd::python

@@ -5,17 +5,15 @@
 #include <atomic>
 #include <cstdint>
 #include <mutex>
-#include <nlohmann/json_fwd.hpp>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <tuple>
 #include <vector>
 
 #include "core/contact/contact_space_cache.h"
-#include "planners/world/world.h"
+#include "planners/solve/optimize.h"
+#include "planners/solve/plan.h"
 #include "problems/scenes/scene.h"
-#include "problems/studies/answer_check.h"
-#include "problems/studies/clearance_wish.h"
-#include "problems/studies/trajectory_study.h"
 
 namespace phongpd::python {
 
@@ -37,11 +35,12 @@ struct MotionWishes {
   bool is_required;
 };
 
-// A world and what has been prepared in it for one kind of question or the
-// other.  Ipopt runs once at a time in a process, and preparing is no question
-// for two threads at once: one mutex for all.
+// A world for Python.  Ipopt runs once at a time in a process, and samplers
+// share OMPL's generator: one question at a time.
 class Workshop {
  public:
+  using Row = nlohmann::ordered_json;
+
   Workshop(const Scene& scene, bool cache, double max_mib);
 
   const World& world() const { return world_; }
@@ -50,43 +49,27 @@ class Workshop {
   // that.  Called with Python's lock.
   const WorldSpaces& Spaces() const;
 
-  // A row as `phongpd optimize` writes it, judged.  Empty texts and 0: the
-  // scene's own.  Ctrl-C stops what is built for it, as in Plan.
-  std::string Optimize(const Point& start, const Point& goal,
-                       const std::string& metric, const std::string& margin,
-                       int waypoints, std::uint64_t seed, double max_seconds,
-                       bool is_straight, const std::string& preset,
-                       const std::string& model, bool is_required);
+  // The scene's requests between other ends.  Throws InputError for numbers
+  // that are not finite.
+  PlanRequest PlanBetween(const Point& start, const Point& goal) const;
+  OptimizeRequest OptimizeBetween(const Point& start, const Point& goal) const;
+  // The same for a motion.
+  OptimizeRequest MotionBetween(const Point& start, const Point& goal,
+                                const MotionWishes& wishes) const;
+  // A length above 0 as users write it.
+  Length Clearance(const std::string& text, const std::string& what) const;
 
-  // A row as `phongpd optimize --limits` writes it, judged.
-  std::string OptimizeInTime(const Point& start, const Point& goal,
-                             const std::string& model,
-                             const MotionWishes& wishes);
-  // As `phongpd retime` writes it.
-  std::string Retime(const std::vector<Point>& path,
-                     const MotionWishes& wishes);
-
-  // A row as `phongpd plan` writes it, judged.
-  std::string Plan(const Point& start, const Point& goal,
-                   const std::string& planner, const std::string& retraction,
-                   const std::string& clearance, double max_seconds,
-                   std::uint64_t seed, const std::string& preset,
-                   const std::string& model, bool is_required);
+  // Rows as the program writes them.  Ctrl-C stops what is built for them, and
+  // takes the best motion so far.  Called with Python's lock.
+  Row Plan(const PlanRequest& request);
+  Row Optimize(const OptimizeRequest& request);
+  Row Retime(const std::vector<Point>& path, const OptimizeRequest& request);
 
  private:
   Scene Between(const Point& start, const Point& goal) const;
-  // Asks for a motion of that scene, and writes the row of the answer.
-  template <typename Ask>
-  std::string InTime(Scene scene, const MotionWishes& wishes,
-                     const std::atomic<bool>& is_asked, const Ask& ask);
-  std::string Judged(const Scene& scene, const AnswerClaims& claims,
-                     const ClearanceWish& wish,
-                     nlohmann::ordered_json* row) const;
 
   Scene scene_;
-  ContactSpaceCache cache_;
   World world_;
-  TrajectoryStudy trajectories_;
   std::mutex one_at_a_time_;
   mutable std::atomic<bool> is_built_{false};  // Spaces()
 };

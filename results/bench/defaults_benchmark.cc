@@ -10,8 +10,9 @@
 #include <iostream>
 
 #include "planners/exact/contact_surface_planner.h"
+#include "problems/scenes/kept_world.h"
+#include "problems/scenes/scene_requests.h"
 #include "problems/scenes/scene_source.h"
-#include "problems/studies/trajectory_study.h"
 #include "results/bench/paired_test.h"
 #include "results/bench/planning_measure.h"
 #include "results/bench/program.h"
@@ -83,7 +84,7 @@ Outcome PlanOnce(const World& world, const Scene& scene, double spacing) {
   options.spacing = spacing;
   const PlanResult found = ContactSurfacePlanner(world.Sealed(), options)
                                .Plan(scene.start, scene.goal);
-  const bool is_solved = found.status == PlanStatus::kSolved;
+  const bool is_solved = found.status == PathStatus::kSolved;
   return {is_solved, is_solved, 0.0, found.length};
 }
 
@@ -128,16 +129,17 @@ std::vector<Contest> ContestSpacing(const std::vector<Scene>& scenes,
 
 using Change = std::function<void(PipelineOptions*)>;
 
-Outcome OptimizeOnce(TrajectoryStudy* study, std::uint64_t seed,
+Outcome OptimizeOnce(const Scene& scene, const World& world, std::uint64_t seed,
                      const Change& change) {
-  PipelineOptions options = ScenePipelineOptions(study->scene());
-  options.seed = seed;
-  change(&options);
-  const PipelineResult found = study->Run(SceneMetric(study->scene()), options);
-  return {found.certificate.free,
-          found.status == TrajectoryStatus::kSolved ||
-              found.status == TrajectoryStatus::kPolished,
-          0.0, found.objective};
+  OptimizeRequest request = OptimizeRequestOf(scene);
+  request.options.seed = seed;
+  request.verifies = false;
+  change(&request.options);
+  const PathAnswer found = Optimize(world, request);
+  return {found.is_free,
+          found.status == PathStatus::kSolved ||
+              found.status == PathStatus::kPolished,
+          0.0, found.pipeline->objective};
 }
 
 Contest ContestOptimize(const std::string& incumbent,
@@ -151,15 +153,16 @@ Contest ContestOptimize(const std::string& incumbent,
   const Change none = [](PipelineOptions*) {};
   for (const std::string& text : scenes) {
     const SceneSource source(text);
-    TrajectoryStudy study;
+    KeptWorld worlds;
     // What is built on first use is no part of either.
-    study.Enter(source.Load(seed));
-    OptimizeOnce(&study, seed, none);
+    const Scene first = source.Load(seed);
+    OptimizeOnce(first, worlds.Of(first), seed, none);
     for (int i = 0; i < seeds; ++i) {
       const std::uint64_t own = seed + static_cast<std::uint64_t>(i);
-      study.Enter(source.Load(own));
-      Race([&] { return OptimizeOnce(&study, own, none); },
-           [&] { return OptimizeOnce(&study, own, change); }, &contest);
+      const Scene scene = source.Load(own);
+      const World& world = worlds.Of(scene);
+      Race([&] { return OptimizeOnce(scene, world, own, none); },
+           [&] { return OptimizeOnce(scene, world, own, change); }, &contest);
     }
     std::cerr << challenger << ", " << text << std::endl;
   }

@@ -12,10 +12,9 @@
 #include "core/solid/solid.h"
 #include "planners/exact/verification.h"
 #include "planners/ompl/ompl_planning.h"
+#include "problems/scenes/scene_requests.h"
 #include "problems/shapes/random_solids.h"
 #include "problems/shapes/shapes.h"
-#include "problems/studies/planning_study.h"
-#include "problems/studies/trajectory_study.h"
 #include "results/bench/child_process.h"
 #include "results/bench/free_space_measure.h"
 
@@ -54,33 +53,31 @@ Json Judged(const Scene& scene, const std::string& answer,
           {"clearance", clearance}};
 }
 
-Json Plan(const std::string& planner) {
+Json PlanKnots(PlannerId planner) {
   SilenceOmpl();
-  Scene scene = ScannedKnots();
-  scene.planning.model = "window";
-  PlanningStudy study(scene);
-  PlanningRun run;
-  run.planner = planner;
-  const PlanningResult found = study.Run(run);
-  Json row =
-      Judged(scene, found.status, found.numbers.path, found.numbers.clearance);
-  row["facets"] = found.explored ? found.explored->faces
-                                 : study.world().Convolution().facets();
+  const Scene scene = ScannedKnots();
+  const World world(scene.workspace, scene.name);
+  PlanRequest request = PlanRequestOf(scene);
+  request.planner = planner;
+  request.model = Model::kWindow;
+  request.verifies = false;
+  const PathAnswer found = Plan(world, request);
+  Json row = Judged(scene, ToString(found.status), found.path, found.clearance);
+  const auto faces = found.plan->explored_faces;
+  row["facets"] = faces ? *faces : world.Convolution().facets();
   return row;
 }
 
-Json Optimize() {
+Json OptimizeKnots() {
   SilenceOmpl();
-  Scene scene = ScannedKnots();
-  scene.trajectory.model = "window";
-  TrajectoryStudy study;
-  study.Enter(scene);
-  const PipelineResult found =
-      study.Run(SceneMetric(scene), ScenePipelineOptions(scene));
-  const WorldConvolution& model = study.world().Convolution();
-  Json row = Judged(scene, ToString(found.status), found.path,
-                    PathClearance(*model.free_space, found.path));
-  row["facets"] = model.facets();
+  const Scene scene = ScannedKnots();
+  const World world(scene.workspace, scene.name);
+  OptimizeRequest request = OptimizeRequestOf(scene);
+  request.model = Model::kWindow;
+  request.verifies = false;
+  const PathAnswer found = Optimize(world, request);
+  Json row = Judged(scene, ToString(found.status), found.path, found.clearance);
+  row["facets"] = world.Convolution().facets();
   return row;
 }
 
@@ -135,11 +132,12 @@ TaskRow MeasureTask(const std::string& task,
 
 NamedTable LargeSceneTable(double max_seconds) {
   std::vector<TaskRow> rows;
-  rows.push_back(
-      MeasureTask("plan, rrt-connect", [] { return Plan("rrt-connect"); }));
-  rows.push_back(MeasureTask("plan, contact-surface",
-                             [] { return Plan(kContactSurface); }));
-  rows.push_back(MeasureTask("optimize", Optimize));
+  rows.push_back(MeasureTask("plan, rrt-connect",
+                             [] { return PlanKnots(PlannerId::kRrtConnect); }));
+  rows.push_back(MeasureTask("plan, contact-surface", [] {
+    return PlanKnots(PlannerId::kContactSurface);
+  }));
+  rows.push_back(MeasureTask("optimize", OptimizeKnots));
   rows.push_back(MeasureTask("the whole contact space", [max_seconds] {
     return BuildWhole(max_seconds);
   }));

@@ -58,12 +58,12 @@ PlanResult Fastest(const std::function<PlanResult()>& plan, double* seconds) {
 void Record(const PlanResult& result, const PlanResult& by_planner,
             double seconds, const FreeSpace& space, MultiQueryRow* row) {
   row->milliseconds.push_back(1e3 * seconds);
-  const bool is_solved = result.status == PlanStatus::kSolved;
+  const bool is_solved = result.status == PathStatus::kSolved;
   row->solved += is_solved;
-  row->proved += result.status == PlanStatus::kInfeasibleProved;
+  row->proved += result.status == PathStatus::kInfeasibleProved;
   row->wrong += result.status != by_planner.status ||
                 (is_solved && !CheckPath(space, result.path).free);
-  if (!is_solved || by_planner.status != PlanStatus::kSolved) return;
+  if (!is_solved || by_planner.status != PathStatus::kSolved) return;
   row->lengths.push_back(result.length / by_planner.length);
   row->clearances.push_back(result.clearance / by_planner.clearance);
 }

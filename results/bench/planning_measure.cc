@@ -9,11 +9,12 @@
 #include "core/stopwatch.h"
 #include "planners/exact/contact_surface_planner.h"
 #include "planners/exact/path_shortening.h"
+#include "planners/retraction/retraction_names.h"
 #include "problems/output/text.h"
+#include "problems/scenes/scene_requests.h"
 #include "problems/scenes/scene_source.h"
 #include "problems/shapes/random_solids.h"
 #include "problems/shapes/random_vector.h"
-#include "problems/studies/planning_study.h"
 #include "results/bench/report.h"
 
 namespace phongpd::bench {
@@ -48,11 +49,12 @@ constexpr Family kFamilies[] = {
 
 // Is q in the channel: within δ of a place of the witness that is as narrow as
 // the channel?
-std::function<bool(const Vector3d&)> InPassage(const PlanningStudy& study,
+std::function<bool(const Vector3d&)> InPassage(const Scene& scene,
+                                               const FreeSpace& space,
                                                double delta) {
-  if (study.scene().witness.size() < 2) return nullptr;
-  return [&study, delta](const Vector3d& q) {
-    const std::vector<Vector3d>& path = study.scene().witness;
+  const std::vector<Vector3d>& path = scene.witness;
+  if (path.size() < 2) return nullptr;
+  return [&path, &space, delta](const Vector3d& q) {
     for (std::size_t k = 0; k + 1 < path.size(); ++k) {
       const Vector3d way = path[k + 1] - path[k];
       const double t = std::clamp(
@@ -60,7 +62,7 @@ std::function<bool(const Vector3d&)> InPassage(const PlanningStudy& study,
           1.0);
       const Vector3d nearest = path[k] + t * way;
       if ((q - nearest).norm() <= delta &&
-          study.spaces().free_space->Clearance(nearest) <= 0.51 * delta) {
+          space.Clearance(nearest) <= 0.51 * delta) {
         return true;
       }
     }
@@ -79,15 +81,18 @@ double SamplesTo(const std::function<bool(const Vector3d&)>& is_there,
   return -1.0;
 }
 
-SamplerRun RunOnce(PlanningStudy* study, const PlanningRun& run, double delta) {
-  const PlanningResult result = study->Run(run);
-  const OmplPlanningResult& n = result.numbers;
+SamplerRun RunOnce(const Scene& scene, const World& world,
+                   const PlanRequest& request, double delta) {
+  const PathAnswer answer = Plan(world, request);
+  const OmplPlanningResult& n = answer.plan->search;
   SamplerRun measured;
-  measured.is_solved = result.solved;
+  measured.is_solved = answer.is_solved;
   measured.is_false = n.solved && !n.collision_free;
   measured.seconds = n.seconds;
   measured.samples = static_cast<double>(n.samples);
-  measured.samples_to_passage = SamplesTo(InPassage(*study, delta), n.graph);
+  measured.samples_to_passage = SamplesTo(
+      InPassage(scene, *world.Spaces(SpaceLayout::kSealed).free_space, delta),
+      n.graph);
   measured.collision_checks = static_cast<double>(n.collision_checks);
   measured.segment_checks = static_cast<double>(n.segment_checks);
   measured.retractions = static_cast<double>(n.retractions);
@@ -168,33 +173,37 @@ ExactRow MeasureExact(const PlanningProblem& problem) {
         PathLength(ShortenPath(scene.witness, sealed.bvh(), shortest));
   }
   row.is_right = problem.is_feasible
-                     ? plan.status == PlanStatus::kSolved &&
+                     ? plan.status == PathStatus::kSolved &&
                            CheckPath(free_space, plan.path).free
-                     : plan.status == PlanStatus::kInfeasibleProved;
+                     : plan.status == PathStatus::kInfeasibleProved;
   return row;
 }
 
 std::vector<SamplerRow> MeasureSamplers(
     const PlanningProblem& problem, const std::vector<std::string>& planners,
     const PlanningOptions& options) {
-  Scene scene = SceneSource(problem.scene).Load();
-  scene.planning.model = "full";  // the same for all planners
-  PlanningStudy study(scene);
+  const Scene scene = SceneSource(problem.scene).Load();
+  const World world(scene.workspace, scene.name);
   std::vector<SamplerRow> rows;
   for (const std::string& planner : planners) {
     SamplerRow row;
     row.problem = problem;
     row.planner = planner;
     const std::size_t space = planner.find(' ');
-    PlanningRun run;
-    run.planner = planner.substr(0, space);
-    if (space != std::string::npos) run.retraction = planner.substr(space + 1);
-    run.time_limit = options.limit;
+    PlanRequest request = PlanRequestOf(scene);
+    request.planner = ParsePlanner(planner.substr(0, space), "planner");
+    if (space != std::string::npos) {
+      request.retraction =
+          ParseRetraction(planner.substr(space + 1), "retraction");
+    }
+    request.model = Model::kFull;  // the same for all planners
+    request.time_limit = options.limit;
+    request.verifies = false;
     int solved = 0;
     for (int i = 0; i < options.seeds; ++i) {
       if (i == options.hopeless && solved == 0) break;
-      run.seed = options.seed + static_cast<std::uint64_t>(i);
-      row.runs.push_back(RunOnce(&study, run, problem.delta));
+      request.seed = options.seed + static_cast<std::uint64_t>(i);
+      row.runs.push_back(RunOnce(scene, world, request, problem.delta));
       solved += row.runs.back().is_solved;
     }
     rows.push_back(std::move(row));

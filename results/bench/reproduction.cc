@@ -10,6 +10,7 @@
 
 #include "core/mesh/mesh_error.h"
 #include "planners/ompl/ompl_planning.h"
+#include "problems/scenes/kept_world.h"
 #include "problems/scenes/scene_source.h"
 #include "problems/studies/comparison_rows.h"
 #include "problems/studies/comparison_run.h"
@@ -57,7 +58,7 @@ PublishedFile Open(const Published& published, const std::string& file,
 Slice RemakeConvergence(const Published& published) {
   auto [slice, table, rows] =
       Open(published, "convergence/rows.csv", "all but seconds");
-  TrajectoryStudy study;
+  KeptWorld worlds;
   for (const std::size_t row : rows) {
     const std::string& scene = table.Text(row, "scene");
     const std::string& protocol = table.Text(row, "protocol");
@@ -67,11 +68,11 @@ Slice RemakeConvergence(const Published& published) {
                              ", seed " + std::to_string(seed);
     std::cerr << name << '\n';
     const SceneSource source(scene);
-    study.Enter(SceneToCompare(source.Load(seed)));
+    const Scene loaded = source.Load(seed);
     const nlohmann::ordered_json found =
-        RunComparison({seed, FindProtocol(protocol),
-                       ParseStudyMetric(method, "method"), source.is_family()},
-                      &study);
+        RunComparison(loaded, worlds.Of(loaded),
+                      {seed, FindProtocol(protocol),
+                       ParseStudyMetric(method, "method"), source.is_family()});
     CompareRow(table, row, CsvTable(CompactCsv({found}), name), 0,
                {"seconds_callbacks", "seconds_total"}, name, &slice);
   }

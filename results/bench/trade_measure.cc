@@ -9,8 +9,9 @@
 
 #include "planners/exact/contact_surface_planner.h"
 #include "problems/output/text.h"
+#include "problems/scenes/kept_world.h"
+#include "problems/scenes/scene_requests.h"
 #include "problems/scenes/scene_source.h"
-#include "problems/studies/trajectory_study.h"
 #include "results/bench/report.h"
 
 namespace phongpd::bench {
@@ -18,37 +19,28 @@ namespace {
 
 struct OptimizeChoice {
   std::string name;
-  std::function<void(Scene*, PipelineOptions*)> apply;
+  std::function<void(OptimizeRequest*)> apply;
 };
 
 std::vector<OptimizeChoice> OptimizeChoices() {
-  const auto options = [](const std::string& name, auto apply) {
-    return OptimizeChoice{name,
-                          [apply](Scene*, PipelineOptions* o) { apply(o); }};
+  using Request = OptimizeRequest;
+  const auto preset = [](Preset which) {
+    return OptimizeChoice{ToString(which),
+                          [which](Request* r) { ApplyPreset(which, r); }};
   };
-  const auto scene = [](const std::string& name, auto apply) {
-    return OptimizeChoice{name,
-                          [apply](Scene* s, PipelineOptions*) { apply(s); }};
-  };
-  using Options = PipelineOptions;
-  const auto preset = [&](Preset which) {
-    return options(ToString(which),
-                   [which](Options* o) { ApplyPreset(which, o); });
-  };
-  return {
-      preset(Preset::kBalanced), preset(Preset::kFast), preset(Preset::kTight),
-      options("--polish never",
-              [](Options* o) { o->polish = PolishWhen::kNever; }),
-      options("--polish always",
-              [](Options* o) { o->polish = PolishWhen::kAlways; }),
-      options("--rows 3", [](Options* o) { o->optimizer.rows = 3; }),
-      options("--routes 3", [](Options* o) { o->routes = 3; }),
-      // Interior samples of a segment; by the rule they are enough.
-      scene("samples 1",
-            [](Scene* s) { s->trajectory.samples_per_segment = 1; }),
-      scene("samples 8",
-            [](Scene* s) { s->trajectory.samples_per_segment = 8; }),
-      scene("waypoints 20", [](Scene* s) { s->trajectory.waypoints = 20; })};
+  return {preset(Preset::kBalanced),
+          preset(Preset::kFast),
+          preset(Preset::kTight),
+          {"--polish never",
+           [](Request* r) { r->options.polish = PolishWhen::kNever; }},
+          {"--polish always",
+           [](Request* r) { r->options.polish = PolishWhen::kAlways; }},
+          {"--rows 3", [](Request* r) { r->options.optimizer.rows = 3; }},
+          {"--routes 3", [](Request* r) { r->options.routes = 3; }},
+          // Interior samples of a segment; by the rule they are enough.
+          {"samples 1", [](Request* r) { r->samples_per_segment = 1; }},
+          {"samples 8", [](Request* r) { r->samples_per_segment = 8; }},
+          {"waypoints 20", [](Request* r) { r->waypoints = 20; }}};
 }
 
 struct PlanChoice {
@@ -121,26 +113,26 @@ std::vector<TradeTrial> MeasureOptimize(const TradeOptions& options) {
   std::vector<TradeTrial> trials;
   for (const std::string& text : TrajectoryScenes()) {
     const SceneSource source(text);
-    TrajectoryStudy study;
+    KeptWorld worlds;
     // What is built on first use is no part of any choice.
-    study.Enter(source.Load(options.seed));
-    study.Run(SceneMetric(study.scene()), ScenePipelineOptions(study.scene()));
+    const Scene first = source.Load(options.seed);
+    Optimize(worlds.Of(first), OptimizeRequestOf(first));
     for (int i = 0; i < options.seeds; ++i) {
       const std::uint64_t seed = options.seed + static_cast<std::uint64_t>(i);
+      const Scene scene = source.Load(seed);
       for (const OptimizeChoice& choice : OptimizeChoices()) {
-        Scene scene = source.Load(seed);
-        PipelineOptions pipeline = ScenePipelineOptions(scene);
-        pipeline.seed = seed;
-        choice.apply(&scene, &pipeline);
-        study.Enter(scene);
+        OptimizeRequest request = OptimizeRequestOf(scene);
+        request.options.seed = seed;
+        request.verifies = false;
+        choice.apply(&request);
         TradeTrial trial{"optimize",  text + " #" + std::to_string(seed),
                          choice.name, 0.0,
                          false,       0.0};
         const double begin = ProcessorSeconds();
-        const PipelineResult result = study.Run(SceneMetric(scene), pipeline);
+        const PathAnswer answer = Optimize(worlds.Of(scene), request);
         trial.seconds = ProcessorSeconds() - begin;
-        trial.answered = result.certificate.free;
-        trial.measure = result.objective;
+        trial.answered = answer.is_free;
+        trial.measure = answer.pipeline->objective;
         trials.push_back(std::move(trial));
       }
     }
@@ -163,7 +155,7 @@ std::vector<TradeTrial> MeasurePlan() {
       for (int repeat = 0; repeat < kPlans; ++repeat) {
         const ContactSurfacePlanner planner(world.Sealed(), options);
         const PlanResult result = planner.Plan(scene.start, scene.goal);
-        trial.answered = result.status == PlanStatus::kSolved;
+        trial.answered = result.status == PathStatus::kSolved;
         trial.measure = result.length;
       }
       trial.seconds = (ProcessorSeconds() - begin) / kPlans;

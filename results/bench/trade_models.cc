@@ -7,13 +7,12 @@
 #include "core/contact/contact_space.h"
 #include "core/projection/euclidean_metric.h"
 #include "planners/ompl/ompl_planning.h"
+#include "problems/scenes/scene_requests.h"
 #include "problems/scenes/scene_source.h"
 #include "problems/shapes/random_solids.h"
 #include "problems/shapes/random_vector.h"
 #include "problems/shapes/shapes.h"
 #include "problems/studies/paper_benchmarks.h"
-#include "problems/studies/planning_study.h"
-#include "problems/studies/trajectory_study.h"
 #include "results/bench/trade_measure.h"
 
 namespace phongpd::bench {
@@ -27,26 +26,28 @@ std::vector<TradeTrial> MeasureModels(const TradeOptions& options) {
     for (int i = 0; i < options.seeds; ++i) {
       const std::uint64_t seed = options.seed + static_cast<std::uint64_t>(i);
       const std::string instance = text + (" #" + std::to_string(seed));
-      for (const char* model : {"full", "window"}) {
+      for (const Model model : {Model::kFull, Model::kWindow}) {
         Scene scene = SceneSource(text).Load(seed);
         scene.planning.model = scene.trajectory.model = model;
         double begin = ProcessorSeconds();
-        PlanningStudy planning(scene);
-        PlanningRun run;
-        run.planner = "rrt-connect";
-        run.seed = seed;
-        const PlanningResult plan = planning.Run(run);
-        trials.push_back({"model: plan", instance, model,
-                          ProcessorSeconds() - begin, plan.solved,
-                          plan.numbers.length});
+        PlanRequest plan_request = PlanRequestOf(scene);
+        plan_request.planner = PlannerId::kRrtConnect;
+        plan_request.time_limit = 5.0;
+        plan_request.seed = seed;
+        plan_request.verifies = false;
+        const PathAnswer plan =
+            Plan(World(scene.workspace, scene.name), plan_request);
+        trials.push_back({"model: plan", instance, ToString(model),
+                          ProcessorSeconds() - begin, plan.is_solved,
+                          plan.length});
         begin = ProcessorSeconds();
-        TrajectoryStudy trajectories;
-        trajectories.Enter(scene);
-        const PipelineResult path =
-            trajectories.Run(SceneMetric(scene), ScenePipelineOptions(scene));
-        trials.push_back({"model: optimize", instance, model,
-                          ProcessorSeconds() - begin, path.certificate.free,
-                          path.objective});
+        OptimizeRequest request = OptimizeRequestOf(scene);
+        request.verifies = false;
+        const PathAnswer path =
+            Optimize(World(scene.workspace, scene.name), request);
+        trials.push_back({"model: optimize", instance, ToString(model),
+                          ProcessorSeconds() - begin, path.is_free,
+                          path.pipeline->objective});
       }
     }
   }

@@ -20,7 +20,7 @@ int main() {
       world.Report().contact_spaces != 0) {
     return 1;
   }
-  phongpd::PlanRequest request;
+  phongpd::RouteRequest request;
   request.clearance = world.Resolve(phongpd::Length::FromShare(0.01)).unit;
   const phongpd::ContactSurfacePlanner planner(world.Sealed());
   const phongpd::PlanResult result = planner.Plan(kStart, kGoal, request);

@@ -49,7 +49,7 @@ file(REMOVE_RECURSE ${work}-all)
 run(${configure} -B ${work}-all -D COMPONENTS=${listed} -D
     HEADERS=${prefix}/include)
 run(${CMAKE_COMMAND} --build ${work}-all --parallel 2)
-foreach(component ipopt ompl problems)
+foreach(component ipopt ompl solve problems)
   if(component IN_LIST components)
     run(${work}-all/use_${component})
   endif()

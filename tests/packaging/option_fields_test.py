@@ -3,8 +3,9 @@
 
 An option field is a member of a struct of an installed header whose name ends
 in Options, Settings, Request, Limits, Search or Cache; a struct within a struct
-counts as a field, too.  What a run of the program is asked, the keys of a scene
-file and PlanningRun, is counted apart.  A field has its place where a published
+counts as a field, too.  What a run is asked, the keys of a scene file and what
+Plan and Optimize are asked (start and goal, what only a user can say, and the
+settings of the two studies that they replace), is counted apart.  A field has its place where a published
 table shows that turning it helps somebody, or where only the user can say it
 (results/retired.md).  Fails above the agreed numbers and where nothing is
 found; prints every struct with its fields.
@@ -13,11 +14,12 @@ import pathlib
 import re
 import sys
 
-MOST_OPTIONS = 77
-MOST_OF_A_RUN = 19
+# 77, and the 6 of RowsOptions, which Python took as arguments.
+MOST_OPTIONS = 83
+MOST_OF_A_RUN = 43
 
-NAME = r"\w+(?:Options|Settings|Request|Limits|Search|Cache)|PlanningRun"
-OF_A_RUN = ("problems/scenes/", "problems/studies/")
+NAME = r"\w+(?:Options|Settings|Request|Limits|Search|Cache)"
+OF_A_RUN = ("problems/scenes/", "planners/solve/")
 
 
 def installed_headers(source):

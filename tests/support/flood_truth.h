@@ -9,11 +9,11 @@ namespace phongpd::testing {
 
 // What a planner must say between configurations in the connected parts of
 // free space of these numbers; −1: not free.
-inline PlanStatus FloodTruth(int start_part, int goal_part) {
-  if (start_part < 0) return PlanStatus::kInvalidStart;
-  if (goal_part < 0) return PlanStatus::kInvalidGoal;
-  return start_part == goal_part ? PlanStatus::kSolved
-                                 : PlanStatus::kInfeasibleProved;
+inline PathStatus FloodTruth(int start_part, int goal_part) {
+  if (start_part < 0) return PathStatus::kStartInCollision;
+  if (goal_part < 0) return PathStatus::kGoalInCollision;
+  return start_part == goal_part ? PathStatus::kSolved
+                                 : PathStatus::kInfeasibleProved;
 }
 
 // The least that is complete: any one way.

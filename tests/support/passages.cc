@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/contact/contact_space.h"
-#include "planners/exact/workspace.h"
+#include "planners/world/workspace.h"
 #include "problems/scenes/scene_library.h"
 #include "problems/shapes/shapes.h"
 

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "planners/exact/exact_solution.h"
+#include "planners/solve/plan.h"
 #include "problems/scenes/scene_source.h"
 #include "tests/support/campaign.h"
 
@@ -21,9 +21,9 @@ std::vector<PlannedScene> PlannedScenes() {
   for (const std::string& family : families) {
     for (long seed = 1; seed <= PlannedSceneSeeds(); ++seed) {
       Scene scene = SceneSource(family).Load(static_cast<std::uint64_t>(seed));
-      const PlanResult plan =
-          SolveExactly(scene.workspace, scene.start, scene.goal).plan;
-      if (plan.status != PlanStatus::kSolved) continue;
+      const PathAnswer plan =
+          Plan(World(scene.workspace), {scene.start, scene.goal});
+      if (!plan.is_solved) continue;
       scenes.push_back(
           {family + ' ' + std::to_string(seed), std::move(scene), plan.path});
     }

@@ -7,17 +7,23 @@ namespace phongpd {
 namespace {
 
 // What people call what the planner grows.
-std::string GrownBy(const std::string& planner) {
-  if (planner == "retraction-rrt") return "retraction tree";
-  if (planner == "retraction-forest") return "retraction trees";
-  if (planner == "rrt-connect") return "the planner's trees";
-  return "roadmap";
+std::string GrownBy(PlannerId planner) {
+  switch (planner) {
+    case PlannerId::kRetractionRrt:
+      return "retraction tree";
+    case PlannerId::kRetractionForest:
+      return "retraction trees";
+    case PlannerId::kRrtConnect:
+      return "the planner's trees";
+    default:
+      return "roadmap";
+  }
 }
 
-ViewGraph RoutesOf(const PlanResult& exact) {
+ViewGraph RoutesOf(const std::vector<Path>& routes) {
   ViewGraph graph;
   graph.name = "routes compared";
-  for (const std::vector<Eigen::Vector3d>& route : exact.routes) {
+  for (const Path& route : routes) {
     const int first = static_cast<int>(graph.points.size());
     graph.points.insert(graph.points.end(), route.begin(), route.end());
     for (int k = 1; k < static_cast<int>(route.size()); ++k) {
@@ -36,10 +42,10 @@ bool WasPolished(const PipelineResult& result) {
                      });
 }
 
-std::vector<ViewPlane> CorridorAround(const TrajectoryStudy& study,
+std::vector<ViewPlane> CorridorAround(const TrajectoryProblem& problem,
                                       const Path& path) {
   std::vector<ViewPlane> planes;
-  for (const CorridorPlane& plane : study.Corridor(path)) {
+  for (const CorridorPlane& plane : PlanesAround(problem, path)) {
     const auto k = static_cast<std::size_t>(plane.segment);
     planes.push_back(
         {plane.point, plane.normal, (path[k + 1] - path[k]).norm()});
@@ -64,7 +70,7 @@ std::string SpokenStage(const PathIterate& iterate,
   return text;
 }
 
-ViewIterates IteratesOf(const TrajectoryStudy& study,
+ViewIterates IteratesOf(const TrajectoryProblem& problem,
                         const PipelineResult& result,
                         const PathHistory& history) {
   ViewIterates iterates;
@@ -73,8 +79,8 @@ ViewIterates IteratesOf(const TrajectoryStudy& study,
     const PathIterate& iterate = entry.iterate;
     iterates.kept.push_back({entry.number, SpokenStage(iterate, result),
                              iterate.record.is_restoration,
-                             CheckPath(study.judge(), iterate.path).free,
-                             study.Energy(iterate.path),
+                             CheckPath(*problem.free_space, iterate.path).free,
+                             PathEnergy(problem, iterate.path),
                              iterate.record.violation, iterate.path});
   }
   return iterates;
@@ -82,31 +88,62 @@ ViewIterates IteratesOf(const TrajectoryStudy& study,
 
 }  // namespace
 
-ViewBehind BehindPlan(PlanningStudy* study, const PlanningResult& result) {
+ViewBehind BehindPlan(const World& world, const PlanRequest& request,
+                      const PathAnswer& answer) {
   ViewBehind behind;
-  if (result.model == "window") behind.window = study->Region();
-  if (result.planner == kContactSurface) {
-    // One route is the path itself.
-    if (study->exact().routes.size() > 1) {
-      behind.graph = RoutesOf(study->exact());
-    }
-  } else {
-    behind.graph = {GrownBy(result.planner), result.numbers.graph.points,
-                    result.numbers.graph.edges};
+  if (answer.evidence.model == Model::kWindow) {
+    behind.window = PlanningRegion(world, request);
+  }
+  const PlanWork& work = *answer.plan;
+  if (work.planner != PlannerId::kContactSurface) {
+    behind.graph = {GrownBy(work.planner), work.search.graph.points,
+                    work.search.graph.edges};
+  } else if (work.routes.size() > 1) {  // one route is the path itself
+    behind.graph = RoutesOf(work.routes);
   }
   return behind;
 }
 
-ViewBehind BehindTrajectory(const TrajectoryStudy& study,
-                            const PipelineResult& result,
+ViewBehind BehindTrajectory(const World& world, const OptimizeRequest& request,
+                            const PathAnswer& answer,
                             const PathHistory& history) {
   ViewBehind behind;
-  if (study.model() == "window") behind.window = study.Region();
-  behind.iterates = IteratesOf(study, result, history);
-  if (WasPolished(result)) {
-    behind.planes = CorridorAround(study, result.path);
+  if (answer.evidence.model == Model::kWindow) {
+    behind.window = WindowRegion(world, request.start, request.goal);
+  }
+  if (!answer.evidence.model) return behind;  // nothing ran
+  const TrajectoryProblem problem =
+      ProblemOf(world, request, *answer.evidence.model);
+  behind.iterates = IteratesOf(problem, *answer.pipeline, history);
+  if (WasPolished(*answer.pipeline)) {
+    behind.planes = CorridorAround(problem, answer.path);
   }
   return behind;
+}
+
+TriangleMesh VisibleMesh(const ContactSpace& space, const BoundingBox& region) {
+  const double rounding = 1e-9 * region.Diagonal();
+  const TriangleMesh& all = space.mesh();
+  const std::vector<ContactKind>& kinds = space.kind();
+  TriangleMesh visible;
+  std::vector<int> shown(all.vertices.size(), -1);  // their numbers there
+  for (std::size_t i = 0; i < all.triangles.size(); ++i) {
+    if (!kinds.empty() && kinds[i] == ContactKind::kNone) continue;
+    const Triangle& t = all.triangles[i];
+    const bool is_within = std::all_of(t.begin(), t.end(), [&](int v) {
+      const Eigen::Vector3d& p = all.vertices[v];
+      return (p.array() >= region.min.array() - rounding).all() &&
+             (p.array() <= region.max.array() + rounding).all();
+    });
+    if (!is_within) continue;
+    for (const int v : t) {
+      if (shown[v] >= 0) continue;
+      shown[v] = static_cast<int>(visible.vertices.size());
+      visible.vertices.push_back(all.vertices[v]);
+    }
+    visible.triangles.push_back({shown[t[0]], shown[t[1]], shown[t[2]]});
+  }
+  return visible;
 }
 
 }  // namespace phongpd

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "problems/pictures/viewer/scene_view.h"
 
-#include "planners/exact/workspace.h"
+#include "planners/world/workspace.h"
 
 namespace phongpd {
 
@@ -9,7 +9,7 @@ View SceneView(const Scene& scene,
                const std::vector<TriangleMesh>& contact_spaces) {
   View view;
   view.title = scene.name;
-  if (!scene.unit.empty()) view.unit = scene.unit;
+  if (!scene.workspace.unit.empty()) view.unit = scene.workspace.unit;
   view.notes = scene.warnings;
   view.robot = scene.workspace.robot;
   view.start = scene.start;

@@ -19,7 +19,7 @@
 #include "constraints/free_space.h"
 #include "core/contact/contact_space.h"
 #include "core/mesh/mesh_error.h"
-#include "planners/exact/workspace.h"
+#include "planners/world/workspace.h"
 #include "problems/scenes/scene.h"
 #include "problems/scenes/scene_library.h"
 #include "problems/shapes/shapes.h"
@@ -71,7 +71,7 @@ constexpr const char* kFamilies[] = {"hole",  "tunnel",  "keyhole",
 // The path is exactly free, from start to goal, and measured right.
 void ExpectRight(const PlanResult& result, const Problem& problem,
                  const Vector3d& start, const Vector3d& goal) {
-  ASSERT_EQ(result.status, PlanStatus::kSolved) << result.reason;
+  ASSERT_EQ(result.status, PathStatus::kSolved) << result.reason;
   EXPECT_TRUE(CheckPath(problem.space, result.path).free);
   EXPECT_TRUE(CheckPath(problem.space, result.raw_path).free);
   for (const auto* path : {&result.path, &result.raw_path}) {
@@ -111,7 +111,7 @@ TEST(ContactRoadmap, ProvesThatTwinsAreInfeasible) {
                             {{"twin", 1.0}, {"rotation_seed", rotation}});
       const PlanResult result =
           problem.roadmap.Plan(problem.scene.start, problem.scene.goal);
-      EXPECT_EQ(result.status, PlanStatus::kInfeasibleProved) << family;
+      EXPECT_EQ(result.status, PathStatus::kInfeasibleProved) << family;
       EXPECT_NE(result.start.cell, result.goal.cell) << family;
       EXPECT_FALSE(result.start.rays.empty() && result.goal.rays.empty());
       EXPECT_EQ(result.self_intersections, 0) << family;
@@ -135,7 +135,7 @@ TEST(ContactRoadmap, AnswersHundredsOfQueriesLikeThePlanner) {
       ASSERT_EQ(found.status, expected.status) << i << found.reason;
       EXPECT_EQ(found.start.cell, expected.start.cell);
       EXPECT_EQ(found.goal.cell, expected.goal.cell);
-      if (found.status != PlanStatus::kSolved) {
+      if (found.status != PathStatus::kSolved) {
         ++proved;
         continue;
       }
@@ -180,7 +180,7 @@ TEST(ContactRoadmap, KeepsTheClearanceARequestWants) {
     request.clearance = wanted;
     const PlanResult result =
         roadmap.Plan({-3.0, 0.1, 0.2}, {3.0, 0.0, 0.1}, request);
-    ASSERT_EQ(result.status, PlanStatus::kSolved);
+    ASSERT_EQ(result.status, PathStatus::kSolved);
     EXPECT_EQ(result.wanted_clearance, wanted);
     EXPECT_GT(PathClearance(space, result.path), 0.5 * wanted) << wanted;
   }
@@ -196,8 +196,8 @@ TEST(ContactRoadmap, CopesWithNeedles) {
           as_arranged);
       const PlanResult result =
           problem.roadmap.Plan(problem.scene.start, problem.scene.goal);
-      EXPECT_EQ(result.status, twin == 0.0 ? PlanStatus::kSolved
-                                           : PlanStatus::kInfeasibleProved)
+      EXPECT_EQ(result.status, twin == 0.0 ? PathStatus::kSolved
+                                           : PathStatus::kInfeasibleProved)
           << family << ": " << result.reason;
       if (twin == 0.0) {
         ExpectRight(result, problem, problem.scene.start, problem.scene.goal);
@@ -215,7 +215,7 @@ TEST(ContactRoadmap, SolvesAtAllScalesAndOffsets) {
                                        {"rotation_seed", 2.0}});
       const PlanResult result =
           problem.roadmap.Plan(problem.scene.start, problem.scene.goal);
-      EXPECT_EQ(result.status, PlanStatus::kSolved) << result.reason;
+      EXPECT_EQ(result.status, PathStatus::kSolved) << result.reason;
       EXPECT_TRUE(CheckPath(problem.space, result.path).free);
       EXPECT_EQ(problem.roadmap.report().lazy_searches, 0);
     }
@@ -232,7 +232,7 @@ TEST(ContactRoadmap, AsksThePlannerWhereRoundingClosedItsRoutes) {
   const PlanResult expected = problem.planner->Plan(start, goal);
   EXPECT_EQ(problem.roadmap.report().lazy_searches, 1);
   EXPECT_GT(problem.roadmap.report().left_out_edges, 0);
-  EXPECT_EQ(expected.status, PlanStatus::kSolved);
+  EXPECT_EQ(expected.status, PathStatus::kSolved);
   EXPECT_EQ(result.status, expected.status);
   EXPECT_EQ(result.path, expected.path);
   EXPECT_EQ(result.searches, expected.searches);
@@ -259,26 +259,26 @@ TEST(ContactRoadmap, AnswersAtTheLimitsOfFreeSpace) {
   EXPECT_EQ(result.path, (std::vector<Vector3d>{free, -free}));
   // Not free.
   EXPECT_EQ(roadmap.Plan({2.0, 0.0, 0.0}, free).status,
-            PlanStatus::kInvalidStart);
+            PathStatus::kStartInCollision);
   result = roadmap.Plan(free, {0.0, 2.5, 0.0});
-  EXPECT_EQ(result.status, PlanStatus::kInvalidGoal);
+  EXPECT_EQ(result.status, PathStatus::kGoalInCollision);
   EXPECT_EQ(result.reason, "goal is 0.5 deep in an obstacle");
   EXPECT_EQ(roadmap.Plan({std::nan(""), 0.0, 0.0}, free).status,
-            PlanStatus::kInvalidStart);
+            PathStatus::kStartInCollision);
   // Out of it, and a whisker from contact on both sides of a corner.
   EXPECT_EQ(roadmap.Plan(free, {8.0, 0.0, 0.0}).status,
-            PlanStatus::kInfeasibleProved);
+            PathStatus::kInfeasibleProved);
   for (const double near : {1e-3, 1e-9, 1e-13}) {
     const Vector3d start(-6.0 - near, 0.3, 0.2), goal(0.1, 6.0 + near, -5.0);
     result = roadmap.Plan(start, goal);
-    ASSERT_EQ(result.status, PlanStatus::kSolved) << near << result.reason;
+    ASSERT_EQ(result.status, PathStatus::kSolved) << near << result.reason;
     EXPECT_TRUE(
         CheckPath(FreeSpace({TakeAsContactSpace(VesselSpace())}), result.path)
             .free);
   }
   // Far away.
   result = roadmap.Plan({-1e6, 0.1, 0.2}, {1e6, 0.0, 0.0});
-  EXPECT_EQ(result.status, PlanStatus::kSolved);
+  EXPECT_EQ(result.status, PathStatus::kSolved);
   EXPECT_LT(result.length, 2.1e6);
   EXPECT_EQ(roadmap.report().lazy_searches, 0);
 }
@@ -290,7 +290,7 @@ TEST(ContactRoadmap, JoinsIslandsSideBySideThroughTheOutside) {
   const ContactRoadmap roadmap(TakeAsContactSpace(mesh));
   const PlanResult result =
       roadmap.Plan({-0.001, 0.5, 0.5}, {10.001, -6.5, 0.5});
-  EXPECT_EQ(result.status, PlanStatus::kSolved);
+  EXPECT_EQ(result.status, PathStatus::kSolved);
   EXPECT_EQ(roadmap.report().lazy_searches, 0);
 }
 

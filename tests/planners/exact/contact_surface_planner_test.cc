@@ -16,9 +16,9 @@
 #include "constraints/free_space.h"
 #include "core/bvh/triangle_bvh.h"
 #include "core/solid/solid.h"
-#include "planners/exact/exact_solution.h"
 #include "planners/exact/path_shortening.h"
 #include "planners/exact/planning_surface.h"
+#include "planners/world/workspace.h"
 #include "problems/scenes/scene.h"
 #include "problems/scenes/scene_library.h"
 #include "problems/shapes/shapes.h"
@@ -38,7 +38,7 @@ PlanResult PlanScene(const std::string& family, const Knobs& knobs) {
           .mesh();
   const PlanResult result = ContactSurfacePlanner(TakeAsContactSpace(contact))
                                 .Plan(scene.start, scene.goal);
-  if (result.status != PlanStatus::kSolved) return result;
+  if (result.status != PathStatus::kSolved) return result;
   const FreeSpace space({TakeAsContactSpace(contact)});
   EXPECT_TRUE(CheckPath(space, result.path).free) << family;
   EXPECT_TRUE(CheckPath(space, result.raw_path).free) << family;
@@ -68,7 +68,7 @@ TEST(ContactSurfacePlanner, PassesWhateverIsWideEnough) {
            {"gap", "hole", "tunnel", "keyhole", "comb", "snake", "bugtrap"}) {
         const PlanResult result =
             PlanScene(family, {{"delta", delta}, {"rotation_seed", rotation}});
-        EXPECT_EQ(result.status, PlanStatus::kSolved) << family << delta;
+        EXPECT_EQ(result.status, PathStatus::kSolved) << family << delta;
         // Possible are δ/2.
         EXPECT_GT(result.clearance, 0.4 * 0.5 * delta) << family << delta;
         EXPECT_EQ(result.deleted_edges, 0) << family << delta;
@@ -83,7 +83,7 @@ TEST(ContactSurfacePlanner, ProvesThatTwinsAreInfeasible) {
                                "snake", "bugtrap", "clutter_hole", "maze"}) {
       const PlanResult result =
           PlanScene(family, {{"twin", 1.0}, {"rotation_seed", rotation}});
-      EXPECT_EQ(result.status, PlanStatus::kInfeasibleProved) << family;
+      EXPECT_EQ(result.status, PathStatus::kInfeasibleProved) << family;
       EXPECT_NE(result.start.cell, result.goal.cell) << family;
       EXPECT_EQ(result.self_intersections, 0) << family;
       EXPECT_FALSE(result.reason.empty());
@@ -94,10 +94,10 @@ TEST(ContactSurfacePlanner, ProvesThatTwinsAreInfeasible) {
 TEST(ContactSurfacePlanner, SolvesClutterAndMazes) {
   for (const double rotation : {0.0, 5.0}) {
     const Knobs turned = {{"delta", 1e-4}, {"rotation_seed", rotation}};
-    EXPECT_EQ(PlanScene("clutter_hole", turned).status, PlanStatus::kSolved);
+    EXPECT_EQ(PlanScene("clutter_hole", turned).status, PathStatus::kSolved);
     Knobs maze = turned;
     maze["n"] = 4.0;
-    EXPECT_EQ(PlanScene("maze", maze).status, PlanStatus::kSolved);
+    EXPECT_EQ(PlanScene("maze", maze).status, PathStatus::kSolved);
   }
 }
 
@@ -108,7 +108,7 @@ TEST(ContactSurfacePlanner, SolvesAtAllScalesAndOffsets) {
                                                      {"scale", scale},
                                                      {"offset", offset * scale},
                                                      {"rotation_seed", 2.0}});
-      EXPECT_EQ(result.status, PlanStatus::kSolved) << scale << " " << offset;
+      EXPECT_EQ(result.status, PathStatus::kSolved) << scale << " " << offset;
       EXPECT_GT(result.clearance, 0.4 * 0.5e-4 * scale);
     }
   }
@@ -124,13 +124,14 @@ TEST(ContactSurfacePlanner, CopesWithNeedles) {
           MakeScene(family,
                     {{"delta", 1e-3}, {"twin", twin}, {"rotation_seed", 4.0}}),
           family);
-      const ExactSolution solution = SolveExactly(scene.workspace, scene.start,
-                                                  scene.goal, {}, as_arranged);
-      EXPECT_LT(solution.contact_space.worst_quality, 1e-2);
-      EXPECT_EQ(solution.plan.status, twin == 0.0
-                                          ? PlanStatus::kSolved
-                                          : PlanStatus::kInfeasibleProved)
-          << family << ": " << solution.plan.reason;
+      const ContactSpace contact = BuildContactSpace(
+          scene.workspace.robot, MergedObstacle(scene.workspace), as_arranged);
+      const PlanResult plan =
+          ContactSurfacePlanner(contact).Plan(scene.start, scene.goal);
+      EXPECT_LT(contact.report().worst_quality, 1e-2);
+      EXPECT_EQ(plan.status, twin == 0.0 ? PathStatus::kSolved
+                                         : PathStatus::kInfeasibleProved)
+          << family << ": " << plan.reason;
     }
   }
 }
@@ -147,15 +148,15 @@ TriangleMesh VesselSpace() {
 TEST(ContactSurfacePlanner, ProvesThatNothingLeavesAVessel) {
   const ContactSurfacePlanner planner(TakeAsContactSpace(VesselSpace()));
   PlanResult result = planner.Plan({0.5, 0.1, 0.2}, {8.0, 0.0, 0.0});
-  EXPECT_EQ(result.status, PlanStatus::kInfeasibleProved);
+  EXPECT_EQ(result.status, PathStatus::kInfeasibleProved);
   EXPECT_GE(result.start.cell, 0);
   EXPECT_EQ(result.goal.cell, FreeCells::kOutside);
   EXPECT_EQ(result.start.rays.back().end, CellRay::End::kShell);
   // And that all else can be reached: within it, and around it.
   result = planner.Plan({1.9, 1.9, -1.9}, {-1.9, 1.9, 1.9});
-  EXPECT_EQ(result.status, PlanStatus::kSolved);
+  EXPECT_EQ(result.status, PathStatus::kSolved);
   result = planner.Plan({-8.0, 0.1, 0.2}, {8.0, 0.0, 0.0});
-  EXPECT_EQ(result.status, PlanStatus::kSolved);
+  EXPECT_EQ(result.status, PathStatus::kSolved);
   EXPECT_GT(result.length, 2.0 * std::sqrt(4.0 + 36.0) + 12.0);
   EXPECT_LT(result.length, 1.1 * (2.0 * std::sqrt(4.0 + 36.0) + 12.0));
 }
@@ -167,7 +168,7 @@ TEST(ContactSurfacePlanner, JoinsIslandsSideBySideThroughTheOutside) {
   const ContactSurfacePlanner planner(TakeAsContactSpace(mesh));
   const PlanResult result =
       planner.Plan({-0.001, 0.5, 0.5}, {10.001, -6.5, 0.5});
-  EXPECT_EQ(result.status, PlanStatus::kSolved);
+  EXPECT_EQ(result.status, PathStatus::kSolved);
   EXPECT_EQ(result.start.cell, FreeCells::kOutside);
 }
 
@@ -175,13 +176,13 @@ TEST(ContactSurfacePlanner, RefusesStartsAndGoalsThatAreNotFree) {
   const ContactSurfacePlanner planner(TakeAsContactSpace(VesselSpace()));
   const Vector3d free = Vector3d::Zero();
   PlanResult result = planner.Plan({2.5, 0.0, 0.0}, free);
-  EXPECT_EQ(result.status, PlanStatus::kInvalidStart);
+  EXPECT_EQ(result.status, PathStatus::kStartInCollision);
   EXPECT_EQ(result.reason, "start is 0.5 deep in an obstacle");
   result = planner.Plan(free, {0.0, 2.0, 0.0});
-  EXPECT_EQ(result.status, PlanStatus::kInvalidGoal);
+  EXPECT_EQ(result.status, PathStatus::kGoalInCollision);
   EXPECT_EQ(result.reason, "goal touches an obstacle");
   result = planner.Plan(free, {0.0, std::nan(""), 0.0});
-  EXPECT_EQ(result.status, PlanStatus::kInvalidGoal);
+  EXPECT_EQ(result.status, PathStatus::kGoalInCollision);
   EXPECT_EQ(result.reason, "goal is not finite");
   EXPECT_TRUE(result.path.empty());
 }
@@ -193,24 +194,28 @@ TEST(ContactSurfacePlanner, NamesWhatIsInTheWay) {
   workspace.obstacles = {MakeSolid(MakeBox({1, -9, -9}, {2, 9, 9}), "wall"),
                          MakeSolid(MakeBox({-4, 0, -9}, {-3, 1, 9}), "post")};
   workspace.bounds = {Vector3d::Constant(-5.0), Vector3d::Constant(5.0)};
-  ExactSolution solution = SolveExactly(workspace, {1.0, 3, 0}, {-1, 0, 0});
-  EXPECT_EQ(solution.plan.status, PlanStatus::kInvalidStart);
-  EXPECT_EQ(solution.plan.reason, "start is 0.5 deep in 'wall'");
-  solution = SolveExactly(workspace, {0, 0, 0}, {0, 0, 6.0});
-  EXPECT_EQ(solution.plan.reason, "goal is 1 deep in 'bounds'");
-  solution = SolveExactly(workspace, {0, 0, 0}, {4, 0, 0});
-  EXPECT_EQ(solution.plan.status, PlanStatus::kInfeasibleProved);
-  solution = SolveExactly(workspace, {0, 0.5, 0}, {-4.75, 0.5, 0});
-  EXPECT_EQ(solution.plan.status, PlanStatus::kSolved);
-  EXPECT_GT(solution.contact_space_seconds, 0.0);
-  EXPECT_EQ(solution.contact_space.components, 3);
+  const ContactSpace contact =
+      BuildContactSpace(workspace.robot, MergedObstacle(workspace));
+  EXPECT_EQ(contact.report().components, 3);
+  const ContactSurfacePlanner planner(contact, {}, [&](const Vector3d& q) {
+    return NameObstacles(workspace, q);
+  });
+  PlanResult plan = planner.Plan({1.0, 3, 0}, {-1, 0, 0});
+  EXPECT_EQ(plan.status, PathStatus::kStartInCollision);
+  EXPECT_EQ(plan.reason, "start is 0.5 deep in 'wall'");
+  plan = planner.Plan({0, 0, 0}, {0, 0, 6.0});
+  EXPECT_EQ(plan.reason, "goal is 1 deep in 'bounds'");
+  plan = planner.Plan({0, 0, 0}, {4, 0, 0});
+  EXPECT_EQ(plan.status, PathStatus::kInfeasibleProved);
+  plan = planner.Plan({0, 0.5, 0}, {-4.75, 0.5, 0});
+  EXPECT_EQ(plan.status, PathStatus::kSolved);
 }
 
 TEST(ContactSurfacePlanner, SolvesTrivialProblemsTrivially) {
   const ContactSurfacePlanner planner(TakeAsContactSpace(VesselSpace()));
   const Vector3d q(0.5, 0.25, 0.125);
   PlanResult result = planner.Plan(q, q);
-  EXPECT_EQ(result.status, PlanStatus::kSolved);
+  EXPECT_EQ(result.status, PathStatus::kSolved);
   EXPECT_EQ(result.path, std::vector<Vector3d>{q});
   EXPECT_EQ(result.length, 0.0);
   EXPECT_DOUBLE_EQ(result.clearance, 1.5);
@@ -234,7 +239,7 @@ TEST(ContactSurfacePlanner, PrefersWaysThatRoundingDidNotOpen) {
       PlanResult result;
       surface.Offer({}, is_close_first ? close : arc, &result);
       surface.Offer({}, is_close_first ? arc : close, &result);
-      ASSERT_EQ(result.status, PlanStatus::kSolved);
+      ASSERT_EQ(result.status, PathStatus::kSolved);
       EXPECT_EQ(result.path, is_certain ? close : arc) << share;
       EXPECT_TRUE(surface.IsCertain(result.clearance)) << share;
     }
@@ -267,11 +272,11 @@ TEST(ContactSurfacePlanner, RefusesRequestsOutOfRange) {
   const Vector3d q = Vector3d::Constant(20.0);
   for (const double clearance :
        {-1.0, std::nan(""), std::numeric_limits<double>::infinity()}) {
-    PlanRequest request;
+    RouteRequest request;
     request.clearance = clearance;
     EXPECT_THROW(planner.Plan(q, -q, request), InputError) << clearance;
   }
-  PlanRequest request;
+  RouteRequest request;
   request.routes = -1;
   EXPECT_THROW(planner.Plan(q, -q, request), InputError);
 }

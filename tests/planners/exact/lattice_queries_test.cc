@@ -14,10 +14,10 @@
 #include "core/contact/contact_space.h"
 #include "planners/exact/contact_roadmap.h"
 #include "planners/exact/contact_surface_planner.h"
-#include "planners/exact/exact_solution.h"
 #include "planners/exact/free_neighbors.h"
 #include "planners/exact/path_lift.h"
 #include "planners/exact/surface_graph.h"
+#include "planners/world/workspace.h"
 #include "problems/scenes/scene.h"
 #include "tests/support/campaign.h"
 #include "tests/support/flood_truth.h"
@@ -34,7 +34,7 @@ constexpr std::uint64_t kSeed = 20;
 
 struct Pair {
   Vector3d start, goal;
-  PlanStatus truth;
+  PathStatus truth;
 };
 
 // Mostly free ones; one in sixteen wherever it falls.
@@ -59,13 +59,13 @@ struct Tally {
 void Judge(const LatticeWorld& world, const FreeSpace& space, const Pair& pair,
            const PlanResult& result, bool confirm, Tally* tally) {
   ++tally->queries;
-  tally->solved += result.status == PlanStatus::kSolved;
-  tally->proved += result.status == PlanStatus::kInfeasibleProved;
-  tally->invalid += result.status == PlanStatus::kInvalidStart ||
-                    result.status == PlanStatus::kInvalidGoal;
+  tally->solved += result.status == PathStatus::kSolved;
+  tally->proved += result.status == PathStatus::kInfeasibleProved;
+  tally->invalid += result.status == PathStatus::kStartInCollision ||
+                    result.status == PathStatus::kGoalInCollision;
   tally->deleted += result.deleted_edges > 0;
   bool right = result.status == pair.truth;
-  if (result.status == PlanStatus::kSolved) {
+  if (result.status == PathStatus::kSolved) {
     right = right && CheckPath(space, result.path).free &&
             result.path.front() == pair.start &&
             result.path.back() == pair.goal;
@@ -161,13 +161,13 @@ TEST(LatticeCampaign, SolvesTheQueriesThatFailed) {
   for (const char* name : {"one_box.json", "prism.json"}) {
     const Scene scene =
         ReadScene(std::string(PHONGPD_TEST_DATA) + "/faults/" + name);
-    const ExactSolution solution =
-        SolveExactly(scene.workspace, scene.start, scene.goal);
-    EXPECT_EQ(ToString(solution.plan.status), std::string("solved")) << name;
-    EXPECT_EQ(solution.plan.deleted_edges, 0) << name;
-    const FreeSpace space({BuildContactSpace(scene.workspace.robot,
-                                             MergedObstacle(scene.workspace))});
-    EXPECT_TRUE(CheckPath(space, solution.plan.path).free) << name;
+    const ContactSpace contact = BuildContactSpace(
+        scene.workspace.robot, MergedObstacle(scene.workspace));
+    const PlanResult plan =
+        ContactSurfacePlanner(contact).Plan(scene.start, scene.goal);
+    EXPECT_EQ(ToString(plan.status), std::string("solved")) << name;
+    EXPECT_EQ(plan.deleted_edges, 0) << name;
+    EXPECT_TRUE(CheckPath(FreeSpace({contact}), plan.path).free) << name;
   }
 }
 
@@ -200,7 +200,7 @@ TEST(LatticeCampaign, ConnectsTheLatticeAroundAPrism) {
     const Vector3d start = pick(), goal = pick();
     const PlanResult result = planner.Plan(start, goal);
     ++tally.queries;
-    if (result.status == PlanStatus::kSolved &&
+    if (result.status == PathStatus::kSolved &&
         CheckPath(space, result.path).free) {
       continue;
     }

@@ -13,7 +13,7 @@
 #include "core/solid/solid.h"
 #include "planners/exact/contact_roadmap.h"
 #include "planners/exact/contact_surface_planner.h"
-#include "planners/exact/workspace.h"
+#include "planners/world/workspace.h"
 #include "problems/shapes/shapes.h"
 
 namespace phongpd {

@@ -40,19 +40,19 @@ struct Planners {
   // What is wrong with an answer, or nothing.
   std::string Judge(const PlanResult& plan, const TriangleMesh* surface,
                     const Vector3d& start, const Vector3d& goal,
-                    PlanStatus truth) const {
+                    PathStatus truth) const {
     if (plan.status != truth) {
       return std::string(ToString(plan.status)) + " instead of " +
              ToString(truth) + ": " + plan.reason;
     }
-    if (plan.status == PlanStatus::kSolved) {
+    if (plan.status == PathStatus::kSolved) {
       if (plan.path.front() != start || plan.path.back() != goal) {
         return "other ends";
       }
       const Verification path = verifier.VerifyPath(plan.path);
       return path.verdict == Verdict::kRefuted ? path.reason : "";
     }
-    if (plan.status == PlanStatus::kInfeasibleProved) {
+    if (plan.status == PathStatus::kInfeasibleProved) {
       const Verification proof =
           verifier.VerifySeparation(*surface, start, goal);
       return proof.verdict == Verdict::kConfirmed ? "" : proof.reason;
@@ -60,7 +60,7 @@ struct Planners {
     return "";
   }
   std::string JudgeFull(const Vector3d& start, const Vector3d& goal,
-                        PlanStatus truth) const {
+                        PathStatus truth) const {
     try {
       return Judge(full.Plan(start, goal), &space.mesh(), start, goal, truth);
     } catch (const std::exception& error) {
@@ -68,7 +68,7 @@ struct Planners {
     }
   }
   std::string JudgeWindow(const Vector3d& start, const Vector3d& goal,
-                          PlanStatus truth) const {
+                          PathStatus truth) const {
     try {
       const WindowPlan found = window.Plan(start, goal);
       return Judge(found.plan, found.surface ? &found.surface->mesh() : nullptr,
@@ -109,7 +109,7 @@ TEST_P(VoxelPairsCampaign, FullAndWindowAnswerAsTheFloodFillTells) {
       const VoxelPair::Quarters from = pair.RandomPoint(&random);
       const VoxelPair::Quarters to = pair.RandomPoint(&random);
       const int at_from = pair.Label(from), at_to = pair.Label(to);
-      const PlanStatus truth = testing::FloodTruth(at_from, at_to);
+      const PathStatus truth = testing::FloodTruth(at_from, at_to);
       const Vector3d start = pair.Point(from), goal = pair.Point(to);
       std::ostringstream what;
       what.precision(17);
@@ -118,8 +118,8 @@ TEST_P(VoxelPairsCampaign, FullAndWindowAnswerAsTheFloodFillTells) {
       count(planners.JudgeFull(start, goal, truth), "full, " + what.str());
       count(planners.JudgeWindow(start, goal, truth), "window, " + what.str());
       ++asked;
-      solved += truth == PlanStatus::kSolved;
-      proved += truth == PlanStatus::kInfeasibleProved;
+      solved += truth == PathStatus::kSolved;
+      proved += truth == PathStatus::kInfeasibleProved;
       invalid += at_from < 0 || at_to < 0;
     }
   }
@@ -151,7 +151,7 @@ TEST(VoxelPairs, KeepTheRoomsThatTheirEndsAreIn) {
   const Planners planners(Fault("rooms_robot.off"),
                           Fault("rooms_obstacle.off"));
   EXPECT_EQ(planners.JudgeWindow({-4.25, -0.5, 1.5}, {1.75, 0.5, 1.5},
-                                 PlanStatus::kInfeasibleProved),
+                                 PathStatus::kInfeasibleProved),
             "");
 }
 
@@ -161,8 +161,8 @@ TEST(VoxelPairs, ConfirmProofsWhereCellsTouchInAnEdge) {
   const Planners planners(Fault("cells_robot.off"),
                           Fault("cells_obstacle.off"));
   const Vector3d start(3.5, 0.5, 2), goal(5.5, 0.5, 6.5);
-  EXPECT_EQ(planners.JudgeFull(start, goal, PlanStatus::kInfeasibleProved), "");
-  EXPECT_EQ(planners.JudgeWindow(start, goal, PlanStatus::kInfeasibleProved),
+  EXPECT_EQ(planners.JudgeFull(start, goal, PathStatus::kInfeasibleProved), "");
+  EXPECT_EQ(planners.JudgeWindow(start, goal, PathStatus::kInfeasibleProved),
             "");
 }
 
@@ -171,7 +171,7 @@ TEST(VoxelPairs, TouchWhereTheLatticesUnitIsNoPowerOfTwo) {
   const Planners planners(Fault("thirds_robot.off"),
                           Fault("thirds_obstacle.off"));
   EXPECT_EQ(planners.JudgeWindow({-27, -3, -6}, {-18.5, 8.5, -8},
-                                 PlanStatus::kInvalidGoal),
+                                 PathStatus::kGoalInCollision),
             "");
 }
 

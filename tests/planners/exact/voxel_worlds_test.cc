@@ -46,11 +46,11 @@ void TryRoadmap(const VoxelWorld& world,
               std::string(connected ? "solved" : "infeasible_proved"))
         << result.reason;
     const bool is_right = connected
-                              ? result.status == PlanStatus::kSolved &&
+                              ? result.status == PathStatus::kSolved &&
                                     CheckPath(space, result.path).free &&
                                     result.path.front() == centers[i] &&
                                     result.path.back() == centers[j]
-                              : result.status == PlanStatus::kInfeasibleProved;
+                              : result.status == PathStatus::kInfeasibleProved;
     EXPECT_TRUE(is_right);
     tally->wrong += !is_right;
   }
@@ -93,9 +93,9 @@ void Try(std::mt19937_64* random, const Eigen::Matrix3d& rotation, double scale,
             std::string(connected ? "solved" : "infeasible_proved"))
       << result.reason << " n " << n << " fill " << fill << " channel "
       << channel << " around " << filled_around;
-  if (connected != (result.status == PlanStatus::kSolved)) ++tally->wrong;
-  if (result.status != PlanStatus::kSolved) {
-    tally->proved += result.status == PlanStatus::kInfeasibleProved;
+  if (connected != (result.status == PathStatus::kSolved)) ++tally->wrong;
+  if (result.status != PathStatus::kSolved) {
+    tally->proved += result.status == PathStatus::kInfeasibleProved;
     return;
   }
   ++tally->solved;

@@ -76,14 +76,14 @@ void Compare(const SolidPair& pair, int trials, std::mt19937_64* random,
     bool is_right = plan.status == expected.status;
     EXPECT_EQ(ToString(plan.status), std::string(ToString(expected.status)))
         << plan.reason << "; " << a.transpose() << " to " << b.transpose();
-    if (plan.status == PlanStatus::kSolved) {
+    if (plan.status == PathStatus::kSolved) {
       is_right = is_right && plan.path.front() == a && plan.path.back() == b &&
                  CheckPath(judge, plan.path).free &&
                  plan.length == PathLength(plan.path);
       EXPECT_NEAR(plan.clearance, PathClearance(judge, plan.path),
                   1e-9 * space.bounds().Diagonal());
     }
-    if (plan.status == PlanStatus::kInfeasibleProved) {
+    if (plan.status == PathStatus::kInfeasibleProved) {
       ++tally->proofs;
       const Verification proof =
           verifier.VerifySeparation(found.surface->mesh(), a, b);
@@ -142,12 +142,12 @@ TEST(WindowPlanner, TakesNoWayThatOnlyRoundingOpened) {
     ASSERT_EQ(flood.Explore(100000), FreeSpaceFlood::Outcome::kMet);
     const PlanResult walled = ContactSurfacePlanner(flood.Surface())
                                   .Plan(flood.start(), flood.goal());
-    ASSERT_EQ(walled.status, PlanStatus::kSolved);
+    ASSERT_EQ(walled.status, PathStatus::kSolved);
     const WindowPlanner planner(model);
     EXPECT_TRUE(CheckPath(planner.free_space(), walled.path).free) << slit.seed;
     EXPECT_GT(walled.clearance, walled.rounding) << slit.seed;
     const PlanResult found = planner.Plan(slit.start, slit.goal).plan;
-    ASSERT_EQ(found.status, PlanStatus::kSolved) << found.reason;
+    ASSERT_EQ(found.status, PathStatus::kSolved) << found.reason;
     EXPECT_TRUE(CheckPath(planner.free_space(), found.path).free) << slit.seed;
   }
 }
@@ -186,13 +186,13 @@ TEST(WindowPlanner, CostsWhatIsAskedFor) {
   const ContactSpace space = BuildContactSpace(robot, obstacle);
   const double all = static_cast<double>(space.report().arrangement_faces);
   const WindowPlan path = planner.Plan({-2, 0, 0}, {2, 0.1, 0});
-  ASSERT_EQ(path.plan.status, PlanStatus::kSolved);
+  ASSERT_EQ(path.plan.status, PathStatus::kSolved);
   EXPECT_LT(static_cast<double>(path.faces), 0.3 * all);
   for (const bool is_start : {true, false}) {
     const Vector3d in(0, 0, 0), out(-3, 0.2, 0.1);
     const WindowPlan proof =
         planner.Plan(is_start ? in : out, is_start ? out : in);
-    ASSERT_EQ(proof.plan.status, PlanStatus::kInfeasibleProved);
+    ASSERT_EQ(proof.plan.status, PathStatus::kInfeasibleProved);
     EXPECT_LT(static_cast<double>(proof.faces), 0.3 * all);
     // The cavity's wall alone, in which everything touches.
     for (const Vector3d& v : proof.surface->mesh().vertices) {
@@ -206,16 +206,16 @@ TEST(WindowPlanner, TakesEndsFarAwayAtOnePlaceAndOnWallsOfBoxes) {
       ConvolutionModel(Cube(1.0), MakeVessel(4, 3, 0.0)));
   for (const double far : {3.0, 1e3, 1e9}) {
     const WindowPlan around = planner.Plan({-far, 0, 0}, {far, 0.25, 0.5});
-    ASSERT_EQ(around.plan.status, PlanStatus::kSolved) << far;
+    ASSERT_EQ(around.plan.status, PathStatus::kSolved) << far;
     EXPECT_EQ(around.plan.path.front(), Vector3d(-far, 0, 0));
     EXPECT_EQ(around.plan.path.back(), Vector3d(far, 0.25, 0.5));
     EXPECT_TRUE(CheckPath(planner.free_space(), around.plan.path).free);
     EXPECT_LT(around.plan.length, 2.0 * far + 8.0);
     EXPECT_EQ(planner.Plan({0, 0, 0}, {far, 0, 0}).plan.status,
-              PlanStatus::kInfeasibleProved);
+              PathStatus::kInfeasibleProved);
   }
   const WindowPlan rest = planner.Plan({0, 0, 0}, {0, 0, 0});
-  ASSERT_EQ(rest.plan.status, PlanStatus::kSolved);
+  ASSERT_EQ(rest.plan.status, PathStatus::kSolved);
   EXPECT_EQ(rest.plan.path.size(), 1u);
   EXPECT_EQ(rest.boxes, 0u);
   EXPECT_FALSE(rest.surface);
@@ -227,13 +227,13 @@ TEST(WindowPlanner, SaysWhatIsWrongWithItsArguments) {
       [](const Vector3d&) { return std::string("vessel"); });
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const WindowPlan blocked = planner.Plan({1.5, 0, 0}, {0, 0, 0});
-  EXPECT_EQ(blocked.plan.status, PlanStatus::kInvalidStart);
+  EXPECT_EQ(blocked.plan.status, PathStatus::kStartInCollision);
   EXPECT_NE(blocked.plan.reason.find("vessel"), std::string::npos);
   EXPECT_EQ(planner.Plan({0, 0, 0}, {1.5, 0, 0}).plan.status,
-            PlanStatus::kInvalidGoal);
+            PathStatus::kGoalInCollision);
   EXPECT_EQ(planner.Plan({0, nan, 0}, {0, 0, 0}).plan.reason,
             "start is not finite");
-  PlanRequest request;
+  RouteRequest request;
   request.clearance = -1.0;
   EXPECT_THROW(planner.Plan({0, 0, 0}, {0, 0, 0.1}, request), InputError);
   const ConvolutionModel model(Cube(1.0), MakeVessel(4, 3, 0.0));
@@ -246,7 +246,7 @@ TEST(WindowPlanner, IsDeterministicOnAnyNumberOfThreads) {
                        MakeKnot(1.0, 0.12, 40, 8)));
   const auto plan = [&] { return planner.Plan({-4, 0.3, 0}, {4, 0, 0.2}); };
   const WindowPlan expected = plan();
-  ASSERT_EQ(expected.plan.status, PlanStatus::kSolved);
+  ASSERT_EQ(expected.plan.status, PathStatus::kSolved);
   std::vector<WindowPlan> found(3);
   std::vector<std::thread> threads;
   for (WindowPlan& one : found) threads.emplace_back([&] { one = plan(); });

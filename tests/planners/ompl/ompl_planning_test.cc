@@ -21,19 +21,27 @@ class OmplPlanning : public ::testing::Test {
   void SetUp() override { SilenceOmpl(); }
 
   static OmplPlanningResult Plan(const testing::Passage& passage,
-                                 const std::string& name,
+                                 PlannerId planner,
                                  const OmplPlanningOptions& options) {
     return PlanWithOmpl(passage.model, passage.scene.start, passage.scene.goal,
-                        name, options);
+                        planner, options);
   }
 };
 
+// Of OMPL and of this library for it: all but contact-surface.
+std::vector<PlannerId> OmplPlanners() {
+  std::vector<PlannerId> planners = AllPlanners();
+  planners.erase(planners.begin());
+  return planners;
+}
+
 TEST_F(OmplPlanning, SolvesWithEveryPlanner) {
   const testing::Passage passage = testing::MakePassage("gap", 0.1);
-  for (const std::string& name : OmplPlannerNames()) {
+  for (const PlannerId planner : OmplPlanners()) {
+    const std::string name = ToString(planner);
     OmplPlanningOptions options;
     options.time_limit = 10.0;
-    const OmplPlanningResult result = Plan(passage, name, options);
+    const OmplPlanningResult result = Plan(passage, planner, options);
     ASSERT_TRUE(result.solved) << name << ": " << result.status;
     EXPECT_TRUE(result.collision_free) << name;
     EXPECT_EQ(result.path.front(), passage.scene.start);
@@ -56,8 +64,8 @@ TEST_F(OmplPlanning, SolvesWithEveryPlanner) {
           1)
           << name;
     }
-    EXPECT_EQ(result.samples > 0,
-              name == "retraction-rrt" || name == "retraction-forest");
+    EXPECT_EQ(result.samples > 0, planner == PlannerId::kRetractionRrt ||
+                                      planner == PlannerId::kRetractionForest);
     EXPECT_LT(result.seconds, 10.0);
   }
 }
@@ -65,10 +73,11 @@ TEST_F(OmplPlanning, SolvesWithEveryPlanner) {
 TEST_F(OmplPlanning, TakesTheLimitAndNeverClaimsAFalsePath) {
   for (const char* family : {"hole", "bugtrap"}) {
     const testing::Passage passage = testing::MakePassage(family, -1e-4, 1);
-    for (const std::string& name : OmplPlannerNames()) {
+    for (const PlannerId planner : OmplPlanners()) {
+      const std::string name = ToString(planner);
       OmplPlanningOptions options;
       options.time_limit = 0.1;
-      const OmplPlanningResult result = Plan(passage, name, options);
+      const OmplPlanningResult result = Plan(passage, planner, options);
       EXPECT_FALSE(result.solved) << name << ' ' << family;
       EXPECT_TRUE(result.path.empty());
       EXPECT_FALSE(result.collision_free);
@@ -81,17 +90,19 @@ TEST_F(OmplPlanning, TakesTheLimitAndNeverClaimsAFalsePath) {
 
 TEST_F(OmplPlanning, RepeatsWithTheSeed) {
   const testing::Passage passage = testing::MakePassage("gap", 0.1);
-  for (const char* name :
-       {"retraction-rrt", "retraction-forest", "rrt-connect"}) {
+  for (const PlannerId planner :
+       {PlannerId::kRetractionRrt, PlannerId::kRetractionForest,
+        PlannerId::kRrtConnect}) {
+    const std::string name = ToString(planner);
     OmplPlanningOptions options;
     options.time_limit = 20.0;
     options.seed = 4;
-    const OmplPlanningResult first = Plan(passage, name, options);
-    const OmplPlanningResult second = Plan(passage, name, options);
+    const OmplPlanningResult first = Plan(passage, planner, options);
+    const OmplPlanningResult second = Plan(passage, planner, options);
     ASSERT_TRUE(first.solved && second.solved) << name;
     EXPECT_EQ(first.path, second.path) << name;
     options.seed = 5;
-    EXPECT_NE(Plan(passage, name, options).path, first.path) << name;
+    EXPECT_NE(Plan(passage, planner, options).path, first.path) << name;
   }
 }
 
@@ -107,7 +118,7 @@ TEST_F(OmplPlanning, NeedsFarFewerSamplesWithAllBranches) {
       options.seed = seed;
       options.retraction.metric = metric;
       const OmplPlanningResult result =
-          Plan(passage, "retraction-forest", options);
+          Plan(passage, PlannerId::kRetractionForest, options);
       EXPECT_TRUE(result.collision_free || !result.solved);
       samples.push_back(result.samples);
       const std::vector<Vector3d>& points = result.graph.points;
@@ -141,9 +152,11 @@ TEST_F(OmplPlanning, NeedsFarFewerSamplesWithAllBranches) {
 TEST_F(OmplPlanning, SolvesTheNarrowestPassages) {
   for (const double delta : {1e-4, 2e-5}) {
     const testing::Passage passage = testing::MakePassage("hole", delta, 1);
-    for (const char* name : {"retraction-rrt", "retraction-forest"}) {
-      const OmplPlanningResult result = Plan(passage, name, {});
-      EXPECT_TRUE(result.solved && result.collision_free) << name << delta;
+    for (const PlannerId planner :
+         {PlannerId::kRetractionRrt, PlannerId::kRetractionForest}) {
+      const OmplPlanningResult result = Plan(passage, planner, {});
+      EXPECT_TRUE(result.solved && result.collision_free)
+          << ToString(planner) << delta;
       EXPECT_GT(result.clearance, passage.model->floor() * 0.5);
     }
   }
@@ -153,13 +166,14 @@ TEST_F(OmplPlanning, ReportsInvalidEnds) {
   const testing::Passage passage = testing::MakePassage("hole", 1e-2);
   OmplPlanningOptions options;
   options.time_limit = 0.2;
-  for (const std::string& name : OmplPlannerNames()) {
+  for (const PlannerId planner : OmplPlanners()) {
+    const std::string name = ToString(planner);
     const OmplPlanningResult start = PlanWithOmpl(
-        passage.model, {0.0, 0.0, 0.0}, passage.scene.goal, name, options);
+        passage.model, {0.0, 0.0, 0.0}, passage.scene.goal, planner, options);
     EXPECT_FALSE(start.solved);
     EXPECT_EQ(start.status, "Invalid start") << name;
     const OmplPlanningResult goal = PlanWithOmpl(
-        passage.model, passage.scene.start, {0.0, 0.0, 0.0}, name, options);
+        passage.model, passage.scene.start, {0.0, 0.0, 0.0}, planner, options);
     EXPECT_FALSE(goal.solved);
     EXPECT_FALSE(goal.collision_free);
     EXPECT_EQ(goal.status, "Invalid goal") << name;
@@ -170,22 +184,22 @@ TEST_F(OmplPlanning, ReportsInvalidEnds) {
 TEST_F(OmplPlanning, RefusesBadInput) {
   const testing::Passage passage = testing::MakePassage("hole", 1e-2);
   OmplPlanningOptions options;
-  EXPECT_THROW(Plan(passage, "a-star", options), InputError);
+  EXPECT_THROW(Plan(passage, PlannerId::kContactSurface, options), InputError);
   for (const double limit : {0.0, std::nan(""), HUGE_VAL}) {
     options.time_limit = limit;
-    EXPECT_THROW(Plan(passage, "prm", options), InputError) << limit;
+    EXPECT_THROW(Plan(passage, PlannerId::kPrm, options), InputError) << limit;
   }
   EXPECT_THROW(PlanWithOmpl(passage.model, {std::nan(""), 0.0, 0.0},
-                            passage.scene.goal, "prm", {}),
+                            passage.scene.goal, PlannerId::kPrm, {}),
                InputError);
-  EXPECT_THROW(
-      PlanWithOmpl(nullptr, passage.scene.start, passage.scene.goal, "prm", {}),
-      InputError);
+  EXPECT_THROW(PlanWithOmpl(nullptr, passage.scene.start, passage.scene.goal,
+                            PlannerId::kPrm, {}),
+               InputError);
   EXPECT_THROW(OmplBenchmarkLog(passage.model, {std::nan(""), 0.0, 0.0},
-                                passage.scene.goal, "test", "prm", 1),
+                                passage.scene.goal, "test", PlannerId::kPrm, 1),
                InputError);
   EXPECT_THROW(OmplBenchmarkLog(nullptr, passage.scene.start,
-                                passage.scene.goal, "test", "prm", 1),
+                                passage.scene.goal, "test", PlannerId::kPrm, 1),
                InputError);
 }
 

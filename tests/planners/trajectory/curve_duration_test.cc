@@ -53,7 +53,7 @@ TEST(OptimizeCurveOfDuration, HasTheLeastJerkInTheOpen) {
   options.time_limit = 1e-9;
   const CurveSummary first =
       OptimizeCurve(space, 2.0, {Vector3d::Zero(), way}, options);
-  EXPECT_EQ(first.status, CurveStatus::kTimeLimit);
+  EXPECT_EQ(first.status, PathStatus::kTimeLimit);
   EXPECT_NEAR(first.trajectory.duration(), options.duration, 1e-9);
 }
 
@@ -63,7 +63,7 @@ TEST(OptimizeCurveOfDuration, SaysTheLeastThatIsKnown) {
   options.duration = 1.0;  // 2 m at 1 m/s at most
   const CurveSummary summary = OptimizeCurve(
       space, 2.0, {Vector3d::Zero(), Vector3d(2.0, 0.0, 0.0)}, options);
-  EXPECT_EQ(summary.status, CurveStatus::kDurationTooShort);
+  EXPECT_EQ(summary.status, PathStatus::kDurationTooShort);
   EXPECT_TRUE(summary.trajectory.empty());
   EXPECT_GE(summary.duration, 2.7 - 1e-9);
   EXPECT_LE(summary.duration, 1.05 * 2.7);

@@ -29,7 +29,7 @@ constexpr double kV = 1.0, kA = 2.0, kJ = 10.0;  // of PlainLimits
 CurveOptions With(const MotionLimits& limits) {
   CurveOptions options;
   options.limits = limits;
-  options.effort = CurveEffort::kFast;
+  options.preset = Preset::kFast;
   return options;
 }
 
@@ -114,7 +114,7 @@ TEST(OptimizeCurveEnds, GoesThroughAtFullSpeed) {
   const FreeSpace space{std::vector<ContactSpace>{}};
   const Path path = {Vector3d::Zero(), Vector3d(3.0, 0.0, 0.0)};
   CurveOptions options = With(PlainLimits());
-  options.effort = CurveEffort::kBalanced;
+  options.preset = Preset::kBalanced;
   options.start.velocity = options.end.velocity = Vector3d(kV, 0.0, 0.0);
   const CurveSummary summary = OptimizeCurve(space, 3.0, path, options);
   ExpectCertified(space, path, options, summary);

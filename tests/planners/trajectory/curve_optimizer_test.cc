@@ -150,7 +150,7 @@ TEST(OptimizeCurve, MovesStraightAlmostAsFastAsCanBe) {
     for (const Vector3d& goal : {Vector3d(1, 0, 0), Vector3d(1, -0.7, 0.2)}) {
       const Path path = {Vector3d::Zero(), goal};
       CurveOptions options = With(Limits(one.v, one.a, one.j));
-      options.effort = CurveEffort::kTight;
+      options.preset = Preset::kTight;
       const CurveSummary summary = OptimizeCurve(space, 1.0, path, options);
       const double least = LowerBound(path, one.v, one.a, one.j);
       EXPECT_GE(summary.duration, least * (1.0 - 1e-12));
@@ -171,7 +171,7 @@ TEST(OptimizeCurve, IsFreeAndWithinLimitsAndFasterThanStops) {
       const CurveOptions options = With(Limits(1.0, 2.0, 10.0));
       const CurveSummary summary =
           OptimizeCurve(one.space, one.diagonal, one.path, options);
-      EXPECT_EQ(summary.status, CurveStatus::kConverged) << what;
+      EXPECT_EQ(summary.status, PathStatus::kConverged) << what;
       ExpectKept(summary, options.limits, one.space, what);
       EXPECT_EQ(summary.trajectory.pieces().front().front(), one.path.front());
       EXPECT_EQ(summary.trajectory.pieces().back().back(), one.path.back());
@@ -199,11 +199,11 @@ TEST(OptimizeCurve, PassesTunnels) {
     const FreeSpace& space = passage.model->free_space();
     const PlanResult plan = ContactSurfacePlanner(passage.model->space(0))
                                 .Plan(passage.scene.start, passage.scene.goal);
-    ASSERT_EQ(plan.status, PlanStatus::kSolved);
+    ASSERT_EQ(plan.status, PathStatus::kSolved);
     const CollisionOracle oracle(passage.scene.workspace.robot,
                                  MergedObstacle(passage.scene.workspace));
     CurveOptions options = With(Limits(1.0, 2.0, 10.0));
-    options.effort = CurveEffort::kFast;
+    options.preset = Preset::kFast;
     const CurveSummary summary =
         OptimizeCurve(space, passage.model->diagonal(), plan.path, options);
     const std::string what = "delta " + std::to_string(delta);
@@ -277,7 +277,7 @@ TEST(OptimizeCurve, AlwaysHasACertifiedAnswer) {
   options.time_limit = 1e-9;
   const CurveSummary first =
       OptimizeCurve(one.space, one.diagonal, one.path, options);
-  EXPECT_EQ(first.status, CurveStatus::kTimeLimit);
+  EXPECT_EQ(first.status, PathStatus::kTimeLimit);
   ExpectKept(first, options.limits, one.space, "time limit");
   EXPECT_TRUE(first.rounds.empty());
 
@@ -286,7 +286,7 @@ TEST(OptimizeCurve, AlwaysHasACertifiedAnswer) {
   options.is_interrupted = [&] { return ++asked > 3; };
   const CurveSummary some =
       OptimizeCurve(one.space, one.diagonal, one.path, options);
-  EXPECT_EQ(some.status, CurveStatus::kInterrupted);
+  EXPECT_EQ(some.status, PathStatus::kInterrupted);
   EXPECT_EQ(some.rounds.size(), 3u);
   ExpectKept(some, options.limits, one.space, "interrupted");
   EXPECT_LT(some.duration, first.duration);
@@ -297,7 +297,7 @@ TEST(OptimizeCurve, SaysThatThePathIsNotFree) {
   const CurveSummary summary =
       OptimizeCurve(one.space, one.diagonal,
                     {one.path.front(), one.path.back()}, With(Limits(1, 1, 1)));
-  EXPECT_EQ(summary.status, CurveStatus::kNotFree);
+  EXPECT_EQ(summary.status, PathStatus::kNotFree);
   EXPECT_TRUE(summary.trajectory.empty());
 }
 

@@ -25,7 +25,7 @@ using Path = std::vector<Vector3d>;
 CurveOptions Options(bool by_norm = false) {
   CurveOptions options;
   options.limits = testing::PlainLimits(by_norm);
-  options.effort = CurveEffort::kFast;
+  options.preset = Preset::kFast;
   return options;
 }
 
@@ -137,7 +137,7 @@ TEST(OptimizeCurveViaCampaign, PassesRandomPlacesInClutter) {
           next = testing::RandomPoint(contact.bounds(), &random);
         }
         const PlanResult plan = planner.Plan(path.back(), next);
-        if (plan.status != PlanStatus::kSolved) continue;
+        if (plan.status != PathStatus::kSolved) continue;
         path.insert(path.end(), plan.path.begin() + 1, plan.path.end());
         if (k == places) break;
         const double tolerances[] = {1e-5, 0.01, 0.2};

@@ -13,7 +13,7 @@
 #include "core/contact/contact_space.h"
 #include "core/mesh/mesh_error.h"
 #include "core/solid/solid.h"
-#include "planners/exact/workspace.h"
+#include "planners/world/workspace.h"
 #include "problems/shapes/shapes.h"
 #include "tests/support/path_problems.h"
 
@@ -64,8 +64,8 @@ TEST(TrajectoryPipeline, SolvesTheFamilies) {
        {"Uaxis", "plate0.005", "hole", "cone_axes", "channel0.01"}) {
     const Case setup(MakePathProblem(family, 1));
     const PipelineResult result = setup.Solve();
-    EXPECT_TRUE(result.status == TrajectoryStatus::kSolved ||
-                result.status == TrajectoryStatus::kPolished)
+    EXPECT_TRUE(result.status == PathStatus::kSolved ||
+                result.status == PathStatus::kPolished)
         << family << ": " << ToString(result.status) << result.reason;
     ExpectEvidence(setup.problem, result);
     // Clearance that the start lacks may cost something.
@@ -81,13 +81,13 @@ TEST(TrajectoryPipeline, PolishesWhatStallsOrCrosses) {
   options.optimizer.max_rounds = 1;
   options.also_line = false;
   const PipelineResult polished = setup.Solve(options);
-  EXPECT_EQ(polished.status, TrajectoryStatus::kPolished);
+  EXPECT_EQ(polished.status, PathStatus::kPolished);
   ExpectEvidence(setup.problem, polished);
   EXPECT_EQ(polished.stages.back().stage, "corridor");
 
   options.polish = PolishWhen::kNever;
   const PipelineResult left = setup.Solve(options);
-  EXPECT_EQ(left.status, TrajectoryStatus::kStalledFeasible);
+  EXPECT_EQ(left.status, PathStatus::kStalledFeasible);
   EXPECT_NE(left.reason.find("iteration_limit"), std::string::npos);
   ExpectEvidence(setup.problem, left);
   EXPECT_LE(polished.objective, left.objective);
@@ -236,15 +236,15 @@ TEST(TrajectoryPipeline, SaysWhyThereIsNoPath) {
   const TriangleMesh vessel = MakeVessel(4.0, 3.0, 0.0);
   PathProblem source = {vessel, {0.5, 0.2, 0.1}, {3.0, 0.1, 0.2}};
   const PipelineResult closed = Case(source).Solve();
-  EXPECT_EQ(closed.status, TrajectoryStatus::kInfeasibleProved);
+  EXPECT_EQ(closed.status, PathStatus::kInfeasibleProved);
   EXPECT_TRUE(closed.path.empty());
   EXPECT_FALSE(closed.reason.empty());
 
   source.start = {1.7, 0.0, 0.0};
-  EXPECT_EQ(Case(source).Solve().status, TrajectoryStatus::kStartInCollision);
+  EXPECT_EQ(Case(source).Solve().status, PathStatus::kStartInCollision);
   source.start = {3.0, 3.0, 0.0};
   source.goal = {1.7, 0.0, 0.0};
-  EXPECT_EQ(Case(source).Solve().status, TrajectoryStatus::kGoalInCollision);
+  EXPECT_EQ(Case(source).Solve().status, PathStatus::kGoalInCollision);
 }
 
 // A wall across a room that leaves a slit at its top, made of two boxes that
@@ -270,11 +270,11 @@ TEST(TrajectoryPipeline, TakesOneContactSpacePerObstacleAndBounds) {
         BuildContactSpace(workspace.robot, MergedObstacle(workspace)));
     const PipelineResult result = TrajectoryPipeline(problem, repair).Solve();
     if (top > 0.9) {
-      EXPECT_EQ(result.status, TrajectoryStatus::kInfeasibleProved);
+      EXPECT_EQ(result.status, PathStatus::kInfeasibleProved);
       continue;
     }
-    EXPECT_TRUE(result.status == TrajectoryStatus::kSolved ||
-                result.status == TrajectoryStatus::kPolished)
+    EXPECT_TRUE(result.status == PathStatus::kSolved ||
+                result.status == PathStatus::kPolished)
         << result.reason;
     ExpectEvidence(problem, result);
   }
@@ -285,7 +285,7 @@ TEST(TrajectoryPipeline, KeepsToItsTimeLimit) {
   PipelineOptions options;
   options.time_limit = 1e-9;
   const PipelineResult none = setup.Solve(options);
-  EXPECT_EQ(none.status, TrajectoryStatus::kStalledFeasible);
+  EXPECT_EQ(none.status, PathStatus::kStalledFeasible);
   EXPECT_NE(none.reason.find("time limit"), std::string::npos);
   ExpectEvidence(setup.problem, none);
   // Measured, against what all of it takes on the same machine: stopped where

@@ -8,9 +8,11 @@
 
 #include "core/mesh/mesh_error.h"
 #include "core/solid/solid.h"
-#include "problems/scenes/scene.h"
-#include "problems/studies/planning_study.h"
-#include "problems/studies/trajectory_study.h"
+#include "planners/solve/optimize.h"
+#include "planners/solve/plan.h"
+#include "problems/scenes/kept_world.h"
+#include "problems/scenes/scene_requests.h"
+#include "problems/studies/answer_row.h"
 
 namespace phongpd {
 namespace {
@@ -68,27 +70,28 @@ TEST(EarlyDiagnosis, PlansBuildNothingForBlockedEnds) {
   for (const Case& c : Cases()) {
     Json json = Tori();
     json[c.end] = c.place;
-    PlanningStudy study(ParseScene(json, "tori.json"));
-    PlanningRun run;
-    for (const std::string planner :
-         {"contact-surface", "retraction-forest", "rrt-connect"}) {
-      run.planner = planner;
-      const PlanningResult result = study.Run(run);
-      EXPECT_FALSE(result.solved);
-      EXPECT_TRUE(result.numbers.path.empty());
-      EXPECT_EQ(result.reason.find(c.begins), 0U) << result.reason;
-      EXPECT_EQ(result.status, c.status);
-      const Json row = PlanningRow(study, run, result);
+    const Scene scene = ParseScene(json, "tori.json");
+    const World world(scene.workspace, scene.name);
+    PlanRequest request = PlanRequestOf(scene);
+    for (const PlannerId planner :
+         {PlannerId::kContactSurface, PlannerId::kRetractionForest,
+          PlannerId::kRrtConnect}) {
+      request.planner = planner;
+      const PathAnswer answer = Plan(world, request);
+      EXPECT_FALSE(answer.is_solved);
+      EXPECT_TRUE(answer.path.empty());
+      EXPECT_EQ(answer.reason.find(c.begins), 0U) << answer.reason;
+      EXPECT_EQ(ToString(answer.status), c.status);
+      const Json row = PlanRow(scene, world, request, answer);
       EXPECT_EQ(row["contact_triangles"], 0);
       EXPECT_EQ(row["seconds"]["contact_space"], 0.0);
     }
-    EXPECT_EQ(study.world().Report().contact_spaces, 0);
+    EXPECT_EQ(world.Report().contact_spaces, 0);
     // Bad options are still bad input.
-    run.planner = "prm";
-    run.time_limit = -1.0;
-    EXPECT_THROW(study.Run(run), InputError);
-    run.planner = "fast";
-    EXPECT_THROW(study.Run(run), InputError);
+    request.planner = PlannerId::kPrm;
+    request.time_limit = -1.0;
+    EXPECT_THROW(Plan(world, request), InputError);
+    EXPECT_THROW(ParsePlanner("fast", "--planner"), InputError);
   }
 }
 
@@ -104,49 +107,48 @@ TEST(World, IsSharedByAllThatPlanInIt) {
       json["bounds"] = {{"min", {-2, -2, -2}}, {"max", {2, 2, 2}}};
     const Scene scene = ParseScene(json, "shared.json");
     const World world(scene.workspace, scene.name);
-    PlanningStudy planning(scene, world);
-    PlanningRun run;
-    run.time_limit = 20.0;
-    for (const std::string planner : {"contact-surface", "retraction-forest"}) {
-      run.planner = planner;
-      EXPECT_TRUE(planning.Run(run).solved) << planner;
+    PlanRequest request = PlanRequestOf(scene);
+    request.time_limit = 20.0;
+    for (const PlannerId planner :
+         {PlannerId::kContactSurface, PlannerId::kRetractionForest}) {
+      request.planner = planner;
+      EXPECT_TRUE(Plan(world, request).is_solved) << ToString(planner);
     }
     EXPECT_EQ(world.Report().contact_spaces, 1);
-    TrajectoryStudy trajectories;
-    trajectories.Enter(scene, world);
-    const TrajectoryMetric metric = SceneMetric(scene);
-    EXPECT_TRUE(HasFreePath(trajectories.Run(metric, {}).status));
+    EXPECT_TRUE(Optimize(world, OptimizeRequestOf(scene)).is_free);
     // Bounds belong to the planners' space and not to the optimiser's.
     EXPECT_EQ(world.Report().contact_spaces, has_bounds ? 2 : 1);
+    // Other solids are another world.
     Scene other = scene;
     TriangleMesh moved = other.workspace.obstacles[0];
     moved.vertices[0].x() -= 1.0;
     other.workspace.obstacles[0] =
         MakeSolid(moved, other.workspace.obstacles[0].name());
-    EXPECT_THROW(PlanningStudy(other, world), InputError);
-    EXPECT_THROW(trajectories.Enter(other, world), InputError);
+    KeptWorld worlds;
+    const double diagonal = worlds.Of(scene).diagonal();
+    EXPECT_EQ(worlds.Of(scene).diagonal(), diagonal);
+    EXPECT_NE(worlds.Of(other).diagonal(), diagonal);
   }
 }
 
 TEST(EarlyDiagnosis, TrajectoriesBuildNothingForBlockedEnds) {
-  for (const SpaceLayout layout :
-       {SpaceLayout::kMerged, SpaceLayout::kPerObstacle}) {
+  for (const bool is_per_obstacle : {false, true}) {
     for (const Case& c : Cases()) {
       Json json = Tori();
       json[c.end] = c.place;
-      TrajectoryStudy study({}, layout);
-      study.Enter(ParseScene(json, "tori.json"));
-      const TrajectoryMetric metric = SceneMetric(study.scene());
-      const PipelineResult result = study.Run(metric, {});
-      EXPECT_EQ(ToString(result.status), c.status);
-      EXPECT_EQ(result.reason.find(c.begins), 0U) << result.reason;
-      const Json row = TrajectoryRow(study, metric, {}, result);
+      const Scene scene = ParseScene(json, "tori.json");
+      const World world(scene.workspace, scene.name);
+      OptimizeRequest request = OptimizeRequestOf(scene);
+      request.is_per_obstacle = is_per_obstacle;
+      const PathAnswer answer = Optimize(world, request);
+      EXPECT_EQ(ToString(answer.status), c.status);
+      EXPECT_EQ(answer.reason.find(c.begins), 0U) << answer.reason;
+      const Json row = PolylineRow(scene, world, request, answer);
       EXPECT_EQ(row["contact_triangles"], 0);
       EXPECT_EQ(row["collision_free"], false);
-      EXPECT_EQ(study.world().Report().contact_spaces, 0);
-      PipelineOptions bad;
-      bad.optimizer.ipopt.ipopt_options["tool"] = "1";
-      EXPECT_THROW(study.Run(metric, bad), InputError);
+      EXPECT_EQ(world.Report().contact_spaces, 0);
+      request.options.optimizer.ipopt.ipopt_options["tool"] = "1";
+      EXPECT_THROW(Optimize(world, request), InputError);
     }
   }
 }

@@ -7,8 +7,11 @@
 #include <nlohmann/json.hpp>
 
 #include "constraints/signed_metric.h"
+#include "core/mesh/mesh_error.h"
+#include "planners/exact/contact_surface_planner.h"
+#include "planners/solve/optimize.h"
+#include "problems/scenes/scene_requests.h"
 #include "problems/scenes/scene_source.h"
-#include "problems/studies/trajectory_study.h"
 
 namespace phongpd {
 namespace {
@@ -33,8 +36,10 @@ TEST(Preset, BalancedLeavesOptionsAsTheyCome) {
   EXPECT_EQ(surface.routes, ContactSurfaceOptions().routes);
   EXPECT_EQ(surface.spacing, ContactSurfaceOptions().spacing);
   EXPECT_EQ(surface.gap_links, ContactSurfaceOptions().gap_links);
-  PipelineOptions pipeline;
-  ApplyPreset(Preset::kBalanced, &pipeline);
+  OptimizeRequest request;
+  ApplyPreset(Preset::kTight, &request);
+  ApplyPreset(Preset::kBalanced, &request);
+  const PipelineOptions& pipeline = request.options;
   EXPECT_EQ(pipeline.routes, PipelineOptions().routes);
   EXPECT_EQ(pipeline.also_line, PipelineOptions().also_line);
   EXPECT_EQ(pipeline.polish, PipelineOptions().polish);
@@ -49,19 +54,19 @@ TEST(Preset, FastDoesLessAndTightMoreThanBalanced) {
   for (const ContactSurfaceOptions& options : {fast, tight}) {
     EXPECT_NO_THROW(options.Validate());
   }
-  PipelineOptions quick, thorough;
+  OptimizeRequest quick, thorough;
   ApplyPreset(Preset::kFast, &quick);
   ApplyPreset(Preset::kTight, &thorough);
-  EXPECT_FALSE(quick.also_line);
-  EXPECT_GT(thorough.routes, PipelineOptions().routes);
-  EXPECT_EQ(thorough.polish, PolishWhen::kAlways);
+  EXPECT_FALSE(quick.options.also_line);
+  EXPECT_GT(thorough.options.routes, PipelineOptions().routes);
+  EXPECT_EQ(thorough.options.polish, PolishWhen::kAlways);
 }
 
 TEST(Preset, OfASceneArrivesInItsPipeline) {
   Scene scene = SceneSource("u_axis").Load();
   EXPECT_EQ(scene.preset, Preset::kBalanced);
   scene.preset = Preset::kTight;
-  EXPECT_EQ(ScenePipelineOptions(scene).routes, 3);
+  EXPECT_EQ(OptimizeRequestOf(scene).options.routes, 3);
 }
 
 TEST(SmoothingLength, IsOneByDefaultEverywhere) {
@@ -69,9 +74,8 @@ TEST(SmoothingLength, IsOneByDefaultEverywhere) {
   EXPECT_EQ(SignedMetricOptions().phong.field_options.smoothing_length,
             kDefaultSmoothingLength);
   const Length length = Length::FromShare(kDefaultSmoothingLength);
-  EXPECT_EQ(PenetrationSettings().smoothing_length, length);
-  EXPECT_EQ(TrajectoryMetric().smoothing_length, length);
-  EXPECT_EQ(TrajectoryMetric().name, "phong@" + length.Text());
+  EXPECT_EQ(PenetrationSpec().smoothing_length, length);
+  EXPECT_EQ(PenetrationSpec().Name(), "phong@" + length.Text());
   // Of families, and of files that say none.
   EXPECT_EQ(SceneSource("u_axis").Load().penetration.smoothing_length, length);
   EXPECT_EQ(SceneSchema()["properties"]["penetration"]["properties"]

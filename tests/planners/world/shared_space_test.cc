@@ -9,9 +9,10 @@
 #include <string>
 
 #include "core/bvh/triangle_bvh.h"
-#include "problems/scenes/scene.h"
-#include "problems/studies/planning_study.h"
-#include "problems/studies/trajectory_study.h"
+#include "planners/retraction/contact_model.h"
+#include "planners/solve/optimize.h"
+#include "planners/solve/plan.h"
+#include "problems/scenes/scene_requests.h"
 
 namespace phongpd {
 namespace {
@@ -42,24 +43,23 @@ TEST(SharedSpace, PlannersAndOptimiserOfASceneBuildOneSpaceAndOneTree) {
   const World world(scene.workspace, scene.name);
   EXPECT_EQ(world.Report().contact_spaces, 0);
 
-  PlanningStudy plans(scene, world);
-  TrajectoryStudy trajectories;
-  trajectories.Enter(scene, world);
-  PlanningRun run;
+  PlanRequest plan = PlanRequestOf(scene);
   world.Sealed();
   const long trees = TriangleBvh::CountBuilt();
-  EXPECT_TRUE(plans.Run(run).solved);
-  run.planner = "retraction-rrt";
-  run.time_limit = 20.0;
-  EXPECT_TRUE(plans.Run(run).solved);
-  const PipelineResult result =
-      trajectories.Run(SceneMetric(scene), ScenePipelineOptions(scene));
-  EXPECT_TRUE(result.certificate.free) << result.reason;
+  EXPECT_TRUE(Plan(world, plan).is_solved);
+  plan.planner = PlannerId::kRetractionRrt;
+  plan.time_limit = 20.0;
+  EXPECT_TRUE(Plan(world, plan).is_solved);
+  const OptimizeRequest request = OptimizeRequestOf(scene);
+  const PathAnswer answer = Optimize(world, request);
+  EXPECT_TRUE(answer.is_free) << answer.reason;
 
   EXPECT_EQ(world.Report().contact_spaces, 1);
   EXPECT_LE(TriangleBvh::CountBuilt() - trees, 1);
-  EXPECT_TRUE(plans.spaces().spaces[0].SharesWith(world.Sealed()));
-  EXPECT_TRUE(trajectories.spaces().spaces[0].SharesWith(world.Sealed()));
+  EXPECT_TRUE(ProblemOf(world, request)
+                  .metrics.front()
+                  ->space()
+                  .SharesWith(world.Sealed()));
 }
 
 // Bytes in use by the process, as the allocator counts them.
@@ -76,9 +76,7 @@ TEST(SharedSpace, AllOfItTakesLessThan50MibAt28ThousandTriangles) {
   EXPECT_GT(space.mesh().triangles.size(), 28000U);
   EXPECT_LT(space.mesh().triangles.size(), 40000U);
   const double built = UsedMib();
-  TrajectoryStudy trajectories;
-  trajectories.Enter(scene, world);
-  const TrajectoryProblem problem = trajectories.Problem(SceneMetric(scene));
+  const TrajectoryProblem problem = ProblemOf(world, OptimizeRequestOf(scene));
   const StartRepair repair(space);
   const ContactModel model({space});
   const double all = UsedMib();

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "problems/studies/planning_study.h"
+#include "planners/world/planner_id.h"
 #include "tests/problems/cli/cli_scenes.h"
 #include "tests/support/sanitizer.h"
 
@@ -24,7 +24,9 @@ TEST_F(CliModel, WindowPlansWithoutTheContactSpace) {
     if (!has_bounds) json.erase("bounds");
     Scene(json);
     const phongpd::Scene scene = ReadScene(File("scene.json"));
-    for (const std::string& planner : SurfaceFreePlannerNames()) {
+    for (const PlannerId id : AllPlanners()) {
+      if (!ChecksMotionsOnly(id)) continue;
+      const std::string planner = ToString(id);
       const Json row = OneRow(
           "plan ../scene.json --time 3 --model window --planner " + planner, 0);
       EXPECT_EQ(row["planner"], planner);
@@ -111,8 +113,9 @@ TEST_F(CliModel, AutoTakesTheWindowWhereThatIsEnough) {
 TEST_F(CliModel, RefusesWhatThePlannerCannotDoWith) {
   const std::string good =
       "plan " + Scene(TwoObstacles()) + " --output o.jsonl";
-  for (const std::string& planner : PlannerNames()) {
-    if (!NeedsWholeSurface(planner)) continue;
+  for (const PlannerId id : AllPlanners()) {
+    if (!Retracts(id)) continue;
+    const std::string planner = ToString(id);
     ExpectRefused(good + " --model window --planner " + planner,
                   {"window", "rrt-connect", planner, "full"});
     ExpectRefused(good + kTooLittle + " --planner " + planner,

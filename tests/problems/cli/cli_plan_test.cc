@@ -7,8 +7,9 @@
 #include <string>
 #include <vector>
 
+#include "planners/retraction/retraction_names.h"
+#include "planners/world/planner_id.h"
 #include "problems/scenes/scene_source.h"
-#include "problems/studies/planning_study.h"
 #include "tests/problems/cli/cli_scenes.h"
 
 namespace phongpd {

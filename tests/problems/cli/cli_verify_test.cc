@@ -6,9 +6,9 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "planners/solve/finish_answer.h"
 #include "planners/world/world.h"
 #include "problems/scenes/scene_source.h"
-#include "problems/studies/answer_check.h"
 #include "tests/problems/cli/cli_scenes.h"
 
 namespace phongpd {
@@ -58,34 +58,31 @@ TEST_F(CliVerify, JudgesAnswersInTime) {
 TEST(AnswerCheck, TakesBackWhatTheSolidsRefute) {
   const Scene scene = SceneSource("u_axis").Load();
   const World world(scene.workspace, scene.name);
-  using Json = nlohmann::ordered_json;
-  const Json written = {{"status", "solved"},       {"reason", ""},
-                        {"solved", true},           {"infeasible_proved", true},
-                        {"collision_free", true},   {"certified", true},
-                        {"seconds", Json::object()}};
-  AnswerClaims through, proof, blocked, elsewhere, curve, other_curve;
+  PathAnswer through, proof, blocked, elsewhere, curve, other_curve;
   through.path = {scene.start, scene.goal};  // through the arms of the U
-  proof.proves_separation = true;
-  blocked.start_is_blocked = true;
+  proof.status = PathStatus::kInfeasibleProved;
+  blocked.status = PathStatus::kStartInCollision;
   elsewhere.path = {scene.start};
-  curve.curve = Trajectory::Along({scene.start, scene.goal});
-  other_curve.curve = Trajectory::Along({scene.goal, scene.start});
-  for (const AnswerClaims& claims :
+  curve.motion = Trajectory::Along({scene.start, scene.goal});
+  other_curve.motion = Trajectory::Along({scene.goal, scene.start});
+  for (PathAnswer* claim : {&through, &elsewhere, &curve, &other_curve}) {
+    claim->status = PathStatus::kSolved;
+    claim->is_free = claim->is_solved = true;
+  }
+  for (const PathAnswer& claim :
        {through, proof, blocked, elsewhere, curve, other_curve}) {
-    AnswerCheck check(true);
-    Json row = written;
-    EXPECT_FALSE(check.Judge(scene, world, claims, &row));
-    EXPECT_EQ(row["verified"], "refuted");
-    EXPECT_EQ(row["status"], "verification_failed");
-    for (const char* key :
-         {"solved", "infeasible_proved", "collision_free", "certified"}) {
-      EXPECT_EQ(row[key], false) << key;
-    }
-    EXPECT_FALSE(row["reason"].get<std::string>().empty());
-    EXPECT_THROW(check.RequireNoFailure(), std::runtime_error);
-    AnswerCheck off(false);
-    EXPECT_TRUE(off.Judge(scene, world, claims, &row));
-    EXPECT_NO_THROW(off.RequireNoFailure());
+    PathAnswer answer = claim;
+    internal::Finish(world, scene.start, scene.goal, {}, true, &answer);
+    EXPECT_EQ(answer.evidence.verification->verdict, Verdict::kRefuted);
+    EXPECT_EQ(answer.status, PathStatus::kVerificationFailed);
+    EXPECT_FALSE(answer.is_free);
+    EXPECT_FALSE(answer.is_solved);
+    EXPECT_FALSE(answer.IsInfeasible());
+    EXPECT_FALSE(answer.reason.empty());
+    PathAnswer unjudged = claim;
+    internal::Finish(world, scene.start, scene.goal, {}, false, &unjudged);
+    EXPECT_EQ(unjudged.status, claim.status);
+    EXPECT_FALSE(unjudged.evidence.verification);
   }
 }
 

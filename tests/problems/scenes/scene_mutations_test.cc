@@ -45,7 +45,7 @@ bool ReadsOrRefuses(const std::string& text) {
     EXPECT_NO_THROW(MakeSolid(scene.workspace.robot, "robot")) << text;
     EXPECT_GE(scene.trajectory.waypoints, 1) << text;
     EXPECT_GE(scene.duration, 0.0) << text;
-    for (const SceneVia& via : scene.via) {
+    for (const Via& via : scene.via) {
       EXPECT_TRUE(via.point.allFinite()) << text;
       EXPECT_GE(via.dwell, 0.0) << text;
     }

@@ -89,10 +89,10 @@ TEST(Scene, ReadsEverySetting) {
   EXPECT_EQ(scene.workspace.obstacles.at(0).name(), "cube");
   EXPECT_EQ(scene.workspace.bounds.min, Vector3d(-5, -5, -5));
   EXPECT_EQ(scene.workspace.bounds.max, Vector3d(5, 5, 5));
-  EXPECT_EQ(scene.penetration.metric, "euclidean");
-  EXPECT_EQ(scene.penetration.field, "tangent-plane");
+  EXPECT_EQ(scene.penetration.metric, MetricKind::kEuclidean);
+  EXPECT_EQ(scene.penetration.field, FieldKind::kTangentPlane);
   EXPECT_EQ(scene.penetration.smoothing_length, Length::FromShare(0.25));
-  EXPECT_EQ(scene.penetration.jacobian, "exact");
+  EXPECT_EQ(scene.penetration.jacobian, JacobianKind::kExact);
   EXPECT_EQ(scene.trajectory.waypoints, 12);
   EXPECT_EQ(scene.trajectory.samples_per_segment, 3);
   EXPECT_EQ(scene.trajectory.margin, Length::FromShare(0.02));
@@ -101,12 +101,12 @@ TEST(Scene, ReadsEverySetting) {
   EXPECT_EQ(scene.trajectory.ipopt.at("max_iter"), IpoptValue(50));
   EXPECT_EQ(scene.trajectory.ipopt.at("mu_strategy"),
             IpoptValue(std::string("adaptive")));
-  EXPECT_EQ(scene.planning.planner, "prm");
+  EXPECT_EQ(scene.planning.planner, PlannerId::kPrm);
   EXPECT_EQ(scene.planning.time_limit, 1.0);
   EXPECT_EQ(scene.planning.clearance, Length::FromShare(0.5));
   ASSERT_EQ(scene.via.size(), 2U);
   EXPECT_EQ(scene.via[0].point, Vector3d(0, 0, 4));
-  EXPECT_EQ(scene.via[0].tolerance, SceneVia().tolerance);
+  EXPECT_EQ(scene.via[0].tolerance, Via().tolerance);
   EXPECT_EQ(scene.via[0].dwell, 0.0);
   EXPECT_EQ(scene.via[1].point, Vector3d(1, 0, 4));
   EXPECT_EQ(scene.via[1].tolerance, Length::FromShare(0.05));
@@ -129,13 +129,13 @@ TEST(Scene, ReadsLengthsInUnitsOrAsShares) {
 }
 
 TEST(Scene, ReadsBareLengthsInItsUnitIfThatHasAName) {
-  EXPECT_EQ(ParseScene(SmallScene(), "s.json").unit, "");
+  EXPECT_EQ(ParseScene(SmallScene(), "s.json").workspace.unit, "");
   for (const std::string& unit : UnitNames()) {
     Json json = SmallScene();
     json["unit"] = unit;
     // Defaults are shares whatever the unit is called.
     const Scene plain = ParseScene(json, "s.json");
-    EXPECT_EQ(plain.unit, unit);
+    EXPECT_EQ(plain.workspace.unit, unit);
     EXPECT_EQ(plain.trajectory.margin, TrajectorySettings().margin);
     EXPECT_EQ(plain.penetration.smoothing_length,
               PenetrationSettings().smoothing_length);
@@ -224,8 +224,8 @@ TEST(Scene, SchemaAndStructsHaveTheSameDefaults) {
                      {"dwell", of_via["dwell"]["default"]}}};
   const Scene a = ParseScene(written, "a"), b = ParseScene(SmallScene(), "b");
   EXPECT_EQ(a.duration, b.duration);
-  EXPECT_EQ(a.via.at(0).tolerance, SceneVia().tolerance);
-  EXPECT_EQ(a.via.at(0).dwell, SceneVia().dwell);
+  EXPECT_EQ(a.via.at(0).tolerance, Via().tolerance);
+  EXPECT_EQ(a.via.at(0).dwell, Via().dwell);
   EXPECT_EQ(a.penetration.metric, b.penetration.metric);
   EXPECT_EQ(a.penetration.field, b.penetration.field);
   EXPECT_EQ(a.penetration.smoothing_length, b.penetration.smoothing_length);

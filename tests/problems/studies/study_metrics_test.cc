@@ -225,15 +225,15 @@ TEST(FadedMetric, FadesByTheFreeWayBeyondTheContact) {
 }
 
 TEST(ParseStudyMetric, KnowsItsNamesAndRefusesOthers) {
-  const TrajectoryMetric followed = ParseStudyMetric("followed", "--metrics");
-  EXPECT_EQ(followed.kind, "followed");
-  EXPECT_EQ(followed.options.metric, MetricKind::kEuclidean);
-  const TrajectoryMetric mixed = ParseStudyMetric("mixed@0.1", "--metrics");
-  EXPECT_EQ(mixed.name, "mixed@0.1");
-  EXPECT_EQ(mixed.kind, "mixed");
-  EXPECT_EQ(mixed.smoothing_length.Text(), "0.1");
-  EXPECT_EQ(ParseStudyMetric("faded@0.2", "--metrics").kind, "faded");
-  EXPECT_FALSE(ParseStudyMetric("phong@0.2", "--metrics").make);
+  const StudyMetric followed = ParseStudyMetric("followed", "--metrics");
+  EXPECT_EQ(followed.own->kind, "followed");
+  EXPECT_EQ(followed.penetration.metric, MetricKind::kEuclidean);
+  const StudyMetric mixed = ParseStudyMetric("mixed@0.1", "--metrics");
+  EXPECT_EQ(mixed.Name(), "mixed@0.1");
+  EXPECT_EQ(mixed.own->kind, "mixed");
+  EXPECT_EQ(mixed.penetration.smoothing_length.Text(), "0.1");
+  EXPECT_EQ(ParseStudyMetric("faded@0.2", "--metrics").own->kind, "faded");
+  EXPECT_FALSE(ParseStudyMetric("phong@0.2", "--metrics").own);
   for (const char* text : {"followed@0.1", "mixed", "mixed@x", "faded@-1"}) {
     EXPECT_THROW(ParseStudyMetric(text, "--metrics"), InputError) << text;
   }

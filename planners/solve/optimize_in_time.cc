@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "planners/solve/optimize_in_time.h"
+
+#include <algorithm>
+
+#include "constraints/curve_judge.h"
+#include "core/mesh/mesh_error.h"
+#include "core/number_text.h"
+#include "planners/solve/plan.h"
+
+namespace phongpd::internal {
+namespace {
+
+using Eigen::Vector3d;
+
+// Of a place on the way.
+std::string ViaName(std::size_t i) { return "via " + std::to_string(i); }
+
+// What nothing needs to be built for.
+void RequireMotion(const Path& path, const CurveOptions& options) {
+  options.Validate();
+  const bool moves =
+      std::any_of(path.begin(), path.end(),
+                  [&](const Vector3d& point) { return point != path.front(); });
+  if (moves) return;
+  throw InputError(
+      "a motion in time: expected two different places at least, found " +
+      (path.empty() ? std::string("none")
+                    : "only (" + FormatPoint(path.front()) + ")"));
+}
+
+// Near answer->path, which is free.
+void FindCurve(const World& world, const CurveOptions& options,
+               PathAnswer* answer) {
+  const FreeSpace& space = *answer->evidence.free_space;
+  answer->curve = OptimizeCurve(space, world.diagonal(), answer->path, options);
+  CurveSummary& curve = *answer->curve;
+  answer->status = curve.status;
+  answer->seconds += curve.seconds;
+  if (curve.status == PathStatus::kDurationTooShort) {
+    answer->reason = "the fastest that was found takes " +
+                     Rounded(curve.duration, 6) + " s, not " +
+                     Rounded(options.duration, 6);
+  }
+  if (curve.trajectory.empty()) return;
+  answer->motion = curve.trajectory;
+  answer->length = answer->motion.ArcLength();
+  answer->clearance = curve.clearance;
+  answer->evidence.use = BoundLimitUse(answer->motion, options.limits);
+  answer->is_free = answer->is_solved =
+      CheckCurve(space, answer->motion).IsFree() &&
+      answer->evidence.use.IsKept();
+  if (answer->is_free) return;
+  answer->status = PathStatus::kNotCertified;
+  answer->reason = "the judge of curves does not confirm what was found";
+}
+
+// Where a path collides, and with what.
+std::string Collision(const World& world, const Path& path,
+                      const PathCheck& check) {
+  const auto i = static_cast<std::size_t>(check.segment);
+  const double fraction = check.motion.fraction;
+  const auto at = [&](double f) -> Vector3d {
+    return path[i] + f * (path[i + 1] - path[i]);
+  };
+  std::string text = "the path first collides in segment " + std::to_string(i) +
+                     " at fraction " + Rounded(fraction, 6);
+  // There it only touches, up to rounding.
+  Diagnosis diagnosis = world.Diagnose(at(fraction));
+  if (diagnosis.IsFree()) {
+    diagnosis = world.Diagnose(at(std::min(1.0, fraction + 1e-6)));
+  }
+  return text + ": " +
+         (diagnosis.IsFree() ? "(" + FormatPoint(at(fraction)) + ")"
+                             : diagnosis.Text("q"));
+}
+
+// The first of these places that is not free, or nothing.
+std::string BlockedVia(const World& world, const std::vector<Via>& via) {
+  for (std::size_t i = 0; i < via.size(); ++i) {
+    const Diagnosis diagnosis = world.Diagnose(via[i].point);
+    if (!diagnosis.IsFree()) return diagnosis.Text(ViaName(i));
+  }
+  return "";
+}
+
+// "from the start to via 0"
+std::string LegName(std::size_t leg, std::size_t legs) {
+  return "from " + (leg == 0 ? "the start" : ViaName(leg - 1)) + " to " +
+         (leg + 1 == legs ? "the goal" : ViaName(leg));
+}
+
+PlanRequest LegRequest(const OptimizeRequest& request, const Vector3d& start,
+                       const Vector3d& goal) {
+  PlanRequest leg;
+  leg.start = start;
+  leg.goal = goal;
+  leg.model = request.model;
+  leg.clearance = MarginOf(request);
+  leg.preset = request.preset;
+  leg.verifies = false;  // the motion is
+  return leg;
+}
+
+// The paths of contact-surface from place to place as one; false, and why,
+// where one is missing.
+bool FindPath(const World& world, const OptimizeRequest& request,
+              const Path& places, PathAnswer* answer) {
+  const std::size_t legs = places.size() - 1;
+  answer->path = {places.front()};
+  for (std::size_t i = 0; i < legs; ++i) {
+    if (places[i] == places[i + 1]) continue;
+    PathAnswer leg = Plan(world, LegRequest(request, places[i], places[i + 1]));
+    answer->seconds += leg.seconds;
+    answer->evidence.model = leg.evidence.model;
+    answer->evidence.refusal = leg.evidence.refusal;
+    answer->evidence.free_space = leg.evidence.free_space;
+    answer->plan = std::move(leg.plan);
+    if (leg.is_solved) {
+      answer->path.insert(answer->path.end(), leg.path.begin() + 1,
+                          leg.path.end());
+      continue;
+    }
+    if (leg.IsInfeasible() && legs > 1) {
+      leg.status = PathStatus::kFailed;
+      leg.reason = LegName(i, legs) +
+                   ": no path, proved for these places, not for places "
+                   "near them";
+    }
+    answer->path.clear();
+    answer->status = leg.status;
+    answer->reason = leg.reason;
+    if (leg.IsInfeasible()) answer->evidence.surface = leg.evidence.surface;
+    return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+CurveOptions CurveOptionsOf(const World& world,
+                            const OptimizeRequest& request) {
+  if (!request.limits) {
+    throw InputError("limits: expected those of the motion, found none");
+  }
+  CurveOptions options;
+  options.limits = *request.limits;
+  options.start = request.departure;
+  options.end = request.arrival;
+  options.margin = world.Resolve(MarginOf(request)).unit;
+  options.preset = request.preset;
+  options.duration = request.duration;
+  options.time_limit = request.options.time_limit;
+  options.is_interrupted = request.is_interrupted;
+  for (const Via& via : request.via) {
+    options.via.push_back(
+        {via.point, world.Resolve(via.tolerance).unit, via.dwell});
+  }
+  return options;
+}
+
+void OptimizeInTime(const World& world, const OptimizeRequest& request,
+                    PathAnswer* answer) {
+  const CurveOptions options = CurveOptionsOf(world, request);
+  Path places = {request.start};
+  for (const Via& via : request.via) places.push_back(via.point);
+  places.push_back(request.goal);
+  RequireMotion(places, options);
+  // Said by the planner before it builds anything.
+  if (request.start != request.goal && !world.Diagnose(request.goal).IsFree()) {
+    places = {request.start, request.goal};
+  }
+  answer->curve.emplace();
+  answer->reason = BlockedVia(world, request.via);
+  if (!answer->reason.empty()) {
+    answer->status = PathStatus::kViaNotFree;
+  } else if (FindPath(world, request, places, answer)) {
+    // With the bounds as a box instead of triangles.
+    if (answer->evidence.model == Model::kWindow) {
+      answer->evidence.free_space = world.Convolution().free_space;
+    }
+    FindCurve(world, options, answer);
+  }
+}
+
+void RetimePath(const World& world, const Path& path,
+                const OptimizeRequest& request, PathAnswer* answer) {
+  const CurveOptions options = CurveOptionsOf(world, request);
+  RequireMotion(path, options);
+  answer->curve.emplace();
+  answer->path = path;
+  answer->evidence.model = Model::kWindow;
+  answer->evidence.free_space = world.Convolution().free_space;
+  answer->evidence.check = CheckPath(*answer->evidence.free_space, path);
+  if (!answer->evidence.check.free) {
+    answer->status = PathStatus::kNotFree;
+    answer->reason = Collision(world, path, answer->evidence.check);
+    return;
+  }
+  FindCurve(world, options, answer);
+}
+
+}  // namespace phongpd::internal

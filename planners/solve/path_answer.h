@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "constraints/trajectory.h"
+#include "core/contact/contact_space.h"
+#include "planners/exact/contact_surface_planner.h"
+#include "planners/exact/verification.h"
+#include "planners/ompl/ompl_planning.h"
+#include "planners/trajectory/curve_optimizer.h"
+#include "planners/trajectory/trajectory_pipeline.h"
+#include "planners/world/model.h"
+#include "planners/world/path_status.h"
+#include "planners/world/planner_id.h"
+#include "planners/world/world.h"
+
+namespace phongpd {
+
+// What an answer rests on.
+struct PathEvidence {
+  // What it was found and judged in, kFull or kWindow; none: it was known
+  // before anything was built.
+  std::optional<Model> model;
+  std::shared_ptr<const FreeSpace> free_space;  // that judge; null: none
+  // Why Model::kAuto took the window; empty: it did not, or was not forced to.
+  std::string refusal;
+  // The exact judge's word on the path: free, or the first crossing.
+  PathCheck check;
+  // Of a motion, upper bounds of what it asks of its limits, for all t.
+  LimitUse use;
+  // The contact surface that a proof rests on, or what of it was explored by
+  // contact-surface in a window; none: the world's sealed space, or the
+  // straight way was enough.
+  std::optional<ContactSpace> surface;
+  // Of other code, on the original solids (verification.h); none: nobody asked,
+  // or there was nothing to judge.
+  std::optional<Verification> verification;
+  double verification_seconds = 0.0;
+};
+
+// What somebody asked a path to keep, and what it lacks.
+struct ClearanceAnswer {
+  std::optional<ResolvedLength> asked;  // none: nothing
+  // User's unit; none: without a path, or nothing was asked for.
+  std::optional<double> shortfall;
+};
+
+// How a planner came to its path.
+struct PlanWork {
+  PlannerId planner = PlannerId::kContactSurface;
+  // With what contact-surface ran, and the routes it compared, of which the
+  // path is one; none: another did, or nothing ran.
+  std::optional<ContactSurfaceOptions> surface;
+  std::vector<Path> routes;
+  // What contact-surface explored in the window; none: it did not run there.
+  std::optional<std::size_t> explored_boxes, explored_faces;
+  // What was sought; none: the planner seeks none, or did not start.
+  std::optional<ResolvedLength> wanted_clearance;
+  // Counts and trees of a sampler and its own path; of contact-surface, its
+  // tests of motions.
+  OmplPlanningResult search;
+};
+
+// What Plan and Optimize answer.  No member is NaN or infinite.
+struct PathAnswer {
+  PathStatus status = PathStatus::kFailed;
+  std::string reason;  // one sentence where the status needs one
+  // From start to goal; of a motion in time what it began with.  Empty: none.
+  Path path;
+  // In time, of those who asked with limits; empty: none.
+  Trajectory motion;
+
+  bool is_free = false;    // path or motion, by the exact judge
+  bool is_solved = false;  // and as it was asked for
+  bool IsInfeasible() const { return status == PathStatus::kInfeasibleProved; }
+
+  double length = 0.0;     // of the path, or of the motion; user's unit
+  double clearance = 0.0;  // of all of it, 0 where it is not free; user's unit
+  ClearanceAnswer wish;
+  double seconds = 0.0;  // without building and verification
+
+  PathEvidence evidence;
+
+  // For rows, pictures and studies: what ran.
+  std::optional<PlanWork> plan;
+  std::optional<PipelineResult> pipeline;  // of Optimize without limits
+  std::optional<CurveSummary> curve;       // of Optimize with limits
+};
+
+}  // namespace phongpd

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace phongpd {
+
+// How much of a world's contact space is built for an answer.  All answers are
+// exact: what is found in a window is free in the whole.
+enum class Model {
+  // The least that is enough: the window for planners that only check motions,
+  // all of it for others, the window where limits of a build refuse that.
+  kAuto,
+  // Free space alone (World::Convolution), and of the contact space what leads
+  // from start to goal (WindowPlanner).
+  kWindow,
+  kFull,
+};
+const char* ToString(Model model);  // auto, window, full
+const std::vector<std::string>& ModelNames();
+// Throws InputError starting with `what`.
+Model ParseModel(const std::string& text, const std::string& what);
+
+}  // namespace phongpd

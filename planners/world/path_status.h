@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+namespace phongpd {
+
+// What came of asking for a path or a motion: the words of all planners and
+// optimisers.
+enum class PathStatus {
+  // There is a path, exactly free.
+  kSolved,           // as asked for; of an optimiser: Ipopt converged to it
+  kPolished,         // the corridor converged to it
+  kStalledFeasible,  // nothing converged
+  // There is a motion in time, certified for all t; the search for a faster one
+  kConverged,    // gains next to nothing
+  kRoundLimit,   // still gained
+  kInterrupted,  // was ended from outside
+  // Time was up: of a motion, which there is, for a faster one; of a sampler
+  // before it had found a path.
+  kTimeLimit,
+  // There is none, proved: start and goal lie in different cells.
+  kInfeasibleProved,
+  // What was given is not free.
+  kStartInCollision,
+  kGoalInCollision,
+  kStartOutOfBounds,  // and in no collision
+  kGoalOutOfBounds,
+  kViaNotFree,  // a place on the way
+  kNotFree,     // the path to follow
+  // There is one, but not as asked for.
+  kDurationTooShort,  // no motion as fast as that was found
+  kClearanceMissed,   // it keeps less than is required
+  // The judge of curves did not confirm what was found.
+  kNotCertified,
+  // The second judge, on the original solids, refuted it: a fault of ours.
+  kVerificationFailed,
+  kFailed,  // neither path nor proof
+};
+
+// "solved", "stalled_feasible", "start_in_collision", …
+const char* ToString(PathStatus status);
+
+// Does the status of a path, not of a motion, say that there is one?  The first
+// three.
+bool HasFreePath(PathStatus status);
+// kStartInCollision, kStartOutOfBounds; the same of the goal.
+bool IsStartBlocked(PathStatus status);
+bool IsGoalBlocked(PathStatus status);
+
+}  // namespace phongpd

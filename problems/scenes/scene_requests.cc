@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "problems/scenes/scene_requests.h"
+
+#include <variant>
+
+#include "core/number_text.h"
+
+namespace phongpd {
+namespace {
+
+// As Ipopt reads it.
+std::string IpoptText(const IpoptValue& value) {
+  if (const int* whole = std::get_if<int>(&value)) {
+    return std::to_string(*whole);
+  }
+  if (const double* number = std::get_if<double>(&value)) {
+    return FormatDouble(*number);
+  }
+  return std::get<std::string>(value);
+}
+
+}  // namespace
+
+PlanRequest PlanRequestOf(const Scene& scene) {
+  PlanRequest request;
+  request.start = scene.start;
+  request.goal = scene.goal;
+  request.planner = scene.planning.planner;
+  request.model = scene.planning.model;
+  request.clearance = scene.planning.clearance;
+  request.preset = scene.preset;
+  request.time_limit = scene.planning.time_limit;
+  return request;
+}
+
+OptimizeRequest OptimizeRequestOf(const Scene& scene) {
+  const TrajectorySettings& settings = scene.trajectory;
+  OptimizeRequest request;
+  ApplyPreset(scene.preset, &request);
+  request.start = scene.start;
+  request.goal = scene.goal;
+  request.model = settings.model;
+  // A scene that says what is the default anyway says nothing of its own.
+  if (settings.margin != OptimizeRequest::Margin()) {
+    request.margin = settings.margin;
+  }
+  request.limits = scene.limits;
+  request.via = scene.via;
+  request.duration = scene.duration;
+  request.penetration = scene.penetration;
+  request.waypoints = settings.waypoints;
+  request.samples_per_segment = settings.samples_per_segment;
+  request.max_segment_ratio = settings.max_segment_ratio;
+  request.search_time = scene.planning.time_limit;
+  for (const auto& [name, value] : settings.ipopt) {
+    request.options.optimizer.ipopt.ipopt_options[name] = IpoptText(value);
+  }
+  return request;
+}
+
+}  // namespace phongpd
