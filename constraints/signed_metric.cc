@@ -8,6 +8,7 @@
 
 #include "constraints/feature_search.h"
 #include "core/mesh/mesh_error.h"
+#include "core/pi.h"
 #include "core/projection/euclidean_metric.h"
 
 namespace phongpd {
@@ -16,8 +17,7 @@ using Eigen::Vector3d;
 
 namespace {
 
-const double kCosSeparation =
-    std::cos(kRowSeparation * 3.14159265358979323846 / 180.0);
+const double kCosSeparation = std::cos(kRowSeparation * kPi / 180.0);
 
 std::shared_ptr<const PenetrationMetric> MakeMetric(
     const ContactSpace& space, const SignedMetricOptions& options) {

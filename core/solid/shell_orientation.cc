@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "core/mesh/mesh_error.h"
+#include "core/pi.h"
 #include "core/solid/self_intersection.h"
 
 namespace phongpd::internal {
@@ -16,7 +17,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr double kNoVolume = 1e-14;  // of area · diagonal
 
 struct Shell {

@@ -84,12 +84,21 @@ void WindowPlanner::Widen(const Vector3d& start, const Vector3d& goal,
   join_ends(&result->raw_path);
   for (std::vector<Vector3d>& route : result->routes) join_ends(&route);
   join_ends(&result->path);
-  if (!CheckPath(space_, result->path).free) {
+  // Cut short against the surface, whose corners are rounded, a path may graze
+  // what the model knows exactly.  Then another one does, or what it was cut
+  // from: that keeps to the middle.
+  std::vector<std::vector<Vector3d>> ways = {result->path};
+  ways.insert(ways.end(), result->routes.begin(), result->routes.end());
+  ways.push_back(result->raw_path);
+  const auto way = std::find_if(
+      ways.begin(), ways.end(),
+      [&](const auto& candidate) { return CheckPath(space_, candidate).free; });
+  if (way == ways.end()) {
     result->status = PathStatus::kFailed;
     result->reason = "a path was found that is closed by rounding";
     return;
   }
-  result->path = ShortenPath(result->path, space_, shortening);
+  result->path = ShortenPath(*way, space_, shortening);
   result->length = PathLength(result->path);
   result->clearance = PathClearance(space_, result->path);
 }

@@ -30,29 +30,29 @@ struct OptimizeRequest {
   Eigen::Vector3d goal = Eigen::Vector3d::Zero();
   Model model = Model::kAuto;
   // Distance kept where there is room, in (0, D]; none: Margin().
-  std::optional<Length> margin;
+  std::optional<Length> margin{};
   bool requires_margin = false;  // less is no answer
   Preset preset = Preset::kBalanced;
 
   // With limits the answer is a motion in time (curve_optimizer.h), at rest at
   // both ends unless said; without, a polyline.
-  std::optional<MotionLimits> limits;
-  std::vector<Via> via;   // places on the way, in order
-  double duration = 0.0;  // seconds that it takes; 0: as few as can be
-  CurveEnd departure, arrival;
+  std::optional<MotionLimits> limits{};
+  std::vector<Via> via{};  // places on the way, in order
+  double duration = 0.0;   // seconds that it takes; 0: as few as can be
+  CurveEnd departure{}, arrival{};
   // Asked now and then; true ends the search for a faster motion.
-  std::function<bool()> is_interrupted;
+  std::function<bool()> is_interrupted{};
 
   // Of polylines (trajectory_problem.h).
-  PenetrationSpec penetration;
-  std::optional<OwnMetric> own_metric;  // in place of penetration.metric
+  PenetrationSpec penetration{};
+  std::optional<OwnMetric> own_metric{};  // in place of penetration.metric
   int waypoints = 40;
   int samples_per_segment = 0;  // 0: by the Lipschitz rule
   double max_segment_ratio = 1.6;
   bool is_per_obstacle = false;  // a contact space each instead of one for all
   double search_time = 5.0;      // seconds of each search of kWindow
   // Its time_limit and seed hold for motions as well.
-  PipelineOptions options;
+  PipelineOptions options{};
 
   bool verifies = true;  // on the original solids as well (verification.h)
 

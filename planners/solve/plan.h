@@ -18,14 +18,14 @@ struct PlanRequest {
   Model model = Model::kAuto;
   // Sought where there is room, in (0, D]; none: the planner's own, 0.01 of the
   // diagonal of what it plans in (kEnoughClearance, RetractionOptions).
-  std::optional<Length> clearance;
+  std::optional<Length> clearance{};
   bool requires_clearance = false;  // less is no answer
   // Of contact-surface.
   Preset preset = Preset::kBalanced;
   int routes = 0;  // ways that are compared; 0: the preset's
   // Of samplers.
-  double time_limit = 5.0;       // seconds, in (0, 1e9]
-  RetractionOptions retraction;  // metric and choice, of those that retract
+  double time_limit = 5.0;         // seconds, in (0, 1e9]
+  RetractionOptions retraction{};  // metric and choice, of those that retract
   std::uint64_t seed = 1;
   bool verifies = true;  // on the original solids as well (verification.h)
 

@@ -17,7 +17,7 @@ struct Workspace {
                         Eigen::Vector3d::Constant(-1.0)};  // of q; empty: none
   // What the unit of its lengths is called, one of UnitNames (length.h); empty:
   // it has no name, and lengths without a unit are shares of D.
-  std::string unit;
+  std::string unit{};
 
   // Throws InputError: an empty robot or obstacle, an obstacle's name used
   // twice, bounds that are not finite or hold no open set (min < max is

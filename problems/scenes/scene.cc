@@ -12,6 +12,7 @@
 
 #include "core/bounds/mesh_repair.h"
 #include "core/mesh/input_file.h"
+#include "core/pi.h"
 #include "core/solid/solid.h"
 #include "planners/world/bare_length.h"
 #include "problems/meshes/any_mesh.h"
@@ -43,7 +44,7 @@ Matrix3d Rotation(const Json& value, const JsonPlace& place) {
     if (!(length > 0.0) || !std::isfinite(length)) {
       place.Child("axis").Fail("a direction", Shortened(value["axis"]));
     }
-    constexpr double kRadians = 3.14159265358979323846 / 180.0;
+    constexpr double kRadians = kPi / 180.0;
     return Eigen::AngleAxisd(kRadians * value["degrees"].get<double>(),
                              axis / length)
         .toRotationMatrix();

@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "core/mesh/mesh_error.h"
+#include "core/pi.h"
 
 namespace phongpd::internal {
 namespace {

@@ -21,8 +21,6 @@ void RequireLengthBelow(const char* shape, const char* parameter, double value,
 void RequireCount(const char* shape, const char* parameter, int value,
                   int minimum, int maximum = 10'000);
 
-inline constexpr double kPi = 3.14159265358979323846;
-
 // No shape has more triangles: ten times the largest operand measured.
 inline constexpr int kMaxTriangles = 10'000'000;
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/mesh/mesh_error.h"
+#include "core/pi.h"
 #include "problems/shapes/shape_parameters.h"
 #include "problems/shapes/shapes.h"
 
@@ -13,7 +14,6 @@ namespace phongpd {
 namespace {
 
 using Eigen::Vector3d;
-using internal::kPi;
 using internal::UnitRandom;
 
 constexpr int kWaves = 12;

@@ -9,6 +9,7 @@
 
 #include "core/mesh/mesh_error.h"
 #include "core/mesh/polygon_triangulation.h"
+#include "core/pi.h"
 #include "problems/shapes/cell_solids.h"
 #include "problems/shapes/shape_parameters.h"
 #include "problems/shapes/shapes.h"
@@ -18,7 +19,6 @@ namespace {
 
 using Eigen::Vector2d;
 using Eigen::Vector3d;
-using internal::kPi;
 using internal::RequireCount;
 using internal::RequireLength;
 using internal::RequireLengthBelow;

@@ -11,9 +11,9 @@
 
 #include "core/contact/contact_space.h"
 #include "core/stopwatch.h"
-#include "problems/studies/contact_space_check.h"
 #include "results/bench/competitors.h"
 #include "results/bench/report.h"
+#include "tests/support/contact_space_check.h"
 
 namespace phongpd {
 

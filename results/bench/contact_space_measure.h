@@ -6,9 +6,9 @@
 #include <utility>
 #include <vector>
 
-#include "problems/studies/random_pairs.h"
 #include "results/bench/child_process.h"
 #include "results/bench/contact_space_cases.h"
+#include "tests/support/random_pairs.h"
 
 // The measurements of results/contact-space, each in a process of its own.
 namespace phongpd::bench {

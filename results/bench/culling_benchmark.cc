@@ -12,9 +12,9 @@
 
 #include "core/contact/build_switches.h"
 #include "problems/shapes/shapes.h"
-#include "problems/studies/hidden_pairs.h"
 #include "results/bench/free_space_measure.h"
 #include "results/bench/program.h"
+#include "tests/support/hidden_pairs.h"
 
 namespace phongpd::bench {
 namespace {

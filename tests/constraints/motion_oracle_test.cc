@@ -17,9 +17,9 @@
 #include "core/mesh/mesh_error.h"
 #include "core/solid/solid.h"
 #include "problems/shapes/shapes.h"
-#include "problems/studies/random_pairs.h"
 #include "tests/support/campaign.h"
 #include "tests/support/oracle_of.h"
+#include "tests/support/random_pairs.h"
 #include "tests/support/solid_tools.h"
 
 namespace phongpd {

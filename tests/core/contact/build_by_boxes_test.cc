@@ -12,8 +12,8 @@
 #include "core/contact/contact_space.h"
 #include "core/minkowski/build_refusal.h"
 #include "problems/shapes/shapes.h"
-#include "problems/studies/random_pairs.h"
 #include "tests/support/campaign.h"
+#include "tests/support/random_pairs.h"
 #include "tests/support/same_space.h"
 #include "tests/support/sanitizer.h"
 

@@ -15,8 +15,8 @@
 #include "core/mesh/mesh_error.h"
 #include "problems/shapes/random_solids.h"
 #include "problems/shapes/shapes.h"
-#include "problems/studies/random_pairs.h"
 #include "tests/support/campaign.h"
+#include "tests/support/random_pairs.h"
 #include "tests/support/same_space.h"
 #include "tests/support/solid_tools.h"
 

@@ -18,8 +18,8 @@
 #include "core/mesh/mesh_error.h"
 #include "core/minkowski/build_refusal.h"
 #include "problems/shapes/shapes.h"
-#include "problems/studies/hidden_pairs.h"
 #include "tests/support/campaign.h"
+#include "tests/support/hidden_pairs.h"
 #include "tests/support/lattice_world.h"
 #include "tests/support/solid_tools.h"
 

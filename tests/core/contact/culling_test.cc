@@ -6,7 +6,7 @@
 
 #include "core/contact/build_switches.h"
 #include "core/contact/contact_space.h"
-#include "problems/studies/hidden_pairs.h"
+#include "tests/support/hidden_pairs.h"
 #include "tests/support/same_space.h"
 
 namespace phongpd {

@@ -21,7 +21,7 @@
 #include "core/minkowski/operands/solid_collision.h"
 #include "problems/shapes/random_solids.h"
 #include "problems/shapes/shapes.h"
-#include "problems/studies/random_pairs.h"
+#include "tests/support/random_pairs.h"
 
 namespace phongpd {
 namespace {

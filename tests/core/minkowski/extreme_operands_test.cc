@@ -12,9 +12,9 @@
 #include "core/bvh/triangle_bvh.h"
 #include "core/contact/contact_space.h"
 #include "problems/shapes/shapes.h"
-#include "problems/studies/contact_space_check.h"
-#include "problems/studies/random_pairs.h"
 #include "tests/support/campaign.h"
+#include "tests/support/contact_space_check.h"
+#include "tests/support/random_pairs.h"
 #include "tests/support/solid_tools.h"
 
 namespace phongpd {
@@ -38,7 +38,7 @@ class Table {
   }
   ~Table() { ReportCampaign(row_); }
 
-  // All that problems/studies/contact_space_check.h asks of a pair.
+  // All that tests/support/contact_space_check.h asks of a pair.
   void Check(const std::string& what, const SolidPair& pair) {
     CheckOptions options;
     options.points = static_cast<int>(CampaignCases(24, 200));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Random pairs of solids, each checked by routes of its own, and every pair
 // that ever failed.  The full run is part of contact_space_benchmark.
-#include "problems/studies/random_pairs.h"
+#include "tests/support/random_pairs.h"
 
 #include <gtest/gtest.h>
 
@@ -9,12 +9,10 @@
 #include "core/contact/contact_space.h"
 #include "problems/shapes/random_solids.h"
 #include "problems/shapes/shapes.h"
-#include "problems/studies/contact_space_check.h"
+#include "tests/support/contact_space_check.h"
 
 namespace phongpd {
 namespace {
-
-constexpr double kCaseLimit = 10.0;  // seconds of one build
 
 void ExpectRight(PairKind kind, std::uint64_t seed) {
   SCOPED_TRACE(Name(kind) + ", seed " + std::to_string(seed));
@@ -22,7 +20,6 @@ void ExpectRight(PairKind kind, std::uint64_t seed) {
   options.seed = seed;
   const CheckResult result =
       CheckContactSpace(MakeRandomPair(kind, seed), options);
-  EXPECT_LT(result.seconds, kCaseLimit);
   for (const std::string& failure : result.failures) ADD_FAILURE() << failure;
 }
 

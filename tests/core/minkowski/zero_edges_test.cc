@@ -13,7 +13,7 @@
 #include "core/contact/contact_space.h"
 #include "core/solid/mesh_check.h"
 #include "problems/shapes/shapes.h"
-#include "problems/studies/random_pairs.h"
+#include "tests/support/random_pairs.h"
 
 namespace phongpd {
 namespace {

@@ -17,9 +17,9 @@
 #include "core/solid/solid.h"
 #include "problems/shapes/shapes.h"
 #include "problems/studies/paper_benchmarks.h"
-#include "problems/studies/random_pairs.h"
 #include "tests/support/campaign.h"
 #include "tests/support/metrics.h"
+#include "tests/support/random_pairs.h"
 #include "tests/support/solid_tools.h"
 
 namespace phongpd {

@@ -17,11 +17,11 @@
 #include "core/projection/euclidean_metric.h"
 #include "core/projection/phong_metric.h"
 #include "problems/shapes/shapes.h"
-#include "problems/studies/random_pairs.h"
 #include "tests/support/campaign.h"
 #include "tests/support/exact_answers.h"
 #include "tests/support/metrics.h"
 #include "tests/support/oracle_of.h"
+#include "tests/support/random_pairs.h"
 #include "tests/support/solid_tools.h"
 
 namespace phongpd {

@@ -18,8 +18,8 @@
 #include "core/minkowski/build_refusal.h"
 #include "core/projection/phong_metric.h"
 #include "problems/shapes/shapes.h"
-#include "problems/studies/random_pairs.h"
 #include "tests/support/campaign.h"
+#include "tests/support/random_pairs.h"
 #include "tests/support/sanitizer.h"
 #include "tests/support/solid_tools.h"
 

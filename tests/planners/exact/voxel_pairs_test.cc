@@ -166,6 +166,26 @@ TEST(VoxelPairs, ConfirmProofsWhereCellsTouchInAnEdge) {
             "");
 }
 
+// Cut short against the explored surface, whose corners are rounded, the best
+// way grazed an edge that the model knows exactly: closed, and no other was
+// taken.
+TEST(VoxelPairs, TakeAnotherWayWhereRoundingClosesTheBest) {
+  struct Case {
+    std::uint64_t seed;
+    Vector3d start, goal;
+  };
+  for (const Case& c :
+       {Case{20104, {-11.5, 31.5, -13}, {-6, -8, 20}},
+        Case{20178, {1.25, -24.25, -25.25}, {-13.75, -40, -37.5}}}) {
+    std::mt19937_64 random(c.seed);
+    const VoxelPair pair =
+        testing::MakeVoxelPair(VoxelPair::Kind::kSheared, &random);
+    const Planners planners(pair.robot, pair.obstacle);
+    EXPECT_EQ(planners.JudgeWindow(c.start, c.goal, PathStatus::kSolved), "")
+        << c.seed;
+  }
+}
+
 // All coordinates are multiples of three, halves of one are not.
 TEST(VoxelPairs, TouchWhereTheLatticesUnitIsNoPowerOfTwo) {
   const Planners planners(Fault("thirds_robot.off"),

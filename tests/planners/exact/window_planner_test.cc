@@ -21,8 +21,8 @@
 #include "planners/exact/verification.h"
 #include "problems/shapes/random_solids.h"
 #include "problems/shapes/shapes.h"
-#include "problems/studies/random_pairs.h"
 #include "tests/support/campaign.h"
+#include "tests/support/random_pairs.h"
 #include "tests/support/solid_tools.h"
 
 namespace phongpd {

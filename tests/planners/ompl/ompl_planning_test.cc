@@ -66,7 +66,6 @@ TEST_F(OmplPlanning, SolvesWithEveryPlanner) {
     }
     EXPECT_EQ(result.samples > 0, planner == PlannerId::kRetractionRrt ||
                                       planner == PlannerId::kRetractionForest);
-    EXPECT_LT(result.seconds, 10.0);
   }
 }
 
@@ -82,8 +81,7 @@ TEST_F(OmplPlanning, TakesTheLimitAndNeverClaimsAFalsePath) {
       EXPECT_TRUE(result.path.empty());
       EXPECT_FALSE(result.collision_free);
       EXPECT_EQ(result.clearance, 0.0);
-      // PRM waits for a thread of its own, and the machine may be busy.
-      EXPECT_LT(result.seconds, 0.1 + 1.0) << name;
+      EXPECT_EQ(result.status, "Timeout") << name;
     }
   }
 }
@@ -177,7 +175,8 @@ TEST_F(OmplPlanning, ReportsInvalidEnds) {
     EXPECT_FALSE(goal.solved);
     EXPECT_FALSE(goal.collision_free);
     EXPECT_EQ(goal.status, "Invalid goal") << name;
-    EXPECT_LT(goal.seconds, 0.1) << name;  // OMPL waits for another goal
+    // Nothing was tried: OMPL would wait for another goal.
+    EXPECT_EQ(goal.collision_checks + goal.segment_checks, 0u) << name;
   }
 }
 

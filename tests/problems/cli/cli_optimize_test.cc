@@ -46,7 +46,7 @@ TEST_F(CliOptimize, WritesTheDocumentedKeys) {
     EXPECT_TRUE(row["queries"][key].is_number_integer()) << key;
   }
   for (const char* key : {"contact_space", "callbacks", "total"}) {
-    EXPECT_GE(row["seconds"][key].get<double>(), 0.0) << key;
+    EXPECT_TRUE(row["seconds"][key].is_number()) << key;
   }
   EXPECT_EQ(row["scene"], "two");
   EXPECT_EQ(row["metric"], "phong");

@@ -38,7 +38,7 @@ TEST_F(CliPlan, EveryPlannerAnswersWithTheDocumentedKeys) {
       EXPECT_TRUE(row.contains(key)) << key;
     }
     for (const char* key : {"contact_space", "solve"}) {
-      EXPECT_GE(row["seconds"][key].get<double>(), 0.0) << key;
+      EXPECT_TRUE(row["seconds"][key].is_number()) << key;
     }
     for (const char* key : {"collision", "segment"}) {
       EXPECT_TRUE(row["checks"][key].is_number_integer()) << key;
@@ -101,8 +101,7 @@ TEST_F(CliPlan, RetractionForestSolvesAndEndsOnTimeOnATwin) {
     EXPECT_EQ(row["collision_free"], false);
     EXPECT_EQ(row["infeasible_proved"], false);
     EXPECT_TRUE(row["path"].empty());
-    EXPECT_GE(row["seconds"]["solve"].get<double>(), 0.25);
-    EXPECT_LE(row["seconds"]["solve"].get<double>(), 2.0);
+    EXPECT_EQ(row["status"], "time_limit");
   }
 }
 
@@ -125,7 +124,7 @@ TEST_F(CliPlan, SaysWhyAnEndIsNotFree) {
       EXPECT_EQ(row["collision_free"], false) << planner;
       EXPECT_TRUE(row["path"].empty()) << planner;
       // Samplers once waited for another goal.
-      EXPECT_LT(row["seconds"]["solve"].get<double>(), 1.0) << planner;
+      EXPECT_EQ(row["checks"]["collision"], 0) << planner;
     };
     expect("start", {0.1, 0, 0}, "start (0.1,0,0) is at most 0.1 deep in wall");
     expect("goal", {0.6, 0.1, 0},

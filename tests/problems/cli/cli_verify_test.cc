@@ -21,7 +21,7 @@ TEST_F(CliVerify, ConfirmsPathsProofsAndBlockedEnds) {
   for (const std::string command : {"plan ", "optimize "}) {
     const Json row = OneRow(command + good, 0);
     EXPECT_EQ(row["verified"], "confirmed");
-    EXPECT_GT(row["seconds"]["verification"].get<double>(), 0.0);
+    EXPECT_TRUE(row["seconds"]["verification"].is_number());
     EXPECT_TRUE(
         OneRow(command + good + " --no-verify", 0)["verified"].is_null());
     const Json proof = OneRow(command + Scene(ShutOff(), "shut.json"), 1);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "problems/studies/contact_space_check.h"
+#include "tests/support/contact_space_check.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,7 +16,7 @@
 #include "core/solid/self_intersection.h"
 #include "problems/shapes/random_solids.h"
 #include "problems/shapes/random_vector.h"
-#include "problems/studies/self_overlap.h"
+#include "tests/support/self_overlap.h"
 
 namespace phongpd {
 namespace {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "problems/studies/random_pairs.h"
+#include "tests/support/random_pairs.h"
 
 // Is a contact space right?  Asked by routes that share nothing with the
 // builder: the collision oracle, the swapped, moved and scaled pair, counted

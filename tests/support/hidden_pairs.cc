@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "problems/studies/hidden_pairs.h"
+#include "tests/support/hidden_pairs.h"
 
 #include <array>
 #include <cassert>

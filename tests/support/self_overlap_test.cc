@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "problems/studies/self_overlap.h"
+#include "tests/support/self_overlap.h"
 
 #include <gtest/gtest.h>
 

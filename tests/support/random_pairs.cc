@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "problems/studies/random_pairs.h"
+#include "tests/support/random_pairs.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -7,6 +7,7 @@
 #include <random>
 #include <utility>
 
+#include "core/pi.h"
 #include "problems/shapes/random_solids.h"
 #include "problems/shapes/shapes.h"
 
@@ -20,7 +21,6 @@ using Random = std::mt19937_64;
 // grid to what it tells apart.
 constexpr double kTiny = 1e-12;
 constexpr int kDecades = 5;
-constexpr double kPi = 3.14159265358979323846;
 
 int Uniform(int min, int max, Random* random) {
   return std::uniform_int_distribution<int>(min, max)(*random);
