@@ -139,26 +139,26 @@ class Judge:
         return (self.check(halves[0], pairs, start, time / 2, halvings) or
                 self.check(halves[1], pairs, middle, time / 2, halvings))
 
-def keeps(points, limit, halvings=10):
-    """Are all coordinates of a curve within the limits?  Proved."""
-    fits = [all(abs(x) <= m for x, m in zip(p, limit)) for p in points]
+def keeps(points, limit, by, halvings=10):  # coordinates or norm: proved
+    fits = [dot(p, p) <= limit[0]**2 if by == "norm" else
+            all(abs(x) <= m for x, m in zip(p, limit)) for p in points]
     if all(fits) or halvings == 0 or not (fits[0] and fits[-1]):
         return all(fits)
     limit = [m * 2**(len(points) - 1) for m in limit]
-    return all(keeps(half, limit, halvings - 1) for half in split(points))
+    return all(keeps(half, limit, by, halvings - 1) for half in split(points))
 
 def broken_limit(pieces, limits):
-    before = {}
+    before, by = {}, limits.get("by", "axis")
     for number, (points, h) in enumerate(pieces):
         points = [tuple(map(Fraction, p)) for p in points]
         for name in ("velocity", "acceleration", "jerk"):
             limit, n = list(map(Fraction, limits[name])), len(points) - 1
             points = [tuple(x * n / h for x in sub(b, a))
                       for a, b in zip(points, points[1:])] or [(0, 0, 0)]
-            if not keeps(points, limit):
+            if not keeps(points, limit, by):
                 return f"{name}, in piece {number}"
-            jump = sub(points[0], before.get(name, points[0]))
-            if name != "jerk" and not keeps([jump], [x / MOST for x in limit]):
+            jump = [MOST * x for x in sub(points[0], before.get(name, points[0]))]
+            if name != "jerk" and not keeps([jump], limit, by):
                 return f"{name} jumps where piece {number} begins"
             before[name] = points[-1]
 

@@ -170,8 +170,9 @@ check_options() {
 }
 
 # full builds.  In quick what fuzz and asan do not build by clang as well, which
-# is the library, in the groups of a build without a cache: the program, tests and
-# benchmarks, by the front end only, which has all of the diagnostics.  The headers
+# is the library, in the groups of a build without a cache, and asan's tests: the
+# program, other tests and benchmarks, by the front end only, which has all of the
+# diagnostics.  The headers
 # that all tests parse are parsed once.
 check_clang() {
   scripts/setup.sh clang
@@ -179,7 +180,8 @@ check_clang() {
   local list=build/check/clang.commands count
   compile_commands -DCMAKE_DISABLE_PRECOMPILE_HEADERS=OFF \
     problems/cli problems/CMakeFiles/phongpd.dir tests results examples |
-    awk '!seen[$NF]++' >"$list.all"
+    awk '!seen[$NF]++' |
+    grep -vE "/($(IFS='|' && echo "${sanitized[*]}"))[.]cc$" >"$list.all"
   each() { (cd build-clang && tr '\n' '\0' |
     xargs -0 -n 1 -P "$(nproc)" bash -c); }
   sed -n 's/\( -x c++-header \)-o [^ ]* -c \(.*\)[.]cxx$/\1-o \2.pch -c \2.cxx/p' \
@@ -294,7 +296,7 @@ check_coverage() {
     grep -v '^build-coverage/' build/check/coverage.csv |
       awk -F, -v slice="$SLICE" -f scripts/coverage.awk
     # From where they were compiled: paths may be relative to that.
-    for folder in core constraints planners planners/trajectory; do
+    for folder in core constraints planners planners/trajectory planners/solve; do
       (cd "build-coverage/$folder" && find CMakeFiles -name '*.gcda' | sort |
         xargs gcov --stdout --branch-probabilities --branch-counts \
           --demangled-names --relative-only --source-prefix "$OLDPWD" \

@@ -77,6 +77,8 @@ void ApplyPreset(Preset preset, OptimizeRequest* request);
 // contact-surface from place to place.  A place that is not free has the status
 // kViaNotFree; where no path leads from one to the next, that is no proof for
 // places within their tolerances: the status is kFailed.
+// Several routes (options.routes) are the ways that contact-surface compared:
+// motions are sought along each, side by side, and the best is the answer.
 //
 // Throws InputError for bad requests, BuildRefusal where limits of the world
 // refuse what Model::kFull needs.

@@ -6,6 +6,7 @@
 #include "constraints/curve_judge.h"
 #include "core/mesh/mesh_error.h"
 #include "core/number_text.h"
+#include "planners/solve/best_curve.h"
 #include "planners/solve/plan.h"
 
 namespace phongpd::internal {
@@ -29,11 +30,14 @@ void RequireMotion(const Path& path, const CurveOptions& options) {
                     : "only (" + FormatPoint(path.front()) + ")"));
 }
 
-// Near answer->path, which is free.
+// Near one of these paths, which are free.
 void FindCurve(const World& world, const CurveOptions& options,
-               PathAnswer* answer) {
+               const std::vector<Path>& paths, PathAnswer* answer) {
   const FreeSpace& space = *answer->evidence.free_space;
-  answer->curve = OptimizeCurve(space, world.diagonal(), answer->path, options);
+  BestCurve best = OptimizeAlongBest(space, world.diagonal(), paths, options);
+  answer->path = paths[best.path];
+  answer->routes = static_cast<int>(paths.size());
+  answer->curve = std::move(best.summary);
   CurveSummary& curve = *answer->curve;
   answer->status = curve.status;
   answer->seconds += curve.seconds;
@@ -102,12 +106,28 @@ PlanRequest LegRequest(const OptimizeRequest& request, const Vector3d& start,
   return leg;
 }
 
-// The paths of contact-surface from place to place as one; false, and why,
-// where one is missing.
-bool FindPath(const World& world, const OptimizeRequest& request,
-              const Path& places, PathAnswer* answer) {
+// The ways from place to place that contact-surface compared, the one it chose
+// first: `count` at most, and those that are free in `space`.
+std::vector<Path> WaysOf(const PathAnswer& leg, std::size_t count,
+                         const FreeSpace& space) {
+  std::vector<Path> ways = {leg.path};
+  for (const Path& route : leg.plan->routes) {
+    if (ways.size() >= count) break;
+    if (std::find(ways.begin(), ways.end(), route) != ways.end()) continue;
+    if (CheckPath(space, route).free) ways.push_back(route);
+  }
+  return ways;
+}
+
+// The paths of contact-surface from place to place, each whole: the k-th is
+// made of the k-th ways of the legs, or their last ones.  Empty, and why, where
+// a leg has none.
+std::vector<Path> FindPaths(const World& world, const OptimizeRequest& request,
+                            const Path& places, PathAnswer* answer) {
   const std::size_t legs = places.size() - 1;
-  answer->path = {places.front()};
+  const auto count = static_cast<std::size_t>(request.options.routes);
+  std::vector<Path> paths(count, Path{places.front()});
+  std::size_t most = 1;
   for (std::size_t i = 0; i < legs; ++i) {
     if (places[i] == places[i + 1]) continue;
     PathAnswer leg = Plan(world, LegRequest(request, places[i], places[i + 1]));
@@ -115,25 +135,31 @@ bool FindPath(const World& world, const OptimizeRequest& request,
     answer->evidence.model = leg.evidence.model;
     answer->evidence.refusal = leg.evidence.refusal;
     answer->evidence.free_space = leg.evidence.free_space;
-    answer->plan = std::move(leg.plan);
     if (leg.is_solved) {
-      answer->path.insert(answer->path.end(), leg.path.begin() + 1,
-                          leg.path.end());
+      const std::vector<Path> ways =
+          WaysOf(leg, count, *leg.evidence.free_space);
+      most = std::max(most, ways.size());
+      for (std::size_t k = 0; k < count; ++k) {
+        const Path& way = ways[std::min(k, ways.size() - 1)];
+        paths[k].insert(paths[k].end(), way.begin() + 1, way.end());
+      }
+      answer->plan = std::move(leg.plan);
       continue;
     }
+    answer->plan = std::move(leg.plan);
     if (leg.IsInfeasible() && legs > 1) {
       leg.status = PathStatus::kFailed;
       leg.reason = LegName(i, legs) +
                    ": no path, proved for these places, not for places "
                    "near them";
     }
-    answer->path.clear();
     answer->status = leg.status;
     answer->reason = leg.reason;
     if (leg.IsInfeasible()) answer->evidence.surface = leg.evidence.surface;
-    return false;
+    return {};
   }
-  return true;
+  paths.resize(most);
+  return paths;
 }
 
 }  // namespace
@@ -143,6 +169,9 @@ CurveOptions CurveOptionsOf(const World& world,
   if (!request.limits) {
     throw InputError("limits: expected those of the motion, found none");
   }
+  PipelineOptions checked;
+  checked.routes = request.options.routes;
+  checked.Validate();
   CurveOptions options;
   options.limits = *request.limits;
   options.start = request.departure;
@@ -174,13 +203,15 @@ void OptimizeInTime(const World& world, const OptimizeRequest& request,
   answer->reason = BlockedVia(world, request.via);
   if (!answer->reason.empty()) {
     answer->status = PathStatus::kViaNotFree;
-  } else if (FindPath(world, request, places, answer)) {
-    // With the bounds as a box instead of triangles.
-    if (answer->evidence.model == Model::kWindow) {
-      answer->evidence.free_space = world.Convolution().free_space;
-    }
-    FindCurve(world, options, answer);
+    return;
   }
+  const std::vector<Path> paths = FindPaths(world, request, places, answer);
+  if (paths.empty()) return;
+  // With the bounds as a box instead of triangles.
+  if (answer->evidence.model == Model::kWindow) {
+    answer->evidence.free_space = world.Convolution().free_space;
+  }
+  FindCurve(world, options, paths, answer);
 }
 
 void RetimePath(const World& world, const Path& path,
@@ -197,7 +228,7 @@ void RetimePath(const World& world, const Path& path,
     answer->reason = Collision(world, path, answer->evidence.check);
     return;
   }
-  FindCurve(world, options, answer);
+  FindCurve(world, options, {path}, answer);
 }
 
 }  // namespace phongpd::internal

@@ -84,6 +84,7 @@ struct PathAnswer {
   double clearance = 0.0;  // of all of it, 0 where it is not free; user's unit
   ClearanceAnswer wish;
   double seconds = 0.0;  // without building and verification
+  int routes = 0;        // ways that a motion was sought along
 
   PathEvidence evidence;
 

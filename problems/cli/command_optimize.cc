@@ -184,7 +184,7 @@ int OptimizeInTime(const OptimizeFlags& flags, const MotionLimits& limits,
                    Scene scene) {
   for (const char* name :
        {"--metric", "--smoothing-length", "--jacobian", "--start",
-        "--start-noise", "--routes", "--line", "--rows", "--mu-strategy",
+        "--start-noise", "--line", "--rows", "--mu-strategy",
         "--polish", "--per-obstacle", "--runs", "--html", "--svg"}) {
     if (flags.app->count(name) == 0) continue;
     throw InputError(std::string(name) +
@@ -196,6 +196,7 @@ int OptimizeInTime(const OptimizeFlags& flags, const MotionLimits& limits,
   scene.limits = limits;
   TimedFlags timed;
   timed.motion = flags.motion;
+  if (flags.app->count("--routes") > 0) timed.routes = flags.routes;
   timed.time_limit = flags.time_limit;
   timed.output = flags.output;
   timed.json = flags.json;

@@ -48,13 +48,18 @@ Vector3d ParseLimit(const std::string& text, const std::string& what) {
 
 MotionLimits ParseLimits(const std::string& text, const std::string& what) {
   const std::vector<std::string> cells = CutAt(',', text);
-  if (cells.size() != 3) {
+  MotionLimits limits;
+  limits.by_norm = cells.size() == 4 && cells[3] == "norm";
+  if (cells.size() != 3 && !limits.by_norm) {
     throw InputError(what +
                      ": expected V,A,J, limits of velocity, acceleration and "
-                     "jerk, each a number or x/y/z, found '" +
+                     "jerk, each a number or x/y/z, or V,A,J,norm, found '" +
                      text + "'");
   }
-  MotionLimits limits;
+  if (limits.by_norm && text.find('/') != std::string::npos) {
+    throw InputError(what + ": expected one number each with norm, found '" +
+                     text + "'");
+  }
   limits.velocity = ParseLimit(cells[0], what + ": velocity");
   limits.acceleration = ParseLimit(cells[1], what + ": acceleration");
   limits.jerk = ParseLimit(cells[2], what + ": jerk");
@@ -86,9 +91,10 @@ void AddMotion(CLI::App* app, const std::string& without_limits,
                const std::string& without_task, MotionWords* words) {
   app->add_option("--limits", words->limits,
                   "V,A,J: of velocity, acceleration and jerk, in the scene's "
-                  "unit and seconds, each one number or x/y/z (" +
+                  "unit and seconds, each one number or x/y/z, of each axis; "
+                  "V,A,J,norm: of the norm (" +
                       without_limits + ")")
-      ->type_name("V,A,J");
+      ->type_name("V,A,J[,norm]");
   app->add_option(
          "--via", words->via,
          "A place to pass on the way, again for the next one: LENGTH is "

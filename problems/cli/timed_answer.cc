@@ -64,18 +64,18 @@ double RateOf(const TimedFlags& flags) {
   return rate;
 }
 
-// Which no motion from start to goal is shorter than: per axis at its velocity
-// v all the time; from rest to rest half of it at acceleration a, half at −a,
-// or at jerk j, −j, j by 1 : 2 : 1.  And what is asked for, and rests on the
-// way.
+// Which no motion from start to goal is shorter than: per axis, or along the
+// line with limits of the norm, at its velocity v all the time; from rest to
+// rest half of it at acceleration a, half at −a, or at jerk j, −j, j by 1 : 2
+// : 1.  And what is asked for, and rests on the way.
 double LeastDuration(const OptimizeRequest& request) {
   const MotionLimits& limits = *request.limits;
   const Vector3d way = request.goal - request.start;
   const bool has_rests =
       request.departure.IsAtRest() && request.arrival.IsAtRest();
   double least = request.duration;
-  for (int k = 0; k < 3; ++k) {
-    const double d = std::abs(way[k]);
+  for (int k = 0; k < (limits.by_norm ? 1 : 3); ++k) {
+    const double d = limits.by_norm ? way.norm() : std::abs(way[k]);
     least = std::max(least, d / limits.velocity[k]);
     if (!has_rests) continue;
     least = std::max({least, 2.0 * std::sqrt(d / limits.acceleration[k]),
@@ -146,6 +146,7 @@ int AnswerInTime(const Scene& scene, const TimedFlags& flags,
   if (flags.has_margin) request.margin = scene.trajectory.margin;
   request.requires_margin = flags.require;
   request.verifies = flags.verify;
+  if (flags.routes) request.options.routes = *flags.routes;
   if (!flags.time_limit.empty()) {
     request.options.time_limit = ParseDouble(flags.time_limit, "--time");
   }

@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <functional>
+#include <optional>
 #include <string>
 
 #include "planners/solve/optimize.h"
@@ -18,7 +19,8 @@ struct TimedFlags {
   std::string output;
   bool json = false;
   bool no_cache = false;
-  bool has_margin = false;  // by a flag
+  std::optional<int> routes;  // the preset's if none
+  bool has_margin = false;    // by a flag
   bool require = false;     // the margin
   bool verify = true;       // on the solids
   WorldLimits world;

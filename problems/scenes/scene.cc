@@ -242,15 +242,20 @@ void Read(const Json& value, const JsonPlace& place, const std::string& unit,
   }
 }
 
-MotionLimits Limits(const Json& value) {
+MotionLimits Limits(const Json& value, const JsonPlace& place) {
+  const bool by_norm = value.value("by", "axis") == "norm";
   const auto limit = [&](const char* key) -> Vector3d {
     const Json& one = value[key];
+    if (by_norm && one.is_array()) {
+      place.Child(key).Fail("one number with by norm", Shortened(one));
+    }
     return one.is_array() ? Point(one) : Vector3d::Constant(one.get<double>());
   };
   MotionLimits limits;
   limits.velocity = limit("velocity");
   limits.acceleration = limit("acceleration");
   limits.jerk = limit("jerk");
+  limits.by_norm = by_norm;
   return limits;
 }
 
@@ -346,7 +351,9 @@ Scene ParseScene(const Json& json, const std::string& file,
     scene.preset = ParsePreset(json["preset"].get<std::string>(),
                                place.Child("preset").Text());
   }
-  if (json.contains("limits")) scene.limits = Limits(json["limits"]);
+  if (json.contains("limits")) {
+    scene.limits = Limits(json["limits"], place.Child("limits"));
+  }
   if (json.contains("via")) {
     scene.via =
         ViaPlaces(json["via"], place.Child("via"), scene.workspace.unit);

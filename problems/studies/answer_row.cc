@@ -147,7 +147,8 @@ void AddSolver(const TrajectorySummary& ipopt, Json* row) {
 Json LimitsRow(const MotionLimits& limits) {
   return {{"velocity", PointRow(limits.velocity)},
           {"acceleration", PointRow(limits.acceleration)},
-          {"jerk", PointRow(limits.jerk)}};
+          {"jerk", PointRow(limits.jerk)},
+          {"by", limits.by_norm ? "norm" : "axis"}};
 }
 
 Json ViaRow(const World& world, const std::vector<Via>& places) {
@@ -311,6 +312,7 @@ Json MotionRow(const Scene& scene, const World& world,
       {"kept_margin", LengthOf(world, curve.margin)},
       {"clearance", LengthOf(world, curve.clearance)}};
   row["rounds"] = curve.rounds.size();
+  row["routes"] = answer.routes;
   row["seconds"] = {{"contact_space", world.Report().seconds},
                     {"plan", answer.seconds - curve.seconds},
                     {"first", curve.first_seconds},

@@ -107,10 +107,11 @@ def seconds(value: Any, name: str) -> float:
     return number
 
 
-def motion_limits(value: Any) -> tuple[tuple[float, float, float],
-                                       tuple[float, float, float],
-                                       tuple[float, float, float]]:
-    """(velocity, acceleration, jerk), each one number or of x, y and z."""
+def motion_limits(value: Any, by_norm: bool = False) -> tuple[
+        tuple[float, float, float], tuple[float, float, float],
+        tuple[float, float, float]]:
+    """(velocity, acceleration, jerk), each one number or of x, y and z; by_norm:
+    one number."""
     try:
         v, a, j = value
     except (TypeError, ValueError):
@@ -124,6 +125,9 @@ def motion_limits(value: Any) -> tuple[tuple[float, float, float],
             raise InputError(f"limits: {name}: expected a number or three, "
                              f"found {_told(limit)}")
         x, y, z = np.broadcast_to(array, (3,))
+        if by_norm and not x == y == z:
+            raise InputError(f"limits: {name}: expected one number with by_norm, "
+                             f"found {_told(limit)}")
         return float(x), float(y), float(z)
 
     return one(v, "velocity"), one(a, "acceleration"), one(j, "jerk")

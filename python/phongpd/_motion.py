@@ -99,12 +99,17 @@ class Motion(Answer, Shown):
                 values = self.at(times, order)
                 for k, axis in enumerate("xyz"):
                     one.plot(times, values[:, k], label=axis, color=f"C{k}")
+                if order and self.row["limits"]["by"] == "norm":
+                    one.plot(times, np.linalg.norm(values, axis=1),
+                             label="norm", color="0.2")
             limits = self.row["limits"].get(name, ())
             for limit in sorted({*limits, *(-x for x in limits)}):
                 one.axhline(limit, color="0.5", linestyle="--", linewidth=0.8)
             power = {0: "", 1: "/s"}.get(order, f"/s{'²³'[order - 2]}")
             one.set_ylabel(f"{name} ({unit}{power})")
         axes[0].legend(loc="upper left")
+        if self.row["limits"]["by"] == "norm":
+            axes[1].legend(loc="upper left")
         axes[-1].set_xlabel("t (s)")
         return axes
 

@@ -115,6 +115,7 @@ class Scene:
     obstacles: list[Solid]
     bounds: _Floats | None
     limits: _Floats | None
+    limits_by_norm: bool
     via: list[tuple[_Point, str, float]]
     duration: float
 
@@ -122,7 +123,7 @@ class MotionWishes:
     def __init__(self, limits: tuple[_Point, _Point, _Point],
                  via: list[tuple[_Point, str, float]], duration: float,
                  margin: str, preset: str, max_seconds: float,
-                 is_required: bool) -> None: ...
+                 is_required: bool, routes: int, by_norm: bool) -> None: ...
 
 class World:
     def __init__(self, scene: Scene, cache: bool,

@@ -190,25 +190,29 @@ class World(Shown):
             dwell: ArrayLike = 0.0, duration: float | None = None,
             margin: float | str | None = None,
             max_seconds: float | None = None, preset: str = "",
-            model: str = "", require: bool = False) -> Motion:
+            model: str = "", require: bool = False, routes: int = 0,
+            by_norm: bool = False) -> Motion:
         """A fast curve in time that is free and keeps the limits for all t,
         proved; from rest to rest.
 
         limits: (velocity, acceleration, jerk), each one number or of x, y and
-        z, user's units and seconds; None: the scene's.  via: (M, 3), places to
+        z, user's units and seconds; by_norm: one number each, of the norm
+        instead of every axis; None: the scene's.  via: (M, 3), places to
         pass on the way, in order, each within `tolerance`, a length as
         optimize takes them, 0.001 of D if None; `dwell`: seconds to rest at
         it; both one for all, or one for each.  None: the scene's places.
         duration: seconds that it takes, with as little jerk as can be found;
         0: as few as can be; None: the scene's.  max_seconds: of the search for
-        a faster curve; there is one before.  The rest as optimize has it.
+        a faster curve; there is one before.  routes: ways around the
+        obstacles along which a motion is sought, side by side, 1 to 8; 0: the
+        preset's, 1, of "tight" 3.  The rest as optimize has it.
         """
         scene = self._native.scene
         wishes = self._wishes(
             limits, scene.via if via is None
             else places_on_the_way(via, tolerance, dwell),
             scene.duration if duration is None else duration,
-            margin, max_seconds, preset, require)
+            margin, max_seconds, preset, require, routes, by_norm)
         return motion_of(self._native.optimize_in_time(
             *self._ends(start, goal), text(model, "model"), wishes), self)
 
@@ -217,7 +221,7 @@ class World(Shown):
                dwell: ArrayLike = 0.0, duration: float = 0.0,
                margin: float | str | None = None,
                max_seconds: float | None = None, preset: str = "",
-               require: bool = False) -> Motion:
+               require: bool = False, by_norm: bool = False) -> Motion:
         """The same near a free path (K, 3) of one's own, of which the places of
         `via` are points; they and the duration of the scene count for nothing.
         """
@@ -228,20 +232,24 @@ class World(Shown):
         wishes = self._wishes(
             limits, [] if via is None
             else places_on_the_way(via, tolerance, dwell),
-            duration, margin, max_seconds, preset, require)
+            duration, margin, max_seconds, preset, require, 0, by_norm)
         return motion_of(self._native.retime(points, wishes), self)
 
     def _wishes(self, limits: Any, via: list[tuple[_Point, str, float]],
                 duration: Any, margin: Any, max_seconds: Any, preset: Any,
-                require: Any) -> _native.MotionWishes:
+                require: Any, routes: Any, by_norm: Any) -> _native.MotionWishes:
         known = self.limits if limits is None else limits
+        of_norm = flag(by_norm, "by_norm")
+        if limits is None:
+            of_norm = of_norm or self._native.scene.limits_by_norm
         if known is None:
             raise InputError("limits: expected (velocity, acceleration, jerk), "
                              "found None, and the scene has none")
         return _native.MotionWishes(
-            motion_limits(known), via, real(duration, "duration"),
+            motion_limits(known, of_norm), via, real(duration, "duration"),
             length(margin, "margin"), text(preset, "preset"),
-            seconds(max_seconds, "max_seconds"), flag(require, "require"))
+            seconds(max_seconds, "max_seconds"), flag(require, "require"),
+            whole_number(routes, "routes", 0, 8), of_norm)
 
     def plan(self, start: ArrayLike | None = None,
              goal: ArrayLike | None = None, *,

@@ -199,6 +199,10 @@ void BindScene(nb::module_& module) {
                      return ToArray(std::vector<Vector3d>{
                          l.velocity, l.acceleration, l.jerk});
                    })
+      .def_prop_ro("limits_by_norm",
+                   [](const Scene& scene) {
+                     return scene.limits && scene.limits->by_norm;
+                   })
       .def_prop_ro("via",
                    [](const Scene& scene) {
                      std::vector<std::tuple<Point, std::string, double>> all;
@@ -233,9 +237,11 @@ void BindWorld(nb::module_& module) {
            [](MotionWishes* self, const std::array<Point, 3>& limits,
               const std::vector<std::tuple<Point, std::string, double>>& via,
               double duration, const std::string& margin,
-              const std::string& preset, double max_seconds, bool is_required) {
-             new (self) MotionWishes{limits, via,         duration,   margin,
-                                     preset, max_seconds, is_required};
+              const std::string& preset, double max_seconds, bool is_required,
+              int routes) {
+             new (self) MotionWishes{limits,      via,    duration,
+                                     margin,      preset, max_seconds,
+                                     is_required, routes, by_norm};
            });
   nb::class_<Workshop>(module, "World")
       .def(nb::init<const Scene&, bool, double>())

@@ -68,11 +68,12 @@ OptimizeRequest Workshop::MotionBetween(const Point& start, const Point& goal,
   request.limits->velocity = ToVector(wishes.limits[0]);
   request.limits->acceleration = ToVector(wishes.limits[1]);
   request.limits->jerk = ToVector(wishes.limits[2]);
+  request.limits->by_norm = wishes.by_norm;
   if (!wishes.margin.empty()) {
     request.margin = Clearance(wishes.margin, "margin");
   }
   if (!wishes.preset.empty()) {
-    request.preset = ParsePreset(wishes.preset, "preset");
+    ApplyPreset(ParsePreset(wishes.preset, "preset"), &request);
   }
   request.duration = wishes.duration;
   request.via.clear();
@@ -88,6 +89,7 @@ OptimizeRequest Workshop::MotionBetween(const Point& start, const Point& goal,
     }
     request.via.push_back(via);
   }
+  if (wishes.routes > 0) request.options.routes = wishes.routes;
   request.requires_margin = wishes.is_required;
   request.options.time_limit = wishes.max_seconds;
   return request;

@@ -33,6 +33,8 @@ struct MotionWishes {
   std::string preset;
   double max_seconds;
   bool is_required;
+  int routes;    // 0: the preset's
+  bool by_norm;  // are the limits
 };
 
 // A world for Python.  Ipopt runs once at a time in a process, and samplers

@@ -84,6 +84,16 @@ class Scene:
                 continue  # not what bounds this motion
             row["limits"][name] = [0.98 * used * x for x in row["limits"][name]]
             self.expect("a lower limit", row, 1, f"limit broken: {name}")
+        # Of the norm, which is 1 to 3^1/2 times the largest coordinate.
+        row = copy.deepcopy(self.row)
+        row["limits"]["by"] = "norm"
+        for name in ("velocity", "acceleration", "jerk"):
+            row["limits"][name] = [1.74 * x for x in row["limits"][name]]
+        self.expect("of the norm", row, 0, CERTIFIED)
+        used = self.row["limits_used"]["velocity"]
+        row["limits"]["velocity"] = [
+            0.9 * used * x for x in self.row["limits"]["velocity"]]
+        self.expect("less of the norm", row, 1, "limit broken: velocity")
         row = copy.deepcopy(self.row)
         for piece in row["pieces"]:
             piece["duration"] *= 0.97

@@ -92,6 +92,26 @@ def test_a_path_of_ones_own_is_retimed(world):
     assert "no motion" in str(blocked)
 
 
+def test_limits_of_the_norm_are_kept_by_the_norm(world):
+    by_axis = world.optimize_in_time(START, GOAL, limits=LIMITS)
+    motion = world.optimize_in_time(START, GOAL, limits=LIMITS, by_norm=True)
+    assert motion.solved and motion.row["limits"]["by"] == "norm"
+    times = np.linspace(0.0, motion.duration, 2001)
+    for order, limit in enumerate(LIMITS, 1):
+        norms = np.linalg.norm(motion.at(times, order), axis=1)
+        assert norms.max() <= limit * (1 + 1e-9)
+    # The norm is at least each coordinate: what keeps it takes no less time.
+    assert motion.duration >= by_axis.duration * (1 - 1e-3)
+
+
+def test_several_routes_are_never_slower(world):
+    one = world.optimize_in_time(START, GOAL, limits=LIMITS, preset="fast")
+    best = world.optimize_in_time(START, GOAL, limits=LIMITS, preset="fast",
+                                  routes=4)
+    assert best.duration <= one.duration
+    assert 1 <= best.row["routes"] <= 4 and one.row["routes"] == 1
+
+
 def test_limits_places_and_duration_may_be_the_scenes(tmp_path):
     box = {"shape": {"type": "box", "size": [1, 1, 1]}}
     scene = tmp_path / "scene.json"
@@ -144,6 +164,8 @@ def test_it_is_plotted_with_its_limits(motion):
     ({"limits": ((1, 2), 2, 3)}, "limits: velocity"),
     ({"limits": (0, 2, 3)}, "velocity"),
     ({"limits": (1, 2, np.nan)}, "jerk"),
+    ({"limits": ((1, 2, 3), 2, 3), "by_norm": True}, "velocity"),
+    ({"limits": LIMITS, "routes": 9}, "routes"),
     ({"limits": LIMITS, "via": (1, 2)}, "via: expected shape"),
     ({"limits": LIMITS, "via": (np.inf, 2, 0)}, "via 0"),
     ({"limits": LIMITS, "via": (0, 2, 0), "tolerance": [1, 2]}, "tolerance"),

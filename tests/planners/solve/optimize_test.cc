@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -10,6 +11,7 @@
 #include "constraints/free_space.h"
 #include "core/mesh/mesh_error.h"
 #include "core/minkowski/build_refusal.h"
+#include "planners/solve/best_curve.h"
 #include "planners/trajectory/corridor.h"
 #include "problems/scenes/scene_requests.h"
 #include "problems/scenes/scene_source.h"
@@ -181,6 +183,54 @@ TEST(Optimize, FollowsTheMetricOfEachRequest) {
               Optimize(fresh.world, request).path);
     EXPECT_EQ(request.penetration.Name(), name);
   }
+}
+
+// The first of them is the one that a single route takes.
+TEST(Optimize, SeveralRoutesOfAMotionAreNeverSlower) {
+  int gained = 0;
+  for (const char* family : {"u_axis", "clutter", "knot"}) {
+    SCOPED_TRACE(family);
+    const Staged staged(family);
+    OptimizeRequest request = staged.Request(Model::kFull);
+    ApplyPreset(Preset::kFast, &request);
+    request.limits.emplace();
+    request.limits->velocity.setConstant(1.0);
+    request.limits->acceleration.setConstant(2.0);
+    request.limits->jerk.setConstant(10.0);
+    const PathAnswer one = Optimize(staged.world, request);
+    ASSERT_TRUE(one.is_solved) << one.reason;
+    EXPECT_EQ(one.routes, 1);
+    request.options.routes = 4;
+    const PathAnswer best = Optimize(staged.world, request);
+    ASSERT_TRUE(best.is_solved) << best.reason;
+    EXPECT_LE(best.routes, 4);
+    EXPECT_LE(best.motion.duration(), one.motion.duration());
+    EXPECT_EQ(best.evidence.verification->verdict, Verdict::kConfirmed);
+    gained += best.routes > 1;
+  }
+  EXPECT_GT(gained, 0);  // or no scene has several
+}
+
+TEST(SquaredJerk, IsTheIntegralOfAParabolasSquare) {
+  // x = t³/6 for a second, then y = t⁵/60 for two: jerks 1 and t²/2.
+  const double h = 2.0, c = h * h * h * h * h / 60.0;
+  const Trajectory motion({CurvePiece({Eigen::Vector3d::Zero(),
+                                       Eigen::Vector3d::Zero(),
+                                       Eigen::Vector3d::Zero(),
+                                       {1.0 / 6.0, 0, 0}},
+                                      1.0),
+                           CurvePiece({{1.0 / 6.0, 0, 0},
+                                       {1.0 / 6.0, 0, 0},
+                                       {1.0 / 6.0, 0, 0},
+                                       {1.0 / 6.0, 0, 0},
+                                       {1.0 / 6.0, 0, 0},
+                                       {1.0 / 6.0, c, 0}},
+                                      h)});
+  MotionLimits limits;
+  limits.jerk = {2.0, 1.0, 1.0};
+  // ∫ (1/2)² + ∫ t⁴/4 = 1/4 + h⁵/20
+  EXPECT_NEAR(internal::SquaredJerk(motion, limits),
+              0.25 + std::pow(h, 5) / 20.0, 1e-12);
 }
 
 }  // namespace

@@ -33,6 +33,8 @@ TEST_F(CliTimedRefusals, RefusesBadLimitsInOneLine) {
     refused("1e-200,1,1", {"limits: velocity of x", "1e-50 at least"});
     refused("1,-2,10", {"--limits: acceleration of x", "found -2"});
     refused("1,2,nan", {"--limits: jerk of x", "nan"});
+    refused("1/2/3,2,9,norm", {"--limits", "one number each with norm"});
+    refused("1,2,9,most", {"--limits", "V,A,J,norm", "1,2,9,most"});
     refused("1,2,inf", {"--limits: jerk of x", "inf"});
     refused("1,2/2/0,10", {"acceleration of z", "found 0"});
     refused("1/1,2,10", {"velocity", "x/y/z", "'1/1'"});

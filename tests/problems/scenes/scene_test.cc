@@ -128,6 +128,22 @@ TEST(Scene, ReadsLengthsInUnitsOrAsShares) {
   EXPECT_FALSE(ParseScene(SmallScene(), "s.json").planning.clearance);
 }
 
+TEST(Scene, ReadsLimitsOfAxesOrOfTheNorm) {
+  Json json = SmallScene();
+  json["limits"] = {{"velocity", {1, 2, 3}}, {"acceleration", 2}, {"jerk", 9}};
+  const Scene by_axis = ParseScene(json, "s.json");
+  EXPECT_FALSE(by_axis.limits->by_norm);
+  EXPECT_EQ(by_axis.limits->velocity, Vector3d(1, 2, 3));
+  json["limits"]["by"] = "norm";
+  EXPECT_THROW(ParseScene(json, "s.json"), InputError);  // of three numbers
+  json["limits"]["velocity"] = 4;
+  const Scene by_norm = ParseScene(json, "s.json");
+  EXPECT_TRUE(by_norm.limits->by_norm);
+  EXPECT_EQ(by_norm.limits->velocity[0], 4.0);
+  json["limits"]["by"] = "sum";
+  EXPECT_THROW(ParseScene(json, "s.json"), InputError);
+}
+
 TEST(Scene, ReadsBareLengthsInItsUnitIfThatHasAName) {
   EXPECT_EQ(ParseScene(SmallScene(), "s.json").workspace.unit, "");
   for (const std::string& unit : UnitNames()) {

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "constraints/free_space.h"
+#include "planners/trajectory/curve_optimizer.h"
+#include "planners/trajectory/trajectory_problem.h"
+
+namespace phongpd::internal {
+
+struct BestCurve {
+  CurveSummary summary;  // its seconds are those of all of them together
+  std::size_t path = 0;  // that it began with
+};
+
+// OptimizeCurve from each of several free paths with the same ends, side by
+// side, and the best of what they come to: a motion that keeps the margin
+// before one that does not, then the least time, or of a given duration the
+// least jerk. A path whose turn comes when time is up is left out, but for the
+// first. options.is_interrupted is asked by one thread at a time.
+BestCurve OptimizeAlongBest(const FreeSpace& space, double diagonal,
+                            const std::vector<Path>& paths,
+                            const CurveOptions& options);
+
+// ∫ |q'''|² dt, each axis as a share of its limit; of pieces of degree 5 at
+// most.
+double SquaredJerk(const Trajectory& trajectory, const MotionLimits& limits);
+
+}  // namespace phongpd::internal
