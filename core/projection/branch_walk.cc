@@ -68,6 +68,87 @@ Vector3d Clamped(const Vector3d& lambda) {
   return positive / positive.sum();
 }
 
+// w = J⁻¹(x_b − x), by λ₁, λ₂ and s.
+Vector3d WalkNewtonStep(const Local& local) {
+  return Vector3d(local.r.dot(local.row1), local.r.dot(local.row2),
+                  local.r.dot(local.row3)) /
+         local.det;
+}
+
+// All three λ, whose sum stays, of a step by λ₁, λ₂ and s.
+Vector3d WalkLambdaStep(const Vector3d& step) {
+  return Vector3d(-step[0] - step[1], step[0], step[1]);
+}
+
+// Has the surely possible part of the move shrunk to nothing?
+bool IsWalkAtFold(const Local& local, double fraction) {
+  return !(fraction > 0.0) ||
+         (fraction < 1.0 && fraction * fraction * local.r.squaredNorm() <
+                                kShortestMove * kShortestMove);
+}
+
+// Moves *hit by that fraction of the way to x_b; λ may become negative.  False
+// where Newton does not converge.
+bool MoveWalkHit(const OffsetPrism& prism, const Local& local,
+                 const Vector3d& x_b, const Vector3d& w, double fraction,
+                 NormalHit* hit) {
+  const Vector3d target =
+      fraction < 1.0 ? Vector3d(x_b - (1.0 - fraction) * local.r) : x_b;
+  const Vector3d delta = fraction * w;
+  hit->lambda += WalkLambdaStep(delta);
+  hit->s += delta[2];
+  return RefineHit(prism, target, 8, hit);
+}
+
+// Where a move leaves the triangle.
+struct WalkWall {
+  int corner = 0;     // whose λ is 0 there
+  double part = 2.0;  // of the move
+};
+
+// The wall met first on the way between two points' λ.
+WalkWall FirstWalkWall(const Vector3d& from, const Vector3d& to,
+                       double tolerance) {
+  WalkWall wall;
+  for (int k = 0; k < 3; ++k) {
+    if (to[k] >= -tolerance) continue;
+    const double t = from[k] / (from[k] - to[k]);
+    if (t < wall.part) {
+      wall.part = t;
+      wall.corner = k;
+    }
+  }
+  return wall;
+}
+
+// Moves *hit to the wall it meets on the way to `next`.
+void MoveToWalkWall(const WalkWall& wall, const NormalHit& next,
+                    NormalHit* hit) {
+  hit->lambda += wall.part * (next.lambda - hit->lambda);
+  hit->s += wall.part * (next.s - hit->s);
+  hit->lambda[wall.corner] = 0.0;
+  hit->lambda = Clamped(hit->lambda);
+}
+
+// The same point of the edge opposite `corner`, in the triangle across it;
+// false where there is none.
+bool CrossWalkWall(const PhongField& field, int corner, NormalHit* hit,
+                   int* triangle) {
+  const int across = field.neighbors[*triangle][(corner + 1) % 3];
+  if (across < 0) return false;
+  const Triangle& from = field.mesh.triangles[*triangle];
+  const Triangle& to = field.mesh.triangles[across];
+  Vector3d lambda = Vector3d::Zero();
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) {
+      if (i != corner && to[j] == from[i]) lambda[j] = hit->lambda[i];
+    }
+  }
+  hit->lambda = lambda;
+  *triangle = across;
+  return true;
+}
+
 }  // namespace
 
 BranchWalk::BranchWalk(const FieldProjector& projector) {
@@ -124,7 +205,6 @@ bool BranchWalk::EnterFan(const FieldProjector& projector, const Vector3d& x_b,
 
 bool BranchWalk::Follow(const FieldProjector& projector, const Vector3d& x_b,
                         NormalHit* hit, int* triangle) const noexcept {
-  const PhongField& field = projector.field();
   double sign = 0.0;
   double shorten = 1.0;  // after a cut move that met a wall at once
   int stalls = 0;
@@ -133,23 +213,11 @@ bool BranchWalk::Follow(const FieldProjector& projector, const Vector3d& x_b,
     const Local local(prism, *hit, x_b);
     if (sign == 0.0) sign = Sign(local.det);
     if (!(local.det * sign > 0.0)) return false;
-    const Vector3d w =
-        Vector3d(local.r.dot(local.row1), local.r.dot(local.row2),
-                 local.r.dot(local.row3)) /
-        local.det;
+    const Vector3d w = WalkNewtonStep(local);
     const double fraction = shorten * SafeFraction(prism, local, w);
-    if (!(fraction > 0.0)) return false;
-    if (fraction < 1.0 && fraction * fraction * local.r.squaredNorm() <
-                              kShortestMove * kShortestMove) {
-      return false;
-    }
-    const Vector3d target =
-        fraction < 1.0 ? Vector3d(x_b - (1.0 - fraction) * local.r) : x_b;
+    if (IsWalkAtFold(local, fraction)) return false;
     NormalHit next = *hit;
-    const Vector3d delta = fraction * w;
-    next.lambda += Vector3d(-delta[0] - delta[1], delta[0], delta[1]);
-    next.s += delta[2];
-    if (!RefineHit(prism, target, 8, &next)) return false;
+    if (!MoveWalkHit(prism, local, x_b, w, fraction, &next)) return false;
 
     const double tolerance = LambdaTolerance(local);
     if (next.lambda.minCoeff() >= -tolerance) {
@@ -160,53 +228,25 @@ bool BranchWalk::Follow(const FieldProjector& projector, const Vector3d& x_b,
       stalls = 0;
       continue;
     }
-    // The wall met first.
-    int wall = 0;
-    double part = 2.0;
-    for (int k = 0; k < 3; ++k) {
-      if (next.lambda[k] >= -tolerance) continue;
-      const double t = hit->lambda[k] / (hit->lambda[k] - next.lambda[k]);
-      if (t < part) {
-        part = t;
-        wall = k;
-      }
-    }
-    const Vector3d rate(-w[0] - w[1], w[0], w[1]);
-    if (part * (hit->lambda - next.lambda).cwiseAbs().maxCoeff() < kAtEdge) {
-      if (++stalls > kMaxStalls) return false;
-      // A move that starts inward and bends back is too long a step.
-      if (rate[wall] > 0.0) {
-        shorten *= 0.25;
-        continue;
-      }
-    } else {
-      stalls = 0;
-    }
-    shorten = 1.0;
-    hit->lambda += part * (next.lambda - hit->lambda);
-    hit->s += part * (next.s - hit->s);
-    hit->lambda[wall] = 0.0;
-    hit->lambda = Clamped(hit->lambda);
-
-    int corner = 0;
-    if (hit->lambda.maxCoeff(&corner) == 1.0) {
-      if (!EnterFan(projector, x_b, corner, sign, hit, triangle)) {
-        return false;
-      }
+    const WalkWall wall = FirstWalkWall(hit->lambda, next.lambda, tolerance);
+    const bool is_stall =
+        wall.part * (hit->lambda - next.lambda).cwiseAbs().maxCoeff() < kAtEdge;
+    stalls = is_stall ? stalls + 1 : 0;
+    if (stalls > kMaxStalls) return false;
+    // A move that starts inward and bends back is too long a step.
+    if (is_stall && WalkLambdaStep(w)[wall.corner] > 0.0) {
+      shorten *= 0.25;
       continue;
     }
-    const int next_triangle = field.neighbors[*triangle][(wall + 1) % 3];
-    if (next_triangle < 0) return false;
-    const Triangle& from = field.mesh.triangles[*triangle];
-    const Triangle& to = field.mesh.triangles[next_triangle];
-    Vector3d lambda = Vector3d::Zero();
-    for (int i = 0; i < 3; ++i) {
-      for (int j = 0; j < 3; ++j) {
-        if (i != wall && to[j] == from[i]) lambda[j] = hit->lambda[i];
-      }
+    shorten = 1.0;
+    MoveToWalkWall(wall, next, hit);
+    int corner = 0;
+    const bool is_at_vertex = hit->lambda.maxCoeff(&corner) == 1.0;
+    if (is_at_vertex
+            ? !EnterFan(projector, x_b, corner, sign, hit, triangle)
+            : !CrossWalkWall(projector.field(), wall.corner, hit, triangle)) {
+      return false;
     }
-    hit->lambda = lambda;
-    *triangle = next_triangle;
   }
   return false;
 }

@@ -228,6 +228,97 @@ std::vector<std::size_t> ProperTriangles(const TriangleMesh& mesh,
   return proper;
 }
 
+// A search for pairs of triangles with equal labels that meet properly, leaf by
+// leaf of a tree in parallel: of each leaf, its triangles and those after them.
+class SelfIntersectionSearch {
+ public:
+  SelfIntersectionSearch(const TriangleMesh& mesh,
+                         const std::vector<int>& labels)
+      : mesh_(mesh),
+        labels_(labels),
+        proper_(ProperTriangles(mesh, ComputeBounds(mesh))),
+        boxes_(ProperBoxes()),
+        tree_(boxes_, 4) {
+    rounded_.reserve(proper_.size());
+    for (const std::size_t t : proper_) {
+      rounded_.emplace_back(mesh, mesh.triangles[t]);
+    }
+    for (std::size_t n = 0; n < tree_.nodes().size(); ++n) {
+      if (tree_.nodes()[n].IsLeaf()) leaves_.push_back(static_cast<int>(n));
+    }
+  }
+
+  // Sorted, the lower number of a pair first.
+  std::vector<TrianglePair> FindPairs() const {
+    std::vector<std::vector<TrianglePair>> met(leaves_.size());
+    tbb::parallel_for(
+        tbb::blocked_range<std::size_t>(0, leaves_.size(), kLeavesOfTask),
+        [&](const tbb::blocked_range<std::size_t>& range) {
+          for (std::size_t l = range.begin(); l < range.end(); ++l) {
+            FindPairsOfLeaf(tree_.nodes()[leaves_[l]], &met[l]);
+          }
+        });
+    std::vector<TrianglePair> all;
+    for (const std::vector<TrianglePair>& of_leaf : met) {
+      all.insert(all.end(), of_leaf.begin(), of_leaf.end());
+    }
+    std::sort(all.begin(), all.end());
+    return all;
+  }
+
+ private:
+  std::vector<BoundingBox> ProperBoxes() const {
+    std::vector<BoundingBox> boxes;
+    boxes.reserve(proper_.size());
+    for (const std::size_t t : proper_) {
+      const auto& [i, j, k] = mesh_.triangles[t];
+      const Vector3d& a = mesh_.vertices[i];
+      const Vector3d& b = mesh_.vertices[j];
+      const Vector3d& c = mesh_.vertices[k];
+      boxes.push_back({a.cwiseMin(b).cwiseMin(c), a.cwiseMax(b).cwiseMax(c)});
+    }
+    return boxes;
+  }
+
+  // Of boxes or nodes.
+  template <typename A, typename B>
+  static bool Overlap(const A& a, const B& b) {
+    return (a.min.array() <= b.max.array()).all() &&
+           (a.max.array() >= b.min.array()).all();
+  }
+
+  // Of proper_[i] and proper_[j]; what decides cheaply comes first.
+  bool Meet(std::size_t i, std::size_t j) const {
+    return Overlap(boxes_[i], boxes_[j]) &&
+           labels_[proper_[i]] == labels_[proper_[j]] &&
+           !rounded_[i].IsBeside(rounded_[j]) &&
+           !rounded_[j].IsBeside(rounded_[i]) &&
+           internal::MeetProperly(mesh_, proper_[i], proper_[j]);
+  }
+
+  void FindPairsOfLeaf(const BoxTree::Node& leaf,
+                       std::vector<TrianglePair>* met) const {
+    tree_.ForEach(
+        [&](int node) { return Overlap(tree_.nodes()[node], leaf); },
+        [&](int position) {
+          const auto j = static_cast<std::size_t>(tree_.order()[position]);
+          for (int own = leaf.first; own < leaf.first + leaf.count; ++own) {
+            const auto i = static_cast<std::size_t>(tree_.order()[own]);
+            if (j > i && Meet(i, j)) met->emplace_back(proper_[i], proper_[j]);
+          }
+          return true;
+        });
+  }
+
+  const TriangleMesh& mesh_;
+  const std::vector<int>& labels_;
+  std::vector<std::size_t> proper_;
+  std::vector<BoundingBox> boxes_;        // of proper_
+  std::vector<RoundedTriangle> rounded_;  // of proper_
+  BoxTree tree_;                          // over boxes_
+  std::vector<int> leaves_;               // its nodes
+};
+
 }  // namespace
 
 bool IsDegenerate(const TriangleMesh& mesh, const Triangle& triangle) {
@@ -244,63 +335,8 @@ std::size_t CountSelfIntersections(const TriangleMesh& mesh,
                                    const std::vector<int>& labels,
                                    std::size_t limit,
                                    std::vector<TrianglePair>* pairs) {
-  const std::vector<std::size_t> proper =
-      ProperTriangles(mesh, ComputeBounds(mesh));
-  std::vector<BoundingBox> boxes;
-  boxes.reserve(proper.size());
-  for (const std::size_t t : proper) {
-    const auto& [i, j, k] = mesh.triangles[t];
-    const Vector3d& a = mesh.vertices[i];
-    const Vector3d& b = mesh.vertices[j];
-    const Vector3d& c = mesh.vertices[k];
-    boxes.push_back({a.cwiseMin(b).cwiseMin(c), a.cwiseMax(b).cwiseMax(c)});
-  }
-  std::vector<RoundedTriangle> rounded;
-  rounded.reserve(proper.size());
-  for (const std::size_t t : proper) {
-    rounded.emplace_back(mesh, mesh.triangles[t]);
-  }
-  const BoxTree tree(boxes, 4);
-  std::vector<int> leaves;
-  for (std::size_t n = 0; n < tree.nodes().size(); ++n) {
-    if (tree.nodes()[n].IsLeaf()) leaves.push_back(static_cast<int>(n));
-  }
-  const auto overlap = [](const auto& a, const auto& b) {
-    return (a.min.array() <= b.max.array()).all() &&
-           (a.max.array() >= b.min.array()).all();
-  };
-  const auto meet = [&](std::size_t i, std::size_t j) {
-    return overlap(boxes[i], boxes[j]) &&
-           labels[proper[i]] == labels[proper[j]] &&
-           !rounded[i].IsBeside(rounded[j]) &&
-           !rounded[j].IsBeside(rounded[i]) &&
-           MeetProperly(mesh, proper[i], proper[j]);
-  };
-  // Of each leaf, its items and those after them that they meet.
-  std::vector<std::vector<TrianglePair>> met(leaves.size());
-  const auto find_of = [&](std::size_t l) {
-    const BoxTree::Node& leaf = tree.nodes()[leaves[l]];
-    tree.ForEach(
-        [&](int node) { return overlap(tree.nodes()[node], leaf); },
-        [&](int position) {
-          const auto j = static_cast<std::size_t>(tree.order()[position]);
-          for (int own = leaf.first; own < leaf.first + leaf.count; ++own) {
-            const auto i = static_cast<std::size_t>(tree.order()[own]);
-            if (j > i && meet(i, j)) met[l].emplace_back(proper[i], proper[j]);
-          }
-          return true;
-        });
-  };
-  tbb::parallel_for(
-      tbb::blocked_range<std::size_t>(0, leaves.size(), kLeavesOfTask),
-      [&](const tbb::blocked_range<std::size_t>& range) {
-        for (std::size_t l = range.begin(); l < range.end(); ++l) find_of(l);
-      });
-  std::vector<TrianglePair> all;
-  for (const std::vector<TrianglePair>& of_leaf : met) {
-    all.insert(all.end(), of_leaf.begin(), of_leaf.end());
-  }
-  std::sort(all.begin(), all.end());
+  const std::vector<TrianglePair> all =
+      SelfIntersectionSearch(mesh, labels).FindPairs();
   const std::size_t told = std::min(limit, all.size());
   if (told > 0) pairs->insert(pairs->end(), all.begin(), all.begin() + told);
   return all.size();

@@ -50,6 +50,18 @@ void RequireOfPlanner(bool holds, const char* option, const char* range,
   CheckOption(holds, "contact-surface planner", option, range, value);
 }
 
+// Of a result that is not solved.
+const char* WhyNoRoute(const PlanResult& result) {
+  if (result.searches == kMaxSearches) {
+    return "no route could be lifted in as many searches as allowed";
+  }
+  const bool decided = result.start.cell != FreeCells::kUndecided &&
+                       result.goal.cell != FreeCells::kUndecided;
+  return decided ? "every route on the surface has a place that rounding closed"
+                 : "no route found, and no ray that keeps rounding away from "
+                   "edges tells the cell of the start or of the goal";
+}
+
 }  // namespace
 
 void ContactSurfaceOptions::Validate() const {
@@ -85,6 +97,8 @@ struct ContactSurfacePlanner::Impl {
         graph(surface.contact.mesh(), surface.neighbors, surface.segments,
               surface.cells, options.spacing * surface.bounds.Diagonal(),
               options.gap_links) {}
+
+  class RouteSearch;
 
   std::vector<Attachment> Attach(const Vector3d& q, const Vector3d& other,
                                  bool to_goal,
@@ -161,87 +175,138 @@ void ContactSurfacePlanner::Impl::Recombine(PlanResult* result) const {
   if (PathLength(path) < kGain * shortest) Keep(std::move(path), result);
 }
 
+// Searches the roadmap, lifts what is found, and searches again: without the
+// edges that could not be lifted, or around the routes that are known.
+class ContactSurfacePlanner::Impl::RouteSearch {
+ public:
+  // `all` as in Plan.  All outlive this.
+  RouteSearch(const Impl& planner, const Vector3d& start, const Vector3d& goal,
+              const RouteRequest& request, bool all, PlanResult* result)
+      : planner_(planner),
+        start_(start),
+        goal_(goal),
+        takes_known_(request.routes > 0),
+        routes_(takes_known_ ? request.routes : planner.surface.options.routes),
+        all_(all),
+        result_(*result),
+        site_count_(static_cast<int>(planner.graph.sites().size())),
+        attachments_(planner.Attach(start, goal, false, result->start)),
+        straight_((goal - start).norm()) {
+    const std::vector<Attachment> to_goal =
+        planner.Attach(goal, start, true, result->goal);
+    attachments_.insert(attachments_.end(), to_goal.begin(), to_goal.end());
+    clear_ = 0.4 * planner.surface.ClearanceOfEnds(start, goal,
+                                                   result->wanted_clearance);
+  }
+
+  void Run() {
+    const PlanningSurface& surface = planner_.surface;
+    while (found_ < routes_) {
+      if (result_.searches == kMaxSearches) break;
+      ++result_.searches;
+      const SurfaceGraph::Route route = planner_.graph.Search(
+          start_, goal_, attachments_, deleted_, avoided_);
+      if (route.empty()) break;
+      const std::vector<SurfaceSite> sites = SitesOf(route);
+      std::vector<Vector3d> path;
+      const std::vector<int> blamed =
+          LiftRoute(sites, surface.segments, result_.wanted_clearance,
+                    surface.cells.rounding(), &path, &result_.lift);
+      if (!blamed.empty()) {
+        Delete(blamed, route);
+        continue;
+      }
+      if (IsHopeless(path)) break;
+      ++found_;
+      KeepIfWanted(std::move(path));
+      if (IsEnough()) break;
+      Avoid(sites);
+    }
+  }
+
+ private:
+  // From the start to the goal, both included.
+  std::vector<SurfaceSite> SitesOf(const SurfaceGraph::Route& route) const {
+    std::vector<SurfaceSite> sites(1);
+    sites[0].point = start_;
+    for (const int i : route) {
+      sites.push_back(i < site_count_ ? planner_.graph.sites()[i]
+                                      : attachments_[i - site_count_].site);
+    }
+    sites.emplace_back();
+    sites.back().point = goal_;
+    return sites;
+  }
+
+  // The edges of a route that are to blame, from now on.
+  void Delete(const std::vector<int>& blamed,
+              const SurfaceGraph::Route& route) {
+    const int end = site_count_ + static_cast<int>(attachments_.size());
+    for (const int k : blamed) {
+      const int before = k == 0 ? -1 : route[k - 1];
+      const int after = k < static_cast<int>(route.size()) ? route[k] : end;
+      deleted_.insert(std::minmax(before, after));
+    }
+    result_.deleted_edges = static_cast<int>(deleted_.size());
+  }
+
+  // A route this long will not become the shortest one.
+  bool IsHopeless(const std::vector<Vector3d>& path) const {
+    return !all_ && planner_.surface.IsCertain(result_.clearance) &&
+           PathLength(path) > kHopeless * result_.length;
+  }
+
+  // One that is known is not worth shortening once more; who asks for more
+  // routes wants even that.
+  void KeepIfWanted(std::vector<Vector3d> path) {
+    if (!takes_known_ && IsKnown(raw_paths_, path)) return;
+    raw_paths_.push_back(path);
+    planner_.Keep(std::move(path), &result_);
+  }
+
+  // Is the best route about straight, and clear or as good as narrow ways get?
+  bool IsEnough() const {
+    return !all_ && planner_.surface.IsCertain(result_.clearance) &&
+           result_.length < kStraight * straight_ &&
+           (result_.clearance >= clear_ || found_ >= kNarrowRoutes);
+  }
+
+  // So that the next route is one of another kind.
+  void Avoid(const std::vector<SurfaceSite>& sites) {
+    avoided_.resize(planner_.surface.neighbors.size(), 0);
+    for (const SurfaceSite& site : sites) {
+      if (site.triangle >= 0) avoided_[site.triangle] = 1;
+    }
+  }
+
+  const Impl& planner_;
+  const Vector3d start_, goal_;
+  const bool takes_known_;
+  const int routes_;
+  const bool all_;
+  PlanResult& result_;
+  const int site_count_;  // of the graph; attachments are numbered after them
+  std::vector<Attachment> attachments_;
+  const double straight_;
+  double clear_ = 0.0;
+  std::set<SurfaceGraph::Edge> deleted_;
+  std::vector<char> avoided_;  // triangles
+  std::vector<std::vector<Vector3d>> raw_paths_;
+  int found_ = 0;
+};
+
 void ContactSurfacePlanner::Impl::FindPath(const Vector3d& start,
                                            const Vector3d& goal,
                                            const RouteRequest& request,
                                            bool all, PlanResult* result) const {
-  const ContactSurfaceOptions& options = surface.options;
-  const int routes = request.routes > 0 ? request.routes : options.routes;
   if (surface.IsClearWay(start, goal, result->wanted_clearance)) {
     std::vector<Vector3d> path = {start};
     if (start != goal) path.push_back(goal);
     return Keep(std::move(path), result);
   }
-  std::vector<Attachment> attachments =
-      Attach(start, goal, false, result->start);
-  const std::vector<Attachment> to_goal =
-      Attach(goal, start, true, result->goal);
-  attachments.insert(attachments.end(), to_goal.begin(), to_goal.end());
-  const int count = static_cast<int>(graph.sites().size());
-  const int end = count + static_cast<int>(attachments.size());
-  std::set<SurfaceGraph::Edge> deleted;
-  std::vector<char> avoided;
-  std::vector<std::vector<Vector3d>> raw_paths;
-  const double straight = (goal - start).norm();
-  const double clear =
-      0.4 * surface.ClearanceOfEnds(start, goal, result->wanted_clearance);
-  for (int found = 0; found < routes;) {
-    if (result->searches == kMaxSearches) break;
-    ++result->searches;
-    const SurfaceGraph::Route route =
-        graph.Search(start, goal, attachments, deleted, avoided);
-    if (route.empty()) break;
-    std::vector<SurfaceSite> sites(1);
-    sites[0].point = start;
-    for (const int i : route) {
-      sites.push_back(i < count ? graph.sites()[i]
-                                : attachments[i - count].site);
-    }
-    sites.emplace_back();
-    sites.back().point = goal;
-    std::vector<Vector3d> path;
-    const std::vector<int> blamed =
-        LiftRoute(sites, surface.segments, result->wanted_clearance,
-                  surface.cells.rounding(), &path, &result->lift);
-    if (!blamed.empty()) {
-      for (const int k : blamed) {
-        const int before = k == 0 ? -1 : route[k - 1];
-        const int after = k < static_cast<int>(route.size()) ? route[k] : end;
-        deleted.insert(std::minmax(before, after));
-      }
-      result->deleted_edges = static_cast<int>(deleted.size());
-      continue;
-    }
-    // A route this long will not become the shortest one.
-    if (!all && surface.IsCertain(result->clearance) &&
-        PathLength(path) > kHopeless * result->length) {
-      break;
-    }
-    ++found;
-    // Not worth shortening once more; who asks for more routes wants even that.
-    if (request.routes > 0 || !IsKnown(raw_paths, path)) {
-      raw_paths.push_back(path);
-      Keep(std::move(path), result);
-    }
-    if (!all && surface.IsCertain(result->clearance) &&
-        result->length < kStraight * straight &&
-        (result->clearance >= clear || found >= kNarrowRoutes)) {
-      break;
-    }
-    avoided.resize(surface.neighbors.size(), 0);
-    for (const SurfaceSite& site : sites) {
-      if (site.triangle >= 0) avoided[site.triangle] = 1;
-    }
-  }
+  RouteSearch(*this, start, goal, request, all, result).Run();
   if (result->status == PathStatus::kSolved) return Recombine(result);
-  const bool decided = result->start.cell != FreeCells::kUndecided &&
-                       result->goal.cell != FreeCells::kUndecided;
-  result->reason =
-      result->searches == kMaxSearches
-          ? "no route could be lifted in as many searches as allowed"
-      : decided ? "every route on the surface has a place that rounding closed"
-                : "no route found, and no ray that keeps rounding away from "
-                  "edges tells the cell of the start or of the goal";
+  result->reason = WhyNoRoute(*result);
   if (!surface.segments.Meets(start, goal)) Keep({start, goal}, result);
 }
 

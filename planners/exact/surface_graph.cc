@@ -176,28 +176,51 @@ void SurfaceGraph::IndexTriangles() {
   });
 }
 
-SurfaceGraph::Route SurfaceGraph::Search(
-    const Vector3d& start, const Vector3d& goal,
-    const std::vector<Attachment>& attachments, const std::set<Edge>& deleted,
-    const std::vector<char>& avoided) const {
-  const int count = static_cast<int>(sites_.size());
-  const int extra = static_cast<int>(attachments.size());
-  const int end = count + extra;  // the goal itself
-  std::unordered_map<int, std::vector<int>> attached;
-  std::vector<char> has_attachment(mesh_.triangles.size(), 0);
-  std::vector<int> outside = outside_;
-  for (int i = 0; i < extra; ++i) {
-    const Attachment& attachment = attachments[i];
-    if (attachment.outside) outside.push_back(count + i);
-    if (attachment.site.triangle >= 0) {
-      attached[attachment.site.triangle].push_back(count + i);
-      has_attachment[attachment.site.triangle] = 1;
+namespace {
+
+// A* from the attachments of the start to the goal, itself the last number.
+class SurfaceRouteSearch {
+ public:
+  // Of SurfaceGraph::Search; all outlive this.
+  SurfaceRouteSearch(const SurfaceGraph& graph, std::size_t triangles,
+                     const Vector3d& start, const Vector3d& goal,
+                     const std::vector<Attachment>& attachments,
+                     const std::set<SurfaceGraph::Edge>& deleted,
+                     const std::vector<char>& avoided)
+      : graph_(graph),
+        sites_(graph.sites()),
+        start_(start),
+        goal_(goal),
+        attachments_(attachments),
+        deleted_(deleted),
+        avoided_(avoided),
+        count_(static_cast<int>(sites_.size())),
+        extra_(static_cast<int>(attachments.size())),
+        end_(count_ + extra_),
+        has_attachment_(triangles, 0),
+        outside_(graph.outside()),
+        length_(end_ + 1, std::numeric_limits<double>::infinity()),
+        before_(end_ + 1, -1),
+        closed_(end_ + 1, 0) {}
+
+  SurfaceGraph::Route Run() {
+    IndexAttachments();
+    for (int i = 0; i < extra_; ++i) {
+      if (attachments_[i].to_goal) continue;
+      Offer(-1, count_ + i, (attachments_[i].site.point - start_).norm());
     }
+    while (!open_.empty()) {
+      const int i = open_.top().site;
+      open_.pop();
+      if (closed_[i]) continue;
+      closed_[i] = 1;
+      if (i == end_) break;
+      Expand(i);
+    }
+    return RouteToGoal();
   }
-  const auto point = [&](int i) -> const Vector3d& {
-    if (i == end) return goal;
-    return i < count ? sites_[i].point : attachments[i - count].site.point;
-  };
+
+ private:
   struct Entry {
     double bound;
     int site;
@@ -205,56 +228,102 @@ SurfaceGraph::Route SurfaceGraph::Search(
       return bound != other.bound ? bound > other.bound : site > other.site;
     }
   };
-  std::vector<double> length(end + 1, std::numeric_limits<double>::infinity());
-  std::vector<int> before(end + 1, -1);
-  std::vector<char> closed(end + 1, 0);
-  std::priority_queue<Entry> open;
-  const auto offer = [&](int from, int to, double way) {
-    if (!(way < length[to])) return;
-    if (!deleted.empty() && deleted.count(std::minmax(from, to)) > 0) return;
-    length[to] = way;
-    before[to] = from;
-    open.push({way + (point(to) - goal).norm(), to});
-  };
-  for (int i = 0; i < extra; ++i) {
-    if (attachments[i].to_goal) continue;
-    offer(-1, count + i, (attachments[i].site.point - start).norm());
+
+  void IndexAttachments() {
+    for (int i = 0; i < extra_; ++i) {
+      const Attachment& attachment = attachments_[i];
+      if (attachment.outside) outside_.push_back(count_ + i);
+      if (attachment.site.triangle >= 0) {
+        attached_[attachment.site.triangle].push_back(count_ + i);
+        has_attachment_[attachment.site.triangle] = 1;
+      }
+    }
   }
-  while (!open.empty()) {
-    const int i = open.top().site;
-    open.pop();
-    if (closed[i]) continue;
-    closed[i] = 1;
-    if (i == end) break;
-    const Vector3d& here = point(i);
+
+  // Of all but the goal.
+  const SurfaceSite& SiteOf(int i) const {
+    return i < count_ ? sites_[i] : attachments_[i - count_].site;
+  }
+  const Vector3d& PointOf(int i) const {
+    return i == end_ ? goal_ : SiteOf(i).point;
+  }
+  bool IsAvoided(int i) const {
+    return !avoided_.empty() && i < count_ && sites_[i].triangle >= 0 &&
+           avoided_[sites_[i].triangle] != 0;
+  }
+
+  // A way of that length; kept if it is the shortest so far.
+  void Offer(int from, int to, double way) {
+    if (!(way < length_[to])) return;
+    if (!deleted_.empty() && deleted_.count(std::minmax(from, to)) > 0) return;
+    length_[to] = way;
+    before_[to] = from;
+    open_.push({way + (PointOf(to) - goal_).norm(), to});
+  }
+
+  // All ways on: over the triangles of the site, its link, to the goal, and
+  // away from everything.
+  void Expand(int i) {
+    const Vector3d& here = PointOf(i);
     const auto go = [&](int j) {
-      if (closed[j]) return;
-      const bool avoid = !avoided.empty() && j < count &&
-                         sites_[j].triangle >= 0 &&
-                         avoided[sites_[j].triangle] != 0;
-      offer(i, j,
-            length[i] + (avoid ? kDetour : 1.0) * (point(j) - here).norm());
+      if (closed_[j]) return;
+      Offer(i, j,
+            length_[i] + (IsAvoided(j) ? SurfaceGraph::kDetour : 1.0) *
+                             (PointOf(j) - here).norm());
     };
-    const SurfaceSite& site =
-        i < count ? sites_[i] : attachments[i - count].site;
+    const SurfaceSite& site = SiteOf(i);
     for (const int t : {site.triangle, site.other}) {
       if (t < 0) continue;
-      ForEachOn(t, go);
-      if (!has_attachment[t]) continue;
-      const auto found = attached.find(t);
+      graph_.ForEachOn(t, go);
+      if (!has_attachment_[t]) continue;
+      const auto found = attached_.find(t);
       for (const int j : found->second) go(j);
     }
-    if (i < count && partner_[i] >= 0) go(partner_[i]);
-    if (i >= count && attachments[i - count].to_goal) go(end);
+    if (i < count_ && graph_.partner(i) >= 0) go(graph_.partner(i));
+    if (i >= count_ && attachments_[i - count_].to_goal) go(end_);
     if (site.triangle < 0) {
-      for (const int j : outside) go(j);
+      for (const int j : outside_) go(j);
     }
   }
-  Route route;
-  if (!closed[end]) return route;
-  for (int i = before[end]; i >= 0; i = before[i]) route.push_back(i);
-  std::reverse(route.begin(), route.end());
-  return route;
+
+  SurfaceGraph::Route RouteToGoal() const {
+    SurfaceGraph::Route route;
+    if (!closed_[end_]) return route;
+    for (int i = before_[end_]; i >= 0; i = before_[i]) route.push_back(i);
+    std::reverse(route.begin(), route.end());
+    return route;
+  }
+
+  const SurfaceGraph& graph_;
+  const std::vector<SurfaceSite>& sites_;
+  const Vector3d& start_;
+  const Vector3d& goal_;
+  const std::vector<Attachment>& attachments_;
+  const std::set<SurfaceGraph::Edge>& deleted_;
+  const std::vector<char>& avoided_;
+  const int count_;  // of sites; attachments are numbered after them
+  const int extra_;
+  const int end_;  // the goal itself
+
+  std::unordered_map<int, std::vector<int>> attached_;  // on a triangle
+  std::vector<char> has_attachment_;                    // a triangle
+  std::vector<int> outside_;
+  // Of the shortest way to each so far, and the number before it there.
+  std::vector<double> length_;
+  std::vector<int> before_;
+  std::vector<char> closed_;
+  std::priority_queue<Entry> open_;
+};
+
+}  // namespace
+
+SurfaceGraph::Route SurfaceGraph::Search(
+    const Vector3d& start, const Vector3d& goal,
+    const std::vector<Attachment>& attachments, const std::set<Edge>& deleted,
+    const std::vector<char>& avoided) const {
+  return SurfaceRouteSearch(*this, mesh_.triangles.size(), start, goal,
+                            attachments, deleted, avoided)
+      .Run();
 }
 
 }  // namespace phongpd

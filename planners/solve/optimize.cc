@@ -133,6 +133,8 @@ internal::ClearanceWish WishOf(const OptimizeRequest& request) {
 }  // namespace
 
 void OptimizeRequest::Validate(const World& world) const {
+  RequireLength(internal::MarginOf(*this), LengthRange::kAboveZero,
+                world.diagonal(), "margin", world.workspace().unit);
   if (limits) {
     internal::CurveOptionsOf(world, *this).Validate();
   } else {

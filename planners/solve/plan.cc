@@ -51,6 +51,10 @@ class PlanRun {
 
   PathAnswer Run() {
     request_.Validate();
+    if (request_.clearance) {
+      RequireLength(*request_.clearance, LengthRange::kAboveZero,
+                    world_.diagonal(), "clearance", world_.workspace().unit);
+    }
     answer_.plan.emplace();
     answer_.plan->planner = request_.planner;
     if (request_.model == Model::kWindow) RequireNoRetraction("");

@@ -46,6 +46,143 @@ IpoptSettings RoundSettings() {
   return settings;
 }
 
+// Polishes one free path; a round hands on to the next one the path, the
+// corridor around it and the trust.
+class CorridorPolish {
+ public:
+  // From the summary's path on; all outlive this.
+  CorridorPolish(const TrajectoryProblem& problem, const Stopwatch& stopwatch,
+                 double time_limit, const PathObserver& on_path,
+                 CorridorSummary* summary)
+      : problem_(problem),
+        stopwatch_(stopwatch),
+        time_limit_(time_limit),
+        on_path_(on_path),
+        summary_(*summary),
+        springs_(problem, PathLength(summary->path)),
+        now_(springs_.ToVariables(summary->path)) {
+    // The path as it is has to be one that the program's rows allow.
+    for (int i = 0; i <= springs_.waypoints; ++i) {
+      springs_.eta =
+          std::max(springs_.eta, springs_.Step(i, now_.data()).norm());
+    }
+    price_ =
+        kRestoring / std::max((springs_.goal - springs_.start).norm(), 1e-3);
+    corridor_ = CorridorAround(summary->path);
+    merit_ = MeritOf(now_, corridor_);
+  }
+
+  void Run(int max_rounds) {
+    summary_.status = CorridorStatus::kRoundLimit;
+    while (static_cast<int>(summary_.rounds.size()) < max_rounds) {
+      const double gain = DoRound();
+      if (HasEnded(gain)) break;
+    }
+    summary_.objective = PathEnergy(problem_, summary_.path);
+    summary_.clearance = LeastClearance();
+  }
+
+ private:
+  Corridor CorridorAround(const Path& path) const {
+    return FindCorridor(problem_, springs_, path, ReachOf(problem_, trust_));
+  }
+  double MeritOf(const VectorXd& x, const Corridor& corridor) const {
+    return springs_.Energy(x.data()) + price_ * corridor.TotalMissing();
+  }
+  Path ToPath(const VectorXd& x) const {
+    return springs_.ToPath(problem_.start, x.data(), problem_.goal);
+  }
+
+  // What the round gains, a share of the merit; 0 where it leads into contact.
+  double DoRound() {
+    const IpoptRun run = SolveRound();
+    summary_.iterations += run.iterations;
+    CorridorRound round;
+    round.trust = trust_;
+    round.planes = corridor_.CountPlanes();
+    round.iterations = run.iterations;
+    const double gain = TryStep(run.x);
+    round.is_accepted = gain > 0.0;
+    round.objective = springs_.Energy(now_.data());
+    round.missing = corridor_.TotalMissing();
+    summary_.rounds.push_back(round);
+    if (!round.is_accepted) trust_ *= 0.5;
+    return gain;
+  }
+
+  // The convex program around the path as it is.
+  IpoptRun SolveRound() {
+    CorridorProgram program(problem_, springs_, corridor_, now_, trust_,
+                            price_);
+    IpoptSettings settings = RoundSettings();
+    const std::function<Path(const VectorXd&)> path_of =
+        [this](const VectorXd& x) { return ToPath(x); };
+    TellPaths(on_path_, static_cast<int>(summary_.rounds.size()), path_of,
+              &settings);
+    settings.time_limit = std::max(1e-3, time_limit_ - stopwatch_.Seconds());
+    return SolveWithIpopt(&program, program.Start(), settings);
+  }
+
+  // Moves the path there if the judge finds that free and the merit falls.
+  double TryStep(const VectorXd& x) {
+    const Path moved = ToPath(x);
+    if (!CheckPath(*problem_.free_space, moved).free) return 0.0;
+    Corridor around = CorridorAround(moved);
+    const double there = MeritOf(x, around);
+    const double gain = (merit_ - there) / merit_;
+    if (gain > 0.0) {
+      summary_.path = moved;
+      now_ = x.head(now_.size());
+      corridor_ = std::move(around);
+      merit_ = there;
+    }
+    return gain;
+  }
+
+  // After a round that gained so much; says why.
+  bool HasEnded(double gain) {
+    const bool is_accepted = summary_.rounds.back().is_accepted;
+    // A round that failed by far says nothing about the next one.
+    const bool is_small =
+        std::abs(gain) < kLeastGain && (is_accepted || gain != 0.0);
+    small_gains_ = is_small ? small_gains_ + 1 : 0;
+    if (small_gains_ >= 2) {
+      summary_.status = CorridorStatus::kConverged;
+    } else if (trust_ < kSmallestTrust * kFirstTrust) {
+      summary_.status = CorridorStatus::kSmallestTrust;
+    } else if (stopwatch_.Seconds() > time_limit_) {
+      summary_.status = CorridorStatus::kTimeLimit;
+    } else {
+      return false;
+    }
+    return true;
+  }
+
+  // Of what is around the path, and at most the margin.
+  double LeastClearance() const {
+    double least = problem_.margin;
+    for (const auto& planes : corridor_.planes) {
+      for (const Corridor::Plane& plane : planes) {
+        least = std::min(least, plane.distance);
+      }
+    }
+    return least;
+  }
+
+  const TrajectoryProblem& problem_;
+  const Stopwatch& stopwatch_;
+  double time_limit_;
+  const PathObserver& on_path_;
+  CorridorSummary& summary_;
+  PathSprings springs_;
+  VectorXd now_;        // the waypoints as variables
+  double price_ = 0.0;  // of a unit of missing clearance
+  double trust_ = kFirstTrust;
+  Corridor corridor_;
+  double merit_ = 0.0;
+  int small_gains_ = 0;
+};
+
 }  // namespace
 
 const char* ToString(CorridorStatus status) {
@@ -89,83 +226,9 @@ CorridorSummary PolishRounds(const TrajectoryProblem& problem, const Path& path,
   CorridorSummary summary;
   summary.path = path;
   summary.objective = PathEnergy(problem, path);
-  if (!CheckPath(*problem.free_space, path).free) {
-    summary.seconds = stopwatch.Seconds();
-    return summary;
-  }
-
-  PathSprings springs(problem, PathLength(path));
-  VectorXd now = springs.ToVariables(path);
-  for (int i = 0; i <= springs.waypoints; ++i) {
-    springs.eta = std::max(springs.eta, springs.Step(i, now.data()).norm());
-  }
-  const double price =
-      kRestoring / std::max((springs.goal - springs.start).norm(), 1e-3);
-  double trust = kFirstTrust;
-  Corridor corridor =
-      FindCorridor(problem, springs, path, ReachOf(problem, trust));
-  double merit = springs.Energy(now.data()) + price * corridor.TotalMissing();
-  const std::function<Path(const VectorXd&)> path_of = [&](const VectorXd& x) {
-    return springs.ToPath(problem.start, x.data(), problem.goal);
-  };
-  int small_gains = 0;
-  summary.status = CorridorStatus::kRoundLimit;
-  while (static_cast<int>(summary.rounds.size()) < max_rounds) {
-    CorridorProgram program(problem, springs, corridor, now, trust, price);
-    IpoptSettings settings = RoundSettings();
-    TellPaths(on_path, static_cast<int>(summary.rounds.size()), path_of,
-              &settings);
-    settings.time_limit = std::max(1e-3, time_limit - stopwatch.Seconds());
-    const IpoptRun run = SolveWithIpopt(&program, program.Start(), settings);
-    summary.iterations += run.iterations;
-
-    CorridorRound round;
-    round.trust = trust;
-    round.planes = corridor.CountPlanes();
-    round.iterations = run.iterations;
-    const Path moved = path_of(run.x);
-    double gain = 0.0;
-    if (CheckPath(*problem.free_space, moved).free) {
-      Corridor around =
-          FindCorridor(problem, springs, moved, ReachOf(problem, trust));
-      const double there =
-          springs.Energy(run.x.data()) + price * around.TotalMissing();
-      gain = (merit - there) / merit;
-      round.is_accepted = gain > 0.0;
-      if (round.is_accepted) {
-        summary.path = moved;
-        now = run.x.head(now.size());
-        corridor = std::move(around);
-        merit = there;
-      }
-    }
-    round.objective = springs.Energy(now.data());
-    round.missing = corridor.TotalMissing();
-    summary.rounds.push_back(round);
-    if (!round.is_accepted) trust *= 0.5;
-    // A round that failed by far says nothing about the next one.
-    const bool is_small =
-        std::abs(gain) < kLeastGain && (round.is_accepted || gain != 0.0);
-    small_gains = is_small ? small_gains + 1 : 0;
-    if (small_gains >= 2) {
-      summary.status = CorridorStatus::kConverged;
-      break;
-    }
-    if (trust < kSmallestTrust * kFirstTrust) {
-      summary.status = CorridorStatus::kSmallestTrust;
-      break;
-    }
-    if (stopwatch.Seconds() > time_limit) {
-      summary.status = CorridorStatus::kTimeLimit;
-      break;
-    }
-  }
-  summary.objective = PathEnergy(problem, summary.path);
-  summary.clearance = problem.margin;
-  for (const auto& planes : corridor.planes) {
-    for (const Corridor::Plane& plane : planes) {
-      summary.clearance = std::min(summary.clearance, plane.distance);
-    }
+  if (CheckPath(*problem.free_space, path).free) {
+    CorridorPolish polish(problem, stopwatch, time_limit, on_path, &summary);
+    polish.Run(max_rounds);
   }
   summary.seconds = stopwatch.Seconds();
   return summary;

@@ -168,20 +168,17 @@ int Compare(const CLI::App& app, const CompareFlags& flags) {
   return kDone;
 }
 
-}  // namespace
-
-Command AddCompare(CLI::App* app) {
-  auto flags = std::make_shared<CompareFlags>();
-  std::string protocols = "Ways of running:";
+std::string ProtocolsHelp() {
+  std::string text = "Ways of running:";
   for (const TrajectoryProtocol& protocol : TrajectoryProtocols()) {
-    protocols += " " + protocol.name + " (" + protocol.meaning + ");";
+    text += " " + protocol.name + " (" + protocol.meaning + ");";
   }
-  protocols.back() = '.';
-  app->add_option("scenes", flags->scenes,
-                  "Scene files, or FAMILY:key=value,... (see scenes list)")
-      ->type_name("SCENE");
-  AddRoot(app, &flags->root);
-  AddRepair(app, &flags->repair);
+  text.back() = '.';
+  return text;
+}
+
+// What is run on every problem.
+void AddComparedMethods(CLI::App* app, CompareFlags* flags) {
   app->add_option("--metrics", flags->metrics,
                   "euclidean, phong@L, phong@L/exact, phong@L/tangent-plane; L "
                   "is the smoothing length, 0.2 or 0.2D (a share of D) or "
@@ -192,10 +189,14 @@ Command AddCompare(CLI::App* app) {
       ->expected(1, -1)
       ->type_name("NAME")
       ->capture_default_str();
-  app->add_option("--protocols", flags->protocols, protocols)
+  app->add_option("--protocols", flags->protocols, ProtocolsHelp())
       ->expected(1, -1)
       ->type_name("NAME")
       ->capture_default_str();
+}
+
+// Which problems of the scenes, and which of them here.
+void AddComparedRuns(CLI::App* app, CompareFlags* flags) {
   app->add_option("--runs", flags->runs, "Seeds a scene, paired over methods")
       ->type_name("N")
       ->capture_default_str();
@@ -208,6 +209,10 @@ Command AddCompare(CLI::App* app) {
                   "only; phongpd merge joins the parts")
       ->type_name("i/n")
       ->capture_default_str();
+}
+
+// Rows there are already, what rows hold, and where they go.
+void AddComparedRows(CLI::App* app, CompareFlags* flags) {
   app->add_option("--rows", flags->rows,
                   "Summarise these rows instead of running")
       ->type_name("FILE");
@@ -220,6 +225,20 @@ Command AddCompare(CLI::App* app) {
                   "the table on standard output is all")
       ->type_name("DIR");
   AddJson(app, &flags->json, "The rows on standard output, as JSON Lines");
+}
+
+}  // namespace
+
+Command AddCompare(CLI::App* app) {
+  auto flags = std::make_shared<CompareFlags>();
+  app->add_option("scenes", flags->scenes,
+                  "Scene files, or FAMILY:key=value,... (see scenes list)")
+      ->type_name("SCENE");
+  AddRoot(app, &flags->root);
+  AddRepair(app, &flags->repair);
+  AddComparedMethods(app, flags.get());
+  AddComparedRuns(app, flags.get());
+  AddComparedRows(app, flags.get());
   AddNoCache(app, &flags->no_cache);
   AddExamples(
       app,

@@ -157,13 +157,13 @@ TriangleMesh Operand(const std::string& path, const DepthFlags& flags) {
   return repair == Repair::kReject ? LoadMesh(path) : LoadSolid(path, repair);
 }
 
-int Depth(const DepthFlags& flags) {
-  const AnswerForm form = FormOf(flags.output, flags.json);
-  OutputFiles outputs;
-  DeclareTable(&outputs, flags.output, "--output");
-  DeclareIfNamed(&outputs, flags.html, "--html", {".html", ".htm"});
+void DeclareDepthOutputs(const DepthFlags& flags, OutputFiles* outputs) {
+  DeclareTable(outputs, flags.output, "--output");
+  DeclareIfNamed(outputs, flags.html, "--html", {".html", ".htm"});
   if (!flags.html.empty()) RequireViewer();
-  const std::vector<RobotPose> poses = PosesOf(flags);
+}
+
+DepthOptions DepthOptionsOf(const DepthFlags& flags) {
   DepthOptions options;
   options.robot_name = flags.a;
   options.obstacle_name = flags.b;
@@ -175,26 +175,79 @@ int Depth(const DepthFlags& flags) {
                        flags.max_radius);
     }
   }
+  return options;
+}
+
+// The answers as text, in the form that is asked for, with PhongPD beside the
+// Euclidean depth where a smoothing length is.
+class DepthText {
+ public:
+  // The flags outlive this.
+  DepthText(const DepthFlags& flags, AnswerForm form, const TriangleMesh& a,
+            const TriangleMesh& b)
+      : flags_(flags),
+        is_json_(form == AnswerForm::kJson),
+        is_table_(!is_json_ &&
+                  (form == AnswerForm::kCsv || !flags.poses.empty())) {
+    if (!flags.smoothing_length.empty()) {
+      ContactSpaceOptions limits;
+      limits.robot_name = flags.a;
+      limits.obstacle_name = flags.b;
+      limits.max_seconds = flags.max_seconds;
+      phong_.emplace(flags.smoothing_length, a, b, limits);
+    }
+    if (is_table_) {
+      text_ = std::string(kDepthHeader) + (phong_ ? DepthPhong::kColumns : "") +
+              '\n';
+    }
+  }
+
+  void Add(const RobotPose& pose, const DepthResult& result) {
+    std::optional<WindowPhongResult> with_phong;
+    if (phong_) with_phong = phong_->At(pose);
+    if (is_json_) {
+      Json answer = AnswerJson(pose, result);
+      if (phong_) answer["phong"] = phong_->AsJson(*with_phong);
+      text_ += JsonText(answer) + '\n';
+    } else if (is_table_) {
+      text_ += DepthRow(pose, result) +
+               (phong_ ? DepthPhong::AsCells(*with_phong) : "") + '\n';
+    } else {
+      text_ += Sentence(flags_, result) +
+               (phong_ ? phong_->AsSentence(*with_phong) : "");
+    }
+  }
+
+  const std::string& text() const { return text_; }
+
+ private:
+  const DepthFlags& flags_;
+  bool is_json_, is_table_;
+  std::optional<DepthPhong> phong_;
+  std::string text_;
+};
+
+// Completes a page that holds the answers.
+void WriteDepthPage(const DepthFlags& flags, const TriangleMesh& a,
+                    const TriangleMesh& b, View* view, OutputFiles* outputs) {
+  view->title = flags.a + " in " + flags.b;
+  view->robot = a;
+  view->meshes.push_back({flags.b, ViewRole::kObstacle, b});
+  TellOfDepthWindows(false, view);
+  outputs->Write(flags.html, ViewPage(*view));
+}
+
+int Depth(const DepthFlags& flags) {
+  const AnswerForm form = FormOf(flags.output, flags.json);
+  OutputFiles outputs;
+  DeclareDepthOutputs(flags, &outputs);
+  const std::vector<RobotPose> poses = PosesOf(flags);
+  const DepthOptions options = DepthOptionsOf(flags);
   const TriangleMesh a = Operand(flags.a, flags), b = Operand(flags.b, flags);
   const DepthQuery query(a, b, options);
   WarnOfUnits(a, flags.a, b, flags.b);
   for (const std::string& warning : query.warnings()) Warn(warning);
-  std::optional<DepthPhong> phong;
-  if (!flags.smoothing_length.empty()) {
-    ContactSpaceOptions limits;
-    limits.robot_name = flags.a;
-    limits.obstacle_name = flags.b;
-    limits.max_seconds = flags.max_seconds;
-    phong.emplace(flags.smoothing_length, a, b, limits);
-  }
-  const bool is_json = form == AnswerForm::kJson;
-  const bool is_table =
-      !is_json && (form == AnswerForm::kCsv || !flags.poses.empty());
-  std::string text;
-  if (is_table) {
-    text =
-        std::string(kDepthHeader) + (phong ? DepthPhong::kColumns : "") + '\n';
-  }
+  DepthText text(flags, form, a, b);
   View view;
   bool is_certified = true;
   std::size_t done = 0;
@@ -205,28 +258,10 @@ int Depth(const DepthFlags& flags) {
     if (!flags.html.empty()) {
       view.answers.push_back(DepthAnswerOf(AnswerJson(pose, result)));
     }
-    std::optional<WindowPhongResult> with_phong;
-    if (phong) with_phong = phong->At(pose);
-    if (is_json) {
-      Json answer = AnswerJson(pose, result);
-      if (phong) answer["phong"] = phong->AsJson(*with_phong);
-      text += JsonText(answer) + '\n';
-    } else if (is_table) {
-      text += DepthRow(pose, result) +
-              (phong ? DepthPhong::AsCells(*with_phong) : "") + '\n';
-    } else {
-      text += Sentence(flags, result) +
-              (phong ? phong->AsSentence(*with_phong) : "");
-    }
+    text.Add(pose, result);
   }
-  outputs.Write(flags.output, text);
-  if (!flags.html.empty()) {
-    view.title = flags.a + " in " + flags.b;
-    view.robot = a;
-    view.meshes.push_back({flags.b, ViewRole::kObstacle, b});
-    TellOfDepthWindows(false, &view);
-    outputs.Write(flags.html, ViewPage(view));
-  }
+  outputs.Write(flags.output, text.text());
+  if (!flags.html.empty()) WriteDepthPage(flags, a, b, &view, &outputs);
   outputs.Commit();
   return is_certified ? kDone : kNoAnswer;
 }

@@ -208,86 +208,117 @@ int OptimizeInTime(const OptimizeFlags& flags, const MotionLimits& limits,
   return AnswerInTime(scene, timed, Optimize);
 }
 
-int AnswerOptimize(const OptimizeFlags& flags) {
-  RequireRuns(flags.runs);
-  const SceneSource source(flags.scene, flags.root,
-                           ParseRepair(flags.repair, "--repair"));
-  // Seed 0 is the scene as it stands.
-  const auto load = [&](std::uint64_t seed) {
-    return seed == 0 ? source.Load() : source.Load(seed);
-  };
-  const Scene first = load(flags.seed);
-  if (const auto limits = LimitsOf(flags.motion, first)) {
-    return OptimizeInTime(flags, *limits, first);
+// Seed 0 is the scene as it stands.
+Scene SceneOfSeed(const SceneSource& source, std::uint64_t seed) {
+  return seed == 0 ? source.Load() : source.Load(seed);
+}
+
+// The runs of a scene without limits, one after the other.
+class OptimizeRuns {
+ public:
+  // `first` is the scene of the first seed; all but it outlive this.
+  OptimizeRuns(const OptimizeFlags& flags, const SceneSource& source,
+               const Scene& first)
+      : flags_(flags),
+        source_(source),
+        runs_(flags, source,
+              "scene, metric, start, seed: status, iterations, objective, "
+              "clearance (user's unit), seconds",
+              [&flags](const auto& row) {
+                return SummarizeTrajectory(flags, row);
+              }),
+        worlds_(UserCache(flags.no_cache), flags.limits),
+        scene_(first) {}
+
+  int Answer() {
+    SilenceOmpl();
+    for (int run = 0; run < flags_.runs; ++run) Take(run);
+    WriteAll();
+    const int code = runs_.Commit();
+    if (!refuted_.empty()) FailVerification(refuted_);
+    return code;
   }
-  RequireNoMotion(flags.motion);
-  SeededRuns runs(
-      flags, source,
-      "scene, metric, start, seed: status, iterations, objective, "
-      "clearance (user's unit), seconds",
-      [&flags](const auto& row) { return SummarizeTrajectory(flags, row); });
-  KeptWorld worlds(UserCache(flags.no_cache), flags.limits);
-  // Of the last run; the pictures need its scene.
-  Scene scene = first;
-  std::optional<Model> model;
-  SilenceOmpl();
-  std::string refuted;
-  for (int run = 0; run < flags.runs; ++run) {
-    const std::uint64_t seed = flags.seed + static_cast<std::uint64_t>(run);
-    if (run > 0) scene = load(seed);
-    Override(flags, &scene);
-    OptimizeRequest request = RequestOf(flags, scene, seed);
+
+ private:
+  // Of those that were kept the last one alone is read: the pictures may need
+  // its scene.
+  void Take(int run) {
+    const std::uint64_t seed = flags_.seed + static_cast<std::uint64_t>(run);
+    if (run > 0) scene_ = SceneOfSeed(source_, seed);
+    Override(flags_, &scene_);
+    OptimizeRequest request = RequestOf(flags_, scene_, seed);
+    Progress("run " + std::to_string(run + 1) + " of " +
+             std::to_string(flags_.runs) + ": " + request.penetration.Name());
+    const bool is_kept = run < runs_.kept();
+    if (is_kept && run + 1 < flags_.runs) return;
+    const World& world = worlds_.Of(scene_);
+    if (run == runs_.kept()) {
+      TellAbout(scene_);
+      const std::string beyond = MarginBeyondReach(world, request);
+      if (!beyond.empty()) Warn(beyond);
+    }
+    if (is_kept) return;
+    ProgressOf("runs", static_cast<std::size_t>(run - runs_.kept()),
+               static_cast<std::size_t>(flags_.runs - runs_.kept()));
+    Ask(world, std::move(request), run == runs_.kept());
+  }
+
+  void Ask(const World& world, OptimizeRequest request, bool is_first) {
     PathHistory history;
-    if (runs.ShowsBehind()) {
+    if (runs_.ShowsBehind()) {
       request.options.on_path = [&history](const PathIterate& iterate) {
         history.Add(iterate);
       };
     }
-    Progress("run " + std::to_string(run + 1) + " of " +
-             std::to_string(flags.runs) + ": " + request.penetration.Name());
-    const bool is_kept = run < runs.kept();
-    if (is_kept && run + 1 < flags.runs) continue;
-    const World& world = worlds.Of(scene);
-    if (run == runs.kept()) {
-      TellAbout(scene);
-      const std::string beyond = MarginBeyondReach(world, request);
-      if (!beyond.empty()) Warn(beyond);
-    }
-    if (is_kept) continue;
-    ProgressOf("runs", static_cast<std::size_t>(run - runs.kept()),
-               static_cast<std::size_t>(flags.runs - runs.kept()));
     const PathAnswer answer = Optimize(world, request);
-    model = answer.evidence.model;
-    if (run == runs.kept()) TellTrajectoryModel(answer.evidence);
-    if (answer.status == PathStatus::kVerificationFailed && refuted.empty()) {
-      refuted = scene.name + ": " + answer.reason;
+    model_ = answer.evidence.model;
+    if (is_first) TellTrajectoryModel(answer.evidence);
+    if (answer.status == PathStatus::kVerificationFailed && refuted_.empty()) {
+      refuted_ = scene_.name + ": " + answer.reason;
     }
-    runs.Add(PolylineRow(scene, world, request, answer),
-             runs.ShowsBehind()
-                 ? BehindTrajectory(world, request, answer, history)
-                 : ViewBehind());
+    runs_.Add(PolylineRow(scene_, world, request, answer),
+              runs_.ShowsBehind()
+                  ? BehindTrajectory(world, request, answer, history)
+                  : ViewBehind());
   }
-  const World& world = worlds.Of(scene);
-  const SpaceLayout layout =
-      flags.per_obstacle ? SpaceLayout::kPerObstacle : SpaceLayout::kMerged;
-  runs.Write([&] {
-    return model == Model::kWindow
-               ? WindowView(scene, world)
-               : SceneView(scene, world.Spaces(layout).Meshes());
-  });
-  const WorldSpaces* const built = world.Built(layout);
-  TellAboutSpaces(world, built == nullptr ? 0 : built->triangles);
-  const int code = runs.Commit();
-  if (!refuted.empty()) FailVerification(refuted);
-  return code;
+
+  // The rows, and the pictures in the world of the last run.
+  void WriteAll() {
+    const World& world = worlds_.Of(scene_);
+    const SpaceLayout layout =
+        flags_.per_obstacle ? SpaceLayout::kPerObstacle : SpaceLayout::kMerged;
+    runs_.Write([&] {
+      return model_ == Model::kWindow
+                 ? WindowView(scene_, world)
+                 : SceneView(scene_, world.Spaces(layout).Meshes());
+    });
+    const WorldSpaces* const built = world.Built(layout);
+    TellAboutSpaces(world, built == nullptr ? 0 : built->triangles);
+  }
+
+  const OptimizeFlags& flags_;
+  const SceneSource& source_;
+  SeededRuns runs_;
+  KeptWorld worlds_;
+  Scene scene_;                 // of the last run
+  std::optional<Model> model_;  // of the last that was not kept
+  std::string refuted_;         // the first of them
+};
+
+int AnswerOptimize(const OptimizeFlags& flags) {
+  RequireRuns(flags.runs);
+  const SceneSource source(flags.scene, flags.root,
+                           ParseRepair(flags.repair, "--repair"));
+  const Scene first = SceneOfSeed(source, flags.seed);
+  if (const auto limits = LimitsOf(flags.motion, first)) {
+    return OptimizeInTime(flags, *limits, first);
+  }
+  RequireNoMotion(flags.motion);
+  return OptimizeRuns(flags, source, first).Answer();
 }
 
-}  // namespace
-
-Command AddOptimize(CLI::App* app) {
-  auto flags = std::make_shared<OptimizeFlags>();
-  AddScene(app, flags.get());
-  AddPreset(app, kOptimizePresetHelp, &flags->preset);
+// What keeps a path out of obstacles and away from them.
+void AddMetricFlags(CLI::App* app, OptimizeFlags* flags) {
   app->add_option("--metric", flags->metric,
                   "Penetration depth inside obstacles (scene's own if not set)")
       ->check(CLI::IsMember({"phong", "euclidean"}));
@@ -309,6 +340,10 @@ Command AddOptimize(CLI::App* app) {
                   "Of Phong depth: its continuous direction, or the exact "
                   "gradient (scene's own if not set)")
       ->check(CLI::IsMember({"direction", "exact"}));
+}
+
+// Where the optimiser begins.
+void AddStartFlags(CLI::App* app, OptimizeFlags* flags) {
   app->add_option("--start", flags->start,
                   "First path: the line, or if it collides the path of the "
                   "complete planner (repaired and planner mean the same)")
@@ -326,6 +361,10 @@ Command AddOptimize(CLI::App* app) {
   app->add_flag("--line,!--no-line", flags->line,
                 "Optimise from the colliding line as well as from the "
                 "repaired start, or not (preset's own if not set)");
+}
+
+// How it gets on from there.
+void AddSolverFlags(CLI::App* app, OptimizeFlags* flags) {
   app->add_option("--rows", flags->rows, "Constraint rows a sample, 1 to 8")
       ->type_name("K")
       ->capture_default_str();
@@ -338,6 +377,27 @@ Command AddOptimize(CLI::App* app) {
       ->check(CLI::IsMember({"never", "needed", "always"}));
   app->add_flag("--per-obstacle", flags->per_obstacle,
                 "One contact space for each obstacle instead of a merged one");
+}
+
+// Where the answer goes; a motion in time has other files than a path.
+void AddOutputFlags(CLI::App* app, OptimizeFlags* flags) {
+  AddRowOutput(app, flags);
+  CLI::Option* const output = app->get_option("--output");
+  output->description(output->get_description() +
+                      ". With --limits Bézier pieces as JSON, rows in time as "
+                      "FILE.csv or, for ROS 2, FILE.yaml, lines as FILE.gcode");
+  AddPictures(app, flags);
+}
+
+}  // namespace
+
+Command AddOptimize(CLI::App* app) {
+  auto flags = std::make_shared<OptimizeFlags>();
+  AddScene(app, flags.get());
+  AddPreset(app, kOptimizePresetHelp, &flags->preset);
+  AddMetricFlags(app, flags.get());
+  AddStartFlags(app, flags.get());
+  AddSolverFlags(app, flags.get());
   AddMotion(app,
             "a certified curve in time instead of a path; scene's own if not "
             "set; none: a path",
@@ -352,12 +412,7 @@ Command AddOptimize(CLI::App* app) {
           flags.get());
   app->add_option("--time", flags->time_limit, "Limit of a run, seconds")
       ->type_name("S");
-  AddRowOutput(app, flags.get());
-  CLI::Option* const output = app->get_option("--output");
-  output->description(output->get_description() +
-                      ". With --limits Bézier pieces as JSON, rows in time as "
-                      "FILE.csv or, for ROS 2, FILE.yaml, lines as FILE.gcode");
-  AddPictures(app, flags.get());
+  AddOutputFlags(app, flags.get());
   AddVerify(app, &flags->verify);
   AddNoCache(app, &flags->no_cache);
   AddExamples(

@@ -147,20 +147,8 @@ int Look(ViewFlags flags) {
   return kDone;
 }
 
-}  // namespace
-
-Command AddView(CLI::App* app) {
-  auto flags = std::make_shared<ViewFlags>();
-  app->add_option("THING", flags->things,
-                  "Meshes, contact spaces (OFF, OBJ, PLY, STL, DAE, glTF, GLB, "
-                  "3MF, robot.urdf#link, .pcs), a scene "
-                  "(file or FAMILY:key=value,...), rows of optimize and plan, "
-                  "a table of motion, answers of depth and query: several are "
-                  "shown together. Without an output, a page is written to a "
-                  "temporary file, its name is printed, and where there is a "
-                  "display xdg-open opens it")
-      ->required()
-      ->type_name("THING");
+// Where it is looked at; without any of them on a page of its own.
+void AddViewOutputs(CLI::App* app, ViewFlags* flags) {
   app->add_option("--html", flags->html,
                   "Page to turn, cut and play; one file, needs nothing from "
                   "elsewhere")
@@ -178,6 +166,10 @@ Command AddView(CLI::App* app) {
                   "at stages")
       ->check(Between(0.0, 1.0))
       ->type_name("SHARE");
+}
+
+// What a table of motion does not say itself.
+void AddViewedMotion(CLI::App* app, ViewFlags* flags) {
   app->add_option("--robot", flags->robot,
                   "Mesh of what moves, for tables that do not hold it")
       ->type_name("FILE");
@@ -190,6 +182,24 @@ Command AddView(CLI::App* app) {
       ->expected(3)
       ->delimiter(',')
       ->type_name("X Y Z");
+}
+
+}  // namespace
+
+Command AddView(CLI::App* app) {
+  auto flags = std::make_shared<ViewFlags>();
+  app->add_option("THING", flags->things,
+                  "Meshes, contact spaces (OFF, OBJ, PLY, STL, DAE, glTF, GLB, "
+                  "3MF, robot.urdf#link, .pcs), a scene "
+                  "(file or FAMILY:key=value,...), rows of optimize and plan, "
+                  "a table of motion, answers of depth and query: several are "
+                  "shown together. Without an output, a page is written to a "
+                  "temporary file, its name is printed, and where there is a "
+                  "display xdg-open opens it")
+      ->required()
+      ->type_name("THING");
+  AddViewOutputs(app, flags.get());
+  AddViewedMotion(app, flags.get());
   app->add_flag(
       "--build", flags->build,
       "Build the contact space of a scene, or take it from the cache, "

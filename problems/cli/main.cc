@@ -12,7 +12,6 @@
 #include <string>
 #include <system_error>
 #include <typeinfo>
-#include <utility>
 #include <vector>
 
 #include "core/files/interruption.h"
@@ -53,53 +52,71 @@ std::vector<std::string> Arguments(int argc, char** argv) {
   return arguments;
 }
 
-int Run(int argc, char** argv) {
-  CLI::App app(
-      "Continuous penetration depth (PhongPD) on exact contact spaces.\n"
-      "Exit codes: 0 done, 1 ran but found no answer, 2 bad input or an output "
-      "that cannot be written (nothing is), 3 internal error, or out of memory "
-      "or threads; 128 + n ended by signal n, for example 130 by Ctrl-C.\n"
-      "Answers go to standard output where --output names no file (- is "
-      "standard output, too), words for people to standard error then; --json "
-      "makes answers JSON. Outputs are replaced together at the end or not at "
-      "all. What takes long tells on standard error how far it is; "
-      "PHONGPD_PROGRESS=never silences that.",
-      "phongpd");
-  app.set_version_flag("--version", VersionText);
-  std::vector<std::pair<CLI::App*, Command>> commands;
-  const auto add = [&](const char* name, const char* summary,
-                       Command (*declare)(CLI::App*)) {
-    CLI::App* const command = app.add_subcommand(name, summary);
-    commands.emplace_back(command, declare(command));
-  };
-  add("depth", "Exact penetration depth of two meshes, or their clearance",
-      AddDepth);
-  add("minkowski", "Exact Minkowski sum of two meshes, or difference",
-      AddMinkowski);
-  add("check", "Is a mesh a solid, and if not, what is wrong and where",
-      AddCheck);
-  add("contact-space", "Build the contact space of two meshes",
-      AddContactSpace);
-  add("query", "Penetration depth at the points of a CSV file", AddQuery);
-  add("motion", "Phong, Euclidean and sliding depth along a straight motion",
-      AddMotion);
-  add("optimize", "Optimise a trajectory with Ipopt, exactly judged",
-      AddOptimize);
-  add("retime", "Time a path of one's own: a certified curve within limits",
-      AddRetime);
-  add("compare", "Compare penetration metrics in the trajectory optimiser",
-      AddCompare);
-  add("merge", "Join the parts of a comparison", AddMerge);
-  add("join", "Join the pieces of a contact space", AddJoin);
-  add("plan", "Plan a path, or prove that there is none", AddPlan);
-  add("view", "Look at meshes, scenes, paths, motions and depths", AddView);
-  add("scenes", "List or write the procedural scenes", AddScenes);
-  add("reproduce", "Pack a command with its inputs, to report what went wrong",
-      AddReproduce);
-  add("completion", "Print what completes this program's words in a shell",
-      AddCompletion);
-  add("man", "Print the manual page, in roff", AddMan);
+constexpr char kProgramHelp[] =
+    "Continuous penetration depth (PhongPD) on exact contact spaces.\n"
+    "Exit codes: 0 done, 1 ran but found no answer, 2 bad input or an output "
+    "that cannot be written (nothing is), 3 internal error, or out of memory "
+    "or threads; 128 + n ended by signal n, for example 130 by Ctrl-C.\n"
+    "Answers go to standard output where --output names no file (- is "
+    "standard output, too), words for people to standard error then; --json "
+    "makes answers JSON. Outputs are replaced together at the end or not at "
+    "all. What takes long tells on standard error how far it is; "
+    "PHONGPD_PROGRESS=never silences that.";
 
+struct ProgramCommand {
+  const char* name;
+  const char* summary;
+  Command (*declare)(CLI::App*);
+};
+// In the order of --help.
+constexpr ProgramCommand kProgramCommands[] = {
+    {"depth", "Exact penetration depth of two meshes, or their clearance",
+     AddDepth},
+    {"minkowski", "Exact Minkowski sum of two meshes, or difference",
+     AddMinkowski},
+    {"check", "Is a mesh a solid, and if not, what is wrong and where",
+     AddCheck},
+    {"contact-space", "Build the contact space of two meshes", AddContactSpace},
+    {"query", "Penetration depth at the points of a CSV file", AddQuery},
+    {"motion", "Phong, Euclidean and sliding depth along a straight motion",
+     AddMotion},
+    {"optimize", "Optimise a trajectory with Ipopt, exactly judged",
+     AddOptimize},
+    {"retime", "Time a path of one's own: a certified curve within limits",
+     AddRetime},
+    {"compare", "Compare penetration metrics in the trajectory optimiser",
+     AddCompare},
+    {"merge", "Join the parts of a comparison", AddMerge},
+    {"join", "Join the pieces of a contact space", AddJoin},
+    {"plan", "Plan a path, or prove that there is none", AddPlan},
+    {"view", "Look at meshes, scenes, paths, motions and depths", AddView},
+    {"scenes", "List or write the procedural scenes", AddScenes},
+    {"reproduce", "Pack a command with its inputs, to report what went wrong",
+     AddReproduce},
+    {"completion", "Print what completes this program's words in a shell",
+     AddCompletion},
+    {"man", "Print the manual page, in roff", AddMan},
+};
+
+struct DeclaredCommand {
+  CLI::App* app;
+  Command run;
+};
+
+std::vector<DeclaredCommand> DeclareCommands(CLI::App* app) {
+  std::vector<DeclaredCommand> commands;
+  for (const ProgramCommand& command : kProgramCommands) {
+    CLI::App* const of_command =
+        app->add_subcommand(command.name, command.summary);
+    commands.push_back({of_command, command.declare(of_command)});
+  }
+  return commands;
+}
+
+int Run(int argc, char** argv) {
+  CLI::App app(kProgramHelp, "phongpd");
+  app.set_version_flag("--version", VersionText);
+  const std::vector<DeclaredCommand> commands = DeclareCommands(&app);
   const std::vector<std::string> arguments = Arguments(argc, argv);
   try {
     RefuseUnknownNames(app, arguments);
@@ -108,11 +125,11 @@ int Run(int argc, char** argv) {
     if (error.get_exit_code() == 0) return app.exit(error);  // help, version
     return Fail(kBadInput, Explained(error, app, arguments));
   }
-  for (const auto& [command, run] : commands) {
-    if (command->parsed()) return run();
-  }
   std::vector<std::string> names;
-  for (const auto& entry : commands) names.push_back(entry.first->get_name());
+  for (const DeclaredCommand& command : commands) {
+    if (command.app->parsed()) return command.run();
+    names.push_back(command.app->get_name());
+  }
   return Fail(kBadInput,
               "expected a command: " + Joined(names) + " (see --help)");
 }

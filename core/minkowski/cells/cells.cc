@@ -73,100 +73,156 @@ int SideAcrossGap(const FaceGeometry& geometry, UnionFind* sides,
   return sides->Find(exit) == sides->Find(side) ? across : -1;
 }
 
-// collide(probe) → whether the operands overlap at probe(); from any thread.
-template <typename Collide>
-FreeCells FindCells(const Convolution& convolution,
-                    const Arrangement& arrangement, const EdgeRings& rings,
-                    const ExactPoints& points, const Collide& collide) {
-  const std::vector<ArrangementFace>& faces = arrangement.faces;
-  const int count = static_cast<int>(faces.size());
-  UnionFind sides = JoinSides(rings, faces.size());
-  UnionFind parts(faces.size());  // faces that share an edge
-  for (const EdgeRing& ring : rings.rings) {
-    for (int k = ring.begin + 1; k < ring.end; ++k) {
-      parts.Join(rings.spokes[k - 1].face, rings.spokes[k].face);
+// One search for the free cells, a stage after the other; each reads what those
+// before it left.
+class CellSearch {
+ public:
+  CellSearch(const Convolution& convolution, const Arrangement& arrangement,
+             const EdgeRings& rings, const ExactPoints& points)
+      : convolution_(convolution),
+        faces_(arrangement.faces),
+        face_count_(static_cast<int>(faces_.size())),
+        geometry_(convolution, arrangement, points),
+        sides_(JoinSides(rings, faces_.size())),
+        parts_(faces_.size()) {
+    for (const EdgeRing& ring : rings.rings) {
+      for (int k = ring.begin + 1; k < ring.end; ++k) {
+        parts_.Join(rings.spokes[k - 1].face, rings.spokes[k].face);
+      }
     }
   }
-  std::vector<char> occupied(2 * faces.size(), 0);
-  for (int f = 0; f < count; ++f) {
-    occupied[sides.Find(MinusSide(f))] = 1;
-    if (faces[f].two_sided) occupied[sides.Find(PlusSide(f))] = 1;
+
+  // collide(probe) → whether the operands overlap at probe(); from any thread.
+  template <typename Collide>
+  FreeCells FindCells(const Collide& collide) {
+    MarkOccupied();
+    MeasureFaces();
+    FindOuter();
+    CollectCandidates();
+    JudgeCandidates(collide);
+    JoinAcrossGaps();
+    LabelSides();
+    return std::move(out_);
   }
 
-  FaceGeometry geometry(convolution, arrangement, points);
-  std::vector<double> area(faces.size());
-  for (int f = 0; f < count; ++f) area[f] = geometry.Area(f);
-  double reach = 0.0;
-  for (const GridPoint& p : convolution.points) {
-    reach = std::max(reach, ToDouble(p).lpNorm<Eigen::Infinity>());
-  }
-  std::vector<int> largest(faces.size());
-  std::iota(largest.begin(), largest.end(), 0);
-  const std::size_t rays = std::min(kOuterRays, largest.size());
-  std::partial_sort(largest.begin(), largest.begin() + rays, largest.end(),
-                    [&area](int a, int b) {
-                      return area[a] != area[b] ? area[a] > area[b] : a < b;
-                    });
-  largest.resize(rays);
-  const int outer = sides.Find(OuterSide(geometry, largest, reach));
-  if (occupied[outer]) {
-    throw LeakError(
-        "contact space leaks: the unbounded cell touches the inside of a "
-        "facet; an operand is not a closed solid without self-intersections");
+ private:
+  void MarkOccupied() {
+    occupied_.assign(2 * faces_.size(), 0);
+    for (int f = 0; f < face_count_; ++f) {
+      occupied_[sides_.Find(MinusSide(f))] = 1;
+      if (faces_[f].two_sided) occupied_[sides_.Find(PlusSide(f))] = 1;
+    }
   }
 
-  std::map<int, std::vector<int>> candidates;  // cell → its + sides
-  FreeCells out;
-  for (int s = 0; s < 2 * count; ++s) {
-    const int cell = sides.Find(s);
-    if (cell == s) ++out.cells;
-    if (!occupied[cell]) candidates[cell].push_back(s);
+  void MeasureFaces() {
+    area_.resize(faces_.size());
+    for (int f = 0; f < face_count_; ++f) area_[f] = geometry_.Area(f);
+    for (const GridPoint& p : convolution_.points) {
+      reach_ = std::max(reach_, ToDouble(p).lpNorm<Eigen::Infinity>());
+    }
   }
-  if (candidates.size() > 4) geometry.BuildTree();
-  std::vector<char> is_free(2 * faces.size(), 0);
-  is_free[outer] = 1;
-  std::vector<std::vector<int>*> judged;
-  for (auto& [cell, members] : candidates) {
-    if (cell != outer) judged.push_back(&members);
+
+  // Those whose rays are tried, by area; equal ones by number.
+  std::vector<int> LargestFaces() const {
+    std::vector<int> largest(faces_.size());
+    std::iota(largest.begin(), largest.end(), 0);
+    const std::size_t rays = std::min(kOuterRays, largest.size());
+    std::partial_sort(largest.begin(), largest.begin() + rays, largest.end(),
+                      [this](int a, int b) {
+                        return area_[a] != area_[b] ? area_[a] > area_[b]
+                                                    : a < b;
+                      });
+    largest.resize(rays);
+    return largest;
   }
-  out.judged = static_cast<int>(judged.size());
-  std::vector<char> collides(judged.size());
-  tbb::parallel_for(std::size_t{0}, judged.size(), [&](std::size_t i) {
-    collides[i] =
-        collide([&] { return ProbePoint(geometry, area, judged[i], reach); });
-  });
-  std::vector<int> free_sides;  // one of each free cell but the unbounded
-  for (std::size_t i = 0; i < judged.size(); ++i) {
-    const int side = judged[i]->front();
-    if (collides[i]) continue;
-    is_free[sides.Find(side)] = 1;
-    free_sides.push_back(side);
+
+  void FindOuter() {
+    outer_ = sides_.Find(OuterSide(geometry_, LargestFaces(), reach_));
+    if (occupied_[outer_]) {
+      throw LeakError(
+          "contact space leaks: the unbounded cell touches the inside of a "
+          "facet; an operand is not a closed solid without self-intersections");
+    }
   }
-  // Only now that all are judged, so that a ray can cause no leak.
-  std::vector<std::pair<int, int>> gaps;
-  for (const int side : free_sides) {
-    const int across = SideAcrossGap(geometry, &sides, &parts, side);
-    const int other = across == kUnbounded ? outer : across;
-    if (other >= 0 && is_free[sides.Find(other)]) gaps.push_back({side, other});
+
+  void CollectCandidates() {
+    for (int s = 0; s < 2 * face_count_; ++s) {
+      const int cell = sides_.Find(s);
+      if (cell == s) ++out_.cells;
+      if (!occupied_[cell]) candidates_[cell].push_back(s);
+    }
   }
-  free_sides.push_back(outer);
-  for (const auto& [side, other] : gaps) {
-    out.cells -= sides.Find(side) != sides.Find(other);
-    sides.Join(side, other);
+
+  // The unbounded cell is free without a judgement.
+  template <typename Collide>
+  void JudgeCandidates(const Collide& collide) {
+    if (candidates_.size() > 4) geometry_.BuildTree();
+    std::vector<std::vector<int>*> judged;
+    for (auto& [cell, members] : candidates_) {
+      if (cell != outer_) judged.push_back(&members);
+    }
+    out_.judged = static_cast<int>(judged.size());
+    std::vector<char> collides(judged.size());
+    tbb::parallel_for(std::size_t{0}, judged.size(), [&](std::size_t i) {
+      collides[i] = collide(
+          [&] { return ProbePoint(geometry_, area_, judged[i], reach_); });
+    });
+    is_free_.assign(2 * faces_.size(), 0);
+    is_free_[outer_] = 1;
+    for (std::size_t i = 0; i < judged.size(); ++i) {
+      const int side = judged[i]->front();
+      if (collides[i]) continue;
+      is_free_[sides_.Find(side)] = 1;
+      free_sides_.push_back(side);
+    }
   }
-  std::set<int> free_cells;
-  for (const int side : free_sides) free_cells.insert(sides.Find(side));
-  for (const int cell : free_cells) is_free[cell] = 1;
-  out.cavities = static_cast<int>(free_cells.size()) - 1;
-  out.side_is_free.resize(2 * faces.size());
-  out.side_is_outer.resize(2 * faces.size());
-  for (int s = 0; s < 2 * count; ++s) {
-    const int cell = sides.Find(s);
-    out.side_is_free[s] = is_free[cell];
-    out.side_is_outer[s] = cell == sides.Find(outer);
+
+  // Only now that all are judged, so that a ray can cause no leak.  Joins come
+  // last: gaps are told by the cells as they were.
+  void JoinAcrossGaps() {
+    std::vector<std::pair<int, int>> gaps;
+    for (const int side : free_sides_) {
+      const int across = SideAcrossGap(geometry_, &sides_, &parts_, side);
+      const int other = across == kUnbounded ? outer_ : across;
+      if (other >= 0 && is_free_[sides_.Find(other)]) {
+        gaps.push_back({side, other});
+      }
+    }
+    for (const auto& [side, other] : gaps) {
+      out_.cells -= sides_.Find(side) != sides_.Find(other);
+      sides_.Join(side, other);
+    }
   }
-  return out;
-}
+
+  void LabelSides() {
+    std::set<int> free_cells = {sides_.Find(outer_)};
+    for (const int side : free_sides_) free_cells.insert(sides_.Find(side));
+    for (const int cell : free_cells) is_free_[cell] = 1;
+    out_.cavities = static_cast<int>(free_cells.size()) - 1;
+    out_.side_is_free.resize(2 * faces_.size());
+    out_.side_is_outer.resize(2 * faces_.size());
+    for (int s = 0; s < 2 * face_count_; ++s) {
+      const int cell = sides_.Find(s);
+      out_.side_is_free[s] = is_free_[cell];
+      out_.side_is_outer[s] = cell == sides_.Find(outer_);
+    }
+  }
+
+  const Convolution& convolution_;
+  const std::vector<ArrangementFace>& faces_;
+  const int face_count_;
+  FaceGeometry geometry_;
+  UnionFind sides_;
+  UnionFind parts_;  // faces that share an edge
+  FreeCells out_;
+
+  std::vector<char> occupied_, is_free_;        // per cell, by its lowest side
+  std::vector<double> area_;                    // per face
+  double reach_ = 0.0;                          // largest coordinate of all
+  int outer_ = 0;                               // the unbounded cell
+  std::map<int, std::vector<int>> candidates_;  // cell → its + sides
+  std::vector<int> free_sides_;  // one of each free cell but the unbounded
+};
 
 }  // namespace
 
@@ -174,19 +230,19 @@ FreeCells FindFreeCells(const Convolution& convolution,
                         const Arrangement& arrangement, const EdgeRings& rings,
                         const ExactPoints& points, const SolidCollision& judge,
                         const BuildLimits& limits) {
-  return FindCells(convolution, arrangement, rings, points,
-                   [&](const auto& probe) {
-                     limits.Check("cells");
-                     return judge.Collide(probe());
-                   });
+  return CellSearch(convolution, arrangement, rings, points)
+      .FindCells([&](const auto& probe) {
+        limits.Check("cells");
+        return judge.Collide(probe());
+      });
 }
 
 FreeCells FindCellsOfSurface(const Convolution& convolution,
                              const Arrangement& arrangement,
                              const EdgeRings& rings,
                              const ExactPoints& points) {
-  return FindCells(convolution, arrangement, rings, points,
-                   [](const auto&) { return false; });
+  return CellSearch(convolution, arrangement, rings, points)
+      .FindCells([](const auto&) { return false; });
 }
 
 }  // namespace phongpd::internal

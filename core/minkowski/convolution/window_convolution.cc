@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <utility>
 
 #include "core/minkowski/convolution/facet_collector.h"
 
@@ -45,6 +46,112 @@ ConeTree ArcTree(const GridSolid& s, const std::vector<ConvexEdge>& edges) {
   }
   return {boxes, ArcCaps(edges)};
 }
+
+// The sums of two features in a window, as long as they are no more than
+// `most`.  Operand is FeatureSums::Operand, a name that is private there.
+class WindowSums {
+ public:
+  // Facet and vertex, or edge of P, edge of Q and the side of CommonSide.
+  using Sum = std::array<int, 3>;
+
+  WindowSums(const BoundingBox& window, std::size_t most)
+      : window_(window), most_(most) {}
+
+  // False, and stops, as soon as there are too many.
+  template <typename Operand>
+  bool FindSums(const Operand& p, const Operand& q) {
+    return FindFacets(p, q, &facets_of_p_) && FindFacets(q, p, &facets_of_q_) &&
+           FindEdges(p, q);
+  }
+
+  // In the order of ReducedConvolution, whatever the trees look like.
+  void SortSums() {
+    for (std::vector<Sum>* list : {&facets_of_p_, &facets_of_q_, &edges_}) {
+      std::sort(list->begin(), list->end());
+    }
+  }
+
+  const std::vector<Sum>& facets_of_p() const { return facets_of_p_; }
+  const std::vector<Sum>& facets_of_q() const { return facets_of_q_; }
+  const std::vector<Sum>& edges() const { return edges_; }
+
+ private:
+  bool AddSum(std::vector<Sum>* list, const Sum& sum) {
+    list->push_back(sum);
+    return ++found_ <= most_;
+  }
+
+  template <typename Operand>
+  bool FindFacets(const Operand& facets, const Operand& others,
+                  std::vector<Sum>* list) {
+    ForEachPairIn(facets.facets, others.vertices, NormalMatch::kEqualOrOpposite,
+                  window_, [&](int f, int v) {
+                    return !facets.touching[f].Touches(others.stars, v) ||
+                           AddSum(list, {f, v, 0});
+                  });
+    return found_ <= most_;
+  }
+
+  template <typename Operand>
+  bool FindEdges(const Operand& p, const Operand& q) {
+    ForEachPairIn(p.arcs, q.arcs, NormalMatch::kEqual, window_,
+                  [&](int e, int g) {
+                    const int side = CommonSide(p.edges[e], q.edges[g]);
+                    return side == 0 || AddSum(&edges_, {e, g, side});
+                  });
+    return found_ <= most_;
+  }
+
+  const BoundingBox& window_;
+  std::size_t most_;
+  std::size_t found_ = 0;
+  std::vector<Sum> facets_of_p_, facets_of_q_, edges_;
+};
+
+// Collects the facets of sums but for those that come clearly nowhere near the
+// window: the boxes of the features tell less.
+class WindowFacets {
+ public:
+  explicit WindowFacets(const BoundingBox& window) : window_(window) {}
+
+  void AddFacet(const GridSolid& solid, int f, const GridPoint& vertex,
+                ContactKind kind, const SumOrigin& origin) {
+    const std::size_t before = out_.convolution.facets.size();
+    collect_.AddFacet(solid, f, vertex, kind, source_++);
+    KeepNearFacets(before, origin);
+  }
+
+  void AddEdges(const GridSolid& p, const ConvexEdge& e, const GridSolid& q,
+                const ConvexEdge& g, int side, const SumOrigin& origin) {
+    const std::size_t before = out_.convolution.facets.size();
+    collect_.AddEdges(p, e, q, g, side, source_++);
+    KeepNearFacets(before, origin);
+  }
+
+  WindowConvolution TakeFacets() { return std::move(out_); }
+
+ private:
+  // Of the facets from `before` on, which are those of one sum.
+  void KeepNearFacets(std::size_t before, const SumOrigin& origin) {
+    std::vector<ConvolutionFacet>& facets = out_.convolution.facets;
+    std::size_t kept = before;
+    for (std::size_t f = before; f < facets.size(); ++f) {
+      Vector3d corners[3];
+      for (int k = 0; k < 3; ++k) {
+        corners[k] = ToDouble(out_.convolution.points[facets[f].corners[k]]);
+      }
+      if (IsClearlyApart(corners, window_)) continue;
+      facets[kept++] = facets[f];
+      out_.origins.push_back(origin);
+    }
+    facets.resize(kept);
+  }
+
+  const BoundingBox& window_;
+  WindowConvolution out_;
+  FacetCollector collect_{&out_.convolution};
+  int source_ = 0;
+};
 
 }  // namespace
 
@@ -106,71 +213,22 @@ WindowConvolution FeatureSums::Within(const BoundingBox& window) const {
 
 std::optional<WindowConvolution> FeatureSums::Within(const BoundingBox& window,
                                                      std::size_t most) const {
-  // Of P and of Q, and the side of CommonSide for edges.
-  using Sum = std::array<int, 3>;
-  std::array<std::vector<Sum>, 3> sums;
-  std::size_t found = 0;
-  const auto add_to = [&](std::vector<Sum>* list, const Sum& sum) {
-    list->push_back(sum);
-    return ++found <= most;
-  };
-  const auto find_facets = [&](const Operand& facets, const Operand& others,
-                               std::vector<Sum>* list) {
-    ForEachPairIn(facets.facets, others.vertices, NormalMatch::kEqualOrOpposite,
-                  window, [&](int f, int v) {
-                    return !facets.touching[f].Touches(others.stars, v) ||
-                           add_to(list, {f, v, 0});
-                  });
-  };
-  find_facets(p_, q_, &sums[0]);
-  if (found <= most) find_facets(q_, p_, &sums[1]);
-  if (found <= most) {
-    ForEachPairIn(p_.arcs, q_.arcs, NormalMatch::kEqual, window,
-                  [&](int e, int g) {
-                    const int side = CommonSide(p_.edges[e], q_.edges[g]);
-                    return side == 0 || add_to(&sums[2], {e, g, side});
-                  });
+  WindowSums sums(window, most);
+  if (!sums.FindSums(p_, q_)) return std::nullopt;
+  sums.SortSums();
+  WindowFacets out(window);
+  for (const auto& [f, v, none] : sums.facets_of_p()) {
+    out.AddFacet(p_.solid, f, q_.solid.vertices[v], ContactKind::kObstacleFacet,
+                 {f, v});
   }
-  if (found > most) return std::nullopt;
-
-  WindowConvolution out;
-  FacetCollector collect(&out.convolution);
-  int source = 0;
-  // In the order of ReducedConvolution, whatever the trees look like.
-  for (std::vector<Sum>& list : sums) std::sort(list.begin(), list.end());
-  const auto keep = [&](std::size_t before, const SumOrigin& origin) {
-    std::vector<ConvolutionFacet>& facets = out.convolution.facets;
-    std::size_t kept = before;
-    for (std::size_t f = before; f < facets.size(); ++f) {
-      Vector3d corners[3];
-      for (int k = 0; k < 3; ++k) {
-        corners[k] = ToDouble(out.convolution.points[facets[f].corners[k]]);
-      }
-      if (IsClearlyApart(corners, window)) continue;
-      facets[kept++] = facets[f];
-      out.origins.push_back(origin);
-    }
-    facets.resize(kept);
-  };
-  for (const auto& [f, v, none] : sums[0]) {
-    const std::size_t before = out.convolution.facets.size();
-    collect.AddFacet(p_.solid, f, q_.solid.vertices[v],
-                     ContactKind::kObstacleFacet, source++);
-    keep(before, {f, v});
+  for (const auto& [f, v, none] : sums.facets_of_q()) {
+    out.AddFacet(q_.solid, f, p_.solid.vertices[v], ContactKind::kRobotFacet,
+                 {v, f});
   }
-  for (const auto& [f, v, none] : sums[1]) {
-    const std::size_t before = out.convolution.facets.size();
-    collect.AddFacet(q_.solid, f, p_.solid.vertices[v],
-                     ContactKind::kRobotFacet, source++);
-    keep(before, {v, f});
+  for (const auto& [e, g, side] : sums.edges()) {
+    out.AddEdges(p_.solid, p_.edges[e], q_.solid, q_.edges[g], side, {e, g});
   }
-  for (const auto& [e, g, side] : sums[2]) {
-    const std::size_t before = out.convolution.facets.size();
-    collect.AddEdges(p_.solid, p_.edges[e], q_.solid, q_.edges[g], side,
-                     source++);
-    keep(before, {e, g});
-  }
-  return out;
+  return out.TakeFacets();
 }
 
 }  // namespace phongpd::internal

@@ -50,93 +50,127 @@ void JoinCoincidentEnds(std::vector<Triangle>* facets,
 // longest edge: (a,b,c) with b between a and c, and (a,c,d), become (a,b,d)
 // and (b,c,d).  The surface stays the same point set, but for flat pockets
 // without an edge to anything else, which are appended to *lost.
-void DissolveCollinearFacets(std::vector<Triangle>* facets,
-                             const std::vector<GridPoint>& vertices,
-                             const std::string& name,
-                             std::vector<Triangle>* lost) {
-  const auto is_flat = [&](const Triangle& t) {
-    return IsZero(FacetNormal(vertices, t));
-  };
-  if (std::none_of(facets->begin(), facets->end(), is_flat)) return;
+class CollinearDissolver {
+ public:
+  CollinearDissolver(std::vector<Triangle>* facets,
+                     const std::vector<GridPoint>& vertices,
+                     const std::string& name, std::vector<Triangle>* lost)
+      : facets_(*facets), vertices_(vertices), name_(name), lost_(*lost) {}
 
-  std::multimap<EdgeEnds, int> owner;
-  const auto attach = [&](int f) {
-    const Triangle& t = (*facets)[f];
-    for (int k = 0; k < 3; ++k)
-      owner.emplace(EdgeEnds(t[k], t[(k + 1) % 3]), f);
-  };
-  const auto detach = [&](int f) {
-    const Triangle& t = (*facets)[f];
+  void DissolveFacets() {
+    if (std::none_of(facets_.begin(), facets_.end(),
+                     [this](const Triangle& t) { return IsFlat(t); })) {
+      return;
+    }
+    alive_.assign(facets_.size(), 1);
+    for (int f = 0; f < FacetCount(); ++f) AttachFacet(f);
+    // Each step moves one corner off a flat facet; the bound only guards
+    // against an operand that is nothing but flat facets.
+    for (std::size_t steps = 0; !queue_.empty(); ++steps) {
+      const int f = queue_.back();
+      queue_.pop_back();
+      if (!alive_[f] || !IsFlat(facets_[f])) continue;
+      if (steps > 16 * facets_.size()) {
+        throw InputError(name_ +
+                         ": expected facets with area, found a chain of "
+                         "zero-area triangles that cannot be dissolved; remesh "
+                         "the operand");
+      }
+      MoveMiddleCorner(f);
+    }
+    DropDissolved();
+  }
+
+ private:
+  int FacetCount() const { return static_cast<int>(facets_.size()); }
+
+  bool IsFlat(const Triangle& t) const {
+    return IsZero(FacetNormal(vertices_, t));
+  }
+
+  // Makes facet f the owner of its edges; a flat one is to be dissolved.
+  void AttachFacet(int f) {
+    const Triangle& t = facets_[f];
     for (int k = 0; k < 3; ++k) {
-      auto range = owner.equal_range(EdgeEnds(t[k], t[(k + 1) % 3]));
+      owner_.emplace(EdgeEnds(t[k], t[(k + 1) % 3]), f);
+    }
+    if (IsFlat(t)) queue_.push_back(f);
+  }
+
+  void DetachFacet(int f) {
+    const Triangle& t = facets_[f];
+    for (int k = 0; k < 3; ++k) {
+      auto range = owner_.equal_range(EdgeEnds(t[k], t[(k + 1) % 3]));
       for (auto it = range.first; it != range.second; ++it) {
         if (it->second == f) {
-          owner.erase(it);
+          owner_.erase(it);
           break;
         }
       }
     }
-  };
-  const int count = static_cast<int>(facets->size());
-  std::vector<char> alive(facets->size(), 1);
-  std::vector<int> queue;
-  for (int f = 0; f < count; ++f) {
-    attach(f);
-    if (is_flat((*facets)[f])) queue.push_back(f);
   }
-  // Each step moves one corner off a flat facet; the bound only guards against
-  // an operand that is nothing but flat facets.
-  for (std::size_t steps = 0; !queue.empty(); ++steps) {
-    const int f = queue.back();
-    queue.pop_back();
-    if (!alive[f] || !is_flat((*facets)[f])) continue;
-    if (steps > 16 * facets->size()) {
-      throw InputError(name +
-                       ": expected facets with area, found a chain of "
-                       "zero-area triangles that cannot be dissolved; remesh "
-                       "the operand");
-    }
-    const Triangle t = (*facets)[f];
+
+  int LongestEdge(const Triangle& t) const {
     const auto length = [&](int k) {
-      return ToDouble(vertices[t[(k + 1) % 3]] - vertices[t[k]]).squaredNorm();
+      return ToDouble(vertices_[t[(k + 1) % 3]] - vertices_[t[k]])
+          .squaredNorm();
     };
     int longest = 0;
     for (int k = 1; k < 3; ++k) {
       if (length(k) > length(longest)) longest = k;
     }
-    const int c = t[longest], a = t[(longest + 1) % 3];
-    const int b = t[(longest + 2) % 3];
-    const auto it = owner.find(EdgeEnds(a, c));
-    if (it == owner.end()) {
-      throw InputError(name +
+    return longest;
+  }
+
+  int OwnerOf(int a, int c) const {
+    const auto it = owner_.find(EdgeEnds(a, c));
+    if (it == owner_.end()) {
+      throw InputError(name_ +
                        ": expected a closed mesh, found a boundary edge "
                        "beside a zero-area triangle");
     }
-    const int g = it->second;
-    const Triangle& n = (*facets)[g];
+    return it->second;
+  }
+
+  void MoveMiddleCorner(int f) {
+    const Triangle t = facets_[f];
+    const int longest = LongestEdge(t);
+    const int c = t[longest], a = t[(longest + 1) % 3];
+    const int b = t[(longest + 2) % 3];
+    const int g = OwnerOf(a, c);
+    const Triangle& n = facets_[g];
     const int d = n[0] != a && n[0] != c   ? n[0]
                   : n[1] != a && n[1] != c ? n[1]
                                            : n[2];
-    detach(f);
-    detach(g);
+    DetachFacet(f);
+    DetachFacet(g);
     if (d == b) {  // The pair is a flat pocket: it vanishes.
-      alive[f] = alive[g] = 0;
-      lost->push_back(t);
-      continue;
+      alive_[f] = alive_[g] = 0;
+      lost_.push_back(t);
+      return;
     }
-    (*facets)[f] = {a, b, d};
-    (*facets)[g] = {b, c, d};
-    for (const int h : {f, g}) {
-      attach(h);
-      if (is_flat((*facets)[h])) queue.push_back(h);
+    facets_[f] = {a, b, d};
+    facets_[g] = {b, c, d};
+    for (const int h : {f, g}) AttachFacet(h);
+  }
+
+  void DropDissolved() {
+    std::vector<Triangle> kept;
+    for (int f = 0; f < FacetCount(); ++f) {
+      if (alive_[f]) kept.push_back(facets_[f]);
     }
+    facets_ = std::move(kept);
   }
-  std::vector<Triangle> kept;
-  for (int f = 0; f < count; ++f) {
-    if (alive[f]) kept.push_back((*facets)[f]);
-  }
-  *facets = std::move(kept);
-}
+
+  std::vector<Triangle>& facets_;
+  const std::vector<GridPoint>& vertices_;
+  const std::string& name_;
+  std::vector<Triangle>& lost_;
+
+  std::multimap<EdgeEnds, int> owner_;  // directed edge → facet
+  std::vector<char> alive_;             // per facet
+  std::vector<int> queue_;              // flat facets, the last is next
+};
 
 struct Half {
   int a, b, apex, facet;
@@ -252,7 +286,8 @@ GridSolid MakeGridSolid(const std::vector<GridPoint>& vertices,
   }
   std::vector<Triangle> lost;
   JoinCoincidentEnds(&solid.facets, solid.vertices, &lost);
-  DissolveCollinearFacets(&solid.facets, solid.vertices, name, &lost);
+  CollinearDissolver(&solid.facets, solid.vertices, name, &lost)
+      .DissolveFacets();
   // A solid that rounding did not touch is one still.
   if (!solid.facets.empty() && rounded != nullptr) {
     MendRounding({*rounded, reflect, name}, std::move(lost), &solid);

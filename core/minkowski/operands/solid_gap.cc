@@ -41,75 +41,120 @@ FacetPair ClosestPoints(const Corners& t, const Corners& u) {
   return best;
 }
 
+// One search of P and x − Q, the pair of nodes with the least bound first.
+class SolidGapSearch {
+ public:
+  SolidGapSearch(const GridSolid& p, const GridSolid& q, const BoxTree& p_tree,
+                 const BoxTree& q_tree, const Vector3d& x)
+      : p_(p),
+        q_(q),
+        p_tree_(p_tree),
+        q_tree_(q_tree),
+        x_(x),
+        scale_(ScaleFor(x)) {}
+
+  SolidGap::Nearest FindNearest() {
+    queue_.emplace(LowerBound(0, 0), 0, 0);
+    while (!queue_.empty()) {
+      const auto [bound, i, j] = queue_.top();
+      queue_.pop();
+      if (bound >= least_) break;
+      const BoxTree::Node& a = p_tree_.nodes()[i];
+      const BoxTree::Node& b = q_tree_.nodes()[j];
+      if (a.IsLeaf() && b.IsLeaf()) {
+        CompareLeaves(a, b);
+      } else {
+        SplitPair(i, j);
+      }
+    }
+    best_.distance = std::sqrt(least_) / scale_;
+    return best_;
+  }
+
+ private:
+  // To coordinates of about the size of one, by a power of two.
+  static double ScaleFor(const Vector3d& x) {
+    return std::ldexp(
+        1.0,
+        -std::max(kGridBits, std::ilogb(x.lpNorm<Eigen::Infinity>() + 1.0)));
+  }
+
+  // Squared, of all that is below node i of P and node j of Q.
+  double LowerBound(int i, int j) const {
+    const BoxTree::Node& a = p_tree_.nodes()[i];
+    const BoxTree::Node& b = q_tree_.nodes()[j];
+    return (scale_ * (a.min + b.min - x_))
+        .cwiseMax(scale_ * (x_ - a.max - b.max))
+        .cwiseMax(0.0)
+        .squaredNorm();
+  }
+
+  Corners CornersOfP(int f) const {
+    Corners t;
+    for (std::size_t k = 0; k < 3; ++k) {
+      t[k] = scale_ * ToDouble(p_.vertices[p_.facets[f][k]]);
+    }
+    return t;
+  }
+
+  Corners PlacedCornersOfQ(int f) const {
+    Corners t;
+    for (std::size_t k = 0; k < 3; ++k) {
+      t[k] = scale_ * (x_ - ToDouble(q_.vertices[q_.facets[f][k]]));
+    }
+    return t;
+  }
+
+  void CompareLeaves(const BoxTree::Node& a, const BoxTree::Node& b) {
+    for (int k = a.first; k < a.first + a.count; ++k) {
+      const int f = p_tree_.order()[k];
+      const Corners t = CornersOfP(f);
+      for (int l = b.first; l < b.first + b.count; ++l) {
+        const int g = q_tree_.order()[l];
+        const FacetPair pair = ClosestPoints(t, PlacedCornersOfQ(g));
+        if (pair.squared_distance >= least_) continue;
+        least_ = pair.squared_distance;
+        best_.on_p = pair.on_t / scale_;
+        best_.on_q = x_ - pair.on_u / scale_;
+        best_.facet_of_p = f;
+        best_.facet_of_q = g;
+      }
+    }
+  }
+
+  void SplitPair(int i, int j) {
+    const BoxTree::Node& a = p_tree_.nodes()[i];
+    const BoxTree::Node& b = q_tree_.nodes()[j];
+    const bool splits_p = SplitsFirst(a, b);
+    for (int k = 0; k < 2; ++k) {
+      const int ci = splits_p ? a.first + k : i;
+      const int cj = splits_p ? j : b.first + k;
+      const double child = LowerBound(ci, cj);
+      if (child < least_) queue_.emplace(child, ci, cj);
+    }
+  }
+
+  // Lower bound, node of P, node of Q.
+  using NodePair = std::tuple<double, int, int>;
+
+  const GridSolid& p_;
+  const GridSolid& q_;
+  const BoxTree& p_tree_;
+  const BoxTree& q_tree_;
+  const Vector3d& x_;
+  const double scale_;
+  std::priority_queue<NodePair, std::vector<NodePair>, std::greater<>> queue_;
+  SolidGap::Nearest best_;
+  double least_ = std::numeric_limits<double>::infinity();  // squared
+};
+
 }  // namespace
 
 SolidGap::SolidGap(const GridSolid& p, const GridSolid& q)
     : p_(p), q_(q), p_tree_(FacetBoxes(p), 4), q_tree_(FacetBoxes(q), 4) {}
 
 SolidGap::Nearest SolidGap::Find(const Vector3d& x) const {
-  // Coordinates of about the size of one, by a power of two.
-  const double scale = std::ldexp(
-      1.0, -std::max(kGridBits, std::ilogb(x.lpNorm<Eigen::Infinity>() + 1.0)));
-  const auto lower_bound = [&](int i, int j) {
-    const BoxTree::Node& a = p_tree_.nodes()[i];
-    const BoxTree::Node& b = q_tree_.nodes()[j];
-    return (scale * (a.min + b.min - x))
-        .cwiseMax(scale * (x - a.max - b.max))
-        .cwiseMax(0.0)
-        .squaredNorm();
-  };
-  const auto p_corners = [&](int f) {
-    Corners t;
-    for (std::size_t k = 0; k < 3; ++k) {
-      t[k] = scale * ToDouble(p_.vertices[p_.facets[f][k]]);
-    }
-    return t;
-  };
-  const auto placed_corners = [&](int f) {
-    Corners t;
-    for (std::size_t k = 0; k < 3; ++k) {
-      t[k] = scale * (x - ToDouble(q_.vertices[q_.facets[f][k]]));
-    }
-    return t;
-  };
-  using Entry = std::tuple<double, int, int>;
-  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
-  queue.emplace(lower_bound(0, 0), 0, 0);
-  Nearest best;
-  double least = std::numeric_limits<double>::infinity();
-  while (!queue.empty()) {
-    const auto [bound, i, j] = queue.top();
-    queue.pop();
-    if (bound >= least) break;
-    const BoxTree::Node& a = p_tree_.nodes()[i];
-    const BoxTree::Node& b = q_tree_.nodes()[j];
-    if (a.IsLeaf() && b.IsLeaf()) {
-      for (int k = a.first; k < a.first + a.count; ++k) {
-        const int f = p_tree_.order()[k];
-        const Corners t = p_corners(f);
-        for (int l = b.first; l < b.first + b.count; ++l) {
-          const int g = q_tree_.order()[l];
-          const FacetPair pair = ClosestPoints(t, placed_corners(g));
-          if (pair.squared_distance >= least) continue;
-          least = pair.squared_distance;
-          best.on_p = pair.on_t / scale;
-          best.on_q = x - pair.on_u / scale;
-          best.facet_of_p = f;
-          best.facet_of_q = g;
-        }
-      }
-      continue;
-    }
-    const bool splits_p = SplitsFirst(a, b);
-    for (int k = 0; k < 2; ++k) {
-      const int ci = splits_p ? a.first + k : i;
-      const int cj = splits_p ? j : b.first + k;
-      const double child = lower_bound(ci, cj);
-      if (child < least) queue.emplace(child, ci, cj);
-    }
-  }
-  best.distance = std::sqrt(least) / scale;
-  return best;
+  return SolidGapSearch(p_, q_, p_tree_, q_tree_, x).FindNearest();
 }
 
 }  // namespace phongpd::internal
