@@ -15,18 +15,19 @@ namespace {
 
 using Eigen::Vector3d;
 
-// Of the margin: what is kept within rounding is kept.
-constexpr double kKept = 1.0 - 1e-6;
+// The share of the margin that counts as all of it: of a wish as of polylines
+// (kToleratedMissing), of what is required but for rounding.
+constexpr double kWished = 0.9, kRequired = 1.0 - 1e-6;
 
 bool IsBetterCurve(const CurveSummary& a, const CurveSummary& b,
-                   const CurveOptions& options) {
+                   const CurveOptions& options, double kept_share) {
   if (a.trajectory.empty() || b.trajectory.empty()) {
     // The least duration that is known counts where none is short enough.
     return !a.trajectory.empty() ||
            (b.trajectory.empty() && a.duration < b.duration);
   }
-  const bool a_keeps = a.margin >= kKept * options.margin;
-  const bool b_keeps = b.margin >= kKept * options.margin;
+  const bool a_keeps = a.margin >= kept_share * options.margin;
+  const bool b_keeps = b.margin >= kept_share * options.margin;
   if (a_keeps != b_keeps) return a_keeps;
   if (options.duration > 0.0) {
     return SquaredJerk(a.trajectory, options.limits) <
@@ -57,8 +58,10 @@ double SquaredJerk(const Trajectory& trajectory, const MotionLimits& limits) {
 
 BestCurve OptimizeAlongBest(const FreeSpace& space, double diagonal,
                             const std::vector<Path>& paths,
-                            const CurveOptions& options) {
+                            const CurveOptions& options,
+                            bool margin_is_required) {
   const Stopwatch stopwatch;
+  const double kept_share = margin_is_required ? kRequired : kWished;
   std::mutex asking;
   std::vector<CurveSummary> found(paths.size());
   tbb::parallel_for(std::size_t{0}, paths.size(), [&](std::size_t i) {
@@ -82,7 +85,9 @@ BestCurve OptimizeAlongBest(const FreeSpace& space, double diagonal,
     const bool is_left_out =
         found[i].trajectory.empty() && found[i].status == PathStatus::kNotFree;
     if (is_left_out) continue;
-    if (IsBetterCurve(found[i], found[best.path], options)) best.path = i;
+    if (IsBetterCurve(found[i], found[best.path], options, kept_share)) {
+      best.path = i;
+    }
   }
   best.summary = std::move(found[best.path]);
   best.summary.seconds = stopwatch.Seconds();

@@ -16,13 +16,15 @@ struct BestCurve {
 };
 
 // OptimizeCurve from each of several free paths with the same ends, side by
-// side, and the best of what they come to: a motion that keeps the margin
-// before one that does not, then the least time, or of a given duration the
-// least jerk. A path whose turn comes when time is up is left out, but for the
-// first. options.is_interrupted is asked by one thread at a time.
+// side, and the best of what they come to: a motion that keeps the margin, or
+// of a mere wish nine tenths of it, before one that does not; then the least
+// time, or of a given duration the least jerk.  A path whose turn comes when
+// time is up is left out, but for the first.  options.is_interrupted is asked
+// by one thread at a time.
 BestCurve OptimizeAlongBest(const FreeSpace& space, double diagonal,
                             const std::vector<Path>& paths,
-                            const CurveOptions& options);
+                            const CurveOptions& options,
+                            bool margin_is_required);
 
 // ∫ |q'''|² dt, each axis as a share of its limit; of pieces of degree 5 at
 // most.

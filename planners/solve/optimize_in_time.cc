@@ -31,10 +31,12 @@ void RequireMotion(const Path& path, const CurveOptions& options) {
 }
 
 // Near one of these paths, which are free.
-void FindCurve(const World& world, const CurveOptions& options,
+void FindCurve(const World& world, const OptimizeRequest& request,
                const std::vector<Path>& paths, PathAnswer* answer) {
+  const CurveOptions options = CurveOptionsOf(world, request);
   const FreeSpace& space = *answer->evidence.free_space;
-  BestCurve best = OptimizeAlongBest(space, world.diagonal(), paths, options);
+  BestCurve best = OptimizeAlongBest(space, world.diagonal(), paths, options,
+                                     request.requires_margin);
   answer->path = paths[best.path];
   answer->routes = static_cast<int>(paths.size());
   answer->curve = std::move(best.summary);
@@ -190,11 +192,10 @@ CurveOptions CurveOptionsOf(const World& world,
 
 void OptimizeInTime(const World& world, const OptimizeRequest& request,
                     PathAnswer* answer) {
-  const CurveOptions options = CurveOptionsOf(world, request);
   Path places = {request.start};
   for (const Via& via : request.via) places.push_back(via.point);
   places.push_back(request.goal);
-  RequireMotion(places, options);
+  RequireMotion(places, CurveOptionsOf(world, request));
   // Said by the planner before it builds anything.
   if (request.start != request.goal && !world.Diagnose(request.goal).IsFree()) {
     places = {request.start, request.goal};
@@ -211,13 +212,12 @@ void OptimizeInTime(const World& world, const OptimizeRequest& request,
   if (answer->evidence.model == Model::kWindow) {
     answer->evidence.free_space = world.Convolution().free_space;
   }
-  FindCurve(world, options, paths, answer);
+  FindCurve(world, request, paths, answer);
 }
 
 void RetimePath(const World& world, const Path& path,
                 const OptimizeRequest& request, PathAnswer* answer) {
-  const CurveOptions options = CurveOptionsOf(world, request);
-  RequireMotion(path, options);
+  RequireMotion(path, CurveOptionsOf(world, request));
   answer->curve.emplace();
   answer->path = path;
   answer->evidence.model = Model::kWindow;
@@ -228,7 +228,7 @@ void RetimePath(const World& world, const Path& path,
     answer->reason = Collision(world, path, answer->evidence.check);
     return;
   }
-  FindCurve(world, options, {path}, answer);
+  FindCurve(world, request, {path}, answer);
 }
 
 }  // namespace phongpd::internal

@@ -238,7 +238,7 @@ void BindWorld(nb::module_& module) {
               const std::vector<std::tuple<Point, std::string, double>>& via,
               double duration, const std::string& margin,
               const std::string& preset, double max_seconds, bool is_required,
-              int routes) {
+              int routes, bool by_norm) {
              new (self) MotionWishes{limits,      via,    duration,
                                      margin,      preset, max_seconds,
                                      is_required, routes, by_norm};

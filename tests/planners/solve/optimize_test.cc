@@ -193,6 +193,8 @@ TEST(Optimize, SeveralRoutesOfAMotionAreNeverSlower) {
     const Staged staged(family);
     OptimizeRequest request = staged.Request(Model::kFull);
     ApplyPreset(Preset::kFast, &request);
+    // All keep that: what is compared is time.
+    request.margin = Length::FromShare(1e-6);
     request.limits.emplace();
     request.limits->velocity.setConstant(1.0);
     request.limits->acceleration.setConstant(2.0);

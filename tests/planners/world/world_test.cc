@@ -4,6 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <random>
 #include <string>
@@ -219,6 +222,57 @@ TEST(World, IsKnownByItsSolidsNamesAndBounds) {
   b = a;
   b.bounds.max.x() += 1.0;
   EXPECT_FALSE(HaveSameSolids(a, b));
+}
+
+// What planners make of a world: once for each tag and type, the last ones.
+TEST(World, KeepsWhatIsMadeOfItByTypeAndTag) {
+  const World world = WorldOf(Parse(Crowd()));
+  const World copy = world;
+  int made = 0;
+  const auto number = [&](const World& of, int value) {
+    return *of.Kept<int>(std::to_string(value), [&] {
+      ++made;
+      return value;
+    });
+  };
+  EXPECT_EQ(number(world, 7), 7);
+  EXPECT_EQ(number(copy, 7), 7);
+  EXPECT_EQ(made, 1);
+  EXPECT_EQ(*world.Kept<std::string>("7", [] { return std::string("a"); }),
+            "a");
+  EXPECT_EQ(number(world, 7), 7);
+  EXPECT_EQ(made, 1);
+  // Of too many the first go, and live as long as somebody has them.
+  const auto held = world.Kept<int>("7", [] { return -1; });
+  for (int k = 0; k < static_cast<int>(World::kMostKept); ++k) {
+    number(world, 100 + k);
+  }
+  EXPECT_EQ(*held, 7);
+  made = 0;
+  number(world, 7);
+  EXPECT_EQ(made, 1);
+  // What is thrown is kept by nobody.
+  const auto fail = []() -> int { throw InputError("not today"); };
+  EXPECT_THROW(world.Kept<int>("bad", fail), InputError);
+  EXPECT_EQ(*world.Kept<int>("bad", [] { return 3; }), 3);
+}
+
+TEST(World, MakesOnceForAllThreadsThatAsk) {
+  const World world = WorldOf(Parse(Crowd()));
+  std::atomic<int> made{0};
+  std::vector<std::thread> threads;
+  std::vector<std::shared_ptr<const int>> seen(8);
+  for (std::shared_ptr<const int>& one : seen) {
+    threads.emplace_back([&] {
+      one = world.Kept<int>("", [&] {
+        std::this_thread::sleep_for(std::chrono::milliseconds(20));
+        return ++made;
+      });
+    });
+  }
+  for (std::thread& thread : threads) thread.join();
+  EXPECT_EQ(made, 1);
+  for (const auto& one : seen) EXPECT_EQ(one, seen.front());
 }
 
 }  // namespace

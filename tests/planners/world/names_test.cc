@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The words of requests and answers read back to what they mean.
+#include <gtest/gtest.h>
+
+#include <set>
+#include <string>
+
+#include "core/mesh/mesh_error.h"
+#include "planners/retraction/retraction_names.h"
+#include "planners/world/model.h"
+#include "planners/world/path_status.h"
+#include "planners/world/penetration_spec.h"
+#include "planners/world/planner_id.h"
+
+namespace phongpd {
+namespace {
+
+TEST(Names, OfPlannersReadBackAndSayWhatEachNeeds) {
+  std::set<std::string> names;
+  for (const PlannerId planner : AllPlanners()) {
+    const std::string name = ToString(planner);
+    EXPECT_EQ(ParsePlanner(name, "planner"), planner);
+    EXPECT_TRUE(names.insert(name).second) << name;
+    const bool retracts = name.find("retraction") != std::string::npos;
+    EXPECT_EQ(Retracts(planner), retracts) << name;
+    EXPECT_EQ(ChecksMotionsOnly(planner),
+              !retracts && name != "contact-surface")
+        << name;
+    EXPECT_EQ(SeeksClearance(planner), !ChecksMotionsOnly(planner)) << name;
+  }
+  EXPECT_EQ(names.size(), PlannerNames().size());
+  try {
+    ParsePlanner("RRTConnect", "--planner");
+    FAIL() << "accepted";
+  } catch (const InputError& error) {
+    const std::string text = error.what();
+    EXPECT_NE(text.find("--planner: expected one of contact-surface"),
+              std::string::npos)
+        << text;
+    EXPECT_NE(text.find("did you mean rrt-connect?"), std::string::npos)
+        << text;
+  }
+}
+
+TEST(Names, OfRetractionsReadBack) {
+  for (const std::string& name : RetractionNames()) {
+    EXPECT_EQ(RetractionName(ParseRetraction(name, "metric")), name);
+  }
+  // The choice of a metric without one says nothing.
+  RetractionOptions options;
+  options.metric = RetractionMetric::kEuclidean;
+  options.choice = BranchChoice::kWarm;
+  EXPECT_EQ(RetractionName(options), "euclidean");
+  EXPECT_THROW(ParseRetraction("phone", "metric"), InputError);
+}
+
+TEST(Names, OfModelsReadBack) {
+  for (const std::string& name : ModelNames()) {
+    EXPECT_EQ(ToString(ParseModel(name, "model")), name);
+  }
+  EXPECT_THROW(ParseModel("some", "model"), InputError);
+}
+
+TEST(Names, OfMetricsReadBack) {
+  for (const char* name :
+       {"euclidean", "phong@0", "phong@0.2", "phong@0.5unit/exact",
+        "phong@0.1/tangent-plane", "phong@0.1/tangent-plane/exact"}) {
+    EXPECT_EQ(ParsePenetration(name, "metric").Name(), name);
+  }
+  for (const char* name : {"", "phong", "phong@", "phong@-1", "phong@0.1/some",
+                           "phong@0.1/exact/tangent-plane/exact", "euclid"}) {
+    EXPECT_THROW(ParsePenetration(name, "metric"), InputError) << name;
+  }
+  // Of Euclid nothing else counts; a length beyond D is no share of it.
+  PenetrationSpec spec;
+  spec.metric = MetricKind::kEuclidean;
+  spec.jacobian = JacobianKind::kExact;
+  EXPECT_EQ(spec.Options(1.0).jacobian, JacobianKind::kDirection);
+  spec = ParsePenetration("phong@3unit", "metric");
+  EXPECT_DOUBLE_EQ(spec.Options(10.0).phong.field_options.smoothing_length,
+                   0.3);
+  EXPECT_THROW(spec.Options(2.0), InputError);
+}
+
+TEST(Names, OfStatusesDifferAndTellFreePathsFromBlockedEnds) {
+  std::set<std::string> names;
+  int free = 0, blocked = 0;
+  for (int k = 0; k <= static_cast<int>(PathStatus::kFailed); ++k) {
+    const auto status = static_cast<PathStatus>(k);
+    EXPECT_TRUE(names.insert(ToString(status)).second) << ToString(status);
+    free += HasFreePath(status);
+    blocked += IsStartBlocked(status) || IsGoalBlocked(status);
+    EXPECT_FALSE(IsStartBlocked(status) && IsGoalBlocked(status));
+  }
+  EXPECT_EQ(free, 3);
+  EXPECT_EQ(blocked, 4);
+}
+
+}  // namespace
+}  // namespace phongpd
