@@ -20,7 +20,7 @@ int main(int argc, char** argv) {
             << path.length << ", clearance " << path.clearance << ", "
             << ToString(path.evidence.verification->verdict)
             << " on the solids\n";
-  // In the middle of the U: said before anything would be built.
-  const PathAnswer none = Plan(world, {start, {1.0, -0.25, 0.0}});
+  // In the back of the U: said before anything would be built.
+  const PathAnswer none = Plan(world, {start, {0.4, 0.0, 0.0}});
   std::cout << ToString(none.status) << ": " << none.reason << '\n';
 }

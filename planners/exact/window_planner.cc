@@ -2,6 +2,8 @@
 #include "planners/exact/window_planner.h"
 
 #include <algorithm>
+#include <cmath>
+#include <cstddef>
 #include <limits>
 #include <stdexcept>
 #include <string>
@@ -10,6 +12,7 @@
 
 #include "core/contact/free_space_flood.h"
 #include "core/mesh/finite.h"
+#include "core/pi.h"
 #include "core/stopwatch.h"
 #include "planners/exact/path_shortening.h"
 #include "planners/exact/route_order.h"
@@ -37,6 +40,35 @@ bool IsBetter(const PlanResult& found, const PlanResult& best) {
   // The surface of each exploration has a rounding of its own.
   return RouteOrder(std::max(found.rounding, best.rounding))
       .IsBetter({found.length, found.clearance}, {best.length, best.clearance});
+}
+
+// Bends each segment that is not free aside, where it is met first, by as
+// little as helps.  False where nothing does, with *path as far as it came.
+bool BendAside(const FreeSpace& space, double diagonal,
+               std::vector<Vector3d>* path) {
+  constexpr int kLeast = -30, kMost = -7;  // powers of two of the diagonal
+  constexpr int kDirections = 12;
+  const auto bend = [&](const Vector3d& a, const Vector3d& b, Vector3d* aside) {
+    const Vector3d place =
+        a + CheckPath(space, {a, b}).motion.fraction * (b - a);
+    const Vector3d across = (b - a).unitOrthogonal();
+    const Vector3d other = (b - a).cross(across).normalized();
+    for (int k = 0; k < (kMost - kLeast + 1) * kDirections; ++k) {
+      const double size = std::ldexp(diagonal, kLeast + k / kDirections);
+      const double angle = 2.0 * kPi * (k % kDirections) / kDirections;
+      *aside =
+          place + size * (std::cos(angle) * across + std::sin(angle) * other);
+      if (space.IsFree(a, *aside) && space.IsFree(*aside, b)) return true;
+    }
+    return false;
+  };
+  for (std::size_t i = 0; i + 1 < path->size(); ++i) {
+    if (space.IsFree((*path)[i], (*path)[i + 1])) continue;
+    Vector3d aside;
+    if (!bend((*path)[i], (*path)[i + 1], &aside)) return false;
+    path->insert(path->begin() + static_cast<std::ptrdiff_t>(++i), aside);
+  }
+  return true;
 }
 
 bool IsEnclosed(FloodOutcome outcome) {
@@ -84,21 +116,17 @@ void WindowPlanner::Widen(const Vector3d& start, const Vector3d& goal,
   join_ends(&result->raw_path);
   for (std::vector<Vector3d>& route : result->routes) join_ends(&route);
   join_ends(&result->path);
-  // Cut short against the surface, whose corners are rounded, a path may graze
-  // what the model knows exactly.  Then another one does, or what it was cut
-  // from: that keeps to the middle.
-  std::vector<std::vector<Vector3d>> ways = {result->path};
-  ways.insert(ways.end(), result->routes.begin(), result->routes.end());
-  ways.push_back(result->raw_path);
-  const auto way = std::find_if(
-      ways.begin(), ways.end(),
-      [&](const auto& candidate) { return CheckPath(space_, candidate).free; });
-  if (way == ways.end()) {
+  // Against the surface, whose corners are rounded, a path may be free that
+  // grazes what the model knows exactly.
+  const double diagonal = model_.bounds().Diagonal();
+  if (!BendAside(space_, diagonal, &result->path) &&
+      !BendAside(space_, diagonal, &result->raw_path)) {
     result->status = PathStatus::kFailed;
     result->reason = "a path was found that is closed by rounding";
     return;
   }
-  result->path = ShortenPath(*way, space_, shortening);
+  if (!CheckPath(space_, result->path).free) result->path = result->raw_path;
+  result->path = ShortenPath(result->path, space_, shortening);
   result->length = PathLength(result->path);
   result->clearance = PathClearance(space_, result->path);
 }

@@ -27,7 +27,7 @@ std::optional<Verification> Verify(const World& world, const Vector3d& start,
   const bool at_start = IsStartBlocked(answer.status);
   const bool is_blocked = at_start || IsGoalBlocked(answer.status);
   const bool has_motion = answer.is_free && !answer.motion.empty();
-  const bool has_path = answer.is_free && !answer.path.empty();
+  const bool has_path = has_motion || (answer.is_free && !answer.path.empty());
   if (!has_path && !is_blocked && !answer.IsInfeasible()) return std::nullopt;
   const Verifier verifier(world.workspace());
   if (is_blocked) return verifier.VerifyBlocked(at_start ? start : goal);

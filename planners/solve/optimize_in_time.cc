@@ -104,6 +104,12 @@ PlanRequest LegRequest(const OptimizeRequest& request, const Vector3d& start,
   leg.model = request.model;
   leg.clearance = MarginOf(request);
   leg.preset = request.preset;
+  // No fewer than motions are sought along.
+  ContactSurfaceOptions by_preset;
+  ApplyPreset(request.preset, &by_preset);
+  if (request.options.routes > by_preset.routes) {
+    leg.routes = request.options.routes;
+  }
   leg.verifies = false;  // the motion is
   return leg;
 }

@@ -114,7 +114,7 @@ void RequireFewRows(double seconds, double rate) {
   if (seconds * rate <= kMostTimedRows) return;
   throw InputError("--rate: expected at most " + FormatDouble(kMostTimedRows) +
                    " rows for a motion that takes " + Rounded(seconds) +
-                   " s or more, found " + FormatDouble(rate) + " Hz");
+                   " s at least, found " + FormatDouble(rate) + " Hz");
 }
 
 std::string TimedCsv(const Trajectory& trajectory, double rate) {

@@ -166,10 +166,9 @@ TEST(VoxelPairs, ConfirmProofsWhereCellsTouchInAnEdge) {
             "");
 }
 
-// Cut short against the explored surface, whose corners are rounded, the best
-// way grazed an edge that the model knows exactly: closed, and no other was
-// taken.
-TEST(VoxelPairs, TakeAnotherWayWhereRoundingClosesTheBest) {
+// Free against the explored surface, whose corners are rounded, the way grazed
+// an edge that the model knows exactly: closed, and nothing else was tried.
+TEST(VoxelPairs, BendAsideWhereRoundingClosesAWay) {
   struct Case {
     std::uint64_t seed;
     Vector3d start, goal;

@@ -81,7 +81,9 @@ TEST_F(OmplPlanning, TakesTheLimitAndNeverClaimsAFalsePath) {
       EXPECT_TRUE(result.path.empty());
       EXPECT_FALSE(result.collision_free);
       EXPECT_EQ(result.clearance, 0.0);
-      EXPECT_EQ(result.status, "Timeout") << name;
+      EXPECT_TRUE(result.status == "Timeout" ||
+                  result.status == "Approximate solution")
+          << name << ": " << result.status;
     }
   }
 }

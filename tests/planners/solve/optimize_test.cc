@@ -214,7 +214,7 @@ TEST(Optimize, SeveralRoutesOfAMotionAreNeverSlower) {
 }
 
 TEST(SquaredJerk, IsTheIntegralOfAParabolasSquare) {
-  // x = t³/6 for a second, then y = t⁵/60 for two: jerks 1 and t²/2.
+  // x = t³/6 for a second, then y = t⁵/60 for two: jerks 1 and t².
   const double h = 2.0, c = h * h * h * h * h / 60.0;
   const Trajectory motion({CurvePiece({Eigen::Vector3d::Zero(),
                                        Eigen::Vector3d::Zero(),
@@ -230,9 +230,9 @@ TEST(SquaredJerk, IsTheIntegralOfAParabolasSquare) {
                                       h)});
   MotionLimits limits;
   limits.jerk = {2.0, 1.0, 1.0};
-  // ∫ (1/2)² + ∫ t⁴/4 = 1/4 + h⁵/20
+  // ∫ (1/2)² + ∫ t⁴ = 1/4 + h⁵/5
   EXPECT_NEAR(internal::SquaredJerk(motion, limits),
-              0.25 + std::pow(h, 5) / 20.0, 1e-12);
+              0.25 + std::pow(h, 5) / 5.0, 1e-12);
 }
 
 }  // namespace

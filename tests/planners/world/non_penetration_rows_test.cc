@@ -57,7 +57,9 @@ TEST(NonPenetrationRows, AreTheDistancesOfTheSamples) {
   int row = 0;
   for (int i = 0; i < 3; ++i) {
     const auto k = static_cast<std::size_t>(i);
-    if (i > 0) EXPECT_NEAR(g[row++], BoxDistance(path[k]), 1e-12) << i;
+    if (i > 0) {
+      EXPECT_NEAR(g[row++], BoxDistance(path[k]), 1e-12) << i;
+    }
     EXPECT_NEAR(g[row++], BoxDistance(0.5 * (path[k] + path[k + 1])), 1e-12);
   }
   EXPECT_EQ(rows.lower(), VectorXd::Constant(5, rows.margin()));

@@ -157,7 +157,7 @@ TEST_F(CliTimedRefusals, MoreRowsThanThereMayBeBeforeTheMotionIsKnown) {
             1);
   ExpectRefused(
       "optimize " + scene + " --output t.csv --rate 1e6 --limits 0.303,2,10",
-      {"--rate: expected at most 1e+07 rows", "s or more"});
+      {"--rate: expected at most 1e+07 rows", "s at least"});
   // JSON has pieces and no rows.
   EXPECT_EQ(
       Run("optimize " + scene + " --output ../t.json --limits 1e-5,2,10").code,

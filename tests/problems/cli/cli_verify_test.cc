@@ -73,6 +73,7 @@ TEST(AnswerCheck, TakesBackWhatTheSolidsRefute) {
        {through, proof, blocked, elsewhere, curve, other_curve}) {
     PathAnswer answer = claim;
     internal::Finish(world, scene.start, scene.goal, {}, true, &answer);
+    ASSERT_TRUE(answer.evidence.verification);
     EXPECT_EQ(answer.evidence.verification->verdict, Verdict::kRefuted);
     EXPECT_EQ(answer.status, PathStatus::kVerificationFailed);
     EXPECT_FALSE(answer.is_free);

@@ -154,7 +154,7 @@ TEST(Scene, ReadsBareLengthsInItsUnitIfThatHasAName) {
     EXPECT_EQ(plain.workspace.unit, unit);
     EXPECT_EQ(plain.trajectory.margin, TrajectorySettings().margin);
     EXPECT_EQ(plain.penetration.smoothing_length,
-              PenetrationSettings().smoothing_length);
+              PenetrationSpec().smoothing_length);
     for (const Json& length : {Json(1.5), Json("1.5"), Json("1.5" + unit),
                                Json("1.5 " + unit), Json("1.5unit")}) {
       json["penetration"]["smoothing_length"] = length;
