@@ -100,11 +100,11 @@ def _planning_row(job: Job, subject: dict[str, Any]) -> str:
         _native.Scene.load(_same_scene(job, subject), None), subject["cache"],
         _max_mib(subject)))
     what, scene = job.arguments, world.scene
-    row: str = world.plan(
-        tuple(scene.start), tuple(scene.goal), what["planner"],
-        what["retraction"], what["clearance"], what["max_seconds"],
-        what["seed"], "", "", False)
-    return row
+    return json.dumps(world.plan(
+        tuple(scene.start), tuple(scene.goal), planner=what["planner"],
+        retraction=what["retraction"], clearance=what["clearance"],
+        max_seconds=what["max_seconds"], seed=what["seed"], preset="",
+        model="", require=False))
 
 
 def _depth_row(job: Job, subject: dict[str, Any]) -> str:
