@@ -51,7 +51,7 @@ struct OptimizeRequest {
   double max_segment_ratio = 1.6;
   bool is_per_obstacle = false;  // a contact space each instead of one for all
   double search_time = 5.0;      // seconds of each search of kWindow
-  // Its time_limit and seed hold for motions as well.
+  // Its time_limit and routes hold for motions as well.
   PipelineOptions options{};
 
   bool verifies = true;  // on the original solids as well (verification.h)
@@ -62,8 +62,8 @@ struct OptimizeRequest {
   void Validate(const World& world) const;
 };
 
-// What the preset sets in a request: request->preset, and of polylines the
-// options' routes, line and polish.  Whoever wants another value sets it
+// What the preset sets in a request: request->preset, the options' routes, and
+// of polylines line and polish.  Whoever wants another value sets it
 // afterwards.
 void ApplyPreset(Preset preset, OptimizeRequest* request);
 
