@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // 03_ipopt ROBOT OBSTACLE: a short, smooth trajectory: start repaired, Ipopt on
-// rows d ≥ margin, judged exactly on the whole swept path.  Step by step; all of
-// it in one call is in 08_world.
+// rows d ≥ margin, judged exactly on the whole swept path.  Step by step; all
+// of it in one call is in 08_world.
 #include <phongpd/core/solid/solid.h>
 #include <phongpd/planners/trajectory/trajectory_pipeline.h>
 #include <phongpd/planners/world/world.h>

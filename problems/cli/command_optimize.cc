@@ -184,8 +184,8 @@ int OptimizeInTime(const OptimizeFlags& flags, const MotionLimits& limits,
                    Scene scene) {
   for (const char* name :
        {"--metric", "--smoothing-length", "--jacobian", "--start",
-        "--start-noise", "--line", "--rows", "--mu-strategy",
-        "--polish", "--per-obstacle", "--runs", "--html", "--svg"}) {
+        "--start-noise", "--line", "--rows", "--mu-strategy", "--polish",
+        "--per-obstacle", "--runs", "--html", "--svg"}) {
     if (flags.app->count(name) == 0) continue;
     throw InputError(std::string(name) +
                      ": expected none for a motion in time, found one; with "

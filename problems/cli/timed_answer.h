@@ -21,8 +21,8 @@ struct TimedFlags {
   bool no_cache = false;
   std::optional<int> routes;  // the preset's if none
   bool has_margin = false;    // by a flag
-  bool require = false;     // the margin
-  bool verify = true;       // on the solids
+  bool require = false;       // the margin
+  bool verify = true;         // on the solids
   WorldLimits world;
 };
 
