@@ -200,7 +200,6 @@ class ContactSurfacePlanner::Impl::RouteSearch {
   }
 
   void Run() {
-    const PlanningSurface& surface = planner_.surface;
     while (found_ < routes_) {
       if (result_.searches == kMaxSearches) break;
       ++result_.searches;
@@ -210,8 +209,8 @@ class ContactSurfacePlanner::Impl::RouteSearch {
       const std::vector<SurfaceSite> sites = SitesOf(route);
       std::vector<Vector3d> path;
       const std::vector<int> blamed =
-          LiftRoute(sites, surface.segments, result_.wanted_clearance,
-                    surface.cells.rounding(), &path, &result_.lift);
+          LiftRoute(sites, planner_.surface.segments, result_.wanted_clearance,
+                    planner_.surface.cells.rounding(), &path, &result_.lift);
       if (!blamed.empty()) {
         Delete(blamed, route);
         continue;
