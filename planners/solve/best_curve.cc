@@ -64,6 +64,7 @@ BestCurve OptimizeAlongBest(const FreeSpace& space, double diagonal,
   const double kept_share = margin_is_required ? kRequired : kWished;
   std::mutex asking;
   std::vector<CurveSummary> found(paths.size());
+  std::vector<char> is_tried(paths.size(), 0);
   tbb::parallel_for(std::size_t{0}, paths.size(), [&](std::size_t i) {
     CurveOptions own = options;
     own.time_limit = options.time_limit - stopwatch.Seconds();
@@ -77,14 +78,15 @@ BestCurve OptimizeAlongBest(const FreeSpace& space, double diagonal,
         return options.is_interrupted();
       };
     }
+    is_tried[i] = 1;
     found[i] = OptimizeCurve(space, diagonal, paths[i], own);
   });
   BestCurve best;
+  best.tried = 1;
   for (std::size_t i = 1; i < found.size(); ++i) {
-    // Left out: kNotFree without any duration.
-    const bool is_left_out =
-        found[i].trajectory.empty() && found[i].status == PathStatus::kNotFree;
-    if (is_left_out) continue;
+    if (is_tried[i] == 0) continue;
+    ++best.tried;
+    if (found[i].status == PathStatus::kNotFree) continue;
     if (IsBetterCurve(found[i], found[best.path], options, kept_share)) {
       best.path = i;
     }

@@ -38,7 +38,7 @@ void FindCurve(const World& world, const OptimizeRequest& request,
   BestCurve best = OptimizeAlongBest(space, world.diagonal(), paths, options,
                                      request.requires_margin);
   answer->path = paths[best.path];
-  answer->routes = static_cast<int>(paths.size());
+  answer->routes = best.tried;
   answer->curve = std::move(best.summary);
   CurveSummary& curve = *answer->curve;
   answer->status = curve.status;
