@@ -273,15 +273,15 @@ const Vector3d& FreeSpaceFlood::goal() const {
   return impl_->configurations[1];
 }
 
-ContactSpace FreeSpaceFlood::Surface() const {
-  return ContactSpace(impl_->Surface(true, true), kName);
+ExploredSpace FreeSpaceFlood::Surface() const {
+  return ExploredSpace(impl_->Surface(true, true), kName);
 }
 
-ContactSpace FreeSpaceFlood::EnclosingSurface() const {
+ExploredSpace FreeSpaceFlood::EnclosingSurface() const {
   const bool is_start = impl_->Next(0) < 0;
   ContactSpace::Parts space = impl_->Surface(is_start, !is_start);
   internal::DropWalls(&space);
-  return ContactSpace(std::move(space), kName);
+  return ExploredSpace(std::move(space), kName);
 }
 
 std::size_t FreeSpaceFlood::boxes() const {

@@ -4,11 +4,38 @@
 #include <Eigen/Core>
 #include <cstddef>
 #include <memory>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "core/contact/contact_space.h"
 #include "core/contact/convolution_model.h"
 
 namespace phongpd {
+
+// The boundary of a part of free space that was explored: closed, of facets of
+// C_cont, and of walls (ContactKind::kNone) where free space goes on, or where
+// all is free.  What is free of it, and bounded, is free.
+//
+// It is no contact space.  Behind a wall is free space, and what of C_cont was
+// not explored is missing: depths and distances to it are those of nothing.  So
+// metrics, rows and trackers do not take it; judges and planners of free space
+// may, by AsContactSpace, who thereby says that walls count as contact.
+class ExploredSpace {
+ public:
+  // Throws as ContactSpace.
+  explicit ExploredSpace(ContactSpace::Parts parts, const std::string& name)
+      : closed_(std::move(parts), name) {}
+
+  const TriangleMesh& mesh() const { return closed_.mesh(); }
+  const std::vector<ContactKind>& kind() const { return closed_.kind(); }
+  const BoundingBox& bounds() const { return closed_.bounds(); }
+
+  const ContactSpace& AsContactSpace() const { return closed_; }
+
+ private:
+  ContactSpace closed_;
+};
 
 // Free space explored from two configurations until they meet, or until one is
 // known to be enclosed: the exact contact space of what a motion between them
@@ -49,14 +76,12 @@ class FreeSpaceFlood {
   const Eigen::Vector3d& start() const;
   const Eigen::Vector3d& goal() const;
 
-  // The boundary of the free space that was reached: C_cont there, and walls
-  // (ContactKind::kNone) where it goes on, or where all is free.  To be taken
-  // for a contact space: what is free of it, and bounded, is free.  Throws
-  // std::logic_error where rooms do not fit together because cells at their
-  // walls are too thin to be judged.
-  ContactSpace Surface() const;
-  // Of the cell alone that is enclosed: C_cont, no wall is left.
-  ContactSpace EnclosingSurface() const;
+  // The boundary of the free space that was reached.  Throws std::logic_error
+  // where rooms do not fit together because cells at their walls are too thin
+  // to be judged.
+  ExploredSpace Surface() const;
+  // Of the cell alone that is enclosed: C_cont around it, no wall is left.
+  ExploredSpace EnclosingSurface() const;
 
   std::size_t boxes() const;  // arranged
   std::size_t faces() const;  // in their arrangements

@@ -146,8 +146,8 @@ void WindowPlanner::Explore(const Vector3d& start, const Vector3d& goal,
     is_enclosed = IsEnclosed(outcome);
     PlanResult found;
     try {
-      const ContactSpace surface = flood.Surface();
-      found = ContactSurfacePlanner(surface, options_, names_)
+      const ExploredSpace surface = flood.Surface();
+      found = ContactSurfacePlanner(surface.AsContactSpace(), options_, names_)
                   .Plan(flood.start(), flood.goal(), request);
       if (found.status == PathStatus::kSolved) Widen(start, goal, &found);
       if (IsBetter(found, best)) {

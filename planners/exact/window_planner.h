@@ -6,8 +6,8 @@
 #include <optional>
 
 #include "constraints/free_space.h"
-#include "core/contact/contact_space.h"
 #include "core/contact/convolution_model.h"
+#include "core/contact/free_space_flood.h"
 #include "planners/exact/contact_surface_planner.h"
 
 namespace phongpd {
@@ -18,7 +18,7 @@ struct WindowPlan {
   // The boundary of the free space that was explored, or for a proof that of
   // the cell that is enclosed; none where the straight way was enough, or start
   // or goal are not free.
-  std::optional<ContactSpace> surface;
+  std::optional<ExploredSpace> surface;
   std::size_t boxes = 0;  // arranged
   std::size_t faces = 0;  // in their arrangements
 };

@@ -32,9 +32,10 @@ std::optional<Verification> Verify(const World& world, const Vector3d& start,
   const Verifier verifier(world.workspace());
   if (is_blocked) return verifier.VerifyBlocked(at_start ? start : goal);
   if (!has_path) {
-    const ContactSpace& surface =
-        answer.evidence.surface ? *answer.evidence.surface : world.Sealed();
-    return verifier.VerifySeparation(surface.mesh(), start, goal);
+    const TriangleMesh& surface = answer.evidence.surface
+                                      ? answer.evidence.surface->mesh()
+                                      : world.Sealed().mesh();
+    return verifier.VerifySeparation(surface, start, goal);
   }
   const Vector3d& first =
       has_motion ? answer.motion.pieces().front().front() : answer.path.front();

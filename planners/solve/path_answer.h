@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "constraints/trajectory.h"
-#include "core/contact/contact_space.h"
+#include "core/contact/free_space_flood.h"
 #include "planners/exact/contact_surface_planner.h"
 #include "planners/exact/verification.h"
 #include "planners/ompl/ompl_planning.h"
@@ -34,10 +34,10 @@ struct PathEvidence {
   PathCheck check;
   // Of a motion, upper bounds of what it asks of its limits, for all t.
   LimitUse use;
-  // The contact surface that a proof rests on, or what of it was explored by
-  // contact-surface in a window; none: the world's sealed space, or the
-  // straight way was enough.
-  std::optional<ContactSpace> surface;
+  // What contact-surface explored in a window, for a proof the cell that is
+  // enclosed; none: a proof rests on the world's sealed space, or the straight
+  // way was enough.
+  std::optional<ExploredSpace> surface;
   // Of other code, on the original solids (verification.h); none: nobody asked,
   // or there was nothing to judge.
   std::optional<Verification> verification;

@@ -96,7 +96,7 @@ PlanRequest RequestOf(const PlanFlags& flags, Scene* scene) {
 
 // `explored`: by the last run; none where the straight way was enough.
 View PageOf(const Scene& scene, const World& world, const PlanRequest& request,
-            std::optional<ContactSpace> explored) {
+            std::optional<ExploredSpace> explored) {
   if (!PlansInWindow(world, request)) {
     return SceneView(
         scene, {VisibleMesh(world.Sealed(), PlanningRegion(world, request))});
@@ -106,7 +106,7 @@ View PageOf(const Scene& scene, const World& world, const PlanRequest& request,
   }
   if (!explored) explored = Plan(world, request).evidence.surface;
   return explored
-             ? ExploredView(scene, VisibleMesh(*explored,
+             ? ExploredView(scene, VisibleMesh(explored->AsContactSpace(),
                                                PlanningRegion(world, request)))
              : SceneView(scene);
 }
@@ -156,7 +156,7 @@ int AnswerPlan(const PlanFlags& flags) {
   if (!beyond.empty()) Warn(beyond);
   std::string refuted;
   // The last run may be one that was kept from before: it has no surface.
-  std::optional<ContactSpace> explored;
+  std::optional<ExploredSpace> explored;
   for (int i = runs.kept(); i < flags.runs; ++i) {
     request.seed = flags.seed + static_cast<std::uint64_t>(i);
     ProgressOf("runs", static_cast<std::size_t>(i - runs.kept()),

@@ -30,8 +30,9 @@ void ShowExplored(const Scene& scene, const ExploringRun& of,
   const PathAnswer answer = Plan(world, request);
   const BoundingBox region = PlanningRegion(world, request);
   if (answer.evidence.surface) {
-    view->meshes.push_back({kExploredName, ViewRole::kContactSpace,
-                            VisibleMesh(*answer.evidence.surface, region)});
+    view->meshes.push_back(
+        {kExploredName, ViewRole::kContactSpace,
+         VisibleMesh(answer.evidence.surface->AsContactSpace(), region)});
   }
   for (NamedPath& path : view->paths) path.behind.window = region;
 }

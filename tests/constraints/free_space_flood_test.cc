@@ -9,12 +9,17 @@
 #include <algorithm>
 #include <limits>
 #include <random>
+#include <type_traits>
 #include <vector>
 
 #include "constraints/free_space.h"
+#include "constraints/signed_metric.h"
 #include "core/contact/contact_space.h"
 #include "core/minkowski/build_cancellation.h"
 #include "core/minkowski/build_refusal.h"
+#include "core/projection/euclidean_metric.h"
+#include "core/projection/penetration_tracker.h"
+#include "core/projection/phong_metric.h"
 #include "problems/shapes/shapes.h"
 #include "tests/support/sanitizer.h"
 #include "tests/support/solid_tools.h"
@@ -84,7 +89,7 @@ TEST(FreeSpaceFlood, EnclosesACavityByTheFullBuildsShell) {
         continue;  // the outside was smaller
       }
       ++shells;
-      const ContactSpace shell = flood.EnclosingSurface();
+      const ExploredSpace shell = flood.EnclosingSurface();
       const Measures found = Measure(shell.mesh(), about);
       EXPECT_EQ(found.corners, expected.corners);
       EXPECT_NEAR(found.area, expected.area, 1e-12 * expected.area);
@@ -110,7 +115,7 @@ TEST(FreeSpaceFlood, ItsSurfaceBoundsFreeSpaceAtEveryStep) {
     const Outcome outcome = flood.Explore(500);
     EXPECT_GE(flood.faces(), faces);
     faces = flood.faces();
-    const FreeSpace explored({flood.Surface()});
+    const FreeSpace explored({flood.Surface().AsContactSpace()});
     EXPECT_TRUE(explored.IsFree(flood.start()));
     EXPECT_TRUE(explored.IsFree(flood.goal()));
     last = free;
@@ -138,7 +143,7 @@ TEST(FreeSpaceFlood, ExploredToTheEndItIsAllOfFreeSpace) {
   FreeSpaceFlood flood(model, {0, 0, 3}, {0.1, 0.2, -3});
   EXPECT_EQ(flood.Explore(kAll), Outcome::kMet);
   EXPECT_EQ(flood.Explore(kAll), Outcome::kStartEnclosed);
-  const FreeSpace found({flood.Surface()});
+  const FreeSpace found({flood.Surface().AsContactSpace()});
   std::mt19937_64 random(5);
   int free = 0;
   for (int i = 0; i < 20000; ++i) {
@@ -150,6 +155,28 @@ TEST(FreeSpaceFlood, ExploredToTheEndItIsAllOfFreeSpace) {
   }
   EXPECT_GT(free, 1000);
   EXPECT_LT(free, 19000);
+}
+
+// Compile-time: what has walls is no contact space to whoever measures depth.
+template <typename Taker>
+constexpr bool kTakesWholeAlone =
+    std::is_constructible_v<Taker, const ContactSpace&> &&
+    !std::is_constructible_v<Taker, const ExploredSpace&>;
+
+TEST(ExploredSpace, IsNotTakenByMetricsRowsAndTrackers) {
+  static_assert(!std::is_convertible_v<ExploredSpace, ContactSpace>);
+  static_assert(kTakesWholeAlone<EuclideanMetric>);
+  static_assert(kTakesWholeAlone<PhongMetric>);
+  static_assert(kTakesWholeAlone<PenetrationTracker>);
+  static_assert(kTakesWholeAlone<SignedMetric>);
+  // What is behind a wall is free: its distance would be nobody's depth.
+  const ConvolutionModel model(Cube(1), Cube(2));
+  FreeSpaceFlood flood(model, {1.55, 0.25, 0}, {1.6, 0.3, 0});
+  EXPECT_EQ(flood.Explore(1), Outcome::kMet);
+  const ExploredSpace part = flood.Surface();
+  EXPECT_GT(
+      std::count(part.kind().begin(), part.kind().end(), ContactKind::kNone),
+      0);
 }
 
 TEST(FreeSpaceFlood, TakesFarEndsFromTheNearestPlaceAround) {

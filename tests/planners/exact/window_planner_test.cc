@@ -140,8 +140,9 @@ TEST(WindowPlanner, TakesNoWayThatOnlyRoundingOpened) {
     const ConvolutionModel model(pair.robot, pair.obstacle);
     FreeSpaceFlood flood(model, slit.start, slit.goal);
     ASSERT_EQ(flood.Explore(100000), FreeSpaceFlood::Outcome::kMet);
-    const PlanResult walled = ContactSurfacePlanner(flood.Surface())
-                                  .Plan(flood.start(), flood.goal());
+    const PlanResult walled =
+        ContactSurfacePlanner(flood.Surface().AsContactSpace())
+            .Plan(flood.start(), flood.goal());
     ASSERT_EQ(walled.status, PathStatus::kSolved);
     const WindowPlanner planner(model);
     EXPECT_TRUE(CheckPath(planner.free_space(), walled.path).free) << slit.seed;
