@@ -16,10 +16,6 @@ constexpr double kStep = 1e-5;
 // far above rounding, far below what two contacts make by chance.
 constexpr double kParallel = 1e-7;
 
-double SignedDistance(const DepthResult& result) {
-  return result.clearance - result.depth;  // one of them is zero
-}
-
 // Corner k of a feature in place.
 Vector3d Corner(const TriangleMesh& mesh, const ContactFeature& feature,
                 std::size_t k) {
@@ -44,7 +40,7 @@ PoseRow::PoseRow(const Solid& robot, const Solid& obstacle,
     : query_(robot, obstacle, options), robot_(robot), obstacle_(obstacle) {}
 
 Vector3d PoseRow::ContactNormal(const RobotPose& pose,
-                                const DepthResult& result) const {
+                                const Depth& result) const {
   const ContactFeature& a = result.robot_feature;
   const ContactFeature& b = result.obstacle_feature;
   if (b.kind == ContactFeature::kFacet) return Normal(obstacle_, b);
@@ -65,7 +61,7 @@ Vector3d PoseRow::Differences(const RobotPose& pose) const {
       RobotPose other = pose;
       other.orientation =
           Eigen::AngleAxisd(angle, Vector3d::Unit(k)) * pose.orientation;
-      return SignedDistance(query_.At(other));
+      return query_.At(other).SignedDistance();
     };
     slope[k] = (turned(kStep) - turned(-kStep)) / (2.0 * kStep);
   }
@@ -73,9 +69,9 @@ Vector3d PoseRow::Differences(const RobotPose& pose) const {
 }
 
 PoseRowValue PoseRow::At(const RobotPose& pose) const {
-  const DepthResult result = query_.At(pose);
+  const Depth result = query_.At(pose);
   PoseRowValue row;
-  row.value = SignedDistance(result);
+  row.value = result.SignedDistance();
   row.by_translation = result.direction;
   row.status = result.status;
   row.certified = result.certified;

@@ -26,7 +26,7 @@ struct PoseRowValue {
   Eigen::Vector3d by_rotation = Eigen::Vector3d::Zero();
   RotationSource source = RotationSource::kNone;
   DepthStatus status = DepthStatus::kSeparate;
-  bool certified = false;  // DepthResult::certified
+  bool certified = false;  // Depth::certified
 };
 
 // One row s(q, R) ≥ m of a nonlinear program for a robot that moves and turns:
@@ -35,7 +35,7 @@ struct PoseRowValue {
 //             of the robot turned by R
 //
 // Its sign is exact: s < 0 iff the solids overlap.  With the unit direction u
-// (DepthResult::direction) and r = p_A − q from q to the witness p_A on the
+// (Depth::direction) and r = p_A − q from q to the witness p_A on the
 // robot,
 //
 //   ∂s/∂q = u,        ∂s/∂ω = r × u                                 (1)
@@ -62,7 +62,7 @@ class PoseRow {
  private:
   // The normal of the one contact that the features tell; zero: none does.
   Eigen::Vector3d ContactNormal(const RobotPose& pose,
-                                const DepthResult& result) const;
+                                const Depth& result) const;
   Eigen::Vector3d Differences(const RobotPose& pose) const;
 
   DepthQuery query_;

@@ -98,9 +98,11 @@ const char* ToString(DepthStatus status) {
     case DepthStatus::kTouching:
       return "touching";
     case DepthStatus::kSeparate:
+      return "separate";
+    case DepthStatus::kInvalid:
       break;
   }
-  return "separate";
+  return "invalid";
 }
 
 const char* ToString(DepthLevel level) {
@@ -142,7 +144,7 @@ struct DepthQuery::Impl {
     }
   }
 
-  DepthResult Answer(const PlacedPair& placed, const Vector3d& q) const {
+  Depth Answer(const PlacedPair& placed, const Vector3d& q) const {
     const internal::GridFrame& frame = placed.pair.frame;
     const Vector3d x = frame.ToGrid(q);
     const double size = std::ldexp(frame.step, internal::kGridBits);
@@ -157,7 +159,7 @@ struct DepthQuery::Impl {
     }
     const internal::GridDepth found = placed.search.Find(
         x, {options.max_radius / frame.step, options.max_seconds});
-    DepthResult result;
+    Depth result;
     result.grid_step = frame.rounding;
     result.arranged_faces = found.faces;
     result.windows = found.windows;
@@ -202,7 +204,7 @@ struct DepthQuery::Impl {
   }
 
   void TellWitness(const PlacedPair& placed, const internal::GridDepth& found,
-                   const Vector3d& q, DepthResult* result) const {
+                   const Vector3d& q, Depth* result) const {
     if (found.of_robot.count == 0) return;
     result->on_robot = PointOf(found.of_robot, placed.robot.vertices) + q;
     result->on_obstacle = PointOf(found.of_obstacle, obstacle.mesh().vertices);
@@ -244,14 +246,14 @@ DepthQuery::~DepthQuery() = default;
 DepthQuery::DepthQuery(DepthQuery&&) noexcept = default;
 DepthQuery& DepthQuery::operator=(DepthQuery&&) noexcept = default;
 
-DepthResult DepthQuery::At(const Vector3d& q) const {
+Depth DepthQuery::At(const Vector3d& q) const {
   const Stopwatch stopwatch;
-  DepthResult result = impl_->Answer(impl_->unturned, q);
+  Depth result = impl_->Answer(impl_->unturned, q);
   result.seconds = stopwatch.Seconds();
   return result;
 }
 
-DepthResult DepthQuery::At(const RobotPose& pose) const {
+Depth DepthQuery::At(const RobotPose& pose) const {
   const Stopwatch stopwatch;
   CheckPose(pose, impl_->robot.name());
   // −1 and 1 are the same rotation: none.
@@ -260,7 +262,7 @@ DepthResult DepthQuery::At(const RobotPose& pose) const {
       pose.orientation.normalized().toRotationMatrix();
   const PlacedPair turned(Rotated(impl_->robot, rotation), impl_->robot.name(),
                           impl_->obstacle);
-  DepthResult result = impl_->Answer(turned, pose.position);
+  Depth result = impl_->Answer(turned, pose.position);
   result.seconds = stopwatch.Seconds();
   return result;
 }
@@ -269,16 +271,13 @@ const std::vector<std::string>& DepthQuery::warnings() const {
   return impl_->warnings;
 }
 
-DepthResult PenetrationDepth(const Solid& robot, const Solid& obstacle,
-                             const RobotPose& pose,
-                             const DepthOptions& options) {
+Depth PenetrationDepth(const Solid& robot, const Solid& obstacle,
+                       const RobotPose& pose, const DepthOptions& options) {
   return DepthQuery(robot, obstacle, options).At(pose);
 }
 
-DepthResult PenetrationDepth(const TriangleMesh& robot,
-                             const TriangleMesh& obstacle,
-                             const RobotPose& pose,
-                             const DepthOptions& options) {
+Depth PenetrationDepth(const TriangleMesh& robot, const TriangleMesh& obstacle,
+                       const RobotPose& pose, const DepthOptions& options) {
   return DepthQuery(robot, obstacle, options).At(pose);
 }
 

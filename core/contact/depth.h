@@ -11,6 +11,24 @@
 
 #include "core/solid/solid.h"
 
+// How deep?  Which to take:
+//
+//   two meshes as they lie; few poses, turned ones too
+//       PenetrationDepth, DepthQuery (here): the least depth, nothing built
+//   a robot that translates, many positions
+//       ContactSpace once, then EuclideanMetric: the least depth
+//   ... and depths and directions that go on from one position to the next
+//       PhongMetric: continuous along a branch, with exact derivatives
+//   few such depths, and no contact space
+//       WindowPhong: PhongMetric's own, cold, from what is near
+//   a motion without a jump, whatever the shape; nothing to differentiate
+//       PenetrationTracker: a contact that slides, at the price of depth
+//   rows of a nonlinear program
+//       SignedMetric for a robot that translates, PoseRow for one that turns
+//
+// All answer with a Depth, or with what has more and gives one by ToDepth.
+// "Where", the status, is exact and means the same in all of them; how an
+// answer goes on from the one before is QueryStatus and TrackerStatus.
 namespace phongpd {
 
 // Where the robot A is put: every vertex a becomes R·a + q, with R the matrix
@@ -26,6 +44,7 @@ enum class DepthStatus {
   kTouching,     // q lies on C_cont: the solids meet, an arbitrarily small
                  // motion parts them
   kSeparate,     // the solids share no point
+  kInvalid,      // q is not finite; DepthQuery throws instead
 };
 
 const char* ToString(DepthStatus status);  // "penetrating", ...
@@ -49,12 +68,13 @@ struct ContactFeature {
 
 const char* ToString(ContactFeature::Kind kind);  // "none", "vertex", ...
 
-// Lengths in the user's unit.
-struct DepthResult {
+// The answer.  Lengths in the user's unit.
+struct Depth {
   DepthStatus status = DepthStatus::kSeparate;
   // Euclidean penetration depth min |q_c − q| over q_c on C_cont (paper, Eqs. 1
   // and 2), the length of the shortest translation after which A touches B from
   // outside; 0 unless penetrating.
+  // Of PhongPD and trackers |q_c − q| of the q_c that is theirs: no less.
   double depth = 0.0;
   // Least distance between the solids; 0 unless separate.
   double clearance = 0.0;
@@ -87,7 +107,12 @@ struct DepthResult {
   std::vector<double> window_reaches;
   Eigen::Matrix3d window_axes = Eigen::Matrix3d::Identity();
   double seconds = 0.0;  // wall time of the query
+
+  // −depth, 0 or the clearance: its sign is that of the status.
+  double SignedDistance() const { return clearance - depth; }
 };
+
+using DepthResult = Depth;  // what it was called
 
 struct DepthOptions {
   // Explore no farther than this around q, user's unit: > 0.
@@ -121,11 +146,11 @@ class DepthQuery {
 
   // The robot moved by q.  Throws InputError unless q is finite and within
   // 1e15 times the size of the operands.
-  DepthResult At(const Eigen::Vector3d& q) const;
+  Depth At(const Eigen::Vector3d& q) const;
 
   // The robot turned, then moved: translational depth at a pose.  Throws
   // InputError also unless | |quaternion| − 1 | ≤ 1e-9.
-  DepthResult At(const RobotPose& pose) const;
+  Depth At(const RobotPose& pose) const;
 
   // What a user should know of the operands although it is no error, one
   // sentence each, with the operand's name.
@@ -137,13 +162,12 @@ class DepthQuery {
 };
 
 // The same once.
-DepthResult PenetrationDepth(const Solid& robot, const Solid& obstacle,
-                             const RobotPose& pose = {},
-                             const DepthOptions& options = {});
-DepthResult PenetrationDepth(const TriangleMesh& robot,
-                             const TriangleMesh& obstacle,
-                             const RobotPose& pose = {},
-                             const DepthOptions& options = {});
+Depth PenetrationDepth(const Solid& robot, const Solid& obstacle,
+                       const RobotPose& pose = {},
+                       const DepthOptions& options = {});
+Depth PenetrationDepth(const TriangleMesh& robot, const TriangleMesh& obstacle,
+                       const RobotPose& pose = {},
+                       const DepthOptions& options = {});
 
 // Throws InputError "<what>: …" unless the pose is finite and its quaternion of
 // unit length to 1e-9.

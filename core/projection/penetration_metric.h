@@ -5,6 +5,8 @@
 
 namespace phongpd {
 
+struct Depth;  // core/contact/depth.h, which says what to take when
+
 // What a query ran into.  Nothing falls back silently.
 enum class QueryStatus {
   kOk,                 // the metric's own answer
@@ -27,7 +29,8 @@ struct Branch {
   bool IsValid() const { return triangle >= 0; }
 };
 
-// Answer to a query at q_o.  Lengths in the user's unit.
+// Answer to a query at q_o: a Depth, with what solvers and motions need.
+// Lengths in the user's unit.
 struct PenetrationResult {
   QueryStatus status = QueryStatus::kInvalid;
   bool inside = false;  // exact: q_o strictly inside C_obj
@@ -48,6 +51,11 @@ struct PenetrationResult {
   Eigen::Vector3d PenetrationVector(const Eigen::Vector3d& q_o) const {
     return inside ? Eigen::Vector3d(contact - q_o) : Eigen::Vector3d::Zero();
   }
+
+  // The same in the words of all depths, without witnesses.  Certified outside
+  // and on C_cont, where every metric tells the distance; inside, the least
+  // depth is at most this one's.
+  Depth ToDepth() const;
 };
 
 // A penetration metric over one contact space.  Queries are const,

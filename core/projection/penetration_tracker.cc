@@ -128,12 +128,12 @@ struct PenetrationTracker::Impl {
       : surface(space), walk(space), options(o) {}
 
   // The ball of all depth around an interior point holds no surface.
-  bool IsInside(const Vector3d& q, const Position& state) const {
+  Location Locate(const Vector3d& q, const Position& state) const {
     if (state.inside) {
       const double step = (walk.bvh().ToFrame(q) - state.x).norm();
-      if (step < 0.999 * state.depth - 1e-12) return true;
+      if (step < 0.999 * state.depth - 1e-12) return Location::kInside;
     }
-    return surface.Locate(q) == Location::kInside;
+    return surface.Locate(q);
   }
 
   // Inside for the first time: the closest point.
@@ -244,7 +244,9 @@ TrackerResult PenetrationTracker::Step(const Vector3d& q, State* of) const {
     of->data_ = std::make_unique<State::Data>(impl_, Position());
   }
   Position* const state = &of->data_->position;
-  if (!impl.IsInside(q, *state)) {
+  const Location location = impl.Locate(q, *state);
+  if (location != Location::kInside) {
+    result.touching = location == Location::kOnSurface;
     result.status = TrackerStatus::kOutside;
     if (state->inside && state->magnitude > (impl.options.speed + 1.0) *
                                                 (q - state->q).stableNorm()) {

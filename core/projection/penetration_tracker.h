@@ -8,6 +8,8 @@
 
 namespace phongpd {
 
+struct Depth;  // core/contact/depth.h
+
 struct PenetrationTrackerOptions {
   // c ≥ 1: the contact makes for where the depth is at most c times the
   // Euclidean.  The smaller, the less often there is a way that stays there.
@@ -32,10 +34,11 @@ enum class TrackerStatus {
 // "following", "sliding", "left_elsewhere", "outside", "invalid".
 const char* ToString(TrackerStatus status);
 
-// Answer to one step.  Lengths in the user's unit.
+// Answer to one step: a Depth of a motion.  Lengths in the user's unit.
 struct TrackerResult {
   TrackerStatus status = TrackerStatus::kInvalid;
-  bool inside = false;  // exact: q strictly inside C_obj
+  bool inside = false;    // exact: q strictly inside C_obj
+  bool touching = false;  // exact: q on C_cont
   Eigen::Vector3d pd = Eigen::Vector3d::Zero();  // p − q inside, else zero
   double magnitude = 0.0;                        // |pd|
   double euclidean_depth = 0.0;  // d: distance of q to C_cont inside, else 0
@@ -43,6 +46,11 @@ struct TrackerResult {
   double moved = 0.0;  // how far the contact moved along the surface, ≤ κ|Δq|
   Eigen::Vector3d contact = Eigen::Vector3d::Zero();  // p on C_cont inside
   int triangle = -1;  // of the contact-space mesh, holds p; −1 outside
+
+  // The same in the words of all depths, without witnesses: the depth is
+  // |pd|, the least one (explored_radius) d.  Outside nothing was measured:
+  // the clearance is 0, and not certified.
+  Depth ToDepth() const;
 };
 
 // Penetration depth of a robot that moves, without a jump: the contact is a

@@ -21,6 +21,9 @@ struct WindowPhongResult {
   DepthLevel level = DepthLevel::kNone;
   int windows = 0;  // built for it; 0: one from before was enough
   std::size_t arranged_faces = 0;  // over these
+
+  // The same in the words of all depths, as PenetrationResult::ToDepth.
+  Depth ToDepth() const;
 };
 
 // PhongPD without the whole contact space: cold queries of PhongMetric from

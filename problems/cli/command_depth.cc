@@ -130,6 +130,8 @@ std::string Sentence(const DepthFlags& flags, const DepthResult& r) {
            << FormatDouble(r.depth) << ", out along "
            << FormatPoint(r.direction) << '\n';
       break;
+    case DepthStatus::kInvalid:  // of poses that were refused
+      break;
   }
   if (r.robot_feature.kind != ContactFeature::kNone) {
     text << flags.a << ": " << FormatPoint(r.on_robot) << " on "
@@ -237,7 +239,7 @@ void WriteDepthPage(const DepthFlags& flags, const TriangleMesh& a,
   outputs->Write(flags.html, ViewPage(*view));
 }
 
-int Depth(const DepthFlags& flags) {
+int AnswerDepth(const DepthFlags& flags) {
   const AnswerForm form = FormOf(flags.output, flags.json);
   OutputFiles outputs;
   DeclareDepthOutputs(flags, &outputs);
@@ -320,7 +322,7 @@ Command AddDepth(CLI::App* app) {
                     "phongpd depth robot.off obstacle.stl --smoothing-length 0",
                     "phongpd depth robot.off obstacle.stl --pose poses.csv "
                     "--output depth.csv"});
-  return [flags] { return Depth(*flags); };
+  return [flags] { return AnswerDepth(*flags); };
 }
 
 }  // namespace phongpd::cli

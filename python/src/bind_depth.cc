@@ -26,7 +26,7 @@ nb::tuple Feature(const ContactFeature& feature) {
 nb::dict At(const DepthQuery& query, const Rows3& positions,
             const std::optional<Rows4>& orientations) {
   const size_t count = positions.shape(0);
-  std::vector<DepthResult> results(count);
+  std::vector<Depth> results(count);
   {
     const Computing computing;
     for (size_t i = 0; i < count; ++i) {
@@ -48,7 +48,7 @@ nb::dict At(const DepthQuery& query, const Rows3& positions,
   Column<unsigned char, 1> certified(count);
   nb::list status, level, robot_feature, obstacle_feature;
   for (size_t i = 0; i < count; ++i) {
-    const DepthResult& r = results[i];
+    const Depth& r = results[i];
     status.append(ToString(r.status));
     level.append(ToString(r.level));
     robot_feature.append(Feature(r.robot_feature));

@@ -111,7 +111,7 @@ struct ViewAnswer {
   Eigen::Vector3d on_robot = Eigen::Vector3d::Zero();
   Eigen::Vector3d on_obstacle = Eigen::Vector3d::Zero();
   bool has_witness = false;  // are there such points?
-  // Of the boxes around the position that were modelled for it (DepthResult):
+  // Of the boxes around the position that were modelled for it (Depth):
   // half of their sides, and the directions of those, in columns.
   std::vector<double> window_reaches;
   Eigen::Matrix3d window_axes = Eigen::Matrix3d::Identity();
