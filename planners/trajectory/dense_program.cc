@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "planners/trajectory/dense_program.h"
 
+#include <algorithm>
+#include <cmath>
 #include <string>
 #include <utility>
 
@@ -19,6 +21,13 @@ void RequireSize(const char* what, Index expected, Index found) {
   throw InputError(std::string("program: ") + what + ": expected " +
                    std::to_string(expected) + ", found " +
                    std::to_string(found));
+}
+
+// Quiet, unlike Eigen's (core/mesh/finite.h).
+template <typename Dense>
+bool IsAllFinite(const Dense& found) {
+  return std::all_of(found.data(), found.data() + found.size(),
+                     [](double value) { return std::isfinite(value); });
 }
 
 }  // namespace
@@ -76,12 +85,14 @@ bool DenseProgram::Constraints(const double* x, double* values,
   if (values != nullptr) {
     const Vector found = Rows(at);
     RequireSize("rows", rows(), found.size());
+    if (!IsAllFinite(found)) return false;
     Eigen::Map<VectorXd>(values, rows()) = found;
   }
   if (jacobian != nullptr) {
     const Matrix found = RowGradients(at);
     RequireSize("rows of gradients", rows(), found.rows());
     RequireSize("columns of gradients", variables_, found.cols());
+    if (!IsAllFinite(found)) return false;
     Eigen::Map<RowMajor>(jacobian, rows(), variables_) = found;
   }
   return true;

@@ -14,6 +14,8 @@ namespace phongpd {
 //
 // x free, with a dense Jacobian and no second derivatives: for some hundred
 // variables and rows.  Larger ones are NonlinearPrograms with patterns.
+// Where a function has no value it may answer NaN or infinity: the solver then
+// takes a shorter step, and fails if it starts there.
 //
 //   SolveWithIpopt(&program, x, DenseProgram::Settings());
 class DenseProgram : public NonlinearProgram {

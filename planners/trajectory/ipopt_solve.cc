@@ -8,6 +8,7 @@
 #include <IpIpoptData.hpp>
 #include <IpTNLP.hpp>
 #include <algorithm>
+#include <cmath>
 #include <exception>
 #include <limits>
 #include <mutex>
@@ -106,11 +107,12 @@ class ProgramAdapter : public Ipopt::TNLP {
     value = program_.Objective(x);
     return std::isfinite(value);
   }
-  bool eval_grad_f(Index, const Number* x, bool, Number* gradient) override {
+  bool eval_grad_f(Index n, const Number* x, bool, Number* gradient) override {
     const TimeAdder adder(&run.seconds_callbacks);
     ++run.evaluations.gradient;
     program_.ObjectiveGradient(x, gradient);
-    return true;
+    return std::all_of(gradient, gradient + n,
+                       [](Number value) { return std::isfinite(value); });
   }
   bool eval_g(Index, const Number* x, bool, Index m, Number* g) override {
     const TimeAdder adder(&run.seconds_callbacks);

@@ -308,11 +308,4 @@ bool HaveSameSolids(const Workspace& a, const Workspace& b) {
   return true;
 }
 
-void RequireSameSolids(const Workspace& workspace, const World& world,
-                       const std::string& scene) {
-  if (HaveSameSolids(workspace, world.workspace())) return;
-  throw InputError(scene + ": expected the solids and bounds of the world " +
-                   world.name() + ", found others");
-}
-
 }  // namespace phongpd

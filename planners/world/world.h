@@ -149,8 +149,5 @@ class World {
 // Have both the same solids and bounds, obstacles by the same names in the same
 // order, so that one world serves both?
 bool HaveSameSolids(const Workspace& a, const Workspace& b);
-// Throws InputError naming `scene` unless the world has those.
-void RequireSameSolids(const Workspace& workspace, const World& world,
-                       const std::string& scene);
 
 }  // namespace phongpd
