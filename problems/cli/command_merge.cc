@@ -11,9 +11,9 @@
 #include "problems/cli/comparison_output.h"
 #include "problems/cli/flags.h"
 #include "problems/cli/shard.h"
+#include "problems/output/gnuplot.h"
 #include "problems/output/json_text.h"
 #include "problems/output/output_files.h"
-#include "problems/pictures/gnuplot.h"
 #include "problems/studies/comparison_rows.h"
 
 namespace phongpd::cli {

@@ -3,7 +3,7 @@
 # component is asked for what it stands on, and for nothing else.
 cmake_minimum_required(VERSION 3.23)
 set(all CORE CONSTRAINTS ORACLE PLANNERS IPOPT OMPL SOLVE PROBLEMS STUDIES
-        PROGRAM EXAMPLES TESTS RESULTS)
+        VIEWER PROGRAM EXAMPLES TESTS RESULTS)
 
 # Configures the components alone, as if no other package than the core's were
 # there but those of WITH.
