@@ -385,7 +385,8 @@ void AddOutputFlags(CLI::App* app, OptimizeFlags* flags) {
   CLI::Option* const output = app->get_option("--output");
   output->description(output->get_description() +
                       ". With --limits Bézier pieces as JSON, rows in time as "
-                      "FILE.csv or, for ROS 2, FILE.yaml, lines as FILE.gcode");
+                      "FILE.csv or, for ROS 2, FILE.yaml (joints x, y, z) or "
+                      "FILE.multidof.yaml, lines as FILE.gcode");
   AddPictures(app, flags);
 }
 

@@ -50,6 +50,15 @@ Vector3d At(const Piece& piece, int order, double s) {
   return PointAt(DerivativeOf(piece, order).points, s);
 }
 
+std::size_t Occurrences(const std::string& text, const std::string& of) {
+  std::size_t count = 0;
+  for (std::size_t at = 0; (at = text.find(of, at)) != std::string::npos;
+       ++at) {
+    ++count;
+  }
+  return count;
+}
+
 class CliTimed : public CliScenes {
  protected:
   // The JSON that a command wrote to run/t.json.
@@ -392,6 +401,46 @@ TEST_F(CliTimed, TakesTheTimeAskedFor) {
   EXPECT_EQ(Answer(own + " --duration 0", 0)["duration"], least);
 }
 
+// Of a motion that passes: it neither begins nor ends at rest.
+TEST_F(CliTimed, BeginsAndEndsAsItIsTold) {
+  Json json = TwoObstacles();
+  const std::string command = "optimize " + Scene(json) + " --limits 1,2,10";
+  const Json rest = Answer(command, 0);
+  EXPECT_EQ(rest["departure"]["velocity"], Json({0, 0, 0}));
+  const Json row =
+      Answer(command + " --departure 0,0.4,0.1,0.1,0,0 --arrival=0,-0.2,0", 0);
+  EXPECT_EQ(row["departure"]["velocity"], Json({0, 0.4, 0.1}));
+  EXPECT_EQ(row["departure"]["acceleration"], Json({0.1, 0, 0}));
+  EXPECT_EQ(row["verified"], "confirmed");
+  const std::vector<Piece> pieces = PiecesOf(row);
+  ASSERT_FALSE(pieces.empty());
+  const auto far = [&pieces](int order, bool is_end, const Vector3d& asked) {
+    return (is_end ? At(pieces.back(), order, 1.0)
+                   : At(pieces.front(), order, 0.0)) -
+           asked;
+  };
+  EXPECT_LT(far(1, false, {0, 0.4, 0.1}).norm(), 1e-9);
+  EXPECT_LT(far(2, false, {0.1, 0, 0}).norm(), 1e-7);
+  EXPECT_LT(far(1, true, {0, -0.2, 0}).norm(), 1e-9);
+  EXPECT_LT(far(2, true, Vector3d::Zero()).norm(), 1e-7);
+  // The same in the scene; what is not a speed of the machine is refused.
+  json["limits"] = {{"velocity", 1}, {"acceleration", 2}, {"jerk", 10}};
+  json["departure"] = {{"velocity", {0, 0.4, 0.1}},
+                       {"acceleration", {0.1, 0, 0}}};
+  json["arrival"] = {{"velocity", {0, -0.2, 0}}};
+  EXPECT_EQ(Answer("optimize " + Scene(json), 0)["pieces"], row["pieces"]);
+  for (const std::string bad : {"--departure 0,3,0", "--arrival 1,2",
+                                "--departure 0,x,0", "--arrival 0,0,0,9,0,0"}) {
+    const Outcome refused = Run(command + " " + bad);
+    EXPECT_EQ(refused.code, 2) << bad;
+    EXPECT_EQ(Occurrences(refused.err, "\n"), 1U) << refused.err;
+  }
+  const Outcome path =
+      Run("optimize ../scene.json --limits none --arrival 0,0,0");
+  EXPECT_EQ(path.code, 2);
+  EXPECT_NE(path.err.find("--arrival"), std::string::npos) << path.err;
+}
+
 TEST_F(CliTimed, WritesWhatMachinesRead) {
   Json json = TwoObstacles();
   json["unit"] = "mm";
@@ -400,13 +449,18 @@ TEST_F(CliTimed, WritesWhatMachinesRead) {
   ASSERT_EQ(Run(command + " --output t.yaml --rate 20").code, 0);
   const std::string yaml = Content(Output("t.yaml"));
   const auto rows = Split(Content(Output("t.csv")), '\n').size() - 1;
-  std::size_t points = 0;
-  for (std::size_t at = 0;
-       (at = yaml.find("- positions: [", at)) != std::string::npos; ++at) {
-    ++points;
-  }
-  EXPECT_EQ(points, rows);
   EXPECT_NE(yaml.find("- positions: [-0.0015, 0, 0]"), std::string::npos);
+  ASSERT_EQ(Run(command + " --output t.multidof.yaml --rate 20").code, 0);
+  const std::string body = Content(Output("t.multidof.yaml"));
+  EXPECT_EQ(Occurrences(yaml, "- positions: ["), rows);
+  EXPECT_EQ(Occurrences(body, "- transforms: ["), rows);
+  EXPECT_EQ(Occurrences(body, "nanosec: "), rows);
+  EXPECT_NE(body.find("- transforms: [{translation: {x: -0.0015, y: 0, z: 0}, "
+                      "rotation: {x: 0, y: 0, z: 0, w: 1}}]\n"
+                      "  velocities: [{linear: {x: 0, y: 0, z: 0}, angular: "
+                      "{x: 0, y: 0, z: 0}}]\n"),
+            std::string::npos)
+      << body.substr(0, 400);
   for (const std::string name : {"t.gcode", "t.nc"}) {
     ASSERT_EQ(Run(command + " --output " + name).code, 0);
     const std::string gcode = Content(Output(name));
