@@ -14,7 +14,7 @@ class DrawnViewer extends Viewer {
     // What the page lays over the canvas.
     const right = hasPanel && !still ? 288 : 0;
     const top = isNarrow ? (motion ? 86 : 100) : count > 1 ? 120 : 60;
-    const bottom = still ? 50 : motion ? (isNarrow ? 175 : 150)
+    const bottom = still ? 50 : byId('chart') ? (isNarrow ? 175 : 150)
         : isNarrow ? 120 : 80;
     const panes = [];
     for (let i = 0; i < count; ++i) {
@@ -166,7 +166,9 @@ class DrawnViewer extends Viewer {
     const point = '(' + place.raw.map(x => this.number(x)).join(', ') + ')';
     if (way.kind === 'path') {
       const length = way.lengths[way.lengths.length - 1] * data.scale;
-      if (where) {
+      if (where && way.pace) {
+        where.textContent = paceText(this, way.pace) + ' · ' + point;
+      } else if (where) {
         where.textContent = this.number(state.time * length) + ' of ' +
             this.text(length) + ' · ' + point;
       }

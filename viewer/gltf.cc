@@ -232,7 +232,11 @@ class GlbWriter {
         at.x(), at.y(), at.z()};
     for (const NamedPath& path : view_.paths) {
       if (path.points.size() < 2) continue;
-      Animate(path.name, node, path.points, LengthTimes(path.points), {});
+      Animate(path.name, node, path.points,
+              path.pace.duration > 0.0
+                  ? EvenTimes(path.points.size(), path.pace.duration)
+                  : LengthTimes(path.points),
+              {});
     }
     const std::vector<Vector3d>& frames = view_.motion.positions;
     if (frames.size() > 1) {
@@ -251,10 +255,11 @@ class GlbWriter {
     }
   }
 
-  static std::vector<float> EvenTimes(std::size_t count) {
+  static std::vector<float> EvenTimes(std::size_t count,
+                                      double seconds = kGltfSeconds) {
     std::vector<float> times;
     for (std::size_t i = 0; i < count; ++i) {
-      times.push_back(static_cast<float>(kGltfSeconds * static_cast<double>(i) /
+      times.push_back(static_cast<float>(seconds * static_cast<double>(i) /
                                          static_cast<double>(count - 1)));
     }
     return times;

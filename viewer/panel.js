@@ -1,7 +1,6 @@
 // Legend, switches, player and help.
 
 // Of meshes that are not all of a contact space (view.h).
-// Of meshes that are not all of a contact space (view.h).
 const kPartNames = ['facets of free space\'s model',
     'contact space that was explored'];
 
@@ -224,9 +223,13 @@ class Panel {
                         onclick: () => viewer.togglePlay()}, '▶'),
         scrub, speed, make('output', {id: 'where'})));
     if (data.iterates.length) byId('player').append(this.iterationRow());
-    if (data.motion && data.motion.traces.length) {
+    const hasPace = data.paths.some(path => path.pace);
+    if (hasPace || (data.motion && data.motion.traces.length)) {
+      document.body.classList.add('charted');
       byId('player').prepend(make('canvas', {
-        id: 'chart', 'aria-label': 'Length of PD over the frames',
+        id: 'chart', 'aria-label': hasPace
+            ? 'Velocity, acceleration and jerk over time, shares of the limits'
+            : 'Length of PD over the frames',
         onpointerdown: e => this.scrubChart(e),
         onpointermove: e => { if (e.buttons) this.scrubChart(e); },
       }));
@@ -333,6 +336,6 @@ class Panel {
     byId('scrub').value = Math.round(10000 * state.time);
     byId('speed').value = state.speed;
     byId('play').textContent = state.playing ? '❚❚' : '▶';
-    if (data.motion && byId('chart')) drawChart(this.viewer);
+    if (byId('chart')) drawChart(this.viewer);
   }
 }

@@ -63,6 +63,7 @@ class Stage extends Solids {
     const {paths, motion, answers} = this.data;
     const ways = paths.map(path => ({
       kind: 'path', name: path.name, free: path.free, raw: path.points,
+      pace: path.pace,
       points: path.points.map(p => this.at(p)),
     }));
     if (motion) {
@@ -156,8 +157,8 @@ class Stage extends Solids {
     });
   }
 
-  // Where the robot is at t of the way, 0 to 1: along a path by length, in a
-  // motion by frames, from pose to pose without between.
+  // Where the robot is at t of the way, 0 to 1: along a path by length, or by
+  // its own time, in a motion by frames, from pose to pose without between.
   placeOn(way, t) {
     const {points, lengths} = way, last = points.length - 1;
     if (last < 0) return null;
@@ -165,11 +166,16 @@ class Stage extends Solids {
       const frame = Math.round(t * last);
       return {point: points[frame].clone(), raw: way.raw[frame], frame};
     }
-    const travelled = t * lengths[last];
-    let i = 1;
-    while (i < last && lengths[i] < travelled) ++i;
-    const step = lengths[i] - lengths[i - 1];
-    const share = step > 0 ? (travelled - lengths[i - 1]) / step : 0;
+    let i = 1, share = 0;
+    if (way.pace) {
+      i = Math.min(last, 1 + Math.floor(t * last));
+      share = t * last - (i - 1);
+    } else {
+      const travelled = t * lengths[last];
+      while (i < last && lengths[i] < travelled) ++i;
+      const step = lengths[i] - lengths[i - 1];
+      share = step > 0 ? (travelled - lengths[i - 1]) / step : 0;
+    }
     const a = way.raw[i - 1], b = way.raw[i];
     return {point: points[i - 1].clone().lerp(points[i], share),
             raw: a.map((x, k) => x + share * (b[k] - x)), frame: i};

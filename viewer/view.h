@@ -77,12 +77,22 @@ struct ViewBehind {
   BoundingBox window = ComputeBounds(TriangleMesh());
 };
 
+// Of a motion, at its path's points, which it is at at equal times from 0 to
+// `duration`: what it asks of its limits, as shares of them, and the room that
+// it has.
+struct ViewPace {
+  double duration = 0.0;  // seconds; 0: a path without time
+  std::vector<double> velocity, acceleration, jerk;
+  std::vector<double> clearance;  // user's unit
+};
+
 // A path of the robot's position, with a name for the legend.
 struct NamedPath {
   std::string name;
   std::vector<Eigen::Vector3d> points;
   bool is_free = true;
   ViewBehind behind = {};
+  ViewPace pace = {};
 };
 
 // One metric along a motion: PD(q) = q_c − q of every frame, 0 outside.

@@ -152,6 +152,15 @@ Json MotionJson(const ViewMotion& motion) {
   return json;
 }
 
+Json PaceJson(const ViewPace& pace) {
+  if (!(pace.duration > 0.0)) return nullptr;
+  return {{"duration", pace.duration},
+          {"velocity", pace.velocity},
+          {"acceleration", pace.acceleration},
+          {"jerk", pace.jerk},
+          {"clearance", pace.clearance}};
+}
+
 Json WindowsJson(const ViewAnswer& answer) {
   if (answer.window_reaches.empty()) return nullptr;
   Json axes = Json::array();
@@ -220,7 +229,8 @@ Json ViewJson(const View& view, std::size_t most_triangles) {
     const NamedPath& path = view.paths[i];
     json["paths"].push_back({{"name", path.name},
                              {"free", path.is_free},
-                             {"points", PointsJson(path.points)}});
+                             {"points", PointsJson(path.points)},
+                             {"pace", PaceJson(path.pace)}});
     internal::AddBehind(path, i, {center, scale}, &json, &notes);
   }
   json["motion"] = MotionJson(view.motion);

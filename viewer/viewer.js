@@ -1,6 +1,6 @@
 // The page: state, drawing, and what it keeps in its link.
 
-const kDuration = 8;  // seconds of a way at speed 1
+const kDuration = 8;  // seconds at speed 1 of a way without time
 
 class Viewer {
   // `context`: of the canvas, by WebGL.
@@ -58,7 +58,7 @@ class Viewer {
     const isDark = matchMedia('(prefers-color-scheme: dark)').matches;
     const {data} = this;
     const t = data.motion ? this.turningPoint()
-        : data.answers.length ? 0 : 0.6;
+        : data.answers.length || data.paths.some(path => path.pace) ? 0 : 0.6;
     return {
       time: t, playing: false, speed: 1, way: 0,
       // Of the way's iterations; null: its answer.
@@ -187,6 +187,12 @@ class Viewer {
     });
   }
 
+  // What the way that is followed asks of the machine; null: it has no time.
+  get pace() {
+    const way = this.stage.ways[this.state.way];
+    return (way && way.pace) || null;
+  }
+
   // The iterations of the way that is followed, one more for its answer; 0:
   // there are none.
   get iterations() {
@@ -230,7 +236,8 @@ class Viewer {
     if (state.running) this.advanceIterations(seconds);
     if (this.surface) this.surface.advance();
     if (!state.playing) return;
-    state.time += seconds * state.speed / kDuration;
+    const pace = this.pace;
+    state.time += seconds * state.speed / (pace ? pace.duration : kDuration);
     if (state.time >= 1) {
       state.time = 1;
       state.playing = false;

@@ -185,7 +185,7 @@ int OptimizeInTime(const OptimizeFlags& flags, const MotionLimits& limits,
   for (const char* name :
        {"--metric", "--smoothing-length", "--jacobian", "--start",
         "--start-noise", "--line", "--rows", "--mu-strategy", "--polish",
-        "--per-obstacle", "--runs", "--html", "--svg"}) {
+        "--per-obstacle", "--runs", "--svg"}) {
     if (flags.app->count(name) == 0) continue;
     throw InputError(std::string(name) +
                      ": expected none for a motion in time, found one; with "
@@ -199,6 +199,7 @@ int OptimizeInTime(const OptimizeFlags& flags, const MotionLimits& limits,
   if (flags.app->count("--routes") > 0) timed.routes = flags.routes;
   timed.time_limit = flags.time_limit;
   timed.output = flags.output;
+  timed.html = flags.html;
   timed.json = flags.json;
   timed.no_cache = flags.no_cache;
   timed.has_margin = !flags.margin.empty();

@@ -102,6 +102,10 @@ Command AddRetime(CLI::App* app) {
                   "lines as FILE.gcode (a sentence is all if "
                   "not set)")
       ->type_name("FILE");
+  app->add_option("--html", flags->html,
+                  "Page that plays the motion in its own time, beside what it "
+                  "asks of the limits")
+      ->type_name("FILE");
   AddVerify(app, &flags->verify);
   AddJson(app, &flags->json, "The JSON on standard output without --output");
   AddNoCache(app, &flags->no_cache);

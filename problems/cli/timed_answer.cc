@@ -15,6 +15,9 @@
 #include "problems/scenes/scene_requests.h"
 #include "problems/studies/answer_row.h"
 #include "problems/studies/motion_file.h"
+#include "viewer/run_view.h"
+#include "viewer/scene_view.h"
+#include "viewer/view_page.h"
 
 namespace phongpd::cli {
 namespace {
@@ -153,6 +156,8 @@ int AnswerInTime(const Scene& scene, const TimedFlags& flags,
   const std::string target =
       flags.json ? AnswerTarget(flags.output) : flags.output;
   DeclareIfNamed(&outputs, target, "--output", kMotionEndings);
+  DeclareIfNamed(&outputs, flags.html, "--html", {".html", ".htm"});
+  if (!flags.html.empty()) RequireViewer();
   const World world(scene.workspace, scene.name, UserCache(flags.no_cache),
                     flags.world);
   OptimizeRequest request = OptimizeRequestOf(scene);
@@ -186,6 +191,11 @@ int AnswerInTime(const Scene& scene, const TimedFlags& flags,
   if (!target.empty()) {
     const TimedJson row = MotionRow(scene, world, request, answer);
     outputs.Write(target, MotionText(form, world, answer, row, rate));
+  }
+  if (!flags.html.empty()) {
+    View view = SceneView(scene);
+    view.paths = {PathInTime(request, answer)};
+    outputs.Write(flags.html, ViewPage(view));
   }
   CommitAndTell(&outputs, TimedSentence(scene, answer));
   if (answer.status == PathStatus::kVerificationFailed) {

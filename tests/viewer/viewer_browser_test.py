@@ -64,13 +64,15 @@ def make_pages(run, folder):
         "--output", "roadmap.jsonl", "--html", "roadmap.html")
     run("optimize", "u_axis", "--polish", "always", "--output",
         "corridor.jsonl", "--html", "corridor.html")
+    gantry = pathlib.Path(__file__).resolve().parents[2] / "examples/gantry.json"
+    run("optimize", str(gantry), "--html", "pace.html")
     (folder / "none.jsonl").write_text(
         '{"scene": "none", "planner": "prm", "seed": 1, "status": "timeout",'
         ' "solved": false, "path": []}\n')
     run("view", "none.jsonl", "--html", "none.html")
     return {name: folder / f"{name}.html"
             for name in ("trap", "tunnel", "contact", "motion", "depth", "routes",
-                         "tree", "roadmap", "corridor", "none")}
+                         "tree", "roadmap", "corridor", "pace", "none")}
 
 
 def main():
@@ -133,6 +135,15 @@ def main():
                      "viewer.state.way === 0 && !viewer.state.clip.on && "
                      "viewer.state.theme === 'light'",
                      "what a link has that means nothing is left out")
+        browser.open(pages["pace"])
+        checks.holds("(() => { viewer.state.time = 0; viewer.state.playing = true;"
+                     "viewer.advance(0.25 * viewer.pace.duration);"
+                     "viewer.state.playing = false;"
+                     "return Math.abs(viewer.state.time - 0.25) < 1e-9; })()",
+                     "a motion plays in its own time")
+        checks.holds("document.getElementById('where').textContent"
+                     ".includes('room')", "and says what it asks and has")
+        checks.changes(lambda: browser.press("ArrowRight"), "a step of it")
         browser.open(pages["motion"])
         checks.holds("document.querySelectorAll('#labels .pane').length === 3",
                      "a motion has a pane for each metric")

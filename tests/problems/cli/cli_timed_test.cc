@@ -470,6 +470,54 @@ TEST_F(CliTimed, WritesWhatMachinesRead) {
   }
 }
 
+// What the page plays is the curve of the JSON, at equal times.
+TEST_F(CliTimed, PlaysAPageInItsOwnTime) {
+  const std::string command = "optimize " + Scene(TwoObstacles()) +
+                              " --limits 1,2,10 --html ../p.html";
+  const Json row = Answer(command, 0);
+  const std::string page = Content(File("p.html"));
+  const std::string open = "id=\"view-data\">";
+  const std::size_t at = page.find(open);
+  ASSERT_NE(at, std::string::npos);
+  const std::size_t from = at + open.size();
+  const Json view =
+      Json::parse(page.substr(from, page.find("</script>", from) - from));
+  const Json& path = view["paths"][0];
+  const Json& pace = path["pace"];
+  EXPECT_EQ(path["free"], true);
+  EXPECT_EQ(pace["duration"], row["duration"]);
+  const std::vector<Piece> pieces = PiecesOf(row);
+  const std::size_t last = path["points"].size() - 1;
+  ASSERT_EQ(pace["jerk"].size(), last + 1);
+  double begin = 0.0, least = 1e300, most = 0.0;
+  std::size_t piece = 0;
+  for (std::size_t i = 0; i <= last; ++i) {
+    const double t = row["duration"].get<double>() * static_cast<double>(i) /
+                     static_cast<double>(last);
+    while (piece + 1 < pieces.size() && t >= begin + pieces[piece].duration) {
+      begin += pieces[piece++].duration;
+    }
+    const Piece& here = pieces[piece];
+    const double s = std::min(1.0, (t - begin) / here.duration);
+    EXPECT_LT((PointOf(path["points"][i]) - At(here, 0, s)).norm(), 1e-9) << i;
+    EXPECT_NEAR(pace["velocity"][i].get<double>(),
+                At(here, 1, s).cwiseAbs().maxCoeff() / 1.0, 1e-6);
+    EXPECT_NEAR(pace["acceleration"][i].get<double>(),
+                At(here, 2, s).cwiseAbs().maxCoeff() / 2.0, 1e-6);
+    least = std::min(least, pace["clearance"][i].get<double>());
+    most = std::max(most, pace["jerk"][i].get<double>());
+  }
+  EXPECT_GE(least, row["clearance"].get<double>() * (1.0 - 1e-9));
+  EXPECT_GT(most, 0.5);
+  EXPECT_LE(most, 1.0 + 1e-9);
+  WriteDetour();
+  EXPECT_EQ(Run("retime ../detour.csv --scene ../scene.json --limits 1,2,10 "
+                "--html r.html")
+                .code,
+            0);
+  EXPECT_NE(Content(Output("r.html")).find("\"pace\""), std::string::npos);
+}
+
 TEST_F(CliTimed, EndsAtCtrlCWithTheBestSoFar) {
   // A hundred places to pass: a search of many seconds.
   std::string path = "x,y,z\n-1.5,0,0\n", places;
