@@ -135,6 +135,9 @@ WIDEST = [ends("straight-adaptive", m, scene="peg_tunnel:clearance=0.1")
 assert WIDEST[0][0] == WIDEST[1][0] == 0
 claim("docs/choosing.md", "In the widest tunnel none of the {} converges with either; {} "
       "against {} stall.", WIDEST[0][3], WIDEST[0][1], WIDEST[1][1])
+claim("scripts/demo_page.sh", "none of {} runs from a colliding start converges with "
+      "either; with Euclidean PD {} end in a stall stop, exactly free, with PhongPD {}.",
+      WIDEST[0][3], WIDEST[1][1], WIDEST[0][1])
 claim("docs/choosing.md", "none of {} converges with either, {} end exactly free in a "
       "stall stop against {}", WIDEST[0][3], WIDEST[1][1], WIDEST[0][1])
 MONOTONE = {m: [ends("straight-monotone", m, scene=s)[0]
