@@ -95,10 +95,10 @@ Euclidean depth and PhongPD solve about as many with adaptive mu.</p>'
   frame trap.html "Paths out of a trap"
   table trap.txt
   echo '</section><section><h2>A trajectory that a machine runs</h2>
-<p>A gantry carries a part past posts, by way of a camera. The curve is free of them and
-within the limits of velocity, acceleration and jerk for all t: proved on the curve
-itself, not at samples. Press play: it moves in its own time, and the chart says what it
-asks of the limits.</p>'
+<p>The gripper of a gantry goes over a wall, by way of a camera that looks at the part,
+into a rack. The curve is free and within the limits of velocity, acceleration and jerk
+for all t: proved on the curve itself, not at samples. Press play: it moves in its own
+time, and the chart says what it asks of the limits.</p>'
   frame gantry.html "A trajectory of a gantry, played in its own time"
   said gantry.txt
   echo '<p>For its controller: <a href="gantry.csv">rows every 4 ms</a>, <a
