@@ -29,7 +29,7 @@ readonly all=(format options clang cppcheck tidy fptrap determinism readme docs
 # docs.
 readonly quick=(format options clang cppcheck tidy fptrap determinism readme
   fuzz asan)
-readonly folders=(core constraints planners problems viewer)
+readonly folders=(files core constraints planners problems viewer)
 # Whole test programs that reach every folder below the program and build fast.
 readonly slice=(
   collision_oracle_test non_penetration_test signed_metric_test
@@ -120,8 +120,8 @@ check_format() {
 
 check_options() {
   local log=build/check/options.log part
-  local parts=(CORE CONSTRAINTS ORACLE PLANNERS IPOPT OMPL SOLVE PROBLEMS STUDIES
-    VIEWER PROGRAM EXAMPLES TESTS RESULTS)
+  local parts=(CORE CONSTRAINTS ORACLE PLANNERS IPOPT OMPL SOLVE SHAPES PROBLEMS
+    STUDIES VIEWER PROGRAM EXAMPLES TESTS RESULTS)
   configures() { # MESSAGE OPTION...
     say "options ${*:2}"
     rm -rf build/check/options
@@ -133,7 +133,8 @@ check_options() {
   local -A above=([CORE]=phongpd::constraints [CONSTRAINTS]=phongpd::planners
     [ORACLE]=phongpd::studies [PLANNERS]=phongpd::ipopt
     [IPOPT]=phongpd::solve [OMPL]=phongpd::solve
-    [SOLVE]=phongpd::studies [PROBLEMS]=phongpd::studies [STUDIES]="the program"
+    [SOLVE]=phongpd::studies [SHAPES]=phongpd::problems
+    [PROBLEMS]=phongpd::studies [STUDIES]="the program"
     [VIEWER]="the program"
     [PROGRAM]="the tests")
   local none=()
@@ -290,14 +291,14 @@ check_coverage() {
   find build-coverage -name '*.gcda' -delete
   run_tests coverage
   gcovr --root . --object-directory build-coverage --exclude-throw-branches \
-    --filter '(core|constraints|planners)/' --csv build/check/coverage.csv
+    --filter '(files|core|constraints|planners)/' --csv build/check/coverage.csv
   mkdir -p results/extremes
   {
     # Headers once: not again by the link that users include them through.
     grep -v '^build-coverage/' build/check/coverage.csv |
       awk -F, -v slice="$SLICE" -f scripts/coverage.awk
     # From where they were compiled: paths may be relative to that.
-    for folder in core constraints planners planners/trajectory planners/solve; do
+    for folder in files core constraints planners planners/trajectory planners/solve; do
       (cd "build-coverage/$folder" && find CMakeFiles -name '*.gcda' | sort |
         xargs gcov --stdout --branch-probabilities --branch-counts \
           --demangled-names --relative-only --source-prefix "$OLDPWD" \

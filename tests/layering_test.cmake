@@ -1,9 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # cmake -D SOURCE=... -P layering_test.cmake: who may include whom.
-#   core <- constraints <- planners <- problems <- tests, results, examples
+#   files <- core <- constraints <- planners <- problems <- tests, results,
+#     examples
+#   core <- problems/shapes
 #   problems/{scenes, output} <- viewer <- problems/cli
 #   core <- constraints/oracle <- problems/studies
-#   core: files, mesh <- bvh <- solid <- bounds <- minkowski <- contact
+#   core: mesh <- bvh <- solid <- bounds <- minkowski <- contact
 #     <- projection
 #   core/minkowski: operands <- convolution <- arrangement <- cells <- windows
 cmake_minimum_required(VERSION 3.23)
@@ -28,6 +30,8 @@ function(forbid folder forbidden)
   set(failures ${failures} PARENT_SCOPE)
 endfunction()
 
+forbid(files "(core|constraints|planners|problems|viewer|tests|results)/")
+forbid(files "(CGAL|Eigen|boost|tbb|oneapi|fcl|ompl|CLI|nlohmann|coin)/")
 forbid(core "(constraints|planners|problems|viewer|tests|results)/")
 forbid(core "(fcl|ompl|CLI|nlohmann|coin)/|Ip[A-Z]")
 set(floors mesh bvh solid bounds minkowski contact projection)
@@ -36,7 +40,6 @@ while(floors)
   list(JOIN floors "|" above)
   if(above)
     forbid(core/${floor} "core/(${above})/")
-    forbid(core/files "core/(${floor}|${above})/")
   endif()
 endwhile()
 set(stages operands convolution arrangement cells windows)
@@ -55,6 +58,8 @@ foreach(folder meshes output scenes shapes)
   forbid(problems/${folder} "constraints/oracle/")
 endforeach()
 forbid(planners "(problems|viewer|tests|results)/")
+forbid(problems/shapes "(constraints|planners)/|problems/[^s]|nlohmann/")
+forbid(problems/shapes "problems/s[^h]")
 foreach(folder meshes output scenes shapes studies)
   forbid(problems/${folder} "(viewer|problems/cli)/")
 endforeach()
@@ -159,7 +164,7 @@ foreach(file IN LISTS files)
 endforeach()
 
 # Every source names its licence.
-foreach(folder core constraints planners problems viewer tests results
+foreach(folder files core constraints planners problems viewer tests results
         examples)
   file(GLOB_RECURSE files ${SOURCE}/${folder}/*.h ${SOURCE}/${folder}/*.cc)
   foreach(file IN LISTS files)

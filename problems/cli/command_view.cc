@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-#include "core/files/descriptor.h"
+#include "files/descriptor.h"
 #include "problems/cli/command.h"
 #include "problems/cli/flags.h"
 #include "problems/cli/operands.h"

@@ -14,8 +14,8 @@
 #include <typeinfo>
 #include <vector>
 
-#include "core/files/interruption.h"
 #include "core/mesh/mesh_error.h"
+#include "files/interruption.h"
 #include "problems/cli/command.h"
 #include "problems/cli/parse_errors.h"
 #include "problems/output/text.h"

@@ -6,8 +6,8 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "core/files/interruption.h"
 #include "core/mesh/mesh_error.h"
+#include "files/interruption.h"
 #include "problems/cli/command.h"
 #include "problems/cli/flags.h"
 #include "problems/output/json_text.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/files/descriptor.h"
+#include "files/descriptor.h"
 
 #include <fcntl.h>
 #include <sys/stat.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/files/temporary_file.h"
+#include "files/temporary_file.h"
 
 #include <fcntl.h>
 #include <sys/file.h>

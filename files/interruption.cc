@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/files/interruption.h"
+#include "files/interruption.h"
 
 #include <fcntl.h>
 #include <unistd.h>

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Truth: exact motion checks and distances on the whole contact space, and
-// rational arithmetic on the boxes of lattice worlds.
+// Truth: exact motion checks and distances on the whole contact space.
 #include "core/contact/convolution_model.h"
 
 #include <gtest/gtest.h>
@@ -17,10 +16,11 @@
 #include "core/contact/contact_space.h"
 #include "core/mesh/mesh_error.h"
 #include "core/minkowski/build_refusal.h"
+#include "core/minkowski/convolution/convolution_space.h"
+#include "core/minkowski/operands/grid_pair.h"
 #include "problems/shapes/shapes.h"
 #include "tests/support/campaign.h"
 #include "tests/support/hidden_pairs.h"
-#include "tests/support/lattice_world.h"
 #include "tests/support/solid_tools.h"
 
 namespace phongpd {
@@ -28,7 +28,6 @@ namespace {
 
 using Eigen::Vector3d;
 using testing::Cube;
-using testing::LatticeWorld;
 
 struct Pair {
   const char* name;
@@ -133,6 +132,37 @@ TEST(ConvolutionModel, AgreesWithTheContactSpaceOnEverySegment) {
   EXPECT_GT(counts.distances, 1000);
 }
 
+TEST(ConvolutionSpace, AgreesWithTheContactSpaceOnEverySegment) {
+  std::mt19937_64 random(4);
+  int free = 0, blocked = 0;
+  for (const Pair& pair : Pairs()) {
+    SCOPED_TRACE(pair.name);
+    const ContactSpace space = BuildContactSpace(pair.robot, pair.obstacle);
+    const FreeSpace truth({space});
+    const internal::GridPair grid =
+        internal::MakeGridPair(pair.robot, "a", pair.obstacle, "b");
+    const internal::ConvolutionSpace convolution(grid);
+    const BoundingBox box = space.bounds();
+    for (int i = 0; i < 2000; ++i) {
+      const Vector3d a = testing::RandomPoint(box, &random);
+      Vector3d b = testing::RandomPoint(box, &random);
+      if (i % 2 == 0) b = a + 0.1 * (b - a);
+      ASSERT_EQ(convolution.IsFree(a), truth.IsFree(a)) << a.transpose();
+      ASSERT_EQ(convolution.IsFree(a, b), truth.IsFree(a, b))
+          << a.transpose() << " to " << b.transpose();
+      truth.IsFree(a, b) ? ++free : ++blocked;
+      if (!truth.IsFree(a)) continue;
+      const internal::ConvolutionSpace::Nearest nearest =
+          convolution.FindNearest(a);
+      EXPECT_NEAR(nearest.distance, truth.Clearance(a), 1e-12 * box.Diagonal());
+      EXPECT_NEAR((nearest.point - a).norm(), nearest.distance,
+                  1e-12 * box.Diagonal());
+    }
+  }
+  EXPECT_GT(free, 500);
+  EXPECT_GT(blocked, 500);
+}
+
 // Along faces, through edges and corners of C_cont.
 TEST(ConvolutionModel, AgreesWithTheContactSpaceWhereItIsTouched) {
   std::mt19937_64 random(5);
@@ -171,35 +201,6 @@ TEST(ConvolutionModel, AgreesWithTheContactSpaceWhereItIsTouched) {
   }
   EXPECT_GT(counts.free, 1000);
   EXPECT_GT(counts.blocked, 5000);
-}
-
-TEST(ConvolutionModel, AgreesWithRationalArithmeticOnLatticeWorlds) {
-  std::mt19937_64 random(6);
-  int free = 0, blocked = 0;
-  for (int i = 0; i < 40; ++i) {
-    const auto family =
-        static_cast<LatticeWorld::Family>(i % LatticeWorld::kFamilies);
-    const LatticeWorld world =
-        testing::MakeLatticeWorld(family, i % 2 == 1, &random);
-    SCOPED_TRACE(world.name);
-    const auto mapped = [&](TriangleMesh mesh) {
-      for (Vector3d& v : mesh.vertices) v = world.map.cast<double>() * v;
-      return mesh;
-    };
-    const FreeSpace found = FreeSpace::OfConvolutions(
-        {ConvolutionModel(mapped(world.workspace.robot),
-                          mapped(MergedObstacle(world.workspace)))});
-    for (int k = 0; k < 200; ++k) {
-      const Vector3d a = world.Point(world.RandomCell(&random));
-      const Vector3d b = world.Point(world.RandomCell(&random));
-      const bool is_free = world.IsFree({a, b});
-      ASSERT_EQ(found.IsFree(a, b), is_free)
-          << a.transpose() << " to " << b.transpose();
-      (is_free ? free : blocked) += 1;
-    }
-  }
-  EXPECT_GT(free, 300);
-  EXPECT_GT(blocked, 1000);
 }
 
 // Behind their planes are all facets nearby, and they are as near as C_cont.

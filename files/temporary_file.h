@@ -6,8 +6,8 @@
 #include <string>
 #include <string_view>
 
-#include "core/files/descriptor.h"
-#include "core/files/interruption.h"
+#include "files/descriptor.h"
+#include "files/interruption.h"
 
 namespace phongpd::internal {
 
