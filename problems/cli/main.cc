@@ -117,6 +117,9 @@ int Run(int argc, char** argv) {
   CLI::App app(kProgramHelp, "phongpd");
   app.set_version_flag("--version", VersionText);
   const std::vector<DeclaredCommand> commands = DeclareCommands(&app);
+  if (argc > 1 && std::string(argv[1]) == "__complete") {
+    return PrintOffers(app, {argv + 2, argv + argc});
+  }
   const std::vector<std::string> arguments = Arguments(argc, argv);
   try {
     RefuseUnknownNames(app, arguments);
