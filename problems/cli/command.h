@@ -43,7 +43,6 @@ Command AddPlan(CLI::App* app);
 Command AddRetime(CLI::App* app);
 Command AddReproduce(CLI::App* app);
 Command AddDepth(CLI::App* app);
-Command AddMerge(CLI::App* app);
 Command AddJoin(CLI::App* app);
 Command AddMinkowski(CLI::App* app);
 Command AddView(CLI::App* app);

@@ -86,7 +86,6 @@ constexpr ProgramCommand kProgramCommands[] = {
      AddRetime},
     {"compare", "Compare penetration metrics in the trajectory optimiser",
      AddCompare},
-    {"merge", "Join the parts of a comparison", AddMerge},
     {"join", "Join the pieces of a contact space", AddJoin},
     {"plan", "Plan a path, or prove that there is none", AddPlan},
     {"view", "Look at meshes, scenes, paths, motions and depths", AddView},
