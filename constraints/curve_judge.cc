@@ -42,9 +42,11 @@ double FarthestCoordinate(const FreeSpace& space, const Trajectory& curve) {
 // free ends it.
 class Judge {
  public:
-  Judge(const FreeSpace& space, const Trajectory& curve, long max_tests)
+  Judge(const FreeSpace& space, const Trajectory& curve, long max_tests,
+        double blur)
       : space_(space),
         max_tests_(max_tests),
+        blur_(blur),
         largest_(FarthestCoordinate(space, curve)) {}
 
   CurveCheck Run(const Trajectory& curve) {
@@ -53,8 +55,8 @@ class Judge {
       piece_ = static_cast<int>(i);
       const CurvePiece& piece = curve.pieces()[i];
       const double start = curve.StartOf(i);
-      free = piece.degree() == 1 ? CheckStraight(piece, start)
-                                 : CheckCurved(piece, start);
+      free = piece.degree() == 1 && blur_ == 0.0 ? CheckStraight(piece, start)
+                                                 : CheckCurved(piece, start);
       if (free) check_.free_until = curve.StartOf(i + 1);
     }
     if (free) {
@@ -80,7 +82,7 @@ class Judge {
     const double end = start + piece.duration();
     if (!LooksFree(piece.front(), start)) return FailWhereItCollides();
     LooksFree(piece.back(), end);
-    if (!CheckPart(piece, start, 0.0)) return false;
+    if (!CheckPart(piece, start, blur_)) return false;
     return !collides_ || FailWhereItCollides();
   }
 
@@ -94,7 +96,7 @@ class Judge {
       return true;
     }
     const double middle = start + 0.5 * part.duration();
-    if (check_.tests >= max_tests_ || Size(part) <= kResolution * largest_) {
+    if (check_.tests >= max_tests_ || Size(part) <= Resolution()) {
       return collides_ ? FailWhereItCollides()
                        : Fail(CurveVerdict::kUndecided, middle, part.At(0.5));
     }
@@ -166,6 +168,8 @@ class Judge {
     return true;
   }
 
+  double Resolution() const { return std::max(kResolution * largest_, blur_); }
+
   static double Size(const CurvePiece& part) {
     Vector3d low = part.front(), high = low;
     for (int i = 1; i <= part.degree(); ++i) {
@@ -176,6 +180,7 @@ class Judge {
   }
   const FreeSpace& space_;
   const long max_tests_;
+  const double blur_;
   const double largest_;
   int piece_ = 0;
   bool collides_ = false;  // so, after what is looked at:
@@ -199,8 +204,8 @@ const char* ToString(CurveVerdict verdict) {
 }
 
 CurveCheck CheckCurve(const FreeSpace& space, const Trajectory& curve,
-                      long max_tests) {
-  return Judge(space, curve, max_tests).Run(curve);
+                      long max_tests, double blur) {
+  return Judge(space, curve, max_tests, blur).Run(curve);
 }
 
 }  // namespace phongpd
