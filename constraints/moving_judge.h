@@ -40,17 +40,26 @@ struct MovingCheck {
 // for `until` seconds?  Where the curve takes less it rests at its end.  "Free"
 // is a theorem about the polynomials given, for all t: the relative motions
 // (relative_motion.h) are free with the rounding they have.  Collisions are
-// told of rounded relative configurations.
+// told of rounded relative configurations.  With `clearance` > 0, does it keep
+// that distance from all of them?  Nothing else is "free" then.
 //
 // Throws InputError as RelativeMotionOf.
 MovingCheck CheckAgainst(const std::vector<MovingBody>& bodies,
-                         const Trajectory& curve, double begin, double until);
+                         const Trajectory& curve, double begin, double until,
+                         double clearance = 0.0);
 
 // Is the robot, on this curve from 0 on and at its end for ever after, free of
 // what is fixed and of the bodies, also when all of them have come to rest?
 MovingCheck CheckCurveAmong(const FreeSpace& fixed,
                             const std::vector<MovingBody>& bodies,
-                            const Trajectory& curve);
+                            const Trajectory& curve, double clearance = 0.0);
+
+// A distance that it keeps from all of them all the time: proved, at most
+// `at_most` ≥ 0, and within an eighth of the most that can be proved down to
+// 2⁻²⁰ of `at_most`; 0 where it keeps less, or is not free.
+double ProvedClearance(const FreeSpace& fixed,
+                       const std::vector<MovingBody>& bodies,
+                       const Trajectory& curve, double at_most);
 
 // Until when a body moves; 0: none does.
 double LastMotion(const std::vector<MovingBody>& bodies);
