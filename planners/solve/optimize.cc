@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "planners/solve/finish_answer.h"
+#include "planners/solve/optimize_among_moving.h"
 #include "planners/solve/optimize_in_free_space.h"
 #include "planners/solve/optimize_in_time.h"
 #include "planners/solve/plan.h"
@@ -130,11 +131,23 @@ internal::ClearanceWish WishOf(const OptimizeRequest& request) {
           request.requires_margin};
 }
 
+void FinishOptimize(const World& world, const OptimizeRequest& request,
+                    PathAnswer* answer) {
+  // What moves is no part of what the second judge knows of places.
+  const bool is_known =
+      request.moving.empty() ||
+      !internal::IsBlockedByMoving(world, request.start, request.goal, *answer);
+  internal::Finish(world, request.start, request.goal, WishOf(request),
+                   request.verifies && is_known, answer);
+  internal::VerifyAmongMoving(world, request, answer);
+}
+
 }  // namespace
 
 void OptimizeRequest::Validate(const World& world) const {
   RequireLength(Margin(), LengthRange::kAboveZero, world.diagonal(), "margin",
                 world.workspace().unit);
+  internal::RequireMovingRequest(world, *this);
   if (limits) {
     internal::CurveOptionsOf(world, *this).Validate();
   } else {
@@ -175,8 +188,7 @@ PathAnswer Optimize(const World& world, const OptimizeRequest& request) {
   } else {
     OptimizePolyline(world, request, &answer);
   }
-  internal::Finish(world, request.start, request.goal, WishOf(request),
-                   request.verifies, &answer);
+  FinishOptimize(world, request, &answer);
   return answer;
 }
 
@@ -186,8 +198,7 @@ PathAnswer Retime(const World& world, const Path& path,
   internal::RetimePath(world, path, request, &answer);
   request.start = path.front();
   request.goal = path.back();
-  internal::Finish(world, request.start, request.goal, WishOf(request),
-                   request.verifies, &answer);
+  FinishOptimize(world, request, &answer);
   return answer;
 }
 
