@@ -58,6 +58,24 @@ TEST(CurveJudge, CallsNoCurveFreeThatTouches) {
   }
 }
 
+// Any curve within the blur has to be free as well.
+TEST(CurveJudge, ProvesNoCurveFreeThatTouchesWithinItsBlur) {
+  const FreeSpace space = AroundCube();
+  constexpr long kTests = 1'000'000;
+  for (const double gap : {1e-3, 1e-6, 1e-9}) {
+    EXPECT_TRUE(CheckCurve(space, Arch(gap), kTests, 0.9 * gap).IsFree());
+    EXPECT_EQ(CheckCurve(space, Arch(gap), kTests, 1.1 * gap).verdict,
+              CurveVerdict::kUndecided);
+    const auto beside = [](double y) {
+      return Trajectory::Along({{-2.0, y, 0.0}, {2.0, y, 0.0}});
+    };
+    EXPECT_TRUE(
+        CheckCurve(space, beside(1.0 + gap), kTests, 0.9 * gap).IsFree());
+    EXPECT_FALSE(
+        CheckCurve(space, beside(1.0 + gap), kTests, 1.1 * gap).IsFree());
+  }
+}
+
 TEST(CurveJudge, FindsACollisionThatSamplesMiss) {
   const TriangleMesh wall = MakeBox({-1e-9, -1.0, -1.0}, {1e-9, 1.0, 1.0});
   const FreeSpace space({BuildContactSpace(Cube(1e-9), wall)});

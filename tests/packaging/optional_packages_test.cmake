@@ -2,8 +2,8 @@
 # cmake -D SOURCE=... -D BUILD=... -P optional_packages_test.cmake: who builds a
 # component is asked for what it stands on, and for nothing else.
 cmake_minimum_required(VERSION 3.23)
-set(all CORE CONSTRAINTS ORACLE PLANNERS IPOPT OMPL SOLVE SHAPES PROBLEMS
-        STUDIES PROGRAM EXAMPLES TESTS RESULTS)
+set(all CORE CONSTRAINTS ORACLE PLANNERS IPOPT OMPL SOLVE SHAPES PROBLEMS STUDIES
+        VIEWER PROGRAM EXAMPLES TESTS RESULTS)
 
 # Configures the components alone, as if no other package than the core's were
 # there but those of WITH.
