@@ -14,7 +14,7 @@
 #include "core/minkowski/arrangement/plane_arrangement.h"
 #include "core/minkowski/arrangement/plane_groups.h"
 #include "core/minkowski/build_limits.h"
-#include "core/minkowski/build_refusal.h"
+#include "core/minkowski/build_stop.h"
 #include "core/minkowski/cells/cells.h"
 #include "core/minkowski/cells/edge_rings.h"
 #include "core/minkowski/cells/surface_assembly.h"

@@ -8,7 +8,6 @@
 
 #include "core/bvh/triangle_bvh.h"
 #include "core/mesh/triangle_mesh.h"
-#include "core/minkowski/contact_kind.h"
 #include "core/minkowski/contact_space_options.h"
 #include "core/minkowski/contact_space_report.h"
 #include "core/solid/solid.h"

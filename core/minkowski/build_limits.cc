@@ -10,9 +10,8 @@
 #include <limits>
 #include <sstream>
 
-#include "core/minkowski/build_cancellation.h"
 #include "core/minkowski/build_observer.h"
-#include "core/minkowski/build_refusal.h"
+#include "core/minkowski/build_stop.h"
 
 namespace phongpd {
 namespace {

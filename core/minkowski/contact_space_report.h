@@ -12,6 +12,14 @@
 
 namespace phongpd {
 
+// What touches what on a piece of contact surface.
+enum class ContactKind {
+  kObstacleFacet,  // facet of the obstacle on a vertex of the robot
+  kRobotFacet,     // vertex of the obstacle on a facet of the robot
+  kEdges,          // an edge of each
+  kNone,           // nothing: a wall around what was modelled
+};
+
 // What the expensive stages were expected to cost, known after a few percent
 // of the time: a guide fitted on two cores, not a bound.  Faces come out up to
 // four times too many where the operands are coplanar.

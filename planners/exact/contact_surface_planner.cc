@@ -11,6 +11,7 @@
 #include "constraints/free_space.h"
 #include "core/stopwatch.h"
 #include "planners/exact/check_option.h"
+#include "planners/exact/path_lift.h"
 #include "planners/exact/path_recombination.h"
 #include "planners/exact/planning_surface.h"
 #include "planners/exact/surface_graph.h"

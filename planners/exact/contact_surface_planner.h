@@ -9,13 +9,19 @@
 
 #include "core/contact/contact_space.h"
 #include "planners/exact/free_cells.h"
-#include "planners/exact/path_lift.h"
 #include "planners/world/path_status.h"
 #include "planners/world/preset.h"
 
 namespace phongpd {
 
 struct PlanningSurface;
+
+// What lifting routes off the surface took.
+struct LiftCounts {
+  int lifted = 0;    // segments of paths that became free
+  int tests = 0;     // segments tested
+  int halvings = 0;  // of lifts
+};
 
 // Clearance that is enough for who names none, a share of the diagonal of the
 // cell's hull; passages narrower than twice that are taken in the middle.

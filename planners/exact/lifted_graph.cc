@@ -8,6 +8,7 @@
 
 #include "constraints/free_space.h"
 #include "core/mesh/numbers.h"
+#include "planners/exact/contact_surface_planner.h"
 #include "planners/exact/path_lift.h"
 #include "planners/exact/surface_sight.h"
 

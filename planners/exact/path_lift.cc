@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "core/bvh/triangle_bvh.h"
+#include "planners/exact/contact_surface_planner.h"
 #include "planners/exact/surface_graph.h"
 
 namespace phongpd {

@@ -9,11 +9,7 @@ namespace phongpd {
 class TriangleBvh;
 struct SurfaceSite;
 
-struct LiftCounts {
-  int lifted = 0;    // segments of paths that became free
-  int tests = 0;     // segments tested
-  int halvings = 0;  // of lifts
-};
+struct LiftCounts;  // contact_surface_planner.h
 
 // How far a site can be lifted: min(clearance, half the free gap in front).
 double RoomAbove(const SurfaceSite& site, const TriangleBvh& segments,

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "core/minkowski/build_refusal.h"
+#include "core/minkowski/build_stop.h"
 #include "core/number_text.h"
 #include "core/stopwatch.h"
 #include "planners/world/room.h"

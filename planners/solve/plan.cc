@@ -7,7 +7,7 @@
 
 #include "core/mesh/finite.h"
 #include "core/mesh/mesh_error.h"
-#include "core/minkowski/build_refusal.h"
+#include "core/minkowski/build_stop.h"
 #include "core/number_text.h"
 #include "core/stopwatch.h"
 #include "planners/exact/path_shortening.h"

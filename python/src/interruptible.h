@@ -6,7 +6,7 @@
 #include <future>
 #include <type_traits>
 
-#include "core/minkowski/build_cancellation.h"
+#include "core/minkowski/build_stop.h"
 #include "python/src/arrays.h"
 #include "python/src/computing.h"
 

@@ -5,8 +5,7 @@
 #include <nanobind/nanobind.h>
 
 #include "core/mesh/mesh_error.h"
-#include "core/minkowski/build_cancellation.h"
-#include "core/minkowski/build_refusal.h"
+#include "core/minkowski/build_stop.h"
 #include "planners/ompl/ompl_planning.h"
 #include "python/src/bindings.h"
 

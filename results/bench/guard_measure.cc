@@ -16,7 +16,7 @@
 
 #include "core/contact/build_switches.h"
 #include "core/contact/contact_space.h"
-#include "core/minkowski/build_refusal.h"
+#include "core/minkowski/build_stop.h"
 #include "core/stopwatch.h"
 #include "problems/shapes/random_solids.h"
 #include "problems/shapes/shapes.h"

@@ -8,7 +8,7 @@
 
 #include "constraints/free_space.h"
 #include "core/contact/convolution_model.h"
-#include "core/minkowski/build_refusal.h"
+#include "core/minkowski/build_stop.h"
 #include "core/solid/solid.h"
 #include "planners/exact/verification.h"
 #include "planners/ompl/ompl_planning.h"

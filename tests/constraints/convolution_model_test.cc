@@ -15,7 +15,7 @@
 #include "constraints/free_space.h"
 #include "core/contact/contact_space.h"
 #include "core/mesh/mesh_error.h"
-#include "core/minkowski/build_refusal.h"
+#include "core/minkowski/build_stop.h"
 #include "core/minkowski/convolution/convolution_space.h"
 #include "core/minkowski/operands/grid_pair.h"
 #include "problems/shapes/shapes.h"

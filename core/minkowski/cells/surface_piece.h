@@ -6,7 +6,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "core/minkowski/contact_kind.h"
+#include "core/minkowski/contact_space_report.h"
 #include "core/minkowski/operands/exact_points.h"
 
 namespace phongpd::internal {

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "core/minkowski/contact_kind.h"
+#include "core/minkowski/contact_space_report.h"
 #include "core/minkowski/operands/exact_grid.h"
 #include "core/minkowski/operands/grid_solid.h"
 

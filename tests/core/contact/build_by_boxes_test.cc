@@ -10,7 +10,7 @@
 
 #include "core/contact/build_switches.h"
 #include "core/contact/contact_space.h"
-#include "core/minkowski/build_refusal.h"
+#include "core/minkowski/build_stop.h"
 #include "problems/shapes/shapes.h"
 #include "tests/support/campaign.h"
 #include "tests/support/random_pairs.h"

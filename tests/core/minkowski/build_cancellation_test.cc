@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A build that would take minutes, stopped by another thread.
-#include "core/minkowski/build_cancellation.h"
+#include "core/minkowski/build_stop.h"
 
 #include <gtest/gtest.h>
 

@@ -14,8 +14,7 @@
 
 #include "core/contact/contact_space.h"
 #include "core/mesh/mesh_error.h"
-#include "core/minkowski/build_cancellation.h"
-#include "core/minkowski/build_refusal.h"
+#include "core/minkowski/build_stop.h"
 #include "core/projection/phong_metric.h"
 #include "problems/shapes/shapes.h"
 #include "tests/support/campaign.h"

@@ -9,6 +9,7 @@
 #include "constraints/free_space.h"
 #include "core/bvh/triangle_bvh.h"
 #include "core/mesh/unit_normal.h"
+#include "planners/exact/contact_surface_planner.h"
 #include "planners/exact/surface_graph.h"
 #include "planners/exact/surface_sight.h"
 #include "problems/shapes/shapes.h"

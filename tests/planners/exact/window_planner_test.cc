@@ -16,7 +16,7 @@
 #include "core/contact/contact_space.h"
 #include "core/contact/free_space_flood.h"
 #include "core/mesh/mesh_error.h"
-#include "core/minkowski/build_refusal.h"
+#include "core/minkowski/build_stop.h"
 #include "core/solid/solid.h"
 #include "planners/exact/verification.h"
 #include "problems/shapes/random_solids.h"

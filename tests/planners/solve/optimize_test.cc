@@ -10,7 +10,7 @@
 
 #include "constraints/free_space.h"
 #include "core/mesh/mesh_error.h"
-#include "core/minkowski/build_refusal.h"
+#include "core/minkowski/build_stop.h"
 #include "planners/solve/best_curve.h"
 #include "planners/trajectory/corridor.h"
 #include "problems/scenes/scene_requests.h"

@@ -13,7 +13,7 @@
 
 #include "constraints/motion_oracle.h"
 #include "core/mesh/mesh_error.h"
-#include "core/minkowski/build_refusal.h"
+#include "core/minkowski/build_stop.h"
 #include "problems/scenes/scene_requests.h"
 #include "problems/scenes/scene_source.h"
 #include "problems/shapes/random_solids.h"

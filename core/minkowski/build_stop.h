@@ -3,9 +3,19 @@
 
 #include <stdexcept>
 
+#include "core/mesh/mesh_error.h"
+
+// How a build of a contact space ends without one.
 namespace phongpd {
 
-// Thrown by a build of a contact space that CancelBuilds stopped.
+// Its limits do not allow it (ContactSpaceOptions::max_seconds and max_mib):
+// the input is sound, and another model of it may do.
+class BuildRefusal : public InputError {
+ public:
+  using InputError::InputError;
+};
+
+// CancelBuilds stopped it.
 class BuildCancelled : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
