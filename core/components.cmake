@@ -145,12 +145,13 @@ function(phongpd_public_header header result)
   set(${result} ${copy} PARENT_SCOPE)
 endfunction()
 
-# Sources and public headers, relative to the folder that calls it.
+# Sources and public headers, relative to the folder that calls it: HEADERS users
+# include by name, SUPPORT those include, and nobody else need know them.
 function(phongpd_component_sources component)
-  cmake_parse_arguments(PARSE_ARGV 1 files "" "" "SOURCES;HEADERS")
+  cmake_parse_arguments(PARSE_ARGV 1 files "" "" "SOURCES;HEADERS;SUPPORT")
   target_sources(phongpd_${component} PRIVATE ${files_SOURCES})
   set(copies "")
-  foreach(header IN LISTS files_HEADERS)
+  foreach(header IN LISTS files_HEADERS files_SUPPORT)
     phongpd_public_header(${header} copy)
     list(APPEND copies ${copy})
   endforeach()
