@@ -18,15 +18,15 @@ namespace {
 void ExpectPlain(const std::string& line) {
   const iconv_t decoder = iconv_open("WCHAR_T", "UTF-8");
   ASSERT_NE(decoder, reinterpret_cast<iconv_t>(-1));
-  std::vector<wchar_t> characters(line.size());
+  std::vector<wchar_t> characters(line.size() + 1);  // of "" too an address
   std::string bytes = line;
   char* in = bytes.data();
   char* out = reinterpret_cast<char*>(characters.data());
-  std::size_t left = bytes.size(), room = line.size() * sizeof(wchar_t);
+  std::size_t left = bytes.size(), room = characters.size() * sizeof(wchar_t);
   const std::size_t wrong = iconv(decoder, &in, &left, &out, &room);
   iconv_close(decoder);
   ASSERT_EQ(wrong, 0U) << "no UTF-8 from byte " << line.size() - left;
-  characters.resize(line.size() - room / sizeof(wchar_t));
+  characters.resize(characters.size() - room / sizeof(wchar_t));
   for (const wchar_t c : characters) {
     const auto code = static_cast<std::uint32_t>(c);
     EXPECT_GE(code, 0x20U);
