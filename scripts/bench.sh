@@ -172,9 +172,9 @@ if [[ $suite == slice ]]; then
 fi
 # Last: it draws what the others measured, too.
 if [[ $suite == trade || $suite == all ]]; then
-  scripts/build.sh trade_benchmark defaults_benchmark trade_report
+  scripts/build.sh trade_benchmark defaults_benchmark
   build/trade_benchmark --output results/trade --seeds 2
   . scripts/convergence_scenes.sh
   build/defaults_benchmark --output results/trade --scenes "${scenes[@]}"
-  build/trade_report --output results/trade
+  python3 -B results/bench/trade_report.py --output results/trade
 fi
