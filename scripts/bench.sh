@@ -112,7 +112,7 @@ if [[ $suite == extremes || $suite == all ]]; then
   # Every test program with a suite named *Campaign* takes part.
   mapfile -t tests < <(grep -rlE '^TEST(_[FP])?\([A-Za-z]*Campaign' tests \
     --include='*_test.cc' | xargs -n 1 basename -s .cc | sort)
-  scripts/build.sh extremes_report motion_set "${tests[@]}"
+  scripts/build.sh phongpd motion_set "${tests[@]}"
   logs=$PWD/build/extremes
   rm -rf "$logs"
   mkdir -p "$logs"
@@ -129,7 +129,8 @@ if [[ $suite == extremes || $suite == all ]]; then
   printf '%s\n' "${tests[@]}" | xargs -P 2 -I{} bash -c 'campaign {}'
   # Exit code 1, wrong answers of ours, is the report's to tell.
   build/motion_set --output results/extremes || (($? == 1))
-  build/extremes_report --logs "$logs" --output results/extremes \
+  python3 -B results/bench/extremes_report.py --logs "$logs" \
+    --output results/extremes --program build/phongpd \
     --how "scripts/bench.sh extremes"
 fi
 if [[ $suite == cluster || $suite == all ]]; then
@@ -171,9 +172,9 @@ if [[ $suite == slice ]]; then
 fi
 # Last: it draws what the others measured, too.
 if [[ $suite == trade || $suite == all ]]; then
-  scripts/build.sh trade_benchmark defaults_benchmark trade_report
+  scripts/build.sh trade_benchmark defaults_benchmark
   build/trade_benchmark --output results/trade --seeds 2
   . scripts/convergence_scenes.sh
   build/defaults_benchmark --output results/trade --scenes "${scenes[@]}"
-  build/trade_report --output results/trade
+  python3 -B results/bench/trade_report.py --output results/trade
 fi
