@@ -21,6 +21,8 @@ using Points = std::vector<Vector3d>;
 // Times at which roads are tried, in the time of the fastest fixed motion; so
 // many times as often in the end.
 constexpr double kSteps = 40.0, kFiner = 8.0;
+// Of the time of the fastest fixed motion: as good as can be expected.
+constexpr double kFastEnough = 1.02;
 // Slower variants of a motion: for what goes the same way ahead.
 constexpr std::array<double, 4> kSlower = {1.2, 1.5, 2.0, 3.0};
 // A path's segments are parted until no part is longer, a share of the path.
@@ -32,8 +34,9 @@ constexpr std::size_t kRoadsFrom = 5;
 constexpr double kGrowth = 0.5;
 // Of searches, roads judged.
 constexpr long kMostChecks = 4'000, kMostChecksBeside = 4'000;
-// Rests that are tried to be left out in all combinations.
-constexpr std::size_t kFewRests = 5;
+// So many rides are made one in all combinations, more of them with the first
+// or the last.
+constexpr std::size_t kFewRides = 4;
 // Of D: how near a motion that leaves out a rest comes to where it was.
 constexpr double kNearRest = 0.02;
 
@@ -145,6 +148,7 @@ class Finder {
     roads.places = {ways_[0].path.front(), ways_[0].path.back()};
     for (const FixedMotion& way : ways_) AddWay(way, &roads);
     Ride(roads, 1.0, kMostChecks);
+    if (BestTime() <= kFastEnough * fastest_) return;
     if (task_.options.via.empty()) {
       AddPlacesBeside(&roads);
       Ride(roads, 1.0, kMostChecksBeside);
@@ -338,22 +342,16 @@ class Finder {
     const std::size_t last = rides_.size();
     for (std::size_t i = 0; i < last; ++i) {
       chain.roads.push_back({places[i], places[i + 1], rides_[i]});
-      for (std::size_t j = i + 1; j <= last; ++j) {
-        const bool is_asked =
-            j == i + 1 || i == 0 || j == last || last <= kFewRests;
+      // One ride alone is as fast as it can be.
+      for (std::size_t j = i + 2; j <= last; ++j) {
+        const bool is_asked = i == 0 || j == last || last <= kFewRides;
         if (!is_asked || IsOver() || rests[i] == rests[j]) continue;
-        // What is fast already.
-        if (j == i + 1 && !task_.options.via.empty()) continue;
         const Points line(rests.begin() + static_cast<std::ptrdiff_t>(i),
                           rests.begin() + static_cast<std::ptrdiff_t>(j) + 1);
         for (const bool visits : {false, true}) {
-          if (visits && j == i + 1) continue;
-          if (task_.fixed.IsFree(line[0], line[1]) || line.size() > 2) {
-            const Trajectory fast = Fast(line, visits);
-            if (!fast.empty()) {
-              chain.roads.push_back({places[i], places[j], fast});
-            }
-          }
+          const Trajectory fast = Fast(line, visits);
+          if (fast.empty()) continue;
+          chain.roads.push_back({places[i], places[j], fast});
         }
       }
     }
