@@ -117,9 +117,9 @@ Trajectory FastStraight(const Vector3d& p, const Vector3d& q,
   return WithinLimits(curve.ToTrajectory(), limits);
 }
 
-class Finder {
+class WayThrough {
  public:
-  Finder(const MovingTask& task, const std::vector<FixedMotion>& ways)
+  WayThrough(const MovingTask& task, const std::vector<FixedMotion>& ways)
       : task_(task), ways_(ways), last_(LastMotion(task.bodies)) {
     fastest_ = std::numeric_limits<double>::infinity();
     for (const FixedMotion& way : ways) {
@@ -134,6 +134,7 @@ class Finder {
       clearance_ = 0.0;
       Search();
     }
+    best_.is_cut_short = IsOver();
     if (!best_.motion.empty()) {
       best_.clearance = ProvedClearance(task_.fixed, task_.bodies, best_.motion,
                                         task_.options.margin);
@@ -372,7 +373,7 @@ class Finder {
 
 MovingMotion FindMotionAmong(const MovingTask& task,
                              const std::vector<FixedMotion>& ways) {
-  return Finder(task, ways).Run();
+  return WayThrough(task, ways).Run();
 }
 
 }  // namespace phongpd::internal

@@ -28,9 +28,10 @@ struct FixedMotion {
 
 // What was found, certified: CheckCurveAmong, and within the limits.
 struct MovingMotion {
-  Trajectory motion;       // empty: nothing was found
-  std::size_t way = 0;     // that it was sought along
-  double clearance = 0.0;  // ProvedClearance, up to the margin
+  Trajectory motion;          // empty: nothing was found
+  std::size_t way = 0;        // that it was sought along
+  double clearance = 0.0;     // ProvedClearance, up to the margin
+  bool is_cut_short = false;  // by the time limit, or from outside
 };
 
 // In this order, and the fastest of it:

@@ -12,6 +12,7 @@
 #include "core/mesh/mesh_error.h"
 #include "planners/solve/optimize.h"
 #include "problems/shapes/shapes.h"
+#include "tests/support/campaign.h"
 #include "tests/support/curve_problems.h"
 #include "tests/support/solid_tools.h"
 
@@ -261,9 +262,10 @@ TEST(OptimizeAmongMoving, IsCertifiedOrSaysNotFoundOnRandomInstances) {
   const auto point = [&](double size) -> Vector3d {
     return size * Vector3d(unit(random), unit(random), 0.3 * unit(random));
   };
-  int solved = 0, tried = 0;
+  long solved = 0, tried = 0;
   std::vector<double> ratios;
-  for (int i = 0; tried < 60 && i < 400; ++i) {
+  const long cases = testing::CampaignCases(60, 400);
+  for (int i = 0; tried < cases; ++i) {
     Workspace workspace;
     workspace.robot = CubeNamed("robot", 0.8);
     workspace.bounds = {{-6, -6, -1}, {6, 6, 1}};
@@ -309,8 +311,7 @@ TEST(OptimizeAmongMoving, IsCertifiedOrSaysNotFoundOnRandomInstances) {
     ExpectCertifiedAmong(world, request, answer);
     ratios.push_back(answer.motion.duration() / alone.motion.duration());
   }
-  EXPECT_EQ(tried, 60);
-  EXPECT_GE(solved, 54);
+  EXPECT_GE(solved, 9 * tried / 10);
   // Waiting is not forced in most of them.
   std::sort(ratios.begin(), ratios.end());
   EXPECT_LE(ratios[ratios.size() / 2], 1.02);
