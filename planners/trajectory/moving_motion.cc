@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <random>
 #include <utility>
@@ -29,7 +30,8 @@ constexpr std::array<double, 4> kSlower = {1.2, 1.5, 2.0, 3.0};
 constexpr double kLongestPart = 0.2;
 // Places beside the paths, sought in the paths' box grown by that share of its
 // diagonal, and roads from each, to places of paths and to others.
-constexpr int kPlacesBeside = 40, kTriesBeside = 400;
+// More of them where nothing is found.
+constexpr int kPlacesBeside = 40, kMorePlacesBeside = 80, kTriesForPlace = 10;
 constexpr std::size_t kRoadsFrom = 5;
 constexpr double kGrowth = 0.5;
 // Of searches, roads judged.
@@ -84,8 +86,11 @@ Trajectory FastStraight(const Vector3d& p, const Vector3d& q,
   constexpr double kNoTime = 1e-6;
   const Vector3d way = q - p;
   const double v = LeastShare(limits.velocity, way, limits.by_norm);
-  const double a = LeastShare(limits.acceleration, way, limits.by_norm);
   const double j = LeastShare(limits.jerk, way, limits.by_norm);
+  // No more than jerks can come to on that way, where there is no limit.
+  const double a =
+      std::min(LeastShare(limits.acceleration, way, limits.by_norm),
+               2.0 * std::sqrt(std::cbrt(0.25 * j) * j));
   const double speed = LargestSpeed(v, a, j);
   const bool is_long = speed * j >= a * a;
   const double by_jerk = is_long ? a / j : std::sqrt(speed / j);
@@ -151,8 +156,11 @@ class WayThrough {
     Ride(roads, 1.0, kMostChecks);
     if (BestTime() <= kFastEnough * fastest_) return;
     if (task_.options.via.empty()) {
-      AddPlacesBeside(&roads);
-      Ride(roads, 1.0, kMostChecksBeside);
+      for (const int places : {kPlacesBeside, kMorePlacesBeside}) {
+        AddPlacesBeside(places, &roads);
+        Ride(roads, 1.0, kMostChecksBeside * places / kPlacesBeside);
+        if (!best_.motion.empty()) break;
+      }
     }
     if (best_.motion.empty() || rides_.empty()) return;
     const TimedRoads chain = Smoothed();
@@ -262,19 +270,20 @@ class WayThrough {
   }
 
   // The same ones every time.
-  void AddPlacesBeside(TimedRoads* roads) const {
+  void AddPlacesBeside(int count, TimedRoads* roads) const {
     const BoundingBox box = BoxAround();
-    std::mt19937_64 random(1);
+    std::mt19937_64 random(static_cast<std::uint64_t>(count));
     std::uniform_real_distribution<double> share(0.0, 1.0);
     const std::size_t before = roads->places.size();
-    for (int i = 0; i < kTriesBeside; ++i) {
+    for (int i = 0; i < kTriesForPlace * count; ++i) {
       Vector3d q;
       for (int k = 0; k < 3; ++k) {
         q[k] = box.min[k] + share(random) * (box.max[k] - box.min[k]);
       }
       if (!task_.fixed.IsFree(q)) continue;
       roads->places.push_back(q);
-      if (roads->places.size() == before + kPlacesBeside) break;
+      if (roads->places.size() == before + static_cast<std::size_t>(count))
+        break;
     }
     for (std::size_t i = before; i < roads->places.size(); ++i) {
       AddNearest(i, 0, before, roads);
