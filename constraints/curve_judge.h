@@ -47,10 +47,14 @@ struct CurveCheck {
 // curve, of what it moves among, and of the bounds) is neither free nor
 // colliding, or `max_tests` hulls were looked at.
 //
+// `blur` ≥ 0: the curve meant is that close to the one given, in distance; then
+// "free" is a theorem about all such curves, "collides" about the one given,
+// and nothing smaller than the blur is decided.
+//
 // Costs a few microseconds a piece that is clear of contact, and grows with
 // the logarithm of the curve's clearance along flat contact, with the square
 // root of its inverse around corners.  Thread-safe.
 CurveCheck CheckCurve(const FreeSpace& space, const Trajectory& curve,
-                      long max_tests = 1'000'000);
+                      long max_tests = 1'000'000, double blur = 0.0);
 
 }  // namespace phongpd

@@ -91,6 +91,7 @@ BestCurve OptimizeAlongBest(const FreeSpace& space, double diagonal,
       best.path = i;
     }
   }
+  for (const CurveSummary& one : found) best.motions.push_back(one.trajectory);
   best.summary = std::move(found[best.path]);
   best.summary.seconds = stopwatch.Seconds();
   return best;

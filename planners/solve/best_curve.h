@@ -14,6 +14,7 @@ struct BestCurve {
   CurveSummary summary;  // its seconds are those of all of them together
   std::size_t path = 0;  // that it began with
   int tried = 0;         // of the paths: the others came too late
+  std::vector<Trajectory> motions;  // by path; empty: none
 };
 
 // OptimizeCurve from each of several free paths with the same ends, side by

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "planners/solve/finish_answer.h"
+#include "planners/solve/optimize_among_moving.h"
 #include "planners/solve/optimize_in_free_space.h"
 #include "planners/solve/optimize_in_time.h"
 #include "planners/solve/plan.h"
@@ -27,7 +28,7 @@ TrajectoryProblem SettingsOf(const World& world,
   problem.goal = request.goal;
   problem.waypoints = request.waypoints;
   problem.samples_per_segment = request.samples_per_segment;
-  problem.margin = world.Resolve(internal::MarginOf(request)).share;
+  problem.margin = world.Resolve(request.Margin()).share;
   problem.max_segment_ratio = request.max_segment_ratio;
   return problem;
 }
@@ -126,24 +127,32 @@ void OptimizePolyline(const World& world, const OptimizeRequest& request,
 }
 
 internal::ClearanceWish WishOf(const OptimizeRequest& request) {
-  return {"margin", internal::MarginOf(request), request.margin.has_value(),
+  return {"margin", request.Margin(), request.margin.has_value(),
           request.requires_margin};
+}
+
+void FinishOptimize(const World& world, const OptimizeRequest& request,
+                    PathAnswer* answer) {
+  // What moves is no part of what the second judge knows of places.
+  const bool is_known =
+      request.moving.empty() ||
+      !internal::IsBlockedByMoving(world, request.start, request.goal, *answer);
+  internal::Finish(world, request.start, request.goal, WishOf(request),
+                   request.verifies && is_known, answer);
+  internal::VerifyAmongMoving(world, request, answer);
 }
 
 }  // namespace
 
 void OptimizeRequest::Validate(const World& world) const {
-  RequireLength(internal::MarginOf(*this), LengthRange::kAboveZero,
-                world.diagonal(), "margin", world.workspace().unit);
+  RequireLength(Margin(), LengthRange::kAboveZero, world.diagonal(), "margin",
+                world.workspace().unit);
+  internal::RequireMovingRequest(world, *this);
   if (limits) {
     internal::CurveOptionsOf(world, *this).Validate();
   } else {
     RequirePolyline(world, *this);
   }
-}
-
-Length internal::MarginOf(const OptimizeRequest& request) {
-  return request.margin.value_or(OptimizeRequest::Margin());
 }
 
 void ApplyPreset(Preset preset, OptimizeRequest* request) {
@@ -179,8 +188,7 @@ PathAnswer Optimize(const World& world, const OptimizeRequest& request) {
   } else {
     OptimizePolyline(world, request, &answer);
   }
-  internal::Finish(world, request.start, request.goal, WishOf(request),
-                   request.verifies, &answer);
+  FinishOptimize(world, request, &answer);
   return answer;
 }
 
@@ -190,8 +198,7 @@ PathAnswer Retime(const World& world, const Path& path,
   internal::RetimePath(world, path, request, &answer);
   request.start = path.front();
   request.goal = path.back();
-  internal::Finish(world, request.start, request.goal, WishOf(request),
-                   request.verifies, &answer);
+  FinishOptimize(world, request, &answer);
   return answer;
 }
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "planners/solve/path_answer.h"
+#include "planners/world/moving_obstacle.h"
 #include "planners/world/penetration_spec.h"
 #include "planners/world/via.h"
 
@@ -29,7 +30,7 @@ struct OptimizeRequest {
   Eigen::Vector3d start = Eigen::Vector3d::Zero();
   Eigen::Vector3d goal = Eigen::Vector3d::Zero();
   Model model = Model::kAuto;
-  // Distance kept where there is room, in (0, D]; none: Margin().
+  // Distance kept where there is room, in (0, D]; none: DefaultMargin().
   std::optional<Length> margin{};
   bool requires_margin = false;  // less is no answer
   Preset preset = Preset::kBalanced;
@@ -40,6 +41,8 @@ struct OptimizeRequest {
   std::vector<Via> via{};  // places on the way, in order
   double duration = 0.0;   // seconds that it takes; 0: as few as can be
   CurveEnd departure{}, arrival{};
+  // To keep off, from the beginning on and when the robot has arrived, too.
+  std::vector<MovingObstacle> moving{};
   // Asked now and then; true ends the search for a faster motion.
   std::function<bool()> is_interrupted{};
 
@@ -48,7 +51,7 @@ struct OptimizeRequest {
   std::optional<OwnMetric> own_metric{};  // in place of penetration.metric
   int waypoints = 40;
   int samples_per_segment = 0;  // 0: by the Lipschitz rule
-  double max_segment_ratio = 1.6;
+  double max_segment_ratio = kMaxSegmentRatio;
   bool is_per_obstacle = false;  // a contact space each instead of one for all
   double search_time = 5.0;      // seconds of each search of kWindow
   // Its time_limit and routes hold for motions as well.
@@ -56,7 +59,8 @@ struct OptimizeRequest {
 
   bool verifies = true;  // on the original solids as well (verification.h)
 
-  static Length Margin() { return Length::FromShare(0.01); }
+  // The margin that holds.
+  Length Margin() const { return margin.value_or(DefaultMargin()); }
   // What Optimize refuses in that world before it builds anything: throws
   // InputError.
   void Validate(const World& world) const;
@@ -79,6 +83,13 @@ void ApplyPreset(Preset preset, OptimizeRequest* request);
 // places within their tolerances: the status is kFailed.
 // Several routes (options.routes) are the ways that contact-surface compared:
 // motions are sought along each, side by side, and the best is the answer.
+//
+// Among moving obstacles (request.moving) the motion begins and ends at rest
+// and takes as few seconds as are found: by waiting, going first, making way,
+// or another route (moving_motion.h).  It is free of them for all t ≥ 0, the
+// robot resting at its goal, or the status is kFailed: none was found, which is
+// no proof.  Where one of them begins on the start, or ends on the goal, the
+// status is kStartInCollision or kGoalInCollision.
 //
 // Throws InputError for bad requests, BuildRefusal where limits of the world
 // refuse what Model::kFull needs.

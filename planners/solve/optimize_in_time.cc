@@ -7,6 +7,7 @@
 #include "core/mesh/mesh_error.h"
 #include "core/number_text.h"
 #include "planners/solve/best_curve.h"
+#include "planners/solve/optimize_among_moving.h"
 #include "planners/solve/plan.h"
 
 namespace phongpd::internal {
@@ -56,7 +57,10 @@ void FindCurve(const World& world, const OptimizeRequest& request,
   answer->is_free = answer->is_solved =
       CheckCurve(space, answer->motion).IsFree() &&
       answer->evidence.use.IsKept();
-  if (answer->is_free) return;
+  if (answer->is_free) {
+    KeepOffMoving(world, request, paths, best.motions, answer);
+    return;
+  }
   answer->status = PathStatus::kNotCertified;
   answer->reason = "the judge of curves does not confirm what was found";
 }
@@ -96,20 +100,26 @@ std::string LegName(std::size_t leg, std::size_t legs) {
          (leg + 1 == legs ? "the goal" : ViaName(leg));
 }
 
+// Among what moves another way may be faster than to wait.
+int RoutesOf(const OptimizeRequest& request) {
+  constexpr int kAmongMoving = 3;
+  return request.moving.empty()
+             ? request.options.routes
+             : std::max(request.options.routes, kAmongMoving);
+}
+
 PlanRequest LegRequest(const OptimizeRequest& request, const Vector3d& start,
                        const Vector3d& goal) {
   PlanRequest leg;
   leg.start = start;
   leg.goal = goal;
   leg.model = request.model;
-  leg.clearance = MarginOf(request);
+  leg.clearance = request.Margin();
   leg.preset = request.preset;
   // No fewer than motions are sought along.
   ContactSurfaceOptions by_preset;
   ApplyPreset(request.preset, &by_preset);
-  if (request.options.routes > by_preset.routes) {
-    leg.routes = request.options.routes;
-  }
+  if (RoutesOf(request) > by_preset.routes) leg.routes = RoutesOf(request);
   leg.verifies = false;  // the motion is
   return leg;
 }
@@ -133,7 +143,7 @@ std::vector<Path> WaysOf(const PathAnswer& leg, std::size_t count,
 std::vector<Path> FindPaths(const World& world, const OptimizeRequest& request,
                             const Path& places, PathAnswer* answer) {
   const std::size_t legs = places.size() - 1;
-  const auto count = static_cast<std::size_t>(request.options.routes);
+  const auto count = static_cast<std::size_t>(RoutesOf(request));
   std::vector<Path> paths(count, Path{places.front()});
   std::size_t most = 1;
   for (std::size_t i = 0; i < legs; ++i) {
@@ -177,6 +187,7 @@ CurveOptions CurveOptionsOf(const World& world,
   if (!request.limits) {
     throw InputError("limits: expected those of the motion, found none");
   }
+  RequireMovingRequest(world, request);
   PipelineOptions checked;
   checked.routes = request.options.routes;
   checked.Validate();
@@ -184,7 +195,7 @@ CurveOptions CurveOptionsOf(const World& world,
   options.limits = *request.limits;
   options.start = request.departure;
   options.end = request.arrival;
-  options.margin = world.Resolve(MarginOf(request)).unit;
+  options.margin = world.Resolve(request.Margin()).unit;
   options.preset = request.preset;
   options.duration = request.duration;
   options.time_limit = request.options.time_limit;
@@ -207,6 +218,9 @@ void OptimizeInTime(const World& world, const OptimizeRequest& request,
     places = {request.start, request.goal};
   }
   answer->curve.emplace();
+  if (!AreEndsClear(world, request, request.start, request.goal, answer)) {
+    return;
+  }
   answer->reason = BlockedVia(world, request.via);
   if (!answer->reason.empty()) {
     answer->status = PathStatus::kViaNotFree;
@@ -225,6 +239,7 @@ void RetimePath(const World& world, const Path& path,
                 const OptimizeRequest& request, PathAnswer* answer) {
   RequireMotion(path, CurveOptionsOf(world, request));
   answer->curve.emplace();
+  if (!AreEndsClear(world, request, path.front(), path.back(), answer)) return;
   answer->path = path;
   answer->evidence.model = Model::kWindow;
   answer->evidence.free_space = world.Convolution().free_space;

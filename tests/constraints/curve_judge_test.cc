@@ -11,7 +11,7 @@
 #include "core/contact/contact_space.h"
 #include "problems/shapes/shapes.h"
 #include "tests/support/campaign.h"
-#include "tests/support/curve_problems.h"
+#include "tests/support/curve_pieces.h"
 #include "tests/support/curve_truth.h"
 #include "tests/support/solid_tools.h"
 
@@ -55,6 +55,24 @@ TEST(CurveJudge, CallsNoCurveFreeThatTouches) {
     EXPECT_NE(check.verdict, CurveVerdict::kFree) << depth;
     // It meets the cube at s = ½ ± ½√depth.
     EXPECT_LE(check.free_until, 1.0 - std::sqrt(depth) + 1e-12) << depth;
+  }
+}
+
+// Any curve within the blur has to be free as well.
+TEST(CurveJudge, ProvesNoCurveFreeThatTouchesWithinItsBlur) {
+  const FreeSpace space = AroundCube();
+  constexpr long kTests = 1'000'000;
+  for (const double gap : {1e-3, 1e-6, 1e-9}) {
+    EXPECT_TRUE(CheckCurve(space, Arch(gap), kTests, 0.9 * gap).IsFree());
+    EXPECT_EQ(CheckCurve(space, Arch(gap), kTests, 1.1 * gap).verdict,
+              CurveVerdict::kUndecided);
+    const auto beside = [](double y) {
+      return Trajectory::Along({{-2.0, y, 0.0}, {2.0, y, 0.0}});
+    };
+    EXPECT_TRUE(
+        CheckCurve(space, beside(1.0 + gap), kTests, 0.9 * gap).IsFree());
+    EXPECT_FALSE(
+        CheckCurve(space, beside(1.0 + gap), kTests, 1.1 * gap).IsFree());
   }
 }
 
