@@ -18,7 +18,7 @@ from ._solid import Solid, triangle_rows
 class RigidCheck:
     """Is a motion from pose to pose free?"""
 
-    outcome: str
+    status: str
     """"free": for the whole motion, proved; "collides": at `time`, proved;
     "undecided": closer to contact than is resolved."""
     time: float
@@ -36,11 +36,11 @@ class RigidCheck:
 
     @property
     def free(self) -> bool:
-        return self.outcome == "free"
+        return self.status == "free"
 
     def to_row(self) -> dict[str, Any]:
         """Flat, for pandas.DataFrame([one.to_row(), ...])."""
-        return {"outcome": self.outcome, "time": self.time,
+        return {"status": self.status, "time": self.time,
                 "from": self.interval[0], "to": self.interval[1],
                 "robot_mesh": self.robot[0], "robot_triangle": self.robot[1],
                 "obstacle_mesh": self.obstacle[0],
@@ -84,8 +84,8 @@ class RigidJudge:
 
     def _check(self, poses: list[Floats],
                names: list[str]) -> list[RigidCheck]:
-        return [RigidCheck(outcome, time, (first, last), robot, obstacle, tests)
-                for outcome, time, first, last, robot, obstacle, tests
+        return [RigidCheck(status, time, (first, last), robot, obstacle, tests)
+                for status, time, first, last, robot, obstacle, tests
                 in self._native.check(np.stack(poses), names)]
 
 

@@ -23,16 +23,16 @@ def wall(gap):
 def test_a_turning_cube_needs_room_for_its_corners():
     for gap in (0.3, 1e-3, 1e-6):
         check = phongpd.RigidJudge(CUBE, wall(gap)).check(*QUARTER)
-        assert check.free and check.outcome == "free"
+        assert check.free and check.status == "free"
         assert check.robot == check.obstacle == (-1, -1)
         check = phongpd.RigidJudge(CUBE, wall(-gap)).check(*QUARTER)
-        assert check.outcome == "collides" and not check.free
+        assert check.status == "collides" and not check.free
         assert check.time == pytest.approx(0.5, abs=0.3)
         assert check.interval[0] <= check.time <= check.interval[1]
         assert check.robot[0] == check.obstacle[0] == 0
         assert min(check.robot[1], check.obstacle[1]) >= 0
     check = phongpd.RigidJudge(CUBE, wall(0.0)).check(*QUARTER)
-    assert check.outcome == "undecided"
+    assert check.status == "undecided"
     assert np.allclose(check.interval, 0.5, atol=1e-3)
 
 
@@ -50,7 +50,7 @@ def test_takes_solids_files_arrays_and_lists(tmp_path):
         for others in ([], [far]):
             judge = phongpd.RigidJudge([CUBE], [*others, obstacle])
             check = judge.check(*QUARTER)
-            assert check.outcome == "collides"
+            assert check.status == "collides"
             assert check.obstacle[0] == len(others)
             assert check.robot[0] == 0
         assert phongpd.RigidJudge(CUBE, obstacle).check(*QUARTER) == \
@@ -62,7 +62,7 @@ def test_a_surface_needs_no_volume():
     sheet = vertices, triangles[:2]
     assert not phongpd.RigidJudge(CUBE, sheet).check(*QUARTER).free
     inside = box_arrays((-0.1, -0.1, -0.1), (0.1, 0.1, 0.1))
-    assert phongpd.RigidJudge(inside, CUBE).check(*QUARTER).outcome == "collides"
+    assert phongpd.RigidJudge(inside, CUBE).check(*QUARTER).status == "collides"
     hull = CUBE[0], CUBE[1][:-1]  # without a lid it holds nothing
     assert phongpd.RigidJudge(inside, hull).check(*QUARTER).free
 
@@ -72,11 +72,11 @@ def test_a_path_is_its_motions():
     way = np.stack([pose(-1), pose(-1, about_z=0.7), pose(0, about_z=0.7),
                     pose(0.3)])
     checks = judge.check_path(way)
-    assert [c.outcome for c in checks] == ["free", "free", "collides"] or \
-        [c.outcome for c in checks] == ["free", "collides", "collides"]
+    assert [c.status for c in checks] == ["free", "free", "collides"] or \
+        [c.status for c in checks] == ["free", "collides", "collides"]
     assert checks == [judge.check(a, b) for a, b in zip(way, way[1:])]
     row = checks[0].to_row()
-    assert row["outcome"] == "free" and row["robot_mesh"] == -1
+    assert row["status"] == "free" and row["robot_mesh"] == -1
     for value in row.values():
         assert isinstance(value, (str, int, float))
     assert len(repr(checks)) < 800
@@ -92,14 +92,14 @@ def test_agrees_with_sampled_depths():
         start = pose(*random.uniform(-1.2, 1.2, 3), 0.0)
         end = pose(*random.uniform(-1.2, 1.2, 3), random.uniform(-2, 2))
         check = judge.check(start, end)
-        outcomes.append(check.outcome)
+        outcomes.append(check.status)
         angle = np.arctan2(end[1, 0], end[0, 0])
         times = (np.linspace(0, 1, 20) if check.free else [check.time])
         for t in times:
             at = start[:3, 3] + t * (end[:3, 3] - start[:3, 3])
             turn = (np.cos(t * angle / 2), 0, 0, np.sin(t * angle / 2))
-            status = query.at(at, turn).status
-            assert status == ("separate" if check.free else "penetrating")
+            found = query.at(at, turn).status
+            assert found == ("separate" if check.free else "penetrating")
     assert outcomes.count("free") > 5 and outcomes.count("collides") > 20
 
 
