@@ -5,9 +5,10 @@ import argparse
 import time
 from pathlib import Path
 
+import trajectories_beside
 import trajectories_rows as rows
 import trajectories_run
-from trajectories_instances import FAMILIES, instances
+from trajectories_instances import FAMILIES, instances, peer_instances
 
 TINY = ["u_axis", "tunnel:delta=1e-6"]
 
@@ -35,6 +36,12 @@ def main():
         found = rows.fill(arguments.rows / "own.jsonl", wanted,
                           trajectories_run.measure, deadline, time.monotonic)
         print(f"{len(found)} motions measured", flush=True)
+    if arguments.part in ("peers", "all"):
+        wanted = (peer_instances(TINY[:1], 1) if arguments.tiny
+                  else peer_instances())
+        found = rows.fill(arguments.rows / "peers.jsonl", wanted,
+                          trajectories_beside.measure, deadline, time.monotonic)
+        print(f"peers measured on {len(found)} pairs", flush=True)
 
 
 if __name__ == "__main__":
