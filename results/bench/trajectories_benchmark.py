@@ -8,8 +8,11 @@ from pathlib import Path
 import trajectories_beside
 import trajectories_rows as rows
 import trajectories_run
+from trajectories_duels import version
 from trajectories_instances import FAMILIES, instances, peer_instances
+from trajectories_report import write_report
 
+PACKAGES = ["numpy", "python-fcl", "ruckig", "toppra", "ompl", "drake"]
 TINY = ["u_axis", "tunnel:delta=1e-6"]
 
 
@@ -42,6 +45,11 @@ def main():
         found = rows.fill(arguments.rows / "peers.jsonl", wanted,
                           trajectories_beside.measure, deadline, time.monotonic)
         print(f"peers measured on {len(found)} pairs", flush=True)
+    if arguments.part in ("report", "all"):
+        write_report(arguments.output, arguments.how,
+                     rows.read(arguments.rows / "own.jsonl"),
+                     rows.read(arguments.rows / "peers.jsonl"),
+                     [p for p in PACKAGES if version(p)])
 
 
 if __name__ == "__main__":

@@ -7,6 +7,8 @@ import numpy as np
 
 CONTROL_POINTS, COLLISION_SAMPLES = 40, 60  # of Drake
 MARGIN = 1e-4  # of D: for all the same, next to none
+WIDE = 0.01  # of D: what a user of samples adds, so that nothing is between them
+GRID = 1_001  # points at which TOPP-RA keeps its limits
 SIMPLIFY_SECONDS = 5.0
 
 
@@ -57,7 +59,8 @@ def _through_spline(corners, problem):
     solver = toppra.algorithm.TOPPRA(
         [toppra.constraint.JointVelocityConstraint(v * bound),
          toppra.constraint.JointAccelerationConstraint(a * bound)],
-        path, parametrizer="ParametrizeConstAccel")
+        path, gridpoints=np.linspace(*path.path_interval, GRID),
+        parametrizer="ParametrizeConstAccel")
     found = solver.compute_trajectory(0.0, 0.0)
     if found is None:
         raise ValueError("toppra: no parametrization")
@@ -107,7 +110,7 @@ def _resampled(path, count):
     return np.column_stack([np.interp(where, at, path[:, k]) for k in range(3)])
 
 
-def _kto(problem, first):
+def _kto(problem, first, margin=MARGIN):
     """Drake's KinematicTrajectoryOptimization by SNOPT: a cubic B-spline, its
     derivatives' control points within the limits; obstacles by PhongPD's exact
     distance, at samples."""
@@ -148,7 +151,7 @@ def _kto(problem, first):
 
     program = wish.get_mutable_prog()
     program.AddConstraint(
-        clear, np.full(COLLISION_SAMPLES, MARGIN * problem.world.length),
+        clear, np.full(COLLISION_SAMPLES, margin * problem.world.length),
         np.full(COLLISION_SAMPLES, np.inf),
         np.asarray(wish.control_points()).ravel(order="F"))
     wish.SetInitialGuess(BsplineTrajectory(
@@ -172,7 +175,11 @@ def drake_path(problem):
     return _kto(problem, problem.path)
 
 
-# Name, package, Python's module, and what to know of it.
+def drake_wide(problem):
+    return _kto(problem, problem.path, WIDE)
+
+
+# Name, package, how, and what to know of it.
 PEERS = [
     ("Ruckig, stops", "ruckig", ruckig_stops,
      "rests at each corner of our path; free, as it keeps the segments"),
@@ -181,4 +188,6 @@ PEERS = [
     ("OMPL + TOPP-RA", "ompl", ompl_toppra,
      "our path by OMPL's simplifier first; has no limit of jerk"),
     ("Drake KTO, line", "drake", drake_line, "begins with the straight line"),
-    ("Drake KTO, path", "drake", drake_path, "begins with our path")]
+    ("Drake KTO, path", "drake", drake_path, "begins with our path"),
+    ("Drake KTO, path, wide", "drake", drake_wide,
+     f"the same with a margin of {WIDE:g} D at its samples")]
