@@ -8,7 +8,8 @@ import numpy as np
 CONTROL_POINTS, COLLISION_SAMPLES = 40, 60  # of Drake
 MARGIN = 1e-4  # of D: for all the same, next to none
 WIDE = 0.01  # of D: what a user of samples adds, so that nothing is between them
-GRID = 1_001  # points at which TOPP-RA keeps its limits
+# Points at which TOPP-RA keeps its limits: between fewer it exceeds them.
+GRID = 4_001
 SIMPLIFY_SECONDS = 5.0
 
 
