@@ -3,7 +3,8 @@
 import importlib.metadata
 
 import numpy as np
-from trajectories_best import NO_JERK, is_valid
+import phongpd
+from trajectories_best import is_valid
 from trajectories_peers import PEERS
 from trajectories_statistics import median_interval
 
@@ -54,8 +55,7 @@ def summary(rows):
 
 
 def _line(name, package, note, rows):
-    own_version = version("phongpd") or "this commit"
-    of = own_version if package is None else version(package)
+    of = phongpd.__version__ if package is None else version(package)
     if of is None:
         return (name, "not installed", *["-"] * 15, "its wheel did not install")
     pairs = [(r["answers"][name], r["answers"][OWN]["duration"], r["scene"])
@@ -81,12 +81,18 @@ def _line(name, package, note, rows):
 def kto_line(rows):
     """Where Drake's answer from our path is free and in limits: pairs, and the
     most by which PhongPD takes longer, %."""
-    name = "Drake KTO, path"
     worse = [100 * (r["answers"][OWN]["duration"]
-                    / r["answers"][name]["duration"] - 1)
-             for r in rows if is_valid(r.get("answers", {}).get(name, {}))]
+                    / r["answers"]["Drake KTO, path"]["duration"] - 1)
+             for r in rows
+             if is_valid(r.get("answers", {}).get("Drake KTO, path", {}))]
     return len(worse), max(worse, default=0.0), sum(w > 1 for w in worse)
 
 
-def has_jerk_limit(name):
-    return name not in NO_JERK
+def errors(rows):
+    """What peers threw: name, pairs, the first one's words."""
+    found = {}
+    for r in rows:
+        for name, a in r.get("answers", {}).items():
+            if "error" in a:
+                found.setdefault(name, []).append(a["error"])
+    return [(name, len(said), said[0]) for name, said in found.items()]

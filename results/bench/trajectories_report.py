@@ -2,6 +2,7 @@
 """results/trajectories/README.md and its tables."""
 import datetime
 
+import phongpd
 import trajectories_best
 import trajectories_duels as duels
 import trajectories_summary as own
@@ -52,7 +53,7 @@ def _aims(lines):
     yield "| of | set | value | 95 % | n | aim | met |"
     yield "|---|---|---:|---|---:|---:|---|"
     for of, where, value, low, high, n, aim, met in lines:
-        is_share = of == "certified"
+        is_share = of in own.SHARES
         say = _percent if is_share else cell
         at = _percent(float(aim)) if is_share else aim
         yield (f"| {of} | {where} | {say(value)} | {say(low)} to {say(high)} | "
@@ -80,8 +81,8 @@ def _beside(lines):
                f"{v['peer has none']} | {cell(v['CPU s, median'])} |")
 
 
-def _losses(rows, best):
-    for r in rows:
+def _losses(rows, peer_rows, best):
+    for r in [*rows, *peer_rows]:
         if "error" in r:
             yield f"- {r['key']}: {r['error']}."
     for r in own.answered(rows):
@@ -90,13 +91,33 @@ def _losses(rows, best):
     for r in own.measured(rows):
         if r["plan"] != "solved" and not r["certified"]:
             yield f"- {r['key']}: no path, {r['plan']}; not counted above."
-    late = sorted(((r["duration"] / best[r["key"]][0] - 1, r["key"])
-                   for r in own.measured(rows) if r["certified"]), reverse=True)
-    worse = [(by, key) for by, key in late if by > 0.03]
+    for name, count, words in duels.errors(peer_rows):
+        yield f"- {name} fails on {count} pairs, first by {words}."
+    late = sorted(((r["answers"]["PhongPD"]["duration"] / best[r["key"]][0] - 1,
+                    r["key"]) for r in peer_rows if "answers" in r), reverse=True)
+    worse = [f"{key} {100 * by:.2g} % ({best[key][1]})" for by, key in late
+             if by > 0.03]
     if worse:
-        yield ("- More than 3 % above the best known: " + ", ".join(
-            f"{key} {100 * by:.2g} %" for by, key in worse[:12])
-            + (f" and {len(worse) - 12} more" if len(worse) > 12 else "") + ".")
+        yield ("- More than 3 % above the best known of its ends: "
+               + ", ".join(worse) + ".")
+
+
+def _wins(lines):
+    """Of peers, in time and in effort."""
+    seen = [dict(zip(duels.SUMMARY_HEADER, line)) for line in lines]
+    mine = next(v for v in seen if v["by"] == duels.OWN)
+    for v in seen:
+        if v["version"] == "not installed" or v["by"].startswith(duels.OWN):
+            continue
+        n = v["free and in limits"]
+        yield (f"- {v['by']}, {v['note']}: free and in limits in {n} of "
+               f"{v['pairs']} pairs; of those PhongPD is faster in "
+               f"{v['PhongPD faster']}, the peer in {v['peer faster']}. It says "
+               f"solved and is not so in {v['says solved but is not']}. Its "
+               f"processor time is {v['CPU s, median'] / mine['CPU s, median']:.2g} "
+               "of PhongPD's"
+               + (", which includes the plan that it begins with."
+                  if "line" not in v["by"] else "."))
 
 
 def _kto(rows):
@@ -109,7 +130,7 @@ def _kto(rows):
 def write_report(folder, how, own_rows, peer_rows, packages):
     folder.mkdir(parents=True, exist_ok=True)
     best = trajectories_best.improve(folder, own_rows, peer_rows)
-    lines, beside = own.summary(own_rows, best), duels.summary(peer_rows)
+    lines, beside = own.summary(own_rows, peer_rows, best), duels.summary(peer_rows)
     where = write_tables(folder, "Motions in time", [
         ("summary.csv", "What all motions say", own.HEADER, lines,
          "Shares: interval by Clopper and Pearson. Medians: bootstrap over "
@@ -137,9 +158,10 @@ def write_report(folder, how, own_rows, peer_rows, packages):
             *_hits(own_rows), *_kto(peer_rows), "",
             "## What all motions say", "", *_aims(lines), "",
             "Best known is what any run or peer found up to now, free and in "
-            "limits ([best_known.csv](best_known.csv)); where no peer ran it is "
-            "PhongPD's own. The lower bound ignores obstacles: in passages and "
-            "mazes no motion comes near it.", "",
+            "limits ([best_known.csv](best_known.csv)); where peers ran it is "
+            "looked for with the preset tight and eight routes, too. The lower "
+            "bound ignores obstacles: in passages and mazes no motion comes near "
+            "it. `maze` is a family of small ones, `maze50` the large one.", "",
             "## Beside peers", "",
             f"{len(peer_rows)} pairs in {len({r['scene'] for r in peer_rows})} "
             "scenes, limits of velocity, acceleration and jerk by axis. Ruckig, "
@@ -149,14 +171,13 @@ def write_report(folder, how, own_rows, peer_rows, packages):
             "by luck. Drake: KinematicTrajectoryOptimization, cubic, "
             f"{CONTROL_POINTS} control points, {COLLISION_SAMPLES} samples against "
             "PhongPD's exact distance, SNOPT.", "", *_beside(beside), "",
-            "Where the peers win: TOPP-RA, where the spline is free, takes less "
-            "time as it may jerk; Ruckig and Drake answer in less processor time on "
-            "open scenes, and know robots with joints.", "",
+            *_wins(beside), "",
             "## Losses and what failed", "",
-            *(list(_losses(own_rows, best)) or ["- None."]), "",
+            *(list(_losses(own_rows, peer_rows, best)) or ["- None."]), "",
             NOT_RUN, where, "",
             "Each motion: [own.csv](own.csv), [peers.csv](peers.csv).", "",
             f"Command: {how}. Date: {datetime.date.today()}. Seeds: pairs 1 to "
             "6 of families, 1 of forests, 4 of the maze. Machine: "
-            f"{machine()}, shared. Versions: {versions(*packages)}.", ""]
+            f"{machine()}, shared. "
+            f"Versions: PhongPD {phongpd.__version__}, {versions(*packages)}.", ""]
     (folder / "README.md").write_text("\n".join(text), encoding="utf-8")

@@ -4,6 +4,7 @@ import numpy as np
 from trajectories_statistics import median_interval, share_interval
 
 HEADER = ["of", "set", "value", "low", "high", "n", "aim", "met"]
+SHARES = {"certified", "at most 3 % above best known"}  # of `of`
 OPEN = ("clutter", "knot", "forest50")
 LARGE = ("maze", "forest200")  # a larger aim
 
@@ -27,22 +28,39 @@ def _share(name, where, k, n, aim):
             "yes" if k / n >= aim else "no")
 
 
-def _median(name, where, rows, value, aim=None, scale=1.0):
+def _median(name, where, rows, value, most=None, scale=1.0, least=None):
+    """With an aim: `most`, or `least`."""
     values = [scale * value(r) for r in rows]
     if not values:
         return None
-    middle = float(np.median(values))
+    middle, aim, met = float(np.median(values)), "-", "-"
+    if most is not None:
+        aim, met = f"{most:g}", "yes" if middle <= most else "no"
+    if least is not None:
+        aim, met = f"at least {least:g}", "yes" if middle >= least else "no"
     return (name, where, middle,
             *median_interval(values, [r["scene"] for r in rows]), len(values),
-            "-" if aim is None else f"{aim:g}",
-            "-" if aim is None else ("yes" if middle <= aim else "no"))
+            aim, met)
 
 
 def _above_least(r):
     return 100 * (r["duration"] / r["least_duration"] - 1)
 
 
-def summary(rows, best):
+def _beside_best(peer_rows, best):
+    """PhongPD's motions with as little margin as the peers', by default."""
+    def above(r):
+        return 100 * (r["answers"]["PhongPD"]["duration"]
+                      / best[r["key"]][0] - 1)
+    rows = [r for r in peer_rows if "answers" in r]
+    if not rows:
+        return
+    yield _median("above best known, %", "where peers ran", rows, above, 1.0)
+    yield _share("at most 3 % above best known", "where peers ran",
+                 sum(above(r) <= 3 for r in rows), len(rows), 0.95)
+
+
+def summary(rows, peer_rows, best):
     asked, there = answered(rows), [r for r in measured(rows) if r["certified"]]
     lines = [_share("certified", "all that have a path",
                     sum(r["certified"] for r in asked), len(asked), 1.0)]
@@ -57,9 +75,7 @@ def summary(rows, best):
         lines.append(_share("certified", "passages of 1e-6",
                             sum(r["certified"] for r in narrow), len(narrow),
                             1.0))
-    over = [r for r in there if r["key"] in best]
-    lines.append(_median("above best known, %", "all", over, lambda r: 100 * (
-        r["duration"] / best[r["key"]][0] - 1), 1.0))
+    lines += _beside_best(peer_rows, best)
     for name in OPEN:
         lines.append(_median("above the lower bound, %", f"{name}, by axis", [
             r for r in there if _family(r) == name and r["by"] == "axis"],
@@ -68,19 +84,20 @@ def summary(rows, best):
         lines.append(_median("above the lower bound, %", f"all, by {by}", [
             r for r in there if r["by"] == by], _above_least))
     lines.append(_median("stops at corners / motion", "all", there,
-                         lambda r: r["stops_duration"] / r["duration"]))
+                         lambda r: r["stops_duration"] / r["duration"],
+                         least=1.4))
     usual = [r for r in there if _family(r) not in (*LARGE, "maze50")]
     lines.append(_median("CPU ms, plan and first", "all but the large", usual,
-                         lambda r: r["cpu_first"], scale=1e3))
+                         lambda r: r["cpu_first"], 20.0, 1e3))
     lines.append(_median("CPU ms, from first to refined", "all but the large",
                          usual, _refining, 100.0, 1e3))
     for name in (*LARGE, "maze50"):
         part = [r for r in there if _family(r) == name]
+        first, refined = (None, None) if name == "maze50" else (150.0, 600.0)
         lines.append(_median("CPU ms, plan and first", name, part,
-                             lambda r: r["cpu_first"], scale=1e3))
+                             lambda r: r["cpu_first"], first, 1e3))
         lines.append(_median("CPU ms, from first to refined", name, part,
-                             _refining, None if name == "maze50" else 600.0,
-                             1e3))
+                             _refining, refined, 1e3))
     return [line for line in lines if line is not None]
 
 
