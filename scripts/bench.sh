@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
 # bench.sh [paper|queries|contact-space|lazy|convergence|pipeline|planning|
-# extremes|peers|cluster|python|trade|slice|all]: regenerates the tables and
-# figures of results/.  continuity is a part of queries, retraction and widths are
+# extremes|peers|trajectories|cluster|python|trade|slice|all]: regenerates the
+# tables and figures of results/.  continuity is a part of queries, retraction and widths are
 # parts of planning.  slice makes some published rows anew and compares them
 # (results/reproduction.md); it is no part of all.
 set -euo pipefail
@@ -13,12 +13,12 @@ export PHONGPD_CACHE_DIR=$PWD/build/cache
 suite=${1:-all}
 case $suite in
   paper | queries | contact-space | lazy | convergence | pipeline | planning | \
-    extremes | peers | cluster | python | trade | continuity | retraction | \
+    extremes | peers | trajectories | cluster | python | trade | continuity | retraction | \
     widths | slice | all) ;;
   *)
     echo "bench: expected paper, queries, contact-space, lazy," \
-      "convergence, pipeline, planning, extremes, peers, cluster, python," \
-      "trade, continuity, retraction, widths, slice or all, found $suite" >&2
+      "convergence, pipeline, planning, extremes, peers, trajectories," \
+      "cluster, python, trade, continuity, retraction, widths, slice or all, found $suite" >&2
     exit 2
     ;;
 esac
@@ -158,6 +158,23 @@ if [[ $suite == peers || $suite == all ]]; then
     --how "scripts/bench.sh peers"
   "$venv/bin/python" results/bench/peers_motions.py --output results/peers \
     --how "scripts/bench.sh peers"
+fi
+if [[ $suite == trajectories || $suite == all ]]; then
+  scripts/setup.sh python3-dev python3-venv
+  scripts/python.sh
+  scripts/build.sh phongpd_python
+  venv=build/venv-trajectories
+  [[ -x $venv/bin/python ]] || /usr/bin/python3 -m venv "$venv"
+  for peer in numpy scipy python-fcl ruckig toppra ompl drake; do
+    "$venv/bin/pip" install --quiet --disable-pip-version-check "$peer" ||
+      echo "bench: $peer cannot be installed" >&2
+  done
+  # Rows of an earlier commit would be taken for this one's; those of a run that
+  # was interrupted stay.
+  rows=build/trajectories/$(git rev-parse HEAD)
+  OPENBLAS_NUM_THREADS=1 PYTHONPATH=$PWD/build/python "$venv/bin/python" \
+    results/bench/trajectories_benchmark.py --output results/trajectories \
+    --rows "$rows" --how "scripts/bench.sh trajectories"
 fi
 if [[ $suite == python || $suite == all ]]; then
   scripts/python.sh
