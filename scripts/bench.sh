@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
 # bench.sh [paper|queries|contact-space|lazy|convergence|pipeline|planning|
-# extremes|peers|cluster|python|trade|slice|all]: regenerates the tables and
-# figures of results/.  continuity is a part of queries, retraction and widths are
+# extremes|peers|trajectories|cluster|python|trade|slice|all]: regenerates the
+# tables and figures of results/.  continuity is a part of queries, retraction and widths are
 # parts of planning.  slice makes some published rows anew and compares them
 # (results/reproduction.md); it is no part of all.
 set -euo pipefail
@@ -13,12 +13,12 @@ export PHONGPD_CACHE_DIR=$PWD/build/cache
 suite=${1:-all}
 case $suite in
   paper | queries | contact-space | lazy | convergence | pipeline | planning | \
-    extremes | peers | cluster | python | trade | continuity | retraction | \
+    extremes | peers | trajectories | cluster | python | trade | continuity | retraction | \
     widths | slice | all) ;;
   *)
     echo "bench: expected paper, queries, contact-space, lazy," \
-      "convergence, pipeline, planning, extremes, peers, cluster, python," \
-      "trade, continuity, retraction, widths, slice or all, found $suite" >&2
+      "convergence, pipeline, planning, extremes, peers, trajectories," \
+      "cluster, python, trade, continuity, retraction, widths, slice or all, found $suite" >&2
     exit 2
     ;;
 esac
@@ -112,7 +112,7 @@ if [[ $suite == extremes || $suite == all ]]; then
   # Every test program with a suite named *Campaign* takes part.
   mapfile -t tests < <(grep -rlE '^TEST(_[FP])?\([A-Za-z]*Campaign' tests \
     --include='*_test.cc' | xargs -n 1 basename -s .cc | sort)
-  scripts/build.sh extremes_report motion_set "${tests[@]}"
+  scripts/build.sh phongpd motion_set "${tests[@]}"
   logs=$PWD/build/extremes
   rm -rf "$logs"
   mkdir -p "$logs"
@@ -129,7 +129,8 @@ if [[ $suite == extremes || $suite == all ]]; then
   printf '%s\n' "${tests[@]}" | xargs -P 2 -I{} bash -c 'campaign {}'
   # Exit code 1, wrong answers of ours, is the report's to tell.
   build/motion_set --output results/extremes || (($? == 1))
-  build/extremes_report --logs "$logs" --output results/extremes \
+  python3 -B results/bench/extremes_report.py --logs "$logs" \
+    --output results/extremes --program build/phongpd \
     --how "scripts/bench.sh extremes"
 fi
 if [[ $suite == cluster || $suite == all ]]; then
@@ -158,6 +159,23 @@ if [[ $suite == peers || $suite == all ]]; then
   "$venv/bin/python" results/bench/peers_motions.py --output results/peers \
     --how "scripts/bench.sh peers"
 fi
+if [[ $suite == trajectories || $suite == all ]]; then
+  scripts/setup.sh python3-dev python3-venv
+  scripts/python.sh
+  scripts/build.sh phongpd_python
+  venv=build/venv-trajectories
+  [[ -x $venv/bin/python ]] || /usr/bin/python3 -m venv "$venv"
+  for peer in numpy scipy python-fcl ruckig toppra ompl drake; do
+    "$venv/bin/pip" install --quiet --disable-pip-version-check "$peer" ||
+      echo "bench: $peer cannot be installed" >&2
+  done
+  # Rows of an earlier commit would be taken for this one's; those of a run that
+  # was interrupted stay.
+  rows=build/trajectories/$(git rev-parse HEAD)
+  OPENBLAS_NUM_THREADS=1 PYTHONPATH=$PWD/build/python "$venv/bin/python" \
+    results/bench/trajectories_benchmark.py --output results/trajectories \
+    --rows "$rows" --how "scripts/bench.sh trajectories"
+fi
 if [[ $suite == python || $suite == all ]]; then
   scripts/python.sh
   scripts/build.sh phongpd_python python_baseline
@@ -171,9 +189,9 @@ if [[ $suite == slice ]]; then
 fi
 # Last: it draws what the others measured, too.
 if [[ $suite == trade || $suite == all ]]; then
-  scripts/build.sh trade_benchmark defaults_benchmark trade_report
+  scripts/build.sh trade_benchmark defaults_benchmark
   build/trade_benchmark --output results/trade --seeds 2
   . scripts/convergence_scenes.sh
   build/defaults_benchmark --output results/trade --scenes "${scenes[@]}"
-  build/trade_report --output results/trade
+  python3 -B results/bench/trade_report.py --output results/trade
 fi

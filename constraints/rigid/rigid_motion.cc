@@ -14,9 +14,9 @@ namespace {
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
 
-constexpr double kOrthogonal = 1e-9;
+constexpr double kOrthogonalTo = 1e-9;
 // Of a quaternion's scalar part: half an angle from half a turn.
-constexpr double kHalfTurn = 0.5e-12;
+constexpr double kHalfTurnScalar = 0.5e-12;
 constexpr double kSameAxis = 1e-6;
 
 // exp([v]).
@@ -34,7 +34,7 @@ Vector3d TurnOf(const Quaterniond& rotation) {
   const double s = v.norm();
   if (!(s > 0.0)) return Vector3d::Zero();
   bool turns_over = w < 0.0;
-  if (std::abs(w) <= kHalfTurn) {
+  if (std::abs(w) <= kHalfTurnScalar) {
     int first = 0;
     while (std::abs(v[first]) <= kSameAxis) ++first;
     turns_over = v[first] < 0.0;
@@ -112,7 +112,7 @@ RobotPose PoseOf(const Eigen::Isometry3d& matrix, const std::string& what) {
       (rotation.transpose() * rotation - Eigen::Matrix3d::Identity())
           .cwiseAbs()
           .maxCoeff();
-  if (!(off <= kOrthogonal)) {
+  if (!(off <= kOrthogonalTo)) {
     throw InputError(what + ": expected a rotation, RᵀR = 1 to 1e-9, found " +
                      Rounded(off) + " off; leave out scale and shear");
   }

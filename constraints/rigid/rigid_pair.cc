@@ -13,13 +13,13 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-constexpr double kSlack = 0x1p-44;
+constexpr double kRigidSlack = 0x1p-44;
 // Of a square of length 1 that products of rounded directions miss.
 constexpr double kRoundedSquare = 0x1p-48;
 // Of a direction's square, by the edges that it is made of: below it is noise.
-constexpr double kParallel = 1e-24;
+constexpr double kNoDirection = 1e-24;
 // Of corners that a meeting must stand, in slacks.
-constexpr double kMoved = 8.0;
+constexpr double kFirmSlacks = 8.0;
 
 // The certificate (2) of a pair of triangles, direction by direction.
 class DirectionSearch {
@@ -73,7 +73,7 @@ class DirectionSearch {
  private:
   bool Try(const Vector3d& direction, double scale) {
     const double squared = direction.squaredNorm();
-    if (!(squared > kParallel * scale)) return false;
+    if (!(squared > kNoDirection * scale)) return false;
     return TryUnit(direction / std::sqrt(squared));
   }
 
@@ -227,7 +227,7 @@ FramedMotion::FramedMotion(const RigidMotion& motion, const RigidFrame& frame,
       distance_(moved_.norm()) {
   const Vector3d end = (motion.end().position - frame.center) * frame.scale;
   size_ = robot_reach + obstacle_reach + std::max(position_.norm(), end.norm());
-  slack_ = kSlack * size_ * (1.0 + angle_) * (1.0 + angle_);
+  slack_ = kRigidSlack * size_ * (1.0 + angle_) * (1.0 + angle_);
 }
 
 RigidPose FramedMotion::At(double t) const {
@@ -298,8 +298,8 @@ PairSight LookAtTriangles(const FramedMotion& motion, const RigidPose& middle,
   DirectionSearch search(motion, middle, half_width, robot, obstacle);
   *motion_bound = search.bound();
   if (search.Run()) return PairSight::kApart;
-  if (!search.is_apart() &&
-      FirmMeeting(kMoved * motion.slack()).Between(search.placed(), obstacle)) {
+  if (!search.is_apart() && FirmMeeting(kFirmSlacks * motion.slack())
+                                .Between(search.placed(), obstacle)) {
     return PairSight::kMeet;
   }
   return PairSight::kUnknown;

@@ -96,7 +96,8 @@ void ApplyPreset(Preset preset, OptimizeRequest* request);
 PathAnswer Optimize(const World& world, const OptimizeRequest& request);
 
 // The same near a free path of one's own, of which request.via are points; its
-// ends are start and goal instead of the request's.  Asks free space alone,
+// ends are start and goal instead of the request's.  It is left to make way for
+// moving obstacles where there is no via.  Asks free space alone,
 // which is enough.  A path that collides has the status kNotFree and the place
 // as reason.  Throws InputError as above, without limits, and for paths without
 // two different points.

@@ -111,17 +111,19 @@ void KeepOffMoving(const World& world, const OptimizeRequest& request,
                            world.diagonal(),
                            options,
                            request.requires_margin};
-  MovingMotion found = FindMotionAmong(task, ways);
-  answer->seconds += stopwatch.Seconds();
+  const MovingMotion found = FindMotionAmong(task, ways);
+  const double seconds = stopwatch.Seconds();
+  answer->seconds += seconds;
   CurveSummary& curve = *answer->curve;
   const bool is_as_it_was =
       !found.motion.empty() && found.motion.duration() == curve.duration;
   const Trajectory fixed_motion = std::move(answer->motion);
   answer->motion = curve.trajectory = found.motion;
   curve.duration = answer->motion.duration();
-  curve.seconds += stopwatch.Seconds();
+  curve.seconds += seconds;
   if (found.motion.empty()) {
     answer->reason = NotFound(bodies, fixed_motion);
+    if (found.is_cut_short) answer->reason += "; the search was ended early";
     answer->status = curve.status = PathStatus::kFailed;
     answer->is_free = answer->is_solved = false;
     answer->length = answer->clearance = 0.0;

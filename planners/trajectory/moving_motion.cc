@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <random>
 #include <utility>
@@ -21,19 +22,23 @@ using Points = std::vector<Vector3d>;
 // Times at which roads are tried, in the time of the fastest fixed motion; so
 // many times as often in the end.
 constexpr double kSteps = 40.0, kFiner = 8.0;
+// Of the time of the fastest fixed motion: as good as can be expected.
+constexpr double kFastEnough = 1.02;
 // Slower variants of a motion: for what goes the same way ahead.
 constexpr std::array<double, 4> kSlower = {1.2, 1.5, 2.0, 3.0};
 // A path's segments are parted until no part is longer, a share of the path.
 constexpr double kLongestPart = 0.2;
 // Places beside the paths, sought in the paths' box grown by that share of its
 // diagonal, and roads from each, to places of paths and to others.
-constexpr int kPlacesBeside = 40, kTriesBeside = 400;
+// More of them where nothing is found.
+constexpr int kPlacesBeside = 40, kMorePlacesBeside = 80, kTriesForPlace = 10;
 constexpr std::size_t kRoadsFrom = 5;
 constexpr double kGrowth = 0.5;
 // Of searches, roads judged.
 constexpr long kMostChecks = 4'000, kMostChecksBeside = 4'000;
-// Rests that are tried to be left out in all combinations.
-constexpr std::size_t kFewRests = 5;
+// So many rides are made one in all combinations, more of them with the first
+// or the last.
+constexpr std::size_t kFewRides = 4;
 // Of D: how near a motion that leaves out a rest comes to where it was.
 constexpr double kNearRest = 0.02;
 
@@ -81,8 +86,11 @@ Trajectory FastStraight(const Vector3d& p, const Vector3d& q,
   constexpr double kNoTime = 1e-6;
   const Vector3d way = q - p;
   const double v = LeastShare(limits.velocity, way, limits.by_norm);
-  const double a = LeastShare(limits.acceleration, way, limits.by_norm);
   const double j = LeastShare(limits.jerk, way, limits.by_norm);
+  // No more than jerks can come to on that way, where there is no limit.
+  const double a =
+      std::min(LeastShare(limits.acceleration, way, limits.by_norm),
+               2.0 * std::sqrt(std::cbrt(0.25 * j) * j));
   const double speed = LargestSpeed(v, a, j);
   const bool is_long = speed * j >= a * a;
   const double by_jerk = is_long ? a / j : std::sqrt(speed / j);
@@ -114,9 +122,9 @@ Trajectory FastStraight(const Vector3d& p, const Vector3d& q,
   return WithinLimits(curve.ToTrajectory(), limits);
 }
 
-class Finder {
+class WayThrough {
  public:
-  Finder(const MovingTask& task, const std::vector<FixedMotion>& ways)
+  WayThrough(const MovingTask& task, const std::vector<FixedMotion>& ways)
       : task_(task), ways_(ways), last_(LastMotion(task.bodies)) {
     fastest_ = std::numeric_limits<double>::infinity();
     for (const FixedMotion& way : ways) {
@@ -131,6 +139,7 @@ class Finder {
       clearance_ = 0.0;
       Search();
     }
+    best_.is_cut_short = IsOver();
     if (!best_.motion.empty()) {
       best_.clearance = ProvedClearance(task_.fixed, task_.bodies, best_.motion,
                                         task_.options.margin);
@@ -145,9 +154,13 @@ class Finder {
     roads.places = {ways_[0].path.front(), ways_[0].path.back()};
     for (const FixedMotion& way : ways_) AddWay(way, &roads);
     Ride(roads, 1.0, kMostChecks);
+    if (BestTime() <= kFastEnough * fastest_) return;
     if (task_.options.via.empty()) {
-      AddPlacesBeside(&roads);
-      Ride(roads, 1.0, kMostChecksBeside);
+      for (const int places : {kPlacesBeside, kMorePlacesBeside}) {
+        AddPlacesBeside(places, &roads);
+        Ride(roads, 1.0, kMostChecksBeside * places / kPlacesBeside);
+        if (!best_.motion.empty()) break;
+      }
     }
     if (best_.motion.empty() || rides_.empty()) return;
     const TimedRoads chain = Smoothed();
@@ -257,19 +270,20 @@ class Finder {
   }
 
   // The same ones every time.
-  void AddPlacesBeside(TimedRoads* roads) const {
+  void AddPlacesBeside(int count, TimedRoads* roads) const {
     const BoundingBox box = BoxAround();
-    std::mt19937_64 random(1);
+    std::mt19937_64 random(static_cast<std::uint64_t>(count));
     std::uniform_real_distribution<double> share(0.0, 1.0);
     const std::size_t before = roads->places.size();
-    for (int i = 0; i < kTriesBeside; ++i) {
+    for (int i = 0; i < kTriesForPlace * count; ++i) {
       Vector3d q;
       for (int k = 0; k < 3; ++k) {
         q[k] = box.min[k] + share(random) * (box.max[k] - box.min[k]);
       }
       if (!task_.fixed.IsFree(q)) continue;
       roads->places.push_back(q);
-      if (roads->places.size() == before + kPlacesBeside) break;
+      if (roads->places.size() == before + static_cast<std::size_t>(count))
+        break;
     }
     for (std::size_t i = before; i < roads->places.size(); ++i) {
       AddNearest(i, 0, before, roads);
@@ -338,22 +352,16 @@ class Finder {
     const std::size_t last = rides_.size();
     for (std::size_t i = 0; i < last; ++i) {
       chain.roads.push_back({places[i], places[i + 1], rides_[i]});
-      for (std::size_t j = i + 1; j <= last; ++j) {
-        const bool is_asked =
-            j == i + 1 || i == 0 || j == last || last <= kFewRests;
+      // One ride alone is as fast as it can be.
+      for (std::size_t j = i + 2; j <= last; ++j) {
+        const bool is_asked = i == 0 || j == last || last <= kFewRides;
         if (!is_asked || IsOver() || rests[i] == rests[j]) continue;
-        // What is fast already.
-        if (j == i + 1 && !task_.options.via.empty()) continue;
         const Points line(rests.begin() + static_cast<std::ptrdiff_t>(i),
                           rests.begin() + static_cast<std::ptrdiff_t>(j) + 1);
         for (const bool visits : {false, true}) {
-          if (visits && j == i + 1) continue;
-          if (task_.fixed.IsFree(line[0], line[1]) || line.size() > 2) {
-            const Trajectory fast = Fast(line, visits);
-            if (!fast.empty()) {
-              chain.roads.push_back({places[i], places[j], fast});
-            }
-          }
+          const Trajectory fast = Fast(line, visits);
+          if (fast.empty()) continue;
+          chain.roads.push_back({places[i], places[j], fast});
         }
       }
     }
@@ -374,7 +382,7 @@ class Finder {
 
 MovingMotion FindMotionAmong(const MovingTask& task,
                              const std::vector<FixedMotion>& ways) {
-  return Finder(task, ways).Run();
+  return WayThrough(task, ways).Run();
 }
 
 }  // namespace phongpd::internal

@@ -28,14 +28,17 @@ struct FixedMotion {
 
 // What was found, certified: CheckCurveAmong, and within the limits.
 struct MovingMotion {
-  Trajectory motion;       // empty: nothing was found
-  std::size_t way = 0;     // that it was sought along
-  double clearance = 0.0;  // ProvedClearance, up to the margin
+  Trajectory motion;          // empty: nothing was found
+  std::size_t way = 0;        // that it was sought along
+  double clearance = 0.0;     // ProvedClearance, up to the margin
+  bool is_cut_short = false;  // by the time limit, or from outside
 };
 
 // In this order, and the fastest of it:
 //
-//  1. The motions as they are.  The fastest one is the answer if it is free.
+//  1. The motions as they are.  The fastest one is the answer if it is free;
+//  and
+//     what takes a fiftieth longer is, when that is found.
 //  2. Motions begun later, or slower, with rests at corners of their paths and
 //     between them, straight from rest to rest (timed_roads.h).
 //  3. The same with places beside the paths, to make way.

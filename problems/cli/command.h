@@ -37,6 +37,7 @@ Command AddContactSpace(CLI::App* app);
 Command AddQuery(CLI::App* app);
 Command AddMotion(CLI::App* app);
 Command AddScenes(CLI::App* app);
+Command AddSweep(CLI::App* app);
 Command AddOptimize(CLI::App* app);
 Command AddCompare(CLI::App* app);
 Command AddPlan(CLI::App* app);

@@ -80,6 +80,8 @@ constexpr ProgramCommand kProgramCommands[] = {
     {"query", "Penetration depth at the points of a CSV file", AddQuery},
     {"motion", "Phong, Euclidean and sliding depth along a straight motion",
      AddMotion},
+    {"sweep", "Is a motion that turns free, proved for the whole of it",
+     AddSweep},
     {"optimize", "Optimise a trajectory with Ipopt, exactly judged",
      AddOptimize},
     {"retime", "Time a path of one's own: a certified curve within limits",

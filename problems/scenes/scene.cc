@@ -149,6 +149,46 @@ std::vector<Solid> Obstacles(const Json& value, const JsonPlace& place,
   return obstacles;
 }
 
+// Pieces as they are written of a motion in time.
+Trajectory Motion(const Json& value, const JsonPlace& place) {
+  std::vector<CurvePiece> pieces;
+  for (const Json& piece : value) {
+    std::vector<Vector3d> points;
+    for (const Json& point : piece["points"]) points.push_back(Point(point));
+    const double duration = piece["duration"].get<double>();
+    if (!pieces.empty() && pieces.back().back() != points.front()) {
+      place.Child(pieces.size())
+          .Child("points")
+          .Child(std::size_t{0})
+          .Fail("the last point of the piece before it",
+                Shortened(piece["points"][0]));
+    }
+    pieces.emplace_back(points, duration);
+  }
+  return Trajectory(std::move(pieces));
+}
+
+std::vector<MovingObstacle> Moving(const Json& value, const JsonPlace& place,
+                                   const MeshFolder& folder, Scene* scene) {
+  std::set<std::string> ids;
+  for (const Solid& obstacle : scene->workspace.obstacles) {
+    ids.insert(obstacle.name());
+  }
+  std::vector<MovingObstacle> moving;
+  for (std::size_t i = 0; i < value.size(); ++i) {
+    const JsonPlace here = place.Child(i);
+    const std::string id = value[i].value("id", "moving" + std::to_string(i));
+    if (!ids.insert(id).second) {
+      here.Child("id").Fail("an id of its own",
+                            Shortened(Json(id)) + " a second time");
+    }
+    moving.push_back(
+        {SolidAt(value[i], here, folder, &scene->warnings).Named(id),
+         Motion(value[i]["motion"], here.Child("motion"))});
+  }
+  return moving;
+}
+
 BoundingBox Bounds(const Json& value, const JsonPlace& place) {
   const BoundingBox box = {Point(value["min"]), Point(value["max"])};
   for (int axis = 0; axis < 3; ++axis) {
@@ -392,6 +432,10 @@ Scene ParseScene(const Json& json, const std::string& file,
           .Named("robot");
   scene.workspace.obstacles = Obstacles(
       json["obstacles"], place.Child("obstacles"), folder, &scene.warnings);
+  if (json.contains("moving")) {
+    scene.moving =
+        Moving(json["moving"], place.Child("moving"), folder, &scene);
+  }
   RequireLengths(scene, place);
   NoteUnits(json, &scene);
   return scene;

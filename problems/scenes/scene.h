@@ -17,6 +17,7 @@
 #include "core/mesh/triangle_mesh.h"
 #include "planners/world/length.h"
 #include "planners/world/model.h"
+#include "planners/world/moving_obstacle.h"
 #include "planners/world/penetration_spec.h"
 #include "planners/world/planner_id.h"
 #include "planners/world/preset.h"
@@ -63,6 +64,7 @@ struct Scene {
   // Of a motion in time: the places on its way, in order, and the seconds that
   // it takes; 0: as few as can be.
   std::vector<Via> via;
+  std::vector<MovingObstacle> moving;  // to keep off, by motions in time only
   double duration = 0.0;
   CurveEnd departure, arrival;  // how it begins and ends
   PenetrationSpec penetration;

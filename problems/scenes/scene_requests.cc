@@ -3,6 +3,7 @@
 
 #include <variant>
 
+#include "core/mesh/mesh_error.h"
 #include "core/number_text.h"
 
 namespace phongpd {
@@ -22,6 +23,13 @@ std::string IpoptText(const IpoptValue& value) {
 }  // namespace
 
 PlanRequest PlanRequestOf(const Scene& scene) {
+  if (!scene.moving.empty()) {
+    throw InputError(scene.name +
+                     ": /moving: expected none for a path without times, which "
+                     "cannot keep off what moves, found " +
+                     std::to_string(scene.moving.size()) +
+                     "; ask for a motion: phongpd optimize with limits");
+  }
   PlanRequest request;
   request.start = scene.start;
   request.goal = scene.goal;
@@ -46,6 +54,7 @@ OptimizeRequest OptimizeRequestOf(const Scene& scene) {
   }
   request.limits = scene.limits;
   request.via = scene.via;
+  request.moving = scene.moving;
   request.duration = scene.duration;
   request.departure = scene.departure;
   request.arrival = scene.arrival;

@@ -167,6 +167,12 @@ Json ViaRow(const World& world, const std::vector<Via>& places) {
   return row;
 }
 
+Json MovingRow(const std::vector<MovingObstacle>& moving) {
+  Json names = Json::array();
+  for (const MovingObstacle& one : moving) names.push_back(one.solid.name());
+  return names;
+}
+
 Json PiecesRow(const Trajectory& trajectory) {
   Json pieces = Json::array();
   for (const CurvePiece& piece : trajectory.pieces()) {
@@ -303,6 +309,7 @@ Json MotionRow(const Scene& scene, const World& world,
   row["via"] = ViaRow(world, request.via);
   row["departure"] = EndRow(request.departure);
   row["arrival"] = EndRow(request.arrival);
+  if (!request.moving.empty()) row["moving"] = MovingRow(request.moving);
   row["limits_used"] = {{"velocity", use.velocity},
                         {"acceleration", use.acceleration},
                         {"jerk", use.jerk}};

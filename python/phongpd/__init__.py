@@ -19,6 +19,9 @@ share of D, the world's one length::
     plan = world.plan(start, goal)                 # or a proof that there is none
     motion = world.optimize(start, goal, limits=(1, 2, 10))
 
+    judge = phongpd.RigidJudge(tool, part)         # of motions that turn, too
+    judge.check(start_pose, goal_pose).free        # for all t, proved
+
 Whatever cannot be used raises InputError, a ValueError of one line: what,
 where, expected, found.
 """
@@ -30,6 +33,7 @@ from ._metrics import EuclideanMetric, Penetration, PhongMetric, QueryResult
 from ._motion import Motion
 from ._native import BuildCancelled, BuildRefusal, InputError, __version__
 from ._piece import ContactSpacePiece
+from ._rigid import RigidCheck, RigidJudge
 from ._rows import NonPenetrationRows
 from ._solid import Solid
 from ._tracker import PenetrationTracker, TrackedMotion
@@ -40,6 +44,7 @@ __all__ = [
     "BuildCancelled", "BuildRefusal", "ContactSpace", "ContactSpacePiece",
     "Depth", "DepthQuery", "Diagnosis", "EuclideanMetric", "InputError",
     "Motion", "NonPenetrationRows", "Penetration", "PenetrationTracker",
-    "PhongMetric", "Plan", "QueryResult", "Roadmap", "Solid", "TrackedMotion",
-    "Trajectory", "View", "World", "__version__", "depth", "minkowski", "view",
+    "PhongMetric", "Plan", "QueryResult", "RigidCheck", "RigidJudge", "Roadmap",
+    "Solid", "TrackedMotion", "Trajectory", "View", "World", "__version__",
+    "depth", "minkowski", "view",
 ]

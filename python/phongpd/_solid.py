@@ -5,7 +5,7 @@ import os
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from . import _native
 from ._arguments import rows
@@ -29,24 +29,10 @@ class Solid(MeshViews, Shown):
     def __init__(self, vertices: ArrayLike, triangles: ArrayLike,
                  name: str = "solid") -> None:
         """vertices: (N, 3), any unit; triangles: (M, 3), whole numbers."""
-        try:
-            corners = np.asarray(triangles)
-        except ValueError as error:  # rows of different lengths
-            raise InputError(f"{name}: triangles: expected whole numbers of "
-                             f"shape (M, 3), found {error}") from None
-        if corners.dtype.kind not in "iu" or corners.ndim != 2 \
-                or corners.shape[1] != 3:
-            raise InputError(
-                f"{name}: triangles: expected whole numbers of shape (M, 3), "
-                f"found {corners.dtype} of shape {corners.shape}")
-        limit = np.iinfo(np.int32).max
-        if corners.size and (corners.max() > limit or corners.min() < 0):
-            raise InputError(
-                f"{name}: triangles: expected existing vertices, found "
-                f"{corners.min()} to {corners.max()}")
+        corners = triangle_rows(triangles, name)
         self._native = _native.Solid.from_arrays(
             rows(vertices, f"{name}: vertices", 3),
-            np.ascontiguousarray(corners, dtype=np.int32), str(name))
+            corners, str(name))
 
     @classmethod
     def _of(cls, native: NativeSolid) -> Solid:
@@ -118,3 +104,23 @@ def as_solid(value: Any, name: str) -> Solid:
     raise InputError(
         f"{name}: expected a Solid, a file or a mesh with vertices and faces, "
         f"found {type(value).__name__}")
+
+
+def triangle_rows(triangles: ArrayLike, name: str) -> NDArray[np.int32]:
+    """Of shape (M, 3), none below 0."""
+    try:
+        corners = np.asarray(triangles)
+    except ValueError as error:  # rows of different lengths
+        raise InputError(f"{name}: triangles: expected whole numbers of "
+                         f"shape (M, 3), found {error}") from None
+    if corners.dtype.kind not in "iu" or corners.ndim != 2 \
+            or corners.shape[1] != 3:
+        raise InputError(
+            f"{name}: triangles: expected whole numbers of shape (M, 3), "
+            f"found {corners.dtype} of shape {corners.shape}")
+    limit = np.iinfo(np.int32).max
+    if corners.size and (corners.max() > limit or corners.min() < 0):
+        raise InputError(
+            f"{name}: triangles: expected existing vertices, found "
+            f"{corners.min()} to {corners.max()}")
+    return np.ascontiguousarray(corners, dtype=np.int32)

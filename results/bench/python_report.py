@@ -14,7 +14,7 @@ def cell(value):
 
 
 def markdown(title, note, header, rows, file):
-    lines = [f"### {title}", "", note, "", "| " + " | ".join(header) + " |",
+    lines = [f"### {title}", "", *([note, ""] if note else []), "| " + " | ".join(header) + " |",
              "|---|" + "---:|" * (len(header) - 1)]
     lines += ["| " + " | ".join(cell(value) for value in row) + " |"
               for row in rows]

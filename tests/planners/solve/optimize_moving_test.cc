@@ -12,6 +12,7 @@
 #include "core/mesh/mesh_error.h"
 #include "planners/solve/optimize.h"
 #include "problems/shapes/shapes.h"
+#include "tests/support/campaign.h"
 #include "tests/support/curve_problems.h"
 #include "tests/support/solid_tools.h"
 
@@ -261,9 +262,10 @@ TEST(OptimizeAmongMoving, IsCertifiedOrSaysNotFoundOnRandomInstances) {
   const auto point = [&](double size) -> Vector3d {
     return size * Vector3d(unit(random), unit(random), 0.3 * unit(random));
   };
-  int solved = 0, tried = 0;
-  std::vector<double> ratios, seconds;
-  for (int i = 0; tried < 60 && i < 400; ++i) {
+  long solved = 0, tried = 0;
+  std::vector<double> ratios;
+  const long cases = testing::CampaignCases(60, 400);
+  for (int i = 0; tried < cases; ++i) {
     Workspace workspace;
     workspace.robot = CubeNamed("robot", 0.8);
     workspace.bounds = {{-6, -6, -1}, {6, 6, 1}};
@@ -308,23 +310,12 @@ TEST(OptimizeAmongMoving, IsCertifiedOrSaysNotFoundOnRandomInstances) {
     ++solved;
     ExpectCertifiedAmong(world, request, answer);
     ratios.push_back(answer.motion.duration() / alone.motion.duration());
-    seconds.push_back(answer.seconds);
   }
-  EXPECT_EQ(tried, 60);
-  EXPECT_GE(solved, 54);
+  EXPECT_GE(solved, 9 * tried / 10);
+  // Waiting is not forced in most of them.
   std::sort(ratios.begin(), ratios.end());
-  std::sort(seconds.begin(), seconds.end());
-  RecordProperty("solved", solved);
-  RecordProperty("median ratio", std::to_string(ratios[ratios.size() / 2]));
-  if (std::getenv("SAY")) {
-    printf(
-        "solved %d of %d, ratio median %.3f p80 %.3f p90 %.3f max %.3f ms "
-        "median %.0f p90 %.0f max %.0f\n",
-        solved, tried, ratios[ratios.size() / 2],
-        ratios[ratios.size() * 8 / 10], ratios[ratios.size() * 9 / 10],
-        ratios.back(), 1e3 * seconds[seconds.size() / 2],
-        1e3 * seconds[seconds.size() * 9 / 10], 1e3 * seconds.back());
-  }
+  EXPECT_LE(ratios[ratios.size() / 2], 1.02);
+  EXPECT_LE(ratios[ratios.size() * 8 / 10], 1.3);
 }
 
 }  // namespace

@@ -51,8 +51,8 @@ TEST(SceneErrors, NameFilePlaceExpectedAndFound) {
   };
   const std::string keys =
       "s.json: expected only the keys $schema, name, unit, robot, obstacles, "
-      "bounds, start, goal, preset, limits, via, duration, penetration, "
-      "trajectory, planning, feasible, witness, ";
+      "bounds, start, goal, preset, limits, via, moving, duration, "
+      "penetration, trajectory, planning, feasible, witness, ";
   const std::vector<Case> cases = {
       {"/robto", 1, keys + "found \"robto\"; did you mean robot?"},
       {"/velocity", 3, keys + "found \"velocity\""},

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "planners/solve/fleet.h"
+
+#include <algorithm>
+#include <set>
+#include <utility>
+
+#include "constraints/motion_oracle.h"
+#include "core/mesh/mesh_error.h"
+#include "core/number_text.h"
+#include "core/stopwatch.h"
+
+namespace phongpd {
+namespace {
+
+using Eigen::Vector3d;
+using Order = std::vector<std::size_t>;
+
+bool Stays(const FleetRobot& robot) {
+  return robot.request.start == robot.request.goal;
+}
+
+void RequireApart(const FleetRobot& a, const FleetRobot& b, bool at_start) {
+  const Vector3d& p = at_start ? a.request.start : a.request.goal;
+  const Vector3d& q = at_start ? b.request.start : b.request.goal;
+  const MotionOracle oracle(a.world.workspace().robot,
+                            b.world.workspace().robot);
+  if (!oracle.Collides(p - q)) return;
+  throw InputError("robots: \"" + a.name + "\" at (" + FormatPoint(p) +
+                   ") and \"" + b.name + "\" at (" + FormatPoint(q) +
+                   ") touch at their " + (at_start ? "starts" : "goals"));
+}
+
+void RequireFleet(const std::vector<FleetRobot>& robots) {
+  std::set<std::string> names;
+  for (const FleetRobot& robot : robots) {
+    if (!names.insert(robot.name).second) {
+      throw InputError("robots: expected different names, found \"" +
+                       robot.name + "\" twice");
+    }
+    if (!robot.request.limits) {
+      throw InputError("robots: \"" + robot.name +
+                       "\": expected limits of the motion, found none");
+    }
+    robot.request.Validate(robot.world);
+  }
+  for (std::size_t i = 0; i < robots.size(); ++i) {
+    for (std::size_t k = 0; k < i; ++k) {
+      RequireApart(robots[k], robots[i], true);
+      RequireApart(robots[k], robots[i], false);
+    }
+  }
+}
+
+// Of a robot that stays; the others keep off it.
+PathAnswer Resting(const FleetRobot& robot) {
+  constexpr double kMoment = 1.0;  // s
+  const Vector3d& q = robot.request.start;
+  PathAnswer answer;
+  const Diagnosis diagnosis = robot.world.Diagnose(q);
+  answer.is_free = answer.is_solved = diagnosis.IsFree();
+  answer.reason = diagnosis.Text("start");
+  answer.status = diagnosis.IsFree() ? PathStatus::kConverged
+                                     : PathStatus::kStartInCollision;
+  answer.path = {q};
+  answer.motion = Trajectory({CurvePiece(q, q, kMoment)});
+  return answer;
+}
+
+// In that order, until one has no motion; its place in the order, or the
+// number of robots.
+std::size_t TryOrder(const std::vector<FleetRobot>& robots, const Order& order,
+                     FleetAnswer* answer) {
+  answer->robots.assign(robots.size(), {});
+  std::vector<MovingObstacle> before;
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    const FleetRobot& robot = robots[order[i]];
+    PathAnswer& own = answer->robots[order[i]];
+    if (Stays(robot)) {
+      own = Resting(robot);
+    } else {
+      OptimizeRequest request = robot.request;
+      request.moving.insert(request.moving.end(), before.begin(), before.end());
+      own = Optimize(robot.world, request);
+    }
+    if (!own.is_solved) return i;
+    before.push_back(
+        {robot.world.workspace().robot.Named(robot.name), own.motion});
+  }
+  return order.size();
+}
+
+}  // namespace
+
+FleetAnswer OptimizeFleet(const std::vector<FleetRobot>& robots) {
+  const Stopwatch stopwatch;
+  RequireFleet(robots);
+  Order order(robots.size());
+  for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+  const auto first_moving =
+      std::stable_partition(order.begin(), order.end(),
+                            [&](std::size_t i) { return Stays(robots[i]); });
+  const auto staying = first_moving - order.begin();
+  FleetAnswer answer;
+  std::set<Order> tried;
+  while (tried.insert(order).second) {
+    ++answer.tries;
+    answer.order = order;
+    const std::size_t failed = TryOrder(robots, order, &answer);
+    answer.status = PathStatus::kConverged;
+    answer.reason.clear();
+    if (failed == order.size()) break;
+    const FleetRobot& robot = robots[order[failed]];
+    const PathAnswer& own = answer.robots[order[failed]];
+    answer.status = own.status;
+    answer.reason = "\"" + robot.name + "\": " + own.reason;
+    // Nobody's way: another order does not help.
+    if (static_cast<std::ptrdiff_t>(failed) <= staying) break;
+    const auto at = order.begin() + static_cast<std::ptrdiff_t>(failed);
+    std::rotate(order.begin() + staying, at, at + 1);
+  }
+  for (std::size_t i = 0; i < robots.size(); ++i) {
+    if (Stays(robots[i])) continue;
+    answer.duration =
+        std::max(answer.duration, answer.robots[i].motion.duration());
+  }
+  answer.seconds = stopwatch.Seconds();
+  return answer;
+}
+
+}  // namespace phongpd

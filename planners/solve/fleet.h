@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "planners/solve/optimize.h"
+
+namespace phongpd {
+
+// One of several robots that translate in one room.
+struct FleetRobot {
+  std::string name;
+  // The robot itself and what is fixed.  Equal robots share a world: copies of
+  // a World share what it builds.
+  World world;
+  OptimizeRequest request;  // with limits
+};
+
+// What OptimizeFleet answers.
+struct FleetAnswer {
+  // kConverged: all robots have motions; that of the robot that has none.
+  PathStatus status = PathStatus::kFailed;
+  std::string reason;  // one sentence where there is no motion of all
+  // In the order of the robots; of those that were not come to, empty.
+  std::vector<PathAnswer> robots;
+  std::vector<std::size_t> order;  // who went first, of the last try
+  int tries = 0;                   // of orders
+  double duration = 0.0;           // until all have arrived, s
+  double seconds = 0.0;
+
+  bool IsSolved() const { return status == PathStatus::kConverged; }
+};
+
+// Motions of several robots, by order of priority: each keeps off what is
+// fixed, off its own request's moving obstacles, and off the robots before it,
+// which move as they were told and then rest at their goals (Optimize with
+// moving obstacles).  All begin at the time 0.  The first order is the one
+// given, but for robots that stay where they are, which come first; a robot
+// that finds no motion is put in front of the others, and all begin anew, until
+// no new order comes of it.  What is answered is certified for each pair, for
+// all t ≥ 0; without an answer it is no proof that there is none.
+//
+// Throws InputError, before anything is built: for a name used twice, requests
+// that Optimize would refuse, and two robots that touch at their starts or at
+// their goals.
+FleetAnswer OptimizeFleet(const std::vector<FleetRobot>& robots);
+
+}  // namespace phongpd

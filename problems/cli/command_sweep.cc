@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "constraints/rigid/rigid_judge.h"
+#include "core/mesh/counted.h"
+#include "core/pi.h"
+#include "core/solid/solid.h"
+#include "problems/cli/command.h"
+#include "problems/cli/flags.h"
+#include "problems/cli/operands.h"
+#include "problems/meshes/any_mesh.h"
+#include "problems/output/json_text.h"
+#include "problems/output/output_files.h"
+#include "problems/output/text.h"
+
+namespace phongpd::cli {
+namespace {
+
+using Eigen::Vector3d;
+
+struct SweepFlags {
+  std::string a;
+  std::vector<std::string> b;
+  std::string from = "0,0,0";
+  std::string to;
+  bool json = false;
+};
+
+// R = R_z(yaw) R_y(pitch) R_x(roll), degrees.
+Eigen::Quaterniond TurnByDegrees(double roll, double pitch, double yaw) {
+  const auto about = [](double degrees, const Vector3d& axis) {
+    return Eigen::AngleAxisd(degrees * kPi / 180.0, axis);
+  };
+  const Eigen::Quaterniond turn = about(yaw, Vector3d::UnitZ()) *
+                                  about(pitch, Vector3d::UnitY()) *
+                                  about(roll, Vector3d::UnitX());
+  return turn.normalized();
+}
+
+// Three numbers, six or seven; what is no unit quaternion RigidMotion refuses.
+RobotPose PoseFlag(const std::string& text, const std::string& flag) {
+  std::vector<double> x;
+  for (std::size_t begin = 0; begin <= text.size();) {
+    const std::size_t end = std::min(text.find(',', begin), text.size());
+    x.push_back(ParseDouble(text.substr(begin, end - begin), flag));
+    begin = end + 1;
+  }
+  if (x.size() != 3 && x.size() != 6 && x.size() != 7) {
+    throw InputError(flag +
+                     ": expected X,Y,Z, or with ROLL,PITCH,YAW in degrees, or "
+                     "with QW,QX,QY,QZ, found " +
+                     Counted(x.size(), "number"));
+  }
+  RobotPose pose;
+  pose.position = {x[0], x[1], x[2]};
+  if (x.size() == 6) pose.orientation = TurnByDegrees(x[3], x[4], x[5]);
+  if (x.size() == 7) pose.orientation = {x[3], x[4], x[5], x[6]};
+  CheckPose(pose, flag);
+  return pose;
+}
+
+// As a solid where it is one, with vertices joined if that closes it; else its
+// triangles, which is said.
+TriangleMesh SweptMesh(const std::string& path) {
+  const TriangleMesh mesh = LoadMesh(path);
+  try {
+    return MakeSolid(mesh, path);
+  } catch (const InputError&) {
+    Note(path + ": no solid, as phongpd check says; its triangles are judged");
+    return mesh;
+  }
+}
+
+std::vector<double> Cells(const RobotPose& pose) {
+  const Eigen::Quaterniond& turn = pose.orientation;
+  return {pose.position.x(), pose.position.y(), pose.position.z(), turn.w(),
+          turn.x(),          turn.y(),          turn.z()};
+}
+
+std::string SweepJson(const SweepFlags& flags, const RigidMotion& motion,
+                      const RigidCheck& check) {
+  nlohmann::ordered_json row = {{"status", ToString(check.outcome)},
+                                {"start", Cells(motion.start())},
+                                {"end", Cells(motion.end())},
+                                {"turn", motion.angle() * 180.0 / kPi}};
+  if (!check.IsFree()) {
+    row["time"] = check.time;
+    row["pose"] = Cells(motion.At(check.time));
+    row["from"] = check.from;
+    row["to"] = check.to;
+    if (check.robot_triangle >= 0) {
+      row["robot_triangle"] = check.robot_triangle;
+      row["obstacle"] = flags.b[static_cast<std::size_t>(check.obstacle_mesh)];
+      row["obstacle_triangle"] = check.obstacle_triangle;
+    }
+  }
+  row["tests"] = check.tests;
+  return JsonText(row) + '\n';
+}
+
+std::string SweepWords(const SweepFlags& flags, const RigidMotion& motion,
+                       const RigidCheck& check) {
+  TextStream text;
+  text << ToString(check.outcome);
+  if (check.IsFree()) {
+    text << ": for the whole motion, proved; it turns by "
+         << Rounded(motion.angle() * 180.0 / kPi, 6) << " degrees\n";
+    return text.str();
+  }
+  const bool collides = check.outcome == RigidOutcome::kCollides;
+  if (collides) {
+    text << " at " << FormatDouble(check.time) << " of the way";
+  } else {
+    text << " from " << FormatDouble(check.from) << " to "
+         << FormatDouble(check.to) << " of the way";
+  }
+  if (check.robot_triangle >= 0) {
+    text << ": triangle " << check.robot_triangle << " of " << flags.a
+         << (collides ? " meets" : " is not told apart from") << " triangle "
+         << check.obstacle_triangle << " of "
+         << flags.b[static_cast<std::size_t>(check.obstacle_mesh)] << '\n';
+  } else {
+    text << (collides ? ": one holds a part of the other\n"
+                      : ": the search was too long\n");
+  }
+  return text.str();
+}
+
+int Sweep(const SweepFlags& flags) {
+  const RigidMotion motion(PoseFlag(flags.from, "--from"),
+                           PoseFlag(flags.to, "--to"));
+  const TriangleMesh robot = SweptMesh(flags.a);
+  std::vector<TriangleMesh> obstacles;
+  for (const std::string& path : flags.b) {
+    obstacles.push_back(SweptMesh(path));
+    WarnOfUnits(robot, flags.a, obstacles.back(), path);
+  }
+  const RigidCheck check = RigidJudge({robot}, obstacles).Check(motion);
+  OutputFiles outputs;
+  CommitAndTell(&outputs, flags.json ? SweepJson(flags, motion, check)
+                                     : SweepWords(flags, motion, check));
+  return check.IsFree() ? kDone : kNoAnswer;
+}
+
+}  // namespace
+
+Command AddSweep(CLI::App* app) {
+  auto flags = std::make_shared<SweepFlags>();
+  app->add_option("A", flags->a,
+                  std::string("Mesh that moves and turns about its origin (") +
+                      kMeshFormats + ")")
+      ->required()
+      ->type_name("FILE");
+  app->add_option("B", flags->b, "Meshes that stay")
+      ->required()
+      ->type_name("FILE");
+  app->add_option("--from", flags->from,
+                  "First pose of A: its position, X,Y,Z; turned about x, then "
+                  "y, then z, X,Y,Z,ROLL,PITCH,YAW in degrees; or by a unit "
+                  "quaternion, X,Y,Z,QW,QX,QY,QZ")
+      ->capture_default_str()
+      ->type_name("POSE");
+  app->add_option("--to", flags->to,
+                  "Last pose; between them A goes straight and turns about one "
+                  "axis, the shorter way")
+      ->required()
+      ->type_name("POSE");
+  AddJson(app, &flags->json,
+          "An object: status, poses, and where it is not free the time and "
+          "the triangles");
+  AddExamples(
+      app,
+      {"phongpd sweep robot.off obstacle.stl --to 1,0,0",
+       "phongpd sweep robot.off a.stl b.stl --from 0,0,2 --to 1,0,2,0,0,90",
+       "phongpd sweep robot.off obstacle.stl --from -1,0,0 --to "
+       "0,0,0,0,0,0,1 --json"},
+      "Exit code 0: free for the whole motion, proved, rounding included; 1: "
+      "it collides, or comes too close to be decided. Meshes that are no "
+      "solids are judged by their triangles.");
+  return [flags] { return Sweep(*flags); };
+}
+
+}  // namespace phongpd::cli

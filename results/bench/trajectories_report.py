@@ -1,0 +1,183 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""results/trajectories/README.md and its tables."""
+import datetime
+
+import phongpd
+import trajectories_best
+import trajectories_duels as duels
+import trajectories_summary as own
+from python_report import cell, machine, versions, write_csv, write_tables
+from trajectories_peers import COLLISION_SAMPLES, CONTROL_POINTS, MARGIN
+from trajectories_statistics import share_interval
+
+QUESTION = """\
+Question: are PhongPD's motions in time (`World.optimize(limits=...)`) free and
+within their limits wherever there is a path, how near are they to the least time,
+and what do others make of the same ends and limits?
+"""
+NOT_RUN = """\
+## What was not run
+
+- Drake's graphs of convex sets: they limit velocities alone, and need regions of
+  free space first, which take minutes a scene.
+- MINCO-like optimisers: no package of Python's registry has one.
+- Buildings for flying robots: not rebuilt yet.
+- `maze50` has the published maze's size, seed and count of removed walls, the
+  forests have the published sizes, counts and radii; the walls and trees
+  stand elsewhere, as nothing was copied.
+- Wall times: other jobs shared the machine. All times are processor time of all
+  threads, calls as a user makes them, contact spaces being there.
+"""
+
+
+def _percent(x):
+    return f"{100 * x:.4g} %"
+
+
+def _hits(rows):
+    seen = [r for r in own.measured(rows) if r.get("samples")]
+    by_fcl = [r for r in seen if r["fcl_hits"] is not None]
+    yield (f"- Independent check at {max(r['samples'] for r in seen):,} samples a "
+           f"curve: FCL {sum(r['fcl_hits'] for r in by_fcl)} hits in "
+           f"{len(by_fcl)} curves, the exact kernel "
+           f"{sum(r['exact_hits'] for r in seen)} in {len(seen)}."
+           + ("" if len(by_fcl) == len(seen)
+              else " FCL did not load for the others."))
+    above = sum(r["most_used"] > 1 for r in seen)
+    yield (f"- Limits: the largest proved share used is 1 - "
+           f"{1 - max(r['most_used'] for r in seen):.1g}, {above} above 1; the "
+           f"largest at samples is 1 - {1 - max(r['sampled_use'] for r in seen):.1g}.")
+
+
+def _aims(lines):
+    yield "| of | set | value | 95 % | n | aim | met |"
+    yield "|---|---|---:|---|---:|---:|---|"
+    for of, where, value, low, high, n, aim, met in lines:
+        is_share = of in own.SHARES
+        say = _percent if is_share else cell
+        at = _percent(float(aim)) if is_share else aim
+        yield (f"| {of} | {where} | {say(value)} | {say(low)} to {say(high)} | "
+               f"{n} | {at} | {met} |")
+
+
+def _beside(lines):
+    yield ("| | version | says solved | free | free and in limits | "
+           "duration / PhongPD: median (95 %), range | PhongPD faster, as fast, "
+           "slower, peer has none | CPU s |")
+    yield "|---|---|---:|---:|---:|---|---|---:|"
+    for line in lines:
+        v = dict(zip(duels.SUMMARY_HEADER, line))
+        if v["version"] == "not installed":
+            yield f"| {v['by']} | not installed | - | - | - | - | - | - |"
+            continue
+        n = v["pairs"]
+        middle = v["duration / PhongPD, median"]
+        spread = "-" if middle == "-" else (
+            f"{middle:.3f} ({v['low']:.3f} to {v['high']:.3f}), "
+            f"{v['least']:.3f} to {v['most']:.3f}")
+        yield (f"| {v['by']} | {v['version']} | {v['says solved']} of {n} | "
+               f"{v['free']} | {v['free and in limits']} | {spread} | "
+               f"{v['PhongPD faster']}, {v['as fast']}, {v['peer faster']}, "
+               f"{v['peer has none']} | {cell(v['CPU s, median'])} |")
+
+
+def _losses(rows, peer_rows, best):
+    for r in [*rows, *peer_rows]:
+        if "error" in r:
+            yield f"- {r['key']}: {r['error']}."
+    for r in own.answered(rows):
+        if not r["certified"]:
+            yield f"- {r['key']}: a path, but {r['status']} ({r['reason']})."
+    for r in own.measured(rows):
+        if r["plan"] != "solved" and not r["certified"]:
+            yield f"- {r['key']}: no path, {r['plan']}; not counted above."
+    for name, count, words in duels.errors(peer_rows):
+        yield f"- {name} fails on {count} pairs, first by {words}."
+    late = sorted(((r["answers"]["PhongPD"]["duration"] / best[r["key"]][0] - 1,
+                    r["key"]) for r in peer_rows if "answers" in r), reverse=True)
+    worse = [f"{key} {100 * by:.2g} % ({best[key][1]})" for by, key in late
+             if by > 0.03]
+    if worse:
+        yield ("- More than 3 % above the best known of its ends: "
+               + ", ".join(worse) + ".")
+
+
+def _wins(lines):
+    """Of peers, in time and in effort."""
+    seen = [dict(zip(duels.SUMMARY_HEADER, line)) for line in lines]
+    mine = next(v for v in seen if v["by"] == duels.OWN)
+    for v in seen:
+        if v["version"] == "not installed" or v["by"].startswith(duels.OWN):
+            continue
+        n = v["free and in limits"]
+        yield (f"- {v['by']}, {v['note']}: free and in limits in {n} of "
+               f"{v['pairs']} pairs; of those PhongPD is faster in "
+               f"{v['PhongPD faster']}, the peer in {v['peer faster']}. It says "
+               f"solved and is not so in {v['says solved but is not']}. Its "
+               f"processor time is {v['CPU s, median'] / mine['CPU s, median']:.2g} "
+               "of PhongPD's"
+               + (", which includes the plan that it begins with."
+                  if "line" not in v["by"] else "."))
+
+
+def _kto(rows):
+    n, most, count = duels.kto_line(rows)
+    yield (f"- Where Drake's curve from our path is free and in limits ({n} pairs) "
+           f"PhongPD takes at most {most:.2g} % longer; more than 1 % longer in "
+           f"{count}.")
+
+
+def write_report(folder, how, own_rows, peer_rows, packages):
+    folder.mkdir(parents=True, exist_ok=True)
+    best = trajectories_best.improve(folder, own_rows, peer_rows)
+    lines, beside = own.summary(own_rows, peer_rows, best), duels.summary(peer_rows)
+    where = write_tables(folder, "Motions in time", [
+        ("summary.csv", "What all motions say", own.HEADER, lines,
+         "Shares: interval by Clopper and Pearson. Medians: bootstrap over "
+         "scenes."),
+        ("scenes.csv", "By scene", own.SCENES_HEADER, own.by_scene(own_rows),
+         "Lower bound: the slowest axis alone (by norm: the straight line), no "
+         "obstacles, in closed form. Stops: at rest in every corner of the same "
+         "path. Margin: the default, 0.01 D, where there is room."),
+        ("peers_summary.csv", "Peers", duels.SUMMARY_HEADER, beside,
+         f"Limits by axis; margin {MARGIN:g} D for PhongPD and Drake. Ratios of "
+         "what is free and in limits alone. Faster: by a thousandth at least. "
+         "Free: the polyline of 2,001 samples, exactly."),
+    ])
+    own_csv = own.own_table(own_rows, best)
+    write_csv(folder / "own.csv", own.OWN_HEADER, own_csv)
+    write_csv(folder / "peers.csv", duels.HEADER, duels.table(peer_rows))
+    asked = own.answered(own_rows)
+    certified = sum(r["certified"] for r in asked)
+    low, high = share_interval(certified, len(asked))
+    text = ["# Motions in time: certified, and beside peers", "", QUESTION,
+            f"- Certified: {certified} of {len(asked)} motions that have a path "
+            f"({_percent(low)} to {_percent(high)} with 95 %); "
+            f"{len(own_rows)} were asked for, in "
+            f"{len({r['scene'] for r in own_rows})} scenes.",
+            *_hits(own_rows), *_kto(peer_rows), "",
+            "## What all motions say", "", *_aims(lines), "",
+            "Best known is what any run or peer found up to now, free and in "
+            "limits ([best_known.csv](best_known.csv)); where peers ran it is "
+            "looked for with the preset tight and eight routes, too. The lower "
+            "bound ignores obstacles: in passages and mazes no motion comes near "
+            "it. `maze` is a family of small ones, `maze50` the large one.", "",
+            "## Beside peers", "",
+            f"{len(peer_rows)} pairs in {len({r['scene'] for r in peer_rows})} "
+            "scenes, limits of velocity, acceleration and jerk by axis. Ruckig, "
+            "TOPP-RA and Drake (path) are given the polyline that PhongPD's motion "
+            "began with. In limits: to 1 % at 2,001 samples. TOPP-RA keeps no "
+            "limit of jerk, an easier problem, and no obstacle: its curve is free "
+            "by luck. Drake: KinematicTrajectoryOptimization, cubic, "
+            f"{CONTROL_POINTS} control points, {COLLISION_SAMPLES} samples against "
+            "PhongPD's exact distance, SNOPT.", "", *_beside(beside), "",
+            *_wins(beside), "",
+            "## Losses and what failed", "",
+            *(list(_losses(own_rows, peer_rows, best)) or ["- None."]), "",
+            NOT_RUN, where, "",
+            "Each motion: [own.csv](own.csv), [peers.csv](peers.csv).", "",
+            f"Command: {how}. Date: {datetime.date.today()}. Seeds: pairs 1 to "
+            "6 of families, 1 of forests, 4 of the maze. Machine: "
+            f"{machine()}, shared. "
+            f"Versions: PhongPD {phongpd.__version__}, {versions(*packages)}.", ""]
+    (folder / "README.md").write_text("\n".join(text), encoding="utf-8")

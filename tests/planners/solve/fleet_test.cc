@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Truth: FCL at 10⁴ times for each pair.
+#include "planners/solve/fleet.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "constraints/oracle/collision_oracle.h"
+#include "core/mesh/mesh_error.h"
+#include "problems/shapes/shapes.h"
+#include "tests/support/curve_problems.h"
+#include "tests/support/solid_tools.h"
+
+namespace phongpd {
+namespace {
+
+using Eigen::Vector3d;
+
+World Room(const BoundingBox& bounds) {
+  Workspace workspace;
+  workspace.robot = MakeSolid(testing::Cube(1.0), "robot");
+  workspace.bounds = bounds;
+  return World(workspace);
+}
+
+FleetRobot Robot(const std::string& name, const World& world,
+                 const Vector3d& start, const Vector3d& goal) {
+  OptimizeRequest request;
+  request.start = start;
+  request.goal = goal;
+  request.margin = Length::FromUnit(0.01);
+  request.preset = Preset::kFast;
+  request.limits = testing::PlainLimits();
+  request.verifies = false;
+  return {name, world, request};
+}
+
+void ExpectApart(const std::vector<FleetRobot>& robots,
+                 const FleetAnswer& answer) {
+  ASSERT_TRUE(answer.IsSolved()) << answer.reason;
+  const CollisionOracle oracle(robots[0].world.workspace().robot,
+                               robots[0].world.workspace().robot);
+  int hits = 0;
+  for (std::size_t i = 0; i < robots.size(); ++i) {
+    const PathAnswer& own = answer.robots[i];
+    EXPECT_TRUE(own.is_solved);
+    EXPECT_EQ(own.motion.At(0.0).position, robots[i].request.start);
+    EXPECT_EQ(own.motion.At(answer.duration).position, robots[i].request.goal);
+    EXPECT_LE(own.motion.duration(), answer.duration);
+    EXPECT_TRUE(BoundLimitUse(own.motion, *robots[i].request.limits).IsKept());
+    for (std::size_t k = 0; k < i; ++k) {
+      for (int n = 0; n <= 10'000; ++n) {
+        const double t = answer.duration * n / 10'000;
+        hits += oracle.Collides(own.motion.At(t).position -
+                                answer.robots[k].motion.At(t).position);
+      }
+    }
+  }
+  EXPECT_EQ(hits, 0);
+}
+
+// Robots around a circle change places with those across it.
+std::vector<FleetRobot> Circle(int count) {
+  const double size = 2.0 + 0.4 * count;
+  const World world = Room({{-size, -size, -0.05}, {size, size, 0.05}});
+  std::vector<FleetRobot> robots;
+  const double radius = size - 0.5;
+  for (int i = 0; i < count; ++i) {
+    const double angle = 2.0 * 3.14159265358979 * i / count + 0.1;
+    const Vector3d at(radius * std::cos(angle), radius * std::sin(angle), 0.0);
+    robots.push_back(Robot("robot " + std::to_string(i), world, at, -at));
+  }
+  return robots;
+}
+
+TEST(Fleet, RobotsChangePlacesInARoom) {
+  for (const int count : {2, 4, 8}) {
+    SCOPED_TRACE(count);
+    const std::vector<FleetRobot> robots = Circle(count);
+    double alone = 0.0;
+    for (const FleetRobot& robot : robots) {
+      alone = std::max(alone,
+                       Optimize(robot.world, robot.request).motion.duration());
+    }
+    const FleetAnswer answer = OptimizeFleet(robots);
+    ExpectApart(robots, answer);
+    EXPECT_GE(answer.duration, 0.99 * alone);
+    EXPECT_LE(answer.duration, 2.5 * alone);
+  }
+}
+
+// The second one stands in the first one's way and has to leave before it
+// comes; the corridor has no room to pass.
+TEST(Fleet, GoesInAnotherOrderWhereTheFirstOneFails) {
+  const World world = Room({{-9, -0.02, -0.02}, {9, 0.02, 0.02}});
+  // The first would rest at 2, which is on the second's way to 6.
+  const std::vector<FleetRobot> robots = {
+      Robot("behind", world, {-3, 0, 0}, {2, 0, 0}),
+      Robot("ahead", world, {-1, 0, 0}, {6, 0, 0})};
+  const FleetAnswer answer = OptimizeFleet(robots);
+  ExpectApart(robots, answer);
+  const std::vector<FleetRobot> turned = {
+      Robot("left", world, {-6, 0, 0}, {6, 0, 0}),
+      Robot("right", world, {6, 0, 0}, {-6, 0, 0})};
+  const FleetAnswer none = OptimizeFleet(turned);
+  EXPECT_FALSE(none.IsSolved());
+  EXPECT_GE(none.tries, 2);
+  EXPECT_NE(none.reason.find("no motion was found"), std::string::npos)
+      << none.reason;
+}
+
+// One that stays is kept off, whatever the order.
+TEST(Fleet, KeepsOffRobotsThatStay) {
+  const World world = Room({{-6, -3, -0.05}, {6, 3, 0.05}});
+  const std::vector<FleetRobot> robots = {
+      Robot("moves", world, {-5, 0, 0}, {5, 0, 0}),
+      Robot("stays", world, {0, 0, 0}, {0, 0, 0})};
+  const FleetAnswer answer = OptimizeFleet(robots);
+  ExpectApart(robots, answer);
+  EXPECT_EQ(answer.order, (std::vector<std::size_t>{1, 0}));
+}
+
+TEST(Fleet, RefusesRobotsThatBeginOrEndInEachOther) {
+  const World world = Room({{-9, -9, -9}, {9, 9, 9}});
+  const auto message = [&](const Vector3d& start, const Vector3d& goal,
+                           const std::string& name) -> std::string {
+    try {
+      OptimizeFleet({Robot("one", world, {0, 0, 0}, {5, 0, 0}),
+                     Robot(name, world, start, goal)});
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_NE(message({0.5, 0, 0}, {0, 5, 0}, "two").find("at their starts"),
+            std::string::npos);
+  EXPECT_NE(message({0, 5, 0}, {5, 0.5, 0}, "two").find("at their goals"),
+            std::string::npos);
+  EXPECT_NE(message({0, 5, 0}, {0, 0, 5}, "one").find("\"one\" twice"),
+            std::string::npos);
+  EXPECT_EQ(world.Report().contact_spaces, 0);
+  FleetRobot slow = Robot("slow", world, {0, 0, 0}, {5, 0, 0});
+  slow.request.limits.reset();
+  EXPECT_THROW(OptimizeFleet({slow}), InputError);
+}
+
+}  // namespace
+}  // namespace phongpd

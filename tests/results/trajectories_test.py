@@ -1,0 +1,180 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The benchmark of motions in time (results/bench/trajectories_*.py): its closed
+forms, intervals and mazes by another route, and a slice of it from end to end."""
+import csv
+import math
+import pathlib
+import subprocess
+import sys
+from typing import NamedTuple
+
+import numpy as np
+import pytest
+
+SOURCE = pathlib.Path(__file__).resolve().parents[2]
+BENCH = SOURCE / "results" / "bench"
+sys.path.insert(0, str(BENCH))
+
+import trajectories_best as best  # noqa: E402
+import trajectories_bounds as bounds  # noqa: E402
+import trajectories_rows as rows  # noqa: E402
+import trajectories_statistics as statistics  # noqa: E402
+import trajectories_worlds as worlds  # noqa: E402
+
+
+def farthest(seconds, v, a, j, steps=40_000):
+    """How far a motion from rest to rest comes, by integration: it speeds up
+    for half of the time, as hard as it may and still ends without acceleration."""
+    step, speed, way, push = 0.5 * seconds / steps, 0.0, 0.0, 0.0
+    for k in range(steps):
+        left = 0.5 * seconds - (k + 1) * step
+        # Speed is gained by push^2 / 2j while the acceleration is taken back.
+        wanted = push + j * step
+        if wanted > a:
+            wanted = a
+        if speed + wanted * step + wanted * wanted / (2 * j) > v or wanted > j * left:
+            wanted = max(0.0, push - j * step)
+        speed += 0.5 * (push + wanted) * step
+        way += speed * step
+        push = wanted
+    return 2 * way
+
+
+@pytest.mark.parametrize("distance, v, a, j", [
+    (0.01, 1.0, 2.0, 8.0),   # jerk alone
+    (0.4, 1.0, 2.0, 8.0),    # acceleration, not velocity
+    (5.0, 1.0, 2.0, 8.0),    # all three
+    (5.0, 0.1, 2.0, 8.0),    # velocity before acceleration
+])
+def test_closed_form_of_rest_to_rest_is_what_integration_finds(distance, v, a, j):
+    seconds = bounds.rest_to_rest(distance, v, a, j)
+    assert farthest(seconds, v, a, j) == pytest.approx(distance, rel=2e-3)
+
+
+def test_closed_form_is_continuous_where_its_cases_meet():
+    v, a, j = 1.0, 2.0, 8.0
+    for edge in (2 * a ** 3 / j ** 2, v * (v / a + a / j)):
+        below, above = (bounds.rest_to_rest(edge * (1 + e), v, a, j)
+                        for e in (-1e-12, 1e-12))
+        assert below == pytest.approx(above, rel=1e-10)
+    assert bounds.rest_to_rest(0.0, v, a, j) == 0.0
+
+
+def test_bound_is_of_the_slowest_axis_or_of_the_line():
+    ends = (0.0, 0.0, 0.0), (3.0, -4.0, 0.0)
+    assert bounds.least_duration(*ends, (1, 2, 8), False) == \
+        bounds.rest_to_rest(4.0, 1, 2, 8)
+    assert bounds.least_duration(*ends, (1, 2, 8), True) == \
+        bounds.rest_to_rest(5.0, 1, 2, 8)
+
+
+def test_intervals_of_shares_are_the_published_ones():
+    assert statistics.share_interval(0, 10) == pytest.approx(
+        (0.0, 1 - 0.025 ** 0.1))
+    assert statistics.share_interval(10, 10) == pytest.approx((0.025 ** 0.1, 1.0))
+    assert statistics.share_interval(5, 10) == pytest.approx(
+        (0.18709, 0.81291), abs=1e-5)
+    # No sum of many terms falls out of range.
+    assert statistics.share_interval(600, 600)[0] == pytest.approx(
+        0.025 ** (1 / 600))
+
+
+def test_interval_of_a_median_draws_scenes_not_pairs():
+    assert statistics.median_interval([1.0] * 9 + [5.0] * 9,
+                                      ["a"] * 9 + ["b"] * 9) == (1.0, 5.0)
+
+
+def test_maze_lacks_one_wall_for_each_new_cell_and_those_opened():
+    n, opened = 12, 7
+    walls = worlds.maze_walls(n, opened, 4)
+    assert len(set(walls)) == len(walls) == 2 * n * (n - 1) - (n * n - 1) - opened
+    shut, reached, todo = {frozenset(w) for w in walls}, {(0, 0)}, [(0, 0)]
+    while todo:
+        x, y = todo.pop()
+        for cell in ((x + 1, y), (x - 1, y), (x, y + 1), (x, y - 1)):
+            if 0 <= cell[0] < n and 0 <= cell[1] < n and cell not in reached \
+                    and frozenset([(x, y), cell]) not in shut:
+                reached.add(cell)
+                todo.append(cell)
+    assert len(reached) == n * n
+    world = worlds.maze(n, opened, 4)
+    centres = {w: [(w[0][k] + w[1][k]) / 2 + 0.5 for k in (0, 1)] + [0.0]
+               for w in walls}
+    assert not world.is_free(list(centres.values())).any()
+    assert world.is_free([(x + 0.5, y + 0.5, 0.0)
+                          for x in range(n) for y in range(n)]).all()
+    gates = [((x + 0.5, y + 0.5, 0.0), (u + 0.5, v + 0.5, 0.0))
+             for x in range(n) for y in range(n)
+             for u, v in ((x + 1, y), (x, y + 1)) if u < n and v < n
+             and ((x, y), (u, v)) not in centres]
+    assert world.is_motion_free(*map(list, zip(*gates))).all()
+
+
+class One(NamedTuple):
+    key: str
+    scene: str = "s"
+    pair: int = 1
+
+
+def test_rows_go_on_where_they_were_and_errors_are_rows(tmp_path):
+    file, asked = tmp_path / "rows.jsonl", []
+
+    def measure(one):
+        asked.append(one.key)
+        if one.key == "b":
+            raise ValueError("two\nlines")
+        return {"key": one.key}
+
+    rows.fill(file, [One("a"), One("b")], measure)
+    with open(file, "a", encoding="utf-8") as opened:
+        opened.write('{"key": "c')  # killed while it wrote
+    found = rows.fill(file, [One("a"), One("b"), One("c")], measure)
+    assert asked == ["a", "b", "c"]
+    assert [row["key"] for row in found] == ["a", "b", "c"]
+    assert found[1]["error"] == "ValueError: two lines"
+    late = rows.fill(file, [One("d")], measure, deadline=1.0, clock=lambda: 2.0)
+    assert len(late) == 3
+
+
+def test_best_known_only_improves_by_what_is_free_and_keeps_all_limits(tmp_path):
+    def own(seconds, certified=True):
+        return [{"key": "k", "certified": certified, "duration": seconds}]
+
+    def peer(name, seconds, free=True, within=True):
+        return [{"key": "k", "answers": {name: {
+            "duration": seconds, "free": free, "within": within}}}]
+    best.improve(tmp_path, own(3.0), [])
+    best.improve(tmp_path, own(4.0), [])
+    best.improve(tmp_path, own(1.0, certified=False), [])
+    best.improve(tmp_path, [], peer("Drake KTO, path", 1.0, free=False))
+    best.improve(tmp_path, [], peer("Drake KTO, path", 1.0, within=False))
+    best.improve(tmp_path, [], peer("TOPP-RA", 1.0))
+    assert best.read(tmp_path) == {"k": (3.0, "PhongPD")}
+    best.improve(tmp_path, [], peer("Drake KTO, path", 2.5))
+    assert best.read(tmp_path) == {"k": (2.5, "Drake KTO, path")}
+
+
+def test_a_slice_runs_from_end_to_end_and_goes_on(tmp_path):
+    command = [sys.executable, "-B", str(BENCH / "trajectories_benchmark.py"),
+               "--tiny", "--output", str(tmp_path / "out"), "--rows",
+               str(tmp_path / "rows")]
+    for _ in range(2):
+        subprocess.run(command, check=True, capture_output=True)
+    with open(tmp_path / "out" / "own.csv", newline="", encoding="utf-8") as file:
+        found = list(csv.DictReader(file))
+    assert len(found) == 6
+    for row in found:
+        assert row["certified"] == "True", row
+        assert row["exact hits"] == "0" and row["FCL hits"] in ("0", "")
+        assert float(row["limit used, proved"]) <= 1.0
+        least, most = float(row["lower bound"]), float(row["stops"])
+        assert least <= float(row["duration"]) < most < math.inf
+    with open(tmp_path / "out" / "peers.csv", newline="", encoding="utf-8") as file:
+        peers = {row["by"]: row for row in csv.DictReader(file)}
+    assert peers["PhongPD"]["free"] == "True"
+    # Here or not, each peer is told.
+    assert {"Ruckig, stops", "TOPP-RA", "OMPL + TOPP-RA", "Drake KTO, line",
+            "Drake KTO, path"} <= set(peers)
+    text = (tmp_path / "out" / "README.md").read_text(encoding="utf-8")
+    assert "Certified: 6 of 6 motions" in text
+    assert np.isfinite(best.read(tmp_path / "out")["u_axis|1|axis"][0])

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "constraints/rigid/rigid_motion.h"
+#include "core/mesh/triangle_mesh.h"
+
+// What the judge of rigid motions is compared with: meshes in place by another
+// route than quaternions, and whether they meet there, in CGAL's exact kernel.
+namespace phongpd::testing {
+
+// The mesh at R(t) p + q(t), in long doubles by the formula of Rodrigues.
+TriangleMesh PlacedMesh(TriangleMesh mesh, const RigidMotion& motion, double t);
+
+// Do triangle i of a and j of b share a point?  One without area shares none.
+bool MeetExactly(const TriangleMesh& a, int i, const TriangleMesh& b, int j);
+
+// Do the surfaces, every pair of triangles whose boxes meet?
+bool MeetExactly(const TriangleMesh& a, const TriangleMesh& b);
+
+}  // namespace phongpd::testing
