@@ -21,6 +21,11 @@ constexpr double kNoDirection = 1e-24;
 // Of corners that a meeting must stand, in slacks.
 constexpr double kFirmSlacks = 8.0;
 
+// |n × u| of unit vectors by n · u, rounded up.
+double Across(double along) {
+  return std::sqrt(std::max(0.0, 1.0 - along * along) + kRoundedSquare);
+}
+
 // The certificate (2) of a pair of triangles, direction by direction.
 class DirectionSearch {
  public:
@@ -227,6 +232,10 @@ FramedMotion::FramedMotion(const RigidMotion& motion, const RigidFrame& frame,
       distance_(moved_.norm()) {
   const Vector3d end = (motion.end().position - frame.center) * frame.scale;
   size_ = robot_reach + obstacle_reach + std::max(position_.norm(), end.norm());
+  for (int k = 0; k < 3; ++k) {
+    across_axes_[k] = Across(axis_[k]);
+    across_body_axes_[k] = Across(body_axis_[k]);
+  }
   slack_ = kRigidSlack * size_ * (1.0 + angle_) * (1.0 + angle_);
 }
 
@@ -252,8 +261,7 @@ double FramedMotion::FromAxis(const Vector3d& p) const {
 }
 
 double FramedMotion::AcrossAxis(const Vector3d& n) const {
-  const double along = n.dot(axis_);
-  return std::sqrt(std::max(0.0, 1.0 - along * along) + kRoundedSquare);
+  return Across(n.dot(axis_));
 }
 
 PairSight LookAtBoxes(const FramedMotion& motion, const RigidPose& middle,
@@ -277,14 +285,11 @@ PairSight LookAtBoxes(const FramedMotion& motion, const RigidPose& middle,
   const Vector3d speed = motion.moved() + motion.turn().cross(arm);
   const Vector3d body_speed = r.transpose() * speed;
   const double bend = h * theta * (robot.radius + 0.5 * h * theta * reach);
+  const Vector3d g_needed = h * speed.cwiseAbs() + bend * motion.across_axes();
+  const Vector3d k_needed =
+      h * body_speed.cwiseAbs() + bend * motion.across_body_axes();
   for (int i = 0; i < 3; ++i) {
-    const auto across = [&](double along) {
-      return bend *
-             std::sqrt(std::max(0.0, 1.0 - along * along) + kRoundedSquare);
-    };
-    if (g[i] - slack > h * std::abs(speed[i]) + across(motion.axis()[i]) ||
-        k[i] - slack >
-            h * std::abs(body_speed[i]) + across(motion.body_axis()[i])) {
+    if (g[i] - slack > g_needed[i] || k[i] - slack > k_needed[i]) {
       return PairSight::kApart;
     }
   }

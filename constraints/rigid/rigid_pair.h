@@ -65,6 +65,9 @@ class FramedMotion {
   const Eigen::Vector3d& turn() const { return turn_; }            // ω
   double angle() const { return angle_; }                          // θ
   const Eigen::Vector3d& body_axis() const { return body_axis_; }  // R_aᵀ u
+  // |n × u| of the axes of the obstacles' boxes and of the robot's, rounded up.
+  const Eigen::Vector3d& across_axes() const { return across_axes_; }
+  const Eigen::Vector3d& across_body_axes() const { return across_body_axes_; }
   double slack() const { return slack_; }
   double size() const { return size_; }  // S
 
@@ -76,6 +79,7 @@ class FramedMotion {
  private:
   Eigen::Quaterniond start_;
   Eigen::Vector3d position_, moved_, axis_, turn_, body_axis_;
+  Eigen::Vector3d across_axes_, across_body_axes_;
   double angle_, distance_, size_, slack_;
 };
 
