@@ -174,7 +174,8 @@ if [[ $suite == trajectories || $suite == all ]]; then
   rows=build/trajectories/$(git rev-parse HEAD)
   OPENBLAS_NUM_THREADS=1 PYTHONPATH=$PWD/build/python "$venv/bin/python" \
     results/bench/trajectories_benchmark.py --output results/trajectories \
-    --rows "$rows" --how "scripts/bench.sh trajectories"
+    --rows "$rows" --how "scripts/bench.sh trajectories" \
+    --commit "$(git rev-parse --short HEAD)"
 fi
 if [[ $suite == python || $suite == all ]]; then
   scripts/python.sh

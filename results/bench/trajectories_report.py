@@ -21,7 +21,7 @@ NOT_RUN = """\
 
 - Drake's graphs of convex sets: they limit velocities alone, and need regions of
   free space first, which take minutes a scene.
-- MINCO-like optimisers: no package of Python's registry has one.
+- MINCO-like optimisers: no wheel of one was found.
 - Buildings for flying robots: not rebuilt yet.
 - `maze50` has the published maze's size, seed and count of removed walls, the
   forests have the published sizes, counts and radii; the walls and trees
@@ -112,6 +112,9 @@ def _wins(lines):
         if v["version"] == "not installed" or v["by"].startswith(duels.OWN):
             continue
         n = v["free and in limits"]
+        if v["CPU s, median"] != v["CPU s, median"]:  # it threw everywhere
+            yield f"- {v['by']}, {v['note']}: no answer."
+            continue
         yield (f"- {v['by']}, {v['note']}: free and in limits in {n} of "
                f"{v['pairs']} pairs; of those PhongPD is faster in "
                f"{v['PhongPD faster']}, the peer in {v['peer faster']}. It says "
@@ -140,11 +143,11 @@ def _tables(folder, own_rows, peer_rows, best):
     where = write_tables(folder, "Motions in time", [
         ("summary.csv", "What all motions say", own.HEADER, lines,
          "Shares: interval by Clopper and Pearson. Medians: bootstrap over "
-         "scenes."),
+         "scenes, over pairs where there is one scene."),
         ("scenes.csv", "By scene", own.SCENES_HEADER, own.by_scene(own_rows),
          "Lower bound: the slowest axis alone (by norm: the straight line), no "
          "obstacles, in closed form. Stops: at rest in every corner of the "
-         "same path. Margin: the default, 0.01 D, where there is room."),
+         "same path, one quintic a segment, slower than Ruckig's. Margin: the default, 0.01 D, where there is room."),
         ("peers_summary.csv", "Peers", duels.SUMMARY_HEADER, beside,
          f"Limits by axis; margin {MARGIN:g} D for PhongPD and Drake; wide is "
          f"beside PhongPD's default, {WIDE:g} D for both. Ratios of what is "
@@ -179,7 +182,7 @@ def _about_peers(rows):
         f"same where there is room; {MARGIN:g} D else.")
 
 
-def write_report(folder, how, own_rows, peer_rows, packages):
+def write_report(folder, how, commit, own_rows, peer_rows, packages):
     folder.mkdir(parents=True, exist_ok=True)
     best = trajectories_best.improve(folder, own_rows, peer_rows)
     lines, beside, where = _tables(folder, own_rows, peer_rows, best)
@@ -202,5 +205,6 @@ def write_report(folder, how, own_rows, peer_rows, packages):
         "Each motion: [own.csv](own.csv), [peers.csv](peers.csv).", "",
         f"Command: {how}. Date: {datetime.date.today()}. Seeds: pairs 1 to 6 of "
         f"families, 1 of forests, 4 of the maze. Machine: {machine()}, shared. "
-        f"Versions: PhongPD {phongpd.__version__}, {versions(*packages)}.", ""]
+        f"Versions: PhongPD {phongpd.__version__} of commit {commit}, "
+        f"{versions(*packages)}.", ""]
     (folder / "README.md").write_text("\n".join(text), encoding="utf-8")
