@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # bench.sh [paper|queries|contact-space|lazy|convergence|pipeline|planning|
 # extremes|peers|trajectories|cluster|python|trade|slice|all]: regenerates the
-# tables and figures of results/.  continuity is a part of queries, retraction and widths are
-# parts of planning.  slice makes some published rows anew and compares them
-# (results/reproduction.md); it is no part of all.
+# tables and figures of results/.  continuity is a part of queries, retraction and
+# widths are parts of planning.  slice makes some published rows anew and compares
+# them (results/reproduction.md); it is no part of all.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 # The user's own cache is neither used nor filled.
@@ -13,12 +13,13 @@ export PHONGPD_CACHE_DIR=$PWD/build/cache
 suite=${1:-all}
 case $suite in
   paper | queries | contact-space | lazy | convergence | pipeline | planning | \
-    extremes | peers | trajectories | cluster | python | trade | continuity | retraction | \
-    widths | slice | all) ;;
+    extremes | peers | trajectories | cluster | python | trade | continuity | \
+    retraction | widths | slice | all) ;;
   *)
     echo "bench: expected paper, queries, contact-space, lazy," \
       "convergence, pipeline, planning, extremes, peers, trajectories," \
-      "cluster, python, trade, continuity, retraction, widths, slice or all, found $suite" >&2
+      "cluster, python, trade, continuity, retraction, widths, slice or all," \
+      "found $suite" >&2
     exit 2
     ;;
 esac
@@ -174,7 +175,8 @@ if [[ $suite == trajectories || $suite == all ]]; then
   rows=build/trajectories/$(git rev-parse HEAD)
   OPENBLAS_NUM_THREADS=1 PYTHONPATH=$PWD/build/python "$venv/bin/python" \
     results/bench/trajectories_benchmark.py --output results/trajectories \
-    --rows "$rows" --how "scripts/bench.sh trajectories"
+    --rows "$rows" --how "scripts/bench.sh trajectories" \
+    --commit "$(git rev-parse --short HEAD)"
 fi
 if [[ $suite == python || $suite == all ]]; then
   scripts/python.sh

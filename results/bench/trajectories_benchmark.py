@@ -30,6 +30,8 @@ def main():
                         help="nothing new begins after so many")
     parser.add_argument("--how", default="results/bench/trajectories_benchmark.py",
                         help="the command that README.md names")
+    parser.add_argument("--commit", default="unknown",
+                        help="that PhongPD was built of, for README.md")
     arguments = parser.parse_args()
     deadline = (None if arguments.minutes is None
                 else time.monotonic() + 60 * arguments.minutes)
@@ -46,7 +48,7 @@ def main():
                           trajectories_beside.measure, deadline, time.monotonic)
         print(f"peers measured on {len(found)} pairs", flush=True)
     if arguments.part in ("report", "all"):
-        write_report(arguments.output, arguments.how,
+        write_report(arguments.output, arguments.how, arguments.commit,
                      rows.read(arguments.rows / "own.jsonl"),
                      rows.read(arguments.rows / "peers.jsonl"),
                      [p for p in PACKAGES if version(p)])

@@ -8,7 +8,7 @@ from trajectories_best import is_valid
 from trajectories_peers import PEERS
 from trajectories_statistics import median_interval
 
-OWN = "PhongPD"
+OWN, PATH, WIDE = "PhongPD", "Drake KTO, path", "Drake KTO, path, wide"
 TIE = 1e-3  # of the duration
 HEADER = ["scene", "pair", "by", "says solved", "duration", "free", "in limits",
           "duration / PhongPD", "velocity used", "acceleration used",
@@ -27,13 +27,24 @@ def version(package):
         return None
 
 
-def table(rows):
+def _beside(name, row, default):
+    """PhongPD's seconds with the same margin."""
+    if name == WIDE and row["key"] in default:
+        return default[row["key"]]
+    return row["answers"][OWN]["duration"]
+
+
+def with_default_margin(own_rows):
+    """Seconds by key."""
+    return {r["key"]: r["duration"] for r in own_rows if r.get("certified")}
+
+
+def table(rows, default):
     lines = []
     for row in rows:
         if "error" in row:
             lines.append((row["scene"], row["pair"], OWN, *["-"] * 9,
                           row["error"]))
-        mine = row.get("answers", {}).get(OWN, {}).get("duration")
         for name, a in row.get("answers", {}).items():
             if "error" in a:
                 lines.append((row["scene"], row["pair"], name, *["-"] * 9,
@@ -42,23 +53,25 @@ def table(rows):
             used = ["-" if u is None else u for u in a.get("used", [None] * 3)]
             lines.append((row["scene"], row["pair"], name, a["says"],
                           a["duration"], a["free"], a["within"],
-                          a["duration"] / mine, *used, a["cpu"], ""))
+                          a["duration"] / _beside(name, row, default), *used,
+                          a["cpu"], ""))
     return lines
 
 
-def summary(rows):
+def summary(rows, default):
     rows = [row for row in rows if "answers" in row]
     known = [(OWN, None, "certified for all t"),
              (f"{OWN}, tight", None, "preset tight, 8 routes: for best_known.csv")]
     known += [(name, package, note) for name, package, _, note in PEERS]
-    return [_line(name, package, note, rows) for name, package, note in known]
+    return [_line(name, package, note, rows, default)
+            for name, package, note in known]
 
 
-def _line(name, package, note, rows):
+def _line(name, package, note, rows, default):
     of = phongpd.__version__ if package is None else version(package)
     if of is None:
         return (name, "not installed", *["-"] * 15, "its wheel did not install")
-    pairs = [(r["answers"][name], r["answers"][OWN]["duration"], r["scene"])
+    pairs = [(r["answers"][name], _beside(name, r, default), r["scene"])
              for r in rows if name in r["answers"]]
     good = [(a["duration"] / mine, scene) for a, mine, scene in pairs
             if is_valid(a)]
@@ -78,14 +91,14 @@ def _line(name, package, note, rows):
                             [float("nan")])), note)
 
 
-def kto_line(rows):
-    """Where Drake's answer from our path is free and in limits: pairs, and the
-    most by which PhongPD takes longer, %."""
-    worse = [100 * (r["answers"][OWN]["duration"]
-                    / r["answers"]["Drake KTO, path"]["duration"] - 1)
-             for r in rows
-             if is_valid(r.get("answers", {}).get("Drake KTO, path", {}))]
-    return len(worse), max(worse, default=0.0), sum(w > 1 for w in worse)
+def longer(name, rows, default):
+    """Where a peer's answer is free and in limits: how many, and by how much
+    PhongPD takes longer, %, most first."""
+    return sorted((100 * (_beside(name, r, default)
+                          / r["answers"][name]["duration"] - 1)
+                   for r in rows
+                   if is_valid(r.get("answers", {}).get(name, {}))),
+                  reverse=True)
 
 
 def errors(rows):

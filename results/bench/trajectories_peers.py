@@ -191,4 +191,4 @@ PEERS = [
     ("Drake KTO, line", "drake", drake_line, "begins with the straight line"),
     ("Drake KTO, path", "drake", drake_path, "begins with our path"),
     ("Drake KTO, path, wide", "drake", drake_wide,
-     f"the same with a margin of {WIDE:g} D at its samples")]
+     f"the same, with a margin of {WIDE:g} D at its samples")]

@@ -35,11 +35,14 @@ def share_interval(k, n):
 
 
 def median_interval(values, scenes):
-    """Of values, one for each entry of scenes, which are drawn as a whole."""
+    """Of values, one for each entry of scenes, which are drawn as a whole; where
+    there is one alone, its values are."""
     by_scene = {}
     for value, scene in zip(values, scenes):
         by_scene.setdefault(scene, []).append(value)
     groups = [np.array(group) for group in by_scene.values()]
+    if len(groups) == 1:
+        groups = [np.array([value]) for value in groups[0]]
     chance = np.random.default_rng(SEED)
     medians = [np.median(np.concatenate(
         [groups[k] for k in chance.integers(len(groups), size=len(groups))]))

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What the rows of PhongPD's motions say, in one table: summary.csv."""
 import numpy as np
+from trajectories_best import is_valid
 from trajectories_statistics import median_interval, share_interval
 
 HEADER = ["of", "set", "value", "low", "high", "n", "aim", "met"]
@@ -58,6 +59,11 @@ def _beside_best(peer_rows, best):
     yield _median("above best known, %", "where peers ran", rows, above, 1.0)
     yield _share("at most 3 % above best known", "where peers ran",
                  sum(above(r) <= 3 for r in rows), len(rows), 0.95)
+    stops = [r for r in rows
+             if is_valid(r["answers"].get("Ruckig, stops", {}))]
+    yield _median("Ruckig's stops at corners / motion", "where peers ran", stops,
+                  lambda r: (r["answers"]["Ruckig, stops"]["duration"]
+                             / r["answers"]["PhongPD"]["duration"]), least=1.4)
 
 
 def summary(rows, peer_rows, best):
@@ -83,9 +89,8 @@ def summary(rows, peer_rows, best):
     for by in ("axis", "norm"):
         lines.append(_median("above the lower bound, %", f"all, by {by}", [
             r for r in there if r["by"] == by], _above_least))
-    lines.append(_median("stops at corners / motion", "all", there,
-                         lambda r: r["stops_duration"] / r["duration"],
-                         least=1.4))
+    lines.append(_median("own stops at corners / motion", "all", there,
+                         lambda r: r["stops_duration"] / r["duration"]))
     usual = [r for r in there if _family(r) not in (*LARGE, "maze50")]
     lines.append(_median("CPU ms, plan and first", "all but the large", usual,
                          lambda r: r["cpu_first"], 20.0, 1e3))

@@ -82,6 +82,8 @@ def test_intervals_of_shares_are_the_published_ones():
 def test_interval_of_a_median_draws_scenes_not_pairs():
     assert statistics.median_interval([1.0] * 9 + [5.0] * 9,
                                       ["a"] * 9 + ["b"] * 9) == (1.0, 5.0)
+    low, high = statistics.median_interval(list(range(101)), ["a"] * 101)
+    assert 35 <= low < 50 < high <= 65  # 50 +- 1.96 * 101 / (2 sqrt(101))
 
 
 def test_maze_lacks_one_wall_for_each_new_cell_and_those_opened():
