@@ -103,6 +103,16 @@ class Trajectory {
   std::vector<double> times_;  // when each ends
 };
 
+// How a motion begins or ends; at rest unless said.
+struct CurveEnd {
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();
+  Eigen::Vector3d acceleration = Eigen::Vector3d::Zero();
+
+  bool IsAtRest() const {
+    return velocity.isZero(0.0) && acceleration.isZero(0.0);
+  }
+};
+
 // What a machine can do, of each axis or of the norm.
 struct MotionLimits {
   Eigen::Vector3d velocity = Eigen::Vector3d::Constant(kNone);

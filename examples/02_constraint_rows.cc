@@ -22,16 +22,16 @@ int main(int argc, char** argv) {
   const int n = rows.variables();
   MatrixXd L = 2.0 * MatrixXd::Identity(n, n);
   L.diagonal(3).setConstant(-1.0), L.diagonal(-3).setConstant(-1.0);
-  VectorXd b = VectorXd::Zero(n), g(rows.rows());
+  VectorXd b = VectorXd::Zero(n), g;
   b.head<3>() = start, b.tail<3>() = goal;
   VectorXd u = rows.StraightLine();
-  rows.Values(u, g);
+  rows.Values(u, &g);
   std::cout << "straight: d >= " << g.minCoeff() << '\n';
   // Σ |p_{i+1} − p_i|² + weight · Σ max(0, margin − d)², d taken as linear.
   constexpr double kWeight = 1e4;
   Eigen::SparseMatrix<double> jacobian;
   for (int k = 0; k < 60; ++k) {
-    rows.Values(u, g);
+    rows.Values(u, &g);
     rows.Jacobian(u, &jacobian);
     const VectorXd r = (rows.lower() - g).cwiseMax(0.0);
     const MatrixXd J =
@@ -41,10 +41,8 @@ int main(int argc, char** argv) {
     u += 0.5 * (L + Jt * J).ldlt().solve(b - L * u + Jt * r);
     rows.Accept(u);  // branches follow what is taken
   }
-  rows.Values(u, g);
+  rows.Values(u, &g);
   // The judge has the last word: whole segments, exactly.
-  const FreeSpace& space = *world.Spaces(SpaceLayout::kMerged).free_space;
   std::cout << "solved: d >= " << g.minCoeff()
-            << (CheckPath(space, rows.PathOf(u)).free ? ", free\n"
-                                                      : ", hits\n");
+            << (world.IsFree(rows.Path(u)) ? ", free\n" : ", hits\n");
 }

@@ -29,7 +29,7 @@ readonly all=(format options clang cppcheck tidy fptrap determinism readme docs
 # docs.
 readonly quick=(format options clang cppcheck tidy fptrap determinism readme
   fuzz asan)
-readonly folders=(core constraints planners problems)
+readonly folders=(files core constraints planners problems viewer)
 # Whole test programs that reach every folder below the program and build fast.
 readonly slice=(
   collision_oracle_test non_penetration_test signed_metric_test
@@ -120,8 +120,8 @@ check_format() {
 
 check_options() {
   local log=build/check/options.log part
-  local parts=(CORE CONSTRAINTS ORACLE PLANNERS IPOPT OMPL SOLVE PROBLEMS STUDIES
-    PROGRAM EXAMPLES TESTS RESULTS)
+  local parts=(CORE CONSTRAINTS ORACLE PLANNERS IPOPT OMPL SOLVE SHAPES PROBLEMS
+    STUDIES VIEWER PROGRAM EXAMPLES TESTS RESULTS)
   configures() { # MESSAGE OPTION...
     say "options ${*:2}"
     rm -rf build/check/options
@@ -133,7 +133,9 @@ check_options() {
   local -A above=([CORE]=phongpd::constraints [CONSTRAINTS]=phongpd::planners
     [ORACLE]=phongpd::studies [PLANNERS]=phongpd::ipopt
     [IPOPT]=phongpd::solve [OMPL]=phongpd::solve
-    [SOLVE]=phongpd::studies [PROBLEMS]=phongpd::studies [STUDIES]="the program"
+    [SOLVE]=phongpd::studies [SHAPES]=phongpd::problems
+    [PROBLEMS]=phongpd::studies [STUDIES]="the program"
+    [VIEWER]="the program"
     [PROGRAM]="the tests")
   local none=()
   for part in "${parts[@]}"; do
@@ -179,7 +181,7 @@ check_clang() {
   if whole; then PRESET=clang scripts/build.sh all benchmarks; return; fi
   local list=build/check/clang.commands count
   compile_commands -DCMAKE_DISABLE_PRECOMPILE_HEADERS=OFF \
-    problems/cli problems/CMakeFiles/phongpd.dir tests results examples |
+    problems/cli tests results examples |
     awk '!seen[$NF]++' |
     grep -vE "/($(IFS='|' && echo "${sanitized[*]}"))[.]cc$" >"$list.all"
   each() { (cd build-clang && tr '\n' '\0' |
@@ -289,14 +291,14 @@ check_coverage() {
   find build-coverage -name '*.gcda' -delete
   run_tests coverage
   gcovr --root . --object-directory build-coverage --exclude-throw-branches \
-    --filter '(core|constraints|planners)/' --csv build/check/coverage.csv
+    --filter '(files|core|constraints|planners)/' --csv build/check/coverage.csv
   mkdir -p results/extremes
   {
     # Headers once: not again by the link that users include them through.
     grep -v '^build-coverage/' build/check/coverage.csv |
       awk -F, -v slice="$SLICE" -f scripts/coverage.awk
     # From where they were compiled: paths may be relative to that.
-    for folder in core constraints planners planners/trajectory planners/solve; do
+    for folder in files core constraints planners planners/trajectory planners/solve; do
       (cd "build-coverage/$folder" && find CMakeFiles -name '*.gcda' | sort |
         xargs gcov --stdout --branch-probabilities --branch-counts \
           --demangled-names --relative-only --source-prefix "$OLDPWD" \
@@ -318,7 +320,7 @@ check_asan() {
 # project that links it runs where it was installed.
 check_shared() {
   local none=() part place=$PWD/build/check/shared minor
-  for part in ORACLE IPOPT OMPL SOLVE PROBLEMS PROGRAM EXAMPLES TESTS RESULTS; do
+  for part in ORACLE IPOPT OMPL SOLVE PROBLEMS VIEWER PROGRAM EXAMPLES TESTS RESULTS; do
     none+=("-DPHONGPD_BUILD_$part=OFF")
   done
   cmake -S . -B build-shared -D BUILD_SHARED_LIBS=ON "${none[@]}"

@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Sets up, builds what it needs and shows in build/demo/: the paper's three
-# benchmarks, a trajectory out of a trap with both metrics, and a path through
-# a narrow passage beside the proof that its closed twin has none.
+# benchmarks, a trajectory out of a trap with both metrics, one that a gantry
+# runs, and a path through a narrow passage beside the proof that its closed twin
+# has none.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 # The user's own cache is neither used nor filled.
@@ -58,6 +59,12 @@ more optimize u_axis --output "$demo/trap_pipeline.jsonl" \
   --svg "$demo/trap_pipeline.svg" | with_mu adaptive | note trap
 run view "$demo/trap_euclidean.jsonl" "$demo/trap_phong.jsonl" \
   "$demo/trap_pipeline.jsonl" --build --html "$demo/trap.html" >/dev/null
+
+echo
+echo "A gantry's trajectory, in millimetres, within its limits, by way of a camera:"
+run optimize examples/gantry.json --output "$demo/gantry.json" \
+  --html "$demo/gantry.html" | note gantry
+run optimize examples/gantry.json --rate 250 --output "$demo/gantry.csv" >/dev/null
 
 echo
 echo "A passage one thousandth wide, and the same closed by a ten-thousandth:"

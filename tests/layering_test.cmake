@@ -1,8 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # cmake -D SOURCE=... -P layering_test.cmake: who may include whom.
-#   core <- constraints <- planners <- problems <- tests, results, examples
+#   files <- core <- constraints <- planners <- problems <- tests, results,
+#     examples
+#   core <- problems/shapes
+#   problems/{scenes, output} <- viewer <- problems/cli
 #   core <- constraints/oracle <- problems/studies
-#   core: files, mesh <- bvh <- solid <- bounds <- minkowski <- contact
+#   core: mesh <- bvh <- solid <- bounds <- minkowski <- contact
 #     <- projection
 #   core/minkowski: operands <- convolution <- arrangement <- cells <- windows
 cmake_minimum_required(VERSION 3.23)
@@ -27,7 +30,9 @@ function(forbid folder forbidden)
   set(failures ${failures} PARENT_SCOPE)
 endfunction()
 
-forbid(core "(constraints|planners|problems|tests|results)/")
+forbid(files "(core|constraints|planners|problems|viewer|tests|results)/")
+forbid(files "(CGAL|Eigen|boost|tbb|oneapi|fcl|ompl|CLI|nlohmann|coin)/")
+forbid(core "(constraints|planners|problems|viewer|tests|results)/")
 forbid(core "(fcl|ompl|CLI|nlohmann|coin)/|Ip[A-Z]")
 set(floors mesh bvh solid bounds minkowski contact projection)
 while(floors)
@@ -35,7 +40,6 @@ while(floors)
   list(JOIN floors "|" above)
   if(above)
     forbid(core/${floor} "core/(${above})/")
-    forbid(core/files "core/(${floor}|${above})/")
   endif()
 endwhile()
 set(stages operands convolution arrangement cells windows)
@@ -46,15 +50,22 @@ while(stages)
     forbid(core/minkowski/${stage} "core/minkowski/(${later})/")
   endif()
 endwhile()
-forbid(constraints "(planners|problems|tests|results)/")
+forbid(constraints "(planners|problems|viewer|tests|results)/")
 forbid(constraints/oracle "constraints/[a-z_]+\\.h")
 # Planners and worlds, and who wants only these, do without FCL.
 forbid(planners "constraints/oracle/")
 foreach(folder meshes output scenes shapes)
   forbid(problems/${folder} "constraints/oracle/")
 endforeach()
-forbid(planners "(problems|tests|results)/")
+forbid(planners "(problems|viewer|tests|results)/")
+forbid(problems/shapes "(constraints|planners)/|problems/[^s]|nlohmann/")
+forbid(problems/shapes "problems/s[^h]")
+foreach(folder meshes output scenes shapes studies)
+  forbid(problems/${folder} "(viewer|problems/cli)/")
+endforeach()
 forbid(problems "(tests|results|examples)/")
+forbid(viewer "(constraints/oracle|tests|results|examples)/")
+forbid(viewer "problems/(cli|meshes|shapes|studies)/")
 forbid(examples "(tests|results)/")
 
 # Worlds are what planners plan in; each kind of planner is by itself, and solve
@@ -100,7 +111,7 @@ endforeach()
 
 # One file knows FCL; anybody may ask for its version.
 file(GLOB_RECURSE files ${SOURCE}/constraints/* ${SOURCE}/problems/*
-     ${SOURCE}/tests/*.cc ${SOURCE}/results/*.cc)
+     ${SOURCE}/viewer/* ${SOURCE}/tests/*.cc ${SOURCE}/results/*.cc)
 foreach(file IN LISTS files)
   if(NOT file MATCHES "\\.(h|cc)$" OR file MATCHES "/fcl_surfaces\\.cc$")
     continue()
@@ -128,13 +139,13 @@ function(known_to knowers pattern folders)
 endfunction()
 
 # What Assimp reads it reads in another process.
-known_to("/assimp_mesh[.]cc$" "assimp/" "problems;tests;results")
+known_to("/assimp_mesh[.]cc$" "assimp/" "problems;viewer;tests;results")
 # The options' test asks Ipopt itself which there are.
 known_to("ipopt_(solve|options|options_test)[.]cc$" "Ip[A-Z]"
-         "constraints;planners;problems;tests;results")
+         "constraints;planners;problems;viewer;tests;results")
 # OMPL belongs to planners/ompl; programs that measure may use it too.
 foreach(folder constraints planners/world planners/exact planners/retraction
-        planners/trajectory problems)
+        planners/trajectory problems viewer)
   forbid(${folder} "ompl/")
 endforeach()
 file(STRINGS ${SOURCE}/planners/ompl/ompl_planning.h includes
@@ -153,7 +164,8 @@ foreach(file IN LISTS files)
 endforeach()
 
 # Every source names its licence.
-foreach(folder core constraints planners problems tests results examples)
+foreach(folder files core constraints planners problems viewer tests results
+        examples)
   file(GLOB_RECURSE files ${SOURCE}/${folder}/*.h ${SOURCE}/${folder}/*.cc)
   foreach(file IN LISTS files)
     file(STRINGS ${file} first LIMIT_COUNT 1)

@@ -18,10 +18,10 @@
 #include "core/contact/byte_stream.h"
 #include "core/contact/contact_space_bytes.h"
 #include "core/contact/content_hash.h"
-#include "core/files/descriptor.h"
-#include "core/files/temporary_file.h"
 #include "core/mesh/mesh_error.h"
 #include "core/minkowski/operands/operand.h"
+#include "files/descriptor.h"
+#include "files/temporary_file.h"
 
 namespace phongpd {
 namespace {

@@ -28,7 +28,7 @@ TrajectoryProblem SettingsOf(const World& world,
   problem.goal = request.goal;
   problem.waypoints = request.waypoints;
   problem.samples_per_segment = request.samples_per_segment;
-  problem.margin = world.Resolve(internal::MarginOf(request)).share;
+  problem.margin = world.Resolve(request.Margin()).share;
   problem.max_segment_ratio = request.max_segment_ratio;
   return problem;
 }
@@ -127,7 +127,7 @@ void OptimizePolyline(const World& world, const OptimizeRequest& request,
 }
 
 internal::ClearanceWish WishOf(const OptimizeRequest& request) {
-  return {"margin", internal::MarginOf(request), request.margin.has_value(),
+  return {"margin", request.Margin(), request.margin.has_value(),
           request.requires_margin};
 }
 
@@ -145,18 +145,14 @@ void FinishOptimize(const World& world, const OptimizeRequest& request,
 }  // namespace
 
 void OptimizeRequest::Validate(const World& world) const {
-  RequireLength(internal::MarginOf(*this), LengthRange::kAboveZero,
-                world.diagonal(), "margin", world.workspace().unit);
+  RequireLength(Margin(), LengthRange::kAboveZero, world.diagonal(), "margin",
+                world.workspace().unit);
   internal::RequireMovingRequest(world, *this);
   if (limits) {
     internal::CurveOptionsOf(world, *this).Validate();
   } else {
     RequirePolyline(world, *this);
   }
-}
-
-Length internal::MarginOf(const OptimizeRequest& request) {
-  return request.margin.value_or(OptimizeRequest::Margin());
 }
 
 void ApplyPreset(Preset preset, OptimizeRequest* request) {

@@ -30,7 +30,7 @@ struct OptimizeRequest {
   Eigen::Vector3d start = Eigen::Vector3d::Zero();
   Eigen::Vector3d goal = Eigen::Vector3d::Zero();
   Model model = Model::kAuto;
-  // Distance kept where there is room, in (0, D]; none: Margin().
+  // Distance kept where there is room, in (0, D]; none: DefaultMargin().
   std::optional<Length> margin{};
   bool requires_margin = false;  // less is no answer
   Preset preset = Preset::kBalanced;
@@ -51,7 +51,7 @@ struct OptimizeRequest {
   std::optional<OwnMetric> own_metric{};  // in place of penetration.metric
   int waypoints = 40;
   int samples_per_segment = 0;  // 0: by the Lipschitz rule
-  double max_segment_ratio = 1.6;
+  double max_segment_ratio = kMaxSegmentRatio;
   bool is_per_obstacle = false;  // a contact space each instead of one for all
   double search_time = 5.0;      // seconds of each search of kWindow
   // Its time_limit and routes hold for motions as well.
@@ -59,7 +59,8 @@ struct OptimizeRequest {
 
   bool verifies = true;  // on the original solids as well (verification.h)
 
-  static Length Margin() { return Length::FromShare(0.01); }
+  // The margin that holds.
+  Length Margin() const { return margin.value_or(DefaultMargin()); }
   // What Optimize refuses in that world before it builds anything: throws
   // InputError.
   void Validate(const World& world) const;

@@ -114,7 +114,7 @@ PlanRequest LegRequest(const OptimizeRequest& request, const Vector3d& start,
   leg.start = start;
   leg.goal = goal;
   leg.model = request.model;
-  leg.clearance = MarginOf(request);
+  leg.clearance = request.Margin();
   leg.preset = request.preset;
   // No fewer than motions are sought along.
   ContactSurfaceOptions by_preset;
@@ -195,7 +195,7 @@ CurveOptions CurveOptionsOf(const World& world,
   options.limits = *request.limits;
   options.start = request.departure;
   options.end = request.arrival;
-  options.margin = world.Resolve(MarginOf(request)).unit;
+  options.margin = world.Resolve(request.Margin()).unit;
   options.preset = request.preset;
   options.duration = request.duration;
   options.time_limit = request.options.time_limit;

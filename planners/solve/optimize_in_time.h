@@ -7,7 +7,6 @@
 namespace phongpd::internal {
 
 // request.margin, or its default.
-Length MarginOf(const OptimizeRequest& request);
 
 // Of a request with limits; not validated.  Throws InputError without.
 CurveOptions CurveOptionsOf(const World& world, const OptimizeRequest& request);

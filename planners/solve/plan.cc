@@ -91,7 +91,7 @@ class PlanRun {
 
   std::string Log(int runs) {
     if (request_.planner == PlannerId::kContactSurface) {
-      throw InputError("--ompl-log: expected a planner of OMPL, found " +
+      throw InputError("log of OMPL: expected a planner of OMPL, found " +
                        std::string(ToString(request_.planner)));
     }
     if (UsesWindow()) {
@@ -147,7 +147,7 @@ class PlanRun {
                          ")");
     }
     throw InputError(
-        "--planner: expected one that does without the whole contact surface "
+        "planner: expected one that does without the whole contact surface "
         "with model window (" +
         others + "), found " + ToString(request_.planner) +
         "; take model full");
@@ -207,12 +207,9 @@ class PlanRun {
     try {
       found = planner->Plan(request_.start, request_.goal, Routes());
     } catch (const BuildRefusal& error) {
-      std::vector<std::string> others;
-      for (const PlannerId other : AllPlanners()) {
-        if (ChecksMotionsOnly(other)) others.emplace_back(ToString(other));
-      }
       throw BuildRefusal(std::string(error.what()) +
-                         "; or plan without proofs (" + Joined(others) + ")");
+                         "; or plan without proofs (" + PlannersOfMotions() +
+                         ")");
     }
     answer_.evidence.free_space =
         std::shared_ptr<const FreeSpace>(planner, &planner->free_space());

@@ -13,16 +13,6 @@
 
 namespace phongpd {
 
-// How a motion begins or ends; at rest unless said.
-struct CurveEnd {
-  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();
-  Eigen::Vector3d acceleration = Eigen::Vector3d::Zero();
-
-  bool IsAtRest() const {
-    return velocity.isZero(0.0) && acceleration.isZero(0.0);
-  }
-};
-
 // A place to pass on the way.
 struct CurveVia {
   Eigen::Vector3d point = Eigen::Vector3d::Zero();

@@ -134,8 +134,7 @@ double MaxSegment(const TrajectoryProblem& problem, double start_length) {
 int SamplesPerSegment(const TrajectoryProblem& problem, double start_length) {
   if (problem.samples_per_segment > 0) return problem.samples_per_segment;
   return SamplesByRule(MaxSegment(problem, start_length),
-                       problem.margin * Diagonal(problem),
-                       kMaxSamplesPerSegment);
+                       problem.margin * Diagonal(problem));
 }
 
 }  // namespace phongpd

@@ -6,12 +6,10 @@
 #include <vector>
 
 #include "constraints/free_space.h"
+#include "constraints/sampling_rule.h"
 #include "constraints/signed_metric.h"
 
 namespace phongpd {
-
-// No more interior samples in a segment, whatever the rule says.
-inline constexpr int kMaxSamplesPerSegment = 1000;
 
 // A polyline of N free waypoints between fixed ends,
 //
@@ -37,10 +35,10 @@ struct TrajectoryProblem {
   std::shared_ptr<const FreeSpace> free_space;
   Eigen::Vector3d start = Eigen::Vector3d::Zero();
   Eigen::Vector3d goal = Eigen::Vector3d::Zero();
-  int waypoints = 40;              // N in [1, 10000]
-  int samples_per_segment = 0;     // S in [0, 1000]; 0: by the rule
-  double margin = 0.01;            // fraction of D, in [0, 1]
-  double max_segment_ratio = 1.6;  // ρ ≥ 1
+  int waypoints = 40;           // N in [1, 10000]
+  int samples_per_segment = 0;  // S in [0, 1000]; 0: by the rule
+  double margin = 0.01;         // fraction of D, in [0, 1]
+  double max_segment_ratio = kMaxSegmentRatio;  // ρ ≥ 1
   // D, user's unit; 0: that of the contact spaces (WithCommonLength).
   double diagonal = 0.0;
 

@@ -63,6 +63,9 @@ std::string UnitNamedIn(const std::string& text);
 Length ParseLength(const std::string& text, const std::string& what,
                    const std::string& unit = "");
 
+// What paths keep, where there is room, if nobody says: 0.01 D.
+inline Length DefaultMargin() { return Length::FromShare(0.01); }
+
 // Which lengths an option takes; none takes more than D.
 enum class LengthRange { kFromZero, kAboveZero };
 

@@ -14,11 +14,6 @@ namespace {
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-// Of those on the straight line: room for a way around.
-constexpr double kLongestSegment = 1.6;
-constexpr int kMostSamples = 1000;
-const Length kMargin = Length::FromShare(0.01);
-
 void RequireSize(const char* what, Eigen::Index expected, Eigen::Index found) {
   if (found == expected) return;
   throw InputError(std::string(what) + ": expected " +
@@ -53,18 +48,17 @@ NonPenetrationRows::NonPenetrationRows(const World& world,
                                        const RowsOptions& options)
     : start_(start), goal_(goal), waypoints_(options.waypoints) {
   RequireOptions(start, goal, options);
-  const Length wanted = options.margin.value_or(kMargin);
+  const Length wanted = options.margin.value_or(DefaultMargin());
   RequireLength(wanted, LengthRange::kAboveZero, world.diagonal(), "margin",
                 world.workspace().unit);
   margin_ = world.Resolve(wanted).unit;
   max_segment_ =
       options.max_segment > 0.0
           ? options.max_segment
-          : kLongestSegment * (goal - start).norm() / (waypoints_ + 1);
+          : kMaxSegmentRatio * (goal - start).norm() / (waypoints_ + 1);
   is_by_rule_ = options.samples_per_segment == 0;
-  samples_per_segment_ =
-      is_by_rule_ ? SamplesByRule(max_segment_, margin_, kMostSamples)
-                  : options.samples_per_segment;
+  samples_per_segment_ = is_by_rule_ ? SamplesByRule(max_segment_, margin_)
+                                     : options.samples_per_segment;
   const SignedMetricOptions metric =
       options.penetration.Options(world.diagonal());
   const WorldSpaces& built = world.Spaces(SpaceLayout::kMerged);
@@ -131,7 +125,7 @@ VectorXd NonPenetrationRows::StraightLine() const {
   return u;
 }
 
-std::vector<Vector3d> NonPenetrationRows::PathOf(const Vector& u) const {
+std::vector<Vector3d> NonPenetrationRows::Path(const Vector& u) const {
   RequireVariables(u);
   std::vector<Vector3d> path;
   for (int i = 0; i <= waypoints_ + 1; ++i) path.push_back(Waypoint(i, u));
@@ -170,6 +164,11 @@ void NonPenetrationRows::Query(const Vector& u, double* values,
       }
     }
   }
+}
+
+void NonPenetrationRows::Values(const Vector& u, VectorXd* values) {
+  values->resize(rows());
+  Query(u, values->data(), nullptr);
 }
 
 void NonPenetrationRows::Values(const Vector& u, Eigen::Ref<VectorXd> values) {

@@ -15,12 +15,12 @@ namespace phongpd {
 
 struct RowsOptions {
   int waypoints = 40;            // N ≥ 1, between start and goal
-  std::optional<Length> margin;  // to keep, in (0, D]; none: 0.01 D
+  std::optional<Length> margin;  // to keep, in (0, D]; none: DefaultMargin()
   PenetrationSpec penetration;   // inside obstacles
   // Interior samples of a segment; 0: by the Lipschitz rule.
   int samples_per_segment = 0;
-  // h, user's unit: no segment is longer where samples are by the rule; 0: 1.6
-  // times those of the straight line.
+  // h, user's unit: no segment is longer where samples are by the rule; 0:
+  // kMaxSegmentRatio times those of the straight line.
   double max_segment = 0.0;
   int rows_per_sample = 1;  // in [1, 8]
 };
@@ -28,10 +28,9 @@ struct RowsOptions {
 // The rows d(sample) ≥ margin of a path in a world, for a solver of one's own:
 //
 //   NonPenetrationRows rows(world, start, goal);
-//   rows.Values(u, g);  rows.Jacobian(u, j);  // lower() ≤ g ≤ upper()
-//   rows.Accept(u);                           // the solver's new iterate
-//   if (!CheckPath(*world.Spaces(SpaceLayout::kMerged).free_space,
-//                  rows.PathOf(u)).free) ...  // the judge has the last word
+//   rows.Values(u, &g);  rows.Jacobian(u, &j);  // lower() ≤ g ≤ upper()
+//   rows.Accept(u);                             // the solver's new iterate
+//   if (!world.IsFree(rows.Path(u))) ...  // the judge has the last word
 //
 // Variables are the coordinates of the waypoints, x y z of one after the other;
 // samples are the waypoints and interior points of every segment
@@ -71,7 +70,7 @@ class NonPenetrationRows {
   // The straight line: what a solver may begin with.
   Eigen::VectorXd StraightLine() const;
   // From start through the waypoints to goal, for the judge.
-  std::vector<Eigen::Vector3d> PathOf(const Vector& u) const;
+  std::vector<Eigen::Vector3d> Path(const Vector& u) const;
 
   // Branches of the least depth at u; forgets the others.
   void Start(const Vector& u);
@@ -79,8 +78,10 @@ class NonPenetrationRows {
   void Accept(const Vector& u);
 
   // Values, rows() of them, and derivatives by u, nonzeros() of them in the
-  // order of the pattern or as a matrix.  All throw InputError for vectors of
-  // other sizes and for u that is not finite.
+  // order of the pattern or as a matrix.  What is handed over by its address
+  // takes its size from here.  All throw InputError for vectors of other sizes
+  // and for u that is not finite.
+  void Values(const Vector& u, Eigen::VectorXd* values);
   void Values(const Vector& u, Eigen::Ref<Eigen::VectorXd> values);
   void Entries(const Vector& u, Eigen::Ref<Eigen::VectorXd> entries);
   void Jacobian(const Vector& u, Eigen::SparseMatrix<double>* jacobian);

@@ -27,6 +27,14 @@ constexpr Known kPlanners[] = {
     {PlannerId::kPrmBridge, "prm-bridge", false},
     {PlannerId::kPrmRetraction, "prm-retraction", true}};
 
+std::string NamesWhere(bool (*is_meant)(PlannerId)) {
+  std::vector<std::string> names;
+  for (const Known& known : kPlanners) {
+    if (is_meant(known.id)) names.emplace_back(known.name);
+  }
+  return Joined(names);
+}
+
 }  // namespace
 
 const std::vector<PlannerId>& AllPlanners() {
@@ -76,11 +84,9 @@ void RequireSeeksClearance(PlannerId planner, const std::string& what) {
 }
 
 std::string PlannersWithoutSurface() {
-  std::vector<std::string> names;
-  for (const Known& known : kPlanners) {
-    if (!known.retracts) names.emplace_back(known.name);
-  }
-  return Joined(names);
+  return NamesWhere([](PlannerId planner) { return !Retracts(planner); });
 }
+
+std::string PlannersOfMotions() { return NamesWhere(ChecksMotionsOnly); }
 
 }  // namespace phongpd

@@ -43,5 +43,7 @@ bool SeeksClearance(PlannerId planner);
 void RequireSeeksClearance(PlannerId planner, const std::string& what);
 // Those that do not retract, "a, b, c": for messages.
 std::string PlannersWithoutSurface();
+// Those that only check motions, in the same form.
+std::string PlannersOfMotions();
 
 }  // namespace phongpd

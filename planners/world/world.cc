@@ -217,6 +217,15 @@ Diagnosis World::Diagnose(const Eigen::Vector3d& q) const {
   return phongpd::Diagnose(impl_->workspace, q);
 }
 
+bool World::IsFree(const std::vector<Eigen::Vector3d>& path) const {
+  return CheckPath(Judge(), path).free;
+}
+
+const FreeSpace& World::Judge() const {
+  const WorldSpaces* const built = Built(SpaceLayout::kMerged);
+  return built == nullptr ? *Convolution().free_space : *built->free_space;
+}
+
 const WorldSpaces& World::Spaces(SpaceLayout layout) const {
   Impl::Slot& slot = impl_->SlotOf(layout);
   const std::lock_guard<std::mutex> lock(slot.mutex);

@@ -101,6 +101,13 @@ class World {
 
   // Exact, on the solids; builds nothing (diagnosis.h).
   Diagnosis Diagnose(const Eigen::Vector3d& q) const;
+  // Does the robot touch nothing anywhere on the polyline, and is it within
+  // bounds?  Exact, without sampling, by Judge(); CheckPath on that tells where
+  // it collides first.  False where a number is not finite, and for no point.
+  bool IsFree(const std::vector<Eigen::Vector3d>& path) const;
+  // The free space that answers: of contact spaces that are there already, or
+  // else of free space alone, built on first use.
+  const FreeSpace& Judge() const;
 
   // Builds them on first use, one after the other (each build is parallel), or
   // takes them from the cache.  The reference holds as long as a copy of the

@@ -10,11 +10,11 @@
 #include <stdexcept>
 
 #include "core/contact/content_hash.h"
-#include "core/files/descriptor.h"
 #include "core/mesh/counted.h"
 #include "core/mesh/mesh_error.h"
 #include "core/mesh/mesh_io.h"
 #include "core/mesh/mesh_range.h"
+#include "files/descriptor.h"
 #include "problems/cli/flags.h"
 #include "problems/cli/operands.h"
 #include "problems/output/text.h"

@@ -43,13 +43,16 @@ Command AddPlan(CLI::App* app);
 Command AddRetime(CLI::App* app);
 Command AddReproduce(CLI::App* app);
 Command AddDepth(CLI::App* app);
-Command AddMerge(CLI::App* app);
 Command AddJoin(CLI::App* app);
 Command AddMinkowski(CLI::App* app);
 Command AddView(CLI::App* app);
 Command AddCompletion(CLI::App* app);
 Command AddMan(CLI::App* app);
 Command AddCheck(CLI::App* app);
+
+// What may stand where the last of `words` is being typed, to standard output:
+// the scripts of AddCompletion ask for it.
+int PrintOffers(const CLI::App& program, const std::vector<std::string>& words);
 
 // The contact space of two solids, from the user's cache when `use_cache` and
 // it is there.  What the user should know goes to stderr.

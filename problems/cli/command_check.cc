@@ -20,7 +20,7 @@
 #include "problems/output/json_text.h"
 #include "problems/output/output_files.h"
 #include "problems/output/text.h"
-#include "problems/pictures/viewer/page_numbers.h"
+#include "viewer/page_numbers.h"
 
 namespace phongpd::cli {
 namespace {

@@ -13,11 +13,11 @@
 #include "problems/cli/operands.h"
 #include "problems/cli/shard.h"
 #include "problems/meshes/operand_notes.h"
+#include "problems/output/gnuplot.h"
 #include "problems/output/json_text.h"
 #include "problems/output/output_files.h"
 #include "problems/output/row_file.h"
 #include "problems/output/text.h"
-#include "problems/pictures/gnuplot.h"
 #include "problems/scenes/scene_source.h"
 #include "problems/studies/study_metrics.h"
 #include "problems/studies/trajectory_comparison.h"
@@ -39,7 +39,7 @@ struct CompareFlags {
   int runs = 50;
   std::uint64_t seed = 1;
   std::string shard = "0/1";
-  std::string rows;
+  std::vector<std::string> rows;
   std::string output;
   bool keep_paths = false;
   bool json = false;
@@ -113,10 +113,9 @@ std::string DeclareRows(const CompareFlags& flags, OutputFiles* outputs) {
 int Compare(const CLI::App& app, const CompareFlags& flags) {
   if (flags.scenes.empty() == flags.rows.empty()) {
     throw InputError(
-        "compare: expected scenes, or --rows with what shards "
-        "wrote");
+        "compare: expected scenes, or --rows with what was written before");
   }
-  const Shard shard = ParseShard(flags.shard);
+  const Shard shard = ParseShard(flags.shard, "--shard");
   const bool has_folder = !flags.output.empty();
   if (!has_folder && !shard.IsWhole()) {
     throw InputError("--shard: expected --output DIR with it, found none");
@@ -127,7 +126,7 @@ int Compare(const CLI::App& app, const CompareFlags& flags) {
   if (flags.rows.empty()) {
     methods = ReadMethods(flags);
   } else {
-    rows = ReadComparison(flags.rows);
+    rows = JoinComparisons(flags.rows);
   }
   OutputFiles outputs;
   const std::string rows_path = DeclareRows(flags, &outputs);
@@ -150,11 +149,8 @@ int Compare(const CLI::App& app, const CompareFlags& flags) {
   if (!rows_path.empty()) outputs.Write(rows_path, lines);
   std::string words;
   if (!shard.IsWhole()) {
-    const std::string record = flags.output + "/" + kShardFile;
-    outputs.Declare(record);
-    outputs.Write(record, ShardText(shard, settings, rows.size()));
-    words =
-        Counted(rows.size(), "row") + "; join the parts with phongpd merge\n";
+    words = Counted(rows.size(), "row") +
+            "; join the parts with phongpd compare --rows\n";
   } else if (has_folder) {
     words = WriteSummaries(rows, flags.output, &outputs);
   } else {
@@ -205,8 +201,8 @@ void AddComparedRuns(CLI::App* app, CompareFlags* flags) {
       ->type_name("S")
       ->capture_default_str();
   app->add_option("--shard", flags->shard,
-                  "Run the i-th of n parts and write rows.jsonl and shard.json "
-                  "only; phongpd merge joins the parts")
+                  "Run the i-th of n parts and write rows.jsonl only; --rows "
+                  "joins the parts")
       ->type_name("i/n")
       ->capture_default_str();
 }
@@ -214,7 +210,9 @@ void AddComparedRuns(CLI::App* app, CompareFlags* flags) {
 // Rows there are already, what rows hold, and where they go.
 void AddComparedRows(CLI::App* app, CompareFlags* flags) {
   app->add_option("--rows", flags->rows,
-                  "Summarise these rows instead of running")
+                  "Summarise these rows instead of running: rows.jsonl of one "
+                  "command or of all parts of it, in any order")
+      ->expected(1, -1)
       ->type_name("FILE");
   app->add_flag("--paths", flags->keep_paths, "Keep the paths in the rows");
   app->add_option("--output", flags->output,
@@ -249,7 +247,8 @@ Command AddCompare(CLI::App* app) {
       "On a cluster:      sbatch --array=0-31 --wrap 'phongpd compare SCENES "
       "--shard $SLURM_ARRAY_TASK_ID/32 --output part$SLURM_ARRAY_TASK_ID'\n"
       "Parts that were cut off go on where they were when started again.\n"
-      "Then:              phongpd merge part* --output DIR");
+      "Then:              phongpd compare --rows part*/rows.jsonl --output "
+      "DIR");
   return [app, flags] { return Compare(*app, *flags); };
 }
 

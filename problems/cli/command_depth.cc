@@ -20,8 +20,8 @@
 #include "problems/output/output_files.h"
 #include "problems/output/points_csv.h"
 #include "problems/output/text.h"
-#include "problems/pictures/viewer/page_numbers.h"
-#include "problems/pictures/viewer/view_page.h"
+#include "viewer/page_numbers.h"
+#include "viewer/view_page.h"
 
 namespace phongpd::cli {
 namespace {

@@ -15,12 +15,12 @@
 #include "problems/cli/flags.h"
 #include "problems/cli/operands.h"
 #include "problems/meshes/operand_notes.h"
+#include "problems/output/gnuplot.h"
 #include "problems/output/output_files.h"
 #include "problems/output/text.h"
-#include "problems/pictures/gnuplot.h"
-#include "problems/pictures/viewer/view_page.h"
 #include "problems/studies/motion.h"
 #include "problems/studies/sliding.h"
+#include "viewer/view_page.h"
 
 namespace phongpd::cli {
 namespace {

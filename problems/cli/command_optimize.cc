@@ -14,12 +14,12 @@
 #include "problems/meshes/operand_notes.h"
 #include "problems/output/json_text.h"
 #include "problems/output/text.h"
-#include "problems/pictures/viewer/run_view.h"
-#include "problems/pictures/viewer/scene_view.h"
 #include "problems/scenes/kept_world.h"
 #include "problems/scenes/scene_requests.h"
 #include "problems/scenes/scene_source.h"
 #include "problems/studies/answer_row.h"
+#include "viewer/run_view.h"
+#include "viewer/scene_view.h"
 
 namespace phongpd::cli {
 namespace {
@@ -185,7 +185,7 @@ int OptimizeInTime(const OptimizeFlags& flags, const MotionLimits& limits,
   for (const char* name :
        {"--metric", "--smoothing-length", "--jacobian", "--start",
         "--start-noise", "--line", "--rows", "--mu-strategy", "--polish",
-        "--per-obstacle", "--runs", "--html", "--svg"}) {
+        "--per-obstacle", "--runs", "--svg"}) {
     if (flags.app->count(name) == 0) continue;
     throw InputError(std::string(name) +
                      ": expected none for a motion in time, found one; with "
@@ -199,6 +199,7 @@ int OptimizeInTime(const OptimizeFlags& flags, const MotionLimits& limits,
   if (flags.app->count("--routes") > 0) timed.routes = flags.routes;
   timed.time_limit = flags.time_limit;
   timed.output = flags.output;
+  timed.html = flags.html;
   timed.json = flags.json;
   timed.no_cache = flags.no_cache;
   timed.has_margin = !flags.margin.empty();
@@ -385,7 +386,8 @@ void AddOutputFlags(CLI::App* app, OptimizeFlags* flags) {
   CLI::Option* const output = app->get_option("--output");
   output->description(output->get_description() +
                       ". With --limits Bézier pieces as JSON, rows in time as "
-                      "FILE.csv or, for ROS 2, FILE.yaml, lines as FILE.gcode");
+                      "FILE.csv or, for ROS 2, FILE.yaml (joints x, y, z) or "
+                      "FILE.multidof.yaml, lines as FILE.gcode");
   AddPictures(app, flags);
 }
 

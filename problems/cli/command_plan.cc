@@ -13,11 +13,11 @@
 #include "problems/meshes/operand_notes.h"
 #include "problems/output/json_text.h"
 #include "problems/output/text.h"
-#include "problems/pictures/viewer/run_view.h"
-#include "problems/pictures/viewer/scene_view.h"
 #include "problems/scenes/scene_requests.h"
 #include "problems/scenes/scene_source.h"
 #include "problems/studies/answer_row.h"
+#include "viewer/run_view.h"
+#include "viewer/scene_view.h"
 
 namespace phongpd::cli {
 namespace {

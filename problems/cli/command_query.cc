@@ -16,8 +16,8 @@
 #include "problems/output/output_files.h"
 #include "problems/output/points_csv.h"
 #include "problems/output/text.h"
-#include "problems/pictures/viewer/page_numbers.h"
 #include "problems/studies/sliding.h"
+#include "viewer/page_numbers.h"
 
 namespace phongpd::cli {
 namespace {

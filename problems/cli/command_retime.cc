@@ -43,6 +43,7 @@ int AnswerRetime(RetimeFlags flags) {
   scene.goal = path.back();
   scene.via.clear();
   scene.duration = 0.0;
+  scene.departure = scene.arrival = {};
   SetTask(flags.motion, &scene);
   SetPreset(flags.preset, &scene);
   flags.has_margin = !flags.margin.empty();
@@ -97,8 +98,13 @@ Command AddRetime(CLI::App* app) {
       ->type_name("S");
   app->add_option("--output", flags->output,
                   "Bézier pieces as JSON, rows in time as FILE.csv or, for "
-                  "ROS 2, FILE.yaml, lines as FILE.gcode (a sentence is all if "
+                  "ROS 2, FILE.yaml (joints x, y, z) or FILE.multidof.yaml, "
+                  "lines as FILE.gcode (a sentence is all if "
                   "not set)")
+      ->type_name("FILE");
+  app->add_option("--html", flags->html,
+                  "Page that plays the motion in its own time, beside what it "
+                  "asks of the limits")
       ->type_name("FILE");
   AddVerify(app, &flags->verify);
   AddJson(app, &flags->json, "The JSON on standard output without --output");

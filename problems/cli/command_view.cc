@@ -13,17 +13,17 @@
 #include <string>
 #include <vector>
 
-#include "core/files/descriptor.h"
+#include "files/descriptor.h"
 #include "problems/cli/command.h"
 #include "problems/cli/flags.h"
 #include "problems/cli/operands.h"
 #include "problems/cli/view_inputs.h"
 #include "problems/output/json_text.h"
 #include "problems/output/output_files.h"
-#include "problems/pictures/programs.h"
-#include "problems/pictures/viewer/gltf.h"
-#include "problems/pictures/viewer/still_picture.h"
-#include "problems/pictures/viewer/view_page.h"
+#include "problems/output/programs.h"
+#include "viewer/gltf.h"
+#include "viewer/still_picture.h"
+#include "viewer/view_page.h"
 
 extern char** environ;
 

@@ -6,19 +6,27 @@
 
 #include "problems/cli/command_tree.h"
 
-// What a shell is told of the program: commands, flags, choices, and where
-// files, folders or `families` (names of scenes) go.
+// What a shell may offer where a word of a command is being typed: commands,
+// flags, choices, names of scenes.
 namespace phongpd::cli {
 
-std::string BashCompletion(const CommandNode& program,
-                           const std::vector<std::string>& families);
-std::string ZshCompletion(const CommandNode& program,
-                          const std::vector<std::string>& families);
-std::string FishCompletion(const CommandNode& program,
-                           const std::vector<std::string>& families);
+struct Offer {
+  std::string word;
+  std::string help;  // one line; empty: none
+};
 
-// The first line of a help text, cut after `length` characters at a word's end:
-// shells show one line beside a name.
-std::string Shortened(const std::string& help, std::size_t length = 60);
+struct Offers {
+  std::vector<Offer> words;
+  // kFile, kFolder: such names are right as well, which shells know themselves.
+  ValueKind names = ValueKind::kNone;
+};
+
+// `words` follow the program's name; the last one is being typed, perhaps still
+// empty.  Offers are all that may stand there, whatever it begins with, but
+// flags where it begins with '-' and nothing else there.  --flag=value is one
+// word, or three, as bash has it.  `families` are names of scenes.
+Offers OffersFor(const CommandNode& program,
+                 const std::vector<std::string>& families,
+                 const std::vector<std::string>& words);
 
 }  // namespace phongpd::cli

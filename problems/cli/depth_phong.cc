@@ -7,7 +7,7 @@
 #include "core/mesh/counted.h"
 #include "problems/output/json_text.h"
 #include "problems/output/text.h"
-#include "problems/pictures/viewer/page_numbers.h"
+#include "viewer/page_numbers.h"
 
 namespace phongpd::cli {
 namespace {

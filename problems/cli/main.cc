@@ -14,8 +14,8 @@
 #include <typeinfo>
 #include <vector>
 
-#include "core/files/interruption.h"
 #include "core/mesh/mesh_error.h"
+#include "files/interruption.h"
 #include "problems/cli/command.h"
 #include "problems/cli/parse_errors.h"
 #include "problems/output/text.h"
@@ -86,7 +86,6 @@ constexpr ProgramCommand kProgramCommands[] = {
      AddRetime},
     {"compare", "Compare penetration metrics in the trajectory optimiser",
      AddCompare},
-    {"merge", "Join the parts of a comparison", AddMerge},
     {"join", "Join the pieces of a contact space", AddJoin},
     {"plan", "Plan a path, or prove that there is none", AddPlan},
     {"view", "Look at meshes, scenes, paths, motions and depths", AddView},
@@ -117,6 +116,9 @@ int Run(int argc, char** argv) {
   CLI::App app(kProgramHelp, "phongpd");
   app.set_version_flag("--version", VersionText);
   const std::vector<DeclaredCommand> commands = DeclareCommands(&app);
+  if (argc > 1 && std::string(argv[1]) == "__complete") {
+    return PrintOffers(app, {argv + 2, argv + argc});
+  }
   const std::vector<std::string> arguments = Arguments(argc, argv);
   try {
     RefuseUnknownNames(app, arguments);

@@ -87,6 +87,26 @@ Via ParseVia(const std::string& text, const std::string& what, double diagonal,
   return via;
 }
 
+CurveEnd ParseCurveEnd(const std::string& text, const std::string& what) {
+  const std::vector<std::string> cells = CutAt(',', text);
+  if (cells.size() != 3 && cells.size() != 6) {
+    throw InputError(what +
+                     ": expected VX,VY,VZ[,AX,AY,AZ], a velocity and an "
+                     "acceleration, found '" +
+                     text + "'");
+  }
+  CurveEnd end;
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    const bool is_velocity = i < 3;
+    const auto axis = static_cast<Eigen::Index>(i % 3);
+    Vector3d& vector = is_velocity ? end.velocity : end.acceleration;
+    vector[axis] = ParseDouble(
+        cells[i], what + ": " + (is_velocity ? "velocity" : "acceleration") +
+                      " of " + "xyz"[axis]);
+  }
+  return end;
+}
+
 void AddMotion(CLI::App* app, const std::string& without_limits,
                const std::string& without_task, MotionWords* words) {
   app->add_option("--limits", words->limits,
@@ -110,6 +130,16 @@ void AddMotion(CLI::App* app, const std::string& without_limits,
          "found; 0: as few as can be (" +
              without_task + ")")
       ->type_name("S");
+  const auto add_end = [&](const char* flag, const std::string& verb,
+                           std::string* text) {
+    app->add_option(flag, *text,
+                    "Velocity and acceleration with which the motion " + verb +
+                        ", in the scene's unit and seconds (" + without_task +
+                        ")")
+        ->type_name("VX,VY,VZ[,AX,AY,AZ]");
+  };
+  add_end("--departure", "begins", &words->departure);
+  add_end("--arrival", "ends", &words->arrival);
   app->add_option("--rate", words->rate,
                   "Rows a second of an --output FILE.csv or FILE.yaml, more "
                   "than 0 and at most 1e6 (100 if not set)")
@@ -127,7 +157,9 @@ void RequireNoMotion(const MotionWords& words) {
   for (const auto& [flag, is_given] :
        {std::pair("--rate", !words.rate.empty()),
         std::pair("--via", !words.via.empty()),
-        std::pair("--duration", !words.duration.empty())}) {
+        std::pair("--duration", !words.duration.empty()),
+        std::pair("--departure", !words.departure.empty()),
+        std::pair("--arrival", !words.arrival.empty())}) {
     if (!is_given) continue;
     throw InputError(std::string(flag) +
                      ": expected --limits with it, found none");
@@ -137,6 +169,12 @@ void RequireNoMotion(const MotionWords& words) {
 void SetTask(const MotionWords& words, Scene* scene) {
   if (!words.duration.empty()) {
     scene->duration = ParseDouble(words.duration, "--duration");
+  }
+  if (!words.departure.empty()) {
+    scene->departure = ParseCurveEnd(words.departure, "--departure");
+  }
+  if (!words.arrival.empty()) {
+    scene->arrival = ParseCurveEnd(words.arrival, "--arrival");
   }
   if (words.via.empty()) return;
   scene->via.clear();

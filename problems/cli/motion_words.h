@@ -19,10 +19,12 @@ struct MotionWords {
   std::string rate;    // of a CSV; empty: kDefaultRate
   std::vector<std::string> via;  // X,Y,Z[,LENGTH[,DWELL]]
   std::string duration;
+  std::string departure, arrival;  // VX,VY,VZ[,AX,AY,AZ]
 };
 
-// Declares --limits, --via, --duration and --rate; the other texts say what
-// holds where the first, and the second and third, are not set.
+// Declares --limits, --via, --duration, --departure, --arrival and --rate; the
+// other texts say what holds where the first, and the second and third, are not
+// set.
 void AddMotion(CLI::App* app, const std::string& without_limits,
                const std::string& without_task, MotionWords* words);
 
@@ -33,7 +35,7 @@ std::optional<MotionLimits> LimitsOf(const MotionWords& words,
 // Throws InputError where one is given that says nothing without limits.
 void RequireNoMotion(const MotionWords& words);
 
-// Places on the way and a duration that are given become the scene's.
+// Places on the way, a duration and ends that are given become the scene's.
 void SetTask(const MotionWords& words, Scene* scene);
 
 // Reads "V,A,J", limits of velocity, acceleration and jerk: each one number,
@@ -45,5 +47,9 @@ MotionLimits ParseLimits(const std::string& text, const std::string& what);
 // does.  Throws InputError starting with `what`.
 Via ParseVia(const std::string& text, const std::string& what, double diagonal,
              const std::string& unit);
+
+// Reads "VX,VY,VZ[,AX,AY,AZ]", how a motion begins or ends.  Throws InputError
+// starting with `what`.
+CurveEnd ParseCurveEnd(const std::string& text, const std::string& what);
 
 }  // namespace phongpd::cli

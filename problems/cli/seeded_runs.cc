@@ -10,9 +10,9 @@
 #include "problems/cli/flags.h"
 #include "problems/cli/operands.h"
 #include "problems/output/json_text.h"
-#include "problems/pictures/path_picture.h"
-#include "problems/pictures/viewer/behind_json.h"
-#include "problems/pictures/viewer/view_page.h"
+#include "viewer/behind_json.h"
+#include "viewer/path_picture.h"
+#include "viewer/view_page.h"
 
 namespace phongpd::cli {
 

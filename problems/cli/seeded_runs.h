@@ -10,8 +10,8 @@
 
 #include "problems/output/output_files.h"
 #include "problems/output/row_file.h"
-#include "problems/pictures/viewer/view.h"
 #include "problems/scenes/scene_source.h"
+#include "viewer/view.h"
 
 // Runs of one scene with the seeds S, S + 1, ...: the flags that commands made
 // of them share, and what the runs leave behind.

@@ -3,10 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "core/files/interruption.h"
 #include "core/mesh/mesh_error.h"
+#include "files/interruption.h"
 #include "problems/cli/command.h"
 #include "problems/cli/flags.h"
 #include "problems/output/json_text.h"
@@ -14,6 +15,9 @@
 #include "problems/scenes/scene_requests.h"
 #include "problems/studies/answer_row.h"
 #include "problems/studies/motion_file.h"
+#include "viewer/run_view.h"
+#include "viewer/scene_view.h"
+#include "viewer/view_page.h"
 
 namespace phongpd::cli {
 namespace {
@@ -25,20 +29,31 @@ constexpr double kDefaultRate = 100.0;  // Hz
 constexpr double kMostRate = 1e6;
 
 // By the name of the output.
-enum class MotionForm { kJson, kCsv, kRos, kGcode };
+enum class MotionForm { kJson, kCsv, kRos, kRosMultiDof, kGcode };
 
 const std::vector<std::string> kMotionEndings = {".json", ".jsonl", ".csv",
                                                  ".yaml", ".gcode", ".nc"};
+
+bool IsRos(MotionForm form) {
+  return form == MotionForm::kRos || form == MotionForm::kRosMultiDof;
+}
+
+// FILE.multidof.yaml.
+bool IsMultiDof(const std::string& output) {
+  const std::string stem = std::filesystem::path(output).stem().string();
+  return EndingOf(stem) == ".multidof";
+}
 
 MotionForm MotionFormOf(const TimedFlags& flags) {
   if (FormOf(flags.output, flags.json) == AnswerForm::kCsv) {
     return MotionForm::kCsv;
   }
   const std::string ending = EndingOf(flags.output);
-  const MotionForm form = ending == ".yaml" ? MotionForm::kRos
-                          : ending == ".gcode" || ending == ".nc"
-                              ? MotionForm::kGcode
-                              : MotionForm::kJson;
+  const MotionForm form =
+      ending == ".yaml" ? IsMultiDof(flags.output) ? MotionForm::kRosMultiDof
+                                                   : MotionForm::kRos
+      : ending == ".gcode" || ending == ".nc" ? MotionForm::kGcode
+                                              : MotionForm::kJson;
   if (flags.json && form != MotionForm::kJson) {
     throw InputError("--json: expected --output FILE.json, found " +
                      flags.output);
@@ -55,7 +70,7 @@ double RateOf(const TimedFlags& flags) {
                      FormatDouble(kMostRate) + " (Hz), found " + text);
   }
   const MotionForm form = MotionFormOf(flags);
-  if (form != MotionForm::kCsv && form != MotionForm::kRos) {
+  if (form != MotionForm::kCsv && !IsRos(form)) {
     throw InputError(
         "--rate: expected --output FILE.csv or FILE.yaml, which it is the rate "
         "of, found " +
@@ -98,6 +113,8 @@ std::string MotionText(MotionForm form, const World& world,
       return TimedCsv(motion, rate);
     case MotionForm::kRos:
       return RosTrajectory(motion, rate, unit);
+    case MotionForm::kRosMultiDof:
+      return RosMultiDofTrajectory(motion, rate, unit);
     case MotionForm::kGcode:
       return MotionGcode(*world.Convolution().free_space, motion, unit);
     case MotionForm::kJson:
@@ -131,14 +148,16 @@ int AnswerInTime(const Scene& scene, const TimedFlags& flags,
                                                 const OptimizeRequest&)>& ask) {
   const double rate = RateOf(flags);
   const MotionForm form = MotionFormOf(flags);
-  const bool has_rate = form == MotionForm::kCsv || form == MotionForm::kRos;
-  if (form == MotionForm::kRos || form == MotionForm::kGcode) {
+  const bool has_rate = form == MotionForm::kCsv || IsRos(form);
+  if (IsRos(form) || form == MotionForm::kGcode) {
     RequireUnit(scene.workspace.unit, "--output " + flags.output);
   }
   OutputFiles outputs;
   const std::string target =
       flags.json ? AnswerTarget(flags.output) : flags.output;
   DeclareIfNamed(&outputs, target, "--output", kMotionEndings);
+  DeclareIfNamed(&outputs, flags.html, "--html", {".html", ".htm"});
+  if (!flags.html.empty()) RequireViewer();
   const World world(scene.workspace, scene.name, UserCache(flags.no_cache),
                     flags.world);
   OptimizeRequest request = OptimizeRequestOf(scene);
@@ -172,6 +191,11 @@ int AnswerInTime(const Scene& scene, const TimedFlags& flags,
   if (!target.empty()) {
     const TimedJson row = MotionRow(scene, world, request, answer);
     outputs.Write(target, MotionText(form, world, answer, row, rate));
+  }
+  if (!flags.html.empty()) {
+    View view = SceneView(scene);
+    view.paths = {PathInTime(request, answer)};
+    outputs.Write(flags.html, ViewPage(view));
   }
   CommitAndTell(&outputs, TimedSentence(scene, answer));
   if (answer.status == PathStatus::kVerificationFailed) {

@@ -17,6 +17,7 @@ struct TimedFlags {
   MotionWords motion;
   std::string time_limit;
   std::string output;
+  std::string html;
   bool json = false;
   bool no_cache = false;
   std::optional<int> routes;  // the preset's if none
@@ -27,7 +28,7 @@ struct TimedFlags {
 };
 
 // Of a scene with limits: declares the output, JSON or by its name a table or
-// lines, asks for the answer (Optimize, Retime), and writes and tells it.
+// lines, and the page, asks for the answer (Optimize, Retime), and writes and tells it.
 // Returns kDone if it is certified, kNoAnswer otherwise.  Throws InputError for
 // flags that make no sense before it asks.
 int AnswerInTime(

@@ -22,9 +22,9 @@
 #include "problems/cli/view_windows.h"
 #include "problems/meshes/any_mesh.h"
 #include "problems/meshes/operand_notes.h"
-#include "problems/pictures/viewer/scene_view.h"
 #include "problems/scenes/scene_library.h"
 #include "problems/studies/motion.h"
+#include "viewer/scene_view.h"
 
 namespace phongpd::cli {
 namespace {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "problems/pictures/viewer/view.h"
+#include "viewer/view.h"
 
 namespace phongpd::cli {
 

@@ -3,7 +3,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include "problems/pictures/viewer/view.h"
+#include "viewer/view.h"
 
 // Answers out of the JSON that commands wrote, to look at.  They throw
 // nlohmann::json::exception for what is none.

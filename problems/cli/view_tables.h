@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "problems/pictures/viewer/view.h"
+#include "viewer/view.h"
 
 // Answers out of the files that commands wrote, to look at.  Errors are
 // InputErrors that name file, line and column.

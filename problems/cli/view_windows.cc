@@ -5,9 +5,9 @@
 #include <utility>
 
 #include "problems/cli/command.h"
-#include "problems/pictures/viewer/run_view.h"
-#include "problems/pictures/viewer/scene_view.h"
 #include "problems/scenes/scene_requests.h"
+#include "viewer/run_view.h"
+#include "viewer/scene_view.h"
 
 namespace phongpd::cli {
 

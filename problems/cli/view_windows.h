@@ -5,8 +5,8 @@
 #include <string>
 
 #include "core/contact/contact_space_cache.h"
-#include "problems/pictures/viewer/view.h"
 #include "problems/scenes/scene.h"
+#include "viewer/view.h"
 
 // What was built for answers, and words where that cannot be shown.
 namespace phongpd::cli {

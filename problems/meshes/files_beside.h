@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "core/files/descriptor.h"
+#include "files/descriptor.h"
 
 // Files that other files name.  They are opened by descriptors from a folder
 // down, one component after the other and through no link: what has been

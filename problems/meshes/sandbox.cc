@@ -18,8 +18,8 @@
 #include <exception>
 #include <fstream>
 
-#include "core/files/descriptor.h"
 #include "core/mesh/mesh_error.h"
+#include "files/descriptor.h"
 
 namespace phongpd {
 namespace {

@@ -6,10 +6,10 @@
 #include <string_view>
 #include <vector>
 
-#include "core/files/descriptor.h"
-#include "core/files/interruption.h"
-#include "core/files/temporary_file.h"
 #include "core/mesh/mesh_error.h"
+#include "files/descriptor.h"
+#include "files/interruption.h"
+#include "files/temporary_file.h"
 
 namespace phongpd {
 
@@ -24,7 +24,7 @@ inline constexpr char kStandardOutput[] = "-";
 //   outputs.Commit();
 //
 // Contents go to private temporaries beside their targets
-// (.phongpd-NAME-RANDOM.part, see core/files/temporary_file.h) and are on the
+// (.phongpd-NAME-RANDOM.part, see files/temporary_file.h) and are on the
 // disk before Commit renames the first; when a rename fails, those before it
 // are undone.  Only a power cut or SIGKILL within Commit, which lasts as long
 // as the renames, can leave some new files beside old ones, each of them whole.

@@ -11,7 +11,7 @@
 #include <nlohmann/json.hpp>
 #include <system_error>
 
-#include "core/files/temporary_file.h"
+#include "files/temporary_file.h"
 #include "problems/output/json_text.h"
 
 namespace phongpd {

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "core/files/descriptor.h"
-#include "core/files/interruption.h"
 #include "core/mesh/mesh_error.h"
+#include "files/descriptor.h"
+#include "files/interruption.h"
 
 namespace phongpd {
 

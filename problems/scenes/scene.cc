@@ -316,6 +316,15 @@ std::vector<Via> ViaPlaces(const Json& value, const JsonPlace& place,
   return places;
 }
 
+CurveEnd EndOf(const Json& value) {
+  CurveEnd end;
+  if (value.contains("velocity")) end.velocity = Point(value["velocity"]);
+  if (value.contains("acceleration")) {
+    end.acceleration = Point(value["acceleration"]);
+  }
+  return end;
+}
+
 // Again, now that D is known.
 void RequireLengths(const Scene& scene, const JsonPlace& place) {
   const double diagonal = ContactBounds(scene.workspace).Diagonal();
@@ -399,6 +408,8 @@ Scene ParseScene(const Json& json, const std::string& file,
         ViaPlaces(json["via"], place.Child("via"), scene.workspace.unit);
   }
   Read(json, "duration", &scene.duration);
+  if (json.contains("departure")) scene.departure = EndOf(json["departure"]);
+  if (json.contains("arrival")) scene.arrival = EndOf(json["arrival"]);
   if (json.contains("penetration")) {
     Read(json["penetration"], place.Child("penetration"), scene.workspace.unit,
          &scene.penetration);

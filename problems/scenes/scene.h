@@ -10,6 +10,7 @@
 #include <variant>
 #include <vector>
 
+#include "constraints/sampling_rule.h"
 #include "constraints/trajectory.h"
 #include "core/bounds/mesh_repair.h"
 #include "core/mesh/mesh_error.h"
@@ -33,10 +34,10 @@ namespace phongpd {
 using IpoptValue = std::variant<int, double, std::string>;
 
 struct TrajectorySettings {
-  int waypoints = 40;           // free points between start and goal
-  int samples_per_segment = 0;  // interior; 0: by the Lipschitz rule
-  Length margin = Length::FromShare(0.01);  // distance kept, in (0, D]
-  double max_segment_ratio = 1.6;           // longest over even segment length
+  int waypoints = 40;               // free points between start and goal
+  int samples_per_segment = 0;      // interior; 0: by the Lipschitz rule
+  Length margin = DefaultMargin();  // distance kept, in (0, D]
+  double max_segment_ratio = kMaxSegmentRatio;  // longest over even length
   Model model = Model::kAuto;
   // By Ipopt's own names.  A whole number in the file arrives as an int, also
   // for options that are real numbers.
@@ -65,6 +66,7 @@ struct Scene {
   std::vector<Via> via;
   std::vector<MovingObstacle> moving;  // to keep off, by motions in time only
   double duration = 0.0;
+  CurveEnd departure, arrival;  // how it begins and ends
   PenetrationSpec penetration;
   TrajectorySettings trajectory;
   PlanningSettings planning;

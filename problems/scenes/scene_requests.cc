@@ -49,13 +49,15 @@ OptimizeRequest OptimizeRequestOf(const Scene& scene) {
   request.goal = scene.goal;
   request.model = settings.model;
   // A scene that says what is the default anyway says nothing of its own.
-  if (settings.margin != OptimizeRequest::Margin()) {
+  if (settings.margin != DefaultMargin()) {
     request.margin = settings.margin;
   }
   request.limits = scene.limits;
   request.via = scene.via;
   request.moving = scene.moving;
   request.duration = scene.duration;
+  request.departure = scene.departure;
+  request.arrival = scene.arrival;
   request.penetration = scene.penetration;
   request.waypoints = settings.waypoints;
   request.samples_per_segment = settings.samples_per_segment;

@@ -151,6 +151,11 @@ Json LimitsRow(const MotionLimits& limits) {
           {"by", limits.by_norm ? "norm" : "axis"}};
 }
 
+Json EndRow(const CurveEnd& end) {
+  return {{"velocity", PointRow(end.velocity)},
+          {"acceleration", PointRow(end.acceleration)}};
+}
+
 Json ViaRow(const World& world, const std::vector<Via>& places) {
   Json row = Json::array();
   for (const Via& via : places) {
@@ -259,8 +264,7 @@ Json PolylineRow(const Scene& scene, const World& world,
   row["lengths"] = {{"unit", UnitRow(scene.workspace.unit)},
                     {"D", world.diagonal()},
                     {"smoothing_length", smoothing},
-                    {"margin", LengthRow(world.Resolve(request.margin.value_or(
-                                   OptimizeRequest::Margin())))},
+                    {"margin", LengthRow(world.Resolve(request.Margin()))},
                     {"clearance", LengthOf(world, answer.clearance)}};
   row["missing_clearance"] = result.missing_clearance;
   row["rounds"] = ipopt.rounds;
@@ -304,6 +308,8 @@ Json MotionRow(const Scene& scene, const World& world,
   row["limits"] = LimitsRow(*request.limits);
   row["via"] = ViaRow(world, request.via);
   if (!request.moving.empty()) row["moving"] = MovingRow(request.moving);
+  row["departure"] = EndRow(request.departure);
+  row["arrival"] = EndRow(request.arrival);
   row["limits_used"] = {{"velocity", use.velocity},
                         {"acceleration", use.acceleration},
                         {"jerk", use.jerk}};
@@ -311,11 +317,7 @@ Json MotionRow(const Scene& scene, const World& world,
   row["lengths"] = {
       {"unit", UnitRow(scene.workspace.unit)},
       {"D", world.diagonal()},
-      {"margin",
-       LengthOf(
-           world,
-           world.Resolve(request.margin.value_or(OptimizeRequest::Margin()))
-               .unit)},
+      {"margin", LengthOf(world, world.Resolve(request.Margin()).unit)},
       {"kept_margin", LengthOf(world, curve.margin)},
       {"clearance", LengthOf(world, curve.clearance)}};
   row["rounds"] = curve.rounds.size();

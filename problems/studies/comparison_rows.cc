@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "problems/studies/comparison_rows.h"
 
+#include <algorithm>
 #include <cstdint>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <sstream>
+#include <utility>
 
 #include "core/mesh/input_file.h"
 #include "core/mesh/mesh_error.h"
@@ -15,6 +18,53 @@ namespace phongpd {
 namespace {
 
 using Json = nlohmann::ordered_json;
+
+// A row, and where it was read.
+struct ReadRow {
+  Json row;
+  std::string where;
+};
+
+void ReadRows(const std::string& path, std::vector<ReadRow>* rows) {
+  constexpr std::uintmax_t kMaxBytes = std::uintmax_t{1} << 30;
+  std::istringstream file(
+      ReadInputFile(path, "rows of phongpd compare", kMaxBytes));
+  int count = 0;
+  for (std::string line; std::getline(file, line);) {
+    if (line.empty()) continue;
+    const std::string where = path + ": row " + std::to_string(++count);
+    Json row = Json::parse(line, nullptr, false);
+    if (!row.is_object()) {
+      throw InputError(where + ": expected a JSON object, found " +
+                       line.substr(0, 40));
+    }
+    CheckComparisonRow(row, where);
+    rows->push_back({std::move(row), where});
+  }
+}
+
+std::vector<Json> RowsAlone(std::vector<ReadRow> read) {
+  std::vector<Json> rows;
+  for (ReadRow& one : read) rows.push_back(std::move(one.row));
+  return rows;
+}
+
+// What no two rows of a comparison are of.
+std::string CellOf(const Json& row) {
+  return RowText(row, "scene") + ", seed " + JsonText(row.at("seed")) + ", " +
+         RowText(row, "protocol") + ", " + RowText(row, "method");
+}
+
+void RefuseRepeated(const std::vector<ReadRow>& rows) {
+  std::map<std::string, const ReadRow*> found;
+  for (const ReadRow& read : rows) {
+    const auto [at, is_new] = found.emplace(CellOf(read.row), &read);
+    if (is_new) continue;
+    throw InputError(read.where + ": expected every row once, found " +
+                     at->first + " as " + at->second->where +
+                     "; leave one of them out");
+  }
+}
 
 }  // namespace
 
@@ -101,23 +151,32 @@ std::string CompactCsv(const std::vector<Json>& rows) {
 }
 
 std::vector<Json> ReadComparison(const std::string& path) {
-  constexpr std::uintmax_t kMaxBytes = std::uintmax_t{1} << 30;
-  std::istringstream file(
-      ReadInputFile(path, "rows of phongpd compare", kMaxBytes));
-  std::vector<Json> rows;
-  for (std::string line; std::getline(file, line);) {
-    if (line.empty()) continue;
-    Json row = Json::parse(line, nullptr, false);
-    if (!row.is_object()) {
-      throw InputError(path + ": row " + std::to_string(rows.size() + 1) +
-                       ": expected a JSON object, found " + line.substr(0, 40));
-    }
-    rows.push_back(std::move(row));
-    CheckComparisonRow(rows.back(),
-                       path + ": row " + std::to_string(rows.size()));
+  std::vector<ReadRow> read;
+  ReadRows(path, &read);
+  if (read.empty()) throw InputError(path + ": expected rows, found none");
+  return RowsAlone(std::move(read));
+}
+
+std::vector<Json> JoinComparisons(const std::vector<std::string>& paths) {
+  std::vector<ReadRow> read;
+  for (const std::string& path : paths) ReadRows(path, &read);
+  if (read.empty()) {
+    throw InputError(Joined(paths) + ": expected rows, found none");
   }
-  if (rows.empty()) throw InputError(path + ": expected rows, found none");
-  return rows;
+  RefuseRepeated(read);
+  std::map<std::string, std::size_t> scenes;  // in the order they are met
+  for (const ReadRow& one : read) {
+    scenes.emplace(RowText(one.row, "scene"), scenes.size());
+  }
+  const auto problem = [&](const ReadRow& one) {
+    const auto [scene, seed] = ProblemOf(one.row);
+    return std::make_pair(scenes.at(scene), seed);
+  };
+  std::stable_sort(read.begin(), read.end(),
+                   [&](const ReadRow& a, const ReadRow& b) {
+                     return problem(a) < problem(b);
+                   });
+  return RowsAlone(std::move(read));
 }
 
 }  // namespace phongpd

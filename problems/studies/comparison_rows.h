@@ -10,8 +10,15 @@
 namespace phongpd {
 
 // The rows of a JSON Lines file.  Throws InputError naming the file and the
-// row: no JSON, or refused by CheckComparisonRow.
+// row: no JSON, or refused by CheckComparisonRow; or if there is none.
 std::vector<nlohmann::ordered_json> ReadComparison(const std::string& path);
+
+// Those of several files, in whatever order, such as the parts of a comparison,
+// of which some may be empty: a scene's rows follow each other by their seeds.
+// Throws InputError as ReadComparison, also naming a row that is there twice
+// (of one scene, seed, protocol and method), or if there is none at all.
+std::vector<nlohmann::ordered_json> JoinComparisons(
+    const std::vector<std::string>& paths);
 
 // Throws InputError starting with `where` unless the row has every key that a
 // comparison reads, of the right type.

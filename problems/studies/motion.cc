@@ -7,9 +7,9 @@
 #include <utility>
 
 #include "core/projection/penetration_tracker.h"
+#include "problems/output/gnuplot.h"
 #include "problems/output/json_text.h"
 #include "problems/output/text.h"
-#include "problems/pictures/gnuplot.h"
 
 namespace phongpd {
 namespace {

@@ -3,6 +3,7 @@
 
 #include <charconv>
 #include <cmath>
+#include <functional>
 #include <vector>
 
 #include "core/mesh/mesh_error.h"
@@ -22,6 +23,42 @@ constexpr int kMostHalvings = 60;
 std::string YamlPoint(const Vector3d& p) {
   return "[" + FormatDouble(p.x()) + ", " + FormatDouble(p.y()) + ", " +
          FormatDouble(p.z()) + "]\n";
+}
+
+std::string YamlXyz(const Vector3d& p) {
+  return "{x: " + FormatDouble(p.x()) + ", y: " + FormatDouble(p.y()) +
+         ", z: " + FormatDouble(p.z()) + "}";
+}
+
+struct RosSample {
+  Vector3d position, velocity, acceleration;  // metres
+};
+
+// A message of ROS 2 in YAML: `head`, then what `text` says of each row, and
+// its time.
+std::string RosPoints(
+    const Trajectory& trajectory, double rate, const std::string& unit,
+    std::string head,
+    const std::function<std::string(const RosSample&)>& text) {
+  RequireUnit(unit, "ROS");
+  const double metres = MetresOf(unit);
+  if (trajectory.empty()) return head + "points: []\n";
+  RequireFewRows(trajectory.duration(), rate);
+  head += "points:\n";
+  for (const Trajectory::Sample& sample : trajectory.Samples(rate)) {
+    double seconds = std::floor(sample.time);
+    double nanoseconds = std::round(1e9 * (sample.time - seconds));
+    if (nanoseconds >= 1e9) {
+      seconds += 1.0;
+      nanoseconds = 0.0;
+    }
+    head += text({metres * sample.position, metres * sample.velocity,
+                  metres * sample.acceleration}) +
+            "  time_from_start: {sec: " +
+            std::to_string(static_cast<long long>(seconds)) + ", nanosec: " +
+            std::to_string(static_cast<long long>(nanoseconds)) + "}\n";
+  }
+  return head;
 }
 
 // In mm, as it is written: to 10 nm.
@@ -131,29 +168,32 @@ std::string TimedCsv(const Trajectory& trajectory, double rate) {
 
 std::string RosTrajectory(const Trajectory& trajectory, double rate,
                           const std::string& unit) {
-  RequireUnit(unit, "ROS");
-  const double metres = MetresOf(unit);
-  std::string text =
-      "# trajectory_msgs/JointTrajectory, metres and seconds\n"
-      "joint_names: [x, y, z]\n";
-  if (trajectory.empty()) return text + "points: []\n";
-  RequireFewRows(trajectory.duration(), rate);
-  text += "points:\n";
-  for (const Trajectory::Sample& sample : trajectory.Samples(rate)) {
-    double seconds = std::floor(sample.time);
-    double nanoseconds = std::round(1e9 * (sample.time - seconds));
-    if (nanoseconds >= 1e9) {
-      seconds += 1.0;
-      nanoseconds = 0.0;
-    }
-    text += "- positions: " + YamlPoint(metres * sample.position) +
-            "  velocities: " + YamlPoint(metres * sample.velocity) +
-            "  accelerations: " + YamlPoint(metres * sample.acceleration) +
-            "  time_from_start: {sec: " +
-            std::to_string(static_cast<long long>(seconds)) + ", nanosec: " +
-            std::to_string(static_cast<long long>(nanoseconds)) + "}\n";
-  }
-  return text;
+  return RosPoints(trajectory, rate, unit,
+                   "# trajectory_msgs/JointTrajectory, metres and seconds\n"
+                   "joint_names: [x, y, z]\n",
+                   [](const RosSample& s) {
+                     return "- positions: " + YamlPoint(s.position) +
+                            "  velocities: " + YamlPoint(s.velocity) +
+                            "  accelerations: " + YamlPoint(s.acceleration);
+                   });
+}
+
+std::string RosMultiDofTrajectory(const Trajectory& trajectory, double rate,
+                                  const std::string& unit) {
+  const auto twist = [](const char* name, const Vector3d& linear) {
+    return std::string("  ") + name + ": [{linear: " + YamlXyz(linear) +
+           ", angular: {x: 0, y: 0, z: 0}}]\n";
+  };
+  return RosPoints(
+      trajectory, rate, unit,
+      "# trajectory_msgs/MultiDOFJointTrajectory, metres and seconds\n"
+      "joint_names: [robot]\n",
+      [&twist](const RosSample& s) {
+        return "- transforms: [{translation: " + YamlXyz(s.position) +
+               ", rotation: {x: 0, y: 0, z: 0, w: 1}}]\n" +
+               twist("velocities", s.velocity) +
+               twist("accelerations", s.acceleration);
+      });
 }
 
 std::string MotionGcode(const FreeSpace& space, const Trajectory& trajectory,

@@ -27,6 +27,11 @@ std::string TimedCsv(const Trajectory& trajectory, double rate);
 std::string RosTrajectory(const Trajectory& trajectory, double rate,
                           const std::string& unit);
 
+// The same as trajectory_msgs/MultiDOFJointTrajectory: one body, "robot", that
+// does not turn.
+std::string RosMultiDofTrajectory(const Trajectory& trajectory, double rate,
+                                  const std::string& unit);
+
 // G-code in millimetres: a straight line G1 for each 0.05 s at most, with the
 // mean speed along the curve as its feed, and G4 (seconds) where it rests.  The
 // lines as they are written are within 0.01 mm of the curve, or less where it

@@ -7,8 +7,8 @@
 
 #include "core/mesh/counted.h"
 #include "core/projection/phong_field.h"
+#include "problems/output/step_figure.h"
 #include "problems/output/text.h"
-#include "problems/pictures/step_figure.h"
 #include "problems/studies/trajectory_comparison.h"
 
 namespace phongpd {

@@ -17,7 +17,7 @@ share of D, the world's one length::
     world = phongpd.World(tool, {"part": part})
     run = world.optimize(start, goal)              # Ipopt, exactly judged
     plan = world.plan(start, goal)                 # or a proof that there is none
-    motion = world.optimize_in_time(start, goal, limits=(1, 2, 10))
+    motion = world.optimize(start, goal, limits=(1, 2, 10))
 
 Whatever cannot be used raises InputError, a ValueError of one line: what,
 where, expected, found.

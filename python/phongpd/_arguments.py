@@ -133,6 +133,20 @@ def motion_limits(value: Any, by_norm: bool = False) -> tuple[
     return one(v, "velocity"), one(a, "acceleration"), one(j, "jerk")
 
 
+def motion_end(value: Any, name: str) -> tuple[
+        tuple[float, float, float], tuple[float, float, float]]:
+    """Velocity (3,), or velocity and acceleration (2, 3); None: at rest."""
+    if value is None:
+        return (0.0, 0.0, 0.0), (0.0, 0.0, 0.0)
+    array = numbers(value, name, "(3,) or (2, 3)")
+    if array.shape == (3,):
+        array = np.stack([array, np.zeros(3)])
+    if array.shape != (2, 3):
+        raise InputError(f"{name}: expected shape (3,) or (2, 3), found "
+                         f"{array.shape}")
+    return point(array[0], name), point(array[1], name)
+
+
 def places_on_the_way(
         via: ArrayLike, tolerance: Any, dwell: ArrayLike,
 ) -> list[tuple[tuple[float, float, float], str, float]]:

@@ -51,6 +51,11 @@ class Motion(Answer, Shown):
 
     _LIVE = ("world",)
 
+    @property
+    def free(self) -> bool:
+        """`certified`, by the name that it has of a Trajectory."""
+        return self.certified
+
     def at(self, times: ArrayLike, order: int = 0) -> Floats:
         """(M, 3): position (order 0), velocity (1), acceleration (2) or jerk
         (3) at seconds in [0, duration], summed in double; where two pieces

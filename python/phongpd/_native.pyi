@@ -118,20 +118,24 @@ class Scene:
     limits_by_norm: bool
     via: list[tuple[_Point, str, float]]
     duration: float
+    departure: tuple[_Point, _Point]
+    arrival: tuple[_Point, _Point]
 
 class MotionWishes:
     def __init__(self, limits: tuple[_Point, _Point, _Point],
                  via: list[tuple[_Point, str, float]], duration: float,
                  margin: str, preset: str, max_seconds: float,
-                 is_required: bool, routes: int, by_norm: bool) -> None: ...
+                 is_required: bool, routes: int, by_norm: bool,
+                 departure: tuple[_Point, _Point],
+                 arrival: tuple[_Point, _Point]) -> None: ...
 
 class World:
     def __init__(self, scene: Scene, cache: bool,
                  max_mib: float) -> None: ...
     def optimize(self, start: _Point, goal: _Point, *, metric: str,
                  margin: str, waypoints: int, seed: int, max_seconds: float,
-                 straight: bool, preset: str, model: str,
-                 require: bool) -> dict[str, Any]: ...
+                 straight: bool, preset: str, model: str, require: bool,
+                 routes: int) -> dict[str, Any]: ...
     def optimize_in_time(self, start: _Point, goal: _Point, model: str,
                          wishes: MotionWishes) -> dict[str, Any]: ...
     def retime(self, path: list[_Point],

@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 import os
+import warnings
 from collections.abc import Mapping
 from typing import Any, Tuple
 
@@ -10,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _native
 from ._answers import Diagnosis, Plan, Trajectory
-from ._arguments import Floats, flag, length, motion_limits, \
+from ._arguments import Floats, flag, length, motion_end, motion_limits, \
     places_on_the_way, point, real, rows, seconds, text, whole_number
 from ._contact import ContactSpace
 from ._motion import Motion, motion_of
@@ -147,35 +148,75 @@ class World(Shown):
         return self._native.scene.limits
 
     def optimize(self, start: ArrayLike | None = None,
-                 goal: ArrayLike | None = None, *, metric: str = "",
-                 margin: float | str | None = None, waypoints: int = 0,
-                 seed: int = 1, max_seconds: float | None = None,
-                 straight: bool = False, preset: str = "",
-                 model: str = "", require: bool = False) -> Trajectory:
-        """A short smooth trajectory by Ipopt, judged exactly.
+                 goal: ArrayLike | None = None, *, limits: Any = None,
+                 margin: float | str | None = None, require: bool = False,
+                 preset: str = "", model: str = "", routes: int = 0,
+                 max_seconds: float | None = None,
+                 via: ArrayLike | None = None, tolerance: Any = None,
+                 dwell: ArrayLike = 0.0, duration: float | None = None,
+                 by_norm: bool = False, departure: ArrayLike | None = None,
+                 arrival: ArrayLike | None = None, metric: str = "",
+                 waypoints: int = 0, seed: int = 1,
+                 straight: bool = False) -> Trajectory | Motion:
+        """A short way that keeps clear, judged exactly: with limits a Motion, a
+        fast curve in time that is free and keeps them for all t, proved, from
+        rest to rest; without, a Trajectory, a smooth polyline by Ipopt.
 
         start, goal: positions; the scene's own where it was loaded.
-        metric: "phong@L" with a smoothing length, "euclidean"; "": the
-        scene's.  margin: distance kept, a share of D or "0.5unit" (shares above
+        limits: (velocity, acceleration, jerk), each one number or of x, y and
+        z, user's units and seconds; None: the scene's, if it has any; "none":
+        a path without time.
+        margin: distance kept, a share of D or "0.5unit" (shares above
         0.1 as "0.5D"), and where the scene's unit has a name 20 or "20mm" in
         it; what is kept less is in `reason` and in row["lengths"],
         with the room of start and goal, and with `require` the status is
         "clearance_missed".
-        waypoints: free ones; 0: the scene's.  straight: start from the line
-        even where it collides, as comparisons do.  preset: "fast", "balanced"
-        or "tight" (phongpd optimize --help); "": the scene's.  model: "full",
-        the whole contact space; "window", free space alone and no metric;
-        "auto", window where limits refuse the whole; "": the scene's, full
-        where that is auto.
+        preset: "fast", "balanced" or "tight" (phongpd optimize --help); "": the
+        scene's.  model: "full", the whole contact space; "window", free space
+        alone and no metric; "auto", window where limits of memory refuse the
+        whole; "": the scene's, and of a polyline full where that is auto.
+        routes: ways around the obstacles that are tried, 1 to 8; 0: the
+        preset's.  max_seconds: of a polyline's solve, or of the search for a
+        faster curve; there is one before.
+
+        With limits.  by_norm: they are of the norm instead of every axis, one
+        number each.  via: (M, 3), places to pass on the way, in order, each
+        within `tolerance`, a length as above, 0.001 of D if None; `dwell`:
+        seconds to rest at it; both one for all, or one for each.  None: the
+        scene's places.  duration: seconds that it takes, with as little jerk as
+        can be found; 0: as few as can be; None: the scene's.  departure,
+        arrival: velocity (3,), or velocity and acceleration (2, 3), with which
+        it begins and ends; None: the scene's, at rest if it has none.
+
+        Without.  metric: "phong@L" with a smoothing length, "euclidean"; "":
+        the scene's.  waypoints: free ones; 0: the scene's.  seed: of
+        straightening.  straight: start from the line even where it collides, as
+        comparisons do.
         """
+        ends = self._ends(start, goal)
+        wants_path = isinstance(limits, str) and limits == "none"
+        if not wants_path and (limits is not None or self.limits is not None):
+            _require_none("a motion in time; limits=\"none\" asks for a path",
+                          metric=metric != "", waypoints=waypoints != 0,
+                          straight=straight is not False, seed=seed != 1)
+            return self._motion(ends, limits, margin, require, preset, model,
+                                routes, max_seconds, via, tolerance, dwell,
+                                duration, by_norm, departure, arrival)
+        _require_none("a path without limits", via=via is not None,
+                      tolerance=tolerance is not None,
+                      dwell=not _is_zero(dwell), duration=duration is not None,
+                      by_norm=by_norm is not False,
+                      departure=departure is not None,
+                      arrival=arrival is not None)
         row = self._native.optimize(
-            *self._ends(start, goal), metric=text(metric, "metric"),
+            *ends, metric=text(metric, "metric"),
             margin=length(margin, "margin"),
             waypoints=whole_number(waypoints, "waypoints", 0),
             seed=whole_number(seed, "seed", 0, _MOST_SEED),
             max_seconds=seconds(max_seconds, "max_seconds"),
             straight=flag(straight, "straight"), preset=text(preset, "preset"),
-            model=text(model, "model"), require=flag(require, "require"))
+            model=text(model, "model"), require=flag(require, "require"),
+            routes=whole_number(routes, "routes", 0, 8))
         return Trajectory(
             status=row["status_class"], reason=row["reason"],
             free=row["collision_free"], path=_path(row),
@@ -183,47 +224,49 @@ class World(Shown):
             iterations=row["iterations"], seconds=row["seconds"]["total"],
             row=row, world=self)
 
-    def optimize_in_time(
-            self, start: ArrayLike | None = None,
-            goal: ArrayLike | None = None, *, limits: Any = None,
-            via: ArrayLike | None = None, tolerance: Any = None,
-            dwell: ArrayLike = 0.0, duration: float | None = None,
-            margin: float | str | None = None,
-            max_seconds: float | None = None, preset: str = "",
-            model: str = "", require: bool = False, routes: int = 0,
-            by_norm: bool = False) -> Motion:
-        """A fast curve in time that is free and keeps the limits for all t,
-        proved; from rest to rest.
+    def optimize_in_time(self, start: ArrayLike | None = None,
+                         goal: ArrayLike | None = None, *, limits: Any = None,
+                         **wishes: Any) -> Motion:
+        """optimize with limits, by the name that it had at first."""
+        warnings.warn("optimize_in_time is optimize(limits=...) now",
+                      DeprecationWarning, stacklevel=2)
+        if limits is None and self.limits is None:
+            raise InputError("limits: expected (velocity, acceleration, jerk), "
+                             "found None, and the scene has none")
+        found = self.optimize(start, goal, limits=limits, **wishes)
+        if not isinstance(found, Motion):
+            raise InputError(f"limits: expected numbers, found {limits!r}")
+        return found
 
-        limits: (velocity, acceleration, jerk), each one number or of x, y and
-        z, user's units and seconds; by_norm: one number each, of the norm
-        instead of every axis; None: the scene's.  via: (M, 3), places to
-        pass on the way, in order, each within `tolerance`, a length as
-        optimize takes them, 0.001 of D if None; `dwell`: seconds to rest at
-        it; both one for all, or one for each.  None: the scene's places.
-        duration: seconds that it takes, with as little jerk as can be found;
-        0: as few as can be; None: the scene's.  max_seconds: of the search for
-        a faster curve; there is one before.  routes: ways around the
-        obstacles along which a motion is sought, side by side, 1 to 8; 0: the
-        preset's, 1, of "tight" 3.  The rest as optimize has it.
-        """
+    def _motion(self, ends: tuple[_Point, _Point], limits: Any, margin: Any,
+                require: Any, preset: Any, model: Any, routes: Any,
+                max_seconds: Any, via: Any, tolerance: Any, dwell: Any,
+                duration: Any, by_norm: Any, departure: Any,
+                arrival: Any) -> Motion:
         scene = self._native.scene
         wishes = self._wishes(
             limits, scene.via if via is None
             else places_on_the_way(via, tolerance, dwell),
             scene.duration if duration is None else duration,
-            margin, max_seconds, preset, require, routes, by_norm)
+            margin, max_seconds, preset, require, routes, by_norm,
+            scene.departure if departure is None
+            else motion_end(departure, "departure"),
+            scene.arrival if arrival is None
+            else motion_end(arrival, "arrival"))
         return motion_of(self._native.optimize_in_time(
-            *self._ends(start, goal), text(model, "model"), wishes), self)
+            *ends, text(model, "model"), wishes), self)
 
     def retime(self, path: ArrayLike, *, limits: Any = None,
                via: ArrayLike | None = None, tolerance: Any = None,
                dwell: ArrayLike = 0.0, duration: float = 0.0,
                margin: float | str | None = None,
                max_seconds: float | None = None, preset: str = "",
-               require: bool = False, by_norm: bool = False) -> Motion:
+               require: bool = False, by_norm: bool = False,
+               departure: ArrayLike | None = None,
+               arrival: ArrayLike | None = None) -> Motion:
         """The same near a free path (K, 3) of one's own, of which the places of
-        `via` are points; they and the duration of the scene count for nothing.
+        `via` are points; what the scene says of them, of its duration, departure
+        and arrival counts for nothing.
         """
         points = [point(p, "path") for p in rows(path, "path", 3)]
         if len(points) < 2:
@@ -232,12 +275,15 @@ class World(Shown):
         wishes = self._wishes(
             limits, [] if via is None
             else places_on_the_way(via, tolerance, dwell),
-            duration, margin, max_seconds, preset, require, 0, by_norm)
+            duration, margin, max_seconds, preset, require, 0, by_norm,
+            motion_end(departure, "departure"), motion_end(arrival, "arrival"))
         return motion_of(self._native.retime(points, wishes), self)
 
     def _wishes(self, limits: Any, via: list[tuple[_Point, str, float]],
                 duration: Any, margin: Any, max_seconds: Any, preset: Any,
-                require: Any, routes: Any, by_norm: Any) -> _native.MotionWishes:
+                require: Any, routes: Any, by_norm: Any,
+                departure: tuple[_Point, _Point],
+                arrival: tuple[_Point, _Point]) -> _native.MotionWishes:
         known = self.limits if limits is None else limits
         of_norm = flag(by_norm, "by_norm")
         if limits is None:
@@ -249,7 +295,7 @@ class World(Shown):
             motion_limits(known, of_norm), via, real(duration, "duration"),
             length(margin, "margin"), text(preset, "preset"),
             seconds(max_seconds, "max_seconds"), flag(require, "require"),
-            whole_number(routes, "routes", 0, 8), of_norm)
+            whole_number(routes, "routes", 0, 8), of_norm, departure, arrival)
 
     def plan(self, start: ArrayLike | None = None,
              goal: ArrayLike | None = None, *,
@@ -365,6 +411,16 @@ def _scene_name(scene: Any) -> str:
         return os.fspath(scene)
     raise InputError("scene: expected a file or a family, found "
                      f"{type(scene).__name__}")
+
+
+def _require_none(subject: str, **given: bool) -> None:
+    for name, is_given in given.items():
+        if is_given:
+            raise InputError(f"{name}: expected none for {subject}, found one")
+
+
+def _is_zero(value: Any) -> bool:
+    return isinstance(value, (int, float)) and value == 0
 
 
 def _path(row: dict[str, Any]) -> Floats:

@@ -5,10 +5,10 @@
 
 #include <optional>
 
-#include "problems/pictures/viewer/view_page.h"
 #include "python/src/arrays.h"
 #include "python/src/bindings.h"
 #include "python/src/computing.h"
+#include "viewer/view_page.h"
 
 namespace phongpd::python {
 namespace {

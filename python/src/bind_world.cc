@@ -104,7 +104,8 @@ nb::object OptimizeWith(Workshop& workshop, const Point& start,
                         const std::string& margin, int waypoints,
                         std::uint64_t seed, double max_seconds,
                         bool is_straight, const std::string& preset,
-                        const std::string& model, bool is_required) {
+                        const std::string& model, bool is_required,
+                        int routes) {
   OptimizeRequest request = workshop.OptimizeBetween(start, goal);
   if (!preset.empty()) ApplyPreset(ParsePreset(preset, "preset"), &request);
   if (!margin.empty()) request.margin = workshop.Clearance(margin, "margin");
@@ -125,6 +126,7 @@ nb::object OptimizeWith(Workshop& workshop, const Point& start,
     request.penetration = ParsePenetration(metric, "metric");
   }
   request.requires_margin = is_required;
+  if (routes > 0) request.options.routes = routes;
   request.options.seed = seed;
   request.options.time_limit = max_seconds;
   if (is_straight) request.options.start = TrajectoryStart::kStraight;
@@ -174,6 +176,13 @@ nb::dict PlanOf(const ContactRoadmap& roadmap, const Point& start,
   return out;
 }
 
+std::array<Point, 2> EndOf(const CurveEnd& end) {
+  const auto point = [](const Vector3d& v) -> Point {
+    return {v.x(), v.y(), v.z()};
+  };
+  return {point(end.velocity), point(end.acceleration)};
+}
+
 void BindScene(nb::module_& module) {
   nb::class_<Scene>(module, "Scene")
       .def_static("make", &MakeScene, nb::arg("robot"), nb::arg("obstacles"),
@@ -215,6 +224,10 @@ void BindScene(nb::module_& module) {
                    })
       .def_prop_ro("duration",
                    [](const Scene& scene) { return scene.duration; })
+      .def_prop_ro("departure",
+                   [](const Scene& scene) { return EndOf(scene.departure); })
+      .def_prop_ro("arrival",
+                   [](const Scene& scene) { return EndOf(scene.arrival); })
       .def_prop_ro("warnings",
                    [](const Scene& scene) { return Lines(scene.warnings); })
       .def_prop_ro("robot",
@@ -238,10 +251,11 @@ void BindWorld(nb::module_& module) {
               const std::vector<std::tuple<Point, std::string, double>>& via,
               double duration, const std::string& margin,
               const std::string& preset, double max_seconds, bool is_required,
-              int routes, bool by_norm) {
-             new (self) MotionWishes{limits,      via,    duration,
-                                     margin,      preset, max_seconds,
-                                     is_required, routes, by_norm};
+              int routes, bool by_norm, const std::array<Point, 2>& departure,
+              const std::array<Point, 2>& arrival) {
+             new (self) MotionWishes{limits,  via,         duration,    margin,
+                                     preset,  max_seconds, is_required, routes,
+                                     by_norm, departure,   arrival};
            });
   nb::class_<Workshop>(module, "World")
       .def(nb::init<const Scene&, bool, double>())
@@ -249,7 +263,7 @@ void BindWorld(nb::module_& module) {
            nb::kw_only(), nb::arg("metric"), nb::arg("margin"),
            nb::arg("waypoints"), nb::arg("seed"), nb::arg("max_seconds"),
            nb::arg("straight"), nb::arg("preset"), nb::arg("model"),
-           nb::arg("require"))
+           nb::arg("require"), nb::arg("routes"))
       .def("optimize_in_time",
            [](Workshop& workshop, const Point& start, const Point& goal,
               const std::string& model, const MotionWishes& wishes) {

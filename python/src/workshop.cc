@@ -22,6 +22,10 @@ void RequireVerified(const PathAnswer& answer) {
                            answer.reason);
 }
 
+CurveEnd EndOf(const std::array<Point, 2>& end) {
+  return {ToVector(end[0]), ToVector(end[1])};
+}
+
 }  // namespace
 
 ContactSpaceCache FolderOf(bool cache) {
@@ -89,6 +93,8 @@ OptimizeRequest Workshop::MotionBetween(const Point& start, const Point& goal,
     }
     request.via.push_back(via);
   }
+  request.departure = EndOf(wishes.departure);
+  request.arrival = EndOf(wishes.arrival);
   if (wishes.routes > 0) request.options.routes = wishes.routes;
   request.requires_margin = wishes.is_required;
   request.options.time_limit = wishes.max_seconds;

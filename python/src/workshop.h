@@ -35,6 +35,8 @@ struct MotionWishes {
   bool is_required;
   int routes;    // 0: the preset's
   bool by_norm;  // are the limits
+  // Velocity and acceleration at the beginning and at the end.
+  std::array<Point, 2> departure, arrival;
 };
 
 // A world for Python.  Ipopt runs once at a time in a process, and samplers

@@ -7,7 +7,7 @@
 #include <iostream>
 #include <thread>
 
-#include "problems/pictures/gnuplot.h"
+#include "problems/output/gnuplot.h"
 #include "results/bench/contact_space_report.h"
 #include "results/bench/program.h"
 

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "problems/output/gnuplot.h"
 #include "problems/output/text.h"
-#include "problems/pictures/gnuplot.h"
 
 namespace phongpd::bench {
 namespace {

@@ -12,7 +12,7 @@
 #include <string>
 #include <utility>
 
-#include "problems/pictures/gnuplot.h"
+#include "problems/output/gnuplot.h"
 #include "results/bench/continuity_measure.h"
 #include "results/bench/model_spaces.h"
 #include "results/bench/program.h"

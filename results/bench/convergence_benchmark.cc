@@ -14,7 +14,7 @@
 #include "core/projection/euclidean_metric.h"
 #include "core/projection/phong_metric.h"
 #include "planners/world/world.h"
-#include "problems/pictures/gnuplot.h"
+#include "problems/output/gnuplot.h"
 #include "problems/scenes/scene_source.h"
 #include "problems/shapes/random_solids.h"
 #include "results/bench/convergence_report.h"

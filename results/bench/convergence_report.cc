@@ -7,8 +7,8 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "problems/output/gnuplot.h"
 #include "problems/output/text.h"
-#include "problems/pictures/gnuplot.h"
 #include "problems/studies/performance_profile.h"
 
 namespace phongpd::bench {

@@ -13,7 +13,7 @@
 #include "core/contact/depth.h"
 #include "core/projection/euclidean_metric.h"
 #include "core/stopwatch.h"
-#include "problems/pictures/gnuplot.h"
+#include "problems/output/gnuplot.h"
 #include "problems/shapes/random_solids.h"
 #include "problems/shapes/shapes.h"
 #include "results/bench/free_space_measure.h"

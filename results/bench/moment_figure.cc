@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "results/bench/moment_figure.h"
 
+#include "problems/output/gnuplot.h"
 #include "problems/output/text.h"
-#include "problems/pictures/gnuplot.h"
 
 namespace phongpd::bench {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "core/projection/euclidean_metric.h"
 #include "core/projection/phong_metric.h"
-#include "problems/pictures/gnuplot.h"
+#include "problems/output/gnuplot.h"
 #include "results/bench/moment_figure.h"
 #include "results/bench/paper_measure.h"
 #include "results/bench/paper_report.h"

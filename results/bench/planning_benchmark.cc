@@ -8,7 +8,7 @@
 #include <iostream>
 
 #include "planners/ompl/ompl_planning.h"
-#include "problems/pictures/gnuplot.h"
+#include "problems/output/gnuplot.h"
 #include "results/bench/planning_report.h"
 #include "results/bench/program.h"
 

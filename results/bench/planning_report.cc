@@ -8,8 +8,8 @@
 #include <set>
 #include <sstream>
 
+#include "problems/output/step_figure.h"
 #include "problems/output/text.h"
-#include "problems/pictures/step_figure.h"
 
 namespace phongpd::bench {
 namespace {

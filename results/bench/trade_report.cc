@@ -12,8 +12,8 @@
 #include <utility>
 
 #include "core/projection/phong_field.h"
+#include "problems/output/gnuplot.h"
 #include "problems/output/text.h"
-#include "problems/pictures/gnuplot.h"
 #include "results/bench/csv_table.h"
 #include "results/bench/paired_test.h"
 #include "results/bench/program.h"

@@ -14,7 +14,7 @@
 #include "core/minkowski/windows/grid_window.h"
 #include "core/minkowski/windows/window_cells.h"
 #include "core/solid/solid.h"
-#include "problems/pictures/gnuplot.h"
+#include "problems/output/gnuplot.h"
 #include "problems/shapes/random_solids.h"
 #include "results/bench/free_space_measure.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Evaluating rows allocates nothing, checked by counting every allocation of
-// the process.
+// Evaluating rows and judging motions allocates nothing, checked by counting
+// every allocation of the process.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "constraints/non_penetration.h"
+#include "constraints/rigid/rigid_judge.h"
 #include "problems/shapes/shapes.h"
 #include "tests/support/count_allocations.h"
 
@@ -37,6 +38,25 @@ TEST(ConstraintCost, EvaluatingDoesNotAllocate) {
   }
   EXPECT_EQ(allocations, before);
   EXPECT_GT(counts.warm, 100);
+}
+
+TEST(ConstraintCost, JudgingARigidMotionDoesNotAllocate) {
+  const RigidJudge judge(MakeBlob(1.0, 2, 0.1, 1), MakeBlob(1.0, 2, 0.1, 2));
+  long free = 0, counted = 0;
+  for (int i = 0; i < 50; ++i) {
+    RobotPose start, end;
+    start.position = {-3.0, 0.07 * i, 0.0};
+    end.position = {3.0, 0.05 * i, 1.0};
+    end.orientation =
+        Eigen::AngleAxisd(0.04 * i, Eigen::Vector3d(0.6, 0.0, 0.8));
+    const RigidMotion motion(start, end);
+    const long before = allocations;
+    free += judge.Check(motion).IsFree() ? 1 : 0;
+    counted += allocations - before;
+  }
+  EXPECT_EQ(counted, 0);
+  EXPECT_GT(free, 10);
+  EXPECT_LT(free, 40);
 }
 
 }  // namespace

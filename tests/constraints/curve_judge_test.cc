@@ -11,7 +11,7 @@
 #include "core/contact/contact_space.h"
 #include "problems/shapes/shapes.h"
 #include "tests/support/campaign.h"
-#include "tests/support/curve_problems.h"
+#include "tests/support/curve_pieces.h"
 #include "tests/support/curve_truth.h"
 #include "tests/support/solid_tools.h"
 

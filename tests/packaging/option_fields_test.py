@@ -25,7 +25,8 @@ OF_A_RUN = ("problems/scenes/", "planners/solve/")
 def installed_headers(source):
     """Those that the lists named ...HEADERS of the build files hold."""
     headers = []
-    for folder in ("core", "constraints", "planners", "problems"):
+    for folder in ("files", "core", "constraints", "planners", "problems",
+                   "viewer"):
         for lists in sorted((source / folder).rglob("CMakeLists.txt")):
             text = re.sub(r"#.*", "", lists.read_text())
             for words in re.findall(r"HEADERS\s([^()$]*)\)", text):

@@ -2,8 +2,8 @@
 # cmake -D SOURCE=... -D BUILD=... -P optional_packages_test.cmake: who builds a
 # component is asked for what it stands on, and for nothing else.
 cmake_minimum_required(VERSION 3.23)
-set(all CORE CONSTRAINTS ORACLE PLANNERS IPOPT OMPL SOLVE PROBLEMS STUDIES
-        PROGRAM EXAMPLES TESTS RESULTS)
+set(all CORE CONSTRAINTS ORACLE PLANNERS IPOPT OMPL SOLVE SHAPES PROBLEMS STUDIES
+        VIEWER PROGRAM EXAMPLES TESTS RESULTS)
 
 # Configures the components alone, as if no other package than the core's were
 # there but those of WITH.
@@ -35,6 +35,7 @@ endfunction()
 alone(CORE "" "")
 alone("CORE;CONSTRAINTS;PLANNERS" "" "")
 # Worlds and scenes need no FCL; what more they can read is said.
-alone("CORE;CONSTRAINTS;PLANNERS;PROBLEMS" nlohmann_json
+alone("CORE;SHAPES" "" "")
+alone("CORE;CONSTRAINTS;PLANNERS;SHAPES;PROBLEMS" nlohmann_json
       "Not built for want of [^;]*libassimp-dev[^;]*: readers of [^;]*")
-alone("CORE;CONSTRAINTS;PLANNERS;PROBLEMS" "nlohmann_json;assimp;tinyxml2" "")
+alone("CORE;CONSTRAINTS;PLANNERS;SHAPES;PROBLEMS" "nlohmann_json;assimp;tinyxml2" "")

@@ -50,7 +50,7 @@ print(phongpd.depth(knot, knot, at=(9, 0, 0)).status, world.diagnose(START).free
     "phongpd.minkowski(knot, knot)",
     "world.plan(START, GOAL)",
     "world.optimize(START, GOAL)",
-    "world.optimize_in_time(START, GOAL, limits=(1, 2, 10))",
+    "world.optimize(START, GOAL, limits=(1, 2, 10))",
     "world.is_free([START])",
     "world.contact_spaces()",
     "world.roadmap()",

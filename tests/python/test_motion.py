@@ -15,11 +15,11 @@ LIMITS = (1, 2, 10)
 
 @pytest.fixture
 def motion(world):
-    return world.optimize_in_time(START, GOAL, limits=LIMITS)
+    return world.optimize(START, GOAL, limits=LIMITS)
 
 
 def test_a_motion_is_free_and_keeps_its_limits(world, motion):
-    assert motion.certified and motion.solved
+    assert motion.certified and motion.free and motion.solved
     assert motion.row["verified"] == "confirmed"
     assert motion.points.shape == (len(motion.durations), 6, 3)
     assert motion.durations.sum() == pytest.approx(motion.duration)
@@ -58,7 +58,7 @@ def test_the_program_answers_the_same(tmp_path, program):
                    check=True, capture_output=True)
     world = phongpd.World.load("plate_hole")
     assert world.limits is None
-    mine = world.optimize_in_time(limits=LIMITS, duration=12)
+    mine = world.optimize(limits=LIMITS, duration=12)
     theirs = json.loads(out.read_text())
     assert mine.row["pieces"] == theirs["pieces"]
     assert mine.row["asked_duration"] == 12
@@ -67,9 +67,9 @@ def test_the_program_answers_the_same(tmp_path, program):
 
 def test_it_passes_places_and_rests_there(world):
     via = [(-1.5, 1, 0), (0.5, 2, 0.5)]
-    motion = world.optimize_in_time(START, GOAL, limits=LIMITS, via=via,
-                                    tolerance=["0.01unit", "0.02unit"],
-                                    dwell=[0, 0.5])
+    motion = world.optimize(START, GOAL, limits=LIMITS, via=via,
+                            tolerance=["0.01unit", "0.02unit"],
+                            dwell=[0, 0.5])
     assert motion.certified
     times = np.linspace(0, motion.duration, 20001)
     ways = [np.linalg.norm(motion.at(times) - place, axis=1) for place in via]
@@ -77,6 +77,18 @@ def test_it_passes_places_and_rests_there(world):
     assert ways[0].argmin() < ways[1].argmin()
     still = times[ways[1] < 1e-12]
     assert still[-1] - still[0] == pytest.approx(0.5, abs=1e-3)
+
+
+def test_it_begins_and_ends_as_it_is_told(world):
+    motion = world.optimize(START, GOAL, limits=LIMITS,
+                            departure=[(0, 0.4, 0.1), (0.1, 0, 0)],
+                            arrival=(0, -0.2, 0))
+    assert motion.certified
+    ends = np.array([0.0, motion.duration])
+    assert motion.at(ends, 1) == pytest.approx(
+        np.array([(0, 0.4, 0.1), (0, -0.2, 0)]), abs=1e-9)
+    assert motion.at(ends, 2) == pytest.approx(
+        np.array([(0.1, 0, 0), (0, 0, 0)]), abs=1e-7)
 
 
 def test_a_path_of_ones_own_is_retimed(world):
@@ -93,8 +105,8 @@ def test_a_path_of_ones_own_is_retimed(world):
 
 
 def test_limits_of_the_norm_are_kept_by_the_norm(world):
-    by_axis = world.optimize_in_time(START, GOAL, limits=LIMITS)
-    motion = world.optimize_in_time(START, GOAL, limits=LIMITS, by_norm=True)
+    by_axis = world.optimize(START, GOAL, limits=LIMITS)
+    motion = world.optimize(START, GOAL, limits=LIMITS, by_norm=True)
     assert motion.solved and motion.row["limits"]["by"] == "norm"
     times = np.linspace(0.0, motion.duration, 2001)
     for order, limit in enumerate(LIMITS, 1):
@@ -106,8 +118,8 @@ def test_limits_of_the_norm_are_kept_by_the_norm(world):
 
 def test_several_routes_are_never_slower(world):
     wish = {"limits": LIMITS, "preset": "fast", "margin": 1e-6}
-    one = world.optimize_in_time(START, GOAL, **wish)
-    best = world.optimize_in_time(START, GOAL, routes=4, **wish)
+    one = world.optimize(START, GOAL, **wish)
+    best = world.optimize(START, GOAL, routes=4, **wish)
     assert best.duration <= one.duration
     assert 1 <= best.row["routes"] <= 4 and one.row["routes"] == 1
 
@@ -122,11 +134,22 @@ def test_limits_places_and_duration_may_be_the_scenes(tmp_path):
         "via": [{"point": [0, 2, 0], "tolerance": "0.2D"}], "duration": 15}))
     world = phongpd.World.load(scene)
     assert world.limits.tolist() == [[1, 2, 3], [2, 2, 2], [10, 10, 10]]
-    motion = world.optimize_in_time()
+    motion = world.optimize()
     assert motion.duration == pytest.approx(15)
     assert motion.row["via"][0]["tolerance"]["share"] == pytest.approx(0.2)
-    fast = world.optimize_in_time(via=np.empty((0, 3)), duration=0)
+    fast = world.optimize(via=np.empty((0, 3)), duration=0)
     assert fast.duration < 15 and fast.row["via"] == []
+    path = world.optimize(limits="none")
+    assert isinstance(path, phongpd.Trajectory) and path.free
+
+
+def test_its_first_name_warns_and_answers_the_same(world, motion):
+    with pytest.warns(DeprecationWarning, match="optimize"):
+        again = world.optimize_in_time(START, GOAL, limits=LIMITS)
+    assert again.duration == motion.duration
+    with pytest.warns(DeprecationWarning), \
+            pytest.raises(phongpd.InputError, match="limits"):
+        world.optimize_in_time(START, GOAL)
 
 
 def test_a_motion_shows_itself_and_travels(motion):
@@ -158,7 +181,6 @@ def test_it_is_plotted_with_its_limits(motion):
 
 
 @pytest.mark.parametrize("given, words", [
-    ({}, "limits: expected"),
     ({"limits": 3}, "limits: expected"),
     ({"limits": (1, 2)}, "limits: expected"),
     ({"limits": ((1, 2), 2, 3)}, "limits: velocity"),
@@ -173,14 +195,27 @@ def test_it_is_plotted_with_its_limits(motion):
     ({"limits": LIMITS, "via": (0, 2, 0), "dwell": -1}, "dwell"),
     ({"limits": LIMITS, "via": (0, 2, 0), "dwell": [1, 2]}, "dwell"),
     ({"limits": LIMITS, "duration": -1}, "duration"),
+    ({"limits": LIMITS, "departure": (1, 2)}, "departure: expected shape"),
+    ({"limits": LIMITS, "arrival": (0, np.nan, 0)}, "arrival"),
+    ({"arrival": (0, 1, 0)}, "arrival: expected none"),
     ({"limits": LIMITS, "duration": "soon"}, "duration"),
     ({"limits": LIMITS, "max_seconds": 0}, "max_seconds"),
     ({"limits": LIMITS, "preset": "slow"}, "preset"),
     ({"limits": LIMITS, "margin": "-1unit"}, "margin"),
+    ({"limits": "fast"}, "limits: expected"),
+    ({"limits": LIMITS, "metric": "euclidean"}, "metric: expected none"),
+    ({"limits": LIMITS, "straight": True}, "straight: expected none"),
+    ({"limits": LIMITS, "waypoints": 3}, "waypoints: expected none"),
+    ({"limits": "none", "via": (0, 2, 0)}, "via: expected none"),
+    ({"via": (0, 2, 0)}, "via: expected none"),
+    ({"dwell": [1.0]}, "dwell: expected none"),
+    ({"duration": 0}, "duration: expected none"),
+    ({"by_norm": True}, "by_norm: expected none"),
+    ({"routes": 9}, "routes"),
 ])
 def test_it_refuses_in_one_line(world, given, words):
     with pytest.raises(phongpd.InputError, match=words) as error:
-        world.optimize_in_time(START, GOAL, **given)
+        world.optimize(START, GOAL, **given)
     assert "\n" not in str(error.value)
 
 

@@ -26,7 +26,7 @@ def paper(metric, column):
             if row["metric"] == metric]
 
 
-claim("README.md", "the paper's three benchmarks {}, {} and {} announced jumps "
+claim("docs/limits.md", "the paper's three benchmarks {}, {} and {} announced jumps "
       "against {}, {} and {} silent ones", *paper("PhongPD, ℓ = 0.1", "flagged"),
       *paper("Euclidean PD", "silent"))
 assert sum(paper("PhongPD, ℓ = 0.1", "silent")) == 0
@@ -44,10 +44,6 @@ def depth_ratio(rule):
             / jumps(rule, "frames inside"))
 
 
-claim("README.md", "[{} jumps in {:,} frames on {} spaces]"
-      "(results/queries/continuity.md), scans and parts among them, all where the "
-      "robot left elsewhere; Euclidean PD {})", TRACKED, FRAMES, SPACES,
-      jumps(E_PD, "jumps"))
 claim("docs/choosing.md", "{} jumps in {:,} frames on {} spaces, all where the robot "
       "left elsewhere, at {:.2g} times the Euclidean depth", TRACKED, FRAMES, SPACES,
       depth_ratio("tracker"))
@@ -115,10 +111,10 @@ def medians(protocol, method, families):
 
 SHARED, ALONE, FEWER, P = duel("straight-adaptive", "phong@0.2/exact", E_PD)
 assert ALONE[0] == ALONE[1]
-claim("README.md", "of {} runs from colliding starts either solved {} alone; fewer "
+claim("docs/choosing.md", "of {} runs from colliding starts either solved {} alone; fewer "
       "iterations in {} against {}, p = {:.2g})", SHARED, ALONE[0], *FEWER, P)
 (MINE, THEIRS) = (ends("straight-adaptive", m) for m in (PHONG, E_PD))
-claim("README.md", "{:,} published runs each, {} iterations a round and {} rounds at "
+claim("docs/choosing.md", "{:,} published runs each, {} iterations a round and {} rounds at "
       "most: from colliding starts with Ipopt's adaptive mu (the default) {} against {} "
       "converge, {} against {} end in a stall stop, exactly free, and {} against {} "
       "exactly free at the cap.", MINE[3],
@@ -130,15 +126,18 @@ claim("docs/choosing.md", "{} and {} of {:,} from colliding starts, {} and {} mo
 CAP = max(int(row["iterations"]) for row in table("convergence/rows.csv"))
 assert CAP == 200 * 4, CAP
 MEDIANS = [medians("straight-adaptive", m, TRAPS_AND_PLATES) for m in (PHONG, E_PD)]
-claim("README.md", "on traps and plates (medians of {:g} to {:g} against {:g} to "
+claim("docs/choosing.md", "on traps and plates (medians of {:g} to {:g} against {:g} to "
       "{:g})", *MEDIANS[0], *MEDIANS[1])
 claim("docs/choosing.md", "(medians of {:g} to {:g} against {:g} to {:g} with adaptive "
       "mu)", *MEDIANS[0], *MEDIANS[1])
 WIDEST = [ends("straight-adaptive", m, scene="peg_tunnel:clearance=0.1")
           for m in (PHONG, E_PD)]
 assert WIDEST[0][0] == WIDEST[1][0] == 0
-claim("README.md", "In the widest tunnel none of the {} converges with either; {} "
+claim("docs/choosing.md", "In the widest tunnel none of the {} converges with either; {} "
       "against {} stall.", WIDEST[0][3], WIDEST[0][1], WIDEST[1][1])
+claim("scripts/demo_page.sh", "none of {} runs from a colliding start converges with "
+      "either; with Euclidean PD {} end in a stall stop, exactly free, with PhongPD {}.",
+      WIDEST[0][3], WIDEST[1][1], WIDEST[0][1])
 claim("docs/choosing.md", "none of {} converges with either, {} end exactly free in a "
       "stall stop against {}", WIDEST[0][3], WIDEST[1][1], WIDEST[0][1])
 MONOTONE = {m: [ends("straight-monotone", m, scene=s)[0]
@@ -147,7 +146,7 @@ MONOTONE = {m: [ends("straight-monotone", m, scene=s)[0]
                 if family(s) in {"u_axis", "plate", "long_plate"}
                 and "edge=" not in s] for m in (PHONG, E_PD)}
 assert set(MONOTONE[PHONG]) == {50}
-claim("README.md", "With monotone mu all {} converge on `u_axis` and on each plate, of "
+claim("docs/choosing.md", "With monotone mu all {} converge on `u_axis` and on each plate, of "
       "Euclidean PD's {} to {}.", MONOTONE[PHONG][0], min(MONOTONE[E_PD]),
       max(MONOTONE[E_PD]))
 
@@ -156,16 +155,16 @@ MONO = [ends("repaired-monotone", m, TUNNELS) for m in (PHONG, E_PD)]
 assert MONO[0][0] + MONO[0][2] == MONO[0][3] and MONO[1][0] + MONO[1][2] == 150
 ADAPTIVE = [ends("repaired-adaptive", m, TUNNELS) for m in (PHONG, E_PD)]
 ALL = [ends("repaired-adaptive", m) for m in (PHONG, E_PD)]
-claim("README.md", "With a monotone mu {} of {} runs converge there against Euclid's "
+claim("docs/limits.md", "With a monotone mu {} of {} runs converge there against Euclid's "
       "{}, the others are exactly free.", MONO[0][0], MONO[0][3], MONO[1][0])
-claim("README.md", "{} against {}; {} against {} end in a stall stop and {} against {} "
+claim("docs/limits.md", "{} against {}; {} against {} end in a stall stop and {} against {} "
       "at the cap, all exactly free (of all scenes {} against {} of {:,} converge, {} "
       "against {} stall).",
       *(count for pair in zip(ADAPTIVE[0][:3], ADAPTIVE[1][:3]) for count in pair),
       ALL[0][0], ALL[1][0], ALL[0][3], ALL[0][1], ALL[1][1])
 FADED = {(p, m): ends("repaired-" + p, m, TUNNELS, like="faded@0.2")
          for p in ("monotone", "adaptive") for m in ("faded@0.2", E_PD)}
-claim("README.md", "converges in {} and {} of {}, Euclidean PD in {} and {} of the "
+claim("docs/limits.md", "converges in {} and {} of {}, Euclidean PD in {} and {} of the "
       "same, and stalls in {} against {} with the adaptive mu",
       FADED["monotone", "faded@0.2"][0], FADED["adaptive", "faded@0.2"][0],
       FADED["monotone", E_PD][3], FADED["monotone", E_PD][0],
@@ -175,19 +174,19 @@ claim("README.md", "converges in {} and {} of {}, Euclidean PD in {} and {} of t
 # The pipeline.
 METRICS = ("euclidean", "phong@0", "phong@0.2")
 for METRIC in METRICS:
-    claim("README.md", "it converges in [{} of {} with each metric]",
+    claim("docs/choosing.md", "it converges in {} of {} with each metric",
           total("convergence/pipeline-metrics.csv", "converged", metric=METRIC),
           sum(int(row["exactly free"].partition("/")[2]) for row in
               where("convergence/pipeline-metrics.csv", metric=METRIC)))
 TIME = float(said("results/convergence/pipeline.md",
                   r"median of all \d+ pairs ([\d.]+)"))
-claim("README.md", "It takes {:.2g} of the time it took before several changes",
+claim("docs/choosing.md", "It takes {:.2g} of the time it took before several changes",
       TIME)
 claim("CHANGELOG.md", "Trajectories take {:.2g} of the time "
       "(`results/convergence/pipeline.md`)", TIME)
 PIPELINE = [ends("pipeline", metric) for metric in METRICS]
 assert all(e[0] == e[3] for e in PIPELINE)
-claim("README.md", "path for all {:,} published runs, {:,} with each of three metrics, "
+claim("docs/limits.md", "path for all {:,} published runs, {:,} with each of three metrics, "
       "within 2 % of the best one known that keeps as clear in {:.0f} % of them",
       sum(e[3] for e in PIPELINE), PIPELINE[0][3],
       100 * total("convergence/summary.csv", "within_2_percent", protocol="pipeline")
@@ -213,7 +212,7 @@ def narrowest(planner):
 NARROWEST = [narrowest(planner) for planner in sorted(OMPL)]
 THROUGH = [w for w in widths("0.005", OMPL) if w[1] != "0"]
 assert len(THROUGH) == 1 and all(w[1] == "0" for w in widths("0.001", OMPL))
-claim("README.md", "go through channels of {:g} to {:g} of a world of size 2 in every "
+claim("docs/command-line.md", "go through channels of {:g} to {:g} of a world of size 2 in every "
       "run; through one of 0.005 `{}` alone goes, in {} of {} runs, through 0.001 none; "
       "retraction through {}, in every run", max(NARROWEST), min(NARROWEST),
       *THROUGH[0],
@@ -228,14 +227,14 @@ def outcomes(baseline):
     return count, len(rows)
 
 
-claim("README.md", "({} wins, {} ties on {} scenes)", *outcomes("euclidean")[0],
+claim("docs/limits.md", "({} wins, {} ties on {} scenes)", *outcomes("euclidean")[0],
       outcomes("euclidean")[1])
-claim("README.md", "{} wins and {} ties against all local Euclidean projections, {} "
+claim("docs/limits.md", "{} wins and {} ties against all local Euclidean projections, {} "
       "and {} against as many random contact points", *outcomes("euclidean-all")[0],
       *outcomes("contact-points")[0])
 SHARES = of("lazy/free_space.csv", "share")
-claim("README.md", "ready in {:.2f} to {:.2f} of the time", min(SHARES), max(SHARES))
-claim("README.md", "(the hull of a star against an organic body: {:.2g} of the time)",
+claim("docs/command-line.md", "ready in {:.2f} to {:.2f} of the time", min(SHARES), max(SHARES))
+claim("docs/command-line.md", "(the hull of a star against an organic body: {:.2g} of the time)",
       float(cell("trade/approximations.csv", "time of build",
                  pair="star + organic body", choice="--robot-hull")))
 
@@ -250,7 +249,7 @@ def micros(triangles, sequence, kind):
 SMALL, LARGE = (micros(n, "step 0.001", "warm") for n in ("1024", "1000000"))
 COLD = [micros(n, "random", "cold") for n in ("1024", "1000000")]
 assert {f"{us:.2g}" for us in SMALL} == {"0.22"}
-claim("README.md", "in steps of 0.001 D, one takes {:.2g} µs on 10³ triangles and "
+claim("docs/from-cpp.md", "in steps of 0.001 D, one takes {:.2g} µs on 10³ triangles and "
       "{:.3g} to {:.3g} µs on 10⁶, without, at random points, {:.2g} to {:.2g} and "
       "{:.2g} to {:.2g} µs", SMALL[0], *LARGE, *COLD[0], *COLD[1])
 

@@ -15,6 +15,7 @@ vcpkg_check_features(
   ompl PHONGPD_BUILD_OMPL
   problems PHONGPD_BUILD_PROBLEMS
   tools PHONGPD_BUILD_STUDIES
+  tools PHONGPD_BUILD_VIEWER
   tools PHONGPD_BUILD_PROGRAM)
 
 vcpkg_cmake_configure(

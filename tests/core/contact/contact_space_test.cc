@@ -11,10 +11,8 @@
 #include <cmath>
 #include <fstream>
 
-#include "constraints/oracle/collision_oracle.h"
 #include "core/minkowski/build_limits.h"
 #include "problems/shapes/shapes.h"
-#include "tests/support/oracle_of.h"
 #include "tests/support/sanitizer.h"
 #include "tests/support/solid_tools.h"
 
@@ -31,30 +29,6 @@ TriangleMesh Peg(double side) {
 void ExpectSound(const ContactSpaceReport& report) {
   EXPECT_TRUE(report.closed);
   EXPECT_TRUE(report.manifold);
-}
-
-// The surface must separate what the oracle calls free from what it calls
-// hit: everywhere, and a hair to either side of it.
-void ExpectSeparates(const TriangleMesh& robot, const TriangleMesh& obstacle,
-                     const TriangleMesh& surface, int samples) {
-  const auto oracle = testing::OracleOf<CollisionOracle>(robot, obstacle);
-  const BoundingBox box = ComputeBounds(surface);
-  std::mt19937_64 random(7);
-  for (int i = 0; i < samples; ++i) {
-    const Vector3d q = testing::RandomPoint(box, &random);
-    EXPECT_EQ(oracle.Collides(q), testing::WindingNumber(surface, q) > 0.5)
-        << q.transpose();
-  }
-  for (const double relative : {1e-6, 1e-9}) {
-    const double step = relative * box.Diagonal();
-    for (int i = 0; i < samples; ++i) {
-      const auto at = testing::RandomSurfacePoint(surface, &random);
-      EXPECT_FALSE(oracle.Collides(at.position + step * at.normal))
-          << at.position.transpose() << " out by " << step;
-      EXPECT_TRUE(oracle.Collides(at.position - step * at.normal))
-          << at.position.transpose() << " in by " << step;
-    }
-  }
 }
 
 TEST(ContactSpace, OfTwoUnitCubesIsTheCubeOfSideTwo) {
@@ -283,15 +257,6 @@ TEST(ContactSpace, MergingCoplanarTrianglesKeepsTheSurface) {
   EXPECT_LT(merged.report().triangles, cut.report().triangles);
   EXPECT_NEAR(merged.report().volume, cut.report().volume, 1e-9);
   EXPECT_NEAR(SurfaceArea(merged.mesh()), SurfaceArea(cut.mesh()), 1e-9);
-}
-
-TEST(ContactSpace, SeparatesFreeFromHitForGenericSolids) {
-  const TriangleMesh robot = MakeStar(0.5, 1.2);
-  const TriangleMesh obstacle =
-      Rotated(MakeTorus(2, 0.6, 16, 8), GenericRotation());
-  const ContactSpace c = BuildContactSpace(robot, obstacle);
-  ExpectSound(c.report());
-  ExpectSeparates(robot, obstacle, c.mesh(), 1000);
 }
 
 TEST(ContactSpace, RefusesAnOpenOperandByNameAndCount) {

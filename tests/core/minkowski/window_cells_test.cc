@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Truth: the whole convolution, the whole contact space, and exact motion
-// checks on it.
+// Truth: the whole convolution and the whole contact space.
 #include "core/minkowski/windows/window_cells.h"
 
 #include <gtest/gtest.h>
@@ -8,9 +7,7 @@
 #include <random>
 #include <set>
 
-#include "constraints/free_space.h"
 #include "core/contact/contact_space.h"
-#include "core/minkowski/convolution/convolution_space.h"
 #include "core/minkowski/operands/grid_pair.h"
 #include "problems/shapes/shapes.h"
 #include "tests/support/facet_corners.h"
@@ -102,35 +99,6 @@ TEST(WindowCells, JoinedShowTheWholeContactSpace) {
     EXPECT_NEAR(area * grid.frame.step * grid.frame.step, expected,
                 1e-10 * expected);
   }
-}
-
-TEST(ConvolutionSpace, AgreesWithTheContactSpaceOnEverySegment) {
-  std::mt19937_64 random(4);
-  int free = 0, blocked = 0;
-  for (const Pair& pair : Pairs()) {
-    SCOPED_TRACE(pair.name);
-    const ContactSpace space = BuildContactSpace(pair.robot, pair.obstacle);
-    const FreeSpace truth({space});
-    const GridPair grid = MakeGridPair(pair.robot, "a", pair.obstacle, "b");
-    const ConvolutionSpace convolution(grid);
-    const BoundingBox box = space.bounds();
-    for (int i = 0; i < 2000; ++i) {
-      const Vector3d a = testing::RandomPoint(box, &random);
-      Vector3d b = testing::RandomPoint(box, &random);
-      if (i % 2 == 0) b = a + 0.1 * (b - a);
-      ASSERT_EQ(convolution.IsFree(a), truth.IsFree(a)) << a.transpose();
-      ASSERT_EQ(convolution.IsFree(a, b), truth.IsFree(a, b))
-          << a.transpose() << " to " << b.transpose();
-      truth.IsFree(a, b) ? ++free : ++blocked;
-      if (!truth.IsFree(a)) continue;
-      const ConvolutionSpace::Nearest nearest = convolution.FindNearest(a);
-      EXPECT_NEAR(nearest.distance, truth.Clearance(a), 1e-12 * box.Diagonal());
-      EXPECT_NEAR((nearest.point - a).norm(), nearest.distance,
-                  1e-12 * box.Diagonal());
-    }
-  }
-  EXPECT_GT(free, 500);
-  EXPECT_GT(blocked, 500);
 }
 
 }  // namespace

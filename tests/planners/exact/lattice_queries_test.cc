@@ -12,6 +12,7 @@
 #include "constraints/free_space.h"
 #include "core/bvh/triangle_bvh.h"
 #include "core/contact/contact_space.h"
+#include "core/contact/convolution_model.h"
 #include "planners/exact/contact_roadmap.h"
 #include "planners/exact/contact_surface_planner.h"
 #include "planners/exact/free_neighbors.h"
@@ -249,6 +250,36 @@ TEST(PathLift, FreesEverySegmentBetweenSitesOfATriangle) {
       });
   EXPECT_GT(segments_lifted, 4000);
   EXPECT_EQ(blocked, 0);
+}
+
+// What is asked of the model that queries are built from.
+TEST(ConvolutionModel, AgreesWithRationalArithmeticOnLatticeWorlds) {
+  std::mt19937_64 random(6);
+  int free = 0, blocked = 0;
+  for (int i = 0; i < 40; ++i) {
+    const auto family =
+        static_cast<LatticeWorld::Family>(i % LatticeWorld::kFamilies);
+    const LatticeWorld world =
+        testing::MakeLatticeWorld(family, i % 2 == 1, &random);
+    SCOPED_TRACE(world.name);
+    const auto mapped = [&](TriangleMesh mesh) {
+      for (Vector3d& v : mesh.vertices) v = world.map.cast<double>() * v;
+      return mesh;
+    };
+    const FreeSpace found = FreeSpace::OfConvolutions(
+        {ConvolutionModel(mapped(world.workspace.robot),
+                          mapped(MergedObstacle(world.workspace)))});
+    for (int k = 0; k < 200; ++k) {
+      const Vector3d a = world.Point(world.RandomCell(&random));
+      const Vector3d b = world.Point(world.RandomCell(&random));
+      const bool is_free = world.IsFree({a, b});
+      ASSERT_EQ(found.IsFree(a, b), is_free)
+          << a.transpose() << " to " << b.transpose();
+      (is_free ? free : blocked) += 1;
+    }
+  }
+  EXPECT_GT(free, 300);
+  EXPECT_GT(blocked, 1000);
 }
 
 }  // namespace

@@ -52,7 +52,7 @@ TEST(NonPenetrationRows, AreTheDistancesOfTheSamples) {
   VectorXd u(6), g(5);
   u << -1, 0.3, 0.1, 0.2, 1.0, -0.3;
   rows.Values(u, g);
-  const std::vector<Vector3d> path = rows.PathOf(u);
+  const std::vector<Vector3d> path = rows.Path(u);
   ASSERT_EQ(path.size(), 4U);
   int row = 0;
   for (int i = 0; i < 3; ++i) {
@@ -62,6 +62,9 @@ TEST(NonPenetrationRows, AreTheDistancesOfTheSamples) {
     }
     EXPECT_NEAR(g[row++], BoxDistance(0.5 * (path[k] + path[k + 1])), 1e-12);
   }
+  VectorXd sized;
+  rows.Values(u, &sized);
+  EXPECT_EQ(sized, g);
   EXPECT_EQ(rows.lower(), VectorXd::Constant(5, rows.margin()));
   EXPECT_TRUE((rows.upper().array() == INFINITY).all());
   EXPECT_DOUBLE_EQ(rows.margin(), 0.01 * world.diagonal());
@@ -117,7 +120,7 @@ TEST(NonPenetrationRows, ByTheRuleWhatHoldsIsFree) {
     rows.Start(u);
     rows.Values(u, g);
     const bool holds = (g - rows.lower()).minCoeff() >= 0.0;
-    const bool is_free = CheckPath(space, rows.PathOf(u)).free;
+    const bool is_free = CheckPath(space, rows.Path(u)).free;
     held += holds;
     broken += !is_free;
     EXPECT_TRUE(is_free || !holds) << trial;

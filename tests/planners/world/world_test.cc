@@ -208,6 +208,43 @@ TEST(World, ItsSpacesMeasureByTheWorldsDiagonal) {
   EXPECT_GT(smaller, 0);
 }
 
+// By the oracle's solids; by free space alone at first, then by the contact
+// spaces that somebody built.
+TEST(World, TellsWhatIsFreeWithWhateverThereIs) {
+  const Scene scene = Parse(Crowd());
+  const World world = WorldOf(scene);
+  std::mt19937_64 random(3);
+  std::uniform_real_distribution<double> side(-1.2, 1.2);
+  std::vector<Vector3d> places;
+  for (int i = 0; i < 200; ++i) {
+    places.emplace_back(side(random), side(random), side(random));
+  }
+  std::vector<bool> before;
+  int free = 0;
+  for (const Vector3d& q : places) {
+    before.push_back(world.IsFree({q}));
+    EXPECT_EQ(before.back(), world.Diagnose(q).IsFree()) << q.transpose();
+    free += before.back();
+  }
+  EXPECT_GT(free, 20);
+  EXPECT_LT(free, 180);
+  EXPECT_EQ(world.Built(SpaceLayout::kMerged), nullptr);
+  std::vector<bool> motions;
+  for (std::size_t i = 1; i < places.size(); ++i) {
+    motions.push_back(world.IsFree({places[i - 1], places[i]}));
+  }
+  world.Spaces(SpaceLayout::kMerged);
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    EXPECT_EQ(world.IsFree({places[i]}), before[i]);
+    if (i == 0) continue;
+    EXPECT_EQ(world.IsFree({places[i - 1], places[i]}), motions[i - 1]);
+  }
+  EXPECT_FALSE(world.IsFree({}));
+  EXPECT_FALSE(world.IsFree({Vector3d(NAN, 0.0, 0.0)}));
+  EXPECT_FALSE(
+      world.IsFree({Vector3d(-0.8, -0.8, -0.8), Vector3d(0.0, INFINITY, 0.0)}));
+}
+
 TEST(World, IsKnownByItsSolidsNamesAndBounds) {
   const Workspace a = Parse(Crowd()).workspace;
   Workspace b = a;

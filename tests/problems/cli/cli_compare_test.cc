@@ -15,7 +15,7 @@ namespace {
 
 using CliCompare = CliScenes;
 
-TEST_F(CliCompare, ShardsMergeIntoTheWhole) {
+TEST_F(CliCompare, RowsOfPartsAreTheWhole) {
   const std::string what =
       "compare thin_wall:thickness=0.02,triangles=80 " + Scene(TwoObstacles()) +
       " --runs 2 --seed 3 --metrics euclidean phong@0.2 --protocols "
@@ -24,7 +24,9 @@ TEST_F(CliCompare, ShardsMergeIntoTheWhole) {
   ASSERT_EQ(Run(what + "part0 --shard 0/2").code, 0);
   ASSERT_EQ(Run(what + "part1 --shard 1/2").code, 0);
   EXPECT_FALSE(std::filesystem::exists(Output("part0/summary.csv")));
-  const Outcome merged = Run("merge part1 part0 --output merged");
+  EXPECT_FALSE(std::filesystem::exists(Output("part0/shard.json")));
+  const Outcome merged =
+      Run("compare --rows part1/rows.jsonl part0/rows.jsonl --output merged");
   ASSERT_EQ(merged.code, 0) << merged.err;
 
   const auto rows = [&](const std::string& folder) {
@@ -90,29 +92,37 @@ TEST_F(CliCompare, EveryProtocolFollowsTheMetricAsked) {
   EXPECT_EQ(methods, expected);
 }
 
-TEST_F(CliCompare, PartsThatAreLostRepeatedOrCutShortAreNamed) {
+TEST_F(CliCompare, PartsThatAreRepeatedOrCutShortAreNamed) {
   const std::string what = "compare " + Scene(TwoObstacles()) +
                            " --runs 3 --metrics euclidean --protocols "
                            "straight-adaptive --output ";
-  for (const std::string part : {"0", "1", "2"}) {
-    ASSERT_EQ(Run(what + "../p" + part + " --shard " + part + "/3").code, 0);
+  // More parts than problems: the last one has none.
+  for (const std::string part : {"0", "1", "2", "3"}) {
+    ASSERT_EQ(Run(what + "../p" + part + " --shard " + part + "/4").code, 0);
   }
-  ASSERT_EQ(Run(what + "../other --seed 9 --shard 1/3").code, 0);
-  ExpectRefused("merge ../p0 ../p2 --output out",
-                {"1/3", "all 3 parts, found 2"});
-  ExpectRefused("merge ../p0 ../p1 ../p2 ../p1 --output out",
-                {"p1", "1/3", "once"});
-  ExpectRefused("merge ../p0 ../other ../p2 --output out",
-                {"other", "another"});
-  ExpectRefused("merge ../p0 ../p1 ../none --output out", {"none/shard.json"});
+  const auto rows = [](const std::string& parts) {
+    std::string flags = "compare --rows";
+    for (const char part : parts) {
+      flags += std::string(" ../p") + part + "/rows.jsonl";
+    }
+    return flags;
+  };
+  EXPECT_EQ(Content(folder_ / "p3/rows.jsonl"), "");
+  const Outcome all = Run(rows("3120"));
+  EXPECT_EQ(all.code, 0) << all.err;
+  EXPECT_NE(all.out.find(" of 3 ("), std::string::npos) << all.out;
+  // Of a part that is lost the table tells.
+  EXPECT_NE(Run(rows("02")).out.find(" of 2 ("), std::string::npos);
+  ExpectRefused(rows("0121") + " --output out",
+                {"p1/rows.jsonl: row 1", "once", "seed 2", "euclidean"});
+  ExpectRefused(rows("3") + " --output out", {"p3/rows.jsonl", "found none"});
+  ExpectRefused(rows("01") + " ../none.jsonl --output out", {"none.jsonl"});
   const std::string whole = Content(folder_ / "p2/rows.jsonl");
-  WriteText("p2/rows.jsonl", "");
-  ExpectRefused("merge ../p0 ../p1 ../p2 --output out", {"p2/rows.jsonl"});
   WriteText("p2/rows.jsonl", whole + whole);
-  ExpectRefused("merge ../p0 ../p1 ../p2 --output out",
-                {"p2/rows.jsonl", "expected 1 rows", "found 2"});
-  WriteText("p2/shard.json", "{\"shard\": \"7/3\"}");
-  ExpectRefused("merge ../p0 ../p1 ../p2 --output out", {"p2/shard.json"});
+  ExpectRefused(rows("012") + " --output out",
+                {"p2/rows.jsonl: row 2", "p2/rows.jsonl: row 1"});
+  WriteText("p2/rows.jsonl", whole.substr(0, whole.size() / 2));
+  ExpectRefused(rows("012") + " --output out", {"p2/rows.jsonl: row 1"});
   EXPECT_FALSE(std::filesystem::exists(Output("out")));
 }
 

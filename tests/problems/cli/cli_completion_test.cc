@@ -186,6 +186,22 @@ class CliCompletion : public Cli {
     EXPECT_TRUE(has_euclidean);
   }
 
+  // Names of files, also behind a flag and '='.
+  template <typename Shell>
+  void ExpectFilesOffered(const Shell& shell) {
+    std::ofstream(Output("some_mesh.off")) << "OFF\n";
+    const auto offers =
+        shell(std::vector<std::string>{"depth some_", "plan --output=some_"});
+    ASSERT_EQ(offers.size(), 2U);
+    for (const auto& [line, names] : offers) {
+      bool has_file = false;
+      for (const std::string& name : names) {
+        has_file |= name.find("some_mesh.off") != std::string::npos;
+      }
+      EXPECT_TRUE(has_file) << line;
+    }
+  }
+
   std::vector<std::string> paths_;
 };
 
@@ -217,6 +233,11 @@ TEST_F(CliCompletion, FishOffersValues) {
                       "query --metric=eu");
 }
 
+TEST_F(CliCompletion, FishOffersFiles) {
+  if (!HasProgram("fish")) GTEST_SKIP() << "fish is not installed";
+  ExpectFilesOffered([this](const auto& lines) { return Fish(lines); });
+}
+
 TEST_F(CliCompletion, ZshOffersEveryCommandAndFlag) {
   if (!HasProgram("zsh")) GTEST_SKIP() << "zsh is not installed";
   ExpectAllOffered([this](const auto& lines) { return Zsh(lines); });
@@ -226,6 +247,11 @@ TEST_F(CliCompletion, ZshOffersValues) {
   if (!HasProgram("zsh")) GTEST_SKIP() << "zsh is not installed";
   ExpectValuesOffered([this](const auto& lines) { return Zsh(lines); },
                       "query --metric=eu");
+}
+
+TEST_F(CliCompletion, ZshOffersFiles) {
+  if (!HasProgram("zsh")) GTEST_SKIP() << "zsh is not installed";
+  ExpectFilesOffered([this](const auto& lines) { return Zsh(lines); });
 }
 
 TEST_F(CliCompletion, OtherShellsAreRefused) {

@@ -50,6 +50,15 @@ Vector3d At(const Piece& piece, int order, double s) {
   return PointAt(DerivativeOf(piece, order).points, s);
 }
 
+std::size_t Occurrences(const std::string& text, const std::string& of) {
+  std::size_t count = 0;
+  for (std::size_t at = 0; (at = text.find(of, at)) != std::string::npos;
+       ++at) {
+    ++count;
+  }
+  return count;
+}
+
 class CliTimed : public CliScenes {
  protected:
   // The JSON that a command wrote to run/t.json.
@@ -392,6 +401,46 @@ TEST_F(CliTimed, TakesTheTimeAskedFor) {
   EXPECT_EQ(Answer(own + " --duration 0", 0)["duration"], least);
 }
 
+// Of a motion that passes: it neither begins nor ends at rest.
+TEST_F(CliTimed, BeginsAndEndsAsItIsTold) {
+  Json json = TwoObstacles();
+  const std::string command = "optimize " + Scene(json) + " --limits 1,2,10";
+  const Json rest = Answer(command, 0);
+  EXPECT_EQ(rest["departure"]["velocity"], Json({0, 0, 0}));
+  const Json row =
+      Answer(command + " --departure 0,0.4,0.1,0.1,0,0 --arrival=0,-0.2,0", 0);
+  EXPECT_EQ(row["departure"]["velocity"], Json({0, 0.4, 0.1}));
+  EXPECT_EQ(row["departure"]["acceleration"], Json({0.1, 0, 0}));
+  EXPECT_EQ(row["verified"], "confirmed");
+  const std::vector<Piece> pieces = PiecesOf(row);
+  ASSERT_FALSE(pieces.empty());
+  const auto far = [&pieces](int order, bool is_end, const Vector3d& asked) {
+    return (is_end ? At(pieces.back(), order, 1.0)
+                   : At(pieces.front(), order, 0.0)) -
+           asked;
+  };
+  EXPECT_LT(far(1, false, {0, 0.4, 0.1}).norm(), 1e-9);
+  EXPECT_LT(far(2, false, {0.1, 0, 0}).norm(), 1e-7);
+  EXPECT_LT(far(1, true, {0, -0.2, 0}).norm(), 1e-9);
+  EXPECT_LT(far(2, true, Vector3d::Zero()).norm(), 1e-7);
+  // The same in the scene; what is not a speed of the machine is refused.
+  json["limits"] = {{"velocity", 1}, {"acceleration", 2}, {"jerk", 10}};
+  json["departure"] = {{"velocity", {0, 0.4, 0.1}},
+                       {"acceleration", {0.1, 0, 0}}};
+  json["arrival"] = {{"velocity", {0, -0.2, 0}}};
+  EXPECT_EQ(Answer("optimize " + Scene(json), 0)["pieces"], row["pieces"]);
+  for (const std::string bad : {"--departure 0,3,0", "--arrival 1,2",
+                                "--departure 0,x,0", "--arrival 0,0,0,9,0,0"}) {
+    const Outcome refused = Run(command + " " + bad);
+    EXPECT_EQ(refused.code, 2) << bad;
+    EXPECT_EQ(Occurrences(refused.err, "\n"), 1U) << refused.err;
+  }
+  const Outcome path =
+      Run("optimize ../scene.json --limits none --arrival 0,0,0");
+  EXPECT_EQ(path.code, 2);
+  EXPECT_NE(path.err.find("--arrival"), std::string::npos) << path.err;
+}
+
 TEST_F(CliTimed, WritesWhatMachinesRead) {
   Json json = TwoObstacles();
   json["unit"] = "mm";
@@ -400,13 +449,18 @@ TEST_F(CliTimed, WritesWhatMachinesRead) {
   ASSERT_EQ(Run(command + " --output t.yaml --rate 20").code, 0);
   const std::string yaml = Content(Output("t.yaml"));
   const auto rows = Split(Content(Output("t.csv")), '\n').size() - 1;
-  std::size_t points = 0;
-  for (std::size_t at = 0;
-       (at = yaml.find("- positions: [", at)) != std::string::npos; ++at) {
-    ++points;
-  }
-  EXPECT_EQ(points, rows);
   EXPECT_NE(yaml.find("- positions: [-0.0015, 0, 0]"), std::string::npos);
+  ASSERT_EQ(Run(command + " --output t.multidof.yaml --rate 20").code, 0);
+  const std::string body = Content(Output("t.multidof.yaml"));
+  EXPECT_EQ(Occurrences(yaml, "- positions: ["), rows);
+  EXPECT_EQ(Occurrences(body, "- transforms: ["), rows);
+  EXPECT_EQ(Occurrences(body, "nanosec: "), rows);
+  EXPECT_NE(body.find("- transforms: [{translation: {x: -0.0015, y: 0, z: 0}, "
+                      "rotation: {x: 0, y: 0, z: 0, w: 1}}]\n"
+                      "  velocities: [{linear: {x: 0, y: 0, z: 0}, angular: "
+                      "{x: 0, y: 0, z: 0}}]\n"),
+            std::string::npos)
+      << body.substr(0, 400);
   for (const std::string name : {"t.gcode", "t.nc"}) {
     ASSERT_EQ(Run(command + " --output " + name).code, 0);
     const std::string gcode = Content(Output(name));
@@ -414,6 +468,54 @@ TEST_F(CliTimed, WritesWhatMachinesRead) {
     EXPECT_NE(gcode.find("G1 X1.50000 Y0.00000 Z0.00000 F"), std::string::npos)
         << gcode;
   }
+}
+
+// What the page plays is the curve of the JSON, at equal times.
+TEST_F(CliTimed, PlaysAPageInItsOwnTime) {
+  const std::string command = "optimize " + Scene(TwoObstacles()) +
+                              " --limits 1,2,10 --html ../p.html";
+  const Json row = Answer(command, 0);
+  const std::string page = Content(File("p.html"));
+  const std::string open = "id=\"view-data\">";
+  const std::size_t at = page.find(open);
+  ASSERT_NE(at, std::string::npos);
+  const std::size_t from = at + open.size();
+  const Json view =
+      Json::parse(page.substr(from, page.find("</script>", from) - from));
+  const Json& path = view["paths"][0];
+  const Json& pace = path["pace"];
+  EXPECT_EQ(path["free"], true);
+  EXPECT_EQ(pace["duration"], row["duration"]);
+  const std::vector<Piece> pieces = PiecesOf(row);
+  const std::size_t last = path["points"].size() - 1;
+  ASSERT_EQ(pace["jerk"].size(), last + 1);
+  double begin = 0.0, least = 1e300, most = 0.0;
+  std::size_t piece = 0;
+  for (std::size_t i = 0; i <= last; ++i) {
+    const double t = row["duration"].get<double>() * static_cast<double>(i) /
+                     static_cast<double>(last);
+    while (piece + 1 < pieces.size() && t >= begin + pieces[piece].duration) {
+      begin += pieces[piece++].duration;
+    }
+    const Piece& here = pieces[piece];
+    const double s = std::min(1.0, (t - begin) / here.duration);
+    EXPECT_LT((PointOf(path["points"][i]) - At(here, 0, s)).norm(), 1e-9) << i;
+    EXPECT_NEAR(pace["velocity"][i].get<double>(),
+                At(here, 1, s).cwiseAbs().maxCoeff() / 1.0, 1e-6);
+    EXPECT_NEAR(pace["acceleration"][i].get<double>(),
+                At(here, 2, s).cwiseAbs().maxCoeff() / 2.0, 1e-6);
+    least = std::min(least, pace["clearance"][i].get<double>());
+    most = std::max(most, pace["jerk"][i].get<double>());
+  }
+  EXPECT_GE(least, row["clearance"].get<double>() * (1.0 - 1e-9));
+  EXPECT_GT(most, 0.5);
+  EXPECT_LE(most, 1.0 + 1e-9);
+  WriteDetour();
+  EXPECT_EQ(Run("retime ../detour.csv --scene ../scene.json --limits 1,2,10 "
+                "--html r.html")
+                .code,
+            0);
+  EXPECT_NE(Content(Output("r.html")).find("\"pace\""), std::string::npos);
 }
 
 TEST_F(CliTimed, EndsAtCtrlCWithTheBestSoFar) {

@@ -65,6 +65,8 @@ Json FullScene() {
   scene["via"] = {{{"point", {0, 0, 4}}},
                   {{"point", {1, 0, 4}}, {"tolerance", 0.05}, {"dwell", 2}}};
   scene["duration"] = 7.5;
+  scene["departure"] = {{"velocity", {0, 0.5, 0}}, {"acceleration", {1, 0, 0}}};
+  scene["arrival"] = {{"velocity", {0.25, 0, 0}}};
   scene["feasible"] = true;
   scene["witness"] = {{-3, 0, 0}, {0, 0, 4}, {3, 0, 0}};
   return scene;
@@ -112,6 +114,10 @@ TEST(Scene, ReadsEverySetting) {
   EXPECT_EQ(scene.via[1].tolerance, Length::FromShare(0.05));
   EXPECT_EQ(scene.via[1].dwell, 2.0);
   EXPECT_EQ(scene.duration, 7.5);
+  EXPECT_EQ(scene.departure.velocity, Vector3d(0, 0.5, 0));
+  EXPECT_EQ(scene.departure.acceleration, Vector3d(1, 0, 0));
+  EXPECT_EQ(scene.arrival.velocity, Vector3d(0.25, 0, 0));
+  EXPECT_EQ(scene.arrival.acceleration, Vector3d::Zero());
   EXPECT_EQ(scene.feasible, true);
   EXPECT_EQ(scene.witness.at(1), Vector3d(0, 0, 4));
 }
@@ -240,6 +246,7 @@ TEST(Scene, SchemaAndStructsHaveTheSameDefaults) {
                      {"dwell", of_via["dwell"]["default"]}}};
   const Scene a = ParseScene(written, "a"), b = ParseScene(SmallScene(), "b");
   EXPECT_EQ(a.duration, b.duration);
+  EXPECT_TRUE(b.departure.IsAtRest() && b.arrival.IsAtRest());
   EXPECT_EQ(a.via.at(0).tolerance, Via().tolerance);
   EXPECT_EQ(a.via.at(0).dwell, Via().dwell);
   EXPECT_EQ(a.penetration.metric, b.penetration.metric);

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "constraints/rigid/rigid_motion.h"
+#include "core/mesh/triangle_mesh.h"
+
+namespace phongpd {
+
+enum class RigidOutcome {
+  kFree,       // for all t in [0, 1]: proved
+  kCollides,   // at `time`: proved
+  kUndecided,  // closer to contact than is resolved
+};
+const char* ToString(RigidOutcome outcome);  // free, collides, undecided
+
+struct RigidCheck {
+  RigidOutcome outcome = RigidOutcome::kUndecided;
+  // Of kCollides: a time at which it does, not the first.  Of kUndecided: the
+  // middle of the part of the way that is not decided.
+  double time = 0.0;
+  double from = 0.0, to = 1.0;  // of kUndecided: that part
+  // Which triangles meet, or are not told apart: numbers in the meshes, and the
+  // meshes in the lists given.  −1: one solid holds a part of the other
+  // (kCollides), or nothing was looked at (kUndecided).
+  int robot_mesh = -1, robot_triangle = -1;
+  int obstacle_mesh = -1, obstacle_triangle = -1;
+  long tests = 0;  // pairs of boxes and triangles looked at
+
+  bool IsFree() const { return outcome == RigidOutcome::kFree; }
+};
+
+// Does a robot that moves and turns (rigid_motion.h) meet fixed obstacles?  No
+// samples: pairs of boxes, then of triangles, are parted by a direction for a
+// part of the way; each pair halves its own part until that holds
+// (rigid_pair.h), or a triangle is seen to run through another.
+//
+// "Free" and "collides" are theorems about the meshes and the motion given:
+// rounding is taken off every gap beforehand, and added to what a meeting must
+// stand.  With S the sum of the robot's reach from its origin, of that origin's
+// from the middle of the obstacles and of their own, and θ the turn, that is
+// 2⁻⁴⁴ S (1 + θ)².  What touches is not free.
+//
+// Surfaces: triangles, closed or not, of any quality.  A mesh that is closed,
+// consistently oriented and edge-manifold bounds a solid, { p : w(p) > 0 } as
+// in solid.h: a part of the other side that is wholly inside of it collides
+// with it, too.  One turned inside out is a room, and bounds none.  Vertices
+// that a file repeats are not joined: MakeSolid does that.
+//
+// Undecided: two triangles come closer than about 1e-7 of half the robot's
+// diagonal (or than 4 times the rounding), or meet by no more; they touch along
+// edges or in one plane; or `max_tests` pairs were looked at.
+//
+// An immutable handle, cheap to copy.  Queries are thread-safe and do not
+// allocate.  From 10 µs to some milliseconds a motion.
+class RigidJudge {
+ public:
+  // Throws InputError for meshes without triangles, with invalid indices or
+  // coordinates that are not finite or out of range (mesh_range.h).
+  RigidJudge(const TriangleMesh& robot, const TriangleMesh& obstacle);
+  // The robot is all of `robot` at once, so are the obstacles.
+  RigidJudge(const std::vector<TriangleMesh>& robot,
+             const std::vector<TriangleMesh>& obstacles);
+
+  static constexpr long kMaxTests = 10'000'000;
+
+  // Throws InputError where the way is more than 1e100 times as far from the
+  // obstacles as the meshes are large, which no rounding stands.
+  RigidCheck Check(const RigidMotion& motion, long max_tests = kMaxTests) const;
+
+ private:
+  struct Impl;
+  std::shared_ptr<const Impl> impl_;
+};
+
+}  // namespace phongpd

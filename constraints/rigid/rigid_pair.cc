@@ -1,0 +1,308 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "constraints/rigid/rigid_pair.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace phongpd::internal {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+constexpr double kSlack = 0x1p-44;
+// Of a square of length 1 that products of rounded directions miss.
+constexpr double kRoundedSquare = 0x1p-48;
+// Of a direction's square, by the edges that it is made of: below it is noise.
+constexpr double kParallel = 1e-24;
+// Of corners that a meeting must stand, in slacks.
+constexpr double kMoved = 8.0;
+
+// The certificate (2) of a pair of triangles, direction by direction.
+class DirectionSearch {
+ public:
+  DirectionSearch(const FramedMotion& motion, const RigidPose& middle, double h,
+                  const TriangleCorners& robot, const TriangleCorners& obstacle)
+      : motion_(motion), h_(h), obstacle_(obstacle) {
+    double farthest = 0.0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Vector3d arm = middle.rotation * robot[i];
+      placed_[i] = arm + middle.position;
+      speed_[i] = motion.moved() + motion.turn().cross(arm);
+      from_axis_[i] = motion.FromAxis(robot[i]);
+      farthest = std::max(farthest, from_axis_[i]);
+    }
+    bend_ = 0.5 * h * h * motion.angle() * motion.angle();
+    bound_ = h * (motion.distance() + motion.angle() * farthest);
+  }
+
+  // True as soon as a direction proves them apart.
+  bool Run() {
+    std::array<Vector3d, 3> e, f;
+    for (std::size_t i = 0; i < 3; ++i) {
+      e[i] = placed_[(i + 1) % 3] - placed_[i];
+      f[i] = obstacle_[(i + 1) % 3] - obstacle_[i];
+    }
+    const Vector3d m = e[0].cross(e[1]), n = f[0].cross(f[1]);
+    const double a = std::max({e[0].squaredNorm(), e[1].squaredNorm()});
+    const double b = std::max({f[0].squaredNorm(), f[1].squaredNorm()});
+    if (Try(n, b * b) || Try(m, a * a)) return true;
+    for (const Vector3d& x : e) {
+      for (const Vector3d& y : f) {
+        if (Try(x.cross(y), a * b)) return true;
+      }
+    }
+    for (const Vector3d& x : e) {
+      if (Try(m.cross(x), a * a * a)) return true;
+    }
+    for (const Vector3d& y : f) {
+      if (Try(n.cross(y), b * b * b)) return true;
+    }
+    // Corners and slivers show themselves along their distance.
+    return is_apart_ && TryClosest(e, f);
+  }
+
+  // Some direction parts them at the middle, to rounding.
+  bool is_apart() const { return is_apart_; }
+  double bound() const { return bound_; }
+  const TriangleCorners& placed() const { return placed_; }
+
+ private:
+  bool Try(const Vector3d& direction, double scale) {
+    const double squared = direction.squaredNorm();
+    if (!(squared > kParallel * scale)) return false;
+    return TryUnit(direction / std::sqrt(squared));
+  }
+
+  bool TryUnit(const Vector3d& n) {
+    const double x[3] = {n.dot(placed_[0]), n.dot(placed_[1]),
+                         n.dot(placed_[2])};
+    const double y[3] = {n.dot(obstacle_[0]), n.dot(obstacle_[1]),
+                         n.dot(obstacle_[2])};
+    const double above =
+        std::min({x[0], x[1], x[2]}) - std::max({y[0], y[1], y[2]});
+    const double below =
+        std::min({y[0], y[1], y[2]}) - std::max({x[0], x[1], x[2]});
+    const double gap = std::max(above, below) - motion_.slack();
+    if (!(gap > 0.0)) return false;
+    is_apart_ = true;
+    if (gap > bound_) return true;
+    const double bend = bend_ * motion_.AcrossAxis(n);
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < 3; ++i) {
+      const double away =
+          h_ * std::abs(n.dot(speed_[i])) + bend * from_axis_[i];
+      least = std::min(least, above > below ? x[i] - away : -x[i] - away);
+    }
+    const double most = above > below ? std::max({y[0], y[1], y[2]})
+                                      : -std::min({y[0], y[1], y[2]});
+    return least - most > motion_.slack();
+  }
+
+  // Along the closest pair of points, of edges or of a corner and a face.
+  bool TryClosest(const std::array<Vector3d, 3>& e,
+                  const std::array<Vector3d, 3>& f) {
+    best_ = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < 3; ++i) {
+      for (std::size_t j = 0; j < 3; ++j) {
+        Offer(BetweenSegments(placed_[i], e[i], obstacle_[j], f[j]));
+      }
+    }
+    OfferFace(placed_, e, obstacle_);
+    OfferFace(obstacle_, f, placed_);
+    const double length = std::sqrt(best_);
+    return length > 0.0 && std::isfinite(length) && TryUnit(apart_ / length);
+  }
+
+  void Offer(const Vector3d& apart) {
+    const double squared = apart.squaredNorm();
+    if (!(squared < best_)) return;
+    best_ = squared;
+    apart_ = apart;
+  }
+
+  void OfferFace(const TriangleCorners& face, const std::array<Vector3d, 3>& e,
+                 const TriangleCorners& points) {
+    const Vector3d n = e[0].cross(e[1]);
+    const double squared = n.squaredNorm();
+    if (!(squared > 0.0)) return;
+    for (const Vector3d& p : points) {
+      bool is_over = true;
+      for (std::size_t i = 0; i < 3; ++i) {
+        is_over = is_over && n.cross(e[i]).dot(p - face[i]) >= 0.0;
+      }
+      if (is_over) Offer(n * (n.dot(p - face[0]) / squared));
+    }
+  }
+
+  // From q + [0, 1] e to p + [0, 1] d; any vector would be a direction.
+  static Vector3d BetweenSegments(const Vector3d& p, const Vector3d& d,
+                                  const Vector3d& q, const Vector3d& e) {
+    const Vector3d r = p - q;
+    const double a = d.squaredNorm(), b = d.dot(e), c = e.squaredNorm();
+    const double along_d = d.dot(r), along_e = e.dot(r);
+    const double den = a * c - b * b;
+    double s = 0.0;
+    if (den > 1e-14 * a * c) {
+      s = std::clamp((b * along_e - c * along_d) / den, 0.0, 1.0);
+    }
+    double t = c > 0.0 ? (b * s + along_e) / c : 0.0;
+    if (t < 0.0) {
+      t = 0.0;
+      s = a > 0.0 ? std::clamp(-along_d / a, 0.0, 1.0) : 0.0;
+    } else if (t > 1.0) {
+      t = 1.0;
+      s = a > 0.0 ? std::clamp((b - along_d) / a, 0.0, 1.0) : 0.0;
+    }
+    return r + s * d - t * e;
+  }
+
+  const FramedMotion& motion_;
+  const double h_;
+  const TriangleCorners& obstacle_;
+  TriangleCorners placed_;
+  std::array<Vector3d, 3> speed_;
+  std::array<double, 3> from_axis_;
+  double bend_ = 0.0, bound_ = 0.0;
+  bool is_apart_ = false;
+  double best_ = 0.0;
+  Vector3d apart_ = Vector3d::Zero();
+};
+
+// Do two triangles meet wherever within `moved` of their places the corners
+// are?
+class FirmMeeting {
+ public:
+  explicit FirmMeeting(double moved) : moved_(moved) {}
+
+  bool Between(const TriangleCorners& a, const TriangleCorners& b) const {
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::size_t j = (i + 1) % 3;
+      if (RunsThrough(a[i], a[j], b) || RunsThrough(b[i], b[j], a)) return true;
+    }
+    return false;
+  }
+
+ private:
+  bool RunsThrough(const Vector3d& p, const Vector3d& q,
+                   const TriangleCorners& t) const {
+    const int side = Side(t[0], t[1], t[2], p);
+    if (side == 0 || Side(t[0], t[1], t[2], q) != -side) return false;
+    const int turn = Side(p, q, t[0], t[1]);
+    return turn != 0 && Side(p, q, t[1], t[2]) == turn &&
+           Side(p, q, t[2], t[0]) == turn;
+  }
+
+  // The sign of (b − a) × (c − a) · (d − a); 0 where it could be another one.
+  // Differences move by 2 `moved` and round by less, so that the determinant,
+  // of u v w at most, moves by (u + m)(v + m)(w + m) − u v w, m = 4 `moved`.
+  int Side(const Vector3d& a, const Vector3d& b, const Vector3d& c,
+           const Vector3d& d) const {
+    const Vector3d x = b - a, y = c - a, z = d - a;
+    const double det = x.cross(y).dot(z);
+    const double u = x.norm(), v = y.norm(), w = z.norm(), m = 4.0 * moved_;
+    const double doubt =
+        m * (u * v + v * w + w * u) + m * m * (u + v + w) + m * m * m;
+    if (det > doubt) return 1;
+    return det < -doubt ? -1 : 0;
+  }
+
+  double moved_;
+};
+
+}  // namespace
+
+FramedMotion::FramedMotion(const RigidMotion& motion, const RigidFrame& frame,
+                           double robot_reach, double obstacle_reach)
+    : start_(motion.start().orientation.normalized()),
+      position_((motion.start().position - frame.center) * frame.scale),
+      moved_((motion.end().position - motion.start().position) * frame.scale),
+      axis_(motion.axis()),
+      turn_(motion.turn()),
+      body_axis_(start_.conjugate() * motion.axis()),
+      angle_(motion.angle()),
+      distance_(moved_.norm()) {
+  const Vector3d end = (motion.end().position - frame.center) * frame.scale;
+  size_ = robot_reach + obstacle_reach + std::max(position_.norm(), end.norm());
+  slack_ = kSlack * size_ * (1.0 + angle_) * (1.0 + angle_);
+}
+
+RigidPose FramedMotion::At(double t) const {
+  RigidPose pose;
+  pose.position = position_ + t * moved_;
+  if (angle_ == 0.0) {
+    pose.rotation = start_.toRotationMatrix();
+    return pose;
+  }
+  const double half = 0.5 * (t * angle_);
+  Eigen::Quaterniond turned;
+  turned.w() = std::cos(half);
+  turned.vec() = std::sin(half) * axis_;
+  pose.rotation = (turned * start_).toRotationMatrix();
+  return pose;
+}
+
+double FramedMotion::FromAxis(const Vector3d& p) const {
+  const double along = p.dot(body_axis_), squared = p.squaredNorm();
+  return std::sqrt(std::max(0.0, squared - along * along) +
+                   kRoundedSquare * squared);
+}
+
+double FramedMotion::AcrossAxis(const Vector3d& n) const {
+  const double along = n.dot(axis_);
+  return std::sqrt(std::max(0.0, 1.0 - along * along) + kRoundedSquare);
+}
+
+PairSight LookAtBoxes(const FramedMotion& motion, const RigidPose& middle,
+                      double half_width, const RigidNode& robot,
+                      const RigidNode& obstacle, double* motion_bound) {
+  const double h = half_width, theta = motion.angle();
+  const Matrix3d& r = middle.rotation;
+  const Vector3d arm = r * robot.center;
+  const Vector3d apart = arm + middle.position - obstacle.center;
+  const Matrix3d size = r.cwiseAbs();
+  const double slack = motion.slack();
+  // Along the axes of the obstacles' boxes, and of the robot's.
+  const Vector3d g = apart.cwiseAbs() - obstacle.half - size * robot.half;
+  const Vector3d k = (r.transpose() * apart).cwiseAbs() - robot.half -
+                     size.transpose() * obstacle.half;
+  const double reach = motion.FromAxis(robot.center) + robot.radius;
+  *motion_bound = h * (motion.distance() + theta * reach);
+  const double best = std::max(g.maxCoeff(), k.maxCoeff()) - slack;
+  if (best > *motion_bound) return PairSight::kApart;
+  if (!(best > 0.0)) return PairSight::kUnknown;
+  const Vector3d speed = motion.moved() + motion.turn().cross(arm);
+  const Vector3d body_speed = r.transpose() * speed;
+  const double bend = h * theta * (robot.radius + 0.5 * h * theta * reach);
+  for (int i = 0; i < 3; ++i) {
+    const auto across = [&](double along) {
+      return bend *
+             std::sqrt(std::max(0.0, 1.0 - along * along) + kRoundedSquare);
+    };
+    if (g[i] - slack > h * std::abs(speed[i]) + across(motion.axis()[i]) ||
+        k[i] - slack >
+            h * std::abs(body_speed[i]) + across(motion.body_axis()[i])) {
+      return PairSight::kApart;
+    }
+  }
+  return PairSight::kUnknown;
+}
+
+PairSight LookAtTriangles(const FramedMotion& motion, const RigidPose& middle,
+                          double half_width, const TriangleCorners& robot,
+                          const TriangleCorners& obstacle,
+                          double* motion_bound) {
+  DirectionSearch search(motion, middle, half_width, robot, obstacle);
+  *motion_bound = search.bound();
+  if (search.Run()) return PairSight::kApart;
+  if (!search.is_apart() &&
+      FirmMeeting(kMoved * motion.slack()).Between(search.placed(), obstacle)) {
+    return PairSight::kMeet;
+  }
+  return PairSight::kUnknown;
+}
+
+}  // namespace phongpd::internal

@@ -1,0 +1,183 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""viewer_browser_test.py PHONGPD FOLDER [--renew]: pages in a real browser.
+
+Makes pages by the program, opens them in headless Chromium with a software
+renderer, and works their controls by mouse and keys through the browser's
+debugging pipe.  Fails on any console message, on a blank canvas and on a
+control that does not do what it says, and where a reference view is not the
+picture that it was (viewer_references.py; --renew draws those anew and tests
+nothing).  Screenshots stay in FOLDER.  Exits with 77, "skipped", without the
+browser (scripts/setup.sh chromium).
+"""
+import os
+import pathlib
+import shutil
+import subprocess
+import sys
+
+import viewer_references
+from browser import Browser, Checks
+from viewer_controls import (probe_like_the_program, work_controls,
+                             work_iterations, work_overlays, work_probe,
+                             work_section, work_surface)
+
+
+def runner(program, folder):
+    """Runs the program in the folder."""
+    def run(*arguments):
+        done = subprocess.run(
+            [program, *arguments], cwd=folder, capture_output=True, text=True,
+            env={**os.environ, "PHONGPD_CACHE_DIR": str(folder / "cache")},
+            check=False)
+        if done.returncode > 1:
+            sys.exit(f"phongpd {' '.join(arguments)}: {done.stderr}")
+    return run
+
+
+def make_pages(run, folder):
+    """Pages of everything the program makes, by name."""
+    run("optimize", "u_axis", "--output", "phong.jsonl")
+    run("optimize", "u_axis", "--metric", "euclidean", "--start", "straight",
+        "--mu-strategy", "monotone", "--polish", "never", "--output",
+        "euclid.jsonl")
+    run("view", "phong.jsonl", "euclid.jsonl", "--build", "--html", "trap.html")
+    run("plan", "tunnel:delta=0.001,bends=3", "--output", "plan.jsonl",
+        "--html", "tunnel.html")
+    run("scenes", "write", "ball_wrench", "--meshes", ".")
+    run("contact-space", "--robot", "robot.off", "--obstacle", "obstacle.off",
+        "--output", "contact.off")
+    run("view", "contact.off", "--html", "contact.html")
+    run("motion", "--robot", "robot.off", "--obstacle", "obstacle.off",
+        "--from", "0.3", "-1.2", "0.1", "--to", "0.3", "1.2", "0.05",
+        "--frames", "200", "--smoothing-length", "0.1", "--output",
+        "motion.csv", "--html", "motion.html")
+    run("depth", "robot.off", "obstacle.off", "--at", "0.3", "0.1", "0.1",
+        "--json", "--output", "depth.json")
+    run("view", "depth.json", "obstacle.off", "--robot", "robot.off", "--html",
+        "depth.html")
+    # A page shows what lies behind a run where its own command writes it.
+    run("plan", "u_axis", "--output", "routes.jsonl", "--html", "routes.html")
+    run("plan", "tunnel:delta=0.05", "--planner", "retraction-forest",
+        "--output", "tree.jsonl", "--html", "tree.html")
+    run("plan", "hole:delta=0.1", "--planner", "prm", "--time", "0.5",
+        "--output", "roadmap.jsonl", "--html", "roadmap.html")
+    run("optimize", "u_axis", "--polish", "always", "--output",
+        "corridor.jsonl", "--html", "corridor.html")
+    gantry = pathlib.Path(__file__).resolve().parents[2] / "examples/gantry.json"
+    run("optimize", str(gantry), "--html", "pace.html")
+    (folder / "none.jsonl").write_text(
+        '{"scene": "none", "planner": "prm", "seed": 1, "status": "timeout",'
+        ' "solved": false, "path": []}\n')
+    run("view", "none.jsonl", "--html", "none.html")
+    return {name: folder / f"{name}.html"
+            for name in ("trap", "tunnel", "contact", "motion", "depth", "routes",
+                         "tree", "roadmap", "corridor", "pace", "none")}
+
+
+def main():
+    program, folder = sys.argv[1], pathlib.Path(sys.argv[2]).resolve()
+    chromium = next(filter(None, map(shutil.which, (
+        "chromium", "chromium-browser", "google-chrome"))), None)
+    if chromium is None:
+        print("Skipped: no browser; install it by scripts/setup.sh chromium")
+        return 77
+    folder.mkdir(parents=True, exist_ok=True)
+    run = runner(program, folder)
+    pages = make_pages(run, folder)
+    browser = Browser(chromium)
+    checks = Checks(browser)
+    if "--renew" in sys.argv[3:]:
+        viewer_references.renew(browser, folder)
+        browser.close()
+        return 0
+    try:
+        for name, page in pages.items():
+            browser.open(page)
+            first = browser.run("document.documentElement.dataset.firstPicture")
+            print(f"{name}: first picture after {first} ms", flush=True)
+            checks.quiet(name)
+            if name == "none":
+                checks.holds("document.getElementById('message').textContent"
+                             ".startsWith('There is nothing to show')",
+                             "an empty page says so")
+                continue
+            # 2000 on a machine of one's own; tests share theirs.
+            checks.drawn(name)
+            browser.shoot(folder / f"{name}-light.png")
+            browser.open(page, theme="dark")
+            checks.holds("viewer.state.theme === 'dark'",
+                         f"{name}: dark where the reader prefers it")
+            checks.drawn(name + ", dark")
+            browser.shoot(folder / f"{name}-dark.png")
+            # A slider that is there can be taken, whatever the width.
+            for width in (320, 400, 759, 761, 800, 850, 900, 1000, 1101, 1280):
+                browser.open(page, width=width)
+                checks.holds("[...document.querySelectorAll('#scrub, "
+                             "#scrub-iterate')].every(e => !e.offsetParent || "
+                             "e.getBoundingClientRect().width >= 100)",
+                             f"{name}: sliders have room at {width}")
+            browser.open(page, width=400, height=800)
+            checks.holds("document.documentElement.scrollWidth <= 400 && "
+                         "[...document.querySelectorAll('header, #tools, "
+                         "#player, #scalebar')].every(e => "
+                         "e.getBoundingClientRect().right <= 400 && "
+                         "e.getBoundingClientRect().left >= 0)",
+                         f"{name}: fits a phone")
+            checks.drawn(name + ", narrow")
+            browser.shoot(folder / f"{name}-narrow.png")
+            checks.quiet(name)
+        browser.open(pages["trap"])
+        work_controls(browser, checks, pages["trap"])
+        browser.open(pages["trap"], "#%E0%A4%A&t=nan")
+        browser.open(pages["trap"], "#eye=1,2,x&t=7&way=99&cut=w,3&theme=red")
+        checks.holds("viewer.orbit.yaw === viewer.orbit.home.yaw && "
+                     "viewer.state.way === 0 && !viewer.state.clip.on && "
+                     "viewer.state.theme === 'light'",
+                     "what a link has that means nothing is left out")
+        browser.open(pages["pace"])
+        checks.holds("(() => { viewer.state.time = 0; viewer.state.playing = true;"
+                     "viewer.advance(0.25 * viewer.pace.duration);"
+                     "viewer.state.playing = false;"
+                     "return Math.abs(viewer.state.time - 0.25) < 1e-9; })()",
+                     "a motion plays in its own time")
+        checks.holds("document.getElementById('where').textContent"
+                     ".includes('room')", "and says what it asks and has")
+        checks.changes(lambda: browser.press("ArrowRight"), "a step of it")
+        browser.open(pages["motion"])
+        checks.holds("document.querySelectorAll('#labels .pane').length === 3",
+                     "a motion has a pane for each metric")
+        checks.changes(lambda: browser.press("ArrowLeft"), "a frame of motion")
+        if browser.run("viewer.data.probe !== null"):
+            probe_like_the_program(browser, checks, run, folder)
+            browser.shoot(folder / "probe-light.png")
+            work_probe(browser, checks, pages["motion"])
+            work_section(browser, checks, pages["contact"])
+            work_surface(browser, checks, pages["contact"])
+            viewer_references.compare(browser, checks, folder)
+        else:
+            # The reference of the cut's colours needs it, too.
+            print("Skipped: the live probe, which this build is without, and "
+                  "the reference views", flush=True)
+        work_overlays(browser, checks, pages)
+        work_iterations(browser, checks, pages["corridor"])
+        browser.open(pages["depth"])
+        checks.holds("document.querySelector('button.way small').textContent"
+                     ".startsWith('penetrating, depth ')", "the depth is told")
+        checks.quiet("the end")
+    finally:
+        browser.close()
+    bare = Browser(chromium, "--disable-3d-apis")
+    try:
+        bare.open(pages["trap"])
+        text = bare.run("document.getElementById('message').textContent")
+        checks.expect("no WebGL" in text and "PhongPD, ℓ = 0.2" in text,
+                      "without WebGL the page tells in words: " + text)
+    finally:
+        bare.close()
+    print(f"{len(checks.failures)} failures; screenshots in {folder}")
+    return 1 if checks.failures else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,139 @@
+// Charts of depths, and of what motions ask of their limits.
+
+const kChartLeft = 46, kChartRight = 12;
+
+// Lines of depths over their numbers, in the metrics' colours, on a canvas that
+// is cleared; `x` and `y` place them, in CSS pixels.  Of more numbers than
+// pixels, the least and the largest of each pixel.  Returns what draws on.
+function drawDepths(canvas, theme, series, x, y) {
+  const ratio = window.devicePixelRatio || 1;
+  canvas.width = canvas.clientWidth * ratio;
+  canvas.height = canvas.clientHeight * ratio;
+  const g = canvas.getContext('2d');
+  g.scale(ratio, ratio);
+  g.lineWidth = 2;
+  series.forEach((depths, i) => {
+    g.strokeStyle = wayColor(theme, i);
+    g.beginPath();
+    const step = Math.max(1, Math.ceil(depths.length / canvas.clientWidth));
+    for (let f = 0; f < depths.length; f += step) {
+      const some = depths.slice(f, f + step);
+      g.lineTo(x(f), y(Math.min(...some)));
+      if (step > 1) g.lineTo(x(f), y(Math.max(...some)));
+    }
+    g.stroke();
+  });
+  return g;
+}
+
+const largest = series => series.reduce(
+    (most, numbers) => numbers.reduce((a, b) => Math.max(a, b), most), 0);
+
+// What is beside the lines of a chart: lines across, a moment, words.
+class ChartFrame {
+  constructor(g, canvas) {
+    this.g = g;
+    this.width = canvas.clientWidth;
+    this.height = canvas.clientHeight;
+    this.style = getComputedStyle(document.body);
+    g.font = '11px system-ui, sans-serif';
+  }
+
+  color(name) { return this.style.getPropertyValue(name); }
+
+  line(color, ax, ay, bx, by, dash = []) {
+    const {g} = this;
+    g.strokeStyle = this.color(color);
+    g.lineWidth = 1;
+    g.setLineDash(dash);
+    g.beginPath();
+    g.moveTo(ax, ay);
+    g.lineTo(bx, by);
+    g.stroke();
+    g.setLineDash([]);
+  }
+
+  // Returns where it ends.
+  write(text, x, y, color = this.color('--soft'), align = 'left') {
+    const {g} = this;
+    g.fillStyle = color;
+    g.textAlign = align;
+    g.fillText(text, x, y);
+    return x + g.measureText(text).width;
+  }
+}
+
+// x of a share of the chart's width.
+const acrossChart = (canvas, share) => kChartLeft + share *
+    (canvas.clientWidth - kChartLeft - kChartRight);
+
+// |PD| of every metric over the frames of a motion, or a motion's pace, and
+// where it is now.
+function drawChart(viewer) {
+  const {data, pace} = viewer, canvas = byId('chart');
+  canvas.hidden = !data.motion && !pace;
+  if (data.motion) drawDepthChart(viewer, canvas);
+  else if (pace) drawPaceChart(viewer, canvas, pace);
+}
+
+function drawDepthChart(viewer, canvas) {
+  const {data, state} = viewer, height = canvas.clientHeight;
+  const depths = data.motion.traces.map(
+      trace => trace.pd.map(p => Math.hypot(...p)));
+  const most = largest(depths) || 1;
+  const count = data.motion.positions.length;
+  const x = f => acrossChart(canvas, f / Math.max(1, count - 1));
+  const y = value => height - 8 - value / most * (height - 18);
+  const frame = new ChartFrame(
+      drawDepths(canvas, state.theme, depths, x, y), canvas);
+  frame.write('|PD|, ' + data.unit, kChartLeft + 4, 14);
+  frame.write(viewer.number(most), kChartLeft - 8, 14, undefined, 'right');
+  frame.write('0', kChartLeft - 8, height - 5, undefined, 'right');
+  frame.line('--soft', kChartLeft, y(0), frame.width - kChartRight, y(0));
+  const now = x(state.time * (count - 1));
+  frame.line('--text', now, 4, now, height - 4);
+}
+
+const kPaceNames = ['velocity', 'acceleration', 'jerk'];
+
+// Shares of the limits, of which nothing goes beyond 1, and the moment of least
+// room.
+function drawPaceChart(viewer, canvas, pace) {
+  const {state} = viewer, height = canvas.clientHeight;
+  const series = kPaceNames.map(name => pace[name]);
+  const last = pace.velocity.length - 1;
+  const x = f => acrossChart(canvas, f / last);
+  const y = value => height - 8 - value * (height - 28);
+  const frame = new ChartFrame(
+      drawDepths(canvas, state.theme, series, x, y), canvas);
+  let at = kChartLeft + 4;
+  kPaceNames.forEach((name, i) => {
+    at = 12 + frame.write(name, at, 11, wayColor(state.theme, i));
+  });
+  frame.write('limit', kChartLeft - 8, y(1) + 4, undefined, 'right');
+  frame.write('0', kChartLeft - 8, height - 5, undefined, 'right');
+  frame.line('--soft', kChartLeft, y(1), frame.width - kChartRight, y(1),
+             [4, 3]);
+  frame.line('--soft', kChartLeft, y(0), frame.width - kChartRight, y(0));
+  const least = leastRoom(pace);
+  frame.line('--soft', x(least), y(1), x(least), y(0), [2, 2]);
+  frame.write('least room ' + viewer.text(pace.clearance[least]),
+              frame.width - kChartRight, 11, undefined, 'right');
+  const now = x(state.time * last);
+  frame.line('--text', now, 4, now, height - 4);
+}
+
+// The number of the moment.
+const leastRoom = pace => pace.clearance.reduce(
+    (best, room, i) => room < pace.clearance[best] ? i : best, 0);
+
+// "1.2 of 4.5 s · of its limits 80, 30 and 100 % · room 12 mm"
+function paceText(viewer, pace) {
+  const {state} = viewer;
+  const i = Math.round(state.time * (pace.velocity.length - 1));
+  const share = name => Math.round(100 * pace[name][i]);
+  return (state.time * pace.duration).toFixed(2) + ' of ' +
+      pace.duration.toFixed(2) + ' s · v ' + share('velocity') + ' %, a ' +
+      share('acceleration') + ' %, j ' + share('jerk') + ' % · room ' +
+      viewer.text(pace.clearance[i]);
+}

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "viewer/scene_view.h"
+
+#include "planners/world/workspace.h"
+
+namespace phongpd {
+
+View SceneView(const Scene& scene,
+               const std::vector<TriangleMesh>& contact_spaces) {
+  View view;
+  view.title = scene.name;
+  if (!scene.workspace.unit.empty()) view.unit = scene.workspace.unit;
+  view.notes = scene.warnings;
+  view.robot = scene.workspace.robot;
+  view.start = scene.start;
+  view.goal = scene.goal;
+  view.bounds = scene.workspace.bounds;
+  for (const Solid& obstacle : scene.workspace.obstacles) {
+    view.meshes.push_back(
+        {obstacle.name(), ViewRole::kObstacle, obstacle.mesh()});
+  }
+  for (const TriangleMesh& mesh : contact_spaces) {
+    view.meshes.push_back({"contact space", ViewRole::kContactSpace, mesh});
+  }
+  view.length = ContactBounds(scene.workspace).Diagonal();
+  return view;
+}
+
+View ExploredView(const Scene& scene, const TriangleMesh& explored) {
+  View view = SceneView(scene);
+  view.meshes.push_back({kExploredName, ViewRole::kContactSpace, explored});
+  return view;
+}
+
+View WindowView(const Scene& scene, const World& world) {
+  View view = SceneView(scene);
+  for (const ConvolutionModel& model : world.Convolution().models) {
+    view.meshes.push_back(
+        {kConvolutionName, ViewRole::kContactSpace, model.Mesh()});
+  }
+  return view;
+}
+
+}  // namespace phongpd

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <vector>
+
+#include "core/mesh/triangle_mesh.h"
+#include "planners/world/world.h"
+#include "problems/scenes/scene.h"
+#include "viewer/view.h"
+
+namespace phongpd {
+
+// The scene's robot and obstacles, start and goal, the name of its unit, and
+// contact spaces that were built for it.
+View SceneView(const Scene& scene,
+               const std::vector<TriangleMesh>& contact_spaces = {});
+// The same with the part of the contact space that was built.
+View ExploredView(const Scene& scene, const TriangleMesh& explored);
+// The same with all that free space's model has of a contact space; none in a
+// world without obstacles.
+View WindowView(const Scene& scene, const World& world);
+
+}  // namespace phongpd

@@ -1,0 +1,244 @@
+// Who acts on the stage: the robot, its ways, arrows and marks.
+
+const kPathRadius = 0.0038;
+
+// From the first point to each, along them.
+function lengthsOf(points) {
+  const lengths = [0];
+  for (let i = 1; i < points.length; ++i) {
+    lengths.push(lengths[i - 1] + points[i].distanceTo(points[i - 1]));
+  }
+  return lengths;
+}
+
+// Of a way; dashed where it collides.
+function pathGeometry(way, radius) {
+  const points = thinned(way.points, 1500);
+  return tubeGeometry(way.free ? [points] : dashes(points, 0.022, 0.014),
+                      radius);
+}
+
+class Stage extends Solids {
+  constructor(data) {
+    super(data);
+    this.addCap();
+    this.addRobot();
+    this.ways = this.makeWays();
+    this.addWays();
+    this.addMarks();
+    this.overlays = new Overlays(this);
+    this.iterates = new Iterates(this);
+  }
+
+  addRobot() {
+    const entry = this.data.robot;
+    this.robot = new THREE.Group();
+    this.robotMaterial = new THREE.MeshPhongMaterial(
+        {shininess: 40, specular: 0x333333, side: THREE.DoubleSide});
+    this.ghostMaterial = new THREE.MeshPhongMaterial(
+        {side: THREE.DoubleSide, transparent: true, opacity: 0.28,
+         depthWrite: false});
+    if (entry) {
+      const mesh = decodeMesh(entry);
+      this.robotShape = shadedGeometry(mesh);
+      const lines = new THREE.LineBasicMaterial(
+          {transparent: true, opacity: 0.45});
+      this.colored.push([lines, 'edge']);
+      this.robot.add(new THREE.LineSegments(edgeGeometry(mesh), lines));
+    } else {
+      this.robotShape = new THREE.SphereBufferGeometry(0.012, 24, 16);
+    }
+    this.robot.add(new THREE.Mesh(this.robotShape, this.robotMaterial));
+    this.scene.add(this.robot);
+  }
+
+  ghost(material) {
+    const mesh = new THREE.Mesh(this.robotShape, material);
+    mesh.renderOrder = 20;
+    return mesh;
+  }
+
+  // What the robot can follow: paths, or a motion, or poses with answers.
+  makeWays() {
+    const {paths, motion, answers} = this.data;
+    const ways = paths.map(path => ({
+      kind: 'path', name: path.name, free: path.free, raw: path.points,
+      pace: path.pace,
+      points: path.points.map(p => this.at(p)),
+    }));
+    if (motion) {
+      ways.push({kind: 'motion', name: 'motion', free: true,
+                 raw: motion.positions,
+                 points: motion.positions.map(p => this.at(p))});
+    }
+    if (answers.length) {
+      const raw = answers.map(answer => answer.position);
+      ways.push({kind: 'answers', free: true, raw,
+                 name: answers.length === 1 ? 'pose' : 'poses',
+                 points: raw.map(p => this.at(p))});
+    }
+    for (const way of ways) way.lengths = lengthsOf(way.points);
+    return ways;
+  }
+
+  addWays() {
+    this.wayMaterials = [];
+    for (const way of this.ways) {
+      const material = new THREE.MeshPhongMaterial(
+          {shininess: 10, side: THREE.DoubleSide});
+      this.wayMaterials.push(material);
+      way.group = new THREE.Group();
+      this.groups.paths.add(way.group);
+      way.stages = new THREE.Group();
+      this.groups.stages.add(way.stages);
+      if (way.points.length < 2 || way.kind === 'answers') continue;
+      const radius = way.kind === 'motion' ? kPathRadius / 2 : kPathRadius;
+      way.group.add(new THREE.Mesh(pathGeometry(way, radius), material));
+      for (let i = 0; i <= 6; ++i) {
+        const ghost = this.ghost(this.ghostMaterial);
+        ghost.position.copy(this.placeOn(way, i / 6).point);
+        way.stages.add(ghost);
+      }
+    }
+    const {motion, answers, probe} = this.data;
+    const count = motion ? motion.traces.length : answers.length ? 1 : 0;
+    this.arrows = Array.from({length: count}, () => this.makeArrow());
+    this.probeArrows = probe ? kProbeMetrics.map(() => this.makeArrow()) : [];
+  }
+
+  makeArrow() {
+    const group = new THREE.Group();
+    const material = new THREE.MeshPhongMaterial({shininess: 10});
+    const pale = this.ghostMaterial.clone();
+    const shaft = new THREE.Mesh(
+        new THREE.CylinderBufferGeometry(1, 1, 1, 16), material);
+    const head = new THREE.Mesh(
+        new THREE.ConeBufferGeometry(1, 1, 20), material);
+    const ghost = this.ghost(pale);
+    const ends = [0, 1].map(() => new THREE.Mesh(
+        new THREE.SphereBufferGeometry(0.007, 16, 12), material));
+    for (const part of [shaft, head, ...ends]) part.renderOrder = 30;
+    material.depthTest = false;
+    material.transparent = true;  // drawn after all else: never hidden
+    group.add(shaft, head, ghost, ...ends);
+    group.visible = false;
+    this.groups.traces.add(group);
+    return {group, shaft, head, ghost, ends, material, pale};
+  }
+
+  addMarks() {
+    this.labels = [];  // {text, point, way}
+    const mark = (point, shape, text) => {
+      if (!point) return;
+      const material = new THREE.MeshBasicMaterial();
+      this.colored.push([material, 'mark']);
+      const mesh = new THREE.Mesh(shape, material);
+      mesh.position.copy(this.at(point));
+      this.groups.marks.add(mesh);
+      const ghost = this.ghost(this.ghostMaterial);
+      ghost.position.copy(mesh.position);
+      this.groups.marks.add(ghost);
+      this.labels.push({text, point: mesh.position});
+    };
+    mark(this.data.start, new THREE.SphereBufferGeometry(0.008, 20, 14),
+         'start');
+    mark(this.data.goal, new THREE.OctahedronBufferGeometry(0.013), 'goal');
+    const paths = this.ways.filter(way => way.kind === 'path');
+    if (paths.length > 8) return;  // labels would cover each other
+    paths.forEach((way, i) => {
+      if (way.points.length === 0) return;
+      const share = paths.length === 1
+          ? 0.3 : 0.2 + 0.5 * i / (paths.length - 1);
+      // What sets paths apart: "PhongPD, ℓ = 0.2" of all that the legend says.
+      const short = way.name.split(' · ')[0];
+      const isOne = paths.filter(w => w.name.startsWith(short)).length === 1;
+      this.labels.push({text: isOne ? short : way.name, way: i,
+                        point: this.placeOn(way, share).point});
+    });
+  }
+
+  // Where the robot is at t of the way, 0 to 1: along a path by length, or by
+  // its own time, in a motion by frames, from pose to pose without between.
+  placeOn(way, t) {
+    const {points, lengths} = way, last = points.length - 1;
+    if (last < 0) return null;
+    if (way.kind !== 'path' || last === 0) {
+      const frame = Math.round(t * last);
+      return {point: points[frame].clone(), raw: way.raw[frame], frame};
+    }
+    let i = 1, share = 0;
+    if (way.pace) {
+      i = Math.min(last, 1 + Math.floor(t * last));
+      share = t * last - (i - 1);
+    } else {
+      const travelled = t * lengths[last];
+      while (i < last && lengths[i] < travelled) ++i;
+      const step = lengths[i] - lengths[i - 1];
+      share = step > 0 ? (travelled - lengths[i - 1]) / step : 0;
+    }
+    const a = way.raw[i - 1], b = way.raw[i];
+    return {point: points[i - 1].clone().lerp(points[i], share),
+            raw: a.map((x, k) => x + share * (b[k] - x)), frame: i};
+  }
+
+  setArrow(arrow, from, to, width = 0.006) {
+    const way = to.clone().sub(from), length = way.length();
+    const isShown = length > 1e-6;
+    arrow.shaft.visible = arrow.head.visible = isShown;
+    arrow.ends.forEach((end, k) => end.position.copy(k ? to : from));
+    if (!isShown) return;
+    const direction = way.clone().divideScalar(length);
+    const turn = new THREE.Quaternion().setFromUnitVectors(
+        new THREE.Vector3(0, 1, 0), direction);
+    const tip = Math.min(0.045, 0.45 * length);
+    arrow.shaft.quaternion.copy(turn);
+    arrow.head.quaternion.copy(turn);
+    arrow.shaft.scale.set(width, length - tip, width);
+    arrow.shaft.position.copy(from).addScaledVector(direction,
+                                                    (length - tip) / 2);
+    arrow.head.scale.set(tip * 0.36, tip, tip * 0.36);
+    arrow.head.position.copy(to).addScaledVector(direction, -tip / 2);
+  }
+
+  // The robot at t of a way, with arrows of what is known there.
+  pose(index, t) {
+    const way = this.iterates.shown || this.ways[index];
+    const place = way ? this.placeOn(way, t) : null;
+    // A robot without a way stands at the start, or where it was modelled.
+    const rest = this.data.start ? this.at(this.data.start)
+                                 : this.at([0, 0, 0]);
+    this.robot.position.copy(place ? place.point : rest);
+    this.robot.quaternion.set(0, 0, 0, 1);
+    for (const arrow of [...this.arrows, ...this.probeArrows]) {
+      arrow.group.visible = false;
+    }
+    if (!place) return null;
+    const scale = this.data.scale;
+    if (way.kind === 'motion') {
+      this.data.motion.traces.forEach((trace, i) => {
+        const arrow = this.arrows[i];
+        const pd = new THREE.Vector3(...trace.pd[place.frame])
+            .divideScalar(scale);
+        const to = place.point.clone().add(pd);
+        this.setArrow(arrow, place.point, to);
+        arrow.ghost.position.copy(to);
+        arrow.ghost.visible = pd.length() > 1e-6;
+        arrow.ends.forEach(end => { end.visible = false; });
+        arrow.group.visible = true;
+      });
+    } else if (way.kind === 'answers') {
+      const answer = this.data.answers[place.frame], arrow = this.arrows[0];
+      const [w, x, y, z] = answer.orientation;
+      this.robot.quaternion.set(x, y, z, w);
+      arrow.group.visible = answer.on_a !== null;
+      if (answer.on_a !== null) {
+        const a = this.at(answer.on_a), b = this.at(answer.on_b);
+        this.setArrow(arrow, a, b);
+        arrow.ghost.position.copy(place.point).add(b).sub(a);
+        arrow.ghost.quaternion.copy(this.robot.quaternion);
+        arrow.ghost.visible = answer.depth > 0;
+      }
+    }
+    return place;
+  }
+}

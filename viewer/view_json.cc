@@ -1,0 +1,247 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "viewer/view_json.h"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "core/contact/contact_space.h"
+#include "core/mesh/mesh_error.h"
+#include "core/projection/phong_field.h"
+#include "problems/output/text.h"
+#include "viewer/display_mesh.h"
+#include "viewer/page_numbers.h"
+#include "viewer/probe/probe_module.h"
+#include "viewer/view_json_behind.h"
+
+namespace phongpd {
+namespace {
+
+using Eigen::Vector3d;
+using internal::AppendNumber;
+using internal::Base64;
+using internal::CornerBytes;
+using internal::PointJson;
+using internal::ShownPositions;
+using Json = nlohmann::ordered_json;
+
+Json PointsJson(const std::vector<Vector3d>& points) {
+  Json json = Json::array();
+  for (const Vector3d& p : points) json.push_back(PointJson(p));
+  return json;
+}
+
+Json MaybePoint(const std::optional<Vector3d>& p) {
+  return p ? PointJson(*p) : Json(nullptr);
+}
+
+// Within one page all meshes lose alike.
+std::size_t Share(std::size_t triangles, std::size_t all, std::size_t most) {
+  if (all <= most) return triangles;
+  const double share =
+      static_cast<double>(triangles) / static_cast<double>(all);
+  return std::max<std::size_t>(
+      1000, static_cast<std::size_t>(share * static_cast<double>(most)));
+}
+
+Json MeshJson(const TriangleMesh& mesh, const std::string& name,
+              std::size_t most, const internal::PageFrame& frame,
+              std::vector<std::string>* notes) {
+  const DisplayMesh shown = MeshForDisplay(mesh, most);
+  if (shown.cell > 0.0) {
+    notes->push_back(name + ": " + std::to_string(shown.mesh.triangles.size()) +
+                     " of " + std::to_string(mesh.triangles.size()) +
+                     " triangles are shown, simplified on a grid of " +
+                     Rounded(shown.cell) + " for display only");
+  }
+  return {{"name", name},
+          {"triangles", mesh.triangles.size()},
+          {"shown", shown.mesh.triangles.size()},
+          {"positions", Base64(ShownPositions(shown.mesh.vertices, frame))},
+          {"indices", Base64(CornerBytes(shown.mesh))}};
+}
+
+// For the probe: not as it is shown but as it is, in doubles.
+Json ExactJson(const TriangleMesh& mesh) {
+  std::string positions;
+  for (const Vector3d& p : mesh.vertices) {
+    for (int k = 0; k < 3; ++k) AppendNumber(&positions, p[k]);
+  }
+  return {{"positions", Base64(positions)},
+          {"indices", Base64(CornerBytes(mesh))}};
+}
+
+// Can metrics be made of it?  Parts of contact spaces are drawn, too: of bounds
+// the walls alone, which look inwards.
+bool IsWhole(const ViewMesh& mesh) {
+  if (!(SignedVolume(mesh.mesh) > 0.0)) return false;
+  try {
+    ContactSpace::Parts parts;
+    parts.mesh = mesh.mesh;
+    const ContactSpace space(std::move(parts), mesh.name);
+    return true;
+  } catch (const InputError&) {
+    return false;
+  }
+}
+
+// What the page needs for its probe; null without contact spaces, where they
+// are shown in part or too large, or where the probe was not built.
+Json ProbeJson(const View& view, std::vector<std::string>* notes) {
+  BoundingBox box;
+  std::size_t triangles = 0;
+  for (const ViewMesh& mesh : view.meshes) {
+    if (mesh.role != ViewRole::kContactSpace || mesh.mesh.triangles.empty()) {
+      continue;
+    }
+    const BoundingBox own = ComputeBounds(mesh.mesh);
+    box = triangles == 0 ? own
+                         : BoundingBox{box.min.cwiseMin(own.min),
+                                       box.max.cwiseMax(own.max)};
+    triangles += mesh.mesh.triangles.size();
+  }
+  if (triangles == 0) return nullptr;
+  if (triangles > kMaxProbeTriangles) {
+    notes->push_back("The live probe is left out: contact spaces of " +
+                     std::to_string(triangles) + " triangles, at most " +
+                     std::to_string(kMaxProbeTriangles));
+    return nullptr;
+  }
+  for (const ViewMesh& mesh : view.meshes) {
+    if (mesh.role != ViewRole::kContactSpace || IsWhole(mesh)) continue;
+    if (mesh.name == kConvolutionName) {
+      notes->push_back(
+          "There is no live probe: free space alone was modelled, which tells "
+          "no depth.");
+      return nullptr;
+    }
+    notes->push_back(
+        "There is no live probe: of the contact space only a part that bounds "
+        "free space is shown.");
+    return nullptr;
+  }
+  const std::string module(internal::ProbeModule());
+  if (module.empty()) {
+    notes->push_back(
+        "There is no live probe: this program was built without clang, lld, "
+        "wasi-libc and libc++ for wasm32.");
+    return nullptr;
+  }
+  Json json = {{"module", Base64(module)},
+               {"length", view.length > 0.0 ? view.length : box.Diagonal()},
+               {"smoothing_length", kDefaultSmoothingLength},
+               {"spaces", Json::array()}};
+  for (const ViewMesh& mesh : view.meshes) {
+    if (mesh.role == ViewRole::kContactSpace && !mesh.mesh.triangles.empty()) {
+      json["spaces"].push_back(ExactJson(mesh.mesh));
+    }
+  }
+  return json;
+}
+
+Json MotionJson(const ViewMotion& motion) {
+  if (motion.positions.empty()) return nullptr;
+  Json json = {{"positions", PointsJson(motion.positions)},
+               {"traces", Json::array()}};
+  for (const ViewTrace& trace : motion.traces) {
+    json["traces"].push_back({{"name", trace.name},
+                              {"pd", PointsJson(trace.pd)},
+                              {"status", trace.status}});
+  }
+  return json;
+}
+
+Json PaceJson(const ViewPace& pace) {
+  if (!(pace.duration > 0.0)) return nullptr;
+  return {{"duration", pace.duration},
+          {"velocity", pace.velocity},
+          {"acceleration", pace.acceleration},
+          {"jerk", pace.jerk},
+          {"clearance", pace.clearance}};
+}
+
+Json WindowsJson(const ViewAnswer& answer) {
+  if (answer.window_reaches.empty()) return nullptr;
+  Json axes = Json::array();
+  for (int k = 0; k < 3; ++k) {
+    axes.push_back(PointJson(answer.window_axes.col(k)));
+  }
+  return {{"reaches", answer.window_reaches}, {"axes", axes}};
+}
+
+Json AnswerJson(const ViewAnswer& answer) {
+  const Eigen::Quaterniond& turn = answer.orientation;
+  const bool has = answer.has_witness;
+  return {{"position", PointJson(answer.position)},
+          {"orientation", {turn.w(), turn.x(), turn.y(), turn.z()}},
+          {"status", answer.status},
+          {"depth", answer.depth},
+          {"clearance", answer.clearance},
+          {"direction", PointJson(answer.direction)},
+          {"on_a", has ? PointJson(answer.on_robot) : Json(nullptr)},
+          {"on_b", has ? PointJson(answer.on_obstacle) : Json(nullptr)}};
+}
+
+}  // namespace
+
+Json ViewJson(const View& view, std::size_t most_triangles) {
+  const BoundingBox box = ViewBounds(view);
+  const Vector3d center = box.Center();
+  double scale = std::max(box.Diagonal(), ComputeBounds(view.robot).Diagonal());
+  if (!(scale > 0.0)) scale = 1.0;
+  std::size_t all = view.robot.triangles.size();
+  for (const ViewMesh& mesh : view.meshes) all += mesh.mesh.triangles.size();
+
+  Json json;
+  json["title"] = view.title;
+  json["unit"] = view.unit;
+  std::vector<std::string> notes = view.notes;
+  json["notes"] = Json::array();
+  json["center"] = PointJson(center);
+  json["scale"] = scale;
+  json["meshes"] = Json::array();
+  for (const ViewMesh& mesh : view.meshes) {
+    Json entry =
+        MeshJson(mesh.mesh, mesh.name,
+                 Share(mesh.mesh.triangles.size(), all, most_triangles),
+                 {center, scale}, &notes);
+    entry["role"] = ToString(mesh.role);
+    json["meshes"].push_back(std::move(entry));
+  }
+  json["robot"] =
+      view.robot.triangles.empty()
+          ? Json(nullptr)
+          : MeshJson(view.robot, "robot",
+                     Share(view.robot.triangles.size(), all, most_triangles),
+                     {Vector3d::Zero(), scale}, &notes);
+  json["start"] = MaybePoint(view.start);
+  json["goal"] = MaybePoint(view.goal);
+  json["bounds"] = view.bounds.IsEmpty()
+                       ? Json(nullptr)
+                       : Json({{"min", PointJson(view.bounds.min)},
+                               {"max", PointJson(view.bounds.max)}});
+  for (const char* list :
+       {"paths", "graphs", "planes", "iterates", "regions", "windows"}) {
+    json[list] = Json::array();
+  }
+  for (std::size_t i = 0; i < view.paths.size(); ++i) {
+    const NamedPath& path = view.paths[i];
+    json["paths"].push_back({{"name", path.name},
+                             {"free", path.is_free},
+                             {"points", PointsJson(path.points)},
+                             {"pace", PaceJson(path.pace)}});
+    internal::AddBehind(path, i, {center, scale}, &json, &notes);
+  }
+  json["motion"] = MotionJson(view.motion);
+  json["answers"] = Json::array();
+  for (const ViewAnswer& answer : view.answers) {
+    json["answers"].push_back(AnswerJson(answer));
+    json["windows"].push_back(WindowsJson(answer));
+  }
+  json["probe"] = ProbeJson(view, &notes);
+  json["notes"] = notes;
+  return json;
+}
+
+}  // namespace phongpd
