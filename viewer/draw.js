@@ -167,7 +167,7 @@ class DrawnViewer extends Viewer {
     if (way.kind === 'path') {
       const length = way.lengths[way.lengths.length - 1] * data.scale;
       if (where && way.pace) {
-        where.textContent = paceText(this, way.pace) + ' · ' + point;
+        where.textContent = paceText(this, way.pace);
       } else if (where) {
         where.textContent = this.number(state.time * length) + ' of ' +
             this.text(length) + ' · ' + point;

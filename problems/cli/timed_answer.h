@@ -28,9 +28,9 @@ struct TimedFlags {
 };
 
 // Of a scene with limits: declares the output, JSON or by its name a table or
-// lines, and the page, asks for the answer (Optimize, Retime), and writes and tells it.
-// Returns kDone if it is certified, kNoAnswer otherwise.  Throws InputError for
-// flags that make no sense before it asks.
+// lines, and the page, asks for the answer (Optimize, Retime), and writes and
+// tells it. Returns kDone if it is certified, kNoAnswer otherwise.  Throws
+// InputError for flags that make no sense before it asks.
 int AnswerInTime(
     const Scene& scene, const TimedFlags& flags,
     const std::function<PathAnswer(const World&, const OptimizeRequest&)>& ask);

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A build that would take minutes, stopped by another thread.
-#include "core/minkowski/build_stop.h"
-
 #include <gtest/gtest.h>
 
 #include <atomic>
 #include <thread>
 
 #include "core/contact/contact_space.h"
+#include "core/minkowski/build_stop.h"
 #include "problems/shapes/shapes.h"
 
 namespace phongpd {

@@ -17,6 +17,7 @@
 #include "planners/trajectory/curve_optimizer.h"
 #include "problems/shapes/shapes.h"
 #include "tests/support/campaign.h"
+#include "tests/support/curve_pieces.h"
 #include "tests/support/curve_problems.h"
 #include "tests/support/curve_truth.h"
 #include "tests/support/planned_scenes.h"

@@ -472,8 +472,8 @@ TEST_F(CliTimed, WritesWhatMachinesRead) {
 
 // What the page plays is the curve of the JSON, at equal times.
 TEST_F(CliTimed, PlaysAPageInItsOwnTime) {
-  const std::string command = "optimize " + Scene(TwoObstacles()) +
-                              " --limits 1,2,10 --html ../p.html";
+  const std::string command =
+      "optimize " + Scene(TwoObstacles()) + " --limits 1,2,10 --html ../p.html";
   const Json row = Answer(command, 0);
   const std::string page = Content(File("p.html"));
   const std::string open = "id=\"view-data\">";
