@@ -414,7 +414,8 @@ TEST_F(CliTimed, BeginsAndEndsAsItIsTold) {
   EXPECT_EQ(row["verified"], "confirmed");
   const std::vector<Piece> pieces = PiecesOf(row);
   ASSERT_FALSE(pieces.empty());
-  const auto far = [&pieces](int order, bool is_end, const Vector3d& asked) {
+  const auto far = [&pieces](int order, bool is_end,
+                             const Vector3d& asked) -> Vector3d {
     return (is_end ? At(pieces.back(), order, 1.0)
                    : At(pieces.front(), order, 0.0)) -
            asked;
