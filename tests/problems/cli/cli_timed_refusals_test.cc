@@ -83,7 +83,7 @@ TEST_F(CliTimedRefusals, RefusesWhatMakesNoSense) {
   const std::string timed = good + " --output t.json --limits 1,2,10";
   for (const std::string flag :
        {"--metric euclidean", "--start straight", "--rows 2", "--runs 3",
-        "--html t.html", "--polish never", "--per-obstacle"}) {
+        "--svg t.svg", "--polish never", "--per-obstacle"}) {
     ExpectRefused(timed + ' ' + flag, {Split(flag, ' ')[0], "--limits none"});
   }
   for (const std::string flag : {"--rate 50", "--via 0,1,0", "--duration 9"}) {

@@ -52,6 +52,7 @@ TEST(SceneErrors, NameFilePlaceExpectedAndFound) {
   const std::string keys =
       "s.json: expected only the keys $schema, name, unit, robot, obstacles, "
       "bounds, start, goal, preset, limits, via, moving, duration, "
+      "departure, arrival, "
       "penetration, trajectory, planning, feasible, witness, ";
   const std::vector<Case> cases = {
       {"/robto", 1, keys + "found \"robto\"; did you mean robot?"},
