@@ -36,9 +36,8 @@ struct MovingMotion {
 
 // In this order, and the fastest of it:
 //
-//  1. The motions as they are.  The fastest one is the answer if it is free;
-//  and
-//     what takes a fiftieth longer is, when that is found.
+//  1. The motions as they are.  The fastest one is the answer if it is free,
+//     and so is what takes a fiftieth longer, when that is found.
 //  2. Motions begun later, or slower, with rests at corners of their paths and
 //     between them, straight from rest to rest (timed_roads.h).
 //  3. The same with places beside the paths, to make way.
