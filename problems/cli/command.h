@@ -41,6 +41,7 @@ Command AddSweep(CLI::App* app);
 Command AddOptimize(CLI::App* app);
 Command AddCompare(CLI::App* app);
 Command AddPlan(CLI::App* app);
+Command AddRemove(CLI::App* app);
 Command AddRetime(CLI::App* app);
 Command AddReproduce(CLI::App* app);
 Command AddDepth(CLI::App* app);

@@ -90,6 +90,8 @@ constexpr ProgramCommand kProgramCommands[] = {
      AddCompare},
     {"join", "Join the pieces of a contact space", AddJoin},
     {"plan", "Plan a path, or prove that there is none", AddPlan},
+    {"remove", "Take a part out of an assembly, or all, or prove it is held",
+     AddRemove},
     {"view", "Look at meshes, scenes, paths, motions and depths", AddView},
     {"scenes", "List or write the procedural scenes", AddScenes},
     {"reproduce", "Pack a command with its inputs, to report what went wrong",

@@ -33,6 +33,7 @@ from ._metrics import EuclideanMetric, Penetration, PhongMetric, QueryResult
 from ._motion import Motion
 from ._native import BuildCancelled, BuildRefusal, InputError, __version__
 from ._piece import ContactSpacePiece
+from ._removal import Disassembly, Removal, disassemble, remove
 from ._rigid import RigidCheck, RigidJudge
 from ._rows import NonPenetrationRows
 from ._solid import Solid
@@ -42,9 +43,9 @@ from ._world import Roadmap, World
 
 __all__ = [
     "BuildCancelled", "BuildRefusal", "ContactSpace", "ContactSpacePiece",
-    "Depth", "DepthQuery", "Diagnosis", "EuclideanMetric", "InputError",
-    "Motion", "NonPenetrationRows", "Penetration", "PenetrationTracker",
-    "PhongMetric", "Plan", "QueryResult", "RigidCheck", "RigidJudge", "Roadmap",
-    "Solid", "TrackedMotion", "Trajectory", "View", "World", "__version__",
-    "depth", "minkowski", "view",
+    "Depth", "DepthQuery", "Diagnosis", "Disassembly", "EuclideanMetric",
+    "InputError", "Motion", "NonPenetrationRows", "Penetration", "PenetrationTracker",
+    "PhongMetric", "Plan", "QueryResult", "Removal", "RigidCheck", "RigidJudge",
+    "Roadmap", "Solid", "TrackedMotion", "Trajectory", "View", "World",
+    "__version__", "depth", "disassemble", "minkowski", "remove", "view",
 ]

@@ -12,6 +12,7 @@ void BindMetrics(nanobind::module_& module);
 void BindTracker(nanobind::module_& module);
 void BindDepth(nanobind::module_& module);
 void BindWorld(nanobind::module_& module);
+void BindRemoval(nanobind::module_& module);
 void BindRigid(nanobind::module_& module);
 void BindRows(nanobind::module_& module);
 void BindSweeps(nanobind::module_& module);

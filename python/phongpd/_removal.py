@@ -1,0 +1,87 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from . import _native
+from ._arguments import Floats
+from ._solid import Solid
+
+
+@dataclass(frozen=True)
+class Removal:
+    """How one part comes out of others, by translation alone."""
+
+    part: int
+    """Its number in the list that was given; 0 of `remove`."""
+    status: str
+    """"solved": it is out; "infeasible_proved": no translation takes it out;
+    "start_in_collision": it is not free as it lies, within the tolerance;
+    else there is no answer, and `reason` says why."""
+    reason: str
+    """One sentence unless it is out."""
+    path: Floats
+    """Its translations, (N, 3), from (0, 0, 0) to beside the box of the rest;
+    certified as a polyline.  Without rows: none."""
+    length: float
+    clearance: float
+    """Of all of the path, as it was planned for."""
+    granted: tuple[float, float]
+    """What was granted of the tolerance: its faces lie at least so far below
+    where they were drawn, and no vertex farther from there than that."""
+    seconds: float
+
+    @property
+    def out(self) -> bool:
+        return self.status == "solved"
+
+
+@dataclass(frozen=True)
+class Disassembly:
+    """Which part comes out when."""
+
+    steps: list[Removal]
+    """In order, each out of those that are left."""
+    stuck: list[Removal]
+    """Why each of those that do not come out is held by the others of them."""
+
+    @property
+    def complete(self) -> bool:
+        return not self.stuck
+
+    @property
+    def proved(self) -> bool:
+        """No order of single parts by translation takes out one more."""
+        return all(one.status == "infeasible_proved" for one in self.stuck)
+
+
+def remove(part: Solid, rest: Sequence[Solid], tolerance: float = 0.0,
+           verify: bool = True) -> Removal:
+    """The way of a part out of others as they lie, by translation alone, or a
+    proof that there is none::
+
+        out = phongpd.remove(pin, [housing, lid], tolerance=0.01)
+        out.status, out.path, out.granted
+
+    Parts are often drawn to fit exactly, and nothing moves: the faces of the
+    part are drawn in by `tolerance` then, in the solids' unit.  Raises
+    InputError for walls too thin for that."""
+    return _removal(_native.remove(
+        part._native, [one._native for one in rest], float(tolerance), verify))
+
+
+def disassemble(parts: Sequence[Solid], tolerance: float = 0.0,
+                verify: bool = True) -> Disassembly:
+    """An order in which all parts come out one by one, as `remove` has it of
+    each; what is taken away only gives room, so that none is missed."""
+    steps, stuck = _native.disassemble(
+        [one._native for one in parts], float(tolerance), verify)
+    return Disassembly(list(map(_removal, steps)), list(map(_removal, stuck)))
+
+
+def _removal(row: tuple[int, str, str, Floats, float, float, float, float,
+                        float]) -> Removal:
+    part, status, reason, path, length, clearance, least, most, seconds = row
+    return Removal(part, status, reason, path, length, clearance, (least, most),
+                   seconds)

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A peg that fills its hole exactly, and a lid on it.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "core/mesh/mesh_io.h"
+#include "problems/shapes/shapes.h"
+#include "tests/problems/cli/cli_fixture.h"
+
+namespace phongpd {
+namespace {
+
+using Json = nlohmann::json;
+
+class CliRemove : public Cli {
+ protected:
+  void SetUp() override {
+    Cli::SetUp();
+    WriteMesh(MakeBox({-0.5, -0.5, -1}, {0.5, 0.5, 1}), File("peg.off"));
+    WriteMesh(MakePlateWithHole(4, 2, 1), File("plate.off"));
+    WriteMesh(MakeBox({-2, -2, 1}, {2, 2, 1.5}), File("lid.off"));
+    WriteMesh(MakeVessel(4, 3, 0), File("shell.off"));
+    WriteMesh(MakeBox({-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5}), File("core.off"));
+  }
+};
+
+TEST_F(CliRemove, SaysWhatItGrantedAnExactFit) {
+  const std::string peg = "remove ../peg.off ../plate.off ../lid.off";
+  const Outcome tight = Run(peg);
+  EXPECT_EQ(tight.code, 1);
+  EXPECT_NE(tight.out.find("touching"), std::string::npos) << tight.out;
+  const Outcome out = Run(peg + " --tolerance 0.001 --output way.csv");
+  EXPECT_EQ(out.code, 0) << out.err;
+  EXPECT_NE(out.out.find("drawn in by 0.001 (vertices by at most 0.001732)"),
+            std::string::npos)
+      << out.out;
+  // Down, for the lid is above it.
+  const std::string way = Content(Output("way.csv"));
+  EXPECT_EQ(way.rfind("step,part,x,y,z\n1,../peg.off,0,0,0\n", 0), 0U) << way;
+  EXPECT_NE(way.find(",-2."), std::string::npos) << way;
+}
+
+TEST_F(CliRemove, TakesAllApartAndProvesWhatIsHeld) {
+  const Outcome apart =
+      Run("remove --all ../peg.off ../plate.off ../lid.off --tolerance 0.001 "
+          "--json");
+  EXPECT_EQ(apart.code, 0) << apart.err;
+  const Json row = Json::parse(apart.out);
+  EXPECT_EQ(row["status"], "out");
+  ASSERT_EQ(row["steps"].size(), 2U);
+  EXPECT_EQ(row["steps"][0]["part"], "../peg.off");
+  EXPECT_EQ(row["steps"][0]["granted"]["faces"], 0.001);
+  const Outcome held = Run("remove ../core.off ../shell.off");
+  EXPECT_EQ(held.code, 1);
+  EXPECT_EQ(held.out,
+            "../core.off: held: no translation takes it out, proved\n");
+}
+
+TEST_F(CliRemove, WritesAPageOfOneWay) {
+  EXPECT_EQ(
+      Run("remove ../peg.off ../lid.off --tolerance 0.01 --html p.html").code,
+      0);
+  EXPECT_NE(Content(Output("p.html")).find("way out"), std::string::npos);
+}
+
+TEST_F(CliRemove, RefusesBadInput) {
+  ExpectRefused("remove ../peg.off", {"../peg.off", "other parts"});
+  ExpectRefused("remove ../peg.off ../peg.off", {"../peg.off", "once"});
+  ExpectRefused("remove ../peg.off ../lid.off --tolerance 0.7",
+                {"peg.off", "shrunk by 0.7", "smaller tolerance"});
+  ExpectRefused("remove ../peg.off ../lid.off --tolerance nan",
+                {"--tolerance"});
+  ExpectRefused("remove --all ../peg.off ../lid.off --html p.html",
+                {"--html", "--all"});
+}
+
+}  // namespace
+}  // namespace phongpd
