@@ -114,6 +114,8 @@ PathAnswer ShortestWayOut(const World& world, const BoundingBox& part,
                           const BoundingBox& rest, bool verifies) {
   PathAnswer best;
   for (const Vector3d& goal : WaysOut(part, rest)) {
+    // To get there is longer, and to all that follow.
+    if (!best.path.empty() && goal.norm() >= best.length) break;
     PlanRequest request;
     request.goal = goal;
     request.verifies = verifies;
