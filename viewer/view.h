@@ -93,6 +93,17 @@ struct NamedPath {
   bool is_free = true;
   ViewBehind behind = {};
   ViewPace pace = {};
+  // Of several robots in one view: the one that follows it, at the origin;
+  // such robots are all shown at once.  Empty: the view's.
+  TriangleMesh robot = {};
+};
+
+// An obstacle that moves: where it is moved to at equal times, from the paths'
+// beginning to their end.
+struct ViewMover {
+  std::string name;
+  TriangleMesh mesh;  // where it is at the configuration 0
+  std::vector<Eigen::Vector3d> points;
 };
 
 // One metric along a motion: PD(q) = q_c − q of every frame, 0 outside.
@@ -141,6 +152,7 @@ struct View {
   std::vector<NamedPath> paths;
   ViewMotion motion;                // no frames: none
   std::vector<ViewAnswer> answers;  // one robot, a pose each
+  std::vector<ViewMover> movers;
 };
 
 // Of everything in the view but the robot, which is taken where it stands or

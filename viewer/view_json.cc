@@ -152,6 +152,14 @@ Json MotionJson(const ViewMotion& motion) {
   return json;
 }
 
+// At the origin, or where it is at the configuration 0, which is moved about.
+Json BodyJson(const TriangleMesh& mesh, const std::string& name,
+              std::size_t most, const internal::PageFrame& frame,
+              std::vector<std::string>* notes) {
+  if (mesh.triangles.empty()) return nullptr;
+  return MeshJson(mesh, name, most, {Vector3d::Zero(), frame.scale}, notes);
+}
+
 Json PaceJson(const ViewPace& pace) {
   if (!(pace.duration > 0.0)) return nullptr;
   return {{"duration", pace.duration},
@@ -192,6 +200,8 @@ Json ViewJson(const View& view, std::size_t most_triangles) {
   if (!(scale > 0.0)) scale = 1.0;
   std::size_t all = view.robot.triangles.size();
   for (const ViewMesh& mesh : view.meshes) all += mesh.mesh.triangles.size();
+  for (const NamedPath& path : view.paths) all += path.robot.triangles.size();
+  for (const ViewMover& one : view.movers) all += one.mesh.triangles.size();
 
   Json json;
   json["title"] = view.title;
@@ -209,12 +219,18 @@ Json ViewJson(const View& view, std::size_t most_triangles) {
     entry["role"] = ToString(mesh.role);
     json["meshes"].push_back(std::move(entry));
   }
-  json["robot"] =
-      view.robot.triangles.empty()
-          ? Json(nullptr)
-          : MeshJson(view.robot, "robot",
-                     Share(view.robot.triangles.size(), all, most_triangles),
-                     {Vector3d::Zero(), scale}, &notes);
+  const auto body = [&](const TriangleMesh& mesh, const std::string& name) {
+    return BodyJson(mesh, name,
+                    Share(mesh.triangles.size(), all, most_triangles),
+                    {center, scale}, &notes);
+  };
+  json["robot"] = body(view.robot, "robot");
+  json["movers"] = Json::array();
+  for (const ViewMover& one : view.movers) {
+    json["movers"].push_back({{"name", one.name},
+                              {"body", body(one.mesh, one.name)},
+                              {"points", PointsJson(one.points)}});
+  }
   json["start"] = MaybePoint(view.start);
   json["goal"] = MaybePoint(view.goal);
   json["bounds"] = view.bounds.IsEmpty()
@@ -230,7 +246,8 @@ Json ViewJson(const View& view, std::size_t most_triangles) {
     json["paths"].push_back({{"name", path.name},
                              {"free", path.is_free},
                              {"points", PointsJson(path.points)},
-                             {"pace", PaceJson(path.pace)}});
+                             {"pace", PaceJson(path.pace)},
+                             {"robot", body(path.robot, path.name)}});
     internal::AddBehind(path, i, {center, scale}, &json, &notes);
   }
   json["motion"] = MotionJson(view.motion);

@@ -11,6 +11,7 @@
 #include "core/mesh/input_file.h"
 #include "core/nearest_name.h"
 #include "problems/output/text.h"
+#include "problems/scenes/json_schema.h"
 #include "problems/scenes/scene_library.h"
 
 namespace phongpd {
@@ -37,6 +38,8 @@ SceneSource::SceneSource(const std::string& text, const std::string& root,
     is_file_ = true;
     content_ = ReadInputFile(text, "a scene file", kMaxSceneBytes);
     label_ = std::filesystem::path(text).stem().string();
+    has_robots_ = content_.find("\"robots\"") != std::string::npos &&
+                  HasRobots(ParseJson(content_, text));
     return;
   }
   if (colon == std::string::npos) return;
@@ -58,6 +61,10 @@ Scene SceneSource::Load(std::optional<std::uint64_t> seed) const {
   Scene scene = ParseScene(MakeScene(family_, knobs), text_);
   scene.name = label_;
   return scene;
+}
+
+FleetScene SceneSource::LoadFleet() const {
+  return ParseFleetSceneFile(content_, text_, root_, repair_);
 }
 
 std::string SceneSource::Digest() const {
