@@ -26,6 +26,7 @@ class Stage extends Solids {
     this.ways = this.makeWays();
     this.addWays();
     this.addMarks();
+    this.crew = new Crew(this);
     this.overlays = new Overlays(this);
     this.iterates = new Iterates(this);
   }
@@ -52,8 +53,9 @@ class Stage extends Solids {
     this.scene.add(this.robot);
   }
 
-  ghost(material) {
-    const mesh = new THREE.Mesh(this.robotShape, material);
+  // Of what follows a way, or of the one robot.
+  ghost(material, way) {
+    const mesh = new THREE.Mesh((way && way.shape) || this.robotShape, material);
     mesh.renderOrder = 20;
     return mesh;
   }
@@ -63,7 +65,8 @@ class Stage extends Solids {
     const {paths, motion, answers} = this.data;
     const ways = paths.map(path => ({
       kind: 'path', name: path.name, free: path.free, raw: path.points,
-      pace: path.pace,
+      pace: path.pace, body: path.robot,
+      shape: path.robot ? shadedGeometry(decodeMesh(path.robot)) : null,
       points: path.points.map(p => this.at(p)),
     }));
     if (motion) {
@@ -95,7 +98,7 @@ class Stage extends Solids {
       const radius = way.kind === 'motion' ? kPathRadius / 2 : kPathRadius;
       way.group.add(new THREE.Mesh(pathGeometry(way, radius), material));
       for (let i = 0; i <= 6; ++i) {
-        const ghost = this.ghost(this.ghostMaterial);
+        const ghost = this.ghost(this.ghostMaterial, way);
         ghost.position.copy(this.placeOn(way, i / 6).point);
         way.stages.add(ghost);
       }
@@ -144,6 +147,12 @@ class Stage extends Solids {
          'start');
     mark(this.data.goal, new THREE.OctahedronBufferGeometry(0.013), 'goal');
     const paths = this.ways.filter(way => way.kind === 'path');
+    // Where robots of their own come to.
+    for (const way of paths.filter(path => path.shape && path.points.length)) {
+      const ghost = this.ghost(this.ghostMaterial, way);
+      ghost.position.copy(way.points[way.points.length - 1]);
+      this.groups.marks.add(ghost);
+    }
     if (paths.length > 8) return;  // labels would cover each other
     paths.forEach((way, i) => {
       if (way.points.length === 0) return;

@@ -59,7 +59,8 @@ PathAnswer Resting(const FleetRobot& robot) {
     return answer;
   }
   answer.path = {q};
-  answer.motion = Trajectory({CurvePiece(q, q, kMoment)});
+  answer.motion =
+      Trajectory({CurvePiece(std::vector<Vector3d>(6, q), kMoment)});
   const std::vector<MovingBody> bodies =
       MovingBodies(robot.world, robot.request.moving);
   const double last = std::max(kMoment, LastMotion(bodies));

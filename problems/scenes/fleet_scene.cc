@@ -56,20 +56,6 @@ Json SolidOf(const Json& robot) {
   return solid;
 }
 
-bool IsSame(const TriangleMesh& a, const TriangleMesh& b) {
-  return a.vertices == b.vertices && a.triangles == b.triangles;
-}
-
-// Equal robots are one solid: what is built of it is built once.
-Solid Shared(const Solid& robot, const std::vector<Scene>& before) {
-  for (const Scene& scene : before) {
-    if (IsSame(scene.workspace.robot.mesh(), robot.mesh())) {
-      return scene.workspace.robot.Named(robot.name());
-    }
-  }
-  return robot;
-}
-
 }  // namespace
 
 bool HasRobots(const Json& json) {
@@ -104,9 +90,8 @@ FleetScene ParseFleetScene(const Json& json, const std::string& file,
     Scene scene = common;
     const std::string id = IdOf(value, i, here, &ids);
     scene.workspace.robot =
-        Shared(internal::SolidAt(SolidOf(value), here, folder, &scene.warnings)
-                   .Named(id),
-               fleet.robots);
+        internal::SolidAt(SolidOf(value), here, folder, &scene.warnings)
+            .Named(id);
     internal::ReadTask(value, here, &scene);
     if (value.contains("bounds")) {
       scene.workspace.bounds =

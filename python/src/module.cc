@@ -27,6 +27,7 @@ NB_MODULE(_native, module) {
   phongpd::python::BindTracker(module);
   phongpd::python::BindDepth(module);
   phongpd::python::BindWorld(module);
+  phongpd::python::BindFleet(module);
   phongpd::python::BindRigid(module);
   phongpd::python::BindRows(module);
   phongpd::python::BindSweeps(module);
