@@ -91,6 +91,8 @@ struct NamedPath {
   std::string name;
   std::vector<Eigen::Vector3d> points;
   bool is_free = true;
+  // How the robot is turned at each point; empty: it does not turn.
+  std::vector<Eigen::Quaterniond> turns = {};
   ViewBehind behind = {};
   ViewPace pace = {};
   // Of several robots in one view: the one that follows it, at the origin;
@@ -148,6 +150,8 @@ struct View {
   std::vector<ViewMesh> meshes;  // fixed
   TriangleMesh robot;            // at the origin; may be empty
   std::optional<Eigen::Vector3d> start, goal;
+  Eigen::Quaterniond start_turn = Eigen::Quaterniond::Identity();  // there
+  Eigen::Quaterniond goal_turn = Eigen::Quaterniond::Identity();
   BoundingBox bounds = ComputeBounds(TriangleMesh());  // of q; empty: none
   std::vector<NamedPath> paths;
   ViewMotion motion;                // no frames: none

@@ -160,6 +160,17 @@ Json BodyJson(const TriangleMesh& mesh, const std::string& name,
   return MeshJson(mesh, name, most, {Vector3d::Zero(), frame.scale}, notes);
 }
 
+Json TurnJson(const Eigen::Quaterniond& turn) {
+  return {turn.w(), turn.x(), turn.y(), turn.z()};
+}
+
+Json TurnsJson(const std::vector<Eigen::Quaterniond>& turns) {
+  if (turns.empty()) return nullptr;
+  Json json = Json::array();
+  for (const Eigen::Quaterniond& turn : turns) json.push_back(TurnJson(turn));
+  return json;
+}
+
 Json PaceJson(const ViewPace& pace) {
   if (!(pace.duration > 0.0)) return nullptr;
   return {{"duration", pace.duration},
@@ -233,6 +244,8 @@ Json ViewJson(const View& view, std::size_t most_triangles) {
   }
   json["start"] = MaybePoint(view.start);
   json["goal"] = MaybePoint(view.goal);
+  json["start_turn"] = TurnJson(view.start_turn);
+  json["goal_turn"] = TurnJson(view.goal_turn);
   json["bounds"] = view.bounds.IsEmpty()
                        ? Json(nullptr)
                        : Json({{"min", PointJson(view.bounds.min)},
@@ -246,6 +259,7 @@ Json ViewJson(const View& view, std::size_t most_triangles) {
     json["paths"].push_back({{"name", path.name},
                              {"free", path.is_free},
                              {"points", PointsJson(path.points)},
+                             {"turns", TurnsJson(path.turns)},
                              {"pace", PaceJson(path.pace)},
                              {"robot", body(path.robot, path.name)}});
     internal::AddBehind(path, i, {center, scale}, &json, &notes);

@@ -8,6 +8,7 @@
 #include "core/mesh/input_file.h"
 #include "problems/output/text.h"
 #include "problems/scenes/json_schema.h"
+#include "problems/scenes/rigid_scene.h"
 #include "problems/scenes/scene_parts.h"
 #include "problems/scenes/scene_schema.h"
 
@@ -48,6 +49,16 @@ Scene ParseScene(const Json& json, const std::string& file,
         "one robot here, as \"robot\"",
         "a list of " + std::to_string(json["robots"].size()) +
             "; motions of several are found by phongpd optimize");
+  }
+  if (HasTurningRobot(json)) {
+    place.Child("robot").Child("turns").Fail(
+        "a robot that translates here",
+        "true; motions of one that turns are found by phongpd plan");
+  }
+  for (const char* key : {"start_rotation", "goal_rotation"}) {
+    if (!json.contains(key)) continue;
+    place.Child(key).Fail("none of a robot without \"turns\": true",
+                          Shortened(json[key]));
   }
   Scene scene;
   scene.name = json.value("name", name);

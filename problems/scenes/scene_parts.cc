@@ -25,30 +25,6 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 using Json = nlohmann::ordered_json;
 
-Matrix3d Rotation(const Json& value, const JsonPlace& place) {
-  if (value.is_object()) {
-    const Vector3d axis = PointAt(value["axis"]);
-    const double length = axis.stableNorm();
-    if (!(length > 0.0) || !std::isfinite(length)) {
-      place.Child("axis").Fail("a direction", Shortened(value["axis"]));
-    }
-    constexpr double kRadians = kPi / 180.0;
-    return Eigen::AngleAxisd(kRadians * value["degrees"].get<double>(),
-                             axis / length)
-        .toRotationMatrix();
-  }
-  Matrix3d rotation;
-  for (int i = 0; i < 9; ++i) rotation(i / 3, i % 3) = value[i].get<double>();
-  constexpr double kRounding = 1e-9;  // of 1, for matrices typed by hand
-  const double error =
-      (rotation * rotation.transpose() - Matrix3d::Identity()).norm();
-  // Written so that NaN fails it.
-  if (!(error <= kRounding && rotation.determinant() > 0.0)) {
-    place.Fail("the rows of a rotation matrix", Shortened(value));
-  }
-  return rotation;
-}
-
 Repair RepairOf(const Json& value, const MeshFolder& folder) {
   if (!value.contains("repair")) return folder.repair;
   return ParseRepair(value["repair"].get<std::string>(), "repair");
@@ -78,6 +54,30 @@ Vector3d PointAt(const Json& value) {
           value[2].get<double>()};
 }
 
+Matrix3d RotationAt(const Json& value, const JsonPlace& place) {
+  if (value.is_object()) {
+    const Vector3d axis = PointAt(value["axis"]);
+    const double length = axis.stableNorm();
+    if (!(length > 0.0) || !std::isfinite(length)) {
+      place.Child("axis").Fail("a direction", Shortened(value["axis"]));
+    }
+    constexpr double kRadians = kPi / 180.0;
+    return Eigen::AngleAxisd(kRadians * value["degrees"].get<double>(),
+                             axis / length)
+        .toRotationMatrix();
+  }
+  Matrix3d rotation;
+  for (int i = 0; i < 9; ++i) rotation(i / 3, i % 3) = value[i].get<double>();
+  constexpr double kRounding = 1e-9;  // of 1, for matrices typed by hand
+  const double error =
+      (rotation * rotation.transpose() - Matrix3d::Identity()).norm();
+  // Written so that NaN fails it.
+  if (!(error <= kRounding && rotation.determinant() > 0.0)) {
+    place.Fail("the rows of a rotation matrix", Shortened(value));
+  }
+  return rotation;
+}
+
 // A `solid` of the schema.  Steps that a scene leaves out do no arithmetic.
 Solid SolidAt(const Json& value, const JsonPlace& place,
               const MeshFolder& folder, std::vector<std::string>* warnings) {
@@ -99,7 +99,7 @@ Solid SolidAt(const Json& value, const JsonPlace& place,
   }
   if (value.contains("rotation")) {
     mesh = Rotated(std::move(mesh),
-                   Rotation(value["rotation"], place.Child("rotation")));
+                   RotationAt(value["rotation"], place.Child("rotation")));
   }
   if (value.contains("scale")) {
     mesh = Scaled(std::move(mesh), value["scale"].get<double>());

@@ -9,9 +9,10 @@
 #include "problems/scenes/json_schema.h"
 #include "problems/scenes/scene.h"
 
-// Of what scene files consist, of one robot (scene.h) or several
-// (fleet_scene.h).  Every reader relies on the schema: types, counts and ranges
-// are right.  All throw InputError at their place for the rest.
+// Of what scene files consist, of one robot (scene.h) several
+// (fleet_scene.h), or one that turns (rigid_scene.h).  Every reader relies on
+// the schema: types, counts and ranges are right.  All throw InputError at
+// their place for the rest.
 namespace phongpd::internal {
 
 // Where the mesh files of a scene are, and what happens to those that are no
@@ -23,6 +24,9 @@ struct MeshFolder {
 };
 
 Eigen::Vector3d PointAt(const nlohmann::ordered_json& value);
+
+Eigen::Matrix3d RotationAt(const nlohmann::ordered_json& value,
+                           const JsonPlace& place);
 
 // A `solid` of the schema.  Steps that a scene leaves out do no arithmetic.
 Solid SolidAt(const nlohmann::ordered_json& value, const JsonPlace& place,

@@ -40,6 +40,8 @@ SceneSource::SceneSource(const std::string& text, const std::string& root,
     label_ = std::filesystem::path(text).stem().string();
     has_robots_ = content_.find("\"robots\"") != std::string::npos &&
                   HasRobots(ParseJson(content_, text));
+    turns_ = content_.find("\"turns\"") != std::string::npos &&
+             HasTurningRobot(ParseJson(content_, text));
     return;
   }
   if (colon == std::string::npos) return;
@@ -67,13 +69,23 @@ FleetScene SceneSource::LoadFleet() const {
   return ParseFleetSceneFile(content_, text_, root_, repair_);
 }
 
+RigidScene SceneSource::LoadRigid() const {
+  return ParseRigidSceneFile(content_, text_, root_, repair_);
+}
+
 std::string SceneSource::Digest() const {
   internal::ByteWriter writer;
   writer(text_, content_);
-  const Scene scene = Load();
-  writer(scene.start, scene.goal, scene.workspace.robot.mesh().vertices,
-         scene.workspace.robot.mesh().triangles);
-  for (const Solid& obstacle : scene.workspace.obstacles) {
+  Workspace workspace;
+  if (turns_) {
+    workspace = LoadRigid().workspace;
+  } else {
+    const Scene scene = Load();
+    writer(scene.start, scene.goal);
+    workspace = scene.workspace;
+  }
+  writer(workspace.robot.mesh().vertices, workspace.robot.mesh().triangles);
+  for (const Solid& obstacle : workspace.obstacles) {
     writer(obstacle.mesh().vertices, obstacle.mesh().triangles);
   }
   return internal::ToHex(internal::HashContent(writer.Take()));
