@@ -57,6 +57,7 @@ class DrawnViewer extends Viewer {
     const place = stage.pose(state.way, state.time);
     stage.overlays.show(state.show, state.probe.on ? -1 : state.way,
                         place ? place.frame : 0);
+    stage.crew.show(state.show, state.time);
     if (state.probe.on) this.probe.pose();
     const panes = this.panes(width, height);
     renderer.setScissorTest(false);
@@ -91,7 +92,8 @@ class DrawnViewer extends Viewer {
     const {stage, state} = this, isMotion = this.isSplit;
     const i = isMotion ? pane : state.probe.on ? state.probe.metric : state.way;
     stage.robot.visible = state.show.robot &&
-        (!!this.data.robot || stage.ways.length > 0 || state.probe.on);
+        (!!this.data.robot || stage.ways.length > 0 || state.probe.on) &&
+        (!stage.crew.isTeam || state.probe.on);
     stage.robotMaterial.color.copy(asColor(wayColor(state.theme, i)));
     // Of what cannot be cut, no cap; nor where the plane has other colours.
     stage.groups.caps.visible = state.clip.on && !state.xray && !state.map &&

@@ -4,14 +4,14 @@ const kThemes = {
   light: {
     obstacle: 0xb4bac4, cap: 0x7d8694, edge: 0x3a424e, mesh: 0xc9c3b8,
     contact: 0x3d8fd1, mark: 0x1d232b, ghost: 0x8a929e, mesh2: 0x9fb3bd,
-    graph: 0x8a5a00, plane: 0x9c2f7a, window: 0x007a5e,
+    mover: 0x9a86b8, graph: 0x8a5a00, plane: 0x9c2f7a, window: 0x007a5e,
     paths: ['#0072b2', '#d55e00', '#009e73', '#b8578f', '#b07800', '#2f9bd0',
             '#5b4fa3', '#6b6b00'],
   },
   dark: {
     obstacle: 0x77818f, cap: 0xa9b3c2, edge: 0xc9d2df, mesh: 0x8c8577,
     contact: 0x58aef0, mark: 0xf1f4f8, ghost: 0x98a2b0, mesh2: 0x6d8794,
-    graph: 0xf0c060, plane: 0xff9be0, window: 0x4fe0b8,
+    mover: 0xb3a2cf, graph: 0xf0c060, plane: 0xff9be0, window: 0x4fe0b8,
     paths: ['#4eaaf0', '#ff8b3d', '#2fc89a', '#ee9bcb', '#f2c14e', '#9fdcff',
             '#a99bff', '#d6d64a'],
   },
@@ -71,6 +71,7 @@ class DressedStage extends FramedStage {
     this.wayMaterials.forEach((material, i) => {
       material.color.copy(asColor(this.colorOf(name, i)));
     });
+    this.crew.setTheme(name);
     this.ghostMaterial.color.set(theme.ghost);
     this.arrows.forEach((arrow, i) => {
       const color = asColor(wayColor(name, this.arrowColor(i)));

@@ -16,6 +16,7 @@ if(THREE)
           solids.js
           overlays.js
           iterates.js
+          crew.js
           stage.js
           framing.js
           dress.js

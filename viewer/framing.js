@@ -29,6 +29,9 @@ class FramedStage extends Stage {
           solid.geometry.attributes.position));
     }
     for (const way of this.ways) way.points.forEach(p => box.expandByPoint(p));
+    for (const {way} of this.crew.movers) {
+      way.points.forEach(p => box.expandByPoint(p));
+    }
     for (const end of [this.data.start, this.data.goal]) {
       if (end) box.expandByPoint(this.at(end));
     }
@@ -40,8 +43,9 @@ class FramedStage extends Stage {
       const length = b => b.getSize(new THREE.Vector3()).length();
       if (length(all) < 4 * length(box)) box.copy(all);
     }
+    const own = this.ways.find(way => way.shape);
     const robot = new THREE.Box3().setFromBufferAttribute(
-        this.robotShape.attributes.position);
+        (own ? own.shape : this.robotShape).attributes.position);
     if (box.isEmpty()) {
       box.copy(robot).translate(this.at([0, 0, 0]));
     } else if (this.ways.length) {

@@ -99,13 +99,20 @@ class Panel {
         }), make('span', {}, entry.name)));
       }
     }
-    if (data.robot) row('robot', 'robot', 'robot');
+    const {crew} = this.viewer.stage;
+    if (crew.isTeam) row('robot', 'robots');
+    else if (data.robot) row('robot', 'robot', 'robot');
+    if (crew.movers.length) {
+      row('movers', crew.movers.length === 1 ? crew.movers[0].way.name
+          : crew.movers.length + ' moving obstacles', 'mover');
+    }
     if (data.robot && data.answers.some(a => a.depth > 0)) {
       rows.push(make('p', {class: 'row part'},
                      make('i', {class: 'swatch pale', 'data-way-swatch': 1}),
                      make('span', {}, 'robot, where it is pushed out to')));
     }
-    if (data.start || data.goal) row('marks', 'start and goal', 'mark');
+    if (crew.isTeam) row('marks', 'goals and names');
+    else if (data.start || data.goal) row('marks', 'start and goal', 'mark');
     if (this.viewer.stage.ways.some(w => w.stages.children.length)) {
       row('stages', 'robot at stages', 'ghost');
     }
@@ -146,7 +153,8 @@ class Panel {
     }
     if (!rows.length) return '';
     const title = data.motion ? 'Penetration depth'
-        : data.answers.length ? 'Answers' : 'Paths';
+        : data.answers.length ? 'Answers'
+        : stage.crew.isTeam ? 'Robots' : 'Paths';
     const section = this.section(title, ...rows);
     section.className = data.motion ? 'ways traces' : 'ways';
     return section;

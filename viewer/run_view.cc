@@ -6,9 +6,6 @@
 namespace phongpd {
 namespace {
 
-// A motion is played by so many steps, equal in time.
-constexpr int kMoments = 600;
-
 // What people call what the planner grows.
 std::string GrownBy(PlannerId planner) {
   switch (planner) {
@@ -89,13 +86,6 @@ ViewIterates IteratesOf(const TrajectoryProblem& problem,
   return iterates;
 }
 
-// Of a limit of each axis, or of the norm.
-double ShareOf(const Eigen::Vector3d& asked, const Eigen::Vector3d& limit,
-               bool by_norm) {
-  return by_norm ? asked.norm() / limit.x()
-                 : asked.cwiseAbs().cwiseQuotient(limit).maxCoeff();
-}
-
 }  // namespace
 
 ViewBehind BehindPlan(const World& world, const PlanRequest& request,
@@ -129,31 +119,6 @@ ViewBehind BehindTrajectory(const World& world, const OptimizeRequest& request,
     behind.planes = CorridorAround(problem, answer.path);
   }
   return behind;
-}
-
-NamedPath PathInTime(const OptimizeRequest& request, const PathAnswer& answer) {
-  std::string status = ToString(answer.status);
-  std::replace(status.begin(), status.end(), '_', ' ');
-  NamedPath path = {"motion · " + status, answer.path, answer.is_free};
-  const Trajectory& motion = answer.motion;
-  if (motion.empty()) return path;
-  const MotionLimits& limits = *request.limits;
-  path.points.clear();
-  path.pace.duration = motion.duration();
-  for (int i = 0; i <= kMoments; ++i) {
-    const Trajectory::Sample sample =
-        motion.At(motion.duration() * i / kMoments);
-    path.points.push_back(sample.position);
-    ViewPace& pace = path.pace;
-    pace.velocity.push_back(
-        ShareOf(sample.velocity, limits.velocity, limits.by_norm));
-    pace.acceleration.push_back(
-        ShareOf(sample.acceleration, limits.acceleration, limits.by_norm));
-    pace.jerk.push_back(ShareOf(sample.jerk, limits.jerk, limits.by_norm));
-    pace.clearance.push_back(
-        answer.evidence.free_space->Clearance(sample.position));
-  }
-  return path;
 }
 
 TriangleMesh VisibleMesh(const ContactSpace& space, const BoundingBox& region) {

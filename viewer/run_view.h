@@ -23,10 +23,6 @@ ViewBehind BehindTrajectory(const World& world, const OptimizeRequest& request,
                             const PathAnswer& answer,
                             const PathHistory& history);
 
-// A certified motion to be played in its own time, with what it asks of the
-// limits of the request; without one what there is, the path it began with.
-NamedPath PathInTime(const OptimizeRequest& request, const PathAnswer& answer);
-
 // The triangles of a contact space, or of what was explored of one, that lie in
 // a box, without walls that are none of contact.
 TriangleMesh VisibleMesh(const ContactSpace& space, const BoundingBox& region);

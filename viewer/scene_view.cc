@@ -2,6 +2,7 @@
 #include "viewer/scene_view.h"
 
 #include "planners/world/workspace.h"
+#include "viewer/motion_view.h"
 
 namespace phongpd {
 
@@ -22,6 +23,7 @@ View SceneView(const Scene& scene,
   for (const TriangleMesh& mesh : contact_spaces) {
     view.meshes.push_back({"contact space", ViewRole::kContactSpace, mesh});
   }
+  view.movers = MoversOf(scene.moving, 0.0);
   view.length = ContactBounds(scene.workspace).Diagonal();
   return view;
 }

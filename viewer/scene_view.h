@@ -10,8 +10,8 @@
 
 namespace phongpd {
 
-// The scene's robot and obstacles, start and goal, the name of its unit, and
-// contact spaces that were built for it.
+// The scene's robot and obstacles, also those that move, start and goal, the
+// name of its unit, and contact spaces that were built for it.
 View SceneView(const Scene& scene,
                const std::vector<TriangleMesh>& contact_spaces = {});
 // The same with the part of the contact space that was built.

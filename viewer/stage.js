@@ -2,11 +2,16 @@
 
 const kPathRadius = 0.0038;
 
-// From the first point to each, along them.
-function lengthsOf(points) {
+function asTurn([w, x, y, z]) { return new THREE.Quaternion(x, y, z, w); }
+
+// From the first point to each, along them; what turns at a reach has a way of
+// that, too.
+function lengthsOf(points, turns, reach) {
   const lengths = [0];
   for (let i = 1; i < points.length; ++i) {
-    lengths.push(lengths[i - 1] + points[i].distanceTo(points[i - 1]));
+    const angle = turns ? turns[i].angleTo(turns[i - 1]) : 0;
+    lengths.push(lengths[i - 1] + Math.hypot(
+        points[i].distanceTo(points[i - 1]), angle * reach));
   }
   return lengths;
 }
@@ -26,6 +31,7 @@ class Stage extends Solids {
     this.ways = this.makeWays();
     this.addWays();
     this.addMarks();
+    this.crew = new Crew(this);
     this.overlays = new Overlays(this);
     this.iterates = new Iterates(this);
   }
@@ -52,8 +58,9 @@ class Stage extends Solids {
     this.scene.add(this.robot);
   }
 
-  ghost(material) {
-    const mesh = new THREE.Mesh(this.robotShape, material);
+  // Of what follows a way, or of the one robot.
+  ghost(material, way) {
+    const mesh = new THREE.Mesh((way && way.shape) || this.robotShape, material);
     mesh.renderOrder = 20;
     return mesh;
   }
@@ -63,7 +70,9 @@ class Stage extends Solids {
     const {paths, motion, answers} = this.data;
     const ways = paths.map(path => ({
       kind: 'path', name: path.name, free: path.free, raw: path.points,
-      pace: path.pace,
+      pace: path.pace, body: path.robot,
+      turns: path.turns ? path.turns.map(asTurn) : null,
+      shape: path.robot ? shadedGeometry(decodeMesh(path.robot)) : null,
       points: path.points.map(p => this.at(p)),
     }));
     if (motion) {
@@ -77,7 +86,12 @@ class Stage extends Solids {
                  name: answers.length === 1 ? 'pose' : 'poses',
                  points: raw.map(p => this.at(p))});
     }
-    for (const way of ways) way.lengths = lengthsOf(way.points);
+    this.robotShape.computeBoundingSphere();
+    const {center, radius} = this.robotShape.boundingSphere;
+    const reach = center.length() + radius;
+    for (const way of ways) {
+      way.lengths = lengthsOf(way.points, way.turns, reach);
+    }
     return ways;
   }
 
@@ -95,8 +109,10 @@ class Stage extends Solids {
       const radius = way.kind === 'motion' ? kPathRadius / 2 : kPathRadius;
       way.group.add(new THREE.Mesh(pathGeometry(way, radius), material));
       for (let i = 0; i <= 6; ++i) {
-        const ghost = this.ghost(this.ghostMaterial);
-        ghost.position.copy(this.placeOn(way, i / 6).point);
+        const ghost = this.ghost(this.ghostMaterial, way);
+        const place = this.placeOn(way, i / 6);
+        ghost.position.copy(place.point);
+        if (place.turn) ghost.quaternion.copy(place.turn);
         way.stages.add(ghost);
       }
     }
@@ -128,7 +144,7 @@ class Stage extends Solids {
 
   addMarks() {
     this.labels = [];  // {text, point, way}
-    const mark = (point, shape, text) => {
+    const mark = (point, shape, text, turn) => {
       if (!point) return;
       const material = new THREE.MeshBasicMaterial();
       this.colored.push([material, 'mark']);
@@ -137,13 +153,21 @@ class Stage extends Solids {
       this.groups.marks.add(mesh);
       const ghost = this.ghost(this.ghostMaterial);
       ghost.position.copy(mesh.position);
+      ghost.quaternion.copy(asTurn(turn));
       this.groups.marks.add(ghost);
       this.labels.push({text, point: mesh.position});
     };
     mark(this.data.start, new THREE.SphereBufferGeometry(0.008, 20, 14),
-         'start');
-    mark(this.data.goal, new THREE.OctahedronBufferGeometry(0.013), 'goal');
+         'start', this.data.start_turn);
+    mark(this.data.goal, new THREE.OctahedronBufferGeometry(0.013), 'goal',
+         this.data.goal_turn);
     const paths = this.ways.filter(way => way.kind === 'path');
+    // Where robots of their own come to.
+    for (const way of paths.filter(path => path.shape && path.points.length)) {
+      const ghost = this.ghost(this.ghostMaterial, way);
+      ghost.position.copy(way.points[way.points.length - 1]);
+      this.groups.marks.add(ghost);
+    }
     if (paths.length > 8) return;  // labels would cover each other
     paths.forEach((way, i) => {
       if (way.points.length === 0) return;
@@ -177,7 +201,9 @@ class Stage extends Solids {
       share = step > 0 ? (travelled - lengths[i - 1]) / step : 0;
     }
     const a = way.raw[i - 1], b = way.raw[i];
-    return {point: points[i - 1].clone().lerp(points[i], share),
+    const turn = way.turns
+        ? way.turns[i - 1].clone().slerp(way.turns[i], share) : null;
+    return {turn, point: points[i - 1].clone().lerp(points[i], share),
             raw: a.map((x, k) => x + share * (b[k] - x)), frame: i};
   }
 
@@ -208,11 +234,13 @@ class Stage extends Solids {
     const rest = this.data.start ? this.at(this.data.start)
                                  : this.at([0, 0, 0]);
     this.robot.position.copy(place ? place.point : rest);
-    this.robot.quaternion.set(0, 0, 0, 1);
+    this.robot.quaternion.copy(asTurn(place ? [1, 0, 0, 0]
+                                            : this.data.start_turn));
     for (const arrow of [...this.arrows, ...this.probeArrows]) {
       arrow.group.visible = false;
     }
     if (!place) return null;
+    if (place.turn) this.robot.quaternion.copy(place.turn);
     const scale = this.data.scale;
     if (way.kind === 'motion') {
       this.data.motion.traces.forEach((trace, i) => {

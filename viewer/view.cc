@@ -46,14 +46,23 @@ BoundingBox ViewBounds(const View& view) {
   for (const ViewMesh& mesh : view.meshes) {
     Extend(&box, ComputeBounds(mesh.mesh));
   }
-  const BoundingBox robot = ComputeBounds(view.robot);
-  const auto visit = [&](const Vector3d& q) {
+  const auto take = [&](const BoundingBox& body, const Vector3d& q) {
     Extend(&box, q);
-    if (!robot.IsEmpty())
-      Extend(&box, BoundingBox{q + robot.min, q + robot.max});
+    if (!body.IsEmpty()) Extend(&box, BoundingBox{q + body.min, q + body.max});
   };
+  const BoundingBox robot = ComputeBounds(view.robot);
+  const auto visit = [&](const Vector3d& q) { take(robot, q); };
   for (const NamedPath& path : view.paths) {
-    for (const Vector3d& q : path.points) visit(q);
+    const BoundingBox own =
+        path.robot.triangles.empty() ? robot : ComputeBounds(path.robot);
+    for (const Vector3d& q : path.points) take(own, q);
+  }
+  for (const ViewMover& mover : view.movers) {
+    const BoundingBox own = ComputeBounds(mover.mesh);
+    for (const Vector3d& q : mover.points) {
+      if (own.IsEmpty()) continue;
+      Extend(&box, BoundingBox{q + own.min, q + own.max});
+    }
   }
   for (const Vector3d& q : view.motion.positions) visit(q);
   for (const ViewAnswer& answer : view.answers) visit(answer.position);

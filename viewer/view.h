@@ -91,8 +91,21 @@ struct NamedPath {
   std::string name;
   std::vector<Eigen::Vector3d> points;
   bool is_free = true;
+  // How the robot is turned at each point; empty: it does not turn.
+  std::vector<Eigen::Quaterniond> turns = {};
   ViewBehind behind = {};
   ViewPace pace = {};
+  // Of several robots in one view: the one that follows it, at the origin;
+  // such robots are all shown at once.  Empty: the view's.
+  TriangleMesh robot = {};
+};
+
+// An obstacle that moves: where it is moved to at equal times, from the paths'
+// beginning to their end.
+struct ViewMover {
+  std::string name;
+  TriangleMesh mesh;  // where it is at the configuration 0
+  std::vector<Eigen::Vector3d> points;
 };
 
 // One metric along a motion: PD(q) = q_c − q of every frame, 0 outside.
@@ -137,10 +150,13 @@ struct View {
   std::vector<ViewMesh> meshes;  // fixed
   TriangleMesh robot;            // at the origin; may be empty
   std::optional<Eigen::Vector3d> start, goal;
+  Eigen::Quaterniond start_turn = Eigen::Quaterniond::Identity();  // there
+  Eigen::Quaterniond goal_turn = Eigen::Quaterniond::Identity();
   BoundingBox bounds = ComputeBounds(TriangleMesh());  // of q; empty: none
   std::vector<NamedPath> paths;
   ViewMotion motion;                // no frames: none
   std::vector<ViewAnswer> answers;  // one robot, a pose each
+  std::vector<ViewMover> movers;
 };
 
 // Of everything in the view but the robot, which is taken where it stands or

@@ -152,6 +152,25 @@ Json MotionJson(const ViewMotion& motion) {
   return json;
 }
 
+// At the origin, or where it is at the configuration 0, which is moved about.
+Json BodyJson(const TriangleMesh& mesh, const std::string& name,
+              std::size_t most, const internal::PageFrame& frame,
+              std::vector<std::string>* notes) {
+  if (mesh.triangles.empty()) return nullptr;
+  return MeshJson(mesh, name, most, {Vector3d::Zero(), frame.scale}, notes);
+}
+
+Json TurnJson(const Eigen::Quaterniond& turn) {
+  return {turn.w(), turn.x(), turn.y(), turn.z()};
+}
+
+Json TurnsJson(const std::vector<Eigen::Quaterniond>& turns) {
+  if (turns.empty()) return nullptr;
+  Json json = Json::array();
+  for (const Eigen::Quaterniond& turn : turns) json.push_back(TurnJson(turn));
+  return json;
+}
+
 Json PaceJson(const ViewPace& pace) {
   if (!(pace.duration > 0.0)) return nullptr;
   return {{"duration", pace.duration},
@@ -192,6 +211,8 @@ Json ViewJson(const View& view, std::size_t most_triangles) {
   if (!(scale > 0.0)) scale = 1.0;
   std::size_t all = view.robot.triangles.size();
   for (const ViewMesh& mesh : view.meshes) all += mesh.mesh.triangles.size();
+  for (const NamedPath& path : view.paths) all += path.robot.triangles.size();
+  for (const ViewMover& one : view.movers) all += one.mesh.triangles.size();
 
   Json json;
   json["title"] = view.title;
@@ -209,14 +230,22 @@ Json ViewJson(const View& view, std::size_t most_triangles) {
     entry["role"] = ToString(mesh.role);
     json["meshes"].push_back(std::move(entry));
   }
-  json["robot"] =
-      view.robot.triangles.empty()
-          ? Json(nullptr)
-          : MeshJson(view.robot, "robot",
-                     Share(view.robot.triangles.size(), all, most_triangles),
-                     {Vector3d::Zero(), scale}, &notes);
+  const auto body = [&](const TriangleMesh& mesh, const std::string& name) {
+    return BodyJson(mesh, name,
+                    Share(mesh.triangles.size(), all, most_triangles),
+                    {center, scale}, &notes);
+  };
+  json["robot"] = body(view.robot, "robot");
+  json["movers"] = Json::array();
+  for (const ViewMover& one : view.movers) {
+    json["movers"].push_back({{"name", one.name},
+                              {"body", body(one.mesh, one.name)},
+                              {"points", PointsJson(one.points)}});
+  }
   json["start"] = MaybePoint(view.start);
   json["goal"] = MaybePoint(view.goal);
+  json["start_turn"] = TurnJson(view.start_turn);
+  json["goal_turn"] = TurnJson(view.goal_turn);
   json["bounds"] = view.bounds.IsEmpty()
                        ? Json(nullptr)
                        : Json({{"min", PointJson(view.bounds.min)},
@@ -230,7 +259,9 @@ Json ViewJson(const View& view, std::size_t most_triangles) {
     json["paths"].push_back({{"name", path.name},
                              {"free", path.is_free},
                              {"points", PointsJson(path.points)},
-                             {"pace", PaceJson(path.pace)}});
+                             {"turns", TurnsJson(path.turns)},
+                             {"pace", PaceJson(path.pace)},
+                             {"robot", body(path.robot, path.name)}});
     internal::AddBehind(path, i, {center, scale}, &json, &notes);
   }
   json["motion"] = MotionJson(view.motion);

@@ -65,7 +65,7 @@ class Viewer {
       iterate: null, running: 0,
       clip: {on: false, axis: 'z', at: 0.5, flip: false},
       show: {obstacle: true, contact: true, mesh: true, robot: true,
-             marks: true, stages: false, graphs: true, planes: false,
+             marks: true, movers: true, stages: false, graphs: true, planes: false,
              windows: true, regions: false, bounds: true},
       probe: {on: false, at: null, metric: 1,
               smoothing: data.probe ? data.probe.smoothing_length : 0},

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "constraints/motion_oracle.h"
+#include "constraints/moving_judge.h"
 #include "core/mesh/mesh_error.h"
 #include "core/number_text.h"
 #include "core/stopwatch.h"
@@ -17,7 +18,7 @@ using Eigen::Vector3d;
 using Order = std::vector<std::size_t>;
 
 bool Stays(const FleetRobot& robot) {
-  return robot.request.start == robot.request.goal;
+  return robot.request.start == robot.request.goal && robot.request.via.empty();
 }
 
 void RequireApart(const FleetRobot& a, const FleetRobot& b, bool at_start) {
@@ -31,25 +32,18 @@ void RequireApart(const FleetRobot& a, const FleetRobot& b, bool at_start) {
                    ") touch at their " + (at_start ? "starts" : "goals"));
 }
 
-void RequireFleet(const std::vector<FleetRobot>& robots) {
-  std::set<std::string> names;
-  for (const FleetRobot& robot : robots) {
-    if (!names.insert(robot.name).second) {
-      throw InputError("robots: expected different names, found \"" +
-                       robot.name + "\" twice");
-    }
-    if (!robot.request.limits) {
-      throw InputError("robots: \"" + robot.name +
-                       "\": expected limits of the motion, found none");
-    }
-    robot.request.Validate(robot.world);
+// What moves is kept off from rest to rest, in as little time as is found.
+void RequireRest(const FleetRobot& robot) {
+  const OptimizeRequest& request = robot.request;
+  if (request.duration > 0.0) {
+    throw InputError("robots: \"" + robot.name +
+                     "\": expected no given duration among others, found " +
+                     FormatDouble(request.duration) + " s");
   }
-  for (std::size_t i = 0; i < robots.size(); ++i) {
-    for (std::size_t k = 0; k < i; ++k) {
-      RequireApart(robots[k], robots[i], true);
-      RequireApart(robots[k], robots[i], false);
-    }
-  }
+  if (request.departure.IsAtRest() && request.arrival.IsAtRest()) return;
+  throw InputError("robots: \"" + robot.name +
+                   "\": expected rest at start and goal among others, found a "
+                   "velocity or an acceleration");
 }
 
 // Of a robot that stays; the others keep off it.
@@ -58,13 +52,67 @@ PathAnswer Resting(const FleetRobot& robot) {
   const Vector3d& q = robot.request.start;
   PathAnswer answer;
   const Diagnosis diagnosis = robot.world.Diagnose(q);
-  answer.is_free = answer.is_solved = diagnosis.IsFree();
-  answer.reason = diagnosis.Text("start");
-  answer.status = diagnosis.IsFree() ? PathStatus::kConverged
-                                     : PathStatus::kStartInCollision;
+  answer.curve = CurveSummary();
+  if (!diagnosis.IsFree()) {
+    answer.reason = diagnosis.Text("start");
+    answer.status = PathStatus::kStartInCollision;
+    return answer;
+  }
   answer.path = {q};
-  answer.motion = Trajectory({CurvePiece(q, q, kMoment)});
+  answer.motion =
+      Trajectory({CurvePiece(std::vector<Vector3d>(6, q), kMoment)});
+  const std::vector<MovingBody> bodies =
+      MovingBodies(robot.world, robot.request.moving);
+  const double last = std::max(kMoment, LastMotion(bodies));
+  const MovingCheck check = CheckAgainst(bodies, answer.motion, 0.0, last);
+  if (!check.IsFree()) {
+    answer.reason = "it stays where the moving obstacle \"" +
+                    bodies[static_cast<std::size_t>(check.body)].name +
+                    "\" comes at t = " + Rounded(check.time, 6);
+    answer.motion = Trajectory();
+    return answer;
+  }
+  answer.status = answer.curve->status = PathStatus::kConverged;
+  answer.is_free = answer.is_solved = true;
+  answer.evidence.free_space = robot.world.Convolution().free_space;
+  answer.clearance = answer.curve->clearance =
+      ProvedClearance(*answer.evidence.free_space, bodies, answer.motion,
+                      robot.world.Resolve(robot.request.Margin()).unit);
+  if (robot.request.verifies) {
+    answer.evidence.verification =
+        Verifier(robot.world.workspace()).VerifyPath(answer.path);
+  }
   return answer;
+}
+
+// All pairs, and what is wrong with them.
+void JudgeAll(const std::vector<FleetRobot>& robots, FleetAnswer* answer) {
+  std::vector<MovingObstacle> bodies;
+  for (std::size_t i = 0; i < robots.size(); ++i) {
+    bodies.push_back({robots[i].world.workspace().robot.Named(robots[i].name),
+                      answer->robots[i].motion});
+  }
+  for (std::size_t i = 0; i < robots.size(); ++i) {
+    const OptimizeRequest& request = robots[i].request;
+    const RobotInTime own = {robots[i].name, robots[i].world, bodies[i].motion};
+    for (std::size_t k = i + 1; k < robots.size(); ++k) {
+      const bool verifies = request.verifies || robots[k].request.verifies;
+      answer->pairs.push_back(JudgePair(own, bodies[k], verifies));
+    }
+    for (const MovingObstacle& other : request.moving) {
+      answer->pairs.push_back(JudgePair(own, other, request.verifies));
+    }
+  }
+  for (const FleetPair& pair : answer->pairs) {
+    const bool is_refuted =
+        pair.verification && pair.verification->verdict == Verdict::kRefuted;
+    if (pair.is_free && !is_refuted) continue;
+    answer->status = PathStatus::kVerificationFailed;
+    answer->reason = "\"" + pair.first + "\" and \"" + pair.second + "\": " +
+                     (is_refuted ? pair.verification->reason
+                                 : "no proof that they keep off each other");
+    return;
+  }
 }
 
 // In that order, until one has no motion; its place in the order, or the
@@ -92,6 +140,35 @@ std::size_t TryOrder(const std::vector<FleetRobot>& robots, const Order& order,
 
 }  // namespace
 
+void RequireFleet(const std::vector<FleetRobot>& robots) {
+  std::set<std::string> names;
+  for (const FleetRobot& robot : robots) {
+    if (!names.insert(robot.name).second) {
+      throw InputError("robots: expected different names, found \"" +
+                       robot.name + "\" twice");
+    }
+    if (!robot.request.limits) {
+      throw InputError("robots: \"" + robot.name +
+                       "\": expected limits of the motion, found none");
+    }
+    robot.request.Validate(robot.world);
+    if (robots.size() > 1) RequireRest(robot);
+  }
+  for (std::size_t i = 0; i < robots.size(); ++i) {
+    for (std::size_t k = 0; k < i; ++k) {
+      RequireApart(robots[k], robots[i], true);
+      RequireApart(robots[k], robots[i], false);
+    }
+  }
+}
+
+const FleetPair* FleetAnswer::Closest() const {
+  const auto closest = std::min_element(
+      pairs.begin(), pairs.end(),
+      [](const FleetPair& a, const FleetPair& b) { return a.least < b.least; });
+  return closest == pairs.end() ? nullptr : &*closest;
+}
+
 FleetAnswer OptimizeFleet(const std::vector<FleetRobot>& robots) {
   const Stopwatch stopwatch;
   RequireFleet(robots);
@@ -109,7 +186,10 @@ FleetAnswer OptimizeFleet(const std::vector<FleetRobot>& robots) {
     const std::size_t failed = TryOrder(robots, order, &answer);
     answer.status = PathStatus::kConverged;
     answer.reason.clear();
-    if (failed == order.size()) break;
+    if (failed == order.size()) {
+      JudgeAll(robots, &answer);
+      break;
+    }
     const FleetRobot& robot = robots[order[failed]];
     const PathAnswer& own = answer.robots[order[failed]];
     answer.status = own.status;

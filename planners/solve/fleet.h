@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "planners/solve/fleet_pairs.h"
 #include "planners/solve/optimize.h"
 
 namespace phongpd {
@@ -25,12 +26,17 @@ struct FleetAnswer {
   std::string reason;  // one sentence where there is no motion of all
   // In the order of the robots; of those that were not come to, empty.
   std::vector<PathAnswer> robots;
+  // All robots two by two, and each with what moves by itself, judged anew when
+  // all motions were there; empty without them.
+  std::vector<FleetPair> pairs;
   std::vector<std::size_t> order;  // who went first, of the last try
   int tries = 0;                   // of orders
   double duration = 0.0;           // until all have arrived, s
   double seconds = 0.0;
 
   bool IsSolved() const { return status == PathStatus::kConverged; }
+  // The pair that comes closest; null: there is none.
+  const FleetPair* Closest() const;
 };
 
 // Motions of several robots, by order of priority: each keeps off what is
@@ -40,11 +46,16 @@ struct FleetAnswer {
 // given, but for robots that stay where they are, which come first; a robot
 // that finds no motion is put in front of the others, and all begin anew, until
 // no new order comes of it.  What is answered is certified for each pair, for
-// all t ≥ 0; without an answer it is no proof that there is none.
+// all t ≥ 0; without an answer it is no proof that there is none.  A pair that
+// is not, or is refuted on the solids where a request verifies, has the status
+// kVerificationFailed.
 //
 // Throws InputError, before anything is built: for a name used twice, requests
-// that Optimize would refuse, and two robots that touch at their starts or at
-// their goals.
+// that Optimize would refuse, two robots that touch at their starts or at their
+// goals, and, of several, a given duration and ends in motion.
 FleetAnswer OptimizeFleet(const std::vector<FleetRobot>& robots);
+
+// That, and nothing else.
+void RequireFleet(const std::vector<FleetRobot>& robots);
 
 }  // namespace phongpd

@@ -9,6 +9,7 @@
 #include "planners/world/bare_length.h"
 #include "problems/cli/command.h"
 #include "problems/cli/flags.h"
+#include "problems/cli/fleet_answer.h"
 #include "problems/cli/seeded_runs.h"
 #include "problems/cli/timed_answer.h"
 #include "problems/meshes/operand_notes.h"
@@ -178,22 +179,18 @@ void TellTrajectoryModel(const PathEvidence& evidence) {
            : ", as the whole is refused: " + evidence.refusal));
 }
 
-// With limits the answer is a motion in time (optimize.h): of the paper's
-// optimiser nothing runs, and what would steer it says nothing.
-int OptimizeInTime(const OptimizeFlags& flags, const MotionLimits& limits,
-                   Scene scene) {
+// Of the paper's optimiser nothing runs, and what would steer it says nothing.
+void RequireTimed(const OptimizeFlags& flags, const std::string& what) {
   for (const char* name :
        {"--metric", "--smoothing-length", "--jacobian", "--start",
         "--start-noise", "--line", "--rows", "--mu-strategy", "--polish",
         "--per-obstacle", "--runs", "--svg"}) {
     if (flags.app->count(name) == 0) continue;
-    throw InputError(std::string(name) +
-                     ": expected none for a motion in time, found one; with "
-                     "--limits none the answer is a path without time");
+    throw InputError(std::string(name) + ": expected none for " + what);
   }
-  Override(flags, &scene);
-  SetTask(flags.motion, &scene);
-  scene.limits = limits;
+}
+
+TimedFlags TimedFlagsOf(const OptimizeFlags& flags) {
   TimedFlags timed;
   timed.motion = flags.motion;
   if (flags.app->count("--routes") > 0) timed.routes = flags.routes;
@@ -206,7 +203,40 @@ int OptimizeInTime(const OptimizeFlags& flags, const MotionLimits& limits,
   timed.require = flags.require;
   timed.verify = flags.verify;
   timed.world = flags.limits;
-  return AnswerInTime(scene, timed, Optimize);
+  return timed;
+}
+
+// With limits the answer is a motion in time (optimize.h).
+int OptimizeInTime(const OptimizeFlags& flags, const MotionLimits& limits,
+                   Scene scene) {
+  RequireTimed(flags,
+               "a motion in time, found one; with --limits none the answer is "
+               "a path without time");
+  Override(flags, &scene);
+  SetTask(flags.motion, &scene);
+  scene.limits = limits;
+  return AnswerInTime(scene, TimedFlagsOf(flags), Optimize);
+}
+
+// Of several robots each has its own task; limits that are given hold for all.
+int OptimizeRobots(const OptimizeFlags& flags, FleetScene fleet) {
+  RequireTimed(flags, "several robots, found one");
+  for (const char* name : {"--via", "--duration", "--departure", "--arrival"}) {
+    if (flags.app->count(name) == 0) continue;
+    throw InputError(std::string(name) +
+                     ": expected none for several robots, each of which has "
+                     "its own in the scene, found one");
+  }
+  for (Scene& scene : fleet.robots) {
+    Override(flags, &scene);
+    scene.limits = LimitsOf(flags.motion, scene);
+    if (scene.limits) continue;
+    throw InputError(fleet.name + ": \"" + scene.workspace.robot.name() +
+                     "\": expected limits, which several robots need to keep "
+                     "off each other in time, found none; give \"limits\" in "
+                     "the scene or --limits V,A,J");
+  }
+  return AnswerFleet(std::move(fleet), TimedFlagsOf(flags));
 }
 
 // Seed 0 is the scene as it stands.
@@ -310,6 +340,7 @@ int AnswerOptimize(const OptimizeFlags& flags) {
   RequireRuns(flags.runs);
   const SceneSource source(flags.scene, flags.root,
                            ParseRepair(flags.repair, "--repair"));
+  if (source.has_robots()) return OptimizeRobots(flags, source.LoadFleet());
   const Scene first = SceneOfSeed(source, flags.seed);
   if (const auto limits = LimitsOf(flags.motion, first)) {
     return OptimizeInTime(flags, *limits, first);
@@ -387,7 +418,8 @@ void AddOutputFlags(CLI::App* app, OptimizeFlags* flags) {
   output->description(output->get_description() +
                       ". With --limits Bézier pieces as JSON, rows in time as "
                       "FILE.csv or, for ROS 2, FILE.yaml (joints x, y, z) or "
-                      "FILE.multidof.yaml, lines as FILE.gcode");
+                      "FILE.multidof.yaml, lines as FILE.gcode; of several "
+                      "robots one FILE.ID.csv or .yaml each");
   AddPictures(app, flags);
 }
 

@@ -9,6 +9,7 @@
 #include "planners/world/bare_length.h"
 #include "problems/cli/command.h"
 #include "problems/cli/flags.h"
+#include "problems/cli/rigid_answer.h"
 #include "problems/cli/seeded_runs.h"
 #include "problems/meshes/operand_notes.h"
 #include "problems/output/json_text.h"
@@ -133,6 +134,7 @@ int AnswerPlan(const PlanFlags& flags) {
   RequireRuns(flags.runs);
   const SceneSource source(flags.scene, flags.root,
                            ParseRepair(flags.repair, "--repair"));
+  if (source.turns()) return AnswerRigidPlan(flags, source);
   Scene scene = source.Load();
   PlanRequest request = RequestOf(flags, &scene);
   const bool has_log = !flags.ompl_log.empty();

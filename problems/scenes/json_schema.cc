@@ -109,14 +109,20 @@ class Validator {
     for (const auto& [key, item] : value.items()) {
       if (!known.contains(key) && is_closed) Refuse(key, known, place);
     }
-    if (schema.contains("required")) {
-      for (const Json& key : schema["required"]) {
+    const auto require = [&](const Json& keys) {
+      for (const Json& key : keys) {
         const auto name = key.get<std::string>();
         if (value.contains(name)) continue;
         place.Child(name).Fail(Described(known[name]), "nothing");
       }
-    }
+    };
+    if (schema.contains("required")) require(schema["required"]);
     if (schema.contains("oneOf")) RequireOne(value, schema["oneOf"], place);
+    if (schema.contains("dependentRequired")) {
+      for (const auto& [key, others] : schema["dependentRequired"].items()) {
+        if (value.contains(key)) require(others);
+      }
+    }
     for (const auto& [key, item] : value.items()) {
       if (known.contains(key)) {
         Check(item, known[key], place.Child(key));

@@ -34,9 +34,10 @@ nlohmann::ordered_json ParseJson(const std::string& text,
 // Throws InputError at the first place where `value` is not what `schema`
 // (JSON Schema draft 2020-12) asks for.  Understands $ref within the schema,
 // type, enum, minimum, exclusiveMinimum, maximum, minLength, minItems,
-// maxItems, items, properties, required and additionalProperties; `anyOf` of
-// alternatives that differ in type; `oneOf` of alternatives that are one
-// required key each.  Numbers must be finite.  Anything else is ignored.
+// maxItems, items, properties, required, dependentRequired and
+// additionalProperties; `anyOf` of alternatives that differ in type; `oneOf` of
+// alternatives that are one required key each.  Numbers must be finite.
+// Anything else is ignored.
 void RequireSchema(const nlohmann::ordered_json& value,
                    const nlohmann::ordered_json& schema,
                    const std::string& file);

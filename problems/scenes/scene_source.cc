@@ -11,6 +11,7 @@
 #include "core/mesh/input_file.h"
 #include "core/nearest_name.h"
 #include "problems/output/text.h"
+#include "problems/scenes/json_schema.h"
 #include "problems/scenes/scene_library.h"
 
 namespace phongpd {
@@ -37,6 +38,10 @@ SceneSource::SceneSource(const std::string& text, const std::string& root,
     is_file_ = true;
     content_ = ReadInputFile(text, "a scene file", kMaxSceneBytes);
     label_ = std::filesystem::path(text).stem().string();
+    has_robots_ = content_.find("\"robots\"") != std::string::npos &&
+                  HasRobots(ParseJson(content_, text));
+    turns_ = content_.find("\"turns\"") != std::string::npos &&
+             HasTurningRobot(ParseJson(content_, text));
     return;
   }
   if (colon == std::string::npos) return;
@@ -60,13 +65,27 @@ Scene SceneSource::Load(std::optional<std::uint64_t> seed) const {
   return scene;
 }
 
+FleetScene SceneSource::LoadFleet() const {
+  return ParseFleetSceneFile(content_, text_, root_, repair_);
+}
+
+RigidScene SceneSource::LoadRigid() const {
+  return ParseRigidSceneFile(content_, text_, root_, repair_);
+}
+
 std::string SceneSource::Digest() const {
   internal::ByteWriter writer;
   writer(text_, content_);
-  const Scene scene = Load();
-  writer(scene.start, scene.goal, scene.workspace.robot.mesh().vertices,
-         scene.workspace.robot.mesh().triangles);
-  for (const Solid& obstacle : scene.workspace.obstacles) {
+  Workspace workspace;
+  if (turns_) {
+    workspace = LoadRigid().workspace;
+  } else {
+    const Scene scene = Load();
+    writer(scene.start, scene.goal);
+    workspace = scene.workspace;
+  }
+  writer(workspace.robot.mesh().vertices, workspace.robot.mesh().triangles);
+  for (const Solid& obstacle : workspace.obstacles) {
     writer(obstacle.mesh().vertices, obstacle.mesh().triangles);
   }
   return internal::ToHex(internal::HashContent(writer.Take()));

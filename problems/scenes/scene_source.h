@@ -6,6 +6,8 @@
 #include <optional>
 #include <string>
 
+#include "problems/scenes/fleet_scene.h"
+#include "problems/scenes/rigid_scene.h"
 #include "problems/scenes/scene.h"
 
 namespace phongpd {
@@ -29,6 +31,13 @@ class SceneSource {
   // a family.  Throws InputError like ReadScene and MakeScene.
   Scene Load(std::optional<std::uint64_t> seed = std::nullopt) const;
 
+  // Of a file of several robots, which Load refuses: is it one, and the same.
+  bool has_robots() const { return has_robots_; }
+  FleetScene LoadFleet() const;
+  // Of a file whose robot turns, which Load refuses, too.
+  bool turns() const { return turns_; }
+  RigidScene LoadRigid() const;
+
   // 32 hexadecimal digits that change with the scene: with its file or knobs,
   // and with the solids they give.  Throws like Load.
   std::string Digest() const;
@@ -39,6 +48,8 @@ class SceneSource {
   Repair repair_ = Repair::kReject;
   std::string label_;
   bool is_file_ = false;
+  bool has_robots_ = false;
+  bool turns_ = false;
   std::string content_;  // of the file
   std::string family_;
   std::map<std::string, double> knobs_;

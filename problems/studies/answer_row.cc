@@ -287,7 +287,8 @@ Json PolylineRow(const Scene& scene, const World& world,
 
 Json MotionRow(const Scene& scene, const World& world,
                const OptimizeRequest& request, const PathAnswer& answer) {
-  const CurveSummary& curve = *answer.curve;
+  // None of a robot of several that was not come to.
+  const CurveSummary curve = answer.curve.value_or(CurveSummary());
   const LimitUse& use = answer.evidence.use;
   Json row;
   row["scene"] = scene.name;

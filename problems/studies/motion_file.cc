@@ -167,10 +167,12 @@ std::string TimedCsv(const Trajectory& trajectory, double rate) {
 }
 
 std::string RosTrajectory(const Trajectory& trajectory, double rate,
-                          const std::string& unit) {
+                          const std::string& unit, const std::string& robot) {
+  const std::string of = robot.empty() ? "" : robot + "_";
   return RosPoints(trajectory, rate, unit,
                    "# trajectory_msgs/JointTrajectory, metres and seconds\n"
-                   "joint_names: [x, y, z]\n",
+                   "joint_names: [" +
+                       of + "x, " + of + "y, " + of + "z]\n",
                    [](const RosSample& s) {
                      return "- positions: " + YamlPoint(s.position) +
                             "  velocities: " + YamlPoint(s.velocity) +
@@ -179,7 +181,8 @@ std::string RosTrajectory(const Trajectory& trajectory, double rate,
 }
 
 std::string RosMultiDofTrajectory(const Trajectory& trajectory, double rate,
-                                  const std::string& unit) {
+                                  const std::string& unit,
+                                  const std::string& robot) {
   const auto twist = [](const char* name, const Vector3d& linear) {
     return std::string("  ") + name + ": [{linear: " + YamlXyz(linear) +
            ", angular: {x: 0, y: 0, z: 0}}]\n";
@@ -187,7 +190,8 @@ std::string RosMultiDofTrajectory(const Trajectory& trajectory, double rate,
   return RosPoints(
       trajectory, rate, unit,
       "# trajectory_msgs/MultiDOFJointTrajectory, metres and seconds\n"
-      "joint_names: [robot]\n",
+      "joint_names: [" +
+          robot + "]\n",
       [&twist](const RosSample& s) {
         return "- transforms: [{translation: " + YamlXyz(s.position) +
                ", rotation: {x: 0, y: 0, z: 0, w: 1}}]\n" +

@@ -23,14 +23,18 @@ std::string TimedCsv(const Trajectory& trajectory, double rate);
 
 // The same rows as trajectory_msgs/JointTrajectory of ROS 2, in YAML: three
 // prismatic axes x, y and z, in metres; `unit` is the name of the trajectory's
-// own.  Throws InputError as above, and where that has none.
+// own.  Of one of several robots its name goes before those of its axes, with a
+// low line, "left_x".  Throws InputError as above, and where the unit has no
+// name.
 std::string RosTrajectory(const Trajectory& trajectory, double rate,
-                          const std::string& unit);
+                          const std::string& unit,
+                          const std::string& robot = "");
 
-// The same as trajectory_msgs/MultiDOFJointTrajectory: one body, "robot", that
-// does not turn.
+// The same as trajectory_msgs/MultiDOFJointTrajectory: one body, by its name,
+// that does not turn.
 std::string RosMultiDofTrajectory(const Trajectory& trajectory, double rate,
-                                  const std::string& unit);
+                                  const std::string& unit,
+                                  const std::string& robot = "robot");
 
 // G-code in millimetres: a straight line G1 for each 0.05 s at most, with the
 // mean speed along the curve as its feed, and G4 (seconds) where it rests.  The

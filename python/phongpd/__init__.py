@@ -18,6 +18,7 @@ share of D, the world's one length::
     run = world.optimize(start, goal)              # Ipopt, exactly judged
     plan = world.plan(start, goal)                 # or a proof that there is none
     motion = world.optimize(start, goal, limits=(1, 2, 10))
+    fleet = phongpd.optimize_fleet("robots.json")  # several in one room
 
     judge = phongpd.RigidJudge(tool, part)         # of motions that turn, too
     judge.check(start_pose, goal_pose).free        # for all t, proved
@@ -29,6 +30,7 @@ where, expected, found.
 from ._answers import Diagnosis, Plan, Trajectory
 from ._contact import ContactSpace, minkowski
 from ._depth import Depth, DepthQuery, depth
+from ._fleet import Fleet, optimize_fleet
 from ._metrics import EuclideanMetric, Penetration, PhongMetric, QueryResult
 from ._motion import Motion
 from ._native import BuildCancelled, BuildRefusal, InputError, __version__
@@ -44,8 +46,9 @@ from ._world import Roadmap, World
 __all__ = [
     "BuildCancelled", "BuildRefusal", "ContactSpace", "ContactSpacePiece",
     "Depth", "DepthQuery", "Diagnosis", "Disassembly", "EuclideanMetric",
-    "InputError", "Motion", "NonPenetrationRows", "Penetration", "PenetrationTracker",
-    "PhongMetric", "Plan", "QueryResult", "Removal", "RigidCheck", "RigidJudge",
-    "Roadmap", "Solid", "TrackedMotion", "Trajectory", "View", "World",
-    "__version__", "depth", "disassemble", "minkowski", "remove", "view",
+    "Fleet", "InputError", "Motion", "NonPenetrationRows", "Penetration",
+    "PenetrationTracker", "PhongMetric", "Plan", "QueryResult", "Removal",
+    "RigidCheck", "RigidJudge", "Roadmap", "Solid", "TrackedMotion",
+    "Trajectory", "View", "World", "__version__", "depth", "disassemble",
+    "minkowski", "optimize_fleet", "remove", "view",
 ]

@@ -3,20 +3,25 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from math import comb
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Tuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ._arguments import Floats, numbers, real
+from . import _native
+from ._arguments import Floats, numbers, point, real
 from ._native import InputError
+from ._solid import as_solid
 from ._statuses import Answer
 from ._view import Canvas, Shown
 
 if TYPE_CHECKING:
     from ._world import World
+
+_Point = Tuple[float, float, float]
 
 # A picture of a curve is a polyline.
 _PICTURE_POINTS = 400
@@ -167,6 +172,38 @@ class Motion(Answer, Shown):
                 f"{'certified' if self.certified else 'NOT CERTIFIED'}, "
                 f"{self.status}{because}: {len(self.durations)} pieces, "
                 f"clearance {self.clearance:.6g} at least")
+
+
+def moving_of(moving: Mapping[str, Any] | None) -> list[
+        tuple[str, _native.Solid, list[tuple[float, list[_Point]]]]]:
+    """{name: (solid, motion)} of obstacles that move, the motion a Motion or
+    (durations (N,), points (N, K, 3))."""
+    found = []
+    for name, value in (moving or {}).items():
+        what = f"moving: {name}"
+        try:
+            solid, motion = value
+        except (TypeError, ValueError):
+            raise InputError(f"{what}: expected (solid, motion), found "
+                             f"{type(value).__name__}") from None
+        if isinstance(motion, Motion):
+            motion = (motion.durations, motion.points)
+        try:
+            durations, points = motion
+        except (TypeError, ValueError):
+            raise InputError(f"{what}: expected a Motion or (durations, points), "
+                             f"found {type(motion).__name__}") from None
+        times = numbers(durations, f"{what}: durations", "(N,)")
+        places = numbers(points, f"{what}: points", "(N, K, 3)")
+        if (times.ndim != 1 or places.ndim != 3 or len(times) == 0
+                or len(places) != len(times) or places.shape[2] != 3):
+            raise InputError(f"{what}: expected durations (N,) and points "
+                             f"(N, K, 3), found {times.shape} and "
+                             f"{places.shape}")
+        pieces = [(float(t), [point(p, what) for p in piece])
+                  for t, piece in zip(times, places)]
+        found.append((str(name), as_solid(solid, str(name))._native, pieces))
+    return found
 
 
 def motion_of(row: dict[str, Any], world: World) -> Motion:

@@ -134,6 +134,8 @@ class Scene:
     departure: tuple[_Point, _Point]
     arrival: tuple[_Point, _Point]
 
+_Moving = tuple[str, Solid, list[tuple[float, list[_Point]]]]
+
 class MotionWishes:
     def __init__(self, limits: tuple[_Point, _Point, _Point],
                  via: list[tuple[_Point, str, float]], duration: float,
@@ -150,7 +152,8 @@ class World:
                  straight: bool, preset: str, model: str, require: bool,
                  routes: int) -> dict[str, Any]: ...
     def optimize_in_time(self, start: _Point, goal: _Point, model: str,
-                         wishes: MotionWishes) -> dict[str, Any]: ...
+                         wishes: MotionWishes,
+                         moving: list[_Moving]) -> dict[str, Any]: ...
     def retime(self, path: list[_Point],
                wishes: MotionWishes) -> dict[str, Any]: ...
     def plan(self, start: _Point, goal: _Point, *, planner: str,
@@ -162,6 +165,12 @@ class World:
     scene: Scene
     length: float
     def contact_spaces(self) -> list[ContactSpace]: ...
+
+def load_robots(path: str) -> tuple[str, list[tuple[str, Scene]]]: ...
+def optimize_fleet(
+        name: str,
+        tasks: list[tuple[str, World, _Point, _Point, MotionWishes]],
+        moving: list[_Moving]) -> dict[str, Any]: ...
 
 class Roadmap:
     def __init__(self, world: World) -> None: ...

@@ -14,7 +14,7 @@ from ._answers import Diagnosis, Plan, Trajectory
 from ._arguments import Floats, flag, length, motion_end, motion_limits, \
     places_on_the_way, point, real, rows, seconds, text, whole_number
 from ._contact import ContactSpace
-from ._motion import Motion, motion_of
+from ._motion import Motion, motion_of, moving_of
 from ._native import InputError
 from ._solid import Solid, as_solid
 from ._view import Canvas, Shown
@@ -155,7 +155,8 @@ class World(Shown):
                  via: ArrayLike | None = None, tolerance: Any = None,
                  dwell: ArrayLike = 0.0, duration: float | None = None,
                  by_norm: bool = False, departure: ArrayLike | None = None,
-                 arrival: ArrayLike | None = None, metric: str = "",
+                 arrival: ArrayLike | None = None,
+                 moving: Mapping[str, Any] | None = None, metric: str = "",
                  waypoints: int = 0, seed: int = 1,
                  straight: bool = False) -> Trajectory | Motion:
         """A short way that keeps clear, judged exactly: with limits a Motion, a
@@ -186,7 +187,11 @@ class World(Shown):
         scene's places.  duration: seconds that it takes, with as little jerk as
         can be found; 0: as few as can be; None: the scene's.  departure,
         arrival: velocity (3,), or velocity and acceleration (2, 3), with which
-        it begins and ends; None: the scene's, at rest if it has none.
+        it begins and ends; None: the scene's, at rest if it has none.  moving:
+        obstacles to keep off that move, {name: (solid, motion)}, the motion a
+        Motion of another or (durations (N,), points (N, K, 3)), the Bézier
+        points of where the solid is moved to from the time 0 on; None: the
+        scene's.
 
         Without.  metric: "phong@L" with a smoothing length, "euclidean"; "":
         the scene's.  waypoints: free ones; 0: the scene's.  seed: of
@@ -201,13 +206,13 @@ class World(Shown):
                           straight=straight is not False, seed=seed != 1)
             return self._motion(ends, limits, margin, require, preset, model,
                                 routes, max_seconds, via, tolerance, dwell,
-                                duration, by_norm, departure, arrival)
+                                duration, by_norm, departure, arrival, moving)
         _require_none("a path without limits", via=via is not None,
                       tolerance=tolerance is not None,
                       dwell=not _is_zero(dwell), duration=duration is not None,
                       by_norm=by_norm is not False,
                       departure=departure is not None,
-                      arrival=arrival is not None)
+                      arrival=arrival is not None, moving=moving is not None)
         row = self._native.optimize(
             *ends, metric=text(metric, "metric"),
             margin=length(margin, "margin"),
@@ -242,7 +247,7 @@ class World(Shown):
                 require: Any, preset: Any, model: Any, routes: Any,
                 max_seconds: Any, via: Any, tolerance: Any, dwell: Any,
                 duration: Any, by_norm: Any, departure: Any,
-                arrival: Any) -> Motion:
+                arrival: Any, moving: Any) -> Motion:
         scene = self._native.scene
         wishes = self._wishes(
             limits, scene.via if via is None
@@ -254,7 +259,7 @@ class World(Shown):
             scene.arrival if arrival is None
             else motion_end(arrival, "arrival"))
         return motion_of(self._native.optimize_in_time(
-            *ends, text(model, "model"), wishes), self)
+            *ends, text(model, "model"), wishes, moving_of(moving)), self)
 
     def retime(self, path: ArrayLike, *, limits: Any = None,
                via: ArrayLike | None = None, tolerance: Any = None,

@@ -266,9 +266,11 @@ void BindWorld(nb::module_& module) {
            nb::arg("require"), nb::arg("routes"))
       .def("optimize_in_time",
            [](Workshop& workshop, const Point& start, const Point& goal,
-              const std::string& model, const MotionWishes& wishes) {
+              const std::string& model, const MotionWishes& wishes,
+              const std::vector<Moving>& moving) {
              OptimizeRequest request =
                  workshop.MotionBetween(start, goal, wishes);
+             AddMoving(moving, &request);
              if (!model.empty()) request.model = ParseModel(model, "model");
              return ToObject(workshop.Optimize(request));
            })

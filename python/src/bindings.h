@@ -11,6 +11,7 @@ void BindPiece(nanobind::module_& module);
 void BindMetrics(nanobind::module_& module);
 void BindTracker(nanobind::module_& module);
 void BindDepth(nanobind::module_& module);
+void BindFleet(nanobind::module_& module);
 void BindWorld(nanobind::module_& module);
 void BindRemoval(nanobind::module_& module);
 void BindRigid(nanobind::module_& module);

@@ -28,6 +28,7 @@ NB_MODULE(_native, module) {
   phongpd::python::BindDepth(module);
   phongpd::python::BindWorld(module);
   phongpd::python::BindRemoval(module);
+  phongpd::python::BindFleet(module);
   phongpd::python::BindRigid(module);
   phongpd::python::BindRows(module);
   phongpd::python::BindSweeps(module);

@@ -58,6 +58,21 @@ PlanRequest Workshop::PlanBetween(const Point& start, const Point& goal) const {
   return PlanRequestOf(Between(start, goal));
 }
 
+void AddMoving(const std::vector<Moving>& moving, OptimizeRequest* request) {
+  if (moving.empty()) return;
+  request->moving.clear();
+  for (const auto& [name, solid, pieces] : moving) {
+    std::vector<CurvePiece> curve;
+    for (const auto& [duration, points] : pieces) {
+      std::vector<Eigen::Vector3d> places;
+      for (const Point& p : points) places.push_back(ToVector(p));
+      curve.emplace_back(places, duration);
+    }
+    request->moving.push_back(
+        {solid.Named(name), Trajectory(std::move(curve))});
+  }
+}
+
 OptimizeRequest Workshop::OptimizeBetween(const Point& start,
                                           const Point& goal) const {
   OptimizeRequest request = OptimizeRequestOf(Between(start, goal));

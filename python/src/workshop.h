@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include "core/contact/contact_space_cache.h"
@@ -38,6 +39,14 @@ struct MotionWishes {
   // Velocity and acceleration at the beginning and at the end.
   std::array<Point, 2> departure, arrival;
 };
+
+// An obstacle that moves: its name, its solid, and the pieces of its motion,
+// seconds and Bézier points each.
+using Moving = std::tuple<std::string, Solid,
+                          std::vector<std::pair<double, std::vector<Point>>>>;
+
+// They become the request's, in place of the scene's; none: nothing changes.
+void AddMoving(const std::vector<Moving>& moving, OptimizeRequest* request);
 
 // A world for Python.  Ipopt runs once at a time in a process, and samplers
 // share OMPL's generator: one question at a time.

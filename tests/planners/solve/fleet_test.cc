@@ -148,5 +148,86 @@ TEST(Fleet, RefusesRobotsThatBeginOrEndInEachOther) {
   EXPECT_THROW(OptimizeFleet({slow}), InputError);
 }
 
+// The pair's numbers against distances of boxes by hand.
+TEST(Fleet, TellsOfEachPairHowCloseItComes) {
+  const std::vector<FleetRobot> robots = Circle(3);
+  const FleetAnswer answer = OptimizeFleet(robots);
+  ASSERT_TRUE(answer.IsSolved()) << answer.reason;
+  ASSERT_EQ(answer.pairs.size(), 3u);
+  double closest = 1e9;
+  std::size_t at = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t k = i + 1; k < 3; ++k) {
+      const FleetPair& pair = answer.pairs[at++];
+      EXPECT_EQ(pair.first, robots[i].name);
+      EXPECT_EQ(pair.second, robots[k].name);
+      EXPECT_TRUE(pair.is_free);
+      EXPECT_FALSE(pair.verification);
+      const auto room = [&](double t) {
+        return ((answer.robots[i].motion.At(t).position -
+                 answer.robots[k].motion.At(t).position)
+                    .cwiseAbs() -
+                Vector3d::Ones())
+            .cwiseMax(0.0)
+            .norm();
+      };
+      double least = 1e9;
+      for (int n = 0; n <= 10'000; ++n) {
+        least = std::min(least, room(answer.duration * n / 10'000));
+      }
+      EXPECT_GT(least, 0.0);
+      EXPECT_NEAR(pair.least, least, 0.02 * least + 1e-6);
+      EXPECT_NEAR(room(pair.time), pair.least, 1e-9);
+      EXPECT_LE(pair.clearance, least);
+      EXPECT_GE(pair.clearance, 0.5 * least);
+      closest = std::min(closest, pair.least);
+    }
+  }
+  ASSERT_NE(answer.Closest(), nullptr);
+  EXPECT_EQ(answer.Closest()->least, closest);
+}
+
+TEST(Fleet, IsJudgedOnTheSolidsAsWell) {
+  std::vector<FleetRobot> robots = Circle(2);
+  for (FleetRobot& robot : robots) robot.request.verifies = true;
+  const FleetAnswer answer = OptimizeFleet(robots);
+  ASSERT_TRUE(answer.IsSolved()) << answer.reason;
+  ASSERT_TRUE(answer.pairs[0].verification);
+  EXPECT_EQ(answer.pairs[0].verification->verdict, Verdict::kConfirmed);
+}
+
+// One that stays cannot keep off what comes to it.
+TEST(Fleet, HasNoMotionWhereSomethingComesToARobotThatStays) {
+  const World world = Room({{-9, -9, -0.05}, {9, 9, 0.05}});
+  std::vector<FleetRobot> robots = {
+      Robot("moves", world, {-5, 5, 0}, {5, 5, 0}),
+      Robot("stays", world, {0, 0, 0}, {0, 0, 0})};
+  const MovingObstacle cart = {
+      MakeSolid(testing::Cube(1.0), "cart"),
+      Trajectory({CurvePiece({-8, 0, 0}, {8, 0, 0}, 4.0)})};
+  for (FleetRobot& robot : robots) robot.request.moving = {cart};
+  const FleetAnswer answer = OptimizeFleet(robots);
+  EXPECT_FALSE(answer.IsSolved());
+  // At −1, 7 of 16 on the way.
+  EXPECT_NE(answer.reason.find("\"stays\": it stays where the moving obstacle "
+                               "\"cart\" comes at t = 1.75"),
+            std::string::npos)
+      << answer.reason;
+  EXPECT_EQ(answer.tries, 1);
+}
+
+TEST(Fleet, RefusesWhatOtherRobotsLeaveNoRoomFor) {
+  const World world = Room({{-9, -9, -0.05}, {9, 9, 0.05}});
+  const std::vector<FleetRobot> good = {
+      Robot("one", world, {0, 0, 0}, {5, 0, 0}),
+      Robot("two", world, {0, 5, 0}, {5, 5, 0})};
+  std::vector<FleetRobot> robots = good;
+  robots[1].request.duration = 9.0;
+  EXPECT_THROW(OptimizeFleet(robots), InputError);
+  robots = good;
+  robots[0].request.arrival.velocity = {0.1, 0, 0};
+  EXPECT_THROW(OptimizeFleet(robots), InputError);
+}
+
 }  // namespace
 }  // namespace phongpd

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "problems/scenes/rigid_scene.h"
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "core/mesh/mesh_error.h"
+#include "problems/scenes/json_schema.h"
+#include "problems/scenes/scene_parts.h"
+
+namespace phongpd {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// Contact spaces, time and limits are of robots that translate.
+void RequireOwnKeys(const Json& json, const JsonPlace& place) {
+  for (const char* key :
+       {"preset", "limits", "via", "moving", "duration", "departure", "arrival",
+        "penetration", "trajectory", "feasible", "witness"}) {
+    if (!json.contains(key)) continue;
+    place.Child(key).Fail("none of a robot that turns", Shortened(json[key]));
+  }
+  if (!json.contains("planning")) return;
+  for (const auto& [key, value] : json["planning"].items()) {
+    if (key == "time_limit") continue;
+    place.Child("planning")
+        .Child(key)
+        .Fail("none of a robot that turns, but a time_limit", Shortened(value));
+  }
+}
+
+RobotPose PoseAt(const Json& json, const std::string& end,
+                 const JsonPlace& place) {
+  RobotPose pose;
+  pose.position = internal::PointAt(json[end]);
+  const std::string key = end + "_rotation";
+  if (json.contains(key)) {
+    pose.orientation =
+        Eigen::Quaterniond(internal::RotationAt(json[key], place.Child(key)))
+            .normalized();
+  }
+  return pose;
+}
+
+}  // namespace
+
+bool HasTurningRobot(const Json& json) {
+  return json.is_object() && json.contains("robot") &&
+         json["robot"].is_object() && json["robot"].contains("turns") &&
+         json["robot"]["turns"] == true;
+}
+
+RigidScene ParseRigidScene(const Json& json, const std::string& file,
+                           const std::string& directory,
+                           const std::string& name, const std::string& root,
+                           Repair repair) {
+  RequireSchema(json, SceneSchema(), file);
+  const JsonPlace place = {file, ""};
+  if (!HasTurningRobot(json)) {
+    place.Child("robot").Fail("\"turns\": true", "a robot that translates");
+  }
+  RequireOwnKeys(json, place);
+  const internal::MeshFolder folder = {directory, root, repair};
+  Scene read;
+  internal::ReadSettings(json, place, &read);
+  internal::ReadSurroundings(json, place, folder, &read);
+  read.workspace.robot = internal::SolidAt(json["robot"], place.Child("robot"),
+                                           folder, &read.warnings)
+                             .Named("robot");
+  internal::NoteUnits(json["robot"], json["obstacles"], &read);
+  RigidScene scene;
+  scene.name = json.value("name", name);
+  scene.workspace = std::move(read.workspace);
+  scene.start = PoseAt(json, "start", place);
+  scene.goal = PoseAt(json, "goal", place);
+  if (json.contains("planning") && json["planning"].contains("time_limit")) {
+    scene.time_limit = read.planning.time_limit;
+  }
+  scene.warnings = std::move(read.warnings);
+  return scene;
+}
+
+RigidScene ParseRigidSceneFile(const std::string& text, const std::string& path,
+                               const std::string& root, Repair repair) {
+  const std::filesystem::path file(path);
+  const bool has_folder = std::filesystem::is_regular_file(file);
+  return ParseRigidScene(ParseJson(text, path), path,
+                         has_folder ? file.parent_path().string() : ".",
+                         has_folder ? file.stem().string() : "scene", root,
+                         repair);
+}
+
+}  // namespace phongpd

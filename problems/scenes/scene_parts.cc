@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "problems/scenes/scene_parts.h"
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <utility>
+
+#include "core/bounds/mesh_repair.h"
+#include "core/mesh/mesh_error.h"
+#include "core/pi.h"
+#include "planners/world/bare_length.h"
+#include "problems/meshes/any_mesh.h"
+#include "problems/meshes/files_beside.h"
+#include "problems/meshes/operand_notes.h"
+#include "problems/output/text.h"
+#include "problems/scenes/scene_shapes.h"
+
+namespace phongpd::internal {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+using Json = nlohmann::ordered_json;
+
+Repair RepairOf(const Json& value, const MeshFolder& folder) {
+  if (!value.contains("repair")) return folder.repair;
+  return ParseRepair(value["repair"].get<std::string>(), "repair");
+}
+
+// The path of a mesh file that a scene names, checked against the root.
+std::string MeshPath(const Json& value, const JsonPlace& place,
+                     const MeshFolder& folder) {
+  namespace fs = std::filesystem;
+  const std::string text = value.get<std::string>();
+  const std::size_t end = FilePartOf(text);
+  const std::string part = text.substr(end);  // "#link"
+  const fs::path path = fs::path(folder.directory) / text.substr(0, end);
+  if (folder.root.empty()) return path.string() + part;
+  const std::optional<fs::path> below = PathBelow(path.string(), folder.root);
+  if (!below) {
+    place.Fail("a mesh file below the root " + folder.root,
+               Shortened(value) + ", which is not; move it there");
+  }
+  return (fs::path(folder.root) / *below).string() + part;
+}
+
+}  // namespace
+
+Vector3d PointAt(const Json& value) {
+  return {value[0].get<double>(), value[1].get<double>(),
+          value[2].get<double>()};
+}
+
+Matrix3d RotationAt(const Json& value, const JsonPlace& place) {
+  if (value.is_object()) {
+    const Vector3d axis = PointAt(value["axis"]);
+    const double length = axis.stableNorm();
+    if (!(length > 0.0) || !std::isfinite(length)) {
+      place.Child("axis").Fail("a direction", Shortened(value["axis"]));
+    }
+    constexpr double kRadians = kPi / 180.0;
+    return Eigen::AngleAxisd(kRadians * value["degrees"].get<double>(),
+                             axis / length)
+        .toRotationMatrix();
+  }
+  Matrix3d rotation;
+  for (int i = 0; i < 9; ++i) rotation(i / 3, i % 3) = value[i].get<double>();
+  constexpr double kRounding = 1e-9;  // of 1, for matrices typed by hand
+  const double error =
+      (rotation * rotation.transpose() - Matrix3d::Identity()).norm();
+  // Written so that NaN fails it.
+  if (!(error <= kRounding && rotation.determinant() > 0.0)) {
+    place.Fail("the rows of a rotation matrix", Shortened(value));
+  }
+  return rotation;
+}
+
+// A `solid` of the schema.  Steps that a scene leaves out do no arithmetic.
+Solid SolidAt(const Json& value, const JsonPlace& place,
+              const MeshFolder& folder, std::vector<std::string>* warnings) {
+  TriangleMesh mesh;
+  std::string name;
+  if (value.contains("shape")) {
+    name = place.Child("shape").Text();
+    mesh = MakeShape(value["shape"], name);
+  } else {
+    const JsonPlace mesh_place = place.Child("mesh");
+    name = mesh_place.Text();
+    const std::string path = MeshPath(value["mesh"], mesh_place, folder);
+    try {
+      mesh = ReadAnyMesh(path, warnings, folder.root);
+    } catch (const InputError& error) {
+      throw InputError(name + ": expected a mesh file, found " + error.what());
+    }
+    name += ": " + Shortened(value["mesh"]);
+  }
+  if (value.contains("rotation")) {
+    mesh = Rotated(std::move(mesh),
+                   RotationAt(value["rotation"], place.Child("rotation")));
+  }
+  if (value.contains("scale")) {
+    mesh = Scaled(std::move(mesh), value["scale"].get<double>());
+  }
+  if (value.contains("position")) {
+    mesh = Translated(std::move(mesh), PointAt(value["position"]));
+  }
+  MeshReport report;
+  RepairReport repaired;
+  const Solid solid = RepairSolid(mesh, name, RepairOf(value, folder),
+                                  kRepairAlpha, &report, &repaired);
+  for (const auto* lines : {&repaired.actions, &report.warnings}) {
+    for (const std::string& line : *lines) {
+      warnings->push_back(name + ": " + line);
+    }
+  }
+  return solid;
+}
+
+// Pieces as they are written of a motion in time.
+Trajectory MotionAt(const Json& value, const JsonPlace& place) {
+  std::vector<CurvePiece> pieces;
+  for (const Json& piece : value) {
+    std::vector<Vector3d> points;
+    for (const Json& point : piece["points"]) points.push_back(PointAt(point));
+    const double duration = piece["duration"].get<double>();
+    if (!pieces.empty() && pieces.back().back() != points.front()) {
+      place.Child(pieces.size())
+          .Child("points")
+          .Child(std::size_t{0})
+          .Fail("the last point of the piece before it",
+                Shortened(piece["points"][0]));
+    }
+    pieces.emplace_back(points, duration);
+  }
+  return Trajectory(std::move(pieces));
+}
+
+BoundingBox BoundsAt(const Json& value, const JsonPlace& place) {
+  const BoundingBox box = {PointAt(value["min"]), PointAt(value["max"])};
+  for (int axis = 0; axis < 3; ++axis) {
+    if (box.min[axis] < box.max[axis]) continue;
+    place.Child("max")
+        .Child(static_cast<std::size_t>(axis))
+        .Fail("more than min, " + FormatDouble(box.min[axis]),
+              FormatDouble(box.max[axis]));
+  }
+  return box;
+}
+
+// As flags tell them (bare_length.h); a clearance or margin where the range is
+// above zero.
+Length LengthAt(const Json& value, const JsonPlace& place, LengthRange range,
+                const std::string& unit) {
+  const std::string text = value.is_string()
+                               ? value.get<std::string>()
+                               : FormatDouble(value.get<double>());
+  if (range == LengthRange::kAboveZero) {
+    return ParseClearance(text, place.Text(), 0.0, unit);
+  }
+  const Length length = ParseLength(text, place.Text(), unit);
+  RequireLength(length, range, 0.0, place.Text(), unit);
+  return length;
+}
+
+MotionLimits LimitsAt(const Json& value, const JsonPlace& place) {
+  const bool by_norm = value.value("by", "axis") == "norm";
+  const auto limit = [&](const char* key) -> Vector3d {
+    const Json& one = value[key];
+    if (by_norm && one.is_array()) {
+      place.Child(key).Fail("one number with by norm", Shortened(one));
+    }
+    return one.is_array() ? PointAt(one)
+                          : Vector3d::Constant(one.get<double>());
+  };
+  MotionLimits limits;
+  limits.velocity = limit("velocity");
+  limits.acceleration = limit("acceleration");
+  limits.jerk = limit("jerk");
+  limits.by_norm = by_norm;
+  return limits;
+}
+
+std::vector<Via> ViaAt(const Json& value, const JsonPlace& place,
+                       const std::string& unit) {
+  std::vector<Via> places;
+  for (std::size_t i = 0; i < value.size(); ++i) {
+    Via via;
+    via.point = PointAt(value[i]["point"]);
+    if (value[i].contains("tolerance")) {
+      via.tolerance =
+          LengthAt(value[i]["tolerance"], place.Child(i).Child("tolerance"),
+                   LengthRange::kAboveZero, unit);
+    }
+    if (value[i].contains("dwell")) via.dwell = value[i]["dwell"].get<double>();
+    places.push_back(via);
+  }
+  return places;
+}
+
+CurveEnd EndAt(const Json& value) {
+  CurveEnd end;
+  if (value.contains("velocity")) end.velocity = PointAt(value["velocity"]);
+  if (value.contains("acceleration")) {
+    end.acceleration = PointAt(value["acceleration"]);
+  }
+  return end;
+}
+
+}  // namespace phongpd::internal

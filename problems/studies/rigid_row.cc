@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "problems/studies/rigid_row.h"
+
+#include <nlohmann/json.hpp>
+
+namespace phongpd {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json PoseRow(const RobotPose& pose) {
+  const Eigen::Vector3d& p = pose.position;
+  const Eigen::Quaterniond& turn = pose.orientation;
+  return {p.x(), p.y(), p.z(), turn.w(), turn.x(), turn.y(), turn.z()};
+}
+
+}  // namespace
+
+RigidRequest RigidRequestOf(const RigidScene& scene) {
+  RigidRequest request;
+  request.start = scene.start;
+  request.goal = scene.goal;
+  request.time_limit = scene.time_limit;
+  const BoundingBox& bounds = scene.workspace.bounds;
+  if (!bounds.IsEmpty()) request.bounds = {bounds.min, bounds.max};
+  return request;
+}
+
+Json RigidRow(const RigidScene& scene, const RigidRequest& request,
+              const RigidAnswer& answer) {
+  Json row;
+  row["scene"] = scene.name;
+  row["planner"] = answer.planner.empty() ? Json("none") : Json(answer.planner);
+  row["seed"] = request.seed;
+  row["status"] = ToString(answer.status);
+  row["reason"] = answer.reason;
+  row["solved"] = row["collision_free"] = answer.IsSolved();
+  row["unit"] = scene.workspace.unit;
+  row["start"] = PoseRow(request.start);
+  row["goal"] = PoseRow(request.goal);
+  row["depth"] = answer.depth ? Json(*answer.depth) : Json(nullptr);
+  row["seconds"] = {{"solve", answer.seconds},
+                    {"search", answer.search_seconds}};
+  row["checks"] = {{"motion", answer.checks}, {"pairs", answer.tests}};
+  row["graph_states"] = answer.nodes;
+  row["found_poses"] = answer.found_poses;
+  row["path_length"] = answer.length;
+  row["path"] = Json::array();
+  for (const RobotPose& pose : answer.path)
+    row["path"].push_back(PoseRow(pose));
+  return row;
+}
+
+}  // namespace phongpd

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "planners/rigid/rigid_plan.h"
+#include "problems/scenes/rigid_scene.h"
+
+namespace phongpd {
+
+// The request of a scene as it stands.
+RigidRequest RigidRequestOf(const RigidScene& scene);
+
+// The answer as one row of results: docs/outputs.md.
+nlohmann::ordered_json RigidRow(const RigidScene& scene,
+                                const RigidRequest& request,
+                                const RigidAnswer& answer);
+
+}  // namespace phongpd

@@ -1,0 +1,122 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Several robots in one room."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any, Tuple
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from . import _native
+from ._arguments import motion_end
+from ._motion import Motion, motion_of, moving_of
+from ._native import InputError
+from ._statuses import Answer
+from ._view import Canvas, Shown
+from ._world import World
+
+
+@dataclass(frozen=True)
+class Fleet(Answer, Shown):
+    """Curves in time of several robots that keep off each other, or why there
+    are none; the row of `phongpd optimize` of a scene of several as `row`."""
+
+    status: str
+    """"converged", or that of the robot without a motion."""
+    reason: str
+    solved: bool
+    certified: bool
+    """For all t: every robot, and every pair of them."""
+    duration: float
+    """Seconds until all have arrived; all begin at 0."""
+    motions: dict[str, Motion] = field(repr=False)
+    """By the robots' names; without a curve where there was none."""
+    pairs: list[dict[str, Any]] = field(repr=False)
+    """Of two robots, or a robot and a moving obstacle: `robots`, `certified`,
+    `clearance` (a lower bound, proved), `least` (seen) at `time`,
+    `verified`."""
+    row: dict[str, Any] = field(repr=False)
+
+    def to_row(self) -> dict[str, Any]:
+        """Flat, for pandas.DataFrame([one.to_row(), ...])."""
+        return {"scene": self.row["scene"], "status": self.status,
+                "reason": self.reason, "solved": self.solved,
+                "certified": self.certified, "duration": self.duration,
+                "robots": len(self.motions), "tries": self.row["tries"],
+                "clearance": min((pair["clearance"] for pair in self.pairs),
+                                 default=np.inf)}
+
+    def _draw(self, canvas: Canvas, name: str | None) -> None:
+        for robot, motion in self.motions.items():
+            motion._draw(canvas, robot)
+
+    def _facts(self) -> dict[str, Any]:
+        return self.to_row()
+
+    def __str__(self) -> str:
+        if not self.solved:
+            return f"no motions, {self.status} ({self.reason})"
+        return (f"{len(self.motions)} robots, {self.duration:.6g} s, "
+                f"{'certified' if self.certified else 'NOT CERTIFIED'}")
+
+
+def optimize_fleet(robots: Mapping[str, Tuple[World, ArrayLike, ArrayLike]]
+                   | str | os.PathLike[str], *, limits: Any = None,
+                   moving: Mapping[str, Any] | None = None,
+                   margin: float | str | None = None, require: bool = False,
+                   preset: str = "", routes: int = 0,
+                   max_seconds: float | None = None,
+                   by_norm: bool = False) -> Fleet:
+    """Curves in time of several robots in one room: each free of what is fixed
+    in its world, within its limits, and off all others, for all t, proved.
+    They begin at the time 0, from rest to rest, and stay where they come to.
+
+    robots: by name (world, start, goal), equal robots best of one world; or a
+    scene file with `robots` (docs/command-line.md).
+    limits: of all; None: those of the worlds' scenes.  moving: obstacles that
+    move, as World.optimize has them, to be kept off by all; None: those of the
+    scenes.  The rest as World.optimize has it, of each robot.
+
+    By order of priority: those before are moving obstacles to those after, and
+    other orders are tried.  Where no motions are found, that is no proof.
+    """
+    if isinstance(robots, Mapping):
+        name = "fleet"
+        tasks = [(str(key), *_task(value, str(key)))
+                 for key, value in robots.items()]
+    else:
+        name, scenes = _native.load_robots(os.fspath(robots))
+        tasks = []
+        for key, scene in scenes:
+            world = World.__new__(World)
+            world._open(scene, False, 0.0)
+            world._has_ends = True
+            tasks.append((key, world, world.start, world.goal))
+    if not tasks:
+        raise InputError("robots: expected one at least, found none")
+    rest = motion_end(None, "rest")
+    given = []
+    for key, world, start, goal in tasks:
+        scene = world._native.scene
+        wishes = world._wishes(limits, scene.via, 0.0, margin, max_seconds,
+                               preset, require, routes, by_norm, rest, rest)
+        given.append((key, world._native, *world._ends(start, goal), wishes))
+    row = _native.optimize_fleet(name, given, moving_of(moving))
+    motions = {one["id"]: motion_of(one, task[1])
+               for one, task in zip(row["robots"], tasks)}
+    return Fleet(status=row["status"], reason=row["reason"],
+                 solved=row["solved"], certified=row["certified"],
+                 duration=row["duration"], motions=motions,
+                 pairs=row["pairs"], row=row)
+
+
+def _task(value: Any, name: str) -> tuple[World, Any, Any]:
+    if (not isinstance(value, tuple) or len(value) != 3
+            or not isinstance(value[0], World)):
+        raise InputError(f"robots: \"{name}\": expected (world, start, goal), "
+                         f"found {type(value).__name__}")
+    return value
