@@ -10,6 +10,7 @@
 #include "core/mesh/mesh_error.h"
 #include "core/pi.h"
 #include "core/projection/euclidean_metric.h"
+#include "core/projection/smoothed_metric.h"
 
 namespace phongpd {
 
@@ -19,11 +20,27 @@ namespace {
 
 const double kCosSeparation = std::cos(kRowSeparation * kPi / 180.0);
 
+bool IsSmoothed(MetricKind metric) {
+  return metric == MetricKind::kSmoothed || metric == MetricKind::kSmoothedFoot;
+}
+
+SmoothedMetricOptions SmoothedOptions(const SignedMetricOptions& options) {
+  SmoothedMetricOptions smoothed;
+  smoothed.smoothing_length = options.smoothing_length;
+  if (options.metric == MetricKind::kSmoothedFoot) {
+    smoothed.at = SmoothedAt::kContact;
+  }
+  return smoothed;
+}
+
 std::shared_ptr<const PenetrationMetric> MakeMetric(
     const ContactSpace& space, const SignedMetricOptions& options) {
   options.Validate();
   if (options.metric == MetricKind::kPhong) {
     return std::make_shared<PhongMetric>(space, options.phong);
+  }
+  if (IsSmoothed(options.metric)) {
+    return std::make_shared<SmoothedMetric>(space, SmoothedOptions(options));
   }
   return std::make_shared<EuclideanMetric>(space);
 }
@@ -32,6 +49,7 @@ std::shared_ptr<const PenetrationMetric> MakeMetric(
 
 void SignedMetricOptions::Validate() const {
   if (metric == MetricKind::kPhong) phong.Validate();
+  if (IsSmoothed(metric)) SmoothedOptions(*this).Validate();
 }
 
 SignedMetric::SignedMetric(const ContactSpace& space,

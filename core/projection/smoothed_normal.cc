@@ -205,7 +205,7 @@ SmoothedNormals::SmoothedNormals(const ContactSpace& space, double radius) {
   const double least = kLeastRadius * space.bounds().Diagonal();
   if (!(radius >= least) || !std::isfinite(radius)) {
     throw InputError("smoothed normals: expected a finite radius ≥ " +
-                     FormatDouble(least) + ", 1e-9 of the diagonal, found " +
+                     FormatDouble(least) + " (1e-9 of the diagonal), found " +
                      FormatDouble(radius));
   }
   impl_ = std::make_unique<Impl>(space, radius);
