@@ -24,7 +24,9 @@ bool IsSmoothed(MetricKind metric) {
   return metric == MetricKind::kSmoothed || metric == MetricKind::kSmoothedFoot;
 }
 
-SmoothedMetricOptions SmoothedOptions(const SignedMetricOptions& options) {
+}  // namespace
+
+SmoothedMetricOptions SmoothedOptionsOf(const SignedMetricOptions& options) {
   SmoothedMetricOptions smoothed;
   smoothed.smoothing_length = options.smoothing_length;
   if (options.metric == MetricKind::kSmoothedFoot) {
@@ -33,28 +35,26 @@ SmoothedMetricOptions SmoothedOptions(const SignedMetricOptions& options) {
   return smoothed;
 }
 
-std::shared_ptr<const PenetrationMetric> MakeMetric(
+std::shared_ptr<const PenetrationMetric> MakePenetrationMetric(
     const ContactSpace& space, const SignedMetricOptions& options) {
   options.Validate();
   if (options.metric == MetricKind::kPhong) {
     return std::make_shared<PhongMetric>(space, options.phong);
   }
   if (IsSmoothed(options.metric)) {
-    return std::make_shared<SmoothedMetric>(space, SmoothedOptions(options));
+    return std::make_shared<SmoothedMetric>(space, SmoothedOptionsOf(options));
   }
   return std::make_shared<EuclideanMetric>(space);
 }
 
-}  // namespace
-
 void SignedMetricOptions::Validate() const {
   if (metric == MetricKind::kPhong) phong.Validate();
-  if (IsSmoothed(metric)) SmoothedOptions(*this).Validate();
+  if (IsSmoothed(metric)) SmoothedOptionsOf(*this).Validate();
 }
 
 SignedMetric::SignedMetric(const ContactSpace& space,
                            const SignedMetricOptions& options)
-    : SignedMetric(space, MakeMetric(space, options), options) {}
+    : SignedMetric(space, MakePenetrationMetric(space, options), options) {}
 
 SignedMetric::SignedMetric(const ContactSpace& space,
                            std::shared_ptr<const PenetrationMetric> metric,

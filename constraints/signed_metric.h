@@ -38,6 +38,12 @@ struct SignedMetricOptions {
   void Validate() const;
 };
 
+// Of kSmoothed and kSmoothedFoot.
+SmoothedMetricOptions SmoothedOptionsOf(const SignedMetricOptions& options);
+// The metric inside C_obj that they name.  Throws InputError for options.
+std::shared_ptr<const PenetrationMetric> MakePenetrationMetric(
+    const ContactSpace& space, const SignedMetricOptions& options = {});
+
 inline constexpr int kMaxMetricRows = 8;
 // Least angle between the directions of two rows, degrees.
 inline constexpr double kRowSeparation = 25.0;

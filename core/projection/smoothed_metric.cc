@@ -9,8 +9,6 @@
 namespace phongpd {
 namespace {
 
-// ρ in multiples of ℓ.
-constexpr double kRadius = 2.0;
 constexpr double kLeastLength = 1e-9;
 
 }  // namespace
@@ -27,7 +25,7 @@ void SmoothedMetricOptions::Validate() const {
 struct SmoothedMetric::Impl {
   Impl(const ContactSpace& space, const SmoothedMetricOptions& options)
       : surface(space),
-        normals(space, kRadius * options.smoothing_length * space.length()),
+        normals(space, SmoothedRadius(options, space.length())),
         at(options.at) {}
 
   ContactSurface surface;
@@ -43,6 +41,8 @@ SmoothedMetric::SmoothedMetric(const ContactSpace& space,
 SmoothedMetric::~SmoothedMetric() = default;
 SmoothedMetric::SmoothedMetric(SmoothedMetric&&) noexcept = default;
 SmoothedMetric& SmoothedMetric::operator=(SmoothedMetric&&) noexcept = default;
+
+double SmoothedMetric::radius() const { return impl_->normals.radius(); }
 
 PenetrationResult SmoothedMetric::Query(const Eigen::Vector3d& q_o,
                                         const Branch& /*previous*/) const {

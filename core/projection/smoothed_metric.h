@@ -24,6 +24,11 @@ struct SmoothedMetricOptions {
   void Validate() const;  // throws InputError
 };
 
+// ρ in a space of length D.
+inline double SmoothedRadius(const SmoothedMetricOptions& options, double d) {
+  return 2.0 * options.smoothing_length * d;
+}
+
 // Euclid's depth with a smoothed direction.
 //
 // Inside C_obj: value, contact and `gradient` are those of EuclideanMetric, bit
@@ -49,6 +54,8 @@ class SmoothedMetric final : public PenetrationMetric {
   using PenetrationMetric::Query;
   PenetrationResult Query(const Eigen::Vector3d& q_o,
                           const Branch& previous) const override;
+
+  double radius() const;  // ρ, user's unit
 
  private:
   struct Impl;

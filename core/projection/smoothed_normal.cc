@@ -117,10 +117,15 @@ struct SmoothedNormals::Impl {
   Impl(const ContactSpace& the_space, double the_radius)
       : space(the_space),
         bvh(&space.bvh()),
-        normals(&space.normals()),
+        normals(space.normals()),
         radius(the_radius),
         k(1.0 / (radius * bvh->scale())),
         moments_of(bvh->tree().nodes().size(), -1) {
+    // Walls of a part of C_cont are none of it.
+    const std::vector<ContactKind>& kind = space.kind();
+    for (std::size_t t = 0; t < kind.size(); ++t) {
+      if (kind[t] == ContactKind::kNone) normals[t].setZero();
+    }
     Sum(0);
   }
 
@@ -171,7 +176,7 @@ struct SmoothedNormals::Impl {
 
   // Of the triangle at a position in the tree's order.
   const Vector3d& NormalAt(int position) const {
-    return (*normals)[static_cast<std::size_t>(
+    return normals[static_cast<std::size_t>(
         bvh->tree().order()[static_cast<std::size_t>(position)])];
   }
 
@@ -193,8 +198,8 @@ struct SmoothedNormals::Impl {
   }
 
   ContactSpace space;
-  const TriangleBvh* bvh;  // of the space, which keeps them
-  const std::vector<Vector3d>* normals;
+  const TriangleBvh* bvh;         // of the space, which keeps it
+  std::vector<Vector3d> normals;  // of triangles; zero: counts for nothing
   double radius;
   double k;                     // 1/ρ in the frame of the tree
   std::vector<int> moments_of;  // by node; −1: not kept

@@ -31,7 +31,8 @@ struct SmoothedNormal {
   static constexpr double kKnown = 1e6;
 };
 
-// The normals of C_cont within ρ of a point, weighted by how near they are:
+// The normals of C_cont within ρ of a point, weighted by how near they are (not
+// those of walls that close a part of it, ContactKind::kNone):
 //
 //   G_ρ(x) = ∮_{C_cont} w(|p − x|) n dA,   w(r) = (1 − r²/ρ²)² for r < ρ, or 0
 //

@@ -37,11 +37,6 @@ Kind ParseKind(Kind first, Kind second, const std::string& text,
 // What may be said of it beside the length.
 bool HasField(MetricKind metric) { return metric == MetricKind::kPhong; }
 
-LengthRange RangeOf(MetricKind metric) {
-  return metric == MetricKind::kPhong ? LengthRange::kFromZero
-                                      : LengthRange::kAboveZero;
-}
-
 }  // namespace
 
 std::string PenetrationSpec::Name() const {
@@ -57,7 +52,7 @@ SignedMetricOptions PenetrationSpec::Options(double diagonal) const {
   SignedMetricOptions options;
   options.metric = metric;
   if (!HasLength(metric)) return options;
-  RequireLength(smoothing_length, RangeOf(metric), diagonal,
+  RequireLength(smoothing_length, LengthRangeOf(metric), diagonal,
                 Name() + ": smoothing_length");
   options.smoothing_length = smoothing_length.Resolve(diagonal).share;
   if (!HasField(metric)) {
@@ -83,14 +78,17 @@ PenetrationSpec ParsePenetration(const std::string& text,
   const auto found = std::find(names.begin(), names.end(), name);
   const bool is_known = found != names.end();
   if (is_known) spec.metric = static_cast<MetricKind>(found - names.begin());
-  if (!is_known || HasLength(spec.metric) != (at != std::string::npos)) {
+  const bool has_length = at != std::string::npos;
+  const bool takes_it =
+      has_length ? HasLength(spec.metric) : spec.metric != MetricKind::kPhong;
+  if (!is_known || !takes_it) {
     throw InputError(what +
                      ": expected euclidean, phong@LENGTH, phong@LENGTH/exact, "
-                     "phong@LENGTH/tangent-plane, smoothed@LENGTH or "
-                     "smoothed-foot@LENGTH, found '" +
+                     "phong@LENGTH/tangent-plane, smoothed[@LENGTH] or "
+                     "smoothed-foot[@LENGTH], found '" +
                      text + "'");
   }
-  if (!HasLength(spec.metric)) return spec;
+  if (!has_length) return spec;
   std::string length = text.substr(at + 1);
   if (HasField(spec.metric)) {
     if (TakeSuffix(kExactSuffix, &length)) spec.jacobian = JacobianKind::kExact;
@@ -100,7 +98,7 @@ PenetrationSpec ParsePenetration(const std::string& text,
   }
   const std::string place = what + ": smoothing_length";
   spec.smoothing_length = ParseLength(length, place);
-  RequireLength(spec.smoothing_length, RangeOf(spec.metric), 0.0, place);
+  RequireLength(spec.smoothing_length, LengthRangeOf(spec.metric), 0.0, place);
   return spec;
 }
 
@@ -111,6 +109,11 @@ const std::vector<std::string>& MetricNames() {
 }
 
 bool HasLength(MetricKind metric) { return metric != MetricKind::kEuclidean; }
+
+LengthRange LengthRangeOf(MetricKind metric) {
+  return metric == MetricKind::kPhong ? LengthRange::kFromZero
+                                      : LengthRange::kAboveZero;
+}
 
 const char* ToString(MetricKind metric) {
   return MetricNames()[static_cast<std::size_t>(metric)].c_str();

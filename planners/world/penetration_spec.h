@@ -32,7 +32,8 @@ struct PenetrationSpec {
 
 // Reads "euclidean", "phong@L" with the smoothing length L (length.h), with
 // "/tangent-plane" the paper's field, with "/exact" the exact Jacobian; and
-// "smoothed@L", "smoothed-foot@L".  Throws InputError starting with `what`.
+// "smoothed@L", "smoothed-foot@L", without "@L" those of the default length.
+// Throws InputError starting with `what`.
 PenetrationSpec ParsePenetration(const std::string& text,
                                  const std::string& what);
 
@@ -41,6 +42,8 @@ PenetrationSpec ParsePenetration(const std::string& text,
 const std::vector<std::string>& MetricNames();
 // Does it have a smoothing length?  All but the Euclidean.
 bool HasLength(MetricKind metric);
+// Where it has: of Phong it may be 0.
+LengthRange LengthRangeOf(MetricKind metric);
 
 // phong, euclidean, ...; normal, tangent-plane; direction, exact: as scenes and
 // flags name them.

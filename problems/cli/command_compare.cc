@@ -176,7 +176,9 @@ std::string ProtocolsHelp() {
 // What is run on every problem.
 void AddComparedMethods(CLI::App* app, CompareFlags* flags) {
   app->add_option("--metrics", flags->metrics,
-                  "euclidean, phong@L, phong@L/exact, phong@L/tangent-plane; L "
+                  "euclidean, phong@L, phong@L/exact, phong@L/tangent-plane, "
+                  "smoothed@L, smoothed-foot@L (Euclid's depth, smoothed "
+                  "direction at the position or the contact); L "
                   "is the smoothing length, 0.2 or 0.2D (a share of D) or "
                   "0.5unit (the scene's unit). For this study alone: followed "
                   "(Euclid's local minimum, followed), mixed@L (Euclid's "

@@ -29,7 +29,8 @@ where, expected, found.
 from ._answers import Diagnosis, Plan, Trajectory
 from ._contact import ContactSpace, minkowski
 from ._depth import Depth, DepthQuery, depth
-from ._metrics import EuclideanMetric, Penetration, PhongMetric, QueryResult
+from ._metrics import EuclideanMetric, Penetration, PhongMetric, QueryResult, \
+    SmoothedMetric
 from ._motion import Motion
 from ._native import BuildCancelled, BuildRefusal, InputError, __version__
 from ._piece import ContactSpacePiece
@@ -45,6 +46,6 @@ __all__ = [
     "Depth", "DepthQuery", "Diagnosis", "EuclideanMetric", "InputError",
     "Motion", "NonPenetrationRows", "Penetration", "PenetrationTracker",
     "PhongMetric", "Plan", "QueryResult", "RigidCheck", "RigidJudge", "Roadmap",
-    "Solid", "TrackedMotion", "Trajectory", "View", "World", "__version__",
+    "SmoothedMetric", "Solid", "TrackedMotion", "Trajectory", "View", "World", "__version__",
     "depth", "minkowski", "view",
 ]

@@ -71,7 +71,7 @@ TEST(Names, OfMetricsReadBack) {
   for (const char* name :
        {"", "phong", "phong@", "phong@-1", "phong@0.1/some",
         "phong@0.1/exact/tangent-plane/exact", "euclid", "euclidean@0.2",
-        "smoothed", "smoothed@", "smoothed@0", "smoothed@0.2/exact",
+        "smoothed@", "smoothed@0", "smoothed@0.2/exact",
         "smooth@0.2", "@0.2"}) {
     EXPECT_THROW(ParsePenetration(name, "metric"), InputError) << name;
   }
@@ -91,6 +91,9 @@ TEST(Names, OfMetricsReadBack) {
 }
 
 TEST(Names, OfSmoothedMetricsTakeALengthAndTheDirectionAlone) {
+  EXPECT_EQ(ParsePenetration("smoothed", "metric").Name(), "smoothed@0.2");
+  EXPECT_EQ(ParsePenetration("smoothed-foot", "metric").Name(),
+            "smoothed-foot@0.2");
   PenetrationSpec spec = ParsePenetration("smoothed@3unit", "metric");
   EXPECT_EQ(spec.Options(10.0).metric, MetricKind::kSmoothed);
   EXPECT_DOUBLE_EQ(spec.Options(10.0).smoothing_length, 0.3);
