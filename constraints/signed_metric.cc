@@ -10,6 +10,7 @@
 #include "core/mesh/mesh_error.h"
 #include "core/pi.h"
 #include "core/projection/euclidean_metric.h"
+#include "core/projection/smoothed_metric.h"
 
 namespace phongpd {
 
@@ -19,24 +20,41 @@ namespace {
 
 const double kCosSeparation = std::cos(kRowSeparation * kPi / 180.0);
 
-std::shared_ptr<const PenetrationMetric> MakeMetric(
+bool IsSmoothed(MetricKind metric) {
+  return metric == MetricKind::kSmoothed || metric == MetricKind::kSmoothedFoot;
+}
+
+}  // namespace
+
+SmoothedMetricOptions SmoothedOptionsOf(const SignedMetricOptions& options) {
+  SmoothedMetricOptions smoothed;
+  smoothed.smoothing_length = options.smoothing_length;
+  if (options.metric == MetricKind::kSmoothedFoot) {
+    smoothed.at = SmoothedAt::kContact;
+  }
+  return smoothed;
+}
+
+std::shared_ptr<const PenetrationMetric> MakePenetrationMetric(
     const ContactSpace& space, const SignedMetricOptions& options) {
   options.Validate();
   if (options.metric == MetricKind::kPhong) {
     return std::make_shared<PhongMetric>(space, options.phong);
   }
+  if (IsSmoothed(options.metric)) {
+    return std::make_shared<SmoothedMetric>(space, SmoothedOptionsOf(options));
+  }
   return std::make_shared<EuclideanMetric>(space);
 }
 
-}  // namespace
-
 void SignedMetricOptions::Validate() const {
   if (metric == MetricKind::kPhong) phong.Validate();
+  if (IsSmoothed(metric)) SmoothedOptionsOf(*this).Validate();
 }
 
 SignedMetric::SignedMetric(const ContactSpace& space,
                            const SignedMetricOptions& options)
-    : SignedMetric(space, MakeMetric(space, options), options) {}
+    : SignedMetric(space, MakePenetrationMetric(space, options), options) {}
 
 SignedMetric::SignedMetric(const ContactSpace& space,
                            std::shared_ptr<const PenetrationMetric> metric,

@@ -6,12 +6,18 @@
 
 #include "core/projection/penetration_metric.h"
 #include "core/projection/phong_metric.h"
+#include "core/projection/smoothed_metric.h"
 
 namespace phongpd {
 
 class FeatureSearch;
 
-enum class MetricKind { kPhong, kEuclidean };
+enum class MetricKind {
+  kPhong,
+  kEuclidean,
+  kSmoothed,      // Euclid's depth, smoothed direction at q
+  kSmoothedFoot,  // the same with the direction at q_c
+};
 
 // The derivative inside C_obj.
 enum class JacobianKind {
@@ -24,10 +30,19 @@ struct SignedMetricOptions {
   MetricKind metric = MetricKind::kPhong;
   PhongMetricOptions phong;  // kPhong only
   JacobianKind jacobian = JacobianKind::kDirection;
+  // ℓ of kSmoothed and kSmoothedFoot, a share of D (smoothed_metric.h).  Their
+  // exact Jacobian is Euclid's.
+  double smoothing_length = kDefaultSmoothingLength;
 
   // Throws InputError naming the option, the range and the value.
   void Validate() const;
 };
+
+// Of kSmoothed and kSmoothedFoot.
+SmoothedMetricOptions SmoothedOptionsOf(const SignedMetricOptions& options);
+// The metric inside C_obj that they name.  Throws InputError for options.
+std::shared_ptr<const PenetrationMetric> MakePenetrationMetric(
+    const ContactSpace& space, const SignedMetricOptions& options = {});
 
 inline constexpr int kMaxMetricRows = 8;
 // Least angle between the directions of two rows, degrees.
@@ -54,7 +69,8 @@ struct MetricRow {
 // The signed metric of one contact space as K constraint rows:
 //
 //   outside and on C_cont   d(q) = |q − q_c|, the Euclidean distance
-//   inside C_obj            d(q) = −depth, Phong's or Euclid's
+//   inside C_obj            d(q) = −depth, Phong's or Euclid's (the smoothed
+//                           metrics': Euclid's)
 //
 // d is zero exactly on C_cont and positive exactly in free space, whatever the
 // options: they change how a solver gets out, not what is feasible.

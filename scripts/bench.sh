@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
 # bench.sh [paper|queries|contact-space|lazy|convergence|pipeline|planning|
-# extremes|peers|trajectories|cluster|python|trade|slice|all]: regenerates the
+# extremes|peers|trajectories|study|cluster|python|trade|slice|all]: regenerates the
 # tables and figures of results/.  continuity is a part of queries, retraction and
 # widths are parts of planning.  slice makes some published rows anew and compares
 # them (results/reproduction.md); it is no part of all.
@@ -13,12 +13,12 @@ export PHONGPD_CACHE_DIR=$PWD/build/cache
 suite=${1:-all}
 case $suite in
   paper | queries | contact-space | lazy | convergence | pipeline | planning | \
-    extremes | peers | trajectories | cluster | python | trade | continuity | \
+    extremes | peers | trajectories | study | cluster | python | trade | continuity | \
     retraction | widths | slice | all) ;;
   *)
     echo "bench: expected paper, queries, contact-space, lazy," \
       "convergence, pipeline, planning, extremes, peers, trajectories," \
-      "cluster, python, trade, continuity, retraction, widths, slice or all," \
+      "study, cluster, python, trade, continuity, retraction, widths, slice or all," \
       "found $suite" >&2
     exit 2
     ;;
@@ -86,6 +86,27 @@ if [[ $suite == convergence || $suite == all ]]; then
   cat "$rows"/*/rows.jsonl > "$rows/all.jsonl"
   build/convergence_benchmark --rows "$rows/all.jsonl" \
     --output results/convergence --how "scripts/bench.sh convergence"
+fi
+if [[ $suite == study || $suite == all ]]; then
+  # results/study/protocol.md; parts that were cut off go on where they were.
+  scripts/python.sh
+  scripts/build.sh phongpd
+  . scripts/study_scenes.sh
+  block() { # NAME SEEDS METRICS...
+    local pids=() i
+    for ((i = 0; i < $(nproc); ++i)); do
+      build/phongpd compare "${study_scenes[@]}" --seed "$study_seed" \
+        --runs "$2" --max-iter "$study_cap" --shard "$i/$(nproc)" \
+        --protocols straight-monotone straight-adaptive repaired-monotone \
+        repaired-adaptive --metrics "${@:3}" --output "build/study/$1-$i" &
+      pids+=($!)
+    done
+    for i in "${pids[@]}"; do wait "$i"; done
+  }
+  block first "${STUDY_SEEDS:-10}" "${study_metrics[@]}"
+  build/venv/bin/python -B results/bench/study_report.py results/study \
+    --rows build/study/first-*/rows.jsonl --how "Command: \`scripts/bench.sh \
+study\`. Commit: $(git rev-parse --short HEAD)."
 fi
 if [[ $suite == pipeline || $suite == all ]]; then
   scripts/build.sh phongpd

@@ -17,6 +17,8 @@
 //       PenetrationDepth, DepthQuery (here): the least depth, nothing built
 //   a robot that translates, many positions
 //       ContactSpace once, then EuclideanMetric: the least depth
+//   ... and a direction that does not jump where the nearest point does
+//       SmoothedMetric: the same depth, for solvers
 //   ... and depths and directions that go on from one position to the next
 //       PhongMetric: continuous along a branch, with exact derivatives
 //   few such depths, and no contact space

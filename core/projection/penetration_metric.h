@@ -13,7 +13,8 @@ enum class QueryStatus {
   kBranchEnded,        // the warm branch folded on the way, or the motion left
                        // C_obj elsewhere than the branch leads: the answer,
                        // cold or outside, does not continue it
-  kEuclideanFallback,  // inside, but no Phong projection exists: Euclidean PD
+  kEuclideanFallback,  // inside, but no Phong projection exists, or no smoothed
+                       // direction is known: Euclidean PD
   kInvalid,            // q_o is not finite: all other members are zero
 };
 
@@ -38,7 +39,8 @@ struct PenetrationResult {
   // inside C_obj, 0 on C_cont (the robot touches), > 0 in free space.
   double signed_distance = 0.0;
   Eigen::Vector3d contact = Eigen::Vector3d::Zero();  // q_c on C_cont
-  // Unit vector from q_o towards q_c inside, outward gradient outside.
+  // Unit vector from q_o towards q_c inside (SmoothedMetric: outward, its own),
+  // outward gradient outside.
   Eigen::Vector3d direction = Eigen::Vector3d::Zero();
   // Exact gradient of signed_distance; one-sided on edges.
   Eigen::Vector3d gradient = Eigen::Vector3d::Zero();

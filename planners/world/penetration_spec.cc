@@ -1,20 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "planners/world/penetration_spec.h"
 
+#include <algorithm>
+#include <cstddef>
+
 #include "core/mesh/mesh_error.h"
+#include "core/nearest_name.h"
+#include "core/number_text.h"
 
 namespace phongpd {
 namespace {
 
-constexpr char kPhongPrefix[] = "phong@";
 constexpr char kExactSuffix[] = "/exact";
 constexpr char kTangentPlaneSuffix[] = "/tangent-plane";
-
-bool TakePrefix(const std::string& prefix, std::string* text) {
-  if (text->compare(0, prefix.size(), prefix) != 0) return false;
-  text->erase(0, prefix.size());
-  return true;
-}
 
 bool TakeSuffix(const std::string& suffix, std::string* text) {
   if (text->size() < suffix.size() ||
@@ -36,11 +34,15 @@ Kind ParseKind(Kind first, Kind second, const std::string& text,
                    ToString(second) + ", found '" + text + "'");
 }
 
+// What may be said of it beside the length.
+bool HasField(MetricKind metric) { return metric == MetricKind::kPhong; }
+
 }  // namespace
 
 std::string PenetrationSpec::Name() const {
-  if (metric == MetricKind::kEuclidean) return ToString(metric);
-  std::string name = kPhongPrefix + smoothing_length.Text();
+  if (!HasLength(metric)) return ToString(metric);
+  std::string name = ToString(metric) + ("@" + smoothing_length.Text());
+  if (!HasField(metric)) return name;
   if (field == FieldKind::kTangentPlane) name += kTangentPlaneSuffix;
   if (jacobian == JacobianKind::kExact) name += kExactSuffix;
   return name;
@@ -49,42 +51,72 @@ std::string PenetrationSpec::Name() const {
 SignedMetricOptions PenetrationSpec::Options(double diagonal) const {
   SignedMetricOptions options;
   options.metric = metric;
-  if (metric == MetricKind::kEuclidean) return options;
-  RequireLength(smoothing_length, LengthRange::kFromZero, diagonal,
+  if (!HasLength(metric)) return options;
+  RequireLength(smoothing_length, LengthRangeOf(metric), diagonal,
                 Name() + ": smoothing_length");
+  options.smoothing_length = smoothing_length.Resolve(diagonal).share;
+  if (!HasField(metric)) {
+    if (jacobian == JacobianKind::kExact) {
+      throw InputError(Name() +
+                       ": jacobian: expected direction, found exact, which is "
+                       "that of the metric euclidean; take that one");
+    }
+    return options;
+  }
   options.jacobian = jacobian;
   options.phong.field = field;
-  options.phong.field_options.smoothing_length =
-      smoothing_length.Resolve(diagonal).share;
+  options.phong.field_options.smoothing_length = options.smoothing_length;
   return options;
 }
 
 PenetrationSpec ParsePenetration(const std::string& text,
                                  const std::string& what) {
   PenetrationSpec spec;
-  if (text == ToString(MetricKind::kEuclidean)) {
-    spec.metric = MetricKind::kEuclidean;
-    return spec;
-  }
-  std::string length = text;
-  if (!TakePrefix(kPhongPrefix, &length)) {
+  const std::size_t at = text.find('@');
+  const std::string name = text.substr(0, at);
+  const auto& names = MetricNames();
+  const auto found = std::find(names.begin(), names.end(), name);
+  const bool is_known = found != names.end();
+  if (is_known) spec.metric = static_cast<MetricKind>(found - names.begin());
+  const bool has_length = at != std::string::npos;
+  const bool takes_it =
+      has_length ? HasLength(spec.metric) : spec.metric != MetricKind::kPhong;
+  if (!is_known || !takes_it) {
     throw InputError(what +
-                     ": expected euclidean, phong@LENGTH, phong@LENGTH/exact "
-                     "or phong@LENGTH/tangent-plane, found '" +
+                     ": expected euclidean, phong@LENGTH, phong@LENGTH/exact, "
+                     "phong@LENGTH/tangent-plane, smoothed[@LENGTH] or "
+                     "smoothed-foot[@LENGTH], found '" +
                      text + "'");
   }
-  if (TakeSuffix(kExactSuffix, &length)) spec.jacobian = JacobianKind::kExact;
-  if (TakeSuffix(kTangentPlaneSuffix, &length)) {
-    spec.field = FieldKind::kTangentPlane;
+  if (!has_length) return spec;
+  std::string length = text.substr(at + 1);
+  if (HasField(spec.metric)) {
+    if (TakeSuffix(kExactSuffix, &length)) spec.jacobian = JacobianKind::kExact;
+    if (TakeSuffix(kTangentPlaneSuffix, &length)) {
+      spec.field = FieldKind::kTangentPlane;
+    }
   }
   const std::string place = what + ": smoothing_length";
   spec.smoothing_length = ParseLength(length, place);
-  RequireLength(spec.smoothing_length, LengthRange::kFromZero, 0.0, place);
+  RequireLength(spec.smoothing_length, LengthRangeOf(spec.metric), 0.0, place);
   return spec;
 }
 
+const std::vector<std::string>& MetricNames() {
+  static const std::vector<std::string> names = {"phong", "euclidean",
+                                                 "smoothed", "smoothed-foot"};
+  return names;
+}
+
+bool HasLength(MetricKind metric) { return metric != MetricKind::kEuclidean; }
+
+LengthRange LengthRangeOf(MetricKind metric) {
+  return metric == MetricKind::kPhong ? LengthRange::kFromZero
+                                      : LengthRange::kAboveZero;
+}
+
 const char* ToString(MetricKind metric) {
-  return metric == MetricKind::kPhong ? "phong" : "euclidean";
+  return MetricNames()[static_cast<std::size_t>(metric)].c_str();
 }
 
 const char* ToString(FieldKind field) {
@@ -96,7 +128,13 @@ const char* ToString(JacobianKind jacobian) {
 }
 
 MetricKind ParseMetricKind(const std::string& text, const std::string& what) {
-  return ParseKind(MetricKind::kPhong, MetricKind::kEuclidean, text, what);
+  const std::vector<std::string>& names = MetricNames();
+  const auto found = std::find(names.begin(), names.end(), text);
+  if (found == names.end()) {
+    throw InputError(what + ": expected one of " + Joined(names) + ", found '" +
+                     text + "'" + DidYouMean(text, names));
+  }
+  return static_cast<MetricKind>(found - names.begin());
 }
 
 FieldKind ParseFieldKind(const std::string& text, const std::string& what) {

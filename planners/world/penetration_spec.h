@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "constraints/signed_metric.h"
 #include "core/projection/phong_field.h"
@@ -13,26 +14,38 @@ namespace phongpd {
 // the derivative they give.  Outside all are the Euclidean distance.
 struct PenetrationSpec {
   MetricKind metric = MetricKind::kPhong;
-  // Of Phong only.  ℓ: at most D; 0: the paper.
+  // Of Phong only.
   FieldKind field = FieldKind::kNormal;
   JacobianKind jacobian = JacobianKind::kDirection;
+  // ℓ, at most D: of Phong, 0 the paper; of the smoothed metrics, above 0.
   Length smoothing_length = Length::FromShare(kDefaultSmoothingLength);
 
   // As users write it: "euclidean", "phong@0.2", "phong@0.5unit/exact",
-  // "phong@0/tangent-plane/exact"; ParsePenetration reads back the same.
+  // "phong@0/tangent-plane/exact", "smoothed@0.2", "smoothed-foot@0.2";
+  // ParsePenetration reads back the same.
   std::string Name() const;
 
-  // In a world of diagonal D.  Throws InputError for an ℓ longer than that.
+  // In a world of diagonal D.  Throws InputError for an ℓ longer than that, and
+  // of smoothed metrics for 0 and for the exact Jacobian, which is Euclid's.
   SignedMetricOptions Options(double diagonal) const;
 };
 
 // Reads "euclidean", "phong@L" with the smoothing length L (length.h), with
-// "/tangent-plane" the paper's field, with "/exact" the exact Jacobian.  Throws
-// InputError starting with `what`.
+// "/tangent-plane" the paper's field, with "/exact" the exact Jacobian; and
+// "smoothed@L", "smoothed-foot@L", without "@L" those of the default length.
+// Throws InputError starting with `what`.
 PenetrationSpec ParsePenetration(const std::string& text,
                                  const std::string& what);
 
-// phong, euclidean; normal, tangent-plane; direction, exact: as scenes and
+// The names of all metrics, in the order of MetricKind: phong, euclidean,
+// smoothed, smoothed-foot.
+const std::vector<std::string>& MetricNames();
+// Does it have a smoothing length?  All but the Euclidean.
+bool HasLength(MetricKind metric);
+// Where it has: of Phong it may be 0.
+LengthRange LengthRangeOf(MetricKind metric);
+
+// phong, euclidean, ...; normal, tangent-plane; direction, exact: as scenes and
 // flags name them.
 const char* ToString(MetricKind metric);
 const char* ToString(FieldKind field);

@@ -37,6 +37,7 @@ struct CompareFlags {
       "straight-monotone", "straight-adaptive", "repaired-monotone",
       "repaired-adaptive", "pipeline"};
   int runs = 50;
+  int max_iterations = 0;  // of a round of Ipopt; 0: the protocol's own
   std::uint64_t seed = 1;
   std::string shard = "0/1";
   std::vector<std::string> rows;
@@ -73,6 +74,10 @@ Methods ReadMethods(const CompareFlags& flags) {
   }
   for (const std::string& name : flags.protocols) {
     methods.protocols.push_back(FindProtocol(name));
+    if (flags.max_iterations > 0) {
+      methods.protocols.back().options.optimizer.ipopt.max_iterations =
+          flags.max_iterations;
+    }
   }
   return methods;
 }
@@ -176,12 +181,17 @@ std::string ProtocolsHelp() {
 // What is run on every problem.
 void AddComparedMethods(CLI::App* app, CompareFlags* flags) {
   app->add_option("--metrics", flags->metrics,
-                  "euclidean, phong@L, phong@L/exact, phong@L/tangent-plane; L "
+                  "euclidean, phong@L, phong@L/exact, phong@L/tangent-plane, "
+                  "smoothed@L, smoothed-foot@L (Euclid's depth, smoothed "
+                  "direction at the position or the contact); L "
                   "is the smoothing length, 0.2 or 0.2D (a share of D) or "
                   "0.5unit (the scene's unit). For this study alone: followed "
                   "(Euclid's local minimum, followed), mixed@L (Euclid's "
                   "value, Phong's direction), faded@L (the same, Euclid's "
-                  "direction where walls are near each other)")
+                  "direction where walls are near each other), diffused@L "
+                  "(Euclid's value, the normal of Phong's field at its "
+                  "contact), placebo@L (the same, any direction as far from "
+                  "Euclid's as the smoothed one)")
       ->expected(1, -1)
       ->type_name("NAME")
       ->capture_default_str();
@@ -194,6 +204,12 @@ void AddComparedMethods(CLI::App* app, CompareFlags* flags) {
 // Which problems of the scenes, and which of them here.
 void AddComparedRuns(CLI::App* app, CompareFlags* flags) {
   app->add_option("--runs", flags->runs, "Seeds a scene, paired over methods")
+      ->type_name("N")
+      ->capture_default_str();
+  app->add_option("--max-iter", flags->max_iterations,
+                  "Iterations that a round of Ipopt may take; 0: as the "
+                  "protocol has it, 200")
+      ->check(AtLeast(0.0))
       ->type_name("N")
       ->capture_default_str();
   app->add_option("--seed", flags->seed, "The first of them, at least 1")

@@ -9,7 +9,7 @@
 #include "core/mesh/counted.h"
 #include "core/mesh/mesh_io.h"
 #include "problems/cli/command.h"
-#include "problems/cli/depth_phong.h"
+#include "problems/cli/depth_beside.h"
 #include "problems/cli/flags.h"
 #include "problems/cli/operands.h"
 #include "problems/cli/view_rows.h"
@@ -37,6 +37,7 @@ struct DepthFlags {
   std::string output = kStandardOutput;
   std::string html;
   std::string max_radius;
+  std::string metric;
   std::string smoothing_length;
   std::string repair = "reject";
   double max_seconds = 0.0;
@@ -180,8 +181,17 @@ DepthOptions DepthOptionsOf(const DepthFlags& flags) {
   return options;
 }
 
-// The answers as text, in the form that is asked for, with PhongPD beside the
-// Euclidean depth where a smoothing length is.
+// The metrics that can stand beside the Euclidean depth.
+std::vector<std::string> MetricsBeside() {
+  std::vector<std::string> names;
+  for (const std::string& name : MetricNames()) {
+    if (HasLength(ParseMetricKind(name, "--metric"))) names.push_back(name);
+  }
+  return names;
+}
+
+// The answers as text, in the form that is asked for, with another metric's
+// beside the Euclidean depth where one, or a smoothing length, is.
 class DepthText {
  public:
   // The flags outlive this.
@@ -191,32 +201,35 @@ class DepthText {
         is_json_(form == AnswerForm::kJson),
         is_table_(!is_json_ &&
                   (form == AnswerForm::kCsv || !flags.poses.empty())) {
-    if (!flags.smoothing_length.empty()) {
+    if (!flags.metric.empty() || !flags.smoothing_length.empty()) {
       ContactSpaceOptions limits;
       limits.robot_name = flags.a;
       limits.obstacle_name = flags.b;
       limits.max_seconds = flags.max_seconds;
-      phong_.emplace(flags.smoothing_length, a, b, limits);
+      const MetricKind metric = flags.metric.empty()
+                                    ? MetricKind::kPhong
+                                    : ParseMetricKind(flags.metric, "--metric");
+      beside_.emplace(metric, flags.smoothing_length, a, b, limits);
     }
     if (is_table_) {
-      text_ = std::string(kDepthHeader) + (phong_ ? DepthPhong::kColumns : "") +
+      text_ = std::string(kDepthHeader) + (beside_ ? beside_->Columns() : "") +
               '\n';
     }
   }
 
   void Add(const RobotPose& pose, const DepthResult& result) {
-    std::optional<WindowPhongResult> with_phong;
-    if (phong_) with_phong = phong_->At(pose);
+    std::optional<WindowPhongResult> other;
+    if (beside_) other = beside_->At(pose);
     if (is_json_) {
       Json answer = AnswerJson(pose, result);
-      if (phong_) answer["phong"] = phong_->AsJson(*with_phong);
+      if (beside_) answer[beside_->Key()] = beside_->AsJson(*other);
       text_ += JsonText(answer) + '\n';
     } else if (is_table_) {
       text_ += DepthRow(pose, result) +
-               (phong_ ? DepthPhong::AsCells(*with_phong) : "") + '\n';
+               (beside_ ? DepthBeside::AsCells(*other) : "") + '\n';
     } else {
       text_ += Sentence(flags_, result) +
-               (phong_ ? phong_->AsSentence(*with_phong) : "");
+               (beside_ ? beside_->AsSentence(*other) : "");
     }
   }
 
@@ -225,7 +238,7 @@ class DepthText {
  private:
   const DepthFlags& flags_;
   bool is_json_, is_table_;
-  std::optional<DepthPhong> phong_;
+  std::optional<DepthBeside> beside_;
   std::string text_;
 };
 
@@ -301,10 +314,17 @@ Command AddDepth(CLI::App* app) {
                   "Page with both meshes, the way out, the points that touch "
                   "after it and the windows that were built (as view makes it)")
       ->type_name("FILE");
+  app->add_option("--metric", flags->metric,
+                  "Beside the Euclidean depth: phong, PhongPD; smoothed, the "
+                  "gradient of smoothed occupancy as its direction, at the "
+                  "position (smoothed-foot: at the contact); phong if only a "
+                  "smoothing length is set")
+      ->check(CLI::IsMember(MetricsBeside()));
   app->add_option("--smoothing-length", flags->smoothing_length,
-                  "PhongPD beside the Euclidean depth, by this length: 0 from "
-                  "windows around the position, any other from the whole "
-                  "contact space (share of its diagonal D, or 0.5unit)")
+                  "Of that metric (0.2 if not set). PhongPD: 0 from windows "
+                  "around the position, any other from the whole contact "
+                  "space; smoothed: from what is within twice the length "
+                  "(share of its diagonal D, or 0.5unit)")
       ->type_name("LENGTH");
   app->add_option("--max-radius", flags->max_radius,
                   "Look no farther than this; what is deeper comes as a bound, "
@@ -320,6 +340,8 @@ Command AddDepth(CLI::App* app) {
                     "--html depth.html",
                     "phongpd depth robot.off obstacle.stl --json",
                     "phongpd depth robot.off obstacle.stl --smoothing-length 0",
+                    "phongpd depth robot.off obstacle.stl --metric smoothed "
+                    "--smoothing-length 0.05",
                     "phongpd depth robot.off obstacle.stl --pose poses.csv "
                     "--output depth.csv"});
   return [flags] { return AnswerDepth(*flags); };

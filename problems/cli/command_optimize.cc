@@ -351,11 +351,16 @@ int AnswerOptimize(const OptimizeFlags& flags) {
 
 // What keeps a path out of obstacles and away from them.
 void AddMetricFlags(CLI::App* app, OptimizeFlags* flags) {
-  app->add_option("--metric", flags->metric,
-                  "Penetration depth inside obstacles (scene's own if not set)")
-      ->check(CLI::IsMember({"phong", "euclidean"}));
+  app->add_option(
+         "--metric", flags->metric,
+         "Penetration depth inside obstacles (scene's own if not set); "
+         "smoothed: the Euclidean depth, and as direction the gradient "
+         "of occupancy smoothed over twice the smoothing length, at "
+         "the position (smoothed-foot: at the contact)")
+      ->check(CLI::IsMember(MetricNames()));
   app->add_option("--smoothing-length", flags->smoothing_length,
-                  "Of the Phong field, 0 (the paper) to D, the diagonal of the "
+                  "Of the Phong field, 0 (the paper) to D, or of the smoothed "
+                  "metrics, above 0; D is the diagonal of the "
                   "obstacles' contact space: 0.1 or 0.1D is a share of D, "
                   "0.5unit is in the scene's unit; where that has a name, "
                   "20mm and 20 are in it (scene's own if not set)")
@@ -369,7 +374,8 @@ void AddMetricFlags(CLI::App* app, OptimizeFlags* flags) {
                 "Less than the margin is no answer: status_class "
                 "clearance_missed, exit code 1");
   app->add_option("--jacobian", flags->jacobian,
-                  "Of Phong depth: its continuous direction, or the exact "
+                  "Of Phong depth (the others have direction alone): its "
+                  "continuous direction, or the exact "
                   "gradient (scene's own if not set)")
       ->check(CLI::IsMember({"direction", "exact"}));
 }

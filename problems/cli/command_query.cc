@@ -6,9 +6,8 @@
 #include <vector>
 
 #include "core/mesh/counted.h"
-#include "core/projection/euclidean_metric.h"
-#include "core/projection/phong_metric.h"
 #include "core/projection/query_batch.h"
+#include "planners/world/penetration_spec.h"
 #include "problems/cli/command.h"
 #include "problems/cli/contact_space_file.h"
 #include "problems/cli/flags.h"
@@ -38,16 +37,19 @@ struct QueryFlags {
   PenetrationTrackerOptions sliding;
 };
 
-std::unique_ptr<PenetrationMetric> MakeMetric(const QueryFlags& flags,
-                                              const ContactSpace& contact) {
-  if (flags.metric == "euclidean") {
-    return std::make_unique<EuclideanMetric>(contact);
+std::shared_ptr<const PenetrationMetric> MakeMetric(
+    const QueryFlags& flags, const ContactSpace& contact) {
+  PenetrationSpec spec;
+  spec.metric = ParseMetricKind(flags.metric, "--metric");
+  spec.field = ParseFieldKind(flags.field, "--field");
+  if (HasLength(spec.metric)) {
+    const std::string what = "--smoothing-length";
+    spec.smoothing_length = ParseLength(flags.smoothing_length, what);
+    RequireLength(spec.smoothing_length, LengthRangeOf(spec.metric),
+                  contact.length(), what);
   }
-  const auto options = MetricOptions(
-      flags.field, ParseLength(flags.smoothing_length, "--smoothing-length"),
-      contact);
   try {
-    return std::make_unique<PhongMetric>(contact, options);
+    return MakePenetrationMetric(contact, spec.Options(contact.length()));
   } catch (const InputError& error) {
     throw InputError(flags.contact_space + ": " + error.what());
   }
@@ -93,7 +95,7 @@ Answers Ask(const QueryFlags& flags, const ContactSpace& contact,
     }
     return answers;
   }
-  const std::unique_ptr<PenetrationMetric> metric = MakeMetric(flags, contact);
+  const auto metric = MakeMetric(flags, contact);
   if (flags.tracked) {
     Branch branch;
     for (const Eigen::Vector3d& q : points) {
@@ -186,6 +188,13 @@ int Query(const CLI::App& app, const QueryFlags& flags) {
   return kDone;
 }
 
+// Those that rows of an optimiser follow, and the tracker.
+std::vector<std::string> QueryMetrics() {
+  std::vector<std::string> names = MetricNames();
+  names.emplace_back("sliding");
+  return names;
+}
+
 }  // namespace
 
 Command AddQuery(CLI::App* app) {
@@ -201,13 +210,16 @@ Command AddQuery(CLI::App* app) {
   AddJson(app, &flags->json, "JSON Lines instead of CSV, one object a point");
   app->add_option("--metric", flags->metric)
       ->description(
-          "sliding: a contact that does not jump inside, it slides over the "
+          "smoothed: the Euclidean depth; its direction the gradient of "
+          "occupancy smoothed over twice the smoothing length at the point "
+          "(smoothed-foot: at the contact).  sliding: a contact that does not "
+          "jump inside, it slides over the "
           "contact surface along the motion that the rows are; needs "
           "--tracked.  Its "
           "status is following, sliding (the contact is on its way), outside, "
           "left_elsewhere (outside, the depth jumped to zero) or invalid; its "
           "gradient that with the contact held, equal to direction")
-      ->check(CLI::IsMember({"phong", "euclidean", "sliding"}))
+      ->check(CLI::IsMember(QueryMetrics()))
       ->capture_default_str();
   AddField(app, &flags->field);
   app->add_option("--smoothing-length", flags->smoothing_length,

@@ -101,7 +101,7 @@ Json AddMetric(const World& world, const OptimizeRequest& request,
   const PenetrationSpec& spec = request.penetration;
   const bool is_phong = spec.metric == MetricKind::kPhong;
   std::optional<ResolvedLength> smoothing;
-  if (!is_window && is_phong) {
+  if (!is_window && HasLength(spec.metric)) {
     smoothing = world.Resolve(spec.smoothing_length);
   }
   const std::string jacobian =

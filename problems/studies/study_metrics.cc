@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "core/projection/euclidean_metric.h"
+#include "problems/studies/control_metrics.h"
 #include "problems/studies/followed_metric.h"
 
 namespace phongpd {
@@ -96,6 +97,18 @@ StudyMetric ParseStudyMetric(const std::string& text, const std::string& what) {
     return metric;
   }
   std::string rest = text;
+  // Controls, of which the options' ℓ is all that they take.
+  const bool is_placebo = TakePrefix("placebo@", &rest);
+  if (is_placebo || TakePrefix("diffused@", &rest)) {
+    metric.penetration = ParsePenetration("phong@" + rest, what);
+    const auto make = is_placebo ? MakePlaceboMetric : MakeDiffusedMetric;
+    metric.own = OwnMetric{
+        is_placebo ? "placebo" : "diffused", text,
+        [make](const ContactSpace& space, const PhongMetricOptions& options) {
+          return make(space, options.field_options.smoothing_length);
+        }};
+    return metric;
+  }
   const bool is_mixed = TakePrefix("mixed@", &rest);
   if (!is_mixed && !TakePrefix("faded@", &rest)) {
     metric.penetration = ParsePenetration(text, what);

@@ -48,7 +48,8 @@ struct StudyMetric {
   std::string Name() const { return own ? own->name : penetration.Name(); }
 };
 
-// The metrics above by name, "followed", "mixed@L" and "faded@L", and all that
+// The metrics above by name, "followed", "mixed@L" and "faded@L", the controls
+// "diffused@L" and "placebo@L" (control_metrics.h), and all that
 // ParsePenetration takes.  Throws InputError starting with `what`.
 StudyMetric ParseStudyMetric(const std::string& text, const std::string& what);
 

@@ -31,7 +31,8 @@ from ._answers import Diagnosis, Plan, Trajectory
 from ._contact import ContactSpace, minkowski
 from ._depth import Depth, DepthQuery, depth
 from ._fleet import Fleet, optimize_fleet
-from ._metrics import EuclideanMetric, Penetration, PhongMetric, QueryResult
+from ._metrics import (EuclideanMetric, Penetration, PhongMetric, QueryResult,
+                       SmoothedMetric)
 from ._motion import Motion
 from ._native import BuildCancelled, BuildRefusal, InputError, __version__
 from ._piece import ContactSpacePiece
@@ -48,7 +49,7 @@ __all__ = [
     "Depth", "DepthQuery", "Diagnosis", "Disassembly", "EuclideanMetric",
     "Fleet", "InputError", "Motion", "NonPenetrationRows", "Penetration",
     "PenetrationTracker", "PhongMetric", "Plan", "QueryResult", "Removal",
-    "RigidCheck", "RigidJudge", "Roadmap", "Solid", "TrackedMotion",
-    "Trajectory", "View", "World", "__version__", "depth", "disassemble",
-    "minkowski", "optimize_fleet", "remove", "view",
+    "RigidCheck", "RigidJudge", "Roadmap", "SmoothedMetric", "Solid",
+    "TrackedMotion", "Trajectory", "View", "World", "__version__", "depth",
+    "disassemble", "minkowski", "optimize_fleet", "remove", "view",
 ]

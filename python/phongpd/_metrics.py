@@ -188,3 +188,26 @@ class EuclideanMetric(_Metric):
 
     def __init__(self, space: ContactSpace) -> None:
         self._native = _native.Metric.euclidean(native_space(space))
+
+
+class SmoothedMetric(_Metric):
+    """Euclidean depth with a smoothed direction.
+
+    signed_distance, contact and gradient are the EuclideanMetric's.  direction
+    is, inside, the gradient of occupancy smoothed over 2 smoothing_length at
+    the point, or at_contact, at its contact; outward.  Where that is not known,
+    deeper than this or in the middle of what is symmetric, it is the Euclidean
+    one, and the status euclidean_fallback.
+
+    smoothing_length: a share of D in [1e-9, 1]; None:
+    DEFAULT_SMOOTHING_LENGTH.
+    """
+
+    def __init__(self, space: ContactSpace,
+                 smoothing_length: float | None = None, *,
+                 at_contact: bool = False) -> None:
+        if smoothing_length is None:
+            smoothing_length = DEFAULT_SMOOTHING_LENGTH
+        self._native = _native.Metric.smoothed(
+            native_space(space), real(smoothing_length, "smoothing_length"),
+            flag(at_contact, "at_contact"))

@@ -44,6 +44,7 @@ class NonPenetrationRows:
     metric: as `phongpd optimize` names them.  Inside, the derivative of
     "phong@0.2" is the metric's unit direction, which is continuous, and not the
     slope of d, which jumps at edges; "phong@0.2/exact" has the slope.
+    "smoothed@0.2" is the Euclidean depth with a smoothed direction.
 
     A Phong depth follows a branch.  Branches are chosen at the first u that is
     asked, and advanced by `accept` alone, best once an iteration: between two

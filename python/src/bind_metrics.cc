@@ -9,6 +9,7 @@
 #include "core/projection/euclidean_metric.h"
 #include "core/projection/phong_metric.h"
 #include "core/projection/query_batch.h"
+#include "core/projection/smoothed_metric.h"
 #include "python/src/arrays.h"
 #include "python/src/bindings.h"
 #include "python/src/computing.h"
@@ -37,6 +38,15 @@ Metric Phong(const ContactSpace& space, double smoothing_length,
 Metric Euclidean(const ContactSpace& space) {
   const Computing computing;
   return {space, std::make_shared<const EuclideanMetric>(space)};
+}
+
+Metric Smoothed(const ContactSpace& space, double smoothing_length,
+                bool is_at_contact) {
+  SmoothedMetricOptions options;
+  options.smoothing_length = smoothing_length;
+  if (is_at_contact) options.at = SmoothedAt::kContact;
+  const Computing computing;
+  return {space, std::make_shared<const SmoothedMetric>(space, options)};
 }
 
 // Columns of one row a point; `tracked` carries the branch from row to row.
@@ -101,6 +111,7 @@ void BindMetrics(nb::module_& module) {
   nb::class_<Metric>(module, "Metric")
       .def_static("phong", &Phong)
       .def_static("euclidean", &Euclidean)
+      .def_static("smoothed", &Smoothed)
       .def("query", &Query)
       .def("at", &At, nb::arg("q"), nb::arg("after").none());
   nb::class_<Answer>(module, "Answer")

@@ -166,6 +166,10 @@ OPTIONS = {
     "sum operand": (lambda v: phongpd.minkowski(T.robot, v), [3, None, [1]]),
     "smoothing_length": (lambda v: phongpd.PhongMetric(T.space, v),
                          ["long", [1, 2], -1, 2, np.nan]),
+    "smoothed length": (lambda v: phongpd.SmoothedMetric(T.space, v),
+                        ["long", [1, 2], 0, 2, np.nan]),
+    "smoothed at_contact": (lambda v: phongpd.SmoothedMetric(
+        T.space, at_contact=v), ["a", 7]),
     "metric of": (phongpd.EuclideanMetric, [3, None, T.robot]),
     "tracked": (lambda v: T.phong.query(ROWS, tracked=v), ["a", 7]),
     "after": (lambda v: T.phong.at(ROWS[0], after=v), [3, "a"]),

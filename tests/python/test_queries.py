@@ -37,6 +37,28 @@ def test_phong_has_euclids_sign_and_is_never_shallower(space, ell):
     assert np.abs(lengths - 1).max() < 1e-12
 
 
+@pytest.mark.parametrize("at_contact", [False, True])
+def test_smoothed_has_euclids_depth_and_a_direction_across_its_jump(
+        space, at_contact):
+    points = np.random.default_rng(4).uniform(-1, 2, (2000, 3))
+    smoothed = phongpd.SmoothedMetric(space, 0.1, at_contact=at_contact)
+    answer = smoothed.query(points)
+    euclid = phongpd.EuclideanMetric(space).query(points)
+    for name in ("inside", "signed_distance", "contact", "gradient",
+                 "triangle"):
+        assert (getattr(answer, name) == getattr(euclid, name)).all()
+    assert (answer.direction == euclid.direction)[~answer.inside].all()
+    assert np.abs(np.linalg.norm(answer.direction, axis=1) - 1).max() < 1e-12
+    known = answer.inside & (answer.status == 0)
+    assert known.sum() > 100
+    # The planes y = 1 and z = 1 of the box are as near; so is no other.
+    ridge = smoothed.at([0.9, 0.9, 0.9])
+    if not at_contact:
+        assert np.allclose(ridge.direction[1], ridge.direction[2], atol=1e-12)
+    deep = phongpd.SmoothedMetric(space, 0.01).at([0.9, 0.0, 0.0])
+    assert deep.status == "euclidean_fallback"
+
+
 def test_a_batch_is_one_query_a_point_to_the_byte(space):
     metric = phongpd.PhongMetric(space)
     points = np.random.default_rng(5).uniform(-1, 2, (9000, 3))
@@ -81,7 +103,8 @@ def test_the_tracker_never_jumps(space):
 
 
 def test_points_that_are_not_finite_are_invalid(space):
-    for metric in (phongpd.PhongMetric(space), phongpd.EuclideanMetric(space)):
+    for metric in (phongpd.PhongMetric(space), phongpd.EuclideanMetric(space),
+                   phongpd.SmoothedMetric(space)):
         answer = metric.query([[np.nan, 0, 0], [np.inf, 0, 0], [0, 0, 0]])
         assert answer.statuses[:2] == ["invalid", "invalid"]
         assert (answer.contact[:2] == 0).all()

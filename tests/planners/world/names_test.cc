@@ -64,11 +64,15 @@ TEST(Names, OfModelsReadBack) {
 TEST(Names, OfMetricsReadBack) {
   for (const char* name :
        {"euclidean", "phong@0", "phong@0.2", "phong@0.5unit/exact",
-        "phong@0.1/tangent-plane", "phong@0.1/tangent-plane/exact"}) {
+        "phong@0.1/tangent-plane", "phong@0.1/tangent-plane/exact",
+        "smoothed@0.2", "smoothed-foot@0.5unit"}) {
     EXPECT_EQ(ParsePenetration(name, "metric").Name(), name);
   }
-  for (const char* name : {"", "phong", "phong@", "phong@-1", "phong@0.1/some",
-                           "phong@0.1/exact/tangent-plane/exact", "euclid"}) {
+  for (const char* name :
+       {"", "phong", "phong@", "phong@-1", "phong@0.1/some",
+        "phong@0.1/exact/tangent-plane/exact", "euclid", "euclidean@0.2",
+        "smoothed@", "smoothed@0", "smoothed@0.2/exact",
+        "smooth@0.2", "@0.2"}) {
     EXPECT_THROW(ParsePenetration(name, "metric"), InputError) << name;
   }
   // Of Euclid nothing else counts; a length beyond D is no share of it.
@@ -80,6 +84,28 @@ TEST(Names, OfMetricsReadBack) {
   EXPECT_DOUBLE_EQ(spec.Options(10.0).phong.field_options.smoothing_length,
                    0.3);
   EXPECT_THROW(spec.Options(2.0), InputError);
+  for (const std::string& name : MetricNames()) {
+    EXPECT_EQ(ToString(ParseMetricKind(name, "metric")), name);
+  }
+  EXPECT_THROW(ParseMetricKind("smooth", "metric"), InputError);
+}
+
+TEST(Names, OfSmoothedMetricsTakeALengthAndTheDirectionAlone) {
+  EXPECT_EQ(ParsePenetration("smoothed", "metric").Name(), "smoothed@0.2");
+  EXPECT_EQ(ParsePenetration("smoothed-foot", "metric").Name(),
+            "smoothed-foot@0.2");
+  PenetrationSpec spec = ParsePenetration("smoothed@3unit", "metric");
+  EXPECT_EQ(spec.Options(10.0).metric, MetricKind::kSmoothed);
+  EXPECT_DOUBLE_EQ(spec.Options(10.0).smoothing_length, 0.3);
+  EXPECT_THROW(spec.Options(2.0), InputError);
+  spec.metric = MetricKind::kSmoothedFoot;
+  EXPECT_EQ(spec.Name(), "smoothed-foot@3unit");
+  spec.jacobian = JacobianKind::kExact;
+  EXPECT_THROW(spec.Options(10.0), InputError);
+  spec = PenetrationSpec();
+  spec.metric = MetricKind::kSmoothed;
+  spec.smoothing_length = Length::FromShare(0.0);
+  EXPECT_THROW(spec.Options(10.0), InputError);
 }
 
 TEST(Names, OfStatusesDifferAndTellFreePathsFromBlockedEnds) {

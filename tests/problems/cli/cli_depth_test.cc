@@ -124,6 +124,39 @@ TEST_F(Cli, DepthTellsPhongPDWhereASmoothingLengthAsksForIt) {
   ExpectRefused(command + " --smoothing-length 9unit", {"--smoothing-length"});
 }
 
+TEST_F(Cli, DepthTellsTheSmoothedDirectionOfTheWholeContactSpace) {
+  const std::string command = "depth ../ball.off ../box.off --at 0.3 0.1 0.7";
+  WriteMesh(MakeIcoBall(0.3, 1), File("ball.off"));
+  ASSERT_EQ(Run("contact-space --robot ../ball.off --obstacle ../box.off "
+                "--output ../c.pcs")
+                .code,
+            0);
+  WriteText("q.csv", "x,y,z\n0.3,0.1,0.7\n");
+  for (const std::string metric : {"smoothed", "smoothed-foot"}) {
+    const std::string flags =
+        " --metric " + metric + " --smoothing-length 0.1 ";
+    const Json answer = Json::parse(Run(command + flags + "--json").out);
+    const Json& found = answer["smoothed"];
+    EXPECT_EQ(found["metric"], metric);
+    EXPECT_EQ(found["status"], "ok");
+    EXPECT_NEAR(found["depth"].get<double>(), answer["depth"].get<double>(),
+                1e-12);
+    const Json whole = Json::parse(
+        Run("query --contact-space ../c.pcs --points ../q.csv --json" + flags)
+            .out);
+    for (int k = 0; k < 3; ++k) {
+      EXPECT_NEAR(found["direction"][k].get<double>(),
+                  whole["direction"][k].get<double>(), 1e-9);
+    }
+    const Outcome text = Run(command + flags);
+    EXPECT_NE(text.out.find(metric + ", ℓ = 0.1: depth "), std::string::npos)
+        << text.out;
+  }
+  ExpectRefused(command + " --metric smoothed --smoothing-length 0",
+                {"--smoothing-length", "> 0"});
+  ExpectRefused(command + " --metric euclidean", {"--metric"});
+}
+
 TEST_F(Cli, DepthRefusesPosesThatAreNoneWithFileAndRow) {
   const std::string command = "depth ../box.off ../box.off --pose ../p.csv";
   const std::string header = "x,y,z,qw,qx,qy,qz\n0,0,0,1,0,0,0\n";

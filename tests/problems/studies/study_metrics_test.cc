@@ -13,8 +13,10 @@
 #include "core/bvh/closest_on_triangle.h"
 #include "core/mesh/mesh_error.h"
 #include "core/projection/euclidean_metric.h"
+#include "core/projection/smoothed_metric.h"
 #include "problems/shapes/random_solids.h"
 #include "problems/shapes/shapes.h"
+#include "problems/studies/control_metrics.h"
 
 namespace phongpd {
 namespace {
@@ -236,6 +238,51 @@ TEST(ParseStudyMetric, KnowsItsNamesAndRefusesOthers) {
   EXPECT_FALSE(ParseStudyMetric("phong@0.2", "--metrics").own);
   for (const char* text : {"followed@0.1", "mixed", "mixed@x", "faded@-1"}) {
     EXPECT_THROW(ParseStudyMetric(text, "--metrics"), InputError) << text;
+  }
+}
+
+// The direction alone is another: value and contact are Euclid's, bit for bit.
+TEST(ControlMetrics, DifferFromEuclidByTheirDirectionAlone) {
+  const ContactSpace space = TurnedU();
+  const EuclideanMetric euclid(space);
+  const SmoothedMetric smoothed(space);
+  const auto placebo = MakePlaceboMetric(space, 0.2);
+  const auto diffused = MakeDiffusedMetric(space, 0.2);
+  Vector3d to_sides = Vector3d::Zero();
+  int turned = 0;
+  for (const Vector3d& q : InteriorPoints(space, 300)) {
+    const PenetrationResult e = euclid.Query(q);
+    for (const auto& metric : {placebo, diffused}) {
+      const PenetrationResult found = metric->Query(q);
+      EXPECT_EQ(found.signed_distance, e.signed_distance);
+      EXPECT_EQ(found.contact, e.contact);
+      EXPECT_NEAR(found.direction.norm(), 1.0, 1e-12);
+      EXPECT_EQ(found.direction, found.gradient);
+      EXPECT_EQ(metric->Query(q).direction, found.direction);
+    }
+    const double angle = std::acos(
+        std::clamp(smoothed.Query(q).direction.dot(e.direction), -1.0, 1.0));
+    const Vector3d lot = placebo->Query(q).direction;
+    EXPECT_NEAR(std::acos(std::clamp(lot.dot(e.direction), -1.0, 1.0)), angle,
+                1e-6);
+    to_sides += lot - lot.dot(e.direction) * e.direction;
+    turned += angle > 0.05 ? 1 : 0;
+  }
+  EXPECT_GT(turned, 100);
+  // By lot: the sides cancel.
+  EXPECT_LT(to_sides.norm() / 300.0, 0.1);
+  const Vector3d outside = 2.0 * space.bounds().max;
+  EXPECT_EQ(placebo->Query(outside).signed_distance,
+            euclid.Query(outside).signed_distance);
+}
+
+// Of a ball every normal leads from its centre, diffused or not.
+TEST(ControlMetrics, DiffusedLeadsOutOfABallAsEuclidDoes) {
+  const ContactSpace ball = TakeAsContactSpace(MakeIcoBall(1.0, 4));
+  const auto diffused = MakeDiffusedMetric(ball, 0.2);
+  for (const Vector3d& q : InteriorPoints(ball, 100)) {
+    if (q.norm() < 0.2) continue;
+    EXPECT_GT(diffused->Query(q).direction.dot(q.normalized()), 0.99);
   }
 }
 

@@ -1,0 +1,253 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/projection/smoothed_normal.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "core/bvh/triangle_bvh.h"
+#include "core/mesh/finite.h"
+#include "core/mesh/mesh_error.h"
+#include "core/number_text.h"
+#include "core/pi.h"
+#include "core/projection/normal_moments.h"
+
+namespace phongpd {
+
+using Eigen::Vector3d;
+using internal::NormalMoments;
+
+namespace {
+
+constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
+// What one term of a sum rounds to, in shares of itself: the few operations it
+// takes.
+constexpr double kTermRounding = 8.0 * kEpsilon;
+// Of the diagonal: less is not much more than what coordinates round to.
+constexpr double kLeastRadius = 1e-9;
+// Triangles from which a subtree keeps its moments: about as many as take the
+// time of one evaluation, memory considered.
+constexpr int kLeastSummed = 8;
+
+// What the edges of a triangle give, in lengths of ρ, times 6.
+struct EdgeSum {
+  double value = 0.0;
+  double rounding = 0.0;
+  bool meets_disc = false;
+  bool is_around = true;  // the foot is left of all edges
+};
+
+// Angle at which the foot sees the part from a to b of a line at the signed
+// distance d: away from the foot, a and b of one sign.
+double Angle(double d, double a, double b) {
+  return std::atan2(d * (b - a), d * d + a * b);
+}
+
+// The edge from p to q, relative to x, of a triangle with the unit normal n;
+// rr = R².
+void AddEdge(const Vector3d& p, const Vector3d& q, const Vector3d& n, double rr,
+             EdgeSum* sum) {
+  const Vector3d edge = q - p;
+  const double length = edge.norm();
+  if (!(length > 0.0)) return;
+  const Vector3d along = edge / length;
+  const double y_p = p.dot(along), y_q = q.dot(along);
+  // From the nearer end, which rounds less.
+  const Vector3d& near = std::abs(y_p) < std::abs(y_q) ? p : q;
+  const double d = n.dot(near.cross(along));
+  if (!(d > 0.0)) sum->is_around = false;
+  const double dd = d * d;
+  const double half_chord = dd < rr ? std::sqrt(rr - dd) : 0.0;
+  const double from = std::max(y_p, -half_chord);
+  const double to = std::min(y_q, half_chord);
+  const double disc = rr * rr * rr;
+  double outside = 0.0;
+  if (!(from < to)) {
+    outside = Angle(d, y_p, y_q);
+  } else {
+    sum->meets_disc = true;
+    if (y_p < from) outside += Angle(d, y_p, from);
+    if (to < y_q) outside += Angle(d, to, y_q);
+    // d ∫ 3R⁴ − 3R²(d² + y²) + (d² + y²)² dy around the middle.
+    const double m = 0.5 * (from + to), k = 0.5 * (to - from);
+    const double mm = m * m, kk = k * k;
+    const double y2 = mm + kk / 3.0;
+    const double y4 = mm * mm + 2.0 * mm * kk + kk * kk / 5.0;
+    const double inside =
+        2.0 * k *
+        (3.0 * rr * (rr - dd) + dd * dd + (2.0 * dd - 3.0 * rr) * y2 + y4);
+    sum->value += d * inside;
+    sum->rounding += inside * (std::abs(d) + near.norm());
+  }
+  sum->value += disc * outside;
+  sum->rounding += disc * std::abs(outside);
+}
+
+// Adds ∫ w n dA/ρ² of a triangle, corners relative to x in lengths of ρ.
+void AddTriangle(const TriangleCorners& c, const Vector3d& n,
+                 SmoothedNormal* sum) {
+  const double far_0 = c[0].squaredNorm(), far_1 = c[1].squaredNorm(),
+               far_2 = c[2].squaredNorm();
+  const Vector3d& near = far_0 < far_1 ? (far_0 < far_2 ? c[0] : c[2])
+                                       : (far_1 < far_2 ? c[1] : c[2]);
+  const double h = n.dot(near);
+  const double rr = 1.0 - h * h;
+  if (!(rr > 0.0)) return;
+  EdgeSum edges;
+  AddEdge(c[0], c[1], n, rr, &edges);
+  AddEdge(c[1], c[2], n, rr, &edges);
+  AddEdge(c[2], c[0], n, rr, &edges);
+  if (!edges.meets_disc) {
+    // All of the disc or nothing of it.
+    if (!edges.is_around) return;
+    edges.value = 2.0 * kPi * rr * rr * rr;
+    edges.rounding = edges.value;
+  }
+  sum->integral += (edges.value / 6.0) * n;
+  // h rounds with the corner it is from, and R² with h.
+  const double rounding = edges.rounding * (1.0 + near.norm() / rr);
+  sum->rounding += kTermRounding * rounding / 6.0;
+}
+
+}  // namespace
+
+struct SmoothedNormals::Impl {
+  Impl(const ContactSpace& the_space, double the_radius)
+      : space(the_space),
+        bvh(&space.bvh()),
+        normals(space.normals()),
+        radius(the_radius),
+        k(1.0 / (radius * bvh->scale())),
+        moments_of(bvh->tree().nodes().size(), -1) {
+    // Walls of a part of C_cont are none of it.
+    const std::vector<ContactKind>& kind = space.kind();
+    for (std::size_t t = 0; t < kind.size(); ++t) {
+      if (kind[t] == ContactKind::kNone) normals[t].setZero();
+    }
+    Sum(0);
+  }
+
+  // In the frame's lengths, however far off the origin.
+  Vector3d Between(const Vector3d& from, const Vector3d& to) const {
+    return (to - from) * bvh->scale();
+  }
+  Vector3d Center(const BoxTree::Node& node) const {
+    return 0.5 * node.min + 0.5 * node.max;
+  }
+
+  struct Part {
+    NormalMoments moments;  // around the box's centre
+    int count = 0;          // of triangles
+  };
+
+  // Of a subtree; keeps it, and those below it, where they are large enough.
+  Part Sum(int index) {
+    const BoxTree::Node& node =
+        bvh->tree().nodes()[static_cast<std::size_t>(index)];
+    const Vector3d center = Center(node);
+    Part part;
+    if (node.IsLeaf()) {
+      for (int i = node.first; i < node.first + node.count; ++i) {
+        const TriangleCorners& c = bvh->corners()[static_cast<std::size_t>(i)];
+        part.moments +=
+            NormalMoments({Between(center, c[0]), Between(center, c[1]),
+                           Between(center, c[2])},
+                          NormalAt(i));
+      }
+      part.count = node.count;
+    } else {
+      for (const int child : {node.first, node.first + 1}) {
+        const Part below = Sum(child);
+        const Vector3d from =
+            Center(bvh->tree().nodes()[static_cast<std::size_t>(child)]);
+        part.moments += below.moments.Shifted(Between(center, from));
+        part.count += below.count;
+      }
+    }
+    if (part.count >= kLeastSummed) {
+      moments_of[static_cast<std::size_t>(index)] =
+          static_cast<int>(moments.size());
+      moments.push_back(part.moments);
+    }
+    return part;
+  }
+
+  // Of the triangle at a position in the tree's order.
+  const Vector3d& NormalAt(int position) const {
+    return normals[static_cast<std::size_t>(
+        bvh->tree().order()[static_cast<std::size_t>(position)])];
+  }
+
+  // Adds all of a subtree that is within ρ; false where that is not known or
+  // its triangles are quicker.
+  bool AddWhole(const Vector3d& x, int index, SmoothedNormal* sum) const {
+    const int kept = moments_of[static_cast<std::size_t>(index)];
+    if (kept < 0) return false;
+    const BoxTree::Node& node =
+        bvh->tree().nodes()[static_cast<std::size_t>(index)];
+    const Vector3d reach = (Between(x, node.min).cwiseAbs())
+                               .cwiseMax(Between(x, node.max).cwiseAbs());
+    if (!((k * reach).squaredNorm() <= 1.0)) return false;
+    const NormalMoments& m = moments[static_cast<std::size_t>(kept)];
+    const double kk = k * k;
+    sum->integral += kk * m.Weighted(Between(x, Center(node)), k);
+    sum->rounding += kTermRounding * kk * m.area();
+    return true;
+  }
+
+  ContactSpace space;
+  const TriangleBvh* bvh;         // of the space, which keeps it
+  std::vector<Vector3d> normals;  // of triangles; zero: counts for nothing
+  double radius;
+  double k;                     // 1/ρ in the frame of the tree
+  std::vector<int> moments_of;  // by node; −1: not kept
+  std::vector<NormalMoments> moments;
+};
+
+SmoothedNormals::SmoothedNormals(const ContactSpace& space, double radius) {
+  const double least = kLeastRadius * space.bounds().Diagonal();
+  if (!(radius >= least) || !std::isfinite(radius)) {
+    throw InputError("smoothed normals: expected a finite radius ≥ " +
+                     FormatDouble(least) + " (1e-9 of the diagonal), found " +
+                     FormatDouble(radius));
+  }
+  impl_ = std::make_unique<Impl>(space, radius);
+}
+SmoothedNormals::~SmoothedNormals() = default;
+SmoothedNormals::SmoothedNormals(SmoothedNormals&&) noexcept = default;
+SmoothedNormals& SmoothedNormals::operator=(SmoothedNormals&&) noexcept =
+    default;
+
+SmoothedNormal SmoothedNormals::At(const Vector3d& x) const noexcept {
+  const Impl& impl = *impl_;
+  SmoothedNormal sum;
+  if (!IsFinite(x - impl.bvh->center())) return sum;
+  const BoxTree& tree = impl.bvh->tree();
+  tree.ForEach(
+      [&](int index) {
+        const BoxTree::Node& node =
+            tree.nodes()[static_cast<std::size_t>(index)];
+        const Vector3d gap = impl.k * impl.Between(x, node.min)
+                                          .cwiseMax(impl.Between(node.max, x))
+                                          .cwiseMax(0.0);
+        return gap.squaredNorm() < 1.0 && !impl.AddWhole(x, index, &sum);
+      },
+      [&](int position) {
+        const Vector3d& n = impl.NormalAt(position);
+        if (n.isZero(0.0)) return true;
+        const TriangleCorners& c =
+            impl.bvh->corners()[static_cast<std::size_t>(position)];
+        AddTriangle(
+            {impl.k * impl.Between(x, c[0]), impl.k * impl.Between(x, c[1]),
+             impl.k * impl.Between(x, c[2])},
+            n, &sum);
+        return true;
+      });
+  return sum;
+}
+
+double SmoothedNormals::radius() const { return impl_->radius; }
+
+}  // namespace phongpd

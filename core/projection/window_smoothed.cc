@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/projection/window_smoothed.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <mutex>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "core/contact/explored_boxes.h"
+#include "core/mesh/finite.h"
+
+namespace phongpd {
+namespace {
+
+using Eigen::Vector3d;
+
+// Facets of the convolution that meet a box, about.
+constexpr std::size_t kMostFacetsOfBox = 200;
+// Half-width of the first window, in what is known to be needed, and at least
+// a share of the longest side of all sums; of each further one to the one
+// before.
+constexpr double kFirstReach = 1.1, kLeastReach = 1.0 / 64, kMoreReach = 2.0;
+// What rounding may make of the two lengths that are compared.
+constexpr double kCertainShare = 1.0 - 1e-9;
+constexpr char kWindowName[] = "window of the contact space";
+
+}  // namespace
+
+struct WindowSmoothed::Impl {
+  // Boxes that hold all of a cube, grid steps; of everything, without walls.
+  struct Window {
+    ContactSpace space;
+    SmoothedMetric metric;
+    BoundingBox cube;
+    bool is_all = false;
+  };
+
+  Impl(const ConvolutionModel& the_model,
+       const SmoothedMetricOptions& the_options)
+      : model(the_model),
+        options((the_options.Validate(), the_options)),
+        boxes(model, kMostFacetsOfBox) {}
+
+  // From q to the cube's walls at most, user's unit; < 0 outside.
+  double MarginOf(const Window& of, const Vector3d& x) const {
+    if (of.is_all) return std::numeric_limits<double>::infinity();
+    return kCertainShare * boxes.frame().step *
+           (x - of.cube.min).cwiseMin(of.cube.max - x).minCoeff();
+  }
+
+  // Nothing where the window cannot tell.
+  std::optional<PenetrationResult> FromWindow(const Vector3d& q,
+                                              const Vector3d& x) const {
+    if (!window) return std::nullopt;
+    const double margin = MarginOf(*window, x);
+    if (!(margin > 0.0)) return std::nullopt;
+    const PenetrationResult found = window->metric.Query(q);
+    const double depth = std::abs(found.signed_distance);
+    double needed = std::max(depth, window->metric.radius());
+    if (options.at == SmoothedAt::kContact) {
+      needed = depth + window->metric.radius();
+    }
+    const auto triangle = static_cast<std::size_t>(found.triangle);
+    const bool is_certain =
+        needed <= margin && found.triangle >= 0 &&
+        window->space.kind()[triangle] != ContactKind::kNone;
+    return is_certain ? std::optional(found) : std::nullopt;
+  }
+
+  void Build(const BoundingBox& cube, bool is_all) {
+    const std::vector<int> part =
+        boxes.In(is_all ? boxes.Around(0.0).Box() : cube);
+    for (const int box : part) boxes.Explore(box);
+    ContactSpace::Parts parts =
+        boxes.Surface(part, [](int, int) { return true; });
+    if (is_all) internal::DropWalls(&parts);
+    const ContactSpace space = ContactSpace(std::move(parts), kWindowName)
+                                   .WithLength(model.bounds().Diagonal());
+    window.emplace(Window{space, SmoothedMetric(space, options), cube, is_all});
+  }
+
+  PenetrationResult Inside(const Vector3d& q, WindowPhongResult* out) {
+    const Vector3d x = boxes.frame().ToGrid(q);
+    boxes.RestartLimits();
+    const std::size_t before = boxes.faces();
+    const BoundingBox all = boxes.bounds();
+    const double radius =
+        SmoothedRadius(options, model.bounds().Diagonal()) / boxes.frame().step;
+    double reach = std::max(kFirstReach * radius,
+                            kLeastReach * (all.max - all.min).maxCoeff());
+    std::optional<PenetrationResult> found = FromWindow(q, x);
+    for (; !found; reach *= kMoreReach) {
+      const BoundingBox cube{x.array() - reach, x.array() + reach};
+      Build(cube, (cube.min.array() <= all.min.array()).all() &&
+                      (cube.max.array() >= all.max.array()).all());
+      ++out->windows;
+      found = FromWindow(q, x);
+    }
+    out->level = window->is_all ? DepthLevel::kFull : DepthLevel::kWindow;
+    out->arranged_faces = boxes.faces() - before;
+    return *found;
+  }
+
+  std::mutex mutex;
+  ConvolutionModel model;
+  SmoothedMetricOptions options;
+  internal::ExploredBoxes boxes;
+  std::optional<Window> window;  // the last one
+};
+
+WindowSmoothed::WindowSmoothed(const ConvolutionModel& model,
+                               const SmoothedMetricOptions& options)
+    : impl_(std::make_unique<Impl>(model, options)) {}
+WindowSmoothed::~WindowSmoothed() = default;
+WindowSmoothed::WindowSmoothed(WindowSmoothed&&) noexcept = default;
+WindowSmoothed& WindowSmoothed::operator=(WindowSmoothed&&) noexcept = default;
+
+WindowPhongResult WindowSmoothed::At(const Vector3d& q) {
+  WindowPhongResult out;
+  if (!IsFinite(q)) return out;
+  const std::lock_guard<std::mutex> lock(impl_->mutex);
+  PenetrationResult& answer = out.answer;
+  if (impl_->model.IsFree(q)) {
+    const ConvolutionModel::Nearest nearest = impl_->model.FindNearest(q);
+    answer.status = QueryStatus::kOk;
+    answer.signed_distance = nearest.distance;
+    answer.contact = nearest.point;
+    answer.direction = (q - nearest.point).normalized();
+    answer.gradient = answer.direction;
+    return out;
+  }
+  answer = impl_->Inside(q, &out);
+  answer.triangle = -1;
+  return out;
+}
+
+}  // namespace phongpd

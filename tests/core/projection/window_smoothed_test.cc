@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Truth: SmoothedMetric on the whole contact space.
+#include "core/projection/window_smoothed.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <random>
+#include <string>
+
+#include "core/contact/contact_space.h"
+#include "core/mesh/mesh_error.h"
+#include "core/projection/smoothed_metric.h"
+#include "problems/shapes/shapes.h"
+#include "tests/support/random_pairs.h"
+#include "tests/support/solid_tools.h"
+
+namespace phongpd {
+namespace {
+
+using Eigen::Vector3d;
+
+struct Tally {
+  int inside = 0, windows = 0, known = 0;
+};
+
+// Random points about the contact space, all asked of both.
+void Compare(const TriangleMesh& robot, const TriangleMesh& obstacle,
+             const SmoothedMetricOptions& options, int points,
+             std::mt19937_64* random, Tally* tally) {
+  const ContactSpace space = BuildContactSpace(robot, obstacle);
+  const SmoothedMetric truth(space, options);
+  WindowSmoothed smoothed(ConvolutionModel(robot, obstacle), options);
+  const double diagonal = space.bounds().Diagonal();
+  for (int i = 0; i < points; ++i) {
+    const Vector3d q = testing::RandomPoint(space.bounds(), random);
+    const PenetrationResult expected = truth.Query(q);
+    const WindowPhongResult found = smoothed.At(q);
+    const PenetrationResult& answer = found.answer;
+    EXPECT_EQ(answer.inside, expected.inside);
+    EXPECT_EQ(answer.status, expected.status);
+    EXPECT_NEAR(answer.signed_distance, expected.signed_distance,
+                1e-11 * diagonal);
+    if (!expected.inside) {
+      EXPECT_EQ(found.level, DepthLevel::kNone);
+      continue;
+    }
+    ++tally->inside;
+    tally->windows += found.level == DepthLevel::kWindow ? 1 : 0;
+    // Euclid's direction may be that to another contact as near.
+    if (expected.status != QueryStatus::kOk ||
+        (options.at == SmoothedAt::kContact &&
+         (answer.contact - expected.contact).norm() > 1e-9 * diagonal)) {
+      continue;
+    }
+    ++tally->known;
+    EXPECT_LT((answer.direction - expected.direction).norm(), 2e-6)
+        << q.transpose();
+  }
+}
+
+TEST(WindowSmoothed, AgreesWithTheWholeContactSpace) {
+  std::mt19937_64 random(21);
+  Tally tally;
+  const auto& kinds = AllPairKinds();
+  for (std::size_t i = 0; i < kinds.size(); ++i) {
+    if (kinds[i] == PairKind::kManyBoxes) continue;  // seconds each
+    SCOPED_TRACE(Name(kinds[i]));
+    const SolidPair pair = MakeRandomPair(kinds[i], 1);
+    for (const SmoothedAt at : {SmoothedAt::kPosition, SmoothedAt::kContact}) {
+      SmoothedMetricOptions options;
+      options.at = at;
+      options.smoothing_length = i % 2 == 0 ? 0.02 : 0.1;
+      Compare(pair.robot, pair.obstacle, options, 24, &random, &tally);
+    }
+  }
+  EXPECT_GT(tally.inside, 30);
+  EXPECT_GT(tally.known, tally.inside / 3);
+}
+
+TEST(WindowSmoothed, TakesWindowsForShortLengthsAndTheWholeForLongOnes) {
+  std::mt19937_64 random(3);
+  const TriangleMesh knot = MakeKnot(1.0, 0.3, 96, 16);
+  for (const double ell : {0.01, 0.5}) {
+    Tally tally;
+    SmoothedMetricOptions options;
+    options.smoothing_length = ell;
+    Compare(MakeIcoBall(0.4, 1), knot, options, 100, &random, &tally);
+    EXPECT_GT(tally.inside, 8);
+    if (ell < 0.1) {
+      EXPECT_GT(tally.windows, tally.inside / 2);
+    } else {
+      EXPECT_EQ(tally.windows, 0);
+    }
+  }
+}
+
+TEST(WindowSmoothed, RefusesWhatIsNone) {
+  const ConvolutionModel model(testing::Cube(1.0), testing::Cube(2.0));
+  SmoothedMetricOptions options;
+  options.smoothing_length = 0.0;
+  EXPECT_THROW(WindowSmoothed(model, options), InputError);
+  WindowSmoothed smoothed(model);
+  const double infinity = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(smoothed.At({infinity, 0, 0}).answer.status, QueryStatus::kInvalid);
+}
+
+}  // namespace
+}  // namespace phongpd

@@ -1,0 +1,98 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Statistics of results/study: by hand, by SciPy's own, and of rows whose
+answer is known."""
+import pathlib
+import sys
+
+import numpy as np
+import pytest
+from scipy import stats
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "results/bench"))
+import study_report  # noqa: E402
+from study_statistics import holm, interval, p_of_flips, verdict  # noqa: E402
+
+
+def test_flips_count_all_ways():
+    # Of 2^3 signs of (1, 2, 3) the two of the largest sum.
+    assert p_of_flips([1.0, 2.0, 3.0]) == 2 / 8
+    assert p_of_flips([1.0, -1.0]) == 1.0
+    assert p_of_flips([0.0, 0.0]) == 1.0
+    # Families without a difference decide nothing.
+    assert p_of_flips([1.0, 2.0, 3.0, 0.0]) == 2 / 8
+    values = np.random.default_rng(5).normal(0.4, 1.0, 14)
+    truth = stats.permutation_test(
+        (values,), np.mean, permutation_type="samples", n_resamples=np.inf)
+    assert p_of_flips(values) == pytest.approx(truth.pvalue, abs=1e-12)
+
+
+def test_intervals_are_those_of_scipys_bootstrap():
+    values = np.random.default_rng(7).normal(0.1, 0.2, 15)
+    own = interval(values, 0.95)
+    other = stats.bootstrap((values,), np.mean, n_resamples=10_000,
+                            method="percentile", random_state=3)
+    assert own == pytest.approx(tuple(other.confidence_interval), abs=0.01)
+    assert interval([0.25] * 6, 0.95) == (0.25, 0.25)
+
+
+def test_holm_by_hand():
+    assert holm([0.01, 0.04, 0.03]) == pytest.approx([0.03, 0.06, 0.06])
+    assert holm([0.5, 0.9]) == [1.0, 1.0]
+
+
+def test_a_tie_needs_a_narrow_interval():
+    assert verdict([0.01, -0.01, 0.005, 0.0], 1.0) == "tie"
+    assert verdict([0.2, -0.2, 0.1, -0.1], 1.0) == "open"
+    assert verdict([0.2, 0.3], 0.04) == "win"
+    assert verdict([-0.2, -0.3], 0.04) == "loss"
+
+
+def made_rows(won):
+    """Of 8 families; smoothed converges where the others do not, in `won`."""
+    rows = []
+    for family in range(8):
+        for protocol in study_report.PROTOCOLS:
+            for method in ("euclidean", "phong@0.2", "smoothed@0.2",
+                           "smoothed-foot@0.2", "diffused@0.2", "placebo@0.2"):
+                is_won = method.startswith("smoothed") and protocol in won
+                rows.append({
+                    "scene": f"f{family}:x=1", "family": f"f{family}", "seed": "1",
+                    "protocol": protocol, "method": method, "free": True,
+                    "converged": is_won, "stalled": False, "iterations": 10})
+    return rows
+
+
+def test_the_rule_follows_the_hypotheses():
+    everywhere = study_report.hypotheses(made_rows(study_report.PROTOCOLS))
+    words = {(one["name"], one["verdict"]) for one in everywhere}
+    # 2 of 2^8 ways, times 28 at most.
+    assert ("H1", "open") in words or ("H1", "win") in words
+    none = study_report.hypotheses(made_rows(()))
+    assert {one["verdict"] for one in none} == {"tie"}
+    assert "the default stays" in study_report.conclusion(none)
+    for one in everywhere:
+        one["verdict"] = "win" if one["name"] == "H1" else "open"
+    assert "becomes the default" in study_report.conclusion(everywhere)
+    everywhere[0]["verdict"] = "loss"
+    assert "the default stays" in study_report.conclusion(everywhere)
+
+
+def test_rows_of_incomplete_blocks_are_refused():
+    rows = made_rows(())[:-1]
+    with pytest.raises(SystemExit, match="incomplete"):
+        study_report.hypotheses(rows)
+
+
+def test_the_published_page_is_that_of_its_rows(tmp_path):
+    folder = ROOT / "results/study"
+    if not (folder / "rows.csv").exists():
+        pytest.skip("no rows yet")
+    (tmp_path / "rows.csv").write_bytes((folder / "rows.csv").read_bytes())
+    page = (folder / "README.md").read_text()
+    study_report.report(tmp_path, page.rstrip().splitlines()[-1])
+    assert (tmp_path / "README.md").read_text() == page
+
+
+if __name__ == "__main__":
+    sys.exit(pytest.main([__file__, "-q", "-p", "no:cacheprovider"]))
