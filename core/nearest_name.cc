@@ -36,6 +36,20 @@ std::string Letters(const std::string& name) {
   return letters;
 }
 
+// The only name that begins with the letters; empty for none and for several.
+std::string OnlyBeginning(const std::string& letters,
+                          const std::vector<std::string>& names) {
+  constexpr std::size_t kShortest = 3;  // fewer begin too much by chance
+  std::string only;
+  if (letters.size() < kShortest) return only;
+  for (const std::string& name : names) {
+    if (Letters(name).compare(0, letters.size(), letters) != 0) continue;
+    if (!only.empty() && name != only) return "";
+    only = name;
+  }
+  return only;
+}
+
 }  // namespace
 
 std::string DidYouMean(const std::string& word,
@@ -52,6 +66,7 @@ std::string DidYouMean(const std::string& word,
     least = distance;
     nearest = name;
   }
+  if (nearest.empty()) nearest = OnlyBeginning(letters, names);
   return nearest.empty() ? "" : "; did you mean " + nearest + "?";
 }
 

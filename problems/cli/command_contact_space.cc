@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "core/bounds/mesh_approximation.h"
 #include "core/contact/contact_space.h"
 #include "core/contact/contact_space_piece.h"
 #include "core/mesh/counted.h"
@@ -56,13 +57,24 @@ std::size_t ParseTargetFaces(const std::string& text) {
                    ("found " + text));
 }
 
+// Refused by the flag's name, and before a mesh is read.
+double ParseWrapAlpha(const std::string& text) {
+  const double alpha = ParseDouble(text, "--wrap");
+  if (alpha == 0.0 || (alpha >= kMinWrapAlpha && alpha <= kMaxWrapAlpha)) {
+    return alpha;
+  }
+  throw InputError("--wrap: expected a fraction of the diagonal from " +
+                   FormatDouble(kMinWrapAlpha) + " to " +
+                   FormatDouble(kMaxWrapAlpha) + ", found " + text);
+}
+
 // The flags that change the operands or the result.
 ContactSpaceOptions OptionsOf(const ContactSpaceFlags& flags) {
   ContactSpaceOptions options;
   options.outer_shell_only = flags.outer_shell_only;
   options.robot_hull = flags.robot_hull;
   options.target_faces = ParseTargetFaces(flags.target_faces);
-  options.wrap_alpha = ParseDouble(flags.wrap_alpha, "--wrap");
+  options.wrap_alpha = ParseWrapAlpha(flags.wrap_alpha);
   options.repair = ParseRepair(flags.repair, "--repair");
   options.max_seconds = flags.max_seconds;
   options.max_mib = flags.max_mib;

@@ -353,11 +353,13 @@ void AddStartFlags(CLI::App* app, OptimizeFlags* flags) {
   app->add_option("--start-noise", flags->noise,
                   "Of the waypoints of a straight start, as a fraction of its "
                   "length")
+      ->check(Between(0, 10))
       ->type_name("F")
       ->capture_default_str();
   app->add_option("--routes", flags->routes,
                   "Ways around the obstacles to optimise, 1 to 8 (preset's own "
                   "if not set)")
+      ->check(Between(1, 8))
       ->type_name("N");
   app->add_flag("--line,!--no-line", flags->line,
                 "Optimise from the colliding line as well as from the "
@@ -367,6 +369,7 @@ void AddStartFlags(CLI::App* app, OptimizeFlags* flags) {
 // How it gets on from there.
 void AddSolverFlags(CLI::App* app, OptimizeFlags* flags) {
   app->add_option("--rows", flags->rows, "Constraint rows a sample, 1 to 8")
+      ->check(Between(1, 8))
       ->type_name("K")
       ->capture_default_str();
   app->add_option("--mu-strategy", flags->mu_strategy, "Ipopt's own")
@@ -413,6 +416,7 @@ Command AddOptimize(CLI::App* app) {
           "goal of a family, and the noise",
           flags.get());
   app->add_option("--time", flags->time_limit, "Limit of a run, seconds")
+      ->check(Above(0.0))
       ->type_name("S");
   AddOutputFlags(app, flags.get());
   AddVerify(app, &flags->verify);

@@ -89,6 +89,7 @@ constexpr ProgramCommand kProgramCommands[] = {
     {"compare", "Compare penetration metrics in the trajectory optimiser",
      AddCompare},
     {"join", "Join the pieces of a contact space", AddJoin},
+    {"new", "Write a first scene file for two meshes, commented", AddNew},
     {"plan", "Plan a path, or prove that there is none", AddPlan},
     {"view", "Look at meshes, scenes, paths, motions and depths", AddView},
     {"scenes", "List or write the procedural scenes", AddScenes},
