@@ -8,6 +8,7 @@
 #include "planners/ompl/ompl_planning.h"
 #include "planners/world/bare_length.h"
 #include "problems/cli/command.h"
+#include "problems/cli/explanation.h"
 #include "problems/cli/flags.h"
 #include "problems/cli/seeded_runs.h"
 #include "problems/cli/timed_answer.h"
@@ -43,6 +44,7 @@ struct OptimizeFlags : SeededRunFlags {
   std::string model;
   WorldLimits limits;
   bool verify = true;
+  bool explain = false;
 };
 
 // Figures: results/trade, `scripts/bench.sh trade`.
@@ -206,7 +208,15 @@ int OptimizeInTime(const OptimizeFlags& flags, const MotionLimits& limits,
   timed.require = flags.require;
   timed.verify = flags.verify;
   timed.world = flags.limits;
-  return AnswerInTime(scene, timed, Optimize);
+  return AnswerInTime(
+      scene, timed, [&](const World& world, const OptimizeRequest& request) {
+        PathAnswer answer = Optimize(world, request);
+        if (flags.explain) {
+          TellExplanation(
+              ExplainTrajectory(*flags.app, world, request, answer));
+        }
+        return answer;
+      });
 }
 
 // Seed 0 is the scene as it stands.
@@ -274,6 +284,9 @@ class OptimizeRuns {
     const PathAnswer answer = Optimize(world, request);
     model_ = answer.evidence.model;
     if (is_first) TellTrajectoryModel(answer.evidence);
+    if (is_first && flags_.explain) {
+      TellExplanation(ExplainTrajectory(*flags_.app, world, request, answer));
+    }
     if (answer.status == PathStatus::kVerificationFailed && refuted_.empty()) {
       refuted_ = scene_.name + ": " + answer.reason;
     }
@@ -419,6 +432,7 @@ Command AddOptimize(CLI::App* app) {
       ->check(Above(0.0))
       ->type_name("S");
   AddOutputFlags(app, flags.get());
+  AddExplain(app, &flags->explain);
   AddVerify(app, &flags->verify);
   AddNoCache(app, &flags->no_cache);
   AddExamples(

@@ -8,6 +8,7 @@
 #include "planners/retraction/retraction_names.h"
 #include "planners/world/bare_length.h"
 #include "problems/cli/command.h"
+#include "problems/cli/explanation.h"
 #include "problems/cli/flags.h"
 #include "problems/cli/seeded_runs.h"
 #include "problems/meshes/operand_notes.h"
@@ -35,6 +36,7 @@ struct PlanFlags : SeededRunFlags {
   bool require = false;
   std::string ompl_log;
   bool verify = true;
+  bool explain = false;
 };
 
 RunSummary SummarizePlan(const nlohmann::ordered_json& row) {
@@ -165,6 +167,9 @@ int AnswerPlan(const PlanFlags& flags) {
              std::to_string(flags.runs));
     const PathAnswer answer = Plan(world, request);
     if (i == runs.kept()) TellPlanModel(request, answer);
+    if (i == runs.kept() && flags.explain) {
+      TellExplanation(ExplainPlan(*flags.app, world, request, answer));
+    }
     if (answer.status == PathStatus::kVerificationFailed && refuted.empty()) {
       refuted = scene.name + ": " + answer.reason;
     }
@@ -239,6 +244,7 @@ Command AddPlan(CLI::App* app) {
                   "log, which OMPL's statistics script reads")
       ->type_name("FILE");
   AddPictures(app, flags.get());
+  AddExplain(app, &flags->explain);
   AddVerify(app, &flags->verify);
   AddNoCache(app, &flags->no_cache);
   AddExamples(
