@@ -66,12 +66,14 @@ PenetrationSpec ParsePenetration(const std::string& text,
     spec.metric = MetricKind::kEuclidean;
     return spec;
   }
+  if (text == ToString(MetricKind::kPhong)) return spec;
   std::string length = text;
   if (!TakePrefix(kPhongPrefix, &length)) {
-    throw InputError(what +
-                     ": expected euclidean, phong@LENGTH, phong@LENGTH/exact "
-                     "or phong@LENGTH/tangent-plane, found '" +
-                     text + "'");
+    throw InputError(
+        what +
+        ": expected euclidean, phong, phong@LENGTH, phong@LENGTH/exact "
+        "or phong@LENGTH/tangent-plane, found '" +
+        text + "'");
   }
   if (TakeSuffix(kExactSuffix, &length)) spec.jacobian = JacobianKind::kExact;
   if (TakeSuffix(kTangentPlaneSuffix, &length)) {

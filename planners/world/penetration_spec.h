@@ -26,7 +26,7 @@ struct PenetrationSpec {
   SignedMetricOptions Options(double diagonal) const;
 };
 
-// Reads "euclidean", "phong@L" with the smoothing length L (length.h), with
+// Reads "euclidean", "phong" as it is by default, "phong@L" with the smoothing length L (length.h), with
 // "/tangent-plane" the paper's field, with "/exact" the exact Jacobian.  Throws
 // InputError starting with `what`.
 PenetrationSpec ParsePenetration(const std::string& text,

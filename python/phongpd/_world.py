@@ -188,8 +188,8 @@ class World(Shown):
         arrival: velocity (3,), or velocity and acceleration (2, 3), with which
         it begins and ends; None: the scene's, at rest if it has none.
 
-        Without.  metric: "phong@L" with a smoothing length, "euclidean"; "":
-        the scene's.  waypoints: free ones; 0: the scene's.  seed: of
+        Without.  metric: "phong", by the scene's smoothing length, "phong@L"
+        by that one, "euclidean"; "": the scene's.  waypoints: free ones; 0: the scene's.  seed: of
         straightening.  straight: start from the line even where it collides, as
         comparisons do.
         """

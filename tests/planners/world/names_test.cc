@@ -67,10 +67,13 @@ TEST(Names, OfMetricsReadBack) {
         "phong@0.1/tangent-plane", "phong@0.1/tangent-plane/exact"}) {
     EXPECT_EQ(ParsePenetration(name, "metric").Name(), name);
   }
-  for (const char* name : {"", "phong", "phong@", "phong@-1", "phong@0.1/some",
+  for (const char* name : {"", "phongg", "phong@", "phong@-1", "phong@0.1/some",
                            "phong@0.1/exact/tangent-plane/exact", "euclid"}) {
     EXPECT_THROW(ParsePenetration(name, "metric"), InputError) << name;
   }
+  // As flags name the kind alone: all else is the default.
+  EXPECT_EQ(ParsePenetration("phong", "metric").Name(),
+            PenetrationSpec().Name());
   // Of Euclid nothing else counts; a length beyond D is no share of it.
   PenetrationSpec spec;
   spec.metric = MetricKind::kEuclidean;
