@@ -26,9 +26,9 @@ struct PenetrationSpec {
   SignedMetricOptions Options(double diagonal) const;
 };
 
-// Reads "euclidean", "phong" as it is by default, "phong@L" with the smoothing length L (length.h), with
-// "/tangent-plane" the paper's field, with "/exact" the exact Jacobian.  Throws
-// InputError starting with `what`.
+// Reads "euclidean", "phong" as it is by default, "phong@L" with the smoothing
+// length L (length.h), with "/tangent-plane" the paper's field, with "/exact"
+// the exact Jacobian.  Throws InputError starting with `what`.
 PenetrationSpec ParsePenetration(const std::string& text,
                                  const std::string& what);
 
