@@ -61,8 +61,10 @@ std::string DidYouMean(const std::string& word,
   std::size_t least = letters.size() / 3 + 1;
   std::string nearest;
   for (const std::string& name : names) {
-    const std::size_t distance = EditDistance(letters, Letters(name));
-    if (distance >= least) continue;
+    const std::string other = Letters(name);
+    const std::size_t distance = EditDistance(letters, other);
+    const std::size_t longer = std::max(letters.size(), other.size());
+    if (distance >= least || (distance > 1 && 4 * distance > longer)) continue;
     least = distance;
     nearest = name;
   }

@@ -26,6 +26,12 @@ TEST(NearestName, CountsNeitherCapitalsNorWhatStandsBetweenWords) {
   EXPECT_EQ(DidYouMean("PRM", names), "; did you mean prm?");
 }
 
+TEST(NearestName, OfSeveralSlipsIsOneInFourLetters) {
+  EXPECT_EQ(DidYouMean("strait", {"plate", "straight"}),
+            "; did you mean straight?");
+  EXPECT_EQ(DidYouMean("palace", {"plate", "straight"}), "");
+}
+
 TEST(NearestName, IsTheOnlyOneThatBeginsWithTheWord) {
   const std::vector<std::string> names = {"--output", "--obstacle", "--margin",
                                           "--max-seconds", "--max-mib"};
