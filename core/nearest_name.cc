@@ -36,6 +36,20 @@ std::string Letters(const std::string& name) {
   return letters;
 }
 
+// The only name that begins with the letters; empty for none and for several.
+std::string OnlyBeginning(const std::string& letters,
+                          const std::vector<std::string>& names) {
+  constexpr std::size_t kShortest = 3;  // fewer begin too much by chance
+  std::string only;
+  if (letters.size() < kShortest) return only;
+  for (const std::string& name : names) {
+    if (Letters(name).compare(0, letters.size(), letters) != 0) continue;
+    if (!only.empty() && name != only) return "";
+    only = name;
+  }
+  return only;
+}
+
 }  // namespace
 
 std::string DidYouMean(const std::string& word,
@@ -47,11 +61,14 @@ std::string DidYouMean(const std::string& word,
   std::size_t least = letters.size() / 3 + 1;
   std::string nearest;
   for (const std::string& name : names) {
-    const std::size_t distance = EditDistance(letters, Letters(name));
-    if (distance >= least) continue;
+    const std::string other = Letters(name);
+    const std::size_t distance = EditDistance(letters, other);
+    const std::size_t longer = std::max(letters.size(), other.size());
+    if (distance >= least || (distance > 1 && 4 * distance > longer)) continue;
     least = distance;
     nearest = name;
   }
+  if (nearest.empty()) nearest = OnlyBeginning(letters, names);
   return nearest.empty() ? "" : "; did you mean " + nearest + "?";
 }
 

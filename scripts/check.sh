@@ -11,7 +11,8 @@
 #   fptrap       tests with invalid floating-point operations trapped
 #   determinism  the same bytes again, with one thread and two, by gcc and clang
 #   tsan         tests with TBB's loops on plain threads, thread sanitizer
-#   readme       every block of README and docs, compiled and run as it stands
+#   readme       every block of README and docs, compiled and run as it stands, and
+#                the walk-throughs from nothing
 #   docs         the pages, warnings as errors
 #   fuzz         scripts/fuzz.sh for a while
 #   coverage     lines and branches, to results/extremes/coverage.md
@@ -264,7 +265,13 @@ check_determinism() {
     "${programs[@]}"
 }
 
-check_readme() { scripts/readme.sh; }
+# That from C++ compiles the core once more.
+check_readme() {
+  scripts/readme.sh
+  local walks=(research gantry)
+  if whole; then walks+=(cpp); fi
+  scripts/walkthroughs.sh "${walks[@]}"
+}
 
 check_docs() { scripts/docs.sh; }
 

@@ -3,6 +3,9 @@
 """doc_blocks.py cpp FILE DOCUMENT...     writes the C++ blocks as one program
 doc_blocks.py run PROGRAMS DOCUMENT...  runs blocks as they stand: of the shell,
 of Python if PROGRAMS/python is there, and the program of the C++ ones.
+doc_blocks.py walk PROGRAMS DOCUMENT...  runs shell blocks alone, each document in
+a fresh folder where nothing is given, with an own cache and home, and prints its
+seconds; <!-- file: NAME --> before a block of any language writes that file.
 
 Blocks are fenced as cpp, python or sh, or indented by four columns (shell).
 What cannot be run has <!-- not run: REASON --> before it.  What a reader has
@@ -16,6 +19,7 @@ import re
 import shutil
 import subprocess
 import sys
+import time
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 CPP_CONTEXT = """#include <phongpd/planners/world/world.h>
@@ -58,7 +62,7 @@ SCENE = """{"robot": {"mesh": "robot.off"},
 class Block:
     def __init__(self, document, line, language):
         self.document, self.line, self.language = document, line, language
-        self.lines, self.is_run = [], True
+        self.lines, self.is_run, self.file = [], True, None
 
     def __str__(self):
         return f"{self.document}:{self.line}"
@@ -72,7 +76,7 @@ def blocks_of(document):
     """All blocks, in order."""
     found, fence, is_run, in_list, before = [], None, True, False, ""
     text = (ROOT / document).read_text(encoding="utf-8")
-    indented = None
+    indented, file = None, None
     for number, line in enumerate(text.splitlines(), 1):
         if fence is not None:
             if line.startswith("```"):
@@ -82,11 +86,13 @@ def blocks_of(document):
             continue
         if line.startswith("```"):
             fence = Block(document, number + 1, line[3:].strip())
-            fence.is_run = is_run
+            fence.is_run, fence.file = is_run, file
             found.append(fence)
-            indented, is_run = None, True
+            indented, is_run, file = None, True, None
         elif re.match(r"<!-- not run: .+ -->$", line):
             is_run = False
+        elif re.match(r"<!-- file: \S+ -->$", line):
+            file = line.split()[2]
         elif line.startswith("    ") and line.strip() and not in_list:
             if indented is None and (before == "" or number == 1):
                 indented = Block(document, number, "sh")
@@ -236,11 +242,36 @@ def run_all(programs, documents):
           + ("" if has_python else " (for want of build/venv)"))
 
 
+def walk(programs, document):
+    """One document from nothing; its commands, seconds."""
+    programs = pathlib.Path(programs).resolve()
+    folder = programs / "check" / "walk" / pathlib.Path(document).stem
+    shutil.rmtree(folder, ignore_errors=True)
+    folder.mkdir(parents=True)
+    blocks = [block for block in blocks_of(document) if block.is_run]
+    for block in blocks:
+        if block.file:
+            (folder / block.file).write_text(block.text)
+    session, count = shell_session(document, blocks)
+    assert count > 0, f"{document}: expected commands, found none"
+    environment = dict(os.environ, PATH=f"{programs}:{os.environ['PATH']}",
+                       PHONGPD_CACHE_DIR=str(folder / "cache"),
+                       HOME=str(folder))
+    begin = time.monotonic()
+    run(document, ["bash", "-c", session], folder, environment)
+    return count, time.monotonic() - begin
+
+
 def main(what, target, *documents):
     if what == "cpp":
         all_blocks = [b for d in documents for b in blocks_of(d)
                       if b.language == "cpp" and b.is_run]
         pathlib.Path(target).write_text(cpp_program(all_blocks))
+    elif what == "walk":
+        for document in documents:
+            name = document if document.endswith(".md") else document + ".md"
+            count, seconds = walk(target, name)
+            print(f"walk: {name}: {count} commands, {seconds:.1f} s")
     else:
         run_all(target, documents)
 

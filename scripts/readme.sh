@@ -10,4 +10,6 @@ export PHONGPD_CACHE_DIR=$PWD/build/cache
 targets=(phongpd documented_cpp)
 [[ ! -x build/venv/bin/python ]] || targets+=(phongpd_python)
 scripts/build.sh "${targets[@]}"
-scripts/doc_blocks.py run build README.md python/README.md core/README.md docs/*.md
+shopt -s extglob  # the walk-throughs have a script of their own
+scripts/doc_blocks.py run build README.md python/README.md core/README.md \
+  docs/!(walk-*).md

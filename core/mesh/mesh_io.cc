@@ -33,6 +33,12 @@ MeshFormat FormatOf(const std::string& path) {
   if (extension == ".obj") return MeshFormat::kObj;
   if (extension == ".stl") return MeshFormat::kStl;
   if (extension == ".ply") return MeshFormat::kPly;
+  std::error_code none;
+  if (std::filesystem::is_directory(path, none)) {
+    throw InputError(path +
+                     ": expected a mesh file, found a directory; name a file "
+                     "in it");
+  }
   throw InputError(path +
                    ": unknown mesh format; expected the extension .off, .obj, "
                    ".stl or .ply, found " +

@@ -79,11 +79,9 @@ PenetrationSpec ParsePenetration(const std::string& text,
   const bool is_known = found != names.end();
   if (is_known) spec.metric = static_cast<MetricKind>(found - names.begin());
   const bool has_length = at != std::string::npos;
-  const bool takes_it =
-      has_length ? HasLength(spec.metric) : spec.metric != MetricKind::kPhong;
-  if (!is_known || !takes_it) {
+  if (!is_known || (has_length && !HasLength(spec.metric))) {
     throw InputError(what +
-                     ": expected euclidean, phong@LENGTH, phong@LENGTH/exact, "
+                     ": expected euclidean, phong[@LENGTH], phong@LENGTH/exact, "
                      "phong@LENGTH/tangent-plane, smoothed[@LENGTH] or "
                      "smoothed-foot[@LENGTH], found '" +
                      text + "'");

@@ -30,9 +30,9 @@ struct PenetrationSpec {
   SignedMetricOptions Options(double diagonal) const;
 };
 
-// Reads "euclidean", "phong@L" with the smoothing length L (length.h), with
-// "/tangent-plane" the paper's field, with "/exact" the exact Jacobian; and
-// "smoothed@L", "smoothed-foot@L", without "@L" those of the default length.
+// Reads "euclidean", "phong", "smoothed" and "smoothed-foot" of the default
+// smoothing length L (length.h), "phong@L" and the like of another; of phong@L,
+// with "/tangent-plane" the paper's field, with "/exact" the exact Jacobian.
 // Throws InputError starting with `what`.
 PenetrationSpec ParsePenetration(const std::string& text,
                                  const std::string& what);

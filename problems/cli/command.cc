@@ -181,6 +181,7 @@ void AddRoot(CLI::App* app, std::string* root) {
                   "Refuse a scene file whose mesh files, links and .. "
                   "followed, lie outside this folder (for scene files of "
                   "others)")
+      ->check(IsFolder())
       ->type_name("DIR");
 }
 
@@ -202,7 +203,7 @@ std::string MeshText(const TriangleMesh& mesh, const std::string& path) {
 }
 
 void DeclareMesh(OutputFiles* outputs, const std::string& path) {
-  MeshText({{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {Triangle{0, 1, 2}}}, path);
+  RequireEnding(path, "--output", {".off", ".obj", ".stl", ".ply"});
   outputs->Declare(path);
 }
 

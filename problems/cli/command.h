@@ -51,6 +51,7 @@ Command AddView(CLI::App* app);
 Command AddCompletion(CLI::App* app);
 Command AddMan(CLI::App* app);
 Command AddCheck(CLI::App* app);
+Command AddNew(CLI::App* app);
 
 // What may stand where the last of `words` is being typed, to standard output:
 // the scripts of AddCompletion ask for it.

@@ -118,7 +118,9 @@ std::string DeclareRows(const CompareFlags& flags, OutputFiles* outputs) {
 int Compare(const CLI::App& app, const CompareFlags& flags) {
   if (flags.scenes.empty() == flags.rows.empty()) {
     throw InputError(
-        "compare: expected scenes, or --rows with what was written before");
+        "compare: expected scenes, or --rows with what was written before, "
+        "found " +
+        std::string(flags.rows.empty() ? "neither" : "both"));
   }
   const Shard shard = ParseShard(flags.shard, "--shard");
   const bool has_folder = !flags.output.empty();

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "core/bounds/mesh_approximation.h"
 #include "core/contact/contact_space.h"
 #include "core/contact/contact_space_piece.h"
 #include "core/mesh/counted.h"
@@ -29,6 +30,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 struct ContactSpaceFlags {
+  std::vector<std::string> meshes;  // A and B, or none
   std::string robot;
   std::string obstacle;
   std::string output;
@@ -56,13 +58,24 @@ std::size_t ParseTargetFaces(const std::string& text) {
                    ("found " + text));
 }
 
+// Refused by the flag's name, and before a mesh is read.
+double ParseWrapAlpha(const std::string& text) {
+  const double alpha = ParseDouble(text, "--wrap");
+  if (alpha == 0.0 || (alpha >= kMinWrapAlpha && alpha <= kMaxWrapAlpha)) {
+    return alpha;
+  }
+  throw InputError("--wrap: expected a fraction of the diagonal from " +
+                   FormatDouble(kMinWrapAlpha) + " to " +
+                   FormatDouble(kMaxWrapAlpha) + ", found " + text);
+}
+
 // The flags that change the operands or the result.
 ContactSpaceOptions OptionsOf(const ContactSpaceFlags& flags) {
   ContactSpaceOptions options;
   options.outer_shell_only = flags.outer_shell_only;
   options.robot_hull = flags.robot_hull;
   options.target_faces = ParseTargetFaces(flags.target_faces);
-  options.wrap_alpha = ParseDouble(flags.wrap_alpha, "--wrap");
+  options.wrap_alpha = ParseWrapAlpha(flags.wrap_alpha);
   options.repair = ParseRepair(flags.repair, "--repair");
   options.max_seconds = flags.max_seconds;
   options.max_mib = flags.max_mib;
@@ -131,7 +144,28 @@ int BuildAndWritePiece(const ContactSpaceFlags& flags) {
   return kDone;
 }
 
-int BuildAndWrite(const ContactSpaceFlags& flags) {
+// A and B, or by flags as until 0.1: those of `flags` are set to either.
+void TakeMeshes(ContactSpaceFlags* flags) {
+  const bool has_flags = !flags->robot.empty() || !flags->obstacle.empty();
+  const std::string expected = "contact-space: expected two meshes, A and B, ";
+  if (has_flags && !flags->meshes.empty()) {
+    throw InputError(expected + "found " + flags->meshes.front() +
+                     " and --robot or --obstacle as well");
+  }
+  if (!has_flags && flags->meshes.size() == 2) {
+    flags->robot = flags->meshes.front();
+    flags->obstacle = flags->meshes.back();
+  }
+  if (!flags->robot.empty() && !flags->obstacle.empty()) return;
+  std::string found = "none";
+  if (!flags->meshes.empty()) found = flags->meshes.front() + " alone";
+  if (has_flags) found = flags->robot.empty() ? "no --robot" : "no --obstacle";
+  throw InputError(expected + "found " + found +
+                   " (see phongpd contact-space --help)");
+}
+
+int BuildAndWrite(ContactSpaceFlags flags) {
+  TakeMeshes(&flags);
   if (!flags.piece.empty()) return BuildAndWritePiece(flags);
   OutputFiles outputs;
   if (!flags.output.empty()) DeclareContactSpace(&outputs, flags.output);
@@ -161,13 +195,15 @@ int BuildAndWrite(const ContactSpaceFlags& flags) {
 
 Command AddContactSpace(CLI::App* app) {
   auto flags = std::make_shared<ContactSpaceFlags>();
-  app->add_option(
-         "--robot", flags->robot,
-         std::string("Mesh of the translating robot (") + kMeshFormats + ")")
-      ->required()
+  app->add_option("A", flags->meshes,
+                  std::string("Mesh of the translating robot, and B, that of "
+                              "the fixed obstacle (") +
+                      kMeshFormats + ")")
+      ->expected(0, 2)
       ->type_name("FILE");
-  app->add_option("--obstacle", flags->obstacle, "Mesh of the fixed obstacle")
-      ->required()
+  app->add_option("--robot", flags->robot, "The same as A, until 0.2")
+      ->type_name("FILE");
+  app->add_option("--obstacle", flags->obstacle, "The same as B, until 0.2")
       ->type_name("FILE");
   app->add_option(
          "--output", flags->output,
@@ -198,16 +234,14 @@ Command AddContactSpace(CLI::App* app) {
   AddBuildLimits(app, &flags->max_seconds, &flags->max_mib);
   AddVerify(app, &flags->verify);
   AddNoCache(app, &flags->no_cache);
-  AddExamples(app,
-              {"phongpd contact-space --robot robot.off --obstacle wrench.stl",
-               "phongpd contact-space --robot robot.off --obstacle wrench.stl "
-               "--output contact.pcs",
-               "phongpd contact-space --robot robot.off --obstacle scan.ply "
-               "--repair wrap --target-faces 2000 --output contact.off",
-               "phongpd contact-space --robot robot.off --obstacle wrench.stl "
-               "--json | jq .genus",
-               "phongpd contact-space --robot robot.off --obstacle scan.ply "
-               "--piece 0/4 --output 0.piece"});
+  AddExamples(
+      app, {"phongpd contact-space robot.off wrench.stl",
+            "phongpd contact-space robot.off wrench.stl --output contact.pcs",
+            "phongpd contact-space robot.off scan.ply --repair wrap "
+            "--target-faces 2000 --output contact.off",
+            "phongpd contact-space robot.off wrench.stl --json | jq .genus",
+            "phongpd contact-space robot.off scan.ply --piece 0/4 --output "
+            "0.piece"});
   return [flags] { return BuildAndWrite(*flags); };
 }
 

@@ -69,9 +69,9 @@ Command AddJoin(CLI::App* app) {
   AddJson(app, &flags->json, "The report on standard output");
   AddExamples(
       app,
-      {"phongpd contact-space --robot robot.off --obstacle scan.ply --piece "
+      {"phongpd contact-space robot.off scan.ply --piece "
        "0/2 --output 0.piece",
-       "phongpd contact-space --robot robot.off --obstacle scan.ply --piece "
+       "phongpd contact-space robot.off scan.ply --piece "
        "1/2 --output 1.piece",
        "phongpd join 0.piece 1.piece --output contact.pcs"},
       "The pieces may be built at once, on several machines.  The result is "

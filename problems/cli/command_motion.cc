@@ -183,7 +183,10 @@ int Follow(const MotionFlags& flags) {
   const bool either = !flags.robot.empty() || !flags.obstacle.empty();
   if (either != pair || either == !flags.contact_space.empty()) {
     throw InputError(
-        "motion: expected --contact-space, or --robot and --obstacle");
+        "motion: expected --contact-space, or --robot and --obstacle, found " +
+        std::string(!flags.contact_space.empty() ? "both"
+                    : flags.robot.empty()        ? "no --robot"
+                                                 : "no --obstacle"));
   }
   if (flags.frames < 2) {
     throw InputError("--frames: expected at least 2, found " +

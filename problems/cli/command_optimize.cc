@@ -8,6 +8,7 @@
 #include "planners/ompl/ompl_planning.h"
 #include "planners/world/bare_length.h"
 #include "problems/cli/command.h"
+#include "problems/cli/explanation.h"
 #include "problems/cli/flags.h"
 #include "problems/cli/fleet_answer.h"
 #include "problems/cli/seeded_runs.h"
@@ -44,6 +45,7 @@ struct OptimizeFlags : SeededRunFlags {
   std::string model;
   WorldLimits limits;
   bool verify = true;
+  bool explain = false;
 };
 
 // Figures: results/trade, `scripts/bench.sh trade`.
@@ -203,40 +205,6 @@ TimedFlags TimedFlagsOf(const OptimizeFlags& flags) {
   timed.require = flags.require;
   timed.verify = flags.verify;
   timed.world = flags.limits;
-  return timed;
-}
-
-// With limits the answer is a motion in time (optimize.h).
-int OptimizeInTime(const OptimizeFlags& flags, const MotionLimits& limits,
-                   Scene scene) {
-  RequireTimed(flags,
-               "a motion in time, found one; with --limits none the answer is "
-               "a path without time");
-  Override(flags, &scene);
-  SetTask(flags.motion, &scene);
-  scene.limits = limits;
-  return AnswerInTime(scene, TimedFlagsOf(flags), Optimize);
-}
-
-// Of several robots each has its own task; limits that are given hold for all.
-int OptimizeRobots(const OptimizeFlags& flags, FleetScene fleet) {
-  RequireTimed(flags, "several robots, found one");
-  for (const char* name : {"--via", "--duration", "--departure", "--arrival"}) {
-    if (flags.app->count(name) == 0) continue;
-    throw InputError(std::string(name) +
-                     ": expected none for several robots, each of which has "
-                     "its own in the scene, found one");
-  }
-  for (Scene& scene : fleet.robots) {
-    Override(flags, &scene);
-    scene.limits = LimitsOf(flags.motion, scene);
-    if (scene.limits) continue;
-    throw InputError(fleet.name + ": \"" + scene.workspace.robot.name() +
-                     "\": expected limits, which several robots need to keep "
-                     "off each other in time, found none; give \"limits\" in "
-                     "the scene or --limits V,A,J");
-  }
-  return AnswerFleet(std::move(fleet), TimedFlagsOf(flags));
 }
 
 // Seed 0 is the scene as it stands.
@@ -304,6 +272,9 @@ class OptimizeRuns {
     const PathAnswer answer = Optimize(world, request);
     model_ = answer.evidence.model;
     if (is_first) TellTrajectoryModel(answer.evidence);
+    if (is_first && flags_.explain) {
+      TellExplanation(ExplainTrajectory(*flags_.app, world, request, answer));
+    }
     if (answer.status == PathStatus::kVerificationFailed && refuted_.empty()) {
       refuted_ = scene_.name + ": " + answer.reason;
     }
@@ -390,11 +361,13 @@ void AddStartFlags(CLI::App* app, OptimizeFlags* flags) {
   app->add_option("--start-noise", flags->noise,
                   "Of the waypoints of a straight start, as a fraction of its "
                   "length")
+      ->check(Between(0, 10))
       ->type_name("F")
       ->capture_default_str();
   app->add_option("--routes", flags->routes,
                   "Ways around the obstacles to optimise, 1 to 8 (preset's own "
                   "if not set)")
+      ->check(Between(1, 8))
       ->type_name("N");
   app->add_flag("--line,!--no-line", flags->line,
                 "Optimise from the colliding line as well as from the "
@@ -404,6 +377,7 @@ void AddStartFlags(CLI::App* app, OptimizeFlags* flags) {
 // How it gets on from there.
 void AddSolverFlags(CLI::App* app, OptimizeFlags* flags) {
   app->add_option("--rows", flags->rows, "Constraint rows a sample, 1 to 8")
+      ->check(Between(1, 8))
       ->type_name("K")
       ->capture_default_str();
   app->add_option("--mu-strategy", flags->mu_strategy, "Ipopt's own")
@@ -451,8 +425,10 @@ Command AddOptimize(CLI::App* app) {
           "goal of a family, and the noise",
           flags.get());
   app->add_option("--time", flags->time_limit, "Limit of a run, seconds")
+      ->check(Above(0.0))
       ->type_name("S");
   AddOutputFlags(app, flags.get());
+  AddExplain(app, &flags->explain);
   AddVerify(app, &flags->verify);
   AddNoCache(app, &flags->no_cache);
   AddExamples(

@@ -8,6 +8,7 @@
 #include "planners/retraction/retraction_names.h"
 #include "planners/world/bare_length.h"
 #include "problems/cli/command.h"
+#include "problems/cli/explanation.h"
 #include "problems/cli/flags.h"
 #include "problems/cli/rigid_answer.h"
 #include "problems/cli/seeded_runs.h"
@@ -36,6 +37,7 @@ struct PlanFlags : SeededRunFlags {
   bool require = false;
   std::string ompl_log;
   bool verify = true;
+  bool explain = false;
 };
 
 RunSummary SummarizePlan(const nlohmann::ordered_json& row) {
@@ -167,6 +169,9 @@ int AnswerPlan(const PlanFlags& flags) {
              std::to_string(flags.runs));
     const PathAnswer answer = Plan(world, request);
     if (i == runs.kept()) TellPlanModel(request, answer);
+    if (i == runs.kept() && flags.explain) {
+      TellExplanation(ExplainPlan(*flags.app, world, request, answer));
+    }
     if (answer.status == PathStatus::kVerificationFailed && refuted.empty()) {
       refuted = scene.name + ": " + answer.reason;
     }
@@ -232,6 +237,7 @@ Command AddPlan(CLI::App* app) {
   app->add_option("--time", flags->time_limit,
                   "Limit of a run by a sampler, seconds (scene's own if not "
                   "set)")
+      ->check(Above(0.0))
       ->type_name("S");
   AddRuns(app, "Of the first run", flags.get());
   AddRowOutput(app, flags.get());
@@ -240,6 +246,7 @@ Command AddPlan(CLI::App* app) {
                   "log, which OMPL's statistics script reads")
       ->type_name("FILE");
   AddPictures(app, flags.get());
+  AddExplain(app, &flags->explain);
   AddVerify(app, &flags->verify);
   AddNoCache(app, &flags->no_cache);
   AddExamples(

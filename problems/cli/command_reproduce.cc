@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <unistd.h>
 
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
@@ -10,6 +11,7 @@
 #include <vector>
 
 #include "core/mesh/counted.h"
+#include "core/mesh/input_file.h"
 #include "problems/cli/command.h"
 #include "problems/cli/flags.h"
 #include "problems/output/json_text.h"
@@ -100,9 +102,14 @@ int CompareAsJson(const Json& document, const CommandOutcome& now) {
   return is_same.is_boolean() && !is_same.get<bool>() ? kNoAnswer : kDone;
 }
 
+// The inputs of a command, as text.
+constexpr std::uintmax_t kMaxReplayBytes = std::uintmax_t{1} << 32;
+
 int Replay(const ReproduceFlags& flags) {
-  std::ifstream stream(flags.replay, std::ios::binary);
-  const Json document = Json::parse(stream, nullptr, false);
+  const Json document = Json::parse(
+      ReadInputFile(flags.replay, "a file written by phongpd reproduce",
+                    kMaxReplayBytes),
+      nullptr, false);
   const TemporaryFolder temporary;
   const fs::path folder = flags.folder.empty() ? temporary.path() / "run"
                                                : fs::absolute(flags.folder);
@@ -134,7 +141,8 @@ int Replay(const ReproduceFlags& flags) {
 int Reproduce(const ReproduceFlags& flags) {
   if (flags.replay.empty() == flags.command.empty()) {
     throw InputError(
-        "reproduce: expected -- COMMAND ARGUMENTS, or --replay FILE");
+        "reproduce: expected -- COMMAND ARGUMENTS, or --replay FILE, found " +
+        std::string(flags.replay.empty() ? "neither" : "both"));
   }
   if (!flags.replay.empty()) return Replay(flags);
   return Pack(flags);

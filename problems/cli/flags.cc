@@ -111,9 +111,26 @@ void RequireFreeStandardOutput(const OutputFiles& outputs) {
       "there; name a file");
 }
 
+CLI::Validator IsFolder() {
+  return CLI::Validator(
+      [](const std::string& path) -> std::string {
+        std::error_code none;
+        if (std::filesystem::is_directory(path, none)) return "";
+        const bool is_there = std::filesystem::exists(path, none);
+        return "expected a folder, found " +
+               (is_there ? path + ", a file" : "nothing at " + path);
+      },
+      "");
+}
+
 CLI::Validator AtLeast(double least) {
   return Numbers(">= " + FormatDouble(least),
                  [least](double value) { return value >= least; });
+}
+
+CLI::Validator Above(double least) {
+  return Numbers("> " + FormatDouble(least),
+                 [least](double value) { return value > least; });
 }
 
 CLI::Validator Between(double least, double most) {

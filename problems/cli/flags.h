@@ -48,7 +48,11 @@ void DeclareRowFile(OutputFiles* outputs, const std::string& path,
 // Refuse numbers outside of a range, and all that is none, in words; CLI11's
 // own write out the largest double.
 CLI::Validator AtLeast(double least);
+CLI::Validator Above(double least);
 CLI::Validator Between(double least, double most);
+
+// Refuses what is no folder.
+CLI::Validator IsFolder();
 
 // Throws InputError where an output is standard output: --json is to be there.
 void RequireFreeStandardOutput(const OutputFiles& outputs);

@@ -89,6 +89,7 @@ constexpr ProgramCommand kProgramCommands[] = {
     {"compare", "Compare penetration metrics in the trajectory optimiser",
      AddCompare},
     {"join", "Join the pieces of a contact space", AddJoin},
+    {"new", "Write a first scene file for two meshes, commented", AddNew},
     {"plan", "Plan a path, or prove that there is none", AddPlan},
     {"remove", "Take a part out of an assembly, or all, or prove it is held",
      AddRemove},

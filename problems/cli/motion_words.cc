@@ -44,6 +44,12 @@ Vector3d ParseLimit(const std::string& text, const std::string& what) {
   return limit;
 }
 
+double ParseSeconds(const std::string& text, const std::string& what) {
+  const double seconds = ParseDouble(text, what);
+  if (seconds >= 0.0) return seconds;
+  throw InputError(what + ": expected 0 or more seconds, found " + text);
+}
+
 }  // namespace
 
 MotionLimits ParseLimits(const std::string& text, const std::string& what) {
@@ -83,7 +89,7 @@ Via ParseVia(const std::string& text, const std::string& what, double diagonal,
   if (cells.size() > 3) {
     via.tolerance = ParseClearance(cells[3], what + ": LENGTH", diagonal, unit);
   }
-  if (cells.size() > 4) via.dwell = ParseDouble(cells[4], what + ": DWELL");
+  if (cells.size() > 4) via.dwell = ParseSeconds(cells[4], what + ": DWELL");
   return via;
 }
 
@@ -168,7 +174,7 @@ void RequireNoMotion(const MotionWords& words) {
 
 void SetTask(const MotionWords& words, Scene* scene) {
   if (!words.duration.empty()) {
-    scene->duration = ParseDouble(words.duration, "--duration");
+    scene->duration = ParseSeconds(words.duration, "--duration");
   }
   if (!words.departure.empty()) {
     scene->departure = ParseCurveEnd(words.departure, "--departure");

@@ -48,7 +48,7 @@ int AnswerRigidPlan(const SeededRunFlags& flags, const SceneSource& source) {
   for (const char* name :
        {"--preset", "--planner", "--metric", "--model", "--routes",
         "--max-seconds", "--max-mib", "--clearance", "--require", "--ompl-log",
-        "--svg", "--verify"}) {
+        "--svg", "--verify", "--explain"}) {
     if (flags.app->count(name) == 0) continue;
     throw InputError(std::string(name) +
                      ": expected none for a robot that turns, found one");

@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "core/nearest_name.h"
+#include "core/number_text.h"
 #include "problems/scenes/json_schema.h"
 #include "problems/shapes/shapes.h"
 
@@ -217,31 +219,33 @@ const ShapeType& FindType(const Json& shape, const std::string& where) {
     throw InputError(where + ": expected an object with a \"type\", found " +
                      Shortened(shape));
   }
-  std::string known;
+  std::vector<std::string> known;
   for (const ShapeType& type : ShapeTypes()) {
     if (shape["type"] == type.name) return type;
-    known += (known.empty() ? "" : ", ") + std::string(type.name);
+    known.emplace_back(type.name);
   }
-  throw InputError(where + "/type: expected one of " + known + ", found " +
-                   Shortened(shape["type"]));
+  throw InputError(where + "/type: expected one of " + Joined(known) +
+                   ", found " + Shortened(shape["type"]) +
+                   DidYouMean(shape["type"].get<std::string>(), known));
 }
 
 }  // namespace
 
 TriangleMesh MakeShape(const Json& shape, const std::string& where) {
   const ShapeType& type = FindType(shape, where);
-  for (const char* key : type.keys) {
-    if (!shape.contains(key)) {
-      throw InputError(where + ": a " + type.name + " needs \"" + key +
-                       "\", found " + Shortened(shape));
-    }
-  }
   for (const auto& [key, value] : shape.items()) {
     bool known = key == "type";
     for (const char* name : type.keys) known = known || key == name;
     if (!known) {
       throw InputError(where + ": a " + type.name + " has no parameter " +
-                       Shortened(Json(key)));
+                       Shortened(Json(key)) +
+                       DidYouMean(key, {type.keys.begin(), type.keys.end()}));
+    }
+  }
+  for (const char* key : type.keys) {
+    if (!shape.contains(key)) {
+      throw InputError(where + ": a " + type.name + " needs \"" + key +
+                       "\", found " + Shortened(shape));
     }
   }
   const Parameters parameters(shape, where);

@@ -10,6 +10,7 @@
 #include "core/contact/content_hash.h"
 #include "core/mesh/input_file.h"
 #include "core/nearest_name.h"
+#include "problems/meshes/any_mesh.h"
 #include "problems/output/text.h"
 #include "problems/scenes/json_schema.h"
 #include "problems/scenes/scene_library.h"
@@ -34,6 +35,11 @@ SceneSource::SceneSource(const std::string& text, const std::string& root,
                        "FAMILY:key=value,...; found neither (see phongpd "
                        "scenes list)" +
                        DidYouMean(family_, names));
+    }
+    if (NamesMesh(text)) {
+      throw InputError(text +
+                       ": expected a scene file, found a mesh; phongpd new "
+                       "ROBOT OBSTACLE writes a scene of two meshes");
     }
     is_file_ = true;
     content_ = ReadInputFile(text, "a scene file", kMaxSceneBytes);

@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "core/mesh/mesh_error.h"
+#include "core/nearest_name.h"
 #include "problems/output/text.h"
 
 namespace phongpd {
@@ -155,13 +156,13 @@ const std::vector<TrajectoryProtocol>& TrajectoryProtocols() {
 }
 
 const TrajectoryProtocol& FindProtocol(const std::string& name) {
-  std::string names;
+  std::vector<std::string> names;
   for (const TrajectoryProtocol& protocol : TrajectoryProtocols()) {
     if (protocol.name == name) return protocol;
-    names += (names.empty() ? "" : ", ") + protocol.name;
+    names.push_back(protocol.name);
   }
-  throw InputError("--protocols: expected some of " + names + "; found '" +
-                   name + "'");
+  throw InputError("--protocols: expected some of " + Joined(names) +
+                   "; found '" + name + "'" + DidYouMean(name, names));
 }
 
 std::vector<ComparisonCell> Summarize(const std::vector<Json>& rows) {

@@ -193,8 +193,9 @@ class World(Shown):
         points of where the solid is moved to from the time 0 on; None: the
         scene's.
 
-        Without.  metric: "phong@L" with a smoothing length, "euclidean",
-        "smoothed@L", "smoothed-foot@L"; "": the scene's.  waypoints: free ones; 0: the scene's.  seed: of
+        Without.  metric: "phong" (or smoothed, smoothed-foot), by the scene's
+        smoothing length, "phong@L" by that one, "euclidean"; "": the scene's.
+        waypoints: free ones; 0: the scene's.  seed: of
         straightening.  straight: start from the line even where it collides, as
         comparisons do.
         """

@@ -123,7 +123,12 @@ nb::object OptimizeWith(Workshop& workshop, const Point& start,
           "found " +
           metric);
     }
-    request.penetration = ParsePenetration(metric, "metric");
+    if (metric == ToString(MetricKind::kPhong)) {
+      // By the smoothing length that holds, as the flag of this value does.
+      request.penetration.metric = MetricKind::kPhong;
+    } else {
+      request.penetration = ParsePenetration(metric, "metric");
+    }
   }
   request.requires_margin = is_required;
   if (routes > 0) request.options.routes = routes;

@@ -19,6 +19,12 @@ if(NOT "phongpd/core/mesh/triangle_mesh.h" IN_LIST headers
   message(FATAL_ERROR "installed headers are not the public ones: ${headers}")
 endif()
 
+foreach(file LICENSE LICENSE-EXCEPTION)
+  if(NOT EXISTS ${prefix}/share/licenses/phongpd/${file})
+    message(FATAL_ERROR "not installed: ${file}")
+  endif()
+endforeach()
+
 # The core asks for none of the other components' libraries.
 set(configure ${CMAKE_COMMAND} -S ${SOURCE}/tests/consumer -D
               PHONGPD_SOURCE=${SOURCE} -D CMAKE_PREFIX_PATH=${prefix})
@@ -36,6 +42,44 @@ execute_process(
 # its surface and the middle one is up to 2 units inside, and no less than 1.8.
 if(NOT output MATCHES "\n2: 0\n$" OR NOT output MATCHES "\n0: -(1\\.[89]|2)")
   message(FATAL_ERROR "unexpected answer of the consumer:\n${output}")
+endif()
+
+# The same by pkg-config, without CMake, where that is.
+find_program(pkg_config pkg-config)
+file(GLOB_RECURSE pc ${prefix}/phongpd-core.pc)
+if(NOT pc)
+  message(FATAL_ERROR "not installed: phongpd-core.pc")
+endif()
+if(pkg_config)
+  cmake_path(GET pc PARENT_PATH pc_folder)
+  execute_process(
+    COMMAND
+      sh -ec "export PKG_CONFIG_PATH='${pc_folder}'
+      c++ -std=c++17 '${SOURCE}/tests/consumer/core.cc' -o use_pc \
+        $(pkg-config --cflags --libs phongpd-core)
+      LD_LIBRARY_PATH=$(pkg-config --variable=libdir phongpd-core) \
+        ./use_pc box.off box.off"
+    WORKING_DIRECTORY ${work}
+    OUTPUT_VARIABLE by_pc COMMAND_ERROR_IS_FATAL ANY)
+  if(NOT by_pc STREQUAL output)
+    message(FATAL_ERROR "by pkg-config another answer:\n${by_pc}")
+  endif()
+endif()
+
+# -DPHONGPD_BUILD=core configures that alone, and a word that is none is said.
+file(REMOVE_RECURSE ${work}-only)
+run(${CMAKE_COMMAND} -S ${SOURCE} -B ${work}-only -D PHONGPD_BUILD=core)
+execute_process(COMMAND ${CMAKE_COMMAND} --build ${work}-only --target help
+                OUTPUT_VARIABLE targets COMMAND_ERROR_IS_FATAL ANY)
+if(NOT targets MATCHES "phongpd_core"
+   OR targets MATCHES "constraints|phongpd_planners|[.]{3} phongpd\n|_test")
+  message(FATAL_ERROR "PHONGPD_BUILD=core configures more:\n${targets}")
+endif()
+execute_process(
+  COMMAND ${CMAKE_COMMAND} -S ${SOURCE} -B ${work}-only -D PHONGPD_BUILD=cores
+  RESULT_VARIABLE code OUTPUT_QUIET ERROR_VARIABLE error)
+if(code EQUAL 0 OR NOT error MATCHES "found[ \n]+'cores'")
+  message(FATAL_ERROR "PHONGPD_BUILD=cores: ${error}")
 endif()
 
 # Nobody who wants planners or worlds needs FCL.

@@ -26,6 +26,25 @@ TEST(NearestName, CountsNeitherCapitalsNorWhatStandsBetweenWords) {
   EXPECT_EQ(DidYouMean("PRM", names), "; did you mean prm?");
 }
 
+TEST(NearestName, OfSeveralSlipsIsOneInFourLetters) {
+  EXPECT_EQ(DidYouMean("strait", {"plate", "straight"}),
+            "; did you mean straight?");
+  EXPECT_EQ(DidYouMean("palace", {"plate", "straight"}), "");
+}
+
+TEST(NearestName, IsTheOnlyOneThatBeginsWithTheWord) {
+  const std::vector<std::string> names = {"--output", "--obstacle", "--margin",
+                                          "--max-seconds", "--max-mib"};
+  EXPECT_EQ(DidYouMean("--out", names), "; did you mean --output?");
+  EXPECT_EQ(DidYouMean("--obst", names), "; did you mean --obstacle?");
+  EXPECT_EQ(DidYouMean("--o", names), "");    // of two, and short
+  EXPECT_EQ(DidYouMean("--max", names), "");  // of two
+  EXPECT_EQ(DidYouMean("euclid", {"phong", "euclidean"}),
+            "; did you mean euclidean?");
+  // A slip is nearer than a beginning.
+  EXPECT_EQ(DidYouMean("pla", {"planning", "plan"}), "; did you mean plan?");
+}
+
 TEST(NearestName, IsNoneWhereNothingIsNear) {
   EXPECT_EQ(DidYouMean("query", {"optimize", "plan"}), "");
   EXPECT_EQ(DidYouMean("velocity", {"robot", "repair", "planning"}), "");

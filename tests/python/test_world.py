@@ -123,6 +123,12 @@ def test_scenes_set_numbers_of_ipopt_only(tmp_path, option, value):
         phongpd.World.load(str(scene)).optimize()
 
 
+def test_phong_alone_is_by_the_length_that_holds(world):
+    alone, by_default = (world.optimize(START, GOAL, limits="none", metric=name)
+                         for name in ("phong", "phong@0.2"))
+    assert np.array_equal(alone.path, by_default.path)
+
+
 def test_rows_are_the_signed_metric_and_their_jacobian_its_slope(world):
     rows = phongpd.NonPenetrationRows(world, START, GOAL, waypoints=6,
                                       samples_per_segment=3, metric="euclidean")

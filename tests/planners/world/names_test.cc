@@ -69,12 +69,15 @@ TEST(Names, OfMetricsReadBack) {
     EXPECT_EQ(ParsePenetration(name, "metric").Name(), name);
   }
   for (const char* name :
-       {"", "phong", "phong@", "phong@-1", "phong@0.1/some",
+       {"", "phongg", "phong@", "phong@-1", "phong@0.1/some",
         "phong@0.1/exact/tangent-plane/exact", "euclid", "euclidean@0.2",
-        "smoothed@", "smoothed@0", "smoothed@0.2/exact",
-        "smooth@0.2", "@0.2"}) {
+        "smoothed@", "smoothed@0", "smoothed@0.2/exact", "smooth@0.2",
+        "@0.2"}) {
     EXPECT_THROW(ParsePenetration(name, "metric"), InputError) << name;
   }
+  // As flags name the kind alone: all else is the default.
+  EXPECT_EQ(ParsePenetration("phong", "metric").Name(),
+            PenetrationSpec().Name());
   // Of Euclid nothing else counts; a length beyond D is no share of it.
   PenetrationSpec spec;
   spec.metric = MetricKind::kEuclidean;

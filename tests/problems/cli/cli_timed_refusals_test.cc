@@ -67,7 +67,7 @@ TEST_F(CliTimedRefusals, RefusesBadLimitsInOneLine) {
     ExpectRefused(good + " --output t.json --via=-1.5,0,0,2D",
                   {"--via: LENGTH", "at most 1"});
     ExpectRefused(good + " --output t.json --via=-1.5,0,0,0.01,-1",
-                  {"via 0", "dwell", "-1"});
+                  {"--via: DWELL", "-1"});
     for (const std::string duration : {"-1", "nan", "inf", "soon"}) {
       ExpectRefused(good + " --output t.json --duration=" + duration,
                     {"duration", duration});

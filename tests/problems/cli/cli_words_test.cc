@@ -169,7 +169,7 @@ TEST_F(CliWords, ValuesOfAListAreAnsweredWithTheNearest) {
 // Numbers that are none, and values that are missing.
 TEST_F(CliWords, WrongNumbersAndMissingValuesAreToldInWords) {
   ExpectLine("plan u_axis --runs 1e400",
-             {"--runs: expected a number within range, found 1e400"});
+             {"--runs: expected a whole number within range, found 1e400"});
   ExpectLine("depth a b --at 1 2",
              {"--at: expected at least 3 values, found 2"});
   ExpectLine("depth a", {"expected B, found none (see phongpd depth --help)"});
