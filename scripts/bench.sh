@@ -83,9 +83,13 @@ if [[ $suite == convergence || $suite == all ]]; then
   shards study --protocols straight-monotone straight-adaptive \
     repaired-monotone repaired-adaptive \
     --metrics followed mixed@0.2 faded@0.2 --runs 20
-  cat "$rows"/*/rows.jsonl > "$rows/all.jsonl"
-  build/convergence_benchmark --rows "$rows/all.jsonl" \
-    --output results/convergence --how "scripts/bench.sh convergence"
+  # The order of the tables' columns.
+  build/phongpd compare --output "$rows/all" --rows \
+    "$rows"/{straight,exact,repaired,study}-*/rows.jsonl > "$rows/words"
+  cp "$rows"/all/{rows,summary}.csv results/convergence
+  build/convergence_benchmark --output results/convergence \
+    --scenes "${scenes[@]}" --how "scripts/bench.sh convergence"
+  python3 -B results/bench/convergence_report.py --output results/convergence
 fi
 if [[ $suite == pipeline || $suite == all ]]; then
   scripts/build.sh phongpd
