@@ -98,12 +98,13 @@ if [[ $suite == pipeline || $suite == all ]]; then
 fi
 if [[ $suite == planning || $suite == all ]]; then
   scripts/build.sh planning_benchmark voxel_worlds_test
-  worlds=$(PHONGPD_VOXEL_WORLDS=1700 build/tests/voxel_worlds_test |
+  PHONGPD_VOXEL_WORLDS=1700 build/tests/voxel_worlds_test |
     awk '/^solved/ { solved += $2; proved += $4; wrong += $6 }
       END { print solved " solved, " proved " proved infeasible, " wrong \
-        " disagreements (PHONGPD_VOXEL_WORLDS=1700 voxel_worlds_test)" }')
-  build/planning_benchmark --output results/planning \
-    --voxel-worlds "$worlds"
+        " disagreements (PHONGPD_VOXEL_WORLDS=1700 voxel_worlds_test)" }' \
+      > results/planning/voxel_worlds.txt
+  build/planning_benchmark --output results/planning
+  python3 -B results/bench/planning_report.py --output results/planning
 fi
 if [[ $suite == planning || $suite == widths || $suite == all ]]; then
   scripts/build.sh width_benchmark

@@ -100,8 +100,7 @@ std::vector<DepthExcess> MeasureAll(const std::vector<std::string>& scenes,
 }
 
 Table ExcessTable(const std::vector<DepthExcess>& excess) {
-  return MakeTable("", "",
-                   {"scene", "ℓ", "mean excess", "worst", "limited vertices",
+  return MakeTable({"scene", "ℓ", "mean excess", "worst", "limited vertices",
                     "median angle", "worst angle"},
                    excess, [](const DepthExcess& e, const auto& add) {
                      add(e.scene, e.smoothing_length, Rounded(e.mean, 4),

@@ -40,6 +40,13 @@ Table MakeTable(std::string title, std::string note,
   return table;
 }
 
+// Rows alone, for a report in Python to say what they are.
+template <typename Items, typename Rows>
+Table MakeTable(std::vector<std::string> header, const Items& items,
+                const Rows& rows) {
+  return MakeTable("", "", std::move(header), items, rows);
+}
+
 // A table of a report and the CSV file its rows are written to.
 struct NamedTable {
   std::string file;

@@ -20,6 +20,7 @@ import report_statistics as statistics  # noqa: E402
 
 # Of each report: the folder of its rows, and more arguments.
 REPORTS = {"convergence_report": ("convergence",),
+           "planning_report": ("planning",),
            "trade_report": ("trade", "--results", str(SOURCE / "results"))}
 
 

@@ -19,10 +19,9 @@ struct PlanningResults {
   std::vector<MultiQueryRow> multi_query;
 };
 
-std::vector<NamedTable> Tables(const PlanningResults& results);
-std::vector<Figure> Figures(const PlanningResults& results);
-// Targets met and missed: the text above the tables.
-std::string Findings(const PlanningResults& results);
+// The rows of results/planning; planning_report.py makes its pages of them.
+Table ExactTable(const PlanningResults& results);
+Table MotionTable(const PlanningResults& results);
 // Every run of the samplers.
 std::string RunsCsv(const PlanningResults& results);
 
