@@ -6,6 +6,7 @@ import csv
 import importlib.metadata
 import os
 import platform
+import re
 import sys
 from pathlib import Path
 from typing import NamedTuple
@@ -98,6 +99,12 @@ def read_table(folder, file, title, note):
 def read_measured(folder, file="measured.txt"):
     """The line of circumstances that the measuring program left."""
     return (folder / file).read_text(encoding="utf-8").strip()
+
+
+def setting(measured, flag, default):
+    """What the command was given for it."""
+    found = re.search(rf"{flag}[ =](\S+?)[`.]*(?: |$)", measured)
+    return found[1] if found else default
 
 
 def parse_folder(doc):

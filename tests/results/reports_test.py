@@ -19,7 +19,8 @@ import python_report  # noqa: E402
 import report_statistics as statistics  # noqa: E402
 
 # Of each report: the folder of its rows, and more arguments.
-REPORTS = {"convergence_report": ("convergence",),
+REPORTS = {"contact_space_report": ("contact-space",),
+           "convergence_report": ("convergence",),
            "planning_report": ("planning",),
            "trade_report": ("trade", "--results", str(SOURCE / "results"))}
 

@@ -33,19 +33,8 @@ struct ContactSpaceResults {
   int threads = 0;
 };
 
+// Rows, of which contact_space_report.py makes the pages.
 std::vector<NamedTable> ContactSpaceTables(const ContactSpaceResults& results);
-
-// The few columns a terminal has room for.
-Table ContactSpaceShortTable(const ContactSpaceResults& results);
-
-// Time and memory over the obstacle's size, log-log.
-Figure GrowthFigure(const std::vector<GrowthResult>& growth);
-
-// README.md; `command` is how it was made.
-std::string ContactSpaceReadme(const ContactSpaceResults& results,
-                               const std::vector<NamedTable>& tables,
-                               const std::vector<Figure>& figures,
-                               const std::string& command);
 
 // Random pairs that failed, all kinds together.
 int FailedPairs(const ContactSpaceResults& results);

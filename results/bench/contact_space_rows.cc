@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "results/bench/contact_space_report.h"
+#include "results/bench/contact_space_rows.h"
 
 #include <algorithm>
-#include <cmath>
 
-#include "problems/output/gnuplot.h"
 #include "problems/output/text.h"
 
 namespace phongpd::bench {
@@ -54,11 +52,6 @@ std::string Verdict(const CaseResult& c) {
 
 Table BuildsTable(const ContactSpaceResults& results) {
   return MakeTable(
-      "Contact spaces",
-      "Robot + obstacle with their triangles. Seconds: median (and slowest) of "
-      "up to 5 builds with all threads, from meshes in memory to a checked "
-      "mesh. Peak: of a process that does nothing else. Self-int.: pairs of "
-      "triangles that meet after rounding to double.",
       {"pair", "triangles", "genus", "cavities", "self-int.", "convolution",
        "arrangement", "median [s]", "slowest [s]", "peak [MiB]", "target"},
       results.cases, [&](const CaseResult& c, const auto& add) {
@@ -72,8 +65,6 @@ Table BuildsTable(const ContactSpaceResults& results) {
 // Its columns are what the builds report.
 Table StagesTable(const ContactSpaceResults& results) {
   Table table;
-  table.title = "Seconds per stage";
-  table.note = "Medians of the builds above.";
   table.header = {"pair"};
   for (const CaseResult& c : results.cases) {
     if (table.header.size() > 1) break;
@@ -95,9 +86,6 @@ Table StagesTable(const ContactSpaceResults& results) {
 Table ThreadsTable(const ContactSpaceResults& results) {
   const std::string threads = Shown(results.threads);
   return MakeTable(
-      "One thread and " + threads,
-      "The same builds with TBB limited to one thread. Same bytes: a hash of "
-      "all coordinates and indices of the result.",
       {"pair", "1 thread [s]", threads + " [s]", "speed-up", "same bytes"},
       results.cases, [&](const CaseResult& c, const auto& add) {
         const BuildMeasurement &one = c.one_thread, &all = c.all_threads;
@@ -113,15 +101,6 @@ Table ThreadsTable(const ContactSpaceResults& results) {
 
 Table CompetitorsTable(const ContactSpaceResults& results) {
   return MakeTable(
-      "Beside CGAL",
-      "The same meshes in the same binary and run, one build each, one "
-      "process each, limit " +
-          Rounded(results.limit) +
-          " s. Nef: minkowski_sum_3. Hulls: convex parts (an operand convex up "
-          "to 1e-9 is one part, else convex_decomposition_3), hulls of all "
-          "pairs of parts, union by corefinement with exact constructions. Nef "
-          "/ ours: their time over our median (they use one thread, we use "
-          "all). Volume: relative difference to ours.",
       {"pair", "ours [s]", "Nef [s]", "Nef / ours", "Nef volume", "hulls [s]",
        "hulls / ours", "hulls volume", "ours tri.", "Nef tri.", "hulls tri.",
        "Nef [MiB]", "hulls [MiB]"},
@@ -151,21 +130,16 @@ Table CompetitorsTable(const ContactSpaceResults& results) {
 }
 
 Table GrowthTable(const ContactSpaceResults& results) {
-  return MakeTable(
-      "A convex robot on a smooth obstacle",
-      "A turned brick or a ball of 80 triangles on a torus of 10⁴, 10⁵ and "
-      "10⁶. Linear growth: the same microseconds and KiB a triangle in every "
-      "row.",
-      {"robot", "obstacle", "result triangles", "seconds", "peak [MiB]",
-       "µs a triangle", "KiB a triangle"},
-      results.growth, [&](const GrowthResult& g, const auto& add) {
-        for (const BuildMeasurement& m : g.sizes) {
-          const double n = std::max(m.obstacle_triangles, 1);
-          add(g.robot, m.obstacle_triangles, m.triangles,
-              Seconds(m, results.limit), m.peak_mib, 1e6 * m.seconds / n,
-              1024 * m.peak_mib / n);
-        }
-      });
+  return MakeTable({"robot", "obstacle", "result triangles", "seconds",
+                    "peak [MiB]", "µs a triangle", "KiB a triangle"},
+                   results.growth, [&](const GrowthResult& g, const auto& add) {
+                     for (const BuildMeasurement& m : g.sizes) {
+                       const double n = std::max(m.obstacle_triangles, 1);
+                       add(g.robot, m.obstacle_triangles, m.triangles,
+                           Seconds(m, results.limit), m.peak_mib,
+                           1e6 * m.seconds / n, 1024 * m.peak_mib / n);
+                     }
+                   });
 }
 
 FuzzCount Total(const std::vector<FuzzCount>& counts) {
@@ -192,17 +166,6 @@ Table FuzzTable(const ContactSpaceResults& results) {
   for (const FuzzCount& f : results.fuzz) counts.emplace_back(Name(f.kind), f);
   counts.emplace_back("all", Total(results.fuzz));
   return MakeTable(
-      "Random pairs",
-      "Every pair is built four times (as it is, swapped, moved by up to 100 "
-      "sizes, scaled by 1e-9 to 1e9) and checked: closed, manifold, no "
-      "crossing deeper than the grid, volume counted on a lattice, the four "
-      "results alike, and membership of 300 random points and 1200 points "
-      "±1e-6 and ±1e-9 of the diagonal off the surface against FCL. Crevice: "
-      "such a point lies behind another sheet. Undecided: closer to the "
-      "surface, or in a gap thinner, than a few grid steps. Oracle wrong: "
-      "FCL contradicts exact predicates. Rounded: pairs whose triangles meet "
-      "after rounding to double. Slowest: of one build, one thread. Limit " +
-          Rounded(results.pair_limit) + " s a pair.",
       {"kind", "pairs", "failed", "points", "crevices", "undecided",
        "oracle wrong", "rounded", "largest [tri.]", "slowest [s]", "its seed"},
       counts, [](const auto& count, const auto& add) {
@@ -211,6 +174,13 @@ Table FuzzTable(const ContactSpaceResults& results) {
             f.oracle_errors, f.rounded_pairs, f.largest, f.slowest,
             f.slowest_seed);
       });
+}
+
+Table FailureTable(const ContactSpaceResults& results) {
+  return MakeTable({"failure"}, results.fuzz,
+                   [](const FuzzCount& f, const auto& add) {
+                     for (const std::string& failure : f.failures) add(failure);
+                   });
 }
 
 }  // namespace
@@ -230,49 +200,9 @@ std::vector<NamedTable> ContactSpaceTables(const ContactSpaceResults& results) {
   }
   if (!results.fuzz.empty()) {
     tables.push_back({"random_pairs.csv", FuzzTable(results)});
+    tables.push_back({"failed_pairs.csv", FailureTable(results)});
   }
   return tables;
-}
-
-Table ContactSpaceShortTable(const ContactSpaceResults& results) {
-  return MakeTable("Contact spaces", "",
-                   {"pair", "triangles", "median [s]", "peak [MiB]", "target"},
-                   results.cases, [&](const CaseResult& c, const auto& add) {
-                     add(c.build.name, c.all_threads.triangles,
-                         Seconds(c.all_threads, results.limit),
-                         c.all_threads.peak_mib, Verdict(c));
-                   });
-}
-
-Figure GrowthFigure(const std::vector<GrowthResult>& growth) {
-  std::string script, time, memory;
-  for (std::size_t i = 0; i < growth.size(); ++i) {
-    const std::string name = "$g" + std::to_string(i);
-    script += name + " << EOD\n";
-    for (const BuildMeasurement& m : growth[i].sizes) {
-      if (!IsDone(m.status)) continue;
-      script += std::to_string(m.obstacle_triangles) + ' ' +
-                FormatDouble(m.seconds) + ' ' + FormatDouble(m.peak_mib) + '\n';
-    }
-    script += "EOD\n";
-    const std::string style = " w lp pt 7 lw 2 t '" + growth[i].robot + "', ";
-    time += name + " u 1:2" + style;
-    memory += name + " u 1:3" + style;
-  }
-  script +=
-      "set multiplot layout 1,2\nset logscale xy\nset grid\n"
-      "set format '10^{%L}'\nset key top left\nset xrange [5e3:2e6]\n"
-      "set xlabel 'obstacle [triangles]'\n"
-      "set ylabel 'median build [s]'\nplot " +
-      time +
-      "1e-5*x w l dt 2 lc 'grey' t '10 µs a triangle'\n"
-      "set ylabel 'peak [MiB]'\nplot " +
-      memory +
-      "x/1024 w l dt 2 lc 'grey' t '1 KiB a triangle'\n"
-      "unset multiplot\n";
-  return {"growth.svg",
-          "A convex robot on a smooth obstacle: time and memory over its size",
-          RenderSvg(script, 1000, 420)};
 }
 
 int FailedPairs(const ContactSpaceResults& results) {
