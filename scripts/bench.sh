@@ -26,15 +26,18 @@ esac
 if [[ $suite == paper || $suite == all ]]; then
   scripts/build.sh paper_benchmark
   build/paper_benchmark --output results/paper
+  python3 -B results/bench/paper_report.py --output results/paper
 fi
 if [[ $suite == queries || $suite == all ]]; then
   scripts/setup.sh libbenchmark-dev valgrind
   cmake --preset release -DPHONGPD_BUILD_QUERY_BENCHMARK=ON
   scripts/build.sh phongpd query_benchmark query_instructions tracker_benchmark
   scripts/count_queries.sh build/query_instructions > build/instructions.csv
-  build/query_benchmark --output results/queries \
-    --instructions build/instructions.csv
+  mv build/instructions.csv results/queries
+  build/query_benchmark --output results/queries
   build/tracker_benchmark --output results/queries
+  python3 -B results/bench/query_report.py --output results/queries
+  python3 -B results/bench/tracker_report.py --output results/queries
 fi
 if [[ $suite == queries || $suite == continuity || $suite == all ]]; then
   scripts/models.sh build/models

@@ -15,7 +15,7 @@
 #include "problems/studies/comparison_rows.h"
 #include "problems/studies/comparison_run.h"
 #include "problems/studies/study_metrics.h"
-#include "results/bench/paper_report.h"
+#include "results/bench/paper_rows.h"
 #include "results/bench/planning_rows.h"
 #include "results/bench/program.h"
 #include "results/bench/slice_check.h"

@@ -21,7 +21,10 @@ import report_statistics as statistics  # noqa: E402
 # Of each report: the folder of its rows, and more arguments.
 REPORTS = {"contact_space_report": ("contact-space",),
            "convergence_report": ("convergence",),
+           "paper_report": ("paper",),
            "planning_report": ("planning",),
+           "query_report": ("queries",),
+           "tracker_report": ("queries",),
            "trade_report": ("trade", "--results", str(SOURCE / "results"))}
 
 

@@ -7,7 +7,7 @@
 
 #include "results/bench/report.h"
 
-// What tracker_benchmark publishes of what it measured.
+// Rows of tracker_benchmark, of which tracker_report.py makes tracker.md.
 namespace phongpd::bench {
 
 // One metric over one contact space, or over all.
@@ -27,11 +27,6 @@ struct TrackerRow {
 };
 
 NamedTable TrackerTable(const std::vector<TrackerRow>& rows);
-
-// tracker.md: the rows, one a space and metric, added up, and where the tracker
-// misses what was aimed at or a field does better than it.
-std::string TrackerPage(const std::vector<NamedTable>& tables,
-                        const std::vector<TrackerRow>& rows);
 
 // All spaces but the hard one together, a row a metric.
 NamedTable TrackerTotals(const std::vector<TrackerRow>& rows);

@@ -5,10 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "results/bench/csv_table.h"
 #include "results/bench/report.h"
 
-// What query_benchmark publishes of what it measured.
+// Rows of query_benchmark, of which query_report.py makes the pages.
 namespace phongpd::bench {
 
 // One kind of query on one sequence of points in one contact space.
@@ -34,12 +33,6 @@ struct QueryExtras {
 
 NamedTable QueryTable(const std::vector<QueryRow>& rows);
 
-// Instructions a query: what scripts/count_queries.sh writes.
-NamedTable InstructionTable(const CsvTable& csv);
-
-// README.md: what was aimed at and what was found, who wins, the tables.
-std::string QueryReadme(const std::vector<QueryRow>& rows,
-                        const QueryExtras& extras,
-                        const std::vector<NamedTable>& tables);
+NamedTable ExtrasTable(const QueryExtras& extras);
 
 }  // namespace phongpd::bench
