@@ -59,6 +59,7 @@ if [[ $suite == lazy || $suite == all ]]; then
   scripts/build.sh lazy_benchmark culling_benchmark
   build/lazy_benchmark --output results/lazy --queries 60
   build/culling_benchmark --output results/lazy
+  python3 -B results/bench/lazy_report.py --output results/lazy
 fi
 if [[ $suite == convergence || $suite == all ]]; then
   scripts/build.sh phongpd convergence_benchmark
@@ -115,10 +116,12 @@ fi
 if [[ $suite == planning || $suite == widths || $suite == all ]]; then
   scripts/build.sh width_benchmark
   build/width_benchmark --output results/planning
+  python3 -B results/bench/passages_report.py --output results/planning
 fi
 if [[ $suite == planning || $suite == retraction || $suite == all ]]; then
   scripts/build.sh retraction_benchmark
   build/retraction_benchmark --output results/planning --seeds 20
+  python3 -B results/bench/passages_report.py --output results/planning
 fi
 if [[ $suite == extremes || $suite == all ]]; then
   # Every test program with a suite named *Campaign* takes part.
@@ -206,5 +209,6 @@ if [[ $suite == trade || $suite == all ]]; then
   build/trade_benchmark --output results/trade --seeds 2
   . scripts/convergence_scenes.sh
   build/defaults_benchmark --output results/trade --scenes "${scenes[@]}"
+  python3 -B results/bench/defaults_report.py --output results/trade
   python3 -B results/bench/trade_report.py --output results/trade
 fi

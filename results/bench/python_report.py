@@ -91,9 +91,9 @@ def read_dicts(path):
 
 def read_table(folder, file, title, note):
     """One that is published as it was measured."""
-    rows = read_dicts(folder / file)
-    return Table(file, title, note, list(rows[0]),
-                 [list(row.values()) for row in rows])
+    with open(folder / file, newline="", encoding="utf-8") as lines:
+        header, *rows = csv.reader(lines)
+    return Table(file, title, note, header, rows)
 
 
 def read_measured(folder, file="measured.txt"):

@@ -21,7 +21,10 @@ import report_statistics as statistics  # noqa: E402
 # Of each report: the folder of its rows, and more arguments.
 REPORTS = {"contact_space_report": ("contact-space",),
            "convergence_report": ("convergence",),
+           "defaults_report": ("trade",),
+           "lazy_report": ("lazy",),
            "paper_report": ("paper",),
+           "passages_report": ("planning",),
            "planning_report": ("planning",),
            "query_report": ("queries",),
            "tracker_report": ("queries",),
@@ -47,6 +50,14 @@ class Pages(unittest.TestCase):
                     if not file.endswith(".svg"):
                         self.assertEqual((published / file).read_bytes(),
                                          (again / file).read_bytes(), file)
+
+    def test_keep_columns_of_the_same_name(self):
+        with tempfile.TemporaryDirectory() as name:
+            folder = pathlib.Path(name)
+            (folder / "a.csv").write_text('x,with,with\n"1, 2",3,4\n')
+            table = python_report.read_table(folder, "a.csv", "A", "")
+        self.assertEqual(table.header, ["x", "with", "with"])
+        self.assertEqual(table.rows, [["1, 2", "3", "4"]])
 
     def test_lead_to_tables_where_these_are_long(self):
         table = python_report.Table("a.csv", "A", "", ["x"], [["1"]] * 100)
