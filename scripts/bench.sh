@@ -26,15 +26,18 @@ esac
 if [[ $suite == paper || $suite == all ]]; then
   scripts/build.sh paper_benchmark
   build/paper_benchmark --output results/paper
+  python3 -B results/bench/paper_report.py --output results/paper
 fi
 if [[ $suite == queries || $suite == all ]]; then
   scripts/setup.sh libbenchmark-dev valgrind
   cmake --preset release -DPHONGPD_BUILD_QUERY_BENCHMARK=ON
   scripts/build.sh phongpd query_benchmark query_instructions tracker_benchmark
   scripts/count_queries.sh build/query_instructions > build/instructions.csv
-  build/query_benchmark --output results/queries \
-    --instructions build/instructions.csv
+  mv build/instructions.csv results/queries
+  build/query_benchmark --output results/queries
   build/tracker_benchmark --output results/queries
+  python3 -B results/bench/query_report.py --output results/queries
+  python3 -B results/bench/tracker_report.py --output results/queries
 fi
 if [[ $suite == queries || $suite == continuity || $suite == all ]]; then
   scripts/models.sh build/models
@@ -47,12 +50,16 @@ if [[ $suite == contact-space || $suite == all ]]; then
   scripts/setup.sh
   cmake --preset release -DPHONGPD_BUILD_COMPETITORS=ON
   scripts/build.sh contact_space_benchmark
-  build/contact_space_benchmark --output results/contact-space
+  # Exit code 1, pairs that fail a check, is the report's to tell.
+  build/contact_space_benchmark --output results/contact-space || (($? == 1))
+  python3 -B results/bench/contact_space_report.py \
+    --output results/contact-space
 fi
 if [[ $suite == lazy || $suite == all ]]; then
   scripts/build.sh lazy_benchmark culling_benchmark
   build/lazy_benchmark --output results/lazy --queries 60
   build/culling_benchmark --output results/lazy
+  python3 -B results/bench/lazy_report.py --output results/lazy
 fi
 if [[ $suite == convergence || $suite == all ]]; then
   scripts/build.sh phongpd convergence_benchmark
@@ -83,9 +90,13 @@ if [[ $suite == convergence || $suite == all ]]; then
   shards study --protocols straight-monotone straight-adaptive \
     repaired-monotone repaired-adaptive \
     --metrics followed mixed@0.2 faded@0.2 --runs 20
-  cat "$rows"/*/rows.jsonl > "$rows/all.jsonl"
-  build/convergence_benchmark --rows "$rows/all.jsonl" \
-    --output results/convergence --how "scripts/bench.sh convergence"
+  # The order of the tables' columns.
+  build/phongpd compare --output "$rows/all" --rows \
+    "$rows"/{straight,exact,repaired,study}-*/rows.jsonl > "$rows/words"
+  cp "$rows"/all/{rows,summary}.csv results/convergence
+  build/convergence_benchmark --output results/convergence \
+    --scenes "${scenes[@]}" --how "scripts/bench.sh convergence"
+  python3 -B results/bench/convergence_report.py --output results/convergence
 fi
 if [[ $suite == study || $suite == all ]]; then
   # results/study/protocol.md; parts that were cut off go on where they were.
@@ -115,20 +126,23 @@ if [[ $suite == pipeline || $suite == all ]]; then
 fi
 if [[ $suite == planning || $suite == all ]]; then
   scripts/build.sh planning_benchmark voxel_worlds_test
-  worlds=$(PHONGPD_VOXEL_WORLDS=1700 build/tests/voxel_worlds_test |
+  PHONGPD_VOXEL_WORLDS=1700 build/tests/voxel_worlds_test |
     awk '/^solved/ { solved += $2; proved += $4; wrong += $6 }
       END { print solved " solved, " proved " proved infeasible, " wrong \
-        " disagreements (PHONGPD_VOXEL_WORLDS=1700 voxel_worlds_test)" }')
-  build/planning_benchmark --output results/planning \
-    --voxel-worlds "$worlds"
+        " disagreements (PHONGPD_VOXEL_WORLDS=1700 voxel_worlds_test)" }' \
+      > results/planning/voxel_worlds.txt
+  build/planning_benchmark --output results/planning
+  python3 -B results/bench/planning_report.py --output results/planning
 fi
 if [[ $suite == planning || $suite == widths || $suite == all ]]; then
   scripts/build.sh width_benchmark
   build/width_benchmark --output results/planning
+  python3 -B results/bench/passages_report.py --output results/planning
 fi
 if [[ $suite == planning || $suite == retraction || $suite == all ]]; then
   scripts/build.sh retraction_benchmark
   build/retraction_benchmark --output results/planning --seeds 20
+  python3 -B results/bench/passages_report.py --output results/planning
 fi
 if [[ $suite == extremes || $suite == all ]]; then
   # Every test program with a suite named *Campaign* takes part.
@@ -216,5 +230,6 @@ if [[ $suite == trade || $suite == all ]]; then
   build/trade_benchmark --output results/trade --seeds 2
   . scripts/convergence_scenes.sh
   build/defaults_benchmark --output results/trade --scenes "${scenes[@]}"
+  python3 -B results/bench/defaults_report.py --output results/trade
   python3 -B results/bench/trade_report.py --output results/trade
 fi

@@ -11,7 +11,8 @@ export PHONGPD_CACHE_DIR=$PWD/build/cache
 
 scripts/build.sh phongpd paper_benchmark
 demo=build/demo
-build/paper_benchmark --output "$demo" --motions 20 --points 2000 --page
+build/paper_benchmark --output "$demo" --motions 20 --points 2000
+python3 -B results/bench/paper_report.py --output "$demo" --page
 
 # Exit code 1 says that a run found no answer: some here must not.
 run() {

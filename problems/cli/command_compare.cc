@@ -86,14 +86,17 @@ Methods ReadMethods(const CompareFlags& flags) {
 std::vector<ComparisonJob> Jobs(const CompareFlags& flags,
                                 const Methods& methods, const Shard& shard) {
   std::vector<ComparisonJob> jobs;
-  int problem = 0;
+  ComparisonPart part;
+  part.index = shard.index;
+  part.count = shard.count;
+  part.all_problems = static_cast<int>(methods.sources.size()) * flags.runs;
   for (const SceneSource& source : methods.sources) {
-    for (int run = 0; run < flags.runs; ++run, ++problem) {
-      if (!shard.Has(problem)) continue;
+    for (int run = 0; run < flags.runs; ++run, ++part.problem) {
+      if (!shard.Has(part.problem)) continue;
       const std::uint64_t seed = flags.seed + static_cast<std::uint64_t>(run);
       for (const TrajectoryProtocol& protocol : methods.protocols) {
         for (const StudyMetric& metric : methods.metrics) {
-          jobs.push_back({&source, seed, protocol, metric});
+          jobs.push_back({&source, seed, protocol, metric, part});
         }
       }
     }
@@ -229,7 +232,8 @@ void AddComparedRuns(CLI::App* app, CompareFlags* flags) {
 void AddComparedRows(CLI::App* app, CompareFlags* flags) {
   app->add_option("--rows", flags->rows,
                   "Summarise these rows instead of running: rows.jsonl of one "
-                  "command or of all parts of it, in any order")
+                  "command or of all parts of it, in any order; a part that "
+                  "is missing is refused")
       ->expected(1, -1)
       ->type_name("FILE");
   app->add_flag("--paths", flags->keep_paths, "Keep the paths in the rows");

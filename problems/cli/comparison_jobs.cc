@@ -64,6 +64,7 @@ void RunJobs(const std::vector<ComparisonJob>& jobs,
     }
     Json row = RunComparison(scene, worlds.Of(scene), run);
     if (!keep_paths) row.erase("path");
+    MarkPart(job.part, &row);
     rows->Append(JsonText(row));
   }
 }

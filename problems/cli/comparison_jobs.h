@@ -7,6 +7,7 @@
 #include "core/contact/contact_space_cache.h"
 #include "problems/output/row_file.h"
 #include "problems/scenes/scene_source.h"
+#include "problems/studies/comparison_parts.h"
 #include "problems/studies/study_metrics.h"
 #include "problems/studies/trajectory_comparison.h"
 
@@ -18,6 +19,7 @@ struct ComparisonJob {
   std::uint64_t seed;
   TrajectoryProtocol protocol;
   StudyMetric metric;
+  ComparisonPart part;  // of which command its problem is
 };
 
 // Appends the rows that are not there yet; those that are must be of the first

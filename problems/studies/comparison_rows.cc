@@ -12,6 +12,7 @@
 #include "core/mesh/mesh_error.h"
 #include "problems/output/json_text.h"
 #include "problems/output/text.h"
+#include "problems/studies/comparison_parts.h"
 
 namespace phongpd {
 
@@ -176,7 +177,9 @@ std::vector<Json> JoinComparisons(const std::vector<std::string>& paths) {
                    [&](const ReadRow& a, const ReadRow& b) {
                      return problem(a) < problem(b);
                    });
-  return RowsAlone(std::move(read));
+  std::vector<Json> rows = RowsAlone(std::move(read));
+  UnmarkAllParts(&rows);
+  return rows;
 }
 
 }  // namespace phongpd

@@ -16,7 +16,8 @@ std::vector<nlohmann::ordered_json> ReadComparison(const std::string& path);
 // Those of several files, in whatever order, such as the parts of a comparison,
 // of which some may be empty: a scene's rows follow each other by their seeds.
 // Throws InputError as ReadComparison, also naming a row that is there twice
-// (of one scene, seed, protocol and method), or if there is none at all.
+// (of one scene, seed, protocol and method), or if there is none at all, or if
+// a part is missing (comparison_parts.h).
 std::vector<nlohmann::ordered_json> JoinComparisons(
     const std::vector<std::string>& paths);
 

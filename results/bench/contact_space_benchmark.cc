@@ -2,13 +2,12 @@
 // Purpose: time and memory of contact spaces beside CGAL's Nef Minkowski sum
 // and a union of hulls on the same inputs in one run, growth with the
 // obstacle, one thread against all, and the checks of random pairs.  Writes
-// CSV, SVG and README.md into a directory.
+// CSV into a directory, of which contact_space_report.py makes the pages.
 #include <CLI/CLI.hpp>
 #include <iostream>
 #include <thread>
 
-#include "problems/output/gnuplot.h"
-#include "results/bench/contact_space_report.h"
+#include "results/bench/contact_space_rows.h"
 #include "results/bench/program.h"
 
 namespace phongpd::bench {
@@ -93,7 +92,6 @@ int Run(int argc, char** argv) {
       ->capture_default_str();
   app.add_option("--seed", options.seed)->capture_default_str();
   CLI11_PARSE(app, argc, argv);
-  RequireGnuplot();
 
   ContactSpaceResults results;
   results.limit = options.limit;
@@ -108,19 +106,16 @@ int Run(int argc, char** argv) {
   if (wanted("pairs")) results.fuzz = CheckAllPairs(options);
 
   OutputDirectory out(options.output);
-  const std::vector<NamedTable> tables = ContactSpaceTables(results);
-  std::vector<Figure> figures;
-  if (!results.growth.empty()) figures.push_back(GrowthFigure(results.growth));
-  WriteReport(tables, figures,
-              ContactSpaceReadme(
-                  results, tables, figures,
-                  CommandLine("build/contact_space_benchmark", argc, argv)),
-              &out);
-  out.Commit();
-  if (!results.cases.empty()) {
-    std::cout << ToText(ContactSpaceShortTable(results));
+  for (const NamedTable& named : ContactSpaceTables(results)) {
+    out.Write(named.file, ToCsv(named.table));
   }
-  if (!results.fuzz.empty()) std::cout << ToText(tables.back().table);
+  out.Write(
+      "measured.txt",
+      Circumstances(
+          "`" + CommandLine("build/contact_space_benchmark", argc, argv) + "`",
+          options.seed) +
+          "\n");
+  out.Commit();
   const int failed = FailedPairs(results);
   if (failed > 0) std::cerr << failed << " random pairs failed\n";
   return failed > 0 ? 1 : 0;

@@ -2,7 +2,7 @@
 // Purpose: are the defaults right?  The planner's spacing, the optimiser's rows
 // a sample and its second start against their challengers, instance by instance
 // in one process: processor time, and the length or energy of what is found.
-// Writes defaults.csv and defaults.md.
+// Writes defaults.csv, of which defaults_report.py makes tests and defaults.md.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
@@ -13,7 +13,6 @@
 #include "problems/scenes/kept_world.h"
 #include "problems/scenes/scene_requests.h"
 #include "problems/scenes/scene_source.h"
-#include "results/bench/paired_test.h"
 #include "results/bench/planning_measure.h"
 #include "results/bench/program.h"
 #include "results/bench/trade_measure.h"
@@ -21,7 +20,6 @@
 namespace phongpd::bench {
 namespace {
 
-constexpr double kLevel = 0.05;
 // Of a length or an energy: less is the same.
 constexpr double kSame = 1e-3;
 
@@ -40,7 +38,6 @@ struct Contest {
   int answered[2] = {0, 0}, converged[2] = {0, 0};
   int faster = 0, slower = 0, shorter = 0, longer = 0;
   std::vector<double> times, measures;  // challenger over incumbent
-  double p_time = 1.0, p_measure = 1.0;
 
   void Add(const Outcome& old, const Outcome& next) {
     ++instances;
@@ -169,23 +166,6 @@ Contest ContestOptimize(const std::string& incumbent,
   return contest;
 }
 
-void Correct(std::vector<Contest>* contests) {
-  std::vector<double> p;
-  for (const Contest& c : *contests) {
-    p.push_back(SignTest(c.faster, c.slower));
-    p.push_back(SignTest(c.shorter, c.longer));
-  }
-  p = Holm(p);
-  for (std::size_t i = 0; i < contests->size(); ++i) {
-    (*contests)[i].p_time = p[2 * i];
-    (*contests)[i].p_measure = p[2 * i + 1];
-  }
-}
-
-std::string Verdict(int wins, int losses, double p) {
-  return p >= kLevel ? "tie" : wins > losses ? "win" : "**loss**";
-}
-
 double Mean(const std::vector<double>& values) {
   double sum = 0.0;
   for (const double value : values) sum += value;
@@ -197,16 +177,9 @@ Table ContestTable(const std::vector<Contest>& contests) {
     return Shown(n[0]) + " : " + Shown(n[1]);
   };
   return MakeTable(
-      "Defaults and their challengers",
-      "Default first where two counts stand beside each other. Time: processor "
-      "time of the challenger over the default's, median and quartiles. Length "
-      "or energy: the same ratio, mean and quartiles; shorter and longer by "
-      "more than 0.1 %. p: two-sided sign test after Holm's correction over "
-      "all tests of the table.",
       {"consumer", "default", "challenger", "instances", "exactly free",
-       "converged", "time", "time, quartiles", "faster : slower", "p of time",
-       "time is a", "length or energy", "its quartiles", "shorter : longer",
-       "p of it", "length or energy is a"},
+       "converged", "time", "time, quartiles", "faster : slower",
+       "length or energy", "its quartiles", "shorter : longer"},
       contests, [&](const Contest& c, const auto& add) {
         const auto quartiles = [](const std::vector<double>& v, int digits) {
           return Rounded(Quantile(v, 0.25), digits) + " – " +
@@ -215,20 +188,10 @@ Table ContestTable(const std::vector<Contest>& contests) {
         add(c.consumer, c.incumbent, c.challenger, c.instances,
             pair(c.answered), pair(c.converged), Quantile(c.times, 0.5),
             quartiles(c.times, 3), Shown(c.faster) + " : " + Shown(c.slower),
-            Rounded(c.p_time, 2), Verdict(c.faster, c.slower, c.p_time),
             Rounded(Mean(c.measures), 5), quartiles(c.measures, 5),
-            Shown(c.shorter) + " : " + Shown(c.longer), Rounded(c.p_measure, 2),
-            Verdict(c.shorter, c.longer, c.p_measure));
+            Shown(c.shorter) + " : " + Shown(c.longer));
       });
 }
-
-constexpr char kIntroduction[] =
-    R"(# Defaults against their challengers
-
-Whether a default is right is asked on the scenes of the studies, not on those
-it was noticed on: every instance by both, in one process, paired.
-
-)";
 
 int Run(int argc, char** argv) {
   CLI::App app("Defaults against their challengers.");
@@ -254,16 +217,13 @@ int Run(int argc, char** argv) {
   contests.push_back(ContestOptimize(
       "also_line", "the repaired start alone",
       [](PipelineOptions* o) { o->also_line = false; }, scenes, seed, seeds));
-  Correct(&contests);
   const Table table = ContestTable(contests);
   OutputDirectory out(directory);
   out.Write("defaults.csv", ToCsv(table));
-  out.Write("defaults.md",
-            kIntroduction + ToMarkdown(table) +
-                "\nRows: [defaults.csv](defaults.csv)\n\n" +
-                Circumstances(
-                    CommandLine("build/defaults_benchmark", argc, argv), seed) +
-                "\n");
+  out.Write(
+      "defaults_measured.txt",
+      Circumstances(CommandLine("build/defaults_benchmark", argc, argv), seed) +
+          "\n");
   out.Commit();
   std::cout << ToText(table);
   return 0;

@@ -104,27 +104,20 @@ FreeSpaceRow MeasureFreeSpace(const std::string& name,
 
 NamedTable FreeSpaceTable(const std::vector<FreeSpaceRow>& rows) {
   return {"free_space.csv",
-          MakeTable(
-              "Free space from the convolution alone",
-              "CPU time of a full build, and until a `ConvolutionModel` can be "
-              "asked, medians of five; the first motion check, right through "
-              "the box of C_cont; "
-              "random segments, of whose answers none may differ, the first "
-              "time, when they model what they need of the convolution, and "
-              "once more; and the clearance of the first thousand.",
-              {"pair", "triangles of A", "triangles of B", "full build, CPU s",
-               "ready, CPU s", "share", "first check, CPU ms", "segments",
-               "free", "disagreements", "worst clearance error / D",
-               "facets of the convolution", "facets modelled",
-               "check in full, CPU us", "in free space alone, CPU us",
-               "once more, CPU us"},
-              rows, [](const FreeSpaceRow& r, const auto& add) {
-                add(r.name, r.robot, r.obstacle, r.full_seconds, r.seconds,
-                    r.seconds / r.full_seconds, r.first_milliseconds,
-                    r.segments, r.free, r.disagreements, r.worst_clearance,
-                    r.facets, r.modelled, r.full_microseconds, r.microseconds,
-                    r.again_microseconds);
-              })};
+          MakeTable({"pair", "triangles of A", "triangles of B",
+                     "full build, CPU s", "ready, CPU s", "share",
+                     "first check, CPU ms", "segments", "free", "disagreements",
+                     "worst clearance error / D", "facets of the convolution",
+                     "facets modelled", "check in full, CPU us",
+                     "in free space alone, CPU us", "once more, CPU us"},
+                    rows, [](const FreeSpaceRow& r, const auto& add) {
+                      add(r.name, r.robot, r.obstacle, r.full_seconds,
+                          r.seconds, r.seconds / r.full_seconds,
+                          r.first_milliseconds, r.segments, r.free,
+                          r.disagreements, r.worst_clearance, r.facets,
+                          r.modelled, r.full_microseconds, r.microseconds,
+                          r.again_microseconds);
+                    })};
 }
 
 }  // namespace phongpd::bench

@@ -227,43 +227,38 @@ std::vector<GuardRow> MeasureGuard(int pairs, std::uint64_t seed) {
 }
 
 NamedTable GuardTable(const std::vector<GuardRow>& rows) {
-  return {
-      "guard.csv",
-      MakeTable(
-          "Predicted and found",
-          "Builds in one thread, processor time and growth of the process; "
-          "and how far wall time and memory had come, over the limit, when a "
-          "limit of half of them refused the build, or let boxes do it (0: too "
-          "small to try).",
-          {"robot",
-           "obstacle",
-           "triangles of A",
-           "triangles of B",
-           "facets",
-           "culled",
-           "faces",
-           "triangles",
-           "meetings predicted",
-           "faces predicted",
-           "CPU s",
-           "predicted s",
-           "MiB",
-           "predicted MiB",
-           "time over limit",
-           "in its",
-           "memory over limit",
-           "in its stage",
-           "by boxes, CPU s",
-           "by boxes, MiB",
-           "predicted"},
-          rows, [](const GuardRow& r, const auto& add) {
-            add(r.robot, r.obstacle, r.robot_triangles, r.obstacle_triangles,
-                r.facets, std::string(r.is_culled ? "yes" : "no"), r.faces,
-                r.triangles, r.predicted_meetings, r.predicted_faces, r.seconds,
-                r.predicted_seconds, r.mib, r.predicted_mib, r.time_passed,
-                r.time_stage, r.memory_passed, r.memory_stage, r.boxes_seconds,
-                r.boxes_mib, r.predicted_boxes_mib);
-          })};
+  return {"guard.csv",
+          MakeTable({"robot",
+                     "obstacle",
+                     "triangles of A",
+                     "triangles of B",
+                     "facets",
+                     "culled",
+                     "faces",
+                     "triangles",
+                     "meetings predicted",
+                     "faces predicted",
+                     "CPU s",
+                     "predicted s",
+                     "MiB",
+                     "predicted MiB",
+                     "time over limit",
+                     "in its",
+                     "memory over limit",
+                     "in its stage",
+                     "by boxes, CPU s",
+                     "by boxes, MiB",
+                     "predicted"},
+                    rows, [](const GuardRow& r, const auto& add) {
+                      add(r.robot, r.obstacle, r.robot_triangles,
+                          r.obstacle_triangles, r.facets,
+                          std::string(r.is_culled ? "yes" : "no"), r.faces,
+                          r.triangles, r.predicted_meetings, r.predicted_faces,
+                          r.seconds, r.predicted_seconds, r.mib,
+                          r.predicted_mib, r.time_passed, r.time_stage,
+                          r.memory_passed, r.memory_stage, r.boxes_seconds,
+                          r.boxes_mib, r.predicted_boxes_mib);
+                    })};
 }
 
 NamedTable GuardVerdict(const std::vector<GuardRow>& rows) {
@@ -298,17 +293,12 @@ NamedTable GuardVerdict(const std::vector<GuardRow>& rows) {
       verdict("memory", &GuardRow::predicted_mib, &GuardRow::mib,
               &GuardRow::memory_passed, kLeastMib)};
   return {"guard_verdict.csv",
-          MakeTable(
-              "The guard",
-              "Share of the pairs whose prediction is within a factor of what "
-              "was found, both at least 0.05 s and 16 MiB; and builds that "
-              "came beyond 1.5 times a limit of half of what they need.",
-              {"of", "pairs", "within a factor of 2", "of 4", "worst factor",
-               "beyond 1.5 limits", "farthest"},
-              lines, [](const Line& l, const auto& add) {
-                add(l.what, l.pairs, l.within_2, l.within_4, l.worst, l.passed,
-                    l.worst_passed);
-              })};
+          MakeTable({"of", "pairs", "within a factor of 2", "of 4",
+                     "worst factor", "beyond 1.5 limits", "farthest"},
+                    lines, [](const Line& l, const auto& add) {
+                      add(l.what, l.pairs, l.within_2, l.within_4, l.worst,
+                          l.passed, l.worst_passed);
+                    })};
 }
 
 NamedTable BoxesVerdict(const std::vector<GuardRow>& rows) {
@@ -328,18 +318,13 @@ NamedTable BoxesVerdict(const std::vector<GuardRow>& rows) {
         Factor(r.predicted_boxes_mib, r.boxes_mib, kLeastMib));
   }
   return {"guard_boxes.csv",
-          MakeTable(
-              "By boxes",
-              "Built by boxes over built in one, one thread: processor time "
-              "and growth of the process, median and the largest; and how far "
-              "the memory predicted for it is off, worst factor.",
-              {"of", "pairs", "time", "largest time", "memory",
-               "largest memory", "prediction off by"},
-              lines, [](const Line& l, const auto& add) {
-                add(l.of, l.mib.size(), Quantile(l.seconds, 0.5),
-                    Quantile(l.seconds, 1.0), Quantile(l.mib, 0.5),
-                    Quantile(l.mib, 1.0), Quantile(l.prediction, 1.0));
-              })};
+          MakeTable({"of", "pairs", "time", "largest time", "memory",
+                     "largest memory", "prediction off by"},
+                    lines, [](const Line& l, const auto& add) {
+                      add(l.of, l.mib.size(), Quantile(l.seconds, 0.5),
+                          Quantile(l.seconds, 1.0), Quantile(l.mib, 0.5),
+                          Quantile(l.mib, 1.0), Quantile(l.prediction, 1.0));
+                    })};
 }
 
 }  // namespace phongpd::bench

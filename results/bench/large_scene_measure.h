@@ -11,4 +11,7 @@ namespace phongpd::bench {
 // their own: the caller must not have started threads.
 NamedTable LargeSceneTable(double max_seconds);
 
+// Triangles of both, facets of their convolution; in a process of its own, too.
+NamedTable LargeSceneSize();
+
 }  // namespace phongpd::bench

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Purpose: depth of two meshes from windows of the contact space, nothing
 // precomputed, and motion checks from the convolution alone, beside building
-// the whole and asking that, in one binary and one run.  Writes CSV, a figure
-// and README.md into a directory.
+// the whole and asking that, in one binary and one run.  Writes CSV into a
+// directory, of which lazy_report.py makes the pages.
 #include <CLI/CLI.hpp>
 #include <cmath>
 #include <functional>
@@ -13,7 +13,6 @@
 #include "core/contact/depth.h"
 #include "core/projection/euclidean_metric.h"
 #include "core/stopwatch.h"
-#include "problems/output/gnuplot.h"
 #include "problems/shapes/random_solids.h"
 #include "problems/shapes/shapes.h"
 #include "results/bench/free_space_measure.h"
@@ -139,30 +138,23 @@ CaseRow Measure(const Case& c, const Options& options) {
 }
 
 NamedTable TableOf(const std::vector<CaseRow>& rows) {
-  return {
-      "depth.csv",
-      MakeTable(
-          "Depth of at most 5 % of the diagonal",
-          "CPU time of the process: that of a full build (wall time beside "
-          "it) and of making the query from two meshes, medians of five, and "
-          "of one answer "
-          "(median and 95 %; wall time beside it); of an answer at "
-          "a turned pose, which makes a new operand.",
-          {"pair", "triangles of A", "triangles of B", "full build, CPU s",
-           "wall s", "its faces", "query made, CPU s", "answer, CPU ms", "95 %",
-           "wall ms", "faces arranged, median", "turned, CPU ms",
-           "worst error / diagonal", "not certified", "wrong"},
-          rows, [](const CaseRow& r, const auto& add) {
-            add(r.name, r.robot, r.obstacle, r.full_seconds, r.full_wall,
-                r.full_faces, r.handle_seconds, Quantile(r.cpu_ms, 0.5),
-                Quantile(r.cpu_ms, 0.95), Quantile(r.wall_ms, 0.5),
-                Quantile(r.faces, 0.5), Quantile(r.turned_ms, 0.5),
-                r.worst_error, r.uncertified, r.wrong);
-          })};
+  return {"depth.csv",
+          MakeTable(
+              {"pair", "triangles of A", "triangles of B", "full build, CPU s",
+               "wall s", "its faces", "query made, CPU s", "answer, CPU ms",
+               "95 %", "wall ms", "faces arranged, median", "turned, CPU ms",
+               "worst error / diagonal", "not certified", "wrong"},
+              rows, [](const CaseRow& r, const auto& add) {
+                add(r.name, r.robot, r.obstacle, r.full_seconds, r.full_wall,
+                    r.full_faces, r.handle_seconds, Quantile(r.cpu_ms, 0.5),
+                    Quantile(r.cpu_ms, 0.95), Quantile(r.wall_ms, 0.5),
+                    Quantile(r.faces, 0.5), Quantile(r.turned_ms, 0.5),
+                    r.worst_error, r.uncertified, r.wrong);
+              })};
 }
 
 int Run(int argc, char** argv) {
-  CLI::App app("Depth from windows of the contact space: tables.");
+  CLI::App app("Depth from windows of the contact space: rows.");
   Options options;
   app.add_option("--output", options.directory, "Directory to write into")
       ->required();
@@ -176,13 +168,13 @@ int Run(int argc, char** argv) {
                  "Pairs that predictions are held to")
       ->capture_default_str();
   CLI11_PARSE(app, argc, argv);
-  RequireGnuplot();
   OutputDirectory out(options.directory);
   // In processes of their own, before this one starts threads.
   const std::vector<GuardRow> guard =
       MeasureGuard(options.guard_pairs, options.seed);
   std::cout << ToText(GuardVerdict(guard).table) << std::endl;
   const NamedTable large = LargeSceneTable(options.max_seconds);
+  const NamedTable size = LargeSceneSize();
   std::cout << ToText(large.table) << std::endl;
   std::vector<CaseRow> rows;
   for (const Case& c : Cases()) {
@@ -197,30 +189,16 @@ int Run(int argc, char** argv) {
     free_spaces.push_back(row.free_space);
     volumes.insert(volumes.end(), row.volumes.begin(), row.volumes.end());
   }
-  const Figure figure = VolumeFigure(volumes);
-  const std::vector<NamedTable> tables = {TableOf(rows),
-                                          WindowPhongTable(phong),
-                                          FreeSpaceTable(free_spaces),
-                                          large,
-                                          GuardVerdict(guard),
-                                          BoxesVerdict(guard),
-                                          VolumeTable(volumes),
-                                          GuardTable(guard)};
-  WriteReport(
-      tables, {figure},
-      "# Answers without the whole contact space\n\n"
-      "`DepthQuery` beside `BuildContactSpace` and `EuclideanMetric`: random "
-      "configurations below random points of C_cont, at most 5 % of its "
-      "diagonal deep. Every answer is compared with the whole contact "
-      "space's, and so is PhongPD's from windows. `ConvolutionModel` tells "
-      "free space without either.\n\n" +
-          VolumeVerdict(volumes) + " " + WindowPhongVerdict(phong) + "\n\n" +
-          ToMarkdown({tables.begin(), tables.end() - 2}, {figure}) +
-          "\nAll boxes: [volume.csv](volume.csv). All pairs of the guard: "
-          "[guard.csv](guard.csv)\n\n" +
-          Circumstances(CommandLine("build/lazy_benchmark", argc, argv),
-                        options.seed),
-      &out);
+  for (const NamedTable& named :
+       {TableOf(rows), WindowPhongTable(phong), FreeSpaceTable(free_spaces),
+        large, size, GuardVerdict(guard), BoxesVerdict(guard),
+        VolumeTable(volumes), GuardTable(guard)}) {
+    out.Write(named.file, ToCsv(named.table));
+  }
+  out.Write("measured.txt",
+            Circumstances(CommandLine("build/lazy_benchmark", argc, argv),
+                          options.seed) +
+                "\n");
   out.Commit();
   return 0;
 }

@@ -126,13 +126,6 @@ std::vector<MultiQueryRow> MeasureMultiQuery(const std::string& name,
 
 Table MultiQueryTable(const std::vector<MultiQueryRow>& rows) {
   return MakeTable(
-      "Many queries on one scene",
-      "ContactSurfacePlanner beside ContactRoadmap on the same random pairs of "
-      "free configurations that do not see each other; a query's time is the "
-      "least of three. Build: the planner's tables, and what the roadmap needs "
-      "on top. Lowered: edges that are free only nearer to the surface than "
-      "their ends; asked: queries handed to the planner. Length and clearance "
-      "over those of the planner: median, and the worst.",
       {"scene", "triangles", "answered by", "build ms", "nodes", "edges",
        "lowered", "left out", "solved", "proved", "wrong", "asked", "median ms",
        "max ms", "length", "longest", "clearance", "least"},

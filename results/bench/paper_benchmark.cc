@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Purpose: the paper's three benchmarks, PhongPD beside Euclidean PD on the
-// same contact spaces, in one binary and one run.  Writes CSV, SVG and
-// README.md into a directory.
+// same contact spaces, in one binary and one run.  Writes CSV into a
+// directory, of which paper_report.py makes the pages.
 #include <CLI/CLI.hpp>
 #include <iostream>
 #include <string>
@@ -9,10 +9,9 @@
 
 #include "core/projection/euclidean_metric.h"
 #include "core/projection/phong_metric.h"
-#include "problems/output/gnuplot.h"
-#include "results/bench/moment_figure.h"
+#include "results/bench/moment_cut.h"
 #include "results/bench/paper_measure.h"
-#include "results/bench/paper_report.h"
+#include "results/bench/paper_rows.h"
 #include "results/bench/program.h"
 
 namespace phongpd::bench {
@@ -33,21 +32,14 @@ std::vector<MotionTrace> TraceMoment(const ContactSpace& contact,
   return traces;
 }
 
-// What to see in a figure of traces, in one sentence.
-std::string Seen(const std::vector<MotionTrace>& traces, double jump_length) {
-  std::string text = ". Jumps by more than " + Rounded(jump_length) +
-                     " from frame to frame, greatest depth in brackets:";
-  for (const MotionTrace& trace : traces) {
-    const MotionSummary summary = Summarize(trace, jump_length);
-    text += std::string(&trace == &traces.front() ? " " : "; ") + trace.label +
-            ": " + std::to_string(summary.jumps) + " (" +
-            Rounded(summary.max_magnitude) + ")";
-  }
-  return text;
-}
+// A motion that is drawn; jumps are longer than that.
+struct DrawnMotion {
+  std::string name, summary;
+  double jump_length;
+};
 
 int Run(int argc, char** argv) {
-  CLI::App app("The paper's three benchmarks: tables and figures.");
+  CLI::App app("The paper's three benchmarks: rows.");
   std::string directory;
   PaperOptions options;
   app.add_option("--output", directory, "Directory to write into")->required();
@@ -55,15 +47,10 @@ int Run(int argc, char** argv) {
   app.add_option("--frames", options.frames)->capture_default_str();
   app.add_option("--points", options.points)->capture_default_str();
   app.add_option("--seed", options.seed)->capture_default_str();
-  bool page = false;
-  app.add_flag("--page", page, "Write index.html, everything on one page");
   CLI11_PARSE(app, argc, argv);
-  RequireGnuplot();
-
-  const std::string command = CommandLine("build/paper_benchmark", argc, argv);
 
   std::vector<PaperResult> results;
-  std::vector<Figure> figures;
+  std::vector<DrawnMotion> drawn;
   OutputDirectory out(directory);
   for (const PaperBenchmark& benchmark : PaperBenchmarks()) {
     std::cerr << benchmark.title << '\n';
@@ -71,34 +58,34 @@ int Run(int argc, char** argv) {
     const PaperResult& result = results.back();
     for (std::size_t i = 0; i < benchmark.motions.size(); ++i) {
       const PaperMotion& motion = benchmark.motions[i];
-      const std::string stem = benchmark.name + "_" + motion.name;
-      const std::string caption = benchmark.title + ": " + motion.summary;
-      out.Write(stem + ".csv", MotionCsv(result.traces[i]));
-      figures.push_back({stem + ".svg",
-                         caption + Seen(result.traces[i],
-                                        options.jump * result.space->length()),
-                         MotionPage(result.traces[i], caption)});
+      drawn.push_back({benchmark.name + "_" + motion.name,
+                       benchmark.title + ": " + motion.summary,
+                       options.jump * result.space->length()});
+      out.Write(drawn.back().name + ".csv", MotionCsv(result.traces[i]));
     }
   }
   const PaperMotion moment = PaperMoment();
   const PaperResult& wrench = results.back();
-  const std::vector<MotionTrace> traces =
-      TraceMoment(*wrench.space, moment.motion);
-  out.Write("moment.csv", MotionCsv(traces));
-  figures.push_back(
-      {"moment.svg",
-       moment.summary + Seen(traces, options.jump * wrench.space->length()),
-       MomentFigure(wrench.benchmark, wrench.space->mesh(), moment.motion,
-                    traces)});
-
-  const std::vector<NamedTable> tables = PaperTables(results, options);
-  WriteReport(tables, figures,
-              PaperReadme(results, tables, figures, options, command), &out);
-  if (page) {
-    out.Write("index.html", PaperPage(tables, figures, options, command));
+  drawn.push_back(
+      {"moment", moment.summary, options.jump * wrench.space->length()});
+  out.Write("moment.csv", MotionCsv(TraceMoment(*wrench.space, moment.motion)));
+  out.Write(
+      "moment_cut.csv",
+      ToCsv(MomentCut(wrench.benchmark, wrench.space->mesh(), moment.motion)));
+  out.Write("motions.csv",
+            ToCsv(MakeTable({"motion", "summary", "jump"}, drawn,
+                            [](const DrawnMotion& m, const auto& add) {
+                              add(m.name, m.summary, Rounded(m.jump_length, 6));
+                            })));
+  for (const NamedTable& named : PaperTables(results, options)) {
+    out.Write(named.file, ToCsv(named.table));
   }
+  out.Write("measured.txt",
+            Circumstances(
+                "`" + CommandLine("build/paper_benchmark", argc, argv) + "`",
+                options.seed) +
+                "\n");
   out.Commit();
-  std::cout << ToText(ShortTable(results));
   return 0;
 }
 

@@ -10,6 +10,7 @@ import statistics
 from pathlib import Path
 
 from python_report import machine, markdown, write_csv
+from report_statistics import holm, sign_test
 
 # corridor.h, kToleratedMissing: paths are compared with those as clear.
 TOLERATED_MISSING = 0.1
@@ -150,13 +151,6 @@ def metric_rows(rows, rivals):
     return told
 
 
-def sign_test(wins, losses):
-    """p of so uneven a split, two-sided."""
-    n, k = wins + losses, min(wins, losses)
-    tail = sum(math.comb(n, i) for i in range(k + 1)) / 2.0 ** n
-    return min(1.0, 2.0 * tail)
-
-
 def findings(times, metrics, all_ratios):
     def total(column, rows):
         return sum(row[column] for row in rows)
@@ -183,11 +177,7 @@ def findings(times, metrics, all_ratios):
                      f"{total(3, own)} converged")
         beside[metric] = total(7, own), total(8, own)
     raw = {m: sign_test(*beside[m]) for m in ("phong@0", DEFAULT)}
-    # Holm's correction of two tests.
-    least = min(raw.values())
-    for at, metric in enumerate(raw, 1):
-        p = max(2.0 * least, raw[metric]) if raw[metric] > least else (
-            min(1.0, 2.0 * least))
+    for at, (metric, p) in enumerate(zip(raw, holm(list(raw.values()))), 1):
         wins, losses = beside[metric]
         lines[-3 + at] += (
             f"; shorter than Euclid's by more than 1 % in {wins}, longer in "

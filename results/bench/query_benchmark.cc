@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Purpose: how long queries take, warm, cold, Euclidean, CGAL's and segment
 // checks, on contact spaces of 440 to 10⁶ triangles, by Google Benchmark.
-// Writes CSV and README.md into a directory.
+// Writes CSV into a directory, of which query_report.py makes the pages.
 #include <benchmark/benchmark.h>
 
 #include <CLI/CLI.hpp>
@@ -15,7 +15,7 @@
 #include "results/bench/program.h"
 #include "results/bench/query_cases.h"
 #include "results/bench/query_extras.h"
-#include "results/bench/query_report.h"
+#include "results/bench/query_rows.h"
 
 namespace phongpd::bench {
 namespace {
@@ -24,7 +24,7 @@ using benchmark::State;
 using Eigen::Vector3d;
 
 struct Options {
-  std::string directory, instructions, phongpd = "build/phongpd";
+  std::string directory, phongpd = "build/phongpd";
   std::size_t most = 1000000;
   double min_time = 0.01;
   int repetitions = 5;
@@ -184,12 +184,9 @@ class Collector : public benchmark::BenchmarkReporter {
 };
 
 int Run(int argc, char** argv) {
-  CLI::App app("Queries: tables.");
+  CLI::App app("Queries: rows.");
   Options options;
   app.add_option("--output", options.directory, "Directory to write into")
-      ->required();
-  app.add_option("--instructions", options.instructions,
-                 "CSV of scripts/count_queries.sh")
       ->required();
   app.add_option("--phongpd", options.phongpd, "The program")
       ->capture_default_str();
@@ -199,8 +196,6 @@ int Run(int argc, char** argv) {
   app.add_option("--repetitions", options.repetitions)->capture_default_str();
   app.add_option("--seed", options.seed)->capture_default_str();
   CLI11_PARSE(app, argc, argv);
-  const NamedTable instructions =
-      InstructionTable(ReadCsvTable(options.instructions));
   const std::vector<QuerySpace> spaces =
       QuerySpaces(options.most, options.seed);
   const QueryExtras extras = MeasureExtras(spaces, options.phongpd);
@@ -223,16 +218,15 @@ int Run(int argc, char** argv) {
   for (std::size_t i = 0; i < registry.rows().size(); ++i) {
     registry.rows()[i].micros = Quantile(collector.times[i], 0.5);
   }
-  const std::vector<NamedTable> tables = {QueryTable(registry.rows()),
-                                          instructions};
   OutputDirectory out(options.directory);
-  WriteReport(tables, {},
-              QueryReadme(registry.rows(), extras, tables) + "\n" +
-                  Circumstances("scripts/bench.sh queries", options.seed) +
-                  "\n",
-              &out);
+  for (const NamedTable& named :
+       {QueryTable(registry.rows()), ExtrasTable(extras)}) {
+    out.Write(named.file, ToCsv(named.table));
+    std::cout << ToText(named.table) << std::endl;
+  }
+  out.Write("measured.txt",
+            Circumstances("scripts/bench.sh queries", options.seed) + "\n");
   out.Commit();
-  std::cout << ToText(tables[0].table) << std::endl;
   return 0;
 }
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "results/bench/query_cases.h"
-#include "results/bench/query_report.h"
+#include "results/bench/query_rows.h"
 
 namespace phongpd::bench {
 

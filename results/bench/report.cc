@@ -60,21 +60,6 @@ std::string ToMarkdown(const Table& table) {
   return text + '\n';
 }
 
-std::string ToHtml(const Table& table) {
-  std::string html = "<h2>" + Escaped(table.title) + "</h2>\n";
-  if (!table.note.empty()) html += "<p>" + Escaped(table.note) + "</p>\n";
-  html += "<table>\n<tr>";
-  for (const auto& cell : table.header)
-    html += "<th>" + Escaped(cell) + "</th>";
-  html += "</tr>\n";
-  for (const auto& row : table.rows) {
-    html += "<tr>";
-    for (const auto& cell : row) html += "<td>" + Escaped(cell) + "</td>";
-    html += "</tr>\n";
-  }
-  return html + "</table>\n";
-}
-
 std::string ToText(const Table& table) {
   std::vector<std::size_t> widths;
   for (std::size_t c = 0; c < table.header.size(); ++c) {
@@ -119,44 +104,6 @@ std::string CommandLine(const std::string& program, int argc, char** argv) {
   std::string command = program;
   for (int i = 1; i < argc; ++i) command += std::string(" ") + argv[i];
   return command;
-}
-
-std::string ToMarkdown(const std::vector<NamedTable>& tables,
-                       const std::vector<Figure>& figures) {
-  std::string text = "## Tables\n\n";
-  for (const NamedTable& named : tables) {
-    text += ToMarkdown(named.table) + "Rows: [" + named.file + "](" +
-            named.file + ")\n\n";
-  }
-  if (!figures.empty()) text += "## Figures\n\n";
-  std::string linked;
-  for (const Figure& figure : figures) {
-    if (figure.is_linked) {
-      linked += (linked.empty() ? "More: [" : ", [") + figure.file + "](" +
-                figure.file + ")";
-      continue;
-    }
-    text += "**" + figure.caption + "**\n\n![" + figure.caption + "](" +
-            figure.file + ")\n\n";
-  }
-  return linked.empty() ? text : text + linked + ".\n\n";
-}
-
-Pages SplitReadme(const std::string& text) {
-  const std::string heading = "## Tables\n\n";
-  const std::size_t begin = text.find(heading);
-  if (begin == std::string::npos) return {text, ""};
-  const std::size_t end =
-      std::min(text.find("## Figures\n", begin), text.size());
-  const std::string tables = text.substr(begin, end - begin);
-  if (std::count(tables.begin(), tables.end(), '\n') <= kMostTableLines) {
-    return {text, ""};
-  }
-  return {text.substr(0, begin) + "All tables: [tables.md](tables.md).\n" +
-              (end < text.size() ? "\n" : "") + text.substr(end),
-          text.substr(0, text.find('\n')) +
-              ": tables\n\nWhat they say: [README.md](README.md).\n\n" +
-              tables.substr(heading.size())};
 }
 
 double Quantile(std::vector<double> values, double fraction) {

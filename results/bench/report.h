@@ -9,7 +9,7 @@
 
 #include "problems/output/text.h"
 
-// Tables that are written once and shown as CSV, Markdown, HTML or text, and
+// Tables that are written once and shown as CSV, Markdown or text, and
 // the circumstances every published figure comes with.
 namespace phongpd::bench {
 
@@ -40,23 +40,21 @@ Table MakeTable(std::string title, std::string note,
   return table;
 }
 
+// Rows alone, for a report in Python to say what they are.
+template <typename Items, typename Rows>
+Table MakeTable(std::vector<std::string> header, const Items& items,
+                const Rows& rows) {
+  return MakeTable("", "", std::move(header), items, rows);
+}
+
 // A table of a report and the CSV file its rows are written to.
 struct NamedTable {
   std::string file;
   Table table;
 };
 
-// A picture of a report.
-struct Figure {
-  std::string file;  // name in the output directory
-  std::string caption;
-  std::string svg;
-  bool is_linked = false;  // by its name, below those that are shown
-};
-
 std::string ToCsv(const Table& table);
 std::string ToMarkdown(const Table& table);
-std::string ToHtml(const Table& table);
 std::string ToText(const Table& table);  // aligned columns
 
 // "CPU model, n cores, memory": nothing that names the host.
@@ -70,19 +68,6 @@ std::string Circumstances(const std::string& command, std::uint64_t seed);
 
 // The program as it was called, without where it lies.
 std::string CommandLine(const std::string& program, int argc, char** argv);
-
-// All tables with links to their rows, and all figures, as Markdown.
-std::string ToMarkdown(const std::vector<NamedTable>& tables,
-                       const std::vector<Figure>& figures);
-
-// A README is to be read at once: its section "## Tables", where that is longer
-// than kMostTableLines, goes to a page of its own, to which it links.
-inline constexpr std::ptrdiff_t kMostTableLines = 80;
-struct Pages {
-  std::string readme;
-  std::string tables;  // tables.md; empty: the README has them
-};
-Pages SplitReadme(const std::string& text);
 
 // Value below which the given fraction of `values` lies, linear between the two
 // nearest: 0.5 is the median, of an even number the middle of the two in the

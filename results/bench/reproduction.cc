@@ -15,8 +15,8 @@
 #include "problems/studies/comparison_rows.h"
 #include "problems/studies/comparison_run.h"
 #include "problems/studies/study_metrics.h"
-#include "results/bench/paper_report.h"
-#include "results/bench/planning_report.h"
+#include "results/bench/paper_rows.h"
+#include "results/bench/planning_rows.h"
 #include "results/bench/program.h"
 #include "results/bench/slice_check.h"
 
@@ -111,8 +111,7 @@ Slice RemakeExact(const Published& published) {
     std::cerr << scene << '\n';
     PlanningResults found;
     found.exact.push_back(MeasureExact(FindProblem(ExactProblems(), scene)));
-    CompareRow(table, row,
-               CsvTable(ToCsv(FindTable(Tables(found), "exact.csv")), scene), 0,
+    CompareRow(table, row, CsvTable(ToCsv(ExactTable(found)), scene), 0,
                {"query ms", "tables ms", "contact space ms", "ratio"}, scene,
                &slice);
   }

@@ -2,8 +2,8 @@
 // Purpose: retraction along all Phong branches against baselines of equal
 // strength: all local Euclidean projections, and as many random contact points
 // as there are branches.  The same planner, seeds and exact motion checks;
-// samples until it is solved, which no clock is in.  Writes baselines.csv and
-// baselines.md.
+// samples until it is solved, which no clock is in.  Writes baselines.csv, of
+// which passages_report.py makes tests and baselines.md.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
@@ -12,14 +12,11 @@
 
 #include "planners/ompl/ompl_planning.h"
 #include "problems/output/text.h"
-#include "results/bench/paired_test.h"
 #include "results/bench/planning_measure.h"
 #include "results/bench/program.h"
 
 namespace phongpd::bench {
 namespace {
-
-constexpr double kLevel = 0.05;
 
 // All Phong branches against one baseline on one scene, seed by seed.
 struct Duel {
@@ -27,12 +24,6 @@ struct Duel {
   int runs = 0, solved = 0, phong_solved = 0;
   int wins = 0, losses = 0;                 // fewer samples, of Phong
   double median = 0.0, phong_median = 0.0;  // samples
-  double p = 1.0;                           // after Holm's correction
-
-  std::string Verdict() const {
-    if (p >= kLevel) return "tie";
-    return wins > losses ? "win" : "loss";
-  }
 };
 
 // Runs without an answer took more samples than any other.
@@ -66,7 +57,6 @@ Duel Compare(const SamplerRow& phong, const SamplerRow& other,
   }
   duel.median = MedianSamples(other, runs);
   duel.phong_median = MedianSamples(phong, runs);
-  duel.p = SignTest(duel.wins, duel.losses);
   return duel;
 }
 
@@ -76,52 +66,16 @@ std::string OrMore(double samples) {
 
 Table DuelTable(const std::vector<Duel>& duels) {
   return MakeTable(
-      "All Phong branches against each baseline",
-      "Median samples until solved. Fewer: seeds on which Phong took fewer "
-      "samples, and on which it took more. p: exact sign test over the seeds, "
-      "Holm's correction over all rows; win or loss below 0.05, else tie.",
       {"scene", "baseline", "Phong solved", "solved", "Phong samples",
-       "samples", "fewer : more", "p", "Phong"},
+       "samples", "fewer : more"},
       duels, [](const Duel& d, const auto& add) {
         const std::string of = "/" + std::to_string(d.runs);
         add(d.scene, d.baseline, std::to_string(d.phong_solved) + of,
             std::to_string(d.solved) + of, OrMore(d.phong_median),
             OrMore(d.median),
-            std::to_string(d.wins) + " : " + std::to_string(d.losses), d.p,
-            d.Verdict());
+            std::to_string(d.wins) + " : " + std::to_string(d.losses));
       });
 }
-
-std::string Findings(const std::vector<Duel>& duels,
-                     const std::vector<std::string>& baselines) {
-  std::string text;
-  for (const std::string& baseline : baselines) {
-    int wins = 0, ties = 0, losses = 0;
-    for (const Duel& d : duels) {
-      if (d.baseline != baseline) continue;
-      const std::string verdict = d.Verdict();
-      wins += verdict == "win" ? 1 : 0;
-      ties += verdict == "tie" ? 1 : 0;
-      losses += verdict == "loss" ? 1 : 0;
-    }
-    text += "- Against `" + baseline + "`: " + std::to_string(wins) +
-            " wins, " + std::to_string(ties) + " ties, " +
-            std::to_string(losses) + " losses.\n";
-  }
-  return text;
-}
-
-constexpr char kIntroduction[] =
-    R"(# Retraction against baselines of equal strength
-
-A colliding sample has many projections along Phong directions, and one nearest
-point: a comparison of those two is one of many candidates with one. Here the
-baselines are as strong: `euclidean-all` takes every point that is the nearest
-one around it, `contact-points` as many random points of the contact space as
-there are Phong branches, `contact-point` one of them. `retraction-forest`, the
-same seeds and exact motion checks for all.
-
-)";
 
 int Run(int argc, char** argv) {
   CLI::App app("Retraction against baselines of equal strength.");
@@ -150,23 +104,13 @@ int Run(int argc, char** argv) {
       duels.push_back(Compare(rows[0], rows[i], options));
     }
   }
-  std::vector<double> p;
-  for (const Duel& duel : duels) p.push_back(duel.p);
-  p = Holm(p);
-  for (std::size_t i = 0; i < duels.size(); ++i) duels[i].p = p[i];
-  const Table table = DuelTable(duels);
-  const std::string findings = Findings(duels, baselines);
   OutputDirectory out(directory);
-  out.Write("baselines.csv", ToCsv(table));
-  out.Write(
-      "baselines.md",
-      kIntroduction + findings + "\n" + ToMarkdown(table) +
-          "\nRows: [baselines.csv](baselines.csv)\n\n" +
-          Circumstances(CommandLine("build/retraction_benchmark", argc, argv),
-                        options.seed) +
-          "\n");
+  out.Write("baselines.csv", ToCsv(DuelTable(duels)));
+  out.Write("baselines_measured.txt",
+            Circumstances(CommandLine("build/retraction_benchmark", argc, argv),
+                          options.seed) +
+                "\n");
   out.Commit();
-  std::cout << findings;
   return 0;
 }
 

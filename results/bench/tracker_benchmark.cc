@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Purpose: what each metric does along motions – jumps, depth ratio, time – of
 // Euclidean PD, PhongPD and the tracker, on the same motions in one run.
-// Writes CSV and tracker.md into a directory.
+// Writes CSV into a directory, of which tracker_report.py makes tracker.md.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>
@@ -13,7 +13,7 @@
 #include "core/projection/phong_metric.h"
 #include "results/bench/motion_cases.h"
 #include "results/bench/program.h"
-#include "results/bench/tracker_report.h"
+#include "results/bench/tracker_rows.h"
 
 namespace phongpd::bench {
 namespace {
@@ -102,7 +102,7 @@ std::vector<TrackerRow> MeasureSpace(const MotionSpace& space,
 }
 
 int Run(int argc, char** argv) {
-  CLI::App app("Metrics along motions: tables.");
+  CLI::App app("Metrics along motions: rows.");
   Options options;
   app.add_option("--output", options.directory, "Directory to write into")
       ->required();
@@ -116,16 +116,14 @@ int Run(int argc, char** argv) {
     rows.insert(rows.end(), of_space.begin(), of_space.end());
     std::cout << ToText(TrackerTable(of_space).table) << std::endl;
   }
-  const std::vector<NamedTable> tables = {TrackerTotals(rows),
-                                          TrackerTable(rows)};
   OutputDirectory out(options.directory);
-  const std::string command =
-      CommandLine("build/tracker_benchmark", argc, argv);
-  for (const NamedTable& named : tables) {
+  for (const NamedTable& named : {TrackerTotals(rows), TrackerTable(rows)}) {
     out.Write(named.file, ToCsv(named.table));
   }
-  out.Write("tracker.md", TrackerPage(tables, rows) + "\n" +
-                              Circumstances(command, options.seed) + "\n");
+  out.Write("tracker_measured.txt",
+            Circumstances(CommandLine("build/tracker_benchmark", argc, argv),
+                          options.seed) +
+                "\n");
   out.Commit();
   return 0;
 }

@@ -4,18 +4,20 @@ suites published: one figure a consumer, and which choices no other beats in
 both.  Measures nothing itself."""
 
 import argparse
-import csv
-import math
 import subprocess
 import sys
 from dataclasses import dataclass
 from pathlib import Path
 from statistics import median
 
-from python_report import write_tables
+from python_report import read_dicts as read
+from python_report import read_measured, write_tables
+from report_statistics import sign_test
 
 # phong_field.h, kDefaultSmoothingLength.
 DEFAULT = "0.2"
+# Points that lie upon each other or at the same loss: the table says it all.
+NOT_DRAWN = {"planning", "model"}
 
 
 @dataclass
@@ -43,11 +45,6 @@ class Consumer:
     aside: str
     logarithmic: bool  # cost
     panels: dict[str, list[Choice]]
-
-
-def read(path):
-    with open(path, newline="", encoding="utf-8") as file:
-        return list(csv.DictReader(file))
 
 
 def grouped(rows, column):
@@ -256,13 +253,6 @@ def preset_sentences(results):
     return text
 
 
-def sign_test(wins, losses):
-    """Exact, two-sided: of so many fair coins, how likely are so few?"""
-    n = wins + losses
-    tail = sum(math.comb(n, k) for k in range(min(wins, losses) + 1)) / 2 ** n
-    return min(1.0, 2 * tail)
-
-
 def duel(rows, protocol, a, b):
     """Two smoothing lengths seed by seed: who alone solves, who takes fewer
     iterations where both do."""
@@ -344,24 +334,25 @@ def main():
     found = findings(consumers)
     title, figures = "Speed against accuracy", ""
     for consumer in consumers:
+        if consumer.file in NOT_DRAWN:
+            continue
         (args.output / f"{consumer.file}.svg").write_text(svg(consumer),
                                                           encoding="utf-8")
-        caption = (f"{consumer.title}: filled where no other choice is better in "
-                   "both.")
-        figures += f"**{caption}**\n\n![{caption}]({consumer.file}.svg)\n\n"
-    measured = (results / "trade/measured.txt").read_text(encoding="utf-8")
+        figures += (f"**{consumer.title}**\n\n![{consumer.file}]"
+                    f"({consumer.file}.svg)\n\n")
     tables = write_tables(args.output, title,
                           [table(consumer) for consumer in consumers])
     (args.output / "README.md").write_text(
         f"# {title}\n\nWhat the choice of metric, smoothing "
         "length, planner, preset, model and approximation buys and costs, one "
-        "figure a consumer: from the rows that the other suites published, and "
+        "table a consumer: from the rows that the other suites published, and "
         "from those of `build/trade_benchmark`.\n\n## Presets\n\n"
         f"{preset_sentences(results)}{decisions(results)}"
         f"{default_sentences(results)}\n## Findings\n\n{found}\n{tables}\n\n"
-        f"## Figures\n\n{figures}\nCommand: scripts/bench.sh trade. Seed and "
-        "machine: those of the rows; of what is measured here: " + measured,
-        encoding="utf-8")
+        f"## Figures\n\nFilled where no other choice is better in both.\n\n"
+        f"{figures}\nCommand: scripts/bench.sh trade. Seed and machine: those of "
+        "the rows; of what is measured here: "
+        f"{read_measured(results / 'trade')}\n", encoding="utf-8")
     print(found, end="")
 
 

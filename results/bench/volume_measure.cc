@@ -14,7 +14,6 @@
 #include "core/minkowski/windows/grid_window.h"
 #include "core/minkowski/windows/window_cells.h"
 #include "core/solid/solid.h"
-#include "problems/output/gnuplot.h"
 #include "problems/shapes/random_solids.h"
 #include "results/bench/free_space_measure.h"
 
@@ -28,9 +27,6 @@ constexpr int kBoxes = 5;
 constexpr int kMotions = 100;
 constexpr char kFreeSpace[] = "free space";
 constexpr std::array<const char*, 2> kLevels = {kFreeSpace, "window"};
-// Told apart by colour-blind readers, none of them yellow.
-constexpr std::array kColors = {"#0072B2", "#D55E00", "#009E73", "#CC79A7",
-                                "#56B4E9", "#444444", "#A0522D"};
 
 // `all` made smaller, around a point of it as far as it stays within.
 BoundingBox BoxAround(const BoundingBox& all, double volume,
@@ -106,80 +102,10 @@ std::vector<VolumeRow> MeasureVolumes(const std::string& pair,
 NamedTable VolumeTable(const std::vector<VolumeRow>& rows) {
   return {
       "volume.csv",
-      MakeTable("Cost against volume touched",
-                "CPU time over that of the full build, from the two meshes "
-                "on: median and largest of five boxes.",
-                {"pair", "level", "volume, share", "cost, share", "largest"},
+      MakeTable({"pair", "level", "volume, share", "cost, share", "largest"},
                 rows, [](const VolumeRow& r, const auto& add) {
                   add(r.pair, r.level, r.volume, r.cost, r.largest);
                 })};
-}
-
-std::string VolumeVerdict(const std::vector<VolumeRow>& rows) {
-  std::string text;
-  for (const std::string level : kLevels) {
-    std::string losses;
-    for (const VolumeRow& r : rows) {
-      if (r.level != level || r.volume < 1.0 || r.cost <= 1.0) continue;
-      losses +=
-          (losses.empty() ? "" : ", ") + r.pair + " (" + Rounded(r.cost) + ")";
-    }
-    text += std::string(text.empty() ? "" : " ") +
-            (level == kFreeSpace ? "Free space" : "The window") +
-            (losses.empty() ? " costs less than the whole even for all of the "
-                              "box, in every pair."
-                            : " loses to the whole where it is asked for all "
-                              "of the box: " +
-                                  losses + ".");
-  }
-  return text;
-}
-
-Figure VolumeFigure(const std::vector<VolumeRow>& rows) {
-  std::vector<std::string> pairs;
-  for (const VolumeRow& r : rows) {
-    if (std::find(pairs.begin(), pairs.end(), r.pair) == pairs.end()) {
-      pairs.push_back(r.pair);
-    }
-  }
-  std::string script;
-  std::array<std::string, kLevels.size()> plots;
-  for (std::size_t l = 0; l < kLevels.size(); ++l) {
-    for (std::size_t p = 0; p < pairs.size(); ++p) {
-      const std::string name = "$d" + std::to_string(l) + std::to_string(p);
-      script += name + " << EOD\n";
-      for (const VolumeRow& r : rows) {
-        if (r.pair != pairs[p] || r.level != kLevels[l]) continue;
-        script += FormatDouble(r.volume) + ' ' + FormatDouble(r.cost) + '\n';
-      }
-      script += "EOD\n";
-      plots[l] += name + " w lp pt " + std::to_string(p + 4) +
-                  " ps 0.6 lw 2 lc rgb '" + kColors[p % kColors.size()] +
-                  "' t " + GnuplotText(pairs[p]) + ", ";
-    }
-  }
-  script +=
-      "set termoption noenhanced\nset multiplot layout 1,2\nset logscale xy\n"
-      "set grid lc rgb '#DDDDDD'\nset xrange [8e-5:1.2]\nset yrange [5e-3:5]\n"
-      "set xlabel 'volume touched, share of the box of C_cont'\n"
-      "set ylabel 'CPU time / full build'\nset format '%g'\n";
-  for (std::size_t l = 0; l < kLevels.size(); ++l) {
-    // The names stand beside both.
-    script += l == 0 ? "unset key\nset lmargin at screen 0.07\n"
-                       "set rmargin at screen 0.36\n"
-                     : "set key at screen 0.995,0.85 right top samplen 1.5\n"
-                       "set lmargin at screen 0.44\n"
-                       "set rmargin at screen 0.73\n";
-    script += std::string("set title '") + kLevels[l] + "'\nplot " + plots[l] +
-              "1 w l dt 2 lw 1.5 lc rgb '#888888' t 'the whole'\n";
-  }
-  script += "unset multiplot\n";
-  return {
-      "volume.svg",
-      "Cost against the volume that is touched: free space costs hundredths "
-      "of the whole until most of it is asked for, a window grows with what "
-      "is in it",
-      RenderSvg(script, 1000, 400)};
 }
 
 }  // namespace phongpd::bench

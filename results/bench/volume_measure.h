@@ -29,8 +29,5 @@ std::vector<VolumeRow> MeasureVolumes(const std::string& pair,
                                       double full_seconds, std::uint64_t seed);
 
 NamedTable VolumeTable(const std::vector<VolumeRow>& rows);
-// Where a part costs more than the whole, in words.
-std::string VolumeVerdict(const std::vector<VolumeRow>& rows);
-Figure VolumeFigure(const std::vector<VolumeRow>& rows);
 
 }  // namespace phongpd::bench

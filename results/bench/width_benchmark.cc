@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Purpose: how wide a passage has to be for OMPL's samplers, given 1, 10 and 60
 // seconds, beside the retraction planners and the complete one, with the same
-// exact motion checks.  Writes widths.csv and widths.md.
+// exact motion checks.  Writes widths.csv, of
+// which passages_report.py makes widths.md.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <iostream>
-#include <map>
 
 #include "planners/ompl/ompl_planning.h"
 #include "problems/output/text.h"
@@ -98,9 +98,6 @@ std::vector<Passage> Measure(const std::string& scene,
 
 Table WidthTable(const std::vector<Passage>& passages) {
   return MakeTable(
-      "Passages from wide to narrow",
-      "Solved within 1, 10 and 60 s, of the runs, and the median time of those "
-      "solved. –: not asked, as no run solved the next wider passage in 60 s.",
       {"scene", "δ", "planner", "1 s", "10 s", "60 s", "runs", "median s"},
       passages, [](const Passage& passage, const auto& add) {
         const std::string& scene = passage.problem.family;
@@ -120,53 +117,6 @@ Table WidthTable(const std::vector<Passage>& passages) {
         }
       });
 }
-
-// The narrowest passage that each planner went through in every run.
-std::string Findings(const std::vector<Passage>& passages) {
-  std::string text;
-  int wrong = 0;
-  double slowest = 0.0;
-  std::map<std::string, std::map<std::string, double>> sure;  // by planner
-  for (const Passage& passage : passages) {
-    wrong += passage.exact_is_right ? 0 : 1;
-    slowest = std::max(slowest, passage.exact_milliseconds);
-    for (std::size_t i = 0; i < kPlanners.size(); ++i) {
-      if (!passage.cells[i].IsSure()) continue;
-      double& least = sure[kPlanners[i]]
-                          .emplace(passage.problem.family, 1e300)
-                          .first->second;
-      least = std::min(least, passage.problem.delta);
-    }
-  }
-  for (const std::string& planner : kPlanners) {
-    std::vector<std::string> widths;
-    for (const auto& [scene, width] : sure[planner]) {
-      widths.push_back(scene + " " + FormatDouble(width));
-    }
-    text += "- `" + planner + "`: ";
-    for (std::size_t i = 0; i < widths.size(); ++i) {
-      text += (i == 0 ? "" : ", ") + widths[i];
-    }
-    text += widths.empty() ? "none of these passages.\n" : ".\n";
-  }
-  text += "- `contact-surface`: all " + std::to_string(passages.size()) +
-          (wrong == 0 ? "" : " but " + std::to_string(wrong)) + ", at most " +
-          Rounded(slowest) + " ms once its tables are there.\n";
-  return text;
-}
-
-constexpr char kIntroduction[] =
-    R"(# How narrow a passage may be
-
-δ is the side of the free channel in a world of size 2. OMPL's samplers with
-OMPL's own settings (`rrt-connect`: the range that its setup takes from the
-space's extent; `prm`: its connection strategy; the others: `prm` with its
-obstacle-based, Gaussian and bridge-test samplers), 60 s a run, and how many runs
-were solved after 1, 10 and 60 s. A planner whose first run fails in one passage
-has no further ones there, nor in narrower ones. All planners have the same exact
-motion checks. Narrowest δ of which every run was solved:
-
-)";
 
 int Run(int argc, char** argv) {
   CLI::App app("How narrow a passage may be, for each planner.");
@@ -189,16 +139,12 @@ int Run(int argc, char** argv) {
       passages.push_back(std::move(passage));
     }
     // What is there stays if the rest is interrupted.
-    const Table table = WidthTable(passages);
     OutputDirectory out(directory);
-    out.Write("widths.csv", ToCsv(table));
-    out.Write("widths.md", kIntroduction + Findings(passages) + "\n" +
-                               ToMarkdown(table) +
-                               "\nRows: [widths.csv](widths.csv)\n\n" +
-                               Circumstances(command, options.seed) + "\n");
+    out.Write("widths.csv", ToCsv(WidthTable(passages)));
+    out.Write("widths_measured.txt",
+              Circumstances(command, options.seed) + "\n");
     out.Commit();
   }
-  std::cout << Findings(passages);
   return 0;
 }
 

@@ -58,38 +58,16 @@ WindowPhongRow MeasureWindowPhong(const std::string& name,
 NamedTable WindowPhongTable(const std::vector<WindowPhongRow>& rows) {
   return {
       "phong.csv",
-      MakeTable(
-          "PhongPD (ℓ = 0) of at most 5 % of the diagonal",
-          "CPU time of the process: of the whole contact space and its metric, "
-          "and of one answer from two meshes with nothing kept from others. "
-          "What no window certifies takes the whole in the end, and costs more "
-          "than it: faces as large as bodies.",
-          {"pair", "whole, CPU s", "its faces", "answer, CPU s, median", "most",
-           "median / whole", "faces arranged, median", "answers",
-           "from windows", "worst error / diagonal", "wrong"},
-          rows, [](const WindowPhongRow& r, const auto& add) {
-            const double median = Quantile(r.seconds, 0.5);
-            add(r.name, r.whole_seconds, r.full_faces, median,
-                *std::max_element(r.seconds.begin(), r.seconds.end()),
-                median / r.whole_seconds, Quantile(r.faces, 0.5),
-                r.seconds.size(), r.from_windows, r.worst_error, r.wrong);
-          })};
-}
-
-std::string WindowPhongVerdict(const std::vector<WindowPhongRow>& rows) {
-  std::string losses;
-  for (const WindowPhongRow& r : rows) {
-    const double share = Quantile(r.seconds, 0.5) / r.whole_seconds;
-    if (share <= 1.0) continue;
-    losses +=
-        (losses.empty() ? "" : ", ") + r.name + " (" + Rounded(share) + ")";
-  }
-  return losses.empty()
-             ? "An answer of PhongPD from windows, in the median, costs less "
-               "than the whole in every pair."
-             : "An answer of PhongPD from windows, in the median, costs more "
-               "than the whole in " +
-                   losses + ".";
+      MakeTable({"pair", "whole, CPU s", "its faces", "answer, CPU s, median",
+                 "most", "median / whole", "faces arranged, median", "answers",
+                 "from windows", "worst error / diagonal", "wrong"},
+                rows, [](const WindowPhongRow& r, const auto& add) {
+                  const double median = Quantile(r.seconds, 0.5);
+                  add(r.name, r.whole_seconds, r.full_faces, median,
+                      *std::max_element(r.seconds.begin(), r.seconds.end()),
+                      median / r.whole_seconds, Quantile(r.faces, 0.5),
+                      r.seconds.size(), r.from_windows, r.worst_error, r.wrong);
+                })};
 }
 
 }  // namespace phongpd::bench

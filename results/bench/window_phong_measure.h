@@ -34,7 +34,4 @@ WindowPhongRow MeasureWindowPhong(const std::string& name,
 
 NamedTable WindowPhongTable(const std::vector<WindowPhongRow>& rows);
 
-// Which pairs one answer costs more than the whole, in a sentence.
-std::string WindowPhongVerdict(const std::vector<WindowPhongRow>& rows);
-
 }  // namespace phongpd::bench

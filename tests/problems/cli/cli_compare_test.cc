@@ -92,7 +92,7 @@ TEST_F(CliCompare, EveryProtocolFollowsTheMetricAsked) {
   EXPECT_EQ(methods, expected);
 }
 
-TEST_F(CliCompare, PartsThatAreRepeatedOrCutShortAreNamed) {
+TEST_F(CliCompare, PartsThatAreLostRepeatedOrCutShortAreNamed) {
   const std::string what = "compare " + Scene(TwoObstacles()) +
                            " --runs 3 --metrics euclidean --protocols "
                            "straight-adaptive --output ";
@@ -111,8 +111,10 @@ TEST_F(CliCompare, PartsThatAreRepeatedOrCutShortAreNamed) {
   const Outcome all = Run(rows("3120"));
   EXPECT_EQ(all.code, 0) << all.err;
   EXPECT_NE(all.out.find(" of 3 ("), std::string::npos) << all.out;
-  // Of a part that is lost the table tells.
-  EXPECT_NE(Run(rows("02")).out.find(" of 2 ("), std::string::npos);
+  EXPECT_EQ(Run(rows("0123")).out.find("\"part\""), std::string::npos);
+  ExpectRefused(rows("02") + " --output out",
+                {"euclidean", "all 3 problems", "2 of 3", "part 1/4"});
+  ExpectRefused(rows("1"), {"1 of 3", "part 0/4, 2/4"});
   ExpectRefused(rows("0121") + " --output out",
                 {"p1/rows.jsonl: row 1", "once", "seed 2", "euclidean"});
   ExpectRefused(rows("3") + " --output out", {"p3/rows.jsonl", "found none"});
@@ -123,6 +125,16 @@ TEST_F(CliCompare, PartsThatAreRepeatedOrCutShortAreNamed) {
                 {"p2/rows.jsonl: row 2", "p2/rows.jsonl: row 1"});
   WriteText("p2/rows.jsonl", whole.substr(0, whole.size() / 2));
   ExpectRefused(rows("012") + " --output out", {"p2/rows.jsonl: row 1"});
+  const std::string mark = "\"part\":[2,4,2,3]";
+  const std::size_t at = whole.find(mark);
+  ASSERT_NE(at, std::string::npos) << whole;
+  for (const std::string bad :
+       {"7", "[2,4,1,3]", "[4,4,2,3]", "[2,4,2,2]", "[2,4,2]"}) {
+    std::string other = whole;
+    WriteText("p2/rows.jsonl",
+              other.replace(at, mark.size(), "\"part\":" + bad));
+    ExpectRefused(rows("012"), {"seed 3: expected at /part", bad});
+  }
   EXPECT_FALSE(std::filesystem::exists(Output("out")));
 }
 
