@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include "constraints/rigid/quaternion_motion.h"
 #include "constraints/rigid/rigid_motion.h"
 #include "core/mesh/triangle_mesh.h"
 
@@ -30,6 +31,20 @@ struct RigidCheck {
   long tests = 0;  // pairs of boxes and triangles looked at
 
   bool IsFree() const { return outcome == RigidOutcome::kFree; }
+};
+
+// When does it collide first?
+struct RigidFirstHit {
+  RigidOutcome outcome = RigidOutcome::kUndecided;
+  // kCollides: free on [0, from), proved, and colliding at `to`, proved; the
+  // first contact lies between.  kUndecided: free before `from` and after `to`,
+  // proved.  kFree: 0 and 1.
+  double from = 0.0, to = 1.0;
+  // Which triangles meet at `to`, or are the first found that are not told
+  // apart; −1 as of RigidCheck.
+  int robot_mesh = -1, robot_triangle = -1;
+  int obstacle_mesh = -1, obstacle_triangle = -1;
+  long tests = 0;
 };
 
 // Does a robot that moves and turns (rigid_motion.h) meet fixed obstacles?  No
@@ -69,6 +84,16 @@ class RigidJudge {
   // Throws InputError where the way is more than 1e100 times as far from the
   // obstacles as the meshes are large, which no rounding stands.
   RigidCheck Check(const RigidMotion& motion, long max_tests = kMaxTests) const;
+  // By the same proofs, of a motion whose turn is not at a constant rate.
+  RigidCheck Check(const QuaternionMotion& motion,
+                   long max_tests = kMaxTests) const;
+
+  // The first contact, to − from ≤ resolution, a share of the way in (0, 1],
+  // where rounding and what lies before it allow: a part before the hit that is
+  // not decided begins at `from`, however far the hit is.  1 to 2 times as long
+  // as Check.  Throws InputError as Check, and for another resolution.
+  RigidFirstHit FirstHit(const RigidMotion& motion, double resolution = 1e-9,
+                         long max_tests = kMaxTests) const;
 
  private:
   struct Impl;

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "constraints/rigid/rigid_pair.h"
+#include "constraints/rigid/framed_motion.h"
 #include "constraints/rigid/rigid_tree.h"
 #include "core/bvh/triangle_bvh.h"
 #include "core/mesh/triangle_mesh.h"
