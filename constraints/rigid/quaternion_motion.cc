@@ -19,8 +19,8 @@ QuaternionMotion QuaternionMotion::Between(const RobotPose& start,
 RobotPose QuaternionMotion::At(double t) const {
   RobotPose pose;
   pose.position = (1.0 - t) * start_.position + t * end_.position;
-  pose.orientation.coeffs() = (1.0 - t) * start_.orientation.coeffs() +
-                              t * end_.orientation.coeffs();
+  pose.orientation.coeffs() =
+      (1.0 - t) * start_.orientation.coeffs() + t * end_.orientation.coeffs();
   pose.orientation.normalize();
   return pose;
 }

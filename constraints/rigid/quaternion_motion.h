@@ -14,9 +14,9 @@ namespace phongpd {
 //   x(t) = M(p) p₀ / |p|² + q,   p = (1 − t) a + t b,   q = (1 − t) q_a + t q_b
 //
 // for a point p₀ of the robot at rest, M(p) v the vector of p v p̄.  These
-// formulas, of the doubles a, b, q_a and q_b as they are, are the motion: whether
-// two triangles meet under it is a matter of polynomials of degree 3 in t with
-// rational coefficients, so that it is decided exactly
+// formulas, of the doubles a, b, q_a and q_b as they are, are the motion:
+// whether two triangles meet under it is a matter of polynomials of degree 3 in
+// t with rational coefficients, so that it is decided exactly
 // (RigidJudge::CheckExactly).
 //
 // It goes through the orientations of RigidMotion from the same start to the
@@ -29,8 +29,7 @@ class QuaternionMotion {
   // From pose to pose, the shorter way round: b is the end's quaternion, or its
   // negative where a·b < 0.  Throws InputError for poses that are not finite or
   // not of a unit quaternion (CheckPose).
-  static QuaternionMotion Between(const RobotPose& start,
-                                  const RobotPose& end);
+  static QuaternionMotion Between(const RobotPose& start, const RobotPose& end);
 
   const RobotPose& start() const { return start_; }
   // Of the sign that a·b ≥ 0.

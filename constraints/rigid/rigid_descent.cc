@@ -16,7 +16,8 @@ const RigidPose& MiddlePoseCache::At(const RigidPart& part) {
   return kept_[index];
 }
 
-PairSight RigidDescent::Look(RigidPart* part, double gap, double* bound) {
+PairSight RigidDescent::Look(RigidPart* part, double gap, double coarse,
+                             double* bound) {
   const RigidNode& a = robot_.nodes[static_cast<std::size_t>(part->robot)];
   const RigidNode& b =
       obstacle_.nodes[static_cast<std::size_t>(part->obstacle)];
@@ -24,7 +25,7 @@ PairSight RigidDescent::Look(RigidPart* part, double gap, double* bound) {
   const double h = part->half_width;
   if (a.IsLeaf() && b.IsLeaf()) {
     return LookAtTriangles(
-        motion_, middle, h, gap,
+        motion_, middle, h, gap, coarse,
         robot_.corners[static_cast<std::size_t>(a.triangle)],
         obstacle_.corners[static_cast<std::size_t>(b.triangle)], &part->hint,
         bound);

@@ -15,8 +15,8 @@ namespace phongpd::internal {
 struct RigidPart {
   int robot = 0, obstacle = 0, level = 0;
   long k = 0;
-  double half_width = 0.5;            // 2^(−level−1)
-  PairHint hint = PairHint::Zero();   // of two triangles
+  double half_width = 0.5;           // 2^(−level−1)
+  PairHint hint = PairHint::Zero();  // of two triangles
 
   // Exact: levels end before k does not fit a double.
   double From() const { return half_width * static_cast<double>(2 * k); }
@@ -63,8 +63,9 @@ class RigidDescent {
 
   // kApart: for all of the part by more than the gap, proved; or it is replaced
   // by parts of it, or of its nodes.  Else two triangles: `bound` is how far
-  // one gets from its middle, at most, and the part has its hint.
-  PairSight Look(RigidPart* part, double gap, double* bound);
+  // one gets from its middle, at most, and the part has its hint; of those
+  // above `coarse` not all was tried, since they are halved.
+  PairSight Look(RigidPart* part, double gap, double coarse, double* bound);
 
   // Both halves, the earlier one on top; or that one alone.
   void Halve(const RigidPart& part);

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "constraints/rigid/rigid_search.h"
+#include "core/mesh/numbers.h"
 
 namespace phongpd::internal {
 namespace {
@@ -10,6 +11,8 @@ namespace {
 // A part that begins later than what is open already is of use as a hit alone,
 // which need be no finer than this share of how much later it is.
 constexpr double kFineShare = 1.0 / 16.0;
+// Beyond what is open already, a hit is looked for as long.
+constexpr long kFurtherFirstHitTests = 100'000;
 
 // The earliest collision of all that was seen, and the earliest part that was
 // not told apart: all of [0, open_from) is proved free.
@@ -70,19 +73,19 @@ class FirstHitSearch {
         continue;
       }
       ++answer_.tests;
+      const double finest =
+          std::max(width, kFineShare * (part.From() - open_from_));
+      const bool may_halve = 2.0 * part.half_width > finest &&
+                             part.level < RigidDescent::kMaxHalvings;
+      const double coarse = may_halve ? resolution : kInfinity;
       double bound = 0.0;
-      const PairSight sight = descent_.Look(&part, 0.0, &bound);
+      const PairSight sight = descent_.Look(&part, 0.0, coarse, &bound);
       if (sight == PairSight::kApart) continue;
-      if (sight == PairSight::kMeet) {
+      if (sight == PairSight::kMeet && part.Middle() < hit_time_) {
         hit_time_ = part.Middle();
         Name(part);
       }
-      const double finest =
-          std::max(width, kFineShare * (part.From() - open_from_));
-      const bool is_coarse = bound > resolution &&
-                             2.0 * part.half_width > finest &&
-                             part.level < RigidDescent::kMaxHalvings;
-      if (!is_coarse) {
+      if (!(bound > coarse)) {
         Leave(part);
         Allow(part);
       } else if (sight == PairSight::kMeet) {
@@ -106,7 +109,8 @@ class FirstHitSearch {
   void Allow(const RigidPart& part) {
     if (part.To() >= hit_time_ || is_limited_) return;
     is_limited_ = true;
-    max_tests_ = std::min(max_tests_, 2 * answer_.tests + kFurtherRigidTests);
+    max_tests_ =
+        std::min(max_tests_, 2 * answer_.tests + kFurtherFirstHitTests);
   }
 
   void Name(const RigidPart& part) {

@@ -58,8 +58,8 @@ RigidJudge::RigidJudge(const std::vector<TriangleMesh>& robot,
   internal::RequireRigidMeshes(obstacles, "obstacle");
   auto impl = std::make_shared<Impl>();
   impl->frame = internal::RigidFrameOf(robot, obstacles);
-  impl->robot =
-      internal::MakeRigidSide(robot, Eigen::Vector3d::Zero(), impl->frame.scale);
+  impl->robot = internal::MakeRigidSide(robot, Eigen::Vector3d::Zero(),
+                                        impl->frame.scale);
   impl->obstacle =
       internal::MakeRigidSide(obstacles, impl->frame.center, impl->frame.scale);
   impl_ = std::move(impl);

@@ -5,7 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
+
+#include "core/mesh/numbers.h"
 
 namespace phongpd::internal {
 namespace {
@@ -40,9 +41,14 @@ class DirectionSearch {
     bound_ = h * (motion.distance() + motion.rate() * farthest);
   }
 
-  // True as soon as a direction proves them apart, `first` before all others.
-  bool Run(const PairHint& first) {
-    if (first.squaredNorm() > 0.0 && TryUnit(first)) return true;
+  // True as soon as a direction proves them apart, `first` before all others,
+  // which are left where that one is likely to do it for half of the part, and
+  // the motion is above `coarse`.
+  bool Run(const PairHint& first, double coarse) {
+    if (first.squaredNorm() > 0.0) {
+      if (TryUnit(first)) return true;
+      if (bound_ > coarse && half_margin_ > needed_) return false;
+    }
     std::array<Vector3d, 3> e, f;
     for (std::size_t i = 0; i < 3; ++i) {
       e[i] = placed_[(i + 1) % 3] - placed_[i];
@@ -91,11 +97,12 @@ class DirectionSearch {
     const double below =
         std::min({y[0], y[1], y[2]}) - std::max({x[0], x[1], x[2]});
     const double gap = std::max(above, below);
+    half_margin_ = -kInfinity;
     if (!(gap > motion_.slack())) return false;
     is_apart_ = true;
     if (gap - needed_ > bound_) return true;
     const double bend = bend_ * motion_.AcrossAxis(n);
-    double least = std::numeric_limits<double>::infinity();
+    double least = kInfinity;
     for (std::size_t i = 0; i < 3; ++i) {
       const double away =
           h_ * std::abs(n.dot(speed_[i])) + bend * from_axis_[i];
@@ -104,6 +111,7 @@ class DirectionSearch {
     const double most = above > below ? std::max({y[0], y[1], y[2]})
                                       : -std::min({y[0], y[1], y[2]});
     const double margin = least - most;
+    half_margin_ = 0.5 * (margin + gap);
     if (margin > most_margin_) {
       most_margin_ = margin;
       best_direction_ = n;
@@ -114,7 +122,7 @@ class DirectionSearch {
   // Along the closest pair of points, of edges or of a corner and a face.
   bool TryClosest(const std::array<Vector3d, 3>& e,
                   const std::array<Vector3d, 3>& f) {
-    best_ = std::numeric_limits<double>::infinity();
+    best_ = kInfinity;
     for (std::size_t i = 0; i < 3; ++i) {
       for (std::size_t j = 0; j < 3; ++j) {
         Offer(BetweenSegments(placed_[i], e[i], obstacle_[j], f[j]));
@@ -177,7 +185,8 @@ class DirectionSearch {
   std::array<double, 3> from_axis_;
   double bend_ = 0.0, bound_ = 0.0;
   bool is_apart_ = false;
-  double most_margin_ = -std::numeric_limits<double>::infinity();
+  double most_margin_ = -kInfinity;
+  double half_margin_ = -kInfinity;  // of the last direction, at half h or so
   Vector3d best_direction_ = Vector3d::Zero();
   double best_ = 0.0;
   Vector3d apart_ = Vector3d::Zero();
@@ -260,13 +269,13 @@ PairSight LookAtBoxes(const FramedMotion& motion, const RigidPose& middle,
 }
 
 PairSight LookAtTriangles(const FramedMotion& motion, const RigidPose& middle,
-                          double half_width, double gap,
+                          double half_width, double gap, double coarse,
                           const TriangleCorners& robot,
                           const TriangleCorners& obstacle, PairHint* hint,
                           double* motion_bound) {
   DirectionSearch search(motion, middle, half_width, gap, robot, obstacle);
   *motion_bound = search.bound();
-  if (search.Run(*hint)) return PairSight::kApart;
+  if (search.Run(*hint, coarse)) return PairSight::kApart;
   *hint = search.best_direction();
   if (!search.is_apart() && FirmMeeting(kFirmSlacks * motion.slack())
                                 .Between(search.placed(), obstacle)) {

@@ -15,12 +15,13 @@
 //
 //   |n · (x(t + s) − x(t) − s ẋ)| ≤ ½ s² β |n × u| ρ,                       (1)
 //
-// β = max (φ'² + |φ''|), since the second derivative is φ'² times the arm across
-// the axis and φ'' times that turned by a quarter.  At a constant rate β = θ².
-// So a direction n parts a triangle of the robot from one of the obstacles by
-// more than a gap g for all |s| ≤ h if, over their corners,
+// β = max (φ'² + |φ''|), since the second derivative is φ'² times the arm
+// across the axis and φ'' times that turned by a quarter.  At a constant rate β
+// = θ². So a direction n parts a triangle of the robot from one of the
+// obstacles by more than a gap g for all |s| ≤ h if, over their corners,
 //
-//   min_i [ n·x_i − h |n·ẋ_i| − ½ h² β |n × u| ρ_i ] − max_j n·b_j > g + slack (2)
+//   min_i [ n·x_i − h |n·ẋ_i| − ½ h² β |n × u| ρ_i ] − max_j n·b_j > g + slack
+//   (2)
 //
 // or the same with −n.  For a box of centre c and radius r the speed of its
 // points differs from the centre's by |n × u| φ' r at most.
@@ -58,10 +59,11 @@ PairSight LookAtBoxes(const FramedMotion& motion, const RigidPose& middle,
                       const RigidNode& obstacle, double* motion_bound);
 
 // Of two triangles.  They meet if an edge of one runs through the inside of the
-// other, and would if each corner were 2 slack away, 8
-// times what rounding moves it: touching is unknown.
+// other, and would if each corner were 2 slack away, which is 8 times
+// what rounding moves it: touching is unknown.  Where the bound is above
+// `coarse`, a pair that its hint would part for about half as long is left.
 PairSight LookAtTriangles(const FramedMotion& motion, const RigidPose& middle,
-                          double half_width, double gap,
+                          double half_width, double gap, double coarse,
                           const TriangleCorners& robot,
                           const TriangleCorners& obstacle, PairHint* hint,
                           double* motion_bound);

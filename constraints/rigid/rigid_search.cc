@@ -38,7 +38,7 @@ RigidCheck SearchAnyHit(const RigidSides& sides, const FramedMotion& motion,
     }
     ++check.tests;
     double bound = 0.0;
-    const PairSight sight = descent.Look(&part, 0.0, &bound);
+    const PairSight sight = descent.Look(&part, 0.0, resolution, &bound);
     if (sight == PairSight::kApart) continue;
     const int robot = descent.RobotTriangle(part);
     const int obstacle = descent.ObstacleTriangle(part);

@@ -33,7 +33,7 @@ from ._metrics import EuclideanMetric, Penetration, PhongMetric, QueryResult
 from ._motion import Motion
 from ._native import BuildCancelled, BuildRefusal, InputError, __version__
 from ._piece import ContactSpacePiece
-from ._rigid import RigidCheck, RigidJudge
+from ._rigid import RigidCheck, RigidFirstHit, RigidJudge
 from ._rows import NonPenetrationRows
 from ._solid import Solid
 from ._tracker import PenetrationTracker, TrackedMotion
@@ -44,7 +44,8 @@ __all__ = [
     "BuildCancelled", "BuildRefusal", "ContactSpace", "ContactSpacePiece",
     "Depth", "DepthQuery", "Diagnosis", "EuclideanMetric", "InputError",
     "Motion", "NonPenetrationRows", "Penetration", "PenetrationTracker",
-    "PhongMetric", "Plan", "QueryResult", "RigidCheck", "RigidJudge", "Roadmap",
+    "PhongMetric", "Plan", "QueryResult", "RigidCheck", "RigidFirstHit",
+    "RigidJudge", "Roadmap",
     "Solid", "TrackedMotion", "Trajectory", "View", "World", "__version__",
     "depth", "minkowski", "view",
 ]
