@@ -74,6 +74,12 @@ RigidCheck RigidJudge::Check(const QuaternionMotion& motion,
   return internal::SearchAnyHit(*impl_, Framed(*impl_, motion), max_tests);
 }
 
+RigidCheck RigidJudge::CheckExactly(const QuaternionMotion& motion,
+                                    long max_tests) const {
+  return internal::SearchExactly(*impl_, Framed(*impl_, motion), motion,
+                                 max_tests);
+}
+
 RigidFirstHit RigidJudge::FirstHit(const RigidMotion& motion, double resolution,
                                    long max_tests) const {
   if (!(resolution > 0.0 && resolution <= 1.0)) {

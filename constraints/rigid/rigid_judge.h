@@ -88,10 +88,21 @@ class RigidJudge {
   RigidCheck Check(const QuaternionMotion& motion,
                    long max_tests = kMaxTests) const;
 
+  // Exact: pairs of triangles that come within about 1e-4 of half the robot's
+  // diagonal are decided in rational numbers, where Check does not tell them
+  // apart.  What touches, if only in a point at a moment, collides, at `time`
+  // to rounding.  Undecided: triangles without area, named, that come as close;
+  // or max_tests.  Who is inside of whom without touching is told by corners as
+  // rounded.  Allocates; as fast as Check where nothing comes close, else about
+  // 1 ms more for each such pair and part.
+  RigidCheck CheckExactly(const QuaternionMotion& motion,
+                          long max_tests = kMaxTests) const;
+
   // The first contact, to − from ≤ resolution, a share of the way in (0, 1],
   // where rounding and what lies before it allow: a part before the hit that is
   // not decided begins at `from`, however far the hit is.  2 to 5 times as
-  // long as Check, tenfold for a dozen triangles.  Throws InputError as Check, and for another resolution.
+  // long as Check, tenfold for a dozen triangles.  Throws InputError as Check,
+  // and for another resolution.
   RigidFirstHit FirstHit(const RigidMotion& motion, double resolution = 1e-9,
                          long max_tests = kMaxTests) const;
 

@@ -19,6 +19,9 @@ struct RigidSides {
 
 RigidCheck SearchAnyHit(const RigidSides& sides, const FramedMotion& motion,
                         long max_tests);
+// With pairs of triangles that are not told apart decided exactly; allocates.
+RigidCheck SearchExactly(const RigidSides& sides, const FramedMotion& motion,
+                         const QuaternionMotion& given, long max_tests);
 RigidFirstHit SearchFirstHit(const RigidSides& sides,
                              const FramedMotion& motion, double resolution,
                              long max_tests);
