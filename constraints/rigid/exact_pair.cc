@@ -139,7 +139,14 @@ class PairConditions {
     if (MeetAt([&](std::size_t k) { return cubics_[k].SignAt(from_); })) {
       return from_;
     }
-    for (std::size_t k = 0; k < kCount; ++k) {
+    // Who is over what matters in one plane only: at a root of the corners'
+    // conditions, unless one of those is 0 for all t.
+    bool is_in_plane = false;
+    for (std::size_t k = 0; k < 6; ++k) {
+      is_in_plane = is_in_plane || cubics_[k].IsZero();
+    }
+    const std::size_t count = is_in_plane ? kCount : RobotOver(0, 0);
+    for (std::size_t k = 0; k < count; ++k) {
       if (fixed_[k] != 0) continue;
       for (CubicRoot& root : RootsIn(cubics_[k], from_, to_)) {
         std::array<std::optional<int>, kCount> known;

@@ -24,8 +24,9 @@ namespace phongpd::internal {
 //
 // The signs of all 33 of them say whether the triangles meet.  So the least
 // time of contact is the start of the part, or a root of one that is not 0 for
-// all t: these are isolated by Sturm's sequence, and the other signs there
-// found by halving, or by a common root.
+// all t, of the first 15 unless one of the first 6 is 0 for all t.  Roots are
+// isolated by Sturm's sequence, and the other signs there found by halving, or
+// by a common root.
 class ExactPairJudge {
  public:
   explicit ExactPairJudge(const QuaternionMotion& motion);
