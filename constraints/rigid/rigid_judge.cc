@@ -2,218 +2,39 @@
 #include "constraints/rigid/rigid_judge.h"
 
 #include <algorithm>
-#include <bitset>
-#include <cmath>
 #include <utility>
 
-#include "constraints/rigid/rigid_pair.h"
-#include "constraints/rigid/rigid_side.h"
-#include "core/bvh/box_tree.h"
+#include "constraints/rigid/rigid_search.h"
 #include "core/mesh/mesh_error.h"
 #include "core/number_text.h"
 
 namespace phongpd {
 namespace {
 
-using Eigen::Vector3d;
 using internal::FramedMotion;
-using internal::PairSight;
-using internal::RigidFrame;
-using internal::RigidNode;
-using internal::RigidOrigin;
-using internal::RigidPose;
-using internal::RigidSide;
+using internal::RigidSides;
 
-// Of half the robot's diagonal, and of the rounding: motions below are not
-// halved further.
-constexpr double kRigidResolution = 1e-7;
-constexpr double kRigidSlacks = 4.0;
 constexpr double kMaxRigidSize = 1e100;
-// Halves of halves; the time of the middle is exact.
-constexpr int kMaxHalvings = 50;
-// Poses of so many levels are kept.
-constexpr int kKeptLevels = 8;
-// What is undecided is looked at further, for a collision, but not forever.
-constexpr long kFurtherRigidTests = 10'000;
 
-// Poses at the middles of the parts of the way, those of the first levels kept.
-class MiddlePoseCache {
- public:
-  explicit MiddlePoseCache(const FramedMotion& motion) : motion_(motion) {}
-
-  // Of part k of 2^level; holds until the next call.
-  const RigidPose& At(int level, double middle, long k) {
-    if (level >= kKeptLevels) {
-      other_ = motion_.At(middle);
-      return other_;
-    }
-    const auto index = static_cast<std::size_t>((1L << level) + k);
-    if (!is_known_[index]) {
-      kept_[index] = motion_.At(middle);
-      is_known_[index] = true;
-    }
-    return kept_[index];
+// Throws InputError for a motion that rounding does not stand.
+template <typename Motion>
+FramedMotion Framed(const RigidSides& sides, const Motion& motion) {
+  const FramedMotion framed(motion, sides.frame, sides.robot.tree.reach,
+                            sides.obstacle.tree.reach);
+  if (!(framed.size() <= kMaxRigidSize)) {
+    throw InputError(
+        "rigid judge: expected a motion within 1e100 sizes of the meshes, "
+        "found one to " +
+        Rounded(std::max(motion.start().position.cwiseAbs().maxCoeff(),
+                         motion.end().position.cwiseAbs().maxCoeff())) +
+        "; are the units right?");
   }
-
- private:
-  static constexpr std::size_t kKept = std::size_t{1} << kKeptLevels;
-
-  const FramedMotion& motion_;
-  std::bitset<kKept> is_known_;
-  RigidPose kept_[kKept];
-  RigidPose other_;
-};
-
-// One motion: a stack of pairs of nodes, each with its own part of the way.
-class RigidSearch {
- public:
-  RigidSearch(const RigidSide& robot, const RigidSide& obstacle,
-              const FramedMotion& motion, long max_tests)
-      : robot_(robot),
-        obstacle_(obstacle),
-        motion_(motion),
-        max_tests_(max_tests),
-        resolution_(std::max(kRigidResolution * robot.tree.size,
-                             kRigidSlacks * motion.slack())),
-        poses_(motion) {}
-
-  RigidCheck Run() {
-    check_.outcome = RigidOutcome::kFree;
-    Push({0, 0, 0, 0});
-    while (size_ > 0 && check_.outcome != RigidOutcome::kCollides) {
-      const Part part = stack_[--size_];
-      if (check_.tests >= max_tests_) {
-        if (check_.outcome == RigidOutcome::kFree) {
-          Tell(RigidOutcome::kUndecided, part, -1, -1);
-        }
-        break;
-      }
-      ++check_.tests;
-      Look(part);
-    }
-    if (check_.outcome == RigidOutcome::kFree) LookInside();
-    return check_;
-  }
-
- private:
-  // Nodes i and j on [k, k + 1] / 2^level.
-  struct Part {
-    int robot, obstacle, level;
-    long k;
-  };
-  // A step replaces a part by two, of a lower level in one of three ways.
-  static constexpr int kStack = 2 * BoxTree::kMaxDepth + kMaxHalvings + 2;
-
-  void Push(const Part& part) { stack_[size_++] = part; }
-
-  void Look(const Part& part) {
-    const RigidNode& a =
-        robot_.tree.nodes[static_cast<std::size_t>(part.robot)];
-    const RigidNode& b =
-        obstacle_.tree.nodes[static_cast<std::size_t>(part.obstacle)];
-    const double h = std::ldexp(0.5, -part.level);
-    const RigidPose& middle = poses_.At(part.level, MiddleOf(part), part.k);
-    double bound = 0.0;
-    if (!a.IsLeaf() || !b.IsLeaf()) {
-      const PairSight sight =
-          internal::LookAtBoxes(motion_, middle, h, a, b, &bound);
-      if (sight == PairSight::kApart) return;
-      // A box that goes far is not known better by its parts.
-      if (bound > a.radius + b.radius && part.level < kMaxHalvings) {
-        Halve(part);
-      } else {
-        Open(part, a, b);
-      }
-      return;
-    }
-    const PairSight sight = internal::LookAtTriangles(
-        motion_, middle, h,
-        robot_.tree.corners[static_cast<std::size_t>(a.triangle)],
-        obstacle_.tree.corners[static_cast<std::size_t>(b.triangle)], &bound);
-    if (sight == PairSight::kApart) return;
-    if (sight == PairSight::kMeet) {
-      Tell(RigidOutcome::kCollides, part, a.triangle, b.triangle);
-    } else if (bound > resolution_ && part.level < kMaxHalvings) {
-      Halve(part);
-    } else if (check_.outcome == RigidOutcome::kFree) {
-      Tell(RigidOutcome::kUndecided, part, a.triangle, b.triangle);
-      max_tests_ = std::min(max_tests_, 2 * check_.tests + kFurtherRigidTests);
-    }
-  }
-
-  // The earlier half is looked at first.
-  void Halve(const Part& part) {
-    Push({part.robot, part.obstacle, part.level + 1, 2 * part.k + 1});
-    Push({part.robot, part.obstacle, part.level + 1, 2 * part.k});
-  }
-
-  // The larger box is replaced by its two.
-  void Open(const Part& part, const RigidNode& a, const RigidNode& b) {
-    const bool opens_robot = b.IsLeaf() || (!a.IsLeaf() && a.radius > b.radius);
-    for (int i = 0; i < 2; ++i) {
-      Push({opens_robot ? a.left + i : part.robot,
-            opens_robot ? part.obstacle : b.left + i, part.level, part.k});
-    }
-  }
-
-  static double MiddleOf(const Part& part) {
-    return std::ldexp(static_cast<double>(2 * part.k + 1), -part.level - 1);
-  }
-
-  void Tell(RigidOutcome outcome, const Part& part, int triangle, int other) {
-    check_.outcome = outcome;
-    check_.time = MiddleOf(part);
-    check_.from = std::ldexp(static_cast<double>(part.k), -part.level);
-    check_.to = std::ldexp(static_cast<double>(part.k + 1), -part.level);
-    if (triangle < 0) return;
-    const RigidOrigin& mine =
-        robot_.origins[static_cast<std::size_t>(triangle)];
-    const RigidOrigin& its = obstacle_.origins[static_cast<std::size_t>(other)];
-    check_.robot_mesh = mine.mesh;
-    check_.robot_triangle = mine.triangle;
-    check_.obstacle_mesh = its.mesh;
-    check_.obstacle_triangle = its.triangle;
-  }
-
-  // Surfaces that stay apart by more than rounding: who is inside of whom at
-  // the start is so for good, and corners as rounded tell.
-  void LookInside() {
-    const RigidPose start = motion_.At(0.0);
-    const auto collide = [&] {
-      check_.outcome = RigidOutcome::kCollides;
-      check_.time = check_.from = check_.to = 0.0;
-    };
-    if (!obstacle_.solids.empty()) {
-      for (const Vector3d& p : robot_.seeds) {
-        const Vector3d x = start.rotation * p + start.position;
-        if (obstacle_.Holds(x)) return collide();
-      }
-    }
-    if (robot_.solids.empty()) return;
-    for (const Vector3d& b : obstacle_.seeds) {
-      const Vector3d p = start.rotation.transpose() * (b - start.position);
-      if (p.norm() <= 2.0 * robot_.tree.reach && robot_.Holds(p)) {
-        return collide();
-      }
-    }
-  }
-
-  const RigidSide &robot_, &obstacle_;
-  const FramedMotion& motion_;
-  long max_tests_;
-  const double resolution_;
-  MiddlePoseCache poses_;
-  Part stack_[kStack];
-  int size_ = 0;
-  RigidCheck check_;
-};
+  return framed;
+}
 
 }  // namespace
 
-struct RigidJudge::Impl {
-  RigidFrame frame;
-  RigidSide robot, obstacle;
-};
+struct RigidJudge::Impl : internal::RigidSides {};
 
 const char* ToString(RigidOutcome outcome) {
   switch (outcome) {
@@ -237,25 +58,38 @@ RigidJudge::RigidJudge(const std::vector<TriangleMesh>& robot,
   internal::RequireRigidMeshes(obstacles, "obstacle");
   auto impl = std::make_shared<Impl>();
   impl->frame = internal::RigidFrameOf(robot, obstacles);
-  impl->robot =
-      internal::MakeRigidSide(robot, Vector3d::Zero(), impl->frame.scale);
+  impl->robot = internal::MakeRigidSide(robot, Eigen::Vector3d::Zero(),
+                                        impl->frame.scale);
   impl->obstacle =
       internal::MakeRigidSide(obstacles, impl->frame.center, impl->frame.scale);
   impl_ = std::move(impl);
 }
 
 RigidCheck RigidJudge::Check(const RigidMotion& motion, long max_tests) const {
-  const FramedMotion framed(motion, impl_->frame, impl_->robot.tree.reach,
-                            impl_->obstacle.tree.reach);
-  if (!(framed.size() <= kMaxRigidSize)) {
+  return internal::SearchAnyHit(*impl_, Framed(*impl_, motion), max_tests);
+}
+
+RigidCheck RigidJudge::Check(const QuaternionMotion& motion,
+                             long max_tests) const {
+  return internal::SearchAnyHit(*impl_, Framed(*impl_, motion), max_tests);
+}
+
+RigidCheck RigidJudge::CheckExactly(const QuaternionMotion& motion,
+                                    long max_tests) const {
+  return internal::SearchExactly(*impl_, Framed(*impl_, motion), motion,
+                                 max_tests);
+}
+
+RigidFirstHit RigidJudge::FirstHit(const RigidMotion& motion, double resolution,
+                                   long max_tests) const {
+  if (!(resolution > 0.0 && resolution <= 1.0)) {
     throw InputError(
-        "rigid judge: expected a motion within 1e100 sizes of the meshes, "
-        "found one to " +
-        Rounded(std::max(motion.start().position.cwiseAbs().maxCoeff(),
-                         motion.end().position.cwiseAbs().maxCoeff())) +
-        "; are the units right?");
+        "rigid judge: expected a resolution above 0 and at most 1, a share of "
+        "the way, found " +
+        Rounded(resolution));
   }
-  return RigidSearch(impl_->robot, impl_->obstacle, framed, max_tests).Run();
+  return internal::SearchFirstHit(*impl_, Framed(*impl_, motion), resolution,
+                                  max_tests);
 }
 
 }  // namespace phongpd

@@ -5,7 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
+
+#include "core/mesh/numbers.h"
 
 namespace phongpd::internal {
 namespace {
@@ -13,39 +14,41 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-constexpr double kRigidSlack = 0x1p-44;
-// Of a square of length 1 that products of rounded directions miss.
-constexpr double kRoundedSquare = 0x1p-48;
 // Of a direction's square, by the edges that it is made of: below it is noise.
 constexpr double kNoDirection = 1e-24;
 // Of corners that a meeting must stand, in slacks.
-constexpr double kFirmSlacks = 8.0;
-
-// |n × u| of unit vectors by n · u, rounded up.
-double Across(double along) {
-  return std::sqrt(std::max(0.0, 1.0 - along * along) + kRoundedSquare);
-}
+constexpr double kFirmSlacks = 2.0;
 
 // The certificate (2) of a pair of triangles, direction by direction.
 class DirectionSearch {
  public:
   DirectionSearch(const FramedMotion& motion, const RigidPose& middle, double h,
-                  const TriangleCorners& robot, const TriangleCorners& obstacle)
-      : motion_(motion), h_(h), obstacle_(obstacle) {
+                  double gap, const TriangleCorners& robot,
+                  const TriangleCorners& obstacle)
+      : motion_(motion),
+        h_(h),
+        needed_(gap + motion.slack()),
+        obstacle_(obstacle) {
     double farthest = 0.0;
     for (std::size_t i = 0; i < 3; ++i) {
       const Vector3d arm = middle.rotation * robot[i];
       placed_[i] = arm + middle.position;
-      speed_[i] = motion.moved() + motion.turn().cross(arm);
+      speed_[i] = motion.moved() + middle.turn.cross(arm);
       from_axis_[i] = motion.FromAxis(robot[i]);
       farthest = std::max(farthest, from_axis_[i]);
     }
-    bend_ = 0.5 * h * h * motion.angle() * motion.angle();
-    bound_ = h * (motion.distance() + motion.angle() * farthest);
+    bend_ = 0.5 * h * h * motion.bend();
+    bound_ = h * (motion.distance() + motion.rate() * farthest);
   }
 
-  // True as soon as a direction proves them apart.
-  bool Run() {
+  // True as soon as a direction proves them apart, `first` before all others,
+  // which are left where that one is likely to do it for half of the part, and
+  // the motion is above `coarse`.
+  bool Run(const PairHint& first, double coarse) {
+    if (first.squaredNorm() > 0.0) {
+      if (TryUnit(first)) return true;
+      if (bound_ > coarse && half_margin_ > needed_) return false;
+    }
     std::array<Vector3d, 3> e, f;
     for (std::size_t i = 0; i < 3; ++i) {
       e[i] = placed_[(i + 1) % 3] - placed_[i];
@@ -74,6 +77,8 @@ class DirectionSearch {
   bool is_apart() const { return is_apart_; }
   double bound() const { return bound_; }
   const TriangleCorners& placed() const { return placed_; }
+  // That lacked least; 0 where none parts them at the middle.
+  const Vector3d& best_direction() const { return best_direction_; }
 
  private:
   bool Try(const Vector3d& direction, double scale) {
@@ -91,12 +96,13 @@ class DirectionSearch {
         std::min({x[0], x[1], x[2]}) - std::max({y[0], y[1], y[2]});
     const double below =
         std::min({y[0], y[1], y[2]}) - std::max({x[0], x[1], x[2]});
-    const double gap = std::max(above, below) - motion_.slack();
-    if (!(gap > 0.0)) return false;
+    const double gap = std::max(above, below);
+    half_margin_ = -kInfinity;
+    if (!(gap > motion_.slack())) return false;
     is_apart_ = true;
-    if (gap > bound_) return true;
+    if (gap - needed_ > bound_) return true;
     const double bend = bend_ * motion_.AcrossAxis(n);
-    double least = std::numeric_limits<double>::infinity();
+    double least = kInfinity;
     for (std::size_t i = 0; i < 3; ++i) {
       const double away =
           h_ * std::abs(n.dot(speed_[i])) + bend * from_axis_[i];
@@ -104,13 +110,19 @@ class DirectionSearch {
     }
     const double most = above > below ? std::max({y[0], y[1], y[2]})
                                       : -std::min({y[0], y[1], y[2]});
-    return least - most > motion_.slack();
+    const double margin = least - most;
+    half_margin_ = 0.5 * (margin + gap);
+    if (margin > most_margin_) {
+      most_margin_ = margin;
+      best_direction_ = n;
+    }
+    return margin > needed_;
   }
 
   // Along the closest pair of points, of edges or of a corner and a face.
   bool TryClosest(const std::array<Vector3d, 3>& e,
                   const std::array<Vector3d, 3>& f) {
-    best_ = std::numeric_limits<double>::infinity();
+    best_ = kInfinity;
     for (std::size_t i = 0; i < 3; ++i) {
       for (std::size_t j = 0; j < 3; ++j) {
         Offer(BetweenSegments(placed_[i], e[i], obstacle_[j], f[j]));
@@ -166,13 +178,16 @@ class DirectionSearch {
   }
 
   const FramedMotion& motion_;
-  const double h_;
+  const double h_, needed_;
   const TriangleCorners& obstacle_;
   TriangleCorners placed_;
   std::array<Vector3d, 3> speed_;
   std::array<double, 3> from_axis_;
   double bend_ = 0.0, bound_ = 0.0;
   bool is_apart_ = false;
+  double most_margin_ = -kInfinity;
+  double half_margin_ = -kInfinity;  // of the last direction, at half h or so
+  Vector3d best_direction_ = Vector3d::Zero();
   double best_ = 0.0;
   Vector3d apart_ = Vector3d::Zero();
 };
@@ -220,76 +235,33 @@ class FirmMeeting {
 
 }  // namespace
 
-FramedMotion::FramedMotion(const RigidMotion& motion, const RigidFrame& frame,
-                           double robot_reach, double obstacle_reach)
-    : start_(motion.start().orientation.normalized()),
-      position_((motion.start().position - frame.center) * frame.scale),
-      moved_((motion.end().position - motion.start().position) * frame.scale),
-      axis_(motion.axis()),
-      turn_(motion.turn()),
-      body_axis_(start_.conjugate() * motion.axis()),
-      angle_(motion.angle()),
-      distance_(moved_.norm()) {
-  const Vector3d end = (motion.end().position - frame.center) * frame.scale;
-  size_ = robot_reach + obstacle_reach + std::max(position_.norm(), end.norm());
-  for (int k = 0; k < 3; ++k) {
-    across_axes_[k] = Across(axis_[k]);
-    across_body_axes_[k] = Across(body_axis_[k]);
-  }
-  slack_ = kRigidSlack * size_ * (1.0 + angle_) * (1.0 + angle_);
-}
-
-RigidPose FramedMotion::At(double t) const {
-  RigidPose pose;
-  pose.position = position_ + t * moved_;
-  if (angle_ == 0.0) {
-    pose.rotation = start_.toRotationMatrix();
-    return pose;
-  }
-  const double half = 0.5 * (t * angle_);
-  Eigen::Quaterniond turned;
-  turned.w() = std::cos(half);
-  turned.vec() = std::sin(half) * axis_;
-  pose.rotation = (turned * start_).toRotationMatrix();
-  return pose;
-}
-
-double FramedMotion::FromAxis(const Vector3d& p) const {
-  const double along = p.dot(body_axis_), squared = p.squaredNorm();
-  return std::sqrt(std::max(0.0, squared - along * along) +
-                   kRoundedSquare * squared);
-}
-
-double FramedMotion::AcrossAxis(const Vector3d& n) const {
-  return Across(n.dot(axis_));
-}
-
 PairSight LookAtBoxes(const FramedMotion& motion, const RigidPose& middle,
-                      double half_width, const RigidNode& robot,
+                      double half_width, double gap, const RigidNode& robot,
                       const RigidNode& obstacle, double* motion_bound) {
-  const double h = half_width, theta = motion.angle();
+  const double h = half_width;
   const Matrix3d& r = middle.rotation;
   const Vector3d arm = r * robot.center;
   const Vector3d apart = arm + middle.position - obstacle.center;
   const Matrix3d size = r.cwiseAbs();
-  const double slack = motion.slack();
+  const double needed = gap + motion.slack();
   // Along the axes of the obstacles' boxes, and of the robot's.
   const Vector3d g = apart.cwiseAbs() - obstacle.half - size * robot.half;
   const Vector3d k = (r.transpose() * apart).cwiseAbs() - robot.half -
                      size.transpose() * obstacle.half;
   const double reach = motion.FromAxis(robot.center) + robot.radius;
-  *motion_bound = h * (motion.distance() + theta * reach);
-  const double best = std::max(g.maxCoeff(), k.maxCoeff()) - slack;
+  *motion_bound = h * (motion.distance() + motion.rate() * reach);
+  const double best = std::max(g.maxCoeff(), k.maxCoeff()) - needed;
   if (best > *motion_bound) return PairSight::kApart;
   if (!(best > 0.0)) return PairSight::kUnknown;
-  const Vector3d speed = motion.moved() + motion.turn().cross(arm);
+  const Vector3d speed = motion.moved() + middle.turn.cross(arm);
   const Vector3d body_speed = r.transpose() * speed;
-  const double bend = h * theta * (robot.radius + 0.5 * h * theta * reach);
+  const double bend =
+      h * (motion.rate() * robot.radius + 0.5 * h * motion.bend() * reach);
   const Vector3d g_needed = h * speed.cwiseAbs() + bend * motion.across_axes();
   const Vector3d k_needed =
       h * body_speed.cwiseAbs() + bend * motion.across_body_axes();
   for (int i = 0; i < 3; ++i) {
-    if (g[i] - slack > g_needed[i] || k[i] - slack > k_needed[i]) {
+    if (g[i] - needed > g_needed[i] || k[i] - needed > k_needed[i]) {
       return PairSight::kApart;
     }
   }
@@ -297,12 +269,14 @@ PairSight LookAtBoxes(const FramedMotion& motion, const RigidPose& middle,
 }
 
 PairSight LookAtTriangles(const FramedMotion& motion, const RigidPose& middle,
-                          double half_width, const TriangleCorners& robot,
-                          const TriangleCorners& obstacle,
+                          double half_width, double gap, double coarse,
+                          const TriangleCorners& robot,
+                          const TriangleCorners& obstacle, PairHint* hint,
                           double* motion_bound) {
-  DirectionSearch search(motion, middle, half_width, robot, obstacle);
+  DirectionSearch search(motion, middle, half_width, gap, robot, obstacle);
   *motion_bound = search.bound();
-  if (search.Run()) return PairSight::kApart;
+  if (search.Run(*hint, coarse)) return PairSight::kApart;
+  *hint = search.best_direction();
   if (!search.is_apart() && FirmMeeting(kFirmSlacks * motion.slack())
                                 .Between(search.placed(), obstacle)) {
     return PairSight::kMeet;

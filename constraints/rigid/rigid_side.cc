@@ -91,6 +91,8 @@ RigidSide MakeRigidSide(const std::vector<TriangleMesh>& meshes,
     const std::vector<int> label = LabelComponents(mesh, &count);
     std::vector<bool> has_seed(static_cast<std::size_t>(count), false);
     const std::vector<TriangleCorners> own = CornersOf(mesh);
+    const std::vector<TriangleCorners> given = CornersOf(meshes[i]);
+    side.given.insert(side.given.end(), given.begin(), given.end());
     for (std::size_t k = 0; k < own.size(); ++k) {
       side.origins.push_back({static_cast<int>(i), static_cast<int>(k)});
       const auto component = static_cast<std::size_t>(label[k]);

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "constraints/rigid/rigid_pair.h"
+#include "constraints/rigid/framed_motion.h"
 #include "constraints/rigid/rigid_tree.h"
 #include "core/bvh/triangle_bvh.h"
 #include "core/mesh/triangle_mesh.h"
@@ -22,6 +22,7 @@ struct RigidOrigin {
 struct RigidSide {
   RigidTree tree;
   std::vector<RigidOrigin> origins;    // by the number in the tree
+  std::vector<TriangleCorners> given;  // as given, by the same
   std::vector<TriangleBvh> solids;     // those that are closed
   std::vector<Eigen::Vector3d> seeds;  // a corner of each component
 

@@ -28,6 +28,7 @@ struct SweepFlags {
   std::vector<std::string> b;
   std::string from = "0,0,0";
   std::string to;
+  bool first = false;
   bool json = false;
 };
 
@@ -82,6 +83,23 @@ std::vector<double> Cells(const RobotPose& pose) {
           turn.x(),          turn.y(),          turn.z()};
 }
 
+// As a check: at `to`, and the part of the way of which nothing else is known.
+RigidCheck FirstOf(const RigidFirstHit& hit) {
+  RigidCheck check;
+  check.outcome = hit.outcome;
+  check.from = hit.from;
+  check.to = hit.to;
+  check.time = hit.outcome == RigidOutcome::kCollides
+                   ? hit.to
+                   : hit.from + 0.5 * (hit.to - hit.from);
+  check.robot_mesh = hit.robot_mesh;
+  check.robot_triangle = hit.robot_triangle;
+  check.obstacle_mesh = hit.obstacle_mesh;
+  check.obstacle_triangle = hit.obstacle_triangle;
+  check.tests = hit.tests;
+  return check;
+}
+
 std::string SweepJson(const SweepFlags& flags, const RigidMotion& motion,
                       const RigidCheck& check) {
   nlohmann::ordered_json row = {{"status", ToString(check.outcome)},
@@ -115,6 +133,9 @@ std::string SweepWords(const SweepFlags& flags, const RigidMotion& motion,
   const bool collides = check.outcome == RigidOutcome::kCollides;
   if (collides) {
     text << " at " << FormatDouble(check.time) << " of the way";
+    if (flags.first) {
+      text << ", free before " << FormatDouble(check.from);
+    }
   } else {
     text << " from " << FormatDouble(check.from) << " to "
          << FormatDouble(check.to) << " of the way";
@@ -140,7 +161,9 @@ int Sweep(const SweepFlags& flags) {
     obstacles.push_back(SweptMesh(path));
     WarnOfUnits(robot, flags.a, obstacles.back(), path);
   }
-  const RigidCheck check = RigidJudge({robot}, obstacles).Check(motion);
+  const RigidJudge judge({robot}, obstacles);
+  const RigidCheck check =
+      flags.first ? FirstOf(judge.FirstHit(motion)) : judge.Check(motion);
   OutputFiles outputs;
   CommitAndTell(&outputs, flags.json ? SweepJson(flags, motion, check)
                                      : SweepWords(flags, motion, check));
@@ -170,6 +193,9 @@ Command AddSweep(CLI::App* app) {
                   "axis, the shorter way")
       ->required()
       ->type_name("POSE");
+  app->add_flag("--first", flags->first,
+                "Where it collides, when first: the time to 1e-9 of the way, "
+                "or as near as rounding allows, free before, proved");
   AddJson(app, &flags->json,
           "An object: status, poses, and where it is not free the time and "
           "the triangles");
@@ -177,6 +203,7 @@ Command AddSweep(CLI::App* app) {
       app,
       {"phongpd sweep robot.off obstacle.stl --to 1,0,0",
        "phongpd sweep robot.off a.stl b.stl --from 0,0,2 --to 1,0,2,0,0,90",
+       "phongpd sweep robot.off obstacle.stl --to 1,0,0 --first",
        "phongpd sweep robot.off obstacle.stl --from -1,0,0 --to "
        "0,0,0,0,0,0,1 --json"},
       "Exit code 0: free for the whole motion, proved, rounding included; 1: "

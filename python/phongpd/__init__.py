@@ -37,7 +37,7 @@ from ._motion import Motion
 from ._native import BuildCancelled, BuildRefusal, InputError, __version__
 from ._piece import ContactSpacePiece
 from ._removal import Disassembly, Removal, disassemble, remove
-from ._rigid import RigidCheck, RigidJudge
+from ._rigid import RigidCheck, RigidFirstHit, RigidJudge
 from ._rows import NonPenetrationRows
 from ._solid import Solid
 from ._tracker import PenetrationTracker, TrackedMotion
@@ -49,7 +49,7 @@ __all__ = [
     "Depth", "DepthQuery", "Diagnosis", "Disassembly", "EuclideanMetric",
     "Fleet", "InputError", "Motion", "NonPenetrationRows", "Penetration",
     "PenetrationTracker", "PhongMetric", "Plan", "QueryResult", "Removal",
-    "RigidCheck", "RigidJudge", "Roadmap", "SmoothedMetric", "Solid",
-    "TrackedMotion", "Trajectory", "View", "World", "__version__", "depth",
-    "disassemble", "minkowski", "optimize_fleet", "remove", "view",
+    "RigidCheck", "RigidFirstHit", "RigidJudge", "Roadmap", "SmoothedMetric",
+    "Solid", "TrackedMotion", "Trajectory", "View", "World", "__version__",
+    "depth", "disassemble", "minkowski", "optimize_fleet", "remove", "view",
 ]

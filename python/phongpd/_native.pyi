@@ -108,6 +108,9 @@ class RigidJudge:
                  obstacles: Sequence[tuple[_Floats, _Ints]]) -> None: ...
     def check(self, poses: _Floats, names: list[str]) -> list[tuple[
         str, float, float, float, tuple[int, int], tuple[int, int], int]]: ...
+    def first_hit(self, poses: _Floats, names: list[str],
+                  resolution: float) -> tuple[
+        str, float, float, tuple[int, int], tuple[int, int], int]: ...
 
 class DepthQuery:
     def __init__(self, robot: Solid, obstacle: Solid, max_radius: float,

@@ -73,6 +73,21 @@ nb::list Check(const RigidJudge& judge, const Poses& poses,
   return rows;
 }
 
+nb::tuple FirstHit(const RigidJudge& judge, const Poses& poses,
+                   const std::vector<std::string>& names, double resolution) {
+  RigidFirstHit hit;
+  {
+    const Computing computing;
+    hit = judge.FirstHit({PoseOf(ToMatrix(poses, 0), names.at(0)),
+                          PoseOf(ToMatrix(poses, 1), names.at(1))},
+                         resolution);
+  }
+  return nb::make_tuple(
+      ToString(hit.outcome), hit.from, hit.to,
+      nb::make_tuple(hit.robot_mesh, hit.robot_triangle),
+      nb::make_tuple(hit.obstacle_mesh, hit.obstacle_triangle), hit.tests);
+}
+
 }  // namespace
 
 void BindRigid(nb::module_& module) {
@@ -84,7 +99,8 @@ void BindRigid(nb::module_& module) {
              const Computing computing;
              new (self) RigidJudge(moving, fixed);
            })
-      .def("check", &Check);
+      .def("check", &Check)
+      .def("first_hit", &FirstHit);
 }
 
 }  // namespace phongpd::python

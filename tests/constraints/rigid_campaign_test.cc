@@ -22,16 +22,9 @@ using Eigen::Quaterniond;
 using Eigen::Vector3d;
 using testing::MeetExactly;
 using testing::PlacedMesh;
+using testing::PoseAt;
 using testing::RandomRotation;
 using testing::RandomVoxelSolid;
-
-RobotPose At(const Vector3d& position,
-             const Quaterniond& orientation = Quaterniond::Identity()) {
-  RobotPose pose;
-  pose.position = position;
-  pose.orientation = orientation;
-  return pose;
-}
 
 struct Tally {
   long cases = 0, free = 0, undecided = 0, wrong_free = 0, wrong_hit = 0;
@@ -67,7 +60,7 @@ RigidMotion RandomMotion(double spread, double turn, std::mt19937_64* random) {
   const Vector3d b(place(*random), place(*random), place(*random));
   const Vector3d axis = RandomRotation(random).col(0);
   std::uniform_real_distribution<double> angle(0.0, turn);
-  return RigidMotion::Turning(At(a, Quaterniond(RandomRotation(random))), b,
+  return RigidMotion::Turning(PoseAt(a, Quaterniond(RandomRotation(random))), b,
                               angle(*random) * axis);
 }
 
@@ -200,7 +193,7 @@ TEST(RigidCampaign, AgreesWithTheExactOracleOnTranslations) {
         p = p.array().round();
         q = q.array().round();
       }
-      const RigidCheck check = judge.Check({At(p), At(q)});
+      const RigidCheck check = judge.Check({PoseAt(p), PoseAt(q)});
       const bool collides = oracle.Collides(p, q);
       ++cases;
       if (check.IsFree()) {

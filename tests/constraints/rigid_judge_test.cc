@@ -26,15 +26,8 @@ using testing::Cube;
 using testing::ExpectRefused;
 using testing::MeetExactly;
 using testing::PlacedMesh;
+using testing::PoseAt;
 using testing::RandomRotation;
-
-RobotPose At(const Vector3d& position,
-             const Quaterniond& orientation = Quaterniond::Identity()) {
-  RobotPose pose;
-  pose.position = position;
-  pose.orientation = orientation;
-  return pose;
-}
 
 Quaterniond AboutZ(double angle) {
   return Quaterniond(Eigen::AngleAxisd(angle, Vector3d::UnitZ()));
@@ -54,8 +47,8 @@ void ExpectWitness(const TriangleMesh& robot, const TriangleMesh& obstacle,
 // A cube of side 2 that turns a quarter in front of a wall: its edge comes out
 // to √2 at 45°, which is at no simple share of the way.
 RigidMotion QuarterTurn(double begin) {
-  return {At(Vector3d::Zero(), AboutZ(begin)),
-          At(Vector3d::Zero(), AboutZ(begin + 0.5 * kPi))};
+  return {PoseAt(Vector3d::Zero(), AboutZ(begin)),
+          PoseAt(Vector3d::Zero(), AboutZ(begin + 0.5 * kPi))};
 }
 
 TEST(RigidJudge, KnowsACubeThatTurnsPastAWallDownToItsResolution) {
@@ -102,8 +95,8 @@ TEST(RigidJudge, SaysTheSameFarAwayTinyAndTurned) {
     for (Vector3d& v : wall.vertices) v = unit * (rotation * v) + at;
     const RigidJudge judge(Scaled(Cube(2.0), unit), wall);
     const RigidMotion motion(
-        At(at, (turned * AboutZ(0.1)).normalized()),
-        At(at, (turned * AboutZ(0.1 + 0.5 * kPi)).normalized()));
+        PoseAt(at, (turned * AboutZ(0.1)).normalized()),
+        PoseAt(at, (turned * AboutZ(0.1 + 0.5 * kPi)).normalized()));
     const RigidCheck check = judge.Check(motion);
     EXPECT_EQ(check.outcome,
               gap > 0.0 ? RigidOutcome::kFree : RigidOutcome::kCollides)
@@ -121,14 +114,14 @@ TEST(RigidJudge, SeesAWholeTurn) {
       return MakeBox(p - half, p + half);
     };
     const RigidMotion whole = RigidMotion::Turning(
-        At(Vector3d::Zero()), Vector3d::Zero(), {0.0, 0.0, 2.0 * kPi});
+        PoseAt(Vector3d::Zero()), Vector3d::Zero(), {0.0, 0.0, 2.0 * kPi});
     const RigidCheck hit = RigidJudge(bar, post(1.9)).Check(whole);
     EXPECT_EQ(hit.outcome, RigidOutcome::kCollides);
     const double angle = place < 0.0 ? place + 2.0 * kPi : place;
     EXPECT_NEAR(hit.time, angle / (2.0 * kPi), 0.01);
     EXPECT_TRUE(RigidJudge(bar, post(2.001)).Check(whole).IsFree());
     // From pose to pose it does not turn at all.
-    const RigidMotion still(At(Vector3d::Zero()), whole.end());
+    const RigidMotion still(PoseAt(Vector3d::Zero()), whole.end());
     EXPECT_TRUE(RigidJudge(bar, post(1.9)).Check(still).IsFree());
   }
 }
@@ -136,7 +129,8 @@ TEST(RigidJudge, SeesAWholeTurn) {
 TEST(RigidJudge, JudgesAPoseAsAMotionOfNoLength) {
   const RigidJudge judge(Cube(2.0), Cube(2.0));
   const auto check = [&](const Vector3d& q) {
-    return judge.Check({At(q, AboutZ(0.25 * kPi)), At(q, AboutZ(0.25 * kPi))})
+    return judge
+        .Check({PoseAt(q, AboutZ(0.25 * kPi)), PoseAt(q, AboutZ(0.25 * kPi))})
         .outcome;
   };
   const double edge = 1.0 + std::sqrt(2.0);
@@ -148,7 +142,7 @@ TEST(RigidJudge, JudgesAPoseAsAMotionOfNoLength) {
 TEST(RigidJudge, CallsNothingFreeThatTouches) {
   const RigidJudge judge(Cube(2.0), Cube(2.0));
   const auto check = [&](const Vector3d& a, const Vector3d& b) {
-    return judge.Check({At(a), At(b)});
+    return judge.Check({PoseAt(a), PoseAt(b)});
   };
   // Faces that slide on each other, edges and corners that pass.
   EXPECT_FALSE(check({-3, 0, 2}, {3, 0.3, 2}).IsFree());
@@ -157,15 +151,16 @@ TEST(RigidJudge, CallsNothingFreeThatTouches) {
   EXPECT_FALSE(check({2, 2, 5}, {2, 2, 2}).IsFree());
   EXPECT_TRUE(check({-3, 0, 2.00001}, {3, 0.3, 2.00001}).IsFree());
   // Edges that cross in one point on the way, seen in the plane.
-  const RigidCheck cross =
-      RigidJudge(Cube(2.0), Cube(2.0))
-          .Check({At({2, 0, 3}, AboutZ(0.3)), At({2, 0, 2}, AboutZ(0.3))});
+  const RigidCheck cross = RigidJudge(Cube(2.0), Cube(2.0))
+                               .Check({PoseAt({2, 0, 3}, AboutZ(0.3)),
+                                       PoseAt({2, 0, 2}, AboutZ(0.3))});
   EXPECT_FALSE(cross.IsFree());
 }
 
 TEST(RigidJudge, KnowsWhoIsInsideOfWhom) {
   const TriangleMesh small = Cube(0.5), large = Cube(4.0);
-  const RigidMotion motion(At({-0.5, 0, 0}), At({0.5, 0, 0}, AboutZ(1.0)));
+  const RigidMotion motion(PoseAt({-0.5, 0, 0}),
+                           PoseAt({0.5, 0, 0}, AboutZ(1.0)));
   for (const bool swap : {false, true}) {
     const RigidCheck check =
         RigidJudge(swap ? large : small, swap ? small : large).Check(motion);
@@ -202,8 +197,8 @@ TEST(RigidJudge, NamesTheMeshesAndTrianglesThatMeet) {
   }
   // Only the first of the robot's gets to the last of the others.
   const RigidJudge judge(robot, obstacles);
-  const RigidMotion motion(At(Vector3d::Zero()),
-                           At({4.3, -3.0, 0.2}, AboutZ(0.1)));
+  const RigidMotion motion(PoseAt(Vector3d::Zero()),
+                           PoseAt({4.3, -3.0, 0.2}, AboutZ(0.1)));
   const RigidCheck check = judge.Check(motion);
   ASSERT_EQ(check.outcome, RigidOutcome::kCollides);
   EXPECT_EQ(check.robot_mesh, 0);
@@ -213,7 +208,7 @@ TEST(RigidJudge, NamesTheMeshesAndTrianglesThatMeet) {
 
 TEST(RigidJudge, IsUndecidedWhereItMayLookNoFurther) {
   const RigidJudge judge(Cube(2.0), MakeIcoBall(1.0, 2));
-  const RigidMotion motion(At({3.0, 0.0, 0.0}), At({-3.0, 2.4, 0.3}));
+  const RigidMotion motion(PoseAt({3.0, 0.0, 0.0}), PoseAt({-3.0, 2.4, 0.3}));
   const RigidCheck check = judge.Check(motion, 5);
   EXPECT_EQ(check.outcome, RigidOutcome::kUndecided);
   EXPECT_EQ(check.tests, 5);
@@ -243,7 +238,7 @@ TEST(RigidJudge, RefusesWhatIsNoMesh) {
   const RigidJudge judge(cube, cube);
   ExpectRefused(
       [&] {
-        judge.Check({At({1e300, 0, 0}), At({0, 0, 0})});
+        judge.Check({PoseAt({1e300, 0, 0}), PoseAt({0, 0, 0})});
       },
       "expected a motion within 1e100 sizes of the meshes, found one to "
       "1e+300");
@@ -255,10 +250,13 @@ TEST(RigidJudge, JudgesRobotsWithoutSize) {
   point.vertices = {{0, 0, 0}, {0, 0, 0}, {0, 0, 0}};
   point.triangles = {{0, 1, 2}};
   const RigidJudge judge(point, Cube(2.0));
-  EXPECT_TRUE(judge.Check({At({-3, 0, 1.001}), At({3, 0, 1.001})}).IsFree());
-  EXPECT_FALSE(judge.Check({At({-3, 0, 0.5}), At({3, 0, 0.5})}).IsFree());
-  EXPECT_EQ(judge.Check({At({-0.3, 0, 0.5}), At({0.3, 0, 0.5})}).outcome,
-            RigidOutcome::kCollides);
+  EXPECT_TRUE(
+      judge.Check({PoseAt({-3, 0, 1.001}), PoseAt({3, 0, 1.001})}).IsFree());
+  EXPECT_FALSE(
+      judge.Check({PoseAt({-3, 0, 0.5}), PoseAt({3, 0, 0.5})}).IsFree());
+  EXPECT_EQ(
+      judge.Check({PoseAt({-0.3, 0, 0.5}), PoseAt({0.3, 0, 0.5})}).outcome,
+      RigidOutcome::kCollides);
 }
 
 }  // namespace

@@ -36,6 +36,29 @@ def test_a_turning_cube_needs_room_for_its_corners():
     assert np.allclose(check.interval, 0.5, atol=1e-3)
 
 
+def test_the_first_contact_is_where_the_corner_meets_the_wall():
+    # Two corners at radius root 2, at -45 and 45 degrees; the wall at x.
+    for x in (1.05, 1.2, 1.4):
+        judge = phongpd.RigidJudge(CUBE, wall(x - np.sqrt(2)))
+        hit = judge.first_hit(*QUARTER)
+        truth = (np.pi / 4 - np.arccos(x / np.sqrt(2))) / (np.pi / 2)
+        first, last = hit.interval
+        assert hit.status == "collides" and not hit.free
+        assert first <= truth + 1e-12 and truth - 1e-12 <= last
+        assert last - first <= 1e-9
+        assert hit.robot[0] == hit.obstacle[0] == 0
+        wide = judge.first_hit(*QUARTER, resolution=1e-3)
+        assert wide.interval[1] - wide.interval[0] <= 1e-3
+    free = phongpd.RigidJudge(CUBE, wall(1e-3)).first_hit(*QUARTER)
+    assert free.free and free.interval == (0.0, 1.0)
+    inside = phongpd.RigidJudge(
+        CUBE, box_arrays((-9, -9, -9), (9, 9, 9))).first_hit(*QUARTER)
+    assert inside.status == "collides" and inside.interval == (0.0, 0.0)
+    for bad in (0.0, -1.0, 2.0, np.nan):
+        with pytest.raises(phongpd.InputError, match="resolution"):
+            judge.first_hit(*QUARTER, resolution=bad)
+
+
 def test_takes_solids_files_arrays_and_lists(tmp_path):
     low, high = (1.3, -5, -4), (2, 4, 3)
     solid = make_box(low, high)

@@ -32,6 +32,14 @@ Vector3d Placed(const RigidMotion& motion, double t, const Vector3d& p) {
 
 }  // namespace
 
+RobotPose PoseAt(const Vector3d& position,
+                 const Eigen::Quaterniond& orientation) {
+  RobotPose pose;
+  pose.position = position;
+  pose.orientation = orientation;
+  return pose;
+}
+
 TriangleMesh PlacedMesh(TriangleMesh mesh, const RigidMotion& motion,
                         double t) {
   for (Vector3d& v : mesh.vertices) v = Placed(motion, t, v);

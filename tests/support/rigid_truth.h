@@ -8,6 +8,11 @@
 // route than quaternions, and whether they meet there, in CGAL's exact kernel.
 namespace phongpd::testing {
 
+// A pose, by position and unit quaternion.
+RobotPose PoseAt(
+    const Eigen::Vector3d& position,
+    const Eigen::Quaterniond& orientation = Eigen::Quaterniond::Identity());
+
 // The mesh at R(t) p + q(t), in long doubles by the formula of Rodrigues.
 TriangleMesh PlacedMesh(TriangleMesh mesh, const RigidMotion& motion, double t);
 

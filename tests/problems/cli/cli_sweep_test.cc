@@ -53,6 +53,25 @@ TEST_F(CliSweep, SaysInOneLineWhetherAQuarterTurnIsFree) {
   EXPECT_EQ(touch.out.rfind("undecided from 0.4", 0), 0U) << touch.out;
 }
 
+// The wall is met where √2 cos(45° − φ) is its place.
+TEST_F(CliSweep, TellsWhenTheCornerMeetsTheWallFirst) {
+  const Outcome hit = Sweep("../open.off --to 0,0,0,0,0,90 --first --json");
+  EXPECT_EQ(hit.code, 1) << hit.err;
+  const Json row = Json::parse(hit.out);
+  const double truth =
+      0.5 - std::acos(1.3 / std::sqrt(2.0)) / (0.5 * std::acos(-1.0));
+  EXPECT_EQ(row["status"], "collides");
+  EXPECT_LE(row["from"].get<double>(), truth + 1e-12);
+  EXPECT_GE(row["to"].get<double>(), truth - 1e-12);
+  EXPECT_LE(row["to"].get<double>() - row["from"].get<double>(), 1e-9);
+  EXPECT_EQ(row["time"], row["to"]);
+  const Outcome words = Sweep("../open.off --to 0,0,0,0,0,90 --first");
+  EXPECT_NE(words.out.find(", free before 0.2"), std::string::npos)
+      << words.out;
+  EXPECT_EQ(Sweep("../far.off --to 0,0,0,0,0,90 --first").out,
+            Sweep("../far.off --to 0,0,0,0,0,90").out);
+}
+
 TEST_F(CliSweep, TakesAnglesAndQuaternionsAlike) {
   const std::string turned = "0,0,0.5,";
   for (const std::string& pose :
