@@ -16,13 +16,13 @@ from rigid_report import write_report
 # Tight and less tight ones of every family (problems/scenes/rigid_scenes.h).
 JUDGED = ["window:4", "piano:0.1", "peg:0.1", "peg:0.01", "ell:2.2",
           "lock:0.05", "bugtrap:0.1", "flange:0.15", "alpha:1.5", "alpha:1.2"]
-# What the issue asks for takes hours: of the slice everything is easier.
-SLICE = ["window:4", "peg:1.5", "bugtrap:0.5", "alpha:2.5"]
+# What is wanted in the end takes days; of the slice everything is easier.
+SLICE = ["window:4", "peg:1.5", "alpha:2.5"]
 WHOLE = ["window:4", "piano:0.1", "peg:0.1", "peg:0.01", "ell:2", "lock:0.05",
          "bugtrap:0.1", "flange:0.15", "alpha:1.5", "alpha:1.2"]
 PLANNERS = ["RRTConnect", "KPIECE1", "BKPIECE1", "EST", "PRM"]
 CHECKS = ["0.01", "0.001", "proof"]
-TUNED = ["RRTConnect", "KPIECE1"]
+TUNED = ["RRTConnect"]
 
 
 class Judged(NamedTuple):
@@ -114,7 +114,7 @@ def main():
     judged = [Judged(scene, 1000 if arguments.long else 100)
               for scene in JUDGED]
     planned = list(plans(WHOLE, [60, 600], 10) if arguments.long
-                   else plans(SLICE, [3], 3))
+                   else plans(SLICE, [2], 3))
     for part, wanted, measure in (
             ("judge", judged, judge_rows(arguments.build)),
             ("plan", planned, plan_rows(arguments.build))):

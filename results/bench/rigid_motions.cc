@@ -5,12 +5,14 @@
 #include <cmath>
 #include <random>
 
+#include "core/mesh/mesh_error.h"
 #include "core/pi.h"
 
 namespace phongpd::bench {
 namespace {
 
-constexpr int kTries = 100'000;
+constexpr int kTries = 10'000;
+constexpr int kPoseTries = 10'000;  // where little is free
 constexpr double kBeforeContact = 1e-4;
 constexpr double kGrazingTo = 1e-6;
 
@@ -25,13 +27,8 @@ class Motions {
 
   // An empty one if this try found none.
   std::vector<RigidMotionEnds> Try(RigidMotionKind kind) {
-    const RobotPose a = RandomPose();
-    if (!IsFree(a, a)) return {};
-    if (kind == RigidMotionKind::kRandom) {
-      const RobotPose b = RandomPose();
-      if (!IsFree(b, b)) return {};
-      return {{a, b}};
-    }
+    const RobotPose a = FreePose();
+    if (kind == RigidMotionKind::kRandom) return {{a, FreePose()}};
     if (kind == RigidMotionKind::kContact) return Contact(a);
     return Grazing(a);
   }
@@ -49,6 +46,14 @@ class Motions {
     for (int k = 0; k < 4; ++k) pose.orientation.coeffs()[k] = normal(random_);
     pose.orientation.normalize();
     return pose;
+  }
+
+  RobotPose FreePose() {
+    for (int i = 0; i < kPoseTries; ++i) {
+      const RobotPose pose = RandomPose();
+      if (IsFree(pose, pose)) return pose;
+    }
+    throw InputError(scene_.name + ": expected room for the robot, found none");
   }
 
   // From `from` towards a random pose, of two robot's sizes at most.
@@ -89,8 +94,8 @@ class Motions {
   }
 
   std::vector<RigidMotionEnds> Grazing(const RobotPose& a) {
-    const RobotPose b = RandomPose(), c = RandomPose();
-    if (!IsFree(a, b) || !IsFree(c, c) || IsFree(a, c)) return {};
+    const RobotPose b = FreePose(), c = FreePose();
+    if (!IsFree(a, b) || IsFree(a, c)) return {};
     // Between a motion that is free and one that is not.
     const RigidMotion ends(b, c);
     double low = 0.0, high = 1.0;

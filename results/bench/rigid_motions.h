@@ -25,7 +25,7 @@ struct RigidMotionEnds {
   RobotPose start, end;
 };
 
-// `count` of them (of kGrazing an even number), fewer where 10⁵ tries find no
+// `count` of them (of kGrazing an even number), fewer where 10⁴ tries find no
 // more.  Same seed, same motions.
 std::vector<RigidMotionEnds> MakeRigidMotions(const RigidScene& scene,
                                               const RigidJudge& judge,
