@@ -6,12 +6,15 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "constraints/rigid/rigid_judge.h"
 #include "core/mesh/mesh_error.h"
 #include "core/solid/solid.h"
+#include "problems/scenes/scene_shapes.h"
+#include "problems/shapes/shapes.h"
 
 namespace phongpd {
 namespace {
@@ -106,6 +109,16 @@ TEST(RigidScenes, HaveTheirWitnesses) {
     }
   }
   EXPECT_GE(witnesses, 10);
+}
+
+TEST(SceneShapes, HaveTubes) {
+  const auto shape = nlohmann::ordered_json::parse(
+      R"({"type": "tube", "path": [[0, 0, 0], [2, 0, 0], [3, 1, 0.5]],
+          "radius": 0.25, "sides": 6})");
+  const TriangleMesh tube =
+      MakeTube({{0, 0, 0}, {2, 0, 0}, {3, 1, 0.5}}, 0.25, 6);
+  EXPECT_EQ(MakeShape(shape, "here").vertices, tube.vertices);
+  EXPECT_EQ(MakeShape(shape, "here").triangles, tube.triangles);
 }
 
 TEST(RigidScenes, AreNamedByFamilyAndValue) {
