@@ -125,7 +125,8 @@ def main():
     judged = [Judged(scene, 1000 if arguments.long else 100)
               for scene in JUDGED]
     planned = list(plans(WHOLE, [60, 600], 10) if arguments.long
-                   else [*plans(SLICE, [2], 3), *hard_plans(5, 3)])
+                   else [*plans(SLICE, [2], 3), *hard_plans(5, 3),
+                         *hard_plans(20, 3)])
     for part, wanted, measure in (
             ("judge", judged, judge_rows(arguments.build)),
             ("plan", planned, plan_rows(arguments.build))):

@@ -3,6 +3,7 @@
 import datetime
 import math
 import statistics
+import textwrap
 
 from python_report import cell, machine, write_csv, write_tables
 
@@ -15,7 +16,7 @@ JUDGE_HEADER = ["scene", "robot triangles", "world triangles", "kind", "method",
                 "motions", "free", "colliding", "ms", "undecided", "misses",
                 "contradictions", "seed"]
 RUN_HEADER = ["scene", "planner", "check", "tuning", "limit", "seed", "solved",
-              "seconds", "poses", "wrong", "undecided", "error"]
+              "seconds", "poses", "wrong", "undecided", "by", "error"]
 SUM_HEADER = ["scene", "planner", "check", "tuning", "limit, s", "runs",
               "solved", "wrong", "errors", "seconds, median"]
 NOTES = """\
@@ -155,6 +156,33 @@ def _duels(table):
            f"{'; '.join(losses) or 'none'}.")
 
 
+def _ours(table):
+    """Our planner beside the best of OMPL's on each scene and limit."""
+    def order(row):
+        return (row[7] - row[6], math.inf if row[9] == "more" else row[9])
+    for row in [r for r in table if r[1] == "phongpd"]:
+        others = [r for r in table if r[1] != "phongpd" and r[0] == row[0]
+                  and r[4] == row[4]]
+        if not others:
+            continue
+        best = min(others, key=order)
+        said = [f"{r[6] - r[7]} of {r[5]} right, "
+                + ("longer" if r[9] == "more" else f"{cell(r[9])} s")
+                for r in (row, best)]
+        check = ("proof" if best[2] == "proof"
+                 else f"samples at {100 * float(best[2]):g} %")
+        tuned = ", tuned" if best[3] == "tuned" else ""
+        yield (f"- {row[0]}, {row[4]:g} s: PhongPD {said[0]}; best of OMPL "
+               f"{said[1]} ({best[1]}{tuned}, {check}).")
+
+
+def _wrapped(lines):
+    for line in lines:
+        yield "\n".join(textwrap.wrap(
+            line, 86, subsequent_indent="  " if line.startswith("- ") else "",
+            break_on_hyphens=False, break_long_words=False))
+
+
 def write_report(folder, how, commit, judged, planned):
     folder.mkdir(parents=True, exist_ok=True)
     judge, runs, table = judge_table(judged), run_table(planned), sums(planned)
@@ -166,15 +194,17 @@ def write_report(folder, how, commit, judged, planned):
          "Solved: paths, wrong ones included. more: than the limit, in more "
          "than half of the runs. check: share of the extent between samples, or "
          "proof.")])
+    seeds = sorted({r["seed"] for r in planned if "seed" in r})
     text = ["# Bodies that turn: a proof beside samples", "", QUESTION,
             "## Judges", "", *_judge_lines(judge), "",
-            *_judge_findings(judge), "", "## Planners", "",
-            *_plan_findings(planned), *_duels(table), "", NOTES, where,
-            "Each run: [runs.csv](runs.csv).", "",
-            f"Command: {how}; `--long` of results/bench/rigid_benchmark.py runs "
-            f"the tight scenes, 10 seeds, 60 s and 600 s. Date: "
-            f"{datetime.date.today()}. Seeds: "
-            f"{', '.join(map(str, sorted({r['seed'] for r in planned if 'seed' in r})))}"
-            f" of planners, 1 of motions. Machine: {machine()}, shared. PhongPD "
-            f"of commit {commit}, OMPL 1.5, FCL 0.7.", ""]
+            *_wrapped(_judge_findings(judge)), "", "## Planners", "",
+            *_wrapped([*_plan_findings(planned), *_duels(table),
+                       *_ours(table)]),
+            "", NOTES, where, "Each run: [runs.csv](runs.csv).", "",
+            *_wrapped([
+                f"Command: {how}; with `--long` the tight scenes, 10 seeds, 60 s "
+                f"and 600 s. Date: {datetime.date.today()}. Seeds: "
+                f"{', '.join(map(str, seeds))} of planners, 1 of motions. "
+                f"Machine: {machine()}, shared. PhongPD of commit {commit}, OMPL "
+                f"1.5, FCL 0.7."]), ""]
     (folder / "README.md").write_text("\n".join(text), encoding="utf-8")

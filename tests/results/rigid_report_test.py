@@ -67,7 +67,8 @@ class Tables(unittest.TestCase):
                            ("certified", "FCL at 1 %", "FCL at 0.1 %",
                             "FCL continuous")]}],
                 [run(1, True, 2.0), run(1, True, 1.0, wrong=1, check="0.01")])
-            page = (folder / "README.md").read_text(encoding="utf-8")
+            page = " ".join((folder / "README.md").read_text(
+                encoding="utf-8").split())
         self.assertIn("1 wins, 0 losses, 0 ties. Losses: none.", page)
         self.assertIn("1 of 1 runs end with a path, 1 of these are proved to "
                       "collide", page)
