@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
 # bench.sh [paper|queries|contact-space|lazy|convergence|pipeline|planning|
-# extremes|peers|trajectories|study|cluster|python|trade|slice|all]: regenerates the
-# tables and figures of results/.  continuity is a part of queries, retraction and
+# extremes|peers|trajectories|rigid|study|cluster|python|trade|slice|all]:
+# regenerates the tables and figures of results/.  continuity is a part of queries, retraction and
 # widths are parts of planning.  slice makes some published rows anew and compares
 # them (results/reproduction.md); it is no part of all.
 set -euo pipefail
@@ -13,12 +13,13 @@ export PHONGPD_CACHE_DIR=$PWD/build/cache
 suite=${1:-all}
 case $suite in
   paper | queries | contact-space | lazy | convergence | pipeline | planning | \
-    extremes | peers | trajectories | study | cluster | python | trade | continuity | \
-    retraction | widths | slice | all) ;;
+    extremes | peers | trajectories | rigid | study | cluster | python | \
+    trade | continuity | retraction | widths | slice | all) ;;
   *)
     echo "bench: expected paper, queries, contact-space, lazy," \
-      "convergence, pipeline, planning, extremes, peers, trajectories," \
-      "study, cluster, python, trade, continuity, retraction, widths, slice or all," \
+      "convergence, pipeline, planning, extremes, peers, trajectories, rigid," \
+      "study, cluster, python, trade, continuity, retraction, widths, slice" \
+      "or all," \
       "found $suite" >&2
     exit 2
     ;;
@@ -212,6 +213,14 @@ if [[ $suite == trajectories || $suite == all ]]; then
     results/bench/trajectories_benchmark.py --output results/trajectories \
     --rows "$rows" --how "scripts/bench.sh trajectories" \
     --commit "$(git rev-parse --short HEAD)"
+fi
+if [[ $suite == rigid || $suite == all ]]; then
+  scripts/build.sh rigid_judge_benchmark rigid_plan_benchmark
+  # As above.  `scripts/bench.sh rigid --long` runs what takes days.
+  rows=build/rigid/$(git rev-parse HEAD)
+  python3 -B results/bench/rigid_benchmark.py --output results/rigid \
+    --rows "$rows" --how "scripts/bench.sh rigid" \
+    --commit "$(git rev-parse --short HEAD)" "${@:2}"
 fi
 if [[ $suite == python || $suite == all ]]; then
   scripts/python.sh

@@ -29,10 +29,11 @@ void Fill(const TriangleMesh& mesh, Model* model) {
   if (!built) throw std::runtime_error("FCL could not build its box tree");
 }
 
-fcl::Transform3d Translation(const Eigen::Vector3d& q) {
-  fcl::Transform3d moved = fcl::Transform3d::Identity();
-  moved.translation() = q;
-  return moved;
+fcl::Transform3d Placed(const RobotPose& pose) {
+  fcl::Transform3d placed = fcl::Transform3d::Identity();
+  placed.linear() = pose.orientation.toRotationMatrix();
+  placed.translation() = pose.position;
+  return placed;
 }
 
 const fcl::Transform3d& Still() {
@@ -44,7 +45,29 @@ const fcl::Transform3d& Still() {
 
 struct FclSurfaces::Impl {
   Model robot, obstacle;
+
+  bool MeetAlong(const fcl::MotionBased& motion, fcl::CCDMotionType type,
+                 Solver solver) const;
 };
+
+bool FclSurfaces::Impl::MeetAlong(const fcl::MotionBased& motion,
+                                  fcl::CCDMotionType type,
+                                  Solver solver) const {
+  fcl::ContinuousCollisionRequestd request;
+  request.ccd_motion_type = type;
+  request.ccd_solver_type = solver == Solver::kPlacements
+                                ? fcl::CCDC_NAIVE
+                                : fcl::CCDC_CONSERVATIVE_ADVANCEMENT;
+  const fcl::TranslationMotiond still(Still(), Still());
+  fcl::ContinuousCollisionResultd result;
+  try {
+    fcl::continuousCollide(&robot, &motion, &obstacle, &still, request, result);
+  } catch (const std::exception& error) {
+    throw std::runtime_error(std::string("FCL continuousCollide failed: ") +
+                             error.what());
+  }
+  return result.is_collide;
+}
 
 FclSurfaces::FclSurfaces(const TriangleMesh& robot,
                          const TriangleMesh& obstacle)
@@ -58,10 +81,14 @@ FclSurfaces::FclSurfaces(FclSurfaces&&) noexcept = default;
 FclSurfaces& FclSurfaces::operator=(FclSurfaces&&) noexcept = default;
 
 bool FclSurfaces::Meet(const Eigen::Vector3d& q) const {
+  return Meet(RobotPose{q, Eigen::Quaterniond::Identity()});
+}
+
+bool FclSurfaces::Meet(const RobotPose& pose) const {
   const fcl::CollisionRequestd request(1, false);
   fcl::CollisionResultd result;
   try {
-    fcl::collide(&impl_->robot, Translation(q), &impl_->obstacle, Still(),
+    fcl::collide(&impl_->robot, Placed(pose), &impl_->obstacle, Still(),
                  request, result);
   } catch (const std::exception& error) {
     throw std::runtime_error(std::string("FCL collide failed: ") +
@@ -72,20 +99,19 @@ bool FclSurfaces::Meet(const Eigen::Vector3d& q) const {
 
 bool FclSurfaces::Meet(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
                        Solver solver) const {
-  fcl::ContinuousCollisionRequestd request;
-  request.ccd_motion_type = fcl::CCDM_TRANS;
-  request.ccd_solver_type = solver == Solver::kPlacements
-                                ? fcl::CCDC_NAIVE
-                                : fcl::CCDC_CONSERVATIVE_ADVANCEMENT;
-  fcl::ContinuousCollisionResultd result;
-  try {
-    fcl::continuousCollide(&impl_->robot, Translation(a), Translation(b),
-                           &impl_->obstacle, Still(), Still(), request, result);
-  } catch (const std::exception& error) {
-    throw std::runtime_error(std::string("FCL continuousCollide failed: ") +
-                             error.what());
-  }
-  return result.is_collide;
+  const auto at = [](const Eigen::Vector3d& q) {
+    return Placed({q, Eigen::Quaterniond::Identity()});
+  };
+  const fcl::TranslationMotiond motion(at(a), at(b));
+  return impl_->MeetAlong(motion, fcl::CCDM_TRANS, solver);
+}
+
+bool FclSurfaces::Meet(const RobotPose& a, const RobotPose& b,
+                       Solver solver) const {
+  const fcl::InterpMotion<double> motion(
+      a.orientation.toRotationMatrix(), a.position,
+      b.orientation.toRotationMatrix(), b.position, Eigen::Vector3d::Zero());
+  return impl_->MeetAlong(motion, fcl::CCDM_LINEAR, solver);
 }
 
 }  // namespace phongpd

@@ -4,12 +4,13 @@
 #include <Eigen/Core>
 #include <memory>
 
+#include "core/contact/depth.h"
 #include "core/mesh/triangle_mesh.h"
 
 namespace phongpd {
 
-// What FCL says of two meshes of which one translates, from box trees (OBBRSS)
-// of their triangles.  Surfaces only: a mesh inside the other meets nothing.
+// What FCL says of two meshes of which one moves, from box trees (OBBRSS) of
+// their triangles.  Surfaces only: a mesh inside the other meets nothing.
 // Decided in floating point.  Checks and baselines only.
 //
 // Vertices and configurations must be finite; the members below throw
@@ -34,6 +35,13 @@ class FclSurfaces {
   // Do they anywhere on the straight motion a → b?
   bool Meet(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
             Solver solver) const;
+
+  // The same of a robot that is put as a pose says, and of the motion from pose
+  // to pose, the position linearly and the orientation the shorter way.  FCL
+  // is told the point about which it turns: with its own constructor 0.7 reads
+  // one that nobody set.
+  bool Meet(const RobotPose& pose) const;
+  bool Meet(const RobotPose& a, const RobotPose& b, Solver solver) const;
 
  private:
   struct Impl;

@@ -16,7 +16,7 @@ namespace phongpd {
 // A path of poses from start to goal.
 struct RigidRequest {
   RobotPose start, goal;
-  // Of the robot's origin.  Empty, as made: the box of the obstacles, start and
+  // Of the robot's origin.  As made: the box of the obstacles, start and
   // goal, grown on all sides by twice the robot's reach from its origin.
   Eigen::AlignedBox3d bounds{};
   double time_limit = 10.0;  // seconds of wall time, in (0, 1e9]

@@ -50,6 +50,24 @@ class Parameters {
             value[2].get<double>()};
   }
 
+  std::vector<Eigen::Vector3d> Points(const char* key) const {
+    const Json& value = shape_[key];
+    std::vector<Eigen::Vector3d> points;
+    for (const Json& item : value) {
+      if (!value.is_array() || !item.is_array() || item.size() != 3 ||
+          !item[0].is_number() || !item[1].is_number() ||
+          !item[2].is_number()) {
+        break;
+      }
+      points.emplace_back(item[0].get<double>(), item[1].get<double>(),
+                          item[2].get<double>());
+    }
+    if (points.empty() || points.size() != value.size()) {
+      Fail(key, "expected an array of points, three numbers each", value);
+    }
+    return points;
+  }
+
   std::vector<double> Numbers(const char* key) const {
     const Json& value = shape_[key];
     std::vector<double> numbers;
@@ -202,6 +220,12 @@ const std::vector<ShapeType>& ShapeTypes() {
        [](const P& p) {
          return MakeKnot(p.Length("size"), p.Length("tube"), p.Count("around"),
                          p.Count("across"));
+       }},
+      {"tube",
+       {"path", "radius", "sides"},
+       [](const P& p) {
+         return MakeTube(p.Points("path"), p.Length("radius"),
+                         p.Count("sides"));
        }},
       {"scan",
        {"of", "edge", "noise", "seed"},

@@ -118,6 +118,17 @@ TriangleMesh MakeScan(TriangleMesh solid, double edge, double noise,
 // 2·around·across triangles, around ≥ 32.
 TriangleMesh MakeKnot(double size, double tube, int around, int across);
 
+// Tube along a polyline with flat ends.  Each part is a prism over the regular
+// polygon of `sides` corners inscribed in the circle of that radius, cut off
+// at the mitres; the first corner of the first part lies towards `up`, and is
+// carried along without twist.  Bends are below 90 degrees, and parts longer
+// than the mitres at their ends, radius · tan(bend / 2) each; that parts which
+// are no neighbours keep apart is the caller's to see to (MakeSolid tells).
+// 2·sides·points − 4 triangles.
+TriangleMesh MakeTube(const std::vector<Eigen::Vector3d>& path, double radius,
+                      int sides,
+                      const Eigen::Vector3d& up = Eigen::Vector3d::UnitZ());
+
 // Rotation by no special angle (0.7 rad about z, 0.9 about y, 0.4 about x),
 // for meshes that must not be axis-aligned.
 Eigen::Matrix3d GenericRotation();

@@ -110,7 +110,8 @@ TEST(SceneErrors, NameFilePlaceExpectedAndFound) {
       {"/robot/shape/type", "sphere",
        "s.json: /robot/shape/type: expected one of ball, uv_ball, box, "
        "box_shell, cells, cone, axes, wrench, torus, l, u, plate_hole, "
-       "plate_round_hole, prism, vessel, star, knot, scan, found \"sphere\""},
+       "plate_round_hole, prism, vessel, star, knot, tube, scan, found "
+       "\"sphere\""},
       {"/robot/shape/radius", nullptr,
        "s.json: /robot/shape: a ball needs \"radius\", found "
        "{\"type\":\"ball\",\"triangles\":20}"},
@@ -126,6 +127,10 @@ TEST(SceneErrors, NameFilePlaceExpectedAndFound) {
         {"parallels", 10000}},
        "s.json: /robot/shape: MakeUvBall: 2·meridians·(parallels - 1) "
        "triangles must be a count in [0, 10000000], found 199980000"},
+      {"/robot/shape",
+       {{"type", "tube"}, {"path", {1, 2}}, {"radius", 1}, {"sides", 6}},
+       "s.json: /robot/shape/path: expected an array of points, three numbers "
+       "each, found [1,2]"},
       {"/obstacles/1/shape/layers",
        {{"#"}, {"#"}},
        "s.json: /obstacles/1/shape: MakeCells: expected rows of one '#' "

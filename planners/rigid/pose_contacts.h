@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "core/bvh/box_tree.h"
+#include "core/bvh/triangle_corners.h"
+#include "core/contact/depth.h"
+#include "core/mesh/triangle_mesh.h"
+
+// Where a robot at a pose is close to obstacles.
+namespace phongpd::internal {
+
+// All triangles of one side, in its own frame.
+struct ContactSurface {
+  // Finite meshes, one triangle at least.
+  explicit ContactSurface(const std::vector<TriangleMesh>& meshes);
+
+  std::vector<TriangleCorners> corners;  // in the order of the tree
+  BoxTree tree;
+};
+
+// The closest points of a triangle of the robot and one of the obstacles.  A
+// small motion (v, ω) changes the gap by n · v + (r × n) · ω.
+struct PoseContact {
+  Eigen::Vector3d normal;  // n, unit, from the obstacle to the robot
+  Eigen::Vector3d arm;     // r, of the robot's point from the robot's origin
+  double gap = 0.0;        // > 0, to rounding
+};
+
+// All pairs of triangles with a gap ≤ radius, in the order of the trees; such
+// as meet have no direction and are left out.  Clears `contacts` first; adds
+// the pairs of boxes and triangles looked at to *tests.
+void FindContacts(const ContactSurface& robot, const ContactSurface& obstacle,
+                  const RobotPose& pose, double radius,
+                  std::vector<PoseContact>* contacts, long* tests);
+
+}  // namespace phongpd::internal

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "planners/rigid/rigid_ends.h"
+
+#include <string>
+
+#include "core/mesh/mesh_error.h"
+#include "core/number_text.h"
+
+namespace phongpd::internal {
+namespace {
+
+constexpr double kDepthSeconds = 1.0;
+
+// None: not both are solids, or it is not known within a second.
+std::optional<double> DepthOf(const RigidWorld& world, const RigidCheck& check,
+                              const RobotPose& pose) {
+  if (check.robot_mesh < 0 || check.obstacle_mesh < 0) return std::nullopt;
+  DepthOptions options;
+  options.max_seconds = kDepthSeconds;
+  try {
+    const Depth depth = PenetrationDepth(
+        world.robot()[static_cast<std::size_t>(check.robot_mesh)],
+        world.obstacles()[static_cast<std::size_t>(check.obstacle_mesh)], pose,
+        options);
+    if (depth.certified) return depth.depth;
+  } catch (const InputError&) {  // no solids, or too much to build
+  }
+  return std::nullopt;
+}
+
+std::string WhoMeets(const RigidWorld& world, const RigidCheck& check) {
+  const auto name = [](const char* side, std::size_t meshes, int mesh,
+                       int triangle) {
+    std::string text = "triangle " + std::to_string(triangle) + " of the ";
+    text += side;
+    if (meshes > 1) text += ", mesh " + std::to_string(mesh);
+    return text;
+  };
+  if (check.robot_triangle < 0) {
+    return check.outcome == RigidOutcome::kCollides
+               ? "one holds a part of the other"
+               : "nothing was looked at";
+  }
+  return name("robot", world.robot().size(), check.robot_mesh,
+              check.robot_triangle) +
+         (check.outcome == RigidOutcome::kCollides
+              ? " meets "
+              : " is not told apart from ") +
+         name("obstacles", world.obstacles().size(), check.obstacle_mesh,
+              check.obstacle_triangle);
+}
+
+bool IsEndFree(const RigidWorld& world, const TreeTask& task,
+               const RobotPose& pose, const std::string& name,
+               PathStatus in_collision, PathStatus out_of_bounds,
+               RigidAnswer* answer) {
+  const RigidCheck check = world.judge().Check(RigidMotion(pose, pose));
+  ++answer->checks;
+  answer->tests += check.tests;
+  if (!check.IsFree()) {
+    answer->status = in_collision;
+    answer->collision = check;
+    answer->reason = "the " + name + " is not free: " + WhoMeets(world, check);
+    answer->depth = DepthOf(world, check, pose);
+    if (answer->depth) {
+      answer->reason += ", " + Rounded(*answer->depth) + " deep";
+    }
+    return false;
+  }
+  if (!task.bounds.contains(pose.position)) {
+    answer->status = out_of_bounds;
+    answer->reason = "the " + name + " is out of bounds: expected within " +
+                     FormatPoint(task.bounds.min()) + " and " +
+                     FormatPoint(task.bounds.max()) + ", found " +
+                     FormatPoint(pose.position);
+    return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+Eigen::AlignedBox3d BoundsOf(const RigidWorld& world,
+                             const RigidRequest& request) {
+  if (!request.bounds.isEmpty()) return request.bounds;
+  Eigen::AlignedBox3d box = world.obstacle_box();
+  box.extend(request.start.position);
+  box.extend(request.goal.position);
+  const Eigen::Vector3d around = Eigen::Vector3d::Constant(2.0 * world.reach());
+  return {box.min() - around, box.max() + around};
+}
+
+bool AreEndsFree(const RigidWorld& world, const TreeTask& task,
+                 RigidAnswer* answer) {
+  return IsEndFree(world, task, task.start, "start",
+                   PathStatus::kStartInCollision, PathStatus::kStartOutOfBounds,
+                   answer) &&
+         IsEndFree(world, task, task.goal, "goal", PathStatus::kGoalInCollision,
+                   PathStatus::kGoalOutOfBounds, answer);
+}
+
+}  // namespace phongpd::internal

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Geometry>
+
+#include "planners/rigid/rigid_plan.h"
+#include "planners/rigid/tree_search.h"
+
+namespace phongpd::internal {
+
+// Those of the request, or as it says where these are empty.
+Eigen::AlignedBox3d BoundsOf(const RigidWorld& world,
+                             const RigidRequest& request);
+
+// Are start and goal free and within the bounds?  If not, status, reason,
+// collision and depth of the answer say why.
+bool AreEndsFree(const RigidWorld& world, const TreeTask& task,
+                 RigidAnswer* answer);
+
+}  // namespace phongpd::internal

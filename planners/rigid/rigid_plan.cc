@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "planners/rigid/rigid_plan.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "core/mesh/mesh_error.h"
+#include "core/number_text.h"
+#include "core/stopwatch.h"
+#include "planners/rigid/object_norm.h"
+#include "planners/rigid/rigid_ends.h"
+#include "planners/rigid/rigid_model.h"
+#include "planners/rigid/rigid_shortening.h"
+#include "planners/rigid/tree_search.h"
+
+namespace phongpd {
+namespace {
+
+using internal::RigidLinks;
+using internal::RigidModel;
+using internal::RigidStop;
+using internal::TreeGrowth;
+using internal::TreeSearch;
+using internal::TreeTask;
+
+constexpr double kMaxTimeLimit = 1e9;
+
+// Who takes part, and the share of the work that each does.
+struct Runner {
+  TreeGrowth growth;
+  const char* name;
+  double share;
+};
+constexpr Runner kRunners[] = {{TreeGrowth::kStraight, "straight", 0.2},
+                               {TreeGrowth::kSlide, "slide", 0.4},
+                               {TreeGrowth::kTow, "tow", 0.4}};
+constexpr std::size_t kRunnerCount = std::size(kRunners);
+
+class Portfolio {
+ public:
+  Portfolio(const RigidModel& model, const RigidRequest& request,
+            const TreeTask& task)
+      : model_(model),
+        request_(request),
+        task_(task),
+        stop_(request.time_limit, request.is_interrupted),
+        links_(model.judge, &stop_) {}
+
+  void Run(RigidAnswer* answer) {
+    if (links_.IsFree(task_.start, task_.goal)) {
+      answer->path = {task_.start, task_.goal};
+      answer->planner = "line";
+    } else {
+      Race(answer);
+    }
+    answer->search_seconds = stop_.Seconds();
+    answer->found_poses = answer->path.size();
+    if (request_.shortens && answer->path.size() > 2) {
+      std::mt19937_64 random(request_.seed);
+      internal::ShortenRigidPath(model_.gyration, &links_, &random,
+                                 &answer->path);
+    }
+    answer->checks += links_.checks();
+    answer->tests += links_.tests();
+    if (answer->path.empty()) SayWhy(answer);
+  }
+
+ private:
+  void Race(RigidAnswer* answer) {
+    std::vector<std::unique_ptr<TreeSearch>> searches;
+    for (const Runner& runner : kRunners) {
+      searches.push_back(std::make_unique<TreeSearch>(
+          model_, task_, runner.growth, request_.seed, &stop_));
+    }
+    while (!stop_.Asks()) {
+      // Whoever has done least of its share goes on.
+      std::size_t next = 0;
+      for (std::size_t i = 1; i < kRunnerCount; ++i) {
+        if (Done(*searches[i], i) < Done(*searches[next], next)) next = i;
+      }
+      if (!searches[next]->Grow()) continue;
+      answer->path = searches[next]->path();
+      answer->planner = kRunners[next].name;
+      break;
+    }
+    for (const auto& search : searches) {
+      answer->checks += search->checks();
+      answer->tests += search->tests();
+      answer->nodes += search->nodes();
+    }
+  }
+
+  static double Done(const TreeSearch& search, std::size_t runner) {
+    return static_cast<double>(search.work()) / kRunners[runner].share;
+  }
+
+  void SayWhy(RigidAnswer* answer) const {
+    answer->status = stop_.IsInterrupted() ? PathStatus::kInterrupted
+                                           : PathStatus::kTimeLimit;
+    answer->reason = std::string("no path was found ") +
+                     (stop_.IsInterrupted()
+                          ? "before the caller ended the search"
+                          : "within " + Rounded(request_.time_limit) + " s") +
+                     ", which does not prove that there is none";
+  }
+
+  const RigidModel& model_;
+  const RigidRequest& request_;
+  const TreeTask& task_;
+  RigidStop stop_;
+  RigidLinks links_;
+};
+
+// The fresh pass: every motion of what is handed out.
+void Confirm(const RigidWorld& world, RigidAnswer* answer) {
+  for (std::size_t i = 0; i + 1 < answer->path.size(); ++i) {
+    const RigidCheck check =
+        world.judge().Check(RigidMotion(answer->path[i], answer->path[i + 1]));
+    ++answer->checks;
+    answer->tests += check.tests;
+    if (check.IsFree()) continue;
+    answer->status = PathStatus::kNotCertified;
+    answer->reason = "motion " + std::to_string(i) + " of the path is " +
+                     ToString(check.outcome) + " by the judge's second pass";
+    answer->path.clear();
+    return;
+  }
+  answer->status = PathStatus::kSolved;
+  for (std::size_t i = 0; i + 1 < answer->path.size(); ++i) {
+    answer->length += world.Distance(answer->path[i], answer->path[i + 1]);
+  }
+}
+
+}  // namespace
+
+void RigidRequest::Validate() const {
+  CheckPose(start, "rigid request: start");
+  CheckPose(goal, "rigid request: goal");
+  if (!(time_limit > 0.0 && time_limit <= kMaxTimeLimit)) {
+    throw InputError(
+        "rigid request: time_limit: expected seconds in (0, 1e9], found " +
+        FormatDouble(time_limit));
+  }
+  const Eigen::AlignedBox3d untouched;
+  const bool is_default =
+      bounds.min() == untouched.min() && bounds.max() == untouched.max();
+  if (is_default) return;
+  if (bounds.isEmpty()) {
+    throw InputError(
+        "rigid request: bounds: expected min <= max on every axis, found " +
+        FormatPoint(bounds.min()) + " and " + FormatPoint(bounds.max()) +
+        "; swap them, or leave them out for a box around the obstacles");
+  }
+  if (!(bounds.min().allFinite() && bounds.max().allFinite())) {
+    throw InputError(
+        "rigid request: bounds: expected finite corners, found NaN or "
+        "infinity; leave them out for a box around the obstacles");
+  }
+}
+
+RigidAnswer Plan(const RigidWorld& world, const RigidRequest& request) {
+  request.Validate();
+  const Stopwatch watch;
+  RigidAnswer answer;
+  const TreeTask task{request.start, request.goal,
+                      internal::BoundsOf(world, request)};
+  if (internal::AreEndsFree(world, task, &answer)) {
+    Portfolio(world.model(), request, task).Run(&answer);
+    if (!answer.path.empty()) Confirm(world, &answer);
+  }
+  answer.seconds = watch.Seconds();
+  return answer;
+}
+
+}  // namespace phongpd

@@ -1,0 +1,238 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "planners/rigid/tree_search.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "planners/rigid/object_norm.h"
+
+namespace phongpd::internal {
+namespace {
+
+using Eigen::Quaterniond;
+using Eigen::Vector3d;
+
+// Of the bounds' diagonal: how far a tree grows at once.
+constexpr double kRange = 0.2;
+// Straight motions are cut at their contact to that share.
+constexpr double kStraightTolerance = 0.05;
+// Shares of what slides and tows draw; the rest is anywhere.
+constexpr double kAlignedShare = 0.3, kLocalShare = 0.3;
+// Of aligned poses those at the place of the features.  From there it goes on
+// along the edge, by so many reaches: holes are gone through along theirs.
+constexpr double kPlacedShare = 0.5, kAhead = 3.0;
+// Of so many the one with most walls around it: directions, told apart by the
+// cosine, in which an obstacle is nearer than that share of the reach.
+constexpr int kTightCandidates = 24;
+constexpr std::size_t kMaxWalls = 12;
+constexpr double kWallDistance = 0.1, kSameWall = 0.9;
+// How far from a node, at least: the reach times 10 to the power of minus that.
+constexpr double kDecades = 1.5;
+// Of so many nodes the one that was drawn least.
+constexpr int kCandidates = 5;
+
+Quaterniond AnyOrientation(std::mt19937_64* random) {
+  std::normal_distribution<double> normal;
+  Eigen::Vector4d q;
+  do {
+    for (int k = 0; k < 4; ++k) q[k] = normal(*random);
+  } while (!(q.norm() > 1e-3));
+  q.normalize();
+  return Quaterniond(q[0], q[1], q[2], q[3]);
+}
+
+}  // namespace
+
+TreeSearch::TreeSearch(const RigidModel& model, const TreeTask& task,
+                       TreeGrowth growth, std::uint64_t seed, RigidStop* stop)
+    : model_(model),
+      task_(task),
+      growth_(growth),
+      range_(kRange * task.bounds.diagonal().norm()),
+      random_(seed),
+      links_(model.judge, stop),
+      slide_(model, &links_),
+      trees_{PoseTree(task.start, model.gyration),
+             PoseTree(task.goal, model.gyration)} {}
+
+bool TreeSearch::Grow() {
+  ++rounds_;
+  const int mine = side_, its = 1 - side_;
+  side_ = its;
+  PoseTree& tree = trees_[static_cast<std::size_t>(mine)];
+  Aim aim = Draw(mine);
+  const int from = aim.node >= 0 ? aim.node : tree.Nearest(aim.pose);
+  const Vector6 far = Difference(tree.pose(from), aim.pose, model_.gyration);
+  if (!aim.is_far && far.norm() > range_) {
+    aim.pose =
+        Moved(tree.pose(from), far * (range_ / far.norm()), model_.gyration);
+  }
+  bool met = false;
+  int reached = Extend(mine, from, aim.pose, aim.is_tow, &met);
+  if (aim.is_far) {
+    RobotPose ahead = tree.pose(reached);
+    ahead.position += kAhead * model_.reach * aim.along;
+    reached = Extend(mine, reached, Clamped(ahead), false, &met);
+  }
+  if (reached == from) return false;
+  const RobotPose at = tree.pose(reached);
+  PoseTree& other = trees_[static_cast<std::size_t>(its)];
+  const int meeting = Extend(its, other.Nearest(at), at, false, &met);
+  if (met) Join(mine, reached, meeting);
+  return met;
+}
+
+TreeSearch::Aim TreeSearch::Draw(int side) {
+  Aim aim;
+  const double kind = growth_ == TreeGrowth::kStraight ? 1.0 : Uniform();
+  if (kind < kAlignedShare && !model_.features.IsEmpty()) {
+    aim = AlignedAim();
+  } else if (kind < kAlignedShare + kLocalShare) {
+    aim.pose = PoseAround(side, &aim.node);
+  } else {
+    aim.pose = AnyPose();
+  }
+  aim.is_tow = growth_ == TreeGrowth::kTow && Uniform() < 0.5;
+  return aim;
+}
+
+RobotPose TreeSearch::AnyPose() {
+  RobotPose pose;
+  const Vector3d size = task_.bounds.sizes();
+  for (int k = 0; k < 3; ++k) {
+    pose.position[k] = task_.bounds.min()[k] + Uniform() * size[k];
+  }
+  pose.orientation = AnyOrientation(&random_);
+  return Clamped(pose);
+}
+
+TreeSearch::Aim TreeSearch::AlignedAim() {
+  if (Uniform() < kPlacedShare) return TightAim();
+  Aim aim;
+  aim.pose = model_.features.Draw(&random_, &aim.along);
+  aim.pose.position = AnyPose().position;
+  return aim;
+}
+
+TreeSearch::Aim TreeSearch::TightAim() {
+  Aim best;
+  int most = -1;
+  for (int i = 0; i < kTightCandidates; ++i) {
+    Aim aim;
+    aim.is_far = true;
+    aim.pose = model_.features.Draw(&random_, &aim.along);
+    aim.pose.position += (2.0 * Uniform() - 1.0) * model_.reach * aim.along;
+    if (!task_.bounds.contains(aim.pose.position)) continue;
+    const int walls = CountWalls(aim.pose);
+    if (walls <= most) continue;
+    most = walls;
+    best = aim;
+  }
+  if (most < 0) best.pose = AnyPose();
+  if (Uniform() < 0.5) best.along = -best.along;
+  return best;
+}
+
+int TreeSearch::CountWalls(const RobotPose& pose) {
+  if (links_.IsColliding(pose)) return -1;
+  long tests = 0;
+  FindContacts(model_.robot_surface, model_.obstacle_surface, pose,
+               kWallDistance * model_.reach, &contacts_, &tests);
+  links_.AddTests(tests);
+  std::array<Vector3d, kMaxWalls> walls;
+  std::size_t count = 0;
+  for (const PoseContact& contact : contacts_) {
+    if (count == walls.size()) break;
+    const bool is_known = std::any_of(
+        walls.begin(), walls.begin() + static_cast<std::ptrdiff_t>(count),
+        [&](const Vector3d& wall) {
+          return wall.dot(contact.normal) > kSameWall;
+        });
+    if (!is_known) walls[count++] = contact.normal;
+  }
+  return static_cast<int>(count);
+}
+
+RobotPose TreeSearch::PoseAround(int side, int* node) {
+  PoseTree& tree = trees_[static_cast<std::size_t>(side)];
+  *node = -1;
+  for (int i = 0; i < kCandidates; ++i) {
+    const int other =
+        static_cast<int>(random_() % static_cast<std::uint64_t>(tree.size()));
+    if (*node < 0 || tree.tries(other) < tree.tries(*node)) *node = other;
+  }
+  ++tree.tries(*node);
+  return Jittered(tree.pose(*node),
+                  2.0 * model_.reach * std::pow(10.0, -kDecades * Uniform()));
+}
+
+RobotPose TreeSearch::Jittered(const RobotPose& pose, double length) {
+  std::normal_distribution<double> normal;
+  Vector6 move;
+  do {
+    for (int k = 0; k < 6; ++k) move[k] = normal(random_);
+  } while (!(move.norm() > 1e-3));
+  return Clamped(Moved(pose, move * (length / move.norm()), model_.gyration));
+}
+
+RobotPose TreeSearch::Clamped(RobotPose pose) const {
+  pose.position =
+      pose.position.cwiseMax(task_.bounds.min()).cwiseMin(task_.bounds.max());
+  return pose;
+}
+
+int TreeSearch::Extend(int side, int from, const RobotPose& to, bool is_tow,
+                       bool* met) {
+  return growth_ == TreeGrowth::kStraight
+             ? ExtendStraight(side, from, to, met)
+             : ExtendSliding(side, from, to, is_tow, met);
+}
+
+int TreeSearch::ExtendStraight(int side, int from, const RobotPose& to,
+                               bool* met) {
+  PoseTree& tree = trees_[static_cast<std::size_t>(side)];
+  *met = false;
+  const RigidMotion motion(tree.pose(from), to);
+  const double share = links_.FreeShare(motion, kStraightTolerance, 0.0);
+  if (share >= 1.0) {
+    *met = true;
+    return tree.Add(to, from);
+  }
+  return share > 0.0 ? tree.Add(motion.At(share), from) : from;
+}
+
+int TreeSearch::ExtendSliding(int side, int from, const RobotPose& to,
+                              bool is_tow, bool* met) {
+  PoseTree& tree = trees_[static_cast<std::size_t>(side)];
+  SlidePull pull;
+  pull.to = to;
+  pull.is_tow = is_tow;
+  if (is_tow) {
+    const auto& corners = model_.robot_surface.corners;
+    const std::uint64_t drawn = random_() % (3 * corners.size());
+    pull.grip = corners[drawn / 3][drawn % 3];
+    pull.place = to.orientation * pull.grip + to.position;
+  }
+  *met = slide_.Slide(tree.pose(from), pull, &slid_) && !is_tow;
+  int last = from;
+  for (std::size_t i = 1; i < slid_.size(); ++i) {
+    if (!task_.bounds.contains(slid_[i].position)) {
+      *met = false;
+      break;
+    }
+    last = tree.Add(slid_[i], last);
+  }
+  return last;
+}
+
+void TreeSearch::Join(int side, int mine, int its) {
+  const auto my_side = static_cast<std::size_t>(side);
+  std::vector<RobotPose> from = trees_[my_side].WayToRoot(mine);
+  std::vector<RobotPose> to = trees_[1 - my_side].WayToRoot(its);
+  if (side == 1) std::swap(from, to);
+  path_.assign(from.rbegin(), from.rend());
+  // Both end in the same pose.
+  path_.insert(path_.end(), to.begin() + 1, to.end());
+}
+
+}  // namespace phongpd::internal

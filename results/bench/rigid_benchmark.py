@@ -1,0 +1,144 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Bodies that turn: the certified judge beside FCL, and planners; see `--help`.
+
+Runs rigid_judge_benchmark and rigid_plan_benchmark, one process a run, keeps
+their rows as JSON Lines, and makes tables of them."""
+import argparse
+import json
+import subprocess
+import time
+from pathlib import Path
+from typing import NamedTuple
+
+import trajectories_rows as rows
+from rigid_report import write_report
+
+# Tight and less tight ones of every family (problems/scenes/rigid_scenes.h).
+JUDGED = ["window:4", "piano:0.1", "peg:0.1", "peg:0.01", "ell:2.2",
+          "lock:0.05", "bugtrap:0.1", "flange:0.15", "alpha:1.5", "alpha:1.2"]
+# What is wanted in the end takes days; of the slice everything is easier.
+SLICE = ["window:4", "peg:1.5", "alpha:2.5"]
+# One that samples at 1 % get wrong, with the planner of OMPL that does best there.
+HARD = ["alpha:1.5"]
+WHOLE = ["window:4", "piano:0.1", "peg:0.1", "peg:0.01", "ell:2", "lock:0.05",
+         "bugtrap:0.1", "flange:0.15", "alpha:1.5", "alpha:1.2"]
+PLANNERS = ["RRTConnect", "KPIECE1", "BKPIECE1", "EST", "PRM"]
+CHECKS = ["0.01", "0.001", "proof"]
+TUNED = ["RRTConnect"]
+
+
+class Judged(NamedTuple):
+    scene: str
+    motions: int
+    pair: int = 1  # the seed
+
+    @property
+    def key(self):
+        return f"{self.scene} {self.motions} {self.pair}"
+
+
+class Planned(NamedTuple):
+    scene: str
+    planner: str
+    check: str
+    tuning: str
+    limit: int
+    pair: int  # the seed
+
+    @property
+    def key(self):
+        return (f"{self.scene} {self.planner} {self.check} {self.tuning} "
+                f"{self.limit} {self.pair}")
+
+
+def plans(scenes, limits, seeds):
+    """Seed by seed: what is interrupted has as many of each."""
+    for limit in limits:
+        for seed in range(1, seeds + 1):
+            for scene in scenes:
+                for planner in PLANNERS:
+                    for check in CHECKS:
+                        yield Planned(scene, planner, check, "default", limit,
+                                      seed)
+                        if planner in TUNED:
+                            yield Planned(scene, planner, check, "tuned", limit,
+                                          seed)
+                yield Planned(scene, "phongpd", "proof", "default", limit, seed)
+
+
+def hard_plans(limit, seeds):
+    for seed in range(1, seeds + 1):
+        for scene in HARD:
+            for check in CHECKS:
+                yield Planned(scene, "KPIECE1", check, "default", limit, seed)
+            yield Planned(scene, "phongpd", "proof", "default", limit, seed)
+
+
+def ask(program, *arguments):
+    """The program's rows; what it says on failing is the error."""
+    done = subprocess.run([str(program), *map(str, arguments)],
+                          capture_output=True, text=True, check=False)
+    if done.returncode != 0:
+        raise RuntimeError(f"exit code {done.returncode}: {done.stderr}")
+    return [json.loads(line) for line in done.stdout.splitlines()]
+
+
+def judge_rows(build):
+    def measure(one):
+        return {"key": one.key, "scene": one.scene, "rows": ask(
+            build / "rigid_judge_benchmark", one.scene, "--motions",
+            one.motions, "--seed", one.pair)}
+    return measure
+
+
+def plan_rows(build):
+    def measure(one):
+        return {"key": one.key} | ask(
+            build / "rigid_plan_benchmark", one.scene, "--planner", one.planner,
+            "--check", one.check, "--tuning", one.tuning, "--limit", one.limit,
+            "--seed", one.pair)[0]
+    return measure
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--output", type=Path, required=True,
+                        help="folder for README.md and the tables")
+    parser.add_argument("--rows", type=Path, required=True,
+                        help="folder of rows; those that are there stay")
+    parser.add_argument("--build", type=Path, default=Path("build"),
+                        help="folder of the two programs")
+    parser.add_argument("--long", action="store_true",
+                        help="all scenes, 10 seeds, 60 s and then 600 s: days; "
+                             "goes on where it was")
+    parser.add_argument("--part", choices=["judge", "plan", "report", "all"],
+                        default="all")
+    parser.add_argument("--minutes", type=float,
+                        help="nothing new begins after so many")
+    parser.add_argument("--how", default="results/bench/rigid_benchmark.py",
+                        help="the command that README.md names")
+    parser.add_argument("--commit", default="unknown",
+                        help="that PhongPD was built of, for README.md")
+    arguments = parser.parse_args()
+    deadline = (None if arguments.minutes is None
+                else time.monotonic() + 60 * arguments.minutes)
+    judged = [Judged(scene, 1000 if arguments.long else 100)
+              for scene in JUDGED]
+    planned = list(plans(WHOLE, [60, 600], 10) if arguments.long
+                   else [*plans(SLICE, [2], 3), *hard_plans(5, 3),
+                         *hard_plans(20, 3)])
+    for part, wanted, measure in (
+            ("judge", judged, judge_rows(arguments.build)),
+            ("plan", planned, plan_rows(arguments.build))):
+        if arguments.part in (part, "all"):
+            found = rows.fill(arguments.rows / f"{part}.jsonl", wanted, measure,
+                              deadline, time.monotonic)
+            print(f"{part}: {len(found)} runs", flush=True)
+    if arguments.part in ("report", "all"):
+        write_report(arguments.output, arguments.how, arguments.commit,
+                     rows.read(arguments.rows / "judge.jsonl"),
+                     rows.read(arguments.rows / "plan.jsonl"))
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Purpose: the certified judge of motions that turn beside FCL, at samples and
+// by its continuous collision, on the same motions.  Prints JSON Lines, a row a
+// kind of motion and method, times in processor seconds of one thread.
+//
+// A miss is a motion called free that the certified judge proves colliding; a
+// contradiction one called colliding that it proves free.
+#include <CLI/CLI.hpp>
+#include <ctime>
+#include <functional>
+#include <iostream>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "constraints/oracle/fcl_surfaces.h"
+#include "results/bench/program.h"
+#include "results/bench/rigid_motions.h"
+
+namespace phongpd::bench {
+namespace {
+
+double CpuSeconds() {
+  timespec now;
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) +
+         1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+struct Method {
+  std::string name;
+  // Is the motion free?  None: undecided.
+  std::function<std::optional<bool>(const RigidMotionEnds&)> is_free;
+};
+
+std::optional<bool> Certified(const RigidJudge& judge,
+                              const RigidMotionEnds& ends) {
+  const RigidCheck check = judge.Check(RigidMotion(ends.start, ends.end));
+  if (check.outcome == RigidOutcome::kUndecided) return std::nullopt;
+  return check.IsFree();
+}
+
+// Between the ends, which are free.
+bool IsFreeAtSamples(const FclSurfaces& fcl, const RigidMotionEnds& ends,
+                     int parts) {
+  const RigidMotion motion(ends.start, ends.end);
+  for (int i = 1; i < parts; ++i) {
+    if (fcl.Meet(motion.At(static_cast<double>(i) / parts))) return false;
+  }
+  return true;
+}
+
+std::vector<Method> Methods(const RigidScene& scene, const RigidJudge& judge,
+                            const FclSurfaces& fcl) {
+  std::vector<Method> methods = {
+      {"certified", [&judge](const RigidMotionEnds& ends) {
+         return Certified(judge, ends);
+       }}};
+  for (const double resolution : {0.01, 0.001}) {
+    methods.push_back({"FCL at " + Rounded(100 * resolution) + " %",
+                       [&, resolution](const RigidMotionEnds& ends) {
+                         return std::optional<bool>(IsFreeAtSamples(
+                             fcl, ends, OmplParts(scene, ends, resolution)));
+                       }});
+  }
+  methods.push_back({"FCL continuous", [&fcl](const RigidMotionEnds& ends) {
+                       return std::optional<bool>(!fcl.Meet(
+                           ends.start, ends.end,
+                           FclSurfaces::Solver::kConservativeAdvancement));
+                     }});
+  return methods;
+}
+
+int Run(int argc, char** argv) {
+  CLI::App app("The certified judge of motions that turn beside FCL.");
+  std::string name;
+  int count = 200;
+  unsigned seed = 1;
+  app.add_option("scene", name, "FAMILY or FAMILY:VALUE")->required();
+  app.add_option("--motions", count)->capture_default_str();
+  app.add_option("--seed", seed)->capture_default_str();
+  CLI11_PARSE(app, argc, argv);
+  const RigidScene scene = MakeRigidScene(name);
+  const RigidJudge judge({scene.robot}, scene.obstacles);
+  TriangleMesh world;
+  for (const TriangleMesh& one : scene.obstacles) world = Joined(world, one);
+  const FclSurfaces fcl(scene.robot, world);
+  for (const RigidMotionKind kind :
+       {RigidMotionKind::kRandom, RigidMotionKind::kContact,
+        RigidMotionKind::kGrazing}) {
+    const std::vector<RigidMotionEnds> motions =
+        MakeRigidMotions(scene, judge, kind, count, seed);
+    std::vector<std::optional<bool>> proved;
+    for (const RigidMotionEnds& ends : motions) {
+      proved.push_back(Certified(judge, ends));
+    }
+    for (const Method& method : Methods(scene, judge, fcl)) {
+      std::vector<std::optional<bool>> said;
+      const double begin = CpuSeconds();
+      for (const RigidMotionEnds& ends : motions) {
+        said.push_back(method.is_free(ends));
+      }
+      const double seconds = CpuSeconds() - begin;
+      int free = 0, colliding = 0, undecided = 0, misses = 0, against = 0;
+      for (std::size_t i = 0; i < motions.size(); ++i) {
+        free += proved[i] == true ? 1 : 0;
+        colliding += proved[i] == false ? 1 : 0;
+        undecided += said[i].has_value() ? 0 : 1;
+        misses += said[i] == true && proved[i] == false ? 1 : 0;
+        against += said[i] == false && proved[i] == true ? 1 : 0;
+      }
+      const nlohmann::ordered_json row = {
+          {"scene", scene.name},
+          {"robot_triangles", scene.robot.triangles.size()},
+          {"world_triangles", world.triangles.size()},
+          {"kind", ToString(kind)},
+          {"method", method.name},
+          {"motions", motions.size()},
+          {"free", free},
+          {"colliding", colliding},
+          {"ms", motions.empty()
+                     ? 0.0
+                     : 1e3 * seconds / static_cast<double>(motions.size())},
+          {"undecided", undecided},
+          {"misses", misses},
+          {"contradictions", against},
+          {"seed", seed}};
+      std::cout << row.dump() << std::endl;
+    }
+  }
+  return 0;
+}
+
+}  // namespace
+}  // namespace phongpd::bench
+
+int main(int argc, char** argv) {
+  return phongpd::bench::RunProgram("rigid_judge_benchmark",
+                                    phongpd::bench::Run, argc, argv);
+}

@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Purpose: one run of a planner for a robot that turns: OMPL's, with motions
+// looked at by FCL at samples or proved free by RigidMotionValidator, or ours.
+// Prints one row as JSON.  The limit and all times are processor seconds of the
+// run's only thread.  Every path is judged motion by motion, after the clock:
+// `wrong` of them are proved to collide.
+#include <ompl/base/PlannerTerminationCondition.h>
+#include <ompl/base/ScopedState.h>
+#include <ompl/geometric/SimpleSetup.h>
+#include <ompl/geometric/planners/est/EST.h>
+#include <ompl/geometric/planners/kpiece/BKPIECE1.h>
+#include <ompl/geometric/planners/kpiece/KPIECE1.h>
+#include <ompl/geometric/planners/prm/PRM.h>
+#include <ompl/geometric/planners/rrt/RRTConnect.h>
+#include <ompl/util/Console.h>
+#include <ompl/util/RandomNumbers.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <ctime>
+#include <iostream>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "constraints/oracle/fcl_surfaces.h"
+#include "core/mesh/mesh_error.h"
+#include "planners/ompl/rigid_motion_validator.h"
+#include "planners/rigid/rigid_plan.h"
+#include "problems/scenes/rigid_scenes.h"
+#include "results/bench/program.h"
+
+namespace phongpd::bench {
+namespace {
+
+namespace ob = ompl::base;
+namespace og = ompl::geometric;
+
+struct Options {
+  std::string scene, planner = "RRTConnect", check = "proof",
+                     tuning = "default";
+  unsigned seed = 1;
+  double limit = 10.0;
+};
+
+double CpuSeconds() {
+  timespec now;
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) +
+         1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+// What a run answers: no path, an empty one.
+struct Outcome {
+  std::vector<RobotPose> path;
+  double seconds = 0.0;
+  std::string by;  // of ours: which of its planners
+};
+
+Outcome RunOurs(const RigidScene& scene, const RigidWorld& world,
+                const Options& options) {
+  RigidRequest request;
+  request.start = scene.start;
+  request.goal = scene.goal;
+  request.bounds = {scene.bounds.min, scene.bounds.max};
+  request.seed = options.seed;
+  // Processor time ends it; the clock of a machine that others use, later.
+  const double begin = CpuSeconds();
+  request.time_limit = 100.0 * (1.0 + options.limit);
+  request.is_interrupted = [&] { return CpuSeconds() - begin > options.limit; };
+  const RigidAnswer answer = Plan(world, request);
+  return {answer.path, CpuSeconds() - begin, answer.planner};
+}
+
+template <typename Planner>
+ob::PlannerPtr WithRange(const ob::SpaceInformationPtr& si, double range) {
+  auto planner = std::make_shared<Planner>(si);
+  if (range > 0.0) planner->setRange(range);
+  return planner;
+}
+
+ob::PlannerPtr MakePlanner(const std::string& name,
+                           const ob::SpaceInformationPtr& si, double range) {
+  if (name == "RRTConnect") return WithRange<og::RRTConnect>(si, range);
+  if (name == "KPIECE1") return WithRange<og::KPIECE1>(si, range);
+  if (name == "BKPIECE1") return WithRange<og::BKPIECE1>(si, range);
+  if (name == "EST") return WithRange<og::EST>(si, range);
+  if (name == "PRM") return std::make_shared<og::PRM>(si);
+  throw InputError(
+      "--planner: expected RRTConnect, KPIECE1, BKPIECE1, EST, PRM or phongpd, "
+      "found '" +
+      name + "'");
+}
+
+Outcome RunOmpl(const RigidScene& scene, const RigidWorld& rigid,
+                const Options& options) {
+  ompl::msg::setLogLevel(ompl::msg::LOG_ERROR);
+  ompl::RNG::setSeed(options.seed);
+  const auto space = MakePoseSpace(scene.bounds);
+  double range = 0.0;
+  if (options.tuning == "tuned") {
+    // The object norm (OMPL's angles are half of a turn), and steps of the
+    // robot's reach: a rule, the same for all scenes.
+    space->setSubspaceWeight(1, 2.0 * rigid.gyration());
+    range = rigid.reach();
+  } else if (options.tuning != "default") {
+    throw InputError("--tuning: expected default or tuned, found '" +
+                     options.tuning + "'");
+  }
+  og::SimpleSetup setup(space);
+  const ob::SpaceInformationPtr si = setup.getSpaceInformation();
+  TriangleMesh world;
+  for (const TriangleMesh& one : scene.obstacles) world = Joined(world, one);
+  const FclSurfaces fcl(scene.robot, world);
+  if (options.check == "proof") {
+    si->setStateValidityChecker(
+        std::make_shared<RigidValidityChecker>(si, rigid.judge()));
+    si->setMotionValidator(
+        std::make_shared<RigidMotionValidator>(si, rigid.judge()));
+  } else {
+    si->setStateValidityChecker([&si, &fcl](const ob::State* state) {
+      return si->satisfiesBounds(state) && !fcl.Meet(ToRobotPose(state));
+    });
+    si->setStateValidityCheckingResolution(
+        ParseDouble(options.check, "--check"));
+  }
+  ob::ScopedState<> start(space), goal(space);
+  FromRobotPose(scene.start, start.get());
+  FromRobotPose(scene.goal, goal.get());
+  setup.setStartAndGoalStates(start, goal);
+  setup.setPlanner(MakePlanner(options.planner, si, range));
+  Outcome outcome;
+  const double begin = CpuSeconds();
+  const ob::PlannerStatus status = setup.solve(ob::PlannerTerminationCondition(
+      [&] { return CpuSeconds() - begin > options.limit; }));
+  outcome.seconds = CpuSeconds() - begin;
+  if (status == ob::PlannerStatus::EXACT_SOLUTION) {
+    for (const ob::State* state : setup.getSolutionPath().getStates()) {
+      outcome.path.push_back(ToRobotPose(state));
+    }
+  }
+  return outcome;
+}
+
+int Run(int argc, char** argv) {
+  CLI::App app("One run of a planner for a robot that turns.");
+  Options options;
+  app.add_option("scene", options.scene, "FAMILY or FAMILY:VALUE")->required();
+  app.add_option("--planner", options.planner,
+                 "RRTConnect, KPIECE1, BKPIECE1, EST, PRM or phongpd")
+      ->capture_default_str();
+  app.add_option("--check", options.check,
+                 "proof, or the resolution of OMPL's samples: 0.01")
+      ->capture_default_str();
+  app.add_option("--tuning", options.tuning,
+                 "default, or tuned: object norm "
+                 "and range")
+      ->capture_default_str();
+  app.add_option("--seed", options.seed)->capture_default_str();
+  app.add_option("--limit", options.limit, "Processor seconds")
+      ->capture_default_str();
+  CLI11_PARSE(app, argc, argv);
+  const RigidScene scene = MakeRigidScene(options.scene);
+  const RigidWorld world({scene.robot}, scene.obstacles);
+  const Outcome outcome = options.planner == "phongpd"
+                              ? RunOurs(scene, world, options)
+                              : RunOmpl(scene, world, options);
+  int wrong = 0, undecided = 0;
+  for (std::size_t i = 1; i < outcome.path.size(); ++i) {
+    const RigidCheck check =
+        world.judge().Check(RigidMotion(outcome.path[i - 1], outcome.path[i]));
+    wrong += check.outcome == RigidOutcome::kCollides ? 1 : 0;
+    undecided += check.outcome == RigidOutcome::kUndecided ? 1 : 0;
+  }
+  const nlohmann::ordered_json row = {{"scene", scene.name},
+                                      {"planner", options.planner},
+                                      {"check", options.check},
+                                      {"tuning", options.tuning},
+                                      {"seed", options.seed},
+                                      {"limit", options.limit},
+                                      {"solved", !outcome.path.empty()},
+                                      {"seconds", outcome.seconds},
+                                      {"poses", outcome.path.size()},
+                                      {"wrong", wrong},
+                                      {"undecided", undecided},
+                                      {"by", outcome.by}};
+  std::cout << row.dump() << std::endl;
+  return 0;
+}
+
+}  // namespace
+}  // namespace phongpd::bench
+
+int main(int argc, char** argv) {
+  return phongpd::bench::RunProgram("rigid_plan_benchmark", phongpd::bench::Run,
+                                    argc, argv);
+}

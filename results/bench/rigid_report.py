@@ -1,0 +1,210 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""results/rigid/README.md and its tables."""
+import datetime
+import math
+import statistics
+import textwrap
+
+from python_report import cell, machine, write_csv, write_tables
+
+QUESTION = """\
+Question: what does it cost to prove that a motion that turns is free, what do
+samples and FCL's continuous collision miss, and what do planners of OMPL make of
+proof instead of samples?
+"""
+JUDGE_HEADER = ["scene", "robot triangles", "world triangles", "kind", "method",
+                "motions", "free", "colliding", "ms", "undecided", "misses",
+                "contradictions", "seed"]
+RUN_HEADER = ["scene", "planner", "check", "tuning", "limit", "seed", "solved",
+              "seconds", "poses", "wrong", "undecided", "by", "error"]
+SUM_HEADER = ["scene", "planner", "check", "tuning", "limit, s", "runs",
+              "solved", "wrong", "errors", "seconds, median"]
+NOTES = """\
+## What is measured
+
+- Scenes: made by `problems/scenes/rigid_scenes.h`, closed solids with exact
+  clearances; `peg:0.1` is the family and its knob.
+- Motions, both ends proved free: random between uniform poses; contact between
+  poses just before a contact; grazing in pairs, one free and one colliding, whose
+  ends are 1e-6 of the way apart.
+- Samples: FCL's collision of triangles, at as many poses as OMPL's
+  DiscreteMotionValidator looks at on an SE3StateSpace. Continuous: FCL's
+  conservative advancement, told the point it turns about.
+- A miss: called free, proved to collide. A contradiction: called colliding, proved
+  free. Undecided counts as not free.
+- Planners: OMPL's with their own defaults, or tuned by one rule for all scenes (the
+  object norm as metric, the robot's reach as range). Without a path a run counts
+  as longer than its limit. Wrong: a path with a motion that is proved to collide.
+- Times are processor seconds of one thread; other jobs shared the machine.
+"""
+
+
+def judge_table(found):
+    return [[r[key.replace(" ", "_")] for key in JUDGE_HEADER]
+            for one in found for r in one.get("rows", [])]
+
+
+def run_table(found):
+    return [[r.get(key, "") for key in RUN_HEADER] for r in found]
+
+
+def median(values):
+    """Of seconds, infinite where no path was found."""
+    middle = statistics.median_low(values)
+    return middle if math.isfinite(middle) else "more"
+
+
+def seconds(row):
+    return row["seconds"] if row.get("solved") else math.inf
+
+
+def sums(found):
+    """A row a scene, planner, check, tuning and limit, in their order."""
+    groups = {}
+    for r in found:
+        if "error" in r:
+            parts = r["key"].rsplit(" ", 1)[0].split(" ")
+            key = (*parts[:4], float(parts[4]))
+        else:
+            key = (r["scene"], r["planner"], r["check"], r["tuning"],
+                   float(r["limit"]))
+        groups.setdefault(key, []).append(r)
+    return [[*key, len(of), sum(bool(r.get("solved")) for r in of),
+             sum(r.get("wrong", 0) > 0 for r in of),
+             sum("error" in r for r in of), median([seconds(r) for r in of])]
+            for key, of in groups.items()]
+
+
+def judged_by_method(table):
+    """Of each method: motions, colliding ones, misses, contradictions,
+    undecided, the median of ms over scenes and kinds, and of its ratio to the
+    certified judge's."""
+    certified = {(r[0], r[3]): r[8] for r in table if r[4] == "certified"}
+    for method in dict.fromkeys(r[4] for r in table):
+        of = [r for r in table if r[4] == method and r[5] > 0]
+        yield [method, *(sum(r[k] for r in of) for k in (5, 7, 10, 11, 9)),
+               statistics.median(r[8] for r in of),
+               statistics.median(r[8] / certified[r[0], r[3]] for r in of)]
+
+
+def _judge_lines(table):
+    yield ("| method | motions | colliding | misses | contradictions | "
+           "undecided | ms, median | ms over the judge's, median |")
+    yield "|---|---:|---:|---:|---:|---:|---:|---:|"
+    for row in judged_by_method(table):
+        yield "| " + " | ".join(cell(v) for v in row) + " |"
+
+
+def _share(table, method, kind):
+    of = [r for r in table if r[4] == method and r[3] == kind]
+    return sum(r[10] for r in of), sum(r[7] for r in of)
+
+
+def _judge_findings(table):
+    for method in ("FCL at 1 %", "FCL at 0.1 %", "FCL continuous"):
+        said = ["{} of {} {}".format(*_share(table, method, kind), kind)
+                for kind in ("random", "contact", "grazing")]
+        yield f"- {method} misses {', '.join(said)} motions that collide."
+    certified = {(r[0], r[3]): r[8] for r in table if r[4] == "certified"}
+    for method in ("FCL at 1 %", "FCL at 0.1 %"):
+        of = [r for r in table if r[4] == method and r[5] > 0]
+        wins = sum(certified[r[0], r[3]] < r[8] for r in of)
+        yield (f"- Time: the proof is cheaper than {method} in {wins} of "
+               f"{len(of)} scenes and kinds, and dearer in {len(of) - wins}.")
+
+
+def _plan_findings(found):
+    for check, name in (("0.01", "samples at 1 %"), ("0.001", "samples at 0.1 %"),
+                        ("proof", "proof")):
+        of = [r for r in found if r.get("check") == check
+              and r.get("planner") != "phongpd"]
+        if not of:
+            continue
+        solved = [r for r in of if r["solved"]]
+        wrong = sum(r["wrong"] > 0 for r in solved)
+        yield (f"- OMPL with {name}: {len(solved)} of {len(of)} runs end with a "
+               f"path, {wrong} of these are proved to collide.")
+    ours = [r for r in found if r.get("planner") == "phongpd"]
+    if ours:
+        yield (f"- PhongPD's planner: {sum(r['solved'] for r in ours)} of "
+               f"{len(ours)} runs, {sum(r['wrong'] > 0 for r in ours)} wrong.")
+    errors = sum("error" in r for r in found)
+    if errors:
+        yield f"- {errors} runs ended with an error."
+
+
+def _duels(table):
+    """Proof against samples at 1 %, the same planner and scene: medians."""
+    by = {(r[0], r[1], r[3], r[4]): {} for r in table}
+    for r in table:
+        by[r[0], r[1], r[3], r[4]][r[2]] = (r[6] - r[7], r[9])
+    wins, losses, ties = [], [], 0
+    for key, of in by.items():
+        if not {"proof", "0.01"} <= of.keys():
+            continue
+        a, b = ((-right, math.inf if time == "more" else time)
+                for right, time in (of["proof"], of["0.01"]))
+        name = f"{key[0]} {key[1]}" + (", tuned" if key[2] == "tuned" else "")
+        if a < b:
+            wins.append(name)
+        elif b < a:
+            losses.append(name)
+        else:
+            ties += 1
+    yield (f"- Proof against samples at 1 %, by right paths, then the median "
+           f"time: {len(wins)} wins, {len(losses)} losses, {ties} ties. Losses: "
+           f"{'; '.join(losses) or 'none'}.")
+
+
+def _ours(table):
+    """Our planner beside the best of OMPL's on each scene and limit."""
+    def order(row):
+        return (row[7] - row[6], math.inf if row[9] == "more" else row[9])
+    for row in [r for r in table if r[1] == "phongpd"]:
+        others = [r for r in table if r[1] != "phongpd" and r[0] == row[0]
+                  and r[4] == row[4]]
+        if not others:
+            continue
+        best = min(others, key=order)
+        said = [f"{r[6] - r[7]} of {r[5]} right, "
+                + ("longer" if r[9] == "more" else f"{cell(r[9])} s")
+                for r in (row, best)]
+        check = ("proof" if best[2] == "proof"
+                 else f"samples at {100 * float(best[2]):g} %")
+        tuned = ", tuned" if best[3] == "tuned" else ""
+        yield (f"- {row[0]}, {row[4]:g} s: PhongPD {said[0]}; best of OMPL "
+               f"{said[1]} ({best[1]}{tuned}, {check}).")
+
+
+def _wrapped(lines):
+    for line in lines:
+        yield "\n".join(textwrap.wrap(
+            line, 86, subsequent_indent="  " if line.startswith("- ") else "",
+            break_on_hyphens=False, break_long_words=False))
+
+
+def write_report(folder, how, commit, judged, planned):
+    folder.mkdir(parents=True, exist_ok=True)
+    judge, runs, table = judge_table(judged), run_table(planned), sums(planned)
+    write_csv(folder / "runs.csv", RUN_HEADER, runs)
+    where = write_tables(folder, "Bodies that turn", [
+        ("judge.csv", "Judges", JUDGE_HEADER, judge,
+         "Motions between free ends. ms: a motion."),
+        ("planners.csv", "Planners", SUM_HEADER, table,
+         "Solved: paths, wrong ones included. more: than the limit, in more "
+         "than half of the runs. check: share of the extent between samples, or "
+         "proof.")])
+    seeds = sorted({r["seed"] for r in planned if "seed" in r})
+    text = ["# Bodies that turn: a proof beside samples", "", QUESTION,
+            "## Judges", "", *_judge_lines(judge), "",
+            *_wrapped(_judge_findings(judge)), "", "## Planners", "",
+            *_wrapped([*_plan_findings(planned), *_duels(table),
+                       *_ours(table)]),
+            "", NOTES, where, "Each run: [runs.csv](runs.csv).", "",
+            *_wrapped([
+                f"Command: {how}; with `--long` the tight scenes, 10 seeds, 60 s "
+                f"and 600 s. Date: {datetime.date.today()}. Seeds: "
+                f"{', '.join(map(str, seeds))} of planners, 1 of motions. "
+                f"Machine: {machine()}, shared. PhongPD of commit {commit}, OMPL "
+                f"1.5, FCL 0.7."]), ""]
+    (folder / "README.md").write_text("\n".join(text), encoding="utf-8")

@@ -1,0 +1,108 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The tables of results/rigid: counts and medians of rows written by hand, and
+runs that were interrupted."""
+import contextlib
+import io
+import json
+import math
+import pathlib
+import sys
+import tempfile
+import unittest
+from unittest import mock
+
+SOURCE = pathlib.Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(SOURCE / "results" / "bench"))
+
+import rigid_benchmark  # noqa: E402
+import rigid_report  # noqa: E402
+
+
+def run(seed, solved, seconds, wrong=0, check="proof"):
+    return {"key": f"s RRTConnect {check} default 3 {seed}", "scene": "s",
+            "planner": "RRTConnect", "check": check, "tuning": "default",
+            "limit": 3.0, "seed": seed, "solved": solved, "seconds": seconds,
+            "poses": 2, "wrong": wrong, "undecided": 0}
+
+
+def judged(method, ms, misses=0):
+    return {"scene": "s", "robot_triangles": 12, "world_triangles": 12,
+            "kind": "contact", "method": method, "motions": 10, "free": 4,
+            "colliding": 6, "ms": ms, "undecided": 0, "misses": misses,
+            "contradictions": 0, "seed": 1}
+
+
+class Tables(unittest.TestCase):
+    def test_runs_without_a_path_are_longer_than_the_limit(self):
+        found = [run(1, True, 1.0, wrong=2), run(2, True, 2.0),
+                 run(3, False, 3.0)]
+        self.assertEqual(
+            rigid_report.sums(found),
+            [["s", "RRTConnect", "proof", "default", 3.0, 3, 2, 1, 0, 2.0]])
+        found[1] = run(2, False, 3.0)
+        self.assertEqual(rigid_report.sums(found)[0][-1], "more")
+
+    def test_an_error_is_a_run_without_a_path(self):
+        found = [run(1, True, 1.0), {
+            "key": "s RRTConnect proof default 3 2", "scene": "s", "pair": 2,
+            "error": "RuntimeError: exit code 3"}]
+        self.assertEqual(
+            rigid_report.sums(found),
+            [["s", "RRTConnect", "proof", "default", 3.0, 2, 1, 0, 1, 1.0]])
+        self.assertTrue(math.isinf(rigid_report.seconds(found[1])))
+
+    def test_methods_are_compared_motion_set_by_motion_set(self):
+        table = rigid_report.judge_table([{"rows": [
+            judged("certified", 2.0), judged("FCL at 1 %", 1.0, misses=3)]}])
+        self.assertEqual(list(rigid_report.judged_by_method(table)),
+                         [["certified", 10, 6, 0, 0, 0, 2.0, 1.0],
+                          ["FCL at 1 %", 10, 6, 3, 0, 0, 1.0, 0.5]])
+
+    def test_the_page_says_who_wins(self):
+        with tempfile.TemporaryDirectory() as folder:
+            folder = pathlib.Path(folder)
+            rigid_report.write_report(
+                folder, "how", "abc",
+                [{"rows": [judged(m, 1.0) for m in
+                           ("certified", "FCL at 1 %", "FCL at 0.1 %",
+                            "FCL continuous")]}],
+                [run(1, True, 2.0), run(1, True, 1.0, wrong=1, check="0.01")])
+            page = " ".join((folder / "README.md").read_text(
+                encoding="utf-8").split())
+        self.assertIn("1 wins, 0 losses, 0 ties. Losses: none.", page)
+        self.assertIn("1 of 1 runs end with a path, 1 of these are proved to "
+                      "collide", page)
+
+
+class Runs(unittest.TestCase):
+    def test_an_interrupted_campaign_goes_on_where_it_was(self):
+        asked = []
+
+        def ask(program, *arguments):
+            asked.append((program.name, *arguments))
+            return [{"scene": "s"}]
+
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder)
+            argv = ["rigid_benchmark.py", "--output", str(path / "out"),
+                    "--rows", str(path), "--part", "plan"]
+            with mock.patch.object(rigid_benchmark, "ask", ask), \
+                    mock.patch.object(sys, "argv", argv), \
+                    contextlib.redirect_stdout(io.StringIO()):
+                rigid_benchmark.main()
+                first = len(asked)
+                rigid_benchmark.main()
+                lines = (path / "plan.jsonl").read_text().splitlines()
+        self.assertEqual(len(asked), first)
+        self.assertEqual(len(lines), first)
+        keys = {json.loads(line)["key"] for line in lines}
+        self.assertEqual(len(keys), first)
+        self.assertEqual(len(set(asked)), first)
+
+    def test_runs_have_keys_of_their_own(self):
+        wanted = list(rigid_benchmark.plans(rigid_benchmark.WHOLE, [60, 600], 10))
+        self.assertEqual(len({one.key for one in wanted}), len(wanted))
+
+
+if __name__ == "__main__":
+    unittest.main()
