@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kDepthSeconds = 1.0;
 
-// None: not both are solids, or it is not known within a second.
+// None: not both are solids, they touch, or it is not known within a second.
 std::optional<double> DepthOf(const RigidWorld& world, const RigidCheck& check,
                               const RobotPose& pose) {
   if (check.robot_mesh < 0 || check.obstacle_mesh < 0) return std::nullopt;
@@ -22,7 +22,7 @@ std::optional<double> DepthOf(const RigidWorld& world, const RigidCheck& check,
         world.robot()[static_cast<std::size_t>(check.robot_mesh)],
         world.obstacles()[static_cast<std::size_t>(check.obstacle_mesh)], pose,
         options);
-    if (depth.certified) return depth.depth;
+    if (depth.certified && depth.depth > 0.0) return depth.depth;
   } catch (const InputError&) {  // no solids, or too much to build
   }
   return std::nullopt;

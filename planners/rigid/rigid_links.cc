@@ -40,10 +40,6 @@ bool RigidLinks::IsFree(const RobotPose& a, const RobotPose& b) {
   return Check(RigidMotion(a, b)).IsFree();
 }
 
-bool RigidLinks::IsColliding(const RobotPose& pose) {
-  return Check(RigidMotion(pose, pose)).outcome == RigidOutcome::kCollides;
-}
-
 double RigidLinks::FreeShare(const RigidMotion& motion, double tolerance,
                              double margin) {
   const RigidCheck whole = Check(motion);

@@ -36,9 +36,6 @@ class RigidLinks {
 
   bool IsFree(const RobotPose& a, const RobotPose& b);
 
-  // What is only close to contact, or touches, is not said to collide.
-  bool IsColliding(const RobotPose& pose);
-
   // A share t so that the motion from the start to the pose At(t) is free,
   // proved; 1: all of it.  By halving: before t + margin + tolerance it was
   // seen to collide, or is not decided.  Of what is free without a margin half

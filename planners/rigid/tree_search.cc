@@ -21,9 +21,13 @@ constexpr double kAlignedShare = 0.3, kLocalShare = 0.3;
 // Of aligned poses those at the place of the features.  From there it goes on
 // along the edge, by so many reaches: holes are gone through along theirs.
 constexpr double kPlacedShare = 0.5, kAhead = 3.0;
-// Of so many the one with most walls around it: directions, told apart by the
-// cosine, in which an obstacle is nearer than that share of the reach.
-constexpr int kTightCandidates = 24;
+// Of so many the one between most pairs of opposite walls: directions, told
+// apart by the cosine, in which an obstacle is nearer than that share of the
+// reach.
+constexpr int kTightCandidates = 200;
+constexpr int kTightDraws = 2000;  // most may be out of bounds
+// How far features are off each other, at most, as above.
+constexpr double kNearestOff = 1.0;
 constexpr std::size_t kMaxWalls = 12;
 constexpr double kWallDistance = 0.1, kSameWall = 0.9;
 // How far from a node, at least: the reach times 10 to the power of minus that.
@@ -117,13 +121,19 @@ TreeSearch::Aim TreeSearch::AlignedAim() {
 TreeSearch::Aim TreeSearch::TightAim() {
   Aim best;
   int most = -1;
-  for (int i = 0; i < kTightCandidates; ++i) {
+  int candidates = 0;
+  for (int i = 0; i < kTightDraws && candidates < kTightCandidates; ++i) {
     Aim aim;
     aim.is_far = true;
     aim.pose = model_.features.Draw(&random_, &aim.along);
-    aim.pose.position += (2.0 * Uniform() - 1.0) * model_.reach * aim.along;
+    const Vector3d any = AnyOrientation(&random_) * Vector3d::UnitX();
+    const double off = std::pow(10.0, -kNearestOff - kDecades * Uniform());
+    aim.pose.position +=
+        model_.reach * ((2.0 * Uniform() - 1.0) * aim.along +
+                        off * (any - any.dot(aim.along) * aim.along));
     if (!task_.bounds.contains(aim.pose.position)) continue;
-    const int walls = CountWalls(aim.pose);
+    ++candidates;
+    const int walls = CountOppositeWalls(aim.pose);
     if (walls <= most) continue;
     most = walls;
     best = aim;
@@ -133,8 +143,8 @@ TreeSearch::Aim TreeSearch::TightAim() {
   return best;
 }
 
-int TreeSearch::CountWalls(const RobotPose& pose) {
-  if (links_.IsColliding(pose)) return -1;
+int TreeSearch::CountOppositeWalls(const RobotPose& pose) {
+  if (!links_.IsFree(pose, pose)) return -1;
   long tests = 0;
   FindContacts(model_.robot_surface, model_.obstacle_surface, pose,
                kWallDistance * model_.reach, &contacts_, &tests);
@@ -150,7 +160,13 @@ int TreeSearch::CountWalls(const RobotPose& pose) {
         });
     if (!is_known) walls[count++] = contact.normal;
   }
-  return static_cast<int>(count);
+  int opposite = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      if (walls[i].dot(walls[j]) < -kSameWall) ++opposite;
+    }
+  }
+  return opposite;
 }
 
 RobotPose TreeSearch::PoseAround(int side, int* node) {

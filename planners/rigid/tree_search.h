@@ -28,8 +28,8 @@ struct TreeTask {
 // Drawn are (shares for slide and tow; straight draws the first kind only)
 //   - poses anywhere in the bounds, however turned;
 //   - poses with features of robot and obstacles aligned (aligned_features.h),
-//     anywhere; or where these lie on each other, the one of some that has
-//     most walls around it, and then on along them;
+//     anywhere; or where these lie on each other, the one of some that is
+//     between most walls, and then on along them;
 //   - poses around a node that was drawn seldom.
 class TreeSearch {
  public:
@@ -64,8 +64,8 @@ class TreeSearch {
   RobotPose AnyPose();
   Aim AlignedAim();
   Aim TightAim();
-  // −1: in collision.
-  int CountWalls(const RobotPose& pose);
+  // Pairs of walls that the pose is between; −1: not free.
+  int CountOppositeWalls(const RobotPose& pose);
   RobotPose PoseAround(int side, int* node);
   // The pose moved by about `length` in the object norm.
   RobotPose Jittered(const RobotPose& pose, double length);
