@@ -9,7 +9,7 @@
 
 namespace phongpd {
 
-View RigidSceneView(const RigidScene& scene) {
+View TurningSceneView(const TurningScene& scene) {
   View view;
   view.title = scene.name;
   if (!scene.workspace.unit.empty()) view.unit = scene.workspace.unit;

@@ -5,13 +5,13 @@
 #include <vector>
 
 #include "core/contact/depth.h"
-#include "problems/scenes/rigid_scene.h"
+#include "problems/scenes/turning_scene.h"
 #include "viewer/view.h"
 
 namespace phongpd {
 
 // The scene's robot and obstacles, start and goal as they are turned.
-View RigidSceneView(const RigidScene& scene);
+View TurningSceneView(const TurningScene& scene);
 
 // A way of poses, between which the robot moves by RigidMotion, with as many
 // between them as it takes for each to turn by at most 3 degrees.

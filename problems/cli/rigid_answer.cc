@@ -53,7 +53,7 @@ int AnswerRigidPlan(const SeededRunFlags& flags, const SceneSource& source) {
     throw InputError(std::string(name) +
                      ": expected none for a robot that turns, found one");
   }
-  RigidScene scene = source.LoadRigid();
+  TurningScene scene = source.LoadTurning();
   if (!flags.time_limit.empty()) {
     scene.time_limit = ParseDouble(flags.time_limit, "--time");
   }
@@ -75,7 +75,7 @@ int AnswerRigidPlan(const SeededRunFlags& flags, const SceneSource& source) {
              std::to_string(flags.runs));
     runs.Add(RigidRow(scene, request, Plan(world, request)));
   }
-  runs.Write([&] { return RigidSceneView(scene); });
+  runs.Write([&] { return TurningSceneView(scene); });
   return runs.Commit();
 }
 

@@ -10,7 +10,7 @@
 #include "problems/scenes/scene.h"
 
 // Of what scene files consist, of one robot (scene.h) several
-// (fleet_scene.h), or one that turns (rigid_scene.h).  Every reader relies on
+// (fleet_scene.h), or one that turns (turning_scene.h).  Every reader relies on
 // the schema: types, counts and ranges are right.  All throw InputError at
 // their place for the rest.
 namespace phongpd::internal {

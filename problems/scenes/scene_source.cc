@@ -75,8 +75,8 @@ FleetScene SceneSource::LoadFleet() const {
   return ParseFleetSceneFile(content_, text_, root_, repair_);
 }
 
-RigidScene SceneSource::LoadRigid() const {
-  return ParseRigidSceneFile(content_, text_, root_, repair_);
+TurningScene SceneSource::LoadTurning() const {
+  return ParseTurningSceneFile(content_, text_, root_, repair_);
 }
 
 std::string SceneSource::Digest() const {
@@ -84,7 +84,7 @@ std::string SceneSource::Digest() const {
   writer(text_, content_);
   Workspace workspace;
   if (turns_) {
-    workspace = LoadRigid().workspace;
+    workspace = LoadTurning().workspace;
   } else {
     const Scene scene = Load();
     writer(scene.start, scene.goal);

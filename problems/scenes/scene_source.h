@@ -7,7 +7,7 @@
 #include <string>
 
 #include "problems/scenes/fleet_scene.h"
-#include "problems/scenes/rigid_scene.h"
+#include "problems/scenes/turning_scene.h"
 #include "problems/scenes/scene.h"
 
 namespace phongpd {
@@ -36,7 +36,7 @@ class SceneSource {
   FleetScene LoadFleet() const;
   // Of a file whose robot turns, which Load refuses, too.
   bool turns() const { return turns_; }
-  RigidScene LoadRigid() const;
+  TurningScene LoadTurning() const;
 
   // 32 hexadecimal digits that change with the scene: with its file or knobs,
   // and with the solids they give.  Throws like Load.

@@ -16,7 +16,7 @@ Json PoseRow(const RobotPose& pose) {
 
 }  // namespace
 
-RigidRequest RigidRequestOf(const RigidScene& scene) {
+RigidRequest RigidRequestOf(const TurningScene& scene) {
   RigidRequest request;
   request.start = scene.start;
   request.goal = scene.goal;
@@ -26,7 +26,7 @@ RigidRequest RigidRequestOf(const RigidScene& scene) {
   return request;
 }
 
-Json RigidRow(const RigidScene& scene, const RigidRequest& request,
+Json RigidRow(const TurningScene& scene, const RigidRequest& request,
               const RigidAnswer& answer) {
   Json row;
   row["scene"] = scene.name;

@@ -4,15 +4,15 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "planners/rigid/rigid_plan.h"
-#include "problems/scenes/rigid_scene.h"
+#include "problems/scenes/turning_scene.h"
 
 namespace phongpd {
 
 // The request of a scene as it stands.
-RigidRequest RigidRequestOf(const RigidScene& scene);
+RigidRequest RigidRequestOf(const TurningScene& scene);
 
 // The answer as one row of results: docs/outputs.md.
-nlohmann::ordered_json RigidRow(const RigidScene& scene,
+nlohmann::ordered_json RigidRow(const TurningScene& scene,
                                 const RigidRequest& request,
                                 const RigidAnswer& answer);
 

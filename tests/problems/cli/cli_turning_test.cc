@@ -10,7 +10,7 @@
 
 #include "constraints/oracle/collision_oracle.h"
 #include "constraints/rigid/rigid_motion.h"
-#include "problems/scenes/rigid_scene.h"
+#include "problems/scenes/turning_scene.h"
 #include "tests/problems/cli/cli_fixture.h"
 
 namespace phongpd {
@@ -62,7 +62,7 @@ TEST_F(CliTurning, TurnsAPlankThroughASlit) {
   EXPECT_EQ(path.back(), row["goal"]);
   EXPECT_EQ(PoseOf(path.front()).position, Vector3d(-2, 0, 0));
   EXPECT_NEAR(std::abs(PoseOf(path.back()).orientation.z()), 1.0, 1e-12);
-  const RigidScene scene = ParseRigidScene(Slit(), "scene.json", File("."));
+  const TurningScene scene = ParseTurningScene(Slit(), "scene.json", File("."));
   int hits = 0;
   for (std::size_t i = 0; i + 1 < path.size(); ++i) {
     const RigidMotion motion(PoseOf(path[i]), PoseOf(path[i + 1]));

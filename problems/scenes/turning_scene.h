@@ -13,7 +13,7 @@ namespace phongpd {
 
 // A scene file whose `robot` has `turns`: it turns about its own origin as it
 // moves.
-struct RigidScene {
+struct TurningScene {
   std::string name;
   // As of a scene (scene.h); bounds are of the robot's origin.
   Workspace workspace;
@@ -27,16 +27,17 @@ bool HasTurningRobot(const nlohmann::ordered_json& json);
 
 // Of a document as ParseScene takes it.  Throws InputError like that, and for
 // keys that only robots have that translate.
-RigidScene ParseRigidScene(const nlohmann::ordered_json& json,
-                           const std::string& file,
-                           const std::string& directory = ".",
-                           const std::string& name = "scene",
-                           const std::string& root = "",
-                           Repair repair = Repair::kReject);
-
-// The same of the file's bytes, as ParseSceneFile.
-RigidScene ParseRigidSceneFile(const std::string& text, const std::string& path,
+TurningScene ParseTurningScene(const nlohmann::ordered_json& json,
+                               const std::string& file,
+                               const std::string& directory = ".",
+                               const std::string& name = "scene",
                                const std::string& root = "",
                                Repair repair = Repair::kReject);
+
+// The same of the file's bytes, as ParseSceneFile.
+TurningScene ParseTurningSceneFile(const std::string& text,
+                                   const std::string& path,
+                                   const std::string& root = "",
+                                   Repair repair = Repair::kReject);
 
 }  // namespace phongpd

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "problems/scenes/rigid_scene.h"
+#include "problems/scenes/turning_scene.h"
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -52,10 +52,10 @@ bool HasTurningRobot(const Json& json) {
          json["robot"]["turns"] == true;
 }
 
-RigidScene ParseRigidScene(const Json& json, const std::string& file,
-                           const std::string& directory,
-                           const std::string& name, const std::string& root,
-                           Repair repair) {
+TurningScene ParseTurningScene(const Json& json, const std::string& file,
+                               const std::string& directory,
+                               const std::string& name, const std::string& root,
+                               Repair repair) {
   RequireSchema(json, SceneSchema(), file);
   const JsonPlace place = {file, ""};
   if (!HasTurningRobot(json)) {
@@ -70,7 +70,7 @@ RigidScene ParseRigidScene(const Json& json, const std::string& file,
                                            folder, &read.warnings)
                              .Named("robot");
   internal::NoteUnits(json["robot"], json["obstacles"], &read);
-  RigidScene scene;
+  TurningScene scene;
   scene.name = json.value("name", name);
   scene.workspace = std::move(read.workspace);
   scene.start = PoseAt(json, "start", place);
@@ -82,14 +82,15 @@ RigidScene ParseRigidScene(const Json& json, const std::string& file,
   return scene;
 }
 
-RigidScene ParseRigidSceneFile(const std::string& text, const std::string& path,
-                               const std::string& root, Repair repair) {
+TurningScene ParseTurningSceneFile(const std::string& text,
+                                   const std::string& path,
+                                   const std::string& root, Repair repair) {
   const std::filesystem::path file(path);
   const bool has_folder = std::filesystem::is_regular_file(file);
-  return ParseRigidScene(ParseJson(text, path), path,
-                         has_folder ? file.parent_path().string() : ".",
-                         has_folder ? file.stem().string() : "scene", root,
-                         repair);
+  return ParseTurningScene(ParseJson(text, path), path,
+                           has_folder ? file.parent_path().string() : ".",
+                           has_folder ? file.stem().string() : "scene", root,
+                           repair);
 }
 
 }  // namespace phongpd
