@@ -136,7 +136,7 @@ class Panel {
       const isEmpty = way.points.length === 0;
       const length = isEmpty ? 0 : way.lengths[way.lengths.length - 1];
       const more = isEmpty ? 'no path'
-          : way.kind === 'answers' ? ''
+          : way.kind === 'answers' || way.points.length < 2 ? ''
           : (way.free ? '' : 'collides · ') +
               this.viewer.text(length * data.scale);
       rows.push(make('button', {
