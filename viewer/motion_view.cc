@@ -90,22 +90,20 @@ void AddFleet(const std::vector<FleetRobot>& robots, const FleetAnswer& answer,
   for (std::size_t i = 0; i < robots.size(); ++i) {
     const FleetRobot& robot = robots[i];
     const PathAnswer& own = answer.robots[i];
-    NamedPath path = {robot.name, own.path, own.is_free};
-    path.robot = robot.world.workspace().robot;
-    if (answer.IsSolved()) {
-      std::vector<MovingObstacle> others = robot.request.moving;
-      for (std::size_t k = 0; k < robots.size(); ++k) {
-        if (k == i) continue;
-        others.push_back(
-            {robots[k].world.workspace().robot.Named(robots[k].name),
-             answer.robots[k].motion});
-      }
-      Play(robot.request, own, MovingBodies(robot.world, others),
-           std::max(answer.duration, own.motion.duration()), &path);
-    } else if (path.points.empty()) {
-      path.points = {robot.request.start};
+    NamedPath& path = view->paths[i];
+    path.is_free = own.is_free;
+    if (!answer.IsSolved()) {
+      if (!own.path.empty()) path.points = own.path;
+      continue;
     }
-    view->paths.push_back(std::move(path));
+    std::vector<MovingObstacle> others = robot.request.moving;
+    for (std::size_t k = 0; k < robots.size(); ++k) {
+      if (k == i) continue;
+      others.push_back({robots[k].world.workspace().robot.Named(robots[k].name),
+                        answer.robots[k].motion});
+    }
+    Play(robot.request, own, MovingBodies(robot.world, others),
+         std::max(answer.duration, own.motion.duration()), &path);
   }
   if (!robots.empty()) {
     view->movers = MoversOf(robots.front().request.moving, answer.duration);

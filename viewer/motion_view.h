@@ -21,10 +21,10 @@ NamedPath PathInTime(const World& world, const OptimizeRequest& request,
 std::vector<ViewMover> MoversOf(const std::vector<MovingObstacle>& moving,
                                 double seconds);
 
-// Motions of several robots, all for the time that the last one takes, each
-// with its own solid and the room that it has from all others; what else moves;
-// and who comes closest to whom, in a note.  Of robots without a motion, the
-// paths there are.
+// In a FleetSceneView of them: motions of several robots, all for the time that
+// the last one takes, each with its own solid and the room that it has from all
+// others; what else moves; and who comes closest to whom, in a note.  Where
+// there are no motions of all, the paths that were found.
 void AddFleet(const std::vector<FleetRobot>& robots, const FleetAnswer& answer,
               View* view);
 

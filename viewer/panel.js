@@ -24,7 +24,9 @@ class Panel {
     const count = (n, what) => n.toLocaleString('en') + ' ' + what +
         (n === 1 ? '' : 's');
     const triangles = data.meshes.reduce((n, m) => n + m.triangles, 0) +
-        (data.robot ? data.robot.triangles : 0);
+        [data.robot, ...data.paths.map(path => path.robot),
+         ...data.movers.map(mover => mover.body)].reduce(
+             (n, body) => n + (body ? body.triangles : 0), 0);
     if (triangles) facts.push(count(triangles, 'triangle'));
     const paths = stage.ways.filter(way => way.kind === 'path');
     if (paths.length) facts.push(count(paths.length, 'path'));
@@ -134,7 +136,7 @@ class Panel {
       const isEmpty = way.points.length === 0;
       const length = isEmpty ? 0 : way.lengths[way.lengths.length - 1];
       const more = isEmpty ? 'no path'
-          : way.kind === 'answers' ? ''
+          : way.kind === 'answers' || way.points.length < 2 ? ''
           : (way.free ? '' : 'collides · ') +
               this.viewer.text(length * data.scale);
       rows.push(make('button', {

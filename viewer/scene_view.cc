@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "viewer/scene_view.h"
 
+#include <utility>
+
 #include "planners/world/workspace.h"
 #include "viewer/motion_view.h"
 
@@ -25,6 +27,19 @@ View SceneView(const Scene& scene,
   }
   view.movers = MoversOf(scene.moving, 0.0);
   view.length = ContactBounds(scene.workspace).Diagonal();
+  return view;
+}
+
+View FleetSceneView(const FleetScene& scene) {
+  View view = SceneView(scene.robots.front());
+  view.robot = {};
+  view.start.reset();
+  view.goal.reset();
+  for (const Scene& robot : scene.robots) {
+    NamedPath path = {robot.workspace.robot.name(), {robot.start}};
+    path.robot = robot.workspace.robot;
+    view.paths.push_back(std::move(path));
+  }
   return view;
 }
 

@@ -2,6 +2,8 @@
 #include "planners/solve/fleet.h"
 
 #include <algorithm>
+#include <limits>
+#include <optional>
 #include <set>
 #include <utility>
 
@@ -115,28 +117,178 @@ void JudgeAll(const std::vector<FleetRobot>& robots, FleetAnswer* answer) {
   }
 }
 
-// In that order, until one has no motion; its place in the order, or the
-// number of robots.
-std::size_t TryOrder(const std::vector<FleetRobot>& robots, const Order& order,
-                     FleetAnswer* answer) {
-  answer->robots.assign(robots.size(), {});
-  std::vector<MovingObstacle> before;
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    const FleetRobot& robot = robots[order[i]];
-    PathAnswer& own = answer->robots[order[i]];
-    if (Stays(robot)) {
-      own = Resting(robot);
-    } else {
-      OptimizeRequest request = robot.request;
-      request.moving.insert(request.moving.end(), before.begin(), before.end());
-      own = Optimize(robot.world, request);
-    }
-    if (!own.is_solved) return i;
-    before.push_back(
-        {robot.world.workspace().robot.Named(robot.name), own.motion});
+// Tries of more orders for a sooner end, for which each costs a fleet's work.
+// Of 8 boxes that change places across a circle, 3 draws, four more made it
+// 1.28 instead of 1.41 times the slowest alone.
+int MoreOrders(Preset preset) {
+  switch (preset) {
+    case Preset::kFast:
+      return 0;
+    case Preset::kBalanced:
+      return 1;
+    case Preset::kTight:
+      break;
   }
-  return order.size();
+  return 6;
 }
+
+// Orders of one fleet, one after the other.
+class FleetSearch {
+ public:
+  explicit FleetSearch(const std::vector<FleetRobot>& robots)
+      : robots_(robots) {}
+
+  FleetAnswer Run() {
+    FleetAnswer answer;
+    if (!RunAlone(&answer)) return answer;
+    FindFirst(FirstOrder(), &answer);
+    if (!answer.IsSolved()) return answer;
+    for (int more = MostMore(); more > 0 && HasRoom(answer); --more) {
+      const std::optional<Order> order = NextOrder(answer);
+      if (!order) break;
+      FleetAnswer other = answer;
+      ++answer.tries;
+      if (Try(*order, answer.duration, &other) < order->size()) continue;
+      other.tries = answer.tries;
+      if (other.IsSolved()) answer = std::move(other);
+    }
+    return answer;
+  }
+
+ private:
+  // Each as if there were no other robot.
+  bool RunAlone(FleetAnswer* answer) {
+    for (const FleetRobot& robot : robots_) {
+      alone_.push_back(Stays(robot) ? Resting(robot)
+                                    : Optimize(robot.world, robot.request));
+      if (alone_.back().is_solved) continue;
+      answer->robots = alone_;
+      answer->robots.resize(robots_.size());
+      answer->status = alone_.back().status;
+      answer->reason = "\"" + robot.name + "\": " + alone_.back().reason;
+      return false;
+    }
+    return true;
+  }
+
+  double Alone(std::size_t i) const { return alone_[i].motion.duration(); }
+
+  // Those that stay, and then the slowest first: what is taken from the others
+  // by giving way is theirs to lose.
+  Order FirstOrder() {
+    Order order(robots_.size());
+    for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+    const auto moving =
+        std::stable_partition(order.begin(), order.end(),
+                              [&](std::size_t i) { return Stays(robots_[i]); });
+    std::stable_sort(moving, order.end(), [&](std::size_t i, std::size_t k) {
+      return Alone(i) > Alone(k);
+    });
+    staying_ = moving - order.begin();
+    return order;
+  }
+
+  // Whoever finds no motion goes first in the next try.
+  void FindFirst(Order order, FleetAnswer* answer) {
+    constexpr double kAnyTime = std::numeric_limits<double>::infinity();
+    while (tried_.insert(order).second) {
+      ++answer->tries;
+      const std::size_t failed = Try(order, kAnyTime, answer);
+      // Nobody's way: another order does not help.
+      if (failed == order.size() ||
+          static_cast<std::ptrdiff_t>(failed) <= staying_) {
+        return;
+      }
+      ToPlace(failed, static_cast<std::size_t>(staying_), &order);
+    }
+  }
+
+  // In that order, until one has no motion, or none that arrives before
+  // `latest`; its place in the order, or the number of robots.
+  std::size_t Try(const Order& order, double latest, FleetAnswer* answer) {
+    answer->order = order;
+    answer->robots.assign(robots_.size(), {});
+    answer->pairs.clear();
+    answer->duration = 0.0;
+    answer->status = PathStatus::kConverged;
+    answer->reason.clear();
+    std::vector<MovingObstacle> before;
+    for (std::size_t i = 0; i < order.size(); ++i) {
+      const FleetRobot& robot = robots_[order[i]];
+      PathAnswer& own = answer->robots[order[i]];
+      own = Among(order[i], before);
+      if (!own.is_solved) {
+        answer->status = own.status;
+        answer->reason = "\"" + robot.name + "\": " + own.reason;
+        return i;
+      }
+      if (!Stays(robot)) {
+        answer->duration = std::max(answer->duration, own.motion.duration());
+      }
+      if (answer->duration >= latest) return i;
+      before.push_back(
+          {robot.world.workspace().robot.Named(robot.name), own.motion});
+    }
+    JudgeAll(robots_, answer);
+    return order.size();
+  }
+
+  PathAnswer Among(std::size_t i, const std::vector<MovingObstacle>& others) {
+    if (Stays(robots_[i]) || others.empty()) return alone_[i];
+    OptimizeRequest request = robots_[i].request;
+    request.moving.insert(request.moving.end(), others.begin(), others.end());
+    return Optimize(robots_[i].world, request);
+  }
+
+  int MostMore() const {
+    int most = 0;
+    for (const FleetRobot& robot : robots_) {
+      most = std::max(most, MoreOrders(robot.request.preset));
+    }
+    return most;
+  }
+
+  // Could all arrive sooner, and has nobody ended the search?
+  bool HasRoom(const FleetAnswer& answer) const {
+    constexpr double kEnough = 1.02;  // of the slowest alone
+    double slowest = 0.0;
+    for (std::size_t i = 0; i < robots_.size(); ++i) {
+      const auto& is_interrupted = robots_[i].request.is_interrupted;
+      if (is_interrupted && is_interrupted()) return false;
+      if (!Stays(robots_[i])) slowest = std::max(slowest, Alone(i));
+    }
+    return answer.duration > kEnough * slowest;
+  }
+
+  // The last one to arrive goes earlier: first, or so early as was not tried.
+  std::optional<Order> NextOrder(const FleetAnswer& answer) {
+    std::size_t last = static_cast<std::size_t>(staying_);
+    for (std::size_t i = last; i < answer.order.size(); ++i) {
+      if (Duration(answer, i) > Duration(answer, last)) last = i;
+    }
+    for (std::size_t place = static_cast<std::size_t>(staying_); place < last;
+         ++place) {
+      Order order = answer.order;
+      ToPlace(last, place, &order);
+      if (tried_.insert(order).second) return order;
+    }
+    return std::nullopt;
+  }
+
+  static double Duration(const FleetAnswer& answer, std::size_t place) {
+    return answer.robots[answer.order[place]].motion.duration();
+  }
+
+  static void ToPlace(std::size_t from, std::size_t to, Order* order) {
+    const auto at = order->begin() + static_cast<std::ptrdiff_t>(from);
+    std::rotate(order->begin() + static_cast<std::ptrdiff_t>(to), at, at + 1);
+  }
+
+  const std::vector<FleetRobot>& robots_;
+  std::vector<PathAnswer> alone_;
+  std::ptrdiff_t staying_ = 0;
+  std::set<Order> tried_;
+};
 
 }  // namespace
 
@@ -172,38 +324,7 @@ const FleetPair* FleetAnswer::Closest() const {
 FleetAnswer OptimizeFleet(const std::vector<FleetRobot>& robots) {
   const Stopwatch stopwatch;
   RequireFleet(robots);
-  Order order(robots.size());
-  for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
-  const auto first_moving =
-      std::stable_partition(order.begin(), order.end(),
-                            [&](std::size_t i) { return Stays(robots[i]); });
-  const auto staying = first_moving - order.begin();
-  FleetAnswer answer;
-  std::set<Order> tried;
-  while (tried.insert(order).second) {
-    ++answer.tries;
-    answer.order = order;
-    const std::size_t failed = TryOrder(robots, order, &answer);
-    answer.status = PathStatus::kConverged;
-    answer.reason.clear();
-    if (failed == order.size()) {
-      JudgeAll(robots, &answer);
-      break;
-    }
-    const FleetRobot& robot = robots[order[failed]];
-    const PathAnswer& own = answer.robots[order[failed]];
-    answer.status = own.status;
-    answer.reason = "\"" + robot.name + "\": " + own.reason;
-    // Nobody's way: another order does not help.
-    if (static_cast<std::ptrdiff_t>(failed) <= staying) break;
-    const auto at = order.begin() + static_cast<std::ptrdiff_t>(failed);
-    std::rotate(order.begin() + staying, at, at + 1);
-  }
-  for (std::size_t i = 0; i < robots.size(); ++i) {
-    if (Stays(robots[i])) continue;
-    answer.duration =
-        std::max(answer.duration, answer.robots[i].motion.duration());
-  }
+  FleetAnswer answer = FleetSearch(robots).Run();
   answer.seconds = stopwatch.Seconds();
   return answer;
 }

@@ -30,7 +30,7 @@ struct FleetAnswer {
   // all motions were there; empty without them.
   std::vector<FleetPair> pairs;
   std::vector<std::size_t> order;  // who went first, of the last try
-  int tries = 0;                   // of orders
+  int tries = 0;                   // of orders; 0: one has no motion even alone
   double duration = 0.0;           // until all have arrived, s
   double seconds = 0.0;
 
@@ -42,13 +42,16 @@ struct FleetAnswer {
 // Motions of several robots, by order of priority: each keeps off what is
 // fixed, off its own request's moving obstacles, and off the robots before it,
 // which move as they were told and then rest at their goals (Optimize with
-// moving obstacles).  All begin at the time 0.  The first order is the one
-// given, but for robots that stay where they are, which come first; a robot
-// that finds no motion is put in front of the others, and all begin anew, until
-// no new order comes of it.  What is answered is certified for each pair, for
-// all t ≥ 0; without an answer it is no proof that there is none.  A pair that
-// is not, or is refuted on the solids where a request verifies, has the status
-// kVerificationFailed.
+// moving obstacles).  All begin at the time 0.  Each is asked for alone
+// first; one without a motion then ends it all.  In the first order come those
+// that stay where they are, then who takes longest alone; a robot that finds no
+// motion is put in front of the others, and all begin anew, until no new order
+// comes of it.  With motions of all, the last one to arrive goes earlier in
+// some more orders, by the largest preset none (fast), one (balanced) or six
+// (tight), and the sooner end is kept.  What is answered is certified for each
+// pair, for all t ≥ 0; without an answer it is no proof that there is none.  A
+// pair that is not, or is refuted on the solids where a request verifies, has
+// the status kVerificationFailed.
 //
 // Throws InputError, before anything is built: for a name used twice, requests
 // that Optimize would refuse, two robots that touch at their starts or at their

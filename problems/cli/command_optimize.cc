@@ -11,6 +11,7 @@
 #include "problems/cli/explanation.h"
 #include "problems/cli/flags.h"
 #include "problems/cli/fleet_answer.h"
+#include "problems/cli/optimize_flags.h"
 #include "problems/cli/seeded_runs.h"
 #include "problems/cli/timed_answer.h"
 #include "problems/meshes/operand_notes.h"
@@ -25,28 +26,6 @@
 
 namespace phongpd::cli {
 namespace {
-
-struct OptimizeFlags : SeededRunFlags {
-  std::string preset;
-  std::string metric;
-  std::string smoothing_length;
-  std::string margin;
-  std::string jacobian;
-  std::string start = "repaired";
-  std::string mu_strategy = "adaptive";
-  std::string polish;
-  std::string noise = "0";
-  MotionWords motion;
-  int routes = 0;  // the preset's
-  int rows = TrajectoryOptions().rows;
-  bool line = true;
-  bool per_obstacle = false;
-  bool require = false;
-  std::string model;
-  WorldLimits limits;
-  bool verify = true;
-  bool explain = false;
-};
 
 // Figures: results/trade, `scripts/bench.sh trade`.
 constexpr char kOptimizePresetHelp[] =
@@ -205,6 +184,50 @@ TimedFlags TimedFlagsOf(const OptimizeFlags& flags) {
   timed.require = flags.require;
   timed.verify = flags.verify;
   timed.world = flags.limits;
+  return timed;
+}
+
+// With limits the answer is a motion in time (optimize.h).
+int OptimizeInTime(const OptimizeFlags& flags, const MotionLimits& limits,
+                   Scene scene) {
+  RequireTimed(flags,
+               "a motion in time, found one; with --limits none the answer is "
+               "a path without time");
+  Override(flags, &scene);
+  SetTask(flags.motion, &scene);
+  scene.limits = limits;
+  return AnswerInTime(
+      scene, TimedFlagsOf(flags),
+      [&](const World& world, const OptimizeRequest& request) {
+        PathAnswer answer = Optimize(world, request);
+        if (flags.explain) {
+          TellExplanation(
+              ExplainTrajectory(*flags.app, world, request, answer));
+        }
+        return answer;
+      });
+}
+
+// Of several robots each has its own task; limits that are given hold for all.
+int OptimizeRobots(const OptimizeFlags& flags, FleetScene fleet) {
+  RequireTimed(flags, "several robots, found one");
+  for (const char* name :
+       {"--via", "--duration", "--departure", "--arrival", "--explain"}) {
+    if (flags.app->count(name) == 0) continue;
+    throw InputError(std::string(name) +
+                     ": expected none for several robots, each of which has "
+                     "its own in the scene, found one");
+  }
+  for (Scene& scene : fleet.robots) {
+    Override(flags, &scene);
+    scene.limits = LimitsOf(flags.motion, scene);
+    if (scene.limits) continue;
+    throw InputError(fleet.name + ": \"" + scene.workspace.robot.name() +
+                     "\": expected limits, which several robots need to keep "
+                     "off each other in time, found none; give \"limits\" in "
+                     "the scene or --limits V,A,J");
+  }
+  return AnswerFleet(std::move(fleet), TimedFlagsOf(flags));
 }
 
 // Seed 0 is the scene as it stands.
@@ -318,89 +341,6 @@ int AnswerOptimize(const OptimizeFlags& flags) {
   }
   RequireNoMotion(flags.motion);
   return OptimizeRuns(flags, source, first).Answer();
-}
-
-// What keeps a path out of obstacles and away from them.
-void AddMetricFlags(CLI::App* app, OptimizeFlags* flags) {
-  app->add_option(
-         "--metric", flags->metric,
-         "Penetration depth inside obstacles (scene's own if not set); "
-         "smoothed: the Euclidean depth, and as direction the gradient "
-         "of occupancy smoothed over twice the smoothing length, at "
-         "the position (smoothed-foot: at the contact)")
-      ->check(CLI::IsMember(MetricNames()));
-  app->add_option("--smoothing-length", flags->smoothing_length,
-                  "Of the Phong field, 0 (the paper) to D, or of the smoothed "
-                  "metrics, above 0; D is the diagonal of the "
-                  "obstacles' contact space: 0.1 or 0.1D is a share of D, "
-                  "0.5unit is in the scene's unit; where that has a name, "
-                  "20mm and 20 are in it (scene's own if not set)")
-      ->type_name("LENGTH");
-  app->add_option("--margin", flags->margin,
-                  "Distance to keep, more than 0 and at most D, told like "
-                  "--smoothing-length; a share above 0.1 has to say D "
-                  "(scene's own if not set)")
-      ->type_name("LENGTH");
-  app->add_flag("--require", flags->require,
-                "Less than the margin is no answer: status_class "
-                "clearance_missed, exit code 1");
-  app->add_option("--jacobian", flags->jacobian,
-                  "Of Phong depth (the others have direction alone): its "
-                  "continuous direction, or the exact "
-                  "gradient (scene's own if not set)")
-      ->check(CLI::IsMember({"direction", "exact"}));
-}
-
-// Where the optimiser begins.
-void AddStartFlags(CLI::App* app, OptimizeFlags* flags) {
-  app->add_option("--start", flags->start,
-                  "First path: the line, or if it collides the path of the "
-                  "complete planner (repaired and planner mean the same)")
-      ->check(CLI::IsMember({"straight", "repaired", "planner"}))
-      ->capture_default_str();
-  app->add_option("--start-noise", flags->noise,
-                  "Of the waypoints of a straight start, as a fraction of its "
-                  "length")
-      ->check(Between(0, 10))
-      ->type_name("F")
-      ->capture_default_str();
-  app->add_option("--routes", flags->routes,
-                  "Ways around the obstacles to optimise, 1 to 8 (preset's own "
-                  "if not set)")
-      ->check(Between(1, 8))
-      ->type_name("N");
-  app->add_flag("--line,!--no-line", flags->line,
-                "Optimise from the colliding line as well as from the "
-                "repaired start, or not (preset's own if not set)");
-}
-
-// How it gets on from there.
-void AddSolverFlags(CLI::App* app, OptimizeFlags* flags) {
-  app->add_option("--rows", flags->rows, "Constraint rows a sample, 1 to 8")
-      ->check(Between(1, 8))
-      ->type_name("K")
-      ->capture_default_str();
-  app->add_option("--mu-strategy", flags->mu_strategy, "Ipopt's own")
-      ->check(CLI::IsMember({"adaptive", "monotone"}))
-      ->capture_default_str();
-  app->add_option("--polish", flags->polish,
-                  "Corridor polish: never, where Ipopt did not converge to a "
-                  "free path, or always (preset's own if not set)")
-      ->check(CLI::IsMember({"never", "needed", "always"}));
-  app->add_flag("--per-obstacle", flags->per_obstacle,
-                "One contact space for each obstacle instead of a merged one");
-}
-
-// Where the answer goes; a motion in time has other files than a path.
-void AddOutputFlags(CLI::App* app, OptimizeFlags* flags) {
-  AddRowOutput(app, flags);
-  CLI::Option* const output = app->get_option("--output");
-  output->description(output->get_description() +
-                      ". With --limits Bézier pieces as JSON, rows in time as "
-                      "FILE.csv or, for ROS 2, FILE.yaml (joints x, y, z) or "
-                      "FILE.multidof.yaml, lines as FILE.gcode; of several "
-                      "robots one FILE.ID.csv or .yaml each");
-  AddPictures(app, flags);
 }
 
 }  // namespace

@@ -111,16 +111,6 @@ std::string FleetText(const FleetScene& scene,
   return text;
 }
 
-View FleetView(const FleetScene& scene, const std::vector<FleetRobot>& robots,
-               const FleetAnswer& answer) {
-  View view = SceneView(scene.robots.front());
-  view.robot = {};
-  view.start.reset();
-  view.goal.reset();
-  AddFleet(robots, answer, &view);
-  return view;
-}
-
 void TellAboutRobots(const FleetScene& scene,
                      const std::vector<FleetRobot>& robots) {
   for (std::size_t i = 0; i < robots.size(); ++i) {
@@ -179,7 +169,9 @@ int AnswerFleet(FleetScene scene, const TimedFlags& flags) {
   ctrl_c.reset();
   WriteMotions(targets, scene, robots, answer, form, rate, &outputs);
   if (!flags.html.empty()) {
-    outputs.Write(flags.html, ViewPage(FleetView(scene, robots, answer)));
+    View view = FleetSceneView(scene);
+    AddFleet(robots, answer, &view);
+    outputs.Write(flags.html, ViewPage(view));
   }
   CommitAndTell(&outputs, FleetText(scene, robots, answer));
   if (answer.status == PathStatus::kVerificationFailed) {

@@ -121,7 +121,10 @@ class Collector {
       }
       view_.robot = Mesh(request_.robot);
     }
-    if (view_.robot.triangles.empty() && !FirstWay(view_).empty()) {
+    const bool is_fleet =
+        !view_.paths.empty() && !view_.paths.front().robot.triangles.empty();
+    if (view_.robot.triangles.empty() && !is_fleet &&
+        !FirstWay(view_).empty()) {
       view_.notes.push_back(
           "What moves is drawn as a ball: the files do not hold the robot "
           "(--robot FILE).");
@@ -161,13 +164,16 @@ class Collector {
   }
 
   void TakeScene(const Scene& scene) {
+    TakeSceneView(scene.name, SceneView(scene));
+    stage_ = scene;
+  }
+
+  void TakeSceneView(const std::string& name, View view) {
     if (!scene_.empty()) {
       throw InputError("view: expected things of one scene, found " + scene_ +
-                       " and " + scene.name + "; look at one at a time");
+                       " and " + name + "; look at one at a time");
     }
-    scene_ = scene.name;
-    stage_ = scene;
-    View view = SceneView(scene);
+    scene_ = name;
     view_.title = view.title;
     view_.unit = view.unit;
     view_.robot = view.robot;
@@ -176,6 +182,8 @@ class Collector {
     view_.bounds = view.bounds;
     view_.length = view.length;
     Append(&view_.meshes, std::move(view.meshes));
+    Append(&view_.paths, std::move(view.paths));
+    Append(&view_.movers, std::move(view.movers));
     Append(&view_.notes, std::move(view.notes));
   }
 
@@ -210,6 +218,11 @@ class Collector {
   void TakeJson(const std::string& content, const std::string& file) {
     const Json whole = Json::parse(content, nullptr, false, true);
     if (!whole.is_discarded() && !IsRow(whole)) {
+      if (HasRobots(whole)) {
+        const FleetScene fleet =
+            ParseFleetSceneFile(content, file, request_.root, repair_);
+        return TakeSceneView(fleet.name, FleetSceneView(fleet));
+      }
       if (!whole.is_object() || !whole.contains("robot")) {
         FailUnknown(file, "JSON without robot, path or on_a");
       }

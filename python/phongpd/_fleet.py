@@ -15,9 +15,12 @@ from . import _native
 from ._arguments import motion_end
 from ._motion import Motion, motion_of, moving_of
 from ._native import InputError
+from ._solid import Solid
 from ._statuses import Answer
 from ._view import Canvas, Shown
 from ._world import World
+
+_PICTURE_POINTS = 400
 
 
 @dataclass(frozen=True)
@@ -51,8 +54,25 @@ class Fleet(Answer, Shown):
                                  default=np.inf)}
 
     def _draw(self, canvas: Canvas, name: str | None) -> None:
-        for robot, motion in self.motions.items():
-            motion._draw(canvas, robot)
+        """Paths, and each robot where it begins; `phongpd optimize --html`
+        plays them together."""
+        worlds = [motion.world for motion in self.motions.values()]
+        if not worlds or worlds[0] is None:
+            raise InputError("view: expected an answer with its worlds, found "
+                             "one that came through pickle")
+        for obstacle in worlds[0].obstacles:
+            canvas.mesh(obstacle.name, "obstacle", obstacle)
+        if worlds[0].unit:
+            canvas.unit(worlds[0].unit)
+        for (robot, motion), world in zip(self.motions.items(), worlds):
+            if world is None or not len(motion.durations):
+                continue
+            places = motion.at(np.linspace(0.0, motion.duration,
+                                           _PICTURE_POINTS))
+            solid = world.robot
+            canvas.mesh(robot, "mesh", Solid(solid.vertices + places[0],
+                                             solid.triangles, robot))
+            canvas.path(robot, places, motion.certified)
 
     def _facts(self) -> dict[str, Any]:
         return self.to_row()

@@ -2,6 +2,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "problems/scenes/fleet_scene.h"
 #include "problems/scenes/json_schema.h"
 #include "problems/scenes/scene.h"
 #include "tests/fuzz/fuzz_targets.h"
@@ -38,6 +39,17 @@ void Scene(const std::uint8_t* data, std::size_t size) {
     Json json = ParseJson(text, "fuzz");
     CutCounts(&json);
     // A root that does not exist: mesh files are refused.
+    if (HasRobots(json)) {
+      const auto fleet =
+          ParseFleetScene(json, "fuzz", ".", "scene", "fuzz-no-root");
+      Promise(!fleet.robots.empty(), "a scene of several has robots");
+      for (const auto& scene : fleet.robots) {
+        Promise(!scene.workspace.robot.IsEmpty(), "each robot has a solid");
+        Promise(scene.start.allFinite() && scene.goal.allFinite(),
+                "each start and goal is finite");
+      }
+      return;
+    }
     const auto scene = ParseScene(json, "fuzz", ".", "scene", "fuzz-no-root");
     Promise(!scene.workspace.robot.IsEmpty(), "a scene has a robot");
     Promise(!scene.workspace.obstacles.empty(), "a scene has obstacles");

@@ -60,8 +60,12 @@ def test_robots_change_places(room):
     assert pair["least"] == pytest.approx(least, rel=0.02, abs=1e-6)
     assert "2 robots" in str(fleet)
     assert fleet.to_row()["clearance"] == pair["clearance"]
+    page = phongpd.view(fleet).html()
+    assert '"name":"left"' in page and '"name":"right"' in page
     again = pickle.loads(pickle.dumps(fleet))
     assert again.row == fleet.row
+    with pytest.raises(phongpd.InputError, match="pickle"):
+        phongpd.view(again)
 
 
 def test_a_scene_file_gives_what_the_program_writes(program, tmp_path):

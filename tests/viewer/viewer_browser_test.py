@@ -64,15 +64,39 @@ def make_pages(run, folder):
         "--output", "roadmap.jsonl", "--html", "roadmap.html")
     run("optimize", "u_axis", "--polish", "always", "--output",
         "corridor.jsonl", "--html", "corridor.html")
-    gantry = pathlib.Path(__file__).resolve().parents[2] / "examples/gantry.json"
-    run("optimize", str(gantry), "--html", "pace.html")
+    examples = pathlib.Path(__file__).resolve().parents[2] / "examples"
+    run("optimize", str(examples / "gantry.json"), "--html", "pace.html")
+    run("optimize", str(examples / "robots.json"), "--html", "robots.html")
     (folder / "none.jsonl").write_text(
         '{"scene": "none", "planner": "prm", "seed": 1, "status": "timeout",'
         ' "solved": false, "path": []}\n')
     run("view", "none.jsonl", "--html", "none.html")
     return {name: folder / f"{name}.html"
             for name in ("trap", "tunnel", "contact", "motion", "depth", "routes",
-                         "tree", "roadmap", "corridor", "pace", "none")}
+                         "tree", "roadmap", "corridor", "pace", "robots", "none")}
+
+
+def robots_together(browser, checks, page):
+    """Each where its own motion is at that time, whichever is followed."""
+    browser.open(page)
+    checks.holds("viewer.stage.crew.robots.length === 3 &&"
+                 "!viewer.stage.robot.visible", "three robots of their own")
+    checks.holds("(() => { viewer.state.time = 0.5; viewer.draw();"
+                 "const {crew, center} = viewer.stage, {scale} = viewer.data;"
+                 "return crew.robots.every(({way, group}) => {"
+                 "const p = way.raw[(way.raw.length - 1) / 2];"
+                 "return p.every((x, k) => Math.abs(center.getComponent(k) +"
+                 "scale * group.position.getComponent(k) - x) < 1e-6 * scale);"
+                 "}); })()", "all of them at one time")
+    checks.holds("(() => { const at = crew => crew.robots.map("
+                 "r => r.group.position.toArray().join()).join();"
+                 "const before = at(viewer.stage.crew); viewer.follow(2);"
+                 "viewer.draw(); return viewer.state.way === 2 &&"
+                 "before === at(viewer.stage.crew); })()",
+                 "following another one moves none")
+    checks.holds("[...document.querySelectorAll('button.way span')].map("
+                 "e => e.textContent).join() === 'left,right,feeder'",
+                 "their names in the legend")
 
 
 def main():
@@ -144,6 +168,7 @@ def main():
         checks.holds("document.getElementById('where').textContent"
                      ".includes('room')", "and says what it asks and has")
         checks.changes(lambda: browser.press("ArrowRight"), "a step of it")
+        robots_together(browser, checks, pages["robots"])
         browser.open(pages["motion"])
         checks.holds("document.querySelectorAll('#labels .pane').length === 3",
                      "a motion has a pane for each metric")

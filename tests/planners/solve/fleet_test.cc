@@ -213,7 +213,41 @@ TEST(Fleet, HasNoMotionWhereSomethingComesToARobotThatStays) {
                                "\"cart\" comes at t = 1.75"),
             std::string::npos)
       << answer.reason;
+  EXPECT_EQ(answer.tries, 0);
+}
+
+// Others lose less by giving way to the one that sets the time.
+TEST(Fleet, LetsTheSlowestAloneGoFirst) {
+  const World world = Room({{-9, -9, -0.05}, {9, 9, 0.05}});
+  std::vector<FleetRobot> robots = {
+      Robot("near", world, {-2, 0, 0}, {2, 0, 0}),
+      Robot("far", world, {0, -6, 0}, {0, 6, 0}),
+      Robot("middle", world, {-4, 2, 0}, {4, 2, 0})};
+  const FleetAnswer answer = OptimizeFleet(robots);
+  ExpectApart(robots, answer);
   EXPECT_EQ(answer.tries, 1);
+  EXPECT_EQ(answer.order, (std::vector<std::size_t>{1, 2, 0}));
+  // It goes as if it were alone, and the others are done before it.
+  const double alone =
+      Optimize(robots[1].world, robots[1].request).motion.duration();
+  EXPECT_EQ(answer.duration, alone);
+  // More orders only where they could make it sooner.
+  for (FleetRobot& robot : robots) robot.request.preset = Preset::kTight;
+  EXPECT_EQ(OptimizeFleet(robots).tries, 1);
+}
+
+// What more orders find is certified, and no later than the first.
+TEST(Fleet, TriesMoreOrdersForASoonerEnd) {
+  std::vector<FleetRobot> robots = Circle(3);
+  const FleetAnswer first = OptimizeFleet(robots);
+  ASSERT_EQ(first.tries, 1);
+  // The last one's preset counts for the orders, and its own motion alone.
+  robots.back().request.preset = Preset::kBalanced;
+  const FleetAnswer more = OptimizeFleet(robots);
+  ExpectApart(robots, more);
+  EXPECT_EQ(more.tries, 2);
+  ASSERT_EQ(more.pairs.size(), 3u);
+  EXPECT_LE(more.duration, 1.05 * first.duration);
 }
 
 TEST(Fleet, RefusesWhatOtherRobotsLeaveNoRoomFor) {

@@ -50,8 +50,8 @@ TEST(SceneErrors, NameFilePlaceExpectedAndFound) {
     std::string message;
   };
   const std::string keys =
-      "s.json: expected only the keys $schema, name, unit, robot, obstacles, "
-      "bounds, start, goal, preset, limits, via, moving, duration, "
+      "s.json: expected only the keys $schema, name, unit, robot, robots, "
+      "obstacles, bounds, start, goal, preset, limits, via, moving, duration, "
       "departure, arrival, "
       "penetration, trajectory, planning, feasible, witness, ";
   const std::vector<Case> cases = {
@@ -63,7 +63,8 @@ TEST(SceneErrors, NameFilePlaceExpectedAndFound) {
        "found \"waypoint\"; did you mean waypoints?"},
       {"/goal", nullptr,
        "s.json: /goal: expected an array of 3 numbers, found nothing"},
-      {"/robot", nullptr, "s.json: /robot: expected an object, found nothing"},
+      {"/robot", nullptr,
+       "s.json: expected either \"robot\" or \"robots\", found neither"},
       {"/start", "left",
        "s.json: /start: expected an array of 3 numbers, found \"left\""},
       {"/start",
@@ -205,8 +206,7 @@ TEST(SceneErrors, NameFilePlaceExpectedAndFound) {
     EXPECT_EQ(ErrorWith(c.pointer, c.value), c.message) << c.pointer;
   }
   EXPECT_EQ(ErrorOf(Json(3)),
-            "s.json: expected an object with \"robot\", \"obstacles\", "
-            "\"start\", \"goal\", found 3");
+            "s.json: expected an object with \"obstacles\", found 3");
 }
 
 // What is too long is known once the solids are.

@@ -240,7 +240,7 @@ TEST(Scene, SchemaAndStructsHaveTheSameDefaults) {
   }
   const Json& keys = SceneSchema()["properties"];
   written["duration"] = keys["duration"]["default"];
-  const Json& of_via = keys["via"]["items"]["properties"];
+  const Json& of_via = SceneSchema()["$defs"]["via"]["properties"];
   written["via"] = {{{"point", {0, 0, 4}},
                      {"tolerance", of_via["tolerance"]["default"]},
                      {"dwell", of_via["dwell"]["default"]}}};
