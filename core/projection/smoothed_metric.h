@@ -15,19 +15,9 @@ enum class SmoothedAt {
   kContact,   // at q_c, and jumps where q_c does
 };
 
-struct SmoothedMetricOptions {
-  SmoothedAt at = SmoothedAt::kPosition;
-  // ℓ as a share of D (ContactSpace::length), in [1e-9, 1].  What lies within
-  // ρ = 2ℓ counts: about as far as normals diffuse in a Phong field of that ℓ.
-  double smoothing_length = kDefaultSmoothingLength;
-
-  void Validate() const;  // throws InputError
-};
-
-// ρ in a space of length D.
-inline double SmoothedRadius(const SmoothedMetricOptions& options, double d) {
-  return 2.0 * options.smoothing_length * d;
-}
+// ρ = 2ℓ, about as far as normals diffuse in a Phong field of that ℓ, user's
+// unit.  Throws InputError unless ℓ, a share of D, is in [1e-9, 1].
+double SmoothedRadius(double smoothing_length, double diagonal);
 
 // Euclid's depth with a smoothed direction.
 //
@@ -44,9 +34,11 @@ inline double SmoothedRadius(const SmoothedMetricOptions& options, double d) {
 // which follow a direction; for the depth alone EuclideanMetric is quicker.
 class SmoothedMetric final : public PenetrationMetric {
  public:
-  // Throws InputError for options.
+  // ℓ as a share of D (ContactSpace::length), in [1e-9, 1]: what lies within
+  // 2ℓ counts.  Throws InputError otherwise.
   explicit SmoothedMetric(const ContactSpace& space,
-                          const SmoothedMetricOptions& options = {});
+                          double smoothing_length = kDefaultSmoothingLength,
+                          SmoothedAt at = SmoothedAt::kPosition);
   ~SmoothedMetric() override;
   SmoothedMetric(SmoothedMetric&&) noexcept;
   SmoothedMetric& operator=(SmoothedMetric&&) noexcept;
@@ -54,8 +46,6 @@ class SmoothedMetric final : public PenetrationMetric {
   using PenetrationMetric::Query;
   PenetrationResult Query(const Eigen::Vector3d& q_o,
                           const Branch& previous) const override;
-
-  double radius() const;  // ρ, user's unit
 
  private:
   struct Impl;
