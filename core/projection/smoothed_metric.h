@@ -15,8 +15,8 @@ enum class SmoothedAt {
   kContact,   // at q_c, and jumps where q_c does
 };
 
-// ρ = 2ℓ, about as far as normals diffuse in a Phong field of that ℓ, user's
-// unit.  Throws InputError unless ℓ, a share of D, is in [1e-9, 1].
+// ρ = 2ℓD, user's unit.  Throws InputError unless ℓ, a share of D, is in
+// [1e-9, 1].
 double SmoothedRadius(double smoothing_length, double diagonal);
 
 // Euclid's depth with a smoothed direction.
@@ -24,10 +24,10 @@ double SmoothedRadius(double smoothing_length, double diagonal);
 // Inside C_obj: value, contact and `gradient` are those of EuclideanMetric, bit
 // for bit.  `direction` is the gradient of smoothed occupancy
 // (smoothed_normal.h) at q_o or at q_c, outward: not from q_o towards q_c, and
-// of all metrics the one that depends least on where q_c is.  Where it is not
-// known – nothing of C_cont is within ρ, as for q_o deeper than ρ, or what is
-// there cancels, as in the middle of a plate – it is Euclid's own, and the
-// status is kEuclideanFallback.  Towards the depth ρ the two become one.
+// its product with `gradient` may be anything up to 1, below 0 too.  Where it
+// is not known – nothing of C_cont is within ρ, as for q_o deeper than ρ, or
+// what is there cancels, as in the middle of a plate – it is Euclid's own, and
+// the status is kEuclideanFallback.  Towards the depth ρ the two become one.
 // Outside and on C_cont: the answer of EuclideanMetric, bit for bit.
 //
 // It has no field, branch or memory: `previous` is ignored.  For optimisers,
