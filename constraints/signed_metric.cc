@@ -26,15 +26,6 @@ bool IsSmoothed(MetricKind metric) {
 
 }  // namespace
 
-SmoothedMetricOptions SmoothedOptionsOf(const SignedMetricOptions& options) {
-  SmoothedMetricOptions smoothed;
-  smoothed.smoothing_length = options.smoothing_length;
-  if (options.metric == MetricKind::kSmoothedFoot) {
-    smoothed.at = SmoothedAt::kContact;
-  }
-  return smoothed;
-}
-
 std::shared_ptr<const PenetrationMetric> MakePenetrationMetric(
     const ContactSpace& space, const SignedMetricOptions& options) {
   options.Validate();
@@ -42,14 +33,19 @@ std::shared_ptr<const PenetrationMetric> MakePenetrationMetric(
     return std::make_shared<PhongMetric>(space, options.phong);
   }
   if (IsSmoothed(options.metric)) {
-    return std::make_shared<SmoothedMetric>(space, SmoothedOptionsOf(options));
+    return std::make_shared<SmoothedMetric>(
+        space, options.phong.field_options.smoothing_length,
+        options.metric == MetricKind::kSmoothed ? SmoothedAt::kPosition
+                                                : SmoothedAt::kContact);
   }
   return std::make_shared<EuclideanMetric>(space);
 }
 
 void SignedMetricOptions::Validate() const {
   if (metric == MetricKind::kPhong) phong.Validate();
-  if (IsSmoothed(metric)) SmoothedOptionsOf(*this).Validate();
+  if (IsSmoothed(metric)) {
+    SmoothedRadius(phong.field_options.smoothing_length, 1.0);
+  }
 }
 
 SignedMetric::SignedMetric(const ContactSpace& space,

@@ -6,7 +6,6 @@
 
 #include "core/projection/penetration_metric.h"
 #include "core/projection/phong_metric.h"
-#include "core/projection/smoothed_metric.h"
 
 namespace phongpd {
 
@@ -22,24 +21,22 @@ enum class MetricKind {
 // The derivative inside C_obj.
 enum class JacobianKind {
   kDirection,  // the metric's unit direction n̂, outward: continuous, n̂·∇d = 1
-               // (median angle to ∇d inside a U at ℓ = 0.2: 30°)
+               // (median angle to ∇d inside a U at ℓ = 0.2: 30°); of smoothed
+               // metrics not: there it is the cosine of the angle to Euclid's
   kExact,  // ∇d itself; jumps at mesh edges, grows without bound at folds
 };
 
 struct SignedMetricOptions {
   MetricKind metric = MetricKind::kPhong;
-  PhongMetricOptions phong;  // kPhong only
+  // kPhong; of its members kSmoothed and kSmoothedFoot have the smoothing
+  // length (smoothed_metric.h).  Their exact Jacobian is Euclid's.
+  PhongMetricOptions phong;
   JacobianKind jacobian = JacobianKind::kDirection;
-  // ℓ of kSmoothed and kSmoothedFoot, a share of D (smoothed_metric.h).  Their
-  // exact Jacobian is Euclid's.
-  double smoothing_length = kDefaultSmoothingLength;
 
   // Throws InputError naming the option, the range and the value.
   void Validate() const;
 };
 
-// Of kSmoothed and kSmoothedFoot.
-SmoothedMetricOptions SmoothedOptionsOf(const SignedMetricOptions& options);
 // The metric inside C_obj that they name.  Throws InputError for options.
 std::shared_ptr<const PenetrationMetric> MakePenetrationMetric(
     const ContactSpace& space, const SignedMetricOptions& options = {});

@@ -22,7 +22,7 @@
 //   ... and depths and directions that go on from one position to the next
 //       PhongMetric: continuous along a branch, with exact derivatives
 //   few such depths, and no contact space
-//       WindowPhong: PhongMetric's own, cold, from what is near
+//       WindowPhong, WindowSmoothed: the metric's own, cold, from what is near
 //   a motion without a jump, whatever the shape; nothing to differentiate
 //       PenetrationTracker: a contact that slides, at the price of depth
 //   rows of a nonlinear program

@@ -13,20 +13,21 @@ constexpr double kLeastLength = 1e-9;
 
 }  // namespace
 
-void SmoothedMetricOptions::Validate() const {
+double SmoothedRadius(double smoothing_length, double diagonal) {
   if (!(smoothing_length >= kLeastLength && smoothing_length <= 1.0)) {
     throw InputError("smoothing_length: expected a share of D in [" +
                      FormatDouble(kLeastLength) +
                      ", 1] for a smoothed direction, found " +
                      FormatDouble(smoothing_length));
   }
+  return 2.0 * smoothing_length * diagonal;
 }
 
 struct SmoothedMetric::Impl {
-  Impl(const ContactSpace& space, const SmoothedMetricOptions& options)
+  Impl(const ContactSpace& space, double smoothing_length, SmoothedAt the_at)
       : surface(space),
-        normals(space, SmoothedRadius(options, space.length())),
-        at(options.at) {}
+        normals(space, SmoothedRadius(smoothing_length, space.length())),
+        at(the_at) {}
 
   ContactSurface surface;
   SmoothedNormals normals;
@@ -34,15 +35,11 @@ struct SmoothedMetric::Impl {
 };
 
 SmoothedMetric::SmoothedMetric(const ContactSpace& space,
-                               const SmoothedMetricOptions& options) {
-  options.Validate();
-  impl_ = std::make_unique<Impl>(space, options);
-}
+                               double smoothing_length, SmoothedAt at)
+    : impl_(std::make_unique<Impl>(space, smoothing_length, at)) {}
 SmoothedMetric::~SmoothedMetric() = default;
 SmoothedMetric::SmoothedMetric(SmoothedMetric&&) noexcept = default;
 SmoothedMetric& SmoothedMetric::operator=(SmoothedMetric&&) noexcept = default;
-
-double SmoothedMetric::radius() const { return impl_->normals.radius(); }
 
 PenetrationResult SmoothedMetric::Query(const Eigen::Vector3d& q_o,
                                         const Branch& /*previous*/) const {

@@ -15,38 +15,30 @@ enum class SmoothedAt {
   kContact,   // at q_c, and jumps where q_c does
 };
 
-struct SmoothedMetricOptions {
-  SmoothedAt at = SmoothedAt::kPosition;
-  // ℓ as a share of D (ContactSpace::length), in [1e-9, 1].  What lies within
-  // ρ = 2ℓ counts: about as far as normals diffuse in a Phong field of that ℓ.
-  double smoothing_length = kDefaultSmoothingLength;
-
-  void Validate() const;  // throws InputError
-};
-
-// ρ in a space of length D.
-inline double SmoothedRadius(const SmoothedMetricOptions& options, double d) {
-  return 2.0 * options.smoothing_length * d;
-}
+// ρ = 2ℓD, user's unit.  Throws InputError unless ℓ, a share of D, is in
+// [1e-9, 1].
+double SmoothedRadius(double smoothing_length, double diagonal);
 
 // Euclid's depth with a smoothed direction.
 //
 // Inside C_obj: value, contact and `gradient` are those of EuclideanMetric, bit
 // for bit.  `direction` is the gradient of smoothed occupancy
 // (smoothed_normal.h) at q_o or at q_c, outward: not from q_o towards q_c, and
-// of all metrics the one that depends least on where q_c is.  Where it is not
-// known – nothing of C_cont is within ρ, as for q_o deeper than ρ, or what is
-// there cancels, as in the middle of a plate – it is Euclid's own, and the
-// status is kEuclideanFallback.  Towards the depth ρ the two become one.
+// its product with `gradient` may be anything up to 1, below 0 too.  Where it
+// is not known – nothing of C_cont is within ρ, as for q_o deeper than ρ, or
+// what is there cancels, as in the middle of a plate – it is Euclid's own, and
+// the status is kEuclideanFallback.  Towards the depth ρ the two become one.
 // Outside and on C_cont: the answer of EuclideanMetric, bit for bit.
 //
 // It has no field, branch or memory: `previous` is ignored.  For optimisers,
 // which follow a direction; for the depth alone EuclideanMetric is quicker.
 class SmoothedMetric final : public PenetrationMetric {
  public:
-  // Throws InputError for options.
+  // ℓ as a share of D (ContactSpace::length), in [1e-9, 1]: what lies within
+  // 2ℓ counts.  Throws InputError otherwise.
   explicit SmoothedMetric(const ContactSpace& space,
-                          const SmoothedMetricOptions& options = {});
+                          double smoothing_length = kDefaultSmoothingLength,
+                          SmoothedAt at = SmoothedAt::kPosition);
   ~SmoothedMetric() override;
   SmoothedMetric(SmoothedMetric&&) noexcept;
   SmoothedMetric& operator=(SmoothedMetric&&) noexcept;
@@ -54,8 +46,6 @@ class SmoothedMetric final : public PenetrationMetric {
   using PenetrationMetric::Query;
   PenetrationResult Query(const Eigen::Vector3d& q_o,
                           const Branch& previous) const override;
-
-  double radius() const;  // ρ, user's unit
 
  private:
   struct Impl;

@@ -31,58 +31,79 @@ constexpr double kLeastRadius = 1e-9;
 // time of one evaluation, memory considered.
 constexpr int kLeastSummed = 8;
 
+// A sum of angles, each in (−π, π), as a product of complex numbers and how
+// often that went around: one arc tangent for all.
+class AngleSum {
+ public:
+  // Adds that of re + i·im.
+  void Add(double re, double im) {
+    const double new_re = re_ * re - im_ * im, new_im = re_ * im + im_ * re;
+    const bool is_up = im_ > 0.0 || (im_ == 0.0 && re_ < 0.0);
+    if (im > 0.0 && is_up && new_im < 0.0) ++turns_;
+    if (im < 0.0 && im_ < 0.0 && new_im >= 0.0) --turns_;
+    re_ = new_re;
+    im_ = new_im;
+  }
+  double Value() const { return std::atan2(im_, re_) + 2.0 * kPi * turns_; }
+
+ private:
+  double re_ = 1.0, im_ = 0.0;
+  int turns_ = 0;
+};
+
 // What the edges of a triangle give, in lengths of ρ, times 6.
 struct EdgeSum {
-  double value = 0.0;
-  double rounding = 0.0;
+  double inside = 0.0;
+  double rounding = 0.0;  // of it, before any factor
+  AngleSum outside;
+  double outside_bound = 0.0;  // its parts, times R², at most
   bool meets_disc = false;
   bool is_around = true;  // the foot is left of all edges
 };
 
-// Angle at which the foot sees the part from a to b of a line at the signed
-// distance d: away from the foot, a and b of one sign.
-double Angle(double d, double a, double b) {
-  return std::atan2(d * (b - a), d * d + a * b);
-}
+// Of a vector, at least its length and at most √3 of it.
+double LengthBound(const Vector3d& v) { return v.cwiseAbs().sum(); }
 
 // The edge from p to q, relative to x, of a triangle with the unit normal n;
-// rr = R².
+// rr = R².  Lengths along the edge, and the distance d of its line, come times
+// its length L: no root but the chord's.
 void AddEdge(const Vector3d& p, const Vector3d& q, const Vector3d& n, double rr,
              EdgeSum* sum) {
   const Vector3d edge = q - p;
-  const double length = edge.norm();
-  if (!(length > 0.0)) return;
-  const Vector3d along = edge / length;
-  const double y_p = p.dot(along), y_q = q.dot(along);
+  const double ll = edge.squaredNorm();
+  if (!(ll > 0.0)) return;
+  const double y_p = p.dot(edge), y_q = q.dot(edge);
   // From the nearer end, which rounds less.
   const Vector3d& near = std::abs(y_p) < std::abs(y_q) ? p : q;
-  const double d = n.dot(near.cross(along));
+  const double d = n.dot(near.cross(edge));
   if (!(d > 0.0)) sum->is_around = false;
-  const double dd = d * d;
-  const double half_chord = dd < rr ? std::sqrt(rr - dd) : 0.0;
+  const double dd = d * d, chord = rr * ll - dd;
+  const double half_chord = chord > 0.0 ? std::sqrt(chord) : 0.0;
   const double from = std::max(y_p, -half_chord);
   const double to = std::min(y_q, half_chord);
-  const double disc = rr * rr * rr;
-  double outside = 0.0;
+  // As the foot sees the part from a to b of the line, away from it.
+  const auto add_angle = [&](double a, double b) {
+    sum->outside.Add(dd + a * b, d * (b - a));
+    sum->outside_bound += std::abs(d) * (b - a) / ll;
+  };
   if (!(from < to)) {
-    outside = Angle(d, y_p, y_q);
-  } else {
-    sum->meets_disc = true;
-    if (y_p < from) outside += Angle(d, y_p, from);
-    if (to < y_q) outside += Angle(d, to, y_q);
-    // d ∫ 3R⁴ − 3R²(d² + y²) + (d² + y²)² dy around the middle.
-    const double m = 0.5 * (from + to), k = 0.5 * (to - from);
-    const double mm = m * m, kk = k * k;
-    const double y2 = mm + kk / 3.0;
-    const double y4 = mm * mm + 2.0 * mm * kk + kk * kk / 5.0;
-    const double inside =
-        2.0 * k *
-        (3.0 * rr * (rr - dd) + dd * dd + (2.0 * dd - 3.0 * rr) * y2 + y4);
-    sum->value += d * inside;
-    sum->rounding += inside * (std::abs(d) + near.norm());
+    add_angle(y_p, y_q);
+    return;
   }
-  sum->value += disc * outside;
-  sum->rounding += disc * std::abs(outside);
+  sum->meets_disc = true;
+  if (y_p < from) add_angle(y_p, from);
+  if (to < y_q) add_angle(to, y_q);
+  // d ∫ 3R⁴ − 3R²(d² + y²) + (d² + y²)² dy around the middle.
+  const double per_ll = 1.0 / ll;
+  const double m = 0.5 * (from + to), k = 0.5 * (to - from);
+  const double mm = m * m * per_ll, kk = k * k * per_ll, d2 = dd * per_ll;
+  const double y2 = mm + kk / 3.0;
+  const double y4 = mm * mm + 2.0 * mm * kk + kk * kk / 5.0;
+  const double inside =
+      2.0 * k * per_ll *
+      (3.0 * rr * (rr - d2) + d2 * d2 + (2.0 * d2 - 3.0 * rr) * y2 + y4);
+  sum->inside += d * inside;
+  sum->rounding += inside * 2.0 * LengthBound(near) * LengthBound(edge);
 }
 
 // Adds ∫ w n dA/ρ² of a triangle, corners relative to x in lengths of ρ.
@@ -99,16 +120,19 @@ void AddTriangle(const TriangleCorners& c, const Vector3d& n,
   AddEdge(c[0], c[1], n, rr, &edges);
   AddEdge(c[1], c[2], n, rr, &edges);
   AddEdge(c[2], c[0], n, rr, &edges);
-  if (!edges.meets_disc) {
-    // All of the disc or nothing of it.
-    if (!edges.is_around) return;
-    edges.value = 2.0 * kPi * rr * rr * rr;
-    edges.rounding = edges.value;
+  const double disc = rr * rr * rr;
+  double value = 2.0 * kPi * disc, rounding = value;
+  if (edges.meets_disc) {
+    value = edges.inside + disc * edges.outside.Value();
+    rounding = edges.rounding +
+               std::min(rr * rr * edges.outside_bound, 4.0 * kPi * disc);
+  } else if (!edges.is_around) {
+    return;  // nothing of the disc
   }
-  sum->integral += (edges.value / 6.0) * n;
+  sum->integral += (value / 6.0) * n;
   // h rounds with the corner it is from, and R² with h.
-  const double rounding = edges.rounding * (1.0 + near.norm() / rr);
-  sum->rounding += kTermRounding * rounding / 6.0;
+  sum->rounding +=
+      kTermRounding * rounding * (1.0 + LengthBound(near) / rr) / 6.0;
 }
 
 }  // namespace

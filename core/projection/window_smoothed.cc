@@ -39,10 +39,11 @@ struct WindowSmoothed::Impl {
     bool is_all = false;
   };
 
-  Impl(const ConvolutionModel& the_model,
-       const SmoothedMetricOptions& the_options)
+  Impl(const ConvolutionModel& the_model, double the_length, SmoothedAt the_at)
       : model(the_model),
-        options((the_options.Validate(), the_options)),
+        smoothing_length(the_length),
+        at(the_at),
+        radius(SmoothedRadius(smoothing_length, model.bounds().Diagonal())),
         boxes(model, kMostFacetsOfBox) {}
 
   // From q to the cube's walls at most, user's unit; < 0 outside.
@@ -60,10 +61,8 @@ struct WindowSmoothed::Impl {
     if (!(margin > 0.0)) return std::nullopt;
     const PenetrationResult found = window->metric.Query(q);
     const double depth = std::abs(found.signed_distance);
-    double needed = std::max(depth, window->metric.radius());
-    if (options.at == SmoothedAt::kContact) {
-      needed = depth + window->metric.radius();
-    }
+    const double needed =
+        at == SmoothedAt::kContact ? depth + radius : std::max(depth, radius);
     const auto triangle = static_cast<std::size_t>(found.triangle);
     const bool is_certain =
         needed <= margin && found.triangle >= 0 &&
@@ -80,7 +79,8 @@ struct WindowSmoothed::Impl {
     if (is_all) internal::DropWalls(&parts);
     const ContactSpace space = ContactSpace(std::move(parts), kWindowName)
                                    .WithLength(model.bounds().Diagonal());
-    window.emplace(Window{space, SmoothedMetric(space, options), cube, is_all});
+    window.emplace(Window{space, SmoothedMetric(space, smoothing_length, at),
+                          cube, is_all});
   }
 
   PenetrationResult Inside(const Vector3d& q, WindowPhongResult* out) {
@@ -88,9 +88,7 @@ struct WindowSmoothed::Impl {
     boxes.RestartLimits();
     const std::size_t before = boxes.faces();
     const BoundingBox all = boxes.bounds();
-    const double radius =
-        SmoothedRadius(options, model.bounds().Diagonal()) / boxes.frame().step;
-    double reach = std::max(kFirstReach * radius,
+    double reach = std::max(kFirstReach * radius / boxes.frame().step,
                             kLeastReach * (all.max - all.min).maxCoeff());
     std::optional<PenetrationResult> found = FromWindow(q, x);
     for (; !found; reach *= kMoreReach) {
@@ -107,14 +105,16 @@ struct WindowSmoothed::Impl {
 
   std::mutex mutex;
   ConvolutionModel model;
-  SmoothedMetricOptions options;
+  double smoothing_length;
+  SmoothedAt at;
+  double radius;  // ρ, user's unit
   internal::ExploredBoxes boxes;
   std::optional<Window> window;  // the last one
 };
 
 WindowSmoothed::WindowSmoothed(const ConvolutionModel& model,
-                               const SmoothedMetricOptions& options)
-    : impl_(std::make_unique<Impl>(model, options)) {}
+                               double smoothing_length, SmoothedAt at)
+    : impl_(std::make_unique<Impl>(model, smoothing_length, at)) {}
 WindowSmoothed::~WindowSmoothed() = default;
 WindowSmoothed::WindowSmoothed(WindowSmoothed&&) noexcept = default;
 WindowSmoothed& WindowSmoothed::operator=(WindowSmoothed&&) noexcept = default;

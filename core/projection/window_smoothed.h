@@ -20,9 +20,10 @@ namespace phongpd {
 // where ρ is small beside the bodies, and the more windows the more.
 class WindowSmoothed {
  public:
-  // Keeps the model.  Throws InputError for options.
+  // Keeps the model.  Throws InputError as SmoothedMetric.
   explicit WindowSmoothed(const ConvolutionModel& model,
-                          const SmoothedMetricOptions& options = {});
+                          double smoothing_length = kDefaultSmoothingLength,
+                          SmoothedAt at = SmoothedAt::kPosition);
   ~WindowSmoothed();
   WindowSmoothed(WindowSmoothed&&) noexcept;
   WindowSmoothed& operator=(WindowSmoothed&&) noexcept;

@@ -54,7 +54,8 @@ SignedMetricOptions PenetrationSpec::Options(double diagonal) const {
   if (!HasLength(metric)) return options;
   RequireLength(smoothing_length, LengthRangeOf(metric), diagonal,
                 Name() + ": smoothing_length");
-  options.smoothing_length = smoothing_length.Resolve(diagonal).share;
+  options.phong.field_options.smoothing_length =
+      smoothing_length.Resolve(diagonal).share;
   if (!HasField(metric)) {
     if (jacobian == JacobianKind::kExact) {
       throw InputError(Name() +
@@ -65,7 +66,6 @@ SignedMetricOptions PenetrationSpec::Options(double diagonal) const {
   }
   options.jacobian = jacobian;
   options.phong.field = field;
-  options.phong.field_options.smoothing_length = options.smoothing_length;
   return options;
 }
 

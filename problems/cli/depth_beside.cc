@@ -47,7 +47,10 @@ WindowPhongResult DepthBeside::At(const RobotPose& pose) {
     if (spec_.metric == MetricKind::kPhong) {
       phong_.emplace(model, options.phong);
     } else {
-      smoothed_.emplace(model, SmoothedOptionsOf(options));
+      smoothed_.emplace(model, resolved_.share,
+                        spec_.metric == MetricKind::kSmoothed
+                            ? SmoothedAt::kPosition
+                            : SmoothedAt::kContact);
     }
   }
   return phong_ ? phong_->At(pose.position) : smoothed_->At(pose.position);

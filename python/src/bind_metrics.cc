@@ -42,11 +42,10 @@ Metric Euclidean(const ContactSpace& space) {
 
 Metric Smoothed(const ContactSpace& space, double smoothing_length,
                 bool is_at_contact) {
-  SmoothedMetricOptions options;
-  options.smoothing_length = smoothing_length;
-  if (is_at_contact) options.at = SmoothedAt::kContact;
+  const auto at = is_at_contact ? SmoothedAt::kContact : SmoothedAt::kPosition;
   const Computing computing;
-  return {space, std::make_shared<const SmoothedMetric>(space, options)};
+  return {space,
+          std::make_shared<const SmoothedMetric>(space, smoothing_length, at)};
 }
 
 // Columns of one row a point; `tracked` carries the branch from row to row.

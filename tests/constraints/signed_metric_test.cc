@@ -23,6 +23,10 @@ namespace {
 
 using Eigen::Vector3d;
 
+constexpr MetricKind kAllKinds[] = {MetricKind::kPhong, MetricKind::kEuclidean,
+                                    MetricKind::kSmoothed,
+                                    MetricKind::kSmoothedFoot};
+
 SignedMetricOptions Options(MetricKind metric, JacobianKind jacobian) {
   SignedMetricOptions options;
   options.metric = metric;
@@ -45,7 +49,7 @@ Vector3d RandomPoint(const BoundingBox& box, double grow,
 }
 
 TEST(SignedMetric, IsTheIntervalDistanceOfABox) {
-  for (const MetricKind kind : {MetricKind::kPhong, MetricKind::kEuclidean}) {
+  for (const MetricKind kind : kAllKinds) {
     const SignedMetric metric(
         TakeAsContactSpace(MakeBox({-1, -1, -1}, {1, 1, 1})),
         Options(kind, JacobianKind::kDirection));
@@ -62,7 +66,7 @@ TEST(SignedMetric, IsTheIntervalDistanceOfABox) {
 // Steps of 1e-6 of the size, over which few of the random points have a kink.
 TEST(SignedMetric, ExactJacobianIsTheDerivative) {
   const TriangleMesh mesh = TurnedU();
-  for (const MetricKind kind : {MetricKind::kPhong, MetricKind::kEuclidean}) {
+  for (const MetricKind kind : kAllKinds) {
     const SignedMetric metric(TakeAsContactSpace(mesh),
                               Options(kind, JacobianKind::kExact));
     std::mt19937_64 random(3);
@@ -126,7 +130,7 @@ TEST(SignedMetric, DirectionPointsUphill) {
 // and finite at, and beside, vertices, edges and the surface.
 TEST(SignedMetric, IsSoundOnAndBesideFeatures) {
   const TriangleMesh mesh = MakeBox({-1, -1, -1}, {1, 1, 1});
-  for (const MetricKind kind : {MetricKind::kPhong, MetricKind::kEuclidean}) {
+  for (const MetricKind kind : kAllKinds) {
     const SignedMetric metric(TakeAsContactSpace(mesh),
                               Options(kind, JacobianKind::kExact));
     int sides[2] = {0, 0};
@@ -156,7 +160,7 @@ TEST(SignedMetric, IsSoundOnAndBesideFeatures) {
 TEST(SignedMetric, HoldsNoNanForAnyInput) {
   const double inf = std::numeric_limits<double>::infinity();
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  for (const MetricKind kind : {MetricKind::kPhong, MetricKind::kEuclidean}) {
+  for (const MetricKind kind : kAllKinds) {
     const SignedMetric metric(TakeAsContactSpace(TurnedU()),
                               Options(kind, JacobianKind::kExact));
     for (const double x :

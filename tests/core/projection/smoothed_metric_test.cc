@@ -20,13 +20,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-SmoothedMetricOptions Options(SmoothedAt at, double smoothing_length) {
-  SmoothedMetricOptions options;
-  options.at = at;
-  options.smoothing_length = smoothing_length;
-  return options;
-}
-
 std::vector<Vector3d> RandomPoints(const TriangleMesh& mesh, int count) {
   std::mt19937 engine(7);
   std::uniform_real_distribution<double> uniform(-0.1, 1.1);
@@ -65,7 +58,7 @@ TEST(SmoothedMetric, HasEuclidsDepthAndAnotherDirection) {
     const ContactSpace space = TakeAsContactSpace(mesh);
     const EuclideanMetric euclidean(space);
     for (const SmoothedAt at : {SmoothedAt::kPosition, SmoothedAt::kContact}) {
-      const SmoothedMetric metric(space, Options(at, 0.1));
+      const SmoothedMetric metric(space, 0.1, at);
       int inside = 0, turned = 0;
       for (const Vector3d& q : RandomPoints(mesh, 500)) {
         const PenetrationResult found = metric.Query(q);
@@ -96,8 +89,8 @@ TEST(SmoothedMetric, PointsWhereTheVolumeAroundItThinsOut) {
   const EuclideanMetric euclidean(space);
   const double ell = 0.1;
   const double rho = 2.0 * ell * space.length();
-  const SmoothedMetric at_q(space, Options(SmoothedAt::kPosition, ell));
-  const SmoothedMetric at_foot(space, Options(SmoothedAt::kContact, ell));
+  const SmoothedMetric at_q(space, ell);
+  const SmoothedMetric at_foot(space, ell, SmoothedAt::kContact);
   int tested = 0;
   for (const Vector3d& q : RandomPoints(mesh, 400)) {
     const PenetrationResult found = at_q.Query(q);
@@ -117,7 +110,7 @@ TEST(SmoothedMetric, SaysWhereTheDirectionIsEuclids) {
   const ContactSpace space = TakeAsContactSpace(MakeBox({0, 0, 0}, {4, 5, 6}));
   const EuclideanMetric euclidean(space);
   const double ell = 0.5 / space.length();  // ρ = 1
-  const SmoothedMetric metric(space, Options(SmoothedAt::kPosition, ell));
+  const SmoothedMetric metric(space, ell);
   const Vector3d deep(1.5, 2.0, 3.0);
   EXPECT_EQ(metric.Query(deep).status, QueryStatus::kEuclideanFallback);
   EXPECT_EQ(metric.Query(deep).direction, euclidean.Query(deep).direction);
@@ -128,7 +121,7 @@ TEST(SmoothedMetric, SaysWhereTheDirectionIsEuclids) {
   }
   EXPECT_EQ(metric.Query({0.99, 2, 3}).direction, -Vector3d::UnitX());
   // ρ = 4 sees both sides of the box's middle.
-  const SmoothedMetric wide(space, Options(SmoothedAt::kPosition, 4.0 * ell));
+  const SmoothedMetric wide(space, 4.0 * ell);
   const PenetrationResult middle = wide.Query({2, 2.5, 3});
   EXPECT_EQ(middle.status, QueryStatus::kEuclideanFallback);
   EXPECT_NEAR(middle.direction.norm(), 1.0, 1e-15);
@@ -138,7 +131,7 @@ TEST(SmoothedMetric, SaysWhereTheDirectionIsEuclids) {
 TEST(SmoothedMetric, IsContinuousAcrossTheMedialAxis) {
   const ContactSpace space = TakeAsContactSpace(MakeBox({0, 0, 0}, {4, 5, 6}));
   const EuclideanMetric euclidean(space);
-  const SmoothedMetric metric(space, Options(SmoothedAt::kPosition, 0.2));
+  const SmoothedMetric metric(space, 0.2);
   double jumps = 0.0, most = 0.0;
   Vector3d last = Vector3d::Zero(), last_euclidean = Vector3d::Zero();
   for (int i = 0; i <= 1000; ++i) {
@@ -162,12 +155,12 @@ TEST(SmoothedMetric, TurnsWithTheShapeAndScalesWithIt) {
   const Eigen::Matrix3d turn = GenericRotation();
   TriangleMesh large = mesh;
   for (Vector3d& v : large.vertices) v *= 1024.0;
-  const SmoothedMetricOptions options = Options(SmoothedAt::kPosition, 0.2);
+  const double ell = 0.2;
   const ContactSpace space = TakeAsContactSpace(mesh);
-  const SmoothedMetric metric(space, options),
-      scaled(TakeAsContactSpace(large), options),
+  const SmoothedMetric metric(space, ell),
+      scaled(TakeAsContactSpace(large), ell),
       turned(TakeAsContactSpace(Rotated(mesh, turn)).WithLength(space.length()),
-             options);
+             ell);
   int tested = 0;
   for (const Vector3d& q : RandomPoints(mesh, 300)) {
     const PenetrationResult found = metric.Query(q);
@@ -205,11 +198,10 @@ TEST(SmoothedMetric, AnswersWithoutAllocationAndWithoutNaN) {
 TEST(SmoothedMetric, RefusesLengthsThatAreNone) {
   const ContactSpace space = TakeAsContactSpace(MakeIcoBall(1.0, 1));
   for (const double ell : {0.0, -0.1, 1e-12, 1.1, std::nan("")}) {
-    EXPECT_THROW(SmoothedMetric(space, Options(SmoothedAt::kPosition, ell)),
-                 InputError);
+    EXPECT_THROW(SmoothedMetric(space, ell), InputError);
   }
   for (const double ell : {1e-9, 1.0}) {
-    const SmoothedMetric metric(space, Options(SmoothedAt::kContact, ell));
+    const SmoothedMetric metric(space, ell, SmoothedAt::kContact);
     EXPECT_EQ(metric.Query({0.1, 0.2, 0.3}).status, QueryStatus::kOk) << ell;
   }
 }

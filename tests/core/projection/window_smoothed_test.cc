@@ -27,11 +27,12 @@ struct Tally {
 
 // Random points about the contact space, all asked of both.
 void Compare(const TriangleMesh& robot, const TriangleMesh& obstacle,
-             const SmoothedMetricOptions& options, int points,
+             double smoothing_length, SmoothedAt at, int points,
              std::mt19937_64* random, Tally* tally) {
   const ContactSpace space = BuildContactSpace(robot, obstacle);
-  const SmoothedMetric truth(space, options);
-  WindowSmoothed smoothed(ConvolutionModel(robot, obstacle), options);
+  const SmoothedMetric truth(space, smoothing_length, at);
+  WindowSmoothed smoothed(ConvolutionModel(robot, obstacle), smoothing_length,
+                          at);
   const double diagonal = space.bounds().Diagonal();
   for (int i = 0; i < points; ++i) {
     const Vector3d q = testing::RandomPoint(space.bounds(), random);
@@ -50,7 +51,7 @@ void Compare(const TriangleMesh& robot, const TriangleMesh& obstacle,
     tally->windows += found.level == DepthLevel::kWindow ? 1 : 0;
     // Euclid's direction may be that to another contact as near.
     if (expected.status != QueryStatus::kOk ||
-        (options.at == SmoothedAt::kContact &&
+        (at == SmoothedAt::kContact &&
          (answer.contact - expected.contact).norm() > 1e-9 * diagonal)) {
       continue;
     }
@@ -69,10 +70,8 @@ TEST(WindowSmoothed, AgreesWithTheWholeContactSpace) {
     SCOPED_TRACE(Name(kinds[i]));
     const SolidPair pair = MakeRandomPair(kinds[i], 1);
     for (const SmoothedAt at : {SmoothedAt::kPosition, SmoothedAt::kContact}) {
-      SmoothedMetricOptions options;
-      options.at = at;
-      options.smoothing_length = i % 2 == 0 ? 0.02 : 0.1;
-      Compare(pair.robot, pair.obstacle, options, 24, &random, &tally);
+      const double ell = i % 2 == 0 ? 0.02 : 0.1;
+      Compare(pair.robot, pair.obstacle, ell, at, 24, &random, &tally);
     }
   }
   EXPECT_GT(tally.inside, 30);
@@ -84,9 +83,8 @@ TEST(WindowSmoothed, TakesWindowsForShortLengthsAndTheWholeForLongOnes) {
   const TriangleMesh knot = MakeKnot(1.0, 0.3, 96, 16);
   for (const double ell : {0.01, 0.5}) {
     Tally tally;
-    SmoothedMetricOptions options;
-    options.smoothing_length = ell;
-    Compare(MakeIcoBall(0.4, 1), knot, options, 100, &random, &tally);
+    Compare(MakeIcoBall(0.4, 1), knot, ell, SmoothedAt::kPosition, 100, &random,
+            &tally);
     EXPECT_GT(tally.inside, 8);
     if (ell < 0.1) {
       EXPECT_GT(tally.windows, tally.inside / 2);
@@ -98,9 +96,7 @@ TEST(WindowSmoothed, TakesWindowsForShortLengthsAndTheWholeForLongOnes) {
 
 TEST(WindowSmoothed, RefusesWhatIsNone) {
   const ConvolutionModel model(testing::Cube(1.0), testing::Cube(2.0));
-  SmoothedMetricOptions options;
-  options.smoothing_length = 0.0;
-  EXPECT_THROW(WindowSmoothed(model, options), InputError);
+  EXPECT_THROW(WindowSmoothed(model, 0.0), InputError);
   WindowSmoothed smoothed(model);
   const double infinity = std::numeric_limits<double>::infinity();
   EXPECT_EQ(smoothed.At({infinity, 0, 0}).answer.status, QueryStatus::kInvalid);

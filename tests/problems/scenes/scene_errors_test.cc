@@ -146,7 +146,8 @@ TEST(SceneErrors, NameFilePlaceExpectedAndFound) {
        "surface and export it again"},
       {"/penetration/metric", "manhattan",
        "s.json: /penetration/metric: expected one of \"phong\", "
-       "\"euclidean\", found \"manhattan\""},
+       "\"euclidean\", \"smoothed\", \"smoothed-foot\", found "
+       "\"manhattan\""},
       {"/penetration/smoothing_length", 1.5,
        "s.json: /penetration/smoothing_length: expected at most 1 (the world's "
        "diagonal D), found 1.5"},

@@ -85,6 +85,15 @@ TEST(Scene, NeedsOnlySolidsStartAndGoal) {
   EXPECT_EQ(ComputeBounds(scene.workspace.robot).max, Vector3d(0.5, 0.5, 0.5));
 }
 
+TEST(Scene, KnowsEveryMetric) {
+  for (const std::string& name : MetricNames()) {
+    Json json = SmallScene();
+    json["penetration"]["metric"] = name;
+    const Scene scene = ParseScene(json, "s.json");
+    EXPECT_EQ(ToString(scene.penetration.metric), name);
+  }
+}
+
 TEST(Scene, ReadsEverySetting) {
   const Scene scene = ParseScene(FullScene(), "s.json");
   EXPECT_EQ(scene.name, "full");
