@@ -21,11 +21,11 @@ constexpr double kLeastMillimetres = 20.0;
 
 // Shares of C's diagonal: what is rounded to, the room between C and start or
 // goal, and that between C and the bounds.
-constexpr double kStep = 0.01;
-constexpr double kGap = 0.1;
-constexpr double kRoom = 0.2;
+constexpr double kGuessStep = 0.01;
+constexpr double kStartGap = 0.1;
+constexpr double kBoundsRoom = 0.2;
 
-std::string ExtensionOf(const std::string& name) {
+std::string MeshEndingOf(const std::string& name) {
   std::string extension =
       std::filesystem::path(name.substr(0, FilePartOf(name)))
           .extension()
@@ -36,10 +36,10 @@ std::string ExtensionOf(const std::string& name) {
   return extension;
 }
 
-// To a power of ten that is at most kStep of the diagonal, so that its decimal
-// text is short.
+// To a power of ten that is at most kGuessStep of the diagonal, so that its
+// decimal text is short.
 Vector3d RoundedPoint(const Vector3d& point, double diagonal) {
-  const double digits = std::floor(std::log10(kStep * diagonal));
+  const double digits = std::floor(std::log10(kGuessStep * diagonal));
   const double step = std::pow(10.0, std::abs(digits));  // exact up to 1e22
   return point.unaryExpr([&](double x) {
     const double rounded = digits < 0.0 ? std::round(x * step) / step
@@ -51,7 +51,7 @@ Vector3d RoundedPoint(const Vector3d& point, double diagonal) {
 void GuessUnit(const std::string& robot_file, const std::string& obstacle_file,
                double size, SceneGuess* guess) {
   for (const std::string& file : {robot_file, obstacle_file}) {
-    const std::string extension = ExtensionOf(file);
+    const std::string extension = MeshEndingOf(file);
     const bool is_metres = extension == ".urdf" || extension == ".sdf" ||
                            extension == ".gltf" || extension == ".glb";
     if (!is_metres && extension != ".3mf") continue;
@@ -71,12 +71,12 @@ std::string Quoted(const std::string& text) {
       -1, ' ', true, nlohmann::ordered_json::error_handler_t::replace);
 }
 
-std::string Numbers(const Vector3d& point) {
+std::string GuessText(const Vector3d& point) {
   return "[" + FormatDouble(point.x()) + ", " + FormatDouble(point.y()) + ", " +
          FormatDouble(point.z()) + "]";
 }
 
-std::string Mesh(const std::string& file, const std::string& repair) {
+std::string MeshKeys(const std::string& file, const std::string& repair) {
   return "\"mesh\": " + Quoted(file) +
          (repair == "reject" ? "" : ", \"repair\": " + Quoted(repair));
 }
@@ -98,9 +98,9 @@ SceneGuess GuessScene(const TriangleMesh& robot, const std::string& robot_file,
             &guess);
   const Vector3d middle = 0.5 * (contact.min + contact.max);
   guess.start = guess.goal = middle;
-  guess.start.x() = contact.min.x() - kGap * diagonal;
-  guess.goal.x() = contact.max.x() + kGap * diagonal;
-  const Vector3d room = Vector3d::Constant(kRoom * diagonal);
+  guess.start.x() = contact.min.x() - kStartGap * diagonal;
+  guess.goal.x() = contact.max.x() + kStartGap * diagonal;
+  const Vector3d room = Vector3d::Constant(kBoundsRoom * diagonal);
   guess.bounds = {contact.min - room, contact.max + room};
   for (Vector3d* const point :
        {&guess.start, &guess.goal, &guess.bounds.min, &guess.bounds.max}) {
@@ -127,22 +127,22 @@ std::string NewSceneText(const SceneGuess& guess, const std::string& robot_file,
 
   // What moves, without turning.  At position q it is its mesh moved by q.
   "robot": { )" +
-         Mesh(robot_file, repair) + R"( },
+         MeshKeys(robot_file, repair) + R"( },
   // What stays; add more after a comma.  "position": [x, y, z] moves one,
   // "scale": 1000 makes mm of m.
   "obstacles": [ { "id": "obstacle", )" +
-         Mesh(obstacle_file, repair) + R"( } ],
+         MeshKeys(obstacle_file, repair) + R"( } ],
 
   // Guesses: on both sides of the obstacle along x, clear of its box.
   "start": )" +
-         Numbers(guess.start) + R"(,
+         GuessText(guess.start) + R"(,
   "goal": )" +
-         Numbers(guess.goal) + R"(,
+         GuessText(guess.goal) + R"(,
   // A guess: where q may be, with room to pass around the obstacle.
   "bounds": { "min": )" +
-         Numbers(guess.bounds.min) + R"(,
+         GuessText(guess.bounds.min) + R"(,
               "max": )" +
-         Numbers(guess.bounds.max) + R"( }
+         GuessText(guess.bounds.max) + R"( }
 
   // For a motion in time, in )" +
          unit + R"( and seconds; put the limits of your machine:
