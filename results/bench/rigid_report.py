@@ -34,7 +34,8 @@ NOTES = """\
   free. Undecided counts as not free.
 - Planners: OMPL's with their own defaults, or tuned by one rule for all scenes (the
   object norm as metric, the robot's reach as range). Without a path a run counts
-  as longer than its limit. Wrong: a path with a motion that is proved to collide.
+  as longer than its limit. Wrong: a path with a motion that is proved to collide,
+  by our judge. Rows with fewer runs than others were cut short by `--minutes`.
 - Times are processor seconds of one thread; other jobs shared the machine.
 """
 
