@@ -21,7 +21,7 @@ struct RigidRequest {
   Eigen::AlignedBox3d bounds{};
   double time_limit = 10.0;  // seconds of wall time, in (0, 1e9]
   std::uint64_t seed = 1;
-  // Asked every few milliseconds; true ends the search as the time limit does.
+  // Asked before every motion that is judged; true ends it as time does.
   std::function<bool()> is_interrupted{};
   // Paths as found have hundreds of poses; shortened they are cut across and
   // lose what they can do without.
@@ -75,7 +75,7 @@ struct RigidAnswer {
 // unless time runs out; random numbers come from the seed alone.
 //
 // Throws InputError for bad requests.  Thread-safe; runs in the caller's
-// thread. Memory grows with time, by about 20 MB a minute.
+// thread.  Memory grows with time, by tens of MB a minute.
 RigidAnswer Plan(const RigidWorld& world, const RigidRequest& request);
 
 }  // namespace phongpd

@@ -10,8 +10,8 @@ namespace phongpd::internal {
 namespace {
 
 // Cuts in vain, one after the other, after which it ends, and of all.
-constexpr int kVainCuts = 60;
-constexpr int kMaxCuts = 600;
+constexpr int kVainCuts = 200;
+constexpr int kMaxCuts = 1000;
 // A cut gains more than that share of what it replaces.
 constexpr double kLeastGain = 1e-3;
 

@@ -15,7 +15,7 @@ import re
 import sys
 
 # 77, and the 6 of RowsOptions, which Python took as arguments.
-MOST_OPTIONS = 83
+MOST_OPTIONS = 90
 MOST_OF_A_RUN = 43
 
 NAME = r"\w+(?:Options|Settings|Request|Limits|Search|Cache)"
