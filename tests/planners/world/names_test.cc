@@ -68,22 +68,29 @@ TEST(Names, OfMetricsReadBack) {
         "smoothed@0.2", "smoothed-foot@0.5unit"}) {
     EXPECT_EQ(ParsePenetration(name, "metric").Name(), name);
   }
-  EXPECT_THROW(ParsePenetration(name, "metric"), InputError) << name;
-}
-// As flags name the kind alone: all else is the default.
-EXPECT_EQ(ParsePenetration("phong", "metric").Name(), PenetrationSpec().Name());
-// Of Euclid nothing else counts; a length beyond D is no share of it.
-PenetrationSpec spec;
-spec.metric = MetricKind::kEuclidean;
-spec.jacobian = JacobianKind::kExact;
-EXPECT_EQ(spec.Options(1.0).jacobian, JacobianKind::kDirection);
-spec = ParsePenetration("phong@3unit", "metric");
-EXPECT_DOUBLE_EQ(spec.Options(10.0).phong.field_options.smoothing_length, 0.3);
-EXPECT_THROW(spec.Options(2.0), InputError);
-for (const std::string& name : MetricNames()) {
-  EXPECT_EQ(ToString(ParseMetricKind(name, "metric")), name);
-}
-EXPECT_THROW(ParseMetricKind("smooth", "metric"), InputError);
+  for (const char* name :
+       {"", "phongg", "phong@", "phong@-1", "phong@0.1/some",
+        "phong@0.1/exact/tangent-plane/exact", "euclid", "euclidean@0.2",
+        "smoothed@", "smoothed@0", "smoothed@0.2/exact", "smooth@0.2",
+        "@0.2"}) {
+    EXPECT_THROW(ParsePenetration(name, "metric"), InputError) << name;
+  }
+  // As flags name the kind alone: all else is the default.
+  EXPECT_EQ(ParsePenetration("phong", "metric").Name(),
+            PenetrationSpec().Name());
+  // Of Euclid nothing else counts; a length beyond D is no share of it.
+  PenetrationSpec spec;
+  spec.metric = MetricKind::kEuclidean;
+  spec.jacobian = JacobianKind::kExact;
+  EXPECT_EQ(spec.Options(1.0).jacobian, JacobianKind::kDirection);
+  spec = ParsePenetration("phong@3unit", "metric");
+  EXPECT_DOUBLE_EQ(spec.Options(10.0).phong.field_options.smoothing_length,
+                   0.3);
+  EXPECT_THROW(spec.Options(2.0), InputError);
+  for (const std::string& name : MetricNames()) {
+    EXPECT_EQ(ToString(ParseMetricKind(name, "metric")), name);
+  }
+  EXPECT_THROW(ParseMetricKind("smooth", "metric"), InputError);
 }
 
 TEST(Names, OfSmoothedMetricsTakeALengthAndTheDirectionAlone) {
@@ -92,8 +99,7 @@ TEST(Names, OfSmoothedMetricsTakeALengthAndTheDirectionAlone) {
             "smoothed-foot@0.2");
   PenetrationSpec spec = ParsePenetration("smoothed@3unit", "metric");
   EXPECT_EQ(spec.Options(10.0).metric, MetricKind::kSmoothed);
-  EXPECT_DOUBLE_EQ(spec.Options(10.0).phong.field_options.smoothing_length,
-                   0.3);
+  EXPECT_DOUBLE_EQ(spec.Options(10.0).smoothing_length, 0.3);
   EXPECT_THROW(spec.Options(2.0), InputError);
   spec.metric = MetricKind::kSmoothedFoot;
   EXPECT_EQ(spec.Name(), "smoothed-foot@3unit");
