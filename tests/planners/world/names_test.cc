@@ -99,7 +99,8 @@ TEST(Names, OfSmoothedMetricsTakeALengthAndTheDirectionAlone) {
             "smoothed-foot@0.2");
   PenetrationSpec spec = ParsePenetration("smoothed@3unit", "metric");
   EXPECT_EQ(spec.Options(10.0).metric, MetricKind::kSmoothed);
-  EXPECT_DOUBLE_EQ(spec.Options(10.0).smoothing_length, 0.3);
+  EXPECT_DOUBLE_EQ(spec.Options(10.0).phong.field_options.smoothing_length,
+                   0.3);
   EXPECT_THROW(spec.Options(2.0), InputError);
   spec.metric = MetricKind::kSmoothedFoot;
   EXPECT_EQ(spec.Name(), "smoothed-foot@3unit");
