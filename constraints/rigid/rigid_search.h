@@ -28,10 +28,10 @@ RigidFirstHit SearchFirstHit(const RigidSides& sides,
 
 // Motions below are not halved further: of half the robot's diagonal, and of
 // the rounding.
-constexpr double kRigidResolution = 1e-7;
-constexpr double kRigidSlacks = 4.0;
+inline constexpr double kRigidResolution = 1e-7;
+inline constexpr double kRigidSlacks = 4.0;
 // What is undecided is looked at further, for a collision, but not forever.
-constexpr long kFurtherRigidTests = 10'000;
+inline constexpr long kFurtherRigidTests = 10'000;
 
 inline double ResolutionOf(const RigidSides& sides,
                            const FramedMotion& motion) {
