@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Sets up, builds what it needs and shows in build/demo/: the paper's three
 # benchmarks, a trajectory out of a trap with both metrics, one that a gantry
-# runs, and a path through a narrow passage beside the proof that its closed twin
-# has none.
+# runs, robots that change places, a body that turns, and a path through a narrow
+# passage beside the proof that its closed twin has none.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 # The user's own cache is neither used nor filled.
@@ -66,6 +66,14 @@ echo "A gantry's trajectory, in millimetres, within its limits, by way of a came
 run optimize examples/gantry.json --output "$demo/gantry.json" \
   --html "$demo/gantry.html" | note gantry
 run optimize examples/gantry.json --rate 250 --output "$demo/gantry.csv" >/dev/null
+
+echo
+echo "Three carriages that change places past a column:"
+run optimize examples/robots.json --html "$demo/robots.html" | note robots
+
+echo
+echo "An L that has to turn to get through a window:"
+run plan examples/turning.json --html "$demo/turning.html" | note turning
 
 echo
 echo "A passage one thousandth wide, and the same closed by a ten-thousandth:"

@@ -104,6 +104,17 @@ time, and the chart says what it asks of the limits.</p>'
   echo '<p>For its controller: <a href="gantry.csv">rows every 4 ms</a>, <a
 href="gantry.json">the curve</a>; <code>.gcode</code> and ROS 2 by the name of the
 file.</p>'
+  echo '</section><section><h2>Robots that change places</h2>
+<p>Three carriages of a table, each with limits of its own, past a column. Every pair
+keeps apart for all t, proved on the curves; one waits, or goes first.</p>'
+  frame robots.html "Three robots that change places, in one time"
+  said robots.txt
+  echo '</section><section><h2>A body that turns through a window</h2>
+<p>Neither leg of the L fits through with the other beside it: it goes through one leg
+first, and turns. Between two poses it moves and turns at once, and every such motion
+is proved free for all t. Not to find a way would prove nothing here.</p>'
+  frame turning.html "An L on its way through a window"
+  table turning.txt
   echo '</section><section><h2>A passage a thousandth wide, and a proof</h2>
 <p>A channel a thousandth wide, and the same closed by a ten-thousandth. A proof says
 that start and goal lie in different cells of free space; a sampler can find a path, and

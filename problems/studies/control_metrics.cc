@@ -95,8 +95,8 @@ double LotOf(const Vector3d& q) {
 
 class PlaceboMetric final : public PenetrationMetric {
  public:
-  PlaceboMetric(const ContactSpace& space, const SmoothedMetricOptions& options)
-      : smoothed_(space, options), euclidean_(space) {}
+  PlaceboMetric(const ContactSpace& space, double smoothing_length)
+      : smoothed_(space, smoothing_length), euclidean_(space) {}
 
   using PenetrationMetric::Query;
   PenetrationResult Query(const Vector3d& q, const Branch&) const override {
@@ -125,9 +125,7 @@ std::shared_ptr<const PenetrationMetric> MakeDiffusedMetric(
 
 std::shared_ptr<const PenetrationMetric> MakePlaceboMetric(
     const ContactSpace& space, double smoothing_length) {
-  SmoothedMetricOptions options;
-  options.smoothing_length = smoothing_length;
-  return std::make_shared<PlaceboMetric>(space, options);
+  return std::make_shared<PlaceboMetric>(space, smoothing_length);
 }
 
 }  // namespace phongpd
