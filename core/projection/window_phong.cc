@@ -12,23 +12,14 @@
 
 #include "core/bvh/closest_on_triangle.h"
 #include "core/bvh/triangle_corners.h"
-#include "core/contact/explored_boxes.h"
 #include "core/mesh/finite.h"
 #include "core/mesh/union_find.h"
+#include "core/projection/window_reach.h"
 
 namespace phongpd {
 namespace {
 
 using Eigen::Vector3d;
-
-// Facets of the convolution that meet a box, about.
-constexpr std::size_t kMostFacetsOfBox = 200;
-// Half-width of the first window, a share of the longest side of all sums, and
-// of each further one to the one before.
-constexpr double kFirstReach = 1.0 / 64, kMoreReach = 2.0;
-// What rounding may make of the two lengths that are compared.
-constexpr double kCertainShare = 1.0 - 1e-9;
-constexpr char kWindowName[] = "window of the contact space";
 
 // Shares of D: triangles that are lower have normals that depend on where the
 // field's frame is.
@@ -107,7 +98,7 @@ struct WindowPhong::Impl {
   Impl(const ConvolutionModel& the_model, const PhongMetricOptions& the_options)
       : model(the_model),
         options((the_options.Validate(), the_options)),
-        boxes(model, kMostFacetsOfBox) {}
+        boxes(model, internal::kWindowFacets) {}
 
   // To what lies beyond the window, or is not the whole's, at least.
   double DistanceToOthers(const Vector3d& q, const Vector3d& x) const {
@@ -127,7 +118,7 @@ struct WindowPhong::Impl {
   std::optional<PenetrationResult> FromWindow(const Vector3d& q,
                                               const Vector3d& x) const {
     if (!window) return std::nullopt;
-    const double certain = kCertainShare * DistanceToOthers(q, x);
+    const double certain = internal::kCertainShare * DistanceToOthers(q, x);
     if (certain <= 0.0) return std::nullopt;
     const PenetrationResult found = window->metric.Query(q);
     const bool is_certain =
@@ -137,18 +128,10 @@ struct WindowPhong::Impl {
     return is_certain ? std::optional(found) : std::nullopt;
   }
 
-  ContactSpace Explore(const std::vector<int>& part, bool is_all) {
-    for (const int box : part) boxes.Explore(box);
-    ContactSpace::Parts parts =
-        boxes.Surface(part, [](int, int) { return true; });
-    if (is_all) internal::DropWalls(&parts);
-    return ContactSpace(std::move(parts), kWindowName);
-  }
-
   const PhongMetric& Whole() {
     if (!whole) {
       const BoundingBox everything = boxes.Around(0.0).Box();
-      whole.emplace(Explore(boxes.In(everything), true)
+      whole.emplace(internal::ExploreWindow(boxes.In(everything), true, &boxes)
                         .WithLength(model.bounds().Diagonal()),
                     options);
       window.reset();
@@ -165,16 +148,16 @@ struct WindowPhong::Impl {
     boxes.RestartLimits();
     const std::size_t before = boxes.faces();
     std::optional<PenetrationResult> found;
-    for (double reach = kFirstReach * longest; !found && !whole;
-         reach *= kMoreReach) {
+    for (double reach = internal::kFirstReach * longest; !found && !whole;
+         reach *= internal::kMoreReach) {
       const BoundingBox cube{x.array() - reach, x.array() + reach};
       if (options.field_options.smoothing_length > 0.0 ||
           ((cube.min.array() <= all.min.array()).all() &&
            (cube.max.array() >= all.max.array()).all())) {
         break;
       }
-      window.emplace(Explore(boxes.In(cube), false), cube,
-                     kLowest * model.bounds().Diagonal(), options);
+      window.emplace(internal::ExploreWindow(boxes.In(cube), false, &boxes),
+                     cube, kLowest * model.bounds().Diagonal(), options);
       ++out->windows;
       found = FromWindow(q, x);
     }

@@ -10,23 +10,16 @@
 #include <utility>
 #include <vector>
 
-#include "core/contact/explored_boxes.h"
 #include "core/mesh/finite.h"
+#include "core/projection/window_reach.h"
 
 namespace phongpd {
 namespace {
 
 using Eigen::Vector3d;
 
-// Facets of the convolution that meet a box, about.
-constexpr std::size_t kMostFacetsOfBox = 200;
-// Half-width of the first window, in what is known to be needed, and at least
-// a share of the longest side of all sums; of each further one to the one
-// before.
-constexpr double kFirstReach = 1.1, kLeastReach = 1.0 / 64, kMoreReach = 2.0;
-// What rounding may make of the two lengths that are compared.
-constexpr double kCertainShare = 1.0 - 1e-9;
-constexpr char kWindowName[] = "window of the contact space";
+// Half-width of the first window, in what is known to be needed.
+constexpr double kFirstShare = 1.1;
 
 }  // namespace
 
@@ -44,12 +37,12 @@ struct WindowSmoothed::Impl {
         smoothing_length(the_length),
         at(the_at),
         radius(SmoothedRadius(smoothing_length, model.bounds().Diagonal())),
-        boxes(model, kMostFacetsOfBox) {}
+        boxes(model, internal::kWindowFacets) {}
 
   // From q to the cube's walls at most, user's unit; < 0 outside.
   double MarginOf(const Window& of, const Vector3d& x) const {
     if (of.is_all) return std::numeric_limits<double>::infinity();
-    return kCertainShare * boxes.frame().step *
+    return internal::kCertainShare * boxes.frame().step *
            (x - of.cube.min).cwiseMin(of.cube.max - x).minCoeff();
   }
 
@@ -73,11 +66,7 @@ struct WindowSmoothed::Impl {
   void Build(const BoundingBox& cube, bool is_all) {
     const std::vector<int> part =
         boxes.In(is_all ? boxes.Around(0.0).Box() : cube);
-    for (const int box : part) boxes.Explore(box);
-    ContactSpace::Parts parts =
-        boxes.Surface(part, [](int, int) { return true; });
-    if (is_all) internal::DropWalls(&parts);
-    const ContactSpace space = ContactSpace(std::move(parts), kWindowName)
+    const ContactSpace space = internal::ExploreWindow(part, is_all, &boxes)
                                    .WithLength(model.bounds().Diagonal());
     window.emplace(Window{space, SmoothedMetric(space, smoothing_length, at),
                           cube, is_all});
@@ -88,10 +77,11 @@ struct WindowSmoothed::Impl {
     boxes.RestartLimits();
     const std::size_t before = boxes.faces();
     const BoundingBox all = boxes.bounds();
-    double reach = std::max(kFirstReach * radius / boxes.frame().step,
-                            kLeastReach * (all.max - all.min).maxCoeff());
+    double reach =
+        std::max(kFirstShare * radius / boxes.frame().step,
+                 internal::kFirstReach * (all.max - all.min).maxCoeff());
     std::optional<PenetrationResult> found = FromWindow(q, x);
-    for (; !found; reach *= kMoreReach) {
+    for (; !found; reach *= internal::kMoreReach) {
       const BoundingBox cube{x.array() - reach, x.array() + reach};
       Build(cube, (cube.min.array() <= all.min.array()).all() &&
                       (cube.max.array() >= all.max.array()).all());

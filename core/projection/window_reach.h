@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+#include "core/contact/contact_space.h"
+#include "core/contact/explored_boxes.h"
+
+// What metrics by windows (window_phong.h, window_smoothed.h) have in common.
+namespace phongpd::internal {
+
+// Facets of the convolution that meet a box, about.
+inline constexpr std::size_t kWindowFacets = 200;
+// Half-width of the first window, a share of the longest side of all sums, and
+// of each further one to the one before.
+inline constexpr double kFirstReach = 1.0 / 64, kMoreReach = 2.0;
+// What rounding may make of the two lengths that are compared.
+inline constexpr double kCertainShare = 1.0 - 1e-9;
+
+// The contact space in these boxes, behind walls but where they are all.
+inline ContactSpace ExploreWindow(const std::vector<int>& part, bool is_all,
+                                  ExploredBoxes* boxes) {
+  for (const int box : part) boxes->Explore(box);
+  ContactSpace::Parts parts =
+      boxes->Surface(part, [](int, int) { return true; });
+  if (is_all) DropWalls(&parts);
+  return ContactSpace(std::move(parts), "window of the contact space");
+}
+
+}  // namespace phongpd::internal
