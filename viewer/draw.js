@@ -170,6 +170,8 @@ class DrawnViewer extends Viewer {
       const length = way.lengths[way.lengths.length - 1] * data.scale;
       if (where && way.pace) {
         where.textContent = paceText(this, way.pace);
+      } else if (where && way.turns) {
+        where.textContent = Math.round(100 * state.time) + ' % · ' + point;
       } else if (where) {
         where.textContent = this.number(state.time * length) + ' of ' +
             this.text(length) + ' · ' + point;

@@ -134,7 +134,7 @@ class Panel {
     stage.ways.forEach((way, i) => {
       if (way.kind === 'motion') return;
       const isEmpty = way.points.length === 0;
-      const length = isEmpty ? 0 : way.lengths[way.lengths.length - 1];
+      const length = isEmpty ? 0 : lengthsOf(way.points).pop();
       const more = isEmpty ? 'no path'
           : way.kind === 'answers' || way.points.length < 2 ? ''
           : (way.free ? '' : 'collides · ') +

@@ -42,12 +42,12 @@ void AddStartFlags(CLI::App* app, OptimizeFlags* flags) {
                   "complete planner (repaired and planner mean the same)")
       ->check(CLI::IsMember({"straight", "repaired", "planner"}))
       ->capture_default_str();
-  app->add_option("--start-noise", flags->noise,
+  app->add_option("--start-noise", flags->check(Between(0, 10))->noise,
                   "Of the waypoints of a straight start, as a fraction of its "
                   "length")
       ->type_name("F")
       ->capture_default_str();
-  app->add_option("--routes", flags->routes,
+  app->add_option("--routes", flags->check(Between(1, 8))->routes,
                   "Ways around the obstacles to optimise, 1 to 8 (preset's own "
                   "if not set)")
       ->type_name("N");
@@ -57,7 +57,8 @@ void AddStartFlags(CLI::App* app, OptimizeFlags* flags) {
 }
 
 void AddSolverFlags(CLI::App* app, OptimizeFlags* flags) {
-  app->add_option("--rows", flags->rows, "Constraint rows a sample, 1 to 8")
+  app->add_option("--rows", flags->check(Between(1, 8))->rows,
+                  "Constraint rows a sample, 1 to 8")
       ->type_name("K")
       ->capture_default_str();
   app->add_option("--mu-strategy", flags->mu_strategy, "Ipopt's own")
