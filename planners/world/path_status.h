@@ -11,9 +11,10 @@ enum class PathStatus {
   kPolished,         // the corridor converged to it
   kStalledFeasible,  // nothing converged
   // There is a motion in time, certified for all t; the search for a faster one
-  kConverged,    // gains next to nothing
-  kRoundLimit,   // still gained
-  // Ended from outside; a planner for bodies that turn had not found a path yet.
+  kConverged,   // gains next to nothing
+  kRoundLimit,  // still gained
+  // Ended from outside; a planner for bodies that turn had not found a path
+  // yet.
   kInterrupted,
   // Time was up: of a motion, which there is, for a faster one; of a sampler
   // before it had found a path.

@@ -80,11 +80,12 @@ PenetrationSpec ParsePenetration(const std::string& text,
   if (is_known) spec.metric = static_cast<MetricKind>(found - names.begin());
   const bool has_length = at != std::string::npos;
   if (!is_known || (has_length && !HasLength(spec.metric))) {
-    throw InputError(what +
-                     ": expected euclidean, phong[@LENGTH], phong@LENGTH/exact, "
-                     "phong@LENGTH/tangent-plane, smoothed[@LENGTH] or "
-                     "smoothed-foot[@LENGTH], found '" +
-                     text + "'");
+    throw InputError(
+        what +
+        ": expected euclidean, phong[@LENGTH], phong@LENGTH/exact, "
+        "phong@LENGTH/tangent-plane, smoothed[@LENGTH] or "
+        "smoothed-foot[@LENGTH], found '" +
+        text + "'");
   }
   if (!has_length) return spec;
   std::string length = text.substr(at + 1);

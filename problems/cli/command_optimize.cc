@@ -196,16 +196,15 @@ int OptimizeInTime(const OptimizeFlags& flags, const MotionLimits& limits,
   Override(flags, &scene);
   SetTask(flags.motion, &scene);
   scene.limits = limits;
-  return AnswerInTime(
-      scene, TimedFlagsOf(flags),
-      [&](const World& world, const OptimizeRequest& request) {
-        PathAnswer answer = Optimize(world, request);
-        if (flags.explain) {
-          TellExplanation(
-              ExplainTrajectory(*flags.app, world, request, answer));
-        }
-        return answer;
-      });
+  return AnswerInTime(scene, TimedFlagsOf(flags),
+                      [&](const World& world, const OptimizeRequest& request) {
+                        PathAnswer answer = Optimize(world, request);
+                        if (flags.explain) {
+                          TellExplanation(ExplainTrajectory(*flags.app, world,
+                                                            request, answer));
+                        }
+                        return answer;
+                      });
 }
 
 // Of several robots each has its own task; limits that are given hold for all.

@@ -8,9 +8,9 @@
 #include "core/mesh/input_file.h"
 #include "problems/output/text.h"
 #include "problems/scenes/json_schema.h"
-#include "problems/scenes/turning_scene.h"
 #include "problems/scenes/scene_parts.h"
 #include "problems/scenes/scene_schema.h"
+#include "problems/scenes/turning_scene.h"
 
 namespace phongpd {
 namespace {

@@ -7,8 +7,8 @@
 #include <string>
 
 #include "problems/scenes/fleet_scene.h"
-#include "problems/scenes/turning_scene.h"
 #include "problems/scenes/scene.h"
+#include "problems/scenes/turning_scene.h"
 
 namespace phongpd {
 

@@ -68,11 +68,10 @@ TEST(Names, OfMetricsReadBack) {
         "smoothed@0.2", "smoothed-foot@0.5unit"}) {
     EXPECT_EQ(ParsePenetration(name, "metric").Name(), name);
   }
-  for (const char* name :
-       {"", "phongg", "phong@", "phong@-1", "phong@0.1/some",
-        "phong@0.1/exact/tangent-plane/exact", "euclid", "euclidean@0.2",
-        "smoothed@", "smoothed@0", "smoothed@0.2/exact", "smooth@0.2",
-        "@0.2"}) {
+  for (const char* name : {"", "phongg", "phong@", "phong@-1", "phong@0.1/some",
+                           "phong@0.1/exact/tangent-plane/exact", "euclid",
+                           "euclidean@0.2", "smoothed@", "smoothed@0",
+                           "smoothed@0.2/exact", "smooth@0.2", "@0.2"}) {
     EXPECT_THROW(ParsePenetration(name, "metric"), InputError) << name;
   }
   // As flags name the kind alone: all else is the default.
