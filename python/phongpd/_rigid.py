@@ -98,11 +98,12 @@ class RigidJudge:
     def first_hit(self, start: ArrayLike, end: ArrayLike, *,
                   resolution: float = 1e-9) -> RigidFirstHit:
         """The first contact on the way: an interval as short as `resolution`, a
-        share of the way, or as rounding allows; 2 to 5 times as long as
+        share of the way, or as rounding allows; some times as long as
         check."""
-        return RigidFirstHit(*self._native.first_hit(
-            np.stack([_pose(start, "start"), _pose(end, "end")]),
-            ["start", "end"], resolution))
+        poses = np.stack([_pose(start, "start"), _pose(end, "end")])
+        status, first, last, robot, obstacle, tests = self._native.first_hit(
+            poses, ["start", "end"], resolution)
+        return RigidFirstHit(status, first, last, robot, obstacle, tests)
 
     def check_path(self, poses: ArrayLike) -> list[RigidCheck]:
         """Of a way through poses, (N, 4, 4): N - 1 answers, a motion each."""
