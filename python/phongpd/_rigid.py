@@ -103,7 +103,7 @@ class RigidJudge:
         poses = np.stack([_pose(start, "start"), _pose(end, "end")])
         status, first, last, robot, obstacle, tests = self._native.first_hit(
             poses, ["start", "end"], resolution)
-        return RigidFirstHit(status, first, last, robot, obstacle, tests)
+        return RigidFirstHit(status, (first, last), robot, obstacle, tests)
 
     def check_path(self, poses: ArrayLike) -> list[RigidCheck]:
         """Of a way through poses, (N, 4, 4): N - 1 answers, a motion each."""
