@@ -173,17 +173,25 @@ def report(folder, how):
     text = [
         "# Which direction helps a solver", "",
         f"{problems} problems: {len({row['scene'] for row in rows})} scenes of "
-        f"{families} families, seeds {seeds[0]} to {seeds[-1]}, none of which "
-        "anything was developed on. What was asked, how it is counted and what "
-        "follows was written down before: [protocol.md](protocol.md). All rows: "
+        f"{families} families, seeds {seeds[0]} to {seeds[-1]},",
+        "on none of which anything was developed. What was asked, how it is counted "
+        "and what",
+        "follows from it was written down before: [protocol.md](protocol.md). All rows:",
         "[rows.csv](rows.csv).", "",
+        f"Of {len(found)} comparisons " + ", ".join(
+            f"{sum(one['verdict'] == word for one in found)} {name}"
+            for word, name in (("win", "are wins"), ("loss", "losses"),
+                               ("tie", "ties within ±3 points"),
+                               ("open", "open"))) + ".", conclusion(found), "",
         "## Converged / stalled / exactly free", "", *counts_table(rows), "",
         "## The 28 comparisons", "",
-        "Points of a share, as the mean over families; *win* and *loss* by p < "
-        "0.05 after the correction for all 28, *tie* only where the 90 % interval "
-        "lies within ±3 points, else *open*. Iterations: ratio where both "
-        "converged, below 1 the first is quicker.", "",
-        *hypotheses_table(found), "", conclusion(found), "",
+        "Points of a share, as the mean over families; *win* and *loss* by p < 0.05 "
+        "after",
+        "the correction for all 28, *tie* only where the 90 % interval lies within ±3 "
+        "points,",
+        "else *open*. Iterations: the ratio where both converged; below 1 the first is "
+        "quicker.", "",
+        *hypotheses_table(found), "",
         "## Converged, scene by scene, over all protocols", "",
         *scenes_table(rows), "", how, ""]
     (folder / "README.md").write_text("\n".join(text))

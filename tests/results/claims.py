@@ -9,11 +9,12 @@ import math
 import re
 import statistics
 
+from claims_study import STUDY_CLAIMS
 from claims_tables import cell, jumps, total, where
 from claims_tables import column as of
 from claims_tables import said, table
 
-CLAIMS = []
+CLAIMS = list(STUDY_CLAIMS)
 E_PD, PHONG = "euclidean", "phong@0.2"
 
 
