@@ -31,8 +31,9 @@ struct PenetrationSpec {
 };
 
 // Reads "euclidean", "phong", "smoothed" and "smoothed-foot" of the default
-// smoothing length L (length.h), "phong@L" and the like of another; of phong@L,
-// with "/tangent-plane" the paper's field, with "/exact" the exact Jacobian.
+// smoothing length, "phong@0.5unit" and the like of another (length.h); of
+// phong, then, with "/tangent-plane" the paper's field, with "/exact" the exact
+// Jacobian.
 // Throws InputError starting with `what`.
 PenetrationSpec ParsePenetration(const std::string& text,
                                  const std::string& what);

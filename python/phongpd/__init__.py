@@ -22,6 +22,7 @@ share of D, the world's one length::
 
     judge = phongpd.RigidJudge(tool, part)         # of motions that turn, too
     judge.check(start_pose, goal_pose).free        # for all t, proved
+    phongpd.RigidWorld(tool, part).plan(start_pose, goal_pose)  # a path of poses
 
 Whatever cannot be used raises InputError, a ValueError of one line: what,
 where, expected, found.
@@ -38,6 +39,7 @@ from ._native import BuildCancelled, BuildRefusal, InputError, __version__
 from ._piece import ContactSpacePiece
 from ._removal import Disassembly, Removal, disassemble, remove
 from ._rigid import RigidCheck, RigidFirstHit, RigidJudge
+from ._rigid_plan import RigidPlan, RigidWorld
 from ._rows import NonPenetrationRows
 from ._solid import Solid
 from ._tracker import PenetrationTracker, TrackedMotion
@@ -49,7 +51,8 @@ __all__ = [
     "Depth", "DepthQuery", "Diagnosis", "Disassembly", "EuclideanMetric",
     "Fleet", "InputError", "Motion", "NonPenetrationRows", "Penetration",
     "PenetrationTracker", "PhongMetric", "Plan", "QueryResult", "Removal",
-    "RigidCheck", "RigidFirstHit", "RigidJudge", "Roadmap", "SmoothedMetric",
-    "Solid", "TrackedMotion", "Trajectory", "View", "World", "__version__",
-    "depth", "disassemble", "minkowski", "optimize_fleet", "remove", "view",
+    "RigidCheck", "RigidFirstHit", "RigidJudge", "RigidPlan", "RigidWorld",
+    "Roadmap", "SmoothedMetric", "Solid", "TrackedMotion", "Trajectory",
+    "View", "World", "__version__", "depth", "disassemble", "minkowski",
+    "optimize_fleet", "remove", "view",
 ]

@@ -112,6 +112,13 @@ class RigidJudge:
                   resolution: float) -> tuple[
         str, float, float, tuple[int, int], tuple[int, int], int]: ...
 
+class RigidWorld:
+    def __init__(self, robot: Sequence[tuple[_Floats, _Ints]],
+                 obstacles: Sequence[tuple[_Floats, _Ints]]) -> None: ...
+    def plan(self, ends: _Floats, bounds: _Floats, time_limit: float,
+             seed: int) -> tuple[str, str, list[tuple[float, ...]], float, str,
+                                 float]: ...
+
 class DepthQuery:
     def __init__(self, robot: Solid, obstacle: Solid, max_radius: float,
                  max_seconds: float) -> None: ...

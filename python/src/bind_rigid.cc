@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <nanobind/stl/pair.h>
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
@@ -8,43 +7,12 @@
 #include <vector>
 
 #include "constraints/rigid/rigid_judge.h"
-#include "python/src/arrays.h"
 #include "python/src/bindings.h"
 #include "python/src/computing.h"
+#include "python/src/rigid_arrays.h"
 
 namespace phongpd::python {
 namespace {
-
-using Meshes = std::vector<std::pair<Rows3, Corners>>;
-// Matrices, rows first.
-using Poses = nb::ndarray<const double, nb::shape<-1, 4, 4>, nb::c_contig,
-                          nb::device::cpu>;
-
-std::vector<TriangleMesh> ToMeshes(const Meshes& arrays) {
-  std::vector<TriangleMesh> meshes;
-  for (const auto& [vertices, triangles] : arrays) {
-    TriangleMesh mesh;
-    mesh.vertices = ToPoints(vertices);
-    for (size_t i = 0; i < triangles.shape(0); ++i) {
-      mesh.triangles.push_back(
-          {triangles(i, 0), triangles(i, 1), triangles(i, 2)});
-    }
-    meshes.push_back(std::move(mesh));
-  }
-  return meshes;
-}
-
-Eigen::Isometry3d ToMatrix(const Poses& poses, size_t i) {
-  Eigen::Isometry3d matrix = Eigen::Isometry3d::Identity();
-  for (size_t row = 0; row < 3; ++row) {
-    for (size_t column = 0; column < 4; ++column) {
-      matrix.matrix()(static_cast<Eigen::Index>(row),
-                      static_cast<Eigen::Index>(column)) =
-          poses(i, row, column);
-    }
-  }
-  return matrix;
-}
 
 nb::tuple Row(const RigidCheck& check) {
   return nb::make_tuple(

@@ -15,6 +15,7 @@ void BindFleet(nanobind::module_& module);
 void BindWorld(nanobind::module_& module);
 void BindRemoval(nanobind::module_& module);
 void BindRigid(nanobind::module_& module);
+void BindRigidPlan(nanobind::module_& module);
 void BindRows(nanobind::module_& module);
 void BindSweeps(nanobind::module_& module);
 void BindView(nanobind::module_& module);

@@ -30,6 +30,7 @@ NB_MODULE(_native, module) {
   phongpd::python::BindRemoval(module);
   phongpd::python::BindFleet(module);
   phongpd::python::BindRigid(module);
+  phongpd::python::BindRigidPlan(module);
   phongpd::python::BindRows(module);
   phongpd::python::BindSweeps(module);
   phongpd::python::BindView(module);

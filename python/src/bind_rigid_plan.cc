@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/vector.h>
+
+#include <atomic>
+#include <vector>
+
+#include "planners/rigid/rigid_plan.h"
+#include "python/src/arrays.h"
+#include "python/src/bindings.h"
+#include "python/src/interruptible.h"
+#include "python/src/rigid_arrays.h"
+
+namespace phongpd::python {
+namespace {
+
+// Of (2, 4, 4), start and goal; bounds of (2, 3) or (0, 3): none.
+nb::tuple PlanPoses(const RigidWorld& world, const Poses& ends,
+                    const Rows3& bounds, double time_limit,
+                    std::uint64_t seed) {
+  RigidRequest request;
+  request.start = PoseOf(ToMatrix(ends, 0), "start");
+  request.goal = PoseOf(ToMatrix(ends, 1), "goal");
+  if (bounds.shape(0) == 2) request.bounds = {Row(bounds, 0), Row(bounds, 1)};
+  request.time_limit = time_limit;
+  request.seed = seed;
+  const RigidAnswer answer =
+      Interruptible([&](const std::atomic<bool>& is_asked) {
+        request.is_interrupted = [&is_asked] { return is_asked.load(); };
+        return Plan(world, request);
+      });
+  nb::list poses;
+  for (const RobotPose& pose : answer.path) {
+    const Eigen::Vector3d& p = pose.position;
+    const Eigen::Quaterniond& q = pose.orientation;
+    poses.append(
+        nb::make_tuple(p.x(), p.y(), p.z(), q.w(), q.x(), q.y(), q.z()));
+  }
+  return nb::make_tuple(ToString(answer.status), answer.reason, poses,
+                        answer.length, answer.planner, answer.seconds);
+}
+
+}  // namespace
+
+void BindRigidPlan(nb::module_& module) {
+  nb::class_<RigidWorld>(module, "RigidWorld")
+      .def("__init__",
+           [](RigidWorld* self, const Meshes& robot, const Meshes& obstacles) {
+             const std::vector<TriangleMesh> moving = ToMeshes(robot);
+             const std::vector<TriangleMesh> fixed = ToMeshes(obstacles);
+             const Computing computing;
+             new (self) RigidWorld(moving, fixed);
+           })
+      .def("plan", &PlanPoses);
+}
+
+}  // namespace phongpd::python

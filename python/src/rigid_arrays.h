@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <nanobind/stl/pair.h>
+#include <nanobind/stl/vector.h>
+
+#include <utility>
+#include <vector>
+
+#include "core/mesh/triangle_mesh.h"
+#include "python/src/arrays.h"
+
+// Meshes and poses of what turns, as Python hands them over.
+namespace phongpd::python {
+
+using Meshes = std::vector<std::pair<Rows3, Corners>>;
+// Matrices, rows first.
+using Poses = nb::ndarray<const double, nb::shape<-1, 4, 4>, nb::c_contig,
+                          nb::device::cpu>;
+
+inline std::vector<TriangleMesh> ToMeshes(const Meshes& arrays) {
+  std::vector<TriangleMesh> meshes;
+  for (const auto& [vertices, triangles] : arrays) {
+    TriangleMesh mesh;
+    mesh.vertices = ToPoints(vertices);
+    for (size_t i = 0; i < triangles.shape(0); ++i) {
+      mesh.triangles.push_back(
+          {triangles(i, 0), triangles(i, 1), triangles(i, 2)});
+    }
+    meshes.push_back(std::move(mesh));
+  }
+  return meshes;
+}
+
+inline Eigen::Isometry3d ToMatrix(const Poses& poses, size_t i) {
+  Eigen::Isometry3d matrix = Eigen::Isometry3d::Identity();
+  for (size_t row = 0; row < 3; ++row) {
+    for (size_t column = 0; column < 4; ++column) {
+      matrix.matrix()(static_cast<Eigen::Index>(row),
+                      static_cast<Eigen::Index>(column)) =
+          poses(i, row, column);
+    }
+  }
+  return matrix;
+}
+
+}  // namespace phongpd::python

@@ -1,0 +1,57 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Truth: the exact depth at many poses of the path; a plank that has to turn.
+import numpy as np
+import phongpd
+import pytest
+from conftest import box_arrays
+from scipy.spatial.transform import Rotation
+
+PLANK = box_arrays((-0.1, -0.8, -0.1), (0.1, 0.8, 0.1))
+WALLS = [box_arrays((-0.2, -3.25, -1.5), (0.2, -0.25, 1.5)),
+         box_arrays((-0.2, 0.25, -1.5), (0.2, 3.25, 1.5))]
+BOUNDS = (-4, -3, -1.2), (4, 3, 1.2)
+
+
+def at(x, about_z=0.0):
+    c, s = np.cos(about_z), np.sin(about_z)
+    return np.array([[c, -s, 0, x], [s, c, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]])
+
+
+def test_a_plank_turns_to_get_through_a_slit():
+    world = phongpd.RigidWorld(PLANK, WALLS)
+    plan = world.plan(at(-2), at(2, np.pi), bounds=BOUNDS, time_limit=60)
+    assert plan.solved and plan.reason == "" and plan.planner != "line"
+    assert len(plan.poses) >= 3
+    assert np.allclose(plan.poses[0], at(-2), atol=1e-14)
+    assert np.allclose(plan.poses[-1], at(2, np.pi), atol=1e-14)
+    judge = phongpd.RigidJudge(PLANK, WALLS)
+    assert all(check.free for check in judge.check_path(plan.poses))
+    assert plan.length > 4
+    for wall in WALLS:
+        query = phongpd.DepthQuery(phongpd.Solid(*PLANK), phongpd.Solid(*wall))
+        for pose in plan.poses:
+            x, y, z, w = Rotation.from_matrix(pose[:3, :3]).as_quat()
+            assert query.at(pose[:3, 3], (w, x, y, z)).status == "separate"
+    again = world.plan(at(-2), at(2, np.pi), bounds=BOUNDS, time_limit=60)
+    assert (again.poses == plan.poses).all()
+
+
+def test_says_why_there_is_no_path():
+    world = phongpd.RigidWorld(PLANK, WALLS)
+    inside = world.plan(at(0), at(2), bounds=BOUNDS)
+    assert inside.status == "start_in_collision" and inside.reason
+    assert inside.poses.shape == (0, 4, 4)
+    beyond = world.plan(at(-2), at(9), bounds=BOUNDS)
+    assert beyond.status == "goal_out_of_bounds"
+
+
+def test_refuses_bad_input_in_one_line():
+    world = phongpd.RigidWorld(PLANK, WALLS)
+    for arguments, text in (
+            ({"bounds": (1, 2, 3)}, "bounds: expected"),
+            ({"time_limit": 0.0}, "time"), ({"time_limit": np.nan}, "time")):
+        with pytest.raises(phongpd.InputError, match=text) as error:
+            world.plan(at(-2), at(2), **arguments)
+        assert "\n" not in str(error.value)
+    with pytest.raises(phongpd.InputError, match="start"):
+        world.plan(np.eye(3), at(2))
