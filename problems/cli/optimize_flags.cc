@@ -42,14 +42,16 @@ void AddStartFlags(CLI::App* app, OptimizeFlags* flags) {
                   "complete planner (repaired and planner mean the same)")
       ->check(CLI::IsMember({"straight", "repaired", "planner"}))
       ->capture_default_str();
-  app->add_option("--start-noise", flags->check(Between(0, 10))->noise,
+  app->add_option("--start-noise", flags->noise,
                   "Of the waypoints of a straight start, as a fraction of its "
                   "length")
+      ->check(Between(0, 10))
       ->type_name("F")
       ->capture_default_str();
-  app->add_option("--routes", flags->check(Between(1, 8))->routes,
+  app->add_option("--routes", flags->routes,
                   "Ways around the obstacles to optimise, 1 to 8 (preset's own "
                   "if not set)")
+      ->check(Between(1, 8))
       ->type_name("N");
   app->add_flag("--line,!--no-line", flags->line,
                 "Optimise from the colliding line as well as from the "
@@ -57,8 +59,8 @@ void AddStartFlags(CLI::App* app, OptimizeFlags* flags) {
 }
 
 void AddSolverFlags(CLI::App* app, OptimizeFlags* flags) {
-  app->add_option("--rows", flags->check(Between(1, 8))->rows,
-                  "Constraint rows a sample, 1 to 8")
+  app->add_option("--rows", flags->rows, "Constraint rows a sample, 1 to 8")
+      ->check(Between(1, 8))
       ->type_name("K")
       ->capture_default_str();
   app->add_option("--mu-strategy", flags->mu_strategy, "Ipopt's own")

@@ -52,24 +52,5 @@ TEST(CsvTable, RefusesBadInputByName) {
             "/nowhere.csv: cannot be read");
 }
 
-// All that was there is on one of the two pages, in its order.
-TEST(SplitReadme, MovesLongTablesAndLeavesTheRest) {
-  const std::string finding = "# T\n\nIt wins.\n\n";
-  const std::string figures = "## Figures\n\n![f](f.svg)\n";
-  const std::string few = "## Tables\n\n### A\n\n| a |\n\n";
-  EXPECT_EQ(SplitReadme(finding + few + figures).readme,
-            finding + few + figures);
-  EXPECT_EQ(SplitReadme(finding).readme, finding);
-  std::string rows = "### A\n\n";
-  for (int i = 0; i < 90; ++i) rows += "| " + std::to_string(i) + " |\n";
-  const Pages pages = SplitReadme(finding + "## Tables\n\n" + rows + figures);
-  EXPECT_EQ(pages.readme,
-            finding + "All tables: [tables.md](tables.md).\n\n" + figures);
-  EXPECT_EQ(pages.tables,
-            "# T: tables\n\nWhat they say: [README.md](README.md).\n\n" + rows);
-  EXPECT_EQ(SplitReadme(finding + "## Tables\n\n" + rows).readme,
-            finding + "All tables: [tables.md](tables.md).\n");
-}
-
 }  // namespace
 }  // namespace phongpd::bench
