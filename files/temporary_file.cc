@@ -9,8 +9,8 @@
 
 #include <array>
 #include <cerrno>
-#include <filesystem>
-#include <system_error>
+
+#include "files/folder_names.h"
 
 namespace phongpd::internal {
 namespace {
@@ -102,13 +102,9 @@ void TemporaryFile::Publish(const std::string& name, mode_t mode) {
 }
 
 void RemoveAbandoned(const std::string& folder, const std::string& prefix) {
-  namespace fs = std::filesystem;
-  std::error_code error;
   const Descriptor at(open(folder.c_str(), O_PATH | O_DIRECTORY | O_CLOEXEC));
   if (!at.IsOpen()) return;
-  for (fs::directory_iterator it(folder, error), end; !error && it != end;
-       it.increment(error)) {
-    const std::string name = it->path().filename().string();
+  for (const std::string& name : NamesIn(folder)) {
     if (!IsTemporaryName(name, prefix)) continue;
     const Descriptor file(
         openat(at.number(), name.c_str(),

@@ -21,6 +21,7 @@
 #include "core/mesh/mesh_error.h"
 #include "core/minkowski/operands/operand.h"
 #include "files/descriptor.h"
+#include "files/folder_names.h"
 #include "files/temporary_file.h"
 
 namespace phongpd {
@@ -183,20 +184,18 @@ class CacheFile {
     std::vector<Entry> entries;
     std::uintmax_t total = 0;
     const auto now = fs::file_time_type::clock::now();
-    std::error_code error;
-    for (fs::directory_iterator it(cache_.directory, error), end;
-         !error && it != end; it.increment(error)) {
+    for (const std::string& name : internal::NamesIn(cache_.directory)) {
+      const fs::path path = fs::path(cache_.directory) / name;
       std::error_code gone;
-      const fs::file_time_type used = it->last_write_time(gone);
-      const std::uintmax_t bytes = gone ? 0 : it->file_size(gone);
+      const fs::file_time_type used = fs::last_write_time(path, gone);
+      const std::uintmax_t bytes = gone ? 0 : fs::file_size(path, gone);
       if (gone) continue;
-      const std::string name = it->path().filename().string();
       if (name.rfind(kTemporary, 0) == 0 && now - used > kAbandoned) {
-        fs::remove(it->path(), gone);
+        fs::remove(path, gone);
         continue;
       }
-      if (it->path().extension() != kCacheExtension) continue;
-      entries.push_back({used, bytes, it->path()});
+      if (path.extension() != kCacheExtension) continue;
+      entries.push_back({used, bytes, path});
       total += bytes;
     }
     std::sort(entries.begin(), entries.end(),

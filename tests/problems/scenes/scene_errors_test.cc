@@ -51,7 +51,8 @@ TEST(SceneErrors, NameFilePlaceExpectedAndFound) {
   };
   const std::string keys =
       "s.json: expected only the keys $schema, name, unit, robot, robots, "
-      "obstacles, bounds, start, goal, preset, limits, via, moving, duration, "
+      "obstacles, bounds, start, goal, start_rotation, goal_rotation, preset, "
+      "limits, via, moving, duration, "
       "departure, arrival, "
       "penetration, trajectory, planning, feasible, witness, ";
   const std::vector<Case> cases = {
