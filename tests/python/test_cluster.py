@@ -117,6 +117,7 @@ def test_rows_are_those_of_the_command_line(truth, program, tmp_path):
     theirs = rows_in(tmp_path / "rows.jsonl")
     assert len(theirs) == 8
     for row in theirs:
+        assert row.pop("part")[:2] == [0, 2]  # of the shards
         mine = ours[row["seed"], row["method"]]
         assert {k: v for k, v in mine.items() if k not in ("key", "outcome")} \
             == cluster.without_timing(row)
