@@ -6,7 +6,7 @@ function asTurn([w, x, y, z]) { return new THREE.Quaternion(x, y, z, w); }
 
 // From the first point to each, along them; what turns at a reach has a way of
 // that, too.
-function lengthsOf(points, turns, reach) {
+function lengthsOf(points, turns = null, reach = 0) {
   const lengths = [0];
   for (let i = 1; i < points.length; ++i) {
     const angle = turns ? turns[i].angleTo(turns[i - 1]) : 0;

@@ -67,13 +67,15 @@ def make_pages(run, folder):
     examples = pathlib.Path(__file__).resolve().parents[2] / "examples"
     run("optimize", str(examples / "gantry.json"), "--html", "pace.html")
     run("optimize", str(examples / "robots.json"), "--html", "robots.html")
+    run("plan", str(examples / "turning.json"), "--html", "turning.html")
     (folder / "none.jsonl").write_text(
         '{"scene": "none", "planner": "prm", "seed": 1, "status": "timeout",'
         ' "solved": false, "path": []}\n')
     run("view", "none.jsonl", "--html", "none.html")
     return {name: folder / f"{name}.html"
             for name in ("trap", "tunnel", "contact", "motion", "depth", "routes",
-                         "tree", "roadmap", "corridor", "pace", "robots", "none")}
+                         "tree", "roadmap", "corridor", "pace", "robots", "turning",
+                         "none")}
 
 
 def robots_together(browser, checks, page):
@@ -97,6 +99,21 @@ def robots_together(browser, checks, page):
     checks.holds("[...document.querySelectorAll('button.way span')].map("
                  "e => e.textContent).join() === 'left,right,feeder'",
                  "their names in the legend")
+
+
+def a_robot_that_turns(browser, checks, page):
+    """As its path says, at both ends and between them."""
+    browser.open(page)
+    checks.holds("[0, 1].every(t => { viewer.state.time = t; viewer.draw();"
+                 "const {turns} = viewer.stage.ways[0];"
+                 "return viewer.stage.robot.quaternion.angleTo("
+                 "turns[t * (turns.length - 1)]) < 1e-6; })",
+                 "as it is turned at its ends")
+    checks.holds("(() => { const seen = new Set();"
+                 "for (let t = 0; t <= 1; t += 0.05) { viewer.state.time = t;"
+                 "viewer.draw(); seen.add(viewer.stage.robot.quaternion.toArray()"
+                 ".map(x => x.toFixed(2)).join()); } return seen.size; })() > 5",
+                 "it turns on its way")
 
 
 def main():
@@ -169,6 +186,12 @@ def main():
                      ".includes('room')", "and says what it asks and has")
         checks.changes(lambda: browser.press("ArrowRight"), "a step of it")
         robots_together(browser, checks, pages["robots"])
+        a_robot_that_turns(browser, checks, pages["turning"])
+        for name in ("trap", "tunnel", "pace", "robots", "turning"):
+            browser.open(pages[name])
+            checks.holds("![...document.querySelectorAll('button.way small, "
+                         "#where')].some(e => e.textContent.includes('NaN'))",
+                         f"{name}: lengths are numbers")
         browser.open(pages["motion"])
         checks.holds("document.querySelectorAll('#labels .pane').length === 3",
                      "a motion has a pane for each metric")
