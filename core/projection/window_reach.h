@@ -6,7 +6,9 @@
 #include <vector>
 
 #include "core/contact/contact_space.h"
+#include "core/contact/convolution_model.h"
 #include "core/contact/explored_boxes.h"
+#include "core/projection/penetration_metric.h"
 
 // What metrics by windows (window_phong.h, window_smoothed.h) have in common.
 namespace phongpd::internal {
@@ -27,6 +29,18 @@ inline ContactSpace ExploreWindow(const std::vector<int>& part, bool is_all,
       boxes->Surface(part, [](int, int) { return true; });
   if (is_all) DropWalls(&parts);
   return ContactSpace(std::move(parts), "window of the contact space");
+}
+
+// The answer of all of them in free space, where every metric is the distance.
+inline PenetrationResult AnswerOutside(const ConvolutionModel& model,
+                                       const Eigen::Vector3d& q) {
+  const ConvolutionModel::Nearest nearest = model.FindNearest(q);
+  PenetrationResult answer;
+  answer.status = QueryStatus::kOk;
+  answer.signed_distance = nearest.distance;
+  answer.contact = nearest.point;
+  answer.direction = answer.gradient = (q - nearest.point).normalized();
+  return answer;
 }
 
 }  // namespace phongpd::internal

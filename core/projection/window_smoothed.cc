@@ -115,12 +115,7 @@ WindowPhongResult WindowSmoothed::At(const Vector3d& q) {
   const std::lock_guard<std::mutex> lock(impl_->mutex);
   PenetrationResult& answer = out.answer;
   if (impl_->model.IsFree(q)) {
-    const ConvolutionModel::Nearest nearest = impl_->model.FindNearest(q);
-    answer.status = QueryStatus::kOk;
-    answer.signed_distance = nearest.distance;
-    answer.contact = nearest.point;
-    answer.direction = (q - nearest.point).normalized();
-    answer.gradient = answer.direction;
+    answer = internal::AnswerOutside(impl_->model, q);
     return out;
   }
   answer = impl_->Inside(q, &out);
