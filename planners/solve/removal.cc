@@ -120,7 +120,11 @@ PathAnswer ShortestWayOut(const World& world, const BoundingBox& part,
     request.goal = goal;
     request.verifies = verifies;
     PathAnswer answer = Plan(world, request);
-    if (!answer.is_solved) return answer;
+    if (!answer.is_solved) {
+      // A way that was found stays one; what refutes another is a fault.
+      const bool is_fault = answer.status == PathStatus::kVerificationFailed;
+      return best.path.empty() || is_fault ? answer : best;
+    }
     Path way = UntilBeside(answer.path, part, rest);
     // Its end is rounded: judged again.
     if (CheckPath(*answer.evidence.free_space, way).free) {
