@@ -11,27 +11,12 @@
 namespace phongpd::cli {
 namespace {
 
-// The way in a row, seven numbers a pose.
-NamedPath PosePathOf(const nlohmann::ordered_json& row,
-                     const std::string& name) {
-  std::vector<RobotPose> poses;
-  for (const auto& cells : row.at("path")) {
-    const auto x = cells.get<std::vector<double>>();
-    RobotPose pose;
-    pose.position = {x.at(0), x.at(1), x.at(2)};
-    pose.orientation = {x.at(3), x.at(4), x.at(5), x.at(6)};
-    CheckPose(pose, "path");
-    poses.push_back(pose);
-  }
-  return RigidPath(name, poses, row.at("collision_free").get<bool>());
-}
-
 RunSummary Summarize(const nlohmann::ordered_json& row) {
   const std::string status = row.at("status").get<std::string>();
   const std::string planner = row.at("planner").get<std::string>();
   const std::string seed = std::to_string(row.at("seed").get<std::uint64_t>());
   RunSummary summary;
-  summary.path = PosePathOf(row, planner + " · seed " + seed);
+  summary.path = NamedPathOf(row);
   summary.line = row.at("scene").get<std::string>() + ", " + planner + ", " +
                  seed + ": " + status + ", " +
                  Rounded(NumberAt(row, "/seconds/solve")) + ", " +

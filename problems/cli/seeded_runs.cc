@@ -12,6 +12,7 @@
 #include "problems/output/json_text.h"
 #include "viewer/behind_json.h"
 #include "viewer/path_picture.h"
+#include "viewer/rigid_view.h"
 #include "viewer/view_page.h"
 
 namespace phongpd::cli {
@@ -97,6 +98,29 @@ std::string Spoken(const std::string& method) {
 
 }  // namespace
 
+namespace {
+
+// Of a robot that turns: seven numbers a pose.
+bool HasPoses(const nlohmann::ordered_json& row) {
+  const auto& path = row.at("path");
+  return !path.empty() && path.front().size() == 7;
+}
+
+std::vector<RobotPose> PosesOf(const nlohmann::ordered_json& row) {
+  std::vector<RobotPose> poses;
+  for (const auto& cells : row.at("path")) {
+    const auto x = cells.get<std::vector<double>>();
+    RobotPose pose;
+    pose.position = {x.at(0), x.at(1), x.at(2)};
+    pose.orientation = {x.at(3), x.at(4), x.at(5), x.at(6)};
+    CheckPose(pose, "path");
+    poses.push_back(pose);
+  }
+  return poses;
+}
+
+}  // namespace
+
 NamedPath NamedPathOf(const nlohmann::ordered_json& row) {
   const bool is_plan = row.contains("planner");
   std::string status =
@@ -106,10 +130,13 @@ NamedPath NamedPathOf(const nlohmann::ordered_json& row) {
       row.at(is_plan ? "planner" : "method").get<std::string>();
   // Of one metric from either start, which are paths of one page.
   const bool is_straight = !is_plan && row.value("start", "") == "straight";
-  return {Spoken(name) + " · seed " + JsonText(row.at("seed")) +
-              (is_straight ? " · straight start · " : " · ") + status,
-          PathOf(row),
-          row.at(is_plan ? "solved" : "collision_free").get<bool>()};
+  const std::string title =
+      Spoken(name) + " · seed " + JsonText(row.at("seed")) +
+      (is_straight ? " · straight start · " : " · ") + status;
+  const bool is_free =
+      row.at(is_plan ? "solved" : "collision_free").get<bool>();
+  if (HasPoses(row)) return RigidPath(title, PosesOf(row), is_free);
+  return {title, PathOf(row), is_free};
 }
 
 SeededRuns::SeededRuns(const SeededRunFlags& flags, const SceneSource& source,

@@ -61,7 +61,7 @@ std::vector<Eigen::Vector3d> PathOf(const nlohmann::ordered_json& row);
 
 // The path of a row that optimize or plan wrote, named by its method or
 // planner, seed and status ("PhongPD, ℓ = 0.2 · seed 0 · solved"); free if the
-// row says so.
+// row says so; with its turns, if the robot does.
 NamedPath NamedPathOf(const nlohmann::ordered_json& row);
 
 // A row of --output and a line for people for each run, and all paths in the

@@ -81,6 +81,10 @@ TEST_F(CliTurning, TurnsAPlankThroughASlit) {
   // The page turns the robot as it goes.
   const std::string page = Content(Output("p.html"));
   EXPECT_NE(page.find("\"turns\":[["), std::string::npos);
+  // So does one of the rows.
+  ASSERT_EQ(Run("view rows.jsonl --html again.html").code, 0);
+  EXPECT_NE(Content(Output("again.html")).find("\"turns\":[["),
+            std::string::npos);
 }
 
 TEST_F(CliTurning, SaysWhichEndCollides) {
