@@ -116,8 +116,12 @@ if [[ $suite == study || $suite == all ]]; then
     for i in "${pids[@]}"; do wait "$i"; done
   }
   block first "${STUDY_SEEDS:-10}" "${study_metrics[@]}"
+  # The second block of the protocol, of the same problems.
+  if [[ -n ${STUDY_FURTHER:-} ]]; then
+    block further "${STUDY_SEEDS:-10}" "${study_further[@]}"
+  fi
   build/venv/bin/python -B results/bench/study_report.py results/study \
-    --rows build/study/first-*/rows.jsonl --how "Command: \`scripts/bench.sh \
+    --rows build/study/*/rows.jsonl --how "Command: \`scripts/bench.sh \
 study\`. Commit: $(git rev-parse --short HEAD)."
 fi
 if [[ $suite == pipeline || $suite == all ]]; then
