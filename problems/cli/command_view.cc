@@ -43,6 +43,16 @@ struct ViewFlags : ViewRequest {
   bool json = false;
 };
 
+// What moves in glTF translates.
+void RequireNoTurns(const View& view) {
+  for (const NamedPath& path : view.paths) {
+    if (path.turns.empty()) continue;
+    throw InputError(
+        "--glb: expected paths that do not turn the robot, found " + path.name +
+        "; take --html");
+  }
+}
+
 // A new file of the user's own, which stays.
 std::string WriteTemporary(const std::string& page) {
   std::error_code error;
@@ -130,7 +140,10 @@ int Look(ViewFlags flags) {
   const std::string page =
       is_page || !flags.png.empty() ? ViewPage(view) : std::string();
   if (!flags.html.empty()) outputs.Write(flags.html, page);
-  if (!flags.glb.empty()) outputs.Write(flags.glb, ViewGlb(view));
+  if (!flags.glb.empty()) {
+    RequireNoTurns(view);
+    outputs.Write(flags.glb, ViewGlb(view));
+  }
   if (!flags.png.empty()) {
     Progress("drawing the picture");
     outputs.Write(flags.png, StillPicture(page, kPictureWidth, kPictureHeight,

@@ -85,6 +85,7 @@ TEST_F(CliTurning, TurnsAPlankThroughASlit) {
   ASSERT_EQ(Run("view rows.jsonl --html again.html").code, 0);
   EXPECT_NE(Content(Output("again.html")).find("\"turns\":[["),
             std::string::npos);
+  ExpectRefused("view rows.jsonl --glb no.glb", {"--glb", "turn"});
 }
 
 TEST_F(CliTurning, SaysWhichEndCollides) {
