@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
 # bench.sh [paper|queries|contact-space|lazy|convergence|pipeline|planning|
-# extremes|peers|trajectories|rigid|study|cluster|python|trade|slice|all]:
+# extremes|peers|trajectories|fleets|rigid|study|cluster|python|trade|slice|all]:
 # regenerates the tables and figures of results/.  continuity is a part of queries, retraction and
 # widths are parts of planning.  slice makes some published rows anew and compares
 # them (results/reproduction.md); it is no part of all.
@@ -13,11 +13,11 @@ export PHONGPD_CACHE_DIR=$PWD/build/cache
 suite=${1:-all}
 case $suite in
   paper | queries | contact-space | lazy | convergence | pipeline | planning | \
-    extremes | peers | trajectories | rigid | study | cluster | python | \
+    extremes | peers | trajectories | fleets | rigid | study | cluster | python | \
     trade | continuity | retraction | widths | slice | all) ;;
   *)
     echo "bench: expected paper, queries, contact-space, lazy," \
-      "convergence, pipeline, planning, extremes, peers, trajectories, rigid," \
+      "convergence, pipeline, planning, extremes, peers, trajectories, fleets, rigid," \
       "study, cluster, python, trade, continuity, retraction, widths, slice" \
       "or all," \
       "found $suite" >&2
@@ -217,6 +217,11 @@ if [[ $suite == trajectories || $suite == all ]]; then
     results/bench/trajectories_benchmark.py --output results/trajectories \
     --rows "$rows" --how "scripts/bench.sh trajectories" \
     --commit "$(git rev-parse --short HEAD)"
+fi
+if [[ $suite == fleets || $suite == all ]]; then
+  scripts/build.sh fleet_benchmark
+  build/fleet_benchmark --output results/fleets
+  python3 -B results/bench/fleet_report.py --output results/fleets
 fi
 if [[ $suite == rigid || $suite == all ]]; then
   scripts/build.sh rigid_judge_benchmark rigid_plan_benchmark

@@ -12,6 +12,7 @@
 #include "core/mesh/mesh_error.h"
 #include "core/number_text.h"
 #include "core/stopwatch.h"
+#include "planners/solve/fleet_together.h"
 
 namespace phongpd {
 namespace {
@@ -118,8 +119,6 @@ void JudgeAll(const std::vector<FleetRobot>& robots, FleetAnswer* answer) {
 }
 
 // Tries of more orders for a sooner end, for which each costs a fleet's work.
-// Of 8 boxes that change places across a circle, 3 draws, four more made it
-// 1.28 instead of 1.41 times the slowest alone.
 int MoreOrders(Preset preset) {
   switch (preset) {
     case Preset::kFast:
@@ -143,6 +142,16 @@ class FleetSearch {
     if (!RunAlone(&answer)) return answer;
     FindFirst(FirstOrder(), &answer);
     if (!answer.IsSolved()) return answer;
+    TryMore(&answer);
+    answer.by_order = answer.duration;
+    Hasten(&answer);
+    return answer;
+  }
+
+ private:
+  // Other orders, for a sooner end.
+  void TryMore(FleetAnswer* best) {
+    FleetAnswer& answer = *best;
     for (int more = MostMore(); more > 0 && HasRoom(answer); --more) {
       const std::optional<Order> order = NextOrder(answer);
       if (!order) break;
@@ -152,10 +161,16 @@ class FleetSearch {
       other.tries = answer.tries;
       if (other.IsSolved()) answer = std::move(other);
     }
-    return answer;
   }
 
- private:
+  void Hasten(FleetAnswer* answer) const {
+    if (!HasRoom(*answer)) return;
+    auto together = internal::Hastened(robots_, *answer, kEnough * Slowest());
+    if (!together) return;
+    JudgeAll(robots_, &*together);
+    if (together->IsSolved()) *answer = std::move(*together);
+  }
+
   // Each as if there were no other robot.
   bool RunAlone(FleetAnswer* answer) {
     for (const FleetRobot& robot : robots_) {
@@ -250,15 +265,22 @@ class FleetSearch {
 
   // Could all arrive sooner, and has nobody ended the search?
   bool HasRoom(const FleetAnswer& answer) const {
-    constexpr double kEnough = 1.02;  // of the slowest alone
+    for (const FleetRobot& robot : robots_) {
+      const auto& is_interrupted = robot.request.is_interrupted;
+      if (is_interrupted && is_interrupted()) return false;
+    }
+    return answer.duration > kEnough * Slowest();
+  }
+
+  double Slowest() const {  // alone
     double slowest = 0.0;
     for (std::size_t i = 0; i < robots_.size(); ++i) {
-      const auto& is_interrupted = robots_[i].request.is_interrupted;
-      if (is_interrupted && is_interrupted()) return false;
       if (!Stays(robots_[i])) slowest = std::max(slowest, Alone(i));
     }
-    return answer.duration > kEnough * slowest;
+    return slowest;
   }
+
+  static constexpr double kEnough = 1.02;  // of the slowest alone
 
   // The last one to arrive goes earlier: first, or so early as was not tried.
   std::optional<Order> NextOrder(const FleetAnswer& answer) {

@@ -31,7 +31,10 @@ struct FleetAnswer {
   std::vector<FleetPair> pairs;
   std::vector<std::size_t> order;  // who went first, of the last try
   int tries = 0;                   // of orders; 0: one has no motion even alone
-  double duration = 0.0;           // until all have arrived, s
+  // Of all motions made faster together; 0: they are those of the order.
+  int rounds_together = 0;
+  double by_order = 0.0;           // the duration of those, s
+  double duration = 0.0;  // until all have arrived, s
   double seconds = 0.0;
 
   bool IsSolved() const { return status == PathStatus::kConverged; }
@@ -48,10 +51,12 @@ struct FleetAnswer {
 // motion is put in front of the others, and all begin anew, until no new order
 // comes of it.  With motions of all, the last one to arrive goes earlier in
 // some more orders, by the largest preset none (fast), one (balanced) or six
-// (tight), and the sooner end is kept.  What is answered is certified for each
-// pair, for all t ≥ 0; without an answer it is no proof that there is none.  A
-// pair that is not, or is refuted on the solids where a request verifies, has
-// the status kVerificationFailed.
+// (tight), and the sooner end is kept.  Where all could arrive sooner still,
+// the motions are made faster together (joint_curves.h), if that is found: then
+// all arrive at the same time.  What is answered is certified for each pair,
+// for all t ≥ 0; without an answer it is no proof that there is none.  A pair
+// that is not, or is refuted on the solids where a request verifies, has the
+// status kVerificationFailed.
 //
 // Throws InputError, before anything is built: for a name used twice, requests
 // that Optimize would refuse, two robots that touch at their starts or at their

@@ -11,11 +11,12 @@ namespace {
 constexpr double kLeastPivot = 1e-14;
 
 // In place, lower triangle, the rest zero.
-bool Cholesky(BlockTridiagonal::Block* a) {
-  constexpr int n = BlockTridiagonal::kSize;
+template <typename Block>
+bool Cholesky(Block* a) {
+  const Eigen::Index n = a->rows();
   bool is_definite = true;
   const double least = kLeastPivot * a->diagonal().cwiseAbs().maxCoeff();
-  for (int j = 0; j < n; ++j) {
+  for (Eigen::Index j = 0; j < n; ++j) {
     double pivot = (*a)(j, j);
     if (!(pivot > least)) {
       is_definite = false;
@@ -23,24 +24,27 @@ bool Cholesky(BlockTridiagonal::Block* a) {
     }
     const double root = std::sqrt(pivot);
     (*a)(j, j) = root;
-    for (int i = j + 1; i < n; ++i) (*a)(i, j) /= root;
-    for (int k = j + 1; k < n; ++k) {
+    for (Eigen::Index i = j + 1; i < n; ++i) (*a)(i, j) /= root;
+    for (Eigen::Index k = j + 1; k < n; ++k) {
       const double by = (*a)(k, j);
-      for (int i = k; i < n; ++i) (*a)(i, k) -= (*a)(i, j) * by;
+      for (Eigen::Index i = k; i < n; ++i) (*a)(i, k) -= (*a)(i, j) * by;
     }
-    for (int k = j + 1; k < n; ++k) (*a)(j, k) = 0.0;
+    for (Eigen::Index k = j + 1; k < n; ++k) (*a)(j, k) = 0.0;
   }
   return is_definite;
 }
 
 }  // namespace
 
-BlockTridiagonal::BlockTridiagonal(int blocks)
-    : diagonal(blocks, Block::Zero()),
-      above(blocks, Block::Zero()),
-      border(blocks, Vector::Zero()) {}
+template <int kSize>
+BlockTridiagonalOf<kSize>::BlockTridiagonalOf(int blocks, int block_size)
+    : diagonal(blocks, Block::Zero(block_size, block_size)),
+      above(blocks, Block::Zero(block_size, block_size)),
+      border(blocks, Vector::Zero(block_size)),
+      block_size_(block_size) {}
 
-void BlockTridiagonal::SetZero() {
+template <int kSize>
+void BlockTridiagonalOf<kSize>::SetZero() {
   for (int k = 0; k < blocks(); ++k) {
     diagonal[k].setZero();
     above[k].setZero();
@@ -49,24 +53,26 @@ void BlockTridiagonal::SetZero() {
   corner = 0.0;
 }
 
-Eigen::VectorXd BlockTridiagonal::Times(const Eigen::VectorXd& x) const {
+template <int kSize>
+Eigen::VectorXd BlockTridiagonalOf<kSize>::Times(
+    const Eigen::VectorXd& x) const {
   Eigen::VectorXd y = Eigen::VectorXd::Zero(size());
   const double t = x[size() - 1];
   for (int k = 0; k < blocks(); ++k) {
-    const auto here = x.segment<kSize>(kSize * k);
-    y.segment<kSize>(kSize * k) += diagonal[k] * here + t * border[k];
+    const auto here = Part(x, k);
+    Part(&y, k) += diagonal[k] * here + t * border[k];
     y[size() - 1] += border[k].dot(here);
     if (k + 1 < blocks()) {
-      y.segment<kSize>(kSize * k) +=
-          above[k] * x.segment<kSize>(kSize * (k + 1));
-      y.segment<kSize>(kSize * (k + 1)) += above[k].transpose() * here;
+      Part(&y, k) += above[k] * Part(x, k + 1);
+      Part(&y, k + 1) += above[k].transpose() * here;
     }
   }
   y[size() - 1] += corner * t;
   return y;
 }
 
-bool BlockTridiagonal::Factorize() {
+template <int kSize>
+bool BlockTridiagonalOf<kSize>::Factorize() {
   bool is_definite = true;
   for (int k = 0; k < blocks(); ++k) {
     if (k > 0) {
@@ -75,10 +81,11 @@ bool BlockTridiagonal::Factorize() {
     }
     is_definite = Cholesky(&diagonal[k]) && is_definite;
     if (k + 1 < blocks()) {
-      diagonal[k].triangularView<Eigen::Lower>().solveInPlace(above[k]);
+      diagonal[k].template triangularView<Eigen::Lower>().solveInPlace(
+          above[k]);
     }
     if (k > 0) border[k].noalias() -= above[k - 1].transpose() * border[k - 1];
-    diagonal[k].triangularView<Eigen::Lower>().solveInPlace(border[k]);
+    diagonal[k].template triangularView<Eigen::Lower>().solveInPlace(border[k]);
   }
   const double whole = std::abs(corner);
   for (const Vector& column : border) corner -= column.squaredNorm();
@@ -89,37 +96,46 @@ bool BlockTridiagonal::Factorize() {
   return is_definite;
 }
 
-void BlockTridiagonal::Forward(Eigen::VectorXd* x) const {
+template <int kSize>
+void BlockTridiagonalOf<kSize>::Forward(Eigen::VectorXd* x) const {
   for (int k = 0; k < blocks(); ++k) {
-    auto here = x->segment<kSize>(kSize * k);
+    auto here = Part(x, k);
     if (k > 0) {
-      here -= above[k - 1].transpose() * x->segment<kSize>(kSize * (k - 1));
+      here -= above[k - 1].transpose() * Part(x, k - 1);
     }
-    diagonal[k].triangularView<Eigen::Lower>().solveInPlace(here);
+    diagonal[k].template triangularView<Eigen::Lower>().solveInPlace(here);
   }
 }
 
-void BlockTridiagonal::Backward(Eigen::VectorXd* x) const {
+template <int kSize>
+void BlockTridiagonalOf<kSize>::Backward(Eigen::VectorXd* x) const {
   for (int k = blocks() - 1; k >= 0; --k) {
-    auto here = x->segment<kSize>(kSize * k);
+    auto here = Part(x, k);
     if (k + 1 < blocks()) {
-      here -= above[k] * x->segment<kSize>(kSize * (k + 1));
+      here -= above[k] * Part(x, k + 1);
     }
-    diagonal[k].transpose().triangularView<Eigen::Upper>().solveInPlace(here);
+    diagonal[k]
+        .transpose()
+        .template triangularView<Eigen::Upper>()
+        .solveInPlace(here);
   }
 }
 
-void BlockTridiagonal::Solve(Eigen::VectorXd* x) const {
+template <int kSize>
+void BlockTridiagonalOf<kSize>::Solve(Eigen::VectorXd* x) const {
   Forward(x);
   double& t = (*x)[size() - 1];
   for (int k = 0; k < blocks(); ++k) {
-    t -= border[k].dot(x->segment<kSize>(kSize * k));
+    t -= border[k].dot(Part(x, k));
   }
   t /= corner;
   for (int k = 0; k < blocks(); ++k) {
-    x->segment<kSize>(kSize * k) -= t * border[k];
+    Part(x, k) -= t * border[k];
   }
   Backward(x);
 }
+
+template class BlockTridiagonalOf<11>;
+template class BlockTridiagonalOf<Eigen::Dynamic>;
 
 }  // namespace phongpd::internal

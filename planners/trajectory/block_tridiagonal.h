@@ -15,18 +15,21 @@ namespace phongpd::internal {
 //   ⎣ b₀ᵀ b₁ᵀ b₂ᵀ …   d  ⎦
 //
 // solved by Cholesky block by block in time and memory linear in their number.
-class BlockTridiagonal {
+// Of blocks of a size that is known, or of any, Eigen::Dynamic.
+template <int kBlockSize>
+class BlockTridiagonalOf {
  public:
-  static constexpr int kSize = 11;
+  static constexpr int kSize = kBlockSize;
   using Block = Eigen::Matrix<double, kSize, kSize>;
   using Vector = Eigen::Matrix<double, kSize, 1>;
 
   // Zero.
-  explicit BlockTridiagonal(int blocks);
+  explicit BlockTridiagonalOf(int blocks, int block_size = kBlockSize);
   void SetZero();
 
   int blocks() const { return static_cast<int>(diagonal.size()); }
-  int size() const { return kSize * blocks() + 1; }
+  int block_size() const { return block_size_; }
+  int size() const { return block_size_ * blocks() + 1; }
 
   // y = A x.
   Eigen::VectorXd Times(const Eigen::VectorXd& x) const;
@@ -46,6 +49,17 @@ class BlockTridiagonal {
   // L⁻¹ of the border's column, once factorised.
   void Forward(Eigen::VectorXd* x) const;
   void Backward(Eigen::VectorXd* x) const;
+  auto Part(Eigen::VectorXd* x, int block) const {
+    return x->segment<kSize>(block_size_ * block, block_size_);
+  }
+  auto Part(const Eigen::VectorXd& x, int block) const {
+    return x.segment<kSize>(block_size_ * block, block_size_);
+  }
+
+  int block_size_;
 };
+
+using BlockTridiagonal = BlockTridiagonalOf<11>;
+using WideTridiagonal = BlockTridiagonalOf<Eigen::Dynamic>;
 
 }  // namespace phongpd::internal

@@ -271,10 +271,16 @@ double MeanSquaredJerk(const KnotCurve& curve, const Vector3d& scale) {
   return sum / curve.Duration();
 }
 
+CurveProgram BuildCurveProgram(const KnotCurve& now,
+                               const std::vector<PieceCells>& cells,
+                               const CurveProgramOptions& options) {
+  return Builder(now, cells, options).Build();
+}
+
 CurveStep SolveCurveProgram(const KnotCurve& now,
                             const std::vector<PieceCells>& cells,
                             const CurveProgramOptions& options) {
-  const CurveProgram program = Builder(now, cells, options).Build();
+  const CurveProgram program = BuildCurveProgram(now, cells, options);
   CurveInteriorPoint solver(program);
   const CurveInteriorPoint::Result result = solver.Solve();
 

@@ -80,4 +80,10 @@ CurveStep SolveCurveProgram(const KnotCurve& now,
                             const std::vector<PieceCells>& cells,
                             const CurveProgramOptions& options);
 
+// That program, to be solved with others (joint_program.h).
+struct CurveProgram;
+CurveProgram BuildCurveProgram(const KnotCurve& now,
+                               const std::vector<PieceCells>& cells,
+                               const CurveProgramOptions& options);
+
 }  // namespace phongpd::internal

@@ -60,6 +60,8 @@ Json FleetRow(const FleetScene& scene, const std::vector<FleetRobot>& robots,
     row["order"].push_back(robots[i].name);
   }
   row["tries"] = answer.tries;
+  row["by_order"] = answer.by_order;
+  row["rounds_together"] = answer.rounds_together;
   row["pairs"] = Json::array();
   for (const FleetPair& pair : answer.pairs) {
     row["pairs"].push_back(PairRow(pair));

@@ -77,5 +77,26 @@ TEST(BlockTridiagonal, SaysWhatIsNotPositiveDefinite) {
   EXPECT_FALSE(BlockTridiagonal(3).Factorize());
 }
 
+// Blocks of any size, and of the one that is known, are the same numbers.
+TEST(BlockTridiagonal, IsTheSameOfAnySize) {
+  std::mt19937_64 random(3);
+  Pair pair = MakePair(6, &random);
+  WideTridiagonal wide(6, kSize);
+  for (int k = 0; k < 6; ++k) {
+    wide.diagonal[k] = pair.banded.diagonal[k];
+    wide.above[k] = pair.banded.above[k];
+    wide.border[k] = pair.banded.border[k];
+  }
+  wide.corner = pair.banded.corner;
+  ASSERT_EQ(wide.size(), pair.banded.size());
+  VectorXd x = VectorXd::Random(wide.size()), y = x;
+  EXPECT_LT((wide.Times(x) - pair.banded.Times(x)).norm(), 1e-9 * x.norm());
+  ASSERT_TRUE(wide.Factorize());
+  ASSERT_TRUE(pair.banded.Factorize());
+  wide.Solve(&x);
+  pair.banded.Solve(&y);
+  EXPECT_LT((x - y).norm(), 1e-9 * y.norm());
+}
+
 }  // namespace
 }  // namespace phongpd::internal

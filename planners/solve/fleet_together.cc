@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "planners/solve/fleet_together.h"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include "constraints/moving_judge.h"
+#include "planners/solve/optimize_in_time.h"
+#include "planners/trajectory/joint_curves.h"
+
+namespace phongpd::internal {
+namespace {
+
+bool Stays(const FleetRobot& robot) {
+  return robot.request.start == robot.request.goal;
+}
+
+bool IsForJoint(const FleetRobot& robot) {
+  return robot.request.moving.empty() && robot.request.via.empty();
+}
+
+JointTask TaskOf(const std::vector<FleetRobot>& robots,
+                 const FleetAnswer& answer, double wanted) {
+  JointTask task;
+  task.wanted = wanted;
+  task.time_limit = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < robots.size(); ++i) {
+    const FleetRobot& robot = robots[i];
+    const CurveOptions options = CurveOptionsOf(robot.world, robot.request);
+    task.time_limit = std::min(task.time_limit, options.time_limit);
+    if (options.preset == Preset::kTight) task.halvings = 1;
+    if (options.is_interrupted) task.is_interrupted = options.is_interrupted;
+    const PathAnswer& own = answer.robots[i];
+    task.robots.push_back({own.evidence.free_space, options.limits,
+                           options.margin, robot.world.diagonal(), own.motion,
+                           Stays(robot)});
+    for (std::size_t k = 0; k < i; ++k) {
+      if (Stays(robot) && Stays(robots[k])) continue;
+      const FleetRobot& other = robots[k];
+      const MovingObstacle body = {
+          other.world.workspace().robot.Named(other.name),
+          answer.robots[k].motion};
+      task.pairs.push_back({static_cast<int>(i), static_cast<int>(k),
+                            MovingBodies(robot.world, {body}).front().space});
+    }
+  }
+  return task;
+}
+
+void Replace(const FleetRobot& robot, const Trajectory& motion,
+             PathAnswer* answer) {
+  const CurveOptions options = CurveOptionsOf(robot.world, robot.request);
+  CurveSummary& curve = *answer->curve;
+  answer->motion = curve.trajectory = motion;
+  curve.duration = motion.duration();
+  // There is no more than a search behind it.
+  answer->status = curve.status = PathStatus::kRoundLimit;
+  answer->length = motion.ArcLength();
+  answer->clearance = curve.clearance = curve.margin =
+      ProvedClearance(*answer->evidence.free_space, {}, motion, options.margin);
+  answer->evidence.use = BoundLimitUse(motion, options.limits);
+  if (!robot.request.verifies) return;
+  answer->evidence.verification =
+      Verifier(robot.world.workspace()).VerifyCurve(motion);
+}
+
+}  // namespace
+
+std::optional<FleetAnswer> Hastened(const std::vector<FleetRobot>& robots,
+                                    const FleetAnswer& answer, double wanted) {
+  if (robots.size() < 2 ||
+      !std::all_of(robots.begin(), robots.end(), IsForJoint)) {
+    return std::nullopt;
+  }
+  const JointMotions joint = HastenTogether(TaskOf(robots, answer, wanted));
+  if (joint.motions.empty()) return std::nullopt;
+  FleetAnswer hastened = answer;
+  hastened.pairs.clear();
+  hastened.duration = joint.motions.front().duration();
+  hastened.rounds_together = joint.rounds;
+  for (std::size_t i = 0; i < robots.size(); ++i) {
+    if (Stays(robots[i])) continue;
+    PathAnswer& own = hastened.robots[i];
+    Replace(robots[i], joint.motions[i], &own);
+    const auto& verification = own.evidence.verification;
+    if (verification && verification->verdict == Verdict::kRefuted) {
+      return std::nullopt;
+    }
+  }
+  return hastened;
+}
+
+}  // namespace phongpd::internal

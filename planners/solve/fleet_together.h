@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "planners/solve/fleet.h"
+
+namespace phongpd::internal {
+
+// The motions of a solved answer, made faster together (HastenTogether), all of
+// one duration; its pairs are to be judged.  `wanted`: as good as can be
+// expected, s.  None: they were not made faster; or there are obstacles that
+// move by themselves, or places on the way, whose times are not theirs to
+// change.
+std::optional<FleetAnswer> Hastened(const std::vector<FleetRobot>& robots,
+                                    const FleetAnswer& answer, double wanted);
+
+}  // namespace phongpd::internal

@@ -1,0 +1,542 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "planners/trajectory/joint_interior_point.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace phongpd::internal {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+using Row = CurveProgram::Row;
+
+constexpr int kMaxIterations = 30;
+constexpr double kStartT = 0.03;  // that far inside the limits
+// The gap at the end, a share of what has been gained, and at least; the
+// gradient's largest entry.
+constexpr double kGap = 0.03;
+constexpr double kLeastGap = 1e-6;
+constexpr double kGradient = 1e-3;
+constexpr double kStepShare = 0.99;  // of the way to the nearest row
+constexpr double kShortestStep = 1e-4;
+// Of unknowns that nothing else has a price for.
+constexpr double kProximal = 1e-6;
+// A norm so small beside its limit gets no row in its own direction.
+constexpr double kSmallNorm = 0.1;
+
+}  // namespace
+
+JointInteriorPoint::JointInteriorPoint(const JointProgram& program)
+    : program_(program),
+      curves_(static_cast<int>(program.curves.size())),
+      pieces_(static_cast<int>(program.curves[0].pieces.size())),
+      block_(9 * curves_ + 1),
+      hessian_(pieces_, block_),
+      linear_(VectorXd::Zero(hessian_.size())),
+      lines_(static_cast<std::size_t>(pieces_)) {
+  for (int i = 0; i < pieces_; ++i) {
+    for (int c = 0; c < curves_; ++c) AddLines(c, i);
+  }
+  AddPairs();
+  AddObjective();
+}
+
+void JointInteriorPoint::AddLines(int curve, int piece) {
+  std::vector<Line>& lines = lines_[piece];
+  const bool stays = program_.stays[static_cast<std::size_t>(curve)];
+  for (const Row& row : program_.curves[curve].pieces[piece].rows) {
+    // Of what every curve has the same of, those of the first one.
+    if (row.kind == Row::kScalar && curve > 0) continue;
+    if (row.kind != Row::kScalar && stays) continue;
+    if (row.kind == Row::kNorm) {
+      AddNormLines(curve, row, &lines);
+      continue;
+    }
+    if (row.is_mirrored) {
+      lines.back().sides = 2;
+      lines.back().side[1].constant = row.constant;
+      continue;
+    }
+    Line line;
+    line.first = row.kind == Row::kScalar ? -1 : curve;
+    line.from = row.first;
+    line.to = row.last;
+    line.weight = row.weight;
+    line.axis = row.kind == Row::kAxis ? row.axis : -1;
+    line.direction = row.kind == Row::kAxis ? Vector3d(Vector3d::Unit(row.axis))
+                                            : row.direction;
+    line.eta = row.eta;
+    line.t = row.t;
+    line.side[0].constant = row.constant;
+    lines.push_back(line);
+  }
+}
+
+// The box about the ball, and the plane that touches it where the value is.
+void JointInteriorPoint::AddNormLines(int curve, const Row& row,
+                                      std::vector<Line>* lines) const {
+  Line line;
+  line.first = curve;
+  line.from = row.first;
+  line.to = row.last;
+  line.weight = row.weight;
+  line.t = row.t;
+  for (int axis = 0; axis < 3; ++axis) {
+    line.axis = axis;
+    line.direction = Vector3d::Unit(axis);
+    line.eta = row.value_by_eta[axis];
+    line.sides = 2;
+    line.side[0].constant = row.constant + row.value[axis];
+    line.side[1].constant = row.constant - row.value[axis];
+    lines->push_back(line);
+  }
+  const double norm = row.value.norm();
+  if (norm < kSmallNorm) return;
+  line.axis = -1;
+  line.direction = row.value / norm;
+  line.eta = line.direction.dot(row.value_by_eta);
+  line.sides = 1;
+  line.side[0].constant = row.constant + norm;
+  lines->push_back(line);
+}
+
+void JointInteriorPoint::AddPairs() {
+  for (const JointProgram::PairRow& row : program_.pairs) {
+    Line line;
+    line.first = row.first;
+    line.second = row.second;
+    line.from = row.from;
+    line.to = row.to;
+    line.weight = row.weight;
+    line.direction = row.direction;
+    line.side[0].constant = row.constant;
+    lines_[row.piece].push_back(line);
+  }
+}
+
+void JointInteriorPoint::AddJerk(int piece) {
+  // ∫ of products of the quadratic Bernstein polynomials, times 30.
+  Eigen::Matrix3d products;
+  products << 6, 3, 1, 3, 4, 3, 1, 3, 6;
+  MatrixXd matrix = MatrixXd::Zero(TAt() + 1, TAt() + 1);
+  VectorXd gradient = VectorXd::Zero(TAt() + 1);
+  for (int c = 0; c < curves_; ++c) {
+    const CurveProgram::Piece& of = program_.curves[c].pieces[piece];
+    const double weight = 2.0 * of.jerk_weight / (30.0 * curves_);
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto& rows = of.jerk[axis];
+      const Eigen::Matrix<double, 8, 8> square =
+          weight * rows.transpose() * products * rows;
+      const auto place = [&](int j) {
+        return j < 6 ? 18 * c + 3 * j + axis : EtaAt();
+      };
+      for (int j = 0; j < 7; ++j) {
+        gradient[place(j)] += square(j, 7);
+        for (int k = 0; k < 7; ++k) matrix(place(j), place(k)) += square(j, k);
+      }
+    }
+  }
+  const CurveProgram::Piece& of = program_.curves[0].pieces[piece];
+  gradient[EtaAt()] += of.share;
+  matrix(EtaAt(), EtaAt()) += of.share;
+  AddGradient(piece, gradient, &linear_);
+  AddMatrix(piece, &matrix, &hessian_);
+}
+
+void JointInteriorPoint::AddObjective() {
+  const int eta = block_ - 1;
+  const CurveProgram& first = program_.curves[0];
+  for (int i = 0; i < pieces_; ++i) {
+    AddJerk(i);
+    hessian_.diagonal[i].diagonal().array() += kProximal;
+    if (i == 0) continue;
+    const double by = 2.0 * first.evenness;
+    const double jump =
+        first.pieces[i].log_duration - first.pieces[i - 1].log_duration;
+    hessian_.diagonal[i](eta, eta) += by;
+    hessian_.diagonal[i - 1](eta, eta) += by;
+    hessian_.above[i - 1](eta, eta) -= by;
+    linear_[block_ * i + eta] += by * jump;
+    linear_[block_ * (i - 1) + eta] -= by * jump;
+  }
+  linear_[linear_.size() - 1] = first.t;
+}
+
+VectorXd JointInteriorPoint::ToLocal(int piece, const VectorXd& x) const {
+  VectorXd local(TAt() + 1);
+  const double eta = x[block_ * piece + block_ - 1];
+  for (int c = 0; c < curves_; ++c) {
+    const CurveProgram::Piece& of = program_.curves[c].pieces[piece];
+    const double r = of.before, s = of.after;
+    const auto from = x.segment<9>(block_ * piece + 9 * c);
+    auto b = local.segment<18>(18 * c);
+    b.segment<3>(0) = from.segment<3>(0);
+    b.segment<3>(3) = from.segment<3>(0) + r * from.segment<3>(3);
+    b.segment<3>(6) = from.segment<3>(0) + 2.0 * r * from.segment<3>(3) +
+                      r * r * from.segment<3>(6);
+    if (piece + 1 < pieces_) {
+      const auto to = x.segment<9>(block_ * (piece + 1) + 9 * c);
+      b.segment<3>(9) = to.segment<3>(0) - 2.0 * s * to.segment<3>(3) +
+                        s * s * to.segment<3>(6);
+      b.segment<3>(12) = to.segment<3>(0) - s * to.segment<3>(3);
+      b.segment<3>(15) = to.segment<3>(0);
+    } else {
+      b.segment<9>(9).setZero();
+    }
+    for (int j = 0; j < 6; ++j) b.segment<3>(3 * j) += eta * of.by_eta.col(j);
+  }
+  local[EtaAt()] = eta;
+  local[TAt()] = x[x.size() - 1];
+  return local;
+}
+
+void JointInteriorPoint::AddGradient(int piece, const VectorXd& local,
+                                     VectorXd* x) const {
+  double eta = local[EtaAt()];
+  for (int c = 0; c < curves_; ++c) {
+    const CurveProgram::Piece& of = program_.curves[c].pieces[piece];
+    const double r = of.before, s = of.after;
+    const auto b = local.segment<18>(18 * c);
+    for (int j = 0; j < 6; ++j) {
+      eta += of.by_eta.col(j).dot(b.segment<3>(3 * j));
+    }
+    const Vector3d b1 = b.segment<3>(3), b2 = b.segment<3>(6);
+    auto from = x->segment<9>(block_ * piece + 9 * c);
+    from.segment<3>(0) += b.segment<3>(0) + b1 + b2;
+    from.segment<3>(3) += r * (b1 + 2.0 * b2);
+    from.segment<3>(6) += r * r * b2;
+    if (piece + 1 == pieces_) continue;
+    const Vector3d b3 = b.segment<3>(9), b4 = b.segment<3>(12);
+    auto to = x->segment<9>(block_ * (piece + 1) + 9 * c);
+    to.segment<3>(0) += b.segment<3>(15) + b4 + b3;
+    to.segment<3>(3) -= s * (b4 + 2.0 * b3);
+    to.segment<3>(6) += s * s * b3;
+  }
+  (*x)[block_ * piece + block_ - 1] += eta;
+  (*x)[x->size() - 1] += local[TAt()];
+}
+
+// FᵀMF with ToLocal's F, columns first, then rows.
+void JointInteriorPoint::AddMatrix(int piece, MatrixXd* local,
+                                   WideTridiagonal* to) const {
+  MatrixXd& m = *local;
+  for (int pass = 0; pass < 2; ++pass) {
+    for (int c = 0; c < curves_; ++c) {
+      const CurveProgram::Piece& of = program_.curves[c].pieces[piece];
+      const double r = of.before, s = of.after;
+      for (int k = 0; k < 3; ++k) {
+        const int at = 18 * c + k;
+        for (int j = 0; j < 6; ++j) {
+          m.col(EtaAt()) += of.by_eta(k, j) * m.col(at + 3 * j);
+        }
+        auto b0 = m.col(at), b1 = m.col(at + 3), b2 = m.col(at + 6);
+        b0 += b1 + b2;
+        b1 = r * (b1 + 2.0 * b2);
+        b2 *= r * r;
+        auto b3 = m.col(at + 9), b4 = m.col(at + 12), b5 = m.col(at + 15);
+        b5 += b4 + b3;
+        b4 = -s * (b4 + 2.0 * b3);
+        b3 *= s * s;
+      }
+    }
+    m.transposeInPlace();
+  }
+  // The order after, of each curve: p v a of the first knot; a v p of the
+  // second.
+  const int eta = block_ - 1;
+  const auto of_second = [](int o) { return 15 - 3 * o; };
+  const bool has_second = piece + 1 < pieces_;
+  auto& here = to->diagonal[piece];
+  for (int a = 0; a < curves_; ++a) {
+    const int at = 18 * a;
+    here.block<9, 1>(9 * a, eta) += m.block<9, 1>(at, EtaAt());
+    here.block<1, 9>(eta, 9 * a) += m.block<1, 9>(EtaAt(), at);
+    to->border[piece].segment<9>(9 * a) += m.block<9, 1>(at, TAt());
+    for (int o = 0; has_second && o < 3; ++o) {
+      const int column = at + of_second(o);
+      to->above[piece].block<1, 3>(eta, 9 * a + 3 * o) +=
+          m.block<1, 3>(EtaAt(), column);
+      to->border[piece + 1].segment<3>(9 * a + 3 * o) +=
+          m.block<3, 1>(column, TAt());
+    }
+    for (int b = 0; b < curves_; ++b) {
+      here.block<9, 9>(9 * a, 9 * b) += m.block<9, 9>(at, 18 * b);
+      for (int o = 0; has_second && o < 3; ++o) {
+        const int column = 18 * b + of_second(o);
+        to->above[piece].block<9, 3>(9 * a, 9 * b + 3 * o) +=
+            m.block<9, 3>(at, column);
+        for (int q = 0; q < 3; ++q) {
+          to->diagonal[piece + 1].block<3, 3>(9 * a + 3 * q, 9 * b + 3 * o) +=
+              m.block<3, 3>(at + of_second(q), column);
+        }
+      }
+    }
+  }
+  here(eta, eta) += m(EtaAt(), EtaAt());
+  to->border[piece][eta] += m(EtaAt(), TAt());
+  to->corner += m(TAt(), TAt());
+}
+
+void JointInteriorPoint::Fix(WideTridiagonal* matrix) const {
+  for (int k = 0; k < pieces_; ++k) {
+    for (int c = 0; c < curves_; ++c) {
+      if (!IsFixed(k, c)) continue;
+      auto& block = matrix->diagonal[k];
+      block.middleRows<9>(9 * c).setZero();
+      block.middleCols<9>(9 * c).setZero();
+      block.diagonal().segment<9>(9 * c).setOnes();
+      matrix->above[k].middleRows<9>(9 * c).setZero();
+      if (k > 0) matrix->above[k - 1].middleCols<9>(9 * c).setZero();
+      matrix->border[k].segment<9>(9 * c).setZero();
+    }
+  }
+}
+
+void JointInteriorPoint::Fix(VectorXd* x) const {
+  for (int k = 0; k < pieces_; ++k) {
+    for (int c = 0; c < curves_; ++c) {
+      if (IsFixed(k, c)) x->segment<9>(block_ * k + 9 * c).setZero();
+    }
+  }
+}
+
+double JointInteriorPoint::Along(const Line& line,
+                                 const VectorXd& local) const {
+  double along = line.eta * local[EtaAt()];
+  if (line.first < 0) return along;
+  for (int j = line.from; j <= line.to; ++j) {
+    const int at = 18 * line.first + 3 * j;
+    if (line.axis >= 0) {
+      along += line.weight[j] * local[at + line.axis];
+      continue;
+    }
+    Vector3d moved = local.segment<3>(at);
+    if (line.second >= 0) moved -= local.segment<3>(18 * line.second + 3 * j);
+    along += line.weight[j] * line.direction.dot(moved);
+  }
+  return along;
+}
+
+// by · (its gradient without t)².
+void JointInteriorPoint::AddSquare(const Line& line, double by,
+                                   MatrixXd* matrix) const {
+  MatrixXd& m = *matrix;
+  const int eta = EtaAt();
+  m(eta, eta) += by * line.eta * line.eta;
+  if (line.first < 0) return;
+  const int a = 18 * line.first;
+  if (line.axis >= 0) {
+    for (int j = line.from; j <= line.to; ++j) {
+      const int at = a + 3 * j + line.axis;
+      const double weight = by * line.weight[j];
+      for (int k = line.from; k <= line.to; ++k) {
+        m(at, a + 3 * k + line.axis) += weight * line.weight[k];
+      }
+      m(at, eta) += weight * line.eta;
+      m(eta, at) += weight * line.eta;
+    }
+    return;
+  }
+  const Eigen::Matrix3d square =
+      by * line.direction * line.direction.transpose();
+  for (int j = line.from; j <= line.to; ++j) {
+    const Vector3d with_eta = (by * line.eta * line.weight[j]) * line.direction;
+    m.block<3, 1>(a + 3 * j, eta) += with_eta;
+    m.block<1, 3>(eta, a + 3 * j) += with_eta.transpose();
+    for (int k = line.from; k <= line.to; ++k) {
+      const Eigen::Matrix3d part = line.weight[j] * line.weight[k] * square;
+      m.block<3, 3>(a + 3 * j, a + 3 * k) += part;
+      if (line.second < 0) continue;
+      const int b = 18 * line.second;
+      m.block<3, 3>(b + 3 * j, b + 3 * k) += part;
+      m.block<3, 3>(a + 3 * j, b + 3 * k) -= part;
+      m.block<3, 3>(b + 3 * j, a + 3 * k) -= part;
+    }
+  }
+}
+
+void JointInteriorPoint::AddLine(const Line& line, double by,
+                                 VectorXd* local) const {
+  (*local)[EtaAt()] += by * line.eta;
+  if (line.first < 0) return;
+  for (int j = line.from; j <= line.to; ++j) {
+    const Vector3d part = by * line.weight[j] * line.direction;
+    local->segment<3>(18 * line.first + 3 * j) += part;
+    if (line.second >= 0) local->segment<3>(18 * line.second + 3 * j) -= part;
+  }
+}
+
+// Duals are μ/slack, with the μ that the price of t asks for.
+bool JointInteriorPoint::Begin(VectorXd* x, int* rows) {
+  (*x)[x->size() - 1] = kStartT;
+  double of_t = 0.0;
+  for (int i = 0; i < pieces_; ++i) {
+    const VectorXd local = ToLocal(i, *x);
+    for (Line& line : lines_[i]) {
+      const double along = Along(line, local);
+      for (int s = 0; s < line.sides; ++s) {
+        ++*rows;
+        Side& side = line.side[s];
+        side.slack = -((s == 0 ? along : -along) + line.t * local[TAt()] +
+                       side.constant);
+        if (!(side.slack > 0.0)) return false;
+        if (line.t < 0.0) of_t -= line.t / side.slack;
+      }
+    }
+  }
+  const double mu = program_.curves[0].t / of_t;
+  for (auto& of_piece : lines_) {
+    for (Line& line : of_piece) {
+      for (int s = 0; s < line.sides; ++s) {
+        line.side[s].dual = mu / line.side[s].slack;
+      }
+    }
+  }
+  return true;
+}
+
+double JointInteriorPoint::AddRows(WideTridiagonal* matrix,
+                                   VectorXd* residual) const {
+  double gap = 0.0;
+  const int t = TAt();
+  MatrixXd local(t + 1, t + 1);
+  for (int i = 0; i < pieces_; ++i) {
+    local.setZero();
+    VectorXd of_rows = VectorXd::Zero(t + 1), with_t = VectorXd::Zero(t + 1);
+    for (const Line& line : lines_[i]) {
+      double by = 0.0, by_t = 0.0, dual = 0.0;
+      for (int s = 0; s < line.sides; ++s) {
+        const Side& side = line.side[s];
+        const double sign = s == 0 ? 1.0 : -1.0;
+        gap += side.slack * side.dual;
+        by += side.dual / side.slack;
+        by_t += sign * side.dual / side.slack;
+        dual += sign * side.dual;
+        of_rows[t] += side.dual * line.t;
+      }
+      AddSquare(line, by, &local);
+      AddLine(line, dual, &of_rows);
+      if (line.t == 0.0) continue;
+      AddLine(line, by_t * line.t, &with_t);
+      local(t, t) += by * line.t * line.t;
+    }
+    local.col(t) += with_t;
+    local.row(t) += with_t.transpose();
+    AddMatrix(i, &local, matrix);
+    AddGradient(i, of_rows, residual);
+  }
+  return gap;
+}
+
+// Steps of slacks and duals along one of x; how far they lead at most.
+double JointInteriorPoint::FollowRows(const VectorXd& step, double centre) {
+  double alpha = 1.0;
+  for (int i = 0; i < pieces_; ++i) {
+    const VectorXd local = ToLocal(i, step);
+    for (Line& line : lines_[i]) {
+      const double along = Along(line, local);
+      for (int s = 0; s < line.sides; ++s) {
+        Side& side = line.side[s];
+        const double slope = (s == 0 ? along : -along) + line.t * local[TAt()];
+        side.slack_step = -slope;
+        side.dual_step =
+            -side.dual +
+            (side.dual * slope + centre - side.product) / side.slack;
+        if (side.slack_step < 0.0) {
+          alpha = std::min(alpha, -side.slack / side.slack_step);
+        }
+        if (side.dual_step < 0.0) {
+          alpha = std::min(alpha, -side.dual / side.dual_step);
+        }
+      }
+    }
+  }
+  return alpha;
+}
+
+void JointInteriorPoint::AddCentres(double centre, VectorXd* to) const {
+  for (int i = 0; i < pieces_; ++i) {
+    VectorXd of_rows = VectorXd::Zero(TAt() + 1);
+    for (const Line& line : lines_[i]) {
+      double by = 0.0;
+      for (int s = 0; s < line.sides; ++s) {
+        const Side& side = line.side[s];
+        const double multiplier = (side.product - centre) / side.slack;
+        by += s == 0 ? multiplier : -multiplier;
+        of_rows[TAt()] += multiplier * line.t;
+      }
+      AddLine(line, by, &of_rows);
+    }
+    AddGradient(i, of_rows, to);
+  }
+}
+
+JointInteriorPoint::Result JointInteriorPoint::Solve() {
+  Result result;
+  result.x = VectorXd::Zero(hessian_.size());
+  VectorXd x = result.x;
+  // Not so where rounding takes all room: then no step is the answer.
+  if (!Begin(&x, &result.rows)) return result;
+  WideTridiagonal matrix(pieces_, block_);
+  for (; result.iterations < kMaxIterations; ++result.iterations) {
+    const VectorXd gradient = hessian_.Times(x) + linear_;
+    VectorXd residual = gradient;
+    matrix = hessian_;
+    const double gap = AddRows(&matrix, &residual);
+    Fix(&residual);
+    const double gained = -0.5 * x.dot(gradient + linear_);
+    if (gap <= std::max(kLeastGap, kGap * gained) &&
+        residual.cwiseAbs().maxCoeff() <= kGradient) {
+      break;
+    }
+    Fix(&matrix);
+    matrix.Factorize();
+
+    // Predictor.
+    for (auto& of_piece : lines_) {
+      for (Line& line : of_piece) {
+        for (Side& side : line.side) side.product = 0.0;
+      }
+    }
+    VectorXd step = -gradient;
+    Fix(&step);
+    matrix.Solve(&step);
+    const double reach = FollowRows(step, 0.0);
+    double after = 0.0;
+    for (auto& of_piece : lines_) {
+      for (Line& line : of_piece) {
+        for (int s = 0; s < line.sides; ++s) {
+          Side& side = line.side[s];
+          after += (side.slack + reach * side.slack_step) *
+                   (side.dual + reach * side.dual_step);
+          side.product = side.slack_step * side.dual_step;
+        }
+      }
+    }
+    const double ratio = after / gap;
+    const double centre = ratio * ratio * ratio * gap / result.rows;
+
+    // Corrector.
+    step = -gradient;
+    AddCentres(centre, &step);
+    Fix(&step);
+    matrix.Solve(&step);
+    const double alpha = std::min(1.0, kStepShare * FollowRows(step, centre));
+    if (!(alpha > kShortestStep)) break;
+    for (auto& of_piece : lines_) {
+      for (Line& line : of_piece) {
+        for (Side& side : line.side) {
+          side.slack += alpha * side.slack_step;
+          side.dual += alpha * side.dual_step;
+        }
+      }
+    }
+    x += alpha * step;
+  }
+  result.x = x;
+  return result;
+}
+
+}  // namespace phongpd::internal
