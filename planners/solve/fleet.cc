@@ -138,37 +138,38 @@ class FleetSearch {
       : robots_(robots) {}
 
   FleetAnswer Run() {
-    FleetAnswer answer;
-    if (!RunAlone(&answer)) return answer;
-    FindFirst(FirstOrder(), &answer);
-    if (!answer.IsSolved()) return answer;
-    TryMore(&answer);
-    answer.by_order = answer.duration;
-    Hasten(&answer);
-    return answer;
+    FleetAnswer by_order;
+    if (!RunAlone(&by_order)) return by_order;
+    FindFirst(FirstOrder(), &by_order);
+    if (!by_order.IsSolved()) return by_order;
+    FleetAnswer best = Hastened(by_order);
+    int tries = by_order.tries;
+    for (int more = MostMore(); more > 0 && HasRoom(best); --more) {
+      const std::optional<Order> order = NextOrder(by_order);
+      if (!order) break;
+      FleetAnswer other = by_order;
+      ++tries;
+      if (Try(*order, kLater * by_order.duration, &other) < order->size() ||
+          !other.IsSolved()) {
+        continue;
+      }
+      FleetAnswer hastened = Hastened(other);
+      if (hastened.duration < best.duration) best = std::move(hastened);
+      if (other.duration < by_order.duration) by_order = std::move(other);
+    }
+    best.tries = tries;
+    return best;
   }
 
  private:
-  // Other orders, for a sooner end.
-  void TryMore(FleetAnswer* best) {
-    FleetAnswer& answer = *best;
-    for (int more = MostMore(); more > 0 && HasRoom(answer); --more) {
-      const std::optional<Order> order = NextOrder(answer);
-      if (!order) break;
-      FleetAnswer other = answer;
-      ++answer.tries;
-      if (Try(*order, answer.duration, &other) < order->size()) continue;
-      other.tries = answer.tries;
-      if (other.IsSolved()) answer = std::move(other);
-    }
-  }
-
-  void Hasten(FleetAnswer* answer) const {
-    if (!HasRoom(*answer)) return;
-    auto together = internal::Hastened(robots_, *answer, kEnough * Slowest());
-    if (!together) return;
+  // Made faster together, where that is certified.
+  FleetAnswer Hastened(FleetAnswer answer) const {
+    answer.by_order = answer.duration;
+    if (!HasRoom(answer)) return answer;
+    auto together = internal::Hastened(robots_, answer, kEnough * Slowest());
+    if (!together) return answer;
     JudgeAll(robots_, &*together);
-    if (together->IsSolved()) *answer = std::move(*together);
+    return together->IsSolved() ? std::move(*together) : answer;
   }
 
   // Each as if there were no other robot.
@@ -281,6 +282,8 @@ class FleetSearch {
   }
 
   static constexpr double kEnough = 1.02;  // of the slowest alone
+  // Of the best by order: what ends so much later is not made faster together.
+  static constexpr double kLater = 1.25;
 
   // The last one to arrive goes earlier: first, or so early as was not tried.
   std::optional<Order> NextOrder(const FleetAnswer& answer) {

@@ -33,7 +33,7 @@ struct FleetAnswer {
   int tries = 0;                   // of orders; 0: one has no motion even alone
   // Of all motions made faster together; 0: they are those of the order.
   int rounds_together = 0;
-  double by_order = 0.0;           // the duration of those, s
+  double by_order = 0.0;  // the duration of those, s
   double duration = 0.0;  // until all have arrived, s
   double seconds = 0.0;
 
@@ -49,14 +49,14 @@ struct FleetAnswer {
 // first; one without a motion then ends it all.  In the first order come those
 // that stay where they are, then who takes longest alone; a robot that finds no
 // motion is put in front of the others, and all begin anew, until no new order
-// comes of it.  With motions of all, the last one to arrive goes earlier in
-// some more orders, by the largest preset none (fast), one (balanced) or six
-// (tight), and the sooner end is kept.  Where all could arrive sooner still,
-// the motions are made faster together (joint_curves.h), if that is found: then
-// all arrive at the same time.  What is answered is certified for each pair,
-// for all t ≥ 0; without an answer it is no proof that there is none.  A pair
-// that is not, or is refuted on the solids where a request verifies, has the
-// status kVerificationFailed.
+// comes of it.  With motions of all, they are made faster together, where that
+// is found (joint_curves.h).  While all could arrive sooner still, the last one
+// to arrive goes earlier in some more orders, by the largest preset none
+// (fast), one (balanced) or six (tight), and the soonest end of all is kept.
+// Made faster together all arrive at the same time.  What is answered is
+// certified for each pair, for all t ≥ 0; without an answer it is no proof that
+// there is none.  A pair that is not, or is refuted on the solids where a
+// request verifies, has the status kVerificationFailed.
 //
 // Throws InputError, before anything is built: for a name used twice, requests
 // that Optimize would refuse, two robots that touch at their starts or at their

@@ -2,6 +2,7 @@
 #include "planners/trajectory/joint_curves.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -22,8 +23,14 @@ constexpr int kFirstPieces = 20, kMostPieces = 160;
 constexpr double kTrust = 0.05;  // τ, of D
 constexpr double kSigma = 0.1;   // σ of the first round
 constexpr double kLargestSigma = 0.5, kSmallestSigma = 1e-4;
-// Of σ after a step that was kept, and of σ and τ after one that was not.
-constexpr double kLonger = 1.5, kShorter = 0.4, kLessTrust = 0.6;
+// So much of a step was taken, and what σ and τ change by then.
+struct Taken {
+  double share, of_sigma, of_trust;
+  double gain = 0.0;  // what the time fell by, a share
+};
+constexpr std::array<Taken, 3> kSteps = {
+    {{1.0, 1.5, 1.0}, {0.5, 0.8, 0.9}, {0.2, 0.5, 0.7}}};
+constexpr Taken kNoStep = {0.0, 0.3, 0.5};
 constexpr int kMaxRounds = 40;  // of a size of pieces
 constexpr int kSmallGains = 3;
 constexpr double kSmallGain = 2e-3;
@@ -99,14 +106,11 @@ class Together {
                     now_[0].Duration() > task_.wanted && !MustEnd();
          ++i) {
       ++*rounds;
-      const double gain = Round(trust, sigma);
-      if (gain > 0.0) {
-        sigma = std::min(kLonger * sigma, kLargestSigma);
-      } else {
-        sigma *= kShorter;
-        trust *= kLessTrust;
-      }
-      small_gains = gain > 0.0 && gain < kSmallGain ? small_gains + 1 : 0;
+      const Taken taken = Round(trust, sigma);
+      sigma = std::min(taken.of_sigma * sigma, kLargestSigma);
+      trust *= taken.of_trust;
+      if (taken.gain < kSmallGain) ++small_gains;
+      if (taken.gain > kSmallGain) small_gains = 0;
     }
   }
 
@@ -233,19 +237,19 @@ class Together {
     return moved;
   }
 
-  // What the time fell by, a share; 0: no step was kept.
-  double Round(double trust, double sigma) {
+  // The largest share of a step that gains and is free; 0 gained: none.
+  Taken Round(double trust, double sigma) {
     const JointProgram program = Program(trust, sigma);
     const Eigen::VectorXd x = JointInteriorPoint(program).Solve().x;
     const double before = now_[0].Duration();
-    for (const double share : {1.0, 0.5, 0.2}) {
-      Curves moved = Moved(program, x, trust, share);
+    for (const Taken& taken : kSteps) {
+      Curves moved = Moved(program, x, trust, taken.share);
       const double gain = 1.0 - moved[0].Duration() / before;
       if (!(gain > 0.0) || !IsFree(moved)) continue;
       now_ = std::move(moved);
-      return gain;
+      return {taken.share, taken.of_sigma, taken.of_trust, gain};
     }
-    return 0.0;
+    return kNoStep;
   }
 
   // Their limits proved: the same factor for all.
