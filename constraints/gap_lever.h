@@ -20,8 +20,8 @@ namespace phongpd {
 // inside.  A contact point jumps where an edge becomes parallel to a face; this
 // is continuous in (q, R) wherever anything is within δ, as a quotient of sums
 // of continuous functions, for the points there are: triangles of ∂A cut until
-// no edge is longer than δ/2, so that one of them is within 0.3 δ of a robot
-// that touches.  r̄ lies in the hull of the robot.
+// no edge is longer than δ/2, so that one of them is within δ/3 where the
+// robot touches.  r̄ lies in the hull of the robot.
 class GapLever {
  public:
   // Closed meshes that bound solids; δ > 0, user's unit.  Throws InputError

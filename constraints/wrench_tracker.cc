@@ -8,6 +8,7 @@
 #include "core/mesh/mesh_error.h"
 #include "core/number_text.h"
 #include "core/projection/euclidean_metric.h"
+#include "core/projection/smoothed_metric.h"
 #include "core/projection/smoothed_normal.h"
 
 namespace phongpd {
@@ -39,6 +40,16 @@ double Gyration(const TriangleMesh& mesh) {
 
 double Angle(const Vector3d& a, const Vector3d& b) {
   return std::atan2(a.cross(b).norm(), a.dot(b));
+}
+
+DepthStatus StatusOf(const PenetrationResult& result, const RobotPose& pose) {
+  if (result.status == QueryStatus::kInvalid ||
+      !pose.orientation.coeffs().allFinite()) {
+    return DepthStatus::kInvalid;
+  }
+  if (result.inside) return DepthStatus::kPenetrating;
+  return result.signed_distance > 0.0 ? DepthStatus::kSeparate
+                                      : DepthStatus::kTouching;
 }
 
 // a turned towards b by `angle` ≤ ∠(a, b); opposite ones by some way round.
@@ -103,6 +114,23 @@ WrenchTracker::WrenchTracker(const Solid& robot, const Solid& obstacle,
   impl_ = std::make_shared<const Impl>(robot, obstacle, options);
 }
 
+TrackedWrench WrenchTracker::SmoothedAt(const ContactSpace& space,
+                                        const RobotPose& pose) const {
+  TrackedWrench answer;
+  const SmoothedMetric metric(space);
+  const PenetrationResult result = metric.Query(pose.position);
+  answer.status = StatusOf(result, pose);
+  if (answer.status != DepthStatus::kPenetrating) return answer;
+  answer.is_fallback = result.status == QueryStatus::kEuclideanFallback;
+  answer.normal = result.direction;
+  answer.exit = impl_->Exit(space, pose.position, answer.normal);
+  answer.push = answer.euclidean_depth = -result.signed_distance;
+  Vector3d lever = Vector3d::Zero();
+  impl_->levers.At(pose, &lever);
+  answer.lever = pose.orientation * lever;
+  return answer;
+}
+
 double WrenchTracker::gyration() const { return impl_->gyration; }
 
 double WrenchTracker::StepLength(const RobotPose& a, const RobotPose& b) const {
@@ -133,13 +161,9 @@ TrackedWrench WrenchTracker::Step(const ContactSpace& space,
   TrackedWrench answer;
   const EuclideanMetric metric(space);
   const PenetrationResult euclid = metric.Query(pose.position);
-  if (euclid.status == QueryStatus::kInvalid ||
-      !pose.orientation.coeffs().allFinite()) {
-    return answer;
-  }
-  if (!euclid.inside) {
-    answer.status = euclid.signed_distance > 0.0 ? DepthStatus::kSeparate
-                                                 : DepthStatus::kTouching;
+  answer.status = StatusOf(euclid, pose);
+  if (answer.status == DepthStatus::kInvalid) return answer;
+  if (answer.status != DepthStatus::kPenetrating) {
     *state = State();
     return answer;
   }
@@ -154,7 +178,6 @@ TrackedWrench WrenchTracker::Step(const ContactSpace& space,
     answer.turned = std::min(kDamping * answer.wanted, reach / impl.gyration);
     n = TurnedTowards(state->normal, wish, answer.turned);
   }
-  answer.status = DepthStatus::kPenetrating;
   answer.normal = n;
   answer.exit = impl.Exit(space, pose.position, n);
   answer.euclidean_depth = -euclid.signed_distance;

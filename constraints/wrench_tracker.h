@@ -12,7 +12,7 @@ namespace phongpd {
 struct WrenchTrackerOptions {
   // κ > 0: how fast the direction turns, the lever moves and the push grows at
   // most, in lengths of the robot's own step.
-  double speed = 4.0;
+  double speed = 2.0;
   // c ≥ 1: the direction makes for the nearest way out where the one along it
   // is longer than c times that.
   double ratio = 1.5;
@@ -20,7 +20,7 @@ struct WrenchTrackerOptions {
   void Validate() const;  // throws InputError unless finite and in range
 };
 
-// Answer to one step.  Lengths in the user's unit.
+// Answer to one pose.  Lengths in the user's unit.
 struct TrackedWrench {
   // kPenetrating, kTouching, kSeparate, exact; kInvalid: the pose is not
   // finite, all other members are zero and the state is as it was.
@@ -34,6 +34,8 @@ struct TrackedWrench {
   double euclidean_depth = 0.0;  // the least s of all directions
   double turned = 0.0;  // by how much n did since the last step, radians
   double wanted = 0.0;  // what it would have turned without a bound
+  // n is Euclid's, for want of a smoothed one (SmoothedAt alone).
+  bool is_fallback = false;
 
   Eigen::Vector3d Torque() const { return lever.cross(normal); }  // r × n
 };
@@ -52,8 +54,7 @@ struct TrackedWrench {
 // times Euclid's depth.  r makes for GapLever's mean, with the reach of an
 // eighth of the robot's diagonal, of the robot moved by s·n, ŝ for s, both half
 // of the way a step.  The first step inside begins with Euclid's direction and
-// depth and the mean as it is; where the robot came from outside the depth is
-// less than δ.
+// depth and the mean as it is.
 //
 // What has no bound, and no tracker can have one, is the way out: where a free
 // place closes as the robot turns (a peg in a tight hole) the least depth
@@ -91,6 +92,15 @@ class WrenchTracker {
   // The same with the space of the pose's orientation.
   TrackedWrench Step(const ContactSpace& space, const RobotPose& pose,
                      State* state) const;
+
+  // The smoothed wrench: of this pose alone, nothing is remembered, `turned`
+  // and `wanted` are zero.  n is SmoothedMetric's direction at q with its
+  // default length (Euclid's where that is not known, `is_fallback`), r
+  // GapLever's mean of the robot as it lies, s the way out along n, ŝ Euclid's
+  // depth.  Continuous in the pose wherever that direction is known, but for
+  // depths that jump themselves; s is longer than the tracker's.
+  TrackedWrench SmoothedAt(const ContactSpace& space,
+                           const RobotPose& pose) const;
 
   double gyration() const;  // L
   // δ, of the shorter turn.

@@ -42,7 +42,7 @@ std::vector<WrenchPair> WrenchPairs(std::uint64_t first_seed) {
       {"bar", MakeBox({-0.6, -0.2, -0.15}, {0.6, 0.2, 0.15})},
       {"peg", MakePrism(0.25, 1.4, 6)},
       {"small L", Centred(MakeL(1.0, 0.3, 0.3))},
-      {"star", MakeStar(0.3, 0.6)},
+      {"cone", Centred(MakeCone(0.4, 1.2, 6))},
       {"cross", MakeAxes(0.6, 0.12)}};
   const std::vector<std::pair<std::string, TriangleMesh>> obstacles = {
       {"box", MakeBox({-0.9, -0.7, -0.5}, {0.9, 0.7, 0.5})},

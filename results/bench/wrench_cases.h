@@ -17,7 +17,7 @@ struct WrenchPair {
   std::uint64_t seed = 0;  // of its motions
 };
 
-// Twenty, of 12 to 120 triangles a solid; pair i has the seed `first_seed` + i.
+// Twenty, of 10 to 120 triangles a solid; pair i has the seed `first_seed` + i.
 // 32001 to 32020 are those of the published rows, and used for nothing else.
 inline constexpr std::uint64_t kWrenchSeed = 32001;
 std::vector<WrenchPair> WrenchPairs(std::uint64_t first_seed = kWrenchSeed);

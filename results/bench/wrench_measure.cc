@@ -5,11 +5,9 @@
 #include <ctime>
 #include <functional>
 
-#include "constraints/gap_lever.h"
 #include "constraints/wrench_tracker.h"
 #include "core/projection/euclidean_metric.h"
 #include "core/projection/phong_metric.h"
-#include "core/projection/smoothed_metric.h"
 #include "results/bench/contact_points.h"
 
 namespace phongpd::bench {
@@ -49,9 +47,7 @@ class Metrics {
       : pair_(pair),
         tracker_(pair.robot, pair.obstacle),
         free_tracker_(pair.robot, pair.obstacle, Unbounded()),
-        contacts_(pair.obstacle.mesh()),
-        levers_(pair.robot.mesh(), pair.obstacle.mesh(),
-                ComputeBounds(pair.robot.mesh()).Diagonal() / 8) {}
+        contacts_(pair.obstacle.mesh()) {}
 
   const WrenchTracker& tracker() const { return tracker_; }
 
@@ -133,23 +129,20 @@ class Metrics {
       return AtContact(p, best);
     };
   }
-  // Nothing is remembered: direction and lever are those of q itself.
-  WrenchSample Smoothed(const Place& p) const {
-    const SmoothedMetric metric(p.space);
-    const PenetrationResult result = metric.Query(p.pose.position);
-    Vector3d lever = Vector3d::Zero();
-    levers_.At(p.pose, &lever);
-    WrenchSample sample =
-        Sample(p, result.direction, p.pose.orientation * lever);
-    sample.is_fallback = result.status == QueryStatus::kEuclideanFallback;
+  WrenchSample FromTracker(const Place& p, const TrackedWrench& wrench) const {
+    WrenchSample sample = Sample(p, wrench.normal, wrench.lever);
+    sample.push = wrench.push / tracker_.gyration();
+    sample.is_fallback = wrench.is_fallback;
     return sample;
+  }
+  WrenchSample Smoothed(const Place& p) const {
+    return FromTracker(p, tracker_.SmoothedAt(p.space, p.pose));
   }
   Asked Tracked(const WrenchTracker& tracker) const {
     return [this, &tracker,
             state = WrenchTracker::State()](const Place& p) mutable {
       const TrackedWrench wrench = tracker.Step(p.space, p.pose, &state);
-      WrenchSample sample = Sample(p, wrench.normal, wrench.lever);
-      sample.push = wrench.push / tracker.gyration();
+      WrenchSample sample = FromTracker(p, wrench);
       // Half of what is wanted is turned where no bound is in the way.
       sample.is_bounded = wrench.turned < 0.499 * wrench.wanted;
       return sample;
@@ -159,7 +152,6 @@ class Metrics {
   const WrenchPair& pair_;
   WrenchTracker tracker_, free_tracker_;
   ContactPoints contacts_;
-  GapLever levers_;
 };
 
 }  // namespace
