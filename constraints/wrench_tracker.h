@@ -53,8 +53,8 @@ struct TrackedWrench {
 // way out s but at least L/20; and Euclid's direction where s is more than c
 // times Euclid's depth.  r makes for GapLever's mean, with the reach of an
 // eighth of the robot's diagonal, of the robot moved by s·n, ŝ for s, both half
-// of the way a step.  The first step inside begins with Euclid's direction and
-// depth and the mean as it is.
+// of the way a step.  The first step inside begins with Euclid's direction,
+// the way out along it and the mean as they are.
 //
 // What has no bound, and no tracker can have one, is the way out: where a free
 // place closes as the robot turns (a peg in a tight hole) the least depth

@@ -16,7 +16,7 @@ def rows(pair, metric, changes, motion="turn", exits=(1.0, 1.0)):
     return [{"pair": pair, "metric": metric, "motion": motion,
              "steps": str(32 << k), **{name: str(change)
                                        for name in wrench_report.CHANGES},
-             "inside": "10", "bounded": "1", "fallbacks": "0", "µs": "5",
+             "inside": "10", "bounded": "1", "fallbacks": "0", "µs": "5", "ms a space": "4",
              "step": str(0.1 / 2 ** k), "mean exit": str(exits[0]),
              "worst exit": str(exits[1])} for k, change in enumerate(changes)]
 
@@ -45,15 +45,18 @@ class Pages(unittest.TestCase):
             rows("p", "good", (0.8, 0.4), exits=(1.1, 2.0))
             + rows("q", "good", (0.8, 0.4), exits=(1.3, 4.0))
             + rows("p", "bad", (2, 2)) + rows("q", "bad", (0.8, 0.4)))
-        text = wrench_report.findings(found)
+        text = " ".join(wrench_report.findings(found).split())
         self.assertIn("good: the change of direction halves on 2 of 2 pairs", text)
         self.assertIn("bad: the change of direction halves on 1 of 2 pairs", text)
-        self.assertIn("exits 1.2 times Euclid's in the mean, 4 at worst (aim: 1.15) – "
-                      "**not reached**", text)
+        self.assertIn("exits 1.2 times Euclid's in the mean (aim: 1.15) – **not "
+                      "reached**; 1.2 in the median of the motions, 4 at worst", text)
         self.assertEqual(text.count("– reached"), 2)
+        kept = wrench_report.bound_line(wrench_report.by_metric(
+            rows("p", "tracked", (0.21, 0.05))))
+        self.assertIn("held in 1 of 2 rows", " ".join(kept.split()))
         table = list(wrench_report.summary(found))
         self.assertEqual(table[0][:5], ["good", 2, 2, 2, 2])
-        self.assertEqual(table[0][10], 10.0)
+        self.assertEqual(table[0][11], 10.0)
 
     def test_work_is_a_share_of_the_stored_energy(self):
         def row(metric, steps, way, t, force, work):
