@@ -18,6 +18,7 @@ using Eigen::Vector3d;
 
 constexpr double kReach = 1.0 / 8;         // of the robot's diagonal
 constexpr double kLeastRadius = 1.0 / 20;  // ρ, of L
+constexpr double kRatio = 1.5;             // of the ways out that n keeps to
 constexpr double kDamping = 0.5;           // of what is wanted, a step
 
 // ∫ |p|² dA of a triangle is its area times the mean of |p|² at the middles of
@@ -62,23 +63,11 @@ Vector3d TurnedTowards(const Vector3d& a, const Vector3d& b, double angle) {
 
 }  // namespace
 
-void WrenchTrackerOptions::Validate() const {
-  if (!(speed > 0.0) || !std::isfinite(speed)) {
-    throw InputError("speed: expected a finite number above 0, found " +
-                     FormatDouble(speed));
-  }
-  if (!(ratio >= 1.0) || !std::isfinite(ratio)) {
-    throw InputError("ratio: expected a finite number of at least 1, found " +
-                     FormatDouble(ratio));
-  }
-}
-
 struct WrenchTracker::Impl {
-  Impl(const Solid& the_robot, const Solid& the_obstacle,
-       const WrenchTrackerOptions& the_options)
+  Impl(const Solid& the_robot, const Solid& the_obstacle, double the_speed)
       : robot(the_robot),
         obstacle(the_obstacle),
-        options(the_options),
+        speed(the_speed),
         gyration(Gyration(robot.mesh())),
         levers(robot.mesh(), obstacle.mesh(),
                kReach * ComputeBounds(robot.mesh()).Diagonal()) {}
@@ -93,7 +82,7 @@ struct WrenchTracker::Impl {
   Vector3d Wish(const ContactSpace& space, const Vector3d& q,
                 const PenetrationResult& euclid, const Vector3d& n) const {
     const double exit = Exit(space, q, n);
-    if (exit > options.ratio * -euclid.signed_distance) return euclid.direction;
+    if (exit > kRatio * -euclid.signed_distance) return euclid.direction;
     const SmoothedNormals normals(
         space, std::max(0.5 * exit, kLeastRadius * gyration));
     const SmoothedNormal found = normals.At(q + exit * n);
@@ -101,17 +90,20 @@ struct WrenchTracker::Impl {
   }
 
   Solid robot, obstacle;
-  WrenchTrackerOptions options;
+  double speed;
   double gyration;
   GapLever levers;
 };
 
 WrenchTracker::WrenchTracker(const Solid& robot, const Solid& obstacle,
-                             const WrenchTrackerOptions& options) {
-  options.Validate();
+                             double speed) {
+  if (!(speed > 0.0) || !std::isfinite(speed)) {
+    throw InputError("WrenchTracker: expected a finite speed above 0, found " +
+                     FormatDouble(speed));
+  }
   RequireNotEmpty(robot, "robot");
   RequireNotEmpty(obstacle, "obstacle");
-  impl_ = std::make_shared<const Impl>(robot, obstacle, options);
+  impl_ = std::make_shared<const Impl>(robot, obstacle, speed);
 }
 
 TrackedWrench WrenchTracker::SmoothedAt(const ContactSpace& space,
@@ -170,7 +162,7 @@ TrackedWrench WrenchTracker::Step(const ContactSpace& space,
   Vector3d n = euclid.direction, lever = Vector3d::Zero();
   double reach = 0.0;  // how far r may move
   if (state->has_begun) {
-    reach = impl.options.speed * StepLength(state->pose, pose);
+    reach = impl.speed * StepLength(state->pose, pose);
     lever = state->lever;
     const Vector3d wish =
         impl.Wish(space, pose.position, euclid, state->normal);

@@ -9,17 +9,6 @@
 
 namespace phongpd {
 
-struct WrenchTrackerOptions {
-  // κ > 0: how fast the direction turns, the lever moves and the push grows at
-  // most, in lengths of the robot's own step.
-  double speed = 2.0;
-  // c ≥ 1: the direction makes for the nearest way out where the one along it
-  // is longer than c times that.
-  double ratio = 1.5;
-
-  void Validate() const;  // throws InputError unless finite and in range
-};
-
 // Answer to one pose.  Lengths in the user's unit.
 struct TrackedWrench {
   // kPenetrating, kTouching, kSeparate, exact; kInvalid: the pose is not
@@ -50,7 +39,7 @@ struct TrackedWrench {
 // to rounding, whatever the shapes, r in the robot's own frame: n turns towards
 // what it wants, half of the way, by at most that.  It wants the gradient of
 // smoothed occupancy (smoothed_normal.h) of C_cont at q + s·n, with ρ half the
-// way out s but at least L/20; and Euclid's direction where s is more than c
+// way out s but at least L/20; and Euclid's direction where s is more than 1.5
 // times Euclid's depth.  r makes for GapLever's mean, with the reach of an
 // eighth of the robot's diagonal, of the robot moved by s·n, ŝ for s, both half
 // of the way a step.  The first step inside begins with Euclid's direction,
@@ -78,9 +67,13 @@ class WrenchTracker {
     double push = 0.0;
   };
 
-  // Throws InputError for options.
+  // κ: how fast the direction turns, the lever moves and the push grows at
+  // most, in lengths of the robot's own step.  The less, the longer the ways
+  // out (results/rigid-depth: 2 beside none).  Throws InputError unless it is
+  // finite and above 0.
+  static constexpr double kSpeed = 2.0;
   WrenchTracker(const Solid& robot, const Solid& obstacle,
-                const WrenchTrackerOptions& options = {});
+                double speed = kSpeed);
 
   // C_cont of the robot turned by a quaternion of unit length, to 1e-9 (throws
   // InputError otherwise, and as BuildContactSpace).

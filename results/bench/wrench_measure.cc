@@ -46,7 +46,7 @@ class Metrics {
   explicit Metrics(const WrenchPair& pair)
       : pair_(pair),
         tracker_(pair.robot, pair.obstacle),
-        free_tracker_(pair.robot, pair.obstacle, Unbounded()),
+        free_tracker_(pair.robot, pair.obstacle, 1e9),
         contacts_(pair.obstacle.mesh()) {}
 
   const WrenchTracker& tracker() const { return tracker_; }
@@ -73,11 +73,6 @@ class Metrics {
   }
 
  private:
-  static WrenchTrackerOptions Unbounded() {
-    WrenchTrackerOptions options;
-    options.speed = 1e9;
-    return options;
-  }
   double Exit(const Place& p, const Vector3d& n) const {
     const double far = 2.0 * p.space.bounds().Diagonal();
     const Vector3d& q = p.pose.position;

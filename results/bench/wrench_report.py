@@ -150,7 +150,7 @@ def cost_line(metrics):
         f"- Cost: a contact space with its Phong field takes {rounded(min(spaces.values()))} "
         f"to {rounded(max(spaces.values()))} ms a pose, median "
         f"{rounded(statistics.median(spaces.values()))}, beside which the metrics (column "
-        "µs) are cheap: no haptic rate of 1 ms but on the smallest solids.")
+        "µs) are cheap: too slow for a haptic rate of 1 ms.")
 
 
 def findings(metrics):

@@ -59,10 +59,8 @@ TEST(WrenchTracker, KeepsItsBoundHoweverTheRobotMoves) {
   int steps = 0, bounded = 0;
   for (const double speed : {0.5, 2.0}) {
     for (const TriangleMesh& obstacle : obstacles) {
-      WrenchTrackerOptions options;
-      options.speed = speed;
       const WrenchTracker tracker(Bar(), MakeSolid(obstacle, "obstacle"),
-                                  options);
+                                  speed);
       const Vector3d center = ComputeBounds(obstacle).Center();
       WrenchTracker::State state;
       RobotPose pose = {obstacle.vertices[0], Quaterniond::Identity()};
@@ -219,13 +217,10 @@ TEST(WrenchTracker, BeginsAnewOutsideAndKeepsItsStateThroughNonsense) {
   EXPECT_FALSE(state.has_begun);
 }
 
-TEST(WrenchTracker, RefusesOptionsAndSolidsThatAreNone) {
-  WrenchTrackerOptions options;
-  options.speed = 0.0;
-  EXPECT_THROW(WrenchTracker(Bar(), Slab(), options), InputError);
-  options.speed = 2.0;
-  options.ratio = NAN;
-  EXPECT_THROW(WrenchTracker(Bar(), Slab(), options), InputError);
+TEST(WrenchTracker, RefusesSpeedsAndSolidsThatAreNone) {
+  for (const double speed : {0.0, -1.0, double{NAN}, double{INFINITY}}) {
+    EXPECT_THROW(WrenchTracker(Bar(), Slab(), speed), InputError);
+  }
   EXPECT_THROW(WrenchTracker(Solid(), Slab()), InputError);
   EXPECT_THROW(WrenchTracker(Bar(), Solid()), InputError);
 }
