@@ -52,7 +52,8 @@ NOTES = """\
 - Exit: the way along n to the first place that is free, over Euclid's depth, at the
   shortest step; it frees the robot, whichever metric says it. Euclid's own is above 1
   where its nearest point is the tip of a re-entrant edge, which the ray passes by
-  rounding.
+  rounding. Where the depth is next to nothing a ratio may be anything: so the median
+  stands beside the mean.
 - Cost: each orientation needs a contact space of translations; `ms a space` is
   processor time of that with its Phong field, `µs` of the metric beyond it.
 """
