@@ -46,7 +46,8 @@ NOTES = """\
 - The change halves: a halving of the step leaves at most 0.6 of it, in the geometric
   mean from the longest step to the shortest, on both motions of a pair. A jump
   leaves 1. For the tracker that is its bound, by construction, wherever it is met at all
-  lengths; `bounded` says how often it was.
+  lengths; `bounded` says how often it was. κ was chosen on seeds 900 to 919, of 1, 2
+  and 4.
 - r: where the robot touches, put at q_c (Euclid and PhongPD), found by code of its own;
   the mean of the surface by its gap (smoothed, tracked).
 - Exit: the way along n to the first place that is free, over Euclid's depth, at the
