@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
 # bench.sh [paper|queries|contact-space|lazy|convergence|pipeline|planning|
-# extremes|peers|trajectories|fleets|rigid|study|cluster|python|trade|slice|all]:
+# extremes|peers|trajectories|fleets|rigid|wrench|study|cluster|python|trade|slice|
+# all]:
 # regenerates the tables and figures of results/.  continuity is a part of queries, retraction and
 # widths are parts of planning.  slice makes some published rows anew and compares
 # them (results/reproduction.md); it is no part of all.
@@ -13,12 +14,14 @@ export PHONGPD_CACHE_DIR=$PWD/build/cache
 suite=${1:-all}
 case $suite in
   paper | queries | contact-space | lazy | convergence | pipeline | planning | \
-    extremes | peers | trajectories | fleets | rigid | study | cluster | python | \
+    extremes | peers | trajectories | fleets | rigid | wrench | study | \
+    cluster | python | \
     trade | continuity | retraction | widths | slice | all) ;;
   *)
     echo "bench: expected paper, queries, contact-space, lazy," \
-      "convergence, pipeline, planning, extremes, peers, trajectories, fleets, rigid," \
-      "study, cluster, python, trade, continuity, retraction, widths, slice" \
+      "convergence, pipeline, planning, extremes, peers, trajectories, fleets," \
+      "rigid, wrench, study, cluster, python, trade, continuity, retraction," \
+      "widths, slice" \
       "or all," \
       "found $suite" >&2
     exit 2
@@ -230,6 +233,18 @@ if [[ $suite == rigid || $suite == all ]]; then
   python3 -B results/bench/rigid_benchmark.py --output results/rigid \
     --rows "$rows" --how "scripts/bench.sh rigid" \
     --commit "$(git rev-parse --short HEAD)" "${@:2}"
+fi
+if [[ $suite == wrench || $suite == all ]]; then
+  # `scripts/bench.sh wrench --quick`: a few pairs, and not where it is published.
+  scripts/build.sh wrench_benchmark example_09_peg_force
+  folder=results/rigid-depth some=()
+  if [[ ${2:-} == --quick ]]; then
+    folder=build/rigid-depth some=(--pairs 3 --steps 16 --lengths 3)
+  fi
+  build/wrench_benchmark --output "$folder" "${some[@]}"
+  build/examples/09_peg_force examples/peg.off examples/hole.off \
+    "$folder/peg_force.csv"
+  python3 -B results/bench/wrench_report.py --output "$folder"
 fi
 if [[ $suite == python || $suite == all ]]; then
   scripts/python.sh

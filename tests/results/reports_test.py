@@ -29,7 +29,8 @@ REPORTS = {"contact_space_report": ("contact-space",),
            "planning_report": ("planning",),
            "query_report": ("queries",),
            "tracker_report": ("queries",),
-           "trade_report": ("trade", "--results", str(SOURCE / "results"))}
+           "trade_report": ("trade", "--results", str(SOURCE / "results")),
+           "wrench_report": ("rigid-depth",)}
 
 
 class Pages(unittest.TestCase):
