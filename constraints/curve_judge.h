@@ -4,19 +4,15 @@
 #include <Eigen/Core>
 
 #include "constraints/free_space.h"
+#include "constraints/motion_verdict.h"
 #include "constraints/trajectory.h"
 
 namespace phongpd {
 
-enum class CurveVerdict {
-  kFree,       // for all t: proved
-  kCollides,   // at `time`: the exact judge of points says so
-  kUndecided,  // free up to `free_until`; closer to contact than is resolved
-};
-const char* ToString(CurveVerdict verdict);  // free, collides, undecided
+using CurveVerdict = MotionVerdict;  // what it was called, until 0.3
 
 struct CurveCheck {
-  CurveVerdict verdict = CurveVerdict::kUndecided;  // also of an empty curve
+  MotionVerdict verdict = MotionVerdict::kUndecided;  // also of an empty curve
   // Everything before is free; the duration for kFree.
   double free_until = 0.0;
   // Of kCollides: when, in which piece, and where, q(time) rounded, which
@@ -27,7 +23,7 @@ struct CurveCheck {
   Eigen::Vector3d configuration = Eigen::Vector3d::Zero();
   long tests = 0;
 
-  bool IsFree() const { return verdict == CurveVerdict::kFree; }
+  bool IsFree() const { return verdict == MotionVerdict::kFree; }
 };
 
 // Is the robot free for all t?  No samples: each part of the curve is in the

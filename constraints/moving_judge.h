@@ -26,14 +26,14 @@ struct MovingBody {
 struct MovingCheck {
   static constexpr int kFixed = -1;  // what does not move, or bounds
 
-  CurveVerdict verdict = CurveVerdict::kUndecided;
+  MotionVerdict verdict = MotionVerdict::kUndecided;
   // As of CurveCheck, on the curve's own clock.
   double free_until = 0.0, time = 0.0;
   int body = kFixed;  // which it meets, or may meet, first
   Eigen::Vector3d configuration = Eigen::Vector3d::Zero();  // of the robot
   long tests = 0;
 
-  bool IsFree() const { return verdict == CurveVerdict::kFree; }
+  bool IsFree() const { return verdict == MotionVerdict::kFree; }
 };
 
 // Does the robot on this curve keep off the bodies, from `begin` on their clock

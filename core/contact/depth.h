@@ -30,7 +30,7 @@
 //
 // All answer with a Depth, or with what has more and gives one by ToDepth.
 // "Where", the status, is exact and means the same in all of them; how an
-// answer goes on from the one before is QueryStatus and TrackerStatus.
+// answer goes on from the one before is QueryStatus.
 namespace phongpd {
 
 // Where the robot A is put: every vertex a becomes R·a + q, with R the matrix

@@ -3,20 +3,11 @@
 
 #include <Eigen/Core>
 
+#include "core/projection/query_status.h"
+
 namespace phongpd {
 
 struct Depth;  // core/contact/depth.h, which says what to take when
-
-// What a query ran into.  Nothing falls back silently.
-enum class QueryStatus {
-  kOk,                 // the metric's own answer
-  kBranchEnded,        // the warm branch folded on the way, or the motion left
-                       // C_obj elsewhere than the branch leads: the answer,
-                       // cold or outside, does not continue it
-  kEuclideanFallback,  // inside, but no Phong projection exists, or no smoothed
-                       // direction is known: Euclidean PD
-  kInvalid,            // q_o is not finite: all other members are zero
-};
 
 // The state of a continuous family of projections, carried by the caller from
 // query to query (the engine itself keeps no state).  It names the point

@@ -139,7 +139,7 @@ struct WindowPhong::Impl {
     return *whole;
   }
 
-  PenetrationResult Inside(const Vector3d& q, WindowPhongResult* out) {
+  PenetrationResult Inside(const Vector3d& q, WindowResult* out) {
     out->level = DepthLevel::kWindow;
     const Vector3d x = boxes.frame().ToGrid(q);
     if (const auto found = FromWindow(q, x)) return *found;
@@ -185,8 +185,8 @@ WindowPhong::~WindowPhong() = default;
 WindowPhong::WindowPhong(WindowPhong&&) noexcept = default;
 WindowPhong& WindowPhong::operator=(WindowPhong&&) noexcept = default;
 
-WindowPhongResult WindowPhong::At(const Vector3d& q) {
-  WindowPhongResult out;
+WindowResult WindowPhong::At(const Vector3d& q) {
+  WindowResult out;
   if (!IsFinite(q)) return out;
   const std::lock_guard<std::mutex> lock(impl_->mutex);
   PenetrationResult& answer = out.answer;

@@ -12,19 +12,22 @@
 
 namespace phongpd {
 
+// The answer of a metric from windows: of WindowPhong and of WindowSmoothed.
 // User's unit.
-struct WindowPhongResult {
-  // Of PhongMetric on the whole contact space, cold; its triangle and branch
-  // are left out, as they number what was built here.
+struct WindowResult {
+  // What the metric says on the whole contact space, cold.  Without triangle
+  // and branch: here they would number what was built for this query only.
   PenetrationResult answer;
-  // How much of C_cont it took: kNone outside of C_obj.
+  // How much of C_cont was built for it: kNone outside of C_obj.
   DepthLevel level = DepthLevel::kNone;
-  int windows = 0;  // built for it; 0: one from before was enough
-  std::size_t arranged_faces = 0;  // over these
+  int windows = 0;                 // built for it; 0: an earlier one was enough
+  std::size_t arranged_faces = 0;  // in these windows
 
   // The same in the words of all depths, as PenetrationResult::ToDepth.
   Depth ToDepth() const;
 };
+
+using WindowPhongResult = WindowResult;  // what it was called, until 0.3
 
 // PhongPD without the whole contact space: cold queries of PhongMetric from
 // windows of C_cont that grow around q until one certifies its answer.
@@ -57,7 +60,7 @@ class WindowPhong {
   // a time.  Throws BuildRefusal where this query passes the model's limits,
   // BuildCancelled, and std::logic_error where cells at the walls of boxes are
   // too thin to be judged.
-  WindowPhongResult At(const Eigen::Vector3d& q);
+  WindowResult At(const Eigen::Vector3d& q);
 
  private:
   struct Impl;

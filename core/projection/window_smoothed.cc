@@ -72,7 +72,7 @@ struct WindowSmoothed::Impl {
                           cube, is_all});
   }
 
-  PenetrationResult Inside(const Vector3d& q, WindowPhongResult* out) {
+  PenetrationResult Inside(const Vector3d& q, WindowResult* out) {
     const Vector3d x = boxes.frame().ToGrid(q);
     boxes.RestartLimits();
     const std::size_t before = boxes.faces();
@@ -109,8 +109,8 @@ WindowSmoothed::~WindowSmoothed() = default;
 WindowSmoothed::WindowSmoothed(WindowSmoothed&&) noexcept = default;
 WindowSmoothed& WindowSmoothed::operator=(WindowSmoothed&&) noexcept = default;
 
-WindowPhongResult WindowSmoothed::At(const Vector3d& q) {
-  WindowPhongResult out;
+WindowResult WindowSmoothed::At(const Vector3d& q) {
+  WindowResult out;
   if (!IsFinite(q)) return out;
   const std::lock_guard<std::mutex> lock(impl_->mutex);
   PenetrationResult& answer = out.answer;

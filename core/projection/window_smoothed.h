@@ -30,7 +30,7 @@ class WindowSmoothed {
 
   // At a robot moved by q: of SmoothedMetric on the whole contact space, to
   // rounding; throws and leaves out as WindowPhong::At.
-  WindowPhongResult At(const Eigen::Vector3d& q);
+  WindowResult At(const Eigen::Vector3d& q);
 
  private:
   struct Impl;
