@@ -3,8 +3,8 @@
 
 namespace phongpd {
 
-// Is a motion free?  The words of all judges: of curves, of what moves, of what
-// turns.
+// Is a motion free?  The answer of all judges: of curves, among obstacles that
+// move, and of robots that turn.
 enum class MotionVerdict {
   kFree,       // all the way: proved
   kCollides,   // at the time that is told: proved
