@@ -52,16 +52,16 @@ struct PenetrationResult {
 };
 
 // A penetration metric over one contact space.  Queries are const,
-// thread-safe and do not allocate (but for exact signs of coordinates beyond
-// 1e±70, exact_sign.h).  Nothing but NaN or Inf in q_o gives kInvalid, and no
-// result holds either.
+// thread-safe and do not allocate (except for exact signs of coordinates beyond
+// 1e±70, exact_sign.h).  Only NaN or infinity in q_o gives kInvalid, and no
+// result holds NaN or infinity.
 class PenetrationMetric {
  public:
   virtual ~PenetrationMetric() = default;
 
-  // Metric value at q_o.  With a valid `previous` branch the metric continues
-  // that branch where it has branches (Euclidean PD ignores it); otherwise it
-  // answers cold: the least depth of all projections.
+  // The metric at q_o.  A metric that has branches continues a valid `previous`
+  // (Euclidean PD ignores it); without one it answers cold, with the least
+  // depth of all projections.
   virtual PenetrationResult Query(const Eigen::Vector3d& q_o,
                                   const Branch& previous) const = 0;
   PenetrationResult Query(const Eigen::Vector3d& q_o) const {
