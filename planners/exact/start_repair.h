@@ -51,9 +51,9 @@ struct StartRepairResult {
 //  3. The joined path is shortened again and resampled with every corner a
 //     waypoint (path_resampling.h).
 //
-// Complete as the planner is: a path, or the proof that none exists, or the
-// reason why rounding left neither.  More routes are the next ones that the
-// planner compared, for paths of two points; those that coincide are given
+// As complete as the planner: it gives a path, or the proof that none exists,
+// or the reason why rounding left neither.  For a path of two points, further
+// routes are the next ones that the planner compared; equal routes are given
 // once.
 class StartRepair {
  public:
