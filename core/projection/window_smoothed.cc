@@ -10,7 +10,6 @@
 #include <utility>
 #include <vector>
 
-#include "core/mesh/finite.h"
 #include "core/projection/window_reach.h"
 
 namespace phongpd {
@@ -110,17 +109,10 @@ WindowSmoothed::WindowSmoothed(WindowSmoothed&&) noexcept = default;
 WindowSmoothed& WindowSmoothed::operator=(WindowSmoothed&&) noexcept = default;
 
 WindowResult WindowSmoothed::At(const Vector3d& q) {
-  WindowResult out;
-  if (!IsFinite(q)) return out;
   const std::lock_guard<std::mutex> lock(impl_->mutex);
-  PenetrationResult& answer = out.answer;
-  if (impl_->model.IsFree(q)) {
-    answer = internal::AnswerOutside(impl_->model, q);
-    return out;
-  }
-  answer = impl_->Inside(q, &out);
-  answer.triangle = -1;
-  return out;
+  return internal::AnswerAt(impl_->model, q, [this, &q](WindowResult* out) {
+    return impl_->Inside(q, out);
+  });
 }
 
 }  // namespace phongpd
