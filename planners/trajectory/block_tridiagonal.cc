@@ -40,15 +40,6 @@ BlockTridiagonal::BlockTridiagonal(int blocks)
       above(blocks, Block::Zero()),
       border(blocks, Vector::Zero()) {}
 
-void BlockTridiagonal::SetZero() {
-  for (int k = 0; k < blocks(); ++k) {
-    diagonal[k].setZero();
-    above[k].setZero();
-    border[k].setZero();
-  }
-  corner = 0.0;
-}
-
 Eigen::VectorXd BlockTridiagonal::Times(const Eigen::VectorXd& x) const {
   Eigen::VectorXd y = Eigen::VectorXd::Zero(size());
   const double t = x[size() - 1];

@@ -23,7 +23,6 @@ class BlockTridiagonal {
 
   // Zero.
   explicit BlockTridiagonal(int blocks);
-  void SetZero();
 
   int blocks() const { return static_cast<int>(diagonal.size()); }
   int size() const { return kSize * blocks() + 1; }
