@@ -71,7 +71,7 @@ class Judge {
       if (free) check_.free_until = curve.StartOf(i + 1);
     }
     if (free) {
-      check_.verdict = CurveVerdict::kFree;
+      check_.verdict = MotionVerdict::kFree;
       check_.time = check_.free_until;
     }
     return check_;
@@ -85,7 +85,7 @@ class Judge {
     const double fraction = std::clamp(motion.fraction, 0.0, 1.0);
     const double time = start + fraction * piece.duration();
     check_.free_until = time;
-    return Fail(CurveVerdict::kCollides, time, piece.At(fraction));
+    return Fail(MotionVerdict::kCollides, time, piece.At(fraction));
   }
 
   bool CheckCurved(const CurvePiece& piece, double start) {
@@ -115,7 +115,7 @@ class Judge {
     const double middle = start + 0.5 * part.duration();
     if (check_.tests >= max_tests_ || Size(part) <= Resolution()) {
       return collides_ ? FailWhereItCollides()
-                       : Fail(CurveVerdict::kUndecided, middle, part.At(0.5));
+                       : Fail(MotionVerdict::kUndecided, middle, part.At(0.5));
     }
     const auto half = part.Split(0.5);
     moved += part.degree() * kSplitRounding * largest_;
@@ -137,10 +137,10 @@ class Judge {
   }
 
   bool FailWhereItCollides() {
-    return Fail(CurveVerdict::kCollides, collision_time_, collision_);
+    return Fail(MotionVerdict::kCollides, collision_time_, collision_);
   }
 
-  bool Fail(CurveVerdict verdict, double time, const Vector3d& configuration) {
+  bool Fail(MotionVerdict verdict, double time, const Vector3d& configuration) {
     check_.verdict = verdict;
     check_.time = time;
     check_.piece = piece_;
@@ -221,18 +221,6 @@ class Judge {
 };
 
 }  // namespace
-
-const char* ToString(CurveVerdict verdict) {
-  switch (verdict) {
-    case CurveVerdict::kFree:
-      return "free";
-    case CurveVerdict::kCollides:
-      return "collides";
-    case CurveVerdict::kUndecided:
-      return "undecided";
-  }
-  return "unknown";
-}
 
 CurveCheck CheckCurve(const FreeSpace& space, const Trajectory& curve,
                       long max_tests, double blur) {

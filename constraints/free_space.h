@@ -34,8 +34,8 @@ struct MotionCheck {
 // every answer below but the distances is exact for the meshes given.  It is
 // the judge of every path in this library.  Thread-safe.
 //
-// Free space is all that these questions are about, so the convolution of robot
-// and obstacle is enough for them, at a fraction of the cost of C_cont
+// These questions are about free space only, so the convolution of robot and
+// obstacle is enough to answer them, at a fraction of the cost of C_cont
 // (convolution_model.h): OfConvolutions gives the same answers.
 class FreeSpace {
  public:
@@ -62,19 +62,19 @@ class FreeSpace {
   // `free` is exact, and the rest says what is met first.
   MotionCheck Check(const Eigen::Vector3d& a, const Eigen::Vector3d& b) const;
 
-  // Distance from q to the nearest contact surface or bound, ≥ 0; infinity
-  // where there is neither; 0 for non-finite q.  Rounded.  Convolution models
-  // tell it of free q only: 0 for all others.
+  // Distance from q to the nearest contact surface or bound, ≥ 0, rounded;
+  // infinity if there is neither; 0 for non-finite q.  Convolution models know
+  // it for free q only, and answer 0 for all others.
   double Clearance(const Eigen::Vector3d& q) const;
-  // The least over the closed segment; 0 if it is not free.  The bounds are
-  // convex, so its ends tell their distance.
+  // The least over the closed segment; 0 if it is not free.
   double Clearance(const Eigen::Vector3d& a, const Eigen::Vector3d& b) const;
 
-  // Planes that keep a segment from all contact triangles within `radius`, the
-  // nearest first (bounds have none): of triangles those that are not behind,
-  // or no more than `slack` above, the plane of a nearer one (separators.h).
-  // Of convolution models facets, those hidden behind C_cont too.  Rounded;
-  // nothing for non-finite points or lengths that are not ≥ 0.
+  // Planes that separate a segment from all contact triangles within `radius`,
+  // the nearest first (none for the bounds).  A triangle has no plane of its
+  // own if it is behind the plane of a nearer one, or above it by at most
+  // `slack` (separators.h).  Convolution models give planes of their facets,
+  // also of those hidden behind C_cont.  Rounded; empty for non-finite points
+  // and for lengths that are not ≥ 0.
   std::vector<Separator> FindSeparators(const Eigen::Vector3d& a,
                                         const Eigen::Vector3d& b, double radius,
                                         double slack) const;

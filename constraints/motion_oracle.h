@@ -21,16 +21,17 @@ struct MotionMeeting {
 };
 
 // Does a translating solid A meet a fixed solid B?  Decided exactly, on the
-// original meshes, for points and for whole straight motions: robot triangles
-// swept along the motion against obstacle triangles
-// (translated_triangles.h), and, where no surfaces meet, one vertex a
-// component against the other solid.  There is no contact space, no rounding
-// of A + q and no resolution: a second opinion on what is planned in contact
-// spaces, with which it shares the box tree and nothing else.
+// original meshes, for points and for whole straight motions: triangles of the
+// robot, swept along the motion, are tested against those of the obstacle
+// (translated_triangles.h); if no surfaces meet, one vertex of each component
+// is tested against the other solid.  There is no contact space, no rounding of
+// A + q and no resolution.  So it is a second opinion on what was planned in
+// contact spaces, with which it shares the box tree and nothing else.
 //
-// A solid is { p : w(p) > 0 } and its surface, w counting the bodies that hold
-// p less the cavities that hold it; bodies may overlap.  Solids that touch
-// meet.  Costs about a microsecond a pair of triangles that come close.
+// A solid is { p : w(p) > 0 } and its surface; w(p) is the number of bodies
+// around p less the number of cavities around it.  Bodies may overlap.  Solids
+// that touch do meet.  A pair of triangles that come close takes about a
+// microsecond.
 class MotionOracle {
  public:
   // Throws InputError if one is empty.
@@ -48,8 +49,8 @@ class MotionOracle {
   MotionMeeting FirstMeeting(const Eigen::Vector3d& a,
                              const Eigen::Vector3d& b) const;
 
-  // Are the surfaces apart for all q of the hull (curve_hull.h)?  Else the gap
-  // of a pair of triangles for which that is not proved.
+  // Are the surfaces apart for all q of the hull (curve_hull.h)?  If not, the
+  // gap of a pair of triangles for which it is not proved.
   internal::HullGap FindHullGap(const internal::CurveHull& hull) const;
 
  private:

@@ -17,7 +17,7 @@ MovingCheck CheckAgainst(const std::vector<MovingBody>& bodies,
                          const Trajectory& curve, double begin, double until,
                          double clearance) {
   MovingCheck result;
-  result.verdict = CurveVerdict::kFree;
+  result.verdict = MotionVerdict::kFree;
   result.free_until = result.time = until;
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     // What comes after the first meeting does not matter.

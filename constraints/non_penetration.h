@@ -9,18 +9,17 @@
 
 namespace phongpd {
 
-// The state of an evaluation, one branch for each sample and contact space, as
-// NonPenetrationConstraint::Start makes it.  Whoever takes one throws
-// InputError for any other number of branches, an empty set included.  Branches
-// of another contact space are no error: what cannot be continued is a cold
-// query.
+// The state of an evaluation: one branch for each sample and contact space, as
+// NonPenetrationConstraint::Start makes it.  Every function that takes a set
+// throws InputError if it has any other number of branches, or none.  Branches
+// of another contact space are no error: a branch that cannot be continued is a
+// cold query.
 //
-// They are frozen while a solver iterates and advance at the iterates it
-// accepts (Commit): it also evaluates points that it rejects, and none of these
-// ever changes a branch.
+// Branches stay as they are while a solver tries points, and advance only at
+// the iterates that it accepts (Commit): points that it rejects change nothing.
 struct BranchSet {
   std::vector<Branch> branches;
-  // That ended inside, at the last step, and are others now.
+  // How many ended inside at the last step and were replaced.
   long changes = 0;
 };
 
@@ -32,7 +31,8 @@ struct NonPenetrationCounts {
   long fallbacks = 0;       // inside without a Phong projection
 };
 
-// Solvers see u with q = center + unit·u and rows in multiples of `unit`.
+// The solver's variables are u with q = center + unit·u; its rows are in
+// multiples of `unit`.
 struct PathFrame {
   Eigen::Vector3d center = Eigen::Vector3d::Zero();
   double unit = 1.0;

@@ -10,10 +10,10 @@ namespace phongpd {
 
 // Where a derivative by rotation comes from.
 enum class RotationSource {
-  kContact,      // the one contact of the answer: exact, to rounding
-  kDifferences,  // several contacts at once: central differences of whole
-                 // answers, good to 1e-6 of the robot's size or so
-  kNone,         // the answer has no witness: zero
+  kContact,      // from the only contact there is: exact, to rounding
+  kDifferences,  // several contacts at once: central differences of complete
+                 // answers, good to about 1e-6 of the robot's size
+  kNone,         // the answer has no witness points: zero
 };
 
 // s and its derivatives at one pose.  User's unit; rotations in radians.
@@ -40,16 +40,18 @@ struct PoseRowValue {
 //
 //   ∂s/∂q = u,        ∂s/∂ω = r × u                                 (1)
 //
-// for closest points of separate solids and for a contact of one feature pair:
-// moving its common plane n·x = n·(p_B − r) by ω moves it along u = n by
-// n·(ω × r).  Where a penetrating q is nearest to a place at which the solids
-// touch at several spots at once (a reflex edge or vertex of C_cont), (1) does
-// not hold, and differences take its place; `source` says so.  s has kinks
-// where the nearest feature changes: the derivative there is that of one side.
+// for the closest points of separate solids, and for a contact of one pair of
+// features: turning by ω moves their common plane n·x = n·(p_B − r) along u = n
+// by n·(ω × r).  (1) does not hold if the nearest contact of a penetrating q is
+// one at which the solids touch at several spots at once (a reflex edge or
+// vertex of C_cont).  Then differences take its place, and `source` says so.  s
+// has kinks where the nearest feature changes; the derivative there is that of
+// one side.
 //
-// Exact depth at each pose, nothing precomputed: some milliseconds to a tenth
-// of a second each, so for few samples and small meshes.  It is Euclidean PD:
-// its direction jumps on the medial axis, and s says nothing between samples.
+// The depth is exact at each pose and nothing is computed in advance, so a
+// value takes from some milliseconds to a tenth of a second: for few samples
+// and small meshes.  It is Euclidean PD: its direction jumps on the medial
+// axis, and s says nothing about poses between samples.
 class PoseRow {
  public:
   // Throws InputError as DepthQuery does.

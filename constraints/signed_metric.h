@@ -28,8 +28,8 @@ enum class JacobianKind {
 
 struct SignedMetricOptions {
   MetricKind metric = MetricKind::kPhong;
-  // kPhong; of its members kSmoothed and kSmoothedFoot have the smoothing
-  // length (smoothed_metric.h).  Their exact Jacobian is Euclid's.
+  // Of kPhong.  kSmoothed and kSmoothedFoot use its smoothing length alone
+  // (smoothed_metric.h); their exact Jacobian is Euclid's.
   PhongMetricOptions phong;
   JacobianKind jacobian = JacobianKind::kDirection;
 
@@ -44,11 +44,11 @@ std::shared_ptr<const PenetrationMetric> MakePenetrationMetric(
 inline constexpr int kMaxMetricRows = 8;
 // Least angle between the directions of two rows, degrees.
 inline constexpr double kRowSeparation = 25.0;
-// Farthest that rows after the first may be, a share of D.  A wall farther off
-// says nothing a margin needs, and is what costs time.
+// Rows after the first are no farther than this, a share of D.  Walls farther
+// off matter for no margin, and to search for them takes time.
 inline constexpr double kRowReach = 0.1;
-// Longest gradient a row may have; longer ones are cut to this length.  A
-// constraint d ≥ m needs the order of 1; near a fold |∇d| → ∞.
+// Longer gradients of a row are cut to this length.  A constraint d ≥ m expects
+// a length of about 1; near a fold |∇d| → ∞.
 inline constexpr double kMaxRowGradient = 5.0;
 
 // One value of a constraint d(q) ≥ m and its derivative.  User's unit.
@@ -69,16 +69,16 @@ struct MetricRow {
 //   inside C_obj            d(q) = −depth, Phong's or Euclid's (the smoothed
 //                           metrics': Euclid's)
 //
-// d is zero exactly on C_cont and positive exactly in free space, whatever the
-// options: they change how a solver gets out, not what is feasible.
+// With all options d is zero exactly on C_cont and positive exactly in free
+// space: options change how a solver gets out, not what is feasible.
 //
 // Rows (outside): row 0 is d; row k is the distance to the nearest triangle
 // within kRowReach whose direction differs by more than kRowSeparation from
-// those of rows 0 … k−1. All are necessary for d ≥ m, so extra rows never
+// those of rows 0 … k−1.  All are necessary for d ≥ m, so more rows never
 // change the feasible set; they show the solver the second wall of a channel
-// before it hits it. Inside, and where no further feature exists, the remaining
-// rows repeat row 0 with is_repeated: the pattern stays, and no row claims what
-// is not known.
+// before it hits that wall.  Inside, and where there is no further feature, the
+// remaining rows are copies of row 0 with is_repeated, so that the pattern
+// stays fixed.
 class SignedMetric {
  public:
   // Throws InputError for options.

@@ -33,9 +33,10 @@ class CurvePiece {
   const Eigen::Vector3d& front() const { return points_[0]; }
   const Eigen::Vector3d& back() const { return points_[degree_]; }
 
-  // By de Casteljau; of an s outside [0, 1] the polynomial goes on.
+  // By de Casteljau; outside [0, 1] it is the same polynomial.
   Eigen::Vector3d At(double s) const;
-  // By time: degree n − 1; of degree 1, a point: both ends the same.
+  // By time, of degree n − 1; the derivative of degree 1 is constant, written
+  // as a straight piece with equal ends.
   CurvePiece Derivative() const;
   // The parts before and after s ∈ (0, 1), of durations s·h and (1 − s)·h: the
   // same curve but for rounding, 2n ulps of the largest coordinate.
@@ -58,9 +59,9 @@ class CurvePiece {
 // A motion in time: pieces one after the other, each beginning where the one
 // before it ends, to the last bit.  A polyline is a trajectory of degree 1.
 //
-// How smooth it is its maker says: three times differentiable by pieces, and
-// of class C² at the joints if velocities and accelerations agree there
-// (JointGap tells by how much they differ).
+// Each piece is smooth.  At the joints the trajectory is of class C² if
+// velocities and accelerations agree there; that is up to its maker, and
+// JointGap tells by how much they differ.
 class Trajectory {
  public:
   Trajectory() = default;
@@ -82,7 +83,7 @@ class Trajectory {
     Eigen::Vector3d acceleration = Eigen::Vector3d::Zero();
     Eigen::Vector3d jerk = Eigen::Vector3d::Zero();
   };
-  // At t, held to [0, duration]; at a joint that of the piece that begins.
+  // At t, clamped to [0, duration]; at a joint that of the later piece.
   // Requires a trajectory that is not empty.
   Sample At(double t) const;
   // At 0, 1/rate, 2/rate, … and at the end.  Throws InputError unless rate > 0
@@ -128,10 +129,10 @@ struct MotionLimits {
   void Validate() const;
 };
 
-// Upper bounds of what a trajectory asks for, as shares of the limits: at most
-// 1 means that they are kept for all t.  By the hull of the derivatives'
-// points, rounded up; split `depth` times they are within about 4^−depth of
-// the truth.
+// Upper bounds of velocity, acceleration and jerk, as shares of the limits: at
+// most 1 means that the limits are kept for all t.  From the hull of the
+// derivatives' points, rounded up; after `depth` halvings the bounds are within
+// about 4^−depth of the truth.
 struct LimitUse {
   double velocity = 0.0, acceleration = 0.0, jerk = 0.0;
 

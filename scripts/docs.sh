@@ -9,7 +9,7 @@ scripts/setup.sh doxygen python3-sphinx python3-myst-parser python3-breathe \
   furo python3-numpy
 mkdir -p build/site
 doxygen docs/Doxyfile
-/usr/bin/python3 docs/figures.py build/site/figures
+/usr/bin/python3 docs/figures/figures.py build/site/figures
 /usr/bin/python3 -m sphinx -q -W --keep-going -b html -d build/site/doctrees \
   docs build/site/html
 # Debian's furo wants this from the root of a server of Debian's own.

@@ -36,18 +36,6 @@ FramedMotion Framed(const RigidSides& sides, const Motion& motion) {
 
 struct RigidJudge::Impl : internal::RigidSides {};
 
-const char* ToString(RigidOutcome outcome) {
-  switch (outcome) {
-    case RigidOutcome::kFree:
-      return "free";
-    case RigidOutcome::kCollides:
-      return "collides";
-    case RigidOutcome::kUndecided:
-      return "undecided";
-  }
-  return "unknown";
-}
-
 RigidJudge::RigidJudge(const TriangleMesh& robot, const TriangleMesh& obstacle)
     : RigidJudge(std::vector<TriangleMesh>{robot},
                  std::vector<TriangleMesh>{obstacle}) {}

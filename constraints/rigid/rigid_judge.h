@@ -4,18 +4,14 @@
 #include <memory>
 #include <vector>
 
+#include "constraints/motion_verdict.h"
 #include "constraints/rigid/quaternion_motion.h"
 #include "constraints/rigid/rigid_motion.h"
 #include "core/mesh/triangle_mesh.h"
 
 namespace phongpd {
 
-enum class RigidOutcome {
-  kFree,       // for all t in [0, 1]: proved
-  kCollides,   // at `time`: proved
-  kUndecided,  // closer to contact than is resolved
-};
-const char* ToString(RigidOutcome outcome);  // free, collides, undecided
+using RigidOutcome = MotionVerdict;  // what it was called, until 0.3
 
 struct RigidCheck {
   RigidOutcome outcome = RigidOutcome::kUndecided;

@@ -10,9 +10,9 @@
 
 namespace phongpd {
 
-// A triangle, and the plane normal · x = level that keeps it from a segment: no
-// point of the triangle is above it, none of the segment below that of
-// level + distance.
+// A triangle, and the plane normal · x = level that separates it from a
+// segment: no point of the triangle is above the plane, and every point of the
+// segment is at least `distance` above it.
 struct Separator {
   double distance = 0.0;  // rounded
   // Unit, from the triangle's closest point to the segment's; zero where they
@@ -26,10 +26,10 @@ struct Separator {
 Separator SeparatorOf(const TriangleCorners& corners, const Eigen::Vector3d& a,
                       const Eigen::Vector3d& b);
 
-// Planes that keep a segment from all triangles nearby, few of them: triangles
-// are taken in the order of their distance, and those behind the plane of an
-// earlier one are left out, whole boxes of a tree at once.  What lies between
-// the planes is a convex region around the segment.
+// A few planes that separate a segment from all triangles nearby.  Triangles
+// are taken in the order of their distance; those behind the plane of an
+// earlier one are left out, whole boxes of a tree at once.  The planes bound a
+// convex region around the segment.
 //
 // Trees may be added while it runs, as they become known.
 class SeparatorSearch {

@@ -14,14 +14,14 @@
 
 namespace phongpd {
 
-// C_cont = ∂C_obj with C_obj = B ⊕ (−A), the boundary of all robot positions
-// q for which A + q and B meet; closed, outward, bounded free cavities
-// included as inward shells.  Topology is exact; coordinates are the exact
-// vertices rounded to double.
+// C_cont = ∂C_obj with C_obj = B ⊕ (−A): the boundary of the set of robot
+// positions q at which A + q and B overlap.  It is closed and points outward.
+// Bounded free cavities are part of it, as shells that point inward.  Topology
+// is exact; coordinates are the exact vertices, rounded to double.
 //
-// An immutable handle: copies are cheap, share everything and may be used by
-// any number of threads.  What metrics, judges and planners search in is built
-// once, on first use, and shared by all of them.
+// An immutable handle: copies are cheap, share everything, and may be used by
+// any number of threads.  The indexes in which metrics, judges and planners
+// search are built once, on first use, and shared by all of them.
 class ContactSpace {
  public:
   // What a contact space is made of, as plain data.
@@ -36,7 +36,8 @@ class ContactSpace {
 
   // Throws InputError, which begins with `name`, unless the mesh is closed and
   // edge-manifold, with triangles, valid indices, finite coordinates and a
-  // diagonal in [1e-150, 1e150]; and where plane or kind are of other size.
+  // diagonal in [1e-150, 1e150]; also if `plane` or `kind` is neither empty nor
+  // as long as the list of triangles.
   explicit ContactSpace(Parts parts, const std::string& name = "contact space");
 
   const Parts& parts() const { return data_->parts; }
@@ -47,8 +48,9 @@ class ContactSpace {
   const BoundingBox& bounds() const { return data_->bounds; }
 
   // D, user's unit: the length that every share (smoothing length, reach,
-  // margin) refers to.  That of the bounding box's diagonal unless WithLength
-  // gave another: all contact spaces of a world have the world's.
+  // margin) refers to.  It is the diagonal of the bounding box unless
+  // WithLength gave another one.  All contact spaces of a world have the
+  // world's D.
   double length() const {
     return HasOwnLength() ? length_ : bounds().Diagonal();
   }
@@ -95,30 +97,32 @@ class ContactSpace {
 // (design and references: core/README.md).  Operands may have any genus and
 // several, even overlapping, components.
 //
-// Throws InputError, naming the operand, where no solid is left of it on the
-// grid, and BuildRefusal at the limits.  Throws std::logic_error if the
-// arrangement leaks (the unbounded cell turns out occupied), which no valid
-// input should cause.
+// Throws InputError, naming the operand, if no solid is left of it on the grid,
+// and BuildRefusal if a limit is passed.  Throws std::logic_error if the
+// arrangement leaks (the unbounded cell turns out to be occupied), which no
+// valid input should cause.
 ContactSpace BuildContactSpace(const Solid& robot, const Solid& obstacle,
                                const ContactSpaceOptions& options = {});
 
-// The same of meshes, which go through RepairSolid first, by the options'
-// names: inside-out components are turned and said in the report, anything
-// unusable throws InputError; with the default options nothing else is changed.
+// The same for meshes, which go through RepairSolid first, under the names in
+// the options.  Components that are inside out are turned, and the report says
+// so; a mesh that cannot be used throws InputError.  With the default options
+// nothing else is changed.
 ContactSpace BuildContactSpace(const TriangleMesh& robot,
                                const TriangleMesh& obstacle,
                                const ContactSpaceOptions& options = {});
 
 // The same spaces with one D: the one that all of them were given
-// (WithLength), or else the diagonal of the bounding box of all of them.  A
-// share of D then is the same length whichever obstacle it is asked of.
+// (WithLength), or else the diagonal of the bounding box around all of them.
+// A share of D is then the same length for every obstacle.
 std::vector<ContactSpace> WithCommonLength(std::vector<ContactSpace> spaces);
 
-// Any closed mesh taken for a contact space: one that was saved, or the
-// boundary of forbidden positions found in another way.  Nothing says that it
-// is a Minkowski sum: of a bracket's own mesh every answer is that of a point
-// among brackets.  Planes and kinds are not known, the report is that of the
-// mesh alone with method "taken from a mesh".  Throws as ContactSpace.
+// Takes any closed mesh as a contact space: one that was saved, or a boundary
+// of forbidden positions that was found in another way.  Nobody checks that it
+// is a Minkowski sum: given a bracket's own mesh, every answer is that for a
+// robot that is a single point.  Planes and kinds are not known; the report is
+// that of the mesh alone, with method "taken from a mesh".  Throws as
+// ContactSpace does.
 ContactSpace TakeAsContactSpace(TriangleMesh mesh,
                                 const std::string& name = "contact mesh");
 

@@ -11,7 +11,7 @@ namespace phongpd {
 // A folder of earlier results of BuildContactSpace.
 struct ContactSpaceCache {
   std::string directory;  // created (0700) when needed; empty: no cache
-  // Of all files together; the longest unused ones are removed first.
+  // Of all files together; those unused for longest are removed first.
   std::uintmax_t max_bytes = std::uintmax_t{512} << 20;
 };
 
@@ -19,18 +19,18 @@ struct ContactSpaceCache {
 // the last two must be absolute.  Empty when none is set.
 std::string DefaultCacheDirectory();
 
-// BuildContactSpace, or what it returned before for the same operands, bit for
-// bit, the same options and the same version of the library.  Mesh, plane ids,
-// kinds and report are those of the first build, bit for bit (its seconds
-// too), but for report.from_cache.
+// BuildContactSpace, or what it returned before for the same operands (bit for
+// bit), the same options and the same version of the library.  Mesh, plane ids,
+// kinds and report are those of the first build, bit for bit and with its
+// seconds; only report.from_cache differs.
 //
-// A cache that cannot be read or written is no error, just no cache.  A file
-// that is truncated or changed is detected (128-bit checksum), built anew,
-// replaced, and named in report.warnings.  Files appear under their name only
-// when complete, so any number of processes of one user may share the folder.
-// Contents forged on purpose would pass, so only folders and files are used
-// that are the user's own and that nobody else may write to; others, and links
-// where a file should be, are not read, and named in report.warnings.
+// A cache that cannot be read or written is no error: the space is built.  A
+// file that is cut short or changed is found out by its 128-bit checksum, built
+// anew, replaced, and named in report.warnings.  A file gets its name when it
+// is complete, so any number of processes of one user may share the folder.
+// The checksum does not protect from forgery, so only folders and files are
+// used that belong to the user and that nobody else may write to.  Others, and
+// links in place of files, are not read, and are named in report.warnings.
 //
 // Throws what BuildContactSpace throws; failures are not kept.
 ContactSpace BuildContactSpaceCached(const Solid& robot, const Solid& obstacle,

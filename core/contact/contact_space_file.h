@@ -12,11 +12,11 @@ namespace phongpd {
 // What is read is what was written, bit for bit, so that every answer is.
 //
 // A file is a line of text, a byte order and the sizes of numbers, a version,
-// the number of bytes that follow and their 128-bit checksum, and those: the
-// bytes a cache keeps (contact_space_bytes.h).  It is for machines of one kind;
-// other ones, other versions and files of which one byte is missing, changed or
-// too many are refused.  Contents forged on purpose are checked as meshes are:
-// valid indices, finite vertices, closed.
+// the number of bytes that follow, their 128-bit checksum, and these bytes, the
+// same that a cache keeps (contact_space_bytes.h).  Files are for machines of
+// one kind: those of another kind or version are refused, and so is a file with
+// one byte missing, changed or added.  A forged file passes the checksum, and
+// is then checked as any mesh is: valid indices, finite vertices, closed.
 
 // Does the path end in ".pcs", in any case?
 bool NamesContactSpaceFile(const std::string& path);

@@ -11,17 +11,18 @@
 
 namespace phongpd {
 
-// A contact space built by pieces: C_cont in boxes of q-space, each arranged
-// for itself, and joined to the surface that BuildContactSpace builds, to the
-// last bit of its mesh, planes and kinds.  Memory is that of the boxes in
-// flight and of the surface, not of the whole arrangement; the work of n parts
-// is independent, so that n processes can do it and any one join them.
+// A contact space built in pieces.  Space is divided into boxes; C_cont is
+// found in each box by itself, and the parts are joined to the surface that
+// BuildContactSpace builds, the same to the last bit in mesh, planes and kinds.
+// Memory is needed for the boxes at work and for the surface, not for the whole
+// arrangement.  The n parts do not depend on each other: n processes can build
+// them, and any process can join them.
 //
-// Boxes in which the operands surely overlap, or which no facet of the
-// convolution meets, are left out.
+// Boxes are left out if the operands overlap everywhere in them, or if no facet
+// of the convolution meets them.
 
-// i of n, 0 ≤ i < n.  Parts 2i and 2i + 1 of 2n are together what i of n is, so
-// that one that takes too much memory can be built in halves, again and again.
+// i of n, 0 ≤ i < n.  Parts 2i and 2i + 1 of 2n together are part i of n, so a
+// part that takes too much memory can be built in halves, and these again.
 struct PieceNumber {
   int index = 0;
   int count = 1;
@@ -35,7 +36,7 @@ class ContactSpacePiece {
       : data_(std::move(data)) {}
 
   PieceNumber number() const;
-  // Boxes it was made of, and faces of C_cont found in them.
+  // How many boxes it was made of, and how many faces of C_cont they hold.
   std::size_t boxes() const;
   std::size_t faces() const;
   const Data& data() const { return *data_; }
@@ -44,25 +45,25 @@ class ContactSpacePiece {
   std::shared_ptr<const Data> data_;
 };
 
-// Throws InputError for a number that is none, for options.merge_coplanar =
-// false (what the walls of boxes cut is found again by the planes it is on),
-// and what BuildContactSpace throws.
+// Throws InputError unless 0 ≤ index < count, and for options.merge_coplanar =
+// false (faces that a wall cuts are joined again by their planes); and what
+// BuildContactSpace throws.
 ContactSpacePiece BuildContactSpacePiece(const TriangleMesh& robot,
                                          const TriangleMesh& obstacle,
                                          const ContactSpaceOptions& options,
                                          PieceNumber number);
 
-// All n parts of one build, or some of them in halves, in any order.  Of the
-// report, all that is of the operands and of the surface is as in
-// BuildContactSpace; faces and cells are those of all boxes together; nothing
-// is said of time, memory and prediction, so that the result does not depend on
-// n, nor on halves.  Throws InputError naming the part that is missing, there
-// twice, or of another build.
+// Joins all n parts of one build, in any order; some of them may be in halves.
+// The report tells of operands and surface what BuildContactSpace tells; faces
+// and cells are counted over all boxes.  It says nothing of time, memory and
+// prediction, so the result depends neither on n nor on halves.  Throws
+// InputError naming the part that is missing, is there twice, or is of another
+// build.
 //
-// The surface is that of BuildContactSpace, mesh, planes and kinds alike; or,
-// where a cell beside the border of a box is so thin that no point of it can be
-// judged, there is none and InputError says to build the whole: 10 of 2,500
-// random pairs, all degenerate (contact_space_piece_test in its long form).
+// Mesh, planes and kinds are those of BuildContactSpace.  The exception: a cell
+// at the border of a box can be so thin that no point of it can be judged. Then
+// InputError says to build the whole (10 of 2,500 random pairs, all degenerate:
+// contact_space_piece_test in its long form).
 ContactSpace JoinContactSpace(const std::vector<ContactSpacePiece>& pieces);
 
 // A part as a file for machines of one kind, with a checksum (as .pcs files,

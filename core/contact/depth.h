@@ -28,9 +28,9 @@
 //   rows of a nonlinear program
 //       SignedMetric for a robot that translates, PoseRow for one that turns
 //
-// All answer with a Depth, or with what has more and gives one by ToDepth.
-// "Where", the status, is exact and means the same in all of them; how an
-// answer goes on from the one before is QueryStatus and TrackerStatus.
+// All answer with a Depth, or with a result that has more and becomes a Depth
+// by ToDepth.  "Where", its status, is exact and means the same for all; how an
+// answer goes on from the one before is QueryStatus.
 namespace phongpd {
 
 // Where the robot A is put: every vertex a becomes R·a + q, with R the matrix
@@ -59,9 +59,9 @@ enum class DepthLevel {
 };
 const char* ToString(DepthLevel level);  // "none", "window", "full"
 
-// What of an operand a witness point lies on: one, two or three vertices of
-// the mesh that the query was made with (the first at the same place), −1 for
-// the others.
+// The feature of an operand that a witness point lies on: one, two or three
+// vertices of the mesh that the query was made with (the first of those at the
+// same place); −1 for the others.
 struct ContactFeature {
   enum Kind { kNone, kVertex, kEdge, kFacet };
   Kind kind = kNone;
@@ -76,7 +76,7 @@ struct Depth {
   // Euclidean penetration depth min |q_c − q| over q_c on C_cont (paper, Eqs. 1
   // and 2), the length of the shortest translation after which A touches B from
   // outside; 0 unless penetrating.
-  // Of PhongPD and trackers |q_c − q| of the q_c that is theirs: no less.
+  // Of PhongPD and trackers: |q_c − q| with their own q_c, which is no less.
   double depth = 0.0;
   // Least distance between the solids; 0 unless separate.
   double clearance = 0.0;
@@ -85,22 +85,22 @@ struct Depth {
   Eigen::Vector3d direction = Eigen::Vector3d::Zero();
   // q_c, the configuration nearest to q at which A touches B.
   Eigen::Vector3d contact = Eigen::Vector3d::Zero();
-  // The pair of points that touch there: of A as it is put, and of B;
-  // on_obstacle − on_robot = q_c − q.  One pair of perhaps several; zero where
-  // the features are kNone.
+  // The pair of points that touch there: one of A as it is placed, one of B;
+  // on_obstacle − on_robot = q_c − q.  One pair of perhaps several; zero if the
+  // features are kNone.
   Eigen::Vector3d on_robot = Eigen::Vector3d::Zero();
   Eigen::Vector3d on_obstacle = Eigen::Vector3d::Zero();
   ContactFeature robot_feature, obstacle_feature;
-  // The answer is the global one: nothing that was not looked at is nearer than
-  // explored_radius, and it is not farther.  Otherwise a limit was met: the
-  // depth is at least explored_radius and at most `depth`, a translation that
-  // suffices; features are kNone where no point of C_cont was found.
+  // The answer is the global one: it is within explored_radius, and everything
+  // nearer than that was looked at.  Otherwise a limit was met: the true depth
+  // is at least explored_radius and at most `depth`, which is a translation
+  // that suffices; features are kNone if no point of C_cont was found.
   bool certified = false;
   double explored_radius = 0.0;
   DepthLevel level = DepthLevel::kNone;
-  // What the input's coordinates were rounded by to lie on the grid (0: they
-  // do).  The answer is exact for the rounded solids, to rounding in double;
-  // depth and clearance are those of the given ones to 4·√3 times that.
+  // By how much coordinates were rounded at most, to lie on the grid; 0: not at
+  // all.  The answer is exact for the rounded solids, but for rounding in
+  // double; for the given solids depth and clearance hold to 4·√3 times this.
   double grid_step = 0.0;
   std::size_t arranged_faces = 0;  // over all windows
   int windows = 0;
@@ -126,13 +126,13 @@ struct DepthOptions {
   std::string obstacle_name = "obstacle";
 };
 
-// Exact penetration depth of two solids of any genus as they lie, nothing
-// precomputed: of C_cont = ∂(B ⊕ (−A)) only boxes around q are modelled, the
-// smallest first, until the answer is certified (core/README.md).  The answer
-// is EuclideanMetric's on the whole contact space.
+// Exact penetration depth of two solids of any genus as they lie, with nothing
+// computed in advance.  C_cont = ∂(B ⊕ (−A)) is modelled in boxes around q
+// only, the smallest first, until the answer is certified (core/README.md).  It
+// is the answer of EuclideanMetric on the whole contact space.
 //
-// `At` is const and thread-safe.  Queries of the orientation the robot was
-// given in share what is precomputed; any other makes a new operand of it.
+// `At` is const and thread-safe.  Queries in the orientation in which the robot
+// was given share what was prepared; every other orientation is prepared anew.
 class DepthQuery {
  public:
   // Throws InputError naming the operand where no solid is left of it on the
@@ -154,7 +154,7 @@ class DepthQuery {
   // InputError also unless | |quaternion| − 1 | ≤ 1e-9.
   Depth At(const RobotPose& pose) const;
 
-  // What a user should know of the operands although it is no error, one
+  // What a user should know about the operands although it is no error: a
   // sentence each, with the operand's name.
   const std::vector<std::string>& warnings() const;
 

@@ -13,14 +13,14 @@
 
 namespace phongpd {
 
-// The boundary of a part of free space that was explored: closed, of facets of
-// C_cont, and of walls (ContactKind::kNone) where free space goes on, or where
-// all is free.  What is free of it, and bounded, is free.
+// The boundary of a part of free space that was explored.  It is closed, made
+// of facets of C_cont and of walls (ContactKind::kNone), behind which free
+// space goes on.  What lies on its free side, and is bounded, is free.
 //
-// It is no contact space.  Behind a wall is free space, and what of C_cont was
-// not explored is missing: depths and distances to it are those of nothing.  So
-// metrics, rows and trackers do not take it; judges and planners of free space
-// may, by AsContactSpace, who thereby says that walls count as contact.
+// It is no contact space.  Behind a wall there is free space, and the part of
+// C_cont that was not explored is missing: depths and distances to walls mean
+// nothing.  So metrics, rows and trackers do not take it.  Judges and planners
+// of free space may, by AsContactSpace, which says that walls count as contact.
 class ExploredSpace {
  public:
   // Throws as ContactSpace.
@@ -37,19 +37,20 @@ class ExploredSpace {
   ContactSpace closed_;
 };
 
-// Free space explored from two configurations until they meet, or until one is
-// known to be enclosed: the exact contact space of what a motion between them
-// passes, and nothing else.
+// Explores free space from two configurations until the explored parts meet, or
+// until one configuration is known to be enclosed.  Only that part of the
+// contact space is built, exactly, which a motion between the two passes.
 //
 // Configuration space is halved into boxes until few facets of the convolution
-// meet each.  A box that is reached is arranged exactly (as the boxes of
-// contact_space_piece.h are): its free space falls into rooms, which go on
-// beyond its walls.  From either end the boxes behind the walls of rooms that
-// were reached are taken in turn, first those by which the way to the other end
-// may be shortest; the two ends take turns by what they have cost.
+// meet each box.  A box that is reached is arranged exactly, like the boxes of
+// contact_space_piece.h.  Its free space consists of rooms, which go on behind
+// the walls of the box.  From each end, the boxes behind the walls of rooms
+// that were reached come next, first those through which the way to the other
+// end may be shortest.  The two ends take turns, so that both cost about the
+// same.
 //
-// So a path costs what lies about it, and a proof that there is none the
-// smaller of the two cells.
+// So a path costs as much as what lies about it, and a proof that there is none
+// as much as the smaller of the two cells.
 class FreeSpaceFlood {
  public:
   enum class Outcome {
@@ -59,20 +60,20 @@ class FreeSpaceFlood {
     kGoalEnclosed,
   };
 
-  // `start` and `goal` free (ConvolutionModel::IsFree); throws InputError
-  // otherwise.  Keeps the model.
+  // Throws InputError unless `start` and `goal` are free
+  // (ConvolutionModel::IsFree).  Keeps the model.
   FreeSpaceFlood(const ConvolutionModel& model, const Eigen::Vector3d& start,
                  const Eigen::Vector3d& goal);
   ~FreeSpaceFlood();
 
-  // Explores until there is an outcome, or goes on beyond kMet, until `faces`
-  // more have been arranged.  Throws BuildRefusal where the model's limits are
-  // passed, counted from the flood's beginning, and BuildCancelled.
+  // Explores until there is an outcome (after kMet: goes on), or until `faces`
+  // more faces have been arranged.  Throws BuildRefusal if the model's limits
+  // are passed, counted from the flood's beginning, and BuildCancelled.
   Outcome Explore(std::size_t faces);
 
-  // The ends as they are explored from: the configurations, or where they are
-  // far away the nearest points of the box of all sums and something around it;
-  // the straight way there is free.
+  // Where exploring begins: at the two configurations, or, if these are far
+  // away, at the nearest points of a box that is somewhat larger than that of
+  // all sums; the straight way there is free.
   const Eigen::Vector3d& start() const;
   const Eigen::Vector3d& goal() const;
 
@@ -80,7 +81,7 @@ class FreeSpaceFlood {
   // where rooms do not fit together because cells at their walls are too thin
   // to be judged.
   ExploredSpace Surface() const;
-  // Of the cell alone that is enclosed: C_cont around it, no wall is left.
+  // C_cont around the enclosed cell alone, without any wall.
   ExploredSpace EnclosingSurface() const;
 
   std::size_t boxes() const;  // arranged

@@ -7,15 +7,15 @@
 
 namespace phongpd {
 
-// The contact space of one robot and several obstacles from those of each, one
-// after the other in one mesh.  That is C_cont of all of them where the solids
-// C_obj share no point, which is required and not checked (obstacle_groups.h
-// tells); nothing is rounded again.  At least one.
+// The contact space of one robot and several obstacles, put together from the
+// contact spaces of each obstacle: one mesh that holds them all, with nothing
+// rounded again.  It is C_cont of all obstacles if the solids C_obj share no
+// point, which is required and not checked (obstacle_groups.h can tell).  At
+// least one space is required; a single one comes back as it is.
 //
-// The report has the sums of their counts, seconds and warnings, the first
-// one's robot, the largest grid step and peak, and is from a cache where all
-// are.  A single space comes back as it is; D of others is the diagonal of all
-// together (WithLength gives another).
+// The report has the sums of counts and seconds, all warnings, the robot of the
+// first, the largest grid step and peak, and is from a cache if all are.  D is
+// the diagonal of all together (WithLength gives another).
 ContactSpace JoinedContactSpaces(const std::vector<ContactSpace>& spaces);
 
 }  // namespace phongpd

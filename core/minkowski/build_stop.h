@@ -8,8 +8,8 @@
 // How a build of a contact space ends without one.
 namespace phongpd {
 
-// Its limits do not allow it (ContactSpaceOptions::max_seconds and max_mib):
-// the input is sound, and another model of it may do.
+// A limit would be passed, or was (ContactSpaceOptions::max_seconds, max_mib).
+// The input is sound: higher limits, or a coarser model, may do.
 class BuildRefusal : public InputError {
  public:
   using InputError::InputError;
@@ -24,8 +24,8 @@ class BuildCancelled : public std::runtime_error {
 // Stops all builds of contact spaces (BuildContactSpace and whatever calls it)
 // that are running in this process: each throws BuildCancelled, as a rule
 // within a tenth of a second, and leaves nothing behind.  Builds that begin
-// later are not touched.  For whoever lets people interrupt; safe from any
-// thread and from signal handlers.
+// later are not touched.  For programs that a person may interrupt; safe to
+// call from any thread and from signal handlers.
 void CancelBuilds();
 
 }  // namespace phongpd

@@ -20,9 +20,9 @@ enum class ContactKind {
   kNone,           // nothing: a wall around what was modelled
 };
 
-// What the expensive stages were expected to cost, known after a few percent
-// of the time: a guide fitted on two cores, not a bound.  Faces come out up to
-// four times too many where the operands are coplanar.
+// What the expensive stages were expected to cost, known after a few percent of
+// the time.  A guide, fitted on two cores, and no bound: for coplanar operands
+// it may predict four times too many faces.
 struct PredictedCost {
   double meetings = 0.0;  // pairs of convolution facets that cut each other
   double arrangement_faces = 0.0;

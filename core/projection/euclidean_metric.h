@@ -15,7 +15,7 @@ namespace phongpd {
 // have no branch, and `gradient` equals `direction` on both sides.  On C_cont
 // (signed distance 0, not inside) the direction is the facet's normal.
 // At a re-entrant edge with less than 90° of free space it may point into the
-// facet across: a step along it then does not leave C_obj.
+// opposite facet: then a step along it does not leave C_obj.
 class EuclideanMetric final : public PenetrationMetric {
  public:
   explicit EuclideanMetric(const ContactSpace& space);

@@ -3,20 +3,11 @@
 
 #include <Eigen/Core>
 
+#include "core/projection/query_status.h"
+
 namespace phongpd {
 
 struct Depth;  // core/contact/depth.h, which says what to take when
-
-// What a query ran into.  Nothing falls back silently.
-enum class QueryStatus {
-  kOk,                 // the metric's own answer
-  kBranchEnded,        // the warm branch folded on the way, or the motion left
-                       // C_obj elsewhere than the branch leads: the answer,
-                       // cold or outside, does not continue it
-  kEuclideanFallback,  // inside, but no Phong projection exists, or no smoothed
-                       // direction is known: Euclidean PD
-  kInvalid,            // q_o is not finite: all other members are zero
-};
 
 // The state of a continuous family of projections, carried by the caller from
 // query to query (the engine itself keeps no state).  It names the point
@@ -61,16 +52,16 @@ struct PenetrationResult {
 };
 
 // A penetration metric over one contact space.  Queries are const,
-// thread-safe and do not allocate (but for exact signs of coordinates beyond
-// 1e±70, exact_sign.h).  Nothing but NaN or Inf in q_o gives kInvalid, and no
-// result holds either.
+// thread-safe and do not allocate (except for exact signs of coordinates beyond
+// 1e±70, exact_sign.h).  Only NaN or infinity in q_o gives kInvalid, and no
+// result holds NaN or infinity.
 class PenetrationMetric {
  public:
   virtual ~PenetrationMetric() = default;
 
-  // Metric value at q_o.  With a valid `previous` branch the metric continues
-  // that branch where it has branches (Euclidean PD ignores it); otherwise it
-  // answers cold: the least depth of all projections.
+  // The metric at q_o.  A metric that has branches continues a valid `previous`
+  // (Euclidean PD ignores it); without one it answers cold, with the least
+  // depth of all projections.
   virtual PenetrationResult Query(const Eigen::Vector3d& q_o,
                                   const Branch& previous) const = 0;
   PenetrationResult Query(const Eigen::Vector3d& q_o) const {

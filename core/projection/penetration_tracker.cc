@@ -76,22 +76,6 @@ void PenetrationTrackerOptions::Validate() const {
   }
 }
 
-const char* ToString(TrackerStatus status) {
-  switch (status) {
-    case TrackerStatus::kFollowing:
-      return "following";
-    case TrackerStatus::kSliding:
-      return "sliding";
-    case TrackerStatus::kLeftElsewhere:
-      return "left_elsewhere";
-    case TrackerStatus::kOutside:
-      return "outside";
-    case TrackerStatus::kInvalid:
-      break;
-  }
-  return "invalid";
-}
-
 struct PenetrationTracker::State::Data {
   std::shared_ptr<const Impl> owner;
   Position position;
@@ -247,10 +231,10 @@ TrackerResult PenetrationTracker::Step(const Vector3d& q, State* of) const {
   const Location location = impl.Locate(q, *state);
   if (location != Location::kInside) {
     result.touching = location == Location::kOnSurface;
-    result.status = TrackerStatus::kOutside;
+    result.status = QueryStatus::kOutside;
     if (state->inside && state->magnitude > (impl.options.speed + 1.0) *
                                                 (q - state->q).stableNorm()) {
-      result.status = TrackerStatus::kLeftElsewhere;
+      result.status = QueryStatus::kLeftElsewhere;
     }
     Impl::Forget(state);
     state->inside = false;
@@ -260,13 +244,13 @@ TrackerResult PenetrationTracker::Step(const Vector3d& q, State* of) const {
   }
   const TriangleBvh& bvh = impl.walk.bvh();
   const Vector3d x = bvh.ToFrame(q);
-  result.status = TrackerStatus::kFollowing;
+  result.status = QueryStatus::kFollowing;
   if (!state->inside) {
     impl.Enter(x, state);
   } else {
     double moved = 0.0;
     if (!impl.Move(x, of->data_.get(), &moved)) {
-      result.status = TrackerStatus::kSliding;
+      result.status = QueryStatus::kSliding;
     }
     result.moved = moved / bvh.scale();
   }

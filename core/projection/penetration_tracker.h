@@ -5,38 +5,29 @@
 #include <memory>
 
 #include "core/contact/contact_space.h"
+#include "core/projection/query_status.h"
 
 namespace phongpd {
 
 struct Depth;  // core/contact/depth.h
 
 struct PenetrationTrackerOptions {
-  // c ≥ 1: the contact makes for where the depth is at most c times the
-  // Euclidean.  The smaller, the less often there is a way that stays there.
+  // c ≥ 1: the contact seeks a place where the depth is at most c times the
+  // Euclidean depth.  The smaller c is, the more rarely can it slide there
+  // without leaving such places on its way.
   double ratio = 3.0;
-  // κ > 0: how far the contact moves along the surface at most, in lengths of
+  // κ > 0: in one step the contact moves along the surface by at most κ times
   // the robot's own step.
   double speed = 10.0;
 
   void Validate() const;  // throws InputError unless finite and in range
 };
 
-enum class TrackerStatus {
-  kFollowing,      // inside; the contact is where it wants to be
-  kSliding,        // inside; the contact is on its way there
-  kLeftElsewhere,  // outside, PD zero: q left C_obj so far from the contact
-                   // that PD changed by more than (κ + 1)·|Δq|
-  kOutside,        // not inside, PD zero
-  kInvalid,        // q is not finite: all other members are zero, the state is
-                   // as it was
-};
+using TrackerStatus = QueryStatus;  // what it was called, until 0.3
 
-// "following", "sliding", "left_elsewhere", "outside", "invalid".
-const char* ToString(TrackerStatus status);
-
-// Answer to one step: a Depth of a motion.  Lengths in the user's unit.
+// The answer to one step of a motion.  Lengths in the user's unit.
 struct TrackerResult {
-  TrackerStatus status = TrackerStatus::kInvalid;
+  QueryStatus status = QueryStatus::kInvalid;
   bool inside = false;    // exact: q strictly inside C_obj
   bool touching = false;  // exact: q on C_cont
   Eigen::Vector3d pd = Eigen::Vector3d::Zero();  // p − q inside, else zero
@@ -59,23 +50,22 @@ struct TrackerResult {
 // For the next q:
 //
 //   1. d = distance of q to C_cont; S = {x ∈ C_cont : |x − q| ≤ c·d}.
-//   2. p wants to be at the point closest to q in the connected piece of S
-//      that holds it; outside S, in the piece a short way leads to.
-//   3. It moves there along the surface, by at most κ·|Δq|; PD = p − q.
+//   2. The goal of p is the point closest to q in the connected piece of S that
+//      holds p; if p is outside S, in the piece to which a short way leads.
+//   3. p moves to it along the surface, by at most κ·|Δq|; PD = p − q.
 //
 // So while q is inside, |ΔPD| ≤ (κ + 1)·|Δq| (to rounding: some 1e-14 of the
 // diagonal) whatever the shape.  Entering C_obj, p starts at the closest point
 // and |PD| ≤ |Δq|.  Leaving it, PD becomes zero: within the bound, or counted
-// as kLeftElsewhere.  The price is depth: usually |PD| ≤ c·d, but nothing
-// bounds it while p is on its way, nor where C_cont has several components: p
-// cannot leave the one it entered through, and then c·d counts from that one's
-// distance if it is beyond c·d.
+// as kLeftElsewhere.  The price is depth: usually |PD| ≤ c·d, but there is no
+// bound while p is on its way, nor if C_cont has several components.  p cannot
+// leave the component through which it entered; if all of that is farther than
+// c·d, its own distance takes the place of d.
 //
-// Most steps are a descent over the triangles next to p.  A way to another
-// place is searched for where the closest point of all is elsewhere, again at
-// the latest when q has moved by a few hundredths of d (between searches the
-// wish is the last one's), and kept while p is on it.  Ways are short, not
-// shortest.
+// Most steps are a descent over the triangles next to p.  If the closest point
+// of all is elsewhere, a way to another place is searched for, and again at the
+// latest when q has moved by a few hundredths of d; between searches p keeps
+// the last goal, and the way while it is on it.  Ways are short, not shortest.
 //
 // It is a state along a motion, not a field: two motions to the same q may
 // have different contacts, there is no gradient, and what happens between two
@@ -85,8 +75,9 @@ struct TrackerResult {
 // number of threads may step their own states.
 class PenetrationTracker {
  public:
-  // Where a motion is: a value, copies go their own ways.  A new one has not
-  // begun, nor has another tracker's; one that was moved from is new.
+  // Where a motion is.  A value: a copy is a motion of its own.  A new state
+  // has not begun; a state of another tracker, or one that was moved from,
+  // counts as new.
   class State {
    public:
     State();
@@ -106,8 +97,8 @@ class PenetrationTracker {
   explicit PenetrationTracker(const ContactSpace& space,
                               const PenetrationTrackerOptions& options = {});
 
-  // The answer at q, the next position of the motion that *state is of.
-  // Allocates nothing but for longer ways and searches than before.
+  // The answer at q, the next position of the motion that *state belongs to.
+  // Allocates only when a way or a search is longer than all before.
   TrackerResult Step(const Eigen::Vector3d& q, State* state) const;
 
   const PenetrationTrackerOptions& options() const;

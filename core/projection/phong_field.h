@@ -10,8 +10,8 @@
 
 namespace phongpd {
 
-// ℓ wherever nobody says another: from C++, by the program, in scene files,
-// from Python and in the viewer.  results/trade says why it is this one.
+// The default ℓ everywhere: in C++, the program, scene files, Python and the
+// viewer.  results/trade says why.
 inline constexpr double kDefaultSmoothingLength = 0.2;
 
 struct PhongFieldOptions {

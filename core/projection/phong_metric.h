@@ -25,20 +25,19 @@ struct PhongMetricOptions {
 // PhongPD over one contact space.
 //
 // Inside C_obj: −|q_c − q_o| with (q_c − q_o) × n(q_c) = 0 (paper, Eq. 3).
-// Outside and on C_cont: the answer of EuclideanMetric, bit for bit (there is
-// no penetration; the combination is continuous because both vanish on
-// C_cont).  It has no branch, so re-entering C_obj starts cold, at depth 0,
-// where the least projection is the only short one.
+// Outside and on C_cont: the answer of EuclideanMetric, bit for bit.  The two
+// fit together continuously, because both are 0 on C_cont.  An answer from
+// outside has no branch, so a motion that enters C_obj again starts cold, at
+// depth 0, where only one projection is short.
 //
-// Query without a branch is an exact search for the least depth (of equal
-// depths, the contact that comes first by x, y, z).  With a branch it follows
-// the branch from the branch's own configuration straight to q_o and reports
-// kBranchEnded where the branch folds, leaves C_obj, or is left behind because
-// q_o left C_obj elsewhere.  What is no branch of this metric by its numbers –
-// no such triangle, λ not barycentric, |s| of some 1e50 diagonals – counts as
-// none.
-// Where no projection exists inside, the Euclidean answer without a branch
-// and status kEuclideanFallback.
+// A query without a branch searches exactly for the least depth (of equal
+// depths, for the contact that comes first by x, y, z).  A query with a branch
+// follows it from the configuration it was made for straight to q_o.  It
+// reports kBranchEnded if the branch folds or leaves C_obj on the way, or if
+// q_o left C_obj elsewhere than the branch leads.  A branch that cannot be of
+// this metric (no such triangle, λ not barycentric, |s| above some 1e50
+// diagonals) counts as none.  If no projection exists inside, the answer is
+// Euclid's, without a branch, and the status is kEuclideanFallback.
 class PhongMetric final : public PenetrationMetric {
  public:
   // Throws InputError for options.
@@ -56,15 +55,16 @@ class PhongMetric final : public PenetrationMetric {
   // sorted by depth, written to *results (cleared first; capacity is kept, so
   // a reused vector does not allocate).  Empty outside C_obj.  A projection on
   // an edge or vertex is listed once.
-  // kTangentPlane: the hits of Newton from (⅓,⅓,⅓), which need not be all.
+  // kTangentPlane: those that Newton finds from (⅓,⅓,⅓), perhaps not all.
   void QueryAll(const Eigen::Vector3d& q_o, double depth_bound,
                 std::vector<PenetrationResult>* results) const;
 
   // The paper's Algorithm 1 as reference: tries the triangles in the K rings
   // around the previous one (ring 1: those that share a vertex with it) and
   // takes the projection closest to the previous contact (section V.B).
-  // kBranchEnded with the cold answer if there is none.  It sees positions,
-  // not branches, so it may change sheet.  Allocates; use Query for speed.
+  // kBranchEnded with the cold answer if there is none.  It compares positions,
+  // not branches, so it may change to another branch unnoticed.  Allocates; use
+  // Query for speed.
   PenetrationResult QueryRing(const Eigen::Vector3d& q_o,
                               const Branch& previous, int k) const;
 

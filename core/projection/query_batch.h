@@ -23,9 +23,9 @@ namespace phongpd {
 void QueryBatch(const PenetrationMetric& metric, const Eigen::Vector3d* points,
                 std::size_t count, PenetrationResult* results);
 
-// The same, of point(i) into keep(i, result), i < count, for callers with
-// layouts of their own: both are called once for each i, on any thread, several
-// at a time.
+// The same for callers with their own layout of data: reads point(i) and hands
+// the result to keep(i, result), once for each i < count, on any thread and on
+// several at a time.
 void QueryBatch(
     const PenetrationMetric& metric, std::size_t count,
     const std::function<Eigen::Vector3d(std::size_t)>& point,

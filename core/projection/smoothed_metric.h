@@ -23,15 +23,17 @@ double SmoothedRadius(double smoothing_length, double diagonal);
 //
 // Inside C_obj: value, contact and `gradient` are those of EuclideanMetric, bit
 // for bit.  `direction` is the gradient of smoothed occupancy
-// (smoothed_normal.h) at q_o or at q_c, outward: not from q_o towards q_c, and
-// its product with `gradient` may be anything up to 1, below 0 too.  Where it
-// is not known – nothing of C_cont is within ρ, as for q_o deeper than ρ, or
-// what is there cancels, as in the middle of a plate – it is Euclid's own, and
-// the status is kEuclideanFallback.  Towards the depth ρ the two become one.
+// (smoothed_normal.h) at q_o or at q_c, outward.  It does not point from q_o to
+// q_c, and its product with `gradient` may be anything up to 1, even negative.
+// If there is no such direction, it is Euclid's own, and the status is
+// kEuclideanFallback: if nothing of C_cont is within ρ, as for q_o deeper than
+// ρ, or if what is there cancels out, as in the middle of a plate.  Towards the
+// depth ρ the smoothed direction becomes Euclid's.
 // Outside and on C_cont: the answer of EuclideanMetric, bit for bit.
 //
-// It has no field, branch or memory: `previous` is ignored.  For optimisers,
-// which follow a direction; for the depth alone EuclideanMetric is quicker.
+// It has no field, branch or memory: `previous` is ignored.  It is for
+// optimisers, which follow a direction; for the depth alone EuclideanMetric is
+// faster.
 class SmoothedMetric final : public PenetrationMetric {
  public:
   // ℓ as a share of D (ContactSpace::length), in [1e-9, 1]: what lies within

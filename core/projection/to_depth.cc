@@ -25,7 +25,7 @@ Depth PenetrationResult::ToDepth() const {
   return out;
 }
 
-Depth WindowPhongResult::ToDepth() const {
+Depth WindowResult::ToDepth() const {
   Depth out = answer.ToDepth();
   out.level = level;
   out.windows = windows;
@@ -35,7 +35,7 @@ Depth WindowPhongResult::ToDepth() const {
 
 Depth TrackerResult::ToDepth() const {
   Depth out;
-  if (status == TrackerStatus::kInvalid) {
+  if (status == QueryStatus::kInvalid) {
     out.status = DepthStatus::kInvalid;
     return out;
   }

@@ -12,7 +12,6 @@
 
 #include "core/bvh/closest_on_triangle.h"
 #include "core/bvh/triangle_corners.h"
-#include "core/mesh/finite.h"
 #include "core/mesh/union_find.h"
 #include "core/projection/window_reach.h"
 
@@ -139,7 +138,7 @@ struct WindowPhong::Impl {
     return *whole;
   }
 
-  PenetrationResult Inside(const Vector3d& q, WindowPhongResult* out) {
+  PenetrationResult Inside(const Vector3d& q, WindowResult* out) {
     out->level = DepthLevel::kWindow;
     const Vector3d x = boxes.frame().ToGrid(q);
     if (const auto found = FromWindow(q, x)) return *found;
@@ -185,19 +184,11 @@ WindowPhong::~WindowPhong() = default;
 WindowPhong::WindowPhong(WindowPhong&&) noexcept = default;
 WindowPhong& WindowPhong::operator=(WindowPhong&&) noexcept = default;
 
-WindowPhongResult WindowPhong::At(const Vector3d& q) {
-  WindowPhongResult out;
-  if (!IsFinite(q)) return out;
+WindowResult WindowPhong::At(const Vector3d& q) {
   const std::lock_guard<std::mutex> lock(impl_->mutex);
-  PenetrationResult& answer = out.answer;
-  if (impl_->model.IsFree(q)) {
-    answer = internal::AnswerOutside(impl_->model, q);
-    return out;
-  }
-  answer = impl_->Inside(q, &out);
-  answer.triangle = -1;
-  answer.branch = {};
-  return out;
+  return internal::AnswerAt(impl_->model, q, [this, &q](WindowResult* out) {
+    return impl_->Inside(q, out);
+  });
 }
 
 }  // namespace phongpd

@@ -8,7 +8,9 @@
 #include "core/contact/contact_space.h"
 #include "core/contact/convolution_model.h"
 #include "core/contact/explored_boxes.h"
+#include "core/mesh/finite.h"
 #include "core/projection/penetration_metric.h"
+#include "core/projection/window_phong.h"
 
 // What metrics by windows (window_phong.h, window_smoothed.h) have in common.
 namespace phongpd::internal {
@@ -41,6 +43,23 @@ inline PenetrationResult AnswerOutside(const ConvolutionModel& model,
   answer.contact = nearest.point;
   answer.direction = answer.gradient = (q - nearest.point).normalized();
   return answer;
+}
+
+// Their answer at q: outside, or what inside(&result) finds, which writes what
+// it built into the result.
+template <typename Inside>
+WindowResult AnswerAt(const ConvolutionModel& model, const Eigen::Vector3d& q,
+                      const Inside& inside) {
+  WindowResult out;
+  if (!IsFinite(q)) return out;
+  if (model.IsFree(q)) {
+    out.answer = AnswerOutside(model, q);
+    return out;
+  }
+  out.answer = inside(&out);
+  out.answer.triangle = -1;
+  out.answer.branch = {};
+  return out;
 }
 
 }  // namespace phongpd::internal

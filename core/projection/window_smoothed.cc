@@ -10,7 +10,6 @@
 #include <utility>
 #include <vector>
 
-#include "core/mesh/finite.h"
 #include "core/projection/window_reach.h"
 
 namespace phongpd {
@@ -72,7 +71,7 @@ struct WindowSmoothed::Impl {
                           cube, is_all});
   }
 
-  PenetrationResult Inside(const Vector3d& q, WindowPhongResult* out) {
+  PenetrationResult Inside(const Vector3d& q, WindowResult* out) {
     const Vector3d x = boxes.frame().ToGrid(q);
     boxes.RestartLimits();
     const std::size_t before = boxes.faces();
@@ -109,18 +108,11 @@ WindowSmoothed::~WindowSmoothed() = default;
 WindowSmoothed::WindowSmoothed(WindowSmoothed&&) noexcept = default;
 WindowSmoothed& WindowSmoothed::operator=(WindowSmoothed&&) noexcept = default;
 
-WindowPhongResult WindowSmoothed::At(const Vector3d& q) {
-  WindowPhongResult out;
-  if (!IsFinite(q)) return out;
+WindowResult WindowSmoothed::At(const Vector3d& q) {
   const std::lock_guard<std::mutex> lock(impl_->mutex);
-  PenetrationResult& answer = out.answer;
-  if (impl_->model.IsFree(q)) {
-    answer = internal::AnswerOutside(impl_->model, q);
-    return out;
-  }
-  answer = impl_->Inside(q, &out);
-  answer.triangle = -1;
-  return out;
+  return internal::AnswerAt(impl_->model, q, [this, &q](WindowResult* out) {
+    return impl_->Inside(q, out);
+  });
 }
 
 }  // namespace phongpd

@@ -10,14 +10,14 @@
 
 namespace phongpd {
 
-// SmoothedMetric without the whole contact space, at any ℓ and orientation:
-// what is within ρ of q_o (SmoothedAt::kContact: within ρ of q_c) decides, so
-// one window of C_cont that holds it and the nearest contact is enough.  A
-// window that was built before and holds them is not built again.  D is the
-// diagonal of the model's bounds.
+// SmoothedMetric without the whole contact space, for any ℓ.  The direction
+// depends on what is within ρ of q_o (SmoothedAt::kContact: of q_c), so one
+// window of C_cont is enough that holds this and the nearest contact.  An
+// earlier window that holds them is used again.  D is the diagonal of the
+// model's bounds.
 //
-// Costs about what BuildContactSpace would for what is built: less than that
-// where ρ is small beside the bodies, and the more windows the more.
+// What is built costs about as much as with BuildContactSpace: less than the
+// whole if ρ is small beside the bodies, and more with each window.
 class WindowSmoothed {
  public:
   // Keeps the model.  Throws InputError as SmoothedMetric.
@@ -28,9 +28,9 @@ class WindowSmoothed {
   WindowSmoothed(WindowSmoothed&&) noexcept;
   WindowSmoothed& operator=(WindowSmoothed&&) noexcept;
 
-  // At a robot moved by q: of SmoothedMetric on the whole contact space, to
-  // rounding; throws and leaves out as WindowPhong::At.
-  WindowPhongResult At(const Eigen::Vector3d& q);
+  // For the robot moved by q: the answer of SmoothedMetric on the whole contact
+  // space, to rounding.  Leaves out, and throws, what WindowPhong::At does.
+  WindowResult At(const Eigen::Vector3d& q);
 
  private:
   struct Impl;

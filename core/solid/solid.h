@@ -10,26 +10,27 @@
 
 namespace phongpd {
 
-// A mesh that bounds a solid, and the name that messages call it by.  That it
-// is one was checked when it was made (MakeSolid, RepairSolid), once: whoever
-// takes a Solid need not check again and cannot be given anything else.
+// A mesh that bounds a solid, and its name in messages.  The mesh was checked
+// once, when the solid was made (MakeSolid, RepairSolid): a function that takes
+// a Solid need not check it again.
 //
 //   const Solid part = MakeSolid(ReadMesh("part.stl"), "part.stl");
 //
-// The solid is { p : w(p) > 0 }, w counting the bodies that hold p less the
-// cavities that hold it: components may overlap, their union is meant.
+// The solid is { p : w(p) > 0 }, with w(p) the number of bodies around p less
+// the number of cavities around it.  Components may overlap: their union is
+// meant.
 //
 // An immutable handle: copies are cheap, share the mesh and may be used by any
 // number of threads.
 class Solid {
  public:
-  // No solid yet: no triangles, no name.  What takes a solid refuses it
+  // No solid yet: no triangles, no name.  Functions that take a solid refuse it
   // (RequireNotEmpty).
   Solid();
 
   // Closed, edge-manifold, outward; user's unit.
   const TriangleMesh& mesh() const { return data_->mesh; }
-  // A solid is a mesh to whoever asks for no more.
+  // A solid can be used wherever a mesh can.
   operator const TriangleMesh&() const { return mesh(); }  // NOLINT
   bool IsEmpty() const { return mesh().triangles.empty(); }
 
@@ -86,9 +87,9 @@ Solid ReadSolid(const std::string& path);
 // Throws InputError by the solid's name, or `what` where it has none.
 void RequireNotEmpty(const Solid& solid, const std::string& what);
 
-// Several solids as one, their union; each component stays as it is, so that
-// nothing is to be checked.  Triangles and vertices follow each other in the
-// order of the solids; the report has the sums of their counts.
+// Several solids as one, their union.  Each component stays as it is, so
+// nothing needs to be checked.  Triangles and vertices come in the order of the
+// solids; the report has the sums of their counts.
 Solid JoinedSolids(const std::vector<Solid>& solids, const std::string& name);
 
 }  // namespace phongpd

@@ -13,9 +13,9 @@ namespace phongpd {
 // [1e-3, 1].  Smaller: shorter raw paths, longer build and queries.
 inline constexpr double kRoadmapSpacing = 0.1;
 
-// What one query may ask differently.
+// What can be set for one query.
 struct RoadmapRequest {
-  // Centre and shorten the route.  Without: as the roadmap has it.
+  // Centre and shorten the route.  False: the route as the roadmap has it.
   bool shorten = true;
   double clearance = 0.0;  // user's unit, ≥ 0, finite; 0: kEnoughClearance
 
@@ -37,15 +37,15 @@ struct RoadmapReport {
 // lifted off the surface and tested once (lifted_graph.h); a query joins start
 // and goal to it by exact tests and takes the cheapest route.
 //
-// As complete as the planner, and with the same statuses, proofs and exact
-// tests: infeasibility is proved by the same certificates, and a query that
-// finds no route, which only rounding or unusual places of start and goal can
-// cause, is handed to the planner.  `searches` of a result is 0 if the
-// roadmap answered.  One route is taken, by length on the roadmap, narrow
-// places counting up to twice; where the best path matters more than time, ask
-// the planner.
+// It is as complete as the planner, with the same statuses, proofs and exact
+// tests.  Infeasibility is proved by the same certificates.  A query that finds
+// no route is handed to the planner; only rounding, or unusual places of start
+// and goal, can cause that.  `searches` of a result is 0 if the roadmap
+// answered. It takes one route, the shortest on the roadmap, where narrow
+// places count up to twice.  If the best path matters more than time, ask the
+// planner.
 //
-// Building it costs as much as ten to three hundred queries save; for fewer,
+// Building the roadmap pays after ten to three hundred queries; for fewer,
 // ContactSurfacePlanner::Plan is faster.
 class ContactRoadmap {
  public:

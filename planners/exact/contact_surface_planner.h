@@ -23,8 +23,8 @@ struct LiftCounts {
   int halvings = 0;  // of lifts
 };
 
-// Clearance that is enough for who names none, a share of the diagonal of the
-// cell's hull; passages narrower than twice that are taken in the middle.
+// The default clearance, a share of the diagonal of the cell's hull; passages
+// narrower than twice that are taken in the middle.
 inline constexpr double kEnoughClearance = 0.01;
 
 struct ContactSurfaceOptions {
@@ -43,15 +43,16 @@ struct ContactSurfaceOptions {
   void Validate() const;
 };
 
-// What the preset sets in options that are as they come.  Whoever wants
-// another value sets it afterwards.
+// Writes what a preset means into default options.  Set other values
+// afterwards.
 void ApplyPreset(Preset preset, ContactSurfaceOptions* options);
 
-// What the robot touches at a configuration, for the reasons of a plan: a
-// contact space knows no names.  Thread-safe; empty for nothing it knows.
+// The name of what the robot touches at a configuration, for the reason of a
+// plan: a contact space has no names.  Thread-safe; returns "" if it knows
+// none.
 using ObstacleNames = std::function<std::string(const Eigen::Vector3d&)>;
 
-// What one query may ask differently.
+// What can be set for one query.
 struct RouteRequest {
   double clearance = 0.0;  // user's unit, ≥ 0, finite; 0: kEnoughClearance
   int routes = 0;          // ≥ 0; 0: by the options
@@ -60,7 +61,8 @@ struct RouteRequest {
   void Validate() const;
 };
 
-// What a proof of infeasibility rests on, and what tells the cell otherwise.
+// How it is known in which cell a configuration lies; two of them in different
+// cells are a proof of infeasibility.
 struct CellCertificate {
   int cell = FreeCells::kUndecided;  // a shell's number or kOutside
   CellRay ray;                       // from the configuration
@@ -73,15 +75,16 @@ struct PlanResult {
   std::string reason;                     // one sentence unless solved
   std::vector<Eigen::Vector3d> path;      // from start to goal, shortened
   std::vector<Eigen::Vector3d> raw_path;  // as lifted off the surface
-  // All that were compared, as `path` is, which is one of them; the last one
-  // may be made of parts of the others (path_recombination.h).
+  // All routes that were compared, shortened as `path`, which is one of them;
+  // the last one may be made of parts of the others (path_recombination.h).
   std::vector<std::vector<Eigen::Vector3d>> routes;
   double length = 0.0;
   double clearance = 0.0;         // of the whole path from contact, rounded
   double wanted_clearance = 0.0;  // user's unit
   CellCertificate start, goal;
-  // Answers hold for every embedded surface of the mesh's connectivity with
-  // vertices within this distance of the mesh's (free_cells.h).
+  // The answer holds for every surface without self-intersection that connects
+  // its vertices as the mesh does, and has them within this distance of the
+  // mesh's (free_cells.h).
   double rounding = 0.0;
   long self_intersections = 0;  // of the mesh, as rounded
   int searches = 0;
@@ -93,22 +96,24 @@ struct PlanResult {
 // Complete, deterministic planner for a robot that translates among solids.
 //
 // Free space is bounded by C_cont.  Two configurations are connected iff they
-// lie in the same cell, which rays decide (free_cells.h), and the surface
-// itself is a roadmap of every cell (surface_graph.h): the shortest route on
-// it is lifted off (path_lift.h), then shortened (path_shortening.h), and the
-// best parts of several are put together (path_recombination.h).  An edge
-// of the roadmap that cannot be lifted because rounding folded the surface is
-// deleted and the search repeated.  So
+// lie in the same cell, which rays decide (free_cells.h).  The surface of a
+// cell is a roadmap of it (surface_graph.h): the shortest route on the surface
+// is lifted off (path_lift.h) and shortened (path_shortening.h), and the best
+// parts of several routes are put together (path_recombination.h).  If an edge
+// of the roadmap cannot be lifted, because rounding folded the surface there,
+// it is deleted and the search is repeated.  So
 //  - kSolved comes with a path all of which is free by exact tests;
 //  - kInfeasibleProved with the rays that put start and goal into different
 //    cells, valid for the surface within `rounding`;
-//  - kFailed is for surfaces that rounding tore, or gaps of its size.
-// There is no parameter that decides whether a problem is solved.
+//  - kFailed happens only where rounding tore the surface, or for gaps as small
+//    as rounding.
+// No parameter decides whether a problem is solved.
 class ContactSurfacePlanner {
  public:
-  // The one contact space of all obstacles, and of bounds (MergedObstacle),
-  // cavities included.  Without names, or where they know none, a start or
-  // goal that is not free is in "an obstacle".  Throws InputError for options.
+  // `merged` is one contact space of all obstacles and of the bounds
+  // (MergedObstacle), with its cavities.  A start or goal that is not free is
+  // said to be in "an obstacle" unless `names` knows better.  Throws InputError
+  // for options.
   explicit ContactSurfacePlanner(const ContactSpace& merged,
                                  const ContactSurfaceOptions& options = {},
                                  ObstacleNames names = {});

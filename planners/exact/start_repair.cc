@@ -72,24 +72,6 @@ void StartRepairOptions::Validate() const {
   Check("routes", "1 to 8", routes >= 1 && routes <= 8, routes);
 }
 
-const char* ToString(RepairStatus status) {
-  switch (status) {
-    case RepairStatus::kFree:
-      return "free";
-    case RepairStatus::kRepaired:
-      return "repaired";
-    case RepairStatus::kInfeasibleProved:
-      return "infeasible_proved";
-    case RepairStatus::kStartInCollision:
-      return "start_in_collision";
-    case RepairStatus::kGoalInCollision:
-      return "goal_in_collision";
-    case RepairStatus::kFailed:
-      break;
-  }
-  return "failed";
-}
-
 struct StartRepair::Impl {
   Impl(const ContactSpace& merged, const ContactSurfaceOptions& options)
       : space({merged}),
@@ -138,7 +120,7 @@ std::vector<Path> StartRepair::Impl::PlanLine(const Path& path,
   Count(plan, result);
   result->reason = plan.reason;
   if (plan.status == PathStatus::kInfeasibleProved) {
-    result->status = RepairStatus::kInfeasibleProved;
+    result->status = PathStatus::kInfeasibleProved;
   }
   return std::move(plan.routes);
 }
@@ -211,12 +193,12 @@ void StartRepair::Impl::Repair(const Path& path,
                                const StartRepairOptions& options,
                                StartRepairResult* result) const {
   if (!space.IsFree(path.front())) {
-    result->status = RepairStatus::kStartInCollision;
+    result->status = PathStatus::kStartInCollision;
     result->reason = "the start collides";
     return;
   }
   if (!space.IsFree(path.back())) {
-    result->status = RepairStatus::kGoalInCollision;
+    result->status = PathStatus::kGoalInCollision;
     result->reason = "the goal collides";
     return;
   }
@@ -224,7 +206,7 @@ void StartRepair::Impl::Repair(const Path& path,
   if (contacts.empty()) {
     Path sampled = Resample(path, options, result);
     if (sampled.empty()) return;
-    result->status = RepairStatus::kFree;
+    result->status = PathStatus::kFree;
     result->routes.push_back(std::move(sampled));
     return;
   }
@@ -262,7 +244,7 @@ void StartRepair::Impl::Repair(const Path& path,
     if (!is_known) result->routes.push_back(std::move(sampled));
   }
   if (result->routes.empty()) return;
-  result->status = RepairStatus::kRepaired;
+  result->status = PathStatus::kRepaired;
   result->reason.clear();
 }
 

@@ -24,18 +24,10 @@ struct StartRepairOptions {
   void Validate() const;
 };
 
-enum class RepairStatus {
-  kFree,              // the given path was free; resampled only
-  kRepaired,          // exactly free now
-  kInfeasibleProved,  // no path exists: start and goal lie in different cells
-  kFailed,            // see `reason`
-  kStartInCollision,
-  kGoalInCollision,
-};
-const char* ToString(RepairStatus status);
+using RepairStatus = PathStatus;  // what it was called, until 0.3
 
 struct StartRepairResult {
-  RepairStatus status = RepairStatus::kFailed;
+  PathStatus status = PathStatus::kFailed;
   // waypoints + 2 points each, exactly free, the shortest first; at most
   // `routes`, none if there is no path.
   std::vector<std::vector<Eigen::Vector3d>> routes;
@@ -53,15 +45,15 @@ struct StartRepairResult {
 //  1. Colliding run: from just before the first contact to just after a place
 //     where the path is free again, the next one that can be reached.
 //  2. It becomes the shortest path on the contact space, lifted to the
-//  clearance
-//     or to the middle of the gap and shortened (contact_surface_planner.h).
+//     clearance or to the middle of the gap and shortened
+//     (contact_surface_planner.h).
 //     For a path of two points that is the whole path.
 //  3. The joined path is shortened again and resampled with every corner a
 //     waypoint (path_resampling.h).
 //
-// Complete as the planner is: a path, or the proof that none exists, or the
-// reason why rounding left neither.  More routes are the next ones that the
-// planner compared, for paths of two points; those that coincide are given
+// As complete as the planner: it gives a path, or the proof that none exists,
+// or the reason why rounding left neither.  For a path of two points, further
+// routes are the next ones that the planner compared; equal routes are given
 // once.
 class StartRepair {
  public:

@@ -13,7 +13,7 @@
 
 namespace phongpd {
 
-// What a second judgement of a claim came to.
+// The result of a second judgement of a claim.
 enum class Verdict {
   kConfirmed,       // holds on the original solids
   kWithinRounding,  // holds after a change by `rounding` at most, proved
@@ -30,12 +30,12 @@ struct Verification {
   double seconds = 0.0;
 };
 
-// Judges paths, depths and proofs anew, on the solids they are about instead
-// of the contact space they come from, with exact predicates of its own
-// (motion_oracle.h).  Thread-safe.
+// Judges paths, depths and proofs a second time: on the original solids instead
+// of the contact space, and by exact predicates of its own (motion_oracle.h).
+// Thread-safe.
 //
 // Contact spaces are rounded, to their grid and to doubles.  So a path that is
-// free of the contact space may touch the original solids, and the other way
+// free of the contact space may touch the original solids, or the other way
 // round, but by less than
 //
 //     rounding = 2⁻³⁵ · r + 2⁻⁴⁸ · c,

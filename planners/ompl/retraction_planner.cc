@@ -64,10 +64,6 @@ void RetractionPlanner::setRetractionOptions(const RetractionOptions& options) {
   retraction_ = retraction_.WithOptions(options);
 }
 
-const RetractionOptions& RetractionPlanner::retractionOptions() const {
-  return retraction_.options();
-}
-
 void RetractionPlanner::setSeed(std::uint64_t seed) {
   seed_ = static_cast<std::uint32_t>(seed);
   random_.seed(seed);

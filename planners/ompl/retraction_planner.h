@@ -41,8 +41,6 @@ class RetractionPlanner : public ompl::base::Planner {
 
   // Its clearance is the slides' standoff as well.
   void setRetractionOptions(const RetractionOptions& options);
-  const RetractionOptions& retractionOptions() const;
-  void setLocalPlanner(LocalPlanner planner) { local_planner_ = planner; }
   void setSeed(std::uint64_t seed);
 
   // Since the last clear().

@@ -21,13 +21,14 @@ struct FleetRobot {
 
 // What OptimizeFleet answers.
 struct FleetAnswer {
-  // kConverged: all robots have motions; that of the robot that has none.
+  // kConverged: all robots have motions.  Else the status of the robot that has
+  // none.
   PathStatus status = PathStatus::kFailed;
   std::string reason;  // one sentence where there is no motion of all
-  // In the order of the robots; of those that were not come to, empty.
+  // In the order of the robots; empty for those whose turn did not come.
   std::vector<PathAnswer> robots;
-  // All robots two by two, and each with what moves by itself, judged anew when
-  // all motions were there; empty without them.
+  // Each two robots, and each robot with each moving obstacle, judged again at
+  // the end; empty unless all robots have motions.
   std::vector<FleetPair> pairs;
   std::vector<std::size_t> order;  // who went first, of the last try
   int tries = 0;                   // of orders; 0: one has no motion even alone
@@ -42,28 +43,33 @@ struct FleetAnswer {
   const FleetPair* Closest() const;
 };
 
-// Motions of several robots, by order of priority: each keeps off what is
-// fixed, off its own request's moving obstacles, and off the robots before it,
-// which move as they were told and then rest at their goals (Optimize with
-// moving obstacles).  All begin at the time 0.  Each is asked for alone
-// first; one without a motion then ends it all.  In the first order come those
-// that stay where they are, then who takes longest alone; a robot that finds no
-// motion is put in front of the others, and all begin anew, until no new order
-// comes of it.  With motions of all, they are made faster together, where that
-// is found (joint_curves.h).  While all could arrive sooner still, the last one
-// to arrive goes earlier in some more orders, by the largest preset none
-// (fast), one (balanced) or six (tight), and the soonest end of all is kept.
-// Made faster together all arrive at the same time.  What is answered is
-// certified for each pair, for all t ≥ 0; without an answer it is no proof that
-// there is none.  A pair that is not, or is refuted on the solids where a
-// request verifies, has the status kVerificationFailed.
+// Motions of several robots in one room, one robot after the other by priority.
+// Each keeps off what is fixed, off the moving obstacles of its own request,
+// and off the robots before it, which move as found and then rest at their
+// goals (Optimize with moving obstacles).  All begin at time 0.
 //
-// Throws InputError, before anything is built: for a name used twice, requests
-// that Optimize would refuse, two robots that touch at their starts or at their
-// goals, and, of several, a given duration and ends in motion.
+// First each robot moves alone; if one finds no motion even so, that is the
+// answer.  The first order begins with the robots that stay where they are;
+// then come the others, the slowest first.  A robot that finds no motion goes
+// to the front, and all begin again, until this gives no new order.  Once all
+// have motions, these are made faster together if that is possible
+// (joint_curves.h); then all robots arrive at the same time.  As long as all
+// could still arrive sooner, the last robot to arrive by the order goes earlier
+// in some more orders, and the soonest end is kept: no more orders with the
+// preset fast, one with balanced, six with tight (the largest preset of the
+// requests counts).
+//
+// The answer is certified for each pair and for all t ≥ 0.  No answer is no
+// proof that there is none.  kVerificationFailed: a pair is not free, or is
+// refuted on the solids, if a request asks to verify.
+//
+// Throws InputError before anything is built: for a name used twice, for
+// requests that Optimize would refuse, for two robots that touch at their
+// starts or at their goals; and for several robots also for a given duration
+// and for ends in motion.
 FleetAnswer OptimizeFleet(const std::vector<FleetRobot>& robots);
 
-// That, and nothing else.
+// Only checks: throws what OptimizeFleet throws, and does nothing else.
 void RequireFleet(const std::vector<FleetRobot>& robots);
 
 }  // namespace phongpd

@@ -18,16 +18,16 @@ struct RobotInTime {
   Trajectory motion;  // not empty
 };
 
-// Two that move in one room, judged by themselves: what the relative motion of
-// the second one, as the first one sees it, comes to.
+// Two that move in one room, judged apart from all others by the motion of the
+// second one relative to the first.
 struct FleetPair {
   std::string first, second;
   // They keep off each other for all t ≥ 0, proved by the judge of curves
   // against their contact space (moving_judge.h).
   bool is_free = false;
   double clearance = 0.0;  // a lower bound of their distance, proved
-  // The least of 400 moments, even in time, with those about it, rounded, and
-  // when that is; user's unit, seconds.
+  // The least distance over 400 moments at equal intervals, refined around the
+  // least of them, rounded, and when that is; user's unit, seconds.
   double least = 0.0;
   double time = 0.0;
   // By other code, on the original solids; none: nobody asked.

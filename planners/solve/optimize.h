@@ -15,8 +15,8 @@
 
 namespace phongpd {
 
-// A metric of one's own inside obstacles (SignedMetric), for comparisons; its
-// name tells it apart from others, in rows and in the world that keeps it.
+// A metric of your own inside obstacles (SignedMetric), for comparisons.  Rows,
+// and the world that keeps it, know it by its name.
 struct OwnMetric {
   std::string kind;  // "mixed"
   std::string name;  // "mixed@0.2"
@@ -41,7 +41,7 @@ struct OptimizeRequest {
   std::vector<Via> via{};  // places on the way, in order
   double duration = 0.0;   // seconds that it takes; 0: as few as can be
   CurveEnd departure{}, arrival{};
-  // To keep off, from the beginning on and when the robot has arrived, too.
+  // The robot keeps off these, on its way and after it has arrived.
   std::vector<MovingObstacle> moving{};
   // Asked now and then; true ends the search for a faster motion.
   std::function<bool()> is_interrupted{};
@@ -66,51 +66,53 @@ struct OptimizeRequest {
   void Validate(const World& world) const;
 };
 
-// What the preset sets in a request: request->preset, the options' routes, and
-// of polylines line and polish.  Whoever wants another value sets it
+// Writes what a preset means into a request: request->preset, the options'
+// routes, and for polylines `also_line` and `polish`.  Set other values
 // afterwards.
 void ApplyPreset(Preset preset, OptimizeRequest* request);
 
-// Optimises in a world, which builds what it takes on the first request and
-// keeps it: contact spaces, metrics, the graph that repairs starts.  A start or
-// goal that is not free is said before anything is built.
+// Optimises in a world.  The world builds what is needed on the first request,
+// and keeps it: contact spaces, metrics, the graph that repairs starts.  If
+// start or goal is not free, the answer says so before anything is built.
 //
-// Without limits: TrajectoryPipeline, by the metric asked for; where free space
-// is all that is modelled no metric is followed (OptimizeInFreeSpace).  One
-// solve at a time in a process.  With limits: OptimizeCurve, from the path of
-// contact-surface from place to place.  A place that is not free has the status
-// kViaNotFree; where no path leads from one to the next, that is no proof for
-// places within their tolerances: the status is kFailed.
-// Several routes (options.routes) are the ways that contact-surface compared:
-// motions are sought along each, side by side, and the best is the answer.
+// Without limits: TrajectoryPipeline with the metric asked for, one solve at a
+// time in a process; if only free space is modelled there is no metric to
+// follow (OptimizeInFreeSpace).
 //
-// Among moving obstacles (request.moving) the motion begins and ends at rest
-// and takes as few seconds as are found: by waiting, going first, making way,
-// or another route (moving_motion.h).  It is free of them for all t ≥ 0, the
-// robot resting at its goal, or the status is kFailed: none was found, which is
-// no proof.  Where one of them begins on the start, or ends on the goal, the
-// status is kStartInCollision or kGoalInCollision.
+// With limits: OptimizeCurve, from the path that contact-surface finds from
+// place to place.  If a place is not free the status is kViaNotFree.  If no
+// path leads from one place to the next the status is kFailed: it is no proof,
+// since another point within the tolerance may do.  With several routes
+// (options.routes), the ways that contact-surface compared, a motion is sought
+// along each of them, side by side, and the best one is the answer.
 //
-// Throws InputError for bad requests, BuildRefusal where limits of the world
-// refuse what Model::kFull needs.
+// Among moving obstacles (request.moving) the motion begins and ends at rest.
+// It is the fastest that was found: by waiting, going first, making way, or by
+// another route (moving_motion.h).  It keeps off them for all t ≥ 0, also while
+// the robot rests at its goal.  kFailed: none was found, which is no proof.
+// kStartInCollision, kGoalInCollision: one of them begins on the start, or ends
+// on the goal.
+//
+// Throws InputError for bad requests, and BuildRefusal if limits of the world
+// do not allow what Model::kFull needs.
 PathAnswer Optimize(const World& world, const OptimizeRequest& request);
 
-// The same near a free path of one's own, of which request.via are points; its
-// ends are start and goal instead of the request's.  It is left to make way for
-// moving obstacles where there is no via.  Asks free space alone,
-// which is enough.  A path that collides has the status kNotFree and the place
-// as reason.  Throws InputError as above, without limits, and for paths without
-// two different points.
+// The same near a free path of your own.  Its ends are start and goal, in place
+// of the request's; the places of request.via are points of it.  The motion
+// leaves the path to make way for moving obstacles, if there is no via.  Only
+// free space is modelled, which is enough.  If the path collides the status is
+// kNotFree, and the reason says where.  Throws InputError as above, also
+// without limits, and for a path without two different points.
 PathAnswer Retime(const World& world, const Path& path,
                   OptimizeRequest request);
 
-// The polyline's problem in the world: settings, metrics and judge of the whole
-// model, or the judge of the window and no metric.
+// The problem of a polyline in the world: with settings, metrics and judge of
+// the whole model, or with the judge of the window and no metric.
 TrajectoryProblem ProblemOf(const World& world, const OptimizeRequest& request,
                             Model model = Model::kFull);
 
-// One sentence where start or goal have less than the margin asked for; empty
-// otherwise.  Builds nothing.
+// One sentence if start or goal has less than the margin asked for; else empty.
+// Builds nothing.
 std::string MarginBeyondReach(const World& world,
                               const OptimizeRequest& request);
 

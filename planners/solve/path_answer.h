@@ -22,29 +22,29 @@
 
 namespace phongpd {
 
-// What an answer rests on.
+// The evidence for an answer.
 struct PathEvidence {
-  // What it was found and judged in, kFull or kWindow; none: it was known
-  // before anything was built.
+  // The model in which it was found and judged, kFull or kWindow; none: the
+  // answer was known before anything was built.
   std::optional<Model> model;
-  std::shared_ptr<const FreeSpace> free_space;  // that judge; null: none
-  // Why Model::kAuto took the window; empty: it did not, or was not forced to.
+  std::shared_ptr<const FreeSpace> free_space;  // its judge; null: none
+  // Why Model::kAuto had to take the window; empty: it did not have to.
   std::string refusal;
   // The exact judge's word on the path: free, or the first crossing.
   PathCheck check;
   // Of a motion, upper bounds of what it asks of its limits, for all t.
   LimitUse use;
-  // What contact-surface explored in a window, for a proof the cell that is
-  // enclosed; none: a proof rests on the world's sealed space, or the straight
+  // What contact-surface explored in a window; for a proof, the cell that is
+  // enclosed.  None: a proof rests on the world's sealed space, or the straight
   // way was enough.
   std::optional<ExploredSpace> surface;
-  // Of other code, on the original solids (verification.h); none: nobody asked,
-  // or there was nothing to judge.
+  // The second judgement, by other code on the original solids
+  // (verification.h); none: nobody asked, or there was nothing to judge.
   std::optional<Verification> verification;
   double verification_seconds = 0.0;
 };
 
-// What somebody asked a path to keep, and what it lacks.
+// The clearance that was asked for, and what the path lacks of it.
 struct ClearanceAnswer {
   std::optional<ResolvedLength> asked;  // none: nothing
   // User's unit; none: without a path, or nothing was asked for.
@@ -54,13 +54,13 @@ struct ClearanceAnswer {
 // How a planner came to its path.
 struct PlanWork {
   PlannerId planner = PlannerId::kContactSurface;
-  // With what contact-surface ran, and the routes it compared, of which the
-  // path is one; none: another did, or nothing ran.
+  // The options of contact-surface, and the routes that it compared, one of
+  // which is the path; none: another planner ran, or none did.
   std::optional<ContactSurfaceOptions> surface;
   std::vector<Path> routes;
   // What contact-surface explored in the window; none: it did not run there.
   std::optional<std::size_t> explored_boxes, explored_faces;
-  // What was sought; none: the planner seeks none, or did not start.
+  // The clearance sought; none: the planner seeks none, or did not start.
   std::optional<ResolvedLength> wanted_clearance;
   // Counts and trees of a sampler and its own path; of contact-surface, its
   // tests of motions.
@@ -71,13 +71,14 @@ struct PlanWork {
 struct PathAnswer {
   PathStatus status = PathStatus::kFailed;
   std::string reason;  // one sentence where the status needs one
-  // From start to goal; of a motion in time what it began with.  Empty: none.
+  // From start to goal; for a motion in time, the path that it began with.
+  // Empty: none.
   Path path;
-  // In time, of those who asked with limits; empty: none.
+  // In time, if limits were given; empty: none.
   Trajectory motion;
 
   bool is_free = false;    // path or motion, by the exact judge
-  bool is_solved = false;  // and as it was asked for
+  bool is_solved = false;  // free, and all that was asked for is kept
   bool IsInfeasible() const { return status == PathStatus::kInfeasibleProved; }
 
   double length = 0.0;     // of the path, or of the motion; user's unit

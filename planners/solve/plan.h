@@ -16,8 +16,9 @@ struct PlanRequest {
   Eigen::Vector3d goal = Eigen::Vector3d::Zero();
   PlannerId planner = PlannerId::kContactSurface;
   Model model = Model::kAuto;
-  // Sought where there is room, in (0, D]; none: the planner's own, 0.01 of the
-  // diagonal of what it plans in (kEnoughClearance, RetractionOptions).
+  // What the planner seeks where there is room, in (0, D]; none: its own, 0.01
+  // of the diagonal of the space it plans in (kEnoughClearance,
+  // RetractionOptions).
   std::optional<Length> clearance{};
   bool requires_clearance = false;  // less is no answer
   // Of contact-surface.
@@ -33,32 +34,32 @@ struct PlanRequest {
   void Validate() const;
 };
 
-// Plans in a world, which builds what the planner needs on the first request
-// and keeps it.  A start or goal that is not free is said before anything is
-// built.  Every path is judged exactly; one that is shortened (ShortenPath: of
-// planners that only check motions) is judged again.
+// Plans in a world.  The world builds what the planner needs on the first
+// request, and keeps it.  If start or goal is not free, the answer says so
+// before anything is built.  Every path is judged exactly, and again after it
+// was shortened (ShortenPath, for planners that only check motions).
 //
-// Throws InputError for bad requests and for a planner that needs all of the
-// contact surface with Model::kWindow; BuildRefusal where limits of the world
-// refuse what is needed.  Thread-safe, but that samplers reseed OMPL's own
-// generator, which all share (OmplPlanningOptions).
+// Throws InputError for bad requests, and for Model::kWindow with a planner
+// that needs the whole contact surface; BuildRefusal if limits of the world do
+// not allow what is needed.  Thread-safe, except that samplers reseed OMPL's
+// own generator, which all threads share (OmplPlanningOptions).
 PathAnswer Plan(const World& world, const PlanRequest& request);
 
-// One sentence where start or goal have less than the clearance asked for;
-// empty otherwise.  Builds nothing.
+// One sentence if start or goal has less than the clearance asked for; else
+// empty.  Builds nothing.
 std::string ClearanceBeyondReach(const World& world,
                                  const PlanRequest& request);
 
-// Will the request be answered in the window?  Builds the whole model where it
-// takes that to know.
+// Will the request be answered in the window?  Builds the whole model if there
+// is no other way to know.
 bool PlansInWindow(const World& world, const PlanRequest& request);
 
-// Where its path can be: the bounds, or the box around the cells of start and
-// goal (SamplingRegion).  Builds what the request needs.
+// Where a path can be: within the bounds, or in the box around the cells of
+// start and goal (SamplingRegion).  Builds what the request needs.
 BoundingBox PlanningRegion(const World& world, const PlanRequest& request);
 
-// Where a path is looked for if free space is all that is modelled: the bounds,
-// or the box around start, goal and all obstacles (SamplingRegion).
+// Where a path is searched for if only free space is modelled: within the
+// bounds, or in the box around start, goal and all obstacles (SamplingRegion).
 BoundingBox WindowRegion(const World& world, const Eigen::Vector3d& start,
                          const Eigen::Vector3d& goal);
 

@@ -44,16 +44,6 @@ BlockTridiagonalOf<kSize>::BlockTridiagonalOf(int blocks, int block_size)
       block_size_(block_size) {}
 
 template <int kSize>
-void BlockTridiagonalOf<kSize>::SetZero() {
-  for (int k = 0; k < blocks(); ++k) {
-    diagonal[k].setZero();
-    above[k].setZero();
-    border[k].setZero();
-  }
-  corner = 0.0;
-}
-
-template <int kSize>
 Eigen::VectorXd BlockTridiagonalOf<kSize>::Times(
     const Eigen::VectorXd& x) const {
   Eigen::VectorXd y = Eigen::VectorXd::Zero(size());

@@ -25,7 +25,6 @@ class BlockTridiagonalOf {
 
   // Zero.
   explicit BlockTridiagonalOf(int blocks, int block_size = kBlockSize);
-  void SetZero();
 
   int blocks() const { return static_cast<int>(diagonal.size()); }
   int block_size() const { return block_size_; }

@@ -73,7 +73,7 @@ class CorridorPolish {
   }
 
   void Run(int max_rounds) {
-    summary_.status = CorridorStatus::kRoundLimit;
+    summary_.status = PathStatus::kRoundLimit;
     while (static_cast<int>(summary_.rounds.size()) < max_rounds) {
       const double gain = DoRound();
       if (HasEnded(gain)) break;
@@ -147,11 +147,11 @@ class CorridorPolish {
         std::abs(gain) < kLeastGain && (is_accepted || gain != 0.0);
     small_gains_ = is_small ? small_gains_ + 1 : 0;
     if (small_gains_ >= 2) {
-      summary_.status = CorridorStatus::kConverged;
+      summary_.status = PathStatus::kConverged;
     } else if (trust_ < kSmallestTrust * kFirstTrust) {
-      summary_.status = CorridorStatus::kSmallestTrust;
+      summary_.status = PathStatus::kSmallestTrust;
     } else if (stopwatch_.Seconds() > time_limit_) {
-      summary_.status = CorridorStatus::kTimeLimit;
+      summary_.status = PathStatus::kTimeLimit;
     } else {
       return false;
     }
@@ -185,28 +185,12 @@ class CorridorPolish {
 
 }  // namespace
 
-const char* ToString(CorridorStatus status) {
-  switch (status) {
-    case CorridorStatus::kConverged:
-      return "converged";
-    case CorridorStatus::kSmallestTrust:
-      return "smallest_trust";
-    case CorridorStatus::kRoundLimit:
-      return "round_limit";
-    case CorridorStatus::kTimeLimit:
-      return "time_limit";
-    case CorridorStatus::kNotFree:
-      break;
-  }
-  return "not_free";
-}
-
 bool CorridorSummary::HasConverged() const {
   const bool has_gained =
       std::any_of(rounds.begin(), rounds.end(),
                   [](const CorridorRound& round) { return round.is_accepted; });
-  return status == CorridorStatus::kConverged ||
-         (status == CorridorStatus::kSmallestTrust && has_gained);
+  return status == PathStatus::kConverged ||
+         (status == PathStatus::kSmallestTrust && has_gained);
 }
 
 CorridorSummary PolishInCorridor(const TrajectoryProblem& problem,

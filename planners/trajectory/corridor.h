@@ -9,20 +9,14 @@
 #include "planners/trajectory/ipopt_solve.h"
 #include "planners/trajectory/path_history.h"
 #include "planners/trajectory/trajectory_problem.h"
+#include "planners/world/path_status.h"
 
 namespace phongpd {
 
 // τ of the first round, a share of D.
 inline constexpr double kFirstTrust = 0.05;
 
-enum class CorridorStatus {
-  kConverged,      // two rounds gained less than 1e-4 of the merit
-  kSmallestTrust,  // no step of any size was an improvement
-  kRoundLimit,     // forty
-  kTimeLimit,
-  kNotFree,  // the start path collides: nothing was done
-};
-const char* ToString(CorridorStatus status);
+using CorridorStatus = PathStatus;  // what it was called, until 0.3
 
 struct CorridorRound {
   double objective = 0.0;  // after the round, of the path kept
@@ -34,7 +28,7 @@ struct CorridorRound {
 };
 
 struct CorridorSummary {
-  CorridorStatus status = CorridorStatus::kNotFree;
+  PathStatus status = PathStatus::kNotFree;
   Path path;               // exactly free but for kNotFree
   double objective = 0.0;  // energy of `path`
   // Smallest distance of a segment to contact or the margin; units of D.
@@ -43,7 +37,7 @@ struct CorridorSummary {
   std::vector<CorridorRound> rounds;
   double seconds = 0.0;
 
-  bool IsFree() const { return status != CorridorStatus::kNotFree; }
+  bool IsFree() const { return status != PathStatus::kNotFree; }
   // Is the path a local minimum, and not just the start path kept for want of
   // an improvement that rounding would let pass?
   bool HasConverged() const;

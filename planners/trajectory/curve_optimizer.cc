@@ -2,7 +2,6 @@
 #include "planners/trajectory/curve_optimizer.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <string>
 #include <utility>
@@ -14,15 +13,17 @@
 #include "core/stopwatch.h"
 #include "planners/exact/check_option.h"
 #include "planners/trajectory/curve_cells.h"
-#include "planners/trajectory/curve_ends.h"
+#include "planners/trajectory/curve_limits.h"
 #include "planners/trajectory/curve_program.h"
 #include "planners/trajectory/curve_rests.h"
+#include "planners/trajectory/curve_start.h"
 #include "planners/trajectory/knot_curve.h"
 
 namespace phongpd {
 namespace {
 
 using Eigen::Vector3d;
+using internal::CurveStart;
 using internal::CurveStep;
 using internal::KnotCurve;
 using internal::PieceCells;
@@ -35,23 +36,11 @@ constexpr double kLargestSigma = 0.5;
 constexpr double kGoodStep = 0.5;  // a smaller share of what was predicted asks
                                    // for a shorter step
 constexpr double kSmallestSigma = 1e-5;
-constexpr int kPieces = 3;      // of a segment of the path
 constexpr int kMaxRounds = 60;  // of a size of pieces
 // So many rounds in a row that gain less, a share of the time, end it.
 constexpr int kSmallGains = 2;
 constexpr double kSmallGain = 1e-3;
-// What rounding may leave above a limit is scaled away.
-constexpr double kAboveLimit = 0x1p-48;
-constexpr double kMoreAbove = 8.0;  // by each further scaling
-constexpr int kScalings = 8;
-// Of ends in motion the velocity is what was asked for but for this share.
-constexpr double kSlowedAtEnds = 1e-11;
-// A step that passes the limits is corrected where it leads, durations changing
-// by less each time, ln, and with some room below the limits for what that
-// neglects.  Where it fails the step is halved so often.
-constexpr std::array<double, 3> kCorrections = {1e-2, 1e-3, 1e-4};
-constexpr double kSpare = 2e-4;
-constexpr int kShorterSteps = 3;
+constexpr int kStepHalvings = 3;  // of a step that is not taken
 
 double MissingOf(const std::vector<PieceCells>& cells, double margin) {
   double missing = 0.0;
@@ -59,35 +48,6 @@ double MissingOf(const std::vector<PieceCells>& cells, double margin) {
     missing += std::max(0.0, margin - of_piece.distance);
   }
   return missing;
-}
-
-// So much of a step.
-KnotCurve Moved(const KnotCurve& curve, const KnotCurve& change, double share) {
-  KnotCurve moved = curve;
-  for (std::size_t k = 0; k < curve.knots.size(); ++k) {
-    moved.knots[k].p += share * change.knots[k].p;
-    moved.knots[k].v += share * change.knots[k].v;
-    moved.knots[k].a += share * change.knots[k].a;
-  }
-  for (std::size_t i = 0; i < curve.durations.size(); ++i) {
-    moved.durations[i] *= std::exp(share * change.durations[i]);
-  }
-  return moved;
-}
-
-// The least time at which it keeps the limits, proved; not slowed by more than
-// rounding if it has an end in motion.
-bool FitTime(const MotionLimits& limits, bool is_at_rest,
-             Trajectory* trajectory) {
-  double rounding = kAboveLimit;
-  for (int i = 0; i < kScalings; ++i, rounding *= kMoreAbove) {
-    const LimitUse use = BoundLimitUse(*trajectory, limits);
-    if (use.IsKept() && (i > 0 || !is_at_rest)) return true;
-    const double slowing = use.SlowingNeeded() * (1.0 + rounding);
-    if (!is_at_rest && slowing > 1.0 + kSlowedAtEnds) return false;
-    *trajectory = trajectory->Slowed(slowing);
-  }
-  return false;
 }
 
 class Optimizer {
@@ -121,94 +81,28 @@ class Optimizer {
   }
 
  private:
-  // The path from place to place.
-  std::vector<Path> LegsOf(const Path& path) const {
-    std::vector<Path> legs;
-    auto from = path.begin();
-    for (const CurveVia& via : options_.via) {
-      const auto to = std::find(from, path.end(), via.point);
-      legs.emplace_back(from, to + 1);
-      from = to;
-    }
-    legs.emplace_back(from, path.end());
-    return legs;
-  }
-
-  // Stops at the corners of all legs, and the knots at which they meet.
-  KnotCurve StopOnLegs(const std::vector<Path>& legs, int first_knot) {
-    KnotCurve all;
-    for (std::size_t i = 0; i < legs.size(); ++i) {
-      auto corners = internal::DropCorners(space_, legs[i], options_.margin);
-      if (corners.size() < 2) corners = legs[i];
-      corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
-      if (corners.size() > 1) {
-        all = internal::Joined(
-            all, internal::StopAtCorners(corners, options_.limits, kPieces));
-      }
-      if (i < options_.via.size()) {
-        const CurveVia& via = options_.via[i];
-        settings_.via.push_back(
-            {first_knot + all.pieces(), via.point, via.tolerance});
-      }
-    }
-    return all;
-  }
-
-  // Without those that are an end of the curve: they stay where they are.
-  static std::vector<ViaKnot> InnerKnots(std::vector<ViaKnot> via,
-                                         int first_knot, int pieces) {
-    for (ViaKnot& one : via) one.knot -= first_knot;
-    via.erase(std::remove_if(via.begin(), via.end(),
-                             [&](const ViaKnot& one) {
-                               return one.knot == 0 || one.knot == pieces;
-                             }),
-              via.end());
-    return via;
-  }
-
-  // A stop from the start, stops at the path's corners, and a run-up to the
-  // end.
   void Start(const Path& path) {
-    const MotionLimits& limits = options_.limits;
-    const KnotCurve::State first = {path.front(), options_.start.velocity,
-                                    options_.start.acceleration};
-    const KnotCurve::State last = {path.back(), -options_.end.velocity,
-                                   options_.end.acceleration};
-    std::vector<Path> legs = LegsOf(path);
-    const internal::Stop begin = internal::FindStop(
-        space_, diagonal_, first, legs.front(), limits, false);
-    legs.front() = begin.path;
-    std::reverse(legs.back().begin(), legs.back().end());
-    const internal::Stop end =
-        internal::FindStop(space_, diagonal_, last, legs.back(), limits, true);
-    legs.back() = end.path;
-    std::reverse(legs.back().begin(), legs.back().end());
-    const int first_knot = begin.curve.pieces();
-    const KnotCurve stops = StopOnLegs(legs, first_knot);
-    const auto join = [&](const KnotCurve& middle) {
-      return internal::Joined(internal::Joined(begin.curve, middle),
-                              internal::Backwards(end.curve));
-    };
-    now_ = join(stops);
-    settings_.via = InnerKnots(settings_.via, 0, now_.pieces());
+    const CurveStart start =
+        internal::FindCurveStart(space_, diagonal_, path, options_);
+    now_ = start.With(start.stops);
+    settings_.via = start.via;
     // On the path but for rounding, by which it may still touch.
     if (!Keep(now_)) return;
     summary_.stops_duration = summary_.duration;
     summary_.first_seconds = stopwatch_.Seconds();
-    if (!settings_.keeps_pace || stops.knots.empty()) return;
+    if (!settings_.keeps_pace || start.stops.knots.empty()) return;
     // What begins and ends at rest takes longer steps.
-    KnotCurve faster = join(OptimizedFromRest(stops, first_knot));
+    KnotCurve faster = start.With(OptimizedFromRest(start));
     if (Keep(faster)) now_ = std::move(faster);
   }
 
-  KnotCurve OptimizedFromRest(const KnotCurve& stops, int first_knot) const {
+  KnotCurve OptimizedFromRest(const CurveStart& start) const {
     CurveOptions options = options_;
     options.start = options.end = {};
     options.time_limit -= stopwatch_.Seconds();
     Optimizer optimizer(space_, diagonal_, options);
-    optimizer.now_ = stops;
-    optimizer.settings_.via =
-        InnerKnots(settings_.via, first_knot, stops.pieces());
+    optimizer.now_ = start.stops;
+    optimizer.settings_.via = start.ViaOfStops();
     optimizer.RunRounds();
     return optimizer.now_;
   }
@@ -224,7 +118,9 @@ class Optimizer {
     Trajectory fitted = curve.ToTrajectory();
     if (!CheckCurve(space_, fitted).IsFree()) return false;
     // Other durations, the same points.
-    if (!FitTime(options_.limits, !settings_.keeps_pace, &fitted)) return false;
+    if (!internal::FitTime(options_.limits, !settings_.keeps_pace, &fitted)) {
+      return false;
+    }
     summary_.trajectory = std::move(fitted);
     summary_.duration = summary_.trajectory.duration();
     return true;
@@ -239,15 +135,6 @@ class Optimizer {
     return is_interrupted || is_late;
   }
 
-  std::vector<PieceCells> CellsOf(const KnotCurve& curve) const {
-    std::vector<PieceCells> cells;
-    for (int i = 0; i < curve.pieces(); ++i) {
-      cells.push_back(internal::FindCells(space_, curve.PointsOf(i),
-                                          settings_.trust, options_.margin));
-    }
-    return cells;
-  }
-
   double MeritOf(const KnotCurve& curve,
                  const std::vector<PieceCells>& cells) const {
     return options_.margin > 0.0
@@ -258,7 +145,7 @@ class Optimizer {
 
   // False if it must end.
   bool RunRounds() {
-    cells_ = CellsOf(now_);
+    cells_ = internal::CellsOf(space_, now_, settings_);
     int small_gains = 0;
     for (int i = 0; i < kMaxRounds; ++i) {
       if (IsFastEnough()) break;
@@ -304,9 +191,9 @@ class Optimizer {
     round.rows = step.rows;
     round.iterations = step.iterations;
     double share = 1.0;
-    for (int i = 0; i <= kShorterSteps && !round.is_accepted; ++i) {
+    for (int i = 0; i <= kStepHalvings && !round.is_accepted; ++i) {
       if (i > 0) share *= 0.5;
-      KnotCurve moved = Moved(now_, step.change, share);
+      KnotCurve moved = internal::Moved(now_, step.change, share);
       moved.Slow(options_.duration / moved.Duration());
       round.gain = 1.0 - jerk_of(moved) / before;
       if (!(round.gain > 0.0) ||
@@ -315,7 +202,7 @@ class Optimizer {
       }
       round.is_accepted = true;
       now_ = std::move(moved);
-      cells_ = CellsOf(now_);
+      cells_ = internal::CellsOf(space_, now_, settings_);
     }
     settings_.sigma *= !round.is_accepted ? 0.3 : share < 1.0 ? share : 2.0;
     settings_.sigma = std::min(settings_.sigma, kLargestSigma);
@@ -324,28 +211,8 @@ class Optimizer {
     return round.is_accepted ? round.gain : kSmallGain;
   }
 
-  // So much of a step, slowed so that the limits hold; where the pace is kept,
-  // so much that they do, or nothing.
-  KnotCurve WithinLimits(const KnotCurve& change, double share) const {
-    KnotCurve moved = Moved(now_, change, share);
-    if (!settings_.keeps_pace) {
-      moved.Slow(internal::SlowingOf(moved, options_.limits));
-      return moved;
-    }
-    for (int i = 0; i <= kShorterSteps; ++i, share *= 0.5) {
-      moved = Moved(now_, change, share);
-      internal::CurveProgramOptions correction = settings_;
-      correction.spare = kSpare;
-      for (const double sigma : kCorrections) {
-        if (internal::SlowingOf(moved, options_.limits) <= 1.0) return moved;
-        correction.sigma = std::min(sigma, settings_.sigma);
-        const CurveStep step =
-            internal::SolveCurveProgram(moved, CellsOf(moved), correction);
-        moved = Moved(moved, step.change, 1.0);
-      }
-      if (internal::SlowingOf(moved, options_.limits) <= 1.0) return moved;
-    }
-    return now_;
+  KnotCurve Moved(const KnotCurve& change, double share) const {
+    return internal::MovedWithinLimits(space_, now_, change, share, settings_);
   }
 
   double GainOf(const KnotCurve& curve) const {
@@ -363,7 +230,7 @@ class Optimizer {
     round.rows = step.rows;
     round.iterations = step.iterations;
     round.predicted = step.predicted;
-    KnotCurve moved = WithinLimits(step.change, 1.0);
+    KnotCurve moved = Moved(step.change, 1.0);
     double gain = GainOf(moved);
     // A step that only restores clearance is as good as any.
     const double ratio =
@@ -371,7 +238,7 @@ class Optimizer {
     if (ratio < kGoodStep) {
       // gain(x) = predicted · x − (predicted − gain) x² is largest there.
       const double share = 0.5 / (1.0 - ratio);
-      KnotCurve less = WithinLimits(step.change, share);
+      KnotCurve less = Moved(step.change, share);
       if (GainOf(less) > gain) {
         moved = std::move(less);
         gain = GainOf(moved);
@@ -380,14 +247,16 @@ class Optimizer {
     std::vector<PieceCells> cells;
     bool is_better = options_.margin > 0.0 || gain > 0.0;
     if (is_better && options_.margin > 0.0) {
-      cells = CellsOf(moved);
+      cells = internal::CellsOf(space_, moved, settings_);
       gain += MeritOf(now_, cells_) - MeritOf(moved, cells);
       is_better = gain > 0.0;
     }
     round.is_accepted = is_better && Keep(moved);
     if (round.is_accepted) {
       now_ = std::move(moved);
-      cells_ = options_.margin > 0.0 ? std::move(cells) : CellsOf(now_);
+      cells_ = options_.margin > 0.0
+                   ? std::move(cells)
+                   : internal::CellsOf(space_, now_, settings_);
     }
     ChangeSigma(round.is_accepted ? ratio : -1.0);
     round.duration = now_.Duration();

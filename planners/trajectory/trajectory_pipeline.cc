@@ -117,8 +117,8 @@ class Run {
       result_.repair = repair_->Repair(problem_.start, problem_.goal, repair);
       *starts = result_.repair.routes;
     }
-    const RepairStatus status = result_.repair.status;
-    if (status == RepairStatus::kInfeasibleProved) {
+    const PathStatus status = result_.repair.status;
+    if (status == PathStatus::kInfeasibleProved) {
       result_.status = PathStatus::kInfeasibleProved;
       result_.reason = result_.repair.reason;
     } else if (starts->empty()) {
@@ -131,7 +131,7 @@ class Run {
             i == 0 ? result_.repair.seconds : 0.0},
            (*starts)[i]);
     }
-    return status != RepairStatus::kInfeasibleProved;
+    return status != PathStatus::kInfeasibleProved;
   }
 
   Candidate SolveRoute(const Path& start, int route) {
@@ -173,7 +173,7 @@ class Run {
   // The line finds no way through a passage too narrow for Ipopt's rows; it
   // may find a wider one.
   bool WantsLine(const Path& start) const {
-    return result_.repair.status == RepairStatus::kRepaired && !IsLate() &&
+    return result_.repair.status == PathStatus::kRepaired && !IsLate() &&
            (!IsTooNarrow(start) || !best_.KeepsClear());
   }
 

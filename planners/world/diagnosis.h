@@ -9,16 +9,16 @@
 
 namespace phongpd {
 
-// Whether a configuration q is free, and if not, why; asked of the solids
+// Whether a configuration q is free, and if not, why: from the solids
 // themselves, with no contact space and no resolution.
 struct Diagnosis {
   // An obstacle B that the robot at q meets; solids that touch meet.
   struct Contact {
     int obstacle = -1;  // index in the workspace
     std::string name;   // its id
-    // Proved: a translation of this length, along the unit vector `direction`,
-    // leaves robot and obstacle without a common inner point.  Rounded; 0:
-    // they only touch.
+    // Proved: after a translation of this length along the unit vector
+    // `direction` robot and obstacle have no inner point in common.  Rounded;
+    // 0: they only touch.
     double depth_at_most = 0.0;
     Eigen::Vector3d direction = Eigen::Vector3d::UnitX();
   };
@@ -51,8 +51,8 @@ struct Diagnosis {
 // cost nothing.  Throws InputError if q is not finite.  Thread-safe.
 Diagnosis Diagnose(const Workspace& workspace, const Eigen::Vector3d& q);
 
-// One sentence for a q that is free of the solids, and not of their contact
-// space: it is within the rounding of the latter.
+// One sentence for a q that is free of the solids but not of their contact
+// space, because it is within the rounding of the latter.
 std::string BlockedByRounding(const Eigen::Vector3d& q,
                               const std::string& which);
 

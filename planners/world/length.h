@@ -6,15 +6,15 @@
 
 namespace phongpd {
 
-// A length in both ways it can be told.
+// A length, written in both ways.
 struct ResolvedLength {
   double unit = 0.0;   // the user's unit, that of coordinates
   double share = 0.0;  // of D
 };
 
-// A length ≥ 0 as somebody asks for it: in the user's unit, or as a share of
-// D, the one length of a world (World::diagonal).  A value; what it comes to
-// is known once D is.
+// A length ≥ 0 as somebody asks for it: in the user's unit, or as a share of D,
+// the one length of a world (World::diagonal).  A plain value: Resolve tells
+// how long it is once D is known.
 class Length {
  public:
   Length() = default;  // 0
@@ -25,7 +25,7 @@ class Length {
   bool is_share() const { return is_share_; }
   double value() const { return value_; }  // as it was given
 
-  // What was given stays as it is, to the bit; the other one is rounded.
+  // The number that was given stays the same, to the bit; the other is rounded.
   // Throws InputError unless `diagonal` (D) is finite and > 0.
   ResolvedLength Resolve(double diagonal) const;
 
@@ -63,7 +63,7 @@ std::string UnitNamedIn(const std::string& text);
 Length ParseLength(const std::string& text, const std::string& what,
                    const std::string& unit = "");
 
-// What paths keep, where there is room, if nobody says: 0.01 D.
+// The default margin that paths keep, where there is room: 0.01 D.
 inline Length DefaultMargin() { return Length::FromShare(0.01); }
 
 // Which lengths an option takes; none takes more than D.

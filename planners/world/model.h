@@ -7,13 +7,14 @@
 namespace phongpd {
 
 // How much of a world's contact space is built for an answer.  All answers are
-// exact: what is found in a window is free in the whole.
+// exact: a path that is free in a window is free in the whole.
 enum class Model {
   // The least that is enough: the window for planners that only check motions,
-  // all of it for others, the window where limits of a build refuse that.
+  // the whole for others, or again the window if limits refuse the whole.
   kAuto,
-  // Free space alone (World::Convolution), and of the contact space what leads
-  // from start to goal (WindowPlanner).
+  // Only free space (World::Convolution), and the part of the contact space
+  // that
+  // leads from start to goal (WindowPlanner).
   kWindow,
   kFull,
 };

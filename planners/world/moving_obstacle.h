@@ -17,9 +17,9 @@ class World;
 // An obstacle that moves by itself: a part on a conveyor, another machine.  It
 // translates.
 struct MovingObstacle {
-  Solid solid;  // where it is at the configuration 0; its name is the user's
-  // From the time 0 on, at which the robot begins as well; afterwards it stays
-  // where it came to.  User's unit, seconds.
+  Solid solid;  // at configuration 0, with the name that the user gave it
+  // Its configurations from time 0 on, when the robot begins as well; after its
+  // end the obstacle rests there.  User's unit, seconds.
   Trajectory motion;
 };
 
@@ -28,20 +28,19 @@ struct MovingObstacle {
 void RequireMoving(const World& world,
                    const std::vector<MovingObstacle>& moving);
 
-// As the robot of the world meets them.  Their convolutions with the robot are
-// kept by the world, one for all with the same mesh.  Throws like
-// RequireMoving, and what ConvolutionModel throws.
+// The obstacles as the world's robot meets them.  The world keeps their
+// convolutions with the robot, one for all obstacles with the same mesh. Throws
+// what RequireMoving and ConvolutionModel throw.
 std::vector<MovingBody> MovingBodies(const World& world,
                                      const std::vector<MovingObstacle>& moving);
 
-// One sentence where the robot at q touches one of them at the time 0, on the
-// solids; `which` is what q is called.  Empty: it touches none.  Builds
-// nothing.
+// One sentence if the robot at q touches one of them at time 0, by the solids;
+// `which` names q in it.  Empty: it touches none.  Builds nothing.
 std::string MovingAtStart(const World& world,
                           const std::vector<MovingObstacle>& moving,
                           const Eigen::Vector3d& q, const std::string& which);
 
-// One sentence where one of them has its last place on q; the same.
+// The same for the places where they come to rest.
 std::string MovingAtEnd(const World& world,
                         const std::vector<MovingObstacle>& moving,
                         const Eigen::Vector3d& q, const std::string& which);

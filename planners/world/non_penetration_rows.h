@@ -25,30 +25,31 @@ struct RowsOptions {
   int rows_per_sample = 1;  // in [1, 8]
 };
 
-// The rows d(sample) ≥ margin of a path in a world, for a solver of one's own:
+// The rows d(sample) ≥ margin of a path in a world, for a solver of your own:
 //
 //   NonPenetrationRows rows(world, start, goal);
 //   rows.Values(u, &g);  rows.Jacobian(u, &j);  // lower() ≤ g ≤ upper()
 //   rows.Accept(u);                             // the solver's new iterate
 //   if (!world.IsFree(rows.Path(u))) ...  // the judge has the last word
 //
-// Variables are the coordinates of the waypoints, x y z of one after the other;
-// samples are the waypoints and interior points of every segment
-// (NonPenetrationConstraint, which is for who needs less).  With samples by the
-// rule, N+1 rows margin + h − |p_{i+1} − p_i| ≥ margin come last: if all rows
-// hold, the motion is free, because both ends keep the margin and d is
-// 1-Lipschitz.  With a number of one's own nothing is known between samples.
+// Variables are the coordinates of the waypoints, x y z of one waypoint after
+// the other.  Samples are the waypoints and interior points of every segment
+// (NonPenetrationConstraint is the layer below).  If samples are by the rule,
+// N+1 rows margin + h − |p_{i+1} − p_i| ≥ margin come last.  Then the motion is
+// free if all rows hold, because both ends keep the margin and d is
+// 1-Lipschitz. With a number of samples of your own nothing is known between
+// them.
 //
 // A Phong depth follows a branch.  Branches are chosen at the first u that is
-// asked, and advanced by Accept alone: between two calls values are one smooth
-// function.  Not thread-safe, for that reason; one object for each solver.
+// asked for, and only Accept advances them: between two calls of Accept values
+// are one smooth function.  So it is not thread-safe: use one object a solver.
 class NonPenetrationRows {
  public:
   using Vector = Eigen::Ref<const Eigen::VectorXd>;
 
-  // Builds the contact space of all obstacles, if nobody has.  Throws
-  // InputError for options, and where by the rule start or goal have less room
-  // than the margin; what World::Spaces throws.
+  // Builds the contact space of all obstacles unless the world has it.  Throws
+  // InputError for options, and, with samples by the rule, if start or goal has
+  // less room than the margin; and what World::Spaces throws.
   NonPenetrationRows(const World& world, const Eigen::Vector3d& start,
                      const Eigen::Vector3d& goal,
                      const RowsOptions& options = {});
@@ -77,10 +78,10 @@ class NonPenetrationRows {
   // u is the solver's new iterate: the branches follow it there.
   void Accept(const Vector& u);
 
-  // Values, rows() of them, and derivatives by u, nonzeros() of them in the
-  // order of the pattern or as a matrix.  What is handed over by its address
-  // takes its size from here.  All throw InputError for vectors of other sizes
-  // and for u that is not finite.
+  // Values, rows() of them, and derivatives by u: nonzeros() of them in the
+  // order of the pattern, or as a matrix.  Arguments given by a pointer are
+  // resized here.  All throw InputError for vectors of other sizes and for u
+  // that is not finite.
   void Values(const Vector& u, Eigen::VectorXd* values);
   void Values(const Vector& u, Eigen::Ref<Eigen::VectorXd> values);
   void Entries(const Vector& u, Eigen::Ref<Eigen::VectorXd> entries);

@@ -11,8 +11,14 @@ const char* ToString(PathStatus status) {
       return "polished";
     case PathStatus::kStalledFeasible:
       return "stalled_feasible";
+    case PathStatus::kFree:
+      return "free";
+    case PathStatus::kRepaired:
+      return "repaired";
     case PathStatus::kConverged:
       return "converged";
+    case PathStatus::kSmallestTrust:
+      return "smallest_trust";
     case PathStatus::kRoundLimit:
       return "round_limit";
     case PathStatus::kInterrupted:
@@ -49,7 +55,8 @@ const char* ToString(PathStatus status) {
 
 bool HasFreePath(PathStatus status) {
   return status == PathStatus::kSolved || status == PathStatus::kPolished ||
-         status == PathStatus::kStalledFeasible;
+         status == PathStatus::kStalledFeasible ||
+         status == PathStatus::kFree || status == PathStatus::kRepaired;
 }
 
 bool IsStartBlocked(PathStatus status) {

@@ -10,7 +10,8 @@ enum class PathStatus {
   kSolved,           // as asked for; of an optimiser: Ipopt converged to it
   kPolished,         // the corridor converged to it
   kStalledFeasible,  // nothing converged
-  // There is a motion in time, certified for all t; the search for a faster one
+  // There is a path, or a motion in time, certified for all t; the search for a
+  // shorter or faster one
   kConverged,   // gains next to nothing
   kRoundLimit,  // still gained
   // Ended from outside; a planner for bodies that turn had not found a path
@@ -36,13 +37,17 @@ enum class PathStatus {
   // The second judge, on the original solids, refuted it: a fault of ours.
   kVerificationFailed,
   kFailed,  // neither path nor proof
+  // Of steps on the way, which have words of their own.
+  kFree,           // start repair: the given path was free already
+  kRepaired,       // start repair: it was not, and is now
+  kSmallestTrust,  // corridor: no step of any size shortens the path
 };
 
 // "solved", "stalled_feasible", "start_in_collision", …
 const char* ToString(PathStatus status);
 
 // Does the status of a path, not of a motion, say that there is one?  The first
-// three.
+// three and the two of start repair.
 bool HasFreePath(PathStatus status);
 // kStartInCollision, kStartOutOfBounds; the same of the goal.
 bool IsStartBlocked(PathStatus status);

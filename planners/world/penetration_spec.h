@@ -25,25 +25,25 @@ struct PenetrationSpec {
   // ParsePenetration reads back the same.
   std::string Name() const;
 
-  // In a world of diagonal D.  Throws InputError for an ℓ longer than that, and
-  // of smoothed metrics for 0 and for the exact Jacobian, which is Euclid's.
+  // In a world of diagonal D.  Throws InputError for an ℓ longer than D; for
+  // smoothed metrics also for ℓ = 0 and for the exact Jacobian, which would be
+  // Euclid's.
   SignedMetricOptions Options(double diagonal) const;
 };
 
-// Reads "euclidean", "phong", "smoothed" and "smoothed-foot" of the default
-// smoothing length, "phong@0.5unit" and the like of another (length.h); of
-// phong, then, with "/tangent-plane" the paper's field, with "/exact" the exact
-// Jacobian.
-// Throws InputError starting with `what`.
+// Reads "euclidean", "phong", "smoothed" and "smoothed-foot" with the default
+// smoothing length, or with another one as in "phong@0.5unit" (length.h). After
+// "phong", "/tangent-plane" means the paper's field, "/exact" the exact
+// Jacobian. Throws InputError starting with `what`.
 PenetrationSpec ParsePenetration(const std::string& text,
                                  const std::string& what);
 
 // The names of all metrics, in the order of MetricKind: phong, euclidean,
 // smoothed, smoothed-foot.
 const std::vector<std::string>& MetricNames();
-// Does it have a smoothing length?  All but the Euclidean.
+// Does it have a smoothing length?  All but the Euclidean do.
 bool HasLength(MetricKind metric);
-// Where it has: of Phong it may be 0.
+// Which lengths it takes: Phong's may be 0.
 LengthRange LengthRangeOf(MetricKind metric);
 
 // phong, euclidean, ...; normal, tangent-plane; direction, exact: as scenes and

@@ -6,12 +6,12 @@
 
 namespace phongpd {
 
-// How much is spent on a better answer.  Every answer is exact whichever is
-// taken: a path is free, a proof a proof.  What they trade is time against the
+// How much time is spent on a better answer.  With every preset the answer is
+// exact: a path is free, a proof is a proof.  They trade time against the
 // length or energy of the path; the figures are in results/trade.
 //
-// There is none for queries: of what they could set nothing trades (results/
-// trade says what was tried).
+// Queries have no presets: nothing that one could set there trades one for the
+// other (results/trade says what was tried).
 enum class Preset {
   kFast,
   kBalanced,  // the options' own defaults

@@ -10,7 +10,7 @@ namespace phongpd {
 // A place that a motion in time passes on its way.
 struct Via {
   Eigen::Vector3d point = Eigen::Vector3d::Zero();
-  Length tolerance = Length::FromShare(0.001);  // it comes as close, (0, D]
+  Length tolerance = Length::FromShare(0.001);  // passed as close, in (0, D]
   double dwell = 0.0;  // seconds to rest there, at the point itself
 };
 

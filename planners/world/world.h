@@ -25,11 +25,11 @@ enum class SpaceLayout {
   kSealed,       // one, of all of them and the bounds: what planners need
 };
 
-// The contact spaces of one layout; only what the robot can touch within the
-// bounds is in them.  All have the world's D for length.
+// The contact spaces of one layout.  They hold only what the robot can touch
+// within the bounds, and all have the world's D as their length.
 struct WorldSpaces {
   std::vector<ContactSpace> spaces;
-  // Of those, and of the bounds where they are no part of them.
+  // Of these spaces, and of the bounds unless they are part of a space.
   std::shared_ptr<const FreeSpace> free_space;
   std::size_t triangles = 0;  // of all spaces
 
@@ -37,9 +37,9 @@ struct WorldSpaces {
   std::vector<TriangleMesh> Meshes() const;
 };
 
-// Free space alone, without contact spaces, and of the convolution only what
-// questions lead to: all there is to model for whoever only asks whether
-// motions are free and how much room they have.
+// Free space alone, without contact spaces.  Facets of the convolution are made
+// when a question needs them.  It is enough to answer whether motions are free
+// and how much room they have.
 struct WorldConvolution {
   std::vector<ConvolutionModel> models;  // one of all obstacles, or none
   // Of that and the bounds.
@@ -57,8 +57,9 @@ struct WorldLimits {
 // What a world has built so far.
 struct WorldReport {
   int contact_spaces = 0;  // built, or read from the cache: the full level
-  // Those of obstacles that are apart are built one by one (obstacle_groups.h),
-  // kept one by one and joined, so that what moves does not cost what stays.
+  // Obstacles that are apart are built one by one (obstacle_groups.h), kept in
+  // the cache one by one, and joined: if one of them is moved, the others need
+  // not be built again.
   int parts = 0;
   int parts_from_cache = 0;
   int convolutions = 0;     // built: free space alone
@@ -68,17 +69,17 @@ struct WorldReport {
 };
 
 // A robot that translates among named obstacles, perhaps within bounds, and
-// all that planners and optimisers share of it: the length D that options are
-// told in, the diagnosis of start and goal, and contact spaces, which are
-// built when somebody asks for them, once, and kept.
+// what all planners and optimisers need of it: the length D that options refer
+// to, the diagnosis of start and goal, and contact spaces.  These are built
+// once, when somebody asks for them, and kept.
 //
 //   World world(workspace);
 //   Diagnosis start = world.Diagnose(q);                // nothing is built
 //   const WorldSpaces& s = world.Spaces(SpaceLayout::kSealed);
 //   ContactSurfacePlanner planner(s.spaces[0]);
 //
-// A handle: copies are cheap and share what is built.  Thread-safe; whoever
-// asks for what another thread is building waits for it.
+// A handle: copies are cheap and share what is built.  Thread-safe: a thread
+// that asks for something that another one is building waits for it.
 class World {
  public:
   // `name` begins the messages about its solids.  Throws InputError like
@@ -91,9 +92,9 @@ class World {
   const Workspace& workspace() const;
   const std::string& name() const;
 
-  // D, the one length of the world: the diagonal of ContactBounds(workspace),
-  // > 0, whatever the layout; bounds are no part of it where an obstacle can be
-  // reached.  User's unit.
+  // D, the one length of the world, > 0, user's unit: the diagonal of
+  // ContactBounds(workspace), the same for all layouts.  Bounds count only if
+  // no obstacle can be reached.
   double diagonal() const;
   ResolvedLength Resolve(const Length& length) const {
     return length.Resolve(diagonal());
@@ -101,22 +102,22 @@ class World {
 
   // Exact, on the solids; builds nothing (diagnosis.h).
   Diagnosis Diagnose(const Eigen::Vector3d& q) const;
-  // Does the robot touch nothing anywhere on the polyline, and is it within
-  // bounds?  Exact, without sampling, by Judge(); CheckPath on that tells where
-  // it collides first.  False where a number is not finite, and for no point.
+  // Is the whole polyline free and within the bounds?  Exact, without sampling,
+  // by Judge(); CheckPath with that tells where the robot collides first. False
+  // for an empty path, and if a number is not finite.
   bool IsFree(const std::vector<Eigen::Vector3d>& path) const;
-  // The free space that answers: of contact spaces that are there already, or
-  // else of free space alone, built on first use.
+  // The free space that IsFree asks: from contact spaces that are built
+  // already; otherwise from Convolution(), built on first use.
   const FreeSpace& Judge() const;
 
-  // Builds them on first use, one after the other (each build is parallel), or
-  // takes them from the cache.  The reference holds as long as a copy of the
-  // world does.  Throws what BuildContactSpace throws (BuildRefusal at the
-  // limits), and then builds anew when asked again.
+  // Builds the contact spaces on first use, one after the other (each build
+  // uses all threads), or takes them from the cache.  The reference is valid as
+  // long as a copy of the world exists.  Throws what BuildContactSpace throws
+  // (BuildRefusal at the limits); the next call then tries again.
   const WorldSpaces& Spaces(SpaceLayout layout) const;
   // spaces[0] of kSealed, whose free cells end at the bounds.
   const ContactSpace& Sealed() const;
-  // What there is of them already; null before Spaces.
+  // The spaces if they are built already; null before Spaces.
   const WorldSpaces* Built(SpaceLayout layout) const;
 
   // Free space at a fraction of the cost of Spaces, with the same answers;
@@ -125,15 +126,15 @@ class World {
   const WorldConvolution& Convolution() const;
   // Null before Convolution.
   const WorldConvolution* BuiltConvolution() const;
-  // Of all that Sealed is of, the bounds too: what is explored to tell cells
-  // apart (WindowPlanner).
+  // The model of all that is in Sealed, with the bounds: WindowPlanner explores
+  // it to tell cells apart.
   const ConvolutionModel& SealedConvolution() const;
   WorldReport Report() const;
 
-  // What others make of a world and need again: tables of a planner, metrics.
-  // Made on first use, and kept as long as `tag` is among the last
-  // kMostKept of its type.  Thread-safe; whoever asks for what is being made
-  // waits for it.  Throws what `make` throws, and keeps nothing then.
+  // Keeps what others make of a world and need again, such as metrics or tables
+  // of a planner.  It is made on first use, and kept while `tag` is among the
+  // last kMostKept of its type.  Thread-safe: a second thread that asks for it
+  // waits until it is made.  Throws what `make` throws, and then keeps nothing.
   template <typename T>
   std::shared_ptr<const T> Kept(const std::string& tag,
                                 const std::function<T()>& make) const {
@@ -153,8 +154,8 @@ class World {
   std::shared_ptr<Impl> impl_;
 };
 
-// Have both the same solids and bounds, obstacles by the same names in the same
-// order, so that one world serves both?
+// Do both have the same solids and bounds, with the same names of obstacles in
+// the same order?  Then one world serves both.
 bool HaveSameSolids(const Workspace& a, const Workspace& b);
 
 }  // namespace phongpd

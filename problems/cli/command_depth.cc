@@ -218,7 +218,7 @@ class DepthText {
   }
 
   void Add(const RobotPose& pose, const DepthResult& result) {
-    std::optional<WindowPhongResult> other;
+    std::optional<WindowResult> other;
     if (beside_) other = beside_->At(pose);
     if (is_json_) {
       Json answer = AnswerJson(pose, result);

@@ -78,7 +78,7 @@ std::string VerifyDepths(const Workspace& solids, const StraightMotion& motion,
       const auto i = static_cast<std::size_t>(frame);
       PenetrationResult result = trace.results[i];
       // On its way a contact need not be where PD itself leaves the surface.
-      if (trace.status[i] == ToString(TrackerStatus::kSliding)) {
+      if (trace.status[i] == ToString(QueryStatus::kSliding)) {
         result.direction =
             contact.normals()[static_cast<std::size_t>(result.triangle)];
       }

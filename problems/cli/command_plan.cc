@@ -132,6 +132,18 @@ void TellPlanModel(const PlanRequest& request, const PathAnswer& answer) {
   Note(text + (evidence.refusal.empty() ? "" : ": " + evidence.refusal));
 }
 
+// What flags ask of each other.
+void CheckFlags(const PlanFlags& flags, const PlanRequest& request) {
+  if (!flags.ompl_log.empty() &&
+      request.planner == PlannerId::kContactSurface) {
+    throw InputError("--ompl-log: expected a planner of OMPL, found " +
+                     std::string(ToString(request.planner)));
+  }
+  if (flags.require && !request.clearance) {
+    throw InputError("--require: expected --clearance, found none");
+  }
+}
+
 int AnswerPlan(const PlanFlags& flags) {
   RequireRuns(flags.runs);
   const SceneSource source(flags.scene, flags.root,
@@ -139,14 +151,8 @@ int AnswerPlan(const PlanFlags& flags) {
   if (source.turns()) return AnswerRigidPlan(flags, source);
   Scene scene = source.Load();
   PlanRequest request = RequestOf(flags, &scene);
+  CheckFlags(flags, request);
   const bool has_log = !flags.ompl_log.empty();
-  if (has_log && request.planner == PlannerId::kContactSurface) {
-    throw InputError("--ompl-log: expected a planner of OMPL, found " +
-                     std::string(ToString(request.planner)));
-  }
-  if (flags.require && !request.clearance) {
-    throw InputError("--require: expected --clearance, found none");
-  }
   SeededRuns runs(flags, source,
                   "scene, planner, seed: status, seconds (without contact "
                   "space), points, length, clearance (user's unit)",
@@ -194,6 +200,19 @@ int AnswerPlan(const PlanFlags& flags) {
   return code;
 }
 
+void AddClearance(CLI::App* app, PlanFlags* flags) {
+  app->add_option("--clearance", flags->clearance,
+                  "To seek where there is room, more than 0 and at most D, the "
+                  "diagonal of the obstacles' contact space: 0.01 or 0.01D is "
+                  "a share of D, 0.5unit is in the scene's unit; a share "
+                  "above 0.1 has to say D; where the scene's unit has a name, "
+                  "20mm and 20 are in it (scene's own if not set)")
+      ->type_name("LENGTH");
+  app->add_flag("--require", flags->require,
+                "Less than the clearance is no answer: status "
+                "clearance_missed, exit code 1");
+}
+
 }  // namespace
 
 Command AddPlan(CLI::App* app) {
@@ -224,16 +243,7 @@ Command AddPlan(CLI::App* app) {
       ->check(Between(1, 1000))
       ->type_name("N");
   AddBuildLimits(app, &flags->limits.max_seconds, &flags->limits.max_mib);
-  app->add_option("--clearance", flags->clearance,
-                  "To seek where there is room, more than 0 and at most D, the "
-                  "diagonal of the obstacles' contact space: 0.01 or 0.01D is "
-                  "a share of D, 0.5unit is in the scene's unit; a share "
-                  "above 0.1 has to say D; where the scene's unit has a name, "
-                  "20mm and 20 are in it (scene's own if not set)")
-      ->type_name("LENGTH");
-  app->add_flag("--require", flags->require,
-                "Less than the clearance is no answer: status "
-                "clearance_missed, exit code 1");
+  AddClearance(app, flags.get());
   app->add_option("--time", flags->time_limit,
                   "Limit of a run by a sampler, seconds (scene's own if not "
                   "set)")

@@ -113,16 +113,16 @@ Answers Ask(const QueryFlags& flags, const ContactSpace& contact,
     }
   }
   for (const PenetrationResult& result : answers.results) {
-    answers.statuses.emplace_back(StatusName(result.status));
+    answers.statuses.emplace_back(ToString(result.status));
   }
   return answers;
 }
 
 // Is that status an answer like any other?
 bool IsUsual(const std::string& status) {
-  return status == StatusName(QueryStatus::kOk) ||
-         status == ToString(TrackerStatus::kFollowing) ||
-         status == ToString(TrackerStatus::kOutside);
+  return status == ToString(QueryStatus::kOk) ||
+         status == ToString(QueryStatus::kFollowing) ||
+         status == ToString(QueryStatus::kOutside);
 }
 
 constexpr char kQueryHeader[] =

@@ -12,7 +12,7 @@
 namespace phongpd::cli {
 namespace {
 
-double DepthOf(const WindowPhongResult& result) {
+double DepthOf(const WindowResult& result) {
   return std::max(0.0, -result.answer.signed_distance);
 }
 
@@ -30,7 +30,7 @@ DepthBeside::DepthBeside(MetricKind metric, const std::string& smoothing_length,
   RequireLength(spec_.smoothing_length, LengthRangeOf(metric), 0.0, what);
 }
 
-WindowPhongResult DepthBeside::At(const RobotPose& pose) {
+WindowResult DepthBeside::At(const RobotPose& pose) {
   const bool is_begun = phong_ || smoothed_;
   if (!is_begun || orientation_.coeffs() != pose.orientation.coeffs()) {
     orientation_ = pose.orientation;
@@ -70,15 +70,14 @@ std::string DepthBeside::Columns() const {
   return columns;
 }
 
-nlohmann::ordered_json DepthBeside::AsJson(
-    const WindowPhongResult& result) const {
+nlohmann::ordered_json DepthBeside::AsJson(const WindowResult& result) const {
   nlohmann::ordered_json row;
   if (spec_.metric != MetricKind::kPhong) {
     row["metric"] = ToString(spec_.metric);
   }
   row.update({{"smoothing_length",
                {{"unit", resolved_.unit}, {"share", resolved_.share}}},
-              {"status", StatusName(result.answer.status)},
+              {"status", ToString(result.answer.status)},
               {"depth", DepthOf(result)},
               {"direction", internal::PointJson(result.answer.direction)},
               {"contact", internal::PointJson(result.answer.contact)},
@@ -88,14 +87,14 @@ nlohmann::ordered_json DepthBeside::AsJson(
   return row;
 }
 
-std::string DepthBeside::AsCells(const WindowPhongResult& result) {
+std::string DepthBeside::AsCells(const WindowResult& result) {
   return ',' + FormatDouble(DepthOf(result)) + ',' +
          FormatPoint(result.answer.direction) + ',' +
          FormatPoint(result.answer.contact) + ',' +
-         StatusName(result.answer.status) + ',' + ToString(result.level);
+         ToString(result.answer.status) + ',' + ToString(result.level);
 }
 
-std::string DepthBeside::AsSentence(const WindowPhongResult& result) const {
+std::string DepthBeside::AsSentence(const WindowResult& result) const {
   if (!result.answer.inside) return "";
   const std::string name = phong_ ? "PhongPD" : ToString(spec_.metric);
   return name + ", ℓ = " + spec_.smoothing_length.Text() + ": depth " +
@@ -105,7 +104,7 @@ std::string DepthBeside::AsSentence(const WindowPhongResult& result) const {
          Counted(result.arranged_faces, "face") + " arranged" +
          (result.answer.status == QueryStatus::kOk
               ? ""
-              : std::string(", ") + StatusName(result.answer.status)) +
+              : std::string(", ") + ToString(result.answer.status)) +
          '\n';
 }
 

@@ -27,16 +27,16 @@ class DepthBeside {
   // Poses of one orientation in a row share what is modelled.  Throws
   // InputError for a length that is too long there, BuildRefusal as
   // WindowPhong does.
-  WindowPhongResult At(const RobotPose& pose);
+  WindowResult At(const RobotPose& pose);
 
   // Of both smoothed metrics "smoothed": its key in JSON, and what its columns
   // begin with.
   const char* Key() const;
   // The last answer for programs, in a row's cells, and for people.
-  nlohmann::ordered_json AsJson(const WindowPhongResult& result) const;
+  nlohmann::ordered_json AsJson(const WindowResult& result) const;
   std::string Columns() const;  // begins with a comma
-  static std::string AsCells(const WindowPhongResult& result);
-  std::string AsSentence(const WindowPhongResult& result) const;
+  static std::string AsCells(const WindowResult& result);
+  std::string AsSentence(const WindowResult& result) const;
 
  private:
   PenetrationSpec spec_;

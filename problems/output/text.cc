@@ -31,18 +31,4 @@ std::string Escaped(const std::string& text) {
   return escaped;
 }
 
-const char* StatusName(QueryStatus status) {
-  switch (status) {
-    case QueryStatus::kOk:
-      return "ok";
-    case QueryStatus::kBranchEnded:
-      return "branch_ended";
-    case QueryStatus::kEuclideanFallback:
-      return "euclidean_fallback";
-    case QueryStatus::kInvalid:
-      break;
-  }
-  return "invalid";
-}
-
 }  // namespace phongpd

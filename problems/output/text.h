@@ -4,7 +4,6 @@
 #include <string>
 
 #include "core/number_text.h"
-#include "core/projection/penetration_metric.h"
 
 // What files and pages write beside numbers (core/number_text.h).
 namespace phongpd {
@@ -15,8 +14,5 @@ std::string CsvCell(const std::string& text);
 
 // `text` between the tags of HTML or SVG: & < > " as entities.
 std::string Escaped(const std::string& text);
-
-// ok, branch_ended, euclidean_fallback or invalid.
-const char* StatusName(QueryStatus status);
 
 }  // namespace phongpd

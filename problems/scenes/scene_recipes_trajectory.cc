@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Scenes for trajectories: one obstacle, or a heap of boxes.
 
+#include <utility>
+#include <vector>
+
 #include "problems/scenes/scene_recipes.h"
 
 namespace phongpd {
@@ -185,31 +188,41 @@ Layout Clutter(Values& v) {
   return layout;
 }
 
-}  // namespace
+SceneKnob BallKnob(double radius) {
+  return {"ball_radius", radius, "radius of the robot ball"};
+}
 
-std::vector<SceneRecipe> TrajectoryRecipes() {
-  const SceneKnob ball = {"ball_radius", 0.1, "radius of the robot ball"};
-  const SceneKnob faces = {"triangles", 320, "of the robot ball: 20·4^k"};
-  const SceneKnob edge = {
-      "edge", 0.0, "longest edge of the obstacle as scanned; 0: as designed"};
+SceneKnob FacesKnob() {
+  return {"triangles", 320, "of the robot ball: 20·4^k"};
+}
+
+SceneKnob EdgeKnob() {
+  return {"edge", 0.0,
+          "longest edge of the obstacle as scanned; 0: as designed"};
+}
+
+// A family whose robot is a ball; the knobs are the others.
+SceneRecipe BallBefore(const char* name, const char* meaning,
+                       std::vector<SceneKnob> knobs,
+                       SceneLayout (*make)(KnobValues& knobs)) {
+  knobs.insert(knobs.begin(), {BallKnob(0.1), FacesKnob()});
+  return {{name, meaning, std::move(knobs)}, make};
+}
+
+// One obstacle of each kind: traps, holes, walls.
+std::vector<SceneRecipe> ShapeByShape() {
   return {
-      {{"u_trap",
-        "a ball behind the closed side of a U",
-        {ball,
-         faces,
-         edge,
-         {"size", 2.0, "outer width of the U"},
-         {"wall", 0.2, "thickness of its walls"},
-         {"height", 1.0, "of the U"}}},
-       UTrap},
-      {{"l",
-        "a ball on the outer side of an L",
-        {ball,
-         faces,
-         {"size", 2.0, "length of both legs"},
-         {"width", 0.4, "of the legs"},
-         {"height", 1.0, "of the L"}}},
-       LShape},
+      BallBefore("u_trap", "a ball behind the closed side of a U",
+                 {EdgeKnob(),
+                  {"size", 2.0, "outer width of the U"},
+                  {"wall", 0.2, "thickness of its walls"},
+                  {"height", 1.0, "of the U"}},
+                 UTrap),
+      BallBefore("l", "a ball on the outer side of an L",
+                 {{"size", 2.0, "length of both legs"},
+                  {"width", 0.4, "of the legs"},
+                  {"height", 1.0, "of the L"}},
+                 LShape),
       {{"plate_hole",
         "a cube that fits through the square hole of a plate",
         {{"side", 2.0, "of the plate"},
@@ -219,21 +232,18 @@ std::vector<SceneRecipe> TrajectoryRecipes() {
        PlateHole},
       {{"torus_hole",
         "a ball that fits through a torus",
-        {{"ball_radius", 0.3, ball.meaning},
-         faces,
+        {BallKnob(0.3),
+         FacesKnob(),
          {"major_radius", 1.0, "centre of the tube"},
          {"minor_radius", 0.3, "of the tube"},
          {"around", 48, "corners along the tube"},
          {"across", 24, "corners across the tube"}}},
        TorusHole},
-      {{"thin_wall",
-        "a ball before a thin wall",
-        {ball,
-         faces,
-         edge,
-         {"side", 2.0, "of the wall"},
-         {"thickness", 0.01, "of the wall"}}},
-       ThinWall},
+      BallBefore("thin_wall", "a ball before a thin wall",
+                 {EdgeKnob(),
+                  {"side", 2.0, "of the wall"},
+                  {"thickness", 0.01, "of the wall"}},
+                 ThinWall),
       {{"cube_vessel",
         "a cube in a hollow box with a window",
         {{"cube", 0.5, "side of the robot cube"},
@@ -241,40 +251,34 @@ std::vector<SceneRecipe> TrajectoryRecipes() {
          {"inner", 2.0, "side of its cavity"},
          {"window", 0.8, "side of the opening; 0: none"}}},
        CubeVessel},
-      {{"ball_convex",
-        "a ball and a convex prism",
-        {ball,
-         faces,
-         {"radius", 0.5, "of the prism"},
-         {"height", 1.0, "of the prism"},
-         {"sides", 6, "of the prism"}}},
-       BallConvex},
-      {{"u_axis",
-        "a ball on a line through both arms of a U",
-        {ball,
-         faces,
-         edge,
-         {"size", 2.0, "outer width of the U"},
-         {"wall", 0.2, "thickness of its walls"},
-         {"height", 1.0, "of the U"}}},
-       UAxis},
-      {{"plate",
-        "a ball before a plate, which thin_wall is too",
-        {ball,
-         faces,
-         edge,
-         {"side", 2.0, "of the plate"},
-         {"thickness", 0.1, "of the plate"}}},
-       ThinWall},
-      {{"long_plate",
-        "a ball on a line along a plate, inside it",
-        {ball,
-         faces,
-         edge,
-         {"length", 3.0, "of the plate, along the line"},
-         {"width", 1.0, "of the plate"},
-         {"thickness", 0.1, "of the plate"}}},
-       LongPlate},
+      BallBefore("ball_convex", "a ball and a convex prism",
+                 {{"radius", 0.5, "of the prism"},
+                  {"height", 1.0, "of the prism"},
+                  {"sides", 6, "of the prism"}},
+                 BallConvex),
+  };
+}
+
+// Where the straight line is the worst start, or free space is narrow.
+std::vector<SceneRecipe> HardLines() {
+  return {
+      BallBefore("u_axis", "a ball on a line through both arms of a U",
+                 {EdgeKnob(),
+                  {"size", 2.0, "outer width of the U"},
+                  {"wall", 0.2, "thickness of its walls"},
+                  {"height", 1.0, "of the U"}},
+                 UAxis),
+      BallBefore("plate", "a ball before a plate, which thin_wall is too",
+                 {EdgeKnob(),
+                  {"side", 2.0, "of the plate"},
+                  {"thickness", 0.1, "of the plate"}},
+                 ThinWall),
+      BallBefore("long_plate", "a ball on a line along a plate, inside it",
+                 {EdgeKnob(),
+                  {"length", 3.0, "of the plate, along the line"},
+                  {"width", 1.0, "of the plate"},
+                  {"thickness", 0.1, "of the plate"}},
+                 LongPlate),
       {{"peg_tunnel",
         "a cube that fits through a long square channel",
         {{"side", 1.0, "of the block"},
@@ -282,25 +286,28 @@ std::vector<SceneRecipe> TrajectoryRecipes() {
          {"channel", 0.25, "side of the channel"},
          {"clearance", 0.01, "channel less cube; negative: it does not fit"}}},
        PegTunnel},
-      {{"clutter",
-        "a ball among boxes in random poses",
-        {ball,
-         faces,
-         {"boxes", 30, "number of obstacles"},
-         {"box", 0.25, "largest half side; the least is a quarter of it"},
-         {"reach", 1.0, "half-width of the cube that holds their centres"},
-         {"layout", 1, "seed of the boxes"}}},
-       Clutter},
-      {{"knot",
-        "a ball before a trefoil knot",
-        {ball,
-         faces,
-         {"size", 0.5, "of the knot, a third of its radius"},
-         {"tube", 0.15, "radius of the tube"},
-         {"around", 96, "corners along the tube"},
-         {"across", 12, "corners across the tube"}}},
-       Knot},
+      BallBefore(
+          "clutter", "a ball among boxes in random poses",
+          {{"boxes", 30, "number of obstacles"},
+           {"box", 0.25, "largest half side; the least is a quarter of it"},
+           {"reach", 1.0, "half-width of the cube that holds their centres"},
+           {"layout", 1, "seed of the boxes"}},
+          Clutter),
+      BallBefore("knot", "a ball before a trefoil knot",
+                 {{"size", 0.5, "of the knot, a third of its radius"},
+                  {"tube", 0.15, "radius of the tube"},
+                  {"around", 96, "corners along the tube"},
+                  {"across", 12, "corners across the tube"}},
+                 Knot),
   };
+}
+
+}  // namespace
+
+std::vector<SceneRecipe> TrajectoryRecipes() {
+  std::vector<SceneRecipe> all = ShapeByShape();
+  for (SceneRecipe& recipe : HardLines()) all.push_back(std::move(recipe));
+  return all;
 }
 
 }  // namespace phongpd

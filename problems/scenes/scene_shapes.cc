@@ -2,10 +2,14 @@
 #include "problems/scenes/scene_shapes.h"
 
 #include <cmath>
+#include <cstddef>
 #include <functional>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <tuple>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "core/nearest_name.h"
@@ -94,6 +98,24 @@ class Parameters {
     }
   }
 
+  // Of the kind that a parameter of T is written as.
+  template <typename T>
+  T Get(const char* key) const {
+    if constexpr (std::is_same_v<T, double>) {
+      return Length(key);
+    } else if constexpr (std::is_integral_v<T>) {
+      return static_cast<T>(Count(key));
+    } else if constexpr (std::is_same_v<T, Eigen::Vector3d>) {
+      return Vector(key);
+    } else if constexpr (std::is_same_v<T, std::vector<double>>) {
+      return Numbers(key);
+    } else if constexpr (std::is_same_v<T, TriangleMesh>) {
+      return Shape(key);
+    } else {
+      return Layers(key);
+    }
+  }
+
   [[noreturn]] void Fail(const char* key, const char* expected,
                          const Json& found) const {
     throw InputError(where_ + "/" + key + ": " + expected + ", found " +
@@ -128,111 +150,61 @@ struct ShapeType {
   std::function<TriangleMesh(const Parameters&)> make;
 };
 
+template <typename... Values, std::size_t... Index>
+TriangleMesh Call(TriangleMesh (*make)(Values...),
+                  const std::vector<const char*>& keys, const Parameters& p,
+                  std::index_sequence<Index...>) {
+  // Read from left to right: the first that is wrong is told.
+  std::tuple<std::decay_t<Values>...> values{
+      p.Get<std::decay_t<Values>>(keys[Index])...};
+  return std::apply(make, std::move(values));
+}
+
+// Its keys are the parameters of `make`, in their order.
+template <typename... Values>
+ShapeType Direct(const char* name, TriangleMesh (*make)(Values...),
+                 const std::vector<const char*>& keys) {
+  return {name, keys, [make, keys](const Parameters& p) {
+            return Call(make, keys, p, std::index_sequence_for<Values...>());
+          }};
+}
+
+TriangleMesh MakeCentredBox(const Parameters& p) {
+  const Eigen::Vector3d half = 0.5 * p.Vector("size");
+  return MakeBox(-half, half);
+}
+
+TriangleMesh MakeUsualWrench(const Parameters& p) {
+  return MakeWrench(p.Length("scale"));
+}
+
+TriangleMesh MakeUprightTube(const Parameters& p) {
+  return MakeTube(p.Points("path"), p.Length("radius"), p.Count("sides"));
+}
+
 const std::vector<ShapeType>& ShapeTypes() {
-  using P = Parameters;
   static const std::vector<ShapeType> types = {
       {"ball", {"radius", "triangles"}, MakeBall},
-      {"uv_ball",
-       {"radius", "meridians", "parallels"},
-       [](const P& p) {
-         return MakeUvBall(p.Length("radius"), p.Count("meridians"),
-                           p.Count("parallels"));
-       }},
-      {"box",
-       {"size"},
-       [](const P& p) {
-         const Eigen::Vector3d half = 0.5 * p.Vector("size");
-         return MakeBox(-half, half);
-       }},
-      {"box_shell",
-       {"min", "max", "thickness"},
-       [](const P& p) {
-         return MakeBoxShell(p.Vector("min"), p.Vector("max"),
-                             p.Length("thickness"));
-       }},
-      {"cells",
-       {"x", "y", "z", "layers"},
-       [](const P& p) {
-         return MakeCells(p.Numbers("x"), p.Numbers("y"), p.Numbers("z"),
-                          p.Layers("layers"));
-       }},
-      {"cone",
-       {"radius", "height", "sides"},
-       [](const P& p) {
-         return MakeCone(p.Length("radius"), p.Length("height"),
-                         p.Count("sides"));
-       }},
-      {"axes",
-       {"half_length", "half_width"},
-       [](const P& p) {
-         return MakeAxes(p.Length("half_length"), p.Length("half_width"));
-       }},
-      {"wrench",
-       {"scale"},
-       [](const P& p) { return MakeWrench(p.Length("scale")); }},
-      {"torus",
-       {"major_radius", "minor_radius", "around", "across"},
-       [](const P& p) {
-         return MakeTorus(p.Length("major_radius"), p.Length("minor_radius"),
-                          p.Count("around"), p.Count("across"));
-       }},
-      {"l",
-       {"size", "width", "height"},
-       [](const P& p) {
-         return MakeL(p.Length("size"), p.Length("width"), p.Length("height"));
-       }},
-      {"u",
-       {"size", "wall", "height"},
-       [](const P& p) {
-         return MakeU(p.Length("size"), p.Length("wall"), p.Length("height"));
-       }},
-      {"plate_hole",
-       {"side", "thickness", "hole"},
-       [](const P& p) {
-         return MakePlateWithHole(p.Length("side"), p.Length("thickness"),
-                                  p.Length("hole"));
-       }},
-      {"plate_round_hole",
-       {"side", "thickness", "radius", "sides"},
-       [](const P& p) {
-         return MakePlateWithRoundHole(p.Length("side"), p.Length("thickness"),
-                                       p.Length("radius"), p.Count("sides"));
-       }},
-      {"prism",
-       {"radius", "height", "sides"},
-       [](const P& p) {
-         return MakePrism(p.Length("radius"), p.Length("height"),
-                          p.Count("sides"));
-       }},
-      {"vessel",
-       {"outer", "inner", "window"},
-       [](const P& p) {
-         return MakeVessel(p.Length("outer"), p.Length("inner"),
-                           p.Length("window"));
-       }},
-      {"star",
-       {"inner_radius", "outer_radius"},
-       [](const P& p) {
-         return MakeStar(p.Length("inner_radius"), p.Length("outer_radius"));
-       }},
-      {"knot",
-       {"size", "tube", "around", "across"},
-       [](const P& p) {
-         return MakeKnot(p.Length("size"), p.Length("tube"), p.Count("around"),
-                         p.Count("across"));
-       }},
-      {"tube",
-       {"path", "radius", "sides"},
-       [](const P& p) {
-         return MakeTube(p.Points("path"), p.Length("radius"),
-                         p.Count("sides"));
-       }},
-      {"scan",
-       {"of", "edge", "noise", "seed"},
-       [](const P& p) {
-         return MakeScan(p.Shape("of"), p.Length("edge"), p.Length("noise"),
-                         static_cast<std::uint64_t>(p.Count("seed")));
-       }},
+      Direct("uv_ball", MakeUvBall, {"radius", "meridians", "parallels"}),
+      {"box", {"size"}, MakeCentredBox},
+      Direct("box_shell", MakeBoxShell, {"min", "max", "thickness"}),
+      Direct("cells", MakeCells, {"x", "y", "z", "layers"}),
+      Direct("cone", MakeCone, {"radius", "height", "sides"}),
+      Direct("axes", MakeAxes, {"half_length", "half_width"}),
+      {"wrench", {"scale"}, MakeUsualWrench},
+      Direct("torus", MakeTorus,
+             {"major_radius", "minor_radius", "around", "across"}),
+      Direct("l", MakeL, {"size", "width", "height"}),
+      Direct("u", MakeU, {"size", "wall", "height"}),
+      Direct("plate_hole", MakePlateWithHole, {"side", "thickness", "hole"}),
+      Direct("plate_round_hole", MakePlateWithRoundHole,
+             {"side", "thickness", "radius", "sides"}),
+      Direct("prism", MakePrism, {"radius", "height", "sides"}),
+      Direct("vessel", MakeVessel, {"outer", "inner", "window"}),
+      Direct("star", MakeStar, {"inner_radius", "outer_radius"}),
+      Direct("knot", MakeKnot, {"size", "tube", "around", "across"}),
+      {"tube", {"path", "radius", "sides"}, MakeUprightTube},
+      Direct("scan", MakeScan, {"of", "edge", "noise", "seed"}),
   };
   return types;
 }

@@ -151,13 +151,6 @@ std::string CompactCsv(const std::vector<Json>& rows) {
   return csv.str();
 }
 
-std::vector<Json> ReadComparison(const std::string& path) {
-  std::vector<ReadRow> read;
-  ReadRows(path, &read);
-  if (read.empty()) throw InputError(path + ": expected rows, found none");
-  return RowsAlone(std::move(read));
-}
-
 std::vector<Json> JoinComparisons(const std::vector<std::string>& paths) {
   std::vector<ReadRow> read;
   for (const std::string& path : paths) ReadRows(path, &read);

@@ -9,15 +9,11 @@
 // The rows of phongpd compare: TrajectoryRow with the key `protocol`.
 namespace phongpd {
 
-// The rows of a JSON Lines file.  Throws InputError naming the file and the
-// row: no JSON, or refused by CheckComparisonRow; or if there is none.
-std::vector<nlohmann::ordered_json> ReadComparison(const std::string& path);
-
-// Those of several files, in whatever order, such as the parts of a comparison,
-// of which some may be empty: a scene's rows follow each other by their seeds.
-// Throws InputError as ReadComparison, also naming a row that is there twice
-// (of one scene, seed, protocol and method), or if there is none at all, or if
-// a part is missing (comparison_parts.h).
+// The rows of JSON Lines files, in whatever order, such as the parts of a
+// comparison, of which some may be empty: a scene's rows follow each other by
+// their seeds.  Throws InputError naming the file and the row: no JSON, refused
+// by CheckComparisonRow, there twice (of one scene, seed, protocol and method),
+// none at all, or a part missing (comparison_parts.h).
 std::vector<nlohmann::ordered_json> JoinComparisons(
     const std::vector<std::string>& paths);
 

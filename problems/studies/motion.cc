@@ -55,7 +55,7 @@ MotionTrace TraceMotion(const PenetrationMetric& metric,
   for (int frame = 0; frame < motion.frames; ++frame) {
     const Eigen::Vector3d q = motion.At(frame);
     trace.results.push_back(metric.Query(q, branch));
-    trace.status.emplace_back(StatusName(trace.results.back().status));
+    trace.status.emplace_back(ToString(trace.results.back().status));
     trace.pd.push_back(trace.results.back().PenetrationVector(q));
     branch = trace.results.back().branch;
   }
@@ -71,9 +71,9 @@ MotionSummary Summarize(const MotionTrace& trace, double jump_length) {
     summary.fallbacks +=
         result.status == QueryStatus::kEuclideanFallback ? 1 : 0;
     summary.sliding +=
-        trace.status[i] == ToString(TrackerStatus::kSliding) ? 1 : 0;
+        trace.status[i] == ToString(QueryStatus::kSliding) ? 1 : 0;
     summary.left_elsewhere +=
-        trace.status[i] == ToString(TrackerStatus::kLeftElsewhere) ? 1 : 0;
+        trace.status[i] == ToString(QueryStatus::kLeftElsewhere) ? 1 : 0;
     summary.max_magnitude = std::max(summary.max_magnitude, trace.pd[i].norm());
     if (i == 0) continue;
     const double change = (trace.pd[i] - trace.pd[i - 1]).norm();

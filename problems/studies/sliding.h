@@ -12,7 +12,7 @@
 namespace phongpd {
 
 struct SlidingAnswer {
-  TrackerStatus status = TrackerStatus::kInvalid;
+  QueryStatus status = QueryStatus::kInvalid;
   // Inside: contact p, signed_distance −|p − q|, direction (p − q)/|p − q|
   // (the facet's normal where q and p are one point), and as gradient the same:
   // that of signed_distance with p held where it is, for p itself depends on

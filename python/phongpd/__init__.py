@@ -40,11 +40,12 @@ from ._piece import ContactSpacePiece
 from ._removal import Disassembly, Removal, disassemble, remove
 from ._rigid import RigidCheck, RigidFirstHit, RigidJudge
 from ._rigid_plan import RigidPlan, RigidWorld
+from ._roadmap import Roadmap
 from ._rows import NonPenetrationRows
 from ._solid import Solid
 from ._tracker import PenetrationTracker, TrackedMotion
 from ._view import View, view
-from ._world import Roadmap, World
+from ._world import World
 
 __all__ = [
     "BuildCancelled", "BuildRefusal", "ContactSpace", "ContactSpacePiece",

@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike
 
 from . import _native
 from ._arguments import motion_end
-from ._motion import Motion, motion_of, moving_of
+from ._motion import Motion, motion_of, moving_of, wishes_of
 from ._native import InputError
 from ._solid import Solid
 from ._statuses import Answer
@@ -122,8 +122,8 @@ def optimize_fleet(robots: Mapping[str, Tuple[World, ArrayLike, ArrayLike]]
     given = []
     for key, world, start, goal in tasks:
         scene = world._native.scene
-        wishes = world._wishes(limits, scene.via, 0.0, margin, max_seconds,
-                               preset, require, routes, by_norm, rest, rest)
+        wishes = wishes_of(scene, limits, scene.via, 0.0, margin, max_seconds,
+                           preset, require, routes, by_norm, rest, rest)
         given.append((key, world._native, *world._ends(start, goal), wishes))
     row = _native.optimize_fleet(name, given, moving_of(moving))
     motions = {one["id"]: motion_of(one, task[1])

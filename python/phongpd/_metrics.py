@@ -18,8 +18,6 @@ from ._statuses import Statuses, axes, columns_of
 class QueryResult(Statuses):
     """Answers of a metric, a row for each of N points; user's unit."""
 
-    WORDS = ("ok", "branch_ended", "euclidean_fallback", "invalid")
-
     points: Floats
     """(N, 3), as they were asked."""
     status: NDArray[np.uint8]

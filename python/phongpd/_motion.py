@@ -12,7 +12,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _native
-from ._arguments import Floats, numbers, point, real
+from ._arguments import Floats, flag, length, motion_limits, numbers, point, \
+    real, seconds, text, whole_number
 from ._native import InputError
 from ._solid import as_solid
 from ._statuses import Answer
@@ -218,3 +219,23 @@ def motion_of(row: dict[str, Any], world: World) -> Motion:
                         dtype=np.float64).reshape(-1, 6, 3),
         path=np.asarray(row["path"], dtype=np.float64).reshape(-1, 3),
         row=row, world=world)
+
+
+def wishes_of(scene: Any, limits: Any, via: list[tuple[_Point, str, float]],
+              duration: Any, margin: Any, max_seconds: Any, preset: Any,
+              require: Any, routes: Any, by_norm: Any,
+              departure: tuple[_Point, _Point],
+              arrival: tuple[_Point, _Point]) -> _native.MotionWishes:
+    """What is asked of a motion; `limits` None: the scene's."""
+    known = scene.limits if limits is None else limits
+    of_norm = flag(by_norm, "by_norm")
+    if limits is None:
+        of_norm = of_norm or scene.limits_by_norm
+    if known is None:
+        raise InputError("limits: expected (velocity, acceleration, jerk), "
+                         "found None, and the scene has none")
+    return _native.MotionWishes(
+        motion_limits(known, of_norm), via, real(duration, "duration"),
+        length(margin, "margin"), text(preset, "preset"),
+        seconds(max_seconds, "max_seconds"), flag(require, "require"),
+        whole_number(routes, "routes", 0, 8), of_norm, departure, arrival)

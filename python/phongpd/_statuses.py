@@ -9,9 +9,13 @@ from numpy.typing import NDArray
 
 
 class Statuses:
-    """Answers of which each row has a status: a number, and a word for it."""
+    """Answers of which each row has a status: a number, and a word for it, how
+    it goes on from the answer before (QueryStatus in C++).  Metrics use the
+    first four words, a tracker `invalid` and those behind it."""
 
-    WORDS: ClassVar[Tuple[str, ...]]
+    WORDS: ClassVar[Tuple[str, ...]] = (
+        "ok", "branch_ended", "euclidean_fallback", "invalid", "following",
+        "sliding", "left_elsewhere", "outside")
     status: NDArray[np.uint8]
 
     @property

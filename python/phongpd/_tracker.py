@@ -19,8 +19,6 @@ from ._statuses import Statuses, columns_of
 class TrackedMotion(Statuses):
     """A step a row; user's unit."""
 
-    WORDS = ("following", "sliding", "left_elsewhere", "outside", "invalid")
-
     points: Floats
     """(N, 3): the robot's positions."""
     status: NDArray[np.uint8]

@@ -4,20 +4,23 @@ from __future__ import annotations
 import os
 import warnings
 from collections.abc import Mapping
-from typing import Any, Tuple
+from typing import TYPE_CHECKING, Any, Tuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _native
 from ._answers import Diagnosis, Plan, Trajectory
-from ._arguments import Floats, flag, length, motion_end, motion_limits, \
-    places_on_the_way, point, real, rows, seconds, text, whole_number
+from ._arguments import Floats, flag, length, motion_end, places_on_the_way, \
+    point, real, rows, seconds, text, whole_number
 from ._contact import ContactSpace
-from ._motion import Motion, motion_of, moving_of
+from ._motion import Motion, motion_of, moving_of, wishes_of
 from ._native import InputError
 from ._solid import Solid, as_solid
 from ._view import Canvas, Shown
+
+if TYPE_CHECKING:
+    from ._roadmap import Roadmap
 
 _MOST_SEED = 2 ** 64 - 1
 _Point = Tuple[float, float, float]
@@ -250,8 +253,8 @@ class World(Shown):
                 duration: Any, by_norm: Any, departure: Any,
                 arrival: Any, moving: Any) -> Motion:
         scene = self._native.scene
-        wishes = self._wishes(
-            limits, scene.via if via is None
+        wishes = wishes_of(
+            scene, limits, scene.via if via is None
             else places_on_the_way(via, tolerance, dwell),
             scene.duration if duration is None else duration,
             margin, max_seconds, preset, require, routes, by_norm,
@@ -278,30 +281,12 @@ class World(Shown):
         if len(points) < 2:
             raise InputError("path: expected two points at least, found "
                              f"{len(points)}")
-        wishes = self._wishes(
-            limits, [] if via is None
+        wishes = wishes_of(
+            self._native.scene, limits, [] if via is None
             else places_on_the_way(via, tolerance, dwell),
             duration, margin, max_seconds, preset, require, 0, by_norm,
             motion_end(departure, "departure"), motion_end(arrival, "arrival"))
         return motion_of(self._native.retime(points, wishes), self)
-
-    def _wishes(self, limits: Any, via: list[tuple[_Point, str, float]],
-                duration: Any, margin: Any, max_seconds: Any, preset: Any,
-                require: Any, routes: Any, by_norm: Any,
-                departure: tuple[_Point, _Point],
-                arrival: tuple[_Point, _Point]) -> _native.MotionWishes:
-        known = self.limits if limits is None else limits
-        of_norm = flag(by_norm, "by_norm")
-        if limits is None:
-            of_norm = of_norm or self._native.scene.limits_by_norm
-        if known is None:
-            raise InputError("limits: expected (velocity, acceleration, jerk), "
-                             "found None, and the scene has none")
-        return _native.MotionWishes(
-            motion_limits(known, of_norm), via, real(duration, "duration"),
-            length(margin, "margin"), text(preset, "preset"),
-            seconds(max_seconds, "max_seconds"), flag(require, "require"),
-            whole_number(routes, "routes", 0, 8), of_norm, departure, arrival)
 
     def plan(self, start: ArrayLike | None = None,
              goal: ArrayLike | None = None, *,
@@ -341,6 +326,7 @@ class World(Shown):
     def roadmap(self) -> Roadmap:
         """For many queries; building it costs what ten to three hundred calls
         of plan do."""
+        from ._roadmap import Roadmap
         return Roadmap(self)
 
     def _ends(self, start: ArrayLike | None,
@@ -373,37 +359,6 @@ class World(Shown):
 
     def __repr__(self) -> str:
         return f"<World {self.name!r}: D {self.length:g}>"
-
-
-class Roadmap:
-    """ContactSurfacePlanner for many queries: as complete, and with the same
-    proofs.  Thread-safe."""
-
-    def __init__(self, world: World) -> None:
-        self._native = _native.Roadmap(native_world(world))
-        self._world = world
-
-    @property
-    def nodes(self) -> int:
-        return self._native.nodes
-
-    @property
-    def edges(self) -> int:
-        return self._native.edges
-
-    def plan(self, start: ArrayLike, goal: ArrayLike) -> Plan:
-        ends = point(start, "start"), point(goal, "goal")
-        found = self._native.plan(*ends)
-        return Plan(
-            status=found["status"], reason=found["reason"],
-            solved=found["status"] == "solved",
-            infeasible=found["status"] == "infeasible_proved",
-            path=found["path"], length=found["length"],
-            clearance=found["clearance"], seconds=found["seconds"], row={},
-            world=self._world, ends=np.array(ends))
-
-    def __repr__(self) -> str:
-        return f"<Roadmap: {self.nodes} nodes, {self.edges} edges>"
 
 
 def native_world(world: World) -> _native.World:

@@ -246,10 +246,7 @@ void BindScene(nb::module_& module) {
       });
 }
 
-}  // namespace
-
-void BindWorld(nb::module_& module) {
-  BindScene(module);
+void BindWishes(nb::module_& module) {
   nb::class_<MotionWishes>(module, "MotionWishes")
       .def("__init__",
            [](MotionWishes* self, const std::array<Point, 3>& limits,
@@ -262,6 +259,28 @@ void BindWorld(nb::module_& module) {
                                      preset,  max_seconds, is_required, routes,
                                      by_norm, departure,   arrival};
            });
+}
+
+void BindRoadmap(nb::module_& module) {
+  nb::class_<ContactRoadmap>(module, "Roadmap")
+      .def("__init__",
+           [](ContactRoadmap* self, const Workshop& workshop) {
+             new (self) ContactRoadmap(Interruptible(
+                 [&] { return ContactRoadmap(workshop.world().Sealed()); }));
+           })
+      .def("plan", &PlanOf)
+      .def_prop_ro("nodes",
+                   [](const ContactRoadmap& r) { return r.report().nodes; })
+      .def_prop_ro("edges",
+                   [](const ContactRoadmap& r) { return r.report().edges; });
+}
+
+}  // namespace
+
+void BindWorld(nb::module_& module) {
+  BindScene(module);
+  BindWishes(module);
+  BindRoadmap(module);
   nb::class_<Workshop>(module, "World")
       .def(nb::init<const Scene&, bool, double>())
       .def("optimize", &OptimizeWith, nb::arg("start"), nb::arg("goal"),
@@ -298,17 +317,6 @@ void BindWorld(nb::module_& module) {
                    [](const Workshop& w) { return w.world().diagonal(); })
       .def("contact_spaces",
            [](const Workshop& w) { return w.Spaces().spaces; });
-  nb::class_<ContactRoadmap>(module, "Roadmap")
-      .def("__init__",
-           [](ContactRoadmap* self, const Workshop& workshop) {
-             new (self) ContactRoadmap(Interruptible(
-                 [&] { return ContactRoadmap(workshop.world().Sealed()); }));
-           })
-      .def("plan", &PlanOf)
-      .def_prop_ro("nodes",
-                   [](const ContactRoadmap& r) { return r.report().nodes; })
-      .def_prop_ro("edges",
-                   [](const ContactRoadmap& r) { return r.report().edges; });
 }
 
 }  // namespace phongpd::python

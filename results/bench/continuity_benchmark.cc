@@ -153,6 +153,30 @@ own depth is, at some frames, more than c times the Euclidean one.
 
 )";
 
+// The totals, then those of procedural spaces and of models, by kind of motion.
+std::vector<Row> Grouped(const std::vector<Row>& totals,
+                         const std::vector<Row>& rows,
+                         std::size_t first_of_models) {
+  const std::vector<Row> of_models(
+      rows.begin() + static_cast<std::ptrdiff_t>(first_of_models), rows.end());
+  const std::vector<Row> of_procedural(
+      rows.begin(),
+      rows.begin() + static_cast<std::ptrdiff_t>(first_of_models));
+  std::vector<Row> grouped = totals;
+  for (const auto& [name, members] :
+       {std::make_pair(kProcedural, &of_procedural),
+        std::make_pair(kModels, &of_models)}) {
+    for (const char* kind : {kWays, kWalks}) {
+      std::vector<Row> own;
+      std::copy_if(members->begin(), members->end(), std::back_inserter(own),
+                   [&](const Row& row) { return row.motions == kind; });
+      const std::vector<Row> group = TotalsOf(own, name, kind);
+      grouped.insert(grouped.end(), group.begin(), group.end());
+    }
+  }
+  return grouped;
+}
+
 int Run(int argc, char** argv) {
   CLI::App app("Continuity against what is possible.");
   ContinuityOptions options;
@@ -179,25 +203,8 @@ int Run(int argc, char** argv) {
   for (const MotionSpace& space : procedural) measure(space);
   const std::size_t first_of_models = rows.size();
   for (const MotionSpace& space : models) measure(space);
-  const std::vector<Row> of_models(
-      rows.begin() + static_cast<std::ptrdiff_t>(first_of_models), rows.end());
-  const std::vector<Row> of_procedural(
-      rows.begin(),
-      rows.begin() + static_cast<std::ptrdiff_t>(first_of_models));
   const std::vector<Row> totals = TotalsOf(rows, "all", "all");
-  std::vector<Row> grouped = totals;
-  for (const auto& [name, members] :
-       {std::make_pair(kProcedural, &of_procedural),
-        std::make_pair(kModels, &of_models)}) {
-    for (const char* kind : {kWays, kWalks}) {
-      std::vector<Row> own;
-      std::copy_if(members->begin(), members->end(), std::back_inserter(own),
-                   [&](const Row& row) { return row.motions == kind; });
-      const std::vector<Row> group = TotalsOf(own, name, kind);
-      grouped.insert(grouped.end(), group.begin(), group.end());
-    }
-  }
-  Table shown = RowTable(grouped);
+  Table shown = RowTable(Grouped(totals, rows, first_of_models));
   shown.title = "Contact spaces together, all but the hollow box";
   OutputDirectory out(directory);
   out.Write("continuity.csv", ToCsv(RowTable(rows)));

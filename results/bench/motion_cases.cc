@@ -134,9 +134,8 @@ BeginFollowing FollowTracker(const PenetrationTracker& tracker) {
     return [&tracker,
             state = PenetrationTracker::State()](const Vector3d& q) mutable {
       const TrackerResult result = tracker.Step(q, &state);
-      return MotionStep{result.pd,
-                        result.status == TrackerStatus::kLeftElsewhere,
-                        result.status == TrackerStatus::kSliding, false};
+      return MotionStep{result.pd, result.status == QueryStatus::kLeftElsewhere,
+                        result.status == QueryStatus::kSliding, false};
     };
   };
 }

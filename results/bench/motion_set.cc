@@ -49,6 +49,31 @@ void Through(const GridVector& p, SplitMix* random, Motion* motion) {
   motion->b = p + d * random->In(0, 12);
 }
 
+GridVector Steps(const Vector3d& v) {
+  return GridVector(v.cast<std::int64_t>() * kStepsPerUnit);
+}
+
+void Anywhere(const TriangleMesh& mesh, SplitMix* random, Motion* motion) {
+  const BoundingBox box = ComputeBounds(mesh);
+  const GridVector low = Steps(box.min), span = Steps(box.max) - low;
+  for (GridVector* end : {&motion->a, &motion->b}) {
+    for (int k = 0; k < 3; ++k) {
+      (*end)[k] = low[k] + random->In(-span[k] / 4, span[k] + span[k] / 4);
+    }
+  }
+}
+
+void OnLattice(const GridVector& p0, SplitMix* random, Motion* motion) {
+  const GridVector d = NonZero(1, random) * kStepsPerUnit;
+  const GridVector move = random->VectorIn(-6, 6) * kStepsPerUnit;
+  motion->a = p0;
+  // Some coordinates stay those of a vertex.
+  for (int k = 0; k < 3; ++k) {
+    if (random->In(0, 1) == 0) motion->a[k] += move[k];
+  }
+  motion->b = motion->a + d * random->In(0, 24);
+}
+
 }  // namespace
 
 std::string Name(MotionClass kind) {
@@ -77,15 +102,12 @@ Motion MakeMotion(const std::vector<MotionScene>& scenes, std::uint64_t seed,
   const std::uint64_t scene = index / kMotionClasses % scenes.size();
   motion.scene = static_cast<int>(scene);
   const TriangleMesh& mesh = scenes[scene].contact;
-  const auto steps = [](const Vector3d& v) {
-    return GridVector(v.cast<std::int64_t>() * kStepsPerUnit);
-  };
   const auto size = static_cast<std::int64_t>(mesh.triangles.size());
   const Triangle& t =
       mesh.triangles[static_cast<std::size_t>(random.In(0, size - 1))];
-  const GridVector p0 = steps(mesh.vertices[t[0]]);
-  const GridVector e1 = steps(mesh.vertices[t[1]]) - p0;
-  const GridVector e2 = steps(mesh.vertices[t[2]]) - p0;
+  const GridVector p0 = Steps(mesh.vertices[t[0]]);
+  const GridVector e1 = Steps(mesh.vertices[t[1]]) - p0;
+  const GridVector e2 = Steps(mesh.vertices[t[2]]) - p0;
 
   MotionClass kind = motion.kind;
   if (kind == MotionClass::kNearMiss) {
@@ -94,27 +116,12 @@ Motion MakeMotion(const std::vector<MotionScene>& scenes, std::uint64_t seed,
                   static_cast<int>(MotionClass::kThroughVertex)));
   }
   switch (kind) {
-    case MotionClass::kRandom: {
-      const BoundingBox box = ComputeBounds(mesh);
-      const GridVector low = steps(box.min), span = steps(box.max) - low;
-      for (GridVector* end : {&motion.a, &motion.b}) {
-        for (int k = 0; k < 3; ++k) {
-          (*end)[k] = low[k] + random.In(-span[k] / 4, span[k] + span[k] / 4);
-        }
-      }
+    case MotionClass::kRandom:
+      Anywhere(mesh, &random, &motion);
       break;
-    }
-    case MotionClass::kLattice: {
-      const GridVector d = NonZero(1, &random) * kStepsPerUnit;
-      const GridVector move = random.VectorIn(-6, 6) * kStepsPerUnit;
-      motion.a = p0;
-      // Some coordinates stay those of a vertex.
-      for (int k = 0; k < 3; ++k) {
-        if (random.In(0, 1) == 0) motion.a[k] += move[k];
-      }
-      motion.b = motion.a + d * random.In(0, 24);
+    case MotionClass::kLattice:
+      OnLattice(p0, &random, &motion);
       break;
-    }
     case MotionClass::kGrazing:
       for (GridVector* end : {&motion.a, &motion.b}) {
         *end = p0 + e1 * random.In(-4, 12) / 8;

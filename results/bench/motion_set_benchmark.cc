@@ -159,24 +159,7 @@ std::string Description(long motions, std::uint64_t seed, std::uint64_t hash,
   return text.str();
 }
 
-int Run(int argc, char** argv) {
-  CLI::App app("Exact motion checks against rational truth.");
-  std::string directory, stream_file;
-  long motions = 1000000;
-  std::uint64_t seed = 1;
-  app.add_option("--output", directory, "Directory to write into");
-  app.add_option("--stream", stream_file, "Write the whole stream as CSV");
-  app.add_option("--motions", motions)->capture_default_str();
-  app.add_option("--seed", seed)->capture_default_str();
-  CLI11_PARSE(app, argc, argv);
-  SilenceOmpl();
-
-  const std::vector<MotionScene> sources = MotionScenes();
-  const std::vector<double> resolutions = {1e-2, 1e-3, 1e-4};
-  std::vector<std::unique_ptr<Scene>> scenes;
-  for (const MotionScene& source : sources) {
-    scenes.push_back(std::make_unique<Scene>(source, resolutions));
-  }
+std::vector<Judge> Judges(const std::vector<double>& resolutions) {
   using Solver = FclSurfaces::Solver;
   std::vector<Judge> judges = {
       {"ours", 1, false,
@@ -199,7 +182,84 @@ int Run(int argc, char** argv) {
            return s.ompl[i]->Collides(a, b);
          }});
   }
+  return judges;
+}
 
+using Counts = std::vector<std::array<Count, kMotionClasses>>;
+
+// The motion or its reverse, whichever starts free.
+std::optional<std::array<Vector3d, 2>> FromFreeEnd(const MotionScene& source,
+                                                   const Motion& motion) {
+  if (!Meets(source, motion.a, motion.a)) return {{motion.From(), motion.To()}};
+  if (!Meets(source, motion.b, motion.b)) return {{motion.To(), motion.From()}};
+  return std::nullopt;
+}
+
+void AskJudges(const std::vector<Judge>& judges, const Scene& scene,
+               const MotionScene& source, const Motion& motion,
+               std::uint64_t index, bool meets, Counts* counts) {
+  const auto turned = FromFreeEnd(source, motion);
+  for (std::size_t j = 0; j < judges.size(); ++j) {
+    const Judge& judge = judges[j];
+    // Primes, so that every class and scene is met.
+    if (index % judge.every != 0) continue;
+    if (judge.needs_free_start && !turned) continue;
+    const Vector3d a = judge.needs_free_start ? (*turned)[0] : motion.From();
+    const Vector3d b = judge.needs_free_start ? (*turned)[1] : motion.To();
+    Count& count = (*counts)[j][static_cast<std::size_t>(motion.kind)];
+    const Stopwatch watch;
+    const bool collides = judge.collides(scene, a, b);
+    count.seconds += watch.Seconds();
+    ++count.motions;
+    count.meet += meets ? 1 : 0;
+    count.blocked_wrongly += collides && !meets ? 1 : 0;
+    count.freed_wrongly += meets && !collides ? 1 : 0;
+  }
+}
+
+// *wrong: what ours got wrong.
+Table TableOf(const std::vector<Judge>& judges, const Counts& counts,
+              long* wrong) {
+  Table table{"Motion checks",
+              "",
+              {"class", "judge", "motions", "meet", "blocked wrongly",
+               "freed wrongly", "µs a motion"},
+              {}};
+  for (std::size_t c = 0; c < kMotionClasses; ++c) {
+    for (std::size_t j = 0; j < judges.size(); ++j) {
+      const Count& count = counts[j][c];
+      if (j == 0) *wrong += count.blocked_wrongly + count.freed_wrongly;
+      table.rows.push_back(
+          {Name(static_cast<MotionClass>(c)), judges[j].name,
+           std::to_string(count.motions), std::to_string(count.meet),
+           std::to_string(count.blocked_wrongly),
+           std::to_string(count.freed_wrongly),
+           Rounded(count.seconds * 1e6 /
+                   static_cast<double>(std::max(1L, count.motions)))});
+    }
+  }
+  return table;
+}
+
+int Run(int argc, char** argv) {
+  CLI::App app("Exact motion checks against rational truth.");
+  std::string directory, stream_file;
+  long motions = 1000000;
+  std::uint64_t seed = 1;
+  app.add_option("--output", directory, "Directory to write into");
+  app.add_option("--stream", stream_file, "Write the whole stream as CSV");
+  app.add_option("--motions", motions)->capture_default_str();
+  app.add_option("--seed", seed)->capture_default_str();
+  CLI11_PARSE(app, argc, argv);
+  SilenceOmpl();
+
+  const std::vector<MotionScene> sources = MotionScenes();
+  const std::vector<double> resolutions = {1e-2, 1e-3, 1e-4};
+  std::vector<std::unique_ptr<Scene>> scenes;
+  for (const MotionScene& source : sources) {
+    scenes.push_back(std::make_unique<Scene>(source, resolutions));
+  }
+  const std::vector<Judge> judges = Judges(resolutions);
   constexpr char kHeader[] = "scene,class,ax,ay,az,bx,by,bz,blocked\n";
   constexpr long kSample = 2000;
   std::string sample = kHeader;
@@ -209,7 +269,7 @@ int Run(int argc, char** argv) {
     stream << kHeader;
   }
   StreamHash hash;
-  std::vector<std::array<Count, kMotionClasses>> counts(judges.size());
+  Counts counts(judges.size());
   for (long i = 0; i < motions; ++i) {
     const auto index = static_cast<std::uint64_t>(i);
     const Motion motion = MakeMotion(sources, seed, index);
@@ -220,53 +280,15 @@ int Run(int argc, char** argv) {
     if (i < kSample) sample += SampleRow(motion, source, meets);
     if (stream.is_open()) stream << SampleRow(motion, source, meets);
     if (directory.empty()) continue;
-    std::optional<std::array<Vector3d, 2>> turned;
-    if (!Meets(source, motion.a, motion.a)) {
-      turned = {motion.From(), motion.To()};
-    } else if (!Meets(source, motion.b, motion.b)) {
-      turned = {motion.To(), motion.From()};
-    }
-    for (std::size_t j = 0; j < judges.size(); ++j) {
-      const Judge& judge = judges[j];
-      // Primes, so that every class and scene is met.
-      if (index % judge.every != 0) continue;
-      if (judge.needs_free_start && !turned) continue;
-      const Vector3d a = judge.needs_free_start ? (*turned)[0] : motion.From();
-      const Vector3d b = judge.needs_free_start ? (*turned)[1] : motion.To();
-      Count& count = counts[j][static_cast<std::size_t>(motion.kind)];
-      const Stopwatch watch;
-      const bool collides = judge.collides(*scenes[at], a, b);
-      count.seconds += watch.Seconds();
-      ++count.motions;
-      count.meet += meets ? 1 : 0;
-      count.blocked_wrongly += collides && !meets ? 1 : 0;
-      count.freed_wrongly += meets && !collides ? 1 : 0;
-    }
+    AskJudges(judges, *scenes[at], source, motion, index, meets, &counts);
   }
   std::cout << "motion set v" << kMotionSetVersion << ", seed " << seed << ", "
             << motions << " motions, hash " << std::hex << hash.value()
             << std::dec << '\n';
   if (directory.empty()) return 0;
 
-  Table table{"Motion checks",
-              "",
-              {"class", "judge", "motions", "meet", "blocked wrongly",
-               "freed wrongly", "µs a motion"},
-              {}};
   long wrong = 0;
-  for (std::size_t c = 0; c < kMotionClasses; ++c) {
-    for (std::size_t j = 0; j < judges.size(); ++j) {
-      const Count& count = counts[j][c];
-      if (j == 0) wrong += count.blocked_wrongly + count.freed_wrongly;
-      table.rows.push_back(
-          {Name(static_cast<MotionClass>(c)), judges[j].name,
-           std::to_string(count.motions), std::to_string(count.meet),
-           std::to_string(count.blocked_wrongly),
-           std::to_string(count.freed_wrongly),
-           Rounded(count.seconds * 1e6 /
-                   static_cast<double>(std::max(1L, count.motions)))});
-    }
-  }
+  const Table table = TableOf(judges, counts, &wrong);
   OutputDirectory out(directory);
   out.Write("motion_set.csv", ToCsv(table));
   out.Write("motion_set_sample.csv", sample);

@@ -6,6 +6,9 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <iostream>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "planners/ompl/ompl_planning.h"
 #include "results/bench/planning_rows.h"
@@ -13,6 +16,38 @@
 
 namespace phongpd::bench {
 namespace {
+
+void Measure(const PlanningProblem& problem,
+             const std::vector<std::string>& planners,
+             const PlanningOptions& options, std::vector<SamplerRow>* rows) {
+  std::cerr << problem.scene << '\n';
+  for (SamplerRow& row : MeasureSamplers(problem, planners, options)) {
+    rows->push_back(std::move(row));
+  }
+}
+
+void RunSamplers(PlanningResults* results) {
+  const std::vector<std::string> planners = {"retraction-forest phong",
+                                             "retraction-forest phong-random",
+                                             "retraction-forest phong-novelty",
+                                             "retraction-forest phong-nearest",
+                                             "retraction-forest euclidean",
+                                             "retraction-forest contact-point",
+                                             "retraction-rrt phong",
+                                             "retraction-rrt euclidean",
+                                             "rrt-connect",
+                                             "prm",
+                                             "prm-obstacle-based",
+                                             "prm-gaussian",
+                                             "prm-bridge"};
+  for (const PlanningProblem& problem : SamplerProblems()) {
+    Measure(problem, planners, results->options, &results->samplers);
+  }
+  for (const PlanningProblem& problem : NarrowingProblems()) {
+    Measure(problem, {"retraction-forest phong", "retraction-rrt phong"},
+            results->options, &results->narrowing);
+  }
+}
 
 int Run(int argc, char** argv) {
   CLI::App app("Planning through narrow passages: rows.");
@@ -52,36 +87,7 @@ int Run(int argc, char** argv) {
       }
     }
   }
-  const std::vector<std::string> planners = {"retraction-forest phong",
-                                             "retraction-forest phong-random",
-                                             "retraction-forest phong-novelty",
-                                             "retraction-forest phong-nearest",
-                                             "retraction-forest euclidean",
-                                             "retraction-forest contact-point",
-                                             "retraction-rrt phong",
-                                             "retraction-rrt euclidean",
-                                             "rrt-connect",
-                                             "prm",
-                                             "prm-obstacle-based",
-                                             "prm-gaussian",
-                                             "prm-bridge"};
-  const auto measure = [&](const PlanningProblem& problem,
-                           const std::vector<std::string>& names,
-                           std::vector<SamplerRow>* rows) {
-    std::cerr << problem.scene << '\n';
-    for (SamplerRow& row : MeasureSamplers(problem, names, results.options)) {
-      rows->push_back(std::move(row));
-    }
-  };
-  if (wanted("samplers")) {
-    for (const PlanningProblem& problem : SamplerProblems()) {
-      measure(problem, planners, &results.samplers);
-    }
-    for (const PlanningProblem& problem : NarrowingProblems()) {
-      measure(problem, {"retraction-forest phong", "retraction-rrt phong"},
-              &results.narrowing);
-    }
-  }
+  if (wanted("samplers")) RunSamplers(&results);
 
   OutputDirectory out(directory);
   if (wanted("exact")) out.Write("exact.csv", ToCsv(ExactTable(results)));

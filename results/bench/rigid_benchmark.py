@@ -6,11 +6,10 @@ their rows as JSON Lines, and makes tables of them."""
 import argparse
 import json
 import subprocess
-import time
 from pathlib import Path
 from typing import NamedTuple
 
-import trajectories_rows as rows
+import kept_rows as rows
 from rigid_report import write_report
 
 # Tight and less tight ones of every family (problems/scenes/rigid_scenes.h).
@@ -102,38 +101,23 @@ def plan_rows(build):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--output", type=Path, required=True,
-                        help="folder for README.md and the tables")
-    parser.add_argument("--rows", type=Path, required=True,
-                        help="folder of rows; those that are there stay")
+    rows.add_options(parser, "rigid_benchmark.py", ["judge", "plan"])
     parser.add_argument("--build", type=Path, default=Path("build"),
                         help="folder of the two programs")
     parser.add_argument("--long", action="store_true",
                         help="all scenes, 10 seeds, 60 s and then 600 s: days; "
                              "goes on where it was")
-    parser.add_argument("--part", choices=["judge", "plan", "report", "all"],
-                        default="all")
-    parser.add_argument("--minutes", type=float,
-                        help="nothing new begins after so many")
-    parser.add_argument("--how", default="results/bench/rigid_benchmark.py",
-                        help="the command that README.md names")
-    parser.add_argument("--commit", default="unknown",
-                        help="that PhongPD was built of, for README.md")
     arguments = parser.parse_args()
-    deadline = (None if arguments.minutes is None
-                else time.monotonic() + 60 * arguments.minutes)
+    deadline = rows.deadline_of(arguments)
     judged = [Judged(scene, 1000 if arguments.long else 100)
               for scene in JUDGED]
     planned = list(plans(WHOLE, [60, 600], 10) if arguments.long
                    else [*plans(SLICE, [2], 3), *hard_plans(5, 3),
                          *hard_plans(20, 3)])
-    for part, wanted, measure in (
-            ("judge", judged, judge_rows(arguments.build)),
-            ("plan", planned, plan_rows(arguments.build))):
-        if arguments.part in (part, "all"):
-            found = rows.fill(arguments.rows / f"{part}.jsonl", wanted, measure,
-                              deadline, time.monotonic)
-            print(f"{part}: {len(found)} runs", flush=True)
+    rows.run_part(arguments, "judge", judged, judge_rows(arguments.build), deadline,
+                  "runs of judges")
+    rows.run_part(arguments, "plan", planned, plan_rows(arguments.build), deadline,
+                  "runs of planners")
     if arguments.part in ("report", "all"):
         write_report(arguments.output, arguments.how, arguments.commit,
                      rows.read(arguments.rows / "judge.jsonl"),

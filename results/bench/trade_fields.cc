@@ -47,14 +47,10 @@ Times TimeQueries(const PhongMetric& metric,
   return times;
 }
 
-}  // namespace
-
-std::vector<FieldSum> MeasureFields(const TradeOptions& options) {
-  constexpr int kMotions = 10, kFrames = 200;
+std::vector<FieldSum> FieldsToCompare() {
   // Longest edges as shares of ℓ; 0: as they are.
   constexpr double kEdges[] = {0.5, 0.0, 1.0, 0.25};
   std::vector<FieldSum> sums;
-  std::vector<std::vector<double>> build, warm, cold;
   for (const double ell : {0.2, 0.1, 0.0}) {
     for (const double edge : kEdges) {
       // Without diffusion there is nothing to resolve.
@@ -62,9 +58,54 @@ std::vector<FieldSum> MeasureFields(const TradeOptions& options) {
       sums.emplace_back(ell, edge);
     }
   }
-  build.resize(sums.size());
-  warm.resize(sums.size());
-  cold.resize(sums.size());
+  return sums;
+}
+
+PhongMetricOptions OptionsOf(const FieldSum& sum) {
+  PhongMetricOptions phong;
+  phong.field_options.smoothing_length = sum.ell;
+  phong.field_options.max_edge = sum.ell == 0.0 ? 0.0
+                                 : sum.edge == 0.0
+                                     ? 1.0
+                                     : std::min(1.0, sum.edge * sum.ell);
+  return phong;
+}
+
+double SecondsToBuild(const ContactSpace& space,
+                      const PhongMetricOptions& phong) {
+  double seconds = std::numeric_limits<double>::infinity();
+  for (int repeat = 0; repeat < kRepeats; ++repeat) {
+    const double begin = ProcessorSeconds();
+    const PhongMetric built(space, phong);
+    seconds = std::min(seconds, ProcessorSeconds() - begin);
+  }
+  return seconds;
+}
+
+// Counts the jumps, and notes the depth over Euclid's of each frame inside.
+void FollowMotion(const PhongMetric& metric, const EuclideanMetric& euclidean,
+                  const Motion& motion, double length, FieldSum* sum) {
+  const std::vector<double> depths = EuclideanDepths(euclidean, motion);
+  const Follower follow = FollowMetric(metric)();
+  Eigen::Vector3d previous = Eigen::Vector3d::Zero();
+  for (std::size_t i = 0; i < motion.size(); ++i) {
+    const MotionStep step = follow(motion[i]);
+    if (i > 0 && (step.pd - previous).norm() > kMotionJump * length) {
+      ++sum->jumps;
+    }
+    previous = step.pd;
+    if (!(depths[i] > 0.0)) continue;
+    sum->ratios.push_back(step.pd.norm() / depths[i]);
+  }
+}
+
+}  // namespace
+
+std::vector<FieldSum> MeasureFields(const TradeOptions& options) {
+  constexpr int kMotions = 10, kFrames = 200;
+  std::vector<FieldSum> sums = FieldsToCompare();
+  std::vector<std::vector<double>> build(sums.size()), warm(sums.size()),
+      cold(sums.size());
   for (const MotionSpace& space : MotionSpaces()) {
     // The hard case of every metric: its ratios are of another order.
     if (space.name.find("hollow") != std::string::npos) continue;
@@ -74,18 +115,8 @@ std::vector<FieldSum> MeasureFields(const TradeOptions& options) {
     space.contact.normals();
     std::vector<double> base(3, 0.0);
     for (std::size_t k = 0; k < sums.size(); ++k) {
-      PhongMetricOptions phong;
-      phong.field_options.smoothing_length = sums[k].ell;
-      phong.field_options.max_edge =
-          sums[k].ell == 0.0    ? 0.0
-          : sums[k].edge == 0.0 ? 1.0
-                                : std::min(1.0, sums[k].edge * sums[k].ell);
-      double seconds = std::numeric_limits<double>::infinity();
-      for (int repeat = 0; repeat < kRepeats; ++repeat) {
-        const double begin = ProcessorSeconds();
-        const PhongMetric built(space.contact, phong);
-        seconds = std::min(seconds, ProcessorSeconds() - begin);
-      }
+      const PhongMetricOptions phong = OptionsOf(sums[k]);
+      const double seconds = SecondsToBuild(space.contact, phong);
       const PhongMetric metric(space.contact, phong);
       const Times times = TimeQueries(metric, motions);
       if (k == 0) base = {seconds, times.warm, times.cold};
@@ -94,19 +125,8 @@ std::vector<FieldSum> MeasureFields(const TradeOptions& options) {
       cold[k].push_back(times.cold / base[2]);
       sums[k].triangles += metric.field().mesh.triangles.size();
       for (const Motion& motion : motions) {
-        const std::vector<double> depths = EuclideanDepths(euclidean, motion);
-        const Follower follow = FollowMetric(metric)();
-        Eigen::Vector3d previous = Eigen::Vector3d::Zero();
-        for (std::size_t i = 0; i < motion.size(); ++i) {
-          const MotionStep step = follow(motion[i]);
-          if (i > 0 && (step.pd - previous).norm() >
-                           kMotionJump * space.contact.length()) {
-            ++sums[k].jumps;
-          }
-          previous = step.pd;
-          if (!(depths[i] > 0.0)) continue;
-          sums[k].ratios.push_back(step.pd.norm() / depths[i]);
-        }
+        FollowMotion(metric, euclidean, motion, space.contact.length(),
+                     &sums[k]);
       }
     }
   }

@@ -42,7 +42,7 @@ WindowPhongRow MeasureWindowPhong(const std::string& name,
     if (!truth.inside || -truth.signed_distance > depth * diagonal) continue;
     start = CpuSeconds();
     WindowPhong windows(ConvolutionModel(robot, obstacle), phong);
-    const WindowPhongResult found = windows.At(q);
+    const WindowResult found = windows.At(q);
     row.seconds.push_back(CpuSeconds() - start);
     row.faces.push_back(static_cast<double>(found.arranged_faces));
     row.from_windows += found.level == DepthLevel::kWindow ? 1 : 0;

@@ -36,7 +36,7 @@ TEST(CurveJudge, ProvesAnArchFreeDownToItsResolution) {
   const FreeSpace space = AroundCube();
   for (const double gap : {1.0, 1e-3, 1e-6, 1e-9, 1e-11}) {
     const CurveCheck check = CheckCurve(space, Arch(gap));
-    EXPECT_EQ(check.verdict, CurveVerdict::kFree) << gap;
+    EXPECT_EQ(check.verdict, MotionVerdict::kFree) << gap;
     EXPECT_DOUBLE_EQ(check.free_until, 2.0);
     // Flat contact: two halvings of a parabola bring its hull down to itself.
     EXPECT_LE(check.tests, 300) << gap;
@@ -46,13 +46,13 @@ TEST(CurveJudge, ProvesAnArchFreeDownToItsResolution) {
 TEST(CurveJudge, CallsNoCurveFreeThatTouches) {
   const FreeSpace space = AroundCube();
   const CurveCheck touch = CheckCurve(space, Arch(0.0));
-  EXPECT_EQ(touch.verdict, CurveVerdict::kCollides);
+  EXPECT_EQ(touch.verdict, MotionVerdict::kCollides);
   EXPECT_DOUBLE_EQ(touch.time, 1.0);
   EXPECT_EQ(touch.configuration, Vector3d(0.0, 0.0, 1.0));
   EXPECT_FALSE(space.IsFree(touch.configuration));
   for (const double depth : {1e-15, 1e-12, 1e-6, 0.1}) {
     const CurveCheck check = CheckCurve(space, Arch(-depth));
-    EXPECT_NE(check.verdict, CurveVerdict::kFree) << depth;
+    EXPECT_NE(check.verdict, MotionVerdict::kFree) << depth;
     // It meets the cube at s = ½ ± ½√depth.
     EXPECT_LE(check.free_until, 1.0 - std::sqrt(depth) + 1e-12) << depth;
   }
@@ -65,7 +65,7 @@ TEST(CurveJudge, ProvesNoCurveFreeThatTouchesWithinItsBlur) {
   for (const double gap : {1e-3, 1e-6, 1e-9}) {
     EXPECT_TRUE(CheckCurve(space, Arch(gap), kTests, 0.9 * gap).IsFree());
     EXPECT_EQ(CheckCurve(space, Arch(gap), kTests, 1.1 * gap).verdict,
-              CurveVerdict::kUndecided);
+              MotionVerdict::kUndecided);
     const auto beside = [](double y) {
       return Trajectory::Along({{-2.0, y, 0.0}, {2.0, y, 0.0}});
     };
@@ -82,7 +82,7 @@ TEST(CurveJudge, FindsACollisionThatSamplesMiss) {
   const Trajectory through({CurvePiece(
       {{-0.7, 0.0, 0.0}, {-0.1, 0.3, 0.2}, {0.2, -0.2, 0.1}, {0.4, 0.1, 0.0}},
       1.0)});
-  EXPECT_NE(CheckCurve(space, through).verdict, CurveVerdict::kFree);
+  EXPECT_NE(CheckCurve(space, through).verdict, MotionVerdict::kFree);
 }
 
 TEST(CurveJudge, JudgesPolylinesExactly) {
@@ -93,7 +93,7 @@ TEST(CurveJudge, JudgesPolylinesExactly) {
   };
   EXPECT_TRUE(CheckCurve(space, along(beside)).IsFree());
   const CurveCheck touch = CheckCurve(space, along(1.0));
-  EXPECT_EQ(touch.verdict, CurveVerdict::kCollides);
+  EXPECT_EQ(touch.verdict, MotionVerdict::kCollides);
   EXPECT_DOUBLE_EQ(touch.time, 0.25);
   EXPECT_EQ(touch.piece, 0);
 }
@@ -109,16 +109,16 @@ TEST(CurveJudge, HoldsCurvesWithinTheBounds) {
   };
   EXPECT_TRUE(CheckCurve(space, bow(3.0 - 1e-9)).IsFree());
   const CurveCheck touch = CheckCurve(space, bow(3.0));
-  EXPECT_EQ(touch.verdict, CurveVerdict::kCollides);
+  EXPECT_EQ(touch.verdict, MotionVerdict::kCollides);
   EXPECT_EQ(touch.configuration[2], 3.0);
 }
 
 TEST(CurveJudge, IsUndecidedWhereItMayLookNoFurther) {
   const FreeSpace space = AroundCube();
   const CurveCheck check = CheckCurve(space, Arch(1e-6), 1);
-  EXPECT_EQ(check.verdict, CurveVerdict::kUndecided);
+  EXPECT_EQ(check.verdict, MotionVerdict::kUndecided);
   EXPECT_LT(check.free_until, 1.0);
-  EXPECT_EQ(CheckCurve(space, Trajectory()).verdict, CurveVerdict::kUndecided);
+  EXPECT_EQ(CheckCurve(space, Trajectory()).verdict, MotionVerdict::kUndecided);
 }
 
 struct Tally {
@@ -132,11 +132,11 @@ void Compare(const FreeSpace& space, const ContactSpace& contact,
   const CurveCheck check = CheckCurve(space, Trajectory({piece}));
   const CurveTruth truth = testing::MeetsSurface(piece, contact.mesh());
   if (check.IsFree() && truth != CurveTruth::kMisses) ++tally->wrong_free;
-  if (check.verdict == CurveVerdict::kCollides) {
+  if (check.verdict == MotionVerdict::kCollides) {
     if (truth == CurveTruth::kMisses) ++tally->wrong_collision;
     EXPECT_FALSE(space.IsFree(check.configuration));
   }
-  if (check.verdict == CurveVerdict::kUndecided) ++tally->undecided;
+  if (check.verdict == MotionVerdict::kUndecided) ++tally->undecided;
 }
 
 std::vector<ContactSpace> ContactSpaces() {
@@ -199,9 +199,9 @@ TEST(CurveJudge, AnswersTheSameOfConvolutions) {
   int free = 0;
   for (int i = 0; i < 300; ++i) {
     const Trajectory curve({RandomPiece(whole, contact, kSpread, &random)});
-    const CurveVerdict verdict = CheckCurve(whole, curve).verdict;
+    const MotionVerdict verdict = CheckCurve(whole, curve).verdict;
     EXPECT_EQ(CheckCurve(lazy, curve).verdict, verdict) << i;
-    free += verdict == CurveVerdict::kFree;
+    free += verdict == MotionVerdict::kFree;
   }
   EXPECT_GE(free, 30);
   EXPECT_LE(free, 270);

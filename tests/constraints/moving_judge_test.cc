@@ -48,16 +48,16 @@ TEST(MovingJudge, TellsWhenAndWithWhichBodyTheRobotMeets) {
   const MovingBody still =
       CubeAlong("still", Straight({8, 0, 0}, {8, 0, 0}, 1.0));
   const MovingCheck one = CheckCurveAmong(Nothing(), {still}, robot);
-  EXPECT_EQ(one.verdict, CurveVerdict::kCollides);
+  EXPECT_EQ(one.verdict, MotionVerdict::kCollides);
   EXPECT_NEAR(one.free_until, 7.0, 1e-6);
   const MovingCheck both = CheckCurveAmong(Nothing(), {still, late}, robot);
-  EXPECT_EQ(both.verdict, CurveVerdict::kCollides);
+  EXPECT_EQ(both.verdict, MotionVerdict::kCollides);
   EXPECT_EQ(both.body, 1);
   EXPECT_NEAR(both.free_until, 4.5, 1e-6);
   EXPECT_NEAR(both.configuration[0], both.time, 1e-9);
   // Begun at 7 on their clock, the falling one is gone.
   EXPECT_EQ(CheckAgainst({late}, robot, 7.0, 10.0).verdict,
-            CurveVerdict::kFree);
+            MotionVerdict::kFree);
 }
 
 // A cube crosses the way at speed w: the robot, at constant speed v, clears it
@@ -105,7 +105,7 @@ TEST(MovingJudge, LooksAtTheRestOfTheRobotToo) {
   const MovingBody sweeps =
       CubeAlong("sweeps", Straight({1, 0, -10}, {1, 0, 10}, 20.0));
   const MovingCheck check = CheckCurveAmong(Nothing(), {sweeps}, robot);
-  EXPECT_EQ(check.verdict, CurveVerdict::kCollides);
+  EXPECT_EQ(check.verdict, MotionVerdict::kCollides);
   EXPECT_NEAR(check.free_until, 9.0, 1e-6);
   EXPECT_EQ(check.configuration, Vector3d(1, 0, 0));
 }
@@ -154,7 +154,7 @@ TEST(MovingJudge, IsRightOfRandomMotionsAtTenThousandTimes) {
     const Trajectory curve = motion(1 + i % 3);
     const MovingBody body = {"bar", space, motion(1 + i % 2)};
     const MovingCheck check = CheckCurveAmong(Nothing(), {body}, curve);
-    ASSERT_NE(check.verdict, CurveVerdict::kUndecided);
+    ASSERT_NE(check.verdict, MotionVerdict::kUndecided);
     const double end = check.IsFree()
                            ? std::max(curve.duration(), body.motion.duration())
                            : check.free_until;

@@ -17,7 +17,7 @@ sys.path.insert(0, str(BENCH))
 
 import trajectories_best as best  # noqa: E402
 import trajectories_bounds as bounds  # noqa: E402
-import trajectories_rows as rows  # noqa: E402
+import kept_rows as rows  # noqa: E402
 import trajectories_statistics as statistics  # noqa: E402
 import trajectories_worlds as worlds  # noqa: E402
 

@@ -13,6 +13,7 @@
 #include "core/mesh/mesh_error.h"
 #include "core/projection/euclidean_metric.h"
 #include "problems/shapes/shapes.h"
+#include "tests/support/named_pairs.h"
 #include "tests/support/solid_tools.h"
 
 namespace phongpd {
@@ -20,6 +21,7 @@ namespace {
 
 using Eigen::Vector3d;
 using testing::Cube;
+using testing::NamedPair;
 
 // The place of a witness on the solid it should lie on.
 double DistanceToSurface(const TriangleMesh& mesh, const Vector3d& x) {
@@ -61,12 +63,7 @@ void ExpectWitness(const TriangleMesh& placed_robot,
       tolerance);
 }
 
-struct Pair {
-  const char* name;
-  TriangleMesh robot, obstacle;
-};
-
-std::vector<Pair> Pairs() {
+std::vector<NamedPair> Pairs() {
   return {
       {"ball and cone", MakeIcoBall(0.5, 2), MakeCone(0.8, 1.6, 24)},
       {"star and torus", MakeStar(0.5, 1.2), MakeTorus(2, 0.6, 16, 8)},
@@ -83,7 +80,7 @@ std::vector<Pair> Pairs() {
 TEST(DepthQuery, EqualsEuclideanDepthOnTheWholeContactSpace) {
   std::mt19937_64 random(11);
   int penetrating = 0, by_window = 0;
-  for (const Pair& pair : Pairs()) {
+  for (const NamedPair& pair : Pairs()) {
     SCOPED_TRACE(pair.name);
     const ContactSpace space = BuildContactSpace(pair.robot, pair.obstacle);
     const EuclideanMetric metric(space);
@@ -117,7 +114,7 @@ TEST(DepthQuery, EqualsEuclideanDepthOnTheWholeContactSpace) {
 
 TEST(DepthQuery, EqualsTheWholeContactSpaceAtTurnedPoses) {
   std::mt19937_64 random(12);
-  for (const Pair& pair : Pairs()) {
+  for (const NamedPair& pair : Pairs()) {
     SCOPED_TRACE(pair.name);
     const DepthQuery query(pair.robot, pair.obstacle);
     for (int turn = 0; turn < 2; ++turn) {

@@ -17,6 +17,7 @@
 #include "core/minkowski/operands/grid_pair.h"
 #include "problems/shapes/random_solids.h"
 #include "problems/shapes/shapes.h"
+#include "tests/support/named_pairs.h"
 #include "tests/support/solid_tools.h"
 
 namespace phongpd::internal {
@@ -24,15 +25,11 @@ namespace {
 
 using Eigen::Vector3d;
 using testing::Cube;
+using testing::NamedPair;
 
 using Corners = std::array<std::array<double, 3>, 3>;
 
-struct Pair {
-  const char* name;
-  TriangleMesh robot, obstacle;
-};
-
-std::vector<Pair> Pairs() {
+std::vector<NamedPair> Pairs() {
   return {
       {"cubes", Cube(0.5), Cube(1.5)},
       {"star and torus", MakeStar(0.5, 1.2), MakeTorus(2, 0.6, 24, 12)},
@@ -66,7 +63,7 @@ std::set<Corners> Facets(const TriangleMesh& mesh) {
 }
 
 TEST(ConvolutionCells, HoldTheWholeConvolution) {
-  for (const Pair& pair : Pairs()) {
+  for (const NamedPair& pair : Pairs()) {
     SCOPED_TRACE(pair.name);
     const GridPair grid = MakeGridPair(pair.robot, "a", pair.obstacle, "b");
     const Convolution all =
@@ -102,7 +99,7 @@ TEST(ConvolutionCells, HoldTheWholeConvolution) {
 TEST(ConvolutionCells, AnswerAsOneTreeOfAllFacetsDoes) {
   std::mt19937_64 random(8);
   int met = 0;
-  for (const Pair& pair : Pairs()) {
+  for (const NamedPair& pair : Pairs()) {
     SCOPED_TRACE(pair.name);
     const GridPair grid = MakeGridPair(pair.robot, "a", pair.obstacle, "b");
     const ConvolutionSpace space(grid);
@@ -176,7 +173,7 @@ TEST(ConvolutionCells, ModelOnlyWhatQuestionsLeadTo) {
 
 TEST(ConvolutionCells, AnswerTheSameWithoutRoomToKeepAnything) {
   std::mt19937_64 random(10);
-  for (const Pair& pair : Pairs()) {
+  for (const NamedPair& pair : Pairs()) {
     SCOPED_TRACE(pair.name);
     const GridPair grid = MakeGridPair(pair.robot, "a", pair.obstacle, "b");
     const ConvolutionSpace truth(grid);

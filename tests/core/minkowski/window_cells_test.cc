@@ -11,6 +11,7 @@
 #include "core/minkowski/operands/grid_pair.h"
 #include "problems/shapes/shapes.h"
 #include "tests/support/facet_corners.h"
+#include "tests/support/named_pairs.h"
 #include "tests/support/solid_tools.h"
 
 namespace phongpd::internal {
@@ -18,29 +19,12 @@ namespace {
 
 using Eigen::Vector3d;
 using testing::AllCorners;
-using testing::Cube;
 using testing::FacetCorners;
-
-struct Pair {
-  const char* name;
-  TriangleMesh robot, obstacle;
-};
-
-std::vector<Pair> Pairs() {
-  return {
-      {"ball and cone", MakeIcoBall(0.5, 1), MakeCone(0.8, 1.6, 12)},
-      {"star and torus", MakeStar(0.5, 1.2), MakeTorus(2, 0.6, 12, 6)},
-      {"cube and hollow shell", Cube(1), MakeVessel(4, 3, 0)},
-      {"L and U", MakeL(1, 0.3, 0.5), MakeU(2, 0.5, 1)},
-      {"peg and its hole", MakeBox({-0.5, -0.5, -1}, {0.5, 0.5, 1}),
-       MakePlateWithHole(4, 1, 1)},
-      {"star and turned vessel", MakeStar(0.3, 0.7),
-       Rotated(MakeVessel(3.6, 3, 0.6), GenericRotation())},
-  };
-}
+using testing::NamedPair;
+using testing::SmallPairs;
 
 TEST(FeatureSums, TellTheWholeConvolutionInItsBox) {
-  for (const Pair& pair : Pairs()) {
+  for (const NamedPair& pair : SmallPairs()) {
     SCOPED_TRACE(pair.name);
     const GridPair grid = MakeGridPair(pair.robot, "a", pair.obstacle, "b");
     const FeatureSums sums(grid.obstacle, grid.reflected_robot);
@@ -68,7 +52,7 @@ TEST(FeatureSums, TellTheWholeConvolutionInItsBox) {
 }
 
 TEST(WindowCells, JoinedShowTheWholeContactSpace) {
-  for (const Pair& pair : Pairs()) {
+  for (const NamedPair& pair : SmallPairs()) {
     SCOPED_TRACE(pair.name);
     const ContactSpace space = BuildContactSpace(pair.robot, pair.obstacle);
     const GridPair grid = MakeGridPair(pair.robot, "a", pair.obstacle, "b");

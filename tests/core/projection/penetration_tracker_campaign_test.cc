@@ -78,11 +78,11 @@ void Follow(const Space& space, const PenetrationTracker& tracker,
       }
       figures->ratios += now.ratio;
       figures->above += now.ratio > 3.0 * (1.0 + 1e-9) ? 1 : 0;
-      figures->sliding += now.status == TrackerStatus::kSliding ? 1 : 0;
+      figures->sliding += now.status == QueryStatus::kSliding ? 1 : 0;
     } else {
       ok = ok && now.pd == Vector3d::Zero() && now.magnitude == 0.0;
     }
-    const bool left = now.status == TrackerStatus::kLeftElsewhere;
+    const bool left = now.status == QueryStatus::kLeftElsewhere;
     figures->left_elsewhere += left ? 1 : 0;
     if (i > 0) {
       const double change = (now.pd - before.pd).norm();

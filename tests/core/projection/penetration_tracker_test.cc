@@ -105,7 +105,7 @@ TEST(PenetrationTracker, FollowsTheClosestPointOfItsPiece) {
            testing::MakeMotion(space.contact, m % 2, 200, &random)) {
         const TrackerResult now = tracker.Step(q, &state);
         const double reach = 3.0 * now.euclidean_depth;
-        if (now.status != TrackerStatus::kFollowing || now.magnitude > reach) {
+        if (now.status != QueryStatus::kFollowing || now.magnitude > reach) {
           continue;
         }
         const double least =
@@ -156,24 +156,24 @@ TEST(PenetrationTracker, LeavingElsewhereIsZeroAtOnceAndCounted) {
   for (int i = 0; i <= 160; ++i) {
     const TrackerResult now =
         tracker.Step({0.1, 0.2, 0.6 - 0.0075 * i}, &state);
-    if (now.status == TrackerStatus::kLeftElsewhere) {
+    if (now.status == QueryStatus::kLeftElsewhere) {
       ++elsewhere;
       EXPECT_GT(before.magnitude, 11.0 * 0.0075);
       EXPECT_EQ(now.pd, Vector3d::Zero());
     }
-    sliding += now.status == TrackerStatus::kSliding ? 1 : 0;
+    sliding += now.status == QueryStatus::kSliding ? 1 : 0;
     // Twice as deep as nearest is within three times: no reason to move.
     if (now.inside && now.euclidean_depth > 0.26) {
       EXPECT_EQ(now.contact.z(), 0.5);
     }
     before = now;
   }
-  EXPECT_EQ(before.status, TrackerStatus::kOutside);
+  EXPECT_EQ(before.status, QueryStatus::kOutside);
   EXPECT_EQ(elsewhere, 1);
   EXPECT_GT(sliding, 10);
   // Back in from below: anew, from there.
   const TrackerResult again = tracker.Step({0.1, 0.2, -0.45}, &state);
-  EXPECT_EQ(again.status, TrackerStatus::kFollowing);
+  EXPECT_EQ(again.status, QueryStatus::kFollowing);
   EXPECT_NEAR((again.contact - Vector3d(0.1, 0.2, -0.5)).norm(), 0.0, 1e-14);
 }
 
@@ -184,7 +184,7 @@ TEST(PenetrationTracker, LeavingAtTheContactIsNoEvent) {
     const double z = 0.6 - 0.3 * std::sin(0.0314159 * i);
     const TrackerResult now = tracker.Step({0.004 * i, 0.2, z}, &state);
     EXPECT_EQ(now.status,
-              z < 0.5 ? TrackerStatus::kFollowing : TrackerStatus::kOutside);
+              z < 0.5 ? QueryStatus::kFollowing : QueryStatus::kOutside);
     if (z < 0.5) {
       EXPECT_NEAR(now.magnitude, 0.5 - z, 1e-14);
       EXPECT_NEAR(now.ratio, 1.0, 1e-12);
@@ -201,7 +201,7 @@ TEST(PenetrationTracker, SlidesToTheNearerSideWhereAWayLeadsThere) {
     now = tracker.Step({0.3 + 0.0005 * i, 0.45 - 0.0005 * i, 2.0}, &state);
     EXPECT_LE(now.ratio, 1.7);
   }
-  EXPECT_EQ(now.status, TrackerStatus::kFollowing);
+  EXPECT_EQ(now.status, QueryStatus::kFollowing);
   EXPECT_NEAR(now.magnitude, 0.25, 1e-14);
   EXPECT_NEAR(now.contact.y(), 0.0, 1e-14);
 }
@@ -216,12 +216,12 @@ TEST(PenetrationTracker, StaysOnTheComponentItEnteredThrough) {
     const TrackerResult now = tracker.Step({x, 0.1, 0.2}, &state);
     EXPECT_EQ(now.inside, x > 1.0);
     if (!now.inside) continue;
-    EXPECT_EQ(now.status, TrackerStatus::kFollowing);
+    EXPECT_EQ(now.status, QueryStatus::kFollowing);
     EXPECT_NEAR((now.contact - Vector3d(1, 0.1, 0.2)).norm(), 0.0, 1e-14);
     EXPECT_NEAR(now.euclidean_depth, std::min(x - 1.0, 2.0 - x), 1e-14);
   }
   EXPECT_EQ(tracker.Step({2.01, 0.1, 0.2}, &state).status,
-            TrackerStatus::kLeftElsewhere);
+            QueryStatus::kLeftElsewhere);
 }
 
 TEST(PenetrationTracker, WhatIsNotFiniteIsInvalidAndChangesNothing) {
@@ -233,14 +233,14 @@ TEST(PenetrationTracker, WhatIsNotFiniteIsInvalidAndChangesNothing) {
     const Vector3d q(0.03 * i, 0.01 * i, 0.45 - 0.01 * i);
     for (const double bad : {kNan, kInfinity, -kInfinity}) {
       const TrackerResult none = tracker.Step({q.x(), bad, q.z()}, &state);
-      EXPECT_EQ(none.status, TrackerStatus::kInvalid);
+      EXPECT_EQ(none.status, QueryStatus::kInvalid);
       EXPECT_EQ(none.pd, Vector3d::Zero());
       EXPECT_EQ(none.ratio, 0.0);
     }
     EXPECT_EQ(tracker.Step(q, &state).pd, tracker.Step(q, &untouched).pd);
   }
   const TrackerResult far = tracker.Step({1e300, -1e300, 0.0}, &state);
-  EXPECT_EQ(far.status, TrackerStatus::kOutside);
+  EXPECT_EQ(far.status, QueryStatus::kOutside);
 }
 
 TEST(PenetrationTracker, ARobotAtRestHasItsContactAtRest) {

@@ -66,7 +66,7 @@ TEST(QueryCost, OrdinaryStepsOfTheTrackerDoNotAllocate) {
       const double t = 0.00314159 * i;
       const TrackerResult now =
           tracker.Step({1.1 * std::cos(t), 1.1 * std::sin(t), 0.05}, &state);
-      following += now.status == TrackerStatus::kFollowing ? 1 : 0;
+      following += now.status == QueryStatus::kFollowing ? 1 : 0;
     }
     return following;
   };

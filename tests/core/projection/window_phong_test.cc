@@ -50,7 +50,7 @@ void Compare(const TriangleMesh& robot, const TriangleMesh& obstacle,
   for (int i = 0; i < points; ++i) {
     const Vector3d q = testing::RandomPoint(space.bounds(), random);
     const PenetrationResult expected = truth.Query(q);
-    const WindowPhongResult found = phong.At(q);
+    const WindowResult found = phong.At(q);
     const PenetrationResult& answer = found.answer;
     const double error =
         std::abs(answer.signed_distance - expected.signed_distance) / diagonal;
@@ -127,11 +127,11 @@ TEST(WindowPhong, BuildsTheWholeForASmoothingLength) {
 
 TEST(WindowPhong, AnswersTouchingAndFarAndWhatIsNotFinite) {
   WindowPhong phong(ConvolutionModel(Cube(1.0), Cube(2.0)), Smoothed(0.0));
-  const WindowPhongResult touching = phong.At({1.5, 0.1, 0.2});
+  const WindowResult touching = phong.At({1.5, 0.1, 0.2});
   EXPECT_EQ(touching.answer.status, QueryStatus::kOk);
   EXPECT_FALSE(touching.answer.inside);
   EXPECT_EQ(touching.answer.signed_distance, 0.0);
-  const WindowPhongResult far = phong.At({101.5, 0, 0});
+  const WindowResult far = phong.At({101.5, 0, 0});
   EXPECT_EQ(far.level, DepthLevel::kNone);
   EXPECT_DOUBLE_EQ(far.answer.signed_distance, 100.0);
   EXPECT_EQ(far.answer.direction, Vector3d(1, 0, 0));
@@ -159,7 +159,7 @@ TEST(WindowPhong, KeepsTheLastWindow) {
     }
     ++inside;
     const Vector3d beside = q + 1e-6 * Vector3d(1, 2, 3);
-    const WindowPhongResult found = phong.At(beside);
+    const WindowResult found = phong.At(beside);
     kept += found.windows == 0 && found.arranged_faces == 0 ? 1 : 0;
     EXPECT_NEAR(found.answer.signed_distance,
                 truth.Query(beside).signed_distance, 1e-11);

@@ -37,7 +37,7 @@ void Compare(const TriangleMesh& robot, const TriangleMesh& obstacle,
   for (int i = 0; i < points; ++i) {
     const Vector3d q = testing::RandomPoint(space.bounds(), random);
     const PenetrationResult expected = truth.Query(q);
-    const WindowPhongResult found = smoothed.At(q);
+    const WindowResult found = smoothed.At(q);
     const PenetrationResult& answer = found.answer;
     EXPECT_EQ(answer.inside, expected.inside);
     EXPECT_EQ(answer.status, expected.status);

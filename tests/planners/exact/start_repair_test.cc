@@ -39,7 +39,7 @@ TEST(StartRepair, FreesEveryPathOfTheFamilies) {
       }
       const StartRepairResult result =
           repair->Repair(problem.start, problem.goal);
-      ASSERT_EQ(result.status, RepairStatus::kRepaired)
+      ASSERT_EQ(result.status, PathStatus::kRepaired)
           << family << ' ' << seed << ": " << result.reason;
       ASSERT_EQ(result.routes.size(), 1u);
       const Path& path = result.routes[0];
@@ -61,7 +61,7 @@ TEST(StartRepair, GoesTheShortestWayAroundABox) {
   StartRepairOptions options;
   options.clearance = 1e-4 * repair.diagonal();
   const StartRepairResult result = repair.Repair(start, goal, options);
-  ASSERT_EQ(result.status, RepairStatus::kRepaired);
+  ASSERT_EQ(result.status, PathStatus::kRepaired);
   const double shortest = 2.0 * std::hypot(1.0, 0.1) + 2.0;
   EXPECT_GE(PathLength(result.routes[0]), shortest);
   EXPECT_LE(PathLength(result.routes[0]), 1.01 * shortest);
@@ -77,7 +77,7 @@ TEST(StartRepair, GoesNearlyTheShortestWayAroundABall) {
   const double tangent = std::sqrt(distance * distance - 1.0);
   const double arc = M_PI - 2.0 * std::acos(1.0 / distance);
   const StartRepairResult result = repair.Repair(start, goal);
-  ASSERT_EQ(result.status, RepairStatus::kRepaired);
+  ASSERT_EQ(result.status, PathStatus::kRepaired);
   EXPECT_GE(PathLength(result.routes[0]), 0.995 * (2.0 * tangent + arc));
   EXPECT_LE(PathLength(result.routes[0]), 1.04 * (2.0 * tangent + arc));
 }
@@ -86,7 +86,7 @@ TEST(StartRepair, LeavesFreePathsAsTheyAre) {
   const StartRepair repair(TakeAsContactSpace(Cube(1.0)));
   const Path given = {{-2.0, 0.0, 0.0}, {-2.0, 2.0, 0.0}, {2.0, 2.0, 0.5}};
   const StartRepairResult result = repair.Repair(given);
-  EXPECT_EQ(result.status, RepairStatus::kFree);
+  EXPECT_EQ(result.status, PathStatus::kFree);
   ASSERT_EQ(result.routes.size(), 1u);
   EXPECT_NEAR(PathLength(result.routes[0]), PathLength(given), 1e-12);
   EXPECT_EQ(result.runs, 0);
@@ -101,7 +101,7 @@ TEST(StartRepair, LeadsOnlyCollidingPartsOfAPolylineAround) {
                       {5.0, -0.3, 0.0}, {13.0, 0.0, 0.0}, {13.0, 0.0, 9.0},
                       {13.0, 5.0, 0.0}};
   const StartRepairResult result = repair.Repair(given);
-  ASSERT_EQ(result.status, RepairStatus::kRepaired) << result.reason;
+  ASSERT_EQ(result.status, PathStatus::kRepaired) << result.reason;
   EXPECT_EQ(result.runs, 2);
   EXPECT_TRUE(CheckPath(repair.space(), result.routes[0]).free);
   EXPECT_EQ(result.routes[0].front(), given.front());
@@ -112,28 +112,27 @@ TEST(StartRepair, ProvesThatNoPathExists) {
   const StartRepair repair(TakeAsContactSpace(Nested()));
   const Vector3d inside(1.0, 0.2, 0.1), outside(4.0, 0.3, 0.2);
   const StartRepairResult result = repair.Repair(inside, outside);
-  EXPECT_EQ(result.status, RepairStatus::kInfeasibleProved);
+  EXPECT_EQ(result.status, PathStatus::kInfeasibleProved);
   EXPECT_TRUE(result.routes.empty());
   EXPECT_FALSE(result.reason.empty());
   // Inside the cavity, around the box in it.
   const StartRepairResult around =
       repair.Repair(Vector3d(1.0, 0.2, 0.1), Vector3d(-1.0, 0.1, 0.2));
-  EXPECT_EQ(around.status, RepairStatus::kRepaired);
+  EXPECT_EQ(around.status, PathStatus::kRepaired);
   // Through the cavity from outside to outside: around the whole.
   const StartRepairResult through =
       repair.Repair(Path{{4.0, 0.1, 0.2}, {3.5, 0.15, 0.2}, {-4.0, 0.3, 0.2}});
-  EXPECT_EQ(through.status, RepairStatus::kRepaired) << through.reason;
+  EXPECT_EQ(through.status, PathStatus::kRepaired) << through.reason;
 }
 
 TEST(StartRepair, SaysWhichEndCollides) {
   const StartRepair repair(TakeAsContactSpace(Cube(1.0)));
   const Vector3d free(3.0, 0.0, 0.0), inside(0.5, 0.0, 0.0);
-  EXPECT_EQ(repair.Repair(inside, free).status,
-            RepairStatus::kStartInCollision);
-  EXPECT_EQ(repair.Repair(free, inside).status, RepairStatus::kGoalInCollision);
+  EXPECT_EQ(repair.Repair(inside, free).status, PathStatus::kStartInCollision);
+  EXPECT_EQ(repair.Repair(free, inside).status, PathStatus::kGoalInCollision);
   // Touching is not free.
   EXPECT_EQ(repair.Repair(Vector3d(1.0, 0.0, 0.0), free).status,
-            RepairStatus::kStartInCollision);
+            PathStatus::kStartInCollision);
 }
 
 TEST(StartRepair, FindsDifferentRoutes) {
@@ -155,7 +154,7 @@ TEST(StartRepair, DoesNotDependOnUnitAndOffset) {
   const PathProblem problem = MakePathProblem("Uaxis", 1);
   const StartRepair base(TakeAsContactSpace(problem.contact));
   const StartRepairResult expected = base.Repair(problem.start, problem.goal);
-  ASSERT_EQ(expected.status, RepairStatus::kRepaired);
+  ASSERT_EQ(expected.status, PathStatus::kRepaired);
   const double length = PathLength(expected.routes[0]);
   for (const double scale : {1e-3, 1e3}) {
     for (const double shift : {0.0, 1e3}) {
@@ -164,7 +163,7 @@ TEST(StartRepair, DoesNotDependOnUnitAndOffset) {
           Translated(Scaled(problem.contact, scale), offset)));
       const StartRepairResult result = repair.Repair(
           scale * problem.start + offset, scale * problem.goal + offset);
-      ASSERT_EQ(result.status, RepairStatus::kRepaired) << scale << shift;
+      ASSERT_EQ(result.status, PathStatus::kRepaired) << scale << shift;
       EXPECT_TRUE(CheckPath(repair.space(), result.routes[0]).free);
       EXPECT_NEAR(PathLength(result.routes[0]) / scale, length, 0.02 * length);
     }
@@ -206,7 +205,7 @@ TEST(StartRepair, SaysSoWhenCornersOutnumberWaypoints) {
   options.waypoints = 1;
   const StartRepairResult result =
       repair.Repair(problem.start, problem.goal, options);
-  EXPECT_EQ(result.status, RepairStatus::kFailed);
+  EXPECT_EQ(result.status, PathStatus::kFailed);
   EXPECT_NE(result.reason.find("corners"), std::string::npos);
 }
 

@@ -45,7 +45,7 @@ TEST(Corridor, ConvergesOnTheFamiliesExactlyFree) {
     const TrajectoryProblem problem = WithoutMetrics(source);
     const Path start = Repaired(source);
     const CorridorSummary summary = PolishInCorridor(problem, start);
-    EXPECT_EQ(summary.status, CorridorStatus::kConverged) << family;
+    EXPECT_EQ(summary.status, PathStatus::kConverged) << family;
     EXPECT_TRUE(CheckPath(*problem.free_space, summary.path).free) << family;
     EXPECT_EQ(summary.path.size(), start.size());
     EXPECT_EQ(summary.objective, PathEnergy(problem, summary.path));
@@ -160,8 +160,8 @@ TEST(Corridor, EnergyFallsAndEveryRoundIsFree) {
     EXPECT_GE(PathClearance(*problem.free_space, summary.path),
               (problem.margin - 1e-6) * problem.diagonal);
     previous = summary.objective;
-    if (summary.status == CorridorStatus::kConverged) break;
-    EXPECT_EQ(summary.status, CorridorStatus::kRoundLimit);
+    if (summary.status == PathStatus::kConverged) break;
+    EXPECT_EQ(summary.status, PathStatus::kRoundLimit);
     EXPECT_EQ(summary.rounds.size(), static_cast<std::size_t>(rounds));
   }
 }
@@ -179,7 +179,7 @@ TEST(Corridor, FindsTheShortestWayOverAnEdge) {
   const Path start = ResampleKeepingCorners(
       {problem.start, {-0.5, 0.7, 1.6}, {0.3, 0.2, 1.4}, problem.goal}, 40);
   const CorridorSummary summary = PolishInCorridor(problem, start);
-  EXPECT_EQ(summary.status, CorridorStatus::kConverged);
+  EXPECT_EQ(summary.status, PathStatus::kConverged);
   // From below by the polyline over the edge without margin, from above by the
   // one over two points √2 margins away from the wall's edges.
   const double up = 2.0 * 0.02 * std::sqrt(0.5);
@@ -208,7 +208,7 @@ TEST(Corridor, RestoresMissingClearance) {
                                              problem.goal},
                                             40);
   const CorridorSummary summary = PolishInCorridor(problem, start);
-  EXPECT_EQ(summary.status, CorridorStatus::kConverged);
+  EXPECT_EQ(summary.status, PathStatus::kConverged);
   const double margin = problem.margin * problem.diagonal;
   EXPECT_GE(PathClearance(*problem.free_space, summary.path), 0.999 * margin);
   EXPECT_GT(summary.rounds.front().missing, -1e-15);
@@ -267,7 +267,7 @@ TEST(Corridor, DoesNotDependOnUnitAndOffset) {
     for (const Vector3d& q : start) path.push_back(scale * q + offset);
     const CorridorSummary summary =
         PolishInCorridor(WithoutMetrics(moved), path);
-    EXPECT_EQ(summary.status, CorridorStatus::kConverged);
+    EXPECT_EQ(summary.status, PathStatus::kConverged);
     EXPECT_NEAR(summary.objective, expected, 1e-3 * expected);
   }
 }
@@ -365,7 +365,7 @@ TEST(Corridor, RefusesWhatItCannotUse) {
   const TrajectoryProblem problem = WithoutMetrics(source);
   const Path line = StraightPath(problem);
   const CorridorSummary summary = PolishInCorridor(problem, line);
-  EXPECT_EQ(summary.status, CorridorStatus::kNotFree);
+  EXPECT_EQ(summary.status, PathStatus::kNotFree);
   EXPECT_EQ(summary.path, line);
   EXPECT_TRUE(summary.rounds.empty());
   EXPECT_THROW(PolishInCorridor(problem, {problem.start, problem.goal}),

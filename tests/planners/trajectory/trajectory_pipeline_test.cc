@@ -142,7 +142,7 @@ TEST(TrajectoryPipeline, TheLineAsASecondStartIsNeverWorse) {
     const bool has_line = std::any_of(
         both.stages.begin(), both.stages.end(),
         [](const StageRecord& stage) { return stage.status == "straight"; });
-    EXPECT_EQ(has_line, one.repair.status == RepairStatus::kRepaired) << seed;
+    EXPECT_EQ(has_line, one.repair.status == PathStatus::kRepaired) << seed;
   }
   EXPECT_GE(better, 1);
 }

@@ -114,14 +114,14 @@ TEST(Names, OfSmoothedMetricsTakeALengthAndTheDirectionAlone) {
 TEST(Names, OfStatusesDifferAndTellFreePathsFromBlockedEnds) {
   std::set<std::string> names;
   int free = 0, blocked = 0;
-  for (int k = 0; k <= static_cast<int>(PathStatus::kFailed); ++k) {
+  for (int k = 0; k <= static_cast<int>(PathStatus::kSmallestTrust); ++k) {
     const auto status = static_cast<PathStatus>(k);
     EXPECT_TRUE(names.insert(ToString(status)).second) << ToString(status);
     free += HasFreePath(status);
     blocked += IsStartBlocked(status) || IsGoalBlocked(status);
     EXPECT_FALSE(IsStartBlocked(status) && IsGoalBlocked(status));
   }
-  EXPECT_EQ(free, 3);
+  EXPECT_EQ(free, 5);
   EXPECT_EQ(blocked, 4);
 }
 

@@ -208,14 +208,14 @@ TEST(PerformanceProfile, ShowsTheNamesOfMethods) {
   EXPECT_NE(svg.find("straight-monotone, 1 problem;"), std::string::npos);
 }
 
-class ReadComparisonTest : public testing::Test {
+class RowsOfAFile : public testing::Test {
  protected:
   void TearDown() override { std::remove(path_.c_str()); }
 
   std::string Refusal(const std::string& text) {
     std::ofstream(path_) << text;
     try {
-      ReadComparison(path_);
+      JoinComparisons({path_});
     } catch (const InputError& error) {
       return error.what();
     }
@@ -229,9 +229,9 @@ class ReadComparisonTest : public testing::Test {
       "_rows.jsonl";
 };
 
-TEST_F(ReadComparisonTest, NamesFileRowAndWhatIsWrong) {
+TEST_F(RowsOfAFile, NamesFileRowAndWhatIsWrong) {
   const std::string good = Row({"a", 1}).dump();
-  EXPECT_THROW(ReadComparison(path_ + ".none"), InputError);
+  EXPECT_THROW(JoinComparisons({path_ + ".none"}), InputError);
   EXPECT_EQ(Refusal(""), path_ + ": expected rows, found none");
   EXPECT_EQ(Refusal(good + "\n{\"scene\":"),
             path_ + ": row 2: expected a JSON object, found {\"scene\":");
@@ -258,10 +258,10 @@ TEST_F(ReadComparisonTest, NamesFileRowAndWhatIsWrong) {
             std::string::npos);
 }
 
-TEST_F(ReadComparisonTest, ReadsWhatWasWritten) {
+TEST_F(RowsOfAFile, ReadsWhatWasWritten) {
   const std::vector<Json> rows = {Row({"a", 1}), Row({"b", 7, false})};
   std::ofstream(path_) << rows[0].dump() << "\n\n" << rows[1].dump();
-  EXPECT_EQ(ReadComparison(path_), rows);
+  EXPECT_EQ(JoinComparisons({path_}), rows);
 }
 
 TEST(FindProtocol, KnowsEveryNameAndRefusesOthers) {

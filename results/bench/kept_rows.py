@@ -1,7 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Rows as JSON Lines, each written when it is there: a run that was interrupted
-goes on where it was."""
+goes on where it was.  And the options of programs that write such rows, part by
+part."""
 import json
+import time
+from pathlib import Path
 
 
 def read(path):
@@ -40,3 +43,32 @@ def fill(path, wanted, measure, deadline=None, clock=None):
             file.write(json.dumps(row) + "\n")
             file.flush()
     return read(path)
+
+
+def add_options(parser, program, parts):
+    """Those that every such program has."""
+    parser.add_argument("--output", type=Path, required=True,
+                        help="folder for README.md and the tables")
+    parser.add_argument("--rows", type=Path, required=True,
+                        help="folder of rows; those that are there stay")
+    parser.add_argument("--part", choices=[*parts, "report", "all"],
+                        default="all")
+    parser.add_argument("--minutes", type=float,
+                        help="nothing new begins after so many")
+    parser.add_argument("--how", default=f"results/bench/{program}",
+                        help="the command that README.md names")
+    parser.add_argument("--commit", default="unknown",
+                        help="that PhongPD was built of, for README.md")
+
+
+def run_part(arguments, part, wanted, measure, deadline, what):
+    """`deadline` as of time.monotonic(), or None."""
+    if arguments.part in (part, "all"):
+        found = fill(arguments.rows / f"{part}.jsonl", wanted, measure, deadline,
+                     time.monotonic)
+        print(f"{len(found)} {what}", flush=True)
+
+
+def deadline_of(arguments):
+    return (None if arguments.minutes is None
+            else time.monotonic() + 60 * arguments.minutes)

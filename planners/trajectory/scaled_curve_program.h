@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <vector>
+
+#include "planners/trajectory/block_tridiagonal.h"
+
+namespace phongpd::internal {
+
+// The program of one round (curve_program.h) in numbers of about 1.
+//
+// Unknowns of knot k, which is where piece k begins: Δp/τ, Δv·pace/5τ,
+// Δa·pace²/20τ, η and m of piece k; those of the first knot's state, and all
+// of the last one, are fixed.  Then t.
+struct CurveProgram {
+  // constant + d·Σ_j w_j ΔB_j/τ + eta·η + missing·m + t·t ≤ 0, with d a unit
+  // vector along an axis, another direction, or none; or, of kNorm,
+  //   |value + value_by_eta·η + Σ_j w_j ΔB_j/τ| + constant + t·t ≤ 0.
+  struct Row {
+    enum Kind { kAxis, kDirection, kScalar, kNorm };
+    Kind kind = kScalar;
+    int first = 0, last = -1;  // weights that are not 0
+    int axis = 0;
+    Eigen::Matrix<double, 6, 1> weight = Eigen::Matrix<double, 6, 1>::Zero();
+    Eigen::Vector3d direction = Eigen::Vector3d::Zero();
+    double eta = 0.0, missing = 0.0, t = 0.0, constant = 0.0;
+    // The row before again with −w and −eta, of a constant of its own and
+    // without m: both have the work of one.
+    bool is_mirrored = false;
+    Eigen::Vector3d value = Eigen::Vector3d::Zero();
+    Eigen::Vector3d value_by_eta = Eigen::Vector3d::Zero();
+  };
+  struct Piece {
+    std::vector<Row> rows;
+    double before = 1.0, after = 1.0;  // h over the pace of both its knots
+    double share = 0.0;                // h/T
+    double log_duration = 0.0;
+    double missing = 0.0;                // the least m at which rows hold now
+    Eigen::Matrix<double, 3, 6> by_eta;  // dB_j/dη, units of τ
+    // Of each axis and point: weights of the six ΔB/τ, of η, and the value.
+    std::array<Eigen::Matrix<double, 3, 8>, 3> jerk;
+    double jerk_weight = 0.0;
+  };
+  std::vector<Piece> pieces;
+  std::vector<double> pace;  // of each knot
+  double evenness = 0.0;     // price of Σ (ln h_{i+1} − ln h_i)²
+  double missing = 0.0;      // price of Σ m; 0: no m
+  double t = 1.0;            // price of t
+
+  int size() const { return static_cast<int>(pieces.size()); }
+};
+
+// The unknowns as a piece sees them, u = F·x: ΔB_0 … ΔB_5 in units of τ, axis
+// by axis, then η, m and t.  Rows and objective are written in these.
+inline constexpr int kCurveEta = 18, kCurveMissing = 19, kCurveT = 20;
+using CurveLocal = Eigen::Matrix<double, 21, 1>;
+using CurveLocalMatrix = Eigen::Matrix<double, 21, 21>;
+
+// F·x, of one piece.
+CurveLocal ToLocal(const CurveProgram& program, int piece,
+                   const Eigen::VectorXd& x);
+
+// *x += Fᵀ·local.
+void AddGradient(const CurveProgram& program, int piece,
+                 const CurveLocal& local, Eigen::VectorXd* x);
+
+// *to += Fᵀ·(*local)·F, of which *local does not survive.
+void AddMatrix(const CurveProgram& program, int piece, CurveLocalMatrix* local,
+               BlockTridiagonal* to);
+
+// What is minimised, ½ xᵀHx + gᵀx: adds to H and g.
+void AddObjective(const CurveProgram& program, BlockTridiagonal* hessian,
+                  Eigen::VectorXd* linear);
+
+}  // namespace phongpd::internal
