@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "planners/trajectory/block_tridiagonal.h"
-#include "planners/trajectory/curve_interior_point.h"
+#include "planners/trajectory/scaled_curve_program.h"
 
 namespace phongpd::internal {
 
