@@ -68,6 +68,24 @@ class Parameters {
     return points;
   }
 
+  // Three each, of so many vertices.
+  std::vector<Triangle> Corners(const char* key, std::size_t vertices) const {
+    std::vector<Triangle> triangles;
+    for (const Eigen::Vector3d& numbers : Points(key)) {
+      Triangle triangle;
+      for (std::size_t k = 0; k < 3; ++k) {
+        const double number = numbers[static_cast<Eigen::Index>(k)];
+        if (!(number >= 0.0 && number < static_cast<double>(vertices)) ||
+            number != std::floor(number)) {
+          Fail(key, "expected numbers of vertices, from 0 on", shape_[key]);
+        }
+        triangle[k] = static_cast<int>(number);
+      }
+      triangles.push_back(triangle);
+    }
+    return triangles;
+  }
+
   std::vector<double> Numbers(const char* key) const {
     const Json& value = shape_[key];
     std::vector<double> numbers;
@@ -226,6 +244,14 @@ const std::vector<ShapeType>& ShapeTypes() {
        [](const P& p) {
          return MakeTube(p.Points("path"), p.Length("radius"),
                          p.Count("sides"));
+       }},
+      {"triangles",
+       {"vertices", "triangles"},
+       [](const P& p) {
+         TriangleMesh mesh;
+         mesh.vertices = p.Points("vertices");
+         mesh.triangles = p.Corners("triangles", mesh.vertices.size());
+         return mesh;
        }},
       {"scan",
        {"of", "edge", "noise", "seed"},

@@ -118,6 +118,12 @@ class RigidWorld:
     def plan(self, ends: _Floats, bounds: _Floats, time_limit: float,
              seed: int) -> tuple[str, str, list[tuple[float, ...]], float, str,
                                  float]: ...
+    robot: list[tuple[_Floats, _Ints]]
+    obstacles: list[tuple[_Floats, _Ints]]
+
+def load_turning(text: str) -> tuple[
+    RigidWorld, str, str, list[tuple[float, ...]], _Floats | None, float,
+    list[str]]: ...
 
 class DepthQuery:
     def __init__(self, robot: Solid, obstacle: Solid, max_radius: float,

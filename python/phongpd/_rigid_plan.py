@@ -1,14 +1,15 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 from __future__ import annotations
 
+import os
 from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from . import _native
-from ._arguments import Floats, numbers
+from ._arguments import Floats, numbers, scene_name
 from ._native import InputError
 from ._rigid import _meshes, _pose
 
@@ -44,6 +45,7 @@ class RigidWorld:
         world = phongpd.RigidWorld("part.stl", ["wall.stl", (V, F)])
         plan = world.plan(start, goal)    # 4 x 4 matrices
         plan.solved, plan.poses
+        phongpd.RigidWorld.load("alpha:1.5").plan()
 
     Surfaces need not be closed; what is closed is solid.  For robots that only
     translate take World, which proves where there is no way.
@@ -53,13 +55,65 @@ class RigidWorld:
         """As of RigidJudge."""
         self._native = _native.RigidWorld(
             _meshes(robot, "robot"), _meshes(obstacles, "obstacles"))
+        self._scene: _Loaded | None = None
 
-    def plan(self, start: ArrayLike, goal: ArrayLike, *,
-             bounds: ArrayLike | None = None, time_limit: float = 10.0,
+    @classmethod
+    def load(cls, scene: str | os.PathLike[str]) -> RigidWorld:
+        """Of a scene file whose robot has `turns`, or of a family that `phongpd
+        scenes list` shows: "alpha", "alpha:1.2", "peg:play=0.01".  The scene has
+        start, goal, bounds and time limit, which plan() takes where it is told
+        none."""
+        world = cls.__new__(cls)
+        (world._native, name, unit, ends, bounds, time_limit,
+         warnings) = _native.load_turning(scene_name(scene))
+        start, goal = map(_matrix, ends)
+        world._scene = _Loaded(name, unit, start, goal, bounds, time_limit,
+                               warnings)
+        return world
+
+    @property
+    def start(self) -> Floats | None:
+        """Of the scene it was loaded from, (4, 4); None: of none."""
+        return self._scene.start if self._scene else None
+
+    @property
+    def goal(self) -> Floats | None:
+        return self._scene.goal if self._scene else None
+
+    @property
+    def bounds(self) -> Floats | None:
+        """Of the robot's origin in that scene, (2, 3); None: it has none."""
+        return self._scene.bounds if self._scene else None
+
+    @property
+    def warnings(self) -> list[str]:
+        """About the scene's meshes, such as surfaces that are not closed."""
+        return self._scene.warnings if self._scene else []
+
+    @property
+    def robot(self) -> list[tuple[Floats, NDArray[np.int32]]]:
+        """Its meshes, vertices and triangles each, as they are judged."""
+        return self._native.robot
+
+    @property
+    def obstacles(self) -> list[tuple[Floats, NDArray[np.int32]]]:
+        return self._native.obstacles
+
+    def plan(self, start: ArrayLike | None = None,
+             goal: ArrayLike | None = None, *,
+             bounds: ArrayLike | None = None, time_limit: float | None = None,
              seed: int = 1) -> RigidPlan:
-        """Searches a path between two poses, (4, 4) each.  bounds: (2, 3), of the
-        robot's origin; None: around obstacles, start and goal.  time_limit: in
-        seconds.  The same seed gives the same path unless time runs out."""
+        """Searches a path between two poses, (4, 4) each; None: the scene's where
+        it was loaded.  bounds: (2, 3), of the robot's origin; None: the scene's,
+        or around obstacles, start and goal.  time_limit: in seconds; None: the
+        scene's, or 10.  The same seed gives the same path unless time runs
+        out."""
+        start = self._end(start, self.start, "start")
+        goal = self._end(goal, self.goal, "goal")
+        if bounds is None:
+            bounds = self.bounds
+        if time_limit is None:
+            time_limit = self._scene.time_limit if self._scene else 10.0
         box = np.empty((0, 3)) if bounds is None else \
             numbers(bounds, "bounds", "(2, 3)")
         if bounds is not None and box.shape != (2, 3):
@@ -70,6 +124,27 @@ class RigidWorld:
         return RigidPlan(status, reason, np.array(list(map(_matrix, rows))
                                                   ).reshape(-1, 4, 4),
                          length, planner, seconds)
+
+    @staticmethod
+    def _end(given: ArrayLike | None, of_scene: Floats | None,
+             name: str) -> ArrayLike:
+        if given is not None:
+            return given
+        if of_scene is None:
+            raise InputError(f"{name}: expected a pose, found None, and no scene "
+                             "was loaded that has one")
+        return of_scene
+
+
+@dataclass(frozen=True)
+class _Loaded:
+    name: str
+    unit: str
+    start: Floats
+    goal: Floats
+    bounds: Floats | None
+    time_limit: float
+    warnings: list[str]
 
 
 def _matrix(row: tuple[float, ...]) -> Floats:

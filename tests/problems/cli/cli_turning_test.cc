@@ -68,12 +68,11 @@ TEST_F(CliTurning, TurnsAPlankThroughASlit) {
     const RigidMotion motion(PoseOf(path[i]), PoseOf(path[i + 1]));
     for (int k = 0; k <= 50; ++k) {
       const RobotPose pose = motion.At(k / 50.0);
-      const Solid turned =
-          MakeSolid(Rotated(scene.workspace.robot.mesh(),
-                            pose.orientation.toRotationMatrix()),
-                    "robot");
-      for (const Solid& obstacle : scene.workspace.obstacles) {
-        hits += CollisionOracle(turned, obstacle).Collides(pose.position);
+      const Solid turned = MakeSolid(
+          Rotated(scene.robot, pose.orientation.toRotationMatrix()), "robot");
+      for (const TurningScene::Obstacle& obstacle : scene.obstacles) {
+        const Solid solid = MakeSolid(obstacle.mesh, obstacle.name);
+        hits += CollisionOracle(turned, solid).Collides(pose.position);
       }
     }
   }
