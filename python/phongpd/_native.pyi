@@ -96,12 +96,13 @@ class PenetrationTracker:
     def follow(self, state: TrackerState,
                points: _Floats) -> dict[str, Any]: ...
 
-_Removal = tuple[int, str, str, _Floats, float, float, float, float, float]
+_Removal = tuple[int, str, str, _Floats, list[tuple[float, ...]], _Floats, bool,
+                 float, float, float, float, float]
 
 def remove(part: Solid, rest: Sequence[Solid], tolerance: float,
-           verify: bool) -> _Removal: ...
-def disassemble(parts: Sequence[Solid], tolerance: float, verify: bool
-                ) -> tuple[list[_Removal], list[_Removal]]: ...
+           verify: bool, turn_seconds: float) -> _Removal: ...
+def disassemble(parts: Sequence[Solid], tolerance: float, verify: bool,
+                turn_seconds: float) -> tuple[list[_Removal], list[_Removal]]: ...
 
 class RigidJudge:
     def __init__(self, robot: Sequence[tuple[_Floats, _Ints]],

@@ -121,9 +121,8 @@ class RigidWorld:
         status, reason, rows, length, planner, seconds = self._native.plan(
             np.stack([_pose(start, "start"), _pose(goal, "goal")]), box,
             float(time_limit), seed)
-        return RigidPlan(status, reason, np.array(list(map(_matrix, rows))
-                                                  ).reshape(-1, 4, 4),
-                         length, planner, seconds)
+        return RigidPlan(status, reason, pose_matrices(rows), length, planner,
+                         seconds)
 
     @staticmethod
     def _end(given: ArrayLike | None, of_scene: Floats | None,
@@ -145,6 +144,10 @@ class _Loaded:
     bounds: Floats | None
     time_limit: float
     warnings: list[str]
+
+
+def pose_matrices(rows: list[tuple[float, ...]]) -> Floats:
+    return np.array(list(map(_matrix, rows))).reshape(-1, 4, 4)
 
 
 def _matrix(row: tuple[float, ...]) -> Floats:

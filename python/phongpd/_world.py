@@ -12,7 +12,8 @@ from numpy.typing import ArrayLike, NDArray
 from . import _native
 from ._answers import Diagnosis, Plan, Trajectory
 from ._arguments import Floats, flag, length, motion_end, motion_limits, \
-    places_on_the_way, point, real, rows, scene_name, seconds, text, whole_number
+    places_on_the_way, point, real, rows, scene_name, seconds, text, \
+    whole_number
 from ._contact import ContactSpace
 from ._motion import Motion, motion_of, moving_of
 from ._native import InputError

@@ -89,10 +89,9 @@ void BindRigidPlan(nb::module_& module) {
              new (self) RigidWorld(moving, fixed);
            })
       .def("plan", &PlanPoses)
-      .def_prop_ro("robot",
-                   [](const RigidWorld& world) {
-                     return MeshRows(world.robot());
-                   })
+      .def_prop_ro(
+          "robot",
+          [](const RigidWorld& world) { return MeshRows(world.robot()); })
       .def_prop_ro("obstacles", [](const RigidWorld& world) {
         return MeshRows(world.obstacles());
       });

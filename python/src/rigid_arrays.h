@@ -51,7 +51,8 @@ inline nb::list PoseRows(const std::vector<RobotPose>& poses) {
   for (const RobotPose& pose : poses) {
     const Eigen::Vector3d& p = pose.position;
     const Eigen::Quaterniond& q = pose.orientation;
-    rows.append(nb::make_tuple(p.x(), p.y(), p.z(), q.w(), q.x(), q.y(), q.z()));
+    rows.append(
+        nb::make_tuple(p.x(), p.y(), p.z(), q.w(), q.x(), q.y(), q.z()));
   }
   return rows;
 }
