@@ -197,7 +197,7 @@ double MeshLengthFlag(const std::string& text, const std::string& flag,
     note = unit.empty() ? "; --unit " + named + " says that it is theirs"
                         : "; that is " + unit + ", and nothing is converted";
   }
-  throw InputError(flag + ": expected a length >= 0 as 20 or 20" +
+  throw InputError(flag + ": expected a length as 20 or 20" +
                    (unit.empty() ? "unit" : unit) +
                    ", in the meshes' unit, found '" + text.substr(0, 40) + "'" +
                    note);

@@ -12,10 +12,11 @@ from . import _native
 from ._arguments import Floats, numbers, scene_name
 from ._native import InputError
 from ._rigid import _meshes, _pose
+from ._view import Canvas, Shown
 
 
 @dataclass(frozen=True)
-class RigidPlan:
+class RigidPlan(Shown):
     """A path of poses of a robot that moves and turns, or none."""
 
     status: str
@@ -33,13 +34,31 @@ class RigidPlan:
     planner: str
     """"line", "straight", "slide" or "tow", which found it."""
     seconds: float
+    world: RigidWorld = field(repr=False)
+    """In which it was planned."""
 
     @property
     def solved(self) -> bool:
         return self.status == "solved"
 
+    def to_row(self) -> dict[str, Any]:
+        """Flat, for pandas.DataFrame([one.to_row(), ...])."""
+        return {"status": self.status, "planner": self.planner,
+                "poses": len(self.poses), "length": self.length,
+                "seconds": self.seconds}
 
-class RigidWorld:
+    def _draw(self, canvas: Canvas, name: str | None) -> None:
+        self.world._draw(canvas, None)
+        if len(self.poses):
+            canvas.turned_ends(self.poses[0], self.poses[-1])
+            canvas.turning_way(name or f"{self.planner} · {self.status}",
+                               self.poses, self.solved)
+
+    def _facts(self) -> dict[str, Any]:
+        return {**self.to_row(), "reason": self.reason}
+
+
+class RigidWorld(Shown):
     """A robot that moves and turns among fixed obstacles, and plans of it::
 
         world = phongpd.RigidWorld("part.stl", ["wall.stl", (V, F)])
@@ -122,7 +141,18 @@ class RigidWorld:
             np.stack([_pose(start, "start"), _pose(goal, "goal")]), box,
             float(time_limit), seed)
         return RigidPlan(status, reason, pose_matrices(rows), length, planner,
-                         seconds)
+                         seconds, self)
+
+    def _draw(self, canvas: Canvas, name: str | None) -> None:
+        if not canvas.is_new(self):
+            return
+        if self._scene and self._scene.unit:
+            canvas.unit(self._scene.unit)
+        canvas.robot(_Joined.of(self.robot))
+        for i, mesh in enumerate(self.obstacles):
+            canvas.mesh(f"obstacle {i}", "obstacle", _Joined.of([mesh]))
+        if self._scene:
+            canvas.turned_ends(self._scene.start, self._scene.goal)
 
     @staticmethod
     def _end(given: ArrayLike | None, of_scene: Floats | None,
@@ -133,6 +163,21 @@ class RigidWorld:
             raise InputError(f"{name}: expected a pose, found None, and no scene "
                              "was loaded that has one")
         return of_scene
+
+
+@dataclass(frozen=True)
+class _Joined:
+    """Several meshes as one, to draw."""
+
+    vertices: Floats
+    triangles: NDArray[np.int32]
+
+    @classmethod
+    def of(cls, meshes: list[tuple[Floats, NDArray[np.int32]]]) -> _Joined:
+        first = np.cumsum([0, *(len(vertices) for vertices, _ in meshes)])
+        return cls(np.concatenate([vertices for vertices, _ in meshes]),
+                   np.concatenate([triangles + np.int32(k) for k, (_, triangles)
+                                   in zip(first, meshes)]))
 
 
 @dataclass(frozen=True)

@@ -79,19 +79,18 @@ void ExpectTurnsOut(const Removal& removal, const Solid& part,
 
 TEST(TurningRemoval, TurnsABayonetOut) {
   // Far from the assembly's origin: it turns about its own middle.
-  for (const Vector3d& at : {Vector3d(0, 0, 0), Vector3d(300, -200, 50)}) {
-    const Solid plate = Placed(Plate(), at, "plate");
-    const Solid key = Placed(Key(0.24), at, "key");
-    const Removal held = RemovePart(key, {plate});
-    EXPECT_EQ(held.status, PathStatus::kInfeasibleProved);
-    EXPECT_TRUE(held.needs_turns);
-    RemovalOptions options;
-    options.turn_seconds = 60.0;
-    const Removal out = RemovePart(key, {plate}, options);
-    ExpectTurnsOut(out, key, plate);
-    EXPECT_EQ(out.granted_most, 0.0);
-    EXPECT_GT(out.length, 1.0);
-  }
+  const Vector3d at(300, -200, 50);
+  const Solid plate = Placed(Plate(), at, "plate");
+  const Solid key = Placed(Key(0.24), at, "key");
+  const Removal held = RemovePart(key, {plate});
+  EXPECT_EQ(held.status, PathStatus::kInfeasibleProved);
+  EXPECT_TRUE(held.needs_turns);
+  RemovalOptions options;
+  options.turn_seconds = 60.0;
+  const Removal out = RemovePart(key, {plate}, options);
+  ExpectTurnsOut(out, key, plate);
+  EXPECT_EQ(out.granted_most, 0.0);
+  EXPECT_GT(out.length, 1.0);
 }
 
 TEST(TurningRemoval, GrantsABitThatFillsItsSlotTheTolerance) {
