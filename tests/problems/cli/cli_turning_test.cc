@@ -133,6 +133,10 @@ TEST_F(CliTurning, RefusesWhatOnlyTranslatingRobotsHave) {
 }
 
 TEST_F(CliTurning, FamiliesArePlannedWrittenAndShown) {
+  ExpectRefused("plan alpha:1", {"alpha", "[1.01, 3]", "found 1"});
+  ExpectRefused("plan alpha:play=2", {"alpha", "gap", "'play'"});
+  ExpectRefused("optimize alpha", {"/robot/turns", "phongpd plan"});
+  ExpectRefused("view alpha --build --html v.html", {"--build", "turns"});
   const Json list = Json::parse(Run("scenes list --json").out);
   ASSERT_EQ(list["turning_families"].size(), 8U);
   const std::string words = Run("scenes list").out;
@@ -172,10 +176,6 @@ TEST_F(CliTurning, FamiliesArePlannedWrittenAndShown) {
   EXPECT_EQ(Run("view w.jsonl --html again.html").code, 0);
   EXPECT_EQ(Run("scenes write peg --set play=0.5 --output p.json").code, 0);
   EXPECT_EQ(Run("view p.json --html p.html").code, 0);
-  ExpectRefused("plan alpha:1", {"alpha", "[1.01, 3]", "found 1"});
-  ExpectRefused("plan alpha:play=2", {"alpha", "gap", "'play'"});
-  ExpectRefused("optimize alpha", {"/robot/turns", "phongpd plan"});
-  ExpectRefused("view alpha --build --html v.html", {"--build", "turns"});
 }
 
 // A wall of two triangles has no inside: it is judged, and said to be open.
