@@ -261,7 +261,7 @@ TEST_F(CliWords, OutputsOfAnotherKindAreRefused) {
 // Every flag that is a length, and a command in which it is one.  Refused is
 // what none of them knows, and what is accepted is beside it.
 TEST_F(CliWords, EveryLengthTakesAWordForItsUnit) {
-  WriteText("p.csv", "x,y,z\n0.3,0,0\n");
+  WriteText("p.csv", "x,y,z\n0.3,0,0\n0.4,0,0\n");
   WriteMesh(MakeBox({3, 3, 3}, {4, 4, 4}), File("far.off"));
   const std::map<std::string, std::string> calls = {
       {"depth --max-radius", "depth ../box.off ../cone.off"},
@@ -291,8 +291,9 @@ TEST_F(CliWords, EveryLengthTakesAWordForItsUnit) {
     const std::string flag = name.substr(name.find(' ') + 1);
     const std::string with = call + " " + flag + " ";
     ExpectLine(with + "1furlong", {flag, "length", "1furlong", "unit"});
-    if (name == "motion --smoothing-length") continue;
-    const Outcome taken = Run(with + "0.001unit --json");
+    // Those have answers of their own to wait for, or a path to be free.
+    if (name.rfind("motion", 0) == 0 || name.rfind("retime", 0) == 0) continue;
+    const Outcome taken = Run(with + "0.05unit --json");
     EXPECT_LE(taken.code, 1) << with << taken.err;
   }
   EXPECT_EQ(found, known);
