@@ -12,17 +12,17 @@ namespace phongpd {
 View TurningSceneView(const TurningScene& scene) {
   View view;
   view.title = scene.name;
-  if (!scene.workspace.unit.empty()) view.unit = scene.workspace.unit;
+  if (!scene.unit.empty()) view.unit = scene.unit;
   view.notes = scene.warnings;
-  for (const Solid& obstacle : scene.workspace.obstacles) {
-    view.meshes.push_back({obstacle.name(), ViewRole::kObstacle, obstacle});
+  for (const TurningScene::Obstacle& obstacle : scene.obstacles) {
+    view.meshes.push_back({obstacle.name, ViewRole::kObstacle, obstacle.mesh});
   }
-  view.robot = scene.workspace.robot;
+  view.robot = scene.robot;
   view.start = scene.start.position;
   view.goal = scene.goal.position;
   view.start_turn = scene.start.orientation;
   view.goal_turn = scene.goal.orientation;
-  view.bounds = scene.workspace.bounds;
+  view.bounds = scene.bounds;
   return view;
 }
 

@@ -63,8 +63,8 @@ struct RigidAnswer {
 
 // Plans for a robot that turns.  First the motion straight to the goal; then
 // three bidirectional trees race, taking turns by the work they have done:
-//   straight  grows by straight motions up to the first contact, for worlds
-//             with much room;
+//   straight  grows by straight steps as long as they are free, for worlds with
+//             much room; it has a head start of less than half a second;
 //   slide     grows along contacts (rigid_slide.h), to random poses and to such
 //             as have edges and faces of robot and obstacles parallel;
 //   tow       as slide, but half of its slides pull a corner of the robot to a

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "planners/rigid/object_norm.h"
 
@@ -14,13 +15,14 @@ using Eigen::Vector3d;
 
 // Of the bounds' diagonal: how far a tree grows at once.
 constexpr double kRange = 0.2;
-// Straight motions are cut at their contact to that share.
-constexpr double kStraightTolerance = 0.05;
 // Shares of what slides and tows draw; the rest is anywhere.
 constexpr double kAlignedShare = 0.3, kLocalShare = 0.3;
 // Of aligned poses those at the place of the features.  From there it goes on
 // along the edge, by so many reaches: holes are gone through along theirs.
 constexpr double kPlacedShare = 0.5, kAhead = 3.0;
+// Rounds of passages, and how many are kept that no tree has entered.
+constexpr double kPassageShare = 0.1;
+constexpr std::size_t kMostPassages = 30;
 // Of so many the one between most pairs of opposite walls: directions, told
 // apart by the cosine, in which an obstacle is nearer than that share of the
 // reach.
@@ -52,7 +54,9 @@ TreeSearch::TreeSearch(const RigidModel& model, const TreeTask& task,
     : model_(model),
       task_(task),
       growth_(growth),
-      range_(kRange * task.bounds.diagonal().norm()),
+      range_(growth == TreeGrowth::kStraight
+                 ? model.reach
+                 : kRange * task.bounds.diagonal().norm()),
       random_(seed),
       links_(model.judge, stop),
       slide_(model, &links_),
@@ -61,6 +65,10 @@ TreeSearch::TreeSearch(const RigidModel& model, const TreeTask& task,
 
 bool TreeSearch::Grow() {
   ++rounds_;
+  if (growth_ != TreeGrowth::kStraight && !model_.features.IsEmpty() &&
+      Uniform() < kPassageShare) {
+    return GrowPassage();
+  }
   const int mine = side_, its = 1 - side_;
   side_ = its;
   PoseTree& tree = trees_[static_cast<std::size_t>(mine)];
@@ -84,6 +92,61 @@ bool TreeSearch::Grow() {
   const int meeting = Extend(its, other.Nearest(at), at, false, &met);
   if (met) Join(mine, reached, meeting);
   return met;
+}
+
+bool TreeSearch::GrowPassage() {
+  std::size_t chosen = passages_.size();
+  if (chosen < kMostPassages && (chosen == 0 || Uniform() < 0.5)) {
+    Passage passage = DrawPassage();
+    if (passage.size() < 2) return false;
+    passages_.push_back(std::move(passage));
+  } else {
+    chosen = random_() % chosen;
+  }
+  const int first = Uniform() < 0.5 ? 0 : 1;
+  return Enter(first, chosen) ||
+         (chosen < passages_.size() && Enter(1 - first, chosen));
+}
+
+TreeSearch::Passage TreeSearch::DrawPassage() {
+  const Aim aim = TightAim();
+  if (!aim.is_far || !links_.IsFree(aim.pose, aim.pose)) return {};
+  Passage passage;
+  for (const double sign : {-1.0, 1.0}) {
+    SlidePull pull;
+    pull.to = aim.pose;
+    pull.to.position += sign * kAhead * model_.reach * aim.along;
+    pull.to = Clamped(pull.to);
+    slide_.Slide(aim.pose, pull, &slid_);
+    std::reverse(passage.begin(), passage.end());
+    for (std::size_t i = passage.empty() ? 0 : 1; i < slid_.size(); ++i) {
+      if (!task_.bounds.contains(slid_[i].position)) break;
+      passage.push_back(slid_[i]);
+    }
+  }
+  return passage;
+}
+
+bool TreeSearch::Enter(int side, std::size_t chosen) {
+  PoseTree& tree = trees_[static_cast<std::size_t>(side)];
+  PoseTree& other = trees_[static_cast<std::size_t>(1 - side)];
+  Passage& passage = passages_[chosen];
+  for (int end = 0; end < 2; ++end) {
+    std::reverse(passage.begin(), passage.end());
+    bool met = false;
+    const RobotPose mouth = passage.front();
+    int last = Extend(side, tree.Nearest(mouth), mouth, false, &met);
+    if (!met) continue;
+    for (std::size_t i = 1; i < passage.size(); ++i) {
+      last = tree.Add(passage[i], last);
+    }
+    passages_.erase(passages_.begin() + static_cast<std::ptrdiff_t>(chosen));
+    const RobotPose at = tree.pose(last);
+    const int meeting = Extend(1 - side, other.Nearest(at), at, false, &met);
+    if (met) Join(side, last, meeting);
+    return met;
+  }
+  return false;
 }
 
 TreeSearch::Aim TreeSearch::Draw(int side) {
@@ -204,17 +267,25 @@ int TreeSearch::Extend(int side, int from, const RobotPose& to, bool is_tow,
              : ExtendSliding(side, from, to, is_tow, met);
 }
 
+// By steps of the reach, the first of which that is not free ends it: a long
+// motion that collides costs more than the steps before it does.
 int TreeSearch::ExtendStraight(int side, int from, const RobotPose& to,
                                bool* met) {
   PoseTree& tree = trees_[static_cast<std::size_t>(side)];
   *met = false;
   const RigidMotion motion(tree.pose(from), to);
-  const double share = links_.FreeShare(motion, kStraightTolerance, 0.0);
-  if (share >= 1.0) {
-    *met = true;
-    return tree.Add(to, from);
+  const double length =
+      Difference(motion.start(), motion.end(), model_.gyration).norm();
+  const double steps = std::max(1.0, std::ceil(length / model_.reach));
+  int last = from;
+  for (double k = 1.0; k <= steps; ++k) {
+    // The end bit for bit.
+    const RobotPose next = k < steps ? motion.At(k / steps) : to;
+    if (!links_.IsFree(tree.pose(last), next)) return last;
+    last = tree.Add(next, last);
   }
-  return share > 0.0 ? tree.Add(motion.At(share), from) : from;
+  *met = true;
+  return last;
 }
 
 int TreeSearch::ExtendSliding(int side, int from, const RobotPose& to,

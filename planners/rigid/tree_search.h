@@ -31,6 +31,10 @@ struct TreeTask {
 //     anywhere; or where these lie on each other, the one of some that is
 //     between most walls, and then on along them;
 //   - poses around a node that was drawn seldom.
+//
+// Slides and tows know passages, too: from such a tight pose along its edges
+// both ways, as far as slides get.  Out of a hole there are many ways, into it
+// few; whichever tree reaches one end has all of the passage.
 class TreeSearch {
  public:
   TreeSearch(const RigidModel& model, const TreeTask& task, TreeGrowth growth,
@@ -59,6 +63,15 @@ class TreeSearch {
     bool is_far = false;
     Eigen::Vector3d along = Eigen::Vector3d::Zero();
   };
+
+  // From end to end, through a place between walls; every link free.
+  using Passage = std::vector<RobotPose>;
+
+  // One round of passages: makes one, or takes one of those that there are, and
+  // tries to enter it from either tree; all of it belongs to that tree then.
+  bool GrowPassage();
+  Passage DrawPassage();
+  bool Enter(int side, std::size_t passage);
 
   Aim Draw(int side);
   RobotPose AnyPose();
@@ -91,6 +104,7 @@ class TreeSearch {
   int side_ = 0;
   long rounds_ = 0;
   std::vector<PoseContact> contacts_;
+  std::vector<Passage> passages_;  // entered by none so far
   std::vector<RobotPose> slid_, path_;
 };
 

@@ -15,6 +15,7 @@
 #include "core/solid/shrunk_solid.h"
 #include "core/stopwatch.h"
 #include "planners/solve/plan.h"
+#include "planners/solve/turning_removal.h"
 
 namespace phongpd {
 namespace {
@@ -138,12 +139,38 @@ PathAnswer ShortestWayOut(const World& world, const BoundingBox& part,
   return best;
 }
 
+// The first of those left that comes out is a step; else all are stuck.
+bool TakeOut(const std::vector<Solid>& parts,
+             const std::vector<std::size_t>& left,
+             const RemovalOptions& options, Disassembly* answer) {
+  answer->stuck.clear();
+  for (const std::size_t part : left) {
+    std::vector<Solid> rest;
+    for (const std::size_t i : left) {
+      if (i != part) rest.push_back(parts[i]);
+    }
+    Disassembly::Step step{part, RemovePart(parts[part], rest, options)};
+    if (step.removal.IsOut()) {
+      answer->steps.push_back(std::move(step));
+      answer->stuck.clear();
+      return true;
+    }
+    answer->stuck.push_back(std::move(step));
+  }
+  return false;
+}
+
 }  // namespace
 
 void RemovalOptions::Validate() const {
-  if (std::isfinite(tolerance) && tolerance >= 0.0) return;
-  throw InputError("tolerance: expected a number >= 0, found " +
-                   FormatDouble(tolerance));
+  if (!(std::isfinite(tolerance) && tolerance >= 0.0)) {
+    throw InputError("tolerance: expected a number >= 0, found " +
+                     FormatDouble(tolerance));
+  }
+  if (!(turn_seconds >= 0.0 && turn_seconds <= 1e9)) {
+    throw InputError("turn_seconds: expected seconds in [0, 1e9], found " +
+                     FormatDouble(turn_seconds));
+  }
 }
 
 Removal RemovePart(const Solid& part, const std::vector<Solid>& rest,
@@ -174,6 +201,11 @@ Removal RemovePart(const Solid& part, const std::vector<Solid>& rest,
   removal.path = std::move(answer.path);
   removal.length = answer.length;
   removal.clearance = answer.clearance;
+  removal.needs_turns = answer.status == PathStatus::kInfeasibleProved;
+  if (removal.needs_turns && options.turn_seconds > 0.0) {
+    internal::RemoveByTurning(workspace.robot, rest, options.turn_seconds,
+                              &removal);
+  }
   removal.seconds = stopwatch.Seconds();
   return removal;
 }
@@ -194,21 +226,15 @@ Disassembly Disassemble(const std::vector<Solid>& parts,
   Disassembly answer;
   std::vector<std::size_t> left(parts.size());
   for (std::size_t i = 0; i < left.size(); ++i) left[i] = i;
+  // Turns cost their time in vain where another part comes out without.
+  RemovalOptions quick = options;
+  quick.turn_seconds = 0.0;
   while (left.size() > 1) {
-    answer.stuck.clear();
-    bool is_any_out = false;
-    for (std::size_t k = 0; k < left.size() && !is_any_out; ++k) {
-      std::vector<Solid> rest;
-      for (const std::size_t i : left) {
-        if (i != left[k]) rest.push_back(parts[i]);
-      }
-      Disassembly::Step step{left[k],
-                             RemovePart(parts[left[k]], rest, options)};
-      is_any_out = step.removal.IsOut();
-      (is_any_out ? answer.steps : answer.stuck).push_back(std::move(step));
+    bool is_any_out = TakeOut(parts, left, quick, &answer);
+    if (!is_any_out && options.turn_seconds > 0.0) {
+      is_any_out = TakeOut(parts, left, options, &answer);
     }
     if (!is_any_out) break;
-    answer.stuck.clear();
     left.erase(std::find(left.begin(), left.end(), answer.steps.back().part));
   }
   answer.seconds = stopwatch.Seconds();

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <Eigen/Core>
 #include <cstddef>
 #include <string>
 #include <vector>
 
+#include "core/contact/depth.h"
 #include "core/solid/solid.h"
 #include "planners/solve/path_answer.h"
 
@@ -17,6 +19,10 @@ struct RemovalOptions {
   // (shrunk_solid.h); 0: the part as it is.
   double tolerance = 0.0;
   bool verifies = true;  // on the solids as well (verification.h)
+  // Where no translation takes a part out, proved: for so many seconds, in
+  // [0, 1e9], a way is looked for on which it turns as well (rigid_plan.h);
+  // 0: it is not.
+  double turn_seconds = 0.0;
 
   // Throws InputError naming the field.
   void Validate() const;
@@ -25,13 +31,26 @@ struct RemovalOptions {
 // How one part comes out of the others.
 struct Removal {
   // kSolved: out, its box apart from theirs.  kInfeasibleProved: no translation
-  // leads there.  kStartInCollision: it is not free as it lies, within the
-  // tolerance.  kVerificationFailed, kFailed: a fault of ours, or no answer.
+  // leads there, and turns were not asked for.  kTimeLimit: none does, proved,
+  // and no way with turns was found in time, which proves nothing of these.
+  // kStartInCollision: it is not free as it lies, within the tolerance, or too
+  // close to others for turns to be judged.  kVerificationFailed,
+  // kNotCertified, kFailed: a fault of ours, or no answer.
   PathStatus status = PathStatus::kFailed;
-  std::string reason;      // one sentence unless it is out
-  Path path;               // of the part, from (0, 0, 0)
-  double length = 0.0;     // user's unit
-  double clearance = 0.0;  // of all of the path, as it was planned for
+  std::string reason;  // one sentence unless it is out
+  // By translation: of the part, from (0, 0, 0).  Empty where it turns.
+  Path path;
+  // With turns: the part's point p is at R (p − pivot) + q, with q and R of a
+  // pose, first where it lies; from pose to pose it moves by RigidMotion about
+  // the pivot, the middle of its box.  Every such motion is free for all t,
+  // proved twice, of the vertices p − pivot as rounded.
+  std::vector<RobotPose> poses;
+  Eigen::Vector3d pivot = Eigen::Vector3d::Zero();
+  // No translation takes it out, proved.
+  bool needs_turns = false;
+  double length = 0.0;  // user's unit; with turns in the object norm
+  // Of all of the path, as it was planned for; with turns none is told: 0.
+  double clearance = 0.0;
   // What was granted: every face of the part lies at least `granted_least`
   // below where it was drawn, and no vertex more than `granted_most` from
   // there; 0: nothing.
@@ -43,7 +62,8 @@ struct Removal {
 
 // The way out of a part by translation alone: complete, so that without one
 // there is a proof (kInfeasibleProved).  It ends beside the box of the rest, on
-// the side that is nearest.
+// the side that is nearest.  What turns take out, a bayonet or a hook, is
+// looked for after that proof, if it is asked for.
 //
 //   Removal out = RemovePart(pin, {housing, lid}, {0.01});
 //
@@ -68,11 +88,13 @@ struct Disassembly {
   // Every part that is left is proved to be held by the others of them: no
   // order of single parts by translation does better.  (What is taken away
   // only gives room: trying whichever part comes out first loses nothing.)
+  // Where turns were looked for in vain it is not.
   bool IsProved() const;
 };
 
-// An order in which all parts come out one by one.  Throws like RemovePart,
-// and for fewer than two parts.
+// An order in which all parts come out one by one; turns are looked for, part
+// by part, only when no part is left that comes out without.  Throws like
+// RemovePart, and for fewer than two parts.
 Disassembly Disassemble(const std::vector<Solid>& parts,
                         const RemovalOptions& options = {});
 

@@ -163,6 +163,46 @@ Length LengthFlag(const std::string& text, const std::string& flag,
   return length;
 }
 
+void AddMeshUnit(CLI::App* app, std::string* unit) {
+  app->add_option("--unit", *unit,
+                  "What the meshes' unit is called: lengths may say it then, "
+                  "20mm, and others are refused; nothing is converted")
+      ->check(CLI::IsMember(UnitNames()))
+      ->type_name("NAME");
+}
+
+std::string WithoutUnitName(const std::string& text, const std::string& unit) {
+  if (unit.empty() || UnitNamedIn(text) != unit) return text;
+  return text.substr(0, text.size() - unit.size()) + "unit";
+}
+
+double MeshLengthFlag(const std::string& text, const std::string& flag,
+                      const std::string& unit) {
+  const std::string named = UnitNamedIn(text), word = "unit";
+  std::string number = WithoutUnitName(text, unit);
+  if (number.size() > word.size() &&
+      number.compare(number.size() - word.size(), word.size(), word) == 0) {
+    number.resize(number.size() - word.size());
+    number.resize(number.find_last_not_of(' ') + 1);
+  }
+  double length = -1.0;
+  try {
+    length = ParseDouble(number, flag);
+  } catch (const InputError&) {
+    // Below: what a length is, not what a number is.
+  }
+  if (length >= 0.0) return std::abs(length);
+  std::string note;
+  if (!named.empty() && named != unit) {
+    note = unit.empty() ? "; --unit " + named + " says that it is theirs"
+                        : "; that is " + unit + ", and nothing is converted";
+  }
+  throw InputError(flag + ": expected a length as 20 or 20" +
+                   (unit.empty() ? "unit" : unit) +
+                   ", in the meshes' unit, found '" + text.substr(0, 40) + "'" +
+                   note);
+}
+
 void AddNoCache(CLI::App* app, bool* no_cache) {
   app->add_flag("--no-cache", *no_cache,
                 "Build anew, and do not keep the contact space for the next "

@@ -102,6 +102,18 @@ void TellAboutSpaces(const World& world, std::size_t triangles);
 Length LengthFlag(const std::string& text, const std::string& flag,
                   LengthRange range, const Scene* scene = nullptr);
 
+// Declares --unit, what the unit of meshes is called.
+void AddMeshUnit(CLI::App* app, std::string* unit);
+
+// Reads a flag that is a length among meshes, which have no D: 20 or 20unit,
+// and 20mm where --unit says so.  Throws InputError naming the flag for what is
+// none or negative.
+double MeshLengthFlag(const std::string& text, const std::string& flag,
+                      const std::string& unit);
+
+// "20unit" of "20mm", where --unit says mm; all else as it is.
+std::string WithoutUnitName(const std::string& text, const std::string& unit);
+
 // Declares --no-cache, and the cache it leaves: the user's own, or none.
 void AddNoCache(CLI::App* app, bool* no_cache);
 ContactSpaceCache UserCache(bool no_cache);

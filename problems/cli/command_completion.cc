@@ -8,7 +8,7 @@
 #include "problems/cli/command.h"
 #include "problems/cli/command_tree.h"
 #include "problems/cli/completion.h"
-#include "problems/scenes/scene_library.h"
+#include "problems/scenes/turning_families.h"
 
 namespace phongpd::cli {
 namespace {
@@ -95,11 +95,7 @@ const std::map<std::string, const char*>& Scripts() {
 
 int PrintOffers(const CLI::App& program,
                 const std::vector<std::string>& words) {
-  std::vector<std::string> families;
-  for (const SceneFamily& family : SceneFamilies()) {
-    families.push_back(family.name);
-  }
-  const Offers offers = OffersFor(TreeOf(program), families, words);
+  const Offers offers = OffersFor(TreeOf(program), SceneFamilyNames(), words);
   for (const Offer& offer : offers.words) {
     std::cout << offer.word << (offer.help.empty() ? "" : "\t") << offer.help
               << '\n';

@@ -37,6 +37,7 @@ struct DepthFlags {
   std::string output = kStandardOutput;
   std::string html;
   std::string max_radius;
+  std::string unit;
   std::string metric;
   std::string smoothing_length;
   std::string repair = "reject";
@@ -172,7 +173,8 @@ DepthOptions DepthOptionsOf(const DepthFlags& flags) {
   options.obstacle_name = flags.b;
   options.max_seconds = flags.max_seconds;
   if (!flags.max_radius.empty()) {
-    options.max_radius = ParseDouble(flags.max_radius, "--max-radius");
+    options.max_radius =
+        MeshLengthFlag(flags.max_radius, "--max-radius", flags.unit);
     if (!(options.max_radius > 0.0)) {
       throw InputError("--max-radius: expected a length > 0, found " +
                        flags.max_radius);
@@ -209,7 +211,9 @@ class DepthText {
       const MetricKind metric = flags.metric.empty()
                                     ? MetricKind::kPhong
                                     : ParseMetricKind(flags.metric, "--metric");
-      beside_.emplace(metric, flags.smoothing_length, a, b, limits);
+      beside_.emplace(metric,
+                      WithoutUnitName(flags.smoothing_length, flags.unit), a, b,
+                      limits);
     }
     if (is_table_) {
       text_ = std::string(kDepthHeader) + (beside_ ? beside_->Columns() : "") +
@@ -246,6 +250,7 @@ class DepthText {
 void WriteDepthPage(const DepthFlags& flags, const TriangleMesh& a,
                     const TriangleMesh& b, View* view, OutputFiles* outputs) {
   view->title = flags.a + " in " + flags.b;
+  if (!flags.unit.empty()) view->unit = flags.unit;
   view->robot = a;
   view->meshes.push_back({flags.b, ViewRole::kObstacle, b});
   TellOfDepthWindows(false, view);
@@ -327,9 +332,10 @@ Command AddDepth(CLI::App* app) {
                   "(share of its diagonal D, or 0.5unit)")
       ->type_name("LENGTH");
   app->add_option("--max-radius", flags->max_radius,
-                  "Look no farther than this; what is deeper comes as a bound, "
-                  "with exit code 1")
+                  "Look no farther than this, in the meshes' unit; what is "
+                  "deeper comes as a bound, with exit code 1")
       ->type_name("LENGTH");
+  AddMeshUnit(app, &flags->unit);
   app->add_option("--max-seconds", flags->max_seconds,
                   "Look no farther after this time for one pose (0: no limit); "
                   "PhongPD that takes longer is refused")

@@ -14,6 +14,8 @@
 #include "problems/output/text.h"
 #include "problems/scenes/scene.h"
 #include "problems/scenes/scene_library.h"
+#include "problems/scenes/turning_families.h"
+#include "problems/scenes/turning_scene.h"
 
 namespace phongpd::cli {
 namespace {
@@ -45,26 +47,39 @@ Json KnobsJson(const std::vector<SceneKnob>& knobs) {
   return list;
 }
 
-int ListAsJson() {
-  Json families = Json::array();
-  for (const SceneFamily& family : SceneFamilies()) {
-    families.push_back({{"name", family.name},
-                        {"summary", family.summary},
-                        {"knobs", KnobsJson(family.knobs)}});
+Json FamiliesJson(const std::vector<SceneFamily>& families) {
+  Json list = Json::array();
+  for (const SceneFamily& family : families) {
+    list.push_back({{"name", family.name},
+                    {"summary", family.summary},
+                    {"knobs", KnobsJson(family.knobs)}});
   }
-  const Json list = {{"families", families},
-                     {"common_knobs", KnobsJson(CommonSceneKnobs())}};
+  return list;
+}
+
+int ListAsJson() {
+  const Json list = {
+      {"families", FamiliesJson(SceneFamilies())},
+      {"common_knobs", KnobsJson(CommonSceneKnobs())},
+      {"turning_families", FamiliesJson(TurningSceneFamilies())}};
   std::cout << JsonText(list, 2) << '\n';
   return kDone;
 }
 
-int List() {
-  for (const SceneFamily& family : SceneFamilies()) {
+void ListFamilies(const std::vector<SceneFamily>& families) {
+  for (const SceneFamily& family : families) {
     std::cout << family.name << ": " << family.summary << '\n';
     ListKnobs(family.knobs);
   }
-  std::cout << "Every scene has these knobs too:\n";
+}
+
+int List() {
+  ListFamilies(SceneFamilies());
+  std::cout << "Every scene above has these knobs too:\n";
   ListKnobs(CommonSceneKnobs());
+  std::cout << "Scenes of a robot that turns, for plan and view, each with one "
+               "knob, as alpha:1.2:\n";
+  ListFamilies(TurningSceneFamilies());
   return kDone;
 }
 
@@ -81,21 +96,44 @@ std::map<std::string, double> Knobs(const std::vector<std::string>& settings) {
   return knobs;
 }
 
+// A scene as it is written, and what of its solids is told and written.
+struct WrittenScene {
+  std::string text;
+  TriangleMesh robot, obstacle;  // all obstacles in one
+  std::string skipped;
+};
+
+WrittenScene MakeWritten(const ScenesFlags& flags) {
+  const std::map<std::string, double> knobs = Knobs(flags.settings);
+  const std::string name = "scene " + flags.name;
+  WrittenScene written;
+  // Built in any case: a scene whose solids cannot be made is bad input.
+  if (IsTurningFamily(flags.name)) {
+    const Json json = MakeTurningScene(flags.name, knobs);
+    const TurningScene scene = ParseTurningScene(json, name);
+    written.text = JsonText(json, 2) + '\n';
+    written.robot = scene.robot;
+    for (const TurningScene::Obstacle& one : scene.obstacles) {
+      written.obstacle = Joined(written.obstacle, one.mesh);
+    }
+    return written;
+  }
+  const Json json = MakeScene(flags.name, knobs);
+  const Scene scene = ParseScene(json, name);
+  written.text = JsonText(json, 2) + '\n';
+  written.robot = scene.workspace.robot;
+  written.obstacle = JoinedObstacle(scene.workspace);
+  written.skipped = SkippedObstaclesNote(scene);
+  return written;
+}
+
 int Write(const ScenesFlags& flags) {
   // With neither a file nor a folder the scene goes to standard output.
   const bool is_asked = !flags.output.empty() || flags.meshes.empty();
   const std::string target = is_asked ? AnswerTarget(flags.output) : "";
-  std::string text;
-  Scene scene;
-  {
-    // Gone before anything is written: to destroy it takes memory.
-    const Json json = MakeScene(flags.name, Knobs(flags.settings));
-    // Built in any case: a scene whose solids cannot be made is bad input.
-    scene = ParseScene(json, "scene " + flags.name);
-    text = JsonText(json, 2) + '\n';
-  }
-  const TriangleMesh obstacle = JoinedObstacle(scene.workspace);
-
+  // The parsed scene is gone before anything is written: to destroy it takes
+  // memory.
+  const WrittenScene written = MakeWritten(flags);
   OutputFiles outputs;
   DeclareIfNamed(&outputs, target, "--output", {".json", ".jsonc"});
   if (flags.json) RequireFreeStandardOutput(outputs);
@@ -105,23 +143,23 @@ int Write(const ScenesFlags& flags) {
   };
   if (!flags.meshes.empty()) {
     outputs.MakeDirectory(flags.meshes);
-    write(scene.workspace.robot, flags.meshes + "/robot.off");
-    write(obstacle, flags.meshes + "/obstacle.off");
+    write(written.robot, flags.meshes + "/robot.off");
+    write(written.obstacle, flags.meshes + "/obstacle.off");
   }
-  if (is_asked) outputs.Write(target, text);
-  const std::size_t robot = scene.workspace.robot.mesh().triangles.size();
-  const std::string skipped = SkippedObstaclesNote(scene);
+  if (is_asked) outputs.Write(target, written.text);
+  const std::size_t robot = written.robot.triangles.size();
+  const std::size_t obstacle = written.obstacle.triangles.size();
+  const std::string& skipped = written.skipped;
   const Json told = {{"scene", flags.name},
                      {"robot_triangles", robot},
-                     {"obstacle_triangles", obstacle.triangles.size()},
+                     {"obstacle_triangles", obstacle},
                      {"note", skipped}};
-  CommitAndTell(&outputs,
-                flags.json
-                    ? JsonText(told) + '\n'
-                    : flags.name + ": robot " + std::to_string(robot) +
-                          ", obstacle " +
-                          Counted(obstacle.triangles.size(), "triangle") +
-                          '\n' + skipped + (skipped.empty() ? "" : "\n"));
+  CommitAndTell(&outputs, flags.json
+                              ? JsonText(told) + '\n'
+                              : flags.name + ": robot " +
+                                    std::to_string(robot) + ", obstacle " +
+                                    Counted(obstacle, "triangle") + '\n' +
+                                    skipped + (skipped.empty() ? "" : "\n"));
   return kDone;
 }
 
@@ -157,7 +195,9 @@ Command AddScenes(CLI::App* app) {
   AddExamples(app, {"phongpd scenes list",
                     "phongpd scenes write tunnel --set delta=0.01 --output "
                     "tunnel.json",
-                    "phongpd scenes write ball_wrench --meshes wrench"});
+                    "phongpd scenes write ball_wrench --meshes wrench",
+                    "phongpd scenes write alpha --set gap=1.2 --output "
+                    "alpha.json"});
   AddExamples(list, {"phongpd scenes list",
                      "phongpd scenes list --json | jq '.families[].name'"});
   AddExamples(write, {"phongpd scenes write tunnel --set delta=0.01 > t.json",

@@ -49,11 +49,7 @@ int AnswerRigidPlan(const SeededRunFlags& flags, const SceneSource& source) {
                   "positions and, by the radius of gyration, of turns)",
                   Summarize);
   for (const std::string& warning : scene.warnings) Warn(warning);
-  std::vector<TriangleMesh> obstacles;
-  for (const Solid& solid : scene.workspace.obstacles) {
-    obstacles.push_back(solid);
-  }
-  const RigidWorld world({scene.workspace.robot.mesh()}, obstacles);
+  const RigidWorld world = RigidWorldOf(scene);
   for (int i = runs.kept(); i < flags.runs; ++i) {
     request.seed = flags.seed + static_cast<std::uint64_t>(i);
     Progress("run " + std::to_string(i + 1) + " of " +

@@ -22,8 +22,9 @@
 #include "problems/cli/view_windows.h"
 #include "problems/meshes/any_mesh.h"
 #include "problems/meshes/operand_notes.h"
-#include "problems/scenes/scene_library.h"
+#include "problems/scenes/turning_families.h"
 #include "problems/studies/motion.h"
+#include "viewer/rigid_view.h"
 #include "viewer/scene_view.h"
 
 namespace phongpd::cli {
@@ -57,9 +58,8 @@ bool IsMesh(const std::string& path) {
 
 bool IsFamily(const std::string& thing) {
   const std::string name = thing.substr(0, thing.find(':'));
-  const std::vector<SceneFamily>& families = SceneFamilies();
-  return std::any_of(families.begin(), families.end(),
-                     [&](const SceneFamily& f) { return f.name == name; });
+  const std::vector<std::string> families = SceneFamilyNames();
+  return std::find(families.begin(), families.end(), name) != families.end();
 }
 
 // Collects things into a view.
@@ -70,7 +70,7 @@ class Collector {
 
   void Take(const std::string& thing) {
     if (IsFamily(thing) && !std::filesystem::exists(thing)) {
-      return TakeScene(SceneSource(thing, request_.root, repair_).Load());
+      return TakeSource(SceneSource(thing, request_.root, repair_));
     }
     const std::string extension = Extension(thing);
     if (IsMesh(thing)) return TakeMesh(thing);
@@ -163,6 +163,20 @@ class Collector {
         {std::filesystem::path(path).filename().string(), role, Mesh(path)});
   }
 
+  void TakeSource(const SceneSource& source) {
+    if (source.turns()) return TakeTurning(source.LoadTurning());
+    TakeScene(source.Load());
+  }
+
+  // It has no contact space to build.
+  void TakeTurning(const TurningScene& scene) {
+    if (request_.build) {
+      throw InputError("--build: expected a robot that translates, found " +
+                       scene.name + ", of one that turns");
+    }
+    TakeSceneView(scene.name, TurningSceneView(scene));
+  }
+
   void TakeScene(const Scene& scene) {
     TakeSceneView(scene.name, SceneView(scene));
     stage_ = scene;
@@ -179,6 +193,8 @@ class Collector {
     view_.robot = view.robot;
     view_.start = view.start;
     view_.goal = view.goal;
+    view_.start_turn = view.start_turn;
+    view_.goal_turn = view.goal_turn;
     view_.bounds = view.bounds;
     view_.length = view.length;
     Append(&view_.meshes, std::move(view.meshes));
@@ -225,6 +241,10 @@ class Collector {
       }
       if (!whole.is_object() || !whole.contains("robot")) {
         FailUnknown(file, "JSON without robot, path or on_a");
+      }
+      if (HasTurningRobot(whole)) {
+        return TakeTurning(
+            ParseTurningSceneFile(content, file, request_.root, repair_));
       }
       return TakeScene(ParseSceneFile(content, file, request_.root, repair_));
     }
@@ -283,6 +303,7 @@ class Collector {
       // Seeds of planners draw no scene.
       const bool draws = seed > 0 && !row.contains("planner");
       const SceneSource source(scene, request_.root);
+      if (source.turns()) return TakeSource(source);
       return TakeScene(draws ? source.Load(seed) : source.Load());
     }
     scene_ = scene;

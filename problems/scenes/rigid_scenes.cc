@@ -258,28 +258,28 @@ struct Recipe {
 
 const std::vector<Recipe>& Recipes() {
   static const std::vector<Recipe> recipes = {
-      {{"window", "a small L through a window; easy", "side of the window", 4,
-        2.5, 10},
+      {{"window", "a small L through a window; easy", "side",
+        "side of the window", 4, 2.5, 10},
        Window},
-      {{"piano", "a piano by two doors, with a turn in the hall",
+      {{"piano", "a piano by two doors, with a turn in the hall", "play",
         "play on each side in a door", 0.1, 0.001, 0.25},
        Piano},
       {{"peg", "a square peg through a square hole, across at both ends",
-        "hole less peg", 0.1, 1e-5, 3},
+        "play", "hole less peg", 0.1, 1e-5, 3},
        Peg},
-      {{"ell", "an L through a square hole, turning about its edge",
+      {{"ell", "an L through a square hole, turning about its edge", "hole",
         "side of the hole; the L is 1 thick", 2.2, 1.1, 5},
        Ell},
-      {{"lock", "a key through two slots, with a quarter turn between",
+      {{"lock", "a key through two slots, with a quarter turn between", "play",
         "play on each side of the bit", 0.05, 1e-4, 0.09},
        Lock},
-      {{"bugtrap", "a rod out of a box by a tunnel that leads inwards",
+      {{"rod_trap", "a rod out of a box by a tunnel that leads inwards", "play",
         "play on each side in the tunnel", 0.1, 0.001, 0.5},
        BugTrap},
-      {{"flange", "a ring along a bent tube and off",
+      {{"flange", "a ring along a bent tube and off", "play",
         "play, share of the tube's radius", 0.15, 0.01, 1},
        Flange},
-      {{"alpha", "two tubes in the form of an alpha, to be parted",
+      {{"alpha", "two tubes in the form of an alpha, to be parted", "gap",
         "gap where a tube crosses itself, over its thickness", 1.5, 1.01, 3},
        Alpha}};
   return recipes;
@@ -298,7 +298,8 @@ const std::vector<RigidSceneFamily>& RigidSceneFamilies() {
 
 RigidScene MakeRigidScene(const std::string& name) {
   const std::size_t colon = std::min(name.find(':'), name.size());
-  const std::string family = name.substr(0, colon);
+  std::string family = name.substr(0, colon);
+  if (family == "bugtrap") family = "rod_trap";
   std::vector<std::string> names;
   for (const Recipe& recipe : Recipes()) {
     const RigidSceneFamily& f = recipe.family;

@@ -9,12 +9,13 @@
 
 // Problems for a robot that turns, after those of the field, made here: solids,
 // closed, with a knob for how tight they are.  Nothing is read, nothing of
-// others is shipped.
+// others is shipped.  Commands take them as scenes (turning_families.h).
 namespace phongpd {
 
 struct RigidSceneFamily {
   std::string name;
   std::string summary;
+  std::string key;              // of its one knob, a word
   std::string knob;             // what the number says
   double value = 0.0;           // of the knob, default
   double min = 0.0, max = 0.0;  // of the knob
@@ -38,8 +39,9 @@ struct RigidScene {
   std::vector<RobotPose> witness;
 };
 
-// By "FAMILY" or "FAMILY:VALUE".  Throws InputError for an unknown family and a
-// value that is no number or out of the family's range.
+// By "FAMILY" or "FAMILY:VALUE"; "bugtrap" is an older name of rod_trap. Throws
+// InputError for an unknown family and a value that is no number or out of the
+// family's range.
 RigidScene MakeRigidScene(const std::string& name);
 
 }  // namespace phongpd

@@ -24,11 +24,7 @@ std::vector<Solid> Obstacles(const Json& value, const JsonPlace& place,
   std::vector<Solid> obstacles;
   for (std::size_t i = 0; i < value.size(); ++i) {
     const JsonPlace here = place.Child(i);
-    const std::string id = value[i].value("id", "obstacle" + std::to_string(i));
-    if (!ids.insert(id).second) {
-      here.Child("id").Fail("an id of its own",
-                            Shortened(Json(id)) + " a second time");
-    }
+    const std::string id = ObstacleId(value[i], i, here, &ids);
     obstacles.push_back(SolidAt(value[i], here, folder, warnings).Named(id));
   }
   return obstacles;

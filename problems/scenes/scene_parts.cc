@@ -10,6 +10,7 @@
 
 #include "core/bounds/mesh_repair.h"
 #include "core/mesh/mesh_error.h"
+#include "core/mesh/mesh_range.h"
 #include "core/pi.h"
 #include "planners/world/bare_length.h"
 #include "problems/meshes/any_mesh.h"
@@ -47,6 +48,60 @@ std::string MeshPath(const Json& value, const JsonPlace& place,
   return (fs::path(folder.root) / *below).string() + part;
 }
 
+// What is written of a solid, in its place; steps that a scene leaves out do no
+// arithmetic.
+struct PlacedMesh {
+  std::string name;
+  TriangleMesh mesh;
+};
+
+PlacedMesh MeshAt(const Json& value, const JsonPlace& place,
+                  const MeshFolder& folder,
+                  std::vector<std::string>* warnings) {
+  PlacedMesh placed;
+  std::string& name = placed.name;
+  TriangleMesh& mesh = placed.mesh;
+  if (value.contains("shape")) {
+    name = place.Child("shape").Text();
+    mesh = MakeShape(value["shape"], name);
+  } else {
+    const JsonPlace mesh_place = place.Child("mesh");
+    name = mesh_place.Text();
+    const std::string path = MeshPath(value["mesh"], mesh_place, folder);
+    try {
+      mesh = ReadAnyMesh(path, warnings, folder.root);
+    } catch (const InputError& error) {
+      throw InputError(name + ": expected a mesh file, found " + error.what());
+    }
+    name += ": " + Shortened(value["mesh"]);
+  }
+  if (value.contains("rotation")) {
+    mesh = Rotated(std::move(mesh),
+                   RotationAt(value["rotation"], place.Child("rotation")));
+  }
+  if (value.contains("scale")) {
+    mesh = Scaled(std::move(mesh), value["scale"].get<double>());
+  }
+  if (value.contains("position")) {
+    mesh = Translated(std::move(mesh), PointAt(value["position"]));
+  }
+  return placed;
+}
+
+Solid SolidOf(const PlacedMesh& placed, Repair repair,
+              std::vector<std::string>* warnings) {
+  MeshReport report;
+  RepairReport repaired;
+  const Solid solid = RepairSolid(placed.mesh, placed.name, repair,
+                                  kRepairAlpha, &report, &repaired);
+  for (const auto* lines : {&repaired.actions, &report.warnings}) {
+    for (const std::string& line : *lines) {
+      warnings->push_back(placed.name + ": " + line);
+    }
+  }
+  return solid;
+}
+
 }  // namespace
 
 Vector3d PointAt(const Json& value) {
@@ -78,45 +133,38 @@ Matrix3d RotationAt(const Json& value, const JsonPlace& place) {
   return rotation;
 }
 
-// A `solid` of the schema.  Steps that a scene leaves out do no arithmetic.
 Solid SolidAt(const Json& value, const JsonPlace& place,
               const MeshFolder& folder, std::vector<std::string>* warnings) {
-  TriangleMesh mesh;
-  std::string name;
-  if (value.contains("shape")) {
-    name = place.Child("shape").Text();
-    mesh = MakeShape(value["shape"], name);
-  } else {
-    const JsonPlace mesh_place = place.Child("mesh");
-    name = mesh_place.Text();
-    const std::string path = MeshPath(value["mesh"], mesh_place, folder);
-    try {
-      mesh = ReadAnyMesh(path, warnings, folder.root);
-    } catch (const InputError& error) {
-      throw InputError(name + ": expected a mesh file, found " + error.what());
-    }
-    name += ": " + Shortened(value["mesh"]);
+  return SolidOf(MeshAt(value, place, folder, warnings),
+                 RepairOf(value, folder), warnings);
+}
+
+TriangleMesh SurfaceAt(const Json& value, const JsonPlace& place,
+                       const MeshFolder& folder,
+                       std::vector<std::string>* warnings) {
+  PlacedMesh placed = MeshAt(value, place, folder, warnings);
+  const Repair repair = RepairOf(value, folder);
+  if (repair != Repair::kReject) return SolidOf(placed, repair, warnings);
+  // What is no surface either: the judge has no names.
+  RequireInRange(placed.mesh, placed.name);
+  try {
+    return SolidOf(placed, repair, warnings);
+  } catch (const InputError& error) {
+    warnings->push_back(std::string(error.what()) +
+                        "; its triangles are judged as they are, and have an "
+                        "inside only if they are closed");
+    return std::move(placed.mesh);
   }
-  if (value.contains("rotation")) {
-    mesh = Rotated(std::move(mesh),
-                   RotationAt(value["rotation"], place.Child("rotation")));
+}
+
+std::string ObstacleId(const Json& value, std::size_t i, const JsonPlace& place,
+                       std::set<std::string>* ids) {
+  const std::string id = value.value("id", "obstacle" + std::to_string(i));
+  if (!ids->insert(id).second) {
+    place.Child("id").Fail("an id of its own",
+                           Shortened(Json(id)) + " a second time");
   }
-  if (value.contains("scale")) {
-    mesh = Scaled(std::move(mesh), value["scale"].get<double>());
-  }
-  if (value.contains("position")) {
-    mesh = Translated(std::move(mesh), PointAt(value["position"]));
-  }
-  MeshReport report;
-  RepairReport repaired;
-  const Solid solid = RepairSolid(mesh, name, RepairOf(value, folder),
-                                  kRepairAlpha, &report, &repaired);
-  for (const auto* lines : {&repaired.actions, &report.warnings}) {
-    for (const std::string& line : *lines) {
-      warnings->push_back(name + ": " + line);
-    }
-  }
-  return solid;
+  return id;
 }
 
 // Pieces as they are written of a motion in time.

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <nlohmann/json_fwd.hpp>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -31,6 +32,17 @@ Eigen::Matrix3d RotationAt(const nlohmann::ordered_json& value,
 // A `solid` of the schema.  Steps that a scene leaves out do no arithmetic.
 Solid SolidAt(const nlohmann::ordered_json& value, const JsonPlace& place,
               const MeshFolder& folder, std::vector<std::string>* warnings);
+
+// The same of what RigidJudge takes, a surface: the solid where it is one, else
+// the triangles as they are, which a warning tells with the defect.  A repair
+// that is asked for has to succeed.
+TriangleMesh SurfaceAt(const nlohmann::ordered_json& value,
+                       const JsonPlace& place, const MeshFolder& folder,
+                       std::vector<std::string>* warnings);
+
+// The id of obstacle `i`, one that none of *ids is; adds it.
+std::string ObstacleId(const nlohmann::ordered_json& value, std::size_t i,
+                       const JsonPlace& place, std::set<std::string>* ids);
 
 // Pieces as they are written of a motion in time.
 Trajectory MotionAt(const nlohmann::ordered_json& value,

@@ -72,6 +72,24 @@ class Parameters {
     return points;
   }
 
+  // Three each, of so many vertices.
+  std::vector<Triangle> Corners(const char* key, std::size_t vertices) const {
+    std::vector<Triangle> triangles;
+    for (const Eigen::Vector3d& numbers : Points(key)) {
+      Triangle triangle;
+      for (std::size_t k = 0; k < 3; ++k) {
+        const double number = numbers[static_cast<Eigen::Index>(k)];
+        if (!(number >= 0.0 && number < static_cast<double>(vertices)) ||
+            number != std::floor(number)) {
+          Fail(key, "expected numbers of vertices, from 0 on", shape_[key]);
+        }
+        triangle[k] = static_cast<int>(number);
+      }
+      triangles.push_back(triangle);
+    }
+    return triangles;
+  }
+
   std::vector<double> Numbers(const char* key) const {
     const Json& value = shape_[key];
     std::vector<double> numbers;
@@ -182,6 +200,13 @@ TriangleMesh MakeUprightTube(const Parameters& p) {
   return MakeTube(p.Points("path"), p.Length("radius"), p.Count("sides"));
 }
 
+TriangleMesh MakeOfTriangles(const Parameters& p) {
+  TriangleMesh mesh;
+  mesh.vertices = p.Points("vertices");
+  mesh.triangles = p.Corners("triangles", mesh.vertices.size());
+  return mesh;
+}
+
 const std::vector<ShapeType>& ShapeTypes() {
   static const std::vector<ShapeType> types = {
       {"ball", {"radius", "triangles"}, MakeBall},
@@ -204,6 +229,7 @@ const std::vector<ShapeType>& ShapeTypes() {
       Direct("star", MakeStar, {"inner_radius", "outer_radius"}),
       Direct("knot", MakeKnot, {"size", "tube", "around", "across"}),
       {"tube", {"path", "radius", "sides"}, MakeUprightTube},
+      {"triangles", {"vertices", "triangles"}, MakeOfTriangles},
       Direct("scan", MakeScan, {"of", "edge", "noise", "seed"}),
   };
   return types;

@@ -15,8 +15,9 @@ namespace phongpd {
 // scene's unit.  Types: ball (icosphere of 20·4^k triangles), uv_ball, box
 // (size [x, y, z], centred), box_shell, cells, cone, axes, wrench, torus, l, u,
 // plate_hole, plate_round_hole, prism, vessel, star, knot, tube (along `path`,
-// a list of points), and scan (another shape `of`, finely tessellated and with
-// noise).
+// a list of points), triangles (of one's own: vertices, and three numbers of
+// them each, from 0 on), and scan (another shape `of`, finely tessellated and
+// with noise).
 //
 // Throws InputError starting with `where` (file and JSON pointer) for an
 // unknown type, a missing, unknown or ill-typed parameter, or a size that no

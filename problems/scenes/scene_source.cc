@@ -14,22 +14,31 @@
 #include "problems/output/text.h"
 #include "problems/scenes/json_schema.h"
 #include "problems/scenes/scene_library.h"
+#include "problems/scenes/turning_families.h"
 
 namespace phongpd {
+namespace {
+
+// The one knob of a scene of a robot that turns.
+std::string KnobOf(const std::string& family) {
+  for (const SceneFamily& one : TurningSceneFamilies()) {
+    if (one.name == family) return one.knobs.front().key;
+  }
+  return "";
+}
+
+}  // namespace
 
 SceneSource::SceneSource(const std::string& text, const std::string& root,
                          Repair repair)
     : text_(text), root_(root), repair_(repair), label_(text) {
   const std::size_t colon = text.find(':');
   family_ = text.substr(0, colon);
-  const std::vector<SceneFamily>& families = SceneFamilies();
+  const std::vector<std::string> names = SceneFamilyNames();
   const bool is_known =
-      std::any_of(families.begin(), families.end(),
-                  [&](const SceneFamily& f) { return f.name == family_; });
+      std::find(names.begin(), names.end(), family_) != names.end();
   if (!is_known) {
     if (!std::filesystem::exists(text)) {
-      std::vector<std::string> names;
-      for (const SceneFamily& family : families) names.push_back(family.name);
       throw InputError(text +
                        ": expected a scene file or a family with knobs, "
                        "FAMILY:key=value,...; found neither (see phongpd "
@@ -50,10 +59,17 @@ SceneSource::SceneSource(const std::string& text, const std::string& root,
              HasTurningRobot(ParseJson(content_, text));
     return;
   }
+  turns_ = IsTurningFamily(family_);
   if (colon == std::string::npos) return;
   std::istringstream settings(text.substr(colon + 1));
   for (std::string setting; std::getline(settings, setting, ',');) {
     const std::size_t equals = setting.find('=');
+    if (equals == std::string::npos && turns_) {
+      // There is one knob to set.
+      const std::string key = KnobOf(family_);
+      knobs_[key] = ParseDouble(setting, text + ": " + key);
+      continue;
+    }
     if (equals == std::string::npos) {
       throw InputError(text + ": expected key=value, found '" + setting + "'");
     }
@@ -66,7 +82,10 @@ Scene SceneSource::Load(std::optional<std::uint64_t> seed) const {
   if (is_file_) return ParseSceneFile(content_, text_, root_, repair_);
   std::map<std::string, double> knobs = knobs_;
   if (seed) knobs["seed"] = static_cast<double>(*seed);
-  Scene scene = ParseScene(MakeScene(family_, knobs), text_);
+  // Of a robot that turns: refused, in words that say what takes it.
+  Scene scene = ParseScene(
+      turns_ ? MakeTurningScene(family_, knobs_) : MakeScene(family_, knobs),
+      text_);
   scene.name = label_;
   return scene;
 }
@@ -76,23 +95,32 @@ FleetScene SceneSource::LoadFleet() const {
 }
 
 TurningScene SceneSource::LoadTurning() const {
-  return ParseTurningSceneFile(content_, text_, root_, repair_);
+  if (is_file_) {
+    return ParseTurningSceneFile(content_, text_, root_, repair_);
+  }
+  TurningScene scene =
+      ParseTurningScene(MakeTurningScene(family_, knobs_), text_);
+  scene.name = label_;
+  return scene;
 }
 
 std::string SceneSource::Digest() const {
   internal::ByteWriter writer;
   writer(text_, content_);
-  Workspace workspace;
+  const auto write = [&writer](const TriangleMesh& mesh) {
+    writer(mesh.vertices, mesh.triangles);
+  };
   if (turns_) {
-    workspace = LoadTurning().workspace;
+    const TurningScene scene = LoadTurning();
+    write(scene.robot);
+    for (const TurningScene::Obstacle& obstacle : scene.obstacles) {
+      write(obstacle.mesh);
+    }
   } else {
     const Scene scene = Load();
     writer(scene.start, scene.goal);
-    workspace = scene.workspace;
-  }
-  writer(workspace.robot.mesh().vertices, workspace.robot.mesh().triangles);
-  for (const Solid& obstacle : workspace.obstacles) {
-    writer(obstacle.mesh().vertices, obstacle.mesh().triangles);
+    write(scene.workspace.robot);
+    for (const Solid& obstacle : scene.workspace.obstacles) write(obstacle);
   }
   return internal::ToHex(internal::HashContent(writer.Take()));
 }

@@ -13,7 +13,8 @@
 namespace phongpd {
 
 // Where a command's scene comes from: a scene file, or a family of
-// scene_library.h with knobs, "plate:thickness=0.02,offset=1000".
+// scene_library.h with knobs, "plate:thickness=0.02,offset=1000", or one of
+// turning_families.h, "alpha:gap=1.2" or "alpha:1.2".
 class SceneSource {
  public:
   // Throws InputError if `text` names neither a file nor a family, or a knob
@@ -34,7 +35,7 @@ class SceneSource {
   // Of a file of several robots, which Load refuses: is it one, and the same.
   bool has_robots() const { return has_robots_; }
   FleetScene LoadFleet() const;
-  // Of a file whose robot turns, which Load refuses, too.
+  // Of a file or family whose robot turns, which Load refuses, too.
   bool turns() const { return turns_; }
   TurningScene LoadTurning() const;
 

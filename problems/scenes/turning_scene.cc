@@ -3,9 +3,11 @@
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <utility>
 
 #include "core/mesh/mesh_error.h"
+#include "problems/meshes/operand_notes.h"
 #include "problems/scenes/json_schema.h"
 #include "problems/scenes/scene_parts.h"
 
@@ -44,6 +46,22 @@ RobotPose PoseAt(const Json& json, const std::string& end,
   return pose;
 }
 
+// Shapes are made for each other; files may be in any unit.
+void NoteUnits(const Json& json, TurningScene* scene) {
+  for (std::size_t i = 0; i < scene->obstacles.size(); ++i) {
+    if (!json["robot"].contains("mesh") &&
+        !json["obstacles"][i].contains("mesh")) {
+      continue;
+    }
+    const TurningScene::Obstacle& obstacle = scene->obstacles[i];
+    const std::string note =
+        UnitsNote(scene->robot, "the robot", obstacle.mesh, obstacle.name);
+    if (note.empty()) continue;
+    scene->warnings.push_back(note);
+    return;  // one will do
+  }
+}
+
 }  // namespace
 
 bool HasTurningRobot(const Json& json) {
@@ -65,20 +83,28 @@ TurningScene ParseTurningScene(const Json& json, const std::string& file,
   const internal::MeshFolder folder = {directory, root, repair};
   Scene read;
   internal::ReadSettings(json, place, &read);
-  internal::ReadSurroundings(json, place, folder, &read);
-  read.workspace.robot = internal::SolidAt(json["robot"], place.Child("robot"),
-                                           folder, &read.warnings)
-                             .Named("robot");
-  internal::NoteUnits(json["robot"], json["obstacles"], &read);
   TurningScene scene;
   scene.name = json.value("name", name);
-  scene.workspace = std::move(read.workspace);
+  scene.unit = read.workspace.unit;
+  scene.bounds = read.workspace.bounds;
+  scene.robot = internal::SurfaceAt(json["robot"], place.Child("robot"), folder,
+                                    &scene.warnings);
+  std::set<std::string> ids;
+  const JsonPlace all = place.Child("obstacles");
+  for (std::size_t i = 0; i < json["obstacles"].size(); ++i) {
+    const Json& value = json["obstacles"][i];
+    const JsonPlace here = all.Child(i);
+    std::string id = internal::ObstacleId(value, i, here, &ids);
+    scene.obstacles.push_back(
+        {std::move(id),
+         internal::SurfaceAt(value, here, folder, &scene.warnings)});
+  }
+  NoteUnits(json, &scene);
   scene.start = PoseAt(json, "start", place);
   scene.goal = PoseAt(json, "goal", place);
   if (json.contains("planning") && json["planning"].contains("time_limit")) {
     scene.time_limit = read.planning.time_limit;
   }
-  scene.warnings = std::move(read.warnings);
   return scene;
 }
 

@@ -7,19 +7,27 @@
 
 #include "core/bounds/mesh_repair.h"
 #include "core/contact/depth.h"
-#include "planners/world/workspace.h"
+#include "core/mesh/triangle_mesh.h"
 
 namespace phongpd {
 
-// A scene file whose `robot` has `turns`: it turns about its own origin as it
-// moves.
+// A scene whose `robot` has `turns`: it turns about its own origin as it moves.
+// Motions are judged by surfaces, which need not be closed (rigid_judge.h).
 struct TurningScene {
+  struct Obstacle {
+    std::string name;  // of its own
+    TriangleMesh mesh;
+  };
+
   std::string name;
-  // As of a scene (scene.h); bounds are of the robot's origin.
-  Workspace workspace;
+  std::string unit;  // one of UnitNames (length.h); empty: it has no name
+  TriangleMesh robot;
+  std::vector<Obstacle> obstacles;                     // one at least
+  BoundingBox bounds = ComputeBounds(TriangleMesh());  // of the robot's
+                                                       // origin; empty: none
   RobotPose start, goal;
-  double time_limit = 10.0;  // seconds, of a search
-  std::vector<std::string> warnings;
+  double time_limit = 10.0;           // seconds, of a search
+  std::vector<std::string> warnings;  // one sentence each, of open surfaces too
 };
 
 // Does the document tell of a robot that turns?

@@ -21,9 +21,17 @@ RigidRequest RigidRequestOf(const TurningScene& scene) {
   request.start = scene.start;
   request.goal = scene.goal;
   request.time_limit = scene.time_limit;
-  const BoundingBox& bounds = scene.workspace.bounds;
+  const BoundingBox& bounds = scene.bounds;
   if (!bounds.IsEmpty()) request.bounds = {bounds.min, bounds.max};
   return request;
+}
+
+RigidWorld RigidWorldOf(const TurningScene& scene) {
+  std::vector<TriangleMesh> obstacles;
+  for (const TurningScene::Obstacle& obstacle : scene.obstacles) {
+    obstacles.push_back(obstacle.mesh);
+  }
+  return {{scene.robot}, obstacles};
 }
 
 Json RigidRow(const TurningScene& scene, const RigidRequest& request,
@@ -35,7 +43,7 @@ Json RigidRow(const TurningScene& scene, const RigidRequest& request,
   row["status"] = ToString(answer.status);
   row["reason"] = answer.reason;
   row["solved"] = row["collision_free"] = answer.IsSolved();
-  row["unit"] = scene.workspace.unit;
+  row["unit"] = scene.unit;
   row["start"] = PoseRow(request.start);
   row["goal"] = PoseRow(request.goal);
   row["depth"] = answer.depth ? Json(*answer.depth) : Json(nullptr);

@@ -11,6 +11,9 @@ namespace phongpd {
 // The request of a scene as it stands.
 RigidRequest RigidRequestOf(const TurningScene& scene);
 
+// Its surfaces.
+RigidWorld RigidWorldOf(const TurningScene& scene);
+
 // The answer as one row of results: docs/outputs.md.
 nlohmann::ordered_json RigidRow(const TurningScene& scene,
                                 const RigidRequest& request,

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import math
+import os
 from typing import Any
 
 import numpy as np
@@ -179,3 +180,10 @@ def length(value: Any, name: str) -> str:
     if not math.isfinite(number):
         raise InputError(f"{name}: expected a finite length, found {_told(value)}")
     return repr(number)
+
+
+def scene_name(scene: Any) -> str:
+    if isinstance(scene, (str, os.PathLike)):
+        return os.fspath(scene)
+    raise InputError("scene: expected a file or a family, found "
+                     f"{type(scene).__name__}")

@@ -1,20 +1,22 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 from __future__ import annotations
 
+import os
 from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from . import _native
-from ._arguments import Floats, numbers
+from ._arguments import Floats, numbers, scene_name
 from ._native import InputError
 from ._rigid import _meshes, _pose
+from ._view import Canvas, Shown
 
 
 @dataclass(frozen=True)
-class RigidPlan:
+class RigidPlan(Shown):
     """A path of poses of a robot that moves and turns, or none."""
 
     status: str
@@ -32,18 +34,37 @@ class RigidPlan:
     planner: str
     """"line", "straight", "slide" or "tow", which found it."""
     seconds: float
+    world: RigidWorld = field(repr=False)
+    """In which it was planned."""
 
     @property
     def solved(self) -> bool:
         return self.status == "solved"
 
+    def to_row(self) -> dict[str, Any]:
+        """Flat, for pandas.DataFrame([one.to_row(), ...])."""
+        return {"status": self.status, "planner": self.planner,
+                "poses": len(self.poses), "length": self.length,
+                "seconds": self.seconds}
 
-class RigidWorld:
+    def _draw(self, canvas: Canvas, name: str | None) -> None:
+        self.world._draw(canvas, None)
+        if len(self.poses):
+            canvas.turned_ends(self.poses[0], self.poses[-1])
+            canvas.turning_way(name or f"{self.planner} · {self.status}",
+                               self.poses, self.solved)
+
+    def _facts(self) -> dict[str, Any]:
+        return {**self.to_row(), "reason": self.reason}
+
+
+class RigidWorld(Shown):
     """A robot that moves and turns among fixed obstacles, and plans of it::
 
         world = phongpd.RigidWorld("part.stl", ["wall.stl", (V, F)])
         plan = world.plan(start, goal)    # 4 x 4 matrices
         plan.solved, plan.poses
+        phongpd.RigidWorld.load("alpha:1.5").plan()
 
     Surfaces need not be closed; what is closed is solid.  For robots that only
     translate take World, which proves where there is no way.
@@ -53,13 +74,65 @@ class RigidWorld:
         """As of RigidJudge."""
         self._native = _native.RigidWorld(
             _meshes(robot, "robot"), _meshes(obstacles, "obstacles"))
+        self._scene: _Loaded | None = None
 
-    def plan(self, start: ArrayLike, goal: ArrayLike, *,
-             bounds: ArrayLike | None = None, time_limit: float = 10.0,
+    @classmethod
+    def load(cls, scene: str | os.PathLike[str]) -> RigidWorld:
+        """Of a scene file whose robot has `turns`, or of a family that `phongpd
+        scenes list` shows: "alpha", "alpha:1.2", "peg:play=0.01".  The scene has
+        start, goal, bounds and time limit, which plan() takes where it is told
+        none."""
+        world = cls.__new__(cls)
+        (world._native, name, unit, ends, bounds, time_limit,
+         warnings) = _native.load_turning(scene_name(scene))
+        start, goal = map(_matrix, ends)
+        world._scene = _Loaded(name, unit, start, goal, bounds, time_limit,
+                               warnings)
+        return world
+
+    @property
+    def start(self) -> Floats | None:
+        """Of the scene it was loaded from, (4, 4); None: of none."""
+        return self._scene.start if self._scene else None
+
+    @property
+    def goal(self) -> Floats | None:
+        return self._scene.goal if self._scene else None
+
+    @property
+    def bounds(self) -> Floats | None:
+        """Of the robot's origin in that scene, (2, 3); None: it has none."""
+        return self._scene.bounds if self._scene else None
+
+    @property
+    def warnings(self) -> list[str]:
+        """About the scene's meshes, such as surfaces that are not closed."""
+        return self._scene.warnings if self._scene else []
+
+    @property
+    def robot(self) -> list[tuple[Floats, NDArray[np.int32]]]:
+        """Its meshes, vertices and triangles each, as they are judged."""
+        return self._native.robot
+
+    @property
+    def obstacles(self) -> list[tuple[Floats, NDArray[np.int32]]]:
+        return self._native.obstacles
+
+    def plan(self, start: ArrayLike | None = None,
+             goal: ArrayLike | None = None, *,
+             bounds: ArrayLike | None = None, time_limit: float | None = None,
              seed: int = 1) -> RigidPlan:
-        """Searches a path between two poses, (4, 4) each.  bounds: (2, 3), of the
-        robot's origin; None: around obstacles, start and goal.  time_limit: in
-        seconds.  The same seed gives the same path unless time runs out."""
+        """Searches a path between two poses, (4, 4) each; None: the scene's where
+        it was loaded.  bounds: (2, 3), of the robot's origin; None: the scene's,
+        or around obstacles, start and goal.  time_limit: in seconds; None: the
+        scene's, or 10.  The same seed gives the same path unless time runs
+        out."""
+        start = self._end(start, self.start, "start")
+        goal = self._end(goal, self.goal, "goal")
+        if bounds is None:
+            bounds = self.bounds
+        if time_limit is None:
+            time_limit = self._scene.time_limit if self._scene else 10.0
         box = np.empty((0, 3)) if bounds is None else \
             numbers(bounds, "bounds", "(2, 3)")
         if bounds is not None and box.shape != (2, 3):
@@ -67,9 +140,59 @@ class RigidWorld:
         status, reason, rows, length, planner, seconds = self._native.plan(
             np.stack([_pose(start, "start"), _pose(goal, "goal")]), box,
             float(time_limit), seed)
-        return RigidPlan(status, reason, np.array(list(map(_matrix, rows))
-                                                  ).reshape(-1, 4, 4),
-                         length, planner, seconds)
+        return RigidPlan(status, reason, pose_matrices(rows), length, planner,
+                         seconds, self)
+
+    def _draw(self, canvas: Canvas, name: str | None) -> None:
+        if not canvas.is_new(self):
+            return
+        if self._scene and self._scene.unit:
+            canvas.unit(self._scene.unit)
+        canvas.robot(_Joined.of(self.robot))
+        for i, mesh in enumerate(self.obstacles):
+            canvas.mesh(f"obstacle {i}", "obstacle", _Joined.of([mesh]))
+        if self._scene:
+            canvas.turned_ends(self._scene.start, self._scene.goal)
+
+    @staticmethod
+    def _end(given: ArrayLike | None, of_scene: Floats | None,
+             name: str) -> ArrayLike:
+        if given is not None:
+            return given
+        if of_scene is None:
+            raise InputError(f"{name}: expected a pose, found None, and no scene "
+                             "was loaded that has one")
+        return of_scene
+
+
+@dataclass(frozen=True)
+class _Joined:
+    """Several meshes as one, to draw."""
+
+    vertices: Floats
+    triangles: NDArray[np.int32]
+
+    @classmethod
+    def of(cls, meshes: list[tuple[Floats, NDArray[np.int32]]]) -> _Joined:
+        first = np.cumsum([0, *(len(vertices) for vertices, _ in meshes)])
+        return cls(np.concatenate([vertices for vertices, _ in meshes]),
+                   np.concatenate([triangles + np.int32(k) for k, (_, triangles)
+                                   in zip(first, meshes)]))
+
+
+@dataclass(frozen=True)
+class _Loaded:
+    name: str
+    unit: str
+    start: Floats
+    goal: Floats
+    bounds: Floats | None
+    time_limit: float
+    warnings: list[str]
+
+
+def pose_matrices(rows: list[tuple[float, ...]]) -> Floats:
+    return np.array(list(map(_matrix, rows))).reshape(-1, 4, 4)
 
 
 def _matrix(row: tuple[float, ...]) -> Floats:

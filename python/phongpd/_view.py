@@ -5,14 +5,13 @@ from __future__ import annotations
 
 import html
 import os
-from typing import Any, Callable, Iterable
+from typing import Any, Callable, Iterable, Protocol
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from . import _native
-from ._arguments import Floats, rows, whole_number
-from ._mesh import MeshViews
+from ._arguments import Floats, numbers, rows, whole_number
 from ._native import InputError
 
 # A notebook keeps what it shows: about 1.5 MB, 0.7 of them the viewer itself.
@@ -21,13 +20,21 @@ _NOTEBOOK_TRIANGLES = 30_000
 _MOST_TRIANGLES = 5_000_000
 
 
+class _Mesh(Protocol):
+    @property
+    def vertices(self) -> Floats: ...
+
+    @property
+    def triangles(self) -> NDArray[np.int32]: ...
+
+
 class Canvas:
     """What is drawn on: meshes, one robot, paths, answers."""
 
     def __init__(self, title: str, notes: Iterable[str] = ()) -> None:
         self._native = _native.View(title, list(notes))
         self._drawn: list[object] = []
-        self._robot: MeshViews | None = None
+        self._robot: _Mesh | None = None
         self.triangles = 0
         self.is_free: Callable[[ArrayLike, ArrayLike], Any] | None = None
         """Judges straight motions, once a world has been drawn."""
@@ -39,12 +46,12 @@ class Canvas:
         self._drawn.append(thing)
         return True
 
-    def mesh(self, name: str, role: str, mesh: MeshViews) -> None:
+    def mesh(self, name: str, role: str, mesh: _Mesh) -> None:
         """role: "obstacle", "contact" (translucent) or "mesh"."""
         self.triangles += len(mesh.triangles)
         self._native.add_mesh(name, role, mesh.vertices, mesh.triangles)
 
-    def robot(self, mesh: MeshViews) -> None:
+    def robot(self, mesh: _Mesh) -> None:
         """At the origin; it goes where paths and answers say."""
         if self._robot is mesh:
             return
@@ -70,6 +77,18 @@ class Canvas:
         way = _way(points)
         self.path(name, way, self.is_free is None
                   or bool(np.all(self.is_free(way[:-1], way[1:]))))
+
+    def turned_ends(self, start: ArrayLike, goal: ArrayLike) -> None:
+        """Poses, (4, 4)."""
+        self._native.set_turned_ends(np.array([start, goal], float))
+
+    def turning_way(self, name: str, poses: ArrayLike, free: bool) -> None:
+        """Poses, (N, 4, 4), between which the robot moves as RigidJudge has
+        it."""
+        way = numbers(poses, "path", "(N, 4, 4)")
+        if way.ndim != 3 or way.shape[1:] != (4, 4):
+            raise InputError(f"path: expected shape (N, 4, 4), found {way.shape}")
+        self._native.add_turning_path(name, way, free)
 
     def answer(self, points: ArrayLike, orientation: ArrayLike, status: str,
                depth: float, clearance: float) -> None:
@@ -128,8 +147,9 @@ def view(*things: Any, title: str = "PhongPD", notes: Iterable[str] = (),
          **named: Any) -> View:
     """One picture of several things.
 
-    things: Solid, ContactSpace, World, Trajectory, Plan, Motion, Depth, or an
-    array (K, 3), the way of the robot's position; of at most one robot.  Those with
+    things: Solid, ContactSpace, World, Trajectory, Plan, Motion, Depth,
+    RigidWorld, RigidPlan, or an array (K, 3), the way of the robot's position, or
+    (K, 4, 4), of its poses, taken as free; of at most one robot.  Those with
     a name, `view(world, phong=one, euclid=other)`, have it in the legend.  An
     array after a world is judged in it, which builds the world's contact space
     if it is not there; before one, or without, it counts as free.
@@ -139,6 +159,8 @@ def view(*things: Any, title: str = "PhongPD", notes: Iterable[str] = (),
     for name, thing in [*((None, t) for t in things), *named.items()]:
         if isinstance(thing, Shown):
             thing._draw(canvas, name)
+        elif isinstance(thing, np.ndarray) and thing.ndim == 3:
+            canvas.turning_way(name or "path", thing, True)
         elif isinstance(thing, (np.ndarray, list, tuple)):
             canvas.way(name or "path", thing)
         else:

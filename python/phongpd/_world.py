@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 from . import _native
 from ._answers import Diagnosis, Plan, Trajectory
 from ._arguments import Floats, flag, length, motion_end, places_on_the_way, \
-    point, real, rows, seconds, text, whole_number
+    point, real, rows, scene_name, seconds, text, whole_number
 from ._contact import ContactSpace
 from ._motion import Motion, motion_of, moving_of, wishes_of
 from ._native import InputError
@@ -70,7 +70,7 @@ class World(Shown):
         world = cls.__new__(cls)
         if seed is not None:
             seed = whole_number(seed, "seed", 0, _MOST_SEED)
-        world._open(_native.Scene.load(_scene_name(scene), seed), cache,
+        world._open(_native.Scene.load(scene_name(scene), seed), cache,
                     max_mib)
         world._has_ends = True
         return world
@@ -365,13 +365,6 @@ def native_world(world: World) -> _native.World:
     if isinstance(world, World):
         return world._native
     raise InputError(f"world: expected a World, found {type(world).__name__}")
-
-
-def _scene_name(scene: Any) -> str:
-    if isinstance(scene, (str, os.PathLike)):
-        return os.fspath(scene)
-    raise InputError("scene: expected a file or a family, found "
-                     f"{type(scene).__name__}")
 
 
 def _require_none(subject: str, **given: bool) -> None:

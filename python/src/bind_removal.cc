@@ -8,15 +8,17 @@
 #include "python/src/arrays.h"
 #include "python/src/bindings.h"
 #include "python/src/interruptible.h"
+#include "python/src/rigid_arrays.h"
 
 namespace phongpd::python {
 namespace {
 
 nb::tuple Row(std::size_t part, const Removal& removal) {
-  return nb::make_tuple(part, ToString(removal.status), removal.reason,
-                        ToArray(removal.path), removal.length,
-                        removal.clearance, removal.granted_least,
-                        removal.granted_most, removal.seconds);
+  return nb::make_tuple(
+      part, ToString(removal.status), removal.reason, ToArray(removal.path),
+      PoseRows(removal.poses), ToArray(removal.pivot), removal.needs_turns,
+      removal.length, removal.clearance, removal.granted_least,
+      removal.granted_most, removal.seconds);
 }
 
 nb::list Rows(const std::vector<Disassembly::Step>& steps) {
@@ -31,19 +33,20 @@ nb::list Rows(const std::vector<Disassembly::Step>& steps) {
 
 void BindRemoval(nb::module_& module) {
   module.def("remove", [](const Solid& part, const std::vector<Solid>& rest,
-                          double tolerance, bool verify) {
+                          double tolerance, bool verify, double turn_seconds) {
     const Removal removal = Interruptible([&] {
-      return RemovePart(part, rest, {tolerance, verify});
+      return RemovePart(part, rest, {tolerance, verify, turn_seconds});
     });
     return Row(0, removal);
   });
-  module.def("disassemble", [](const std::vector<Solid>& parts,
-                               double tolerance, bool verify) {
-    const Disassembly answer = Interruptible([&] {
-      return Disassemble(parts, {tolerance, verify});
-    });
-    return nb::make_tuple(Rows(answer.steps), Rows(answer.stuck));
-  });
+  module.def("disassemble",
+             [](const std::vector<Solid>& parts, double tolerance, bool verify,
+                double turn_seconds) {
+               const Disassembly answer = Interruptible([&] {
+                 return Disassemble(parts, {tolerance, verify, turn_seconds});
+               });
+               return nb::make_tuple(Rows(answer.steps), Rows(answer.stuck));
+             });
 }
 
 }  // namespace phongpd::python

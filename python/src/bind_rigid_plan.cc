@@ -3,13 +3,20 @@
 #include <nanobind/stl/vector.h>
 
 #include <atomic>
+#include <string>
+#include <utility>
 #include <vector>
 
+#include "core/mesh/mesh_error.h"
 #include "planners/rigid/rigid_plan.h"
+#include "problems/scenes/scene_source.h"
+#include "problems/studies/rigid_row.h"
 #include "python/src/arrays.h"
 #include "python/src/bindings.h"
+#include "python/src/computing.h"
 #include "python/src/interruptible.h"
 #include "python/src/rigid_arrays.h"
+#include "python/src/words.h"
 
 namespace phongpd::python {
 namespace {
@@ -29,15 +36,45 @@ nb::tuple PlanPoses(const RigidWorld& world, const Poses& ends,
         request.is_interrupted = [&is_asked] { return is_asked.load(); };
         return Plan(world, request);
       });
-  nb::list poses;
-  for (const RobotPose& pose : answer.path) {
-    const Eigen::Vector3d& p = pose.position;
-    const Eigen::Quaterniond& q = pose.orientation;
-    poses.append(
-        nb::make_tuple(p.x(), p.y(), p.z(), q.w(), q.x(), q.y(), q.z()));
+  return nb::make_tuple(ToString(answer.status), answer.reason,
+                        PoseRows(answer.path), answer.length, answer.planner,
+                        answer.seconds);
+}
+
+nb::list MeshRows(const std::vector<TriangleMesh>& meshes) {
+  nb::list rows;
+  for (const TriangleMesh& mesh : meshes) {
+    std::vector<int> corners;
+    for (const Triangle& t : mesh.triangles) {
+      corners.insert(corners.end(), t.begin(), t.end());
+    }
+    rows.append(
+        nb::make_tuple(ToArray(mesh.vertices),
+                       Owned(std::move(corners), {mesh.triangles.size(), 3})));
   }
-  return nb::make_tuple(ToString(answer.status), answer.reason, poses,
-                        answer.length, answer.planner, answer.seconds);
+  return rows;
+}
+
+// Of a scene file or a family: the world, and what the scene says of it.
+nb::tuple LoadTurning(const std::string& text) {
+  const TurningScene scene = [&] {
+    const Computing computing;
+    const SceneSource source(text);
+    if (!source.turns()) {
+      throw InputError(text +
+                       ": expected a scene of a robot that turns, found "
+                       "another; World.load takes it");
+    }
+    return source.LoadTurning();
+  }();
+  const BoundingBox& box = scene.bounds;
+  nb::object bounds = nb::none();
+  if (!box.IsEmpty()) {
+    bounds = ToArray(std::vector<Eigen::Vector3d>{box.min, box.max});
+  }
+  return nb::make_tuple(RigidWorldOf(scene), scene.name, scene.unit,
+                        PoseRows({scene.start, scene.goal}), bounds,
+                        scene.time_limit, Lines(scene.warnings));
 }
 
 }  // namespace
@@ -51,7 +88,14 @@ void BindRigidPlan(nb::module_& module) {
              const Computing computing;
              new (self) RigidWorld(moving, fixed);
            })
-      .def("plan", &PlanPoses);
+      .def("plan", &PlanPoses)
+      .def_prop_ro(
+          "robot",
+          [](const RigidWorld& world) { return MeshRows(world.robot()); })
+      .def_prop_ro("obstacles", [](const RigidWorld& world) {
+        return MeshRows(world.obstacles());
+      });
+  module.def("load_turning", &LoadTurning);
 }
 
 }  // namespace phongpd::python

@@ -4,10 +4,14 @@
 #include <nanobind/stl/vector.h>
 
 #include <optional>
+#include <vector>
 
+#include "constraints/rigid/rigid_motion.h"
 #include "python/src/arrays.h"
 #include "python/src/bindings.h"
 #include "python/src/computing.h"
+#include "python/src/rigid_arrays.h"
+#include "viewer/rigid_view.h"
 #include "viewer/view_page.h"
 
 namespace phongpd::python {
@@ -78,6 +82,24 @@ void BindView(nb::module_& module) {
            [](Picture* view, const std::string& name, const Rows3& points,
               bool is_free) {
              view->paths.push_back({name, ToPoints(points), is_free});
+           })
+      .def("set_turned_ends",
+           [](Picture* view, const Poses& ends) {
+             const RobotPose start = PoseOf(ToMatrix(ends, 0), "start");
+             const RobotPose goal = PoseOf(ToMatrix(ends, 1), "goal");
+             view->start = start.position;
+             view->goal = goal.position;
+             view->start_turn = start.orientation;
+             view->goal_turn = goal.orientation;
+           })
+      .def("add_turning_path",
+           [](Picture* view, const std::string& name, const Poses& poses,
+              bool is_free) {
+             std::vector<RobotPose> all;
+             for (size_t i = 0; i < poses.shape(0); ++i) {
+               all.push_back(PoseOf(ToMatrix(poses, i), name));
+             }
+             view->paths.push_back(RigidPath(name, all, is_free));
            })
       .def("add_answer", &AddAnswer)
       .def("page", [](const Picture& view, size_t most_triangles) {

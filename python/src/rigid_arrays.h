@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/contact/depth.h"
 #include "core/mesh/triangle_mesh.h"
 #include "python/src/arrays.h"
 
@@ -42,6 +43,18 @@ inline Eigen::Isometry3d ToMatrix(const Poses& poses, size_t i) {
     }
   }
   return matrix;
+}
+
+// x, y, z, w, x, y, z of each.
+inline nb::list PoseRows(const std::vector<RobotPose>& poses) {
+  nb::list rows;
+  for (const RobotPose& pose : poses) {
+    const Eigen::Vector3d& p = pose.position;
+    const Eigen::Quaterniond& q = pose.orientation;
+    rows.append(
+        nb::make_tuple(p.x(), p.y(), p.z(), q.w(), q.x(), q.y(), q.z()));
+  }
+  return rows;
 }
 
 }  // namespace phongpd::python

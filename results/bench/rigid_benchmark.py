@@ -14,13 +14,13 @@ from rigid_report import write_report
 
 # Tight and less tight ones of every family (problems/scenes/rigid_scenes.h).
 JUDGED = ["window:4", "piano:0.1", "peg:0.1", "peg:0.01", "ell:2.2",
-          "lock:0.05", "bugtrap:0.1", "flange:0.15", "alpha:1.5", "alpha:1.2"]
+          "lock:0.05", "rod_trap:0.1", "flange:0.15", "alpha:1.5", "alpha:1.2"]
 # What is wanted in the end takes days; of the slice everything is easier.
 SLICE = ["window:4", "peg:1.5", "alpha:2.5"]
 # One that samples at 1 % get wrong, with the planner of OMPL that does best there.
 HARD = ["alpha:1.5"]
 WHOLE = ["window:4", "piano:0.1", "peg:0.1", "peg:0.01", "ell:2", "lock:0.05",
-         "bugtrap:0.1", "flange:0.15", "alpha:1.5", "alpha:1.2"]
+         "rod_trap:0.1", "flange:0.15", "alpha:1.5", "alpha:1.2"]
 PLANNERS = ["RRTConnect", "KPIECE1", "BKPIECE1", "EST", "PRM"]
 CHECKS = ["0.01", "0.001", "proof"]
 TUNED = ["RRTConnect"]

@@ -31,8 +31,8 @@ def keep(notebook, name):
         (folder / f"{name}-{k}.html").write_text(page, "utf-8")
 
 
-def test_there_are_four():
-    assert len(NOTEBOOKS) == 4
+def test_there_are_five():
+    assert len(NOTEBOOKS) == 5
 
 
 @pytest.mark.parametrize("path", NOTEBOOKS, ids=lambda path: path.stem)

@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Truth: the exact depth at many poses of the path; a plank that has to turn.
+import json
+
 import numpy as np
 import phongpd
 import pytest
@@ -55,3 +57,54 @@ def test_refuses_bad_input_in_one_line():
         assert "\n" not in str(error.value)
     with pytest.raises(phongpd.InputError, match="start"):
         world.plan(np.eye(3), at(2))
+
+
+def test_a_scene_brings_its_ends_bounds_and_meshes(tmp_path):
+    world = phongpd.RigidWorld.load("window")
+    assert np.allclose(world.start[:3, 3], (2, 2, 3))
+    assert world.bounds.tolist() == [[-5, -5, -5], [5, 5, 5]]
+    assert world.warnings == []
+    (robot,), (plate,) = world.robot, world.obstacles
+    assert robot[0].shape[1] == 3 and robot[1].shape == (20, 3)
+    plan = world.plan(time_limit=60)
+    assert plan.solved
+    assert np.allclose(plan.poses[0], world.start, atol=1e-14)
+    query = phongpd.DepthQuery(phongpd.Solid(*robot), phongpd.Solid(*plate))
+    for pose in plan.poses:
+        x, y, z, w = Rotation.from_matrix(pose[:3, :3]).as_quat()
+        assert query.at(pose[:3, 3], (w, x, y, z)).status == "separate"
+    # It shows itself, turning, and so does a way of one's own.
+    assert '"turns":[[' in phongpd.view(plan).html()
+    assert '"turns":[[' in phongpd.view(world, own=plan.poses).html()
+    assert plan.to_row()["poses"] == len(plan.poses)
+    # One knob, with or without its name; other scenes are World's.
+    one = phongpd.RigidWorld.load("peg:play=0.5")
+    assert (one.obstacles[0][0] == phongpd.RigidWorld.load("peg:0.5")
+            .obstacles[0][0]).all()
+    for scene, words in (("tunnel", "World.load"), ("peg:9", r"\[1e-05, 3\]"),
+                         ("nothing", "found neither")):
+        with pytest.raises(phongpd.InputError, match=words):
+            phongpd.RigidWorld.load(scene)
+    with pytest.raises(phongpd.InputError, match="start: expected a pose"):
+        phongpd.RigidWorld(PLANK, WALLS).plan()
+    with pytest.raises(phongpd.InputError, match="RigidWorld|turns"):
+        phongpd.World.load("peg")
+
+
+def test_takes_surfaces_that_are_not_closed_and_says_so(tmp_path):
+    sheet = {"type": "triangles", "triangles": [[0, 1, 2]],
+             "vertices": [[0, -9, -9], [0, 9, -9], [0, 0, 9]]}
+    scene = {"robot": {"turns": True,
+                       "shape": {"type": "box", "size": [0.2, 0.2, 0.2]}},
+             "obstacles": [{"shape": sheet}], "start": [-1, 0, 0],
+             "goal": [1, 0, 0], "planning": {"time_limit": 60}}
+    path = tmp_path / "sheet.json"
+    path.write_text(json.dumps(scene))
+    world = phongpd.RigidWorld.load(path)
+    assert len(world.warnings) == 1 and "judged as they are" in world.warnings[0]
+    plan = world.plan()
+    assert plan.solved and len(plan.poses) > 2
+    scene["obstacles"][0]["repair"] = "safe"
+    path.write_text(json.dumps(scene))
+    with pytest.raises(phongpd.InputError, match="open"):
+        phongpd.RigidWorld.load(path)

@@ -4,12 +4,14 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "constraints/oracle/collision_oracle.h"
 #include "constraints/rigid/rigid_motion.h"
+#include "problems/scenes/rigid_scenes.h"
 #include "problems/scenes/turning_scene.h"
 #include "tests/problems/cli/cli_fixture.h"
 
@@ -68,12 +70,11 @@ TEST_F(CliTurning, TurnsAPlankThroughASlit) {
     const RigidMotion motion(PoseOf(path[i]), PoseOf(path[i + 1]));
     for (int k = 0; k <= 50; ++k) {
       const RobotPose pose = motion.At(k / 50.0);
-      const Solid turned =
-          MakeSolid(Rotated(scene.workspace.robot.mesh(),
-                            pose.orientation.toRotationMatrix()),
-                    "robot");
-      for (const Solid& obstacle : scene.workspace.obstacles) {
-        hits += CollisionOracle(turned, obstacle).Collides(pose.position);
+      const Solid turned = MakeSolid(
+          Rotated(scene.robot, pose.orientation.toRotationMatrix()), "robot");
+      for (const TurningScene::Obstacle& obstacle : scene.obstacles) {
+        const Solid solid = MakeSolid(obstacle.mesh, obstacle.name);
+        hits += CollisionOracle(turned, solid).Collides(pose.position);
       }
     }
   }
@@ -129,6 +130,107 @@ TEST_F(CliTurning, RefusesWhatOnlyTranslatingRobotsHave) {
   scene = Slit();
   scene["planning"]["planner"] = "contact-surface";
   ExpectRefused("plan " + Write(scene), {"/planning/planner", "time_limit"});
+}
+
+TEST_F(CliTurning, FamiliesArePlannedWrittenAndShown) {
+  ExpectRefused("plan alpha:1", {"alpha", "[1.01, 3]", "found 1"});
+  ExpectRefused("plan alpha:play=2", {"alpha", "gap", "'play'"});
+  ExpectRefused("optimize alpha", {"/robot/turns", "phongpd plan"});
+  ExpectRefused("view alpha --build --html v.html", {"--build", "turns"});
+  const Json list = Json::parse(Run("scenes list --json").out);
+  ASSERT_EQ(list["turning_families"].size(), 8U);
+  const std::string words = Run("scenes list").out;
+  for (const Json& family : list["turning_families"]) {
+    const std::string name = family["name"];
+    ASSERT_EQ(family["knobs"].size(), 1U) << name;
+    EXPECT_NE(words.find("\n" + name + ": "), std::string::npos) << name;
+    // Its file is the scene that the family is.
+    ASSERT_EQ(Run("scenes write " + name + " --output s.json").code, 0) << name;
+    const std::string text = Content(Output("s.json"));
+    const TurningScene file = ParseTurningSceneFile(text, "s.json");
+    const RigidScene made = MakeRigidScene(name);
+    EXPECT_EQ(file.robot.vertices, made.robot.vertices) << name;
+    EXPECT_EQ(file.robot.triangles, made.robot.triangles) << name;
+    ASSERT_EQ(file.obstacles.size(), made.obstacles.size()) << name;
+    for (std::size_t i = 0; i < made.obstacles.size(); ++i) {
+      EXPECT_EQ(file.obstacles[i].mesh.vertices, made.obstacles[i].vertices);
+    }
+    EXPECT_EQ(file.start.position, made.start.position) << name;
+    EXPECT_LT(file.goal.orientation.angularDistance(made.goal.orientation),
+              1e-7)
+        << name;
+    EXPECT_TRUE(file.warnings.empty()) << name << file.warnings.front();
+    const Outcome view = Run("view " + name + " --html v.html --json");
+    ASSERT_EQ(view.code, 0) << name << view.err;
+    EXPECT_EQ(Json::parse(view.out)["robot_triangles"],
+              made.robot.triangles.size())
+        << name;
+  }
+  const Outcome plan =
+      Run("plan window:4 --time 60 --output w.jsonl --html w.html");
+  ASSERT_EQ(plan.code, 0) << plan.err;
+  const Json row = Json::parse(Content(Output("w.jsonl")));
+  EXPECT_EQ(row["scene"], "window:4");
+  EXPECT_EQ(row["path"].front().size(), 7U);
+  // A row finds its scene, and so does a file.
+  EXPECT_EQ(Run("view w.jsonl --html again.html").code, 0);
+  EXPECT_EQ(Run("scenes write peg --set play=0.5 --output p.json").code, 0);
+  EXPECT_EQ(Run("view p.json --html p.html").code, 0);
+}
+
+// A wall of two triangles has no inside: it is judged, and said to be open.
+TEST_F(CliTurning, TakesSurfacesThatAreNotClosed) {
+  Json scene = Slit();
+  for (const int side : {-1, 1}) {
+    Json& wall = scene["obstacles"][side < 0 ? 0 : 1];
+    const double a = 0.25 * side, b = 3.25 * side;
+    wall["shape"] = {
+        {"type", "triangles"},
+        {"vertices", {{0, a, -1.5}, {0, b, -1.5}, {0, b, 1.5}, {0, a, 1.5}}},
+        {"triangles", {{0, 1, 2}, {0, 2, 3}}}};
+    wall.erase("position");
+  }
+  const Outcome outcome = Run("plan " + Write(scene) + " --json");
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_NE(outcome.err.find("its triangles are judged as they are"),
+            std::string::npos)
+      << outcome.err;
+  const Json row = Json::parse(outcome.out);
+  const TurningScene read = ParseTurningScene(scene, "scene.json");
+  EXPECT_EQ(read.warnings.size(), 2U);
+  // On the way past x = 0 all of it is within the slit: |y| < 0.25.
+  const Json& path = row["path"];
+  int crossings = 0;
+  for (std::size_t i = 0; i + 1 < path.size(); ++i) {
+    const RigidMotion motion(PoseOf(path[i]), PoseOf(path[i + 1]));
+    for (int k = 0; k <= 200; ++k) {
+      const RobotPose pose = motion.At(k / 200.0);
+      const std::vector<Vector3d>& v = read.robot.vertices;
+      for (std::size_t j = 0; j < v.size(); ++j) {
+        for (std::size_t l = 0; l < j; ++l) {
+          const Vector3d p = pose.orientation * v[j] + pose.position;
+          const Vector3d q = pose.orientation * v[l] + pose.position;
+          if (p.x() * q.x() >= 0.0) continue;
+          ++crossings;
+          const double t = p.x() / (p.x() - q.x());
+          EXPECT_LT(std::abs(p.y() + t * (q.y() - p.y())), 0.25);
+        }
+      }
+    }
+  }
+  EXPECT_GT(crossings, 0);
+  // A repair that is asked for has to succeed; others want solids.
+  ExpectRefused("plan " + Write(scene) + " --repair safe",
+                {"/obstacles/0", "open"});
+  scene["robot"].erase("turns");
+  scene.erase("goal_rotation");
+  ExpectRefused("plan " + Write(scene), {"/obstacles/0"});
+  scene = Slit();
+  scene["robot"]["shape"] = {{"type", "triangles"},
+                             {"vertices", {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}},
+                             {"triangles", {{0, 1, 3}}}};
+  ExpectRefused("plan " + Write(scene),
+                {"/robot/shape", "numbers of vertices"});
 }
 
 }  // namespace

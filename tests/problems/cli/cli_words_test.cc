@@ -4,11 +4,13 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <map>
 #include <regex>
 #include <set>
 #include <string>
 #include <vector>
 
+#include "problems/shapes/shapes.h"
 #include "tests/problems/cli/cli_scenes.h"
 
 namespace phongpd {
@@ -254,6 +256,55 @@ TEST_F(CliWords, OutputsOfAnotherKindAreRefused) {
   ExpectLine("minkowski ../box.off ../cone.off --output c.html", {"c.html"});
   ExpectLine("check ../box.off --defects d.html", {"d.html"});
   EXPECT_TRUE(std::filesystem::is_empty(folder_ / "run"));
+}
+
+// Every flag that is a length, and a command in which it is one.  Refused is
+// what none of them knows, and what is accepted is beside it.
+TEST_F(CliWords, EveryLengthTakesAWordForItsUnit) {
+  WriteText("p.csv", "x,y,z\n0.3,0,0\n0.4,0,0\n");
+  WriteMesh(MakeBox({3, 3, 3}, {4, 4, 4}), File("far.off"));
+  const std::map<std::string, std::string> calls = {
+      {"depth --max-radius", "depth ../box.off ../cone.off"},
+      {"depth --smoothing-length", "depth ../box.off ../cone.off"},
+      {"motion --smoothing-length",
+       "motion --robot ../box.off --obstacle ../cone.off --from 3 0 0 --to 4 0 "
+       "0 "
+       "--frames 2"},
+      {"optimize --margin", "optimize u_axis"},
+      {"optimize --smoothing-length", "optimize u_axis"},
+      {"plan --clearance", "plan tunnel"},
+      {"query --smoothing-length",
+       "query --contact-space ../box.off --points ../p.csv"},
+      {"remove --tolerance", "remove ../box.off ../far.off"},
+      {"retime --margin", "retime ../p.csv --scene u_axis --limits 1,9,99"},
+  };
+  std::set<std::string> found;
+  for (const std::string& command : Commands()) {
+    for (const Flag& flag : Flags(Help(command))) {
+      if (flag.value.rfind("LENGTH", 0) != 0) continue;
+      found.insert(command + " " + flag.name);
+    }
+  }
+  std::set<std::string> known;
+  for (const auto& [name, call] : calls) {
+    known.insert(name);
+    const std::string flag = name.substr(name.find(' ') + 1);
+    const std::string with = call + " " + flag + " ";
+    ExpectLine(with + "1furlong", {flag, "length", "1furlong", "unit"});
+    // Those have answers of their own to wait for, or a path to be free.
+    if (name.rfind("motion", 0) == 0 || name.rfind("retime", 0) == 0) continue;
+    const Outcome taken = Run(with + "0.05unit --json");
+    EXPECT_LE(taken.code, 1) << with << taken.err;
+  }
+  EXPECT_EQ(found, known);
+  // Where the meshes' unit has a name.
+  for (const char* flag : {"depth ../box.off ../cone.off --max-radius ",
+                           "remove ../box.off ../far.off --tolerance "}) {
+    EXPECT_LE(Run(std::string(flag) + "1e-3mm --unit mm").code, 1) << flag;
+    ExpectLine(std::string(flag) + "1mm", {"'1mm'", "--unit mm"});
+    ExpectLine(std::string(flag) + "1in --unit mm", {"'1in'", "that is mm"});
+    ExpectLine(std::string(flag) + "1mm --unit yard", {"--unit"});
+  }
 }
 
 }  // namespace

@@ -21,9 +21,9 @@ namespace {
 
 // The default of each family, and how tight it gets.
 std::vector<std::string> Names() {
-  std::vector<std::string> names = {"peg:0.001",   "peg:1e-05",    "ell:2",
-                                    "lock:0.001",  "bugtrap:0.01", "piano:0.01",
-                                    "flange:0.02", "alpha:1.1",    "alpha:3"};
+  std::vector<std::string> names = {
+      "peg:0.001",  "peg:1e-05",   "ell:2",     "lock:0.001", "rod_trap:0.01",
+      "piano:0.01", "flange:0.02", "alpha:1.1", "alpha:3"};
   for (const RigidSceneFamily& f : RigidSceneFamilies()) {
     names.push_back(f.name);
   }

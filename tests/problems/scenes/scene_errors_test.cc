@@ -112,7 +112,8 @@ TEST(SceneErrors, NameFilePlaceExpectedAndFound) {
       {"/robot/shape/type", "sphere",
        "s.json: /robot/shape/type: expected one of ball, uv_ball, box, "
        "box_shell, cells, cone, axes, wrench, torus, l, u, plate_hole, "
-       "plate_round_hole, prism, vessel, star, knot, tube, scan, found "
+       "plate_round_hole, prism, vessel, star, knot, tube, triangles, scan, "
+       "found "
        "\"sphere\""},
       {"/robot/shape/radius", nullptr,
        "s.json: /robot/shape: a ball needs \"radius\", found "
