@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "constraints/rigid/closest_offset.h"
 #include "core/mesh/numbers.h"
 
 namespace phongpd::internal {
@@ -70,7 +71,7 @@ class DirectionSearch {
       if (Try(n.cross(y), b * b * b)) return true;
     }
     // Corners and slivers show themselves along their distance.
-    return is_apart_ && TryClosest(e, f);
+    return is_apart_ && TryClosest();
   }
 
   // Some direction parts them at the middle, to rounding.
@@ -119,62 +120,9 @@ class DirectionSearch {
     return margin > needed_;
   }
 
-  // Along the closest pair of points, of edges or of a corner and a face.
-  bool TryClosest(const std::array<Vector3d, 3>& e,
-                  const std::array<Vector3d, 3>& f) {
-    best_ = kInfinity;
-    for (std::size_t i = 0; i < 3; ++i) {
-      for (std::size_t j = 0; j < 3; ++j) {
-        Offer(BetweenSegments(placed_[i], e[i], obstacle_[j], f[j]));
-      }
-    }
-    OfferFace(placed_, e, obstacle_);
-    OfferFace(obstacle_, f, placed_);
-    const double length = std::sqrt(best_);
-    return length > 0.0 && std::isfinite(length) && TryUnit(apart_ / length);
-  }
-
-  void Offer(const Vector3d& apart) {
-    const double squared = apart.squaredNorm();
-    if (!(squared < best_)) return;
-    best_ = squared;
-    apart_ = apart;
-  }
-
-  void OfferFace(const TriangleCorners& face, const std::array<Vector3d, 3>& e,
-                 const TriangleCorners& points) {
-    const Vector3d n = e[0].cross(e[1]);
-    const double squared = n.squaredNorm();
-    if (!(squared > 0.0)) return;
-    for (const Vector3d& p : points) {
-      bool is_over = true;
-      for (std::size_t i = 0; i < 3; ++i) {
-        is_over = is_over && n.cross(e[i]).dot(p - face[i]) >= 0.0;
-      }
-      if (is_over) Offer(n * (n.dot(p - face[0]) / squared));
-    }
-  }
-
-  // From q + [0, 1] e to p + [0, 1] d; any vector would be a direction.
-  static Vector3d BetweenSegments(const Vector3d& p, const Vector3d& d,
-                                  const Vector3d& q, const Vector3d& e) {
-    const Vector3d r = p - q;
-    const double a = d.squaredNorm(), b = d.dot(e), c = e.squaredNorm();
-    const double along_d = d.dot(r), along_e = e.dot(r);
-    const double den = a * c - b * b;
-    double s = 0.0;
-    if (den > 1e-14 * a * c) {
-      s = std::clamp((b * along_e - c * along_d) / den, 0.0, 1.0);
-    }
-    double t = c > 0.0 ? (b * s + along_e) / c : 0.0;
-    if (t < 0.0) {
-      t = 0.0;
-      s = a > 0.0 ? std::clamp(-along_d / a, 0.0, 1.0) : 0.0;
-    } else if (t > 1.0) {
-      t = 1.0;
-      s = a > 0.0 ? std::clamp((b - along_d) / a, 0.0, 1.0) : 0.0;
-    }
-    return r + s * d - t * e;
+  bool TryClosest() {
+    const Vector3d n = FindClosestOffset(placed_, obstacle_).direction;
+    return n.squaredNorm() > 0.0 && TryUnit(n);
   }
 
   const FramedMotion& motion_;

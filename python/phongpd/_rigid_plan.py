@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 from . import _native
 from ._arguments import Floats, numbers
 from ._native import InputError
-from ._rigid import _meshes, _pose
+from ._rigid import RigidClearance, _meshes, _pose
 
 
 @dataclass(frozen=True)
@@ -32,6 +32,9 @@ class RigidPlan:
     planner: str
     """"line", "straight", "slide" or "tow", which found it."""
     seconds: float
+    clearance: RigidClearance | None = None
+    """How close the path comes to the obstacles, proved, and where; None: there
+    is no path."""
 
     @property
     def solved(self) -> bool:
@@ -64,12 +67,14 @@ class RigidWorld:
             numbers(bounds, "bounds", "(2, 3)")
         if bounds is not None and box.shape != (2, 3):
             raise InputError(f"bounds: expected shape (2, 3), found {box.shape}")
-        status, reason, rows, length, planner, seconds = self._native.plan(
+        (status, reason, rows, length, planner, seconds,
+         clearance) = self._native.plan(
             np.stack([_pose(start, "start"), _pose(goal, "goal")]), box,
             float(time_limit), seed)
         return RigidPlan(status, reason, np.array(list(map(_matrix, rows))
                                                   ).reshape(-1, 4, 4),
-                         length, planner, seconds)
+                         length, planner, seconds,
+                         clearance and RigidClearance(*clearance))
 
 
 def _matrix(row: tuple[float, ...]) -> Floats:

@@ -36,8 +36,11 @@ nb::tuple PlanPoses(const RigidWorld& world, const Poses& ends,
     poses.append(
         nb::make_tuple(p.x(), p.y(), p.z(), q.w(), q.x(), q.y(), q.z()));
   }
+  nb::object clearance = nb::none();
+  if (answer.IsSolved()) clearance = ClearanceRow(answer.clearance);
   return nb::make_tuple(ToString(answer.status), answer.reason, poses,
-                        answer.length, answer.planner, answer.seconds);
+                        answer.length, answer.planner, answer.seconds,
+                        clearance);
 }
 
 }  // namespace
