@@ -142,8 +142,7 @@ class ClearanceSearch {
         AreBeyondAlongCentres(middle, part.half_width, target, a, b)) {
       return;
     }
-    if (bound > a.radius + b.radius &&
-        part.level < RigidDescent::kMaxHalvings) {
+    if (GoesFar(bound, a, b) && part.level < RigidDescent::kMaxHalvings) {
       Halve(part);
     } else {
       Open(part, a, b);
@@ -160,8 +159,10 @@ class ClearanceSearch {
     if (!(length > 0.0)) return false;
     const Vector3d n = apart / length;
     const double across_boxes =
-        n.cwiseAbs().dot(b.half) +
-        (middle.rotation.transpose() * n).cwiseAbs().dot(a.half);
+        (b.axes.transpose() * n).cwiseAbs().dot(b.half) +
+        (a.axes.transpose() * (middle.rotation.transpose() * n))
+            .cwiseAbs()
+            .dot(a.half);
     // Or the balls, which hold the same.
     const double gap = length - std::min(across_boxes, a.radius + b.radius);
     const double needed = target + motion_.slack();

@@ -25,13 +25,17 @@ Vector3d Across(const Vector3d& v, const Vector3d& d) {
   return squared > 0.0 ? Vector3d(v - d * (d.dot(v) / squared)) : v;
 }
 
-// Two points of segments, as shares of them.
+Edges EdgesOf(const TriangleCorners& t) {
+  return {t[1] - t[0], t[2] - t[1], t[0] - t[2]};
+}
+
+// From q + [0, 1] e to p + [0, 1] d, and whether the points are inside of the
+// two; any vector would be a direction.
 struct OnSegments {
   Vector3d offset;
   bool is_inside_first, is_inside_second;
 };
 
-// From q + [0, 1] e to p + [0, 1] d; any vector would be a direction.
 OnSegments BetweenSegments(const Vector3d& p, const Vector3d& d,
                            const Vector3d& q, const Vector3d& e) {
   const Vector3d r = p - q;
@@ -53,57 +57,74 @@ OnSegments BetweenSegments(const Vector3d& p, const Vector3d& d,
   return {r + s * d - t * e, s > 0.0 && s<1.0, t> 0.0 && t < 1.0};
 }
 
-// Across the edges that it is inside of.
-Vector3d DirectionOf(const OnSegments& on, const Vector3d& d,
-                     const Vector3d& e) {
-  if (on.is_inside_first && on.is_inside_second) {
-    const Vector3d n = d.cross(e);
-    if (n.squaredNorm() > kCrossing * d.squaredNorm() * e.squaredNorm()) {
-      return n.dot(on.offset) < 0.0 ? Vector3d(-n) : n;
-    }
-  }
-  if (on.is_inside_first) return Across(on.offset, d);
-  return on.is_inside_second ? Across(on.offset, e) : on.offset;
-}
-
 class Closest {
  public:
-  void OfferEdges(const Vector3d& p, const Vector3d& d, const Vector3d& q,
-                  const Vector3d& e) {
-    const OnSegments on = BetweenSegments(p, d, q, e);
-    if (IsCloser(on.offset)) found_ = {on.offset, DirectionOf(on, d, e)};
+  Closest(const TriangleCorners& a, const TriangleCorners& b)
+      : a_(a), b_(b), e_(EdgesOf(a)), f_(EdgesOf(b)) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      for (std::size_t j = 0; j < 3; ++j) {
+        const OnSegments on = BetweenSegments(a_[i], e_[i], b_[j], f_[j]);
+        if (!IsCloser(on.offset)) continue;
+        first_ = on.is_inside_first ? &e_[i] : nullptr;
+        second_ = on.is_inside_second ? &f_[j] : nullptr;
+      }
+    }
+    OfferFace(a_, e_, b_, -1.0);
+    OfferFace(b_, f_, a_, 1.0);
   }
 
+  const Vector3d& offset() const { return offset_; }
+
+  // Along the normal of the face, or across the edges that it is inside of.
+  Vector3d Direction() const {
+    if (is_face_) return normal_;
+    if (first_ != nullptr && second_ != nullptr) {
+      const Vector3d n = first_->cross(*second_);
+      if (n.squaredNorm() >
+          kCrossing * first_->squaredNorm() * second_->squaredNorm()) {
+        return n.dot(offset_) < 0.0 ? Vector3d(-n) : n;
+      }
+    }
+    if (first_ != nullptr) return Across(offset_, *first_);
+    return second_ != nullptr ? Across(offset_, *second_) : offset_;
+  }
+
+ private:
   // Of the points over the face, from the face to them times the sign.
   void OfferFace(const TriangleCorners& face, const Edges& e,
                  const TriangleCorners& points, double sign) {
     const Vector3d n = e[0].cross(e[1]);
     const double squared = n.squaredNorm();
     if (!(squared > 0.0)) return;
+    const Vector3d inward[3] = {n.cross(e[0]), n.cross(e[1]), n.cross(e[2])};
     for (const Vector3d& p : points) {
       bool is_over = true;
       for (std::size_t i = 0; i < 3; ++i) {
-        is_over = is_over && n.cross(e[i]).dot(p - face[i]) >= 0.0;
+        is_over = is_over && inward[i].dot(p - face[i]) >= 0.0;
       }
       if (!is_over) continue;
       const double along = sign * n.dot(p - face[0]);
-      const Vector3d offset = n * (along / squared);
-      if (IsCloser(offset)) found_ = {offset, along < 0.0 ? Vector3d(-n) : n};
+      if (!IsCloser(n * (along / squared))) continue;
+      is_face_ = true;
+      normal_ = along < 0.0 ? Vector3d(-n) : n;
     }
   }
 
-  const ClosestOffset& found() const { return found_; }
-
- private:
   bool IsCloser(const Vector3d& offset) {
     const double squared = offset.squaredNorm();
     if (!(squared < best_)) return false;
     best_ = squared;
+    offset_ = offset;
     return true;
   }
 
+  const TriangleCorners &a_, &b_;
+  const Edges e_, f_;
   double best_ = kInfinity;
-  ClosestOffset found_;
+  Vector3d offset_ = Vector3d::Zero();
+  bool is_face_ = false;
+  Vector3d normal_ = Vector3d::Zero();
+  const Vector3d *first_ = nullptr, *second_ = nullptr;  // edges
 };
 
 // 0 of what is so short that it has lost digits, or is not finite.
@@ -114,26 +135,12 @@ Vector3d UnitOf(const Vector3d& v) {
   return scaled / scaled.norm();
 }
 
-Edges EdgesOf(const TriangleCorners& t) {
-  return {t[1] - t[0], t[2] - t[1], t[0] - t[2]};
-}
-
 }  // namespace
 
 ClosestOffset FindClosestOffset(const TriangleCorners& a,
                                 const TriangleCorners& b) {
-  const Edges e = EdgesOf(a), f = EdgesOf(b);
-  Closest closest;
-  for (std::size_t i = 0; i < 3; ++i) {
-    for (std::size_t j = 0; j < 3; ++j) {
-      closest.OfferEdges(a[i], e[i], b[j], f[j]);
-    }
-  }
-  closest.OfferFace(a, e, b, -1.0);
-  closest.OfferFace(b, f, a, 1.0);
-  ClosestOffset found = closest.found();
-  found.direction = UnitOf(found.direction);
-  return found;
+  const Closest closest(a, b);
+  return {closest.offset(), UnitOf(closest.Direction())};
 }
 
 }  // namespace phongpd::internal

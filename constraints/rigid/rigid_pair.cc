@@ -42,13 +42,16 @@ class DirectionSearch {
     bound_ = h * (motion.distance() + motion.rate() * farthest);
   }
 
-  // True as soon as a direction proves them apart, `first` before all others,
-  // which are left where that one is likely to do it for half of the part, and
-  // the motion is above `coarse`.
+  // True as soon as a direction proves them apart, `first` before all others.
+  // Where the motion is above `coarse` these are left to the halves, after the
+  // one along the distance, and that too where `first` is likely to do it for
+  // half of the part.
   bool Run(const PairHint& first, double coarse) {
     if (first.squaredNorm() > 0.0) {
       if (TryUnit(first)) return true;
       if (bound_ > coarse && half_margin_ > needed_) return false;
+      if (TryClosest()) return true;
+      if (bound_ > coarse) return false;
     }
     std::array<Vector3d, 3> e, f;
     for (std::size_t i = 0; i < 3; ++i) {
@@ -71,7 +74,7 @@ class DirectionSearch {
       if (Try(n.cross(y), b * b * b)) return true;
     }
     // Corners and slivers show themselves along their distance.
-    return is_apart_ && TryClosest();
+    return is_apart_ && !(first.squaredNorm() > 0.0) && TryClosest();
   }
 
   // Some direction parts them at the middle, to rounding.
@@ -187,33 +190,42 @@ PairSight LookAtBoxes(const FramedMotion& motion, const RigidPose& middle,
                       double half_width, double gap, const RigidNode& robot,
                       const RigidNode& obstacle, double* motion_bound) {
   const double h = half_width;
-  const Matrix3d& r = middle.rotation;
-  const Vector3d arm = r * robot.center;
+  const Vector3d arm = middle.rotation * robot.center;
   const Vector3d apart = arm + middle.position - obstacle.center;
-  const Matrix3d size = r.cwiseAbs();
   const double needed = gap + motion.slack();
-  // Along the axes of the obstacles' boxes, and of the robot's.
-  const Vector3d g = apart.cwiseAbs() - obstacle.half - size * robot.half;
-  const Vector3d k = (r.transpose() * apart).cwiseAbs() - robot.half -
-                     size.transpose() * obstacle.half;
   const double reach = motion.FromAxis(robot.center) + robot.radius;
   *motion_bound = h * (motion.distance() + motion.rate() * reach);
+  // Most boxes are along the axes of space, where nothing is to be turned.
+  const Matrix3d turned = robot.is_turned
+                              ? Matrix3d(middle.rotation * robot.axes)
+                              : middle.rotation;
+  const auto in_obstacle = [&](const auto& v) {
+    using Value = std::decay_t<decltype(v)>;
+    return obstacle.is_turned ? Value(obstacle.axes.transpose() * v) : v;
+  };
+  const Matrix3d size = in_obstacle(turned).cwiseAbs();
+  // Along the axes of the obstacles' box, and of the robot's.
+  const Vector3d g =
+      in_obstacle(apart).cwiseAbs() - obstacle.half - size * robot.half;
+  if (g.maxCoeff() - needed > *motion_bound) return PairSight::kApart;
+  const Vector3d k = (turned.transpose() * apart).cwiseAbs() - robot.half -
+                     size.transpose() * obstacle.half;
   const double best = std::max(g.maxCoeff(), k.maxCoeff()) - needed;
   if (best > *motion_bound) return PairSight::kApart;
   if (!(best > 0.0)) return PairSight::kUnknown;
   const Vector3d speed = motion.moved() + middle.turn.cross(arm);
-  const Vector3d body_speed = r.transpose() * speed;
   const double bend =
       h * (motion.rate() * robot.radius + 0.5 * h * motion.bend() * reach);
-  const Vector3d g_needed = h * speed.cwiseAbs() + bend * motion.across_axes();
-  const Vector3d k_needed =
-      h * body_speed.cwiseAbs() + bend * motion.across_body_axes();
-  for (int i = 0; i < 3; ++i) {
-    if (g[i] - needed > g_needed[i] || k[i] - needed > k_needed[i]) {
-      return PairSight::kApart;
-    }
-  }
-  return PairSight::kUnknown;
+  const auto parts = [&](const Vector3d& gaps, const Vector3d& speeds,
+                         const Vector3d& along) {
+    const Vector3d away = h * speeds.cwiseAbs() + bend * motion.Across(along);
+    return ((gaps - away).array() > needed).any();
+  };
+  return parts(g, in_obstacle(speed), in_obstacle(motion.axis())) ||
+                 parts(k, turned.transpose() * speed,
+                       turned.transpose() * motion.axis())
+             ? PairSight::kApart
+             : PairSight::kUnknown;
 }
 
 PairSight LookAtTriangles(const FramedMotion& motion, const RigidPose& middle,

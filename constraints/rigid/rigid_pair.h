@@ -30,6 +30,7 @@
 // its origin, of how far that gets, and of the obstacles' reach, everything in
 // the frame; a direction is 1 long to 4 u.  Then
 //   corners into the frame, q, Δq and q(t)           ≤ 8
+//   corners along the axes of a box, and these       ≤ 24
 //   R(t) by a quaternion, sine and cosine            ≤ 48 + 4 θ
 //   R p + q                                          ≤ 8
 //   dot products with n, both sides                  ≤ 16
