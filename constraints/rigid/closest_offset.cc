@@ -11,7 +11,7 @@ namespace phongpd::internal {
 namespace {
 
 using Eigen::Vector3d;
-using Edges = std::array<Vector3d, 3>;
+using EdgeVectors = std::array<Vector3d, 3>;
 
 // Of edges whose cross product is a direction, by their squares.
 constexpr double kCrossing = 1e-20;
@@ -25,7 +25,7 @@ Vector3d Across(const Vector3d& v, const Vector3d& d) {
   return squared > 0.0 ? Vector3d(v - d * (d.dot(v) / squared)) : v;
 }
 
-Edges EdgesOf(const TriangleCorners& t) {
+EdgeVectors EdgeVectorsOf(const TriangleCorners& t) {
   return {t[1] - t[0], t[2] - t[1], t[0] - t[2]};
 }
 
@@ -60,7 +60,7 @@ OnSegments BetweenSegments(const Vector3d& p, const Vector3d& d,
 class Closest {
  public:
   Closest(const TriangleCorners& a, const TriangleCorners& b)
-      : a_(a), b_(b), e_(EdgesOf(a)), f_(EdgesOf(b)) {
+      : a_(a), b_(b), e_(EdgeVectorsOf(a)), f_(EdgeVectorsOf(b)) {
     for (std::size_t i = 0; i < 3; ++i) {
       for (std::size_t j = 0; j < 3; ++j) {
         const OnSegments on = BetweenSegments(a_[i], e_[i], b_[j], f_[j]);
@@ -91,7 +91,7 @@ class Closest {
 
  private:
   // Of the points over the face, from the face to them times the sign.
-  void OfferFace(const TriangleCorners& face, const Edges& e,
+  void OfferFace(const TriangleCorners& face, const EdgeVectors& e,
                  const TriangleCorners& points, double sign) {
     const Vector3d n = e[0].cross(e[1]);
     const double squared = n.squaredNorm();
@@ -119,7 +119,7 @@ class Closest {
   }
 
   const TriangleCorners &a_, &b_;
-  const Edges e_, f_;
+  const EdgeVectors e_, f_;
   double best_ = kInfinity;
   Vector3d offset_ = Vector3d::Zero();
   bool is_face_ = false;

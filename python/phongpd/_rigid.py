@@ -135,8 +135,8 @@ class RigidJudge:
                   absolute: float = 0.0) -> RigidClearance:
         """How close it comes on the way: `clearance(start, end)`, or
         `clearance(poses)` of a path, (N, 4, 4).  Refined until `upper` - `lower`
-        is at most `relative` of `upper`, or `absolute`; some times as long as
-        check."""
+        is at most `relative` of `upper`, or `absolute`: some milliseconds, 6 to
+        140 times as long as check."""
         array = numbers(poses[0] if len(poses) == 1 else list(poses), "poses",
                         "(N, 4, 4)")
         if array.ndim != 3 or array.shape[1:] != (4, 4) or len(array) < 1:
