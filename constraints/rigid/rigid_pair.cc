@@ -139,8 +139,6 @@ class DirectionSearch {
   double most_margin_ = -kInfinity;
   double half_margin_ = -kInfinity;  // of the last direction, at half h or so
   Vector3d best_direction_ = Vector3d::Zero();
-  double best_ = 0.0;
-  Vector3d apart_ = Vector3d::Zero();
 };
 
 // Do two triangles meet wherever within `moved` of their places the corners
