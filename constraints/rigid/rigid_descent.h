@@ -25,9 +25,9 @@ struct RigidPart {
 };
 
 // Does the robot's box go so far from its middle, `bound` at most, that it is
-// not known better by its parts, which are many, but by halves of its way?  At
-// the whole of the sizes in place of a fourth parts were looked at 3 to 10
-// times as often.
+// not known better by its parts, which are many, but by halves of its way? With
+// the sizes themselves in place of a fourth of them, twice to four times as
+// many pairs of two tubes were looked at; an eighth is no better.
 inline bool GoesFar(double bound, const RigidNode& a, const RigidNode& b) {
   return bound > 0.25 * (a.radius + b.radius);
 }
