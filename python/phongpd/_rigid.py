@@ -137,8 +137,8 @@ class RigidJudge:
         `clearance(poses)` of a path, (N, 4, 4).  Refined until `upper` - `lower`
         is at most `relative` of `upper`, or `absolute`: some milliseconds, 6 to
         140 times as long as check."""
-        array = numbers(poses[0] if len(poses) == 1 else list(poses), "poses",
-                        "(N, 4, 4)")
+        way: Any = poses[0] if len(poses) == 1 else list(poses)
+        array = numbers(way, "poses", "(N, 4, 4)")
         if array.ndim != 3 or array.shape[1:] != (4, 4) or len(array) < 1:
             raise InputError("poses: expected two poses of shape (4, 4) or a path "
                              f"of shape (N, 4, 4), found {array.shape}")
