@@ -62,7 +62,8 @@ PairSight LookAtBoxes(const FramedMotion& motion, const RigidPose& middle,
 // Of two triangles.  They meet if an edge of one runs through the inside of the
 // other, and would if each corner were 2 slack away, which is 8 times
 // what rounding moves it: touching is unknown.  Where the bound is above
-// `coarse`, a pair that its hint would part for about half as long is left.
+// `coarse`, a pair with a hint is asked along that alone, or along its distance
+// too where that would not part it for about half as long: its halves follow.
 PairSight LookAtTriangles(const FramedMotion& motion, const RigidPose& middle,
                           double half_width, double gap, double coarse,
                           const TriangleCorners& robot,
