@@ -11,15 +11,8 @@ using Eigen::Quaterniond;
 using Eigen::Vector3d;
 
 constexpr double kRigidSlack = 0x1p-44;
-// Of a square of length 1 that products of rounded directions miss.
-constexpr double kRoundedSquare = 0x1p-48;
 // More than rounding takes off a bound of the rate of turning.
 constexpr double kRoundedUp = 1.0 + 0x1p-40;
-
-// |n × u| of unit vectors by n · u, rounded up.
-double Across(double along) {
-  return std::sqrt(std::max(0.0, 1.0 - along * along) + kRoundedSquare);
-}
 
 }  // namespace
 
@@ -69,10 +62,6 @@ void FramedMotion::SetSizes(const RigidFrame& frame, const Vector3d& start,
   body_axis_ = start_.conjugate().normalized() * axis_;
   const Vector3d last = (end - frame.center) * frame.scale;
   size_ = reach + std::max(position_.norm(), last.norm());
-  for (int k = 0; k < 3; ++k) {
-    across_axes_[k] = Across(axis_[k]);
-    across_body_axes_[k] = Across(body_axis_[k]);
-  }
   const double turns = std::max(rate_, std::sqrt(bend_));
   slack_ = kRigidSlack * size_ * (1.0 + turns) * (1.0 + turns);
 }
@@ -107,7 +96,8 @@ double FramedMotion::FromAxis(const Vector3d& p) const {
 }
 
 double FramedMotion::AcrossAxis(const Vector3d& n) const {
-  return Across(n.dot(axis_));
+  const double along = n.dot(axis_);
+  return std::sqrt(std::max(0.0, 1.0 - along * along) + kRoundedSquare);
 }
 
 }  // namespace phongpd::internal

@@ -43,18 +43,21 @@ class FramedMotion {
   // Over the whole way, rounded up: max φ' and max (φ'² + |φ''|).
   double rate() const { return rate_; }
   double bend() const { return bend_; }
-  // |n × u| of the axes of the obstacles' boxes and of the robot's, rounded up.
-  const Eigen::Vector3d& across_axes() const { return across_axes_; }
-  const Eigen::Vector3d& across_body_axes() const { return across_body_axes_; }
   double slack() const { return slack_; }
   double size() const { return size_; }  // S
 
   // Of a point of the robot: ρ, rounded up.
   double FromAxis(const Eigen::Vector3d& p) const;
-  // |n × u| of a direction, rounded up.
+  // |n × u| of a direction, and of three by their n · u, rounded up.
   double AcrossAxis(const Eigen::Vector3d& n) const;
+  Eigen::Vector3d Across(const Eigen::Array3d& along) const {
+    return ((1.0 - along.square()).max(0.0) + kRoundedSquare).sqrt();
+  }
 
  private:
+  // Of a square of length 1 that products of rounded directions miss.
+  static constexpr double kRoundedSquare = 0x1p-48;
+
   void SetSizes(const RigidFrame& frame, const Eigen::Vector3d& start,
                 const Eigen::Vector3d& end, double reach);
 
@@ -63,7 +66,6 @@ class FramedMotion {
   bool is_quaternion_;
   Eigen::Quaterniond start_, last_;
   Eigen::Vector3d position_, moved_, axis_, turn_, body_axis_;
-  Eigen::Vector3d across_axes_, across_body_axes_;
   double rate_, bend_, distance_, size_, slack_;
 };
 

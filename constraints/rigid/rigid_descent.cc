@@ -34,7 +34,7 @@ PairSight RigidDescent::Look(RigidPart* part, double gap, double coarse,
     return PairSight::kApart;
   }
   // A box that goes far is not known better by its parts.
-  if (*bound > a.radius + b.radius && part->level < kMaxHalvings) {
+  if (GoesFar(*bound, a, b) && part->level < kMaxHalvings) {
     Halve(*part);
   } else {
     Open(*part, a, b);

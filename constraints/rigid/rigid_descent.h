@@ -24,6 +24,14 @@ struct RigidPart {
   double To() const { return half_width * static_cast<double>(2 * k + 2); }
 };
 
+// Does the robot's box go so far from its middle, `bound` at most, that it is
+// not known better by its parts, which are many, but by halves of its way? With
+// the sizes themselves in place of a fourth of them, twice to four times as
+// many pairs of two tubes were looked at; an eighth is no better.
+inline bool GoesFar(double bound, const RigidNode& a, const RigidNode& b) {
+  return bound > 0.25 * (a.radius + b.radius);
+}
+
 // Poses at the middles of the parts of the way, those of the first levels kept.
 class MiddlePoseCache {
  public:

@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <utility>
 
+#include "constraints/rigid/clearance_search.h"
 #include "constraints/rigid/rigid_search.h"
 #include "core/mesh/mesh_error.h"
+#include "core/mesh/numbers.h"
 #include "core/number_text.h"
 
 namespace phongpd {
@@ -30,6 +32,20 @@ FramedMotion Framed(const RigidSides& sides, const Motion& motion) {
         "; are the units right?");
   }
   return framed;
+}
+
+// Of one motion, which is number `number`; *known of those before, in the
+// frame.
+RigidClearance ClearanceOf(const RigidSides& sides, const FramedMotion& motion,
+                           int number, const ClearanceTolerance& tolerance,
+                           long max_tests, double* known) {
+  const internal::FramedClearance found = internal::SearchClearance(
+      sides, motion, tolerance.relative, tolerance.absolute * sides.frame.scale,
+      *known, max_tests);
+  *known = found.upper;
+  RigidClearance clearance = internal::InUsersUnit(sides, found);
+  clearance.motion = number;
+  return clearance;
 }
 
 }  // namespace
@@ -78,6 +94,53 @@ RigidFirstHit RigidJudge::FirstHit(const RigidMotion& motion, double resolution,
   }
   return internal::SearchFirstHit(*impl_, Framed(*impl_, motion), resolution,
                                   max_tests);
+}
+
+RigidClearance RigidJudge::Clearance(const RigidMotion& motion,
+                                     const ClearanceTolerance& tolerance,
+                                     long max_tests) const {
+  internal::RequireTolerance(tolerance);
+  double known = internal::kInfinity;
+  return ClearanceOf(*impl_, Framed(*impl_, motion), 0, tolerance, max_tests,
+                     &known);
+}
+
+RigidClearance RigidJudge::Clearance(const QuaternionMotion& motion,
+                                     const ClearanceTolerance& tolerance,
+                                     long max_tests) const {
+  internal::RequireTolerance(tolerance);
+  double known = internal::kInfinity;
+  return ClearanceOf(*impl_, Framed(*impl_, motion), 0, tolerance, max_tests,
+                     &known);
+}
+
+// Every motion is asked for less than those before it came to only.
+RigidClearance RigidJudge::PathClearance(const std::vector<RobotPose>& path,
+                                         const ClearanceTolerance& tolerance,
+                                         long max_tests) const {
+  internal::RequireTolerance(tolerance);
+  if (path.empty()) {
+    throw InputError(
+        "rigid judge: expected a path of at least one pose, found none");
+  }
+  const std::size_t motions = std::max<std::size_t>(1, path.size() - 1);
+  double known = internal::kInfinity;
+  RigidClearance all;
+  for (std::size_t i = 0; i < motions; ++i) {
+    const RigidMotion motion(path[i], path[std::min(i + 1, path.size() - 1)]);
+    const double before = known;
+    const RigidClearance one =
+        ClearanceOf(*impl_, Framed(*impl_, motion), static_cast<int>(i),
+                    tolerance, max_tests, &known);
+    const double lower = i == 0 ? one.lower : std::min(all.lower, one.lower);
+    const bool is_resolved = one.is_resolved && (i == 0 || all.is_resolved);
+    const long tests = all.tests + one.tests;
+    if (known < before) all = one;
+    all.lower = lower;
+    all.is_resolved = is_resolved;
+    all.tests = tests;
+  }
+  return all;
 }
 
 }  // namespace phongpd

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "constraints/rigid/closest_offset.h"
 #include "core/mesh/numbers.h"
 
 namespace phongpd::internal {
@@ -41,13 +42,16 @@ class DirectionSearch {
     bound_ = h * (motion.distance() + motion.rate() * farthest);
   }
 
-  // True as soon as a direction proves them apart, `first` before all others,
-  // which are left where that one is likely to do it for half of the part, and
-  // the motion is above `coarse`.
+  // True as soon as a direction proves them apart, `first` before all others.
+  // Where the motion is above `coarse` these are left to the halves, after the
+  // one along the distance, and that too where `first` is likely to do it for
+  // half of the part.
   bool Run(const PairHint& first, double coarse) {
     if (first.squaredNorm() > 0.0) {
       if (TryUnit(first)) return true;
       if (bound_ > coarse && half_margin_ > needed_) return false;
+      if (TryClosest()) return true;
+      if (bound_ > coarse) return false;
     }
     std::array<Vector3d, 3> e, f;
     for (std::size_t i = 0; i < 3; ++i) {
@@ -70,7 +74,7 @@ class DirectionSearch {
       if (Try(n.cross(y), b * b * b)) return true;
     }
     // Corners and slivers show themselves along their distance.
-    return is_apart_ && TryClosest(e, f);
+    return is_apart_ && !(first.squaredNorm() > 0.0) && TryClosest();
   }
 
   // Some direction parts them at the middle, to rounding.
@@ -119,62 +123,9 @@ class DirectionSearch {
     return margin > needed_;
   }
 
-  // Along the closest pair of points, of edges or of a corner and a face.
-  bool TryClosest(const std::array<Vector3d, 3>& e,
-                  const std::array<Vector3d, 3>& f) {
-    best_ = kInfinity;
-    for (std::size_t i = 0; i < 3; ++i) {
-      for (std::size_t j = 0; j < 3; ++j) {
-        Offer(BetweenSegments(placed_[i], e[i], obstacle_[j], f[j]));
-      }
-    }
-    OfferFace(placed_, e, obstacle_);
-    OfferFace(obstacle_, f, placed_);
-    const double length = std::sqrt(best_);
-    return length > 0.0 && std::isfinite(length) && TryUnit(apart_ / length);
-  }
-
-  void Offer(const Vector3d& apart) {
-    const double squared = apart.squaredNorm();
-    if (!(squared < best_)) return;
-    best_ = squared;
-    apart_ = apart;
-  }
-
-  void OfferFace(const TriangleCorners& face, const std::array<Vector3d, 3>& e,
-                 const TriangleCorners& points) {
-    const Vector3d n = e[0].cross(e[1]);
-    const double squared = n.squaredNorm();
-    if (!(squared > 0.0)) return;
-    for (const Vector3d& p : points) {
-      bool is_over = true;
-      for (std::size_t i = 0; i < 3; ++i) {
-        is_over = is_over && n.cross(e[i]).dot(p - face[i]) >= 0.0;
-      }
-      if (is_over) Offer(n * (n.dot(p - face[0]) / squared));
-    }
-  }
-
-  // From q + [0, 1] e to p + [0, 1] d; any vector would be a direction.
-  static Vector3d BetweenSegments(const Vector3d& p, const Vector3d& d,
-                                  const Vector3d& q, const Vector3d& e) {
-    const Vector3d r = p - q;
-    const double a = d.squaredNorm(), b = d.dot(e), c = e.squaredNorm();
-    const double along_d = d.dot(r), along_e = e.dot(r);
-    const double den = a * c - b * b;
-    double s = 0.0;
-    if (den > 1e-14 * a * c) {
-      s = std::clamp((b * along_e - c * along_d) / den, 0.0, 1.0);
-    }
-    double t = c > 0.0 ? (b * s + along_e) / c : 0.0;
-    if (t < 0.0) {
-      t = 0.0;
-      s = a > 0.0 ? std::clamp(-along_d / a, 0.0, 1.0) : 0.0;
-    } else if (t > 1.0) {
-      t = 1.0;
-      s = a > 0.0 ? std::clamp((b - along_d) / a, 0.0, 1.0) : 0.0;
-    }
-    return r + s * d - t * e;
+  bool TryClosest() {
+    const Vector3d n = FindClosestOffset(placed_, obstacle_).direction;
+    return n.squaredNorm() > 0.0 && TryUnit(n);
   }
 
   const FramedMotion& motion_;
@@ -188,8 +139,6 @@ class DirectionSearch {
   double most_margin_ = -kInfinity;
   double half_margin_ = -kInfinity;  // of the last direction, at half h or so
   Vector3d best_direction_ = Vector3d::Zero();
-  double best_ = 0.0;
-  Vector3d apart_ = Vector3d::Zero();
 };
 
 // Do two triangles meet wherever within `moved` of their places the corners
@@ -239,33 +188,42 @@ PairSight LookAtBoxes(const FramedMotion& motion, const RigidPose& middle,
                       double half_width, double gap, const RigidNode& robot,
                       const RigidNode& obstacle, double* motion_bound) {
   const double h = half_width;
-  const Matrix3d& r = middle.rotation;
-  const Vector3d arm = r * robot.center;
+  const Vector3d arm = middle.rotation * robot.center;
   const Vector3d apart = arm + middle.position - obstacle.center;
-  const Matrix3d size = r.cwiseAbs();
   const double needed = gap + motion.slack();
-  // Along the axes of the obstacles' boxes, and of the robot's.
-  const Vector3d g = apart.cwiseAbs() - obstacle.half - size * robot.half;
-  const Vector3d k = (r.transpose() * apart).cwiseAbs() - robot.half -
-                     size.transpose() * obstacle.half;
   const double reach = motion.FromAxis(robot.center) + robot.radius;
   *motion_bound = h * (motion.distance() + motion.rate() * reach);
+  // Most boxes are along the axes of space, where nothing is to be turned.
+  const Matrix3d turned = robot.is_turned
+                              ? Matrix3d(middle.rotation * robot.axes)
+                              : middle.rotation;
+  const auto in_obstacle = [&](const auto& v) {
+    using Value = std::decay_t<decltype(v)>;
+    return obstacle.is_turned ? Value(obstacle.axes.transpose() * v) : v;
+  };
+  const Matrix3d size = in_obstacle(turned).cwiseAbs();
+  // Along the axes of the obstacles' box, and of the robot's.
+  const Vector3d g =
+      in_obstacle(apart).cwiseAbs() - obstacle.half - size * robot.half;
+  if (g.maxCoeff() - needed > *motion_bound) return PairSight::kApart;
+  const Vector3d k = (turned.transpose() * apart).cwiseAbs() - robot.half -
+                     size.transpose() * obstacle.half;
   const double best = std::max(g.maxCoeff(), k.maxCoeff()) - needed;
   if (best > *motion_bound) return PairSight::kApart;
   if (!(best > 0.0)) return PairSight::kUnknown;
   const Vector3d speed = motion.moved() + middle.turn.cross(arm);
-  const Vector3d body_speed = r.transpose() * speed;
   const double bend =
       h * (motion.rate() * robot.radius + 0.5 * h * motion.bend() * reach);
-  const Vector3d g_needed = h * speed.cwiseAbs() + bend * motion.across_axes();
-  const Vector3d k_needed =
-      h * body_speed.cwiseAbs() + bend * motion.across_body_axes();
-  for (int i = 0; i < 3; ++i) {
-    if (g[i] - needed > g_needed[i] || k[i] - needed > k_needed[i]) {
-      return PairSight::kApart;
-    }
-  }
-  return PairSight::kUnknown;
+  const auto parts = [&](const Vector3d& gaps, const Vector3d& speeds,
+                         const Vector3d& along) {
+    const Vector3d away = h * speeds.cwiseAbs() + bend * motion.Across(along);
+    return ((gaps - away).array() > needed).any();
+  };
+  return parts(g, in_obstacle(speed), in_obstacle(motion.axis())) ||
+                 parts(k, turned.transpose() * speed,
+                       turned.transpose() * motion.axis())
+             ? PairSight::kApart
+             : PairSight::kUnknown;
 }
 
 PairSight LookAtTriangles(const FramedMotion& motion, const RigidPose& middle,

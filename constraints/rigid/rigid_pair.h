@@ -30,6 +30,7 @@
 // its origin, of how far that gets, and of the obstacles' reach, everything in
 // the frame; a direction is 1 long to 4 u.  Then
 //   corners into the frame, q, Δq and q(t)           ≤ 8
+//   corners along the axes of a box, and these       ≤ 24
 //   R(t) by a quaternion, sine and cosine            ≤ 48 + 4 θ
 //   R p + q                                          ≤ 8
 //   dot products with n, both sides                  ≤ 16
@@ -61,7 +62,8 @@ PairSight LookAtBoxes(const FramedMotion& motion, const RigidPose& middle,
 // Of two triangles.  They meet if an edge of one runs through the inside of the
 // other, and would if each corner were 2 slack away, which is 8 times
 // what rounding moves it: touching is unknown.  Where the bound is above
-// `coarse`, a pair that its hint would part for about half as long is left.
+// `coarse`, a pair with a hint is asked along that alone, or along its distance
+// too where that would not part it for about half as long: its halves follow.
 PairSight LookAtTriangles(const FramedMotion& motion, const RigidPose& middle,
                           double half_width, double gap, double coarse,
                           const TriangleCorners& robot,

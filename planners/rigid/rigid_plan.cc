@@ -25,6 +25,8 @@ using internal::TreeSearch;
 using internal::TreeTask;
 
 constexpr double kMaxTimeLimit = 1e9;
+// Of each motion; some tenths of a second at most.
+constexpr long kMaxClearanceTests = 1'000'000;
 
 // Who takes part, and the share of the work that each does, beyond what it may
 // do before the others begin: worlds with much room are solved by straight
@@ -135,6 +137,9 @@ void Confirm(const RigidWorld& world, RigidAnswer* answer) {
   for (std::size_t i = 0; i + 1 < answer->path.size(); ++i) {
     answer->length += world.Distance(answer->path[i], answer->path[i + 1]);
   }
+  answer->clearance =
+      world.judge().PathClearance(answer->path, {}, kMaxClearanceTests);
+  answer->tests += answer->clearance.tests;
 }
 
 }  // namespace

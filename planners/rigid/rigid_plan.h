@@ -44,7 +44,10 @@ struct RigidAnswer {
   // the robot moves by RigidMotion.  Every such motion is free for all t,
   // proved twice: when it was found and when all was done.  Empty: none.
   std::vector<RobotPose> path;
-  double length = 0.0;   // of the path, object norm; user's unit
+  double length = 0.0;  // of the path, object norm; user's unit
+  // How close it comes to the obstacles, proved, and where: to a thousandth of
+  // it, or as is_resolved says.  Of no path all 0.
+  RigidClearance clearance;
   std::string planner;   // "line", "straight", "slide" or "tow"; empty: none
   double seconds = 0.0;  // wall time of all
   double search_seconds = 0.0;  // until a path was found, or none

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -29,6 +30,8 @@ struct SweepFlags {
   std::string from = "0,0,0";
   std::string to;
   bool first = false;
+  bool exact = false;
+  bool clearance = false;
   bool json = false;
 };
 
@@ -100,15 +103,44 @@ RigidCheck FirstOf(const RigidFirstHit& hit) {
   return check;
 }
 
+// What is found of a motion, or, where that is undecided and --exact asks, of
+// the one whose quaternion is linear.
+struct SweepAnswer {
+  RigidCheck check;
+  bool is_exact = false;
+  RobotPose pose;  // at the time told
+  std::optional<RigidClearance> clearance;
+};
+
+SweepAnswer AnswerOf(const SweepFlags& flags, const RigidJudge& judge,
+                     const RigidMotion& motion) {
+  SweepAnswer answer;
+  RigidCheck& check = answer.check;
+  check = flags.first ? FirstOf(judge.FirstHit(motion)) : judge.Check(motion);
+  answer.is_exact = flags.exact && check.outcome == RigidOutcome::kUndecided;
+  if (!answer.is_exact) {
+    answer.pose = motion.At(check.time);
+    if (flags.clearance) answer.clearance = judge.Clearance(motion);
+    return answer;
+  }
+  const QuaternionMotion linear =
+      QuaternionMotion::Between(motion.start(), motion.end());
+  check = judge.CheckExactly(linear);
+  answer.pose = linear.At(check.time);
+  if (flags.clearance) answer.clearance = judge.Clearance(linear);
+  return answer;
+}
+
 std::string SweepJson(const SweepFlags& flags, const RigidMotion& motion,
-                      const RigidCheck& check) {
+                      const SweepAnswer& answer) {
+  const RigidCheck& check = answer.check;
   nlohmann::ordered_json row = {{"status", ToString(check.outcome)},
                                 {"start", Cells(motion.start())},
                                 {"end", Cells(motion.end())},
                                 {"turn", motion.angle() * 180.0 / kPi}};
   if (!check.IsFree()) {
     row["time"] = check.time;
-    row["pose"] = Cells(motion.At(check.time));
+    row["pose"] = Cells(answer.pose);
     row["from"] = check.from;
     row["to"] = check.to;
     if (check.robot_triangle >= 0) {
@@ -117,17 +149,30 @@ std::string SweepJson(const SweepFlags& flags, const RigidMotion& motion,
       row["obstacle_triangle"] = check.obstacle_triangle;
     }
   }
+  if (flags.exact) row["exact"] = answer.is_exact;
+  if (answer.clearance) {
+    row["clearance"] = {{"lower", answer.clearance->lower},
+                        {"upper", answer.clearance->upper},
+                        {"time", answer.clearance->time}};
+  }
   row["tests"] = check.tests;
   return JsonText(row) + '\n';
 }
 
 std::string SweepWords(const SweepFlags& flags, const RigidMotion& motion,
-                       const RigidCheck& check) {
+                       const SweepAnswer& answer) {
+  const RigidCheck& check = answer.check;
   TextStream text;
   text << ToString(check.outcome);
+  if (answer.is_exact) text << ", exactly, with its quaternion linear in time";
   if (check.IsFree()) {
     text << ": for the whole motion, proved; it turns by "
          << Rounded(motion.angle() * 180.0 / kPi, 6) << " degrees\n";
+    if (answer.clearance) {
+      text << "clearance: at least " << FormatDouble(answer.clearance->lower)
+           << ", at most " << FormatDouble(answer.clearance->upper) << " at "
+           << FormatDouble(answer.clearance->time) << " of the way\n";
+    }
     return text.str();
   }
   const bool collides = check.outcome == RigidOutcome::kCollides;
@@ -162,12 +207,11 @@ int Sweep(const SweepFlags& flags) {
     WarnOfUnits(robot, flags.a, obstacles.back(), path);
   }
   const RigidJudge judge({robot}, obstacles);
-  const RigidCheck check =
-      flags.first ? FirstOf(judge.FirstHit(motion)) : judge.Check(motion);
+  const SweepAnswer answer = AnswerOf(flags, judge, motion);
   OutputFiles outputs;
-  CommitAndTell(&outputs, flags.json ? SweepJson(flags, motion, check)
-                                     : SweepWords(flags, motion, check));
-  return check.IsFree() ? kDone : kNoAnswer;
+  CommitAndTell(&outputs, flags.json ? SweepJson(flags, motion, answer)
+                                     : SweepWords(flags, motion, answer));
+  return answer.check.IsFree() ? kDone : kNoAnswer;
 }
 
 }  // namespace
@@ -193,9 +237,18 @@ Command AddSweep(CLI::App* app) {
                   "axis, the shorter way")
       ->required()
       ->type_name("POSE");
-  app->add_flag("--first", flags->first,
-                "Where it collides, when first: the time to 1e-9 of the way, "
-                "or as near as rounding allows, free before, proved");
+  CLI::Option* first =
+      app->add_flag("--first", flags->first,
+                    "Where it collides, when first: the time to 1e-9 of the "
+                    "way, or as near as rounding allows, free before, proved");
+  app->add_flag("--exact", flags->exact,
+                "What stays undecided is decided in rational numbers, and what "
+                "touches collides; of the motion whose quaternion is linear in "
+                "time, which turns faster in the middle")
+      ->excludes(first);
+  app->add_flag("--clearance", flags->clearance,
+                "How close A comes to B on the way: at least and at most, to a "
+                "thousandth, proved");
   AddJson(app, &flags->json,
           "An object: status, poses, and where it is not free the time and "
           "the triangles");
@@ -204,6 +257,7 @@ Command AddSweep(CLI::App* app) {
       {"phongpd sweep robot.off obstacle.stl --to 1,0,0",
        "phongpd sweep robot.off a.stl b.stl --from 0,0,2 --to 1,0,2,0,0,90",
        "phongpd sweep robot.off obstacle.stl --to 1,0,0 --first",
+       "phongpd sweep robot.off obstacle.stl --to 1,0,0 --clearance --exact",
        "phongpd sweep robot.off obstacle.stl --from -1,0,0 --to "
        "0,0,0,0,0,0,1 --json"},
       "Exit code 0: free for the whole motion, proved, rounding included; 1: "

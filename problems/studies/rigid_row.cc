@@ -53,6 +53,14 @@ Json RigidRow(const TurningScene& scene, const RigidRequest& request,
   row["graph_states"] = answer.nodes;
   row["found_poses"] = answer.found_poses;
   row["path_length"] = answer.length;
+  row["clearance"] = nullptr;
+  if (answer.IsSolved()) {
+    const RigidClearance& clearance = answer.clearance;
+    row["clearance"] = {{"lower", clearance.lower},
+                        {"upper", clearance.upper},
+                        {"motion", clearance.motion},
+                        {"time", clearance.time}};
+  }
   row["path"] = Json::array();
   for (const RobotPose& pose : answer.path)
     row["path"].push_back(PoseRow(pose));

@@ -107,8 +107,13 @@ def disassemble(parts: Sequence[Solid], tolerance: float, verify: bool,
 class RigidJudge:
     def __init__(self, robot: Sequence[tuple[_Floats, _Ints]],
                  obstacles: Sequence[tuple[_Floats, _Ints]]) -> None: ...
-    def check(self, poses: _Floats, names: list[str]) -> list[tuple[
-        str, float, float, float, tuple[int, int], tuple[int, int], int]]: ...
+    def check(self, poses: _Floats, names: list[str], exact: bool
+              ) -> list[tuple[str, float, float, float, tuple[int, int],
+                              tuple[int, int], int, bool]]: ...
+    def clearance(self, poses: _Floats, names: list[str], relative: float,
+                  absolute: float) -> tuple[
+        float, float, float, int, tuple[int, int], tuple[int, int], bool,
+        int]: ...
     def first_hit(self, poses: _Floats, names: list[str],
                   resolution: float) -> tuple[
         str, float, float, tuple[int, int], tuple[int, int], int]: ...
@@ -117,8 +122,10 @@ class RigidWorld:
     def __init__(self, robot: Sequence[tuple[_Floats, _Ints]],
                  obstacles: Sequence[tuple[_Floats, _Ints]]) -> None: ...
     def plan(self, ends: _Floats, bounds: _Floats, time_limit: float,
-             seed: int) -> tuple[str, str, list[tuple[float, ...]], float, str,
-                                 float]: ...
+             seed: int) -> tuple[
+                 str, str, list[tuple[float, ...]], float, str, float,
+                 tuple[float, float, float, int, tuple[int, int],
+                       tuple[int, int], bool, int] | None]: ...
     robot: list[tuple[_Floats, _Ints]]
     obstacles: list[tuple[_Floats, _Ints]]
 

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 from . import _native
 from ._arguments import Floats, numbers, scene_name
 from ._native import InputError
-from ._rigid import _meshes, _pose
+from ._rigid import RigidClearance, _meshes, _pose
 from ._view import Canvas, Shown
 
 
@@ -36,6 +36,9 @@ class RigidPlan(Shown):
     seconds: float
     world: RigidWorld = field(repr=False)
     """In which it was planned."""
+    clearance: RigidClearance | None = None
+    """How close the path comes to the obstacles, proved, and where; None: there
+    is no path."""
 
     @property
     def solved(self) -> bool:
@@ -137,11 +140,13 @@ class RigidWorld(Shown):
             numbers(bounds, "bounds", "(2, 3)")
         if bounds is not None and box.shape != (2, 3):
             raise InputError(f"bounds: expected shape (2, 3), found {box.shape}")
-        status, reason, rows, length, planner, seconds = self._native.plan(
+        (status, reason, rows, length, planner, seconds,
+         clearance) = self._native.plan(
             np.stack([_pose(start, "start"), _pose(goal, "goal")]), box,
             float(time_limit), seed)
         return RigidPlan(status, reason, pose_matrices(rows), length, planner,
-                         seconds, self)
+                         seconds, self,
+                         clearance and RigidClearance(*clearance))
 
     def _draw(self, canvas: Canvas, name: str | None) -> None:
         if not canvas.is_new(self):

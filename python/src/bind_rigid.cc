@@ -14,31 +14,64 @@
 namespace phongpd::python {
 namespace {
 
-nb::tuple Row(const RigidCheck& check) {
+// And was it decided exactly, of a quaternion that is linear?
+struct Judged {
+  RigidCheck check;
+  bool is_exact = false;
+};
+
+nb::tuple Row(const Judged& judged) {
+  const RigidCheck& check = judged.check;
   return nb::make_tuple(
       ToString(check.outcome), check.time, check.from, check.to,
       nb::make_tuple(check.robot_mesh, check.robot_triangle),
-      nb::make_tuple(check.obstacle_mesh, check.obstacle_triangle),
-      check.tests);
+      nb::make_tuple(check.obstacle_mesh, check.obstacle_triangle), check.tests,
+      judged.is_exact);
+}
+
+Judged Judge(const RigidJudge& judge, const RobotPose& start,
+             const RobotPose& end, bool exact) {
+  Judged judged{judge.Check({start, end})};
+  if (exact && judged.check.outcome == RigidOutcome::kUndecided) {
+    judged = {judge.CheckExactly(QuaternionMotion::Between(start, end)), true};
+  }
+  return judged;
+}
+
+std::vector<RobotPose> WayOf(const Poses& poses,
+                             const std::vector<std::string>& names) {
+  std::vector<RobotPose> way;
+  for (size_t i = 0; i < poses.shape(0); ++i) {
+    way.push_back(PoseOf(ToMatrix(poses, i), names.at(i)));
+  }
+  return way;
 }
 
 // The way through the poses, a row for each motion of it.
 nb::list Check(const RigidJudge& judge, const Poses& poses,
-               const std::vector<std::string>& names) {
-  std::vector<RigidCheck> checks;
+               const std::vector<std::string>& names, bool exact) {
+  std::vector<Judged> judged;
   {
     const Computing computing;
-    std::vector<RobotPose> way;
-    for (size_t i = 0; i < poses.shape(0); ++i) {
-      way.push_back(PoseOf(ToMatrix(poses, i), names.at(i)));
-    }
+    const std::vector<RobotPose> way = WayOf(poses, names);
     for (size_t i = 1; i < way.size(); ++i) {
-      checks.push_back(judge.Check({way[i - 1], way[i]}));
+      judged.push_back(Judge(judge, way[i - 1], way[i], exact));
     }
   }
   nb::list rows;
-  for (const RigidCheck& check : checks) rows.append(Row(check));
+  for (const Judged& one : judged) rows.append(Row(one));
   return rows;
+}
+
+nb::tuple Clearance(const RigidJudge& judge, const Poses& poses,
+                    const std::vector<std::string>& names, double relative,
+                    double absolute) {
+  RigidClearance found;
+  {
+    const Computing computing;
+    found = judge.PathClearance(WayOf(poses, names), {relative, absolute});
+  }
+  return ClearanceRow(found);
 }
 
 nb::tuple FirstHit(const RigidJudge& judge, const Poses& poses,
@@ -68,6 +101,7 @@ void BindRigid(nb::module_& module) {
              new (self) RigidJudge(moving, fixed);
            })
       .def("check", &Check)
+      .def("clearance", &Clearance)
       .def("first_hit", &FirstHit);
 }
 

@@ -36,9 +36,11 @@ nb::tuple PlanPoses(const RigidWorld& world, const Poses& ends,
         request.is_interrupted = [&is_asked] { return is_asked.load(); };
         return Plan(world, request);
       });
+  nb::object clearance = nb::none();
+  if (answer.IsSolved()) clearance = ClearanceRow(answer.clearance);
   return nb::make_tuple(ToString(answer.status), answer.reason,
                         PoseRows(answer.path), answer.length, answer.planner,
-                        answer.seconds);
+                        answer.seconds, clearance);
 }
 
 nb::list MeshRows(const std::vector<TriangleMesh>& meshes) {

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "constraints/rigid/rigid_clearance.h"
 #include "core/contact/depth.h"
 #include "core/mesh/triangle_mesh.h"
 #include "python/src/arrays.h"
@@ -55,6 +56,15 @@ inline nb::list PoseRows(const std::vector<RobotPose>& poses) {
         nb::make_tuple(p.x(), p.y(), p.z(), q.w(), q.x(), q.y(), q.z()));
   }
   return rows;
+}
+
+// lower, upper, time, motion, triangles, is it resolved, tests.
+inline nb::tuple ClearanceRow(const RigidClearance& found) {
+  return nb::make_tuple(
+      found.lower, found.upper, found.time, found.motion,
+      nb::make_tuple(found.robot_mesh, found.robot_triangle),
+      nb::make_tuple(found.obstacle_mesh, found.obstacle_triangle),
+      found.is_resolved, found.tests);
 }
 
 }  // namespace phongpd::python

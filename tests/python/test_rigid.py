@@ -59,6 +59,50 @@ def test_the_first_contact_is_where_the_corner_meets_the_wall():
             judge.first_hit(*QUARTER, resolution=bad)
 
 
+def test_the_clearance_is_what_the_corner_leaves():
+    for gap in (0.3, 1e-3, 1e-6):
+        judge = phongpd.RigidJudge(CUBE, wall(gap))
+        found = judge.clearance(*QUARTER)
+        assert found.resolved and found.lower > 0
+        assert found.lower <= gap * (1 + 1e-9) <= found.upper * (1 + 1e-8)
+        assert found.upper - found.lower <= 1.0001e-3 * found.upper + 1e-8
+        assert found.time == pytest.approx(0.5, abs=0.05)
+        assert found.robot[0] == found.obstacle[0] == found.motion == 0
+        coarse = judge.clearance(*QUARTER, relative=0.0, absolute=0.1)
+        assert coarse.upper - coarse.lower <= 0.1 * 1.001
+    judge = phongpd.RigidJudge(CUBE, wall(0.3))
+    way = np.stack([pose(-5), pose(-2), pose(), pose(about_z=np.pi / 2),
+                    pose(-3)])
+    path = judge.clearance(way)
+    assert path.motion == 2
+    assert path.lower <= 0.3 <= path.upper <= 0.3 * 1.01
+    at_rest = judge.clearance(way[:1])
+    assert at_rest.lower <= np.sqrt(2) + 0.3 + 4 <= at_rest.upper * (1 + 1e-9)
+    hit = phongpd.RigidJudge(CUBE, wall(-0.1)).clearance(*QUARTER)
+    assert hit.lower == 0 and hit.upper < 1e-6
+    for bad in ({"relative": 1.0}, {"relative": -1}, {"absolute": np.nan}):
+        with pytest.raises(phongpd.InputError, match=next(iter(bad))):
+            judge.clearance(*QUARTER, **bad)
+    for bad in ((pose(),), (np.zeros((0, 4, 4)),), (np.zeros(3),)):
+        with pytest.raises(phongpd.InputError, match="poses: expected"):
+            judge.clearance(*bad)
+
+
+def test_what_is_undecided_is_decided_exactly_if_asked():
+    at_two = phongpd.RigidJudge(CUBE, box_arrays((2, -5, -4), (3, 4, 3)))
+    ends = pose(), pose(1)
+    assert at_two.check(*ends).status == "undecided"
+    assert not at_two.check(*ends).exact
+    check = at_two.check(*ends, exact=True)
+    assert check.exact and check.status == "collides" and check.time == 1.0
+    sure = at_two.check(pose(), pose(0.5), exact=True)
+    assert sure.free and not sure.exact
+    path = at_two.check_path([pose(), pose(0.5), pose(1)], exact=True)
+    assert [c.status for c in path] == ["free", "collides"]
+    assert [c.exact for c in path] == [False, True]
+    assert path[1].to_row()["exact"] is True
+
+
 def test_takes_solids_files_arrays_and_lists(tmp_path):
     low, high = (1.3, -5, -4), (2, 4, 3)
     solid = make_box(low, high)

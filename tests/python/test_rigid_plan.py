@@ -29,6 +29,10 @@ def test_a_plank_turns_to_get_through_a_slit():
     judge = phongpd.RigidJudge(PLANK, WALLS)
     assert all(check.free for check in judge.check_path(plan.poses))
     assert plan.length > 4
+    assert 0 < plan.clearance.lower <= plan.clearance.upper
+    assert plan.clearance.motion < len(plan.poses) - 1
+    found = judge.clearance(plan.poses)
+    assert found.lower == pytest.approx(plan.clearance.lower, rel=2e-3)
     for wall in WALLS:
         query = phongpd.DepthQuery(phongpd.Solid(*PLANK), phongpd.Solid(*wall))
         for pose in plan.poses:
@@ -42,7 +46,7 @@ def test_says_why_there_is_no_path():
     world = phongpd.RigidWorld(PLANK, WALLS)
     inside = world.plan(at(0), at(2), bounds=BOUNDS)
     assert inside.status == "start_in_collision" and inside.reason
-    assert inside.poses.shape == (0, 4, 4)
+    assert inside.poses.shape == (0, 4, 4) and inside.clearance is None
     beyond = world.plan(at(-2), at(9), bounds=BOUNDS)
     assert beyond.status == "goal_out_of_bounds"
 

@@ -22,4 +22,8 @@ bool MeetExactly(const TriangleMesh& a, int i, const TriangleMesh& b, int j);
 // Do the surfaces, every pair of triangles whose boxes meet?
 bool MeetExactly(const TriangleMesh& a, const TriangleMesh& b);
 
+// The distance of the surfaces, by edges of one against triangles of the other
+// (segment_triangle_distance.h), every pair whose boxes are near enough.
+double MeshDistance(const TriangleMesh& a, const TriangleMesh& b);
+
 }  // namespace phongpd::testing

@@ -24,6 +24,7 @@ using Eigen::Vector3d;
 using testing::Cube;
 using testing::ExpectRefused;
 using testing::MeetExactly;
+using testing::MeshDistance;
 using testing::PlacedMesh;
 
 RobotPose At(const Vector3d& position, double angle = 0.0,
@@ -65,6 +66,17 @@ void ExpectFreePath(const TriangleMesh& robot, const TriangleMesh& obstacle,
     }
   }
   EXPECT_NEAR(answer.length, length, 1e-9 * length);
+  // It is as close as it says where it says so, and nowhere closer.
+  const RigidClearance& clearance = answer.clearance;
+  EXPECT_GT(clearance.lower, 0.0);
+  EXPECT_TRUE(clearance.is_resolved);
+  const auto from = static_cast<std::size_t>(clearance.motion);
+  ASSERT_LT(from + 1, answer.path.size());
+  const RigidMotion closest(answer.path[from], answer.path[from + 1]);
+  const double distance =
+      MeshDistance(PlacedMesh(robot, closest, clearance.time), obstacle);
+  EXPECT_GE(distance, clearance.lower);
+  EXPECT_LE(distance, clearance.upper);
 }
 
 // A bar longer than the hole is wide has to turn to go through.

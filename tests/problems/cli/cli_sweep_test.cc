@@ -46,7 +46,8 @@ TEST_F(CliSweep, SaysInOneLineWhetherAQuarterTurnIsFree) {
   EXPECT_EQ(free.err, "");
   const Outcome hit = Sweep("../near.off --to 0,0,0,0,0,90");
   EXPECT_EQ(hit.code, 1) << hit.err;
-  EXPECT_EQ(hit.out.rfind("collides at 0.5", 0), 0U) << hit.out;
+  ASSERT_EQ(hit.out.rfind("collides at ", 0), 0U) << hit.out;
+  EXPECT_NEAR(std::stod(hit.out.substr(12)), 0.5, 0.01) << hit.out;
   EXPECT_NE(hit.out.find(" of ../near.off\n"), std::string::npos) << hit.out;
   const Outcome touch = Sweep("../touching.off --to 0,0,0,0,0,90");
   EXPECT_EQ(touch.code, 1);
@@ -70,6 +71,49 @@ TEST_F(CliSweep, TellsWhenTheCornerMeetsTheWallFirst) {
       << words.out;
   EXPECT_EQ(Sweep("../far.off --to 0,0,0,0,0,90 --first").out,
             Sweep("../far.off --to 0,0,0,0,0,90").out);
+}
+
+// A cube that is moved by 1 to a wall at 2 touches it, at the end.
+TEST_F(CliSweep, DecidesExactlyWhatItIsNotSureOf) {
+  WriteMesh(MakeBox({2, -5, -4}, {3, 4, 3}), File("at2.off"));
+  EXPECT_EQ(Sweep("../at2.off --to 1,0,0").out.rfind("undecided", 0), 0U);
+  const Outcome exact = Sweep("../at2.off --to 1,0,0 --exact");
+  EXPECT_EQ(exact.code, 1) << exact.err;
+  EXPECT_EQ(exact.out.rfind("collides, exactly, with its quaternion linear in "
+                            "time at 1 of the way: triangle ",
+                            0),
+            0U)
+      << exact.out;
+  const Json row =
+      Json::parse(Sweep("../at2.off --to 1,0,0 --exact --json").out);
+  EXPECT_EQ(row["exact"], true);
+  EXPECT_EQ(row["time"], 1.0);
+  EXPECT_EQ(row["pose"], row["end"]);
+  // What is sure is not asked again, and says so.
+  const Json sure =
+      Json::parse(Sweep("../far.off --to 0,0,0,0,0,90 --exact --json").out);
+  EXPECT_EQ(sure["exact"], false);
+  EXPECT_EQ(sure["status"], "free");
+  EXPECT_FALSE(Json::parse(Sweep("../far.off --to 0,0,0,0,0,90 --json").out)
+                   .contains("exact"));
+}
+
+TEST_F(CliSweep, TellsHowCloseItComes) {
+  WriteWall("apart.off", 0.3);
+  const Json row = Json::parse(
+      Sweep("../apart.off --to 0,0,0,0,0,90 --clearance --json").out);
+  const double lower = row["clearance"]["lower"].get<double>();
+  const double upper = row["clearance"]["upper"].get<double>();
+  EXPECT_LE(lower, 0.3);
+  EXPECT_GE(upper, 0.3 - 1e-15);
+  EXPECT_LE(upper - lower, 1e-3 * upper * (1.0 + 1e-9));
+  EXPECT_NEAR(row["clearance"]["time"].get<double>(), 0.5, 0.01);
+  const Outcome words = Sweep("../apart.off --to 0,0,0,0,0,90 --clearance");
+  EXPECT_NE(words.out.find("\nclearance: at least 0.29"), std::string::npos)
+      << words.out;
+  const Json hit = Json::parse(
+      Sweep("../open.off --to 0,0,0,0,0,90 --clearance --json").out);
+  EXPECT_EQ(hit["clearance"]["lower"], 0.0);
 }
 
 TEST_F(CliSweep, TakesAnglesAndQuaternionsAlike) {
@@ -120,6 +164,7 @@ TEST_F(CliSweep, RefusesWhatIsNoPose) {
   ExpectRefused(rest + "0,0,0,1,0,0,1", {"--to", "unit quaternion", "1.41"});
   ExpectRefused(rest + "1,2,3 --from 1", {"--from", "found 1 number"});
   ExpectRefused("sweep ../box.off ../far.off", {"--to"});
+  ExpectRefused(rest + "1,2,3 --exact --first", {"--first", "--exact"});
   ExpectRefused("sweep ../box.off --to 1,2,3", {"B"});
   ExpectRefused("sweep ../box.off ../missing.off --to 1,2,3", {"missing.off"});
 }

@@ -79,6 +79,10 @@ TEST_F(CliTurning, TurnsAPlankThroughASlit) {
     }
   }
   EXPECT_EQ(hits, 0);
+  const double lower = row["clearance"]["lower"].get<double>();
+  EXPECT_GT(lower, 0.0);
+  EXPECT_GE(row["clearance"]["upper"].get<double>(), lower);
+  EXPECT_LT(row["clearance"]["motion"].get<std::size_t>(), path.size() - 1);
   // The page turns the robot as it goes.
   const std::string page = Content(Output("p.html"));
   EXPECT_NE(page.find("\"turns\":[["), std::string::npos);
