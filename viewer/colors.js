@@ -46,10 +46,11 @@ const asColor = text => {
 };
 
 // Of the i-th of some names: its metric's, where it has one, of the next of the
-// same metric a paler one each; or the i-th of the paths' colours.
+// same metric a paler one each; or the i-th of the paths' colours, beside metrics
+// of those that are no metric's.
 function nameColor(theme, names, i) {
   const metric = names[i] === undefined ? null : metricOf(names[i]);
-  if (!metric) return wayColor(theme, i);
+  if (!metric) return wayColor(theme, names.some(metricOf) ? i + 3 : i);
   const before = names.slice(0, i).filter(n => metricOf(n) === metric).length;
   const color = asColor(kMetricColors[theme][metric]);
   color.lerp(new THREE.Color(theme === 'light' ? 0x9fb4c8 : 0xffffff),

@@ -18,6 +18,7 @@ class TaskPanel {
     this.ways = {};      // numbers of those that came, by what was asked
     this.answer = null;  // a depth, where it is shown
     this.isBusy = false;
+    this.done = 0;       // questions that are over
     this.drag = new EndDrag(viewer, (name, raw) => this.move(name, raw));
   }
 
@@ -121,6 +122,7 @@ class TaskPanel {
       this.say(error.message, true);
     }
     this.isBusy = false;
+    ++this.done;
     this.tell();
   }
 

@@ -280,8 +280,9 @@ class Questions(unittest.TestCase):
         with Served(PROGRAM, FOLDER, "u_axis", "--no-cache", "--time",
                     "0.001") as served:
             status, reply = served.solve({**PLAN, "what": "optimize"})
-            self.assertEqual(status, 504, reply)
-            self.assertIn("0.001 s", reply["error"])
+            # By the desk, or before it by the build, which has the same limit.
+            self.assertIn(status, (504, 400), reply)
+            self.assertIn("within 0.001 s", reply["error"])
 
 
 class Program(unittest.TestCase):

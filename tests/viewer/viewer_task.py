@@ -80,9 +80,7 @@ def work_task(browser, checks, page):
     checks.holds(f"{SAYS}.includes('phongpd view phong.jsonl euclid.jsonl "
                  "--serve')", "what to run")
     if browser.run("viewer.probe !== null"):
-        choose(browser, "depth")
-        checks.changes(lambda: (browser.click("#solve"), browser.wait(
-            "!viewer.task.isBusy")), "the depth of the start")
+        checks.changes(lambda: solve(browser, "depth"), "the depth of the start")
         checks.holds(f"{SAYS}.startsWith('penetrating, depth 0.2 units')",
                      "the depth in the page")
         by_mouse(browser, "start", 0, 30)
@@ -92,8 +90,9 @@ def work_task(browser, checks, page):
 
 def solve(browser, what):
     choose(browser, what)
+    done = browser.run("viewer.task.done")
     browser.click("#solve")
-    browser.wait("!viewer.task.isBusy")
+    browser.wait(f"viewer.task.done > {done}")
 
 
 def work_served(browser, checks, program, folder):
@@ -103,7 +102,7 @@ def work_served(browser, checks, program, folder):
         checks.drawn("served")
         checks.holds("viewer.stage.ways.length === 0 && !document."
                      "getElementById('play')", "no path at first")
-        checks.changes(lambda: solve(browser, "plan"), "a plan")
+        solve(browser, "plan")
         checks.holds("viewer.stage.ways.length === 1 && viewer.stage.ways[0].free"
                      " && !!document.getElementById('play')", "it can be played")
         checks.holds(f"{SAYS}.startsWith('solved: ')", "it is told")
@@ -113,12 +112,14 @@ def work_served(browser, checks, program, folder):
         solve(browser, "optimize")
         checks.holds("viewer.stage.ways.length === 2 && viewer.state.way === 1",
                      "a trajectory beside it")
+        checks.holds("new Set([0, 1].map(i => viewer.stage.colorOf('light', i)))"
+                     ".size === 2", "in another colour")
         checks.holds("(() => { const {raw} = viewer.stage.ways[1]; return "
                      f"raw[raw.length - 1].every((x, k) => x === {goal}[k]); }})()",
                      "to the goal that was dragged")
         solve(browser, "plan")
         checks.holds("viewer.stage.ways.length === 2 && viewer.state.way === 0 && "
-                     "document.querySelectorAll('button.way').length === 2",
+                     "document.querySelectorAll('[data-way]').length === 2",
                      "another plan takes the place of the first")
         browser.press(" ")
         browser.wait("viewer.state.time > 0.01")
@@ -139,8 +140,8 @@ def work_served(browser, checks, program, folder):
         checks.holds(f"String(viewer.data.goal) !== '{before}'"
                      .replace("[", "").replace("]", ""), "a finger moves the goal")
         browser.call("Emulation.setTouchEmulationEnabled", enabled=False)
+        browser.open(served.address)
         checks.quiet("served")
-    browser.run("viewer.task.isBusy = false")
     solve(browser, "plan")
     checks.holds(f"{SAYS}.startsWith('The server does not answer')",
                  "when it has ended")
@@ -221,22 +222,26 @@ def page_in_a_page(chromium, checks_of, page, folder):
     checks = checks_of(browser)
     inner = "document.getElementById('in').contentWindow"
     distance = f"{inner}.viewer.orbit.distance"
-    try:
+
+    def wheel(**more):
+        browser.mouse("mouseWheel", 250, 200, deltaX=0, deltaY=120, **more)
+
+    def open_anew():
+        browser.call("Page.navigate", url="about:blank")
         browser.call("Page.navigate", url=f"file://{outer}")
         browser.wait(f"document.getElementById('in') && {inner}.viewer && "
                      f"{inner}.document.documentElement.dataset.ready === '1'")
-        first = browser.run(distance)
-
-        def wheel(**more):
-            browser.mouse("mouseWheel", 250, 200, deltaX=0, deltaY=120, **more)
-
         browser.mouse("mouseMoved", 250, 200)
+        return browser.run(distance)
+
+    try:
+        first = open_anew()
         wheel()
         checks.holds("scrollY > 0", "the wheel scrolls the page")
         checks.expect(browser.run(distance) == first, "and does not zoom")
         checks.holds(f"{inner}.document.getElementById('message').textContent"
                      ".startsWith('Click the picture')", "a hint is shown")
-        browser.run("(scrollTo(0, 0), 0)")
+        first = open_anew()
         wheel(modifiers=2)
         checks.holds(f"{distance} > {first}", "with Ctrl it zooms")
         for kind in ("mousePressed", "mouseReleased"):
