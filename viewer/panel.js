@@ -88,6 +88,10 @@ class Panel {
     if (of('obstacle').length) {
       row('obstacle', of('obstacle').length === 1
           ? 'obstacle' : named(of('obstacle'), 'obstacles'), 'obstacle');
+      if (of('obstacle').length > 1) {
+        rows.push(...of('obstacle').slice(0, 8).map(
+            entry => make('p', {class: 'row part'}, entry.name)));
+      }
     }
     if (of('contact').length) {
       const names = new Set(of('contact').map(m => m.name));

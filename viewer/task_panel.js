@@ -182,8 +182,9 @@ class TaskPanel {
     if (row.duration) told.push(viewer.digits(row.duration) + ' s long');
     if (row.path_length) told.push(viewer.text(row.path_length) + ' long');
     if (row.solved) told.push('room ' + viewer.text(row.clearance));
-    const {seconds} = row;
-    const took = seconds.solve === undefined ? seconds.total : seconds.solve;
+    // Of a plan, a path that was optimised, and a motion in time.
+    const {solve, total, plan, curve} = row.seconds;
+    const took = [solve, total, plan + curve].find(Number.isFinite);
     told.push('found in ' + viewer.digits(took) + ' s');
     return status + ': ' + (row.solved ? told.join(', ')
         : row.reason || 'no answer');

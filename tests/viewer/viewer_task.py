@@ -2,11 +2,13 @@
 """Start and goal that are moved, what is asked of them, and pages in pages and on
 phones: worked by mouse, fingers and keys."""
 import math
+import pathlib
 
 from browser import Browser
 from serving import Served
 from viewer_controls import entered
 
+GANTRY = pathlib.Path(__file__).resolve().parents[2] / "examples/gantry.json"
 # Where start or goal is on the screen.
 PLACE = """(() => {{
   viewer.draw();
@@ -140,8 +142,16 @@ def work_served(browser, checks, program, folder):
         checks.holds(f"String(viewer.data.goal) !== '{before}'"
                      .replace("[", "").replace("]", ""), "a finger moves the goal")
         browser.call("Emulation.setTouchEmulationEnabled", enabled=False)
-        browser.open(served.address)
         checks.quiet("served")
+    with Served(program, folder, str(GANTRY)) as served:
+        browser.open(served.address)
+        solve(browser, "optimize")
+        checks.holds("viewer.pace && viewer.pace.duration > 1 && "
+                     "!!document.getElementById('chart') && "
+                     f"{SAYS}.startsWith('converged: ')",
+                     "a motion in time, with what it asks of its limits")
+        browser.shoot(folder / "served-gantry.png")
+        checks.quiet("served motion")
     solve(browser, "plan")
     checks.holds(f"{SAYS}.startsWith('The server does not answer')",
                  "when it has ended")
