@@ -154,6 +154,11 @@ struct SceneSolver::Impl {
   SolveJson AnswerOptimize(const Question& question) const {
     const Scene asked = Asked(question);
     OptimizeRequest request = OptimizeRequestOf(asked);
+    if (request.limits && question.options.contains("metric")) {
+      RefuseQuestion("/options/metric",
+                     "none of a motion in time, which follows no metric",
+                     question.options["metric"].dump());
+    }
     request.options.seed = question.options.value("seed", request.options.seed);
     request.options.time_limit = seconds;
     request.is_interrupted = Deadline(seconds);

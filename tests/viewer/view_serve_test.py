@@ -225,6 +225,22 @@ class Questions(unittest.TestCase):
         self.assertTrue(reply["row"]["solved"])
         self.assertAlmostEqual(reply["row"]["objective"], row["objective"], 2)
 
+    def test_a_motion_in_time_follows_no_metric(self):
+        gantry = pathlib.Path(__file__).resolve().parents[2] / "examples/gantry.json"
+        question = {"what": "optimize", "start": [100, 300, 80],
+                    "goal": [860, 300, 100]}
+        with Served(PROGRAM, FOLDER, str(gantry)) as served:
+            status, reply = served.solve(
+                {**question, "options": {"metric": "phong"}})
+            self.assertEqual(status, 400, reply)
+            self.assertIn("/options/metric: expected none of a motion in time",
+                          reply["error"])
+            status, reply = served.solve(question)
+            self.assertEqual(status, 200, reply)
+            self.assertTrue(reply["row"]["certified"])
+            self.assertAlmostEqual(reply["paths"][0]["pace"]["duration"],
+                                   reply["row"]["duration"], 12)
+
     def test_start_and_goal_are_those_that_were_asked_for(self):
         start, goal = [0.1, -1.4, 0.2], [-0.1, 1.3, -0.1]
         _, reply = self.served.solve({**PLAN, "start": start, "goal": goal})
