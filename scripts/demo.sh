@@ -26,7 +26,7 @@ more() { run "$@" | tail -n +2; }
 note() { tee -a "$demo/$1.txt"; }
 # Before its other columns the strategy a run of the trap had for mu.
 with_mu() { sed "s/^scene,/mu, scene,/; t; s/^\([^ ]\)/$1, \1/"; }
-rm -f "$demo"/*.txt
+rm -f "$demo"/*.txt "$demo"/*.jsonl
 
 mv "$demo/index.html" "$demo/benchmarks.html"
 wrench=$demo/wrench
@@ -48,16 +48,16 @@ echo "mu, as the comparison asks, and with adaptive mu; then the default pipelin
 plain=(--start straight --mu-strategy monotone --polish never)
 run optimize u_axis --metric euclidean "${plain[@]}" \
   --output "$demo/trap_euclidean.jsonl" --svg "$demo/trap_euclidean.svg" |
-  with_mu monotone | note trap
+  with_mu monotone
 more optimize u_axis --smoothing-length 0.2 "${plain[@]}" \
   --output "$demo/trap_phong.jsonl" --svg "$demo/trap_phong.svg" |
-  with_mu monotone | note trap
+  with_mu monotone
 for metric in euclidean phong; do
   more optimize u_axis --metric "$metric" --start straight --polish never \
-    --output "$demo/trap_adaptive_$metric.jsonl" | with_mu adaptive | note trap
+    --output "$demo/trap_adaptive_$metric.jsonl" | with_mu adaptive
 done
 more optimize u_axis --output "$demo/trap_pipeline.jsonl" \
-  --svg "$demo/trap_pipeline.svg" | with_mu adaptive | note trap
+  --svg "$demo/trap_pipeline.svg" | with_mu adaptive
 run view "$demo/trap_euclidean.jsonl" "$demo/trap_phong.jsonl" \
   "$demo/trap_pipeline.jsonl" --build --html "$demo/trap.html" >/dev/null
 
@@ -73,19 +73,20 @@ run optimize examples/robots.json --html "$demo/robots.html" | note robots
 
 echo
 echo "An L that has to turn to get through a window:"
-run plan examples/turning.json --html "$demo/turning.html" | note turning
+run plan examples/turning.json --output "$demo/turning.jsonl" \
+  --html "$demo/turning.html"
 
 echo
 echo "A passage one thousandth wide, and the same closed by a ten-thousandth:"
 passage=tunnel:delta=0.001,bends=3
 run plan "$passage" --output "$demo/tunnel.jsonl" \
-  --html "$demo/tunnel.html" --svg "$demo/tunnel.svg" | note tunnel
-more plan "$passage,twin=1" --output "$demo/tunnel_twin.jsonl" | note tunnel
+  --html "$demo/tunnel.html" --svg "$demo/tunnel.svg"
+more plan "$passage,twin=1" --output "$demo/tunnel_twin.jsonl"
 more plan "$passage" --planner retraction-forest \
-  --output "$demo/tunnel_forest.jsonl" | note tunnel
+  --output "$demo/tunnel_forest.jsonl"
 for twin in "" _twin; do
   more plan "$passage${twin:+,twin=1}" --planner rrt-connect --time 1 \
-    --output "$demo/tunnel${twin}_rrt_connect.jsonl" | note tunnel
+    --output "$demo/tunnel${twin}_rrt_connect.jsonl"
 done
 scripts/demo_page.sh "$demo"
 scripts/links.py "$demo" >"$demo/links.log" || { cat "$demo/links.log"; exit 1; }

@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
 # demo_page.sh DIR: writes DIR/index.html, the story of what scripts/demo.sh has
-# put there: pages as frames, and the lines that its commands printed (*.txt).
+# put there: pages as frames, sentences and tables of its rows (*.jsonl), and lines
+# that its commands printed (*.txt).
 set -euo pipefail
 scripts=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 cd "$1"
@@ -23,21 +24,15 @@ said() { # FILE: the lines of a command
   readable "$1"
   printf '</pre>\n'
 }
-table() { # FILE: rows "a, b: c, d" under a header of the same kind
-  echo '<div class="wide"><table>'
-  readable "$1" | awk '
-    /^ / { printf "<tr class=\"why\"><td colspan=\"%d\">%s</td></tr>\n", n, $0; next }
-    { sub(/: /, ", "); count = split($0, cell, ", "); tag = NR == 1 ? "th" : "td"
-      if (NR == 1) n = count
-      printf "<tr>"
-      for (i = 1; i <= count; ++i) printf "<%s>%s</%s>", tag, cell[i], tag
-      print "</tr>" }'
-  echo '</table></div>'
-}
-rows() { # KIND FILE...: sentences of the rows, by nobody's expectation
+rows() { # KIND FILE...: of the same rows sentences, by nobody's expectation, ...
   echo '<p>'
   "$scripts/demo_sentences.py" "$@"
   echo '</p>'
+}
+table() { # ... and a table
+  echo '<div class="wide"><table>'
+  "$scripts/demo_sentences.py" --table "$@"
+  echo '</table></div>'
 }
 frame() { # PAGE TITLE
   printf '<iframe src="%s" title="%s" loading="lazy"></iframe>\n' "$1" "$2"
@@ -90,10 +85,11 @@ HTML
 <p>Ipopt starts on the straight line, through the wall of a U. The exact
 judge has the last word on every path. This is one seed; over many scenes and seeds
 Euclidean depth and PhongPD solve about as many with adaptive mu.</p>'
-  rows trap trap_euclidean.jsonl trap_phong.jsonl trap_adaptive_euclidean.jsonl \
-    trap_adaptive_phong.jsonl trap_pipeline.jsonl
+  trap=(trap trap_euclidean.jsonl trap_phong.jsonl trap_adaptive_euclidean.jsonl
+    trap_adaptive_phong.jsonl trap_pipeline.jsonl)
+  rows "${trap[@]}"
   frame trap.html "Paths out of a trap"
-  table trap.txt
+  table "${trap[@]}"
   echo '</section><section><h2>A trajectory that a machine runs</h2>
 <p>The gripper of a gantry goes over a wall, by way of a camera that looks at the part,
 into a rack. The curve is free and within the limits of velocity, acceleration and jerk
@@ -113,17 +109,19 @@ keeps apart for all t, proved on the curves; one waits, or goes first.</p>'
 <p>Neither leg of the L fits through with the other beside it: it goes through one leg
 first, and turns. Between two poses it moves and turns at once, and every such motion
 is proved free for all t. Not to find a way would prove nothing here.</p>'
+  rows turning turning.jsonl
   frame turning.html "An L on its way through a window"
-  table turning.txt
+  table turning turning.jsonl
   echo '</section><section><h2>A passage a thousandth wide, and a proof</h2>
 <p>A channel a thousandth wide, and the same closed by a ten-thousandth. A proof says
 that start and goal lie in different cells of free space; a sampler can find a path, and
 never prove that there is none. Seconds are those of the search; the contact space,
 where one is built, comes before.</p>'
-  rows tunnel tunnel.jsonl tunnel_twin.jsonl tunnel_forest.jsonl \
-    tunnel_rrt_connect.jsonl tunnel_twin_rrt_connect.jsonl
+  tunnel=(tunnel tunnel.jsonl tunnel_twin.jsonl tunnel_forest.jsonl
+    tunnel_rrt_connect.jsonl tunnel_twin_rrt_connect.jsonl)
+  rows "${tunnel[@]}"
   frame tunnel.html "A path through a narrow passage"
-  table tunnel.txt
+  table "${tunnel[@]}"
   echo '</section><section><h2>Your own two meshes</h2>
 <p>STL, OBJ, OFF or PLY, closed, in one unit. Nothing is precomputed; the answer is the
 global one, with a certificate and the two points that touch.</p>'

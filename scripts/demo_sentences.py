@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""demo_sentences.py trap|tunnel FILE...: what rows of optimize or plan say, in
-sentences for the page of scripts/demo_page.sh.  A row that finds no path says
-so, whatever was expected of it."""
+"""demo_sentences.py [--table] trap|tunnel|turning FILE...: what rows of optimize or
+plan say, in sentences for the page of scripts/demo_page.sh, or as its table.  Both
+are of the same rows.  A row that finds no path says so, whatever was expected of
+it."""
 import html
 import json
 import sys
@@ -46,12 +47,75 @@ def tunnel(rows):
     return said
 
 
-def main(kind, *files):
+def turning(rows):
+    """Of a robot that turns, a row each."""
+    said = []
+    for row in rows:
+        seconds = f"{row['seconds']['solve']:.2g} s"
+        said.append(
+            f"{row['planner']} finds a way of {len(row['path'])} poses in {seconds}."
+            if row["solved"] else
+            f"{row['planner']} finds none in {seconds} ({row['reason']}).")
+    return said
+
+
+def number(value):
+    """As the page has it: four digits; nothing where there is none."""
+    return "" if value is None else f"{value:.4g}"
+
+
+# Columns of a table: what stands above, and what a row has there.
+SOLVER = (("mu", lambda row: row["mu_strategy"]),
+          ("metric", metric),
+          ("start", lambda row: row["start"]),
+          ("status", lambda row: row["status_class"].replace("_", " ")),
+          ("iterations", lambda row: str(row["iterations"])),
+          ("energy", lambda row: number(row["objective"])),
+          ("room", lambda row: number(row["clearance"])),
+          ("seconds", lambda row: f"{row['seconds']['total']:.2g}"))
+PLANNER = (("planner", lambda row: row["planner"]),
+           ("status", lambda row: row["status"].replace("_", " ")),
+           ("seconds", lambda row: f"{row['seconds']['solve']:.2g}"),
+           ("points", lambda row: str(len(row["path"]))),
+           ("length", lambda row: number(row["path_length"])))
+COLUMNS = {
+    "trap": SOLVER,
+    "tunnel": (("channel", lambda row: "closed" if "twin=1" in row["scene"]
+                else "open"), *PLANNER,
+               ("room", lambda row: number(row["clearance"]))),
+    "turning": PLANNER,
+}
+
+
+def table(kind, rows):
+    """Rows of HTML; why there is no answer stands below the row."""
+    columns = COLUMNS[kind]
+
+    def line(tag, cells):
+        return "<tr>" + "".join(f"<{tag}>{html.escape(cell, quote=False)}</{tag}>"
+                                for cell in cells) + "</tr>"
+
+    lines = [line("th", [name for name, _ in columns])]
+    for row in rows:
+        lines.append(line("td", [of(row) for _, of in columns]))
+        if row.get("reason"):
+            lines.append(f'<tr class="why"><td colspan="{len(columns)}">' +
+                         html.escape(row["reason"], quote=False) + "</td></tr>")
+    return lines
+
+
+def main(*arguments):
+    is_table = arguments[0] == "--table"
+    kind, *files = arguments[1:] if is_table else arguments
     rows = []
     for file in files:
         with open(file, encoding="utf-8") as lines:
             rows += [json.loads(line) for line in lines]
-    for sentence in {"trap": trap, "tunnel": tunnel}[kind](rows):
+    if is_table:
+        print("\n".join(table(kind, rows)))
+        return
+    sentences = {"trap": trap, "tunnel": tunnel, "turning": turning}[kind]
+    for sentence in sentences(rows):
         print(html.escape(sentence, quote=False))
 
 

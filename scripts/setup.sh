@@ -17,6 +17,7 @@ packages=(
   libboost-serialization-dev libboost-filesystem-dev gnuplot-nox libjs-three
   clang lld wasi-libc libc++-14-dev-wasm32 libc++abi-14-dev-wasm32
   libclang-rt-14-dev-wasm32 libassimp-dev libtinyxml2-dev zlib1g-dev
+  libcpp-httplib-dev
   "$@"
 )
 

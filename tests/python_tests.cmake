@@ -14,6 +14,19 @@ if(Python3_Interpreter_FOUND)
   set_tests_properties(ViewerInBrowser PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT
                                                   1200)
   add_test(
+    NAME ViewServed
+    COMMAND
+      ${Python3_EXECUTABLE} -B
+      ${CMAKE_CURRENT_SOURCE_DIR}/viewer/view_serve_test.py
+      $<TARGET_FILE:phongpd> ${PROJECT_BINARY_DIR}/tests/served)
+  set_tests_properties(ViewServed PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 300)
+  add_test(
+    NAME MetricColors
+    COMMAND
+      ${Python3_EXECUTABLE} -B
+      ${CMAKE_CURRENT_SOURCE_DIR}/viewer/metric_colors_test.py
+      ${PROJECT_SOURCE_DIR})
+  add_test(
     NAME CheckTrajectory
     COMMAND
       ${Python3_EXECUTABLE} -B

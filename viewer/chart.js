@@ -2,10 +2,10 @@
 
 const kChartLeft = 46, kChartRight = 12;
 
-// Lines of depths over their numbers, in the metrics' colours, on a canvas that
+// Lines of some series over their numbers, each in its colour, on a canvas that
 // is cleared; `x` and `y` place them, in CSS pixels.  Of more numbers than
 // pixels, the least and the largest of each pixel.  Returns what draws on.
-function drawDepths(canvas, theme, series, x, y) {
+function drawSeries(canvas, colors, series, x, y) {
   const ratio = window.devicePixelRatio || 1;
   canvas.width = canvas.clientWidth * ratio;
   canvas.height = canvas.clientHeight * ratio;
@@ -13,7 +13,7 @@ function drawDepths(canvas, theme, series, x, y) {
   g.scale(ratio, ratio);
   g.lineWidth = 2;
   series.forEach((depths, i) => {
-    g.strokeStyle = wayColor(theme, i);
+    g.strokeStyle = colors[i];
     g.beginPath();
     const step = Math.max(1, Math.ceil(depths.length / canvas.clientWidth));
     for (let f = 0; f < depths.length; f += step) {
@@ -67,7 +67,7 @@ class ChartFrame {
 const acrossChart = (canvas, share) => kChartLeft + share *
     (canvas.clientWidth - kChartLeft - kChartRight);
 
-// |PD| of every metric over the frames of a motion, or a motion's pace, and
+// PD of every metric over the frames of a motion, or a motion's pace, and
 // where it is now.
 function drawChart(viewer) {
   const {data, pace} = viewer, canvas = byId('chart');
@@ -76,18 +76,43 @@ function drawChart(viewer) {
   else if (pace) drawPaceChart(viewer, canvas, pace);
 }
 
+// What of PD is drawn: its length, how far it went since the frame before, or
+// by how much it turned.  Where a metric has no PD, nothing has turned.
+const kChartKinds = {
+  size: {text: '|PD|', of: pd => pd.map(p => Math.hypot(...p))},
+  change: {text: 'change of PD a frame', of: pd => fromFrame(
+      pd, (a, b) => Math.hypot(...b.map((x, k) => x - a[k])))},
+  angle: {text: 'turn of PD a frame', unit: '°',
+          of: pd => fromFrame(pd, angleBetween)},
+};
+
+// Of each frame and the one before it; 0 of the first.
+const fromFrame = (pd, of) =>
+    pd.map((p, f) => f === 0 ? 0 : of(pd[f - 1], p));
+
+// Degrees; 0 where one of them is none.
+function angleBetween(a, b) {
+  const lengths = Math.hypot(...a) * Math.hypot(...b);
+  if (!(lengths > 0)) return 0;
+  const cross = [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2],
+                 a[0] * b[1] - a[1] * b[0]];
+  const dot = a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+  return Math.atan2(Math.hypot(...cross), dot) * 180 / Math.PI;
+}
+
 function drawDepthChart(viewer, canvas) {
-  const {data, state} = viewer, height = canvas.clientHeight;
-  const depths = data.motion.traces.map(
-      trace => trace.pd.map(p => Math.hypot(...p)));
-  const most = largest(depths) || 1;
+  const {data, state, stage} = viewer, height = canvas.clientHeight;
+  const kind = kChartKinds[state.chart];
+  const values = data.motion.traces.map(trace => kind.of(trace.pd));
+  const most = largest(values) || 1;
   const count = data.motion.positions.length;
   const x = f => acrossChart(canvas, f / Math.max(1, count - 1));
   const y = value => height - 8 - value / most * (height - 18);
-  const frame = new ChartFrame(
-      drawDepths(canvas, state.theme, depths, x, y), canvas);
-  frame.write('|PD|, ' + data.unit, kChartLeft + 4, 14);
-  frame.write(viewer.number(most), kChartLeft - 8, 14, undefined, 'right');
+  const colors = values.map((_, i) => stage.arrowColor(state.theme, i));
+  const frame = new ChartFrame(drawSeries(canvas, colors, values, x, y), canvas);
+  frame.write(kind.text + ', ' + (kind.unit || data.unit), kChartLeft + 4, 14);
+  frame.write(kind.unit ? viewer.digits(most) : viewer.number(most),
+              kChartLeft - 8, 14, undefined, 'right');
   frame.write('0', kChartLeft - 8, height - 5, undefined, 'right');
   frame.line('--soft', kChartLeft, y(0), frame.width - kChartRight, y(0));
   const now = x(state.time * (count - 1));
@@ -105,7 +130,8 @@ function drawPaceChart(viewer, canvas, pace) {
   const x = f => acrossChart(canvas, f / last);
   const y = value => height - 8 - value * (height - 28);
   const frame = new ChartFrame(
-      drawDepths(canvas, state.theme, series, x, y), canvas);
+      drawSeries(canvas, series.map((_, i) => wayColor(state.theme, i)),
+                 series, x, y), canvas);
   let at = kChartLeft + 4;
   kPaceNames.forEach((name, i) => {
     at = 12 + frame.write(name, at, 11, wayColor(state.theme, i));

@@ -60,7 +60,7 @@ class Crew {
   setTheme(name) {
     for (const {way, material} of this.robots) {
       material.color.copy(asColor(
-          wayColor(name, this.stage.ways.indexOf(way))));
+          this.stage.colorOf(name, this.stage.ways.indexOf(way))));
     }
   }
 }

@@ -28,4 +28,7 @@ function linkIcon() {
   return svg;
 }
 
+// Is the window as narrow as a phone?  The style has the same limit.
+const isNarrow = () => innerWidth <= 760;
+
 const byId = id => document.getElementById(id);

@@ -8,14 +8,14 @@ class DrawnViewer extends Viewer {
   panes(width, height) {
     const motion = this.isSplit ? this.data.motion : null;
     const count = motion ? Math.max(1, motion.traces.length) : 1;
-    const isNarrow = innerWidth <= 760, {still} = this.state;
+    const {still} = this.state, isSmall = isNarrow();
     const isColumn = width < height;
-    const hasPanel = !isNarrow && !document.body.classList.contains('open');
+    const hasPanel = !isSmall && !document.body.classList.contains('open');
     // What the page lays over the canvas.
     const right = hasPanel && !still ? 288 : 0;
-    const top = isNarrow ? (motion ? 86 : 100) : count > 1 ? 120 : 60;
-    const bottom = still ? 50 : byId('chart') ? (isNarrow ? 175 : 150)
-        : isNarrow ? 120 : 80;
+    const top = isSmall ? (motion ? 86 : 100) : count > 1 ? 120 : 60;
+    const bottom = still ? 50 : byId('chart') ? (isSmall ? 175 : 150)
+        : isSmall ? 120 : 80;
     const panes = [];
     for (let i = 0; i < count; ++i) {
       const pane = isColumn
@@ -59,6 +59,7 @@ class DrawnViewer extends Viewer {
                         place ? place.frame : 0);
     stage.crew.show(state.show, state.time);
     if (state.probe.on) this.probe.pose();
+    if (this.task) this.task.pose();
     const panes = this.panes(width, height);
     renderer.setScissorTest(false);
     // Opaque: as a part of another page what is behind a canvas may be black.
@@ -90,11 +91,14 @@ class DrawnViewer extends Viewer {
   // The robot has the colour of what it follows.
   dress(pane) {
     const {stage, state} = this, isMotion = this.isSplit;
-    const i = isMotion ? pane : state.probe.on ? state.probe.metric : state.way;
     stage.robot.visible = state.show.robot &&
         (!!this.data.robot || stage.ways.length > 0 || state.probe.on) &&
         (!stage.crew.isTeam || state.probe.on);
-    stage.robotMaterial.color.copy(asColor(wayColor(state.theme, i)));
+    stage.robotMaterial.color.copy(asColor(
+        isMotion ? stage.arrowColor(state.theme, pane)
+        : state.probe.on ? nameColor(state.theme, kProbeMetrics,
+                                     state.probe.metric)
+        : stage.colorOf(state.theme, state.way)));
     // Of what cannot be cut, no cap; nor where the plane has other colours.
     stage.groups.caps.visible = state.clip.on && !state.xray && !state.map &&
         (state.show.obstacle || state.show.mesh);
@@ -120,18 +124,28 @@ class DrawnViewer extends Viewer {
       if (trace) {
         put(trace.name, pane.x + pane.width / 2,
             pane.y + Math.max(4, pane.inner.y - 36),
-            wayColor(state.theme, index), 'pane');
+            stage.arrowColor(state.theme, index), 'pane');
       }
     }
     if (!state.show.marks || index > 0) return;
+    const boxes = this.covers();
     const taken = [];
     for (const {text, point, way} of stage.labels) {
       const p = point.clone().project(camera);
       if (p.z > 1 || Math.abs(p.x) > 1 || Math.abs(p.y) > 1) continue;
-      const width = 8 * text.length, height = 18;
-      const x = Math.min(pane.x + (p.x + 1) / 2 * pane.width,
-                         innerWidth - width - 12);
+      const width = 8 * text.length + 10, height = 18;
+      let x = Math.min(pane.x + (p.x + 1) / 2 * pane.width,
+                       innerWidth - width - 12);
       let y = pane.y + (1 - p.y) / 2 * pane.height;
+      // None of what is below what the page lays over the picture; of what is
+      // beside that, to its left.  A label is above its point.
+      const below = b => b.left < x && x < b.right && b.top < y && y < b.bottom;
+      const hidesIt = b => b.left < x + width + 10 && x < b.right &&
+          b.top < y && y - 1.3 * height < b.bottom;
+      if (boxes.some(below)) continue;
+      const over = boxes.find(hidesIt);
+      if (over) x = over.left - width - 12;
+      if (x < 4 || boxes.some(hidesIt)) continue;
       // Below what is there already.
       const isTaken = t => Math.abs(t.y - y) < height && t.x < x + width &&
           x < t.x + t.width;
@@ -140,6 +154,13 @@ class DrawnViewer extends Viewer {
       put(text, x, y,
           way === undefined ? null : stage.colorOf(state.theme, way), 'name');
     }
+  }
+
+  // Where the page lays something over the picture.
+  covers() {
+    return ['panel', 'tools', 'player', 'reading']
+        .map(id => byId(id).getBoundingClientRect())
+        .filter(box => box.width > 0);
   }
 
   scaleBar(height) {

@@ -11,6 +11,7 @@ if(THREE)
     part IN
     ITEMS viewer.css
           dom.js
+          colors.js
           geometry.js
           orbit.js
           solids.js
@@ -23,9 +24,12 @@ if(THREE)
           probe.js
           probe_panel.js
           color_key.js
+          task_drag.js
+          task_panel.js
           section_map.js
           surface_map.js
           chart.js
+          embedded.js
           keys.js
           panel.js
           viewer.js

@@ -4,16 +4,20 @@ class Orbit {
     this.target = new THREE.Vector3();
     this.changed = changed;
     this.pointers = new Map();
-    // May take a press of the pointer: gives what is called with its moves, or
-    // null.
-    this.grab = () => null;
+    // Each may take a press of the pointer: gives what is called with its moves,
+    // or null.
+    this.grabs = [];
+    // Part of a page that is scrolled: the wheel is that page's (embedded.js).
+    this.isAsleep = false;
+    this.onAsleep = () => {};
     this.grip = null;
     this.height = 1;
     this.home = {yaw: -0.9, pitch: 0.45, distance: 2.2, target: [0, 0, 0]};
     this.reset();
     element.addEventListener('contextmenu', e => e.preventDefault());
     element.addEventListener('pointerdown', e => {
-      this.grip = this.pointers.size === 0 ? this.grab(e) : null;
+      this.grip = this.pointers.size > 0 ? null
+          : this.grabs.reduce((grip, grab) => grip || grab(e), null);
       this.pointers.set(e.pointerId, [e.clientX, e.clientY]);
       element.setPointerCapture(e.pointerId);
     });
@@ -22,6 +26,7 @@ class Orbit {
     }
     element.addEventListener('pointermove', e => this.drag(e));
     element.addEventListener('wheel', e => {
+      if (this.isAsleep && !e.ctrlKey) return this.onAsleep();
       const step = e.deltaMode === 1 ? 30 : 1;
       this.zoom(Math.exp(e.deltaY * step / 700));
       e.preventDefault();

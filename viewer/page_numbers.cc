@@ -31,6 +31,16 @@ nlohmann::ordered_json PointJson(const Vector3d& p) {
   return {p.x(), p.y(), p.z()};
 }
 
+nlohmann::ordered_json PointsJson(const std::vector<Eigen::Vector3d>& points) {
+  nlohmann::ordered_json json = nlohmann::ordered_json::array();
+  for (const Eigen::Vector3d& p : points) json.push_back(PointJson(p));
+  return json;
+}
+
+nlohmann::ordered_json TurnJson(const Eigen::Quaterniond& turn) {
+  return {turn.w(), turn.x(), turn.y(), turn.z()};
+}
+
 std::string ShownPositions(const std::vector<Vector3d>& points,
                            const PageFrame& frame) {
   std::string bytes;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <cstring>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -29,6 +30,9 @@ void AppendNumber(std::string* bytes, Number number) {
 }
 
 nlohmann::ordered_json PointJson(const Eigen::Vector3d& p);
+nlohmann::ordered_json PointsJson(const std::vector<Eigen::Vector3d>& points);
+// [w, x, y, z]
+nlohmann::ordered_json TurnJson(const Eigen::Quaterniond& turn);
 
 // float32 triples, as the page draws them.
 std::string ShownPositions(const std::vector<Eigen::Vector3d>& points,

@@ -12,8 +12,10 @@ class Panel {
     byId('facts').textContent = this.facts();
     this.makeTools();
     byId('panel').append(
-        this.legend(), this.ways(), viewer.probe ? viewer.probe.section(this) : '',
-        this.display(), this.notes());
+        this.legend(), viewer.task ? viewer.task.section(this) : '',
+        this.waysSection = make('div', {}, this.ways()),
+        viewer.probe ? viewer.probe.section(this) : '', this.display(),
+        this.notes());
     document.body.classList.toggle('wayless', stage.ways.length === 0);
     if (stage.ways.some(way => way.points.length > 1)) this.makePlayer();
     this.makeHelp();
@@ -86,6 +88,10 @@ class Panel {
     if (of('obstacle').length) {
       row('obstacle', of('obstacle').length === 1
           ? 'obstacle' : named(of('obstacle'), 'obstacles'), 'obstacle');
+      if (of('obstacle').length > 1) {
+        rows.push(...of('obstacle').slice(0, 8).map(
+            entry => make('p', {class: 'row part'}, entry.name)));
+      }
     }
     if (of('contact').length) {
       const names = new Set(of('contact').map(m => m.name));
@@ -233,17 +239,41 @@ class Panel {
                         onclick: () => viewer.togglePlay()}, '▶'),
         scrub, speed, make('output', {id: 'where'})));
     if (data.iterates.length) byId('player').append(this.iterationRow());
+    this.makeChart();
+  }
+
+  // Over the slider, where there is something to draw over time.
+  makeChart() {
+    const {data, state} = this.viewer, viewer = this.viewer;
     const hasPace = data.paths.some(path => path.pace);
-    if (hasPace || (data.motion && data.motion.traces.length)) {
-      document.body.classList.add('charted');
-      byId('player').prepend(make('canvas', {
-        id: 'chart', 'aria-label': hasPace
-            ? 'Velocity, acceleration and jerk over time, shares of the limits'
-            : 'Length of PD over the frames',
-        onpointerdown: e => this.scrubChart(e),
-        onpointermove: e => { if (e.buttons) this.scrubChart(e); },
-      }));
-    }
+    const hasTraces = data.motion && data.motion.traces.length;
+    if (byId('chart') || !byId('play') || !(hasPace || hasTraces)) return;
+    document.body.classList.add('charted');
+    byId('player').prepend(make('canvas', {
+      id: 'chart', 'aria-label': hasPace
+          ? 'Velocity, acceleration and jerk over time, shares of the limits'
+          : 'PD over the frames',
+      onpointerdown: e => this.scrubChart(e),
+      onpointermove: e => { if (e.buttons) this.scrubChart(e); },
+    }));
+    if (!hasTraces) return;
+    byId('player').prepend(make(
+        'select', {id: 'chart-kind', 'aria-label': 'What the chart draws',
+                   onchange: e => viewer.set(
+                       () => { state.chart = e.target.value; })},
+        ...Object.entries(kChartKinds).map(
+            ([value, kind]) => make('option', {value}, kind.text))));
+  }
+
+  // After the ways have changed.
+  renewWays() {
+    this.waysSection.replaceChildren(this.ways());
+    byId('facts').textContent = this.facts();
+    const {ways} = this.viewer.stage;
+    document.body.classList.toggle('wayless', ways.length === 0);
+    if (!ways.some(way => way.points.length > 1)) return;
+    if (!byId('play')) this.makePlayer();
+    this.makeChart();
   }
 
   // Beside time: iterations, where the page holds them.
@@ -329,16 +359,17 @@ class Panel {
       i.style.color = stage.colorOf(state.theme, Number(i.dataset.wayColor));
     }
     for (const i of document.querySelectorAll('[data-way-swatch]')) {
-      i.style.background = wayColor(state.theme, Number(i.dataset.waySwatch));
+      i.style.background = kMetricColors[state.theme].euclidean;
     }
     for (const i of document.querySelectorAll('[data-trace]')) {
-      i.style.color = wayColor(state.theme, Number(i.dataset.trace));
+      i.style.color = stage.arrowColor(state.theme, Number(i.dataset.trace));
     }
     for (const button of document.querySelectorAll('button.way')) {
       button.setAttribute('aria-pressed',
                           Number(button.dataset.way) === state.way);
     }
     if (this.viewer.probe) this.viewer.probe.tell();
+    if (this.viewer.task) this.viewer.task.tell();
     if (this.viewer.map) this.viewer.map.tell();
     if (this.viewer.surface) this.viewer.surface.tell();
     this.showIterations();
@@ -346,6 +377,7 @@ class Panel {
     byId('scrub').value = Math.round(10000 * state.time);
     byId('speed').value = state.speed;
     byId('play').textContent = state.playing ? '❚❚' : '▶';
+    if (byId('chart-kind')) byId('chart-kind').value = state.chart;
     if (byId('chart')) drawChart(this.viewer);
   }
 }

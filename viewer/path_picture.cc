@@ -5,8 +5,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <string>
 #include <utility>
+#include <vector>
 
+#include "problems/output/metric_color.h"
 #include "problems/output/text.h"
 
 namespace phongpd {
@@ -14,11 +17,6 @@ namespace {
 
 using Eigen::Vector3d;
 using Edge = std::pair<Vector3d, Vector3d>;
-
-constexpr const char* kPictureColors[] = {"#0072b2", "#d55e00", "#009e73",
-                                          "#cc79a7", "#e69f00", "#56b4e9"};
-
-const char* Color(std::size_t path) { return kPictureColors[path % 6]; }
 
 Vector3d Normal(const TriangleMesh& mesh, const Triangle& t) {
   const Vector3d& a = mesh.vertices[t[0]];
@@ -90,14 +88,17 @@ std::string PathSvg(const View& view) {
   }
   svg << "\"/>\n<text x=\"12\" y=\"22\" font-weight=\"bold\">"
       << Escaped(view.title) << "</text>\n";
+  std::vector<std::string> names;
+  for (const NamedPath& path : view.paths) names.push_back(path.name);
+  const std::vector<std::string> colors = LineColors(names);
   for (std::size_t i = 0; i < view.paths.size(); ++i) {
     const NamedPath& path = view.paths[i];
-    svg << "<polyline fill=\"none\" stroke=\"" << Color(i)
+    svg << "<polyline fill=\"none\" stroke=\"" << colors[i]
         << "\" stroke-width=\"2\""
         << (path.is_free ? "" : " stroke-dasharray=\"6 4\"") << " points=\"";
     for (const Vector3d& p : path.points) svg << project(p) << ' ';
     svg << "\"/>\n<text x=\"12\" y=\"" << 42 + 18 * i << "\" fill=\""
-        << Color(i) << "\">" << Escaped(path.name) << "</text>\n";
+        << colors[i] << "\">" << Escaped(path.name) << "</text>\n";
   }
   svg << "</svg>\n";
   return svg.str();

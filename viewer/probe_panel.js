@@ -8,10 +8,15 @@ class ProbePanel {
     this.viewer = viewer;
     this.probe = new Probe(viewer.data);
     this.history = [];  // depths by each metric, newest last
-    viewer.orbit.grab = e => this.grab(e);
+    viewer.orbit.grabs.push(e => this.grab(e));
   }
 
   get state() { return this.viewer.state.probe; }
+
+  get colors() {
+    return kProbeMetrics.map(
+        (_, i) => nameColor(this.viewer.state.theme, kProbeMetrics, i));
+  }
 
   section(panel) {
     const {viewer, state} = this;
@@ -55,6 +60,11 @@ class ProbePanel {
         make('p', {class: 'soft'}, 'Drag the robot, or arrow keys, Page Up ' +
              'and Down; with shift finer. Computed in this page, by the ' +
              'library itself.'));
+    // Below the picture where the panel hides it, on a phone.
+    byId('reading').append(...kProbeMetrics.flatMap((name, i) => [
+      make('i', {class: 'line', 'data-probe-color': i}),
+      make('span', {}, name), make('b', {id: 'reading-' + i}, ''),
+    ]));
     return panel.section(
         'Probe',
         make('label', {class: 'row'}, box,
@@ -99,6 +109,8 @@ class ProbePanel {
       state.on = true;
       viewer.state.playing = false;
     });
+    // There the panel covers what one wants to take hold of.
+    if (isNarrow()) document.body.classList.remove('open');
   }
 
   ask() {
@@ -206,12 +218,13 @@ class ProbePanel {
     byId('probe-smoothing').value = String(state.smoothing);
     this.answers.forEach((answer, i) => {
       const depth = Math.abs(answer.distance);
-      byId('probe-answer-' + i).textContent =
-          (answer.inside ? viewer.text(depth) + ' deep'
-           : i === kProbeSliding ? 'outside'
-           : viewer.text(depth) + ' apart') +
+      const text = (answer.inside ? viewer.text(depth) + ' deep'
+          : i === kProbeSliding ? 'outside'
+          : viewer.text(depth) + ' apart') +
           (['ok', 'following', 'outside'].includes(answer.status)
            ? '' : ' · ' + answer.status);
+      byId('probe-answer-' + i).textContent = text;
+      byId('reading-' + i).textContent = text;
     });
     for (const row of document.querySelectorAll('[data-probe]')) {
       row.setAttribute('aria-pressed',
@@ -219,7 +232,7 @@ class ProbePanel {
     }
     for (const line of document.querySelectorAll('[data-probe-color]')) {
       line.style.color =
-          wayColor(viewer.state.theme, Number(line.dataset.probeColor));
+          this.colors[Number(line.dataset.probeColor)];
     }
     const shown = this.answers[state.metric];
     const vector = v => '(' + v.map(x => x.toFixed(3)).join(', ') + ')';
@@ -237,7 +250,7 @@ class ProbePanel {
     const series = kProbeMetrics.map((name, i) => history.map(h => h[i]));
     const most = largest(series) || 1;
     const step = canvas.clientWidth / kProbeHistory;
-    drawDepths(canvas, viewer.state.theme, series, f => f * step,
+    drawSeries(canvas, this.colors, series, f => f * step,
                y => canvas.clientHeight - 4 -
                    y / most * (canvas.clientHeight - 8));
   }

@@ -68,13 +68,7 @@ class Stage extends Solids {
   // What the robot can follow: paths, or a motion, or poses with answers.
   makeWays() {
     const {paths, motion, answers} = this.data;
-    const ways = paths.map(path => ({
-      kind: 'path', name: path.name, free: path.free, raw: path.points,
-      pace: path.pace, body: path.robot,
-      turns: path.turns ? path.turns.map(asTurn) : null,
-      shape: path.robot ? shadedGeometry(decodeMesh(path.robot)) : null,
-      points: path.points.map(p => this.at(p)),
-    }));
+    const ways = paths.map(path => this.wayOf(path));
     if (motion) {
       ways.push({kind: 'motion', name: 'motion', free: true,
                  raw: motion.positions,
@@ -86,40 +80,74 @@ class Stage extends Solids {
                  name: answers.length === 1 ? 'pose' : 'poses',
                  points: raw.map(p => this.at(p))});
     }
-    this.robotShape.computeBoundingSphere();
-    const {center, radius} = this.robotShape.boundingSphere;
-    const reach = center.length() + radius;
-    for (const way of ways) {
-      way.lengths = lengthsOf(way.points, way.turns, reach);
-    }
+    for (const way of ways) this.measure(way);
     return ways;
   }
 
+  // Of an entry of the page's paths.
+  wayOf(path) {
+    return {
+      kind: 'path', name: path.name, free: path.free, raw: path.points,
+      pace: path.pace, body: path.robot,
+      turns: path.turns ? path.turns.map(asTurn) : null,
+      shape: path.robot ? shadedGeometry(decodeMesh(path.robot)) : null,
+      points: path.points.map(p => this.at(p)),
+    };
+  }
+
+  measure(way) {
+    this.robotShape.computeBoundingSphere();
+    const {center, radius} = this.robotShape.boundingSphere;
+    way.lengths = lengthsOf(way.points, way.turns, center.length() + radius);
+  }
+
   addWays() {
-    this.wayMaterials = [];
-    for (const way of this.ways) {
-      const material = new THREE.MeshPhongMaterial(
-          {shininess: 10, side: THREE.DoubleSide});
-      this.wayMaterials.push(material);
-      way.group = new THREE.Group();
-      this.groups.paths.add(way.group);
-      way.stages = new THREE.Group();
-      this.groups.stages.add(way.stages);
-      if (way.points.length < 2 || way.kind === 'answers') continue;
-      const radius = way.kind === 'motion' ? kPathRadius / 2 : kPathRadius;
-      way.group.add(new THREE.Mesh(pathGeometry(way, radius), material));
-      for (let i = 0; i <= 6; ++i) {
-        const ghost = this.ghost(this.ghostMaterial, way);
-        const place = this.placeOn(way, i / 6);
-        ghost.position.copy(place.point);
-        if (place.turn) ghost.quaternion.copy(place.turn);
-        way.stages.add(ghost);
-      }
-    }
+    this.wayMaterials = this.ways.map(way => this.drawWay(way));
     const {motion, answers, probe} = this.data;
     const count = motion ? motion.traces.length : answers.length ? 1 : 0;
     this.arrows = Array.from({length: count}, () => this.makeArrow());
     this.probeArrows = probe ? kProbeMetrics.map(() => this.makeArrow()) : [];
+    this.solved = this.makeArrow();  // of a depth that the page asked for
+  }
+
+  // Returns its material.
+  drawWay(way) {
+    const material = new THREE.MeshPhongMaterial(
+        {shininess: 10, side: THREE.DoubleSide});
+    way.group = new THREE.Group();
+    this.groups.paths.add(way.group);
+    way.stages = new THREE.Group();
+    this.groups.stages.add(way.stages);
+    if (way.points.length < 2 || way.kind === 'answers') return material;
+    const radius = way.kind === 'motion' ? kPathRadius / 2 : kPathRadius;
+    way.group.add(new THREE.Mesh(pathGeometry(way, radius), material));
+    for (let i = 0; i <= 6; ++i) {
+      const ghost = this.ghost(this.ghostMaterial, way);
+      const place = this.placeOn(way, i / 6);
+      ghost.position.copy(place.point);
+      if (place.turn) ghost.quaternion.copy(place.turn);
+      way.stages.add(ghost);
+    }
+    return material;
+  }
+
+  // A path that comes later, in place of way `index` or, with −1, as another.
+  // Returns its number.
+  putWay(path, index) {
+    const way = this.wayOf(path), at = index < 0 ? this.ways.length : index;
+    this.measure(way);
+    if (index >= 0) {
+      this.groups.paths.remove(this.ways[at].group);
+      this.groups.stages.remove(this.ways[at].stages);
+      this.labels = this.labels.filter(label => label.way !== at);
+    }
+    this.ways[at] = way;
+    this.wayMaterials[at] = this.drawWay(way);
+    if (way.points.length > 0) {
+      this.labels.push({text: way.name.split(' · ')[0], way: at,
+                        point: this.placeOn(way, 0.4).point});
+    }
+    return at;
   }
 
   makeArrow() {
@@ -144,6 +172,7 @@ class Stage extends Solids {
 
   addMarks() {
     this.labels = [];  // {text, point, way}
+    this.ends = {};    // of start and goal: what is drawn there
     const mark = (point, shape, text, turn) => {
       if (!point) return;
       const material = new THREE.MeshBasicMaterial();
@@ -156,6 +185,7 @@ class Stage extends Solids {
       ghost.quaternion.copy(asTurn(turn));
       this.groups.marks.add(ghost);
       this.labels.push({text, point: mesh.position});
+      this.ends[text] = [mesh, ghost];
     };
     mark(this.data.start, new THREE.SphereBufferGeometry(0.008, 20, 14),
          'start', this.data.start_turn);
@@ -179,6 +209,12 @@ class Stage extends Solids {
       this.labels.push({text: isOne ? short : way.name, way: i,
                         point: this.placeOn(way, share).point});
     });
+  }
+
+  // Start or goal, to a point in the user's unit.
+  moveEnd(name, raw) {
+    this.data[name] = raw;
+    for (const part of this.ends[name]) part.position.copy(this.at(raw));
   }
 
   // Where the robot is at t of the way, 0 to 1: along a path by length, or by

@@ -30,6 +30,7 @@ class LinkedViewer extends DrawnViewer {
     if (state.map) parts.map = state.map;
     if (state.surface) parts.surface = state.surface;
     if (state.surface in kSurfaceMaps) parts.below = state.below;
+    if (state.chart !== first.chart) parts.chart = state.chart;
     if (state.theme !== first.theme) parts.theme = state.theme;
     if (state.iterate !== null) parts.iter = state.iterate;
     if (state.speed !== 1) parts.speed = state.speed;
@@ -79,6 +80,7 @@ class LinkedViewer extends DrawnViewer {
       if (kSurfaceDepths.includes(below)) state.below = below;
     }
     if (link.get('theme') in kThemes) state.theme = link.get('theme');
+    if (link.get('chart') in kChartKinds) state.chart = link.get('chart');
     const speed = parseFloat(link.get('speed'));
     if (speed > 0) state.speed = speed;
     const probe = numbers('probe');

@@ -157,6 +157,10 @@ struct View {
   ViewMotion motion;                // no frames: none
   std::vector<ViewAnswer> answers;  // one robot, a pose each
   std::vector<ViewMover> movers;
+  // What serves this view with a solver behind it: "phongpd view u_axis
+  // --serve"; empty: nothing does.  `is_served`: by it the page comes.
+  std::string serve_command;
+  bool is_served = false;
 };
 
 // Of everything in the view but the robot, which is taken where it stands or

@@ -13,6 +13,7 @@
 #include "viewer/display_mesh.h"
 #include "viewer/page_numbers.h"
 #include "viewer/probe/probe_module.h"
+#include "viewer/view_entries.h"
 #include "viewer/view_json_behind.h"
 
 namespace phongpd {
@@ -23,14 +24,10 @@ using internal::AppendNumber;
 using internal::Base64;
 using internal::CornerBytes;
 using internal::PointJson;
+using internal::PointsJson;
 using internal::ShownPositions;
+using internal::TurnJson;
 using Json = nlohmann::ordered_json;
-
-Json PointsJson(const std::vector<Vector3d>& points) {
-  Json json = Json::array();
-  for (const Vector3d& p : points) json.push_back(PointJson(p));
-  return json;
-}
 
 Json MaybePoint(const std::optional<Vector3d>& p) {
   return p ? PointJson(*p) : Json(nullptr);
@@ -160,26 +157,6 @@ Json BodyJson(const TriangleMesh& mesh, const std::string& name,
   return MeshJson(mesh, name, most, {Vector3d::Zero(), frame.scale}, notes);
 }
 
-Json TurnJson(const Eigen::Quaterniond& turn) {
-  return {turn.w(), turn.x(), turn.y(), turn.z()};
-}
-
-Json TurnsJson(const std::vector<Eigen::Quaterniond>& turns) {
-  if (turns.empty()) return nullptr;
-  Json json = Json::array();
-  for (const Eigen::Quaterniond& turn : turns) json.push_back(TurnJson(turn));
-  return json;
-}
-
-Json PaceJson(const ViewPace& pace) {
-  if (!(pace.duration > 0.0)) return nullptr;
-  return {{"duration", pace.duration},
-          {"velocity", pace.velocity},
-          {"acceleration", pace.acceleration},
-          {"jerk", pace.jerk},
-          {"clearance", pace.clearance}};
-}
-
 Json WindowsJson(const ViewAnswer& answer) {
   if (answer.window_reaches.empty()) return nullptr;
   Json axes = Json::array();
@@ -189,17 +166,13 @@ Json WindowsJson(const ViewAnswer& answer) {
   return {{"reaches", answer.window_reaches}, {"axes", axes}};
 }
 
-Json AnswerJson(const ViewAnswer& answer) {
-  const Eigen::Quaterniond& turn = answer.orientation;
-  const bool has = answer.has_witness;
-  return {{"position", PointJson(answer.position)},
-          {"orientation", {turn.w(), turn.x(), turn.y(), turn.z()}},
-          {"status", answer.status},
-          {"depth", answer.depth},
-          {"clearance", answer.clearance},
-          {"direction", PointJson(answer.direction)},
-          {"on_a", has ? PointJson(answer.on_robot) : Json(nullptr)},
-          {"on_b", has ? PointJson(answer.on_obstacle) : Json(nullptr)}};
+// What a page can ask about: one robot that translates, from a start to a goal.
+Json TaskJson(const View& view) {
+  if (view.serve_command.empty() || !view.start || !view.goal ||
+      view.robot.triangles.empty() || !view.motion.positions.empty()) {
+    return nullptr;
+  }
+  return {{"command", view.serve_command}, {"served", view.is_served}};
 }
 
 }  // namespace
@@ -256,21 +229,18 @@ Json ViewJson(const View& view, std::size_t most_triangles) {
   }
   for (std::size_t i = 0; i < view.paths.size(); ++i) {
     const NamedPath& path = view.paths[i];
-    json["paths"].push_back({{"name", path.name},
-                             {"free", path.is_free},
-                             {"points", PointsJson(path.points)},
-                             {"turns", TurnsJson(path.turns)},
-                             {"pace", PaceJson(path.pace)},
-                             {"robot", body(path.robot, path.name)}});
+    json["paths"].push_back(PathEntry(path));
+    json["paths"].back()["robot"] = body(path.robot, path.name);
     internal::AddBehind(path, i, {center, scale}, &json, &notes);
   }
   json["motion"] = MotionJson(view.motion);
   json["answers"] = Json::array();
   for (const ViewAnswer& answer : view.answers) {
-    json["answers"].push_back(AnswerJson(answer));
+    json["answers"].push_back(AnswerEntry(answer));
     json["windows"].push_back(WindowsJson(answer));
   }
   json["probe"] = ProbeJson(view, &notes);
+  json["task"] = TaskJson(view);
   json["notes"] = notes;
   return json;
 }

@@ -35,6 +35,9 @@ namespace phongpd {
 //   windows[{reaches[], axes[3][x, y, z]} or null]  one for each answer
 //   probe {module (base64 of WebAssembly), length (D), spaces[{positions
 //     (base64 of float64 triples), indices}]} or null
+//   task {command, served}  whether start and goal can be moved, and what the
+//     page asks then: the server that it came from, or the person who reads it
+//     to run the command; null: it shows no such scene
 // Of graphs with more than kMaxDisplayEdges edges some are left out, and a note
 // says so; another where not every iteration is there.  Meshes with more than
 // `most_triangles` together are shown coarser, and a note says so.

@@ -27,6 +27,7 @@ class Viewer {
     this.readLink();
     if (this.state.still) this.frame();
     this.probe = this.data.probe ? new ProbePanel(this) : null;
+    this.task = this.data.task ? new TaskPanel(this) : null;
     this.map = this.probe ? new SectionMap(this) : null;
     this.surface = this.probe ? new SurfaceMap(this) : null;
     this.panel = new Panel(this);
@@ -41,6 +42,7 @@ class Viewer {
       this.wake();
     });
     window.addEventListener('keydown', e => actOnKey(this, e));
+    sleepInPages(this);
     this.last = performance.now();
     const step = now => {
       this.advance(Math.min(0.1, (now - this.last) / 1000));
@@ -69,7 +71,7 @@ class Viewer {
              windows: true, regions: false, bounds: true},
       probe: {on: false, at: null, metric: 1,
               smoothing: data.probe ? data.probe.smoothing_length : 0},
-      xray: false, map: '', surface: '', below: 0.05,
+      chart: 'size', xray: false, map: '', surface: '', below: 0.05,
       theme: isDark ? 'dark' : 'light', still: false,
     };
   }
@@ -143,6 +145,7 @@ class Viewer {
     document.body.classList.toggle('still', state.still);
     document.body.classList.toggle('motion', this.isSplit);
     document.body.classList.toggle('probing', state.probe.on);
+    byId('reading').hidden = !state.probe.on;
     for (const role of ['obstacle', 'contact', 'mesh', 'marks', 'stages']) {
       stage.groups[role].visible = state.show[role];
     }

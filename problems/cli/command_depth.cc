@@ -10,6 +10,7 @@
 #include "core/mesh/mesh_io.h"
 #include "problems/cli/command.h"
 #include "problems/cli/depth_beside.h"
+#include "problems/cli/depth_row.h"
 #include "problems/cli/flags.h"
 #include "problems/cli/operands.h"
 #include "problems/cli/view_rows.h"
@@ -20,13 +21,11 @@
 #include "problems/output/output_files.h"
 #include "problems/output/points_csv.h"
 #include "problems/output/text.h"
-#include "viewer/page_numbers.h"
 #include "viewer/view_page.h"
 
 namespace phongpd::cli {
 namespace {
 
-using internal::PointJson;
 using Json = nlohmann::ordered_json;
 
 struct DepthFlags {
@@ -54,40 +53,6 @@ std::string Described(const ContactFeature& feature) {
   std::string text = ToString(feature.kind);
   for (const int v : VerticesOf(feature)) text += ' ' + std::to_string(v);
   return text;
-}
-
-Json FeatureJson(const Eigen::Vector3d& point, const ContactFeature& feature) {
-  return {{"point", PointJson(point)},
-          {"feature", ToString(feature.kind)},
-          {"vertices", VerticesOf(feature)}};
-}
-
-// A row for each axis.
-Json AxesJson(const Eigen::Matrix3d& axes) {
-  return {PointJson(axes.col(0)), PointJson(axes.col(1)),
-          PointJson(axes.col(2))};
-}
-
-Json AnswerJson(const RobotPose& pose, const DepthResult& r) {
-  const Eigen::Quaterniond& turn = pose.orientation;
-  return {{"position", PointJson(pose.position)},
-          {"orientation", {turn.w(), turn.x(), turn.y(), turn.z()}},
-          {"status", ToString(r.status)},
-          {"depth", r.depth},
-          {"clearance", r.clearance},
-          {"direction", PointJson(r.direction)},
-          {"contact", PointJson(r.contact)},
-          {"on_a", FeatureJson(r.on_robot, r.robot_feature)},
-          {"on_b", FeatureJson(r.on_obstacle, r.obstacle_feature)},
-          {"certified", r.certified},
-          {"explored_radius", r.explored_radius},
-          {"level", ToString(r.level)},
-          {"grid_step", r.grid_step},
-          {"arranged_faces", r.arranged_faces},
-          {"windows", r.windows},
-          {"window_reaches", r.window_reaches},
-          {"window_axes", AxesJson(r.window_axes)},
-          {"seconds", r.seconds}};
 }
 
 constexpr const char* kDepthHeader =
@@ -225,7 +190,7 @@ class DepthText {
     std::optional<WindowResult> other;
     if (beside_) other = beside_->At(pose);
     if (is_json_) {
-      Json answer = AnswerJson(pose, result);
+      Json answer = DepthAnswerRow(pose, result);
       if (beside_) answer[beside_->Key()] = beside_->AsJson(*other);
       text_ += JsonText(answer) + '\n';
     } else if (is_table_) {
@@ -276,7 +241,7 @@ int AnswerDepth(const DepthFlags& flags) {
     const DepthResult result = query.At(pose);
     is_certified = is_certified && result.certified;
     if (!flags.html.empty()) {
-      view.answers.push_back(DepthAnswerOf(AnswerJson(pose, result)));
+      view.answers.push_back(DepthAnswerOf(DepthAnswerRow(pose, result)));
     }
     text.Add(pose, result);
   }

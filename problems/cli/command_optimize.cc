@@ -13,6 +13,7 @@
 #include "problems/cli/fleet_answer.h"
 #include "problems/cli/optimize_flags.h"
 #include "problems/cli/seeded_runs.h"
+#include "problems/cli/serve_view.h"
 #include "problems/cli/timed_answer.h"
 #include "problems/meshes/operand_notes.h"
 #include "problems/output/json_text.h"
@@ -178,6 +179,8 @@ TimedFlags TimedFlagsOf(const OptimizeFlags& flags) {
   timed.time_limit = flags.time_limit;
   timed.output = flags.output;
   timed.html = flags.html;
+  timed.serve_command =
+      ServeCommand({flags.scene}, flags.root, flags.repair);
   timed.json = flags.json;
   timed.no_cache = flags.no_cache;
   timed.has_margin = !flags.margin.empty();

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <spawn.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -16,16 +15,15 @@
 #include "files/descriptor.h"
 #include "problems/cli/command.h"
 #include "problems/cli/flags.h"
+#include "problems/cli/loopback_server.h"
 #include "problems/cli/operands.h"
+#include "problems/cli/serve_view.h"
 #include "problems/cli/view_inputs.h"
 #include "problems/output/json_text.h"
 #include "problems/output/output_files.h"
-#include "problems/output/programs.h"
 #include "viewer/gltf.h"
 #include "viewer/still_picture.h"
 #include "viewer/view_page.h"
-
-extern char** environ;
 
 namespace phongpd::cli {
 namespace {
@@ -41,6 +39,9 @@ struct ViewFlags : ViewRequest {
   std::string html, glb, png;
   std::optional<double> moment;
   bool json = false;
+  bool serve = false;
+  ServeOptions server;
+  const CLI::App* app = nullptr;  // that they were declared on
 };
 
 // What moves in glTF translates.
@@ -70,23 +71,6 @@ std::string WriteTemporary(const std::string& page) {
   return path;
 }
 
-// In the user's browser, if there is a display; does not wait for it.
-void OpenOnDisplay(const std::string& path) {
-  if (std::getenv("DISPLAY") == nullptr &&
-      std::getenv("WAYLAND_DISPLAY") == nullptr) {
-    return;
-  }
-  std::string program = FindProgram({"xdg-open"});
-  if (program.empty()) return;
-  std::string argument = path;
-  char* arguments[] = {program.data(), argument.data(), nullptr};
-  pid_t child = 0;
-  if (posix_spawn(&child, program.c_str(), nullptr, nullptr, arguments,
-                  environ) != 0) {
-    Note("xdg-open could not be started; open the file yourself");
-  }
-}
-
 // What is shown, for --json; `page` is where.
 Json Contents(const View& view, const std::string& page) {
   Json meshes = Json::array(), paths = Json::array();
@@ -111,7 +95,26 @@ Json Contents(const View& view, const std::string& page) {
           {"notes", view.notes}};
 }
 
+// Is it served, and is all that was asked for meant for that?
+void CheckServe(const ViewFlags& flags) {
+  if (!flags.serve) {
+    for (const char* name : {"--port", "--time"}) {
+      if (flags.app->count(name) == 0) continue;
+      throw InputError(std::string(name) +
+                       ": expected --serve with it, found none");
+    }
+    return;
+  }
+  RequireServer();
+  for (const char* name : {"--html", "--glb", "--png", "--json"}) {
+    if (flags.app->count(name) == 0) continue;
+    throw InputError(std::string("--serve: expected it without ") + name +
+                     ", found both; write the page without --serve");
+  }
+}
+
 int Look(ViewFlags flags) {
+  CheckServe(flags);
   if (!flags.from_cells.empty()) {
     flags.from = ParsePoint(flags.from_cells, "--from");
   }
@@ -134,9 +137,22 @@ int Look(ViewFlags flags) {
   }
   if (flags.json) RequireFreeStandardOutput(outputs);
 
-  View view = ReadThings(flags);
+  std::optional<Scene> scene;
+  View view = ReadThings(flags, &scene);
+  if (scene) {
+    view.serve_command = ServeCommand(flags.things, flags.root, flags.repair);
+  }
   if (!flags.unit.empty()) view.unit = flags.unit;
   if (!flags.title.empty()) view.title = flags.title;
+  if (flags.serve) {
+    if (!scene) {
+      throw InputError(
+          "--serve: expected a scene of one robot that translates, or runs of "
+          "one, found " +
+          view.title + "; without --serve it can be looked at");
+    }
+    ServeView(std::move(view), *scene, UserCache(flags.no_cache), flags.server);
+  }
   const std::string page =
       is_page || !flags.png.empty() ? ViewPage(view) : std::string();
   if (!flags.html.empty()) outputs.Write(flags.html, page);
@@ -181,6 +197,24 @@ void AddViewOutputs(CLI::App* app, ViewFlags* flags) {
       ->type_name("SHARE");
 }
 
+void AddServe(CLI::App* app, ViewFlags* flags) {
+  flags->app = app;
+  app->add_flag("--serve", flags->serve,
+                "Serve the page on 127.0.0.1, where its start and goal can be "
+                "moved and planned between; prints the address, which holds a "
+                "secret, and ends by Ctrl-C");
+  app->add_option("--port", flags->server.port,
+                  "Of --serve; 0: any that is free")
+      ->check(Between(0, 65535))
+      ->capture_default_str()
+      ->type_name("N");
+  app->add_option("--time", flags->server.seconds,
+                  "Of --serve: limit of an answer, seconds")
+      ->check(Above(0.0))
+      ->capture_default_str()
+      ->type_name("S");
+}
+
 // What a table of motion does not say itself.
 void AddViewedMotion(CLI::App* app, ViewFlags* flags) {
   app->add_option("--robot", flags->robot,
@@ -213,6 +247,7 @@ Command AddView(CLI::App* app) {
       ->type_name("THING");
   AddViewOutputs(app, flags.get());
   AddViewedMotion(app, flags.get());
+  AddServe(app, flags.get());
   app->add_flag(
       "--build", flags->build,
       "Build the contact space of a scene, or take it from the cache, "
@@ -230,6 +265,7 @@ Command AddView(CLI::App* app) {
   AddExamples(
       app, {"phongpd view robot.off obstacle.off",
             "phongpd view u_axis --build --html u.html",
+            "phongpd view u_axis --serve",
             "phongpd view phong.jsonl euclidean.jsonl --png paths.png",
             "phongpd view motion.csv contact.off --robot robot.off --from 0 -1 "
             "0 --to 0 1 0"});

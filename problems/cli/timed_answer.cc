@@ -112,6 +112,7 @@ int AnswerInTime(const Scene& scene, const TimedFlags& flags,
   if (!flags.html.empty()) {
     View view = SceneView(scene);
     view.paths = {PathInTime(world, request, answer)};
+    view.serve_command = flags.serve_command;
     view.movers = MoversOf(request.moving, answer.motion.duration());
     outputs.Write(flags.html, ViewPage(view));
   }

@@ -18,6 +18,7 @@ struct TimedFlags {
   std::string time_limit;
   std::string output;
   std::string html;
+  std::string serve_command;  // of its page; empty: none
   bool json = false;
   bool no_cache = false;
   std::optional<int> routes;  // the preset's if none

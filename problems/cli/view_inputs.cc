@@ -143,6 +143,8 @@ class Collector {
     return std::move(view_);
   }
 
+  const std::optional<Scene>& stage() const { return stage_; }
+
   // Scenes first: runs find theirs there already.
   static int Order(const std::string& thing) {
     return IsFamily(thing) || Extension(thing) == ".json" ? 0 : 1;
@@ -330,7 +332,7 @@ class Collector {
 
 }  // namespace
 
-View ReadThings(const ViewRequest& request) {
+View ReadThings(const ViewRequest& request, std::optional<Scene>* scene) {
   std::vector<std::string> things = request.things;
   std::stable_sort(things.begin(), things.end(),
                    [](const std::string& a, const std::string& b) {
@@ -338,6 +340,7 @@ View ReadThings(const ViewRequest& request) {
                    });
   Collector collector(request);
   for (const std::string& thing : things) collector.Take(thing);
+  *scene = collector.stage();
   return collector.Finish();
 }
 

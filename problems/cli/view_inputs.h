@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "problems/scenes/scene.h"
 #include "viewer/view.h"
 
 namespace phongpd::cli {
@@ -23,7 +24,8 @@ struct ViewRequest {
 // Everything that was asked for in one view: meshes, contact spaces, scenes,
 // runs, plans, motions and depths, recognised by extension and content.  Runs
 // whose scene is a family with knobs bring it along.  Throws InputError for
-// what is none of them, and for things of different scenes.
-View ReadThings(const ViewRequest& request);
+// what is none of them, and for things of different scenes.  `scene`: that
+// which is shown, if it is at hand and of one robot that translates.
+View ReadThings(const ViewRequest& request, std::optional<Scene>* scene);
 
 }  // namespace phongpd::cli

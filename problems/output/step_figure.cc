@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "problems/output/gnuplot.h"
+#include "problems/output/metric_color.h"
 #include "problems/output/text.h"
 
 namespace phongpd {
@@ -14,11 +15,12 @@ namespace {
 // The others' colours are Okabe and Ito's, and two of Tol's.
 std::string LineStyle(StepCurve::Role role, std::size_t* others) {
   if (role == StepCurve::Role::kBaseline)
-    return "lc rgb '#000000' lw 2 dt (10,4)";
-  if (role == StepCurve::Role::kMain) return "lc rgb '#0060B0' lw 4";
+    return std::string("lc rgb '") + kEuclideanColor + "' lw 2 dt (10,4)";
+  if (role == StepCurve::Role::kMain)
+    return std::string("lc rgb '") + kPhongColor + "' lw 4";
   constexpr std::array<const char*, 8> kCurveColors = {
       "#E69F00", "#009E73", "#CC79A7", "#56B4E9",
-      "#D55E00", "#882255", "#999933", "#888888"};
+      "#000000", "#882255", "#999933", "#888888"};
   constexpr std::array<const char*, 3> kDashes = {"1", "(4,3)", "(12,4,2,4)"};
   const std::size_t k = (*others)++;
   return std::string("lc rgb '") + kCurveColors[k % kCurveColors.size()] +

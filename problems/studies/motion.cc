@@ -9,6 +9,7 @@
 #include "core/projection/penetration_tracker.h"
 #include "problems/output/gnuplot.h"
 #include "problems/output/json_text.h"
+#include "problems/output/metric_color.h"
 #include "problems/output/text.h"
 
 namespace phongpd {
@@ -16,12 +17,11 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// Colour-blind safe, and told apart by width and dash without any colour; thin
-// lines come later and stay visible on top of wide ones.
-constexpr std::array<const char*, 5> kLineStyles = {
-    "lc rgb '#F0A830' lw 5", "lc rgb '#0060B0' lw 3 dt (9,5)",
-    "lc rgb '#000000' lw 1.3", "lc rgb '#009E73' lw 1.8 dt (2,3)",
-    "lc rgb '#B04080' lw 1.8 dt (12,4,2,4)"};
+// Told apart by width and dash without any colour; thin lines come later and
+// stay visible on top of wide ones.
+constexpr std::array<const char*, 5> kLineStyles = {"lw 5", "lw 3 dt (9,5)",
+                                                    "lw 1.3", "lw 1.8 dt (2,3)",
+                                                    "lw 1.8 dt (12,4,2,4)"};
 
 std::string DataBlock(const MotionTrace& trace, std::size_t number) {
   std::string block = "$trace" + std::to_string(number) + " << EOD\n";
@@ -118,9 +118,12 @@ std::string MotionJson(const StraightMotion& motion,
 std::string MotionPage(const std::vector<MotionTrace>& traces,
                        const std::string& title) {
   std::string script;
+  std::vector<std::string> labels;
   for (std::size_t k = 0; k < traces.size(); ++k) {
     script += DataBlock(traces[k], k);
+    labels.push_back(traces[k].label);
   }
+  const std::vector<std::string> colors = LineColors(labels);
   script += "set multiplot layout 4,1 title " + GnuplotText(title) +
             " noenhanced font ',16' margins 0.11,0.97,0.07,0.89 "
             "spacing 0,0.025\n"
@@ -141,7 +144,8 @@ std::string MotionPage(const std::vector<MotionTrace>& traces,
     script += "plot ";
     for (std::size_t k = 0; k < traces.size(); ++k) {
       script += (k == 0 ? "$trace" : ", $trace") + std::to_string(k) +
-                " using 1:" + std::to_string(panel + 2) + " with lines " +
+                " using 1:" + std::to_string(panel + 2) +
+                " with lines lc rgb '" + colors[k] + "' " +
                 kLineStyles[k % kLineStyles.size()] + " title " +
                 GnuplotText(traces[k].label);
     }

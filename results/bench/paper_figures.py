@@ -3,12 +3,14 @@
 
 import math
 
-from step_figure import quoted, render
+from step_figure import METRIC_COLOURS, quoted, render
 
-# As `phongpd motion --svg` draws them (problems/studies/motion.cc): told apart by
-# width and dash without any colour; thin lines on top of wide ones.
-LINES = ["lc rgb '#F0A830' lw 5", "lc rgb '#0060B0' lw 3 dt (9,5)",
-         "lc rgb '#000000' lw 1.3"]
+# As `phongpd motion --svg` draws them (problems/studies/motion.cc): Euclidean PD
+# and two of PhongPD, the second paler, told apart by width and dash without any
+# colour; thin lines on top of wide ones.
+LINES = [f"lc rgb '{METRIC_COLOURS['euclidean']}' lw 5",
+         f"lc rgb '{METRIC_COLOURS['phong']}' lw 3 dt (9,5)",
+         "lc rgb '#4886BB' lw 1.3"]
 
 
 def motion_page(traces, title):

@@ -6,13 +6,15 @@ import shutil
 import subprocess
 import sys
 
-# One colour a role or metric, everywhere: the metric that is compared is thick
-# blue, what it is compared with dashed black; others by Okabe and Ito and by
-# Tol, told apart by colour-blind readers, and by dash once more.
+# One colour a metric, in figures, still pictures and pages
+# (problems/output/metric_color.h, viewer/colors.js; a test compares them).
+METRIC_COLOURS = {"phong": "#0060B0", "euclidean": "#D55E00", "sliding": "#009E73"}
+# PhongPD is compared, thick, with the Euclidean, dashed; others by Okabe and Ito
+# and by Tol, told apart by colour-blind readers, and by dash once more.
 MAIN, BASELINE = "main", "baseline"
-STYLES = {MAIN: "lc rgb '#0060B0' lw 4",
-          BASELINE: "lc rgb '#000000' lw 2 dt (10,4)"}
-OTHER_COLOURS = ("#E69F00", "#009E73", "#CC79A7", "#56B4E9", "#D55E00", "#882255",
+STYLES = {MAIN: f"lc rgb '{METRIC_COLOURS['phong']}' lw 4",
+          BASELINE: f"lc rgb '{METRIC_COLOURS['euclidean']}' lw 2 dt (10,4)"}
+OTHER_COLOURS = ("#E69F00", "#009E73", "#CC79A7", "#56B4E9", "#000000", "#882255",
                  "#999933", "#888888")
 DASHES = ("1", "(4,3)", "(12,4,2,4)")
 # Of lines that name no colour.

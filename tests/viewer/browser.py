@@ -116,7 +116,8 @@ class Browser:
         self.call("Emulation.setEmulatedMedia", features=[
             {"name": "prefers-color-scheme", "value": theme}])
         self.call("Page.navigate", url="about:blank")
-        self.call("Page.navigate", url=f"file://{path}{link}")
+        url = str(path) if str(path).startswith("http") else f"file://{path}"
+        self.call("Page.navigate", url=url + link)
         self.wait("(document.documentElement && "
                   "document.documentElement.dataset.ready === '1') || "
                   "(document.readyState === 'complete' && "

@@ -137,6 +137,30 @@ TEST_F(CliView, BringsTheSceneOfAFamilyAlong) {
   EXPECT_EQ(data["start"], data["paths"][0]["points"][0]);
 }
 
+// Of one robot that translates, whatever was looked at of it.
+TEST_F(CliView, SaysWhatServesASceneThatCanBeSolved) {
+  const std::string scene = Scene(TwoObstacles());
+  const auto command = [](const Json& data) {
+    return data["task"].is_null() ? std::string()
+                                  : data["task"].value("command", "");
+  };
+  EXPECT_EQ(command(Data("u_axis")), "phongpd view u_axis --serve");
+  EXPECT_EQ(Data("u_axis")["task"]["served"], false);
+  EXPECT_EQ(command(Data("u_axis:ball_radius=0.12 --repair safe")),
+            "phongpd view u_axis:ball_radius=0.12 --repair safe --serve");
+  std::filesystem::copy_file(File("scene.json"), File("it's a scene.json"));
+  EXPECT_EQ(command(Data("\"../it's a scene.json\"")),
+            "phongpd view '../it'\\''s a scene.json' --serve");
+  for (const std::string name : {"plan", "optimize"}) {
+    Prepare(name + " " + scene + " --html ../p.html", "p.jsonl");
+    std::filesystem::rename(File("p.html"), Output("p.html"));
+    EXPECT_EQ(command(TakeData("p.html")),
+              "phongpd view " + scene + " --serve");
+  }
+  EXPECT_EQ(command(Data("../box.off")), "");
+  EXPECT_EQ(command(Data("../p.jsonl")), "") << "rows without their scene";
+}
+
 // Rows say that free space alone was modelled; with --build it is shown.
 TEST_F(CliView, ShowsWhatPlansInFreeSpaceAloneHadBuilt) {
   const std::string scene = Scene(TwoObstacles());
@@ -328,6 +352,8 @@ TEST_F(CliView, RefusesWhatIsNothingToLookAt) {
   ExpectRefused("view u_axis --glb v.gltf", {"--glb", ".glb"});
   ExpectRefused("view u_axis --png v.svg", {"--png", ".png"});
   ExpectRefused("view none.off --moment 0.5", {"--moment", "--png"});
+  ExpectRefused("view u_axis --port 1", {"--port", "--serve"});
+  ExpectRefused("view u_axis --time 1", {"--time", "--serve"});
   ExpectRefused("view none.off --png p.png --moment 1.5", {"--moment", "1.5"});
   ExpectRefused("view none.off --png p.png --moment nan", {"--moment", "nan"});
 }

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "viewer/view.h"
+
+namespace phongpd {
+
+// Entries of the page's lists paths and answers (view_json.h), also for pages
+// that get them later.  A path's has no robot of its own.
+nlohmann::ordered_json PathEntry(const NamedPath& path);
+nlohmann::ordered_json AnswerEntry(const ViewAnswer& answer);
+
+}  // namespace phongpd
