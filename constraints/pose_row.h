@@ -13,6 +13,8 @@ enum class RotationSource {
   kContact,      // the one contact of the answer: exact, to rounding
   kDifferences,  // several contacts at once: central differences of whole
                  // answers, good to 1e-6 of the robot's size or so
+  kGaps,         // of TrackedPoseRow: the lever of all that is near contact,
+                 // no derivative
   kNone,         // the answer has no witness: zero
 };
 
@@ -49,7 +51,8 @@ struct PoseRowValue {
 //
 // Exact depth at each pose, nothing precomputed: some milliseconds to a tenth
 // of a second each, so for few samples and small meshes.  It is Euclidean PD:
-// its direction jumps on the medial axis, and s says nothing between samples.
+// its direction jumps on the medial axis (tracked_pose_row.h has one that does
+// not), and s says nothing between samples.
 class PoseRow {
  public:
   // Throws InputError as DepthQuery does.
