@@ -16,14 +16,15 @@ constexpr long kMostTests = 300'000;
 // Of the robot's reach, object norm.
 constexpr double kLeastPart = 0.02;
 constexpr double kMostMargin = 64.0;  // of the first margin
-constexpr int kIterations = 150;
-constexpr int kStall = 20;
-constexpr int kMostFailures = 3;
+constexpr int kMostFailures = 3;      // in a row, once a free path is known
+constexpr int kStall = 10;
 // An iterate is judged where rows are violated by less, units of the reach: it
 // may be free by its margin.
 constexpr double kNearlyFeasible = 1e-4;
 // And where it is shorter by that share than what is known.
 constexpr double kLeastGain = 1e-4;
+// Of the way to a path that was refuted.
+constexpr double kLeastShare = 0.02;
 
 double LengthOf(const RigidPath& path, double gyration) {
   double length = 0.0;
@@ -39,6 +40,7 @@ class Rounds {
          const PoseRoundsTask& task, PoseRows* rows, RigidStop* stop)
       : model_(model), task_(task), rows_(rows), stop_(stop), poses_(start) {
     const int links = static_cast<int>(poses_.size()) - 1;
+    times_.assign(static_cast<std::size_t>(links), 0);
     for (int i = 0; i < links; ++i) {
       samples_.push_back({i, 0.5, task_.margin});
       if (i + 1 < links) samples_.push_back({i, 1.0, task_.margin});
@@ -48,6 +50,7 @@ class Rounds {
   PoseRoundsEnd Run() {
     const double begin = stop_->Seconds();
     int failures = 0;
+    if (IsFree(poses_)) Keep(poses_);
     while (end_.rounds < task_.max_rounds && !stop_->Asks()) {
       const double left = task_.time_limit - (stop_->Seconds() - begin);
       if (!(left > 0.0)) break;
@@ -60,8 +63,10 @@ class Rounds {
       }
       end_.was_refuted |= is_claimed;
       failures = is_claimed ? 0 : failures + 1;
-      if (failures == kMostFailures || !task_.adds_rows) break;
+      const int most = end_.path.empty() ? task_.max_failures : kMostFailures;
+      if (failures >= most) break;
       AddSamples();
+      if (!end_.path.empty()) poses_ = Between();
     }
     end_.samples = samples_.size();
     return end_;
@@ -73,9 +78,10 @@ class Rounds {
     PoseProgram program(PoseChart(poses_, model_.reach, model_.gyration),
                         samples_, task_.bounds, rows_);
     IpoptSettings settings;
-    settings.max_iterations = kIterations;
+    settings.max_iterations = task_.max_iterations;
     settings.stall_iterations = kStall;
     settings.time_limit = seconds;
+    if (IsFree(poses_)) StartFromHere(&settings);
     settings.on_iteration = [&](const IterationRecord& record,
                                 const VectorXd& x) {
       if (record.violation <= kNearlyFeasible) {
@@ -95,6 +101,17 @@ class Rounds {
     return IsClassOk(run.status);
   }
 
+  // A start near the answer: a large mu would push it off the walls first, and
+  // into others.
+  static void StartFromHere(IpoptSettings* settings) {
+    settings->mu_strategy = IpoptSettings::MuStrategy::kMonotone;
+    for (const char* name :
+         {"bound_push", "bound_frac", "slack_bound_push", "slack_bound_frac"}) {
+      settings->ipopt_options[name] = "1e-6";
+    }
+    settings->ipopt_options["mu_init"] = "1e-4";
+  }
+
   RigidCheck Judge(const RobotPose& a, const RobotPose& b) {
     const RigidCheck check = model_.judge.Check(RigidMotion(a, b), kMostTests);
     ++end_.checks;
@@ -107,6 +124,22 @@ class Rounds {
       if (!Judge(path[i], path[i + 1]).IsFree()) return false;
     }
     return true;
+  }
+
+  // Of the ways from the shortest free path to what was refuted the last free
+  // one that is seen, knot by knot; kept, and where the next round begins.
+  RigidPath Between() {
+    const RigidPath from = end_.path;
+    for (double share = 0.8; share > kLeastShare; share *= 0.6) {
+      RigidPath path = from;
+      for (std::size_t i = 1; i + 1 < path.size(); ++i) {
+        path[i] = RigidMotion(from[i], poses_[i]).At(share);
+      }
+      if (!IsFree(path)) continue;
+      Keep(path);
+      break;
+    }
+    return end_.path;
   }
 
   void Keep(const RigidPath& path) {
@@ -137,9 +170,21 @@ class Rounds {
         from = to;
       }
     }
+    std::vector<bool> is_told(times_.size(), false);
+    for (const PoseSample& sample : added_) {
+      is_told[static_cast<std::size_t>(sample.link)] = true;
+    }
+    for (std::size_t i = 0; i < times_.size(); ++i) times_[i] += is_told[i];
     samples_.insert(samples_.end(), added_.begin(), added_.end());
     end_.added_samples += added_.size();
     added_.clear();
+  }
+
+  // Doubled with each round before that added rows to the link.
+  double MarginOf(int link) const {
+    const auto i = static_cast<std::size_t>(link);
+    return std::min(std::ldexp(task_.margin, times_[i]),
+                    kMostMargin * task_.margin);
   }
 
   void AddBetween(int link, double from, double to, PoseSample* before,
@@ -154,7 +199,7 @@ class Rounds {
     if (!is_short) {
       // Not at an end: there is a row already.
       const double share = std::clamp(check.time, 0.1, 0.9);
-      added_.push_back({link, from + share * (to - from), task_.margin});
+      added_.push_back({link, from + share * (to - from), MarginOf(link)});
       return;
     }
     for (PoseSample* sample : {before, after}) {
@@ -170,6 +215,7 @@ class Rounds {
   RigidStop* stop_;
   RigidPath poses_;
   std::vector<PoseSample> samples_, added_;
+  std::vector<int> times_;  // rounds that added samples, of each link
   PoseRoundsEnd end_;
 };
 

@@ -14,10 +14,11 @@ struct PoseRoundsTask {
   Eigen::AlignedBox3d bounds;  // of the robot's origin
   double margin = 0.0;         // of the rows, user's unit; > 0
   int max_rounds = 1;
+  int max_iterations = 100;  // of a round
+  // Rounds in a row that Ipopt does not call solved, as long as no free path is
+  // known.
+  int max_failures = 3;
   double time_limit = 0.0;  // seconds of all rounds
-  // Where the judge finds what rows did not see they are added; false: the
-  // first samples are all.
-  bool adds_rows = true;
 };
 
 struct PoseRoundsEnd {
@@ -38,10 +39,12 @@ struct PoseRoundsEnd {
 // round is a solve of PoseProgram with samples at the middle and the end of
 // each link, around the poses of the round before.  Then each part between two
 // samples is judged for all of its t.  Where it is not free it gets a sample
-// where it was seen to collide, or is not decided; where two samples are that
-// close already (kLeastPart of the robot's reach) the margins around are
-// doubled.  Ends when the judge confirms what Ipopt calls solved, or rounds or
-// time are up, or Ipopt has given up thrice.
+// where it was seen to collide, or is not decided, whose margin is doubled with
+// each round that added some to the link before; where two samples are close
+// already (kLeastPart of the robot's reach) the margins around are doubled.
+// Once a free path is known rounds begin at free paths: what was refuted is
+// drawn back towards it.  Ends when the judge confirms what Ipopt calls solved,
+// or rounds or time are up, or Ipopt has given up max_failures times.
 PoseRoundsEnd OptimizePoses(const RigidModel& model,
                             const std::vector<RobotPose>& start,
                             const PoseRoundsTask& task, PoseRows* rows,

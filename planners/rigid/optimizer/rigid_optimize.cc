@@ -26,6 +26,7 @@ constexpr int kMaxKnots = 200, kMaxRounds = 100;
 constexpr int kRowsASample = 6;
 constexpr double kMargin = 1e-3;  // of the reach
 constexpr double kRange = 0.25;   // of the reach, that rows see
+constexpr int kStraightIterations = 60;
 // Of the time that is left.
 constexpr double kStraightShare = 1.0 / 3.0, kPlannerShare = 0.5;
 
@@ -94,8 +95,8 @@ class RigidOptimizer {
     return *rows_;
   }
 
-  PoseRoundsEnd Improve(const RigidPath& start, double seconds) {
-    PoseRoundsTask task;
+  PoseRoundsEnd Improve(const RigidPath& start, double seconds,
+                        PoseRoundsTask task = {}) {
     task.bounds = bounds_;
     task.margin =
         request_.margin > 0.0 ? request_.margin : kMargin * world_.reach();
@@ -132,10 +133,18 @@ class RigidOptimizer {
       path.push_back(pose);
     }
     path.push_back(request_.task.goal);
-    const double share =
-        request_.from == RigidStart::kBoth ? kStraightShare : 1.0;
-    const PoseRoundsEnd end = Improve(path, share * Left());
-    if (!end.path.empty()) Take(end.path, "straight", StatusOf(end));
+    PoseRoundsTask task;
+    double share = 1.0;
+    if (request_.from == RigidStart::kBoth) {
+      // What does not come off at once the planner does sooner.
+      share = kStraightShare;
+      task.max_iterations = kStraightIterations;
+      task.max_failures = 1;
+    }
+    const PoseRoundsEnd end = Improve(path, share * Left(), task);
+    if (end.path.empty()) return;
+    Take(end.path, "straight", StatusOf(end));
+    out_.is_confirmed = end.is_confirmed;
   }
 
   void FromPlanner() {
@@ -158,6 +167,7 @@ class RigidOptimizer {
         Improve(WithKnots(planned.path, request_.knots, world_), Left());
     const bool is_shorter = !end.path.empty() && end.length < planned.length;
     if (is_shorter) {
+      out_.is_confirmed = end.is_confirmed;
       Take(end.path, "planner", StatusOf(end));
     } else {
       Take(planned.path, planned.planner, PathStatus::kStalledFeasible);
@@ -165,18 +175,20 @@ class RigidOptimizer {
   }
 
   static PathStatus StatusOf(const PoseRoundsEnd& end) {
-    return end.is_confirmed ? PathStatus::kSolved
-                            : PathStatus::kStalledFeasible;
+    const bool has_converged = end.status == SolveStatus::kConverged ||
+                               end.status == SolveStatus::kAcceptable;
+    return end.is_confirmed && has_converged ? PathStatus::kSolved
+                                             : PathStatus::kStalledFeasible;
   }
 
   void Take(const RigidPath& path, const std::string& by, PathStatus status) {
     out_.answer.path = path;
     out_.answer.planner = by;
     out_.answer.status = status;
-    out_.answer.reason =
-        status == PathStatus::kSolved
-            ? ""
-            : "the path is proved free, but the optimiser did not converge";
+    if (status != PathStatus::kSolved) {
+      out_.answer.reason =
+          "the path is proved free, but Ipopt did not converge to it";
+    }
   }
 
   void SayWhy() {

@@ -36,7 +36,7 @@ struct RigidOptimizeRequest {
   // By TrackedPoseRow, else PoseRow, while they collide.
   bool is_tracked = false;
   // Solves of a start, [1, 100]; rows are added after each.
-  int max_rounds = 10;
+  int max_rounds = 15;
 
   // Throws InputError naming the field.
   void Validate() const;
@@ -54,6 +54,9 @@ struct RigidOptimum {
   RigidAnswer answer;
   // Ipopt's word on the last round that was solved.
   SolveStatus solver = SolveStatus::kInvalidProblem;
+  // Ipopt called the path solved (converged, acceptable or stalled_feasible),
+  // or one not shorter, and the judge confirmed it.
+  bool is_confirmed = false;
   // At least once the judge refuted what Ipopt called solved.
   bool was_refuted = false;
   double planned_length = 0.0;     // of Plan's path, shortened; 0: not asked
