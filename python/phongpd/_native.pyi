@@ -118,6 +118,11 @@ class RigidWorld:
     def plan(self, ends: _Floats, bounds: _Floats, time_limit: float,
              seed: int) -> tuple[str, str, list[tuple[float, ...]], float, str,
                                  float]: ...
+    def optimize(self, ends: _Floats, bounds: _Floats, time_limit: float,
+                 seed: int, start_from: str, knots: int, margin: float,
+                 start_noise: float, is_tracked: bool) -> tuple[
+        tuple[str, str, list[tuple[float, ...]], float, str, float], str, bool,
+        float, int, int, int]: ...
 
 class DepthQuery:
     def __init__(self, robot: Solid, obstacle: Solid, max_radius: float,

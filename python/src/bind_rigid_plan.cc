@@ -5,6 +5,7 @@
 #include <atomic>
 #include <vector>
 
+#include "planners/rigid/optimizer/rigid_optimize.h"
 #include "planners/rigid/rigid_plan.h"
 #include "python/src/arrays.h"
 #include "python/src/bindings.h"
@@ -15,20 +16,18 @@ namespace phongpd::python {
 namespace {
 
 // Of (2, 4, 4), start and goal; bounds of (2, 3) or (0, 3): none.
-nb::tuple PlanPoses(const RigidWorld& world, const Poses& ends,
-                    const Rows3& bounds, double time_limit,
-                    std::uint64_t seed) {
+RigidRequest RequestOf(const Poses& ends, const Rows3& bounds,
+                       double time_limit, std::uint64_t seed) {
   RigidRequest request;
   request.start = PoseOf(ToMatrix(ends, 0), "start");
   request.goal = PoseOf(ToMatrix(ends, 1), "goal");
   if (bounds.shape(0) == 2) request.bounds = {Row(bounds, 0), Row(bounds, 1)};
   request.time_limit = time_limit;
   request.seed = seed;
-  const RigidAnswer answer =
-      Interruptible([&](const std::atomic<bool>& is_asked) {
-        request.is_interrupted = [&is_asked] { return is_asked.load(); };
-        return Plan(world, request);
-      });
+  return request;
+}
+
+nb::tuple ToTuple(const RigidAnswer& answer) {
   nb::list poses;
   for (const RobotPose& pose : answer.path) {
     const Eigen::Vector3d& p = pose.position;
@@ -38,6 +37,37 @@ nb::tuple PlanPoses(const RigidWorld& world, const Poses& ends,
   }
   return nb::make_tuple(ToString(answer.status), answer.reason, poses,
                         answer.length, answer.planner, answer.seconds);
+}
+
+nb::tuple PlanPoses(const RigidWorld& world, const Poses& ends,
+                    const Rows3& bounds, double time_limit,
+                    std::uint64_t seed) {
+  RigidRequest request = RequestOf(ends, bounds, time_limit, seed);
+  return ToTuple(Interruptible([&](const std::atomic<bool>& is_asked) {
+    request.is_interrupted = [&is_asked] { return is_asked.load(); };
+    return Plan(world, request);
+  }));
+}
+
+nb::tuple OptimizePoses(const RigidWorld& world, const Poses& ends,
+                        const Rows3& bounds, double time_limit,
+                        std::uint64_t seed, const std::string& from, int knots,
+                        double margin, double start_noise, bool is_tracked) {
+  RigidOptimizeRequest request;
+  request.task = RequestOf(ends, bounds, time_limit, seed);
+  request.from = ParseRigidStart(from, "start_from");
+  request.knots = knots;
+  request.margin = margin;
+  request.start_noise = start_noise;
+  request.is_tracked = is_tracked;
+  const RigidOptimum found =
+      Interruptible([&](const std::atomic<bool>& is_asked) {
+        request.task.is_interrupted = [&is_asked] { return is_asked.load(); };
+        return Optimize(world, request);
+      });
+  return nb::make_tuple(ToTuple(found.answer), ToString(found.solver),
+                        found.is_confirmed, found.planned_length, found.rounds,
+                        found.iterations, found.added_samples);
 }
 
 }  // namespace
@@ -51,7 +81,8 @@ void BindRigidPlan(nb::module_& module) {
              const Computing computing;
              new (self) RigidWorld(moving, fixed);
            })
-      .def("plan", &PlanPoses);
+      .def("plan", &PlanPoses)
+      .def("optimize", &OptimizePoses);
 }
 
 }  // namespace phongpd::python
