@@ -22,7 +22,7 @@ using internal::PoseRows;
 using internal::RigidStop;
 using RigidPath = std::vector<RobotPose>;
 
-constexpr int kMaxKnots = 200, kMaxRounds = 100;
+constexpr int kMostKnots = 200, kMostRounds = 100;
 constexpr int kRowsASample = 6;
 constexpr double kMargin = 1e-3;  // of the reach
 constexpr double kRange = 0.25;   // of the reach, that rows see
@@ -261,10 +261,10 @@ void RigidOptimizeRequest::Validate() const {
     throw InputError("rigid optimize: " + field + ": expected " + expected +
                      ", found " + found);
   };
-  require(knots >= 1 && knots <= kMaxKnots, "knots", "1 to 200",
+  require(knots >= 1 && knots <= kMostKnots, "knots", "1 to 200",
           std::to_string(knots));
-  require(max_rounds >= 1 && max_rounds <= kMaxRounds, "max_rounds", "1 to 100",
-          std::to_string(max_rounds));
+  require(max_rounds >= 1 && max_rounds <= kMostRounds, "max_rounds",
+          "1 to 100", std::to_string(max_rounds));
   require(margin >= 0.0 && std::isfinite(margin), "margin",
           "a length of 0 or more", FormatDouble(margin));
   require(start_noise >= 0.0 && start_noise <= 1.0, "start_noise",
