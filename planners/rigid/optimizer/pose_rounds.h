@@ -44,7 +44,8 @@ struct PoseRoundsEnd {
 // already (kLeastPart of the robot's reach) the margins around are doubled.
 // Once a free path is known rounds begin at free paths: what was refuted is
 // drawn back towards it.  Ends when the judge confirms what Ipopt calls solved,
-// or rounds or time are up, or Ipopt has given up max_failures times.
+// or rounds or time are up, or Ipopt has given up max_failures times
+// in a row, three times once a free path is known.
 PoseRoundsEnd OptimizePoses(const RigidModel& model,
                             const std::vector<RobotPose>& start,
                             const PoseRoundsTask& task, PoseRows* rows,
