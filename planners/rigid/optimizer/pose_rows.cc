@@ -5,12 +5,13 @@
 #include <cmath>
 
 #include "core/mesh/mesh_error.h"
+#include "core/pi.h"
 
 namespace phongpd::internal {
 namespace {
 
 // Of the angle between two rows of one sample.
-const double kSameDirection = std::cos(25.0 * 3.14159265358979323846 / 180.0);
+const double kSameDirection = std::cos(25.0 * kPi / 180.0);
 
 std::vector<Solid> SolidsOf(const std::vector<TriangleMesh>& meshes,
                             const char* name) {
