@@ -13,6 +13,8 @@ enum class RotationSource {
   kContact,      // from the only contact there is: exact, to rounding
   kDifferences,  // several contacts at once: central differences of complete
                  // answers, good to about 1e-6 of the robot's size
+  kGaps,         // of TrackedPoseRow: the lever of all that is near contact,
+                 // no derivative
   kNone,         // the answer has no witness points: zero
 };
 
@@ -50,8 +52,9 @@ struct PoseRowValue {
 //
 // The depth is exact at each pose and nothing is computed in advance, so a
 // value takes from some milliseconds to a tenth of a second: for few samples
-// and small meshes.  It is Euclidean PD: its direction jumps on the medial
-// axis, and s says nothing about poses between samples.
+// and small meshes.  It is Euclidean PD: its direction jumps on the medial axis
+// (tracked_pose_row.h has one that does not), and s says nothing about poses
+// between samples.
 class PoseRow {
  public:
   // Throws InputError as DepthQuery does.

@@ -99,4 +99,31 @@ bool AreEndsFree(const RigidWorld& world, const TreeTask& task,
                    PathStatus::kGoalOutOfBounds, answer);
 }
 
+bool ConfirmPath(const RigidWorld& world, RigidAnswer* answer) {
+  // Of each motion; some tenths of a second at most.
+  constexpr long kMaxClearanceTests = 1'000'000;
+  answer->length = 0.0;
+  for (std::size_t i = 0; i + 1 < answer->path.size(); ++i) {
+    const RobotPose& from = answer->path[i];
+    const RobotPose& to = answer->path[i + 1];
+    const RigidCheck check = world.judge().Check(RigidMotion(from, to));
+    ++answer->checks;
+    answer->tests += check.tests;
+    if (check.IsFree()) {
+      answer->length += world.Distance(from, to);
+      continue;
+    }
+    answer->status = PathStatus::kNotCertified;
+    answer->reason = "motion " + std::to_string(i) + " of the path is " +
+                     ToString(check.outcome) + " by the judge's second pass";
+    answer->path.clear();
+    answer->length = 0.0;
+    return false;
+  }
+  answer->clearance =
+      world.judge().PathClearance(answer->path, {}, kMaxClearanceTests);
+  answer->tests += answer->clearance.tests;
+  return true;
+}
+
 }  // namespace phongpd::internal

@@ -17,4 +17,9 @@ Eigen::AlignedBox3d BoundsOf(const RigidWorld& world,
 bool AreEndsFree(const RigidWorld& world, const TreeTask& task,
                  RigidAnswer* answer);
 
+// The judge's second pass, of every motion of the path that is handed out: its
+// length and clearance.  False, the path gone and kNotCertified, where one is
+// not free.
+bool ConfirmPath(const RigidWorld& world, RigidAnswer* answer);
+
 }  // namespace phongpd::internal

@@ -25,8 +25,6 @@ using internal::TreeSearch;
 using internal::TreeTask;
 
 constexpr double kMaxTimeLimit = 1e9;
-// Of each motion; some tenths of a second at most.
-constexpr long kMaxClearanceTests = 1'000'000;
 
 // Who takes part, and the share of the work that each does, beyond what it may
 // do before the others begin: worlds with much room are solved by straight
@@ -119,29 +117,6 @@ class Portfolio {
   RigidLinks links_;
 };
 
-// The fresh pass: every motion of what is handed out.
-void Confirm(const RigidWorld& world, RigidAnswer* answer) {
-  for (std::size_t i = 0; i + 1 < answer->path.size(); ++i) {
-    const RigidCheck check =
-        world.judge().Check(RigidMotion(answer->path[i], answer->path[i + 1]));
-    ++answer->checks;
-    answer->tests += check.tests;
-    if (check.IsFree()) continue;
-    answer->status = PathStatus::kNotCertified;
-    answer->reason = "motion " + std::to_string(i) + " of the path is " +
-                     ToString(check.outcome) + " by the judge's second pass";
-    answer->path.clear();
-    return;
-  }
-  answer->status = PathStatus::kSolved;
-  for (std::size_t i = 0; i + 1 < answer->path.size(); ++i) {
-    answer->length += world.Distance(answer->path[i], answer->path[i + 1]);
-  }
-  answer->clearance =
-      world.judge().PathClearance(answer->path, {}, kMaxClearanceTests);
-  answer->tests += answer->clearance.tests;
-}
-
 }  // namespace
 
 void RigidRequest::Validate() const {
@@ -177,7 +152,9 @@ RigidAnswer Plan(const RigidWorld& world, const RigidRequest& request) {
                       internal::BoundsOf(world, request)};
   if (internal::AreEndsFree(world, task, &answer)) {
     Portfolio(world.model(), request, task).Run(&answer);
-    if (!answer.path.empty()) Confirm(world, &answer);
+    if (!answer.path.empty() && internal::ConfirmPath(world, &answer)) {
+      answer.status = PathStatus::kSolved;
+    }
   }
   answer.seconds = watch.Seconds();
   return answer;

@@ -12,6 +12,7 @@
 #include "problems/cli/flags.h"
 #include "problems/cli/fleet_answer.h"
 #include "problems/cli/optimize_flags.h"
+#include "problems/cli/rigid_answer.h"
 #include "problems/cli/seeded_runs.h"
 #include "problems/cli/serve_view.h"
 #include "problems/cli/timed_answer.h"
@@ -336,6 +337,7 @@ int AnswerOptimize(const OptimizeFlags& flags) {
   RequireRuns(flags.runs);
   const SceneSource source(flags.scene, flags.root,
                            ParseRepair(flags.repair, "--repair"));
+  if (source.turns()) return AnswerRigidOptimize(flags, source);
   if (source.has_robots()) return OptimizeRobots(flags, source.LoadFleet());
   const Scene first = SceneOfSeed(source, flags.seed);
   if (const auto limits = LimitsOf(flags.motion, first)) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "problems/cli/rigid_answer.h"
 
+#include <initializer_list>
 #include <nlohmann/json.hpp>
 
 #include "problems/cli/command.h"
@@ -26,24 +27,29 @@ RunSummary Summarize(const nlohmann::ordered_json& row) {
   return summary;
 }
 
-}  // namespace
-
-int AnswerRigidPlan(const SeededRunFlags& flags, const SceneSource& source) {
-  // What steers planners of robots that translate says nothing.
-  for (const char* name :
-       {"--preset", "--planner", "--metric", "--model", "--routes",
-        "--max-seconds", "--max-mib", "--clearance", "--require", "--ompl-log",
-        "--svg", "--verify", "--explain"}) {
+// What steers others says nothing.
+void RequireNone(const SeededRunFlags& flags,
+                 std::initializer_list<const char*> names) {
+  for (const char* name : names) {
     if (flags.app->count(name) == 0) continue;
     throw InputError(std::string(name) +
                      ": expected none for a robot that turns, found one");
   }
+}
+
+// The scene with the flags' time limit.
+TurningScene SceneOf(const SeededRunFlags& flags, const SceneSource& source) {
   TurningScene scene = source.LoadTurning();
   if (!flags.time_limit.empty()) {
     scene.time_limit = ParseDouble(flags.time_limit, "--time");
   }
-  RigidRequest request = RigidRequestOf(scene);
-  request.Validate();
+  return scene;
+}
+
+// A run for each seed, by row_of(world, seed).
+template <typename RowOf>
+int AnswerRuns(const SeededRunFlags& flags, const SceneSource& source,
+               const TurningScene& scene, const RowOf& row_of) {
   SeededRuns runs(flags, source,
                   "scene, planner, seed: status, seconds, poses, length (of "
                   "positions and, by the radius of gyration, of turns)",
@@ -51,13 +57,54 @@ int AnswerRigidPlan(const SeededRunFlags& flags, const SceneSource& source) {
   for (const std::string& warning : scene.warnings) Warn(warning);
   const RigidWorld world = RigidWorldOf(scene);
   for (int i = runs.kept(); i < flags.runs; ++i) {
-    request.seed = flags.seed + static_cast<std::uint64_t>(i);
     Progress("run " + std::to_string(i + 1) + " of " +
              std::to_string(flags.runs));
-    runs.Add(RigidRow(scene, request, Plan(world, request)));
+    runs.Add(row_of(world, flags.seed + static_cast<std::uint64_t>(i)));
   }
   runs.Write([&] { return TurningSceneView(scene); });
   return runs.Commit();
+}
+
+}  // namespace
+
+int AnswerRigidPlan(const SeededRunFlags& flags, const SceneSource& source) {
+  RequireNone(flags,
+              {"--preset", "--planner", "--metric", "--model", "--routes",
+               "--max-seconds", "--max-mib", "--clearance", "--require",
+               "--ompl-log", "--svg", "--verify", "--explain"});
+  const TurningScene scene = SceneOf(flags, source);
+  RigidRequest request = RigidRequestOf(scene);
+  request.Validate();
+  return AnswerRuns(flags, source, scene,
+                    [&](const RigidWorld& world, std::uint64_t seed) {
+                      request.seed = seed;
+                      return RigidRow(scene, request, Plan(world, request));
+                    });
+}
+
+int AnswerRigidOptimize(const OptimizeFlags& flags, const SceneSource& source) {
+  RequireNone(
+      flags,
+      {"--preset", "--metric",      "--smoothing-length", "--jacobian",
+       "--margin", "--require",     "--routes",           "--line",
+       "--rows",   "--mu-strategy", "--polish",           "--per-obstacle",
+       "--model",  "--max-seconds", "--max-mib",          "--limits",
+       "--via",    "--svg",         "--verify",           "--explain"});
+  const TurningScene scene = SceneOf(flags, source);
+  RigidOptimizeRequest request;
+  request.task = RigidRequestOf(scene);
+  if (flags.app->count("--start") > 0) {
+    // "repaired" is what a planner has mended.
+    request.from = flags.start == "straight" ? RigidStart::kStraight
+                                             : RigidStart::kPlanner;
+  }
+  request.start_noise = ParseDouble(flags.noise, "--start-noise");
+  request.Validate();
+  return AnswerRuns(
+      flags, source, scene, [&](const RigidWorld& world, std::uint64_t seed) {
+        request.task.seed = seed;
+        return RigidOptimumRow(scene, request, Optimize(world, request));
+      });
 }
 
 }  // namespace phongpd::cli

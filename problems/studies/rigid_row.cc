@@ -42,7 +42,7 @@ Json RigidRow(const TurningScene& scene, const RigidRequest& request,
   row["seed"] = request.seed;
   row["status"] = ToString(answer.status);
   row["reason"] = answer.reason;
-  row["solved"] = row["collision_free"] = answer.IsSolved();
+  row["solved"] = row["collision_free"] = HasFreePath(answer.status);
   row["unit"] = scene.unit;
   row["start"] = PoseRow(request.start);
   row["goal"] = PoseRow(request.goal);
@@ -64,6 +64,20 @@ Json RigidRow(const TurningScene& scene, const RigidRequest& request,
   row["path"] = Json::array();
   for (const RobotPose& pose : answer.path)
     row["path"].push_back(PoseRow(pose));
+  return row;
+}
+
+Json RigidOptimumRow(const TurningScene& scene,
+                     const RigidOptimizeRequest& request,
+                     const RigidOptimum& found) {
+  Json row = RigidRow(scene, request.task, found.answer);
+  row["solver"] = ToString(found.solver);
+  row["confirmed"] = found.is_confirmed;
+  row["planned_length"] =
+      found.planned_length > 0.0 ? Json(found.planned_length) : Json(nullptr);
+  row["rounds"] = found.rounds;
+  row["iterations"] = found.iterations;
+  row["added_samples"] = found.added_samples;
   return row;
 }
 

@@ -3,6 +3,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include "planners/rigid/optimizer/rigid_optimize.h"
 #include "planners/rigid/rigid_plan.h"
 #include "problems/scenes/turning_scene.h"
 
@@ -18,5 +19,9 @@ RigidWorld RigidWorldOf(const TurningScene& scene);
 nlohmann::ordered_json RigidRow(const TurningScene& scene,
                                 const RigidRequest& request,
                                 const RigidAnswer& answer);
+// The same of an optimiser's, with its own words after them.
+nlohmann::ordered_json RigidOptimumRow(const TurningScene& scene,
+                                       const RigidOptimizeRequest& request,
+                                       const RigidOptimum& found);
 
 }  // namespace phongpd

@@ -39,7 +39,7 @@ from ._native import BuildCancelled, BuildRefusal, InputError, __version__
 from ._piece import ContactSpacePiece
 from ._removal import Disassembly, Removal, disassemble, remove
 from ._rigid import RigidCheck, RigidClearance, RigidFirstHit, RigidJudge
-from ._rigid_plan import RigidPlan, RigidWorld
+from ._rigid_plan import RigidOptimum, RigidPlan, RigidWorld
 from ._roadmap import Roadmap
 from ._rows import NonPenetrationRows
 from ._solid import Solid
@@ -52,8 +52,8 @@ __all__ = [
     "Depth", "DepthQuery", "Diagnosis", "Disassembly", "EuclideanMetric",
     "Fleet", "InputError", "Motion", "NonPenetrationRows", "Penetration",
     "PenetrationTracker", "PhongMetric", "Plan", "QueryResult", "Removal",
-    "RigidCheck", "RigidClearance", "RigidFirstHit", "RigidJudge", "RigidPlan",
-    "RigidWorld",
+    "RigidCheck", "RigidClearance", "RigidFirstHit", "RigidJudge",
+    "RigidOptimum", "RigidPlan", "RigidWorld",
     "Roadmap", "SmoothedMetric", "Solid", "TrackedMotion", "Trajectory",
     "View", "World", "__version__", "depth", "disassemble", "minkowski",
     "optimize_fleet", "remove", "view",

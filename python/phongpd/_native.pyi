@@ -118,14 +118,20 @@ class RigidJudge:
                   resolution: float) -> tuple[
         str, float, float, tuple[int, int], tuple[int, int], int]: ...
 
+_RigidAnswer = tuple[
+    str, str, list[tuple[float, ...]], float, str, float,
+    tuple[float, float, float, int, tuple[int, int], tuple[int, int], bool, int]
+    | None]
+
 class RigidWorld:
     def __init__(self, robot: Sequence[tuple[_Floats, _Ints]],
                  obstacles: Sequence[tuple[_Floats, _Ints]]) -> None: ...
     def plan(self, ends: _Floats, bounds: _Floats, time_limit: float,
-             seed: int) -> tuple[
-                 str, str, list[tuple[float, ...]], float, str, float,
-                 tuple[float, float, float, int, tuple[int, int],
-                       tuple[int, int], bool, int] | None]: ...
+             seed: int) -> _RigidAnswer: ...
+    def optimize(self, ends: _Floats, bounds: _Floats, time_limit: float,
+                 seed: int, start_from: str, knots: int, margin: float,
+                 start_noise: float, is_tracked: bool) -> tuple[
+        _RigidAnswer, str, bool, float, int, int, int]: ...
     robot: list[tuple[_Floats, _Ints]]
     obstacles: list[tuple[_Floats, _Ints]]
 

@@ -36,7 +36,7 @@ class RigidPlan(Shown):
     seconds: float
     world: RigidWorld = field(repr=False)
     """In which it was planned."""
-    clearance: RigidClearance | None = None
+    clearance: RigidClearance | None
     """How close the path comes to the obstacles, proved, and where; None: there
     is no path."""
 
@@ -61,12 +61,39 @@ class RigidPlan(Shown):
         return {**self.to_row(), "reason": self.reason}
 
 
+@dataclass(frozen=True)
+class RigidOptimum(RigidPlan):
+    """A short path of poses, by Ipopt, or none.
+
+    `status` is as of RigidPlan, and also "stalled_feasible": there is a path,
+    proved free for all t, but Ipopt did not converge to it. `planner` is the
+    start that led to it: "line", "straight", "planner"; or it is the planner's
+    own path ("slide", …), as nothing shorter was found."""
+
+    solver: str
+    """Ipopt's word on its last round: "converged", "stalled_feasible", …"""
+    confirmed: bool
+    """What Ipopt called solved was proved free for all t."""
+    planned_length: float
+    """Of the planner's path; 0: not asked."""
+    rounds: int
+    """Solves; after each rows are added where the judge finds a collision."""
+    iterations: int
+    added_samples: int
+
+    @property
+    def solved(self) -> bool:
+        """There is a path, proved free, converged or not."""
+        return self.status in ("solved", "stalled_feasible")
+
+
 class RigidWorld(Shown):
     """A robot that moves and turns among fixed obstacles, and plans of it::
 
         world = phongpd.RigidWorld("part.stl", ["wall.stl", (V, F)])
         plan = world.plan(start, goal)    # 4 x 4 matrices
         plan.solved, plan.poses
+        short = world.optimize(start, goal)
         phongpd.RigidWorld.load("alpha:1.5").plan()
 
     Surfaces need not be closed; what is closed is solid.  For robots that only
@@ -130,23 +157,54 @@ class RigidWorld(Shown):
         or around obstacles, start and goal.  time_limit: in seconds; None: the
         scene's, or 10.  The same seed gives the same path unless time runs
         out."""
-        start = self._end(start, self.start, "start")
-        goal = self._end(goal, self.goal, "goal")
-        if bounds is None:
-            bounds = self.bounds
+        return RigidPlan(*self._answer(self._native.plan(
+            *self._task(start, goal, bounds, time_limit), seed)))
+
+    def optimize(self, start: ArrayLike | None = None,
+                 goal: ArrayLike | None = None, *,
+                 bounds: ArrayLike | None = None,
+                 time_limit: float | None = None,
+                 seed: int = 1, start_from: str = "both", knots: int = 8,
+                 margin: float = 0.0, start_noise: float = 0.0,
+                 tracked: bool = False) -> RigidOptimum:
+        """A short path between two poses, as of plan: Ipopt with rows on exact
+        depth, added where a motion between samples is not proved free.
+
+        start_from: "straight", through what is in its way, "planner", from the
+        path of plan, or "both", the second where the first fails. knots: poses
+        between the ends, at least. margin: clearance at samples, 0: a
+        thousandth of the robot's reach. start_noise: share of the straight
+        way's length by which its knots are moved, at random. tracked:
+        directions out of a collision that do not jump (TrackedPoseRow).  Not to
+        find a path proves nothing.  One at a time in a process."""
+        answer, *rest = self._native.optimize(
+            *self._task(start, goal, bounds, time_limit), seed, start_from, knots,
+            float(margin), float(start_noise), tracked)
+        return RigidOptimum(*self._answer(answer), *rest)
+
+    def _task(self, start: ArrayLike | None, goal: ArrayLike | None,
+              bounds: ArrayLike | None, time_limit: float | None
+              ) -> tuple[Floats, Floats, float]:
+        """Ends, box and seconds, the scene's where nothing is given."""
+        ends = np.stack([_pose(self._end(start, self.start, "start"), "start"),
+                         _pose(self._end(goal, self.goal, "goal"), "goal")])
         if time_limit is None:
             time_limit = self._scene.time_limit if self._scene else 10.0
-        box = np.empty((0, 3)) if bounds is None else \
-            numbers(bounds, "bounds", "(2, 3)")
-        if bounds is not None and box.shape != (2, 3):
+        if bounds is None:
+            bounds = self.bounds
+        if bounds is None:
+            return ends, np.empty((0, 3)), float(time_limit)
+        box = numbers(bounds, "bounds", "(2, 3)")
+        if box.shape != (2, 3):
             raise InputError(f"bounds: expected shape (2, 3), found {box.shape}")
-        (status, reason, rows, length, planner, seconds,
-         clearance) = self._native.plan(
-            np.stack([_pose(start, "start"), _pose(goal, "goal")]), box,
-            float(time_limit), seed)
-        return RigidPlan(status, reason, pose_matrices(rows), length, planner,
-                         seconds, self,
-                         clearance and RigidClearance(*clearance))
+        return ends, box, float(time_limit)
+
+    def _answer(self, answer: _native._RigidAnswer) -> tuple[
+            str, str, Floats, float, str, float, RigidWorld,
+            RigidClearance | None]:
+        status, reason, rows, length, planner, seconds, clearance = answer
+        return (status, reason, pose_matrices(rows), length, planner, seconds,
+                self, RigidClearance(*clearance) if clearance else None)
 
     def _draw(self, canvas: Canvas, name: str | None) -> None:
         if not canvas.is_new(self):

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/mesh/mesh_error.h"
+#include "planners/rigid/optimizer/rigid_optimize.h"
 #include "planners/rigid/rigid_plan.h"
 #include "problems/scenes/scene_source.h"
 #include "problems/studies/rigid_row.h"
@@ -22,22 +23,20 @@ namespace phongpd::python {
 namespace {
 
 // Of (2, 4, 4), start and goal; bounds of (2, 3) or (0, 3): none.
-nb::tuple PlanPoses(const RigidWorld& world, const Poses& ends,
-                    const Rows3& bounds, double time_limit,
-                    std::uint64_t seed) {
+RigidRequest RequestOf(const Poses& ends, const Rows3& bounds,
+                       double time_limit, std::uint64_t seed) {
   RigidRequest request;
   request.start = PoseOf(ToMatrix(ends, 0), "start");
   request.goal = PoseOf(ToMatrix(ends, 1), "goal");
   if (bounds.shape(0) == 2) request.bounds = {Row(bounds, 0), Row(bounds, 1)};
   request.time_limit = time_limit;
   request.seed = seed;
-  const RigidAnswer answer =
-      Interruptible([&](const std::atomic<bool>& is_asked) {
-        request.is_interrupted = [&is_asked] { return is_asked.load(); };
-        return Plan(world, request);
-      });
+  return request;
+}
+
+nb::tuple ToTuple(const RigidAnswer& answer) {
   nb::object clearance = nb::none();
-  if (answer.IsSolved()) clearance = ClearanceRow(answer.clearance);
+  if (HasFreePath(answer.status)) clearance = ClearanceRow(answer.clearance);
   return nb::make_tuple(ToString(answer.status), answer.reason,
                         PoseRows(answer.path), answer.length, answer.planner,
                         answer.seconds, clearance);
@@ -79,6 +78,37 @@ nb::tuple LoadTurning(const std::string& text) {
                         scene.time_limit, Lines(scene.warnings));
 }
 
+nb::tuple PlanPoses(const RigidWorld& world, const Poses& ends,
+                    const Rows3& bounds, double time_limit,
+                    std::uint64_t seed) {
+  RigidRequest request = RequestOf(ends, bounds, time_limit, seed);
+  return ToTuple(Interruptible([&](const std::atomic<bool>& is_asked) {
+    request.is_interrupted = [&is_asked] { return is_asked.load(); };
+    return Plan(world, request);
+  }));
+}
+
+nb::tuple OptimizePoses(const RigidWorld& world, const Poses& ends,
+                        const Rows3& bounds, double time_limit,
+                        std::uint64_t seed, const std::string& from, int knots,
+                        double margin, double start_noise, bool is_tracked) {
+  RigidOptimizeRequest request;
+  request.task = RequestOf(ends, bounds, time_limit, seed);
+  request.from = ParseRigidStart(from, "start_from");
+  request.knots = knots;
+  request.margin = margin;
+  request.start_noise = start_noise;
+  request.is_tracked = is_tracked;
+  const RigidOptimum found =
+      Interruptible([&](const std::atomic<bool>& is_asked) {
+        request.task.is_interrupted = [&is_asked] { return is_asked.load(); };
+        return Optimize(world, request);
+      });
+  return nb::make_tuple(ToTuple(found.answer), ToString(found.solver),
+                        found.is_confirmed, found.planned_length, found.rounds,
+                        found.iterations, found.added_samples);
+}
+
 }  // namespace
 
 void BindRigidPlan(nb::module_& module) {
@@ -91,6 +121,7 @@ void BindRigidPlan(nb::module_& module) {
              new (self) RigidWorld(moving, fixed);
            })
       .def("plan", &PlanPoses)
+      .def("optimize", &OptimizePoses)
       .def_prop_ro(
           "robot",
           [](const RigidWorld& world) { return MeshRows(world.robot()); })

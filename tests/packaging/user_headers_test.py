@@ -8,7 +8,8 @@ import pathlib
 import re
 import sys
 
-MOST_USER_HEADERS = 60
+# 60, and rows and the optimiser for robots that turn.
+MOST_USER_HEADERS = 62
 FOLDERS = ("core", "constraints", "planners", "problems", "viewer")
 INCLUDE = re.compile(r'# *include [<"](?:phongpd/)?((?:%s)/[\w/]+\.h)[>"]'
                      % "|".join(FOLDERS))

@@ -42,6 +42,21 @@ def test_a_plank_turns_to_get_through_a_slit():
     assert (again.poses == plan.poses).all()
 
 
+def test_an_optimised_path_is_proved_and_no_longer_than_the_plan():
+    world = phongpd.RigidWorld(PLANK, WALLS)
+    found = world.optimize(at(-2), at(2, np.pi), bounds=BOUNDS, time_limit=120,
+                           start_from="planner")
+    assert found.solved, found.reason
+    assert 4 < found.length <= found.planned_length
+    assert found.rounds >= 1 and found.iterations >= 1
+    assert np.allclose(found.poses[0], at(-2), atol=1e-14)
+    assert np.allclose(found.poses[-1], at(2, np.pi), atol=1e-14)
+    judge = phongpd.RigidJudge(PLANK, WALLS)
+    assert all(check.free for check in judge.check_path(found.poses))
+    free = world.optimize(at(-2), at(-3))
+    assert (free.status, free.planner, free.length) == ("solved", "line", 1.0)
+
+
 def test_says_why_there_is_no_path():
     world = phongpd.RigidWorld(PLANK, WALLS)
     inside = world.plan(at(0), at(2), bounds=BOUNDS)
@@ -58,6 +73,12 @@ def test_refuses_bad_input_in_one_line():
             ({"time_limit": 0.0}, "time"), ({"time_limit": np.nan}, "time")):
         with pytest.raises(phongpd.InputError, match=text) as error:
             world.plan(at(-2), at(2), **arguments)
+        assert "\n" not in str(error.value)
+    for arguments, text in (({"knots": 0}, "knots"), ({"margin": -1}, "margin"),
+                            ({"start_from": "left"}, "start_from"),
+                            ({"start_noise": 2}, "start_noise")):
+        with pytest.raises(phongpd.InputError, match=text) as error:
+            world.optimize(at(-2), at(2), **arguments)
         assert "\n" not in str(error.value)
     with pytest.raises(phongpd.InputError, match="start"):
         world.plan(np.eye(3), at(2))

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "constraints/oracle/collision_oracle.h"
+#include "constraints/rigid/rigid_judge.h"
 #include "constraints/rigid/rigid_motion.h"
 #include "problems/scenes/rigid_scenes.h"
 #include "problems/scenes/turning_scene.h"
@@ -97,6 +98,28 @@ TEST_F(CliTurning, TurnsAPlankThroughASlit) {
       << glb.err;
 }
 
+TEST_F(CliTurning, OptimizesThePathOfAPlank) {
+  const Outcome outcome = Run("optimize " + Write(Slit()) +
+                              " --start planner --time 60 --output rows.jsonl");
+  ASSERT_EQ(outcome.code, 0) << outcome.out << outcome.err;
+  const Json row = Json::parse(Content(Output("rows.jsonl")));
+  EXPECT_EQ(row["collision_free"], true);
+  EXPECT_LE(row["path_length"].get<double>(),
+            row["planned_length"].get<double>());
+  EXPECT_GE(row["rounds"], 1);
+  const Json& path = row["path"];
+  EXPECT_EQ(path.front(), row["start"]);
+  EXPECT_EQ(path.back(), row["goal"]);
+  const TurningScene scene = ParseTurningScene(Slit(), "scene.json", File("."));
+  for (std::size_t i = 0; i + 1 < path.size(); ++i) {
+    for (const Solid& obstacle : scene.workspace.obstacles) {
+      EXPECT_TRUE(RigidJudge(scene.workspace.robot.mesh(), obstacle.mesh())
+                      .Check(RigidMotion(PoseOf(path[i]), PoseOf(path[i + 1])))
+                      .IsFree());
+    }
+  }
+}
+
 TEST_F(CliTurning, SaysWhichEndCollides) {
   Json scene = Slit();
   scene["start"] = {0, 0, 0};
@@ -118,9 +141,12 @@ TEST_F(CliTurning, RefusesWhatOnlyTranslatingRobotsHave) {
   ExpectRefused(plan + " --planner contact-surface",
                 {"--planner", "none for a robot that turns"});
   ExpectRefused(plan + " --time 0", {"time"});
-  for (const char* command : {"optimize", "compare"}) {
-    ExpectRefused(std::string(command) + " ../scene.json",
-                  {"/robot/turns", "phongpd plan"});
+  ExpectRefused("compare ../scene.json", {"/robot/turns", "phongpd plan"});
+  for (const char* flag : {"--metric phong", "--limits 1,1,1", "--margin 0.1",
+                           "--model full", "--rows 2"}) {
+    ExpectRefused("optimize ../scene.json " + std::string(flag),
+                  {std::string(flag).substr(0, std::string(flag).find(' ')),
+                   "none for a robot that turns"});
   }
   Json scene = Slit();
   scene["limits"] = {{"velocity", 1}, {"acceleration", 1}, {"jerk", 1}};

@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Truth: the robot placed by another route at many moments of each path, in
+// CGAL's exact kernel; lengths in closed form.
+#include "planners/rigid/optimizer/rigid_optimize.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "problems/shapes/shapes.h"
+#include "tests/support/expect_refused.h"
+#include "tests/support/rigid_truth.h"
+#include "tests/support/solid_tools.h"
+
+namespace phongpd {
+namespace {
+
+using Eigen::AngleAxisd, Eigen::Quaterniond, Eigen::Vector3d;
+using testing::Cube, testing::ExpectRefused, testing::MeetExactly,
+    testing::PlacedMesh, testing::PoseAt;
+
+TriangleMesh Bar() { return MakeBox({-1.0, -0.2, -0.2}, {1.0, 0.2, 0.2}); }
+const TriangleMesh& Wall() {
+  static const TriangleMesh wall = MakePlateWithHole(6.0, 0.4, 1.6);
+  return wall;
+}
+
+RigidOptimizeRequest ThroughTheWall(RigidStart from) {
+  RigidOptimizeRequest request;
+  request.task.start = PoseAt({0.2, 0.1, 2.0});
+  request.task.goal =
+      PoseAt({-0.3, 0.2, -2.0},
+             Quaterniond(AngleAxisd(0.4, Vector3d(0, 1, 1).normalized())));
+  request.task.bounds = {Vector3d(-2.5, -2.5, -3.0), Vector3d(2.5, 2.5, 3.0)};
+  request.task.time_limit = 300.0;
+  request.from = from;
+  return request;
+}
+
+// Ends as asked for, within bounds, and no triangle meets another at 300
+// moments or more.
+void ExpectFreePath(const TriangleMesh& robot, const TriangleMesh& obstacle,
+                    const RigidOptimizeRequest& request,
+                    const RigidOptimum& found) {
+  const RigidAnswer& answer = found.answer;
+  ASSERT_TRUE(HasFreePath(answer.status)) << answer.reason;
+  ASSERT_GE(answer.path.size(), 2u);
+  EXPECT_EQ(answer.path.front().position, request.task.start.position);
+  EXPECT_EQ(answer.path.back().position, request.task.goal.position);
+  EXPECT_EQ(answer.path.front().orientation.coeffs(),
+            request.task.start.orientation.coeffs());
+  EXPECT_EQ(answer.path.back().orientation.coeffs(),
+            request.task.goal.orientation.coeffs());
+  const RigidWorld world(robot, obstacle);
+  double length = 0.0;
+  const int moments = 1 + 300 / static_cast<int>(answer.path.size() - 1);
+  for (std::size_t i = 0; i + 1 < answer.path.size(); ++i) {
+    const RigidMotion motion(answer.path[i], answer.path[i + 1]);
+    length +=
+        std::hypot((motion.end().position - motion.start().position).norm(),
+                   world.gyration() * motion.angle());
+    for (int k = 0; k <= moments; ++k) {
+      const double t = static_cast<double>(k) / moments;
+      EXPECT_FALSE(MeetExactly(PlacedMesh(robot, motion, t), obstacle))
+          << "motion " << i << " at " << t;
+      EXPECT_TRUE(request.task.bounds.isEmpty() ||
+                  request.task.bounds.contains(motion.At(t).position));
+    }
+  }
+  EXPECT_NEAR(answer.length, length, 1e-9 * length);
+}
+
+TEST(RigidOptimize, TurnsABarThroughAHoleFromTheStraightMotion) {
+  RigidOptimizeRequest request = ThroughTheWall(RigidStart::kStraight);
+  request.start_noise = 0.02;
+  const RigidOptimum found = Optimize({Bar(), Wall()}, request);
+  ExpectFreePath(Bar(), Wall(), request, found);
+  EXPECT_EQ(found.answer.planner, "straight");
+  EXPECT_EQ(found.planned_length, 0.0);
+  EXPECT_GE(found.rounds, 1);
+}
+
+TEST(RigidOptimize, ShortensThePlannersPath) {
+  const RigidOptimizeRequest request = ThroughTheWall(RigidStart::kPlanner);
+  const RigidWorld world(Bar(), Wall());
+  const RigidOptimum found = Optimize(world, request);
+  ExpectFreePath(Bar(), Wall(), request, found);
+  EXPECT_GT(found.planned_length, 0.0);
+  EXPECT_LE(found.answer.length, found.planned_length);
+  EXPECT_GT(found.answer.length,
+            world.Distance(request.task.start, request.task.goal));
+}
+
+TEST(RigidOptimize, TrackedRowsLeadThereToo) {
+  RigidOptimizeRequest request;
+  request.task.start = PoseAt({-3.0, 0.8, 0.0});
+  request.task.goal =
+      PoseAt({3.0, 0.8, 0.0}, Quaterniond(AngleAxisd(1.0, Vector3d::UnitZ())));
+  request.task.time_limit = 300.0;
+  request.from = RigidStart::kStraight;
+  request.knots = 5;
+  request.is_tracked = true;
+  const TriangleMesh robot = Bar(), obstacle = Cube(2.0);
+  const RigidOptimum found = Optimize({robot, obstacle}, request);
+  ExpectFreePath(robot, obstacle, request, found);
+  // Around, not far around.
+  EXPECT_LT(found.answer.length,
+            1.3 * RigidWorld(robot, obstacle)
+                      .Distance(request.task.start, request.task.goal));
+}
+
+TEST(RigidOptimize, GoesStraightWhereNothingIsInTheWay) {
+  RigidOptimizeRequest request;
+  request.task.start = PoseAt({-3.0, 3.0, 0.0});
+  request.task.goal = PoseAt({3.0, 3.0, 0.0});
+  const RigidOptimum found = Optimize({Bar(), Cube(1.0)}, request);
+  EXPECT_EQ(found.answer.status, PathStatus::kSolved);
+  EXPECT_EQ(found.answer.planner, "line");
+  EXPECT_EQ(found.answer.path.size(), 2u);
+  EXPECT_NEAR(found.answer.length, 6.0, 1e-12);
+}
+
+TEST(RigidOptimize, SameRequestSamePath) {
+  RigidOptimizeRequest request;
+  request.task.start = PoseAt({-3.0, 0.8, 0.0});
+  request.task.goal = PoseAt({3.0, 0.8, 0.1});
+  request.task.time_limit = 300.0;
+  request.from = RigidStart::kStraight;
+  request.start_noise = 0.05;
+  const RigidWorld world(Bar(), Cube(2.0));
+  const RigidOptimum a = Optimize(world, request);
+  const RigidOptimum b = Optimize(world, request);
+  ASSERT_FALSE(a.answer.path.empty()) << a.answer.reason;
+  ASSERT_EQ(a.answer.path.size(), b.answer.path.size());
+  for (std::size_t i = 0; i < a.answer.path.size(); ++i) {
+    EXPECT_EQ(a.answer.path[i].position, b.answer.path[i].position);
+    EXPECT_EQ(a.answer.path[i].orientation.coeffs(),
+              b.answer.path[i].orientation.coeffs());
+  }
+  EXPECT_EQ(a.iterations, b.iterations);
+}
+
+TEST(RigidOptimize, SaysWhatIsNotFreeAndWhatHasNoDepth) {
+  RigidOptimizeRequest request = ThroughTheWall(RigidStart::kBoth);
+  request.task.start = PoseAt({2.0, 2.0, 0.0});
+  EXPECT_EQ(Optimize({Bar(), Wall()}, request).answer.status,
+            PathStatus::kStartInCollision);
+  TriangleMesh open = Wall();
+  open.triangles.pop_back();
+  const RigidOptimum found =
+      Optimize({Bar(), open}, ThroughTheWall(RigidStart::kStraight));
+  EXPECT_EQ(found.answer.status, PathStatus::kFailed);
+  EXPECT_NE(found.answer.reason.find("no solids"), std::string::npos)
+      << found.answer.reason;
+  EXPECT_TRUE(found.answer.path.empty());
+}
+
+TEST(RigidOptimize, RefusesBadRequests) {
+  const RigidWorld world(Bar(), Wall());
+  const auto refused = [&](auto change, const std::string& words) {
+    RigidOptimizeRequest request = ThroughTheWall(RigidStart::kBoth);
+    change(&request);
+    ExpectRefused([&] { Optimize(world, request); }, words);
+  };
+  refused([](auto* r) { r->knots = 0; }, "knots: expected 1 to 200");
+  refused([](auto* r) { r->max_rounds = 0; }, "max_rounds: expected 1 to 100");
+  refused([](auto* r) { r->margin = NAN; }, "margin: expected a length");
+  refused([](auto* r) { r->start_noise = 2.0; },
+          "start_noise: expected a share in [0, 1]");
+  refused([](auto* r) { r->task.time_limit = 0.0; }, "time_limit");
+  ExpectRefused([] { ParseRigidStart("left", "--start"); },
+                "--start: expected both, straight or planner, found 'left'");
+}
+
+}  // namespace
+}  // namespace phongpd
