@@ -10,7 +10,7 @@ namespace {
 // rigid_pair.h only pairs about the square of it apart come to that.
 constexpr double kExactShare = 1e-2;
 
-void Tell(const RigidSides& sides, RigidOutcome outcome, const RigidPart& part,
+void Tell(const RigidSides& sides, MotionVerdict outcome, const RigidPart& part,
           double time, RigidCheck* check) {
   check->outcome = outcome;
   check->time = time;
@@ -34,13 +34,13 @@ RigidCheck SearchExactly(const RigidSides& sides, const FramedMotion& motion,
   const ExactPairJudge exact(given);
   RigidDescent descent(sides.robot.tree, sides.obstacle.tree, motion);
   RigidCheck check;
-  check.outcome = RigidOutcome::kFree;
+  check.outcome = MotionVerdict::kFree;
   descent.Push({});
   while (!descent.IsDone()) {
     RigidPart part = descent.Pop();
     if (check.tests >= max_tests) {
       if (check.IsFree()) {
-        Tell(sides, RigidOutcome::kUndecided, part, part.Middle(), &check);
+        Tell(sides, MotionVerdict::kUndecided, part, part.Middle(), &check);
       }
       return check;
     }
@@ -49,7 +49,7 @@ RigidCheck SearchExactly(const RigidSides& sides, const FramedMotion& motion,
     const PairSight sight = descent.Look(&part, 0.0, resolution, &bound);
     if (sight == PairSight::kApart) continue;
     if (sight == PairSight::kMeet) {
-      Tell(sides, RigidOutcome::kCollides, part, part.Middle(), &check);
+      Tell(sides, MotionVerdict::kCollides, part, part.Middle(), &check);
       return check;
     }
     if (bound > resolution && part.level < RigidDescent::kMaxHalvings) {
@@ -65,15 +65,15 @@ RigidCheck SearchExactly(const RigidSides& sides, const FramedMotion& motion,
             .given[static_cast<std::size_t>(descent.ObstacleTriangle(part))],
         part.From(), part.To(), &time, &is_decided);
     if (meets) {
-      Tell(sides, RigidOutcome::kCollides, part, time, &check);
+      Tell(sides, MotionVerdict::kCollides, part, time, &check);
       return check;
     }
     if (!is_decided && check.IsFree()) {
-      Tell(sides, RigidOutcome::kUndecided, part, part.Middle(), &check);
+      Tell(sides, MotionVerdict::kUndecided, part, part.Middle(), &check);
     }
   }
   if (check.IsFree() && IsInsideAtStart(sides, motion)) {
-    check.outcome = RigidOutcome::kCollides;
+    check.outcome = MotionVerdict::kCollides;
     check.time = check.from = check.to = 0.0;
   }
   return check;

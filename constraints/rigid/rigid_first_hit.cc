@@ -140,25 +140,25 @@ RigidFirstHit SearchFirstHit(const RigidSides& sides,
         std::min(max_tests, 2 * answer.tests + kFurtherRigidTests));
     search.SearchAgain(kRigidSlacks * motion.slack(), 0.25 * resolution);
   }
-  answer.outcome = RigidOutcome::kFree;
+  answer.outcome = MotionVerdict::kFree;
   answer.from = 0.0;
   if (search.has_hit()) {
-    answer.outcome = RigidOutcome::kCollides;
+    answer.outcome = MotionVerdict::kCollides;
     answer.from = search.open_from();
     answer.to = search.hit_time();
   } else if (search.has_open()) {
-    answer.outcome = RigidOutcome::kUndecided;
+    answer.outcome = MotionVerdict::kUndecided;
     answer.from = search.open_from();
   } else {
     answer.to = 1.0;
   }
   // Who is inside at the start has met already.
   const bool is_apart_at_start =
-      answer.outcome == RigidOutcome::kFree || answer.from > 0.0;
+      answer.outcome == MotionVerdict::kFree || answer.from > 0.0;
   if (is_apart_at_start && IsInsideAtStart(sides, motion)) {
     const long tests = answer.tests;
     answer = RigidFirstHit();
-    answer.outcome = RigidOutcome::kCollides;
+    answer.outcome = MotionVerdict::kCollides;
     answer.to = 0.0;
     answer.tests = tests;
   }

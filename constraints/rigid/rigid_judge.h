@@ -15,7 +15,7 @@ namespace phongpd {
 using RigidOutcome = MotionVerdict;  // what it was called, until 0.3
 
 struct RigidCheck {
-  RigidOutcome outcome = RigidOutcome::kUndecided;
+  MotionVerdict outcome = MotionVerdict::kUndecided;
   // Of kCollides: a time at which it does, not the first.  Of kUndecided: the
   // middle of the part of the way that is not decided.
   double time = 0.0;
@@ -27,12 +27,12 @@ struct RigidCheck {
   int obstacle_mesh = -1, obstacle_triangle = -1;
   long tests = 0;  // pairs of boxes and triangles looked at
 
-  bool IsFree() const { return outcome == RigidOutcome::kFree; }
+  bool IsFree() const { return outcome == MotionVerdict::kFree; }
 };
 
 // When does it collide first?
 struct RigidFirstHit {
-  RigidOutcome outcome = RigidOutcome::kUndecided;
+  MotionVerdict outcome = MotionVerdict::kUndecided;
   // kCollides: free on [0, from), proved, and colliding at `to`, proved; the
   // first contact lies between.  kUndecided: free before `from` and after `to`,
   // proved.  kFree: 0 and 1.

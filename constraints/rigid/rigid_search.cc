@@ -6,7 +6,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-void Tell(const RigidSides& sides, RigidOutcome outcome, const RigidPart& part,
+void Tell(const RigidSides& sides, MotionVerdict outcome, const RigidPart& part,
           int triangle, int other, RigidCheck* check) {
   check->outcome = outcome;
   check->time = part.Middle();
@@ -22,8 +22,8 @@ RigidCheck SearchAnyHit(const RigidSides& sides, const FramedMotion& motion,
   const double resolution = ResolutionOf(sides, motion);
   RigidDescent descent(sides.robot.tree, sides.obstacle.tree, motion);
   RigidCheck check;
-  check.outcome = RigidOutcome::kFree;
-  const auto tell = [&](RigidOutcome outcome, const RigidPart& part, int robot,
+  check.outcome = MotionVerdict::kFree;
+  const auto tell = [&](MotionVerdict outcome, const RigidPart& part, int robot,
                         int obstacle) {
     Tell(sides, outcome, part, robot, obstacle, &check);
   };
@@ -31,8 +31,8 @@ RigidCheck SearchAnyHit(const RigidSides& sides, const FramedMotion& motion,
   while (!descent.IsDone()) {
     RigidPart part = descent.Pop();
     if (check.tests >= max_tests) {
-      if (check.outcome == RigidOutcome::kFree) {
-        tell(RigidOutcome::kUndecided, part, -1, -1);
+      if (check.outcome == MotionVerdict::kFree) {
+        tell(MotionVerdict::kUndecided, part, -1, -1);
       }
       break;
     }
@@ -43,18 +43,18 @@ RigidCheck SearchAnyHit(const RigidSides& sides, const FramedMotion& motion,
     const int robot = descent.RobotTriangle(part);
     const int obstacle = descent.ObstacleTriangle(part);
     if (sight == PairSight::kMeet) {
-      tell(RigidOutcome::kCollides, part, robot, obstacle);
+      tell(MotionVerdict::kCollides, part, robot, obstacle);
       return check;
     }
     if (bound > resolution && part.level < RigidDescent::kMaxHalvings) {
       descent.Halve(part);
-    } else if (check.outcome == RigidOutcome::kFree) {
-      tell(RigidOutcome::kUndecided, part, robot, obstacle);
+    } else if (check.outcome == MotionVerdict::kFree) {
+      tell(MotionVerdict::kUndecided, part, robot, obstacle);
       max_tests = std::min(max_tests, 2 * check.tests + kFurtherRigidTests);
     }
   }
   if (check.IsFree() && IsInsideAtStart(sides, motion)) {
-    check.outcome = RigidOutcome::kCollides;
+    check.outcome = MotionVerdict::kCollides;
     check.time = check.from = check.to = 0.0;
   }
   return check;

@@ -90,7 +90,7 @@ bool RigidValidityChecker::isValid(const ob::State* state) const {
   const RobotPose pose = ToRobotPose(state);
   if (!IsPose(pose) || !si_->satisfiesBounds(state)) return false;
   const RigidCheck check = judge_.Check(RigidMotion(pose, pose));
-  if (check.outcome == RigidOutcome::kUndecided) {
+  if (check.outcome == MotionVerdict::kUndecided) {
     undecided_.fetch_add(1, std::memory_order_relaxed);
   }
   return check.IsFree();
@@ -106,14 +106,14 @@ RigidMotionValidator::RigidMotionValidator(const ob::SpaceInformationPtr& si,
 RigidCheck RigidMotionValidator::Judge(const RobotPose& start,
                                        const RobotPose& end) const {
   RigidCheck refused;
-  refused.outcome = RigidOutcome::kCollides;
+  refused.outcome = MotionVerdict::kCollides;
   if (!IsPose(start) || !IsPose(end)) return refused;
   if (std::abs(start.orientation.dot(end.orientation)) <= kHalfTurn) {
     half_turns_.fetch_add(1, std::memory_order_relaxed);
     return refused;
   }
   RigidCheck check = judge_.Check(RigidMotion(start, end));
-  if (check.outcome == RigidOutcome::kUndecided) {
+  if (check.outcome == MotionVerdict::kUndecided) {
     undecided_.fetch_add(1, std::memory_order_relaxed);
   }
   return check;

@@ -37,13 +37,13 @@ std::string WhoMeets(const RigidWorld& world, const RigidCheck& check) {
     return text;
   };
   if (check.robot_triangle < 0) {
-    return check.outcome == RigidOutcome::kCollides
+    return check.outcome == MotionVerdict::kCollides
                ? "one holds a part of the other"
                : "nothing was looked at";
   }
   return name("robot", world.robot().size(), check.robot_mesh,
               check.robot_triangle) +
-         (check.outcome == RigidOutcome::kCollides
+         (check.outcome == MotionVerdict::kCollides
               ? " meets "
               : " is not told apart from ") +
          name("obstacles", world.obstacles().size(), check.obstacle_mesh,

@@ -11,7 +11,7 @@ constexpr long kSearchTests = 300'000;
 
 // When it was seen to collide, or begins to be undecided.
 double HitOf(const RigidCheck& check) {
-  return check.outcome == RigidOutcome::kCollides ? check.time : check.from;
+  return check.outcome == MotionVerdict::kCollides ? check.time : check.from;
 }
 
 }  // namespace

@@ -92,7 +92,7 @@ RigidCheck FirstOf(const RigidFirstHit& hit) {
   check.outcome = hit.outcome;
   check.from = hit.from;
   check.to = hit.to;
-  check.time = hit.outcome == RigidOutcome::kCollides
+  check.time = hit.outcome == MotionVerdict::kCollides
                    ? hit.to
                    : hit.from + 0.5 * (hit.to - hit.from);
   check.robot_mesh = hit.robot_mesh;
@@ -117,7 +117,7 @@ SweepAnswer AnswerOf(const SweepFlags& flags, const RigidJudge& judge,
   SweepAnswer answer;
   RigidCheck& check = answer.check;
   check = flags.first ? FirstOf(judge.FirstHit(motion)) : judge.Check(motion);
-  answer.is_exact = flags.exact && check.outcome == RigidOutcome::kUndecided;
+  answer.is_exact = flags.exact && check.outcome == MotionVerdict::kUndecided;
   if (!answer.is_exact) {
     answer.pose = motion.At(check.time);
     if (flags.clearance) answer.clearance = judge.Clearance(motion);
@@ -175,7 +175,7 @@ std::string SweepWords(const SweepFlags& flags, const RigidMotion& motion,
     }
     return text.str();
   }
-  const bool collides = check.outcome == RigidOutcome::kCollides;
+  const bool collides = check.outcome == MotionVerdict::kCollides;
   if (collides) {
     text << " at " << FormatDouble(check.time) << " of the way";
     if (flags.first) {

@@ -32,7 +32,7 @@ nb::tuple Row(const Judged& judged) {
 Judged Judge(const RigidJudge& judge, const RobotPose& start,
              const RobotPose& end, bool exact) {
   Judged judged{judge.Check({start, end})};
-  if (exact && judged.check.outcome == RigidOutcome::kUndecided) {
+  if (exact && judged.check.outcome == MotionVerdict::kUndecided) {
     judged = {judge.CheckExactly(QuaternionMotion::Between(start, end)), true};
   }
   return judged;

@@ -35,7 +35,7 @@ struct Method {
 std::optional<bool> Certified(const RigidJudge& judge,
                               const RigidMotionEnds& ends) {
   const RigidCheck check = judge.Check(RigidMotion(ends.start, ends.end));
-  if (check.outcome == RigidOutcome::kUndecided) return std::nullopt;
+  if (check.outcome == MotionVerdict::kUndecided) return std::nullopt;
   return check.IsFree();
 }
 

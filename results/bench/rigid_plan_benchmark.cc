@@ -168,8 +168,8 @@ int Run(int argc, char** argv) {
   for (std::size_t i = 1; i < outcome.path.size(); ++i) {
     const RigidCheck check =
         world.judge().Check(RigidMotion(outcome.path[i - 1], outcome.path[i]));
-    wrong += check.outcome == RigidOutcome::kCollides ? 1 : 0;
-    undecided += check.outcome == RigidOutcome::kUndecided ? 1 : 0;
+    wrong += check.outcome == MotionVerdict::kCollides ? 1 : 0;
+    undecided += check.outcome == MotionVerdict::kUndecided ? 1 : 0;
   }
   const nlohmann::ordered_json row = {{"scene", scene.name},
                                       {"planner", options.planner},

@@ -111,10 +111,10 @@ TEST(QuaternionMotion, IsDecidedExactlyWhereAnEdgeTouchesInAMoment) {
     for (const double x : {1.0 - 1e-15, 1.0, std::nextafter(1.0, 2.0)}) {
       const RigidJudge judge(diamond,
                              MakeBox({x, -5.1, -4.0}, {x + 1, 4.0, 3.7}));
-      EXPECT_EQ(judge.Check(motion).outcome, RigidOutcome::kUndecided);
+      EXPECT_EQ(judge.Check(motion).outcome, MotionVerdict::kUndecided);
       const RigidCheck check = judge.CheckExactly(motion);
       EXPECT_EQ(check.outcome,
-                x > 1.0 ? RigidOutcome::kFree : RigidOutcome::kCollides)
+                x > 1.0 ? MotionVerdict::kFree : MotionVerdict::kCollides)
           << z << ' ' << x - 1.0;
       if (x <= 1.0) {
         EXPECT_NEAR(check.time, 0.5, 1e-6);
@@ -136,15 +136,15 @@ TEST(QuaternionMotion, IsDecidedExactlyOnALattice) {
   const auto outcome = [&](double height, double side) {
     return check({-4, side, height}, {4, side, height});
   };
-  EXPECT_EQ(outcome(2.0, 0.0), RigidOutcome::kCollides);
-  EXPECT_EQ(outcome(2.0, 2.0), RigidOutcome::kCollides);
-  EXPECT_EQ(outcome(above, 0.0), RigidOutcome::kFree);
-  EXPECT_EQ(outcome(2.0, above), RigidOutcome::kFree);
+  EXPECT_EQ(outcome(2.0, 0.0), MotionVerdict::kCollides);
+  EXPECT_EQ(outcome(2.0, 2.0), MotionVerdict::kCollides);
+  EXPECT_EQ(outcome(above, 0.0), MotionVerdict::kFree);
+  EXPECT_EQ(outcome(2.0, above), MotionVerdict::kFree);
   // In one plane, up to a corner, to an edge, and just not.
-  EXPECT_EQ(check({5, 2, 2}, {2, 2, 2}), RigidOutcome::kCollides);
-  EXPECT_EQ(check({5, 2, 2}, {above, 2, 2}), RigidOutcome::kFree);
-  EXPECT_EQ(check({1, 5, 2}, {1, 2, 2}), RigidOutcome::kCollides);
-  EXPECT_EQ(check({2, 1, 5}, {2, 1, above}), RigidOutcome::kFree);
+  EXPECT_EQ(check({5, 2, 2}, {2, 2, 2}), MotionVerdict::kCollides);
+  EXPECT_EQ(check({5, 2, 2}, {above, 2, 2}), MotionVerdict::kFree);
+  EXPECT_EQ(check({1, 5, 2}, {1, 2, 2}), MotionVerdict::kCollides);
+  EXPECT_EQ(check({2, 1, 5}, {2, 1, above}), MotionVerdict::kFree);
 }
 
 TEST(QuaternionMotion, OfPairsOfTrianglesIsAsDensePosesSay) {
@@ -189,8 +189,8 @@ void Compare(const TriangleMesh& robot, const TriangleMesh& obstacle,
   ++tally->cases;
   if (check.IsFree()) ++tally->free;
   if (check.IsFree() && meets) ++tally->wrong_free;
-  if (check.outcome == RigidOutcome::kCollides && !meets) ++tally->wrong_hit;
-  if (check.outcome == RigidOutcome::kUndecided) ++tally->undecided;
+  if (check.outcome == MotionVerdict::kCollides && !meets) ++tally->wrong_hit;
+  if (check.outcome == MotionVerdict::kUndecided) ++tally->undecided;
   if (judge.CheckExactly(motion).IsFree() == meets) ++tally->wrong_exact;
 }
 
@@ -248,11 +248,11 @@ TEST(QuaternionMotion, NamesTrianglesWithoutAreaAsUndecidedAndRefusesNoPoses) {
   const RigidJudge judge(point, Cube(2.0));
   const RigidCheck check =
       judge.CheckExactly(Between(PoseAt({-3, 0, 0.5}), PoseAt({0, 0, 0.5})));
-  EXPECT_EQ(check.outcome, RigidOutcome::kUndecided);
+  EXPECT_EQ(check.outcome, MotionVerdict::kUndecided);
   EXPECT_EQ(check.robot_triangle, 0);
   EXPECT_EQ(judge.CheckExactly(Between(PoseAt({-3, 0, 2}), PoseAt({3, 0, 2})))
                 .outcome,
-            RigidOutcome::kFree);
+            MotionVerdict::kFree);
   testing::ExpectRefused(
       [&] {
         Between(PoseAt({0, 0, 0}, Quaterniond(1, 1, 0, 0)), PoseAt({0, 0, 0}));

@@ -36,8 +36,8 @@ void Compare(const RigidJudge& judge, const TriangleMesh& robot,
              Tally* tally) {
   const RigidCheck check = judge.Check(motion);
   ++tally->cases;
-  if (check.outcome == RigidOutcome::kUndecided) ++tally->undecided;
-  if (check.outcome == RigidOutcome::kCollides && check.robot_triangle >= 0 &&
+  if (check.outcome == MotionVerdict::kUndecided) ++tally->undecided;
+  if (check.outcome == MotionVerdict::kCollides && check.robot_triangle >= 0 &&
       !MeetExactly(PlacedMesh(robot, motion, check.time), check.robot_triangle,
                    obstacle, check.obstacle_triangle)) {
     ++tally->wrong_hit;
@@ -200,10 +200,10 @@ TEST(RigidCampaign, AgreesWithTheExactOracleOnTranslations) {
         ++free;
         EXPECT_FALSE(collides) << i << ' ' << k;
       }
-      if (check.outcome == RigidOutcome::kCollides) {
+      if (check.outcome == MotionVerdict::kCollides) {
         EXPECT_TRUE(collides);
       }
-      if (check.outcome == RigidOutcome::kUndecided && is_general) ++undecided;
+      if (check.outcome == MotionVerdict::kUndecided && is_general) ++undecided;
     }
   }
   EXPECT_EQ(cases, 4000);

@@ -143,8 +143,8 @@ TEST(RigidClearance, IsNeverMoreThanADistanceOnTheWay) {
     const double relative = i % 2 == 0 ? 1e-2 : 1e-4;
     const RigidClearance found = judge.Clearance(motion, {relative, 0.0});
     ASSERT_TRUE(found.is_resolved);
-    const RigidOutcome outcome = judge.Check(motion).outcome;
-    EXPECT_EQ(found.lower > 0.0, outcome == RigidOutcome::kFree) << i;
+    const MotionVerdict outcome = judge.Check(motion).outcome;
+    EXPECT_EQ(found.lower > 0.0, outcome == MotionVerdict::kFree) << i;
     if (!(found.lower > 0.0)) continue;
     ++free;
     double least =

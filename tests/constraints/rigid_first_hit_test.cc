@@ -38,7 +38,7 @@ TEST(RigidFirstHit, IsWhereACornerThatTurnsMeetsAWall) {
     const RigidJudge judge(cube, MakeBox({x, -5.1, -4.0}, {x + 1, 4.0, 3.7}));
     const double truth = 0.5 - std::acos(x / std::sqrt(2.0)) / (0.5 * kPi);
     const RigidFirstHit hit = judge.FirstHit(motion);
-    ASSERT_EQ(hit.outcome, RigidOutcome::kCollides) << x;
+    ASSERT_EQ(hit.outcome, MotionVerdict::kCollides) << x;
     EXPECT_LE(hit.from, truth + 1e-12) << x;
     EXPECT_GE(hit.to, truth - 1e-12) << x;
     EXPECT_LE(hit.to - hit.from, 1e-9) << x;
@@ -63,7 +63,7 @@ TEST(RigidFirstHit, IsTheShareOfAStraightWayToAFace) {
                              PoseAt({-3.0, place(random), place(random)}));
     const RigidFirstHit hit = judge.FirstHit(motion);
     const double truth = (x - 1.25) / (x + 3.0);
-    ASSERT_EQ(hit.outcome, RigidOutcome::kCollides);
+    ASSERT_EQ(hit.outcome, MotionVerdict::kCollides);
     EXPECT_LE(hit.from, truth + 1e-13);
     EXPECT_GE(hit.to, truth - 1e-13);
     EXPECT_LE(hit.to - hit.from, 1e-9);
@@ -74,14 +74,14 @@ TEST(RigidFirstHit, SaysFreeUndecidedAndInsideAsCheckDoes) {
   const RigidJudge judge(Cube(2.0), Cube(2.0));
   const RigidFirstHit free =
       judge.FirstHit({PoseAt({-3, 0, 2.001}), PoseAt({3, 0.3, 2.001})});
-  EXPECT_EQ(free.outcome, RigidOutcome::kFree);
+  EXPECT_EQ(free.outcome, MotionVerdict::kFree);
   EXPECT_EQ(free.from, 0.0);
   EXPECT_EQ(free.to, 1.0);
   EXPECT_EQ(free.robot_triangle, -1);
   // Faces that slide on each other between x = −2 and 2.
   const RigidFirstHit slides =
       judge.FirstHit({PoseAt({-3, 0, 2}), PoseAt({3, 0.3, 2})});
-  EXPECT_EQ(slides.outcome, RigidOutcome::kUndecided);
+  EXPECT_EQ(slides.outcome, MotionVerdict::kUndecided);
   EXPECT_NEAR(slides.from, 1.0 / 6.0, 1e-5);
   EXPECT_GE(slides.to, 5.0 / 6.0 - 1e-6);
   EXPECT_GE(slides.robot_triangle, 0);
@@ -89,12 +89,12 @@ TEST(RigidFirstHit, SaysFreeUndecidedAndInsideAsCheckDoes) {
   const RigidFirstHit inside =
       RigidJudge(Cube(0.5), Cube(2.0))
           .FirstHit({PoseAt({0, 0, 0}), PoseAt({3, 0, 0})});
-  EXPECT_EQ(inside.outcome, RigidOutcome::kCollides);
+  EXPECT_EQ(inside.outcome, MotionVerdict::kCollides);
   EXPECT_EQ(inside.to, 0.0);
   EXPECT_EQ(inside.robot_triangle, -1);
   const RigidFirstHit little =
       judge.FirstHit({PoseAt({-3, 0, 1}), PoseAt({3, 0, 1})}, 1e-9, 0);
-  EXPECT_EQ(little.outcome, RigidOutcome::kUndecided);
+  EXPECT_EQ(little.outcome, MotionVerdict::kUndecided);
   EXPECT_EQ(little.from, 0.0);
   EXPECT_EQ(little.to, 1.0);
 }
@@ -117,7 +117,7 @@ TEST(RigidFirstHit, IsFreeBeforeAndMeetsAfterOnRandomMotions) {
         angle(random) * RandomRotation(&random).col(0));
     const RigidFirstHit hit = judge.FirstHit(motion);
     EXPECT_EQ(hit.outcome, judge.Check(motion).outcome);
-    if (hit.outcome != RigidOutcome::kCollides) continue;
+    if (hit.outcome != MotionVerdict::kCollides) continue;
     ++hits;
     EXPECT_LE(hit.from, hit.to);
     if (hit.to - hit.from <= 1e-8) ++fine;
@@ -130,7 +130,7 @@ TEST(RigidFirstHit, IsFreeBeforeAndMeetsAfterOnRandomMotions) {
     if (before <= 0.0) continue;
     const RigidMotion cut = RigidMotion::Turning(
         motion.start(), motion.At(before).position, before * motion.turn());
-    EXPECT_NE(judge.Check(cut).outcome, RigidOutcome::kCollides) << i;
+    EXPECT_NE(judge.Check(cut).outcome, MotionVerdict::kCollides) << i;
     for (int k = 0; k <= 50; ++k) {
       EXPECT_FALSE(
           MeetExactly(PlacedMesh(robot, motion, before * k / 50), obstacle));

@@ -36,7 +36,7 @@ Quaterniond AboutZ(double angle) {
 // The triangles named do meet when it says, exactly.
 void ExpectWitness(const TriangleMesh& robot, const TriangleMesh& obstacle,
                    const RigidMotion& motion, const RigidCheck& check) {
-  ASSERT_EQ(check.outcome, RigidOutcome::kCollides);
+  ASSERT_EQ(check.outcome, MotionVerdict::kCollides);
   ASSERT_GE(check.robot_triangle, 0);
   EXPECT_TRUE(MeetExactly(PlacedMesh(robot, motion, check.time),
                           check.robot_triangle, obstacle,
@@ -63,16 +63,16 @@ TEST(RigidJudge, KnowsACubeThatTurnsPastAWallDownToItsResolution) {
         const RigidCheck check = judge.Check(motion);
         const bool is_free = sign > 0.0 && gap > 0.0;
         if (is_free) {
-          EXPECT_NE(check.outcome, RigidOutcome::kCollides) << gap;
+          EXPECT_NE(check.outcome, MotionVerdict::kCollides) << gap;
         } else {
-          EXPECT_NE(check.outcome, RigidOutcome::kFree) << gap;
+          EXPECT_NE(check.outcome, MotionVerdict::kFree) << gap;
         }
         if (gap >= 1e-6) {
-          EXPECT_NE(check.outcome, RigidOutcome::kUndecided)
+          EXPECT_NE(check.outcome, MotionVerdict::kUndecided)
               << sign * gap << ' ' << begin << ' ' << check.time;
           EXPECT_LE(check.tests, 20000);
         }
-        if (check.outcome == RigidOutcome::kCollides) {
+        if (check.outcome == MotionVerdict::kCollides) {
           ExpectWitness(cube, wall, motion, check);
         }
       }
@@ -99,7 +99,7 @@ TEST(RigidJudge, SaysTheSameFarAwayTinyAndTurned) {
         PoseAt(at, (turned * AboutZ(0.1 + 0.5 * kPi)).normalized()));
     const RigidCheck check = judge.Check(motion);
     EXPECT_EQ(check.outcome,
-              gap > 0.0 ? RigidOutcome::kFree : RigidOutcome::kCollides)
+              gap > 0.0 ? MotionVerdict::kFree : MotionVerdict::kCollides)
         << i;
   }
 }
@@ -116,7 +116,7 @@ TEST(RigidJudge, SeesAWholeTurn) {
     const RigidMotion whole = RigidMotion::Turning(
         PoseAt(Vector3d::Zero()), Vector3d::Zero(), {0.0, 0.0, 2.0 * kPi});
     const RigidCheck hit = RigidJudge(bar, post(1.9)).Check(whole);
-    EXPECT_EQ(hit.outcome, RigidOutcome::kCollides);
+    EXPECT_EQ(hit.outcome, MotionVerdict::kCollides);
     const double angle = place < 0.0 ? place + 2.0 * kPi : place;
     EXPECT_NEAR(hit.time, angle / (2.0 * kPi), 0.01);
     EXPECT_TRUE(RigidJudge(bar, post(2.001)).Check(whole).IsFree());
@@ -134,9 +134,9 @@ TEST(RigidJudge, JudgesAPoseAsAMotionOfNoLength) {
         .outcome;
   };
   const double edge = 1.0 + std::sqrt(2.0);
-  EXPECT_EQ(check({edge + 1e-6, 0.2, 0.3}), RigidOutcome::kFree);
-  EXPECT_EQ(check({edge - 1e-6, 0.2, 0.3}), RigidOutcome::kCollides);
-  EXPECT_NE(check({edge, 0.2, 0.3}), RigidOutcome::kFree);
+  EXPECT_EQ(check({edge + 1e-6, 0.2, 0.3}), MotionVerdict::kFree);
+  EXPECT_EQ(check({edge - 1e-6, 0.2, 0.3}), MotionVerdict::kCollides);
+  EXPECT_NE(check({edge, 0.2, 0.3}), MotionVerdict::kFree);
 }
 
 TEST(RigidJudge, CallsNothingFreeThatTouches) {
@@ -164,7 +164,7 @@ TEST(RigidJudge, KnowsWhoIsInsideOfWhom) {
   for (const bool swap : {false, true}) {
     const RigidCheck check =
         RigidJudge(swap ? large : small, swap ? small : large).Check(motion);
-    EXPECT_EQ(check.outcome, RigidOutcome::kCollides);
+    EXPECT_EQ(check.outcome, MotionVerdict::kCollides);
     EXPECT_EQ(check.robot_triangle, -1);
     EXPECT_EQ(check.time, 0.0);
     // A room: faces turned over, a box with a cavity, or one without a lid.
@@ -174,18 +174,18 @@ TEST(RigidJudge, KnowsWhoIsInsideOfWhom) {
           .Check(motion)
           .outcome;
     };
-    EXPECT_EQ(in(room), RigidOutcome::kFree);
+    EXPECT_EQ(in(room), MotionVerdict::kFree);
     EXPECT_EQ(in(MakeBoxShell({-3, -3, -3}, {3, 3, 3}, 1.0)),
-              RigidOutcome::kFree);
+              MotionVerdict::kFree);
     room = large;
     room.triangles.pop_back();
-    EXPECT_EQ(in(room), RigidOutcome::kFree);
+    EXPECT_EQ(in(room), MotionVerdict::kFree);
   }
   // A part without a lid that is inside of a solid, and a sheet.
   TriangleMesh sheet = small;
   sheet.triangles.resize(1);
   EXPECT_EQ(RigidJudge(sheet, large).Check(motion).outcome,
-            RigidOutcome::kCollides);
+            MotionVerdict::kCollides);
 }
 
 TEST(RigidJudge, NamesTheMeshesAndTrianglesThatMeet) {
@@ -200,7 +200,7 @@ TEST(RigidJudge, NamesTheMeshesAndTrianglesThatMeet) {
   const RigidMotion motion(PoseAt(Vector3d::Zero()),
                            PoseAt({4.3, -3.0, 0.2}, AboutZ(0.1)));
   const RigidCheck check = judge.Check(motion);
-  ASSERT_EQ(check.outcome, RigidOutcome::kCollides);
+  ASSERT_EQ(check.outcome, MotionVerdict::kCollides);
   EXPECT_EQ(check.robot_mesh, 0);
   EXPECT_EQ(check.obstacle_mesh, 2);
   ExpectWitness(robot[0], obstacles[2], motion, check);
@@ -210,10 +210,10 @@ TEST(RigidJudge, IsUndecidedWhereItMayLookNoFurther) {
   const RigidJudge judge(Cube(2.0), MakeIcoBall(1.0, 2));
   const RigidMotion motion(PoseAt({3.0, 0.0, 0.0}), PoseAt({-3.0, 2.4, 0.3}));
   const RigidCheck check = judge.Check(motion, 5);
-  EXPECT_EQ(check.outcome, RigidOutcome::kUndecided);
+  EXPECT_EQ(check.outcome, MotionVerdict::kUndecided);
   EXPECT_EQ(check.tests, 5);
-  EXPECT_EQ(judge.Check(motion, 0).outcome, RigidOutcome::kUndecided);
-  EXPECT_NE(judge.Check(motion).outcome, RigidOutcome::kUndecided);
+  EXPECT_EQ(judge.Check(motion, 0).outcome, MotionVerdict::kUndecided);
+  EXPECT_NE(judge.Check(motion).outcome, MotionVerdict::kUndecided);
 }
 
 TEST(RigidJudge, RefusesWhatIsNoMesh) {
@@ -256,7 +256,7 @@ TEST(RigidJudge, JudgesRobotsWithoutSize) {
       judge.Check({PoseAt({-3, 0, 0.5}), PoseAt({3, 0, 0.5})}).IsFree());
   EXPECT_EQ(
       judge.Check({PoseAt({-0.3, 0, 0.5}), PoseAt({0.3, 0, 0.5})}).outcome,
-      RigidOutcome::kCollides);
+      MotionVerdict::kCollides);
 }
 
 }  // namespace

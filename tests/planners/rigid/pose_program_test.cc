@@ -215,7 +215,7 @@ TEST(PoseProgram, RowsOfTheWrongSignAreRefusedByTheJudge) {
   const std::vector<RobotPose> path = program.chart().Poses(run.x.data());
   for (std::size_t i = 0; i + 1 < path.size(); ++i) {
     EXPECT_EQ(World().judge().Check(RigidMotion(path[i], path[i + 1])).outcome,
-              RigidOutcome::kCollides);
+              MotionVerdict::kCollides);
   }
 }
 
