@@ -10,6 +10,7 @@
 #include "core/contact/contact_space.h"
 #include "core/contact/convolution_model.h"
 #include "core/minkowski/build_limits.h"
+#include "core/minkowski/convolution/occupied_balls.h"
 #include "core/minkowski/operands/grid_pair.h"
 #include "core/minkowski/operands/solid_collision.h"
 #include "core/minkowski/windows/box_partition.h"
@@ -29,8 +30,13 @@ class ExploredBoxes {
     std::vector<std::vector<int>> rooms_of_points;
   };
 
+  // What surely lies in C_obj: is it left out before a box is arranged?  That
+  // changes nothing of what is found, and pays where deep places are looked at.
+  enum class Culling { kNone, kOccupied };
+
   // Boxes meet about `most_facets` of the convolution.  Keeps the model.
-  ExploredBoxes(const ConvolutionModel& model, std::size_t most_facets);
+  ExploredBoxes(const ConvolutionModel& model, std::size_t most_facets,
+                Culling culling = Culling::kNone);
 
   // The model's limits count from here, and from construction on.
   void RestartLimits();
@@ -75,6 +81,7 @@ class ExploredBoxes {
   const GridPair& pair_;
   std::optional<BuildLimits> limits_;
   SolidCollision judge_;
+  std::optional<OccupiedBalls> occupied_;  // none: nothing is left out
   FeatureSums sums_;
   BoxPartition partition_;
   std::map<int, Box> explored_;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/bvh/triangle_bvh.h"
@@ -138,18 +139,13 @@ void AddTriangle(const TriangleCorners& c, const Vector3d& n,
 }  // namespace
 
 struct SmoothedNormals::Impl {
-  Impl(const ContactSpace& the_space, double the_radius)
-      : space(the_space),
-        bvh(&space.bvh()),
-        normals(space.normals()),
+  Impl(std::shared_ptr<const TriangleBvh> the_bvh,
+       std::vector<Vector3d> the_normals, double the_radius)
+      : bvh(std::move(the_bvh)),
+        normals(std::move(the_normals)),
         radius(the_radius),
         k(1.0 / (radius * bvh->scale())),
         moments_of(bvh->tree().nodes().size(), -1) {
-    // Walls of a part of C_cont are none of it.
-    const std::vector<ContactKind>& kind = space.kind();
-    for (std::size_t t = 0; t < kind.size(); ++t) {
-      if (kind[t] == ContactKind::kNone) normals[t].setZero();
-    }
     Sum(0);
   }
 
@@ -221,8 +217,7 @@ struct SmoothedNormals::Impl {
     return true;
   }
 
-  ContactSpace space;
-  const TriangleBvh* bvh;         // of the space, which keeps it
+  std::shared_ptr<const TriangleBvh> bvh;
   std::vector<Vector3d> normals;  // of triangles; zero: counts for nothing
   double radius;
   double k;                     // 1/ρ in the frame of the tree
@@ -237,8 +232,22 @@ SmoothedNormals::SmoothedNormals(const ContactSpace& space, double radius) {
                      FormatDouble(least) + " (1e-9 of the diagonal), found " +
                      FormatDouble(radius));
   }
-  impl_ = std::make_unique<Impl>(space, radius);
+  // The space keeps its tree, and a copy of it is kept with that.
+  const auto kept = std::make_shared<const ContactSpace>(space);
+  std::vector<Vector3d> normals = kept->normals();
+  // Walls of a part of C_cont are none of it.
+  const std::vector<ContactKind>& kind = kept->kind();
+  for (std::size_t t = 0; t < kind.size(); ++t) {
+    if (kind[t] == ContactKind::kNone) normals[t].setZero();
+  }
+  impl_ = std::make_unique<Impl>(
+      std::shared_ptr<const TriangleBvh>(kept, &kept->bvh()),
+      std::move(normals), radius);
 }
+SmoothedNormals::SmoothedNormals(std::shared_ptr<const TriangleBvh> part,
+                                 std::vector<Vector3d> normals, double radius)
+    : impl_(std::make_unique<Impl>(std::move(part), std::move(normals),
+                                   radius)) {}
 SmoothedNormals::~SmoothedNormals() = default;
 SmoothedNormals::SmoothedNormals(SmoothedNormals&&) noexcept = default;
 SmoothedNormals& SmoothedNormals::operator=(SmoothedNormals&&) noexcept =

@@ -4,7 +4,9 @@
 #include <Eigen/Core>
 #include <limits>
 #include <memory>
+#include <vector>
 
+#include "core/bvh/triangle_bvh.h"
 #include "core/contact/contact_space.h"
 
 namespace phongpd {
@@ -15,6 +17,13 @@ struct SmoothedNormal {
   Eigen::Vector3d integral = Eigen::Vector3d::Zero();
   // By how much rounding may have moved it, about.
   double rounding = 0.0;
+
+  // Of two parts of a surface, at one point with one ρ.
+  SmoothedNormal& operator+=(const SmoothedNormal& other) {
+    integral += other.integral;
+    rounding += other.rounding;
+    return *this;
+  }
 
   // Is the direction known, to 1e-6 rad by that?  Not beyond ρ, nor where what
   // lies within ρ is symmetric and cancels.
@@ -61,6 +70,11 @@ class SmoothedNormals {
   // ρ, user's unit.  Throws InputError unless it is finite and at least 1e-9
   // of the space's diagonal.
   SmoothedNormals(const ContactSpace& space, double radius);
+  // Of a part of C_cont, which need not be closed: triangles of a tree, at
+  // least one, and their outward unit normals, zero where one counts for
+  // nothing.  What parts give adds up.  ρ as it is: finite and > 0.
+  SmoothedNormals(std::shared_ptr<const TriangleBvh> part,
+                  std::vector<Eigen::Vector3d> normals, double radius);
   ~SmoothedNormals();
   SmoothedNormals(SmoothedNormals&&) noexcept;
   SmoothedNormals& operator=(SmoothedNormals&&) noexcept;
