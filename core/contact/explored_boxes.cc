@@ -98,6 +98,14 @@ void DropOccupied(const OccupiedBalls& balls, const BoundingBox& box,
   *sums = std::move(kept);
 }
 
+BoxPartition::IsVoid VoidWhereOccupied(const OccupiedBalls* balls) {
+  if (balls == nullptr) return {};
+  return [balls, last = 0](const GridWindow& window) mutable {
+    const BoundingBox box = window.Box();
+    return balls->Contain(box.Center(), 0.5 * box.Diagonal(), &last);
+  };
+}
+
 }  // namespace
 
 ExploredBoxes::ExploredBoxes(const ConvolutionModel& model,
@@ -105,13 +113,15 @@ ExploredBoxes::ExploredBoxes(const ConvolutionModel& model,
     : model_(model),
       pair_(model_.data().pair),
       judge_(pair_.obstacle, pair_.reflected_robot),
+      occupied_(culling == Culling::kNone
+                    ? nullptr
+                    : std::make_unique<const OccupiedBalls>(
+                          pair_.obstacle, pair_.reflected_robot,
+                          OccupiedBalls::Asked::kSeldom)),
       sums_(pair_.obstacle, pair_.reflected_robot),
-      partition_(sums_, Around(kBorderShare), most_facets) {
+      partition_(sums_, Around(kBorderShare), most_facets,
+                 VoidWhereOccupied(occupied_.get())) {
   RestartLimits();
-  if (culling == Culling::kOccupied) {
-    occupied_.emplace(pair_.obstacle, pair_.reflected_robot,
-                      OccupiedBalls::Asked::kSeldom);
-  }
 }
 
 void ExploredBoxes::RestartLimits() {

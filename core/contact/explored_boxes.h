@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <functional>
 #include <map>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -47,7 +48,8 @@ class ExploredBoxes {
   // Those bounds, wider by `share` of their longest side, walls odd.
   GridWindow Around(double share) const;
 
-  // Those that meet a closed box of grid steps.
+  // Those that meet a closed box of grid steps, but for such that surely lie
+  // in C_obj.
   std::vector<int> In(const BoundingBox& box) {
     return partition_.LeavesIn(box);
   }
@@ -81,7 +83,7 @@ class ExploredBoxes {
   const GridPair& pair_;
   std::optional<BuildLimits> limits_;
   SolidCollision judge_;
-  std::optional<OccupiedBalls> occupied_;  // none: nothing is left out
+  std::unique_ptr<const OccupiedBalls> occupied_;  // null: none is left out
   FeatureSums sums_;
   BoxPartition partition_;
   std::map<int, Box> explored_;

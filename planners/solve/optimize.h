@@ -75,9 +75,13 @@ void ApplyPreset(Preset preset, OptimizeRequest* request);
 // keeps it: contact spaces, metrics, the graph that repairs starts.  A start or
 // goal that is not free is said before anything is built.
 //
-// Without limits: TrajectoryPipeline, by the metric asked for; where free space
-// is all that is modelled no metric is followed (OptimizeInFreeSpace).  One
-// solve at a time in a process.  With limits: OptimizeCurve, from the path of
+// Without limits: TrajectoryPipeline, by the metric asked for.  In a window
+// euclidean and smoothed metrics are followed from what of C_cont lies about
+// the iterates (PathAnswer::windows, window_metric.h), one row a sample, and
+// rrt-connect finds the starts; with other metrics, rows or layouts, and where
+// the answer's evidence says why windows failed, free space is all that is
+// modelled and no metric is followed (OptimizeInFreeSpace).  One solve at a
+// time in a process.  With limits: OptimizeCurve, from the path of
 // contact-surface from place to place.  A place that is not free has the status
 // kViaNotFree; where no path leads from one to the next, that is no proof for
 // places within their tolerances: the status is kFailed.

@@ -10,6 +10,7 @@
 
 #include "constraints/trajectory.h"
 #include "core/contact/free_space_flood.h"
+#include "core/projection/window_use.h"
 #include "planners/exact/contact_surface_planner.h"
 #include "planners/exact/verification.h"
 #include "planners/ompl/ompl_planning.h"
@@ -92,6 +93,9 @@ struct PathAnswer {
   std::optional<PlanWork> plan;
   std::optional<PipelineResult> pipeline;  // of Optimize without limits
   std::optional<CurveSummary> curve;       // of Optimize with limits
+  // What of C_cont the metric took that Ipopt followed in a window; none: it
+  // followed the whole, or free space alone was modelled and no metric.
+  std::optional<WindowUse> windows;
 };
 
 }  // namespace phongpd

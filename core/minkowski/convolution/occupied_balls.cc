@@ -16,6 +16,11 @@ using Eigen::Vector3d;
 // Balls in each operand that are tried; corners, and edges.
 constexpr std::size_t kBalls = 64;
 constexpr std::size_t kPoints = 32;
+// Of each operand where few are to be tried.
+constexpr std::size_t kFewBalls = 12;
+// Solids may be deeper than their largest ball that was found, by this factor
+// at most, or something is not left out.
+constexpr double kDeepest = 1.5;
 // Balls are taken larger by this: far above all rounding, of the distances and
 // of the points that are asked about.
 constexpr double kMarginSteps = 0x1p-4;
@@ -70,11 +75,13 @@ OccupiedBalls::OccupiedBalls(const GridSolid& p, const GridSolid& q,
                              Asked asked)
     : solids_{BvhOf(p), BvhOf(q)},
       holds_surface_{!HasCavity(p), !HasCavity(q)} {
-  balls_[0] = InnerBalls(q, solids_[1], kBalls);
-  balls_[1] = InnerBalls(p, solids_[0], kBalls);
-  if (holds_surface_[1]) AddSurfacePoints(q, &balls_[0]);
-  if (holds_surface_[0]) AddSurfacePoints(p, &balls_[1]);
-  if (asked == Asked::kOften) {
+  const bool is_often = asked == Asked::kOften;
+  const std::size_t most = is_often ? kBalls : kFewBalls;
+  balls_[0] = InnerBalls(q, solids_[1], most);
+  balls_[1] = InnerBalls(p, solids_[0], most);
+  if (is_often) {
+    if (holds_surface_[1]) AddSurfacePoints(q, &balls_[0]);
+    if (holds_surface_[0]) AddSurfacePoints(p, &balls_[1]);
     depths_ = {CoarseDepth(solids_[0]), CoarseDepth(solids_[1])};
   }
   const BoundingBox a = BoundsOf(solids_[0]), b = BoundsOf(solids_[1]);
@@ -115,6 +122,26 @@ bool OccupiedBalls::Overlaps(const Vector3d& center, double wanted,
   if (s->overlap <= wanted) return false;
   if (solid.WindingNumber(x) > 0) return true;
   s->overlap = ball.radius - distance;
+  return false;
+}
+
+bool OccupiedBalls::Contain(const Vector3d& center, double radius,
+                            int* last) const {
+  const double wanted = radius + margin_;
+  const int first = static_cast<int>(balls_[0].size());
+  const int count = first + static_cast<int>(balls_[1].size());
+  for (int i = 0; i < count; ++i) {
+    const int k = (*last + i) % count;
+    Sample sample{std::numeric_limits<double>::infinity(), k < first ? 0 : 1,
+                  k < first ? k : k - first};
+    // The largest ball is about as large as the solid is deep.
+    const std::vector<InnerBall>& own = balls_[1 - sample.solid];
+    const double depth = own.empty() ? 0.0 : kDeepest * own[0].radius;
+    if (balls_[sample.solid][sample.ball].radius + depth <= wanted) continue;
+    if (!Overlaps(center, wanted, &sample)) continue;
+    *last = k;
+    return true;
+  }
   return false;
 }
 

@@ -22,8 +22,8 @@ namespace phongpd::internal {
 class OccupiedBalls {
  public:
   enum class Asked {
-    kSeldom,  // nothing is prepared beside the balls
-    kOften,   // a grid of depths, which takes tens of thousands of distances
+    kSeldom,  // a few balls, nothing prepared
+    kOften,   // many, and a grid of depths: tens of thousands of distances
   };
   // Of B = `p` and −A = `q`, grid steps.
   OccupiedBalls(const GridSolid& p, const GridSolid& q, Asked asked);
@@ -41,6 +41,10 @@ class OccupiedBalls {
   // Sets what the sample overlaps by with `center` as configuration, or a bound
   // of it that tells whether it is above `wanted`, and tells.
   bool Overlaps(const Eigen::Vector3d& center, double wanted, Sample* s) const;
+
+  // Is the ball surely occupied?  Tries first what *last says and leaves there
+  // what was found; 0 to begin with.
+  bool Contain(const Eigen::Vector3d& center, double radius, int* last) const;
 
   // What a ball's radius is to be larger by, because points are rounded.
   double margin() const { return margin_; }
