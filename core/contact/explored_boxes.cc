@@ -109,11 +109,11 @@ BoxPartition::IsVoid VoidWhereOccupied(const OccupiedBalls* balls) {
 }  // namespace
 
 ExploredBoxes::ExploredBoxes(const ConvolutionModel& model,
-                             std::size_t most_facets, Culling culling)
+                             std::size_t most_facets, Purpose purpose)
     : model_(model),
       pair_(model_.data().pair),
       judge_(pair_.obstacle, pair_.reflected_robot),
-      occupied_(culling == Culling::kNone
+      occupied_(purpose == Purpose::kRooms
                     ? nullptr
                     : std::make_unique<const OccupiedBalls>(
                           pair_.obstacle, pair_.reflected_robot,
@@ -149,7 +149,7 @@ const ExploredBoxes::Box& ExploredBoxes::Explore(
   limits_->Look("exploration");
   const GridWindow& window = partition_.window(box);
   Box added;
-  added.patches = partition_.Walls(box);
+  added.patches = occupied_ ? WholeWalls(window) : partition_.Walls(box);
   WindowConvolution sums = partition_.Take(box);
   if (occupied_) DropOccupied(*occupied_, window.Box(), *limits_, &sums);
   WindowCells cells(sums, window, added.patches, judge_, *limits_);

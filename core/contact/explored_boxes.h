@@ -31,13 +31,16 @@ class ExploredBoxes {
     std::vector<std::vector<int>> rooms_of_points;
   };
 
-  // What surely lies in C_obj: is it left out before a box is arranged?  That
-  // changes nothing of what is found, and pays where deep places are looked at.
-  enum class Culling { kNone, kOccupied };
+  // What they are explored for.
+  enum class Purpose {
+    kRooms,    // to go from one to the next
+    kContact,  // C_cont in each box alone: its walls are whole, and what surely
+               // lies in C_obj is left out before it is arranged
+  };
 
   // Boxes meet about `most_facets` of the convolution.  Keeps the model.
   ExploredBoxes(const ConvolutionModel& model, std::size_t most_facets,
-                Culling culling = Culling::kNone);
+                Purpose purpose = Purpose::kRooms);
 
   // The model's limits count from here, and from construction on.
   void RestartLimits();
@@ -70,7 +73,7 @@ class ExploredBoxes {
   // sums beyond which everything is free.  To be taken for a contact space:
   // what is free of it, and within the box, is free.  Throws std::logic_error
   // where rooms do not fit together because cells at their walls are too thin
-  // to be judged.
+  // to be judged.  For kContact a box alone.
   ContactSpace::Parts Surface(
       const std::vector<int>& boxes,
       const std::function<bool(int box, int room)>& is_kept) const;
@@ -83,7 +86,7 @@ class ExploredBoxes {
   const GridPair& pair_;
   std::optional<BuildLimits> limits_;
   SolidCollision judge_;
-  std::unique_ptr<const OccupiedBalls> occupied_;  // null: none is left out
+  std::unique_ptr<const OccupiedBalls> occupied_;  // null: kRooms
   FeatureSums sums_;
   BoxPartition partition_;
   std::map<int, Box> explored_;

@@ -27,7 +27,7 @@ double Distance(const BoundingBox& box, const Vector3d& x) {
 }  // namespace
 
 ExploredSurface::ExploredSurface(const ConvolutionModel& model, double radius)
-    : boxes_(model, kWindowFacets, ExploredBoxes::Culling::kOccupied),
+    : boxes_(model, kWindowFacets, ExploredBoxes::Purpose::kContact),
       radius_(radius),
       scale_(std::ldexp(1.0, -std::ilogb(model.bounds().Diagonal()))) {}
 
@@ -98,7 +98,7 @@ NearestContact ExploredSurface::FindNearest(const Vector3d& q) {
       if (!is_extended) boxes_.RestartLimits();
       is_extended = true;
       const std::size_t before = parts_.size();
-      Explore({box});
+      Explore(box);
       if (parts_.size() > before) Improve(parts_.back(), q, &nearest);
     }
     if (is_last || nearest.distance <= kCertainShare * reach * step) break;
@@ -118,16 +118,12 @@ NearestContact ExploredSurface::FindNearest(const Vector3d& q) {
 }
 
 SmoothedNormal ExploredSurface::Sum(const Vector3d& x) {
-  std::vector<int> unknown;
-  for (const auto& [distance, box] :
-       Unknown(boxes_.frame().ToGrid(x),
-               radius_ / boxes_.frame().step / kCertainShare)) {
-    unknown.push_back(box);
-  }
+  const auto unknown = Unknown(boxes_.frame().ToGrid(x),
+                               radius_ / boxes_.frame().step / kCertainShare);
   if (!unknown.empty()) {
     const Stopwatch stopwatch;
     boxes_.RestartLimits();
-    Explore(unknown);
+    for (const auto& [distance, box] : unknown) Explore(box);
     ++use_.extensions;
     use_.seconds += stopwatch.Seconds();
   }

@@ -44,7 +44,7 @@ class ExploredSurface {
   const WindowUse& use() const { return use_; }
 
  private:
-  // C_cont in boxes that were arranged at once.
+  // C_cont in a box.
   struct Part {
     TriangleMesh mesh;
     std::vector<Eigen::Vector3d> normals;  // of triangles
@@ -52,7 +52,7 @@ class ExploredSurface {
     std::optional<SmoothedNormals> sums;
   };
 
-  void Explore(const std::vector<int>& boxes);
+  void Explore(int box);
   // Boxes within `reach` grid steps of x, that were not arranged, nearest
   // first.
   std::vector<std::pair<double, int>> Unknown(const Eigen::Vector3d& x,

@@ -33,9 +33,20 @@ constexpr char kOptimizePresetHelp[] =
     "time, energy 0.43 % above the least found (balanced: 0.43 %); tight: 3 "
     "routes and the corridor always, 2.2 times the time, 0.31 %";
 
-// What says how a metric is followed says nothing where none is.
+// What says how a metric is followed says nothing where none is; windows know
+// some metrics, one row a sample (optimize.h).
 void RequireMetricIsFollowed(const OptimizeFlags& flags, const Scene& scene) {
   if (scene.trajectory.model != Model::kWindow) return;
+  const MetricKind metric = scene.penetration.metric;
+  if (metric != MetricKind::kPhong) {
+    if (flags.rows == 1 && !flags.per_obstacle) return;
+    throw InputError(
+        std::string(flags.per_obstacle ? "--per-obstacle: expected none"
+                                       : "--rows: expected 1") +
+        " with model window and metric " + ToString(metric) + ", found " +
+        (flags.per_obstacle ? "it" : std::to_string(flags.rows)) +
+        "; take --model full");
+  }
   for (const auto& [name, value] :
        {std::make_pair("--metric", flags.metric),
         std::make_pair("--smoothing-length", flags.smoothing_length),
@@ -43,7 +54,7 @@ void RequireMetricIsFollowed(const OptimizeFlags& flags, const Scene& scene) {
     if (value.empty()) continue;
     throw InputError(std::string(name) +
                      ": expected none with model window, which follows no "
-                     "penetration metric, found " +
+                     "penetration metric but euclidean and smoothed, found " +
                      value + "; take --model full");
   }
 }
@@ -53,7 +64,6 @@ void Override(const OptimizeFlags& flags, Scene* scene) {
   if (!flags.model.empty()) {
     scene->trajectory.model = ParseModel(flags.model, "--model");
   }
-  RequireMetricIsFollowed(flags, *scene);
   PenetrationSpec& spec = scene->penetration;
   if (!flags.metric.empty()) {
     spec.metric = ParseMetricKind(flags.metric, "--metric");
@@ -66,6 +76,7 @@ void Override(const OptimizeFlags& flags, Scene* scene) {
         LengthFlag(flags.smoothing_length, "--smoothing-length",
                    LengthRange::kFromZero, scene);
   }
+  RequireMetricIsFollowed(flags, *scene);
   if (!flags.margin.empty()) {
     scene->trajectory.margin = ParseClearance(
         flags.margin, "--margin", ContactBounds(scene->workspace).Diagonal(),
@@ -150,8 +161,17 @@ RunSummary SummarizeTrajectory(const OptimizeFlags& flags,
 }
 
 // What the model made of the run, on stderr.
-void TellTrajectoryModel(const PathEvidence& evidence) {
+void TellTrajectoryModel(const PathAnswer& answer) {
+  const PathEvidence& evidence = answer.evidence;
   if (evidence.model != Model::kWindow) return;
+  if (answer.windows) {
+    Note("model window: the metric from " +
+         std::to_string(answer.windows->boxes) + " boxes of the contact space" +
+         (evidence.refusal.empty()
+              ? std::string()
+              : ", as the whole is refused: " + evidence.refusal));
+    return;
+  }
   Note(
       "model window: free space alone, so no metric is followed; rrt-connect "
       "where the line collides, then the corridor" +
@@ -293,7 +313,7 @@ class OptimizeRuns {
     }
     const PathAnswer answer = Optimize(world, request);
     model_ = answer.evidence.model;
-    if (is_first) TellTrajectoryModel(answer.evidence);
+    if (is_first) TellTrajectoryModel(answer);
     if (is_first && flags_.explain) {
       TellExplanation(ExplainTrajectory(*flags_.app, world, request, answer));
     }
