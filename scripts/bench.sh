@@ -57,9 +57,10 @@ if [[ $suite == contact-space || $suite == all ]]; then
     --output results/contact-space
 fi
 if [[ $suite == lazy || $suite == all ]]; then
-  scripts/build.sh lazy_benchmark culling_benchmark
+  scripts/build.sh lazy_benchmark culling_benchmark window_path_benchmark
   build/lazy_benchmark --output results/lazy --queries 60
   build/culling_benchmark --output results/lazy
+  build/window_path_benchmark --output results/lazy
   python3 -B results/bench/lazy_report.py --output results/lazy
 fi
 if [[ $suite == convergence || $suite == all ]]; then

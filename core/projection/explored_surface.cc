@@ -31,15 +31,12 @@ ExploredSurface::ExploredSurface(const ConvolutionModel& model, double radius)
       radius_(radius),
       scale_(std::ldexp(1.0, -std::ilogb(model.bounds().Diagonal()))) {}
 
-void ExploredSurface::Explore(const std::vector<int>& boxes) {
-  std::vector<int> shown;
-  for (const int box : boxes) {
-    if (HasContact(boxes_.Explore(box))) shown.push_back(box);
-  }
+void ExploredSurface::Explore(int box) {
+  const bool has_contact = HasContact(boxes_.Explore(box));
   use_.boxes = boxes_.explored().size();
   use_.faces = boxes_.faces();
-  if (shown.empty()) return;
-  const ContactSpace space(boxes_.Surface(shown, [](int, int) { return true; }),
+  if (!has_contact) return;
+  const ContactSpace space(boxes_.Surface({box}, [](int, int) { return true; }),
                            "window of the contact space");
   Part part;
   part.mesh.vertices = space.mesh().vertices;

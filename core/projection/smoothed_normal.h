@@ -82,6 +82,18 @@ class SmoothedNormals {
   // Finite x and x − centre of the space (zero, without a direction, else).
   SmoothedNormal At(const Eigen::Vector3d& x) const noexcept;
 
+  // ∂(integral)/∂x of that, entry (i, j) of coordinate i by x_j; 1/user's unit:
+  //
+  //   ∂G_ρ/∂x = 4/ρ² ∮ (1 − r²/ρ²) n (p − x)ᵀ dA   over r < ρ
+  //
+  // continuous in x, since w is differentiable where it ends, and symmetric
+  // where all of C_cont within ρ is there.  In a plane, p − x = h n + s with s
+  // from the foot of x: of the first part the integral is as above, with
+  // ∫₀ˢ (R² − t²) t dt, and of the second −¼ Σ_edges ν ∫ (R² − s²)² dy over
+  // what the disc has of the edge, ν its outward normal: a polynomial.  Zero
+  // where x is not finite.
+  Eigen::Matrix3d DerivativeAt(const Eigen::Vector3d& x) const noexcept;
+
   double radius() const;
 
  private:

@@ -135,44 +135,27 @@ double Apart(const Row& row) {
 }
 
 NamedTable TableOf(const std::vector<Row>& rows) {
-  return {"window_path.csv",
-          MakeTable(
-              {"pair",
-               "start",
-               "metric",
-               "problem",
-               "whole, CPU s",
-               "of it modelling",
-               "windows, CPU s",
-               "of it modelling",
-               "modelling, share",
-               "all, share",
-               "solver, share",
-               "boxes",
-               "faces",
-               "penetrating queries",
-               "whole: status",
-               "windows: status",
-               "iterations",
-               "in windows",
-               "objective",
-               "in windows",
-               "farthest apart / D",
-               "refusal"},
-              rows, [](const Row& r, const auto& add) {
-                const Side &f = r.whole, &w = r.window;
-                const double build = f.first - f.again;
-                const WindowUse use = w.answer.windows.value_or(WindowUse());
-                add(r.pair, r.start, r.metric, r.problem, f.first, build,
-                    w.first, w.first - w.again, (w.first - w.again) / build,
-                    w.first / f.first, w.again / f.again, use.boxes, use.faces,
-                    use.inside, std::string(ToString(f.answer.status)),
-                    std::string(ToString(w.answer.status)),
-                    f.answer.pipeline->iterations,
-                    w.answer.pipeline->iterations, f.answer.pipeline->objective,
-                    w.answer.pipeline->objective, Apart(r),
-                    w.answer.evidence.refusal);
-              })};
+  return {
+      "window_path.csv",
+      MakeTable(
+          {"pair", "start", "metric", "problem", "whole, CPU s",
+           "whole: modelling", "windows, CPU s", "windows: modelling", "boxes",
+           "faces", "penetrating queries", "whole: status", "windows: status",
+           "whole: iterations", "windows: iterations", "whole: objective",
+           "windows: objective", "farthest apart / D", "refusal"},
+          rows, [](const Row& r, const auto& add) {
+            const Side &f = r.whole, &w = r.window;
+            const double build = f.first - f.again;
+            const WindowUse use = w.answer.windows.value_or(WindowUse());
+            add(r.pair, r.start, r.metric, r.problem, f.first, build, w.first,
+                w.first - w.again, use.boxes, use.faces, use.inside,
+                std::string(ToString(f.answer.status)),
+                std::string(ToString(w.answer.status)),
+                f.answer.pipeline->iterations, w.answer.pipeline->iterations,
+                Rounded(f.answer.pipeline->objective, 6),
+                Rounded(w.answer.pipeline->objective, 6), Apart(r),
+                w.answer.evidence.refusal);
+          })};
 }
 
 int Run(int argc, char** argv) {
