@@ -95,7 +95,7 @@ TEST(WindowMetric, AgreesWhereMuchIsOccupied) {
   std::mt19937_64 random(7);
   Tally tally;
   Compare(MakeStar(0.5, 1.2), MakeKnot(0.5, 0.225, 32, 6), 0.02,
-          SmoothedAt::kPosition, 24, &random, &tally);
+          SmoothedAt::kPosition, 50, &random, &tally);
   EXPECT_GT(tally.inside, 4);
 }
 
