@@ -9,12 +9,13 @@ import math
 import re
 import statistics
 
+from claims_lazy import LAZY_CLAIMS
 from claims_study import STUDY_CLAIMS
 from claims_tables import cell, jumps, total, where
 from claims_tables import column as of
 from claims_tables import said, table
 
-CLAIMS = list(STUDY_CLAIMS)
+CLAIMS = [*STUDY_CLAIMS, *LAZY_CLAIMS]
 E_PD, PHONG = "euclidean", "phong@0.2"
 
 
