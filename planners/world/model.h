@@ -13,7 +13,8 @@ enum class Model {
   // all of it for others, the window where limits of a build refuse that.
   kAuto,
   // Free space alone (World::Convolution), and of the contact space what leads
-  // from start to goal (WindowPlanner).
+  // from start to goal (WindowPlanner), or what a metric that is asked for
+  // depends on along the iterates of an optimiser (WindowMetric).
   kWindow,
   kFull,
 };

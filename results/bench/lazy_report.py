@@ -141,7 +141,9 @@ def main():
         "compared with the whole contact space's, and so is PhongPD's from windows. "
         f"`ConvolutionModel` tells free space without either.\n\n{found}\n\n"
         f"{tables_and_figures(tables, figures)}\nAll boxes: [volume.csv](volume.csv)"
-        f". All pairs of the guard: [guard.csv](guard.csv)\n\n{measured}\n",
+        f". All pairs of the guard: [guard.csv](guard.csv). Paths optimised with a "
+        f"metric from windows, and what windows lose: [window_path.md]"
+        f"(window_path.md).\n\n{measured}\n",
         tables, figures)
 
 
