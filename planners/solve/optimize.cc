@@ -73,6 +73,12 @@ bool UsesWindow(const World& world, const OptimizeRequest& request,
   return internal::UsesWindow(world, request.model, layouts, refusal);
 }
 
+// Beside what refused the whole.
+void TellRefusal(const std::string& what, PathAnswer* answer) {
+  std::string& refusal = answer->evidence.refusal;
+  refusal += (refusal.empty() ? "" : "; ") + ("windows: " + what);
+}
+
 PipelineResult RunInWindow(const World& world, const OptimizeRequest& request,
                            PathAnswer* answer) {
   const TrajectoryProblem problem = ProblemOf(world, request, Model::kWindow);
@@ -84,9 +90,9 @@ PipelineResult RunInWindow(const World& world, const OptimizeRequest& request,
       return internal::OptimizeByWindows(world, request, problem, domain,
                                          &answer->windows);
     } catch (const BuildRefusal& error) {
-      answer->evidence.refusal = error.what();
+      TellRefusal(error.what(), answer);
     } catch (const std::logic_error& error) {
-      answer->evidence.refusal = error.what();
+      TellRefusal(error.what(), answer);
     }
     answer->windows.reset();
   }

@@ -29,7 +29,8 @@ struct PathEvidence {
   // before anything was built.
   std::optional<Model> model;
   std::shared_ptr<const FreeSpace> free_space;  // that judge; null: none
-  // Why Model::kAuto took the window; empty: it did not, or was not forced to.
+  // Why Model::kAuto took the window, and why a metric could not be had from
+  // windows; empty: it did not, or was not forced to.
   std::string refusal;
   // The exact judge's word on the path: free, or the first crossing.
   PathCheck check;

@@ -41,11 +41,10 @@ void RequireMetricIsFollowed(const OptimizeFlags& flags, const Scene& scene) {
   if (metric != MetricKind::kPhong) {
     if (flags.rows == 1 && !flags.per_obstacle) return;
     throw InputError(
-        std::string(flags.per_obstacle ? "--per-obstacle: expected none"
-                                       : "--rows: expected 1") +
-        " with model window and metric " + ToString(metric) + ", found " +
-        (flags.per_obstacle ? "it" : std::to_string(flags.rows)) +
-        "; take --model full");
+        std::string(flags.per_obstacle ? "--per-obstacle" : "--rows") +
+        ": expected none with model window and metric " + ToString(metric) +
+        ", which windows follow by one row a sample, found one; take --model "
+        "full");
   }
   for (const auto& [name, value] :
        {std::make_pair("--metric", flags.metric),
@@ -164,20 +163,16 @@ RunSummary SummarizeTrajectory(const OptimizeFlags& flags,
 void TellTrajectoryModel(const PathAnswer& answer) {
   const PathEvidence& evidence = answer.evidence;
   if (evidence.model != Model::kWindow) return;
-  if (answer.windows) {
-    Note("model window: the metric from " +
-         std::to_string(answer.windows->boxes) + " boxes of the contact space" +
-         (evidence.refusal.empty()
-              ? std::string()
-              : ", as the whole is refused: " + evidence.refusal));
-    return;
-  }
-  Note(
-      "model window: free space alone, so no metric is followed; rrt-connect "
-      "where the line collides, then the corridor" +
-      (evidence.refusal.empty()
-           ? std::string()
-           : ", as the whole is refused: " + evidence.refusal));
+  const std::string made =
+      answer.windows
+          ? "the metric from " + std::to_string(answer.windows->boxes) +
+                " boxes of the contact space"
+          : "free space alone, so no metric is followed; "
+            "rrt-connect where the line collides, then the corridor";
+  Note("model window: " + made +
+       (evidence.refusal.empty()
+            ? std::string()
+            : ", as the whole is refused: " + evidence.refusal));
 }
 
 // Of the paper's optimiser nothing runs, and what would steer it says nothing.
