@@ -70,7 +70,8 @@ def sentences_of(groups):
             f"on {sum(s <= MOST_SHARE for s in modelling.values())} (median "
             f"{rounded(median(list(modelling.values())))}, worst {worst}, "
             f"{rounded(modelling[worst])}); the path is the same in "
-            f"{sum(map(is_same, rows))} of {len(rows)} problems.")
+            f"{sum(map(is_same, rows))} of {len(rows)} problems, and the objective "
+            f"at most {rounded(max(map(gained, pairs.values())))} times the whole's.")
 
 
 def losses_of(folder):
