@@ -55,14 +55,20 @@ SignedMetric::SignedMetric(const ContactSpace& space,
 SignedMetric::SignedMetric(const ContactSpace& space,
                            std::shared_ptr<const PenetrationMetric> metric,
                            const SignedMetricOptions& options)
-    : options_(options), space_(space), metric_(std::move(metric)) {
+    : SignedMetric(std::move(metric), options) {
+  space_ = space;
+  reach_ = kRowReach * space.length();
+  features_ = std::make_shared<FeatureSearch>(space);
+}
+
+SignedMetric::SignedMetric(std::shared_ptr<const PenetrationMetric> metric,
+                           const SignedMetricOptions& options)
+    : options_(options), metric_(std::move(metric)) {
   options_.Validate();
   if (metric_ == nullptr) {
     throw InputError(
         "signed metric: expected a penetration metric, found null");
   }
-  reach_ = kRowReach * space.length();
-  features_ = std::make_shared<FeatureSearch>(space);
 }
 
 MetricRow SignedMetric::Query(const Vector3d& q, const Branch& previous) const {
@@ -89,7 +95,8 @@ void SignedMetric::Query(const Vector3d& q, const Branch& previous, int count,
   if (count == 1) return;
   std::array<Vector3d, kMaxMetricRows> taken;
   taken[0] = rows[0].gradient;
-  bool has_more = !rows[0].inside && rows[0].status != QueryStatus::kInvalid;
+  bool has_more = features_ != nullptr && !rows[0].inside &&
+                  rows[0].status != QueryStatus::kInvalid;
   for (int k = 1; k < count; ++k) {
     rows[k] = rows[0];
     FeatureSearch::Feature feature;

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <memory>
+#include <optional>
 
 #include "core/projection/penetration_metric.h"
 #include "core/projection/phong_metric.h"
@@ -90,9 +91,15 @@ class SignedMetric {
   SignedMetric(const ContactSpace& space,
                std::shared_ptr<const PenetrationMetric> metric,
                const SignedMetricOptions& options);
+  // The same without a contact space (WindowMetric): further walls are not
+  // known, so rows after the first repeat it.
+  SignedMetric(std::shared_ptr<const PenetrationMetric> metric,
+               const SignedMetricOptions& options);
 
   const SignedMetricOptions& options() const { return options_; }
-  const ContactSpace& space() const { return space_; }
+  bool HasSpace() const { return space_.has_value(); }
+  // Of those that have one.
+  const ContactSpace& space() const { return *space_; }
 
   // Writes `count` = K rows, K in [1, kMaxMetricRows].  With a valid `previous`
   // branch the inside value continues that branch, otherwise it is the least
@@ -106,10 +113,10 @@ class SignedMetric {
 
  private:
   SignedMetricOptions options_;
-  ContactSpace space_;
+  std::optional<ContactSpace> space_;
   double reach_ = 0.0;  // user's unit
   std::shared_ptr<const PenetrationMetric> metric_;
-  std::shared_ptr<const FeatureSearch> features_;
+  std::shared_ptr<const FeatureSearch> features_;  // null: without a space
 };
 
 }  // namespace phongpd

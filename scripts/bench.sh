@@ -60,9 +60,10 @@ if [[ $suite == contact-space || $suite == all ]]; then
     --output results/contact-space
 fi
 if [[ $suite == lazy || $suite == all ]]; then
-  scripts/build.sh lazy_benchmark culling_benchmark
+  scripts/build.sh lazy_benchmark culling_benchmark window_path_benchmark
   build/lazy_benchmark --output results/lazy --queries 60
   build/culling_benchmark --output results/lazy
+  build/window_path_benchmark --output results/lazy
   python3 -B results/bench/lazy_report.py --output results/lazy
 fi
 if [[ $suite == convergence || $suite == all ]]; then
@@ -156,7 +157,7 @@ if [[ $suite == extremes || $suite == all ]]; then
   # Every test program with a suite named *Campaign* takes part.
   mapfile -t tests < <(grep -rlE '^TEST(_[FP])?\([A-Za-z]*Campaign' tests \
     --include='*_test.cc' | xargs -n 1 basename -s .cc | sort)
-  scripts/build.sh phongpd motion_set "${tests[@]}"
+  scripts/build.sh phongpd motion_set degradation_benchmark "${tests[@]}"
   logs=$PWD/build/extremes
   rm -rf "$logs"
   mkdir -p "$logs"
@@ -173,6 +174,8 @@ if [[ $suite == extremes || $suite == all ]]; then
   printf '%s\n' "${tests[@]}" | xargs -P 2 -I{} bash -c 'campaign {}'
   # Exit code 1, wrong answers of ours, is the report's to tell.
   build/motion_set --output results/extremes || (($? == 1))
+  build/degradation_benchmark --output results/extremes
+  python3 -B results/bench/degradation_report.py --output results/extremes
   python3 -B results/bench/extremes_report.py --logs "$logs" \
     --output results/extremes --program build/phongpd \
     --how "scripts/bench.sh extremes"

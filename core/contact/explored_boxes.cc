@@ -11,6 +11,7 @@
 #include "core/contact/build_stages.h"
 #include "core/contact/convolution_model_data.h"
 #include "core/contact/surface_description.h"
+#include "core/minkowski/convolution/occupied_region.h"
 
 namespace phongpd::internal {
 namespace {
@@ -78,15 +79,48 @@ SurfacePiece FacesThat(const SurfacePiece& piece, const Keep& keep) {
   return out;
 }
 
+// Leaves out the facets that lie in C_obj wherever they meet the box.  Of parts
+// of a partition nobody knows the origins.
+void DropOccupied(const OccupiedBalls& balls, const BoundingBox& box,
+                  const BuildLimits& limits, WindowConvolution* sums) {
+  const Convolution& all = sums->convolution;
+  const OccupiedRegion region(balls, box, all, limits);
+  WindowConvolution kept;
+  for (std::size_t f = 0; f < all.facets.size(); ++f) {
+    Vector3d corners[3];
+    for (int k = 0; k < 3; ++k) {
+      corners[k] = ToDouble(all.points[all.facets[f].corners[k]]);
+    }
+    if (region.Contains(corners)) continue;
+    kept.convolution.facets.push_back(all.facets[f]);
+  }
+  kept.convolution.points = std::move(sums->convolution.points);
+  *sums = std::move(kept);
+}
+
+BoxPartition::IsVoid VoidWhereOccupied(const OccupiedBalls* balls) {
+  if (balls == nullptr) return {};
+  return [balls, last = 0](const GridWindow& window) mutable {
+    const BoundingBox box = window.Box();
+    return balls->Contain(box.Center(), 0.5 * box.Diagonal(), &last);
+  };
+}
+
 }  // namespace
 
 ExploredBoxes::ExploredBoxes(const ConvolutionModel& model,
-                             std::size_t most_facets)
+                             std::size_t most_facets, Purpose purpose)
     : model_(model),
       pair_(model_.data().pair),
       judge_(pair_.obstacle, pair_.reflected_robot),
+      occupied_(purpose == Purpose::kRooms
+                    ? nullptr
+                    : std::make_unique<const OccupiedBalls>(
+                          pair_.obstacle, pair_.reflected_robot,
+                          OccupiedBalls::Asked::kSeldom)),
       sums_(pair_.obstacle, pair_.reflected_robot),
-      partition_(sums_, Around(kBorderShare), most_facets) {
+      partition_(sums_, Around(kBorderShare), most_facets,
+                 VoidWhereOccupied(occupied_.get())) {
   RestartLimits();
 }
 
@@ -115,9 +149,10 @@ const ExploredBoxes::Box& ExploredBoxes::Explore(
   limits_->Look("exploration");
   const GridWindow& window = partition_.window(box);
   Box added;
-  added.patches = partition_.Walls(box);
-  WindowCells cells(partition_.Take(box), window, added.patches, judge_,
-                    *limits_);
+  added.patches = occupied_ ? WholeWalls(window) : partition_.Walls(box);
+  WindowConvolution sums = partition_.Take(box);
+  if (occupied_) DropOccupied(*occupied_, window.Box(), *limits_, &sums);
+  WindowCells cells(sums, window, added.patches, judge_, *limits_);
   added.rooms = cells.Rooms();
   for (const Vector3d& q : points) {
     added.rooms_of_points.emplace_back();

@@ -4,12 +4,14 @@
 #include <cstddef>
 #include <functional>
 #include <map>
+#include <memory>
 #include <optional>
 #include <vector>
 
 #include "core/contact/contact_space.h"
 #include "core/contact/convolution_model.h"
 #include "core/minkowski/build_limits.h"
+#include "core/minkowski/convolution/occupied_balls.h"
 #include "core/minkowski/operands/grid_pair.h"
 #include "core/minkowski/operands/solid_collision.h"
 #include "core/minkowski/windows/box_partition.h"
@@ -29,8 +31,16 @@ class ExploredBoxes {
     std::vector<std::vector<int>> rooms_of_points;
   };
 
+  // What they are explored for.
+  enum class Purpose {
+    kRooms,    // to go from one to the next
+    kContact,  // C_cont in each box alone: its walls are whole, and what surely
+               // lies in C_obj is left out before it is arranged
+  };
+
   // Boxes meet about `most_facets` of the convolution.  Keeps the model.
-  ExploredBoxes(const ConvolutionModel& model, std::size_t most_facets);
+  ExploredBoxes(const ConvolutionModel& model, std::size_t most_facets,
+                Purpose purpose = Purpose::kRooms);
 
   // The model's limits count from here, and from construction on.
   void RestartLimits();
@@ -41,7 +51,8 @@ class ExploredBoxes {
   // Those bounds, wider by `share` of their longest side, walls odd.
   GridWindow Around(double share) const;
 
-  // Those that meet a closed box of grid steps.
+  // Those that meet a closed box of grid steps, but for such that surely lie
+  // in C_obj.
   std::vector<int> In(const BoundingBox& box) {
     return partition_.LeavesIn(box);
   }
@@ -62,7 +73,7 @@ class ExploredBoxes {
   // sums beyond which everything is free.  To be taken for a contact space:
   // what is free of it, and within the box, is free.  Throws std::logic_error
   // where rooms do not fit together because cells at their walls are too thin
-  // to be judged.
+  // to be judged.  For kContact a box alone.
   ContactSpace::Parts Surface(
       const std::vector<int>& boxes,
       const std::function<bool(int box, int room)>& is_kept) const;
@@ -75,6 +86,7 @@ class ExploredBoxes {
   const GridPair& pair_;
   std::optional<BuildLimits> limits_;
   SolidCollision judge_;
+  std::unique_ptr<const OccupiedBalls> occupied_;  // null: kRooms
   FeatureSums sums_;
   BoxPartition partition_;
   std::map<int, Box> explored_;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <limits>
 #include <vector>
 
 #include "core/bvh/triangle_bvh.h"
@@ -11,6 +12,25 @@
 #include "core/projection/penetration_metric.h"
 
 namespace phongpd {
+
+// The point of a surface that is nearest to some q_o.
+struct NearestContact {
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();
+  double distance = std::numeric_limits<double>::infinity();
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();  // outward; zero: unknown
+  bool is_in_facet = false;                          // not on an edge or vertex
+  int triangle = -1;
+};
+
+// Σ λ_i q_i on a triangle, exact to an ulp where a coordinate is constant.
+Eigen::Vector3d PointOn(const TriangleMesh& mesh, int triangle,
+                        const Eigen::Vector3d& lambda);
+
+// The Euclidean answer that it makes, at a q_o whose location is known, in a
+// frame of that scale (TriangleBvh::scale): ContactSurface::Answer.
+PenetrationResult EuclideanAnswer(const NearestContact& nearest,
+                                  const Eigen::Vector3d& q_o, Location location,
+                                  double scale) noexcept;
 
 // Euclidean answers over a contact space.  EuclideanMetric answers with it
 // everywhere; PhongMetric outside and where no projection exists, so that the
@@ -27,7 +47,7 @@ class ContactSurface {
 
   // What a distance is at least off the surface, where rounding says 0: far
   // below any rounding, so that 0 means touching and the sign is exact.
-  double LeastDistance() const { return 0x1p-104 / bvh_->scale(); }
+  double LeastDistance() const;
 
   // Euclidean answer at an accepted q whose location is known.  The direction
   // is the facet's normal where q_c is inside a facet or q lies on it (to
@@ -40,8 +60,10 @@ class ContactSurface {
     return bvh_->FindClosest(q).distance;
   }
 
-  // Σ λ_i q_i on a triangle, exact to an ulp where a coordinate is constant.
-  Eigen::Vector3d Point(int triangle, const Eigen::Vector3d& lambda) const;
+  // PointOn the mesh.
+  Eigen::Vector3d Point(int triangle, const Eigen::Vector3d& lambda) const {
+    return PointOn(mesh(), triangle, lambda);
+  }
   const TriangleMesh& mesh() const { return space_.mesh(); }
   const ContactSpace& space() const { return space_; }
   const TriangleBvh& bvh() const { return *bvh_; }

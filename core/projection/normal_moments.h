@@ -34,6 +34,15 @@ class NormalMoments {
     }
     return sum;
   }
+  // ∫ n (1 − k²|r + t|²) (r + t)ᵀ dA.
+  Eigen::Matrix3d WeightedOffsets(const Eigen::Vector3d& t, double k) const {
+    Eigen::Matrix3d sum;
+    for (int i = 0; i < 3; ++i) {
+      const Of& m = of_[static_cast<std::size_t>(i)];
+      sum.row(i) = (m.r + m.one * t - k * k * m.Cube(t)).transpose();
+    }
+    return sum;
+  }
   double area() const { return area_; }
 
  private:
@@ -48,6 +57,10 @@ class NormalMoments {
     // ∫ |r + t|² and ∫ |r + t|⁴.
     double Square(const Eigen::Vector3d& t) const {
       return rr.trace() + 2.0 * r.dot(t) + t.squaredNorm() * one;
+    }
+    // ∫ |r + t|² (r + t).
+    Eigen::Vector3d Cube(const Eigen::Vector3d& t) const {
+      return rrr + 2.0 * rr * t + t.squaredNorm() * r + Square(t) * t;
     }
     double Fourth(const Eigen::Vector3d& t) const {
       const double tt = t.squaredNorm();

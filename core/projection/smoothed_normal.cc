@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/bvh/triangle_bvh.h"
@@ -135,21 +136,64 @@ void AddTriangle(const TriangleCorners& c, const Vector3d& n,
       kTermRounding * rounding * (1.0 + LengthBound(near) / rr) / 6.0;
 }
 
+// What an edge gives of ∫ (R² − s²) dA and ∫ (R² − s²) s dA, lengths of ρ.
+void AddEdgeOffsets(const Vector3d& p, const Vector3d& q, const Vector3d& n,
+                    double rr, double* height, AngleSum* outside,
+                    Vector3d* along) {
+  const double length = (q - p).norm();
+  if (!(length > 0.0)) return;
+  const Vector3d edge = (q - p) / length;
+  const double y_p = p.dot(edge), y_q = q.dot(edge);
+  const Vector3d& near = std::abs(y_p) < std::abs(y_q) ? p : q;
+  const double d = n.dot(near.cross(edge));
+  const double chord = rr - d * d;
+  const double half_chord = chord > 0.0 ? std::sqrt(chord) : 0.0;
+  const double from = std::max(y_p, -half_chord);
+  const double to = std::min(y_q, half_chord);
+  const auto add_angle = [&](double a, double b) {
+    outside->Add(d * d + a * b, d * (b - a));
+  };
+  if (!(from < to)) {
+    add_angle(y_p, y_q);
+    return;
+  }
+  if (y_p < from) add_angle(y_p, from);
+  if (to < y_q) add_angle(to, y_q);
+  const double m = 0.5 * (from + to), k = 0.5 * (to - from);
+  const double y2 = m * m + k * k / 3.0;
+  const double y4 = m * m * m * m + 2.0 * m * m * k * k + k * k * k * k / 5.0;
+  // ¼ d ∫ 2R² − d² − y² dy, and ∫ (R² − d² − y²)² dy.
+  *height += 0.5 * d * k * (2.0 * rr - d * d - y2);
+  *along -= 0.5 * k * (chord * chord - 2.0 * chord * y2 + y4) * edge.cross(n);
+}
+
+// Adds ∫ (1 − r²) n (p − x)ᵀ dA of a triangle, corners relative to x, lengths
+// of ρ.
+void AddOffsets(const TriangleCorners& c, const Vector3d& n,
+                Eigen::Matrix3d* sum) {
+  const double h = n.dot(c[0]);
+  const double rr = 1.0 - h * h;
+  if (!(rr > 0.0)) return;
+  double height = 0.0;
+  AngleSum outside;
+  Vector3d along = Vector3d::Zero();
+  for (int k = 0; k < 3; ++k) {
+    AddEdgeOffsets(c[k], c[(k + 1) % 3], n, rr, &height, &outside, &along);
+  }
+  height += 0.25 * rr * rr * outside.Value();
+  *sum += n * (h * height * n + along).transpose();
+}
+
 }  // namespace
 
 struct SmoothedNormals::Impl {
-  Impl(const ContactSpace& the_space, double the_radius)
-      : space(the_space),
-        bvh(&space.bvh()),
-        normals(space.normals()),
+  Impl(std::shared_ptr<const TriangleBvh> the_bvh,
+       std::vector<Vector3d> the_normals, double the_radius)
+      : bvh(std::move(the_bvh)),
+        normals(std::move(the_normals)),
         radius(the_radius),
         k(1.0 / (radius * bvh->scale())),
         moments_of(bvh->tree().nodes().size(), -1) {
-    // Walls of a part of C_cont are none of it.
-    const std::vector<ContactKind>& kind = space.kind();
-    for (std::size_t t = 0; t < kind.size(); ++t) {
-      if (kind[t] == ContactKind::kNone) normals[t].setZero();
-    }
     Sum(0);
   }
 
@@ -204,25 +248,63 @@ struct SmoothedNormals::Impl {
         bvh->tree().order()[static_cast<std::size_t>(position)])];
   }
 
-  // Adds all of a subtree that is within ρ; false where that is not known or
-  // its triangles are quicker.
-  bool AddWhole(const Vector3d& x, int index, SmoothedNormal* sum) const {
+  // Moments of a subtree that is within ρ; null where that is not known or its
+  // triangles are quicker.
+  const NormalMoments* WholeWithin(const Vector3d& x, int index) const {
     const int kept = moments_of[static_cast<std::size_t>(index)];
-    if (kept < 0) return false;
+    if (kept < 0) return nullptr;
     const BoxTree::Node& node =
         bvh->tree().nodes()[static_cast<std::size_t>(index)];
     const Vector3d reach = (Between(x, node.min).cwiseAbs())
                                .cwiseMax(Between(x, node.max).cwiseAbs());
-    if (!((k * reach).squaredNorm() <= 1.0)) return false;
-    const NormalMoments& m = moments[static_cast<std::size_t>(kept)];
+    return (k * reach).squaredNorm() <= 1.0
+               ? &moments[static_cast<std::size_t>(kept)]
+               : nullptr;
+  }
+  Vector3d Center(int index) const {
+    return Center(bvh->tree().nodes()[static_cast<std::size_t>(index)]);
+  }
+
+  // Adds all of a subtree that is within ρ; false where it is not.
+  bool AddWhole(const Vector3d& x, int index, SmoothedNormal* sum) const {
+    const NormalMoments* const m = WholeWithin(x, index);
+    if (m == nullptr) return false;
     const double kk = k * k;
-    sum->integral += kk * m.Weighted(Between(x, Center(node)), k);
-    sum->rounding += kTermRounding * kk * m.area();
+    sum->integral += kk * m->Weighted(Between(x, Center(index)), k);
+    sum->rounding += kTermRounding * kk * m->area();
     return true;
   }
 
-  ContactSpace space;
-  const TriangleBvh* bvh;         // of the space, which keeps it
+  // Calls whole(node) of subtrees that meet the ball, until that is true, and
+  // else triangle(corners, normal) with corners relative to x in lengths of ρ.
+  // Nothing where x is not finite.
+  template <typename Whole, typename OfTriangle>
+  void ForEachWithin(const Vector3d& x, const Whole& whole,
+                     const OfTriangle& triangle) const {
+    if (!IsFinite(x - bvh->center())) return;
+    const BoxTree& tree = bvh->tree();
+    tree.ForEach(
+        [&](int index) {
+          const BoxTree::Node& node =
+              tree.nodes()[static_cast<std::size_t>(index)];
+          const Vector3d gap =
+              k *
+              Between(x, node.min).cwiseMax(Between(node.max, x)).cwiseMax(0.0);
+          return gap.squaredNorm() < 1.0 && !whole(index);
+        },
+        [&](int position) {
+          const Vector3d& n = NormalAt(position);
+          if (n.isZero(0.0)) return true;
+          const TriangleCorners& c =
+              bvh->corners()[static_cast<std::size_t>(position)];
+          triangle(TriangleCorners{k * Between(x, c[0]), k * Between(x, c[1]),
+                                   k * Between(x, c[2])},
+                   n);
+          return true;
+        });
+  }
+
+  std::shared_ptr<const TriangleBvh> bvh;
   std::vector<Vector3d> normals;  // of triangles; zero: counts for nothing
   double radius;
   double k;                     // 1/ρ in the frame of the tree
@@ -237,8 +319,22 @@ SmoothedNormals::SmoothedNormals(const ContactSpace& space, double radius) {
                      FormatDouble(least) + " (1e-9 of the diagonal), found " +
                      FormatDouble(radius));
   }
-  impl_ = std::make_unique<Impl>(space, radius);
+  // The space keeps its tree, and a copy of it is kept with that.
+  const auto kept = std::make_shared<const ContactSpace>(space);
+  std::vector<Vector3d> normals = kept->normals();
+  // Walls of a part of C_cont are none of it.
+  const std::vector<ContactKind>& kind = kept->kind();
+  for (std::size_t t = 0; t < kind.size(); ++t) {
+    if (kind[t] == ContactKind::kNone) normals[t].setZero();
+  }
+  impl_ = std::make_unique<Impl>(
+      std::shared_ptr<const TriangleBvh>(kept, &kept->bvh()),
+      std::move(normals), radius);
 }
+SmoothedNormals::SmoothedNormals(std::shared_ptr<const TriangleBvh> part,
+                                 std::vector<Vector3d> normals, double radius)
+    : impl_(std::make_unique<Impl>(std::move(part), std::move(normals),
+                                   radius)) {}
 SmoothedNormals::~SmoothedNormals() = default;
 SmoothedNormals::SmoothedNormals(SmoothedNormals&&) noexcept = default;
 SmoothedNormals& SmoothedNormals::operator=(SmoothedNormals&&) noexcept =
@@ -247,29 +343,32 @@ SmoothedNormals& SmoothedNormals::operator=(SmoothedNormals&&) noexcept =
 SmoothedNormal SmoothedNormals::At(const Vector3d& x) const noexcept {
   const Impl& impl = *impl_;
   SmoothedNormal sum;
-  if (!IsFinite(x - impl.bvh->center())) return sum;
-  const BoxTree& tree = impl.bvh->tree();
-  tree.ForEach(
-      [&](int index) {
-        const BoxTree::Node& node =
-            tree.nodes()[static_cast<std::size_t>(index)];
-        const Vector3d gap = impl.k * impl.Between(x, node.min)
-                                          .cwiseMax(impl.Between(node.max, x))
-                                          .cwiseMax(0.0);
-        return gap.squaredNorm() < 1.0 && !impl.AddWhole(x, index, &sum);
-      },
-      [&](int position) {
-        const Vector3d& n = impl.NormalAt(position);
-        if (n.isZero(0.0)) return true;
-        const TriangleCorners& c =
-            impl.bvh->corners()[static_cast<std::size_t>(position)];
-        AddTriangle(
-            {impl.k * impl.Between(x, c[0]), impl.k * impl.Between(x, c[1]),
-             impl.k * impl.Between(x, c[2])},
-            n, &sum);
-        return true;
+  impl.ForEachWithin(
+      x, [&](int node) { return impl.AddWhole(x, node, &sum); },
+      [&](const TriangleCorners& c, const Vector3d& n) {
+        AddTriangle(c, n, &sum);
       });
   return sum;
+}
+
+Eigen::Matrix3d SmoothedNormals::DerivativeAt(
+    const Vector3d& x) const noexcept {
+  const Impl& impl = *impl_;
+  Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();  // lengths of ρ
+  impl.ForEachWithin(
+      x,
+      [&](int node) {
+        const NormalMoments* const moments = impl.WholeWithin(x, node);
+        if (moments == nullptr) return false;
+        sum += impl.k * impl.k * impl.k *
+               moments->WeightedOffsets(impl.Between(x, impl.Center(node)),
+                                        impl.k);
+        return true;
+      },
+      [&](const TriangleCorners& c, const Vector3d& n) {
+        AddOffsets(c, n, &sum);
+      });
+  return 4.0 / impl.radius * sum;
 }
 
 double SmoothedNormals::radius() const { return impl_->radius; }

@@ -4,7 +4,9 @@
 #include <Eigen/Core>
 #include <limits>
 #include <memory>
+#include <vector>
 
+#include "core/bvh/triangle_bvh.h"
 #include "core/contact/contact_space.h"
 
 namespace phongpd {
@@ -15,6 +17,13 @@ struct SmoothedNormal {
   Eigen::Vector3d integral = Eigen::Vector3d::Zero();
   // By how much rounding may have moved it, about.
   double rounding = 0.0;
+
+  // Of two parts of a surface, at one point with one ρ.
+  SmoothedNormal& operator+=(const SmoothedNormal& other) {
+    integral += other.integral;
+    rounding += other.rounding;
+    return *this;
+  }
 
   // Is the direction known, to 1e-6 rad by that?  Not beyond ρ, nor where what
   // lies within ρ is symmetric and cancels.
@@ -61,12 +70,29 @@ class SmoothedNormals {
   // ρ, user's unit.  Throws InputError unless it is finite and at least 1e-9
   // of the space's diagonal.
   SmoothedNormals(const ContactSpace& space, double radius);
+  // Of a part of C_cont, which need not be closed: triangles of a tree, at
+  // least one, and their outward unit normals, zero where one counts for
+  // nothing.  What parts give adds up.  ρ as it is: finite and > 0.
+  SmoothedNormals(std::shared_ptr<const TriangleBvh> part,
+                  std::vector<Eigen::Vector3d> normals, double radius);
   ~SmoothedNormals();
   SmoothedNormals(SmoothedNormals&&) noexcept;
   SmoothedNormals& operator=(SmoothedNormals&&) noexcept;
 
   // Finite x and x − centre of the space (zero, without a direction, else).
   SmoothedNormal At(const Eigen::Vector3d& x) const noexcept;
+
+  // ∂(integral)/∂x of that, entry (i, j) of coordinate i by x_j; 1/user's unit:
+  //
+  //   ∂G_ρ/∂x = 4/ρ² ∮ (1 − r²/ρ²) n (p − x)ᵀ dA   over r < ρ
+  //
+  // continuous in x, since w is differentiable where it ends, and symmetric
+  // where all of C_cont within ρ is there.  In a plane, p − x = h n + s with s
+  // from the foot of x: of the first part the integral is as above, with
+  // ∫₀ˢ (R² − t²) t dt, and of the second −¼ Σ_edges ν ∫ (R² − s²)² dy over
+  // what the disc has of the edge, ν its outward normal: a polynomial.  Zero
+  // where x is not finite.
+  Eigen::Matrix3d DerivativeAt(const Eigen::Vector3d& x) const noexcept;
 
   double radius() const;
 

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "planners/solve/optimize.h"
 
+#include <stdexcept>
 #include <utility>
 
+#include "core/minkowski/build_stop.h"
 #include "planners/solve/finish_answer.h"
 #include "planners/solve/optimize_among_moving.h"
+#include "planners/solve/optimize_by_windows.h"
 #include "planners/solve/optimize_in_free_space.h"
 #include "planners/solve/optimize_in_time.h"
 #include "planners/solve/plan.h"
@@ -70,10 +73,29 @@ bool UsesWindow(const World& world, const OptimizeRequest& request,
   return internal::UsesWindow(world, request.model, layouts, refusal);
 }
 
-PipelineResult RunInWindow(const World& world, const OptimizeRequest& request) {
+// Beside what refused the whole.
+void TellRefusal(const std::string& what, PathAnswer* answer) {
+  std::string& refusal = answer->evidence.refusal;
+  refusal += (refusal.empty() ? "" : "; ") + ("windows: " + what);
+}
+
+PipelineResult RunInWindow(const World& world, const OptimizeRequest& request,
+                           PathAnswer* answer) {
   const TrajectoryProblem problem = ProblemOf(world, request, Model::kWindow);
   const MotionDomain domain = {
       problem.free_space, WindowRegion(world, request.start, request.goal)};
+  if (internal::HasWindowMetric(request)) {
+    // What windows cannot model is said, and free space does without.
+    try {
+      return internal::OptimizeByWindows(world, request, problem, domain,
+                                         &answer->windows);
+    } catch (const BuildRefusal& error) {
+      TellRefusal(error.what(), answer);
+    } catch (const std::logic_error& error) {
+      TellRefusal(error.what(), answer);
+    }
+    answer->windows.reset();
+  }
   return OptimizeInFreeSpace(problem, domain, request.options,
                              request.search_time);
 }
@@ -100,8 +122,8 @@ void OptimizePolyline(const World& world, const OptimizeRequest& request,
   answer->evidence.free_space =
       is_window ? world.Convolution().free_space
                 : world.Spaces(LayoutOf(request)).free_space;
-  PipelineResult found =
-      is_window ? RunInWindow(world, request) : RunInFull(world, request);
+  PipelineResult found = is_window ? RunInWindow(world, request, answer)
+                                   : RunInFull(world, request);
   answer->status = found.status;
   answer->reason = found.reason;
   if (IsStartBlocked(found.status) || IsGoalBlocked(found.status)) {

@@ -76,8 +76,12 @@ void ApplyPreset(Preset preset, OptimizeRequest* request);
 // start or goal is not free, the answer says so before anything is built.
 //
 // Without limits: TrajectoryPipeline with the metric asked for, one solve at a
-// time in a process; if only free space is modelled there is no metric to
-// follow (OptimizeInFreeSpace).
+// time in a process.  In a window euclidean and smoothed metrics are followed
+// from what of C_cont lies about the iterates (PathAnswer::windows,
+// window_metric.h), one row a sample, and rrt-connect finds the starts.  With
+// other metrics, rows or layouts, and where the answer's evidence says why
+// windows failed, only free space is modelled and there is no metric to follow
+// (OptimizeInFreeSpace).
 //
 // With limits: OptimizeCurve, from the path that contact-surface finds from
 // place to place.  If a place is not free the status is kViaNotFree.  If no

@@ -71,36 +71,15 @@ class Run {
   }
 
   Path Search(int route) {
-    const Stopwatch search;
-    OmplPlanningOptions options;
-    options.time_limit = std::min(planner_seconds_, Left());
-    options.seed = options_.seed + static_cast<std::uint64_t>(route);
-    OmplPlanningResult found =
-        PlanWithOmpl(domain_, problem_.start, problem_.goal, kPlanner, options);
-    Path path;
-    if (found.collision_free) {
-      ShorteningOptions shortening;
-      shortening.clearance = problem_.margin * Diagonal(problem_);
-      shortening.seed = options.seed;
-      path = ResampleKeepingCorners(
-          ShortenPath(found.path, *problem_.free_space, shortening),
-          problem_.waypoints);
-      if (path.empty()) {
-        Fail("the way found has more corners than the path's " +
-             std::to_string(problem_.waypoints) + " waypoints");
-      } else if (!CheckPath(*problem_.free_space, path).free) {
-        Fail("the way found is too narrow for its rounded waypoints");
-        path.clear();
-      }
-    } else {
-      Fail(std::string(ToString(kPlanner)) + " found no way (" + found.status +
-           "), which proves nothing");
-    }
-    result_.repair.seconds += search.Seconds();
-    Note({"start", route, path.empty() ? "failed" : ToString(kPlanner), false,
-          0.0, 0, search.Seconds()},
-         path);
-    return path;
+    SearchedWay way =
+        SearchWay(problem_, domain_, std::min(planner_seconds_, Left()),
+                  options_.seed + static_cast<std::uint64_t>(route));
+    if (way.path.empty()) Fail(way.reason);
+    result_.repair.seconds += way.seconds;
+    Note({"start", route, way.path.empty() ? "failed" : ToString(kPlanner),
+          false, 0.0, 0, way.seconds},
+         way.path);
+    return std::move(way.path);
   }
 
   void Improve(const Path& start, int route) {
@@ -153,6 +132,38 @@ class Run {
 };
 
 }  // namespace
+
+SearchedWay SearchWay(const TrajectoryProblem& problem,
+                      const MotionDomain& domain, double planner_seconds,
+                      std::uint64_t seed) {
+  const Stopwatch stopwatch;
+  OmplPlanningOptions options;
+  options.time_limit = planner_seconds;
+  options.seed = seed;
+  const OmplPlanningResult found =
+      PlanWithOmpl(domain, problem.start, problem.goal, kPlanner, options);
+  SearchedWay way;
+  if (found.collision_free) {
+    ShorteningOptions shortening;
+    shortening.clearance = problem.margin * Diagonal(problem);
+    shortening.seed = seed;
+    way.path = ResampleKeepingCorners(
+        ShortenPath(found.path, *problem.free_space, shortening),
+        problem.waypoints);
+    if (way.path.empty()) {
+      way.reason = "the way found has more corners than the path's " +
+                   std::to_string(problem.waypoints) + " waypoints";
+    } else if (!CheckPath(*problem.free_space, way.path).free) {
+      way.reason = "the way found is too narrow for its rounded waypoints";
+      way.path.clear();
+    }
+  } else {
+    way.reason = std::string(ToString(kPlanner)) + " found no way (" +
+                 found.status + "), which proves nothing";
+  }
+  way.seconds = stopwatch.Seconds();
+  return way;
+}
 
 PipelineResult OptimizeInFreeSpace(const TrajectoryProblem& problem,
                                    const MotionDomain& domain,

@@ -1,10 +1,25 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstdint>
+#include <string>
+
 #include "planners/ompl/motion_domain.h"
 #include "planners/trajectory/trajectory_pipeline.h"
 
 namespace phongpd {
+
+// One way from start to goal by rrt-connect, shortened; exactly free, of
+// waypoints + 2 points.  None found: the path is empty, for a reason, which is
+// no proof.
+struct SearchedWay {
+  Path path;
+  std::string reason;
+  double seconds = 0.0;
+};
+SearchedWay SearchWay(const TrajectoryProblem& problem,
+                      const MotionDomain& domain, double planner_seconds,
+                      std::uint64_t seed);
 
 // The trajectory pipeline where free space is all that is known (model
 // window): no penetration metric, so nothing leads out of a collision.

@@ -10,6 +10,7 @@
 
 #include "constraints/trajectory.h"
 #include "core/contact/free_space_flood.h"
+#include "core/projection/window_use.h"
 #include "planners/exact/contact_surface_planner.h"
 #include "planners/exact/verification.h"
 #include "planners/ompl/ompl_planning.h"
@@ -28,7 +29,8 @@ struct PathEvidence {
   // answer was known before anything was built.
   std::optional<Model> model;
   std::shared_ptr<const FreeSpace> free_space;  // its judge; null: none
-  // Why Model::kAuto had to take the window; empty: it did not have to.
+  // Why Model::kAuto had to take the window, and why a metric could not be had
+  // from windows; empty: it did not have to, and it could.
   std::string refusal;
   // The exact judge's word on the path: free, or the first crossing.
   PathCheck check;
@@ -93,6 +95,9 @@ struct PathAnswer {
   std::optional<PlanWork> plan;
   std::optional<PipelineResult> pipeline;  // of Optimize without limits
   std::optional<CurveSummary> curve;       // of Optimize with limits
+  // What of C_cont the metric took that Ipopt followed in a window; none: it
+  // followed the whole, or free space alone was modelled and no metric.
+  std::optional<WindowUse> windows;
 };
 
 }  // namespace phongpd

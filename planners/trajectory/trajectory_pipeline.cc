@@ -48,9 +48,9 @@ struct Candidate {
 // One run of the pipeline.
 class Run {
  public:
-  Run(const TrajectoryProblem& problem, const StartRepair* repair,
+  Run(const TrajectoryProblem& problem, const OwnStarts& starts,
       const PipelineOptions& options)
-      : problem_(problem), repair_(repair), options_(options) {}
+      : problem_(problem), starts_(starts), options_(options) {}
 
   PipelineResult Solve() {
     std::vector<Path> starts;
@@ -114,7 +114,7 @@ class Run {
       repair.clearance = std::max(problem_.margin, 1e-6) * Diagonal(problem_);
       repair.routes = options_.routes;
       repair.seed = options_.seed;
-      result_.repair = repair_->Repair(problem_.start, problem_.goal, repair);
+      result_.repair = starts_.find(repair);
       *starts = result_.repair.routes;
     }
     const PathStatus status = result_.repair.status;
@@ -288,7 +288,7 @@ class Run {
   }
 
   const TrajectoryProblem& problem_;
-  const StartRepair* repair_;
+  const OwnStarts& starts_;
   const PipelineOptions& options_;
   Stopwatch stopwatch_;
   Candidate best_;
@@ -343,18 +343,31 @@ void AddStage(const TrajectoryProblem& problem, const Path& path,
 TrajectoryPipeline::TrajectoryPipeline(
     const TrajectoryProblem& problem, std::shared_ptr<const StartRepair> repair,
     const PipelineOptions& options)
-    : problem_(problem), repair_(std::move(repair)), options_(options) {
+    : TrajectoryPipeline(
+          problem,
+          repair == nullptr
+              ? OwnStarts{}
+              : OwnStarts{[repair, start = problem.start, goal = problem.goal](
+                              const StartRepairOptions& wished) {
+                  return repair->Repair(start, goal, wished);
+                }},
+          options) {}
+
+TrajectoryPipeline::TrajectoryPipeline(const TrajectoryProblem& problem,
+                                       const OwnStarts& starts,
+                                       const PipelineOptions& options)
+    : problem_(problem), starts_(starts), options_(options) {
   problem_.Validate();
   options_.Validate();
   CheckIpoptOptions(options_.optimizer.ipopt);
-  if (repair_ == nullptr && options_.start != TrajectoryStart::kStraight) {
+  if (!starts_.find && options_.start != TrajectoryStart::kStraight) {
     throw InputError(
         "trajectory: start: only a straight one goes without start repair");
   }
 }
 
 PipelineResult TrajectoryPipeline::Solve() const {
-  return Run(problem_, repair_.get(), options_).Solve();
+  return Run(problem_, starts_, options_).Solve();
 }
 
 }  // namespace phongpd

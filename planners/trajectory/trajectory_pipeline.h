@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <memory>
 #include <string>
@@ -95,6 +96,12 @@ PathObserver OfStage(const PathObserver& observer, const std::string& stage,
 void AddStage(const TrajectoryProblem& problem, const Path& path,
               StageRecord stage, PipelineResult* result);
 
+// Whoever finds the free ways that kRepaired starts from instead of
+// StartRepair, and answers as that does.
+struct OwnStarts {
+  std::function<StartRepairResult(const StartRepairOptions& wished)> find;
+};
+
 // The default way to a trajectory:
 //
 //   start → Ipopt → exact judge → corridor where that is needed → exact judge
@@ -122,12 +129,15 @@ class TrajectoryPipeline {
                      std::shared_ptr<const StartRepair> repair,
                      const PipelineOptions& options = {});
 
+  TrajectoryPipeline(const TrajectoryProblem& problem, const OwnStarts& starts,
+                     const PipelineOptions& options = {});
+
   // One solve at a time in a process (SolveWithIpopt).
   PipelineResult Solve() const;
 
  private:
   TrajectoryProblem problem_;
-  std::shared_ptr<const StartRepair> repair_;
+  OwnStarts starts_;
   PipelineOptions options_;
 };
 

@@ -73,11 +73,11 @@ TrajectoryProblem MakeTrajectoryProblem(
 
 double Diagonal(const TrajectoryProblem& problem) {
   if (problem.diagonal > 0.0) return problem.diagonal;
-  if (!problem.metrics.empty()) {
-    std::vector<ContactSpace> spaces;
-    for (const auto& metric : problem.metrics) {
-      spaces.push_back(metric->space());
-    }
+  std::vector<ContactSpace> spaces;
+  for (const auto& metric : problem.metrics) {
+    if (metric->HasSpace()) spaces.push_back(metric->space());
+  }
+  if (!spaces.empty()) {
     return WithCommonLength(std::move(spaces))[0].length();
   }
   const double length = (problem.goal - problem.start).stableNorm();

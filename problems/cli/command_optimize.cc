@@ -35,9 +35,19 @@ constexpr char kOptimizePresetHelp[] =
     "time, energy 0.43 % above the least found (balanced: 0.43 %); tight: 3 "
     "routes and the corridor always, 2.2 times the time, 0.31 %";
 
-// What says how a metric is followed says nothing where none is.
+// What says how a metric is followed says nothing where none is; windows know
+// some metrics, one row a sample (optimize.h).
 void RequireMetricIsFollowed(const OptimizeFlags& flags, const Scene& scene) {
   if (scene.trajectory.model != Model::kWindow) return;
+  const MetricKind metric = scene.penetration.metric;
+  if (metric != MetricKind::kPhong) {
+    if (flags.rows == 1 && !flags.per_obstacle) return;
+    throw InputError(
+        std::string(flags.per_obstacle ? "--per-obstacle" : "--rows") +
+        ": expected none with model window and metric " + ToString(metric) +
+        ", which windows follow by one row a sample, found one; take --model "
+        "full");
+  }
   for (const auto& [name, value] :
        {std::make_pair("--metric", flags.metric),
         std::make_pair("--smoothing-length", flags.smoothing_length),
@@ -45,7 +55,7 @@ void RequireMetricIsFollowed(const OptimizeFlags& flags, const Scene& scene) {
     if (value.empty()) continue;
     throw InputError(std::string(name) +
                      ": expected none with model window, which follows no "
-                     "penetration metric, found " +
+                     "penetration metric but euclidean and smoothed, found " +
                      value + "; take --model full");
   }
 }
@@ -55,7 +65,6 @@ void Override(const OptimizeFlags& flags, Scene* scene) {
   if (!flags.model.empty()) {
     scene->trajectory.model = ParseModel(flags.model, "--model");
   }
-  RequireMetricIsFollowed(flags, *scene);
   PenetrationSpec& spec = scene->penetration;
   if (!flags.metric.empty()) {
     spec.metric = ParseMetricKind(flags.metric, "--metric");
@@ -68,6 +77,7 @@ void Override(const OptimizeFlags& flags, Scene* scene) {
         LengthFlag(flags.smoothing_length, "--smoothing-length",
                    LengthRange::kFromZero, scene);
   }
+  RequireMetricIsFollowed(flags, *scene);
   if (!flags.margin.empty()) {
     scene->trajectory.margin = ParseClearance(
         flags.margin, "--margin", ContactBounds(scene->workspace).Diagonal(),
@@ -152,14 +162,19 @@ RunSummary SummarizeTrajectory(const OptimizeFlags& flags,
 }
 
 // What the model made of the run, on stderr.
-void TellTrajectoryModel(const PathEvidence& evidence) {
+void TellTrajectoryModel(const PathAnswer& answer) {
+  const PathEvidence& evidence = answer.evidence;
   if (evidence.model != Model::kWindow) return;
-  Note(
-      "model window: free space alone, so no metric is followed; rrt-connect "
-      "where the line collides, then the corridor" +
-      (evidence.refusal.empty()
-           ? std::string()
-           : ", as the whole is refused: " + evidence.refusal));
+  const std::string made =
+      answer.windows
+          ? "the metric from " + std::to_string(answer.windows->boxes) +
+                " boxes of the contact space"
+          : "free space alone, so no metric is followed; "
+            "rrt-connect where the line collides, then the corridor";
+  Note("model window: " + made +
+       (evidence.refusal.empty()
+            ? std::string()
+            : ", as the whole is refused: " + evidence.refusal));
 }
 
 // Of the paper's optimiser nothing runs, and what would steer it says nothing.
@@ -297,7 +312,7 @@ class OptimizeRuns {
     }
     const PathAnswer answer = Optimize(world, request);
     model_ = answer.evidence.model;
-    if (is_first) TellTrajectoryModel(answer.evidence);
+    if (is_first) TellTrajectoryModel(answer);
     if (is_first && flags_.explain) {
       TellExplanation(ExplainTrajectory(*flags_.app, world, request, answer));
     }

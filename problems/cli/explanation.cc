@@ -40,10 +40,11 @@ std::string WorldLine(const World& world) {
 std::string ModelLine(const CLI::App& app, Model asked,
                       const PathEvidence& evidence,
                       const std::string& needs_all,
-                      const std::string& is_enough) {
+                      const std::string& is_enough,
+                      const std::string& in_window = "free space alone") {
   if (!evidence.model) return "model: none, nothing had to be built";
   const bool is_window = *evidence.model == Model::kWindow;
-  std::string text = is_window ? "model: window, free space alone ("
+  std::string text = is_window ? "model: window, " + in_window + " ("
                                : "model: full, the whole contact space (";
   if (asked != Model::kAuto) {
     text += Whose(app, "--model", false);
@@ -200,7 +201,9 @@ Lines ExplainTrajectory(const CLI::App& app, const World& world,
       app, request.model, answer.evidence,
       is_motion ? "its first path walks on it, no limit refused it"
                 : "a metric leads out of collisions, no limit refused it",
-      "free space is all that is asked for"));
+      "free space is all that is asked for",
+      answer.windows ? "boxes of the contact space that the metric asks for"
+                     : "free space alone"));
   if (is_motion) {
     lines.push_back(LimitsLine(app, request, answer));
     lines.push_back(
@@ -208,7 +211,8 @@ Lines ExplainTrajectory(const CLI::App& app, const World& world,
         (request.duration > 0.0 ? Rounded(request.duration) + " s as asked for"
                                 : "as few seconds as are found"));
   } else {
-    lines.push_back(MetricLine(app, world, request, is_window));
+    lines.push_back(
+        MetricLine(app, world, request, is_window && !answer.windows));
   }
   lines.push_back(MarginLine(app, world, request));
   if (!is_motion) lines.push_back(StagesLine(answer));

@@ -237,11 +237,20 @@ Json PolylineRow(const Scene& scene, const World& world,
   const PipelineResult& result = *answer.pipeline;
   const TrajectorySummary& ipopt = result.ipopt;
   const bool has_run = !ipopt.path.empty();
-  const bool is_window = answer.evidence.model == Model::kWindow;
+  // Of a window that has no metric.
+  const bool is_window =
+      answer.evidence.model == Model::kWindow && !answer.windows;
   Json row;
   row["scene"] = scene.name;
   row["model"] = ModelUsed(answer);
   const Json smoothing = AddMetric(world, request, is_window, &row);
+  if (answer.windows) {
+    row["windows"] = {{"boxes", answer.windows->boxes},
+                      {"faces", answer.windows->faces},
+                      {"inside", answer.windows->inside},
+                      {"extensions", answer.windows->extensions},
+                      {"seconds", answer.windows->seconds}};
+  }
   AddOptions(request, has_run, &row);
   row["status"] = has_run ? ipopt.raw_status : std::string();
   row["solver_class"] = has_run ? ToString(ipopt.status) : "not_run";

@@ -177,8 +177,9 @@ class World(Shown):
         "clearance_missed".
         preset: "fast", "balanced" or "tight" (phongpd optimize --help); "": the
         scene's.  model: "full", the whole contact space; "window", free space
-        alone and no metric; "auto", window where limits of memory refuse the
-        whole; "": the scene's, and of a polyline full where that is auto.
+        alone, and no metric but "euclidean" and "smoothed", from what of the
+        contact space they meet; "auto", window where limits of memory refuse
+        the whole; "": the scene's, and of a polyline full where that is auto.
         routes: ways around the obstacles that are tried, 1 to 8; 0: the
         preset's.  max_seconds: of a polyline's solve, or of the search for a
         faster curve; there is one before.

@@ -117,17 +117,18 @@ nb::object OptimizeWith(Workshop& workshop, const Point& start,
     request.model = Model::kFull;
   }
   if (!metric.empty()) {
-    if (request.model == Model::kWindow) {
-      throw InputError(
-          "metric: expected none with model window, which follows no metric, "
-          "found " +
-          metric);
-    }
     if (metric == ToString(MetricKind::kPhong)) {
       // By the smoothing length that holds, as the flag of this value does.
       request.penetration.metric = MetricKind::kPhong;
     } else {
       request.penetration = ParsePenetration(metric, "metric");
+    }
+    if (request.model == Model::kWindow &&
+        request.penetration.metric == MetricKind::kPhong) {
+      throw InputError(
+          "metric: expected euclidean or smoothed with model window, which "
+          "follows no other, found " +
+          metric);
     }
   }
   request.requires_margin = is_required;

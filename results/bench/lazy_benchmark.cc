@@ -5,7 +5,6 @@
 // directory, of which lazy_report.py makes the pages.
 #include <CLI/CLI.hpp>
 #include <cmath>
-#include <functional>
 #include <iostream>
 #include <random>
 
@@ -14,10 +13,10 @@
 #include "core/projection/euclidean_metric.h"
 #include "core/stopwatch.h"
 #include "problems/shapes/random_solids.h"
-#include "problems/shapes/shapes.h"
 #include "results/bench/free_space_measure.h"
 #include "results/bench/guard_measure.h"
 #include "results/bench/large_scene_measure.h"
+#include "results/bench/lazy_cases.h"
 #include "results/bench/program.h"
 #include "results/bench/volume_measure.h"
 #include "results/bench/window_phong_measure.h"
@@ -26,38 +25,6 @@ namespace phongpd::bench {
 namespace {
 
 using Eigen::Vector3d;
-using Maker = std::function<TriangleMesh()>;
-
-struct Case {
-  std::string name;
-  Maker robot, obstacle;
-};
-
-std::vector<Case> Cases() {
-  const auto turned = [](const Maker& make) -> Maker {
-    return [make] { return Rotated(make(), GenericRotation()); };
-  };
-  const Maker knot = [] { return MakeKnot(0.5, 0.225, 96, 8); };
-  const Maker wrench = [] { return MakeWrench(); };
-  return {
-      {"ball + wrench", [] { return MakeUvBall(0.4, 24, 22); }, wrench},
-      {"turned wrench + wrench",
-       turned([] { return MakeWrench(0.5, 12, 12, 8, 8); }), wrench},
-      {"cube + hollow shell", turned([] {
-         return MakeBox({-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5});
-       }),
-       [] { return MakeVessel(4, 3, 0); }},
-      {"star + knot", [] { return MakeStar(0.5, 1.2); }, knot},
-      {"star + organic body", [] { return MakeStar(0.5, 1.2); },
-       [] { return MakeBlob(2, 5, 0.35, 1); }},
-      {"turned wrench + scanned torus",
-       turned([] { return MakeWrench(0.5, 24, 24, 20, 18); }),
-       [] { return MakeScan(MakeTorus(2, 0.7, 60, 30), 0.15, 0.002, 3); }},
-      {"knot + scanned body", [] { return MakeKnot(0.3, 0.12, 128, 16); },
-       [] { return MakeScan(MakeBlob(2, 4, 0.35, 1), 0.2, 0.001, 3); }},
-  };
-}
-
 struct Options {
   std::string directory;
   int queries = 200;
@@ -80,7 +47,7 @@ struct CaseRow {
   int uncertified = 0, wrong = 0;
 };
 
-CaseRow Measure(const Case& c, const Options& options) {
+CaseRow Measure(const LazyCase& c, const Options& options) {
   CaseRow row;
   row.name = c.name;
   const TriangleMesh robot = c.robot(), obstacle = c.obstacle();
@@ -177,7 +144,7 @@ int Run(int argc, char** argv) {
   const NamedTable size = LargeSceneSize();
   std::cout << ToText(large.table) << std::endl;
   std::vector<CaseRow> rows;
-  for (const Case& c : Cases()) {
+  for (const LazyCase& c : LazyCases()) {
     rows.push_back(Measure(c, options));
     std::cout << ToText(TableOf({rows.back()}).table) << std::endl;
   }

@@ -1,12 +1,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """README, tables and figure of results/lazy, from the rows that lazy_benchmark
-wrote into the folder; and culling.md, where culling_benchmark's are."""
+wrote into the folder; and culling.md and window_path.md, where the rows of
+culling_benchmark and window_path_benchmark are."""
 
 from python_report import (Figure, parse_folder, read_dicts, read_measured,
                            read_table, rounded, setting, tables_and_figures,
                            write_report)
 from report_statistics import median
 from step_figure import quoted, render
+from window_path_report import write_page
 
 LEVELS = {"free space": "Free space", "window": "The window"}
 # Told apart by colour-blind readers, none of them yellow.
@@ -123,6 +125,8 @@ def main():
     folder = parse_folder(__doc__)
     if (folder / "culling.csv").exists():
         culling_page(folder)
+    if (folder / "window_path.csv").exists():
+        write_page(folder)
     measured = read_measured(folder)
     volumes = read_dicts(folder / "volume.csv")
     found = " ".join([*volume_sentences(volumes),
@@ -137,7 +141,9 @@ def main():
         "compared with the whole contact space's, and so is PhongPD's from windows. "
         f"`ConvolutionModel` tells free space without either.\n\n{found}\n\n"
         f"{tables_and_figures(tables, figures)}\nAll boxes: [volume.csv](volume.csv)"
-        f". All pairs of the guard: [guard.csv](guard.csv)\n\n{measured}\n",
+        f". All pairs of the guard: [guard.csv](guard.csv). Paths optimised with a "
+        f"metric from windows, and what windows lose: [window_path.md]"
+        f"(window_path.md).\n\n{measured}\n",
         tables, figures)
 
 

@@ -80,11 +80,15 @@ def test_a_plan_in_the_window_is_as_sure_as_one_in_the_whole(robot):
         world.plan((-1, 0, 0), (0, 1, 1), model="half")
 
 
-def test_a_trajectory_in_the_window_follows_no_metric(world):
+def test_a_trajectory_in_the_window_follows_what_windows_know(world):
     run = world.optimize(START, GOAL, model="window")
     assert run.free and run.row["model"] == "window"
-    with pytest.raises(phongpd.InputError, match="metric: expected none"):
-        world.optimize(START, GOAL, model="window", metric="euclidean")
+    assert run.row["metric"] == "none" and "windows" not in run.row
+    run = world.optimize(START, GOAL, model="window", metric="euclidean")
+    assert run.free and run.row["metric"] == "euclidean"
+    assert run.row["windows"]["seconds"] >= 0
+    with pytest.raises(phongpd.InputError, match="metric: expected euclidean"):
+        world.optimize(START, GOAL, model="window", metric="phong")
 
 
 def test_a_roadmap_answers_like_the_planner(world):

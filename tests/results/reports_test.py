@@ -22,6 +22,7 @@ import report_statistics as statistics  # noqa: E402
 REPORTS = {"contact_space_report": ("contact-space",),
            "convergence_report": ("convergence",),
            "defaults_report": ("trade",),
+           "degradation_report": ("extremes",),
            "fleet_report": ("fleets",),
            "lazy_report": ("lazy",),
            "paper_report": ("paper",),

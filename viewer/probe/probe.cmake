@@ -41,7 +41,7 @@ endif()
 get_target_property(eigen Eigen3::Eigen INTERFACE_INCLUDE_DIRECTORIES)
 file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/core/bvh/*.cc
      ${PROJECT_SOURCE_DIR}/core/projection/*.cc)
-list(FILTER sources EXCLUDE REGEX "query_batch|window_phong|window_smoothed|to_depth")  # threads
+list(FILTER sources EXCLUDE REGEX "query_batch|explored_surface|window_metric|window_phong|window_smoothed|to_depth")  # threads
 list(APPEND sources ${PROJECT_SOURCE_DIR}/core/contact/contact_space.cc
      ${PROJECT_SOURCE_DIR}/core/mesh/mesh_error.cc
      ${PROJECT_SOURCE_DIR}/core/mesh/edge_sides.cc

@@ -7,6 +7,7 @@
 
 #include "core/minkowski/build_limits.h"
 #include "core/minkowski/convolution/convolution.h"
+#include "core/minkowski/convolution/occupied_balls.h"
 #include "core/minkowski/operands/grid_solid.h"
 
 namespace phongpd::internal {
@@ -15,12 +16,8 @@ namespace phongpd::internal {
 // them: no point of the contact space is there, so that whatever facets do in
 // them does not matter.
 //
-// With s in −A, q − s in the inside of B puts q inside B ⊕ (−A); likewise with
-// points of B and the inside of −A.  A box is occupied if, moved by −s for one
-// of some points s of either operand, its circumscribed ball lies inside the
-// other one, by winding numbers.  An octree, refined only where many facets
-// are. The points are centers of balls in the operands and, of those without
-// cavities, some of the surface.
+// A box is occupied if its circumscribed ball is (occupied_balls.h).  An
+// octree, refined only where many facets are.
 class OccupiedRegion {
  public:
   // Nothing is occupied.
@@ -28,6 +25,10 @@ class OccupiedRegion {
   // Of B = `p` and −A = `q`; the facets say where to look.  Throws BuildRefusal
   // when `limits` are passed.
   OccupiedRegion(const GridSolid& p, const GridSolid& q,
+                 const Convolution& convolution, const BuildLimits& limits);
+  // The same in a box alone, of which the facets are: what they do elsewhere
+  // does not count.
+  OccupiedRegion(const OccupiedBalls& balls, const BoundingBox& box,
                  const Convolution& convolution, const BuildLimits& limits);
 
   bool IsEmpty() const { return root_ == nullptr; }
@@ -42,6 +43,7 @@ class OccupiedRegion {
     std::unique_ptr<std::array<Node, 8>> children;  // none: a leaf
   };
   struct Builder;
+  void Build(const Builder& builder);
   // Is what a leaf meets occupied, wherever meets(box)?
   template <typename Meets>
   static bool ContainsPart(const Node& node, const BoundingBox& box,

@@ -24,8 +24,8 @@ constexpr int kUncounted = 2;
 }  // namespace
 
 BoxPartition::BoxPartition(const FeatureSums& sums, const GridWindow& whole,
-                           std::size_t most)
-    : sums_(sums) {
+                           std::size_t most, IsVoid is_void)
+    : sums_(sums), is_void_(std::move(is_void)) {
   boxes_.emplace_back();
   boxes_.back().part.window = whole;
   boxes_.back().most = most;
@@ -76,7 +76,20 @@ void BoxPartition::Halve(int number, const std::array<GridWindow, 2>& windows,
   box.part.facets = {};
 }
 
-void BoxPartition::Collect(int number, const Range& range,
+bool BoxPartition::IsVoidBox(int number) {
+  if (!is_void_) return false;
+  Box& box = boxes_[static_cast<std::size_t>(number)];
+  if (!box.is_void) {
+    box.is_void = box.halves < 0 && is_void_(box.part.window);
+    if (*box.is_void) {
+      box.of = nullptr;
+      box.part.facets = {};
+    }
+  }
+  return *box.is_void;
+}
+
+void BoxPartition::Collect(int number, const Range& range, bool with_void,
                            std::vector<int>* leaves) {
   const GridWindow& window = Node(number).part.window;
   for (int k = 0; k < 3; ++k) {
@@ -84,14 +97,18 @@ void BoxPartition::Collect(int number, const Range& range,
       return;
     }
   }
+  if (IsVoidBox(number)) {
+    if (with_void) leaves->push_back(number);
+    return;
+  }
   Know(number);
   const int halves = Node(number).halves;
   if (halves < 0) {
     leaves->push_back(number);
     return;
   }
-  Collect(halves, range, leaves);
-  Collect(halves + 1, range, leaves);
+  Collect(halves, range, with_void, leaves);
+  Collect(halves + 1, range, with_void, leaves);
 }
 
 std::vector<int> BoxPartition::LeavesIn(const BoundingBox& box) {
@@ -101,7 +118,7 @@ std::vector<int> BoxPartition::LeavesIn(const BoundingBox& box) {
     range.max[k] = std::llround(std::ceil(4.0 * box.max[k]));
   }
   std::vector<int> leaves;
-  Collect(0, range, &leaves);
+  Collect(0, range, false, &leaves);
   return leaves;
 }
 
@@ -123,7 +140,7 @@ std::vector<WallPatch> BoxPartition::Walls(int leaf) {
     }
     range.min[axis] = range.max[axis] = 2 * at + (wall.is_high ? 1 : -1);
     std::vector<int> beyond;
-    Collect(0, range, &beyond);
+    Collect(0, range, true, &beyond);
     for (const int other : beyond) {
       WallPatch patch = wall;
       patch.beyond = other;
