@@ -233,8 +233,8 @@ class World(Shown):
     def optimize_in_time(self, start: ArrayLike | None = None,
                          goal: ArrayLike | None = None, *, limits: Any = None,
                          **wishes: Any) -> Motion:
-        """optimize with limits, by the name that it had at first."""
-        warnings.warn("optimize_in_time is optimize(limits=...) now",
+        """optimize with limits, by the name that it had at first, until 0.3."""
+        warnings.warn("optimize_in_time is optimize(limits=...); it goes with 0.3",
                       DeprecationWarning, stacklevel=2)
         if limits is None and self.limits is None:
             raise InputError("limits: expected (velocity, acceleration, jerk), "
