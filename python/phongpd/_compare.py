@@ -139,7 +139,7 @@ def compare(scenes: str | os.PathLike[str] | Sequence[str | os.PathLike[str]], *
     for protocol, metric in methods:
         _native.check_method(text(protocol, "protocols"), text(metric, "metrics"))
     numbers = seed_numbers(seeds)
-    limit, keeps = real(max_mib, "max_mib"), flag(cache, "cache")
+    limit, keeps = real(max_mib, "max_mib", "MiB"), flag(cache, "cache")
     rows, seen = [], set()
     for subject in subjects:
         digest = _native.scene_digest(subject)

@@ -119,7 +119,7 @@ class Motion(Answer, Shown):
     def samples(self, rate: float = 100.0) -> Floats:
         """(M, 10): the columns t,x,y,z,vx,vy,vz,ax,ay,az every 1/rate seconds
         and at the end, as `--output FILE.csv` writes them."""
-        hertz = real(rate, "rate")
+        hertz = real(rate, "rate", "Hz")
         if not 0.0 < hertz <= 1e6:
             raise InputError("rate: expected a number above 0 and at most 1e6 "
                              f"(Hz), found {hertz:g}")

@@ -1,12 +1,15 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 from __future__ import annotations
 
-from collections.abc import Sequence
+import os
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 from . import _native
-from ._arguments import Floats
-from ._solid import Solid
+from ._arguments import Floats, flag, real
+from ._native import InputError
+from ._solid import Solid, as_solid
 
 
 @dataclass(frozen=True)
@@ -68,7 +71,8 @@ def remove(part: Solid, rest: Sequence[Solid], tolerance: float = 0.0,
     part are drawn in by `tolerance` then, in the solids' unit.  Raises
     InputError for walls too thin for that."""
     return _removal(_native.remove(
-        part._native, [one._native for one in rest], float(tolerance), verify))
+        as_solid(part, "part")._native, _solids(rest, "rest"),
+        _length(tolerance), flag(verify, "verify")))
 
 
 def disassemble(parts: Sequence[Solid], tolerance: float = 0.0,
@@ -76,8 +80,20 @@ def disassemble(parts: Sequence[Solid], tolerance: float = 0.0,
     """An order in which all parts come out one by one, as `remove` has it of
     each; what is taken away only gives room, so that none is missed."""
     steps, stuck = _native.disassemble(
-        [one._native for one in parts], float(tolerance), verify)
+        _solids(parts, "parts"), _length(tolerance), flag(verify, "verify"))
     return Disassembly(list(map(_removal, steps)), list(map(_removal, stuck)))
+
+
+def _solids(values: Any, name: str) -> list[_native.Solid]:
+    if isinstance(values, (str, os.PathLike)) or not isinstance(
+            values, Iterable):
+        raise InputError(f"{name}: expected a list of solids, found "
+                         f"{type(values).__name__}")
+    return [as_solid(one, f"{name} {i}")._native for i, one in enumerate(values)]
+
+
+def _length(tolerance: Any) -> float:
+    return real(tolerance, "tolerance", "in the solids' unit")
 
 
 def _removal(row: tuple[int, str, str, Floats, float, float, float, float,

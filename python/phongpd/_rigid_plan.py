@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _native
-from ._arguments import Floats, numbers
+from ._arguments import Floats, numbers, real, whole_number
 from ._colours import GRID, LINE_COLOURS
 from ._native import InputError
 from ._plots import new_axes, plot_vectors
@@ -104,7 +104,8 @@ class RigidWorld:
             raise InputError(f"bounds: expected shape (2, 3), found {box.shape}")
         status, reason, rows, length, planner, seconds = self._native.plan(
             np.stack([_pose(start, "start"), _pose(goal, "goal")]), box,
-            float(time_limit), seed)
+            real(time_limit, "time_limit", "seconds"),
+            whole_number(seed, "seed", 0, 2 ** 64 - 1))
         return RigidPlan(status, reason, np.array(list(map(_matrix, rows))
                                                   ).reshape(-1, 4, 4),
                          length, planner, seconds)

@@ -56,7 +56,7 @@ class World(Shown):
 
     def _open(self, scene: Any, cache: bool, max_mib: float) -> None:
         self._native = _native.World(scene, flag(cache, "cache"),
-                                     real(max_mib, "max_mib"))
+                                     real(max_mib, "max_mib", "MiB"))
 
     @classmethod
     def load(cls, scene: str | os.PathLike[str], *, seed: int | None = None,
@@ -298,7 +298,7 @@ class World(Shown):
             raise InputError("limits: expected (velocity, acceleration, jerk), "
                              "found None, and the scene has none")
         return _native.MotionWishes(
-            motion_limits(known, of_norm), via, real(duration, "duration"),
+            motion_limits(known, of_norm), via, real(duration, "duration", "seconds"),
             length(margin, "margin"), text(preset, "preset"),
             seconds(max_seconds, "max_seconds"), flag(require, "require"),
             whole_number(routes, "routes", 0, 8), of_norm, departure, arrival)
