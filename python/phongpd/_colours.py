@@ -17,11 +17,13 @@ class Line(NamedTuple):
     dash: Tuple[int, ...] = ()
 
 
-# The metric that is compared is thick blue, what it is compared with dashed
-# black; others by Okabe and Ito and by Tol, told apart by colour-blind readers,
-# and by dash once more.
-MAIN = Line("#0060B0", 4.0)
-BASELINE = Line("#000000", 2.0, (10, 4))
+METRIC_COLOURS = {"phong": "#0060B0", "euclidean": "#000000",
+                  "sliding": "#009E73"}
+# The metric that is compared is thick, what it is compared with dashed; others by
+# Okabe and Ito and by Tol, told apart by colour-blind readers, and by dash once
+# more.
+MAIN = Line(METRIC_COLOURS["phong"], 4.0)
+BASELINE = Line(METRIC_COLOURS["euclidean"], 2.0, (10, 4))
 OTHER_COLOURS = ("#E69F00", "#009E73", "#CC79A7", "#56B4E9", "#D55E00", "#882255",
                  "#999933", "#888888")
 OTHER_WIDTH = 1.8

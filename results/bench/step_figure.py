@@ -26,6 +26,7 @@ def _style(line):
 
 
 TABLE = _table()
+METRIC_COLOURS = TABLE.METRIC_COLOURS
 MAIN, BASELINE = "main", "baseline"
 STYLES = {MAIN: _style(TABLE.MAIN), BASELINE: _style(TABLE.BASELINE)}
 # Of lines that name no colour.

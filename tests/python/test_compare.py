@@ -100,14 +100,18 @@ def test_one_table_gives_colours_to_all_figures():
         import step_figure
     finally:
         sys.path.pop(0)
-    assert step_figure.STYLES == {"main": "lc rgb '#0060B0' lw 4",
-                                  "baseline": "lc rgb '#000000' lw 2 dt (10,4)"}
+    main, baseline = _colours.MAIN.colour, _colours.BASELINE.colour
+    assert step_figure.STYLES == {
+        "main": f"lc rgb '{main}' lw 4",
+        "baseline": f"lc rgb '{baseline}' lw 2 dt (10,4)"}
     assert step_figure.LINE_COLOURS == _colours.LINE_COLOURS
     # The program's own figures.
-    text = (SOURCE / "problems/output/step_figure.cc").read_text()
-    colours = re.findall(r"#[0-9A-F]{6}", text)
-    assert colours[:2] == [_colours.BASELINE.colour, _colours.MAIN.colour]
-    assert tuple(colours[2:10]) == _colours.OTHER_COLOURS
+    text = "".join(path.read_text() for path in sorted(
+        (SOURCE / "problems/output").glob("*_*.*")) if path.stem in (
+            "metric_color", "step_figure"))
+    assert _colours.BASELINE.colour in text and _colours.MAIN.colour in text
+    others = re.search(r"kCurveColors = \{(.*?)\}", text, re.S)[1]
+    assert tuple(re.findall(r"#[0-9A-F]{6}", others)) == _colours.OTHER_COLOURS
     roles = (SOURCE / "problems/studies/performance_profile.cc").read_text()
     assert '"euclidean") return StepCurve::Role::kBaseline' in roles
     assert set(_colours.ROLES) == {
