@@ -5,7 +5,7 @@
 # work on the machine hardly changes, of processors.
 #   wheel  from FILE, or the one in build/packages, to the first depth, in a fresh
 #          environment; NumPy comes from the index, nothing from pip's cache
-#   core   scripts/core.sh: configured, compiled, not yet linked with anything
+#   core   scripts/core.sh, from the clone to the archives
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
