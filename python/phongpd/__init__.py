@@ -55,12 +55,12 @@ from ._world import Roadmap, World
 
 __all__ = [
     "BuildCancelled", "BuildRefusal", "Comparison", "ContactSpace",
-    "ContactSpacePiece", "Depth", "DepthQuery", "Diagnosis", "Disassembly",
-    "EuclideanMetric", "Fleet", "InputError", "Motion",
-    "NonPenetrationRows", "Penetration", "PenetrationTracker",
-    "PhongMetric", "Plan", "QueryResult", "Removal", "RigidCheck",
-    "RigidFirstHit", "RigidJudge", "RigidPlan", "RigidWorld", "Roadmap",
-    "SmoothedMetric", "Solid", "TrackedMotion", "Trajectory", "View",
-    "World", "__version__", "compare", "depth", "disassemble", "minkowski",
+    "ContactSpacePiece",
+    "Depth", "DepthQuery", "Diagnosis", "Disassembly", "EuclideanMetric",
+    "Fleet", "InputError", "Motion", "NonPenetrationRows", "Penetration",
+    "PenetrationTracker", "PhongMetric", "Plan", "QueryResult", "Removal",
+    "RigidCheck", "RigidFirstHit", "RigidJudge", "RigidPlan", "RigidWorld",
+    "Roadmap", "SmoothedMetric", "Solid", "TrackedMotion", "Trajectory",
+    "View", "World", "__version__", "compare", "depth", "disassemble", "minkowski",
     "optimize_fleet", "remove", "view",
 ]

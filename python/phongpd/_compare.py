@@ -12,9 +12,10 @@ from typing import Any
 import numpy as np
 
 from . import _native
-from ._arguments import flag, names, real, seed_numbers, text
+from ._arguments import flag, real, text
 from ._colours import lines_of
 from ._frames import frame_of
+from ._lists import names, seed_numbers
 from ._native import InputError
 from ._plots import new_axes, plot_profile
 

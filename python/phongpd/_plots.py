@@ -80,6 +80,26 @@ def plot_path(axes: Any, path: Floats, unit: str, margin: float | None,
     return axes
 
 
+def plot_poses(axes: Any, poses: Floats) -> Any:
+    """Position and turn from the first, in degrees, of (N, 4, 4)."""
+    axes = new_axes("plot", axes, 2)
+    numbers = np.arange(float(len(poses)))
+    plot_vectors(axes[0], numbers, poses[:, :3, 3], "position")
+    axes[0].legend(loc="upper left")
+    if len(poses):
+        turns = poses[0, :3, :3].T @ poses[:, :3, :3]
+        # By both, as neither tells all angles well.
+        sine = np.linalg.norm(turns - turns.transpose(0, 2, 1),
+                              axis=(1, 2)) / np.sqrt(8.0)
+        cosine = (np.trace(turns, axis1=1, axis2=2) - 1.0) / 2.0
+        axes[1].plot(numbers, np.degrees(np.arctan2(sine, cosine)),
+                     color=LINE_COLOURS[0])
+    axes[1].set_ylabel("turn (°)")
+    axes[1].grid(color=GRID)
+    axes[1].set_xlabel("pose")
+    return axes
+
+
 def plot_profile(one: Any, curves: Mapping[str, Sequence[tuple[float, float]]],
                  lines: Mapping[str, Line], most: float) -> None:
     """Curves that rise in steps, (x, share), from 1 to `most`, named in the

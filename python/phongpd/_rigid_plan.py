@@ -9,9 +9,8 @@ from numpy.typing import ArrayLike
 
 from . import _native
 from ._arguments import Floats, numbers, real, whole_number
-from ._colours import GRID, LINE_COLOURS
 from ._native import InputError
-from ._plots import new_axes, plot_vectors
+from ._plots import plot_poses
 from ._rigid import _meshes, _pose
 
 
@@ -39,41 +38,12 @@ class RigidPlan:
     def solved(self) -> bool:
         return self.status == "solved"
 
-    def to_row(self) -> dict[str, Any]:
-        """Flat, for pandas.DataFrame([one.to_row(), ...])."""
-        return {"status": self.status, "reason": self.reason,
-                "solved": self.solved, "poses": len(self.poses),
-                "length": self.length, "planner": self.planner,
-                "seconds": self.seconds}
-
     def plot(self, axes: Any = None) -> Any:
         """Position, and the angle by which the robot is turned from its start
         in degrees, from pose to pose, whose numbers are below.  axes: two of
         matplotlib, which has to be there; None: of a new figure.  Returns
         them."""
-        axes = new_axes("plot", axes, 2)
-        numbers_of = np.arange(float(len(self.poses)))
-        plot_vectors(axes[0], numbers_of, self.poses[:, :3, 3], "position")
-        axes[0].legend(loc="upper left")
-        if len(self.poses):
-            turns = self.poses[0, :3, :3].T @ self.poses[:, :3, :3]
-            # By both, as neither tells all angles well.
-            sine = np.linalg.norm(turns - turns.transpose(0, 2, 1),
-                                  axis=(1, 2)) / np.sqrt(8.0)
-            cosine = (np.trace(turns, axis1=1, axis2=2) - 1.0) / 2.0
-            axes[1].plot(numbers_of, np.degrees(np.arctan2(sine, cosine)),
-                         color=LINE_COLOURS[0])
-        axes[1].set_ylabel("turn (°)")
-        axes[1].grid(color=GRID)
-        axes[1].set_xlabel("pose")
-        return axes
-
-    def __str__(self) -> str:
-        if not self.solved:
-            because = f" ({self.reason})" if self.reason else ""
-            return f"{self.status}{because}, {self.seconds:.3g} s"
-        return (f"solved: path of {len(self.poses)} poses, length "
-                f"{self.length:.6g}, by {self.planner}, {self.seconds:.3g} s")
+        return plot_poses(axes, self.poses)
 
 
 class RigidWorld:

@@ -298,7 +298,7 @@ class World(Shown):
             raise InputError("limits: expected (velocity, acceleration, jerk), "
                              "found None, and the scene has none")
         return _native.MotionWishes(
-            motion_limits(known, of_norm), via, real(duration, "duration", "seconds"),
+            motion_limits(known, of_norm), via, real(duration, "duration"),
             length(margin, "margin"), text(preset, "preset"),
             seconds(max_seconds, "max_seconds"), flag(require, "require"),
             whole_number(routes, "routes", 0, 8), of_norm, departure, arrival)

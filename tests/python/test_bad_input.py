@@ -233,8 +233,7 @@ UNITS = {  # what the number would have been
     "a share of D": lambda v: phongpd.PhongMetric(T.space, smoothing_length=v),
     "in the solids' unit": lambda v: phongpd.remove(T.robot, [T.obstacle],
                                                     tolerance=v),
-    "seconds": lambda v: T.world.optimize(START, GOAL, limits=(1, 2, 10),
-                                          duration=v),
+    "seconds": lambda v: phongpd.DepthQuery(T.robot, T.obstacle, max_seconds=v),
     "a share of the way": lambda v: T.judge.first_hit(np.eye(4), np.eye(4),
                                                       resolution=v)}
 

@@ -75,15 +75,14 @@ def test_a_rigid_plan_is_drawn_with_its_turn(robot, obstacle):
     start[:3, 3], goal[:3, 3] = (-4, 0, 0), (5, 0, 0)
     goal[:3, :3] = [[0, -1, 0], [1, 0, 0], [0, 0, 1]]  # a quarter about z
     plan = phongpd.RigidWorld(robot, obstacle).plan(start, goal)
-    assert plan.solved and str(plan).startswith("solved: path of")
-    assert plan.to_row()["poses"] == len(plan.poses)
+    assert plan.solved
     axes = plan.plot()
     x = drawn(axes[0])[0][:, 1]
     assert (x == plan.poses[:, 0, 3]).all()
     turn = drawn(axes[1])[0][:, 1]
     assert turn[0] == 0 and turn[-1] == pytest.approx(90.0)
     stuck = phongpd.RigidWorld(robot, robot).plan(np.eye(4), goal)
-    assert not stuck.solved and "(" in str(stuck)
+    assert not stuck.solved
     assert len(drawn(stuck.plot()[1])) == 0
 
 

@@ -14,7 +14,8 @@ from distributed import Client
 from numpy.typing import ArrayLike
 
 from .. import _native
-from .._arguments import Floats, length, names, rows, seconds, seed_numbers
+from .._arguments import Floats, length, rows, seconds
+from .._lists import names, seed_numbers
 from .._native import InputError
 from ._jobs import Job, digest
 from ._run import Sweep, run
