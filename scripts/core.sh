@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # core.sh [PREFIX]: builds the core alone (depths, contact spaces, metrics) with what
 # it needs and nothing else, installs it (build/core-only/install), and prints seconds,
-# those of processors too, which other work on the machine leaves alone, and size.
+# those of processors too, which other work on the machine changes less, and size.
 # Needs cmake, a compiler, libeigen3-dev, libcgal-dev and libtbb-dev.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."

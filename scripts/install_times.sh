@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
 # install_times.sh [wheel [FILE] | core]: how long a first answer takes, into
-# results/python/install.csv, a row a step with seconds of the clock and, which other
-# work on the machine hardly changes, of processors.
+# results/python/install.csv, a row a step with seconds of the clock and of processors,
+# which other work on the machine changes less, and the load before.
 #   wheel  from FILE, or the one in build/packages, to the first depth, in a fresh
 #          environment; NumPy comes from the index, nothing from pip's cache
 #   core   scripts/core.sh, from the clone to the archives
