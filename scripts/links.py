@@ -10,6 +10,7 @@ failure; exit code 1 if there is any, 2 for a folder without pages.
 
 Of *.md, which must lead to files and to headings (as GitHub calls their places:
 small letters, - for blanks), those in folders named build* or .* are left out.
+There README.md is one page, and those in results are read: LONGEST.
 """
 import html.parser
 import pathlib
@@ -21,6 +22,8 @@ import urllib.parse
 LOADS = {("script", "src"), ("img", "src"), ("iframe", "src"),
          ("source", "src"), ("video", "src"), ("audio", "src"),
          ("embed", "src"), ("object", "data"), ("input", "src")}
+# Words of a page, tables, comments and blocks of code left out, and its lines.
+LONGEST = {"README.md": (1200, 120), "results": (1500, None)}
 STYLES = re.compile(r"""(?:url\(\s*["']?|@import\s+["'])([^"')]+)""")
 
 
@@ -148,8 +151,33 @@ def check_markdown(root):
     return pages, failures
 
 
+def words_of(text):
+    """How many there are outside of tables, comments and blocks of code."""
+    text = re.sub(r"<!--.*?-->", "", text, flags=re.S)
+    text = re.sub(r"^ *```.*?^ *```", "", text, flags=re.S | re.M)
+    return sum(len(line.split()) for line in text.splitlines()
+               if not line.lstrip().startswith("|"))
+
+
+def check_lengths(root, pages):
+    """One line a page that is too long."""
+    failures = []
+    for path in pages:
+        most, lines = LONGEST.get(path.relative_to(root).parts[0], (None, None))
+        text = path.read_text(encoding="utf-8")
+        words, count = words_of(text), len(text.splitlines())
+        if most and words > most:
+            failures.append(f"{path}: expected at most {most} words outside of "
+                            f"tables, found {words}")
+        if lines and count > lines:
+            failures.append(f"{path}: expected at most {lines} lines, found "
+                            f"{count}")
+    return failures
+
+
 def main_markdown(folder):
     pages, failures = check_markdown(pathlib.Path(folder))
+    failures += check_lengths(pathlib.Path(folder), pages)
     if not pages:
         print(f"links: {folder}: expected *.md, found none", file=sys.stderr)
         return 2

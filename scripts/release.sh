@@ -78,12 +78,13 @@ if [[ ${2:-} != quick ]]; then
   item "Debian packages build and run (scripts/deb.sh --test)" \
     scripts/deb.sh --test
 fi
-cat <<'END'
+cat <<END
 By hand, then:
+  - git tag -a v$(version) -m "PhongPD $(version)" && git push origin v$(version)
   - Publish the source distribution, and no wheel or Debian package: those hold or
     load Ipopt beside CGAL's GPL packages (docs/install.md, "What may be handed
     on").
-  - Tag v<version>, upload, fill source and checksum into the recipes, and begin
-    the next "Unreleased" part of CHANGELOG.md.
+  - Fill source and checksum into the recipes, set the next version, and begin its
+    "Unreleased (x.y.z)" part of CHANGELOG.md.
 END
 ((failed == 0))

@@ -144,7 +144,7 @@ int BuildAndWritePiece(const ContactSpaceFlags& flags) {
   return kDone;
 }
 
-// A and B, or by flags as until 0.1: those of `flags` are set to either.
+// A and B, or, until 0.3, by flags: those of `flags` are set to either.
 void TakeMeshes(ContactSpaceFlags* flags) {
   const bool has_flags = !flags->robot.empty() || !flags->obstacle.empty();
   const std::string expected = "contact-space: expected two meshes, A and B, ";
@@ -201,9 +201,9 @@ Command AddContactSpace(CLI::App* app) {
                       kMeshFormats + ")")
       ->expected(0, 2)
       ->type_name("FILE");
-  app->add_option("--robot", flags->robot, "The same as A, until 0.2")
+  app->add_option("--robot", flags->robot, "The same as A, until 0.3")
       ->type_name("FILE");
-  app->add_option("--obstacle", flags->obstacle, "The same as B, until 0.2")
+  app->add_option("--obstacle", flags->obstacle, "The same as B, until 0.3")
       ->type_name("FILE");
   app->add_option(
          "--output", flags->output,

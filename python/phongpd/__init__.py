@@ -1,34 +1,41 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Continuous penetration depth on exact contact spaces.
 
-A robot that translates among fixed obstacles, all closed triangle meshes.
-Lengths are in the user's unit throughout, or, where a docstring says so, a
-share of D, the world's one length::
+How deep is a robot in an obstacle, and which way is out?
 
-    import phongpd
+>>> import phongpd
+>>> world = phongpd.World.load("ball_wrench")  # or World("a.stl", "b.stl")
+>>> tool, part = world.robot, world.obstacles[0]  # or Solid.read("tool.stl")
+>>> print(phongpd.depth(tool, part, at=(0.3, 0, 0.1)))  # exact, nothing built
+penetrating, depth 0.55 along (0, 0, 1)
 
-    part = phongpd.Solid.read("part.stl")
-    tool = phongpd.Solid.read("tool.stl")
-    print(phongpd.depth(tool, part))               # exact, as they lie
-    space = phongpd.ContactSpace.build(tool, part)
-    phong = phongpd.PhongMetric(space)
-    answers = phong.query(points)                  # an N x 3 array
+The same at many positions, with a direction that turns and does not flip:
 
-    world = phongpd.World(tool, {"part": part})
-    run = world.optimize(start, goal)              # Ipopt, exactly judged
-    plan = world.plan(start, goal)                 # or a proof that there is none
-    motion = world.optimize(start, goal, limits=(1, 2, 10))
-    fleet = phongpd.optimize_fleet("robots.json")  # several in one room
+>>> space = phongpd.ContactSpace.build(tool, part)  # boundary of part + (-tool)
+>>> points = [(0.3, 0, 0.1), (0.3, 0, 0)]  # N x 3; answered on all cores
+>>> phongpd.PhongMetric(space).query(points).statuses
+['ok', 'ok']
 
-    judge = phongpd.RigidJudge(tool, part)         # of motions that turn, too
-    judge.check(start_pose, goal_pose).free        # for all t, proved
-    phongpd.RigidWorld(tool, part).plan(start_pose, goal_pose)  # a path of poses
+A motion for a machine, within limits of velocity, acceleration and jerk, free
+for all t, proved; and where there is no way, the proof of that:
 
-Whatever cannot be used raises InputError, a ValueError of one line: what,
-where, expected, found.
+>>> cell = phongpd.World.load("u_axis")
+>>> motion = cell.optimize(limits=(1, 2, 10))  # start, goal: the scene's own
+>>> motion.certified
+True
+>>> phongpd.World.load("tunnel:delta=0.001,twin=1").plan().infeasible
+True
+
+A robot translates among fixed obstacles, all closed triangle meshes; RigidWorld
+and RigidJudge are for one that turns. Lengths are in the user's unit throughout,
+or, where a docstring says so, a share of D, the world's one length. Answers
+print in a line, have `to_row()` for pandas, most `plot()` for matplotlib, and in
+a notebook they show themselves. What cannot be used raises InputError, a
+ValueError of one line: what, where, expected, found.
 """
 
 from ._answers import Diagnosis, Plan, Trajectory
+from ._compare import Comparison, compare
 from ._contact import ContactSpace, minkowski
 from ._depth import Depth, DepthQuery, depth
 from ._fleet import Fleet, optimize_fleet
@@ -48,13 +55,14 @@ from ._view import View, view
 from ._world import World
 
 __all__ = [
-    "BuildCancelled", "BuildRefusal", "ContactSpace", "ContactSpacePiece",
+    "BuildCancelled", "BuildRefusal", "Comparison", "ContactSpace",
+    "ContactSpacePiece",
     "Depth", "DepthQuery", "Diagnosis", "Disassembly", "EuclideanMetric",
     "Fleet", "InputError", "Motion", "NonPenetrationRows", "Penetration",
     "PenetrationTracker", "PhongMetric", "Plan", "QueryResult", "Removal",
     "RigidCheck", "RigidClearance", "RigidFirstHit", "RigidJudge",
     "RigidOptimum", "RigidPlan", "RigidWorld",
     "Roadmap", "SmoothedMetric", "Solid", "TrackedMotion", "Trajectory",
-    "View", "World", "__version__", "depth", "disassemble", "minkowski",
+    "View", "World", "__version__", "compare", "depth", "disassemble", "minkowski",
     "optimize_fleet", "remove", "view",
 ]

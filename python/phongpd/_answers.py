@@ -10,6 +10,7 @@ import numpy as np
 
 from ._arguments import Floats
 from ._native import InputError
+from ._plots import plot_path
 from ._statuses import Answer
 from ._view import Canvas, Shown
 
@@ -79,6 +80,14 @@ class Trajectory(Answer, Shown):
             "clearance": self.clearance, "iterations": self.iterations,
             "seconds": self.seconds}
 
+    def plot(self, axes: Any = None) -> Any:
+        """Position and clearance along the way, the margin that was asked for
+        dashed; the world builds its contact space for that if it has none, and
+        an answer without a world has no second figure.  axes: as many of
+        matplotlib, which has to be there; None: of a new figure.  Returns
+        them."""
+        return _plot_answer(self, axes)
+
     def _draw(self, canvas: Canvas, name: str | None) -> None:
         _draw_answer(canvas, self, name or "trajectory", self.free)
 
@@ -125,6 +134,14 @@ class Plan(Answer, Shown):
             "length": self.length, "clearance": self.clearance,
             "seconds": self.seconds}
 
+    def plot(self, axes: Any = None) -> Any:
+        """Position and clearance along the way, the margin that was asked for
+        dashed; the world builds its contact space for that if it has none, and
+        an answer without a world has no second figure.  axes: as many of
+        matplotlib, which has to be there; None: of a new figure.  Returns
+        them."""
+        return _plot_answer(self, axes)
+
     def _draw(self, canvas: Canvas, name: str | None) -> None:
         if self.ends is not None:
             canvas.ends(*self.ends)
@@ -141,6 +158,16 @@ class Plan(Answer, Shown):
         return (f"{self.status}: path of {len(self.path)} points, length "
                 f"{self.length:.6g}, clearance {self.clearance:.6g}, "
                 f"{self.seconds:.3g} s")
+
+
+def _plot_answer(answer: Trajectory | Plan, axes: Any) -> Any:
+    lengths = answer.row.get("lengths", {})
+    world = answer.world
+    return plot_path(
+        axes, answer.path,
+        (world.unit if world is not None else lengths.get("unit")) or "unit",
+        (lengths.get("asked_clearance") or {}).get("unit"),
+        None if world is None else world.clearance)
 
 
 def _length(path: Floats) -> float:

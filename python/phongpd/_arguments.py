@@ -55,13 +55,13 @@ def point(value: ArrayLike, name: str) -> tuple[float, float, float]:
     return float(array[0]), float(array[1]), float(array[2])
 
 
-def real(value: Any, name: str) -> float:
-    """A number, finite or not."""
+def real(value: Any, name: str, unit: str = "") -> float:
+    """A number, finite or not; of what, where it has a unit."""
     try:
         return float(value)
     except (TypeError, ValueError, OverflowError):
-        raise InputError(
-            f"{name}: expected a number, found {_told(value)}") from None
+        raise InputError(f"{name}: expected a number"
+                         f"{unit and f' ({unit})'}, found {_told(value)}") from None
 
 
 def flag(value: Any, name: str) -> bool:

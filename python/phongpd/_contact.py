@@ -50,7 +50,7 @@ class ContactSpace(MeshViews, Shown):
             flag(robot_hull, "robot_hull"),
             whole_number(target_faces, "target_faces", 0), real(wrap, "wrap"),
             flag(outer_shell_only, "outer_shell_only"),
-            real(max_seconds, "max_seconds"), real(max_mib, "max_mib"),
+            real(max_seconds, "max_seconds", "seconds"), real(max_mib, "max_mib", "MiB"),
             flag(cache, "cache")))
 
     @classmethod
@@ -126,8 +126,8 @@ def minkowski(a: Any, b: Any, *, difference: bool = False,
         return ContactSpace.build(one, other, max_seconds=max_seconds,
                                   max_mib=max_mib, cache=cache)
     return ContactSpace(_native.ContactSpace.sum(
-        one._native, other._native, real(max_seconds, "max_seconds"),
-        real(max_mib, "max_mib"), flag(cache, "cache")))
+        one._native, other._native, real(max_seconds, "max_seconds", "seconds"),
+        real(max_mib, "max_mib", "MiB"), flag(cache, "cache")))
 
 
 def native_space(space: ContactSpace) -> _native.ContactSpace:

@@ -114,7 +114,8 @@ class DepthQuery:
         self._solids = as_solid(robot, "robot"), as_solid(obstacle, "obstacle")
         self._native = _native.DepthQuery(
             self._solids[0]._native, self._solids[1]._native,
-            real(max_radius, "max_radius"), real(max_seconds, "max_seconds"))
+            real(max_radius, "max_radius", "in the solids' unit"),
+            real(max_seconds, "max_seconds", "seconds"))
 
     def __repr__(self) -> str:
         return f"<DepthQuery: {self._solids[0]!r} in {self._solids[1]!r}>"

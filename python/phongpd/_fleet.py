@@ -15,12 +15,11 @@ from . import _native
 from ._arguments import motion_end
 from ._motion import Motion, motion_of, moving_of, wishes_of
 from ._native import InputError
+from ._plots import PLACES, new_axes, plot_vectors
 from ._solid import Solid
 from ._statuses import Answer
 from ._view import Canvas, Shown
 from ._world import World
-
-_PICTURE_POINTS = 400
 
 
 @dataclass(frozen=True)
@@ -53,6 +52,19 @@ class Fleet(Answer, Shown):
                 "clearance": min((pair["clearance"] for pair in self.pairs),
                                  default=np.inf)}
 
+    def plot(self, axes: Any = None) -> Any:
+        """Where each robot is over time, a figure a robot.  axes: as many of
+        matplotlib, which has to be there; None: of a new figure.  Returns
+        them."""
+        axes = new_axes("plot", axes, len(self.motions))
+        for (name, motion), one in zip(self.motions.items(), axes):
+            if motion.duration > 0.0:
+                times = np.linspace(0.0, motion.duration, PLACES)
+                plot_vectors(one, times, motion.at(times), name)
+        axes[0].legend(loc="upper left")
+        axes[-1].set_xlabel("t (s)")
+        return axes
+
     def _draw(self, canvas: Canvas, name: str | None) -> None:
         """Paths, and each robot where it begins; `phongpd optimize --html`
         plays them together."""
@@ -68,7 +80,7 @@ class Fleet(Answer, Shown):
             if world is None or not len(motion.durations):
                 continue
             places = motion.at(np.linspace(0.0, motion.duration,
-                                           _PICTURE_POINTS))
+                                           PLACES))
             solid = world.robot
             canvas.mesh(robot, "mesh", Solid(solid.vertices + places[0],
                                              solid.triangles, robot))

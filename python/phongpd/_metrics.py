@@ -176,7 +176,7 @@ class PhongMetric(_Metric):
             raise InputError(
                 f"field: expected 'normal' or 'tangent-plane', found {field!r}")
         self._native = _native.Metric.phong(
-            native_space(space), real(smoothing_length, "smoothing_length"),
+            native_space(space), real(smoothing_length, "smoothing_length", "a share of D"),
             field == "tangent-plane")
 
 
@@ -207,5 +207,5 @@ class SmoothedMetric(_Metric):
         if smoothing_length is None:
             smoothing_length = DEFAULT_SMOOTHING_LENGTH
         self._native = _native.Metric.smoothed(
-            native_space(space), real(smoothing_length, "smoothing_length"),
+            native_space(space), real(smoothing_length, "smoothing_length", "a share of D"),
             flag(at_contact, "at_contact"))

@@ -15,6 +15,7 @@ from . import _native
 from ._arguments import Floats, flag, length, motion_limits, numbers, point, \
     real, seconds, text, whole_number
 from ._native import InputError
+from ._plots import PLACES, new_axes, plot_vectors
 from ._solid import as_solid
 from ._statuses import Answer
 from ._view import Canvas, Shown
@@ -23,10 +24,6 @@ if TYPE_CHECKING:
     from ._world import World
 
 _Point = Tuple[float, float, float]
-
-# A picture of a curve is a polyline.
-_PICTURE_POINTS = 400
-
 
 @dataclass(frozen=True)
 class Motion(Answer, Shown):
@@ -98,18 +95,14 @@ class Motion(Answer, Shown):
         """Position, velocity, acceleration and jerk of x, y and z over time,
         the limits dashed, by matplotlib, which has to be there.  axes: four of
         its axes; None: of a new figure.  Returns them."""
-        from matplotlib import pyplot
-        if axes is None:
-            _, axes = pyplot.subplots(4, 1, sharex=True, figsize=(7, 8),
-                                      constrained_layout=True)
+        axes = new_axes("plot", axes, 4, 1.75)
         unit = self.row["lengths"]["unit"] or "unit"
-        times = np.linspace(0.0, self.duration, _PICTURE_POINTS)
+        times = np.linspace(0.0, self.duration, PLACES)
         names = ("position", "velocity", "acceleration", "jerk")
         for order, (name, one) in enumerate(zip(names, axes)):
             if len(self.durations):
                 values = self.at(times, order)
-                for k, axis in enumerate("xyz"):
-                    one.plot(times, values[:, k], label=axis, color=f"C{k}")
+                plot_vectors(one, times, values, name)
                 if order and self.row["limits"]["by"] == "norm":
                     one.plot(times, np.linalg.norm(values, axis=1),
                              label="norm", color="0.2")
@@ -127,7 +120,7 @@ class Motion(Answer, Shown):
     def samples(self, rate: float = 100.0) -> Floats:
         """(M, 10): the columns t,x,y,z,vx,vy,vz,ax,ay,az every 1/rate seconds
         and at the end, as `--output FILE.csv` writes them."""
-        hertz = real(rate, "rate")
+        hertz = real(rate, "rate", "Hz")
         if not 0.0 < hertz <= 1e6:
             raise InputError("rate: expected a number above 0 and at most 1e6 "
                              f"(Hz), found {hertz:g}")
@@ -159,7 +152,7 @@ class Motion(Answer, Shown):
                              "one that came through pickle")
         self.world._draw(canvas, None)
         if len(self.durations):
-            times = np.linspace(0.0, self.duration, _PICTURE_POINTS)
+            times = np.linspace(0.0, self.duration, PLACES)
             canvas.path(name or "motion", self.at(times), self.certified)
 
     def _facts(self) -> dict[str, Any]:

@@ -49,7 +49,7 @@ class ContactSpacePiece:
             flag(robot_hull, "robot_hull"),
             whole_number(target_faces, "target_faces", 0), real(wrap, "wrap"),
             flag(outer_shell_only, "outer_shell_only"),
-            real(max_seconds, "max_seconds"), real(max_mib, "max_mib")))
+            real(max_seconds, "max_seconds", "seconds"), real(max_mib, "max_mib", "MiB")))
 
     @classmethod
     def read(cls, path: str | os.PathLike[str]) -> ContactSpacePiece:

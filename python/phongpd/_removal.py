@@ -1,13 +1,16 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 from __future__ import annotations
 
-from collections.abc import Sequence
+import os
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 from . import _native
-from ._arguments import Floats
+from ._arguments import Floats, flag, real
+from ._native import InputError
 from ._rigid_plan import pose_matrices
-from ._solid import Solid
+from ._solid import Solid, as_solid
 
 
 @dataclass(frozen=True)
@@ -79,8 +82,9 @@ def remove(part: Solid, rest: Sequence[Solid], tolerance: float = 0.0,
     `turn_seconds`; not to find one proves nothing.  Raises InputError for walls
     too thin for the tolerance."""
     return _removal(_native.remove(
-        part._native, [one._native for one in rest], float(tolerance), verify,
-        float(turn_seconds)))
+        as_solid(part, "part")._native, _solids(rest, "rest"),
+        _length(tolerance), flag(verify, "verify"),
+        real(turn_seconds, "turn_seconds", "seconds")))
 
 
 def disassemble(parts: Sequence[Solid], tolerance: float = 0.0,
@@ -89,9 +93,21 @@ def disassemble(parts: Sequence[Solid], tolerance: float = 0.0,
     each; what is taken away only gives room, so that none is missed.  Turns are
     looked for when no part comes out without."""
     steps, stuck = _native.disassemble(
-        [one._native for one in parts], float(tolerance), verify,
-        float(turn_seconds))
+        _solids(parts, "parts"), _length(tolerance), flag(verify, "verify"),
+        real(turn_seconds, "turn_seconds", "seconds"))
     return Disassembly(list(map(_removal, steps)), list(map(_removal, stuck)))
+
+
+def _solids(values: Any, name: str) -> list[_native.Solid]:
+    if isinstance(values, (str, os.PathLike)) or not isinstance(
+            values, Iterable):
+        raise InputError(f"{name}: expected a list of solids, found "
+                         f"{type(values).__name__}")
+    return [as_solid(one, f"{name} {i}")._native for i, one in enumerate(values)]
+
+
+def _length(tolerance: Any) -> float:
+    return real(tolerance, "tolerance", "in the solids' unit")
 
 
 def _removal(row: _native._Removal) -> Removal:

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _native
-from ._arguments import Floats, numbers, rows
+from ._arguments import Floats, numbers, real, rows
 from ._native import InputError
 from ._solid import Solid, triangle_rows
 
@@ -155,7 +155,8 @@ class RigidJudge:
         check."""
         poses = np.stack([_pose(start, "start"), _pose(end, "end")])
         status, first, last, robot, obstacle, tests = self._native.first_hit(
-            poses, ["start", "end"], resolution)
+            poses, ["start", "end"],
+            real(resolution, "resolution", "a share of the way"))
         return RigidFirstHit(status, (first, last), robot, obstacle, tests)
 
     def check_path(self, poses: ArrayLike, *,

@@ -9,8 +9,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _native
-from ._arguments import Floats, numbers, scene_name
+from ._arguments import Floats, flag, numbers, real, scene_name, whole_number
 from ._native import InputError
+from ._plots import plot_poses
 from ._rigid import RigidClearance, _meshes, _pose
 from ._view import Canvas, Shown
 
@@ -49,6 +50,14 @@ class RigidPlan(Shown):
         return {"status": self.status, "planner": self.planner,
                 "poses": len(self.poses), "length": self.length,
                 "seconds": self.seconds}
+
+    def plot(self, axes: Any = None) -> Any:
+        """Position, and the angle by which the robot is turned from its start
+        in degrees, from pose to pose, whose numbers are below.  axes: two of
+        matplotlib, which has to be there; None: of a new figure.  Returns
+        them."""
+        return plot_poses(axes, self.poses)
+
 
     def _draw(self, canvas: Canvas, name: str | None) -> None:
         self.world._draw(canvas, None)
@@ -158,7 +167,8 @@ class RigidWorld(Shown):
         scene's, or 10.  The same seed gives the same path unless time runs
         out."""
         return RigidPlan(*self._answer(self._native.plan(
-            *self._task(start, goal, bounds, time_limit), seed)))
+            *self._task(start, goal, bounds, time_limit),
+            whole_number(seed, "seed", 0, 2 ** 64 - 1))))
 
     def optimize(self, start: ArrayLike | None = None,
                  goal: ArrayLike | None = None, *,
@@ -178,8 +188,10 @@ class RigidWorld(Shown):
         directions out of a collision that do not jump (TrackedPoseRow).  Not to
         find a path proves nothing.  One at a time in a process."""
         answer, *rest = self._native.optimize(
-            *self._task(start, goal, bounds, time_limit), seed, start_from, knots,
-            float(margin), float(start_noise), tracked)
+            *self._task(start, goal, bounds, time_limit),
+            whole_number(seed, "seed", 0, 2 ** 64 - 1), start_from,
+            whole_number(knots, "knots", 0, 10 ** 6), real(margin, "margin"),
+            real(start_noise, "start_noise"), flag(tracked, "tracked"))
         return RigidOptimum(*self._answer(answer), *rest)
 
     def _task(self, start: ArrayLike | None, goal: ArrayLike | None,
@@ -190,14 +202,15 @@ class RigidWorld(Shown):
                          _pose(self._end(goal, self.goal, "goal"), "goal")])
         if time_limit is None:
             time_limit = self._scene.time_limit if self._scene else 10.0
+        seconds = real(time_limit, "time_limit", "seconds")
         if bounds is None:
             bounds = self.bounds
         if bounds is None:
-            return ends, np.empty((0, 3)), float(time_limit)
+            return ends, np.empty((0, 3)), seconds
         box = numbers(bounds, "bounds", "(2, 3)")
         if box.shape != (2, 3):
             raise InputError(f"bounds: expected shape (2, 3), found {box.shape}")
-        return ends, box, float(time_limit)
+        return ends, box, seconds
 
     def _answer(self, answer: _native._RigidAnswer) -> tuple[
             str, str, Floats, float, str, float, RigidWorld,

@@ -56,7 +56,8 @@ class NonPenetrationRows:
                  samples_per_segment: int = 0,
                  max_segment: float | None = None,
                  metric: str = "phong@0.2", rows_per_sample: int = 1) -> None:
-        longest = 0.0 if max_segment is None else real(max_segment, "max_segment")
+        longest = 0.0 if max_segment is None else real(
+            max_segment, "max_segment", "in the user's unit")
         if max_segment is not None and not 0.0 < longest < math.inf:
             raise InputError(
                 f"max_segment: expected a finite length > 0, found {longest}")

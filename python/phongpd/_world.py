@@ -59,7 +59,7 @@ class World(Shown):
 
     def _open(self, scene: Any, cache: bool, max_mib: float) -> None:
         self._native = _native.World(scene, flag(cache, "cache"),
-                                     real(max_mib, "max_mib"))
+                                     real(max_mib, "max_mib", "MiB"))
 
     @classmethod
     def load(cls, scene: str | os.PathLike[str], *, seed: int | None = None,
@@ -237,8 +237,8 @@ class World(Shown):
     def optimize_in_time(self, start: ArrayLike | None = None,
                          goal: ArrayLike | None = None, *, limits: Any = None,
                          **wishes: Any) -> Motion:
-        """optimize with limits, by the name that it had at first."""
-        warnings.warn("optimize_in_time is optimize(limits=...) now",
+        """optimize with limits, by the name that it had at first, until 0.3."""
+        warnings.warn("optimize_in_time is optimize(limits=...); it goes with 0.3",
                       DeprecationWarning, stacklevel=2)
         if limits is None and self.limits is None:
             raise InputError("limits: expected (velocity, acceleration, jerk), "

@@ -2,24 +2,35 @@
 """Figures by gnuplot, and that of curves that rise in steps, each named at its
 end: performance profiles, shares of runs solved within a time."""
 
+import importlib.util
+import pathlib
 import shutil
 import subprocess
 import sys
 
-# One colour a metric, in figures, still pictures and pages
-# (problems/output/metric_color.h, viewer/colors.js; a test compares them).
-METRIC_COLOURS = {"phong": "#0060B0", "euclidean": "#D55E00", "sliding": "#009E73"}
-# PhongPD is compared, thick, with the Euclidean, dashed; others by Okabe and Ito
-# and by Tol, told apart by colour-blind readers, and by dash once more.
+
+def _table():
+    """How curves look, everywhere: the Python package's table, alone."""
+    path = pathlib.Path(__file__).resolve().parents[2] / "python/phongpd/_colours.py"
+    spec = importlib.util.spec_from_file_location("phongpd_colours", path)
+    module = sys.modules[spec.name] = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+def _style(line):
+    """As gnuplot has it."""
+    dash = ",".join(map(str, line.dash))
+    return (f"lc rgb '{line.colour}' lw {line.width:g}"
+            + (f" dt ({dash})" if dash else ""))
+
+
+TABLE = _table()
+METRIC_COLOURS = TABLE.METRIC_COLOURS
 MAIN, BASELINE = "main", "baseline"
-STYLES = {MAIN: f"lc rgb '{METRIC_COLOURS['phong']}' lw 4",
-          BASELINE: f"lc rgb '{METRIC_COLOURS['euclidean']}' lw 2 dt (10,4)"}
-OTHER_COLOURS = ("#E69F00", "#009E73", "#CC79A7", "#56B4E9", "#000000", "#882255",
-                 "#999933", "#888888")
-DASHES = ("1", "(4,3)", "(12,4,2,4)")
+STYLES = {MAIN: _style(TABLE.MAIN), BASELINE: _style(TABLE.BASELINE)}
 # Of lines that name no colour.
-LINE_COLOURS = ("#0060B0", "#D55E00", "#009E73", "#E69F00", "#CC79A7", "#56B4E9",
-                "#882255", "#999933")
+LINE_COLOURS = TABLE.LINE_COLOURS
 
 
 def quoted(text):
@@ -84,8 +95,8 @@ def step_figure(curves, title, x, y, least=1.0, most=100.0):
         script += f"{most:g} {curve.height(most):g}\nEOD\n"
         style = STYLES.get(curve.role)
         if style is None:
-            style = (f"lc rgb '{OTHER_COLOURS[others % len(OTHER_COLOURS)]}' lw 1.8 "
-                     f"dt {DASHES[others % len(DASHES)]}")
+            line = TABLE.other(others)
+            style = _style(line) + ("" if line.dash else " dt 1")
             others += 1
         styles.append(style)
         plots.append(f"$m{k} using 1:2 with steps {style} notitle")

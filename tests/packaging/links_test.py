@@ -59,6 +59,15 @@ def main():
         assert code == 1 and len(lines) == 1, (text, lines)
         assert lines[0].startswith("a.md") and expected in lines[0], lines
     assert failures({"only.txt": ""}, "--markdown")[0] == 2
+    long = "# T\n" + "word " * 1201 + "\n"
+    for page, text, expected in (
+            ("README.md", long, "at most 1200 words outside of tables, found 1203"),
+            ("README.md", "# T\n" * 121, "at most 120 lines, found 121")):
+        code, lines = failures({page: text}, "--markdown")
+        assert code == 1 and len(lines) == 1 and expected in lines[0], lines
+    free = "# T\n| " + "word " * 2000 + "|\n```\n" + "word " * 2000 + "\n```\n"
+    assert failures({"README.md": free, "other.md": 2 * long}, "--markdown") == (
+        0, [])
     print("links.py tells dead links from live ones")
 
 

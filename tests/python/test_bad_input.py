@@ -24,6 +24,8 @@ class Things:
     euclid = phongpd.EuclideanMetric(space)
     query = phongpd.DepthQuery(robot, obstacle)
     rows = phongpd.NonPenetrationRows(world, START, GOAL, waypoints=3)
+    judge = phongpd.RigidJudge(robot, obstacle)
+    turning = phongpd.RigidWorld(robot, obstacle)
 
 
 T = Things
@@ -212,7 +214,28 @@ OPTIONS = {
         T.world, START, GOAL, metric=v), [3, "other"]),
     "rows waypoints": (lambda v: phongpd.NonPenetrationRows(
         T.world, START, GOAL, waypoints=v), [0, 2 ** 31, 1.5]),
+    "remove part": (lambda v: phongpd.remove(v, [T.obstacle]), [3, None]),
+    "remove rest": (lambda v: phongpd.remove(T.robot, v), [3, None, [3], "a.stl"]),
+    "remove tolerance": (
+        lambda v: phongpd.remove(T.robot, [T.obstacle], tolerance=v),
+        ["2mm", None, -1, np.nan]),
+    "remove verify": (lambda v: phongpd.remove(T.robot, [T.obstacle], verify=v),
+                      ["a", 3]),
+    "disassemble": (phongpd.disassemble, [3, [T.robot, 3]]),
+    "first_hit resolution": (lambda v: T.judge.first_hit(
+        np.eye(4), np.eye(4), resolution=v), ["1mm", None]),
+    "rigid time_limit": (lambda v: T.turning.plan(np.eye(4), np.eye(4),
+                                                  time_limit=v), ["3s", None]),
+    "rigid seed": (lambda v: T.turning.plan(np.eye(4), np.eye(4), seed=v),
+                   [-1, 1.5, "a", 2 ** 64]),
 }
+UNITS = {  # what the number would have been
+    "a share of D": lambda v: phongpd.PhongMetric(T.space, smoothing_length=v),
+    "in the solids' unit": lambda v: phongpd.remove(T.robot, [T.obstacle],
+                                                    tolerance=v),
+    "seconds": lambda v: phongpd.DepthQuery(T.robot, T.obstacle, max_seconds=v),
+    "a share of the way": lambda v: T.judge.first_hit(np.eye(4), np.eye(4),
+                                                      resolution=v)}
 
 
 @pytest.mark.parametrize("option", OPTIONS)
@@ -220,3 +243,10 @@ def test_options_of_other_kinds_are_said(option):
     call, values = OPTIONS[option]
     for value in values:
         refused(lambda: call(value))  # noqa: B023
+
+
+@pytest.mark.parametrize("unit", UNITS)
+def test_a_number_with_a_unit_is_told_which_unit_it_has(unit):
+    with pytest.raises(phongpd.InputError) as error:
+        UNITS[unit]("2mm")
+    assert f"expected a number ({unit}), found '2mm'" in str(error.value)

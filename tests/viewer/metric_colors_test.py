@@ -24,7 +24,7 @@ def of_cpp():
 
 def of_python():
     table = re.search(r"METRIC_COLOURS = \{(.*?)\}",
-                      text("results/bench/step_figure.py"), re.S)[1]
+                      text("python/phongpd/_colours.py"), re.S)[1]
     return {name: color.lower()
             for name, color in re.findall(rf'"(\w+)": "({HEX})"', table)}
 

@@ -4,21 +4,14 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable
 from typing import Any
+
+from .._frames import flat
 
 KINDS = ("bool", "int", "float", "text", "floats", "vectors", "json")
 """Of a column: of lists of numbers, "floats"; of lists of such, "vectors"; of
 all else, and of values of several kinds, "json", the text of them."""
-
-
-def flat(row: dict[str, Any], prefix: str = "") -> Iterator[tuple[str, Any]]:
-    """Of {"a": {"b": 1}} the column "a.b"."""
-    for name, value in row.items():
-        if isinstance(value, dict) and value:
-            yield from flat(value, f"{prefix}{name}.")
-        else:
-            yield prefix + name, value
 
 
 def kinds_of(rows: Iterable[dict[str, Any]]) -> dict[str, str]:

@@ -11,8 +11,9 @@ from itertools import islice
 from pathlib import Path
 from typing import Any
 
+from .._frames import flat
 from .._native import InputError
-from ._columns import flat, kinds_of, value_in
+from ._columns import kinds_of, value_in
 from ._solids import PathLike
 
 ROWS_OF_GROUP = 10000

@@ -19,6 +19,7 @@ from distributed import Client, Future, KilledWorker, LocalCluster, \
 from distributed.comm.core import CommClosedError
 
 from .._arguments import whole_number
+from .._frames import frame_of
 from .._native import InputError
 from ._jobs import Batch, Job, batches, digest, indices
 from ._parquet import write_parquet
@@ -55,6 +56,11 @@ class Sweep:
         with open(self.output, encoding="utf-8") as file:
             for line in file:
                 yield json.loads(line)
+
+    def frame(self) -> Any:
+        """The rows as a pandas.DataFrame, all in memory; nested values have
+        columns such as "seconds.total".  Needs pandas."""
+        return frame_of(self.read(), "frame")
 
     def write_parquet(self, path: str | os.PathLike[str]) -> int:
         """The rows as columns, by cluster.write_parquet."""

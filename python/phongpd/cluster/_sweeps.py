@@ -14,7 +14,8 @@ from distributed import Client
 from numpy.typing import ArrayLike
 
 from .. import _native
-from .._arguments import Floats, length, rows, seconds, whole_number
+from .._arguments import Floats, length, rows, seconds
+from .._lists import names, seed_numbers
 from .._native import InputError
 from ._jobs import Job, digest
 from ._run import Sweep, run
@@ -33,11 +34,11 @@ def convergence(scenes: Sequence[PathLike], *, seeds: Iterable[int],
     metrics, protocols: names as `phongpd compare --help` has them.
     """
     subjects = _scenes(scenes, max_mib, cache)
-    methods = [(protocol, metric) for protocol in _texts(protocols, "protocols")
-               for metric in _texts(metrics, "metrics")]
+    methods = [(protocol, metric) for protocol in names(protocols, "protocols")
+               for metric in names(metrics, "metrics")]
     for protocol, metric in methods:
         _native.check_method(protocol, metric)
-    numbers = _seeds(seeds)
+    numbers = seed_numbers(seeds)
     jobs = [Job.of("convergence", subject,
                    {"seed": seed, "protocol": protocol, "metric": metric})
             for subject in subjects for seed in numbers
@@ -55,19 +56,19 @@ def planning(scenes: Sequence[PathLike], *, seeds: Iterable[int], output: PathLi
     rows of World.plan, with its arguments."""
     subjects = _scenes(scenes, max_mib, cache)
     room = length(clearance, "clearance")
-    names = _texts(planners, "planners")
-    for planner in names:
+    chosen = names(planners, "planners")
+    for planner in chosen:
         _native.check_planner(planner, retraction, room)
     limit = seconds(max_seconds, "max_seconds")
     if not math.isfinite(limit):
         raise InputError("max_seconds: expected a finite number, found none")
     options = {"retraction": retraction, "clearance": room,
                "max_seconds": limit}
-    numbers = _seeds(seeds)
+    numbers = seed_numbers(seeds)
     jobs = [Job.of("planning", subject,
                    {"seed": seed, "planner": planner, **options})
             for subject in subjects for seed in numbers
-            for planner in names]
+            for planner in chosen]
     return run(jobs, subjects, output, client, batch)
 
 
@@ -118,7 +119,7 @@ def _scenes(scenes: Sequence[PathLike], max_mib: float | None,
             cache: bool) -> dict[str, dict[str, Any]]:
     max_mib = limit_of(max_mib)
     subjects: dict[str, dict[str, Any]] = {}
-    for text in _texts(scenes, "scenes"):
+    for text in names(scenes, "scenes"):
         scene = os.path.abspath(text) if os.path.isfile(text) else text
         content = _native.scene_digest(scene)
         subject = digest(content, max_mib)
@@ -128,24 +129,6 @@ def _scenes(scenes: Sequence[PathLike], max_mib: float | None,
         subjects[subject] = {"scene": scene, "digest": content,
                              "max_mib": max_mib, "cache": bool(cache)}
     return subjects
-
-
-def _texts(values: Any, name: str) -> list[str]:
-    if isinstance(values, (str, os.PathLike)) or not isinstance(
-            values, Iterable):
-        raise InputError(f"{name}: expected a list of names, found {values!r}")
-    texts = [os.fspath(value) for value in values]
-    if not texts:
-        raise InputError(f"{name}: expected at least one, found none")
-    return texts
-
-
-def _seeds(seeds: Iterable[int]) -> list[int]:
-    if isinstance(seeds, (str, int)) or not isinstance(seeds, Iterable):
-        raise InputError(
-            f"seeds: expected whole numbers, range(1, 51) for example, found "
-            f"{seeds!r}")
-    return [whole_number(seed, "seeds", 1) for seed in seeds]
 
 
 def _two(name: str, solids: Any) -> tuple[Any, Any]:
