@@ -23,8 +23,8 @@ struct PoseTrack {
 //   by_rotation     r̄ × d,   r̄ = GapLever's mean (gap_lever.h)
 //
 // with q_c the first contact on the ray from q along the d before, n_ρ the
-// smoothed normal of C_cont there (smoothed_normal.h) for ρ = ½ |q_c − q|, and r̄
-// of the robot at q_c, from its origin, with a reach of a quarter of its own.
+// smoothed normal of C_cont there (smoothed_normal.h) for ρ = ½ |q_c − q|, and
+// r̄ of the robot at q_c, from its origin, with a reach of a quarter of its own.
 //
 // Along a motion whose rows are asked one after the other, each with the track
 // of the one before, both change by less the shorter the steps: n_ρ, q_c and r̄

@@ -12,8 +12,10 @@ enum class Model {
   // The least that is enough: the window for planners that only check motions,
   // the whole for others, or again the window if limits refuse the whole.
   kAuto,
-  // Only free space (World::Convolution), and of the contact space the part that
-  // leads from start to goal (WindowPlanner), or what a metric that is asked for
+  // Only free space (World::Convolution), and of the contact space the part
+  // that
+  // leads from start to goal (WindowPlanner), or what a metric that is asked
+  // for
   // depends on along the iterates of an optimiser (WindowMetric).
   kWindow,
   kFull,

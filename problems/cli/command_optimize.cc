@@ -195,8 +195,7 @@ TimedFlags TimedFlagsOf(const OptimizeFlags& flags) {
   timed.time_limit = flags.time_limit;
   timed.output = flags.output;
   timed.html = flags.html;
-  timed.serve_command =
-      ServeCommand({flags.scene}, flags.root, flags.repair);
+  timed.serve_command = ServeCommand({flags.scene}, flags.root, flags.repair);
   timed.json = flags.json;
   timed.no_cache = flags.no_cache;
   timed.has_margin = !flags.margin.empty();
