@@ -187,12 +187,14 @@ class RigidWorld(Shown):
         way's length by which its knots are moved, at random. tracked:
         directions out of a collision that do not jump (TrackedPoseRow).  Not to
         find a path proves nothing.  One at a time in a process."""
-        answer, *rest = self._native.optimize(
+        (answer, solver, confirmed, planned_length, rounds, iterations,
+         added) = self._native.optimize(
             *self._task(start, goal, bounds, time_limit),
             whole_number(seed, "seed", 0, 2 ** 64 - 1), start_from,
-            whole_number(knots, "knots", 0, 10 ** 6), real(margin, "margin"),
+            whole_number(knots, "knots", 0), real(margin, "margin"),
             real(start_noise, "start_noise"), flag(tracked, "tracked"))
-        return RigidOptimum(*self._answer(answer), *rest)
+        return RigidOptimum(*self._answer(answer), solver, confirmed,
+                            planned_length, rounds, iterations, added)
 
     def _task(self, start: ArrayLike | None, goal: ArrayLike | None,
               bounds: ArrayLike | None, time_limit: float | None
