@@ -12,7 +12,7 @@ using Eigen::Vector3d;
 constexpr double kRound = 1e-3;  // |y| → (|y|² + this²)^½: smooth, and more
 
 // Of the terms in ΔB and η.
-double Along(const CurveRowState& state, const CurveLocal& step) {
+double AlongRow(const CurveRowState& state, const CurveLocal& step) {
   const CurveProgram::Row& row = *state.row;
   double along = state.eta * step[kCurveEta];
   if (row.kind == CurveProgram::Row::kAxis) {
@@ -32,7 +32,7 @@ double Along(const CurveRowState& state, const CurveLocal& step) {
 double Slope(const CurveRowState& state, const CurveLocal& step,
              double* along) {
   const CurveProgram::Row& row = *state.row;
-  *along = row.is_mirrored ? -*along : Along(state, step);
+  *along = row.is_mirrored ? -*along : AlongRow(state, step);
   return *along + row.missing * step[kCurveMissing] + row.t * step[kCurveT];
 }
 

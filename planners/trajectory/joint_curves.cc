@@ -28,7 +28,7 @@ struct Taken {
   double share, of_sigma, of_trust;
   double gain = 0.0;  // what the time fell by, a share
 };
-constexpr std::array<Taken, 3> kSteps = {
+constexpr std::array<Taken, 3> kShares = {
     {{1.0, 1.5, 1.0}, {0.5, 0.8, 0.9}, {0.2, 0.5, 0.7}}};
 constexpr Taken kNoStep = {0.0, 0.3, 0.5};
 constexpr int kMaxRounds = 40;  // of a size of pieces
@@ -242,7 +242,7 @@ class Together {
     const JointProgram program = Program(trust, sigma);
     const Eigen::VectorXd x = JointInteriorPoint(program).Solve().x;
     const double before = now_[0].Duration();
-    for (const Taken& taken : kSteps) {
+    for (const Taken& taken : kShares) {
       Curves moved = Moved(program, x, trust, taken.share);
       const double gain = 1.0 - moved[0].Duration() / before;
       if (!(gain > 0.0) || !IsFree(moved)) continue;

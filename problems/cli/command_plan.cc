@@ -133,7 +133,7 @@ void TellPlanModel(const PlanRequest& request, const PathAnswer& answer) {
 }
 
 // What flags ask of each other.
-void CheckFlags(const PlanFlags& flags, const PlanRequest& request) {
+void CheckPlanFlags(const PlanFlags& flags, const PlanRequest& request) {
   if (!flags.ompl_log.empty() &&
       request.planner == PlannerId::kContactSurface) {
     throw InputError("--ompl-log: expected a planner of OMPL, found " +
@@ -151,7 +151,7 @@ int AnswerPlan(const PlanFlags& flags) {
   if (source.turns()) return AnswerRigidPlan(flags, source);
   Scene scene = source.Load();
   PlanRequest request = RequestOf(flags, &scene);
-  CheckFlags(flags, request);
+  CheckPlanFlags(flags, request);
   const bool has_log = !flags.ompl_log.empty();
   SeededRuns runs(flags, source,
                   "scene, planner, seed: status, seconds (without contact "

@@ -12,7 +12,7 @@ namespace phongpd {
 namespace {
 
 // Okabe and Ito's, and two of Tol's; none of a metric.
-constexpr std::array<const char*, 6> kLineColors = {
+constexpr std::array<const char*, 6> kOtherColors = {
     "#E69F00", "#CC79A7", "#56B4E9", "#882255", "#999933", "#888888"};
 
 constexpr int kPale[] = {0x9F, 0xB4, 0xC8};
@@ -51,7 +51,7 @@ std::vector<std::string> LineColors(const std::vector<std::string>& names) {
   for (const std::string& name : names) {
     const char* const metric = ColorOfMetric(name);
     if (metric == nullptr) {
-      colors.emplace_back(kLineColors[others++ % kLineColors.size()]);
+      colors.emplace_back(kOtherColors[others++ % kOtherColors.size()]);
       continue;
     }
     colors.push_back(Paler(metric, std::min(0.75, 0.45 * before[metric]++)));

@@ -196,7 +196,8 @@ int Run(int argc, char** argv) {
   const NamedTable table = TableOf(rows);
   out.Write(table.file, ToCsv(table.table));
   out.Write("measured.txt",
-            Circumstances(CommandLine("build/fleet_benchmark", argc, argv), 1) +
+            Circumstances(CommandLine("build/fleet_benchmark", argc, argv),
+                          options.first_seed) +
                 "\n");
   out.Commit();
   return 0;
