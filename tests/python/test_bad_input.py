@@ -225,7 +225,7 @@ OPTIONS = {
     "first_hit resolution": (lambda v: T.judge.first_hit(
         np.eye(4), np.eye(4), resolution=v), ["1mm", None]),
     "rigid time_limit": (lambda v: T.turning.plan(np.eye(4), np.eye(4),
-                                                  time_limit=v), ["3s", None]),
+                                                  time_limit=v), ["3s", -1]),
     "rigid seed": (lambda v: T.turning.plan(np.eye(4), np.eye(4), seed=v),
                    [-1, 1.5, "a", 2 ** 64]),
 }
