@@ -21,8 +21,6 @@ constexpr double kLeastGap = 1e-6;
 constexpr double kGradient = 1e-3;
 constexpr double kStepShare = 0.99;  // of the way to the nearest row
 constexpr double kShortestStep = 1e-4;
-// Of unknowns that nothing else has a price for.
-constexpr double kProximal = 1e-6;
 // A norm so small beside its limit gets no row in its own direction.
 constexpr double kSmallNorm = 0.1;
 
@@ -30,17 +28,15 @@ constexpr double kSmallNorm = 0.1;
 
 JointInteriorPoint::JointInteriorPoint(const JointProgram& program)
     : program_(program),
-      curves_(static_cast<int>(program.curves.size())),
-      pieces_(static_cast<int>(program.curves[0].pieces.size())),
-      block_(9 * curves_ + 1),
-      hessian_(pieces_, block_),
+      unknowns_(program),
+      hessian_(unknowns_.pieces(), unknowns_.block()),
       linear_(VectorXd::Zero(hessian_.size())),
-      lines_(static_cast<std::size_t>(pieces_)) {
-  for (int i = 0; i < pieces_; ++i) {
-    for (int c = 0; c < curves_; ++c) AddLines(c, i);
+      lines_(static_cast<std::size_t>(unknowns_.pieces())) {
+  for (int i = 0; i < unknowns_.pieces(); ++i) {
+    for (int c = 0; c < unknowns_.curves(); ++c) AddLines(c, i);
   }
   AddPairs();
-  AddObjective();
+  unknowns_.AddObjective(&hessian_, &linear_);
 }
 
 void JointInteriorPoint::AddLines(int curve, int piece) {
@@ -116,195 +112,9 @@ void JointInteriorPoint::AddPairs() {
   }
 }
 
-void JointInteriorPoint::AddJerk(int piece) {
-  // ∫ of products of the quadratic Bernstein polynomials, times 30.
-  Eigen::Matrix3d products;
-  products << 6, 3, 1, 3, 4, 3, 1, 3, 6;
-  MatrixXd matrix = MatrixXd::Zero(TAt() + 1, TAt() + 1);
-  VectorXd gradient = VectorXd::Zero(TAt() + 1);
-  for (int c = 0; c < curves_; ++c) {
-    const CurveProgram::Piece& of = program_.curves[c].pieces[piece];
-    const double weight = 2.0 * of.jerk_weight / (30.0 * curves_);
-    for (int axis = 0; axis < 3; ++axis) {
-      const auto& rows = of.jerk[axis];
-      const Eigen::Matrix<double, 8, 8> square =
-          weight * rows.transpose() * products * rows;
-      const auto place = [&](int j) {
-        return j < 6 ? 18 * c + 3 * j + axis : EtaAt();
-      };
-      for (int j = 0; j < 7; ++j) {
-        gradient[place(j)] += square(j, 7);
-        for (int k = 0; k < 7; ++k) matrix(place(j), place(k)) += square(j, k);
-      }
-    }
-  }
-  const CurveProgram::Piece& of = program_.curves[0].pieces[piece];
-  gradient[EtaAt()] += of.share;
-  matrix(EtaAt(), EtaAt()) += of.share;
-  AddGradient(piece, gradient, &linear_);
-  AddMatrix(piece, &matrix, &hessian_);
-}
-
-void JointInteriorPoint::AddObjective() {
-  const int eta = block_ - 1;
-  const CurveProgram& first = program_.curves[0];
-  for (int i = 0; i < pieces_; ++i) {
-    AddJerk(i);
-    hessian_.diagonal[i].diagonal().array() += kProximal;
-    if (i == 0) continue;
-    const double by = 2.0 * first.evenness;
-    const double jump =
-        first.pieces[i].log_duration - first.pieces[i - 1].log_duration;
-    hessian_.diagonal[i](eta, eta) += by;
-    hessian_.diagonal[i - 1](eta, eta) += by;
-    hessian_.above[i - 1](eta, eta) -= by;
-    linear_[block_ * i + eta] += by * jump;
-    linear_[block_ * (i - 1) + eta] -= by * jump;
-  }
-  linear_[linear_.size() - 1] = first.t;
-}
-
-VectorXd JointInteriorPoint::ToLocal(int piece, const VectorXd& x) const {
-  VectorXd local(TAt() + 1);
-  const double eta = x[block_ * piece + block_ - 1];
-  for (int c = 0; c < curves_; ++c) {
-    const CurveProgram::Piece& of = program_.curves[c].pieces[piece];
-    const double r = of.before, s = of.after;
-    const auto from = x.segment<9>(block_ * piece + 9 * c);
-    auto b = local.segment<18>(18 * c);
-    b.segment<3>(0) = from.segment<3>(0);
-    b.segment<3>(3) = from.segment<3>(0) + r * from.segment<3>(3);
-    b.segment<3>(6) = from.segment<3>(0) + 2.0 * r * from.segment<3>(3) +
-                      r * r * from.segment<3>(6);
-    if (piece + 1 < pieces_) {
-      const auto to = x.segment<9>(block_ * (piece + 1) + 9 * c);
-      b.segment<3>(9) = to.segment<3>(0) - 2.0 * s * to.segment<3>(3) +
-                        s * s * to.segment<3>(6);
-      b.segment<3>(12) = to.segment<3>(0) - s * to.segment<3>(3);
-      b.segment<3>(15) = to.segment<3>(0);
-    } else {
-      b.segment<9>(9).setZero();
-    }
-    for (int j = 0; j < 6; ++j) b.segment<3>(3 * j) += eta * of.by_eta.col(j);
-  }
-  local[EtaAt()] = eta;
-  local[TAt()] = x[x.size() - 1];
-  return local;
-}
-
-void JointInteriorPoint::AddGradient(int piece, const VectorXd& local,
-                                     VectorXd* x) const {
-  double eta = local[EtaAt()];
-  for (int c = 0; c < curves_; ++c) {
-    const CurveProgram::Piece& of = program_.curves[c].pieces[piece];
-    const double r = of.before, s = of.after;
-    const auto b = local.segment<18>(18 * c);
-    for (int j = 0; j < 6; ++j) {
-      eta += of.by_eta.col(j).dot(b.segment<3>(3 * j));
-    }
-    const Vector3d b1 = b.segment<3>(3), b2 = b.segment<3>(6);
-    auto from = x->segment<9>(block_ * piece + 9 * c);
-    from.segment<3>(0) += b.segment<3>(0) + b1 + b2;
-    from.segment<3>(3) += r * (b1 + 2.0 * b2);
-    from.segment<3>(6) += r * r * b2;
-    if (piece + 1 == pieces_) continue;
-    const Vector3d b3 = b.segment<3>(9), b4 = b.segment<3>(12);
-    auto to = x->segment<9>(block_ * (piece + 1) + 9 * c);
-    to.segment<3>(0) += b.segment<3>(15) + b4 + b3;
-    to.segment<3>(3) -= s * (b4 + 2.0 * b3);
-    to.segment<3>(6) += s * s * b3;
-  }
-  (*x)[block_ * piece + block_ - 1] += eta;
-  (*x)[x->size() - 1] += local[TAt()];
-}
-
-// FᵀMF with ToLocal's F, columns first, then rows.
-void JointInteriorPoint::AddMatrix(int piece, MatrixXd* local,
-                                   WideTridiagonal* to) const {
-  MatrixXd& m = *local;
-  for (int pass = 0; pass < 2; ++pass) {
-    for (int c = 0; c < curves_; ++c) {
-      const CurveProgram::Piece& of = program_.curves[c].pieces[piece];
-      const double r = of.before, s = of.after;
-      for (int k = 0; k < 3; ++k) {
-        const int at = 18 * c + k;
-        for (int j = 0; j < 6; ++j) {
-          m.col(EtaAt()) += of.by_eta(k, j) * m.col(at + 3 * j);
-        }
-        auto b0 = m.col(at), b1 = m.col(at + 3), b2 = m.col(at + 6);
-        b0 += b1 + b2;
-        b1 = r * (b1 + 2.0 * b2);
-        b2 *= r * r;
-        auto b3 = m.col(at + 9), b4 = m.col(at + 12), b5 = m.col(at + 15);
-        b5 += b4 + b3;
-        b4 = -s * (b4 + 2.0 * b3);
-        b3 *= s * s;
-      }
-    }
-    m.transposeInPlace();
-  }
-  // The order after, of each curve: p v a of the first knot; a v p of the
-  // second.
-  const int eta = block_ - 1;
-  const auto of_second = [](int o) { return 15 - 3 * o; };
-  const bool has_second = piece + 1 < pieces_;
-  auto& here = to->diagonal[piece];
-  for (int a = 0; a < curves_; ++a) {
-    const int at = 18 * a;
-    here.block<9, 1>(9 * a, eta) += m.block<9, 1>(at, EtaAt());
-    here.block<1, 9>(eta, 9 * a) += m.block<1, 9>(EtaAt(), at);
-    to->border[piece].segment<9>(9 * a) += m.block<9, 1>(at, TAt());
-    for (int o = 0; has_second && o < 3; ++o) {
-      const int column = at + of_second(o);
-      to->above[piece].block<1, 3>(eta, 9 * a + 3 * o) +=
-          m.block<1, 3>(EtaAt(), column);
-      to->border[piece + 1].segment<3>(9 * a + 3 * o) +=
-          m.block<3, 1>(column, TAt());
-    }
-    for (int b = 0; b < curves_; ++b) {
-      here.block<9, 9>(9 * a, 9 * b) += m.block<9, 9>(at, 18 * b);
-      for (int o = 0; has_second && o < 3; ++o) {
-        const int column = 18 * b + of_second(o);
-        to->above[piece].block<9, 3>(9 * a, 9 * b + 3 * o) +=
-            m.block<9, 3>(at, column);
-        for (int q = 0; q < 3; ++q) {
-          to->diagonal[piece + 1].block<3, 3>(9 * a + 3 * q, 9 * b + 3 * o) +=
-              m.block<3, 3>(at + of_second(q), column);
-        }
-      }
-    }
-  }
-  here(eta, eta) += m(EtaAt(), EtaAt());
-  to->border[piece][eta] += m(EtaAt(), TAt());
-  to->corner += m(TAt(), TAt());
-}
-
-void JointInteriorPoint::Fix(WideTridiagonal* matrix) const {
-  for (int k = 0; k < pieces_; ++k) {
-    for (int c = 0; c < curves_; ++c) {
-      if (!IsFixed(k, c)) continue;
-      auto& block = matrix->diagonal[k];
-      block.middleRows<9>(9 * c).setZero();
-      block.middleCols<9>(9 * c).setZero();
-      block.diagonal().segment<9>(9 * c).setOnes();
-      matrix->above[k].middleRows<9>(9 * c).setZero();
-      if (k > 0) matrix->above[k - 1].middleCols<9>(9 * c).setZero();
-      matrix->border[k].segment<9>(9 * c).setZero();
-    }
-  }
-}
-
-void JointInteriorPoint::Fix(VectorXd* x) const {
-  for (int k = 0; k < pieces_; ++k) {
-    for (int c = 0; c < curves_; ++c) {
-      if (IsFixed(k, c)) x->segment<9>(block_ * k + 9 * c).setZero();
-    }
-  }
-}
-
 double JointInteriorPoint::Along(const Line& line,
                                  const VectorXd& local) const {
-  double along = line.eta * local[EtaAt()];
+  double along = line.eta * local[unknowns_.EtaAt()];
   if (line.first < 0) return along;
   for (int j = line.from; j <= line.to; ++j) {
     const int at = 18 * line.first + 3 * j;
@@ -323,7 +133,7 @@ double JointInteriorPoint::Along(const Line& line,
 void JointInteriorPoint::AddSquare(const Line& line, double by,
                                    MatrixXd* matrix) const {
   MatrixXd& m = *matrix;
-  const int eta = EtaAt();
+  const int eta = unknowns_.EtaAt();
   m(eta, eta) += by * line.eta * line.eta;
   if (line.first < 0) return;
   const int a = 18 * line.first;
@@ -359,7 +169,7 @@ void JointInteriorPoint::AddSquare(const Line& line, double by,
 
 void JointInteriorPoint::AddLine(const Line& line, double by,
                                  VectorXd* local) const {
-  (*local)[EtaAt()] += by * line.eta;
+  (*local)[unknowns_.EtaAt()] += by * line.eta;
   if (line.first < 0) return;
   for (int j = line.from; j <= line.to; ++j) {
     const Vector3d part = by * line.weight[j] * line.direction;
@@ -372,15 +182,15 @@ void JointInteriorPoint::AddLine(const Line& line, double by,
 bool JointInteriorPoint::Begin(VectorXd* x, int* rows) {
   (*x)[x->size() - 1] = kStartT;
   double of_t = 0.0;
-  for (int i = 0; i < pieces_; ++i) {
-    const VectorXd local = ToLocal(i, *x);
+  for (int i = 0; i < unknowns_.pieces(); ++i) {
+    const VectorXd local = unknowns_.ToLocal(i, *x);
     for (Line& line : lines_[i]) {
       const double along = Along(line, local);
       for (int s = 0; s < line.sides; ++s) {
         ++*rows;
         Side& side = line.side[s];
-        side.slack = -((s == 0 ? along : -along) + line.t * local[TAt()] +
-                       side.constant);
+        side.slack = -((s == 0 ? along : -along) +
+                       line.t * local[unknowns_.TAt()] + side.constant);
         if (!(side.slack > 0.0)) return false;
         if (line.t < 0.0) of_t -= line.t / side.slack;
       }
@@ -400,9 +210,9 @@ bool JointInteriorPoint::Begin(VectorXd* x, int* rows) {
 double JointInteriorPoint::AddRows(WideTridiagonal* matrix,
                                    VectorXd* residual) const {
   double gap = 0.0;
-  const int t = TAt();
+  const int t = unknowns_.TAt();
   MatrixXd local(t + 1, t + 1);
-  for (int i = 0; i < pieces_; ++i) {
+  for (int i = 0; i < unknowns_.pieces(); ++i) {
     local.setZero();
     VectorXd of_rows = VectorXd::Zero(t + 1), with_t = VectorXd::Zero(t + 1);
     for (const Line& line : lines_[i]) {
@@ -424,8 +234,8 @@ double JointInteriorPoint::AddRows(WideTridiagonal* matrix,
     }
     local.col(t) += with_t;
     local.row(t) += with_t.transpose();
-    AddMatrix(i, &local, matrix);
-    AddGradient(i, of_rows, residual);
+    unknowns_.AddMatrix(i, &local, matrix);
+    unknowns_.AddGradient(i, of_rows, residual);
   }
   return gap;
 }
@@ -433,13 +243,14 @@ double JointInteriorPoint::AddRows(WideTridiagonal* matrix,
 // Steps of slacks and duals along one of x; how far they lead at most.
 double JointInteriorPoint::FollowRows(const VectorXd& step, double centre) {
   double alpha = 1.0;
-  for (int i = 0; i < pieces_; ++i) {
-    const VectorXd local = ToLocal(i, step);
+  for (int i = 0; i < unknowns_.pieces(); ++i) {
+    const VectorXd local = unknowns_.ToLocal(i, step);
     for (Line& line : lines_[i]) {
       const double along = Along(line, local);
       for (int s = 0; s < line.sides; ++s) {
         Side& side = line.side[s];
-        const double slope = (s == 0 ? along : -along) + line.t * local[TAt()];
+        const double slope =
+            (s == 0 ? along : -along) + line.t * local[unknowns_.TAt()];
         side.slack_step = -slope;
         side.dual_step =
             -side.dual +
@@ -457,19 +268,19 @@ double JointInteriorPoint::FollowRows(const VectorXd& step, double centre) {
 }
 
 void JointInteriorPoint::AddCentres(double centre, VectorXd* to) const {
-  for (int i = 0; i < pieces_; ++i) {
-    VectorXd of_rows = VectorXd::Zero(TAt() + 1);
+  for (int i = 0; i < unknowns_.pieces(); ++i) {
+    VectorXd of_rows = VectorXd::Zero(unknowns_.TAt() + 1);
     for (const Line& line : lines_[i]) {
       double by = 0.0;
       for (int s = 0; s < line.sides; ++s) {
         const Side& side = line.side[s];
         const double multiplier = (side.product - centre) / side.slack;
         by += s == 0 ? multiplier : -multiplier;
-        of_rows[TAt()] += multiplier * line.t;
+        of_rows[unknowns_.TAt()] += multiplier * line.t;
       }
       AddLine(line, by, &of_rows);
     }
-    AddGradient(i, of_rows, to);
+    unknowns_.AddGradient(i, of_rows, to);
   }
 }
 
@@ -479,19 +290,19 @@ JointInteriorPoint::Result JointInteriorPoint::Solve() {
   VectorXd x = result.x;
   // Not so where rounding takes all room: then no step is the answer.
   if (!Begin(&x, &result.rows)) return result;
-  WideTridiagonal matrix(pieces_, block_);
+  WideTridiagonal matrix(unknowns_.pieces(), unknowns_.block());
   for (; result.iterations < kMaxIterations; ++result.iterations) {
     const VectorXd gradient = hessian_.Times(x) + linear_;
     VectorXd residual = gradient;
     matrix = hessian_;
     const double gap = AddRows(&matrix, &residual);
-    Fix(&residual);
+    unknowns_.Fix(&residual);
     const double gained = -0.5 * x.dot(gradient + linear_);
     if (gap <= std::max(kLeastGap, kGap * gained) &&
         residual.cwiseAbs().maxCoeff() <= kGradient) {
       break;
     }
-    Fix(&matrix);
+    unknowns_.Fix(&matrix);
     matrix.Factorize();
 
     // Predictor.
@@ -501,7 +312,7 @@ JointInteriorPoint::Result JointInteriorPoint::Solve() {
       }
     }
     VectorXd step = -gradient;
-    Fix(&step);
+    unknowns_.Fix(&step);
     matrix.Solve(&step);
     const double reach = FollowRows(step, 0.0);
     double after = 0.0;
@@ -521,7 +332,7 @@ JointInteriorPoint::Result JointInteriorPoint::Solve() {
     // Corrector.
     step = -gradient;
     AddCentres(centre, &step);
-    Fix(&step);
+    unknowns_.Fix(&step);
     matrix.Solve(&step);
     const double alpha = std::min(1.0, kStepShare * FollowRows(step, centre));
     if (!(alpha > kShortestStep)) break;

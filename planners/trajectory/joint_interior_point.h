@@ -5,28 +5,9 @@
 #include <array>
 #include <vector>
 
-#include "planners/trajectory/block_tridiagonal.h"
-#include "planners/trajectory/scaled_curve_program.h"
+#include "planners/trajectory/joint_program.h"
 
 namespace phongpd::internal {
-
-// The programs of several curves with knots at the same times as one: their η
-// and t are common, each has unknowns of its own for its knots, and rows of two
-// curves keep what they are moved along apart.
-struct JointProgram {
-  // constant + d·Σ_j w_j (ΔB_j of the first − ΔB_j of the second)/τ ≤ 0.
-  struct PairRow {
-    int piece = 0;
-    int first = 0, second = 0;  // curves
-    int from = 0, to = -1;      // weights that are not 0
-    Eigen::Matrix<double, 6, 1> weight = Eigen::Matrix<double, 6, 1>::Zero();
-    Eigen::Vector3d direction = Eigen::Vector3d::Zero();
-    double constant = 0.0;
-  };
-  std::vector<CurveProgram> curves;  // of as many pieces; without m
-  std::vector<bool> stays;           // all knots of the curve are fixed
-  std::vector<PairRow> pairs;
-};
 
 // By Mehrotra's predictor and corrector from within, as CurveInteriorPoint; a
 // knot's block has the unknowns of all curves.  Limits by norm are rows that
@@ -37,8 +18,7 @@ class JointInteriorPoint {
   explicit JointInteriorPoint(const JointProgram& program);
 
   struct Result {
-    // Of knot k: 9 of each curve, then η of piece k; t is the last.
-    Eigen::VectorXd x;
+    Eigen::VectorXd x;  // as JointUnknowns has it
     int iterations = 0;
     int rows = 0;
   };
@@ -62,23 +42,10 @@ class JointInteriorPoint {
     std::array<Side, 2> side;
   };
 
-  int EtaAt() const { return 18 * curves_; }
-  int TAt() const { return 18 * curves_ + 1; }
   void AddLines(int curve, int piece);
   void AddNormLines(int curve, const CurveProgram::Row& row,
                     std::vector<Line>* lines) const;
   void AddPairs();
-  void AddObjective();
-  void AddJerk(int piece);
-  Eigen::VectorXd ToLocal(int piece, const Eigen::VectorXd& x) const;
-  void AddGradient(int piece, const Eigen::VectorXd& local,
-                   Eigen::VectorXd* x) const;
-  void AddMatrix(int piece, Eigen::MatrixXd* local, WideTridiagonal* to) const;
-  void Fix(WideTridiagonal* matrix) const;
-  void Fix(Eigen::VectorXd* x) const;
-  bool IsFixed(int knot, int curve) const {
-    return knot == 0 || program_.stays[static_cast<std::size_t>(curve)];
-  }
 
   double Along(const Line& line, const Eigen::VectorXd& local) const;
   void AddSquare(const Line& line, double by, Eigen::MatrixXd* m) const;
@@ -89,7 +56,7 @@ class JointInteriorPoint {
   void AddCentres(double centre, Eigen::VectorXd* to) const;
 
   const JointProgram& program_;
-  int curves_, pieces_, block_;
+  const JointUnknowns unknowns_;
   WideTridiagonal hessian_;
   Eigen::VectorXd linear_;
   std::vector<std::vector<Line>> lines_;  // by piece
