@@ -112,8 +112,8 @@ TEST_F(CliTurning, OptimizesThePathOfAPlank) {
   EXPECT_EQ(path.back(), row["goal"]);
   const TurningScene scene = ParseTurningScene(Slit(), "scene.json", File("."));
   for (std::size_t i = 0; i + 1 < path.size(); ++i) {
-    for (const Solid& obstacle : scene.workspace.obstacles) {
-      EXPECT_TRUE(RigidJudge(scene.workspace.robot.mesh(), obstacle.mesh())
+    for (const TurningScene::Obstacle& obstacle : scene.obstacles) {
+      EXPECT_TRUE(RigidJudge(scene.robot, obstacle.mesh)
                       .Check(RigidMotion(PoseOf(path[i]), PoseOf(path[i + 1])))
                       .IsFree());
     }
