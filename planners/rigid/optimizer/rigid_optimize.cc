@@ -160,6 +160,12 @@ class RigidOptimizer {
     if (!planned.IsSolved()) {
       out_.answer.status = planned.status;
       out_.answer.reason = planned.reason;
+      if (planned.status == PathStatus::kTimeLimit) {
+        out_.answer.reason = "the planner found no path in its share, " +
+                             Rounded(task.time_limit) + " of " +
+                             Rounded(request_.task.time_limit) +
+                             " s, which does not prove that there is none";
+      }
       return;
     }
     out_.planned_length = planned.length;

@@ -165,7 +165,7 @@ TEST_F(CliTurning, RefusesWhatOnlyTranslatingRobotsHave) {
 TEST_F(CliTurning, FamiliesArePlannedWrittenAndShown) {
   ExpectRefused("plan alpha:1", {"alpha", "[1.01, 3]", "found 1"});
   ExpectRefused("plan alpha:play=2", {"alpha", "gap", "'play'"});
-  ExpectRefused("optimize alpha", {"/robot/turns", "phongpd plan"});
+  ExpectRefused("compare alpha", {"turns"});
   ExpectRefused("view alpha --build --html v.html", {"--build", "turns"});
   const Json list = Json::parse(Run("scenes list --json").out);
   ASSERT_EQ(list["turning_families"].size(), 8U);
