@@ -151,7 +151,7 @@ int Look(ViewFlags flags) {
           "one, found " +
           view.title + "; without --serve it can be looked at");
     }
-    ServeView(std::move(view), *scene, UserCache(flags.no_cache), flags.server);
+    ServeView(view, *scene, UserCache(flags.no_cache), flags.server);
   }
   const std::string page =
       is_page || !flags.png.empty() ? ViewPage(view) : std::string();
