@@ -4,9 +4,10 @@
 // In the order, and so the colours, of motions.
 const kProbeMetrics = ['Euclidean PD', 'PhongPD', 'sliding contact'];
 const kProbeSliding = 2;
-const kQueryStates = ['ok', 'branch ended', 'Euclidean fallback', 'invalid'];
-const kTrackerStates =
-    ['following', 'sliding', 'left elsewhere', 'outside', 'invalid'];
+// As QueryStatus has them, in its order (query_status.h).
+const kQueryStates =
+    ['ok', 'branch ended', 'Euclidean fallback', 'invalid', 'following',
+     'sliding', 'left elsewhere', 'outside'];
 const kProbeNumbers = 12;  // of one metric (probe.cc)
 
 class Probe {
@@ -85,10 +86,8 @@ class Probe {
         const row = all.slice(at, at + kProbeNumbers);
         if (!best || row[2] < best[2]) best = row;
       }
-      const states = metric === kProbeSliding ? kTrackerStates
-          : kQueryStates;
       return {
-        name, status: states[best[0]], inside: best[1] === 1,
+        name, status: kQueryStates[best[0]], inside: best[1] === 1,
         distance: best[2], contact: [...best.slice(3, 6)],
         direction: [...best.slice(6, 9)], gradient: [...best.slice(9, 12)],
       };

@@ -78,7 +78,7 @@ Matrix3d AxesOf(const std::vector<TriangleCorners>& corners,
   });
   const Eigen::SelfAdjointEigenSolver<Matrix3d> solver(moments);
   if (solver.info() != Eigen::Success) return Matrix3d::Identity();
-  const Matrix3d axes = solver.eigenvectors();
+  const Matrix3d& axes = solver.eigenvectors();
   return axes.allFinite() ? AxesFrom(axes.col(2), axes.col(1))
                           : Matrix3d::Identity();
 }
