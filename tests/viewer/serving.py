@@ -15,6 +15,8 @@ class Served:
         self.process = subprocess.Popen(
             [program, "view", *arguments, "--serve"], cwd=folder, text=True,
             stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+            # A shell's background job ignores Ctrl-C, and so would its child.
+            preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
             env={**{k: v for k, v in os.environ.items()
                     if k not in ("DISPLAY", "WAYLAND_DISPLAY")},
                  "PHONGPD_CACHE_DIR": str(folder / "cache"),
