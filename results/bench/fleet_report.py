@@ -21,7 +21,8 @@ Alone: the largest of the times that each takes without the others, a lower boun
 what the optimiser finds. By order: with priorities, the orders that the preset tries.
 Together: `OptimizeFleet`, which makes the motions faster together in the end
 (`joint_curves.h`); all arrive at the same time then. Certified: every pair proved
-free for all t, and confirmed on the solids. Seeds are not those of development.
+free for all t, and confirmed on the solids. The rule of steps was chosen on other
+seeds, after a first look at some of these with another rule.
 
 """
 
