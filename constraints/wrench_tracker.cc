@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "constraints/gap_lever.h"
+#include "constraints/gyration.h"
 #include "core/mesh/mesh_error.h"
 #include "core/number_text.h"
 #include "core/projection/euclidean_metric.h"
@@ -20,24 +21,6 @@ constexpr double kReach = 1.0 / 8;         // of the robot's diagonal
 constexpr double kLeastRadius = 1.0 / 20;  // ρ, of L
 constexpr double kRatio = 1.5;             // of the ways out that n keeps to
 constexpr double kDamping = 0.5;           // of what is wanted, a step
-
-// ∫ |p|² dA of a triangle is its area times the mean of |p|² at the middles of
-// its edges.
-double Gyration(const TriangleMesh& mesh) {
-  double sum = 0.0, areas = 0.0;
-  for (const Triangle& t : mesh.triangles) {
-    const Vector3d& a = mesh.vertices[static_cast<std::size_t>(t[0])];
-    const Vector3d& b = mesh.vertices[static_cast<std::size_t>(t[1])];
-    const Vector3d& c = mesh.vertices[static_cast<std::size_t>(t[2])];
-    const double area = (b - a).cross(c - a).norm();
-    sum += area *
-           ((a + b).squaredNorm() + (b + c).squaredNorm() +
-            (c + a).squaredNorm()) /
-           12.0;
-    areas += area;
-  }
-  return std::sqrt(sum / areas);
-}
 
 double Angle(const Vector3d& a, const Vector3d& b) {
   return std::atan2(a.cross(b).norm(), a.dot(b));
@@ -68,7 +51,7 @@ struct WrenchTracker::Impl {
       : robot(the_robot),
         obstacle(the_obstacle),
         speed(the_speed),
-        gyration(Gyration(robot.mesh())),
+        gyration(internal::RadiusOfGyration({robot.mesh()})),
         levers(robot.mesh(), obstacle.mesh(),
                kReach * ComputeBounds(robot.mesh()).Diagonal()) {}
 

@@ -2,8 +2,8 @@
 #include "planners/rigid/rigid_world.h"
 
 #include <algorithm>
-#include <cmath>
 
+#include "constraints/gyration.h"
 #include "core/mesh/mesh_error.h"
 #include "planners/rigid/object_norm.h"
 #include "planners/rigid/rigid_model.h"
@@ -26,24 +26,9 @@ double ReachOf(const std::vector<TriangleMesh>& meshes) {
   return reach;
 }
 
-// ∫ |p|² dA of a triangle is its area times the mean of |p|² at the middles of
-// its edges.  A robot without area has no inertia; its reach does as well.
+// A robot without area has no inertia; its reach does as well.
 double GyrationOf(const std::vector<TriangleMesh>& meshes, double reach) {
-  double sum = 0.0, areas = 0.0;
-  for (const TriangleMesh& mesh : meshes) {
-    for (const Triangle& t : mesh.triangles) {
-      const Vector3d& a = mesh.vertices[static_cast<std::size_t>(t[0])];
-      const Vector3d& b = mesh.vertices[static_cast<std::size_t>(t[1])];
-      const Vector3d& c = mesh.vertices[static_cast<std::size_t>(t[2])];
-      const double area = (b - a).cross(c - a).norm();
-      sum += area *
-             ((a + b).squaredNorm() + (b + c).squaredNorm() +
-              (c + a).squaredNorm()) /
-             12.0;
-      areas += area;
-    }
-  }
-  const double gyration = areas > 0.0 ? std::sqrt(sum / areas) : 0.0;
+  const double gyration = internal::RadiusOfGyration(meshes);
   return gyration > 0.0 ? gyration : reach;
 }
 
