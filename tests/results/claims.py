@@ -6,6 +6,7 @@ add a sentence: write it here with {} for each figure, and how each comes from a
 table of results/."""
 import re
 
+from claims_fleets import FLEET_CLAIMS
 from claims_lazy import LAZY_CLAIMS
 from claims_peers import CLAIMS as PEER_CLAIMS
 from claims_solvers import CLAIMS as SOLVER_CLAIMS
@@ -13,7 +14,7 @@ from claims_study import STUDY_CLAIMS
 from claims_tables import cell, jumps, table, where
 from claims_tables import column as of
 
-CLAIMS = [*STUDY_CLAIMS, *SOLVER_CLAIMS, *PEER_CLAIMS, *LAZY_CLAIMS]
+CLAIMS = [*STUDY_CLAIMS, *SOLVER_CLAIMS, *PEER_CLAIMS, *LAZY_CLAIMS, *FLEET_CLAIMS]
 E_PD, PHONG = "euclidean", "phong@0.2"
 
 
