@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Tables of results/study from its rows: python3 -B study_report.py FOLDER
-[--rows rows.jsonl ...], which first makes rows.csv of those."""
+[--rows rows.jsonl rows.csv ...], which first makes rows.csv of those: seeds that were
+made later join those that are published."""
 import argparse
 import csv
 import json
@@ -22,14 +23,32 @@ COLUMNS = ("scene", "protocol", "method", "seed", "status", "status_class",
            "collision_free", "iterations", "restoration_iterations", "objective")
 
 
-def write_csv(folder, files):
-    rows = []
-    for name in files:
-        for line in pathlib.Path(name).read_text().splitlines():
+def rows_of(name):
+    """Its rows as texts of COLUMNS, from the program's JSON Lines or a rows.csv."""
+    with open(name, newline="") as file:
+        if pathlib.Path(name).suffix == ".csv":
+            yield from ([row[column] for column in COLUMNS]
+                        for row in csv.DictReader(file))
+            return
+        for line in file:
             row = json.loads(line)
             row["collision_free"] = str(row["collision_free"]).lower()
-            rows.append([row[column] for column in COLUMNS])
-    rows.sort(key=lambda row: (row[0], PROTOCOLS.index(row[1]), row[3], row[2]))
+            yield [str(row[column]) for column in COLUMNS]
+
+
+def write_csv(folder, files):
+    """All rows of the files; a run that is there twice must have the same answer both
+    times, and is written once."""
+    found = {}
+    for name in files:
+        for row in rows_of(name):
+            key = tuple(row[:4])
+            if found.setdefault(key, row) != row:
+                raise SystemExit(f"{name}: expected the answer that another file has of "
+                                 f"{' '.join(key)}, {found[key]}, found {row}; were "
+                                 "they made by the same program?")
+    rows = sorted(found.values(), key=lambda row: (
+        row[0], PROTOCOLS.index(row[1]), int(row[3]), row[2]))
     with open(folder / "rows.csv", "w", newline="") as file:
         writer = csv.writer(file, lineterminator="\n")
         writer.writerow(COLUMNS)

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Statistics of results/study: by hand, by SciPy's own, and of rows whose
 answer is known."""
+import json
 import pathlib
 import sys
 
@@ -82,6 +83,30 @@ def test_rows_of_incomplete_blocks_are_refused():
     rows = made_rows(())[:-1]
     with pytest.raises(SystemExit, match="incomplete"):
         study_report.hypotheses(rows)
+
+
+def test_later_seeds_join_published_rows(tmp_path):
+    published = ROOT / "results/study/rows.csv"
+    lines = published.read_text().splitlines()
+    run = dict(zip(lines[0].split(","), lines[1].split(",")))
+    later = dict(run, seed=70002, collision_free=True, iterations=7,
+                 restoration_iterations=0, objective=1.25, seconds=3.0)
+    (tmp_path / "later.jsonl").write_text(
+        json.dumps(later) + "\n" + json.dumps(dict(later, seed=100000)) + "\n")
+    (tmp_path / "published.csv").write_text("\n".join(lines[:2]) + "\n")
+    study_report.write_csv(tmp_path, [tmp_path / "later.jsonl",
+                                      tmp_path / "published.csv",
+                                      tmp_path / "published.csv"])
+    joined = (tmp_path / "rows.csv").read_text().splitlines()
+    assert joined[:2] == lines[:2]
+    assert [line.split(",")[3] for line in joined[1:]] == ["70001", "70002", "100000"]
+    assert joined[3].endswith(",true,7,0,1.25")
+
+    other = lines[1].replace(",18,", ",19,")
+    assert other != lines[1]
+    (tmp_path / "other.csv").write_text("\n".join((lines[0], other)) + "\n")
+    with pytest.raises(SystemExit, match="the same program"):
+        study_report.write_csv(tmp_path, [published, tmp_path / "other.csv"])
 
 
 def test_the_published_page_is_that_of_its_rows(tmp_path):
