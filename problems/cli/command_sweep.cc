@@ -46,19 +46,33 @@ Eigen::Quaterniond TurnByDegrees(double roll, double pitch, double yaw) {
   return turn.normalized();
 }
 
+// 90, 90deg, 1.5rad: in degrees.
+double Degrees(const std::string& text, const std::string& flag) {
+  const std::string unit = text.size() > 3 ? text.substr(text.size() - 3) : "";
+  if (unit != "deg" && unit != "rad") return ParseDouble(text, flag);
+  const double angle = ParseDouble(text.substr(0, text.size() - 3), flag);
+  return unit == "deg" ? angle : angle * 180.0 / kPi;
+}
+
 // Three numbers, six or seven; what is no unit quaternion RigidMotion refuses.
 RobotPose PoseFlag(const std::string& text, const std::string& flag) {
-  std::vector<double> x;
+  std::vector<std::string> words;
   for (std::size_t begin = 0; begin <= text.size();) {
     const std::size_t end = std::min(text.find(',', begin), text.size());
-    x.push_back(ParseDouble(text.substr(begin, end - begin), flag));
+    words.push_back(text.substr(begin, end - begin));
     begin = end + 1;
   }
+  std::vector<double> x;
+  for (const std::string& word : words) {
+    const bool is_angle = words.size() == 6 && x.size() >= 3;
+    x.push_back(is_angle ? Degrees(word, flag) : ParseDouble(word, flag));
+  }
   if (x.size() != 3 && x.size() != 6 && x.size() != 7) {
-    throw InputError(flag +
-                     ": expected X,Y,Z, or with ROLL,PITCH,YAW in degrees, or "
-                     "with QW,QX,QY,QZ, found " +
-                     Counted(x.size(), "number"));
+    throw InputError(
+        flag +
+        ": expected X,Y,Z, or with ROLL,PITCH,YAW in degrees (or 1.5rad), "
+        "or with QW,QX,QY,QZ, found " +
+        Counted(x.size(), "number"));
   }
   RobotPose pose;
   pose.position = {x[0], x[1], x[2]};
@@ -226,10 +240,11 @@ Command AddSweep(CLI::App* app) {
   app->add_option("B", flags->b, "Meshes that stay")
       ->required()
       ->type_name("FILE");
-  app->add_option("--from", flags->from,
-                  "First pose of A: its position, X,Y,Z; turned about x, then "
-                  "y, then z, X,Y,Z,ROLL,PITCH,YAW in degrees; or by a unit "
-                  "quaternion, X,Y,Z,QW,QX,QY,QZ")
+  app->add_option(
+         "--from", flags->from,
+         "First pose of A: its position, X,Y,Z; turned about x, then "
+         "y, then z, X,Y,Z,ROLL,PITCH,YAW in degrees (or 1.5rad); or by a unit "
+         "quaternion, X,Y,Z,QW,QX,QY,QZ")
       ->capture_default_str()
       ->type_name("POSE");
   app->add_option("--to", flags->to,

@@ -54,6 +54,21 @@ TEST_F(CliSweep, SaysInOneLineWhetherAQuarterTurnIsFree) {
   EXPECT_EQ(touch.out.rfind("undecided from 0.4", 0), 0U) << touch.out;
 }
 
+TEST_F(CliSweep, TakesDegreesAndRadiansByTheirWords) {
+  const Outcome plain = Sweep("../far.off --to 0,0,0,0,0,90 --json");
+  EXPECT_EQ(Sweep("../far.off --to 0,0,0,0,0,90deg --json").out, plain.out);
+  // Half of π to 16 digits; poses are told in quaternions.
+  const auto turn = [](const Outcome& answer) {
+    return Json::parse(answer.out).at("end");
+  };
+  const Outcome radians =
+      Sweep("../far.off --to 0,0,0,0,0rad,1.5707963267948966rad --json");
+  for (int i = 0; i < 7; ++i) {
+    EXPECT_NEAR(turn(radians)[i].get<double>(), turn(plain)[i].get<double>(),
+                1e-15);
+  }
+}
+
 // The wall is met where √2 cos(45° − φ) is its place.
 TEST_F(CliSweep, TellsWhenTheCornerMeetsTheWallFirst) {
   const Outcome hit = Sweep("../open.off --to 0,0,0,0,0,90 --first --json");
