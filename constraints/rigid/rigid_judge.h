@@ -12,7 +12,7 @@
 
 namespace phongpd {
 
-using RigidOutcome = MotionVerdict;  // what it was called, until 0.3
+using RigidOutcome = MotionVerdict;  // old name, removed in 0.3
 
 // Is a motion free?  Times are shares of the motion, t in [0, 1].
 struct RigidCheck {

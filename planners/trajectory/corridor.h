@@ -16,7 +16,7 @@ namespace phongpd {
 // τ of the first round, a share of D.
 inline constexpr double kFirstTrust = 0.05;
 
-using CorridorStatus = PathStatus;  // what it was called, until 0.3
+using CorridorStatus = PathStatus;  // old name, removed in 0.3
 
 struct CorridorRound {
   double objective = 0.0;  // after the round, of the path kept
