@@ -67,9 +67,8 @@ struct Removal {
 // Takes one part out of an assembly: a path from where it lies to a place
 // beside the bounding box of `rest`, and of the paths to its sides the shortest
 // found.  The search among translations is complete: without a path, there is a
-// proof that none exists
-// (kInfeasibleProved).  Parts that must turn to come out, such as a bayonet or
-// a hook, are searched for after that proof, if turn_seconds > 0.
+// proof that none exists (kInfeasibleProved).  If turn_seconds > 0, a path with
+// turns is searched for after that proof: for a bayonet or a hook, say.
 //
 //   Removal out = RemovePart(pin, {housing, lid}, {0.01});
 //
