@@ -3,11 +3,9 @@
 
 #include <Eigen/Core>
 #include <cstdint>
-#include <map>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
-#include <variant>
 #include <vector>
 
 #include "constraints/sampling_rule.h"
@@ -15,6 +13,7 @@
 #include "core/bounds/mesh_repair.h"
 #include "core/mesh/mesh_error.h"
 #include "core/mesh/triangle_mesh.h"
+#include "planners/world/ipopt_value.h"
 #include "planners/world/length.h"
 #include "planners/world/model.h"
 #include "planners/world/moving_obstacle.h"
@@ -32,8 +31,6 @@
 // robots: fleet_scene.h.
 namespace phongpd {
 
-using IpoptValue = std::variant<int, double, std::string>;
-
 struct TrajectorySettings {
   int waypoints = 40;  // free points between start and goal
   // Samples inside a segment; 0: as many as the rule says (sampling_rule.h).
@@ -42,9 +39,9 @@ struct TrajectorySettings {
   // The longest segment allowed, over the length of even segments.
   double max_segment_ratio = kMaxSegmentRatio;
   Model model = Model::kAuto;
-  // Options of Ipopt by its own names.  A whole number in the file is an int
-  // here, even if Ipopt's option is a real number.
-  std::map<std::string, IpoptValue> ipopt;
+  // Ipopt's own options.  A whole number in the file is an int here, even if
+  // Ipopt's option is a real number.
+  IpoptValues ipopt;
 };
 
 struct PlanningSettings {
