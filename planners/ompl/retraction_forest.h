@@ -21,7 +21,7 @@ class RetractionForest : public RetractionPlanner {
                    std::shared_ptr<const ContactModel> model);
   ~RetractionForest() override;
 
-  // k ≥ 1, by default 6.  Measured: 3 to 12 do equally well, except in mazes,
+  // k ≥ 1, by default 6.  Values from 3 to 12 do equally well, except in mazes,
   // where more is better.
   void setMaxNearestNeighbors(unsigned int k);
   unsigned int getMaxNearestNeighbors() const { return neighbors_; }

@@ -34,9 +34,9 @@ BoundingBox SamplingRegion(const ContactSpace& space,
 class ContactModel {
  public:
   // Spaces and bounds as for FreeSpace; `field` is that of the Phong metric.
-  // The default ℓ = 0 is right for planning: measured, ℓ > 0 changed neither
-  // what was solved nor the number of samples.  Throws InputError for options,
-  // and if there is neither a space nor bounds.
+  // The default ℓ = 0 is right for planning: ℓ > 0 changes neither what is
+  // solved nor the number of samples.  Throws InputError for options, and if
+  // there is neither a space nor bounds.
   explicit ContactModel(
       const std::vector<ContactSpace>& spaces,
       const BoundingBox& bounds = FreeSpace::NoBounds(),
