@@ -9,7 +9,7 @@
 
 namespace phongpd {
 
-using CurveVerdict = MotionVerdict;  // what it was called, until 0.3
+using CurveVerdict = MotionVerdict;  // old name, removed in 0.3
 
 struct CurveCheck {
   MotionVerdict verdict = MotionVerdict::kUndecided;  // also of an empty curve

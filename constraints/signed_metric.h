@@ -91,14 +91,14 @@ class SignedMetric {
   SignedMetric(const ContactSpace& space,
                std::shared_ptr<const PenetrationMetric> metric,
                const SignedMetricOptions& options);
-  // The same without a contact space (WindowMetric): further walls are not
-  // known, so rows after the first repeat it.
+  // The same without a contact space, for a WindowMetric.  Further features are
+  // not known then: rows 1 … K−1 are copies of row 0.
   SignedMetric(std::shared_ptr<const PenetrationMetric> metric,
                const SignedMetricOptions& options);
 
   const SignedMetricOptions& options() const { return options_; }
   bool HasSpace() const { return space_.has_value(); }
-  // Of those that have one.
+  // Requires HasSpace().
   const ContactSpace& space() const { return *space_; }
 
   // Writes `count` = K rows, K in [1, kMaxMetricRows].  With a valid `previous`

@@ -8,47 +8,52 @@
 
 namespace phongpd {
 
-// The way out that a robot has taken, from one pose to the next: a value, in
-// and out.
+// What is remembered from one pose of a motion to the next: the direction out
+// of the obstacle.  A plain value that goes in and comes out.
 struct PoseTrack {
-  // d, unit; zero: none yet, the nearest way out is taken.
+  // d, unit; zero: none yet, so the direction of least depth is taken.
   Eigen::Vector3d direction = Eigen::Vector3d::Zero();
 };
 
-// PoseRow's value with a direction and a lever that do not jump on the medial
-// axis: for solvers that follow them out of a collision.  Apart and touching it
-// is PoseRow, bit for bit.  While q penetrates C_obj,
+// PoseRow with a direction and a lever arm that do not jump on the medial axis:
+// for solvers that start from a colliding path and follow them out.  While the
+// solids are separate or touch, the answer is PoseRow's, bit for bit.  While q
+// penetrates C_obj, the value is PoseRow's, too, but
 //
-//   by_translation  d ← normalise(d + ½ (n_ρ(q_c) − d))                     (1)
-//   by_rotation     r̄ × d,   r̄ = GapLever's mean (gap_lever.h)
+//   by_translation = d,       d ← normalise(d + ½ (n_ρ(q_c) − d))           (1)
+//   by_rotation    = r̄ × d,   r̄ = GapLever's mean (gap_lever.h)
 //
-// with q_c the first contact on the ray from q along the d before, n_ρ the
-// smoothed normal of C_cont there (smoothed_normal.h) for ρ = ½ |q_c − q|, and
-// r̄ of the robot at q_c, from its origin, with a reach of a quarter of its own.
+// q_c is the first contact on the ray from q along the previous d.  n_ρ is the
+// smoothed normal of C_cont at q_c (smoothed_normal.h) with ρ = ½ |q_c − q|.
+// r̄ is taken for the robot at q_c and measured from its origin; the reach δ of
+// its mean is a quarter of the robot's reach.
 //
-// Along a motion whose rows are asked one after the other, each with the track
-// of the one before, both change by less the shorter the steps: n_ρ, q_c and r̄
-// are continuous in the pose as long as the ray does not graze C_cont, and (1)
-// follows n_ρ half way a step.  It is a field of directions and no derivative
-// of the value, which is Euclid's: to first order a step along it parts the
-// solids by the cosine of their angle.  Without a track (1) is repeated eight
-// times from the nearest way out.
+// Ask the poses of a motion one after the other, each with the track that the
+// one before gave.  Then d and r̄ change the less, the shorter the steps are:
+// n_ρ, q_c and r̄ are continuous in the pose as long as the ray does not graze
+// C_cont, and (1) goes half way to n_ρ in each step.  Without a track, (1) is
+// repeated eight times from the direction of least depth.
 //
-// C_cont is modelled around q at every query: some milliseconds to tenths of a
-// second, several times PoseRow's.
+// The price: (d, r̄ × d) is not the derivative of the value, whose gradient is
+// Euclidean.  To first order, a small step along d separates the solids by the
+// step times the cosine of the angle between the two directions.
+//
+// C_cont is modelled around q in every query, which takes from some
+// milliseconds to tenths of a second: several times as long as PoseRow.
 class TrackedPoseRow {
  public:
-  // Throws InputError as PoseRow.
+  // Throws InputError like PoseRow.
   TrackedPoseRow(const Solid& robot, const Solid& obstacle,
                  const DepthOptions& options = {});
   ~TrackedPoseRow();
   TrackedPoseRow(TrackedPoseRow&&) noexcept;
   TrackedPoseRow& operator=(TrackedPoseRow&&) noexcept;
 
-  // Of the track before; *after is that for the next pose, also where the
-  // answer is PoseRow's: then its direction.  Where what is around q cannot be
-  // modelled, or the ray meets nothing, it is PoseRow's, too, and `source` is
-  // not kGaps.  Throws InputError as PoseRow.  Thread-safe.
+  // `before` is the previous pose's track; *after is the one for the next pose.
+  // `source` is kGaps where (1) holds.  Otherwise the answer is PoseRow's, and
+  // *after its direction: the solids do not overlap, C_cont around q cannot be
+  // modelled, or the ray meets nothing.  Throws InputError like PoseRow.
+  // Thread-safe.
   PoseRowValue At(const RobotPose& pose, const PoseTrack& before,
                   PoseTrack* after) const;
 

@@ -9,94 +9,104 @@
 
 namespace phongpd {
 
-// Answer to one pose.  Lengths in the user's unit.
+// The answer at one pose.  Lengths in the user's unit.
 struct TrackedWrench {
-  // kPenetrating, kTouching, kSeparate, exact; kInvalid: the pose is not
-  // finite, all other members are zero and the state is as it was.
+  // kPenetrating, kTouching or kSeparate, exact.  kInvalid: the pose is not
+  // finite; all other members are zero, and the state does not change.
   DepthStatus status = DepthStatus::kInvalid;
-  // All below is zero unless penetrating.
+  // All members below are zero unless penetrating.
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();  // n, unit
-  Eigen::Vector3d lever = Eigen::Vector3d::Zero();  // r from q, not turned back
-  // s > 0: moved by s·n the robot touches from outside, and by no less along n.
+  // r: from the robot's origin q to where the wrench acts, in the obstacle's
+  // frame.
+  Eigen::Vector3d lever = Eigen::Vector3d::Zero();
+  // s > 0, the shortest way out along n: moved by s·n the robot touches from
+  // outside, and by less than that it does not.
   double exit = 0.0;
-  double push = 0.0;             // ŝ: follows s at a bounded speed; for forces
+  double push = 0.0;  // ŝ: follows s at a bounded speed; scale forces by it
   double euclidean_depth = 0.0;  // the least s of all directions
-  double turned = 0.0;  // by how much n did since the last step, radians
-  double wanted = 0.0;  // what it would have turned without a bound
-  // n is Euclid's, for want of a smoothed one (SmoothedAt alone).
+  double turned = 0.0;  // the angle n turned by since the last step, radians
+  double wanted = 0.0;  // the angle it would have turned by without the bound
+  // n is the Euclidean direction, because there was no smoothed one (happens in
+  // SmoothedAt only).
   bool is_fallback = false;
 
   Eigen::Vector3d Torque() const { return lever.cross(normal); }  // r × n
 };
 
-// A wrench (n, r × n) along a motion of poses, with a bound on how fast it
-// changes.  With δ² = |Δq|² + (Lθ)² the length of a step (L the radius of
-// gyration of the robot's surface about its origin, θ the angle it turns by),
-// from one penetrating step to the next
+// Where to push a penetrating robot out, and with what torque: a wrench
+// (n, r × n) along a motion of poses that changes at a bounded speed, for
+// simulation and haptics.  Let δ = √(|Δq|² + (Lθ)²) be the length of a step,
+// with θ the angle the robot turns by, and L the radius of gyration of its
+// surface about its origin.  From one penetrating step to the next, to
+// rounding and whatever the shapes,
 //
 //   ∠(n, n') ≤ κ δ/L,    |Δr| ≤ κ δ,    |Δŝ| ≤ κ δ      (1)
 //
-// to rounding, whatever the shapes, r in the robot's own frame: n turns towards
-// what it wants, half of the way, by at most that.  It wants the gradient of
-// smoothed occupancy (smoothed_normal.h) of C_cont at q + s·n, with ρ half the
-// way out s but at least L/20; and Euclid's direction where s is more than 1.5
-// times Euclid's depth.  r makes for GapLever's mean, with the reach of an
-// eighth of the robot's diagonal, of the robot moved by s·n, ŝ for s, both half
-// of the way a step.  The first step inside begins with Euclid's direction,
-// the way out along it and the mean as they are.
+// with r in the robot's own frame.  In each step n, r and ŝ go half way to a
+// goal, but not farther than (1) allows.  The goals are:
 //
-// What has no bound, and no tracker can have one, is the way out: where a free
-// place closes as the robot turns (a peg in a tight hole) the least depth
-// itself jumps.  So s·n does not jump by n, but by s; every s frees all the
-// same.
+//   n   the gradient of smoothed occupancy (smoothed_normal.h) of C_cont at
+//       q + s·n, with ρ = max(s/2, L/20); the Euclidean direction if s is more
+//       than 1.5 times the Euclidean depth
+//   r   GapLever's mean (gap_lever.h) for the robot moved by s·n, with a reach
+//       of an eighth of the robot's diagonal
+//   ŝ   s
+//
+// The first step inside starts at the Euclidean direction, the exit s along it,
+// and the mean there.
+//
+// The exit s itself has no bound, and no tracker can have one: where free space
+// closes as the robot turns (a peg in a tight hole), the least depth itself
+// jumps.  So s·n can jump in its length, but not in its direction.  Every s
+// separates the solids all the same.
 //
 // It is a state along a motion, not a field: two motions to the same pose may
-// have different wrenches, n is no gradient of a depth, and the work of a force
-// ŝ·n around a closed motion need not vanish.  For solvers: PoseRow.
+// give different wrenches, n is not the gradient of a depth, and the work of a
+// force ŝ·n around a closed motion need not vanish.  For solvers use PoseRow or
+// TrackedPoseRow.
 //
-// Costs a contact space a step, milliseconds for small meshes; many steps at
-// one orientation share it (the second Step).
+// Each step builds a contact space: milliseconds for small meshes.  Steps at
+// the same orientation can share it (the second Step).
 class WrenchTracker {
  public:
-  // Where a motion is: a value, copies go their own ways.
+  // Where a motion is.  A value: a copy is a motion of its own.
   struct State {
-    bool has_begun = false;  // the last step was inside
+    bool has_begun = false;  // the last step was penetrating
     RobotPose pose;
     Eigen::Vector3d normal = Eigen::Vector3d::Zero();
     Eigen::Vector3d lever = Eigen::Vector3d::Zero();  // robot's own frame
     double push = 0.0;
   };
 
-  // κ: how fast the direction turns, the lever moves and the push grows at
-  // most, in lengths of the robot's own step.  The less, the longer the ways
-  // out (results/rigid-depth: 2 beside none).  Throws InputError unless it is
-  // finite and above 0.
+  // `speed` is κ of (1), without unit.  The smaller it is, the longer are the
+  // exits (results/rigid-depth compares 2 with no bound).  Throws InputError
+  // unless it is finite and > 0.
   static constexpr double kSpeed = 2.0;
   WrenchTracker(const Solid& robot, const Solid& obstacle,
                 double speed = kSpeed);
 
-  // C_cont of the robot turned by a quaternion of unit length, to 1e-9 (throws
-  // InputError otherwise, and as BuildContactSpace).
+  // C_cont of the robot turned by `orientation`.  Throws InputError unless this
+  // has length 1, to 1e-9, and what BuildContactSpace throws.
   ContactSpace SpaceAt(const Eigen::Quaterniond& orientation) const;
 
-  // The wrench at the next pose of the motion that *state is of.  Throws as
-  // SpaceAt.
+  // The wrench at `pose`, the next one of the motion that *state belongs to.
+  // Throws like SpaceAt.
   TrackedWrench Step(const RobotPose& pose, State* state) const;
-  // The same with the space of the pose's orientation.
+  // The same with `space` = SpaceAt(pose.orientation), built before.
   TrackedWrench Step(const ContactSpace& space, const RobotPose& pose,
                      State* state) const;
 
-  // The smoothed wrench: of this pose alone, nothing is remembered, `turned`
-  // and `wanted` are zero.  n is SmoothedMetric's direction at q with its
-  // default length (Euclid's where that is not known, `is_fallback`), r
-  // GapLever's mean of the robot as it lies, s the way out along n, ŝ Euclid's
-  // depth.  Continuous in the pose wherever that direction is known, but for
-  // depths that jump themselves; s is longer than the tracker's.
+  // A wrench that depends on this pose alone; `turned` and `wanted` are zero.
+  // n is SmoothedMetric's direction at q with its default length, or the
+  // Euclidean one where that is not known (`is_fallback`); r is GapLever's mean
+  // for the robot where it lies; s is the exit along n; ŝ is the Euclidean
+  // depth.  Continuous in the pose wherever the smoothed direction is known and
+  // the depths themselves do not jump.  Its exits are longer than Step's.
   TrackedWrench SmoothedAt(const ContactSpace& space,
                            const RobotPose& pose) const;
 
   double gyration() const;  // L
-  // δ, of the shorter turn.
+  // δ of the shorter turn from a to b, user's unit.
   double StepLength(const RobotPose& a, const RobotPose& b) const;
 
  private:

@@ -39,6 +39,7 @@ readonly slice=(
   mesh_repair_test triangle_bvh_segments_test triangle_mesh_test
   branch_walk_test cubic_test euclidean_metric_test normal_field_test
   phong_field_test phong_metric_test query_cost_test tangent_plane_field_test
+  tangent_plane_projection_test
   contact_roadmap_test contact_surface_planner_test free_cells_test
   free_space_test start_repair_test workspace_test
   motion_graph_test retraction_test scene_errors_test scene_mutations_test

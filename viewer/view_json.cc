@@ -33,15 +33,6 @@ Json MaybePoint(const std::optional<Vector3d>& p) {
   return p ? PointJson(*p) : Json(nullptr);
 }
 
-// Within one page all meshes lose alike.
-std::size_t Share(std::size_t triangles, std::size_t all, std::size_t most) {
-  if (all <= most) return triangles;
-  const double share =
-      static_cast<double>(triangles) / static_cast<double>(all);
-  return std::max<std::size_t>(
-      1000, static_cast<std::size_t>(share * static_cast<double>(most)));
-}
-
 Json MeshJson(const TriangleMesh& mesh, const std::string& name,
               std::size_t most, const internal::PageFrame& frame,
               std::vector<std::string>* notes) {
@@ -149,12 +140,72 @@ Json MotionJson(const ViewMotion& motion) {
   return json;
 }
 
-// At the origin, or where it is at the configuration 0, which is moved about.
-Json BodyJson(const TriangleMesh& mesh, const std::string& name,
-              std::size_t most, const internal::PageFrame& frame,
-              std::vector<std::string>* notes) {
-  if (mesh.triangles.empty()) return nullptr;
-  return MeshJson(mesh, name, most, {Vector3d::Zero(), frame.scale}, notes);
+// The meshes of one page, which lose triangles alike if there are too many.
+class PageMeshes {
+ public:
+  PageMeshes(const View& view, std::size_t most,
+             const internal::PageFrame& frame)
+      : most_(most), frame_(frame) {
+    Count(view.robot);
+    for (const ViewMesh& mesh : view.meshes) Count(mesh.mesh);
+    for (const NamedPath& path : view.paths) Count(path.robot);
+    for (const ViewMover& one : view.movers) Count(one.mesh);
+  }
+
+  Json Still(const ViewMesh& mesh, std::vector<std::string>* notes) const {
+    Json json = MeshJson(mesh.mesh, mesh.name, Share(mesh.mesh), frame_, notes);
+    json["role"] = ToString(mesh.role);
+    return json;
+  }
+
+  // At the origin, or where it is at the configuration 0, which is moved about.
+  Json Body(const TriangleMesh& mesh, const std::string& name,
+            std::vector<std::string>* notes) const {
+    if (mesh.triangles.empty()) return nullptr;
+    return MeshJson(mesh, name, Share(mesh), {Vector3d::Zero(), frame_.scale},
+                    notes);
+  }
+
+ private:
+  void Count(const TriangleMesh& mesh) { all_ += mesh.triangles.size(); }
+
+  std::size_t Share(const TriangleMesh& mesh) const {
+    const std::size_t triangles = mesh.triangles.size();
+    if (all_ <= most_) return triangles;
+    const double share =
+        static_cast<double>(triangles) / static_cast<double>(all_);
+    return std::max<std::size_t>(
+        1000, static_cast<std::size_t>(share * static_cast<double>(most_)));
+  }
+
+  std::size_t all_ = 0;  // triangles
+  std::size_t most_;     // of them that the page may hold
+  internal::PageFrame frame_;
+};
+
+// What stands and what moves, and where.
+void AddBodies(const View& view, const PageMeshes& meshes, Json* json,
+               std::vector<std::string>* notes) {
+  (*json)["meshes"] = Json::array();
+  for (const ViewMesh& mesh : view.meshes) {
+    (*json)["meshes"].push_back(meshes.Still(mesh, notes));
+  }
+  (*json)["robot"] = meshes.Body(view.robot, "robot", notes);
+  (*json)["movers"] = Json::array();
+  for (const ViewMover& one : view.movers) {
+    (*json)["movers"].push_back(
+        {{"name", one.name},
+         {"body", meshes.Body(one.mesh, one.name, notes)},
+         {"points", PointsJson(one.points)}});
+  }
+  (*json)["start"] = MaybePoint(view.start);
+  (*json)["goal"] = MaybePoint(view.goal);
+  (*json)["start_turn"] = TurnJson(view.start_turn);
+  (*json)["goal_turn"] = TurnJson(view.goal_turn);
+  (*json)["bounds"] = view.bounds.IsEmpty()
+                          ? Json(nullptr)
+                          : Json({{"min", PointJson(view.bounds.min)},
+                                  {"max", PointJson(view.bounds.max)}});
 }
 
 Json WindowsJson(const ViewAnswer& answer) {
@@ -175,6 +226,23 @@ Json TaskJson(const View& view) {
   return {{"command", view.serve_command}, {"served", view.is_served}};
 }
 
+// Paths with their robots and what lies behind them.
+void AddPaths(const View& view, const PageMeshes& meshes,
+              const internal::PageFrame& frame, Json* json,
+              std::vector<std::string>* notes) {
+  for (const char* list :
+       {"paths", "graphs", "planes", "iterates", "regions", "windows"}) {
+    (*json)[list] = Json::array();
+  }
+  for (std::size_t i = 0; i < view.paths.size(); ++i) {
+    const NamedPath& path = view.paths[i];
+    (*json)["paths"].push_back(PathEntry(path));
+    (*json)["paths"].back()["robot"] =
+        meshes.Body(path.robot, path.name, notes);
+    internal::AddBehind(path, i, frame, json, notes);
+  }
+}
+
 }  // namespace
 
 Json ViewJson(const View& view, std::size_t most_triangles) {
@@ -182,10 +250,7 @@ Json ViewJson(const View& view, std::size_t most_triangles) {
   const Vector3d center = box.Center();
   double scale = std::max(box.Diagonal(), ComputeBounds(view.robot).Diagonal());
   if (!(scale > 0.0)) scale = 1.0;
-  std::size_t all = view.robot.triangles.size();
-  for (const ViewMesh& mesh : view.meshes) all += mesh.mesh.triangles.size();
-  for (const NamedPath& path : view.paths) all += path.robot.triangles.size();
-  for (const ViewMover& one : view.movers) all += one.mesh.triangles.size();
+  const PageMeshes meshes(view, most_triangles, {center, scale});
 
   Json json;
   json["title"] = view.title;
@@ -194,45 +259,8 @@ Json ViewJson(const View& view, std::size_t most_triangles) {
   json["notes"] = Json::array();
   json["center"] = PointJson(center);
   json["scale"] = scale;
-  json["meshes"] = Json::array();
-  for (const ViewMesh& mesh : view.meshes) {
-    Json entry =
-        MeshJson(mesh.mesh, mesh.name,
-                 Share(mesh.mesh.triangles.size(), all, most_triangles),
-                 {center, scale}, &notes);
-    entry["role"] = ToString(mesh.role);
-    json["meshes"].push_back(std::move(entry));
-  }
-  const auto body = [&](const TriangleMesh& mesh, const std::string& name) {
-    return BodyJson(mesh, name,
-                    Share(mesh.triangles.size(), all, most_triangles),
-                    {center, scale}, &notes);
-  };
-  json["robot"] = body(view.robot, "robot");
-  json["movers"] = Json::array();
-  for (const ViewMover& one : view.movers) {
-    json["movers"].push_back({{"name", one.name},
-                              {"body", body(one.mesh, one.name)},
-                              {"points", PointsJson(one.points)}});
-  }
-  json["start"] = MaybePoint(view.start);
-  json["goal"] = MaybePoint(view.goal);
-  json["start_turn"] = TurnJson(view.start_turn);
-  json["goal_turn"] = TurnJson(view.goal_turn);
-  json["bounds"] = view.bounds.IsEmpty()
-                       ? Json(nullptr)
-                       : Json({{"min", PointJson(view.bounds.min)},
-                               {"max", PointJson(view.bounds.max)}});
-  for (const char* list :
-       {"paths", "graphs", "planes", "iterates", "regions", "windows"}) {
-    json[list] = Json::array();
-  }
-  for (std::size_t i = 0; i < view.paths.size(); ++i) {
-    const NamedPath& path = view.paths[i];
-    json["paths"].push_back(PathEntry(path));
-    json["paths"].back()["robot"] = body(path.robot, path.name);
-    internal::AddBehind(path, i, {center, scale}, &json, &notes);
-  }
+  AddBodies(view, meshes, &json, &notes);
+  AddPaths(view, meshes, {center, scale}, &json, &notes);
   json["motion"] = MotionJson(view.motion);
   json["answers"] = Json::array();
   for (const ViewAnswer& answer : view.answers) {

@@ -8,13 +8,14 @@
 
 namespace phongpd {
 
-// Do the solids A + q and B meet?  Answered from the original meshes by
-// FCL's BVH triangle collision plus exact containment of one vertex per
-// component, a route that shares nothing with the contact space.  Checks and
-// baselines only: the product itself never needs it.
+// Does the robot A, moved by q, collide with the obstacle B?  A second opinion
+// for tests and baselines: FCL finds whether triangles of the original meshes
+// intersect, and an exact test of one vertex of each component finds whether
+// one solid lies inside the other.  No contact space is used, so that a fault
+// of those cannot hide here.  Nothing else in the library needs this class.
 //
-// A solid is { p : w(p) > 0 }, w counting the bodies that hold p less the
-// cavities that hold it; bodies may overlap.
+// A solid is { p : w(p) > 0 }: w(p) is the number of bodies that contain p
+// minus the number of cavities that contain it.  Bodies may overlap.
 class CollisionOracle {
  public:
   // Throws InputError for a solid without triangles.
@@ -23,9 +24,9 @@ class CollisionOracle {
   CollisionOracle(CollisionOracle&&) noexcept;
   CollisionOracle& operator=(CollisionOracle&&) noexcept;
 
-  // True when robot moved by q and obstacle share a point (surface contact is
-  // decided by FCL's floating point).  Throws InputError if q is not finite.
-  // Thread-safe.
+  // Do A + q and B share a point?  q in the user's unit.  If only the surfaces
+  // touch, the answer depends on FCL's rounding.  Throws InputError if q is not
+  // finite.  Thread-safe.
   bool Collides(const Eigen::Vector3d& q) const;
 
  private:

@@ -9,37 +9,37 @@
 namespace phongpd {
 
 // A robot that translates and turns at once, t ∈ [0, 1], about its own origin,
-// by a quaternion that is linear in t and not divided by its length:
+// by a quaternion p that is linear in t and not normalised:
 //
 //   x(t) = M(p) p₀ / |p|² + q,   p = (1 − t) a + t b,   q = (1 − t) q_a + t q_b
 //
-// for a point p₀ of the robot at rest, M(p) v the vector of p v p̄.  These
-// formulas, of the doubles a, b, q_a and q_b as they are, are the motion:
-// whether two triangles meet under it is a matter of polynomials of degree 3 in
-// t with rational coefficients, so that it is decided exactly
-// (RigidJudge::CheckExactly).
+// for a point p₀ of the robot in its own frame; M(p) v is the vector part of
+// p v p̄.  The motion is defined by these formulas with the doubles a, b, q_a
+// and q_b as they are.  So the times at which two triangles touch are roots of
+// polynomials of degree 3 in t with rational coefficients, and collision can be
+// decided exactly (RigidJudge::CheckExactly).
 //
-// It goes through the orientations of RigidMotion from the same start to the
-// same end, about the same axis, faster in the middle of the way: from a unit
-// quaternion to another one at an angle Ω, half the turn,
+// It passes the same orientations as RigidMotion between the same poses, about
+// the same axis, but turns faster in the middle.  From one unit quaternion to
+// another at the angle Ω (half the angle of the turn), the angular velocity is
 //
 //   φ' = 2 sin Ω / |p|²,   |p|² ≥ cos² ½Ω ≥ ½
 class QuaternionMotion {
  public:
-  // From pose to pose, the shorter way round: b is the end's quaternion, or its
-  // negative where a·b < 0.  Throws InputError for poses that are not finite or
-  // not of a unit quaternion (CheckPose).
+  // From pose to pose by the shorter turn: b is the end's quaternion, or its
+  // negative if a·b < 0.  Throws InputError for poses that are not finite, or
+  // whose quaternion is not of unit length (CheckPose).
   static QuaternionMotion Between(const RobotPose& start, const RobotPose& end);
 
   const RobotPose& start() const { return start_; }
-  // Of the sign that a·b ≥ 0.
+  // With the sign for which a·b ≥ 0.
   const RobotPose& end() const { return end_; }
 
   // The pose at t ∈ [0, 1], to rounding.
   RobotPose At(double t) const;
 
  private:
-  // Two poses in braces are a RigidMotion.
+  // Private: two poses in braces, {a, b}, shall mean a RigidMotion.
   QuaternionMotion() = default;
 
   RobotPose start_, end_;

@@ -6,38 +6,40 @@
 
 namespace phongpd {
 
-// How close the robot comes to the obstacles on its way,
+// The smallest distance c of robot and obstacles during a motion, user's unit:
 //
-//   c = min over t ∈ [0, 1] of the distance of the two,  lower ≤ c ≤ upper,
+//   c = min over t ∈ [0, 1] of their distance at t,   lower ≤ c ≤ upper
 //
-// both proved, rounding included; user's unit.  A solid is filled: who is
-// inside of one is at distance 0, as is who touches.
+// Both bounds are proved, rounding included.  Solids are filled: the distance
+// is 0 if they touch, or if one lies inside the other.
 struct RigidClearance {
-  // No nearer for any t.  Above 0 the motion is free; 0 says nothing.
+  // At no time are they nearer.  If > 0, the motion is free.
   double lower = 0.0;
-  // So near, or nearer, at `time`.
+  // At `time` they are at most so far apart.
   double upper = 0.0;
   double time = 0.0;  // in [0, 1]
-  int motion = 0;     // of a path: from pose `motion` to the next one
-  // Which triangles are so near then; −1: one side holds a part of the other.
+  int motion = 0;     // of a path: the motion from pose `motion` to the next
+  // The nearest triangles at that time: the index of the mesh in its list, and
+  // of the triangle in the mesh.  −1: a part of one side lies inside the other.
   int robot_mesh = -1, robot_triangle = -1;
   int obstacle_mesh = -1, obstacle_triangle = -1;
-  // upper − lower is at most the tolerance that was asked for, or what can be
-  // told at all: 1e-9 of half the robot's diagonal, or 4 times the rounding
-  // (rigid_judge.h).  False: `max_tests` pairs were looked at, or triangles are
-  // so thin that rounding hides how far apart they are.
+  // Is upper − lower at most the tolerance asked for?  (Or as small as can be
+  // resolved: 1e-9 of half the robot's diagonal, or 4 times the rounding, see
+  // rigid_judge.h.)  False: `max_tests` pairs were tested, or triangles are so
+  // thin that rounding hides their distance.
   bool is_resolved = false;
-  long tests = 0;  // pairs of boxes and triangles looked at
+  long tests = 0;  // pairs of boxes and of triangles tested
 };
 
-// How well it is wanted: upper − lower ≤ max(relative · upper, absolute).
+// The accuracy asked for: upper − lower ≤ max(relative · upper, absolute).
 struct ClearanceTolerance {
   double relative = 1e-3;  // in [0, 1)
   double absolute = 0.0;   // user's unit, ≥ 0
 };
 
-// For one motion of two meshes; who asks again keeps a RigidJudge.  Throws
-// InputError as RigidJudge and its Clearance.
+// The clearance of one motion of one mesh among another.  For several motions
+// make a RigidJudge, and keep it.  Throws InputError like RigidJudge and its
+// Clearance.
 RigidClearance MotionClearance(const TriangleMesh& robot,
                                const TriangleMesh& obstacle,
                                const RigidMotion& motion,

@@ -12,37 +12,39 @@ namespace phongpd {
 //
 //   x(t) = R(t) p + q(t),   R(t) = exp(t [ω]) R_a,   q(t) = (1 − t) q_a + t q_b
 //
-// for a point p of the robot at rest; R_a is the rotation of the start's
-// quaternion, divided by its exact length.  These formulas of start(), turn()
-// and end().position are what is judged (rigid_judge.h).
+// for a point p of the robot in its own frame.  R_a is the rotation of the
+// start's quaternion, divided by its exact length.  RigidJudge judges exactly
+// these formulas, with start(), turn() and end().position (rigid_judge.h).
 class RigidMotion {
  public:
-  // More than whole turns are of use to nobody, and rounding grows with them.
+  // The largest turn; rounding grows with it.
   static constexpr double kMaxTurn = 1e3;  // radians
 
-  // From pose to pose, the shorter way round: |ω| ≤ π.  Where both ways are as
-  // long, within 1e-12 rad of half a turn, the axis is the one whose first
-  // coordinate above 1e-6 is positive; whoever wants the other one says so
-  // below.  R(1) is the given orientation to 1e-14 rad.  Throws InputError for
-  // poses that are not finite or not of a unit quaternion (CheckPose).
+  // From pose to pose by the shorter turn: |ω| ≤ π.  Within 1e-12 rad of half a
+  // turn both ways are equally long: then the axis is the one whose first
+  // coordinate with an absolute value above 1e-6 is positive; for the other one
+  // use Turning.  R(1) is the given orientation to 1e-14 rad.  Throws
+  // InputError for poses that are not finite, or whose quaternion is not of
+  // unit length (CheckPose).
   RigidMotion(const RobotPose& start, const RobotPose& end);
 
-  // A matrix is no quaternion: refused if it is no rotation, to 1e-9, which
-  // the message says by how much, in which way.
+  // The same for matrices.  Throws InputError for one whose linear part is not
+  // a rotation, to 1e-9; the message says what is wrong, and by how much.
   RigidMotion(const Eigen::Isometry3d& start, const Eigen::Isometry3d& end);
 
-  // By the vector of the turn ω = θ u, radians, in the frame of the obstacles,
-  // |ω| ≤ kMaxTurn: whole turns and the longer way.  Throws as above.
+  // By the rotation vector ω = θ u, radians, in the frame of the obstacles,
+  // |ω| ≤ kMaxTurn: for the longer way, and for turns of more than once around.
+  // Throws like the first.
   static RigidMotion Turning(const RobotPose& start,
                              const Eigen::Vector3d& end_position,
                              const Eigen::Vector3d& turn);
 
   const RobotPose& start() const { return start_; }
-  // To rounding, as for the orientation; its position is exact.
+  // Its position is exact, its orientation is rounded.
   const RobotPose& end() const { return end_; }
   const Eigen::Vector3d& turn() const { return turn_; }  // ω
   double angle() const { return angle_; }                // θ = |ω| ≥ 0
-  // u; (1, 0, 0) of a motion that does not turn.
+  // u; (1, 0, 0) if the motion does not turn.
   const Eigen::Vector3d& axis() const { return axis_; }
 
   // The pose at t ∈ [0, 1], to rounding.
@@ -59,7 +61,7 @@ class RigidMotion {
 };
 
 // The matrix as a pose.  Throws InputError "<what>: …" unless it is finite and
-// its linear part a rotation, RᵀR = 1 to 1e-9 in every entry and det R > 0.
+// its linear part is a rotation: RᵀR = 1 to 1e-9 in every entry, and det R > 0.
 RobotPose PoseOf(const Eigen::Isometry3d& matrix, const std::string& what);
 
 }  // namespace phongpd

@@ -23,7 +23,7 @@ struct PenetrationTrackerOptions {
   void Validate() const;  // throws InputError unless finite and in range
 };
 
-using TrackerStatus = QueryStatus;  // what it was called, until 0.3
+using TrackerStatus = QueryStatus;  // old name, removed in 0.3
 
 // The answer to one step of a motion.  Lengths in the user's unit.
 struct TrackerResult {

@@ -27,7 +27,7 @@ struct WindowResult {
   Depth ToDepth() const;
 };
 
-using WindowPhongResult = WindowResult;  // what it was called, until 0.3
+using WindowPhongResult = WindowResult;  // old name, removed in 0.3
 
 // PhongPD without the whole contact space: cold queries of PhongMetric, from
 // windows of C_cont that grow around q until one certifies its answer.

@@ -24,7 +24,7 @@ struct StartRepairOptions {
   void Validate() const;
 };
 
-using RepairStatus = PathStatus;  // what it was called, until 0.3
+using RepairStatus = PathStatus;  // old name, removed in 0.3
 
 struct StartRepairResult {
   PathStatus status = PathStatus::kFailed;

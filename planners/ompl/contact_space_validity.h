@@ -16,33 +16,35 @@
 #include "planners/ompl/motion_domain.h"
 #include "planners/retraction/contact_model.h"
 
-// OMPL's view of free space: states of a RealVectorStateSpace of dimension 3
-// are configurations q.
+// Free space for OMPL's planners: a state of a RealVectorStateSpace of
+// dimension 3 is a configuration q of a robot that translates.  Use
+// MakeSpaceInformation, then any of OMPL's planners.  For a robot that turns:
+// rigid_motion_validator.h.
 namespace phongpd {
 
-// The space of q with the region as bounds.
+// The state space with the region as its bounds; for a model, its region().
 std::shared_ptr<ompl::base::RealVectorStateSpace> MakeConfigurationSpace(
     const BoundingBox& region);
 std::shared_ptr<ompl::base::RealVectorStateSpace> MakeConfigurationSpace(
     const ContactModel& model);
 
-// That space with both classes below, set up.  Throws InputError without a
-// model, or without free space.
+// That state space with both classes below, set up and ready for a planner.
+// Throws InputError without a model, or without free space.
 ompl::base::SpaceInformationPtr MakeSpaceInformation(
     const MotionDomain& domain);
 ompl::base::SpaceInformationPtr MakeSpaceInformation(
     const std::shared_ptr<const ContactModel>& model);
 
-// Throws InputError, which begins with `name`, unless the space is a
-// RealVectorStateSpace of dimension 3.
+// Throws InputError unless the space is a RealVectorStateSpace of dimension 3.
+// `name` begins the message.
 void CheckConfigurationSpace(const std::string& name,
                              const ompl::base::StateSpace& space);
 
 Eigen::Vector3d ToPoint(const ompl::base::State* state);
 void FromPoint(const Eigen::Vector3d& q, ompl::base::State* state);
 
-// Is q free?  Exact; clearance is the distance to what is nearest, 0 where q
-// is not free.  Thread-safe.
+// isValid: is q free?  Exact.  clearance: the distance from q to the nearest
+// contact, user's unit, 0 if q is not free.  Thread-safe.
 class ContactSpaceValidityChecker : public ompl::base::StateValidityChecker {
  public:
   ContactSpaceValidityChecker(const ompl::base::SpaceInformationPtr& si,
@@ -61,8 +63,9 @@ class ContactSpaceValidityChecker : public ompl::base::StateValidityChecker {
   mutable std::atomic<std::uint64_t> checks_{0};
 };
 
-// Is the whole motion free?  Exact, without a resolution: obstacles that fall
-// between the samples of OMPL's DiscreteMotionValidator are seen.  Thread-safe.
+// Is the whole straight motion free?  Exact, for all its points: no obstacle is
+// missed, unlike with OMPL's DiscreteMotionValidator, which tests samples.
+// Thread-safe.
 class ContactSpaceMotionValidator : public ompl::base::MotionValidator {
  public:
   ContactSpaceMotionValidator(const ompl::base::SpaceInformationPtr& si,
@@ -74,10 +77,10 @@ class ContactSpaceMotionValidator : public ompl::base::MotionValidator {
   bool checkMotion(const ompl::base::State* s1,
                    const ompl::base::State* s2) const override;
 
-  // If blocked, lastValid.second is the largest fraction found such that the
-  // motion up to it is exactly free and its end keeps domain().floor(): OMPL's
-  // samplers make states of it, which would lie on the contact surface.  0 if
-  // there is none.
+  // If the motion is blocked, lastValid.second is the largest fraction found up
+  // to which it is free, and whose state is at least domain().floor() away from
+  // contact; 0 if there is none.  (OMPL's planners take that state for a new
+  // one.  Without the floor it would lie on the contact surface.)
   bool checkMotion(
       const ompl::base::State* s1, const ompl::base::State* s2,
       std::pair<ompl::base::State*, double>& lastValid) const override;

@@ -12,20 +12,19 @@
 
 namespace phongpd {
 
-// ContactSurfacePlanner as a planner of OMPL: complete and deterministic; it
-// answers at once and needs no time limit.  The state space is a
-// RealVectorStateSpace of dimension 3; the space information must judge by the
-// same contact space (MakeSpaceInformation), as the path is checked with it.
+// ContactSurfacePlanner as a planner of OMPL: complete and deterministic, and
+// it needs no time limit.  The state space is a RealVectorStateSpace of
+// dimension 3.  The space information must use the same contact space
+// (MakeSpaceInformation), because the path is checked with it.
 //
-// Parameter `roadmap` (0 or 1, default 0): answer from a ContactRoadmap, which
-// the first solve() builds and all later ones use, also after clear().  For
-// many queries on one scene.
+// Parameter `roadmap` (0 or 1, default 0): with 1, queries are answered from a
+// ContactRoadmap.  The first solve() builds it; all later ones use it, also
+// after clear().  For many queries in one scene.
 //
-// Where no path exists it proves so.  PlannerStatus of OMPL 1.5 has no word
-// for that: solve() returns ABORT ("the planner did not find a solution for
-// some other reason") and infeasibleProved() is true; getSpecs() says
-// provingSolutionNonExistence.  ABORT with infeasibleProved() false: neither
-// path nor proof, reason() says why.
+// If no path exists, this is proved.  The PlannerStatus of OMPL 1.5 has no
+// value for it: solve() then returns ABORT, and infeasibleProved() is true.
+// ABORT with infeasibleProved() false means neither a path nor a proof;
+// reason() says why.  getSpecs() says provingSolutionNonExistence.
 class ContactSurfaceOmplPlanner : public ompl::base::Planner {
  public:
   ContactSurfaceOmplPlanner(
@@ -33,14 +32,14 @@ class ContactSurfaceOmplPlanner : public ompl::base::Planner {
       std::shared_ptr<const ContactSurfacePlanner> planner);
   ~ContactSurfaceOmplPlanner() override;
 
-  // Plans from every start to every goal the problem offers until a path is
-  // found.  Not interrupted by ptc within one query (milliseconds).
+  // Plans from each start to each goal of the problem until a path is found.
+  // `ptc` is asked between queries only; one query takes milliseconds.
   ompl::base::PlannerStatus solve(
       const ompl::base::PlannerTerminationCondition& ptc) override;
   using Planner::solve;
   void clear() override;
   void checkValidity() override;
-  // Starts and goals, and the path found last.
+  // The starts and goals, and the last path found.
   void getPlannerData(ompl::base::PlannerData& data) const override;
 
   void setRoadmap(bool roadmap) { uses_roadmap_ = roadmap; }
@@ -48,10 +47,10 @@ class ContactSurfaceOmplPlanner : public ompl::base::Planner {
   // Null until it has been built.
   const ContactRoadmap* roadmap() const { return roadmap_.get(); }
 
-  // Every goal seen, of a goal that has finitely many, lies in another cell of
-  // free space than every start.
+  // True if the goal has finitely many states, and each of them lies in another
+  // cell of free space than each start.
   bool infeasibleProved() const { return infeasible_proved_; }
-  // Of the last query; status, certificates and counts.
+  // The planner's answer to the last query: status, certificates, counts.
   const PlanResult& result() const { return result_; }
   const std::string& reason() const { return result_.reason; }
 

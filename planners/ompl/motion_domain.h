@@ -8,25 +8,24 @@
 
 namespace phongpd {
 
-// All that a planner needs which asks for nothing but validity and motion
-// checks: free space, at whatever level it was modelled, and the box in which
-// samples are drawn.
+// What a planner needs that only tests states and motions: free space, modelled
+// in one way or another, and the region in which samples are drawn.
 struct MotionDomain {
   std::shared_ptr<const FreeSpace> free_space;
   BoundingBox region;  // not empty
 
   double diagonal() const { return region.Diagonal(); }
-  // As ContactModel::floor().
+  // 1e-9 · diagonal(), like ContactModel::floor().
   double floor() const { return 1e-9 * diagonal(); }
 };
 
-// That of a model, which it keeps alive; without free space for null.
+// The domain of a model, which it keeps alive; without free space for null.
 MotionDomain DomainOf(const std::shared_ptr<const ContactModel>& model);
 
-// Where samples for a path from start to goal are worth drawing, when nothing
-// is known of the cells of free space: the bounds, or the box around start,
-// goal and all obstacles of `convolutions`, with room on every side.  Start and
-// goal are joined within it if they are joined at all.
+// The region in which to draw samples for a path from start to goal if the
+// cells of free space are not known: the bounds, or the box of start, goal and
+// all obstacles of `convolutions`, with room on every side.  If a path exists,
+// one exists within it.
 BoundingBox SamplingRegion(const FreeSpace& convolutions,
                            const Eigen::Vector3d& start,
                            const Eigen::Vector3d& goal);

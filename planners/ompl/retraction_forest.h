@@ -9,18 +9,20 @@ namespace phongpd {
 
 class PointNeighbors;
 
-// A roadmap without cycles: every retracted sample is the root of a tree, and
-// trees are joined by slides, in both directions, between a new node and its k
-// nearest.  The end of a slide that stops becomes a node as well, so trees
-// grow into passages from whatever point lies in them.
+// A sampling-based planner for narrow passages: a roadmap without cycles.  Each
+// retracted sample is the root of a new tree.  Slides (collide_and_slide.h)
+// between a new node and its k nearest nodes, in both directions, join trees.
+// Where a slide stops on its way, its end becomes a node too; so a tree grows
+// on from every point that lies in a passage.  RetractionRRT keeps only two
+// trees.
 class RetractionForest : public RetractionPlanner {
  public:
   RetractionForest(const ompl::base::SpaceInformationPtr& si,
                    std::shared_ptr<const ContactModel> model);
   ~RetractionForest() override;
 
-  // k ≥ 1; 6 by default (3 to 12 make no difference but in mazes, where more
-  // is better).
+  // k ≥ 1, by default 6.  Values from 3 to 12 do equally well, except in mazes,
+  // where more is better.
   void setMaxNearestNeighbors(unsigned int k);
   unsigned int getMaxNearestNeighbors() const { return neighbors_; }
 

@@ -17,16 +17,17 @@
 
 namespace phongpd {
 
-// What RetractionRRT and RetractionForest share: they draw uniform samples,
-// retract those that collide, and grow a MotionGraph towards the points by a
-// local planner until a start and a goal are connected.
+// The common part of RetractionRRT and RetractionForest.  They draw uniform
+// samples, retract those that collide, and grow a MotionGraph towards them by a
+// local planner, until a start and a goal are connected.
 //
-// The state space is a RealVectorStateSpace of dimension 3 (MakeSpaceInforma-
-// tion), the goal a GoalSampleableRegion.  If the space information has
-// another motion validator than a ContactSpaceMotionValidator of the same
-// model, every motion must pass that one too.  solve() resumes where the last
-// one stopped.  The random engine is the planner's own: setSeed, or else taken
-// from OMPL's generator; clear() does not rewind it.
+// The state space must be a RealVectorStateSpace of dimension 3
+// (MakeSpaceInformation), and the goal a GoalSampleableRegion.  If the space
+// information has a motion validator other than a ContactSpaceMotionValidator
+// of the same model, every motion must pass that one, too.  solve() goes on
+// where the last call stopped.  The planner has its own random engine; its seed
+// is set by setSeed, or drawn from OMPL's generator.  clear() does not reset
+// the engine.
 class RetractionPlanner : public ompl::base::Planner {
  public:
   ~RetractionPlanner() override;
@@ -36,10 +37,10 @@ class RetractionPlanner : public ompl::base::Planner {
   using Planner::solve;
   void clear() override;
   void checkValidity() override;
-  // Every point of the graph is a vertex, every edge a straight free motion.
+  // The graph: vertices are its points, edges straight free motions.
   void getPlannerData(ompl::base::PlannerData& data) const override;
 
-  // Its clearance is the slides' standoff as well.
+  // The clearance of the options is also the standoff of slides.
   void setRetractionOptions(const RetractionOptions& options);
   void setSeed(std::uint64_t seed);
 

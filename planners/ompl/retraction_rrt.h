@@ -9,12 +9,14 @@ namespace phongpd {
 
 class PointNeighbors;
 
-// Two trees, from the starts and from the goals, that grow along obstacles.
+// RRT-Connect with retracted samples and slides: for problems with narrow
+// passages.  One tree grows from the starts and one from the goals, along
+// obstacles (collide_and_slide.h).
 //
-// Each retracted sample is a target: the nearest node of one tree slides
-// towards it, the end becomes a node, and the nearest node of the other tree
-// slides towards that.  The trees change roles.  A slide goes as far as it
-// gets; there is no step length.
+// Each retracted sample is a target.  The nearest node of one tree slides
+// towards it, and the end of the slide becomes a node.  Then the nearest node
+// of the other tree slides towards that new node, and the trees change roles.
+// A slide goes as far as it can: there is no step length to choose.
 class RetractionRRT : public RetractionPlanner {
  public:
   RetractionRRT(const ompl::base::SpaceInformationPtr& si,

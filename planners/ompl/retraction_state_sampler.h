@@ -13,26 +13,27 @@
 
 namespace phongpd {
 
-// Valid states by retraction: uniform samples of the space's bounds, those
-// that collide carried to the contact surface.  With BranchChoice::kAll the
-// points of one retraction come one by one from consecutive calls.
+// Draws valid states for OMPL's planners: uniform samples in the bounds of the
+// space; those that collide are retracted to free states near contact
+// (retraction.h).  With BranchChoice::kAll one retraction gives several states;
+// consecutive calls return them one by one.
 //
-// For the planners of OMPL that ask for valid states (PRM, SPARS, EST, SBL,
-// KPIECE and their kin); RRT, RRTConnect, RRT* and LazyPRM never do, which is
-// why RetractionRRT exists.  All state is per instance, and OMPL allocates one
-// per thread.
+// It helps the planners of OMPL that ask a sampler for valid states: PRM,
+// SPARS, EST, SBL, KPIECE and similar ones.  RRT, RRTConnect, RRT* and LazyPRM
+// never ask; use RetractionRRT or RetractionForest instead.  An instance is for
+// one thread; OMPL allocates one for each.
 class RetractionStateSampler : public ompl::base::ValidStateSampler {
  public:
-  // Throws InputError without a model, for options, and for a space that is no
-  // RealVectorStateSpace of dimension 3.
+  // Throws InputError without a model, for bad options, and unless the space is
+  // a RealVectorStateSpace of dimension 3.
   RetractionStateSampler(const ompl::base::SpaceInformation* si,
                          std::shared_ptr<const ContactModel> model,
                          const RetractionOptions& options, std::uint64_t seed);
 
-  // False if no attempt gave a free point.
+  // False if no attempt gave a free state.
   bool sample(ompl::base::State* state) override;
-  // From samples of the ball around `near`; the retracted point lies in it
-  // too.
+  // The same with samples from the ball of radius `distance` around `near`; the
+  // state lies in that ball, too.
   bool sampleNear(ompl::base::State* state, const ompl::base::State* near,
                   double distance) override;
 
@@ -47,8 +48,8 @@ class RetractionStateSampler : public ompl::base::ValidStateSampler {
   std::vector<Eigen::Vector3d> pending_;  // of one retraction, last first
 };
 
-// For SpaceInformation::setValidStateSamplerAllocator.  The n-th sampler it
-// allocates has a seed of its own, made of `seed` and n.
+// An allocator for SpaceInformation::setValidStateSamplerAllocator.  The n-th
+// sampler that it allocates gets its own seed, computed from `seed` and n.
 ompl::base::ValidStateSamplerAllocator RetractionStateSamplerAllocator(
     std::shared_ptr<const ContactModel> model,
     const RetractionOptions& options = {}, std::uint64_t seed = 1);

@@ -11,17 +11,19 @@
 
 namespace phongpd {
 
-// Local planners: from a towards b, along obstacles where they are in the way.
+// Two local planners for sampling-based planners: they move from a towards b,
+// and along obstacles that are in the way.
 //
-// Both return the polyline they moved along.  It is exactly free (each segment
-// passed FreeSpace::IsFree), its points between a and b keep the model's floor,
-// and every point of a collide-and-slide is closer to b than the one before.
-// Thread-safe with a path, counters, scratch and engine per thread.
+// Both return the polyline they moved along.  It is free, exactly: each segment
+// passed FreeSpace::IsFree.  Its points between a and b keep the distance
+// ContactModel::floor() from contact.  Each point of CollideAndSlide is closer
+// to b than the one before.  Thread-safe if each thread has its own path,
+// counters, scratch and random engine.
 
 enum class SlideStatus {
   kReached,    // the path ends in b
-  kStopped,    // at a place from which no slide comes closer to b
-  kMoveLimit,  // a hundred moves
+  kStopped,    // the path ends where no slide comes closer to b
+  kMoveLimit,  // the path ends after a hundred moves
   kInvalid,    // a is not free, or b is not finite
 };
 
@@ -29,25 +31,28 @@ struct SlideCounters {
   std::uint64_t slides = 0;
   std::uint64_t moves = 0;           // accepted
   std::uint64_t segment_checks = 0;  // exact tests of a segment
-  std::uint64_t rays = 0;            // for gaps in front of facets
+  std::uint64_t rays = 0;            // to measure the gap in front of a facet
 };
 
-// Collide and slide: go straight at b; at the first contact stop in front of
-// the facet by its standoff, go on without the part of the motion along the
-// facet's normal, and between two facets along their crease.  Three tests a
-// move, no projection.  The path is cleared first and starts with a.
-// `clearance`: largest standoff from what is slid along, as a fraction of the
-// region's diagonal; half the free gap where that is less.  Throws InputError
-// unless it is in (0, 1].
+// Collide and slide.  Moves straight towards b, stops at the standoff in front
+// of the first facet in the way, and goes on with the motion projected onto the
+// facet's plane; between two facets, along the line in which their planes
+// intersect.  A move takes three tests of segments and no projection onto
+// C_cont.  The path is cleared first and starts with a.
+//
+// `clearance` is the largest standoff, as a fraction in (0, 1] of the region's
+// diagonal; the standoff is half the free gap where that is less.  Throws
+// InputError for another clearance.
 SlideStatus CollideAndSlide(const ContactModel& model, double clearance,
                             const Eigen::Vector3d& a, const Eigen::Vector3d& b,
                             std::vector<Eigen::Vector3d>* path,
                             SlideCounters* counters);
 
-// Step and retract: a short step towards b, retracted where it collides (to
-// the point closest to the step, of those the retraction offers), tested
-// exactly, until no step comes closer to b.  One retraction a step: more work
-// than CollideAndSlide, and it stops at corners where that one turns.
+// Step and retract.  Takes short steps towards b.  Where a step's end collides,
+// it is retracted, to the one of the retracted points that is closest to it.
+// Each step is tested exactly; stops when no step comes closer to b.  Takes one
+// retraction a step, so it is slower than CollideAndSlide, and it stops in
+// corners where CollideAndSlide goes on.  A baseline: prefer CollideAndSlide.
 SlideStatus StepRetract(const Retraction& retraction, const Eigen::Vector3d& a,
                         const Eigen::Vector3d& b, std::mt19937_64* random,
                         RetractionScratch* scratch,

@@ -13,30 +13,30 @@
 
 namespace phongpd {
 
-// Where samples for a path from start to goal are worth drawing in a scene
-// without bounds: the box around the cells of free space that hold them.  The
-// box around the mesh, start and goal, with room on every side, if one of them
-// is unbounded (or not told apart by rays, or not free).  Start and goal are
-// joined within the box if they are joined at all, so it may be used as bounds.
-// One space for all obstacles.
+// The region in which to draw samples for a path from start to goal, in a scene
+// without bounds: the bounding box of the cells of free space that contain
+// start and goal.  If one of these cells is unbounded (or unknown, or start or
+// goal is not free), it is the box of the mesh, start and goal, with room on
+// every side.  If a path exists, one exists within the box: it may serve as
+// bounds.  `space` is one contact space of all obstacles.
 BoundingBox SamplingRegion(const ContactSpace& space,
                            const Eigen::Vector3d& start,
                            const Eigen::Vector3d& goal);
 
-// What retraction and sliding ask of the contact spaces of a robot that
-// translates: exact motion checks, both penetration metrics, facet normals,
-// and how much room there is in front of a facet.  Const and thread-safe; one
-// model is shared by all planners and threads of a scene.
+// What retraction and sliding need of the contact spaces of a robot that
+// translates: exact tests of motions, penetration metrics, normals of facets,
+// and the room in front of a facet.  Immutable and thread-safe: share one model
+// among all planners and threads of a scene.
 //
-// One contact space per obstacle, or one for all (MergedObstacle with the
-// bounds shell), which is preferred: a retracted point then never lies in
-// another obstacle.
+// It takes one contact space per obstacle, or better one of all obstacles
+// (MergedObstacle, with the shell of the bounds): then a retracted point never
+// lies in another obstacle.
 class ContactModel {
  public:
-  // As FreeSpace; the field is the one of the Phong metric.  Its ℓ = 0 is
-  // right for planning: a limited field with ℓ > 0 changes neither what is
-  // solved nor the samples it takes.
-  // Throws InputError for options, and if there is neither a space nor bounds.
+  // Spaces and bounds as for FreeSpace; `field` is that of the Phong metric.
+  // The default ℓ = 0 is right for planning: ℓ > 0 changes neither what is
+  // solved nor the number of samples.  Throws InputError for options, and if
+  // there is neither a space nor bounds.
   explicit ContactModel(
       const std::vector<ContactSpace>& spaces,
       const BoundingBox& bounds = FreeSpace::NoBounds(),
@@ -50,18 +50,18 @@ class ContactModel {
   const ContactSpace& space(int space) const;
   const PhongMetric& phong(int space) const;
 
-  // Where samples are drawn: the bounds, or the box around all meshes (which
-  // is much of what a bounds shell is made of: see SamplingRegion).
+  // Where samples are drawn: the bounds, or without bounds the box of all
+  // meshes.  (A shell of bounds makes that box too large: see SamplingRegion.)
   const BoundingBox& region() const;
-  // Of the region; every length below refers to it.
+  // The region's diagonal; lengths below refer to it.
   double diagonal() const { return region().Diagonal(); }
-  // 1e-9 · diagonal: no point made here comes closer to a contact surface.
-  // Slides whose points may come within rounding of C_cont converge onto it
-  // and leave paths that no other program can confirm.
+  // 1e-9 · diagonal, the least distance of new points from contact.  Without
+  // it, slides would converge onto C_cont, and rounding would decide whether
+  // their paths are free.
   double floor() const { return 1e-9 * diagonal(); }
 
   // A point of a contact surface or of the bounds, with the unit normal that
-  // points into the free side; zero at a facet without area.
+  // points into free space; the normal is zero for a facet without area.
   struct Facet {
     int space = MotionCheck::kNone;  // or MotionCheck::kBounds
     int triangle = -1;
@@ -75,28 +75,28 @@ class ContactModel {
   // TriangleNeighbors of the space's mesh.
   const std::vector<std::array<int, 3>>& Neighbors(int space) const;
 
-  // What the motion from a to b met; `check` is what free_space().Check said
-  // of it, not free, and not at its start.  Of triangles met within rounding
-  // of each other the one that opposes the motion most.
+  // The facet that the motion from a to b hits first.  `check` is the answer of
+  // free_space().Check: not free, and not at the start.  Of triangles that are
+  // hit at the same point, to rounding, the one that opposes the motion most.
   Facet FacetMet(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
                  const MotionCheck& check) const;
 
-  // The facet closest to q over all spaces and bounds; of spaces that hold q
-  // the one it is deepest in.  *distance is signed: < 0 within an obstacle or
-  // beyond the bounds (sign exact), > 0 iff q is free; −∞, with no facet, for q
-  // not finite.
+  // The facet closest to q, of all spaces and bounds; if q lies in several
+  // spaces, that of the space in which it is deepest.  *distance is signed, and
+  // its sign is exact: > 0 iff q is free, < 0 inside an obstacle or beyond the
+  // bounds.  If q is not finite: −∞, and no facet.
   Facet FindNearest(const Eigen::Vector3d& q, double* distance) const;
 
-  // min(clearance, ½ · free gap) along the facet's normal: how far a point in
-  // front of the facet should stand off so that it neither touches nor closes
-  // the passage it is in.  Every triangle that touches the facet's point is
-  // ignored (a projection often lies on an edge).  ≥ 0.
+  // How far from the facet a point should be, along its normal, so that it
+  // stays in the middle of a narrow passage: min(clearance, half the free gap),
+  // user's unit, ≥ 0.  Triangles that touch the facet's point are ignored,
+  // because a projection often lies on an edge.
   double Standoff(const Facet& facet, double clearance) const;
 
-  // Moves off the facet by its standoff.  Where that leaves the point close to
-  // another facet (the corner of a channel) off that one too, at most four
-  // times.  False if no point that keeps the floor was found; *q is then
-  // untouched.  *room is the distance from *q to what is nearest.
+  // Writes to *q the point of the facet moved off by its standoff.  If that is
+  // close to another facet (in the corner of a channel), it is moved off that
+  // one, too, at most four times.  *room is its distance from the nearest
+  // contact.  Returns false, and leaves *q, if no point with floor() was found.
   bool LiftOff(Facet facet, double clearance, Eigen::Vector3d* q,
                double* room) const;
 

@@ -13,57 +13,61 @@
 
 namespace phongpd {
 
-// What carries a colliding configuration to C_cont.
+// How a colliding configuration is projected onto C_cont.
 enum class RetractionMetric {
   kPhong,           // along Phong directions: many projections
-  kEuclidean,       // to the closest point: one
-  kLocalEuclidean,  // to every point that is the closest one around it: many
-  kContactPoint,   // not at all: a random point of a random triangle of C_cont,
-                   // whatever the configuration (the honest baseline)
+  kEuclidean,       // to the closest point: one projection
+  kLocalEuclidean,  // to every local minimum of the distance: many projections
+  // Baselines, whose points do not depend on the configuration:
+  kContactPoint,   // a random point of a random triangle of C_cont
   kContactPoints,  // as many of those as the configuration has projections
-                   // along Phong directions, a baseline of equal strength
+                   // along Phong directions
 };
 
-// Which of the projections of a configuration are taken.  Only
-// kPhong has a choice: the baselines take what they list.
+// Which of a configuration's projections are used.  For kPhong only: the other
+// metrics use all that they find.
 enum class BranchChoice {
-  kAll,      // each of them; one colliding sample lists the passage
+  kAll,      // each of them: one colliding sample gives points on all sides of
+             // a passage
   kRandom,   // one, uniformly
-  kNovelty,  // the one whose triangle was taken least often
+  kNovelty,  // the one whose triangle was used least often
   kWarm,     // the branch of the previous query, followed to this one
   kNearest,  // the one of least depth
 };
 
-// Deepest projection listed, as a fraction of the region's diagonal.  Measured
-// on a hole: bounds below 0.2 cost 3-300 × the samples.
+// The largest depth of a projection, as a fraction of the region's diagonal.
+// Measured for a hole: with less than 0.2, 3 to 300 times as many samples were
+// needed.
 inline constexpr double kRetractionDepth = 1.0;
-// Projections lifted per configuration, shallowest first.  It bounds the work
-// in scenes where one configuration has hundreds.
+// At most so many projections of a configuration are used, shallowest first: in
+// some scenes one configuration has hundreds.
 inline constexpr int kMaxRetractionBranches = 64;
 
 struct RetractionOptions {
   RetractionMetric metric = RetractionMetric::kPhong;
   BranchChoice choice = BranchChoice::kAll;
-  // Largest clearance asked for, as a fraction of the region's diagonal; what
-  // a point gets is at most half the free gap in front of its facet.  (0, 1].
+  // ε: the largest clearance that a point gets, as a fraction in (0, 1] of the
+  // region's diagonal.  It gets less where the gap in front of its facet is
+  // narrower than 2ε: half the gap.
   double clearance = 1e-2;
 
   void Validate() const;  // throws InputError
 };
 
 enum class RetractionStatus {
-  kFree,          // q is free already: it is the point
-  kRetracted,     // at least one point
-  kNoProjection,  // q is on a contact surface, or only beyond the bounds, or
-                  // deeper than kRetractionDepth
-  kNoClearance,   // projections, but no free point in front of any of them
+  kFree,          // q is free: it is the only point
+  kRetracted,     // q collides: there is at least one point
+  kNoProjection,  // q lies on a contact surface, or in no obstacle but beyond
+                  // the bounds, or deeper than kRetractionDepth
+  kNoClearance,   // there are projections, but no free point in front of them
   kInvalid,       // q is not finite
 };
 
-// A free configuration, at least floor() from every contact surface.
+// A free configuration, at least ContactModel::floor() from every contact
+// surface.
 struct RetractedPoint {
   Eigen::Vector3d q = Eigen::Vector3d::Zero();
-  double room = 0.0;  // distance to what is nearest; infinity if kFree
+  double room = 0.0;  // distance to the nearest contact; infinity if kFree
   ContactModel::Facet contact;  // where q was projected to; none if kFree
 };
 
@@ -76,15 +80,16 @@ struct RetractionCounters {
   std::uint64_t points = 0;       // free points found
 };
 
-// Uniform in a box; the same on every platform.
+// A uniform random point in a box; the same on every platform.
 Eigen::Vector3d UniformPoint(const BoundingBox& box, std::mt19937_64* random);
 
-// State of one caller: one per thread and sampler, reused from call to call.
-// After a few calls nothing allocates.
+// The answer, counters and buffers of one caller.  Have one per thread and
+// sampler, and reuse it: after a few calls nothing allocates.
 struct RetractionScratch {
-  std::vector<RetractedPoint> points;  // the answer
-  RetractionCounters counters;
+  std::vector<RetractedPoint> points;  // the answer of the last call
+  RetractionCounters counters;         // of all calls
 
+  // Buffers of Retract.
   std::vector<PenetrationResult> projections;
   std::vector<LocalProjection> local;
   LocalProjectionScratch local_scratch;
@@ -92,14 +97,15 @@ struct RetractionScratch {
   std::vector<std::vector<int>> taken;  // per contact space and triangle
 };
 
-// Retraction of configurations onto the neighbourhood of C_cont: from a
-// colliding q to the projections q_c of its penetration, each lifted off its
-// facet by min(ε, ½ the free gap) along the *facet's* normal (the Phong normal
-// may be tangential there, and a fixed ε closes passages narrower than 2ε).
-// Both metrics are treated alike from q_c on.
+// Turns colliding samples into free ones near contact, where sampling-based
+// planners need them: a colliding q is projected onto C_cont, and each
+// projection q_c is lifted off its facet by min(ε, half the free gap).  It is
+// lifted along the normal of the facet, since the Phong normal may be
+// tangential there; a fixed ε would close passages narrower than 2ε.  From q_c
+// on, all metrics are treated alike.
 class Retraction {
  public:
-  // Throws InputError.
+  // Throws InputError for options and without a model.
   Retraction(std::shared_ptr<const ContactModel> model,
              const RetractionOptions& options = {});
 

@@ -13,18 +13,20 @@
 
 namespace phongpd {
 
-// A path of poses from start to goal.
+// What Plan is asked: a path of poses from start to goal.
 struct RigidRequest {
   RobotPose start, goal;
-  // Of the robot's origin.  As made: the box of the obstacles, start and
-  // goal, grown on all sides by twice the robot's reach from its origin.
+  // Where the robot's origin may be, user's unit.  Empty, the default: the box
+  // of the obstacles, start and goal, grown on all sides by twice the robot's
+  // reach, the distance of its farthest corner from its origin.
   Eigen::AlignedBox3d bounds{};
   double time_limit = 10.0;  // seconds of wall time, in (0, 1e9]
-  std::uint64_t seed = 1;
-  // Asked before every motion that is judged; true ends it as time does.
+  std::uint64_t seed = 1;    // of all random numbers
+  // Called before each motion is judged; returning true stops the planner, as
+  // the time limit does.
   std::function<bool()> is_interrupted{};
-  // Paths as found have hundreds of poses; shortened they are cut across and
-  // lose what they can do without.
+  // Shorten the path?  As found it has hundreds of poses; shortening takes
+  // short cuts and leaves out the poses that are not needed.
   bool shortens = true;
 
   // Throws InputError naming the field.
@@ -33,52 +35,59 @@ struct RigidRequest {
 
 // What Plan answers.  No member is NaN or infinite.
 struct RigidAnswer {
-  // kSolved; kStartInCollision (undecided counts as collision) or
-  // kStartOutOfBounds, the same of the goal; kTimeLimit and kInterrupted: none
-  // was found until then; kNotCertified: the second pass of the judge did not
-  // confirm the path, which is a fault of ours.  Never kInfeasibleProved: not
-  // to find a path proves nothing.
+  // kSolved: there is a path.
+  // kStartInCollision, kGoalInCollision: also if this could not be decided.
+  // kStartOutOfBounds, kGoalOutOfBounds.
+  // kTimeLimit, kInterrupted: no path was found until then.
+  // kNotCertified: the judge's second pass refused the path, a fault of ours.
+  // Never kInfeasibleProved: that no path was found proves nothing.
   PathStatus status = PathStatus::kFailed;
-  std::string reason;  // one sentence where there is no path
-  // From the request's start to its goal, both bit for bit; between two poses
-  // the robot moves by RigidMotion.  Every such motion is free for all t,
-  // proved twice: when it was found and when all was done.  Empty: none.
+  std::string reason;  // one sentence if there is no path
+  // From the request's start to its goal, both bit for bit; empty: no path.
+  // Between two poses the robot moves by RigidMotion.  Every such motion is
+  // proved free for all t, twice: when it was found, and again at the end.
   std::vector<RobotPose> path;
-  double length = 0.0;  // of the path, object norm; user's unit
-  // How close it comes to the obstacles, proved, and where: to a thousandth of
-  // it, or as is_resolved says.  Of no path all 0.
+  double length = 0.0;  // of the path, object norm (rigid_world.h), user's unit
+  // The smallest distance from the obstacles along the path, proved, and where:
+  // to a thousandth, or as is_resolved says.  All zero without a path.
   RigidClearance clearance;
-  std::string planner;   // "line", "straight", "slide" or "tow"; empty: none
-  double seconds = 0.0;  // wall time of all
-  double search_seconds = 0.0;  // until a path was found, or none
+  std::string planner;   // "line", "straight", "slide" or "tow"; "" if none
+  double seconds = 0.0;  // wall time of the whole call
+  double search_seconds = 0.0;  // of that, until a path was found or given up
   long checks = 0;              // motions judged
-  long tests = 0;  // pairs of boxes and triangles the judge looked at
-  long nodes = 0;  // poses of all trees
-  std::size_t found_poses = 0;  // of the path before it was shortened
-  // Of a start or goal in collision: who meets whom, or is not told apart
-  // (rigid_judge.h), and how deep these two meshes are in each other, where
-  // both are solids and that is known within a second.
+  long tests = 0;               // pairs of boxes and of triangles tested
+  long nodes = 0;               // poses in all trees
+  std::size_t found_poses = 0;  // in the path before it was shortened
+  // If the start or goal is in collision: which triangles intersect, or could
+  // not be separated (rigid_judge.h).
   RigidCheck collision;
+  // The penetration depth of those two meshes, user's unit; none unless both
+  // are solids and it took less than a second.
   std::optional<double> depth;
 
   bool IsSolved() const { return status == PathStatus::kSolved; }
 };
 
-// Plans for a robot that turns.  First the motion straight to the goal; then
-// three bidirectional trees race, taking turns by the work they have done:
-//   straight  grows by straight steps as long as they are free, for worlds with
-//             much room; it has a head start of less than half a second;
-//   slide     grows along contacts (rigid_slide.h), to random poses and to such
-//             as have edges and faces of robot and obstacles parallel;
-//   tow       as slide, but half of its slides pull a corner of the robot to a
-//             place and let it turn as it has to.
-// What is found is shortened, and judged again, motion by motion.
+// Plans a path for a robot that translates and turns (SE(3)).  For one that
+// only translates use the Plan of planners/solve/plan.h, which is complete.
 //
-// The same request in the same world gives the same path on the same machine,
-// unless time runs out; random numbers come from the seed alone.
+// The motion straight to the goal is tried first ("line").  If it collides,
+// three planners with two random trees each, one from the start and one from
+// the goal, take turns, so that each does about the same work:
+//   straight  adds straight motions as far as they are free; best in worlds
+//             with much room; it has a head start of less than half a second
+//   slide     slides along contacts (rigid_slide.h) towards random poses, and
+//             towards poses in which edges or faces of the robot are parallel
+//             to those of the obstacles
+//   tow       like slide, but half of its slides pull only one corner of the
+//             robot to a place, and let the robot turn as it must
+// The first path found is shortened, and each of its motions is judged again.
+//
+// The same request in the same world gives the same path on the same machine
+// unless time runs out: all random numbers come from the seed.
 //
 // Throws InputError for bad requests.  Thread-safe; runs in the caller's
-// thread.  Memory grows with time, by tens of MB a minute.
+// thread.  Memory grows by tens of MB in a minute.
 RigidAnswer Plan(const RigidWorld& world, const RigidRequest& request);
 
 }  // namespace phongpd

@@ -49,41 +49,53 @@ double RigidSlide::Rest(const RobotPose& pose, const SlidePull& pull) const {
   return (pose.orientation * pull.grip + pose.position - pull.place).norm();
 }
 
+RigidSlide::Aim RigidSlide::AimFrom(const RobotPose& pose,
+                                    const SlidePull& pull, double step) {
+  const Step best = BestStep(pose, pull, step);
+  Aim aim;
+  aim.has_arrived = best.arrived;
+  aim.is_step = !(best.move.norm() < kLeastMove * step);
+  if (best.arrived || !aim.is_step) return aim;
+  aim.pose = Moved(pose, best.move, gyration_);
+  aim.is_last = !pull.is_tow && ObjectDistance(aim.pose, pull.to, gyration_) <
+                                    kSettled * gyration_;
+  if (aim.is_last) aim.pose = pull.to;
+  return aim;
+}
+
 bool RigidSlide::Slide(const RobotPose& from, const SlidePull& pull,
                        std::vector<RobotPose>* path) {
   path->assign(1, from);
   RobotPose pose = from;
   double rest = Rest(pose, pull), step = max_step_;
   int slow = 0;
+  // A step that leads nowhere is tried again, shorter; false: it is too short.
+  const auto shortens = [&] {
+    if (step < 8.0 * skin_) return false;
+    step /= 4.0;
+    return true;
+  };
   for (int i = 0; i < kMaxMoves && !links_->IsStopped(); ++i) {
-    RobotPose aim = pull.to;
     const bool is_straight = i == 0 && !pull.is_tow;
-    bool is_last = is_straight;
-    if (!is_straight) {
-      const Step best = BestStep(pose, pull, step);
-      if (best.arrived) return pull.is_tow;
-      if (best.move.norm() < kLeastMove * step) {
-        if (step < 8.0 * skin_) break;
-        step /= 4.0;
-        continue;
-      }
-      aim = Moved(pose, best.move, gyration_);
-      is_last = !pull.is_tow &&
-                ObjectDistance(aim, pull.to, gyration_) < kSettled * gyration_;
-      if (is_last) aim = pull.to;
+    const Aim aim = is_straight ? Aim{pull.to, true, true, false}
+                                : AimFrom(pose, pull, step);
+    if (aim.has_arrived) return pull.is_tow;
+    if (!aim.is_step) {
+      if (!shortens()) break;
+      continue;
     }
-    const double length = ObjectDistance(pose, aim, gyration_);
-    if (!(length > 0.0)) return is_last;
-    const RigidMotion motion(pose, aim);
+    const double length = ObjectDistance(pose, aim.pose, gyration_);
+    if (!(length > 0.0)) return aim.is_last;
+    const RigidMotion motion(pose, aim.pose);
     // Where exactly it meets matters little: the next steps come closer.
     const double tolerance =
         std::max(0.5 * skin_ / length,
                  is_straight ? kTolerance * step / length : kTolerance);
     const double share =
         links_->FreeShare(motion, tolerance, 2.0 * skin_ / length);
-    RobotPose next = aim;
+    RobotPose next = aim.pose;
     if (share >= 1.0) {
-      if (is_last) {
+      if (aim.is_last) {
         path->push_back(pull.to);
         return true;
       }
@@ -91,8 +103,7 @@ bool RigidSlide::Slide(const RobotPose& from, const SlidePull& pull,
     } else {
       if (!is_straight && share < 0.7) step = std::max(skin_, 0.5 * step);
       if (share * length < 0.2 * skin_) {
-        if (step < 8.0 * skin_) break;
-        step /= 4.0;
+        if (!shortens()) break;
         continue;
       }
       next = motion.At(share);

@@ -51,7 +51,17 @@ class RigidSlide {
     bool arrived = false;
   };
 
+  // Where a move goes.
+  struct Aim {
+    RobotPose pose;
+    bool is_step = false;  // not so small that it is none
+    bool is_last = false;  // the pose pulled to
+    bool has_arrived = false;
+  };
+
   double Rest(const RobotPose& pose, const SlidePull& pull) const;
+  // Along (1) by a step of that length.
+  Aim AimFrom(const RobotPose& pose, const SlidePull& pull, double step);
   // The best step of that length that (1) allows.
   Step BestStep(const RobotPose& pose, const SlidePull& pull, double length);
   // Rows of (1), nearest contacts first, in coordinates y with ξ = C⁻ᵀ y.

@@ -14,21 +14,25 @@ namespace internal {
 struct RigidModel;
 }  // namespace internal
 
-// A robot that moves and turns among fixed obstacles: the meshes, their judge,
-// and the trees that planners look for contacts in.  Surfaces need not be
-// closed (rigid_judge.h).
+// A robot that translates and turns among fixed obstacles, for Plan and
+// Optimize (rigid_plan.h, rigid_optimize.h): the meshes, their judge, and the
+// trees in which planners find contacts.  The meshes need not be closed
+// (rigid_judge.h).
 //
-// The object norm measures motions: of a displacement Δq of the robot's origin
-// and a turn by θ ≤ π it is √(|Δq|² + L² θ²), user's unit, with L the robot's
-// radius of gyration about its origin, by area: √(∫ |p|² dA / ∫ dA).
+// Lengths of motions are measured in the object norm, user's unit.  For a
+// displacement Δq of the robot's origin and a turn by θ ≤ π it is
 //
-// An immutable handle, cheap to copy and thread-safe.
+//   √(|Δq|² + L² θ²),   L = √(∫ |p|² dA / ∫ dA)
+//
+// with L the radius of gyration of the robot's surface about its origin.
+//
+// An immutable handle, cheap to copy.  Thread-safe.
 class RigidWorld {
  public:
-  // Throws InputError like RigidJudge, and for a robot that is but a point at
-  // its own origin, whose turns nothing could measure.
+  // Throws InputError like RigidJudge, and for a robot that is only a point at
+  // its origin, because L would be 0.
   RigidWorld(const TriangleMesh& robot, const TriangleMesh& obstacle);
-  // The robot is all of `robot` at once, so are the obstacles.
+  // All meshes of `robot` move together as one body.
   RigidWorld(const std::vector<TriangleMesh>& robot,
              const std::vector<TriangleMesh>& obstacles);
 
@@ -37,16 +41,16 @@ class RigidWorld {
   const std::vector<TriangleMesh>& obstacles() const;
 
   double gyration() const;  // L > 0
-  double reach() const;     // R > 0, of the robot's farthest corner from its
-                            // origin
+  double reach() const;     // > 0, the distance of the robot's farthest corner
+                            // from its origin
   // The box of all obstacles.
   Eigen::AlignedBox3d obstacle_box() const;
 
-  // The object norm of the shorter way from pose to pose; of poses as CheckPose
-  // wants them.
+  // The object norm of the motion from a to b by the shorter turn.  Requires
+  // finite poses with quaternions of unit length.
   double Distance(const RobotPose& a, const RobotPose& b) const;
 
-  // What planners search in; not installed.
+  // For planners; its header is not installed.
   const internal::RigidModel& model() const { return *model_; }
 
  private:

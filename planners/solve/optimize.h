@@ -76,12 +76,14 @@ void ApplyPreset(Preset preset, OptimizeRequest* request);
 // start or goal is not free, the answer says so before anything is built.
 //
 // Without limits: TrajectoryPipeline with the metric asked for, one solve at a
-// time in a process.  In a window euclidean and smoothed metrics are followed
-// from what of C_cont lies about the iterates (PathAnswer::windows,
-// window_metric.h), one row a sample, and rrt-connect finds the starts.  With
-// other metrics, rows or layouts, and where the answer's evidence says why
-// windows failed, only free space is modelled and there is no metric to follow
-// (OptimizeInFreeSpace).
+// time in a process.
+//
+// With Model::kWindow, the metrics euclidean and smoothed, with one row a
+// sample, are computed from the parts of C_cont near the iterates
+// (PathAnswer::windows, window_metric.h); rrt-connect finds the starts.  With
+// another metric, more rows or a contact space per obstacle, only free space is
+// modelled, and there is no metric to follow (OptimizeInFreeSpace).  The same
+// happens if the windows fail; the answer's evidence then says why.
 //
 // With limits: OptimizeCurve, from the path that contact-surface finds from
 // place to place.  If a place is not free the status is kViaNotFree.  If no

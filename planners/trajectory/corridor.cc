@@ -35,13 +35,13 @@ IpoptSettings RoundSettings() {
   // A round is convex and starts near its solution: no large mu is needed to
   // find the way, nor more digits than two rounds differ by.
   settings.mu_strategy = IpoptSettings::MuStrategy::kMonotone;
-  settings.ipopt_options["mu_init"] = "1e-5";
-  settings.ipopt_options["tol"] = "1e-5";
+  settings.ipopt_options["mu_init"] = 1e-5;
+  settings.ipopt_options["tol"] = 1e-5;
   // The path as it is touches its planes' offsets; Ipopt's default would push
   // it a hundredth of every range away first.
   for (const char* name :
        {"bound_push", "bound_frac", "slack_bound_push", "slack_bound_frac"}) {
-    settings.ipopt_options[name] = "1e-6";
+    settings.ipopt_options[name] = 1e-6;
   }
   return settings;
 }

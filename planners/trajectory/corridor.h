@@ -16,12 +16,12 @@ namespace phongpd {
 // τ of the first round, a share of D.
 inline constexpr double kFirstTrust = 0.05;
 
-using CorridorStatus = PathStatus;  // what it was called, until 0.3
+using CorridorStatus = PathStatus;  // old name, removed in 0.3
 
 struct CorridorRound {
   double objective = 0.0;  // after the round, of the path kept
-  double missing = 0.0;    // clearance, summed over segments, units of D
-  double trust = 0.0;      // units of D
+  double missing = 0.0;    // clearance that is missing, sum over segments, in D
+  double trust = 0.0;      // τ, in D
   int planes = 0;
   int iterations = 0;
   bool is_accepted = false;
@@ -29,26 +29,29 @@ struct CorridorRound {
 
 struct CorridorSummary {
   PathStatus status = PathStatus::kNotFree;
-  Path path;               // exactly free but for kNotFree
+  Path path;               // exactly free, except for kNotFree
   double objective = 0.0;  // energy of `path`
-  // Smallest distance of a segment to contact or the margin; units of D.
+  // The smaller of the margin and the path's distance from contact, in D.
   double clearance = 0.0;
   int iterations = 0;  // of Ipopt, all rounds
   std::vector<CorridorRound> rounds;
   double seconds = 0.0;
 
   bool IsFree() const { return status != PathStatus::kNotFree; }
-  // Is the path a local minimum, and not just the start path kept for want of
-  // an improvement that rounding would let pass?
+  // Is the path a local minimum?  (False if the start path was kept only
+  // because rounding let no improvement pass.)
   bool HasConverged() const;
 };
 
-// Shortens an exactly free path without ever leaving free space.  A round:
+// Shortens an exactly free path without ever leaving free space: a sequence of
+// convex programs in corridors of planes.  No penetration metric is used.  Each
+// round:
 //
-//  1. For each segment, planes between it and the triangles within 2τ + margin:
-//     the nearest one first, through its point closest to the segment,
-//     orthogonal to the closest pair; a triangle behind a plane already there
-//     needs none.  A triangle is convex, so its plane separates it.
+//  1. For each segment, planes are put between it and the triangles within
+//     2τ + margin, the nearest triangle first: through its point closest to the
+//     segment, orthogonal to the line between the closest points.  It separates
+//     the two, because both are convex.  A triangle that is already behind a
+//     plane needs none.
 //  2. The convex program in the waypoints p and the missing clearances s,
 //
 //       min  f(p) + (P/ℓ₀) Σ s_i
@@ -56,20 +59,21 @@ struct CorridorSummary {
 //            0 ≤ s_i ≤ wanted_i − clearance_i of segment i now (or fixed at 0)
 //            |p − p_now|_∞ ≤ τ,  |Δp| ≤ h,
 //
-//     by Ipopt; f, ℓ₀, D and h are TrajectoryProblem's, P is 50, and
-//     wanted is the margin or, between opposite planes, 0.95 of half the gap.
-//  3. The step is kept if the exact judge finds it free and the merit, the
-//     same objective with the true missing clearances, fell; Ipopt's own word
+//     is solved by Ipopt.  f, ℓ₀, D and h are those of TrajectoryProblem; P is
+//     50; wanted_i is the margin, or between opposite planes 0.95 of half the
+//     gap if that is less.
+//  3. The step is kept if the exact judge finds it free, and the merit (the
+//     same objective with the true missing clearances) fell.  Ipopt's claim
 //     does not count.  Otherwise τ is halved.
 //
-// So every path kept is exactly free, what clearance is missing is restored
-// where a passage allows it, none is lost below what is wanted but for another
-// segment's, and once none is missing f falls monotonically.  It finds a local
-// minimum of the way the start path takes.  No penetration metric is used.
+// So every path that is kept is exactly free.  Missing clearance is restored
+// where a passage allows it, and a segment loses wanted clearance only for
+// another one's.  Once none is missing, f falls monotonically.  The result is a
+// local minimum: it passes obstacles on the same side as the start path.
 //
-// `path`: N + 2 points from start to goal; throws InputError for another shape,
-// and for a time limit (seconds) that is not > 0.  problem.metrics are not
-// looked at.  on_path is told of every iterate of every round.
+// `path` has N + 2 points from start to goal; throws InputError for another
+// shape, and for a time limit (seconds) that is not > 0.  problem.metrics are
+// not used.  on_path is called with every iterate of every round.
 CorridorSummary PolishInCorridor(
     const TrajectoryProblem& problem, const Path& path,
     double time_limit = std::numeric_limits<double>::infinity(),

@@ -13,37 +13,42 @@
 
 namespace phongpd {
 
-// A place to pass on the way.
+// A place that the curve passes on its way.
 struct CurveVia {
   Eigen::Vector3d point = Eigen::Vector3d::Zero();
-  double tolerance = 0.0;  // the curve comes as close, user's unit; > 0
-  double dwell = 0.0;      // seconds to rest there; at the point itself if > 0
+  double tolerance = 0.0;  // largest distance from it, user's unit, > 0
+  double dwell = 0.0;  // seconds to rest, ≥ 0; if > 0, exactly at the point
 };
 
 struct CurveOptions {
-  MotionLimits limits;        // one at least for each axis
-  CurveEnd start, end;        // within the limits, for a moment longer too
-  std::vector<CurveVia> via;  // in order, each a point of the path
-  // Seconds that it takes, with as little jerk as can be found; 0: as few as
-  // can be.  From rest to rest, without a dwell.
+  MotionLimits limits;  // at least one for each axis
+  // Velocity and acceleration at both ends; within the limits, also a moment
+  // after the start and before the end.
+  CurveEnd start, end;
+  std::vector<CurveVia> via;  // in order; each is a point of the path
+  // The duration asked for, seconds: the curve then has as little jerk as could
+  // be found.  It must begin and end at rest, without a dwell.  0: as short a
+  // duration as could be found.
   double duration = 0.0;
   double margin = 0.0;  // clearance wished for, user's unit, ≥ 0
-  // How long to look for a faster curve: with three pieces a segment of the
-  // path (fast), then each piece halved, once (balanced), twice (tight: a
-  // little faster a curve, for a multiple of the work).
+  // How long to look for a faster curve.  kFast: three pieces for each segment
+  // of the path.  kBalanced: then each piece is halved.  kTight: then halved
+  // again, which gives a slightly faster curve for several times the work.
   Preset preset = Preset::kBalanced;
   double time_limit = std::numeric_limits<double>::infinity();  // seconds, > 0
-  // Asked between rounds; true ends it as the time limit does.
+  // Called between rounds; returning true stops, as the time limit does.
   std::function<bool()> is_interrupted;
 
   // Throws InputError naming the option, the range and the value.
   void Validate() const;
 };
 
+// One round of OptimizeCurve.
 struct CurveRound {
-  double duration = 0.0;  // after the round, of the curve kept
-  double sigma = 0.0;     // how far durations may change, ln
-  // What it was to fall by and what it fell by, or would have: shares.
+  double duration = 0.0;  // of the best curve after the round, seconds
+  double sigma = 0.0;  // trust region: |ln| of the change of a piece's duration
+  // By which share the objective should fall, and by which it did (of a round
+  // that is not accepted: would have).
   double predicted = 0.0, gain = 0.0;
   int pieces = 0, planes = 0, rows = 0, iterations = 0;
   bool is_accepted = false;
@@ -51,36 +56,39 @@ struct CurveRound {
 
 struct CurveSummary {
   PathStatus status = PathStatus::kNotFree;
-  // Free for all t and within the limits for all t, proved (curve_judge.h,
-  // BoundLimitUse); at both ends as asked for, to rounding; of class C².  Empty
-  // if kNotFree or kDurationTooShort.  It passes the places of `via`, in order.
+  // A C² curve, proved free for all t (curve_judge.h) and within the limits for
+  // all t (BoundLimitUse).  It has the ends asked for, to rounding, and passes
+  // the places of `via` in order.  Empty if kNotFree or kDurationTooShort.
   Trajectory trajectory;
-  double duration = 0.0;
-  double clearance = 0.0;  // a lower bound, rounded; user's unit
-  double margin = 0.0;     // what of the margin wished for is kept
+  double duration = 0.0;   // seconds
+  double clearance = 0.0;  // a lower bound, to rounding; user's unit
+  double margin = 0.0;     // the part of the wished margin that is kept
   std::vector<CurveRound> rounds;
-  double stops_duration = 0.0;  // of the first certified answer
-  double first_seconds = 0.0;   // until that
-  double seconds = 0.0;
+  double stops_duration = 0.0;  // of the first certified curve, seconds
+  double first_seconds = 0.0;   // wall time until that curve
+  double seconds = 0.0;         // wall time of the whole call
 };
 
-// A fast curve in time near a free polyline: pieces of degree 5, planner's path
-// to machine's motion.
+// Turns a planner's path into a motion for a machine: a fast curve in time,
+// piecewise of degree 5, near a free polyline.
 //
-// It begins with a motion that stops at the path's corners, which is an answer
-// already, and goes on in rounds: half-spaces between the pieces and what is
-// near them, a convex program within them (curve_program.h), time scaled so
-// that the limits hold exactly.  What a round says is kept only if it is
-// faster and the judge of curves finds it free.  Then pieces are halved, and it
-// goes on.  So it always has a certified curve, whenever it ends, and without a
-// margin its duration falls round by round.  Of a given duration the mean of
-// |q'''|² falls instead, each axis as a share of its limit.  It finds a local
-// minimum, of the way the path takes.
+// The first curve stops at the corners of the path; it is an answer already.
+// Each round then puts half-spaces between the pieces and the obstacles near
+// them, solves a convex program within these (curve_program.h), and scales time
+// so that the limits hold exactly.  The new curve is kept only if it is faster
+// and the judge of curves finds it free.  When rounds gain little, pieces are
+// halved.  So there is a certified curve whenever it ends; without a margin,
+// the duration falls from round to round.  If a duration is given, the mean of
+// |q'''|² falls instead, each axis relative to its limit.  The result is a
+// local minimum: it passes obstacles on the same side as the path.
 //
-// `diagonal` D > 0 is the length that steps and tolerances refer to.
-// `free_path`: two different points at least.  Throws InputError for options,
-// for points that are not finite, and, before the first round, if an end in
-// motion leaves no free way to stop: with the distance that takes.
+// `diagonal` D > 0 is the length that steps and tolerances refer to, user's
+// unit.  `free_path` has at least two different points.  Throws InputError for
+// options and for points that are not finite.  It also throws, before the first
+// round, if the robot cannot stop in free space after a start in motion, or
+// before an end in motion; the message tells the distance this takes.
+//
+// Optimize of planners/solve/optimize.h does this for a World.
 CurveSummary OptimizeCurve(const FreeSpace& space, double diagonal,
                            const std::vector<Eigen::Vector3d>& free_path,
                            const CurveOptions& options);

@@ -8,26 +8,32 @@
 
 namespace phongpd {
 
-// A program of one's own in four functions, five with OnIterate:
+// A nonlinear program of your own for Ipopt: derive from this class and write
+// four functions (and OnIterate if you need it).
 //
-//   min f(x)   subject to   low ≤ g(x) ≤ high,
+//   min f(x)   subject to   low ≤ g(x) ≤ high
 //
-// x free, with a dense Jacobian and no second derivatives: for some hundred
-// variables and rows.  Larger ones are NonlinearPrograms with patterns.
-// Where a function has no value it may answer NaN or infinity: the solver then
-// takes a shorter step, and fails if it starts there.
+// x has no bounds, the Jacobian of g is dense, and there are no second
+// derivatives.  This is for up to some hundred variables and rows; for larger
+// programs derive from NonlinearProgram, which has sparsity patterns.  A
+// function may return NaN or infinity where it has no value: the solver then
+// takes a shorter step.  It fails if the start is such a point.
 //
-//   SolveWithIpopt(&program, x, DenseProgram::Settings());
+//   SolveWithIpopt(&program, start, DenseProgram::Settings());
+//
+// For rows of non-penetration see planners/world/non_penetration_rows.h.
 class DenseProgram : public NonlinearProgram {
  public:
   using Vector = Eigen::VectorXd;
   using Matrix = Eigen::MatrixXd;
 
-  // Bounds of the rows; ±kNoBound and infinities are none.  Throws InputError
-  // unless there is a variable and the bounds are of one size, low ≤ high.
+  // The number of variables, and the bounds of the rows; ±kNoBound or ±infinity
+  // mean no bound.  Throws InputError unless variables ≥ 1, and both bounds
+  // have one size with low ≤ high.
   DenseProgram(int variables, Vector low, Vector high);
 
-  // Ipopt's defaults with a quasi-Newton Hessian, which this needs.
+  // The defaults of IpoptSettings, with a quasi-Newton approximation of the
+  // Hessian (L-BFGS): use these, because a DenseProgram has no Hessian.
   static IpoptSettings Settings();
 
   virtual double Value(const Vector& x) const = 0;     // f
@@ -35,8 +41,9 @@ class DenseProgram : public NonlinearProgram {
   virtual Vector Rows(const Vector& x) const = 0;      // g
   virtual Matrix RowGradients(
       const Vector& x) const = 0;  // ∂g, rows × variables
-  // x is the solver's new iterate: what branches follow (NonlinearProgram's
-  // Accept).
+  // Called when the solver accepts x as its new iterate
+  // (NonlinearProgram::Accept).  Only here may the program change g, for
+  // example the branch of a metric.
   virtual void OnIterate(const Vector& x);
 
   int variables() const final { return variables_; }

@@ -11,35 +11,34 @@
 namespace phongpd {
 
 struct TrajectoryOptions {
-  // A round's iterations, tolerance, strategy and stops; time_limit is for all
-  // rounds together.
+  // The settings of each round; time_limit is for all rounds together.
   IpoptSettings ipopt;
-  // K rows a sample, 1 to 8.  More hold thin and narrow parts better in one
-  // solve, and contradict each other there where the start collides; the
-  // pipeline, which judges and polishes, is as good with one in less time
-  // (results/trade/defaults.md).
+  // K rows for each sample, 1 to 8.  In a single solve, more rows hold the
+  // path better in thin and narrow places; but there they contradict each other
+  // if the start collides.  For the pipeline, which judges and polishes, one
+  // row is as good and faster (results/trade/defaults.md).
   int rows = 1;
-  // Solves, ≥ 1.  Where the solver claims a solution, or ran out of iterations,
-  // and the judge finds a crossing, the segments that cross get twice the
-  // samples and the next round starts from there; also after rounds that ended
-  // infeasible or in numerical trouble, where a new start near the old end
-  // finds a way out of some traps.
+  // The largest number of solves, ≥ 1.  After a round whose path collides, the
+  // segments that collide get twice the samples, and the next round starts from
+  // that path.  This is done if the solver claims a solution or ran out of
+  // iterations; and also if it ended infeasible or in numerical trouble,
+  // because a new start near the old end finds a way out of some traps.
   int max_rounds = 4;
 
   // Throws InputError naming the field.
   void Validate() const;
 };
 
-// What a solve found, with its evidence.  No member is NaN or infinite.
+// The path that a solve found, with evidence.  No member is NaN or infinite.
 struct TrajectorySummary {
   SolveStatus status = SolveStatus::kInvalidProblem;  // of the last round
-  // Ipopt's own name for it; empty where Ipopt had nothing to do or the ends
-  // were invalid.
+  // Ipopt's own name of the status; empty if Ipopt did not run, because there
+  // was nothing to do or an end was not free.
   std::string raw_status;
   Path path;  // N+2 points, start and goal included
 
-  bool collision_free = false;  // the exact judge's word on `path`, always
-  PathCheck first_crossing;     // where it is not
+  bool collision_free = false;  // always the exact judgement of `path`
+  PathCheck first_crossing;     // if not free: where it collides first
   double objective = 0.0;       // energy of `path`
   double violation = 0.0;  // inf_pr: largest of any row at `path`, units of D
   double dual_infeasibility = -1.0;  // inf_du; −1: not known
@@ -54,26 +53,29 @@ struct TrajectorySummary {
   double seconds_total = 0.0;
   std::vector<IterationRecord> log;  // all rounds, numbered through
 
-  // Solver class ok, judged free, objective finite.
+  // The solver claims a solution (IsClassOk), the path is judged free, and its
+  // objective is finite.
   bool IsSolved() const;
 };
 
-// Optimises trajectories with Ipopt.  A claim of the solver is never enough:
-// `collision_free` is the exact judge's.  Same input, same bytes.
+// Optimises a path with Ipopt, in rounds.  The solver's claim is never enough:
+// `collision_free` is the exact judgement.  The same input gives the same
+// result, bit for bit.  TrajectoryPipeline adds free starts and the corridor.
 class IpoptTrajectoryOptimizer {
  public:
-  // Throws InputError for a bad problem or options, misspelt Ipopt options
-  // included.
+  // Throws InputError for a bad problem or bad options, also for options of
+  // Ipopt that it does not know.
   explicit IpoptTrajectoryOptimizer(const TrajectoryProblem& problem,
                                     const TrajectoryOptions& options = {});
 
-  // From a path of N+2 points that begins at start and ends at goal; it may
-  // collide.  Throws InputError for another shape.  kInvalidStart or
-  // kInvalidGoal where the judge refuses an end.  One solve at a time in a
-  // process (SolveWithIpopt).  on_path is told of every iterate of every round.
+  // Starts from a path of N+2 points from start to goal, which may collide.
+  // Throws InputError for another shape.  The status is kInvalidStart or
+  // kInvalidGoal if that end is not free.  Solves run one at a time in a
+  // process (SolveWithIpopt).  on_path is called with every iterate of every
+  // round.
   TrajectorySummary Solve(const Path& start_path,
                           const PathObserver& on_path = {}) const;
-  // From the straight line.
+  // Starts from the straight line.
   TrajectorySummary Solve() const { return Solve(StraightPath(problem_)); }
 
   const TrajectoryProblem& problem() const { return problem_; }

@@ -7,11 +7,12 @@
 #include <IpReturnCodes.hpp>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <string>
 #include <string_view>
+#include <variant>
 
 #include "core/mesh/mesh_error.h"
+#include "core/number_text.h"
 #include "planners/exact/check_option.h"
 
 namespace phongpd {
@@ -91,6 +92,17 @@ void FailOption(const std::string& name, const std::string& expected,
                    ", found '" + found + "'");
 }
 
+// For messages, and as the word that it may be.
+std::string TextOf(const IpoptValue& value) {
+  if (const int* whole = std::get_if<int>(&value)) {
+    return std::to_string(*whole);
+  }
+  if (const double* number = std::get_if<double>(&value)) {
+    return FormatDouble(*number);
+  }
+  return std::get<std::string>(value);
+}
+
 // The whole text as a finite number.
 double ParseNumber(const std::string& name, const std::string& text) {
   std::size_t used = 0;
@@ -105,13 +117,24 @@ double ParseNumber(const std::string& name, const std::string& text) {
   return value;
 }
 
+double NumberOf(const std::string& name, const IpoptValue& value) {
+  if (const int* whole = std::get_if<int>(&value)) return *whole;
+  if (const auto* text = std::get_if<std::string>(&value)) {
+    return ParseNumber(name, *text);
+  }
+  const double number = std::get<double>(value);
+  if (!std::isfinite(number)) FailOption(name, "a number", TextOf(value));
+  return number;
+}
+
 // Throws unless a user may set the option to this.
-void RequireNumeric(const std::string& name, const std::string& text) {
+void RequireNumeric(const std::string& name, const IpoptValue& value) {
   if (kNumericOptions.find(" " + name + " ") == std::string_view::npos) {
     throw InputError("Ipopt option '" + name +
                      "': expected one that changes numbers only, found one "
                      "that does more; leave it out");
   }
+  const std::string text = TextOf(value);
   for (const auto& [of, values] : kChoices) {
     if (name != of || text == values[0] || text == values[1]) continue;
     FailOption(
@@ -122,7 +145,7 @@ void RequireNumeric(const std::string& name, const std::string& text) {
   }
 }
 
-void ApplyOne(const std::string& name, const std::string& text,
+void ApplyOne(const std::string& name, const IpoptValue& value,
               Ipopt::IpoptApplication* application) {
   const Ipopt::SmartPtr<const Ipopt::RegisteredOption> option =
       application->RegOptions()->GetOption(name);
@@ -132,22 +155,23 @@ void ApplyOne(const std::string& name, const std::string& text,
   }
   const Ipopt::SmartPtr<Ipopt::OptionsList> options = application->Options();
   bool is_set = false;
+  const std::string text = TextOf(value);
   if (option->Type() == Ipopt::OT_String) {
     if (!option->IsValidStringSetting(text)) {
       FailOption(name, "one of Ipopt's settings", text);
     }
     is_set = options->SetStringValue(name, text);
   } else {
-    const double value = ParseNumber(name, text);
+    const double number = NumberOf(name, value);
     if (option->Type() == Ipopt::OT_Number) {
-      if (!option->IsValidNumberSetting(value)) {
+      if (!option->IsValidNumberSetting(number)) {
         FailOption(name, "a number in Ipopt's range", text);
       }
-      is_set = options->SetNumericValue(name, value);
+      is_set = options->SetNumericValue(name, number);
     } else {
-      const auto whole = static_cast<Ipopt::Index>(
-          std::abs(value) < 2e9 ? value : std::nan(""));
-      if (value != whole || !option->IsValidIntegerSetting(whole)) {
+      const auto whole =
+          static_cast<Ipopt::Index>(std::abs(number) < 2e9 ? number : 0.0);
+      if (number != whole || !option->IsValidIntegerSetting(whole)) {
         FailOption(name, "a whole number in Ipopt's range", text);
       }
       is_set = options->SetIntegerValue(name, whole);
@@ -207,22 +231,22 @@ const char* IpoptVersion() { return IPOPT_VERSION; }
 void ApplyIpoptOptions(const IpoptSettings& settings,
                        const std::string& linear_solver,
                        Ipopt::IpoptApplication* application) {
-  std::map<std::string, std::string> options = {
+  IpoptValues options = {
       {"linear_solver", linear_solver},
       {"linear_system_scaling", "none"},
       {"hessian_approximation", "exact"},
       {"honor_original_bounds", "yes"},  // the default changed in 3.14
-      {"print_level", "0"},
+      {"print_level", 0},
       {"sb", "yes"},
       {"mu_strategy",
        settings.mu_strategy == IpoptSettings::MuStrategy::kAdaptive
            ? "adaptive"
            : "monotone"},
-      {"max_iter", std::to_string(settings.max_iterations)},
-      {"tol", "1e-6"}};
+      {"max_iter", settings.max_iterations},
+      {"tol", 1e-6}};
   if (!settings.print_file.empty()) {
     options["output_file"] = settings.print_file;
-    options["file_print_level"] = "5";
+    options["file_print_level"] = 5;
   }
   for (const auto& [name, value] : settings.ipopt_options) {
     if (Ipopt::IsValid(application->RegOptions()->GetOption(name))) {

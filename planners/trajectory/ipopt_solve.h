@@ -4,11 +4,11 @@
 #include <Eigen/Core>
 #include <functional>
 #include <limits>
-#include <map>
 #include <string>
 #include <vector>
 
 #include "planners/trajectory/nonlinear_program.h"
+#include "planners/world/ipopt_value.h"
 
 namespace phongpd {
 
@@ -56,11 +56,11 @@ struct IpoptSettings {
   // objective, and return it.  0: never.
   int stall_iterations = 30;
   double time_limit = std::numeric_limits<double>::infinity();  // seconds
-  // Ipopt's own options by name, values as text; they win over the above and
-  // over a `tol` of 1e-6.  They may come from a stranger's scene: only those
-  // that change numbers are taken.  Any other, and a name or value Ipopt does
-  // not know, is an InputError that names it.
-  std::map<std::string, std::string> ipopt_options;
+  // Ipopt's own options; they win over the above and over a `tol` of 1e-6.
+  // They may come from a stranger's scene: only those that change numbers are
+  // taken.  Any other, and a name or value Ipopt does not know, is an
+  // InputError that names it.
+  IpoptValues ipopt_options;
   // The file that gets what Ipopt prints at its level 5; empty: none.
   std::string print_file;
   // Called once an iteration, with the iterate's variables; false ends the

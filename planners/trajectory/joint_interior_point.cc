@@ -201,6 +201,7 @@ bool JointInteriorPoint::Begin(VectorXd* x, int* rows) {
     for (Line& line : of_piece) {
       for (int s = 0; s < line.sides; ++s) {
         line.side[s].dual = mu / line.side[s].slack;
+        line.side[s].product = 0.0;
       }
     }
   }
@@ -284,6 +285,34 @@ void JointInteriorPoint::AddCentres(double centre, VectorXd* to) const {
   }
 }
 
+// The predictor's steps are known: what the gap is that far along them.
+double JointInteriorPoint::TakeProducts(double reach) {
+  double gap = 0.0;
+  for (auto& of_piece : lines_) {
+    for (Line& line : of_piece) {
+      for (int s = 0; s < line.sides; ++s) {
+        Side& side = line.side[s];
+        gap += (side.slack + reach * side.slack_step) *
+               (side.dual + reach * side.dual_step);
+        side.product = side.slack_step * side.dual_step;
+      }
+    }
+  }
+  return gap;
+}
+
+void JointInteriorPoint::MoveRows(double alpha) {
+  for (auto& of_piece : lines_) {
+    for (Line& line : of_piece) {
+      for (Side& side : line.side) {
+        side.slack += alpha * side.slack_step;
+        side.dual += alpha * side.dual_step;
+        side.product = 0.0;
+      }
+    }
+  }
+}
+
 JointInteriorPoint::Result JointInteriorPoint::Solve() {
   Result result;
   result.x = VectorXd::Zero(hessian_.size());
@@ -306,27 +335,10 @@ JointInteriorPoint::Result JointInteriorPoint::Solve() {
     matrix.Factorize();
 
     // Predictor.
-    for (auto& of_piece : lines_) {
-      for (Line& line : of_piece) {
-        for (Side& side : line.side) side.product = 0.0;
-      }
-    }
     VectorXd step = -gradient;
     unknowns_.Fix(&step);
     matrix.Solve(&step);
-    const double reach = FollowRows(step, 0.0);
-    double after = 0.0;
-    for (auto& of_piece : lines_) {
-      for (Line& line : of_piece) {
-        for (int s = 0; s < line.sides; ++s) {
-          Side& side = line.side[s];
-          after += (side.slack + reach * side.slack_step) *
-                   (side.dual + reach * side.dual_step);
-          side.product = side.slack_step * side.dual_step;
-        }
-      }
-    }
-    const double ratio = after / gap;
+    const double ratio = TakeProducts(FollowRows(step, 0.0)) / gap;
     const double centre = ratio * ratio * ratio * gap / result.rows;
 
     // Corrector.
@@ -336,14 +348,7 @@ JointInteriorPoint::Result JointInteriorPoint::Solve() {
     matrix.Solve(&step);
     const double alpha = std::min(1.0, kStepShare * FollowRows(step, centre));
     if (!(alpha > kShortestStep)) break;
-    for (auto& of_piece : lines_) {
-      for (Line& line : of_piece) {
-        for (Side& side : line.side) {
-          side.slack += alpha * side.slack_step;
-          side.dual += alpha * side.dual_step;
-        }
-      }
-    }
+    MoveRows(alpha);
     x += alpha * step;
   }
   result.x = x;

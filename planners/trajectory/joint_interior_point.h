@@ -54,6 +54,10 @@ class JointInteriorPoint {
   double AddRows(WideTridiagonal* matrix, Eigen::VectorXd* residual) const;
   double FollowRows(const Eigen::VectorXd& step, double centre);
   void AddCentres(double centre, Eigen::VectorXd* to) const;
+  // For the corrector: the products of the predictor's steps.
+  double TakeProducts(double reach);
+  // By the steps of slacks and duals; products are none again.
+  void MoveRows(double alpha);
 
   const JointProgram& program_;
   const JointUnknowns unknowns_;

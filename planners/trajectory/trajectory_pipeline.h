@@ -17,114 +17,119 @@
 
 namespace phongpd {
 
-// What the first solve starts from.
+// The path that the first solve starts from.
 enum class TrajectoryStart {
-  kStraight,  // the line, colliding or not: for comparisons
-  kRepaired,  // the line where it is free, a planned path where it collides
-              // (start_repair.h)
+  kStraight,  // the straight line, even if it collides: for comparisons
+  kRepaired,  // the straight line with a planned path in place of the parts
+              // that collide (start_repair.h)
 };
 
+// When is the path polished in a corridor (corridor.h)?
 enum class PolishWhen {
   kNever,
-  kNeeded,  // when Ipopt did not converge to an exactly free path that keeps
-            // its margin between the samples, too
-  kAlways,  // also then: full margins, the best objective
+  kNeeded,  // unless Ipopt converged to a free path that keeps its margin
+            // everywhere, not only at the samples
+  kAlways,  // always: for full margins and the best objective
 };
 
 struct PipelineOptions {
   TrajectoryStart start = TrajectoryStart::kRepaired;
-  // kStraight: standard deviation of every coordinate of the free waypoints,
-  // fraction of |goal − start|, ≥ 0.
+  // kStraight: noise on every coordinate of the free waypoints; its standard
+  // deviation as a fraction of |goal − start|, ≥ 0.
   double start_noise = 0.0;
-  int routes = 1;  // ways around the obstacles to optimise, in [1, 8]
-  // kRepaired: optimise from the colliding line as well, and keep the better
-  // path.  The line ends in another valley now and then; that costs a second
-  // solve by Ipopt, of at most 100 iterations, which is given up ("no_gain")
-  // once its nearly feasible iterates fall too slowly to gain 0.2 %.
+  int routes = 1;  // routes around the obstacles to optimise, in [1, 8]
+  // kRepaired: also optimise from the colliding straight line, and keep the
+  // better path.  The line sometimes leads to a better local minimum.  It takes
+  // a second solve by Ipopt, of at most 100 iterations; this is stopped
+  // ("no_gain") when its nearly feasible iterates fall too slowly to gain
+  // 0.2 %.
   bool also_line = true;
   PolishWhen polish = PolishWhen::kNeeded;
   TrajectoryOptions optimizer;
-  std::uint64_t seed = 1;  // of straightening and noise
+  std::uint64_t seed = 1;  // of all random numbers: shortening and noise
   double time_limit = std::numeric_limits<double>::infinity();  // seconds
-  // Told of every iterate of every stage.
+  // Called with every iterate of every stage.
   PathObserver on_path;
 
   // Throws InputError naming the field.
   void Validate() const;
 };
 
-// One step of the pipeline.
+// One stage of the pipeline.
 struct StageRecord {
-  std::string stage;     // "start", "ipopt", "corridor"
-  int route = 0;         // 0: the shortest; the line comes last
-  std::string status;    // in the words of the stage
-  bool is_free = false;  // the exact judge's word on what it returned
-  double objective = 0.0;
-  int iterations = 0;  // of Ipopt
+  std::string stage;       // "start", "ipopt", "corridor"
+  int route = 0;           // 0: the shortest route; the straight line is last
+  std::string status;      // in the words of the stage
+  bool is_free = false;    // the exact judgement of the path it gave
+  double objective = 0.0;  // energy of that path
+  int iterations = 0;      // of Ipopt
   double seconds = 0.0;
 };
 
 // No member is NaN or infinite.
 struct PipelineResult {
   PathStatus status = PathStatus::kFailed;
-  std::string reason;  // where the status needs one; one sentence
-  Path path;           // N+2 points; empty without any
-  // Evidence: the judge's word on `path`, free or the first crossing.
+  std::string reason;  // one sentence, if the status needs one
+  Path path;           // N+2 points, start and goal included; empty: no path
+  // The exact judgement of `path`: free, or where it collides first.
   PathCheck certificate;
-  double objective = 0.0;  // energy of `path`
+  double objective = 0.0;  // energy of `path` (trajectory_problem.h)
   // MissingClearance of `path` if it is free (corridor.h), else 0.
   double missing_clearance = 0.0;
-  int route = 0;       // that was best
+  int route = 0;       // the route that `path` belongs to
   int iterations = 0;  // of Ipopt, all stages
   int restoration_iterations = 0;
-  StartRepairResult repair;  // kStraight: nothing was done
+  StartRepairResult repair;  // empty for kStraight
   TrajectorySummary ipopt;   // of the best route; no path if it did not run
   std::vector<StageRecord> stages;
-  double seconds_callbacks = 0.0;  // of Ipopt, all routes, corridor apart
-  double seconds = 0.0;
+  double seconds_callbacks = 0.0;  // in Ipopt's callbacks, but the corridor's
+  double seconds = 0.0;            // wall time
 };
 
-// What pipelines do alike, those of one's own as well.
+// Building blocks for a pipeline of your own.
 //
-// Are start and goal free?  Otherwise result->status says which is not.
+// Are start and goal free?  If not, result->status says which one is not.
 bool CheckEnds(const TrajectoryProblem& problem, PipelineResult* result);
-// The observer with the stage and route that iterates belong to; none for none.
+// The observer that passes on iterates with this stage and route; an empty one
+// for an empty one.
 PathObserver OfStage(const PathObserver& observer, const std::string& stage,
                      int route);
-// Adds a step that gave `path`: its is_free and objective are the judge's word
-// and the energy of that, and its iterations count in the result's.
+// Adds a stage that gave `path` to the result.  Sets its is_free and objective
+// by judging the path, and adds its iterations to the result's.
 void AddStage(const TrajectoryProblem& problem, const Path& path,
               StageRecord stage, PipelineResult* result);
 
-// Whoever finds the free ways that kRepaired starts from instead of
-// StartRepair, and answers as that does.
+// A function that finds free start paths in place of StartRepair.
 struct OwnStarts {
   std::function<StartRepairResult(const StartRepairOptions& wished)> find;
 };
 
-// The default way to a trajectory:
+// The default way to an optimised path of a robot that translates:
 //
-//   start → Ipopt → exact judge → corridor where that is needed → exact judge
+//   start → Ipopt → exact judge → corridor if needed → exact judge
 //
-// for each route; of the exactly free paths the best one wins, clearance first
-// (MissingClearance), then the objective.  The corridor starts from Ipopt's
-// path where that is free and better than the start, otherwise from the start,
-// also where Ipopt left it for another valley: its path costs more than a start
-// that keeps clear, or a tenth more than one that does not.  Such a path is
-// kept for the case that the corridor gains no clearance.  The corridor follows
-// the first round already, and Ipopt is skipped where a free start has less
-// than half the margin (passages narrower than it), because its program is
-// mostly infeasible there.  Where repair fails without a proof Ipopt is tried
-// from the colliding line.
+// for each route.  Of the free paths, one that keeps its clearance
+// (MissingClearance, kToleratedMissing) is better than one that does not; then
+// the lower objective is.  Optimize of planners/solve/optimize.h does all this
+// for a World; use the pipeline to set its options one by one.
 //
-// Lengths are relative to D and positions to the middle of start and goal, so
-// that unit and offset do not matter.  Same arguments, same bytes but for
-// seconds.
+// The corridor starts from Ipopt's path if this is free and better than the
+// start path, otherwise from the start path.  Ipopt's path also counts as worse
+// if it costs more than a start that keeps its clearance, or a tenth more than
+// one that does not: Ipopt then went to another local minimum.  Its path is
+// kept in case the corridor gains no clearance.  Before a corridor Ipopt gets
+// one round only; it is skipped if a free start has less than half the margin,
+// because its program is mostly infeasible in such narrow passages.  If repair
+// fails without a proof, Ipopt starts from the colliding line.
+//
+// Lengths are computed relative to D, and positions relative to the middle of
+// start and goal: unit and offset do not matter.  The same arguments give the
+// same result, bit for bit, except for seconds.
 class TrajectoryPipeline {
  public:
-  // `repair` of the boundary of the union of all contact spaces and bounds of
-  // the problem; null only for kStraight.  Throws InputError for options and
-  // problems that IpoptTrajectoryOptimizer would refuse.
+  // `repair` is made of one contact space of all obstacles and bounds of the
+  // problem; it may be null for kStraight only.  Throws InputError for options,
+  // and for problems that IpoptTrajectoryOptimizer would refuse.
   TrajectoryPipeline(const TrajectoryProblem& problem,
                      std::shared_ptr<const StartRepair> repair,
                      const PipelineOptions& options = {});
@@ -132,7 +137,7 @@ class TrajectoryPipeline {
   TrajectoryPipeline(const TrajectoryProblem& problem, const OwnStarts& starts,
                      const PipelineOptions& options = {});
 
-  // One solve at a time in a process (SolveWithIpopt).
+  // Solves run one at a time in a process (SolveWithIpopt).
   PipelineResult Solve() const;
 
  private:

@@ -19,18 +19,18 @@ namespace phongpd {
 //
 //   f = (N+1)/ℓ₀² · Σ |p_{i+1} − p_i|²,   ℓ₀ = max(|goal − start|, 1e-3 D),
 //
-// (the evenly spaced straight line has f = 1) subject to d(sample) ≥ margin·D
-// at the waypoints and S interior samples of each segment, and to
-// |p_{i+1} − p_i| ≤ h = ρ L/(N+1).  D is the diagonal, L the larger of
-// |goal − start| and the length of the path the solver starts from.
+// (f = 1 for the straight line with even segments), subject to two kinds of
+// rows: d(sample) ≥ margin·D at the waypoints and at S samples inside each
+// segment, and |p_{i+1} − p_i| ≤ h = ρ L/(N+1).  D is the diagonal.  L is the
+// larger of |goal − start| and the length of the path the solver starts from.
 //
-// d is 1-Lipschitz, so with  S + 1 > h/(2·margin·D)  and both ends at least
-// the margin away no segment can touch an obstacle: the rule S is chosen by.
-// The answer is judged exactly all the same.
+// d is 1-Lipschitz.  So if S + 1 > h/(2·margin·D), and both ends keep the
+// margin, no segment can touch an obstacle; S is chosen by this rule.  The
+// answer is judged exactly all the same.
 struct TrajectoryProblem {
-  // One per contact space, or one for the merged one; none: no obstacle.
+  // One per contact space; empty: no obstacle.
   std::vector<std::shared_ptr<const SignedMetric>> metrics;
-  // The judge, of the same contact spaces.  Its bounds, if any, bound the
+  // The judge, with the same contact spaces.  If it has bounds, they bound the
   // waypoints.
   std::shared_ptr<const FreeSpace> free_space;
   Eigen::Vector3d start = Eigen::Vector3d::Zero();
@@ -48,9 +48,9 @@ struct TrajectoryProblem {
 
 using Path = std::vector<Eigen::Vector3d>;
 
-// The contact spaces with one metric each and their judge, all with one D
-// (WithCommonLength); only start and goal are left to set.  Throws InputError
-// as SignedMetric and FreeSpace do.
+// A problem of these contact spaces: with a metric for each, a judge, and one
+// common D (WithCommonLength).  Then set start and goal.  Throws InputError
+// like SignedMetric and FreeSpace.
 TrajectoryProblem MakeTrajectoryProblem(
     const std::vector<ContactSpace>& contact_spaces,
     const SignedMetricOptions& metric = {},
@@ -62,8 +62,8 @@ double Diagonal(const TrajectoryProblem& problem);
 // f of a path, with the problem's ℓ₀ and N+1 the number of its segments.
 double PathEnergy(const TrajectoryProblem& problem, const Path& path);
 
-// Throws InputError unless `path` has N+2 finite points, the problem's start
-// and goal at its ends.
+// Throws InputError unless `path` has N+2 finite points, and begins at the
+// problem's start and ends at its goal.
 void CheckStartPath(const TrajectoryProblem& problem, const Path& path);
 
 // N+2 evenly spaced points from start to goal.
@@ -72,9 +72,9 @@ Path StraightPath(const TrajectoryProblem& problem);
 // h = ρ L/(N+1) for a start path of that length.
 double MaxSegment(const TrajectoryProblem& problem, double start_length);
 
-// The least S by the rule, at most 1000 (where the certificate is lost and
-// only the judge is left); the problem's own S if it sets one.  0 where
-// margin = 0: no number of samples would do.
+// S: the problem's own if it is set; otherwise the least by the rule, but at
+// most 1000.  (With more needed, samples prove nothing, and only the judge
+// does.)  0 if margin = 0, because then no number of samples is enough.
 int SamplesPerSegment(const TrajectoryProblem& problem, double start_length);
 
 }  // namespace phongpd

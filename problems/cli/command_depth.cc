@@ -251,10 +251,8 @@ int AnswerDepth(const DepthFlags& flags) {
   return is_certified ? kDone : kNoAnswer;
 }
 
-}  // namespace
-
-Command AddDepth(CLI::App* app) {
-  auto flags = std::make_shared<DepthFlags>();
+// What is asked about, and where it lies.
+void AddDepthOperands(CLI::App* app, DepthFlags* flags) {
   app->add_option("A", flags->a,
                   std::string("Mesh of a solid (") + kMeshFormats + ")")
       ->required()
@@ -272,18 +270,25 @@ Command AddDepth(CLI::App* app) {
                   "move it; an answer for each")
       ->excludes(at)
       ->type_name("FILE");
+  AddRepair(app, &flags->repair);
+}
+
+void AddDepthOutputs(CLI::App* app, DepthFlags* flags) {
   app->add_option("--output", flags->output,
                   "Where the answers go: rows of CSV or objects of JSON, as "
                   "its name says, FILE.csv or FILE.json; else CSV with --pose, "
                   "and a few sentences without")
       ->capture_default_str()
       ->type_name("FILE");
-  AddRepair(app, &flags->repair);
   app->add_flag("--json", flags->json, "One JSON object for each pose");
   app->add_option("--html", flags->html,
                   "Page with both meshes, the way out, the points that touch "
                   "after it and the windows that were built (as view makes it)")
       ->type_name("FILE");
+}
+
+// The metric beside the Euclidean one.
+void AddDepthMetric(CLI::App* app, DepthFlags* flags) {
   app->add_option("--metric", flags->metric,
                   "Beside the Euclidean depth: phong, PhongPD; smoothed, the "
                   "gradient of smoothed occupancy as its direction, at the "
@@ -296,6 +301,10 @@ Command AddDepth(CLI::App* app) {
                   "space; smoothed: from what is within twice the length "
                   "(share of its diagonal D, or 0.5unit)")
       ->type_name("LENGTH");
+}
+
+// Where looking ends.
+void AddDepthLimits(CLI::App* app, DepthFlags* flags) {
   app->add_option("--max-radius", flags->max_radius,
                   "Look no farther than this, in the meshes' unit; what is "
                   "deeper comes as a bound, with exit code 1")
@@ -306,6 +315,16 @@ Command AddDepth(CLI::App* app) {
                   "PhongPD that takes longer is refused")
       ->type_name("S")
       ->check(AtLeast(0.0));
+}
+
+}  // namespace
+
+Command AddDepth(CLI::App* app) {
+  auto flags = std::make_shared<DepthFlags>();
+  AddDepthOperands(app, flags.get());
+  AddDepthOutputs(app, flags.get());
+  AddDepthMetric(app, flags.get());
+  AddDepthLimits(app, flags.get());
   AddExamples(app, {"phongpd depth robot.off obstacle.stl",
                     "phongpd depth robot.off obstacle.stl --at 0.3 0 0.1 "
                     "--html depth.html",

@@ -6,12 +6,12 @@
 #include <utility>
 
 #include "planners/ompl/ompl_planning.h"
-#include "planners/world/bare_length.h"
 #include "problems/cli/command.h"
 #include "problems/cli/explanation.h"
 #include "problems/cli/flags.h"
 #include "problems/cli/fleet_answer.h"
 #include "problems/cli/optimize_flags.h"
+#include "problems/cli/optimize_request.h"
 #include "problems/cli/rigid_answer.h"
 #include "problems/cli/seeded_runs.h"
 #include "problems/cli/serve_view.h"
@@ -20,7 +20,6 @@
 #include "problems/output/json_text.h"
 #include "problems/output/text.h"
 #include "problems/scenes/kept_world.h"
-#include "problems/scenes/scene_requests.h"
 #include "problems/scenes/scene_source.h"
 #include "problems/studies/answer_row.h"
 #include "viewer/run_view.h"
@@ -34,103 +33,6 @@ constexpr char kOptimizePresetHelp[] =
     "fast: no second optimisation from the colliding line, 0.62 of balanced's "
     "time, energy 0.43 % above the least found (balanced: 0.43 %); tight: 3 "
     "routes and the corridor always, 2.2 times the time, 0.31 %";
-
-// What says how a metric is followed says nothing where none is; windows know
-// some metrics, one row a sample (optimize.h).
-void RequireMetricIsFollowed(const OptimizeFlags& flags, const Scene& scene) {
-  if (scene.trajectory.model != Model::kWindow) return;
-  const MetricKind metric = scene.penetration.metric;
-  if (metric != MetricKind::kPhong) {
-    if (flags.rows == 1 && !flags.per_obstacle) return;
-    throw InputError(
-        std::string(flags.per_obstacle ? "--per-obstacle" : "--rows") +
-        ": expected none with model window and metric " + ToString(metric) +
-        ", which windows follow by one row a sample, found one; take --model "
-        "full");
-  }
-  for (const auto& [name, value] :
-       {std::make_pair("--metric", flags.metric),
-        std::make_pair("--smoothing-length", flags.smoothing_length),
-        std::make_pair("--jacobian", flags.jacobian)}) {
-    if (value.empty()) continue;
-    throw InputError(std::string(name) +
-                     ": expected none with model window, which follows no "
-                     "penetration metric but euclidean and smoothed, found " +
-                     value + "; take --model full");
-  }
-}
-
-void Override(const OptimizeFlags& flags, Scene* scene) {
-  SetPreset(flags.preset, scene);
-  if (!flags.model.empty()) {
-    scene->trajectory.model = ParseModel(flags.model, "--model");
-  }
-  PenetrationSpec& spec = scene->penetration;
-  if (!flags.metric.empty()) {
-    spec.metric = ParseMetricKind(flags.metric, "--metric");
-  }
-  if (!flags.jacobian.empty()) {
-    spec.jacobian = ParseJacobianKind(flags.jacobian, "--jacobian");
-  }
-  if (!flags.smoothing_length.empty()) {
-    spec.smoothing_length =
-        LengthFlag(flags.smoothing_length, "--smoothing-length",
-                   LengthRange::kFromZero, scene);
-  }
-  RequireMetricIsFollowed(flags, *scene);
-  if (!flags.margin.empty()) {
-    scene->trajectory.margin = ParseClearance(
-        flags.margin, "--margin", ContactBounds(scene->workspace).Diagonal(),
-        scene->workspace.unit);
-  }
-}
-
-OptimizeRequest RequestOf(const OptimizeFlags& flags, const Scene& scene,
-                          std::uint64_t seed) {
-  OptimizeRequest request = OptimizeRequestOf(scene);
-  request.limits.reset();
-  // Also where it is what it would be without the flag.
-  if (!flags.margin.empty()) request.margin = scene.trajectory.margin;
-  request.requires_margin = flags.require;
-  request.is_per_obstacle = flags.per_obstacle;
-  request.verifies = flags.verify;
-  PipelineOptions& options = request.options;
-  // Repair is done by the complete planner: two words for the same.
-  options.start = flags.start == "straight" ? TrajectoryStart::kStraight
-                                            : TrajectoryStart::kRepaired;
-  options.start_noise = ParseDouble(flags.noise, "--start-noise");
-  if (options.start_noise > 0.0 &&
-      options.start != TrajectoryStart::kStraight) {
-    throw InputError(
-        "--start-noise: expected --start straight with it, found " +
-        flags.start);
-  }
-  if (flags.app->count("--routes") > 0) options.routes = flags.routes;
-  if (flags.app->count("--line") > 0) options.also_line = flags.line;
-  options.seed = seed;
-  if (!flags.polish.empty()) {
-    options.polish = flags.polish == "never"    ? PolishWhen::kNever
-                     : flags.polish == "always" ? PolishWhen::kAlways
-                                                : PolishWhen::kNeeded;
-  }
-  options.optimizer.rows = flags.rows;
-  if (flags.mu_strategy == "monotone") {
-    options.optimizer.ipopt.mu_strategy = IpoptSettings::MuStrategy::kMonotone;
-  }
-  if (!flags.time_limit.empty()) {
-    options.time_limit = ParseDouble(flags.time_limit, "--time");
-  }
-  options.optimizer.ipopt.on_iteration = [](const IterationRecord& record,
-                                            const Eigen::VectorXd&) {
-    if (record.iteration % 25 == 0) {
-      Progress("  iteration " + std::to_string(record.iteration) +
-               ", objective " + FormatDouble(record.objective) +
-               ", violation " + FormatDouble(record.violation));
-    }
-    return true;
-  };
-  return request;
-}
 
 // "why not", for people, and where the path crosses.
 std::string Explanation(const nlohmann::ordered_json& row) {
@@ -211,7 +113,7 @@ int OptimizeInTime(const OptimizeFlags& flags, const MotionLimits& limits,
   RequireTimed(flags,
                "a motion in time, found one; with --limits none the answer is "
                "a path without time");
-  Override(flags, &scene);
+  OverrideScene(flags, &scene);
   SetTask(flags.motion, &scene);
   scene.limits = limits;
   return AnswerInTime(scene, TimedFlagsOf(flags),
@@ -236,7 +138,7 @@ int OptimizeRobots(const OptimizeFlags& flags, FleetScene fleet) {
                      "its own in the scene, found one");
   }
   for (Scene& scene : fleet.robots) {
-    Override(flags, &scene);
+    OverrideScene(flags, &scene);
     scene.limits = LimitsOf(flags.motion, scene);
     if (scene.limits) continue;
     throw InputError(fleet.name + ": \"" + scene.workspace.robot.name() +
@@ -284,8 +186,8 @@ class OptimizeRuns {
   void Take(int run) {
     const std::uint64_t seed = flags_.seed + static_cast<std::uint64_t>(run);
     if (run > 0) scene_ = SceneOfSeed(source_, seed);
-    Override(flags_, &scene_);
-    OptimizeRequest request = RequestOf(flags_, scene_, seed);
+    OverrideScene(flags_, &scene_);
+    OptimizeRequest request = PathRequestOf(flags_, scene_, seed);
     Progress("run " + std::to_string(run + 1) + " of " +
              std::to_string(flags_.runs) + ": " + request.penetration.Name());
     const bool is_kept = run < runs_.kept();

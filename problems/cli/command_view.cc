@@ -113,24 +113,32 @@ void CheckServe(const ViewFlags& flags) {
   }
 }
 
-int Look(ViewFlags flags) {
-  CheckServe(flags);
-  if (!flags.from_cells.empty()) {
-    flags.from = ParsePoint(flags.from_cells, "--from");
-  }
-  if (!flags.to_cells.empty()) flags.to = ParsePoint(flags.to_cells, "--to");
+// Without a file of another kind there is a page, if only to be opened.
+bool HasPage(const ViewFlags& flags) {
+  return !flags.html.empty() || (flags.glb.empty() && flags.png.empty());
+}
+
+void CheckOutputs(const ViewFlags& flags) {
   RequireEnding(flags.html, "--html", {".html", ".htm"});
   RequireEnding(flags.glb, "--glb", {".glb"});
   RequireEnding(flags.png, "--png", {".png"});
-  const bool is_page =
-      !flags.html.empty() || (flags.glb.empty() && flags.png.empty());
-  if (is_page || !flags.png.empty()) RequireViewer();
+  if (HasPage(flags) || !flags.png.empty()) RequireViewer();
   if (!flags.png.empty()) RequireBrowser();
   if (flags.moment && flags.png.empty()) {
     throw InputError(
         "--moment: expected --png FILE with it, found none; a "
         "page plays all moments");
   }
+}
+
+int Look(ViewFlags flags) {
+  CheckServe(flags);
+  if (!flags.from_cells.empty()) {
+    flags.from = ParsePoint(flags.from_cells, "--from");
+  }
+  if (!flags.to_cells.empty()) flags.to = ParsePoint(flags.to_cells, "--to");
+  CheckOutputs(flags);
+  const bool is_page = HasPage(flags);
   OutputFiles outputs;
   for (const std::string& path : {flags.html, flags.glb, flags.png}) {
     if (!path.empty()) outputs.Declare(path);

@@ -8,46 +8,52 @@
 #include "core/mesh/mesh_error.h"
 #include "core/mesh/triangle_mesh.h"
 
-// Meshes in the formats that people have them in.
+// Meshes in many formats: those of core/mesh/mesh_io.h, and some that Assimp
+// and our readers of robot descriptions know.
 namespace phongpd {
 
-// The formats of ReadAnyMesh, for messages: "OFF, OBJ, STL, PLY, ...".
+// The list of ReadAnyMesh's formats, for messages: "OFF, OBJ, STL, PLY, ...".
 extern const char* const kMeshFormats;
 
-// Does the name say that it is a mesh for ReadAnyMesh?
+// Does the extension of this name belong to a format of ReadAnyMesh?
 bool NamesMesh(const std::string& path);
 
-// How much of a mesh's name is the file's: what follows .urdf or .sdf as
-// "#link" or "@joint=value,..." says what of it is meant.
+// The length of the file's own name in a mesh's name.  After .urdf or .sdf may
+// follow "#link" or "@joint=value,...", see ReadAnyMesh.
 std::size_t FilePartOf(const std::string& name);
 
-// Reads, by the extension in any case:
-//  - .off .obj .stl .ply: ReadMesh (core/mesh/mesh_io.h), in double precision.
-//  - .dae .gltf .glb .3mf: all triangles of the scene, its nodes' transforms
-//    applied, by Assimp, which keeps SINGLE precision.  Lengths and axes are
-//    the file's own: no unit and no up axis is applied.
-//  - .urdf .sdf: collision shapes of one link, in the link's frame, metres:
-//    "robot.urdf#arm" names it, and "robot.urdf" will do where only one has
-//    any.  Of a URDF, "robot.urdf@shoulder=0.5,elbow=-1" are all links with
-//    the joints at these values, radians or metres, the others at 0
-//    ("robot.urdf@": all), in the root link's frame (robot_pose.h).
-//    Boxes, cylinders and spheres become meshes as our shapes do.  Mesh files
-//    that they name must lie in the file's folder, or in one above it for
-//    package:// and model:// names.
+// Reads a mesh file, told by its extension in any case:
+//  - .off .obj .stl .ply: by ReadMesh (core/mesh/mesh_io.h), in double
+//    precision.
+//  - .dae .gltf .glb .3mf: by Assimp, which keeps SINGLE precision.  The mesh
+//    is all triangles of the file, with the transforms of its nodes applied.
+//    Lengths and axes are the file's own: neither the unit nor the up axis that
+//    it names is applied.
+//  - .urdf .sdf: the collision shapes of one link, in the link's frame, metres.
+//    "robot.urdf#arm" is the link `arm`; "robot.urdf" is enough if only one
+//    link has shapes.  "robot.urdf@shoulder=0.5,elbow=-1" (URDF only) is all
+//    links with the joints at these values, radians or metres, in the frame of
+//    the root link; joints that are not named are at 0, and "robot.urdf@" has
+//    all at 0 (robot_pose.h).  Boxes, cylinders and spheres become meshes as in
+//    problems/shapes.  Mesh files that are named there must lie in the file's
+//    folder; those of package:// and model:// may lie in a folder above it.
 // What the user should know (precision, unit, axes, shapes, joints) is appended
-// to *warnings, which may be null, each with the file's name.
+// to *warnings, one sentence each with the file's name; `warnings` may be null.
 //
-// The result is as that of ReadMesh: valid indices, finite coordinates, no
-// other promise.  A `root` that is not empty is a folder that all files must
-// lie below, links and ".." followed; then all must be regular files.  Files
-// that a glTF or COLLADA file names must be regular ones beside or below it,
-// without links and "..", always (files_beside.h).  Assimp reads in a process
-// of its own, with limits of memory and time by the file's size: what a file
-// makes of it ends there.
+// As with ReadMesh, the mesh has valid indices and finite coordinates, and
+// nothing else is checked.
 //
-// Throws InputError, one line "FILE: what, expected, found": what ReadMesh
-// refuses; files that give no mesh; links that there are none of or several;
-// a build without Assimp (PHONGPD_BUILD_ASSIMP).
+// For files from strangers: if `root` is not empty, all files that are opened
+// must be regular files below that folder, after following links and "..".
+// Files that a glTF or COLLADA file names must always be regular files beside
+// or below it, without links and ".." (files_beside.h).  Assimp runs in its own
+// process, with limits of memory and time by the size of the file: if a file
+// makes it fail, only that process ends.
+//
+// Throws InputError, one line "FILE: what, expected, found": like ReadMesh; for
+// files without a mesh; for a link that does not exist, or is not named though
+// there are several; for Assimp's formats in a build without it
+// (PHONGPD_BUILD_ASSIMP).
 TriangleMesh ReadAnyMesh(const std::string& path,
                          std::vector<std::string>* warnings = nullptr,
                          const std::string& root = "");

@@ -10,22 +10,24 @@
 
 namespace phongpd {
 
-// A scene file with `robots` in place of `robot`: several that move at once.
+// A scene of several robots that move at the same time, for OptimizeFleet
+// (planners/solve/fleet.h).  In the file, `robots` takes the place of `robot`.
 struct FleetScene {
   std::string name;
-  // One scene for each robot, which is called by its id there: all have the
-  // same obstacles, fixed and moving, and settings, but ends, places on the
-  // way, limits and bounds of their own.  Warnings about what they share are in
-  // the first.
+  // One scene for each robot; its name is the robot's id.  All have the same
+  // obstacles, fixed and moving, and the same settings.  Start, goal, places on
+  // the way, limits and bounds are each robot's own.  Warnings about what they
+  // share are in the first scene only.
   std::vector<Scene> robots;
 };
 
-// Does the document tell of several robots, even if wrongly?
+// Does the document have the key `robots`?  Its value may still be wrong.
 bool HasRobots(const nlohmann::ordered_json& json);
 
-// Of a document as ParseScene takes it.  Throws InputError like that, and where
-// ids are equal or are no names of files (letters, digits, - and _), where a
-// key that is each robot's own stands beside `robots`.
+// The scenes of a parsed document; the arguments are those of ParseScene.
+// Throws InputError like ParseScene; for two equal ids; for an id that is not
+// made of letters, digits, - and _ (it becomes part of file names); and for a
+// key beside `robots` that belongs to each robot.
 FleetScene ParseFleetScene(const nlohmann::ordered_json& json,
                            const std::string& file,
                            const std::string& directory = ".",
@@ -33,7 +35,7 @@ FleetScene ParseFleetScene(const nlohmann::ordered_json& json,
                            const std::string& root = "",
                            Repair repair = Repair::kReject);
 
-// The same of the file's bytes, as ParseSceneFile.
+// The same from the bytes of a file; the arguments are those of ParseSceneFile.
 FleetScene ParseFleetSceneFile(const std::string& text, const std::string& path,
                                const std::string& root = "",
                                Repair repair = Repair::kReject);

@@ -202,14 +202,18 @@ BoundingBox BoundsAt(const Json& value, const JsonPlace& place) {
 // above zero.
 Length LengthAt(const Json& value, const JsonPlace& place, LengthRange range,
                 const std::string& unit) {
-  const std::string text = value.is_string()
-                               ? value.get<std::string>()
-                               : FormatDouble(value.get<double>());
-  if (range == LengthRange::kAboveZero) {
-    return ParseClearance(text, place.Text(), 0.0, unit);
+  const std::string what = place.Text();
+  if (value.is_string() && range == LengthRange::kAboveZero) {
+    return ParseClearance(value.get<std::string>(), what, 0.0, unit);
   }
-  const Length length = ParseLength(text, place.Text(), unit);
-  RequireLength(length, range, 0.0, place.Text(), unit);
+  const Length length = value.is_string()
+                            ? ParseLength(value.get<std::string>(), what, unit)
+                            : BareLength(value.get<double>(), unit);
+  if (range == LengthRange::kAboveZero) {
+    RequireClearance(length, true, what, 0.0, unit);
+  } else {
+    RequireLength(length, range, 0.0, what, unit);
+  }
   return length;
 }
 

@@ -1,26 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "problems/scenes/scene_requests.h"
 
-#include <variant>
-
 #include "core/mesh/mesh_error.h"
-#include "core/number_text.h"
 
 namespace phongpd {
-namespace {
-
-// As Ipopt reads it.
-std::string IpoptText(const IpoptValue& value) {
-  if (const int* whole = std::get_if<int>(&value)) {
-    return std::to_string(*whole);
-  }
-  if (const double* number = std::get_if<double>(&value)) {
-    return FormatDouble(*number);
-  }
-  return std::get<std::string>(value);
-}
-
-}  // namespace
 
 PlanRequest PlanRequestOf(const Scene& scene) {
   if (!scene.moving.empty()) {
@@ -63,9 +46,7 @@ OptimizeRequest OptimizeRequestOf(const Scene& scene) {
   request.samples_per_segment = settings.samples_per_segment;
   request.max_segment_ratio = settings.max_segment_ratio;
   request.search_time = scene.planning.time_limit;
-  for (const auto& [name, value] : settings.ipopt) {
-    request.options.optimizer.ipopt.ipopt_options[name] = IpoptText(value);
-  }
+  request.options.optimizer.ipopt.ipopt_options = settings.ipopt;
   return request;
 }
 

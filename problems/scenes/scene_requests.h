@@ -7,8 +7,12 @@
 
 namespace phongpd {
 
-// What a scene asks of Plan and Optimize in its world, which is one of
-// scene.workspace.  Settings that are not in the scene are the requests' own.
+// The requests that a scene makes to Plan and Optimize in the world of
+// scene.workspace:
+//
+//   PathAnswer answer = Plan(World(scene.workspace), PlanRequestOf(scene));
+//
+// Settings that a scene does not have keep the requests' defaults.
 PlanRequest PlanRequestOf(const Scene& scene);
 OptimizeRequest OptimizeRequestOf(const Scene& scene);
 

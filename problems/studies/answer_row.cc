@@ -185,6 +185,21 @@ Json PiecesRow(const Trajectory& trajectory) {
   return pieces;
 }
 
+// How Ipopt ended, and what the exact judge says of its path.
+void AddOutcome(const PathAnswer& answer, bool has_run, Json* row) {
+  const TrajectorySummary& ipopt = answer.pipeline->ipopt;
+  (*row)["status"] = has_run ? ipopt.raw_status : std::string();
+  (*row)["solver_class"] = has_run ? ToString(ipopt.status) : "not_run";
+  (*row)["status_class"] = ToString(answer.status);
+  (*row)["reason"] = answer.reason;
+  (*row)["solved"] = answer.is_solved;
+  (*row)["solver_claims_solved"] = has_run && IsClassOk(ipopt.status);
+  (*row)["solver_path_free"] = has_run && ipopt.collision_free &&
+                               answer.status != PathStatus::kVerificationFailed;
+  (*row)["collision_free"] = answer.is_free;
+  (*row)["first_crossing"] = CrossingRow(answer.pipeline->certificate);
+}
+
 }  // namespace
 
 Json PlanRow(const Scene& scene, const World& world, const PlanRequest& request,
@@ -252,16 +267,7 @@ Json PolylineRow(const Scene& scene, const World& world,
                       {"seconds", answer.windows->seconds}};
   }
   AddOptions(request, has_run, &row);
-  row["status"] = has_run ? ipopt.raw_status : std::string();
-  row["solver_class"] = has_run ? ToString(ipopt.status) : "not_run";
-  row["status_class"] = ToString(answer.status);
-  row["reason"] = answer.reason;
-  row["solved"] = answer.is_solved;
-  row["solver_claims_solved"] = has_run && IsClassOk(ipopt.status);
-  row["solver_path_free"] = has_run && ipopt.collision_free &&
-                            answer.status != PathStatus::kVerificationFailed;
-  row["collision_free"] = answer.is_free;
-  row["first_crossing"] = CrossingRow(result.certificate);
+  AddOutcome(answer, has_run, &row);
   row["iterations"] = result.iterations;
   row["restoration_iterations"] = result.restoration_iterations;
   AddSolver(ipopt, &row);

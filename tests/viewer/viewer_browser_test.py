@@ -18,9 +18,9 @@ import sys
 
 import viewer_references
 from browser import Browser, Checks
-from viewer_controls import (probe_like_the_program, work_controls,
-                             work_iterations, work_overlays, work_probe,
-                             work_section, work_surface)
+from viewer_controls import work_controls, work_iterations, work_overlays
+from viewer_metrics import (probe_like_the_program, work_probe, work_section,
+                            work_surface)
 from viewer_task import (chart_of_a_motion, labels_beside_the_panel,
                          page_in_a_page, work_phone, work_served, work_task)
 

@@ -8,34 +8,37 @@
 
 namespace phongpd {
 
-// Where the optimiser begins.
+// Which path the optimiser starts from.
 enum class RigidStart {
-  kBoth,      // the straight motion; where that ends without a proved path, the
-              // planner's
-  kStraight,  // the straight motion alone, through what is in its way
-  kPlanner,   // the path of Plan alone
+  kBoth,      // the straight motion; if no proved path comes of it, the path
+              // that Plan finds
+  kStraight,  // the straight motion only, even if it collides
+  kPlanner,   // the path that Plan finds only
 };
 
 const char* ToString(RigidStart start);  // both, straight, planner
-// Throws InputError "<what>: …" for another word.
+// The reverse of ToString.  Throws InputError "<what>: …" for other words.
 RigidStart ParseRigidStart(const std::string& text, const std::string& what);
 
-// A short path of poses from start to goal.
+// What Optimize is asked: a short path of poses from start to goal.
 struct RigidOptimizeRequest {
-  // Start, goal, bounds, seed, and the time of all: a third of it at most goes
-  // into the straight motion, half of what is left into the planner.
+  // Start, goal, bounds, seed, and the time limit of the whole call.  With
+  // kBoth, the straight motion gets at most a third of the time; Plan gets half
+  // of what is left.
   RigidRequest task;
   RigidStart from = RigidStart::kBoth;
-  int knots = 8;  // poses between the ends, at least; in [1, 200]
-  // Clearance asked for at the samples, user's unit, [0, reach]; 0: a
-  // thousandth of the robot's reach.  What is proved is free, not the margin.
+  int knots = 8;  // least number of poses between start and goal, in [1, 200]
+  // The clearance that the rows ask for at the samples, user's unit, ≥ 0; 0: a
+  // thousandth of the robot's reach.  The answer is proved free, but not to
+  // keep this margin.
   double margin = 0.0;
-  // The straight motion's knots are moved at random, by a normal deviate of
-  // this share of its length in the object norm; [0, 1].
+  // Noise on the straight motion's knots: the standard deviation, as a share in
+  // [0, 1] of that motion's length in the object norm.
   double start_noise = 0.0;
-  // By TrackedPoseRow, else PoseRow, while they collide.
+  // The rows of colliding samples: TrackedPoseRow if true, PoseRow if false.
   bool is_tracked = false;
-  // Solves of a start, [1, 100]; rows are added after each.
+  // Most solves by Ipopt from one start, in [1, 100].  Samples are added
+  // between them.
   int max_rounds = 15;
 
   // Throws InputError naming the field.
@@ -44,43 +47,47 @@ struct RigidOptimizeRequest {
 
 // What Optimize answers.  No member is NaN or infinite.
 struct RigidOptimum {
-  // As of Plan, with these words.  status: kSolved, Ipopt converged to the path
-  // (or it is the straight motion, which nothing beats); kStalledFeasible, it
-  // did not, and the path is the shortest free one that was seen, an iterate
-  // or the planner's; kFailed, kTimeLimit: none.  planner: "line", "straight"
-  // or "planner", by the start that led to it, or that of Plan's path where
-  // nothing shorter was found ("slide").  Every motion of a path is proved
-  // free for all t, twice, whatever the status.
+  // Like Plan's answer.  Whatever the status, every motion of a path is proved
+  // free for all t, twice.
+  //   status  kSolved: Ipopt converged to the path, or the straight motion is
+  //           free, and nothing is shorter.  kStalledFeasible: it did not; this
+  //           is the shortest free path that was seen, an iterate's or Plan's.
+  //           kFailed, kTimeLimit, …: there is no path.
+  //   planner "line": the straight motion as it is.  "straight", "planner": the
+  //           start it was optimised from.  "slide" and others: Plan's path, of
+  //           that planner, because nothing shorter was found.
   RigidAnswer answer;
-  // Ipopt's word on the last round that was solved.
+  // How Ipopt ended in the last round that it ran.
   SolveStatus solver = SolveStatus::kInvalidProblem;
-  // Ipopt called the path solved (converged, acceptable or stalled_feasible),
-  // or one not shorter, and the judge confirmed it.
+  // Ipopt called this path or one that is not shorter solved (kConverged,
+  // kAcceptable or kStalledFeasible), and the judge confirmed that it is free.
   bool is_confirmed = false;
-  // At least once the judge refuted what Ipopt called solved.
+  // At least once the judge refuted a path that Ipopt called solved.
   bool was_refuted = false;
-  double planned_length = 0.0;     // of Plan's path, shortened; 0: not asked
-  int rounds = 0, iterations = 0;  // of all starts
+  double planned_length = 0.0;     // of Plan's path, shortened; 0: none
+  int rounds = 0, iterations = 0;  // from all starts together
   std::size_t samples = 0;         // in the last round
-  std::size_t added_samples = 0;   // of all rounds, where the judge asked
+  std::size_t added_samples = 0;   // because of the judge, in all rounds
 };
 
-// Optimises the length of a path in the object norm (rigid_world.h) with Ipopt:
-// the energy Σ d² of knots, with rows on exact depth and gaps at samples, and a
-// proof for all that is between them.
+// Makes a path of a robot that translates and turns short.  Ipopt minimises the
+// energy Σ d², with d the distance between neighbouring poses in the object
+// norm (rigid_world.h), subject to rows on exact depths and gaps at samples of
+// the path.  For a robot that only translates use planners/solve/optimize.h.
 //
-// A claim of the solver is never enough.  Motions between samples are judged
-// (RigidJudge), and where one is not free a sample is added there and the
-// program solved again, until what Ipopt calls solved is proved free for all t,
-// or rounds or time are up.  Iterates are judged on the way and the shortest
-// free one is kept, so a run that does not converge has an answer, too.
+// The solver's claim is never enough.  RigidJudge judges the motions between
+// samples; where one is not free, a sample is added and the program is solved
+// again.  This ends when a path that Ipopt calls solved is proved free for all
+// t, or when rounds or time are up.  Iterates are judged on the way, and the
+// shortest free one is kept, so that a run that does not converge often has an
+// answer, too.
 //
-// A local optimum, of the way around things that its start took.  Where robot
-// or obstacles are no solids there is no depth: what collides is no iterate
-// then, and the straight motion no start.
+// The result is a local optimum: it passes obstacles on the side on which its
+// start does.  If the robot or the obstacles are no solids, a collision has no
+// depth; then the straight motion cannot be a start.
 //
 // Throws InputError for bad requests.  One solve at a time in a process
-// (SolveWithIpopt); the same request gives the same path on the same machine
+// (SolveWithIpopt).  The same request gives the same path on the same machine
 // unless time runs out.
 RigidOptimum Optimize(const RigidWorld& world,
                       const RigidOptimizeRequest& request);

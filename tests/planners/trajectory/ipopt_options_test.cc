@@ -9,6 +9,7 @@
 
 #include <Eigen/Core>
 #include <IpIpoptApplication.hpp>
+#include <cmath>
 #include <cstdlib>
 #include <set>
 #include <sstream>
@@ -178,7 +179,7 @@ TEST_F(IpoptOptions, NeitherWriteFilesNorEndTheProcessWhateverTheyAre) {
 }
 
 TEST_F(IpoptOptions, OfOneAtATimeSayWhatIsTaken) {
-  const auto refusal = [&](const char* name, const char* value) {
+  const auto refusal = [&](const char* name, const IpoptValue& value) {
     IpoptSettings settings;
     settings.ipopt_options[name] = value;
     try {
@@ -198,6 +199,55 @@ TEST_F(IpoptOptions, OfOneAtATimeSayWhatIsTaken) {
             "Ipopt option 'linear_solver': expected mumps, found 'ma97'");
   EXPECT_EQ(refusal("nlp_scaling_method", "none"), "");
   EXPECT_EQ(refusal("linear_solver", "mumps"), "");
+  // Numbers as numbers.
+  EXPECT_EQ(refusal("tol", 1), "");
+  EXPECT_EQ(refusal("tol", std::nan("")),
+            "Ipopt option 'tol': expected a number, found 'nan'");
+  EXPECT_EQ(refusal("tol", -0.5),
+            "Ipopt option 'tol': expected a number in Ipopt's range, found "
+            "'-0.5'");
+  EXPECT_EQ(refusal("max_iter", 2.5),
+            "Ipopt option 'max_iter': expected a whole number in Ipopt's "
+            "range, found '2.5'");
+  EXPECT_EQ(refusal("max_iter", 1e300),
+            "Ipopt option 'max_iter': expected a whole number in Ipopt's "
+            "range, found '1e+300'");
+  EXPECT_EQ(refusal("mu_strategy", 3),
+            "Ipopt option 'mu_strategy': expected one of Ipopt's settings, "
+            "found '3'");
+}
+
+// Ipopt's own store, which keeps six digits, has what was given.
+TEST_F(IpoptOptions, ReachIpoptAsTheyAre) {
+  const double tolerance = 1.23456e-7;
+  IpoptSettings settings;
+  settings.max_iterations = 17;
+  settings.ipopt_options = {{"tol", tolerance},
+                            {"acceptable_tol", "1e-5"},
+                            {"mu_init", 2},
+                            {"acceptable_iter", 3.0},
+                            {"mu_oracle", "probing"}};
+  const Ipopt::SmartPtr<Ipopt::IpoptApplication> application =
+      new Ipopt::IpoptApplication(false);
+  ApplyIpoptOptions(settings, "mumps", Ipopt::GetRawPtr(application));
+  const auto number = [&](const char* name) {
+    double value = 0.0;
+    EXPECT_TRUE(application->Options()->GetNumericValue(name, value, ""));
+    return value;
+  };
+  const auto whole = [&](const char* name) {
+    Ipopt::Index value = 0;
+    EXPECT_TRUE(application->Options()->GetIntegerValue(name, value, ""));
+    return value;
+  };
+  EXPECT_EQ(number("tol"), tolerance);
+  EXPECT_EQ(number("acceptable_tol"), 1e-5);
+  EXPECT_EQ(number("mu_init"), 2.0);
+  EXPECT_EQ(whole("acceptable_iter"), 3);
+  EXPECT_EQ(whole("max_iter"), 17);
+  std::string word;
+  EXPECT_TRUE(application->Options()->GetStringValue("mu_oracle", word, ""));
+  EXPECT_EQ(word, "probing");
 }
 
 }  // namespace

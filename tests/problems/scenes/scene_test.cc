@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -187,6 +188,34 @@ TEST(Scene, ReadsBareLengthsInItsUnitIfThatHasAName) {
     json["trajectory"]["margin"] = "0.5D";
     EXPECT_EQ(ParseScene(json, "s.json").trajectory.margin,
               Length::FromShare(0.5));
+  }
+}
+
+TEST(Scene, ReadsNumbersOfLengthsToTheBit) {
+  Json json = SmallScene();
+  const double share = std::nextafter(0.1, 0.0);
+  json["penetration"]["smoothing_length"] = share;
+  json["trajectory"]["margin"] = share;
+  const Scene scene = ParseScene(json, "s.json");
+  EXPECT_EQ(scene.penetration.smoothing_length, Length::FromShare(share));
+  EXPECT_EQ(scene.trajectory.margin, Length::FromShare(share));
+  json["penetration"]["smoothing_length"] = -0.0;
+  const double zero =
+      ParseScene(json, "s.json").penetration.smoothing_length.value();
+  EXPECT_EQ(zero, 0.0);
+  EXPECT_FALSE(std::signbit(zero));
+  // As a text of the same number.
+  for (const Json& margin : {Json(0.125), Json("0.125")}) {
+    json["trajectory"]["margin"] = margin;
+    try {
+      ParseScene(json, "s.json");
+      ADD_FAILURE() << margin;
+    } catch (const InputError& error) {
+      EXPECT_STREQ(error.what(),
+                   "s.json: /trajectory/margin: expected a unit with a number "
+                   "above 0.1, found 0.125: did you mean 0.125unit? or 0.125D, "
+                   "a share of the world's diagonal D");
+    }
   }
 }
 
