@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ctime>
 #include <random>
 #include <utility>
 
@@ -21,13 +20,6 @@ double MicrosecondsPer(std::size_t count, double start) {
 }
 
 }  // namespace
-
-double CpuSeconds() {
-  timespec now;
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) +
-         1e-9 * static_cast<double>(now.tv_nsec);
-}
 
 double MedianCpuSeconds(const std::function<void()>& work) {
   constexpr int kRuns = 5;

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "core/mesh/mesh_error.h"
+#include "tests/support/expect_refused.h"
 
 namespace phongpd {
 namespace {
@@ -18,12 +18,7 @@ namespace {
 using Eigen::Vector3d;
 
 std::string Message(const std::function<void()>& call) {
-  try {
-    call();
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
+  return testing::ErrorOf([&] { call(); });
 }
 
 // q(t) = t³ (1, 2, −1) + (0, t, 5) for 0 ≤ t ≤ h: its Bézier points are the

@@ -25,6 +25,7 @@
 #include "core/mesh/mesh_scanner.h"
 #include "core/mesh/polygon_soup.h"
 #include "core/stopwatch.h"
+#include "tests/support/expect_refused.h"
 
 namespace {
 
@@ -63,12 +64,8 @@ void ExpectRefused(MeshFormat format, const std::string& bytes,
   const std::size_t before = held;
   most = before;
   const Stopwatch stopwatch;
-  std::string what = "accepted";
-  try {
-    internal::ReadMeshBytes(format, bytes, "file");
-  } catch (const InputError& error) {
-    what = error.what();
-  }
+  const std::string what = testing::ErrorOf(
+      [&] { internal::ReadMeshBytes(format, bytes, "file"); }, "accepted");
   EXPECT_LT(most - before, kBase + 100 * bytes.size()) << what;
   EXPECT_LT(stopwatch.Seconds(), 1.0) << what;
   EXPECT_EQ(what.rfind("file: ", 0), 0u) << what;
@@ -309,12 +306,8 @@ std::string TestPath(const std::string& file) {
 }
 
 std::string Refusal(const std::string& path, std::uintmax_t max_bytes) {
-  try {
-    ReadInputFile(path, "a mesh file", max_bytes);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "accepted";
+  return testing::ErrorOf(
+      [&] { ReadInputFile(path, "a mesh file", max_bytes); }, "accepted");
 }
 
 TEST(InputFile, RefusesWhatIsNoFileAtOnce) {

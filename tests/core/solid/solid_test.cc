@@ -9,9 +9,9 @@
 #include "core/contact/contact_space.h"
 #include "core/contact/convolution_model.h"
 #include "core/contact/depth.h"
-#include "core/mesh/mesh_error.h"
 #include "core/mesh/mesh_io.h"
 #include "problems/shapes/shapes.h"
+#include "tests/support/expect_refused.h"
 
 namespace phongpd {
 namespace {
@@ -22,12 +22,7 @@ TriangleMesh Box(double side) {
 
 template <typename Action>
 std::string MessageOf(const Action& action) {
-  try {
-    action();
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
+  return testing::ErrorOf([&] { action(); });
 }
 
 TEST(Solid, SharesItsMeshUnderAnyName) {

@@ -12,6 +12,7 @@
 
 #include "core/mesh/mesh_error.h"
 #include "problems/studies/performance_profile.h"
+#include "tests/support/expect_refused.h"
 
 namespace phongpd {
 namespace {
@@ -214,12 +215,7 @@ class RowsOfAFile : public testing::Test {
 
   std::string Refusal(const std::string& text) {
     std::ofstream(path_) << text;
-    try {
-      JoinComparisons({path_});
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return "";
+    return testing::ErrorOf([&] { JoinComparisons({path_}); });
   }
 
   // Of its own for each test: they run at the same time.
