@@ -17,10 +17,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-std::string Message(const std::function<void()>& call) {
-  return testing::ErrorOf([&] { call(); });
-}
-
 // q(t) = t³ (1, 2, −1) + (0, t, 5) for 0 ≤ t ≤ h: its Bézier points are the
 // blossoms of t³ and t.
 CurvePiece Cubic(double h) {
@@ -156,30 +152,32 @@ TEST(Trajectory, EndsWhereItsLastPieceEndsHoweverDurationsRound) {
 }
 
 TEST(Trajectory, RefusesWhatIsNoMotionInOneLine) {
-  EXPECT_NE(Message([] {
+  EXPECT_NE(testing::ErrorOf([] {
               CurvePiece(Vector3d::Zero(), Vector3d::Zero(), 0.0);
             }).find("duration above 0"),
             std::string::npos);
-  EXPECT_NE(Message([] {
+  EXPECT_NE(testing::ErrorOf([] {
               CurvePiece(std::vector<Vector3d>(9, Vector3d::Zero()), 1.0);
             }).find("2 to 8 points"),
             std::string::npos);
-  EXPECT_NE(Message([] {
+  EXPECT_NE(testing::ErrorOf([] {
               CurvePiece(Vector3d::Constant(NAN), Vector3d::Zero(), 1.0);
             }).find("finite"),
             std::string::npos);
-  EXPECT_NE(Message([] {
+  EXPECT_NE(testing::ErrorOf([] {
               Trajectory({CurvePiece(Vector3d::Zero(), Vector3d::Ones(), 1.0),
                           CurvePiece(Vector3d::Zero(), Vector3d::Ones(), 1.0)});
             }).find("piece 1 does not begin where piece 0 ends"),
             std::string::npos);
-  EXPECT_NE(
-      Message([] { Trajectory({Cubic(2.0)}).Samples(0.0); }).find("rate:"),
-      std::string::npos);
+  EXPECT_NE(testing::ErrorOf([] {
+              Trajectory({Cubic(2.0)}).Samples(0.0);
+            }).find("rate:"),
+            std::string::npos);
   MotionLimits limits;
   limits.acceleration[1] = -2.0;
-  EXPECT_NE(Message([&] { limits.Validate(); }).find("acceleration of y"),
-            std::string::npos);
+  EXPECT_NE(
+      testing::ErrorOf([&] { limits.Validate(); }).find("acceleration of y"),
+      std::string::npos);
 }
 
 }  // namespace

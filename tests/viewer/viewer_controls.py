@@ -252,9 +252,7 @@ def work_section(browser, checks, page):
       const step = scale * Math.max(max.x - min.x, max.y - min.y) / n;
       return Math.abs(viewer.map.range.high - most) < step;
     })()""", "the key's end is the greatest depth of the plane")
-    browser.click("#link")
-    link = browser.run("location.hash")
-    browser.open(page, link)
+    browser.open_link(page)
     browser.wait("viewer.map.cells === kMapCells")
     holds("viewer.state.map === 'euclidean'", "a link keeps the colours")
     browser.press("c")
@@ -293,9 +291,7 @@ def work_surface(browser, checks, page):
     })()""", "no depth is more than that of the place, and some are it")
     changes(lambda: (browser.run(entered("below", "0.2")),
                      browser.wait(done)), "another depth of the question")
-    browser.click("#link")
-    link = browser.run("location.hash")
-    browser.open(page, link)
+    browser.open_link(page)
     browser.wait(done)
     holds("viewer.state.surface === 'euclidean' && viewer.state.below === 0.2",
           "a link keeps the colours")
@@ -305,9 +301,7 @@ def work_surface(browser, checks, page):
           "document.getElementById('surface-below').hidden && "
           "document.getElementById('surface-key').hidden",
           "curvature takes their place")
-    browser.click("#link")
-    link = browser.run("location.hash")
-    browser.open(page, link)
+    browser.open_link(page)
     holds("viewer.state.surface === 'bend' && viewer.stage.isBend",
           "a link keeps curvature")
     checks.quiet("surface")
@@ -352,9 +346,7 @@ def work_iterations(browser, checks, page):
     holds("(viewer.draw(), viewer.stage.robot.position.distanceTo("
           "viewer.stage.at(viewer.data.start)) < 1e-5)",
           "the robot follows the iterate")
-    browser.click("#link")
-    link = browser.run("location.hash")
-    browser.open(page, link)
+    browser.open_link(page)
     holds("viewer.state.iterate === 0 && viewer.stage.iterates.shown !== null",
           "a link keeps the iteration")
     browser.run("viewer.set(() => { viewer.state.speed = 4; })")

@@ -299,8 +299,8 @@ TEST(ReaderLimits, WhatIsReadTakesMemoryInProportion) {
 }
 
 std::string TestPath(const std::string& file) {
-  const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-  const std::string path = testing::TempDir() + test->name() + "_" + file;
+  const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
+  const std::string path = ::testing::TempDir() + test->name() + "_" + file;
   std::filesystem::remove_all(path);
   return path;
 }
@@ -316,7 +316,7 @@ TEST(InputFile, RefusesWhatIsNoFileAtOnce) {
             "/dev/zero: expected a mesh file, found a device; name a file");
   EXPECT_EQ(Refusal("/dev/null", 100),
             "/dev/null: expected a mesh file, found a device; name a file");
-  EXPECT_NE(Refusal(testing::TempDir(), 100).find("found a directory"),
+  EXPECT_NE(Refusal(::testing::TempDir(), 100).find("found a directory"),
             std::string::npos);
   EXPECT_NE(Refusal(TestPath("missing"), 100).find("found nothing"),
             std::string::npos);

@@ -32,7 +32,7 @@ TEST(Sandbox, EndsWhatWaitsWithoutUsingTheProcessor) {
 
 // An answer on standard output is the parent's alone.
 TEST(Sandbox, PrintsNothing) {
-  testing::internal::CaptureStdout();
+  ::testing::internal::CaptureStdout();
   std::printf("once, ");
   RunInSandbox("file", [] {
     std::printf("never");
@@ -40,7 +40,7 @@ TEST(Sandbox, PrintsNothing) {
     return std::string("done");
   });
   std::fflush(stdout);
-  EXPECT_EQ(testing::internal::GetCapturedStdout(), "once, ");
+  EXPECT_EQ(::testing::internal::GetCapturedStdout(), "once, ");
 }
 
 TEST(Sandbox, ReturnsWhatWasMadeSlowly) {
