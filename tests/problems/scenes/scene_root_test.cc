@@ -20,7 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // inside/ (the root) holds box.off, sub/, and links; outside/ holds box.off.
-class SceneRoot : public testing::Test {
+class SceneRoot : public ::testing::Test {
  protected:
   void SetUp() override {
     std::string name = (fs::temp_directory_path() / "scene_root_XXXXXX");

@@ -288,7 +288,7 @@ TEST(Scene, PlacesSolidsByRotationThenScaleThenPosition) {
 
 TEST(Scene, ReadsMeshesBesideTheFileAndComments) {
   const std::filesystem::path folder =
-      std::filesystem::path(testing::TempDir()) / "phongpd_scene_test";
+      std::filesystem::path(::testing::TempDir()) / "phongpd_scene_test";
   std::filesystem::create_directories(folder / "meshes");
   WriteMesh(MakeBox({-1, -1, -1}, {1, 1, 1}),
             (folder / "meshes" / "cube.off").string());

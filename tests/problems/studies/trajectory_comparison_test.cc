@@ -209,7 +209,7 @@ TEST(PerformanceProfile, ShowsTheNamesOfMethods) {
   EXPECT_NE(svg.find("straight-monotone, 1 problem;"), std::string::npos);
 }
 
-class RowsOfAFile : public testing::Test {
+class RowsOfAFile : public ::testing::Test {
  protected:
   void TearDown() override { std::remove(path_.c_str()); }
 
@@ -220,8 +220,8 @@ class RowsOfAFile : public testing::Test {
 
   // Of its own for each test: they run at the same time.
   const std::string path_ =
-      testing::TempDir() +
-      testing::UnitTest::GetInstance()->current_test_info()->name() +
+      ::testing::TempDir() +
+      ::testing::UnitTest::GetInstance()->current_test_info()->name() +
       "_rows.jsonl";
 };
 
