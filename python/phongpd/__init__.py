@@ -34,7 +34,7 @@ a notebook they show themselves. What cannot be used raises InputError, a
 ValueError of one line: what, where, expected, found.
 """
 
-from ._answers import Diagnosis, Plan, Trajectory
+from ._answers import Plan, Trajectory
 from ._compare import Comparison, compare
 from ._contact import ContactSpace, minkowski
 from ._depth import Depth, DepthQuery, depth
@@ -48,6 +48,7 @@ from ._removal import Disassembly, Removal, disassemble, remove
 from ._rigid import RigidCheck, RigidClearance, RigidFirstHit, RigidJudge
 from ._rigid_plan import RigidOptimum, RigidPlan, RigidWorld
 from ._roadmap import Roadmap
+from ._room import Diagnosis
 from ._rows import NonPenetrationRows
 from ._solid import Solid
 from ._tracker import PenetrationTracker, TrackedMotion

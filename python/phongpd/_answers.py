@@ -1,55 +1,78 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What a world answers."""
+"""What a world answers: paths, and why there is none."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
-from ._arguments import Floats
+from ._arguments import Floats, Point
 from ._native import InputError
 from ._plots import plot_path
+from ._room import Room
 from ._statuses import Answer
 from ._view import Canvas, Shown
 
-if TYPE_CHECKING:
-    from ._world import World
+
+def path_in(row: dict[str, Any]) -> Floats:
+    return np.asarray(row["path"], dtype=np.float64).reshape(-1, 3)
 
 
-@dataclass(frozen=True)
-class Diagnosis:
-    """Is a position free, and if not, why; exact, of the solids themselves."""
+class WayInWorld(Answer, Shown):
+    """A way in a world: shown with it, sent to another process without."""
 
-    free: bool
-    contacts: list[dict[str, Any]]
-    """For each obstacle in the way: its name, a translation `depth_at_most`
-    along `direction` that leaves it."""
-    excesses: list[dict[str, Any]]
-    """For each bound that is not kept: axis, is_maximum, bound, by."""
+    _LIVE = ("world",)
+    reason: str
+    path: Floats
+    world: Room | None
 
     def to_row(self) -> dict[str, Any]:
         """Flat, for pandas.DataFrame([one.to_row(), ...])."""
-        return {"free": self.free,
-                "in_obstacles": "; ".join(c["obstacle"] for c in self.contacts),
-                "depth_at_most": max(
-                    (c["depth_at_most"] for c in self.contacts), default=0.0),
-                "out_of_bounds_by": max(
-                    (e["by"] for e in self.excesses), default=0.0)}
+        raise NotImplementedError
 
-    def __str__(self) -> str:
-        if self.free:
-            return "free"
-        return "; ".join(
-            [f"in {c['obstacle']}, at most {c['depth_at_most']:.6g} deep"
-             for c in self.contacts]
-            + [f"beyond the bounds in {'xyz'[e['axis']]} by {e['by']:.6g}"
-               for e in self.excesses])
+    def _draw_world(self, canvas: Canvas) -> None:
+        if self.world is None:
+            raise InputError("view: expected an answer with its world, found "
+                             "one that came through pickle")
+        self.world._draw(canvas, None)
+
+    def _facts(self) -> dict[str, Any]:
+        return self.to_row()
+
+    def _because(self) -> str:
+        return f" ({self.reason})" if self.reason else ""
+
+
+class Polyline(WayInWorld):
+    """A way that is a path without time."""
+
+    row: dict[str, Any]
+
+    def plot(self, axes: Any = None) -> Any:
+        """Position and clearance along the way, the margin that was asked for
+        dashed; the world builds its contact space for that if it has none, and
+        an answer without a world has no second figure.  axes: as many of
+        matplotlib, which has to be there; None: of a new figure.  Returns
+        them."""
+        lengths = self.row.get("lengths", {})
+        world = self.world
+        return plot_path(
+            axes, self.path,
+            (world.unit if world is not None else lengths.get("unit"))
+            or "unit",
+            (lengths.get("asked_clearance") or {}).get("unit"),
+            None if world is None else world.clearance)
+
+    def _draw_path(self, canvas: Canvas, name: str, free: bool) -> None:
+        self._draw_world(canvas)
+        if len(self.path):
+            canvas.path(name, self.path, free)
 
 
 @dataclass(frozen=True)
-class Trajectory(Answer, Shown):
+class Trajectory(Polyline):
     """One optimised trajectory; the row of `phongpd optimize` as `row`."""
 
     status: str
@@ -65,10 +88,8 @@ class Trajectory(Answer, Shown):
     iterations: int
     seconds: float
     row: dict[str, Any] = field(repr=False)
-    world: World | None = field(default=None, repr=False, compare=False)
+    world: Room | None = field(default=None, repr=False, compare=False)
     """That it is a path of; None after a way through pickle."""
-
-    _LIVE = ("world",)
 
     def to_row(self) -> dict[str, Any]:
         """Flat, for pandas.DataFrame([one.to_row(), ...])."""
@@ -80,29 +101,18 @@ class Trajectory(Answer, Shown):
             "clearance": self.clearance, "iterations": self.iterations,
             "seconds": self.seconds}
 
-    def plot(self, axes: Any = None) -> Any:
-        """Position and clearance along the way, the margin that was asked for
-        dashed; the world builds its contact space for that if it has none, and
-        an answer without a world has no second figure.  axes: as many of
-        matplotlib, which has to be there; None: of a new figure.  Returns
-        them."""
-        return _plot_answer(self, axes)
-
     def _draw(self, canvas: Canvas, name: str | None) -> None:
-        _draw_answer(canvas, self, name or "trajectory", self.free)
-
-    def _facts(self) -> dict[str, Any]:
-        return self.to_row()
+        self._draw_path(canvas, name or "trajectory", self.free)
 
     def __str__(self) -> str:
-        return (f"{self.status}{_because(self)}: "
+        return (f"{self.status}{self._because()}: "
                 f"{'free' if self.free else 'NOT FREE'} path of "
                 f"{len(self.path)} points, clearance {self.clearance:.6g}, "
                 f"{self.iterations} iterations, {self.seconds:.3g} s")
 
 
 @dataclass(frozen=True)
-class Plan(Answer, Shown):
+class Plan(Polyline):
     """One answer of a planner; the row of `phongpd plan` as `row`."""
 
     status: str
@@ -117,12 +127,10 @@ class Plan(Answer, Shown):
     clearance: float
     seconds: float
     row: dict[str, Any] = field(repr=False)
-    world: World | None = field(default=None, repr=False, compare=False)
+    world: Room | None = field(default=None, repr=False, compare=False)
     """That it is a path of; None after a way through pickle."""
     ends: Floats | None = field(default=None, repr=False, compare=False)
     """(2, 3): start and goal."""
-
-    _LIVE = ("world",)
 
     def to_row(self) -> dict[str, Any]:
         """Flat, for pandas.DataFrame([one.to_row(), ...])."""
@@ -134,40 +142,40 @@ class Plan(Answer, Shown):
             "length": self.length, "clearance": self.clearance,
             "seconds": self.seconds}
 
-    def plot(self, axes: Any = None) -> Any:
-        """Position and clearance along the way, the margin that was asked for
-        dashed; the world builds its contact space for that if it has none, and
-        an answer without a world has no second figure.  axes: as many of
-        matplotlib, which has to be there; None: of a new figure.  Returns
-        them."""
-        return _plot_answer(self, axes)
-
     def _draw(self, canvas: Canvas, name: str | None) -> None:
         if self.ends is not None:
             canvas.ends(*self.ends)
-        _draw_answer(canvas, self, name or "plan", self.solved)
-
-    def _facts(self) -> dict[str, Any]:
-        return self.to_row()
+        self._draw_path(canvas, name or "plan", self.solved)
 
     def __str__(self) -> str:
         if self.infeasible:
-            return f"no path, proved{_because(self)}, {self.seconds:.3g} s"
+            return f"no path, proved{self._because()}, {self.seconds:.3g} s"
         if not self.solved:
-            return f"{self.status}{_because(self)}, {self.seconds:.3g} s"
+            return f"{self.status}{self._because()}, {self.seconds:.3g} s"
         return (f"{self.status}: path of {len(self.path)} points, length "
                 f"{self.length:.6g}, clearance {self.clearance:.6g}, "
                 f"{self.seconds:.3g} s")
 
 
-def _plot_answer(answer: Trajectory | Plan, axes: Any) -> Any:
-    lengths = answer.row.get("lengths", {})
-    world = answer.world
-    return plot_path(
-        axes, answer.path,
-        (world.unit if world is not None else lengths.get("unit")) or "unit",
-        (lengths.get("asked_clearance") or {}).get("unit"),
-        None if world is None else world.clearance)
+def trajectory_of(row: dict[str, Any], world: Room) -> Trajectory:
+    """Of a row of the program."""
+    return Trajectory(
+        status=row["status_class"], reason=row["reason"],
+        free=row["collision_free"], path=path_in(row),
+        objective=row["objective"], clearance=row["clearance"],
+        iterations=row["iterations"], seconds=row["seconds"]["total"],
+        row=row, world=world)
+
+
+def plan_of(row: dict[str, Any], world: Room,
+            ends: tuple[Point, Point]) -> Plan:
+    """Of a row of the program."""
+    return Plan(
+        status=row["status"], reason=row["reason"], solved=row["solved"],
+        infeasible=row["infeasible_proved"], path=path_in(row),
+        length=row["path_length"], clearance=row["clearance"],
+        seconds=row["seconds"]["solve"], row=row, world=world,
+        ends=np.array(ends))
 
 
 def _length(path: Floats) -> float:
@@ -176,17 +184,3 @@ def _length(path: Floats) -> float:
 
 def _known(row: dict[str, Any], *names: str) -> dict[str, Any]:
     return {name: row[name] for name in names if name in row}
-
-
-def _because(answer: Trajectory | Plan) -> str:
-    return f" ({answer.reason})" if answer.reason else ""
-
-
-def _draw_answer(canvas: Canvas, answer: Trajectory | Plan, name: str,
-                 free: bool) -> None:
-    if answer.world is None:
-        raise InputError("view: expected an answer with its world, found one "
-                         "that came through pickle")
-    answer.world._draw(canvas, None)
-    if len(answer.path):
-        canvas.path(name, answer.path, free)

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import math
 import os
-from typing import Any
+from typing import Any, Tuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 from ._native import InputError
 
 Floats = NDArray[np.float64]
+Point = Tuple[float, float, float]
 
 
 def numbers(value: ArrayLike, name: str, shape: str) -> Floats:
@@ -46,7 +47,7 @@ def is_single(value: Any, width: int) -> bool:
     return np.ndim(value) == 1 and np.shape(value) == (width,)
 
 
-def point(value: ArrayLike, name: str) -> tuple[float, float, float]:
+def point(value: ArrayLike, name: str) -> Point:
     """Three finite numbers."""
     array = numbers(value, name, "(3,)")
     if array.shape != (3,) or not np.isfinite(array).all():
@@ -97,6 +98,10 @@ def whole_number(value: Any, name: str, least: int,
     return int(number)
 
 
+def seed_number(value: Any) -> int:
+    return whole_number(value, "seed", 0, 2 ** 64 - 1)
+
+
 def seconds(value: Any, name: str) -> float:
     """More than 0; None: no limit."""
     if value is None:
@@ -108,9 +113,8 @@ def seconds(value: Any, name: str) -> float:
     return number
 
 
-def motion_limits(value: Any, by_norm: bool = False) -> tuple[
-        tuple[float, float, float], tuple[float, float, float],
-        tuple[float, float, float]]:
+def motion_limits(value: Any, by_norm: bool = False
+                  ) -> tuple[Point, Point, Point]:
     """(velocity, acceleration, jerk), each one number or of x, y and z; by_norm:
     one number."""
     try:
@@ -120,7 +124,7 @@ def motion_limits(value: Any, by_norm: bool = False) -> tuple[
                          "a number or one of x, y and z, found "
                          f"{_told(value)}") from None
 
-    def one(limit: Any, name: str) -> tuple[float, float, float]:
+    def one(limit: Any, name: str) -> Point:
         array = numbers(limit, f"limits: {name}", "() or (3,)")
         if array.shape not in ((1,), (3,)):  # a number is one of (1,)
             raise InputError(f"limits: {name}: expected a number or three, "
@@ -134,11 +138,8 @@ def motion_limits(value: Any, by_norm: bool = False) -> tuple[
     return one(v, "velocity"), one(a, "acceleration"), one(j, "jerk")
 
 
-def motion_end(value: Any, name: str) -> tuple[
-        tuple[float, float, float], tuple[float, float, float]]:
-    """Velocity (3,), or velocity and acceleration (2, 3); None: at rest."""
-    if value is None:
-        return (0.0, 0.0, 0.0), (0.0, 0.0, 0.0)
+def motion_end(value: Any, name: str) -> tuple[Point, Point]:
+    """Velocity (3,), or velocity and acceleration (2, 3)."""
     array = numbers(value, name, "(3,) or (2, 3)")
     if array.shape == (3,):
         array = np.stack([array, np.zeros(3)])
@@ -150,7 +151,7 @@ def motion_end(value: Any, name: str) -> tuple[
 
 def places_on_the_way(
         via: ArrayLike, tolerance: Any, dwell: ArrayLike,
-) -> list[tuple[tuple[float, float, float], str, float]]:
+) -> list[tuple[Point, str, float]]:
     """Places (M, 3), a length, or one for each of them, and seconds, or so."""
     places = rows(via, "via", 3)
     count = len(places)

@@ -12,7 +12,6 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _native
-from ._arguments import motion_end
 from ._motion import Motion, motion_of, moving_of, wishes_of
 from ._native import InputError
 from ._plots import PLACES, new_axes, plot_vectors
@@ -124,18 +123,17 @@ def optimize_fleet(robots: Mapping[str, Tuple[World, ArrayLike, ArrayLike]]
         name, scenes = _native.load_robots(os.fspath(robots))
         tasks = []
         for key, scene in scenes:
-            world = World.__new__(World)
-            world._open(scene, False, 0.0)
-            world._has_ends = True
+            world = World._of(scene)
             tasks.append((key, world, world.start, world.goal))
     if not tasks:
         raise InputError("robots: expected one at least, found none")
-    rest = motion_end(None, "rest")
+    rest = (0.0, 0.0, 0.0)
     given = []
     for key, world, start, goal in tasks:
-        scene = world._native.scene
-        wishes = wishes_of(scene, limits, scene.via, 0.0, margin, max_seconds,
-                           preset, require, routes, by_norm, rest, rest)
+        wishes = wishes_of(
+            world._native.scene, limits=limits, margin=margin, require=require,
+            preset=preset, routes=routes, max_seconds=max_seconds,
+            by_norm=by_norm, duration=0.0, departure=rest, arrival=rest)
         given.append((key, world._native, *world._ends(start, goal), wishes))
     row = _native.optimize_fleet(name, given, moving_of(moving))
     motions = {one["id"]: motion_of(one, task[1])

@@ -170,13 +170,11 @@ class PhongMetric(_Metric):
     def __init__(self, space: ContactSpace,
                  smoothing_length: float | None = None,
                  field: str = "normal") -> None:
-        if smoothing_length is None:
-            smoothing_length = DEFAULT_SMOOTHING_LENGTH
         if field not in ("normal", "tangent-plane"):
             raise InputError(
                 f"field: expected 'normal' or 'tangent-plane', found {field!r}")
         self._native = _native.Metric.phong(
-            native_space(space), real(smoothing_length, "smoothing_length", "a share of D"),
+            native_space(space), _smoothing(smoothing_length),
             field == "tangent-plane")
 
 
@@ -204,8 +202,11 @@ class SmoothedMetric(_Metric):
     def __init__(self, space: ContactSpace,
                  smoothing_length: float | None = None, *,
                  at_contact: bool = False) -> None:
-        if smoothing_length is None:
-            smoothing_length = DEFAULT_SMOOTHING_LENGTH
         self._native = _native.Metric.smoothed(
-            native_space(space), real(smoothing_length, "smoothing_length", "a share of D"),
+            native_space(space), _smoothing(smoothing_length),
             flag(at_contact, "at_contact"))
+
+
+def _smoothing(length: float | None) -> float:
+    return real(DEFAULT_SMOOTHING_LENGTH if length is None else length,
+                "smoothing_length", "a share of D")

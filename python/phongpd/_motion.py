@@ -6,27 +6,25 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from math import comb
-from typing import TYPE_CHECKING, Any, Tuple
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _native
-from ._arguments import Floats, flag, length, motion_limits, numbers, point, \
-    real, seconds, text, whole_number
+from ._answers import WayInWorld, path_in
+from ._arguments import Floats, Point, flag, length, motion_end, \
+    motion_limits, numbers, places_on_the_way, point, real, seconds, text, \
+    whole_number
 from ._native import InputError
 from ._plots import PLACES, new_axes, plot_vectors
+from ._room import Room
 from ._solid import as_solid
-from ._statuses import Answer
-from ._view import Canvas, Shown
+from ._view import Canvas
 
-if TYPE_CHECKING:
-    from ._world import World
-
-_Point = Tuple[float, float, float]
 
 @dataclass(frozen=True)
-class Motion(Answer, Shown):
+class Motion(WayInWorld):
     """A curve in time that a machine can follow, or why there is none; the row
     of `phongpd optimize --limits` or `phongpd retime` as `row`."""
 
@@ -49,10 +47,8 @@ class Motion(Answer, Shown):
     path: Floats = field(repr=False)
     """(K, 3): the polyline that it began with."""
     row: dict[str, Any] = field(repr=False)
-    world: World | None = field(default=None, repr=False, compare=False)
+    world: Room | None = field(default=None, repr=False, compare=False)
     """That it is a motion in; None after a way through pickle."""
-
-    _LIVE = ("world",)
 
     @property
     def free(self) -> bool:
@@ -147,19 +143,13 @@ class Motion(Answer, Shown):
                 **{f"{name}_used": share for name, share in used.items()}}
 
     def _draw(self, canvas: Canvas, name: str | None) -> None:
-        if self.world is None:
-            raise InputError("view: expected an answer with its world, found "
-                             "one that came through pickle")
-        self.world._draw(canvas, None)
+        self._draw_world(canvas)
         if len(self.durations):
             times = np.linspace(0.0, self.duration, PLACES)
             canvas.path(name or "motion", self.at(times), self.certified)
 
-    def _facts(self) -> dict[str, Any]:
-        return self.to_row()
-
     def __str__(self) -> str:
-        because = f" ({self.reason})" if self.reason else ""
+        because = self._because()
         if not len(self.durations):
             return f"no motion, {self.status}{because}"
         return (f"{self.duration:.6g} s, "
@@ -169,7 +159,7 @@ class Motion(Answer, Shown):
 
 
 def moving_of(moving: Mapping[str, Any] | None) -> list[
-        tuple[str, _native.Solid, list[tuple[float, list[_Point]]]]]:
+        tuple[str, _native.Solid, list[tuple[float, list[Point]]]]]:
     """{name: (solid, motion)} of obstacles that move, the motion a Motion or
     (durations (N,), points (N, K, 3))."""
     found = []
@@ -200,7 +190,7 @@ def moving_of(moving: Mapping[str, Any] | None) -> list[
     return found
 
 
-def motion_of(row: dict[str, Any], world: World) -> Motion:
+def motion_of(row: dict[str, Any], world: Room) -> Motion:
     """Of a row that the program writes, too."""
     pieces = row["pieces"]
     return Motion(
@@ -210,16 +200,17 @@ def motion_of(row: dict[str, Any], world: World) -> Motion:
         durations=np.array([p["duration"] for p in pieces], dtype=np.float64),
         points=np.array([p["points"] for p in pieces],
                         dtype=np.float64).reshape(-1, 6, 3),
-        path=np.asarray(row["path"], dtype=np.float64).reshape(-1, 3),
+        path=path_in(row),
         row=row, world=world)
 
 
-def wishes_of(scene: Any, limits: Any, via: list[tuple[_Point, str, float]],
-              duration: Any, margin: Any, max_seconds: Any, preset: Any,
-              require: Any, routes: Any, by_norm: Any,
-              departure: tuple[_Point, _Point],
-              arrival: tuple[_Point, _Point]) -> _native.MotionWishes:
-    """What is asked of a motion; `limits` None: the scene's."""
+def wishes_of(scene: _native.Scene, *, limits: Any, margin: Any, require: Any,
+              preset: Any, routes: Any, max_seconds: Any, by_norm: Any,
+              via: Any = None, tolerance: Any = None, dwell: Any = 0.0,
+              duration: Any = None, departure: Any = None,
+              arrival: Any = None) -> _native.MotionWishes:
+    """What is asked of a motion, as World.optimize takes it; None: the
+    scene's."""
     known = scene.limits if limits is None else limits
     of_norm = flag(by_norm, "by_norm")
     if limits is None:
@@ -228,7 +219,12 @@ def wishes_of(scene: Any, limits: Any, via: list[tuple[_Point, str, float]],
         raise InputError("limits: expected (velocity, acceleration, jerk), "
                          "found None, and the scene has none")
     return _native.MotionWishes(
-        motion_limits(known, of_norm), via, real(duration, "duration"),
+        motion_limits(known, of_norm),
+        scene.via if via is None else places_on_the_way(via, tolerance, dwell),
+        real(scene.duration if duration is None else duration, "duration"),
         length(margin, "margin"), text(preset, "preset"),
         seconds(max_seconds, "max_seconds"), flag(require, "require"),
-        whole_number(routes, "routes", 0, 8), of_norm, departure, arrival)
+        whole_number(routes, "routes", 0, 8), of_norm,
+        scene.departure if departure is None
+        else motion_end(departure, "departure"),
+        scene.arrival if arrival is None else motion_end(arrival, "arrival"))

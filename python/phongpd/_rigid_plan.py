@@ -9,7 +9,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _native
-from ._arguments import Floats, flag, numbers, real, scene_name, whole_number
+from ._arguments import Floats, flag, numbers, real, scene_name, \
+    seed_number, whole_number
 from ._native import InputError
 from ._plots import plot_poses
 from ._rigid import RigidClearance, _meshes, _pose
@@ -57,7 +58,6 @@ class RigidPlan(Shown):
         matplotlib, which has to be there; None: of a new figure.  Returns
         them."""
         return plot_poses(axes, self.poses)
-
 
     def _draw(self, canvas: Canvas, name: str | None) -> None:
         self.world._draw(canvas, None)
@@ -168,7 +168,7 @@ class RigidWorld(Shown):
         out."""
         return RigidPlan(*self._answer(self._native.plan(
             *self._task(start, goal, bounds, time_limit),
-            whole_number(seed, "seed", 0, 2 ** 64 - 1))))
+            seed_number(seed))))
 
     def optimize(self, start: ArrayLike | None = None,
                  goal: ArrayLike | None = None, *,
@@ -190,7 +190,7 @@ class RigidWorld(Shown):
         (answer, solver, confirmed, planned_length, rounds, iterations,
          added) = self._native.optimize(
             *self._task(start, goal, bounds, time_limit),
-            whole_number(seed, "seed", 0, 2 ** 64 - 1), start_from,
+            seed_number(seed), start_from,
             whole_number(knots, "knots", 0), real(margin, "margin"),
             real(start_noise, "start_noise"), flag(tracked, "tracked"))
         return RigidOptimum(*self._answer(answer), solver, confirmed,

@@ -7,14 +7,14 @@ from numpy.typing import ArrayLike
 from . import _native
 from ._answers import Plan
 from ._arguments import point
-from ._world import World, native_world
+from ._room import Room, native_world
 
 
 class Roadmap:
     """ContactSurfacePlanner for many queries: as complete, and with the same
     proofs.  Thread-safe."""
 
-    def __init__(self, world: World) -> None:
+    def __init__(self, world: Room) -> None:
         self._native = _native.Roadmap(native_world(world))
         self._world = world
 

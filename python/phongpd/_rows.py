@@ -10,7 +10,8 @@ from . import _native
 from ._arguments import Floats, length, numbers, point, real, text, \
     whole_number
 from ._native import InputError
-from ._world import World, native_world
+from ._room import native_world
+from ._world import World
 
 
 class NonPenetrationRows:

@@ -1,154 +1,28 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 from __future__ import annotations
 
-import os
 import warnings
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any, Tuple
+from typing import Any
 
-import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
-from . import _native
-from ._answers import Diagnosis, Plan, Trajectory
-from ._arguments import Floats, flag, length, motion_end, places_on_the_way, \
-    point, real, rows, scene_name, seconds, text, whole_number
-from ._contact import ContactSpace
+from ._answers import Plan, Trajectory, plan_of, trajectory_of
+from ._arguments import flag, length, point, real, rows, seconds, seed_number, \
+    text, whole_number
 from ._motion import Motion, motion_of, moving_of, wishes_of
 from ._native import InputError
-from ._solid import Solid, as_solid
-from ._view import Canvas, Shown
-
-if TYPE_CHECKING:
-    from ._roadmap import Roadmap
-
-_MOST_SEED = 2 ** 64 - 1
-_Point = Tuple[float, float, float]
+from ._roadmap import Roadmap
+from ._room import Room
 
 
-class World(Shown):
+class World(Room):
     """A robot that translates among obstacles, perhaps within bounds.
 
     Contact spaces are built when something asks for them, once, and kept;
     moving start and goal builds nothing.  Safe to use from several threads;
     optimisations and plans of one world wait for each other.
     """
-
-    def __init__(self, robot: Any, obstacles: Any, *,
-                 bounds: ArrayLike | None = None, name: str = "world",
-                 cache: bool = False, max_mib: float = 0.0) -> None:
-        """robot: Solid, file or mesh.  obstacles: one, or a dict of them by
-        name.  bounds: (2, 3), least and greatest position of the robot; None:
-        none.  cache: keep contact spaces in the user's cache folder.
-        max_mib: of a build, as ContactSpace.build has it."""
-        if not isinstance(obstacles, Mapping):
-            obstacles = {"obstacle": obstacles}
-        named = [(str(key), as_solid(value, str(key))._native)
-                 for key, value in obstacles.items()]
-        box = None
-        if bounds is not None:
-            corners = rows(bounds, "bounds", 3)
-            if len(corners) != 2:
-                raise InputError(
-                    f"bounds: expected shape (2, 3), found {corners.shape}")
-            box = (point(corners[0], "bounds"), point(corners[1], "bounds"))
-        self._open(_native.Scene.make(as_solid(robot, "robot")._native, named,
-                                      box, text(name, "name")), cache, max_mib)
-
-        self._has_ends = False
-
-    def _open(self, scene: Any, cache: bool, max_mib: float) -> None:
-        self._native = _native.World(scene, flag(cache, "cache"),
-                                     real(max_mib, "max_mib", "MiB"))
-
-    @classmethod
-    def load(cls, scene: str | os.PathLike[str], *, seed: int | None = None,
-             cache: bool = False, max_mib: float = 0.0) -> World:
-        """Of a scene file, or of a family with knobs as the command line takes
-        them: "u_axis", "plate:thickness=0.02"; seed: of a family; the rest as
-        above."""
-        world = cls.__new__(cls)
-        if seed is not None:
-            seed = whole_number(seed, "seed", 0, _MOST_SEED)
-        world._open(_native.Scene.load(scene_name(scene), seed), cache,
-                    max_mib)
-        world._has_ends = True
-        return world
-
-    @property
-    def name(self) -> str:
-        return self._native.scene.name
-
-    @property
-    def unit(self) -> str:
-        """What the unit is called in the scene file it was loaded from, "mm";
-        "": it has no name."""
-        return self._native.scene.unit
-
-    @property
-    def robot(self) -> Solid:
-        return Solid._of(self._native.scene.robot)
-
-    @property
-    def obstacles(self) -> list[Solid]:
-        return [Solid._of(solid) for solid in self._native.scene.obstacles]
-
-    @property
-    def bounds(self) -> Floats | None:
-        """(2, 3), or None."""
-        return self._native.scene.bounds
-
-    @property
-    def start(self) -> Floats:
-        """Of the scene it was loaded from."""
-        return self._native.scene.start
-
-    @property
-    def goal(self) -> Floats:
-        return self._native.scene.goal
-
-    @property
-    def length(self) -> float:
-        """D, that shares refer to: the diagonal of what the obstacles' contact
-        space takes up; user's unit."""
-        return self._native.length
-
-    @property
-    def warnings(self) -> list[str]:
-        return self._native.scene.warnings
-
-    def diagnose(self, q: ArrayLike) -> Diagnosis:
-        """Exact, on the solids; builds nothing."""
-        return Diagnosis(**self._native.diagnose(point(q, "q")))
-
-    def contact_spaces(self) -> list[ContactSpace]:
-        """That of all obstacles together; none where none can be touched
-        within the bounds."""
-        return [ContactSpace(space) for space in self._native.contact_spaces()]
-
-    def is_free(self, points: ArrayLike) -> NDArray[np.bool_]:
-        """(N,): does the robot touch nothing there?  Exact."""
-        places = rows(points, "points", 3)
-        return self._native.are_free(places, places).view(np.bool_)
-
-    def is_motion_free(self, a: ArrayLike, b: ArrayLike) -> NDArray[np.bool_]:
-        """(N,): is every point of the straight motion a[i] -> b[i] free?
-        Exact, without sampling."""
-        begins, ends = rows(a, "a", 3), rows(b, "b", 3)
-        if len(begins) != len(ends):
-            raise InputError(f"b: expected {len(begins)} rows as in a, "
-                             f"found {len(ends)}")
-        return self._native.are_free(begins, ends).view(np.bool_)
-
-    def clearance(self, points: ArrayLike) -> Floats:
-        """(N,): distance to contact and bounds; 0 where not free."""
-        return self._native.clearances(rows(points, "points", 3))
-
-    @property
-    def limits(self) -> Floats | None:
-        """(3, 3): of velocity, acceleration and jerk, by x, y and z, where the
-        scene it was loaded from has them."""
-        return self._native.scene.limits
 
     def optimize(self, start: ArrayLike | None = None,
                  goal: ArrayLike | None = None, *, limits: Any = None,
@@ -209,30 +83,29 @@ class World(Shown):
             _require_none("a motion in time; limits=\"none\" asks for a path",
                           metric=metric != "", waypoints=waypoints != 0,
                           straight=straight is not False, seed=seed != 1)
-            return self._motion(ends, limits, margin, require, preset, model,
-                                routes, max_seconds, via, tolerance, dwell,
-                                duration, by_norm, departure, arrival, moving)
+            wishes = wishes_of(
+                self._native.scene, limits=limits, margin=margin,
+                require=require, preset=preset, routes=routes,
+                max_seconds=max_seconds, by_norm=by_norm, via=via,
+                tolerance=tolerance, dwell=dwell, duration=duration,
+                departure=departure, arrival=arrival)
+            return motion_of(self._native.optimize_in_time(
+                *ends, text(model, "model"), wishes, moving_of(moving)), self)
         _require_none("a path without limits", via=via is not None,
                       tolerance=tolerance is not None,
                       dwell=not _is_zero(dwell), duration=duration is not None,
                       by_norm=by_norm is not False,
                       departure=departure is not None,
                       arrival=arrival is not None, moving=moving is not None)
-        row = self._native.optimize(
+        return trajectory_of(self._native.optimize(
             *ends, metric=text(metric, "metric"),
             margin=length(margin, "margin"),
             waypoints=whole_number(waypoints, "waypoints", 0),
-            seed=whole_number(seed, "seed", 0, _MOST_SEED),
+            seed=seed_number(seed),
             max_seconds=seconds(max_seconds, "max_seconds"),
             straight=flag(straight, "straight"), preset=text(preset, "preset"),
             model=text(model, "model"), require=flag(require, "require"),
-            routes=whole_number(routes, "routes", 0, 8))
-        return Trajectory(
-            status=row["status_class"], reason=row["reason"],
-            free=row["collision_free"], path=_path(row),
-            objective=row["objective"], clearance=row["clearance"],
-            iterations=row["iterations"], seconds=row["seconds"]["total"],
-            row=row, world=self)
+            routes=whole_number(routes, "routes", 0, 8)), self)
 
     def optimize_in_time(self, start: ArrayLike | None = None,
                          goal: ArrayLike | None = None, *, limits: Any = None,
@@ -247,24 +120,6 @@ class World(Shown):
         if not isinstance(found, Motion):
             raise InputError(f"limits: expected numbers, found {limits!r}")
         return found
-
-    def _motion(self, ends: tuple[_Point, _Point], limits: Any, margin: Any,
-                require: Any, preset: Any, model: Any, routes: Any,
-                max_seconds: Any, via: Any, tolerance: Any, dwell: Any,
-                duration: Any, by_norm: Any, departure: Any,
-                arrival: Any, moving: Any) -> Motion:
-        scene = self._native.scene
-        wishes = wishes_of(
-            scene, limits, scene.via if via is None
-            else places_on_the_way(via, tolerance, dwell),
-            scene.duration if duration is None else duration,
-            margin, max_seconds, preset, require, routes, by_norm,
-            scene.departure if departure is None
-            else motion_end(departure, "departure"),
-            scene.arrival if arrival is None
-            else motion_end(arrival, "arrival"))
-        return motion_of(self._native.optimize_in_time(
-            *ends, text(model, "model"), wishes, moving_of(moving)), self)
 
     def retime(self, path: ArrayLike, *, limits: Any = None,
                via: ArrayLike | None = None, tolerance: Any = None,
@@ -282,11 +137,14 @@ class World(Shown):
         if len(points) < 2:
             raise InputError("path: expected two points at least, found "
                              f"{len(points)}")
+        rest = (0.0, 0.0, 0.0)
         wishes = wishes_of(
-            self._native.scene, limits, [] if via is None
-            else places_on_the_way(via, tolerance, dwell),
-            duration, margin, max_seconds, preset, require, 0, by_norm,
-            motion_end(departure, "departure"), motion_end(arrival, "arrival"))
+            self._native.scene, limits=limits, margin=margin, require=require,
+            preset=preset, routes=0, max_seconds=max_seconds, by_norm=by_norm,
+            via=[] if via is None else via, tolerance=tolerance, dwell=dwell,
+            duration=real(duration, "duration"),
+            departure=rest if departure is None else departure,
+            arrival=rest if arrival is None else arrival)
         return motion_of(self._native.retime(points, wishes), self)
 
     def plan(self, start: ArrayLike | None = None,
@@ -309,63 +167,19 @@ class World(Shown):
         whole; "": the scene's.
         """
         ends = self._ends(start, goal)
-        row = self._native.plan(
+        return plan_of(self._native.plan(
             *ends, planner=text(planner, "planner"),
             retraction=text(retraction, "retraction"),
             clearance=length(clearance, "clearance"),
             max_seconds=seconds(max_seconds, "max_seconds"),
-            seed=whole_number(seed, "seed", 0, _MOST_SEED),
-            preset=text(preset, "preset"), model=text(model, "model"),
-            require=flag(require, "require"))
-        return Plan(
-            status=row["status"], reason=row["reason"], solved=row["solved"],
-            infeasible=row["infeasible_proved"], path=_path(row),
-            length=row["path_length"], clearance=row["clearance"],
-            seconds=row["seconds"]["solve"], row=row, world=self,
-            ends=np.array(ends))
+            seed=seed_number(seed), preset=text(preset, "preset"),
+            model=text(model, "model"), require=flag(require, "require")),
+            self, ends)
 
     def roadmap(self) -> Roadmap:
         """For many queries; building it costs what ten to three hundred calls
         of plan do."""
-        from ._roadmap import Roadmap
         return Roadmap(self)
-
-    def _ends(self, start: ArrayLike | None,
-              goal: ArrayLike | None) -> tuple[_Point, _Point]:
-        return (self._end(start, "start", self.start),
-                self._end(goal, "goal", self.goal))
-
-    def _end(self, given: ArrayLike | None, name: str,
-             of_scene: Floats) -> _Point:
-        if given is None and not self._has_ends:
-            raise InputError(f"{name}: expected three finite numbers, found "
-                             "None, and the world was not loaded with one")
-        return point(of_scene if given is None else given, name)
-
-    def _draw(self, canvas: Canvas, name: str | None) -> None:
-        if not canvas.is_new(self):
-            return
-        for obstacle in self.obstacles:
-            canvas.mesh(obstacle.name, "obstacle", obstacle)
-        canvas.robot(self.robot)
-        canvas.is_free = self.is_motion_free
-        if self.unit:
-            canvas.unit(self.unit)
-        if self._has_ends:
-            canvas.ends(self.start, self.goal)
-
-    def _facts(self) -> dict[str, Any]:
-        return {"world": self.name, "obstacles": len(self.obstacles),
-                "D": self.length, "warnings": "; ".join(self.warnings)}
-
-    def __repr__(self) -> str:
-        return f"<World {self.name!r}: D {self.length:g}>"
-
-
-def native_world(world: World) -> _native.World:
-    if isinstance(world, World):
-        return world._native
-    raise InputError(f"world: expected a World, found {type(world).__name__}")
 
 
 def _require_none(subject: str, **given: bool) -> None:
@@ -376,7 +190,3 @@ def _require_none(subject: str, **given: bool) -> None:
 
 def _is_zero(value: Any) -> bool:
     return isinstance(value, (int, float)) and value == 0
-
-
-def _path(row: dict[str, Any]) -> Floats:
-    return np.asarray(row["path"], dtype=np.float64).reshape(-1, 3)

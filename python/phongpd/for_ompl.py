@@ -23,6 +23,7 @@ from ompl import base, geometric
 
 from ._arguments import Floats, point
 from ._native import InputError
+from ._room import as_room
 from ._world import World
 
 
@@ -31,7 +32,7 @@ class ExactValidityChecker(base.StateValidityChecker):  # type: ignore[misc]
 
     def __init__(self, information: Any, world: World) -> None:
         super().__init__(information)
-        self._world = _checked(world)
+        self._world = as_room(world)
 
     def isValid(self, state: Any) -> bool:
         return bool(self._world.is_free(_position(state))[0])
@@ -46,7 +47,7 @@ class ExactMotionValidator(base.MotionValidator):  # type: ignore[misc]
 
     def __init__(self, information: Any, world: World) -> None:
         super().__init__(information)
-        self._world = _checked(world)
+        self._world = as_room(world)
 
     def checkMotion(self, a: Any, b: Any) -> bool:
         return bool(
@@ -56,7 +57,7 @@ class ExactMotionValidator(base.MotionValidator):  # type: ignore[misc]
 def simple_setup(world: World) -> Any:
     """An ompl.geometric.SimpleSetup of a world with bounds, with both checks
     above in place.  Builds the contact space, if that is not there."""
-    bounds = _checked(world).bounds
+    bounds = as_room(world).bounds
     if bounds is None:
         raise InputError("world: expected bounds, which OMPL samples in, "
                          "found none; give World(..., bounds=)")
@@ -90,9 +91,3 @@ def path_of(path: Any) -> Floats:
 
 def _position(state: Any) -> Floats:
     return np.array([[state[0], state[1], state[2]]])
-
-
-def _checked(world: World) -> World:
-    if isinstance(world, World):
-        return world
-    raise InputError(f"world: expected a World, found {type(world).__name__}")

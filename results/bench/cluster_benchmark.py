@@ -4,7 +4,6 @@
 Scheduler and workers are processes of their own, on loopback.
 """
 
-import argparse
 import asyncio
 import contextlib
 import logging
@@ -21,7 +20,7 @@ from cluster_report import TASKS_PER_WORKER, write_report
 from cluster_simulation import Costs, simulate
 from distributed import Client
 from distributed.deploy.subprocess import SubprocessCluster
-from python_report import read_csv
+from python_report import parser_of, read_csv
 from phongpd.cluster import _run
 from phongpd.cluster._jobs import Job
 
@@ -165,11 +164,7 @@ def tables(folder, parts):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--output", type=Path, required=True,
-                        help="folder for README.md and the tables")
-    parser.add_argument("--how", default="results/bench/cluster_benchmark.py",
-                        help="the command that README.md names")
+    parser = parser_of(__doc__, "cluster_benchmark.py")
     parser.add_argument("--measure", nargs="*", default=PARTS, choices=PARTS,
                         help="what to measure; the others are the tables in the "
                         "folder, but for what is simulated with them")

@@ -3,7 +3,6 @@
 // and a union of hulls on the same inputs in one run, growth with the
 // obstacle, one thread against all, and the checks of random pairs.  Writes
 // CSV into a directory, of which contact_space_report.py makes the pages.
-#include <CLI/CLI.hpp>
 #include <iostream>
 #include <thread>
 
@@ -14,7 +13,6 @@ namespace phongpd::bench {
 namespace {
 
 struct Options {
-  std::string output;
   std::string only;
   int builds = 5;
   double limit = 60.0;
@@ -69,11 +67,12 @@ std::vector<FuzzCount> CheckAllPairs(const Options& options) {
   return results;
 }
 
-int Run(int argc, char** argv) {
-  CLI::App app("Contact spaces: time, memory, competitors, random pairs.");
+}  // namespace
+
+int Run(Program* program) {
+  CLI::App& app = program->WithOutput(
+      "Contact spaces: time, memory, competitors, random pairs.");
   Options options;
-  app.add_option("--output", options.output, "Directory to write into")
-      ->required();
   app.add_option("--only", options.only, "Measure one part only")
       ->check(CLI::IsMember({"builds", "growth", "pairs"}));
   app.add_option("--builds", options.builds, "Of each pair, for the median")
@@ -91,7 +90,7 @@ int Run(int argc, char** argv) {
   app.add_option("--pair-limit", options.pair_limit, "Seconds a random pair")
       ->capture_default_str();
   app.add_option("--seed", options.seed)->capture_default_str();
-  CLI11_PARSE(app, argc, argv);
+  program->Parse();
 
   ContactSpaceResults results;
   results.limit = options.limit;
@@ -105,26 +104,11 @@ int Run(int argc, char** argv) {
   if (wanted("growth")) results.growth = MeasureGrowth(options);
   if (wanted("pairs")) results.fuzz = CheckAllPairs(options);
 
-  OutputDirectory out(options.output);
-  for (const NamedTable& named : ContactSpaceTables(results)) {
-    out.Write(named.file, ToCsv(named.table));
-  }
-  out.Write(
-      "measured.txt",
-      Circumstances(
-          "`" + CommandLine("build/contact_space_benchmark", argc, argv) + "`",
-          options.seed) +
-          "\n");
-  out.Commit();
+  program->Write(ContactSpaceTables(results));
+  program->Finish(options.seed, "measured.txt", "`" + program->Command() + "`");
   const int failed = FailedPairs(results);
   if (failed > 0) std::cerr << failed << " random pairs failed\n";
   return failed > 0 ? 1 : 0;
 }
 
-}  // namespace
 }  // namespace phongpd::bench
-
-int main(int argc, char** argv) {
-  return phongpd::bench::RunProgram("contact_space_benchmark",
-                                    phongpd::bench::Run, argc, argv);
-}

@@ -2,7 +2,6 @@
 // Purpose: continuity against what is possible.  Every jump of every metric on
 // held motions, of which kind it is, and the least number of jumps that any
 // rule could have on the same motions.  Writes CSV, SVG and continuity.md.
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <iostream>
 #include <iterator>
@@ -177,18 +176,19 @@ std::vector<Row> Grouped(const std::vector<Row>& totals,
   return grouped;
 }
 
-int Run(int argc, char** argv) {
-  CLI::App app("Continuity against what is possible.");
+}  // namespace
+
+int Run(Program* program) {
+  CLI::App& app = program->WithOutput("Continuity against what is possible.");
   ContinuityOptions options;
-  std::string directory, folder;
-  app.add_option("--output", directory, "Directory to write into")->required();
+  std::string folder;
   app.add_option("--models", folder,
                  "Folder of models (scripts/models.sh); if not set, without");
   app.add_option("--motions", options.motions, "Of each kind, a space")
       ->capture_default_str();
   app.add_option("--frames", options.frames)->capture_default_str();
   app.add_option("--seed", options.seed)->capture_default_str();
-  CLI11_PARSE(app, argc, argv);
+  program->Parse();
   RequireGnuplot();
   const std::vector<MotionSpace> procedural = MotionSpaces();
   std::vector<std::string> missing;
@@ -206,10 +206,9 @@ int Run(int argc, char** argv) {
   const std::vector<Row> totals = TotalsOf(rows, "all", "all");
   Table shown = RowTable(Grouped(totals, rows, first_of_models));
   shown.title = "Contact spaces together, all but the hollow box";
-  OutputDirectory out(directory);
-  out.Write("continuity.csv", ToCsv(RowTable(rows)));
-  out.Write("continuity.svg", Draw(totals));
-  out.Write(
+  program->Write("continuity.csv", ToCsv(RowTable(rows)));
+  program->Write("continuity.svg", Draw(totals));
+  program->Write(
       "continuity.md",
       kIntroduction + Contents(procedural, models, missing) + Findings(totals) +
           OnAllSpaces(rows) +
@@ -218,18 +217,10 @@ int Run(int argc, char** argv) {
           ToMarkdown(shown) +
           "\nSpace by space, the hollow box with them: "
           "[continuity.csv](continuity.csv)\n\n" +
-          Circumstances(CommandLine("build/continuity_benchmark", argc, argv),
-                        options.seed) +
-          "\n");
-  out.Commit();
+          program->Circumstances(options.seed) + "\n");
+  program->Commit();
   std::cout << ToText(shown);
   return 0;
 }
 
-}  // namespace
 }  // namespace phongpd::bench
-
-int main(int argc, char** argv) {
-  return phongpd::bench::RunProgram("continuity_benchmark", phongpd::bench::Run,
-                                    argc, argv);
-}

@@ -2,7 +2,6 @@
 // Purpose: what smoothing costs in depth on the scenes of the convergence
 // study; its runs are those of `phongpd compare`, its report is
 // convergence_report.py.
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 #include <iostream>
@@ -110,37 +109,25 @@ Table ExcessTable(const std::vector<DepthExcess>& excess) {
                    });
 }
 
-int Run(int argc, char** argv) {
-  CLI::App app("What smoothing costs in depth: excess.csv.");
-  std::string directory, how;
+}  // namespace
+
+int Run(Program* program) {
+  CLI::App& app =
+      program->WithOutput("What smoothing costs in depth: excess.csv.");
+  std::string how;
   std::vector<std::string> scenes;
   int points = 2000;
   std::uint64_t seed = 1;
   app.add_option("--scenes", scenes, "As phongpd compare takes them")
       ->required();
-  app.add_option("--output", directory, "Directory to write into")->required();
   app.add_option("--points", points)->capture_default_str();
   app.add_option("--seed", seed)->capture_default_str();
   app.add_option("--how", how, "The command that runs this");
-  CLI11_PARSE(app, argc, argv);
+  program->Parse();
   const std::vector<DepthExcess> excess = MeasureAll(scenes, points, seed);
-  OutputDirectory out(directory);
-  out.Write("excess.csv", ToCsv(ExcessTable(excess)));
-  out.Write(
-      "measured.txt",
-      Circumstances(how.empty()
-                        ? CommandLine("build/convergence_benchmark", argc, argv)
-                        : how,
-                    seed) +
-          "\n");
-  out.Commit();
+  program->Write("excess.csv", ToCsv(ExcessTable(excess)));
+  program->Finish(seed, "measured.txt", how);
   return 0;
 }
 
-}  // namespace
 }  // namespace phongpd::bench
-
-int main(int argc, char** argv) {
-  return phongpd::bench::RunProgram("convergence_benchmark",
-                                    phongpd::bench::Run, argc, argv);
-}

@@ -7,8 +7,9 @@ from bisect import bisect_right
 from convergence_duels import COLUMNS, NOTE, Arena, correct
 from convergence_study import (GROUPS, PRESET, PROTOCOLS, RIVAL, Study, belongs,
                                solved_text)
-from python_report import (Figure, Table, parse_folder, read_measured, read_table,
-                           rounded, tables_and_figures, verdict, write_report)
+from python_report import (Figure, Table, line, parse_folder, read_measured,
+                           read_table, rounded, tables_and_figures,
+                           write_report)
 from report_statistics import median
 from step_figure import BASELINE, MAIN, Curve, step_figure
 
@@ -179,10 +180,6 @@ def figures(study):
         profile(study, protocol, column, axis), name != "iterations")
         for protocol in PROFILED if len(study.methods(protocol)) > 1
         for name, column, axis, words in MEASURES]
-
-
-def line(what, found, met):
-    return f"- {what}: {found}{verdict(met)}"
 
 
 def straight_targets(study):

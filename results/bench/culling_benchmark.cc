@@ -5,7 +5,6 @@
 // which lazy_report.py makes culling.md.
 #include <tbb/global_control.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
 #include <iostream>
@@ -23,7 +22,6 @@ using internal::Culling;
 using internal::CullingReport;
 
 struct Options {
-  std::string directory;
   int repeats = 3;
 };
 
@@ -91,15 +89,16 @@ NamedTable TableOf(const std::vector<Row>& rows) {
                 })};
 }
 
-int Run(int argc, char** argv) {
-  CLI::App app("Builds with and without culling: a table.");
+}  // namespace
+
+int Run(Program* program) {
+  CLI::App& app =
+      program->WithOutput("Builds with and without culling: a table.");
   Options options;
-  app.add_option("--output", options.directory, "Directory to write into")
-      ->required();
   app.add_option("--repeats", options.repeats)
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
-  CLI11_PARSE(app, argc, argv);
+  program->Parse();
   const tbb::global_control one(tbb::global_control::max_allowed_parallelism,
                                 1);
   std::vector<HiddenPair> pairs = HiddenPairs(2);
@@ -113,21 +112,9 @@ int Run(int argc, char** argv) {
     rows.push_back(Measure(pair, options.repeats));
     std::cout << ToText(TableOf({rows.back()}).table) << std::endl;
   }
-  OutputDirectory out(options.directory);
-  const NamedTable table = TableOf(rows);
-  out.Write(table.file, ToCsv(table.table));
-  out.Write(
-      "culling_measured.txt",
-      Circumstances(CommandLine("build/culling_benchmark", argc, argv), 1) +
-          "\n");
-  out.Commit();
+  program->Write({TableOf(rows)});
+  program->Finish(1, "culling_measured.txt");
   return 0;
 }
 
-}  // namespace
 }  // namespace phongpd::bench
-
-int main(int argc, char** argv) {
-  return phongpd::bench::RunProgram("culling_benchmark", phongpd::bench::Run,
-                                    argc, argv);
-}

@@ -3,7 +3,6 @@
 // a sample and its second start against their challengers, instance by instance
 // in one process: processor time, and the length or energy of what is found.
 // Writes defaults.csv, of which defaults_report.py makes tests and defaults.md.
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -64,9 +63,9 @@ void Race(const Solve& incumbent, const Solve& challenger, Contest* contest) {
   Outcome best[2];
   for (int turn = 0; turn < 2; ++turn) {
     for (const int which : {0, 1}) {
-      const double begin = ProcessorSeconds();
+      const double begin = CpuSeconds();
       Outcome outcome = which == 0 ? incumbent() : challenger();
-      outcome.seconds = ProcessorSeconds() - begin;
+      outcome.seconds = CpuSeconds() - begin;
       if (turn > 0) {
         outcome.seconds = std::min(outcome.seconds, best[which].seconds);
       }
@@ -193,22 +192,22 @@ Table ContestTable(const std::vector<Contest>& contests) {
       });
 }
 
-int Run(int argc, char** argv) {
-  CLI::App app("Defaults against their challengers.");
-  std::string directory;
+}  // namespace
+
+int Run(Program* program) {
+  CLI::App& app = program->WithOutput("Defaults against their challengers.");
   std::vector<std::string> scenes;
   double incumbent = 0.05;
   std::vector<double> challengers = {0.1, 0.2};
   int seeds = 5;
   std::uint64_t seed = 101;
-  app.add_option("--output", directory, "Directory to write into")->required();
   app.add_option("--scenes", scenes, "Of the convergence study")->required();
   app.add_option("--spacing", incumbent, "The planner's default")
       ->capture_default_str();
   app.add_option("--challengers", challengers)->capture_default_str();
   app.add_option("--seeds", seeds, "A scene")->capture_default_str();
   app.add_option("--seed", seed)->capture_default_str();
-  CLI11_PARSE(app, argc, argv);
+  program->Parse();
   std::vector<Contest> contests =
       ContestSpacing(PlanScenes(scenes, seed, seeds), incumbent, challengers);
   contests.push_back(ContestOptimize(
@@ -218,21 +217,10 @@ int Run(int argc, char** argv) {
       "also_line", "the repaired start alone",
       [](PipelineOptions* o) { o->also_line = false; }, scenes, seed, seeds));
   const Table table = ContestTable(contests);
-  OutputDirectory out(directory);
-  out.Write("defaults.csv", ToCsv(table));
-  out.Write(
-      "defaults_measured.txt",
-      Circumstances(CommandLine("build/defaults_benchmark", argc, argv), seed) +
-          "\n");
-  out.Commit();
+  program->Write("defaults.csv", ToCsv(table));
+  program->Finish(seed, "defaults_measured.txt");
   std::cout << ToText(table);
   return 0;
 }
 
-}  // namespace
 }  // namespace phongpd::bench
-
-int main(int argc, char** argv) {
-  return phongpd::bench::RunProgram("defaults_benchmark", phongpd::bench::Run,
-                                    argc, argv);
-}

@@ -3,7 +3,6 @@
 // with the default metric, and to its answers: error, refusals and time, of
 // boxes in a general position, whose distance is a closed form.  Writes CSV
 // into a directory, of which degradation_report.py makes a page.
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 #include <random>
@@ -15,7 +14,6 @@
 #include "problems/shapes/random_solids.h"
 #include "problems/shapes/shapes.h"
 #include "results/bench/free_space_measure.h"
-#include "results/bench/output_directory.h"
 #include "results/bench/program.h"
 #include "results/bench/report.h"
 
@@ -187,12 +185,12 @@ std::vector<Setting> Settings() {
   return all;
 }
 
-int Run(int argc, char** argv) {
-  CLI::App app("What extremes do to rows and answers of the optimiser: rows.");
-  std::string directory;
-  app.add_option("--output", directory, "Directory to write into")->required();
-  CLI11_PARSE(app, argc, argv);
-  OutputDirectory out(directory);
+}  // namespace
+
+int Run(Program* program) {
+  CLI::App& app = program->WithOutput(
+      "What extremes do to rows and answers of the optimiser: rows.");
+  program->Parse();
   SilenceOmpl();
   std::vector<Row> rows;
   double expected = 0.0;  // of the plain setting, which comes first
@@ -211,19 +209,9 @@ int Run(int argc, char** argv) {
         add(r.setting.axis, r.setting.value, r.subject, r.triangles, r.cases,
             r.answers, r.refusals, r.wrong, r.worst, r.seconds, r.refusal);
       });
-  out.Write("degradation.csv", ToCsv(table));
-  out.Write(
-      "degradation_measured.txt",
-      Circumstances(CommandLine("build/degradation_benchmark", argc, argv), 1) +
-          "\n");
-  out.Commit();
+  program->Write("degradation.csv", ToCsv(table));
+  program->Finish(1, "degradation_measured.txt");
   return 0;
 }
 
-}  // namespace
 }  // namespace phongpd::bench
-
-int main(int argc, char** argv) {
-  return phongpd::bench::RunProgram("degradation_benchmark",
-                                    phongpd::bench::Run, argc, argv);
-}

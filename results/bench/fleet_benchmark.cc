@@ -5,7 +5,6 @@
 // fleet_report.py makes README.md.
 #include <tbb/global_control.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 #include <iostream>
@@ -26,7 +25,6 @@ using Ends = std::vector<std::pair<Vector3d, Vector3d>>;
 constexpr int kTimes = 10'000;
 
 struct Options {
-  std::string directory;
   int seeds = 10;
   int large_seeds = 5;  // of sixteen robots
   std::uint64_t first_seed = 101;
@@ -166,18 +164,19 @@ NamedTable TableOf(const std::vector<Row>& rows) {
               })};
 }
 
-int Run(int argc, char** argv) {
-  CLI::App app("Several robots at once: when have all arrived?  A table.");
+}  // namespace
+
+int Run(Program* program) {
+  CLI::App& app = program->WithOutput(
+      "Several robots at once: when have all arrived?  A table.");
   Options options;
-  app.add_option("--output", options.directory, "Directory to write into")
-      ->required();
   app.add_option("--seeds", options.seeds)
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
   app.add_option("--large-seeds", options.large_seeds, "Of sixteen robots")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
-  CLI11_PARSE(app, argc, argv);
+  program->Parse();
   const tbb::global_control one(tbb::global_control::max_allowed_parallelism,
                                 1);
   std::vector<Row> rows;
@@ -192,21 +191,9 @@ int Run(int argc, char** argv) {
       }
     }
   }
-  OutputDirectory out(options.directory);
-  const NamedTable table = TableOf(rows);
-  out.Write(table.file, ToCsv(table.table));
-  out.Write("measured.txt",
-            Circumstances(CommandLine("build/fleet_benchmark", argc, argv),
-                          options.first_seed) +
-                "\n");
-  out.Commit();
+  program->Write({TableOf(rows)});
+  program->Finish(options.first_seed);
   return 0;
 }
 
-}  // namespace
 }  // namespace phongpd::bench
-
-int main(int argc, char** argv) {
-  return phongpd::bench::RunProgram("fleet_benchmark", phongpd::bench::Run,
-                                    argc, argv);
-}

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ctime>
 #include <random>
 #include <utility>
 
@@ -66,13 +65,6 @@ double WorstClearance(const FreeSpace& found, const FreeSpace& truth,
 }
 
 }  // namespace
-
-double CpuSeconds() {
-  timespec now;
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) +
-         1e-9 * static_cast<double>(now.tv_nsec);
-}
 
 double MedianCpuSeconds(const std::function<void()>& work) {
   constexpr int kRuns = 5;

@@ -13,9 +13,7 @@
 // Free space from the convolution alone beside the whole contact space.
 namespace phongpd::bench {
 
-// CPU time of the whole process, seconds: what a busy machine does not change.
-double CpuSeconds();
-// The median of five runs.
+// The median CPU time of five runs.
 double MedianCpuSeconds(const std::function<void()>& work);
 
 struct FreeSpaceRow {

@@ -6,6 +6,8 @@ import json
 import time
 from pathlib import Path
 
+from python_report import parser_of, told
+
 
 def read(path):
     """What was there; a last line that was cut off is dropped, from the file
@@ -38,27 +40,24 @@ def fill(path, wanted, measure, deadline=None, clock=None):
                 row = measure(one)
             except Exception as error:
                 row = {"key": one.key, "scene": one.scene, "pair": one.pair,
-                       "error": f"{type(error).__name__}: "
-                       + " ".join(str(error).split())[:300]}
+                       "error": told(error, 300)}
             file.write(json.dumps(row) + "\n")
             file.flush()
     return read(path)
 
 
-def add_options(parser, program, parts):
-    """Those that every such program has."""
-    parser.add_argument("--output", type=Path, required=True,
-                        help="folder for README.md and the tables")
+def parser_for(doc, program, parts):
+    """The options that every such program has."""
+    parser = parser_of(doc, program)
     parser.add_argument("--rows", type=Path, required=True,
                         help="folder of rows; those that are there stay")
     parser.add_argument("--part", choices=[*parts, "report", "all"],
                         default="all")
     parser.add_argument("--minutes", type=float,
                         help="nothing new begins after so many")
-    parser.add_argument("--how", default=f"results/bench/{program}",
-                        help="the command that README.md names")
     parser.add_argument("--commit", default="unknown",
                         help="that PhongPD was built of, for README.md")
+    return parser
 
 
 def run_part(arguments, part, wanted, measure, deadline, what):

@@ -3,7 +3,6 @@
 // precomputed, and motion checks from the convolution alone, beside building
 // the whole and asking that, in one binary and one run.  Writes CSV into a
 // directory, of which lazy_report.py makes the pages.
-#include <CLI/CLI.hpp>
 #include <cmath>
 #include <iostream>
 #include <random>
@@ -26,7 +25,6 @@ namespace {
 
 using Eigen::Vector3d;
 struct Options {
-  std::string directory;
   int queries = 200;
   int segments = 20000;
   double max_seconds = 60.0;
@@ -120,11 +118,12 @@ NamedTable TableOf(const std::vector<CaseRow>& rows) {
               })};
 }
 
-int Run(int argc, char** argv) {
-  CLI::App app("Depth from windows of the contact space: rows.");
+}  // namespace
+
+int Run(Program* program) {
+  CLI::App& app =
+      program->WithOutput("Depth from windows of the contact space: rows.");
   Options options;
-  app.add_option("--output", options.directory, "Directory to write into")
-      ->required();
   app.add_option("--queries", options.queries)->capture_default_str();
   app.add_option("--segments", options.segments)->capture_default_str();
   app.add_option("--max-seconds", options.max_seconds,
@@ -134,8 +133,7 @@ int Run(int argc, char** argv) {
   app.add_option("--guard-pairs", options.guard_pairs,
                  "Pairs that predictions are held to")
       ->capture_default_str();
-  CLI11_PARSE(app, argc, argv);
-  OutputDirectory out(options.directory);
+  program->Parse();
   // In processes of their own, before this one starts threads.
   const std::vector<GuardRow> guard =
       MeasureGuard(options.guard_pairs, options.seed);
@@ -156,24 +154,12 @@ int Run(int argc, char** argv) {
     free_spaces.push_back(row.free_space);
     volumes.insert(volumes.end(), row.volumes.begin(), row.volumes.end());
   }
-  for (const NamedTable& named :
-       {TableOf(rows), WindowPhongTable(phong), FreeSpaceTable(free_spaces),
-        large, size, GuardVerdict(guard), BoxesVerdict(guard),
-        VolumeTable(volumes), GuardTable(guard)}) {
-    out.Write(named.file, ToCsv(named.table));
-  }
-  out.Write("measured.txt",
-            Circumstances(CommandLine("build/lazy_benchmark", argc, argv),
-                          options.seed) +
-                "\n");
-  out.Commit();
+  program->Write({TableOf(rows), WindowPhongTable(phong),
+                  FreeSpaceTable(free_spaces), large, size, GuardVerdict(guard),
+                  BoxesVerdict(guard), VolumeTable(volumes),
+                  GuardTable(guard)});
+  program->Finish(options.seed);
   return 0;
 }
 
-}  // namespace
 }  // namespace phongpd::bench
-
-int main(int argc, char** argv) {
-  return phongpd::bench::RunProgram("lazy_benchmark", phongpd::bench::Run, argc,
-                                    argv);
-}

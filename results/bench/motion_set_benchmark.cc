@@ -7,7 +7,6 @@
 #include <ompl/base/SpaceInformation.h>
 #include <ompl/base/spaces/RealVectorStateSpace.h>
 
-#include <CLI/CLI.hpp>
 #include <array>
 #include <functional>
 #include <iomanip>
@@ -241,16 +240,19 @@ Table TableOf(const std::vector<Judge>& judges, const Counts& counts,
   return table;
 }
 
-int Run(int argc, char** argv) {
-  CLI::App app("Exact motion checks against rational truth.");
-  std::string directory, stream_file;
+}  // namespace
+
+int Run(Program* program) {
+  CLI::App& app =
+      program->WithOutput("Exact motion checks against rational truth.");
+  std::string stream_file;
   long motions = 1000000;
   std::uint64_t seed = 1;
-  app.add_option("--output", directory, "Directory to write into");
+  app.get_option("--output")->required(false);
   app.add_option("--stream", stream_file, "Write the whole stream as CSV");
   app.add_option("--motions", motions)->capture_default_str();
   app.add_option("--seed", seed)->capture_default_str();
-  CLI11_PARSE(app, argc, argv);
+  program->Parse();
   SilenceOmpl();
 
   const std::vector<MotionScene> sources = MotionScenes();
@@ -279,33 +281,24 @@ int Run(int argc, char** argv) {
     hash.Add(motion, meets);
     if (i < kSample) sample += SampleRow(motion, source, meets);
     if (stream.is_open()) stream << SampleRow(motion, source, meets);
-    if (directory.empty()) continue;
+    if (!program->writes()) continue;
     AskJudges(judges, *scenes[at], source, motion, index, meets, &counts);
   }
   std::cout << "motion set v" << kMotionSetVersion << ", seed " << seed << ", "
             << motions << " motions, hash " << std::hex << hash.value()
             << std::dec << '\n';
-  if (directory.empty()) return 0;
+  if (!program->writes()) return 0;
 
   long wrong = 0;
   const Table table = TableOf(judges, counts, &wrong);
-  OutputDirectory out(directory);
-  out.Write("motion_set.csv", ToCsv(table));
-  out.Write("motion_set_sample.csv", sample);
-  out.Write(
-      "motion_set.md",
-      Description(motions, seed, hash.value(), sources) + '\n' +
-          Circumstances(CommandLine("build/motion_set", argc, argv), seed) +
-          '\n');
-  out.Commit();
+  program->Write("motion_set.csv", ToCsv(table));
+  program->Write("motion_set_sample.csv", sample);
+  program->Write("motion_set.md",
+                 Description(motions, seed, hash.value(), sources) + '\n' +
+                     program->Circumstances(seed) + '\n');
+  program->Commit();
   std::cout << ToText(table);
   return wrong == 0 ? 0 : 1;
 }
 
-}  // namespace
 }  // namespace phongpd::bench
-
-int main(int argc, char** argv) {
-  return phongpd::bench::RunProgram("motion_set", phongpd::bench::Run, argc,
-                                    argv);
-}

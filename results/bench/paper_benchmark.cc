@@ -2,7 +2,6 @@
 // Purpose: the paper's three benchmarks, PhongPD beside Euclidean PD on the
 // same contact spaces, in one binary and one run.  Writes CSV into a
 // directory, of which paper_report.py makes the pages.
-#include <CLI/CLI.hpp>
 #include <iostream>
 #include <string>
 #include <vector>
@@ -38,20 +37,19 @@ struct DrawnMotion {
   double jump_length;
 };
 
-int Run(int argc, char** argv) {
-  CLI::App app("The paper's three benchmarks: rows.");
-  std::string directory;
+}  // namespace
+
+int Run(Program* program) {
+  CLI::App& app = program->WithOutput("The paper's three benchmarks: rows.");
   PaperOptions options;
-  app.add_option("--output", directory, "Directory to write into")->required();
   app.add_option("--motions", options.motions)->capture_default_str();
   app.add_option("--frames", options.frames)->capture_default_str();
   app.add_option("--points", options.points)->capture_default_str();
   app.add_option("--seed", options.seed)->capture_default_str();
-  CLI11_PARSE(app, argc, argv);
+  program->Parse();
 
   std::vector<PaperResult> results;
   std::vector<DrawnMotion> drawn;
-  OutputDirectory out(directory);
   for (const PaperBenchmark& benchmark : PaperBenchmarks()) {
     std::cerr << benchmark.title << '\n';
     results.push_back(Measure(benchmark, options));
@@ -61,38 +59,27 @@ int Run(int argc, char** argv) {
       drawn.push_back({benchmark.name + "_" + motion.name,
                        benchmark.title + ": " + motion.summary,
                        options.jump * result.space->length()});
-      out.Write(drawn.back().name + ".csv", MotionCsv(result.traces[i]));
+      program->Write(drawn.back().name + ".csv", MotionCsv(result.traces[i]));
     }
   }
   const PaperMotion moment = PaperMoment();
   const PaperResult& wrench = results.back();
   drawn.push_back(
       {"moment", moment.summary, options.jump * wrench.space->length()});
-  out.Write("moment.csv", MotionCsv(TraceMoment(*wrench.space, moment.motion)));
-  out.Write(
+  program->Write("moment.csv",
+                 MotionCsv(TraceMoment(*wrench.space, moment.motion)));
+  program->Write(
       "moment_cut.csv",
       ToCsv(MomentCut(wrench.benchmark, wrench.space->mesh(), moment.motion)));
-  out.Write("motions.csv",
-            ToCsv(MakeTable({"motion", "summary", "jump"}, drawn,
-                            [](const DrawnMotion& m, const auto& add) {
-                              add(m.name, m.summary, Rounded(m.jump_length, 6));
-                            })));
-  for (const NamedTable& named : PaperTables(results, options)) {
-    out.Write(named.file, ToCsv(named.table));
-  }
-  out.Write("measured.txt",
-            Circumstances(
-                "`" + CommandLine("build/paper_benchmark", argc, argv) + "`",
-                options.seed) +
-                "\n");
-  out.Commit();
+  program->Write("motions.csv",
+                 ToCsv(MakeTable({"motion", "summary", "jump"}, drawn,
+                                 [](const DrawnMotion& m, const auto& add) {
+                                   add(m.name, m.summary,
+                                       Rounded(m.jump_length, 6));
+                                 })));
+  program->Write(PaperTables(results, options));
+  program->Finish(options.seed, "measured.txt", "`" + program->Command() + "`");
   return 0;
 }
 
-}  // namespace
 }  // namespace phongpd::bench
-
-int main(int argc, char** argv) {
-  return phongpd::bench::RunProgram("paper_benchmark", phongpd::bench::Run,
-                                    argc, argv);
-}

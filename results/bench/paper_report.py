@@ -2,14 +2,12 @@
 """README, tables and figures of results/paper, from the rows that paper_benchmark
 wrote into the folder; --page makes index.html, everything on one page, instead."""
 
-import argparse
 import html
 import math
 import re
-from pathlib import Path
 
 from paper_figures import moment_figure, motion_page
-from python_report import (Figure, Table, read_dicts, read_measured, read_table,
+from python_report import (Figure, Table, parser_of, read_dicts, read_measured, read_table,
                            rounded, setting, tables_and_figures, write_report)
 
 # What the rows call them, and people.
@@ -180,9 +178,7 @@ def page(tables, figures, measured):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--output", type=Path, required=True,
-                        help="folder of the rows, to write into")
+    parser = parser_of(__doc__)
     parser.add_argument("--page", action="store_true", help="Write index.html, too")
     flags = parser.parse_args()
     folder, measured = flags.output, read_measured(flags.output)

@@ -1,15 +1,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """PhongPD beside its peers in one run, each from its own wheel; see `--help`."""
 
-import argparse
 import importlib
-from pathlib import Path
 
 import peers_depth
 import peers_distance
 import peers_minkowski
 import peers_solvers
 from peers_report import write_report
+from python_report import parser_of, told
 
 SEED = 1
 # Import name, and the package it comes in.
@@ -26,18 +25,12 @@ def load_all():
             importlib.import_module(module)
             there.append(package)
         except Exception as error:
-            missing.append(f"{package} does not load: {type(error).__name__}: "
-                           + " ".join(str(error).split())[:200])
+            missing.append(f"{package} does not load: {told(error, 200)}")
     return there, missing
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--output", type=Path, required=True,
-                        help="folder for README.md and the tables")
-    parser.add_argument("--how", default="results/bench/peers_benchmark.py",
-                        help="the command that README.md names")
-    arguments = parser.parse_args()
+    arguments = parser_of(__doc__, "peers_benchmark.py").parse_args()
     packages, failures = load_all()
     depth, failed = peers_depth.run(SEED)
     failures += failed

@@ -8,6 +8,7 @@ import time
 import numpy as np
 import phongpd
 from peers_shapes import L, U, arrays, of_scene, solid_of, turned
+from python_report import told
 
 POSES = 100
 HEADER = ["pair", "by", "found overlapping, %", "answer / exact, median",
@@ -187,6 +188,5 @@ def run(seed):
                 ask = peer(robot, obstacle, is_convex).depth
                 rows.append(_row(pair, name, ask, poses, exact, query, first[-2]))
             except Exception as error:
-                failures.append(f"{name}, {pair}: {type(error).__name__}: "
-                                + " ".join(str(error).split())[:150])
+                failures.append(f"{name}, {pair}: {told(error)}")
     return rows, failures

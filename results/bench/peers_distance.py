@@ -7,6 +7,7 @@ import time
 import numpy as np
 import phongpd
 from peers_shapes import arrays, of_scene
+from python_report import told
 
 HEADER = ["mesh", "triangles", "by", "points", "CPU us a query", "ratio to PhongPD",
           "worst error / diagonal", "wrong signs"]
@@ -106,8 +107,7 @@ def run(seed):
                     found = ask(points[:count])
                     times.append(time.process_time() - begin)
             except Exception as error:
-                failures.append(f"{by}: {type(error).__name__}: "
-                                + " ".join(str(error).split())[:150])
+                failures.append(f"{by}: {told(error)}")
                 continue
             micros = 1e6 * sorted(times)[1] / count
             base = base or micros

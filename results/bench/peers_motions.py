@@ -7,12 +7,9 @@ kernel: a crossing motion takes the robot's centre through the obstacle's inside
 a passing one keeps the robot's bounding ball off the obstacle's bounding box.
 """
 
-import argparse
-from pathlib import Path
-
 import fcl
 import numpy as np
-from python_report import machine, markdown, versions, write_csv
+from python_report import machine, markdown, parser_of, versions, write_csv
 
 SEED, MOTIONS = 1, 100
 HEADER = ["obstacle", "given as", "motion", "solver", "crossing",
@@ -130,12 +127,7 @@ def lines(rows):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--output", type=Path, required=True,
-                        help="folder for motions.md and motions.csv")
-    parser.add_argument("--how", default="results/bench/peers_motions.py",
-                        help="the command that motions.md names")
-    arguments = parser.parse_args()
+    arguments = parser_of(__doc__, "peers_motions.py").parse_args()
     rows, failures = run()
     note = ("A cube of side 0.2 and obstacles of four shapes, given as meshes or as "
             "FCL's own boxes. Crossing: the robot's centre is well inside the "

@@ -8,6 +8,7 @@ import time
 
 import numpy as np
 import phongpd
+from python_report import told
 
 HEADER = ["scene", "solver", "runs", "says solved", "free, exactly judged",
           "objective / best, median of free", "evaluations, median",
@@ -169,8 +170,7 @@ def run(seeds):
                 try:
                     u, says = solve(program)
                 except Exception as error:
-                    failures.setdefault(name, f"{name}: {type(error).__name__}: "
-                                        + " ".join(str(error).split())[:150])
+                    failures.setdefault(name, f"{name}: {told(error)}")
                     continue
                 answers.setdefault(name, []).append(
                     _answer(world, program.path(u), says, program.evaluations,

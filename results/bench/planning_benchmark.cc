@@ -3,7 +3,6 @@
 // problem, sampling planners beside each other with the same exact validator,
 // many queries on one scene, and the cost of an exact motion check.  Writes
 // CSV, of which planning_report.py makes the pages.
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <iostream>
 #include <string>
@@ -49,11 +48,12 @@ void RunSamplers(PlanningResults* results) {
   }
 }
 
-int Run(int argc, char** argv) {
-  CLI::App app("Planning through narrow passages: rows.");
-  std::string directory;
+}  // namespace
+
+int Run(Program* program) {
+  CLI::App& app =
+      program->WithOutput("Planning through narrow passages: rows.");
   PlanningResults results;
-  app.add_option("--output", directory, "Directory to write into")->required();
   app.add_option("--seeds", results.options.seeds)->capture_default_str();
   app.add_option("--limit", results.options.limit)->capture_default_str();
   app.add_option("--seed", results.options.seed)->capture_default_str();
@@ -62,7 +62,7 @@ int Run(int argc, char** argv) {
   app.add_option("--parts", parts, "Measure only these, for a look")
       ->check(CLI::IsMember(parts))
       ->delimiter(',');
-  CLI11_PARSE(app, argc, argv);
+  program->Parse();
   const auto wanted = [&parts](const std::string& part) {
     return std::find(parts.begin(), parts.end(), part) != parts.end();
   };
@@ -89,25 +89,16 @@ int Run(int argc, char** argv) {
   }
   if (wanted("samplers")) RunSamplers(&results);
 
-  OutputDirectory out(directory);
-  if (wanted("exact")) out.Write("exact.csv", ToCsv(ExactTable(results)));
-  if (wanted("motions")) out.Write("motions.csv", ToCsv(MotionTable(results)));
+  if (wanted("exact")) program->Write("exact.csv", ToCsv(ExactTable(results)));
+  if (wanted("motions"))
+    program->Write("motions.csv", ToCsv(MotionTable(results)));
   if (wanted("multi-query")) {
-    out.Write("multi_query.csv", ToCsv(MultiQueryTable(results.multi_query)));
+    program->Write("multi_query.csv",
+                   ToCsv(MultiQueryTable(results.multi_query)));
   }
-  if (wanted("samplers")) out.Write("runs.csv", RunsCsv(results));
-  out.Write("measured.txt",
-            Circumstances(CommandLine("build/planning_benchmark", argc, argv),
-                          results.options.seed) +
-                "\n");
-  out.Commit();
+  if (wanted("samplers")) program->Write("runs.csv", RunsCsv(results));
+  program->Finish(results.options.seed);
   return 0;
 }
 
-}  // namespace
 }  // namespace phongpd::bench
-
-int main(int argc, char** argv) {
-  return phongpd::bench::RunProgram("planning_benchmark", phongpd::bench::Run,
-                                    argc, argv);
-}

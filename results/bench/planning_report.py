@@ -5,9 +5,9 @@ voxel_worlds.txt, what the test of that name printed, where it is."""
 
 import re
 
-from python_report import (Figure, Table, parse_folder, read_dicts, read_measured,
-                           read_table, rounded, tables_and_figures, verdict,
-                           write_report)
+from python_report import (Figure, Table, line, parse_folder, read_dicts,
+                           read_measured, read_table, rounded,
+                           tables_and_figures, write_report)
 from report_statistics import median, wilson
 from step_figure import BASELINE, MAIN, Curve, step_figure
 
@@ -175,10 +175,6 @@ def figures_of(samplers):
         scenes.setdefault(one.scene, []).append(one)
     return [figure for figure in map(time_figure, scenes, scenes.values())
             if figure is not None]
-
-
-def line(what, found, met):
-    return f"- {what}: {found}{verdict(met)}"
 
 
 def exact_targets(rows):

@@ -55,14 +55,17 @@ void Ask(const std::string& kind, const PenetrationMetric& metric,
   }
 }
 
-int Run(int argc, char** argv) {
-  if (argc != 4) {
+}  // namespace
+
+int Run(Program* program) {
+  const std::vector<std::string> given = program->arguments();
+  if (given.size() != 3) {
     throw InputError("arguments: expected SPACE.off POINTS MOTION, found " +
-                     std::to_string(argc - 1) + " of them");
+                     std::to_string(given.size()) + " of them");
   }
-  const ContactSpace space = TakeAsContactSpace(ReadMesh(argv[1]), argv[1]);
-  const std::vector<Vector3d> points = ReadPoints(argv[2]);
-  const std::vector<Vector3d> motion = ReadPoints(argv[3]);
+  const ContactSpace space = TakeAsContactSpace(ReadMesh(given[0]), given[0]);
+  const std::vector<Vector3d> points = ReadPoints(given[1]);
+  const std::vector<Vector3d> motion = ReadPoints(given[2]);
   PhongMetricOptions options;
   options.field_options.smoothing_length = 0.2;
   const PhongMetric phong(space, options);
@@ -85,10 +88,4 @@ int Run(int argc, char** argv) {
   return 0;
 }
 
-}  // namespace
 }  // namespace phongpd::bench
-
-int main(int argc, char** argv) {
-  return phongpd::bench::RunProgram("python_baseline", phongpd::bench::Run,
-                                    argc, argv);
-}

@@ -6,7 +6,6 @@ README.md.  C++ and Python take turns, a repetition each, so that both see the
 same machine; figures are medians over repetitions of ratios and differences
 within one.
 """
-import argparse
 import csv
 import os
 import pathlib
@@ -18,6 +17,7 @@ import time
 
 import numpy as np
 import phongpd
+from python_report import parser_of
 
 SEED, POINTS, STEPS = 1, 1_000_000, 20_000
 AIMS = {"batch": 1.1, "call": 3.0, "import": 0.15}
@@ -196,10 +196,8 @@ Command: `{how}`. Seed: {SEED}. Machine: {machine}, load
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__)
+    parser = parser_of(__doc__, "python_benchmark.py")
     parser.add_argument("--baseline", required=True)
-    parser.add_argument("--output", required=True, type=pathlib.Path)
-    parser.add_argument("--how", default="python_benchmark.py")
     parser.add_argument("--repetitions", type=int, default=3)
     flags = parser.parse_args()
     world = phongpd.World.load("ball_wrench")

@@ -2,6 +2,7 @@
 """Tables and pages of all reports: CSV, Markdown, README.md with its tables and
 figures, the circumstances of a measurement."""
 
+import argparse
 import csv
 import importlib.metadata
 import os
@@ -36,6 +37,10 @@ def rounded(value, digits=3):
 
 def verdict(met):
     return " – met.\n" if met else " – **missed**.\n"
+
+
+def line(aim, found, met):
+    return f"- {aim}: {found}{verdict(met)}"
 
 
 def cell(value):
@@ -107,13 +112,26 @@ def setting(measured, flag, default):
     return found[1] if found else default
 
 
-def parse_folder(doc):
-    """The only argument of a report that reads and writes one folder."""
-    import argparse
+def parser_of(doc, program=None):
+    """With the folder of rows and pages, and for a program that measures the
+    command that its page names."""
     parser = argparse.ArgumentParser(description=doc)
     parser.add_argument("--output", type=Path, required=True,
                         help="folder of the rows, to write into")
-    return parser.parse_args().output
+    if program:
+        parser.add_argument("--how", default=f"results/bench/{program}",
+                            help="the command that the page names")
+    return parser
+
+
+def parse_folder(doc):
+    """The only argument of a report that reads and writes one folder."""
+    return parser_of(doc).parse_args().output
+
+
+def told(error, most=150):
+    """What went wrong, in one line."""
+    return f"{type(error).__name__}: " + " ".join(str(error).split())[:most]
 
 
 def tables_and_figures(tables, figures=()):

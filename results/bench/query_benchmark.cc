@@ -4,7 +4,6 @@
 // Writes CSV into a directory, of which query_report.py makes the pages.
 #include <benchmark/benchmark.h>
 
-#include <CLI/CLI.hpp>
 #include <iostream>
 #include <map>
 #include <memory>
@@ -24,7 +23,7 @@ using benchmark::State;
 using Eigen::Vector3d;
 
 struct Options {
-  std::string directory, phongpd = "build/phongpd";
+  std::string phongpd = "build/phongpd";
   std::size_t most = 1000000;
   double min_time = 0.01;
   int repetitions = 5;
@@ -183,11 +182,11 @@ class Collector : public benchmark::BenchmarkReporter {
   std::map<std::size_t, std::vector<double>> times;
 };
 
-int Run(int argc, char** argv) {
-  CLI::App app("Queries: rows.");
+}  // namespace
+
+int Run(Program* program) {
+  CLI::App& app = program->WithOutput("Queries: rows.");
   Options options;
-  app.add_option("--output", options.directory, "Directory to write into")
-      ->required();
   app.add_option("--phongpd", options.phongpd, "The program")
       ->capture_default_str();
   app.add_option("--most-triangles", options.most)->capture_default_str();
@@ -195,7 +194,7 @@ int Run(int argc, char** argv) {
       ->capture_default_str();
   app.add_option("--repetitions", options.repetitions)->capture_default_str();
   app.add_option("--seed", options.seed)->capture_default_str();
-  CLI11_PARSE(app, argc, argv);
+  program->Parse();
   const std::vector<QuerySpace> spaces =
       QuerySpaces(options.most, options.seed);
   const QueryExtras extras = MeasureExtras(spaces, options.phongpd);
@@ -218,22 +217,14 @@ int Run(int argc, char** argv) {
   for (std::size_t i = 0; i < registry.rows().size(); ++i) {
     registry.rows()[i].micros = Quantile(collector.times[i], 0.5);
   }
-  OutputDirectory out(options.directory);
-  for (const NamedTable& named :
-       {QueryTable(registry.rows()), ExtrasTable(extras)}) {
-    out.Write(named.file, ToCsv(named.table));
+  const std::vector<NamedTable> tables = {QueryTable(registry.rows()),
+                                          ExtrasTable(extras)};
+  program->Write(tables);
+  for (const NamedTable& named : tables) {
     std::cout << ToText(named.table) << std::endl;
   }
-  out.Write("measured.txt",
-            Circumstances("scripts/bench.sh queries", options.seed) + "\n");
-  out.Commit();
+  program->Finish(options.seed, "measured.txt", "scripts/bench.sh queries");
   return 0;
 }
 
-}  // namespace
 }  // namespace phongpd::bench
-
-int main(int argc, char** argv) {
-  return phongpd::bench::RunProgram("query_benchmark", phongpd::bench::Run,
-                                    argc, argv);
-}

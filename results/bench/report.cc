@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <ctime>
 #include <fstream>
 #include <thread>
 
@@ -29,6 +30,13 @@ std::string FieldOf(const char* file, const std::string& key) {
     if (first != std::string::npos) return line.substr(first);
   }
   return "0 (unknown)";
+}
+
+double SecondsOn(clockid_t clock) {
+  timespec now;
+  clock_gettime(clock, &now);
+  return static_cast<double>(now.tv_sec) +
+         1e-9 * static_cast<double>(now.tv_nsec);
 }
 
 }  // namespace
@@ -79,6 +87,10 @@ std::string ToText(const Table& table) {
   for (const auto& row : table.rows) add(row);
   return text;
 }
+
+double CpuSeconds() { return SecondsOn(CLOCK_PROCESS_CPUTIME_ID); }
+
+double ThreadCpuSeconds() { return SecondsOn(CLOCK_THREAD_CPUTIME_ID); }
 
 std::string Machine() {
   return FieldOf("/proc/cpuinfo", "model name") + ", " +

@@ -57,6 +57,11 @@ std::string ToCsv(const Table& table);
 std::string ToMarkdown(const Table& table);
 std::string ToText(const Table& table);  // aligned columns
 
+// CPU time of the whole process, or of this thread, seconds: what a busy
+// machine does not change.
+double CpuSeconds();
+double ThreadCpuSeconds();
+
 // "CPU model, n cores, memory": nothing that names the host.
 std::string Machine();
 

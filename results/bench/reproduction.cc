@@ -3,7 +3,6 @@
 // spread evenly over the published files, makes them anew with the same
 // settings and seeds, and compares all but times cell by cell.  Writes
 // reproduction.md; deviations are named, not judged.
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <iostream>
 #include <nlohmann/json.hpp>
@@ -228,12 +227,14 @@ std::string Report(const std::vector<Slice>& slices,
   return text + '\n' + Circumstances(command, PaperOptions().seed);
 }
 
-int Run(int argc, char** argv) {
-  CLI::App app("Makes a slice of the published rows anew and compares.");
-  std::string directory, how;
+}  // namespace
+
+int Run(Program* program) {
+  CLI::App& app = program->WithOutput(
+      "Makes a slice of the published rows anew and compares.");
+  std::string how;
   Published published{"results", 40};
   std::vector<std::string> parts = {"paper", "planning", "convergence"};
-  app.add_option("--output", directory, "Directory to write into")->required();
   app.add_option("--results", published.folder, "Where the published rows are")
       ->capture_default_str();
   app.add_option("--rows", published.rows, "Rows of each file")
@@ -243,7 +244,7 @@ int Run(int argc, char** argv) {
       ->check(CLI::IsMember(parts))
       ->delimiter(',');
   app.add_option("--how", how, "The command that runs this");
-  CLI11_PARSE(app, argc, argv);
+  program->Parse();
   SilenceOmpl();
   const auto wanted = [&parts](const char* part) {
     return std::find(parts.begin(), parts.end(), part) != parts.end();
@@ -256,19 +257,11 @@ int Run(int argc, char** argv) {
   }
   if (wanted("convergence")) slices.push_back(RemakeConvergence(published));
   const std::string text =
-      Report(slices,
-             how.empty() ? CommandLine("build/reproduction", argc, argv) : how);
-  OutputDirectory out(directory);
-  out.Write("reproduction.md", text);
-  out.Commit();
+      Report(slices, how.empty() ? program->Command() : how);
+  program->Write("reproduction.md", text);
+  program->Commit();
   std::cout << text;
   return 0;
 }
 
-}  // namespace
 }  // namespace phongpd::bench
-
-int main(int argc, char** argv) {
-  return phongpd::bench::RunProgram("reproduction", phongpd::bench::Run, argc,
-                                    argv);
-}

@@ -4,7 +4,6 @@
 // as there are branches.  The same planner, seeds and exact motion checks;
 // samples until it is solved, which no clock is in.  Writes baselines.csv, of
 // which passages_report.py makes tests and baselines.md.
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 #include <iostream>
@@ -77,17 +76,18 @@ Table DuelTable(const std::vector<Duel>& duels) {
       });
 }
 
-int Run(int argc, char** argv) {
-  CLI::App app("Retraction against baselines of equal strength.");
-  std::string directory;
+}  // namespace
+
+int Run(Program* program) {
+  CLI::App& app =
+      program->WithOutput("Retraction against baselines of equal strength.");
   PlanningOptions options;
   options.seeds = 30;
   options.limit = 2.0;
-  app.add_option("--output", directory, "Directory to write into")->required();
   app.add_option("--seeds", options.seeds)->capture_default_str();
   app.add_option("--limit", options.limit)->capture_default_str();
   app.add_option("--seed", options.seed)->capture_default_str();
-  CLI11_PARSE(app, argc, argv);
+  program->Parse();
   SilenceOmpl();
   const std::vector<std::string> baselines = {
       "euclidean", "euclidean-all", "contact-point", "contact-points"};
@@ -104,20 +104,9 @@ int Run(int argc, char** argv) {
       duels.push_back(Compare(rows[0], rows[i], options));
     }
   }
-  OutputDirectory out(directory);
-  out.Write("baselines.csv", ToCsv(DuelTable(duels)));
-  out.Write("baselines_measured.txt",
-            Circumstances(CommandLine("build/retraction_benchmark", argc, argv),
-                          options.seed) +
-                "\n");
-  out.Commit();
+  program->Write("baselines.csv", ToCsv(DuelTable(duels)));
+  program->Finish(options.seed, "baselines_measured.txt");
   return 0;
 }
 
-}  // namespace
 }  // namespace phongpd::bench
-
-int main(int argc, char** argv) {
-  return phongpd::bench::RunProgram("retraction_benchmark", phongpd::bench::Run,
-                                    argc, argv);
-}

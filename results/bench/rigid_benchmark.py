@@ -3,7 +3,6 @@
 
 Runs rigid_judge_benchmark and rigid_plan_benchmark, one process a run, keeps
 their rows as JSON Lines, and makes tables of them."""
-import argparse
 import json
 import subprocess
 from pathlib import Path
@@ -100,8 +99,7 @@ def plan_rows(build):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__)
-    rows.add_options(parser, "rigid_benchmark.py", ["judge", "plan"])
+    parser = rows.parser_for(__doc__, "rigid_benchmark.py", ["judge", "plan"])
     parser.add_argument("--build", type=Path, default=Path("build"),
                         help="folder of the two programs")
     parser.add_argument("--long", action="store_true",

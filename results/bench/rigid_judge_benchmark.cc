@@ -5,8 +5,6 @@
 //
 // A miss is a motion called free that the certified judge proves colliding; a
 // contradiction one called colliding that it proves free.
-#include <CLI/CLI.hpp>
-#include <ctime>
 #include <functional>
 #include <iostream>
 #include <nlohmann/json.hpp>
@@ -18,13 +16,6 @@
 
 namespace phongpd::bench {
 namespace {
-
-double CpuSeconds() {
-  timespec now;
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) +
-         1e-9 * static_cast<double>(now.tv_nsec);
-}
 
 struct Method {
   std::string name;
@@ -70,15 +61,18 @@ std::vector<Method> Methods(const RigidScene& scene, const RigidJudge& judge,
   return methods;
 }
 
-int Run(int argc, char** argv) {
-  CLI::App app("The certified judge of motions that turn beside FCL.");
+}  // namespace
+
+int Run(Program* program) {
+  CLI::App& app =
+      program->Options("The certified judge of motions that turn beside FCL.");
   std::string name;
   int count = 200;
   unsigned seed = 1;
   app.add_option("scene", name, "FAMILY or FAMILY:VALUE")->required();
   app.add_option("--motions", count)->capture_default_str();
   app.add_option("--seed", seed)->capture_default_str();
-  CLI11_PARSE(app, argc, argv);
+  program->Parse();
   const RigidScene scene = MakeRigidScene(name);
   const RigidJudge judge({scene.robot}, scene.obstacles);
   TriangleMesh world;
@@ -95,11 +89,11 @@ int Run(int argc, char** argv) {
     }
     for (const Method& method : Methods(scene, judge, fcl)) {
       std::vector<std::optional<bool>> said;
-      const double begin = CpuSeconds();
+      const double begin = ThreadCpuSeconds();
       for (const RigidMotionEnds& ends : motions) {
         said.push_back(method.is_free(ends));
       }
-      const double seconds = CpuSeconds() - begin;
+      const double seconds = ThreadCpuSeconds() - begin;
       int free = 0, colliding = 0, undecided = 0, misses = 0, against = 0;
       for (std::size_t i = 0; i < motions.size(); ++i) {
         free += proved[i] == true ? 1 : 0;
@@ -130,10 +124,4 @@ int Run(int argc, char** argv) {
   return 0;
 }
 
-}  // namespace
 }  // namespace phongpd::bench
-
-int main(int argc, char** argv) {
-  return phongpd::bench::RunProgram("rigid_judge_benchmark",
-                                    phongpd::bench::Run, argc, argv);
-}

@@ -2,7 +2,6 @@
 // Purpose: paths of poses by Ipopt: how many of what it calls solved are free
 // for all t, with rows at samples alone and with rows where the judge finds a
 // collision between them.  One JSON row a run.  Times are processor seconds.
-#include <CLI/CLI.hpp>
 #include <ctime>
 #include <iostream>
 #include <nlohmann/json.hpp>
@@ -18,13 +17,6 @@ namespace phongpd::bench {
 namespace {
 
 using Eigen::AngleAxisd, Eigen::Quaterniond, Eigen::Vector3d;
-
-double CpuSeconds() {
-  timespec now;
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) +
-         1e-9 * static_cast<double>(now.tv_nsec);
-}
 
 TriangleMesh Bar() { return MakeBox({-1.0, -0.2, -0.2}, {1.0, 0.2, 0.2}); }
 
@@ -78,8 +70,11 @@ RigidOptimizeRequest RequestOf(const RigidScene& scene,
   return request;
 }
 
-int Run(int argc, char** argv) {
-  CLI::App app("Paths of poses by Ipopt, judged for all t.");
+}  // namespace
+
+int Run(Program* program) {
+  CLI::App& app =
+      program->Options("Paths of poses by Ipopt, judged for all t.");
   std::vector<std::string> scenes = {"slot",  "window:4", "corner",
                                      "peg:1", "ell:2.5",  "bugtrap:0.3"};
   std::vector<std::string> methods = {"samples", "both"};
@@ -95,7 +90,7 @@ int Run(int argc, char** argv) {
   app.add_option("--seeds", seeds)->capture_default_str();
   app.add_option("--limit", limit, "Processor seconds of a run")
       ->capture_default_str();
-  CLI11_PARSE(app, argc, argv);
+  program->Parse();
   for (unsigned seed = first; seed < first + seeds; ++seed) {
     for (const std::string& name : scenes) {
       const RigidScene scene = SceneOf(name);
@@ -136,10 +131,4 @@ int Run(int argc, char** argv) {
   return 0;
 }
 
-}  // namespace
 }  // namespace phongpd::bench
-
-int main(int argc, char** argv) {
-  return phongpd::bench::RunProgram("rigid_optimize_benchmark",
-                                    phongpd::bench::Run, argc, argv);
-}

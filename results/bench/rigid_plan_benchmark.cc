@@ -15,7 +15,6 @@
 #include <ompl/util/Console.h>
 #include <ompl/util/RandomNumbers.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <ctime>
 #include <iostream>
@@ -41,13 +40,6 @@ struct Options {
   unsigned seed = 1;
   double limit = 10.0;
 };
-
-double CpuSeconds() {
-  timespec now;
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) +
-         1e-9 * static_cast<double>(now.tv_nsec);
-}
 
 // What a run answers: no path, an empty one.
 struct Outcome {
@@ -141,8 +133,11 @@ Outcome RunOmpl(const RigidScene& scene, const RigidWorld& rigid,
   return outcome;
 }
 
-int Run(int argc, char** argv) {
-  CLI::App app("One run of a planner for a robot that turns.");
+}  // namespace
+
+int Run(Program* program) {
+  CLI::App& app =
+      program->Options("One run of a planner for a robot that turns.");
   Options options;
   app.add_option("scene", options.scene, "FAMILY or FAMILY:VALUE")->required();
   app.add_option("--planner", options.planner,
@@ -158,7 +153,7 @@ int Run(int argc, char** argv) {
   app.add_option("--seed", options.seed)->capture_default_str();
   app.add_option("--limit", options.limit, "Processor seconds")
       ->capture_default_str();
-  CLI11_PARSE(app, argc, argv);
+  program->Parse();
   const RigidScene scene = MakeRigidScene(options.scene);
   const RigidWorld world({scene.robot}, scene.obstacles);
   const Outcome outcome = options.planner == "phongpd"
@@ -187,10 +182,4 @@ int Run(int argc, char** argv) {
   return 0;
 }
 
-}  // namespace
 }  // namespace phongpd::bench
-
-int main(int argc, char** argv) {
-  return phongpd::bench::RunProgram("rigid_plan_benchmark", phongpd::bench::Run,
-                                    argc, argv);
-}

@@ -9,7 +9,8 @@ import math
 import pathlib
 from collections import defaultdict
 
-from study_statistics import holm, interval, p_of_flips, verdict
+from report_statistics import holm
+from study_statistics import interval, p_of_flips, verdict
 
 PROTOCOLS = ("straight-monotone", "straight-adaptive", "repaired-monotone",
              "repaired-adaptive")

@@ -37,16 +37,6 @@ def p_of_flips(differences):
     return float(np.mean(sums >= abs(values.sum()) * (1.0 - 1e-12)))
 
 
-def holm(ps):
-    """Corrected for being one of so many."""
-    order = np.argsort(ps, kind="stable")
-    corrected, most = [0.0] * len(ps), 0.0
-    for rank, i in enumerate(order):
-        most = max(most, min(1.0, (len(ps) - rank) * ps[i]))
-        corrected[i] = most
-    return corrected
-
-
 def verdict(differences, corrected):
     if corrected < LEVEL:
         return "win" if np.mean(differences) > 0.0 else "loss"

@@ -2,7 +2,6 @@
 // Purpose: what each metric does along motions – jumps, depth ratio, time – of
 // Euclidean PD, PhongPD and the tracker, on the same motions in one run.
 // Writes CSV into a directory, of which tracker_report.py makes tracker.md.
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -21,7 +20,6 @@ namespace {
 using Eigen::Vector3d;
 
 struct Options {
-  std::string directory;
   int motions = 25;
   int frames = 300;
   int repeats = 3;
@@ -101,37 +99,24 @@ std::vector<TrackerRow> MeasureSpace(const MotionSpace& space,
   return rows;
 }
 
-int Run(int argc, char** argv) {
-  CLI::App app("Metrics along motions: rows.");
+}  // namespace
+
+int Run(Program* program) {
+  CLI::App& app = program->WithOutput("Metrics along motions: rows.");
   Options options;
-  app.add_option("--output", options.directory, "Directory to write into")
-      ->required();
   app.add_option("--motions", options.motions)->capture_default_str();
   app.add_option("--frames", options.frames)->capture_default_str();
   app.add_option("--seed", options.seed)->capture_default_str();
-  CLI11_PARSE(app, argc, argv);
+  program->Parse();
   std::vector<TrackerRow> rows;
   for (const MotionSpace& space : MotionSpaces()) {
     const std::vector<TrackerRow> of_space = MeasureSpace(space, options);
     rows.insert(rows.end(), of_space.begin(), of_space.end());
     std::cout << ToText(TrackerTable(of_space).table) << std::endl;
   }
-  OutputDirectory out(options.directory);
-  for (const NamedTable& named : {TrackerTotals(rows), TrackerTable(rows)}) {
-    out.Write(named.file, ToCsv(named.table));
-  }
-  out.Write("tracker_measured.txt",
-            Circumstances(CommandLine("build/tracker_benchmark", argc, argv),
-                          options.seed) +
-                "\n");
-  out.Commit();
+  program->Write({TrackerTotals(rows), TrackerTable(rows)});
+  program->Finish(options.seed, "tracker_measured.txt");
   return 0;
 }
 
-}  // namespace
 }  // namespace phongpd::bench
-
-int main(int argc, char** argv) {
-  return phongpd::bench::RunProgram("tracker_benchmark", phongpd::bench::Run,
-                                    argc, argv);
-}

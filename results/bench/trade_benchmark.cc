@@ -2,7 +2,6 @@
 // Purpose: what presets and knobs buy and cost: fields, approximations of
 // operands, levels of the model, samples.  Writes the rows that trade_report
 // draws.
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <iostream>
 #include <numeric>
@@ -55,17 +54,16 @@ NamedTable ApproximationTable(const std::vector<ApproximationRow>& rows) {
                     })};
 }
 
-int Run(int argc, char** argv) {
-  CLI::App app("What knobs buy and cost: rows.");
-  std::string directory;
+}  // namespace
+
+int Run(Program* program) {
+  CLI::App& app = program->WithOutput("What knobs buy and cost: rows.");
   TradeOptions options;
   std::vector<std::string> parts = {"fields", "approximations", "knobs"};
-  app.add_option("--output", directory, "Directory to write into")->required();
   app.add_option("--seed", options.seed)->capture_default_str();
   app.add_option("--seeds", options.seeds)->capture_default_str();
   app.add_option("--parts", parts)->check(CLI::IsMember(parts))->delimiter(',');
-  CLI11_PARSE(app, argc, argv);
-  OutputDirectory out(directory);
+  program->Parse();
   for (const std::string& part : parts) {
     NamedTable table;
     if (part == "fields") {
@@ -81,20 +79,10 @@ int Run(int argc, char** argv) {
       table = KnobTable(Sum(trials));
     }
     std::cout << ToText(table.table) << std::endl;
-    out.Write(table.file, ToCsv(table.table));
+    program->Write(table.file, ToCsv(table.table));
   }
-  out.Write("measured.txt",
-            Circumstances(CommandLine("build/trade_benchmark", argc, argv),
-                          options.seed) +
-                "\n");
-  out.Commit();
+  program->Finish(options.seed);
   return 0;
 }
 
-}  // namespace
 }  // namespace phongpd::bench
-
-int main(int argc, char** argv) {
-  return phongpd::bench::RunProgram("trade_benchmark", phongpd::bench::Run,
-                                    argc, argv);
-}

@@ -24,7 +24,7 @@ Times TimeQueries(const PhongMetric& metric,
   Times times;
   for (int repeat = 0; repeat < kRepeats; ++repeat) {
     std::size_t queries = 0;
-    const double warm = ProcessorSeconds();
+    const double warm = CpuSeconds();
     for (const Motion& motion : motions) {
       Branch branch;
       for (const Eigen::Vector3d& q : motion) {
@@ -32,17 +32,17 @@ Times TimeQueries(const PhongMetric& metric,
         ++queries;
       }
     }
-    times.warm = std::min(
-        times.warm, (ProcessorSeconds() - warm) / static_cast<double>(queries));
+    times.warm = std::min(times.warm,
+                          (CpuSeconds() - warm) / static_cast<double>(queries));
     queries = 0;
-    const double cold = ProcessorSeconds();
+    const double cold = CpuSeconds();
     for (const Motion& motion : motions) {
       for (std::size_t i = 0; i < motion.size(); i += 10, ++queries) {
         metric.Query(motion[i]);
       }
     }
-    times.cold = std::min(
-        times.cold, (ProcessorSeconds() - cold) / static_cast<double>(queries));
+    times.cold = std::min(times.cold,
+                          (CpuSeconds() - cold) / static_cast<double>(queries));
   }
   return times;
 }
@@ -75,9 +75,9 @@ double SecondsToBuild(const ContactSpace& space,
                       const PhongMetricOptions& phong) {
   double seconds = std::numeric_limits<double>::infinity();
   for (int repeat = 0; repeat < kRepeats; ++repeat) {
-    const double begin = ProcessorSeconds();
+    const double begin = CpuSeconds();
     const PhongMetric built(space, phong);
-    seconds = std::min(seconds, ProcessorSeconds() - begin);
+    seconds = std::min(seconds, CpuSeconds() - begin);
   }
   return seconds;
 }

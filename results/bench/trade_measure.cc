@@ -2,7 +2,6 @@
 #include "results/bench/trade_measure.h"
 
 #include <algorithm>
-#include <ctime>
 #include <functional>
 #include <limits>
 #include <map>
@@ -105,10 +104,6 @@ const std::vector<std::string>& PassageScenes() {
 
 }  // namespace
 
-double ProcessorSeconds() {
-  return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
-}
-
 std::vector<TradeTrial> MeasureOptimize(const TradeOptions& options) {
   std::vector<TradeTrial> trials;
   for (const std::string& text : TrajectoryScenes()) {
@@ -128,9 +123,9 @@ std::vector<TradeTrial> MeasureOptimize(const TradeOptions& options) {
         TradeTrial trial{"optimize",  text + " #" + std::to_string(seed),
                          choice.name, 0.0,
                          false,       0.0};
-        const double begin = ProcessorSeconds();
+        const double begin = CpuSeconds();
         const PathAnswer answer = Optimize(worlds.Of(scene), request);
-        trial.seconds = ProcessorSeconds() - begin;
+        trial.seconds = CpuSeconds() - begin;
         trial.answered = answer.is_free;
         trial.measure = answer.pipeline->objective;
         trials.push_back(std::move(trial));
@@ -151,14 +146,14 @@ std::vector<TradeTrial> MeasurePlan() {
       choice.apply(&options);
       TradeTrial trial{"plan", text, choice.name, 0.0, false, 0.0};
       constexpr int kPlans = 5;
-      const double begin = ProcessorSeconds();
+      const double begin = CpuSeconds();
       for (int repeat = 0; repeat < kPlans; ++repeat) {
         const ContactSurfacePlanner planner(world.Sealed(), options);
         const PlanResult result = planner.Plan(scene.start, scene.goal);
         trial.answered = result.status == PathStatus::kSolved;
         trial.measure = result.length;
       }
-      trial.seconds = (ProcessorSeconds() - begin) / kPlans;
+      trial.seconds = (CpuSeconds() - begin) / kPlans;
       trials.push_back(std::move(trial));
     }
   }

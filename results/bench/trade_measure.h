@@ -71,8 +71,4 @@ struct ApproximationRow {
 std::vector<ApproximationRow> MeasureApproximations(
     const TradeOptions& options);
 
-// Of this process on all cores, seconds: what else the machine does is not in
-// it.
-double ProcessorSeconds();
-
 }  // namespace phongpd::bench

@@ -13,6 +13,7 @@
 #include "problems/shapes/random_vector.h"
 #include "problems/shapes/shapes.h"
 #include "problems/studies/paper_benchmarks.h"
+#include "results/bench/report.h"
 #include "results/bench/trade_measure.h"
 
 namespace phongpd::bench {
@@ -29,7 +30,7 @@ std::vector<TradeTrial> MeasureModels(const TradeOptions& options) {
       for (const Model model : {Model::kFull, Model::kWindow}) {
         Scene scene = SceneSource(text).Load(seed);
         scene.planning.model = scene.trajectory.model = model;
-        double begin = ProcessorSeconds();
+        double begin = CpuSeconds();
         PlanRequest plan_request = PlanRequestOf(scene);
         plan_request.planner = PlannerId::kRrtConnect;
         plan_request.time_limit = 5.0;
@@ -38,15 +39,14 @@ std::vector<TradeTrial> MeasureModels(const TradeOptions& options) {
         const PathAnswer plan =
             Plan(World(scene.workspace, scene.name), plan_request);
         trials.push_back({"model: plan", instance, ToString(model),
-                          ProcessorSeconds() - begin, plan.is_solved,
-                          plan.length});
-        begin = ProcessorSeconds();
+                          CpuSeconds() - begin, plan.is_solved, plan.length});
+        begin = CpuSeconds();
         OptimizeRequest request = OptimizeRequestOf(scene);
         request.verifies = false;
         const PathAnswer path =
             Optimize(World(scene.workspace, scene.name), request);
         trials.push_back({"model: optimize", instance, ToString(model),
-                          ProcessorSeconds() - begin, path.is_free,
+                          CpuSeconds() - begin, path.is_free,
                           path.pipeline->objective});
       }
     }
@@ -148,10 +148,10 @@ std::vector<ApproximationRow> MeasureApproximations(
     for (const Choice& choice : Choices()) {
       ContactSpaceOptions build;
       choice.apply(pair, &build);
-      const double begin = ProcessorSeconds();
+      const double begin = CpuSeconds();
       const ContactSpace space =
           BuildContactSpace(pair.robot, pair.obstacle, build);
-      const double seconds = ProcessorSeconds() - begin;
+      const double seconds = CpuSeconds() - begin;
       if (rows.empty() || rows.back().pair != pair.name) base = seconds;
       ApproximationRow row;
       row.pair = pair.name;

@@ -3,7 +3,6 @@
 suites published: one figure a consumer, and which choices no other beats in
 both.  Measures nothing itself."""
 
-import argparse
 import subprocess
 import sys
 from dataclasses import dataclass
@@ -11,7 +10,7 @@ from pathlib import Path
 from statistics import median
 
 from python_report import read_dicts as read
-from python_report import read_measured, write_tables
+from python_report import parser_of, read_measured, write_tables
 from report_statistics import sign_test
 
 # phong_field.h, kDefaultSmoothingLength.
@@ -315,8 +314,7 @@ def default_sentences(results):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--output", type=Path, required=True)
+    parser = parser_of(__doc__)
     parser.add_argument("--results", type=Path, default=Path("results"),
                         help="where the published rows are")
     args = parser.parse_args()

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Motions in time: hundreds of PhongPD's, certified or not, and peers beside
 them; see `--help`."""
-import argparse
 
 import kept_rows as rows
 import trajectories_beside
@@ -15,8 +14,7 @@ TINY = ["u_axis", "tunnel:delta=1e-6"]
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__)
-    rows.add_options(parser, "trajectories_benchmark.py", ["own", "peers"])
+    parser = rows.parser_for(__doc__, "trajectories_benchmark.py", ["own", "peers"])
     parser.add_argument("--tiny", action="store_true",
                         help="a few instances, to see whether it runs")
     arguments = parser.parse_args()

@@ -7,6 +7,7 @@ import time
 import numpy as np
 import phongpd
 import trajectories_judge as judge
+from python_report import told
 from trajectories_bounds import least_duration
 from trajectories_instances import ends_of, world_of
 from trajectories_peers import MARGIN, PEERS
@@ -82,6 +83,5 @@ def measure(instance, peers=PEERS):
         try:
             row["answers"][name] = beside(problem, solve)
         except Exception as error:
-            row["answers"][name] = {"error": f"{type(error).__name__}: " + " ".join(
-                str(error).split())[:200]}
+            row["answers"][name] = {"error": told(error, 200)}
     return row

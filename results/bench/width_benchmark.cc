@@ -3,7 +3,6 @@
 // seconds, beside the retraction planners and the complete one, with the same
 // exact motion checks.  Writes widths.csv, of
 // which passages_report.py makes widths.md.
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <iostream>
 
@@ -118,40 +117,31 @@ Table WidthTable(const std::vector<Passage>& passages) {
       });
 }
 
-int Run(int argc, char** argv) {
-  CLI::App app("How narrow a passage may be, for each planner.");
-  std::string directory;
+}  // namespace
+
+int Run(Program* program) {
+  CLI::App& app =
+      program->WithOutput("How narrow a passage may be, for each planner.");
   std::vector<std::string> scenes = kScenes;
   PlanningOptions options;
   options.seeds = 3;
   options.hopeless = 1;
   options.limit = kLimits[2];
-  app.add_option("--output", directory, "Directory to write into")->required();
   app.add_option("--seeds", options.seeds)->capture_default_str();
   app.add_option("--seed", options.seed)->capture_default_str();
   app.add_option("--scenes", scenes)->check(CLI::IsMember(kScenes));
-  CLI11_PARSE(app, argc, argv);
+  program->Parse();
   SilenceOmpl();
-  const std::string command = CommandLine("build/width_benchmark", argc, argv);
   std::vector<Passage> passages;
   for (const std::string& scene : scenes) {
     for (Passage& passage : Measure(scene, options)) {
       passages.push_back(std::move(passage));
     }
     // What is there stays if the rest is interrupted.
-    OutputDirectory out(directory);
-    out.Write("widths.csv", ToCsv(WidthTable(passages)));
-    out.Write("widths_measured.txt",
-              Circumstances(command, options.seed) + "\n");
-    out.Commit();
+    program->Write("widths.csv", ToCsv(WidthTable(passages)));
+    program->Finish(options.seed, "widths_measured.txt");
   }
   return 0;
 }
 
-}  // namespace
 }  // namespace phongpd::bench
-
-int main(int argc, char** argv) {
-  return phongpd::bench::RunProgram("width_benchmark", phongpd::bench::Run,
-                                    argc, argv);
-}

@@ -4,7 +4,6 @@
 // is solved twice in either world: the second time all is modelled, so the
 // difference is what modelling took, and the rest the solver.  Writes CSV into
 // a directory, of which window_path_report.py makes a page.
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 #include <iostream>
@@ -14,7 +13,6 @@
 #include "planners/solve/optimize.h"
 #include "results/bench/free_space_measure.h"
 #include "results/bench/lazy_cases.h"
-#include "results/bench/output_directory.h"
 #include "results/bench/program.h"
 #include "results/bench/report.h"
 
@@ -24,7 +22,6 @@ namespace {
 using Eigen::Vector3d;
 
 struct Options {
-  std::string directory;
   int problems = 1;  // of each pair
   std::uint64_t seed = 1;
   std::string pair;  // all where empty
@@ -157,17 +154,17 @@ NamedTable TableOf(const std::vector<Row>& rows) {
           })};
 }
 
-int Run(int argc, char** argv) {
-  CLI::App app("Paths optimised with a metric from windows: rows.");
+}  // namespace
+
+int Run(Program* program) {
+  CLI::App& app =
+      program->WithOutput("Paths optimised with a metric from windows: rows.");
   Options options;
-  app.add_option("--output", options.directory, "Directory to write into")
-      ->required();
   app.add_option("--problems", options.problems, "Of each pair")
       ->capture_default_str();
   app.add_option("--pair", options.pair, "Of those whose name holds this");
   app.add_option("--seed", options.seed)->capture_default_str();
-  CLI11_PARSE(app, argc, argv);
-  OutputDirectory out(options.directory);
+  program->Parse();
   SilenceOmpl();
   std::vector<Row> rows;
   for (const LazyCase& pair : LazyCases()) {
@@ -178,21 +175,9 @@ int Run(int argc, char** argv) {
         rows.begin() + static_cast<std::ptrdiff_t>(before), rows.end());
     std::cout << ToText(TableOf(added).table) << std::endl;
   }
-  const NamedTable table = TableOf(rows);
-  out.Write(table.file, ToCsv(table.table));
-  out.Write(
-      "window_path_measured.txt",
-      Circumstances(CommandLine("build/window_path_benchmark", argc, argv),
-                    options.seed) +
-          "\n");
-  out.Commit();
+  program->Write({TableOf(rows)});
+  program->Finish(options.seed, "window_path_measured.txt");
   return 0;
 }
 
-}  // namespace
 }  // namespace phongpd::bench
-
-int main(int argc, char** argv) {
-  return phongpd::bench::RunProgram("window_path_benchmark",
-                                    phongpd::bench::Run, argc, argv);
-}

@@ -3,7 +3,6 @@
 // long the ways out are, by Euclidean PD, PhongPD, the smoothed direction and
 // the tracked wrench, on the same poses in one run.  Writes wrench.csv and
 // wrench_measured.txt into a directory, of which wrench_report.py makes pages.
-#include <CLI/CLI.hpp>
 #include <iostream>
 
 #include "results/bench/program.h"
@@ -27,13 +26,13 @@ NamedTable RowTable(const std::vector<WrenchRow>& rows) {
                 })};
 }
 
-int Run(int argc, char** argv) {
-  std::string directory;
+}  // namespace
+
+int Run(Program* program) {
   int steps = 32, lengths = 4;
   std::size_t pairs = 20;
   std::uint64_t seed = kWrenchSeed;
-  CLI::App app("Wrenches along motions that turn.");
-  app.add_option("--output", directory, "directory to write into")->required();
+  CLI::App& app = program->WithOutput("Wrenches along motions that turn.");
   app.add_option("--pairs", pairs, "the first of them")
       ->check(CLI::Range(1, 20))
       ->capture_default_str();
@@ -45,8 +44,7 @@ int Run(int argc, char** argv) {
   app.add_option("--lengths", lengths, "each half of the one before")
       ->check(CLI::Range(2, 8))
       ->capture_default_str();
-  CLI11_PARSE(app, argc, argv);
-  OutputDirectory out(directory);
+  program->Parse();
   const std::vector<WrenchPair> all = WrenchPairs(seed);
   std::vector<WrenchRow> rows;
   for (std::size_t i = 0; i < pairs; ++i) {
@@ -55,20 +53,9 @@ int Run(int argc, char** argv) {
     }
     std::cerr << all[i].name << '\n';
   }
-  const NamedTable named = RowTable(rows);
-  out.Write(named.file, ToCsv(named.table));
-  out.Write(
-      "wrench_measured.txt",
-      Circumstances(CommandLine("build/wrench_benchmark", argc, argv), seed) +
-          "\n");
-  out.Commit();
+  program->Write({RowTable(rows)});
+  program->Finish(seed, "wrench_measured.txt");
   return 0;
 }
 
-}  // namespace
 }  // namespace phongpd::bench
-
-int main(int argc, char** argv) {
-  return phongpd::bench::RunProgram("wrench_benchmark", phongpd::bench::Run,
-                                    argc, argv);
-}

@@ -2,22 +2,18 @@
 #include "results/bench/wrench_measure.h"
 
 #include <algorithm>
-#include <ctime>
 #include <functional>
 
 #include "constraints/wrench_tracker.h"
 #include "core/projection/euclidean_metric.h"
 #include "core/projection/phong_metric.h"
 #include "results/bench/contact_points.h"
+#include "results/bench/report.h"
 
 namespace phongpd::bench {
 namespace {
 
 using Eigen::Vector3d;
-// Of this process: other jobs may share the machine.
-double ProcessorSeconds() {
-  return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
-}
 
 // One pose, its contact space and its field.
 struct Place {
@@ -218,14 +214,14 @@ std::vector<WrenchRow> MeasureWrenches(const WrenchPair& pair, int steps,
        {WrenchMotion::kTurn, WrenchMotion::kTurnAndMove}) {
     const std::vector<RobotPose> poses =
         WrenchPoses(pair, motion, steps << (lengths - 1));
-    const double begin = ProcessorSeconds();
+    const double begin = CpuSeconds();
     const std::vector<Place> places = MakePlaces(tracker, poses);
     const double space_seconds =
-        (ProcessorSeconds() - begin) / static_cast<double>(poses.size());
+        (CpuSeconds() - begin) / static_cast<double>(poses.size());
     for (const Metric& metric : metrics.All()) {
-      double seconds = ProcessorSeconds();
+      double seconds = CpuSeconds();
       const std::vector<WrenchSample> finest = Ask(metric, places, 1);
-      seconds = ProcessorSeconds() - seconds;
+      seconds = CpuSeconds() - seconds;
       for (int length = 0; length < lengths; ++length) {
         const std::size_t stride = std::size_t{1} << (lengths - 1 - length);
         WrenchRow row;

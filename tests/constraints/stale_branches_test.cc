@@ -14,10 +14,10 @@
 
 #include "constraints/non_penetration.h"
 #include "constraints/signed_metric.h"
-#include "core/mesh/mesh_error.h"
 #include "core/projection/phong_metric.h"
 #include "problems/shapes/shapes.h"
 #include "tests/support/campaign.h"
+#include "tests/support/expect_refused.h"
 #include "tests/support/metrics.h"
 #include "tests/support/solid_tools.h"
 
@@ -42,15 +42,10 @@ NonPenetrationConstraint Rows(int waypoints, int spaces) {
 
 template <typename Call>
 void ExpectRefused(const Call& call, std::size_t expected, std::size_t found) {
-  try {
-    call();
-    ADD_FAILURE() << "no error for " << found << " branches";
-  } catch (const InputError& error) {
-    const std::string what = error.what();
-    EXPECT_NE(what.find(std::to_string(expected)), std::string::npos) << what;
-    EXPECT_NE(what.find("found " + std::to_string(found)), std::string::npos)
-        << what;
-  }
+  const std::string what = testing::ErrorOf([&] { call(); });
+  EXPECT_NE(what.find(std::to_string(expected)), std::string::npos) << what;
+  EXPECT_NE(what.find("found " + std::to_string(found)), std::string::npos)
+      << what;
 }
 
 // Empty, too short, too long, of another constraint.

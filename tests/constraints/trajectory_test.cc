@@ -10,21 +10,12 @@
 #include <string>
 #include <vector>
 
-#include "core/mesh/mesh_error.h"
+#include "tests/support/expect_refused.h"
 
 namespace phongpd {
 namespace {
 
 using Eigen::Vector3d;
-
-std::string Message(const std::function<void()>& call) {
-  try {
-    call();
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
-}
 
 // q(t) = t³ (1, 2, −1) + (0, t, 5) for 0 ≤ t ≤ h: its Bézier points are the
 // blossoms of t³ and t.
@@ -161,30 +152,32 @@ TEST(Trajectory, EndsWhereItsLastPieceEndsHoweverDurationsRound) {
 }
 
 TEST(Trajectory, RefusesWhatIsNoMotionInOneLine) {
-  EXPECT_NE(Message([] {
+  EXPECT_NE(testing::ErrorOf([] {
               CurvePiece(Vector3d::Zero(), Vector3d::Zero(), 0.0);
             }).find("duration above 0"),
             std::string::npos);
-  EXPECT_NE(Message([] {
+  EXPECT_NE(testing::ErrorOf([] {
               CurvePiece(std::vector<Vector3d>(9, Vector3d::Zero()), 1.0);
             }).find("2 to 8 points"),
             std::string::npos);
-  EXPECT_NE(Message([] {
+  EXPECT_NE(testing::ErrorOf([] {
               CurvePiece(Vector3d::Constant(NAN), Vector3d::Zero(), 1.0);
             }).find("finite"),
             std::string::npos);
-  EXPECT_NE(Message([] {
+  EXPECT_NE(testing::ErrorOf([] {
               Trajectory({CurvePiece(Vector3d::Zero(), Vector3d::Ones(), 1.0),
                           CurvePiece(Vector3d::Zero(), Vector3d::Ones(), 1.0)});
             }).find("piece 1 does not begin where piece 0 ends"),
             std::string::npos);
-  EXPECT_NE(
-      Message([] { Trajectory({Cubic(2.0)}).Samples(0.0); }).find("rate:"),
-      std::string::npos);
+  EXPECT_NE(testing::ErrorOf([] {
+              Trajectory({Cubic(2.0)}).Samples(0.0);
+            }).find("rate:"),
+            std::string::npos);
   MotionLimits limits;
   limits.acceleration[1] = -2.0;
-  EXPECT_NE(Message([&] { limits.Validate(); }).find("acceleration of y"),
-            std::string::npos);
+  EXPECT_NE(
+      testing::ErrorOf([&] { limits.Validate(); }).find("acceleration of y"),
+      std::string::npos);
 }
 
 }  // namespace

@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include "core/mesh/mesh_error.h"
 #include "results/bench/report.h"
+#include "tests/support/expect_refused.h"
 
 namespace phongpd::bench {
 namespace {
@@ -32,12 +32,7 @@ TEST(CsvTable, NeedsNoLastLineEnd) {
 
 TEST(CsvTable, RefusesBadInputByName) {
   const auto message = [](const auto& run) -> std::string {
-    try {
-      run();
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return "none";
+    return testing::ErrorOf([&] { run(); }, "none");
   };
   EXPECT_EQ(message([] { CsvTable("", "t"); }),
             "t: expected a header, found none");

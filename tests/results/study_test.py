@@ -12,7 +12,8 @@ from scipy import stats
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "results/bench"))
 import study_report  # noqa: E402
-from study_statistics import holm, interval, p_of_flips, verdict  # noqa: E402
+from report_statistics import holm  # noqa: E402
+from study_statistics import interval, p_of_flips, verdict  # noqa: E402
 
 
 def test_flips_count_all_ways():

@@ -9,17 +9,23 @@
 
 namespace phongpd::testing {
 
+// What the InputError says that `action` throws; `otherwise` if it throws none.
+template <typename Action>
+std::string ErrorOf(const Action& action, const std::string& otherwise = "") {
+  try {
+    action();
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return otherwise;
+}
+
 // `action` has to throw an InputError of one line that says `part`.
 template <typename Action>
 void ExpectRefused(const Action& action, const std::string& part) {
-  try {
-    action();
-    ADD_FAILURE() << "no error that says: " << part;
-  } catch (const InputError& error) {
-    const std::string text = error.what();
-    EXPECT_NE(text.find(part), std::string::npos) << text;
-    EXPECT_EQ(text.find('\n'), std::string::npos) << text;
-  }
+  const std::string text = ErrorOf(action, "no error");
+  EXPECT_NE(text.find(part), std::string::npos) << text << " / " << part;
+  EXPECT_EQ(text.find('\n'), std::string::npos) << text;
 }
 
 }  // namespace phongpd::testing

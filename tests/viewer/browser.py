@@ -139,6 +139,11 @@ class Browser:
         for kind in ("mousePressed", "mouseReleased"):
             self.mouse(kind, x, y, button="left", clickCount=1)
 
+    def open_link(self, page):
+        """Of the page as it is now."""
+        self.click("#link")
+        self.open(page, self.run("location.hash"))
+
     def press(self, key):
         for kind in ("keyDown", "keyUp"):
             self.call("Input.dispatchKeyEvent", type=kind, key=key)

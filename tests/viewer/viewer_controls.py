@@ -152,9 +152,7 @@ def work_iterations(browser, checks, page):
     holds("(viewer.draw(), viewer.stage.robot.position.distanceTo("
           "viewer.stage.at(viewer.data.start)) < 1e-5)",
           "the robot follows the iterate")
-    browser.click("#link")
-    link = browser.run("location.hash")
-    browser.open(page, link)
+    browser.open_link(page)
     holds("viewer.state.iterate === 0 && viewer.stage.iterates.shown !== null",
           "a link keeps the iteration")
     browser.run("viewer.set(() => { viewer.state.speed = 4; })")

@@ -143,9 +143,7 @@ def work_section(browser, checks, page):
       const step = scale * Math.max(max.x - min.x, max.y - min.y) / n;
       return Math.abs(viewer.map.range.high - most) < step;
     })()""", "the key's end is the greatest depth of the plane")
-    browser.click("#link")
-    link = browser.run("location.hash")
-    browser.open(page, link)
+    browser.open_link(page)
     browser.wait("viewer.map.cells === kMapCells")
     holds("viewer.state.map === 'euclidean'", "a link keeps the colours")
     browser.press("c")
@@ -184,9 +182,7 @@ def work_surface(browser, checks, page):
     })()""", "no depth is more than that of the place, and some are it")
     changes(lambda: (browser.run(entered("below", "0.2")),
                      browser.wait(done)), "another depth of the question")
-    browser.click("#link")
-    link = browser.run("location.hash")
-    browser.open(page, link)
+    browser.open_link(page)
     browser.wait(done)
     holds("viewer.state.surface === 'euclidean' && viewer.state.below === 0.2",
           "a link keeps the colours")
@@ -196,9 +192,7 @@ def work_surface(browser, checks, page):
           "document.getElementById('surface-below').hidden && "
           "document.getElementById('surface-key').hidden",
           "curvature takes their place")
-    browser.click("#link")
-    link = browser.run("location.hash")
-    browser.open(page, link)
+    browser.open_link(page)
     holds("viewer.state.surface === 'bend' && viewer.stage.isBend",
           "a link keeps curvature")
     checks.quiet("surface")

@@ -215,9 +215,7 @@ def chart_of_a_motion(browser, checks, page):
                  ".pd)) > 45 && Math.max(...kChartKinds.angle.of(viewer.data."
                  "motion.traces[1].pd)) < 45",
                  "Euclidean PD flips, PhongPD does not")
-    browser.click("#link")
-    link = browser.run("location.hash")
-    browser.open(page, link)
+    browser.open_link(page)
     checks.holds("viewer.state.chart === 'angle'", "a link keeps it")
     checks.quiet("chart")
 

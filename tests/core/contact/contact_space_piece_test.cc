@@ -16,6 +16,7 @@
 #include "problems/shapes/random_solids.h"
 #include "problems/shapes/shapes.h"
 #include "tests/support/campaign.h"
+#include "tests/support/expect_refused.h"
 #include "tests/support/random_pairs.h"
 #include "tests/support/same_space.h"
 #include "tests/support/solid_tools.h"
@@ -45,15 +46,10 @@ bool AreSame(const ContactSpace& a, const ContactSpace& b) {
 template <typename Action>
 void ExpectRefused(const Action& action,
                    const std::vector<std::string>& words) {
-  try {
-    action();
-    ADD_FAILURE() << "not refused: " << words[0];
-  } catch (const InputError& error) {
-    const std::string text = error.what();
-    EXPECT_EQ(text.find('\n'), std::string::npos);
-    for (const std::string& word : words) {
-      EXPECT_NE(text.find(word), std::string::npos) << text << " / " << word;
-    }
+  const std::string text = testing::ErrorOf([&] { action(); });
+  EXPECT_EQ(text.find('\n'), std::string::npos);
+  for (const std::string& word : words) {
+    EXPECT_NE(text.find(word), std::string::npos) << text << " / " << word;
   }
 }
 

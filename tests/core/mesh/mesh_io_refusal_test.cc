@@ -13,6 +13,7 @@
 #include "core/mesh/mesh_io.h"
 #include "core/solid/solid.h"
 #include "problems/shapes/shapes.h"
+#include "tests/support/expect_refused.h"
 #include "tests/support/temporary_folder.h"
 
 namespace phongpd {
@@ -22,12 +23,8 @@ namespace {
 void ExpectRefusal(const std::string& path, const std::string& part) {
   ::testing::internal::CaptureStdout();
   ::testing::internal::CaptureStderr();
-  std::string what = "accepted";
-  try {
-    ReadMesh(path);
-  } catch (const InputError& error) {
-    what = error.what();
-  }
+  const std::string what =
+      testing::ErrorOf([&] { ReadMesh(path); }, "accepted");
   EXPECT_EQ(::testing::internal::GetCapturedStdout(), "") << path;
   EXPECT_EQ(::testing::internal::GetCapturedStderr(), "") << path;
   EXPECT_EQ(what.rfind(path + ": ", 0), 0u) << what;

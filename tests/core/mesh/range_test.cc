@@ -14,6 +14,7 @@
 #include "core/projection/euclidean_metric.h"
 #include "core/projection/phong_metric.h"
 #include "problems/shapes/shapes.h"
+#include "tests/support/expect_refused.h"
 #include "tests/support/metrics.h"
 
 namespace phongpd {
@@ -97,12 +98,8 @@ TEST(Range, HoldsTheLargestFloats) {
 }
 
 std::string Refusal(const TriangleMesh& mesh, Repair repair) {
-  try {
-    RepairSolid(mesh, "mesh", repair);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "accepted";
+  return testing::ErrorOf([&] { RepairSolid(mesh, "mesh", repair); },
+                          "accepted");
 }
 
 TEST(Range, EndsByNameWithTheValueAndTheLimit) {

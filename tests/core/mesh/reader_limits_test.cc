@@ -25,6 +25,7 @@
 #include "core/mesh/mesh_scanner.h"
 #include "core/mesh/polygon_soup.h"
 #include "core/stopwatch.h"
+#include "tests/support/expect_refused.h"
 
 namespace {
 
@@ -63,12 +64,8 @@ void ExpectRefused(MeshFormat format, const std::string& bytes,
   const std::size_t before = held;
   most = before;
   const Stopwatch stopwatch;
-  std::string what = "accepted";
-  try {
-    internal::ReadMeshBytes(format, bytes, "file");
-  } catch (const InputError& error) {
-    what = error.what();
-  }
+  const std::string what = testing::ErrorOf(
+      [&] { internal::ReadMeshBytes(format, bytes, "file"); }, "accepted");
   EXPECT_LT(most - before, kBase + 100 * bytes.size()) << what;
   EXPECT_LT(stopwatch.Seconds(), 1.0) << what;
   EXPECT_EQ(what.rfind("file: ", 0), 0u) << what;
@@ -302,19 +299,15 @@ TEST(ReaderLimits, WhatIsReadTakesMemoryInProportion) {
 }
 
 std::string TestPath(const std::string& file) {
-  const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-  const std::string path = testing::TempDir() + test->name() + "_" + file;
+  const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
+  const std::string path = ::testing::TempDir() + test->name() + "_" + file;
   std::filesystem::remove_all(path);
   return path;
 }
 
 std::string Refusal(const std::string& path, std::uintmax_t max_bytes) {
-  try {
-    ReadInputFile(path, "a mesh file", max_bytes);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "accepted";
+  return testing::ErrorOf(
+      [&] { ReadInputFile(path, "a mesh file", max_bytes); }, "accepted");
 }
 
 TEST(InputFile, RefusesWhatIsNoFileAtOnce) {
@@ -323,7 +316,7 @@ TEST(InputFile, RefusesWhatIsNoFileAtOnce) {
             "/dev/zero: expected a mesh file, found a device; name a file");
   EXPECT_EQ(Refusal("/dev/null", 100),
             "/dev/null: expected a mesh file, found a device; name a file");
-  EXPECT_NE(Refusal(testing::TempDir(), 100).find("found a directory"),
+  EXPECT_NE(Refusal(::testing::TempDir(), 100).find("found a directory"),
             std::string::npos);
   EXPECT_NE(Refusal(TestPath("missing"), 100).find("found nothing"),
             std::string::npos);

@@ -10,8 +10,8 @@
 #include <utility>
 #include <vector>
 
-#include "core/mesh/mesh_error.h"
 #include "problems/shapes/shapes.h"
+#include "tests/support/expect_refused.h"
 
 namespace phongpd {
 namespace {
@@ -201,12 +201,9 @@ TEST(GridSolid, PairsFourFacetsOfAnEdgeThroughTheSolid) {
 
 TEST(GridSolid, RefusesWhatHasNoInsideByName) {
   const auto refusal = [](const TriangleMesh& mesh) -> std::string {
-    try {
+    return testing::ErrorOf([&] {
       internal::MakeGridSolid(Rounded(mesh), mesh.triangles, false, "cup.off");
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return "";
+    });
   };
   // All in one point.
   EXPECT_NE(refusal(MakeBox({-.1, -.1, -.1}, {.1, .1, .1}))

@@ -12,8 +12,8 @@
 #include <string>
 #include <vector>
 
-#include "core/mesh/mesh_error.h"
 #include "problems/shapes/shapes.h"
+#include "tests/support/expect_refused.h"
 
 namespace phongpd {
 namespace {
@@ -358,12 +358,9 @@ TEST(PhongField, RefusesBadInputByName) {
   const TriangleMesh box = MakeBox(Vector3d(0, 0, 0), Vector3d(1, 1, 1));
   const auto message = [](const TriangleMesh& mesh,
                           const PhongFieldOptions& options) -> std::string {
-    try {
-      BuildPhongField(TakeAsContactSpace(mesh), options);
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return "accepted";
+    return testing::ErrorOf(
+        [&] { BuildPhongField(TakeAsContactSpace(mesh), options); },
+        "accepted");
   };
   const double nan = std::numeric_limits<double>::quiet_NaN();
   EXPECT_NE(message(box, Ell(-0.1)).find("smoothing_length"),

@@ -9,25 +9,15 @@
 #include "core/contact/contact_space.h"
 #include "core/contact/convolution_model.h"
 #include "core/contact/depth.h"
-#include "core/mesh/mesh_error.h"
 #include "core/mesh/mesh_io.h"
 #include "problems/shapes/shapes.h"
+#include "tests/support/expect_refused.h"
 
 namespace phongpd {
 namespace {
 
 TriangleMesh Box(double side) {
   return MakeBox(Eigen::Vector3d::Zero(), Eigen::Vector3d::Constant(side));
-}
-
-template <typename Action>
-std::string MessageOf(const Action& action) {
-  try {
-    action();
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
 }
 
 TEST(Solid, SharesItsMeshUnderAnyName) {
@@ -67,11 +57,11 @@ TEST(Solid, IsNamedByWhatRefusesIt) {
   const Solid box = MakeSolid(Box(1.0), "box");
   const Solid none, named = none.Named("lid");
   const std::vector<std::string> said = {
-      MessageOf([&] { BuildContactSpace(none, box); }),
-      MessageOf([&] { BuildContactSpace(box, none); }),
-      MessageOf([&] { ConvolutionModel(none, box); }),
-      MessageOf([&] { DepthQuery(none, box); }),
-      MessageOf([&] { DepthQuery(box, named); })};
+      testing::ErrorOf([&] { BuildContactSpace(none, box); }),
+      testing::ErrorOf([&] { BuildContactSpace(box, none); }),
+      testing::ErrorOf([&] { ConvolutionModel(none, box); }),
+      testing::ErrorOf([&] { DepthQuery(none, box); }),
+      testing::ErrorOf([&] { DepthQuery(box, named); })};
   EXPECT_EQ(said[0], "robot: expected a solid, found no triangle");
   EXPECT_EQ(said[1], "obstacle: expected a solid, found no triangle");
   EXPECT_EQ(said[2], said[0]);
@@ -79,8 +69,8 @@ TEST(Solid, IsNamedByWhatRefusesIt) {
   EXPECT_EQ(said[4], "lid: expected a solid, found no triangle");
   // Details below the grid of the other: by its own name, too.
   const Solid speck = MakeSolid(Box(1e-14), "speck");
-  const std::string lost =
-      MessageOf([&] { BuildContactSpace(speck, MakeSolid(Box(1.0), "box")); });
+  const std::string lost = testing::ErrorOf(
+      [&] { BuildContactSpace(speck, MakeSolid(Box(1.0), "box")); });
   EXPECT_EQ(lost.rfind("speck: ", 0), 0U) << lost;
 }
 
@@ -102,7 +92,9 @@ TEST(ReadSolid, IsCalledByItsPath) {
   const Solid box = ReadSolid(path);
   EXPECT_EQ(box.name(), path);
   EXPECT_EQ(box.report().volume, 8.0);
-  EXPECT_EQ(MessageOf([] { ReadSolid("nowhere.off"); }).rfind("nowhere.off", 0),
+  EXPECT_EQ(testing::ErrorOf([] {
+              ReadSolid("nowhere.off");
+            }).rfind("nowhere.off", 0),
             0U);
 }
 

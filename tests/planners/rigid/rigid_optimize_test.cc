@@ -10,21 +10,15 @@
 
 #include "problems/shapes/shapes.h"
 #include "tests/support/expect_refused.h"
-#include "tests/support/rigid_truth.h"
+#include "tests/support/rigid_paths.h"
 #include "tests/support/solid_tools.h"
 
 namespace phongpd {
 namespace {
 
 using Eigen::AngleAxisd, Eigen::Quaterniond, Eigen::Vector3d;
-using testing::Cube, testing::ExpectRefused, testing::MeetExactly,
-    testing::PlacedMesh, testing::PoseAt;
-
-TriangleMesh Bar() { return MakeBox({-1.0, -0.2, -0.2}, {1.0, 0.2, 0.2}); }
-const TriangleMesh& Wall() {
-  static const TriangleMesh wall = MakePlateWithHole(6.0, 0.4, 1.6);
-  return wall;
-}
+using testing::Cube, testing::ExpectRefused, testing::LongBar, testing::PoseAt,
+    testing::WallWithHole;
 
 RigidOptimizeRequest ThroughTheWall(RigidStart from) {
   RigidOptimizeRequest request;
@@ -38,44 +32,18 @@ RigidOptimizeRequest ThroughTheWall(RigidStart from) {
   return request;
 }
 
-// Ends as asked for, within bounds, and no triangle meets another at 300
-// moments or more.
 void ExpectFreePath(const TriangleMesh& robot, const TriangleMesh& obstacle,
                     const RigidOptimizeRequest& request,
                     const RigidOptimum& found) {
-  const RigidAnswer& answer = found.answer;
-  ASSERT_TRUE(HasFreePath(answer.status)) << answer.reason;
-  ASSERT_GE(answer.path.size(), 2u);
-  EXPECT_EQ(answer.path.front().position, request.task.start.position);
-  EXPECT_EQ(answer.path.back().position, request.task.goal.position);
-  EXPECT_EQ(answer.path.front().orientation.coeffs(),
-            request.task.start.orientation.coeffs());
-  EXPECT_EQ(answer.path.back().orientation.coeffs(),
-            request.task.goal.orientation.coeffs());
-  const RigidWorld world(robot, obstacle);
-  double length = 0.0;
-  const int moments = 1 + 300 / static_cast<int>(answer.path.size() - 1);
-  for (std::size_t i = 0; i + 1 < answer.path.size(); ++i) {
-    const RigidMotion motion(answer.path[i], answer.path[i + 1]);
-    length +=
-        std::hypot((motion.end().position - motion.start().position).norm(),
-                   world.gyration() * motion.angle());
-    for (int k = 0; k <= moments; ++k) {
-      const double t = static_cast<double>(k) / moments;
-      EXPECT_FALSE(MeetExactly(PlacedMesh(robot, motion, t), obstacle))
-          << "motion " << i << " at " << t;
-      EXPECT_TRUE(request.task.bounds.isEmpty() ||
-                  request.task.bounds.contains(motion.At(t).position));
-    }
-  }
-  EXPECT_NEAR(answer.length, length, 1e-9 * length);
+  ASSERT_TRUE(HasFreePath(found.answer.status)) << found.answer.reason;
+  testing::ExpectFreePath(robot, obstacle, request.task, found.answer, 300);
 }
 
 TEST(RigidOptimize, TurnsABarThroughAHoleFromTheStraightMotion) {
   RigidOptimizeRequest request = ThroughTheWall(RigidStart::kStraight);
   request.start_noise = 0.02;
-  const RigidOptimum found = Optimize({Bar(), Wall()}, request);
-  ExpectFreePath(Bar(), Wall(), request, found);
+  const RigidOptimum found = Optimize({LongBar(), WallWithHole()}, request);
+  ExpectFreePath(LongBar(), WallWithHole(), request, found);
   EXPECT_EQ(found.answer.planner, "straight");
   EXPECT_EQ(found.planned_length, 0.0);
   EXPECT_GE(found.rounds, 1);
@@ -83,9 +51,9 @@ TEST(RigidOptimize, TurnsABarThroughAHoleFromTheStraightMotion) {
 
 TEST(RigidOptimize, ShortensThePlannersPath) {
   const RigidOptimizeRequest request = ThroughTheWall(RigidStart::kPlanner);
-  const RigidWorld world(Bar(), Wall());
+  const RigidWorld world(LongBar(), WallWithHole());
   const RigidOptimum found = Optimize(world, request);
-  ExpectFreePath(Bar(), Wall(), request, found);
+  ExpectFreePath(LongBar(), WallWithHole(), request, found);
   EXPECT_GT(found.planned_length, 0.0);
   EXPECT_LE(found.answer.length, found.planned_length);
   EXPECT_GT(found.answer.length,
@@ -101,7 +69,7 @@ TEST(RigidOptimize, TrackedRowsLeadThereToo) {
   request.from = RigidStart::kStraight;
   request.knots = 5;
   request.is_tracked = true;
-  const TriangleMesh robot = Bar(), obstacle = Cube(2.0);
+  const TriangleMesh robot = LongBar(), obstacle = Cube(2.0);
   const RigidOptimum found = Optimize({robot, obstacle}, request);
   ExpectFreePath(robot, obstacle, request, found);
   // Around, not far around.
@@ -114,7 +82,7 @@ TEST(RigidOptimize, GoesStraightWhereNothingIsInTheWay) {
   RigidOptimizeRequest request;
   request.task.start = PoseAt({-3.0, 3.0, 0.0});
   request.task.goal = PoseAt({3.0, 3.0, 0.0});
-  const RigidOptimum found = Optimize({Bar(), Cube(1.0)}, request);
+  const RigidOptimum found = Optimize({LongBar(), Cube(1.0)}, request);
   EXPECT_EQ(found.answer.status, PathStatus::kSolved);
   EXPECT_EQ(found.answer.planner, "line");
   EXPECT_EQ(found.answer.path.size(), 2u);
@@ -128,7 +96,7 @@ TEST(RigidOptimize, SameRequestSamePath) {
   request.task.time_limit = 300.0;
   request.from = RigidStart::kStraight;
   request.start_noise = 0.05;
-  const RigidWorld world(Bar(), Cube(2.0));
+  const RigidWorld world(LongBar(), Cube(2.0));
   const RigidOptimum a = Optimize(world, request);
   const RigidOptimum b = Optimize(world, request);
   ASSERT_FALSE(a.answer.path.empty()) << a.answer.reason;
@@ -144,12 +112,12 @@ TEST(RigidOptimize, SameRequestSamePath) {
 TEST(RigidOptimize, SaysWhatIsNotFreeAndWhatHasNoDepth) {
   RigidOptimizeRequest request = ThroughTheWall(RigidStart::kBoth);
   request.task.start = PoseAt({2.0, 2.0, 0.0});
-  EXPECT_EQ(Optimize({Bar(), Wall()}, request).answer.status,
+  EXPECT_EQ(Optimize({LongBar(), WallWithHole()}, request).answer.status,
             PathStatus::kStartInCollision);
-  TriangleMesh open = Wall();
+  TriangleMesh open = WallWithHole();
   open.triangles.pop_back();
   const RigidOptimum found =
-      Optimize({Bar(), open}, ThroughTheWall(RigidStart::kStraight));
+      Optimize({LongBar(), open}, ThroughTheWall(RigidStart::kStraight));
   EXPECT_EQ(found.answer.status, PathStatus::kFailed);
   EXPECT_NE(found.answer.reason.find("no solids"), std::string::npos)
       << found.answer.reason;
@@ -157,7 +125,7 @@ TEST(RigidOptimize, SaysWhatIsNotFreeAndWhatHasNoDepth) {
 }
 
 TEST(RigidOptimize, RefusesBadRequests) {
-  const RigidWorld world(Bar(), Wall());
+  const RigidWorld world(LongBar(), WallWithHole());
   const auto refused = [&](auto change, const std::string& words) {
     RigidOptimizeRequest request = ThroughTheWall(RigidStart::kBoth);
     change(&request);

@@ -13,7 +13,7 @@
 #include "core/pi.h"
 #include "problems/shapes/shapes.h"
 #include "tests/support/expect_refused.h"
-#include "tests/support/rigid_truth.h"
+#include "tests/support/rigid_paths.h"
 #include "tests/support/solid_tools.h"
 
 namespace phongpd {
@@ -23,9 +23,10 @@ using Eigen::Quaterniond;
 using Eigen::Vector3d;
 using testing::Cube;
 using testing::ExpectRefused;
-using testing::MeetExactly;
+using testing::LongBar;
 using testing::MeshDistance;
 using testing::PlacedMesh;
+using testing::WallWithHole;
 
 RobotPose At(const Vector3d& position, double angle = 0.0,
              const Vector3d& axis = Vector3d::UnitZ()) {
@@ -40,32 +41,10 @@ bool IsSame(const RobotPose& a, const RobotPose& b) {
          a.orientation.coeffs() == b.orientation.coeffs();
 }
 
-// The path has the ends asked for, keeps to the bounds, and no triangle meets
-// another at many of its moments.
 void ExpectFreePath(const TriangleMesh& robot, const TriangleMesh& obstacle,
                     const RigidRequest& request, const RigidAnswer& answer) {
   ASSERT_EQ(answer.status, PathStatus::kSolved) << answer.reason;
-  ASSERT_GE(answer.path.size(), 2u);
-  EXPECT_TRUE(IsSame(answer.path.front(), request.start));
-  EXPECT_TRUE(IsSame(answer.path.back(), request.goal));
-  double length = 0.0;
-  const RigidWorld world(robot, obstacle);
-  const int moments = std::max(2, 200 / static_cast<int>(answer.path.size()));
-  for (std::size_t i = 0; i + 1 < answer.path.size(); ++i) {
-    const RigidMotion motion(answer.path[i], answer.path[i + 1]);
-    length +=
-        std::hypot((motion.end().position - motion.start().position).norm(),
-                   world.gyration() * motion.angle());
-    for (int k = 0; k <= moments; ++k) {
-      const double t = static_cast<double>(k) / moments;
-      EXPECT_FALSE(MeetExactly(PlacedMesh(robot, motion, t), obstacle))
-          << "motion " << i << " at " << t;
-      if (!request.bounds.isEmpty()) {
-        EXPECT_TRUE(request.bounds.contains(motion.At(t).position));
-      }
-    }
-  }
-  EXPECT_NEAR(answer.length, length, 1e-9 * length);
+  testing::ExpectFreePath(robot, obstacle, request, answer, 200);
   // It is as close as it says where it says so, and nowhere closer.
   const RigidClearance& clearance = answer.clearance;
   EXPECT_GT(clearance.lower, 0.0);
@@ -79,14 +58,6 @@ void ExpectFreePath(const TriangleMesh& robot, const TriangleMesh& obstacle,
   EXPECT_LE(distance, clearance.upper);
 }
 
-// A bar longer than the hole is wide has to turn to go through.
-const TriangleMesh& Wall() {
-  static const TriangleMesh wall = MakePlateWithHole(6.0, 0.4, 1.6);
-  return wall;
-}
-
-TriangleMesh Bar() { return MakeBox({-1.0, -0.2, -0.2}, {1.0, 0.2, 0.2}); }
-
 RigidRequest ThroughTheWall() {
   RigidRequest request;
   request.start = At({0.2, 0.1, 2.0});
@@ -97,7 +68,7 @@ RigidRequest ThroughTheWall() {
 }
 
 TEST(RigidPlan, GoesStraightWhereNothingIsInTheWay) {
-  const TriangleMesh robot = Bar(), obstacle = Cube(1.0);
+  const TriangleMesh robot = LongBar(), obstacle = Cube(1.0);
   RigidRequest request;
   request.start = At({-3.0, 3.0, 0.0});
   request.goal = At({3.0, 3.0, 0.0}, 2.0);
@@ -115,7 +86,7 @@ TEST(RigidPlan, GoesStraightWhereNothingIsInTheWay) {
 }
 
 TEST(RigidPlan, GoesAroundABlock) {
-  const TriangleMesh robot = Bar(), obstacle = Cube(2.0);
+  const TriangleMesh robot = LongBar(), obstacle = Cube(2.0);
   RigidRequest request;
   request.start = At({-3.0, 0.0, 0.0});
   request.goal = At({3.0, 0.0, 0.0}, 0.5 * kPi);
@@ -130,18 +101,18 @@ TEST(RigidPlan, TurnsABarThroughAHole) {
   for (const std::uint64_t seed : {1, 2}) {
     RigidRequest request = ThroughTheWall();
     request.seed = seed;
-    const RigidAnswer answer = Plan({Bar(), Wall()}, request);
-    ExpectFreePath(Bar(), Wall(), request, answer);
+    const RigidAnswer answer = Plan({LongBar(), WallWithHole()}, request);
+    ExpectFreePath(LongBar(), WallWithHole(), request, answer);
     EXPECT_LE(answer.path.size(), 60u);
   }
 }
 
 TEST(RigidPlan, ShorteningLeavesAShorterPath) {
   RigidRequest request = ThroughTheWall();
-  const RigidAnswer short_one = Plan({Bar(), Wall()}, request);
+  const RigidAnswer short_one = Plan({LongBar(), WallWithHole()}, request);
   request.shortens = false;
-  const RigidAnswer as_found = Plan({Bar(), Wall()}, request);
-  ExpectFreePath(Bar(), Wall(), request, as_found);
+  const RigidAnswer as_found = Plan({LongBar(), WallWithHole()}, request);
+  ExpectFreePath(LongBar(), WallWithHole(), request, as_found);
   EXPECT_EQ(as_found.path.size(), as_found.found_poses);
   EXPECT_EQ(as_found.found_poses, short_one.found_poses);
   EXPECT_LT(short_one.length, as_found.length);
@@ -149,7 +120,7 @@ TEST(RigidPlan, ShorteningLeavesAShorterPath) {
 
 TEST(RigidPlan, GivesTheSamePathForTheSameSeed) {
   const RigidRequest request = ThroughTheWall();
-  const RigidWorld world(Bar(), Wall());
+  const RigidWorld world(LongBar(), WallWithHole());
   const RigidAnswer one = Plan(world, request), other = Plan(world, request);
   ASSERT_TRUE(one.IsSolved());
   EXPECT_EQ(one.planner, other.planner);
@@ -164,7 +135,7 @@ TEST(RigidPlan, SaysThatNoneWasFoundThroughAWholeWall) {
   const TriangleMesh wall = MakeBox({-9, -9, -0.2}, {9, 9, 0.2});
   RigidRequest request = ThroughTheWall();
   request.time_limit = 0.3;
-  const RigidAnswer answer = Plan({Bar(), wall}, request);
+  const RigidAnswer answer = Plan({LongBar(), wall}, request);
   EXPECT_EQ(answer.status, PathStatus::kTimeLimit);
   EXPECT_TRUE(answer.path.empty());
   EXPECT_TRUE(answer.planner.empty());
@@ -178,7 +149,7 @@ TEST(RigidPlan, EndsWhenTheCallerSaysSo) {
   RigidRequest request = ThroughTheWall();
   int asked = 0;
   request.is_interrupted = [&asked] { return ++asked > 100; };
-  const RigidAnswer answer = Plan({Bar(), wall}, request);
+  const RigidAnswer answer = Plan({LongBar(), wall}, request);
   EXPECT_EQ(answer.status, PathStatus::kInterrupted);
   EXPECT_TRUE(answer.path.empty());
   EXPECT_EQ(asked, 101);
@@ -207,7 +178,7 @@ TEST(RigidPlan, TellsWhoMeetsWhomAndHowDeep) {
 TEST(RigidPlan, TellsWhichEndIsOutOfBounds) {
   RigidRequest request = ThroughTheWall();
   request.bounds.max().z() = 1.5;
-  const RigidWorld world(Bar(), Wall());
+  const RigidWorld world(LongBar(), WallWithHole());
   EXPECT_EQ(Plan(world, request).status, PathStatus::kStartOutOfBounds);
   std::swap(request.start, request.goal);
   EXPECT_EQ(Plan(world, request).status, PathStatus::kGoalOutOfBounds);
@@ -215,7 +186,7 @@ TEST(RigidPlan, TellsWhichEndIsOutOfBounds) {
 
 TEST(RigidPlan, RefusesRequestsThatMakeNoSense) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  const RigidWorld world(Bar(), Wall());
+  const RigidWorld world(LongBar(), WallWithHole());
   const auto expect = [&](const auto& change, const std::string& part) {
     RigidRequest request = ThroughTheWall();
     change(&request);

@@ -13,6 +13,7 @@
 #include "core/mesh/mesh_error.h"
 #include "problems/shapes/shapes.h"
 #include "tests/support/curve_problems.h"
+#include "tests/support/expect_refused.h"
 #include "tests/support/solid_tools.h"
 
 namespace phongpd {
@@ -166,13 +167,10 @@ TEST(Fleet, RefusesRobotsThatBeginOrEndInEachOther) {
   const World world = Room({{-9, -9, -9}, {9, 9, 9}});
   const auto message = [&](const Vector3d& start, const Vector3d& goal,
                            const std::string& name) -> std::string {
-    try {
+    return testing::ErrorOf([&] {
       OptimizeFleet({Robot("one", world, {0, 0, 0}, {5, 0, 0}),
                      Robot(name, world, start, goal)});
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return "";
+    });
   };
   EXPECT_NE(message({0.5, 0, 0}, {0, 5, 0}, "two").find("at their starts"),
             std::string::npos);

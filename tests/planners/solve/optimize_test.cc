@@ -13,27 +13,12 @@
 #include "core/minkowski/build_stop.h"
 #include "planners/solve/best_curve.h"
 #include "planners/trajectory/corridor.h"
-#include "problems/scenes/scene_requests.h"
-#include "problems/scenes/scene_source.h"
+#include "tests/support/staged.h"
 
 namespace phongpd {
 namespace {
 
-// A scene of a family with its world.
-struct Staged {
-  explicit Staged(const std::string& family, const WorldLimits& limits = {})
-      : scene(SceneSource(family).Load()),
-        world(scene.workspace, scene.name, {}, limits) {}
-
-  OptimizeRequest Request(Model model) const {
-    OptimizeRequest request = OptimizeRequestOf(scene);
-    request.model = model;
-    return request;
-  }
-
-  Scene scene;
-  World world;
-};
+using testing::Staged;
 
 // Judged by what the window never built: the whole contact space.
 TEST(TrajectoryModel, PathsOfTheWindowAreFreeOnTheWholeContactSpace) {

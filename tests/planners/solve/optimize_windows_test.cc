@@ -7,27 +7,20 @@
 
 #include "core/mesh/mesh_error.h"
 #include "planners/solve/optimize.h"
-#include "problems/scenes/scene_requests.h"
-#include "problems/scenes/scene_source.h"
+#include "tests/support/staged.h"
 
 namespace phongpd {
 namespace {
 
-struct Staged {
-  explicit Staged(const std::string& family, const WorldLimits& limits = {})
-      : scene(SceneSource(family).Load()),
-        world(scene.workspace, scene.name, {}, limits) {}
+struct Staged : testing::Staged {
+  using testing::Staged::Staged;
 
   OptimizeRequest Request(Model model, const std::string& metric) const {
-    OptimizeRequest request = OptimizeRequestOf(scene);
-    request.model = model;
+    OptimizeRequest request = testing::Staged::Request(model);
     request.penetration = ParsePenetration(metric, "metric");
     request.verifies = false;
     return request;
   }
-
-  Scene scene;
-  World world;
 };
 
 double Apart(const Path& a, const Path& b) {

@@ -14,20 +14,16 @@
 #include "constraints/motion_oracle.h"
 #include "core/mesh/mesh_error.h"
 #include "core/minkowski/build_stop.h"
-#include "problems/scenes/scene_requests.h"
-#include "problems/scenes/scene_source.h"
 #include "problems/shapes/random_solids.h"
+#include "tests/support/staged.h"
 
 namespace phongpd {
 namespace {
 
 using Eigen::Vector3d;
 
-// A scene of a family with its world.
-struct Staged {
-  explicit Staged(const std::string& family, const WorldLimits& limits = {})
-      : scene(SceneSource(family).Load()),
-        world(scene.workspace, scene.name, {}, limits) {}
+struct Staged : testing::Staged {
+  using testing::Staged::Staged;
 
   PlanRequest Request(PlannerId planner, Model model) const {
     PlanRequest request = PlanRequestOf(scene);
@@ -36,9 +32,6 @@ struct Staged {
     request.time_limit = 20.0;
     return request;
   }
-
-  Scene scene;
-  World world;
 };
 
 // What is in help is in scenes, and the other way round.

@@ -16,7 +16,7 @@
 #include <string>
 #include <vector>
 
-#include "core/mesh/mesh_error.h"
+#include "tests/support/expect_refused.h"
 #include "tests/support/temporary_folder.h"
 
 namespace phongpd {
@@ -132,13 +132,12 @@ class IpoptOptions : public testing::TemporaryFolder {
       settings.ipopt_options["hessian_approximation"] = "limited-memory";
     }
     settings.ipopt_options[name] = value;
-    try {
-      Hyperbola program;
-      SolveWithIpopt(&program, VectorXd::Constant(2, 0.3), settings);
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return "answer";
+    return testing::ErrorOf(
+        [&] {
+          Hyperbola program;
+          SolveWithIpopt(&program, VectorXd::Constant(2, 0.3), settings);
+        },
+        "answer");
   }
 };
 
@@ -182,12 +181,7 @@ TEST_F(IpoptOptions, OfOneAtATimeSayWhatIsTaken) {
   const auto refusal = [&](const char* name, const IpoptValue& value) {
     IpoptSettings settings;
     settings.ipopt_options[name] = value;
-    try {
-      CheckIpoptOptions(settings);
-    } catch (const InputError& error) {
-      return std::string(error.what());
-    }
-    return std::string();
+    return testing::ErrorOf([&] { CheckIpoptOptions(settings); });
   };
   EXPECT_EQ(refusal("output_file", "a.txt"),
             "Ipopt option 'output_file': expected one that changes numbers "

@@ -11,18 +11,14 @@
 #include <vector>
 
 #include "core/mesh/mesh_error.h"
+#include "tests/support/expect_refused.h"
 
 namespace phongpd {
 namespace {
 
 template <typename Call>
 std::string ErrorOf(const Call& call) {
-  try {
-    call();
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "no error";
+  return testing::ErrorOf([&] { call(); }, "no error");
 }
 
 TEST(Length, ResolvesInBothWays) {

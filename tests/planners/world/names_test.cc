@@ -11,6 +11,7 @@
 #include "planners/world/path_status.h"
 #include "planners/world/penetration_spec.h"
 #include "planners/world/planner_id.h"
+#include "tests/support/expect_refused.h"
 
 namespace phongpd {
 namespace {
@@ -29,17 +30,12 @@ TEST(Names, OfPlannersReadBackAndSayWhatEachNeeds) {
     EXPECT_EQ(SeeksClearance(planner), !ChecksMotionsOnly(planner)) << name;
   }
   EXPECT_EQ(names.size(), PlannerNames().size());
-  try {
-    ParsePlanner("RRTConnect", "--planner");
-    FAIL() << "accepted";
-  } catch (const InputError& error) {
-    const std::string text = error.what();
-    EXPECT_NE(text.find("--planner: expected one of contact-surface"),
-              std::string::npos)
-        << text;
-    EXPECT_NE(text.find("did you mean rrt-connect?"), std::string::npos)
-        << text;
-  }
+  const std::string text =
+      testing::ErrorOf([&] { ParsePlanner("RRTConnect", "--planner"); });
+  EXPECT_NE(text.find("--planner: expected one of contact-surface"),
+            std::string::npos)
+      << text;
+  EXPECT_NE(text.find("did you mean rrt-connect?"), std::string::npos) << text;
 }
 
 TEST(Names, OfRetractionsReadBack) {

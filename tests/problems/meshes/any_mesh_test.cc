@@ -15,6 +15,7 @@
 #include "core/solid/solid.h"
 #include "problems/shapes/shapes.h"
 #include "tests/problems/meshes/mesh_files.h"
+#include "tests/support/expect_refused.h"
 #include "tests/support/temporary_folder.h"
 
 namespace phongpd {
@@ -52,16 +53,12 @@ class AnyMesh : public testing::TemporaryFolder {
   void ExpectRefused(const std::string& name,
                      const std::vector<std::string>& words,
                      const std::string& root = "") {
-    try {
-      ReadAnyMesh(At(name), nullptr, root);
-      ADD_FAILURE() << name << " accepted";
-    } catch (const InputError& error) {
-      const std::string what = error.what();
-      EXPECT_EQ(what.rfind(folder_.string(), 0), 0u) << what;
-      EXPECT_EQ(what.find('\n'), std::string::npos) << what;
-      for (const std::string& word : words) {
-        EXPECT_NE(what.find(word), std::string::npos) << word << " in " << what;
-      }
+    const std::string what =
+        testing::ErrorOf([&] { ReadAnyMesh(At(name), nullptr, root); });
+    EXPECT_EQ(what.rfind(folder_.string(), 0), 0u) << what;
+    EXPECT_EQ(what.find('\n'), std::string::npos) << what;
+    for (const std::string& word : words) {
+      EXPECT_NE(what.find(word), std::string::npos) << word << " in " << what;
     }
   }
 };

@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
-#include "core/mesh/mesh_error.h"
 #include "problems/meshes/any_mesh.h"
 #include "tests/problems/meshes/mesh_files.h"
 #include "tests/problems/meshes/watched_folder.h"
+#include "tests/support/expect_refused.h"
 
 namespace phongpd {
 namespace {
@@ -20,12 +20,8 @@ class FilesOfStrangers : public testing::WatchedFolder {
  protected:
   // What reading it says, or "read".
   std::string Outcome(const std::string& name, const std::string& root) {
-    std::string what = "read";
-    try {
-      ReadAnyMesh(At(name), nullptr, root);
-    } catch (const InputError& error) {
-      what = error.what();
-    }
+    const std::string what =
+        testing::ErrorOf([&] { ReadAnyMesh(At(name), nullptr, root); }, "read");
     EXPECT_FALSE(WasEntered()) << name << ": " << what;
     EXPECT_EQ(what.find('\n'), std::string::npos) << what;
     return what;

@@ -15,6 +15,7 @@
 #include "problems/output/text.h"
 #include "problems/scenes/scene_source.h"
 #include "problems/shapes/shapes.h"
+#include "tests/support/expect_refused.h"
 #include "tests/support/temporary_folder.h"
 
 namespace phongpd {
@@ -77,15 +78,11 @@ class RobotPose : public testing::TemporaryFolder {
   }
 
   void ExpectRefused(const std::string& values, const std::string& words) {
-    try {
-      ReadAnyMesh(At("arm.urdf@") + values);
-      ADD_FAILURE() << values << " accepted";
-    } catch (const InputError& error) {
-      const std::string what = error.what();
-      EXPECT_EQ(what.rfind(At("arm.urdf"), 0), 0u) << what;
-      EXPECT_EQ(what.find('\n'), std::string::npos) << what;
-      EXPECT_NE(what.find(words), std::string::npos) << what;
-    }
+    const std::string what =
+        testing::ErrorOf([&] { ReadAnyMesh(At("arm.urdf@") + values); });
+    EXPECT_EQ(what.rfind(At("arm.urdf"), 0), 0u) << what;
+    EXPECT_EQ(what.find('\n'), std::string::npos) << what;
+    EXPECT_NE(what.find(words), std::string::npos) << what;
   }
 
   std::vector<std::string> notes_;

@@ -11,7 +11,7 @@
 #include <cstdio>
 #include <string>
 
-#include "core/mesh/mesh_error.h"
+#include "tests/support/expect_refused.h"
 
 namespace phongpd {
 namespace {
@@ -23,12 +23,8 @@ std::string WaitForEver() {
 TEST(Sandbox, EndsWhatWaitsWithoutUsingTheProcessor) {
   SandboxLimits limits;
   limits.max_wait_seconds = 0.2;
-  std::string what;
-  try {
-    RunInSandbox("file", WaitForEver, limits);
-  } catch (const InputError& error) {
-    what = error.what();
-  }
+  const std::string what =
+      testing::ErrorOf([&] { RunInSandbox("file", WaitForEver, limits); });
   EXPECT_EQ(what,
             "file: expected a file that can be read, found one that takes too "
             "long to read");
@@ -36,7 +32,7 @@ TEST(Sandbox, EndsWhatWaitsWithoutUsingTheProcessor) {
 
 // An answer on standard output is the parent's alone.
 TEST(Sandbox, PrintsNothing) {
-  testing::internal::CaptureStdout();
+  ::testing::internal::CaptureStdout();
   std::printf("once, ");
   RunInSandbox("file", [] {
     std::printf("never");
@@ -44,7 +40,7 @@ TEST(Sandbox, PrintsNothing) {
     return std::string("done");
   });
   std::fflush(stdout);
-  EXPECT_EQ(testing::internal::GetCapturedStdout(), "once, ");
+  EXPECT_EQ(::testing::internal::GetCapturedStdout(), "once, ");
 }
 
 TEST(Sandbox, ReturnsWhatWasMadeSlowly) {

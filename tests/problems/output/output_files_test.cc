@@ -9,6 +9,7 @@
 #include <set>
 #include <string>
 
+#include "tests/support/expect_refused.h"
 #include "tests/support/temporary_folder.h"
 
 namespace phongpd {
@@ -19,12 +20,7 @@ using Set = std::set<std::string>;
 using OutputFilesTest = testing::TemporaryFolder;
 
 std::string Refusal(OutputFiles* outputs, const std::string& path) {
-  try {
-    outputs->Declare(path);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
+  return testing::ErrorOf([&] { outputs->Declare(path); });
 }
 
 TEST_F(OutputFilesTest, AllAppearAtCommitAndNoneBefore) {
@@ -59,12 +55,8 @@ TEST_F(OutputFilesTest, AFailureInCommitUndoesWhatCameBefore) {
     outputs.Write(At(name), "replaced");
   }
   fs::create_directory(At("blocked"));
-  try {
-    outputs.Commit();
-    FAIL();
-  } catch (const InputError& error) {
-    EXPECT_NE(std::string(error.what()).find(At("blocked")), std::string::npos);
-  }
+  const std::string what = testing::ErrorOf([&] { outputs.Commit(); });
+  EXPECT_NE(what.find(At("blocked")), std::string::npos);
   EXPECT_EQ(Content("old"), "old content");
   EXPECT_FALSE(fs::exists(At("new")));
   EXPECT_FALSE(fs::exists(At("after")));

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "tests/support/expect_refused.h"
 #include "tests/support/temporary_folder.h"
 
 namespace phongpd {
@@ -27,12 +28,7 @@ class RowFileTest : public testing::TemporaryFolder {
   }
   // Why the file is refused; empty: it is not.
   std::string Refusal(const Json& command) const {
-    try {
-      Open(command);
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return "";
+    return testing::ErrorOf([&] { Open(command); });
   }
   void ExpectRefused(const Json& command, const std::string& word) const {
     const std::string refusal = Refusal(command);

@@ -6,9 +6,9 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "core/mesh/mesh_error.h"
 #include "problems/scenes/json_schema.h"
 #include "problems/studies/fleet_row.h"
+#include "tests/support/expect_refused.h"
 
 namespace phongpd {
 namespace {
@@ -42,12 +42,7 @@ const char kScene[] = R"({
 Json Good() { return ParseJson(kScene, "s.json"); }
 
 std::string Message(const Json& json) {
-  try {
-    ParseFleetScene(json, "s.json");
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
+  return testing::ErrorOf([&] { ParseFleetScene(json, "s.json"); });
 }
 
 std::string MessageWith(const std::string& pointer, const Json& value) {
@@ -95,15 +90,12 @@ TEST(FleetScene, BuildsOnceForEqualRobotsInEqualBounds) {
 }
 
 TEST(FleetScene, IsNoSceneOfOneRobot) {
-  try {
-    ParseScene(Good(), "s.json");
-    FAIL();
-  } catch (const InputError& error) {
-    EXPECT_STREQ(error.what(),
-                 "s.json: /robots: expected one robot here, as \"robot\", "
-                 "found a list of 3; motions of several are found by phongpd "
-                 "optimize");
-  }
+  const std::string what =
+      testing::ErrorOf([&] { ParseScene(Good(), "s.json"); });
+  EXPECT_EQ(what,
+            "s.json: /robots: expected one robot here, as \"robot\", "
+            "found a list of 3; motions of several are found by phongpd "
+            "optimize");
   Json one = Good();
   one["robot"] = one["robots"][0];
   EXPECT_EQ(Message(one),

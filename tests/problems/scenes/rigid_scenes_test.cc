@@ -11,10 +11,10 @@
 #include <vector>
 
 #include "constraints/rigid/rigid_judge.h"
-#include "core/mesh/mesh_error.h"
 #include "core/solid/solid.h"
 #include "problems/scenes/scene_shapes.h"
 #include "problems/shapes/shapes.h"
+#include "tests/support/expect_refused.h"
 
 namespace phongpd {
 namespace {
@@ -126,12 +126,7 @@ TEST(RigidScenes, AreNamedByFamilyAndValue) {
   EXPECT_EQ(MakeRigidScene("alpha:1.25").name, "alpha:1.25");
   EXPECT_EQ(RigidSceneFamilies().size(), 8u);
   const auto refusal = [](const char* name) -> std::string {
-    try {
-      MakeRigidScene(name);
-      return "accepted";
-    } catch (const InputError& error) {
-      return error.what();
-    }
+    return testing::ErrorOf([&] { MakeRigidScene(name); }, "accepted");
   };
   EXPECT_EQ(refusal("aplha").rfind("rigid scene: expected one of window, ", 0),
             0u);

@@ -9,10 +9,10 @@
 #include <string>
 #include <vector>
 
-#include "core/mesh/mesh_error.h"
 #include "problems/scenes/json_schema.h"
 #include "problems/scenes/scene.h"
 #include "tests/problems/scenes/good_scene.h"
+#include "tests/support/expect_refused.h"
 
 namespace phongpd {
 namespace {
@@ -21,12 +21,7 @@ using Json = nlohmann::ordered_json;
 using Pointer = Json::json_pointer;
 
 std::string ErrorOf(const Json& scene) {
-  try {
-    ParseScene(scene, "s.json");
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "no error";
+  return testing::ErrorOf([&] { ParseScene(scene, "s.json"); }, "no error");
 }
 
 // The message after setting (or, with null, removing) what is at a pointer.
@@ -230,12 +225,8 @@ TEST(SceneErrors, NameWhatIsNoMesh) {
   const std::filesystem::path folder(::testing::TempDir());
   Json scene = testing::GoodScene();
   scene["robot"] = {{"mesh", "none.off"}};
-  std::string message = "no error";
-  try {
-    ParseScene(scene, "s.json", folder.string());
-  } catch (const InputError& error) {
-    message = error.what();
-  }
+  std::string message = testing::ErrorOf(
+      [&] { ParseScene(scene, "s.json", folder.string()); }, "no error");
   const std::string path = (folder / "none.off").string();
   EXPECT_EQ(
       message.rfind(
@@ -246,24 +237,15 @@ TEST(SceneErrors, NameWhatIsNoMesh) {
   std::ofstream(folder / "scene_errors_sheet.off")
       << "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
   scene["robot"] = {{"mesh", "scene_errors_sheet.off"}};
-  try {
-    ParseScene(scene, "s.json", folder.string());
-    message = "no error";
-  } catch (const InputError& error) {
-    message = error.what();
-  }
+  message = testing::ErrorOf(
+      [&] { ParseScene(scene, "s.json", folder.string()); }, "no error");
   EXPECT_EQ(
       message.rfind("s.json: /robot/mesh: \"scene_errors_sheet.off\": ", 0), 0U)
       << message;
 }
 
 std::string TextError(const std::string& text) {
-  try {
-    ParseJson(text, "s.json");
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "no error";
+  return testing::ErrorOf([&] { ParseJson(text, "s.json"); }, "no error");
 }
 
 TEST(SceneErrors, NameWhatIsNoJson) {

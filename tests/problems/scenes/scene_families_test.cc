@@ -16,6 +16,7 @@
 #include "problems/scenes/scene.h"
 #include "problems/scenes/scene_library.h"
 #include "problems/shapes/random_solids.h"
+#include "tests/support/expect_refused.h"
 
 namespace phongpd {
 namespace {
@@ -370,12 +371,7 @@ TEST(SceneFamilies, MazesOfAllSizesAreSound) {
 }
 
 std::string ErrorOf(const std::string& name, const Knobs& knobs) {
-  try {
-    MakeScene(name, knobs);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "no error";
+  return testing::ErrorOf([&] { MakeScene(name, knobs); }, "no error");
 }
 
 TEST(SceneFamilies, KnobsOutOfRangeAreRefused) {

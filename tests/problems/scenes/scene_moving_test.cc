@@ -8,6 +8,7 @@
 #include "problems/scenes/json_schema.h"
 #include "problems/scenes/scene.h"
 #include "problems/scenes/scene_requests.h"
+#include "tests/support/expect_refused.h"
 
 namespace phongpd {
 namespace {
@@ -67,12 +68,7 @@ TEST(SceneMoving, SaysWhatIsWrongWithIt) {
                           const Json& value) -> std::string {
     Json json = ParseJson(kScene, "s.json");
     json[Pointer(pointer)] = value;
-    try {
-      SceneOf(json);
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return "";
+    return testing::ErrorOf([&] { SceneOf(json); });
   };
   EXPECT_EQ(message("/moving/0/id", "gate"),
             "s.json: /moving/0/id: expected an id of its own, found \"gate\" a "

@@ -12,6 +12,7 @@
 #include "problems/scenes/json_schema.h"
 #include "problems/scenes/scene.h"
 #include "problems/shapes/shapes.h"
+#include "tests/support/expect_refused.h"
 
 namespace phongpd {
 namespace {
@@ -19,7 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // inside/ (the root) holds box.off, sub/, and links; outside/ holds box.off.
-class SceneRoot : public testing::Test {
+class SceneRoot : public ::testing::Test {
  protected:
   void SetUp() override {
     std::string name = (fs::temp_directory_path() / "scene_root_XXXXXX");
@@ -48,12 +49,7 @@ class SceneRoot : public testing::Test {
         {"goal", {0, 5, 0}}};
     const std::string file = folder_ / "inside/scene.json";
     std::ofstream(file) << scene;
-    try {
-      ReadScene(file, root);
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return "read";
+    return testing::ErrorOf([&] { ReadScene(file, root); }, "read");
   }
 
   fs::path folder_;
@@ -113,21 +109,12 @@ TEST_F(SceneRoot, SceneFilesHaveALimit) {
   const std::string path = folder_ / "large.json";
   std::ofstream(path) << "{}";
   fs::resize_file(path, kMaxSceneBytes + 1);
-  std::string what = "read";
-  try {
-    ReadScene(path);
-  } catch (const InputError& error) {
-    what = error.what();
-  }
+  std::string what = testing::ErrorOf([&] { ReadScene(path); }, "read");
   EXPECT_NE(what.find("found 268435457 bytes or more, of 268435456 allowed"),
             std::string::npos)
       << what;
   std::ofstream(path) << std::string(1 << 20, '[');
-  try {
-    ReadScene(path);
-  } catch (const InputError& error) {
-    what = error.what();
-  }
+  what = testing::ErrorOf([&] { ReadScene(path); });
   EXPECT_NE(what.find("nesting of at most 100 levels"), std::string::npos);
 }
 
@@ -136,12 +123,7 @@ TEST(SceneText, IsNotRepeatedWholeInARefusal) {
   for (const std::string& text : {"{\"" + std::string(10'000, 'a') + "\n\": 1}",
                                   "{\"a\": " + std::string(10'000, '1') + "x}",
                                   "{\"" + std::string(10'000, 'a') + "\" 1}"}) {
-    std::string what;
-    try {
-      ParseJson(text, "file");
-    } catch (const InputError& error) {
-      what = error.what();
-    }
+    const std::string what = testing::ErrorOf([&] { ParseJson(text, "file"); });
     EXPECT_EQ(what.rfind("file: expected JSON, found a ", 0), 0u);
     EXPECT_LT(what.size(), 400u);
     EXPECT_EQ(what.find('\n'), std::string::npos);

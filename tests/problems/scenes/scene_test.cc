@@ -13,6 +13,7 @@
 
 #include "core/mesh/mesh_io.h"
 #include "problems/shapes/shapes.h"
+#include "tests/support/expect_refused.h"
 
 namespace phongpd {
 namespace {
@@ -37,12 +38,7 @@ std::string ErrorWith(const std::string& pointer, const Json& value,
   Json scene = SmallScene();
   scene["unit"] = unit;
   scene[Json::json_pointer(pointer)] = value;
-  try {
-    ParseScene(scene, "s.json");
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "no error";
+  return testing::ErrorOf([&] { ParseScene(scene, "s.json"); }, "no error");
 }
 
 Json FullScene() {
@@ -321,7 +317,7 @@ TEST(Scene, PlacesSolidsByRotationThenScaleThenPosition) {
 
 TEST(Scene, ReadsMeshesBesideTheFileAndComments) {
   const std::filesystem::path folder =
-      std::filesystem::path(testing::TempDir()) / "phongpd_scene_test";
+      std::filesystem::path(::testing::TempDir()) / "phongpd_scene_test";
   std::filesystem::create_directories(folder / "meshes");
   WriteMesh(MakeBox({-1, -1, -1}, {1, 1, 1}),
             (folder / "meshes" / "cube.off").string());
@@ -335,12 +331,7 @@ TEST(Scene, ReadsMeshesBesideTheFileAndComments) {
             Vector3d(1, 1, 1));
 
   std::ofstream(path) << "{\"robot\": 1, }";
-  std::string what;
-  try {
-    ReadScene(path);
-  } catch (const InputError& error) {
-    what = error.what();
-  }
+  const std::string what = testing::ErrorOf([&] { ReadScene(path); });
   EXPECT_EQ(
       what.rfind(path + ": expected JSON, found a parse error at line 1", 0),
       0U)

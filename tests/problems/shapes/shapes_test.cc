@@ -20,6 +20,7 @@
 #include "core/solid/solid.h"
 #include "problems/shapes/random_solids.h"
 #include "problems/shapes/random_vector.h"
+#include "tests/support/expect_refused.h"
 
 namespace phongpd {
 namespace {
@@ -282,12 +283,7 @@ TEST(GenericRotation, IsARotation) {
 // Two counts within their range made 2·10⁸ triangles.
 TEST(Shapes, RefuseMoreThanTenMillionTriangles) {
   const auto refusal = [](const std::function<void()>& make) -> std::string {
-    try {
-      make();
-      return "accepted";
-    } catch (const InputError& error) {
-      return error.what();
-    }
+    return testing::ErrorOf([&] { make(); }, "accepted");
   };
   EXPECT_EQ(refusal([] { MakeUvBall(1, 10000, 502); }),
             "MakeUvBall: 2·meridians·(parallels - 1) triangles must be a count "

@@ -12,6 +12,7 @@
 
 #include "core/mesh/mesh_error.h"
 #include "problems/studies/performance_profile.h"
+#include "tests/support/expect_refused.h"
 
 namespace phongpd {
 namespace {
@@ -208,24 +209,19 @@ TEST(PerformanceProfile, ShowsTheNamesOfMethods) {
   EXPECT_NE(svg.find("straight-monotone, 1 problem;"), std::string::npos);
 }
 
-class RowsOfAFile : public testing::Test {
+class RowsOfAFile : public ::testing::Test {
  protected:
   void TearDown() override { std::remove(path_.c_str()); }
 
   std::string Refusal(const std::string& text) {
     std::ofstream(path_) << text;
-    try {
-      JoinComparisons({path_});
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return "";
+    return testing::ErrorOf([&] { JoinComparisons({path_}); });
   }
 
   // Of its own for each test: they run at the same time.
   const std::string path_ =
-      testing::TempDir() +
-      testing::UnitTest::GetInstance()->current_test_info()->name() +
+      ::testing::TempDir() +
+      ::testing::UnitTest::GetInstance()->current_test_info()->name() +
       "_rows.jsonl";
 };
 
