@@ -188,7 +188,7 @@ std::vector<Setting> Settings() {
 }  // namespace
 
 int Run(Program* program) {
-  CLI::App& app = program->WithOutput(
+  program->WithOutput(
       "What extremes do to rows and answers of the optimiser: rows.");
   program->Parse();
   SilenceOmpl();

@@ -26,7 +26,7 @@ class Program {
   // Reads what was given, and makes the folder of --output.  To print help, or
   // to say what is wrong, it throws for main to do so.
   void Parse();
-  bool writes() const { return !folder_.empty(); }
+  bool writes() const { return !folder_.empty(); }  // was a folder given?
 
   // One file of that folder; the rows of tables, each the file it names.
   void Write(const std::string& file, const std::string& content);
@@ -38,11 +38,12 @@ class Program {
               const std::string& command = "");
   void Commit();
 
-  // The command as it was given: "build/NAME --output …".
-  std::string Command() const;
   std::string Name() const;
-  std::string Circumstances(std::uint64_t seed) const;
+  // The command as it was given: "build/NAME --output …"; what is behind it.
+  std::string Command() const;
   std::vector<std::string> arguments() const;
+  // Those of this run, for a page.
+  std::string Circumstances(std::uint64_t seed) const;
 
  private:
   int argc_;
