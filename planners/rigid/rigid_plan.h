@@ -51,8 +51,11 @@ struct RigidAnswer {
   std::string planner;   // "line", "straight", "slide" or "tow"; empty: none
   double seconds = 0.0;  // wall time of all
   double search_seconds = 0.0;  // until a path was found, or none
+  // The same in processor seconds of the process, all its threads.
+  double search_cpu_seconds = 0.0;
   long checks = 0;              // motions judged
   long tests = 0;  // pairs of boxes and triangles the judge looked at
+  long search_tests = 0;  // those until a path was found, or none
   long nodes = 0;  // poses of all trees
   std::size_t found_poses = 0;  // of the path before it was shortened
   // Of a start or goal in collision: who meets whom, or is not told apart
@@ -67,12 +70,13 @@ struct RigidAnswer {
 // Plans for a robot that turns.  First the motion straight to the goal; then
 // three bidirectional trees race, taking turns by the work they have done:
 //   straight  grows by straight steps as long as they are free, for worlds with
-//             much room; it has a head start of less than half a second;
+//             much room; it has a head start of about half a second;
 //   slide     grows along contacts (rigid_slide.h), to random poses and to such
 //             as have edges and faces of robot and obstacles parallel;
 //   tow       as slide, but half of its slides pull a corner of the robot to a
 //             place and let it turn as it has to.
-// What is found is shortened, and judged again, motion by motion.
+// What is found is shortened, by no more work than finding it was but for some
+// milliseconds, and judged again, motion by motion.
 //
 // The same request in the same world gives the same path on the same machine,
 // unless time runs out; random numbers come from the seed alone.
