@@ -27,8 +27,7 @@ TIGHT = ["piano:0.1", "peg:0.1", "ell:2.2", "lock:0.05", "rod_trap:0.1",
 OURS = ("phongpd", "proof", "default")
 EASY_RUNS = [OURS, ("RRTConnect", "proof", "tuned"),
              ("RRTConnect", "proof", "default"), ("RRTConnect", "0.01", "tuned"),
-             ("RRTConnect", "0.01", "default"), ("KPIECE1", "0.01", "default"),
-             ("KPIECE1", "proof", "default")]
+             ("RRTConnect", "0.01", "default"), ("KPIECE1", "0.01", "default")]
 TIGHT_RUNS = [OURS, ("RRTConnect", "proof", "tuned"), ("KPIECE1", "0.01", "default")]
 WHOLE = ["window:4", "piano:0.1", "peg:0.1", "peg:0.01", "ell:2", "lock:0.05",
          "rod_trap:0.1", "flange:0.15", "alpha:1.5", "alpha:1.2"]
