@@ -129,7 +129,7 @@ def main():
     deadline = rows.deadline_of(arguments)
     motions = 1000 if arguments.long else 100
     judged = [*(Judged(scene, motions) for scene in JUDGED),
-              *(Judged(scene, motions, times) for scene, times in FINE)]
+              *(Judged(scene, motions // 2, times) for scene, times in FINE)]
     planned = list(plans(WHOLE, [60, 600], 10) if arguments.long
                    else short_plans(20, arguments.seeds))
     rows.run_part(arguments, "judge", judged, judge_rows(arguments.build), deadline,
