@@ -262,8 +262,8 @@ def write_report(folder, how, commit, judged, planned):
                        *_beside_proof(table), *_ours(table)]),
             "", NOTES, where, "Each run: [runs.csv](runs.csv).", "",
             *_wrapped([
-                f"Command: {how}; with `--long` the tight scenes, 10 seeds, 60 s "
-                f"and 600 s. Date: {datetime.date.today()}. Seeds: "
+                f"Command: {how}; with `--long` every planner on every scene, 10 "
+                f"seeds, 60 s and 600 s. Date: {datetime.date.today()}. Seeds: "
                 f"{', '.join(map(str, seeds))} of planners, 1 of motions. "
                 f"Machine: {machine()}, shared. PhongPD of commit {commit}, OMPL "
                 f"1.5, FCL 0.7."]), ""]
