@@ -37,7 +37,7 @@ NOTES = """\
 - A miss: called free, proved to collide. A contradiction: called colliding, proved
   free. Undecided counts as not free.
 - "refined 3": each triangle of robot and world in four, three times over; the
-  motions are drawn anew.
+  motions are drawn anew, FCL's continuous collision is not asked.
 - Planners: OMPL's with their own defaults, or tuned by one rule for all scenes (the
   object norm as metric, the robot's reach as range). Without a path a run counts
   as longer than its limit. Wrong: a path with a motion that is proved to collide,
