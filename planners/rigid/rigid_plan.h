@@ -53,10 +53,10 @@ struct RigidAnswer {
   double search_seconds = 0.0;  // until a path was found, or none
   // The same in processor seconds of the process, all its threads.
   double search_cpu_seconds = 0.0;
-  long checks = 0;              // motions judged
-  long tests = 0;  // pairs of boxes and triangles the judge looked at
+  long checks = 0;        // motions judged
+  long tests = 0;         // pairs of boxes and triangles the judge looked at
   long search_tests = 0;  // those until a path was found, or none
-  long nodes = 0;  // poses of all trees
+  long nodes = 0;         // poses of all trees
   std::size_t found_poses = 0;  // of the path before it was shortened
   // Of a start or goal in collision: who meets whom, or is not told apart
   // (rigid_judge.h), and how deep these two meshes are in each other, where
