@@ -234,7 +234,7 @@ if [[ $suite == rigid || $suite == all ]]; then
   # As above.  `scripts/bench.sh rigid --long` runs what takes days.
   rows=build/rigid/$(git rev-parse HEAD)
   python3 -B results/bench/rigid_benchmark.py --output results/rigid \
-    --rows "$rows" --how "scripts/bench.sh rigid" \
+    --rows "$rows" --how "scripts/bench.sh rigid${2:+ ${*:2}}" \
     --commit "$(git rev-parse --short HEAD)" "${@:2}"
 fi
 if [[ $suite == wrench || $suite == all ]]; then

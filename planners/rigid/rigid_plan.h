@@ -54,9 +54,12 @@ struct RigidAnswer {
   std::string planner;   // "line", "straight", "slide" or "tow"; "" if none
   double seconds = 0.0;  // wall time of the whole call
   double search_seconds = 0.0;  // of that, until a path was found or given up
-  long checks = 0;              // motions judged
-  long tests = 0;               // pairs of boxes and of triangles tested
-  long nodes = 0;               // poses in all trees
+  // The same in processor seconds of the process, all its threads.
+  double search_cpu_seconds = 0.0;
+  long checks = 0;        // motions judged
+  long tests = 0;         // pairs of boxes and of triangles tested
+  long search_tests = 0;  // of these, until a path was found or given up
+  long nodes = 0;         // poses in all trees
   std::size_t found_poses = 0;  // in the path before it was shortened
   // If the start or goal is in collision: which triangles intersect, or could
   // not be separated (rigid_judge.h).
@@ -75,13 +78,14 @@ struct RigidAnswer {
 // three planners with two random trees each, one from the start and one from
 // the goal, take turns, so that each does about the same work:
 //   straight  adds straight motions as far as they are free; best in worlds
-//             with much room; it has a head start of less than half a second
+//             with much room; it has a head start of about half a second
 //   slide     slides along contacts (rigid_slide.h) towards random poses, and
 //             towards poses in which edges or faces of the robot are parallel
 //             to those of the obstacles
 //   tow       like slide, but half of its slides pull only one corner of the
 //             robot to a place, and let the robot turn as it must
-// The first path found is shortened, and each of its motions is judged again.
+// The first path found is shortened, by no more work than finding it took, but
+// for some milliseconds, and each of its motions is judged again.
 //
 // The same request in the same world gives the same path on the same machine
 // unless time runs out: all random numbers come from the seed.

@@ -115,14 +115,16 @@ class PathCutter {
 
 }  // namespace
 
-void ShortenRigidPath(double gyration, RigidLinks* links,
+void ShortenRigidPath(double gyration, long max_tests, RigidLinks* links,
                       std::mt19937_64* random, RigidPath* path) {
   if (path->size() < 3) return;
+  const long most = links->tests() + max_tests;
   DropPoses(links, path);
   PathCutter cutter(gyration, links, path);
   int vain = 0;
   for (int i = 0; i < kMaxCuts && vain < kVainCuts; ++i) {
     if (path->size() < 3 || links->IsStopped()) break;
+    if (links->tests() >= most) break;
     vain = cutter.Cut(random) ? 0 : vain + 1;
   }
   DropPoses(links, path);

@@ -14,10 +14,20 @@ from rigid_report import write_report
 # Tight and less tight ones of every family (problems/scenes/rigid_scenes.h).
 JUDGED = ["window:4", "piano:0.1", "peg:0.1", "peg:0.01", "ell:2.2",
           "lock:0.05", "rod_trap:0.1", "flange:0.15", "alpha:1.5", "alpha:1.2"]
-# What is wanted in the end takes days; of the slice everything is easier.
-SLICE = ["window:4", "peg:1.5", "alpha:2.5"]
-# One that samples at 1 % get wrong, with the planner of OMPL that does best there.
-HARD = ["alpha:1.5"]
+# Of so many refinements, each triangle in four each time: about 3,000 and 25,000.
+FINE = [("peg:0.1", 3), ("flange:0.15", 1), ("lock:0.05", 2), ("alpha:1.5", 2),
+        ("piano:0.1", 4)]
+# What is wanted in the end takes days; this takes hours.  Where there is room many
+# planners are asked; where it is tight two of OMPL's besides ours, one with proof and
+# that which does best by samples.
+EASY = ["window:4", "peg:1.5", "alpha:2.5"]
+TIGHT = ["piano:0.1", "peg:0.1", "ell:2.2", "lock:0.05", "rod_trap:0.1",
+         "flange:0.15", "alpha:1.5"]
+OURS = ("phongpd", "proof", "default")
+EASY_RUNS = [OURS, ("RRTConnect", "proof", "tuned"),
+             ("RRTConnect", "proof", "default"), ("RRTConnect", "0.01", "tuned"),
+             ("RRTConnect", "0.01", "default"), ("KPIECE1", "0.01", "default")]
+TIGHT_RUNS = [OURS, ("KPIECE1", "0.01", "default"), ("RRTConnect", "proof", "tuned")]
 WHOLE = ["window:4", "piano:0.1", "peg:0.1", "peg:0.01", "ell:2", "lock:0.05",
          "rod_trap:0.1", "flange:0.15", "alpha:1.5", "alpha:1.2"]
 PLANNERS = ["RRTConnect", "KPIECE1", "BKPIECE1", "EST", "PRM"]
@@ -28,11 +38,12 @@ TUNED = ["RRTConnect"]
 class Judged(NamedTuple):
     scene: str
     motions: int
+    refined: int = 0
     pair: int = 1  # the seed
 
     @property
     def key(self):
-        return f"{self.scene} {self.motions} {self.pair}"
+        return f"{self.scene} {self.refined} {self.motions} {self.pair}"
 
 
 class Planned(NamedTuple):
@@ -64,12 +75,16 @@ def plans(scenes, limits, seeds):
                 yield Planned(scene, "phongpd", "proof", "default", limit, seed)
 
 
-def hard_plans(limit, seeds):
-    for seed in range(1, seeds + 1):
-        for scene in HARD:
-            for check in CHECKS:
-                yield Planned(scene, "KPIECE1", check, "default", limit, seed)
-            yield Planned(scene, "phongpd", "proof", "default", limit, seed)
+def short_plans(limit, seeds):
+    """Where there is room, then where it is tight, each seed by seed, planner by
+    planner."""
+    def runs(scenes, chosen):
+        for seed in range(1, seeds + 1):
+            for planner, check, tuning in chosen:
+                for scene in scenes:
+                    yield Planned(scene, planner, check, tuning, limit, seed)
+    yield from runs(EASY, EASY_RUNS)
+    yield from runs(TIGHT, TIGHT_RUNS)
 
 
 def ask(program, *arguments):
@@ -85,7 +100,7 @@ def judge_rows(build):
     def measure(one):
         return {"key": one.key, "scene": one.scene, "rows": ask(
             build / "rigid_judge_benchmark", one.scene, "--motions",
-            one.motions, "--seed", one.pair)}
+            one.motions, "--seed", one.pair, "--refined", one.refined)}
     return measure
 
 
@@ -105,13 +120,15 @@ def main():
     parser.add_argument("--long", action="store_true",
                         help="all scenes, 10 seeds, 60 s and then 600 s: days; "
                              "goes on where it was")
+    parser.add_argument("--seeds", type=int, default=10,
+                        help="of planners, but for --long")
     arguments = parser.parse_args()
     deadline = rows.deadline_of(arguments)
-    judged = [Judged(scene, 1000 if arguments.long else 100)
-              for scene in JUDGED]
+    motions = 1000 if arguments.long else 100
+    judged = [*(Judged(scene, motions) for scene in JUDGED),
+              *(Judged(scene, motions // 2, times) for scene, times in FINE)]
     planned = list(plans(WHOLE, [60, 600], 10) if arguments.long
-                   else [*plans(SLICE, [2], 3), *hard_plans(5, 3),
-                         *hard_plans(20, 3)])
+                   else short_plans(20, arguments.seeds))
     rows.run_part(arguments, "judge", judged, judge_rows(arguments.build), deadline,
                   "runs of judges")
     rows.run_part(arguments, "plan", planned, plan_rows(arguments.build), deadline,

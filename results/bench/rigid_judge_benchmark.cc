@@ -1,14 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Purpose: the certified judge of motions that turn beside FCL, at samples and
 // by its continuous collision, on the same motions.  Prints JSON Lines, a row a
-// kind of motion and method, times in processor seconds of one thread.
+// kind of motion and method, times in processor seconds of its thread.
 //
 // A miss is a motion called free that the certified judge proves colliding; a
 // contradiction one called colliding that it proves free.
+#include <CLI/CLI.hpp>
+#include <algorithm>
 #include <functional>
 #include <iostream>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <utility>
 
 #include "constraints/oracle/fcl_surfaces.h"
 #include "results/bench/program.h"
@@ -16,6 +20,36 @@
 
 namespace phongpd::bench {
 namespace {
+
+// The same surface with each triangle in four, `times` times over.
+TriangleMesh Refined(TriangleMesh mesh, int times) {
+  for (; times > 0; --times) {
+    TriangleMesh fine;
+    fine.vertices = mesh.vertices;
+    std::map<std::pair<int, int>, int> middles;
+    const auto middle = [&](int a, int b) {
+      const auto [at, is_new] = middles.try_emplace(
+          std::minmax(a, b), static_cast<int>(fine.vertices.size()));
+      if (is_new) {
+        fine.vertices.push_back(0.5 *
+                                (mesh.vertices[static_cast<std::size_t>(a)] +
+                                 mesh.vertices[static_cast<std::size_t>(b)]));
+      }
+      return at->second;
+    };
+    for (const Triangle& t : mesh.triangles) {
+      const int ab = middle(t[0], t[1]), bc = middle(t[1], t[2]),
+                ca = middle(t[2], t[0]);
+      for (const Triangle& part :
+           {Triangle{t[0], ab, ca}, Triangle{ab, t[1], bc},
+            Triangle{ca, bc, t[2]}, Triangle{ab, bc, ca}}) {
+        fine.triangles.push_back(part);
+      }
+    }
+    mesh = std::move(fine);
+  }
+  return mesh;
+}
 
 struct Method {
   std::string name;
@@ -41,7 +75,7 @@ bool IsFreeAtSamples(const FclSurfaces& fcl, const RigidMotionEnds& ends,
 }
 
 std::vector<Method> Methods(const RigidScene& scene, const RigidJudge& judge,
-                            const FclSurfaces& fcl) {
+                            const FclSurfaces& fcl, bool asks_continuous) {
   std::vector<Method> methods = {
       {"certified", [&judge](const RigidMotionEnds& ends) {
          return Certified(judge, ends);
@@ -53,6 +87,8 @@ std::vector<Method> Methods(const RigidScene& scene, const RigidJudge& judge,
                              fcl, ends, OmplParts(scene, ends, resolution)));
                        }});
   }
+  // A tenth of a second each where meshes are fine, and as wrong.
+  if (!asks_continuous) return methods;
   methods.push_back({"FCL continuous", [&fcl](const RigidMotionEnds& ends) {
                        return std::optional<bool>(!fcl.Meet(
                            ends.start, ends.end,
@@ -67,13 +103,20 @@ int Run(Program* program) {
   CLI::App& app =
       program->Options("The certified judge of motions that turn beside FCL.");
   std::string name;
-  int count = 200;
+  int count = 200, refined = 0;
   unsigned seed = 1;
   app.add_option("scene", name, "FAMILY or FAMILY:VALUE")->required();
   app.add_option("--motions", count)->capture_default_str();
   app.add_option("--seed", seed)->capture_default_str();
+  app.add_option("--refined", refined, "So often each triangle in four")
+      ->check(CLI::Range(0, 6));
   program->Parse();
-  const RigidScene scene = MakeRigidScene(name);
+  RigidScene scene = MakeRigidScene(name);
+  if (refined > 0) {
+    scene.name += " refined " + std::to_string(refined);
+    scene.robot = Refined(scene.robot, refined);
+    for (TriangleMesh& one : scene.obstacles) one = Refined(one, refined);
+  }
   const RigidJudge judge({scene.robot}, scene.obstacles);
   TriangleMesh world;
   for (const TriangleMesh& one : scene.obstacles) world = Joined(world, one);
@@ -87,7 +130,7 @@ int Run(Program* program) {
     for (const RigidMotionEnds& ends : motions) {
       proved.push_back(Certified(judge, ends));
     }
-    for (const Method& method : Methods(scene, judge, fcl)) {
+    for (const Method& method : Methods(scene, judge, fcl, refined == 0)) {
       std::vector<std::optional<bool>> said;
       const double begin = ThreadCpuSeconds();
       for (const RigidMotionEnds& ends : motions) {

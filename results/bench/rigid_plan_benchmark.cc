@@ -2,8 +2,11 @@
 // Purpose: one run of a planner for a robot that turns: OMPL's, with motions
 // looked at by FCL at samples or proved free by RigidMotionValidator, or ours.
 // Prints one row as JSON.  The limit and all times are processor seconds of the
-// run's only thread.  Every path is judged motion by motion, after the clock:
-// `wrong` of them are proved to collide.
+// process, all its threads counted, so that other jobs change neither.
+// `seconds`: until there is a path; `answer_seconds`: of the whole answer,
+// which of ours is shortened, judged once more and has its clearance, of OMPL's
+// is the path as found.  Every path is judged motion by motion, after the
+// clock: `wrong` of them are proved to collide.
 #include <ompl/base/PlannerTerminationCondition.h>
 #include <ompl/base/ScopedState.h>
 #include <ompl/geometric/SimpleSetup.h>
@@ -44,7 +47,7 @@ struct Options {
 // What a run answers: no path, an empty one.
 struct Outcome {
   std::vector<RobotPose> path;
-  double seconds = 0.0;
+  double seconds = 0.0, answer_seconds = 0.0;
   std::string by;  // of ours: which of its planners
 };
 
@@ -60,7 +63,8 @@ Outcome RunOurs(const RigidScene& scene, const RigidWorld& world,
   request.time_limit = 100.0 * (1.0 + options.limit);
   request.is_interrupted = [&] { return CpuSeconds() - begin > options.limit; };
   const RigidAnswer answer = Plan(world, request);
-  return {answer.path, CpuSeconds() - begin, answer.planner};
+  return {answer.path, answer.search_cpu_seconds, CpuSeconds() - begin,
+          answer.planner};
 }
 
 template <typename Planner>
@@ -124,7 +128,7 @@ Outcome RunOmpl(const RigidScene& scene, const RigidWorld& rigid,
   const double begin = CpuSeconds();
   const ob::PlannerStatus status = setup.solve(ob::PlannerTerminationCondition(
       [&] { return CpuSeconds() - begin > options.limit; }));
-  outcome.seconds = CpuSeconds() - begin;
+  outcome.seconds = outcome.answer_seconds = CpuSeconds() - begin;
   if (status == ob::PlannerStatus::EXACT_SOLUTION) {
     for (const ob::State* state : setup.getSolutionPath().getStates()) {
       outcome.path.push_back(ToRobotPose(state));
@@ -160,24 +164,29 @@ int Run(Program* program) {
                               ? RunOurs(scene, world, options)
                               : RunOmpl(scene, world, options);
   int wrong = 0, undecided = 0;
+  double length = 0.0;
   for (std::size_t i = 1; i < outcome.path.size(); ++i) {
-    const RigidCheck check =
-        world.judge().Check(RigidMotion(outcome.path[i - 1], outcome.path[i]));
+    const RobotPose &from = outcome.path[i - 1], &to = outcome.path[i];
+    const RigidCheck check = world.judge().Check(RigidMotion(from, to));
+    length += world.Distance(from, to);
     wrong += check.outcome == MotionVerdict::kCollides ? 1 : 0;
     undecided += check.outcome == MotionVerdict::kUndecided ? 1 : 0;
   }
-  const nlohmann::ordered_json row = {{"scene", scene.name},
-                                      {"planner", options.planner},
-                                      {"check", options.check},
-                                      {"tuning", options.tuning},
-                                      {"seed", options.seed},
-                                      {"limit", options.limit},
-                                      {"solved", !outcome.path.empty()},
-                                      {"seconds", outcome.seconds},
-                                      {"poses", outcome.path.size()},
-                                      {"wrong", wrong},
-                                      {"undecided", undecided},
-                                      {"by", outcome.by}};
+  const nlohmann::ordered_json row = {
+      {"scene", scene.name},
+      {"planner", options.planner},
+      {"check", options.check},
+      {"tuning", options.tuning},
+      {"seed", options.seed},
+      {"limit", options.limit},
+      {"solved", !outcome.path.empty()},
+      {"seconds", outcome.seconds},
+      {"answer_seconds", outcome.answer_seconds},
+      {"poses", outcome.path.size()},
+      {"length", length},
+      {"wrong", wrong},
+      {"undecided", undecided},
+      {"by", outcome.by}};
   std::cout << row.dump() << std::endl;
   return 0;
 }

@@ -16,9 +16,13 @@ JUDGE_HEADER = ["scene", "robot triangles", "world triangles", "kind", "method",
                 "motions", "free", "colliding", "ms", "undecided", "misses",
                 "contradictions", "seed"]
 RUN_HEADER = ["scene", "planner", "check", "tuning", "limit", "seed", "solved",
-              "seconds", "poses", "wrong", "undecided", "by", "error"]
+              "seconds", "answer_seconds", "poses", "length", "wrong", "undecided",
+              "by", "error"]
 SUM_HEADER = ["scene", "planner", "check", "tuning", "limit, s", "runs",
-              "solved", "wrong", "errors", "seconds, median"]
+              "solved", "wrong", "errors", "seconds, median",
+              "answer, median s", "length, median"]
+# Motions are told apart by the triangles of robot and world together.
+SIZES = ((0, 3_000), (3_000, 30_000))
 NOTES = """\
 ## What is measured
 
@@ -32,11 +36,17 @@ NOTES = """\
   conservative advancement, told the point it turns about.
 - A miss: called free, proved to collide. A contradiction: called colliding, proved
   free. Undecided counts as not free.
+- "refined 3": each triangle of robot and world in four, three times over; the
+  motions are drawn anew, FCL's continuous collision is not asked.
 - Planners: OMPL's with their own defaults, or tuned by one rule for all scenes (the
   object norm as metric, the robot's reach as range). Without a path a run counts
   as longer than its limit. Wrong: a path with a motion that is proved to collide,
   by our judge. Rows with fewer runs than others were cut short by `--minutes`.
-- Times are processor seconds of one thread; other jobs shared the machine.
+- Seconds and limits of planners are processor seconds of all threads of the run's
+  process, milliseconds of judges those of their thread: other jobs shared the machine.
+  Until a path is there; of PhongPD also of the whole answer, which is shortened,
+  judged a second time and has its clearance. OMPL's path is as found: none is
+  simplified. Lengths are in the object norm.
 """
 
 
@@ -55,8 +65,8 @@ def median(values):
     return middle if math.isfinite(middle) else "more"
 
 
-def seconds(row):
-    return row["seconds"] if row.get("solved") else math.inf
+def seconds(row, which="seconds"):
+    return row[which] if row.get("solved") else math.inf
 
 
 def sums(found):
@@ -72,7 +82,9 @@ def sums(found):
         groups.setdefault(key, []).append(r)
     return [[*key, len(of), sum(bool(r.get("solved")) for r in of),
              sum(r.get("wrong", 0) > 0 for r in of),
-             sum("error" in r for r in of), median([seconds(r) for r in of])]
+             sum("error" in r for r in of), median([seconds(r) for r in of]),
+             median([seconds(r, "answer_seconds") for r in of]),
+             median([r["length"] for r in of if r.get("solved")] or [math.inf])]
             for key, of in groups.items()]
 
 
@@ -112,6 +124,32 @@ def _judge_findings(table):
         wins = sum(certified[r[0], r[3]] < r[8] for r in of)
         yield (f"- Time: the proof is cheaper than {method} in {wins} of "
                f"{len(of)} scenes and kinds, and dearer in {len(of) - wins}.")
+    for least, most in SIZES:
+        yield from _size_findings(table, least, most)
+
+
+def of_size(table, least, most):
+    return [r for r in table if least < r[1] + r[2] <= most and r[5] > 0]
+
+
+def _size_findings(table, least, most):
+    """Milliseconds a motion of the proof and of samples, by size of the meshes."""
+    of = of_size(table, least, most)
+    proof = [r for r in of if r[4] == "certified"]
+    if not proof:
+        return
+    said = []
+    for method in ("certified", "FCL at 1 %"):
+        ms = [r[8] for r in of if r[4] == method]
+        said.append(f"{cell(statistics.median(ms))} ms a motion in the median, "
+                    f"{cell(max(ms))} at most")
+    samples = [r for r in of if r[4] == "FCL at 1 %"]
+    within = "up to" if least == 0 else f"{least:,} to"
+    yield (f"- Meshes of {within} {most:,} triangles together, {len(proof)} scenes and "
+           f"kinds: the proof takes {said[0]}, and leaves "
+           f"{sum(r[9] for r in proof)} of {sum(r[5] for r in proof)} undecided; FCL at "
+           f"1 % {said[1]}, and misses {sum(r[10] for r in samples)} of "
+           f"{sum(r[7] for r in samples)}.")
 
 
 def _plan_findings(found):
@@ -173,8 +211,29 @@ def _ours(table):
         check = ("proof" if best[2] == "proof"
                  else f"samples at {100 * float(best[2]):g} %")
         tuned = ", tuned" if best[3] == "tuned" else ""
-        yield (f"- {row[0]}, {row[4]:g} s: PhongPD {said[0]}; best of OMPL "
-               f"{said[1]} ({best[1]}{tuned}, {check}).")
+        whole = ("" if row[10] == "more" else
+                 f" (the whole answer {cell(row[10])} s, length {cell(row[11])})")
+        length = "" if best[11] == "more" else f", length {cell(best[11])}"
+        yield (f"- {row[0]}, {row[4]:g} s: PhongPD {said[0]}{whole}; best of OMPL "
+               f"{said[1]} ({best[1]}{tuned}, {check}{length}).")
+
+
+def proved(table, scene, planner):
+    """Its row with proof; of OMPL's the tuned one.  None: there is none."""
+    tuning = "default" if planner == "phongpd" else "tuned"
+    return next((r for r in table if r[:4] == [scene, planner, "proof", tuning]),
+                None)
+
+
+def _beside_proof(table):
+    """Both with proof: the first path of ours and of tuned RRTConnect."""
+    for scene in dict.fromkeys(r[0] for r in table):
+        ours, its = (proved(table, scene, name)
+                     for name in ("phongpd", "RRTConnect"))
+        if ours and its and "more" not in (ours[9], its[9]):
+            yield (f"- With proof, {scene}: the first path takes PhongPD "
+                   f"{cell(ours[9] / its[9])} times as long as RRTConnect, tuned, "
+                   f"the whole answer {cell(ours[10] / its[9])} times.")
 
 
 def _wrapped(lines):
@@ -200,11 +259,11 @@ def write_report(folder, how, commit, judged, planned):
             "## Judges", "", *_judge_lines(judge), "",
             *_wrapped(_judge_findings(judge)), "", "## Planners", "",
             *_wrapped([*_plan_findings(planned), *_duels(table),
-                       *_ours(table)]),
+                       *_beside_proof(table), *_ours(table)]),
             "", NOTES, where, "Each run: [runs.csv](runs.csv).", "",
             *_wrapped([
-                f"Command: {how}; with `--long` the tight scenes, 10 seeds, 60 s "
-                f"and 600 s. Date: {datetime.date.today()}. Seeds: "
+                f"Command: {how}; with `--long` every planner on every scene, 10 "
+                f"seeds, 60 s and 600 s. Date: {datetime.date.today()}. Seeds: "
                 f"{', '.join(map(str, seeds))} of planners, 1 of motions. "
                 f"Machine: {machine()}, shared. PhongPD of commit {commit}, OMPL "
                 f"1.5, FCL 0.7."]), ""]

@@ -22,7 +22,8 @@ def run(seed, solved, seconds, wrong=0, check="proof"):
     return {"key": f"s RRTConnect {check} default 3 {seed}", "scene": "s",
             "planner": "RRTConnect", "check": check, "tuning": "default",
             "limit": 3.0, "seed": seed, "solved": solved, "seconds": seconds,
-            "poses": 2, "wrong": wrong, "undecided": 0}
+            "answer_seconds": 3.0 * seconds, "poses": 2, "length": 7.0 + seed,
+            "wrong": wrong, "undecided": 0}
 
 
 def judged(method, ms, misses=0):
@@ -38,9 +39,10 @@ class Tables(unittest.TestCase):
                  run(3, False, 3.0)]
         self.assertEqual(
             rigid_report.sums(found),
-            [["s", "RRTConnect", "proof", "default", 3.0, 3, 2, 1, 0, 2.0]])
+            [["s", "RRTConnect", "proof", "default", 3.0, 3, 2, 1, 0, 2.0, 6.0,
+              8.0]])
         found[1] = run(2, False, 3.0)
-        self.assertEqual(rigid_report.sums(found)[0][-1], "more")
+        self.assertEqual(rigid_report.sums(found)[0][-3:], ["more", "more", 8.0])
 
     def test_an_error_is_a_run_without_a_path(self):
         found = [run(1, True, 1.0), {
@@ -48,7 +50,8 @@ class Tables(unittest.TestCase):
             "error": "RuntimeError: exit code 3"}]
         self.assertEqual(
             rigid_report.sums(found),
-            [["s", "RRTConnect", "proof", "default", 3.0, 2, 1, 0, 1, 1.0]])
+            [["s", "RRTConnect", "proof", "default", 3.0, 2, 1, 0, 1, 1.0, 3.0,
+              8.0]])
         self.assertTrue(math.isinf(rigid_report.seconds(found[1])))
 
     def test_methods_are_compared_motion_set_by_motion_set(self):
@@ -57,6 +60,33 @@ class Tables(unittest.TestCase):
         self.assertEqual(list(rigid_report.judged_by_method(table)),
                          [["certified", 10, 6, 0, 0, 0, 2.0, 1.0],
                           ["FCL at 1 %", 10, 6, 3, 0, 0, 1.0, 0.5]])
+
+    def test_motions_are_told_apart_by_the_size_of_the_meshes(self):
+        small = [judged("certified", 2.0), judged("FCL at 1 %", 1.0, misses=3)]
+        large = [dict(row, robot_triangles=2990, ms=4 * row["ms"]) for row in small]
+        huge = [dict(row, robot_triangles=29_989) for row in small]
+        table = rigid_report.judge_table([{"rows": small + large + huge}])
+        self.assertEqual([r[8] for r in rigid_report.of_size(table, 0, 3000)],
+                         [2.0, 1.0])
+        self.assertEqual([r[8] for r in rigid_report.of_size(table, 3000, 30_000)],
+                         [8.0, 4.0])
+        said = list(rigid_report._size_findings(table, 0, 3000))
+        self.assertEqual(len(said), 1)
+        self.assertIn("2 ms a motion in the median, 2 at most", said[0].replace(
+            " ms at most", " at most"))
+        self.assertIn("leaves 0 of 10 undecided", said[0])
+        self.assertIn("misses 3 of 6", said[0])
+
+    def test_ours_stands_beside_the_same_proof(self):
+        found = [run(1, True, 3.0)]
+        found[0]["planner"] = "phongpd"
+        found.append(dict(run(1, True, 2.0), tuning="tuned"))
+        table = rigid_report.sums(found)
+        self.assertEqual(rigid_report.proved(table, "s", "phongpd")[9], 3.0)
+        said = list(rigid_report._beside_proof(table))
+        self.assertEqual(len(said), 1)
+        self.assertIn("takes PhongPD 1.5 times as long", said[0])
+        self.assertIn("whole answer 4.5 times", said[0])
 
     def test_the_page_says_who_wins(self):
         with tempfile.TemporaryDirectory() as folder:

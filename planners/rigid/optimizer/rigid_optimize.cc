@@ -157,6 +157,8 @@ class RigidOptimizer {
     out_.answer.nodes = planned.nodes;
     out_.answer.found_poses = planned.found_poses;
     out_.answer.search_seconds = planned.search_seconds;
+    out_.answer.search_cpu_seconds = planned.search_cpu_seconds;
+    out_.answer.search_tests = planned.search_tests;
     if (!planned.IsSolved()) {
       out_.answer.status = planned.status;
       out_.answer.reason = planned.reason;

@@ -118,6 +118,53 @@ TEST(RigidPlan, ShorteningLeavesAShorterPath) {
   EXPECT_LT(short_one.length, as_found.length);
 }
 
+// Where there is room the first of the race finds a path before any other
+// begins, and what follows is cut short with the work, not with the clock.
+TEST(RigidPlan, SolvesAnEasyWorldByStraightMotionsWithLittleWork) {
+  const TriangleMesh wall = MakePlateWithHole(16.0, 0.5, 4.0);
+  TriangleMesh robot = MakeL(2.0, 0.5, 0.5);
+  for (Vector3d& v : robot.vertices) v -= Vector3d(1.0, 1.0, 0.25);
+  const RigidWorld world(robot, wall);
+  RigidRequest request;
+  request.start = At({2.0, 2.0, 3.0}, 1.0, Vector3d::UnitX());
+  request.goal = At({-2.0, 1.0, -3.0}, 2.0, Vector3d::UnitY());
+  request.bounds = {Vector3d::Constant(-5.0), Vector3d::Constant(5.0)};
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    request.seed = seed;
+    request.shortens = true;
+    const RigidAnswer answer = Plan(world, request);
+    ASSERT_TRUE(answer.IsSolved()) << answer.reason;
+    EXPECT_EQ(answer.planner, "straight");
+    EXPECT_LT(answer.search_tests, 20'000) << seed;
+    EXPECT_LT(answer.nodes, 100) << seed;
+    // Shortening by 20,000 and a cut, the second pass and the clearance.
+    EXPECT_LT(answer.tests - answer.search_tests, 50'000) << seed;
+    request.shortens = false;
+    const RigidAnswer as_found = Plan(world, request);
+    EXPECT_EQ(as_found.search_tests, answer.search_tests);
+    EXPECT_LT(answer.length, as_found.length);
+  }
+}
+
+TEST(RigidPlan, CountsNoMoreThanTheLineWhereItIsFree) {
+  RigidRequest request;
+  request.start = At({-3.0, 3.0, 0.0});
+  request.goal = At({3.0, 3.0, 0.0}, 2.0);
+  const RigidWorld world(Bar(), Cube(1.0));
+  const RigidAnswer answer = Plan(world, request);
+  ASSERT_EQ(answer.planner, "line");
+  // Start, goal, the motion, and the motion once more at the end.
+  EXPECT_EQ(answer.checks, 4);
+  EXPECT_EQ(answer.nodes, 0);
+  long tests = 0;
+  for (const RigidMotion& motion : {RigidMotion(request.start, request.start),
+                                    RigidMotion(request.goal, request.goal),
+                                    RigidMotion(request.start, request.goal)}) {
+    tests += world.judge().Check(motion).tests;
+  }
+  EXPECT_EQ(answer.search_tests, tests);
+}
+
 TEST(RigidPlan, GivesTheSamePathForTheSameSeed) {
   const RigidRequest request = ThroughTheWall();
   const RigidWorld world(LongBar(), WallWithHole());
