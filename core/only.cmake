@@ -3,14 +3,15 @@
 # tests, examples, benchmarks and the Python package among it.  Included before
 # the options are declared, which leave variables as they find them.
 set(PHONGPD_NEEDED_BY_core "")
+set(PHONGPD_NEEDED_BY_approximations core)
 set(PHONGPD_NEEDED_BY_constraints core)
 set(PHONGPD_NEEDED_BY_oracle constraints)
 set(PHONGPD_NEEDED_BY_planners constraints)
 set(PHONGPD_NEEDED_BY_ipopt planners)
 set(PHONGPD_NEEDED_BY_ompl planners)
-set(PHONGPD_NEEDED_BY_solve ipopt ompl)
+set(PHONGPD_NEEDED_BY_solve approximations ipopt ompl)
 set(PHONGPD_NEEDED_BY_shapes core)
-set(PHONGPD_NEEDED_BY_problems shapes planners)
+set(PHONGPD_NEEDED_BY_problems approximations shapes planners)
 set(PHONGPD_NEEDED_BY_studies problems oracle solve)
 set(PHONGPD_NEEDED_BY_viewer problems solve)
 set(PHONGPD_NEEDED_BY_program studies viewer assimp)
@@ -20,6 +21,7 @@ macro(phongpd_build_only)
   set(needed ${ARGN})
   set(all
       core
+      approximations
       constraints
       oracle
       planners

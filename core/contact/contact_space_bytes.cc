@@ -3,6 +3,7 @@
 
 #include <cstdint>
 
+#include "core/contact/builder_digest.h"
 #include "core/contact/byte_stream.h"
 #include "core/contact/content_hash.h"
 #include "core/mesh/finite.h"
@@ -10,10 +11,8 @@
 namespace phongpd {
 namespace {
 
-// To be raised when the meaning of the bytes changes without their source:
-// PHONGPD_BUILDER is a digest of the sources of core/mesh and
-// core/mesh to core/contact and the version of CGAL, so that a result of other
-// code is never taken for one of this.
+// To be raised when the meaning of the bytes changes without their source,
+// which kBuilderDigest tells.
 constexpr std::uint32_t kCacheFormat = 1;
 
 }  // namespace
@@ -100,7 +99,8 @@ namespace internal {
 std::string KeyBytes(const TriangleMesh& robot, const TriangleMesh& obstacle,
                      const ContactSpaceOptions& options) {
   ByteWriter writer;
-  writer(kCacheFormat, std::string(PHONGPD_BUILDER), robot, obstacle, options);
+  writer(kCacheFormat, std::string(internal::kBuilderDigest), robot, obstacle,
+         options);
   return writer.Take();
 }
 

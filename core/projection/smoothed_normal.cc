@@ -22,10 +22,10 @@ using internal::NormalMoments;
 
 namespace {
 
-constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
+constexpr double kUlpOfOne = std::numeric_limits<double>::epsilon();
 // What one term of a sum rounds to, in shares of itself: the few operations it
 // takes.
-constexpr double kTermRounding = 8.0 * kEpsilon;
+constexpr double kTermRounding = 8.0 * kUlpOfOne;
 // Of the diagonal: less is not much more than what coordinates round to.
 constexpr double kLeastRadius = 1e-9;
 // Triangles from which a subtree keeps its moments: about as many as take the

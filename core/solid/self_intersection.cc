@@ -3,9 +3,10 @@
 
 #include <CGAL/Bbox_3.h>
 #include <CGAL/Cartesian_converter.h>
-#include <CGAL/Exact_predicates_exact_constructions_kernel.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Exact_rational.h>
 #include <CGAL/Object.h>
+#include <CGAL/Simple_cartesian.h>
 #include <CGAL/box_intersection_d.h>
 #include <CGAL/intersections.h>
 #include <tbb/blocked_range.h>
@@ -24,7 +25,9 @@ namespace {
 
 using Eigen::Vector3d;
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-using Exact = CGAL::Exact_predicates_exact_constructions_kernel;
+// Of what is constructed with it nearly all has to be known exactly: intervals
+// that come first would only take time, and most of the compiler's.
+using Exact = CGAL::Simple_cartesian<CGAL::Exact_rational>;
 using Point = Kernel::Point_3;
 using CornerPoints = std::array<Point, 3>;
 using Box = CGAL::Box_intersection_d::Box_with_info_d<double, 3, std::size_t>;
@@ -159,9 +162,33 @@ bool AreOnOneEdge(const Exact::Triangle_3& triangle, const Exact::Point_3& p,
   return false;
 }
 
+// Whether the inside of segment pq goes through the inside of the triangle.
+bool Pierces(const Point& p, const Point& q, const CornerPoints& t) {
+  const auto above = CGAL::orientation(t[0], t[1], t[2], p);
+  if (above == CGAL::COPLANAR ||
+      CGAL::orientation(t[0], t[1], t[2], q) != CGAL::opposite(above)) {
+    return false;
+  }
+  const auto turn = CGAL::orientation(p, q, t[0], t[1]);
+  return turn != CGAL::COPLANAR &&
+         CGAL::orientation(p, q, t[1], t[2]) == turn &&
+         CGAL::orientation(p, q, t[2], t[0]) == turn;
+}
+
+// Whether an edge of one pierces the other: all pairs in general position that
+// meet.
+bool IsAnyPierced(const CornerPoints& a, const CornerPoints& b) {
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (Pierces(a[k], a[(k + 1) % 3], b)) return true;
+    if (Pierces(b[k], b[(k + 1) % 3], a)) return true;
+  }
+  return false;
+}
+
 // Whether the common part of two triangles, which is not empty, lies on an
 // edge of each.  Constructs it: slow, but needed for few pairs.
 bool TouchAlongEdges(const CornerPoints& a, const CornerPoints& b) {
+  if (IsAnyPierced(a, b)) return false;
   const CGAL::Cartesian_converter<Kernel, Exact> to_exact;
   const Exact::Triangle_3 s = to_exact(ToTriangle(a));
   const Exact::Triangle_3 t = to_exact(ToTriangle(b));

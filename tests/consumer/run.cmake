@@ -75,6 +75,13 @@ if(NOT targets MATCHES "phongpd_core"
    OR targets MATCHES "constraints|phongpd_planners|[.]{3} phongpd\n|_test")
   message(FATAL_ERROR "PHONGPD_BUILD=core configures more:\n${targets}")
 endif()
+# A part that the core does without is none of it, and who asks for it is told.
+file(GLOB_RECURSE exported ${work}-only/PhongPD*Targets.cmake)
+list(TRANSFORM exported REPLACE "^.*/PhongPD(.*)Targets\\.cmake$" "\\1")
+list(SORT exported)
+if(NOT exported STREQUAL "core;files")
+  message(FATAL_ERROR "PHONGPD_BUILD=core installs more: ${exported}")
+endif()
 execute_process(
   COMMAND ${CMAKE_COMMAND} -S ${SOURCE} -B ${work}-only -D PHONGPD_BUILD=cores
   RESULT_VARIABLE code OUTPUT_QUIET ERROR_VARIABLE error)

@@ -127,7 +127,7 @@ class CrossingMender {
 
   bool Cross(std::size_t s, std::size_t t) const {
     return !parts_.MayCross(mesh_.triangles[s], mesh_.triangles[t]) &&
-           MeetProperly(mesh_, s, t);
+           internal::MeetProperly(mesh_, s, t);
   }
 
   BoundingBox Box(std::size_t f) const {

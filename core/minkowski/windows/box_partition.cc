@@ -13,7 +13,7 @@ namespace phongpd::internal {
 namespace {
 
 // Halves may meet more facets, by this factor.
-constexpr double kHalfGrowth = 1.1;
+constexpr double kBoxGrowth = 1.1;
 // Sums of features of the largest boxes of which the facets are found; smaller
 // ones choose of these.
 constexpr std::size_t kMostSumsOfBox = 500;
@@ -66,7 +66,7 @@ void BoxPartition::Halve(int number, const std::array<GridWindow, 2>& windows,
     half.part.window = window;
     half.uncounted = uncounted;
     half.most =
-        static_cast<std::size_t>(kHalfGrowth * static_cast<double>(box.most));
+        static_cast<std::size_t>(kBoxGrowth * static_cast<double>(box.most));
     if (box.of == nullptr) continue;
     half.of = box.of;
     half.part.facets =
