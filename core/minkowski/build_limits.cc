@@ -27,6 +27,16 @@ std::atomic<BuildObserver> observer{nullptr};
 
 void CancelBuilds() { ++cancellations; }
 
+CancelWatch::CancelWatch() : before_(cancellations.load()) {}
+
+bool CancelWatch::IsCancelled() const {
+  return cancellations.load(std::memory_order_relaxed) != before_;
+}
+
+void CancelWatch::Check(const char* what) const {
+  if (IsCancelled()) throw BuildCancelled(std::string(what) + " was cancelled");
+}
+
 void ObserveBuilds(BuildObserver to_call) { observer = to_call; }
 
 namespace internal {

@@ -59,7 +59,7 @@ struct OmplPlanningResult {
 // validator.  Throws InputError for that one, bad options, a missing model or a
 // start or goal that is not finite; a start or goal in collision is a status
 // ("Invalid start", "Invalid goal").  OMPL's log is not touched; SilenceOmpl
-// turns it off.
+// turns it off.  CancelBuilds stops it: BuildCancelled.
 OmplPlanningResult PlanWithOmpl(
     const std::shared_ptr<const ContactModel>& model,
     const Eigen::Vector3d& start, const Eigen::Vector3d& goal,
