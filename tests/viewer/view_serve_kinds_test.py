@@ -271,6 +271,9 @@ class Cancel(unittest.TestCase):
                                    "goal": KNOTS["goal"],
                                    "options": {"planner": "contact-surface"}})
 
+    def test_a_depth(self):
+        self.ends(written(KNOTS), {"what": "depth", "start": [0, 0, 0]})
+
     def test_a_trajectory_while_it_builds(self):
         self.ends(written({**KNOTS, "trajectory": {"model": "full"}}),
                   {"what": "optimize", "start": KNOTS["start"],
