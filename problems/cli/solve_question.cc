@@ -14,7 +14,6 @@ namespace phongpd::cli {
 namespace {
 
 using AskedJson = nlohmann::ordered_json;
-using Clock = std::chrono::steady_clock;
 using Eigen::Vector3d;
 
 constexpr char kQuestion[] = "question";
@@ -218,10 +217,10 @@ void RefuseQuestion(const std::string& where, const std::string& expected,
 std::function<bool()> EndOf(double seconds,
                             std::function<bool()> is_cancelled) {
   constexpr double kShare = 0.9;
-  const auto end =
-      Clock::now() + std::chrono::duration<double>(kShare * seconds);
+  const auto end = std::chrono::steady_clock::now() +
+                   std::chrono::duration<double>(kShare * seconds);
   return [end, asked = std::move(is_cancelled)] {
-    return asked() || Clock::now() > end;
+    return asked() || std::chrono::steady_clock::now() > end;
   };
 }
 
