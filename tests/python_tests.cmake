@@ -21,6 +21,14 @@ if(Python3_Interpreter_FOUND)
       $<TARGET_FILE:phongpd> ${PROJECT_BINARY_DIR}/tests/served)
   set_tests_properties(ViewServed PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 300)
   add_test(
+    NAME ViewServedKinds
+    COMMAND
+      ${Python3_EXECUTABLE} -B
+      ${CMAKE_CURRENT_SOURCE_DIR}/viewer/view_serve_kinds_test.py
+      $<TARGET_FILE:phongpd> ${PROJECT_BINARY_DIR}/tests/served_kinds)
+  set_tests_properties(ViewServedKinds PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT
+                                                  600)
+  add_test(
     NAME MetricColors
     COMMAND
       ${Python3_EXECUTABLE} -B

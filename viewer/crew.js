@@ -44,6 +44,13 @@ class Crew {
                                                this.stage.solid('mover'))});
   }
 
+  // Of a mover: where it is while a motion that came later is played.
+  retime(index, points) {
+    const {way} = this.movers[index];
+    way.raw = points;
+    way.points = points.map(p => this.stage.at(p));
+  }
+
   // All of them at t, 0 to 1, of the time of the way that is followed.
   show(shown, t) {
     const place = ({way, group}, isShown, time) => {

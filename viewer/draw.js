@@ -130,7 +130,7 @@ class DrawnViewer extends Viewer {
     if (!state.show.marks || index > 0) return;
     const boxes = this.covers();
     const taken = [];
-    for (const {text, point, way} of stage.labels) {
+    for (const {text, point, way, owner} of stage.labels) {
       const p = point.clone().project(camera);
       if (p.z > 1 || Math.abs(p.x) > 1 || Math.abs(p.y) > 1) continue;
       const width = 8 * text.length + 10, height = 18;
@@ -151,8 +151,9 @@ class DrawnViewer extends Viewer {
           x < t.x + t.width;
       for (let i = 0; i < 8 && taken.some(isTaken); ++i) y += height;
       taken.push({x, y, width});
+      const of = way === undefined ? owner : way;
       put(text, x, y,
-          way === undefined ? null : stage.colorOf(state.theme, way), 'name');
+          of === undefined ? null : stage.colorOf(state.theme, of), 'name');
     }
   }
 

@@ -42,6 +42,9 @@ class DressedStage extends FramedStage {
       material.color.copy(asColor(this.colorOf(name, i)));
     });
     this.crew.setTheme(name);
+    for (const {material, way} of this.ownMarks) {
+      material.color.copy(asColor(this.colorOf(name, way)));
+    }
     this.ghostMaterial.color.set(theme.ghost);
     this.arrows.forEach((arrow, i) => {
       const color = asColor(this.arrowColor(name, i));

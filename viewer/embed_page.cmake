@@ -25,6 +25,8 @@ if(THREE)
           probe_panel.js
           color_key.js
           task_drag.js
+          task_turn.js
+          task_answer.js
           task_panel.js
           section_map.js
           surface_map.js

@@ -32,8 +32,8 @@ class FramedStage extends Stage {
     for (const {way} of this.crew.movers) {
       way.points.forEach(p => box.expandByPoint(p));
     }
-    for (const end of [this.data.start, this.data.goal]) {
-      if (end) box.expandByPoint(this.at(end));
+    for (const [mark] of Object.values(this.ends)) {
+      box.expandByPoint(mark.position);
     }
     // A scene alone: the room it has tells where things are, if it is no waste.
     const {bounds} = this.data;

@@ -30,7 +30,9 @@ class Panel {
          ...data.movers.map(mover => mover.body)].reduce(
              (n, body) => n + (body ? body.triangles : 0), 0);
     if (triangles) facts.push(count(triangles, 'triangle'));
-    const paths = stage.ways.filter(way => way.kind === 'path');
+    // Robots that have none yet stand where they begin.
+    const paths = stage.ways.filter(
+        way => way.kind === 'path' && (!way.body || way.points.length > 1));
     if (paths.length) facts.push(count(paths.length, 'path'));
     if (data.motion) facts.push(count(data.motion.positions.length, 'frame'));
     if (data.answers.length === 1) {

@@ -22,6 +22,7 @@ View TurningSceneView(const TurningScene& scene) {
   view.goal = scene.goal.position;
   view.start_turn = scene.start.orientation;
   view.goal_turn = scene.goal.orientation;
+  view.turns = true;
   view.bounds = scene.bounds;
   return view;
 }

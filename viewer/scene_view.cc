@@ -38,6 +38,7 @@ View FleetSceneView(const FleetScene& scene) {
   for (const Scene& robot : scene.robots) {
     NamedPath path = {robot.workspace.robot.name(), {robot.start}};
     path.robot = robot.workspace.robot;
+    view.ends.push_back({path.name, robot.start, robot.goal});
     view.paths.push_back(std::move(path));
   }
   return view;

@@ -170,34 +170,47 @@ class Stage extends Solids {
     return {group, shaft, head, ghost, ends, material, pale};
   }
 
-  addMarks() {
-    this.labels = [];  // {text, point, way}
-    this.ends = {};    // of start and goal: what is drawn there
-    const mark = (point, shape, text, turn) => {
-      if (!point) return;
-      const material = new THREE.MeshBasicMaterial();
-      this.colored.push([material, 'mark']);
-      const mesh = new THREE.Mesh(shape, material);
-      mesh.position.copy(this.at(point));
-      this.groups.marks.add(mesh);
-      const ghost = this.ghost(this.ghostMaterial);
-      ghost.position.copy(mesh.position);
-      ghost.quaternion.copy(asTurn(turn));
-      this.groups.marks.add(ghost);
-      this.labels.push({text, point: mesh.position});
-      this.ends[text] = [mesh, ghost];
-    };
-    mark(this.data.start, new THREE.SphereBufferGeometry(0.008, 20, 14),
-         'start', this.data.start_turn);
-    mark(this.data.goal, new THREE.OctahedronBufferGeometry(0.013), 'goal',
-         this.data.goal_turn);
-    const paths = this.ways.filter(way => way.kind === 'path');
-    // Where robots of their own come to.
-    for (const way of paths.filter(path => path.shape && path.points.length)) {
-      const ghost = this.ghost(this.ghostMaterial, way);
-      ghost.position.copy(way.points[way.points.length - 1]);
-      this.groups.marks.add(ghost);
+  // An end by its key: "start", "goal", of several robots "start 2".  Where its
+  // place is kept, and the place and the turn there.
+  endAt(key) {
+    const [name, robot] = key.split(' ');
+    const of = robot === undefined ? this.data : this.data.ends[robot];
+    return {of, name, robot, place: of[name],
+            turn: of[name + '_turn'] || [1, 0, 0, 0]};
+  }
+
+  // Of several robots each mark has the colour of its own.
+  addMark(key, text) {
+    const {name, robot, place, turn} = this.endAt(key);
+    const material = new THREE.MeshBasicMaterial();
+    if (robot === undefined) this.colored.push([material, 'mark']);
+    else this.ownMarks.push({material, way: Number(robot)});
+    const mesh = new THREE.Mesh(
+        name === 'start' ? new THREE.SphereBufferGeometry(0.008, 20, 14)
+                         : new THREE.OctahedronBufferGeometry(0.013), material);
+    mesh.position.copy(this.at(place));
+    const ghost = this.ghost(this.ghostMaterial, this.ways[robot]);
+    ghost.position.copy(mesh.position);
+    ghost.quaternion.copy(asTurn(turn));
+    this.groups.marks.add(mesh, ghost);
+    if (text) {
+      this.labels.push({text, point: mesh.position,
+                        owner: robot && Number(robot)});
     }
+    this.ends[key] = [mesh, ghost];
+  }
+
+  addMarks() {
+    this.labels = [];  // {text, point}, and the way that it is of or that owns it
+    this.ends = {};    // of start and goal, by their keys: what is drawn there
+    this.ownMarks = [];  // {material, way}
+    if (this.data.start) this.addMark('start', 'start');
+    if (this.data.goal) this.addMark('goal', 'goal');
+    this.data.ends.forEach(({robot}, i) => {
+      this.addMark('start ' + i, '');
+      this.addMark('goal ' + i, 'goal of ' + robot);
+    });
+    const paths = this.ways.filter(way => way.kind === 'path');
     if (paths.length > 8) return;  // labels would cover each other
     paths.forEach((way, i) => {
       if (way.points.length === 0) return;
@@ -212,9 +225,21 @@ class Stage extends Solids {
   }
 
   // Start or goal, to a point in the user's unit.
-  moveEnd(name, raw) {
-    this.data[name] = raw;
-    for (const part of this.ends[name]) part.position.copy(this.at(raw));
+  moveEnd(key, raw) {
+    const {of, name, robot} = this.endAt(key);
+    of[name] = raw;
+    for (const part of this.ends[key]) part.position.copy(this.at(raw));
+    const way = this.ways[robot];
+    // A robot that has no path yet stands there.
+    if (!way || name !== 'start' || way.points.length !== 1) return;
+    way.raw[0] = raw;
+    way.points[0].copy(this.at(raw));
+  }
+
+  turnEnd(key, turn) {
+    const {of, name} = this.endAt(key);
+    of[name + '_turn'] = turn;
+    for (const part of this.ends[key]) part.quaternion.copy(asTurn(turn));
   }
 
   // Where the robot is at t of the way, 0 to 1: along a path by length, or by

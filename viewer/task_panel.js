@@ -1,73 +1,129 @@
 // Start and goal that can be moved, and what is asked of them: by the server
 // that the page came from, by the probe in the page, or by whoever reads it.
 
-// What can be asked; `by`: the choices of a setting, the first the scene's own.
+// What can be asked of a scene's kind; `by`: the choices of a setting, the
+// first the scene's own.
 const kTasks = {
-  plan: {text: 'a path (plan)', option: 'planner',
-         by: ['contact-surface', 'rrt-connect', 'retraction-forest']},
-  optimize: {text: 'a trajectory (optimize)', option: 'metric',
-             by: ['phong', 'euclidean']},
-  depth: {text: 'how deep the start is (depth)', option: null, by: []},
+  translates: {
+    plan: {text: 'a path (plan)', option: 'planner',
+           by: ['contact-surface', 'rrt-connect', 'retraction-forest']},
+    optimize: {text: 'a trajectory (optimize)', option: 'metric',
+               by: ['phong', 'euclidean']},
+    depth: {text: 'depth at the start'},
+  },
+  turns: {
+    plan: {text: 'a path (plan)'},
+    optimize: {text: 'a short path (optimize)'},
+    depth: {text: 'depth at the start'},
+  },
+  robots: {
+    optimize: {text: 'motions (optimize)', option: 'preset',
+               by: ['fast', 'balanced', 'tight']},
+    depth: {text: 'depth at its start'},
+  },
 };
 
 class TaskPanel {
   constructor(viewer) {
     this.viewer = viewer;
     this.task = viewer.data.task;
-    this.what = 'plan';
+    this.tasks = kTasks[this.task.kind];
+    this.what = Object.keys(this.tasks)[0];
+    this.robot = 0;      // of several: whose ends the fields are of
     this.ways = {};      // numbers of those that came, by what was asked
     this.answer = null;  // a depth, where it is shown
     this.isBusy = false;
     this.done = 0;       // questions that are over
-    this.drag = new EndDrag(viewer, (name, raw) => this.move(name, raw));
+    this.drag = new EndDrag(
+        viewer, key => key === this.keyOf(key.split(' ')[0]),
+        key => this.take(key), (key, raw) => this.move(key, raw));
+    this.rings = this.task.kind === 'turns'
+        ? new TurnRings(viewer, (key, turn) => this.turn(key, turn)) : null;
   }
 
+  get hasRobots() { return this.task.kind === 'robots'; }
+
+  // Of the robot that the fields are of: "start", or of several "start 2".
+  keyOf(name) { return this.hasRobots ? name + ' ' + this.robot : name; }
+  endOf(name) { return this.viewer.stage.endAt(this.keyOf(name)); }
+
   section(panel) {
-    const row = name => make(
-        'div', {class: 'point'}, make('span', {}, name),
-        ...[0, 1, 2].map(k => this.field(name, k)));
+    const row = (name, text, field) => make(
+        'div', {class: 'point'}, make('span', {}, text),
+        ...[0, 1, 2].map(k => field(name, k)));
+    const ends = ['start', 'goal'].flatMap(name => [
+      row(name, name, (...of) => this.field(...of)),
+      ...(this.rings ? [row(name, 'turn', (...of) => this.turnField(...of))]
+                     : [])]);
     const choice = (id, label, options, act) => make(
         'label', {class: 'row wide'}, make('span', {}, label),
         make('select', {id, class: 'map', onchange: e => act(e.target.value)},
              ...options.map(([value, text]) => make('option', {value}, text))));
     this.by = make('div', {});
     const section = panel.section(
-        'Solve', row('start'), row('goal'),
+        'Solve', ...(this.hasRobots ? [choice(
+            'task-robot', 'ends of',
+            this.viewer.data.ends.map(({robot}, i) => [i, robot]),
+            value => { this.take('start ' + value); })] : []),
+        ...ends,
         choice('task-along', 'drag them',
                [['', 'in the picture'],
                 ...Object.keys(kAxes).map(k => [k, 'along ' + k])],
                value => { this.drag.axis = value; }),
-        choice('task-what', 'find', Object.entries(kTasks).map(
+        choice('task-what', 'find', Object.entries(this.tasks).map(
             ([value, task]) => [value, task.text]),
                value => { this.choose(value); }),
         this.by,
-        make('button', {id: 'solve', type: 'button',
-                        onclick: () => this.solve()}, 'Solve'),
+        make('div', {class: 'bar'},
+             make('button', {id: 'solve', type: 'button',
+                             onclick: () => this.solve()}, 'Solve'),
+             make('button', {id: 'cancel', type: 'button', hidden: true,
+                             onclick: () => this.cancel()}, 'Cancel')),
         make('p', {id: 'task-says', role: 'status'}, ''),
         make('p', {class: 'soft'}, 'Drag the marks of start and goal, with ' +
-             'Ctrl up and down, or type where they are.'));
+             'Ctrl up and down, or type where they are.' + (this.rings
+             ? ' Rings turn the robot about x, y and z; the fields have the ' +
+               'axis times the angle in degrees.' : '')));
     section.id = 'task';
     this.choose(this.what);
     return section;
   }
 
-  field(name, k) {
+  // A number of an end: `now` it is, and what becomes of it.
+  number(id, label, name, now, act) {
     return make('input', {
-      id: name + '-' + 'xyz'[k], type: 'number', step: 'any',
-      'aria-label': 'xyz'[k] + ' of the ' + name,
+      id, type: 'number', step: 'any', 'aria-label': label,
+      onfocus: () => this.take(this.keyOf(name)),
       onchange: e => {
         const value = Number(e.target.value);
         if (e.target.value === '' || !Number.isFinite(value)) return this.tell();
-        const to = this.viewer.data[name].slice();
-        to[k] = value;
-        this.move(name, to);
+        act(now().slice(), value);
       },
     });
   }
 
+  field(name, k) {
+    return this.number(
+        name + '-' + 'xyz'[k], 'xyz'[k] + ' of the ' + name, name,
+        () => this.endOf(name).place, (to, value) => {
+          to[k] = value;
+          this.move(this.keyOf(name), to);
+        });
+  }
+
+  turnField(name, k) {
+    return this.number(
+        name + '-turn-' + 'xyz'[k],
+        'turn about ' + 'xyz'[k] + ' at the ' + name + ', degrees', name,
+        () => vectorOfTurn(this.endOf(name).turn), (to, value) => {
+          to[k] = value;
+          this.turn(this.keyOf(name), turnOfVector(to));
+        });
+  }
+
   choose(what) {
     this.what = what;
-    const {option, by} = kTasks[what];
+    const {option, by} = this.tasks[what];
     this.by.replaceChildren(...(option ? [make(
         'label', {class: 'row wide'}, make('span', {}, 'by ' + option),
         make('select', {id: 'task-by', class: 'map'},
@@ -75,14 +131,31 @@ class TaskPanel {
              ...by.map(value => make('option', {value}, value))))] : []));
   }
 
+  // Somebody takes hold of an end.
+  take(key) {
+    if (this.rings) this.rings.around(key);
+    if (this.hasRobots) this.robot = Number(key.split(' ')[1]);
+    this.tell();
+    this.viewer.changed();
+  }
+
   // What was found belongs to other places from here on.
-  move(name, raw) {
-    const {viewer} = this;
+  move(key, raw) {
+    this.viewer.stage.moveEnd(key, raw);
+    if (this.rings) this.rings.place();
+    this.moved();
+  }
+
+  turn(key, turn) {
+    this.viewer.stage.turnEnd(key, turn);
+    this.moved();
+  }
+
+  moved() {
     this.answer = null;
-    viewer.stage.moveEnd(name, raw);
     this.say(this.isBusy ? 'solving …' : 'Moved; press Solve.');
     this.tell();
-    viewer.changed();
+    this.viewer.changed();
   }
 
   say(text, isError = false) {
@@ -92,15 +165,21 @@ class TaskPanel {
 
   // Puts the ends into the fields.
   tell() {
+    const fill = (id, x) => {
+      const field = byId(id);
+      if (document.activeElement === field) return;
+      field.value = Number(x.toPrecision(6));
+    };
     for (const name of ['start', 'goal']) {
-      this.viewer.data[name].forEach((x, k) => {
-        const field = byId(name + '-' + 'xyz'[k]);
-        if (document.activeElement !== field) {
-          field.value = Number(x.toPrecision(6));
-        }
-      });
+      const {place, turn} = this.endOf(name);
+      place.forEach((x, k) => fill(name + '-' + 'xyz'[k], x));
+      if (!this.rings) continue;
+      vectorOfTurn(turn).forEach((x, k) => fill(
+          name + '-turn-' + 'xyz'[k], Math.abs(x) < 1e-9 ? 0 : x));
     }
+    if (this.hasRobots) byId('task-robot').value = this.robot;
     byId('solve').disabled = this.isBusy;
+    byId('cancel').hidden = !this.isBusy || !this.task.served;
   }
 
   async solve() {
@@ -111,7 +190,7 @@ class TaskPanel {
     this.tell();
     try {
       if (this.task.served) {
-        this.take(await this.ask());
+        takeAnswer(this, await askServer(this));
       } else if (what === 'depth' && viewer.probe) {
         await this.probeStart();
       } else {
@@ -126,81 +205,10 @@ class TaskPanel {
     this.tell();
   }
 
-  question() {
-    const {data} = this.viewer, {what} = this;
-    const question = {what, start: data.start};
-    if (what !== 'depth') question.goal = data.goal;
-    const by = byId('task-by');
-    if (by && by.value) {
-      question.options = {[kTasks[what].option]: by.value};
-    }
-    return question;
-  }
-
-  async ask() {
-    let reply;
-    try {
-      reply = await fetch('solve', {
-        method: 'POST', headers: {'Content-Type': 'application/json'},
-        body: JSON.stringify(this.question()),
-      });
-    } catch (error) {
-      throw new Error('The server does not answer; start it again: ' +
-                      this.task.command);
-    }
-    const answer = await reply.json().catch(() => ({}));
-    if (!reply.ok) {
-      throw new Error(answer.error || 'The server refuses: ' + reply.status);
-    }
-    return answer;
-  }
-
-  take(answer) {
-    if (answer.what === 'depth') return this.takeDepths(answer);
-    const {viewer} = this, {stage, data, state} = viewer;
-    const path = answer.paths[0], {row} = answer;
-    const before = answer.what in this.ways ? this.ways[answer.what] : -1;
-    if (path.points.length > 0) {
-      const index = stage.putWay(path, before);
-      this.ways[answer.what] = index;
-      data.paths[index] = path;
-      viewer.panel.renewWays();
-      Object.assign(state, {way: index, time: 0, iterate: null,
-                            playing: false});
-      state.probe.on = false;
-    }
-    this.answer = null;
-    viewer.apply();
-    this.say(this.sentence(row), !row.solved);
-  }
-
-  // "solved: room 0.05 units, 0.2 s"
-  sentence(row) {
-    const {viewer} = this;
-    const status = (row.status_class || row.status).replace(/_/g, ' ');
-    const told = [];
-    if (row.duration) told.push(viewer.digits(row.duration) + ' s long');
-    if (row.path_length) told.push(viewer.text(row.path_length) + ' long');
-    if (row.solved) told.push('room ' + viewer.text(row.clearance));
-    // Of a plan, a path that was optimised, and a motion in time.
-    const {solve, total, plan, curve} = row.seconds;
-    const took = [solve, total, plan + curve].find(Number.isFinite);
-    told.push('found in ' + viewer.digits(took) + ' s');
-    return status + ': ' + (row.solved ? told.join(', ')
-        : row.reason || 'no answer');
-  }
-
-  // Of several obstacles that in which it is deepest, or the nearest.
-  takeDepths({rows, answers}) {
-    const {viewer} = this;
-    const distance = a => a.clearance - a.depth;
-    const best = answers.reduce(
-        (k, a, i) => distance(a) < distance(answers[k]) ? i : k, 0);
-    this.show(answers[best], rows[best].obstacle);
-    if (!rows[best].certified) {
-      this.say('not certified within the limit of time: at most ' +
-               viewer.text(answers[best].depth), true);
-    }
+  // The answer to the question says so, too.
+  async cancel() {
+    this.say('cancelling …');
+    await post('cancel', {}).catch(() => {});
   }
 
   show(answer, obstacle) {
@@ -234,13 +242,15 @@ class TaskPanel {
 
   // The arrow of a depth, and the robot where it is pushed to.
   pose() {
-    const {solved} = this.viewer.stage, {answer} = this;
+    const {stage} = this.viewer, {solved} = stage, {answer} = this;
     solved.group.visible = answer !== null && answer.on_a !== null;
     if (!solved.group.visible) return;
-    const {stage} = this.viewer;
     const a = stage.at(answer.on_a), b = stage.at(answer.on_b);
     stage.setArrow(solved, a, b);
-    solved.ghost.position.copy(stage.at(answer.position)).add(b).sub(a);
-    solved.ghost.visible = answer.depth > 0;
+    const {ghost} = solved;
+    if (this.hasRobots) ghost.geometry = stage.ways[this.robot].shape;
+    ghost.position.copy(stage.at(answer.position)).add(b).sub(a);
+    ghost.quaternion.copy(asTurn(answer.orientation || [1, 0, 0, 0]));
+    ghost.visible = answer.depth > 0;
   }
 }

@@ -108,6 +108,14 @@ struct ViewMover {
   std::vector<Eigen::Vector3d> points;
 };
 
+// Where one of several robots, each with a path of its own, begins and is to
+// end.
+struct ViewEnds {
+  std::string robot;  // its path's name
+  Eigen::Vector3d start = Eigen::Vector3d::Zero();
+  Eigen::Vector3d goal = Eigen::Vector3d::Zero();
+};
+
 // One metric along a motion: PD(q) = q_c − q of every frame, 0 outside.
 struct ViewTrace {
   std::string name;
@@ -152,6 +160,8 @@ struct View {
   std::optional<Eigen::Vector3d> start, goal;
   Eigen::Quaterniond start_turn = Eigen::Quaterniond::Identity();  // there
   Eigen::Quaterniond goal_turn = Eigen::Quaterniond::Identity();
+  bool turns = false;          // the robot, on its way
+  std::vector<ViewEnds> ends;  // of several robots, in the order of `paths`
   BoundingBox bounds = ComputeBounds(TriangleMesh());  // of q; empty: none
   std::vector<NamedPath> paths;
   ViewMotion motion;                // no frames: none

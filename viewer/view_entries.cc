@@ -40,6 +40,14 @@ nlohmann::ordered_json PathEntry(const NamedPath& path) {
           {"robot", nullptr}};
 }
 
+nlohmann::ordered_json MoverEntries(const std::vector<ViewMover>& movers) {
+  EntryJson json = EntryJson::array();
+  for (const ViewMover& one : movers) {
+    json.push_back({{"name", one.name}, {"points", PointsJson(one.points)}});
+  }
+  return json;
+}
+
 nlohmann::ordered_json AnswerEntry(const ViewAnswer& answer) {
   const bool has = answer.has_witness;
   return {{"position", PointJson(answer.position)},

@@ -7,9 +7,11 @@
 
 namespace phongpd {
 
-// Entries of the page's lists paths and answers (view_json.h), also for pages
-// that get them later.  A path's has no robot of its own.
+// Entries of the page's lists paths, answers and movers (view_json.h), for
+// pages that get them later.  A path's has no robot of its own, a mover's no
+// body.
 nlohmann::ordered_json PathEntry(const NamedPath& path);
+nlohmann::ordered_json MoverEntries(const std::vector<ViewMover>& movers);
 nlohmann::ordered_json AnswerEntry(const ViewAnswer& answer);
 
 }  // namespace phongpd

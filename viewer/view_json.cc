@@ -183,6 +183,16 @@ class PageMeshes {
   internal::PageFrame frame_;
 };
 
+Json EndsJson(const std::vector<ViewEnds>& ends) {
+  Json json = Json::array();
+  for (const ViewEnds& one : ends) {
+    json.push_back({{"robot", one.robot},
+                    {"start", PointJson(one.start)},
+                    {"goal", PointJson(one.goal)}});
+  }
+  return json;
+}
+
 // What stands and what moves, and where.
 void AddBodies(const View& view, const PageMeshes& meshes, Json* json,
                std::vector<std::string>* notes) {
@@ -202,6 +212,7 @@ void AddBodies(const View& view, const PageMeshes& meshes, Json* json,
   (*json)["goal"] = MaybePoint(view.goal);
   (*json)["start_turn"] = TurnJson(view.start_turn);
   (*json)["goal_turn"] = TurnJson(view.goal_turn);
+  (*json)["ends"] = EndsJson(view.ends);
   (*json)["bounds"] = view.bounds.IsEmpty()
                           ? Json(nullptr)
                           : Json({{"min", PointJson(view.bounds.min)},
@@ -217,13 +228,18 @@ Json WindowsJson(const ViewAnswer& answer) {
   return {{"reaches", answer.window_reaches}, {"axes", axes}};
 }
 
-// What a page can ask about: one robot that translates, from a start to a goal.
+// What a page can ask about: a robot from a start to a goal, or several.
 Json TaskJson(const View& view) {
-  if (view.serve_command.empty() || !view.start || !view.goal ||
-      view.robot.triangles.empty() || !view.motion.positions.empty()) {
+  const bool is_one = view.start && view.goal && !view.robot.triangles.empty();
+  if (view.serve_command.empty() || !view.motion.positions.empty() ||
+      (!is_one && view.ends.empty())) {
     return nullptr;
   }
-  return {{"command", view.serve_command}, {"served", view.is_served}};
+  return {{"command", view.serve_command},
+          {"served", view.is_served},
+          {"kind", !view.ends.empty() ? "robots"
+                   : view.turns       ? "turns"
+                                      : "translates"}};
 }
 
 // Paths with their robots and what lies behind them.

@@ -147,7 +147,8 @@ class DepthQuery {
   DepthQuery& operator=(DepthQuery&&) noexcept;
 
   // The robot moved by q.  Throws InputError unless q is finite and within
-  // 1e15 times the size of the operands.
+  // 1e15 times the size of the operands, and BuildCancelled after CancelBuilds
+  // (build_stop.h).
   Depth At(const Eigen::Vector3d& q) const;
 
   // The robot turned, then moved: translational depth at a pose.  Throws

@@ -27,6 +27,16 @@ std::atomic<BuildObserver> observer{nullptr};
 
 void CancelBuilds() { ++cancellations; }
 
+CancelWatch::CancelWatch() : before_(cancellations.load()) {}
+
+bool CancelWatch::IsCancelled() const {
+  return cancellations.load(std::memory_order_relaxed) != before_;
+}
+
+void CancelWatch::Check(const char* what) const {
+  if (IsCancelled()) throw BuildCancelled(std::string(what) + " was cancelled");
+}
+
 void ObserveBuilds(BuildObserver to_call) { observer = to_call; }
 
 namespace internal {
@@ -88,6 +98,26 @@ BuildLimits::BuildLimits(const ContactSpaceOptions& options)
       first_(Process()),
       max_mib_(is_automatic_ ? -1.0 : options.max_mib),
       next_memory_(kMemoryEvery) {}
+
+BuildLimits::BuildLimits(const BuildLimits& other)
+    : operands_(other.operands_),
+      max_seconds_(other.max_seconds_),
+      is_automatic_(other.is_automatic_),
+      first_(other.first_),
+      stopwatch_(other.stopwatch_),
+      predicted_(other.predicted_),
+      is_cancellable_(other.is_cancellable_),
+      cancellations_(other.cancellations_),
+      calls_(other.calls_.load(std::memory_order_relaxed)),
+      max_mib_(other.max_mib_.load(std::memory_order_relaxed)),
+      next_memory_(other.next_memory_.load(std::memory_order_relaxed)) {}
+
+void BuildLimits::LearnFrom(const BuildLimits& copy) const {
+  constexpr auto kRelaxed = std::memory_order_relaxed;
+  calls_.store(copy.calls_.load(kRelaxed), kRelaxed);
+  max_mib_.store(copy.max_mib_.load(kRelaxed), kRelaxed);
+  next_memory_.store(copy.next_memory_.load(kRelaxed), kRelaxed);
+}
 
 double BuildLimits::max_mib() const {
   const double known = max_mib_.load(std::memory_order_relaxed);

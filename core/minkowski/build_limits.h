@@ -24,6 +24,11 @@ struct ProcessMib {
 class BuildLimits {
  public:
   explicit BuildLimits(const ContactSpaceOptions& options);
+  // The same limits from the same beginning, for one of several builds; cheap.
+  BuildLimits(const BuildLimits& other);
+  BuildLimits& operator=(const BuildLimits&) = delete;
+  // What a copy of this has found out since: max_mib, and when memory was read.
+  void LearnFrom(const BuildLimits& copy) const;
 
   // Throws BuildRefusal naming the operands, the limit and what was predicted,
   // if that is above an explicit limit.

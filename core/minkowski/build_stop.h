@@ -15,7 +15,7 @@ class BuildRefusal : public InputError {
   using InputError::InputError;
 };
 
-// CancelBuilds stopped it.
+// CancelBuilds stopped it, or another work that watches for that.
 class BuildCancelled : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -27,5 +27,19 @@ class BuildCancelled : public std::runtime_error {
 // later are not touched.  For programs that a person may interrupt; safe to
 // call from any thread and from signal handlers.
 void CancelBuilds();
+
+// For other work that takes long: CancelBuilds stops it like a build.  Solves
+// by Ipopt, samplers and the routes of contact-surface look.  Thread-safe.
+class CancelWatch {
+ public:
+  CancelWatch();  // from now on
+
+  bool IsCancelled() const;
+  // Throws BuildCancelled "<what> was cancelled".
+  void Check(const char* what) const;
+
+ private:
+  unsigned before_;
+};
 
 }  // namespace phongpd

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "constraints/free_space.h"
+#include "core/minkowski/build_stop.h"
 #include "core/stopwatch.h"
 #include "planners/exact/check_option.h"
 #include "planners/exact/path_lift.h"
@@ -200,8 +201,10 @@ class ContactSurfacePlanner::Impl::RouteSearch {
                                                    result->wanted_clearance);
   }
 
+  // Throws BuildCancelled.
   void Run() {
     while (found_ < routes_) {
+      watch_.Check("the search for routes");
       if (result_.searches == kMaxSearches) break;
       ++result_.searches;
       const SurfaceGraph::Route route = planner_.graph.Search(
@@ -279,6 +282,7 @@ class ContactSurfacePlanner::Impl::RouteSearch {
     }
   }
 
+  const CancelWatch watch_;
   const Impl& planner_;
   const Vector3d start_, goal_;
   const bool takes_known_;

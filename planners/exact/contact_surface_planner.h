@@ -122,7 +122,8 @@ class ContactSurfacePlanner {
   ContactSurfacePlanner& operator=(ContactSurfacePlanner&&) noexcept;
 
   // Thread-safe.  Same arguments, same result but for `seconds`.  A start or
-  // goal that is not finite is an invalid one; throws InputError for requests.
+  // goal that is not finite is an invalid one; throws InputError for requests,
+  // and BuildCancelled between two routes after CancelBuilds (build_stop.h).
   PlanResult Plan(const Eigen::Vector3d& start, const Eigen::Vector3d& goal,
                   const RouteRequest& request = {}) const;
 

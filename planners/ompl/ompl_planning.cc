@@ -17,6 +17,7 @@
 
 #include "core/mesh/finite.h"
 #include "core/mesh/mesh_error.h"
+#include "core/minkowski/build_stop.h"
 #include "core/stopwatch.h"
 #include "planners/ompl/contact_space_validity.h"
 #include "planners/ompl/ompl_planners.h"
@@ -191,8 +192,13 @@ OmplPlanningResult Plan(const MotionDomain& domain,
   }
   const auto* own = dynamic_cast<const RetractionPlanner*>(planner.get());
   const Stopwatch stopwatch;
+  const CancelWatch watch;
   const ob::PlannerStatus status =
-      planner->solve(ob::timedPlannerTerminationCondition(options.time_limit));
+      planner->solve(ob::plannerOrTerminationCondition(
+          ob::timedPlannerTerminationCondition(options.time_limit),
+          ob::PlannerTerminationCondition(
+              [&watch] { return watch.IsCancelled(); })));
+  watch.Check("the search of the sampler");
   result.seconds = stopwatch.Seconds();
   result.status = status.asString();
   result.solved = status == ob::PlannerStatus::EXACT_SOLUTION;

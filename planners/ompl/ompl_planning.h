@@ -61,6 +61,7 @@ struct OmplPlanningResult {
 // options, a missing model, and a start or goal that is not finite.  A start or
 // goal in collision is a status ("Invalid start", "Invalid goal").  OMPL writes
 // its log to the console; SilenceOmpl turns that off.
+// CancelBuilds stops it: BuildCancelled.
 OmplPlanningResult PlanWithOmpl(
     const std::shared_ptr<const ContactModel>& model,
     const Eigen::Vector3d& start, const Eigen::Vector3d& goal,

@@ -17,6 +17,7 @@
 #include <stdexcept>
 
 #include "core/mesh/mesh_error.h"
+#include "core/minkowski/build_stop.h"
 #include "core/stopwatch.h"
 #include "planners/trajectory/evaluated_program.h"
 #include "planners/trajectory/ipopt_condensed.h"
@@ -174,6 +175,7 @@ class ProgramAdapter : public Ipopt::TNLP {
                Number mu, const Ipopt::IpoptData* data,
                Ipopt::IpoptCalculatedQuantities* quantities) {
     const TimeAdder adder(&run.seconds_callbacks);
+    watch_.Check("the solve");
     // Where a restoration phase hands over, its last iterate is reported once
     // more as the first regular one.
     int changes = 0;
@@ -253,6 +255,7 @@ class ProgramAdapter : public Ipopt::TNLP {
   VectorXd accepted_;  // the last one the program was told
   Index last_iteration_ = -1;
   std::exception_ptr failure_;  // of a callback
+  const CancelWatch watch_;
 #ifndef PHONGPD_IPOPT_HAS_CURRENT_ITERATE
   Ipopt::TNLPAdapter* adapter_ = nullptr;
 #endif

@@ -110,7 +110,8 @@ void CheckIpoptOptions(const IpoptSettings& settings);
 // tags apart, not points.  Silent, reads no option file, same input same
 // bytes.  Two solves at the same time in one process are not safe, so a mutex
 // lets them in one by one: use processes to go parallel. Throws InputError for
-// bad settings or a start that is not finite or has the wrong size.
+// bad settings or a start that is not finite or has the wrong size, and
+// BuildCancelled at the next iteration after CancelBuilds (build_stop.h).
 IpoptRun SolveWithIpopt(NonlinearProgram* program, const Eigen::VectorXd& start,
                         const IpoptSettings& settings);
 

@@ -145,7 +145,7 @@ int Look(ViewFlags flags) {
   }
   if (flags.json) RequireFreeStandardOutput(outputs);
 
-  std::optional<Scene> scene;
+  std::optional<ServedScene> scene;
   View view = ReadThings(flags, &scene);
   if (scene) {
     view.serve_command = ServeCommand(flags.things, flags.root, flags.repair);
@@ -154,10 +154,8 @@ int Look(ViewFlags flags) {
   if (!flags.title.empty()) view.title = flags.title;
   if (flags.serve) {
     if (!scene) {
-      throw InputError(
-          "--serve: expected a scene of one robot that translates, or runs of "
-          "one, found " +
-          view.title + "; without --serve it can be looked at");
+      throw InputError("--serve: expected a scene, or runs of one, found " +
+                       view.title + "; without --serve it can be looked at");
     }
     ServeView(view, *scene, UserCache(flags.no_cache), flags.server);
   }

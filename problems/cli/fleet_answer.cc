@@ -170,6 +170,7 @@ int AnswerFleet(FleetScene scene, const TimedFlags& flags) {
   WriteMotions(targets, scene, robots, answer, form, rate, &outputs);
   if (!flags.html.empty()) {
     View view = FleetSceneView(scene);
+    view.serve_command = flags.serve_command;
     AddFleet(robots, answer, &view);
     outputs.Write(flags.html, ViewPage(view));
   }

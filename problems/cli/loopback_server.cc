@@ -132,9 +132,7 @@ LoopbackServer::~LoopbackServer() { Stop(); }
 
 const std::string& LoopbackServer::address() const { return impl_->address; }
 
-void LoopbackServer::Run(
-    const std::string& page,
-    const std::function<ServedAnswer(const std::string&)>& solve) {
+void LoopbackServer::Run(const Served& served) {
   BoundedServer& server = impl_->server;
   using Handled = httplib::Server::HandlerResponse;
   server.set_pre_routing_handler(
@@ -148,13 +146,16 @@ void LoopbackServer::Run(
         return Handled::Handled;
       });
   // All that comes here has passed the rules.
-  server.Get("/[0-9a-f]+/", [&page](const auto&, auto& response) {
-    response.set_content(page, "text/html; charset=utf-8");
+  server.Get("/[0-9a-f]+/", [&served](const auto&, auto& response) {
+    response.set_content(served.page, "text/html; charset=utf-8");
   });
   server.Post("/[0-9a-f]+/solve",
-              [&solve](const httplib::Request& request, auto& response) {
-                TellTo(solve(request.body), &response);
+              [&served](const httplib::Request& request, auto& response) {
+                TellTo(served.solve(request.body), &response);
               });
+  server.Post("/[0-9a-f]+/cancel", [&served](const auto&, auto& response) {
+    TellTo(served.cancel(), &response);
+  });
   server.set_exception_handler(
       [](const auto&, auto& response, const std::exception_ptr&) {
         TellTo(Refused(500, "internal error"), &response);

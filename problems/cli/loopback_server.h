@@ -19,9 +19,17 @@ struct LoopbackOptions {
   double request_seconds = 5.0;  // for all of a request to come
 };
 
+// What is served; the functions are called by several threads.
+struct Served {
+  std::string page;
+  std::function<ServedAnswer(const std::string&)> solve;
+  std::function<ServedAnswer()> cancel;
+};
+
 // A page and a question, on 127.0.0.1 alone:
-//   GET  /TOKEN/       the page
-//   POST /TOKEN/solve  JSON; the answer to its body
+//   GET  /TOKEN/        the page
+//   POST /TOKEN/solve   JSON; the answer to its body
+//   POST /TOKEN/cancel  any JSON; ends the question that is being answered
 // Everything else is refused by CheckRequest (serve_guard.h); no file is ever
 // read, no header lets other sites in, one request a connection.
 class LoopbackServer {
@@ -36,10 +44,8 @@ class LoopbackServer {
   // "http://127.0.0.1:PORT/TOKEN/"
   const std::string& address() const;
 
-  // Answers until Stop or a signal ends it; `solve` is called by several
-  // threads.
-  void Run(const std::string& page,
-           const std::function<ServedAnswer(const std::string&)>& solve);
+  // Answers until Stop or a signal ends it.
+  void Run(const Served& served);
   void Stop();
 
  private:

@@ -18,9 +18,7 @@ void RequireServer() {
 LoopbackServer::LoopbackServer(const LoopbackOptions&) { RequireServer(); }
 LoopbackServer::~LoopbackServer() = default;
 const std::string& LoopbackServer::address() const { return impl_->address; }
-void LoopbackServer::Run(
-    const std::string&,
-    const std::function<ServedAnswer(const std::string&)>&) {}
+void LoopbackServer::Run(const Served&) {}
 void LoopbackServer::Stop() {}
 
 }  // namespace phongpd::cli

@@ -2,19 +2,16 @@
 #include "problems/cli/scene_solver.h"
 
 #include <algorithm>
-#include <chrono>
 #include <nlohmann/json.hpp>
 #include <utility>
-#include <vector>
 
-#include "core/contact/depth.h"
 #include "planners/ompl/ompl_planning.h"
 #include "planners/solve/optimize.h"
 #include "planners/solve/plan.h"
-#include "problems/cli/depth_row.h"
+#include "problems/cli/end_collision.h"
+#include "problems/cli/obstacle_depths.h"
 #include "problems/cli/seeded_runs.h"
-#include "problems/cli/view_rows.h"
-#include "problems/scenes/json_schema.h"
+#include "problems/cli/solve_question.h"
 #include "problems/scenes/scene_requests.h"
 #include "problems/studies/answer_row.h"
 #include "viewer/motion_view.h"
@@ -25,110 +22,40 @@ namespace {
 
 using SolveJson = nlohmann::ordered_json;
 
-constexpr char kQuestion[] = "question";
-// Beyond this many D there is nothing to find, and numbers lose their digits.
-constexpr double kFarthest = 1e6;
-
-SolveJson QuestionSchema() {
-  const SolveJson point = {{"type", "array"},
-                           {"items", {{"type", "number"}}},
-                           {"minItems", 3},
-                           {"maxItems", 3}};
-  const SolveJson options = {
-      {"type", "object"},
-      {"additionalProperties", false},
-      {"properties",
-       {{"planner", {{"enum", PlannerNames()}}},
-        {"metric", {{"enum", MetricNames()}}},
-        {"preset", {{"enum", PresetNames()}}},
-        {"seed",
-         {{"type", "integer"}, {"minimum", 0}, {"maximum", 4294967295}}}}}};
-  return {{"type", "object"},
-          {"additionalProperties", false},
-          {"required", {"what", "start"}},
-          {"properties",
-           {{"what", {{"enum", {"plan", "optimize", "depth"}}}},
-            {"start", point},
-            {"goal", point},
-            {"options", options}}}};
-}
-
-// A question that has passed the schema, and makes sense.
-struct Question {
-  std::string what;
-  Eigen::Vector3d start, goal;
-  SolveJson options;
-};
-
-[[noreturn]] void RefuseQuestion(const std::string& where,
-                                 const std::string& expected,
-                                 const std::string& found) {
-  JsonPlace{kQuestion, where}.Fail(expected, found);
-}
-
-Eigen::Vector3d PointAt(const SolveJson& json, const std::string& key,
-                        const World& world) {
-  const SolveJson& cells = json.at(key);
-  const Eigen::Vector3d p(cells[0].get<double>(), cells[1].get<double>(),
-                          cells[2].get<double>());
-  const Eigen::Vector3d middle = ContactBounds(world.workspace()).Center();
-  if ((p - middle).norm() > kFarthest * world.diagonal()) {
-    RefuseQuestion("/" + key, "a position within a million D of the obstacles",
-                   cells.dump());
+// Of one robot that translates.
+class OneRobotSolver : public SceneSolver {
+ public:
+  OneRobotSolver(const Scene& scene, const ContactSpaceCache& cache,
+                 double seconds)
+      : scene_(scene),
+        world_(scene.workspace, scene.name, cache, {seconds, 0.0}),
+        seconds_(seconds) {
+    SilenceOmpl();
   }
-  return p;
-}
 
-Question ReadQuestion(const std::string& text, const World& world) {
-  const SolveJson json = ParseJson(text, kQuestion);
-  RequireSchema(json, QuestionSchema(), kQuestion);
-  Question question;
-  question.what = json.at("what").get<std::string>();
-  question.start = PointAt(json, "start", world);
-  const bool is_depth = question.what == "depth";
-  if (json.contains("goal") == is_depth) {
-    RefuseQuestion("/goal", is_depth ? "none of a depth" : "[x, y, z]",
-                   is_depth ? "one" : "none");
-  }
-  if (!is_depth) question.goal = PointAt(json, "goal", world);
-  question.options = json.value("options", SolveJson::object());
-  for (const auto& [key, value] : question.options.items()) {
-    const bool is_known = key == "planner"  ? question.what == "plan"
-                          : key == "metric" ? question.what == "optimize"
-                                            : !is_depth;
-    if (!is_known) {
-      RefuseQuestion("/options/" + key, "none of " + question.what,
-                     value.dump());
+  SolveJson Answer(const std::string& text,
+                   const std::function<bool()>& is_cancelled) override {
+    const SolveQuestion question = ReadQuestion(
+        text, {TaskKind::kTranslates, ContactBounds(world_.workspace()), {}});
+    SolveJson answer = {{"what", question.what}};
+    if (question.what == "depth") {
+      answer.update(AnswerDepth(question));
+    } else if (question.what == "plan") {
+      answer.update(AnswerPlan(question));
+    } else {
+      answer.update(AnswerOptimize(question, is_cancelled));
     }
+    return answer;
   }
-  return question;
-}
 
-// true once `seconds` have gone by.
-std::function<bool()> Deadline(double seconds) {
-  const auto end =
-      std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
-  return [end] { return std::chrono::steady_clock::now() > end; };
-}
-
-}  // namespace
-
-struct SceneSolver::Impl {
-  Impl(const Scene& given, const ContactSpaceCache& cache, double limit)
-      : scene(given),
-        world(given.workspace, given.name, cache, {limit, 0.0}),
-        seconds(limit) {}
-
+ private:
   // The scene as the question changes it.
-  Scene Asked(const Question& question) const {
-    Scene asked = scene;
-    asked.start = question.start;
-    asked.goal = question.goal;
+  Scene Asked(const SolveQuestion& question) const {
+    Scene asked = scene_;
+    asked.start = question.start.position;
+    asked.goal = question.goal.position;
+    asked.preset = question.GivenPreset().value_or(asked.preset);
     const SolveJson& options = question.options;
-    if (options.contains("preset")) {
-      asked.preset =
-          ParsePreset(options["preset"].get<std::string>(), "preset");
-    }
     if (options.contains("planner")) {
       asked.planning.planner =
           ParsePlanner(options["planner"].get<std::string>(), "planner");
@@ -137,21 +64,33 @@ struct SceneSolver::Impl {
       asked.penetration.metric =
           ParseMetricKind(options["metric"].get<std::string>(), "metric");
     }
-    asked.planning.time_limit = std::min(asked.planning.time_limit, seconds);
+    asked.planning.time_limit = std::min(asked.planning.time_limit, seconds_);
     return asked;
   }
 
-  SolveJson AnswerPlan(const Question& question) const {
-    const Scene asked = Asked(question);
-    PlanRequest request = PlanRequestOf(asked);
-    request.seed = question.options.value("seed", request.seed);
-    const SolveJson row = PlanRow(asked, world, request, Plan(world, request));
-    return {{"what", question.what},
-            {"row", row},
-            {"paths", {PathEntry(NamedPathOf(row))}}};
+  void SayCollision(const SolveQuestion& question, PathStatus status,
+                    SolveJson* answer) const {
+    const std::string end = CollidingEnd(status);
+    if (end.empty()) return;
+    const RobotPose& pose = end == "start" ? question.start : question.goal;
+    const std::string who =
+        TrianglesThatMeet(world_.workspace(), pose.position);
+    if (!who.empty()) (*answer)["collision"] = who;
   }
 
-  SolveJson AnswerOptimize(const Question& question) const {
+  SolveJson AnswerPlan(const SolveQuestion& question) const {
+    const Scene asked = Asked(question);
+    PlanRequest request = PlanRequestOf(asked);
+    request.seed = question.Seed().value_or(request.seed);
+    const PathAnswer found = Plan(world_, request);
+    const SolveJson row = PlanRow(asked, world_, request, found);
+    SolveJson answer = {{"row", row}, {"paths", {PathEntry(NamedPathOf(row))}}};
+    SayCollision(question, found.status, &answer);
+    return answer;
+  }
+
+  SolveJson AnswerOptimize(const SolveQuestion& question,
+                           const std::function<bool()>& is_cancelled) const {
     const Scene asked = Asked(question);
     OptimizeRequest request = OptimizeRequestOf(asked);
     if (request.limits && question.options.contains("metric")) {
@@ -159,60 +98,58 @@ struct SceneSolver::Impl {
                      "none of a motion in time, which follows no metric",
                      question.options["metric"].dump());
     }
-    request.options.seed = question.options.value("seed", request.options.seed);
-    request.options.time_limit = seconds;
-    request.is_interrupted = Deadline(seconds);
-    const PathAnswer answer = Optimize(world, request);
+    request.options.seed = question.Seed().value_or(request.options.seed);
+    request.options.time_limit = seconds_;
+    request.is_interrupted = EndOf(seconds_, is_cancelled);
+    const PathAnswer found = Optimize(world_, request);
     const SolveJson row = request.limits
-                              ? MotionRow(asked, world, request, answer)
-                              : PolylineRow(asked, world, request, answer);
-    return {{"what", question.what},
-            {"row", row},
-            {"paths",
-             {PathEntry(request.limits ? PathInTime(world, request, answer)
-                                       : NamedPathOf(row))}}};
+                              ? MotionRow(asked, world_, request, found)
+                              : PolylineRow(asked, world_, request, found);
+    SolveJson answer = {
+        {"row", row},
+        {"paths",
+         {PathEntry(request.limits ? PathInTime(world_, request, found)
+                                   : NamedPathOf(row))}}};
+    if (!request.moving.empty()) {
+      answer["movers"] =
+          MoverEntries(MoversOf(request.moving, found.motion.duration()));
+    }
+    SayCollision(question, found.status, &answer);
+    return answer;
   }
 
-  SolveJson AnswerDepth(const Question& question) {
-    const Workspace& solids = world.workspace();
-    if (depths.empty()) {
-      DepthOptions options;
-      options.max_seconds = seconds;
-      for (const Solid& obstacle : solids.obstacles) {
-        depths.emplace_back(solids.robot, obstacle, options);
-      }
+  SolveJson AnswerDepth(const SolveQuestion& question) {
+    const Workspace& solids = world_.workspace();
+    if (depths_.empty()) {
+      depths_ = ObstacleDepths(solids.robot, solids.obstacles, seconds_);
     }
-    SolveJson rows = SolveJson::array(), answers = SolveJson::array();
-    for (std::size_t i = 0; i < depths.size(); ++i) {
-      RobotPose pose;
-      pose.position = question.start;
-      SolveJson row = DepthAnswerRow(pose, depths[i].At(pose));
-      answers.push_back(AnswerEntry(DepthAnswerOf(row)));
-      row["obstacle"] = solids.obstacles[i].name();
-      rows.push_back(std::move(row));
-    }
-    return {{"what", question.what}, {"rows", rows}, {"answers", answers}};
+    return depths_.At(question.start);
   }
 
-  Scene scene;
-  World world;
-  double seconds;
-  std::vector<DepthQuery> depths;  // of each obstacle, from the first on
+  Scene scene_;
+  World world_;
+  double seconds_;
+  ObstacleDepths depths_;  // from the first on
 };
 
-SceneSolver::SceneSolver(const Scene& scene, const ContactSpaceCache& cache,
-                         double seconds)
-    : impl_(std::make_unique<Impl>(scene, cache, seconds)) {
-  SilenceOmpl();
+}  // namespace
+
+std::unique_ptr<SceneSolver> TranslatingSolver(const Scene& scene,
+                                               const ContactSpaceCache& cache,
+                                               double seconds) {
+  return std::make_unique<OneRobotSolver>(scene, cache, seconds);
 }
 
-SceneSolver::~SceneSolver() = default;
-
-nlohmann::ordered_json SceneSolver::Answer(const std::string& text) {
-  const Question question = ReadQuestion(text, impl_->world);
-  if (question.what == "depth") return impl_->AnswerDepth(question);
-  if (question.what == "plan") return impl_->AnswerPlan(question);
-  return impl_->AnswerOptimize(question);
+std::unique_ptr<SceneSolver> SolverOf(const ServedScene& scene,
+                                      const ContactSpaceCache& cache,
+                                      double seconds) {
+  if (const auto* turning = std::get_if<TurningScene>(&scene)) {
+    return TurningSolver(*turning, seconds);
+  }
+  if (const auto* fleet = std::get_if<FleetScene>(&scene)) {
+    return FleetSolver(*fleet, cache, seconds);
+  }
+  return TranslatingSolver(std::get<Scene>(scene), cache, seconds);
 }
 
 }  // namespace phongpd::cli

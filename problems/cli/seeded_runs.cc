@@ -146,8 +146,7 @@ SeededRuns::SeededRuns(const SeededRunFlags& flags, const SceneSource& source,
       target_(flags.output.empty() && flags.json ? kStandardOutput
                                                  : flags.output),
       header_(header + '\n'),
-      summarize_(std::move(summarize)),
-      can_be_served_(!source.turns() && !source.has_robots()) {
+      summarize_(std::move(summarize)) {
   if (!target_.empty()) DeclareRowFile(&outputs_, target_, "--output");
   DeclareIfNamed(&outputs_, flags.html, "--html", {".html", ".htm"});
   DeclareIfNamed(&outputs_, flags.svg, "--svg", {".svg"});
@@ -214,10 +213,7 @@ void SeededRuns::Write(const std::function<View()>& make_view) {
   if (flags_.html.empty() && flags_.svg.empty()) return;
   View view = make_view();
   view.paths = paths_;
-  if (can_be_served_) {
-    view.serve_command =
-        ServeCommand({flags_.scene}, flags_.root, flags_.repair);
-  }
+  view.serve_command = ServeCommand({flags_.scene}, flags_.root, flags_.repair);
   if (!ShowsBehind() && !flags_.html.empty()) {
     view.notes.push_back(
         "What lies behind a run, such as its iterations or trees, is on the "

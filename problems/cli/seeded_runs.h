@@ -107,7 +107,6 @@ class SeededRuns {
   OutputFiles outputs_;
   std::unique_ptr<RowFile> rows_;
   int kept_ = 0;
-  bool can_be_served_ = false;
   std::vector<NamedPath> paths_;
   bool are_all_answered_ = true;
 };

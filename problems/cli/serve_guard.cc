@@ -99,14 +99,14 @@ Refusal CheckRequest(const RequestHead& head, const ServeRules& rules) {
   if (!IsSameToken(path.token, rules.token)) {
     return {403, "expected the address that phongpd view --serve printed"};
   }
-  const bool is_solve = path.rest == "solve";
-  if (!path.has_rest || (!path.rest.empty() && !is_solve)) {
+  const bool is_post = path.rest == "solve" || path.rest == "cancel";
+  if (!path.has_rest || (!path.rest.empty() && !is_post)) {
     return {404, "there is nothing here"};
   }
-  if (head.method != (is_solve ? "POST" : "GET")) {
-    return {405, std::string("expected ") + (is_solve ? "POST" : "GET")};
+  if (head.method != (is_post ? "POST" : "GET")) {
+    return {405, std::string("expected ") + (is_post ? "POST" : "GET")};
   }
-  return is_solve ? CheckBody(head, rules) : Refusal();
+  return is_post ? CheckBody(head, rules) : Refusal();
 }
 
 std::string NewToken() {

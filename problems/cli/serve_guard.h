@@ -37,8 +37,8 @@ struct Refusal {
 //        somebody lets point here is another site
 //   403  Origin is that site, if there is one; and Sec-Fetch-Site says so
 //   403  the path begins with the token, compared in one time
-//   404  nothing follows, or "solve"
-//   405  GET of the page, POST of "solve"
+//   404  nothing follows, or "solve", or "cancel"
+//   405  GET of the page, POST of the others
 //   411  a body has a plain length ...
 //   413  ... that is not too large
 //   415  ... and says that it is JSON, which no form of a page can

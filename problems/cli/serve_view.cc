@@ -4,10 +4,13 @@
 #include <spawn.h>
 
 #include <cstdlib>
+#include <functional>
 #include <iostream>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "core/minkowski/build_stop.h"
 #include "problems/cli/command.h"
 #include "problems/cli/loopback_server.h"
 #include "problems/cli/scene_solver.h"
@@ -62,17 +65,19 @@ void OpenOnDisplay(const std::string& path) {
   }
 }
 
-void ServeView(View view, const Scene& scene, const ContactSpaceCache& cache,
-               const ServeOptions& options) {
+void ServeView(View view, const ServedScene& scene,
+               const ContactSpaceCache& cache, const ServeOptions& options) {
   LoopbackOptions loopback;
   loopback.port = options.port;
   LoopbackServer server(loopback);
-  SceneSolver solver(scene, cache, options.seconds);
+  const std::unique_ptr<SceneSolver> solver =
+      SolverOf(scene, cache, options.seconds);
   SolveDesk desk(
-      [&solver](const std::string& question) {
-        return JsonText(solver.Answer(question));
+      [&solver](const std::string& question,
+                const std::function<bool()>& is_cancelled) {
+        return JsonText(solver->Answer(question, is_cancelled));
       },
-      options.seconds);
+      CancelBuilds, options.seconds);
   view.is_served = true;
   const std::string page = ViewPage(view);
   std::cout << server.address() << std::endl;
@@ -80,7 +85,8 @@ void ServeView(View view, const Scene& scene, const ContactSpaceCache& cache,
       "serving on this machine alone, with a new address each time; Ctrl-C "
       "ends it");
   if (options.shows) OpenOnDisplay(server.address());
-  server.Run(page, [&desk](const std::string& body) { return desk.Ask(body); });
+  server.Run({page, [&desk](const std::string& body) { return desk.Ask(body); },
+              [&desk] { return desk.Cancel(); }});
   throw InputError("--serve: the server has stopped: " + server.address());
 }
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/contact/contact_space_cache.h"
-#include "problems/scenes/scene.h"
+#include "problems/cli/scene_solver.h"
 #include "viewer/view.h"
 
 // The viewer as a tool: its page, and who answers it.
@@ -20,7 +20,7 @@ struct ServeOptions {
 // Serves the view of the scene, and answers its page (SceneSolver), until a
 // signal ends the process: prints the address, token and all, on standard
 // output first.  Throws InputError where the port cannot be had.
-[[noreturn]] void ServeView(View view, const Scene& scene,
+[[noreturn]] void ServeView(View view, const ServedScene& scene,
                             const ContactSpaceCache& cache,
                             const ServeOptions& options);
 

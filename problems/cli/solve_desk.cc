@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "problems/cli/solve_desk.h"
 
+#include <atomic>
 #include <chrono>
 #include <condition_variable>
 #include <exception>
@@ -19,6 +20,8 @@
 namespace phongpd::cli {
 namespace {
 
+constexpr std::chrono::milliseconds kAgain(20);
+
 ServedAnswer Failed(int status, const std::string& why) {
   return {status, JsonText({{"error", OneLine(why)}})};
 }
@@ -31,12 +34,16 @@ struct SolveDesk::Impl {
     std::promise<ServedAnswer> answer;
   };
 
-  Impl(std::function<std::string(const std::string&)> by, double limit)
-      : solve(std::move(by)), seconds(limit), worker([this] { Work(); }) {}
+  Impl(Solve by, std::function<void()> stop_by, double limit)
+      : solve(std::move(by)),
+        stop(std::move(stop_by)),
+        seconds(limit),
+        worker([this] { Work(); }),
+        stopper([this] { StopCancelled(); }) {}
 
-  ServedAnswer Solve(const std::string& question) const {
+  ServedAnswer Solved(const std::string& question) const {
     try {
-      return {200, solve(question)};
+      return {200, solve(question, [this] { return is_cancelled.load(); })};
     } catch (const InputError& error) {
       return Failed(400, error.what());
     } catch (const std::bad_alloc&) {
@@ -56,37 +63,58 @@ struct SolveDesk::Impl {
         now = std::move(*task);
         task.reset();
       }
-      ServedAnswer answer = Solve(now.question);
+      ServedAnswer answer = Solved(now.question);
       {
         // Whoever has the answer may ask the next.
         const std::lock_guard<std::mutex> lock(mutex);
-        is_busy = false;
+        if (is_cancelled) answer = Failed(409, "cancelled");
+        is_busy = is_cancelled = false;
       }
       now.answer.set_value(std::move(answer));
     }
   }
 
-  std::function<std::string(const std::string&)> solve;
+  // What is to be stopped may only be about to begin: hence again and again.
+  void StopCancelled() {
+    std::unique_lock<std::mutex> lock(mutex);
+    while (!is_over || is_cancelled) {
+      wake.wait(lock, [this] { return is_over || is_cancelled; });
+      if (!is_cancelled) continue;
+      stop();
+      wake.wait_for(lock, kAgain, [this] { return !is_cancelled; });
+    }
+  }
+
+  // With the mutex held.
+  void CancelTask() {
+    if (is_busy) is_cancelled = true;
+  }
+
+  Solve solve;
+  std::function<void()> stop;
   double seconds;
   std::mutex mutex;
   std::condition_variable wake;
-  std::optional<Task> task;  // that the worker has not taken yet
-  bool is_busy = false;      // a task waits or is worked at
+  std::optional<Task> task;               // that the worker has not taken yet
+  bool is_busy = false;                   // a task waits or is worked at
+  std::atomic<bool> is_cancelled{false};  // that one
   bool is_over = false;
-  std::thread worker;  // the last member: it uses the others
+  std::thread worker, stopper;  // the last members: they use the others
 };
 
-SolveDesk::SolveDesk(std::function<std::string(const std::string&)> solve,
-                     double seconds)
-    : impl_(std::make_unique<Impl>(std::move(solve), seconds)) {}
+SolveDesk::SolveDesk(Solve solve, std::function<void()> stop, double seconds)
+    : impl_(
+          std::make_unique<Impl>(std::move(solve), std::move(stop), seconds)) {}
 
 SolveDesk::~SolveDesk() {
   {
     const std::lock_guard<std::mutex> lock(impl_->mutex);
     impl_->is_over = true;
+    impl_->CancelTask();
   }
   impl_->wake.notify_all();
   impl_->worker.join();
+  impl_->stopper.join();
 }
 
 ServedAnswer SolveDesk::Ask(const std::string& question) {
@@ -104,10 +132,22 @@ ServedAnswer SolveDesk::Ask(const std::string& question) {
   impl_->wake.notify_all();
   const std::chrono::duration<double> limit(impl_->seconds);
   if (answer.wait_for(limit) == std::future_status::ready) return answer.get();
+  Cancel();
   return Failed(504, "expected an answer within " +
                          FormatDouble(impl_->seconds) +
                          " s, found none yet; ask again later, or begin with a "
                          "longer --time");
+}
+
+ServedAnswer SolveDesk::Cancel() {
+  bool is_cancelled = false;
+  {
+    const std::lock_guard<std::mutex> lock(impl_->mutex);
+    impl_->CancelTask();
+    is_cancelled = impl_->is_cancelled;
+  }
+  impl_->wake.notify_all();
+  return {200, JsonText({{"cancelled", is_cancelled}})};
 }
 
 }  // namespace phongpd::cli

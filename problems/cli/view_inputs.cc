@@ -143,7 +143,7 @@ class Collector {
     return std::move(view_);
   }
 
-  const std::optional<Scene>& stage() const { return stage_; }
+  const std::optional<ServedScene>& served() const { return served_; }
 
   // Scenes first: runs find theirs there already.
   static int Order(const std::string& thing) {
@@ -177,11 +177,18 @@ class Collector {
                        scene.name + ", of one that turns");
     }
     TakeSceneView(scene.name, TurningSceneView(scene));
+    served_ = scene;
   }
 
   void TakeScene(const Scene& scene) {
     TakeSceneView(scene.name, SceneView(scene));
     stage_ = scene;
+    served_ = scene;
+  }
+
+  void TakeFleet(const FleetScene& fleet) {
+    TakeSceneView(fleet.name, FleetSceneView(fleet));
+    served_ = fleet;
   }
 
   void TakeSceneView(const std::string& name, View view) {
@@ -197,6 +204,8 @@ class Collector {
     view_.goal = view.goal;
     view_.start_turn = view.start_turn;
     view_.goal_turn = view.goal_turn;
+    view_.turns = view.turns;
+    view_.ends = std::move(view.ends);
     view_.bounds = view.bounds;
     view_.length = view.length;
     Append(&view_.meshes, std::move(view.meshes));
@@ -237,9 +246,8 @@ class Collector {
     const Json whole = Json::parse(content, nullptr, false, true);
     if (!whole.is_discarded() && !IsRow(whole)) {
       if (HasRobots(whole)) {
-        const FleetScene fleet =
-            ParseFleetSceneFile(content, file, request_.root, repair_);
-        return TakeSceneView(fleet.name, FleetSceneView(fleet));
+        return TakeFleet(
+            ParseFleetSceneFile(content, file, request_.root, repair_));
       }
       if (!whole.is_object() || !whole.contains("robot")) {
         FailUnknown(file, "JSON without robot, path or on_a");
@@ -322,17 +330,18 @@ class Collector {
   const ViewRequest& request_;
   Repair repair_;
   View view_;
-  std::string scene_;           // none yet if empty
-  std::optional<Scene> stage_;  // that scene, where it is at hand
-  int window_runs_ = 0;         // of the paths
-  int explored_runs_ = 0;       // of those, by contact-surface
-  ExploringRun exploring_;      // the last of these
+  std::string scene_;                  // none yet if empty
+  std::optional<Scene> stage_;         // that scene, where it is at hand
+  std::optional<ServedScene> served_;  // the same, of whatever kind
+  int window_runs_ = 0;                // of the paths
+  int explored_runs_ = 0;              // of those, by contact-surface
+  ExploringRun exploring_;             // the last of these
   bool has_windowless_table_ = false;
 };
 
 }  // namespace
 
-View ReadThings(const ViewRequest& request, std::optional<Scene>* scene) {
+View ReadThings(const ViewRequest& request, std::optional<ServedScene>* scene) {
   std::vector<std::string> things = request.things;
   std::stable_sort(things.begin(), things.end(),
                    [](const std::string& a, const std::string& b) {
@@ -340,7 +349,7 @@ View ReadThings(const ViewRequest& request, std::optional<Scene>* scene) {
                    });
   Collector collector(request);
   for (const std::string& thing : things) collector.Take(thing);
-  *scene = collector.stage();
+  *scene = collector.served();
   return collector.Finish();
 }
 

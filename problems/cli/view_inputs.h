@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "problems/scenes/scene.h"
+#include "problems/cli/scene_solver.h"
 #include "viewer/view.h"
 
 namespace phongpd::cli {
@@ -25,7 +25,7 @@ struct ViewRequest {
 // runs, plans, motions and depths, recognised by extension and content.  Runs
 // whose scene is a family with knobs bring it along.  Throws InputError for
 // what is none of them, and for things of different scenes.  `scene`: that
-// which is shown, if it is at hand and of one robot that translates.
-View ReadThings(const ViewRequest& request, std::optional<Scene>* scene);
+// which is shown, if it is at hand.
+View ReadThings(const ViewRequest& request, std::optional<ServedScene>* scene);
 
 }  // namespace phongpd::cli

@@ -21,6 +21,7 @@ from browser import Browser, Checks
 from viewer_controls import work_controls, work_iterations, work_overlays
 from viewer_metrics import (probe_like_the_program, work_probe, work_section,
                             work_surface)
+from viewer_served import work_kinds
 from viewer_task import (chart_of_a_motion, labels_beside_the_panel,
                          page_in_a_page, work_phone, work_served, work_task)
 
@@ -205,6 +206,7 @@ def main():
         if "libcpp-httplib-dev" not in run("view", "u_axis", "--serve", "--port",
                                            "1", "--html", "x.html", fails=True):
             work_served(browser, checks, program, folder)
+            work_kinds(browser, checks, program, folder)
         else:
             print("Skipped: pages that are served, which this build does not",
                   flush=True)

@@ -12,7 +12,7 @@ GANTRY = pathlib.Path(__file__).resolve().parents[2] / "examples/gantry.json"
 # Where start or goal is on the screen.
 PLACE = """(() => {{
   viewer.draw();
-  const p = viewer.stage.ends.{0}[0].position.clone().project(viewer.camera);
+  const p = viewer.stage.ends['{0}'][0].position.clone().project(viewer.camera);
   const box = document.getElementById('canvas').getBoundingClientRect();
   return [box.left + (p.x + 1) / 2 * box.width,
           box.top + (1 - p.y) / 2 * box.height];

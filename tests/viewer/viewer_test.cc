@@ -144,6 +144,30 @@ TEST(ViewJson, NamesPathsAndSaysWhichAreFree) {
   EXPECT_TRUE(json["motion"].is_null());
 }
 
+TEST(ViewJson, AsksByTheKindOfItsRobots) {
+  View view = SomeView();
+  view.motion = {};
+  EXPECT_TRUE(ViewJson(view)["task"].is_null()) << "nothing serves it";
+  view.serve_command = "phongpd view x --serve";
+  view.start = Eigen::Vector3d(1, 2, 3);
+  view.goal = Eigen::Vector3d(4, 5, 6);
+  EXPECT_EQ(ViewJson(view)["task"]["kind"], "translates");
+  view.turns = true;
+  EXPECT_EQ(ViewJson(view)["task"]["kind"], "turns");
+  view.turns = false;
+  view.start.reset();
+  view.goal.reset();
+  EXPECT_TRUE(ViewJson(view)["task"].is_null()) << "there are no ends";
+  view.robot = {};
+  view.ends = {{"left", {1, 2, 3}, {4, 5, 6}}};
+  const Json json = ViewJson(view);
+  EXPECT_EQ(json["task"]["kind"], "robots");
+  EXPECT_EQ(json["task"]["served"], false);
+  EXPECT_EQ(json["ends"].dump(),
+            "[{\"robot\":\"left\",\"start\":[1.0,2.0,3.0],"
+            "\"goal\":[4.0,5.0,6.0]}]");
+}
+
 TEST(ViewJson, OfAnEmptyViewIsEmptyAndFinite) {
   const Json json = ViewJson(View());
   EXPECT_TRUE(json["meshes"].empty());

@@ -171,6 +171,9 @@ GridDepth DepthSearch::Apart(const Vector3d& x) const {
 void DepthSearch::SearchWindows(const Vector3d& x, const SearchLimits& limits,
                                 GridDepth* depth) const {
   const Stopwatch stopwatch;
+  // What it may take is known from query to query, cancelled is this one alone.
+  BuildLimits build_limits(build_limits_);
+  build_limits.ObserveCancellation();
   // Beyond the box of all sums everything is free.
   const BoundingBox& all = sums_.bounds();
   depth->distance = std::numeric_limits<double>::infinity();
@@ -188,13 +191,14 @@ void DepthSearch::SearchWindows(const Vector3d& x, const SearchLimits& limits,
   bool is_found = false;
   for (;;) {
     const double most = std::min(depth->distance, limits.max_radius);
+    build_limits.Check("windows");
     // A point that is known says how far to look.
     is_found ? chooser.Take(most) : chooser.Choose(facets, most);
     const GridWindow& window = chooser.window();
     const WindowConvolution& part = chooser.part();
     depth->radius = window.WallDistance(x);
     if (!part.origins.empty()) {
-      WindowCells cells(part, window, judge_, build_limits_);
+      WindowCells cells(part, window, judge_, build_limits);
       ++depth->windows;
       depth->reaches.push_back(chooser.reach());
       depth->faces += static_cast<std::size_t>(cells.FaceCount());
@@ -218,6 +222,7 @@ void DepthSearch::SearchWindows(const Vector3d& x, const SearchLimits& limits,
         depth->radius >= limits.max_radius ||
         (limits.max_seconds > 0.0 &&
          stopwatch.Seconds() > limits.max_seconds)) {
+      build_limits_.LearnFrom(build_limits);
       return;
     }
     facets = static_cast<std::size_t>(

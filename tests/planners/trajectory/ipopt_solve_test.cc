@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "core/mesh/mesh_error.h"
+#include "core/minkowski/build_stop.h"
 #include "tests/support/expect_refused.h"
 #include "tests/support/printed_by_ipopt.h"
 
@@ -234,6 +235,22 @@ TEST(SolveWithIpopt, PassesOnWhatACallbackThrows) {
   EXPECT_THROW(SolveWithIpopt(&disc, Point(0.1, 0.2), settings),
                std::out_of_range);
   // Nothing is left locked.
+  EXPECT_EQ(SolveWithIpopt(&disc, Point(0.1, 0.2), {}).status,
+            SolveStatus::kConverged);
+}
+
+TEST(SolveWithIpopt, IsStoppedByCancelBuildsAndNoLaterOneIs) {
+  Disc disc;
+  int iterations = 0;
+  IpoptSettings settings;
+  settings.on_iteration = [&](const IterationRecord&, const VectorXd&) {
+    ++iterations;
+    CancelBuilds();
+    return true;
+  };
+  EXPECT_THROW(SolveWithIpopt(&disc, Point(0.1, 0.2), settings),
+               BuildCancelled);
+  EXPECT_EQ(iterations, 1) << "the next iteration looks first";
   EXPECT_EQ(SolveWithIpopt(&disc, Point(0.1, 0.2), {}).status,
             SolveStatus::kConverged);
 }

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "core/solid/solid.h"
+#include "problems/cli/obstacle_depths.h"
+#include "problems/cli/scene_solver.h"
+#include "problems/cli/seeded_runs.h"
+#include "problems/cli/solve_question.h"
+#include "problems/studies/rigid_row.h"
+#include "viewer/rigid_view.h"
+#include "viewer/view_entries.h"
+
+namespace phongpd::cli {
+namespace {
+
+using TurningJson = nlohmann::ordered_json;
+
+// Around robot and obstacles, wherever the scene begins and ends.
+BoundingBox RoomOf(const TurningScene& scene) {
+  BoundingBox room = ComputeBounds(scene.robot);
+  for (const TurningScene::Obstacle& obstacle : scene.obstacles) {
+    const BoundingBox own = ComputeBounds(obstacle.mesh);
+    room = {room.min.cwiseMin(own.min), room.max.cwiseMax(own.max)};
+  }
+  return room;
+}
+
+// Of a robot that turns as it moves.
+class OneTurningSolver : public SceneSolver {
+ public:
+  OneTurningSolver(const TurningScene& scene, double seconds)
+      : scene_(scene), world_(RigidWorldOf(scene)), seconds_(seconds) {
+    scene_.time_limit = std::min(scene_.time_limit, seconds);
+  }
+
+  TurningJson Answer(const std::string& text,
+                     const std::function<bool()>& is_cancelled) override {
+    const SolveQuestion question =
+        ReadQuestion(text, {TaskKind::kTurns, RoomOf(scene_), {}});
+    TurningJson answer = {{"what", question.what}};
+    if (question.what == "depth") {
+      if (depths_.empty()) depths_ = Depths();
+      answer.update(depths_.At(question.start));
+      return answer;
+    }
+    RigidRequest request = RigidRequestOf(scene_);
+    request.start = question.start;
+    request.goal = question.goal;
+    request.seed = question.Seed().value_or(request.seed);
+    request.is_interrupted = is_cancelled;
+    const TurningJson row =
+        question.what == "plan" ? PlanRowOf(request) : OptimumRowOf(request);
+    answer["row"] = row;
+    answer["paths"] = {PathEntry(NamedPathOf(row))};
+    return answer;
+  }
+
+ private:
+  TurningJson PlanRowOf(const RigidRequest& request) const {
+    return RigidRow(scene_, request, Plan(world_, request));
+  }
+
+  TurningJson OptimumRowOf(const RigidRequest& task) const {
+    RigidOptimizeRequest request;
+    request.task = task;
+    return RigidOptimumRow(scene_, request, Optimize(world_, request));
+  }
+
+  // Of solids alone; surfaces that are none are refused by their names.
+  ObstacleDepths Depths() const {
+    std::vector<Solid> obstacles;
+    for (const TurningScene::Obstacle& obstacle : scene_.obstacles) {
+      obstacles.push_back(MakeSolid(obstacle.mesh, obstacle.name));
+    }
+    return {MakeSolid(scene_.robot, "robot"), obstacles, seconds_};
+  }
+
+  TurningScene scene_;
+  RigidWorld world_;
+  double seconds_;
+  ObstacleDepths depths_;  // from the first on
+};
+
+}  // namespace
+
+std::unique_ptr<SceneSolver> TurningSolver(const TurningScene& scene,
+                                           double seconds) {
+  return std::make_unique<OneTurningSolver>(scene, seconds);
+}
+
+}  // namespace phongpd::cli
