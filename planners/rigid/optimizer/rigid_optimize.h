@@ -23,7 +23,8 @@ RigidStart ParseRigidStart(const std::string& text, const std::string& what);
 // A short path of poses from start to goal.
 struct RigidOptimizeRequest {
   // Start, goal, bounds, seed, and the time of all: a third of it at most goes
-  // into the straight motion, half of what is left into the planner.
+  // into freeing the straight motion, nine tenths of what is left into the
+  // planner.
   RigidRequest task;
   RigidStart from = RigidStart::kBoth;
   int knots = 8;  // poses between the ends, at least; in [1, 200]
@@ -35,8 +36,8 @@ struct RigidOptimizeRequest {
   double start_noise = 0.0;
   // By TrackedPoseRow, else PoseRow, while they collide.
   bool is_tracked = false;
-  // Solves of a start, [1, 100]; rows are added after each.
-  int max_rounds = 15;
+  // Solves until a path is free, and as many from there, [1, 100].
+  int max_rounds = 100;
 
   // Throws InputError naming the field.
   void Validate() const;
@@ -46,16 +47,18 @@ struct RigidOptimizeRequest {
 struct RigidOptimum {
   // As of Plan, with these words.  status: kSolved, Ipopt converged to the path
   // (or it is the straight motion, which nothing beats); kStalledFeasible, it
-  // did not, and the path is the shortest free one that was seen, an iterate
-  // or the planner's; kFailed, kTimeLimit: none.  planner: "line", "straight"
-  // or "planner", by the start that led to it, or that of Plan's path where
-  // nothing shorter was found ("slide").  Every motion of a path is proved
-  // free for all t, twice, whatever the status.
+  // did not, and the path is the shortest free one that was seen; kFailed,
+  // kTimeLimit: none.  planner: "line", "straight" or "planner", by the start
+  // that led to it, or that of Plan's path where nothing shorter was found
+  // ("slide").  Every motion of a path is proved free for all t, twice,
+  // whatever the status; and none is longer than Plan's, where that was asked.
   RigidAnswer answer;
-  // Ipopt's word on the last round that was solved.
+  // kConverged: no small step of the knots shortens the path, to first order
+  // (to 1e-4 of its length).  kStalledFeasible: steps that should were refused,
+  // down to small ones.  Else what ended it; of a straight motion that was not
+  // freed Ipopt's word on the last round.
   SolveStatus solver = SolveStatus::kInvalidProblem;
-  // Ipopt called the path solved (converged, acceptable or stalled_feasible),
-  // or one not shorter, and the judge confirmed it.
+  // What Ipopt called solved was proved free, once at least.
   bool is_confirmed = false;
   // At least once the judge refuted what Ipopt called solved.
   bool was_refuted = false;
@@ -65,15 +68,16 @@ struct RigidOptimum {
   std::size_t added_samples = 0;   // of all rounds, where the judge asked
 };
 
-// Optimises the length of a path in the object norm (rigid_world.h) with Ipopt:
-// the energy Σ d² of knots, with rows on exact depth and gaps at samples, and a
-// proof for all that is between them.
+// Optimises the length of a path in the object norm (rigid_world.h) with Ipopt,
+// and proves it free for all t; a claim of the solver is never enough.
 //
-// A claim of the solver is never enough.  Motions between samples are judged
-// (RigidJudge), and where one is not free a sample is added there and the
-// program solved again, until what Ipopt calls solved is proved free for all t,
-// or rounds or time are up.  Iterates are judged on the way and the shortest
-// free one is kept, so a run that does not converge has an answer, too.
+// Where the start collides, rounds on exact depth and gaps at samples free it:
+// motions between samples are judged (RigidJudge), and where one is not free a
+// sample is added there and the program solved again.  From the first free
+// path, or from the planner's, it descends: each step is a program linear in
+// all contacts within reach, and is taken only if the judge proves the whole
+// path.  So from then on there is a proved path at any moment, and a run that
+// is ended has an answer, too.
 //
 // A local optimum, of the way around things that its start took.  Where robot
 // or obstacles are no solids there is no depth: what collides is no iterate
