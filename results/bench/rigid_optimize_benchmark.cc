@@ -183,10 +183,10 @@ int Run(int argc, char** argv) {
   app.add_option("--limit", limit, "Processor seconds of a run")
       ->capture_default_str();
   CLI11_PARSE(app, argc, argv);
-  for (const std::string& name : scenes) {
-    const RigidScene scene = SceneOf(name);
-    const RigidWorld world({scene.robot}, scene.obstacles);
-    for (unsigned seed = first; seed < first + seeds; ++seed) {
+  for (unsigned seed = first; seed < first + seeds; ++seed) {
+    for (const std::string& name : scenes) {
+      const RigidScene scene = SceneOf(name);
+      const RigidWorld world({scene.robot}, scene.obstacles);
       const RigidOptimizeRequest request = RequestOf(scene, seed);
       for (const std::string& method : methods) {
         const double begin = CpuSeconds();

@@ -21,7 +21,7 @@ constexpr double kFirstTrust = 0.1, kMostTrust = 0.3, kLeastTrust = 1e-4;
 // A gain that is none, of the length, for steps as long as that at least.
 constexpr double kNoGain = 1e-4, kTellingTrust = 0.02;
 // Two samples of a link are as far apart, of the reach, object norm.
-constexpr double kLeastPart = 0.004;
+constexpr double kLeastPart = 2e-4;
 constexpr int kSolveIterations = 60;
 
 double LengthOf(const RigidPath& path, double gyration) {
@@ -53,7 +53,7 @@ class Descent {
 
   PathDescentEnd Run() {
     while (end_.rounds < task_.max_rounds) {
-      if (stop_->Asks()) {
+      if (!FindContacts()) {
         end_.status = stop_->IsInterrupted() ? SolveStatus::kCancelled
                                              : SolveStatus::kTimeLimit;
         break;
@@ -69,7 +69,6 @@ class Descent {
   // True: the end.
   bool Round() {
     const PoseChart chart(path_, model_.reach, model_.gyration);
-    FindContacts();
     LinearStep step(chart, places_, task_.bounds, task_.margin, trust_);
     const VectorXd zero = VectorXd::Zero(step.variables());
     IpoptSettings settings;
@@ -195,15 +194,17 @@ class Descent {
     places_.push_back({link, t, {}});
   }
 
-  // All that a step within the trust can close.
-  void FindContacts() {
+  // All that a step within the trust can close; false: stopped.
+  bool FindContacts() {
     const double radius =
         task_.margin +
         trust_ * std::sqrt(3.0) * (1.0 + model_.reach / model_.gyration);
     for (PathContacts& place : places_) {
+      if (stop_->Asks()) return false;
       features_.Find(PoseAt(path_, place), radius, &place.contacts,
                      &end_.tests);
     }
+    return true;
   }
 
   const RigidModel& model_;
