@@ -98,7 +98,7 @@ TEST(FeatureContacts, ChangeAsTheirNormalsAndArmsSay) {
   constexpr double kStep = 1e-6;
   for (int k = 0; k < 12; ++k) {
     // A corner before a face, two edges that cross, past the pillar's edge.
-    const RobotPose pose = At({1.2 - 0.005 * k, 0.2 * (k % 6), 0.3},
+    const RobotPose pose = At({1.2 - 0.002 * k, 0.2 * (k % 6), 0.3},
                               0.3 + 0.2 * k, Vector3d(0.3, 0.5 + 0.1 * k, 1.0));
     features.Find(pose, 0.3, &contacts, &tests);
     ASSERT_FALSE(contacts.empty()) << k;
