@@ -117,7 +117,7 @@ TEST(RigidOptimize, IsNeverLongerThanThePlanItBeganFrom) {
       before = found.answer.length;
       converged += found.answer.status == PathStatus::kSolved;
     }
-    shorter += before < 0.9 * planned.length;
+    shorter += before < 0.99 * planned.length;
   }
   EXPECT_GE(shorter, 2);
   EXPECT_GE(converged, 1);
