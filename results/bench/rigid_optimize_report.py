@@ -87,7 +87,7 @@ def line(scene, method, rows):
             sum(row["refuted"] for row in rows), sum(map(has_no_plan, rows)),
             rounded(median(lengths), 4) if lengths else "-",
             f"{rounded(median(ratios))} ({rounded(max(ratios))})" if ratios else "-",
-            rounded(median([row["iterations"] for row in rows])),
+            f"{median([row['iterations'] for row in rows]):.0f}",
             rounded(median(seconds), 2), rounded(max(seconds), 2)]
 
 
@@ -95,12 +95,13 @@ def findings(rows):
     text = []
     for method in dict.fromkeys(row["method"] for row in rows):
         own = [row for row in rows if row["method"] == method]
-        scenes = groups(own)
+        scenes = {key: of for key, of in groups(own).items() if len(of) >= 10}
         enough = sum(10 * sum(row["certified"] for row in of) >= 9 * len(of)
                      for of in scenes.values())
         parts = [f"- `{method}`: {sum(row['certified'] for row in own)} of {len(own)} "
                  f"runs end with a path that is free for all t, proved; 9 of 10 or more "
-                 f"on {enough} of {len(scenes)} scenes."]
+                 f"on {enough} of {len(scenes)} scenes that have 10 runs or "
+                 "more."]
         claims = [row for row in own if method == SAMPLES and
                   (converged(row) or stalled(row))]
         if method == SAMPLES:

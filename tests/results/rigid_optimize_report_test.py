@@ -51,7 +51,10 @@ class Counts(unittest.TestCase):
         rows += [row(scene="peg", certified=k < 8, planned=1.0) for k in range(10)]
         said = " ".join(report.findings(rows)[0].split())
         self.assertIn("17 of 20 runs end with a path that is free", said)
-        self.assertIn("9 of 10 or more on 1 of 2 scenes", said)
+        self.assertIn("9 of 10 or more on 1 of 2 scenes that have 10 runs", said)
+        # Two of two are not nine of ten.
+        few = " ".join(report.findings([row(), row()])[0].split())
+        self.assertIn("9 of 10 or more on 0 of 0 scenes", few)
         self.assertIn("no plan in time: 0", said)
         self.assertIn("Of 11 with a plan 0 are longer", said)
 
