@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
 # bench.sh [paper|queries|contact-space|lazy|convergence|pipeline|planning|
-# extremes|peers|trajectories|fleets|rigid|wrench|study|cluster|python|trade|slice|
-# all]:
+# extremes|peers|trajectories|fleets|rigid|rigid-optimize|wrench|study|cluster|
+# python|trade|slice|all]:
 # regenerates the tables and figures of results/.  continuity is a part of queries, retraction and
 # widths are parts of planning.  slice makes some published rows anew and compares
 # them (results/reproduction.md); it is no part of all.
@@ -14,14 +14,14 @@ export PHONGPD_CACHE_DIR=$PWD/build/cache
 suite=${1:-all}
 case $suite in
   paper | queries | contact-space | lazy | convergence | pipeline | planning | \
-    extremes | peers | trajectories | fleets | rigid | wrench | study | \
-    cluster | python | \
+    extremes | peers | trajectories | fleets | rigid | rigid-optimize | \
+    wrench | study | cluster | python | \
     trade | continuity | retraction | widths | slice | all) ;;
   *)
     echo "bench: expected paper, queries, contact-space, lazy," \
       "convergence, pipeline, planning, extremes, peers, trajectories, fleets," \
-      "rigid, wrench, study, cluster, python, trade, continuity, retraction," \
-      "widths, slice" \
+      "rigid, rigid-optimize, wrench, study, cluster, python, trade," \
+      "continuity, retraction, widths, slice" \
       "or all," \
       "found $suite" >&2
     exit 2
@@ -236,6 +236,17 @@ if [[ $suite == rigid || $suite == all ]]; then
   python3 -B results/bench/rigid_benchmark.py --output results/rigid \
     --rows "$rows" --how "scripts/bench.sh rigid${2:+ ${*:2}}" \
     --commit "$(git rev-parse --short HEAD)" "${@:2}"
+fi
+if [[ $suite == rigid-optimize || $suite == all ]]; then
+  scripts/build.sh rigid_optimize_benchmark
+  folder=results/rigid-optimize
+  # Development looked at seeds 1 to 10.
+  build/rigid_optimize_benchmark --seed 101 --limit 20 \
+    --methods samples both > "$folder/rows.jsonl"
+  echo "Command: \`scripts/bench.sh rigid-optimize\`. Commit:" \
+    "$(git rev-parse --short HEAD). Machine: $(nproc) cores, shared." \
+    > "$folder/measured.txt"
+  python3 -B results/bench/rigid_optimize_report.py --output "$folder"
 fi
 if [[ $suite == wrench || $suite == all ]]; then
   # `scripts/bench.sh wrench --quick`: a few pairs, and not where it is published.

@@ -57,6 +57,10 @@ if(Python3_Interpreter_FOUND)
     add_test(NAME RigidBenchmark
              COMMAND ${Python3_EXECUTABLE} -B
                      ${CMAKE_CURRENT_SOURCE_DIR}/results/rigid_report_test.py)
+    add_test(
+      NAME RigidOptimizeReport
+      COMMAND ${Python3_EXECUTABLE} -B
+              ${CMAKE_CURRENT_SOURCE_DIR}/results/rigid_optimize_report_test.py)
     add_test(NAME WrenchReport
              COMMAND ${Python3_EXECUTABLE} -B
                      ${CMAKE_CURRENT_SOURCE_DIR}/results/wrench_report_test.py)

@@ -92,10 +92,9 @@ class BoxGap {
 ContactSurface::ContactSurface(const std::vector<TriangleMesh>& meshes)
     : corners(AllCorners(meshes)), tree(SortIntoTree(&corners)) {}
 
-void FindContacts(const ContactSurface& robot, const ContactSurface& obstacle,
-                  const RobotPose& pose, double radius,
-                  std::vector<PoseContact>* contacts, long* tests) {
-  contacts->clear();
+void ForEachClosePair(const ContactSurface& robot,
+                      const ContactSurface& obstacle, const RobotPose& pose,
+                      double radius, const VisitTriangles& visit, long* tests) {
   const Matrix3d rotation = pose.orientation.toRotationMatrix();
   const BoxGap gap(rotation, pose.position);
   const auto keep = [&](int i, int j) {
@@ -103,25 +102,35 @@ void FindContacts(const ContactSurface& robot, const ContactSurface& obstacle,
     return gap(robot.tree.nodes()[static_cast<std::size_t>(i)],
                obstacle.tree.nodes()[static_cast<std::size_t>(j)]) <= radius;
   };
-  const auto visit = [&](int i, int j) {
+  const auto visit_leaves = [&](int i, int j) {
     ++*tests;
-    TriangleCorners placed = robot.corners[static_cast<std::size_t>(i)];
+    const auto a = static_cast<std::size_t>(i), b = static_cast<std::size_t>(j);
+    TriangleCorners placed = robot.corners[a];
     for (Vector3d& p : placed) p = rotation * p + pose.position;
-    const TriangleCorners& fixed =
-        obstacle.corners[static_cast<std::size_t>(j)];
-    if (IsBeyondPlane(fixed, placed, radius) ||
-        IsBeyondPlane(placed, fixed, radius)) {
-      return true;
+    const TriangleCorners& fixed = obstacle.corners[b];
+    if (!IsBeyondPlane(fixed, placed, radius) &&
+        !IsBeyondPlane(placed, fixed, radius)) {
+      visit(a, b, placed);
     }
-    const ClosestPoints closest = ClosestOf(placed, fixed);
+    return true;
+  };
+  ForEachPair(robot.tree, obstacle.tree, keep, visit_leaves);
+}
+
+void FindContacts(const ContactSurface& robot, const ContactSurface& obstacle,
+                  const RobotPose& pose, double radius,
+                  std::vector<PoseContact>* contacts, long* tests) {
+  contacts->clear();
+  const auto visit = [&](std::size_t, std::size_t j,
+                         const TriangleCorners& placed) {
+    const ClosestPoints closest = ClosestOf(placed, obstacle.corners[j]);
     const double distance = std::sqrt(closest.squared_distance);
     if (distance > 0.0 && distance <= radius) {
       contacts->push_back({(closest.on_robot - closest.on_obstacle) / distance,
                            closest.on_robot - pose.position, distance});
     }
-    return true;
   };
-  ForEachPair(robot.tree, obstacle.tree, keep, visit);
+  ForEachClosePair(robot, obstacle, pose, radius, visit, tests);
 }
 
 }  // namespace phongpd::internal

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <functional>
 #include <vector>
 
 #include "core/bvh/box_tree.h"
@@ -20,6 +21,16 @@ struct ContactSurface {
   std::vector<TriangleCorners> corners;  // in the order of the tree
   BoxTree tree;
 };
+
+// Calls visit(i, j, placed) for all pairs of triangles, numbers in the order of
+// the trees, but such as boxes or a plane of one of them show to be farther
+// apart than radius; `placed` is the robot's, at the pose.  Adds the pairs of
+// boxes and triangles looked at to *tests.
+using VisitTriangles =
+    std::function<void(std::size_t, std::size_t, const TriangleCorners&)>;
+void ForEachClosePair(const ContactSurface& robot,
+                      const ContactSurface& obstacle, const RobotPose& pose,
+                      double radius, const VisitTriangles& visit, long* tests);
 
 // The closest points of a triangle of the robot and one of the obstacles.  A
 // small motion (v, ω) changes the gap by n · v + (r × n) · ω.

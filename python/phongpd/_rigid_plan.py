@@ -80,9 +80,10 @@ class RigidOptimum(RigidPlan):
     own path ("slide", …), as nothing shorter was found."""
 
     solver: str
-    """Ipopt's word on its last round: "converged", "stalled_feasible", …"""
+    """"converged": no small step shortens the path; "stalled_feasible": steps that
+    should were refused; else what ended the run before."""
     confirmed: bool
-    """What Ipopt called solved was proved free for all t."""
+    """What Ipopt called solved was proved free for all t, once at least."""
     planned_length: float
     """Of the planner's path; 0: not asked."""
     rounds: int

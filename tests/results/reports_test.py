@@ -29,6 +29,7 @@ REPORTS = {"contact_space_report": ("contact-space",),
            "passages_report": ("planning",),
            "planning_report": ("planning",),
            "query_report": ("queries",),
+           "rigid_optimize_report": ("rigid-optimize",),
            "tracker_report": ("queries",),
            "trade_report": ("trade", "--results", str(SOURCE / "results")),
            "wrench_report": ("rigid-depth",)}

@@ -16,23 +16,10 @@ constexpr long kMostTests = 300'000;
 // Of the robot's reach, object norm.
 constexpr double kLeastPart = 0.02;
 constexpr double kMostMargin = 64.0;  // of the first margin
-constexpr int kMostFailures = 3;      // in a row, once a free path is known
 constexpr int kStall = 10;
 // An iterate is judged where rows are violated by less, units of the reach: it
 // may be free by its margin.
 constexpr double kNearlyFeasible = 1e-4;
-// And where it is shorter by that share than what is known.
-constexpr double kLeastGain = 1e-4;
-// Of the way to a path that was refuted.
-constexpr double kLeastShare = 0.02;
-
-double LengthOf(const RigidPath& path, double gyration) {
-  double length = 0.0;
-  for (std::size_t i = 0; i + 1 < path.size(); ++i) {
-    length += ObjectDistance(path[i], path[i + 1], gyration);
-  }
-  return length;
-}
 
 class Rounds {
  public:
@@ -41,39 +28,33 @@ class Rounds {
       : model_(model), task_(task), rows_(rows), stop_(stop), poses_(start) {
     const int links = static_cast<int>(poses_.size()) - 1;
     times_.assign(static_cast<std::size_t>(links), 0);
-    for (int i = 0; i < links; ++i) {
-      samples_.push_back({i, 0.5, task_.margin});
-      if (i + 1 < links) samples_.push_back({i, 1.0, task_.margin});
-    }
+    samples_ = FirstSamples(links, task_.margin);
   }
 
   PoseRoundsEnd Run() {
     const double begin = stop_->Seconds();
     int failures = 0;
-    if (IsFree(poses_)) Keep(poses_);
-    while (end_.rounds < task_.max_rounds && !stop_->Asks()) {
+    KeepIfFree(poses_);
+    while (end_.path.empty() && end_.rounds < task_.max_rounds &&
+           !stop_->Asks()) {
       const double left = task_.time_limit - (stop_->Seconds() - begin);
       if (!(left > 0.0)) break;
       ++end_.rounds;
       const bool is_claimed = Solve(left);
-      if (is_claimed && IsFree(poses_)) {
-        Keep(poses_);
-        end_.is_confirmed = true;
-        break;
-      }
+      if (!end_.path.empty()) break;
+      if (is_claimed && KeepIfFree(poses_)) break;
       end_.was_refuted |= is_claimed;
       failures = is_claimed ? 0 : failures + 1;
-      const int most = end_.path.empty() ? task_.max_failures : kMostFailures;
-      if (failures >= most) break;
+      if (failures >= task_.max_failures) break;
       AddSamples();
-      if (!end_.path.empty()) poses_ = Between();
     }
     end_.samples = samples_.size();
     return end_;
   }
 
  private:
-  // One solve; true where Ipopt calls its end, now poses_, solved.
+  // One solve, to the first iterate that is free; true where Ipopt calls its
+  // end, now poses_, solved.
   bool Solve(double seconds) {
     PoseProgram program(PoseChart(poses_, model_.reach, model_.gyration),
                         samples_, task_.bounds, rows_);
@@ -81,17 +62,11 @@ class Rounds {
     settings.max_iterations = task_.max_iterations;
     settings.stall_iterations = kStall;
     settings.time_limit = seconds;
-    if (IsFree(poses_)) StartFromHere(&settings);
     settings.on_iteration = [&](const IterationRecord& record,
                                 const VectorXd& x) {
-      if (record.violation <= kNearlyFeasible) {
-        const RigidPath path = program.chart().Poses(x.data());
-        const double length = LengthOf(path, model_.gyration);
-        const bool is_worth_it =
-            end_.path.empty() || length < (1.0 - kLeastGain) * end_.length;
-        if (is_worth_it && IsFree(path)) Keep(path);
-      }
-      return !stop_->Asks();
+      const bool is_free = record.violation <= kNearlyFeasible &&
+                           KeepIfFree(program.chart().Poses(x.data()));
+      return !is_free && !stop_->Asks();
     };
     const IpoptRun run =
         SolveWithIpopt(&program, VectorXd::Zero(program.variables()), settings);
@@ -101,17 +76,6 @@ class Rounds {
     return IsClassOk(run.status);
   }
 
-  // A start near the answer: a large mu would push it off the walls first, and
-  // into others.
-  static void StartFromHere(IpoptSettings* settings) {
-    settings->mu_strategy = IpoptSettings::MuStrategy::kMonotone;
-    for (const char* name :
-         {"bound_push", "bound_frac", "slack_bound_push", "slack_bound_frac"}) {
-      settings->ipopt_options[name] = "1e-6";
-    }
-    settings->ipopt_options["mu_init"] = "1e-4";
-  }
-
   RigidCheck Judge(const RobotPose& a, const RobotPose& b) {
     const RigidCheck check = model_.judge.Check(RigidMotion(a, b), kMostTests);
     ++end_.checks;
@@ -119,34 +83,12 @@ class Rounds {
     return check;
   }
 
-  bool IsFree(const RigidPath& path) {
+  bool KeepIfFree(const RigidPath& path) {
     for (std::size_t i = 0; i + 1 < path.size(); ++i) {
       if (!Judge(path[i], path[i + 1]).IsFree()) return false;
     }
-    return true;
-  }
-
-  // Of the ways from the shortest free path to what was refuted the last free
-  // one that is seen, knot by knot; kept, and where the next round begins.
-  RigidPath Between() {
-    const RigidPath from = end_.path;
-    for (double share = 0.8; share > kLeastShare; share *= 0.6) {
-      RigidPath path = from;
-      for (std::size_t i = 1; i + 1 < path.size(); ++i) {
-        path[i] = RigidMotion(from[i], poses_[i]).At(share);
-      }
-      if (!IsFree(path)) continue;
-      Keep(path);
-      break;
-    }
-    return end_.path;
-  }
-
-  void Keep(const RigidPath& path) {
-    const double length = LengthOf(path, model_.gyration);
-    if (!end_.path.empty() && length >= end_.length) return;
     end_.path = path;
-    end_.length = length;
+    return true;
   }
 
   // Rows where parts between samples are not free.
@@ -221,9 +163,18 @@ class Rounds {
 
 }  // namespace
 
-PoseRoundsEnd OptimizePoses(const RigidModel& model, const RigidPath& start,
-                            const PoseRoundsTask& task, PoseRows* rows,
-                            RigidStop* stop) {
+std::vector<PoseSample> FirstSamples(int links, double margin) {
+  std::vector<PoseSample> samples;
+  for (int i = 0; i < links; ++i) {
+    samples.push_back({i, 0.5, margin});
+    if (i + 1 < links) samples.push_back({i, 1.0, margin});
+  }
+  return samples;
+}
+
+PoseRoundsEnd FreePoses(const RigidModel& model, const RigidPath& start,
+                        const PoseRoundsTask& task, PoseRows* rows,
+                        RigidStop* stop) {
   return Rounds(model, start, task, rows, stop).Run();
 }
 

@@ -3,12 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <random>
+#include <optional>
 
 #include "core/mesh/mesh_error.h"
 #include "core/number_text.h"
 #include "core/stopwatch.h"
-#include "planners/rigid/object_norm.h"
+#include "planners/rigid/optimizer/path_descent.h"
+#include "planners/rigid/optimizer/path_starts.h"
 #include "planners/rigid/optimizer/pose_rounds.h"
 #include "planners/rigid/rigid_ends.h"
 #include "planners/rigid/rigid_model.h"
@@ -16,6 +17,8 @@
 namespace phongpd {
 namespace {
 
+using internal::PathDescentEnd;
+using internal::PathDescentTask;
 using internal::PoseRoundsEnd;
 using internal::PoseRoundsTask;
 using internal::PoseRows;
@@ -28,26 +31,9 @@ constexpr double kMargin = 1e-3;  // of the reach
 constexpr double kRange = 0.25;   // of the reach, that rows see
 constexpr int kStraightIterations = 60;
 // Of the time that is left.
-constexpr double kStraightShare = 1.0 / 3.0, kPlannerShare = 0.5;
+constexpr double kStraightShare = 1.0 / 3.0, kPlannerShare = 0.9;
 
 constexpr const char* kStartNames[] = {"both", "straight", "planner"};
-
-// Links are halved, the longest first, until there are so many knots.
-RigidPath WithKnots(RigidPath path, int knots, const RigidWorld& world) {
-  while (static_cast<int>(path.size()) < knots + 2) {
-    std::size_t longest = 0;
-    double length = -1.0;
-    for (std::size_t i = 0; i + 1 < path.size(); ++i) {
-      const double d = world.Distance(path[i], path[i + 1]);
-      if (d > length) longest = i, length = d;
-    }
-    const RobotPose middle =
-        RigidMotion(path[longest], path[longest + 1]).At(0.5);
-    path.insert(path.begin() + static_cast<std::ptrdiff_t>(longest) + 1,
-                middle);
-  }
-  return path;
-}
 
 class RigidOptimizer {
  public:
@@ -95,15 +81,36 @@ class RigidOptimizer {
     return *rows_;
   }
 
-  PoseRoundsEnd Improve(const RigidPath& start, double seconds,
-                        PoseRoundsTask task = {}) {
+  double Margin() const {
+    return request_.margin > 0.0 ? request_.margin : kMargin * world_.reach();
+  }
+
+  // To a free path, or none.
+  PoseRoundsEnd Free(const RigidPath& start, PoseRoundsTask task) {
     task.bounds = bounds_;
-    task.margin =
-        request_.margin > 0.0 ? request_.margin : kMargin * world_.reach();
+    task.margin = Margin();
     task.max_rounds = request_.max_rounds;
-    task.time_limit = seconds;
     const PoseRoundsEnd end =
-        internal::OptimizePoses(world_.model(), start, task, &Rows(), &stop_);
+        internal::FreePoses(world_.model(), start, task, &Rows(), &stop_);
+    Count(end);
+    return end;
+  }
+
+  // From a free path.
+  PathDescentEnd Descend(const RigidPath& start) {
+    PathDescentTask task;
+    task.bounds = bounds_;
+    task.margin = Margin();
+    task.max_rounds = request_.max_rounds;
+    const PathDescentEnd end =
+        internal::DescendPath(world_.model(), start, task, &stop_);
+    Count(end);
+    out_.is_confirmed = end.steps > 0 || end.status == SolveStatus::kConverged;
+    return end;
+  }
+
+  template <typename End>
+  void Count(const End& end) {
     out_.solver = end.status;
     out_.was_refuted |= end.was_refuted;
     out_.rounds += end.rounds;
@@ -112,27 +119,11 @@ class RigidOptimizer {
     out_.added_samples += end.added_samples;
     out_.answer.checks += end.checks;
     out_.answer.tests += end.tests;
-    return end;
   }
 
   void FromStraight() {
     if (!Rows().HasDepth()) return;  // an iterate that collides is none
-    const RigidMotion straight(request_.task.start, request_.task.goal);
-    const double length =
-        world_.Distance(request_.task.start, request_.task.goal);
-    std::mt19937_64 random(request_.task.seed);
-    std::normal_distribution<double> normal(0.0, 1.0);
-    RigidPath path = {request_.task.start};
-    for (int i = 1; i <= request_.knots; ++i) {
-      internal::Vector6 move;
-      for (double& x : move) x = request_.start_noise * length * normal(random);
-      const double t = static_cast<double>(i) / (request_.knots + 1);
-      RobotPose pose = internal::Moved(straight.At(t), move, world_.gyration());
-      pose.position =
-          pose.position.cwiseMax(bounds_.min()).cwiseMin(bounds_.max());
-      path.push_back(pose);
-    }
-    path.push_back(request_.task.goal);
+    const RigidPath path = internal::StraightStart(world_, request_, bounds_);
     PoseRoundsTask task;
     double share = 1.0;
     if (request_.from == RigidStart::kBoth) {
@@ -141,10 +132,11 @@ class RigidOptimizer {
       task.max_iterations = kStraightIterations;
       task.max_failures = 1;
     }
-    const PoseRoundsEnd end = Improve(path, share * Left(), task);
-    if (end.path.empty()) return;
+    task.time_limit = share * Left();
+    const PoseRoundsEnd free = Free(path, task);
+    if (free.path.empty()) return;
+    const PathDescentEnd end = Descend(free.path);
     Take(end.path, "straight", StatusOf(end));
-    out_.is_confirmed = end.is_confirmed;
   }
 
   void FromPlanner() {
@@ -171,22 +163,32 @@ class RigidOptimizer {
       return;
     }
     out_.planned_length = planned.length;
-    const PoseRoundsEnd end =
-        Improve(WithKnots(planned.path, request_.knots, world_), Left());
-    const bool is_shorter = !end.path.empty() && end.length < planned.length;
-    if (is_shorter) {
-      out_.is_confirmed = end.is_confirmed;
-      Take(end.path, "planner", StatusOf(end));
-    } else {
+    const RigidPath start =
+        internal::WithKnots(planned.path, request_.knots, world_);
+    if (!IsFree(start)) {  // halves of a motion are it to rounding only
       Take(planned.path, planned.planner, PathStatus::kStalledFeasible);
+      return;
     }
+    const PathDescentEnd end = Descend(start);
+    const bool is_shorter = end.length < planned.length;
+    Take(is_shorter ? end.path : planned.path,
+         is_shorter ? "planner" : planned.planner, StatusOf(end));
   }
 
-  static PathStatus StatusOf(const PoseRoundsEnd& end) {
-    const bool has_converged = end.status == SolveStatus::kConverged ||
-                               end.status == SolveStatus::kAcceptable;
-    return end.is_confirmed && has_converged ? PathStatus::kSolved
-                                             : PathStatus::kStalledFeasible;
+  bool IsFree(const RigidPath& path) {
+    for (std::size_t i = 0; i + 1 < path.size(); ++i) {
+      const RigidCheck check =
+          world_.judge().Check(RigidMotion(path[i], path[i + 1]));
+      ++out_.answer.checks;
+      out_.answer.tests += check.tests;
+      if (!check.IsFree()) return false;
+    }
+    return true;
+  }
+
+  static PathStatus StatusOf(const PathDescentEnd& end) {
+    return end.status == SolveStatus::kConverged ? PathStatus::kSolved
+                                                 : PathStatus::kStalledFeasible;
   }
 
   void Take(const RigidPath& path, const std::string& by, PathStatus status) {

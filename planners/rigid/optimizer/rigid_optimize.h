@@ -22,9 +22,9 @@ RigidStart ParseRigidStart(const std::string& text, const std::string& what);
 
 // What Optimize is asked: a short path of poses from start to goal.
 struct RigidOptimizeRequest {
-  // Start, goal, bounds, seed, and the time limit of the whole call.  With
-  // kBoth, the straight motion gets at most a third of the time; Plan gets half
-  // of what is left.
+  // Start, goal, bounds, seed, and the time limit of the whole call.  A third of
+  // it at most goes into freeing the straight motion, nine tenths of what is
+  // left into Plan.
   RigidRequest task;
   RigidStart from = RigidStart::kBoth;
   int knots = 8;  // least number of poses between start and goal, in [1, 200]
@@ -37,9 +37,8 @@ struct RigidOptimizeRequest {
   double start_noise = 0.0;
   // The rows of colliding samples: TrackedPoseRow if true, PoseRow if false.
   bool is_tracked = false;
-  // Most solves by Ipopt from one start, in [1, 100].  Samples are added
-  // between them.
-  int max_rounds = 15;
+  // Most solves until a path is free, and as many from there on, in [1, 100].
+  int max_rounds = 100;
 
   // Throws InputError naming the field.
   void Validate() const;
@@ -48,19 +47,20 @@ struct RigidOptimizeRequest {
 // What Optimize answers.  No member is NaN or infinite.
 struct RigidOptimum {
   // Like Plan's answer.  Whatever the status, every motion of a path is proved
-  // free for all t, twice.
-  //   status  kSolved: Ipopt converged to the path, or the straight motion is
-  //           free, and nothing is shorter.  kStalledFeasible: it did not; this
-  //           is the shortest free path that was seen, an iterate's or Plan's.
-  //           kFailed, kTimeLimit, …: there is no path.
+  // free for all t, twice; and if Plan was asked, no path is longer than Plan's.
+  //   status  kSolved: converged, or the straight motion is free, and nothing is
+  //           shorter.  kStalledFeasible: it did not; this is the shortest free
+  //           path that was seen.  kFailed, kTimeLimit, …: there is no path.
   //   planner "line": the straight motion as it is.  "straight", "planner": the
   //           start it was optimised from.  "slide" and others: Plan's path, of
   //           that planner, because nothing shorter was found.
   RigidAnswer answer;
-  // How Ipopt ended in the last round that it ran.
+  // kConverged: no small step of the knots shortens the path, to first order (to
+  // 1e-4 of its length).  kStalledFeasible: steps that should shorten it were
+  // refused, down to small ones.  Else what ended it; if the straight motion
+  // could not be freed, how Ipopt ended in the last round.
   SolveStatus solver = SolveStatus::kInvalidProblem;
-  // Ipopt called this path or one that is not shorter solved (kConverged,
-  // kAcceptable or kStalledFeasible), and the judge confirmed that it is free.
+  // What Ipopt called solved was proved free, at least once.
   bool is_confirmed = false;
   // At least once the judge refuted a path that Ipopt called solved.
   bool was_refuted = false;
@@ -70,17 +70,18 @@ struct RigidOptimum {
   std::size_t added_samples = 0;   // because of the judge, in all rounds
 };
 
-// Makes a path of a robot that translates and turns short.  Ipopt minimises the
-// energy Σ d², with d the distance between neighbouring poses in the object
-// norm (rigid_world.h), subject to rows on exact depths and gaps at samples of
-// the path.  For a robot that only translates use planners/solve/optimize.h.
+// Makes a path of a robot that translates and turns short, in the object norm
+// (rigid_world.h), with Ipopt, and proves it free for all t; the solver's claim
+// is never enough.  For a robot that only translates use planners/solve/
+// optimize.h.
 //
-// The solver's claim is never enough.  RigidJudge judges the motions between
-// samples; where one is not free, a sample is added and the program is solved
-// again.  This ends when a path that Ipopt calls solved is proved free for all
-// t, or when rounds or time are up.  Iterates are judged on the way, and the
-// shortest free one is kept, so that a run that does not converge often has an
-// answer, too.
+// If the straight motion collides, rounds free it: Ipopt solves with rows on
+// exact depths and gaps at samples of the path; RigidJudge judges the motions
+// between samples, and where one is not free a sample is added.  From the first
+// free path, or from Plan's, the optimiser descends: each step is a program that
+// is linear in all contacts within reach, and is taken only if the judge proves
+// the whole path free.  So there is a proved path at any moment from then on,
+// and a run that is ended has an answer, too.
 //
 // The result is a local optimum: it passes obstacles on the side on which its
 // start does.  If the robot or the obstacles are no solids, a collision has no

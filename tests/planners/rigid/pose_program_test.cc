@@ -236,9 +236,8 @@ TEST(PoseRounds, WhatSamplesMissIsRefutedAndGetsRows) {
     PoseRows rows(thin.model(), 4, 0.05, false);
     RigidStop stop(100.0, {});
     const PoseRoundsEnd end =
-        OptimizePoses(thin.model(), {start, middle, goal}, task, &rows, &stop);
+        FreePoses(thin.model(), {start, middle, goal}, task, &rows, &stop);
     EXPECT_TRUE(end.was_refuted);
-    EXPECT_EQ(end.is_confirmed, rounds > 1);
     EXPECT_EQ(end.path.empty(), rounds == 1);
     EXPECT_GE(end.added_samples, 1u);
     for (std::size_t i = 0; i + 1 < end.path.size(); ++i) {

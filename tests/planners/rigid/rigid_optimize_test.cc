@@ -60,6 +60,37 @@ TEST(RigidOptimize, ShortensThePlannersPath) {
             world.Distance(request.task.start, request.task.goal));
 }
 
+// One step of a descent, and all of them: what was planned is the least there
+// is, and what converged says so.
+TEST(RigidOptimize, IsNeverLongerThanThePlanItBeganFrom) {
+  const RigidWorld world(Bar(), Wall());
+  RigidOptimizeRequest request = ThroughTheWall(RigidStart::kPlanner);
+  int shorter = 0, converged = 0;
+  for (const unsigned seed : {11u, 12u, 13u}) {
+    request.task.seed = seed;
+    const RigidAnswer planned = Plan(world, request.task);
+    ASSERT_TRUE(planned.IsSolved()) << planned.reason;
+    double before = planned.length;
+    for (const int rounds : {1, 100}) {
+      request.max_rounds = rounds;
+      const RigidOptimum found = Optimize(world, request);
+      ExpectFreePath(Bar(), Wall(), request, found);
+      EXPECT_EQ(found.planned_length, planned.length);
+      EXPECT_LE(found.answer.length, before);
+      EXPECT_LE(found.rounds, rounds);
+      EXPECT_EQ(found.answer.status == PathStatus::kSolved,
+                found.solver == SolveStatus::kConverged);
+      EXPECT_EQ(found.answer.reason.empty(),
+                found.answer.status == PathStatus::kSolved);
+      before = found.answer.length;
+      converged += found.answer.status == PathStatus::kSolved;
+    }
+    shorter += before < 0.99 * planned.length;
+  }
+  EXPECT_GE(shorter, 2);
+  EXPECT_GE(converged, 1);
+}
+
 TEST(RigidOptimize, TrackedRowsLeadThereToo) {
   RigidOptimizeRequest request;
   request.task.start = PoseAt({-3.0, 0.8, 0.0});
