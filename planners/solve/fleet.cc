@@ -165,11 +165,20 @@ class FleetSearch {
   // Made faster together, where that is certified.
   FleetAnswer Hastened(FleetAnswer answer) const {
     answer.by_order = answer.duration;
-    if (!HasRoom(answer)) return answer;
-    auto together = internal::Hastened(robots_, answer, kEnough * Slowest());
+    if (IsInterrupted() || answer.duration <= Wanted()) return answer;
+    auto together = internal::Hastened(robots_, answer, Wanted());
     if (!together) return answer;
     JudgeAll(robots_, &*together);
     return together->IsSolved() ? std::move(*together) : answer;
+  }
+
+  // As good as can be expected.  Among what moves by itself a robot may be
+  // faster than it was alone, where it waited.
+  double Wanted() const {
+    for (const FleetRobot& robot : robots_) {
+      if (!robot.request.moving.empty()) return 0.0;
+    }
+    return kEnough * Slowest();
   }
 
   // Each as if there were no other robot.
@@ -266,11 +275,15 @@ class FleetSearch {
 
   // Could all arrive sooner, and has nobody ended the search?
   bool HasRoom(const FleetAnswer& answer) const {
-    for (const FleetRobot& robot : robots_) {
-      const auto& is_interrupted = robot.request.is_interrupted;
-      if (is_interrupted && is_interrupted()) return false;
-    }
-    return answer.duration > kEnough * Slowest();
+    return !IsInterrupted() && answer.duration > kEnough * Slowest();
+  }
+
+  bool IsInterrupted() const {
+    return std::any_of(
+        robots_.begin(), robots_.end(), [](const FleetRobot& robot) {
+          const auto& is_interrupted = robot.request.is_interrupted;
+          return is_interrupted && is_interrupted();
+        });
   }
 
   double Slowest() const {  // alone

@@ -52,8 +52,9 @@ struct FleetAnswer {
 // answer.  The first order begins with the robots that stay where they are;
 // then come the others, the slowest first.  A robot that finds no motion goes
 // to the front, and all begin again, until this gives no new order.  Once all
-// have motions, these are made faster together if that is possible
-// (joint_curves.h); then all robots arrive at the same time.  As long as all
+// have motions, these are made faster together if that is possible, also among
+// obstacles that move and through places on the way (joint_curves.h); then all
+// robots arrive at the same time.  As long as all
 // could still arrive sooner, the last robot to arrive by the order goes earlier
 // in some more orders, and the soonest end is kept: no more orders with the
 // preset fast, one with balanced, six with tight (the largest preset of the

@@ -13,11 +13,7 @@ namespace phongpd::internal {
 namespace {
 
 bool Stays(const FleetRobot& robot) {
-  return robot.request.start == robot.request.goal;
-}
-
-bool IsForJoint(const FleetRobot& robot) {
-  return robot.request.moving.empty() && robot.request.via.empty();
+  return robot.request.start == robot.request.goal && robot.request.via.empty();
 }
 
 JointTask TaskOf(const std::vector<FleetRobot>& robots,
@@ -32,9 +28,15 @@ JointTask TaskOf(const std::vector<FleetRobot>& robots,
     if (options.preset == Preset::kTight) task.halvings = 1;
     if (options.is_interrupted) task.is_interrupted = options.is_interrupted;
     const PathAnswer& own = answer.robots[i];
+    // Rows let a little of the margin go.
+    constexpr double kMore = 1.03;
+    const double required =
+        robot.request.requires_margin ? options.margin : 0.0;
     task.robots.push_back({own.evidence.free_space, options.limits,
-                           options.margin, robot.world.diagonal(), own.motion,
-                           Stays(robot)});
+                           std::max(options.margin, kMore * required), required,
+                           robot.world.diagonal(), own.motion, Stays(robot),
+                           MovingBodies(robot.world, robot.request.moving),
+                           options.via});
     for (std::size_t k = 0; k < i; ++k) {
       if (Stays(robot) && Stays(robots[k])) continue;
       const FleetRobot& other = robots[k];
@@ -57,8 +59,9 @@ void Replace(const FleetRobot& robot, const Trajectory& motion,
   // There is no more than a search behind it.
   answer->status = curve.status = PathStatus::kRoundLimit;
   answer->length = motion.ArcLength();
-  answer->clearance = curve.clearance = curve.margin =
-      ProvedClearance(*answer->evidence.free_space, {}, motion, options.margin);
+  answer->clearance = curve.clearance = curve.margin = ProvedClearance(
+      *answer->evidence.free_space,
+      MovingBodies(robot.world, robot.request.moving), motion, options.margin);
   answer->evidence.use = BoundLimitUse(motion, options.limits);
   if (!robot.request.verifies) return;
   answer->evidence.verification =
@@ -69,10 +72,7 @@ void Replace(const FleetRobot& robot, const Trajectory& motion,
 
 std::optional<FleetAnswer> Hastened(const std::vector<FleetRobot>& robots,
                                     const FleetAnswer& answer, double wanted) {
-  if (robots.size() < 2 ||
-      !std::all_of(robots.begin(), robots.end(), IsForJoint)) {
-    return std::nullopt;
-  }
+  if (robots.size() < 2) return std::nullopt;
   const JointMotions joint = HastenTogether(TaskOf(robots, answer, wanted));
   if (joint.motions.empty()) return std::nullopt;
   FleetAnswer hastened = answer;
