@@ -143,6 +143,7 @@ class FleetSearch {
     FindFirst(FirstOrder(), &by_order);
     if (!by_order.IsSolved()) return by_order;
     FleetAnswer best = Hastened(by_order);
+    if (TurnsAreFaster(by_order, &best)) return best;
     int tries = by_order.tries;
     for (int more = MostMore(); more > 0 && HasRoom(best); --more) {
       const std::optional<Order> order = NextOrder(by_order);
@@ -170,6 +171,18 @@ class FleetSearch {
     if (!together) return answer;
     JudgeAll(robots_, &*together);
     return together->IsSolved() ? std::move(*together) : answer;
+  }
+
+  // From motions that all turn the same way; other orders are no better then.
+  bool TurnsAreFaster(const FleetAnswer& by_order, FleetAnswer* best) const {
+    if (!HasRoom(*best)) return false;
+    auto turned = internal::HastenedInTurns(robots_, by_order, Wanted());
+    if (!turned || turned->duration >= best->duration) return false;
+    turned->by_order = by_order.duration;
+    JudgeAll(robots_, &*turned);
+    if (!turned->IsSolved()) return false;
+    *best = std::move(*turned);
+    return true;
   }
 
   // As good as can be expected.  Among what moves by itself a robot may be

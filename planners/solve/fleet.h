@@ -60,6 +60,10 @@ struct FleetAnswer {
 // preset fast, one with balanced, six with tight (the largest preset of the
 // requests counts).
 //
+// Where all could still arrive sooner, motions on which all turn the same way
+// (joint_turns.h) are made faster together as well; where these arrive sooner,
+// they are the answer, and no more orders are tried.
+//
 // The answer is certified for each pair and for all t ≥ 0.  No answer is no
 // proof that there is none.  kVerificationFailed: a pair is not free, or is
 // refuted on the solids, if a request asks to verify.

@@ -14,4 +14,12 @@ namespace phongpd::internal {
 std::optional<FleetAnswer> Hastened(const std::vector<FleetRobot>& robots,
                                     const FleetAnswer& answer, double wanted);
 
+// The same from motions that all turn the same way (joint_turns.h), whatever
+// the answer's were: who passes on which side of whom is another.  None: these
+// are not free of each other or of what is fixed, or there are obstacles that
+// move by themselves or places on the way.
+std::optional<FleetAnswer> HastenedInTurns(
+    const std::vector<FleetRobot>& robots, const FleetAnswer& answer,
+    double wanted);
+
 }  // namespace phongpd::internal
