@@ -143,6 +143,7 @@ class FleetSearch {
     FindFirst(FirstOrder(), &by_order);
     if (!by_order.IsSolved()) return by_order;
     FleetAnswer best = Hastened(by_order);
+    if (TurnsAreFaster(by_order, &best)) return best;
     int tries = by_order.tries;
     for (int more = MostMore(); more > 0 && HasRoom(best); --more) {
       const std::optional<Order> order = NextOrder(by_order);
@@ -165,11 +166,32 @@ class FleetSearch {
   // Made faster together, where that is certified.
   FleetAnswer Hastened(FleetAnswer answer) const {
     answer.by_order = answer.duration;
-    if (!HasRoom(answer)) return answer;
-    auto together = internal::Hastened(robots_, answer, kEnough * Slowest());
+    if (IsInterrupted() || answer.duration <= Wanted()) return answer;
+    auto together = internal::Hastened(robots_, answer, Wanted());
     if (!together) return answer;
     JudgeAll(robots_, &*together);
     return together->IsSolved() ? std::move(*together) : answer;
+  }
+
+  // From motions that all turn the same way; other orders are no better then.
+  bool TurnsAreFaster(const FleetAnswer& by_order, FleetAnswer* best) const {
+    if (!HasRoom(*best)) return false;
+    auto turned = internal::HastenedInTurns(robots_, by_order, Wanted());
+    if (!turned || turned->duration >= best->duration) return false;
+    turned->by_order = by_order.duration;
+    JudgeAll(robots_, &*turned);
+    if (!turned->IsSolved()) return false;
+    *best = std::move(*turned);
+    return true;
+  }
+
+  // As good as can be expected.  Among what moves by itself a robot may be
+  // faster than it was alone, where it waited.
+  double Wanted() const {
+    for (const FleetRobot& robot : robots_) {
+      if (!robot.request.moving.empty()) return 0.0;
+    }
+    return kEnough * Slowest();
   }
 
   // Each as if there were no other robot.
@@ -266,11 +288,15 @@ class FleetSearch {
 
   // Could all arrive sooner, and has nobody ended the search?
   bool HasRoom(const FleetAnswer& answer) const {
-    for (const FleetRobot& robot : robots_) {
-      const auto& is_interrupted = robot.request.is_interrupted;
-      if (is_interrupted && is_interrupted()) return false;
-    }
-    return answer.duration > kEnough * Slowest();
+    return !IsInterrupted() && answer.duration > kEnough * Slowest();
+  }
+
+  bool IsInterrupted() const {
+    return std::any_of(
+        robots_.begin(), robots_.end(), [](const FleetRobot& robot) {
+          const auto& is_interrupted = robot.request.is_interrupted;
+          return is_interrupted && is_interrupted();
+        });
   }
 
   double Slowest() const {  // alone

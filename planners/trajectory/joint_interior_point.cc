@@ -35,7 +35,7 @@ JointInteriorPoint::JointInteriorPoint(const JointProgram& program)
   for (int i = 0; i < unknowns_.pieces(); ++i) {
     for (int c = 0; c < unknowns_.curves(); ++c) AddLines(c, i);
   }
-  AddPairs();
+  AddJointRows();
   unknowns_.AddObjective(&hessian_, &linear_);
 }
 
@@ -98,8 +98,8 @@ void JointInteriorPoint::AddNormLines(int curve, const Row& row,
   lines->push_back(line);
 }
 
-void JointInteriorPoint::AddPairs() {
-  for (const JointProgram::PairRow& row : program_.pairs) {
+void JointInteriorPoint::AddJointRows() {
+  for (const JointProgram::Row& row : program_.rows) {
     Line line;
     line.first = row.first;
     line.second = row.second;
@@ -107,6 +107,9 @@ void JointInteriorPoint::AddPairs() {
     line.to = row.to;
     line.weight = row.weight;
     line.direction = row.direction;
+    line.eta = row.eta;
+    line.theta = row.theta;
+    line.t = row.t;
     line.side[0].constant = row.constant;
     lines_[row.piece].push_back(line);
   }
@@ -114,7 +117,8 @@ void JointInteriorPoint::AddPairs() {
 
 double JointInteriorPoint::Along(const Line& line,
                                  const VectorXd& local) const {
-  double along = line.eta * local[unknowns_.EtaAt()];
+  double along = line.eta * local[unknowns_.EtaAt()] +
+                 line.theta * local[unknowns_.ThetaAt()];
   if (line.first < 0) return along;
   for (int j = line.from; j <= line.to; ++j) {
     const int at = 18 * line.first + 3 * j;
@@ -133,6 +137,12 @@ double JointInteriorPoint::Along(const Line& line,
 void JointInteriorPoint::AddSquare(const Line& line, double by,
                                    MatrixXd* matrix) const {
   MatrixXd& m = *matrix;
+  if (line.theta != 0.0) {  // few have that
+    VectorXd gradient = VectorXd::Zero(m.rows());
+    AddLine(line, 1.0, &gradient);
+    m += by * gradient * gradient.transpose();
+    return;
+  }
   const int eta = unknowns_.EtaAt();
   m(eta, eta) += by * line.eta * line.eta;
   if (line.first < 0) return;
@@ -170,6 +180,7 @@ void JointInteriorPoint::AddSquare(const Line& line, double by,
 void JointInteriorPoint::AddLine(const Line& line, double by,
                                  VectorXd* local) const {
   (*local)[unknowns_.EtaAt()] += by * line.eta;
+  (*local)[unknowns_.ThetaAt()] += by * line.theta;
   if (line.first < 0) return;
   for (int j = line.from; j <= line.to; ++j) {
     const Vector3d part = by * line.weight[j] * line.direction;
@@ -178,9 +189,20 @@ void JointInteriorPoint::AddLine(const Line& line, double by,
   }
 }
 
+// Half as far as rows let it that more time is bad for.
+double JointInteriorPoint::FirstT() const {
+  double t = kStartT;
+  for (const auto& of_piece : lines_) {
+    for (const Line& line : of_piece) {
+      if (line.t > 0.0) t = std::min(t, -0.5 * line.side[0].constant / line.t);
+    }
+  }
+  return std::max(t, 0.0);
+}
+
 // Duals are μ/slack, with the μ that the price of t asks for.
 bool JointInteriorPoint::Begin(VectorXd* x, int* rows) {
-  (*x)[x->size() - 1] = kStartT;
+  (*x)[x->size() - 1] = FirstT();
   double of_t = 0.0;
   for (int i = 0; i < unknowns_.pieces(); ++i) {
     const VectorXd local = unknowns_.ToLocal(i, *x);

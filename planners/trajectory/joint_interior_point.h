@@ -37,7 +37,7 @@ class JointInteriorPoint {
     int axis = -1;  // of the direction, or −1
     Eigen::Matrix<double, 6, 1> weight = Eigen::Matrix<double, 6, 1>::Zero();
     Eigen::Vector3d direction = Eigen::Vector3d::Zero();
-    double eta = 0.0, t = 0.0;
+    double eta = 0.0, theta = 0.0, t = 0.0;
     int sides = 1;
     std::array<Side, 2> side;
   };
@@ -45,11 +45,12 @@ class JointInteriorPoint {
   void AddLines(int curve, int piece);
   void AddNormLines(int curve, const CurveProgram::Row& row,
                     std::vector<Line>* lines) const;
-  void AddPairs();
+  void AddJointRows();
 
   double Along(const Line& line, const Eigen::VectorXd& local) const;
   void AddSquare(const Line& line, double by, Eigen::MatrixXd* m) const;
   void AddLine(const Line& line, double by, Eigen::VectorXd* local) const;
+  double FirstT() const;
   bool Begin(Eigen::VectorXd* x, int* rows);
   double AddRows(WideTridiagonal* matrix, Eigen::VectorXd* residual) const;
   double FollowRows(const Eigen::VectorXd& step, double centre);

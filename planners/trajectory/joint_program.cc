@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "planners/trajectory/joint_program.h"
 
+#include <cmath>
+
 namespace phongpd::internal {
 namespace {
 
@@ -17,10 +19,22 @@ JointUnknowns::JointUnknowns(const JointProgram& program)
     : program_(program),
       curves_(static_cast<int>(program.curves.size())),
       pieces_(static_cast<int>(program.curves[0].pieces.size())),
-      block_(9 * curves_ + 1) {}
+      block_(9 * curves_ + 1) {
+  for (int c = 0; c < curves_; ++c) {
+    const bool stays = program.stays[static_cast<std::size_t>(c)];
+    is_fixed_.insert(is_fixed_.end(), static_cast<std::size_t>(pieces_), stays);
+    is_fixed_[static_cast<std::size_t>(c * pieces_)] = true;
+  }
+  for (std::size_t c = 0; c < program.rests.size(); ++c) {
+    for (const int knot : program.rests[c]) {
+      is_fixed_[c * static_cast<std::size_t>(pieces_) +
+                static_cast<std::size_t>(knot)] = true;
+    }
+  }
+}
 
-void JointUnknowns::AddJerk(int piece, WideTridiagonal* hessian,
-                            VectorXd* linear) const {
+void JointUnknowns::AddPiece(int piece, WideTridiagonal* hessian,
+                             VectorXd* linear) const {
   // ∫ of products of the quadratic Bernstein polynomials, times 30.
   Eigen::Matrix3d products;
   products << 6, 3, 1, 3, 4, 3, 1, 3, 6;
@@ -42,36 +56,34 @@ void JointUnknowns::AddJerk(int piece, WideTridiagonal* hessian,
       }
     }
   }
-  const CurveProgram::Piece& of = program_.curves[0].pieces[piece];
-  gradient[EtaAt()] += of.share;
-  matrix(EtaAt(), EtaAt()) += of.share;
+  const CurveProgram& first = program_.curves[0];
+  const CurveProgram::Piece& of = first.pieces[piece];
+  // Σ share·η is 0.  Durations are drawn to their mean.
+  matrix(EtaAt(), EtaAt()) += of.share + 2.0 * first.evenness;
+  gradient[EtaAt()] += 2.0 * first.evenness * std::log(Share(piece));
   AddGradient(piece, gradient, linear);
   AddMatrix(piece, &matrix, hessian);
 }
 
 void JointUnknowns::AddObjective(WideTridiagonal* hessian,
                                  VectorXd* linear) const {
-  const int eta = block_ - 1;
-  const CurveProgram& first = program_.curves[0];
   for (int i = 0; i < pieces_; ++i) {
-    AddJerk(i, hessian, linear);
+    AddPiece(i, hessian, linear);
     hessian->diagonal[i].diagonal().array() += kProximal;
-    if (i == 0) continue;
-    const double by = 2.0 * first.evenness;
-    const double jump =
-        first.pieces[i].log_duration - first.pieces[i - 1].log_duration;
-    hessian->diagonal[i](eta, eta) += by;
-    hessian->diagonal[i - 1](eta, eta) += by;
-    hessian->above[i - 1](eta, eta) -= by;
-    (*linear)[block_ * i + eta] += by * jump;
-    (*linear)[block_ * (i - 1) + eta] -= by * jump;
   }
-  (*linear)[linear->size() - 1] = first.t;
+  (*linear)[linear->size() - 1] = program_.curves[0].t;
+}
+
+double JointUnknowns::EtaOf(int piece, const VectorXd& x) const {
+  const auto theta = [&](int k) {
+    return k < pieces_ ? x[block_ * k + block_ - 1] : 0.0;
+  };
+  return (theta(piece + 1) - theta(piece)) / Share(piece);
 }
 
 VectorXd JointUnknowns::ToLocal(int piece, const VectorXd& x) const {
   VectorXd local(TAt() + 1);
-  const double eta = x[block_ * piece + block_ - 1];
+  const double eta = EtaOf(piece, x);
   for (int c = 0; c < curves_; ++c) {
     const CurveProgram::Piece& of = program_.curves[c].pieces[piece];
     const double r = of.before, s = of.after;
@@ -93,6 +105,7 @@ VectorXd JointUnknowns::ToLocal(int piece, const VectorXd& x) const {
     for (int j = 0; j < 6; ++j) b.segment<3>(3 * j) += eta * of.by_eta.col(j);
   }
   local[EtaAt()] = eta;
+  local[ThetaAt()] = x[block_ * piece + block_ - 1];
   local[TAt()] = x[x.size() - 1];
   return local;
 }
@@ -119,7 +132,9 @@ void JointUnknowns::AddGradient(int piece, const VectorXd& local,
     to.segment<3>(3) -= s * (b4 + 2.0 * b3);
     to.segment<3>(6) += s * s * b3;
   }
-  (*x)[block_ * piece + block_ - 1] += eta;
+  eta /= Share(piece);
+  (*x)[block_ * piece + block_ - 1] += local[ThetaAt()] - eta;
+  if (piece + 1 < pieces_) (*x)[block_ * (piece + 1) + block_ - 1] += eta;
   (*x)[x->size() - 1] += local[TAt()];
 }
 
@@ -146,6 +161,9 @@ void JointUnknowns::AddMatrix(int piece, MatrixXd* local,
         b3 *= s * s;
       }
     }
+    // θ of the second knot takes the place of η.
+    m.col(EtaAt()) /= Share(piece);
+    m.col(ThetaAt()) -= m.col(EtaAt());
     m.transposeInPlace();
   }
   AddBlocks(piece, m, to);
@@ -154,42 +172,62 @@ void JointUnknowns::AddMatrix(int piece, MatrixXd* local,
 void JointUnknowns::AddBlocks(int piece, const MatrixXd& m,
                               WideTridiagonal* to) const {
   // The order after, of each curve: p v a of the first knot; a v p of the
-  // second.
-  const int eta = block_ - 1;
+  // second; then θ of the second, and of the first.
+  const int theta = block_ - 1;
   const auto of_second = [](int o) { return 15 - 3 * o; };
   const bool has_second = piece + 1 < pieces_;
   auto& here = to->diagonal[piece];
+  auto& above = to->above[piece];
   for (int a = 0; a < curves_; ++a) {
     const int at = 18 * a;
-    here.block<9, 1>(9 * a, eta) += m.block<9, 1>(at, EtaAt());
-    here.block<1, 9>(eta, 9 * a) += m.block<1, 9>(EtaAt(), at);
+    here.block<9, 1>(9 * a, theta) += m.block<9, 1>(at, ThetaAt());
+    here.block<1, 9>(theta, 9 * a) += m.block<1, 9>(ThetaAt(), at);
     to->border[piece].segment<9>(9 * a) += m.block<9, 1>(at, TAt());
-    for (int o = 0; has_second && o < 3; ++o) {
+    if (!has_second) {
+      for (int b = 0; b < curves_; ++b) {
+        here.block<9, 9>(9 * a, 9 * b) += m.block<9, 9>(at, 18 * b);
+      }
+      continue;
+    }
+    auto& next = to->diagonal[piece + 1];
+    above.block<9, 1>(9 * a, theta) += m.block<9, 1>(at, EtaAt());
+    for (int o = 0; o < 3; ++o) {
       const int column = at + of_second(o);
-      to->above[piece].block<1, 3>(eta, 9 * a + 3 * o) +=
-          m.block<1, 3>(EtaAt(), column);
+      above.block<1, 3>(theta, 9 * a + 3 * o) +=
+          m.block<1, 3>(ThetaAt(), column);
+      next.block<1, 3>(theta, 9 * a + 3 * o) += m.block<1, 3>(EtaAt(), column);
+      next.block<3, 1>(9 * a + 3 * o, theta) += m.block<3, 1>(column, EtaAt());
       to->border[piece + 1].segment<3>(9 * a + 3 * o) +=
           m.block<3, 1>(column, TAt());
     }
     for (int b = 0; b < curves_; ++b) {
       here.block<9, 9>(9 * a, 9 * b) += m.block<9, 9>(at, 18 * b);
-      for (int o = 0; has_second && o < 3; ++o) {
+      for (int o = 0; o < 3; ++o) {
         const int column = 18 * b + of_second(o);
-        to->above[piece].block<9, 3>(9 * a, 9 * b + 3 * o) +=
-            m.block<9, 3>(at, column);
+        above.block<9, 3>(9 * a, 9 * b + 3 * o) += m.block<9, 3>(at, column);
         for (int q = 0; q < 3; ++q) {
-          to->diagonal[piece + 1].block<3, 3>(9 * a + 3 * q, 9 * b + 3 * o) +=
+          next.block<3, 3>(9 * a + 3 * q, 9 * b + 3 * o) +=
               m.block<3, 3>(at + of_second(q), column);
         }
       }
     }
   }
-  here(eta, eta) += m(EtaAt(), EtaAt());
-  to->border[piece][eta] += m(EtaAt(), TAt());
+  here(theta, theta) += m(ThetaAt(), ThetaAt());
+  to->border[piece][theta] += m(ThetaAt(), TAt());
   to->corner += m(TAt(), TAt());
+  if (!has_second) return;
+  above(theta, theta) += m(ThetaAt(), EtaAt());
+  to->diagonal[piece + 1](theta, theta) += m(EtaAt(), EtaAt());
+  to->border[piece + 1][theta] += m(EtaAt(), TAt());
 }
 
 void JointUnknowns::Fix(WideTridiagonal* matrix) const {
+  const int theta = block_ - 1;
+  matrix->diagonal[0].row(theta).setZero();
+  matrix->diagonal[0].col(theta).setZero();
+  matrix->diagonal[0](theta, theta) = 1.0;
+  matrix->above[0].row(theta).setZero();
+  matrix->border[0][theta] = 0.0;
   for (int k = 0; k < pieces_; ++k) {
     for (int c = 0; c < curves_; ++c) {
       if (!IsFixed(k, c)) continue;
@@ -205,6 +243,7 @@ void JointUnknowns::Fix(WideTridiagonal* matrix) const {
 }
 
 void JointUnknowns::Fix(VectorXd* x) const {
+  (*x)[block_ - 1] = 0.0;
   for (int k = 0; k < pieces_; ++k) {
     for (int c = 0; c < curves_; ++c) {
       if (IsFixed(k, c)) x->segment<9>(block_ * k + 9 * c).setZero();

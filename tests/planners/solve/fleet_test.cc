@@ -90,7 +90,7 @@ TEST(Fleet, RobotsChangePlacesInARoom) {
     const FleetAnswer answer = OptimizeFleet(robots);
     ExpectApart(robots, answer);
     EXPECT_GE(answer.duration, 0.99 * alone);
-    EXPECT_LE(answer.duration, 1.15 * alone);
+    EXPECT_LE(answer.duration, 1.05 * alone);
     EXPECT_LE(answer.duration, answer.by_order);
     if (count == 2) continue;  // they pass each other as if alone
     // Together all arrive at the same time, and sooner than by any order.
@@ -115,8 +115,7 @@ TEST(Fleet, IsMadeFasterTogetherWithinLimitsOfTheNorm) {
   EXPECT_LT(answer.duration, answer.by_order);
 }
 
-// One that stays does so while the others are made faster around it, and times
-// of places on the way are not changed.
+// One that stays does so while the others are made faster around it.
 TEST(Fleet, IsMadeFasterAroundWhoStays) {
   std::vector<FleetRobot> robots = Circle(6);
   robots.push_back(Robot("stays", robots[0].world, {0, 0, 0}, {0, 0, 0}));
@@ -128,8 +127,6 @@ TEST(Fleet, IsMadeFasterAroundWhoStays) {
     EXPECT_EQ(answer.robots[6].motion.At(t * answer.duration).position,
               Vector3d(0, 0, 0));
   }
-  robots[0].request.via = {{0.5 * robots[0].request.start}};
-  EXPECT_EQ(OptimizeFleet(robots).rounds_together, 0);
 }
 
 // The second one stands in the first one's way and has to leave before it
@@ -275,6 +272,8 @@ TEST(Fleet, LetsTheSlowestAloneGoFirst) {
 // What more orders find is certified, and no later than the first.
 TEST(Fleet, TriesMoreOrdersForASoonerEnd) {
   std::vector<FleetRobot> robots = Circle(3);
+  // With a place on the way they do not all turn the same way instead.
+  robots[0].request.via = {{0.5 * robots[0].request.start}};
   const FleetAnswer first = OptimizeFleet(robots);
   ASSERT_EQ(first.tries, 1);
   // The last one's preset counts for the orders, and its own motion alone.

@@ -39,11 +39,12 @@ JointProgram Alone(const KnotCurve& curve, bool by_norm) {
 }
 
 // What the time is to fall by.
-double Predicted(const KnotCurve& curve, int curves, const VectorXd& x) {
-  const int block = 9 * curves + 1;
+double Predicted(const KnotCurve& curve, const JointProgram& program,
+                 const VectorXd& x) {
+  const JointUnknowns unknowns(program);
   double total = 0.0;
   for (int k = 0; k < curve.pieces(); ++k) {
-    total += curve.durations[k] * std::exp(x[block * k + block - 1]);
+    total += curve.durations[k] * std::exp(unknowns.EtaOf(k, x));
   }
   return 1.0 - total * (1.0 + x[x.size() - 1]) / curve.Duration();
 }
@@ -55,7 +56,7 @@ TEST(JointInteriorPoint, IsTheProgramOfOneCurveWhereThereIsOne) {
   const CurveStep truth = SolveCurveProgram(
       curve, std::vector<PieceCells>(kPieces), Options(false));
   ASSERT_GT(truth.predicted, 0.05);
-  EXPECT_NEAR(Predicted(curve, 1, result.x), truth.predicted,
+  EXPECT_NEAR(Predicted(curve, program, result.x), truth.predicted,
               0.05 * truth.predicted);
   EXPECT_EQ(result.rows, truth.rows);
 }
@@ -70,7 +71,7 @@ TEST(JointInteriorPoint, LeavesCurvesWithoutRowsBetweenThemAlone) {
     two.stays.push_back(false);
     const VectorXd a = JointInteriorPoint(one).Solve().x;
     const VectorXd b = JointInteriorPoint(two).Solve().x;
-    EXPECT_NEAR(Predicted(curve, 1, a), Predicted(curve, 2, b), 2e-3);
+    EXPECT_NEAR(Predicted(curve, one, a), Predicted(curve, two, b), 2e-3);
     for (int k = 1; k < kPieces; ++k) {
       EXPECT_LT((b.segment<9>(19 * k) - b.segment<9>(19 * k + 9)).norm(), 1e-6);
     }
@@ -78,7 +79,7 @@ TEST(JointInteriorPoint, LeavesCurvesWithoutRowsBetweenThemAlone) {
 }
 
 // The points of a piece that x moves, and how a row stands.
-double Value(const JointProgram& program, const JointProgram::PairRow& row,
+double Value(const JointProgram& program, const JointProgram::Row& row,
              const VectorXd& x) {
   const int curves = static_cast<int>(program.curves.size());
   const int block = 9 * curves + 1;
@@ -100,7 +101,7 @@ double Value(const JointProgram& program, const JointProgram::PairRow& row,
       b.col(3) = b.col(5) - 2 * of.after * to.segment<3>(3) +
                  of.after * of.after * to.tail<3>();
     }
-    b += x[block * row.piece + block - 1] * of.by_eta;
+    b += JointUnknowns(program).EtaOf(row.piece, x) * of.by_eta;
     value += sign * row.direction.dot(b * row.weight);
   }
   return value;
@@ -117,7 +118,7 @@ TEST(JointInteriorPoint, KeepsRowsBetweenCurves) {
   // The second has to move away from the first by more than it would.
   for (int j = 0; j < 6; ++j) {
     for (const int piece : {1, 2}) {
-      JointProgram::PairRow row;
+      JointProgram::Row row;
       row.piece = piece;
       row.first = 0;
       row.second = 1;
@@ -126,15 +127,16 @@ TEST(JointInteriorPoint, KeepsRowsBetweenCurves) {
       // The difference along x stays what it is to a hundredth of τ.
       row.direction = Vector3d(piece == 1 ? 1.0 : -1.0, 0.0, 0.0);
       row.constant = -0.01;
-      program.pairs.push_back(row);
+      program.rows.push_back(row);
     }
   }
   const VectorXd x = JointInteriorPoint(program).Solve().x;
-  for (const JointProgram::PairRow& row : program.pairs) {
+  for (const JointProgram::Row& row : program.rows) {
     EXPECT_LT(Value(program, row, x), 0.0);
   }
-  EXPECT_LE(Predicted(curves[0], 2, x), Predicted(curves[0], 2, free) + 1e-3);
-  EXPECT_GT(Predicted(curves[0], 2, x), 0.05);
+  EXPECT_LE(Predicted(curves[0], program, x),
+            Predicted(curves[0], program, free) + 1e-3);
+  EXPECT_GT(Predicted(curves[0], program, x), 0.05);
   // A curve that stays does not move, and the other one still may.
   program.stays[1] = true;
   const VectorXd fixed = JointInteriorPoint(program).Solve().x;
@@ -150,14 +152,15 @@ TEST(JointInteriorPoint, TakesNoStepFromOutside) {
   JointProgram program = Alone(curve, false);
   program.curves.push_back(program.curves[0]);
   program.stays.push_back(false);
-  JointProgram::PairRow row;
+  JointProgram::Row row;
   row.piece = 1;
+  row.first = 0;
   row.second = 1;
   row.from = row.to = 2;
   row.weight[2] = 1.0;
   row.direction = Vector3d(1, 0, 0);
   row.constant = 0.5;
-  program.pairs.push_back(row);
+  program.rows.push_back(row);
   const auto result = JointInteriorPoint(program).Solve();
   EXPECT_TRUE(result.x.isZero(0.0));
   EXPECT_EQ(result.iterations, 0);
