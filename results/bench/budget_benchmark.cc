@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Purpose: which flags of plan and optimize answer within a budget of processor
+// seconds, builds included, by the number of triangles.  Writes the rows of
+// which budget_report.py makes the table that --budget picks by.
+#include <CLI/CLI.hpp>
+#include <iostream>
+
+#include "planners/ompl/ompl_planning.h"
+#include "results/bench/budget_measure.h"
+#include "results/bench/program.h"
+
+namespace phongpd::bench {
+namespace {
+
+int Run(int argc, char** argv) {
+  CLI::App app("Flags within budgets: rows.");
+  std::string directory;
+  std::size_t least = 1000, most = 1000000;
+  BudgetOptions options;
+  app.add_option("--output", directory, "Directory to write into")->required();
+  app.add_option("--seed", options.seed)->capture_default_str();
+  app.add_option("--seeds", options.seeds, "Problems of each pair")
+      ->capture_default_str();
+  app.add_option("--least", least, "Of decades of triangles, from this one")
+      ->capture_default_str();
+  app.add_option("--most", most, "... to this one")->capture_default_str();
+  CLI11_PARSE(app, argc, argv);
+  SilenceOmpl();
+  std::vector<BudgetRow> rows;
+  for (const BudgetCase& pair : BudgetCases()) {
+    if (pair.decade < least || pair.decade > most) continue;
+    const std::vector<BudgetRow> added = MeasureBudget(pair, options);
+    std::cout << ToText(BudgetTable(added).table) << std::endl;
+    rows.insert(rows.end(), added.begin(), added.end());
+    // As soon as they are known: the last pairs take longest.
+    OutputDirectory out(directory);
+    const NamedTable table = BudgetTable(rows);
+    out.Write(table.file, ToCsv(table.table));
+    out.Write("budget_measured.txt",
+              Circumstances(CommandLine("build/budget_benchmark", argc, argv),
+                            options.seed) +
+                  "\n");
+    out.Commit();
+  }
+  return 0;
+}
+
+}  // namespace
+}  // namespace phongpd::bench
+
+int main(int argc, char** argv) {
+  return phongpd::bench::RunProgram("budget_benchmark", phongpd::bench::Run,
+                                    argc, argv);
+}
