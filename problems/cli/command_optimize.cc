@@ -60,7 +60,17 @@ void RequireMetricIsFollowed(const OptimizeFlags& flags, const Scene& scene) {
   }
 }
 
+void TakeBudget(const OptimizeFlags& flags, Scene* scene) {
+  if (flags.budget.empty()) return;
+  OptimizeRequest request;
+  ApplyBudget(BudgetOf(flags.budget), scene->workspace, &request);
+  scene->preset = request.preset;
+  scene->trajectory.model = request.model;
+  scene->penetration.metric = request.penetration.metric;
+}
+
 void Override(const OptimizeFlags& flags, Scene* scene) {
+  TakeBudget(flags, scene);
   SetPreset(flags.preset, scene);
   if (!flags.model.empty()) {
     scene->trajectory.model = ParseModel(flags.model, "--model");
@@ -180,7 +190,7 @@ void TellTrajectoryModel(const PathAnswer& answer) {
 // Of the paper's optimiser nothing runs, and what would steer it says nothing.
 void RequireTimed(const OptimizeFlags& flags, const std::string& what) {
   for (const char* name :
-       {"--metric", "--smoothing-length", "--jacobian", "--start",
+       {"--budget", "--metric", "--smoothing-length", "--jacobian", "--start",
         "--start-noise", "--line", "--rows", "--mu-strategy", "--polish",
         "--per-obstacle", "--runs", "--svg"}) {
     if (flags.app->count(name) == 0) continue;
@@ -366,6 +376,7 @@ int AnswerOptimize(const OptimizeFlags& flags) {
 Command AddOptimize(CLI::App* app) {
   auto flags = std::make_shared<OptimizeFlags>();
   AddScene(app, flags.get());
+  AddBudget(app, "preset, model and metric", &flags->budget);
   AddPreset(app, kOptimizePresetHelp, &flags->preset);
   AddMetricFlags(app, flags.get());
   AddStartFlags(app, flags.get());

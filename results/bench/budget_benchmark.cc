@@ -3,6 +3,7 @@
 // seconds, builds included, by the number of triangles.  Writes the rows of
 // which budget_report.py makes the table that --budget picks by.
 #include <CLI/CLI.hpp>
+#include <filesystem>
 #include <iostream>
 
 #include "planners/ompl/ompl_planning.h"
@@ -26,6 +27,8 @@ int Run(int argc, char** argv) {
   app.add_option("--most", most, "... to this one")->capture_default_str();
   CLI11_PARSE(app, argc, argv);
   SilenceOmpl();
+  options.cache = directory + "/budget_cache";
+  std::filesystem::remove_all(options.cache);
   std::vector<BudgetRow> rows;
   for (const BudgetCase& pair : BudgetCases()) {
     if (pair.decade < least || pair.decade > most) continue;
@@ -41,6 +44,7 @@ int Run(int argc, char** argv) {
                             options.seed) +
                   "\n");
     out.Commit();
+    std::filesystem::remove_all(options.cache);
   }
   return 0;
 }

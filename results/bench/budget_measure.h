@@ -27,7 +27,9 @@ struct BudgetRow {
   std::string family, flags, status;
   std::size_t decade = 0, triangles = 0;
   std::uint64_t seed = 0;
-  double build = 0.0;    // processor seconds, of contact space or free space
+  // Processor seconds, of free space, or of the contact space, whose build is
+  // measured once for each case.
+  double build = 0.0;
   double answer = 0.0;   // the same, of all that came after
   bool is_free = false;  // by the exact judge, and all the way to the goal
   double length = 0.0, clearance = 0.0;  // of the path, shares of D
@@ -35,7 +37,8 @@ struct BudgetRow {
 
 struct BudgetOptions {
   std::uint64_t seed = 1;
-  int seeds = 2;  // problems of each case
+  int seeds = 2;      // problems of each case
+  std::string cache;  // a folder for contact spaces, empty at first
 };
 
 // What takes more than this is measured no further: status "over".  A model
