@@ -269,6 +269,7 @@ if [[ $suite == trade || $suite == all ]]; then
   build/defaults_benchmark --output results/trade --scenes "${scenes[@]}"
   python3 -B results/bench/defaults_report.py --output results/trade
   # More problems of each pair: TRADE_SEEDS=10 scripts/bench.sh trade.
+  rm -f results/trade/budget.csv results/trade/budget_measured.txt
   build/budget_benchmark --output results/trade --seeds "${TRADE_SEEDS:-2}"
   python3 -B results/bench/budget_report.py --output results/trade
   python3 -B results/bench/trade_report.py --output results/trade

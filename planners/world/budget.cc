@@ -15,8 +15,26 @@ const std::vector<BudgetChoice>& BudgetChoices() {
   constexpr BudgetUse kPlan = BudgetUse::kPlan,
                       kOptimize = BudgetUse::kOptimize;
   static const std::vector<BudgetChoice> choices = {
-      {kPlan, 1000, 0.01, "--model window --preset fast", 0, 8},
-      // END
+      {kPlan, 1000, 0.01, "--planner rrt-connect --model window", 0, 8},
+      {kPlan, 1000, 0.1, "--planner rrt-connect --model window", 8, 8},
+      {kPlan, 1000, 1, "--model full --preset tight", 8, 8},
+      {kPlan, 1000, 10, "--model full --preset tight", 8, 8},
+      {kPlan, 10000, 0.01, "--planner rrt-connect --model window", 0, 2},
+      {kPlan, 10000, 0.1, "--planner rrt-connect --model window", 1, 2},
+      {kPlan, 10000, 1, "--model full --preset tight", 2, 2},
+      {kPlan, 10000, 10, "--model full --preset tight", 2, 2},
+      {kOptimize, 1000, 0.01, "--model window --preset fast --metric euclidean",
+       0, 8},
+      {kOptimize, 1000, 0.1, "--model window --preset fast --metric euclidean",
+       7, 8},
+      {kOptimize, 1000, 1,
+       "--model window --preset balanced --metric euclidean", 8, 8},
+      {kOptimize, 1000, 10,
+       "--model window --preset balanced --metric euclidean", 8, 8},
+      {kOptimize, 10000, 0.01, "--model window --preset balanced", 0, 2},
+      {kOptimize, 10000, 0.1, "--model window --preset balanced", 0, 2},
+      {kOptimize, 10000, 1, "--model window --preset balanced", 2, 2},
+      {kOptimize, 10000, 10, "--model window --preset balanced", 2, 2},
   };
   return choices;
 }
@@ -39,6 +57,17 @@ const BudgetChoice& ChoiceFor(BudgetUse use, std::size_t triangles,
   for (const BudgetChoice& choice : BudgetChoices()) {
     if (choice.use != use) continue;
     if (best == nullptr || is_better(choice, *best)) best = &choice;
+  }
+  constexpr double kBeyond = 3.2;  // √10: half way to the next size
+  if (static_cast<double>(triangles) >
+      kBeyond * static_cast<double>(best->triangles)) {
+    throw InputError("budget: expected at most " +
+                     FormatDouble(std::floor(
+                         kBeyond * static_cast<double>(best->triangles))) +
+                     " triangles of robot and obstacles, as nothing larger was "
+                     "measured, found " +
+                     std::to_string(triangles) +
+                     "; choose preset and model (docs/choosing.md)");
   }
   return *best;
 }

@@ -26,7 +26,8 @@ struct BudgetChoice {
 const std::vector<BudgetChoice>& BudgetChoices();
 
 // The cell for so many triangles, the nearest by ratio, and seconds > 0, the
-// most that are no more than these, or the least there are.
+// most that are no more than these, or the least there are.  Throws InputError
+// for more triangles than √10 times the most that were measured.
 const BudgetChoice& ChoiceFor(BudgetUse use, std::size_t triangles,
                               double seconds);
 

@@ -15,6 +15,7 @@ from python_report import Table, markdown, read_dicts, read_measured, write_csv
 from report_statistics import median, wilson
 from step_figure import Curve, step_figure
 
+DECADES = (1000, 10000, 100000, 1000000)
 BUDGETS = (0.01, 0.1, 1.0, 10.0)
 EQUAL = 0.95  # of a clearance: less than so much of it is another one
 USES = ("plan", "optimize")
@@ -161,6 +162,18 @@ def figure(runs, use, decade):
                        "share of problems answered", 0.005, 20.0)
 
 
+def measured(runs, decade):
+    problems = {run.problem for run in runs if run.decade == decade}
+    kinds = sorted({problem[0] for problem in problems})
+    return f"- about {decade:,} triangles: {len(problems)} problems of {', '.join(kinds)}"
+
+
+def complete(problems):
+    """Is every size there, with as many problems?"""
+    counts = [sum(p[1] == decade for p in problems) for decade in DECADES]
+    return min(counts) == max(counts)
+
+
 def page(folder, runs):
     problems = {run.problem for run in runs}
     decades = sorted({run.decade for run in runs})
@@ -171,8 +184,8 @@ def page(folder, runs):
         "Which flags answer within so many seconds, with so many triangles? Answer: "
         "the two tables, which `--budget SECONDS` of `plan` and `optimize` (in C++ "
         "`ApplyBudget`, in Python `budget=`) picks by, and `--explain` tells.", "",
-        f"n: {len(problems)} problems, {len({p[0] for p in problems})} pairs of solids "
-        "at each size (triangles of both together), ends drawn around the contact "
+        f"n: {len(problems)} problems of {len({p[0] for p in problems})} kinds of pairs "
+        "of solids (triangles: of both together), ends drawn around the contact "
         "space so that the line between them collides. Every set of flags begins in a "
         "world where nothing is built. A budget is processor time of all threads, not "
         "the wall's, as the machine had other work; builds of contact space or free "
@@ -182,8 +195,9 @@ def page(folder, runs):
         f"{EQUAL} of its clearance.", "",
         "A cell names the flags that answered most problems; of equals those of the "
         "least excess (to 0.1 %), then the quickest. Differences of a problem or two "
-        "are chance: the intervals say so. Sizes that are not here were not measured; "
-        "`--budget` takes the nearest.", "",
+        "are chance: the intervals say so. `--budget` takes the nearest size, and "
+        "refuses one beyond √10 times the largest that was measured.", "",
+        *(measured(runs, decade) for decade in decades), "",
     ]
     for use, title in (("optimize", "Trajectories: `optimize`"),
                        ("plan", "Paths, retraction among them: `plan`")):
@@ -206,7 +220,10 @@ def page(folder, runs):
                                           table.header, table.rows, table.file), "",
              "Rows: [budget.csv](budget.csv); more problems of each pair: "
              "`TRADE_SEEDS=10 scripts/bench.sh trade`.", "",
-             read_measured(folder, "budget_measured.txt"), ""]
+             ("" if complete(problems) else
+              "The program goes from a thousand to a million triangles; what is missing "
+              "here was not reached when it was cut off. ")
+             + read_measured(folder, "budget_measured.txt"), ""]
     return "\n".join(text)
 
 

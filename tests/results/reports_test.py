@@ -21,7 +21,8 @@ import report_statistics as statistics  # noqa: E402
 MOST_WORDS = 1500  # of a page, its tables apart
 
 # Of each report: the folder of its rows, and more arguments.
-REPORTS = {"contact_space_report": ("contact-space",),
+REPORTS = {"budget_report": ("trade",),
+           "contact_space_report": ("contact-space",),
            "convergence_report": ("convergence",),
            "defaults_report": ("trade",),
            "degradation_report": ("extremes",),
