@@ -48,9 +48,10 @@ class CliExplain : public CliScenes {
 TEST_F(CliExplain, BudgetsSayWhatTheyPickedAndWhatWonOverThem) {
   const std::string plan = "plan " + Scene(TwoObstacles());
   std::vector<std::string> lines = Explain(plan + " --budget 0.1");
-  ExpectLine(lines, "budget: --planner rrt-connect --model window, for ");
-  ExpectLine(lines, "planner: rrt-connect (by --budget)");
-  ExpectLine(lines, "model: window, free space alone (by --budget)");
+  // Which flags: planners/solve/budget_test.cc.
+  ExpectLine(lines, "budget: --");
+  EXPECT_NE(testing::PrintToString(lines).find("(by --budget)"),
+            std::string::npos);
   lines = Explain(plan + " --budget 0.1 --planner contact-surface");
   ExpectLine(lines, "planner: contact-surface (by --planner)");
   lines = Explain("optimize u_axis --budget 1 --preset fast");
