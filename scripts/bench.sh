@@ -127,6 +127,7 @@ if [[ $suite == study || $suite == all ]]; then
   build/venv/bin/python -B results/bench/study_report.py results/study \
     --rows build/study/*/rows.jsonl --how "Command: \`scripts/bench.sh \
 study\`. Commit: $(git rev-parse --short HEAD)."
+  build/venv/bin/python -B results/bench/study_power.py results/study
 fi
 if [[ $suite == pipeline || $suite == all ]]; then
   scripts/build.sh phongpd
@@ -273,10 +274,14 @@ if [[ $suite == slice ]]; then
 fi
 # Last: it draws what the others measured, too.
 if [[ $suite == trade || $suite == all ]]; then
-  scripts/build.sh trade_benchmark defaults_benchmark
+  scripts/build.sh trade_benchmark defaults_benchmark budget_benchmark
   build/trade_benchmark --output results/trade --seeds 2
   . scripts/convergence_scenes.sh
   build/defaults_benchmark --output results/trade --scenes "${scenes[@]}"
   python3 -B results/bench/defaults_report.py --output results/trade
+  # More problems of each pair: TRADE_SEEDS=10 scripts/bench.sh trade.
+  rm -f results/trade/budget.csv results/trade/budget_measured.txt
+  build/budget_benchmark --output results/trade --seeds "${TRADE_SEEDS:-2}"
+  python3 -B results/bench/budget_report.py --output results/trade
   python3 -B results/bench/trade_report.py --output results/trade
 fi

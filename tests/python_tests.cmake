@@ -132,6 +132,9 @@ if(PHONGPD_HAS_PYTHON)
     add_test(NAME DirectionStudy
              COMMAND ${PHONGPD_PYTHON} -B -m pytest -q -p no:cacheprovider
                      ${CMAKE_CURRENT_SOURCE_DIR}/results/study_test.py)
+    add_test(NAME StudyPower
+             COMMAND ${PHONGPD_PYTHON} -B -m pytest -q -p no:cacheprovider
+                     ${CMAKE_CURRENT_SOURCE_DIR}/results/study_power_test.py)
     add_test(NAME TrajectoriesBenchmark
              COMMAND ${PHONGPD_PYTHON} -m pytest -q -p no:cacheprovider
                      ${CMAKE_CURRENT_SOURCE_DIR}/results/trajectories_test.py)

@@ -71,6 +71,14 @@ struct OptimizeRequest {
 // afterwards.
 void ApplyPreset(Preset preset, OptimizeRequest* request);
 
+// Writes what was measured to answer most often within so many seconds of
+// processors, builds included, for as many triangles: preset, model, metric
+// (results/trade/budget.md).  It limits nothing: time limits do.  Set other
+// values afterwards.  Of polylines: of motions in time nothing was measured.
+// Throws InputError unless seconds are finite and > 0.
+void ApplyBudget(double seconds, const Workspace& workspace,
+                 OptimizeRequest* request);
+
 // Optimises in a world.  The world builds what is needed on the first request,
 // and keeps it: contact spaces, metrics, the graph that repairs starts.  If
 // start or goal is not free, the answer says so before anything is built.

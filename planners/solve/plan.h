@@ -34,6 +34,14 @@ struct PlanRequest {
   void Validate() const;
 };
 
+// Writes what was measured to answer most often within so many seconds of
+// processors, builds included, for as many triangles: planner, model, preset
+// (results/trade/budget.md).  It limits nothing: time limits do.  A planner
+// that samples proves nothing where there is no path.  Set other values
+// afterwards. Throws InputError unless seconds are finite and > 0.
+void ApplyBudget(double seconds, const Workspace& workspace,
+                 PlanRequest* request);
+
 // Plans in a world.  The world builds what the planner needs on the first
 // request, and keeps it.  If start or goal is not free, the answer says so
 // before anything is built.  Every path is judged exactly, and again after it

@@ -15,6 +15,7 @@
 #include "core/mesh/mesh_io.h"
 #include "core/mesh/mesh_range.h"
 #include "files/descriptor.h"
+#include "planners/world/budget.h"
 #include "problems/cli/flags.h"
 #include "problems/cli/operands.h"
 #include "problems/output/text.h"
@@ -81,6 +82,24 @@ void AddField(CLI::App* app, std::string* field) {
                   "tangent planes by Newton")
       ->check(CLI::IsMember({"normal", "tangent-plane"}))
       ->capture_default_str();
+}
+
+void AddBudget(CLI::App* app, const std::string& what, std::string* budget) {
+  app->add_option("--budget", *budget,
+                  "Pick " + what +
+                      " that answered most often within so many seconds of "
+                      "processors, builds included, with about as many "
+                      "triangles (results/trade/budget.md; --explain says "
+                      "which). Other options win over it; it limits nothing, "
+                      "--time and --max-seconds do")
+      ->check(Above(0.0))
+      ->type_name("SECONDS");
+}
+
+double BudgetOf(const std::string& budget) {
+  const double seconds = ParseDouble(budget, "--budget");
+  RequireBudget(seconds, "--budget");
+  return seconds;
 }
 
 void AddPreset(CLI::App* app, const std::string& of, std::string* preset) {

@@ -80,6 +80,11 @@ PhongMetricOptions MetricOptions(const std::string& field,
                                  const Length& smoothing_length,
                                  const ContactSpace& contact);
 
+// Declares --budget, for `what` is picked by it.
+void AddBudget(CLI::App* app, const std::string& what, std::string* budget);
+// Its seconds.
+double BudgetOf(const std::string& budget);
+
 // Declares --preset, whose help says what each buys and costs `of`, and reads
 // it; empty: the scene's own.
 void AddPreset(CLI::App* app, const std::string& of, std::string* preset);

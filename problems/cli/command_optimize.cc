@@ -82,7 +82,7 @@ void TellTrajectoryModel(const PathAnswer& answer) {
 // Of the paper's optimiser nothing runs, and what would steer it says nothing.
 void RequireTimed(const OptimizeFlags& flags, const std::string& what) {
   for (const char* name :
-       {"--metric", "--smoothing-length", "--jacobian", "--start",
+       {"--budget", "--metric", "--smoothing-length", "--jacobian", "--start",
         "--start-noise", "--line", "--rows", "--mu-strategy", "--polish",
         "--per-obstacle", "--runs", "--svg"}) {
     if (flags.app->count(name) == 0) continue;
@@ -268,6 +268,7 @@ int AnswerOptimize(const OptimizeFlags& flags) {
 Command AddOptimize(CLI::App* app) {
   auto flags = std::make_shared<OptimizeFlags>();
   AddScene(app, flags.get());
+  AddBudget(app, "preset, model and metric", &flags->budget);
   AddPreset(app, kOptimizePresetHelp, &flags->preset);
   AddMetricFlags(app, flags.get());
   AddStartFlags(app, flags.get());

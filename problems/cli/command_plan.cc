@@ -27,6 +27,7 @@ namespace {
 struct PlanFlags : SeededRunFlags {
   PlanFlags() { seed = 1; }
 
+  std::string budget;
   std::string preset;
   std::string planner;
   int routes = 0;
@@ -74,6 +75,13 @@ void RequireRoutesAreCompared(const PlanFlags& flags, PlannerId planner) {
 // The scene as the flags change it, and what they ask beyond it.
 PlanRequest RequestOf(const PlanFlags& flags, Scene* scene) {
   PlanningSettings& settings = scene->planning;
+  if (!flags.budget.empty()) {
+    PlanRequest by_budget;
+    ApplyBudget(BudgetOf(flags.budget), scene->workspace, &by_budget);
+    settings.planner = by_budget.planner;
+    settings.model = by_budget.model;
+    scene->preset = by_budget.preset;
+  }
   if (!flags.planner.empty()) {
     settings.planner = ParsePlanner(flags.planner, "--planner");
   }
@@ -218,6 +226,7 @@ void AddClearance(CLI::App* app, PlanFlags* flags) {
 Command AddPlan(CLI::App* app) {
   auto flags = std::make_shared<PlanFlags>();
   AddScene(app, flags.get());
+  AddBudget(app, "planner, model and preset", &flags->budget);
   AddPreset(app, kPlanPresetHelp, &flags->preset);
   app->add_option("--planner", flags->planner,
                   "contact-surface is complete, deterministic and proves "

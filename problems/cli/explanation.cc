@@ -4,6 +4,7 @@
 #include "core/mesh/counted.h"
 #include "core/number_text.h"
 #include "planners/retraction/retraction_names.h"
+#include "planners/world/budget.h"
 #include "problems/cli/command.h"
 
 namespace phongpd::cli {
@@ -11,9 +12,32 @@ namespace {
 
 using Lines = std::vector<std::string>;
 
+bool HasBudget(const CLI::App& app) { return app.count("--budget") > 0; }
+
+// The cell that was taken, of what was measured.
+void AddBudgetLine(const CLI::App& app, BudgetUse use, const World& world,
+                   Lines* lines) {
+  if (!HasBudget(app)) return;
+  const std::size_t triangles = TrianglesOf(world.workspace());
+  const BudgetChoice& choice =
+      ChoiceFor(use, triangles, app.get_option("--budget")->as<double>());
+  lines->push_back(
+      "budget: " + choice.flags + ", for " + std::to_string(triangles) +
+      " triangles by the cell of about " + std::to_string(choice.triangles) +
+      " and " + FormatDouble(choice.seconds) + " s, where it answered " +
+      std::to_string(choice.answered) + " of " +
+      std::to_string(choice.problems) +
+      " problems in time (results/trade/budget.md)");
+}
+
 // Who chose.  A scene that says what nobody's choice would be says nothing.
 std::string Whose(const CLI::App& app, const char* flag, bool is_default) {
   if (app.count(flag) > 0) return std::string("by ") + flag;
+  const bool is_picked =
+      HasBudget(app) &&
+      (flag == std::string("--preset") || flag == std::string("--model") ||
+       flag == std::string("--planner") || flag == std::string("--metric"));
+  if (is_picked) return "by --budget";
   return is_default ? "nobody asked for another" : "by the scene";
 }
 
@@ -146,6 +170,7 @@ Lines ExplainPlan(const CLI::App& app, const World& world,
   const bool is_surface = request.planner == PlannerId::kContactSurface;
   const std::string planner = ToString(request.planner);
   Lines lines = {WorldLine(world)};
+  AddBudgetLine(app, BudgetUse::kPlan, world, &lines);
   if (is_surface) {
     ContactSurfaceOptions options;
     ApplyPreset(request.preset, &options);
@@ -196,7 +221,9 @@ Lines ExplainTrajectory(const CLI::App& app, const World& world,
     effort += request.options.also_line ? ", and the line where it collides"
                                         : ", without the colliding line";
   }
-  Lines lines = {WorldLine(world), PresetLine(app, request.preset, effort)};
+  Lines lines = {WorldLine(world)};
+  AddBudgetLine(app, BudgetUse::kOptimize, world, &lines);
+  lines.push_back(PresetLine(app, request.preset, effort));
   lines.push_back(ModelLine(
       app, request.model, answer.evidence,
       is_motion ? "its first path walks on it, no limit refused it"

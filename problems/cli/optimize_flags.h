@@ -14,6 +14,7 @@
 namespace phongpd::cli {
 
 struct OptimizeFlags : SeededRunFlags {
+  std::string budget;
   std::string preset;
   std::string metric;
   std::string smoothing_length;

@@ -40,9 +40,19 @@ void RequireMetricIsFollowed(const OptimizeFlags& flags, const Scene& scene) {
   }
 }
 
+void TakeBudget(const OptimizeFlags& flags, Scene* scene) {
+  if (flags.budget.empty()) return;
+  OptimizeRequest request;
+  ApplyBudget(BudgetOf(flags.budget), scene->workspace, &request);
+  scene->preset = request.preset;
+  scene->trajectory.model = request.model;
+  scene->penetration.metric = request.penetration.metric;
+}
+
 }  // namespace
 
 void OverrideScene(const OptimizeFlags& flags, Scene* scene) {
+  TakeBudget(flags, scene);
   SetPreset(flags.preset, scene);
   if (!flags.model.empty()) {
     scene->trajectory.model = ParseModel(flags.model, "--model");

@@ -69,9 +69,9 @@ int AnswerRuns(const SeededRunFlags& flags, const SceneSource& source,
 
 int AnswerRigidPlan(const SeededRunFlags& flags, const SceneSource& source) {
   RequireNone(flags,
-              {"--preset", "--planner", "--metric", "--model", "--routes",
-               "--max-seconds", "--max-mib", "--clearance", "--require",
-               "--ompl-log", "--svg", "--verify", "--explain"});
+              {"--budget", "--preset", "--planner", "--metric", "--model",
+               "--routes", "--max-seconds", "--max-mib", "--clearance",
+               "--require", "--ompl-log", "--svg", "--verify", "--explain"});
   const TurningScene scene = SceneOf(flags, source);
   RigidRequest request = RigidRequestOf(scene);
   request.Validate();
@@ -85,11 +85,12 @@ int AnswerRigidPlan(const SeededRunFlags& flags, const SceneSource& source) {
 int AnswerRigidOptimize(const OptimizeFlags& flags, const SceneSource& source) {
   RequireNone(
       flags,
-      {"--preset", "--metric",      "--smoothing-length", "--jacobian",
-       "--margin", "--require",     "--routes",           "--line",
-       "--rows",   "--mu-strategy", "--polish",           "--per-obstacle",
-       "--model",  "--max-seconds", "--max-mib",          "--limits",
-       "--via",    "--svg",         "--verify",           "--explain"});
+      {"--budget",       "--preset", "--metric",      "--smoothing-length",
+       "--jacobian",     "--margin", "--require",     "--routes",
+       "--line",         "--rows",   "--mu-strategy", "--polish",
+       "--per-obstacle", "--model",  "--max-seconds", "--max-mib",
+       "--limits",       "--via",    "--svg",         "--verify",
+       "--explain"});
   const TurningScene scene = SceneOf(flags, source);
   RigidOptimizeRequest request;
   request.task = RigidRequestOf(scene);

@@ -29,6 +29,7 @@ class World(Room):
                  margin: float | str | None = None, require: bool = False,
                  preset: str = "", model: str = "", routes: int = 0,
                  max_seconds: float | None = None,
+                 budget: float | None = None,
                  via: ArrayLike | None = None, tolerance: Any = None,
                  dwell: ArrayLike = 0.0, duration: float | None = None,
                  by_norm: bool = False, departure: ArrayLike | None = None,
@@ -56,7 +57,10 @@ class World(Room):
         the whole; "": the scene's, and of a polyline full where that is auto.
         routes: ways around the obstacles that are tried, 1 to 8; 0: the
         preset's.  max_seconds: of a polyline's solve, or of the search for a
-        faster curve; there is one before.
+        faster curve; there is one before.  budget: of a polyline, seconds of
+        processors, builds included, within which preset, model and metric
+        answered most often with about as many triangles
+        (results/trade/budget.md); what is named besides wins over it.
 
         With limits.  by_norm: they are of the norm instead of every axis, one
         number each.  via: (M, 3), places to pass on the way, in order, each
@@ -83,6 +87,10 @@ class World(Room):
             _require_none("a motion in time; limits=\"none\" asks for a path",
                           metric=metric != "", waypoints=waypoints != 0,
                           straight=straight is not False, seed=seed != 1)
+            if budget is not None:
+                raise InputError("budget: expected None for a motion in time, of "
+                                 "which nothing was measured, found "
+                                 f"{budget!r}; limits=\"none\" asks for a path")
             wishes = wishes_of(
                 self._native.scene, limits=limits, margin=margin,
                 require=require, preset=preset, routes=routes,
@@ -105,7 +113,8 @@ class World(Room):
             max_seconds=seconds(max_seconds, "max_seconds"),
             straight=flag(straight, "straight"), preset=text(preset, "preset"),
             model=text(model, "model"), require=flag(require, "require"),
-            routes=whole_number(routes, "routes", 0, 8)), self)
+            routes=whole_number(routes, "routes", 0, 8),
+            budget=_budget(budget)), self)
 
     def optimize_in_time(self, start: ArrayLike | None = None,
                          goal: ArrayLike | None = None, *, limits: Any = None,
@@ -149,16 +158,17 @@ class World(Room):
 
     def plan(self, start: ArrayLike | None = None,
              goal: ArrayLike | None = None, *,
-             planner: str = "contact-surface", retraction: str = "phong",
+             planner: str = "", retraction: str = "phong",
              clearance: float | str | None = None, max_seconds: float = 5.0,
              seed: int = 1, preset: str = "", model: str = "",
-             require: bool = False) -> Plan:
+             require: bool = False, budget: float | None = None) -> Plan:
         """A path that is free by exact tests, or why there is none.
 
-        planner: "contact-surface" is complete, deterministic and proves
-        infeasibility; the others sample (names: `phongpd plan --help`), for
-        `max_seconds`, by `seed`; retraction-* carry samples to the contact
-        space by `retraction`.  clearance: to seek where there is room, a share
+        planner: "contact-surface", which "" stands for, is complete,
+        deterministic and proves infeasibility; the others sample (names:
+        `phongpd plan --help`), for `max_seconds`, by `seed`; retraction-* carry
+        samples to the contact space by `retraction`.  budget: picks planner,
+        model and preset, as that of optimize does.  clearance: to seek where there is room, a share
         of D or "0.5unit", told as optimize takes it; what is kept less is told
         as there, `require` too.  preset: of contact-surface, as of optimize.
         model: "full", the whole contact space; "window", of it what leads from
@@ -173,8 +183,8 @@ class World(Room):
             clearance=length(clearance, "clearance"),
             max_seconds=seconds(max_seconds, "max_seconds"),
             seed=seed_number(seed), preset=text(preset, "preset"),
-            model=text(model, "model"), require=flag(require, "require")),
-            self, ends)
+            model=text(model, "model"), require=flag(require, "require"),
+            budget=_budget(budget)), self, ends)
 
     def roadmap(self) -> Roadmap:
         """For many queries; building it costs what ten to three hundred calls
@@ -186,6 +196,11 @@ def _require_none(subject: str, **given: bool) -> None:
     for name, is_given in given.items():
         if is_given:
             raise InputError(f"{name}: expected none for {subject}, found one")
+
+
+def _budget(value: Any) -> float:
+    """0: none."""
+    return 0.0 if value is None else seconds(value, "budget")
 
 
 def _is_zero(value: Any) -> bool:

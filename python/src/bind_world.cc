@@ -104,9 +104,12 @@ nb::object OptimizeWith(Workshop& workshop, const Point& start,
                         const std::string& margin, int waypoints,
                         std::uint64_t seed, double max_seconds,
                         bool is_straight, const std::string& preset,
-                        const std::string& model, bool is_required,
-                        int routes) {
+                        const std::string& model, bool is_required, int routes,
+                        double budget) {
   OptimizeRequest request = workshop.OptimizeBetween(start, goal);
+  if (budget > 0.0) {
+    ApplyBudget(budget, workshop.scene().workspace, &request);
+  }
   if (!preset.empty()) ApplyPreset(ParsePreset(preset, "preset"), &request);
   if (!margin.empty()) request.margin = workshop.Clearance(margin, "margin");
   if (waypoints > 0) request.waypoints = waypoints;
@@ -143,9 +146,13 @@ nb::object PlanWith(Workshop& workshop, const Point& start, const Point& goal,
                     const std::string& planner, const std::string& retraction,
                     const std::string& clearance, double max_seconds,
                     std::uint64_t seed, const std::string& preset,
-                    const std::string& model, bool is_required) {
+                    const std::string& model, bool is_required, double budget) {
   PlanRequest request = workshop.PlanBetween(start, goal);
-  request.planner = ParsePlanner(planner, "planner");
+  request.planner = PlannerId::kContactSurface;
+  if (budget > 0.0) {
+    ApplyBudget(budget, workshop.scene().workspace, &request);
+  }
+  if (!planner.empty()) request.planner = ParsePlanner(planner, "planner");
   request.retraction = ParseRetraction(retraction, "retraction");
   if (!clearance.empty()) {
     RequireSeeksClearance(request.planner, "clearance");
@@ -155,7 +162,7 @@ nb::object PlanWith(Workshop& workshop, const Point& start, const Point& goal,
     if (request.planner != PlannerId::kContactSurface) {
       throw InputError(std::string("preset: expected with planner ") +
                        ToString(PlannerId::kContactSurface) + ", found with " +
-                       planner);
+                       ToString(request.planner));
     }
     request.preset = ParsePreset(preset, "preset");
   }
@@ -288,7 +295,7 @@ void BindWorld(nb::module_& module) {
            nb::kw_only(), nb::arg("metric"), nb::arg("margin"),
            nb::arg("waypoints"), nb::arg("seed"), nb::arg("max_seconds"),
            nb::arg("straight"), nb::arg("preset"), nb::arg("model"),
-           nb::arg("require"), nb::arg("routes"))
+           nb::arg("require"), nb::arg("routes"), nb::arg("budget") = 0.0)
       .def("optimize_in_time",
            [](Workshop& workshop, const Point& start, const Point& goal,
               const std::string& model, const MotionWishes& wishes,
@@ -309,7 +316,7 @@ void BindWorld(nb::module_& module) {
       .def("plan", &PlanWith, nb::arg("start"), nb::arg("goal"), nb::kw_only(),
            nb::arg("planner"), nb::arg("retraction"), nb::arg("clearance"),
            nb::arg("max_seconds"), nb::arg("seed"), nb::arg("preset"),
-           nb::arg("model"), nb::arg("require"))
+           nb::arg("model"), nb::arg("require"), nb::arg("budget") = 0.0)
       .def("diagnose", &DiagnosisOf)
       .def("are_free", &AreFree)
       .def("clearances", &Clearances)

@@ -14,12 +14,11 @@
 #include "results/bench/free_space_measure.h"
 #include "results/bench/lazy_cases.h"
 #include "results/bench/program.h"
+#include "results/bench/random_ends.h"
 #include "results/bench/report.h"
 
 namespace phongpd::bench {
 namespace {
-
-using Eigen::Vector3d;
 
 struct Options {
   int problems = 1;  // of each pair
@@ -38,34 +37,6 @@ struct Row {
   double diagonal = 0.0;  // D, user's unit
   Side whole, window;
 };
-
-// Ends are free and far enough from C_cont for the margin, in its box widened
-// by a tenth; the line between them collides.
-struct Ends {
-  Vector3d start, goal;
-};
-Ends RandomEnds(const World& world, std::mt19937_64* random) {
-  const BoundingBox box = ContactBounds(world.workspace());
-  const Vector3d more = 0.1 * (box.max - box.min);
-  std::uniform_real_distribution<double> share(0.0, 1.0);
-  const FreeSpace& space = *world.Convolution().free_space;
-  const auto draw = [&] {
-    for (;;) {
-      Vector3d q;
-      for (int k = 0; k < 3; ++k) {
-        q[k] = box.min[k] - more[k] +
-               share(*random) * (box.max[k] - box.min[k] + 2.0 * more[k]);
-      }
-      if (space.IsFree(q) && space.Clearance(q) > 0.02 * world.diagonal()) {
-        return q;
-      }
-    }
-  };
-  for (;;) {
-    const Ends ends = {draw(), draw()};
-    if (!world.IsFree({ends.start, ends.goal})) return ends;
-  }
-}
 
 Side Solve(const Workspace& workspace, const OptimizeRequest& request) {
   Side side;

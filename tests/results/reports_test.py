@@ -18,8 +18,11 @@ import convergence_study  # noqa: E402
 import python_report  # noqa: E402
 import report_statistics as statistics  # noqa: E402
 
+MOST_WORDS = 1500  # of a page, its tables apart
+
 # Of each report: the folder of its rows, and more arguments.
-REPORTS = {"contact_space_report": ("contact-space",),
+REPORTS = {"budget_report": ("trade",),
+           "contact_space_report": ("contact-space",),
            "convergence_report": ("convergence",),
            "defaults_report": ("trade",),
            "degradation_report": ("extremes",),
@@ -54,6 +57,15 @@ class Pages(unittest.TestCase):
                     if not file.endswith(".svg"):
                         self.assertEqual((published / file).read_bytes(),
                                          (again / file).read_bytes(), file)
+
+    def test_are_short_outside_their_tables(self):
+        pages = sorted((SOURCE / "results").rglob("*.md"))
+        self.assertGreater(len(pages), 40)
+        for page in pages:
+            words = [word for line in page.read_text(encoding="utf-8").splitlines()
+                     if not line.lstrip().startswith("|") for word in line.split()]
+            with self.subTest(page.relative_to(SOURCE)):
+                self.assertLessEqual(len(words), MOST_WORDS)
 
     def test_keep_columns_of_the_same_name(self):
         with tempfile.TemporaryDirectory() as name:

@@ -45,6 +45,27 @@ class CliExplain : public CliScenes {
   }
 };
 
+TEST_F(CliExplain, BudgetsSayWhatTheyPickedAndWhatWonOverThem) {
+  const std::string plan = "plan " + Scene(TwoObstacles());
+  std::vector<std::string> lines = Explain(plan + " --budget 0.1");
+  // Which flags: planners/solve/budget_test.cc.
+  ExpectLine(lines, "budget: --");
+  EXPECT_NE(testing::PrintToString(lines).find("(by --budget)"),
+            std::string::npos);
+  lines = Explain(plan + " --budget 0.1 --planner contact-surface");
+  ExpectLine(lines, "planner: contact-surface (by --planner)");
+  lines = Explain("optimize u_axis --budget 1 --preset fast");
+  ExpectLine(lines, "budget: ");
+  ExpectLine(lines, "preset: fast (by --preset)");
+  const Outcome none = Run(plan + " --budget 0");
+  EXPECT_NE(none.code, 0);
+  EXPECT_NE(none.err.find("--budget"), std::string::npos) << none.err;
+  const Outcome timed = Run("optimize u_axis --budget 1 --limits 1,2,10");
+  EXPECT_NE(timed.err.find("--budget: expected none for a motion in time"),
+            std::string::npos)
+      << timed.err;
+}
+
 TEST_F(CliExplain, PlansSayWhoChosePlannerModelAndClearance) {
   const std::string plan = "plan " + Scene(TwoObstacles());
   std::vector<std::string> lines = Explain(plan);

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "planners/world/budget.h"
+
+#include <cmath>
+#include <sstream>
+
+#include "core/mesh/mesh_error.h"
+#include "core/number_text.h"
+
+namespace phongpd {
+
+// Written by results/bench/budget_report.py --code; a test compares it with the
+// table that is published.
+const std::vector<BudgetChoice>& BudgetChoices() {
+  constexpr BudgetUse kPlan = BudgetUse::kPlan,
+                      kOptimize = BudgetUse::kOptimize;
+  static const std::vector<BudgetChoice> choices = {
+      {kPlan, 1000, 0.01, "--planner rrt-connect --model window", 0, 8},
+      {kPlan, 1000, 0.1, "--planner rrt-connect --model window", 8, 8},
+      {kPlan, 1000, 1, "--model full --preset tight", 8, 8},
+      {kPlan, 1000, 10, "--model full --preset tight", 8, 8},
+      {kPlan, 10000, 0.01, "--planner rrt-connect --model window", 0, 2},
+      {kPlan, 10000, 0.1, "--planner rrt-connect --model window", 1, 2},
+      {kPlan, 10000, 1, "--model full --preset tight", 2, 2},
+      {kPlan, 10000, 10, "--model full --preset tight", 2, 2},
+      {kOptimize, 1000, 0.01, "--model window --preset fast --metric euclidean",
+       0, 8},
+      {kOptimize, 1000, 0.1, "--model window --preset fast --metric euclidean",
+       7, 8},
+      {kOptimize, 1000, 1,
+       "--model window --preset balanced --metric euclidean", 8, 8},
+      {kOptimize, 1000, 10,
+       "--model window --preset balanced --metric euclidean", 8, 8},
+      {kOptimize, 10000, 0.01, "--model window --preset balanced", 0, 2},
+      {kOptimize, 10000, 0.1, "--model window --preset balanced", 0, 2},
+      {kOptimize, 10000, 1, "--model window --preset balanced", 2, 2},
+      {kOptimize, 10000, 10, "--model window --preset balanced", 2, 2},
+  };
+  return choices;
+}
+
+const BudgetChoice& ChoiceFor(BudgetUse use, std::size_t triangles,
+                              double seconds) {
+  const auto apart = [triangles](const BudgetChoice& choice) {
+    return std::abs(
+        std::log(static_cast<double>(triangles > 0 ? triangles : 1) /
+                 static_cast<double>(choice.triangles)));
+  };
+  // Before or in place of the best so far.
+  const auto is_better = [&](const BudgetChoice& a, const BudgetChoice& b) {
+    if (apart(a) != apart(b)) return apart(a) < apart(b);
+    const bool is_enough = a.seconds <= seconds;
+    if (is_enough != (b.seconds <= seconds)) return is_enough;
+    return is_enough ? a.seconds > b.seconds : a.seconds < b.seconds;
+  };
+  const BudgetChoice* best = nullptr;
+  for (const BudgetChoice& choice : BudgetChoices()) {
+    if (choice.use != use) continue;
+    if (best == nullptr || is_better(choice, *best)) best = &choice;
+  }
+  constexpr double kBeyond = 3.2;  // √10: half way to the next size
+  if (static_cast<double>(triangles) >
+      kBeyond * static_cast<double>(best->triangles)) {
+    throw InputError("budget: expected at most " +
+                     FormatDouble(std::floor(
+                         kBeyond * static_cast<double>(best->triangles))) +
+                     " triangles of robot and obstacles, as nothing larger was "
+                     "measured, found " +
+                     std::to_string(triangles) +
+                     "; choose preset and model (docs/choosing.md)");
+  }
+  return *best;
+}
+
+std::size_t TrianglesOf(const Workspace& workspace) {
+  std::size_t count = workspace.robot.mesh().triangles.size();
+  for (const int i : ReachableObstacles(workspace)) {
+    count += workspace.obstacles[static_cast<std::size_t>(i)]
+                 .mesh()
+                 .triangles.size();
+  }
+  return count;
+}
+
+std::string FlagOf(const BudgetChoice& choice, const std::string& name) {
+  std::istringstream words(choice.flags);
+  std::string flag, value;
+  while (words >> flag >> value) {
+    if (flag == "--" + name) return value;
+  }
+  return "";
+}
+
+void RequireBudget(double seconds, const std::string& what) {
+  if (std::isfinite(seconds) && seconds > 0.0) return;
+  throw InputError(what + ": expected seconds, finite and > 0, found " +
+                   FormatDouble(seconds));
+}
+
+}  // namespace phongpd
