@@ -4,7 +4,6 @@
 // which budget_report.py makes the table that --budget picks by.  Pairs whose
 // rows are there are not measured again: delete budget.csv and
 // budget_measured.txt to begin anew.
-#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
@@ -30,51 +29,42 @@ bool IsKnown(const std::string& csv, const BudgetCase& pair) {
                   ",") != std::string::npos;
 }
 
-int Run(int argc, char** argv) {
-  CLI::App app("Flags within budgets: rows.");
-  std::string directory;
+}  // namespace
+
+int Run(Program* program) {
+  CLI::App& app = program->WithOutput("Flags within budgets: rows.");
   std::size_t least = 1000, most = 1000000;
   BudgetOptions options;
-  app.add_option("--output", directory, "Directory to write into")->required();
   app.add_option("--seed", options.seed)->capture_default_str();
   app.add_option("--seeds", options.seeds, "Problems of each pair")
       ->capture_default_str();
   app.add_option("--least", least, "Of decades of triangles, from this one")
       ->capture_default_str();
   app.add_option("--most", most, "... to this one")->capture_default_str();
-  CLI11_PARSE(app, argc, argv);
+  program->Parse();
   SilenceOmpl();
-  options.cache = directory + "/budget_cache";
+  options.cache = program->folder() + "/budget_cache";
   std::filesystem::remove_all(options.cache);
   // It goes on where it was cut off.
-  std::string csv = TextOf(directory + "/budget.csv");
-  std::string measured = TextOf(directory + "/budget_measured.txt");
-  measured += Circumstances(CommandLine("build/budget_benchmark", argc, argv),
-                            options.seed) +
-              "\n";
+  std::string csv = TextOf(program->folder() + "/budget.csv");
+  std::string measured = TextOf(program->folder() + "/budget_measured.txt");
+  measured += program->Circumstances(options.seed) + "\n";
   for (const BudgetCase& pair : BudgetCases()) {
     if (pair.decade < least || pair.decade > most || IsKnown(csv, pair)) {
       continue;
     }
     const std::vector<BudgetRow> added = MeasureBudget(pair, options);
-    std::cout << ToText(BudgetTable(added).table) << std::endl;
-    // As soon as they are known: the last pairs take longest.
-    OutputDirectory out(directory);
     const NamedTable table = BudgetTable(added);
+    std::cout << ToText(table.table) << std::endl;
+    // As soon as they are known: the last pairs take longest.
     const std::string text = ToCsv(table.table);
     csv += csv.empty() ? text : text.substr(text.find('\n') + 1);
-    out.Write(table.file, csv);
-    out.Write("budget_measured.txt", measured);
-    out.Commit();
+    program->Write(table.file, csv);
+    program->Write("budget_measured.txt", measured);
+    program->Commit();
     std::filesystem::remove_all(options.cache);
   }
   return 0;
 }
 
-}  // namespace
 }  // namespace phongpd::bench
-
-int main(int argc, char** argv) {
-  return phongpd::bench::RunProgram("budget_benchmark", phongpd::bench::Run,
-                                    argc, argv);
-}

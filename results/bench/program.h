@@ -27,6 +27,7 @@ class Program {
   // to say what is wrong, it throws for main to do so.
   void Parse();
   bool writes() const { return !folder_.empty(); }  // was a folder given?
+  const std::string& folder() const { return folder_; }
 
   // One file of that folder; the rows of tables, each the file it names.
   void Write(const std::string& file, const std::string& content);
