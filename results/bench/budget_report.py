@@ -17,6 +17,7 @@ from step_figure import Curve, step_figure
 
 DECADES = (1000, 10000, 100000, 1000000)
 BUDGETS = (0.01, 0.1, 1.0, 10.0)
+LEAST = 4  # problems of a size that is picked by
 EQUAL = 0.95  # of a clearance: less than so much of it is another one
 USES = ("plan", "optimize")
 BALANCED = "--model full --preset balanced"
@@ -83,10 +84,17 @@ def cells(runs, use, decade, budget):
     return [Cell(flags, of, budget) for flags, of in by_flags.items()]
 
 
+def sizes(runs):
+    """Of which there are enough problems."""
+    problems = {run.problem for run in runs}
+    return [decade for decade in sorted({p[1] for p in problems})
+            if sum(p[1] == decade for p in problems) >= LEAST]
+
+
 def picks(runs):
     """(use, decade, budget, cell to take), of what was measured."""
     for use in USES:
-        for decade in sorted({run.decade for run in runs}):
+        for decade in sizes(runs):
             for budget in BUDGETS:
                 yield use, decade, budget, min(cells(runs, use, decade, budget),
                                                key=Cell.rank)
@@ -165,12 +173,15 @@ def figure(runs, use, decade):
 def measured(runs, decade):
     problems = {run.problem for run in runs if run.decade == decade}
     kinds = sorted({problem[0] for problem in problems})
-    return f"- about {decade:,} triangles: {len(problems)} problems of {', '.join(kinds)}"
+    n = len(problems)
+    few = "" if n >= LEAST else "; too few to pick by"
+    return (f"- about {decade:,} triangles: {n} problem{'s' * (n != 1)} of "
+            f"{', '.join(kinds)}{few}")
 
 
 def complete(problems):
-    """Is every size there, with as many problems?"""
-    counts = [sum(p[1] == decade for p in problems) for decade in DECADES]
+    """Is every size there, with as many kinds of pairs?"""
+    counts = [len({p[0] for p in problems if p[1] == decade}) for decade in DECADES]
     return min(counts) == max(counts)
 
 
@@ -213,7 +224,7 @@ def page(folder, runs):
                 for use, decade, family, status in ungot] or ["Nothing."]), "",
              "## Anytime", ""]
     for use in USES:
-        for decade in decades:
+        for decade in sizes(runs):
             text += [f"![{use}, {decade}](budget_{use}_{decade}.svg)", ""]
     table = all_table(runs)
     text += ["## All flags", "", markdown("Within each budget", table.note,
@@ -251,7 +262,7 @@ def main():
     table = all_table(runs)
     write_csv(folder / table.file, table.header, table.rows)
     for use in USES:
-        for decade in sorted({run.decade for run in runs}):
+        for decade in sizes(runs):
             (folder / f"budget_{use}_{decade}.svg").write_text(
                 figure(runs, use, decade), encoding="utf-8")
     (folder / "budget.md").write_text(page(folder, runs), encoding="utf-8")
