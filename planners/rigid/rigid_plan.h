@@ -56,10 +56,10 @@ struct RigidAnswer {
   double search_seconds = 0.0;  // of that, until a path was found or given up
   // The same in processor seconds of the process, all its threads.
   double search_cpu_seconds = 0.0;
-  long checks = 0;        // motions judged
-  long tests = 0;         // pairs of boxes and of triangles tested
-  long search_tests = 0;  // of these, until a path was found or given up
-  long nodes = 0;         // poses in all trees
+  long checks = 0;              // motions judged
+  long tests = 0;               // pairs of boxes and of triangles tested
+  long search_tests = 0;        // of these, until a path was found or given up
+  long nodes = 0;               // poses in all trees
   std::size_t found_poses = 0;  // in the path before it was shortened
   // If the start or goal is in collision: which triangles intersect, or could
   // not be separated (rigid_judge.h).

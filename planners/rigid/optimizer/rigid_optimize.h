@@ -22,8 +22,8 @@ RigidStart ParseRigidStart(const std::string& text, const std::string& what);
 
 // What Optimize is asked: a short path of poses from start to goal.
 struct RigidOptimizeRequest {
-  // Start, goal, bounds, seed, and the time limit of the whole call.  A third of
-  // it at most goes into freeing the straight motion, nine tenths of what is
+  // Start, goal, bounds, seed, and the time limit of the whole call.  A third
+  // of it at most goes into freeing the straight motion, nine tenths of what is
   // left into Plan.
   RigidRequest task;
   RigidStart from = RigidStart::kBoth;
@@ -47,18 +47,20 @@ struct RigidOptimizeRequest {
 // What Optimize answers.  No member is NaN or infinite.
 struct RigidOptimum {
   // Like Plan's answer.  Whatever the status, every motion of a path is proved
-  // free for all t, twice; and if Plan was asked, no path is longer than Plan's.
-  //   status  kSolved: converged, or the straight motion is free, and nothing is
+  // free for all t, twice; and if Plan was asked, no path is longer than
+  // Plan's.
+  //   status  kSolved: converged, or the straight motion is free, and nothing
+  //   is
   //           shorter.  kStalledFeasible: it did not; this is the shortest free
   //           path that was seen.  kFailed, kTimeLimit, …: there is no path.
   //   planner "line": the straight motion as it is.  "straight", "planner": the
   //           start it was optimised from.  "slide" and others: Plan's path, of
   //           that planner, because nothing shorter was found.
   RigidAnswer answer;
-  // kConverged: no small step of the knots shortens the path, to first order (to
-  // 1e-4 of its length).  kStalledFeasible: steps that should shorten it were
-  // refused, down to small ones.  Else what ended it; if the straight motion
-  // could not be freed, how Ipopt ended in the last round.
+  // kConverged: no small step of the knots shortens the path, to first order
+  // (to 1e-4 of its length).  kStalledFeasible: steps that should shorten it
+  // were refused, down to small ones.  Else what ended it; if the straight
+  // motion could not be freed, how Ipopt ended in the last round.
   SolveStatus solver = SolveStatus::kInvalidProblem;
   // What Ipopt called solved was proved free, at least once.
   bool is_confirmed = false;
@@ -78,10 +80,10 @@ struct RigidOptimum {
 // If the straight motion collides, rounds free it: Ipopt solves with rows on
 // exact depths and gaps at samples of the path; RigidJudge judges the motions
 // between samples, and where one is not free a sample is added.  From the first
-// free path, or from Plan's, the optimiser descends: each step is a program that
-// is linear in all contacts within reach, and is taken only if the judge proves
-// the whole path free.  So there is a proved path at any moment from then on,
-// and a run that is ended has an answer, too.
+// free path, or from Plan's, the optimiser descends: each step is a program
+// that is linear in all contacts within reach, and is taken only if the judge
+// proves the whole path free.  So there is a proved path at any moment from
+// then on, and a run that is ended has an answer, too.
 //
 // The result is a local optimum: it passes obstacles on the side on which its
 // start does.  If the robot or the obstacles are no solids, a collision has no
