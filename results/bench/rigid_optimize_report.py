@@ -31,7 +31,8 @@ NOTES = """\
 - Certified: `RigidJudge` proves every motion of the answer free for all t. Converged
   and stalled are Ipopt's: of `samples` its word on the only solve, whether or not the
   path is free; of `Optimize` only paths that are proved: converged, where no small step
-  of the knots shortens it by 1e-4 to first order; stalled, where steps are refused.
+  of the knots shortens it by 1e-4 to first order; stalled, all others: steps were
+  refused, or rounds or time were up.
   No plan: the time was up before the planner had a path, which is no fault of the
   optimiser.
 - Shorter: the answer's length over that of the planner's path, which was cut short
