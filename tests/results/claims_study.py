@@ -39,10 +39,12 @@ def ratios(name):
 PROBLEMS, SCENES = (int(x) for x in re.search(
     r"(\d+) problems: (\d+) scenes", PAGE).groups())
 assert verdicts("win") == verdicts("loss") == 0
-# "with intervals around one"
-assert all(low < 1.0 < high for _, low, high in ratios("H1"))
+# "with intervals below one"
+assert all(high < 1.0 for _, _, high in ratios("H1"))
+# "it is the side that the smoothed one takes that saves them"
+assert all(high < 1.0 for _, _, high in ratios("H5"))
 STUDY_CLAIMS = [
-    ("docs/choosing.md", "{} of {} scenes, with at most 3,000 iterations",
+    ("docs/choosing.md", "{} problems of {} scenes, with at most 3,000 iterations",
      (PROBLEMS, SCENES)),
     ("docs/choosing.md", "of {} comparisons none is a win or a loss, {} are ties within "
      "±3 points, {} stay open", (len(FOUND), verdicts("tie"), verdicts("open"))),
@@ -52,8 +54,9 @@ STUDY_CLAIMS = [
                                 *converged("phong@0.2"), *converged("smoothed@0.2"))),
     ("docs/choosing.md", "Exactly free in the end are, with adaptive mu, {}, {} and {}",
      tuple(free(m) for m in ("euclidean", "phong@0.2", "smoothed@0.2"))),
+    ("docs/choosing.md", "the smoothed direction: {:.2f} and {:.2f} times Euclid's",
+     tuple(x[0] for x in ratios("H1"))),
     ("docs/choosing.md", "by lot, converges in {} and {}, with {:.2f} and {:.2f} times "
-     "the iterations of Euclid's; the smoothed one takes {:.2f} and {:.2f} of them",
-     (*converged("placebo@0.2"), *(x[0] for x in ratios("H4")),
-      *(x[0] for x in ratios("H1")))),
+     "the iterations of Euclid's",
+     (*converged("placebo@0.2"), *(x[0] for x in ratios("H4")))),
 ]
