@@ -11,7 +11,7 @@ using Eigen::Vector3d;
 using Weights = Eigen::Matrix<double, 6, 6>;  // a part's point by row
 
 // Of clearances: a round keeps so much of one, or of the margin.
-constexpr double kKept = 0.999, kKeptMargin = 0.99;
+constexpr double kKeptDistance = 0.999, kKeptMargin = 0.99;
 // A part of a piece that is so short, as a share, is none.
 constexpr double kShortest = 1e-9;
 
@@ -131,7 +131,7 @@ class Rows {
 }  // namespace
 
 double JointRowConstant(const ClearanceRow& row, double margin) {
-  return std::min(kKept * row.distance, kKeptMargin * margin) - row.gap;
+  return std::min(kKeptDistance * row.distance, kKeptMargin * margin) - row.gap;
 }
 
 double LargestSpeed(const std::vector<MovingBody>& bodies) {
