@@ -257,6 +257,7 @@ class FleetSearch {
       own = Among(order[i], before);
       if (!own.is_solved) {
         answer->status = own.status;
+        answer->duration = 0.0;  // not all arrive
         answer->reason = "\"" + robot.name + "\": " + own.reason;
         return i;
       }

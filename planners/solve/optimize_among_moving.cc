@@ -22,11 +22,12 @@ using Eigen::Vector3d;
 // Where and when the motion meets what moves, and from when on the goal is
 // left alone.
 std::string NotFound(const std::vector<MovingBody>& bodies,
-                     const Trajectory& motion) {
+                     const Trajectory& motion, bool requires_margin) {
   const double last = std::max(motion.duration(), LastMotion(bodies));
   const MovingCheck check = CheckAgainst(bodies, motion, 0.0, last);
   std::string text = "no motion was found that keeps off what moves";
-  if (check.IsFree()) return text + " by the margin required";
+  if (check.IsFree() || requires_margin) text += " by the margin required";
+  if (check.IsFree()) return text;
   text += "; the fastest without it meets \"" +
           bodies[static_cast<std::size_t>(check.body)].name +
           "\" at t = " + Rounded(check.time, 6);
@@ -122,7 +123,7 @@ void KeepOffMoving(const World& world, const OptimizeRequest& request,
   curve.duration = answer->motion.duration();
   curve.seconds += seconds;
   if (found.motion.empty()) {
-    answer->reason = NotFound(bodies, fixed_motion);
+    answer->reason = NotFound(bodies, fixed_motion, request.requires_margin);
     if (found.is_cut_short) answer->reason += "; the search was ended early";
     answer->status = curve.status = PathStatus::kFailed;
     answer->is_free = answer->is_solved = false;

@@ -11,6 +11,30 @@ namespace phongpd::internal {
 
 using Eigen::Vector3d;
 
+namespace {
+
+// There is no way between a start and a rest there, or two rests at one place.
+bool IsOnePlace(const std::vector<Vector3d>& way, const CurveOptions& part) {
+  return part.start.IsAtRest() && part.end.IsAtRest() &&
+         std::all_of(way.begin(), way.end(),
+                     [&](const Vector3d& q) { return q == way.front(); });
+}
+
+// `before`: seconds until it was begun.
+void Append(const CurveSummary& one, double before, CurveSummary* all,
+            std::vector<CurvePiece>* pieces) {
+  const auto& found = one.trajectory.pieces();
+  pieces->insert(pieces->end(), found.begin(), found.end());
+  if (all->status == PathStatus::kConverged) all->status = one.status;
+  all->rounds.insert(all->rounds.end(), one.rounds.begin(), one.rounds.end());
+  all->stops_duration += one.stops_duration;
+  all->clearance = std::min(all->clearance, one.clearance);
+  all->margin = std::min(all->margin, one.margin);
+  all->first_seconds = before + one.first_seconds;
+}
+
+}  // namespace
+
 CurveSummary OptimizeWithRests(const FreeSpace& space, double diagonal,
                                const std::vector<Vector3d>& path,
                                const CurveOptions& options) {
@@ -36,17 +60,12 @@ CurveSummary OptimizeWithRests(const FreeSpace& space, double diagonal,
     part.end = is_last ? options.end : CurveEnd{};
     part.time_limit = std::max(options.time_limit - stopwatch.Seconds(),
                                std::numeric_limits<double>::min());
-    const double before = stopwatch.Seconds();
-    const CurveSummary one = OptimizeCurve(space, diagonal, way, part);
-    if (one.trajectory.empty()) return one;
-    const auto& found = one.trajectory.pieces();
-    pieces.insert(pieces.end(), found.begin(), found.end());
-    if (all.status == PathStatus::kConverged) all.status = one.status;
-    all.rounds.insert(all.rounds.end(), one.rounds.begin(), one.rounds.end());
-    all.stops_duration += one.stops_duration;
-    all.clearance = std::min(all.clearance, one.clearance);
-    all.margin = std::min(all.margin, one.margin);
-    all.first_seconds = before + one.first_seconds;
+    if (!IsOnePlace(way, part)) {
+      const double before = stopwatch.Seconds();
+      const CurveSummary one = OptimizeCurve(space, diagonal, way, part);
+      if (one.trajectory.empty()) return one;
+      Append(one, before, &all, &pieces);
+    }
     if (is_last) break;
     const CurveVia& via = options.via[i];
     pieces.emplace_back(std::vector<Vector3d>(6, via.point), via.dwell);

@@ -9,7 +9,8 @@
 namespace phongpd::internal {
 
 // OptimizeCurve where options.via has places to rest at, each a point of the
-// path: one curve after the other, from rest to rest between them.
+// path: one curve after the other, from rest to rest between them.  Where two
+// places, or one and an end at rest, are the same there is no curve between.
 CurveSummary OptimizeWithRests(const FreeSpace& space, double diagonal,
                                const std::vector<Eigen::Vector3d>& path,
                                const CurveOptions& options);

@@ -15,43 +15,58 @@ constexpr double kShortest = 0.25;  // of an even piece
 // Inside of its tolerance, so that a step has room.
 constexpr double kInside = 0.999;
 
-double RestedFrom(const Trajectory& motion, std::size_t joint,
-                  const Vector3d& point) {
+bool Rests(const CurvePiece& piece, const Vector3d& point) {
+  for (int j = 0; j <= piece.degree(); ++j) {
+    if (piece.point(j) != point) return false;
+  }
+  return true;
+}
+
+// The joint until which it rests from another one on, for the dwell at least;
+// none: not for so long.  `is_next`: the next place is the same, to rest there
+// again: what is left of the rest is its.
+std::optional<std::size_t> RestsUntil(const Trajectory& motion,
+                                      std::size_t joint, const CurveVia& via,
+                                      bool is_next) {
+  // A rest may have lost as much by rounding of its times.
+  constexpr double kLost = 1e-12;
   const auto& pieces = motion.pieces();
-  std::size_t i = joint;
-  const auto rests = [&](const CurvePiece& piece) {
-    for (int j = 0; j <= piece.degree(); ++j) {
-      if (piece.point(j) != point) return false;
-    }
-    return true;
+  const auto is_enough = [&](std::size_t until) {
+    return motion.StartOf(until) - motion.StartOf(joint) >=
+           (1.0 - kLost) * via.dwell;
   };
-  while (i < pieces.size() && rests(pieces[i])) ++i;
-  return motion.StartOf(i) - motion.StartOf(joint);
+  std::size_t until = joint;
+  while (until < pieces.size() && Rests(pieces[until], via.point) &&
+         !(is_next && is_enough(until))) {
+    ++until;
+  }
+  if (!is_enough(until)) return std::nullopt;
+  return until;
 }
 
 // When it passes them, or rests there: the first joints at which it does, which
 // are in order if any are.
 std::optional<std::vector<Span>> TimesOf(const Trajectory& motion,
                                          const std::vector<CurveVia>& via) {
-  // A rest may have lost as much by rounding of its times.
-  constexpr double kLost = 1e-12;
   std::vector<Span> times;
   const auto& pieces = motion.pieces();
   std::size_t joint = 1;
-  for (const CurveVia& one : via) {
-    double rest = 0.0;
+  for (std::size_t i = 0; i < via.size(); ++i) {
+    const CurveVia& one = via[i];
+    const bool is_next = i + 1 < via.size() && via[i + 1].dwell > 0.0 &&
+                         via[i + 1].point == one.point;
+    std::optional<std::size_t> until;
     for (; joint < pieces.size(); ++joint) {
       if (one.dwell > 0.0) {
-        rest = RestedFrom(motion, joint, one.point);
-        if (rest >= (1.0 - kLost) * one.dwell) break;
+        until = RestsUntil(motion, joint, one, is_next);
       } else if ((pieces[joint].front() - one.point).norm() <= one.tolerance) {
-        break;
+        until = joint;
       }
+      if (until) break;
     }
-    if (joint >= pieces.size()) return std::nullopt;
-    const double begin = motion.StartOf(joint);
-    times.emplace_back(begin, begin + rest);
-    if (one.dwell > 0.0) ++joint;
+    if (!until) return std::nullopt;
+    times.emplace_back(motion.StartOf(joint), motion.StartOf(*until));
+    joint = *until;
   }
   return times;
 }

@@ -16,7 +16,8 @@ namespace phongpd::internal {
 // there.
 struct JointPlace {
   CurveVia via;
-  int first = 0, last = 0;  // knots; different if via.dwell > 0
+  // Knots; different if via.dwell > 0.  `last` may be the curve's last one.
+  int first = 0, last = 0;
 };
 
 struct JointKnots {

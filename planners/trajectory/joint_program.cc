@@ -27,6 +27,7 @@ JointUnknowns::JointUnknowns(const JointProgram& program)
   }
   for (std::size_t c = 0; c < program.rests.size(); ++c) {
     for (const int knot : program.rests[c]) {
+      if (knot == pieces_) continue;  // the last one has no unknowns
       is_fixed_[c * static_cast<std::size_t>(pieces_) +
                 static_cast<std::size_t>(knot)] = true;
     }

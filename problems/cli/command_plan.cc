@@ -66,9 +66,13 @@ void RequireRoutesAreCompared(const PlanFlags& flags, PlannerId planner) {
   if (planner == PlannerId::kContactSurface) return;
   for (const char* flag : {"--preset", "--routes"}) {
     if (flags.app->count(flag) == 0) continue;
-    throw InputError(std::string(flag) + ": expected with planner " +
-                     ToString(PlannerId::kContactSurface) + ", found with " +
-                     ToString(planner));
+    const std::string contact_surface = ToString(PlannerId::kContactSurface);
+    const bool is_picked = !flags.budget.empty() && flags.planner.empty();
+    throw InputError(
+        std::string(flag) + ": expected with planner " + contact_surface +
+        ", found with " + ToString(planner) +
+        (is_picked ? ", which --budget picked; add --planner " + contact_surface
+                   : ""));
   }
 }
 

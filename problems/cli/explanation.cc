@@ -33,10 +33,12 @@ void AddBudgetLine(const CLI::App& app, BudgetUse use, const World& world,
 // Who chose.  A scene that says what nobody's choice would be says nothing.
 std::string Whose(const CLI::App& app, const char* flag, bool is_default) {
   if (app.count(flag) > 0) return std::string("by ") + flag;
+  // A plan's --metric is another one, of samples, which no budget picks.
   const bool is_picked =
       HasBudget(app) &&
       (flag == std::string("--preset") || flag == std::string("--model") ||
-       flag == std::string("--planner") || flag == std::string("--metric"));
+       flag == std::string("--planner") ||
+       (flag == std::string("--metric") && app.get_name() == "optimize"));
   if (is_picked) return "by --budget";
   return is_default ? "nobody asked for another" : "by the scene";
 }

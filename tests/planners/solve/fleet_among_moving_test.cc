@@ -171,6 +171,28 @@ TEST(FleetAmongMoving, PassesPlacesOnTheWay) {
   }
 }
 
+// Twice at one place, one rest after the other, and at the goal.
+TEST(FleetAmongMoving, RestsTwiceAndAtTheGoal) {
+  const World world = Hall();
+  std::vector<FleetRobot> robots = {
+      Robot("right", world, {-5, 0, 0}, {5, 1.5, 0}),
+      Robot("left", world, {5, 0, 0}, {-5, -1.5, 0})};
+  const Length near = Length::FromUnit(0.1);
+  robots[0].request.via = {
+      {{-2, -1, 0}, near, 0.0}, {{1, 0, 0}, near, 0.3}, {{1, 0, 0}, near, 0.4}};
+  robots[1].request.via = {{{2, 1, 0}, near, 0.0}, {{-5, -1.5, 0}, near, 0.5}};
+  const FleetAnswer answer = OptimizeFleet(robots);
+  ExpectSooner(robots, answer);
+  const double rests[] = {0.7, 0.5};
+  for (const int i : {0, 1}) {
+    const Vector3d& place = robots[i].request.via.back().point;
+    const auto [rested, first] =
+        TimesNear(answer.robots[i].motion, place, 1e-12);
+    EXPECT_GE(first, 0);
+    EXPECT_GE((rested + 1) * answer.duration / kTimes, rests[i]);
+  }
+}
+
 // All at once: places, a part on its way, and one that stays.
 TEST(FleetAmongMoving, PassesPlacesAmongWhatMoves) {
   const World world = Hall();

@@ -217,6 +217,30 @@ TEST(OptimizeAmongMoving, ArrivesWhenTheGoalIsNoLongerSwept) {
   EXPECT_LT(answer.motion.duration(), 26.5);
 }
 
+// Comes to rest in front of the goal, 0.1 away: half of what is required.
+TEST(OptimizeAmongMoving, SaysThatItIsTheMarginThatCannotBeKept) {
+  Workspace hall = Corridor();
+  hall.bounds = {{-9, -9, -1}, {9, 9, 1}};
+  const World world(hall);
+  OptimizeRequest request = Along({-4, 0, 0}, {4, 0, 0});
+  request.moving = {{CubeNamed("cart"), Straight({0, 0, 0}, {2.9, 0, 0}, 2.0)}};
+  request.margin = Length::FromUnit(0.2);
+  request.requires_margin = true;
+  const PathAnswer none = Optimize(world, request);
+  EXPECT_FALSE(none.is_solved);
+  EXPECT_EQ(
+      none.reason.rfind("no motion was found that keeps off what moves by "
+                        "the margin required; the fastest without it "
+                        "meets \"cart\" at t = ",
+                        0),
+      0u)
+      << none.reason;
+  request.requires_margin = false;
+  const PathAnswer near = Optimize(world, request);
+  ExpectCertifiedAmong(world, request, near);
+  EXPECT_LE(near.clearance, 0.1);
+}
+
 TEST(OptimizeAmongMoving, SaysBeforeItBuildsWhatCannotBe) {
   const World world(Corridor());
   OptimizeRequest request = Along({-8, 0, 0}, {8, 0, 0});

@@ -117,6 +117,22 @@ TEST(OptimizeCurveVia, KeepsTheOrder) {
                   OptimizeCurve(space, 3.0, path, options));
 }
 
+// At the start, twice at a place and at the goal: the ways between, and rests.
+TEST(OptimizeCurveVia, RestsWhereThereIsNoWayBetween) {
+  const FreeSpace space{std::vector<ContactSpace>{}};
+  const Path path = {{0, 0, 0}, {1, 0.3, 0}, {2, 0, 0}};
+  CurveOptions options = Options();
+  options.via = {Via(path[1], 0.1, 1.0)};
+  const CurveSummary once = OptimizeCurve(space, 2.0, path, options);
+  options.via = {Via(path[0], 0.1, 0.5), Via(path[1], 0.1, 0.25),
+                 Via(path[1], 0.1, 0.75), Via(path[2], 0.1, 2.0)};
+  const CurveSummary rests = OptimizeCurve(space, 2.0, path, options);
+  ExpectCertified(space, path, options, rests);
+  EXPECT_NEAR(rests.duration, once.duration + 2.5, 1e-12);
+  EXPECT_EQ(rests.trajectory.At(0.5).position, path[0]);
+  EXPECT_EQ(rests.trajectory.At(rests.duration - 2.0).position, path[2]);
+}
+
 TEST(OptimizeCurveViaCampaign, PassesRandomPlacesInClutter) {
   std::mt19937_64 random(3121);
   const long each = testing::CampaignCases(3, 40);

@@ -57,6 +57,14 @@ TEST_F(CliExplain, BudgetsSayWhatTheyPickedAndWhatWonOverThem) {
   lines = Explain("optimize u_axis --budget 1 --preset fast");
   ExpectLine(lines, "budget: ");
   ExpectLine(lines, "preset: fast (by --preset)");
+  // The metric that carries samples is not of what a budget picks.
+  lines = Explain(plan + " --budget 1 --model full --planner retraction-rrt");
+  ExpectLine(lines, "metric: phong (nobody asked for another)");
+  const Outcome preset = Run(plan + " --budget 0.1 --preset tight");
+  EXPECT_NE(preset.code, 0);
+  EXPECT_NE(preset.err.find("which --budget picked; add --planner"),
+            std::string::npos)
+      << preset.err;
   const Outcome none = Run(plan + " --budget 0");
   EXPECT_NE(none.code, 0);
   EXPECT_NE(none.err.find("--budget"), std::string::npos) << none.err;
