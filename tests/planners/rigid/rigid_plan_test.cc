@@ -150,7 +150,7 @@ TEST(RigidPlan, CountsNoMoreThanTheLineWhereItIsFree) {
   RigidRequest request;
   request.start = At({-3.0, 3.0, 0.0});
   request.goal = At({3.0, 3.0, 0.0}, 2.0);
-  const RigidWorld world(Bar(), Cube(1.0));
+  const RigidWorld world(LongBar(), Cube(1.0));
   const RigidAnswer answer = Plan(world, request);
   ASSERT_EQ(answer.planner, "line");
   // Start, goal, the motion, and the motion once more at the end.
