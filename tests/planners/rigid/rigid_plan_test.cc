@@ -178,6 +178,23 @@ TEST(RigidPlan, GivesTheSamePathForTheSameSeed) {
   }
 }
 
+// (1 − t) z + t z is not always z.
+TEST(RigidPlan, StaysWithinBoundsOfNoWidth) {
+  const RigidWorld world(LongBar(), Cube(2.0));
+  RigidRequest request;
+  request.start = At({-3.0, 0.1, 0.1});
+  request.goal = At({3.0, 0.1, 0.1});
+  request.bounds = {Vector3d(-4.0, -4.0, 0.1), Vector3d(4.0, 4.0, 0.1)};
+  for (request.seed = 1; request.seed <= 8; ++request.seed) {
+    const RigidAnswer answer = Plan(world, request);
+    ASSERT_TRUE(answer.IsSolved()) << answer.reason;
+    EXPECT_GT(answer.path.size(), 2u);
+    for (const RobotPose& pose : answer.path) {
+      EXPECT_TRUE(request.bounds.contains(pose.position)) << request.seed;
+    }
+  }
+}
+
 TEST(RigidPlan, SaysThatNoneWasFoundThroughAWholeWall) {
   const TriangleMesh wall = MakeBox({-9, -9, -0.2}, {9, 9, 0.2});
   RigidRequest request = ThroughTheWall();
