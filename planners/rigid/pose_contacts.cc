@@ -14,6 +14,9 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
+// Of triangles, a few milliseconds.
+constexpr long kPairsBetweenAsks = 4096;
+
 std::vector<TriangleCorners> AllCorners(
     const std::vector<TriangleMesh>& meshes) {
   std::vector<TriangleCorners> all;
@@ -92,9 +95,10 @@ class BoxGap {
 ContactSurface::ContactSurface(const std::vector<TriangleMesh>& meshes)
     : corners(AllCorners(meshes)), tree(SortIntoTree(&corners)) {}
 
-void ForEachClosePair(const ContactSurface& robot,
+bool ForEachClosePair(const ContactSurface& robot,
                       const ContactSurface& obstacle, const RobotPose& pose,
-                      double radius, const VisitTriangles& visit, long* tests) {
+                      double radius, const VisitTriangles& visit, long* tests,
+                      RigidStop* stop) {
   const Matrix3d rotation = pose.orientation.toRotationMatrix();
   const BoxGap gap(rotation, pose.position);
   const auto keep = [&](int i, int j) {
@@ -102,8 +106,14 @@ void ForEachClosePair(const ContactSurface& robot,
     return gap(robot.tree.nodes()[static_cast<std::size_t>(i)],
                obstacle.tree.nodes()[static_cast<std::size_t>(j)]) <= radius;
   };
+  long looked = 0;
+  bool is_stopped = false;
   const auto visit_leaves = [&](int i, int j) {
     ++*tests;
+    if (stop != nullptr && ++looked % kPairsBetweenAsks == 0) {
+      is_stopped = stop->Asks();
+      if (is_stopped) return false;
+    }
     const auto a = static_cast<std::size_t>(i), b = static_cast<std::size_t>(j);
     TriangleCorners placed = robot.corners[a];
     for (Vector3d& p : placed) p = rotation * p + pose.position;
@@ -115,6 +125,7 @@ void ForEachClosePair(const ContactSurface& robot,
     return true;
   };
   ForEachPair(robot.tree, obstacle.tree, keep, visit_leaves);
+  return !is_stopped;
 }
 
 void FindContacts(const ContactSurface& robot, const ContactSurface& obstacle,

@@ -9,6 +9,7 @@
 #include "core/bvh/triangle_corners.h"
 #include "core/contact/depth.h"
 #include "core/mesh/triangle_mesh.h"
+#include "planners/rigid/rigid_links.h"
 
 // Where a robot at a pose is close to obstacles.
 namespace phongpd::internal {
@@ -25,12 +26,15 @@ struct ContactSurface {
 // Calls visit(i, j, placed) for all pairs of triangles, numbers in the order of
 // the trees, but such as boxes or a plane of one of them show to be farther
 // apart than radius; `placed` is the robot's, at the pose.  Adds the pairs of
-// boxes and triangles looked at to *tests.
+// boxes and triangles looked at to *tests.  `stop`, if there is one, is asked
+// now and then, as fine surfaces have many millions of pairs; false: it ended
+// this before all were visited.
 using VisitTriangles =
     std::function<void(std::size_t, std::size_t, const TriangleCorners&)>;
-void ForEachClosePair(const ContactSurface& robot,
+bool ForEachClosePair(const ContactSurface& robot,
                       const ContactSurface& obstacle, const RobotPose& pose,
-                      double radius, const VisitTriangles& visit, long* tests);
+                      double radius, const VisitTriangles& visit, long* tests,
+                      RigidStop* stop = nullptr);
 
 // The closest points of a triangle of the robot and one of the obstacles.  A
 // small motion (v, ω) changes the gap by n · v + (r × n) · ω.

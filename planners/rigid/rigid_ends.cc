@@ -99,9 +99,13 @@ bool AreEndsFree(const RigidWorld& world, const TreeTask& task,
                    PathStatus::kGoalOutOfBounds, answer);
 }
 
-bool ConfirmPath(const RigidWorld& world, RigidAnswer* answer) {
+bool ConfirmPath(const RigidWorld& world, const Eigen::AlignedBox3d& bounds,
+                 RigidAnswer* answer) {
   // Of each motion; some tenths of a second at most.
   constexpr long kMaxClearanceTests = 1'000'000;
+  for (RobotPose& pose : answer->path) {
+    pose.position = pose.position.cwiseMax(bounds.min()).cwiseMin(bounds.max());
+  }
   answer->length = 0.0;
   for (std::size_t i = 0; i + 1 < answer->path.size(); ++i) {
     const RobotPose& from = answer->path[i];

@@ -17,9 +17,10 @@ Eigen::AlignedBox3d BoundsOf(const RigidWorld& world,
 bool AreEndsFree(const RigidWorld& world, const TreeTask& task,
                  RigidAnswer* answer);
 
-// The judge's second pass, of every motion of the path that is handed out: its
-// length and clearance.  False, the path gone and kNotCertified, where one is
-// not free.
-bool ConfirmPath(const RigidWorld& world, RigidAnswer* answer);
+// Puts back what rounding put out of the bounds; then the judge's second pass,
+// of every motion of the path that is handed out: its length and clearance.
+// False, the path gone and kNotCertified, where one is not free.
+bool ConfirmPath(const RigidWorld& world, const Eigen::AlignedBox3d& bounds,
+                 RigidAnswer* answer);
 
 }  // namespace phongpd::internal

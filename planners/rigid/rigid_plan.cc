@@ -166,7 +166,8 @@ RigidAnswer Plan(const RigidWorld& world, const RigidRequest& request) {
                       internal::BoundsOf(world, request)};
   if (internal::AreEndsFree(world, task, &answer)) {
     Portfolio(world.model(), request, task).Run(&answer);
-    if (!answer.path.empty() && internal::ConfirmPath(world, &answer)) {
+    if (!answer.path.empty() &&
+        internal::ConfirmPath(world, task.bounds, &answer)) {
       answer.status = PathStatus::kSolved;
     }
   }

@@ -37,6 +37,7 @@ int Run(Program* program) {
   BudgetOptions options;
   app.add_option("--seed", options.seed)->capture_default_str();
   app.add_option("--seeds", options.seeds, "Problems of each pair")
+      ->check(CLI::PositiveNumber)
       ->capture_default_str();
   app.add_option("--least", least, "Of decades of triangles, from this one")
       ->capture_default_str();
@@ -50,7 +51,10 @@ int Run(Program* program) {
   std::string measured = TextOf(program->folder() + "/budget_measured.txt");
   measured += program->Circumstances(options.seed) + "\n";
   for (const BudgetCase& pair : BudgetCases()) {
-    if (pair.decade < least || pair.decade > most || IsKnown(csv, pair)) {
+    if (pair.decade < least || pair.decade > most) continue;
+    if (IsKnown(csv, pair)) {
+      std::cout << pair.family << ", " << pair.decade
+                << " triangles: kept as it was measured before" << std::endl;
       continue;
     }
     const std::vector<BudgetRow> added = MeasureBudget(pair, options);

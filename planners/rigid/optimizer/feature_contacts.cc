@@ -166,19 +166,21 @@ SurfaceFeatures::SurfaceFeatures(const ContactSurface& surface) {
   }
 }
 
-void FeatureContacts::Find(const RobotPose& pose, double radius,
-                           std::vector<PoseContact>* contacts,
-                           long* tests) const {
+bool FeatureContacts::Find(const RobotPose& pose, double radius,
+                           std::vector<PoseContact>* contacts, long* tests,
+                           RigidStop* stop) const {
   contacts->clear();
   Search search(robot_features_, obstacle_features_, pose, radius, contacts);
   const auto visit = [&](std::size_t i, std::size_t j,
                          const TriangleCorners& placed) {
     search.Visit(i, j, placed, obstacle_.corners[j]);
   };
-  ForEachClosePair(robot_, obstacle_, pose, radius, visit, tests);
+  const bool is_whole =
+      ForEachClosePair(robot_, obstacle_, pose, radius, visit, tests, stop);
   std::sort(
       contacts->begin(), contacts->end(),
       [](const PoseContact& a, const PoseContact& b) { return a.gap < b.gap; });
+  return is_whole;
 }
 
 }  // namespace phongpd::internal

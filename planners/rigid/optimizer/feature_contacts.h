@@ -31,7 +31,8 @@ struct SurfaceFeatures {
 // no way within either surface, from p or p', leads closer.  So the crease
 // between two triangles of one plane is none, nor is an edge that a face is in
 // front of.  Each once, the nearest first.  Clears `contacts` first; adds to
-// *tests as FindContacts.
+// *tests as FindContacts.  False: `stop`, which may be null, ended it, and
+// `contacts` is not all of them.
 class FeatureContacts {
  public:
   // The surfaces must outlive this.
@@ -41,8 +42,9 @@ class FeatureContacts {
         robot_features_(robot),
         obstacle_features_(obstacle) {}
 
-  void Find(const RobotPose& pose, double radius,
-            std::vector<PoseContact>* contacts, long* tests) const;
+  bool Find(const RobotPose& pose, double radius,
+            std::vector<PoseContact>* contacts, long* tests,
+            RigidStop* stop = nullptr) const;
 
  private:
   const ContactSurface& robot_;

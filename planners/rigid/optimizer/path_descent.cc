@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "planners/rigid/object_norm.h"
 #include "planners/rigid/optimizer/feature_contacts.h"
@@ -54,8 +55,7 @@ class Descent {
   PathDescentEnd Run() {
     while (end_.rounds < task_.max_rounds) {
       if (!FindContacts()) {
-        end_.status = stop_->IsInterrupted() ? SolveStatus::kCancelled
-                                             : SolveStatus::kTimeLimit;
+        SetStopped();
         break;
       }
       ++end_.rounds;
@@ -66,6 +66,11 @@ class Descent {
   }
 
  private:
+  void SetStopped() {
+    end_.status = stop_->IsInterrupted() ? SolveStatus::kCancelled
+                                         : SolveStatus::kTimeLimit;
+  }
+
   // True: the end.
   bool Round() {
     const PoseChart chart(path_, model_.reach, model_.gyration);
@@ -74,6 +79,9 @@ class Descent {
     IpoptSettings settings;
     settings.max_iterations = kSolveIterations;
     settings.stall_iterations = 0;
+    settings.on_iteration = [this](const IterationRecord&, const VectorXd&) {
+      return !stop_->Asks();
+    };
     const IpoptRun run = SolveWithIpopt(&step, zero, settings);
     end_.iterations += run.iterations;
     const double gain =
@@ -84,7 +92,12 @@ class Descent {
       end_.status = SolveStatus::kConverged;
       return true;
     }
-    if (!is_solved || !Take(chart, run.x)) trust_ *= 0.4;
+    const bool has_gained = is_solved && Take(chart, run.x);
+    if (stop_->Asks()) {
+      SetStopped();
+      return true;
+    }
+    if (!has_gained) trust_ *= 0.4;
     end_.status = SolveStatus::kStalledFeasible;
     if (trust_ < kLeastTrust * model_.reach) return true;
     end_.status = SolveStatus::kIterationLimit;
@@ -98,6 +111,7 @@ class Descent {
       const VectorXd part = share * x;
       const RigidPath path = chart.Poses(part.data());
       const std::vector<Hit> hits = Judge(path);
+      if (stop_->Asks()) return false;
       if (hits.empty()) {
         const double cost = CostOf(path);
         if (!(cost < cost_)) continue;
@@ -120,12 +134,15 @@ class Descent {
     return has_learned;
   }
 
-  // What steps make less.  Of a free path.
+  // What steps make less.  Of a free path; infinite: stopped.
   double CostOf(const RigidPath& path) {
     double lack = 0.0;
     std::vector<PoseContact> contacts;
     for (const PathContacts& place : places_) {
-      features_.Find(PoseAt(path, place), task_.margin, &contacts, &end_.tests);
+      if (!features_.Find(PoseAt(path, place), task_.margin, &contacts,
+                          &end_.tests, stop_)) {
+        return std::numeric_limits<double>::infinity();
+      }
       if (!contacts.empty()) lack += task_.margin - contacts.front().gap;
     }
     return LengthOf(path, model_.gyration) + LinearStep::kPenalty * lack;
@@ -151,10 +168,10 @@ class Descent {
     double time;
   };
 
-  // Where motions of the path are not free; empty: it is.
+  // Where motions of the path are not free; empty: it is, unless stopped.
   std::vector<Hit> Judge(const RigidPath& path) {
     std::vector<Hit> hits;
-    for (std::size_t i = 0; i + 1 < path.size(); ++i) {
+    for (std::size_t i = 0; i + 1 < path.size() && !stop_->Asks(); ++i) {
       const RigidCheck check =
           model_.judge.Check(RigidMotion(path[i], path[i + 1]), kMostTests);
       ++end_.checks;
@@ -169,6 +186,7 @@ class Descent {
   bool AddPlaces(const std::vector<Hit>& hits) {
     const std::size_t before = places_.size();
     for (const Hit& hit : hits) {
+      if (stop_->Asks()) break;
       AddPlace(hit.link, hit.time);
       const auto i = static_cast<std::size_t>(hit.link);
       const RigidClearance closest = model_.judge.Clearance(
@@ -201,8 +219,10 @@ class Descent {
         trust_ * std::sqrt(3.0) * (1.0 + model_.reach / model_.gyration);
     for (PathContacts& place : places_) {
       if (stop_->Asks()) return false;
-      features_.Find(PoseAt(path_, place), radius, &place.contacts,
-                     &end_.tests);
+      if (!features_.Find(PoseAt(path_, place), radius, &place.contacts,
+                          &end_.tests, stop_)) {
+        return false;
+      }
     }
     return true;
   }

@@ -64,7 +64,7 @@ class RigidOptimizer {
       }
       if (answer.path.empty()) SayWhy();
     }
-    if (!answer.path.empty()) internal::ConfirmPath(world_, &answer);
+    if (!answer.path.empty()) internal::ConfirmPath(world_, bounds_, &answer);
     return out_;
   }
 

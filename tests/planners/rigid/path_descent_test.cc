@@ -90,6 +90,21 @@ TEST(FeatureContacts, AFaceAlongAFaceIsCloseAtAllItsCorners) {
   EXPECT_GT(tests, 0);
 }
 
+// Fine surfaces have more pairs than a time limit waits for.
+TEST(FeatureContacts, EndWhenTheSearchIsStopped) {
+  const RigidWorld world(MakeIcoBall(0.5, 4), Cube(1.0));
+  const FeatureContacts features(world.model().robot_surface,
+                                 world.model().obstacle_surface);
+  std::vector<PoseContact> contacts;
+  RigidStop stop(100.0, [] { return true; });
+  long all = 0, until_stopped = 0;
+  EXPECT_TRUE(features.Find(At({1.6, 0.0, 0.0}), 2.0, &contacts, &all));
+  EXPECT_FALSE(features.Find(At({1.6, 0.0, 0.0}), 2.0, &contacts,
+                             &until_stopped, &stop));
+  EXPECT_GT(all, 30'000);
+  EXPECT_LT(until_stopped, 10'000);
+}
+
 TEST(FeatureContacts, ChangeAsTheirNormalsAndArmsSay) {
   const RigidModel& model = Pillar().model();
   const FeatureContacts features(model.robot_surface, model.obstacle_surface);

@@ -63,7 +63,7 @@ TEST(RigidOptimize, ShortensThePlannersPath) {
 // One step of a descent, and all of them: what was planned is the least there
 // is, and what converged says so.
 TEST(RigidOptimize, IsNeverLongerThanThePlanItBeganFrom) {
-  const RigidWorld world(Bar(), Wall());
+  const RigidWorld world(LongBar(), WallWithHole());
   RigidOptimizeRequest request = ThroughTheWall(RigidStart::kPlanner);
   int shorter = 0, converged = 0;
   for (const unsigned seed : {11u, 12u, 13u}) {
@@ -74,7 +74,7 @@ TEST(RigidOptimize, IsNeverLongerThanThePlanItBeganFrom) {
     for (const int rounds : {1, 100}) {
       request.max_rounds = rounds;
       const RigidOptimum found = Optimize(world, request);
-      ExpectFreePath(Bar(), Wall(), request, found);
+      ExpectFreePath(LongBar(), WallWithHole(), request, found);
       EXPECT_EQ(found.planned_length, planned.length);
       EXPECT_LE(found.answer.length, before);
       EXPECT_LE(found.rounds, rounds);

@@ -150,7 +150,7 @@ TEST(RigidPlan, CountsNoMoreThanTheLineWhereItIsFree) {
   RigidRequest request;
   request.start = At({-3.0, 3.0, 0.0});
   request.goal = At({3.0, 3.0, 0.0}, 2.0);
-  const RigidWorld world(Bar(), Cube(1.0));
+  const RigidWorld world(LongBar(), Cube(1.0));
   const RigidAnswer answer = Plan(world, request);
   ASSERT_EQ(answer.planner, "line");
   // Start, goal, the motion, and the motion once more at the end.
@@ -175,6 +175,23 @@ TEST(RigidPlan, GivesTheSamePathForTheSameSeed) {
   ASSERT_EQ(one.path.size(), other.path.size());
   for (std::size_t i = 0; i < one.path.size(); ++i) {
     EXPECT_TRUE(IsSame(one.path[i], other.path[i])) << i;
+  }
+}
+
+// (1 − t) z + t z is not always z.
+TEST(RigidPlan, StaysWithinBoundsOfNoWidth) {
+  const RigidWorld world(LongBar(), Cube(2.0));
+  RigidRequest request;
+  request.start = At({-3.0, 0.1, 0.1});
+  request.goal = At({3.0, 0.1, 0.1});
+  request.bounds = {Vector3d(-4.0, -4.0, 0.1), Vector3d(4.0, 4.0, 0.1)};
+  for (request.seed = 1; request.seed <= 8; ++request.seed) {
+    const RigidAnswer answer = Plan(world, request);
+    ASSERT_TRUE(answer.IsSolved()) << answer.reason;
+    EXPECT_GT(answer.path.size(), 2u);
+    for (const RobotPose& pose : answer.path) {
+      EXPECT_TRUE(request.bounds.contains(pose.position)) << request.seed;
+    }
   }
 }
 
