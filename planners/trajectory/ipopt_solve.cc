@@ -72,6 +72,9 @@ class ProgramAdapter : public Ipopt::TNLP {
   // The point to return, once Ipopt is done.  Throws what a callback threw.
   void Finish() {
     if (failure_) std::rethrow_exception(failure_);
+    // Rows that build something may have been stopped, too; Ipopt makes a
+    // status of what they throw.
+    if (!IsClassOk(run.status)) watch_.Check("the solve");
     if (!IsClassOk(run.status) || run.status == SolveStatus::kStalledFeasible) {
       if (stop_.best() != nullptr) x_ = *stop_.best();
     }

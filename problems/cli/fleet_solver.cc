@@ -71,7 +71,7 @@ class SeveralRobotsSolver : public SceneSolver {
       OptimizeRequest& request = robots[i].request;
       request = OptimizeRequestOf(asked.robots[i]);
       request.options.seed = question.Seed().value_or(request.options.seed);
-      request.options.time_limit = seconds_;
+      request.options.time_limit = SearchSeconds(seconds_);
       request.is_interrupted = is_over;
     }
     return robots;

@@ -64,7 +64,8 @@ class OneRobotSolver : public SceneSolver {
       asked.penetration.metric =
           ParseMetricKind(options["metric"].get<std::string>(), "metric");
     }
-    asked.planning.time_limit = std::min(asked.planning.time_limit, seconds_);
+    asked.planning.time_limit =
+        std::min(asked.planning.time_limit, SearchSeconds(seconds_));
     return asked;
   }
 
@@ -99,7 +100,7 @@ class OneRobotSolver : public SceneSolver {
                      question.options["metric"].dump());
     }
     request.options.seed = question.Seed().value_or(request.options.seed);
-    request.options.time_limit = seconds_;
+    request.options.time_limit = SearchSeconds(seconds_);
     request.is_interrupted = EndOf(seconds_, is_cancelled);
     const PathAnswer found = Optimize(world_, request);
     const SolveJson row = request.limits

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
+#include <cstdint>
 #include <exception>
 #include <future>
 #include <mutex>
@@ -90,13 +91,25 @@ struct SolveDesk::Impl {
     if (is_busy) is_cancelled = true;
   }
 
+  // False if that question is over: the next one is somebody else's.
+  bool CancelQuestion(std::uint64_t number) {
+    {
+      const std::lock_guard<std::mutex> lock(mutex);
+      if (!is_busy || number != taken) return false;
+      CancelTask();
+    }
+    wake.notify_all();
+    return true;
+  }
+
   Solve solve;
   std::function<void()> stop;
   double seconds;
   std::mutex mutex;
   std::condition_variable wake;
   std::optional<Task> task;               // that the worker has not taken yet
-  bool is_busy = false;                   // a task waits or is worked at
+  std::uint64_t taken = 0;                // how many tasks there were
+  bool is_busy = false;                   // the last one waits, or is worked at
   std::atomic<bool> is_cancelled{false};  // that one
   bool is_over = false;
   std::thread worker, stopper;  // the last members: they use the others
@@ -119,20 +132,25 @@ SolveDesk::~SolveDesk() {
 
 ServedAnswer SolveDesk::Ask(const std::string& question) {
   std::future<ServedAnswer> answer;
+  std::uint64_t number = 0;
   {
     const std::lock_guard<std::mutex> lock(impl_->mutex);
     if (impl_->is_busy) {
       return Failed(503, "another question is being answered; ask again soon");
     }
     impl_->is_busy = true;
+    number = ++impl_->taken;
     impl_->task.emplace();
     impl_->task->question = question;
     answer = impl_->task->answer.get_future();
   }
   impl_->wake.notify_all();
   const std::chrono::duration<double> limit(impl_->seconds);
-  if (answer.wait_for(limit) == std::future_status::ready) return answer.get();
-  Cancel();
+  // What has come while the limit passed is an answer, too.
+  if (answer.wait_for(limit) == std::future_status::ready ||
+      !impl_->CancelQuestion(number)) {
+    return answer.get();
+  }
   return Failed(504, "expected an answer within " +
                          FormatDouble(impl_->seconds) +
                          " s, found none yet; ask again later, or begin with a "

@@ -16,7 +16,7 @@ namespace phongpd::cli {
 //   409  Cancel has ended it
 //   500  no memory, or a fault of the program
 //   503  another question is being answered
-//   504  the limit has passed; it is cancelled, and until the worker has
+//   504  the limit has passed; it alone is cancelled, and until the worker has
 //        noticed, others get 503
 class SolveDesk {
  public:

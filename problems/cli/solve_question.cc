@@ -214,11 +214,12 @@ void RefuseQuestion(const std::string& where, const std::string& expected,
   JsonPlace{kQuestion, where}.Fail(expected, found);
 }
 
+double SearchSeconds(double seconds) { return 0.9 * seconds; }
+
 std::function<bool()> EndOf(double seconds,
                             std::function<bool()> is_cancelled) {
-  constexpr double kShare = 0.9;
   const auto end = std::chrono::steady_clock::now() +
-                   std::chrono::duration<double>(kShare * seconds);
+                   std::chrono::duration<double>(SearchSeconds(seconds));
   return [end, asked = std::move(is_cancelled)] {
     return asked() || std::chrono::steady_clock::now() > end;
   };

@@ -67,8 +67,11 @@ SolveQuestion ReadQuestion(const std::string& text, const QuestionScope& scope);
                                  const std::string& expected,
                                  const std::string& found);
 
-// true once it is cancelled, or nine tenths of `seconds` have gone by from now:
-// the best so far is to come within them.
+// Of the `seconds` that an answer may take, those for its search, nine tenths:
+// what was found, or that nothing was, is to come within them.
+double SearchSeconds(double seconds);
+
+// true once it is cancelled, or these have gone by from now.
 std::function<bool()> EndOf(double seconds, std::function<bool()> is_cancelled);
 
 }  // namespace phongpd::cli

@@ -32,7 +32,7 @@ class OneTurningSolver : public SceneSolver {
  public:
   OneTurningSolver(const TurningScene& scene, double seconds)
       : scene_(scene), world_(RigidWorldOf(scene)), seconds_(seconds) {
-    scene_.time_limit = std::min(scene_.time_limit, seconds);
+    scene_.time_limit = std::min(scene_.time_limit, SearchSeconds(seconds));
   }
 
   TurningJson Answer(const std::string& text,

@@ -5,10 +5,12 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <chrono>
 #include <future>
 #include <memory>
 #include <stdexcept>
 #include <thread>
+#include <vector>
 
 #include "core/mesh/mesh_error.h"
 
@@ -86,6 +88,40 @@ TEST(SolveDesk, WhatIsTooSlowIsCancelled) {
   EXPECT_EQ(desk.Ask("slow").status, 504);
   Await([&] { return is_told.load(); });
   Await([&] { return desk.Ask("quick").status == 200; });
+}
+
+// Nobody presses Cancel: whoever is told so was cancelled in another's place,
+// whose answer came just as its limit passed.
+TEST(SolveDesk, WhatIsTooSlowCancelsNoOther) {
+  using Clock = std::chrono::steady_clock;
+  constexpr double kLimit = 0.0005;  // seconds; each question takes about that
+  constexpr int kAskers = 3, kQuestions = 2000;
+  constexpr std::chrono::microseconds kPause(20);
+  SolveDesk desk(
+      [&](const std::string&, const auto& is_cancelled) {
+        const auto end = Clock::now() + std::chrono::duration<double>(kLimit);
+        while (Clock::now() < end && !is_cancelled()) std::this_thread::yield();
+        return std::string("{}");
+      },
+      [] {}, kLimit);
+  std::atomic<int> left{kQuestions}, cancelled{0}, answered{0};
+  const auto ask = [&] {
+    while (left > 0) {
+      const int status = desk.Ask("x").status;
+      if (status == 503) {
+        std::this_thread::sleep_for(kPause);
+        continue;
+      }
+      --left;
+      cancelled += status == 409 ? 1 : 0;
+      answered += status == 200 ? 1 : 0;
+    }
+  };
+  std::vector<std::thread> askers;
+  for (int i = 0; i < kAskers; ++i) askers.emplace_back(ask);
+  for (std::thread& asker : askers) asker.join();
+  EXPECT_EQ(cancelled, 0);
+  EXPECT_GT(answered, 0);
 }
 
 TEST(SolveDesk, GoesAwayWhileAQuestionIsAnswered) {

@@ -237,6 +237,35 @@ class Fleet(unittest.TestCase):
             self.assertFalse(overlap(q, p, (10, 10, 10)))
 
 
+def closed(seconds):
+    """The file of a tunnel that no sampler finds through, however long."""
+    path = FOLDER / f"closed{seconds}.json"
+    run("scenes", "write", "tunnel", "--set", "delta=0.001", "--set",
+        "bends=3", "--set", "twin=1", "--output", str(path))
+    scene = json.loads(path.read_text())
+    scene.setdefault("planning", {})["time_limit"] = seconds
+    path.write_text(json.dumps(scene))
+    return str(path)
+
+
+def sampled(path):
+    scene = json.loads(pathlib.Path(path).read_text())
+    return {"what": "plan", "start": scene["start"], "goal": scene["goal"],
+            "options": {"planner": "rrt-connect"}}
+
+
+def shut_in(seconds):
+    """The bar in a box that is closed on all sides; the goal is outside."""
+    walls = [{"id": f"wall {axis} {side}",
+              "position": [6 * side * (k == axis) for k in range(3)],
+              "shape": {"type": "box",
+                        "size": [1 if k == axis else 14 for k in range(3)]}}
+             for axis in range(3) for side in (-1, 1)]
+    return {**BAR, "name": f"shut{seconds}", "obstacles": walls,
+            "start": [0, 0, 0], "goal": [20, 0, 0],
+            "planning": {"time_limit": seconds}}
+
+
 class Cancel(unittest.TestCase):
     def cancel(self, served):
         status, _, text = served.ask(
@@ -280,27 +309,37 @@ class Cancel(unittest.TestCase):
                    "goal": KNOTS["goal"]})
 
     def test_a_sampler_that_finds_nothing(self):
-        scene = FOLDER / "closed.json"
-        run("scenes", "write", "tunnel", "--set", "delta=0.001", "--set",
-            "bends=3", "--set", "twin=1", "--output", str(scene))
-        data = json.loads(scene.read_text())
-        data.setdefault("planning", {})["time_limit"] = 36000
-        scene.write_text(json.dumps(data))
-        self.ends(str(scene), {"what": "plan", "start": data["start"],
-                               "goal": data["goal"],
-                               "options": {"planner": "rrt-connect"}})
+        scene = closed(36000)
+        self.ends(scene, sampled(scene))
 
     def test_a_robot_that_turns_and_finds_nothing(self):
-        # In a box that is closed on all sides; the goal is outside.
-        walls = [{"id": f"wall {axis} {side}",
-                  "position": [6 * side * (k == axis) for k in range(3)],
-                  "shape": {"type": "box",
-                            "size": [1 if k == axis else 14 for k in range(3)]}}
-                 for axis in range(3) for side in (-1, 1)]
-        shut = {**BAR, "name": "shut", "obstacles": walls, "start": [0, 0, 0],
-                "goal": [20, 0, 0], "planning": {"time_limit": 36000}}
+        shut = shut_in(36000)
         self.ends(written(shut), {"what": "plan", "start": shut["start"],
                                   "goal": shut["goal"]})
+
+
+class Limit(unittest.TestCase):
+    """What a search within --time has to say is said, not only that it is over."""
+    def says(self, scene, question):
+        with Served(PROGRAM, FOLDER, scene, "--time", "3") as served:
+            # The first builds what all need.
+            for _ in range(2):
+                status, reply = served.solve(question)
+            self.assertEqual(status, 200, reply)
+            return reply["row"]
+
+    def test_a_sampler_that_finds_nothing(self):
+        scene = closed(5)
+        row = self.says(scene, sampled(scene))
+        self.assertEqual(row["status"], "time_limit", row)
+        self.assertFalse(row["solved"])
+
+    def test_a_robot_that_turns_and_finds_nothing(self):
+        shut = shut_in(60)
+        row = self.says(written(shut), {"what": "plan", "start": shut["start"],
+                                        "goal": shut["goal"]})
+        self.assertEqual(row["status"], "time_limit", row)
+        self.assertRegex(row["reason"], r"within 2\.7 s")
 
 
 def main():

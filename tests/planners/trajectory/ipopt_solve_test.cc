@@ -255,6 +255,29 @@ TEST(SolveWithIpopt, IsStoppedByCancelBuildsAndNoLaterOneIs) {
             SolveStatus::kConverged);
 }
 
+// Rows that build contact spaces or ask for depths are stopped by it as well.
+class CancelledDisc : public Disc {
+ public:
+  bool Constraints(const double* x, double* values, double* jacobian) override {
+    if (accepted.empty() || is_over) {
+      return Disc::Constraints(x, values, jacobian);
+    }
+    is_over = true;
+    CancelBuilds();
+    throw BuildCancelled("a depth was cancelled");
+  }
+
+  bool is_over = false;
+};
+
+TEST(SolveWithIpopt, IsStoppedWhereItsRowsAre) {
+  CancelledDisc disc;
+  EXPECT_THROW(SolveWithIpopt(&disc, Point(0.1, 0.2), {}), BuildCancelled);
+  Disc next;
+  EXPECT_EQ(SolveWithIpopt(&next, Point(0.1, 0.2), {}).status,
+            SolveStatus::kConverged);
+}
+
 TEST(SolveWithIpopt, TellsWhyItStopped) {
   const VectorXd start = Point(0.1, 0.2);
   Disc disc;
