@@ -41,8 +41,9 @@ class Descent {
         task_(task),
         stop_(stop),
         features_(model.robot_surface, model.obstacle_surface),
-        trust_(kFirstTrust * model.reach) {
-    end_.path = path_ = start;
+        trust_(kFirstTrust * model.reach),
+        path_(start) {
+    end_.path = start;
     end_.length = LengthOf(start, model.gyration);
     const int links = static_cast<int>(start.size()) - 1;
     for (int i = 0; i < links; ++i) {
