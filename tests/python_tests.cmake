@@ -11,8 +11,16 @@ if(Python3_Interpreter_FOUND)
       ${Python3_EXECUTABLE}
       ${CMAKE_CURRENT_SOURCE_DIR}/viewer/viewer_browser_test.py
       $<TARGET_FILE:phongpd> ${PROJECT_BINARY_DIR}/tests/viewer)
-  set_tests_properties(ViewerInBrowser PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT
-                                                  1200)
+  add_test(
+    NAME ViewerServedInBrowser
+    COMMAND
+      ${Python3_EXECUTABLE}
+      ${CMAKE_CURRENT_SOURCE_DIR}/viewer/viewer_browser_test.py
+      $<TARGET_FILE:phongpd> ${PROJECT_BINARY_DIR}/tests/viewer_served --served)
+  # They take longest, so they begin first.
+  set_tests_properties(
+    ViewerInBrowser ViewerServedInBrowser
+    PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 1800 COST 1000)
   add_test(
     NAME ViewServed
     COMMAND

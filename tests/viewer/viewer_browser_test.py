@@ -1,13 +1,14 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""viewer_browser_test.py PHONGPD FOLDER [--renew]: pages in a real browser.
+"""viewer_browser_test.py PHONGPD FOLDER [--renew|--served]: pages in a real browser.
 
 Makes pages by the program, opens them in headless Chromium with a software
 renderer, and works their controls by mouse and keys through the browser's
 debugging pipe.  Fails on any console message, on a blank canvas and on a
 control that does not do what it says, and where a reference view is not the
 picture that it was (viewer_references.py; --renew draws those anew and tests
-nothing).  Screenshots stay in FOLDER.  Exits with 77, "skipped", without the
+nothing).  --served: the pages that view --serve serves, and no others.
+Screenshots stay in FOLDER.  Exits with 77, "skipped", without the
 browser (scripts/setup.sh chromium).
 """
 import os
@@ -120,6 +121,21 @@ def a_robot_that_turns(browser, checks, page):
                  "it turns on its way")
 
 
+def see_served(browser, checks, run, program, folder):
+    """1 where a served page does not do what it says; 77 where none is served."""
+    try:
+        if "libcpp-httplib-dev" in run("view", "u_axis", "--serve", "--port", "1",
+                                       "--html", "x.html", fails=True):
+            print("Skipped: pages that are served, which this build does not")
+            return 77
+        work_served(browser, checks, program, folder)
+        work_kinds(browser, checks, program, folder)
+    finally:
+        browser.close()
+    print(f"{len(checks.failures)} failures; screenshots in {folder}")
+    return 1 if checks.failures else 0
+
+
 def main():
     program, folder = sys.argv[1], pathlib.Path(sys.argv[2]).resolve()
     chromium = next(filter(None, map(shutil.which, (
@@ -129,6 +145,9 @@ def main():
         return 77
     folder.mkdir(parents=True, exist_ok=True)
     run = runner(program, folder)
+    if "--served" in sys.argv[3:]:
+        browser = Browser(chromium)
+        return see_served(browser, Checks(browser), run, program, folder)
     pages = make_pages(run, folder)
     browser = Browser(chromium)
     checks = Checks(browser)
@@ -203,13 +222,6 @@ def main():
         chart_of_a_motion(browser, checks, pages["motion"])
         labels_beside_the_panel(browser, checks, pages["trap"])
         work_task(browser, checks, pages["trap"])
-        if "libcpp-httplib-dev" not in run("view", "u_axis", "--serve", "--port",
-                                           "1", "--html", "x.html", fails=True):
-            work_served(browser, checks, program, folder)
-            work_kinds(browser, checks, program, folder)
-        else:
-            print("Skipped: pages that are served, which this build does not",
-                  flush=True)
         browser.open(pages["motion"])
         if browser.run("viewer.data.probe !== null"):
             work_phone(browser, checks, pages["trap"], folder)
