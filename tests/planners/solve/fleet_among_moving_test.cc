@@ -11,7 +11,7 @@
 #include "constraints/oracle/collision_oracle.h"
 #include "planners/solve/fleet.h"
 #include "problems/shapes/shapes.h"
-#include "tests/support/curve_problems.h"
+#include "tests/support/fleet_problems.h"
 #include "tests/support/solid_tools.h"
 
 namespace phongpd {
@@ -22,22 +22,15 @@ using Eigen::Vector3d;
 constexpr int kTimes = 10'000;
 
 World Hall(double height = 0.05) {
-  Workspace workspace;
-  workspace.robot = MakeSolid(testing::Cube(1.0), "robot");
-  workspace.bounds = {{-7, -5, -height}, {7, 5, height}};
-  return World(workspace);
+  return testing::RoomOfCubes({{-7, -5, -height}, {7, 5, height}});
 }
 
+// Judged on the solids, too.
 FleetRobot Robot(const std::string& name, const World& world,
                  const Vector3d& start, const Vector3d& goal) {
-  OptimizeRequest request;
-  request.start = start;
-  request.goal = goal;
-  request.margin = Length::FromUnit(0.01);
-  request.preset = Preset::kFast;
-  request.limits = testing::PlainLimits();
-  request.verifies = true;
-  return {name, world, request};
+  FleetRobot robot = testing::CubeRobot(name, world, start, goal);
+  robot.request.verifies = true;
+  return robot;
 }
 
 // Of robots with each other and with what moves, until all rest.

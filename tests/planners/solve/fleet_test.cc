@@ -12,33 +12,16 @@
 #include "constraints/oracle/collision_oracle.h"
 #include "core/mesh/mesh_error.h"
 #include "problems/shapes/shapes.h"
-#include "tests/support/curve_problems.h"
 #include "tests/support/expect_refused.h"
+#include "tests/support/fleet_problems.h"
 #include "tests/support/solid_tools.h"
 
 namespace phongpd {
 namespace {
 
 using Eigen::Vector3d;
-
-World Room(const BoundingBox& bounds) {
-  Workspace workspace;
-  workspace.robot = MakeSolid(testing::Cube(1.0), "robot");
-  workspace.bounds = bounds;
-  return World(workspace);
-}
-
-FleetRobot Robot(const std::string& name, const World& world,
-                 const Vector3d& start, const Vector3d& goal) {
-  OptimizeRequest request;
-  request.start = start;
-  request.goal = goal;
-  request.margin = Length::FromUnit(0.01);
-  request.preset = Preset::kFast;
-  request.limits = testing::PlainLimits();
-  request.verifies = false;
-  return {name, world, request};
-}
+using testing::CubeRobot;
+using testing::RoomOfCubes;
 
 void ExpectApart(const std::vector<FleetRobot>& robots,
                  const FleetAnswer& answer) {
@@ -67,13 +50,13 @@ void ExpectApart(const std::vector<FleetRobot>& robots,
 // Robots around a circle change places with those across it.
 std::vector<FleetRobot> Circle(int count) {
   const double size = 2.0 + 0.4 * count;
-  const World world = Room({{-size, -size, -0.05}, {size, size, 0.05}});
+  const World world = RoomOfCubes({{-size, -size, -0.05}, {size, size, 0.05}});
   std::vector<FleetRobot> robots;
   const double radius = size - 0.5;
   for (int i = 0; i < count; ++i) {
     const double angle = 2.0 * 3.14159265358979 * i / count + 0.1;
     const Vector3d at(radius * std::cos(angle), radius * std::sin(angle), 0.0);
-    robots.push_back(Robot("robot " + std::to_string(i), world, at, -at));
+    robots.push_back(CubeRobot("robot " + std::to_string(i), world, at, -at));
   }
   return robots;
 }
@@ -118,7 +101,7 @@ TEST(Fleet, IsMadeFasterTogetherWithinLimitsOfTheNorm) {
 // One that stays does so while the others are made faster around it.
 TEST(Fleet, IsMadeFasterAroundWhoStays) {
   std::vector<FleetRobot> robots = Circle(6);
-  robots.push_back(Robot("stays", robots[0].world, {0, 0, 0}, {0, 0, 0}));
+  robots.push_back(CubeRobot("stays", robots[0].world, {0, 0, 0}, {0, 0, 0}));
   const FleetAnswer answer = OptimizeFleet(robots);
   ExpectApart(robots, answer);
   EXPECT_GT(answer.rounds_together, 0);
@@ -132,16 +115,16 @@ TEST(Fleet, IsMadeFasterAroundWhoStays) {
 // The second one stands in the first one's way and has to leave before it
 // comes; the corridor has no room to pass.
 TEST(Fleet, GoesInAnotherOrderWhereTheFirstOneFails) {
-  const World world = Room({{-9, -0.02, -0.02}, {9, 0.02, 0.02}});
+  const World world = RoomOfCubes({{-9, -0.02, -0.02}, {9, 0.02, 0.02}});
   // The first would rest at 2, which is on the second's way to 6.
   const std::vector<FleetRobot> robots = {
-      Robot("behind", world, {-3, 0, 0}, {2, 0, 0}),
-      Robot("ahead", world, {-1, 0, 0}, {6, 0, 0})};
+      CubeRobot("behind", world, {-3, 0, 0}, {2, 0, 0}),
+      CubeRobot("ahead", world, {-1, 0, 0}, {6, 0, 0})};
   const FleetAnswer answer = OptimizeFleet(robots);
   ExpectApart(robots, answer);
   const std::vector<FleetRobot> turned = {
-      Robot("left", world, {-6, 0, 0}, {6, 0, 0}),
-      Robot("right", world, {6, 0, 0}, {-6, 0, 0})};
+      CubeRobot("left", world, {-6, 0, 0}, {6, 0, 0}),
+      CubeRobot("right", world, {6, 0, 0}, {-6, 0, 0})};
   const FleetAnswer none = OptimizeFleet(turned);
   EXPECT_FALSE(none.IsSolved());
   EXPECT_GE(none.tries, 2);
@@ -152,22 +135,22 @@ TEST(Fleet, GoesInAnotherOrderWhereTheFirstOneFails) {
 
 // One that stays is kept off, whatever the order.
 TEST(Fleet, KeepsOffRobotsThatStay) {
-  const World world = Room({{-6, -3, -0.05}, {6, 3, 0.05}});
+  const World world = RoomOfCubes({{-6, -3, -0.05}, {6, 3, 0.05}});
   const std::vector<FleetRobot> robots = {
-      Robot("moves", world, {-5, 0, 0}, {5, 0, 0}),
-      Robot("stays", world, {0, 0, 0}, {0, 0, 0})};
+      CubeRobot("moves", world, {-5, 0, 0}, {5, 0, 0}),
+      CubeRobot("stays", world, {0, 0, 0}, {0, 0, 0})};
   const FleetAnswer answer = OptimizeFleet(robots);
   ExpectApart(robots, answer);
   EXPECT_EQ(answer.order, (std::vector<std::size_t>{1, 0}));
 }
 
 TEST(Fleet, RefusesRobotsThatBeginOrEndInEachOther) {
-  const World world = Room({{-9, -9, -9}, {9, 9, 9}});
+  const World world = RoomOfCubes({{-9, -9, -9}, {9, 9, 9}});
   const auto message = [&](const Vector3d& start, const Vector3d& goal,
                            const std::string& name) -> std::string {
     return testing::ErrorOf([&] {
-      OptimizeFleet({Robot("one", world, {0, 0, 0}, {5, 0, 0}),
-                     Robot(name, world, start, goal)});
+      OptimizeFleet({CubeRobot("one", world, {0, 0, 0}, {5, 0, 0}),
+                     CubeRobot(name, world, start, goal)});
     });
   };
   EXPECT_NE(message({0.5, 0, 0}, {0, 5, 0}, "two").find("at their starts"),
@@ -177,7 +160,7 @@ TEST(Fleet, RefusesRobotsThatBeginOrEndInEachOther) {
   EXPECT_NE(message({0, 5, 0}, {0, 0, 5}, "one").find("\"one\" twice"),
             std::string::npos);
   EXPECT_EQ(world.Report().contact_spaces, 0);
-  FleetRobot slow = Robot("slow", world, {0, 0, 0}, {5, 0, 0});
+  FleetRobot slow = CubeRobot("slow", world, {0, 0, 0}, {5, 0, 0});
   slow.request.limits.reset();
   EXPECT_THROW(OptimizeFleet({slow}), InputError);
 }
@@ -232,10 +215,10 @@ TEST(Fleet, IsJudgedOnTheSolidsAsWell) {
 
 // One that stays cannot keep off what comes to it.
 TEST(Fleet, HasNoMotionWhereSomethingComesToARobotThatStays) {
-  const World world = Room({{-9, -9, -0.05}, {9, 9, 0.05}});
+  const World world = RoomOfCubes({{-9, -9, -0.05}, {9, 9, 0.05}});
   std::vector<FleetRobot> robots = {
-      Robot("moves", world, {-5, 5, 0}, {5, 5, 0}),
-      Robot("stays", world, {0, 0, 0}, {0, 0, 0})};
+      CubeRobot("moves", world, {-5, 5, 0}, {5, 5, 0}),
+      CubeRobot("stays", world, {0, 0, 0}, {0, 0, 0})};
   const MovingObstacle cart = {
       MakeSolid(testing::Cube(1.0), "cart"),
       Trajectory({CurvePiece({-8, 0, 0}, {8, 0, 0}, 4.0)})};
@@ -252,11 +235,11 @@ TEST(Fleet, HasNoMotionWhereSomethingComesToARobotThatStays) {
 
 // Others lose less by giving way to the one that sets the time.
 TEST(Fleet, LetsTheSlowestAloneGoFirst) {
-  const World world = Room({{-9, -9, -0.05}, {9, 9, 0.05}});
+  const World world = RoomOfCubes({{-9, -9, -0.05}, {9, 9, 0.05}});
   std::vector<FleetRobot> robots = {
-      Robot("near", world, {-2, 0, 0}, {2, 0, 0}),
-      Robot("far", world, {0, -6, 0}, {0, 6, 0}),
-      Robot("middle", world, {-4, 2, 0}, {4, 2, 0})};
+      CubeRobot("near", world, {-2, 0, 0}, {2, 0, 0}),
+      CubeRobot("far", world, {0, -6, 0}, {0, 6, 0}),
+      CubeRobot("middle", world, {-4, 2, 0}, {4, 2, 0})};
   const FleetAnswer answer = OptimizeFleet(robots);
   ExpectApart(robots, answer);
   EXPECT_EQ(answer.tries, 1);
@@ -287,10 +270,10 @@ TEST(Fleet, TriesMoreOrdersForASoonerEnd) {
 }
 
 TEST(Fleet, RefusesWhatOtherRobotsLeaveNoRoomFor) {
-  const World world = Room({{-9, -9, -0.05}, {9, 9, 0.05}});
+  const World world = RoomOfCubes({{-9, -9, -0.05}, {9, 9, 0.05}});
   const std::vector<FleetRobot> good = {
-      Robot("one", world, {0, 0, 0}, {5, 0, 0}),
-      Robot("two", world, {0, 5, 0}, {5, 5, 0})};
+      CubeRobot("one", world, {0, 0, 0}, {5, 0, 0}),
+      CubeRobot("two", world, {0, 5, 0}, {5, 5, 0})};
   std::vector<FleetRobot> robots = good;
   robots[1].request.duration = 9.0;
   EXPECT_THROW(OptimizeFleet(robots), InputError);
