@@ -5,7 +5,28 @@ import json
 import os
 import signal
 import subprocess
+import sys
+import unittest
 import urllib.parse
+
+
+def run_in(program, folder, *arguments):
+    """What it did that answered and ended."""
+    return subprocess.run(
+        [program, *arguments], cwd=folder, capture_output=True, text=True,
+        env={**os.environ, "PHONGPD_CACHE_DIR": str(folder / "cache")},
+        check=False)
+
+
+def run_tests(program, folder):
+    """Those of the script that asks; 77 if the program serves nothing."""
+    folder.mkdir(parents=True, exist_ok=True)
+    probe = run_in(program, folder, "view", "no-such-scene", "--serve")
+    if "libcpp-httplib-dev" in probe.stderr:
+        print("Skipped: the program was built without libcpp-httplib-dev")
+        return 77
+    result = unittest.main(argv=sys.argv[:1], exit=False, verbosity=2).result
+    return 0 if result.wasSuccessful() else 1
 
 
 class Served:

@@ -8,15 +8,13 @@ with 77, "skipped", where the program was built without what serves.
 """
 import json
 import math
-import os
 import pathlib
-import subprocess
 import sys
 import threading
 import time
 import unittest
 
-from serving import Served
+from serving import Served, run_in, run_tests
 
 PROGRAM, FOLDER = sys.argv[1], pathlib.Path(sys.argv[2]).resolve()
 EXAMPLES = pathlib.Path(__file__).resolve().parents[2] / "examples"
@@ -36,10 +34,7 @@ KNOTS = {"name": "knots", "robot": {"shape": KNOT},
 
 
 def run(*arguments):
-    return subprocess.run(
-        [PROGRAM, *arguments], cwd=FOLDER, capture_output=True, text=True,
-        env={**os.environ, "PHONGPD_CACHE_DIR": str(FOLDER / "cache")},
-        check=False)
+    return run_in(PROGRAM, FOLDER, *arguments)
 
 
 def written(scene):
@@ -348,15 +343,5 @@ class Limit(unittest.TestCase):
         self.assertRegex(row["reason"], r"within 2\.7 s")
 
 
-def main():
-    FOLDER.mkdir(parents=True, exist_ok=True)
-    probe = run("view", "no-such-scene", "--serve")
-    if "libcpp-httplib-dev" in probe.stderr:
-        print("Skipped: the program was built without libcpp-httplib-dev")
-        return 77
-    result = unittest.main(argv=sys.argv[:1], exit=False, verbosity=2).result
-    return 0 if result.wasSuccessful() else 1
-
-
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(run_tests(PROGRAM, FOLDER))

@@ -9,13 +9,12 @@ import json
 import os
 import pathlib
 import socket
-import subprocess
 import sys
 import threading
 import time
 import unittest
 
-from serving import Served
+from serving import Served, run_in, run_tests
 
 PROGRAM, FOLDER = sys.argv[1], pathlib.Path(sys.argv[2]).resolve()
 PLAN = {"what": "plan", "start": [0, -1.5, 0], "goal": [0, 1.5, 0]}
@@ -25,10 +24,7 @@ CLOSED = "tunnel:delta=0.001,bends=3,twin=1"
 
 
 def run(*arguments):
-    return subprocess.run(
-        [PROGRAM, *arguments], cwd=FOLDER, capture_output=True, text=True,
-        env={**os.environ, "PHONGPD_CACHE_DIR": str(FOLDER / "cache")},
-        check=False)
+    return run_in(PROGRAM, FOLDER, *arguments)
 
 
 class Guard(unittest.TestCase):
@@ -331,15 +327,5 @@ class Program(unittest.TestCase):
             self.assertFalse((FOLDER / "x.html").exists())
 
 
-def main():
-    FOLDER.mkdir(parents=True, exist_ok=True)
-    probe = run("view", "no-such-scene", "--serve")
-    if "libcpp-httplib-dev" in probe.stderr:
-        print("Skipped: the program was built without libcpp-httplib-dev")
-        return 77
-    result = unittest.main(argv=sys.argv[:1], exit=False, verbosity=2).result
-    return 0 if result.wasSuccessful() else 1
-
-
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(run_tests(PROGRAM, FOLDER))
