@@ -27,7 +27,8 @@ constexpr int kTimes = 10'000;
 struct Options {
   int seeds = 10;
   int large_seeds = 5;  // of sixteen robots
-  std::uint64_t first_seed = 101;
+  // Those from 101 on were in sight when what is measured was made.
+  std::uint64_t first_seed = 201;
 };
 
 // Boxes of side 1 in rooms that grow with their number.
