@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/pi.h"
 #include "planners/trajectory/knot_curve.h"
 
 namespace phongpd::internal {
@@ -13,7 +14,6 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr int kPieces = 20;
-constexpr double kPi = 3.14159265358979323846;
 
 struct Ends {
   Vector3d start, goal;
