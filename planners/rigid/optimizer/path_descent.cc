@@ -90,7 +90,8 @@ class Descent {
     const bool is_solved = IsClassOk(run.status);
     if (is_solved && gain < kNoGain * end_.length &&
         trust_ >= kTellingTrust * model_.reach) {
-      end_.status = SolveStatus::kConverged;
+      end_.status = is_shortest_ ? SolveStatus::kConverged
+                                 : SolveStatus::kStalledFeasible;
       return true;
     }
     const bool has_gained = is_solved && Take(chart, run.x);
@@ -154,7 +155,8 @@ class Descent {
     path_ = path;
     cost_ = cost;
     const double length = LengthOf(path, model_.gyration);
-    if (!(length < end_.length)) return;
+    is_shortest_ = length < end_.length;
+    if (!is_shortest_) return;
     end_.path = path;
     end_.length = length;
   }
@@ -235,6 +237,8 @@ class Descent {
   double trust_;
   std::vector<PathContacts> places_;
   RigidPath path_;  // free
+  // Is it what is answered?  Steps that give places room may make it longer.
+  bool is_shortest_ = true;
   double cost_ = 0.0;
   PathDescentEnd end_;
 };

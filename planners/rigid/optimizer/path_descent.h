@@ -21,7 +21,8 @@ struct PathDescentEnd {
   double length = 0.0;          // its, object norm
   // kConverged: no step of 2 % of the reach shortens it by 1e-4 or more, to
   // first order.  kStalledFeasible: steps are refused down to 1e-4 of the
-  // reach.  kIterationLimit: of the rounds; kTimeLimit, kCancelled: stopped.
+  // reach, or what converged is longer, as it gives places more room.
+  // kIterationLimit: of the rounds; kTimeLimit, kCancelled: stopped.
   SolveStatus status = SolveStatus::kIterationLimit;
   bool was_refuted = false;  // a step that Ipopt called solved did collide
   int steps = 0;             // taken: solved by Ipopt's word, and proved

@@ -242,5 +242,21 @@ TEST(DescendPath, IsProvedAndNoLongerWheneverItEnds) {
   EXPECT_LT(last, before - 0.05);
 }
 
+// Along a face, closer to it than the margin: what gives room is longer than
+// the straight line, which is answered and did not converge.
+TEST(DescendPath, SaysOfNoOtherPathThanTheAnswerThatItConverged) {
+  const RigidWorld& world = Pillar();
+  const RigidPath start = {At({1.1001, -0.5, 0.0}), At({1.1001, 0.0, 0.0}),
+                           At({1.1001, 0.5, 0.0})};
+  PathDescentTask task = Task(world);
+  task.margin = 0.05;
+  RigidStop stop(100.0, {});
+  const PathDescentEnd end = DescendPath(world.model(), start, task, &stop);
+  EXPECT_GE(end.steps, 1);
+  EXPECT_NEAR(end.length, 1.0, 1e-12);
+  EXPECT_EQ(end.path[1].position, start[1].position);
+  EXPECT_EQ(end.status, SolveStatus::kStalledFeasible);
+}
+
 }  // namespace
 }  // namespace phongpd::internal
