@@ -336,6 +336,5 @@ double WindowCells::SurfaceArea() {
 int WindowCells::FaceCount() const {
   return static_cast<int>(impl_->arrangement.faces.size());
 }
-int WindowCells::JudgedCells() const { return impl_->judged; }
 
 }  // namespace phongpd::internal

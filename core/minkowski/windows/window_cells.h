@@ -69,7 +69,6 @@ class WindowCells {
   // Area of C_cont in the window, grid steps squared; judges every cell.
   double SurfaceArea();
   int FaceCount() const;
-  int JudgedCells() const;
 
  private:
   struct Impl;
