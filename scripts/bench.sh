@@ -127,7 +127,8 @@ if [[ $suite == study || $suite == all ]]; then
   build/venv/bin/python -B results/bench/study_report.py results/study \
     --rows build/study/*/rows.jsonl --how "Command: \`scripts/bench.sh \
 study\`. Commit: $(git rev-parse --short HEAD)."
-  build/venv/bin/python -B results/bench/study_power.py results/study
+  build/venv/bin/python -B results/bench/study_power.py results/study \
+    --measure build/phongpd
 fi
 if [[ $suite == pipeline || $suite == all ]]; then
   scripts/build.sh phongpd

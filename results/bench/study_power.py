@@ -4,7 +4,8 @@ seeds show a difference of so many points, and the hours that they take.
 
     build/venv/bin/python -B results/bench/study_power.py results/study
 
-writes power.csv and power.md there.  A comparison's estimate is the mean over F
+writes power.csv and power.md there; --measure PROGRAM first runs all scenes, metrics
+and protocols on one seed, and writes rate.csv, what a run costs.  A comparison's estimate is the mean over F
 families of the differences within them, of `scenes` scenes and s seeds each; its
 variance is
 
@@ -16,8 +17,12 @@ z(1 − α/2) + z(1 − β) is at most δ (normal approximation).
 """
 import argparse
 import csv
+import datetime
 import math
 import pathlib
+import resource
+import subprocess
+import tempfile
 from collections import defaultdict
 from statistics import NormalDist, fmean, median, variance
 
@@ -26,7 +31,8 @@ from study_report import HYPOTHESES, PROTOCOLS, paired, read_csv
 EFFECTS = (0.02, 0.05, 0.1)
 POWER = 0.8
 LEVEL = 0.05
-RUNS_PER_HOUR = 8280
+RATE = ("runs", "processor seconds", "seed", "date")
+SEED = "70001"
 
 
 def reach(level, power=POWER):
@@ -103,16 +109,44 @@ def write_csv(folder, found):
                 ["none" if n is None else n for n in fixed + drawn])
 
 
+def measure(program, folder):
+    """rate.csv: the processor seconds of all runs of one seed."""
+    root = pathlib.Path(__file__).resolve().parents[2]
+    with tempfile.TemporaryDirectory() as rows:
+        command = ('. scripts/study_scenes.sh; exec "$0" compare "${study_scenes[@]}" '
+                   f'--seed {SEED} --runs 1 --max-iter "$study_cap" --protocols '
+                   + " ".join(PROTOCOLS) + ' --metrics "${study_metrics[@]}" --output '
+                   + rows)
+        before = resource.getrusage(resource.RUSAGE_CHILDREN)
+        subprocess.run(["bash", "-c", command, program.resolve()], cwd=root, check=True)
+        after = resource.getrusage(resource.RUSAGE_CHILDREN)
+        lines = (pathlib.Path(rows) / "rows.jsonl").read_text().splitlines()
+    seconds = sum(getattr(after, name) - getattr(before, name)
+                  for name in ("ru_utime", "ru_stime"))
+    with open(folder / "rate.csv", "w", newline="") as file:
+        writer = csv.writer(file, lineterminator="\n")
+        writer.writerow(RATE)
+        writer.writerow([len(lines), f"{seconds:.0f}", SEED, datetime.date.today()])
+
+
+def read_rate(folder):
+    """Processor seconds of a run."""
+    with open(folder / "rate.csv", newline="") as file:
+        row = next(csv.DictReader(file))
+    return float(row["processor seconds"]) / float(row["runs"])
+
+
 class Bill:
     """What seeds cost: every one of them is run by all metrics and protocols."""
 
-    def __init__(self, rows, runs_per_hour):
+    def __init__(self, rows, seconds):
         seeds = {row["seed"] for row in rows}
         self.runs = len(rows) / len(seeds)
-        self.per_hour = runs_per_hour
+        self.seconds = seconds
 
     def hours(self, seeds):
-        return seeds * self.runs / self.per_hour
+        """Of a processor."""
+        return seeds * self.runs * self.seconds / 3600.0
 
     def text(self, counts):
         """Median and worst of the comparisons, and hours of the latter."""
@@ -157,8 +191,8 @@ def uncertainty(freedom):
     return f"{100 / math.sqrt(2 * max(1, freedom)):.2g} %"
 
 
-def page(rows, runs_per_hour):
-    found, bill = needs(rows), Bill(rows, runs_per_hour)
+def page(rows, seconds):
+    found, bill = needs(rows), Bill(rows, seconds)
     seeds = sorted({int(row["seed"]) for row in rows})
     families = found[0]["families"]
     scenes = len({row["scene"] for row in rows})
@@ -173,10 +207,11 @@ def page(rows, runs_per_hour):
         f"{some} seeds each ({seeds[0]} to {seeds[-1]}). Every comparison: "
         "[power.csv](power.csv).", "",
         "A cell: the median over the seven comparisons of a protocol, the most that "
-        "one of them needs, and the hours of that. A seed is run on all scenes by "
-        f"all metrics and protocols, {bill.runs:g} runs, at {runs_per_hour:g} runs an "
-        "hour of two cores that do nothing else (`--runs-per-hour`; a rate that was "
-        f"told, not measured here), so a seed is {60 * bill.hours(1):.2g} minutes. "
+        "one of them needs, and the processor hours of that. A seed is run on all "
+        f"scenes by all metrics and protocols, {bill.runs:g} runs of "
+        f"{seconds:.2g} processor seconds each in the mean ([rate.csv](rate.csv), "
+        f"`--measure build/phongpd`), so a seed is {60 * bill.hours(1):.2g} processor "
+        "minutes; runs go on as many cores as there are. "
         "Standard deviations are themselves estimates: good to about "
         f"{uncertainty(scenes * (some - 1))} within scenes "
         f"({scenes * (some - 1)} degrees of freedom), {uncertainty(families - 1)} "
@@ -204,11 +239,13 @@ def page(rows, runs_per_hour):
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("folder", type=pathlib.Path)
-    parser.add_argument("--runs-per-hour", type=float, default=RUNS_PER_HOUR)
+    parser.add_argument("--measure", type=pathlib.Path, metavar="PROGRAM")
     asked = parser.parse_args()
+    if asked.measure:
+        measure(asked.measure, asked.folder)
     rows = read_csv(asked.folder)
     write_csv(asked.folder, needs(rows))
-    (asked.folder / "power.md").write_text(page(rows, asked.runs_per_hour),
+    (asked.folder / "power.md").write_text(page(rows, read_rate(asked.folder)),
                                            encoding="utf-8")
 
 

@@ -92,9 +92,9 @@ def test_one_seed_is_refused():
         study_power.parts(drawn(3, 1, 1, 0.0, np.random.default_rng(1)))
 
 
-def test_hours_are_runs_over_the_rate():
+def test_hours_are_runs_times_their_seconds():
     rows = [{"seed": str(seed)} for seed in range(5) for _ in range(552)]
-    assert study_power.Bill(rows, 8280).hours(15) == pytest.approx(1.0)
+    assert study_power.Bill(rows, 3600 / 8280).hours(15) == pytest.approx(1.0)
 
 
 def test_published_page_is_that_of_the_published_rows(tmp_path):
@@ -104,4 +104,4 @@ def test_published_page_is_that_of_the_published_rows(tmp_path):
     assert (tmp_path / "power.csv").read_bytes() == \
         (folder / "power.csv").read_bytes()
     assert (folder / "power.md").read_text(encoding="utf-8") == \
-        study_power.page(rows, study_power.RUNS_PER_HOUR)
+        study_power.page(rows, study_power.read_rate(folder))
