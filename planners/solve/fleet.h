@@ -54,10 +54,10 @@ struct FleetAnswer {
 // to the front, and all begin again, until this gives no new order.  Once all
 // have motions, these are made faster together if that is possible, also among
 // obstacles that move and through places on the way (joint_curves.h); then all
-// robots arrive at the same time.  As long as all could still arrive sooner, the
-// last robot to arrive by the order goes earlier in some more orders, and the
-// soonest end is kept: no more orders with the preset fast, one with balanced,
-// six with tight (the largest preset of the requests counts).
+// robots arrive at the same time.  As long as all could still arrive sooner,
+// the last robot to arrive by the order goes earlier in some more orders, and
+// the soonest end is kept: no more orders with the preset fast, one with
+// balanced, six with tight (the largest preset of the requests counts).
 //
 // Where all could still arrive sooner, motions on which all turn the same way
 // (joint_turns.h) are made faster together as well; where these arrive sooner,
