@@ -10,6 +10,7 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 work=build/core-only
 prefix=${1:-$PWD/$work/install}
 rm -rf "$work"
+mkdir -p build  # for the log: a fresh clone has none
 # Of a compiler, all in one process group, TIMEFORMAT tells wall, user and system.
 TIMEFORMAT='%R %U %S'
 seconds=$({ time {
