@@ -6,36 +6,28 @@
 namespace phongpd {
 namespace {
 
-const BudgetChoice& ChoiceOf(BudgetUse use, double seconds,
-                             const Workspace& workspace) {
+const BudgetFlags& FlagsFor(BudgetUse use, double seconds,
+                            const Workspace& workspace) {
   RequireBudget(seconds, "budget");
-  return ChoiceFor(use, TrianglesOf(workspace), seconds);
+  return ChoiceFor(use, TrianglesOf(workspace), seconds).flags;
 }
 
 }  // namespace
 
 void ApplyBudget(double seconds, const Workspace& workspace,
                  PlanRequest* request) {
-  const BudgetChoice& choice = ChoiceOf(BudgetUse::kPlan, seconds, workspace);
-  const std::string planner = FlagOf(choice, "planner"),
-                    preset = FlagOf(choice, "preset");
-  request->planner = planner.empty() ? PlannerId::kContactSurface
-                                     : ParsePlanner(planner, "planner");
-  request->model = ParseModel(FlagOf(choice, "model"), "model");
-  request->preset =
-      preset.empty() ? Preset::kBalanced : ParsePreset(preset, "preset");
+  const BudgetFlags& flags = FlagsFor(BudgetUse::kPlan, seconds, workspace);
+  request->planner = flags.planner;
+  request->model = flags.model;
+  request->preset = flags.preset;
 }
 
 void ApplyBudget(double seconds, const Workspace& workspace,
                  OptimizeRequest* request) {
-  const BudgetChoice& choice =
-      ChoiceOf(BudgetUse::kOptimize, seconds, workspace);
-  ApplyPreset(ParsePreset(FlagOf(choice, "preset"), "preset"), request);
-  request->model = ParseModel(FlagOf(choice, "model"), "model");
-  const std::string metric = FlagOf(choice, "metric");
-  request->penetration.metric = metric.empty()
-                                    ? PenetrationSpec().metric
-                                    : ParseMetricKind(metric, "metric");
+  const BudgetFlags& flags = FlagsFor(BudgetUse::kOptimize, seconds, workspace);
+  ApplyPreset(flags.preset, request);
+  request->model = flags.model;
+  request->penetration.metric = flags.metric;
 }
 
 }  // namespace phongpd

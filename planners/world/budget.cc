@@ -2,7 +2,6 @@
 #include "planners/world/budget.h"
 
 #include <cmath>
-#include <sstream>
 
 #include "core/mesh/mesh_error.h"
 #include "core/number_text.h"
@@ -14,30 +13,26 @@ namespace phongpd {
 const std::vector<BudgetChoice>& BudgetChoices() {
   constexpr BudgetUse kPlan = BudgetUse::kPlan,
                       kOptimize = BudgetUse::kOptimize;
+  // clang-format off
   static const std::vector<BudgetChoice> choices = {
-      {kPlan, 1000, 0.01, "--planner rrt-connect --model window", 0, 8},
-      {kPlan, 1000, 0.1, "--planner rrt-connect --model window", 8, 8},
-      {kPlan, 1000, 1, "--model full --preset tight", 8, 8},
-      {kPlan, 1000, 10, "--model full --preset tight", 8, 8},
-      {kPlan, 10000, 0.01, "--planner rrt-connect --model window", 0, 5},
-      {kPlan, 10000, 0.1, "--planner rrt-connect --model window", 1, 5},
-      {kPlan, 10000, 1, "--model window --preset balanced", 5, 5},
-      {kPlan, 10000, 10, "--model full --preset tight", 5, 5},
-      {kOptimize, 1000, 0.01, "--model window --preset fast --metric euclidean",
-       0, 8},
-      {kOptimize, 1000, 0.1, "--model window --preset fast --metric euclidean",
-       7, 8},
-      {kOptimize, 1000, 1,
-       "--model window --preset balanced --metric euclidean", 8, 8},
-      {kOptimize, 1000, 10,
-       "--model window --preset balanced --metric euclidean", 8, 8},
-      {kOptimize, 10000, 0.01, "--model window --preset balanced", 0, 5},
-      {kOptimize, 10000, 0.1, "--model window --preset balanced", 0, 5},
-      {kOptimize, 10000, 1,
-       "--model window --preset balanced --metric euclidean", 5, 5},
-      {kOptimize, 10000, 10,
-       "--model window --preset balanced --metric euclidean", 5, 5},
+      {kPlan, 1000, 0.01, {Model::kWindow, Preset::kBalanced, PlannerId::kRrtConnect}, 0, 8},
+      {kPlan, 1000, 0.1, {Model::kWindow, Preset::kBalanced, PlannerId::kRrtConnect}, 8, 8},
+      {kPlan, 1000, 1, {Model::kFull, Preset::kTight}, 8, 8},
+      {kPlan, 1000, 10, {Model::kFull, Preset::kTight}, 8, 8},
+      {kPlan, 10000, 0.01, {Model::kWindow, Preset::kBalanced, PlannerId::kRrtConnect}, 0, 5},
+      {kPlan, 10000, 0.1, {Model::kWindow, Preset::kBalanced, PlannerId::kRrtConnect}, 1, 5},
+      {kPlan, 10000, 1, {Model::kWindow, Preset::kBalanced}, 5, 5},
+      {kPlan, 10000, 10, {Model::kFull, Preset::kTight}, 5, 5},
+      {kOptimize, 1000, 0.01, {Model::kWindow, Preset::kFast, PlannerId::kContactSurface, MetricKind::kEuclidean}, 0, 8},
+      {kOptimize, 1000, 0.1, {Model::kWindow, Preset::kFast, PlannerId::kContactSurface, MetricKind::kEuclidean}, 7, 8},
+      {kOptimize, 1000, 1, {Model::kWindow, Preset::kBalanced, PlannerId::kContactSurface, MetricKind::kEuclidean}, 8, 8},
+      {kOptimize, 1000, 10, {Model::kWindow, Preset::kBalanced, PlannerId::kContactSurface, MetricKind::kEuclidean}, 8, 8},
+      {kOptimize, 10000, 0.01, {Model::kWindow, Preset::kBalanced}, 0, 5},
+      {kOptimize, 10000, 0.1, {Model::kWindow, Preset::kBalanced}, 0, 5},
+      {kOptimize, 10000, 1, {Model::kWindow, Preset::kBalanced, PlannerId::kContactSurface, MetricKind::kEuclidean}, 5, 5},
+      {kOptimize, 10000, 10, {Model::kWindow, Preset::kBalanced, PlannerId::kContactSurface, MetricKind::kEuclidean}, 5, 5},
   };
+  // clang-format on
   return choices;
 }
 
@@ -84,13 +79,15 @@ std::size_t TrianglesOf(const Workspace& workspace) {
   return count;
 }
 
-std::string FlagOf(const BudgetChoice& choice, const std::string& name) {
-  std::istringstream words(choice.flags);
-  std::string flag, value;
-  while (words >> flag >> value) {
-    if (flag == "--" + name) return value;
+std::string ToString(const BudgetFlags& flags) {
+  const std::string model = std::string("--model ") + ToString(flags.model);
+  if (flags.planner != BudgetFlags().planner) {
+    return std::string("--planner ") + ToString(flags.planner) + ' ' + model;
   }
-  return "";
+  const std::string text = model + " --preset " + ToString(flags.preset);
+  return flags.metric == BudgetFlags().metric
+             ? text
+             : text + " --metric " + ToString(flags.metric);
 }
 
 void RequireBudget(double seconds, const std::string& what) {

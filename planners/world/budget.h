@@ -5,6 +5,10 @@
 #include <string>
 #include <vector>
 
+#include "planners/world/model.h"
+#include "planners/world/penetration_spec.h"
+#include "planners/world/planner_id.h"
+#include "planners/world/preset.h"
 #include "planners/world/workspace.h"
 
 // What a budget of time buys: the table that results/trade/budget.md publishes.
@@ -12,15 +16,26 @@ namespace phongpd {
 
 enum class BudgetUse { kPlan, kOptimize };
 
+// What to ask for.  A sampling planner has no preset, `plan` no metric of the
+// solver.
+struct BudgetFlags {
+  Model model = Model::kAuto;
+  Preset preset = Preset::kBalanced;
+  PlannerId planner = PlannerId::kContactSurface;  // of kPlan
+  MetricKind metric = MetricKind::kPhong;          // of kOptimize
+};
+// As phongpd plan or optimize takes it: "--model window --preset fast".  What
+// is nobody's choice, a planner or a metric by default, is left out.
+std::string ToString(const BudgetFlags& flags);
+
 // A cell of the table.
 struct BudgetChoice {
   BudgetUse use = BudgetUse::kPlan;
   std::size_t triangles = 0;  // about, of robot and obstacles together
   double seconds = 0.0;       // of processors, builds included
-  // Of phongpd plan or optimize: "--model window --preset fast".  Of all that
-  // were measured the ones that answered most problems within the time; of
-  // equals the shortest paths at equal clearance, then the quickest.
-  std::string flags;
+  // Of all that were measured the ones that answered most problems within the
+  // time; of equals the shortest paths at equal clearance, then the quickest.
+  BudgetFlags flags;
   int answered = 0, problems = 0;  // within the time
 };
 const std::vector<BudgetChoice>& BudgetChoices();
@@ -33,9 +48,6 @@ const BudgetChoice& ChoiceFor(BudgetUse use, std::size_t triangles,
 
 // Of the robot and the obstacles within its reach.
 std::size_t TrianglesOf(const Workspace& workspace);
-
-// Of a choice the value of "--name"; empty: it says none.
-std::string FlagOf(const BudgetChoice& choice, const std::string& name);
 
 // Throws InputError starting with `what` unless seconds are finite and > 0.
 void RequireBudget(double seconds, const std::string& what);

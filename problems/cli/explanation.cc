@@ -21,13 +21,14 @@ void AddBudgetLine(const CLI::App& app, BudgetUse use, const World& world,
   const std::size_t triangles = TrianglesOf(world.workspace());
   const BudgetChoice& choice =
       ChoiceFor(use, triangles, app.get_option("--budget")->as<double>());
-  lines->push_back(
-      "budget: " + choice.flags + ", for " + std::to_string(triangles) +
-      " triangles by the cell of about " + std::to_string(choice.triangles) +
-      " and " + FormatDouble(choice.seconds) + " s, where it answered " +
-      std::to_string(choice.answered) + " of " +
-      std::to_string(choice.problems) +
-      " problems in time (results/trade/budget.md)");
+  lines->push_back("budget: " + ToString(choice.flags) + ", for " +
+                   std::to_string(triangles) +
+                   " triangles by the cell of about " +
+                   std::to_string(choice.triangles) + " and " +
+                   FormatDouble(choice.seconds) + " s, where it answered " +
+                   std::to_string(choice.answered) + " of " +
+                   std::to_string(choice.problems) +
+                   " problems in time (results/trade/budget.md)");
 }
 
 // Who chose.  A scene that says what nobody's choice would be says nothing.

@@ -8,65 +8,42 @@
 #include "core/minkowski/build_stop.h"
 #include "planners/solve/optimize.h"
 #include "planners/solve/plan.h"
+#include "planners/world/budget.h"
 #include "results/bench/free_space_measure.h"
 #include "results/bench/random_ends.h"
 
 namespace phongpd::bench {
 namespace {
 
-// Flags are those of `phongpd plan` and `phongpd optimize`.
-struct PlanChoice {
-  std::string flags;
-  PlannerId planner;
-  Model model;
-  Preset preset;
-};
-
-std::vector<PlanChoice> PlanChoices() {
-  using P = PlannerId;
-  std::vector<PlanChoice> choices;
+std::vector<BudgetFlags> PlanFlags() {
+  std::vector<BudgetFlags> all;
   for (const Model model : {Model::kWindow, Model::kFull}) {
     for (const Preset preset :
          {Preset::kFast, Preset::kBalanced, Preset::kTight}) {
-      choices.push_back({std::string("--model ") + ToString(model) +
-                             " --preset " + ToString(preset),
-                         P::kContactSurface, model, preset});
+      all.push_back({model, preset});
     }
   }
-  choices.push_back({"--planner rrt-connect --model window", P::kRrtConnect,
-                     Model::kWindow, Preset::kBalanced});
-  choices.push_back({"--planner retraction-forest --model full",
-                     P::kRetractionForest, Model::kFull, Preset::kBalanced});
-  return choices;
+  all.push_back({Model::kWindow, Preset::kBalanced, PlannerId::kRrtConnect});
+  all.push_back(
+      {Model::kFull, Preset::kBalanced, PlannerId::kRetractionForest});
+  return all;
 }
 
-struct OptimizeChoice {
-  std::string flags;
-  Model model;
-  Preset preset;
-  MetricKind metric;
-};
-
-std::vector<OptimizeChoice> OptimizeChoices() {
-  std::vector<OptimizeChoice> choices;
-  const auto add = [&choices](Model model, Preset preset, MetricKind metric) {
-    choices.push_back({std::string("--model ") + ToString(model) +
-                           " --preset " + ToString(preset) +
-                           (metric == MetricKind::kPhong
-                                ? ""
-                                : std::string(" --metric ") + ToString(metric)),
-                       model, preset, metric});
+std::vector<BudgetFlags> OptimizeFlags() {
+  std::vector<BudgetFlags> all;
+  const auto add = [&all](Preset preset, MetricKind metric) {
+    for (const Model model : {Model::kWindow, Model::kFull}) {
+      all.push_back({model, preset, BudgetFlags().planner, metric});
+    }
   };
   for (const Preset preset :
        {Preset::kFast, Preset::kBalanced, Preset::kTight}) {
-    add(Model::kWindow, preset, MetricKind::kPhong);
-    add(Model::kFull, preset, MetricKind::kPhong);
+    add(preset, MetricKind::kPhong);
   }
   for (const Preset preset : {Preset::kFast, Preset::kBalanced}) {
-    add(Model::kWindow, preset, MetricKind::kEuclidean);
-    add(Model::kFull, preset, MetricKind::kEuclidean);
+    add(preset, MetricKind::kEuclidean);
   }
-  return choices;
+  return all;
 }
 
 // All flags on one pair of solids.
@@ -81,36 +58,36 @@ class CaseRun {
   void Take(std::uint64_t seed) {
     const World world(workspace_);
     const Ends ends = RandomEnds(world, &random_);
-    for (const PlanChoice& choice : PlanChoices()) {
+    for (const BudgetFlags& flags : PlanFlags()) {
       PlanRequest request;
       request.start = ends.start;
       request.goal = ends.goal;
-      request.planner = choice.planner;
-      request.model = choice.model;
-      request.preset = choice.preset;
+      request.planner = flags.planner;
+      request.model = flags.model;
+      request.preset = flags.preset;
       request.time_limit = kMostSeconds;
       request.seed = seed;
       request.verifies = false;
-      const bool is_full = choice.model == Model::kFull;
+      const bool is_full = flags.model == Model::kFull;
       Answer(
-          "plan", choice.flags, is_full, seed,
-          [&](const World& w) { BuildForPlan(w, choice); },
+          "plan", ToString(flags), is_full, seed,
+          [&](const World& w) { BuildForPlan(w, flags); },
           [&](const World& w) { return Plan(w, request); });
     }
-    for (const OptimizeChoice& choice : OptimizeChoices()) {
+    for (const BudgetFlags& flags : OptimizeFlags()) {
       OptimizeRequest request;
-      ApplyPreset(choice.preset, &request);
+      ApplyPreset(flags.preset, &request);
       request.start = ends.start;
       request.goal = ends.goal;
-      request.model = choice.model;
-      request.penetration.metric = choice.metric;
+      request.model = flags.model;
+      request.penetration.metric = flags.metric;
       request.search_time = kMostSeconds;
       request.options.time_limit = 2.0 * kMostSeconds;
       request.options.seed = seed;
       request.verifies = false;
-      const bool is_full = choice.model == Model::kFull;
+      const bool is_full = flags.model == Model::kFull;
       Answer(
-          "optimize", choice.flags, is_full, seed,
+          "optimize", ToString(flags), is_full, seed,
           [&](const World& w) {
             is_full ? static_cast<void>(w.Spaces(SpaceLayout::kMerged))
                     : static_cast<void>(w.Convolution());
@@ -122,10 +99,10 @@ class CaseRun {
   std::vector<BudgetRow> rows;
 
  private:
-  static void BuildForPlan(const World& world, const PlanChoice& choice) {
-    if (choice.model == Model::kFull) {
+  static void BuildForPlan(const World& world, const BudgetFlags& flags) {
+    if (flags.model == Model::kFull) {
       world.Sealed();
-    } else if (choice.planner == PlannerId::kContactSurface) {
+    } else if (flags.planner == PlannerId::kContactSurface) {
       world.SealedConvolution();
     } else {
       world.Convolution();

@@ -238,10 +238,26 @@ def page(folder, runs):
     return "\n".join(text)
 
 
+def enumerator(name):
+    return "k" + "".join(word.capitalize() for word in name.split("-"))
+
+
+def typed(flags):
+    """BudgetFlags: `--model full --preset tight` as Model::kFull, Preset::kTight."""
+    words = flags.split()
+    said = dict(zip(words[::2], words[1::2]))
+    values = {"--model": "auto", "--preset": "balanced", "--planner": "contact-surface",
+              "--metric": "phong", **said}
+    types = ("Model", "Preset", "PlannerId", "MetricKind")
+    last = max(k for k, flag in enumerate(values) if flag in said)
+    return ", ".join(f"{kind}::{enumerator(value)}"
+                     for kind, value in zip(types[:last + 1], values.values()))
+
+
 def code(runs):
     for use, decade, budget, cell in picks(runs):
         yield (f"      {{{'kPlan' if use == 'plan' else 'kOptimize'}, {decade}, "
-               f"{budget:g}, \"{cell.flags}\", {cell.k}, {cell.n}}},")
+               f"{budget:g}, {{{typed(cell.flags)}}}, {cell.k}, {cell.n}}},")
 
 
 def main():
