@@ -110,9 +110,19 @@ class Browser:
                 raise TimeoutError("never true: " + script)
             time.sleep(0.05)
 
-    def open(self, path, link="", width=1280, height=800, theme="light"):
+    def set_size(self, width, height):
         self.call("Emulation.setDeviceMetricsOverride", width=width,
                   height=height, deviceScaleFactor=1, mobile=False)
+
+    def resize(self, width, height=800):
+        """The open page, until it is laid out anew and drawn."""
+        self.set_size(width, height)
+        self.wait(f"innerWidth === {width}")
+        self.run("new Promise(done => requestAnimationFrame(() => "
+                 "requestAnimationFrame(() => done(true))))")
+
+    def open(self, path, link="", width=1280, height=800, theme="light"):
+        self.set_size(width, height)
         self.call("Emulation.setEmulatedMedia", features=[
             {"name": "prefers-color-scheme", "value": theme}])
         self.call("Page.navigate", url="about:blank")

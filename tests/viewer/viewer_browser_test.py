@@ -176,7 +176,7 @@ def main():
             browser.shoot(folder / f"{name}-dark.png")
             # A slider that is there can be taken, whatever the width.
             for width in (320, 400, 759, 761, 800, 850, 900, 1000, 1101, 1280):
-                browser.open(page, width=width)
+                browser.resize(width)
                 checks.holds("[...document.querySelectorAll('#scrub, "
                              "#scrub-iterate')].every(e => !e.offsetParent || "
                              "e.getBoundingClientRect().width >= 100)",
