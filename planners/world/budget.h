@@ -16,16 +16,16 @@ namespace phongpd {
 
 enum class BudgetUse { kPlan, kOptimize };
 
-// What to ask for.  A sampling planner has no preset, `plan` no metric of the
-// solver.
+// What to ask for.  Only contact-surface and the optimiser have presets, only
+// the optimiser a metric.
 struct BudgetFlags {
   Model model = Model::kAuto;
   Preset preset = Preset::kBalanced;
   PlannerId planner = PlannerId::kContactSurface;  // of kPlan
   MetricKind metric = MetricKind::kPhong;          // of kOptimize
 };
-// As phongpd plan or optimize takes it: "--model window --preset fast".  What
-// is nobody's choice, a planner or a metric by default, is left out.
+// As phongpd plan or optimize takes it: "--model window --preset fast".  Left
+// out are a planner and a metric by default, and the preset of other planners.
 std::string ToString(const BudgetFlags& flags);
 
 // A cell of the table.
