@@ -33,6 +33,8 @@ NOTES = """\
   path is free; of `Optimize` only paths that are proved: converged, where no small step
   of the knots shortens it by 1e-4 to first order; stalled, all others: steps were
   refused, or rounds or time were up.
+  Refuted: what Ipopt called solved, in one of the rounds at least, does collide
+  between its samples; of `samples` that is the answer, `Optimize` goes on from there.
   No plan: the time was up before the planner had a path, which is no fault of the
   optimiser.
 - Shorter: the answer's length over that of the planner's path, which was cut short
