@@ -117,6 +117,12 @@ if(Python3_Interpreter_FOUND)
       ${Python3_EXECUTABLE}
       ${CMAKE_CURRENT_SOURCE_DIR}/packaging/user_headers_test.py
       ${PROJECT_SOURCE_DIR})
+  add_test(
+    NAME CoreScript
+    COMMAND
+      ${Python3_EXECUTABLE}
+      ${CMAKE_CURRENT_SOURCE_DIR}/packaging/core_script_test.py
+      ${PROJECT_SOURCE_DIR})
 else()
   message(STATUS "Not tested for want of the package python3: pages in a "
                  "browser, the checks of links, figures and option fields")
