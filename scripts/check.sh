@@ -87,8 +87,17 @@ sources() { find "${folders[@]}" tests results examples python -name '*.h' -o -n
 # Runs the test programs that are built there: those outside the slice are not,
 # and what is no program of ours says nothing about the preset.
 run_tests() { # PRESET [PATTERN to leave out] [OPTION of ctest...]
-  ctest --preset "$1" --parallel 2 --no-tests=error -L '_test$' \
+  ctest --preset "$1" --parallel 2 --no-tests=error -L '_tests?$' \
     -E "_NOT_BUILT${2:+|$2}" "${@:3}"
+}
+
+# The cases of the test files named, as a pattern of ctest's: they are in one
+# program with others of their folder, or in one of their own.
+cases_of() { # NAME_test...
+  local files
+  files=$(for name; do find tests -name "$name.cc"; done)
+  printf '(^|/)(%s)[.]' "$(sed -nE 's/^TEST(_[FP])?\((\w+),.*/\2/p' $files |
+    sort -u | paste -sd '|')"
 }
 
 build_tests() { # PRESET PROGRAMS...: everything in full
@@ -229,11 +238,10 @@ check_tidy() {
 check_fptrap() {
   scripts/setup.sh binutils
   local programs=("${slice[@]}" "${extreme[@]}")
-  build_tests release "${programs[@]}"
+  PRESET=release scripts/build.sh
   local log=$PWD/build/check/invalid.log only=()
   rm -f "$log"
-  # Everything is built there when CI comes to this.
-  whole || only=(-L "^($(IFS='|' && echo "${programs[*]}"))\$")
+  whole || only=(-R "$(cases_of "${programs[@]}")")
   g++ -shared -fPIC -O1 tests/support/trap_invalid.cc -o build/trap_invalid.so
   # Those that limit files and memory, or preload something themselves, limit
   # the trap's log, too.
@@ -350,8 +358,9 @@ check_packages() {
   check_shared
   # The tests leave out what is not there.
   scripts/setup.sh zsh fish man-db groff
-  scripts/build.sh cli_completion_test cli_man_test
-  ctest --preset release --no-tests=error -L '^cli_(completion|man)_test$' \
+  scripts/build.sh
+  ctest --preset release --no-tests=error \
+    -R "$(cases_of cli_completion_test cli_man_test)" \
     --output-log build/check/terminal.log
   if grep Skipped build/check/terminal.log; then return 1; fi
   scripts/wheel.sh --test

@@ -59,6 +59,9 @@ def point(value: ArrayLike, name: str) -> Point:
 def real(value: Any, name: str, unit: str = "") -> float:
     """A number, finite or not; of what, where it has a unit."""
     try:
+        # float() takes these too: True for 1, and "1".
+        if isinstance(value, (bool, np.bool_, str, bytes)):
+            raise TypeError
         return float(value)
     except (TypeError, ValueError, OverflowError):
         raise InputError(f"{name}: expected a number"

@@ -43,7 +43,7 @@ GridVector NonZero(std::int64_t most, SplitMix* random) {
 }
 
 // Ends on both sides of p, in half units; every third one starts at p.
-void Through(const GridVector& p, SplitMix* random, Motion* motion) {
+void Through(const GridVector& p, SplitMix* random, GridMotion* motion) {
   const GridVector d = NonZero(3, random) * (kStepsPerUnit / 2);
   motion->a = p - d * (random->In(0, 2) == 0 ? 0 : random->In(1, 12));
   motion->b = p + d * random->In(0, 12);
@@ -53,7 +53,7 @@ GridVector Steps(const Vector3d& v) {
   return GridVector(v.cast<std::int64_t>() * kStepsPerUnit);
 }
 
-void Anywhere(const TriangleMesh& mesh, SplitMix* random, Motion* motion) {
+void Anywhere(const TriangleMesh& mesh, SplitMix* random, GridMotion* motion) {
   const BoundingBox box = ComputeBounds(mesh);
   const GridVector low = Steps(box.min), span = Steps(box.max) - low;
   for (GridVector* end : {&motion->a, &motion->b}) {
@@ -63,7 +63,7 @@ void Anywhere(const TriangleMesh& mesh, SplitMix* random, Motion* motion) {
   }
 }
 
-void OnLattice(const GridVector& p0, SplitMix* random, Motion* motion) {
+void OnLattice(const GridVector& p0, SplitMix* random, GridMotion* motion) {
   const GridVector d = NonZero(1, random) * kStepsPerUnit;
   const GridVector move = random->VectorIn(-6, 6) * kStepsPerUnit;
   motion->a = p0;
@@ -94,10 +94,10 @@ std::string Name(MotionClass kind) {
   return "";
 }
 
-Motion MakeMotion(const std::vector<MotionScene>& scenes, std::uint64_t seed,
-                  std::uint64_t index) {
+GridMotion MakeMotion(const std::vector<MotionScene>& scenes,
+                      std::uint64_t seed, std::uint64_t index) {
   SplitMix random(SplitMix(seed).Next() ^ (index * 0xd1342543de82ef95U));
-  Motion motion;
+  GridMotion motion;
   motion.kind = static_cast<MotionClass>(index % kMotionClasses);
   const std::uint64_t scene = index / kMotionClasses % scenes.size();
   motion.scene = static_cast<int>(scene);
@@ -177,7 +177,7 @@ void StreamHash::Add(std::int64_t number) {
   }
 }
 
-void StreamHash::Add(const Motion& motion, bool meets) {
+void StreamHash::Add(const GridMotion& motion, bool meets) {
   Add(motion.scene);
   Add(static_cast<std::int64_t>(motion.kind));
   for (const GridVector* end : {&motion.a, &motion.b}) {

@@ -24,7 +24,7 @@
 namespace phongpd::bench {
 
 inline constexpr int kMotionSetVersion = 3;
-constexpr int kMotionGridBits = 20;  // a unit of length is 2²⁰ steps
+inline constexpr int kMotionGridBits = 20;  // a unit of length is 2²⁰ steps
 
 using GridVector = Eigen::Matrix<std::int64_t, 3, 1>;
 
@@ -59,7 +59,7 @@ enum class MotionClass {
 inline constexpr int kMotionClasses = 6;
 std::string Name(MotionClass kind);
 
-struct Motion {
+struct GridMotion {
   int scene = 0;
   MotionClass kind = MotionClass::kRandom;
   GridVector a = GridVector::Zero(), b = GridVector::Zero();  // in steps
@@ -75,8 +75,8 @@ struct Motion {
 
 // The motion of that number: each is drawn from a generator of its own
 // (SplitMix64 of seed and index), so any part of the stream can be made alone.
-Motion MakeMotion(const std::vector<MotionScene>& scenes, std::uint64_t seed,
-                  std::uint64_t index);
+GridMotion MakeMotion(const std::vector<MotionScene>& scenes,
+                      std::uint64_t seed, std::uint64_t index);
 
 // The truth.
 bool Meets(const MotionScene& scene, const GridVector& a, const GridVector& b);
@@ -85,7 +85,7 @@ bool Meets(const MotionScene& scene, const GridVector& a, const GridVector& b);
 // eight bytes, least first.
 class StreamHash {
  public:
-  void Add(const Motion& motion, bool meets);
+  void Add(const GridMotion& motion, bool meets);
   std::uint64_t value() const { return value_; }
 
  private:

@@ -109,7 +109,7 @@ struct Count {
   double seconds = 0.0;
 };
 
-std::string SampleRow(const Motion& motion, const MotionScene& scene,
+std::string SampleRow(const GridMotion& motion, const MotionScene& scene,
                       bool meets) {
   std::ostringstream row;
   row << scene.name << ',' << Name(motion.kind);
@@ -188,14 +188,14 @@ using Counts = std::vector<std::array<Count, kMotionClasses>>;
 
 // The motion or its reverse, whichever starts free.
 std::optional<std::array<Vector3d, 2>> FromFreeEnd(const MotionScene& source,
-                                                   const Motion& motion) {
+                                                   const GridMotion& motion) {
   if (!Meets(source, motion.a, motion.a)) return {{motion.From(), motion.To()}};
   if (!Meets(source, motion.b, motion.b)) return {{motion.To(), motion.From()}};
   return std::nullopt;
 }
 
 void AskJudges(const std::vector<Judge>& judges, const Scene& scene,
-               const MotionScene& source, const Motion& motion,
+               const MotionScene& source, const GridMotion& motion,
                std::uint64_t index, bool meets, Counts* counts) {
   const auto turned = FromFreeEnd(source, motion);
   for (std::size_t j = 0; j < judges.size(); ++j) {
@@ -274,7 +274,7 @@ int Run(Program* program) {
   Counts counts(judges.size());
   for (long i = 0; i < motions; ++i) {
     const auto index = static_cast<std::uint64_t>(i);
-    const Motion motion = MakeMotion(sources, seed, index);
+    const GridMotion motion = MakeMotion(sources, seed, index);
     const auto at = static_cast<std::size_t>(motion.scene);
     const MotionScene& source = sources[at];
     const bool meets = Meets(source, motion.a, motion.b);

@@ -10,6 +10,7 @@
 
 #include "core/contact/contact_space.h"
 #include "problems/shapes/shapes.h"
+#include "tests/support/around_cube.h"
 #include "tests/support/campaign.h"
 #include "tests/support/curve_pieces.h"
 #include "tests/support/curve_truth.h"
@@ -20,17 +21,13 @@ namespace {
 
 using Eigen::Vector3d;
 using testing::Arch;
+using testing::AroundCube;
 using testing::Cube;
 using testing::CurveTruth;
 using testing::GrazingPiece;
 using testing::RandomPiece;
 
 constexpr double kSpread = 0.15;
-
-// Contact space of a cube of side 0.5 against one of side 1.5: half-width 1.
-FreeSpace AroundCube(const BoundingBox& bounds = FreeSpace::NoBounds()) {
-  return FreeSpace({BuildContactSpace(Cube(0.5), Cube(1.5))}, bounds);
-}
 
 TEST(CurveJudge, ProvesAnArchFreeDownToItsResolution) {
   const FreeSpace space = AroundCube();
@@ -121,12 +118,12 @@ TEST(CurveJudge, IsUndecidedWhereItMayLookNoFurther) {
   EXPECT_EQ(CheckCurve(space, Trajectory()).verdict, MotionVerdict::kUndecided);
 }
 
-struct Tally {
+struct PieceTally {
   long cases = 0, wrong_free = 0, wrong_collision = 0, undecided = 0;
 };
 
 void Compare(const FreeSpace& space, const ContactSpace& contact,
-             const CurvePiece& piece, Tally* tally) {
+             const CurvePiece& piece, PieceTally* tally) {
   if (!space.IsFree(piece.front())) return;
   ++tally->cases;
   const CurveCheck check = CheckCurve(space, Trajectory({piece}));
@@ -158,7 +155,7 @@ std::vector<ContactSpace> ContactSpaces() {
 
 TEST(CurveJudgeCampaign, CallsNothingFreeThatRationalsSeeMeet) {
   const long each = testing::CampaignCases(40, 20'000);
-  Tally random_pieces, grazing;
+  PieceTally random_pieces, grazing;
   std::mt19937_64 random(2902);
   for (const ContactSpace& contact : ContactSpaces()) {
     const FreeSpace space({contact});

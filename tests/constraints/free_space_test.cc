@@ -15,6 +15,7 @@
 #include "core/contact/contact_space.h"
 #include "core/mesh/mesh_error.h"
 #include "problems/shapes/shapes.h"
+#include "tests/support/around_cube.h"
 #include "tests/support/oracle_of.h"
 #include "tests/support/solid_tools.h"
 
@@ -22,12 +23,8 @@ namespace phongpd {
 namespace {
 
 using Eigen::Vector3d;
+using testing::AroundCube;
 using testing::Cube;
-
-// Contact space of a cube of side 0.5 against one of side 1.5: half-width 1.
-FreeSpace AroundCube(const BoundingBox& bounds = FreeSpace::NoBounds()) {
-  return FreeSpace({BuildContactSpace(Cube(0.5), Cube(1.5))}, bounds);
-}
 
 TEST(FreeSpace, IsOpen) {
   const BoundingBox bounds = {Vector3d::Constant(-3.0),

@@ -29,23 +29,23 @@ RobotPose Stepped(const RobotPose& pose, int k, double step) {
   return next;
 }
 
-struct Tally {
+struct RowTally {
   int smooth = 0, kinks = 0, differences = 0;
 };
 
 // Compares with differences of the values of `row` at random poses.  Where the
 // two one-sided differences disagree there is a kink between them, and the
 // derivative must be that of one side, or between.
-Tally CompareWithDifferences(const TriangleMesh& robot,
-                             const TriangleMesh& obstacle, int poses,
-                             unsigned seed) {
+RowTally CompareWithDifferences(const TriangleMesh& robot,
+                                const TriangleMesh& obstacle, int poses,
+                                unsigned seed) {
   const PoseRow row(MakeSolid(robot, "robot"), MakeSolid(obstacle, "obstacle"));
   const double size = ComputeBounds(robot).Diagonal();
   const BoundingBox box = ComputeBounds(obstacle);
   std::mt19937 engine(seed);
   std::uniform_real_distribution<double> uniform(-0.2, 1.2);
   std::normal_distribution<double> normal;
-  Tally tally;
+  RowTally tally;
   for (int i = 0; i < poses; ++i) {
     RobotPose pose;
     for (int k = 0; k < 3; ++k) {
@@ -79,17 +79,19 @@ Tally CompareWithDifferences(const TriangleMesh& robot,
 
 TEST(PoseRow, DerivativesAreThoseOfWholeAnswers) {
   const TriangleMesh box = MakeBox({-0.5, -0.2, -0.1}, {0.5, 0.2, 0.1});
-  const Tally convex = CompareWithDifferences(box, MakeIcoBall(1.0, 1), 20, 1);
+  const RowTally convex =
+      CompareWithDifferences(box, MakeIcoBall(1.0, 1), 20, 1);
   EXPECT_GE(convex.smooth, 100);
   EXPECT_EQ(convex.differences, 0);  // a convex C_cont has no reflex edge
-  const Tally star = CompareWithDifferences(box, MakeU(2.0, 0.25, 0.5), 40, 2);
+  const RowTally star =
+      CompareWithDifferences(box, MakeU(2.0, 0.25, 0.5), 40, 2);
   EXPECT_GE(star.smooth, 200);
 }
 
 // In the corner of an L the free corner is nearest: two contacts at once.
 TEST(PoseRow, SeveralContactsAtOnceAreToldAndRight) {
   const TriangleMesh l = MakeL(2.0, 0.7, 1.0);
-  const Tally tally = CompareWithDifferences(
+  const RowTally tally = CompareWithDifferences(
       MakeBox({-0.6, -0.6, -0.3}, {0.6, 0.6, 0.3}), l, 40, 3);
   EXPECT_GE(tally.smooth, 150);
   EXPECT_GE(tally.differences, 1);

@@ -175,14 +175,14 @@ TEST(QuaternionMotion, OfPairsOfTrianglesIsAsDensePosesSay) {
   EXPECT_GT(apart, 25);
 }
 
-struct Tally {
+struct MotionTally {
   long cases = 0, free = 0, undecided = 0, wrong_free = 0, wrong_hit = 0,
        wrong_exact = 0;
 };
 
 void Compare(const TriangleMesh& robot, const TriangleMesh& obstacle,
              const RigidJudge& judge, const QuaternionMotion& motion,
-             Tally* tally) {
+             MotionTally* tally) {
   double time = 0.0;
   const bool meets = MeetOnTheWay(robot, obstacle, motion, &time);
   const RigidCheck check = judge.Check(motion);
@@ -198,7 +198,7 @@ void Compare(const TriangleMesh& robot, const TriangleMesh& obstacle,
 // such cut where they collide, and from contact to contact.
 TEST(QuaternionMotion, NoMotionIsCalledFreeThatRationalNumbersRefute) {
   std::mt19937_64 random(4);
-  Tally tally;
+  MotionTally tally;
   const long pairs = testing::CampaignCases(8, 200);
   for (long i = 0; i < pairs; ++i) {
     const TriangleMesh robot = RandomTriangles(3, &random);

@@ -26,14 +26,14 @@ using testing::PoseAt;
 using testing::RandomRotation;
 using testing::RandomVoxelSolid;
 
-struct Tally {
+struct CampaignTally {
   long cases = 0, free = 0, undecided = 0, wrong_free = 0, wrong_hit = 0;
 };
 
 // Against `poses` sampled on the way, all in the exact kernel.
 void Compare(const RigidJudge& judge, const TriangleMesh& robot,
              const TriangleMesh& obstacle, const RigidMotion& motion, int poses,
-             Tally* tally) {
+             CampaignTally* tally) {
   const RigidCheck check = judge.Check(motion);
   ++tally->cases;
   if (check.outcome == MotionVerdict::kUndecided) ++tally->undecided;
@@ -66,7 +66,7 @@ RigidMotion RandomMotion(double spread, double turn, std::mt19937_64* random) {
 
 TEST(RigidCampaign, CallsNoRandomMotionFreeThatAnExactPoseRefutes) {
   std::mt19937_64 random(7);
-  Tally tally;
+  CampaignTally tally;
   const std::vector<PairKind>& kinds = AllPairKinds();
   const long pairs = testing::CampaignCases(40, 400);
   for (long i = 0; i < pairs; ++i) {
@@ -103,7 +103,7 @@ TEST(RigidCampaign, CallsNoRandomMotionFreeThatAnExactPoseRefutes) {
 // From contact to contact, where most motions graze.
 TEST(RigidCampaign, CallsNoGrazingMotionFreeThatAnExactPoseRefutes) {
   std::mt19937_64 random(8);
-  Tally tally;
+  CampaignTally tally;
   const long pairs = testing::CampaignCases(15, 150);
   for (long i = 0; i < pairs; ++i) {
     const TriangleMesh robot = RandomVoxelSolid(2, 0.6, &random);
@@ -144,7 +144,7 @@ TEST(RigidCampaign, CallsNoGrazingMotionFreeThatAnExactPoseRefutes) {
 TEST(RigidCampaign, JudgesNeedles) {
   std::mt19937_64 random(9);
   std::uniform_real_distribution<double> place(-1.0, 1.0);
-  Tally tally;
+  CampaignTally tally;
   for (int i = 0; i < 300; ++i) {
     const auto needles = [&] {
       TriangleMesh mesh;

@@ -24,6 +24,7 @@ namespace {
 
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
+using testing::AboutZ;
 using testing::Cube;
 using testing::ExpectRefused;
 using testing::MeshDistance;
@@ -31,10 +32,6 @@ using testing::PlacedMesh;
 using testing::PoseAt;
 using testing::RandomRotation;
 using testing::RandomVoxelSolid;
-
-Quaterniond AboutZ(double angle) {
-  return Quaterniond(Eigen::AngleAxisd(angle, Vector3d::UnitZ()));
-}
 
 void ExpectHolds(const RigidClearance& found, double truth, double relative) {
   EXPECT_LE(found.lower, truth);

@@ -22,16 +22,13 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
+using testing::AboutZ;
 using testing::Cube;
 using testing::ExpectRefused;
 using testing::MeetExactly;
 using testing::PlacedMesh;
 using testing::PoseAt;
 using testing::RandomRotation;
-
-Quaterniond AboutZ(double angle) {
-  return Quaterniond(Eigen::AngleAxisd(angle, Vector3d::UnitZ()));
-}
 
 // The triangles named do meet when it says, exactly.
 void ExpectWitness(const TriangleMesh& robot, const TriangleMesh& obstacle,

@@ -28,7 +28,7 @@ using Eigen::Vector3d;
 
 constexpr double kInf = std::numeric_limits<double>::infinity();
 const double kNan = std::nan("");
-constexpr std::uint64_t kSeed = 8;
+constexpr std::uint64_t kBranchSeed = 8;
 
 NonPenetrationConstraint Rows(int waypoints, int spaces) {
   const auto metric =
@@ -136,7 +136,7 @@ TEST(StaleBranchesCampaign, GiveProjectionsOfThisSpaceOrSayThatTheyEnded) {
     metrics.push_back(testing::UnsmoothedPhong(TakeAsContactSpace(mesh),
                                                FieldKind::kTangentPlane));
   }
-  std::mt19937_64 random(kSeed);
+  std::mt19937_64 random(kBranchSeed);
   std::uniform_real_distribution<double> unit(0.0, 1.0);
   const long cases = testing::CampaignCases(3000, 300000);
   long failures = 0, followed = 0, ended = 0;
@@ -202,7 +202,7 @@ TEST(StaleBranchesCampaign, GiveProjectionsOfThisSpaceOrSayThatTheyEnded) {
   testing::ReportCampaign({"4 queries",
                            "stale and made-up branches, both fields, warm and "
                            "ring",
-                           cases, failures, worst, 1e-9, "L", kSeed});
+                           cases, failures, worst, 1e-9, "L", kBranchSeed});
 }
 
 }  // namespace

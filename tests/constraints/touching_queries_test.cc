@@ -31,7 +31,7 @@ using Eigen::Vector3d;
 using testing::IsWhole;
 using testing::SignOf;
 
-constexpr std::uint64_t kSeed = 3;
+constexpr std::uint64_t kTouchingSeed = 3;
 
 std::vector<std::pair<std::string, TriangleMesh>> Shapes() {
   const Eigen::Matrix3d turn = GenericRotation();
@@ -106,7 +106,7 @@ std::vector<Ray> Rays(const TriangleMesh& mesh, long count,
 }
 
 TEST(TouchingCampaign, SignIsExactAndMonotoneAndDirectionsAreUnit) {
-  std::mt19937_64 random(kSeed);
+  std::mt19937_64 random(kTouchingSeed);
   long failures = 0, cases = 0, at_zero = 0;
   double worst = 0.0;
   for (const auto& [name, mesh] : Shapes()) {
@@ -156,14 +156,14 @@ TEST(TouchingCampaign, SignIsExactAndMonotoneAndDirectionsAreUnit) {
   testing::ReportCampaign({"3 touching",
                            "12 shapes, facets, edges, vertices, gaps 0, ±1e-16 "
                            "… ±1e-3 L; Euclid and Phong, cold and warm, judge",
-                           cases, failures, worst, 1e-12, "L", kSeed});
+                           cases, failures, worst, 1e-12, "L", kTouchingSeed});
 }
 
 // Exact fits and contacts on a lattice: what touches is not free, for the
 // query (not inside at distance 0, or inside where slots of no width close),
 // for the judge and for the original solids alike; a step of 2⁻²⁰ off it is.
 TEST(TouchingCampaign, MeansTheSameForQueryJudgeAndSolids) {
-  std::mt19937_64 random(kSeed);
+  std::mt19937_64 random(kTouchingSeed);
   std::vector<SolidPair> pairs;
   const std::uint64_t seeds =
       static_cast<std::uint64_t>(testing::CampaignCases(5, 40));
@@ -228,7 +228,7 @@ TEST(TouchingCampaign, MeansTheSameForQueryJudgeAndSolids) {
   testing::ReportCampaign({"3 touching",
                            "lattice contacts and exact fits: query, judge and "
                            "solids agree",
-                           cases, failures, 0.0, 0.0, "", kSeed});
+                           cases, failures, 0.0, 0.0, "", kTouchingSeed});
 }
 
 }  // namespace

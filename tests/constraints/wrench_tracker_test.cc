@@ -21,8 +21,8 @@ using Eigen::AngleAxisd, Eigen::Quaterniond, Eigen::Vector3d;
 
 const Vector3d kHalf(0.6, 0.2, 0.15);  // of the bar
 
-Solid Bar() { return MakeSolid(MakeBox(-kHalf, kHalf), "bar"); }
-Solid Slab() { return MakeSolid(MakeBox({-9, -9, -1}, {9, 9, 0}), "slab"); }
+Solid TurningBar() { return MakeSolid(MakeBox(-kHalf, kHalf), "bar"); }
+Solid Floor() { return MakeSolid(MakeBox({-9, -9, -1}, {9, 9, 0}), "slab"); }
 
 // √(∫ |p|² dA / ∫ dA) of the bar: two faces each way, x and y over a face of
 // half-widths a, b at height c have the mean a²/3 + b²/3 + c².
@@ -41,7 +41,7 @@ double Angle(const Vector3d& a, const Vector3d& b) {
 }
 
 TEST(WrenchTracker, MeasuresStepsByTheGyrationOfTheSurface) {
-  const WrenchTracker tracker(Bar(), Slab());
+  const WrenchTracker tracker(TurningBar(), Floor());
   EXPECT_NEAR(tracker.gyration(), BarGyration(), 1e-14);
   const RobotPose a = {{0, 0, 1}, Quaterniond::Identity()};
   const RobotPose b = {
@@ -59,7 +59,7 @@ TEST(WrenchTracker, KeepsItsBoundHoweverTheRobotMoves) {
   int steps = 0, bounded = 0;
   for (const double speed : {0.5, 2.0}) {
     for (const TriangleMesh& obstacle : obstacles) {
-      const WrenchTracker tracker(Bar(), MakeSolid(obstacle, "obstacle"),
+      const WrenchTracker tracker(TurningBar(), MakeSolid(obstacle, "obstacle"),
                                   speed);
       const Vector3d center = ComputeBounds(obstacle).Center();
       WrenchTracker::State state;
@@ -104,7 +104,7 @@ TEST(WrenchTracker, KeepsItsBoundHoweverTheRobotMoves) {
 }
 
 TEST(WrenchTracker, FreesByItsWayOutAndNoSooner) {
-  const Solid bar = Bar(), trap = MakeSolid(MakeU(2.0, 0.4, 0.8), "U");
+  const Solid bar = TurningBar(), trap = MakeSolid(MakeU(2.0, 0.4, 0.8), "U");
   const WrenchTracker tracker(bar, trap);
   const DepthQuery query(bar, trap);
   WrenchTracker::State state;
@@ -132,7 +132,7 @@ TEST(WrenchTracker, FreesByItsWayOutAndNoSooner) {
 // faces to the other as it passes the level, the smoothed one by way of
 // between.
 TEST(WrenchTracker, SmoothedChangesLessTheLessTheStep) {
-  const Solid bar = Bar();
+  const Solid bar = TurningBar();
   const Solid box = MakeSolid(MakeBox({-3, -2, -0.5}, {3, 2, 0.5}), "plate");
   const WrenchTracker tracker(bar, box);
   double before = 0.0;
@@ -184,7 +184,7 @@ TEST(WrenchTracker, CannotBoundDepthsThatJumpThemselves) {
 }
 
 TEST(WrenchTracker, BeginsAnewOutsideAndKeepsItsStateThroughNonsense) {
-  const WrenchTracker tracker(Bar(), Slab());
+  const WrenchTracker tracker(TurningBar(), Floor());
   WrenchTracker::State state;
   const RobotPose inside = {{0, 0, 0.1}, Quaterniond::Identity()};
   const TrackedWrench first = tracker.Step(inside, &state);
@@ -219,17 +219,17 @@ TEST(WrenchTracker, BeginsAnewOutsideAndKeepsItsStateThroughNonsense) {
 
 TEST(WrenchTracker, RefusesSpeedsAndSolidsThatAreNone) {
   for (const double speed : {0.0, -1.0, double{NAN}, double{INFINITY}}) {
-    EXPECT_THROW(WrenchTracker(Bar(), Slab(), speed), InputError);
+    EXPECT_THROW(WrenchTracker(TurningBar(), Floor(), speed), InputError);
   }
-  EXPECT_THROW(WrenchTracker(Solid(), Slab()), InputError);
-  EXPECT_THROW(WrenchTracker(Bar(), Solid()), InputError);
+  EXPECT_THROW(WrenchTracker(Solid(), Floor()), InputError);
+  EXPECT_THROW(WrenchTracker(TurningBar(), Solid()), InputError);
 }
 
 // A cube of side 2 above a slab by g: its lower face weighs κ(g/δ), its four
 // sides κ((g + y)/δ) at the height y over that.
 TEST(GapLever, IsTheMeanByItsIntegral) {
   const double reach = 0.25, g = 0.1;
-  const GapLever lever(MakeBox({-1, -1, -1}, {1, 1, 1}), Slab().mesh(), reach);
+  const GapLever lever(MakeBox({-1, -1, -1}, {1, 1, 1}), Floor().mesh(), reach);
   const auto weight = [&](double gap) {
     return std::pow(1.0 - std::min(1.0, gap * gap / reach / reach), 4.0);
   };
@@ -250,7 +250,7 @@ TEST(GapLever, IsTheMeanByItsIntegral) {
 // The contact point goes from end to end as the bar passes the parallel; the
 // mean does not.
 TEST(GapLever, PassesTheParallelWithoutAJump) {
-  const GapLever lever(Bar().mesh(), Slab().mesh(), 0.15);
+  const GapLever lever(TurningBar().mesh(), Floor().mesh(), 0.15);
   Vector3d left, right;
   for (const double angle : {1e-3, 1e-6}) {
     const auto at = [&](double a, Vector3d* mean) {
@@ -264,8 +264,8 @@ TEST(GapLever, PassesTheParallelWithoutAJump) {
     ASSERT_TRUE(at(-angle, &right));
     EXPECT_LT((left - right).norm(), 20.0 * angle);
   }
-  EXPECT_THROW(GapLever(Bar().mesh(), Slab().mesh(), 0.0), InputError);
-  EXPECT_THROW(GapLever(Bar().mesh(), Slab().mesh(), 1e-5), InputError);
+  EXPECT_THROW(GapLever(TurningBar().mesh(), Floor().mesh(), 0.0), InputError);
+  EXPECT_THROW(GapLever(TurningBar().mesh(), Floor().mesh(), 1e-5), InputError);
 }
 
 }  // namespace

@@ -13,9 +13,11 @@
 #include <vector>
 
 #include "core/contact/contact_space.h"
+#include "core/pi.h"
 #include "problems/shapes/cell_solids.h"
 #include "problems/shapes/shapes.h"
 #include "tests/museum/sum_truths.h"
+#include "tests/support/solid_tools.h"
 
 namespace phongpd {
 namespace {
@@ -26,7 +28,6 @@ using testing::BallRings;
 using testing::Counted;
 using testing::CountUnion;
 using testing::IntegerBox;
-using testing::kPi;
 using testing::MakeLathe;
 using testing::PolygonArea;
 using testing::Ring;

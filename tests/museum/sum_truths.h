@@ -7,16 +7,10 @@
 #include <vector>
 
 #include "core/mesh/triangle_mesh.h"
+#include "core/pi.h"
 
 // Volumes and topology of Minkowski sums that can be written down.
 namespace phongpd::testing {
-
-constexpr double kPi = 3.14159265358979323846;
-
-// Of the regular polygon inscribed in the unit circle.
-inline double PolygonArea(int sides) {
-  return sides / 2.0 * std::sin(2 * kPi / sides);
-}
 
 // A convex solid whose section at height z is a polygon Q times `scale`,
 // linear in between; z ascending.

@@ -218,14 +218,14 @@ OPTIONS = {
     "remove rest": (lambda v: phongpd.remove(T.robot, v), [3, None, [3], "a.stl"]),
     "remove tolerance": (
         lambda v: phongpd.remove(T.robot, [T.obstacle], tolerance=v),
-        ["2mm", None, -1, np.nan]),
+        ["2mm", None, -1, np.nan, True, "1"]),
     "remove verify": (lambda v: phongpd.remove(T.robot, [T.obstacle], verify=v),
                       ["a", 3]),
     "disassemble": (phongpd.disassemble, [3, [T.robot, 3]]),
     "first_hit resolution": (lambda v: T.judge.first_hit(
-        np.eye(4), np.eye(4), resolution=v), ["1mm", None]),
+        np.eye(4), np.eye(4), resolution=v), ["1mm", None, True, b"1"]),
     "rigid time_limit": (lambda v: T.turning.plan(np.eye(4), np.eye(4),
-                                                  time_limit=v), ["3s", -1]),
+                                                  time_limit=v), ["3s", -1, True, "1"]),
     "rigid seed": (lambda v: T.turning.plan(np.eye(4), np.eye(4), seed=v),
                    [-1, 1.5, "a", 2 ** 64]),
 }

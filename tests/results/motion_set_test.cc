@@ -30,7 +30,7 @@ TEST(MotionSetCampaign, JudgesEveryMotionAsTheRationalTruth) {
   long failures = 0;
   std::vector<long> blocked_of(kMotionClasses, 0), free_of(kMotionClasses, 0);
   for (long i = 0; i < motions; ++i) {
-    const Motion motion =
+    const GridMotion motion =
         MakeMotion(scenes, kSeed, static_cast<std::uint64_t>(i));
     const auto at = static_cast<std::size_t>(motion.scene);
     const bool meets = Meets(scenes[at], motion.a, motion.b);
@@ -72,7 +72,7 @@ TEST(MotionSet, IsTheStreamOfVersionThree) {
   ASSERT_EQ(scenes.size(), 20u);
   StreamHash hash;
   for (std::uint64_t i = 0; i < 10000; ++i) {
-    const Motion motion = MakeMotion(scenes, kSeed, i);
+    const GridMotion motion = MakeMotion(scenes, kSeed, i);
     hash.Add(motion, Meets(scenes[static_cast<std::size_t>(motion.scene)],
                            motion.a, motion.b));
   }

@@ -156,4 +156,8 @@ PathProblem MakePathProblem(const std::string& family, std::uint64_t seed) {
   return problem;
 }
 
+TriangleMesh VesselSpace() {
+  return BuildContactSpace(Cube(2.0), MakeVessel(10.0, 6.0, 0.0)).mesh();
+}
+
 }  // namespace phongpd::testing

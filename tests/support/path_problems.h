@@ -29,4 +29,8 @@ std::vector<std::string> PathFamilies();
 // free, at least 0.02 diagonals away from it, and differ by seed.
 PathProblem MakePathProblem(const std::string& family, std::uint64_t seed);
 
+// Of a cube of side 2 in a vessel whose cavity has side 6: q in [−2, 2]³, and
+// around the vessel, of side 10, q outside [−6, 6]³.
+TriangleMesh VesselSpace();
+
 }  // namespace phongpd::testing

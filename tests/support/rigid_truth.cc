@@ -52,6 +52,10 @@ double BoxDistance(const BoundingBox& x, const BoundingBox& y) {
 
 }  // namespace
 
+Eigen::Quaterniond AboutZ(double angle) {
+  return Eigen::Quaterniond(Eigen::AngleAxisd(angle, Vector3d::UnitZ()));
+}
+
 RobotPose PoseAt(const Vector3d& position,
                  const Eigen::Quaterniond& orientation) {
   RobotPose pose;

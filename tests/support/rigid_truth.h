@@ -13,6 +13,9 @@ RobotPose PoseAt(
     const Eigen::Vector3d& position,
     const Eigen::Quaterniond& orientation = Eigen::Quaterniond::Identity());
 
+// A turn about z, of that angle.
+Eigen::Quaterniond AboutZ(double angle);
+
 // The mesh at R(t) p + q(t), in long doubles by the formula of Rodrigues.
 TriangleMesh PlacedMesh(TriangleMesh mesh, const RigidMotion& motion, double t);
 

@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
+#include "core/pi.h"
 #include "problems/shapes/shapes.h"
 
 namespace phongpd::testing {
@@ -28,9 +29,15 @@ double WindingNumber(const TriangleMesh& mesh, const Vector3d& q) {
   return static_cast<double>(sum / (4 * M_PIl));
 }
 
-TriangleMesh Cube(double side) {
+TriangleMesh Cube(double side, const Vector3d& center) {
   const Vector3d half = Vector3d::Constant(0.5 * side);
-  return MakeBox(-half, half);
+  return MakeBox(center - half, center + half);
+}
+
+TriangleMesh UnitBox() { return MakeBox({0, 0, 0}, {1, 1, 1}); }
+
+double PolygonArea(int sides, double radius) {
+  return sides / 2.0 * std::sin(2 * kPi / sides) * radius * radius;
 }
 
 }  // namespace phongpd::testing

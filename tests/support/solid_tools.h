@@ -14,8 +14,15 @@ namespace phongpd::testing {
 // meaningless only within rounding of the surface.
 double WindingNumber(const TriangleMesh& mesh, const Eigen::Vector3d& q);
 
-// Of that side, around the origin.
-TriangleMesh Cube(double side);
+// Of that side, around a point.
+TriangleMesh Cube(double side,
+                  const Eigen::Vector3d& center = Eigen::Vector3d::Zero());
+
+// [0, 1]³.
+TriangleMesh UnitBox();
+
+// Area of a regular polygon by its circumradius.
+double PolygonArea(int sides, double radius = 1.0);
 
 // The generators, under the names tests know them by.
 using phongpd::RandomPoint;

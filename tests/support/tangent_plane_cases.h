@@ -7,13 +7,14 @@
 #include <utility>
 #include <vector>
 
+#include "core/mesh/numbers.h"
 #include "core/projection/phong_field.h"
 #include "core/projection/tangent_plane_field.h"
 #include "problems/shapes/shapes.h"
 
 namespace phongpd::testing {
 
-inline std::size_t At(int k) { return static_cast<std::size_t>(k); }
+using internal::At;
 
 // A field and its tangent planes.
 struct TangentPlaneCase {

@@ -19,7 +19,7 @@ using testing::At;
 using testing::Decoded;
 using Json = nlohmann::ordered_json;
 
-View SomeView() {
+View ViewWithBehind() {
   View view;
   view.meshes = {{"box", ViewRole::kObstacle, MakeBox({0, -1, -1}, {2, 1, 3})}};
   view.paths = {{"phong, seed 1", {{-2, 0, 0}, {-2, 3, 0}, {4, 3, 0}}, true},
@@ -28,7 +28,7 @@ View SomeView() {
 }
 
 TEST(ViewJson, HoldsWhatLiesBehindAnswersWhereThereIsAny) {
-  View view = SomeView();
+  View view = ViewWithBehind();
   EXPECT_TRUE(ViewJson(view)["graphs"].empty());
   ViewBehind& behind = view.paths[1].behind;
   behind.graph = {"roadmap", {{0, 0, 0}, {1, 2, 3}, {4, 0, 0}}, {{0, 2}}};
@@ -65,7 +65,7 @@ TEST(ViewJson, HoldsWhatLiesBehindAnswersWhereThereIsAny) {
 }
 
 TEST(ViewJson, HoldsIterationsAndSaysHowManyAreLeftOut) {
-  View view = SomeView();
+  View view = ViewWithBehind();
   ViewIterates& iterates = view.paths[1].behind.iterates;
   iterates.count = 9;
   iterates.kept = {

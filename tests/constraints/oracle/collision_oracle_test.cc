@@ -11,17 +11,14 @@
 #include "core/mesh/mesh_error.h"
 #include "problems/shapes/shapes.h"
 #include "tests/support/oracle_of.h"
+#include "tests/support/solid_tools.h"
 
 namespace phongpd {
 namespace {
 
 using Eigen::Vector3d;
+using testing::Cube;
 using testing::OracleOf;
-
-TriangleMesh Cube(double side, const Vector3d& center = Vector3d::Zero()) {
-  const Vector3d half = Vector3d::Constant(0.5 * side);
-  return MakeBox(center - half, center + half);
-}
 
 Vector3d RandomPoint(std::mt19937_64* random, double half_width) {
   std::uniform_real_distribution<double> uniform(-half_width, half_width);

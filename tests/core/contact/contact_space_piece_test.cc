@@ -127,7 +127,7 @@ TEST(ContactSpacePieces, FormerFailures) {
   }
 }
 
-struct NamedPair {
+struct PieceCase {
   const char* name;
   SolidPair pair;
 };
@@ -149,7 +149,7 @@ TEST(ContactSpacePieces, JoinedAreTheWholeBuildWhereItIsDegenerate) {
                        {2, 0, 5}, {1, 2, 5}, {3, 1, 5}, {0, 3, 5}};
   const TriangleMesh shells =
       Joined(MakeVessel(12, 10, 0), MakeVessel(6, 4, 0));
-  const std::vector<NamedPair> pairs = {
+  const std::vector<PieceCase> pairs = {
       {"cube and shell", PairOf(Cube(1), MakeVessel(4, 3, 0))},
       {"cube in nested shells", PairOf(Cube(1), shells)},
       {"diamond and diamonds",
@@ -165,7 +165,7 @@ TEST(ContactSpacePieces, JoinedAreTheWholeBuildWhereItIsDegenerate) {
       {"ball and torus", PairOf(MakeIcoBall(1.0, 0), MakeTorus(2, 0.6, 12, 6))},
       {"star and torus", PairOf(MakeStar(0.5, 1.2), MakeTorus(2, 0.6, 12, 6))},
   };
-  for (const NamedPair& named : pairs) {
+  for (const PieceCase& named : pairs) {
     for (const bool outer : {false, true}) {
       SCOPED_TRACE(std::string(named.name) + (outer ? ", outer shell" : ""));
       ContactSpaceOptions options;

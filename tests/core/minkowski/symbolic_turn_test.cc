@@ -88,16 +88,16 @@ TEST(SymbolicTurn, HoldsForTheLongestVectors) {
   }
 }
 
-using Corners = std::array<GridPoint, 3>;
+using GridCorners = std::array<GridPoint, 3>;
 
 // The same orientation always begins with the least corner.
-Corners Canonical(Corners c) {
+GridCorners Canonical(GridCorners c) {
   std::rotate(c.begin(), std::min_element(c.begin(), c.end()), c.end());
   return c;
 }
 
-std::set<Corners> Facets(const GridSolid& p, const GridSolid& q) {
-  std::set<Corners> found;
+std::set<GridCorners> Facets(const GridSolid& p, const GridSolid& q) {
+  std::set<GridCorners> found;
   const Convolution convolution = ReducedConvolution(p, q);
   for (const ConvolutionFacet& f : convolution.facets) {
     const auto at = [&](int k) { return convolution.points[f.corners[k]]; };
@@ -107,8 +107,9 @@ std::set<Corners> Facets(const GridSolid& p, const GridSolid& q) {
 }
 
 // By the definition, of P and the turned Q.
-std::set<Corners> FacetsByBruteForce(const GridSolid& p, const GridSolid& q) {
-  std::set<Corners> found;
+std::set<GridCorners> FacetsByBruteForce(const GridSolid& p,
+                                         const GridSolid& q) {
+  std::set<GridCorners> found;
   const auto add_facets = [&](const GridSolid& facets, const GridSolid& others,
                               bool others_turn) {
     for (std::size_t f = 0; f < facets.facets.size(); ++f) {

@@ -49,7 +49,7 @@ std::vector<Scene> Scenes() {
   return scenes;
 }
 
-struct Motion {
+struct Segment {
   Vector3d from;
   Vector3d to;
   Vector3d At(double t) const { return from + t * (to - from); }
@@ -69,7 +69,7 @@ class RandomMotions {
       if (scene_.metric.IsInside(q)) return q;
     }
   }
-  Motion Next() {
+  Segment Next() {
     const Vector3d from = Point();
     return {from, Point()};
   }
@@ -85,7 +85,7 @@ struct Frame {
 };
 
 // Results along the motion, the branch carried from frame to frame.
-std::vector<Frame> Track(const PhongMetric& metric, const Motion& motion,
+std::vector<Frame> Track(const PhongMetric& metric, const Segment& motion,
                          int frames) {
   std::vector<Frame> track;
   Branch branch;
@@ -102,7 +102,7 @@ TEST(BranchWalk, LongStepsArriveWhereShortStepsDo) {
   for (const Scene& scene : Scenes()) {
     RandomMotions motions(scene, 15);
     for (int i = 0; i < 60; ++i) {
-      Motion motion = motions.Next();
+      Segment motion = motions.Next();
       motion.to = motion.At(0.2);
       const auto fine = Track(scene.metric, motion, 400);
       const bool unbroken =
@@ -130,7 +130,7 @@ TEST(BranchWalk, EveryWarmResultIsAmongAllProjections) {
   for (const Scene& scene : Scenes()) {
     RandomMotions motions(scene, 16);
     for (int i = 0; i < 8; ++i) {
-      const Motion motion = motions.Next();
+      const Segment motion = motions.Next();
       for (const Frame& frame : Track(scene.metric, motion, 25)) {
         if (!frame.result.inside) continue;
         ASSERT_NE(frame.result.status, QueryStatus::kInvalid);
@@ -148,7 +148,7 @@ TEST(BranchWalk, EveryWarmResultIsAmongAllProjections) {
 
 // Largest change of the PD vector from frame to frame, farther than `window`
 // (in motion parameter) from every frame that is not plain kOk and inside.
-double LargestChange(const std::vector<Frame>& track, const Motion& motion,
+double LargestChange(const std::vector<Frame>& track, const Segment& motion,
                      double window) {
   std::vector<double> excluded;
   for (const Frame& f : track) {
@@ -175,7 +175,7 @@ TEST(BranchWalk, HalvingTheStepHalvesTheLargestChange) {
   for (const Scene& scene : Scenes()) {
     RandomMotions motions(scene, 17);
     for (int i = 0; i < 12; ++i) {
-      const Motion motion = motions.Next();
+      const Segment motion = motions.Next();
       const auto coarse = Track(scene.metric, motion, 1000);
       const auto fine = Track(scene.metric, motion, 2000);
       const double a = LargestChange(coarse, motion, 0.03);
@@ -195,7 +195,7 @@ TEST(BranchWalk, NeverJumpsSilently) {
   for (const Scene& scene : Scenes()) {
     RandomMotions motions(scene, 18);
     for (int i = 0; i < 20; ++i) {
-      const Motion motion = motions.Next();
+      const Segment motion = motions.Next();
       const auto track = Track(scene.metric, motion, 2000);
       for (std::size_t k = 1; k < track.size(); ++k) {
         const PenetrationResult &a = track[k - 1].result, &b = track[k].result;
@@ -245,7 +245,7 @@ TEST(BranchWalk, AgreesWithTheRingSearchInSmallSteps) {
   for (const Scene& scene : Scenes()) {
     RandomMotions motions(scene, 19);
     for (int i = 0; i < 4; ++i) {
-      const Motion motion = motions.Next();
+      const Segment motion = motions.Next();
       const auto track = Track(scene.metric, motion, 200);
       for (std::size_t k = 1; k < track.size(); ++k) {
         const PenetrationResult &a = track[k - 1].result, &b = track[k].result;

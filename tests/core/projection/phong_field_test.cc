@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "core/mesh/numbers.h"
 #include "problems/shapes/shapes.h"
 #include "tests/support/expect_refused.h"
 
@@ -19,8 +20,7 @@ namespace phongpd {
 namespace {
 
 using Eigen::Vector3d;
-
-std::size_t At(int k) { return static_cast<std::size_t>(k); }
+using internal::At;
 
 struct NamedShape {
   std::string name;

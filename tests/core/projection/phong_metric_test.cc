@@ -42,7 +42,7 @@ std::vector<Vector3d> InteriorPoints(const PhongMetric& metric,
   return points;
 }
 
-std::vector<TriangleMesh> Shapes() {
+std::vector<TriangleMesh> QueriedShapes() {
   return {MakeIcoBall(1.0, 3),
           MakeL(2.0, 0.7, 0.6),
           Rotated(MakeU(2.0, 0.4, 0.6), GenericRotation()),
@@ -69,7 +69,7 @@ std::vector<double> BruteForce(const PhongMetric& metric,
 }
 
 TEST(PhongMetric, ColdQueryIsTheLeastDepthOfAllTriangles) {
-  for (const TriangleMesh& mesh : Shapes()) {
+  for (const TriangleMesh& mesh : QueriedShapes()) {
     const double diagonal = ComputeBounds(mesh).Diagonal();
     for (const double ell : {0.0, 0.1}) {
       const PhongMetric metric = MakeMetric(mesh, ell);
@@ -87,7 +87,7 @@ TEST(PhongMetric, ColdQueryIsTheLeastDepthOfAllTriangles) {
 }
 
 TEST(PhongMetric, QueryAllListsEveryProjectionWithinTheBoundOnce) {
-  for (const TriangleMesh& mesh : Shapes()) {
+  for (const TriangleMesh& mesh : QueriedShapes()) {
     const double diagonal = ComputeBounds(mesh).Diagonal();
     const PhongMetric metric = MakeMetric(mesh, 0.05);
     const auto prisms = BuildOffsetPrisms(metric.field());
@@ -123,7 +123,7 @@ TEST(PhongMetric, QueryAllListsEveryProjectionWithinTheBoundOnce) {
 
 TEST(PhongMetric, HitIsAProjectionAndNotShallowerThanEuclidean) {
   for (const FieldKind kind : {FieldKind::kNormal, FieldKind::kTangentPlane}) {
-    for (const TriangleMesh& mesh : Shapes()) {
+    for (const TriangleMesh& mesh : QueriedShapes()) {
       const double diagonal = ComputeBounds(mesh).Diagonal();
       const PhongMetric metric = MakeMetric(mesh, 0.05, kind);
       const EuclideanMetric euclidean(TakeAsContactSpace(mesh));

@@ -16,7 +16,7 @@ namespace phongpd {
 namespace {
 
 using Eigen::Vector3d;
-using testing::At;
+using internal::At;
 using testing::Linear;
 using testing::OnEdge;
 using testing::OneTriangle;

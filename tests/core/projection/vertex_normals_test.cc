@@ -9,6 +9,7 @@
 #include <random>
 #include <vector>
 
+#include "core/mesh/numbers.h"
 #include "core/projection/intrinsic_delaunay.h"
 #include "core/projection/normal_cone.h"
 #include "problems/shapes/shapes.h"
@@ -17,8 +18,7 @@ namespace phongpd {
 namespace {
 
 using Eigen::Vector3d;
-
-std::size_t At(int k) { return static_cast<std::size_t>(k); }
+using internal::At;
 
 // A box whose flat faces are cut at random: each face is a fan around a random
 // inner point, so facets have arbitrary shapes.

@@ -33,7 +33,7 @@ PhongMetricOptions Smoothed(double length) {
   return options;
 }
 
-struct Tally {
+struct PhongTally {
   long inside = 0, windows = 0, wrong = 0;
   double worst = 0.0;  // of D
 };
@@ -41,7 +41,7 @@ struct Tally {
 // Random points about the contact space, all asked of both.
 void Compare(const TriangleMesh& robot, const TriangleMesh& obstacle,
              const PhongMetricOptions& options, int points,
-             std::mt19937_64* random, Tally* tally) {
+             std::mt19937_64* random, PhongTally* tally) {
   const ContactSpace space = BuildContactSpace(robot, obstacle);
   const PhongMetric truth(space, options);
   WindowPhong phong(ConvolutionModel(robot, obstacle), options);
@@ -75,7 +75,7 @@ void Compare(const TriangleMesh& robot, const TriangleMesh& obstacle,
 
 TEST(WindowPhongCampaign, AgreesWithTheWholeContactSpace) {
   std::mt19937_64 random(17);
-  Tally tally;
+  PhongTally tally;
   const auto& kinds = AllPairKinds();
   const long cases = testing::CampaignCases(60, 1200);
   for (long i = 0; i < cases; ++i) {
@@ -105,7 +105,7 @@ TEST(WindowPhongCampaign, AgreesWithTheWholeContactSpace) {
 TEST(WindowPhong, TakesWindowsWhereFacesAreSmall) {
   std::mt19937_64 random(3);
   const TriangleMesh knot = MakeKnot(1.0, 0.3, 96, 16);
-  Tally tally;
+  PhongTally tally;
   Compare(MakeIcoBall(0.4, 2), knot, Smoothed(0.0), 120, &random, &tally);
   Compare(MakeBlob(0.4, 2, 0.35, 1), MakeIcoBall(2.0, 3), Smoothed(0.0), 120,
           &random, &tally);
@@ -115,7 +115,7 @@ TEST(WindowPhong, TakesWindowsWhereFacesAreSmall) {
 
 TEST(WindowPhong, BuildsTheWholeForASmoothingLength) {
   std::mt19937_64 random(4);
-  Tally tally;
+  PhongTally tally;
   Compare(MakeStar(0.3, 0.7), MakeKnot(0.9, 0.15, 40, 6), Smoothed(0.2), 60,
           &random, &tally);
   Compare(Cube(1.0), MakeVessel(4, 3, 0.5), Smoothed(0.05), 60, &random,

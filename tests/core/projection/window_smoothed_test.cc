@@ -21,14 +21,14 @@ namespace {
 
 using Eigen::Vector3d;
 
-struct Tally {
+struct SmoothedTally {
   int inside = 0, windows = 0, known = 0;
 };
 
 // Random points about the contact space, all asked of both.
-void Compare(const TriangleMesh& robot, const TriangleMesh& obstacle,
-             double smoothing_length, SmoothedAt at, int points,
-             std::mt19937_64* random, Tally* tally) {
+void CompareSmoothed(const TriangleMesh& robot, const TriangleMesh& obstacle,
+                     double smoothing_length, SmoothedAt at, int points,
+                     std::mt19937_64* random, SmoothedTally* tally) {
   const ContactSpace space = BuildContactSpace(robot, obstacle);
   const SmoothedMetric truth(space, smoothing_length, at);
   WindowSmoothed smoothed(ConvolutionModel(robot, obstacle), smoothing_length,
@@ -63,7 +63,7 @@ void Compare(const TriangleMesh& robot, const TriangleMesh& obstacle,
 
 TEST(WindowSmoothed, AgreesWithTheWholeContactSpace) {
   std::mt19937_64 random(21);
-  Tally tally;
+  SmoothedTally tally;
   const auto& kinds = AllPairKinds();
   for (std::size_t i = 0; i < kinds.size(); ++i) {
     if (kinds[i] == PairKind::kManyBoxes) continue;  // seconds each
@@ -71,7 +71,7 @@ TEST(WindowSmoothed, AgreesWithTheWholeContactSpace) {
     const SolidPair pair = MakeRandomPair(kinds[i], 1);
     for (const SmoothedAt at : {SmoothedAt::kPosition, SmoothedAt::kContact}) {
       const double ell = i % 2 == 0 ? 0.02 : 0.1;
-      Compare(pair.robot, pair.obstacle, ell, at, 24, &random, &tally);
+      CompareSmoothed(pair.robot, pair.obstacle, ell, at, 24, &random, &tally);
     }
   }
   EXPECT_GT(tally.inside, 30);
@@ -82,9 +82,9 @@ TEST(WindowSmoothed, TakesWindowsForShortLengthsAndTheWholeForLongOnes) {
   std::mt19937_64 random(3);
   const TriangleMesh knot = MakeKnot(1.0, 0.3, 96, 16);
   for (const double ell : {0.01, 0.5}) {
-    Tally tally;
-    Compare(MakeIcoBall(0.4, 1), knot, ell, SmoothedAt::kPosition, 100, &random,
-            &tally);
+    SmoothedTally tally;
+    CompareSmoothed(MakeIcoBall(0.4, 1), knot, ell, SmoothedAt::kPosition, 100,
+                    &random, &tally);
     EXPECT_GT(tally.inside, 8);
     if (ell < 0.1) {
       EXPECT_GT(tally.windows, tally.inside / 2);

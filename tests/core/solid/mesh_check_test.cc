@@ -10,13 +10,13 @@
 
 #include "core/solid/solid.h"
 #include "problems/shapes/shapes.h"
+#include "tests/support/solid_tools.h"
 
 namespace phongpd {
 namespace {
 
 using Eigen::Vector3d;
-
-TriangleMesh UnitBox() { return MakeBox({0, 0, 0}, {1, 1, 1}); }
+using testing::UnitBox;
 
 // Every triangle with its own three vertices.
 TriangleMesh Soup(const TriangleMesh& mesh) {

@@ -15,13 +15,13 @@
 #include "core/solid/solid.h"
 #include "problems/shapes/shapes.h"
 #include "tests/support/expect_refused.h"
+#include "tests/support/solid_tools.h"
 
 namespace phongpd {
 namespace {
 
 using Eigen::Vector3d;
-
-TriangleMesh UnitBox() { return MakeBox({0, 0, 0}, {1, 1, 1}); }
+using testing::UnitBox;
 
 std::ptrdiff_t CountOf(const std::vector<MeshDefect>& defects,
                        DefectKind kind) {

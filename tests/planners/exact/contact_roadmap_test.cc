@@ -23,11 +23,13 @@
 #include "problems/scenes/scene.h"
 #include "problems/scenes/scene_library.h"
 #include "problems/shapes/shapes.h"
+#include "tests/support/path_problems.h"
 
 namespace phongpd {
 namespace {
 
 using Eigen::Vector3d;
+using testing::VesselSpace;
 using Knobs = std::map<std::string, double>;
 
 struct Problem {
@@ -237,15 +239,6 @@ TEST(ContactRoadmap, AsksThePlannerWhereRoundingClosedItsRoutes) {
   EXPECT_EQ(result.path, expected.path);
   EXPECT_EQ(result.searches, expected.searches);
   EXPECT_TRUE(CheckPath(problem.space, result.path).free);
-}
-
-// A cube of side 2 in a vessel whose cavity has side 6: q in [−2, 2]³, and
-// around the vessel, of side 10, q outside [−6, 6]³.
-TriangleMesh VesselSpace() {
-  return BuildContactSpace(
-             MakeBox(Vector3d::Constant(-1.0), Vector3d::Constant(1.0)),
-             MakeVessel(10.0, 6.0, 0.0))
-      .mesh();
 }
 
 TEST(ContactRoadmap, AnswersAtTheLimitsOfFreeSpace) {

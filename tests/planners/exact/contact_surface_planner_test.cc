@@ -22,12 +22,14 @@
 #include "problems/scenes/scene.h"
 #include "problems/scenes/scene_library.h"
 #include "problems/shapes/shapes.h"
+#include "tests/support/path_problems.h"
 #include "tests/support/solid_tools.h"
 
 namespace phongpd {
 namespace {
 
 using Eigen::Vector3d;
+using testing::VesselSpace;
 using Knobs = std::map<std::string, double>;
 
 // Plans a scene, checks the path and returns the result.
@@ -134,15 +136,6 @@ TEST(ContactSurfacePlanner, CopesWithNeedles) {
           << family << ": " << plan.reason;
     }
   }
-}
-
-// A cube of side 2 in a vessel whose cavity has side 6: q in [−2, 2]³, and
-// around the vessel, of side 10, q outside [−6, 6]³.
-TriangleMesh VesselSpace() {
-  return BuildContactSpace(
-             MakeBox(Vector3d::Constant(-1.0), Vector3d::Constant(1.0)),
-             MakeVessel(10.0, 6.0, 0.0))
-      .mesh();
 }
 
 TEST(ContactSurfacePlanner, ProvesThatNothingLeavesAVessel) {

@@ -134,16 +134,17 @@ Trajectory RandomCurve(const FreeSpace& space, const ContactSpace& contact,
   return Trajectory({testing::RandomPiece(space, contact, 0.12, random)});
 }
 
-struct Pair {
+struct MeshPair {
   TriangleMesh robot, obstacle;
   bool is_exact;  // its contact surface: coordinates of few digits
 };
 
-std::vector<Pair> Pairs() {
+std::vector<MeshPair> MeshPairs() {
   std::mt19937_64 random(3102);
-  std::vector<Pair> pairs = {{Cube(0.5), Cube(1.5), true},
-                             {Cube(0.3), MakeTorus(1.0, 0.4, 20, 12), false},
-                             {MakeStar(0.2, 0.5), MakeL(2.0, 0.6, 0.8), false}};
+  std::vector<MeshPair> pairs = {
+      {Cube(0.5), Cube(1.5), true},
+      {Cube(0.3), MakeTorus(1.0, 0.4, 20, 12), false},
+      {MakeStar(0.2, 0.5), MakeL(2.0, 0.6, 0.8), false}};
   for (int i = 0; i < 3; ++i) {
     TriangleMesh voxels = testing::RandomVoxelSolid(4, 0.4, &random);
     const Eigen::Matrix3d turn = testing::RandomRotation(&random);
@@ -155,14 +156,15 @@ std::vector<Pair> Pairs() {
   return pairs;
 }
 
-struct Tally {
+struct CurveTally {
   long cases = 0, wrong = 0, undecided = 0, confirmed = 0, refuted = 0;
   double seconds = 0.0;
 };
 
 // `is_clear`: the truth of the contact surface is that of the solids.
-void Compare(const Verifier& verifier, const ContactSpace& contact,
-             const Trajectory& curve, bool is_clear, Tally* tally) {
+void CompareVerdicts(const Verifier& verifier, const ContactSpace& contact,
+                     const Trajectory& curve, bool is_clear,
+                     CurveTally* tally) {
   ++tally->cases;
   const Verification found = verifier.VerifyCurve(curve);
   tally->seconds += found.seconds;
@@ -182,15 +184,15 @@ void Compare(const Verifier& verifier, const ContactSpace& contact,
 
 TEST(CurveVerificationCampaign, AgreesWithRationals) {
   const long each = testing::CampaignCases(40, 2'000);
-  Tally random_curves, grazing;
+  CurveTally random_curves, grazing;
   std::mt19937_64 random(3103);
-  for (const Pair& pair : Pairs()) {
+  for (const MeshPair& pair : MeshPairs()) {
     const ContactSpace contact = BuildContactSpace(pair.robot, pair.obstacle);
     const FreeSpace space({contact});
     const Verifier verifier(Of(pair.robot, pair.obstacle));
     for (long i = 0; i < each; ++i) {
-      Compare(verifier, contact, RandomCurve(space, contact, &random), true,
-              &random_curves);
+      CompareVerdicts(verifier, contact, RandomCurve(space, contact, &random),
+                      true, &random_curves);
     }
     for (const double gap : {1e-3, 1e-6, 1e-9, 1e-12, 1e-15, 0.0, -1e-15,
                              -1e-12, -1e-9, -1e-6, -1e-3}) {
@@ -199,11 +201,11 @@ TEST(CurveVerificationCampaign, AgreesWithRationals) {
         if (!space.IsFree(curve.pieces()[0].front())) continue;
         // Others are rounded, by less than this.
         const bool is_clear = pair.is_exact || std::abs(gap) > 5e-10;
-        Compare(verifier, contact, curve, is_clear, &grazing);
+        CompareVerdicts(verifier, contact, curve, is_clear, &grazing);
       }
     }
   }
-  for (const Tally& tally : {random_curves, grazing}) {
+  for (const CurveTally& tally : {random_curves, grazing}) {
     EXPECT_EQ(tally.wrong, 0);
     EXPECT_LE(tally.undecided, tally.cases / 500);
     EXPECT_GE(tally.confirmed, tally.cases / 10);
@@ -225,7 +227,7 @@ TEST(CurveVerificationCampaign, FindsWhatIsPlantedOnTheCurve) {
   std::mt19937_64 random(3104);
   std::uniform_real_distribution<double> moment(0.0, 1.0);
   long planted = 0, found = 0;
-  for (const Pair& pair : Pairs()) {
+  for (const MeshPair& pair : MeshPairs()) {
     const ContactSpace contact = BuildContactSpace(pair.robot, pair.obstacle);
     const FreeSpace space({contact});
     const Verifier verifier(Of(pair.robot, pair.obstacle));

@@ -33,13 +33,13 @@ using testing::LatticeWorld;
 
 constexpr std::uint64_t kSeed = 20;
 
-struct Pair {
+struct Query {
   Vector3d start, goal;
   PathStatus truth;
 };
 
 // Mostly free ones; one in sixteen wherever it falls.
-Pair RandomPair(const LatticeWorld& world, std::mt19937_64* random) {
+Query RandomQuery(const LatticeWorld& world, std::mt19937_64* random) {
   const auto pick = [&](bool free) {
     LatticeWorld::Cell cell = world.RandomCell(random);
     while (free && world.Label(cell) < 0) cell = world.RandomCell(random);
@@ -51,14 +51,14 @@ Pair RandomPair(const LatticeWorld& world, std::mt19937_64* random) {
           testing::FloodTruth(world.Label(start), world.Label(goal))};
 }
 
-struct Tally {
+struct QueryTally {
   long queries = 0, solved = 0, proved = 0, invalid = 0;
   long failures = 0, deleted = 0, confirmed = 0;
 };
 
 // Judges an answer, in rational arithmetic too if `confirm`.
-void Judge(const LatticeWorld& world, const FreeSpace& space, const Pair& pair,
-           const PlanResult& result, bool confirm, Tally* tally) {
+void Judge(const LatticeWorld& world, const FreeSpace& space, const Query& pair,
+           const PlanResult& result, bool confirm, QueryTally* tally) {
   ++tally->queries;
   tally->solved += result.status == PathStatus::kSolved;
   tally->proved += result.status == PathStatus::kInfeasibleProved;
@@ -82,7 +82,7 @@ void Judge(const LatticeWorld& world, const FreeSpace& space, const Pair& pair,
 }
 
 template <typename Answer>
-void Report(const char* item, const Tally& tally, const Answer& subject) {
+void Report(const char* item, const QueryTally& tally, const Answer& subject) {
   testing::CampaignRow row;
   row.item = item;
   row.subject = subject;
@@ -110,13 +110,13 @@ void ForEachWorld(long worlds, const ContactSurfaceOptions& options,
 }
 
 TEST(LatticeCampaign, AnswersEveryQueryRight) {
-  Tally tally;
+  QueryTally tally;
   ForEachWorld(CampaignCases(40, 200), testing::LeastSettings(),
                [&](const LatticeWorld& world, const FreeSpace& space,
                    const auto& planner, std::mt19937_64* random) {
                  const long queries = CampaignCases(120, 5000);
                  for (long k = 0; k < queries; ++k) {
-                   const Pair pair = RandomPair(world, random);
+                   const Query pair = RandomQuery(world, random);
                    Judge(world, space, pair,
                          planner->Plan(pair.start, pair.goal), k % 20 == 0,
                          &tally);
@@ -133,14 +133,14 @@ TEST(LatticeCampaign, AnswersEveryQueryRight) {
 }
 
 TEST(LatticeCampaign, AnswersByDefaultOptionsAndByRoadmap) {
-  Tally by_default, by_roadmap;
+  QueryTally by_default, by_roadmap;
   ForEachWorld(CampaignCases(20, 200), {},
                [&](const LatticeWorld& world, const FreeSpace& space,
                    const auto& planner, std::mt19937_64* random) {
                  const ContactRoadmap roadmap(planner);
                  const long queries = CampaignCases(10, 50);
                  for (long k = 0; k < queries; ++k) {
-                   const Pair pair = RandomPair(world, random);
+                   const Query pair = RandomQuery(world, random);
                    Judge(world, space, pair,
                          planner->Plan(pair.start, pair.goal), true,
                          &by_default);
@@ -196,7 +196,7 @@ TEST(LatticeCampaign, ConnectsTheLatticeAroundAPrism) {
     } while (!space.IsFree(q));
     return q;
   };
-  Tally tally;
+  QueryTally tally;
   for (long i = CampaignCases(100, 10000); i > 0; --i) {
     const Vector3d start = pick(), goal = pick();
     const PlanResult result = planner.Plan(start, goal);

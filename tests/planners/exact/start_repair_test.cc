@@ -21,12 +21,14 @@ using testing::PathFamilies;
 using testing::PathProblem;
 using Path = std::vector<Vector3d>;
 
-TriangleMesh Cube(double half) {
+TriangleMesh CentredCube(double half) {
   return MakeBox(Vector3d::Constant(-half), Vector3d::Constant(half));
 }
 
 // A solid box with a box-shaped cavity that holds a smaller solid box.
-TriangleMesh Nested() { return Joined(MakeVessel(6.0, 4.0, 0.0), Cube(0.5)); }
+TriangleMesh Nested() {
+  return Joined(MakeVessel(6.0, 4.0, 0.0), CentredCube(0.5));
+}
 
 TEST(StartRepair, FreesEveryPathOfTheFamilies) {
   for (const std::string& family : PathFamilies()) {
@@ -56,7 +58,7 @@ TEST(StartRepair, FreesEveryPathOfTheFamilies) {
 TEST(StartRepair, GoesTheShortestWayAroundABox) {
   // From (−2, 0, 0.9) over the top edge (z = 1) of a cube and down again:
   // straight to the edge, across, straight to the goal.
-  const StartRepair repair(TakeAsContactSpace(Cube(1.0)));
+  const StartRepair repair(TakeAsContactSpace(CentredCube(1.0)));
   const Vector3d start(-2.0, 0.0, 0.9), goal(2.0, 0.0, 0.9);
   StartRepairOptions options;
   options.clearance = 1e-4 * repair.diagonal();
@@ -83,7 +85,7 @@ TEST(StartRepair, GoesNearlyTheShortestWayAroundABall) {
 }
 
 TEST(StartRepair, LeavesFreePathsAsTheyAre) {
-  const StartRepair repair(TakeAsContactSpace(Cube(1.0)));
+  const StartRepair repair(TakeAsContactSpace(CentredCube(1.0)));
   const Path given = {{-2.0, 0.0, 0.0}, {-2.0, 2.0, 0.0}, {2.0, 2.0, 0.5}};
   const StartRepairResult result = repair.Repair(given);
   EXPECT_EQ(result.status, PathStatus::kFree);
@@ -94,7 +96,7 @@ TEST(StartRepair, LeavesFreePathsAsTheyAre) {
 
 TEST(StartRepair, LeadsOnlyCollidingPartsOfAPolylineAround) {
   const TriangleMesh two =
-      Joined(Cube(1.0), Translated(Cube(1.0), {10.0, 0.0, 0.0}));
+      Joined(CentredCube(1.0), Translated(CentredCube(1.0), {10.0, 0.0, 0.0}));
   const StartRepair repair(TakeAsContactSpace(two));
   // Far up between the two cubes, on purpose.
   const Path given = {{-3.0, 0.0, 0.0}, {5.0, 0.3, 0.0},  {5.0, 0.0, 8.0},
@@ -126,7 +128,7 @@ TEST(StartRepair, ProvesThatNoPathExists) {
 }
 
 TEST(StartRepair, SaysWhichEndCollides) {
-  const StartRepair repair(TakeAsContactSpace(Cube(1.0)));
+  const StartRepair repair(TakeAsContactSpace(CentredCube(1.0)));
   const Vector3d free(3.0, 0.0, 0.0), inside(0.5, 0.0, 0.0);
   EXPECT_EQ(repair.Repair(inside, free).status, PathStatus::kStartInCollision);
   EXPECT_EQ(repair.Repair(free, inside).status, PathStatus::kGoalInCollision);
@@ -181,7 +183,7 @@ TEST(StartRepair, IsDeterministic) {
 }
 
 TEST(StartRepair, RefusesBadInput) {
-  const StartRepair repair(TakeAsContactSpace(Cube(1.0)));
+  const StartRepair repair(TakeAsContactSpace(CentredCube(1.0)));
   const Vector3d q(3.0, 0.0, 0.0);
   EXPECT_THROW(repair.Repair(Path{q}), InputError);
   EXPECT_THROW(repair.Repair(q, Vector3d::Constant(std::nan(""))), InputError);

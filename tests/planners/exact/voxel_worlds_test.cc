@@ -21,7 +21,7 @@ using Eigen::Vector3d;
 using testing::MakeVoxelWorld;
 using testing::VoxelWorld;
 
-struct Tally {
+struct WorldTally {
   int solved = 0, proved = 0, wrong = 0, searches = 0;
   int worlds = 0;
   long queries = 0, lazy_searches = 0;  // of every third's roadmap
@@ -33,7 +33,7 @@ struct Tally {
 void TryRoadmap(const VoxelWorld& world,
                 std::shared_ptr<const ContactSurfacePlanner> planner,
                 const std::vector<Vector3d>& centers, std::size_t i,
-                Tally* tally) {
+                WorldTally* tally) {
   const ContactRoadmap roadmap(std::move(planner));
   const FreeSpace space({TakeAsContactSpace(world.contact_space)});
   for (std::size_t k = 0; k < 6; ++k) {
@@ -60,7 +60,7 @@ void TryRoadmap(const VoxelWorld& world,
 
 // One random pair of cells of one random world, moved by x → scale·R·x + t.
 void Try(std::mt19937_64* random, const Eigen::Matrix3d& rotation, double scale,
-         double offset, Tally* tally) {
+         double offset, WorldTally* tally) {
   static constexpr double kFills[] = {0.1, 0.35, 0.5, 0.62};
   static constexpr double kChannels[] = {0.3, 0.05, 1e-4};
   const double channel = kChannels[(*random)() % 3];
@@ -114,7 +114,7 @@ int Worlds(int in_the_suite) {
   return wanted != nullptr ? std::atoi(wanted) : in_the_suite;
 }
 
-void Report(const Tally& tally) {
+void Report(const WorldTally& tally) {
   std::printf(
       "solved %d proved %d wrong %d searches %d clearance/channel %g "
       "slowest %g s roadmap %ld lazy %ld\n",
@@ -124,7 +124,7 @@ void Report(const Tally& tally) {
 
 TEST(ContactSurfacePlanner, AgreesWithFloodFillInVoxelWorlds) {
   std::mt19937_64 random(1);
-  Tally tally;
+  WorldTally tally;
   for (int i = 0; i < Worlds(300); ++i) {
     Try(&random, Eigen::Matrix3d::Identity(), 1.0, 0.0, &tally);
   }
@@ -136,7 +136,7 @@ TEST(ContactSurfacePlanner, AgreesWithFloodFillInVoxelWorlds) {
 
 TEST(ContactSurfacePlanner, AgreesWithFloodFillInTurnedVoxelWorlds) {
   std::mt19937_64 random(2);
-  Tally tally;
+  WorldTally tally;
   for (int i = 0; i < Worlds(200); ++i) {
     Try(&random, testing::RandomRotation(&random), 1.0, 0.0, &tally);
   }
@@ -148,7 +148,7 @@ TEST(ContactSurfacePlanner, AgreesWithFloodFillAtAllScalesAndOffsets) {
   std::mt19937_64 random(3);
   static constexpr double kScales[] = {1e-3, 1.0, 1e3};
   static constexpr double kOffsets[] = {0.0, 1e3, 1e5};
-  Tally tally;
+  WorldTally tally;
   for (int i = 0; i < Worlds(90); ++i) {
     const double scale = kScales[i % 3];
     Try(&random, testing::RandomRotation(&random), scale,

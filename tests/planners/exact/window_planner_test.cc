@@ -50,13 +50,13 @@ Vector3d SomePoint(const ContactSpace& space, std::mt19937_64* random) {
                       space.normals()[t];
 }
 
-struct Tally {
+struct PlanTally {
   long plans = 0, wrong = 0, explored = 0, proofs = 0;
 };
 
 // Plans between some configurations with both, and judges what comes out.
-void Compare(const SolidPair& pair, int trials, std::mt19937_64* random,
-             Tally* tally) {
+void ComparePlans(const SolidPair& pair, int trials, std::mt19937_64* random,
+                  PlanTally* tally) {
   const ContactSpace space = BuildContactSpace(pair.robot, pair.obstacle);
   const ContactSurfacePlanner whole(space);
   const WindowPlanner planner(ConvolutionModel(pair.robot, pair.obstacle));
@@ -98,7 +98,7 @@ void Compare(const SolidPair& pair, int trials, std::mt19937_64* random,
 
 TEST(WindowPlannerCampaign, AgreesWithTheWholeContactSpace) {
   std::mt19937_64 random(11);
-  Tally tally;
+  PlanTally tally;
   const auto& kinds = AllPairKinds();
   const long cases = testing::CampaignCases(80, 2000);
   for (long i = 0; i < cases; ++i) {
@@ -106,7 +106,7 @@ TEST(WindowPlannerCampaign, AgreesWithTheWholeContactSpace) {
     const auto seed = static_cast<std::uint64_t>(i) / kinds.size();
     if (kind == PairKind::kManyBoxes && seed > 1) continue;  // seconds each
     SCOPED_TRACE(Name(kind) + ", seed " + std::to_string(seed));
-    Compare(MakeRandomPair(kind, seed), 6, &random, &tally);
+    ComparePlans(MakeRandomPair(kind, seed), 6, &random, &tally);
   }
   EXPECT_GT(tally.explored, cases);
   EXPECT_GT(tally.proofs, cases / 20);
@@ -162,7 +162,7 @@ SolidPair PairOf(TriangleMesh robot, TriangleMesh obstacle) {
 
 TEST(WindowPlanner, AgreesOnBodiesWithNarrowPassagesAndCavities) {
   std::mt19937_64 random(5);
-  Tally tally;
+  PlanTally tally;
   for (const SolidPair& pair :
        {PairOf(Rotated(MakeStar(0.3, 0.6), GenericRotation()),
                MakeKnot(1.0, 0.12, 40, 8)),
@@ -171,7 +171,7 @@ TEST(WindowPlanner, AgreesOnBodiesWithNarrowPassagesAndCavities) {
         PairOf(MakeIcoBall(0.3, 1), MakeVessel(4, 3, 0.0)),
         PairOf(MakeBox({-0.5, -0.5, -1}, {0.5, 0.5, 1}),
                MakePlateWithHole(4, 1, 1))}) {
-    Compare(pair, 25, &random, &tally);
+    ComparePlans(pair, 25, &random, &tally);
   }
   EXPECT_GT(tally.explored, 40);
   EXPECT_GE(tally.proofs, 1);

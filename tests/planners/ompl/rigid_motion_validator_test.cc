@@ -51,8 +51,8 @@ RobotPose RandomPose(std::mt19937_64* random) {
 }
 
 // Two states to move between.
-struct Motion {
-  explicit Motion(const ob::SpaceInformationPtr& si)
+struct PoseMotion {
+  explicit PoseMotion(const ob::SpaceInformationPtr& si)
       : info(si), a(si), b(si), last(si) {}
   bool IsFree(const RobotPose& from, const RobotPose& to) {
     FromRobotPose(from, a.get());
@@ -80,7 +80,7 @@ ob::SpaceInformationPtr BarBesidePost() {
 }
 
 TEST(RigidMotionValidator, SeesWhatATurnSweepsOver) {
-  Motion motion(BarBesidePost());
+  PoseMotion motion(BarBesidePost());
   // Free at both ends, and the post is between them.
   EXPECT_TRUE(motion.IsFree(Turned(0.0), Turned(0.5)));
   EXPECT_TRUE(motion.IsFree(Turned(1.1), Turned(kPi / 2)));
@@ -91,7 +91,7 @@ TEST(RigidMotionValidator, SeesWhatATurnSweepsOver) {
 }
 
 TEST(RigidMotionValidator, ReturnsTheLastPoseByBisection) {
-  Motion motion(BarBesidePost());
+  PoseMotion motion(BarBesidePost());
   // The bar's upper side, 0.1 from its axis, meets the post's corner
   // (1.1, 0.9) at atan2(0.9, 1.1) less the angle that 0.1 is of its distance.
   const double contact =
@@ -110,7 +110,7 @@ TEST(RigidMotionValidator, ReturnsTheLastPoseByBisection) {
 }
 
 TEST(RigidMotionValidator, WritesTheLastPoseOverTheEndOrNowhere) {
-  Motion motion(BarBesidePost());
+  PoseMotion motion(BarBesidePost());
   const double fraction = motion.LastValid(Turned(0.0), Turned(1.5));
   FromRobotPose(Turned(0.0), motion.a.get());
   FromRobotPose(Turned(1.5), motion.b.get());
@@ -154,7 +154,7 @@ TEST(RigidMotionValidator, JudgesTheWayThatOmplInterpolates) {
 
 TEST(RigidMotionValidator, RefusesHalfTurnsWhoseWayHangsOnRounding) {
   // Nothing is in the way but the post, far below.
-  Motion motion(MakeRigidSpaceInformation(
+  PoseMotion motion(MakeRigidSpaceInformation(
       RigidJudge(Bar(), MakeBox({-1, -1, -9}, {1, 1, -8})), kRegion));
   for (const double off : {0.0, 1e-13, -1e-10, 4e-10}) {
     EXPECT_FALSE(motion.IsFree(Turned(0.0), Turned(kPi + off))) << off;
@@ -170,7 +170,7 @@ TEST(RigidMotionValidator, RefusesHalfTurnsWhoseWayHangsOnRounding) {
 
 TEST(RigidMotionValidator, CountsWhatIsUndecidedAsNotValid) {
   // Bar on a floor: its underside slides in the floor's plane.
-  Motion motion(MakeRigidSpaceInformation(
+  PoseMotion motion(MakeRigidSpaceInformation(
       RigidJudge(Bar(), MakeBox({-5, -5, -1}, {5, 5, -0.1})), kRegion));
   EXPECT_FALSE(motion.IsFree(Turned(0.0), Turned(0.3)));
   EXPECT_EQ(motion.validator().undecided(), 1u);
@@ -185,7 +185,8 @@ TEST(RigidMotionValidator, CountsWhatIsUndecidedAsNotValid) {
 TEST(RigidMotionValidator, AgreesWithExactCollisionAlongRandomMotions) {
   const TriangleMesh robot = MakeL(1.5, 0.4, 0.3);
   const TriangleMesh world = MakePlateWithHole(5, 0.5, 1.6);
-  Motion motion(MakeRigidSpaceInformation(RigidJudge(robot, world), kRegion));
+  PoseMotion motion(
+      MakeRigidSpaceInformation(RigidJudge(robot, world), kRegion));
   std::mt19937_64 random(2);
   int free = 0, cut = 0;
   for (int i = 0; i < 120; ++i) {

@@ -11,6 +11,7 @@
 
 #include "constraints/oracle/collision_oracle.h"
 #include "core/mesh/mesh_error.h"
+#include "core/pi.h"
 #include "problems/shapes/shapes.h"
 #include "tests/support/expect_refused.h"
 #include "tests/support/fleet_problems.h"
@@ -54,7 +55,7 @@ std::vector<FleetRobot> Circle(int count) {
   std::vector<FleetRobot> robots;
   const double radius = size - 0.5;
   for (int i = 0; i < count; ++i) {
-    const double angle = 2.0 * 3.14159265358979 * i / count + 0.1;
+    const double angle = 2.0 * kPi * i / count + 0.1;
     const Vector3d at(radius * std::cos(angle), radius * std::sin(angle), 0.0);
     robots.push_back(CubeRobot("robot " + std::to_string(i), world, at, -at));
   }

@@ -12,7 +12,7 @@
 namespace phongpd {
 namespace {
 
-struct Staged : testing::Staged {
+struct StagedWindow : testing::Staged {
   using testing::Staged::Staged;
 
   OptimizeRequest Request(Model model, const std::string& metric) const {
@@ -38,7 +38,7 @@ TEST(WindowMetricOfOptimize, TakesTheSolverWhereTheWholeContactSpaceDoes) {
        {"euclidean", "smoothed@0.02", "smoothed-foot@0.02", "smoothed@0.2"}) {
     for (const char* family : {"u_axis", "plate"}) {
       SCOPED_TRACE(std::string(metric) + " " + family);
-      const Staged staged(family), other(family);
+      const StagedWindow staged(family), other(family);
       OptimizeRequest request = staged.Request(Model::kWindow, metric);
       request.options.start = TrajectoryStart::kStraight;
       request.options.start_noise = 0.003;  // off what is symmetric
@@ -63,7 +63,7 @@ TEST(WindowMetricOfOptimize, TakesTheSolverWhereTheWholeContactSpaceDoes) {
 
 // What was modelled is kept with the world.
 TEST(WindowMetricOfOptimize, ModelsNothingTwice) {
-  const Staged staged("plate");
+  const StagedWindow staged("plate");
   OptimizeRequest request = staged.Request(Model::kWindow, "euclidean");
   request.options.start = TrajectoryStart::kStraight;
   request.options.optimizer.ipopt.max_iterations = 10;
@@ -77,7 +77,7 @@ TEST(WindowMetricOfOptimize, ModelsNothingTwice) {
 }
 
 TEST(WindowMetricOfOptimize, AnswersByDefaultAsFreeAsTheWhole) {
-  const Staged staged("u_axis");
+  const StagedWindow staged("u_axis");
   const PathAnswer found =
       Optimize(staged.world, staged.Request(Model::kWindow, "smoothed@0.02"));
   EXPECT_TRUE(found.is_free);
@@ -91,7 +91,7 @@ TEST(WindowMetricOfOptimize, AnswersByDefaultAsFreeAsTheWhole) {
 // Phong's depth, more rows, and spaces of each obstacle are followed in the
 // whole alone.
 TEST(WindowMetricOfOptimize, FollowsNoneWhereWindowsHaveNone) {
-  const Staged staged("u_axis");
+  const StagedWindow staged("u_axis");
   OptimizeRequest phong = staged.Request(Model::kWindow, "phong");
   OptimizeRequest rows = staged.Request(Model::kWindow, "euclidean");
   rows.options.optimizer.rows = 2;

@@ -22,7 +22,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-struct Staged : testing::Staged {
+struct StagedPlan : testing::Staged {
   using testing::Staged::Staged;
 
   PlanRequest Request(PlannerId planner, Model model) const {
@@ -48,7 +48,7 @@ TEST(PlanningModel, WindowPathsAreExactlyFree) {
        {"ball_wrench", "hole:delta=0.1", "gap:delta=0.1,rotation_seed=1",
         "torus_hole", "cone_axes", "clutter"}) {
     SCOPED_TRACE(name);
-    const Staged staged(name);
+    const StagedPlan staged(name);
     const Scene& scene = staged.scene;
     const PathAnswer answer = Plan(
         staged.world, staged.Request(PlannerId::kRrtConnect, Model::kWindow));
@@ -77,7 +77,7 @@ TEST(PlanningModel, WindowPathsAreExactlyFree) {
 }
 
 TEST(PlanningModel, ShorteningKeepsClearanceAndEnds) {
-  const Staged staged("hole:delta=0.1");
+  const StagedPlan staged("hole:delta=0.1");
   PlanRequest request = staged.Request(PlannerId::kRrtConnect, Model::kWindow);
   double shortest = 1e300;
   for (request.seed = 1; request.seed <= 3; ++request.seed) {
@@ -127,7 +127,7 @@ TEST(PlanningModel, WorldsConvolutionIsTheFreeSpaceOfItsContactSpace) {
 TEST(PlanningModel, LimitsRefuseTheContactSpaceOnly) {
   const WorldLimits limits = {0.0, 3.0};
   const auto ask = [&](PlannerId planner, Model model) {
-    const Staged staged("hole:delta=0.1", limits);
+    const StagedPlan staged("hole:delta=0.1", limits);
     return Plan(staged.world, staged.Request(planner, model));
   };
   const PathAnswer answer = ask(PlannerId::kContactSurface, Model::kAuto);
@@ -143,7 +143,7 @@ TEST(PlanningModel, LimitsRefuseTheContactSpaceOnly) {
 }
 
 TEST(PlanningModel, AutoBuildsNoContactSpaceForWhoNeedsNone) {
-  const Staged staged("hole:delta=0.1");
+  const StagedPlan staged("hole:delta=0.1");
   const World& world = staged.world;
   const PlanRequest sampler =
       staged.Request(PlannerId::kRrtConnect, Model::kAuto);
@@ -165,7 +165,7 @@ TEST(PlanningModel, AutoBuildsNoContactSpaceForWhoNeedsNone) {
 }
 
 TEST(SurfaceFreePlanners, AreRefusedNothingButTheSurface) {
-  const Staged staged("hole:delta=0.1");
+  const StagedPlan staged("hole:delta=0.1");
   const Scene& scene = staged.scene;
   const MotionDomain domain = {staged.world.Convolution().free_space,
                                scene.workspace.bounds};
@@ -188,7 +188,7 @@ TEST(SurfaceFreePlanners, AreRefusedNothingButTheSurface) {
 
 // Of a world kept between requests nothing changes an answer.
 TEST(Plan, AnswersTheSameInAWorldThatAnsweredOthersBefore) {
-  const Staged fresh("hole:delta=0.1"), used("hole:delta=0.1");
+  const StagedPlan fresh("hole:delta=0.1"), used("hole:delta=0.1");
   PlanRequest other = used.Request(PlannerId::kContactSurface, Model::kAuto);
   std::swap(other.start, other.goal);
   other.preset = Preset::kTight;
@@ -207,7 +207,7 @@ TEST(Plan, AnswersTheSameInAWorldThatAnsweredOthersBefore) {
 }
 
 TEST(Plan, TellsARequiredClearanceThatIsMissed) {
-  const Staged staged("hole:delta=0.1");
+  const StagedPlan staged("hole:delta=0.1");
   PlanRequest request =
       staged.Request(PlannerId::kContactSurface, Model::kFull);
   request.requires_clearance = true;

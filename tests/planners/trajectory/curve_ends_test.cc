@@ -101,8 +101,9 @@ void ExpectEnd(const CurvePiece& piece, bool is_first, const CurveEnd& end) {
   EXPECT_LT((a - end.acceleration).norm(), 1e-6 * kA);
 }
 
-void ExpectCertified(const FreeSpace& space, const Path& path,
-                     const CurveOptions& options, const CurveSummary& summary) {
+void ExpectCertifiedWithEnds(const FreeSpace& space, const Path& path,
+                             const CurveOptions& options,
+                             const CurveSummary& summary) {
   ASSERT_NO_FATAL_FAILURE(
       testing::ExpectCertified(space, path, options.limits, summary));
   const std::vector<CurvePiece>& pieces = summary.trajectory.pieces();
@@ -117,7 +118,7 @@ TEST(OptimizeCurveEnds, GoesThroughAtFullSpeed) {
   options.preset = Preset::kBalanced;
   options.start.velocity = options.end.velocity = Vector3d(kV, 0.0, 0.0);
   const CurveSummary summary = OptimizeCurve(space, 3.0, path, options);
-  ExpectCertified(space, path, options, summary);
+  ExpectCertifiedWithEnds(space, path, options, summary);
   EXPECT_GE(summary.duration, 3.0 / kV * (1.0 - 1e-12));
   EXPECT_LE(summary.duration, 1.02 * 3.0 / kV);
   // From full speed to rest: the stop, and the way before it at full speed.
@@ -125,7 +126,7 @@ TEST(OptimizeCurveEnds, GoesThroughAtFullSpeed) {
   const double stop = StopTime(kV, kA, kJ);
   const double least = (3.0 - 0.5 * stop * kV) / kV + stop;
   const CurveSummary to_rest = OptimizeCurve(space, 3.0, path, options);
-  ExpectCertified(space, path, options, to_rest);
+  ExpectCertifiedWithEnds(space, path, options, to_rest);
   EXPECT_GE(to_rest.duration, least * (1.0 - 1e-12));
   EXPECT_LE(to_rest.duration, 1.04 * least);
 }
@@ -144,7 +145,7 @@ TEST(OptimizeCurveEnds, AreKeptInTheOpen) {
     if (i % 4 != 1) options.start = RandomEnd(by_norm, &random);
     if (i % 4 != 2) options.end = RandomEnd(by_norm, &random);
     const CurveSummary summary = OptimizeCurve(space, 2.0, path, options);
-    ExpectCertified(space, path, options, summary);
+    ExpectCertifiedWithEnds(space, path, options, summary);
     gains.push_back(summary.stops_duration / summary.duration);
     if (::testing::Test::HasFailure()) FAIL() << i;
   }
@@ -176,7 +177,7 @@ TEST(OptimizeCurveEndsCampaign, AreKeptInClutterOrRefusedWithTheReason) {
           options.Validate();
           const CurveSummary summary =
               OptimizeCurve(one.space, one.diagonal, one.path, options);
-          ExpectCertified(one.space, one.path, options, summary);
+          ExpectCertifiedWithEnds(one.space, one.path, options, summary);
           ++certified;
         } catch (const InputError& error) {
           const std::string text = error.what();

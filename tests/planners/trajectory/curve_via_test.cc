@@ -22,7 +22,7 @@ namespace {
 using Eigen::Vector3d;
 using Path = std::vector<Vector3d>;
 
-CurveOptions Options(bool by_norm = false) {
+CurveOptions ViaOptions(bool by_norm = false) {
   CurveOptions options;
   options.limits = testing::PlainLimits(by_norm);
   options.preset = Preset::kFast;
@@ -68,8 +68,9 @@ void ExpectPassed(const Trajectory& curve, const std::vector<CurveVia>& via) {
   }
 }
 
-void ExpectCertified(const FreeSpace& space, const Path& path,
-                     const CurveOptions& options, const CurveSummary& summary) {
+void ExpectCertifiedAndPassed(const FreeSpace& space, const Path& path,
+                              const CurveOptions& options,
+                              const CurveSummary& summary) {
   ASSERT_NO_FATAL_FAILURE(
       testing::ExpectCertified(space, path, options.limits, summary));
   ExpectPassed(summary.trajectory, options.via);
@@ -78,14 +79,14 @@ void ExpectCertified(const FreeSpace& space, const Path& path,
 TEST(OptimizeCurveVia, PassesAPlaceFasterThanItStopsThere) {
   const FreeSpace space{std::vector<ContactSpace>{}};
   const Path path = {{0, 0, 0}, {1, 0.3, 0}, {2, 0, 0}};
-  CurveOptions options = Options();
+  CurveOptions options = ViaOptions();
   // Each axis alone: up to speed and down again, 0.7 s each, and what is left.
   const double straight = 2.0 + 0.7;
   double before = std::numeric_limits<double>::infinity();
   for (const double tolerance : {1e-4, 0.01, 0.1, 0.31}) {
     options.via = {Via(path[1], tolerance)};
     const CurveSummary summary = OptimizeCurve(space, 2.0, path, options);
-    ExpectCertified(space, path, options, summary);
+    ExpectCertifiedAndPassed(space, path, options, summary);
     EXPECT_LT(summary.duration, 0.8 * summary.stops_duration);
     EXPECT_LE(summary.duration, 1.01 * before) << tolerance;
     EXPECT_GE(summary.duration, straight);
@@ -95,7 +96,7 @@ TEST(OptimizeCurveVia, PassesAPlaceFasterThanItStopsThere) {
   // Rests, and no other way than to stop there.
   options.via = {Via(path[1], 0.1, 1.5)};
   const CurveSummary rest = OptimizeCurve(space, 2.0, path, options);
-  ExpectCertified(space, path, options, rest);
+  ExpectCertifiedAndPassed(space, path, options, rest);
   EXPECT_GT(rest.duration, 1.5 + 1.2 * before);
 }
 
@@ -103,31 +104,31 @@ TEST(OptimizeCurveVia, PassesAPlaceFasterThanItStopsThere) {
 TEST(OptimizeCurveVia, KeepsTheOrder) {
   const FreeSpace space{std::vector<ContactSpace>{}};
   const Path path = {{0, 0, 0}, {2, 0, 0}, {1, 0, 0}, {3, 0, 0}};
-  CurveOptions options = Options();
+  CurveOptions options = ViaOptions();
   options.via = {Via(path[1], 0.05), Via(path[2], 0.05)};
   const CurveSummary summary = OptimizeCurve(space, 3.0, path, options);
-  ExpectCertified(space, path, options, summary);
+  ExpectCertifiedAndPassed(space, path, options, summary);
   EXPECT_GE(summary.duration, 1.95 + 0.9 + 1.95);
   // Also with ends in motion, and with places that are ends.
   options.start.velocity = options.end.velocity = Vector3d(0.9, 0.2, 0.0);
-  ExpectCertified(space, path, options,
-                  OptimizeCurve(space, 3.0, path, options));
+  ExpectCertifiedAndPassed(space, path, options,
+                           OptimizeCurve(space, 3.0, path, options));
   options.via = {Via(path[0], 0.05), Via(path[1], 0.05), Via(path[3], 0.05)};
-  ExpectCertified(space, path, options,
-                  OptimizeCurve(space, 3.0, path, options));
+  ExpectCertifiedAndPassed(space, path, options,
+                           OptimizeCurve(space, 3.0, path, options));
 }
 
 // At the start, twice at a place and at the goal: the ways between, and rests.
 TEST(OptimizeCurveVia, RestsWhereThereIsNoWayBetween) {
   const FreeSpace space{std::vector<ContactSpace>{}};
   const Path path = {{0, 0, 0}, {1, 0.3, 0}, {2, 0, 0}};
-  CurveOptions options = Options();
+  CurveOptions options = ViaOptions();
   options.via = {Via(path[1], 0.1, 1.0)};
   const CurveSummary once = OptimizeCurve(space, 2.0, path, options);
   options.via = {Via(path[0], 0.1, 0.5), Via(path[1], 0.1, 0.25),
                  Via(path[1], 0.1, 0.75), Via(path[2], 0.1, 2.0)};
   const CurveSummary rests = OptimizeCurve(space, 2.0, path, options);
-  ExpectCertified(space, path, options, rests);
+  ExpectCertifiedAndPassed(space, path, options, rests);
   EXPECT_NEAR(rests.duration, once.duration + 2.5, 1e-12);
   EXPECT_EQ(rests.trajectory.At(0.5).position, path[0]);
   EXPECT_EQ(rests.trajectory.At(rests.duration - 2.0).position, path[2]);
@@ -144,7 +145,7 @@ TEST(OptimizeCurveViaCampaign, PassesRandomPlacesInClutter) {
     const double diagonal = ComputeBounds(problem.contact).Diagonal();
     const ContactSurfacePlanner planner(contact);
     for (long i = 0; i < each; ++i) {
-      CurveOptions options = Options(i % 3 == 0);
+      CurveOptions options = ViaOptions(i % 3 == 0);
       Path path = {problem.start};
       const int places = 1 + static_cast<int>(i % 3);
       for (int k = 0; k <= places; ++k) {
@@ -165,7 +166,7 @@ TEST(OptimizeCurveViaCampaign, PassesRandomPlacesInClutter) {
       const CurveSummary summary =
           OptimizeCurve(space, diagonal, path, options);
       ++cases;
-      ExpectCertified(space, path, options, summary);
+      ExpectCertifiedAndPassed(space, path, options, summary);
       wrong += ::testing::Test::HasFailure();
       if (wrong > 0) FAIL() << family << " " << i;
     }
@@ -176,7 +177,7 @@ TEST(OptimizeCurveViaCampaign, PassesRandomPlacesInClutter) {
                            wrong, 0.0, 0.0, "", 3121});
 }
 
-void ExpectError(const CurveOptions& options, const std::string& part) {
+void ExpectViaError(const CurveOptions& options, const std::string& part) {
   const FreeSpace space{std::vector<ContactSpace>{}};
   const Path path = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}};
   testing::ExpectRefused([&] { OptimizeCurve(space, 1.0, path, options); },
@@ -184,17 +185,17 @@ void ExpectError(const CurveOptions& options, const std::string& part) {
 }
 
 TEST(OptimizeCurveVia, RefusesWhatIsNoPlaceOnTheWay) {
-  CurveOptions options = Options();
+  CurveOptions options = ViaOptions();
   options.via = {Via({1, 0, 0}, 0.0)};
-  ExpectError(options, "via 0: expected a tolerance above 0, found 0");
+  ExpectViaError(options, "via 0: expected a tolerance above 0, found 0");
   options.via = {Via({1, 0, 0}, 0.1), Via({1, 1, 0}, 0.1)};
-  ExpectError(options, "via 1: expected a point of the path, in order");
+  ExpectViaError(options, "via 1: expected a point of the path, in order");
   options.via = {Via({2, 0, 0}, 0.1), Via({1, 0, 0}, 0.1)};
-  ExpectError(options, "via 1: expected a point of the path, in order");
+  ExpectViaError(options, "via 1: expected a point of the path, in order");
   options.via = {Via({1, 0, 0}, 0.1, -1.0)};
-  ExpectError(options, "via 0: expected a dwell of 0 seconds or more");
+  ExpectViaError(options, "via 0: expected a dwell of 0 seconds or more");
   options.via = {Via({std::numeric_limits<double>::quiet_NaN(), 0, 0}, 0.1)};
-  ExpectError(options, "via 0: expected a finite point");
+  ExpectViaError(options, "via 0: expected a finite point");
 }
 
 }  // namespace

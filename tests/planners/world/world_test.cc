@@ -54,7 +54,7 @@ Scene Parse(const Json& json) { return ParseScene(json, "crowd.json"); }
 
 World WorldOf(const Scene& scene) { return World(scene.workspace, scene.name); }
 
-class WorldLayouts : public testing::TestWithParam<SpaceLayout> {};
+class WorldLayouts : public ::testing::TestWithParam<SpaceLayout> {};
 
 TEST_P(WorldLayouts, AgreeWithFclOnFreedom) {
   const Scene scene = Parse(Crowd());
@@ -117,9 +117,9 @@ TEST_P(WorldLayouts, HaveOneDiagonalAndOneSealedMesh) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, WorldLayouts,
-                         testing::Values(SpaceLayout::kMerged,
-                                         SpaceLayout::kPerObstacle,
-                                         SpaceLayout::kSealed));
+                         ::testing::Values(SpaceLayout::kMerged,
+                                           SpaceLayout::kPerObstacle,
+                                           SpaceLayout::kSealed));
 
 TEST(World, SkipsObstaclesOutOfReachAndSaysSo) {
   const Scene scene = Parse(Crowd());

@@ -14,7 +14,6 @@ namespace phongpd {
 namespace {
 
 using CliClearance = CliScenes;
-using Json = nlohmann::ordered_json;
 
 constexpr double kRoom = 0.5;  // of start and goal, to the bounds
 
@@ -24,8 +23,8 @@ struct Asking {
 const Asking kAsking[] = {{"plan", "--clearance", "clearance", "status"},
                           {"optimize", "--margin", "margin", "status_class"}};
 
-void ExpectTold(const Json& row, double asked) {
-  const Json& lengths = row["lengths"];
+void ExpectTold(const nlohmann::ordered_json& row, double asked) {
+  const nlohmann::ordered_json& lengths = row["lengths"];
   EXPECT_NEAR(lengths["asked_clearance"]["unit"].get<double>(), asked, 1e-12);
   EXPECT_NEAR(lengths["start_room"]["unit"].get<double>(), kRoom, 1e-9);
   EXPECT_NEAR(lengths["goal_room"]["unit"].get<double>(), kRoom, 1e-9);

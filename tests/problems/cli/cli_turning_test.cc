@@ -19,11 +19,12 @@
 namespace phongpd {
 namespace {
 
-using Json = nlohmann::ordered_json;
 using Eigen::Vector3d;
 
 class CliTurning : public Cli {
  protected:
+  using Json = nlohmann::ordered_json;
+
   // The plank is 1.6 wide; the slit between two walls 0.5, and as high as they.
   static Json Slit() {
     return Json::parse(R"({"name": "slit", "unit": "m",

@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "core/mesh/mesh_io.h"
+#include "core/pi.h"
 #include "core/solid/solid.h"
-#include "problems/shapes/shapes.h"
 #include "tests/problems/meshes/mesh_files.h"
 #include "tests/support/expect_refused.h"
 #include "tests/support/temporary_folder.h"
@@ -22,9 +22,7 @@ namespace phongpd {
 namespace {
 
 using Eigen::Vector3d;
-
-// Doubles that floats hold, so that single precision changes nothing.
-TriangleMesh Block() { return MakeBox({-0.5, 0.25, -1.0}, {1.5, 0.75, 3.0}); }
+using testing::Block;
 
 class AnyMesh : public testing::TemporaryFolder {
  protected:
@@ -180,7 +178,6 @@ TEST_F(AnyMesh, ReadsLinksOfURDF) {
   EXPECT_NEAR(ComputeBounds(tool).min.z(), -1.5, 1e-12);
   // A regular polygon of 64 corners in the circle.
   const TriangleMesh drum = ReadAnyMesh(At("r.urdf#drum"));
-  constexpr double kPi = 3.14159265358979323846;
   EXPECT_NEAR(SignedVolume(drum), 64.0 * std::sin(2.0 * kPi / 64.0), 1e-12);
 }
 

@@ -9,7 +9,6 @@
 
 #include "core/mesh/mesh_error.h"
 #include "problems/meshes/any_mesh.h"
-#include "problems/shapes/shapes.h"
 #include "tests/problems/meshes/mesh_files.h"
 #include "tests/problems/meshes/mutated.h"
 #include "tests/support/temporary_folder.h"
@@ -19,6 +18,7 @@
 namespace phongpd {
 namespace {
 
+using testing::Block;
 using testing::Mutated;
 
 // Of this process and those that it has waited for, seconds.
@@ -82,8 +82,6 @@ class BrokenFiles : public testing::TemporaryFolder {
   }
 };
 
-TriangleMesh Block() { return MakeBox({-0.5, 0.25, -1.0}, {1.5, 0.75, 3.0}); }
-
 constexpr int kByAssimp = 500;  // a process each
 constexpr int kByUs = 2000;
 
@@ -104,7 +102,7 @@ TEST_F(BrokenFiles, OfThreeMFAreReadOrRefused) {
   Read(testing::ThreeMf(Block()), "a.3mf", kByAssimp);
 }
 
-constexpr char kUrdf[] =
+constexpr char kTwoLinks[] =
     "<robot name='r'><link name='a'><collision><origin xyz='1 2 3' "
     "rpy='0 1 0'/><geometry><box size='1 2 3'/></geometry></collision></link>"
     "<link name='b'><collision><geometry><cylinder radius='0.5' length='2'/>"
@@ -113,8 +111,8 @@ constexpr char kUrdf[] =
     "<axis xyz='0 1 0'/><limit lower='-1' upper='1'/></joint></robot>";
 
 TEST_F(BrokenFiles, OfURDFAreReadOrRefused) {
-  Read(kUrdf, "a.urdf", kByUs, "#b");
-  Read(kUrdf, "b.urdf", kByUs, "@j=0.5");
+  Read(kTwoLinks, "a.urdf", kByUs, "#b");
+  Read(kTwoLinks, "b.urdf", kByUs, "@j=0.5");
 }
 
 TEST_F(BrokenFiles, OfSDFAreReadOrRefused) {

@@ -8,10 +8,16 @@
 #include <vector>
 
 #include "core/mesh/triangle_mesh.h"
+#include "problems/shapes/shapes.h"
 
 // Mesh files in formats that the project only reads, byte by byte as their
 // standards have them.
 namespace phongpd::testing {
+
+// Doubles that floats hold, so that single precision changes nothing.
+inline TriangleMesh Block() {
+  return MakeBox({-0.5, 0.25, -1.0}, {1.5, 0.75, 3.0});
+}
 
 template <typename T>
 void Append(std::string* bytes, T value) {

@@ -18,7 +18,7 @@ using Json = nlohmann::ordered_json;
 using Pointer = Json::json_pointer;
 
 // Two equal cubes and a larger one, a pillar, and a tray that comes by.
-const char kScene[] = R"({
+const char kThree[] = R"({
   "name": "three",
   "robots": [
     {"id": "a", "shape": {"type": "box", "size": [1, 1, 1]},
@@ -39,7 +39,7 @@ const char kScene[] = R"({
   "preset": "fast"
 })";
 
-Json Good() { return ParseJson(kScene, "s.json"); }
+Json Good() { return ParseJson(kThree, "s.json"); }
 
 std::string Message(const Json& json) {
   return testing::ErrorOf([&] { ParseFleetScene(json, "s.json"); });

@@ -25,7 +25,8 @@ std::string ErrorOf(const Json& scene) {
 }
 
 // The message after setting (or, with null, removing) what is at a pointer.
-std::string ErrorWith(const std::string& pointer, const Json& value) {
+std::string ErrorOfGoodSceneWith(const std::string& pointer,
+                                 const Json& value) {
   Json scene = testing::GoodScene();
   if (value.is_null()) {
     const Pointer at(pointer);
@@ -201,7 +202,7 @@ TEST(SceneErrors, NameFilePlaceExpectedAndFound) {
   };
   EXPECT_EQ(ErrorOf(testing::GoodScene()), "no error");
   for (const Case& c : cases) {
-    EXPECT_EQ(ErrorWith(c.pointer, c.value), c.message) << c.pointer;
+    EXPECT_EQ(ErrorOfGoodSceneWith(c.pointer, c.value), c.message) << c.pointer;
   }
   EXPECT_EQ(ErrorOf(Json(3)),
             "s.json: expected an object with \"obstacles\", found 3");
@@ -212,7 +213,7 @@ TEST(SceneErrors, NameLengthsBeyondTheWorld) {
   for (const std::string place :
        {"/penetration/smoothing_length", "/trajectory/margin",
         "/via/0/tolerance", "/planning/clearance"}) {
-    const std::string error = ErrorWith(place, "1e6unit");
+    const std::string error = ErrorOfGoodSceneWith(place, "1e6unit");
     EXPECT_EQ(error.find("s.json: " + place + ": expected at most "), 0U)
         << error;
     EXPECT_NE(error.find("unit (the world's diagonal D), found 1e+06unit"),

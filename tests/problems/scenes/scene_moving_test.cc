@@ -18,7 +18,7 @@ using Json = nlohmann::ordered_json;
 using Pointer = Json::json_pointer;
 
 // A cube goes along x; a gate stands beside, and a cart crosses in front of it.
-const char kScene[] = R"({
+const char kCrossing[] = R"({
   "robot": {"shape": {"type": "box", "size": [1, 1, 1]}},
   "obstacles": [{"id": "gate", "shape": {"type": "box", "size": [2, 1, 2]},
                  "position": [0, 2.5, 0]}],
@@ -36,7 +36,7 @@ const char kScene[] = R"({
 Scene SceneOf(const Json& json) { return ParseScene(json, "s.json"); }
 
 TEST(SceneMoving, IsReadAndKeptOff) {
-  const Scene scene = SceneOf(ParseJson(kScene, "s.json"));
+  const Scene scene = SceneOf(ParseJson(kCrossing, "s.json"));
   ASSERT_EQ(scene.moving.size(), 1u);
   const MovingObstacle& cart = scene.moving[0];
   EXPECT_EQ(cart.solid.name(), "cart");
@@ -55,7 +55,7 @@ TEST(SceneMoving, IsReadAndKeptOff) {
 }
 
 TEST(SceneMoving, IsRefusedWhereThereIsNoTime) {
-  Json json = ParseJson(kScene, "s.json");
+  Json json = ParseJson(kCrossing, "s.json");
   EXPECT_THROW(PlanRequestOf(SceneOf(json)), InputError);
   json.erase("limits");
   const Scene scene = SceneOf(json);
@@ -66,7 +66,7 @@ TEST(SceneMoving, IsRefusedWhereThereIsNoTime) {
 TEST(SceneMoving, SaysWhatIsWrongWithIt) {
   const auto message = [](const std::string& pointer,
                           const Json& value) -> std::string {
-    Json json = ParseJson(kScene, "s.json");
+    Json json = ParseJson(kCrossing, "s.json");
     json[Pointer(pointer)] = value;
     return testing::ErrorOf([&] { SceneOf(json); });
   };

@@ -17,23 +17,20 @@
 #include <string>
 #include <utility>
 
+#include "core/pi.h"
 #include "core/solid/solid.h"
 #include "problems/shapes/random_solids.h"
 #include "problems/shapes/random_vector.h"
 #include "tests/support/expect_refused.h"
+#include "tests/support/solid_tools.h"
 
 namespace phongpd {
 namespace {
 
 using Eigen::Vector3d;
+using testing::PolygonArea;
 
-constexpr double kPi = 3.14159265358979323846;
 const double kNaN = std::numeric_limits<double>::quiet_NaN();
-
-// Area of a regular polygon by its circumradius.
-double PolygonArea(int sides, double radius) {
-  return 0.5 * sides * std::sin(2 * kPi / sides) * radius * radius;
-}
 
 double UvBallVolume(double radius, int meridians, int parallels) {
   double volume = 0;

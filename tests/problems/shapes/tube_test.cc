@@ -14,15 +14,13 @@
 #include "core/pi.h"
 #include "core/solid/solid.h"
 #include "problems/shapes/shapes.h"
+#include "tests/support/solid_tools.h"
 
 namespace phongpd {
 namespace {
 
 using Eigen::Vector3d;
-
-double PolygonArea(int sides, double radius) {
-  return 0.5 * sides * std::sin(2 * kPi / sides) * radius * radius;
-}
+using testing::PolygonArea;
 
 TEST(Tube, IsASolidAsLongAsItsPolyline) {
   const std::vector<Vector3d> path = {
