@@ -21,40 +21,22 @@ constexpr double kLeastSlack = 0.005;  // a step leaves this share of a slack
 constexpr double kShorter = 0.8;       // the next try
 constexpr double kShortestStep = 1e-3;
 
-// The μ that the corrector aims at, by Mehrotra: the mean product of slack and
-// dual, times the cube of the share that the predictor, `reach` of it, leaves.
-// Notes the products of its steps.
-double CentreOfCurve(double reach, double gap, int rows,
-                     std::vector<std::vector<CurveRowState>>* states) {
-  double after = 0.0;
-  for (auto& of_piece : *states) {
-    for (CurveRowState& state : of_piece) {
-      after += (state.slack + reach * state.slack_step) *
-               (state.dual + reach * state.dual_step);
-      state.product = state.slack_step * state.dual_step;
-    }
-  }
-  const double ratio = after / gap;
-  return ratio * ratio * ratio * gap / rows;
-}
-
 }  // namespace
 
 CurveInteriorPoint::CurveInteriorPoint(const CurveProgram& program)
     : program_(program),
       pieces_(program.size()),
       hessian_(pieces_),
-      linear_(VectorXd::Zero(hessian_.size())),
-      states_(pieces_) {
-  for (int i = 0; i < pieces_; ++i) {
-    for (const CurveProgram::Row& row : program.pieces[i].rows) {
-      CurveRowState state = {};
-      state.row = &row;
-      state.direction = row.direction;
-      state.eta = row.eta;
-      states_[i].push_back(state);
+      linear_(VectorXd::Zero(hessian_.size())) {
+  first_.push_back(0);
+  for (const CurveProgram::Piece& piece : program.pieces) {
+    for (const CurveProgram::Row& row : piece.rows) {
+      rows_.push_back({&row, row.direction, row.eta, 0.0});
     }
+    first_.push_back(static_cast<int>(rows_.size()));
   }
+  slacks_.resize(first_.back());
+  slopes_.resize(first_.back());
   AddObjective(program_, &hessian_, &linear_);
 }
 
@@ -71,104 +53,82 @@ void CurveInteriorPoint::Fix(BlockTridiagonal* matrix) const {
 
 void CurveInteriorPoint::Fix(VectorXd* x) const { x->head<9>().setZero(); }
 
-// False, and the slacks are not to be used, if one falls below that share.
-bool CurveInteriorPoint::UpdateSlacks(const VectorXd& x, double least_share) {
-  bool is_inside = true;
+void CurveInteriorPoint::FindSlacks(const VectorXd& x) {
   for (int i = 0; i < pieces_; ++i) {
     const CurveLocal local = ToLocal(program_, i, x);
     double along = 0.0;
-    for (CurveRowState& state : states_[i]) {
-      const double slack = SlackAt(&state, local, &along);
-      is_inside = is_inside && slack > least_share * state.slack;
-      state.next_slack = slack;
+    for (int k = first_[i]; k < first_[i + 1]; ++k) {
+      slacks_[k] = SlackAt(&rows_[k], local, &along);
     }
   }
-  if (!is_inside) return false;
-  for (auto& of_piece : states_) {
-    for (CurveRowState& state : of_piece) state.slack = state.next_slack;
-  }
-  return true;
 }
 
 // Duals are μ/slack, with the μ that the price of t asks for; and m is where
-// they meet its price.
-bool CurveInteriorPoint::Begin(VectorXd* x, int* rows) {
+// they meet its price.  False where x is not within all rows.
+bool CurveInteriorPoint::Begin(VectorXd* x) {
   (*x)[x->size() - 1] = kStartT;
+  FindSlacks(*x);
   double of_t = 0.0;
-  for (int i = 0; i < pieces_; ++i) {
-    const CurveLocal local = ToLocal(program_, i, *x);
-    double along = 0.0;
-    for (CurveRowState& state : states_[i]) {
-      ++*rows;
-      const double slack = SlackAt(&state, local, &along);
-      if (state.row->t < 0.0) of_t -= state.row->t / slack;
-    }
+  for (int k = 0; k < first_.back(); ++k) {
+    if (rows_[k].row->t < 0.0) of_t -= rows_[k].row->t / slacks_[k];
   }
   const double mu = program_.t / of_t;
   for (int i = 0; program_.missing > 0.0 && i < pieces_; ++i) {
     int count = 0;
-    for (const CurveRowState& state : states_[i])
-      count += state.row->missing < 0.0;
+    for (int k = first_[i]; k < first_[i + 1]; ++k) {
+      count += rows_[k].row->missing < 0.0;
+    }
     (*x)[kBlock * i + 10] =
         program_.pieces[i].missing + mu * count / program_.missing;
   }
-  if (!UpdateSlacks(*x, 0.0)) return false;
-  for (auto& of_piece : states_) {
-    for (CurveRowState& state : of_piece) state.dual = mu / state.slack;
-  }
+  FindSlacks(*x);
+  if (!(slacks_ > 0.0).all()) return false;
+  state_.Begin(slacks_, mu);
   return true;
 }
 
-double CurveInteriorPoint::AddRows(BlockTridiagonal* matrix,
-                                   VectorXd* residual) const {
-  double gap = 0.0;
+void CurveInteriorPoint::AddRows(BlockTridiagonal* matrix,
+                                 VectorXd* residual) const {
+  const Eigen::ArrayXd squares = state_.dual / state_.slack;
   for (int i = 0; i < pieces_; ++i) {
-    CurveLocalMatrix local = CurveLocalMatrix::Zero();
+    CurveLocalMatrix lower = CurveLocalMatrix::Zero();
     CurveLocal of_rows = CurveLocal::Zero();
-    const std::vector<CurveRowState>& states = states_[i];
-    for (std::size_t k = 0; k < states.size(); ++k) {
-      const CurveRowState& state = states[k];
-      gap += state.slack * state.dual;
-      double by = state.dual / state.slack, by_t = by;
-      if (k + 1 < states.size() && states[k + 1].row->is_mirrored) {
-        const CurveRowState& other = states[++k];
-        gap += other.slack * other.dual;
-        by += other.dual / other.slack;
-        by_t -= other.dual / other.slack;
-      }
-      local(kCurveT, kCurveT) += by * state.row->t * state.row->t;
-      AddRow(state, by, by_t, &local);
-    }
-    AddGradients(
-        states, [](const CurveRowState& state) { return state.dual; },
-        &of_rows);
+    ForRows<OfSquares>(rows_, first_[i], first_[i + 1], squares,
+                       [&](int k, const CurveRowWeights& by) {
+                         AddSquare(rows_[k], by, state_.dual[k], &lower);
+                       });
+    ForRows<OfGradients>(rows_, first_[i], first_[i + 1], state_.dual,
+                         [&](int k, const CurveRowWeights& by) {
+                           AddRow(rows_[k], by, &of_rows);
+                         });
+    CurveLocalMatrix local = lower.selfadjointView<Eigen::Lower>();
     AddMatrix(program_, i, &local, matrix);
     AddGradient(program_, i, of_rows, residual);
   }
-  return gap;
 }
 
 // Steps of slacks and duals along one of x; how far they lead at most.
 double CurveInteriorPoint::FollowRows(const VectorXd& step, double centre) {
-  double alpha = 1.0;
   for (int i = 0; i < pieces_; ++i) {
     const CurveLocal local = ToLocal(program_, i, step);
     double along = 0.0;
-    for (CurveRowState& state : states_[i]) {
-      const double slope = Slope(state, local, &along);
-      state.slack_step = -slope;
-      state.dual_step =
-          -state.dual +
-          (state.dual * slope + centre - state.product) / state.slack;
-      if (state.slack_step < 0.0) {
-        alpha = std::min(alpha, -state.slack / state.slack_step);
-      }
-      if (state.dual_step < 0.0) {
-        alpha = std::min(alpha, -state.dual / state.dual_step);
-      }
+    for (int k = first_[i]; k < first_[i + 1]; ++k) {
+      slopes_[k] = Slope(rows_[k], local, &along);
     }
   }
-  return alpha;
+  return state_.Follow(slopes_, centre);
+}
+
+void CurveInteriorPoint::AddCentres(double centre, VectorXd* to) const {
+  const Eigen::ArrayXd multipliers = state_.Multipliers(centre);
+  for (int i = 0; i < pieces_; ++i) {
+    CurveLocal of_rows = CurveLocal::Zero();
+    ForRows<OfGradients>(rows_, first_[i], first_[i + 1], multipliers,
+                         [&](int k, const CurveRowWeights& by) {
+                           AddRow(rows_[k], by, &of_rows);
+                         });
+    AddGradient(program_, i, of_rows, to);
+  }
 }
 
 CurveInteriorPoint::Result CurveInteriorPoint::Solve() {
@@ -176,17 +136,18 @@ CurveInteriorPoint::Result CurveInteriorPoint::Solve() {
   result.x = VectorXd::Zero(hessian_.size());
   VectorXd x = result.x;
   // Not so where rounding takes all room: then no step is the answer.
-  if (!Begin(&x, &result.rows)) return result;
+  result.rows = first_.back();
+  if (!Begin(&x)) return result;
 
   BlockTridiagonal matrix(pieces_);
   for (; result.iterations < kMaxIterations; ++result.iterations) {
     const VectorXd gradient = hessian_.Times(x) + linear_;
     VectorXd residual = gradient;  // of the Lagrangian
     matrix = hessian_;
-    const double gap = AddRows(&matrix, &residual);
+    AddRows(&matrix, &residual);
     Fix(&residual);
     const double gained = -0.5 * x.dot(gradient + linear_);  // from x = 0
-    if (gap <= std::max(kLeastGap, kGap * gained) &&
+    if (state_.Gap() <= std::max(kLeastGap, kGap * gained) &&
         residual.cwiseAbs().maxCoeff() <= kGradient) {
       break;
     }
@@ -194,38 +155,24 @@ CurveInteriorPoint::Result CurveInteriorPoint::Solve() {
     matrix.Factorize();
 
     // Predictor.
-    for (auto& of_piece : states_) {
-      for (CurveRowState& state : of_piece) state.product = 0.0;
-    }
     VectorXd step = -gradient;
     Fix(&step);
     matrix.Solve(&step);
-    const double reach = FollowRows(step, 0.0);
-    const double centre = CentreOfCurve(reach, gap, result.rows, &states_);
+    const double centre = state_.Predict(FollowRows(step, 0.0));
 
     // Corrector.
-    const auto multiplier = [centre](const CurveRowState& state) {
-      return (state.product - centre) / state.slack;
-    };
     step = -gradient;
-    for (int i = 0; i < pieces_; ++i) {
-      CurveLocal of_rows = CurveLocal::Zero();
-      AddGradients(states_[i], multiplier, &of_rows);
-      AddGradient(program_, i, of_rows, &step);
-    }
+    AddCentres(centre, &step);
     Fix(&step);
     matrix.Solve(&step);
     double alpha = std::min(1.0, kStepShare * FollowRows(step, centre));
     // The slacks themselves count in the end: norms bend.
-    while (alpha > kShortestStep &&
-           !UpdateSlacks(x + alpha * step, kLeastSlack)) {
-      alpha *= kShorter;
+    for (; alpha > kShortestStep; alpha *= kShorter) {
+      FindSlacks(x + alpha * step);
+      if ((slacks_ > kLeastSlack * state_.slack).all()) break;
     }
     if (!(alpha > kShortestStep)) break;
-    for (auto& of_piece : states_) {
-      for (CurveRowState& state : of_piece)
-        state.dual += alpha * state.dual_step;
-    }
+    state_.Move(alpha, slacks_);
     x += alpha * step;
   }
   result.x = x;

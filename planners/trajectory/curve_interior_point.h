@@ -6,6 +6,7 @@
 
 #include "planners/trajectory/block_tridiagonal.h"
 #include "planners/trajectory/curve_row.h"
+#include "planners/trajectory/interior_rows.h"
 #include "planners/trajectory/scaled_curve_program.h"
 
 namespace phongpd::internal {
@@ -31,16 +32,21 @@ class CurveInteriorPoint {
   void Fix(BlockTridiagonal* matrix) const;
   void Fix(Eigen::VectorXd* x) const;
 
-  bool UpdateSlacks(const Eigen::VectorXd& x, double least_share);
-  bool Begin(Eigen::VectorXd* x, int* rows);
-  double AddRows(BlockTridiagonal* matrix, Eigen::VectorXd* residual) const;
+  // Of all rows at x, which are > 0 within them.
+  void FindSlacks(const Eigen::VectorXd& x);
+  bool Begin(Eigen::VectorXd* x);
+  void AddRows(BlockTridiagonal* matrix, Eigen::VectorXd* residual) const;
   double FollowRows(const Eigen::VectorXd& step, double centre);
+  void AddCentres(double centre, Eigen::VectorXd* to) const;
 
   const CurveProgram& program_;
   int pieces_;
   BlockTridiagonal hessian_;
   Eigen::VectorXd linear_;
-  std::vector<std::vector<CurveRowState>> states_;
+  std::vector<CurveRowNow> rows_;  // of all pieces
+  std::vector<int> first_;         // of each piece; and how many there are
+  InteriorRows state_;
+  Eigen::ArrayXd slacks_, slopes_;  // of each row, at a new x or along a step
 };
 
 }  // namespace phongpd::internal

@@ -102,6 +102,11 @@ class Builder {
     }
   }
 
+  static CurveProgram::Row::Repeats MirroredIf(bool is_second) {
+    return is_second ? CurveProgram::Row::kMirrored
+                     : CurveProgram::Row::kNothing;
+  }
+
   // Points of derivatives that are what an end in motion says: they may be at
   // the limit.
   bool IsGiven(int i, int order, int j) const {
@@ -145,7 +150,7 @@ class Builder {
         set_weights(sign * scale / limit[axis]);
         row.eta = -sign * order * value[axis] / limit[axis];
         row.constant = sign * value[axis] / limit[axis] - most;
-        row.is_mirrored = sign < 0.0;
+        row.repeats = MirroredIf(sign < 0.0);
         piece->rows.push_back(row);
       }
     }
@@ -179,6 +184,7 @@ class Builder {
       if (options_.margin > kept) {
         row.constant = (options_.margin - one.gap) / tau;
         row.missing = -1.0;
+        row.repeats = CurveProgram::Row::kSame;
         piece->rows.push_back(row);
         piece->missing =
             std::max(piece->missing, (options_.margin - one.gap) / tau);
@@ -200,7 +206,7 @@ class Builder {
       for (row.axis = 0; row.axis < 3; ++row.axis) {
         for (const double sign : {1.0, -1.0}) {
           row.weight[j] = sign;
-          row.is_mirrored = sign < 0.0;
+          row.repeats = MirroredIf(sign < 0.0);
           piece->rows.push_back(row);
         }
       }
@@ -210,7 +216,7 @@ class Builder {
     eta.constant = -1.0;
     for (const double sign : {1.0, -1.0}) {
       eta.eta = sign / options_.sigma;
-      eta.is_mirrored = sign < 0.0;
+      eta.repeats = MirroredIf(sign < 0.0);
       piece->rows.push_back(eta);
     }
   }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "planners/trajectory/curve_row.h"
 
-#include <array>
 #include <cmath>
 
 namespace phongpd::internal {
@@ -12,16 +11,16 @@ using Eigen::Vector3d;
 constexpr double kRound = 1e-3;  // |y| → (|y|² + this²)^½: smooth, and more
 
 // Of the terms in ΔB and η.
-double AlongRow(const CurveRowState& state, const CurveLocal& step) {
-  const CurveProgram::Row& row = *state.row;
-  double along = state.eta * step[kCurveEta];
+double AlongRow(const CurveRowNow& now, const CurveLocal& step) {
+  const CurveProgram::Row& row = *now.row;
+  double along = now.eta * step[kCurveEta];
   if (row.kind == CurveProgram::Row::kAxis) {
     for (int j = row.first; j <= row.last; ++j) {
       along += row.weight[j] * step[3 * j + row.axis];
     }
   } else if (row.kind != CurveProgram::Row::kScalar) {
     for (int j = row.first; j <= row.last; ++j) {
-      along += row.weight[j] * state.direction.dot(step.segment<3>(3 * j));
+      along += row.weight[j] * now.direction.dot(step.segment<3>(3 * j));
     }
   }
   return along;
@@ -29,95 +28,106 @@ double AlongRow(const CurveRowState& state, const CurveLocal& step) {
 
 }  // namespace
 
-double Slope(const CurveRowState& state, const CurveLocal& step,
-             double* along) {
-  const CurveProgram::Row& row = *state.row;
-  *along = row.is_mirrored ? -*along : AlongRow(state, step);
+double Slope(const CurveRowNow& now, const CurveLocal& step, double* along) {
+  const CurveProgram::Row& row = *now.row;
+  if (row.repeats == CurveProgram::Row::kNothing) *along = AlongRow(now, step);
+  if (row.repeats == CurveProgram::Row::kMirrored) *along = -*along;
   return *along + row.missing * step[kCurveMissing] + row.t * step[kCurveT];
 }
 
-double SlackAt(CurveRowState* state, const CurveLocal& x, double* along) {
-  const CurveProgram::Row& row = *state->row;
+double SlackAt(CurveRowNow* now, const CurveLocal& x, double* along) {
+  const CurveProgram::Row& row = *now->row;
   if (row.kind != CurveProgram::Row::kNorm) {
-    return -(row.constant + Slope(*state, x, along));
+    return -(row.constant + Slope(*now, x, along));
   }
   Vector3d y = row.value + row.value_by_eta * x[kCurveEta];
   for (int j = row.first; j <= row.last; ++j) {
     y += row.weight[j] * x.segment<3>(3 * j);
   }
   const double norm = std::sqrt(y.squaredNorm() + kRound * kRound);
-  state->direction = y / norm;
-  state->inverse_norm = 1.0 / norm;
-  state->eta = state->direction.dot(row.value_by_eta);
+  now->direction = y / norm;
+  now->inverse_norm = 1.0 / norm;
+  now->eta = now->direction.dot(row.value_by_eta);
   return -(norm + row.constant + row.t * x[kCurveT]);
 }
 
-void AddRow(const CurveRowState& state, double by, double by_t,
-            CurveLocalMatrix* matrix) {
-  const CurveProgram::Row& row = *state.row;
-  CurveLocalMatrix& m = *matrix;
-  const std::array<double, 2> others = {state.eta, row.missing};
-  const std::array<double, 3> scalars = {by * state.eta, by * row.missing,
-                                         by_t * row.t};
-  for (int j = 0; j < 2; ++j) {
-    for (int k = 0; k < 3; ++k)
-      m(kCurveEta + j, kCurveEta + k) += others[j] * scalars[k];
-    m(kCurveT, kCurveEta + j) += others[j] * scalars[2];
-  }
+CurveRowWeights OfSquares(CurveProgram::Row::Repeats repeats, double first,
+                          double second) {
+  return repeats == CurveProgram::Row::kSame
+             ? CurveRowWeights{first + second, second, 0.0}
+             : CurveRowWeights{first + second, 0.0, first - second};
+}
+
+CurveRowWeights OfGradients(CurveProgram::Row::Repeats repeats, double first,
+                            double second) {
+  return repeats == CurveProgram::Row::kSame
+             ? CurveRowWeights{first + second, second, 0.0}
+             : CurveRowWeights{first - second, 0.0, first + second};
+}
+
+void AddSquare(const CurveRowNow& now, const CurveRowWeights& by, double dual,
+               CurveLocalMatrix* lower) {
+  const CurveProgram::Row& row = *now.row;
+  CurveLocalMatrix& m = *lower;
+  const double by_missing = by.missing * row.missing, by_t = by.t * row.t;
+  const double by_eta = by.along * now.eta;
+  m(kCurveEta, kCurveEta) += by_eta * now.eta;
+  m(kCurveMissing, kCurveEta) += by_missing * now.eta;
+  m(kCurveMissing, kCurveMissing) += by_missing * row.missing;
+  m(kCurveT, kCurveEta) += by_t * now.eta;
+  m(kCurveT, kCurveMissing) += by_t * row.missing;
+  m(kCurveT, kCurveT) += by.along * row.t * row.t;
   if (row.kind == CurveProgram::Row::kScalar) return;
   if (row.kind == CurveProgram::Row::kAxis) {
     for (int j = row.first; j <= row.last; ++j) {
-      const double weight = row.weight[j];
+      const double weight = row.weight[j], of_j = by.along * weight;
       const int at = 3 * j + row.axis;
-      for (int k = row.first; k <= row.last; ++k) {
-        m(at, 3 * k + row.axis) += by * weight * row.weight[k];
+      for (int k = j; k <= row.last; ++k) {
+        m(3 * k + row.axis, at) += of_j * row.weight[k];
       }
-      for (int k = 0; k < 3; ++k) {
-        m(at, kCurveEta + k) += weight * scalars[k];
-        m(kCurveEta + k, at) += weight * scalars[k];
-      }
+      m(kCurveEta, at) += weight * by_eta;
+      m(kCurveMissing, at) += weight * by_missing;
+      m(kCurveT, at) += weight * by_t;
     }
     return;
   }
-  Eigen::Matrix3d square = by * state.direction * state.direction.transpose();
+  Eigen::Matrix3d square = by.along * now.direction * now.direction.transpose();
+  Vector3d with_eta = by_eta * now.direction;
   if (row.kind == CurveProgram::Row::kNorm) {
     // The row's own curvature, by the dual.
-    const Eigen::Matrix3d bend =
-        state.dual * state.inverse_norm *
-        (Eigen::Matrix3d::Identity() -
-         state.direction * state.direction.transpose());
+    const Eigen::Matrix3d bend = dual * now.inverse_norm *
+                                 (Eigen::Matrix3d::Identity() -
+                                  now.direction * now.direction.transpose());
     square += bend;
-    const Vector3d by_eta = bend * row.value_by_eta;
-    m(kCurveEta, kCurveEta) += row.value_by_eta.dot(by_eta);
-    for (int j = row.first; j <= row.last; ++j) {
-      m.block<3, 1>(3 * j, kCurveEta) += row.weight[j] * by_eta;
-      m.block<1, 3>(kCurveEta, 3 * j) += row.weight[j] * by_eta.transpose();
-    }
+    const Vector3d bent = bend * row.value_by_eta;
+    m(kCurveEta, kCurveEta) += row.value_by_eta.dot(bent);
+    with_eta += bent;
   }
   for (int j = row.first; j <= row.last; ++j) {
-    for (int k = row.first; k <= row.last; ++k) {
-      m.block<3, 3>(3 * j, 3 * k) += row.weight[j] * row.weight[k] * square;
+    const Eigen::Matrix3d of_j = row.weight[j] * square;
+    for (int k = j; k <= row.last; ++k) {
+      m.block<3, 3>(3 * k, 3 * j) += row.weight[k] * of_j;
     }
-    const Vector3d along = row.weight[j] * state.direction;
-    for (int k = 0; k < 3; ++k) {
-      m.block<3, 1>(3 * j, kCurveEta + k) += scalars[k] * along;
-      m.block<1, 3>(kCurveEta + k, 3 * j) += scalars[k] * along.transpose();
-    }
+    const auto along = row.weight[j] * now.direction.transpose();
+    m.block<1, 3>(kCurveEta, 3 * j) += row.weight[j] * with_eta.transpose();
+    m.block<1, 3>(kCurveMissing, 3 * j) += by_missing * along;
+    m.block<1, 3>(kCurveT, 3 * j) += by_t * along;
   }
 }
 
-void AddRow(const CurveRowState& state, double by, double by_t,
+void AddRow(const CurveRowNow& now, const CurveRowWeights& by,
             CurveLocal* gradient) {
-  const CurveProgram::Row& row = *state.row;
-  (*gradient)[kCurveEta] += by * state.eta;
-  (*gradient)[kCurveMissing] += by * row.missing;
-  (*gradient)[kCurveT] += by_t * row.t;
+  const CurveProgram::Row& row = *now.row;
+  (*gradient)[kCurveEta] += by.along * now.eta;
+  (*gradient)[kCurveMissing] += by.missing * row.missing;
+  (*gradient)[kCurveT] += by.t * row.t;
   if (row.kind == CurveProgram::Row::kScalar) return;
   for (int j = row.first; j <= row.last; ++j) {
+    const double weight = by.along * row.weight[j];
     if (row.kind == CurveProgram::Row::kAxis) {
-      (*gradient)[3 * j + row.axis] += by * row.weight[j];
+      (*gradient)[3 * j + row.axis] += weight;
     } else {
-      gradient->segment<3>(3 * j) += by * row.weight[j] * state.direction;
+      gradient->segment<3>(3 * j) += weight * now.direction;
     }
   }
 }

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <cstddef>
 #include <vector>
 
 #include "planners/trajectory/scaled_curve_program.h"
@@ -10,44 +9,60 @@
 namespace phongpd::internal {
 
 // A row of the program, where the interior point method is.
-struct CurveRowState {
+struct CurveRowNow {
   const CurveProgram::Row* row;
   Eigen::Vector3d direction;  // of kNorm, now
   double eta, inverse_norm;
-  double slack, dual;
-  double slack_step, dual_step, next_slack;
-  double product;  // of the predictor's steps
 };
 
 // What a step of the unknowns changes the row by, the terms in m and t
-// included.  `along`: the part in ΔB and η; on entry that of the row before, of
-// which a mirrored row is the negative.
-double Slope(const CurveRowState& state, const CurveLocal& step, double* along);
+// included.  `along`: the part in ΔB and η; on entry that of the row before,
+// which a row that repeats it takes over.
+double Slope(const CurveRowNow& now, const CurveLocal& step, double* along);
 
 // The slack at x, > 0 within the row; of a norm also its gradient there.
-double SlackAt(CurveRowState* state, const CurveLocal& x, double* along);
+double SlackAt(CurveRowNow* now, const CurveLocal& x, double* along);
 
-// *matrix += by · (terms in ΔB, η and m)² + by_t · those times the term in t;
-// the square of that is for the caller.
-void AddRow(const CurveRowState& state, double by, double by_t,
-            CurveLocalMatrix* matrix);
+// What a row's terms weigh: those in ΔB and η, that in m and that in t.  Of two
+// rows that repeat each other, what they weigh together.
+struct CurveRowWeights {
+  double along, missing, t;
+};
 
-// *gradient += by · (terms in ΔB, η and m) + by_t · the term in t.
-void AddRow(const CurveRowState& state, double by, double by_t,
+// *lower += by · the square of the row's gradient, of which the terms in t
+// beside others weigh by.t; and its curvature by the dual, if it is a norm.
+// Below the diagonal, and on it.
+void AddSquare(const CurveRowNow& now, const CurveRowWeights& by, double dual,
+               CurveLocalMatrix* lower);
+
+// *gradient += by · the row's gradient.
+void AddRow(const CurveRowNow& now, const CurveRowWeights& by,
             CurveLocal* gradient);
 
-// Σ multiplier · gradient of a row.
-template <typename Multiplier>
-void AddGradients(const std::vector<CurveRowState>& states,
-                  const Multiplier& multiplier, CurveLocal* gradient) {
-  for (std::size_t k = 0; k < states.size(); ++k) {
-    const double by = multiplier(states[k]);
-    if (k + 1 < states.size() && states[k + 1].row->is_mirrored) {
-      const double other = multiplier(states[k + 1]);
-      AddRow(states[k++], by - other, by + other, gradient);
-    } else {
-      AddRow(states[k], by, by, gradient);
+// What rows weigh in a sum of squares of their gradients, and in one of the
+// gradients.
+CurveRowWeights OfSquares(CurveProgram::Row::Repeats repeats, double first,
+                          double second);
+CurveRowWeights OfGradients(CurveProgram::Row::Repeats repeats, double first,
+                            double second);
+
+// add(k, WEIGHTS) for the rows k from `begin` to before `end`, of weights w;
+// once for two that repeat each other, of which k has all the terms.
+template <CurveRowWeights (*kWeights)(CurveProgram::Row::Repeats, double,
+                                      double),
+          typename Add>
+void ForRows(const std::vector<CurveRowNow>& rows, int begin, int end,
+             const Eigen::ArrayXd& w, const Add& add) {
+  using Row = CurveProgram::Row;
+  for (int k = begin; k < end; ++k) {
+    const Row::Repeats repeats =
+        k + 1 < end ? rows[k + 1].row->repeats : Row::kNothing;
+    if (repeats == Row::kNothing) {
+      add(k, CurveRowWeights{w[k], w[k], w[k]});
+      continue;
     }
+    add(repeats == Row::kSame ? k + 1 : k, kWeights(repeats, w[k], w[k + 1]));
+    ++k;
   }
 }
 

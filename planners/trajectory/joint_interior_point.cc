@@ -36,6 +36,14 @@ JointInteriorPoint::JointInteriorPoint(const JointProgram& program)
     for (int c = 0; c < unknowns_.curves(); ++c) AddLines(c, i);
   }
   AddJointRows();
+  int rows = 0;
+  for (auto& of_piece : lines_) {
+    for (Line& line : of_piece) {
+      line.at = rows;
+      rows += line.sides;
+    }
+  }
+  slopes_.resize(rows);
   unknowns_.AddObjective(&hessian_, &linear_);
 }
 
@@ -50,9 +58,9 @@ void JointInteriorPoint::AddLines(int curve, int piece) {
       AddNormLines(curve, row, &lines);
       continue;
     }
-    if (row.is_mirrored) {
+    if (row.repeats == Row::kMirrored) {
       lines.back().sides = 2;
-      lines.back().side[1].constant = row.constant;
+      lines.back().constant[1] = row.constant;
       continue;
     }
     Line line;
@@ -65,7 +73,7 @@ void JointInteriorPoint::AddLines(int curve, int piece) {
                                             : row.direction;
     line.eta = row.eta;
     line.t = row.t;
-    line.side[0].constant = row.constant;
+    line.constant[0] = row.constant;
     lines.push_back(line);
   }
 }
@@ -84,8 +92,8 @@ void JointInteriorPoint::AddNormLines(int curve, const Row& row,
     line.direction = Vector3d::Unit(axis);
     line.eta = row.value_by_eta[axis];
     line.sides = 2;
-    line.side[0].constant = row.constant + row.value[axis];
-    line.side[1].constant = row.constant - row.value[axis];
+    line.constant[0] = row.constant + row.value[axis];
+    line.constant[1] = row.constant - row.value[axis];
     lines->push_back(line);
   }
   const double norm = row.value.norm();
@@ -94,7 +102,7 @@ void JointInteriorPoint::AddNormLines(int curve, const Row& row,
   line.direction = row.value / norm;
   line.eta = line.direction.dot(row.value_by_eta);
   line.sides = 1;
-  line.side[0].constant = row.constant + norm;
+  line.constant[0] = row.constant + norm;
   lines->push_back(line);
 }
 
@@ -110,7 +118,7 @@ void JointInteriorPoint::AddJointRows() {
     line.eta = row.eta;
     line.theta = row.theta;
     line.t = row.t;
-    line.side[0].constant = row.constant;
+    line.constant[0] = row.constant;
     lines_[row.piece].push_back(line);
   }
 }
@@ -194,46 +202,48 @@ double JointInteriorPoint::FirstT() const {
   double t = kStartT;
   for (const auto& of_piece : lines_) {
     for (const Line& line : of_piece) {
-      if (line.t > 0.0) t = std::min(t, -0.5 * line.side[0].constant / line.t);
+      if (line.t > 0.0) t = std::min(t, -0.5 * line.constant[0] / line.t);
     }
   }
   return std::max(t, 0.0);
 }
 
-// Duals are μ/slack, with the μ that the price of t asks for.
-bool JointInteriorPoint::Begin(VectorXd* x, int* rows) {
-  (*x)[x->size() - 1] = FirstT();
-  double of_t = 0.0;
+void JointInteriorPoint::FindSlopes(const VectorXd& x) {
   for (int i = 0; i < unknowns_.pieces(); ++i) {
-    const VectorXd local = unknowns_.ToLocal(i, *x);
-    for (Line& line : lines_[i]) {
+    const VectorXd local = unknowns_.ToLocal(i, x);
+    for (const Line& line : lines_[i]) {
       const double along = Along(line, local);
+      const double of_t = line.t * local[unknowns_.TAt()];
+      slopes_[line.at] = along + of_t;
+      if (line.sides > 1) slopes_[line.at + 1] = -along + of_t;
+    }
+  }
+}
+
+// Duals are μ/slack, with the μ that the price of t asks for.
+bool JointInteriorPoint::Begin(VectorXd* x) {
+  (*x)[x->size() - 1] = FirstT();
+  FindSlopes(*x);
+  double of_t = 0.0;
+  Eigen::ArrayXd slacks = -slopes_;
+  for (const auto& of_piece : lines_) {
+    for (const Line& line : of_piece) {
       for (int s = 0; s < line.sides; ++s) {
-        ++*rows;
-        Side& side = line.side[s];
-        side.slack = -((s == 0 ? along : -along) +
-                       line.t * local[unknowns_.TAt()] + side.constant);
-        if (!(side.slack > 0.0)) return false;
-        if (line.t < 0.0) of_t -= line.t / side.slack;
+        double& slack = slacks[line.at + s];
+        slack -= line.constant[static_cast<std::size_t>(s)];
+        if (!(slack > 0.0)) return false;
+        if (line.t < 0.0) of_t -= line.t / slack;
       }
     }
   }
-  const double mu = program_.curves[0].t / of_t;
-  for (auto& of_piece : lines_) {
-    for (Line& line : of_piece) {
-      for (int s = 0; s < line.sides; ++s) {
-        line.side[s].dual = mu / line.side[s].slack;
-        line.side[s].product = 0.0;
-      }
-    }
-  }
+  state_.Begin(slacks, program_.curves[0].t / of_t);
   return true;
 }
 
-double JointInteriorPoint::AddRows(WideTridiagonal* matrix,
-                                   VectorXd* residual) const {
-  double gap = 0.0;
+void JointInteriorPoint::AddRows(WideTridiagonal* matrix,
+                                 VectorXd* residual) const {
   const int t = unknowns_.TAt();
+  const Eigen::ArrayXd squares = state_.dual / state_.slack;
   MatrixXd local(t + 1, t + 1);
   for (int i = 0; i < unknowns_.pieces(); ++i) {
     local.setZero();
@@ -241,13 +251,12 @@ double JointInteriorPoint::AddRows(WideTridiagonal* matrix,
     for (const Line& line : lines_[i]) {
       double by = 0.0, by_t = 0.0, dual = 0.0;
       for (int s = 0; s < line.sides; ++s) {
-        const Side& side = line.side[s];
         const double sign = s == 0 ? 1.0 : -1.0;
-        gap += side.slack * side.dual;
-        by += side.dual / side.slack;
-        by_t += sign * side.dual / side.slack;
-        dual += sign * side.dual;
-        of_rows[t] += side.dual * line.t;
+        const double square = squares[line.at + s];
+        by += square;
+        by_t += sign * square;
+        dual += sign * state_.dual[line.at + s];
+        of_rows[t] += state_.dual[line.at + s] * line.t;
       }
       AddSquare(line, by, &local);
       AddLine(line, dual, &of_rows);
@@ -260,44 +269,16 @@ double JointInteriorPoint::AddRows(WideTridiagonal* matrix,
     unknowns_.AddMatrix(i, &local, matrix);
     unknowns_.AddGradient(i, of_rows, residual);
   }
-  return gap;
-}
-
-// Steps of slacks and duals along one of x; how far they lead at most.
-double JointInteriorPoint::FollowRows(const VectorXd& step, double centre) {
-  double alpha = 1.0;
-  for (int i = 0; i < unknowns_.pieces(); ++i) {
-    const VectorXd local = unknowns_.ToLocal(i, step);
-    for (Line& line : lines_[i]) {
-      const double along = Along(line, local);
-      for (int s = 0; s < line.sides; ++s) {
-        Side& side = line.side[s];
-        const double slope =
-            (s == 0 ? along : -along) + line.t * local[unknowns_.TAt()];
-        side.slack_step = -slope;
-        side.dual_step =
-            -side.dual +
-            (side.dual * slope + centre - side.product) / side.slack;
-        if (side.slack_step < 0.0) {
-          alpha = std::min(alpha, -side.slack / side.slack_step);
-        }
-        if (side.dual_step < 0.0) {
-          alpha = std::min(alpha, -side.dual / side.dual_step);
-        }
-      }
-    }
-  }
-  return alpha;
 }
 
 void JointInteriorPoint::AddCentres(double centre, VectorXd* to) const {
+  const Eigen::ArrayXd multipliers = state_.Multipliers(centre);
   for (int i = 0; i < unknowns_.pieces(); ++i) {
     VectorXd of_rows = VectorXd::Zero(unknowns_.TAt() + 1);
     for (const Line& line : lines_[i]) {
       double by = 0.0;
       for (int s = 0; s < line.sides; ++s) {
-        const Side& side = line.side[s];
-        const double multiplier = (side.product - centre) / side.slack;
+        const double multiplier = multipliers[line.at + s];
         by += s == 0 ? multiplier : -multiplier;
         of_rows[unknowns_.TAt()] += multiplier * line.t;
       }
@@ -307,49 +288,22 @@ void JointInteriorPoint::AddCentres(double centre, VectorXd* to) const {
   }
 }
 
-// The predictor's steps are known: what the gap is that far along them.
-double JointInteriorPoint::TakeProducts(double reach) {
-  double gap = 0.0;
-  for (auto& of_piece : lines_) {
-    for (Line& line : of_piece) {
-      for (int s = 0; s < line.sides; ++s) {
-        Side& side = line.side[s];
-        gap += (side.slack + reach * side.slack_step) *
-               (side.dual + reach * side.dual_step);
-        side.product = side.slack_step * side.dual_step;
-      }
-    }
-  }
-  return gap;
-}
-
-void JointInteriorPoint::MoveRows(double alpha) {
-  for (auto& of_piece : lines_) {
-    for (Line& line : of_piece) {
-      for (Side& side : line.side) {
-        side.slack += alpha * side.slack_step;
-        side.dual += alpha * side.dual_step;
-        side.product = 0.0;
-      }
-    }
-  }
-}
-
 JointInteriorPoint::Result JointInteriorPoint::Solve() {
   Result result;
   result.x = VectorXd::Zero(hessian_.size());
   VectorXd x = result.x;
   // Not so where rounding takes all room: then no step is the answer.
-  if (!Begin(&x, &result.rows)) return result;
+  result.rows = static_cast<int>(slopes_.size());
+  if (!Begin(&x)) return result;
   WideTridiagonal matrix(unknowns_.pieces(), unknowns_.block());
   for (; result.iterations < kMaxIterations; ++result.iterations) {
     const VectorXd gradient = hessian_.Times(x) + linear_;
     VectorXd residual = gradient;
     matrix = hessian_;
-    const double gap = AddRows(&matrix, &residual);
+    AddRows(&matrix, &residual);
     unknowns_.Fix(&residual);
     const double gained = -0.5 * x.dot(gradient + linear_);
-    if (gap <= std::max(kLeastGap, kGap * gained) &&
+    if (state_.Gap() <= std::max(kLeastGap, kGap * gained) &&
         residual.cwiseAbs().maxCoeff() <= kGradient) {
       break;
     }
@@ -360,17 +314,19 @@ JointInteriorPoint::Result JointInteriorPoint::Solve() {
     VectorXd step = -gradient;
     unknowns_.Fix(&step);
     matrix.Solve(&step);
-    const double ratio = TakeProducts(FollowRows(step, 0.0)) / gap;
-    const double centre = ratio * ratio * ratio * gap / result.rows;
+    FindSlopes(step);
+    const double centre = state_.Predict(state_.Follow(slopes_, 0.0));
 
     // Corrector.
     step = -gradient;
     AddCentres(centre, &step);
     unknowns_.Fix(&step);
     matrix.Solve(&step);
-    const double alpha = std::min(1.0, kStepShare * FollowRows(step, centre));
+    FindSlopes(step);
+    const double alpha =
+        std::min(1.0, kStepShare * state_.Follow(slopes_, centre));
     if (!(alpha > kShortestStep)) break;
-    MoveRows(alpha);
+    state_.Move(alpha);
     x += alpha * step;
   }
   result.x = x;

@@ -5,6 +5,7 @@
 #include <array>
 #include <vector>
 
+#include "planners/trajectory/interior_rows.h"
 #include "planners/trajectory/joint_program.h"
 
 namespace phongpd::internal {
@@ -26,11 +27,7 @@ class JointInteriorPoint {
 
  private:
   // sign · (along) + t · (its unknown) + constant ≤ 0, of both signs where
-  // there are two sides.
-  struct Side {
-    double constant = 0.0, slack = 0.0, dual = 0.0;
-    double slack_step = 0.0, dual_step = 0.0, product = 0.0;
-  };
+  // there are two sides, which are rows `at` and the next.
   struct Line {
     int first = -1, second = -1;  // curves; −1: none
     int from = 0, to = -1;
@@ -38,8 +35,8 @@ class JointInteriorPoint {
     Eigen::Matrix<double, 6, 1> weight = Eigen::Matrix<double, 6, 1>::Zero();
     Eigen::Vector3d direction = Eigen::Vector3d::Zero();
     double eta = 0.0, theta = 0.0, t = 0.0;
-    int sides = 1;
-    std::array<Side, 2> side;
+    int sides = 1, at = 0;
+    std::array<double, 2> constant = {0.0, 0.0};
   };
 
   void AddLines(int curve, int piece);
@@ -50,21 +47,20 @@ class JointInteriorPoint {
   double Along(const Line& line, const Eigen::VectorXd& local) const;
   void AddSquare(const Line& line, double by, Eigen::MatrixXd* m) const;
   void AddLine(const Line& line, double by, Eigen::VectorXd* local) const;
+  // ± along + t · (its unknown), of both sides: what a step changes them by.
+  void FindSlopes(const Eigen::VectorXd& x);
   double FirstT() const;
-  bool Begin(Eigen::VectorXd* x, int* rows);
-  double AddRows(WideTridiagonal* matrix, Eigen::VectorXd* residual) const;
-  double FollowRows(const Eigen::VectorXd& step, double centre);
+  bool Begin(Eigen::VectorXd* x);
+  void AddRows(WideTridiagonal* matrix, Eigen::VectorXd* residual) const;
   void AddCentres(double centre, Eigen::VectorXd* to) const;
-  // For the corrector: the products of the predictor's steps.
-  double TakeProducts(double reach);
-  // By the steps of slacks and duals; products are none again.
-  void MoveRows(double alpha);
 
   const JointProgram& program_;
   const JointUnknowns unknowns_;
   WideTridiagonal hessian_;
   Eigen::VectorXd linear_;
   std::vector<std::vector<Line>> lines_;  // by piece
+  InteriorRows state_;
+  Eigen::ArrayXd slopes_;  // of each row
 };
 
 }  // namespace phongpd::internal

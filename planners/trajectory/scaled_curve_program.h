@@ -26,9 +26,11 @@ struct CurveProgram {
     Eigen::Matrix<double, 6, 1> weight = Eigen::Matrix<double, 6, 1>::Zero();
     Eigen::Vector3d direction = Eigen::Vector3d::Zero();
     double eta = 0.0, missing = 0.0, t = 0.0, constant = 0.0;
-    // The row before again with −w and −eta, of a constant of its own and
-    // without m: both have the work of one.
-    bool is_mirrored = false;
+    // The row before again, of a constant of its own, so that both have the
+    // work of one: with −w and −eta and without m; or as it is, without t, and
+    // the row before without m.
+    enum Repeats { kNothing, kMirrored, kSame };
+    Repeats repeats = kNothing;
     Eigen::Vector3d value = Eigen::Vector3d::Zero();
     Eigen::Vector3d value_by_eta = Eigen::Vector3d::Zero();
   };

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+
+namespace phongpd::internal {
+
+// Slacks s > 0 and duals y > 0 of the rows of a convex program, and a step of
+// both, as an interior point method with Mehrotra's predictor and corrector
+// moves them.  Rows lie one after another, so that what is done to each is done
+// to several at once.
+class InteriorRows {
+ public:
+  int size() const { return static_cast<int>(slack.size()); }
+
+  // At those slacks, where all products s·y are μ.
+  void Begin(const Eigen::ArrayXd& slacks, double mu);
+
+  double Gap() const { return (slack * dual).sum(); }  // Σ s·y
+
+  // The steps for rows that change by `slopes`, towards products of `centre`;
+  // how far they lead at most, 1 or less.
+  double Follow(const Eigen::ArrayXd& slopes, double centre);
+
+  // The centre that the corrector aims at: the mean product, times the cube of
+  // the share of the gap that the predictor, `reach` of it, leaves.  Keeps the
+  // products of its steps for Follow.
+  double Predict(double reach);
+
+  // `reach` of the steps; the slacks may be known better.
+  void Move(double reach);
+  void Move(double reach, const Eigen::ArrayXd& slacks);
+
+  // μ_i for the gradient of row i in the corrector's right-hand side.
+  Eigen::ArrayXd Multipliers(double centre) const {
+    return (product_ - centre) / slack;
+  }
+
+  Eigen::ArrayXd slack, dual;
+
+ private:
+  Eigen::ArrayXd slack_step_, dual_step_, product_;
+};
+
+}  // namespace phongpd::internal

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// By another route: row by row, as the equations of a step have it.
+#include "planners/trajectory/interior_rows.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+
+namespace phongpd::internal {
+namespace {
+
+using Eigen::ArrayXd;
+
+constexpr int kRows = 37;
+constexpr double kMu = 0.3;
+
+ArrayXd Uniform(double least, double most, std::mt19937_64* random) {
+  std::uniform_real_distribution<double> uniform(least, most);
+  return ArrayXd::NullaryExpr(kRows, [&] { return uniform(*random); });
+}
+
+TEST(InteriorRows, BeginOnTheCentralPath) {
+  std::mt19937_64 random(1);
+  InteriorRows rows;
+  rows.Begin(Uniform(0.1, 2.0, &random), kMu);
+  for (int i = 0; i < kRows; ++i) {
+    EXPECT_NEAR(rows.slack[i] * rows.dual[i], kMu, 1e-15);
+  }
+  EXPECT_NEAR(rows.Gap(), kMu * kRows, 1e-12);
+}
+
+// s·y + s Δy + y Δs + Δs'Δy' = centre, with the products Δs'Δy' of the step
+// before, and as far as they lead nothing is negative, and something 0.
+TEST(InteriorRows, FollowAStepOfTheUnknowns) {
+  std::mt19937_64 random(2);
+  for (int trial = 0; trial < 20; ++trial) {
+    InteriorRows rows;
+    rows.Begin(Uniform(0.1, 2.0, &random), kMu);
+    const ArrayXd s = rows.slack, y = rows.dual;
+    const ArrayXd first = Uniform(-3.0, 3.0, &random);
+    const double reach = rows.Follow(first, 0.0);
+    const double centre = rows.Predict(reach);
+
+    double gap = 0.0, after = 0.0, most = 1.0;
+    ArrayXd products(kRows);
+    for (int i = 0; i < kRows; ++i) {
+      const double ds = -first[i], dy = -y[i] * (s[i] + ds) / s[i];
+      gap += s[i] * y[i];
+      after += (s[i] + reach * ds) * (y[i] + reach * dy);
+      products[i] = ds * dy;
+      if (ds < 0.0) most = std::min(most, -s[i] / ds);
+      if (dy < 0.0) most = std::min(most, -y[i] / dy);
+    }
+    EXPECT_NEAR(reach, most, 1e-14);
+    const double ratio = after / gap;
+    EXPECT_NEAR(centre, ratio * ratio * ratio * gap / kRows, 1e-14);
+
+    const ArrayXd second = Uniform(-3.0, 3.0, &random);
+    const double share = 0.9 * rows.Follow(second, centre);
+    rows.Move(share);
+    for (int i = 0; i < kRows; ++i) {
+      const double ds = (rows.slack[i] - s[i]) / share;
+      const double dy = (rows.dual[i] - y[i]) / share;
+      EXPECT_NEAR(ds, -second[i], 1e-11);
+      EXPECT_NEAR(s[i] * y[i] + s[i] * dy + y[i] * ds + products[i], centre,
+                  1e-10);
+      EXPECT_GT(rows.slack[i], 0.0);
+      EXPECT_GT(rows.dual[i], 0.0);
+    }
+  }
+}
+
+// No row is in the way, and slacks that are known better are taken.
+TEST(InteriorRows, GoTheWholeWayWhereNothingEnds) {
+  InteriorRows rows;
+  rows.Begin(ArrayXd::Constant(3, 1.0), kMu);
+  EXPECT_EQ(rows.Follow(ArrayXd::Constant(3, -1.0), 1.0), 1.0);
+  rows.Move(1.0, ArrayXd::Constant(3, 2.5));
+  EXPECT_EQ(rows.slack[1], 2.5);
+  EXPECT_NEAR(rows.dual[1], kMu + (1.0 - kMu - kMu), 1e-15);
+  InteriorRows none;
+  none.Begin(ArrayXd(0), kMu);
+  EXPECT_EQ(none.Follow(ArrayXd(0), 0.0), 1.0);
+}
+
+}  // namespace
+}  // namespace phongpd::internal
