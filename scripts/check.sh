@@ -238,6 +238,7 @@ check_tidy() {
 check_fptrap() {
   scripts/setup.sh binutils
   local programs=("${slice[@]}" "${extreme[@]}")
+  # All of it, as CI has it by then: programs hold the tests of whole folders.
   PRESET=release scripts/build.sh
   local log=$PWD/build/check/invalid.log only=()
   rm -f "$log"
