@@ -96,9 +96,10 @@ void ApplyBudget(double seconds, const Workspace& workspace,
 // With limits: OptimizeCurve, from the path that contact-surface finds from
 // place to place.  If a place is not free the status is kViaNotFree.  If no
 // path leads from one place to the next the status is kFailed: it is no proof,
-// since another point within the tolerance may do.  With several routes
-// (options.routes), the ways that contact-surface compared, a motion is sought
-// along each of them, side by side, and the best one is the answer.
+// since another point within the tolerance may do.  Of the ways that
+// contact-surface compared, as many as options.routes are followed to the end,
+// side by side: those along which kFast leads to the best motions.  The best of
+// what they come to is the answer.
 //
 // Among moving obstacles (request.moving) the motion begins and ends at rest.
 // It is the fastest that was found: by waiting, going first, making way, or by

@@ -31,13 +31,22 @@ void RequireMotion(const Path& path, const CurveOptions& options) {
                     : "only (" + FormatPoint(path.front()) + ")"));
 }
 
+// Among what moves another way may be faster than to wait.
+int RoutesOf(const OptimizeRequest& request) {
+  constexpr int kAmongMoving = 3;
+  return request.moving.empty()
+             ? request.options.routes
+             : std::max(request.options.routes, kAmongMoving);
+}
+
 // Near one of these paths, which are free.
 void FindCurve(const World& world, const OptimizeRequest& request,
                const std::vector<Path>& paths, PathAnswer* answer) {
   const CurveOptions options = CurveOptionsOf(world, request);
   const FreeSpace& space = *answer->evidence.free_space;
-  BestCurve best = OptimizeAlongBest(space, world.diagonal(), paths, options,
-                                     request.requires_margin);
+  BestCurve best =
+      OptimizeAlongBest(space, world.diagonal(), paths, options,
+                        request.requires_margin, RoutesOf(request));
   answer->path = paths[best.path];
   answer->routes = best.tried;
   answer->curve = std::move(best.summary);
@@ -100,14 +109,6 @@ std::string LegName(std::size_t leg, std::size_t legs) {
          (leg + 1 == legs ? "the goal" : ViaName(leg));
 }
 
-// Among what moves another way may be faster than to wait.
-int RoutesOf(const OptimizeRequest& request) {
-  constexpr int kAmongMoving = 3;
-  return request.moving.empty()
-             ? request.options.routes
-             : std::max(request.options.routes, kAmongMoving);
-}
-
 PlanRequest LegRequest(const OptimizeRequest& request, const Vector3d& start,
                        const Vector3d& goal) {
   PlanRequest leg;
@@ -143,7 +144,11 @@ std::vector<Path> WaysOf(const PathAnswer& leg, std::size_t count,
 std::vector<Path> FindPaths(const World& world, const OptimizeRequest& request,
                             const Path& places, PathAnswer* answer) {
   const std::size_t legs = places.size() - 1;
-  const auto count = static_cast<std::size_t>(RoutesOf(request));
+  // Those beyond RoutesOf are for OptimizeAlongBest to choose among.
+  constexpr int kMostCompared = 8;
+  const auto count = static_cast<std::size_t>(
+      request.moving.empty() ? std::max(RoutesOf(request), kMostCompared)
+                             : RoutesOf(request));
   std::vector<Path> paths(count, Path{places.front()});
   std::size_t most = 1;
   for (std::size_t i = 0; i < legs; ++i) {

@@ -7,12 +7,11 @@
 
 #include "core/mesh/mesh_error.h"
 #include "core/number_text.h"
+#include "planners/trajectory/least_duration.h"
 #include "problems/cli/flags.h"
 
 namespace phongpd::cli {
 namespace {
-
-using Eigen::Vector3d;
 
 constexpr double kDefaultRate = 100.0;  // Hz
 constexpr double kMostRate = 1e6;
@@ -73,22 +72,13 @@ double RateOf(const TimedFlags& flags) {
   return rate;
 }
 
-// Per axis, or along the line with limits of the norm, at its velocity v all
-// the time; from rest to rest half of it at acceleration a, half at −a, or at
-// jerk j, −j, j by 1 : 2 : 1.  And what is asked for, and rests on the way.
+// Also what is asked for, and rests on the way.
 double LeastDuration(const OptimizeRequest& request) {
-  const MotionLimits& limits = *request.limits;
-  const Vector3d way = request.goal - request.start;
-  const bool has_rests =
-      request.departure.IsAtRest() && request.arrival.IsAtRest();
-  double least = request.duration;
-  for (int k = 0; k < (limits.by_norm ? 1 : 3); ++k) {
-    const double d = limits.by_norm ? way.norm() : std::abs(way[k]);
-    least = std::max(least, d / limits.velocity[k]);
-    if (!has_rests) continue;
-    least = std::max({least, 2.0 * std::sqrt(d / limits.acceleration[k]),
-                      std::cbrt(32.0 * d / limits.jerk[k])});
-  }
+  double least =
+      std::max(request.duration,
+               phongpd::LeastDuration(
+                   request.goal - request.start, *request.limits,
+                   request.departure.IsAtRest() && request.arrival.IsAtRest()));
   for (const Via& via : request.via) least += std::max(0.0, via.dwell);
   return least;
 }

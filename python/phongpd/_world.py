@@ -55,8 +55,8 @@ class World(Room):
         alone, and no metric but "euclidean" and "smoothed", from what of the
         contact space they meet; "auto", window where limits of memory refuse
         the whole; "": the scene's, and of a polyline full where that is auto.
-        routes: ways around the obstacles that are tried, 1 to 8; 0: the
-        preset's.  max_seconds: of a polyline's solve, or of the search for a
+        routes: ways around the obstacles that are tried to the end, 1 to 8; 0:
+        the preset's; with limits, those that look best at first.  max_seconds: of a polyline's solve, or of the search for a
         faster curve; there is one before.  budget: of a polyline, seconds of
         processors, builds included, within which preset, model and metric
         answered most often with about as many triangles

@@ -11,7 +11,6 @@
 #include "constraints/free_space.h"
 #include "core/mesh/mesh_error.h"
 #include "core/minkowski/build_stop.h"
-#include "planners/solve/best_curve.h"
 #include "planners/trajectory/corridor.h"
 #include "tests/support/staged.h"
 
@@ -170,7 +169,7 @@ TEST(Optimize, FollowsTheMetricOfEachRequest) {
   }
 }
 
-// The first of them is the one that a single route takes.
+// The way that a single route takes is one of them.
 TEST(Optimize, SeveralRoutesOfAMotionAreNeverSlower) {
   int gained = 0;
   for (const char* family : {"u_axis", "clutter", "knot"}) {
@@ -190,34 +189,12 @@ TEST(Optimize, SeveralRoutesOfAMotionAreNeverSlower) {
     request.options.routes = 4;
     const PathAnswer best = Optimize(staged.world, request);
     ASSERT_TRUE(best.is_solved) << best.reason;
-    EXPECT_LE(best.routes, 4);
+    EXPECT_GE(best.routes, one.routes);
     EXPECT_LE(best.motion.duration(), one.motion.duration());
     EXPECT_EQ(best.evidence.verification->verdict, Verdict::kConfirmed);
     gained += best.routes > 1;
   }
   EXPECT_GT(gained, 0);  // or no scene has several
-}
-
-TEST(SquaredJerk, IsTheIntegralOfAParabolasSquare) {
-  // x = t³/6 for a second, then y = t⁵/60 for two: jerks 1 and t².
-  const double h = 2.0, c = h * h * h * h * h / 60.0;
-  const Trajectory motion({CurvePiece({Eigen::Vector3d::Zero(),
-                                       Eigen::Vector3d::Zero(),
-                                       Eigen::Vector3d::Zero(),
-                                       {1.0 / 6.0, 0, 0}},
-                                      1.0),
-                           CurvePiece({{1.0 / 6.0, 0, 0},
-                                       {1.0 / 6.0, 0, 0},
-                                       {1.0 / 6.0, 0, 0},
-                                       {1.0 / 6.0, 0, 0},
-                                       {1.0 / 6.0, 0, 0},
-                                       {1.0 / 6.0, c, 0}},
-                                      h)});
-  MotionLimits limits;
-  limits.jerk = {2.0, 1.0, 1.0};
-  // ∫ (1/2)² + ∫ t⁴ = 1/4 + h⁵/5
-  EXPECT_NEAR(internal::SquaredJerk(motion, limits),
-              0.25 + std::pow(h, 5) / 5.0, 1e-12);
 }
 
 }  // namespace

@@ -17,28 +17,14 @@
 #include "tests/support/expect_refused.h"
 #include "tests/support/passages.h"
 #include "tests/support/path_problems.h"
+#include "tests/support/rest_to_rest.h"
 
 namespace phongpd {
 namespace {
 
 using Eigen::Vector3d;
 using Path = std::vector<Vector3d>;
-
-// Least time of a motion of that length from rest to rest: as fast as it gets,
-// and straight back to rest.
-double RestToRest(double length, double v, double a, double j) {
-  // To a speed, or from it, at most jerk and acceleration.
-  const auto ramp = [&](double speed) {
-    return speed * j >= a * a ? speed / a + a / j : 2.0 * std::sqrt(speed / j);
-  };
-  if (v * ramp(v) <= length) return 2.0 * ramp(v) + (length - v * ramp(v)) / v;
-  double low = 0.0, high = v;
-  for (int i = 0; i < 200; ++i) {
-    const double middle = 0.5 * (low + high);
-    (middle * ramp(middle) < length ? low : high) = middle;
-  }
-  return 2.0 * ramp(low);
-}
+using testing::RestToRest;
 
 MotionLimits Limits(double v, double a, double j) {
   MotionLimits limits;
