@@ -4,6 +4,7 @@ them; see `--help`."""
 
 import kept_rows as rows
 import trajectories_beside
+import trajectories_gcs
 import trajectories_run
 from trajectories_duels import version
 from trajectories_instances import FAMILIES, instances, peer_instances
@@ -14,7 +15,7 @@ TINY = ["u_axis", "tunnel:delta=1e-6"]
 
 
 def main():
-    parser = rows.parser_for(__doc__, "trajectories_benchmark.py", ["own", "peers"])
+    parser = rows.parser_for(__doc__, "trajectories_benchmark.py", ["own", "peers", "gcs"])
     parser.add_argument("--tiny", action="store_true",
                         help="a few instances, to see whether it runs")
     arguments = parser.parse_args()
@@ -28,10 +29,16 @@ def main():
                   else peer_instances(),
                   trajectories_beside.measure, deadline,
                   "pairs with peers measured")
+    rows.run_part(arguments, "gcs",
+                  trajectories_gcs.instances(0, 1) if arguments.tiny
+                  else trajectories_gcs.instances(),
+                  trajectories_gcs.measure, deadline,
+                  "pairs with graphs of convex sets measured")
     if arguments.part in ("report", "all"):
         write_report(arguments.output, arguments.how, arguments.commit,
                      rows.read(arguments.rows / "own.jsonl"),
                      rows.read(arguments.rows / "peers.jsonl"),
+                     rows.read(arguments.rows / "gcs.jsonl"),
                      [p for p in PACKAGES if version(p)])
 
 

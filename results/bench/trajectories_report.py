@@ -5,6 +5,7 @@ import datetime
 import phongpd
 import trajectories_best
 import trajectories_duels as duels
+import trajectories_gcs as gcs
 import trajectories_summary as own
 from python_report import cell, machine, versions, write_csv, write_tables
 from trajectories_peers import COLLISION_SAMPLES, CONTROL_POINTS, MARGIN, \
@@ -19,13 +20,12 @@ and what do others make of the same ends and limits?
 NOT_RUN = """\
 ## What was not run
 
-- Drake's graphs of convex sets: they limit velocities alone, and need regions of
-  free space first, which take minutes a scene.
+- Graphs of convex sets where free space is not made of boxes: regions have to be
+  grown first, which take minutes a scene.
 - MINCO-like optimisers: no wheel of one was found.
-- Buildings for flying robots: not rebuilt yet.
 - `maze50` has the published maze's size, seed and count of removed walls, the
-  forests have the published sizes, counts and radii; the walls and trees
-  stand elsewhere, as nothing was copied.
+  forests have the published sizes, counts and radii, buildings the published
+  counts and sizes of rooms; walls and trees stand elsewhere, as nothing was copied.
 - Wall times: other jobs shared the machine. All times are processor time of all
   threads, calls as a user makes them, contact spaces being there.
 """
@@ -135,7 +135,7 @@ def _kto(rows, default):
                    f"longer, more than 1 % in {sum(w > 1 for w in worse)}.")
 
 
-def _tables(folder, own_rows, peer_rows, best):
+def _tables(folder, own_rows, peer_rows, gcs_rows, best):
     """Writes them; summary, peers, and README.md's line that leads there."""
     default = duels.with_default_margin(own_rows)
     lines = own.summary(own_rows, peer_rows, best)
@@ -157,6 +157,7 @@ def _tables(folder, own_rows, peer_rows, best):
     write_csv(folder / "own.csv", own.OWN_HEADER, own.own_table(own_rows, best))
     write_csv(folder / "peers.csv", duels.HEADER,
               duels.table(peer_rows, default))
+    write_csv(folder / "gcs.csv", gcs.HEADER, gcs.table(gcs_rows))
     return lines, beside, where
 
 
@@ -182,10 +183,10 @@ def _about_peers(rows):
         f"same where there is room; {MARGIN:g} D else.")
 
 
-def write_report(folder, how, commit, own_rows, peer_rows, packages):
+def write_report(folder, how, commit, own_rows, peer_rows, gcs_rows, packages):
     folder.mkdir(parents=True, exist_ok=True)
     best = trajectories_best.improve(folder, own_rows, peer_rows)
-    lines, beside, where = _tables(folder, own_rows, peer_rows, best)
+    lines, beside, where = _tables(folder, own_rows, peer_rows, gcs_rows, best)
     asked = own.answered(own_rows)
     certified = sum(r["certified"] for r in asked)
     low, high = share_interval(certified, len(asked))
@@ -198,7 +199,7 @@ def write_report(folder, how, commit, own_rows, peer_rows, packages):
         *_kto(peer_rows, duels.with_default_margin(own_rows)), "",
         "## What all motions say", "", *_aims(lines), "", BEST,
         "## Beside peers", "", _about_peers(peer_rows), "",
-        *_beside(beside), "", *_wins(beside), "",
+        *_beside(beside), "", *_wins(beside), "", *gcs.page(gcs_rows), "",
         "## Losses and what failed", "",
         *(list(_losses(own_rows, peer_rows, best)) or ["- None."]), "",
         NOT_RUN, where, "",

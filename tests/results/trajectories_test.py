@@ -17,6 +17,7 @@ sys.path.insert(0, str(BENCH))
 
 import trajectories_best as best  # noqa: E402
 import trajectories_bounds as bounds  # noqa: E402
+import trajectories_boxes as boxes  # noqa: E402
 import kept_rows as rows  # noqa: E402
 import trajectories_statistics as statistics  # noqa: E402
 import trajectories_worlds as worlds  # noqa: E402
@@ -118,6 +119,54 @@ class One(NamedTuple):
     pair: int = 1
 
 
+def inside(known, per_box, seed):
+    """Random points and the corners of all boxes, a hair inside."""
+    chance = np.random.default_rng(seed)
+    corners = np.array([[k >> axis & 1 for axis in range(3)] for k in range(8)])
+    shares = np.vstack([corners, chance.random((per_box, 3))])
+    shares = 1e-9 + (1 - 2e-9) * shares
+    return (known.low[:, None] + shares * (known.high - known.low)[:, None]
+            ).reshape(-1, 3)
+
+
+def reaches(known, start, goal):
+    """Can one go from box to box?"""
+    found = set(known.containing(start))
+    links = known.links()
+    for _ in range(len(known.low)):
+        more = {b for a, b in links if a in found} | {a for a, b in links
+                                                      if b in found}
+        if more <= found:
+            break
+        found |= more
+    return bool(found & set(known.containing(goal)))
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_boxes_of_a_building_are_free_and_lead_to_its_last_room(seed):
+    known = boxes.building(seed)
+    assert known.world.is_free(inside(known, 20, seed)).all()
+    assert reaches(known, *boxes.building_ends())
+
+
+def test_boxes_of_a_building_have_most_of_its_free_space():
+    known = boxes.building(3)
+    low, high = known.world.bounds
+    points = np.random.default_rng(1).uniform(low, high, (4_000, 3))
+    free = points[known.world.is_free(points)]
+    covered = [bool(known.containing(q)) for q in free]
+    assert len(free) > 2_000 and np.mean(covered) > 0.9
+
+
+def test_boxes_of_the_maze_are_free_and_lead_through_it():
+    known = boxes.maze()
+    assert len(known.low) == worlds.CELLS ** 2 - 1 + worlds.OPENED
+    points = inside(known, 1, 1)
+    assert known.world.is_free(points).all()
+    (start, goal), *_ = worlds.maze_pairs(worlds.CELLS, 1, seed=1)
+    assert reaches(known, np.array(start), np.array(goal))
+
+
 def test_rows_go_on_where_they_were_and_errors_are_rows(tmp_path):
     file, asked = tmp_path / "rows.jsonl", []
 
@@ -177,6 +226,11 @@ def test_a_slice_runs_from_end_to_end_and_goes_on(tmp_path):
     # Here or not, each peer is told.
     assert {"Ruckig, stops", "TOPP-RA", "OMPL + TOPP-RA", "Drake KTO, line",
             "Drake KTO, path"} <= set(peers)
+    with open(tmp_path / "out" / "gcs.csv", newline="", encoding="utf-8") as file:
+        graphs = {row["by"]: row for row in csv.DictReader(file)}
+    assert graphs["PhongPD"]["free"] == "True"
+    assert set(graphs) == {"PhongPD", "PhongPD, tight", "Drake GCS"}
     text = (tmp_path / "out" / "README.md").read_text(encoding="utf-8")
+    assert "1 buildings of 3" in text
     assert "Certified: 6 of 6 motions" in text
     assert np.isfinite(best.read(tmp_path / "out")["u_axis|1|axis"][0])
