@@ -44,10 +44,7 @@ class PartTaker {
       next_ = 0;
       return;
     }
-    while (next_ < motion.pieces().size() &&
-           motion.StartOf(next_ + 1) <= shift) {
-      ++next_;
-    }
+    next_ = motion.PiecesBefore(shift);
     Enter();
     const double begun = rest_ ? shift - motion.StartOf(next_ - 1) : 0.0;
     if (begun > 0.0) rest_ = Split(begun / rest_->duration())[1];
@@ -109,26 +106,29 @@ CurvePiece Difference(const CurvePiece& a, const CurvePiece& b,
                       double duration) {
   const int degree = std::max(a.degree(), b.degree());
   const CurvePiece from = Elevate(a, degree), off = Elevate(b, degree);
-  std::vector<Vector3d> points;
-  for (int i = 0; i <= degree; ++i) {
-    points.push_back(from.point(i) - off.point(i));
-  }
-  return CurvePiece(points, duration);
+  CurvePiece::Points points;
+  for (int i = 0; i <= degree; ++i) points[i] = from.point(i) - off.point(i);
+  return CurvePiece(points.data(), static_cast<std::size_t>(degree) + 1,
+                    duration);
 }
 
-// The largest coordinate and speed of a motion, rounded up.
+// Bounds of a motion's coordinates and speeds, those of the pieces' points;
+// rounded up.
 struct Extent {
   explicit Extent(const Trajectory& motion) {
     for (const CurvePiece& piece : motion.pieces()) {
-      const CurvePiece velocity = piece.Derivative();
-      for (int i = 0; i <= piece.degree(); ++i) {
-        coordinate = std::max(coordinate, piece.point(i).cwiseAbs().maxCoeff());
-        if (i <= velocity.degree()) {
-          speed = std::max(speed, velocity.point(i).stableNorm());
-        }
+      Vector3d largest = piece.front().cwiseAbs(), step = Vector3d::Zero();
+      for (int i = 1; i <= piece.degree(); ++i) {
+        largest = largest.cwiseMax(piece.point(i).cwiseAbs());
+        step = step.cwiseMax((piece.point(i) - piece.point(i - 1)).cwiseAbs());
       }
-      // Of differences of points, and of norms.
-      speed += piece.degree() / piece.duration() * 0x1p-50 * coordinate;
+      const double of_piece = largest.maxCoeff();
+      coordinate = std::max(coordinate, of_piece);
+      // From the largest coordinate of a step to its length, with the rounding
+      // of differences.
+      speed = std::max(
+          speed, piece.degree() / piece.duration() *
+                     (kToDistance * step.maxCoeff() + 0x1p-50 * of_piece));
     }
   }
   double coordinate = 0.0, speed = 0.0;

@@ -55,6 +55,14 @@ double Length(const CurvePiece& speed, double low, double high, double whole,
          Length(speed, middle, high, second, 0.5 * tolerance, depth - 1);
 }
 
+// A norm, at the price of one that may overflow where that does not.
+double Norm(const Vector3d& x) {
+  constexpr double kLeast = 1e-280, kMost = 1e280;
+  const double squared = x.squaredNorm();
+  return squared > kLeast && squared < kMost ? std::sqrt(squared)
+                                             : x.stableNorm();
+}
+
 // The largest share of `limit` that the points of a derivative reach, rounded
 // up by `rounding`, the absolute error that they may have.
 double HullShare(const CurvePiece& derivative, const Vector3d& limit,
@@ -63,7 +71,7 @@ double HullShare(const CurvePiece& derivative, const Vector3d& limit,
   for (int i = 0; i <= derivative.degree(); ++i) {
     const Vector3d x =
         (derivative.point(i).cwiseAbs().array() + rounding).matrix();
-    share = std::max(share, by_norm ? x.stableNorm() / limit[0]
+    share = std::max(share, by_norm ? Norm(x) / limit[0]
                                     : x.cwiseQuotient(limit).maxCoeff());
   }
   return share * (1.0 + kRelativeRounding);
@@ -94,15 +102,19 @@ double SplitShare(const CurvePiece& derivative, const Vector3d& limit,
 }  // namespace
 
 CurvePiece::CurvePiece(const Vector3d& a, const Vector3d& b, double duration)
-    : CurvePiece(std::vector<Vector3d>{a, b}, duration) {}
+    : CurvePiece(std::array<Vector3d, 2>{a, b}.data(), 2, duration) {}
 
 CurvePiece::CurvePiece(const std::vector<Vector3d>& points, double duration)
-    : degree_(static_cast<int>(points.size()) - 1), duration_(duration) {
-  if (points.size() < 2 || points.size() > points_.size()) {
+    : CurvePiece(points.data(), points.size(), duration) {}
+
+CurvePiece::CurvePiece(const Vector3d* points, std::size_t count,
+                       double duration)
+    : degree_(static_cast<int>(count) - 1), duration_(duration) {
+  if (count < 2 || count > points_.size()) {
     throw InputError("curve: expected 2 to " + std::to_string(kMaxDegree + 1) +
-                     " points a piece, found " + std::to_string(points.size()));
+                     " points a piece, found " + std::to_string(count));
   }
-  if (!std::all_of(points.begin(), points.end(), IsFinite)) {
+  if (!std::all_of(points, points + count, IsFinite)) {
     throw InputError("curve: expected finite points, found NaN or Inf");
   }
   if (!(duration > 0.0) || !std::isfinite(duration)) {
@@ -110,7 +122,7 @@ CurvePiece::CurvePiece(const std::vector<Vector3d>& points, double duration)
         "curve: expected a duration above 0 and finite, in seconds, found " +
         FormatDouble(duration));
   }
-  std::copy(points.begin(), points.end(), points_.begin());
+  std::copy(points, points + count, points_.begin());
 }
 
 Vector3d CurvePiece::At(double s) const {
@@ -164,7 +176,7 @@ double CurvePiece::Bend() const {
   for (int i = 1; i < degree_; ++i) {
     const double share = static_cast<double>(i) / degree_;
     const Vector3d on_chord = (1.0 - share) * front() + share * back();
-    bend = std::max(bend, (points_[i] - on_chord).stableNorm());
+    bend = std::max(bend, Norm(points_[i] - on_chord));
   }
   return bend;
 }
@@ -196,6 +208,11 @@ Trajectory Trajectory::Along(const std::vector<Vector3d>& path) {
     pieces.emplace_back(path[i], path[i + 1], 1.0);
   }
   return Trajectory(std::move(pieces));
+}
+
+std::size_t Trajectory::PiecesBefore(double t) const {
+  return static_cast<std::size_t>(
+      std::upper_bound(times_.begin(), times_.end(), t) - times_.begin());
 }
 
 Trajectory::Sample Trajectory::At(double t) const {
@@ -262,9 +279,9 @@ double Trajectory::ArcLength() const {
 Trajectory Trajectory::Slowed(double factor) const {
   std::vector<CurvePiece> slow;
   for (const CurvePiece& piece : pieces_) {
-    std::vector<Vector3d> points;
-    for (int i = 0; i <= piece.degree(); ++i) points.push_back(piece.point(i));
-    slow.emplace_back(points, piece.duration() * factor);
+    slow.emplace_back(&piece.front(),
+                      static_cast<std::size_t>(piece.degree()) + 1,
+                      piece.duration() * factor);
   }
   return Trajectory(std::move(slow));
 }

@@ -26,6 +26,8 @@ class CurvePiece {
              double duration);
   // 2 to kMaxDegree + 1 points, duration > 0; finite.  Throws InputError.
   CurvePiece(const std::vector<Eigen::Vector3d>& points, double duration);
+  // The same of points[0] … points[count − 1].
+  CurvePiece(const Eigen::Vector3d* points, std::size_t count, double duration);
 
   int degree() const { return degree_; }
   double duration() const { return duration_; }  // h, seconds
@@ -75,6 +77,8 @@ class Trajectory {
   double duration() const { return times_.empty() ? 0.0 : times_.back(); }
   // When piece i begins; StartOf(size) is the duration.
   double StartOf(std::size_t i) const { return i == 0 ? 0.0 : times_[i - 1]; }
+  // How many pieces have ended by t.
+  std::size_t PiecesBefore(double t) const;
 
   struct Sample {
     double time = 0.0;

@@ -10,6 +10,7 @@
 #include <memory>
 #include <mutex>
 #include <numeric>
+#include <tuple>
 #include <utility>
 
 #include "core/stopwatch.h"
@@ -22,9 +23,10 @@ namespace {
 using Eigen::Vector3d;
 
 // The share of the margin that counts as all of it: of a wish as of polylines
-// (kToleratedMissing), of what is required but for rounding, of a wish while
-// there are rounds to come.
-constexpr double kWished = 0.9, kRequired = 1.0 - 1e-6, kBegun = 0.5;
+// (kToleratedMissing), of what is required but for rounding.
+constexpr double kWished = 0.9, kRequired = 1.0 - 1e-6;
+// Less than this share of what the first path keeps is worse, however fast.
+constexpr double kMarginLost = 0.5;
 // Of D: paths that are nowhere further apart are one way.
 constexpr double kAlike = 0.02;
 // A motion that takes no longer, as a share of the least time, needs no other
@@ -183,6 +185,14 @@ class Contest {
                                     : first.duration;
   }
 
+  // The less, the better what it has come to.
+  std::tuple<bool, bool, double> PlaceOf(std::size_t i) const {
+    const CurveSummary& found = entries_[i].found;
+    return {found.trajectory.empty(),
+            found.margin < kMarginLost * entries_[0].found.margin,
+            found.duration};
+  }
+
   // Wherever it goes, as far as limits know.
   double LeastOfAll() const {
     return LeastDuration(paths_[0].back() - paths_[0].front(), options_.limits,
@@ -202,7 +212,7 @@ class Contest {
     order.insert(order.end(), rivals.begin(), rivals.end());
     std::stable_sort(order.begin(), order.end(),
                      [this](std::size_t a, std::size_t b) {
-                       return IsBetter(a, b, kBegun);
+                       return PlaceOf(a) < PlaceOf(b);
                      });
     order.resize(std::min(order.size(), refined));
     tbb::parallel_for(std::size_t{0}, order.size(), [&](std::size_t k) {

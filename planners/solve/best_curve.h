@@ -22,7 +22,8 @@ struct BestCurve {
 // the margin, or of a mere wish nine tenths of it, before one that does not;
 // then the least time, or of a given duration the least jerk.
 //
-// Which paths are the best is seen by what kFast makes of them.  If one is
+// Which paths are the best is seen by what kFast makes of them: the least time,
+// unless half of the margin that the first path keeps is lost.  If one is
 // refined, the first is looked at before the others; of these only what may be
 // faster is: no path that is hardly another way or too long, and none where the
 // first one is near the least time that any could take.  Where a duration is
