@@ -31,7 +31,7 @@ constexpr double kMarginLost = 0.5;
 constexpr double kAlike = 0.02;
 // A motion that takes no longer, as a share of the least time, needs no other
 // way.
-constexpr double kNearLeast = 1.05;
+constexpr double kNearLeast = 1.1;
 
 bool IsBetterCurve(const CurveSummary& a, const CurveSummary& b,
                    const CurveOptions& options, double kept_share) {

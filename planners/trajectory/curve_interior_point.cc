@@ -15,7 +15,7 @@ constexpr double kStartT = 0.03;  // that far inside the limits
 // gradient's largest entry.
 constexpr double kGap = 0.03;
 constexpr double kLeastGap = 1e-6;
-constexpr double kGradient = 1e-3;
+constexpr double kGradient = 1e-2;
 constexpr double kStepShare = 0.99;    // of the way to the nearest row
 constexpr double kLeastSlack = 0.005;  // a step leaves this share of a slack
 constexpr double kShorter = 0.8;       // the next try
@@ -31,6 +31,9 @@ CurveInteriorPoint::CurveInteriorPoint(const CurveProgram& program)
   first_.push_back(0);
   for (const CurveProgram::Piece& piece : program.pieces) {
     for (const CurveProgram::Row& row : piece.rows) {
+      if (row.kind == CurveProgram::Row::kNorm) {
+        norms_.push_back(static_cast<int>(rows_.size()));
+      }
       rows_.push_back({&row, row.direction, row.eta, 0.0});
     }
     first_.push_back(static_cast<int>(rows_.size()));
@@ -60,6 +63,20 @@ void CurveInteriorPoint::FindSlacks(const VectorXd& x) {
     for (int k = first_[i]; k < first_[i + 1]; ++k) {
       slacks_[k] = SlackAt(&rows_[k], local, &along);
     }
+  }
+}
+
+void CurveInteriorPoint::FollowSlacks(const VectorXd& x, double alpha) {
+  slacks_ = state_.slack - alpha * slopes_;
+  int piece = -1;
+  CurveLocal local;
+  double along = 0.0;
+  for (const int k : norms_) {
+    if (piece < 0 || k >= first_[piece + 1]) {
+      while (k >= first_[piece + 1]) ++piece;
+      local = ToLocal(program_, piece, x);
+    }
+    slacks_[k] = SlackAt(&rows_[k], local, &along);
   }
 }
 
@@ -168,7 +185,7 @@ CurveInteriorPoint::Result CurveInteriorPoint::Solve() {
     double alpha = std::min(1.0, kStepShare * FollowRows(step, centre));
     // The slacks themselves count in the end: norms bend.
     for (; alpha > kShortestStep; alpha *= kShorter) {
-      FindSlacks(x + alpha * step);
+      FollowSlacks(x + alpha * step, alpha);
       if ((slacks_ > kLeastSlack * state_.slack).all()) break;
     }
     if (!(alpha > kShortestStep)) break;

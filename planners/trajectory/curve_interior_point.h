@@ -34,6 +34,9 @@ class CurveInteriorPoint {
 
   // Of all rows at x, which are > 0 within them.
   void FindSlacks(const Eigen::VectorXd& x);
+  // The same `alpha` of the step further on, whose slopes are known: what is
+  // linear need not be looked at again.  x: there.
+  void FollowSlacks(const Eigen::VectorXd& x, double alpha);
   bool Begin(Eigen::VectorXd* x);
   void AddRows(BlockTridiagonal* matrix, Eigen::VectorXd* residual) const;
   double FollowRows(const Eigen::VectorXd& step, double centre);
@@ -44,6 +47,7 @@ class CurveInteriorPoint {
   BlockTridiagonal hessian_;
   Eigen::VectorXd linear_;
   std::vector<CurveRowNow> rows_;  // of all pieces
+  std::vector<int> norms_;         // those that are norms
   std::vector<int> first_;         // of each piece; and how many there are
   InteriorRows state_;
   Eigen::ArrayXd slacks_, slopes_;  // of each row, at a new x or along a step

@@ -10,14 +10,17 @@ using Eigen::Vector3d;
 
 constexpr double kRound = 1e-3;  // |y| → (|y|² + this²)^½: smooth, and more
 
+using OfAxis =
+    Eigen::Map<const Eigen::Matrix<double, 6, 1>, 0, Eigen::InnerStride<3>>;
+using OfPoints = Eigen::Map<const Eigen::Matrix<double, 3, 6>>;
+
 // Of the terms in ΔB and η.
 double AlongRow(const CurveRowNow& now, const CurveLocal& step) {
   const CurveProgram::Row& row = *now.row;
   double along = now.eta * step[kCurveEta];
   if (row.kind == CurveProgram::Row::kAxis) {
-    for (int j = row.first; j <= row.last; ++j) {
-      along += row.weight[j] * step[3 * j + row.axis];
-    }
+    // All six, of which some weigh nothing: no branch depends on the row.
+    along += row.weight.dot(OfAxis(step.data() + row.axis));
   } else if (row.kind != CurveProgram::Row::kScalar) {
     for (int j = row.first; j <= row.last; ++j) {
       along += row.weight[j] * now.direction.dot(step.segment<3>(3 * j));
@@ -40,10 +43,8 @@ double SlackAt(CurveRowNow* now, const CurveLocal& x, double* along) {
   if (row.kind != CurveProgram::Row::kNorm) {
     return -(row.constant + Slope(*now, x, along));
   }
-  Vector3d y = row.value + row.value_by_eta * x[kCurveEta];
-  for (int j = row.first; j <= row.last; ++j) {
-    y += row.weight[j] * x.segment<3>(3 * j);
-  }
+  const Vector3d y = row.value + row.value_by_eta * x[kCurveEta] +
+                     OfPoints(x.data()) * row.weight;
   const double norm = std::sqrt(y.squaredNorm() + kRound * kRound);
   now->direction = y / norm;
   now->inverse_norm = 1.0 / norm;
