@@ -138,10 +138,10 @@ TEST_F(CliTimedRefusals, MoreRowsThanThereMayBeBeforeTheMotionIsKnown) {
   WritePath();
   for (const std::string& command : {"optimize " + scene, "optimize " + shut,
                                      "retime ../path.csv --scene " + scene}) {
-    for (const auto& [limits, seconds] : {std::pair("0.2,2,10", "15 s"),
+    for (const auto& [limits, seconds] : {std::pair("0.2,2,10", "15.3 s"),
                                           {"1,0.01,10", "34.6 s"},
                                           {"1,2,0.001", "45.8 s"},
-                                          {"0.2/9/9,2,10", "15 s"}}) {
+                                          {"0.2/9/9,2,10", "15.3 s"}}) {
       ExpectRefused(command + " --output t.csv --rate 1e6 --limits " + limits,
                     {"--rate: expected at most 1e+07 rows", seconds,
                      "at least, found 1e+06 Hz"});
@@ -152,11 +152,11 @@ TEST_F(CliTimedRefusals, MoreRowsThanThereMayBeBeforeTheMotionIsKnown) {
   // Only what is sure: that no motion is there is an answer, and one that takes
   // longer than its ends tell is refused once it is known.
   EXPECT_EQ(Run("optimize " + shut +
-                " --output ../t.csv --rate 1e6 --limits 0.303,2,10")
+                " --output ../t.csv --rate 1e6 --limits 0.312,2,10")
                 .code,
             1);
   ExpectRefused(
-      "optimize " + scene + " --output t.csv --rate 1e6 --limits 0.303,2,10",
+      "optimize " + scene + " --output t.csv --rate 1e6 --limits 0.312,2,10",
       {"--rate: expected at most 1e+07 rows", "s at least"});
   // JSON has pieces and no rows.
   EXPECT_EQ(
