@@ -27,6 +27,14 @@ def version(package):
         return None
 
 
+def spread(line):
+    """Of a summary's line, a dictionary: its ratios in a table's cell."""
+    middle = line["duration / PhongPD, median"]
+    return "-" if middle == "-" else (
+        f"{middle:.3f} ({line['low']:.3f} to {line['high']:.3f}), "
+        f"{line['least']:.3f} to {line['most']:.3f}")
+
+
 def _beside(name, row, default):
     """PhongPD's seconds with the same margin."""
     if name == WIDE and row["key"] in default:

@@ -13,7 +13,7 @@ import trajectories_worlds as worlds
 from python_report import cell, told
 from trajectories_beside import WITHIN
 from trajectories_best import is_valid
-from trajectories_duels import TIE
+from trajectories_duels import TIE, spread
 from trajectories_peers import MARGIN
 from trajectories_statistics import median_interval
 
@@ -187,12 +187,12 @@ def summary(rows):
                       if is_valid(a) and is_valid(row["answers"][OWN])]
             faster = sum(r > 1 + TIE for r in ratios)
             slower = sum(r < 1 - TIE for r in ratios)
-            spread = ((float(np.median(ratios)),
+            middle = ((float(np.median(ratios)),
                        *median_interval(ratios, [scene] * len(ratios)),
                        min(ratios), max(ratios)) if ratios else ["-"] * 5)
             cpus = [a["cpu"] for a in answers if "cpu" in a]
             yield (scene, name, len(of), sum(bool(a.get("says")) for a in answers),
-                   sum(is_valid(a) for a in answers), *spread, faster,
+                   sum(is_valid(a) for a in answers), *middle, faster,
                    len(ratios) - faster - slower, slower,
                    float(np.median(cpus)) if cpus else "-")
 
@@ -226,12 +226,8 @@ def page(rows):
     yield "|---|---|---:|---:|---:|---|---|---:|"
     for line in summary(rows):
         v = dict(zip(SUMMARY_HEADER, line))
-        middle = v["duration / PhongPD, median"]
-        spread = "-" if middle == "-" else (
-            f"{middle:.3f} ({v['low']:.3f} to {v['high']:.3f}), "
-            f"{v['least']:.3f} to {v['most']:.3f}")
         yield (f"| {v['scene']} | {v['by']} | {v['pairs']} | {v['says solved']} | "
-               f"{v['free and in limits']} | {spread} | {v['PhongPD faster']}, "
+               f"{v['free and in limits']} | {spread(v)} | {v['PhongPD faster']}, "
                f"{v['as fast']}, {v['peer faster']} | {cell(v['CPU s, median'])} |")
     yield ""
     yield "Each motion: [gcs.csv](gcs.csv)."

@@ -73,12 +73,8 @@ def _beside(lines):
             yield f"| {v['by']} | not installed | - | - | - | - | - | - |"
             continue
         n = v["pairs"]
-        middle = v["duration / PhongPD, median"]
-        spread = "-" if middle == "-" else (
-            f"{middle:.3f} ({v['low']:.3f} to {v['high']:.3f}), "
-            f"{v['least']:.3f} to {v['most']:.3f}")
         yield (f"| {v['by']} | {v['version']} | {v['says solved']} of {n} | "
-               f"{v['free']} | {v['free and in limits']} | {spread} | "
+               f"{v['free']} | {v['free and in limits']} | {duels.spread(v)} | "
                f"{v['PhongPD faster']}, {v['as fast']}, {v['peer faster']}, "
                f"{v['peer has none']} | {cell(v['CPU s, median'])} |")
 
