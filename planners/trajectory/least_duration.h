@@ -12,6 +12,7 @@ namespace phongpd {
 // of the straight line.  From rest to rest: in closed form, of at most seven
 // phases, those at the limit of velocity, then of acceleration, being left out
 // where the way is too short for them.  Otherwise at the limit of velocity.
+// `way` is finite, in the unit of length of the limits, which are valid.
 double LeastDuration(const Eigen::Vector3d& way, const MotionLimits& limits,
                      bool from_rest_to_rest);
 
