@@ -14,6 +14,7 @@
 #include <utility>
 
 #include "core/stopwatch.h"
+#include "planners/trajectory/curve_rests.h"
 #include "planners/trajectory/curve_search.h"
 #include "planners/trajectory/least_duration.h"
 

@@ -8,6 +8,7 @@
 #include "core/number_text.h"
 #include "planners/exact/check_option.h"
 #include "planners/trajectory/curve_optimizer.h"
+#include "planners/trajectory/curve_rests.h"
 
 namespace phongpd {
 namespace {
@@ -102,9 +103,8 @@ void CurveOptions::Validate() const {
   for (std::size_t i = 0; i < via.size(); ++i) CheckVia(via[i], i);
   CheckOption(duration >= 0.0 && std::isfinite(duration), "curve", "duration",
               "0 or a finite number of seconds", duration);
-  const bool rests = std::any_of(
-      via.begin(), via.end(), [](const CurveVia& v) { return v.dwell > 0.0; });
-  if (duration > 0.0 && (rests || !start.IsAtRest() || !end.IsAtRest())) {
+  if (duration > 0.0 &&
+      (internal::HasRests(*this) || !start.IsAtRest() || !end.IsAtRest())) {
     throw InputError(
         "curve: duration: expected a start and an end at rest, and no dwell, "
         "where it is given");

@@ -35,6 +35,11 @@ void Append(const CurveSummary& one, double before, CurveSummary* all,
 
 }  // namespace
 
+bool HasRests(const CurveOptions& options) {
+  return std::any_of(options.via.begin(), options.via.end(),
+                     [](const CurveVia& via) { return via.dwell > 0.0; });
+}
+
 CurveSummary OptimizeWithRests(const FreeSpace& space, double diagonal,
                                const std::vector<Vector3d>& path,
                                const CurveOptions& options) {

@@ -8,6 +8,9 @@
 
 namespace phongpd::internal {
 
+// Is a place on the way rested at?
+bool HasRests(const CurveOptions& options);
+
 // OptimizeCurve where options.via has places to rest at, each a point of the
 // path: one curve after the other, from rest to rest between them.  Where two
 // places, or one and an end at rest, are the same there is no curve between.

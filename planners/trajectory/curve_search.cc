@@ -309,9 +309,4 @@ void RequireCurve(double diagonal, const std::vector<Vector3d>& path,
   }
 }
 
-bool HasRests(const CurveOptions& options) {
-  return std::any_of(options.via.begin(), options.via.end(),
-                     [](const CurveVia& via) { return via.dwell > 0.0; });
-}
-
 }  // namespace phongpd::internal

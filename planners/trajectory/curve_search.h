@@ -91,7 +91,4 @@ class CurveSearch {
 void RequireCurve(double diagonal, const std::vector<Eigen::Vector3d>& path,
                   const CurveOptions& options);
 
-// One that is rested at.
-bool HasRests(const CurveOptions& options);
-
 }  // namespace phongpd::internal
