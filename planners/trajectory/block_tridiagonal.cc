@@ -34,6 +34,75 @@ bool Cholesky(Block* a) {
   return is_definite;
 }
 
+// L⁻¹ from the left.  Eigen's own way with triangles is made for large ones; of
+// a block whose size is known it takes several times as long.
+template <typename Block, typename Columns>
+void SolveLower(const Block& lower, Columns* columns) {
+  if constexpr (Block::SizeAtCompileTime == Eigen::Dynamic) {
+    lower.template triangularView<Eigen::Lower>().solveInPlace(*columns);
+  } else {
+    constexpr int kRows = Block::RowsAtCompileTime;
+    constexpr int kColumns = Columns::ColsAtCompileTime;
+    // Row after row: all columns at once.
+    Eigen::Matrix<double, kRows, kColumns,
+                  kColumns == 1 ? Eigen::ColMajor : Eigen::RowMajor>
+        rows = *columns;
+    for (int j = 0; j < kRows; ++j) {
+      rows.row(j) /= lower(j, j);
+      for (int i = j + 1; i < kRows; ++i) {
+        rows.row(i) -= lower(i, j) * rows.row(j);
+      }
+    }
+    *columns = rows;
+  }
+}
+
+// *from −= A·x, and Aᵀ·x.
+template <typename Block, typename From, typename Column>
+void Subtract(const Block& a, const Column& x, From* from) {
+  for (Eigen::Index j = 0; j < a.cols(); ++j) *from -= x[j] * a.col(j);
+}
+
+template <typename Block, typename From, typename Column>
+void SubtractTransposed(const Block& a, const Column& x, From* from) {
+  for (Eigen::Index j = 0; j < a.cols(); ++j) (*from)[j] -= a.col(j).dot(x);
+}
+
+// L⁻ᵀ of a column.
+template <typename Block, typename Column>
+void SolveTransposed(const Block& lower, Column* column) {
+  if constexpr (Block::SizeAtCompileTime == Eigen::Dynamic) {
+    lower.transpose().template triangularView<Eigen::Upper>().solveInPlace(
+        *column);
+  } else {
+    for (int j = Block::RowsAtCompileTime - 1; j >= 0; --j) {
+      double value = (*column)[j];
+      for (int i = j + 1; i < Block::RowsAtCompileTime; ++i) {
+        value -= lower(i, j) * (*column)[i];
+      }
+      (*column)[j] = value / lower(j, j);
+    }
+  }
+}
+
+// *from −= upᵀ·up.
+template <typename Block>
+void SubtractSquare(const Block& up, Block* from) {
+  if constexpr (Block::SizeAtCompileTime == Eigen::Dynamic) {
+    from->noalias() -= up.transpose() * up;
+  } else {
+    const Block rows = up.transpose();
+    for (int j = 0; j < Block::ColsAtCompileTime; ++j) {
+      auto column = from->col(j);
+      Eigen::Matrix<double, Block::RowsAtCompileTime, 1> sum = column;
+      for (int k = 0; k < Block::RowsAtCompileTime; ++k) {
+        sum -= rows(j, k) * rows.col(k);
+      }
+      column = sum;
+    }
+  }
+}
+
 }  // namespace
 
 template <int kSize>
@@ -65,17 +134,11 @@ template <int kSize>
 bool BlockTridiagonalOf<kSize>::Factorize() {
   bool is_definite = true;
   for (int k = 0; k < blocks(); ++k) {
-    if (k > 0) {
-      const Block& up = above[k - 1];  // L⁻¹ E
-      diagonal[k].noalias() -= up.transpose() * up;
-    }
+    if (k > 0) SubtractSquare(above[k - 1], &diagonal[k]);  // of L⁻¹ E
     is_definite = Cholesky(&diagonal[k]) && is_definite;
-    if (k + 1 < blocks()) {
-      diagonal[k].template triangularView<Eigen::Lower>().solveInPlace(
-          above[k]);
-    }
-    if (k > 0) border[k].noalias() -= above[k - 1].transpose() * border[k - 1];
-    diagonal[k].template triangularView<Eigen::Lower>().solveInPlace(border[k]);
+    if (k + 1 < blocks()) SolveLower(diagonal[k], &above[k]);
+    if (k > 0) SubtractTransposed(above[k - 1], border[k - 1], &border[k]);
+    SolveLower(diagonal[k], &border[k]);
   }
   const double whole = std::abs(corner);
   for (const Vector& column : border) corner -= column.squaredNorm();
@@ -90,10 +153,8 @@ template <int kSize>
 void BlockTridiagonalOf<kSize>::Forward(Eigen::VectorXd* x) const {
   for (int k = 0; k < blocks(); ++k) {
     auto here = Part(x, k);
-    if (k > 0) {
-      here -= above[k - 1].transpose() * Part(x, k - 1);
-    }
-    diagonal[k].template triangularView<Eigen::Lower>().solveInPlace(here);
+    if (k > 0) SubtractTransposed(above[k - 1], Part(x, k - 1), &here);
+    SolveLower(diagonal[k], &here);
   }
 }
 
@@ -101,13 +162,8 @@ template <int kSize>
 void BlockTridiagonalOf<kSize>::Backward(Eigen::VectorXd* x) const {
   for (int k = blocks() - 1; k >= 0; --k) {
     auto here = Part(x, k);
-    if (k + 1 < blocks()) {
-      here -= above[k] * Part(x, k + 1);
-    }
-    diagonal[k]
-        .transpose()
-        .template triangularView<Eigen::Upper>()
-        .solveInPlace(here);
+    if (k + 1 < blocks()) Subtract(above[k], Part(x, k + 1), &here);
+    SolveTransposed(diagonal[k], &here);
   }
 }
 

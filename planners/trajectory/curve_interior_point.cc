@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "planners/trajectory/curve_bounds.h"
+
 namespace phongpd::internal {
 namespace {
 
@@ -28,18 +30,21 @@ CurveInteriorPoint::CurveInteriorPoint(const CurveProgram& program)
       pieces_(program.size()),
       hessian_(pieces_),
       linear_(VectorXd::Zero(hessian_.size())) {
-  first_.push_back(0);
+  First first{0, 0, 0};
   for (const CurveProgram::Piece& piece : program.pieces) {
+    first.row = first.bound;
+    for (const auto& bounds : piece.bounds) first.row += RowsOf(bounds);
+    first_.push_back(first);
     for (const CurveProgram::Row& row : piece.rows) {
-      if (row.kind == CurveProgram::Row::kNorm) {
-        norms_.push_back(static_cast<int>(rows_.size()));
-      }
+      has_norms_ = has_norms_ || row.kind == CurveProgram::Row::kNorm;
       rows_.push_back({&row, row.direction, row.eta, 0.0});
     }
-    first_.push_back(static_cast<int>(rows_.size()));
+    first.other = static_cast<int>(rows_.size());
+    first.bound = first.row + static_cast<int>(piece.rows.size());
   }
-  slacks_.resize(first_.back());
-  slopes_.resize(first_.back());
+  first_.push_back(first);
+  slacks_.resize(CountRows());
+  slopes_.resize(CountRows());
   AddObjective(program_, &hessian_, &linear_);
 }
 
@@ -59,25 +64,53 @@ void CurveInteriorPoint::Fix(VectorXd* x) const { x->head<9>().setZero(); }
 void CurveInteriorPoint::FindSlacks(const VectorXd& x) {
   for (int i = 0; i < pieces_; ++i) {
     const CurveLocal local = ToLocal(program_, i, x);
+    ForBounds(program_.pieces[i], first_[i].bound,
+              [&](const auto& bounds, int at) {
+                SlacksOf(bounds, local, slacks_.data() + at);
+              });
+    double* to = slacks_.data() + first_[i].row;
     double along = 0.0;
-    for (int k = first_[i]; k < first_[i + 1]; ++k) {
-      slacks_[k] = SlackAt(&rows_[k], local, &along);
+    for (int k = first_[i].other; k < first_[i + 1].other; ++k) {
+      *to++ = SlackAt(&rows_[k], local, &along);
     }
   }
 }
 
 void CurveInteriorPoint::FollowSlacks(const VectorXd& x, double alpha) {
   slacks_ = state_.slack - alpha * slopes_;
-  int piece = -1;
-  CurveLocal local;
-  double along = 0.0;
-  for (const int k : norms_) {
-    if (piece < 0 || k >= first_[piece + 1]) {
-      while (k >= first_[piece + 1]) ++piece;
-      local = ToLocal(program_, piece, x);
+  for (int i = 0; has_norms_ && i < pieces_; ++i) {
+    const CurveLocal local = ToLocal(program_, i, x);
+    double* to = slacks_.data() + first_[i].row;
+    double along = 0.0;
+    for (int k = first_[i].other; k < first_[i + 1].other; ++k, ++to) {
+      if (rows_[k].row->kind != CurveProgram::Row::kNorm) continue;
+      *to = SlackAt(&rows_[k], local, &along);
     }
-    slacks_[k] = SlackAt(&rows_[k], local, &along);
   }
+}
+
+double CurveInteriorPoint::SumOfT(int piece,
+                                  const Eigen::ArrayXd& weights) const {
+  double sum = 0.0;
+  ForBounds(program_.pieces[piece], first_[piece].bound,
+            [&](const auto& bounds, int at) {
+              sum += TermsInT(bounds, weights.data() + at);
+            });
+  int at = first_[piece].row;
+  for (const auto& row : program_.pieces[piece].rows) {
+    // Others may weigh infinitely much.
+    if (row.t != 0.0) sum += row.t * weights[at];
+    ++at;
+  }
+  return sum;
+}
+
+int CurveInteriorPoint::CountMissing(int piece) const {
+  int count = 0;
+  for (const auto& row : program_.pieces[piece].rows) {
+    count += row.missing < 0.0;
+  }
+  return count;
 }
 
 // Duals are μ/slack, with the μ that the price of t asks for; and m is where
@@ -85,18 +118,13 @@ void CurveInteriorPoint::FollowSlacks(const VectorXd& x, double alpha) {
 bool CurveInteriorPoint::Begin(VectorXd* x) {
   (*x)[x->size() - 1] = kStartT;
   FindSlacks(*x);
+  const Eigen::ArrayXd inverse = slacks_.inverse();
   double of_t = 0.0;
-  for (int k = 0; k < first_.back(); ++k) {
-    if (rows_[k].row->t < 0.0) of_t -= rows_[k].row->t / slacks_[k];
-  }
+  for (int i = 0; i < pieces_; ++i) of_t -= SumOfT(i, inverse);
   const double mu = program_.t / of_t;
   for (int i = 0; program_.missing > 0.0 && i < pieces_; ++i) {
-    int count = 0;
-    for (int k = first_[i]; k < first_[i + 1]; ++k) {
-      count += rows_[k].row->missing < 0.0;
-    }
     (*x)[kBlock * i + 10] =
-        program_.pieces[i].missing + mu * count / program_.missing;
+        program_.pieces[i].missing + mu * CountMissing(i) / program_.missing;
   }
   FindSlacks(*x);
   if (!(slacks_ > 0.0).all()) return false;
@@ -104,23 +132,38 @@ bool CurveInteriorPoint::Begin(VectorXd* x) {
   return true;
 }
 
+CurveLocal CurveInteriorPoint::SumOfRows(int piece,
+                                         const Eigen::ArrayXd& weights) const {
+  const First& first = first_[piece];
+  CurveLocal sum = CurveLocal::Zero();
+  ForBounds(program_.pieces[piece], first.bound,
+            [&](const auto& bounds, int at) {
+              AddGradients(bounds, weights.data() + at, &sum);
+            });
+  ForRows(
+      rows_, first.other, first_[piece + 1].other, weights, first.row,
+      [&](int k, const CurveRowWeights& by) { AddRow(rows_[k], by, &sum); });
+  return sum;
+}
+
 void CurveInteriorPoint::AddRows(BlockTridiagonal* matrix,
                                  VectorXd* residual) const {
-  const Eigen::ArrayXd squares = state_.dual / state_.slack;
+  const Eigen::ArrayXd squares = state_.Squares();
   for (int i = 0; i < pieces_; ++i) {
+    const First& first = first_[i];
     CurveLocalMatrix lower = CurveLocalMatrix::Zero();
-    CurveLocal of_rows = CurveLocal::Zero();
-    ForRows<OfSquares>(rows_, first_[i], first_[i + 1], squares,
-                       [&](int k, const CurveRowWeights& by) {
-                         AddSquare(rows_[k], by, state_.dual[k], &lower);
-                       });
-    ForRows<OfGradients>(rows_, first_[i], first_[i + 1], state_.dual,
-                         [&](int k, const CurveRowWeights& by) {
-                           AddRow(rows_[k], by, &of_rows);
-                         });
+    ForBounds(program_.pieces[i], first.bound, [&](const auto& bounds, int at) {
+      AddSquares(bounds, squares.data() + at, &lower);
+    });
+    ForRows(rows_, first.other, first_[i + 1].other, squares, first.row,
+            [&](int k, const CurveRowWeights& by) {
+              // Norms are never one of two.
+              const double dual = state_.dual[first.row + k - first.other];
+              AddSquare(rows_[k], by, dual, &lower);
+            });
     CurveLocalMatrix local = lower.selfadjointView<Eigen::Lower>();
     AddMatrix(program_, i, &local, matrix);
-    AddGradient(program_, i, of_rows, residual);
+    AddGradient(program_, i, SumOfRows(i, state_.dual), residual);
   }
 }
 
@@ -128,9 +171,14 @@ void CurveInteriorPoint::AddRows(BlockTridiagonal* matrix,
 double CurveInteriorPoint::FollowRows(const VectorXd& step, double centre) {
   for (int i = 0; i < pieces_; ++i) {
     const CurveLocal local = ToLocal(program_, i, step);
+    ForBounds(program_.pieces[i], first_[i].bound,
+              [&](const auto& bounds, int at) {
+                SlopesOf(bounds, local, slopes_.data() + at);
+              });
+    double* to = slopes_.data() + first_[i].row;
     double along = 0.0;
-    for (int k = first_[i]; k < first_[i + 1]; ++k) {
-      slopes_[k] = Slope(rows_[k], local, &along);
+    for (int k = first_[i].other; k < first_[i + 1].other; ++k) {
+      *to++ = Slope(rows_[k], local, &along);
     }
   }
   return state_.Follow(slopes_, centre);
@@ -139,12 +187,7 @@ double CurveInteriorPoint::FollowRows(const VectorXd& step, double centre) {
 void CurveInteriorPoint::AddCentres(double centre, VectorXd* to) const {
   const Eigen::ArrayXd multipliers = state_.Multipliers(centre);
   for (int i = 0; i < pieces_; ++i) {
-    CurveLocal of_rows = CurveLocal::Zero();
-    ForRows<OfGradients>(rows_, first_[i], first_[i + 1], multipliers,
-                         [&](int k, const CurveRowWeights& by) {
-                           AddRow(rows_[k], by, &of_rows);
-                         });
-    AddGradient(program_, i, of_rows, to);
+    AddGradient(program_, i, SumOfRows(i, multipliers), to);
   }
 }
 
@@ -153,7 +196,7 @@ CurveInteriorPoint::Result CurveInteriorPoint::Solve() {
   result.x = VectorXd::Zero(hessian_.size());
   VectorXd x = result.x;
   // Not so where rounding takes all room: then no step is the answer.
-  result.rows = first_.back();
+  result.rows = CountRows();
   if (!Begin(&x)) return result;
 
   BlockTridiagonal matrix(pieces_);

@@ -37,7 +37,13 @@ class CurveInteriorPoint {
   // The same `alpha` of the step further on, whose slopes are known: what is
   // linear need not be looked at again.  x: there.
   void FollowSlacks(const Eigen::VectorXd& x, double alpha);
+  int CountRows() const { return first_.back().bound; }
+  // Σ of weight · what t weighs, and how many rows know m.
+  double SumOfT(int piece, const Eigen::ArrayXd& weights) const;
+  int CountMissing(int piece) const;
   bool Begin(Eigen::VectorXd* x);
+  // Σ of weight · gradient of a piece's rows.
+  CurveLocal SumOfRows(int piece, const Eigen::ArrayXd& weights) const;
   void AddRows(BlockTridiagonal* matrix, Eigen::VectorXd* residual) const;
   double FollowRows(const Eigen::VectorXd& step, double centre);
   void AddCentres(double centre, Eigen::VectorXd* to) const;
@@ -46,9 +52,15 @@ class CurveInteriorPoint {
   int pieces_;
   BlockTridiagonal hessian_;
   Eigen::VectorXd linear_;
-  std::vector<CurveRowNow> rows_;  // of all pieces
-  std::vector<int> norms_;         // those that are norms
-  std::vector<int> first_;         // of each piece; and how many there are
+  // Of each piece the rows of its bounds, then its other rows.  Where its
+  // first one is among all, where the first of the others is, and which that is
+  // among `rows_`; and what would come next.
+  struct First {
+    int bound, row, other;
+  };
+  std::vector<First> first_;
+  std::vector<CurveRowNow> rows_;
+  bool has_norms_ = false;  // among `rows_`
   InteriorRows state_;
   Eigen::ArrayXd slacks_, slopes_;  // of each row, at a new x or along a step
 };

@@ -23,9 +23,7 @@ constexpr double kPriceOfT = 20.0;  // where the pace is kept
 // the largest that there is.
 constexpr double kNoLimit = 1e100;
 
-// Differences of order k of points, times what makes derivatives of them.
-constexpr std::array<std::array<double, 4>, 4> kDifference = {
-    {{1, 0, 0, 0}, {-1, 1, 0, 0}, {1, -2, 1, 0}, {-1, 3, -3, 1}}};
+// What makes derivatives of differences of order k of points.
 constexpr std::array<double, 4> kFactor = {1.0, 5.0, 20.0, 60.0};
 
 class Builder {
@@ -83,35 +81,20 @@ class Builder {
   }
 
  private:
-  // Σ_j w_j ΔB_j of a derivative of order k at its point j, in units of τ, its
-  // change by η and its value, all as shares of 1/scale.
   void AddLimits(int i, const KnotCurve::Points& b, double h,
                  CurveProgram::Piece* piece) const {
     const PieceDerivatives of(b, h);
     const MotionLimits& limits = options_.limits;
-    for (int j = 0; j < 5; ++j) {
-      if (IsGiven(i, 1, j)) continue;
-      AddLimit(1, j, h, of.velocity.col(j), limits.velocity, piece);
-    }
-    for (int j = 0; j < 4; ++j) {
-      if (IsGiven(i, 2, j)) continue;
-      AddLimit(2, j, h, of.acceleration.col(j), limits.acceleration, piece);
-    }
-    for (int j = 0; j < 3; ++j) {
-      AddLimit(3, j, h, of.jerk.col(j), limits.jerk, piece);
-    }
-  }
-
-  static CurveProgram::Row::Repeats MirroredIf(bool is_second) {
-    return is_second ? CurveProgram::Row::kMirrored
-                     : CurveProgram::Row::kNothing;
+    AddLimit(i, 1, h, of.velocity, limits.velocity, piece);
+    AddLimit(i, 2, h, of.acceleration, limits.acceleration, piece);
+    AddLimit(i, 3, h, of.jerk, limits.jerk, piece);
   }
 
   // Points of derivatives that are what an end in motion says: they may be at
   // the limit.
   bool IsGiven(int i, int order, int j) const {
     const auto is_given = [&](const KnotCurve::State& end, int from_end) {
-      return !(end.v.isZero(0.0) && end.a.isZero(0.0)) &&
+      return order < 3 && !(end.v.isZero(0.0) && end.a.isZero(0.0)) &&
              from_end <= (order == 1 && end.a.isZero(0.0) ? 1 : 0);
     };
     return (i == 0 && is_given(now_.knots.front(), j)) ||
@@ -119,41 +102,48 @@ class Builder {
             is_given(now_.knots.back(), 5 - order - j));
   }
 
-  void AddLimit(int order, int j, double h, const Vector3d& value,
+  void AddLimit(int i, int order, double h,
+                const Eigen::Ref<const Eigen::Matrix3Xd>& of,
                 const Vector3d& limit, CurveProgram::Piece* piece) const {
-    CurveProgram::Row row;
-    row.first = j;
-    row.last = j + order;
-    row.t = -order;
-    const double most = 1.0 - options_.spare;
-    row.constant = -most;
+    int first = 0, last = 5 - order;
+    while (first <= last && IsGiven(i, order, first)) ++first;
+    while (first <= last && IsGiven(i, order, last)) --last;
     const double scale = kFactor[order] / std::pow(h, order) * options_.trust;
-    const auto set_weights = [&](double by) {
-      for (int k = 0; k <= order; ++k) {
-        row.weight[j + k] = by * kDifference[order][k];
-      }
-    };
     if (options_.limits.by_norm) {
       if (limit[0] > kNoLimit) return;
-      row.kind = CurveProgram::Row::kNorm;
-      set_weights(scale / limit[0]);
-      row.value = value / limit[0];
-      row.value_by_eta = -order * value / limit[0];
-      piece->rows.push_back(row);
+      for (int j = first; j <= last; ++j) {
+        piece->rows.push_back(NormRow(order, j, scale, of.col(j), limit[0]));
+      }
       return;
     }
-    row.kind = CurveProgram::Row::kAxis;
+    CurveProgram::Bounds bounds;
+    bounds.order = order;
+    bounds.first = first;
+    bounds.last = last;
+    bounds.most = 1.0 - options_.spare;
     for (int axis = 0; axis < 3; ++axis) {
       if (limit[axis] > kNoLimit) continue;
-      row.axis = axis;
-      for (const double sign : {1.0, -1.0}) {
-        set_weights(sign * scale / limit[axis]);
-        row.eta = -sign * order * value[axis] / limit[axis];
-        row.constant = sign * value[axis] / limit[axis] - most;
-        row.repeats = MirroredIf(sign < 0.0);
-        piece->rows.push_back(row);
-      }
+      bounds.scale[axis] = scale / limit[axis];
+      bounds.value.row(axis).head(6 - order) = of.row(axis) / limit[axis];
+      bounds.t[axis] = -order;
     }
+    if (!bounds.t.isZero(0.0)) piece->bounds.push_back(bounds);
+  }
+
+  CurveProgram::Row NormRow(int order, int j, double scale,
+                            const Vector3d& value, double limit) const {
+    CurveProgram::Row row;
+    row.kind = CurveProgram::Row::kNorm;
+    row.first = j;
+    row.last = j + order;
+    for (int k = 0; k <= order; ++k) {
+      row.weight[j + k] = scale / limit * kDifferences[order][k];
+    }
+    row.value = value / limit;
+    row.value_by_eta = -order * row.value;
+    row.t = -order;
+    row.constant = options_.spare - 1.0;
+    return row;
   }
 
   void AddVia(const ViaKnot& via, CurveProgram* program) const {
@@ -184,7 +174,7 @@ class Builder {
       if (options_.margin > kept) {
         row.constant = (options_.margin - one.gap) / tau;
         row.missing = -1.0;
-        row.repeats = CurveProgram::Row::kSame;
+        row.repeats = true;
         piece->rows.push_back(row);
         piece->missing =
             std::max(piece->missing, (options_.margin - one.gap) / tau);
@@ -197,26 +187,15 @@ class Builder {
   }
 
   void AddTrust(CurveProgram::Piece* piece) const {
-    CurveProgram::Row row;
-    row.kind = CurveProgram::Row::kAxis;
-    row.constant = -1.0;
-    for (int j = 0; j < 6; ++j) {
-      row.weight.setZero();
-      row.first = row.last = j;
-      for (row.axis = 0; row.axis < 3; ++row.axis) {
-        for (const double sign : {1.0, -1.0}) {
-          row.weight[j] = sign;
-          row.repeats = MirroredIf(sign < 0.0);
-          piece->rows.push_back(row);
-        }
-      }
-    }
+    CurveProgram::Bounds points;
+    points.last = 5;
+    points.scale.setOnes();
+    piece->bounds.push_back(points);
     CurveProgram::Row eta;
     eta.kind = CurveProgram::Row::kScalar;
     eta.constant = -1.0;
     for (const double sign : {1.0, -1.0}) {
       eta.eta = sign / options_.sigma;
-      eta.repeats = MirroredIf(sign < 0.0);
       piece->rows.push_back(eta);
     }
   }
@@ -230,7 +209,7 @@ class Builder {
       for (int j = 0; j < 3; ++j) {
         auto row = piece->jerk[axis].row(j);
         row.setZero();
-        for (int k = 0; k <= 3; ++k) row[j + k] = by * kDifference[3][k];
+        for (int k = 0; k <= 3; ++k) row[j + k] = by * kDifferences[3][k];
         row[6] = -3.0 * of.jerk(axis, j) / scale[axis];
         row[7] = of.jerk(axis, j) / scale[axis];
       }

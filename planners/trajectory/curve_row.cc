@@ -10,31 +10,25 @@ using Eigen::Vector3d;
 
 constexpr double kRound = 1e-3;  // |y| → (|y|² + this²)^½: smooth, and more
 
-using OfAxis =
-    Eigen::Map<const Eigen::Matrix<double, 6, 1>, 0, Eigen::InnerStride<3>>;
 using OfPoints = Eigen::Map<const Eigen::Matrix<double, 3, 6>>;
 
 // Of the terms in ΔB and η.
 double AlongRow(const CurveRowNow& now, const CurveLocal& step) {
   const CurveProgram::Row& row = *now.row;
   double along = now.eta * step[kCurveEta];
-  if (row.kind == CurveProgram::Row::kAxis) {
-    // All six, of which some weigh nothing: no branch depends on the row.
-    along += row.weight.dot(OfAxis(step.data() + row.axis));
-  } else if (row.kind != CurveProgram::Row::kScalar) {
-    for (int j = row.first; j <= row.last; ++j) {
-      along += row.weight[j] * now.direction.dot(step.segment<3>(3 * j));
-    }
+  if (row.kind == CurveProgram::Row::kScalar) return along;
+  Vector3d moved = Vector3d::Zero();
+  for (int j = row.first; j <= row.last; ++j) {
+    moved += row.weight[j] * step.segment<3>(3 * j);
   }
-  return along;
+  return along + now.direction.dot(moved);
 }
 
 }  // namespace
 
 double Slope(const CurveRowNow& now, const CurveLocal& step, double* along) {
   const CurveProgram::Row& row = *now.row;
-  if (row.repeats == CurveProgram::Row::kNothing) *along = AlongRow(now, step);
-  if (row.repeats == CurveProgram::Row::kMirrored) *along = -*along;
+  if (!row.repeats) *along = AlongRow(now, step);
   return *along + row.missing * step[kCurveMissing] + row.t * step[kCurveT];
 }
 
@@ -52,46 +46,19 @@ double SlackAt(CurveRowNow* now, const CurveLocal& x, double* along) {
   return -(norm + row.constant + row.t * x[kCurveT]);
 }
 
-CurveRowWeights OfSquares(CurveProgram::Row::Repeats repeats, double first,
-                          double second) {
-  return repeats == CurveProgram::Row::kSame
-             ? CurveRowWeights{first + second, second, 0.0}
-             : CurveRowWeights{first + second, 0.0, first - second};
-}
-
-CurveRowWeights OfGradients(CurveProgram::Row::Repeats repeats, double first,
-                            double second) {
-  return repeats == CurveProgram::Row::kSame
-             ? CurveRowWeights{first + second, second, 0.0}
-             : CurveRowWeights{first - second, 0.0, first + second};
-}
-
 void AddSquare(const CurveRowNow& now, const CurveRowWeights& by, double dual,
                CurveLocalMatrix* lower) {
   const CurveProgram::Row& row = *now.row;
   CurveLocalMatrix& m = *lower;
-  const double by_missing = by.missing * row.missing, by_t = by.t * row.t;
+  const double by_missing = by.missing * row.missing, by_t = by.along * row.t;
   const double by_eta = by.along * now.eta;
   m(kCurveEta, kCurveEta) += by_eta * now.eta;
   m(kCurveMissing, kCurveEta) += by_missing * now.eta;
   m(kCurveMissing, kCurveMissing) += by_missing * row.missing;
   m(kCurveT, kCurveEta) += by_t * now.eta;
   m(kCurveT, kCurveMissing) += by_t * row.missing;
-  m(kCurveT, kCurveT) += by.along * row.t * row.t;
+  m(kCurveT, kCurveT) += by_t * row.t;
   if (row.kind == CurveProgram::Row::kScalar) return;
-  if (row.kind == CurveProgram::Row::kAxis) {
-    for (int j = row.first; j <= row.last; ++j) {
-      const double weight = row.weight[j], of_j = by.along * weight;
-      const int at = 3 * j + row.axis;
-      for (int k = j; k <= row.last; ++k) {
-        m(3 * k + row.axis, at) += of_j * row.weight[k];
-      }
-      m(kCurveEta, at) += weight * by_eta;
-      m(kCurveMissing, at) += weight * by_missing;
-      m(kCurveT, at) += weight * by_t;
-    }
-    return;
-  }
   Eigen::Matrix3d square = by.along * now.direction * now.direction.transpose();
   Vector3d with_eta = by_eta * now.direction;
   if (row.kind == CurveProgram::Row::kNorm) {
@@ -121,15 +88,11 @@ void AddRow(const CurveRowNow& now, const CurveRowWeights& by,
   const CurveProgram::Row& row = *now.row;
   (*gradient)[kCurveEta] += by.along * now.eta;
   (*gradient)[kCurveMissing] += by.missing * row.missing;
-  (*gradient)[kCurveT] += by.t * row.t;
+  (*gradient)[kCurveT] += by.along * row.t;
   if (row.kind == CurveProgram::Row::kScalar) return;
+  const Vector3d along = by.along * now.direction;
   for (int j = row.first; j <= row.last; ++j) {
-    const double weight = by.along * row.weight[j];
-    if (row.kind == CurveProgram::Row::kAxis) {
-      (*gradient)[3 * j + row.axis] += weight;
-    } else {
-      gradient->segment<3>(3 * j) += weight * now.direction;
-    }
+    gradient->segment<3>(3 * j) += row.weight[j] * along;
   }
 }
 

@@ -23,15 +23,14 @@ double Slope(const CurveRowNow& now, const CurveLocal& step, double* along);
 // The slack at x, > 0 within the row; of a norm also its gradient there.
 double SlackAt(CurveRowNow* now, const CurveLocal& x, double* along);
 
-// What a row's terms weigh: those in ΔB and η, that in m and that in t.  Of two
-// rows that repeat each other, what they weigh together.
+// What a row's terms weigh: those in ΔB, η and t, and those in m.  Of two rows
+// of which one repeats the other, what they weigh together.
 struct CurveRowWeights {
-  double along, missing, t;
+  double along, missing;
 };
 
-// *lower += by · the square of the row's gradient, of which the terms in t
-// beside others weigh by.t; and its curvature by the dual, if it is a norm.
-// Below the diagonal, and on it.
+// *lower += by · the square of the row's gradient; and its curvature by the
+// dual, if it is a norm.  Below the diagonal, and on it.
 void AddSquare(const CurveRowNow& now, const CurveRowWeights& by, double dual,
                CurveLocalMatrix* lower);
 
@@ -39,30 +38,20 @@ void AddSquare(const CurveRowNow& now, const CurveRowWeights& by, double dual,
 void AddRow(const CurveRowNow& now, const CurveRowWeights& by,
             CurveLocal* gradient);
 
-// What rows weigh in a sum of squares of their gradients, and in one of the
-// gradients.
-CurveRowWeights OfSquares(CurveProgram::Row::Repeats repeats, double first,
-                          double second);
-CurveRowWeights OfGradients(CurveProgram::Row::Repeats repeats, double first,
-                            double second);
-
-// add(k, WEIGHTS) for the rows k from `begin` to before `end`, of weights w;
-// once for two that repeat each other, of which k has all the terms.
-template <CurveRowWeights (*kWeights)(CurveProgram::Row::Repeats, double,
-                                      double),
-          typename Add>
+// add(ROW, WEIGHTS) for the rows from `begin` to before `end`, of weights w
+// from its entry `at` on; once for two of which one repeats the other.
+template <typename Add>
 void ForRows(const std::vector<CurveRowNow>& rows, int begin, int end,
-             const Eigen::ArrayXd& w, const Add& add) {
-  using Row = CurveProgram::Row;
-  for (int k = begin; k < end; ++k) {
-    const Row::Repeats repeats =
-        k + 1 < end ? rows[k + 1].row->repeats : Row::kNothing;
-    if (repeats == Row::kNothing) {
-      add(k, CurveRowWeights{w[k], w[k], w[k]});
+             const Eigen::ArrayXd& w, int at, const Add& add) {
+  for (int k = begin; k < end; ++k, ++at) {
+    const bool is_pair = k + 1 < end && rows[k + 1].row->repeats;
+    if (!is_pair) {
+      add(k, CurveRowWeights{w[at], w[at]});
       continue;
     }
-    add(repeats == Row::kSame ? k + 1 : k, kWeights(repeats, w[k], w[k + 1]));
+    add(k + 1, CurveRowWeights{w[at] + w[at + 1], w[at + 1]});
     ++k;
+    ++at;
   }
 }
 

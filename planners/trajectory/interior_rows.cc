@@ -9,16 +9,18 @@ using Eigen::ArrayXd;
 
 void InteriorRows::Begin(const ArrayXd& slacks, double mu) {
   slack = slacks;
-  dual = mu / slack;
+  inverse_slack_ = slack.inverse();
+  dual = mu * inverse_slack_;
+  inverse_dual_ = dual.inverse();
   product_ = ArrayXd::Zero(size());
 }
 
 double InteriorRows::Follow(const ArrayXd& slopes, double centre) {
   slack_step_ = -slopes;
-  dual_step_ = (dual * slopes + centre - product_) / slack - dual;
+  dual_step_ = (dual * slopes + centre - product_) * inverse_slack_ - dual;
   if (size() == 0) return 1.0;
-  const double shrinks =
-      std::max((slopes / slack).maxCoeff(), (-dual_step_ / dual).maxCoeff());
+  const double shrinks = std::max((slopes * inverse_slack_).maxCoeff(),
+                                  (-dual_step_ * inverse_dual_).maxCoeff());
   return 1.0 / std::max(1.0, shrinks);
 }
 
@@ -37,7 +39,9 @@ void InteriorRows::Move(double reach) {
 
 void InteriorRows::Move(double reach, const ArrayXd& slacks) {
   slack = slacks;
+  inverse_slack_ = slack.inverse();
   dual += reach * dual_step_;
+  inverse_dual_ = dual.inverse();
   product_.setZero();
 }
 

@@ -33,12 +33,16 @@ class InteriorRows {
 
   // μ_i for the gradient of row i in the corrector's right-hand side.
   Eigen::ArrayXd Multipliers(double centre) const {
-    return (product_ - centre) / slack;
+    return (product_ - centre) * inverse_slack_;
   }
+
+  // y/s, of each: what the square of a row's gradient weighs.
+  Eigen::ArrayXd Squares() const { return dual * inverse_slack_; }
 
   Eigen::ArrayXd slack, dual;
 
  private:
+  Eigen::ArrayXd inverse_slack_, inverse_dual_;
   Eigen::ArrayXd slack_step_, dual_step_, product_;
 };
 

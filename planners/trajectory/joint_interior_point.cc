@@ -50,7 +50,11 @@ JointInteriorPoint::JointInteriorPoint(const JointProgram& program)
 void JointInteriorPoint::AddLines(int curve, int piece) {
   std::vector<Line>& lines = lines_[piece];
   const bool stays = program_.stays[static_cast<std::size_t>(curve)];
-  for (const Row& row : program_.curves[curve].pieces[piece].rows) {
+  const CurveProgram::Piece& of = program_.curves[curve].pieces[piece];
+  for (const auto& bounds : of.bounds) {
+    if (!stays) AddBoundLines(curve, bounds, &lines);
+  }
+  for (const Row& row : of.rows) {
     // Of what every curve has the same of, those of the first one.
     if (row.kind == Row::kScalar && curve > 0) continue;
     if (row.kind != Row::kScalar && stays) continue;
@@ -58,23 +62,41 @@ void JointInteriorPoint::AddLines(int curve, int piece) {
       AddNormLines(curve, row, &lines);
       continue;
     }
-    if (row.repeats == Row::kMirrored) {
-      lines.back().sides = 2;
-      lines.back().constant[1] = row.constant;
-      continue;
-    }
     Line line;
     line.first = row.kind == Row::kScalar ? -1 : curve;
     line.from = row.first;
     line.to = row.last;
     line.weight = row.weight;
-    line.axis = row.kind == Row::kAxis ? row.axis : -1;
-    line.direction = row.kind == Row::kAxis ? Vector3d(Vector3d::Unit(row.axis))
-                                            : row.direction;
+    line.direction = row.direction;
     line.eta = row.eta;
     line.t = row.t;
     line.constant[0] = row.constant;
     lines.push_back(line);
+  }
+}
+
+void JointInteriorPoint::AddBoundLines(int curve,
+                                       const CurveProgram::Bounds& bounds,
+                                       std::vector<Line>* lines) const {
+  for (int j = bounds.first; j <= bounds.last; ++j) {
+    for (int axis = 0; axis < 3; ++axis) {
+      if (bounds.scale[axis] == 0.0) continue;
+      const double value = bounds.value(axis, j);
+      Line line;
+      line.first = curve;
+      line.from = j;
+      line.to = j + bounds.order;
+      for (int k = 0; k <= bounds.order; ++k) {
+        line.weight[j + k] = bounds.scale[axis] * kDifferences[bounds.order][k];
+      }
+      line.axis = axis;
+      line.direction = Vector3d::Unit(axis);
+      line.eta = -bounds.order * value;
+      line.t = bounds.t[axis];
+      line.sides = 2;
+      line.constant = {value - bounds.most, -value - bounds.most};
+      lines->push_back(line);
+    }
   }
 }
 
@@ -243,7 +265,7 @@ bool JointInteriorPoint::Begin(VectorXd* x) {
 void JointInteriorPoint::AddRows(WideTridiagonal* matrix,
                                  VectorXd* residual) const {
   const int t = unknowns_.TAt();
-  const Eigen::ArrayXd squares = state_.dual / state_.slack;
+  const Eigen::ArrayXd squares = state_.Squares();
   MatrixXd local(t + 1, t + 1);
   for (int i = 0; i < unknowns_.pieces(); ++i) {
     local.setZero();

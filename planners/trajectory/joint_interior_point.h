@@ -40,6 +40,8 @@ class JointInteriorPoint {
   };
 
   void AddLines(int curve, int piece);
+  void AddBoundLines(int curve, const CurveProgram::Bounds& bounds,
+                     std::vector<Line>* lines) const;
   void AddNormLines(int curve, const CurveProgram::Row& row,
                     std::vector<Line>* lines) const;
   void AddJointRows();

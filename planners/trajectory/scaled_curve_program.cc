@@ -60,29 +60,40 @@ void AddGradient(const CurveProgram& program, int piece,
   to.segment<3>(6) += s * s * b3;
 }
 
-// FᵀMF with ToLocal's F, columns first, then rows.
+// FᵀMF with ToLocal's F: M F by columns, then Fᵀ of each of its columns.
 void AddMatrix(const CurveProgram& program, int piece, CurveLocalMatrix* local,
                BlockTridiagonal* to) {
   const CurveProgram::Piece& of = program.pieces[piece];
   const double r = of.before, s = of.after;
   CurveLocalMatrix& m = *local;
-  for (int pass = 0; pass < 2; ++pass) {
-    for (int j = 0; j < 6; ++j) {
-      for (int c = 0; c < 3; ++c) {
-        m.col(kCurveEta) += of.by_eta(c, j) * m.col(3 * j + c);
-      }
-    }
+  for (int j = 1; j <= 4; ++j) {  // the ends do not know η
     for (int c = 0; c < 3; ++c) {
-      auto b0 = m.col(c), b1 = m.col(3 + c), b2 = m.col(6 + c);
-      b0 += b1 + b2;
-      b1 = r * (b1 + 2.0 * b2);
-      b2 *= r * r;
-      auto b3 = m.col(9 + c), b4 = m.col(12 + c), b5 = m.col(15 + c);
-      b5 += b4 + b3;
-      b4 = -s * (b4 + 2.0 * b3);
-      b3 *= s * s;
+      m.col(kCurveEta) += of.by_eta(c, j) * m.col(3 * j + c);
     }
-    m.transposeInPlace();
+  }
+  for (int c = 0; c < 3; ++c) {
+    auto b0 = m.col(c), b1 = m.col(3 + c), b2 = m.col(6 + c);
+    b0 += b1 + b2;
+    b1 = r * (b1 + 2.0 * b2);
+    b2 *= r * r;
+    auto b3 = m.col(9 + c), b4 = m.col(12 + c), b5 = m.col(15 + c);
+    b5 += b4 + b3;
+    b4 = -s * (b4 + 2.0 * b3);
+    b3 *= s * s;
+  }
+  const Eigen::Map<const Eigen::Matrix<double, 12, 1>> by_eta(
+      of.by_eta.col(1).data());
+  for (int k = 0; k < 21; ++k) {
+    auto column = m.col(k);
+    column[kCurveEta] += by_eta.dot(column.segment<12>(3));
+    const Vector3d b1 = column.segment<3>(3), b2 = column.segment<3>(6);
+    column.segment<3>(0) += b1 + b2;
+    column.segment<3>(3) = r * (b1 + 2.0 * b2);
+    column.segment<3>(6) = r * r * b2;
+    const Vector3d b3 = column.segment<3>(9), b4 = column.segment<3>(12);
+    column.segment<3>(15) += b4 + b3;
+    column.segment<3>(12) = -s * (b4 + 2.0 * b3);
+    column.segment<3>(9) = s * s * b3;
   }
   // The order after: p v a of the first knot; a v p of the second; η m t.
   to->diagonal[piece].topLeftCorner<9, 9>() += m.topLeftCorner<9, 9>();

@@ -15,26 +15,36 @@ namespace phongpd::internal {
 // Δa·pace²/20τ, η and m of piece k; those of the first knot's state, and all
 // of the last one, are fixed.  Then t.
 struct CurveProgram {
-  // constant + d·Σ_j w_j ΔB_j/τ + eta·η + missing·m + t·t ≤ 0, with d a unit
-  // vector along an axis, another direction, or none; or, of kNorm,
+  // |value_j + scale·(Δᵏ(ΔB/τ))_j − k·value_j·η| + t·t ≤ most, axis by axis,
+  // for j from first to last: of the points of a derivative of order k, with
+  // Δᵏ the differences of order k; or, k = 0, of the points.  An axis that is
+  // not bounded has scale, value and t 0.
+  struct Bounds {
+    int order = 0;  // k
+    int first = 0, last = -1;
+    Eigen::Array3d scale = Eigen::Array3d::Zero();
+    Eigen::Array<double, 3, 6> value = Eigen::Array<double, 3, 6>::Zero();
+    Eigen::Array3d t = Eigen::Array3d::Zero();
+    double most = 1.0;
+  };
+  // constant + d·Σ_j w_j ΔB_j/τ + eta·η + missing·m + t·t ≤ 0, with a unit
+  // vector d, or none; or, of kNorm,
   //   |value + value_by_eta·η + Σ_j w_j ΔB_j/τ| + constant + t·t ≤ 0.
   struct Row {
-    enum Kind { kAxis, kDirection, kScalar, kNorm };
+    enum Kind { kDirection, kScalar, kNorm };
     Kind kind = kScalar;
     int first = 0, last = -1;  // weights that are not 0
-    int axis = 0;
     Eigen::Matrix<double, 6, 1> weight = Eigen::Matrix<double, 6, 1>::Zero();
     Eigen::Vector3d direction = Eigen::Vector3d::Zero();
     double eta = 0.0, missing = 0.0, t = 0.0, constant = 0.0;
-    // The row before again, of a constant of its own, so that both have the
-    // work of one: with −w and −eta and without m; or as it is, without t, and
-    // the row before without m.
-    enum Repeats { kNothing, kMirrored, kSame };
-    Repeats repeats = kNothing;
+    // But for its constant and m the row before, which is without m, so that
+    // both have the work of one.
+    bool repeats = false;
     Eigen::Vector3d value = Eigen::Vector3d::Zero();
     Eigen::Vector3d value_by_eta = Eigen::Vector3d::Zero();
   };
   struct Piece {
+    std::vector<Bounds> bounds;
     std::vector<Row> rows;
     double before = 1.0, after = 1.0;  // h over the pace of both its knots
     double share = 0.0;                // h/T
@@ -53,6 +63,10 @@ struct CurveProgram {
 
   int size() const { return static_cast<int>(pieces.size()); }
 };
+
+// What differences of order k are of the k + 1 points from theirs on.
+inline constexpr std::array<std::array<double, 4>, 4> kDifferences = {
+    {{1, 0, 0, 0}, {-1, 1, 0, 0}, {1, -2, 1, 0}, {-1, 3, -3, 1}}};
 
 // The unknowns as a piece sees them, u = F·x: ΔB_0 … ΔB_5 in units of τ, axis
 // by axis, then η, m and t.  Rows and objective are written in these.
