@@ -10,7 +10,6 @@
 #include <memory>
 #include <mutex>
 #include <numeric>
-#include <tuple>
 #include <utility>
 
 #include "core/stopwatch.h"
@@ -23,11 +22,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-// The share of the margin that counts as all of it: of a wish as of polylines
-// (kToleratedMissing), of what is required but for rounding.
-constexpr double kWished = 0.9, kRequired = 1.0 - 1e-6;
-// Less than this share of what the first path keeps is worse, however fast.
-constexpr double kMarginLost = 0.5;
+// The share of a required margin that counts as all of it.
+constexpr double kRequired = 1.0 - 1e-6;
 // Of D: paths that are nowhere further apart are one way.
 constexpr double kAlike = 0.02;
 // A motion that takes no longer, as a share of the least time, needs no other
@@ -35,20 +31,19 @@ constexpr double kAlike = 0.02;
 constexpr double kNearLeast = 1.1;
 
 bool IsBetterCurve(const CurveSummary& a, const CurveSummary& b,
-                   const CurveOptions& options, double kept_share) {
+                   const CurveOptions& options, bool margin_is_required) {
   if (a.trajectory.empty() || b.trajectory.empty()) {
     // The least duration that is known counts where none is short enough.
     return !a.trajectory.empty() ||
            (b.trajectory.empty() && a.duration < b.duration);
   }
-  const bool a_keeps = a.margin >= kept_share * options.margin;
-  const bool b_keeps = b.margin >= kept_share * options.margin;
-  if (a_keeps != b_keeps) return a_keeps;
+  const double least = margin_is_required ? kRequired * options.margin : 0.0;
+  if ((a.margin >= least) != (b.margin >= least)) return a.margin >= least;
   if (options.duration > 0.0) {
     return SquaredJerk(a.trajectory, options.limits) <
            SquaredJerk(b.trajectory, options.limits);
   }
-  return a.duration < b.duration;
+  return a.cost < b.cost;
 }
 
 // Is every corner of `path` that near to the other one?
@@ -96,9 +91,8 @@ class Contest {
         is_compared ? RefineBest(refined) : OptimizeFirst(refined);
     BestCurve best;
     best.path = done.front();
-    const double share = margin_is_required_ ? kRequired : kWished;
     for (const std::size_t i : done) {
-      if (IsBetter(i, best.path, share)) best.path = i;
+      if (IsBetter(i, best.path)) best.path = i;
     }
     for (const Entry& entry : entries_) {
       best.tried += entry.is_tried ? 1 : 0;
@@ -117,11 +111,11 @@ class Contest {
     bool is_tried = false;
   };
 
-  bool IsBetter(std::size_t i, std::size_t than, double kept_share) const {
+  bool IsBetter(std::size_t i, std::size_t than) const {
     const Entry &one = entries_[i], &other = entries_[than];
     return i != than && one.is_tried &&
            one.found.status != PathStatus::kNotFree &&
-           IsBetterCurve(one.found, other.found, options_, kept_share);
+           IsBetterCurve(one.found, other.found, options_, margin_is_required_);
   }
 
   // Of a path whose turn it is; false if it comes too late.
@@ -175,23 +169,21 @@ class Contest {
     return true;
   }
 
-  // Could it be faster than what the first path has come to?
+  // Could it be better than what the first path has come to?
   bool IsShortEnough(std::size_t i) const {
-    return FastestAlong(paths_[i], options_.limits) < DurationOfFirst();
+    return FastestAlong(paths_[i], options_.limits) < CostOfFirst();
   }
 
-  double DurationOfFirst() const {
+  double CostOfFirst() const {
     const CurveSummary& first = entries_[0].found;
     return first.trajectory.empty() ? std::numeric_limits<double>::infinity()
-                                    : first.duration;
+                                    : first.cost;
   }
 
   // The less, the better what it has come to.
-  std::tuple<bool, bool, double> PlaceOf(std::size_t i) const {
+  std::pair<bool, double> PlaceOf(std::size_t i) const {
     const CurveSummary& found = entries_[i].found;
-    return {found.trajectory.empty(),
-            found.margin < kMarginLost * entries_[0].found.margin,
-            found.duration};
+    return {found.trajectory.empty(), found.cost};
   }
 
   // Wherever it goes, as far as limits know.
@@ -203,7 +195,7 @@ class Contest {
   std::vector<std::size_t> RefineBest(std::size_t refined) {
     Begin(0);
     std::vector<std::size_t> order = {0}, rivals;
-    const bool is_good = DurationOfFirst() <= kNearLeast * LeastOfAll();
+    const bool is_good = CostOfFirst() <= kNearLeast * LeastOfAll();
     for (std::size_t i = 1; i < paths_.size(); ++i) {
       const bool may_win = !is_good && IsAnotherWay(i) && IsShortEnough(i);
       if (refined > 1 || may_win) rivals.push_back(i);

@@ -18,17 +18,16 @@ struct BestCurve {
 };
 
 // OptimizeCurve from the best `refined` of several free paths with the same
-// ends, side by side, and the best of what they come to: a motion that keeps
-// the margin, or of a mere wish nine tenths of it, before one that does not;
-// then the least time, or of a given duration the least jerk.
+// ends, side by side, and the best of what they come to: a motion that keeps a
+// required margin before one that does not; then the least cost, which is time
+// and what is missing of the margin, or of a given duration the least jerk.
 //
-// Which paths are the best is seen by what kFast makes of them: the least time,
-// unless half of the margin that the first path keeps is lost.  If one is
-// refined, the first is looked at before the others; of these only what may be
-// faster is: no path that is hardly another way or too long, and none where the
-// first one is near the least time that any could take.  Where a duration is
-// given or a margin required, or the motion rests on its way, the first ones
-// are taken.
+// Which paths are the best is seen by the cost of what kFast makes of them.  If
+// one is refined, the first is looked at before the others; of these only what
+// may be better is: no path that is hardly another way or too long, and none
+// where the first one is near the least time that any could take.  Where a
+// duration is given or a margin required, or the motion rests on its way, the
+// first ones are taken.
 //
 // A path whose turn comes when time is up is left out, too, but for the first.
 // options.is_interrupted is asked by one thread at a time.

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 
 #include "planners/trajectory/curve_bounds.h"
 
@@ -31,6 +32,11 @@ CurveInteriorPoint::CurveInteriorPoint(const CurveProgram& program)
       hessian_(pieces_),
       linear_(VectorXd::Zero(hessian_.size())) {
   First first{0, 0, 0};
+  std::size_t others = 0;
+  for (const CurveProgram::Piece& piece : program.pieces) {
+    others += piece.rows.size();
+  }
+  rows_.reserve(others);
   for (const CurveProgram::Piece& piece : program.pieces) {
     first.row = first.bound;
     for (const auto& bounds : piece.bounds) first.row += RowsOf(bounds);

@@ -60,6 +60,7 @@ class Builder {
       piece.by_eta.col(3) = -(2.0 * h / 5.0) * s1.v + (h * h / 10.0) * s1.a;
       piece.by_eta.col(4) = -(h / 5.0) * s1.v;
       piece.by_eta /= options_.trust;
+      piece.rows.reserve(RowsAtMost(cells_[i]));
       AddLimits(i, b, h, &piece);
       AddClearance(cells_[i], &piece);
       AddTrust(&piece);
@@ -81,6 +82,11 @@ class Builder {
   }
 
  private:
+  // Each clearance once kept, once wished for; norms, and the rest.
+  static std::size_t RowsAtMost(const PieceCells& cells) {
+    return 2 * cells.rows.size() + 16;
+  }
+
   void AddLimits(int i, const KnotCurve::Points& b, double h,
                  CurveProgram::Piece* piece) const {
     const PieceDerivatives of(b, h);

@@ -52,6 +52,9 @@ void CurveSearch::Refine() {
   for (int i = 0; i < halvings && goes_on_; ++i) {
     goes_on_ = Halve() && RunStage();
   }
+  if (goes_on_ && now_.pieces() < halvings * kFewPieces) {
+    goes_on_ = Halve() && RunStage();
+  }
 }
 
 CurveSummary CurveSearch::Summary() const {
@@ -60,10 +63,7 @@ CurveSummary CurveSearch::Summary() const {
     summary.status = PathStatus::kDurationTooShort;
     summary.trajectory = Trajectory();
   }
-  if (!summary.trajectory.empty()) {
-    summary.clearance = Clearance();
-    summary.margin = std::min(options_.margin, summary.clearance);
-  }
+  if (!summary.trajectory.empty()) Measure(&summary);
   summary.seconds = stopwatch_.Seconds();
   return summary;
 }
@@ -270,20 +270,26 @@ bool CurveSearch::Halve() {
   return true;
 }
 
-double CurveSearch::Clearance() const {
+void CurveSearch::Measure(CurveSummary* summary) const {
   const double reach = settings_.trust + options_.margin;
-  double clearance = std::numeric_limits<double>::infinity();
-  for (const CurvePiece& piece : summary_.trajectory.pieces()) {
+  double clearance = std::numeric_limits<double>::infinity(), missing = 0.0;
+  for (const CurvePiece& piece : summary->trajectory.pieces()) {
     KnotCurve::Points points;
     for (int j = 0; j < 6; ++j) points.col(j) = piece.point(j);
     const PieceCells cells =
         FindCells(space_, points, settings_.trust, options_.margin);
     const double by_chord =
         space_.Clearance(piece.front(), piece.back()) - piece.Bend();
-    clearance = std::min(clearance,
-                         std::max(by_chord, std::min(cells.distance, reach)));
+    const double of_piece = std::max(by_chord, std::min(cells.distance, reach));
+    clearance = std::min(clearance, of_piece);
+    missing += std::max(0.0, options_.margin - of_piece);
   }
-  return clearance;
+  summary->clearance = clearance;
+  summary->margin = std::min(options_.margin, clearance);
+  const auto pieces = static_cast<double>(summary->trajectory.pieces().size());
+  summary->cost =
+      summary->duration *
+      (1.0 + settings_.weights.missing * missing / (diagonal_ * pieces));
 }
 
 void RequireCurve(double diagonal, const std::vector<Vector3d>& path,

@@ -41,6 +41,9 @@ class CurveSearch {
   static constexpr double kGoodStep = 0.5;  // a smaller share of what was
                                             // predicted asks for a shorter step
   static constexpr double kSmallestSigma = 1e-5;
+  // So few, by each halving that the preset has, are halved once more: they
+  // cost little, and gain as much as many do by the halving before.
+  static constexpr int kFewPieces = 40;
   static constexpr int kMaxRounds = 60;  // of a size of pieces
   // So many rounds in a row that gain less, a share of the time, end it.
   static constexpr int kSmallGains = 2;
@@ -73,7 +76,8 @@ class CurveSearch {
   void ChangeSigma(double ratio);
   bool Halve();
   // Cells know all that is within their reach.
-  double Clearance() const;
+  // Clearance, margin and cost of its trajectory.
+  void Measure(CurveSummary* summary) const;
 
   const Stopwatch stopwatch_;
   const FreeSpace& space_;

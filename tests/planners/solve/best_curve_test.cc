@@ -81,6 +81,33 @@ TEST(BestCurve, RefinesTheWayThatProvesFasterAsIfItWereAlone) {
   }
 }
 
+// What is missing of a wish has its price, whichever way comes first: no way
+// wins by a margin that is worth less than the time it takes.
+TEST(BestCurve, TakesTheWayOfTheLeastCost) {
+  const TwoWays ways;
+  const double diagonal = ways.staged.world.diagonal();
+  for (const double share : {1e-4, 0.01, 0.2}) {
+    CurveOptions options = ways.Options();
+    options.margin = share * diagonal;
+    double least = std::numeric_limits<double>::infinity();
+    for (const Path& path : {ways.slow, ways.fast}) {
+      const CurveSummary one =
+          OptimizeCurve(*ways.space, diagonal, path, options);
+      least = std::min(least, one.cost);
+      // All of it is missing at the most.
+      EXPECT_GE(one.cost, one.duration);
+      EXPECT_LE(one.cost, one.duration * (1.0 + 50.0 * share));
+      if (one.margin == options.margin) {
+        EXPECT_EQ(one.cost, one.duration);
+      }
+    }
+    const BestCurve a = ways.Best({ways.slow, ways.fast}, options, false, 2);
+    const BestCurve b = ways.Best({ways.fast, ways.slow}, options, false, 2);
+    EXPECT_EQ(a.summary.cost, least) << share;
+    EXPECT_EQ(b.summary.cost, least) << share;
+  }
+}
+
 TEST(BestCurve, LeavesOutWhatIsHardlyAnotherWay) {
   const TwoWays ways;
   const BestCurve best = ways.Best({ways.slow, ways.alike}, ways.Options());

@@ -9,6 +9,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include "constraints/curve_judge.h"
 #include "constraints/oracle/collision_oracle.h"
@@ -177,6 +178,35 @@ TEST(OptimizeCurve, IsFreeAndWithinLimitsAndFasterThanStops) {
   }
   std::sort(ratios.begin(), ratios.end());
   EXPECT_GT(ratios[ratios.size() / 2], 1.25);
+}
+
+// Places to pass keep the segments of a path, each of three pieces at first.
+TEST(OptimizeCurve, HalvesPiecesAsThePresetSays) {
+  const FreeSpace space{std::vector<ContactSpace>{}};
+  struct Expected {
+    int segments;
+    std::array<int, 3> pieces;  // of fast, balanced, tight
+  };
+  for (const auto& [segments, pieces] : std::vector<Expected>{
+           {1, {3, 12, 24}}, {6, {18, 72, 144}}, {7, {21, 42, 84}}}) {
+    Path path = {Vector3d::Zero()};
+    CurveOptions options = With(Limits(1.0, 2.0, 10.0));
+    for (int i = 1; i <= segments; ++i) path.emplace_back(i, i % 2, 0.0);
+    for (int i = 1; i < segments; ++i) {
+      options.via.push_back({path[static_cast<std::size_t>(i)], 0.05, 0.0});
+    }
+    double before = std::numeric_limits<double>::infinity();
+    for (const Preset preset :
+         {Preset::kFast, Preset::kBalanced, Preset::kTight}) {
+      options.preset = preset;
+      const CurveSummary found = OptimizeCurve(space, 1.0, path, options);
+      EXPECT_EQ(found.rounds.back().pieces,
+                pieces[static_cast<std::size_t>(preset)])
+          << segments;
+      EXPECT_LT(found.duration, before) << segments;
+      before = found.duration;
+    }
+  }
 }
 
 TEST(OptimizeCurve, PassesTunnels) {
