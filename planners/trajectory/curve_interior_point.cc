@@ -18,7 +18,7 @@ constexpr double kStartT = 0.03;  // that far inside the limits
 // gradient's largest entry.
 constexpr double kGap = 0.03;
 constexpr double kLeastGap = 1e-6;
-constexpr double kGradient = 1e-2;
+constexpr double kGradient = 0.1;
 constexpr double kStepShare = 0.99;    // of the way to the nearest row
 constexpr double kLeastSlack = 0.005;  // a step leaves this share of a slack
 constexpr double kShorter = 0.8;       // the next try
@@ -43,7 +43,7 @@ CurveInteriorPoint::CurveInteriorPoint(const CurveProgram& program)
     first_.push_back(first);
     for (const CurveProgram::Row& row : piece.rows) {
       has_norms_ = has_norms_ || row.kind == CurveProgram::Row::kNorm;
-      rows_.push_back({&row, row.direction, row.eta, 0.0});
+      rows_.emplace_back(row);
     }
     first.other = static_cast<int>(rows_.size());
     first.bound = first.row + static_cast<int>(piece.rows.size());
@@ -103,10 +103,9 @@ double CurveInteriorPoint::SumOfT(int piece,
               sum += TermsInT(bounds, weights.data() + at);
             });
   int at = first_[piece].row;
-  for (const auto& row : program_.pieces[piece].rows) {
+  for (int k = first_[piece].other; k < first_[piece + 1].other; ++k, ++at) {
     // Others may weigh infinitely much.
-    if (row.t != 0.0) sum += row.t * weights[at];
-    ++at;
+    if (rows_[k].t != 0.0) sum += rows_[k].t * weights[at];
   }
   return sum;
 }
@@ -190,6 +189,19 @@ double CurveInteriorPoint::FollowRows(const VectorXd& step, double centre) {
   return state_.Follow(slopes_, centre);
 }
 
+Eigen::ArrayXd CurveInteriorPoint::BendsAlong(const VectorXd& step) const {
+  Eigen::ArrayXd bends = Eigen::ArrayXd::Zero(CountRows());
+  for (int i = 0; i < pieces_; ++i) {
+    const CurveLocal local = ToLocal(program_, i, step);
+    double* to = bends.data() + first_[i].row;
+    for (int k = first_[i].other; k < first_[i + 1].other; ++k, ++to) {
+      if (rows_[k].row->kind != CurveProgram::Row::kNorm) continue;
+      *to = BendOf(rows_[k], local);
+    }
+  }
+  return bends;
+}
+
 void CurveInteriorPoint::AddCentres(double centre, VectorXd* to) const {
   const Eigen::ArrayXd multipliers = state_.Multipliers(centre);
   for (int i = 0; i < pieces_; ++i) {
@@ -204,6 +216,11 @@ CurveInteriorPoint::Result CurveInteriorPoint::Solve() {
   // Not so where rounding takes all room: then no step is the answer.
   result.rows = CountRows();
   if (!Begin(&x)) return result;
+  // The objective at x = 0, but for the m that rows need there.
+  double at_rest = 0.0;
+  for (const auto& piece : program_.pieces) {
+    at_rest += program_.missing * piece.missing;
+  }
 
   BlockTridiagonal matrix(pieces_);
   for (; result.iterations < kMaxIterations; ++result.iterations) {
@@ -212,7 +229,7 @@ CurveInteriorPoint::Result CurveInteriorPoint::Solve() {
     matrix = hessian_;
     AddRows(&matrix, &residual);
     Fix(&residual);
-    const double gained = -0.5 * x.dot(gradient + linear_);  // from x = 0
+    const double gained = at_rest - 0.5 * x.dot(gradient + linear_);
     if (state_.Gap() <= std::max(kLeastGap, kGap * gained) &&
         residual.cwiseAbs().maxCoeff() <= kGradient) {
       break;
@@ -225,6 +242,7 @@ CurveInteriorPoint::Result CurveInteriorPoint::Solve() {
     Fix(&step);
     matrix.Solve(&step);
     const double centre = state_.Predict(FollowRows(step, 0.0));
+    if (has_norms_) state_.Bend(BendsAlong(step));
 
     // Corrector.
     step = -gradient;

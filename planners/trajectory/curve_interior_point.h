@@ -46,6 +46,7 @@ class CurveInteriorPoint {
   CurveLocal SumOfRows(int piece, const Eigen::ArrayXd& weights) const;
   void AddRows(BlockTridiagonal* matrix, Eigen::VectorXd* residual) const;
   double FollowRows(const Eigen::VectorXd& step, double centre);
+  Eigen::ArrayXd BendsAlong(const Eigen::VectorXd& step) const;
   void AddCentres(double centre, Eigen::VectorXd* to) const;
 
   const CurveProgram& program_;

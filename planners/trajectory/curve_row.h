@@ -8,11 +8,19 @@
 
 namespace phongpd::internal {
 
-// A row of the program, where the interior point method is.
+// A row of the program, where the interior point method is: its gradient.
+//
+// |y| ≤ u, of kNorm, is y²/u − u ≤ 0 here: convex, smooth at y = 0, and within
+// it −ln(u − y²/u) is all but the barrier of the cone, so that steps go far.
+// Its curvature is (2/u) (Δy − (y/u) Δu)².
 struct CurveRowNow {
+  explicit CurveRowNow(const CurveProgram::Row& of)
+      : row(&of), direction(of.direction), eta(of.eta), t(of.t) {}
+
   const CurveProgram::Row* row;
-  Eigen::Vector3d direction;  // of kNorm, now
-  double eta, inverse_norm;
+  Eigen::Vector3d direction;
+  double eta, t;
+  double bend = 0.0;  // of kNorm: 2/u
 };
 
 // What a step of the unknowns changes the row by, the terms in m and t
@@ -22,6 +30,9 @@ double Slope(const CurveRowNow& now, const CurveLocal& step, double* along);
 
 // The slack at x, > 0 within the row; of a norm also its gradient there.
 double SlackAt(CurveRowNow* now, const CurveLocal& x, double* along);
+
+// By how much more a step changes a row of kNorm, to second order.
+double BendOf(const CurveRowNow& now, const CurveLocal& step);
 
 // What a row's terms weigh: those in ΔB, η and t, and those in m.  Of two rows
 // of which one repeats the other, what they weigh together.

@@ -13,13 +13,14 @@ void InteriorRows::Begin(const ArrayXd& slacks, double mu) {
   dual = mu * inverse_slack_;
   inverse_dual_ = dual.inverse();
   product_ = ArrayXd::Zero(size());
+  bends_ = ArrayXd::Zero(size());
 }
 
 double InteriorRows::Follow(const ArrayXd& slopes, double centre) {
-  slack_step_ = -slopes;
-  dual_step_ = (dual * slopes + centre - product_) * inverse_slack_ - dual;
+  slack_step_ = -slopes - bends_;
+  dual_step_ = (centre - product_ - dual * slack_step_) * inverse_slack_ - dual;
   if (size() == 0) return 1.0;
-  const double shrinks = std::max((slopes * inverse_slack_).maxCoeff(),
+  const double shrinks = std::max((-slack_step_ * inverse_slack_).maxCoeff(),
                                   (-dual_step_ * inverse_dual_).maxCoeff());
   return 1.0 / std::max(1.0, shrinks);
 }
@@ -43,6 +44,7 @@ void InteriorRows::Move(double reach, const ArrayXd& slacks) {
   dual += reach * dual_step_;
   inverse_dual_ = dual.inverse();
   product_.setZero();
+  bends_.setZero();
 }
 
 }  // namespace phongpd::internal

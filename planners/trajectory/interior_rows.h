@@ -18,8 +18,8 @@ class InteriorRows {
 
   double Gap() const { return (slack * dual).sum(); }  // Σ s·y
 
-  // The steps for rows that change by `slopes`, towards products of `centre`;
-  // how far they lead at most, 1 or less.
+  // The steps for rows that change by `slopes`, and by what they bend, towards
+  // products of `centre`; how far they lead at most, 1 or less.
   double Follow(const Eigen::ArrayXd& slopes, double centre);
 
   // The centre that the corrector aims at: the mean product, times the cube of
@@ -27,13 +27,17 @@ class InteriorRows {
   // products of its steps for Follow.
   double Predict(double reach);
 
+  // What rows change by beside the slopes of the corrector's step, as the
+  // predictor's tells it.  Forgotten by Move.
+  void Bend(const Eigen::ArrayXd& bends) { bends_ = bends; }
+
   // `reach` of the steps; the slacks may be known better.
   void Move(double reach);
   void Move(double reach, const Eigen::ArrayXd& slacks);
 
   // μ_i for the gradient of row i in the corrector's right-hand side.
   Eigen::ArrayXd Multipliers(double centre) const {
-    return (product_ - centre) * inverse_slack_;
+    return (product_ - centre - dual * bends_) * inverse_slack_;
   }
 
   // y/s, of each: what the square of a row's gradient weighs.
@@ -43,7 +47,7 @@ class InteriorRows {
 
  private:
   Eigen::ArrayXd inverse_slack_, inverse_dual_;
-  Eigen::ArrayXd slack_step_, dual_step_, product_;
+  Eigen::ArrayXd slack_step_, dual_step_, product_, bends_;
 };
 
 }  // namespace phongpd::internal

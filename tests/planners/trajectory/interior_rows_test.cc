@@ -31,7 +31,8 @@ TEST(InteriorRows, BeginOnTheCentralPath) {
 }
 
 // s·y + s Δy + y Δs + Δs'Δy' = centre, with the products Δs'Δy' of the step
-// before, and as far as they lead nothing is negative, and something 0.
+// before, and as far as they lead nothing is negative, and something 0.  Slacks
+// change by the slopes and by what rows bend.
 TEST(InteriorRows, FollowAStepOfTheUnknowns) {
   std::mt19937_64 random(2);
   for (int trial = 0; trial < 20; ++trial) {
@@ -57,12 +58,17 @@ TEST(InteriorRows, FollowAStepOfTheUnknowns) {
     EXPECT_NEAR(centre, ratio * ratio * ratio * gap / kRows, 1e-14);
 
     const ArrayXd second = Uniform(-3.0, 3.0, &random);
+    const ArrayXd bends = Uniform(0.0, 0.2, &random);
+    if (trial % 2 == 0) rows.Bend(bends);
+    const ArrayXd multipliers = rows.Multipliers(centre);
     const double share = 0.9 * rows.Follow(second, centre);
     rows.Move(share);
     for (int i = 0; i < kRows; ++i) {
       const double ds = (rows.slack[i] - s[i]) / share;
       const double dy = (rows.dual[i] - y[i]) / share;
-      EXPECT_NEAR(ds, -second[i], 1e-11);
+      EXPECT_NEAR(ds, -second[i] - (trial % 2 == 0 ? bends[i] : 0.0), 1e-11);
+      // What does not depend on the step is in the right-hand side.
+      EXPECT_NEAR(y[i] + dy + multipliers[i], y[i] * second[i] / s[i], 1e-10);
       EXPECT_NEAR(s[i] * y[i] + s[i] * dy + y[i] * ds + products[i], centre,
                   1e-10);
       EXPECT_GT(rows.slack[i], 0.0);

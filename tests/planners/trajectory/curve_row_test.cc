@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Truth: the norm itself, differences of slacks, and dense rows.
+#include "planners/trajectory/curve_row.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+#include <utility>
+#include <vector>
+
+namespace phongpd::internal {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+using Row = CurveProgram::Row;
+
+Row RandomRow(Row::Kind kind, std::mt19937_64* random) {
+  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+  Row row;
+  row.kind = kind;
+  row.first = 1;
+  row.last = 4;
+  for (int j = 1; j <= 4; ++j) row.weight[j] = uniform(*random);
+  for (int axis = 0; axis < 3; ++axis) {
+    row.value[axis] = 0.3 * uniform(*random);
+    row.value_by_eta[axis] = uniform(*random);
+    row.direction[axis] = uniform(*random);
+  }
+  row.direction.normalize();
+  if (kind != Row::kNorm) row.eta = uniform(*random);
+  row.t = -2.0;
+  row.constant = -1.0;
+  return row;
+}
+
+// Of kNorm: what |y| is, and what it may be.
+std::pair<double, double> NormAndRoom(const Row& row, const CurveLocal& x) {
+  Vector3d y = row.value + x[kCurveEta] * row.value_by_eta;
+  for (int j = 0; j < 6; ++j) y += row.weight[j] * x.segment<3>(3 * j);
+  return {y.norm(), -row.constant - row.t * x[kCurveT]};
+}
+
+double Slack(const Row& row, const CurveLocal& x) {
+  CurveRowNow now(row);
+  double along = 0.0;
+  return SlackAt(&now, x, &along);
+}
+
+// Positive within the norm, and zero on it.
+TEST(CurveRow, IsWithinANormWhereItsSlackSaysSo) {
+  std::mt19937_64 random(1);
+  int within = 0;
+  for (int i = 0; i < 200; ++i) {
+    const Row row = RandomRow(Row::kNorm, &random);
+    const CurveLocal x = CurveLocal::Random();
+    const auto [norm, room] = NormAndRoom(row, x);
+    EXPECT_EQ(Slack(row, x) > 0.0, norm < room) << norm << " " << room;
+    within += norm < room;
+    if (!(room > 0.0)) continue;
+    // As far as the norm is from what it may be, times 1 to 2 within.
+    EXPECT_NEAR(Slack(row, x), (room - norm) * (1.0 + norm / room), 1e-12);
+  }
+  EXPECT_GT(within, 20);
+  EXPECT_LT(within, 180);
+}
+
+TEST(CurveRow, KnowsWhatAStepChangesTheSlackByToSecondOrder) {
+  std::mt19937_64 random(2);
+  for (const Row::Kind kind : {Row::kNorm, Row::kDirection, Row::kScalar}) {
+    for (int i = 0; i < 20; ++i) {
+      const Row row = RandomRow(kind, &random);
+      const CurveLocal x = 0.05 * CurveLocal::Random();
+      const CurveLocal u = CurveLocal::Random();
+      CurveRowNow now(row);
+      double along = 0.0;
+      const double slack = SlackAt(&now, x, &along);
+      const double bend = kind == Row::kNorm ? BendOf(now, u) : 0.0;
+      const double slope = Slope(now, u, &along);
+      const double h = 1e-3;
+      const double error =
+          Slack(row, x + h * u) - (slack - h * slope - h * h * bend);
+      EXPECT_LT(std::abs(error), 100.0 * h * h * h) << kind;
+      // Its gradient is the same, and so is its curvature.
+      CurveLocal gradient = CurveLocal::Zero();
+      AddRow(now, {1.0, 1.0}, &gradient);
+      EXPECT_NEAR(gradient.dot(u), slope, 1e-12);
+      CurveLocalMatrix lower = CurveLocalMatrix::Zero();
+      AddSquare(now, {3.0, 3.0}, 5.0, &lower);
+      const CurveLocalMatrix whole = lower.selfadjointView<Eigen::Lower>();
+      EXPECT_NEAR(u.dot(whole * u), 3.0 * slope * slope + 10.0 * bend, 1e-10);
+    }
+  }
+}
+
+// A row and what repeats it, with a wish of its own for m.
+TEST(CurveRow, AddsTwoThatRepeatEachOtherAsOne) {
+  std::mt19937_64 random(3);
+  Row first = RandomRow(Row::kDirection, &random);
+  first.t = 0.0;
+  Row second = first;
+  second.constant = -2.0;
+  second.missing = -1.0;
+  second.repeats = true;
+  const Row third = RandomRow(Row::kScalar, &random);
+  std::vector<CurveRowNow> rows;
+  rows.emplace_back(first);
+  rows.emplace_back(second);
+  rows.emplace_back(third);
+  const Eigen::ArrayXd weights = Eigen::Array4d(9.0, 0.5, 2.0, 3.0);
+
+  MatrixXd dense(3, 21);
+  for (int k = 0; k < 21; ++k) {
+    double along = 0.0;
+    for (int i = 0; i < 3; ++i) {
+      dense(i, k) =
+          Slope(rows[static_cast<std::size_t>(i)], CurveLocal::Unit(k), &along);
+    }
+  }
+  CurveLocalMatrix lower = CurveLocalMatrix::Zero();
+  CurveLocal gradient = CurveLocal::Zero();
+  ForRows(rows, 0, 3, weights, 1, [&](int k, const CurveRowWeights& by) {
+    AddSquare(rows[static_cast<std::size_t>(k)], by, 0.0, &lower);
+  });
+  ForRows(rows, 0, 3, weights, 1, [&](int k, const CurveRowWeights& by) {
+    AddRow(rows[static_cast<std::size_t>(k)], by, &gradient);
+  });
+  const VectorXd w = weights.tail(3);
+  EXPECT_LT((MatrixXd(lower.selfadjointView<Eigen::Lower>()) -
+             dense.transpose() * w.asDiagonal() * dense)
+                .norm(),
+            1e-12);
+  EXPECT_LT((gradient - dense.transpose() * w).norm(), 1e-12);
+}
+
+}  // namespace
+}  // namespace phongpd::internal
