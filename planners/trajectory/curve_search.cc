@@ -59,6 +59,7 @@ void CurveSearch::Refine() {
 
 CurveSummary CurveSearch::Summary() const {
   CurveSummary summary = summary_;
+  if (!is_fitted_) Fit(&summary);
   if (options_.duration > 0.0 && !is_calm_ && !summary.trajectory.empty()) {
     summary.status = PathStatus::kDurationTooShort;
     summary.trajectory = Trajectory();
@@ -74,6 +75,9 @@ void CurveSearch::Start(const Path& path) {
   settings_.via = start.via;
   // On the path but for rounding, by which it may still touch.
   if (!Keep(now_)) return;
+  if (!is_fitted_) Fit(&summary_);
+  is_fitted_ = true;
+  if (summary_.trajectory.empty()) return;
   summary_.stops_duration = summary_.duration;
   summary_.first_seconds = stopwatch_.Seconds();
   if (!settings_.keeps_pace || start.stops.knots.empty()) return;
@@ -99,15 +103,24 @@ bool CurveSearch::Keep(const KnotCurve& curve) {
       return false;
     }
   }
-  Trajectory fitted = curve.ToTrajectory();
-  if (!CheckCurve(space_, fitted).IsFree()) return false;
-  // Other durations, the same points.
-  if (!FitTime(options_.limits, !settings_.keeps_pace, &fitted)) {
+  Trajectory kept = curve.ToTrajectory();
+  if (!CheckCurve(space_, kept).IsFree()) return false;
+  if (settings_.keeps_pace && !FitTime(options_.limits, false, &kept)) {
     return false;
   }
-  summary_.trajectory = std::move(fitted);
+  is_fitted_ = settings_.keeps_pace;
+  summary_.trajectory = std::move(kept);
   summary_.duration = summary_.trajectory.duration();
   return true;
+}
+
+void CurveSearch::Fit(CurveSummary* summary) const {
+  // Other durations, the same points.
+  if (!FitTime(options_.limits, true, &summary->trajectory)) {
+    summary->trajectory = Trajectory();
+    summary->status = PathStatus::kNotFree;
+  }
+  summary->duration = summary->trajectory.duration();
 }
 
 bool CurveSearch::MustEnd() {

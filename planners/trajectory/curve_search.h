@@ -52,9 +52,12 @@ class CurveSearch {
 
   void Start(const Path& path);
   KnotCurve OptimizedFromRest(const CurveStart& start) const;
-  // Becomes the answer if it passes its places, is free and within the limits,
-  // both proved.
+  // Becomes the answer if it passes its places and is proved free; and within
+  // the limits, which what rests at its ends comes to be by Fit.
   bool Keep(const KnotCurve& curve);
+  // In the least time in which it is proved within the limits; if there is no
+  // proof, it is no answer.
+  void Fit(CurveSummary* summary) const;
   bool MustEnd();
   double MeritOf(const KnotCurve& curve,
                  const std::vector<PieceCells>& cells) const;
@@ -75,8 +78,8 @@ class CurveSearch {
   // By the share of what was predicted that came true.
   void ChangeSigma(double ratio);
   bool Halve();
-  // Cells know all that is within their reach.
-  // Clearance, margin and cost of its trajectory.
+  // Clearance, margin and cost of its trajectory: cells know all that is within
+  // their reach.
   void Measure(CurveSummary* summary) const;
 
   const Stopwatch stopwatch_;
@@ -89,6 +92,7 @@ class CurveSearch {
   KnotCurve now_;
   std::vector<PieceCells> cells_;
   CurveSummary summary_;
+  bool is_fitted_ = true;  // Fit has been at its trajectory
 };
 
 // Throws what OptimizeCurve throws for requests.
