@@ -6,6 +6,8 @@ import phongpd
 import trajectories_best
 import trajectories_duels as duels
 import trajectories_gcs as gcs
+import trajectories_growth as growth
+import trajectories_moving as moving
 import trajectories_summary as own
 from python_report import cell, machine, versions, write_csv, write_tables
 from trajectories_peers import COLLISION_SAMPLES, CONTROL_POINTS, MARGIN, \
@@ -131,8 +133,9 @@ def _kto(rows, default):
                    f"longer, more than 1 % in {sum(w > 1 for w in worse)}.")
 
 
-def _tables(folder, own_rows, peer_rows, gcs_rows, best):
+def _tables(folder, rows, best):
     """Writes them; summary, peers, and README.md's line that leads there."""
+    own_rows, peer_rows = rows["own"], rows["peers"]
     default = duels.with_default_margin(own_rows)
     lines = own.summary(own_rows, peer_rows, best)
     beside = duels.summary(peer_rows, default)
@@ -153,7 +156,10 @@ def _tables(folder, own_rows, peer_rows, gcs_rows, best):
     write_csv(folder / "own.csv", own.OWN_HEADER, own.own_table(own_rows, best))
     write_csv(folder / "peers.csv", duels.HEADER,
               duels.table(peer_rows, default))
-    write_csv(folder / "gcs.csv", gcs.HEADER, gcs.table(gcs_rows))
+    for part, of in (("gcs", gcs), ("moving", moving), ("growth", growth)):
+        write_csv(folder / f"{part}.csv", of.HEADER, of.table(rows[part]))
+    (folder / "growth.svg").write_text(growth.figure(rows["growth"]),
+                                       encoding="utf-8")
     return lines, beside, where
 
 
@@ -179,10 +185,12 @@ def _about_peers(rows):
         f"same where there is room; {MARGIN:g} D else.")
 
 
-def write_report(folder, how, commit, own_rows, peer_rows, gcs_rows, packages):
+def write_report(folder, how, commit, rows, packages):
+    """`rows`: of each part."""
     folder.mkdir(parents=True, exist_ok=True)
+    own_rows, peer_rows = rows["own"], rows["peers"]
     best = trajectories_best.improve(folder, own_rows, peer_rows)
-    lines, beside, where = _tables(folder, own_rows, peer_rows, gcs_rows, best)
+    lines, beside, where = _tables(folder, rows, best)
     asked = own.answered(own_rows)
     certified = sum(r["certified"] for r in asked)
     low, high = share_interval(certified, len(asked))
@@ -195,7 +203,8 @@ def write_report(folder, how, commit, own_rows, peer_rows, gcs_rows, packages):
         *_kto(peer_rows, duels.with_default_margin(own_rows)), "",
         "## What all motions say", "", *_aims(lines), "", BEST,
         "## Beside peers", "", _about_peers(peer_rows), "",
-        *_beside(beside), "", *_wins(beside), "", *gcs.page(gcs_rows), "",
+        *_beside(beside), "", *_wins(beside), "", *gcs.page(rows["gcs"]), "",
+        *moving.page(rows["moving"]), "", *growth.page(rows["growth"]), "",
         "## Losses and what failed", "",
         *(list(_losses(own_rows, peer_rows, best)) or ["- None."]), "",
         NOT_RUN, where, "",

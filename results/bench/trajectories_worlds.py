@@ -41,11 +41,11 @@ def octahedron(radius):
     return phongpd.Solid(vertices, np.array(triangles))
 
 
-def forest(name, seed=1):
+def forest(name, seed=1, sides=SIDES):
     """Radii 0.5 to 1, 3 m high; the robot is 0.5 m across."""
     width, depth, count = FORESTS[name]
     chance = np.random.default_rng(seed)
-    angles = 2 * np.pi * np.arange(SIDES) / SIDES
+    angles = 2 * np.pi * np.arange(sides) / sides
     trees = {}
     for k in range(count):
         x, y = chance.uniform((-width / 2, -depth / 2), (width / 2, depth / 2))

@@ -18,6 +18,8 @@ sys.path.insert(0, str(BENCH))
 import trajectories_best as best  # noqa: E402
 import trajectories_bounds as bounds  # noqa: E402
 import trajectories_boxes as boxes  # noqa: E402
+import trajectories_growth as growth  # noqa: E402
+import trajectories_moving as moving  # noqa: E402
 import kept_rows as rows  # noqa: E402
 import trajectories_statistics as statistics  # noqa: E402
 import trajectories_worlds as worlds  # noqa: E402
@@ -205,6 +207,26 @@ def test_best_known_only_improves_by_what_is_free_and_keeps_all_limits(tmp_path)
     assert best.read(tmp_path) == {"k": (2.5, "Drake KTO, path")}
 
 
+def test_flyers_are_where_their_bezier_points_say():
+    """De Casteljau, point by point."""
+    _, _, flyers = moving.room(2)
+    assert len(flyers) == 3
+    durations, points = flyers[0]
+    for time, piece, s in ((0.0, 0, 0.0), (0.25 * durations[0], 0, 0.25),
+                           (durations[0] + 0.7 * durations[1], 1, 0.7),
+                           (durations.sum() + 1.0, 2, 1.0)):
+        row = list(points[piece])
+        while len(row) > 1:
+            row = [(1 - s) * a + s * b for a, b in zip(row, row[1:])]
+        found = moving.place(flyers[0], np.array([time]))[0]
+        assert np.allclose(found, row[0], atol=1e-12)
+
+
+def test_growth_is_the_exponent_of_a_power_law():
+    sizes = np.array([3.0, 10.0, 200.0])
+    assert growth.exponent(sizes, 5.0 * sizes ** 1.25) == pytest.approx(1.25)
+
+
 def test_a_slice_runs_from_end_to_end_and_goes_on(tmp_path):
     command = [sys.executable, "-B", str(BENCH / "trajectories_benchmark.py"),
                "--tiny", "--output", str(tmp_path / "out"), "--rows",
@@ -230,6 +252,20 @@ def test_a_slice_runs_from_end_to_end_and_goes_on(tmp_path):
         graphs = {row["by"]: row for row in csv.DictReader(file)}
     assert graphs["PhongPD"]["free"] == "True"
     assert set(graphs) == {"PhongPD", "PhongPD, tight", "Drake GCS"}
+    with open(tmp_path / "out" / "moving.csv", newline="", encoding="utf-8") as file:
+        flights = list(csv.DictReader(file))
+    assert flights
+    for row in flights:
+        if row["certified"] == "True":
+            assert row["hits at samples"] == "0"
+            assert float(row["duration / alone"]) > 0.99
+        else:
+            assert row["status"] == "failed"
+    with open(tmp_path / "out" / "growth.csv", newline="", encoding="utf-8") as file:
+        larger = list(csv.DictReader(file))
+    assert [row["of"] for row in larger] == ["pieces", "pieces", "triangles"]
+    assert {row["certified"] for row in larger} == {"True"}
+    assert "<svg" in (tmp_path / "out" / "growth.svg").read_text(encoding="utf-8")
     text = (tmp_path / "out" / "README.md").read_text(encoding="utf-8")
     assert "1 buildings of 3" in text
     assert "Certified: 6 of 6 motions" in text

@@ -1,0 +1,149 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""How the time of a motion grows: with its pieces, in mazes of more and more
+cells, and with the triangles of obstacles, in a forest of rounder and rounder
+trees."""
+import functools
+import time
+from typing import NamedTuple
+
+import numpy as np
+import trajectories_worlds as worlds
+from python_report import cell
+from step_figure import render
+
+CELLS = (4, 6, 8, 12, 16, 24, 32)  # a side
+SIDES = (12, 24, 48, 96, 192)      # of a tree
+PAIRS = 5
+LIMITS = {"pieces": (1.0, 2.0, 8.0), "triangles": (2.0, 3.0, 8.0)}
+NOT_AT_ALL = 1e-6  # seconds for a faster curve: there is one before
+MOST = 1.3  # exponent of pieces
+
+HEADER = ["of", "size", "pair", "pieces", "triangles", "certified", "duration",
+          "CPU s, plan and first", "CPU s, first to refined"]
+
+
+class Instance(NamedTuple):
+    scene: str  # what grows
+    size: int
+    pair: int
+
+    @property
+    def key(self):
+        return f"{self.scene}|{self.size}|{self.pair}"
+
+
+def instances(cells=CELLS, sides=SIDES, pairs=PAIRS):
+    return ([Instance("pieces", size, pair) for size in cells
+             for pair in range(pairs)]
+            + [Instance("triangles", size, pair) for size in sides
+               for pair in range(pairs)])
+
+
+@functools.lru_cache(2)
+def _world(scene, size):
+    world = (worlds.maze(size, size, seed=11) if scene == "pieces"
+             else worlds.forest("forest50", seed=11, sides=size))
+    world.contact_spaces()
+    return world
+
+
+@functools.lru_cache(None)
+def _pairs(scene, size):
+    if scene == "pieces":
+        return worlds.maze_pairs(size, PAIRS, seed=11)
+    # Trees lie within rounder ones: the same ends are free in all forests.
+    return worlds.random_pairs(_world(scene, max(SIDES)), PAIRS, 15.0, seed=11)
+
+
+def measure(instance):
+    """Processor time of all threads; what a world builds once is there."""
+    ends = _pairs(instance.scene, instance.size)[instance.pair]
+    world = _world(instance.scene, instance.size)
+    world.plan(*ends)
+    row = {"key": instance.key, "scene": instance.scene, "size": instance.size,
+           "pair": instance.pair}
+    for name, wishes in (("first", {"max_seconds": NOT_AT_ALL}), ("all", {})):
+        begin = time.process_time()
+        motion = world.optimize(*ends, limits=LIMITS[instance.scene], **wishes)
+        row[f"cpu_{name}"] = time.process_time() - begin
+    return row | {"certified": motion.certified, "duration": motion.duration,
+                  "pieces": len(motion.durations)}
+
+
+def _triangles(row):
+    """Of the trees; of mazes it is not what grows."""
+    trees = worlds.FORESTS["forest50"][2]
+    return trees * (4 * row["size"] - 4) if row["scene"] == "triangles" else "-"
+
+
+def _refined(row):
+    return max(row["cpu_all"] - row["cpu_first"], 1e-6)
+
+
+def table(rows):
+    for r in rows:
+        if "pieces" in r:
+            yield (r["scene"], r["size"], r["pair"], r["pieces"], _triangles(r),
+                   r["certified"], r["duration"], r["cpu_first"], _refined(r))
+
+
+def exponent(sizes, seconds):
+    """Of the power law that fits best, least squares of logarithms."""
+    return float(np.polyfit(np.log(sizes), np.log(seconds), 1)[0])
+
+
+def of(rows, scene):
+    seen = [r for r in rows if r["scene"] == scene and "pieces" in r]
+    return seen, [r["pieces"] if scene == "pieces" else _triangles(r)
+                  for r in seen]
+
+
+def figure(rows):
+    script = ("set termoption noenhanced\nset multiplot layout 1,2\n"
+              "set logscale xy\nset grid lc rgb '#DDDDDD'\nset key top left\n"
+              "set format '%g'\nset ylabel 'CPU seconds'\n")
+    for scene, what in (("pieces", "pieces of the curve"),
+                        ("triangles", "triangles of the obstacles")):
+        seen, sizes = of(rows, scene)
+        for name, cost in (("first", lambda r: r["cpu_first"]),
+                           ("refined", _refined)):
+            script += f"${scene}_{name} << EOD\n" + "".join(
+                f"{size} {cost(r)}\n" for r, size in zip(seen, sizes)) + "EOD\n"
+        script += (f"set xlabel '{what}'\n"
+                   f"plot ${scene}_first w p pt 6 lc rgb '#888888' t 'plan and "
+                   f"first curve', ${scene}_refined w p pt 7 ps 0.7 lc rgb "
+                   "'#0B6E99' t 'from first to refined'\n")
+    return render(script + "unset multiplot\n", 1000, 400)
+
+
+def page(rows):
+    """The section of README.md."""
+    yield "## Growth"
+    yield ""
+    if not any("pieces" in r for r in rows):
+        yield "Not run."
+        return
+    certified = sum(bool(r.get("certified")) for r in rows)
+    yield (f"{len(rows)} motions, {certified} certified: through mazes of "
+           f"{min(CELLS)} to {max(CELLS)} cells a side, and the same {PAIRS} pairs "
+           f"in a forest of 50 trees of {min(SIDES)} to {max(SIDES)} sides.")
+    yield ""
+    for scene, aim in (("pieces", MOST), ("triangles", None)):
+        seen, sizes = of(rows, scene)
+        if len(set(sizes)) < 2:
+            continue
+        power = exponent(sizes, [_refined(r) for r in seen])
+        met = ("" if aim is None else f"; at most {aim:g} were asked"
+               + (" – met" if power <= aim else " – **missed**"))
+        yield (f"- From the first curve to the refined one, {min(sizes):,} to "
+               f"{max(sizes):,} {scene}: time grows with exponent "
+               f"{cell(power)}{met}.")
+        first = exponent(sizes, [r["cpu_first"] for r in seen])
+        yield f"- Plan and first curve, the same: exponent {cell(first)}."
+    yield ""
+    yield ("Robots: [fleets](../fleets/README.md). Contact spaces, which are there "
+           "already: [contact-space](../contact-space/README.md).")
+    yield ""
+    yield "![time against pieces and triangles](growth.svg)"
+    yield ""
+    yield "Each motion: [growth.csv](growth.csv)."
