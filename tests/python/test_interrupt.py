@@ -72,7 +72,7 @@ def test_ctrl_c_stops_a_build(call, tmp_path):
     assert process.returncode == 0
 
 
-# A search of many seconds for a faster curve through a hundred places.
+# A search of many seconds for a faster curve through a thousand places.
 SEARCH = """
 import numpy as np, phongpd
 box = np.array([[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)]) * 1.0
@@ -80,7 +80,7 @@ faces = [[0, 1, 3], [0, 3, 2], [4, 6, 7], [4, 7, 5], [0, 4, 5], [0, 5, 1],
          [2, 3, 7], [2, 7, 6], [0, 2, 6], [0, 6, 4], [1, 5, 7], [1, 7, 3]]
 cube = phongpd.Solid(box, faces)
 world = phongpd.World(cube, cube)
-path = [(-3, 9 * (-1) ** i, 0.1 * i) for i in range(100)]
+path = [(-3, 9 * (-1) ** i, 0.1 * i) for i in range(1000)]
 def search(**more):
     return world.retime(path, via=path[1:-1], limits=(1, 2, 10), preset="tight",
                         **more)
