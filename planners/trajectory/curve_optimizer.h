@@ -64,8 +64,8 @@ struct CurveSummary {
   double duration = 0.0;   // seconds
   double clearance = 0.0;  // a lower bound, to rounding; user's unit
   double margin = 0.0;     // the part of the wished margin that is kept
-  // The duration with the price of the margin that its pieces lack, on average:
-  // half a percent for each 1e-4 D.
+  // duration · (1 + 50 m/D), seconds, where m is what the pieces lack of the
+  // margin, on average: what says which of several curves is the best.
   double cost = 0.0;
   std::vector<CurveRound> rounds;
   double stops_duration = 0.0;  // of the first certified curve, seconds

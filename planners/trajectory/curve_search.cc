@@ -132,12 +132,13 @@ bool CurveSearch::MustEnd() {
   return is_interrupted || is_late;
 }
 
+double CurveSearch::PriceOf(double missing, int pieces) const {
+  return settings_.weights.missing * missing / (diagonal_ * pieces);
+}
+
 double CurveSearch::MeritOf(const KnotCurve& curve,
                             const std::vector<PieceCells>& cells) const {
-  return options_.margin > 0.0
-             ? settings_.weights.missing * MissingOf(cells, options_.margin) /
-                   (diagonal_ * curve.pieces())
-             : 0.0;
+  return PriceOf(MissingOf(cells, options_.margin), curve.pieces());
 }
 
 bool CurveSearch::RunStage() {
@@ -299,10 +300,8 @@ void CurveSearch::Measure(CurveSummary* summary) const {
   }
   summary->clearance = clearance;
   summary->margin = std::min(options_.margin, clearance);
-  const auto pieces = static_cast<double>(summary->trajectory.pieces().size());
-  summary->cost =
-      summary->duration *
-      (1.0 + settings_.weights.missing * missing / (diagonal_ * pieces));
+  const auto pieces = static_cast<int>(summary->trajectory.pieces().size());
+  summary->cost = summary->duration * (1.0 + PriceOf(missing, pieces));
 }
 
 void RequireCurve(double diagonal, const std::vector<Vector3d>& path,

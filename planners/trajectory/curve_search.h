@@ -59,6 +59,8 @@ class CurveSearch {
   // proof, it is no answer.
   void Fit(CurveSummary* summary) const;
   bool MustEnd();
+  // Of what so many pieces lack of the margin in all, as a share of the time.
+  double PriceOf(double missing, int pieces) const;
   double MeritOf(const KnotCurve& curve,
                  const std::vector<PieceCells>& cells) const;
   // Rounds on pieces of one size, for least time and then, if a duration is
