@@ -3,19 +3,18 @@
 cells, and with the triangles of obstacles, in a forest of rounder and rounder
 trees."""
 import functools
-import time
 from typing import NamedTuple
 
 import numpy as np
 import trajectories_worlds as worlds
-from python_report import cell
+from python_report import cell, verdict
 from step_figure import render
+from trajectories_run import NOT_AT_ALL, cpu_of
 
 CELLS = (4, 6, 8, 12, 16, 24, 32)  # a side
 SIDES = (12, 24, 48, 96, 192)      # of a tree
 PAIRS = 5
 LIMITS = {"pieces": (1.0, 2.0, 8.0), "triangles": (2.0, 3.0, 8.0)}
-NOT_AT_ALL = 1e-6  # seconds for a faster curve: there is one before
 MOST = 1.3  # exponent of pieces
 
 HEADER = ["of", "size", "pair", "pieces", "triangles", "certified", "duration",
@@ -63,9 +62,8 @@ def measure(instance):
     row = {"key": instance.key, "scene": instance.scene, "size": instance.size,
            "pair": instance.pair}
     for name, wishes in (("first", {"max_seconds": NOT_AT_ALL}), ("all", {})):
-        begin = time.process_time()
-        motion = world.optimize(*ends, limits=LIMITS[instance.scene], **wishes)
-        row[f"cpu_{name}"] = time.process_time() - begin
+        motion, row[f"cpu_{name}"] = cpu_of(lambda more=wishes: world.optimize(
+            *ends, limits=LIMITS[instance.scene], **more))
     return row | {"certified": motion.certified, "duration": motion.duration,
                   "pieces": len(motion.durations)}
 
@@ -133,11 +131,11 @@ def page(rows):
         if len(set(sizes)) < 2:
             continue
         power = exponent(sizes, [_refined(r) for r in seen])
-        met = ("" if aim is None else f"; at most {aim:g} were asked"
-               + (" – met" if power <= aim else " – **missed**"))
+        met = ("." if aim is None else f"; at most {aim:g} were asked"
+               + verdict(power <= aim).rstrip())
         yield (f"- From the first curve to the refined one, {min(sizes):,} to "
                f"{max(sizes):,} {scene}: time grows with exponent "
-               f"{cell(power)}{met}.")
+               f"{cell(power)}{met}")
         first = exponent(sizes, [r["cpu_first"] for r in seen])
         yield f"- Plan and first curve, the same: exponent {cell(first)}."
     yield ""

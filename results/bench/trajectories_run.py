@@ -10,7 +10,8 @@ from trajectories_instances import ends_of, world_of
 NOT_AT_ALL = 1e-6  # seconds for a faster curve: there is one before
 
 
-def _cpu(call):
+def cpu_of(call):
+    """What it returns, and processor seconds of all threads."""
     begin = time.process_time()
     result = call()
     return result, time.process_time() - begin
@@ -24,14 +25,14 @@ def measure(instance, samples=judge.SAMPLES):
     row = {"key": instance.key, "scene": instance.scene, "pair": instance.pair,
            "by": "norm" if instance.by_norm else "axis",
            "limits": list(instance.limits)}
-    _, row["cpu_build"] = _cpu(world.contact_spaces)  # nothing from the second on
+    _, row["cpu_build"] = cpu_of(world.contact_spaces)  # nothing from the second on
     start, goal = ends_of(instance)
-    plan, row["cpu_plan"] = _cpu(lambda: world.plan(start, goal))
+    plan, row["cpu_plan"] = cpu_of(lambda: world.plan(start, goal))
     row["plan"] = plan.status
     wishes = {"limits": instance.limits, "by_norm": instance.by_norm}
-    first, row["cpu_first"] = _cpu(lambda: world.optimize(
+    first, row["cpu_first"] = cpu_of(lambda: world.optimize(
         start, goal, max_seconds=NOT_AT_ALL, **wishes))
-    motion, row["cpu_refined"] = _cpu(lambda: world.optimize(
+    motion, row["cpu_refined"] = cpu_of(lambda: world.optimize(
         start, goal, **wishes))
     row |= {"status": motion.status, "reason": motion.reason,
             "certified": motion.certified, "first_certified": first.certified,
