@@ -4,7 +4,9 @@
 those of the page; a page that says another thing fails claims_test.py.  How to
 add a sentence: write it here with {} for each figure, and how each comes from a
 table of results/."""
+import math
 import re
+import statistics
 
 from claims_fleets import FLEET_CLAIMS
 from claims_lazy import LAZY_CLAIMS
@@ -179,3 +181,28 @@ claim("results/trajectories/README.md", "10,000 samples a curve: FCL {} hits in 
       "curves, the exact kernel {} in {}.", hits("FCL hits"),
       sum(r["FCL hits"] not in ("", "-") for r in CURVES), hits("exact hits"),
       len(CURVES))
+
+FLOWN = table("trajectories/moving.csv")
+KEPT_OFF = [r for r in FLOWN if r["certified"] == "True"]
+claim("results/trajectories/README.md", "Found, each of them certified: {} of {}",
+      len(KEPT_OFF), len(FLOWN))
+claim("results/trajectories/README.md", "by their sides alone: {}.",
+      sum(int(r["hits at samples"]) for r in KEPT_OFF))
+claim("results/trajectories/README.md", "1.2 times the time without flyers: {} of {}",
+      sum(float(r["duration"]) <= 1.2 * float(r["alone"]) for r in KEPT_OFF),
+      len(KEPT_OFF))
+claim("results/trajectories/README.md", "Processor time, {:.1f} ms in the median",
+      statistics.median(1e3 * float(r["CPU s"]) for r in KEPT_OFF))
+
+
+def power_of(what, column):
+    """Exponent of the power law: the slope of logarithms."""
+    rows = where("trajectories/growth.csv", of=what)
+    return statistics.linear_regression(
+        *zip(*((math.log(int(r[what])), math.log(float(r[column])))
+               for r in rows))).slope
+
+
+for what in ("pieces", "triangles"):
+    claim("results/trajectories/README.md", what + ": time grows with exponent {:.3g}",
+          power_of(what, "CPU s, first to refined"))
