@@ -212,14 +212,15 @@ TEST_F(CliTimed, BeginsAndEndsAsItIsTold) {
 }
 
 TEST_F(CliTimed, EndsAtCtrlCWithTheBestSoFar) {
-  // A hundred places to pass: a search of many seconds.
+  // A thousand places to pass: the first curve within a second, half a minute
+  // until the search ends by itself.
   std::string path = "x,y,z\n-1.5,0,0\n", places;
-  for (int i = 0; i < 100; ++i) {
+  for (int i = 0; i < 1000; ++i) {
     const std::string place = "-1.8," +
                               std::to_string(i % 2 == 0 ? 1.2 : -1.2) + "," +
-                              std::to_string(1.8 - 0.035 * i);
+                              std::to_string(1.8 - 0.0035 * i);
     path += place + "\n";
-    if (i < 99) places += " --via=" + place;
+    if (i < 999) places += " --via=" + place;
   }
   WriteText("long.csv", path);
   const std::string command =
