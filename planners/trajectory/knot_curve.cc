@@ -10,6 +10,9 @@ namespace {
 
 using Eigen::Vector3d;
 
+// Of the largest coordinate: what curves on a segment may be off it, and more.
+constexpr double kOffSegment = 1e-12;
+
 double Share(const Vector3d& x, const Vector3d& limit, bool by_norm) {
   return by_norm ? x.stableNorm() / limit[0]
                  : x.cwiseAbs().cwiseQuotient(limit).maxCoeff();
@@ -121,9 +124,14 @@ double SlowingOf(const KnotCurve& curve, const MotionLimits& limits) {
 std::vector<Vector3d> DropCorners(const FreeSpace& space,
                                   const std::vector<Vector3d>& path,
                                   double clearance) {
+  double farthest = 0.0;
+  for (const Vector3d& p : path) {
+    farthest = std::max(farthest, p.cwiseAbs().maxCoeff());
+  }
+  const double enough = std::max(clearance, kOffSegment * farthest);
   std::vector<double> kept(path.size(), 0.0);  // by the segment after a point
-  for (std::size_t i = 0; clearance > 0.0 && i + 1 < path.size(); ++i) {
-    kept[i] = std::min(clearance, space.Clearance(path[i], path[i + 1]));
+  for (std::size_t i = 0; i + 1 < path.size(); ++i) {
+    kept[i] = std::min(enough, space.Clearance(path[i], path[i + 1]));
   }
   std::vector<Vector3d> corners = {path.front()};
   for (std::size_t at = 0; at + 1 < path.size();) {

@@ -51,8 +51,8 @@ double SlowingOf(const KnotCurve& curve, const MotionLimits& limits);
 
 // From corner to corner in straight lines, the exact judge agreeing: first the
 // farthest that is in sight, and not closer to contact than the way that is
-// left out, or than `clearance`.  Requires a free path; equal points that
-// follow each other are one.
+// left out, or than `clearance` and what rounding needs.  Requires a free path;
+// equal points that follow each other are one.
 std::vector<Eigen::Vector3d> DropCorners(
     const FreeSpace& space, const std::vector<Eigen::Vector3d>& path,
     double clearance);

@@ -14,6 +14,7 @@
 #include "constraints/curve_judge.h"
 #include "constraints/oracle/collision_oracle.h"
 #include "planners/exact/contact_surface_planner.h"
+#include "problems/shapes/shapes.h"
 #include "tests/support/curve_problems.h"
 #include "tests/support/expect_refused.h"
 #include "tests/support/passages.h"
@@ -205,6 +206,28 @@ TEST(OptimizeCurve, HalvesPiecesAsThePresetSays) {
           << segments;
       EXPECT_LT(found.duration, before) << segments;
       before = found.duration;
+    }
+  }
+}
+
+// A line that leaves an edge by less than what rounding takes a curve off it:
+// free, but no way for a curve, where the path has room.
+TEST(OptimizeCurve, KeepsOffEdgesThatALineAllButTouches) {
+  const FreeSpace space({TakeAsContactSpace(
+      MakeBox(Vector3d::Constant(-1.0), Vector3d::Constant(1.0)))});
+  const double beside = 0x1p-51;
+  for (const double far : {3.0, 2.0, 1.5}) {
+    const Vector3d a(far + beside, 2.0 - far, 0.0);
+    const Vector3d b(2.0 - far, far + beside, 0.0);
+    ASSERT_TRUE(space.IsFree(a, b));
+    ASSERT_LT(space.Clearance(a, b), 1e-15);
+    const Path path = {a, Vector3d(far, far, 0.0), b};
+    for (const double margin : {0.0, 1e-3}) {
+      CurveOptions options = With(Limits(1.0, 2.0, 10.0));
+      options.margin = margin;
+      const CurveSummary summary = OptimizeCurve(space, 4.0, path, options);
+      EXPECT_EQ(summary.status, PathStatus::kConverged) << far;
+      ExpectKept(summary, options.limits, space, std::to_string(far));
     }
   }
 }
