@@ -17,6 +17,8 @@ using Eigen::Vector3d;
 using internal::kInfinity;
 // Of a box's distance: what rounding may add to it, or take from a triangle's.
 constexpr double kBoxRounding = 1e-12;
+// Its power of two has an inverse.
+constexpr int kLeastExponent = -1022;
 
 }  // namespace
 
@@ -32,10 +34,10 @@ Separator SeparatorOf(const TriangleCorners& corners, const Vector3d& a,
   for (const Vector3d& x : from_a) {
     largest = std::max(largest, x.cwiseAbs().maxCoeff());
   }
-  const int exponent = largest > 0.0 ? std::ilogb(largest) : 0;
-  for (Vector3d& x : from_a) {
-    for (double& coordinate : x) coordinate = std::ldexp(coordinate, -exponent);
-  }
+  const int exponent =
+      largest > 0.0 ? std::max(std::ilogb(largest), kLeastExponent) : 0;
+  const double scale = std::ldexp(1.0, -exponent);
+  for (Vector3d& x : from_a) x *= scale;
   const SegmentTrianglePair pair =
       ClosestPair(Vector3d::Zero(), from_a[0], from_a[1], from_a[2], from_a[3]);
   found.distance = std::ldexp(std::sqrt(pair.squared_distance), exponent + 1);
@@ -102,8 +104,9 @@ void SeparatorSearch::Take(const Separator& separator) {
 // Of what is equally far, nodes come first, then triangles by their place: the
 // order does not depend on the shape of the tree.
 bool SeparatorSearch::IsLater(const Waiting& a, const Waiting& b) {
-  return std::make_tuple(a.distance, a.node < 0, a.tree, a.position) >
-         std::make_tuple(b.distance, b.node < 0, b.tree, b.position);
+  if (a.distance != b.distance) return a.distance > b.distance;
+  return std::make_tuple(a.node < 0, a.tree, a.position) >
+         std::make_tuple(b.node < 0, b.tree, b.position);
 }
 
 void SeparatorSearch::Push(const Waiting& item) {

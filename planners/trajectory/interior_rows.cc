@@ -5,24 +5,47 @@
 
 namespace phongpd::internal {
 
+namespace {
+
 using Eigen::ArrayXd;
+using Eigen::Index;
+
+// act(first row, how many) for parts that stay in the first cache while all
+// that is done to them is done.
+template <typename Act>
+void ForParts(Index rows, const Act& act) {
+  constexpr Index kRows = 256;
+  for (Index at = 0; at < rows; at += kRows) {
+    act(at, std::min(kRows, rows - at));
+  }
+}
+
+}  // namespace
 
 void InteriorRows::Begin(const ArrayXd& slacks, double mu) {
   slack = slacks;
   inverse_slack_ = slack.inverse();
   dual = mu * inverse_slack_;
   inverse_dual_ = dual.inverse();
-  product_ = ArrayXd::Zero(size());
-  bends_ = ArrayXd::Zero(size());
+  product_ = bends_ = ArrayXd::Zero(size());
+  slack_step_ = dual_step_ = ArrayXd::Zero(size());
 }
 
 double InteriorRows::Follow(const ArrayXd& slopes, double centre) {
-  slack_step_ = -slopes - bends_;
-  dual_step_ = (centre - product_ - dual * slack_step_) * inverse_slack_ - dual;
-  if (size() == 0) return 1.0;
-  const double shrinks = std::max((-slack_step_ * inverse_slack_).maxCoeff(),
-                                  (-dual_step_ * inverse_dual_).maxCoeff());
-  return 1.0 / std::max(1.0, shrinks);
+  double shrinks = 1.0;
+  ForParts(size(), [&](Index at, Index n) {
+    auto slack_step = slack_step_.segment(at, n);
+    auto dual_step = dual_step_.segment(at, n);
+    const auto inverse_slack = inverse_slack_.segment(at, n);
+    const auto y = dual.segment(at, n);
+    slack_step = -slopes.segment(at, n) - bends_.segment(at, n);
+    dual_step =
+        (centre - product_.segment(at, n) - y * slack_step) * inverse_slack - y;
+    shrinks =
+        std::max({shrinks, (-slack_step * inverse_slack).maxCoeff(),
+                  (-dual_step * inverse_dual_.segment(at, n)).maxCoeff()});
+  });
+  return 1.0 / shrinks;
 }
 
 double InteriorRows::Predict(double reach) {
@@ -39,12 +62,14 @@ void InteriorRows::Move(double reach) {
 }
 
 void InteriorRows::Move(double reach, const ArrayXd& slacks) {
-  slack = slacks;
-  inverse_slack_ = slack.inverse();
-  dual += reach * dual_step_;
-  inverse_dual_ = dual.inverse();
-  product_.setZero();
-  bends_.setZero();
+  ForParts(size(), [&](Index at, Index n) {
+    slack.segment(at, n) = slacks.segment(at, n);
+    inverse_slack_.segment(at, n) = slack.segment(at, n).inverse();
+    dual.segment(at, n) += reach * dual_step_.segment(at, n);
+    inverse_dual_.segment(at, n) = dual.segment(at, n).inverse();
+    product_.segment(at, n).setZero();
+    bends_.segment(at, n).setZero();
+  });
 }
 
 }  // namespace phongpd::internal
