@@ -30,7 +30,8 @@ struct OptimizeRequest {
   Eigen::Vector3d start = Eigen::Vector3d::Zero();
   Eigen::Vector3d goal = Eigen::Vector3d::Zero();
   Model model = Model::kAuto;
-  // Distance kept where there is room, in (0, D]; none: DefaultMargin().
+  // Distance kept where there is room, in (0, D]; none: DefaultMargin(), which
+  // a motion in time keeps only where that costs little.
   std::optional<Length> margin{};
   bool requires_margin = false;  // less is no answer
   Preset preset = Preset::kBalanced;

@@ -15,6 +15,10 @@ namespace {
 
 using Eigen::Vector3d;
 
+// Whoever names a margin means it; the default is only kept where that costs
+// little (CurveOptions::margin_price).
+constexpr double kPriceOfOwnMargin = 200.0;
+
 // Of a place on the way.
 std::string ViaName(std::size_t i) { return "via " + std::to_string(i); }
 
@@ -201,6 +205,7 @@ CurveOptions CurveOptionsOf(const World& world,
   options.start = request.departure;
   options.end = request.arrival;
   options.margin = world.Resolve(request.Margin()).unit;
+  if (request.margin) options.margin_price = kPriceOfOwnMargin;
   options.preset = request.preset;
   options.duration = request.duration;
   options.time_limit = request.options.time_limit;

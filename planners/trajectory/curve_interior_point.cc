@@ -13,7 +13,8 @@ namespace {
 using Eigen::VectorXd;
 
 constexpr int kMaxIterations = 40;
-constexpr double kStartT = 0.03;  // that far inside the limits
+constexpr double kStartT = 0.03;          // that far inside the limits
+constexpr double kRoomOfMissing = 0.003;  // of m at first, of the trust region
 // The gap at the end, a share of what has been gained, and at least; the
 // gradient's largest entry.
 constexpr double kGap = 0.03;
@@ -22,7 +23,7 @@ constexpr double kGradient = 0.1;
 constexpr double kStepShare = 0.99;    // of the way to the nearest row
 constexpr double kLeastSlack = 0.005;  // a step leaves this share of a slack
 constexpr double kShorter = 0.8;       // the next try
-constexpr double kShortestStep = 1e-3;
+constexpr double kShortestStep = 1e-5;
 
 }  // namespace
 
@@ -110,30 +111,41 @@ double CurveInteriorPoint::SumOfT(int piece,
   return sum;
 }
 
-int CurveInteriorPoint::CountMissing(int piece) const {
-  int count = 0;
-  for (const auto& row : program_.pieces[piece].rows) {
-    count += row.missing < 0.0;
+void CurveInteriorPoint::MeetPriceOfMissing(int piece,
+                                            Eigen::ArrayXd* products) const {
+  const auto& rows = program_.pieces[piece].rows;
+  const int first = first_[piece].row;
+  double sum = 0.0;
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    if (rows[k].missing < 0.0)
+      sum += 1.0 / slacks_[first + static_cast<int>(k)];
   }
-  return count;
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    if (rows[k].missing < 0.0) {
+      (*products)[first + static_cast<int>(k)] = program_.missing / sum;
+    }
+  }
 }
 
-// Duals are μ/slack, with the μ that the price of t asks for; and m is where
-// they meet its price.  False where x is not within all rows.
+// Duals are μ/slack, with the μ that the price of t asks for; but for rows that
+// know m, which have some room.  False where x is not within all rows.
 bool CurveInteriorPoint::Begin(VectorXd* x) {
   (*x)[x->size() - 1] = kStartT;
-  FindSlacks(*x);
-  const Eigen::ArrayXd inverse = slacks_.inverse();
-  double of_t = 0.0;
-  for (int i = 0; i < pieces_; ++i) of_t -= SumOfT(i, inverse);
-  const double mu = program_.t / of_t;
-  for (int i = 0; program_.missing > 0.0 && i < pieces_; ++i) {
-    (*x)[kBlock * i + 10] =
-        program_.pieces[i].missing + mu * CountMissing(i) / program_.missing;
+  for (int i = 0; i < pieces_; ++i) {
+    if (program_.missing == 0.0) break;
+    (*x)[kBlock * i + 10] = program_.pieces[i].missing + kRoomOfMissing;
   }
   FindSlacks(*x);
   if (!(slacks_ > 0.0).all()) return false;
-  state_.Begin(slacks_, mu);
+  const Eigen::ArrayXd inverse = slacks_.inverse();
+  double of_t = 0.0;
+  for (int i = 0; i < pieces_; ++i) of_t -= SumOfT(i, inverse);
+  Eigen::ArrayXd products =
+      Eigen::ArrayXd::Constant(CountRows(), program_.t / of_t);
+  for (int i = 0; i < pieces_; ++i) {
+    if (program_.missing > 0.0) MeetPriceOfMissing(i, &products);
+  }
+  state_.Begin(slacks_, products);
   return true;
 }
 

@@ -38,9 +38,10 @@ class CurveInteriorPoint {
   // linear need not be looked at again.  x: there.
   void FollowSlacks(const Eigen::VectorXd& x, double alpha);
   int CountRows() const { return first_.back().bound; }
-  // Σ of weight · what t weighs, and how many rows know m.
+  // Σ of weight · what t weighs.
   double SumOfT(int piece, const Eigen::ArrayXd& weights) const;
-  int CountMissing(int piece) const;
+  // Products of the rows that know m, at which their duals meet its price.
+  void MeetPriceOfMissing(int piece, Eigen::ArrayXd* products) const;
   bool Begin(Eigen::VectorXd* x);
   // Σ of weight · gradient of a piece's rows.
   CurveLocal SumOfRows(int piece, const Eigen::ArrayXd& weights) const;

@@ -31,6 +31,10 @@ struct CurveOptions {
   // duration as could be found.
   double duration = 0.0;
   double margin = 0.0;  // clearance wished for, user's unit, ≥ 0
+  // What missing a clearance of D would cost, as a share of the duration; > 0.
+  // At 50 much of a margin goes where that saves a little time; at 200 it is
+  // kept wherever there is room.
+  double margin_price = 50.0;
   // How long to look for a faster curve.  kFast: three pieces for each segment
   // of the path.  kBalanced: then each piece is halved, and once more if there
   // are fewer than 40.  kTight: halved twice, and once more if there are fewer
@@ -64,8 +68,8 @@ struct CurveSummary {
   double duration = 0.0;   // seconds
   double clearance = 0.0;  // a lower bound, to rounding; user's unit
   double margin = 0.0;     // the part of the wished margin that is kept
-  // duration · (1 + 50 m/D), seconds, where m is what the pieces lack of the
-  // margin, on average: what says which of several curves is the best.
+  // duration · (1 + margin_price m/D), seconds, where m is what the pieces lack
+  // of the margin, on average: what says which of several curves is the best.
   double cost = 0.0;
   std::vector<CurveRound> rounds;
   double stops_duration = 0.0;  // of the first certified curve, seconds

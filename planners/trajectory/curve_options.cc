@@ -111,6 +111,8 @@ void CurveOptions::Validate() const {
   }
   CheckOption(margin >= 0.0 && std::isfinite(margin), "curve", "margin",
               "a finite length >= 0", margin);
+  CheckOption(margin_price > 0.0 && std::isfinite(margin_price), "curve",
+              "margin_price", "a finite share > 0", margin_price);
   CheckOption(time_limit > 0.0, "curve", "time_limit", "> 0 seconds",
               time_limit);
 }

@@ -28,6 +28,7 @@ void Append(const CurveSummary& one, double before, CurveSummary* all,
   if (all->status == PathStatus::kConverged) all->status = one.status;
   all->rounds.insert(all->rounds.end(), one.rounds.begin(), one.rounds.end());
   all->stops_duration += one.stops_duration;
+  all->cost += one.cost;
   all->clearance = std::min(all->clearance, one.clearance);
   all->margin = std::min(all->margin, one.margin);
   all->first_seconds = before + one.first_seconds;
@@ -75,6 +76,7 @@ CurveSummary OptimizeWithRests(const FreeSpace& space, double diagonal,
     const CurveVia& via = options.via[i];
     pieces.emplace_back(std::vector<Vector3d>(6, via.point), via.dwell);
     all.stops_duration += via.dwell;
+    all.cost += via.dwell;
     from = at;
     part.start = {};
     part.via.clear();

@@ -37,6 +37,7 @@ CurveSearch::CurveSearch(const FreeSpace& space, double diagonal,
   settings_.limits = options.limits;
   settings_.diagonal = diagonal;
   settings_.margin = options.margin;
+  settings_.weights.missing = options.margin_price;
   settings_.trust = kTrust * diagonal;
   settings_.sigma = kSigma;
   settings_.keeps_pace = !options.start.IsAtRest() || !options.end.IsAtRest();

@@ -22,10 +22,10 @@ void ForParts(Index rows, const Act& act) {
 
 }  // namespace
 
-void InteriorRows::Begin(const ArrayXd& slacks, double mu) {
+void InteriorRows::Begin(const ArrayXd& slacks, const ArrayXd& products) {
   slack = slacks;
   inverse_slack_ = slack.inverse();
-  dual = mu * inverse_slack_;
+  dual = products * inverse_slack_;
   inverse_dual_ = dual.inverse();
   product_ = bends_ = ArrayXd::Zero(size());
   slack_step_ = dual_step_ = ArrayXd::Zero(size());

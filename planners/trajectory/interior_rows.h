@@ -13,8 +13,8 @@ class InteriorRows {
  public:
   int size() const { return static_cast<int>(slack.size()); }
 
-  // At those slacks, where all products s·y are μ.
-  void Begin(const Eigen::ArrayXd& slacks, double mu);
+  // At those slacks, with those products s·y > 0.
+  void Begin(const Eigen::ArrayXd& slacks, const Eigen::ArrayXd& products);
 
   double Gap() const { return (slack * dual).sum(); }  // Σ s·y
 

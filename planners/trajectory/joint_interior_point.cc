@@ -258,7 +258,8 @@ bool JointInteriorPoint::Begin(VectorXd* x) {
       }
     }
   }
-  state_.Begin(slacks, program_.curves[0].t / of_t);
+  state_.Begin(slacks, Eigen::ArrayXd::Constant(slacks.size(),
+                                                program_.curves[0].t / of_t));
   return true;
 }
 

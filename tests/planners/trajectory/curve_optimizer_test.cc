@@ -295,18 +295,43 @@ TEST(OptimizeCurve, KeepsTheMarginWhereThereIsRoom) {
     const CurveSummary free =
         OptimizeCurve(one.space, one.diagonal, one.path, options);
     options.margin = 0.01 * one.diagonal;
-    const CurveSummary summary =
-        OptimizeCurve(one.space, one.diagonal, one.path, options);
-    ExpectKept(summary, options.limits, one.space, family);
-    EXPECT_GE(summary.margin, 0.9 * options.margin) << family;
-    EXPECT_LE(summary.margin, options.margin) << family;
-    EXPECT_LT(summary.duration, 1.2 * free.duration) << family;
-    // By distances of points.
-    double least = std::numeric_limits<double>::infinity();
-    for (const auto& sample : summary.trajectory.Samples(200.0)) {
-      least = std::min(least, one.space.Clearance(sample.position));
+    for (const auto& [price, kept] :
+         {std::pair(50.0, 0.9), std::pair(200.0, 0.9999)}) {
+      options.margin_price = price;
+      const CurveSummary summary =
+          OptimizeCurve(one.space, one.diagonal, one.path, options);
+      ExpectKept(summary, options.limits, one.space, family);
+      EXPECT_GE(summary.margin, kept * options.margin) << family << price;
+      EXPECT_LE(summary.margin, options.margin) << family;
+      EXPECT_LT(summary.duration, 1.2 * free.duration) << family;
+      // By distances of points.
+      double least = std::numeric_limits<double>::infinity();
+      for (const auto& sample : summary.trajectory.Samples(200.0)) {
+        least = std::min(least, one.space.Clearance(sample.position));
+      }
+      EXPECT_GE(least, summary.clearance * (1.0 - 1e-9)) << family;
     }
-    EXPECT_GE(least, summary.clearance * (1.0 - 1e-9)) << family;
+  }
+}
+
+// At the price at which it is kept, and so wide that the first curve lacks much
+// of it: the curve becomes fast nevertheless.
+TEST(OptimizeCurve, BecomesFastWithAWideMargin) {
+  for (const std::string& family : testing::CurveFamilies()) {
+    for (int seed = 1; seed <= 3; ++seed) {
+      const testing::FreePath one =
+          testing::PlanFreePath(family, static_cast<std::uint64_t>(seed));
+      CurveOptions options = With(Limits(1.0, 2.0, 10.0));
+      const CurveSummary free =
+          OptimizeCurve(one.space, one.diagonal, one.path, options);
+      options.margin = 0.03 * one.diagonal;
+      options.margin_price = 200.0;
+      const CurveSummary summary =
+          OptimizeCurve(one.space, one.diagonal, one.path, options);
+      const std::string what = family + " " + std::to_string(seed);
+      ExpectKept(summary, options.limits, one.space, what);
+      EXPECT_LT(summary.duration, 1.35 * free.duration) << what;
+    }
   }
 }
 

@@ -98,6 +98,7 @@ TEST(OptimizeCurveVia, PassesAPlaceFasterThanItStopsThere) {
   const CurveSummary rest = OptimizeCurve(space, 2.0, path, options);
   ExpectCertifiedAndPassed(space, path, options, rest);
   EXPECT_GT(rest.duration, 1.5 + 1.2 * before);
+  EXPECT_NEAR(rest.cost, rest.duration, 1e-12);  // no margin, nothing missing
 }
 
 // There and back: the second place is not passed on the way to the first.

@@ -20,14 +20,17 @@ ArrayXd Uniform(double least, double most, std::mt19937_64* random) {
   return ArrayXd::NullaryExpr(kRows, [&] { return uniform(*random); });
 }
 
-TEST(InteriorRows, BeginOnTheCentralPath) {
+TEST(InteriorRows, BeginWithTheProductsAskedFor) {
   std::mt19937_64 random(1);
+  const ArrayXd products = Uniform(0.1, 0.5, &random);
   InteriorRows rows;
-  rows.Begin(Uniform(0.1, 2.0, &random), kMu);
+  rows.Begin(Uniform(0.1, 2.0, &random), products);
+  double sum = 0.0;
   for (int i = 0; i < kRows; ++i) {
-    EXPECT_NEAR(rows.slack[i] * rows.dual[i], kMu, 1e-15);
+    EXPECT_NEAR(rows.slack[i] * rows.dual[i], products[i], 1e-15);
+    sum += products[i];
   }
-  EXPECT_NEAR(rows.Gap(), kMu * kRows, 1e-12);
+  EXPECT_NEAR(rows.Gap(), sum, 1e-12);
 }
 
 // s·y + s Δy + y Δs + Δs'Δy' = centre, with the products Δs'Δy' of the step
@@ -37,7 +40,7 @@ TEST(InteriorRows, FollowAStepOfTheUnknowns) {
   std::mt19937_64 random(2);
   for (int trial = 0; trial < 20; ++trial) {
     InteriorRows rows;
-    rows.Begin(Uniform(0.1, 2.0, &random), kMu);
+    rows.Begin(Uniform(0.1, 2.0, &random), ArrayXd::Constant(kRows, kMu));
     const ArrayXd s = rows.slack, y = rows.dual;
     const ArrayXd first = Uniform(-3.0, 3.0, &random);
     const double reach = rows.Follow(first, 0.0);
@@ -80,13 +83,13 @@ TEST(InteriorRows, FollowAStepOfTheUnknowns) {
 // No row is in the way, and slacks that are known better are taken.
 TEST(InteriorRows, GoTheWholeWayWhereNothingEnds) {
   InteriorRows rows;
-  rows.Begin(ArrayXd::Constant(3, 1.0), kMu);
+  rows.Begin(ArrayXd::Constant(3, 1.0), ArrayXd::Constant(3, kMu));
   EXPECT_EQ(rows.Follow(ArrayXd::Constant(3, -1.0), 1.0), 1.0);
   rows.Move(1.0, ArrayXd::Constant(3, 2.5));
   EXPECT_EQ(rows.slack[1], 2.5);
   EXPECT_NEAR(rows.dual[1], kMu + (1.0 - kMu - kMu), 1e-15);
   InteriorRows none;
-  none.Begin(ArrayXd(0), kMu);
+  none.Begin(ArrayXd(0), ArrayXd(0));
   EXPECT_EQ(none.Follow(ArrayXd(0), 0.0), 1.0);
 }
 

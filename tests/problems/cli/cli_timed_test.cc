@@ -211,6 +211,37 @@ TEST_F(CliTimed, BeginsAndEndsAsItIsTold) {
   EXPECT_NE(path.err.find("--arrival"), std::string::npos) << path.err;
 }
 
+// Where start and goal have room, what is asked for is kept all the way, with
+// rests and without, and whatever the preset; so that it may be required.
+TEST_F(CliTimed, KeepsAMarginThatIsAskedFor) {
+  Json json = TwoObstacles();
+  Scene(json);
+  json["via"] = {{{"point", {-0.8, 0.9, 0.3}}, {"dwell", 0.2}}};
+  Scene(json, "via.json");
+  for (const std::string scene : {"scene", "via"}) {
+    double longer = 0.0;  // than without
+    for (const std::string preset : {"fast", "balanced", "tight"}) {
+      const std::string command =
+          "optimize ../" + scene + ".json --limits 1,2,10 --preset " + preset;
+      const double free = Answer(command, 0)["duration"].get<double>();
+      for (const double margin : {0.02, 0.05, 0.1}) {
+        const std::string asked =
+            command + " --margin " + std::to_string(margin) + "unit";
+        const Json wish = Answer(asked, 0);
+        EXPECT_GE(wish["clearance"].get<double>(), 0.999 * margin) << asked;
+        const Json row = Answer(asked + " --require", 0);
+        EXPECT_EQ(row["certified"], true) << asked;
+        EXPECT_GE(row["clearance"].get<double>(), (1.0 - 1e-6) * margin)
+            << asked;
+        EXPECT_LE(row["lengths"]["kept_margin"]["unit"].get<double>(),
+                  margin * (1.0 + 1e-9));
+        longer = std::max(longer, row["duration"].get<double>() / free - 1.0);
+      }
+    }
+    EXPECT_LT(longer, 0.15) << scene;
+  }
+}
+
 TEST_F(CliTimed, EndsAtCtrlCWithTheBestSoFar) {
   // A thousand places to pass: the first curve within a second, half a minute
   // until the search ends by itself.
