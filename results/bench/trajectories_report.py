@@ -95,7 +95,7 @@ def _losses(rows, peer_rows, best):
         yield f"- {name} fails on {count} pairs, first by {words}."
     late = sorted(((r["answers"]["PhongPD"]["duration"] / best[r["key"]][0] - 1,
                     r["key"]) for r in peer_rows if "answers" in r), reverse=True)
-    worse = [f"{key} {100 * by:.2g} % ({best[key][1]})" for by, key in late
+    worse = [f"{key} {100 * by:.2f} % ({best[key][1]})" for by, key in late
              if by > 0.03]
     if worse:
         yield ("- More than 3 % above the best known of its ends: "
