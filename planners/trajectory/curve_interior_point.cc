@@ -23,6 +23,8 @@ constexpr double kGradient = 0.1;
 constexpr double kStepShare = 0.99;    // of the way to the nearest row
 constexpr double kLeastSlack = 0.005;  // a step leaves this share of a slack
 constexpr double kShorter = 0.8;       // the next try
+// A step that leads less far ends it.  The first ones are as short as 1e-4
+// where most of a wide margin is missing.
 constexpr double kShortestStep = 1e-5;
 
 }  // namespace
@@ -113,26 +115,24 @@ double CurveInteriorPoint::SumOfT(int piece,
 
 void CurveInteriorPoint::MeetPriceOfMissing(int piece,
                                             Eigen::ArrayXd* products) const {
-  const auto& rows = program_.pieces[piece].rows;
-  const int first = first_[piece].row;
-  double sum = 0.0;
-  for (std::size_t k = 0; k < rows.size(); ++k) {
-    if (rows[k].missing < 0.0)
-      sum += 1.0 / slacks_[first + static_cast<int>(k)];
-  }
-  for (std::size_t k = 0; k < rows.size(); ++k) {
-    if (rows[k].missing < 0.0) {
-      (*products)[first + static_cast<int>(k)] = program_.missing / sum;
+  const auto for_rows = [&](const auto& act) {
+    int at = first_[piece].row;
+    for (const auto& row : program_.pieces[piece].rows) {
+      if (row.missing < 0.0) act(at);
+      ++at;
     }
-  }
+  };
+  double sum = 0.0;
+  for_rows([&](int at) { sum += 1.0 / slacks_[at]; });
+  for_rows([&](int at) { (*products)[at] = program_.missing / sum; });
 }
 
 // Duals are μ/slack, with the μ that the price of t asks for; but for rows that
 // know m, which have some room.  False where x is not within all rows.
 bool CurveInteriorPoint::Begin(VectorXd* x) {
   (*x)[x->size() - 1] = kStartT;
-  for (int i = 0; i < pieces_; ++i) {
-    if (program_.missing == 0.0) break;
+  const bool has_missing = program_.missing > 0.0;
+  for (int i = 0; has_missing && i < pieces_; ++i) {
     (*x)[kBlock * i + 10] = program_.pieces[i].missing + kRoomOfMissing;
   }
   FindSlacks(*x);
@@ -142,8 +142,8 @@ bool CurveInteriorPoint::Begin(VectorXd* x) {
   for (int i = 0; i < pieces_; ++i) of_t -= SumOfT(i, inverse);
   Eigen::ArrayXd products =
       Eigen::ArrayXd::Constant(CountRows(), program_.t / of_t);
-  for (int i = 0; i < pieces_; ++i) {
-    if (program_.missing > 0.0) MeetPriceOfMissing(i, &products);
+  for (int i = 0; has_missing && i < pieces_; ++i) {
+    MeetPriceOfMissing(i, &products);
   }
   state_.Begin(slacks_, products);
   return true;
