@@ -144,8 +144,7 @@ std::vector<Vector3d> DropCorners(const FreeSpace& space,
     }
     for (std::size_t to = path.size() - 1; to > at + 1; --to) {
       if (space.IsFree(path[at], path[to]) &&
-          (wanted[to] == 0.0 ||
-           space.Clearance(path[at], path[to]) >= wanted[to])) {
+          space.Clearance(path[at], path[to]) >= wanted[to]) {
         next = to;
         break;
       }

@@ -50,9 +50,10 @@ struct PieceDerivatives {
 double SlowingOf(const KnotCurve& curve, const MotionLimits& limits);
 
 // From corner to corner in straight lines, the exact judge agreeing: first the
-// farthest that is in sight, and not closer to contact than the way that is
-// left out, or than `clearance` and what rounding needs.  Requires a free path;
-// equal points that follow each other are one.
+// farthest that is in sight.  Each line is as far from contact as the way that
+// it replaces, or as `clearance` and 1e-12 of the largest coordinate, by which
+// rounding may take a curve off it.  Requires a free path; equal points that
+// follow each other are one.
 std::vector<Eigen::Vector3d> DropCorners(
     const FreeSpace& space, const std::vector<Eigen::Vector3d>& path,
     double clearance);
