@@ -17,7 +17,8 @@ using Eigen::Vector3d;
 using internal::kInfinity;
 // Of a box's distance: what rounding may add to it, or take from a triangle's.
 constexpr double kBoxRounding = 1e-12;
-// Its power of two has an inverse.
+// Below it the inverse of a power of two is infinite; numbers that small are
+// scaled by less, which their squares survive.
 constexpr int kLeastExponent = -1022;
 
 }  // namespace

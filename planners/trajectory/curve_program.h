@@ -14,7 +14,8 @@ namespace phongpd::internal {
 struct CurveWeights {
   double jerk = 1e-3;      // of the mean of |jerk/limit|²
   double evenness = 1e-3;  // of the mean square of ln h_{i+1} − ln h_i
-  double missing = 50.0;   // of the mean missing clearance, as a share of D
+  double missing = 50.0;   // of the mean missing clearance, as a share of D:
+                           // CurveOptions::margin_price
 };
 
 // A knot that stays close to a point.
