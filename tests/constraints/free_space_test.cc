@@ -196,6 +196,28 @@ TEST(FreeSpace, SeparatorsScaleBitForBit) {
   }
 }
 
+// Where numbers have lost digits, what is left of them is.
+TEST(FreeSpace, SeparatorsAreFiniteWhereNumbersAreSmallest) {
+  std::mt19937_64 random(13);
+  const BoundingBox box = {Vector3d::Constant(-1.0), Vector3d::Constant(1.0)};
+  constexpr int kExponent = -1040;  // coordinates are multiples of 2⁻³⁴ of it
+  for (int i = 0; i < 200; ++i) {
+    std::array<Vector3d, 5> q;
+    for (Vector3d& x : q) {
+      x = testing::RandomPoint(box, &random);
+      for (double& c : x) c = std::ldexp(std::round(std::ldexp(c, 20)), -20);
+    }
+    const Separator one = SeparatorOf({q[0], q[1], q[2]}, q[3], q[4]);
+    for (Vector3d& x : q) {
+      for (double& c : x) c = std::ldexp(c, kExponent);
+    }
+    const Separator small = SeparatorOf({q[0], q[1], q[2]}, q[3], q[4]);
+    EXPECT_NEAR(std::ldexp(small.distance, -kExponent), one.distance, 1e-9);
+    EXPECT_NEAR(small.normal.norm(), one.normal.norm(), 1e-12);
+    EXPECT_LT((small.normal - one.normal).norm(), 1e-9 / one.distance + 1e-12);
+  }
+}
+
 TEST(FreeSpace, TakesAllTrianglesThatASegmentMeetsForSeparators) {
   const FreeSpace space({TakeAsContactSpace(testing::Cube(1))});
   // Through two faces, along a diagonal of one of them.
