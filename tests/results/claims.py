@@ -203,6 +203,11 @@ def power_of(what, column):
                for r in rows))).slope
 
 
+GROWN = table("trajectories/growth.csv")
+claim("results/trajectories/README.md", "{} motions, {} certified: through mazes",
+      len(GROWN), sum(r["certified"] == "True" for r in GROWN))
 for what in ("pieces", "triangles"):
-    claim("results/trajectories/README.md", what + ": time grows with exponent {:.3g}",
+    sizes = [int(r[what]) for r in where("trajectories/growth.csv", of=what)]
+    claim("results/trajectories/README.md", "{:,} to {:,} " + what + ": time grows "
+          "with exponent {:.3g}", min(sizes), max(sizes),
           power_of(what, "CPU s, first to refined"))
