@@ -32,8 +32,9 @@ struct CurveOptions {
   double duration = 0.0;
   double margin = 0.0;  // clearance wished for, user's unit, ≥ 0
   // What missing a clearance of D would cost, as a share of the duration; > 0.
-  // At 50 much of a margin goes where that saves a little time; at 200 it is
-  // kept wherever there is room.
+  // At 50 much of a margin goes where that saves a little time; at 200 nearly
+  // none does where there is room.  No price proves that it is kept: see
+  // CurveSummary::margin.
   double margin_price = 50.0;
   // How long to look for a faster curve.  kFast: three pieces for each segment
   // of the path.  kBalanced: then each piece is halved, and once more if there
