@@ -4,17 +4,28 @@ them; see `--help`."""
 
 import kept_rows as rows
 import trajectories_beside
-import trajectories_gcs
-import trajectories_growth
-import trajectories_moving
+import trajectories_gcs as gcs
+import trajectories_growth as growth
+import trajectories_moving as moving
 import trajectories_run
 from trajectories_duels import version
-from trajectories_instances import FAMILIES, instances, peer_instances
+from trajectories_instances import instances, peer_instances
 from trajectories_report import write_report
 
 PACKAGES = ["numpy", "python-fcl", "ruckig", "toppra", "ompl", "drake"]
-PARTS = ["own", "peers", "gcs", "moving", "growth"]
 TINY = ["u_axis", "tunnel:delta=1e-6"]
+# Of each: what is measured, a few of it, how, and in words.
+PARTS = {
+    "own": (instances(), instances(TINY, [1], {"forest50": 1}),
+            trajectories_run.measure, "motions measured"),
+    "peers": (peer_instances(), peer_instances(TINY[:1], 1),
+              trajectories_beside.measure, "pairs with peers measured"),
+    "gcs": (gcs.instances(), gcs.instances(0, 1), gcs.measure,
+            "pairs with graphs of convex sets measured"),
+    "moving": (moving.instances(), moving.instances(3), moving.measure,
+               "motions among moving obstacles measured"),
+    "growth": (growth.instances(), growth.instances((4, 6), (12,), 1),
+               growth.measure, "motions of growing size measured")}
 
 
 def main():
@@ -23,30 +34,9 @@ def main():
                         help="a few instances, to see whether it runs")
     arguments = parser.parse_args()
     deadline = rows.deadline_of(arguments)
-    rows.run_part(arguments, "own",
-                  instances(TINY, [1], {"forest50": 1}) if arguments.tiny
-                  else instances(FAMILIES),
-                  trajectories_run.measure, deadline, "motions measured")
-    rows.run_part(arguments, "peers",
-                  peer_instances(TINY[:1], 1) if arguments.tiny
-                  else peer_instances(),
-                  trajectories_beside.measure, deadline,
-                  "pairs with peers measured")
-    rows.run_part(arguments, "gcs",
-                  trajectories_gcs.instances(0, 1) if arguments.tiny
-                  else trajectories_gcs.instances(),
-                  trajectories_gcs.measure, deadline,
-                  "pairs with graphs of convex sets measured")
-    rows.run_part(arguments, "moving",
-                  trajectories_moving.instances(3) if arguments.tiny
-                  else trajectories_moving.instances(),
-                  trajectories_moving.measure, deadline,
-                  "motions among moving obstacles measured")
-    rows.run_part(arguments, "growth",
-                  trajectories_growth.instances((4, 6), (12,), 1)
-                  if arguments.tiny else trajectories_growth.instances(),
-                  trajectories_growth.measure, deadline,
-                  "motions of growing size measured")
+    for part, (whole, few, measure, what) in PARTS.items():
+        rows.run_part(arguments, part, few if arguments.tiny else whole, measure,
+                      deadline, what)
     if arguments.part in ("report", "all"):
         write_report(arguments.output, arguments.how, arguments.commit,
                      {part: rows.read(arguments.rows / f"{part}.jsonl")
