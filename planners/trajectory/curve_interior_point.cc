@@ -46,12 +46,15 @@ CurveInteriorPoint::CurveInteriorPoint(const CurveProgram& program)
     first_.push_back(first);
     for (const CurveProgram::Row& row : piece.rows) {
       has_norms_ = has_norms_ || row.kind == CurveProgram::Row::kNorm;
-      rows_.emplace_back(row);
     }
+    AppendRows(piece.rows, &rows_);
     first.other = static_cast<int>(rows_.size());
     first.bound = first.row + static_cast<int>(piece.rows.size());
   }
   first_.push_back(first);
+  int most = 0;
+  for (int i = 0; i < pieces_; ++i) most = std::max(most, RowsOfPiece(i));
+  weights_.resize(most);
   slacks_.resize(CountRows());
   slopes_.resize(CountRows());
   AddObjective(program_, &hessian_, &linear_);
@@ -78,23 +81,28 @@ void CurveInteriorPoint::FindSlacks(const VectorXd& x) {
                 SlacksOf(bounds, local, slacks_.data() + at);
               });
     double* to = slacks_.data() + first_[i].row;
-    double along = 0.0;
     for (int k = first_[i].other; k < first_[i + 1].other; ++k) {
-      *to++ = SlackAt(&rows_[k], local, &along);
+      to = WriteSlacks(&rows_[k], local, to);
     }
+  }
+}
+
+template <typename Act>
+void CurveInteriorPoint::ForNorms(int piece, const Act& act) const {
+  int at = first_[piece].row;
+  for (int k = first_[piece].other; k < first_[piece + 1].other; ++k) {
+    if (rows_[k].kind == CurveProgram::Row::kNorm) act(k, at);
+    at += rows_[k].is_pair ? 2 : 1;
   }
 }
 
 void CurveInteriorPoint::FollowSlacks(const VectorXd& x, double alpha) {
   slacks_ = state_.slack - alpha * slopes_;
-  for (int i = 0; has_norms_ && i < pieces_; ++i) {
+  for (int i = 0; i < pieces_; ++i) {
     const CurveLocal local = ToLocal(program_, i, x);
-    double* to = slacks_.data() + first_[i].row;
-    double along = 0.0;
-    for (int k = first_[i].other; k < first_[i + 1].other; ++k, ++to) {
-      if (rows_[k].row->kind != CurveProgram::Row::kNorm) continue;
-      *to = SlackAt(&rows_[k], local, &along);
-    }
+    ForNorms(i, [&](int k, int at) {
+      WriteSlacks(&rows_[k], local, slacks_.data() + at);
+    });
   }
 }
 
@@ -105,11 +113,12 @@ double CurveInteriorPoint::SumOfT(int piece,
             [&](const auto& bounds, int at) {
               sum += TermsInT(bounds, weights.data() + at);
             });
-  int at = first_[piece].row;
-  for (int k = first_[piece].other; k < first_[piece + 1].other; ++k, ++at) {
+  const auto add = [&](const CurveRowNow& row, const CurveRowWeights& by, int) {
     // Others may weigh infinitely much.
-    if (rows_[k].t != 0.0) sum += rows_[k].t * weights[at];
-  }
+    if (row.t != 0.0) sum += row.t * by.along;
+  };
+  ForRows(rows_, first_[piece].other, first_[piece + 1].other,
+          weights.data() + first_[piece].row, add);
   return sum;
 }
 
@@ -150,37 +159,39 @@ bool CurveInteriorPoint::Begin(VectorXd* x) {
 }
 
 CurveLocal CurveInteriorPoint::SumOfRows(int piece,
-                                         const Eigen::ArrayXd& weights) const {
+                                         const double* weights) const {
   const First& first = first_[piece];
   CurveLocal sum = CurveLocal::Zero();
-  ForBounds(program_.pieces[piece], first.bound,
-            [&](const auto& bounds, int at) {
-              AddGradients(bounds, weights.data() + at, &sum);
-            });
-  ForRows(
-      rows_, first.other, first_[piece + 1].other, weights, first.row,
-      [&](int k, const CurveRowWeights& by) { AddRow(rows_[k], by, &sum); });
+  ForBounds(program_.pieces[piece], 0, [&](const auto& bounds, int at) {
+    AddGradients(bounds, weights + at, &sum);
+  });
+  ForRows(rows_, first.other, first_[piece + 1].other,
+          weights + (first.row - first.bound),
+          [&](const CurveRowNow& row, const CurveRowWeights& by, int) {
+            AddRow(row, by, &sum);
+          });
   return sum;
 }
 
-void CurveInteriorPoint::AddRows(BlockTridiagonal* matrix,
-                                 VectorXd* residual) const {
-  const Eigen::ArrayXd squares = state_.Squares();
+void CurveInteriorPoint::AddRows(BlockTridiagonal* matrix, VectorXd* residual) {
+  double* const squares = weights_.data();
   for (int i = 0; i < pieces_; ++i) {
     const First& first = first_[i];
+    const double* const duals = state_.dual.data() + first.bound;
+    const int bounds_rows = first.row - first.bound;
+    state_.WriteSquares(first.bound, RowsOfPiece(i), squares);
     CurveLocalMatrix lower = CurveLocalMatrix::Zero();
-    ForBounds(program_.pieces[i], first.bound, [&](const auto& bounds, int at) {
-      AddSquares(bounds, squares.data() + at, &lower);
+    ForBounds(program_.pieces[i], 0, [&](const auto& bounds, int at) {
+      AddSquares(bounds, squares + at, &lower);
     });
-    ForRows(rows_, first.other, first_[i + 1].other, squares, first.row,
-            [&](int k, const CurveRowWeights& by) {
+    ForRows(rows_, first.other, first_[i + 1].other, squares + bounds_rows,
+            [&](const CurveRowNow& row, const CurveRowWeights& by, int at) {
               // Norms are never one of two.
-              const double dual = state_.dual[first.row + k - first.other];
-              AddSquare(rows_[k], by, dual, &lower);
+              AddSquare(row, by, duals[bounds_rows + at], &lower);
             });
     CurveLocalMatrix local = lower.selfadjointView<Eigen::Lower>();
     AddMatrix(program_, i, &local, matrix);
-    AddGradient(program_, i, SumOfRows(i, state_.dual), residual);
+    AddGradient(program_, i, SumOfRows(i, duals), residual);
   }
 }
 
@@ -193,9 +204,8 @@ double CurveInteriorPoint::FollowRows(const VectorXd& step, double centre) {
                 SlopesOf(bounds, local, slopes_.data() + at);
               });
     double* to = slopes_.data() + first_[i].row;
-    double along = 0.0;
     for (int k = first_[i].other; k < first_[i + 1].other; ++k) {
-      *to++ = Slope(rows_[k], local, &along);
+      to = WriteSlopes(rows_[k], local, to);
     }
   }
   return state_.Follow(slopes_, centre);
@@ -205,19 +215,16 @@ Eigen::ArrayXd CurveInteriorPoint::BendsAlong(const VectorXd& step) const {
   Eigen::ArrayXd bends = Eigen::ArrayXd::Zero(CountRows());
   for (int i = 0; i < pieces_; ++i) {
     const CurveLocal local = ToLocal(program_, i, step);
-    double* to = bends.data() + first_[i].row;
-    for (int k = first_[i].other; k < first_[i + 1].other; ++k, ++to) {
-      if (rows_[k].row->kind != CurveProgram::Row::kNorm) continue;
-      *to = BendOf(rows_[k], local);
-    }
+    ForNorms(i, [&](int k, int at) { bends[at] = BendOf(rows_[k], local); });
   }
   return bends;
 }
 
-void CurveInteriorPoint::AddCentres(double centre, VectorXd* to) const {
-  const Eigen::ArrayXd multipliers = state_.Multipliers(centre);
+void CurveInteriorPoint::AddCentres(double centre, VectorXd* to) {
   for (int i = 0; i < pieces_; ++i) {
-    AddGradient(program_, i, SumOfRows(i, multipliers), to);
+    state_.WriteMultipliers(centre, first_[i].bound, RowsOfPiece(i),
+                            weights_.data());
+    AddGradient(program_, i, SumOfRows(i, weights_.data()), to);
   }
 }
 
@@ -262,13 +269,17 @@ CurveInteriorPoint::Result CurveInteriorPoint::Solve() {
     Fix(&step);
     matrix.Solve(&step);
     double alpha = std::min(1.0, kStepShare * FollowRows(step, centre));
-    // The slacks themselves count in the end: norms bend.
-    for (; alpha > kShortestStep; alpha *= kShorter) {
+    // Of norms, which bend, the slacks themselves count in the end.
+    for (; has_norms_ && alpha > kShortestStep; alpha *= kShorter) {
       FollowSlacks(x + alpha * step, alpha);
       if ((slacks_ > kLeastSlack * state_.slack).all()) break;
     }
     if (!(alpha > kShortestStep)) break;
-    state_.Move(alpha, slacks_);
+    if (has_norms_) {
+      state_.Move(alpha, slacks_);
+    } else {
+      state_.Move(alpha);
+    }
     x += alpha * step;
   }
   result.x = x;

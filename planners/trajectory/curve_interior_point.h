@@ -38,17 +38,23 @@ class CurveInteriorPoint {
   // linear need not be looked at again.  x: there.
   void FollowSlacks(const Eigen::VectorXd& x, double alpha);
   int CountRows() const { return first_.back().bound; }
+  int RowsOfPiece(int piece) const {
+    return first_[piece + 1].bound - first_[piece].bound;
+  }
+  // act(which of rows_, which of all rows) for the norms among its rows.
+  template <typename Act>
+  void ForNorms(int piece, const Act& act) const;
   // Σ of weight · what t weighs.
   double SumOfT(int piece, const Eigen::ArrayXd& weights) const;
   // Products of the rows that know m, at which their duals meet its price.
   void MeetPriceOfMissing(int piece, Eigen::ArrayXd* products) const;
   bool Begin(Eigen::VectorXd* x);
-  // Σ of weight · gradient of a piece's rows.
-  CurveLocal SumOfRows(int piece, const Eigen::ArrayXd& weights) const;
-  void AddRows(BlockTridiagonal* matrix, Eigen::VectorXd* residual) const;
+  // Σ of weight · gradient of a piece's rows, of which those are the weights.
+  CurveLocal SumOfRows(int piece, const double* weights) const;
+  void AddRows(BlockTridiagonal* matrix, Eigen::VectorXd* residual);
   double FollowRows(const Eigen::VectorXd& step, double centre);
   Eigen::ArrayXd BendsAlong(const Eigen::VectorXd& step) const;
-  void AddCentres(double centre, Eigen::VectorXd* to) const;
+  void AddCentres(double centre, Eigen::VectorXd* to);
 
   const CurveProgram& program_;
   int pieces_;
@@ -65,6 +71,7 @@ class CurveInteriorPoint {
   bool has_norms_ = false;  // among `rows_`
   InteriorRows state_;
   Eigen::ArrayXd slacks_, slopes_;  // of each row, at a new x or along a step
+  Eigen::ArrayXd weights_;          // of the rows of one piece
 };
 
 }  // namespace phongpd::internal

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <vector>
 
 #include "planners/trajectory/scaled_curve_program.h"
@@ -13,29 +14,40 @@ namespace phongpd::internal {
 // |y| ≤ u, of kNorm, is y²/u − u ≤ 0 here: convex, smooth at y = 0, and within
 // it −ln(u − y²/u) is all but the barrier of the cone, so that steps go far.
 // Its curvature is (2/u) (Δy − (y/u) Δu)².
+//
+// All that iterations read of many rows again and again is here, close
+// together: programs of long curves do not fit into the caches.
 struct CurveRowNow {
-  explicit CurveRowNow(const CurveProgram::Row& of)
-      : row(&of), direction(of.direction), eta(of.eta), t(of.t) {}
+  explicit CurveRowNow(const CurveProgram::Row& of);
 
   const CurveProgram::Row* row;
   Eigen::Vector3d direction;
-  double eta, t;
+  double eta, t, missing;
   double bend = 0.0;  // of kNorm: 2/u
+  Eigen::Matrix<double, 6, 1> weight;
+  std::int8_t kind, first, last;
+  // Two rows: this one without its m, and then the one that repeats it, which
+  // is the next one of the program, with m.
+  bool is_pair = false;
 };
 
-// What a step of the unknowns changes the row by, the terms in m and t
-// included.  `along`: the part in ΔB and η; on entry that of the row before,
-// which a row that repeats it takes over.
-double Slope(const CurveRowNow& now, const CurveLocal& step, double* along);
+// Those of some rows of a program, which must outlive them.
+void AppendRows(const std::vector<CurveProgram::Row>& rows,
+                std::vector<CurveRowNow>* to);
 
-// The slack at x, > 0 within the row; of a norm also its gradient there.
-double SlackAt(CurveRowNow* now, const CurveLocal& x, double* along);
+// What a step of the unknowns changes the row by, or both rows; returns where
+// the next one's comes.
+double* WriteSlopes(const CurveRowNow& now, const CurveLocal& step, double* to);
+
+// The slack at x, > 0 within the row, or of both rows; of a norm also its
+// gradient there.  Returns where the next one's comes.
+double* WriteSlacks(CurveRowNow* now, const CurveLocal& x, double* to);
 
 // By how much more a step changes a row of kNorm, to second order.
 double BendOf(const CurveRowNow& now, const CurveLocal& step);
 
-// What a row's terms weigh: those in ΔB, η and t, and those in m.  Of two rows
-// of which one repeats the other, what they weigh together.
+// What a row's terms weigh: those in ΔB, η and t, and those in m.  Of a pair,
+// what they weigh together.
 struct CurveRowWeights {
   double along, missing;
 };
@@ -49,20 +61,19 @@ void AddSquare(const CurveRowNow& now, const CurveRowWeights& by, double dual,
 void AddRow(const CurveRowNow& now, const CurveRowWeights& by,
             CurveLocal* gradient);
 
-// add(ROW, WEIGHTS) for the rows from `begin` to before `end`, of weights w
-// from its entry `at` on; once for two of which one repeats the other.
+// add(ROW, WEIGHTS, where its weight is) for the rows from `begin` to before
+// `end`, of weights from `w` on.
 template <typename Add>
 void ForRows(const std::vector<CurveRowNow>& rows, int begin, int end,
-             const Eigen::ArrayXd& w, int at, const Add& add) {
-  for (int k = begin; k < end; ++k, ++at) {
-    const bool is_pair = k + 1 < end && rows[k + 1].row->repeats;
-    if (!is_pair) {
-      add(k, CurveRowWeights{w[at], w[at]});
-      continue;
+             const double* w, const Add& add) {
+  for (int at = 0; begin < end; ++begin) {
+    if (rows[begin].is_pair) {
+      add(rows[begin], CurveRowWeights{w[at] + w[at + 1], w[at + 1]}, at);
+      at += 2;
+    } else {
+      add(rows[begin], CurveRowWeights{w[at], w[at]}, at);
+      ++at;
     }
-    add(k + 1, CurveRowWeights{w[at] + w[at + 1], w[at + 1]});
-    ++k;
-    ++at;
   }
 }
 

@@ -35,19 +35,23 @@ class InteriorRows {
   void Move(double reach);
   void Move(double reach, const Eigen::ArrayXd& slacks);
 
-  // μ_i for the gradient of row i in the corrector's right-hand side.
-  Eigen::ArrayXd Multipliers(double centre) const {
-    return (product_ - centre - dual * bends_) * inverse_slack_;
-  }
+  // Of `count` rows from `first` on: μ_i for the gradient of row i in the
+  // corrector's right-hand side.
+  void WriteMultipliers(double centre, int first, int count, double* to) const;
 
   // y/s, of each: what the square of a row's gradient weighs.
-  Eigen::ArrayXd Squares() const { return dual * inverse_slack_; }
+  void WriteSquares(int first, int count, double* to) const;
 
   Eigen::ArrayXd slack, dual;
 
  private:
+  template <typename Slacks>
+  void MovePart(Eigen::Index at, Eigen::Index n, double reach,
+                const Slacks& slacks);
+
   Eigen::ArrayXd inverse_slack_, inverse_dual_;
-  Eigen::ArrayXd slack_step_, dual_step_, product_, bends_;
+  Eigen::ArrayXd slack_step_, dual_step_, product_;
+  Eigen::ArrayXd bends_;  // empty: none
 };
 
 }  // namespace phongpd::internal

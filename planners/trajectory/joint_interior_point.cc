@@ -266,7 +266,8 @@ bool JointInteriorPoint::Begin(VectorXd* x) {
 void JointInteriorPoint::AddRows(WideTridiagonal* matrix,
                                  VectorXd* residual) const {
   const int t = unknowns_.TAt();
-  const Eigen::ArrayXd squares = state_.Squares();
+  Eigen::ArrayXd squares(state_.size());
+  state_.WriteSquares(0, state_.size(), squares.data());
   MatrixXd local(t + 1, t + 1);
   for (int i = 0; i < unknowns_.pieces(); ++i) {
     local.setZero();
@@ -295,7 +296,8 @@ void JointInteriorPoint::AddRows(WideTridiagonal* matrix,
 }
 
 void JointInteriorPoint::AddCentres(double centre, VectorXd* to) const {
-  const Eigen::ArrayXd multipliers = state_.Multipliers(centre);
+  Eigen::ArrayXd multipliers(state_.size());
+  state_.WriteMultipliers(centre, 0, state_.size(), multipliers.data());
   for (int i = 0; i < unknowns_.pieces(); ++i) {
     VectorXd of_rows = VectorXd::Zero(unknowns_.TAt() + 1);
     for (const Line& line : lines_[i]) {

@@ -45,8 +45,9 @@ std::pair<double, double> NormAndRoom(const Row& row, const CurveLocal& x) {
 
 double Slack(const Row& row, const CurveLocal& x) {
   CurveRowNow now(row);
-  double along = 0.0;
-  return SlackAt(&now, x, &along);
+  double slack = 0.0;
+  WriteSlacks(&now, x, &slack);
+  return slack;
 }
 
 // Positive within the norm, and zero on it.
@@ -75,10 +76,10 @@ TEST(CurveRow, KnowsWhatAStepChangesTheSlackByToSecondOrder) {
       const CurveLocal x = 0.05 * CurveLocal::Random();
       const CurveLocal u = CurveLocal::Random();
       CurveRowNow now(row);
-      double along = 0.0;
-      const double slack = SlackAt(&now, x, &along);
+      double slack = 0.0, slope = 0.0;
+      WriteSlacks(&now, x, &slack);
       const double bend = kind == Row::kNorm ? BendOf(now, u) : 0.0;
-      const double slope = Slope(now, u, &along);
+      WriteSlopes(now, u, &slope);
       const double h = 1e-3;
       const double error =
           Slack(row, x + h * u) - (slack - h * slope - h * h * bend);
@@ -105,29 +106,46 @@ TEST(CurveRow, AddsTwoThatRepeatEachOtherAsOne) {
   second.missing = -1.0;
   second.repeats = true;
   const Row third = RandomRow(Row::kScalar, &random);
+  const std::vector<Row> of = {first, second, third};
   std::vector<CurveRowNow> rows;
-  rows.emplace_back(first);
-  rows.emplace_back(second);
-  rows.emplace_back(third);
-  const Eigen::ArrayXd weights = Eigen::Array4d(9.0, 0.5, 2.0, 3.0);
+  AppendRows(of, &rows);
+  ASSERT_EQ(rows.size(), 2u);
+  const Eigen::Array3d weights(0.5, 2.0, 3.0);
 
+  // Slacks, and what they fall by: of all three, one after another.
+  const auto slacks_at = [&](const CurveLocal& x) {
+    Eigen::Vector3d slacks;
+    double* to = slacks.data();
+    for (CurveRowNow& row : rows) to = WriteSlacks(&row, x, to);
+    EXPECT_EQ(to, slacks.data() + 3);
+    return slacks;
+  };
+  const CurveLocal x = CurveLocal::Random();
+  const Eigen::Vector3d slacks = slacks_at(x);
+  EXPECT_NEAR(slacks[0], Slack(first, x), 1e-14);
+  EXPECT_NEAR(slacks[1], slacks[0] + 1.0 + x[kCurveMissing], 1e-14);
+  EXPECT_NEAR(slacks[2], Slack(third, x), 1e-14);
   MatrixXd dense(3, 21);
   for (int k = 0; k < 21; ++k) {
-    double along = 0.0;
-    for (int i = 0; i < 3; ++i) {
-      dense(i, k) =
-          Slope(rows[static_cast<std::size_t>(i)], CurveLocal::Unit(k), &along);
+    double* to = dense.col(k).data();
+    for (const CurveRowNow& row : rows) {
+      to = WriteSlopes(row, CurveLocal::Unit(k), to);
     }
+    EXPECT_LT(
+        (slacks_at(x + CurveLocal::Unit(k)) - slacks + dense.col(k)).norm(),
+        1e-14);
   }
   CurveLocalMatrix lower = CurveLocalMatrix::Zero();
   CurveLocal gradient = CurveLocal::Zero();
-  ForRows(rows, 0, 3, weights, 1, [&](int k, const CurveRowWeights& by) {
-    AddSquare(rows[static_cast<std::size_t>(k)], by, 0.0, &lower);
-  });
-  ForRows(rows, 0, 3, weights, 1, [&](int k, const CurveRowWeights& by) {
-    AddRow(rows[static_cast<std::size_t>(k)], by, &gradient);
-  });
-  const VectorXd w = weights.tail(3);
+  std::vector<int> places;
+  ForRows(rows, 0, 2, weights.data(),
+          [&](const CurveRowNow& row, const CurveRowWeights& by, int at) {
+            AddSquare(row, by, 0.0, &lower);
+            AddRow(row, by, &gradient);
+            places.push_back(at);
+          });
+  EXPECT_EQ(places, (std::vector<int>{0, 2}));
+  const VectorXd w = weights.matrix();
   EXPECT_LT((MatrixXd(lower.selfadjointView<Eigen::Lower>()) -
              dense.transpose() * w.asDiagonal() * dense)
                 .norm(),

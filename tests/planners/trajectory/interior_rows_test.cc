@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <random>
+#include <utility>
 
 namespace phongpd::internal {
 namespace {
@@ -63,13 +64,19 @@ TEST(InteriorRows, FollowAStepOfTheUnknowns) {
     const ArrayXd second = Uniform(-3.0, 3.0, &random);
     const ArrayXd bends = Uniform(0.0, 0.2, &random);
     if (trial % 2 == 0) rows.Bend(bends);
-    const ArrayXd multipliers = rows.Multipliers(centre);
+    ArrayXd multipliers(kRows), squares(kRows);
+    // In two parts.
+    for (const auto& [at, n] : {std::pair{0, 20}, std::pair{20, kRows - 20}}) {
+      rows.WriteMultipliers(centre, at, n, multipliers.data() + at);
+      rows.WriteSquares(at, n, squares.data() + at);
+    }
     const double share = 0.9 * rows.Follow(second, centre);
     rows.Move(share);
     for (int i = 0; i < kRows; ++i) {
       const double ds = (rows.slack[i] - s[i]) / share;
       const double dy = (rows.dual[i] - y[i]) / share;
       EXPECT_NEAR(ds, -second[i] - (trial % 2 == 0 ? bends[i] : 0.0), 1e-11);
+      EXPECT_NEAR(squares[i], y[i] / s[i], 1e-13);
       // What does not depend on the step is in the right-hand side.
       EXPECT_NEAR(y[i] + dy + multipliers[i], y[i] * second[i] / s[i], 1e-10);
       EXPECT_NEAR(s[i] * y[i] + s[i] * dy + y[i] * ds + products[i], centre,
@@ -77,6 +84,27 @@ TEST(InteriorRows, FollowAStepOfTheUnknowns) {
       EXPECT_GT(rows.slack[i], 0.0);
       EXPECT_GT(rows.dual[i], 0.0);
     }
+  }
+}
+
+// More rows than are moved at once.
+TEST(InteriorRows, PredictAndMoveManyAsEachAlone) {
+  constexpr int kMany = 1000;
+  const ArrayXd s = ArrayXd::LinSpaced(kMany, 0.1, 2.0);
+  const ArrayXd slopes = ArrayXd::LinSpaced(kMany, -1.0, 0.9);
+  InteriorRows all;
+  all.Begin(s, ArrayXd::Constant(kMany, kMu));
+  const double reach = all.Follow(slopes, 0.0);
+  double after = 0.0;
+  for (int i = 0; i < kMany; ++i) {
+    const double y = kMu / s[i], dy = -y * (s[i] - slopes[i]) / s[i];
+    after += (s[i] - reach * slopes[i]) * (y + reach * dy);
+  }
+  const double left = after / (kMany * kMu);
+  EXPECT_NEAR(all.Predict(reach), left * left * left * kMu, 1e-12);
+  all.Move(0.5 * reach);
+  for (int i = 0; i < kMany; ++i) {
+    EXPECT_NEAR(all.slack[i], s[i] - 0.5 * reach * slopes[i], 1e-15);
   }
 }
 
