@@ -56,6 +56,9 @@ void CurveSearch::Refine() {
   if (goes_on_ && now_.pieces() < halvings * kFewPieces) {
     goes_on_ = Halve() && RunStage();
   }
+  while (goes_on_ && now_.pieces() < halvings * kLeastPieces) {
+    goes_on_ = Halve() && RunStage();
+  }
 }
 
 CurveSummary CurveSearch::Summary() const {
@@ -280,6 +283,7 @@ bool CurveSearch::Halve() {
     halved.Slow(SlowingOf(halved, options_.limits));
   }
   for (ViaKnot& via : settings_.via) via.knot *= 2;
+  settings_.sigma = std::max(settings_.sigma, kLeastSigmaOfHalves);
   if (!Keep(halved)) return false;
   now_ = std::move(halved);
   return true;

@@ -41,9 +41,14 @@ class CurveSearch {
   static constexpr double kGoodStep = 0.5;  // a smaller share of what was
                                             // predicted asks for a shorter step
   static constexpr double kSmallestSigma = 1e-5;
+  // Steps that were too long for whole pieces need not be so for their halves.
+  static constexpr double kLeastSigmaOfHalves = 0.003;
   // So few, by each halving that the preset has, are halved once more: they
   // cost little, and gain as much as many do by the halving before.
   static constexpr int kFewPieces = 40;
+  // And so few, again by each halving, until they are more: a dozen cannot
+  // follow the limits well.
+  static constexpr int kLeastPieces = 16;
   static constexpr int kMaxRounds = 60;  // of a size of pieces
   // So many rounds in a row that gain less, a share of the time, end it.
   static constexpr int kSmallGains = 2;
