@@ -35,12 +35,20 @@ void RequireMotion(const Path& path, const CurveOptions& options) {
                     : "only (" + FormatPoint(path.front()) + ")"));
 }
 
-// Among what moves another way may be faster than to wait.
+// That are refined.  Among what moves another way may be faster than to wait.
 int RoutesOf(const OptimizeRequest& request) {
   constexpr int kAmongMoving = 3;
   return request.moving.empty()
              ? request.options.routes
              : std::max(request.options.routes, kAmongMoving);
+}
+
+// That OptimizeAlongBest chooses among: the way of the fastest motion is often
+// none of the three shortest ones.
+int ComparedRoutesOf(const OptimizeRequest& request) {
+  constexpr int kMostCompared = 8;
+  return request.moving.empty() ? std::max(RoutesOf(request), kMostCompared)
+                                : RoutesOf(request);
 }
 
 // Near one of these paths, which are free.
@@ -121,10 +129,12 @@ PlanRequest LegRequest(const OptimizeRequest& request, const Vector3d& start,
   leg.model = request.model;
   leg.clearance = request.Margin();
   leg.preset = request.preset;
-  // No fewer than motions are sought along.
+  const int routes = request.preset == Preset::kFast
+                         ? RoutesOf(request)
+                         : ComparedRoutesOf(request);
   ContactSurfaceOptions by_preset;
   ApplyPreset(request.preset, &by_preset);
-  if (RoutesOf(request) > by_preset.routes) leg.routes = RoutesOf(request);
+  if (routes > by_preset.routes) leg.routes = routes;
   leg.verifies = false;  // the motion is
   return leg;
 }
@@ -148,11 +158,7 @@ std::vector<Path> WaysOf(const PathAnswer& leg, std::size_t count,
 std::vector<Path> FindPaths(const World& world, const OptimizeRequest& request,
                             const Path& places, PathAnswer* answer) {
   const std::size_t legs = places.size() - 1;
-  // Those beyond RoutesOf are for OptimizeAlongBest to choose among.
-  constexpr int kMostCompared = 8;
-  const auto count = static_cast<std::size_t>(
-      request.moving.empty() ? std::max(RoutesOf(request), kMostCompared)
-                             : RoutesOf(request));
+  const auto count = static_cast<std::size_t>(ComparedRoutesOf(request));
   std::vector<Path> paths(count, Path{places.front()});
   std::size_t most = 1;
   for (std::size_t i = 0; i < legs; ++i) {
