@@ -182,19 +182,22 @@ check_options() {
   fi
 }
 
-# full builds.  In quick what fuzz and asan do not build by clang as well, which
-# is the library, in the groups of a build without a cache, and asan's tests: the
-# program, other tests and benchmarks, by the front end only, which has all of the
-# diagnostics.  The headers
-# that all tests parse are parsed once.
+# full builds, each source alone.  In quick what fuzz and asan do not build by
+# clang as well, which is the library: the program, tests and benchmarks, in the
+# groups of a build without a cache, by the front end only, which has all of the
+# diagnostics.  The headers that all tests parse are parsed once.
 check_clang() {
   scripts/setup.sh clang
   if whole; then PRESET=clang scripts/build.sh all benchmarks; return; fi
   local list=build/check/clang.commands count
   compile_commands -DCMAKE_DISABLE_PRECOMPILE_HEADERS=OFF \
-    problems/cli tests results examples |
-    awk '!seen[$NF]++' |
-    grep -vE "/($(IFS='|' && echo "${sanitized[*]}"))[.]cc$" >"$list.all"
+    -DPHONGPD_UNITY_BUILD=ON -DPHONGPD_JOIN_TESTS=ON \
+    problems/cli tests results examples >"$list.each"
+  # Sources of groups are not compiled by themselves as well.
+  sed -n 's/.* \(.*\/Unity\/.*\)/\1/p' "$list.each" |
+    xargs sed -n 's/^#include "\(.*\)"$/\1/p' >"$list.grouped"
+  awk 'NR == FNR { grouped[$1]; next } !($NF in grouped) && !seen[$NF]++' \
+    "$list.grouped" "$list.each" >"$list.all"
   each() { (cd build-clang && tr '\n' '\0' |
     xargs -0 -n 1 -P "$(nproc)" bash -c); }
   sed -n 's/\( -x c++-header \)-o [^ ]* -c \(.*\)[.]cxx$/\1-o \2.pch -c \2.cxx/p' \
@@ -202,7 +205,7 @@ check_clang() {
   grep -v -- ' -x c++-header ' "$list.all" |
     sed 's/ -o [^ ]* -c / -fsyntax-only -c /' >"$list"
   count=$(wc -l <"$list")
-  say "clang: $count sources"
+  say "clang: $count sources or groups of them"
   # One line each $((count / 10)) sources tells that it moves.
   awk -v every=$((count / 10)) '{ print }
     NR % every == 0 { print "echo check: clang: " NR " sources" }' "$list" | each
