@@ -8,6 +8,7 @@
 
 #include "constraints/curve_judge.h"
 #include "planners/trajectory/curve_optimizer.h"
+#include "planners/trajectory/trajectory_problem.h"
 #include "tests/support/campaign.h"
 #include "tests/support/curve_problems.h"
 #include "tests/support/expect_refused.h"
@@ -16,7 +17,6 @@ namespace phongpd {
 namespace {
 
 using Eigen::Vector3d;
-using Path = std::vector<Vector3d>;
 
 CurveOptions Options() {
   CurveOptions options;

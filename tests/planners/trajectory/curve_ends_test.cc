@@ -12,6 +12,7 @@
 
 #include "core/mesh/mesh_error.h"
 #include "planners/trajectory/curve_optimizer.h"
+#include "planners/trajectory/trajectory_problem.h"
 #include "tests/support/campaign.h"
 #include "tests/support/curve_problems.h"
 #include "tests/support/expect_refused.h"
@@ -22,7 +23,6 @@ namespace {
 using Eigen::Vector3d;
 using internal::KnotCurve;
 using testing::PlainLimits;
-using Path = std::vector<Vector3d>;
 
 constexpr double kV = 1.0, kA = 2.0, kJ = 10.0;  // of PlainLimits
 

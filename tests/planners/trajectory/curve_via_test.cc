@@ -10,6 +10,7 @@
 
 #include "planners/exact/contact_surface_planner.h"
 #include "planners/trajectory/curve_optimizer.h"
+#include "planners/trajectory/trajectory_problem.h"
 #include "tests/support/campaign.h"
 #include "tests/support/curve_problems.h"
 #include "tests/support/expect_refused.h"
@@ -20,7 +21,6 @@ namespace phongpd {
 namespace {
 
 using Eigen::Vector3d;
-using Path = std::vector<Vector3d>;
 
 CurveOptions ViaOptions(bool by_norm = false) {
   CurveOptions options;
