@@ -98,9 +98,10 @@ void ApplyBudget(double seconds, const Workspace& workspace,
 // place to place.  If a place is not free the status is kViaNotFree.  If no
 // path leads from one place to the next the status is kFailed: it is no proof,
 // since another point within the tolerance may do.  Of the ways that
-// contact-surface compared, as many as options.routes are followed to the end,
-// side by side: those along which kFast leads to the best motions.  The best of
-// what they come to is the answer.
+// contact-surface finds, up to eight (with kFast not more than are asked for),
+// as many as options.routes are followed to the end, side by side: those along
+// which kFast leads to the best motions.  The best of what they come to is the
+// answer.
 //
 // Among moving obstacles (request.moving) the motion begins and ends at rest.
 // It is the fastest that was found: by waiting, going first, making way, or by

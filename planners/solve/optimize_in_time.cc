@@ -47,8 +47,9 @@ int RoutesOf(const OptimizeRequest& request) {
 // none of the three shortest ones.
 int ComparedRoutesOf(const OptimizeRequest& request) {
   constexpr int kMostCompared = 8;
-  return request.moving.empty() ? std::max(RoutesOf(request), kMostCompared)
-                                : RoutesOf(request);
+  const bool compares =
+      request.moving.empty() && request.preset != Preset::kFast;
+  return std::max(RoutesOf(request), compares ? kMostCompared : 1);
 }
 
 // Near one of these paths, which are free.
@@ -129,9 +130,7 @@ PlanRequest LegRequest(const OptimizeRequest& request, const Vector3d& start,
   leg.model = request.model;
   leg.clearance = request.Margin();
   leg.preset = request.preset;
-  const int routes = request.preset == Preset::kFast
-                         ? RoutesOf(request)
-                         : ComparedRoutesOf(request);
+  const int routes = ComparedRoutesOf(request);
   ContactSurfaceOptions by_preset;
   ApplyPreset(request.preset, &by_preset);
   if (routes > by_preset.routes) leg.routes = routes;
