@@ -17,7 +17,7 @@ constexpr double kStartT = 0.03;          // that far inside the limits
 constexpr double kRoomOfMissing = 0.003;  // of m at first, of the trust region
 // The gap at the end, a share of what has been gained, and at least; the
 // gradient's largest entry.
-constexpr double kGap = 0.03;
+constexpr double kGap = 0.1;
 constexpr double kLeastGap = 1e-6;
 constexpr double kGradient = 0.1;
 constexpr double kStepShare = 0.99;    // of the way to the nearest row
@@ -56,7 +56,7 @@ CurveInteriorPoint::CurveInteriorPoint(const CurveProgram& program)
   for (int i = 0; i < pieces_; ++i) most = std::max(most, RowsOfPiece(i));
   weights_.resize(most);
   slacks_.resize(CountRows());
-  slopes_.resize(CountRows());
+  if (has_norms_) slopes_.resize(CountRows());
   AddObjective(program_, &hessian_, &linear_);
 }
 
@@ -197,18 +197,23 @@ void CurveInteriorPoint::AddRows(BlockTridiagonal* matrix, VectorXd* residual) {
 
 // Steps of slacks and duals along one of x; how far they lead at most.
 double CurveInteriorPoint::FollowRows(const VectorXd& step, double centre) {
+  double most = 1.0;
   for (int i = 0; i < pieces_; ++i) {
+    const First& first = first_[i];
     const CurveLocal local = ToLocal(program_, i, step);
-    ForBounds(program_.pieces[i], first_[i].bound,
-              [&](const auto& bounds, int at) {
-                SlopesOf(bounds, local, slopes_.data() + at);
-              });
-    double* to = slopes_.data() + first_[i].row;
-    for (int k = first_[i].other; k < first_[i + 1].other; ++k) {
+    double* const slopes =
+        has_norms_ ? slopes_.data() + first.bound : weights_.data();
+    ForBounds(program_.pieces[i], 0, [&](const auto& bounds, int at) {
+      SlopesOf(bounds, local, slopes + at);
+    });
+    double* to = slopes + (first.row - first.bound);
+    for (int k = first.other; k < first_[i + 1].other; ++k) {
       to = WriteSlopes(rows_[k], local, to);
     }
+    most = std::max(
+        most, state_.FollowPart(first.bound, RowsOfPiece(i), slopes, centre));
   }
-  return state_.Follow(slopes_, centre);
+  return 1.0 / most;
 }
 
 Eigen::ArrayXd CurveInteriorPoint::BendsAlong(const VectorXd& step) const {

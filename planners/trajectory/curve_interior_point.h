@@ -70,8 +70,9 @@ class CurveInteriorPoint {
   std::vector<CurveRowNow> rows_;
   bool has_norms_ = false;  // among `rows_`
   InteriorRows state_;
-  Eigen::ArrayXd slacks_, slopes_;  // of each row, at a new x or along a step
-  Eigen::ArrayXd weights_;          // of the rows of one piece
+  // Of each row: slacks at a new x; slopes along a step, where there are norms.
+  Eigen::ArrayXd slacks_, slopes_;
+  Eigen::ArrayXd weights_;  // of the rows of one piece, or their slopes
 };
 
 }  // namespace phongpd::internal

@@ -63,7 +63,7 @@ class Builder {
       piece.rows.reserve(RowsAtMost(cells_[i]));
       AddLimits(i, b, h, &piece);
       AddClearance(cells_[i], &piece);
-      AddTrust(&piece);
+      AddTrust(i, &piece);
       AddJerk(b, h, jerk, &piece);
       piece.log_duration = std::log(h);
     }
@@ -192,7 +192,10 @@ class Builder {
     if (options_.margin > 0.0) piece->rows.push_back(row);
   }
 
-  void AddTrust(CurveProgram::Piece* piece) const {
+  void AddTrust(int i, CurveProgram::Piece* piece) const {
+    const double sigma = options_.caution.empty()
+                             ? options_.sigma
+                             : options_.sigma * options_.caution[i];
     CurveProgram::Bounds points;
     points.last = 5;
     points.scale.setOnes();
@@ -201,7 +204,7 @@ class Builder {
     eta.kind = CurveProgram::Row::kScalar;
     eta.constant = -1.0;
     for (const double sign : {1.0, -1.0}) {
-      eta.eta = sign / options_.sigma;
+      eta.eta = sign / sigma;
       piece->rows.push_back(eta);
     }
   }
@@ -294,7 +297,8 @@ CurveStep SolveCurveProgram(const KnotCurve& now,
     total += now.durations[k] * std::exp(x[9]);
   }
   const double t = options.keeps_pace ? 0.0 : result.x[result.x.size() - 1];
-  step.predicted = 1.0 - total * (1.0 + t) / now.Duration();
+  step.pace = 1.0 + t;
+  step.predicted = 1.0 - total * step.pace / now.Duration();
   return step;
 }
 

@@ -28,10 +28,11 @@ struct ViaKnot {
 struct CurveProgramOptions {
   MotionLimits limits;
   CurveWeights weights;
-  double diagonal = 1.0;  // D
-  double margin = 0.0;    // user's unit
-  double trust = 0.0;     // τ, user's unit
-  double sigma = 0.03;    // σ
+  double diagonal = 1.0;        // D
+  double margin = 0.0;          // user's unit
+  double trust = 0.0;           // τ, user's unit
+  double sigma = 0.03;          // σ
+  std::vector<double> caution;  // share of σ, of each piece; empty: 1
   // Of a curve with an end in motion: such states are kept, so that no pace
   // can make up for limits that are passed.  Then limits are less by `spare`,
   // a share, t ≥ 0 says by how much they are passed nevertheless, and has a
@@ -51,6 +52,7 @@ struct CurveStep {
   // Changes of the curve; of its durations those of ln h.
   KnotCurve change;
   double predicted = 0.0;  // what the time falls by, a share
+  double pace = 1.0;       // 1 + t: what limits are multiplied by
   int iterations = 0;
   int rows = 0;
 };
@@ -63,7 +65,7 @@ struct CurveStep {
 //   s.t. n·Σ w_j (B_j + ΔB_j) ≥ kept            rows of its cells
 //        n·Σ w_j (B_j + ΔB_j) ≥ margin − m_i
 //        |p_k + Δp_k − point| ≤ tolerance    of knots that pass a place
-//        |ΔB_j|∞ ≤ τ,  |η_i| ≤ σ,  t ≥ −0.6
+//        |ΔB_j|∞ ≤ τ,  |η_i| ≤ σ · caution_i,  t ≥ −0.6
 //        |V + ΔV| ≤ v(1 + t), |A + ΔA| ≤ a(1 + 2t), |J + ΔJ| ≤ j(1 + 3t)
 //
 // for all Bézier points B, V, A, J of the curve and its derivatives, to first

@@ -179,6 +179,7 @@ void CurveSearch::KeepDuration() {
   is_calm_ = settings_.keeps_pace = true;
   settings_.sigma = kSigma;
   settings_.jerk_scale = JerkScale(now_, options_.limits);
+  settings_.caution.clear();
   Keep(now_);
 }
 
@@ -234,6 +235,7 @@ double CurveSearch::RunRound() {
   round.rows = step.rows;
   round.iterations = step.iterations;
   round.predicted = step.predicted;
+  const bool are_few_to_blame = LearnCaution(step);
   KnotCurve moved = MovedBy(step.change, 1.0);
   double gain = GainOf(moved);
   // A step that only restores clearance is as good as any.
@@ -260,21 +262,30 @@ double CurveSearch::RunRound() {
     cells_ = options_.margin > 0.0 ? std::move(cells)
                                    : CellsOf(space_, now_, settings_);
   }
-  ChangeSigma(round.is_accepted ? ratio : -1.0);
+  ChangeSigma(round.is_accepted ? ratio : -1.0, !are_few_to_blame);
   round.duration = now_.Duration();
   round.gain = gain;
   summary_.rounds.push_back(round);
   return round.is_accepted ? gain : step.predicted;
 }
 
-void CurveSearch::ChangeSigma(double ratio) {
-  if (ratio < 0.0) {
-    settings_.sigma *= 0.3;
-  } else if (ratio < 0.3) {
-    settings_.sigma *= 0.5;
-  } else if (ratio > 0.7) {
-    settings_.sigma = std::min(2.0 * settings_.sigma, kLargestSigma);
-  }
+bool CurveSearch::LearnCaution(const CurveStep& step) {
+  if (settings_.keeps_pace || !(step.predicted > 0.0)) return false;
+  std::vector<double> slowings =
+      SlowingOfPieces(Moved(now_, step.change, 1.0), options_.limits);
+  for (double& slowing : slowings) slowing /= step.pace;
+  const bool are_few_to_blame = caution_.Learn(slowings, step.predicted);
+  settings_.caution = caution_.shares();
+  return are_few_to_blame;
+}
+
+void CurveSearch::ChangeSigma(double ratio, bool may_shrink) {
+  const double factor = ratio < 0.0   ? 0.3
+                        : ratio < 0.3 ? 0.5
+                        : ratio > 0.7 ? 2.0
+                                      : 1.0;
+  if (factor < 1.0 && !may_shrink) return;
+  settings_.sigma = std::min(factor * settings_.sigma, kLargestSigma);
 }
 
 bool CurveSearch::Halve() {
@@ -284,6 +295,8 @@ bool CurveSearch::Halve() {
   }
   for (ViaKnot& via : settings_.via) via.knot *= 2;
   settings_.sigma = std::max(settings_.sigma, kLeastSigmaOfHalves);
+  caution_.Halve();
+  settings_.caution = caution_.shares();
   if (!Keep(halved)) return false;
   now_ = std::move(halved);
   return true;

@@ -6,6 +6,7 @@
 
 #include "constraints/free_space.h"
 #include "core/stopwatch.h"
+#include "planners/trajectory/curve_caution.h"
 #include "planners/trajectory/curve_cells.h"
 #include "planners/trajectory/curve_optimizer.h"
 #include "planners/trajectory/curve_program.h"
@@ -82,8 +83,11 @@ class CurveSearch {
   // What the merit fell by, a share of the time; or should have fallen by, if
   // the step is not taken.
   double RunRound();
-  // By the share of what was predicted that came true.
-  void ChangeSigma(double ratio);
+  // What the whole step teaches; are few pieces to blame?
+  bool LearnCaution(const CurveStep& step);
+  // By the share of what was predicted that came true; < 0: no step was taken.
+  // Where few pieces are to blame the others need no shorter steps.
+  void ChangeSigma(double ratio, bool may_shrink);
   bool Halve();
   // Clearance, margin and cost of its trajectory: cells know all that is within
   // their reach.
@@ -94,6 +98,7 @@ class CurveSearch {
   const CurveOptions options_;
   const double diagonal_;
   CurveProgramOptions settings_;
+  CurveCaution caution_;
   bool is_calm_ = false;  // of the duration asked for
   bool goes_on_ = false;  // there is a curve, and nothing said to end
   KnotCurve now_;

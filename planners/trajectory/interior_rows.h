@@ -18,13 +18,16 @@ class InteriorRows {
 
   double Gap() const { return (slack * dual).sum(); }  // Σ s·y
 
-  // The steps for rows that change by `slopes`, and by what they bend, towards
-  // products of `centre`; how far they lead at most, 1 or less.
+  // The steps of `count` rows from `first` on that change by those slopes, and
+  // by what they bend, towards products of `centre`: by how much too long they
+  // are, 0 or less where nothing ends them.
+  double FollowPart(int first, int count, const double* slopes, double centre);
+  // Of all rows; how far the steps lead at most, 1 or less.
   double Follow(const Eigen::ArrayXd& slopes, double centre);
 
   // The centre that the corrector aims at: the mean product, times the cube of
-  // the share of the gap that the predictor, `reach` of it, leaves.  Keeps the
-  // products of its steps for Follow.
+  // the share of the gap that the predictor, `reach` of it, leaves.  The steps
+  // that follow know the products of its steps.
   double Predict(double reach);
 
   // What rows change by beside the slopes of the corrector's step, as the
@@ -45,13 +48,9 @@ class InteriorRows {
   Eigen::ArrayXd slack, dual;
 
  private:
-  template <typename Slacks>
-  void MovePart(Eigen::Index at, Eigen::Index n, double reach,
-                const Slacks& slacks);
-
-  Eigen::ArrayXd inverse_slack_, inverse_dual_;
-  Eigen::ArrayXd slack_step_, dual_step_, product_;
-  Eigen::ArrayXd bends_;  // empty: none
+  Eigen::ArrayXd slack_step_, dual_step_;
+  bool is_predicted_ = false;  // they are, or were, the predictor's
+  Eigen::ArrayXd bends_;       // empty: none
 };
 
 }  // namespace phongpd::internal

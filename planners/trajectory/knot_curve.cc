@@ -108,17 +108,24 @@ PieceDerivatives::PieceDerivatives(const KnotCurve::Points& points,
            (acceleration.rightCols<3>() - acceleration.leftCols<3>())) {}
 
 double SlowingOf(const KnotCurve& curve, const MotionLimits& limits) {
-  double velocity = 0.0, acceleration = 0.0, jerk = 0.0;
+  const std::vector<double> all = SlowingOfPieces(curve, limits);
+  return *std::max_element(all.begin(), all.end());
+}
+
+std::vector<double> SlowingOfPieces(const KnotCurve& curve,
+                                    const MotionLimits& limits) {
+  std::vector<double> all;
   for (int i = 0; i < curve.pieces(); ++i) {
     const PieceDerivatives of(curve.PointsOf(i), curve.durations[i]);
     const bool norm = limits.by_norm;
-    velocity =
-        std::max(velocity, LargestShare(of.velocity, limits.velocity, norm));
-    acceleration = std::max(
-        acceleration, LargestShare(of.acceleration, limits.acceleration, norm));
-    jerk = std::max(jerk, LargestShare(of.jerk, limits.jerk, norm));
+    const double velocity = LargestShare(of.velocity, limits.velocity, norm);
+    const double acceleration =
+        LargestShare(of.acceleration, limits.acceleration, norm);
+    const double jerk = LargestShare(of.jerk, limits.jerk, norm);
+    all.push_back(
+        std::max({velocity, std::sqrt(acceleration), std::cbrt(jerk)}));
   }
-  return std::max({velocity, std::sqrt(acceleration), std::cbrt(jerk)});
+  return all;
 }
 
 std::vector<Vector3d> DropCorners(const FreeSpace& space,

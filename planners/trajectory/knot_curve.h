@@ -46,8 +46,11 @@ struct PieceDerivatives {
   Eigen::Matrix<double, 3, 3> jerk;
 };
 
-// The least factor by which the points of all derivatives keep the limits.
+// The least factor by which the points of all derivatives keep the limits; and
+// of each piece by itself.
 double SlowingOf(const KnotCurve& curve, const MotionLimits& limits);
+std::vector<double> SlowingOfPieces(const KnotCurve& curve,
+                                    const MotionLimits& limits);
 
 // From corner to corner in straight lines, the exact judge agreeing: first the
 // farthest that is in sight.  Each line is as far from contact as the way that
