@@ -22,6 +22,9 @@ constexpr double kRelativeRounding = 64.0 * 0x1p-53;
 // A trajectory is written out sample by sample: more are a slip of the unit.
 constexpr double kMostSamples = 1e8;
 
+// Of the largest coordinate: farther apart, pieces do not join.
+constexpr double kJoint = 0x1p-40;
+
 // Of a limit: durations remain numbers.
 constexpr double kLeastLimit = 1e-50;
 
@@ -196,6 +199,25 @@ Trajectory::Trajectory(std::vector<CurvePiece> pieces)
   if (!std::isfinite(time)) {
     throw InputError("trajectory: its duration is beyond what a double holds");
   }
+}
+
+Trajectory Trajectory::Joined(std::vector<CurvePiece> pieces, double* moved) {
+  double largest = 0.0;
+  for (const CurvePiece& piece : pieces) {
+    largest = std::max(largest, Largest(piece));
+  }
+  *moved = 0.0;
+  for (std::size_t i = 1; i < pieces.size(); ++i) {
+    const Vector3d& end = pieces[i - 1].back();
+    const double gap = (pieces[i].front() - end).stableNorm();
+    if (gap == 0.0 || gap > kJoint * largest) continue;
+    const Vector3d* first = &pieces[i].front();
+    std::vector<Vector3d> points(first, first + pieces[i].degree() + 1);
+    points[0] = end;
+    pieces[i] = CurvePiece(points, pieces[i].duration());
+    *moved = std::max(*moved, gap * (1.0 + kRelativeRounding));
+  }
+  return Trajectory(std::move(pieces));
 }
 
 Trajectory Trajectory::Along(const std::vector<Vector3d>& path) {

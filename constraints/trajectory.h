@@ -69,6 +69,11 @@ class Trajectory {
   Trajectory() = default;
   // Throws InputError that names the piece where they do not join.
   explicit Trajectory(std::vector<CurvePiece> pieces);
+  // Of pieces from elsewhere, which join but for rounding: each begins where
+  // the one before it ends, where that is within 2⁻⁴⁰ of the largest
+  // coordinate. The curve is nowhere farther than `moved` from the one given:
+  // the `blur` of CheckCurve.
+  static Trajectory Joined(std::vector<CurvePiece> pieces, double* moved);
   // Straight segments, a second each; two points at least.
   static Trajectory Along(const std::vector<Eigen::Vector3d>& path);
 

@@ -37,6 +37,7 @@ ValueError of one line: what, where, expected, found.
 from ._answers import Plan, Trajectory
 from ._compare import Comparison, compare
 from ._contact import ContactSpace, minkowski
+from ._curve import CurveCheck
 from ._depth import Depth, DepthQuery, depth
 from ._fleet import Fleet, optimize_fleet
 from ._metrics import (EuclideanMetric, Penetration, PhongMetric, QueryResult,
@@ -57,7 +58,7 @@ from ._world import World
 
 __all__ = [
     "BuildCancelled", "BuildRefusal", "Comparison", "ContactSpace",
-    "ContactSpacePiece",
+    "ContactSpacePiece", "CurveCheck",
     "Depth", "DepthQuery", "Diagnosis", "Disassembly", "EuclideanMetric",
     "Fleet", "InputError", "Motion", "NonPenetrationRows", "Penetration",
     "PenetrationTracker", "PhongMetric", "Plan", "QueryResult", "Removal",

@@ -16,6 +16,7 @@ from ._answers import WayInWorld, path_in
 from ._arguments import Floats, Point, flag, length, motion_end, \
     motion_limits, numbers, places_on_the_way, point, real, seconds, text, \
     whole_number
+from ._curve import curve_of
 from ._native import InputError
 from ._plots import PLACES, new_axes, plot_vectors
 from ._room import Room
@@ -160,8 +161,8 @@ class Motion(WayInWorld):
 
 def moving_of(moving: Mapping[str, Any] | None) -> list[
         tuple[str, _native.Solid, list[tuple[float, list[Point]]]]]:
-    """{name: (solid, motion)} of obstacles that move, the motion a Motion or
-    (durations (N,), points (N, K, 3))."""
+    """{name: (solid, motion)} of obstacles that move, the motion as curve_of
+    takes it."""
     found = []
     for name, value in (moving or {}).items():
         what = f"moving: {name}"
@@ -170,20 +171,7 @@ def moving_of(moving: Mapping[str, Any] | None) -> list[
         except (TypeError, ValueError):
             raise InputError(f"{what}: expected (solid, motion), found "
                              f"{type(value).__name__}") from None
-        if isinstance(motion, Motion):
-            motion = (motion.durations, motion.points)
-        try:
-            durations, points = motion
-        except (TypeError, ValueError):
-            raise InputError(f"{what}: expected a Motion or (durations, points), "
-                             f"found {type(motion).__name__}") from None
-        times = numbers(durations, f"{what}: durations", "(N,)")
-        places = numbers(points, f"{what}: points", "(N, K, 3)")
-        if (times.ndim != 1 or places.ndim != 3 or len(times) == 0
-                or len(places) != len(times) or places.shape[2] != 3):
-            raise InputError(f"{what}: expected durations (N,) and points "
-                             f"(N, K, 3), found {times.shape} and "
-                             f"{places.shape}")
+        times, places, _ = curve_of(motion, what)
         pieces = [(float(t), [point(p, what) for p in piece])
                   for t, piece in zip(times, places)]
         found.append((str(name), as_solid(solid, str(name))._native, pieces))

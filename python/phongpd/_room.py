@@ -12,9 +12,10 @@ from numpy import bool_
 from numpy.typing import ArrayLike, NDArray
 
 from . import _native
-from ._arguments import Floats, Point, flag, point, real, rows, scene_name, \
-    seed_number, text
+from ._arguments import Floats, Point, flag, motion_limits, point, real, \
+    rows, scene_name, seed_number, text
 from ._contact import ContactSpace
+from ._curve import CurveCheck, curve_of
 from ._native import InputError
 from ._solid import Solid, as_solid
 from ._view import Canvas, Shown
@@ -167,6 +168,32 @@ class Room(Shown):
             raise InputError(f"b: expected {len(begins)} rows as in a, "
                              f"found {len(ends)}")
         return self._native.are_free(begins, ends).view(bool_)
+
+    def check_curve(self, curve: Any, *, limits: Any = None,
+                    by_norm: bool = False) -> CurveCheck:
+        """Is a curve in time free for all t?  Of any maker, without samples;
+        "free" is proved, what touches is not free.
+
+        curve: a Motion; (durations (N,), points (N, K, 3)), the Bézier points of
+        each piece, of degree K - 1, 1 to 7; or what scipy.interpolate has for
+        three values over time: CubicSpline, PPoly, BSpline.  Pieces join to
+        rounding, 1e-12 of the largest coordinate; nothing smaller than that gap
+        is decided.
+        limits: (velocity, acceleration, jerk), each one number or of x, y and
+        z, user's units and seconds, to be compared with; None: the scene's, if
+        it has any.  by_norm: they are of the norm, one number each.
+
+        Some microseconds a piece that is clear; the contact space is built
+        first, as for is_free.
+        """
+        durations, points, blur = curve_of(curve, "curve")
+        known, of_norm = limits, flag(by_norm, "by_norm")
+        if limits is None:
+            known = self.limits
+            of_norm = of_norm or self._native.scene.limits_by_norm
+        return CurveCheck(*self._native.check_curve(
+            durations, points.reshape(-1, 3), blur,
+            None if known is None else motion_limits(known, of_norm), of_norm))
 
     def clearance(self, points: ArrayLike) -> Floats:
         """(N,): distance to contact and bounds; 0 where not free."""

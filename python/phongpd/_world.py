@@ -70,9 +70,9 @@ class World(Room):
         can be found; 0: as few as can be; None: the scene's.  departure,
         arrival: velocity (3,), or velocity and acceleration (2, 3), with which
         it begins and ends; None: the scene's, at rest if it has none.  moving:
-        obstacles to keep off that move, {name: (solid, motion)}, the motion a
-        Motion of another or (durations (N,), points (N, K, 3)), the Bézier
-        points of where the solid is moved to from the time 0 on; None: the
+        obstacles to keep off that move, {name: (solid, motion)}, where the solid
+        is moved to from the time 0 on, to rounding, as check_curve takes a
+        curve: a Motion of another, (durations, points), or a spline; None: the
         scene's.
 
         Without.  metric: "phong" (or smoothed, smoothed-foot), by the scene's

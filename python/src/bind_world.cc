@@ -11,6 +11,7 @@
 #include <optional>
 #include <utility>
 
+#include "constraints/curve_judge.h"
 #include "core/mesh/mesh_error.h"
 #include "planners/exact/contact_roadmap.h"
 #include "planners/retraction/retraction_names.h"
@@ -26,6 +27,11 @@ namespace phongpd::python {
 namespace {
 
 using Eigen::Vector3d;
+
+constexpr long kMostTests = 1'000'000;  // as CheckCurve has it
+
+using Seconds =
+    nb::ndarray<const double, nb::shape<-1>, nb::c_contig, nb::device::cpu>;
 
 Scene MakeScene(const Solid& robot,
                 const std::vector<std::pair<std::string, Solid>>& obstacles,
@@ -96,6 +102,53 @@ nb::object Clearances(const Workshop& workshop, const Rows3& points) {
   }
   const size_t count = clearance.size();
   return Owned(std::move(clearance), {count});
+}
+
+// Of as many points a piece as there are for each duration.
+Trajectory CurveOf(const Seconds& durations, const Rows3& points,
+                   double* moved) {
+  const size_t pieces = durations.shape(0);
+  const size_t width = points.shape(0) / pieces;
+  std::vector<CurvePiece> curve;
+  curve.reserve(pieces);
+  for (size_t i = 0; i < pieces; ++i) {
+    std::vector<Vector3d> own;
+    for (size_t k = 0; k < width; ++k)
+      own.push_back(Row(points, i * width + k));
+    curve.emplace_back(own, durations(i));
+  }
+  return Trajectory::Joined(std::move(curve), moved);
+}
+
+nb::tuple CheckCurveIn(const Workshop& workshop, const Seconds& durations,
+                       const Rows3& points, double blur,
+                       const std::optional<std::array<Point, 3>>& limits,
+                       bool by_norm) {
+  double moved = 0.0;
+  const Trajectory curve = CurveOf(durations, points, &moved);
+  nb::dict used;
+  if (limits) {
+    MotionLimits of;
+    of.velocity = ToVector((*limits)[0]);
+    of.acceleration = ToVector((*limits)[1]);
+    of.jerk = ToVector((*limits)[2]);
+    of.by_norm = by_norm;
+    of.Validate();
+    const LimitUse use = BoundLimitUse(curve, of);
+    used["velocity"] = use.velocity;
+    used["acceleration"] = use.acceleration;
+    used["jerk"] = use.jerk;
+  }
+  const FreeSpace& space = *workshop.Spaces().free_space;
+  const CurveCheck check = [&] {
+    const Computing computing;
+    return CheckCurve(space, curve, kMostTests, blur + moved);
+  }();
+  const bool is_free = check.IsFree();
+  return nb::make_tuple(
+      ToString(check.verdict), check.free_until, is_free ? 0.0 : check.time,
+      is_free ? -1 : check.piece, ToArray(check.configuration), used,
+      nb::make_tuple(curve.JointGap(1), curve.JointGap(2)), check.tests);
 }
 
 // Empty texts and 0: the scene's own.
@@ -320,6 +373,9 @@ void BindWorld(nb::module_& module) {
       .def("diagnose", &DiagnosisOf)
       .def("are_free", &AreFree)
       .def("clearances", &Clearances)
+      .def("check_curve", &CheckCurveIn, nb::arg("durations"),
+           nb::arg("points"), nb::arg("blur"), nb::arg("limits").none(),
+           nb::arg("by_norm"))
       .def_prop_ro("scene", &Workshop::scene)
       .def_prop_ro("length",
                    [](const Workshop& w) { return w.world().diagonal(); })

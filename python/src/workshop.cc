@@ -68,8 +68,9 @@ void AddMoving(const std::vector<Moving>& moving, OptimizeRequest* request) {
       for (const Point& p : points) places.push_back(ToVector(p));
       curve.emplace_back(places, duration);
     }
+    double moved = 0.0;  // by rounding, which nobody knows his obstacle to
     request->moving.push_back(
-        {solid.Named(name), Trajectory(std::move(curve))});
+        {solid.Named(name), Trajectory::Joined(std::move(curve), &moved)});
   }
 }
 

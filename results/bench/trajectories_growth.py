@@ -16,9 +16,12 @@ SIDES = (12, 24, 48, 96, 192)      # of a tree
 PAIRS = 5
 LIMITS = {"pieces": (1.0, 2.0, 8.0), "triangles": (2.0, 3.0, 8.0)}
 MOST = 1.3  # exponent of pieces
+JUDGED = 50  # times, of which the mean is kept
+MOST_JUDGE, OF_TRIANGLES = 50.0, 10_000  # us a piece, of so many of contact
 
 HEADER = ["of", "size", "pair", "pieces", "triangles", "certified", "duration",
-          "CPU s, plan and first", "CPU s, first to refined"]
+          "CPU s, plan and first", "CPU s, first to refined",
+          "contact triangles", "judge, CPU us a piece"]
 
 
 class Instance(NamedTuple):
@@ -64,8 +67,14 @@ def measure(instance):
     for name, wishes in (("first", {"max_seconds": NOT_AT_ALL}), ("all", {})):
         motion, row[f"cpu_{name}"] = cpu_of(lambda more=wishes: world.optimize(
             *ends, limits=LIMITS[instance.scene], **more))
-    return row | {"certified": motion.certified, "duration": motion.duration,
-                  "pieces": len(motion.durations)}
+    check, seconds = cpu_of(lambda: [world.check_curve(motion)
+                                     for _ in range(JUDGED)][0])
+    pieces = len(motion.durations)
+    return row | {"certified": motion.certified and check.free,
+                  "duration": motion.duration, "pieces": pieces,
+                  "contact": sum(space.report["triangles"]
+                                 for space in world.contact_spaces()),
+                  "judge": 1e6 * seconds / JUDGED / pieces}
 
 
 def _triangles(row):
@@ -82,7 +91,8 @@ def table(rows):
     for r in rows:
         if "pieces" in r:
             yield (r["scene"], r["size"], r["pair"], r["pieces"], _triangles(r),
-                   r["certified"], r["duration"], r["cpu_first"], _refined(r))
+                   r["certified"], r["duration"], r["cpu_first"], _refined(r),
+                   r["contact"], r["judge"])
 
 
 def exponent(sizes, seconds):
@@ -114,6 +124,21 @@ def figure(rows):
     return render(script + "unset multiplot\n", 1000, 400)
 
 
+def _judges(rows):
+    """In the forests, whose contact spaces are of so many triangles."""
+    seen = [r for r in rows if r["scene"] == "triangles" and "pieces" in r]
+    large = [r for r in seen if r["contact"] >= OF_TRIANGLES]
+    most = {size: max(r["judge"] for r in large if r["contact"] == size)
+            for size in sorted({r["contact"] for r in large})}
+    told = ", ".join(f"{us:.1f} us of {size:,}" for size, us in most.items())
+    if not told:
+        told = "no contact space of the forests is so large"
+        return f"- The judge, of {OF_TRIANGLES:,} contact triangles and more: {told}."
+    return (f"- The judge, a piece of the refined curve, at most: {told} contact "
+            f"triangles; at most {MOST_JUDGE:g} us of {OF_TRIANGLES:,} were asked"
+            + verdict(max(most.values()) <= MOST_JUDGE).rstrip())
+
+
 def page(rows):
     """The section of README.md."""
     yield "## Growth"
@@ -138,6 +163,7 @@ def page(rows):
                f"{cell(power)}{met}")
         first = exponent(sizes, [r["cpu_first"] for r in seen])
         yield f"- Plan and first curve, the same: exponent {cell(first)}."
+    yield _judges(rows)
     yield ""
     yield ("Robots: [fleets](../fleets/README.md). Contact spaces, which are there "
            "already: [contact-space](../contact-space/README.md).")

@@ -122,6 +122,31 @@ TEST(Trajectory, BoundsLimitsFromAboveAndClosely) {
   }
 }
 
+// Pieces of somebody else's spline meet to rounding.
+TEST(Trajectory, JoinsWhatMeetsButForRounding) {
+  const Vector3d a(0, 0, 0), b(100, 1, 0), c(200, 5, -3);
+  const Vector3d near = b + Vector3d(0.0, 3e-12, -4e-12);
+  double moved = -1.0;
+  const Trajectory curve =
+      Trajectory::Joined({{a, b, 1.0}, {near, c, 2.0}, {c, a, 1.0}}, &moved);
+  EXPECT_EQ(curve.pieces()[1].front(), b);
+  EXPECT_EQ(curve.pieces()[1].back(), c);
+  EXPECT_EQ(curve.duration(), 4.0);
+  EXPECT_GE(moved, (near - b).norm());
+  EXPECT_NEAR(moved, 5e-12, 1e-14);
+
+  Trajectory::Joined({{a, b, 1.0}, {b, c, 2.0}}, &moved);
+  EXPECT_EQ(moved, 0.0);
+  EXPECT_TRUE(Trajectory::Joined({}, &moved).empty());
+  // 2⁻⁴⁰ of 200 is 1.8e-10.
+  const Vector3d far = b + Vector3d(0.0, 1e-9, 0.0);
+  ExpectRefused(
+      [&] {
+        Trajectory::Joined({{a, b, 1.0}, {far, c, 2.0}}, &moved);
+      },
+      "piece 1");
+}
+
 TEST(Trajectory, TellsHowFarItsJointsAreFromSmooth) {
   const Trajectory corner =
       Trajectory::Along({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}});

@@ -142,7 +142,7 @@ def test_bad_fleets_and_movers_are_refused(room):
         phongpd.optimize_fleet({"a": one})
     for moving, words in [
             ({"c": 5}, r"moving: c: expected \(solid, motion\)"),
-            ({"c": (room.robot, 5)}, "Motion or"),
+            ({"c": (room.robot, 5)}, "expected a Motion"),
             ({"c": (room.robot, ([1.0], [[0, 0, 0]]))}, r"points \(N, K, 3\)"),
             ({"c": (room.robot, ([0.0], [[(0, 0, 0), (1, 1, 1)]]))},
              "duration"),

@@ -265,6 +265,9 @@ def test_a_slice_runs_from_end_to_end_and_goes_on(tmp_path):
         larger = list(csv.DictReader(file))
     assert [row["of"] for row in larger] == ["pieces", "pieces", "triangles"]
     assert {row["certified"] for row in larger} == {"True"}
+    for row in larger:
+        assert int(row["contact triangles"]) > 100
+        assert 0.1 < float(row["judge, CPU us a piece"]) < 1e5
     assert "<svg" in (tmp_path / "out" / "growth.svg").read_text(encoding="utf-8")
     text = (tmp_path / "out" / "README.md").read_text(encoding="utf-8")
     assert "1 buildings of 3" in text
