@@ -13,11 +13,11 @@ namespace {
 using Eigen::VectorXd;
 
 constexpr int kMaxIterations = 40;
-constexpr double kStartT = 0.03;          // that far inside the limits
+constexpr double kStartT = 0.005;         // that far inside the limits
 constexpr double kRoomOfMissing = 0.003;  // of m at first, of the trust region
 // The gap at the end, a share of what has been gained, and at least; the
 // gradient's largest entry.
-constexpr double kGap = 0.1;
+constexpr double kGap = 0.2;
 constexpr double kLeastGap = 1e-6;
 constexpr double kGradient = 0.1;
 constexpr double kStepShare = 0.99;    // of the way to the nearest row
@@ -195,9 +195,10 @@ void CurveInteriorPoint::AddRows(BlockTridiagonal* matrix, VectorXd* residual) {
   }
 }
 
-// Steps of slacks and duals along one of x; how far they lead at most.
-double CurveInteriorPoint::FollowRows(const VectorXd& step, double centre) {
-  double most = 1.0;
+// Steps of slacks and duals along one of x.
+InteriorReach CurveInteriorPoint::FollowRows(const VectorXd& step,
+                                             double centre) {
+  InteriorReach reach;
   for (int i = 0; i < pieces_; ++i) {
     const First& first = first_[i];
     const CurveLocal local = ToLocal(program_, i, step);
@@ -210,10 +211,12 @@ double CurveInteriorPoint::FollowRows(const VectorXd& step, double centre) {
     for (int k = first.other; k < first_[i + 1].other; ++k) {
       to = WriteSlopes(rows_[k], local, to);
     }
-    most = std::max(
-        most, state_.FollowPart(first.bound, RowsOfPiece(i), slopes, centre));
+    const InteriorReach part =
+        state_.FollowPart(first.bound, RowsOfPiece(i), slopes, centre);
+    reach.slack = std::min(reach.slack, part.slack);
+    reach.dual = std::min(reach.dual, part.dual);
   }
-  return 1.0 / most;
+  return reach;
 }
 
 Eigen::ArrayXd CurveInteriorPoint::BendsAlong(const VectorXd& step) const {
@@ -273,7 +276,8 @@ CurveInteriorPoint::Result CurveInteriorPoint::Solve() {
     AddCentres(centre, &step);
     Fix(&step);
     matrix.Solve(&step);
-    double alpha = std::min(1.0, kStepShare * FollowRows(step, centre));
+    InteriorReach reach = FollowRows(step, centre).Times(kStepShare);
+    double& alpha = reach.slack;  // of x, too
     // Of norms, which bend, the slacks themselves count in the end.
     for (; has_norms_ && alpha > kShortestStep; alpha *= kShorter) {
       FollowSlacks(x + alpha * step, alpha);
@@ -281,9 +285,9 @@ CurveInteriorPoint::Result CurveInteriorPoint::Solve() {
     }
     if (!(alpha > kShortestStep)) break;
     if (has_norms_) {
-      state_.Move(alpha, slacks_);
+      state_.Move(reach, slacks_);
     } else {
-      state_.Move(alpha);
+      state_.Move(reach);
     }
     x += alpha * step;
   }

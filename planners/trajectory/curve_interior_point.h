@@ -52,7 +52,7 @@ class CurveInteriorPoint {
   // Σ of weight · gradient of a piece's rows, of which those are the weights.
   CurveLocal SumOfRows(int piece, const double* weights) const;
   void AddRows(BlockTridiagonal* matrix, Eigen::VectorXd* residual);
-  double FollowRows(const Eigen::VectorXd& step, double centre);
+  InteriorReach FollowRows(const Eigen::VectorXd& step, double centre);
   Eigen::ArrayXd BendsAlong(const Eigen::VectorXd& step) const;
   void AddCentres(double centre, Eigen::VectorXd* to);
 

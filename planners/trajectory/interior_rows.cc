@@ -2,6 +2,7 @@
 #include "planners/trajectory/interior_rows.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace phongpd::internal {
 
@@ -29,44 +30,47 @@ void InteriorRows::Begin(const ArrayXd& slacks, const ArrayXd& products) {
   slack = slacks;
   dual = products * slack.inverse();
   slack_step_ = dual_step_ = ArrayXd::Zero(size());
-  is_predicted_ = false;
+  share_of_products_ = 0.0;
   bends_.resize(0);
 }
 
-double InteriorRows::FollowPart(int first, int count, const double* slopes,
-                                double centre) {
+InteriorReach InteriorRows::FollowPart(int first, int count,
+                                       const double* slopes, double centre) {
   const Eigen::Map<const ArrayXd> all(slopes, count);
-  double most = 0.0;
+  // By how much steps are too long.
+  double of_slacks = 1.0, of_duals = 1.0;
   ForParts(first, count, [&](Index at, Index n) {
     auto slack_step = slack_step_.segment(at, n);
     auto dual_step = dual_step_.segment(at, n);
     const auto y = dual.segment(at, n);
     const Part inverse = slack.segment(at, n).inverse();
     Part aim = Part::Constant(n, centre);
-    if (is_predicted_) aim -= slack_step * dual_step;
+    if (share_of_products_ > 0.0) {
+      aim -= share_of_products_ * slack_step * dual_step;
+    }
     slack_step = -all.segment(at - first, n);
     if (bends_.size() > 0) slack_step -= bends_.segment(at, n);
     dual_step = (aim - y * slack_step) * inverse - y;
-    most = std::max({most, (-slack_step * inverse).maxCoeff(),
-                     (-dual_step * y.inverse()).maxCoeff()});
+    of_slacks = std::max(of_slacks, (-slack_step * inverse).maxCoeff());
+    of_duals = std::max(of_duals, (-dual_step * y.inverse()).maxCoeff());
   });
-  return most;
+  return {1.0 / of_slacks, 1.0 / of_duals};
 }
 
-double InteriorRows::Follow(const ArrayXd& slopes, double centre) {
-  return 1.0 / std::max(1.0, FollowPart(0, size(), slopes.data(), centre));
+InteriorReach InteriorRows::Follow(const ArrayXd& slopes, double centre) {
+  return FollowPart(0, size(), slopes.data(), centre);
 }
 
-double InteriorRows::Predict(double reach) {
+double InteriorRows::Predict(const InteriorReach& reach) {
   double gap = 0.0, after = 0.0;
   ForParts(0, size(), [&](Index at, Index n) {
     const auto s = slack.segment(at, n), y = dual.segment(at, n);
     gap += (s * y).sum();
-    after += ((s + reach * slack_step_.segment(at, n)) *
-              (y + reach * dual_step_.segment(at, n)))
+    after += ((s + reach.slack * slack_step_.segment(at, n)) *
+              (y + reach.dual * dual_step_.segment(at, n)))
                  .sum();
   });
-  is_predicted_ = true;
+  share_of_products_ = std::sqrt(reach.Least());
   const double ratio = after / gap;
   return ratio * ratio * ratio * gap / size();
 }
@@ -74,8 +78,9 @@ double InteriorRows::Predict(double reach) {
 void InteriorRows::WriteMultipliers(double centre, int first, int count,
                                     double* to) const {
   Eigen::Map<ArrayXd> all(to, count);
-  if (is_predicted_) {
-    all = slack_step_.segment(first, count) * dual_step_.segment(first, count) -
+  if (share_of_products_ > 0.0) {
+    all = share_of_products_ * slack_step_.segment(first, count) *
+              dual_step_.segment(first, count) -
           centre;
   } else {
     all.setConstant(-centre);
@@ -91,19 +96,19 @@ void InteriorRows::WriteSquares(int first, int count, double* to) const {
       dual.segment(first, count) * slack.segment(first, count).inverse();
 }
 
-void InteriorRows::Move(double reach) {
+void InteriorRows::Move(const InteriorReach& reach) {
   ForParts(0, size(), [&](Index at, Index n) {
-    slack.segment(at, n) += reach * slack_step_.segment(at, n);
-    dual.segment(at, n) += reach * dual_step_.segment(at, n);
+    slack.segment(at, n) += reach.slack * slack_step_.segment(at, n);
+    dual.segment(at, n) += reach.dual * dual_step_.segment(at, n);
   });
-  is_predicted_ = false;
+  share_of_products_ = 0.0;
   bends_.resize(0);
 }
 
-void InteriorRows::Move(double reach, const ArrayXd& slacks) {
+void InteriorRows::Move(const InteriorReach& reach, const ArrayXd& slacks) {
   slack = slacks;
-  dual += reach * dual_step_;
-  is_predicted_ = false;
+  dual += reach.dual * dual_step_;
+  share_of_products_ = 0.0;
   bends_.resize(0);
 }
 

@@ -348,11 +348,11 @@ JointInteriorPoint::Result JointInteriorPoint::Solve() {
     unknowns_.Fix(&step);
     matrix.Solve(&step);
     FindSlopes(step);
-    const double alpha =
-        std::min(1.0, kStepShare * state_.Follow(slopes_, centre));
-    if (!(alpha > kShortestStep)) break;
-    state_.Move(alpha);
-    x += alpha * step;
+    const InteriorReach reach =
+        state_.Follow(slopes_, centre).Times(kStepShare);
+    if (!(reach.slack > kShortestStep)) break;
+    state_.Move(reach);
+    x += reach.slack * step;
   }
   result.x = x;
   return result;
