@@ -140,7 +140,7 @@ TEST(Trajectory, JoinsWhatMeetsButForRounding) {
   EXPECT_TRUE(Trajectory::Joined({}, &moved).empty());
   // 2⁻⁴⁰ of 200 is 1.8e-10.
   const Vector3d far = b + Vector3d(0.0, 1e-9, 0.0);
-  ExpectRefused(
+  testing::ExpectRefused(
       [&] {
         Trajectory::Joined({{a, b, 1.0}, {far, c, 2.0}}, &moved);
       },
