@@ -22,8 +22,8 @@ class CurveCheck:
     """Is a curve in time free, for all t and not at samples?"""
 
     status: str
-    """"free": all of it, proved; "collides": at `time`, proved, to the rounding
-    of its ends; "undecided": closer to contact than is resolved."""
+    """"free": all of it, proved; "collides": at `time`, proved of the place,
+    rounded; "undecided": closer to contact than is resolved."""
     free_until: float
     """Seconds; free before, proved."""
     time: float
@@ -35,8 +35,9 @@ class CurveCheck:
     """(3,): where it is then."""
     limits_used: dict[str, float]
     """Upper bounds of the largest velocity, acceleration and jerk within the
-    pieces, as shares of the limits: at most 1 where they are kept for all t;
-    empty where none were given."""
+    pieces, as shares of the limits: at most 1 where they are kept for all t, by
+    a spline to the rounding of its Bézier points; empty where none were
+    given."""
     jumps: tuple[float, float]
     """The largest jumps of velocity and acceleration where pieces meet."""
     tests: int

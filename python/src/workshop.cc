@@ -68,7 +68,7 @@ void AddMoving(const std::vector<Moving>& moving, OptimizeRequest* request) {
       for (const Point& p : points) places.push_back(ToVector(p));
       curve.emplace_back(places, duration);
     }
-    double moved = 0.0;  // by rounding, which nobody knows his obstacle to
+    double moved = 0.0;  // rounding alone: no motion is known better
     request->moving.push_back(
         {solid.Named(name), Trajectory::Joined(std::move(curve), &moved)});
   }
