@@ -172,7 +172,8 @@ class Room(Shown):
     def check_curve(self, curve: Any, *, limits: Any = None,
                     by_norm: bool = False) -> CurveCheck:
         """Is a curve in time free for all t?  Of any maker, without samples;
-        "free" is proved, what touches is not free.
+        "free" is proved, what touches is not free.  A world that was loaded
+        with obstacles that move is refused: those that rest alone are judged.
 
         curve: a Motion; (durations (N,), points (N, K, 3)), the Bézier points of
         each piece, of degree K - 1, 1 to 7; or what scipy.interpolate has for

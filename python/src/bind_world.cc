@@ -9,6 +9,7 @@
 #include <array>
 #include <memory>
 #include <optional>
+#include <string>
 #include <utility>
 
 #include "constraints/curve_judge.h"
@@ -124,6 +125,13 @@ nb::tuple CheckCurveIn(const Workshop& workshop, const Seconds& durations,
                        const Rows3& points, double blur,
                        const std::optional<std::array<Point, 3>>& limits,
                        bool by_norm) {
+  // "Free" would be no answer about them.
+  if (const auto& moving = workshop.scene().moving; !moving.empty()) {
+    throw InputError(
+        "check_curve: expected a world in which all obstacles rest, as no "
+        "others are judged, found " +
+        std::to_string(moving.size()) + " that move");
+  }
   double moved = 0.0;
   const Trajectory curve = CurveOf(durations, points, &moved);
   nb::dict used;

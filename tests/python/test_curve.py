@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Curves of whoever made them.  Truth: scipy's own values of its splines, the
 # world's exact test of places, a parabola that touches in closed form.
+import json
+
 import numpy as np
 import phongpd
 import pytest
@@ -164,6 +166,23 @@ def test_it_joins_to_rounding_and_no_farther(boxes):
 def test_bounds_are_kept_for_all_t(world):
     beyond = ([1], [[(-2, -2, 2), (0, -7, 2), (2, -2, 2)]])
     assert world.check_curve(beyond).status == "collides"
+
+
+def test_a_world_with_obstacles_that_move_is_refused(tmp_path):
+    box = {"type": "box", "size": [1, 1, 1]}
+    scene = {"robot": {"shape": box}, "start": [-3, 0, 0], "goal": [3, 0, 0],
+             "obstacles": [{"id": "post", "shape": box, "position": [0, 5, 0]}],
+             "moving": [{"id": "cart", "shape": box, "motion": [
+                 {"duration": 1, "points": [[0, 0, 0], [1, 0, 0]]}]}]}
+    path = tmp_path / "scene.json"
+    path.write_text(json.dumps(scene))
+    through = ([1], [[(-3, 0, 0), (3, 0, 0)]])
+    with pytest.raises(phongpd.InputError,
+                       match="all obstacles rest, .* found 1 that move"):
+        phongpd.World.load(path).check_curve(through)
+    del scene["moving"]
+    path.write_text(json.dumps(scene))
+    assert phongpd.World.load(path).check_curve(through).free
 
 
 def test_obstacles_move_along_splines(world):
