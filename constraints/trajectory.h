@@ -71,8 +71,9 @@ class Trajectory {
   explicit Trajectory(std::vector<CurvePiece> pieces);
   // Of pieces from elsewhere, which join but for rounding: each begins where
   // the one before it ends, where that is within 2⁻⁴⁰ of the largest
-  // coordinate. The curve is nowhere farther than `moved` from the one given:
-  // the `blur` of CheckCurve.
+  // coordinate.  The curve is nowhere farther than *moved, in the points' unit,
+  // from the one given: the `blur` of CheckCurve.  Throws as above where pieces
+  // are farther apart.
   static Trajectory Joined(std::vector<CurvePiece> pieces, double* moved);
   // Straight segments, a second each; two points at least.
   static Trajectory Along(const std::vector<Eigen::Vector3d>& path);
