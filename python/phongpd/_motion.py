@@ -19,7 +19,7 @@ from ._arguments import Floats, Point, flag, length, motion_end, \
 from ._curve import curve_of
 from ._native import InputError
 from ._plots import PLACES, new_axes, plot_vectors
-from ._room import Room
+from ._room import Room, limits_in
 from ._solid import as_solid
 from ._view import Canvas
 
@@ -199,10 +199,7 @@ def wishes_of(scene: _native.Scene, *, limits: Any, margin: Any, require: Any,
               arrival: Any = None) -> _native.MotionWishes:
     """What is asked of a motion, as World.optimize takes it; None: the
     scene's."""
-    known = scene.limits if limits is None else limits
-    of_norm = flag(by_norm, "by_norm")
-    if limits is None:
-        of_norm = of_norm or scene.limits_by_norm
+    known, of_norm = limits_in(scene, limits, by_norm)
     if known is None:
         raise InputError("limits: expected (velocity, acceleration, jerk), "
                          "found None, and the scene has none")

@@ -188,10 +188,7 @@ class Room(Shown):
         first, as for is_free.
         """
         durations, points, blur = curve_of(curve, "curve")
-        known, of_norm = limits, flag(by_norm, "by_norm")
-        if limits is None:
-            known = self.limits
-            of_norm = of_norm or self._native.scene.limits_by_norm
+        known, of_norm = limits_in(self._native.scene, limits, by_norm)
         return CurveCheck(*self._native.check_curve(
             durations, points.reshape(-1, 3), blur,
             None if known is None else motion_limits(known, of_norm), of_norm))
@@ -236,6 +233,15 @@ class Room(Shown):
 
     def __repr__(self) -> str:
         return f"<{type(self).__name__} {self.name!r}: D {self.length:g}>"
+
+
+def limits_in(scene: _native.Scene, limits: Any,
+              by_norm: Any) -> tuple[Any, bool]:
+    """Those given, or else the scene's, or None; and are they of the norm?"""
+    of_norm = flag(by_norm, "by_norm")
+    if limits is not None:
+        return limits, of_norm
+    return scene.limits, of_norm or scene.limits_by_norm
 
 
 def as_room(world: R) -> R:
