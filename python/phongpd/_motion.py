@@ -13,9 +13,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _native
 from ._answers import WayInWorld, path_in
-from ._arguments import Floats, Point, flag, length, motion_end, \
-    motion_limits, numbers, places_on_the_way, point, real, seconds, text, \
-    whole_number
+from ._arguments import Floats, flag, length, motion_end, motion_limits, \
+    numbers, places_on_the_way, real, seconds, text, whole_number
 from ._curve import curve_of
 from ._native import InputError
 from ._plots import PLACES, new_axes, plot_vectors
@@ -160,7 +159,7 @@ class Motion(WayInWorld):
 
 
 def moving_of(moving: Mapping[str, Any] | None) -> list[
-        tuple[str, _native.Solid, list[tuple[float, list[Point]]]]]:
+        tuple[str, _native.Solid, Floats, Floats]]:
     """{name: (solid, motion)} of obstacles that move, the motion as curve_of
     takes it."""
     found = []
@@ -172,9 +171,8 @@ def moving_of(moving: Mapping[str, Any] | None) -> list[
             raise InputError(f"{what}: expected (solid, motion), found "
                              f"{type(value).__name__}") from None
         times, places, _ = curve_of(motion, what)
-        pieces = [(float(t), [point(p, what) for p in piece])
-                  for t, piece in zip(times, places)]
-        found.append((str(name), as_solid(solid, str(name))._native, pieces))
+        found.append((str(name), as_solid(solid, str(name))._native, times,
+                      places.reshape(-1, 3)))
     return found
 
 

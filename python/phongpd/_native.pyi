@@ -167,7 +167,7 @@ class Scene:
     departure: tuple[_Point, _Point]
     arrival: tuple[_Point, _Point]
 
-_Moving = tuple[str, Solid, list[tuple[float, list[_Point]]]]
+_Moving = tuple[str, Solid, _Floats, _Floats]
 
 class MotionWishes:
     def __init__(self, limits: tuple[_Point, _Point, _Point],

@@ -19,6 +19,7 @@
 #include "problems/scenes/scene_source.h"
 #include "python/src/arrays.h"
 #include "python/src/bindings.h"
+#include "python/src/curve_arrays.h"
 #include "python/src/interruptible.h"
 #include "python/src/json_objects.h"
 #include "python/src/words.h"
@@ -30,9 +31,6 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr long kMostTests = 1'000'000;  // as CheckCurve has it
-
-using Seconds =
-    nb::ndarray<const double, nb::shape<-1>, nb::c_contig, nb::device::cpu>;
 
 Scene MakeScene(const Solid& robot,
                 const std::vector<std::pair<std::string, Solid>>& obstacles,
@@ -105,22 +103,6 @@ nb::object Clearances(const Workshop& workshop, const Rows3& points) {
   return Owned(std::move(clearance), {count});
 }
 
-// Of as many points a piece as there are for each duration.
-Trajectory CurveOf(const Seconds& durations, const Rows3& points,
-                   double* moved) {
-  const size_t pieces = durations.shape(0);
-  const size_t width = points.shape(0) / pieces;
-  std::vector<CurvePiece> curve;
-  curve.reserve(pieces);
-  for (size_t i = 0; i < pieces; ++i) {
-    std::vector<Vector3d> own;
-    for (size_t k = 0; k < width; ++k)
-      own.push_back(Row(points, i * width + k));
-    curve.emplace_back(own, durations(i));
-  }
-  return Trajectory::Joined(std::move(curve), moved);
-}
-
 nb::tuple CheckCurveIn(const Workshop& workshop, const Seconds& durations,
                        const Rows3& points, double blur,
                        const std::optional<std::array<Point, 3>>& limits,
@@ -133,7 +115,7 @@ nb::tuple CheckCurveIn(const Workshop& workshop, const Seconds& durations,
         std::to_string(moving.size()) + " that move");
   }
   double moved = 0.0;
-  const Trajectory curve = CurveOf(durations, points, &moved);
+  const Trajectory curve = JoinedCurve(durations, points, &moved);
   nb::dict used;
   if (limits) {
     MotionLimits of;

@@ -61,16 +61,14 @@ PlanRequest Workshop::PlanBetween(const Point& start, const Point& goal) const {
 void AddMoving(const std::vector<Moving>& moving, OptimizeRequest* request) {
   if (moving.empty()) return;
   request->moving.clear();
-  for (const auto& [name, solid, pieces] : moving) {
-    std::vector<CurvePiece> curve;
-    for (const auto& [duration, points] : pieces) {
-      std::vector<Eigen::Vector3d> places;
-      for (const Point& p : points) places.push_back(ToVector(p));
-      curve.emplace_back(places, duration);
+  for (const auto& [name, solid, durations, points] : moving) {
+    try {
+      double moved = 0.0;  // rounding alone: no motion is known better
+      request->moving.push_back(
+          {solid.Named(name), JoinedCurve(durations, points, &moved)});
+    } catch (const InputError& error) {
+      throw InputError("moving: " + name + ": " + error.what());
     }
-    double moved = 0.0;  // rounding alone: no motion is known better
-    request->moving.push_back(
-        {solid.Named(name), Trajectory::Joined(std::move(curve), &moved)});
   }
 }
 

@@ -15,6 +15,7 @@
 #include "planners/solve/optimize.h"
 #include "planners/solve/plan.h"
 #include "problems/scenes/scene.h"
+#include "python/src/curve_arrays.h"
 
 namespace phongpd::python {
 
@@ -40,12 +41,11 @@ struct MotionWishes {
   std::array<Point, 2> departure, arrival;
 };
 
-// An obstacle that moves: its name, its solid, and the pieces of its motion,
-// seconds and Bézier points each.
-using Moving = std::tuple<std::string, Solid,
-                          std::vector<std::pair<double, std::vector<Point>>>>;
+// An obstacle that moves: its name, its solid, and the pieces of its motion.
+using Moving = std::tuple<std::string, Solid, Seconds, Rows3>;
 
 // They become the request's, in place of the scene's; none: nothing changes.
+// Throws InputError that names the obstacle.
 void AddMoving(const std::vector<Moving>& moving, OptimizeRequest* request);
 
 // A world for Python.  Ipopt runs once at a time in a process, and samplers
