@@ -130,15 +130,22 @@ check_format() {
 }
 
 check_options() {
-  local log=build/check/options.log part
+  local log=build/check/options.log part one running=()
   local parts=(CORE CONSTRAINTS ORACLE PLANNERS IPOPT OMPL SOLVE SHAPES PROBLEMS
     STUDIES VIEWER PROGRAM EXAMPLES TESTS RESULTS)
+  rm -rf build/check/options
+  mkdir -p build/check/options
+  configured() { # PLACE MESSAGE OPTION...
+    cmake -S . -B "$1" "${@:3}" >"$1.log" 2>&1 &&
+      grep -q "Generating done" "$1.log" && grep -q -- "$2" "$1.log" ||
+      { cat "$1.log"; say "options ${*:3}: expected '$2'"; return 1; }
+  }
+  # One on each processor.
   configures() { # MESSAGE OPTION...
     say "options ${*:2}"
-    rm -rf build/check/options
-    cmake -S . -B build/check/options "${@:2}" >"$log" 2>&1 &&
-      grep -q "Generating done" "$log" && grep -q -- "$1" "$log" ||
-      { cat "$log"; say "options: expected '$1'"; return 1; }
+    while (($(jobs -rp | wc -l) >= $(nproc))); do sleep 0.1; done
+    configured "build/check/options/${#running[@]}" "$@" &
+    running+=($!)
   }
   # What is switched off, and what is said of that which stands on it.
   local -A above=([CORE]=phongpd::constraints [CONSTRAINTS]=phongpd::planners
@@ -164,6 +171,7 @@ check_options() {
     "Not built for want of the package coinor-libipopt-dev.*: phongpd::ipopt"
   configures "Not built for want of the package libjs-three" \
     -DPHONGPD_THREE_JS=
+  for one in "${running[@]}"; do wait "$one"; done
 
   # Outside projects; the tests build the one of the installed package.
   takes() { # WAY OPTION...
