@@ -13,6 +13,7 @@ from trajectories_instances import ends_of, world_of
 from trajectories_peers import MARGIN, PEERS
 
 WITHIN = 1.01  # of a limit, at samples: what solvers and grids leave open
+SAMPLES = 2_000
 
 
 @functools.lru_cache(1 << 6)
@@ -54,16 +55,16 @@ def own(problem, preset):
 
 def beside(problem, solve):
     begin = time.process_time()
-    says, duration, at, slopes = solve(problem)
+    says, duration, at, slopes, place = solve(problem)
     cpu = time.process_time() - begin
-    times = np.linspace(0.0, duration, judge.FINE + 1)
+    times = np.linspace(0.0, duration, SAMPLES + 1)
     points = np.asarray(at(times))
     shares = [None if of is None else float(np.abs(of).max() / limit)
               for of, limit in zip(slopes(times), problem.limits)]
     ends = max(np.abs(points[0] - problem.start).max(),
                np.abs(points[-1] - problem.goal).max())
     return {"says": says, "duration": duration, "cpu": cpu, "used": shares,
-            "free": judge.is_polyline_free(problem.world, points),
+            "free": judge.is_place_free(problem.world, place),
             "within": all(s is None or s <= WITHIN for s in shares)
             and float(ends) <= 1e-5 * problem.world.length}
 

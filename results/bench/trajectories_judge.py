@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Is a motion free?  At many samples, by FCL, which shares nothing with PhongPD
-but the meshes, and by the exact kernel; as a polyline, exactly and throughout."""
+but the meshes, and by the exact kernel; exactly and throughout, as what it is or
+as a polyline."""
 import functools
 
 import numpy as np
@@ -11,7 +12,7 @@ except ImportError:  # said in the report
     fcl = None
 
 SAMPLES = 10_000  # of a curve
-FINE = 2_000  # segments of the polyline that stands for a peer's curve
+FINE = 2_000  # segments of the polyline that stands for a curve of a graph
 
 
 def _model(vertices, triangles):
@@ -57,3 +58,10 @@ def exact_hits(world, points):
 
 def is_polyline_free(world, points):
     return bool(world.is_motion_free(points[:-1], points[1:]).all())
+
+
+def is_place_free(world, place):
+    """Of corners, or a spline as scipy has it: what is undecided is not free."""
+    if isinstance(place, np.ndarray):
+        return is_polyline_free(world, place)
+    return world.check_curve(place).free

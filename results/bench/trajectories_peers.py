@@ -2,7 +2,7 @@
 """Motions of peers, beside PhongPD's on the same ends and limits.  What needs a
 path gets the polyline that PhongPD's own motion began with.  Each function gives
 (what it says itself, seconds, positions over time, derivatives over time or
-None)."""
+None, where it is: the corners of a polyline, or a spline, in time or not)."""
 import numpy as np
 
 CONTROL_POINTS, COLLISION_SAMPLES = 40, 60  # of Drake
@@ -42,7 +42,8 @@ def ruckig_stops(problem):
         return np.array([[knots[k].at_time(min(max(t - begins[k], 0.0),
                                                knots[k].duration))[order]
                           for k, t in zip(which, times)] for order in range(3)])
-    return True, total, lambda t: at(t)[0], lambda t: (*at(t)[1:], None)
+    return (True, total, lambda t: at(t)[0], lambda t: (*at(t)[1:], None),
+            problem.path)
 
 
 def _through_spline(corners, problem):
@@ -66,7 +67,7 @@ def _through_spline(corners, problem):
     if found is None:
         raise ValueError("toppra: no parametrization")
     return (True, float(found.duration), found,
-            lambda t: (found(t, 1), found(t, 2), None))
+            lambda t: (found(t, 1), found(t, 2), None), path.cspl)
 
 
 def toppra_corners(problem):
@@ -120,6 +121,7 @@ def _kto(problem, first, margin=MARGIN):
     from pydrake.planning import KinematicTrajectoryOptimization
     from pydrake.solvers import SnoptSolver, SolverOptions
     from pydrake.trajectories import BsplineTrajectory
+    from scipy.interpolate import BSpline
     wish = KinematicTrajectoryOptimization(3, CONTROL_POINTS, 4, 1.0)
     v, a, j = problem.limits
     one = np.ones(3)
@@ -165,7 +167,9 @@ def _kto(problem, first, margin=MARGIN):
     slopes = [found.MakeDerivative(k) for k in (1, 2, 3)]
     return (bool(result.is_success()), float(found.end_time()),
             lambda t: found.vector_values(t).T,
-            lambda t: tuple(s.vector_values(t).T for s in slopes))
+            lambda t: tuple(s.vector_values(t).T for s in slopes),
+            BSpline(found.basis().knots(),
+                    np.hstack(found.control_points()).T, found.basis().degree()))
 
 
 def drake_line(problem):

@@ -153,8 +153,8 @@ def _tables(folder, rows, best):
         ("peers_summary.csv", "Peers", duels.SUMMARY_HEADER, beside,
          f"Limits by axis; margin {MARGIN:g} D for PhongPD and Drake; wide is "
          f"beside PhongPD's default, {WIDE:g} D for both. Ratios of what is "
-         "free and in limits alone. Faster: by a thousandth at least. Free: the "
-         "polyline of 2,001 samples, exactly."),
+         "free and in limits alone. Faster: by a thousandth at least. Free: for "
+         "all t, by the judge of curves."),
     ])
     write_csv(folder / "own.csv", own.OWN_HEADER, own.own_table(own_rows, best))
     write_csv(folder / "peers.csv", duels.HEADER,
@@ -179,9 +179,10 @@ def _about_peers(rows):
     return (
         f"{len(rows)} pairs in {len({r['scene'] for r in rows})} scenes, limits "
         "of velocity, acceleration and jerk by axis. Ruckig, TOPP-RA and Drake "
-        "(path) are given the polyline that PhongPD's motion began with. In "
-        "limits: to 1 % at 2,001 samples. TOPP-RA keeps no limit of jerk, an "
-        "easier problem, and knows no obstacle. Drake: "
+        "(path) are given the polyline that PhongPD's motion began with. Free: "
+        "for all t, proved of Ruckig's segments and of the others' splines by "
+        "`World.check_curve`. In limits: to 1 % at 2,001 samples. TOPP-RA keeps "
+        "no limit of jerk, an easier problem, and knows no obstacle. Drake: "
         f"KinematicTrajectoryOptimization, cubic, {CONTROL_POINTS} control "
         f"points, {COLLISION_SAMPLES} samples against PhongPD's exact distance, "
         f"SNOPT; wide: margin {WIDE:g} D, beside PhongPD's default, which is "
