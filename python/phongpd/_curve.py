@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from math import comb
 from typing import Any
@@ -10,8 +11,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
+from . import _native
 from ._arguments import Floats, numbers
 from ._native import InputError
+from ._solid import as_solid
 
 # Of a double: what numpy calls eps.
 _EPS = 2.0**-52
@@ -30,7 +33,8 @@ class CurveCheck:
     """Seconds: when it collides, or the middle of what is undecided; 0 where it
     is free."""
     piece: int
-    """In which piece, from 0 on; -1 where it is free."""
+    """In which piece, from 0 on, the last one also where it rests after that; -1
+    where it is free."""
     position: Floats = field(repr=False)
     """(3,): where it is then."""
     limits_used: dict[str, float]
@@ -42,6 +46,9 @@ class CurveCheck:
     """The largest jumps of velocity and acceleration where pieces meet."""
     tests: int
     """Parts of the curve looked at."""
+    obstacle: str = ""
+    """Which of those that move it meets, or may meet; "" of what rests, and of
+    bounds."""
 
     @property
     def free(self) -> bool:
@@ -54,14 +61,16 @@ class CurveCheck:
                 **{f"{name}_used": share
                    for name, share in self.limits_used.items()},
                 "velocity_jump": self.jumps[0],
-                "acceleration_jump": self.jumps[1], "tests": self.tests}
+                "acceleration_jump": self.jumps[1], "tests": self.tests,
+                "obstacle": self.obstacle}
 
     def __str__(self) -> str:
         used = ", ".join(f"{name} {share:.3g}"
                          for name, share in self.limits_used.items())
         return (self.status
                 + ("" if self.free
-                   else f" at {self.time:.6g} s, in piece {self.piece}")
+                   else f" at {self.time:.6g} s, in piece {self.piece}"
+                   + (f", with {self.obstacle}" if self.obstacle else ""))
                 + (f"; of the limits: {used}" if used else ""))
 
 
@@ -88,6 +97,25 @@ def curve_of(curve: Any, name: str) -> tuple[Floats, Floats, float]:
         raise InputError(f"{name}: expected durations (N,) and points (N, K, 3), "
                          f"found {times.shape} and {places.shape}")
     return times, places, 0.0
+
+
+def moving_of(moving: Mapping[str, Any] | None) -> tuple[
+        list[tuple[str, _native.Solid, Floats, Floats]], float]:
+    """Of {name: (solid, motion)} of obstacles that move, the motion as curve_of
+    takes it; and how far rounding may have moved one."""
+    found, most = [], 0.0
+    for name, value in (moving or {}).items():
+        what = f"moving: {name}"
+        try:
+            solid, motion = value
+        except (TypeError, ValueError):
+            raise InputError(f"{what}: expected (solid, motion), found "
+                             f"{type(value).__name__}") from None
+        times, places, blur = curve_of(motion, what)
+        most = max(most, blur)
+        found.append((str(name), as_solid(solid, str(name))._native, times,
+                      places.reshape(-1, 3)))
+    return found, most
 
 
 def _of_powers(coefficients: ArrayLike, breaks: ArrayLike,

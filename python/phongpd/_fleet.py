@@ -12,7 +12,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _native
-from ._motion import Motion, motion_of, moving_of, wishes_of
+from ._curve import moving_of
+from ._motion import Motion, motion_of, wishes_of
 from ._native import InputError
 from ._plots import PLACES, new_axes, plot_vectors
 from ._solid import Solid
@@ -135,7 +136,7 @@ def optimize_fleet(robots: Mapping[str, Tuple[World, ArrayLike, ArrayLike]]
             preset=preset, routes=routes, max_seconds=max_seconds,
             by_norm=by_norm, duration=0.0, departure=rest, arrival=rest)
         given.append((key, world._native, *world._ends(start, goal), wishes))
-    row = _native.optimize_fleet(name, given, moving_of(moving))
+    row = _native.optimize_fleet(name, given, moving_of(moving)[0])
     motions = {one["id"]: motion_of(one, task[1])
                for one, task in zip(row["robots"], tasks)}
     return Fleet(status=row["status"], reason=row["reason"],

@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass, field
 from math import comb
 from typing import Any
@@ -15,11 +14,9 @@ from . import _native
 from ._answers import WayInWorld, path_in
 from ._arguments import Floats, flag, length, motion_end, motion_limits, \
     numbers, places_on_the_way, real, seconds, text, whole_number
-from ._curve import curve_of
 from ._native import InputError
 from ._plots import PLACES, new_axes, plot_vectors
 from ._room import Room, limits_in
-from ._solid import as_solid
 from ._view import Canvas
 
 
@@ -156,24 +153,6 @@ class Motion(WayInWorld):
                 f"{'certified' if self.certified else 'NOT CERTIFIED'}, "
                 f"{self.status}{because}: {len(self.durations)} pieces, "
                 f"clearance {self.clearance:.6g} at least")
-
-
-def moving_of(moving: Mapping[str, Any] | None) -> list[
-        tuple[str, _native.Solid, Floats, Floats]]:
-    """{name: (solid, motion)} of obstacles that move, the motion as curve_of
-    takes it."""
-    found = []
-    for name, value in (moving or {}).items():
-        what = f"moving: {name}"
-        try:
-            solid, motion = value
-        except (TypeError, ValueError):
-            raise InputError(f"{what}: expected (solid, motion), found "
-                             f"{type(value).__name__}") from None
-        times, places, _ = curve_of(motion, what)
-        found.append((str(name), as_solid(solid, str(name))._native, times,
-                      places.reshape(-1, 3)))
-    return found
 
 
 def motion_of(row: dict[str, Any], world: Room) -> Motion:

@@ -15,7 +15,7 @@ from . import _native
 from ._arguments import Floats, Point, flag, motion_limits, point, real, \
     rows, scene_name, seed_number, text
 from ._contact import ContactSpace
-from ._curve import CurveCheck, curve_of
+from ._curve import CurveCheck, curve_of, moving_of
 from ._native import InputError
 from ._solid import Solid, as_solid
 from ._view import Canvas, Shown
@@ -170,10 +170,10 @@ class Room(Shown):
         return self._native.are_free(begins, ends).view(bool_)
 
     def check_curve(self, curve: Any, *, limits: Any = None,
-                    by_norm: bool = False) -> CurveCheck:
+                    by_norm: bool = False,
+                    moving: Mapping[str, Any] | None = None) -> CurveCheck:
         """Is a curve in time free for all t?  Of any maker, without samples;
-        "free" is proved, what touches is not free.  A world that was loaded
-        with obstacles that move is refused: those that rest alone are judged.
+        "free" is proved, what touches is not free.
 
         curve: a Motion; (durations (N,), points (N, K, 3)), the Bézier points of
         each piece, of degree K - 1, 1 to 7; or what scipy.interpolate has for
@@ -183,15 +183,20 @@ class Room(Shown):
         limits: (velocity, acceleration, jerk), each one number or of x, y and
         z, user's units and seconds, to be compared with; None: the scene's, if
         it has any.  by_norm: they are of the norm, one number each.
+        moving: obstacles that move, {name: (solid, motion)} as optimize takes
+        them; None: the scene's.  The robot rests at the curve's end until they
+        rest, too.
 
         Some microseconds a piece that is clear; the contact space is built
         first, as for is_free.
         """
         durations, points, blur = curve_of(curve, "curve")
         known, of_norm = limits_in(self._native.scene, limits, by_norm)
+        others, of_others = moving_of(moving)
         return CurveCheck(*self._native.check_curve(
-            durations, points.reshape(-1, 3), blur,
-            None if known is None else motion_limits(known, of_norm), of_norm))
+            durations, points.reshape(-1, 3), blur + of_others,
+            None if known is None else motion_limits(known, of_norm), of_norm,
+            others))
 
     def clearance(self, points: ArrayLike) -> Floats:
         """(N,): distance to contact and bounds; 0 where not free."""

@@ -10,7 +10,8 @@ from numpy.typing import ArrayLike
 from ._answers import Plan, Trajectory, plan_of, trajectory_of
 from ._arguments import flag, length, point, real, rows, seconds, seed_number, \
     text, whole_number
-from ._motion import Motion, motion_of, moving_of, wishes_of
+from ._curve import moving_of
+from ._motion import Motion, motion_of, wishes_of
 from ._native import InputError
 from ._roadmap import Roadmap
 from ._room import Room
@@ -98,7 +99,7 @@ class World(Room):
                 tolerance=tolerance, dwell=dwell, duration=duration,
                 departure=departure, arrival=arrival)
             return motion_of(self._native.optimize_in_time(
-                *ends, text(model, "model"), wishes, moving_of(moving)), self)
+                *ends, text(model, "model"), wishes, moving_of(moving)[0]), self)
         _require_none("a path without limits", via=via is not None,
                       tolerance=tolerance is not None,
                       dwell=not _is_zero(dwell), duration=duration is not None,

@@ -6,13 +6,15 @@
 #include <nanobind/stl/tuple.h>
 #include <nanobind/stl/vector.h>
 
+#include <algorithm>
 #include <array>
 #include <memory>
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
-#include "constraints/curve_judge.h"
+#include "constraints/moving_judge.h"
 #include "core/mesh/mesh_error.h"
 #include "planners/exact/contact_roadmap.h"
 #include "planners/retraction/retraction_names.h"
@@ -29,8 +31,6 @@ namespace phongpd::python {
 namespace {
 
 using Eigen::Vector3d;
-
-constexpr long kMostTests = 1'000'000;  // as CheckCurve has it
 
 Scene MakeScene(const Solid& robot,
                 const std::vector<std::pair<std::string, Solid>>& obstacles,
@@ -103,19 +103,15 @@ nb::object Clearances(const Workshop& workshop, const Rows3& points) {
   return Owned(std::move(clearance), {count});
 }
 
+// Among the scene's moving obstacles if none are given.
 nb::tuple CheckCurveIn(const Workshop& workshop, const Seconds& durations,
                        const Rows3& points, double blur,
                        const std::optional<std::array<Point, 3>>& limits,
-                       bool by_norm) {
-  // "Free" would be no answer about them.
-  if (const auto& moving = workshop.scene().moving; !moving.empty()) {
-    throw InputError(
-        "check_curve: expected a world in which all obstacles rest, as no "
-        "others are judged, found " +
-        std::to_string(moving.size()) + " that move");
-  }
-  double moved = 0.0;
+                       bool by_norm, const std::vector<Moving>& given) {
+  double moved = 0.0, others_moved = 0.0;
   const Trajectory curve = JoinedCurve(durations, points, &moved);
+  std::vector<MovingObstacle> moving = MovingObstaclesOf(given, &others_moved);
+  if (given.empty()) moving = workshop.scene().moving;
   nb::dict used;
   if (limits) {
     MotionLimits of;
@@ -130,15 +126,21 @@ nb::tuple CheckCurveIn(const Workshop& workshop, const Seconds& durations,
     used["jerk"] = use.jerk;
   }
   const FreeSpace& space = *workshop.Spaces().free_space;
-  const CurveCheck check = [&] {
+  const MovingCheck check = [&] {
     const Computing computing;
-    return CheckCurve(space, curve, kMostTests, blur + moved);
+    return CheckCurveAmong(space, MovingBodies(workshop.world(), moving), curve,
+                           blur + moved + others_moved);
   }();
   const bool is_free = check.IsFree();
+  const int last = static_cast<int>(curve.pieces().size()) - 1;
+  const int piece = static_cast<int>(curve.PiecesBefore(check.time));
   return nb::make_tuple(
       ToString(check.verdict), check.free_until, is_free ? 0.0 : check.time,
-      is_free ? -1 : check.piece, ToArray(check.configuration), used,
-      nb::make_tuple(curve.JointGap(1), curve.JointGap(2)), check.tests);
+      is_free ? -1 : std::min(piece, last), ToArray(check.configuration), used,
+      nb::make_tuple(curve.JointGap(1), curve.JointGap(2)), check.tests,
+      is_free || check.body == MovingCheck::kFixed
+          ? std::string()
+          : moving[check.body].solid.name());
 }
 
 // Empty texts and 0: the scene's own.
@@ -365,7 +367,7 @@ void BindWorld(nb::module_& module) {
       .def("clearances", &Clearances)
       .def("check_curve", &CheckCurveIn, nb::arg("durations"),
            nb::arg("points"), nb::arg("blur"), nb::arg("limits").none(),
-           nb::arg("by_norm"))
+           nb::arg("by_norm"), nb::arg("moving"))
       .def_prop_ro("scene", &Workshop::scene)
       .def_prop_ro("length",
                    [](const Workshop& w) { return w.world().diagonal(); })

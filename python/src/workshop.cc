@@ -58,18 +58,27 @@ PlanRequest Workshop::PlanBetween(const Point& start, const Point& goal) const {
   return PlanRequestOf(Between(start, goal));
 }
 
-void AddMoving(const std::vector<Moving>& moving, OptimizeRequest* request) {
-  if (moving.empty()) return;
-  request->moving.clear();
+std::vector<MovingObstacle> MovingObstaclesOf(const std::vector<Moving>& moving,
+                                              double* moved) {
+  std::vector<MovingObstacle> obstacles;
+  *moved = 0.0;
   for (const auto& [name, solid, durations, points] : moving) {
     try {
-      double moved = 0.0;  // rounding alone: no motion is known better
-      request->moving.push_back(
-          {solid.Named(name), JoinedCurve(durations, points, &moved)});
+      double by = 0.0;
+      obstacles.push_back(
+          {solid.Named(name), JoinedCurve(durations, points, &by)});
+      *moved = std::max(*moved, by);
     } catch (const InputError& error) {
       throw InputError("moving: " + name + ": " + error.what());
     }
   }
+  return obstacles;
+}
+
+void AddMoving(const std::vector<Moving>& moving, OptimizeRequest* request) {
+  if (moving.empty()) return;
+  double moved = 0.0;  // rounding alone: no motion is known better
+  request->moving = MovingObstaclesOf(moving, &moved);
 }
 
 OptimizeRequest Workshop::OptimizeBetween(const Point& start,

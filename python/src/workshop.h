@@ -44,8 +44,13 @@ struct MotionWishes {
 // An obstacle that moves: its name, its solid, and the pieces of its motion.
 using Moving = std::tuple<std::string, Solid, Seconds, Rows3>;
 
+// Joined by moving them by `moved` at most.  Throws InputError that names the
+// obstacle.
+std::vector<MovingObstacle> MovingObstaclesOf(const std::vector<Moving>& moving,
+                                              double* moved);
+
 // They become the request's, in place of the scene's; none: nothing changes.
-// Throws InputError that names the obstacle.
+// Throws as above.
 void AddMoving(const std::vector<Moving>& moving, OptimizeRequest* request);
 
 // A world for Python.  Ipopt runs once at a time in a process, and samplers

@@ -168,7 +168,76 @@ def test_bounds_are_kept_for_all_t(world):
     assert world.check_curve(beyond).status == "collides"
 
 
-def test_a_world_with_obstacles_that_move_is_refused(tmp_path):
+CUBE = make_box((0, 0, 0), (1, 1, 1))
+
+
+def along(begin, end, duration):
+    return [duration], np.array([[begin, end]], dtype=float)
+
+
+def among(boxes, curve, **motions):
+    return boxes.check_curve(curve, moving={
+        name: (CUBE, motion) for name, motion in motions.items()})
+
+
+def test_obstacles_that_move_are_met_when_they_are(boxes):
+    # Far from what rests.  They are 6 apart, sides 1, and near by 3 a second.
+    robot = along((-3, 10, 0), (3, 10, 0), 3.0)
+    met = among(boxes, robot, cart=along((3, 10, 0), (0, 10, 0), 3.0),
+                far=along((3, 20, 0), (0, 20, 0), 3.0))
+    assert (met.status, met.obstacle, met.piece) == ("collides", "cart", 0)
+    assert met.free_until <= 5 / 3 <= met.time < 7 / 3
+    assert met.position == pytest.approx((-3 + 2 * met.time, 10, 0))
+    assert str(met).startswith(f"collides at {met.time:.6g} s, in piece 0, with c")
+    assert met.to_row()["obstacle"] == "cart"
+    assert boxes.check_curve(robot).free
+    # Where the cart was, but later.
+    after = among(boxes, robot, cart=along((0, 10, 0), (0, 20, 0), 0.5))
+    assert after.free and after.obstacle == ""
+
+
+@pytest.mark.parametrize("apart, free", [(1, False), (1 + 1e-9, True),
+                                         (1 - 1e-9, False)])
+def test_who_passes_may_not_touch(boxes, apart, free):
+    robot = along((-3, 10, 0), (3, 10, 0), 3.0)
+    cart = along((3, 10 + apart, 0), (-3, 10 + apart, 0), 3.0)
+    assert among(boxes, robot, cart=cart).free == free
+
+
+def test_it_rests_at_its_end_until_they_rest(boxes):
+    robot = ([0.5, 0.5], [[(-3, 10, 0), (0, 10, 0)], [(0, 10, 0), (3, 10, 0)]])
+    late = among(boxes, robot, cart=along((3, 15, 0), (3, 10, 0), 10.0))
+    assert (late.status, late.piece) == ("collides", 1)
+    assert late.free_until <= 8 <= late.time
+    assert late.position == pytest.approx((3, 10, 0))
+
+
+def test_what_rests_is_met_first_if_it_is_first(boxes):
+    robot = along((-3, 0, 0), (3, 0, 0), 6.0)  # contact from x = -0.2 on
+    met = among(boxes, robot, cart=along((2, 0, 0), (1.9, 0, 0), 6.0))
+    assert (met.status, met.obstacle) == ("collides", "")
+    assert met.free_until <= 2.8 <= met.time
+
+
+@pytest.mark.parametrize("seed", range(20))
+def test_splines_among_splines_are_what_intervals_say(boxes, seed):
+    random = np.random.default_rng(seed)
+    times = np.linspace(0, 4, 5)
+    robot, cart = (CubicSpline(times, random.uniform(-2, 2, (5, 3)) + (0, 10, 0))
+                   for _ in range(2))
+    check = among(boxes, robot, cart=cart)
+
+    def gap(t):  # of unit boxes: below 0 where they overlap
+        return (np.abs(robot(t) - cart(t)) - 1).max(axis=-1)
+    dense = np.linspace(0, 4, 20_001)
+    before = dense[dense < check.free_until]
+    assert (gap(before) > 0).all()
+    assert check.free == (gap(dense) > 0).all()
+    if not check.free:
+        assert check.status == "collides" and gap(check.time) <= 1e-9
+
+
+def test_obstacles_of_the_scene_move(tmp_path):
     box = {"type": "box", "size": [1, 1, 1]}
     scene = {"robot": {"shape": box}, "start": [-3, 0, 0], "goal": [3, 0, 0],
              "obstacles": [{"id": "post", "shape": box, "position": [0, 5, 0]}],
@@ -176,13 +245,28 @@ def test_a_world_with_obstacles_that_move_is_refused(tmp_path):
                  {"duration": 1, "points": [[0, 0, 0], [1, 0, 0]]}]}]}
     path = tmp_path / "scene.json"
     path.write_text(json.dumps(scene))
-    through = ([1], [[(-3, 0, 0), (3, 0, 0)]])
-    with pytest.raises(phongpd.InputError,
-                       match="all obstacles rest, .* found 1 that move"):
-        phongpd.World.load(path).check_curve(through)
+    through = along((-3, 0, 0), (3, 0, 0), 1.0)
+    # 5 a second: the difference is 3 - 5 t, contact from 1 on.
+    met = phongpd.World.load(path).check_curve(through)
+    assert (met.status, met.obstacle) == ("collides", "cart")
+    assert met.free_until <= 0.4 <= met.time < 0.8
     del scene["moving"]
     path.write_text(json.dumps(scene))
     assert phongpd.World.load(path).check_curve(through).free
+
+
+@pytest.mark.parametrize("moving, says", [
+    ({"cart": CUBE}, "moving: cart: expected .solid, motion."),
+    ({"cart": (CUBE, None)}, "moving: cart: expected a Motion, .* found NoneType"),
+    ({"cart": (CUBE, ([0.0], [[(0, 0, 0), (1, 0, 0)]]))},
+     "moving: cart: .*expected a duration above 0"),
+    ({"cart": (CUBE, ([1, 1], [[(0, 0, 0), (1, 0, 0)], [(2, 0, 0), (3, 0, 0)]]))},
+     "moving: cart: .*piece 1 does not begin where"),
+    ({"obstacle": (CUBE, along((0, 0, 0), (1, 0, 0), 1.0))},
+     'found "obstacle", which another obstacle has')])
+def test_moving_obstacles_that_are_none_are_refused(boxes, moving, says):
+    with pytest.raises(phongpd.InputError, match=says):
+        boxes.check_curve(along((-3, 10, 0), (3, 10, 0), 1.0), moving=moving)
 
 
 def test_obstacles_move_along_splines(world):
