@@ -13,7 +13,6 @@ from trajectories_instances import ends_of, world_of
 from trajectories_peers import MARGIN, PEERS
 
 WITHIN = 1.01  # of a limit, at samples: what solvers and grids leave open
-SAMPLES = 2_000
 
 
 @functools.lru_cache(1 << 6)
@@ -57,7 +56,7 @@ def beside(problem, solve):
     begin = time.process_time()
     says, duration, at, slopes, place = solve(problem)
     cpu = time.process_time() - begin
-    times = np.linspace(0.0, duration, SAMPLES + 1)
+    times = np.linspace(0.0, duration, judge.FINE + 1)
     points = np.asarray(at(times))
     shares = [None if of is None else float(np.abs(of).max() / limit)
               for of, limit in zip(slopes(times), problem.limits)]

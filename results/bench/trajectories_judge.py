@@ -12,7 +12,7 @@ except ImportError:  # said in the report
     fcl = None
 
 SAMPLES = 10_000  # of a curve
-FINE = 2_000  # segments of the polyline that stands for a curve of a graph
+FINE = 2_000  # segments at whose ends a peer is looked at
 
 
 def _model(vertices, triangles):

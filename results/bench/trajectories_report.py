@@ -10,6 +10,7 @@ import trajectories_growth as growth
 import trajectories_moving as moving
 import trajectories_summary as own
 from python_report import cell, machine, versions, write_csv, write_tables
+from trajectories_judge import FINE
 from trajectories_peers import COLLISION_SAMPLES, CONTROL_POINTS, MARGIN, \
     WIDE
 from trajectories_statistics import share_interval
@@ -181,8 +182,8 @@ def _about_peers(rows):
         "of velocity, acceleration and jerk by axis. Ruckig, TOPP-RA and Drake "
         "(path) are given the polyline that PhongPD's motion began with. Free: "
         "for all t, proved of Ruckig's segments and of the others' splines by "
-        "`World.check_curve`. In limits: to 1 % at 2,001 samples. TOPP-RA keeps "
-        "no limit of jerk, an easier problem, and knows no obstacle. Drake: "
+        f"`World.check_curve`. In limits: to 1 % at {FINE + 1:,} samples. TOPP-RA "
+        "keeps no limit of jerk, an easier problem, and knows no obstacle. Drake: "
         f"KinematicTrajectoryOptimization, cubic, {CONTROL_POINTS} control "
         f"points, {COLLISION_SAMPLES} samples against PhongPD's exact distance, "
         f"SNOPT; wide: margin {WIDE:g} D, beside PhongPD's default, which is "

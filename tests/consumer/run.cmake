@@ -110,8 +110,7 @@ endforeach()
 run(${configure} -B ${work}-tree -D COMPONENTS=core,planners,problems -D
     WAY=subdirectory -D COMPILE_ONLY=ON -D HEADERS=${prefix}/include)
 run(${CMAKE_COMMAND} --build ${work}-tree --parallel 2 --target own_last
-    use_core headers_of_core headers_of_core_on_eigen headers_of_planners
-    headers_of_planners_on_eigen headers_of_problems)
+    use_core headers_of_core headers_of_planners headers_of_problems)
 
 execute_process(
   COMMAND ${configure} -B ${work}-missing -D COMPONENTS=nonsense

@@ -15,6 +15,7 @@ SOURCE = pathlib.Path(__file__).resolve().parents[2]
 BENCH = SOURCE / "results" / "bench"
 sys.path.insert(0, str(BENCH))
 
+import trajectories_beside as beside  # noqa: E402
 import trajectories_best as best  # noqa: E402
 import trajectories_bounds as bounds  # noqa: E402
 import trajectories_boxes as boxes  # noqa: E402
@@ -273,3 +274,32 @@ def test_a_slice_runs_from_end_to_end_and_goes_on(tmp_path):
     assert "1 buildings of 3" in text
     assert "Certified: 6 of 6 motions" in text
     assert np.isfinite(best.read(tmp_path / "out")["u_axis|1|axis"][0])
+
+
+def test_a_peer_is_judged_between_its_samples():
+    """It flies 0.1 above a cube, and dips into it between two of the samples."""
+    phongpd = pytest.importorskip("phongpd")
+    interpolate = pytest.importorskip("scipy.interpolate")
+    corners = np.array([(x, y, z) for x in (0, 1) for y in (0, 1) for z in (0, 1)],
+                       dtype=float)
+    triangles = np.array([(0, 1, 3), (0, 3, 2), (4, 6, 7), (4, 7, 5), (0, 4, 5),
+                          (0, 5, 1), (2, 3, 7), (2, 7, 6), (0, 2, 6), (0, 6, 4),
+                          (1, 5, 7), (1, 7, 3)])
+    cube = phongpd.Solid(corners, triangles)
+    problem = NamedTuple("Problem", [(name, object) for name in (
+        "world", "start", "goal", "limits")])(
+            phongpd.World(cube, cube), np.array([0, 0, 1.1]),
+            np.array([1, 0, 1.1]), (10, 10, 10))
+    middle = (1000 + 0.5) / 2000
+    dip = np.array([0, middle - 2e-4, middle, middle + 2e-4, 1])
+    for low, free in ((1.1, True), (0.9, False)):
+        place = interpolate.make_interp_spline(
+            dip, [(t, 0, low if t == middle else 1.1) for t in dip], k=1)
+        row = beside.beside(problem, lambda _: (
+            True, 1.0, place, lambda t: (np.zeros_like(t), None, None), place))
+        # Samples joined by segments see nothing of it.
+        assert (place(np.linspace(0, 1, 2001))[:, 2] > 1).all()
+        assert row["free"] == free and row["within"]
+    assert not beside.beside(problem, lambda _: (
+        True, 1.0, place, lambda t: (np.zeros_like(t), None, None),
+        np.array([(0, 0, 1.1), (0.5, 0, 0.9), (1, 0, 1.1)])))["free"]
