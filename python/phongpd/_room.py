@@ -184,7 +184,7 @@ class Room(Shown):
         z, user's units and seconds, to be compared with; None: the scene's, if
         it has any.  by_norm: they are of the norm, one number each.
         moving: obstacles that move, {name: (solid, motion)} as optimize takes
-        them; None: the scene's.  The robot rests at the curve's end until they
+        them; None or none: the scene's.  The robot rests at the curve's end until they
         rest, too.
 
         Some microseconds a piece that is clear; the contact space is built
