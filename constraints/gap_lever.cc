@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "constraints/gap_lever.h"
 
+#include <Eigen/Geometry>
 #include <cmath>
 
 #include "core/mesh/mesh_error.h"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "constraints/gyration.h"
 
+#include <Eigen/Geometry>
 #include <cmath>
 
 namespace phongpd::internal {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "constraints/tracked_pose_row.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <stdexcept>
 

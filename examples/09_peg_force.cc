@@ -7,6 +7,7 @@
 #include <phongpd/constraints/wrench_tracker.h>
 #include <phongpd/core/projection/phong_metric.h>
 
+#include <Eigen/Geometry>
 #include <array>
 #include <cmath>
 #include <fstream>

@@ -106,6 +106,12 @@ if(Python3_Interpreter_FOUND)
             ${CMAKE_CURRENT_SOURCE_DIR}/packaging/demo_sentences_test.py
             ${PROJECT_SOURCE_DIR}/scripts/demo_sentences.py)
   add_test(
+    NAME EigenModules
+    COMMAND
+      ${Python3_EXECUTABLE}
+      ${CMAKE_CURRENT_SOURCE_DIR}/packaging/eigen_modules_test.py
+      ${PROJECT_SOURCE_DIR})
+  add_test(
     NAME OptionFields
     COMMAND
       ${Python3_EXECUTABLE}

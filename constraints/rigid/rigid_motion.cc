@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "constraints/rigid/rigid_motion.h"
 
+#include <Eigen/LU>
 #include <cmath>
 #include <string>
 

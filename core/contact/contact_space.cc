@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/contact/contact_space.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <mutex>

@@ -2,6 +2,7 @@
 #include "planners/rigid/rigid_slide.h"
 
 #include <Eigen/Cholesky>
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 

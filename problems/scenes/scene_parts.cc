@@ -2,6 +2,7 @@
 #include "problems/scenes/scene_parts.h"
 
 #include <Eigen/Geometry>
+#include <Eigen/LU>
 #include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>

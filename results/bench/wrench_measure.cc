@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "results/bench/wrench_measure.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <functional>
 

@@ -4,6 +4,7 @@
 // Every answer is asked for twice, from windows and of the whole contact space.
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
