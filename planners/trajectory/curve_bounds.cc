@@ -30,11 +30,15 @@ void ByOrder(const Bounds& bounds, const Do& act) {
   }
 }
 
-// act(column, what the points change it by): without t, of all columns.
+// What both sides of the bounds have beside the points.
+Array3d RoomBy(const Bounds& bounds, const CurveLocal& step) {
+  return bounds.t * (step[kCurveT] + step[kCurveEta]);
+}
+
+// act(column, what the points change it by), of all columns.
 template <typename Do>
 void ForAlong(const Bounds& bounds, const CurveLocal& step, const Do& act) {
   const Points points(step.data());
-  const double by_eta = -bounds.order * step[kCurveEta];
   ByOrder(bounds, [&](auto order) {
     constexpr int kOrder = decltype(order)::value;
     for (int j = bounds.first; j <= bounds.last; ++j) {
@@ -42,7 +46,7 @@ void ForAlong(const Bounds& bounds, const CurveLocal& step, const Do& act) {
       for (int k = 0; k < kOrder; ++k) {
         sum += kDifferences[kOrder][k] * points.col(j + k);
       }
-      act(j, Array3d(bounds.scale * sum + by_eta * bounds.value.col(j)));
+      act(j, Array3d(bounds.scale * sum));
     }
   });
 }
@@ -54,7 +58,7 @@ int RowsOf(const Bounds& bounds) { return 6 * Columns(bounds); }
 void SlopesOf(const Bounds& bounds, const CurveLocal& step, double* slopes) {
   const int n = Columns(bounds);
   ToColumns most(slopes, 3, n), least(slopes + 3 * n, 3, n);
-  const Array3d of_t = bounds.t * step[kCurveT];
+  const Array3d of_t = RoomBy(bounds, step);
   ForAlong(bounds, step, [&](int j, const Array3d& along) {
     most.col(j - bounds.first) = of_t + along;
     least.col(j - bounds.first) = of_t - along;
@@ -64,7 +68,7 @@ void SlopesOf(const Bounds& bounds, const CurveLocal& step, double* slopes) {
 void SlacksOf(const Bounds& bounds, const CurveLocal& x, double* slacks) {
   const int n = Columns(bounds);
   ToColumns most(slacks, 3, n), least(slacks + 3 * n, 3, n);
-  const Array3d room = bounds.most - bounds.t * x[kCurveT];
+  const Array3d room = bounds.most - RoomBy(bounds, x);
   ForAlong(bounds, x, [&](int j, const Array3d& along) {
     const Array3d value = bounds.value.col(j) + along;
     most.col(j - bounds.first) = room - value;
@@ -77,7 +81,7 @@ void AddSquares(const Bounds& bounds, const double* weights,
   const int n = Columns(bounds);
   const OfColumns most(weights, 3, n), least(weights + 3 * n, 3, n);
   CurveLocalMatrix& m = *lower;
-  Array3d of_eta = Array3d::Zero(), of_both = of_eta, of_t = of_eta;
+  Array3d of_t = Array3d::Zero();
   ByOrder(bounds, [&](auto order) {
     constexpr int kOrder = decltype(order)::value;
     constexpr auto kTimes = kDifferences[kOrder];
@@ -85,12 +89,8 @@ void AddSquares(const Bounds& bounds, const double* weights,
       const auto above = most.col(j - bounds.first);
       const auto below = least.col(j - bounds.first);
       const Array3d sum = above + below;
-      const Array3d eta = -kOrder * bounds.value.col(j);
       const Array3d with_t = (above - below) * bounds.t;
       const Array3d square = sum * bounds.scale * bounds.scale;
-      const Array3d with_eta = sum * bounds.scale * eta;
-      of_eta += sum * eta * eta;
-      of_both += with_t * eta;
       of_t += sum * bounds.t * bounds.t;
       for (int axis = 0; axis < 3; ++axis) {
         const double along_t = with_t[axis] * bounds.scale[axis];
@@ -100,14 +100,14 @@ void AddSquares(const Bounds& bounds, const double* weights,
             m(3 * (j + b) + axis, column) +=
                 kTimes[a] * kTimes[b] * square[axis];
           }
-          m(kCurveEta, column) += kTimes[a] * with_eta[axis];
+          m(kCurveEta, column) += kTimes[a] * along_t;
           m(kCurveT, column) += kTimes[a] * along_t;
         }
       }
     }
   });
-  m(kCurveEta, kCurveEta) += of_eta.sum();
-  m(kCurveT, kCurveEta) += of_both.sum();
+  m(kCurveEta, kCurveEta) += of_t.sum();
+  m(kCurveT, kCurveEta) += of_t.sum();
   m(kCurveT, kCurveT) += of_t.sum();
 }
 
@@ -116,22 +116,22 @@ void AddGradients(const Bounds& bounds, const double* weights,
   const int n = Columns(bounds);
   const OfColumns most(weights, 3, n), least(weights + 3 * n, 3, n);
   Eigen::Map<Eigen::Array<double, 3, 6>> points(gradient->data());
-  Array3d of_eta = Array3d::Zero(), of_t = Array3d::Zero();
+  Array3d of_t = Array3d::Zero();
   ByOrder(bounds, [&](auto order) {
     constexpr int kOrder = decltype(order)::value;
     for (int j = bounds.first; j <= bounds.last; ++j) {
       const auto above = most.col(j - bounds.first);
       const auto below = least.col(j - bounds.first);
       const Array3d along = above - below;
-      of_eta += along * bounds.value.col(j);
       of_t += above + below;
       for (int k = 0; k <= kOrder; ++k) {
         points.col(j + k) += kDifferences[kOrder][k] * bounds.scale * along;
       }
     }
   });
-  (*gradient)[kCurveEta] -= bounds.order * of_eta.sum();
-  (*gradient)[kCurveT] += (of_t * bounds.t).sum();
+  const double room = (of_t * bounds.t).sum();
+  (*gradient)[kCurveEta] += room;
+  (*gradient)[kCurveT] += room;
 }
 
 double TermsInT(const Bounds& bounds, const double* weights) {

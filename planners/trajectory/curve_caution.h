@@ -9,13 +9,13 @@ namespace phongpd::internal {
 //
 // A curve goes at the pace of its worst piece: one where the program's first
 // order fails costs all the others their gain, and of many pieces there nearly
-// always is one.  What fails is the product of the changes of a duration and of
-// the points, which falls with the duration's.  So there, and not everywhere,
-// durations may change less.
+// always is one.  What fails are products of what durations change by from
+// piece to piece and of what points do.  So there, and not everywhere, such
+// changes of durations cost more.
 class CurveCaution {
  public:
-  // Of each piece the share of σ by which ln h may change, in (0, 1]; empty, as
-  // at the beginning: 1.
+  // Of each piece, in (0, 1], how far it is trusted; empty, as at the
+  // beginning: 1.
   const std::vector<double>& shares() const { return shares_; }
 
   // What a whole step teaches, that was `predicted` to gain a share > 0 of the

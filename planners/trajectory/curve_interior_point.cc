@@ -17,7 +17,7 @@ constexpr double kStartT = 0.005;         // that far inside the limits
 constexpr double kRoomOfMissing = 0.003;  // of m at first, of the trust region
 // The gap at the end, a share of what has been gained, and at least; the
 // gradient's largest entry.
-constexpr double kGap = 0.2;
+constexpr double kGap = 0.4;
 constexpr double kLeastGap = 1e-6;
 constexpr double kGradient = 0.1;
 constexpr double kStepShare = 0.99;    // of the way to the nearest row

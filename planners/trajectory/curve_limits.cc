@@ -26,12 +26,20 @@ constexpr int kShorterSteps = 3;
 
 KnotCurve Moved(const KnotCurve& curve, const KnotCurve& change, double share) {
   KnotCurve moved = curve;
-  for (std::size_t k = 0; k < curve.knots.size(); ++k) {
-    moved.knots[k].p += share * change.knots[k].p;
-    moved.knots[k].v += share * change.knots[k].v;
-    moved.knots[k].a += share * change.knots[k].a;
+  const std::size_t last = curve.durations.size();
+  for (std::size_t k = 0; k <= last; ++k) {
+    const KnotCurve::State& by = change.knots[k];
+    const bool is_end = k == 0 || k == last;
+    const double gamma =
+        is_end ? 0.0
+               : 0.5 * share * (change.durations[k - 1] + change.durations[k]);
+    const double pace = std::exp(-gamma);
+    KnotCurve::State& state = moved.knots[k];
+    state.p += share * by.p;
+    state.v = pace * ((1.0 + gamma) * state.v + share * by.v);
+    state.a = pace * pace * ((1.0 + 2.0 * gamma) * state.a + share * by.a);
   }
-  for (std::size_t i = 0; i < curve.durations.size(); ++i) {
+  for (std::size_t i = 0; i < last; ++i) {
     moved.durations[i] *= std::exp(share * change.durations[i]);
   }
   return moved;

@@ -37,9 +37,10 @@ struct CurveOptions {
   // CurveSummary::margin.
   double margin_price = 50.0;
   // How long to look for a faster curve.  kFast: three pieces for each segment
-  // of the path.  kBalanced: then each piece is halved, and once more if there
-  // are fewer than 40.  kTight: halved twice, and once more if there are fewer
-  // than 80: a slightly faster curve for several times the work.
+  // of the path, six for one or two.  kBalanced: then each piece is halved, and
+  // once more if there are fewer than 40.  kTight: halved twice, and once more
+  // if there are fewer than 80: a slightly faster curve for several times the
+  // work.
   Preset preset = Preset::kBalanced;
   double time_limit = std::numeric_limits<double>::infinity();  // seconds, > 0
   // Called between rounds; returning true stops, as the time limit does.

@@ -19,6 +19,9 @@ constexpr double kFloor = 1e-6;
 constexpr double kKeptBelow = 0.9;
 constexpr double kSlowest = -0.6;   // of t
 constexpr double kPriceOfT = 20.0;  // where the pace is kept
+// The price of the mean of (η_i − η_{i−1})², times σ², where pieces are
+// trusted.
+constexpr double kCaution = 0.05;
 // A limit that is not there is replaced in the jerk's term by so many times
 // the largest that there is.
 constexpr double kNoLimit = 1e100;
@@ -63,7 +66,11 @@ class Builder {
       piece.rows.reserve(RowsAtMost(cells_[i]));
       AddLimits(i, b, h, &piece);
       AddClearance(cells_[i], &piece);
-      AddTrust(i, &piece);
+      AddTrust(&piece);
+      const double trusted =
+          options_.caution.empty() ? 1.0 : options_.caution[i];
+      piece.caution =
+          kCaution / (n * trusted * options_.sigma * options_.sigma);
       AddJerk(b, h, jerk, &piece);
       piece.log_duration = std::log(h);
     }
@@ -146,7 +153,7 @@ class Builder {
       row.weight[j + k] = scale / limit * kDifferences[order][k];
     }
     row.value = value / limit;
-    row.value_by_eta = -order * row.value;
+    row.eta = -order;
     row.t = -order;
     row.constant = options_.spare - 1.0;
     return row;
@@ -192,10 +199,7 @@ class Builder {
     if (options_.margin > 0.0) piece->rows.push_back(row);
   }
 
-  void AddTrust(int i, CurveProgram::Piece* piece) const {
-    const double sigma = options_.caution.empty()
-                             ? options_.sigma
-                             : options_.sigma * options_.caution[i];
+  void AddTrust(CurveProgram::Piece* piece) const {
     CurveProgram::Bounds points;
     points.last = 5;
     points.scale.setOnes();
@@ -204,7 +208,7 @@ class Builder {
     eta.kind = CurveProgram::Row::kScalar;
     eta.constant = -1.0;
     for (const double sign : {1.0, -1.0}) {
-      eta.eta = sign / sigma;
+      eta.eta = sign / options_.sigma;
       piece->rows.push_back(eta);
     }
   }

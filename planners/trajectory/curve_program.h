@@ -28,11 +28,12 @@ struct ViaKnot {
 struct CurveProgramOptions {
   MotionLimits limits;
   CurveWeights weights;
-  double diagonal = 1.0;        // D
-  double margin = 0.0;          // user's unit
-  double trust = 0.0;           // τ, user's unit
-  double sigma = 0.03;          // σ
-  std::vector<double> caution;  // share of σ, of each piece; empty: 1
+  double diagonal = 1.0;  // D
+  double margin = 0.0;    // user's unit
+  double trust = 0.0;     // τ, user's unit
+  double sigma = 0.03;    // σ
+  // Of each piece, in (0, 1]: how far it is trusted; empty: 1.
+  std::vector<double> caution;
   // Of a curve with an end in motion: such states are kept, so that no pace
   // can make up for limits that are passed.  Then limits are less by `spare`,
   // a share, t ≥ 0 says by how much they are passed nevertheless, and has a
@@ -49,7 +50,7 @@ Eigen::Vector3d JerkScale(const KnotCurve& curve, const MotionLimits& limits);
 double MeanSquaredJerk(const KnotCurve& curve, const Eigen::Vector3d& scale);
 
 struct CurveStep {
-  // Changes of the curve; of its durations those of ln h.
+  // Changes of the curve, to first order; of its durations those of ln h.
   KnotCurve change;
   double predicted = 0.0;  // what the time falls by, a share
   double pace = 1.0;       // 1 + t: what limits are multiplied by
@@ -61,24 +62,28 @@ struct CurveStep {
 // changes Δs of its inner knots, η_i of ln h_i, a common t of the pace and the
 // missing clearance m_i ≥ 0 of piece i as unknowns,
 //
-//   min  t + Σ (h_i/T)(η_i + η_i²/2) + jerk + evenness + missing
+//   min  t + Σ (h_i/T) η_i + jerk + evenness + missing
+//        + price Σ (η_i − η_{i−1})²/(σ² caution_i)
 //   s.t. n·Σ w_j (B_j + ΔB_j) ≥ kept            rows of its cells
 //        n·Σ w_j (B_j + ΔB_j) ≥ margin − m_i
 //        |p_k + Δp_k − point| ≤ tolerance    of knots that pass a place
-//        |ΔB_j|∞ ≤ τ,  |η_i| ≤ σ · caution_i,  t ≥ −0.6
-//        |V + ΔV| ≤ v(1 + t), |A + ΔA| ≤ a(1 + 2t), |J + ΔJ| ≤ j(1 + 3t)
+//        |ΔB_j|∞ ≤ τ,  |η_i| ≤ σ,  t ≥ −0.6
+//        (5/h) |Δ(B + ΔB)| ≤ v(1 + t + η), and as much of the second and third
+//        differences, a and j, with 2(t + η) and 3(t + η)
 //
-// for all Bézier points B, V, A, J of the curve and its derivatives, to first
-// order in (Δs, η).  kept = 0.1 of the distance now, or as much as does not
-// decay to rounding.  Δs = 0 is feasible, so any answer but an optimal one is
-// a step too.
+// for all Bézier points B, to first order in (Δs, η).  Beside what B neglects
+// the limits are on the safe side, as e^kη is more than 1 + kη.  kept = 0.1 of
+// the distance now, or as much as does not decay to rounding.  Δs = 0 is
+// feasible, so any answer but an optimal one is a step too.
 //
 // By a primal-dual interior point method (Mehrotra's predictor and corrector)
 // from within: all iterates keep all rows.  Knots know their neighbours: work
 // and memory are linear in the pieces.
 //
 // What it neglects is of second order: a share of the step is feasible too, and
-// closer to what is predicted.
+// closer to what is predicted.  States that slow down with the times about them
+// (Moved, of curve_limits.h) make of it products with differences of η, which
+// therefore have a price.
 CurveStep SolveCurveProgram(const KnotCurve& now,
                             const std::vector<PieceCells>& cells,
                             const CurveProgramOptions& options);

@@ -25,14 +25,13 @@ double AlongRow(const CurveRowNow& now, const CurveLocal& step) {
 
 double SlackOfNorm(CurveRowNow* now, const CurveLocal& x) {
   const CurveProgram::Row& row = *now->row;
-  const Vector3d y =
-      row.value + row.value_by_eta * x[kCurveEta] + Moved(*now, x);
-  const double u = -row.constant - row.t * x[kCurveT];
+  const Vector3d y = row.value + Moved(*now, x);
+  const double u = -row.constant - row.eta * x[kCurveEta] - row.t * x[kCurveT];
   if (!(u > 0.0)) return u;
   const double square = y.squaredNorm() / u;
   now->bend = 2.0 / u;
   now->direction = now->bend * y;
-  now->eta = now->direction.dot(row.value_by_eta);
+  now->eta = row.eta * (1.0 + square / u);
   now->t = row.t * (1.0 + square / u);
   return u - square;
 }
@@ -84,8 +83,8 @@ double* WriteSlacks(CurveRowNow* now, const CurveLocal& x, double* to) {
 
 double BendOf(const CurveRowNow& now, const CurveLocal& step) {
   const CurveProgram::Row& row = *now.row;
-  const Vector3d bent = row.value_by_eta * step[kCurveEta] + Moved(now, step) +
-                        0.5 * row.t * step[kCurveT] * now.direction;
+  const double of_u = row.eta * step[kCurveEta] + row.t * step[kCurveT];
+  const Vector3d bent = Moved(now, step) + 0.5 * of_u * now.direction;
   return 0.5 * now.bend * bent.squaredNorm();
 }
 
@@ -107,12 +106,13 @@ void AddSquare(const CurveRowNow& now, const CurveRowWeights& by, double dual,
     const CurveProgram::Row& row = *now.row;
     // The row's own curvature; u changes by −t · (its unknown).
     const double bend = dual * now.bend;
+    const Vector3d by_eta_of_y = 0.5 * row.eta * now.direction;
     const Vector3d by_t_of_y = 0.5 * row.t * now.direction;
     square.diagonal().array() += bend;
-    with_eta += bend * row.value_by_eta;
+    with_eta += bend * by_eta_of_y;
     with_t += bend * by_t_of_y;
-    m(kCurveEta, kCurveEta) += bend * row.value_by_eta.squaredNorm();
-    m(kCurveT, kCurveEta) += bend * row.value_by_eta.dot(by_t_of_y);
+    m(kCurveEta, kCurveEta) += bend * by_eta_of_y.squaredNorm();
+    m(kCurveT, kCurveEta) += bend * by_eta_of_y.dot(by_t_of_y);
     m(kCurveT, kCurveT) += bend * by_t_of_y.squaredNorm();
   }
   const Vector3d with_missing = by_missing * now.direction;

@@ -46,6 +46,7 @@ CurveSearch::CurveSearch(const FreeSpace& space, double diagonal,
 void CurveSearch::Begin(const Path& path) {
   if (CheckPath(space_, path).free) Start(path);
   if (!summary_.trajectory.empty()) goes_on_ = RunStage();
+  if (goes_on_ && now_.pieces() < kFewest) goes_on_ = Halve() && RunStage();
 }
 
 void CurveSearch::Refine() {
@@ -154,13 +155,11 @@ bool CurveSearch::RunStage() {
 
 bool CurveSearch::RunRounds() {
   cells_ = CellsOf(space_, now_, settings_);
-  int small_gains = 0;
   for (int i = 0; i < kMaxRounds; ++i) {
     if (IsFastEnough()) break;
     if (MustEnd()) return false;
     const double gain = is_calm_ ? RunCalmRound() : RunRound();
-    small_gains = gain < kSmallGain ? small_gains + 1 : 0;
-    if (small_gains >= kSmallGains || settings_.sigma < kSmallestSigma) {
+    if (gain < kSmallGain || settings_.sigma < kSmallestSigma) {
       summary_.status = PathStatus::kConverged;
       return true;
     }
@@ -266,7 +265,8 @@ double CurveSearch::RunRound() {
   round.duration = now_.Duration();
   round.gain = gain;
   summary_.rounds.push_back(round);
-  return round.is_accepted ? gain : step.predicted;
+  return round.is_accepted ? std::max(gain, kFailed * step.predicted)
+                           : step.predicted;
 }
 
 bool CurveSearch::LearnCaution(const CurveStep& step) {

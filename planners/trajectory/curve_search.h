@@ -50,10 +50,13 @@ class CurveSearch {
   // And so few, again by each halving, until they are more: a dozen cannot
   // follow the limits well.
   static constexpr int kLeastPieces = 16;
+  // Fewer are halved whatever the preset.
+  static constexpr int kFewest = 9;
   static constexpr int kMaxRounds = 60;  // of a size of pieces
-  // So many rounds in a row that gain less, a share of the time, end it.
-  static constexpr int kSmallGains = 2;
+  // A round that gains less, a share of the time, is the last of them; but not
+  // where so much more was predicted that its step was too long.
   static constexpr double kSmallGain = 1e-3;
+  static constexpr double kFailed = 0.1;
   static constexpr int kStepHalvings = 3;  // of a step that is not taken
 
   void Start(const Path& path);

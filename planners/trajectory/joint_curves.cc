@@ -8,6 +8,7 @@
 
 #include "constraints/curve_judge.h"
 #include "core/stopwatch.h"
+#include "planners/trajectory/curve_limits.h"
 #include "planners/trajectory/curve_program.h"
 #include "planners/trajectory/joint_bodies.h"
 #include "planners/trajectory/joint_interior_point.h"
@@ -20,7 +21,8 @@ namespace {
 using Eigen::Vector3d;
 using Curves = std::vector<KnotCurve>;
 
-// Pieces of all curves; twice as many until what is between the knots is free.
+// Pieces of all curves; twice as many until what is between the knots is
+// free.
 constexpr int kFirstPieces = 20, kMostPieces = 160;
 constexpr int kMostTied = 50;    // of pieces that are made twice as many then
 constexpr double kTrust = 0.05;  // τ, of D
@@ -310,19 +312,21 @@ class Together {
   Curves Moved(const JointProgram& program, const Eigen::VectorXd& x,
                double trust, double share) const {
     const JointUnknowns unknowns(program);
-    Curves moved = now_;
+    Curves moved;
     const int block = 9 * static_cast<int>(now_.size()) + 1;
     for (std::size_t c = 0; c < now_.size(); ++c) {
+      KnotCurve change;
       for (int k = 0; k < now_[c].pieces(); ++k) {
         const double pace = program.curves[c].pace[k];
         const auto of =
             x.segment<9>(block * k + 9 * static_cast<Eigen::Index>(c));
-        KnotCurve::State& knot = moved[c].knots[k];
-        knot.p += (share * trust) * of.segment<3>(0);
-        knot.v += (share * 5.0 * trust / pace) * of.segment<3>(3);
-        knot.a += (share * 20.0 * trust / (pace * pace)) * of.segment<3>(6);
-        moved[c].durations[k] *= std::exp(share * unknowns.EtaOf(k, x));
+        change.knots.push_back({trust * of.segment<3>(0),
+                                (5.0 * trust / pace) * of.segment<3>(3),
+                                (20.0 * trust / (pace * pace)) * of.tail<3>()});
+        change.durations.push_back(unknowns.EtaOf(k, x));
       }
+      change.knots.emplace_back();
+      moved.push_back(internal::Moved(now_[c], change, share));
       PutIntoPlaces(places_[c], &moved[c]);
     }
     const double t = share * x[x.size() - 1];

@@ -91,8 +91,8 @@ void JointInteriorPoint::AddBoundLines(int curve,
       }
       line.axis = axis;
       line.direction = Vector3d::Unit(axis);
-      line.eta = -bounds.order * value;
       line.t = bounds.t[axis];
+      line.is_limit = bounds.order > 0;
       line.sides = 2;
       line.constant = {value - bounds.most, -value - bounds.most};
       lines->push_back(line);
@@ -109,10 +109,10 @@ void JointInteriorPoint::AddNormLines(int curve, const Row& row,
   line.to = row.last;
   line.weight = row.weight;
   line.t = row.t;
+  line.is_limit = row.t != 0.0;
   for (int axis = 0; axis < 3; ++axis) {
     line.axis = axis;
     line.direction = Vector3d::Unit(axis);
-    line.eta = row.value_by_eta[axis];
     line.sides = 2;
     line.constant[0] = row.constant + row.value[axis];
     line.constant[1] = row.constant - row.value[axis];
@@ -122,7 +122,6 @@ void JointInteriorPoint::AddNormLines(int curve, const Row& row,
   if (norm < kSmallNorm) return;
   line.axis = -1;
   line.direction = row.value / norm;
-  line.eta = line.direction.dot(row.value_by_eta);
   line.sides = 1;
   line.constant[0] = row.constant + norm;
   lines->push_back(line);
@@ -230,14 +229,19 @@ double JointInteriorPoint::FirstT() const {
   return std::max(t, 0.0);
 }
 
+double JointInteriorPoint::Room(const Line& line, const VectorXd& local) const {
+  const double t = line.t * local[unknowns_.TAt()];
+  return line.is_limit ? t + line.t * local[unknowns_.EtaAt()] : t;
+}
+
 void JointInteriorPoint::FindSlopes(const VectorXd& x) {
   for (int i = 0; i < unknowns_.pieces(); ++i) {
     const VectorXd local = unknowns_.ToLocal(i, x);
     for (const Line& line : lines_[i]) {
       const double along = Along(line, local);
-      const double of_t = line.t * local[unknowns_.TAt()];
-      slopes_[line.at] = along + of_t;
-      if (line.sides > 1) slopes_[line.at + 1] = -along + of_t;
+      const double room = Room(line, local);
+      slopes_[line.at] = along + room;
+      if (line.sides > 1) slopes_[line.at + 1] = -along + room;
     }
   }
 }
@@ -265,13 +269,14 @@ bool JointInteriorPoint::Begin(VectorXd* x) {
 
 void JointInteriorPoint::AddRows(WideTridiagonal* matrix,
                                  VectorXd* residual) const {
-  const int t = unknowns_.TAt();
+  const int t = unknowns_.TAt(), eta = unknowns_.EtaAt();
   Eigen::ArrayXd squares(state_.size());
   state_.WriteSquares(0, state_.size(), squares.data());
   MatrixXd local(t + 1, t + 1);
   for (int i = 0; i < unknowns_.pieces(); ++i) {
     local.setZero();
-    VectorXd of_rows = VectorXd::Zero(t + 1), with_t = VectorXd::Zero(t + 1);
+    VectorXd of_rows = VectorXd::Zero(t + 1);
+    VectorXd with_t = of_rows, with_eta = of_rows;
     for (const Line& line : lines_[i]) {
       double by = 0.0, by_t = 0.0, dual = 0.0;
       for (int s = 0; s < line.sides; ++s) {
@@ -281,13 +286,20 @@ void JointInteriorPoint::AddRows(WideTridiagonal* matrix,
         by_t += sign * square;
         dual += sign * state_.dual[line.at + s];
         of_rows[t] += state_.dual[line.at + s] * line.t;
+        if (line.is_limit) of_rows[eta] += state_.dual[line.at + s] * line.t;
       }
       AddSquare(line, by, &local);
       AddLine(line, dual, &of_rows);
       if (line.t == 0.0) continue;
       AddLine(line, by_t * line.t, &with_t);
       local(t, t) += by * line.t * line.t;
+      if (!line.is_limit) continue;
+      AddLine(line, by_t * line.t, &with_eta);
+      with_eta[t] += by * line.t * line.t;
+      local(eta, eta) += by * line.t * line.t;
     }
+    local.col(eta) += with_eta;
+    local.row(eta) += with_eta.transpose();
     local.col(t) += with_t;
     local.row(t) += with_t.transpose();
     unknowns_.AddMatrix(i, &local, matrix);
@@ -306,6 +318,7 @@ void JointInteriorPoint::AddCentres(double centre, VectorXd* to) const {
         const double multiplier = multipliers[line.at + s];
         by += s == 0 ? multiplier : -multiplier;
         of_rows[unknowns_.TAt()] += multiplier * line.t;
+        if (line.is_limit) of_rows[unknowns_.EtaAt()] += multiplier * line.t;
       }
       AddLine(line, by, &of_rows);
     }

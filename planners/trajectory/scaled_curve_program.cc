@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "planners/trajectory/scaled_curve_program.h"
 
+#include <algorithm>
+
 namespace phongpd::internal {
 
 using Eigen::Vector3d;
@@ -138,17 +140,17 @@ void AddObjective(const CurveProgram& program, BlockTridiagonal* hessian,
       }
     }
     gradient[kCurveEta] += piece.share;
-    matrix(kCurveEta, kCurveEta) += piece.share;
     gradient[kCurveMissing] += program.missing;
     if (i > 0) {
-      const double by = 2.0 * program.evenness;
-      const double jump =
-          piece.log_duration - program.pieces[i - 1].log_duration;
+      const CurveProgram::Piece& before = program.pieces[i - 1];
+      const double even = 2.0 * program.evenness;
+      const double by = even + 2.0 * std::max(before.caution, piece.caution);
       hessian->diagonal[i](9, 9) += by;
       hessian->diagonal[i - 1](9, 9) += by;
       hessian->above[i - 1](9, 9) -= by;
-      (*linear)[BlockTridiagonal::kSize * i + 9] += by * jump;
-      (*linear)[BlockTridiagonal::kSize * (i - 1) + 9] -= by * jump;
+      const double jump = piece.log_duration - before.log_duration;
+      (*linear)[BlockTridiagonal::kSize * i + 9] += even * jump;
+      (*linear)[BlockTridiagonal::kSize * (i - 1) + 9] -= even * jump;
     }
     AddGradient(program, i, gradient, linear);
     AddMatrix(program, i, &matrix, hessian);

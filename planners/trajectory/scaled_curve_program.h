@@ -15,10 +15,10 @@ namespace phongpd::internal {
 // Δa·pace²/20τ, η and m of piece k; those of the first knot's state, and all
 // of the last one, are fixed.  Then t.
 struct CurveProgram {
-  // |value_j + scale·(Δᵏ(ΔB/τ))_j − k·value_j·η| + t·t ≤ most, axis by axis,
-  // for j from first to last: of the points of a derivative of order k, with
-  // Δᵏ the differences of order k; or, k = 0, of the points.  An axis that is
-  // not bounded has scale, value and t 0.
+  // |value_j + scale·(Δᵏ(ΔB/τ))_j| + t·(t + η) ≤ most, axis by axis, for j
+  // from first to last: of the points of a derivative of order k, with Δᵏ the
+  // differences of order k; or, k = 0, of the points.  An axis that is not
+  // bounded has scale, value and t 0.
   struct Bounds {
     int order = 0;  // k
     int first = 0, last = -1;
@@ -29,7 +29,7 @@ struct CurveProgram {
   };
   // constant + d·Σ_j w_j ΔB_j/τ + eta·η + missing·m + t·t ≤ 0, with a unit
   // vector d, or none; or, of kNorm,
-  //   |value + value_by_eta·η + Σ_j w_j ΔB_j/τ| + constant + t·t ≤ 0.
+  //   |value + Σ_j w_j ΔB_j/τ| + constant + eta·η + t·t ≤ 0.
   struct Row {
     enum Kind { kDirection, kScalar, kNorm };
     Kind kind = kScalar;
@@ -41,7 +41,6 @@ struct CurveProgram {
     // both have the work of one.
     bool repeats = false;
     Eigen::Vector3d value = Eigen::Vector3d::Zero();
-    Eigen::Vector3d value_by_eta = Eigen::Vector3d::Zero();
   };
   struct Piece {
     std::vector<Bounds> bounds;
@@ -49,6 +48,8 @@ struct CurveProgram {
     double before = 1.0, after = 1.0;  // h over the pace of both its knots
     double share = 0.0;                // h/T
     double log_duration = 0.0;
+    double caution =
+        0.0;  // price of (η_i − η_{i−1})², if the other one is less
     double missing = 0.0;                // the least m at which rows hold now
     Eigen::Matrix<double, 3, 6> by_eta;  // dB_j/dη, units of τ
     // Of each axis and point: weights of the six ΔB/τ, of η, and the value.

@@ -57,8 +57,8 @@ Rows DenseRows(const CurveProgram::Bounds& bounds) {
           dense.rows(at, 3 * k + axis) =
               sign * bounds.scale[axis] * differences(j, k);
         }
-        dense.rows(at, kCurveEta) = -sign * bounds.order * value;
-        dense.rows(at, kCurveT) = bounds.t[axis];
+        // Slower pieces have more room, as all have at a slower pace.
+        dense.rows(at, kCurveEta) = dense.rows(at, kCurveT) = bounds.t[axis];
         dense.room[at] = bounds.most - sign * value;
       }
     }

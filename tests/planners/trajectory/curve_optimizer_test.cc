@@ -188,8 +188,11 @@ TEST(OptimizeCurve, HalvesPiecesAsThePresetSays) {
     int segments;
     std::array<int, 3> pieces;  // of fast, balanced, tight
   };
-  for (const auto& [segments, pieces] : std::vector<Expected>{
-           {1, {3, 24, 48}}, {6, {18, 72, 144}}, {7, {21, 42, 84}}}) {
+  for (const auto& [segments, pieces] :
+       std::vector<Expected>{{1, {6, 24, 48}},
+                             {2, {12, 48, 96}},
+                             {6, {18, 72, 144}},
+                             {7, {21, 42, 84}}}) {
     Path path = {Vector3d::Zero()};
     CurveOptions options = With(Limits(1.0, 2.0, 10.0));
     for (int i = 1; i <= segments; ++i) path.emplace_back(i, i % 2, 0.0);

@@ -26,11 +26,10 @@ Row RandomRow(Row::Kind kind, std::mt19937_64* random) {
   for (int j = 1; j <= 4; ++j) row.weight[j] = uniform(*random);
   for (int axis = 0; axis < 3; ++axis) {
     row.value[axis] = 0.3 * uniform(*random);
-    row.value_by_eta[axis] = uniform(*random);
     row.direction[axis] = uniform(*random);
   }
   row.direction.normalize();
-  if (kind != Row::kNorm) row.eta = uniform(*random);
+  row.eta = uniform(*random);
   row.t = -2.0;
   row.constant = -1.0;
   return row;
@@ -38,9 +37,10 @@ Row RandomRow(Row::Kind kind, std::mt19937_64* random) {
 
 // Of kNorm: what |y| is, and what it may be.
 std::pair<double, double> NormAndRoom(const Row& row, const CurveLocal& x) {
-  Vector3d y = row.value + x[kCurveEta] * row.value_by_eta;
+  Vector3d y = row.value;
   for (int j = 0; j < 6; ++j) y += row.weight[j] * x.segment<3>(3 * j);
-  return {y.norm(), -row.constant - row.t * x[kCurveT]};
+  return {y.norm(),
+          -row.constant - row.eta * x[kCurveEta] - row.t * x[kCurveT]};
 }
 
 double Slack(const Row& row, const CurveLocal& x) {

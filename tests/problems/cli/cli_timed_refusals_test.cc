@@ -152,11 +152,11 @@ TEST_F(CliTimedRefusals, MoreRowsThanThereMayBeBeforeTheMotionIsKnown) {
   // Only what is sure: that no motion is there is an answer, and one that takes
   // longer than its ends tell is refused once it is known.
   EXPECT_EQ(Run("optimize " + shut +
-                " --output ../t.csv --rate 1e6 --limits 0.312,2,10")
+                " --output ../t.csv --rate 1e6 --limits 0.311,2,10")
                 .code,
             1);
   ExpectRefused(
-      "optimize " + scene + " --output t.csv --rate 1e6 --limits 0.312,2,10",
+      "optimize " + scene + " --output t.csv --rate 1e6 --limits 0.311,2,10",
       {"--rate: expected at most 1e+07 rows", "s at least"});
   // JSON has pieces and no rows.
   EXPECT_EQ(
