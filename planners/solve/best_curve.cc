@@ -31,6 +31,10 @@ constexpr double kAlike = 0.02;
 // A motion that takes no longer, as a share of the least time, needs no other
 // way.
 constexpr double kNearLeast = 1.1;
+// Of the ways that are compared with the first one: of a long one another one
+// is better by little, and takes as long to look at as to make the first
+// better.
+constexpr std::size_t kMostCorners = 32;
 
 bool IsBetterCurve(const CurveSummary& a, const CurveSummary& b,
                    const CurveOptions& options, bool margin_is_required) {
@@ -163,14 +167,11 @@ class Contest {
     entry.found = entry.search->Summary();
   }
 
-  bool IsAnotherWay(std::size_t i) const {
-    for (std::size_t k = 0; k < i; ++k) {
-      if (IsNear(paths_[i], paths_[k], kAlike * diagonal_) &&
-          IsNear(paths_[k], paths_[i], kAlike * diagonal_)) {
-        return false;
-      }
-    }
-    return true;
+  bool IsAnotherWay(std::size_t i, const std::vector<std::size_t>& than) const {
+    return std::none_of(than.begin(), than.end(), [&](std::size_t k) {
+      return IsNear(paths_[i], paths_[k], kAlike * diagonal_) &&
+             IsNear(paths_[k], paths_[i], kAlike * diagonal_);
+    });
   }
 
   // Could it be better than what the first path has come to?
@@ -198,15 +199,18 @@ class Contest {
 
   std::vector<std::size_t> RefineBest(std::size_t refined) {
     Begin(0);
-    std::vector<std::size_t> order = {0}, rivals;
+    std::vector<std::size_t> order = {0};
     const bool is_good = CostOfFirst() <= kNearLeast * LeastOfAll();
+    std::size_t corners = 0;
     for (std::size_t i = 1; i < paths_.size(); ++i) {
-      const bool may_win = !is_good && IsAnotherWay(i) && IsShortEnough(i);
-      if (refined > 1 || may_win) rivals.push_back(i);
+      const std::size_t with = corners + paths_[i].size();
+      const bool may_win = !is_good && with <= kMostCorners &&
+                           IsAnotherWay(i, order) && IsShortEnough(i);
+      if (may_win) corners = with;
+      if (refined > 1 || may_win) order.push_back(i);
     }
-    tbb::parallel_for(std::size_t{0}, rivals.size(),
-                      [&](std::size_t k) { Begin(rivals[k]); });
-    order.insert(order.end(), rivals.begin(), rivals.end());
+    tbb::parallel_for(std::size_t{1}, order.size(),
+                      [&](std::size_t k) { Begin(order[k]); });
     std::stable_sort(order.begin(), order.end(),
                      [this](std::size_t a, std::size_t b) {
                        return PlaceOf(a) < PlaceOf(b);

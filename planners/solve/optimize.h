@@ -100,8 +100,8 @@ void ApplyBudget(double seconds, const Workspace& workspace,
 // since another point within the tolerance may do.  Of the ways that
 // contact-surface finds, up to eight (with kFast not more than are asked for),
 // as many as options.routes are followed to the end, side by side: those along
-// which kFast leads to the best motions.  The best of what they come to is the
-// answer.
+// which kFast leads to the best motions (best_curve.h).  The best of what they
+// come to is the answer.
 //
 // Among moving obstacles (request.moving) the motion begins and ends at rest.
 // It is the fastest that was found: by waiting, going first, making way, or by

@@ -133,6 +133,27 @@ TEST(BestCurve, LooksAtNoOtherWayWhereOneIsNearTheLeastTime) {
   EXPECT_EQ(best.tried, 1);
 }
 
+// A way of more corners than all the others may have together is not compared,
+// and one after it is, which has fewer.
+TEST(BestCurve, ComparesNoMoreCornersThanAreWorthIt) {
+  const TwoWays ways;
+  Path many = {ways.fast.front()};
+  for (std::size_t i = 1; i < ways.fast.size(); ++i) {
+    const Vector3d from = many.back();
+    for (int k = 1; k <= 20; ++k) {
+      many.push_back(from + k / 20.0 * (ways.fast[i] - from));
+    }
+  }
+  ASSERT_GT(many.size(), 32u);
+  const std::vector<Path> paths = {ways.slow, many, ways.fast};
+  const BestCurve best = ways.Best(paths, ways.Options());
+  EXPECT_EQ(best.path, 2u);
+  EXPECT_EQ(best.tried, 2);
+  EXPECT_EQ(ways.Best({ways.slow, many}, ways.Options()).tried, 1);
+  // Whoever asks for several gets them.
+  EXPECT_EQ(ways.Best(paths, ways.Options(), false, 2).tried, 3);
+}
+
 TEST(BestCurve, TakesTheFirstWaysWhereTimeIsNotWhatCounts) {
   const TwoWays ways;
   CurveOptions options = ways.Options();
