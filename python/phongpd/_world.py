@@ -57,8 +57,9 @@ class World(Room):
         contact space they meet; "auto", window where limits of memory refuse
         the whole; "": the scene's, and of a polyline full where that is auto.
         routes: ways around the obstacles that are tried to the end, 1 to 8; 0:
-        the preset's; with limits, those that look best at first.  max_seconds: of a polyline's solve, or of the search for a
-        faster curve; there is one before.  budget: of a polyline, seconds of
+        the preset's; with limits, those that look best at first.  max_seconds:
+        of a polyline's solve, or of the search for a faster curve; there is one
+        before.  budget: of a polyline, seconds of
         processors, builds included, within which preset, model and metric
         answered most often with about as many triangles
         (results/trade/budget.md); what is named besides wins over it.
@@ -73,8 +74,8 @@ class World(Room):
         it begins and ends; None: the scene's, at rest if it has none.  moving:
         obstacles to keep off that move, {name: (solid, motion)}, where the solid
         is moved to from the time 0 on, to rounding, as check_curve takes a
-        curve: a Motion of another, (durations, points), or a spline; None: the
-        scene's.
+        curve: a Motion of another, (durations, points), or a spline; None, or
+        none of them: the scene's.
 
         Without.  metric: "phong" (or smoothed, smoothed-foot), by the scene's
         smoothing length, "phong@L" by that one, "euclidean"; "": the scene's.
