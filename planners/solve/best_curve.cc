@@ -31,7 +31,7 @@ constexpr double kAlike = 0.02;
 // A motion that takes no longer, as a share of the least time, needs no other
 // way.
 constexpr double kNearLeast = 1.1;
-// Of the ways that are compared with the first one: of a long one another one
+// Of a way that is compared with the first one: where it has more, another one
 // is better by little, and takes as long to look at as to make the first
 // better.
 constexpr std::size_t kMostCorners = 32;
@@ -201,12 +201,9 @@ class Contest {
     Begin(0);
     std::vector<std::size_t> order = {0};
     const bool is_good = CostOfFirst() <= kNearLeast * LeastOfAll();
-    std::size_t corners = 0;
     for (std::size_t i = 1; i < paths_.size(); ++i) {
-      const std::size_t with = corners + paths_[i].size();
-      const bool may_win = !is_good && with <= kMostCorners &&
+      const bool may_win = !is_good && paths_[i].size() <= kMostCorners &&
                            IsAnotherWay(i, order) && IsShortEnough(i);
-      if (may_win) corners = with;
       if (refined > 1 || may_win) order.push_back(i);
     }
     tbb::parallel_for(std::size_t{1}, order.size(),

@@ -24,11 +24,10 @@ struct BestCurve {
 //
 // Which paths are the best is seen by the cost of what kFast makes of them.  If
 // one is refined, the first is looked at before the others; of these only what
-// may be better is: no path that is hardly another way or too long, none where
-// the first one is near the least time that any could take, and no more than
-// have 32 corners together: so the work grows with a way and not with its ways.
-// Where a duration is given or a margin required, or the motion rests on its
-// way, the first ones are taken.
+// may be better is: no path that is hardly another way, too long, or of more
+// than 32 corners, and none where the first one is near the least time that any
+// could take.  Where a duration is given or a margin required, or the motion
+// rests on its way, the first ones are taken.
 //
 // A path whose turn comes when time is up is left out, too, but for the first.
 // options.is_interrupted is asked by one thread at a time.

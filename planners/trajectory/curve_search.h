@@ -56,7 +56,7 @@ class CurveSearch {
   // A round that gains less, a share of the time, is the last of them; but not
   // where so much more was predicted that its step was too long.
   static constexpr double kSmallGain = 1e-3;
-  static constexpr double kFailed = 0.1;
+  static constexpr double kFailed = 0.2;
   static constexpr int kStepHalvings = 3;  // of a step that is not taken
 
   void Start(const Path& path);

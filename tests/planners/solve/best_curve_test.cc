@@ -133,9 +133,8 @@ TEST(BestCurve, LooksAtNoOtherWayWhereOneIsNearTheLeastTime) {
   EXPECT_EQ(best.tried, 1);
 }
 
-// A way of more corners than all the others may have together is not compared,
-// and one after it is, which has fewer.
-TEST(BestCurve, ComparesNoMoreCornersThanAreWorthIt) {
+// A way of many corners is not compared, and one after it is, which has fewer.
+TEST(BestCurve, ComparesNoWayOfManyCorners) {
   const TwoWays ways;
   Path many = {ways.fast.front()};
   for (std::size_t i = 1; i < ways.fast.size(); ++i) {
