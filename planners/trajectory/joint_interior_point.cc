@@ -91,8 +91,8 @@ void JointInteriorPoint::AddBoundLines(int curve,
       }
       line.axis = axis;
       line.direction = Vector3d::Unit(axis);
+      line.eta = -bounds.order * value;
       line.t = bounds.t[axis];
-      line.is_limit = bounds.order > 0;
       line.sides = 2;
       line.constant = {value - bounds.most, -value - bounds.most};
       lines->push_back(line);
@@ -101,6 +101,8 @@ void JointInteriorPoint::AddBoundLines(int curve,
 }
 
 // The box about the ball, and the plane that touches it where the value is.
+// Here η changes what is bounded and not the bound, to first order the same:
+// many robots that meet come closer to their least time by that.
 void JointInteriorPoint::AddNormLines(int curve, const Row& row,
                                       std::vector<Line>* lines) const {
   Line line;
@@ -109,10 +111,10 @@ void JointInteriorPoint::AddNormLines(int curve, const Row& row,
   line.to = row.last;
   line.weight = row.weight;
   line.t = row.t;
-  line.is_limit = row.t != 0.0;
   for (int axis = 0; axis < 3; ++axis) {
     line.axis = axis;
     line.direction = Vector3d::Unit(axis);
+    line.eta = row.eta * row.value[axis];
     line.sides = 2;
     line.constant[0] = row.constant + row.value[axis];
     line.constant[1] = row.constant - row.value[axis];
@@ -122,6 +124,7 @@ void JointInteriorPoint::AddNormLines(int curve, const Row& row,
   if (norm < kSmallNorm) return;
   line.axis = -1;
   line.direction = row.value / norm;
+  line.eta = row.eta * norm;
   line.sides = 1;
   line.constant[0] = row.constant + norm;
   lines->push_back(line);
@@ -229,19 +232,14 @@ double JointInteriorPoint::FirstT() const {
   return std::max(t, 0.0);
 }
 
-double JointInteriorPoint::Room(const Line& line, const VectorXd& local) const {
-  const double t = line.t * local[unknowns_.TAt()];
-  return line.is_limit ? t + line.t * local[unknowns_.EtaAt()] : t;
-}
-
 void JointInteriorPoint::FindSlopes(const VectorXd& x) {
   for (int i = 0; i < unknowns_.pieces(); ++i) {
     const VectorXd local = unknowns_.ToLocal(i, x);
     for (const Line& line : lines_[i]) {
       const double along = Along(line, local);
-      const double room = Room(line, local);
-      slopes_[line.at] = along + room;
-      if (line.sides > 1) slopes_[line.at + 1] = -along + room;
+      const double of_t = line.t * local[unknowns_.TAt()];
+      slopes_[line.at] = along + of_t;
+      if (line.sides > 1) slopes_[line.at + 1] = -along + of_t;
     }
   }
 }
@@ -269,14 +267,13 @@ bool JointInteriorPoint::Begin(VectorXd* x) {
 
 void JointInteriorPoint::AddRows(WideTridiagonal* matrix,
                                  VectorXd* residual) const {
-  const int t = unknowns_.TAt(), eta = unknowns_.EtaAt();
+  const int t = unknowns_.TAt();
   Eigen::ArrayXd squares(state_.size());
   state_.WriteSquares(0, state_.size(), squares.data());
   MatrixXd local(t + 1, t + 1);
   for (int i = 0; i < unknowns_.pieces(); ++i) {
     local.setZero();
-    VectorXd of_rows = VectorXd::Zero(t + 1);
-    VectorXd with_t = of_rows, with_eta = of_rows;
+    VectorXd of_rows = VectorXd::Zero(t + 1), with_t = VectorXd::Zero(t + 1);
     for (const Line& line : lines_[i]) {
       double by = 0.0, by_t = 0.0, dual = 0.0;
       for (int s = 0; s < line.sides; ++s) {
@@ -286,20 +283,13 @@ void JointInteriorPoint::AddRows(WideTridiagonal* matrix,
         by_t += sign * square;
         dual += sign * state_.dual[line.at + s];
         of_rows[t] += state_.dual[line.at + s] * line.t;
-        if (line.is_limit) of_rows[eta] += state_.dual[line.at + s] * line.t;
       }
       AddSquare(line, by, &local);
       AddLine(line, dual, &of_rows);
       if (line.t == 0.0) continue;
       AddLine(line, by_t * line.t, &with_t);
       local(t, t) += by * line.t * line.t;
-      if (!line.is_limit) continue;
-      AddLine(line, by_t * line.t, &with_eta);
-      with_eta[t] += by * line.t * line.t;
-      local(eta, eta) += by * line.t * line.t;
     }
-    local.col(eta) += with_eta;
-    local.row(eta) += with_eta.transpose();
     local.col(t) += with_t;
     local.row(t) += with_t.transpose();
     unknowns_.AddMatrix(i, &local, matrix);
@@ -318,7 +308,6 @@ void JointInteriorPoint::AddCentres(double centre, VectorXd* to) const {
         const double multiplier = multipliers[line.at + s];
         by += s == 0 ? multiplier : -multiplier;
         of_rows[unknowns_.TAt()] += multiplier * line.t;
-        if (line.is_limit) of_rows[unknowns_.EtaAt()] += multiplier * line.t;
       }
       AddLine(line, by, &of_rows);
     }

@@ -27,9 +27,7 @@ class JointInteriorPoint {
 
  private:
   // sign · (along) + t · (its unknown) + constant ≤ 0, of both signs where
-  // there are two sides, which are rows `at` and the next.  Limits of motion
-  // have η beside t: slower pieces have more room, as all have at a slower
-  // pace.
+  // there are two sides, which are rows `at` and the next.
   struct Line {
     int first = -1, second = -1;  // curves; −1: none
     int from = 0, to = -1;
@@ -37,7 +35,6 @@ class JointInteriorPoint {
     Eigen::Matrix<double, 6, 1> weight = Eigen::Matrix<double, 6, 1>::Zero();
     Eigen::Vector3d direction = Eigen::Vector3d::Zero();
     double eta = 0.0, theta = 0.0, t = 0.0;
-    bool is_limit = false;
     int sides = 1, at = 0;
     std::array<double, 2> constant = {0.0, 0.0};
   };
@@ -52,8 +49,7 @@ class JointInteriorPoint {
   double Along(const Line& line, const Eigen::VectorXd& local) const;
   void AddSquare(const Line& line, double by, Eigen::MatrixXd* m) const;
   void AddLine(const Line& line, double by, Eigen::VectorXd* local) const;
-  double Room(const Line& line, const Eigen::VectorXd& local) const;
-  // ± along + room, of both sides: what a step changes them by.
+  // ± along + t · (its unknown), of both sides: what a step changes them by.
   void FindSlopes(const Eigen::VectorXd& x);
   double FirstT() const;
   bool Begin(Eigen::VectorXd* x);

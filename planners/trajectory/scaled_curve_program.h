@@ -48,8 +48,8 @@ struct CurveProgram {
     double before = 1.0, after = 1.0;  // h over the pace of both its knots
     double share = 0.0;                // h/T
     double log_duration = 0.0;
-    double caution =
-        0.0;  // price of (η_i − η_{i−1})², if the other one is less
+    // Price of (η_i − η_{i−1})²; of two pieces the higher one.
+    double caution = 0.0;
     double missing = 0.0;                // the least m at which rows hold now
     Eigen::Matrix<double, 3, 6> by_eta;  // dB_j/dη, units of τ
     // Of each axis and point: weights of the six ΔB/τ, of η, and the value.
