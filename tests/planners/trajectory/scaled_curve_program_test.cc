@@ -23,11 +23,11 @@ using Eigen::MatrixXd;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-constexpr int kPieces = 5, kSize = BlockTridiagonal::kSize;
+constexpr int kUnevenPieces = 5, kBlockSize = BlockTridiagonal::kSize;
 
-class Random {
+class Draw {
  public:
-  explicit Random(unsigned seed) : engine_(seed) {}
+  explicit Draw(unsigned seed) : engine_(seed) {}
   double operator()() { return uniform_(engine_); }
   Vector3d Point() { return {(*this)(), (*this)(), (*this)()}; }
 
@@ -37,19 +37,19 @@ class Random {
 };
 
 // Uneven pieces; both ends at rest, or neither.
-KnotCurve RandomCurve(bool at_rest, Random* random) {
+KnotCurve UnevenCurve(bool at_rest, Draw* random) {
   KnotCurve curve;
-  for (int k = 0; k <= kPieces; ++k) {
-    const bool rests = at_rest && (k == 0 || k == kPieces);
+  for (int k = 0; k <= kUnevenPieces; ++k) {
+    const bool rests = at_rest && (k == 0 || k == kUnevenPieces);
     curve.knots.push_back({random->Point(),
                            rests ? Vector3d::Zero().eval() : random->Point(),
                            rests ? Vector3d::Zero().eval() : random->Point()});
-    if (k < kPieces) curve.durations.push_back(0.6 + 0.4 * (*random)());
+    if (k < kUnevenPieces) curve.durations.push_back(0.6 + 0.4 * (*random)());
   }
   return curve;
 }
 
-CurveProgramOptions Options() {
+CurveProgramOptions UnevenOptions() {
   CurveProgramOptions options;
   options.limits.velocity.setConstant(1.0);
   options.limits.acceleration.setConstant(2.0);
@@ -58,13 +58,14 @@ CurveProgramOptions Options() {
   return options;
 }
 
-CurveProgram ProgramOf(const KnotCurve& curve) {
-  return BuildCurveProgram(curve, std::vector<PieceCells>(kPieces), Options());
+CurveProgram UnevenProgramOf(const KnotCurve& curve) {
+  return BuildCurveProgram(curve, std::vector<PieceCells>(kUnevenPieces),
+                           UnevenOptions());
 }
 
 // Column by column.
 MatrixXd DenseF(const CurveProgram& program, int piece) {
-  const int n = kSize * kPieces + 1;
+  const int n = kBlockSize * kUnevenPieces + 1;
   MatrixXd f(21, n);
   for (int k = 0; k < n; ++k) {
     f.col(k) = ToLocal(program, piece, VectorXd::Unit(n, k));
@@ -72,7 +73,7 @@ MatrixXd DenseF(const CurveProgram& program, int piece) {
   return f;
 }
 
-MatrixXd Dense(const BlockTridiagonal& matrix) {
+MatrixXd DenseOf(const BlockTridiagonal& matrix) {
   const int n = matrix.size();
   MatrixXd dense(n, n);
   for (int k = 0; k < n; ++k) dense.col(k) = matrix.Times(VectorXd::Unit(n, k));
@@ -80,10 +81,10 @@ MatrixXd Dense(const BlockTridiagonal& matrix) {
 }
 
 TEST(ScaledCurveProgram, AddsWhatPiecesKnowToWhatKnotsKnow) {
-  Random random(1);
+  Draw random(1);
   for (const bool at_rest : {true, false}) {
-    const CurveProgram program = ProgramOf(RandomCurve(at_rest, &random));
-    for (int piece = 0; piece < kPieces; ++piece) {
+    const CurveProgram program = UnevenProgramOf(UnevenCurve(at_rest, &random));
+    for (int piece = 0; piece < kUnevenPieces; ++piece) {
       const MatrixXd f = DenseF(program, piece);
       const CurveLocal local = CurveLocal::Random();
       VectorXd gradient = VectorXd::Zero(f.cols());
@@ -92,9 +93,10 @@ TEST(ScaledCurveProgram, AddsWhatPiecesKnowToWhatKnotsKnow) {
       const CurveLocalMatrix half = CurveLocalMatrix::Random();
       const CurveLocalMatrix m = half * half.transpose();
       CurveLocalMatrix spent = m;
-      BlockTridiagonal blocks(kPieces);
+      BlockTridiagonal blocks(kUnevenPieces);
       AddMatrix(program, piece, &spent, &blocks);
-      EXPECT_LT((Dense(blocks) - f.transpose() * m * f).norm(), 1e-10) << piece;
+      EXPECT_LT((DenseOf(blocks) - f.transpose() * m * f).norm(), 1e-10)
+          << piece;
     }
   }
 }
@@ -103,8 +105,8 @@ TEST(ScaledCurveProgram, AddsWhatPiecesKnowToWhatKnotsKnow) {
 KnotCurve ChangeOf(const CurveProgram& program, const VectorXd& x,
                    double trust) {
   KnotCurve change;
-  for (int k = 0; k < kPieces; ++k) {
-    const auto of = x.segment<kSize>(kSize * k);
+  for (int k = 0; k < kUnevenPieces; ++k) {
+    const auto of = x.segment<kBlockSize>(kBlockSize * k);
     const double pace = program.pace[static_cast<std::size_t>(k)];
     change.knots.push_back({trust * of.head<3>(),
                             5.0 * trust / pace * of.segment<3>(3),
@@ -115,8 +117,8 @@ KnotCurve ChangeOf(const CurveProgram& program, const VectorXd& x,
   return change;
 }
 
-VectorXd RandomUnknowns(Random* random) {
-  VectorXd x(kSize * kPieces + 1);
+VectorXd RandomUnknowns(Draw* random) {
+  VectorXd x(kBlockSize * kUnevenPieces + 1);
   for (double& value : x) value = (*random)();
   x.head<9>().setZero();
   return x;
@@ -124,11 +126,11 @@ VectorXd RandomUnknowns(Random* random) {
 
 // Of a tenth of a step a hundredth is neglected.
 TEST(ScaledCurveProgram, KnowsBezierPointsToFirstOrder) {
-  Random random(2);
+  Draw random(2);
   for (const bool at_rest : {true, false}) {
-    const KnotCurve curve = RandomCurve(at_rest, &random);
-    const CurveProgram program = ProgramOf(curve);
-    const double trust = Options().trust;
+    const KnotCurve curve = UnevenCurve(at_rest, &random);
+    const CurveProgram program = UnevenProgramOf(curve);
+    const double trust = UnevenOptions().trust;
     const VectorXd x = RandomUnknowns(&random);
     const auto error = [&](double share, int piece) {
       const KnotCurve moved = Moved(curve, ChangeOf(program, x, trust), share);
@@ -137,7 +139,7 @@ TEST(ScaledCurveProgram, KnowsBezierPointsToFirstOrder) {
       return (curve.PointsOf(piece) + trust * by - moved.PointsOf(piece))
           .norm();
     };
-    for (int piece = 0; piece < kPieces; ++piece) {
+    for (int piece = 0; piece < kUnevenPieces; ++piece) {
       EXPECT_LT(error(1e-3, piece), 1e-5) << piece;
       EXPECT_NEAR(error(1e-3, piece) / error(1e-4, piece), 100.0, 5.0);
     }
@@ -146,21 +148,21 @@ TEST(ScaledCurveProgram, KnowsBezierPointsToFirstOrder) {
 
 // The same way in times that are longer or shorter: not to first order alone.
 TEST(ScaledCurveProgram, KnowsExactlyWhatGoesFasterAsAWhole) {
-  Random random(3);
-  const KnotCurve curve = RandomCurve(true, &random);
-  const CurveProgram program = ProgramOf(curve);
+  Draw random(3);
+  const KnotCurve curve = UnevenCurve(true, &random);
+  const CurveProgram program = UnevenProgramOf(curve);
   for (const double eta : {-0.3, 0.2}) {
     KnotCurve change;
     for (const KnotCurve::State& knot : curve.knots) {
       change.knots.push_back(
           {Vector3d::Zero(), -eta * knot.v, -2.0 * eta * knot.a});
     }
-    change.durations.assign(kPieces, eta);
+    change.durations.assign(kUnevenPieces, eta);
     KnotCurve slowed = curve;
     slowed.Slow(std::exp(eta));
     const KnotCurve moved = Moved(curve, change, 1.0);
     EXPECT_NEAR(moved.Duration(), slowed.Duration(), 1e-12);
-    for (int piece = 0; piece < kPieces; ++piece) {
+    for (int piece = 0; piece < kUnevenPieces; ++piece) {
       EXPECT_LT((moved.PointsOf(piece) - curve.PointsOf(piece)).norm(), 1e-14);
     }
     // The ends' states are not changed but given.
@@ -172,14 +174,14 @@ TEST(ScaledCurveProgram, KnowsExactlyWhatGoesFasterAsAWhole) {
 
 // Whatever the points come to be, a piece whose rows hold keeps its limits.
 TEST(ScaledCurveProgram, ErrsOnTheSafeSideOfLimits) {
-  Random random(4);
-  KnotCurve curve = RandomCurve(true, &random);
-  const MotionLimits limits = Options().limits;
+  Draw random(4);
+  KnotCurve curve = UnevenCurve(true, &random);
+  const MotionLimits limits = UnevenOptions().limits;
   curve.Slow(1.05 * SlowingOf(curve, limits));
-  const CurveProgram program = ProgramOf(curve);
+  const CurveProgram program = UnevenProgramOf(curve);
   int within = 0, nearly = 0;
   for (int i = 0; i < 2000; ++i) {
-    const int piece = i % kPieces;
+    const int piece = i % kUnevenPieces;
     const double h = curve.durations[static_cast<std::size_t>(piece)];
     CurveLocal u = CurveLocal::Zero();
     const double size = std::min(0.9, 0.1 * std::pow(h, 3));
@@ -195,8 +197,9 @@ TEST(ScaledCurveProgram, ErrsOnTheSafeSideOfLimits) {
     if (!holds) continue;
     ++within;
     const Eigen::Map<const KnotCurve::Points> by(u.data());
-    const PieceDerivatives of(curve.PointsOf(piece) + Options().trust * by,
-                              h * std::exp(u[kCurveEta]));
+    const PieceDerivatives of(
+        curve.PointsOf(piece) + UnevenOptions().trust * by,
+        h * std::exp(u[kCurveEta]));
     const double use = std::max({of.velocity.cwiseAbs().maxCoeff() / 1.0,
                                  of.acceleration.cwiseAbs().maxCoeff() / 2.0,
                                  of.jerk.cwiseAbs().maxCoeff() / 8.0});
