@@ -163,8 +163,8 @@ def page(rows):
                f"{cell(power)}{met}")
         first = exponent(sizes, [r["cpu_first"] for r in seen])
         yield f"- Plan and first curve, the same: exponent {cell(first)}."
-    yield ("- Below some 100 pieces several ways are compared, above one is "
-           "followed: ways of more than 32 corners are not compared with others.")
+    yield ("- Ways of many corners are not compared with others: on the longest "
+           "the time is that of one way.")
     yield _judges(rows)
     yield ""
     yield ("Robots: [fleets](../fleets/README.md). Contact spaces, which are there "
