@@ -91,6 +91,11 @@ function(phongpd_unite target size)
   # for which it takes a source that another one includes.
   target_compile_options(
     ${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
+  # Groups are large: a compiler that collects its own garbage less often takes a
+  # fourteenth less time for a fourth more memory (2.2 GB at most).
+  target_compile_options(
+    ${target} PRIVATE "$<$<CXX_COMPILER_ID:GNU>:SHELL:--param ggc-min-expand=300 \
+--param ggc-min-heapsize=1000000>")
   get_target_property(all ${target} SOURCES)
   set(sources "")
   foreach(source IN LISTS all)
