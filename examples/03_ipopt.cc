@@ -7,19 +7,16 @@
 #include <phongpd/planners/world/world.h>
 
 #include <iostream>
-#include <memory>
 
 using namespace phongpd;
 
 int main(int argc, char** argv) {
   if (argc != 3) return 2;
   const World world({ReadSolid(argv[1]), {ReadSolid(argv[2])}});
-  TrajectoryProblem problem =
-      MakeTrajectoryProblem(world.Spaces(SpaceLayout::kMerged).spaces);
+  TrajectoryProblem problem = MakeTrajectoryProblem(world);
   problem.start = {-1.0, 0.1, 0.0};
   problem.goal = {3.0, -0.1, 0.1};
-  const auto repair = std::make_shared<StartRepair>(world.Sealed());
-  const PipelineResult result = TrajectoryPipeline(problem, repair).Solve();
+  const PipelineResult result = TrajectoryPipeline(world, problem).Solve();
 
   std::cout << ToString(result.status) << ", objective " << result.objective
             << ", the judge says "

@@ -9,6 +9,7 @@
 #include "core/stopwatch.h"
 #include "planners/exact/check_option.h"
 #include "planners/trajectory/no_gain.h"
+#include "planners/world/world.h"
 
 namespace phongpd {
 namespace {
@@ -352,6 +353,12 @@ TrajectoryPipeline::TrajectoryPipeline(
                   return repair->Repair(start, goal, wished);
                 }},
           options) {}
+
+TrajectoryPipeline::TrajectoryPipeline(const World& world,
+                                       const TrajectoryProblem& problem,
+                                       const PipelineOptions& options)
+    : TrajectoryPipeline(problem, std::make_shared<StartRepair>(world.Sealed()),
+                         options) {}
 
 TrajectoryPipeline::TrajectoryPipeline(const TrajectoryProblem& problem,
                                        const OwnStarts& starts,

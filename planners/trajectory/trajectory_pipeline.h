@@ -134,6 +134,10 @@ class TrajectoryPipeline {
                      std::shared_ptr<const StartRepair> repair,
                      const PipelineOptions& options = {});
 
+  // The same with starts repaired in the world that the problem was made of.
+  TrajectoryPipeline(const World& world, const TrajectoryProblem& problem,
+                     const PipelineOptions& options = {});
+
   TrajectoryPipeline(const TrajectoryProblem& problem, const OwnStarts& starts,
                      const PipelineOptions& options = {});
 

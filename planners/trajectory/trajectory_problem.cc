@@ -9,6 +9,7 @@
 #include "constraints/sampling_rule.h"
 #include "core/mesh/finite.h"
 #include "core/mesh/mesh_error.h"
+#include "planners/world/world.h"
 
 namespace phongpd {
 
@@ -68,6 +69,15 @@ TrajectoryProblem MakeTrajectoryProblem(
   }
   problem.free_space = std::make_shared<FreeSpace>(spaces, bounds);
   if (!spaces.empty()) problem.diagonal = spaces[0].length();
+  return problem;
+}
+
+TrajectoryProblem MakeTrajectoryProblem(const World& world,
+                                        const SignedMetricOptions& metric) {
+  TrajectoryProblem problem =
+      MakeTrajectoryProblem(world.Spaces(SpaceLayout::kMerged).spaces, metric,
+                            world.workspace().bounds);
+  problem.diagonal = world.diagonal();
   return problem;
 }
 

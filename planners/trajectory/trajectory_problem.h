@@ -11,6 +11,8 @@
 
 namespace phongpd {
 
+class World;
+
 // A polyline of N free waypoints between fixed ends,
 //
 //   start = p_0, p_1, …, p_N, p_{N+1} = goal,
@@ -55,6 +57,11 @@ TrajectoryProblem MakeTrajectoryProblem(
     const std::vector<ContactSpace>& contact_spaces,
     const SignedMetricOptions& metric = {},
     const BoundingBox& bounds = FreeSpace::NoBounds());
+
+// The same of a world: its obstacles as one contact space, which is built on
+// first use, its bounds and its D.  Throws what World::Spaces throws, too.
+TrajectoryProblem MakeTrajectoryProblem(const World& world,
+                                        const SignedMetricOptions& metric = {});
 
 // D of the problem, user's unit; > 0.
 double Diagonal(const TrajectoryProblem& problem);
