@@ -101,10 +101,8 @@ def test_ctrl_c_stops_a_search(tmp_path):
     try:
         assert process.stdout.readline() == "begin\n"
         time.sleep(1)
-        begin = time.monotonic()
         os.kill(process.pid, signal.SIGINT)
         out, _ = process.communicate(timeout=120)
     finally:
         process.kill()
     assert out == "stopped\n"
-    assert time.monotonic() - begin < 60

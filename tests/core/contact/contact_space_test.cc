@@ -276,7 +276,6 @@ constexpr double kQuarantineMib = testing::kKeepsFreedMemory ? 512.0 : 0.0;
 TEST(ContactSpace, RefusesWhatIsPredictedToExceedALimit) {
   const TriangleMesh a = MakeStar(0.5, 1.2), b = MakeTorus(2, 0.6, 24, 12);
   const PredictedCost cost = BuildContactSpace(a, b).report().predicted;
-  EXPECT_GT(cost.seconds, 0.0);
   ContactSpaceOptions options;
   options.max_seconds = 0.5 * cost.seconds;
   EXPECT_THROW(BuildContactSpace(a, b, options), InputError);

@@ -24,7 +24,6 @@
 #include "core/mesh/mesh_io.h"
 #include "core/mesh/mesh_scanner.h"
 #include "core/mesh/polygon_soup.h"
-#include "core/stopwatch.h"
 #include "tests/support/expect_refused.h"
 
 namespace {
@@ -63,11 +62,9 @@ void ExpectRefused(MeshFormat format, const std::string& bytes,
                    const std::string& part) {
   const std::size_t before = held;
   most = before;
-  const Stopwatch stopwatch;
   const std::string what = testing::ErrorOf(
       [&] { internal::ReadMeshBytes(format, bytes, "file"); }, "accepted");
   EXPECT_LT(most - before, kBase + 100 * bytes.size()) << what;
-  EXPECT_LT(stopwatch.Seconds(), 1.0) << what;
   EXPECT_EQ(what.rfind("file: ", 0), 0u) << what;
   EXPECT_NE(what.find(part), std::string::npos) << what << "\n" << part;
 }
@@ -310,8 +307,7 @@ std::string Refusal(const std::string& path, std::uintmax_t max_bytes) {
       [&] { ReadInputFile(path, "a mesh file", max_bytes); }, "accepted");
 }
 
-TEST(InputFile, RefusesWhatIsNoFileAtOnce) {
-  const Stopwatch stopwatch;
+TEST(InputFile, RefusesWhatIsNoFile) {
   EXPECT_EQ(Refusal("/dev/zero", 100),
             "/dev/zero: expected a mesh file, found a device; name a file");
   EXPECT_EQ(Refusal("/dev/null", 100),
@@ -320,17 +316,14 @@ TEST(InputFile, RefusesWhatIsNoFileAtOnce) {
             std::string::npos);
   EXPECT_NE(Refusal(TestPath("missing"), 100).find("found nothing"),
             std::string::npos);
-  EXPECT_LT(stopwatch.Seconds(), 0.5);
 }
 
 TEST(InputFile, RefusesAPipeThatNobodyWritesTo) {
   const std::string path = TestPath("pipe.off");
   ASSERT_EQ(mkfifo(path.c_str(), 0600), 0);
-  const Stopwatch stopwatch;
   EXPECT_NE(Refusal(path, 100).find("found a pipe that nobody writes to"),
             std::string::npos);
   EXPECT_THROW(ReadMesh(path), InputError);
-  EXPECT_LT(stopwatch.Seconds(), 5.0);
 }
 
 TEST(InputFile, ReadsAPipeToItsEndHoweverSlowItsWriter) {

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <ctime>
 #include <limits>
 #include <string>
 #include <utility>
@@ -110,21 +109,11 @@ TEST(ExamineMesh, SurvivesEmptyAndAllEqualInput) {
   EXPECT_EQ(report.self_intersections, 0u);
 }
 
-TEST(ExamineMesh, GrowsAboutAsItsTriangles) {
-  // Processor time, the least of three: 1,280 to 20,480 triangles are 16 times
-  // as many, 256 times as many pairs.
-  const auto least = [](int subdivisions) {
-    const TriangleMesh ball =
-        Rotated(MakeIcoBall(1, subdivisions), GenericRotation());
-    double best = std::numeric_limits<double>::infinity();
-    for (int i = 0; i < 3; ++i) {
-      const std::clock_t start = std::clock();
-      EXPECT_EQ(ExamineMesh(ball).self_intersections, 0u);
-      best = std::min(best, static_cast<double>(std::clock() - start));
-    }
-    return best;
-  };
-  EXPECT_LT(least(5), 100.0 * least(3));
+// Of 327,680 triangles there are 5e10 pairs: who looked at all of them would
+// not end within the minutes that a test may take.
+TEST(ExamineMesh, LooksAtFewOfAllPairs) {
+  const TriangleMesh ball = Rotated(MakeIcoBall(1, 7), GenericRotation());
+  EXPECT_EQ(ExamineMesh(ball).self_intersections, 0u);
 }
 
 TEST(MakeSolid, RefusesByNameAndCount) {

@@ -155,8 +155,8 @@ TEST_F(OmplPlanning, SolvesTheNarrowestPassages) {
     for (const PlannerId planner :
          {PlannerId::kRetractionRrt, PlannerId::kRetractionForest}) {
       const OmplPlanningResult result = Plan(passage, planner, {});
-      EXPECT_TRUE(result.solved && result.collision_free)
-          << ToString(planner) << delta;
+      EXPECT_TRUE(result.solved) << ToString(planner) << delta;
+      EXPECT_TRUE(result.collision_free) << ToString(planner) << delta;
       EXPECT_GT(result.clearance, passage.model->floor() * 0.5);
     }
   }
