@@ -2,7 +2,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <array>
 #include <random>
 #include <vector>
 
@@ -11,13 +10,6 @@
 // Random solids and points for tests and benchmarks.  Random engines are
 // passed in; same state, same result.
 namespace phongpd {
-
-// An axis-aligned box [min, max] with corners on the lattice of quarters:
-// coordinates are in quarters of a unit.
-struct LatticeBox {
-  std::array<int, 3> min;
-  std::array<int, 3> max;
-};
 
 // A set of unit cells of an n × n × n block, x fastest.
 struct Voxels {
@@ -37,22 +29,6 @@ Voxels RandomVoxels(int n, double fill, EdgeContact contact,
 // The surface of the cells as one mesh; needs kAvoided.  It may have several
 // components, tunnels and cavities.
 TriangleMesh VoxelSurface(const Voxels& voxels);
-
-// The cells as boxes of the lattice.
-std::vector<LatticeBox> LatticeBoxes(const Voxels& voxels);
-
-// Every box as a component of its own: they may overlap, and touch in faces,
-// edges and vertices.
-TriangleMesh BoxesMesh(const std::vector<LatticeBox>& boxes);
-
-// Volume of { b − a } over all points of two unions of boxes: the contact
-// space's by counting cells, in the unit cubed.
-double LatticeSumVolume(const std::vector<LatticeBox>& robot,
-                        const std::vector<LatticeBox>& obstacle);
-
-// VoxelSurface of RandomVoxels without edge contact: the worst case of
-// coplanarity.
-TriangleMesh RandomVoxelSolid(int n, double fill, std::mt19937_64* random);
 
 // Uniform in the box, widened by a tenth on every side.
 Eigen::Vector3d RandomPoint(const BoundingBox& box, std::mt19937_64* random);

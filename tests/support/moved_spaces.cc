@@ -14,6 +14,7 @@
 #include "core/bvh/triangle_bvh.h"
 #include "problems/shapes/random_solids.h"
 #include "problems/shapes/shapes.h"
+#include "tests/support/solid_tools.h"
 
 namespace phongpd::testing {
 

@@ -10,6 +10,7 @@
 #include "core/pi.h"
 #include "problems/shapes/random_solids.h"
 #include "problems/shapes/shapes.h"
+#include "tests/support/lattice_boxes.h"
 
 namespace phongpd {
 namespace {

@@ -36,6 +36,10 @@ TriangleMesh Cube(double side, const Vector3d& center) {
 
 TriangleMesh UnitBox() { return MakeBox({0, 0, 0}, {1, 1, 1}); }
 
+TriangleMesh RandomVoxelSolid(int n, double fill, std::mt19937_64* random) {
+  return VoxelSurface(RandomVoxels(n, fill, EdgeContact::kAvoided, random));
+}
+
 double PolygonArea(int sides, double radius) {
   return sides / 2.0 * std::sin(2 * kPi / sides) * radius * radius;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <random>
 
 #include "core/mesh/triangle_mesh.h"
 #include "problems/shapes/random_solids.h"
@@ -24,10 +25,13 @@ TriangleMesh UnitBox();
 // Area of a regular polygon by its circumradius.
 double PolygonArea(int sides, double radius = 1.0);
 
+// VoxelSurface of RandomVoxels without edge contact: the worst case of
+// coplanarity.
+TriangleMesh RandomVoxelSolid(int n, double fill, std::mt19937_64* random);
+
 // The generators, under the names tests know them by.
 using phongpd::RandomPoint;
 using phongpd::RandomRotation;
 using phongpd::RandomSurfacePoint;
-using phongpd::RandomVoxelSolid;
 
 }  // namespace phongpd::testing

@@ -14,6 +14,7 @@
 #include "problems/shapes/shapes.h"
 #include "tests/support/campaign.h"
 #include "tests/support/contact_space_check.h"
+#include "tests/support/lattice_boxes.h"
 #include "tests/support/random_pairs.h"
 #include "tests/support/solid_tools.h"
 

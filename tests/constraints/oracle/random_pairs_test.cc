@@ -10,6 +10,7 @@
 #include "problems/shapes/random_solids.h"
 #include "problems/shapes/shapes.h"
 #include "tests/support/contact_space_check.h"
+#include "tests/support/lattice_boxes.h"
 
 namespace phongpd {
 namespace {

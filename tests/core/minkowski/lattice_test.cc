@@ -13,6 +13,7 @@
 #include "core/minkowski/operands/grid_frame.h"
 #include "problems/shapes/random_solids.h"
 #include "problems/shapes/shapes.h"
+#include "tests/support/solid_tools.h"
 
 namespace phongpd::internal {
 namespace {
@@ -109,8 +110,8 @@ TriangleMesh Divided(TriangleMesh mesh, double divisor) {
 
 TEST(GridFrame, IsTheSameForDecimalsOfAnyScaleAndPlace) {
   std::mt19937_64 random(5);
-  const TriangleMesh a = RandomVoxelSolid(3, 0.5, &random);
-  const TriangleMesh b = RandomVoxelSolid(3, 0.5, &random);
+  const TriangleMesh a = testing::RandomVoxelSolid(3, 0.5, &random);
+  const TriangleMesh b = testing::RandomVoxelSolid(3, 0.5, &random);
   const GridFrame frame = PlaceOnGrid(a, b);
   EXPECT_EQ(frame.rounding, 0.0);
   EXPECT_FALSE(frame.is_turned);
@@ -135,8 +136,8 @@ TEST(GridFrame, IsTheSameForDecimalsOfAnyScaleAndPlace) {
 
 TEST(GridFrame, FindsALatticeThatWasMovedTurnedOrScaledByAnything) {
   std::mt19937_64 random(6);
-  const TriangleMesh a = RandomVoxelSolid(3, 0.5, &random);
-  const TriangleMesh b = RandomVoxelSolid(3, 0.5, &random);
+  const TriangleMesh a = testing::RandomVoxelSolid(3, 0.5, &random);
+  const TriangleMesh b = testing::RandomVoxelSolid(3, 0.5, &random);
   const GridFrame frame = PlaceOnGrid(a, b);
   const auto expect_same = [&](const TriangleMesh& robot,
                                const TriangleMesh& obstacle, double bound) {

@@ -13,6 +13,7 @@
 #include "core/minkowski/convolution/convolution.h"
 #include "core/minkowski/operands/grid_solid.h"
 #include "problems/shapes/random_solids.h"
+#include "tests/support/solid_tools.h"
 
 namespace phongpd::internal {
 namespace {
@@ -175,7 +176,7 @@ std::set<GridCorners> FacetsByBruteForce(const GridSolid& p,
 // edges of both operands are parallel in plenty.
 GridSolid MappedVoxels(const std::array<GridPoint, 3>& columns, bool reflect,
                        std::mt19937_64* random) {
-  TriangleMesh mesh = RandomVoxelSolid(2, 0.6, random);
+  TriangleMesh mesh = testing::RandomVoxelSolid(2, 0.6, random);
   std::vector<GridPoint> points;
   for (const Eigen::Vector3d& v : mesh.vertices) {
     GridPoint p = {0, 0, 0};
