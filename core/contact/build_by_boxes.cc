@@ -37,7 +37,7 @@ void WriteJoinedSurface(const std::vector<SurfacePiece>& boxes, bool outer_only,
     report.cells += box.cells;
     report.judged_cells += box.judged;
   }
-  SayCavities(joined.cavities, outer_only, &report);
+  ReportCavities(joined.cavities, outer_only, &report);
   WriteSurface(joined.surface, joined.sides, joined.groups, joined.points,
                frame, limits, clock, out);
 }

@@ -16,7 +16,7 @@
 #include "core/minkowski/build_limits.h"
 #include "core/minkowski/build_stop.h"
 #include "core/minkowski/cells/cells.h"
-#include "core/minkowski/cells/edge_rings.h"
+#include "core/minkowski/cells/radial_edges.h"
 #include "core/minkowski/cells/surface_assembly.h"
 #include "core/minkowski/convolution/convolution.h"
 #include "core/minkowski/operands/grid_pair.h"
@@ -48,10 +48,10 @@ class Builder {
   ContactSpace Build(const Operand& robot, const Operand& obstacle) {
     a_ = internal::PrepareOperand(robot, OperandRole::kRobot, options_,
                                   &report_);
-    limits_.Look("check");
+    limits_.CheckNow("check");
     b_ = internal::PrepareOperand(obstacle, OperandRole::kObstacle, options_,
                                   &report_);
-    limits_.Look("check");
+    limits_.CheckNow("check");
     clock_.Finish("check");
     Convolve();
     Sample();
@@ -67,20 +67,20 @@ class Builder {
   void Convolve() {
     pair_ = internal::PlaceOperands(
         *a_, *b_, internal::LatticeDivisor::kGreatest, &report_);
-    limits_.Look("grid");
+    limits_.CheckNow("grid");
     internal::DescribeGrid(pair_, &report_);
     convolution_ = internal::ReducedConvolution(
         pair_.obstacle, pair_.reflected_robot, &limits_);
     report_.convolution_triangles = convolution_.facets.size();
     clock_.Finish("convolution");
     groups_ = internal::GroupAndName(&convolution_);
-    limits_.Look("prediction");
+    limits_.CheckNow("prediction");
   }
 
   // Expects cuts, and leaves out what is occupied where that pays.
   void Sample() {
     index_ = std::make_unique<internal::FacetIndex>(convolution_);
-    limits_.Look("prediction");
+    limits_.CheckNow("prediction");
     sample_.triangles =
         a_->mesh().triangles.size() + b_->mesh().triangles.size();
     sample_.facets = convolution_.facets.size();
@@ -156,21 +156,22 @@ class Builder {
     report_.arrangement_faces = arrangement.faces.size();
     clock_.Finish("arrangement");
 
-    const internal::EdgeRings rings =
+    const internal::RadialEdges radial =
         internal::SortAroundEdges(convolution_, arrangement, points, &limits_);
-    limits_.Look("cells");
-    const internal::FreeCells cells = FindCells(arrangement, rings, points);
+    limits_.CheckNow("cells");
+    const internal::FreeCells cells = FindCells(arrangement, radial, points);
     report_.cells = static_cast<std::size_t>(cells.cells);
     report_.judged_cells = static_cast<std::size_t>(cells.judged);
-    internal::SayCavities(cells.cavities, options_.outer_shell_only, &report_);
+    internal::ReportCavities(cells.cavities, options_.outer_shell_only,
+                             &report_);
     clock_.Finish("cells");
 
-    limits_.Look("surface");
+    limits_.CheckNow("surface");
     const internal::PatchSurface patches = internal::AssembleSurface(
-        arrangement, groups_, rings, cells,
+        arrangement, groups_, radial, cells,
         {options_.merge_coplanar, options_.outer_shell_only, 1, &limits_},
         &points);
-    limits_.Look("surface");
+    limits_.CheckNow("surface");
     internal::WriteSurface(patches, convolution_, groups_, points, pair_.frame,
                            &limits_, &clock_, &out_);
   }
@@ -188,11 +189,11 @@ class Builder {
   }
 
   internal::FreeCells FindCells(const internal::Arrangement& arrangement,
-                                const internal::EdgeRings& rings,
+                                const internal::RadialEdges& radial,
                                 const internal::ExactPoints& points) {
     const internal::SolidCollision judge(pair_.obstacle, pair_.reflected_robot);
     try {
-      return internal::FindFreeCells(convolution_, arrangement, rings, points,
+      return internal::FindFreeCells(convolution_, arrangement, radial, points,
                                      judge, limits_);
     } catch (const internal::LeakError&) {
       if (pair_.IsRounded()) {

@@ -103,7 +103,7 @@ void DropOccupied(const OccupiedRegion& occupied, Convolution* convolution,
   *groups = std::move(kept);
 }
 
-void SayCavities(int cavities, bool outer_only, ContactSpaceReport* report) {
+void ReportCavities(int cavities, bool outer_only, ContactSpaceReport* report) {
   report->cavities = cavities;
   if (!outer_only) return;
   ApproximationStep step;
@@ -119,7 +119,7 @@ void WriteSurface(const PatchSurface& surface, const Convolution& sides,
   RoundSurface(TriangulatePatches(surface, sides, points, limits), frame, sides,
                groups, out);
   RemoveZeroEdges(out);
-  if (limits != nullptr) limits->Look("surface");
+  if (limits != nullptr) limits->CheckNow("surface");
   clock->Finish("surface");
   DescribeSurface(out->mesh, &out->report);
   out->report.peak_mib = PeakMib();

@@ -47,7 +47,7 @@ void DropOccupied(const OccupiedRegion& occupied, Convolution* convolution,
 
 // Bounded free cells, and that they were dropped if only the outer shell is
 // asked for.
-void SayCavities(int cavities, bool outer_only, ContactSpaceReport* report);
+void ReportCavities(int cavities, bool outer_only, ContactSpaceReport* report);
 
 // Triangulates the surface, rounds it into the user's frame and describes it.
 // What `sides` and `groups` are of need not be all facets that were arranged.

@@ -22,10 +22,10 @@ struct ConvolutionModel::Data {
     using internal::OperandRole;
     const Solid a =
         internal::PrepareOperand(robot, OperandRole::kRobot, options, operands);
-    limits.Look("check");
+    limits.CheckNow("check");
     const Solid b = internal::PrepareOperand(obstacle, OperandRole::kObstacle,
                                              options, operands);
-    limits.Look("check");
+    limits.CheckNow("check");
     return internal::PlaceOperands(a, b, internal::LatticeDivisor::kPowerOfTwo,
                                    operands);
   }
@@ -38,7 +38,7 @@ struct ConvolutionModel::Data {
         pair(MakePair(robot, obstacle, options, limits, &operands)),
         space(pair, [this] { return limits.max_mib(); }),
         bounds(space.Bounds()) {
-    limits.Look("convolution");
+    limits.CheckNow("convolution");
     report.grid_step = pair.frame.rounding;
     report.approximation = operands.approximation;
     report.warnings = operands.warnings;

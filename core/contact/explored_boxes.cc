@@ -146,7 +146,7 @@ const ExploredBoxes::Box& ExploredBoxes::Explore(
     int box, const std::vector<Vector3d>& points) {
   const auto known = explored_.find(box);
   if (known != explored_.end()) return known->second;
-  limits_->Look("exploration");
+  limits_->CheckNow("exploration");
   const GridWindow& window = partition_.window(box);
   Box added;
   added.patches = occupied_ ? WholeWalls(window) : partition_.Walls(box);

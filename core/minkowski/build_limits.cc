@@ -163,11 +163,11 @@ void BuildLimits::StopIfCancelled(const char* stage) const {
 void BuildLimits::Check(const char* stage) const {
   StopIfCancelled(stage);
   if (calls_.fetch_add(1, std::memory_order_relaxed) % kCallsPerLook == 0) {
-    Look(stage);
+    CheckNow(stage);
   }
 }
 
-void BuildLimits::Look(const char* stage) const {
+void BuildLimits::CheckNow(const char* stage) const {
   StopIfCancelled(stage);
   const double seconds = stopwatch_.Seconds();
   const BuildObserver tell = observer.load(std::memory_order_relaxed);

@@ -53,7 +53,7 @@ class BuildLimits {
   // facet.
   void Check(const char* stage) const;
   // The same, but looks at the clock each time: for what is done in one go.
-  void Look(const char* stage) const;
+  void CheckNow(const char* stage) const;
 
  private:
   void StopIfCancelled(const char* stage) const;

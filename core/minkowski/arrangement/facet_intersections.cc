@@ -7,13 +7,13 @@
 #include <numeric>
 #include <unordered_map>
 
-#include "core/minkowski/arrangement/facet_meeting.h"
+#include "core/minkowski/arrangement/facet_intersector.h"
 
 namespace phongpd::internal {
 namespace {
 
 // Facets handled between two passes that add points: bounds the memory held
-// by meetings that wait for their points.
+// by intersections that wait for their points.
 constexpr int kBlock = 8192;
 
 std::vector<BoundingBox> FacetBoxes(const Convolution& convolution) {
@@ -32,7 +32,7 @@ std::vector<BoundingBox> FacetBoxes(const Convolution& convolution) {
   return boxes;
 }
 
-// Turns meetings into segments of the planes, adding the points they need.
+// Turns intersections into segments of the planes, adding the points they need.
 class SegmentWriter {
  public:
   SegmentWriter(const PlaneGroups& groups, const FacetIntersector& intersector,
@@ -42,11 +42,11 @@ class SegmentWriter {
         points_(points),
         out_(out) {}
 
-  void Write(const Meeting& meeting) {
-    const int from = PointOf(meeting.low);
-    const int to = meeting.is_point ? from : PointOf(meeting.high);
-    const int g = groups_.of_facet[meeting.first];
-    const int h = groups_.of_facet[meeting.second];
+  void Write(const Intersection& intersection) {
+    const int from = PointOf(intersection.low);
+    const int to = intersection.is_point ? from : PointOf(intersection.high);
+    const int g = groups_.of_facet[intersection.first];
+    const int h = groups_.of_facet[intersection.second];
     const auto [low, high] = std::minmax(from, to);
     out_->segments[g].push_back({low, high, h});
     out_->segments[h].push_back({low, high, g});
@@ -76,11 +76,11 @@ bool Overlap(const Eigen::Vector3d& low, const Eigen::Vector3d& high,
          (high.array() >= box.min.array()).all();
 }
 
-// Calls visit(meeting) for every facet u > after that facet t meets.
+// Calls visit(intersection) for every facet u > after that facet t meets.
 template <typename Visit>
-void ForEachMeeting(const PlaneGroups& groups, const FacetIndex& index,
-                    const FacetIntersector& intersector, int t, int after,
-                    const Visit& visit) {
+void ForEachIntersection(const PlaneGroups& groups, const FacetIndex& index,
+                         const FacetIntersector& intersector, int t, int after,
+                         const Visit& visit) {
   const BoundingBox& box = index.boxes[t];
   index.tree.ForEach(
       [&](int node) {
@@ -89,11 +89,11 @@ void ForEachMeeting(const PlaneGroups& groups, const FacetIndex& index,
       },
       [&](int position) {
         const int u = index.tree.order()[position];
-        Meeting meeting;
+        Intersection intersection;
         if (u > after && groups.of_facet[u] != groups.of_facet[t] &&
             Overlap(index.boxes[u].min, index.boxes[u].max, box) &&
-            intersector.Intersect(t, u, &meeting)) {
-          visit(meeting);
+            intersector.Intersect(t, u, &intersection)) {
+          visit(intersection);
         }
         return true;
       });
@@ -172,13 +172,14 @@ ExpectedCuts ExpectCuts(const Convolution& convolution,
     const int t = i * stride;
     std::vector<FlatSegment> segments;
     const int axis = LargestAxis(convolution.facets[t].normal);
-    ForEachMeeting(groups, index, intersector, t, -1, [&](const Meeting& m) {
-      const Eigen::Vector3d low = intersector.Approximate(m.low);
-      const Eigen::Vector3d high = intersector.Approximate(m.high);
-      if (IsOccupied(occupied, low, high)) return;
-      ++found[i].meetings;
-      if (!m.is_point) segments.push_back(Flat(low, high, axis));
-    });
+    ForEachIntersection(
+        groups, index, intersector, t, -1, [&](const Intersection& m) {
+          const Eigen::Vector3d low = intersector.Approximate(m.low);
+          const Eigen::Vector3d high = intersector.Approximate(m.high);
+          if (IsOccupied(occupied, low, high)) return;
+          ++found[i].meetings;
+          if (!m.is_point) segments.push_back(Flat(low, high, axis));
+        });
     found[i].crossings = CountCrossings(segments);
   });
   ExpectedCuts sum;
@@ -211,8 +212,8 @@ FacetIntersections IntersectFacets(const Convolution& convolution,
   const FacetIntersector intersector(convolution, groups, out.point_ids);
   SegmentWriter writer(groups, intersector, points, &out);
   const int count = static_cast<int>(index.boxes.size());
-  std::vector<std::vector<Meeting>> meetings(std::min(count, kBlock));
-  const auto is_occupied = [&](const Meeting& m) {
+  std::vector<std::vector<Intersection>> intersections(std::min(count, kBlock));
+  const auto is_occupied = [&](const Intersection& m) {
     return IsOccupied(occupied, intersector.Approximate(m.low),
                       intersector.Approximate(m.high));
   };
@@ -220,15 +221,17 @@ FacetIntersections IntersectFacets(const Convolution& convolution,
     const int end = std::min(count, begin + kBlock);
     tbb::parallel_for(begin, end, [&](int t) {
       limits.Check("intersection");
-      std::vector<Meeting>& found = meetings[t - begin];
+      std::vector<Intersection>& found = intersections[t - begin];
       found.clear();
-      ForEachMeeting(groups, index, intersector, t, t, [&](const Meeting& m) {
-        if (!is_occupied(m)) found.push_back(m);
-      });
+      ForEachIntersection(groups, index, intersector, t, t,
+                          [&](const Intersection& m) {
+                            if (!is_occupied(m)) found.push_back(m);
+                          });
     });
     for (int t = begin; t < end; ++t) {
       limits.Check("intersection");
-      for (const Meeting& meeting : meetings[t - begin]) writer.Write(meeting);
+      for (const Intersection& intersection : intersections[t - begin])
+        writer.Write(intersection);
     }
   }
   tbb::parallel_for(std::size_t{0}, out.segments.size(), [&](std::size_t g) {

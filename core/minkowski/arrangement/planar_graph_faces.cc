@@ -10,6 +10,7 @@
 
 #include "core/mesh/union_find.h"
 #include "core/minkowski/arrangement/planar_graph.h"
+#include "core/pi.h"
 
 namespace phongpd::internal {
 namespace {
@@ -51,9 +52,9 @@ void PlanarGraph::SortOutgoing(Few* half_edges) const {
   }
   std::sort(order.begin(), order.end());
   bool clear =
-      order.front().first + 2 * M_PI - order.back().first > kDirectionGap &&
-      M_PI - order.back().first > kDirectionGap &&
-      order.front().first + M_PI > kDirectionGap;
+      order.front().first + 2 * kPi - order.back().first > kDirectionGap &&
+      kPi - order.back().first > kDirectionGap &&
+      order.front().first + kPi > kDirectionGap;
   for (std::size_t k = 0; k + 1 < order.size(); ++k) {
     clear = clear && order[k + 1].first - order[k].first > kDirectionGap;
   }

@@ -78,16 +78,16 @@ int SideAcrossGap(const FaceGeometry& geometry, UnionFind* sides,
 class CellSearch {
  public:
   CellSearch(const Convolution& convolution, const Arrangement& arrangement,
-             const EdgeRings& rings, const ExactPoints& points)
+             const RadialEdges& radial, const ExactPoints& points)
       : convolution_(convolution),
         faces_(arrangement.faces),
         face_count_(static_cast<int>(faces_.size())),
         geometry_(convolution, arrangement, points),
-        sides_(JoinSides(rings, faces_.size())),
+        sides_(JoinSides(radial, faces_.size())),
         parts_(faces_.size()) {
-    for (const EdgeRing& ring : rings.rings) {
-      for (int k = ring.begin + 1; k < ring.end; ++k) {
-        parts_.Join(rings.spokes[k - 1].face, rings.spokes[k].face);
+    for (const RadialEdge& edge : radial.edges) {
+      for (int k = edge.begin + 1; k < edge.end; ++k) {
+        parts_.Join(radial.spokes[k - 1].face, radial.spokes[k].face);
       }
     }
   }
@@ -227,10 +227,11 @@ class CellSearch {
 }  // namespace
 
 FreeCells FindFreeCells(const Convolution& convolution,
-                        const Arrangement& arrangement, const EdgeRings& rings,
-                        const ExactPoints& points, const SolidCollision& judge,
+                        const Arrangement& arrangement,
+                        const RadialEdges& radial, const ExactPoints& points,
+                        const SolidCollision& judge,
                         const BuildLimits& limits) {
-  return CellSearch(convolution, arrangement, rings, points)
+  return CellSearch(convolution, arrangement, radial, points)
       .FindCells([&](const auto& probe) {
         limits.Check("cells");
         return judge.Collide(probe());
@@ -239,9 +240,9 @@ FreeCells FindFreeCells(const Convolution& convolution,
 
 FreeCells FindCellsOfSurface(const Convolution& convolution,
                              const Arrangement& arrangement,
-                             const EdgeRings& rings,
+                             const RadialEdges& radial,
                              const ExactPoints& points) {
-  return CellSearch(convolution, arrangement, rings, points)
+  return CellSearch(convolution, arrangement, radial, points)
       .FindCells([](const auto&) { return false; });
 }
 

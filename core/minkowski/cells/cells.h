@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/minkowski/build_limits.h"
-#include "core/minkowski/cells/edge_rings.h"
+#include "core/minkowski/cells/radial_edges.h"
 #include "core/minkowski/operands/solid_collision.h"
 
 namespace phongpd::internal {
@@ -39,14 +39,15 @@ struct FreeCells {
 // Throws LeakError when it is not, InputError
 // when `limits` are passed.
 FreeCells FindFreeCells(const Convolution& convolution,
-                        const Arrangement& arrangement, const EdgeRings& rings,
-                        const ExactPoints& points, const SolidCollision& judge,
-                        const BuildLimits& limits);
+                        const Arrangement& arrangement,
+                        const RadialEdges& radial, const ExactPoints& points,
+                        const SolidCollision& judge, const BuildLimits& limits);
 
 // The same for the faces between free and occupied space alone: every cell of
 // + sides is free.
 FreeCells FindCellsOfSurface(const Convolution& convolution,
                              const Arrangement& arrangement,
-                             const EdgeRings& rings, const ExactPoints& points);
+                             const RadialEdges& radial,
+                             const ExactPoints& points);
 
 }  // namespace phongpd::internal

@@ -38,21 +38,21 @@ class Assembler {
         options_(options),
         points_(points) {}
 
-  PatchSurface Run(const EdgeRings& rings, const FreeCells& cells) {
+  PatchSurface Run(const RadialEdges& radial, const FreeCells& cells) {
     CollectEdges(cells);
-    Look();
-    PairEdges(rings);
+    CheckLimits();
+    PairEdges(radial);
     RequirePaired();
     NumberVertices();
-    Look();
+    CheckLimits();
     FormPatches();
-    Look();
+    CheckLimits();
     return Collect();
   }
 
  private:
-  void Look() const {
-    if (options_.limits != nullptr) options_.limits->Look("surface");
+  void CheckLimits() const {
+    if (options_.limits != nullptr) options_.limits->CheckNow("surface");
   }
 
   // Half-edges of all faces that separate free from occupied.
@@ -75,12 +75,12 @@ class Assembler {
     }
   }
 
-  // Across the occupied sectors of every ring.
-  void PairEdges(const EdgeRings& rings) {
-    for (const EdgeRing& ring : rings.rings) {
-      const int size = ring.end - ring.begin;
+  // Across the occupied sectors of every edge.
+  void PairEdges(const RadialEdges& radial) {
+    for (const RadialEdge& edge : radial.edges) {
+      const int size = edge.end - edge.begin;
       const auto spoke = [&](int k) -> const Spoke& {
-        return rings.spokes[ring.begin + k % size];
+        return radial.spokes[edge.begin + k % size];
       };
       for (int k = 0; k < size; ++k) {
         // A face that is free towards its predecessor opens an occupied
@@ -369,11 +369,11 @@ class Assembler {
 }  // namespace
 
 PatchSurface AssembleSurface(const Arrangement& arrangement,
-                             const PlaneGroups& groups, const EdgeRings& rings,
-                             const FreeCells& cells,
+                             const PlaneGroups& groups,
+                             const RadialEdges& radial, const FreeCells& cells,
                              const AssemblyOptions& options,
                              ExactPoints* points) {
-  return Assembler(arrangement, groups, options, points).Run(rings, cells);
+  return Assembler(arrangement, groups, options, points).Run(radial, cells);
 }
 
 }  // namespace phongpd::internal

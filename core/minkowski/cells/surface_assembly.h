@@ -47,8 +47,8 @@ struct AssemblyOptions {
 // the two ends of that edge, or an edge of one would be a diagonal of another's
 // patch: such edges get a mid-point of their own (added to `points`).
 PatchSurface AssembleSurface(const Arrangement& arrangement,
-                             const PlaneGroups& groups, const EdgeRings& rings,
-                             const FreeCells& cells,
+                             const PlaneGroups& groups,
+                             const RadialEdges& radial, const FreeCells& cells,
                              const AssemblyOptions& options,
                              ExactPoints* points);
 

@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "core/minkowski/cells/cells.h"
-#include "core/minkowski/cells/edge_rings.h"
+#include "core/minkowski/cells/radial_edges.h"
 
 namespace phongpd::internal {
 namespace {
@@ -335,9 +335,9 @@ JoinedSurface JoinPieces(const std::vector<SurfacePiece>& pieces,
     }
   }
   out.sides.points.push_back(far);
-  const EdgeRings rings = SortAroundEdges(out.sides, faces, out.points);
+  const RadialEdges radial = SortAroundEdges(out.sides, faces, out.points);
   const FreeCells cells =
-      FindCellsOfSurface(out.sides, faces, rings, out.points);
+      FindCellsOfSurface(out.sides, faces, radial, out.points);
   for (int f = 0; f < static_cast<int>(faces.faces.size()); ++f) {
     if (!cells.side_is_free[PlusSide(f)] || cells.side_is_free[MinusSide(f)]) {
       throw LeakError("contact space: pieces do not fit together");
@@ -345,7 +345,7 @@ JoinedSurface JoinPieces(const std::vector<SurfacePiece>& pieces,
   }
   out.cavities = cells.cavities;
   out.surface =
-      AssembleSurface(faces, out.groups, rings, cells, options, &out.points);
+      AssembleSurface(faces, out.groups, radial, cells, options, &out.points);
   return out;
 }
 

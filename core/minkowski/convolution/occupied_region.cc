@@ -45,7 +45,7 @@ struct OccupiedRegion::Builder {
   void Build(const BoundingBox& box, const std::vector<int>& facets,
              std::vector<Sample> samples, const Vector3d& seen, int depth,
              Node* node) const {
-    limits.Look("culling");
+    limits.CheckNow("culling");
     const Vector3d center = box.Center();
     const double radius = 0.5 * box.Diagonal() + balls.margin();
     const double moved = (center - seen).norm();

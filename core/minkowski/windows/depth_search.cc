@@ -168,6 +168,24 @@ GridDepth DepthSearch::Apart(const Vector3d& x) const {
   return depth;
 }
 
+namespace {
+
+// The shortest way out of a box that x is in, as a bound on the depth.
+void LeaveBox(const BoundingBox& box, const Vector3d& x, GridDepth* depth) {
+  depth->distance = std::numeric_limits<double>::infinity();
+  for (int k = 0; k < 3; ++k) {
+    for (const bool up : {false, true}) {
+      const double way = up ? box.max[k] - x[k] : x[k] - box.min[k];
+      if (way >= depth->distance) continue;
+      depth->distance = way;
+      depth->normal = (up ? 1.0 : -1.0) * Vector3d::Unit(k);
+      depth->point = x + way * depth->normal;
+    }
+  }
+}
+
+}  // namespace
+
 void DepthSearch::SearchWindows(const Vector3d& x, const SearchLimits& limits,
                                 GridDepth* depth) const {
   const Stopwatch stopwatch;
@@ -176,16 +194,7 @@ void DepthSearch::SearchWindows(const Vector3d& x, const SearchLimits& limits,
   build_limits.ObserveCancellation();
   // Beyond the box of all sums everything is free.
   const BoundingBox& all = sums_.bounds();
-  depth->distance = std::numeric_limits<double>::infinity();
-  for (int k = 0; k < 3; ++k) {
-    for (const bool up : {false, true}) {
-      const double way = up ? all.max[k] - x[k] : x[k] - all.min[k];
-      if (way >= depth->distance) continue;
-      depth->distance = way;
-      depth->normal = (up ? 1.0 : -1.0) * Vector3d::Unit(k);
-      depth->point = x + way * depth->normal;
-    }
-  }
+  LeaveBox(all, x, depth);
   WindowChooser chooser(sums_, x);
   std::size_t facets = kFirstFacets;
   bool is_found = false;

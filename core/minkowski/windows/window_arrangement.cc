@@ -43,7 +43,7 @@ WindowArrangement::WindowArrangement(const WindowConvolution& sums,
   if (patches.size() > kWholeWalls) CutAlongPatches(&intersections);
   arrangement =
       ArrangePlanes(convolution, groups, intersections, limits, &points);
-  rings = SortAroundEdges(convolution, arrangement, points);
+  radial = SortAroundEdges(convolution, arrangement, points);
 }
 
 // Patches of one wall lie in one plane, in which the borders between them
@@ -95,10 +95,10 @@ std::vector<char> WindowArrangement::FindInside() const {
   UnionFind parts(count);
   std::vector<char> inside(count, 0), known(count, 0);
   std::vector<std::pair<int, char>> told;
-  for (const EdgeRing& ring : rings.rings) {
-    const int size = ring.end - ring.begin;
+  for (const RadialEdge& edge : radial.edges) {
+    const int size = edge.end - edge.begin;
     const auto spoke = [&](int k) -> const Spoke& {
-      return rings.spokes[ring.begin + k % size];
+      return radial.spokes[edge.begin + k % size];
     };
     int wall = 0;
     while (wall < size && !IsWall(spoke(wall).face)) ++wall;
@@ -216,16 +216,16 @@ bool WindowArrangement::LiesInPlane(int face, const Vector3d& q) const {
 
 std::vector<int> WindowArrangement::WallsOfEdges() const {
   std::vector<int> walls(arrangement.half_edges.size(), 0);
-  for (const EdgeRing& ring : rings.rings) {
+  for (const RadialEdge& edge : radial.edges) {
     int bits = 0;
-    for (int k = ring.begin; k < ring.end; ++k) {
-      const int face = rings.spokes[k].face;
+    for (int k = edge.begin; k < edge.end; ++k) {
+      const int face = radial.spokes[k].face;
       if (!IsWall(face)) continue;
       bits |= 1 << LargestAxis(
                   convolution.facets[arrangement.faces[face].facet].normal);
     }
-    for (int k = ring.begin; bits != 0 && k < ring.end; ++k) {
-      walls[rings.spokes[k].half_edge] = bits;
+    for (int k = edge.begin; bits != 0 && k < edge.end; ++k) {
+      walls[radial.spokes[k].half_edge] = bits;
     }
   }
   return walls;

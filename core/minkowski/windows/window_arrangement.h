@@ -10,7 +10,7 @@
 #include "core/minkowski/arrangement/plane_arrangement.h"
 #include "core/minkowski/arrangement/plane_groups.h"
 #include "core/minkowski/build_limits.h"
-#include "core/minkowski/cells/edge_rings.h"
+#include "core/minkowski/cells/radial_edges.h"
 #include "core/minkowski/convolution/convolution.h"
 #include "core/minkowski/convolution/window_convolution.h"
 #include "core/minkowski/operands/exact_points.h"
@@ -61,7 +61,7 @@ struct WindowArrangement {
   PlaneGroups groups;
   ExactPoints points;
   Arrangement arrangement;
-  EdgeRings rings;
+  RadialEdges radial;
   FaceGeometry geometry{convolution, arrangement, points};
 
  private:

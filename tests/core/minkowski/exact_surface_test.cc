@@ -13,8 +13,8 @@
 #include "core/minkowski/arrangement/facet_intersections.h"
 #include "core/minkowski/arrangement/plane_arrangement.h"
 #include "core/minkowski/cells/cells.h"
-#include "core/minkowski/cells/edge_rings.h"
 #include "core/minkowski/cells/patch_triangulation.h"
+#include "core/minkowski/cells/radial_edges.h"
 #include "core/minkowski/cells/surface_assembly.h"
 #include "core/minkowski/convolution/convolution.h"
 #include "core/minkowski/operands/grid_frame.h"
@@ -62,13 +62,13 @@ struct Stages {
 // And those up to rounding.
 std::vector<Kernel::Triangle_3> BuildExactly(const SolidPair& pair) {
   Stages s(pair);
-  const internal::EdgeRings rings =
+  const internal::RadialEdges radial =
       internal::SortAroundEdges(s.convolution, s.arrangement, s.points);
   const internal::SolidCollision judge(s.p, s.q);
   const internal::FreeCells cells = internal::FindFreeCells(
-      s.convolution, s.arrangement, rings, s.points, judge, s.limits);
+      s.convolution, s.arrangement, radial, s.points, judge, s.limits);
   const internal::PatchSurface patches = internal::AssembleSurface(
-      s.arrangement, s.groups, rings, cells, {}, &s.points);
+      s.arrangement, s.groups, radial, cells, {}, &s.points);
   const internal::ExactSurface surface =
       internal::TriangulatePatches(patches, s.convolution, s.points);
 

@@ -18,9 +18,9 @@ inline int OppositeSide(int side) { return side ^ 1; }
 
 // The faces around one edge of the arrangement, counter-clockwise seen
 // against the direction low → high.
-struct EdgeRing {
+struct RadialEdge {
   int low = 0, high = 0;   // ExactPoints ids, low < high
-  int begin = 0, end = 0;  // into EdgeRings::spokes
+  int begin = 0, end = 0;  // into RadialEdges::spokes
 };
 struct Spoke {
   int half_edge = 0;
@@ -31,8 +31,8 @@ struct Spoke {
   int SideToNext() const { return forward ? PlusSide(face) : MinusSide(face); }
   int SideToPrevious() const { return OppositeSide(SideToNext()); }
 };
-struct EdgeRings {
-  std::vector<EdgeRing> rings;
+struct RadialEdges {
+  std::vector<RadialEdge> edges;
   std::vector<Spoke> spokes;
 };
 
@@ -40,14 +40,14 @@ struct EdgeRings {
 // order follows from the facet normals alone: in double where the angles are
 // clearly apart, else in exact integers.  Throws BuildRefusal when `limits`, if
 // there are any, are passed.
-EdgeRings SortAroundEdges(const Convolution& convolution,
-                          const Arrangement& arrangement,
-                          const ExactPoints& points,
-                          const BuildLimits* limits = nullptr);
+RadialEdges SortAroundEdges(const Convolution& convolution,
+                            const Arrangement& arrangement,
+                            const ExactPoints& points,
+                            const BuildLimits* limits = nullptr);
 
 // The 2·`faces` sides, joined where they face each other around an edge: sides
 // of one set look into one cell.  A cell whose boundary has several parts that
 // share no edge has a set for each.
-UnionFind JoinSides(const EdgeRings& rings, std::size_t faces);
+UnionFind JoinSides(const RadialEdges& radial, std::size_t faces);
 
 }  // namespace phongpd::internal

@@ -22,7 +22,7 @@ struct Crossing {
 };
 
 // Two facets and the segment they share, or one point (low = high).
-struct Meeting {
+struct Intersection {
   int first, second;
   Crossing low, high;
   bool is_point;
@@ -36,8 +36,9 @@ class FacetIntersector {
   FacetIntersector(const Convolution& convolution, const PlaneGroups& groups,
                    const std::vector<int>& point_ids);
 
-  // Do the facets t and u, of different planes, meet?  Sets *meeting if so.
-  bool Intersect(int t, int u, Meeting* meeting) const;
+  // Do the facets t and u, of different planes, meet?  Sets *intersection if
+  // so.
+  bool Intersect(int t, int u, Intersection* intersection) const;
 
   LocatedPoint LocateCrossing(const Crossing& c) const;  // of an edge
   Eigen::Vector3d Approximate(const Crossing& c) const {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/minkowski/cells/edge_rings.h"
+#include "core/minkowski/cells/radial_edges.h"
 
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_sort.h>
@@ -10,6 +10,7 @@
 #include <tuple>
 
 #include "core/minkowski/build_limits.h"
+#include "core/pi.h"
 
 namespace phongpd::internal {
 namespace {
@@ -22,15 +23,15 @@ constexpr double kRingGap = 1e-6;
 // are rounded.
 constexpr double kLongEdge = 1.0;
 
-class RingSorter {
+class SpokeSorter {
  public:
-  RingSorter(const Convolution& convolution, const Arrangement& arrangement,
-             const ExactPoints& points)
+  SpokeSorter(const Convolution& convolution, const Arrangement& arrangement,
+              const ExactPoints& points)
       : convolution_(convolution), arrangement_(arrangement), points_(points) {}
 
-  void Sort(const EdgeRing& ring, Spoke* begin, Spoke* end) const {
-    if (end - begin > 2 && !SortRounded(ring, begin, end)) {
-      SortExactly(ring, begin, end);
+  void Sort(const RadialEdge& edge, Spoke* begin, Spoke* end) const {
+    if (end - begin > 2 && !SortRounded(edge, begin, end)) {
+      SortExactly(edge, begin, end);
     }
   }
 
@@ -40,19 +41,19 @@ class RingSorter {
   }
 
   // +1 when low → high runs along `direction`, which is parallel to the edge.
-  int Orientation(const EdgeRing& ring, const Vector3d& direction) const {
-    const Vector3d edge =
-        points_.Approximate(ring.high) - points_.Approximate(ring.low);
-    if (edge.lpNorm<Eigen::Infinity>() > kLongEdge) {
-      return Sign(edge.dot(direction));
+  int Orientation(const RadialEdge& edge, const Vector3d& direction) const {
+    const Vector3d along =
+        points_.Approximate(edge.high) - points_.Approximate(edge.low);
+    if (along.lpNorm<Eigen::Infinity>() > kLongEdge) {
+      return Sign(along.dot(direction));
     }
     const int axis = LargestAxis(direction);
-    return CompareCoordinate(points_[ring.high], points_[ring.low], axis) *
+    return CompareCoordinate(points_[edge.high], points_[edge.low], axis) *
            Sign(direction[axis]);
   }
 
   // By angle in double; false when some angles are too close to call.
-  bool SortRounded(const EdgeRing& ring, Spoke* begin, Spoke* end) const {
+  bool SortRounded(const RadialEdge& edge, Spoke* begin, Spoke* end) const {
     const std::size_t count = static_cast<std::size_t>(end - begin);
     std::vector<Vector3d> normals;
     for (const Spoke* s = begin; s != end; ++s) {
@@ -67,7 +68,7 @@ class RingSorter {
     }
     const double sine = direction.norm();
     if (sine < 1e-4) return false;
-    direction *= Orientation(ring, direction) / sine;
+    direction *= Orientation(edge, direction) / sine;
 
     // A face whose half-edge runs low → high lies to the left of it: n × d.
     const auto inward = [&](std::size_t k) -> Vector3d {
@@ -80,13 +81,13 @@ class RingSorter {
     for (std::size_t k = 0; k < count; ++k) {
       const Vector3d u = inward(k);
       double angle = k == 0 ? 0.0 : std::atan2(u.dot(e2), u.dot(e1));
-      if (angle < 0) angle += 2 * M_PI;
+      if (angle < 0) angle += 2 * kPi;
       order.emplace_back(angle, begin[k]);
     }
     std::sort(order.begin(), order.end(),
               [](const auto& x, const auto& y) { return x.first < y.first; });
     for (std::size_t k = 0; k < count; ++k) {
-      const double next = k + 1 < count ? order[k + 1].first : 2 * M_PI;
+      const double next = k + 1 < count ? order[k + 1].first : 2 * kPi;
       if (next - order[k].first < kRingGap) return false;
     }
     for (std::size_t k = 0; k < count; ++k) begin[k] = order[k].second;
@@ -97,7 +98,7 @@ class RingSorter {
   // u_r to u_k have the signs of ±d·(n_r × n_k) and ±n_r·n_k, and
   // d ∥ n_i × n_j gives d·(n_r × n_k) ∝ (n_i·n_r)(n_j·n_k) −
   // (n_i·n_k)(n_j·n_r).
-  void SortExactly(const EdgeRing& ring, Spoke* begin, Spoke* end) const {
+  void SortExactly(const RadialEdge& edge, Spoke* begin, Spoke* end) const {
     const GridNormal& ni = Normal(*begin);
     const GridNormal* nj = nullptr;
     int turn = 0;  // of n_i × n_j against low → high
@@ -108,7 +109,7 @@ class RingSorter {
                                cross[2].convert_to<double>());
       if (direction.isZero(0.0)) continue;
       nj = &Normal(*s);
-      turn = Orientation(ring, direction);
+      turn = Orientation(edge, direction);
     }
     if (turn == 0) return;  // one plane only: two spokes in any order
     const auto sine = [&](const Spoke& r, const Spoke& k) {
@@ -147,10 +148,10 @@ class RingSorter {
 
 }  // namespace
 
-EdgeRings SortAroundEdges(const Convolution& convolution,
-                          const Arrangement& arrangement,
-                          const ExactPoints& points,
-                          const BuildLimits* limits) {
+RadialEdges SortAroundEdges(const Convolution& convolution,
+                            const Arrangement& arrangement,
+                            const ExactPoints& points,
+                            const BuildLimits* limits) {
   const auto check = [limits] {
     if (limits != nullptr) limits->Check("cells");
   };
@@ -171,35 +172,35 @@ EdgeRings SortAroundEdges(const Convolution& convolution,
                        return std::tie(x.low, x.high, x.spoke.half_edge) <
                               std::tie(y.low, y.high, y.spoke.half_edge);
                      });
-  EdgeRings out;
+  RadialEdges out;
   out.spokes.reserve(entries.size());
   for (const Entry& e : entries) {
     check();
     const int at = static_cast<int>(out.spokes.size());
-    if (out.rings.empty() || out.rings.back().low != e.low ||
-        out.rings.back().high != e.high) {
-      out.rings.push_back({e.low, e.high, at, at});
+    if (out.edges.empty() || out.edges.back().low != e.low ||
+        out.edges.back().high != e.high) {
+      out.edges.push_back({e.low, e.high, at, at});
     }
     out.spokes.push_back(e.spoke);
-    ++out.rings.back().end;
+    ++out.edges.back().end;
   }
-  const RingSorter sorter(convolution, arrangement, points);
-  tbb::parallel_for(std::size_t{0}, out.rings.size(), [&](std::size_t r) {
+  const SpokeSorter sorter(convolution, arrangement, points);
+  tbb::parallel_for(std::size_t{0}, out.edges.size(), [&](std::size_t r) {
     check();
-    const EdgeRing& ring = out.rings[r];
-    sorter.Sort(ring, out.spokes.data() + ring.begin,
-                out.spokes.data() + ring.end);
+    const RadialEdge& edge = out.edges[r];
+    sorter.Sort(edge, out.spokes.data() + edge.begin,
+                out.spokes.data() + edge.end);
   });
   return out;
 }
 
-UnionFind JoinSides(const EdgeRings& rings, std::size_t faces) {
+UnionFind JoinSides(const RadialEdges& radial, std::size_t faces) {
   UnionFind sides(2 * faces);
-  for (const EdgeRing& ring : rings.rings) {
-    for (int k = ring.begin; k < ring.end; ++k) {
-      const int next = k + 1 < ring.end ? k + 1 : ring.begin;
-      sides.Join(rings.spokes[k].SideToNext(),
-                 rings.spokes[next].SideToPrevious());
+  for (const RadialEdge& edge : radial.edges) {
+    for (int k = edge.begin; k < edge.end; ++k) {
+      const int next = k + 1 < edge.end ? k + 1 : edge.begin;
+      sides.Join(radial.spokes[k].SideToNext(),
+                 radial.spokes[next].SideToPrevious());
     }
   }
   return sides;

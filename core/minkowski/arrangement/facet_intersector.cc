@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/minkowski/arrangement/facet_meeting.h"
+#include "core/minkowski/arrangement/facet_intersector.h"
 
 #include <Eigen/Geometry>
 #include <cmath>
@@ -35,11 +35,12 @@ FacetIntersector::FacetIntersector(const Convolution& convolution,
   }
 }
 
-bool FacetIntersector::Intersect(int t, int u, Meeting* meeting) const {
+bool FacetIntersector::Intersect(int t, int u,
+                                 Intersection* intersection) const {
   if (IsBeside(t, u) || IsBeside(u, t)) return false;
-  meeting->first = t;
-  meeting->second = u;
-  meeting->is_point = false;
+  intersection->first = t;
+  intersection->second = u;
+  intersection->is_point = false;
   Crossing shared[3];
   int count = 0;
   for (const int a : Corners(t)) {
@@ -52,8 +53,8 @@ bool FacetIntersector::Intersect(int t, int u, Meeting* meeting) const {
   if (count >= 2) {
     // The common edge may be interior (cancelled) in either plane's group,
     // where nothing else would put it.
-    meeting->low = shared[0];
-    meeting->high = shared[1];
+    intersection->low = shared[0];
+    intersection->high = shared[1];
     return true;
   }
   const Sides of_u = SidesOf(u, t);
@@ -70,10 +71,10 @@ bool FacetIntersector::Intersect(int t, int u, Meeting* meeting) const {
   if (nb == 1) b[1] = b[0];
   if (Compare(a[0], a[1], axis) > 0) std::swap(a[0], a[1]);
   if (Compare(b[0], b[1], axis) > 0) std::swap(b[0], b[1]);
-  meeting->low = Compare(a[0], b[0], axis) >= 0 ? a[0] : b[0];
-  meeting->high = Compare(a[1], b[1], axis) <= 0 ? a[1] : b[1];
-  const int order = Compare(meeting->low, meeting->high, axis);
-  meeting->is_point = order == 0;
+  intersection->low = Compare(a[0], b[0], axis) >= 0 ? a[0] : b[0];
+  intersection->high = Compare(a[1], b[1], axis) <= 0 ? a[1] : b[1];
+  const int order = Compare(intersection->low, intersection->high, axis);
+  intersection->is_point = order == 0;
   return order <= 0;
 }
 
