@@ -73,6 +73,7 @@ forbid(examples "(tests|results)/")
 forbid(planners/world "planners/(exact|retraction|trajectory|ompl|solve)/")
 forbid(planners/exact "planners/(retraction|trajectory|ompl|solve)/")
 forbid(planners/retraction "planners/(trajectory|ompl|solve)/")
+forbid(planners/rigid "planners/(ompl|solve)/")
 forbid(planners/trajectory "planners/(retraction|ompl|solve)/")
 forbid(planners/ompl "planners/(trajectory|solve)/")
 

@@ -371,6 +371,4 @@ Eigen::Matrix3d SmoothedNormals::DerivativeAt(
   return 4.0 / impl.radius * sum;
 }
 
-double SmoothedNormals::radius() const { return impl_->radius; }
-
 }  // namespace phongpd

@@ -94,8 +94,6 @@ class SmoothedNormals {
   // where x is not finite.
   Eigen::Matrix3d DerivativeAt(const Eigen::Vector3d& x) const noexcept;
 
-  double radius() const;
-
  private:
   struct Impl;
   std::unique_ptr<Impl> impl_;

@@ -6,7 +6,7 @@
 #include "core/solid/mesh_check.h"
 
 // The steps of ExamineMesh, which MakeSolid takes one by one: the cheap ones
-// may refuse a mesh before the dear ones are asked.
+// may refuse a mesh before those that take long are asked.
 namespace phongpd::internal {
 
 // Of each vertex: does a triangle use it?  Requires valid indices.

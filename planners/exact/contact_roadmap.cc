@@ -119,10 +119,6 @@ ContactRoadmap::~ContactRoadmap() = default;
 ContactRoadmap::ContactRoadmap(ContactRoadmap&&) noexcept = default;
 ContactRoadmap& ContactRoadmap::operator=(ContactRoadmap&&) noexcept = default;
 
-const ContactSurfacePlanner& ContactRoadmap::planner() const {
-  return *impl_->planner;
-}
-
 RoadmapReport ContactRoadmap::report() const {
   const LiftedGraph::Counts& counts = impl_->graph.counts();
   RoadmapReport report;

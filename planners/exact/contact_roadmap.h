@@ -65,7 +65,6 @@ class ContactRoadmap {
   PlanResult Plan(const Eigen::Vector3d& start, const Eigen::Vector3d& goal,
                   const RoadmapRequest& request = {}) const;
 
-  const ContactSurfacePlanner& planner() const;
   RoadmapReport report() const;
 
  private:

@@ -17,7 +17,9 @@ namespace {
 
 using Eigen::Vector3d;
 
-// Directions without any relation to each other, to axes or to diagonals.
+// Directions without any relation to each other, to axes or to diagonals.  The
+// first one decides nearly always: the others are for pieces whose ray meets an
+// edge, and a dozen costs nothing where they are not asked.
 constexpr int kDirections = 12;
 Vector3d Direction(int k) {
   // Spherical Fibonacci points, turned so that none is special.
@@ -28,6 +30,9 @@ Vector3d Direction(int k) {
   return Eigen::AngleAxisd(1.1180339887, Vector3d(0.36, 0.48, 0.8)) * d;
 }
 
+// Triangles at a piece's extreme corner that a ray may begin on, roomiest
+// first, and the roomiest of all: of slivers around one corner more would fail
+// alike.
 constexpr int kTriesPerDirection = 4;
 
 }  // namespace

@@ -279,9 +279,6 @@ StartRepairResult StartRepair::Repair(const Path& path,
 }
 
 const FreeSpace& StartRepair::space() const { return impl_->space; }
-const ContactSurfacePlanner& StartRepair::planner() const {
-  return impl_->planner;
-}
 double StartRepair::diagonal() const { return impl_->diagonal; }
 
 }  // namespace phongpd

@@ -75,7 +75,6 @@ class StartRepair {
                            const StartRepairOptions& options = {}) const;
 
   const FreeSpace& space() const;
-  const ContactSurfacePlanner& planner() const;
   double diagonal() const;  // D of the contact space
 
  private:

@@ -34,7 +34,8 @@ bool IsFacing(const TriangleMesh& mesh, int triangle, const Vector3d& q) {
 }
 
 // Barycentric coordinates of places in a triangle which lie in different
-// directions from each of its corners.
+// directions from each of its corners: the middle, and two near every side, so
+// that what hides one sector of a corner leaves others.
 constexpr double kPlaces[][3] = {
     {0.4, 0.3, 0.3},   {0.05, 0.15, 0.8}, {0.05, 0.8, 0.15}, {0.15, 0.05, 0.8},
     {0.8, 0.05, 0.15}, {0.15, 0.8, 0.05}, {0.8, 0.15, 0.05}};

@@ -11,6 +11,7 @@
 #include <random>
 
 #include "constraints/oracle/collision_oracle.h"
+#include "core/pi.h"
 #include "planners/solve/fleet.h"
 #include "problems/shapes/shapes.h"
 #include "results/bench/free_space_measure.h"
@@ -40,7 +41,7 @@ Ends AcrossACircle(int robots, std::mt19937_64* random) {
   const double radius = RoomSize(robots) - 0.5;
   Ends ends;
   for (int i = 0; i < robots; ++i) {
-    const double angle = 2.0 * M_PI * (i + jitter(*random)) / robots;
+    const double angle = 2.0 * kPi * (i + jitter(*random)) / robots;
     const Vector3d at(radius * std::cos(angle), radius * std::sin(angle), 0.0);
     ends.emplace_back(at, -at);
   }

@@ -15,6 +15,7 @@
 
 #include "core/bvh/triangle_bvh.h"
 #include "core/mesh/mesh_error.h"
+#include "core/pi.h"
 #include "core/projection/euclidean_metric.h"
 #include "problems/shapes/shapes.h"
 
@@ -117,7 +118,7 @@ TEST(SignedMetric, DirectionPointsUphill) {
     }
     EXPECT_NEAR(d.gradient.dot(e.gradient), 1.0, 1e-6);
     const double cosine = d.gradient.dot(e.gradient) / e.gradient.norm();
-    degrees.push_back(std::acos(std::min(1.0, cosine)) * 180.0 / M_PI);
+    degrees.push_back(std::acos(std::min(1.0, cosine)) * 180.0 / kPi);
   }
   ASSERT_GT(degrees.size(), 400u);
   std::sort(degrees.begin(), degrees.end());
@@ -206,8 +207,7 @@ std::vector<MetricRow> BruteForceRows(const TriangleMesh& mesh,
   for (const MetricRow& row : all) {
     const bool is_new =
         std::all_of(kept.begin(), kept.end(), [&](const MetricRow& k) {
-          return k.gradient.dot(row.gradient) <
-                 std::cos(degrees * M_PI / 180.0);
+          return k.gradient.dot(row.gradient) < std::cos(degrees * kPi / 180.0);
         });
     const bool is_near = kept.empty() || row.value <= reach;
     if (is_new && is_near && static_cast<int>(kept.size()) < count) {
@@ -257,7 +257,7 @@ TEST(SignedMetric, RowsEqualTheScanOfAllTriangles) {
       extra += k > 0 ? 1 : 0;
       for (std::size_t j = 0; j < k; ++j) {
         EXPECT_LT(rows[k].gradient.dot(rows[j].gradient),
-                  std::cos(25.0 * M_PI / 180.0) + 1e-9);
+                  std::cos(25.0 * kPi / 180.0) + 1e-9);
       }
     }
   }

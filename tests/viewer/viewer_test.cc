@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/mesh/mesh_error.h"
+#include "core/pi.h"
 #include "problems/shapes/shapes.h"
 #include "tests/support/page_numbers.h"
 #include "viewer/display_mesh.h"
@@ -213,7 +214,7 @@ TEST(DisplayMesh, KeepsTheLimitAndTheShape) {
   for (const Vector3d& v : coarse.mesh.vertices) {
     EXPECT_NEAR(v.norm(), 1.0, std::sqrt(3.0) * coarse.cell);
   }
-  EXPECT_NEAR(SurfaceArea(coarse.mesh), 4 * M_PI, 0.1 * 4 * M_PI);
+  EXPECT_NEAR(SurfaceArea(coarse.mesh), 4 * kPi, 0.1 * 4 * kPi);
 }
 
 TEST(DisplayMesh, IsSaidInANote) {

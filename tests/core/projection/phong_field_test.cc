@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "core/mesh/numbers.h"
+#include "core/pi.h"
 #include "problems/shapes/shapes.h"
 #include "tests/support/expect_refused.h"
 
@@ -103,7 +104,7 @@ TEST(PhongField, NeedleTipGetsTheBestDirectionThereIs) {
   const TriangleMesh needle = MakeCone(0.05, 2.0, 40);
   const PhongField field =
       BuildPhongField(TakeAsContactSpace(needle), Ell(0.1));
-  const double apothem = 0.05 * std::cos(M_PI / 40.0);
+  const double apothem = 0.05 * std::cos(kPi / 40.0);
   EXPECT_NEAR(LeastDot(field, needle), apothem / std::hypot(apothem, 2.0),
               1e-9);
   EXPECT_EQ(field.report.inadmissible_vertices, 0u);

@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "core/mesh/mesh_error.h"
+#include "core/pi.h"
 #include "problems/shapes/shapes.h"
 #include "tests/support/path_problems.h"
 
@@ -77,7 +78,7 @@ TEST(StartRepair, GoesNearlyTheShortestWayAroundABall) {
   const Vector3d start(-2.0, 0.1, 0.05), goal = -start;
   const double distance = start.norm();
   const double tangent = std::sqrt(distance * distance - 1.0);
-  const double arc = M_PI - 2.0 * std::acos(1.0 / distance);
+  const double arc = kPi - 2.0 * std::acos(1.0 / distance);
   const StartRepairResult result = repair.Repair(start, goal);
   ASSERT_EQ(result.status, PathStatus::kRepaired);
   EXPECT_GE(PathLength(result.routes[0]), 0.995 * (2.0 * tangent + arc));

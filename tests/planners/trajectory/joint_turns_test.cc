@@ -6,6 +6,7 @@
 
 #include <cmath>
 
+#include "core/pi.h"
 #include "tests/support/curve_problems.h"
 
 namespace phongpd::internal {
@@ -28,7 +29,7 @@ TEST(TurnedMotions, KeepTheOrderAroundACircle) {
   constexpr double kRadius = 5.0, kLane = 2.0;
   for (const int up : {0, 1, 2}) {
     const auto at = [&](int i, double radius, double turn) {
-      const double angle = 2.0 * M_PI * i / kCount + turn;
+      const double angle = 2.0 * kPi * i / kCount + turn;
       Vector3d q = Vector3d::Zero();
       q[(up + 1) % 3] = radius * std::cos(angle);
       q[(up + 2) % 3] = radius * std::sin(angle);
@@ -49,7 +50,7 @@ TEST(TurnedMotions, KeepTheOrderAroundACircle) {
       EXPECT_EQ(motions[i].At(end).position, -q);
       // To the right of −q is q turned to the left.
       EXPECT_LT(
-          (motions[i].At(0.5 * end).position - at(i, kLane, 0.3 + 0.5 * M_PI))
+          (motions[i].At(0.5 * end).position - at(i, kLane, 0.3 + 0.5 * kPi))
               .norm(),
           1e-9);
       EXPECT_LE(BoundLimitUse(motions[i], robots[i].limits).SlowingNeeded(),
@@ -60,7 +61,7 @@ TEST(TurnedMotions, KeepTheOrderAroundACircle) {
         const Vector3d next =
             motions[(i + 1) % kCount].At(end * n / 1000).position;
         EXPECT_NEAR(next.norm(), p.norm(), 1e-9);
-        EXPECT_NEAR((next - p).norm(), 2.0 * std::sin(M_PI / kCount) * p.norm(),
+        EXPECT_NEAR((next - p).norm(), 2.0 * std::sin(kPi / kCount) * p.norm(),
                     1e-9);
         EXPECT_GE(p.norm(), 0.99 * kLane);
       }

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "core/mesh/mesh_io.h"
+#include "core/pi.h"
 #include "problems/shapes/shapes.h"
 #include "tests/problems/cli/cli_fixture.h"
 
@@ -143,7 +144,7 @@ TEST_F(CliSweep, TakesAnglesAndQuaternionsAlike) {
     EXPECT_NEAR(row["turn"].get<double>(), 45.0, 1e-12);
     EXPECT_GT(row["time"].get<double>(), 0.98);
     EXPECT_EQ(row["end"][2], 0.5);
-    EXPECT_NEAR(row["pose"][3].get<double>(), std::cos(M_PI / 8), 1e-2);
+    EXPECT_NEAR(row["pose"][3].get<double>(), std::cos(kPi / 8), 1e-2);
     EXPECT_EQ(row["obstacle"], "../near.off");
     EXPECT_LT(row["robot_triangle"].get<int>(), 12);
   }
