@@ -118,6 +118,8 @@ def blocks_of(document):
         before = line.strip()
     assert fence is None, f"{document}: a fence is not closed"
     for block in found:
+        if block.language.startswith("{"):  # of the pages: a picture, contents
+            block.is_run = False
         assert not block.is_run or block.file or block.language in RUN, (
             f"{block}: expected a language of {RUN}, found '{block.language}'; run "
             "it here, or say <!-- not run: why --> before it")
