@@ -5,17 +5,21 @@ doc_blocks.py run PROGRAMS DOCUMENT...  runs blocks as they stand: of the shell,
 of Python if PROGRAMS/python is there, and the program of the C++ ones.
 doc_blocks.py walk PROGRAMS DOCUMENT...  runs shell blocks alone, each document in
 a fresh folder where nothing is given, with an own cache and home, and prints its
-seconds; <!-- file: NAME --> before a block of any language writes that file.
+seconds by the clock and of processors; <!-- file: NAME --> before a block of any language writes that file, when its
+turn comes.  Files of README are complete, and a walk-through must have the same.
 
-Blocks are fenced as cpp, python or sh, or indented by four columns (shell).
-What cannot be run has <!-- not run: REASON --> before it.  What a reader has
-already (a path, two meshes, scene.json) comes from here; a comment "no answer" in or
+Blocks are fenced as cpp, python, sh, json or js, or indented by four columns
+(shell).  What cannot be run has <!-- not run: REASON --> before it.  What a reader has
+already (a path, meshes, scene.json) comes from here; a comment "no answer" in or
 above a command allows it exit code 1.  Shell blocks of one document are one
 session, README's in the root of the tree, the others' in a folder of their own, where
-fenced json is scene.json."""
+fenced json is scene.json, and js, JSON with comments, a scene to optimize, or members
+of one that stand in place of others of the scene before."""
+import json
 import os
 import pathlib
 import re
+import resource
 import shutil
 import subprocess
 import sys
@@ -53,6 +57,10 @@ PYTHON_CLIENT = """from dask.distributed import Client
 from phongpd import cluster
 client = Client(processes=False, dashboard_address=None)
 """
+RUN = ("cpp", "python", "sh", "json", "js")
+# What "robots" of a scene stand in place of.
+OF_ONE_ROBOT = ("robot", "start", "goal", "via")
+WALKS = ("docs/walk-cpp.md", "docs/walk-gantry.md", "docs/walk-research.md")
 SCENE = """{"robot": {"mesh": "robot.off"},
  "obstacles": [{"id": "wrench", "mesh": "obstacle.off"}],
  "start": [0.3, -1.2, 0.1], "goal": [0.3, 1.2, 0.1]}
@@ -109,7 +117,43 @@ def blocks_of(document):
             indented.lines.append("")
         before = line.strip()
     assert fence is None, f"{document}: a fence is not closed"
+    for block in found:
+        if block.language.startswith("{"):  # of the pages: a picture, contents
+            block.is_run = False
+        assert not block.is_run or block.file or block.language in RUN, (
+            f"{block}: expected a language of {RUN}, found '{block.language}'; run "
+            "it here, or say <!-- not run: why --> before it")
     return found
+
+
+def scenes_of(blocks):
+    """The js blocks as (block, whole scene)."""
+    scene = {}
+    for block in blocks:
+        if block.language != "js":
+            continue
+        text = re.sub(r"//.*", "", block.text).strip()
+        is_whole = text.startswith("{")
+        members = json.loads(text if is_whole else "{" + text + "}")
+        before = {} if is_whole else dict(scene)
+        for key in OF_ONE_ROBOT if "robots" in members else ():
+            before.pop(key, None)
+        yield block, {**before, **members}
+        if is_whole:
+            scene = members
+
+
+def require_walked():
+    """Files of README's are those of a walk-through, which builds and runs them."""
+    walked = {(b.file, b.text) for d in WALKS for b in blocks_of(d)}
+    for block in blocks_of("README.md"):
+        assert not block.file or (block.file, block.text) in walked, (
+            f"{block}: expected the same {block.file} in a docs/walk-*.md, found none")
+
+
+def is_part(block):
+    """Of the one C++ program; a file is a program by itself."""
+    return block.language == "cpp" and block.is_run and not block.file
 
 
 def cpp_program(blocks):
@@ -147,7 +191,17 @@ def commands_of(block):
 
 def shell_session(document, blocks):
     lines, count = ["set -o pipefail"], 0
+    whole = {block: scene for block, scene in scenes_of(blocks)}
     for block in blocks:
+        if block.file and document != "README.md":
+            lines += [f"cat >{block.file} <<'END'", *block.lines, "END"]
+            continue
+        if block in whole:
+            count += 1
+            name = f"scene-{block.line}"
+            lines += [f"cat >{name}.json <<'END'", json.dumps(whole[block]), "END",
+                      f"phongpd optimize {name}.json --output {name}.out.json || {{",
+                      f"  echo \"{block}: exit code $?\"; exit 1", "}"]
         if block.language == "json" and document != "README.md":
             lines += ["cat >scene.json <<'END'", *block.lines, "END"]
         if block.language != "sh":
@@ -189,7 +243,7 @@ def run_python(document, blocks, work, python, environment):
     """A document's blocks in one program; scripts with a main part alone."""
     groups, rest = [], []
     for block in blocks:
-        if block.language != "python":
+        if block.language != "python" or block.file:
             continue
         if "__main__" in block.text:
             groups.append([block])
@@ -207,6 +261,7 @@ def run_python(document, blocks, work, python, environment):
 
 
 def run_all(programs, documents):
+    require_walked()
     programs = pathlib.Path(programs).resolve()
     work = programs / "check" / "blocks"
     shutil.rmtree(work, ignore_errors=True)
@@ -219,12 +274,13 @@ def run_all(programs, documents):
     for name, source in (("wrench", "obstacle"), ("part", "obstacle"),
                          ("tool", "robot")):
         write_stl(data / f"{source}.off", data / f"{name}.stl")
+    shutil.copy(data / "obstacle.off", data / "wall.off")
+    shutil.copy(data / "robot.off", data / "gripper.off")
     (data / "scene.json").write_text(SCENE)
     blocks = {d: [b for b in blocks_of(d) if b.is_run] for d in documents}
     counts = {"cpp": 0, "python": 0, "commands": 0}
     run("a C++ block", [str(programs / "documented_cpp")], data, environment)
-    counts["cpp"] = sum(b.language == "cpp" for d in documents
-                        for b in blocks[d])
+    counts["cpp"] = sum(is_part(b) for d in documents for b in blocks[d])
     python = programs / "venv" / "bin" / "python"
     has_python = (programs / "python" / "phongpd").is_dir() and python.exists()
     for document in documents:
@@ -242,36 +298,44 @@ def run_all(programs, documents):
           + ("" if has_python else " (for want of build/venv)"))
 
 
+def processors():
+    """Seconds of all that has run and ended."""
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return used.ru_utime + used.ru_stime
+
+
 def walk(programs, document):
-    """One document from nothing; its commands, seconds."""
+    """One document from nothing; its commands, seconds, those of processors."""
     programs = pathlib.Path(programs).resolve()
     folder = programs / "check" / "walk" / pathlib.Path(document).stem
     shutil.rmtree(folder, ignore_errors=True)
     folder.mkdir(parents=True)
     blocks = [block for block in blocks_of(document) if block.is_run]
-    for block in blocks:
-        if block.file:
-            (folder / block.file).write_text(block.text)
     session, count = shell_session(document, blocks)
     assert count > 0, f"{document}: expected commands, found none"
-    environment = dict(os.environ, PATH=f"{programs}:{os.environ['PATH']}",
-                       PHONGPD_CACHE_DIR=str(folder / "cache"),
-                       HOME=str(folder))
-    begin = time.monotonic()
+    # Python with what it needs, where scripts/python.sh made one.
+    environment = dict(os.environ, HOME=str(folder), PATH=":".join(
+                           [str(programs), str(programs / "venv" / "bin"),
+                            os.environ["PATH"]]),
+                       PHONGPD=str(ROOT), PYTHONPATH=str(programs / "python"),
+                       PHONGPD_CACHE_DIR=str(folder / "cache"))
+    begin, before = time.monotonic(), processors()
     run(document, ["bash", "-c", session], folder, environment)
-    return count, time.monotonic() - begin
+    return count, time.monotonic() - begin, processors() - before
 
 
 def main(what, target, *documents):
     if what == "cpp":
         all_blocks = [b for d in documents for b in blocks_of(d)
-                      if b.language == "cpp" and b.is_run]
+                      if is_part(b)]
         pathlib.Path(target).write_text(cpp_program(all_blocks))
     elif what == "walk":
+        require_walked()
         for document in documents:
             name = document if document.endswith(".md") else document + ".md"
-            count, seconds = walk(target, name)
-            print(f"walk: {name}: {count} commands, {seconds:.1f} s")
+            count, clock, used = walk(target, name)
+            print(f"walk: {name}: {count} commands, {clock:.1f} s, {used:.1f} s of "
+                  "processors", flush=True)
     else:
         run_all(target, documents)
 

@@ -1,11 +1,13 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# install_times.sh [wheel [FILE] | core]: how long a first answer takes, into
+# install_times.sh [wheel [FILE] | core | walks]: how long a first answer takes, into
 # results/python/install.csv, a row a step with seconds of the clock and of processors,
 # which other work on the machine changes less, and the load before.
 #   wheel  from FILE, or the one in build/packages, to the first depth, in a fresh
 #          environment; NumPy comes from the index, nothing from pip's cache
 #   core   scripts/core.sh, from the clone to the archives
+#   walks  the walk-throughs of docs, each in a fresh Debian root
+#          (scripts/walkthroughs.sh --root), without what makes that root
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
@@ -56,12 +58,22 @@ time_core() {
     <<<"$said")
 }
 
+time_walks() {
+  local name clock used
+  scripts/walkthroughs.sh --root | tee "$work/walks.log"
+  while read -r name clock used; do
+    keep "walk $name" "$clock" "$used"
+  done < <(sed -nE 's!^walk: docs/walk-(.*)\.md: .* commands, (.*) s, (.*) s of .*!\1 \2 \3!p' \
+    "$work/walks.log")
+}
+
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 load=$(cut -d ' ' -f 1 /proc/loadavg)
 case ${1:-} in
   wheel) time_wheel "${2:-}" ;;
   core) time_core ;;
-  '') time_wheel; time_core ;;
-  *) fail "expected wheel, core or nothing, found $1" ;;
+  walks) time_walks ;;
+  '') time_wheel; time_core; time_walks ;;
+  *) fail "expected wheel, core, walks or nothing, found $1" ;;
 esac

@@ -77,8 +77,8 @@ NARROWEST = [narrowest(planner) for planner in sorted(OMPL)]
 THROUGH = [w for w in widths("0.005", OMPL) if w[1] != "0"]
 assert len(THROUGH) == 1 and all(w[1] == "0" for w in widths("0.001", OMPL))
 claim("docs/command-line.md", "go through channels of {:g} to {:g} of a world of size 2 in every "
-      "run; through one of 0.005 `{}` alone goes, in {} of {} runs, through 0.001 none; "
-      "retraction through {}, in every run", max(NARROWEST), min(NARROWEST),
+      "run. Through one of 0.005 `{}` alone goes, in {} of {} runs, through 0.001 none. "
+      "Retraction goes through {} in every run", max(NARROWEST), min(NARROWEST),
       *THROUGH[0],
       {f"{narrowest(p):.0e}".replace("e-0", "e-") for p in
        ("retraction-rrt phong", "retraction-forest phong")}.pop())

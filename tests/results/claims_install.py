@@ -20,4 +20,8 @@ def row(what, steps):
 
 
 CLAIMS = [row("an environment, NumPy and the wheel in it, a first depth", WHEEL),
-          row("the core, compiled", ("core",))]
+          row("the core, compiled", ("core",)),
+          row("all lines of [research](walk-research.md), run", ("walk research",)),
+          row("all lines of [a gantry](walk-gantry.md), run", ("walk gantry",)),
+          row("all lines of [from C++](walk-cpp.md), run, core and all",
+              ("walk cpp",))]

@@ -93,7 +93,7 @@ claim("docs/choosing.md", "Motions in time, on {} pairs of ends in {} scenes "
       "certified: Ruckig, at rest in each corner of the same path, takes {:.2g} times "
       "their time in the median. TOPP-RA's spline through the corners is free and in "
       "its limits, of which none is of jerk, in {}. Drake's optimiser from the same "
-      "path is in {}, with a margin of 0.01 D at its samples in {}, and there takes "
+      "path is in {}, with a margin of 0.01 D at its samples in {}. There it takes "
       "{:.3f} times PhongPD's time in the median, less than it in {}, more in {}.",
       PAIRS, len({r["scene"] for r in STOPS[0]}), statistics.median(STOPS[1]),
       len(beside("TOPP-RA")[1]), len(beside("Drake KTO, path")[1]), len(WIDE[1]),
@@ -116,11 +116,11 @@ ROOMS, MAZES = of_graphs("building"), of_graphs("maze50")
 assert ROOMS[0] == ROOMS[1] and MAZES[0] == MAZES[1]
 claim("docs/choosing.md", "Where free space is made of boxes and velocity alone is "
       "limited, Drake's graphs of convex sets take {:.3f} times PhongPD's time in the "
-      "median of {} buildings, {:.2f} to {:.2f}, less than it in {}, and {:.3f} times "
-      "on {} ways through a maze of 2,500 cells; {:.0f} and {:.0f} times the processor "
-      "time", statistics.median(ROOMS[2]), ROOMS[0], min(ROOMS[2]), max(ROOMS[2]),
-      sum(r < 0.999 for r in ROOMS[2]), statistics.median(MAZES[2]), MAZES[0],
-      ROOMS[3], MAZES[3])
+      "median of {} buildings ({:.2f} to {:.2f}), less than it in {}. On {} ways through a "
+      "maze of 2,500 cells they take {:.3f} times it. The processor time is {:.0f} and "
+      "{:.0f} times PhongPD's.", statistics.median(ROOMS[2]), ROOMS[0], min(ROOMS[2]),
+      max(ROOMS[2]), sum(r < 0.999 for r in ROOMS[2]), MAZES[0],
+      statistics.median(MAZES[2]), ROOMS[3], MAZES[3])
 
 # Motions that turn.
 JUDGES = table("rigid/judge.csv")
@@ -140,15 +140,17 @@ def of_proof(method):
 
 
 claim("docs/choosing.md", "Of {:,} motions between free poses in {} scenes {:,} collide; "
-      "it left {} undecided. FCL at OMPL's default of 1 % takes {:.2g} times its time and "
-      "calls {} of those that collide free, {} of them motions made to graze; at 0.1 % it "
-      "takes {:.2g} times its time and misses {}; FCL's continuous collision {:.2g} times, "
-      "and misses {:,} of {:,}", judged("certified", "motions"), len({r["scene"] for r in JUDGES}),
-      judged("certified", "colliding"), judged("certified", "undecided"),
-      of_proof("FCL at 1 %"), judged("FCL at 1 %", "misses"),
-      judged("FCL at 1 %", "misses", kind="grazing"), of_proof("FCL at 0.1 %"),
-      judged("FCL at 0.1 %", "misses"), of_proof("FCL continuous"),
-      judged("FCL continuous", "misses"), judged("FCL continuous", "colliding"))
+      "it left {} undecided.", judged("certified", "motions"),
+      len({r["scene"] for r in JUDGES}), judged("certified", "colliding"),
+      judged("certified", "undecided"))
+claim("docs/choosing.md", "| samples at 1 %, OMPL's default | {:.2g} | {}, of which {} "
+      "were made to graze |", of_proof("FCL at 1 %"), judged("FCL at 1 %", "misses"),
+      judged("FCL at 1 %", "misses", kind="grazing"))
+claim("docs/choosing.md", "| samples at 0.1 % | {:.2g} | {} |", of_proof("FCL at 0.1 %"),
+      judged("FCL at 0.1 %", "misses"))
+claim("docs/choosing.md", "| continuous collision | {:.2g} | {:,} of {:,} |",
+      of_proof("FCL continuous"), judged("FCL continuous", "misses"),
+      judged("FCL continuous", "colliding"))
 
 EASY_SCENES = ("window:4", "peg:1.5", "alpha:2.5")
 
@@ -169,10 +171,9 @@ def by_size(least, most):
             sum(int(r["colliding"]) for r in samples))
 
 
-claim("docs/choosing.md", "Up to 3,000 triangles, robot and world together, it takes "
-      "{:.2g} ms a motion in the median of scenes and kinds and {:.2g} at most, FCL at 1 % "
-      "{:.2g}, and misses {} of {}; of 3,000 to 30,000 it takes {:.2g} and {:.2g}, FCL "
-      "{:.2g}, and misses {} of {}", *by_size(0, 3_000), *by_size(3_000, 30_000))
+for SIZE, LEAST, MOST in (("up to 3,000", 0, 3_000), ("3,000 to 30,000", 3_000, 30_000)):
+    claim("docs/choosing.md", "| " + SIZE + " | {:.2g} | {:.2g} | {:.2g} | {} of {} |",
+          *by_size(LEAST, MOST))
 
 
 def planner(scene, name, key, **cells):
@@ -194,13 +195,12 @@ def proved(scene):
             float(planner(scene, "phongpd", "answer, median s")))
 
 
-claim("docs/choosing.md", "processor seconds to a first path, medians, ours and "
-      "RRTConnect's with proof, tuned, and to our whole answer: an easy window "
-      "{:.2g}, {:.2g} and {:.2g}; a loose peg {:.2g}, {:.2g} and {:.2g}; an alpha of gap "
-      "2.5 {:.2g}, {:.2g} and {:.2g}",
-      *(value for scene in EASY_SCENES for value in proved(scene)))
-claim("docs/choosing.md", "{} of {} runs in {} tight scenes within 20 s of the processor; "
-      "KPIECE1 with samples at 1 % {} of {}, {} of them wrong",
+for SCENE, NAME in zip(EASY_SCENES, ("an easy window", "a loose peg",
+                                    "an alpha of gap 2.5")):
+    claim("docs/choosing.md", "| " + NAME + " | {:.2g} | {:.2g} | {:.2g} |",
+          *proved(SCENE))
+claim("docs/choosing.md", "{} of {} runs in {} tight scenes within 20 s of the processor. "
+      "KPIECE1 with samples at 1 % finds one in {} of {}, {} of them wrong",
       tight("phongpd", "solved"), tight("phongpd", "runs"),
       len({r["scene"] for r in where("rigid/planners.csv", planner="phongpd")}
           - set(EASY_SCENES)),

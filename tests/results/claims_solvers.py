@@ -74,10 +74,10 @@ def medians(protocol, method, families):
 SHARED, ALONE, FEWER, P = duel("straight-adaptive", "phong@0.2/exact", E_PD)
 assert ALONE[0] == ALONE[1]
 claim("docs/choosing.md", "of {} runs from colliding starts either solved {} alone; fewer "
-      "iterations in {} against {}, p = {:.2g})", SHARED, ALONE[0], *FEWER, P)
+      "iterations in {} against {}, p = {:.2g}.", SHARED, ALONE[0], *FEWER, P)
 (MINE, THEIRS) = (ends("straight-adaptive", m) for m in (PHONG, E_PD))
 claim("docs/choosing.md", "{:,} published runs each, {} iterations a round and {} rounds at "
-      "most: from colliding starts with Ipopt's adaptive mu (the default) {} against {} "
+      "most. From colliding starts with Ipopt's adaptive mu (the default) {} against {} "
       "converge, {} against {} end in a stall stop, exactly free, and {} against {} "
       "exactly free at the cap.", MINE[3],
       said("planners/trajectory/ipopt_solve.h", r"max_iterations = (\d+);"),
@@ -120,8 +120,8 @@ ALL = [ends("repaired-adaptive", m) for m in (PHONG, E_PD)]
 claim("docs/limits.md", "With a monotone mu {} of {} runs converge there against Euclid's "
       "{}, the others are exactly free.", MONO[0][0], MONO[0][3], MONO[1][0])
 claim("docs/limits.md", "{} against {}; {} against {} end in a stall stop and {} against {} "
-      "at the cap, all exactly free (of all scenes {} against {} of {:,} converge, {} "
-      "against {} stall).",
+      "at the cap, all exactly free. Of all scenes {} against {} of {:,} converge, {} "
+      "against {} stall.",
       *(count for pair in zip(ADAPTIVE[0][:3], ADAPTIVE[1][:3]) for count in pair),
       ALL[0][0], ALL[1][0], ALL[0][3], ALL[0][1], ALL[1][1])
 FADED = {(p, m): ends("repaired-" + p, m, TUNNELS, like="faded@0.2")
@@ -148,8 +148,8 @@ claim("CHANGELOG.md", "Trajectories take {:.2g} of the time "
       "(`results/convergence/pipeline.md`)", TIME)
 PIPELINE = [ends("pipeline", metric) for metric in METRICS]
 assert all(e[0] == e[3] for e in PIPELINE)
-claim("docs/limits.md", "path for all {:,} published runs, {:,} with each of three metrics, "
-      "within 2 % of the best one known that keeps as clear in {:.0f} % of them",
+claim("docs/limits.md", "path for all {:,} published runs, {:,} with each of three metrics. "
+      "In {:.0f} % of them it is within 2 % of the best one known that keeps as clear",
       sum(e[3] for e in PIPELINE), PIPELINE[0][3],
       100 * total("convergence/summary.csv", "within_2_percent", protocol="pipeline")
       / sum(e[3] for e in PIPELINE))
