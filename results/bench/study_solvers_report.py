@@ -25,7 +25,7 @@ HYPOTHESES = tuple(
                          ("S3", "placebo@0.2"))
     for solver in SOLVERS) + tuple(
     ("S4", ("ipopt-3.14", metric), ("ipopt-3.11", metric)) for metric in METRICS)
-SECONDARY = tuple(("–", (solver, EXACT), (solver, "phong@0.2")) for solver in SOLVERS)
+SECONDARY = tuple(("", (solver, EXACT), (solver, "phong@0.2")) for solver in SOLVERS)
 
 
 def write_csv(folder, files):
@@ -146,21 +146,37 @@ def cell_name(cell, beside):
     return f"`{metric}`" if solver == beside[0] else f"`{solver}`"
 
 
-def hypotheses_table(found, is_corrected=True):
-    lines = ["| | | in | both, points (95 %) |"
-             + (" p, corrected | |" if is_corrected else ""),
-             "|---|---|---|---|" + ("---|---|" if is_corrected else "")]
+def where(one):
+    """The solver in which, or the metric with which, two are compared."""
+    a, b = one["a"], one["b"]
+    return a[0] if a[0] == b[0] else f"`{a[1]}`"
+
+
+def subject(one):
+    a, b = one["a"], one["b"]
+    return f"{cell_name(a, b)} against {cell_name(b, a)}"
+
+
+def points(one):
+    low, high = one["interval"]
+    return f"{percent(one['difference'])} ({percent(low)} … {percent(high)})"
+
+
+def hypotheses_table(found):
+    lines = ["| | in | both, points (95 %) | p, corrected | |",
+             "|---|---|---|---|---|"]
     for one in found:
-        a, b = one["a"], one["b"]
-        where = a[0] if a[0] == b[0] else f"`{a[1]}`"
-        low, high = one["interval"]
         word = one["verdict"]
         shown = f"**{word}**" if word in ("win", "loss") else word
-        lines.append(
-            f"| {one['name']} | {cell_name(a, b)} against {cell_name(b, a)} | {where} "
-            f"| {percent(one['difference'])} ({percent(low)} … {percent(high)}) |"
-            + (f" {one['corrected']:.3f} | {shown} |" if is_corrected else ""))
+        lines.append(f"| {one['name']}: {subject(one)} | {where(one)} | {points(one)} "
+                     f"| {one['corrected']:.3f} | {shown} |")
     return lines
+
+
+def secondary_table(found):
+    lines = ["| | in | both, points (95 %) |", "|---|---|---|"]
+    return lines + [f"| {subject(one)} | {where(one)} | {points(one)} |"
+                    for one in found]
 
 
 def study_rows(folder, problems):
@@ -214,10 +230,8 @@ def verdicts(found):
     for word in ("win", "loss"):
         for one in found:
             if one["verdict"] == word:
-                where = one["a"][0] if one["name"] != "S4" else one["a"][1]
-                told.append(f"- {word}: {one['name']}, "
-                            f"{cell_name(one['a'], one['b'])} against "
-                            f"{cell_name(one['b'], one['a'])} in {where}")
+                told.append(f"- {word}: {one['name']}, {subject(one)} in {where(one)}, "
+                            f"{points(one)} points")
     return told
 
 
@@ -257,7 +271,7 @@ def report(folder):
         "±3 points, else *open*.", "", *hypotheses_table(found), "",
         "## Beside them, without claims", "",
         "The slope of PhongPD's depth against its direction:", "",
-        *hypotheses_table(hypotheses(rows, SECONDARY), False), "",
+        *secondary_table(hypotheses(rows, SECONDARY)), "",
         "Ipopt here beside the study's published rows (straight-monotone) of the same "
         "problems;",
         "the study solves up to four rounds, with more samples where the path "
