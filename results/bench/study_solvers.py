@@ -59,7 +59,7 @@ def run_one(world, metric, solve):
     return {"says": bool(says), "free": free, "end": end,
             "objective": program.objective(v), "evaluations": program.evaluations,
             "least_gap": float(program.gaps(v).min()),
-            "late": time.monotonic() > program.end,
+            "late": program.is_late(),
             "seconds": time.process_time() - begin}
 
 

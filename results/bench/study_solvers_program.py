@@ -115,9 +115,9 @@ class Program:
     def __init__(self, rows, start, goal, unit, bounds=None, most=np.inf,
                  seconds=np.inf):
         """rows: of make_rows or their like.  most, seconds: row evaluations and
-        time, after which is_spent."""
+        time of the processor, after which is_spent."""
         self.rows, self.unit = rows, unit
-        self.most, self.end = most, time.monotonic() + seconds
+        self.most, self.end = most, time.process_time() + seconds
         self.evaluations = 0
         self.center = 0.5 * (np.asarray(start) + goal)
         self.start, self.goal = ((x - self.center) / unit for x in (start, goal))
@@ -154,7 +154,10 @@ class Program:
         return (np.reshape(v, (-1, 3)) * self.unit + self.center).ravel()
 
     def is_spent(self):
-        return self.evaluations >= self.most or time.monotonic() > self.end
+        return self.evaluations >= self.most or self.is_late()
+
+    def is_late(self):
+        return time.process_time() > self.end
 
     def _count(self, v):
         # Value and derivative at one point are one evaluation.
