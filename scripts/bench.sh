@@ -148,7 +148,7 @@ if [[ $suite == study-solvers || $suite == all ]]; then
   OPENBLAS_NUM_THREADS=1 PYTHONPATH=$PWD/build/python "$venv/bin/python" -B \
     results/bench/study_solvers.py "$rows/rows.jsonl" \
     --scenes "${study_scenes[@]}" --seed "$study_seed" \
-    --runs "${STUDY_SEEDS:-2}"
+    --runs "${STUDY_SEEDS:-1}"
   "$venv/bin/python" -B results/bench/study_solvers_report.py results/study \
     --rows "$rows/rows.jsonl" --how "Command: \`scripts/bench.sh study-solvers\`. \
 Commit: $(git rev-parse --short HEAD). $(<"$rows/measured.txt")"

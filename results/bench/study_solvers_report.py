@@ -248,8 +248,10 @@ def report(folder):
     text = [
         "# Which direction helps solvers of others", "",
         f"{len(problems)} problems: {len({row['scene'] for row in rows})} scenes of "
-        f"{len({row['family'] for row in rows})} families, seeds {seeds[0]} to "
-        f"{seeds[-1]}; {len(rows)} runs.",
+        f"{len({row['family'] for row in rows})} families, "
+        + (f"seeds {seeds[0]} to {seeds[-1]}" if len(seeds) > 1 else
+           f"seed {seeds[0]} alone, as no more was made yet")
+        + f"; {len(rows)} runs.",
         "The question, the solvers with their settings and where these are published, "
         "and what",
         "is compared were written down before: "
