@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
 # bench.sh [paper|queries|contact-space|lazy|convergence|pipeline|planning|
-# extremes|peers|trajectories|fleets|rigid|rigid-optimize|wrench|study|cluster|
-# python|trade|slice|all]:
+# extremes|peers|trajectories|fleets|rigid|rigid-optimize|wrench|study|
+# study-solvers|cluster|python|trade|slice|all]:
 # regenerates the tables and figures of results/.  continuity is a part of queries, retraction and
 # widths are parts of planning.  slice makes some published rows anew and compares
 # them (results/reproduction.md); it is no part of all.
@@ -15,12 +15,13 @@ suite=${1:-all}
 case $suite in
   paper | queries | contact-space | lazy | convergence | pipeline | planning | \
     extremes | peers | trajectories | fleets | rigid | rigid-optimize | \
-    wrench | study | cluster | python | \
+    wrench | study | study-solvers | cluster | python | \
     trade | continuity | retraction | widths | slice | all) ;;
   *)
     echo "bench: expected paper, queries, contact-space, lazy," \
       "convergence, pipeline, planning, extremes, peers, trajectories, fleets," \
-      "rigid, rigid-optimize, wrench, study, cluster, python, trade," \
+      "rigid, rigid-optimize, wrench, study, study-solvers, cluster, python," \
+      "trade," \
       "continuity, retraction, widths, slice" \
       "or all," \
       "found $suite" >&2
@@ -129,6 +130,28 @@ if [[ $suite == study || $suite == all ]]; then
 study\`. Commit: $(git rev-parse --short HEAD)."
   build/venv/bin/python -B results/bench/study_power.py results/study \
     --measure build/phongpd
+fi
+if [[ $suite == study-solvers || $suite == all ]]; then
+  # results/study/solvers_protocol.md.  cyipopt compiles itself against Debian's Ipopt.
+  scripts/setup.sh python3-dev python3-venv coinor-libipopt-dev pkg-config
+  scripts/python.sh
+  scripts/build.sh phongpd_python
+  . scripts/study_scenes.sh
+  venv=build/venv-study
+  [[ -x $venv/bin/python ]] || /usr/bin/python3 -m venv "$venv"
+  for peer in numpy scipy casadi cyipopt drake osqp; do
+    "$venv/bin/pip" install --quiet --disable-pip-version-check "$peer" ||
+      echo "bench: $peer cannot be installed" >&2
+  done
+  # As for trajectories: what was interrupted goes on where it was.
+  rows=build/study-solvers/$(git rev-parse HEAD)
+  OPENBLAS_NUM_THREADS=1 PYTHONPATH=$PWD/build/python "$venv/bin/python" -B \
+    results/bench/study_solvers.py "$rows/rows.jsonl" \
+    --scenes "${study_scenes[@]}" --seed "$study_seed" \
+    --runs "${STUDY_SEEDS:-1}"
+  "$venv/bin/python" -B results/bench/study_solvers_report.py results/study \
+    --rows "$rows/rows.jsonl" --how "Command: \`scripts/bench.sh study-solvers\`. \
+Commit: $(git rev-parse --short HEAD). $(<"$rows/measured.txt")"
 fi
 if [[ $suite == pipeline || $suite == all ]]; then
   scripts/build.sh phongpd
