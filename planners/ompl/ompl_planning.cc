@@ -202,6 +202,8 @@ OmplPlanningResult Plan(const MotionDomain& domain,
   result.seconds = stopwatch.Seconds();
   result.status = status.asString();
   result.solved = status == ob::PlannerStatus::EXACT_SOLUTION;
+  result.is_late = status == ob::PlannerStatus::TIMEOUT ||
+                   status == ob::PlannerStatus::APPROXIMATE_SOLUTION;
   result.collision_checks = static_cast<const ContactSpaceValidityChecker&>(
                                 *si->getStateValidityChecker())
                                 .checks();

@@ -43,6 +43,7 @@ struct OmplPlanningResult {
   bool solved = false;          // the planner's claim
   bool collision_free = false;  // CheckPath's judgement of the path
   std::string status;           // in the words of OMPL's PlannerStatus
+  bool is_late = false;         // not solved, or only nearly, when time was up
   std::vector<Eigen::Vector3d> path;
   double length = 0.0;  // user's unit
   // The path's smallest distance from contact, user's unit; 0 if not free.

@@ -32,9 +32,7 @@ ClearanceWish WishOf(const PlanRequest& request) {
 // nothing was stopped by its time.
 PathStatus StatusOf(const OmplPlanningResult& result) {
   if (result.solved) return PathStatus::kSolved;
-  const bool is_time =
-      result.status == "Timeout" || result.status == "Approximate solution";
-  return is_time ? PathStatus::kTimeLimit : PathStatus::kFailed;
+  return result.is_late ? PathStatus::kTimeLimit : PathStatus::kFailed;
 }
 
 ContactSurfaceOptions SurfaceOptions(const PlanRequest& request) {

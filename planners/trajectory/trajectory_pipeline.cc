@@ -26,15 +26,8 @@ constexpr double kWorthwhile = 2e-3;
 constexpr double kOtherValley = 1.1;
 
 // A path in hand and what is known of it.
-struct Candidate {
-  PathStatus status = PathStatus::kFailed;
-  std::string reason;
-  Path path;
-  double objective = 0.0;
-  double missing_clearance = 0.0;  // of a free path
-  int route = 0;
+struct Candidate : RouteResult {
   bool is_given_up = false;  // a better one is in hand
-  TrajectorySummary ipopt;
 
   bool IsFree() const { return HasFreePath(status); }
   bool KeepsClear() const { return missing_clearance <= kToleratedMissing; }
@@ -70,13 +63,7 @@ class Run {
           best_ = std::move(found);
         }
       }
-      result_.status = best_.status;
-      result_.reason = std::move(best_.reason);
-      result_.path = std::move(best_.path);
-      result_.objective = best_.objective;
-      result_.missing_clearance = best_.missing_clearance;
-      result_.route = best_.route;
-      result_.ipopt = std::move(best_.ipopt);
+      static_cast<RouteResult&>(result_) = std::move(best_);
     }
     result_.certificate = CheckPath(*problem_.free_space, result_.path);
     result_.seconds = stopwatch_.Seconds();

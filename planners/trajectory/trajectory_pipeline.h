@@ -66,21 +66,25 @@ struct StageRecord {
   double seconds = 0.0;
 };
 
-// No member is NaN or infinite.
-struct PipelineResult {
+// What one route came to.
+struct RouteResult {
   PathStatus status = PathStatus::kFailed;
   std::string reason;  // one sentence, if the status needs one
   Path path;           // N+2 points, start and goal included; empty: no path
-  // The exact judgement of `path`: free, or where it collides first.
-  PathCheck certificate;
   double objective = 0.0;  // energy of `path` (trajectory_problem.h)
   // MissingClearance of `path` if it is free (corridor.h), else 0.
   double missing_clearance = 0.0;
-  int route = 0;       // the route that `path` belongs to
+  int route = 0;            // the route that `path` belongs to
+  TrajectorySummary ipopt;  // no path if it did not run
+};
+
+// What the best route came to, and all stages.  No member is NaN or infinite.
+struct PipelineResult : RouteResult {
+  // The exact judgement of `path`: free, or where it collides first.
+  PathCheck certificate;
   int iterations = 0;  // of Ipopt, all stages
   int restoration_iterations = 0;
   StartRepairResult repair;  // empty for kStraight
-  TrajectorySummary ipopt;   // of the best route; no path if it did not run
   std::vector<StageRecord> stages;
   double seconds_callbacks = 0.0;  // in Ipopt's callbacks, but the corridor's
   double seconds = 0.0;            // wall time

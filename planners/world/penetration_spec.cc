@@ -37,15 +37,26 @@ Kind ParseKind(Kind first, Kind second, const std::string& text,
 // What may be said of it beside the length.
 bool HasField(MetricKind metric) { return metric == MetricKind::kPhong; }
 
+// "0.2", "0.5unit/exact".
+std::string LengthName(const PenetrationSpec& spec) {
+  std::string name = spec.smoothing_length.Text();
+  if (!HasField(spec.metric)) return name;
+  if (spec.field == FieldKind::kTangentPlane) name += kTangentPlaneSuffix;
+  if (spec.jacobian == JacobianKind::kExact) name += kExactSuffix;
+  return name;
+}
+
 }  // namespace
 
 std::string PenetrationSpec::Name() const {
   if (!HasLength(metric)) return ToString(metric);
-  std::string name = ToString(metric) + ("@" + smoothing_length.Text());
-  if (!HasField(metric)) return name;
-  if (field == FieldKind::kTangentPlane) name += kTangentPlaneSuffix;
-  if (jacobian == JacobianKind::kExact) name += kExactSuffix;
-  return name;
+  return ToString(metric) + ("@" + LengthName(*this));
+}
+
+std::string PenetrationSpec::Title() const {
+  if (metric == MetricKind::kEuclidean) return "Euclidean PD";
+  return metric == MetricKind::kPhong ? "PhongPD, ℓ = " + LengthName(*this)
+                                      : Name();
 }
 
 SignedMetricOptions PenetrationSpec::Options(double diagonal) const {

@@ -24,6 +24,8 @@ struct PenetrationSpec {
   // "phong@0/tangent-plane/exact", "smoothed@0.2", "smoothed-foot@0.2";
   // ParsePenetration reads back the same.
   std::string Name() const;
+  // For people: "Euclidean PD", "PhongPD, ℓ = 0.2"; else the name.
+  std::string Title() const;
 
   // In a world of diagonal D.  Throws InputError for an ℓ longer than D; for
   // smoothed metrics also for ℓ = 0 and for the exact Jacobian, which would be

@@ -90,7 +90,7 @@ ContactSpaceOptions OptionsOf(const ContactSpaceFlags& flags) {
 Json VerifySample(const ContactSpaceFlags& flags, const TriangleMesh& robot,
                   const TriangleMesh& obstacle, const ContactSpace& space) {
   const bool is_exact =
-      space.report().approximation.kind == "none" && flags.repair == "reject";
+      space.report().approximation.steps.empty() && flags.repair == "reject";
   if (!flags.verify || !is_exact || space.report().from_cache) return nullptr;
   Workspace solids;
   solids.robot = MakeSolid(robot, flags.robot);

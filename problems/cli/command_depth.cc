@@ -241,7 +241,7 @@ int AnswerDepth(const DepthFlags& flags) {
     const DepthResult result = query.At(pose);
     is_certified = is_certified && result.certified;
     if (!flags.html.empty()) {
-      view.answers.push_back(DepthAnswerOf(DepthAnswerRow(pose, result)));
+      view.answers.push_back(ViewAnswerOf(pose, result));
     }
     text.Add(pose, result);
   }

@@ -78,7 +78,7 @@ std::string VerifyDepths(const Workspace& solids, const StraightMotion& motion,
       const auto i = static_cast<std::size_t>(frame);
       PenetrationResult result = trace.results[i];
       // On its way a contact need not be where PD itself leaves the surface.
-      if (trace.status[i] == ToString(QueryStatus::kSliding)) {
+      if (trace.status[i] == QueryStatus::kSliding) {
         result.direction =
             contact.normals()[static_cast<std::size_t>(result.triangle)];
       }
@@ -139,7 +139,7 @@ std::string Summary(const MotionFlags& flags,
          << ", largest change " << FormatDouble(s.largest_change) << ", "
          << Counted(s.jumps, "jump") << " > " << Rounded(kJump * diagonal)
          << " (5 % of the diagonal), ";
-    if (trace.metric == "sliding") {
+    if (trace.is_sliding) {
       text << Counted(s.sliding, "frame") << " sliding, "
            << Counted(s.left_elsewhere, "exit") << " elsewhere\n";
     } else {
@@ -173,7 +173,9 @@ View MotionView(const ContactSpace& contact,
     view.motion.positions.push_back(motion.At(frame));
   }
   for (const MotionTrace& trace : traces) {
-    view.motion.traces.push_back({trace.label, trace.pd, trace.status});
+    std::vector<std::string> status;
+    for (const QueryStatus one : trace.status) status.push_back(ToString(one));
+    view.motion.traces.push_back({trace.label, trace.pd, status});
   }
   return view;
 }

@@ -13,6 +13,7 @@
 #include "problems/cli/optimize_flags.h"
 #include "problems/cli/optimize_request.h"
 #include "problems/cli/rigid_answer.h"
+#include "problems/cli/run_path.h"
 #include "problems/cli/seeded_runs.h"
 #include "problems/cli/serve_view.h"
 #include "problems/cli/timed_answer.h"
@@ -35,32 +36,51 @@ constexpr char kOptimizePresetHelp[] =
     "routes and the corridor always, 2.2 times the time, 0.31 %";
 
 // "why not", for people, and where the path crosses.
-std::string Explanation(const nlohmann::ordered_json& row) {
-  std::string text = row.at("reason").get<std::string>();
-  const auto& crossing = row.at("first_crossing");
-  if (!crossing.is_null()) {
-    text += (text.empty() ? "" : "; ") +
-            std::string("the path first collides in segment ") +
-            JsonText(crossing.at("segment")) + " at fraction " +
-            FormatDouble(NumberAt(crossing, "/fraction"));
-  }
-  return text;
+std::string Crossing(int segment, double fraction) {
+  return "the path first collides in segment " + std::to_string(segment) +
+         " at fraction " + FormatDouble(fraction);
 }
 
-RunSummary SummarizeTrajectory(const OptimizeFlags& flags,
-                               const nlohmann::ordered_json& row) {
-  const std::string metric = row.at("method").get<std::string>();
-  const std::string outcome = JsonText(row.at("seed")) + ": " +
-                              row.at("status_class").get<std::string>();
-  return {NamedPathOf(row),
-          row.at("status_class") == ToString(PathStatus::kClearanceMissed),
-          row.at("scene").get<std::string>() + ", " + metric + ", " +
-              flags.start + ", " + outcome + ", " +
-              JsonText(row.at("iterations")) + ", " +
-              Rounded(NumberAt(row, "/objective"), 5) + ", " +
-              Rounded(NumberAt(row, "/clearance"), 3) + ", " +
-              Rounded(NumberAt(row, "/seconds/total"), 3),
-          Explanation(row)};
+std::string Explanation(const std::string& reason,
+                        const std::string& crossing) {
+  return reason + (reason.empty() || crossing.empty() ? "" : "; ") + crossing;
+}
+
+RunSummary SummarizeTrajectory(const OptimizeFlags& flags, const Scene& scene,
+                               const OptimizeRequest& request,
+                               const PathAnswer& answer) {
+  const PipelineResult& result = *answer.pipeline;
+  const PathCheck& check = result.certificate;
+  return {
+      NamedPathOf(request, answer),
+      answer.status == PathStatus::kClearanceMissed,
+      RunLine(scene.name, MethodName(request, answer) + ", " + flags.start,
+              request.options.seed, ToString(answer.status),
+              {std::to_string(result.iterations), Rounded(result.objective, 5),
+               Rounded(answer.clearance, 3), Rounded(result.seconds, 3)}),
+      Explanation(answer.reason,
+                  check.free || check.segment < 0
+                      ? ""
+                      : Crossing(check.segment, check.motion.fraction))};
+}
+
+RunSummary SummarizeKeptTrajectory(const OptimizeFlags& flags,
+                                   const nlohmann::ordered_json& row) {
+  const std::string status = row.at("status_class").get<std::string>();
+  const auto& crossing = row.at("first_crossing");
+  return {NamedPathOf(row), status == ToString(PathStatus::kClearanceMissed),
+          RunLine(row.at("scene").get<std::string>(),
+                  row.at("method").get<std::string>() + ", " + flags.start,
+                  row.at("seed").get<std::uint64_t>(), status,
+                  {JsonText(row.at("iterations")),
+                   Rounded(NumberAt(row, "/objective"), 5),
+                   Rounded(NumberAt(row, "/clearance"), 3),
+                   Rounded(NumberAt(row, "/seconds/total"), 3)}),
+          Explanation(row.at("reason").get<std::string>(),
+                      crossing.is_null()
+                          ? ""
+                          : Crossing(crossing.at("segment").get<int>(),
+                                     NumberAt(crossing, "/fraction")))};
 }
 
 // What the model made of the run, on stderr.
@@ -166,7 +186,7 @@ class OptimizeRuns {
               "scene, metric, start, seed: status, iterations, objective, "
               "clearance (user's unit), seconds",
               [&flags](const auto& row) {
-                return SummarizeTrajectory(flags, row);
+                return SummarizeKeptTrajectory(flags, row);
               }),
         worlds_(UserCache(flags.no_cache), flags.limits),
         scene_(first) {}
@@ -220,7 +240,8 @@ class OptimizeRuns {
     if (answer.status == PathStatus::kVerificationFailed && refuted_.empty()) {
       refuted_ = scene_.name + ": " + answer.reason;
     }
-    runs_.Add(PolylineRow(scene_, world, request, answer),
+    runs_.Add(SummarizeTrajectory(flags_, scene_, request, answer),
+              PolylineRow(scene_, world, request, answer),
               runs_.ShowsBehind()
                   ? BehindTrajectory(world, request, answer, history)
                   : ViewBehind());

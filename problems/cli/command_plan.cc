@@ -11,9 +11,9 @@
 #include "problems/cli/explanation.h"
 #include "problems/cli/flags.h"
 #include "problems/cli/rigid_answer.h"
+#include "problems/cli/run_path.h"
 #include "problems/cli/seeded_runs.h"
 #include "problems/meshes/operand_notes.h"
-#include "problems/output/json_text.h"
 #include "problems/output/text.h"
 #include "problems/scenes/scene_requests.h"
 #include "problems/scenes/scene_source.h"
@@ -41,17 +41,27 @@ struct PlanFlags : SeededRunFlags {
   bool explain = false;
 };
 
-RunSummary SummarizePlan(const nlohmann::ordered_json& row) {
-  const std::string planner = row.at("planner").get<std::string>();
-  const std::string outcome =
-      JsonText(row.at("seed")) + ": " + row.at("status").get<std::string>();
-  return {NamedPathOf(row),
-          row.at("status") == ToString(PathStatus::kClearanceMissed),
-          row.at("scene").get<std::string>() + ", " + planner + ", " + outcome +
-              ", " + Rounded(NumberAt(row, "/seconds/solve")) + ", " +
-              std::to_string(row.at("path").size()) + ", " +
-              Rounded(NumberAt(row, "/path_length"), 4) + ", " +
-              Rounded(NumberAt(row, "/clearance")),
+RunSummary SummarizePlan(const Scene& scene, const PlanRequest& request,
+                         const PathAnswer& answer) {
+  return {NamedPathOf(request, answer),
+          answer.status == PathStatus::kClearanceMissed,
+          RunLine(scene.name, ToString(answer.plan->planner), request.seed,
+                  ToString(answer.status),
+                  {Rounded(answer.seconds), std::to_string(answer.path.size()),
+                   Rounded(answer.length, 4), Rounded(answer.clearance)}),
+          answer.reason};
+}
+
+RunSummary SummarizeKeptPlan(const nlohmann::ordered_json& row) {
+  const std::string status = row.at("status").get<std::string>();
+  return {NamedPathOf(row), status == ToString(PathStatus::kClearanceMissed),
+          RunLine(row.at("scene").get<std::string>(),
+                  row.at("planner").get<std::string>(),
+                  row.at("seed").get<std::uint64_t>(), status,
+                  {Rounded(NumberAt(row, "/seconds/solve")),
+                   std::to_string(row.at("path").size()),
+                   Rounded(NumberAt(row, "/path_length"), 4),
+                   Rounded(NumberAt(row, "/clearance"))}),
           row.at("reason").get<std::string>()};
 }
 
@@ -168,7 +178,7 @@ int AnswerPlan(const PlanFlags& flags) {
   SeededRuns runs(flags, source,
                   "scene, planner, seed: status, seconds (without contact "
                   "space), points, length, clearance (user's unit)",
-                  SummarizePlan);
+                  SummarizeKeptPlan);
   if (has_log) runs.outputs().Declare(flags.ompl_log);
   SilenceOmpl();
   const World world(scene.workspace, scene.name, UserCache(flags.no_cache),
@@ -195,6 +205,7 @@ int AnswerPlan(const PlanFlags& flags) {
     }
     explored = answer.evidence.surface;
     runs.Add(
+        SummarizePlan(scene, request, answer),
         PlanRow(scene, world, request, answer),
         runs.ShowsBehind() ? BehindPlan(world, request, answer) : ViewBehind());
   }

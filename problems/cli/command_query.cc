@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -37,10 +38,19 @@ struct QueryFlags {
   PenetrationTrackerOptions sliding;
 };
 
+constexpr char kSliding[] = "sliding";
+
+// What --metric names: one of those that rows of an optimiser follow, or, none,
+// the tracker.
+std::optional<MetricKind> MetricOf(const QueryFlags& flags) {
+  if (flags.metric == kSliding) return std::nullopt;
+  return ParseMetricKind(flags.metric, "--metric");
+}
+
 std::shared_ptr<const PenetrationMetric> MakeMetric(
-    const QueryFlags& flags, const ContactSpace& contact) {
+    const QueryFlags& flags, MetricKind kind, const ContactSpace& contact) {
   PenetrationSpec spec;
-  spec.metric = ParseMetricKind(flags.metric, "--metric");
+  spec.metric = kind;
   spec.field = ParseFieldKind(flags.field, "--field");
   if (HasLength(spec.metric)) {
     const std::string what = "--smoothing-length";
@@ -56,8 +66,9 @@ std::shared_ptr<const PenetrationMetric> MakeMetric(
 }
 
 // Refuses what would be ignored, or not what it says.
-void RequireSense(const CLI::App& app, const QueryFlags& flags) {
-  if (flags.metric == "sliding") {
+void RequireSense(const CLI::App& app, const QueryFlags& flags,
+                  std::optional<MetricKind> kind) {
+  if (!kind) {
     if (!flags.tracked) {
       throw InputError(
           "--metric sliding: expected --tracked, for its contact depends on "
@@ -70,32 +81,33 @@ void RequireSense(const CLI::App& app, const QueryFlags& flags) {
     if (app.count(flag) > 0) {
       throw InputError(std::string(flag) +
                        ": expected with --metric sliding, found with " +
-                       flags.metric);
+                       ToString(*kind));
     }
   }
 }
 
 struct Answers {
   std::vector<PenetrationResult> results;
-  std::vector<std::string> statuses;
+  std::vector<QueryStatus> statuses;
 };
 
 // Those of a sequence one after the other, all others on all cores.
-Answers Ask(const QueryFlags& flags, const ContactSpace& contact,
+Answers Ask(const QueryFlags& flags, std::optional<MetricKind> kind,
+            const ContactSpace& contact,
             const std::vector<Eigen::Vector3d>& points) {
   Answers answers;
   answers.statuses.reserve(points.size());
-  if (flags.metric == "sliding") {
+  if (!kind) {
     SlidingQuery query(contact, flags.sliding);
     for (const Eigen::Vector3d& q : points) {
       ProgressOf("points", answers.results.size(), points.size());
       const SlidingAnswer answer = query.Next(q);
       answers.results.push_back(answer.result);
-      answers.statuses.emplace_back(ToString(answer.status));
+      answers.statuses.push_back(answer.status);
     }
     return answers;
   }
-  const auto metric = MakeMetric(flags, contact);
+  const auto metric = MakeMetric(flags, *kind, contact);
   if (flags.tracked) {
     Branch branch;
     for (const Eigen::Vector3d& q : points) {
@@ -113,16 +125,15 @@ Answers Ask(const QueryFlags& flags, const ContactSpace& contact,
     }
   }
   for (const PenetrationResult& result : answers.results) {
-    answers.statuses.emplace_back(ToString(result.status));
+    answers.statuses.push_back(result.status);
   }
   return answers;
 }
 
 // Is that status an answer like any other?
-bool IsUsual(const std::string& status) {
-  return status == ToString(QueryStatus::kOk) ||
-         status == ToString(QueryStatus::kFollowing) ||
-         status == ToString(QueryStatus::kOutside);
+bool IsUsual(QueryStatus status) {
+  return status == QueryStatus::kOk || status == QueryStatus::kFollowing ||
+         status == QueryStatus::kOutside;
 }
 
 constexpr char kQueryHeader[] =
@@ -130,21 +141,21 @@ constexpr char kQueryHeader[] =
     "direction_x,direction_y,direction_z,gradient_x,gradient_y,gradient_z,"
     "triangle\n";
 
-std::string QueryRow(const Eigen::Vector3d& q, const std::string& status,
+std::string QueryRow(const Eigen::Vector3d& q, QueryStatus status,
                      const PenetrationResult& result, bool exact_gradient) {
-  return FormatPoint(q) + ',' + status + ',' + (result.inside ? "1," : "0,") +
-         FormatDouble(result.signed_distance) + ',' +
-         FormatPoint(result.contact) + ',' + FormatPoint(result.direction) +
-         ',' +
+  return FormatPoint(q) + ',' + ToString(status) + ',' +
+         (result.inside ? "1," : "0,") + FormatDouble(result.signed_distance) +
+         ',' + FormatPoint(result.contact) + ',' +
+         FormatPoint(result.direction) + ',' +
          FormatPoint(exact_gradient ? result.gradient : result.direction) +
          ',' + std::to_string(result.triangle) + '\n';
 }
 
 // The same as one line of JSON.
-std::string JsonRow(const Eigen::Vector3d& q, const std::string& status,
+std::string JsonRow(const Eigen::Vector3d& q, QueryStatus status,
                     const PenetrationResult& result, bool exact_gradient) {
   const Json row = {{"position", PointJson(q)},
-                    {"status", status},
+                    {"status", ToString(status)},
                     {"inside", result.inside},
                     {"signed_distance", result.signed_distance},
                     {"contact", PointJson(result.contact)},
@@ -156,7 +167,10 @@ std::string JsonRow(const Eigen::Vector3d& q, const std::string& status,
 }
 
 int Query(const CLI::App& app, const QueryFlags& flags) {
-  RequireSense(app, flags);
+  const std::optional<MetricKind> kind = MetricOf(flags);
+  const bool is_exact =
+      ParseJacobianKind(flags.jacobian, "--jacobian") == JacobianKind::kExact;
+  RequireSense(app, flags, kind);
   const bool is_json = FormOf(flags.output, flags.json) == AnswerForm::kJson;
   const std::string target = AnswerTarget(flags.output);
   OutputFiles outputs;
@@ -164,26 +178,25 @@ int Query(const CLI::App& app, const QueryFlags& flags) {
   const std::vector<Eigen::Vector3d> points = ReadPointsCsv(flags.points);
   const ContactSpace contact = LoadContactSpace(flags.contact_space);
   Progress("building the metric");
-  const Answers answers = Ask(flags, contact, points);
+  const Answers answers = Ask(flags, kind, contact, points);
 
   std::string text = is_json ? "" : kQueryHeader;
   std::size_t inside = 0;
   std::size_t unusual = 0;
   for (std::size_t i = 0; i < points.size(); ++i) {
     const PenetrationResult& result = answers.results[i];
-    const std::string& status = answers.statuses[i];
+    const QueryStatus status = answers.statuses[i];
     inside += result.inside ? 1 : 0;
     unusual += IsUsual(status) ? 0 : 1;
-    text += (is_json ? JsonRow : QueryRow)(points[i], status, result,
-                                           flags.jacobian == "exact");
+    text += (is_json ? JsonRow : QueryRow)(points[i], status, result, is_exact);
   }
   outputs.Write(target, text);
-  CommitAndTell(
-      &outputs,
-      (outputs.UseStandardOutput() ? "" : flags.output + ": ") +
-          Counted(points.size(), "point") + ", " + std::to_string(inside) +
-          " inside, " + std::to_string(unusual) + " with another status than " +
-          (flags.metric == "sliding" ? "following or outside" : "ok") + "\n");
+  CommitAndTell(&outputs,
+                (outputs.UseStandardOutput() ? "" : flags.output + ": ") +
+                    Counted(points.size(), "point") + ", " +
+                    std::to_string(inside) + " inside, " +
+                    std::to_string(unusual) + " with another status than " +
+                    (kind ? "ok" : "following or outside") + "\n");
   TellIfTaken(flags.contact_space);
   return kDone;
 }
@@ -191,7 +204,7 @@ int Query(const CLI::App& app, const QueryFlags& flags) {
 // Those that rows of an optimiser follow, and the tracker.
 std::vector<std::string> QueryMetrics() {
   std::vector<std::string> names = MetricNames();
-  names.emplace_back("sliding");
+  names.emplace_back(kSliding);
   return names;
 }
 

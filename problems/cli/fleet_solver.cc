@@ -41,8 +41,8 @@ class SeveralRobotsSolver : public SceneSolver {
   FleetJson Answer(const std::string& text,
                    const std::function<bool()>& is_cancelled) override {
     const SolveQuestion question = ReadQuestion(text, scope_);
-    FleetJson answer = {{"what", question.what}};
-    answer.update(question.what == "depth"
+    FleetJson answer = {{"what", ToString(question.what)}};
+    answer.update(question.what == QuestionKind::kDepth
                       ? AnswerDepth(question)
                       : AnswerOptimize(question, is_cancelled));
     return answer;

@@ -24,8 +24,9 @@ nlohmann::ordered_json ObstacleDepths::At(const RobotPose& pose) const {
   nlohmann::ordered_json rows = nlohmann::ordered_json::array();
   nlohmann::ordered_json answers = nlohmann::ordered_json::array();
   for (const auto& [name, query] : queries_) {
-    nlohmann::ordered_json row = DepthAnswerRow(pose, query.At(pose));
-    answers.push_back(AnswerEntry(DepthAnswerOf(row)));
+    const Depth depth = query.At(pose);
+    answers.push_back(AnswerEntry(ViewAnswerOf(pose, depth)));
+    nlohmann::ordered_json row = DepthAnswerRow(pose, depth);
     row["obstacle"] = name;
     rows.push_back(std::move(row));
   }

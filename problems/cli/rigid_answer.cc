@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "problems/cli/command.h"
+#include "problems/cli/run_path.h"
 #include "problems/output/text.h"
 #include "problems/studies/rigid_row.h"
 #include "viewer/rigid_view.h"
@@ -12,19 +13,26 @@
 namespace phongpd::cli {
 namespace {
 
-RunSummary Summarize(const nlohmann::ordered_json& row) {
-  const std::string status = row.at("status").get<std::string>();
-  const std::string planner = row.at("planner").get<std::string>();
-  const std::string seed = std::to_string(row.at("seed").get<std::uint64_t>());
-  RunSummary summary;
-  summary.path = NamedPathOf(row);
-  summary.line = row.at("scene").get<std::string>() + ", " + planner + ", " +
-                 seed + ": " + status + ", " +
-                 Rounded(NumberAt(row, "/seconds/solve")) + ", " +
-                 std::to_string(row.at("path").size()) + ", " +
-                 Rounded(NumberAt(row, "/path_length"), 4);
-  summary.why = row.at("reason").get<std::string>();
-  return summary;
+RunSummary Summarize(const TurningScene& scene, const RigidRequest& request,
+                     const RigidAnswer& answer) {
+  return {NamedPathOf(request, answer), false,
+          RunLine(scene.name, PlannerName(answer), request.seed,
+                  ToString(answer.status),
+                  {Rounded(answer.seconds), std::to_string(answer.path.size()),
+                   Rounded(answer.length, 4)}),
+          answer.reason};
+}
+
+RunSummary SummarizeKept(const nlohmann::ordered_json& row) {
+  return {NamedPathOf(row), false,
+          RunLine(row.at("scene").get<std::string>(),
+                  row.at("planner").get<std::string>(),
+                  row.at("seed").get<std::uint64_t>(),
+                  row.at("status").get<std::string>(),
+                  {Rounded(NumberAt(row, "/seconds/solve")),
+                   std::to_string(row.at("path").size()),
+                   Rounded(NumberAt(row, "/path_length"), 4)}),
+          row.at("reason").get<std::string>()};
 }
 
 // What steers others says nothing.
@@ -46,20 +54,20 @@ TurningScene SceneOf(const SeededRunFlags& flags, const SceneSource& source) {
   return scene;
 }
 
-// A run for each seed, by row_of(world, seed).
-template <typename RowOf>
+// A run for each seed, by ask(world, seed, &runs).
+template <typename Ask>
 int AnswerRuns(const SeededRunFlags& flags, const SceneSource& source,
-               const TurningScene& scene, const RowOf& row_of) {
+               const TurningScene& scene, const Ask& ask) {
   SeededRuns runs(flags, source,
                   "scene, planner, seed: status, seconds, poses, length (of "
                   "positions and, by the radius of gyration, of turns)",
-                  Summarize);
+                  SummarizeKept);
   for (const std::string& warning : scene.warnings) Warn(warning);
   const RigidWorld world = RigidWorldOf(scene);
   for (int i = runs.kept(); i < flags.runs; ++i) {
     Progress("run " + std::to_string(i + 1) + " of " +
              std::to_string(flags.runs));
-    runs.Add(row_of(world, flags.seed + static_cast<std::uint64_t>(i)));
+    ask(world, flags.seed + static_cast<std::uint64_t>(i), &runs);
   }
   runs.Write([&] { return TurningSceneView(scene); });
   return runs.Commit();
@@ -75,11 +83,14 @@ int AnswerRigidPlan(const SeededRunFlags& flags, const SceneSource& source) {
   const TurningScene scene = SceneOf(flags, source);
   RigidRequest request = RigidRequestOf(scene);
   request.Validate();
-  return AnswerRuns(flags, source, scene,
-                    [&](const RigidWorld& world, std::uint64_t seed) {
-                      request.seed = seed;
-                      return RigidRow(scene, request, Plan(world, request));
-                    });
+  return AnswerRuns(
+      flags, source, scene,
+      [&](const RigidWorld& world, std::uint64_t seed, SeededRuns* runs) {
+        request.seed = seed;
+        const RigidAnswer answer = Plan(world, request);
+        runs->Add(Summarize(scene, request, answer),
+                  RigidRow(scene, request, answer));
+      });
 }
 
 int AnswerRigidOptimize(const OptimizeFlags& flags, const SceneSource& source) {
@@ -102,9 +113,12 @@ int AnswerRigidOptimize(const OptimizeFlags& flags, const SceneSource& source) {
   request.start_noise = ParseDouble(flags.noise, "--start-noise");
   request.Validate();
   return AnswerRuns(
-      flags, source, scene, [&](const RigidWorld& world, std::uint64_t seed) {
+      flags, source, scene,
+      [&](const RigidWorld& world, std::uint64_t seed, SeededRuns* runs) {
         request.task.seed = seed;
-        return RigidOptimumRow(scene, request, Optimize(world, request));
+        const RigidOptimum found = Optimize(world, request);
+        runs->Add(Summarize(scene, request.task, found.answer),
+                  RigidOptimumRow(scene, request, found));
       });
 }
 

@@ -10,7 +10,7 @@
 #include "planners/solve/plan.h"
 #include "problems/cli/end_collision.h"
 #include "problems/cli/obstacle_depths.h"
-#include "problems/cli/seeded_runs.h"
+#include "problems/cli/run_path.h"
 #include "problems/cli/solve_question.h"
 #include "problems/scenes/scene_requests.h"
 #include "problems/studies/answer_row.h"
@@ -37,13 +37,17 @@ class OneRobotSolver : public SceneSolver {
                    const std::function<bool()>& is_cancelled) override {
     const SolveQuestion question = ReadQuestion(
         text, {TaskKind::kTranslates, ContactBounds(world_.workspace()), {}});
-    SolveJson answer = {{"what", question.what}};
-    if (question.what == "depth") {
-      answer.update(AnswerDepth(question));
-    } else if (question.what == "plan") {
-      answer.update(AnswerPlan(question));
-    } else {
-      answer.update(AnswerOptimize(question, is_cancelled));
+    SolveJson answer = {{"what", ToString(question.what)}};
+    switch (question.what) {
+      case QuestionKind::kPlan:
+        answer.update(AnswerPlan(question));
+        break;
+      case QuestionKind::kOptimize:
+        answer.update(AnswerOptimize(question, is_cancelled));
+        break;
+      case QuestionKind::kDepth:
+        answer.update(AnswerDepth(question));
+        break;
     }
     return answer;
   }
@@ -84,8 +88,8 @@ class OneRobotSolver : public SceneSolver {
     PlanRequest request = PlanRequestOf(asked);
     request.seed = question.Seed().value_or(request.seed);
     const PathAnswer found = Plan(world_, request);
-    const SolveJson row = PlanRow(asked, world_, request, found);
-    SolveJson answer = {{"row", row}, {"paths", {PathEntry(NamedPathOf(row))}}};
+    SolveJson answer = {{"row", PlanRow(asked, world_, request, found)},
+                        {"paths", {PathEntry(NamedPathOf(request, found))}}};
     SayCollision(question, found.status, &answer);
     return answer;
   }
@@ -103,14 +107,12 @@ class OneRobotSolver : public SceneSolver {
     request.options.time_limit = SearchSeconds(seconds_);
     request.is_interrupted = EndOf(seconds_, is_cancelled);
     const PathAnswer found = Optimize(world_, request);
-    const SolveJson row = request.limits
-                              ? MotionRow(asked, world_, request, found)
-                              : PolylineRow(asked, world_, request, found);
     SolveJson answer = {
-        {"row", row},
+        {"row", request.limits ? MotionRow(asked, world_, request, found)
+                               : PolylineRow(asked, world_, request, found)},
         {"paths",
          {PathEntry(request.limits ? PathInTime(world_, request, found)
-                                   : NamedPathOf(row))}}};
+                                   : NamedPathOf(request, found))}}};
     if (!request.moving.empty()) {
       answer["movers"] =
           MoverEntries(MoversOf(request.moving, found.motion.duration()));

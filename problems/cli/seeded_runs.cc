@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "problems/cli/seeded_runs.h"
 
-#include <algorithm>
 #include <iostream>
 #include <limits>
 #include <utility>
@@ -13,7 +12,6 @@
 #include "problems/output/json_text.h"
 #include "viewer/behind_json.h"
 #include "viewer/path_picture.h"
-#include "viewer/rigid_view.h"
 #include "viewer/view_page.h"
 
 namespace phongpd::cli {
@@ -78,70 +76,17 @@ double NumberAt(const nlohmann::ordered_json& row, const char* pointer) {
                          : value.get<double>();
 }
 
-std::vector<Eigen::Vector3d> PathOf(const nlohmann::ordered_json& row) {
-  std::vector<Eigen::Vector3d> path;
-  for (const auto& p : row.at("path")) {
-    path.emplace_back(p.at(0).get<double>(), p.at(1).get<double>(),
-                      p.at(2).get<double>());
-  }
-  return path;
-}
-
-namespace {
-
-// "PhongPD, ℓ = 0.2" of "phong@0.2", as pages have it.
-std::string Spoken(const std::string& method) {
-  const std::string phong = "phong@";
-  if (method == "euclidean") return "Euclidean PD";
-  if (method.rfind(phong, 0) != 0) return method;
-  return "PhongPD, ℓ = " + method.substr(phong.size());
-}
-
-}  // namespace
-
-namespace {
-
-// Of a robot that turns: seven numbers a pose.
-bool HasPoses(const nlohmann::ordered_json& row) {
-  const auto& path = row.at("path");
-  return !path.empty() && path.front().size() == 7;
-}
-
-std::vector<RobotPose> PosesOf(const nlohmann::ordered_json& row) {
-  std::vector<RobotPose> poses;
-  for (const auto& cells : row.at("path")) {
-    const auto x = cells.get<std::vector<double>>();
-    RobotPose pose;
-    pose.position = {x.at(0), x.at(1), x.at(2)};
-    pose.orientation = {x.at(3), x.at(4), x.at(5), x.at(6)};
-    CheckPose(pose, "path");
-    poses.push_back(pose);
-  }
-  return poses;
-}
-
-}  // namespace
-
-NamedPath NamedPathOf(const nlohmann::ordered_json& row) {
-  const bool is_plan = row.contains("planner");
-  std::string status =
-      row.at(is_plan ? "status" : "status_class").get<std::string>();
-  std::replace(status.begin(), status.end(), '_', ' ');
-  const std::string name =
-      row.at(is_plan ? "planner" : "method").get<std::string>();
-  // Of one metric from either start, which are paths of one page.
-  const bool is_straight = !is_plan && row.value("start", "") == "straight";
-  const std::string title =
-      Spoken(name) + " · seed " + JsonText(row.at("seed")) +
-      (is_straight ? " · straight start · " : " · ") + status;
-  const bool is_free =
-      row.at(is_plan ? "solved" : "collision_free").get<bool>();
-  if (HasPoses(row)) return RigidPath(title, PosesOf(row), is_free);
-  return {title, PathOf(row), is_free};
+std::string RunLine(const std::string& scene, const std::string& by,
+                    std::uint64_t seed, const std::string& status,
+                    const std::vector<std::string>& numbers) {
+  std::string line =
+      scene + ", " + by + ", " + std::to_string(seed) + ": " + status;
+  for (const std::string& number : numbers) line += ", " + number;
+  return line;
 }
 
 SeededRuns::SeededRuns(const SeededRunFlags& flags, const SceneSource& source,
-                       const std::string& header, Summarizer summarize)
+                       const std::string& header, KeptSummarizer summarize)
     : flags_(flags),
       target_(flags.output.empty() && flags.json ? kStandardOutput
                                                  : flags.output),
@@ -184,22 +129,22 @@ void SeededRuns::TakeUp(std::size_t i, std::uint64_t seed) {
                      ", found " + JsonText(row.at("seed")).substr(0, 40) +
                      "; remove the file");
   }
-  Tell(row);
+  Tell(summarize_(row));
   const std::string& aside = rows_->asides()[i];
   if (ShowsBehind() && !aside.empty()) {
     paths_.back().behind = BehindOf(nlohmann::ordered_json::parse(aside));
   }
 }
 
-void SeededRuns::Add(const nlohmann::ordered_json& row, ViewBehind behind) {
+void SeededRuns::Add(RunSummary run, const nlohmann::ordered_json& row,
+                     ViewBehind behind) {
   rows_->Append(JsonText(row),
                 ShowsBehind() ? JsonText(BehindJson(behind)) : "");
-  Tell(row);
+  Tell(std::move(run));
   paths_.back().behind = std::move(behind);
 }
 
-void SeededRuns::Tell(const nlohmann::ordered_json& row) {
-  RunSummary run = summarize_(row);
+void SeededRuns::Tell(RunSummary run) {
   are_all_answered_ =
       are_all_answered_ && run.path.is_free && !run.misses_clearance;
   paths_.push_back(std::move(run.path));

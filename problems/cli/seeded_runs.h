@@ -7,6 +7,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 #include "problems/output/output_files.h"
 #include "problems/output/row_file.h"
@@ -44,25 +45,25 @@ void AddPictures(CLI::App* app, SeededRunFlags* flags);
 void AddModel(CLI::App* app, const std::string& doing,
               const std::string& of_window, std::string* model);
 
-// What people see of a run; all of it comes from its row, so that a row kept
-// from an interrupted command tells the same.
+// What people see of a run, and whether it has an answer: of PathAnswer or
+// RigidAnswer.
 struct RunSummary {
   NamedPath path;                 // not free: no answer
   bool misses_clearance = false;  // which was required: none either
   std::string line;               // on standard output
   std::string why;  // the answer is not what it might be; or empty
 };
-using Summarizer = std::function<RunSummary(const nlohmann::ordered_json&)>;
+// The same of the row of a run that an interrupted command has left.
+using KeptSummarizer =
+    std::function<RunSummary(const nlohmann::ordered_json& row)>;
+
+// "u, contact-surface, 1: solved, 0.012, 5": the line of a run.
+std::string RunLine(const std::string& scene, const std::string& by,
+                    std::uint64_t seed, const std::string& status,
+                    const std::vector<std::string>& numbers);
 
 // The number at a JSON pointer; NaN for null, as JSON has it.
 double NumberAt(const nlohmann::ordered_json& row, const char* pointer);
-// The points of the row's "path".
-std::vector<Eigen::Vector3d> PathOf(const nlohmann::ordered_json& row);
-
-// The path of a row that optimize or plan wrote, named by its method or
-// planner, seed and status ("PhongPD, ℓ = 0.2 · seed 0 · solved"); free if the
-// row says so; with its turns, if the robot does.
-NamedPath NamedPathOf(const nlohmann::ordered_json& row);
 
 // A row of --output and a line for people for each run, and all paths in the
 // pictures.  Without --output, rows go to standard output with --json, nowhere
@@ -73,7 +74,7 @@ class SeededRuns {
   // Declares the outputs; `header` is the line above those of the runs, and
   // `flags` must outlive this.  Throws InputError naming a file.
   SeededRuns(const SeededRunFlags& flags, const SceneSource& source,
-             const std::string& header, Summarizer summarize);
+             const std::string& header, KeptSummarizer summarize);
 
   // For outputs of the command's own, until Commit.
   OutputFiles& outputs() { return outputs_; }
@@ -86,7 +87,8 @@ class SeededRuns {
   bool ShowsBehind() const { return !flags_.html.empty() && flags_.runs == 1; }
 
   // Notes a run that is over, with what its page shows behind it.
-  void Add(const nlohmann::ordered_json& row, ViewBehind behind = {});
+  void Add(RunSummary run, const nlohmann::ordered_json& row,
+           ViewBehind behind = {});
 
   // Writes the rows, and the pictures of the view with the paths of all runs;
   // without pictures nobody asks for it.
@@ -96,14 +98,14 @@ class SeededRuns {
   int Commit();
 
  private:
-  void Tell(const nlohmann::ordered_json& row);
+  void Tell(RunSummary run);
   // Kept row i.
   void TakeUp(std::size_t i, std::uint64_t seed);
 
   const SeededRunFlags& flags_;
   std::string target_;  // of the rows; empty: none
   std::string header_;  // until it is printed
-  Summarizer summarize_;
+  KeptSummarizer summarize_;
   OutputFiles outputs_;
   std::unique_ptr<RowFile> rows_;
   int kept_ = 0;

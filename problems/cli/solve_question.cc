@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <iterator>
 #include <set>
 #include <utility>
 
@@ -28,6 +29,22 @@ AskedJson Numbers(int count) {
           {"maxItems", count}};
 }
 
+constexpr QuestionKind kKinds[] = {QuestionKind::kPlan, QuestionKind::kOptimize,
+                                   QuestionKind::kDepth};
+
+AskedJson KindNames() {
+  AskedJson names = AskedJson::array();
+  for (const QuestionKind kind : kKinds) names.push_back(ToString(kind));
+  return names;
+}
+
+// Of a name that the schema has let through.
+QuestionKind KindOf(const AskedJson& name) {
+  return *std::find_if(
+      std::begin(kKinds), std::end(kKinds),
+      [&name](QuestionKind kind) { return name == ToString(kind); });
+}
+
 AskedJson OptionsSchema() {
   return {{"type", "object"},
           {"additionalProperties", false},
@@ -41,9 +58,8 @@ AskedJson OptionsSchema() {
 
 AskedJson QuestionSchema(const QuestionScope& scope) {
   const AskedJson point = Numbers(3), turn = Numbers(4);
-  AskedJson keys = {{"what", {{"enum", {"plan", "optimize", "depth"}}}},
-                    {"start", point},
-                    {"goal", point}};
+  AskedJson keys = {
+      {"what", {{"enum", KindNames()}}}, {"start", point}, {"goal", point}};
   if (scope.kind == TaskKind::kTurns) {
     keys["start_turn"] = keys["goal_turn"] = turn;
   }
@@ -85,9 +101,8 @@ AskedKeys KeysOf(TaskKind kind, bool is_depth) {
   return keys;
 }
 
-void RequireKeys(const AskedJson& json, TaskKind kind) {
-  const std::string what = json.at("what").get<std::string>();
-  const AskedKeys keys = KeysOf(kind, what == "depth");
+void RequireKeys(const AskedJson& json, QuestionKind what, TaskKind kind) {
+  const AskedKeys keys = KeysOf(kind, what == QuestionKind::kDepth);
   for (const std::string& key : keys.needed) {
     if (json.contains(key)) continue;
     RefuseQuestion("/" + key,
@@ -101,19 +116,19 @@ void RequireKeys(const AskedJson& json, TaskKind kind) {
         keys.allowed.count(key) > 0) {
       continue;
     }
-    RefuseQuestion("/" + key, "none of " + what, Shortened(value));
+    RefuseQuestion("/" + key, std::string("none of ") + ToString(what),
+                   Shortened(value));
   }
 }
 
 // Who is asked for it with that option?
-bool TakesOption(const std::string& option, const std::string& what,
-                 TaskKind kind) {
-  if (what == "depth") return false;
+bool TakesOption(const std::string& option, QuestionKind what, TaskKind kind) {
+  if (what == QuestionKind::kDepth) return false;
   if (option == "planner") {
-    return what == "plan" && kind == TaskKind::kTranslates;
+    return what == QuestionKind::kPlan && kind == TaskKind::kTranslates;
   }
   if (option == "metric") {
-    return what == "optimize" && kind == TaskKind::kTranslates;
+    return what == QuestionKind::kOptimize && kind == TaskKind::kTranslates;
   }
   return option == "seed" || kind != TaskKind::kTurns;
 }
@@ -122,7 +137,7 @@ void RequireOptions(const SolveQuestion& question, TaskKind kind) {
   for (const auto& [key, value] : question.options.items()) {
     if (TakesOption(key, question.what, kind)) continue;
     RefuseQuestion("/options/" + key,
-                   "none of " + question.what +
+                   std::string("none of ") + ToString(question.what) +
                        (kind == TaskKind::kTurns    ? " of a robot that turns"
                         : kind == TaskKind::kRobots ? " of several robots"
                                                     : ""),
@@ -181,6 +196,18 @@ std::vector<SolveQuestion::Robot> RobotsAt(const AskedJson& json,
 
 }  // namespace
 
+const char* ToString(QuestionKind kind) {
+  switch (kind) {
+    case QuestionKind::kPlan:
+      return "plan";
+    case QuestionKind::kOptimize:
+      return "optimize";
+    case QuestionKind::kDepth:
+      return "depth";
+  }
+  return "";
+}
+
 std::optional<std::uint64_t> SolveQuestion::Seed() const {
   if (!options.contains("seed")) return std::nullopt;
   return options.at("seed").get<std::uint64_t>();
@@ -195,9 +222,9 @@ SolveQuestion ReadQuestion(const std::string& text,
                            const QuestionScope& scope) {
   const AskedJson json = ParseJson(text, kQuestion);
   RequireSchema(json, QuestionSchema(scope), kQuestion);
-  RequireKeys(json, scope.kind);
   SolveQuestion question;
-  question.what = json.at("what").get<std::string>();
+  question.what = KindOf(json.at("what"));
+  RequireKeys(json, question.what, scope.kind);
   question.options = json.value("options", AskedJson::object());
   RequireOptions(question, scope.kind);
   question.start = PoseAt(json, "start", scope.room);

@@ -22,6 +22,10 @@ enum class TaskKind {
   kRobots,      // several that translate
 };
 
+enum class QuestionKind { kPlan, kOptimize, kDepth };
+
+const char* ToString(QuestionKind kind);  // "plan", "optimize", "depth"
+
 // One question, of a scene of its kind:
 //   what     "plan", "optimize" or "depth"; of several robots no "plan"
 //   start    [x, y, z], where the robot begins, or how deep it is there; the
@@ -43,7 +47,7 @@ struct SolveQuestion {
     Eigen::Vector3d goal = Eigen::Vector3d::Zero();
   };
 
-  std::string what;
+  QuestionKind what = QuestionKind::kPlan;
   RobotPose start, goal;
   std::vector<Robot> robots;
   std::size_t robot = 0;  // of the depth for several

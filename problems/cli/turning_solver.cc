@@ -5,8 +5,8 @@
 
 #include "core/solid/solid.h"
 #include "problems/cli/obstacle_depths.h"
+#include "problems/cli/run_path.h"
 #include "problems/cli/scene_solver.h"
-#include "problems/cli/seeded_runs.h"
 #include "problems/cli/solve_question.h"
 #include "problems/studies/rigid_row.h"
 #include "viewer/rigid_view.h"
@@ -39,8 +39,8 @@ class OneTurningSolver : public SceneSolver {
                      const std::function<bool()>& is_cancelled) override {
     const SolveQuestion question =
         ReadQuestion(text, {TaskKind::kTurns, RoomOf(scene_), {}});
-    TurningJson answer = {{"what", question.what}};
-    if (question.what == "depth") {
+    TurningJson answer = {{"what", ToString(question.what)}};
+    if (question.what == QuestionKind::kDepth) {
       if (depths_.empty()) depths_ = Depths();
       answer.update(depths_.At(question.start));
       return answer;
@@ -50,22 +50,25 @@ class OneTurningSolver : public SceneSolver {
     request.goal = question.goal;
     request.seed = question.Seed().value_or(request.seed);
     request.is_interrupted = is_cancelled;
-    const TurningJson row =
-        question.what == "plan" ? PlanRowOf(request) : OptimumRowOf(request);
-    answer["row"] = row;
-    answer["paths"] = {PathEntry(NamedPathOf(row))};
+    answer.update(question.what == QuestionKind::kPlan
+                      ? AnswerPlan(request)
+                      : AnswerOptimize(request));
     return answer;
   }
 
  private:
-  TurningJson PlanRowOf(const RigidRequest& request) const {
-    return RigidRow(scene_, request, Plan(world_, request));
+  TurningJson AnswerPlan(const RigidRequest& request) const {
+    const RigidAnswer found = Plan(world_, request);
+    return {{"row", RigidRow(scene_, request, found)},
+            {"paths", {PathEntry(NamedPathOf(request, found))}}};
   }
 
-  TurningJson OptimumRowOf(const RigidRequest& task) const {
+  TurningJson AnswerOptimize(const RigidRequest& task) const {
     RigidOptimizeRequest request;
     request.task = task;
-    return RigidOptimumRow(scene_, request, Optimize(world_, request));
+    const RigidOptimum found = Optimize(world_, request);
+    return {{"row", RigidOptimumRow(scene_, request, found)},
+            {"paths", {PathEntry(NamedPathOf(task, found.answer))}}};
   }
 
   // Of solids alone; surfaces that are none are refused by their names.

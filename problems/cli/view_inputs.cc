@@ -16,7 +16,7 @@
 #include "problems/cli/command.h"
 #include "problems/cli/contact_space_file.h"
 #include "problems/cli/operands.h"
-#include "problems/cli/seeded_runs.h"
+#include "problems/cli/run_path.h"
 #include "problems/cli/view_rows.h"
 #include "problems/cli/view_tables.h"
 #include "problems/cli/view_windows.h"

@@ -18,6 +18,23 @@ Eigen::Vector3d PointOf(const Json& json) {
 
 }  // namespace
 
+ViewAnswer ViewAnswerOf(const RobotPose& pose, const Depth& depth) {
+  ViewAnswer answer;
+  answer.is_depth = true;
+  answer.position = pose.position;
+  answer.orientation = pose.orientation;
+  answer.status = ToString(depth.status);
+  answer.depth = depth.depth;
+  answer.clearance = depth.clearance;
+  answer.direction = depth.direction;
+  answer.on_robot = depth.on_robot;
+  answer.on_obstacle = depth.on_obstacle;
+  answer.has_witness = depth.robot_feature.kind != ContactFeature::kNone;
+  answer.window_reaches = depth.window_reaches;
+  answer.window_axes = depth.window_axes;
+  return answer;
+}
+
 ViewAnswer DepthAnswerOf(const Json& row) {
   ViewAnswer answer;
   answer.is_depth = true;

@@ -3,12 +3,16 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include "core/contact/depth.h"
 #include "viewer/view.h"
 
-// Answers out of the JSON that commands wrote, to look at.  They throw
-// nlohmann::json::exception for what is none.
 namespace phongpd::cli {
 
+// An answer to look at.
+ViewAnswer ViewAnswerOf(const RobotPose& pose, const Depth& depth);
+
+// The same out of the JSON that commands wrote.  They throw
+// nlohmann::json::exception for what is none.
 ViewAnswer DepthAnswerOf(const nlohmann::ordered_json& row);  // of depth
 ViewAnswer QueryAnswerOf(const nlohmann::ordered_json& row);  // of query
 

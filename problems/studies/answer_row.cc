@@ -94,10 +94,16 @@ Json StagesRow(const std::vector<StageRecord>& stages) {
   return row;
 }
 
-// What the optimiser followed; in free space alone there is nothing to follow.
-// Returns its smoothing length as rows have lengths.
+// In free space alone there is nothing to follow.
+bool HasNoMetric(const PathAnswer& answer) {
+  return answer.evidence.model == Model::kWindow && !answer.windows;
+}
+
+// What the optimiser followed.  Returns its smoothing length as rows have
+// lengths.
 Json AddMetric(const World& world, const OptimizeRequest& request,
-               bool is_window, Json* row) {
+               const PathAnswer& answer, Json* row) {
+  const bool is_window = HasNoMetric(answer);
   const PenetrationSpec& spec = request.penetration;
   const bool is_phong = spec.metric == MetricKind::kPhong;
   std::optional<ResolvedLength> smoothing;
@@ -109,9 +115,7 @@ Json AddMetric(const World& world, const OptimizeRequest& request,
   (*row)["metric"] = is_window            ? "none"
                      : request.own_metric ? request.own_metric->kind
                                           : ToString(spec.metric);
-  (*row)["method"] = is_window            ? "corridor"
-                     : request.own_metric ? request.own_metric->name
-                                          : spec.Name();
+  (*row)["method"] = MethodName(request, answer);
   (*row)["smoothing_length"] =
       smoothing ? Json(smoothing->share) : Json(nullptr);
   (*row)["jacobian"] = is_window ? "none" : jacobian;
@@ -202,6 +206,19 @@ void AddOutcome(const PathAnswer& answer, bool has_run, Json* row) {
 
 }  // namespace
 
+std::string MethodName(const OptimizeRequest& request,
+                       const PathAnswer& answer) {
+  if (HasNoMetric(answer)) return "corridor";
+  return request.own_metric ? request.own_metric->name
+                            : request.penetration.Name();
+}
+
+std::string MethodTitle(const OptimizeRequest& request,
+                        const PathAnswer& answer) {
+  const bool is_ours = !HasNoMetric(answer) && !request.own_metric;
+  return is_ours ? request.penetration.Title() : MethodName(request, answer);
+}
+
 Json PlanRow(const Scene& scene, const World& world, const PlanRequest& request,
              const PathAnswer& answer) {
   const PlanWork& work = *answer.plan;
@@ -252,13 +269,10 @@ Json PolylineRow(const Scene& scene, const World& world,
   const PipelineResult& result = *answer.pipeline;
   const TrajectorySummary& ipopt = result.ipopt;
   const bool has_run = !ipopt.path.empty();
-  // Of a window that has no metric.
-  const bool is_window =
-      answer.evidence.model == Model::kWindow && !answer.windows;
   Json row;
   row["scene"] = scene.name;
   row["model"] = ModelUsed(answer);
-  const Json smoothing = AddMetric(world, request, is_window, &row);
+  const Json smoothing = AddMetric(world, request, answer, &row);
   if (answer.windows) {
     row["windows"] = {{"boxes", answer.windows->boxes},
                       {"faces", answer.windows->faces},

@@ -2,12 +2,20 @@
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
+#include <string>
 
 #include "planners/solve/optimize.h"
 #include "planners/solve/plan.h"
 #include "problems/scenes/scene.h"
 
 namespace phongpd {
+
+// What a path without limits followed: the metric's name, its own if it is the
+// caller's, or "corridor", where there was none.  For rows, and for people.
+std::string MethodName(const OptimizeRequest& request,
+                       const PathAnswer& answer);
+std::string MethodTitle(const OptimizeRequest& request,
+                        const PathAnswer& answer);
 
 // An answer as one row of results, with the keys that the command line
 // documents.  The scene gives its name and unit.

@@ -55,7 +55,7 @@ MotionTrace TraceMotion(const PenetrationMetric& metric,
   for (int frame = 0; frame < motion.frames; ++frame) {
     const Eigen::Vector3d q = motion.At(frame);
     trace.results.push_back(metric.Query(q, branch));
-    trace.status.emplace_back(ToString(trace.results.back().status));
+    trace.status.push_back(trace.results.back().status);
     trace.pd.push_back(trace.results.back().PenetrationVector(q));
     branch = trace.results.back().branch;
   }
@@ -70,10 +70,9 @@ MotionSummary Summarize(const MotionTrace& trace, double jump_length) {
     summary.branch_ends += result.status == QueryStatus::kBranchEnded ? 1 : 0;
     summary.fallbacks +=
         result.status == QueryStatus::kEuclideanFallback ? 1 : 0;
-    summary.sliding +=
-        trace.status[i] == ToString(QueryStatus::kSliding) ? 1 : 0;
+    summary.sliding += trace.status[i] == QueryStatus::kSliding ? 1 : 0;
     summary.left_elsewhere +=
-        trace.status[i] == ToString(QueryStatus::kLeftElsewhere) ? 1 : 0;
+        trace.status[i] == QueryStatus::kLeftElsewhere ? 1 : 0;
     summary.max_magnitude = std::max(summary.max_magnitude, trace.pd[i].norm());
     if (i == 0) continue;
     const double change = (trace.pd[i] - trace.pd[i - 1]).norm();
@@ -88,8 +87,8 @@ std::string MotionCsv(const std::vector<MotionTrace>& traces) {
   const std::size_t frames = traces.empty() ? 0 : traces.front().pd.size();
   for (std::size_t i = 0; i < frames; ++i) {
     for (const MotionTrace& trace : traces) {
-      csv += std::to_string(i) + ',' + trace.metric + ',' + trace.status[i] +
-             ',' + FormatPoint(trace.pd[i]) + ',' +
+      csv += std::to_string(i) + ',' + trace.metric + ',' +
+             ToString(trace.status[i]) + ',' + FormatPoint(trace.pd[i]) + ',' +
              FormatDouble(trace.pd[i].norm()) + '\n';
     }
   }
@@ -107,7 +106,7 @@ std::string MotionJson(const StraightMotion& motion,
     for (const MotionTrace& trace : traces) {
       const Json row = {
           {"frame", frame},           {"position", point(motion.At(frame))},
-          {"metric", trace.metric},   {"status", trace.status[i]},
+          {"metric", trace.metric},   {"status", ToString(trace.status[i])},
           {"pd", point(trace.pd[i])}, {"magnitude", trace.pd[i].norm()}};
       lines += JsonText(row) + '\n';
     }

@@ -25,8 +25,9 @@ struct MotionTrace {
   std::string metric;  // as in the CSV: euclidean, phong, phong@0.1, sliding
   std::string label;   // for people
   std::vector<PenetrationResult> results;  // per frame
-  std::vector<std::string> status;         // as in the CSV
-  std::vector<Eigen::Vector3d> pd;         // PD(q) = q_c − q, 0 outside
+  std::vector<QueryStatus> status;
+  std::vector<Eigen::Vector3d> pd;  // PD(q) = q_c − q, 0 outside
+  bool is_sliding = false;          // by the tracker
 };
 
 // Queries `metric` at every frame, handing each frame's branch to the next.

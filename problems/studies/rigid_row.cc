@@ -34,11 +34,15 @@ RigidWorld RigidWorldOf(const TurningScene& scene) {
   return {{scene.robot}, obstacles};
 }
 
+std::string PlannerName(const RigidAnswer& answer) {
+  return answer.planner.empty() ? "none" : answer.planner;
+}
+
 Json RigidRow(const TurningScene& scene, const RigidRequest& request,
               const RigidAnswer& answer) {
   Json row;
   row["scene"] = scene.name;
-  row["planner"] = answer.planner.empty() ? Json("none") : Json(answer.planner);
+  row["planner"] = PlannerName(answer);
   row["seed"] = request.seed;
   row["status"] = ToString(answer.status);
   row["reason"] = answer.reason;

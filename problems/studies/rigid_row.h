@@ -2,6 +2,7 @@
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
+#include <string>
 
 #include "planners/rigid/optimizer/rigid_optimize.h"
 #include "planners/rigid/rigid_plan.h"
@@ -14,6 +15,9 @@ RigidRequest RigidRequestOf(const TurningScene& scene);
 
 // Its surfaces.
 RigidWorld RigidWorldOf(const TurningScene& scene);
+
+// Who found the path; "none": nobody.
+std::string PlannerName(const RigidAnswer& answer);
 
 // The answer as one row of results: docs/outputs.md.
 nlohmann::ordered_json RigidRow(const TurningScene& scene,

@@ -41,12 +41,13 @@ MotionTrace TraceSliding(const ContactSpace& space,
   MotionTrace trace;
   trace.metric = "sliding";
   trace.label = "sliding contact";
+  trace.is_sliding = true;
   SlidingQuery query(space, options);
   for (int frame = 0; frame < motion.frames; ++frame) {
     const Vector3d q = motion.At(frame);
     const SlidingAnswer answer = query.Next(q);
     trace.results.push_back(answer.result);
-    trace.status.emplace_back(ToString(answer.status));
+    trace.status.push_back(answer.status);
     trace.pd.push_back(answer.result.PenetrationVector(q));
   }
   return trace;

@@ -8,16 +8,13 @@ from typing import Any
 
 import numpy as np
 
+from . import _native
 from ._arguments import Floats, Point
 from ._native import InputError
 from ._plots import plot_path
 from ._room import Room
 from ._statuses import Answer
 from ._view import Canvas, Shown
-
-
-def path_in(row: dict[str, Any]) -> Floats:
-    return np.asarray(row["path"], dtype=np.float64).reshape(-1, 3)
 
 
 class WayInWorld(Answer, Shown):
@@ -157,24 +154,21 @@ class Plan(Polyline):
                 f"{self.seconds:.3g} s")
 
 
-def trajectory_of(row: dict[str, Any], world: Room) -> Trajectory:
-    """Of a row of the program."""
+def trajectory_of(answer: _native.PathAnswer, world: Room) -> Trajectory:
     return Trajectory(
-        status=row["status_class"], reason=row["reason"],
-        free=row["collision_free"], path=path_in(row),
-        objective=row["objective"], clearance=row["clearance"],
-        iterations=row["iterations"], seconds=row["seconds"]["total"],
-        row=row, world=world)
+        status=answer.status, reason=answer.reason, free=answer.is_free,
+        path=answer.path, objective=answer.objective,
+        clearance=answer.clearance, iterations=answer.iterations,
+        seconds=answer.seconds, row=answer.row, world=world)
 
 
-def plan_of(row: dict[str, Any], world: Room,
+def plan_of(answer: _native.PathAnswer, world: Room,
             ends: tuple[Point, Point]) -> Plan:
-    """Of a row of the program."""
     return Plan(
-        status=row["status"], reason=row["reason"], solved=row["solved"],
-        infeasible=row["infeasible_proved"], path=path_in(row),
-        length=row["path_length"], clearance=row["clearance"],
-        seconds=row["seconds"]["solve"], row=row, world=world,
+        status=answer.status, reason=answer.reason, solved=answer.is_solved,
+        infeasible=answer.is_infeasible, path=answer.path,
+        length=answer.length, clearance=answer.clearance,
+        seconds=answer.seconds, row=answer.row, world=world,
         ends=np.array(ends))
 
 

@@ -136,12 +136,13 @@ def optimize_fleet(robots: Mapping[str, Tuple[World, ArrayLike, ArrayLike]]
             preset=preset, routes=routes, max_seconds=max_seconds,
             by_norm=by_norm, duration=0.0, departure=rest, arrival=rest)
         given.append((key, world._native, *world._ends(start, goal), wishes))
-    row = _native.optimize_fleet(name, given, moving_of(moving)[0])
-    motions = {one["id"]: motion_of(one, task[1])
-               for one, task in zip(row["robots"], tasks)}
-    return Fleet(status=row["status"], reason=row["reason"],
-                 solved=row["solved"], certified=row["certified"],
-                 duration=row["duration"], motions=motions,
+    answer = _native.optimize_fleet(name, given, moving_of(moving)[0])
+    row = answer.row
+    motions = {task[0]: motion_of(one, task[1])
+               for one, task in zip(answer.robots, tasks)}
+    return Fleet(status=answer.status, reason=answer.reason,
+                 solved=answer.is_solved, certified=answer.is_solved,
+                 duration=answer.duration, motions=motions,
                  pairs=row["pairs"], row=row)
 
 

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _native
-from ._answers import WayInWorld, path_in
+from ._answers import WayInWorld
 from ._arguments import Floats, flag, length, motion_end, motion_limits, \
     numbers, places_on_the_way, real, seconds, text, whole_number
 from ._native import InputError
@@ -155,18 +155,13 @@ class Motion(WayInWorld):
                 f"clearance {self.clearance:.6g} at least")
 
 
-def motion_of(row: dict[str, Any], world: Room) -> Motion:
-    """Of a row that the program writes, too."""
-    pieces = row["pieces"]
+def motion_of(answer: _native.PathAnswer, world: Room) -> Motion:
     return Motion(
-        status=row["status"], reason=row["reason"], solved=row["solved"],
-        certified=row["certified"], duration=row["duration"],
-        clearance=row["clearance"],
-        durations=np.array([p["duration"] for p in pieces], dtype=np.float64),
-        points=np.array([p["points"] for p in pieces],
-                        dtype=np.float64).reshape(-1, 6, 3),
-        path=path_in(row),
-        row=row, world=world)
+        status=answer.status, reason=answer.reason, solved=answer.is_solved,
+        certified=answer.is_free, duration=answer.duration,
+        clearance=answer.clearance, durations=answer.durations,
+        points=answer.points.reshape(-1, 6, 3), path=answer.path,
+        row=answer.row, world=world)
 
 
 def wishes_of(scene: _native.Scene, *, limits: Any, margin: Any, require: Any,

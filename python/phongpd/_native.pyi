@@ -177,22 +177,47 @@ class MotionWishes:
                  departure: tuple[_Point, _Point],
                  arrival: tuple[_Point, _Point]) -> None: ...
 
+class PathAnswer:
+    status: str
+    reason: str
+    path: _Floats
+    is_free: bool
+    is_solved: bool
+    is_infeasible: bool
+    length: float
+    clearance: float
+    seconds: float
+    objective: float
+    iterations: int
+    duration: float
+    durations: _Floats
+    points: _Floats
+    row: dict[str, Any]
+
+class FleetAnswer:
+    status: str
+    reason: str
+    is_solved: bool
+    duration: float
+    robots: list[PathAnswer]
+    row: dict[str, Any]
+
 class World:
     def __init__(self, scene: Scene, cache: bool,
                  max_mib: float) -> None: ...
     def optimize(self, start: _Point, goal: _Point, *, metric: str,
                  margin: str, waypoints: int, seed: int, max_seconds: float,
                  straight: bool, preset: str, model: str, require: bool,
-                 routes: int, budget: float = ...) -> dict[str, Any]: ...
+                 routes: int, budget: float = ...) -> PathAnswer: ...
     def optimize_in_time(self, start: _Point, goal: _Point, model: str,
                          wishes: MotionWishes,
-                         moving: list[_Moving]) -> dict[str, Any]: ...
+                         moving: list[_Moving]) -> PathAnswer: ...
     def retime(self, path: list[_Point],
-               wishes: MotionWishes) -> dict[str, Any]: ...
+               wishes: MotionWishes) -> PathAnswer: ...
     def plan(self, start: _Point, goal: _Point, *, planner: str,
              retraction: str, clearance: str, max_seconds: float, seed: int,
              preset: str, model: str, require: bool,
-             budget: float = ...) -> dict[str, Any]: ...
+             budget: float = ...) -> PathAnswer: ...
     def diagnose(self, q: _Point) -> dict[str, Any]: ...
     def are_free(self, a: _Floats, b: _Floats) -> _Bytes: ...
     def clearances(self, points: _Floats) -> _Floats: ...
@@ -210,7 +235,7 @@ def load_robots(path: str) -> tuple[str, list[tuple[str, Scene]]]: ...
 def optimize_fleet(
         name: str,
         tasks: list[tuple[str, World, _Point, _Point, MotionWishes]],
-        moving: list[_Moving]) -> dict[str, Any]: ...
+        moving: list[_Moving]) -> FleetAnswer: ...
 
 class Roadmap:
     def __init__(self, world: World) -> None: ...

@@ -35,9 +35,14 @@ World Shared(const World& world, const std::vector<FleetRobot>& before) {
   return world;
 }
 
-nb::object OptimizeRobots(const std::string& name,
-                          const std::vector<Task>& tasks,
-                          const std::vector<Moving>& moving) {
+struct FleetAnswerAndRow {
+  FleetAnswer answer;
+  nlohmann::ordered_json row;
+};
+
+FleetAnswerAndRow OptimizeRobots(const std::string& name,
+                                 const std::vector<Task>& tasks,
+                                 const std::vector<Moving>& moving) {
   FleetScene scene;
   scene.name = name;
   std::vector<FleetRobot> robots;
@@ -49,16 +54,17 @@ nb::object OptimizeRobots(const std::string& name,
     own.name = name;
     scene.robots.push_back(std::move(own));
   }
-  return ToObject(Interruptible([&](const std::atomic<bool>& is_asked) {
+  return Interruptible([&](const std::atomic<bool>& is_asked) {
     for (FleetRobot& robot : robots) {
       robot.request.is_interrupted = [&is_asked] { return is_asked.load(); };
     }
-    const FleetAnswer answer = OptimizeFleet(robots);
-    if (answer.status == PathStatus::kVerificationFailed) {
-      throw std::runtime_error(answer.reason);
+    FleetAnswerAndRow both{OptimizeFleet(robots), {}};
+    if (both.answer.status == PathStatus::kVerificationFailed) {
+      throw std::runtime_error(both.answer.reason);
     }
-    return FleetRow(scene, robots, answer);
-  }));
+    both.row = FleetRow(scene, robots, both.answer);
+    return both;
+  });
 }
 
 // The name of a file of several robots, and the scene of each.
@@ -73,9 +79,35 @@ std::pair<std::string, std::vector<std::pair<std::string, Scene>>> LoadRobots(
   return {fleet.name, std::move(robots)};
 }
 
+// With their own rows.
+std::vector<AnswerAndRow> AnswersOf(const FleetAnswerAndRow& fleet) {
+  std::vector<AnswerAndRow> robots;
+  for (const PathAnswer& answer : fleet.answer.robots) {
+    robots.push_back({answer, fleet.row.at("robots").at(robots.size())});
+  }
+  return robots;
+}
+
+void BindFleetAnswer(nb::module_& module) {
+  using Both = FleetAnswerAndRow;
+  nb::class_<Both>(module, "FleetAnswer")
+      .def_prop_ro(
+          "status",
+          [](const Both& both) { return ToString(both.answer.status); })
+      .def_prop_ro("reason",
+                   [](const Both& both) { return both.answer.reason; })
+      .def_prop_ro("is_solved",
+                   [](const Both& both) { return both.answer.IsSolved(); })
+      .def_prop_ro("duration",
+                   [](const Both& both) { return both.answer.duration; })
+      .def_prop_ro("robots", &AnswersOf)
+      .def_prop_ro("row", [](const Both& both) { return ToObject(both.row); });
+}
+
 }  // namespace
 
 void BindFleet(nb::module_& module) {
+  BindFleetAnswer(module);
   module.def("load_robots", &LoadRobots);
   module.def("optimize_fleet", &OptimizeRobots);
 }

@@ -144,13 +144,13 @@ nb::tuple CheckCurveIn(const Workshop& workshop, const Seconds& durations,
 }
 
 // Empty texts and 0: the scene's own.
-nb::object OptimizeWith(Workshop& workshop, const Point& start,
-                        const Point& goal, const std::string& metric,
-                        const std::string& margin, int waypoints,
-                        std::uint64_t seed, double max_seconds,
-                        bool is_straight, const std::string& preset,
-                        const std::string& model, bool is_required, int routes,
-                        double budget) {
+AnswerAndRow OptimizeWith(Workshop& workshop, const Point& start,
+                          const Point& goal, const std::string& metric,
+                          const std::string& margin, int waypoints,
+                          std::uint64_t seed, double max_seconds,
+                          bool is_straight, const std::string& preset,
+                          const std::string& model, bool is_required,
+                          int routes, double budget) {
   OptimizeRequest request = workshop.OptimizeBetween(start, goal);
   if (budget > 0.0) {
     ApplyBudget(budget, workshop.scene().workspace, &request);
@@ -184,14 +184,15 @@ nb::object OptimizeWith(Workshop& workshop, const Point& start,
   request.options.seed = seed;
   request.options.time_limit = max_seconds;
   if (is_straight) request.options.start = TrajectoryStart::kStraight;
-  return ToObject(workshop.Optimize(request));
+  return workshop.Optimize(request);
 }
 
-nb::object PlanWith(Workshop& workshop, const Point& start, const Point& goal,
-                    const std::string& planner, const std::string& retraction,
-                    const std::string& clearance, double max_seconds,
-                    std::uint64_t seed, const std::string& preset,
-                    const std::string& model, bool is_required, double budget) {
+AnswerAndRow PlanWith(Workshop& workshop, const Point& start, const Point& goal,
+                      const std::string& planner, const std::string& retraction,
+                      const std::string& clearance, double max_seconds,
+                      std::uint64_t seed, const std::string& preset,
+                      const std::string& model, bool is_required,
+                      double budget) {
   PlanRequest request = workshop.PlanBetween(start, goal);
   request.planner = PlannerId::kContactSurface;
   if (budget > 0.0) {
@@ -215,7 +216,7 @@ nb::object PlanWith(Workshop& workshop, const Point& start, const Point& goal,
   request.requires_clearance = is_required;
   request.time_limit = max_seconds;
   request.seed = seed;
-  return ToObject(workshop.Plan(request));
+  return workshop.Plan(request);
 }
 
 nb::dict PlanOf(const ContactRoadmap& roadmap, const Point& start,
@@ -314,6 +315,75 @@ void BindWishes(nb::module_& module) {
            });
 }
 
+std::vector<double> DurationsOf(const Trajectory& motion) {
+  std::vector<double> durations;
+  for (const CurvePiece& piece : motion.pieces()) {
+    durations.push_back(piece.duration());
+  }
+  return durations;
+}
+
+std::vector<Vector3d> BezierPointsOf(const Trajectory& motion) {
+  std::vector<Vector3d> points;
+  for (const CurvePiece& piece : motion.pieces()) {
+    for (int i = 0; i <= piece.degree(); ++i) points.push_back(piece.point(i));
+  }
+  return points;
+}
+
+// What is only of a path without time, or only of a motion, is 0 of others.
+void BindAnswer(nb::module_& module) {
+  using Both = AnswerAndRow;
+  nb::class_<Both>(module, "PathAnswer")
+      .def_prop_ro(
+          "status",
+          [](const Both& both) { return ToString(both.answer.status); })
+      .def_prop_ro("reason",
+                   [](const Both& both) { return both.answer.reason; })
+      .def_prop_ro("path",
+                   [](const Both& both) { return ToArray(both.answer.path); })
+      .def_prop_ro("is_free",
+                   [](const Both& both) { return both.answer.is_free; })
+      .def_prop_ro("is_solved",
+                   [](const Both& both) { return both.answer.is_solved; })
+      .def_prop_ro("is_infeasible",
+                   [](const Both& both) { return both.answer.IsInfeasible(); })
+      .def_prop_ro("length",
+                   [](const Both& both) { return both.answer.length; })
+      .def_prop_ro("clearance",
+                   [](const Both& both) {
+                     const PathAnswer& answer = both.answer;
+                     return answer.curve ? answer.curve->clearance
+                                         : answer.clearance;
+                   })
+      .def_prop_ro("seconds",
+                   [](const Both& both) { return both.answer.seconds; })
+      .def_prop_ro("objective",
+                   [](const Both& both) {
+                     const auto& pipeline = both.answer.pipeline;
+                     return pipeline ? pipeline->objective : 0.0;
+                   })
+      .def_prop_ro("iterations",
+                   [](const Both& both) {
+                     const auto& pipeline = both.answer.pipeline;
+                     return pipeline ? pipeline->iterations : 0;
+                   })
+      .def_prop_ro(
+          "duration",
+          [](const Both& both) { return both.answer.motion.duration(); })
+      .def_prop_ro("durations",
+                   [](const Both& both) {
+                     std::vector<double> all = DurationsOf(both.answer.motion);
+                     const size_t count = all.size();
+                     return Owned(std::move(all), {count});
+                   })
+      .def_prop_ro("points",
+                   [](const Both& both) {
+                     return ToArray(BezierPointsOf(both.answer.motion));
+                   })
+      .def_prop_ro("row", [](const Both& both) { return ToObject(both.row); });
+}
+
 void BindRoadmap(nb::module_& module) {
   nb::class_<ContactRoadmap>(module, "Roadmap")
       .def("__init__",
@@ -333,6 +403,7 @@ void BindRoadmap(nb::module_& module) {
 void BindWorld(nb::module_& module) {
   BindScene(module);
   BindWishes(module);
+  BindAnswer(module);
   BindRoadmap(module);
   nb::class_<Workshop>(module, "World")
       .def(nb::init<const Scene&, bool, double>())
@@ -349,14 +420,14 @@ void BindWorld(nb::module_& module) {
                  workshop.MotionBetween(start, goal, wishes);
              AddMoving(moving, &request);
              if (!model.empty()) request.model = ParseModel(model, "model");
-             return ToObject(workshop.Optimize(request));
+             return workshop.Optimize(request);
            })
       .def("retime",
            [](Workshop& workshop, const std::vector<Point>& path,
               const MotionWishes& wishes) {
-             return ToObject(workshop.Retime(
+             return workshop.Retime(
                  path,
-                 workshop.MotionBetween(path.front(), path.back(), wishes)));
+                 workshop.MotionBetween(path.front(), path.back(), wishes));
            })
       .def("plan", &PlanWith, nb::arg("start"), nb::arg("goal"), nb::kw_only(),
            nb::arg("planner"), nb::arg("retraction"), nb::arg("clearance"),

@@ -124,38 +124,42 @@ OptimizeRequest Workshop::MotionBetween(const Point& start, const Point& goal,
   return request;
 }
 
-Workshop::Row Workshop::Plan(const PlanRequest& request) {
+AnswerAndRow Workshop::Plan(const PlanRequest& request) {
   return Interruptible([&] {
     const std::lock_guard<std::mutex> lock(one_at_a_time_);
-    const PathAnswer answer = phongpd::Plan(world_, request);
-    RequireVerified(answer);
-    return PlanRow(scene_, world_, request, answer);
+    AnswerAndRow both{phongpd::Plan(world_, request), {}};
+    RequireVerified(both.answer);
+    both.row = PlanRow(scene_, world_, request, both.answer);
+    return both;
   });
 }
 
-Workshop::Row Workshop::Optimize(const OptimizeRequest& request) {
+AnswerAndRow Workshop::Optimize(const OptimizeRequest& request) {
   return Interruptible([&](const std::atomic<bool>& is_asked) {
     const std::lock_guard<std::mutex> lock(one_at_a_time_);
     OptimizeRequest asked = request;
     asked.is_interrupted = [&is_asked] { return is_asked.load(); };
-    const PathAnswer answer = phongpd::Optimize(world_, asked);
-    RequireVerified(answer);
-    return request.limits ? MotionRow(scene_, world_, request, answer)
-                          : PolylineRow(scene_, world_, request, answer);
+    AnswerAndRow both{phongpd::Optimize(world_, asked), {}};
+    RequireVerified(both.answer);
+    both.row = request.limits
+                   ? MotionRow(scene_, world_, request, both.answer)
+                   : PolylineRow(scene_, world_, request, both.answer);
+    return both;
   });
 }
 
-Workshop::Row Workshop::Retime(const std::vector<Point>& path,
-                               const OptimizeRequest& request) {
+AnswerAndRow Workshop::Retime(const std::vector<Point>& path,
+                              const OptimizeRequest& request) {
   return Interruptible([&](const std::atomic<bool>& is_asked) {
     const std::lock_guard<std::mutex> lock(one_at_a_time_);
     OptimizeRequest asked = request;
     asked.is_interrupted = [&is_asked] { return is_asked.load(); };
     Path points;
     for (const Point& p : path) points.push_back(ToVector(p));
-    const PathAnswer answer = phongpd::Retime(world_, points, asked);
-    RequireVerified(answer);
-    return MotionRow(scene_, world_, request, answer);
+    AnswerAndRow both{phongpd::Retime(world_, points, asked), {}};
+    RequireVerified(both.answer);
+    both.row = MotionRow(scene_, world_, request, both.answer);
+    return both;
   });
 }
 

@@ -53,12 +53,16 @@ std::vector<MovingObstacle> MovingObstaclesOf(const std::vector<Moving>& moving,
 // Throws as above.
 void AddMoving(const std::vector<Moving>& moving, OptimizeRequest* request);
 
+// An answer, and its row as the program writes it.
+struct AnswerAndRow {
+  PathAnswer answer;
+  nlohmann::ordered_json row;
+};
+
 // A world for Python.  Ipopt runs once at a time in a process, and samplers
 // share OMPL's generator: one question at a time.
 class Workshop {
  public:
-  using Row = nlohmann::ordered_json;
-
   Workshop(const Scene& scene, bool cache, double max_mib);
 
   const World& world() const { return world_; }
@@ -77,11 +81,12 @@ class Workshop {
   // A length above 0 as users write it.
   Length Clearance(const std::string& text, const std::string& what) const;
 
-  // Rows as the program writes them.  Ctrl-C stops what is built for them, and
-  // takes the best motion so far.  Called with Python's lock.
-  Row Plan(const PlanRequest& request);
-  Row Optimize(const OptimizeRequest& request);
-  Row Retime(const std::vector<Point>& path, const OptimizeRequest& request);
+  // Ctrl-C stops what is built for them, and takes the best motion so far.
+  // Called with Python's lock.
+  AnswerAndRow Plan(const PlanRequest& request);
+  AnswerAndRow Optimize(const OptimizeRequest& request);
+  AnswerAndRow Retime(const std::vector<Point>& path,
+                      const OptimizeRequest& request);
 
  private:
   Scene Between(const Point& start, const Point& goal) const;

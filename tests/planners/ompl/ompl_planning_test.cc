@@ -81,6 +81,7 @@ TEST_F(OmplPlanning, TakesTheLimitAndNeverClaimsAFalsePath) {
       EXPECT_TRUE(result.path.empty());
       EXPECT_FALSE(result.collision_free);
       EXPECT_EQ(result.clearance, 0.0);
+      EXPECT_TRUE(result.is_late);
       EXPECT_TRUE(result.status == "Timeout" ||
                   result.status == "Approximate solution")
           << name << ": " << result.status;

@@ -64,6 +64,12 @@ TEST(Names, OfMetricsReadBack) {
         "smoothed@0.2", "smoothed-foot@0.5unit"}) {
     EXPECT_EQ(ParsePenetration(name, "metric").Name(), name);
   }
+  const auto title = [](const char* name) {
+    return ParsePenetration(name, "metric").Title();
+  };
+  EXPECT_EQ(title("euclidean"), "Euclidean PD");
+  EXPECT_EQ(title("phong@0.5unit/exact"), "PhongPD, ℓ = 0.5unit/exact");
+  EXPECT_EQ(title("smoothed@0.2"), "smoothed@0.2");
   for (const char* name : {"", "phongg", "phong@", "phong@-1", "phong@0.1/some",
                            "phong@0.1/exact/tangent-plane/exact", "euclid",
                            "euclidean@0.2", "smoothed@", "smoothed@0",
