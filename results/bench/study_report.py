@@ -250,7 +250,9 @@ def models_head(folder, rows, found):
         "written down",
         "before: [protocol.md](protocol.md#block-of-others-meshes). All rows:",
         "[models.csv](models.csv).", "", words(found),
-        f"Decided here, beside the first block: {beside_first(folder, found)}.", "",
+        f"Decided here, beside the first block: {beside_first(folder, found)}. A tie of "
+        "+0.0 … +0.0",
+        "says that no family's share differs, of these few runs and no others.", "",
         "## Converged, by what the mesh of others is, over all protocols", "",
         *scenes_table(kinds, "it is"), ""]
 
