@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # bench.sh [paper|queries|contact-space|lazy|convergence|pipeline|planning|
 # extremes|peers|trajectories|fleets|rigid|rigid-optimize|wrench|study|
-# study-solvers|cluster|python|trade|slice|all]:
+# study-models|study-solvers|cluster|python|trade|slice|all]:
 # regenerates the tables and figures of results/.  continuity is a part of queries, retraction and
 # widths are parts of planning.  slice makes some published rows anew and compares
 # them (results/reproduction.md); it is no part of all.
@@ -15,13 +15,13 @@ suite=${1:-all}
 case $suite in
   paper | queries | contact-space | lazy | convergence | pipeline | planning | \
     extremes | peers | trajectories | fleets | rigid | rigid-optimize | \
-    wrench | study | study-solvers | cluster | python | \
+    wrench | study | study-models | study-solvers | cluster | python | \
     trade | continuity | retraction | widths | slice | all) ;;
   *)
     echo "bench: expected paper, queries, contact-space, lazy," \
       "convergence, pipeline, planning, extremes, peers, trajectories, fleets," \
-      "rigid, rigid-optimize, wrench, study, study-solvers, cluster, python," \
-      "trade," \
+      "rigid, rigid-optimize, wrench, study, study-models, study-solvers," \
+      "cluster, python, trade," \
       "continuity, retraction, widths, slice" \
       "or all," \
       "found $suite" >&2
@@ -104,32 +104,53 @@ if [[ $suite == convergence || $suite == all ]]; then
     --scenes "${scenes[@]}" --how "scripts/bench.sh convergence"
   python3 -B results/bench/convergence_report.py --output results/convergence
 fi
-if [[ $suite == study || $suite == all ]]; then
+if [[ $suite == study || $suite == study-models || $suite == all ]]; then
   # results/study/protocol.md; parts that were cut off go on where they were.
   scripts/python.sh
-  scripts/build.sh phongpd
+  scripts/build.sh phongpd phongpd_python
   . scripts/study_scenes.sh
-  block() { # NAME SEEDS METRICS...
+  block() { # FOLDER SEED RUNS METRICS...: of all `scenes`
     local pids=() i
     for ((i = 0; i < $(nproc); ++i)); do
-      build/phongpd compare "${study_scenes[@]}" --seed "$study_seed" \
-        --runs "$2" --max-iter "$study_cap" --shard "$i/$(nproc)" \
+      build/phongpd compare "${scenes[@]}" --seed "$2" \
+        --runs "$3" --max-iter "$study_cap" --shard "$i/$(nproc)" \
         --protocols straight-monotone straight-adaptive repaired-monotone \
-        repaired-adaptive --metrics "${@:3}" --output "build/study/$1-$i" &
+        repaired-adaptive --metrics "${@:4}" --output "$1-$i" &
       pids+=($!)
     done
     for i in "${pids[@]}"; do wait "$i"; done
   }
-  block first "${STUDY_SEEDS:-10}" "${study_metrics[@]}"
+fi
+if [[ $suite == study || $suite == all ]]; then
+  scenes=("${study_scenes[@]}")
+  runs=${STUDY_SEEDS:-10}
+  block build/study/first "$study_seed" "$runs" "${study_metrics[@]}"
   # The second block of the protocol, of the same problems.
   if [[ -n ${STUDY_FURTHER:-} ]]; then
-    block further "${STUDY_SEEDS:-10}" "${study_further[@]}"
+    block build/study/further "$study_seed" "$runs" "${study_further[@]}"
   fi
   build/venv/bin/python -B results/bench/study_report.py results/study \
     --rows build/study/*/rows.jsonl --how "Command: \`scripts/bench.sh \
 study\`. Commit: $(git rev-parse --short HEAD)."
   build/venv/bin/python -B results/bench/study_power.py results/study \
     --measure build/phongpd
+fi
+if [[ $suite == study-models || $suite == all ]]; then
+  # The protocol's last section.  More seeds: STUDY_MODELS_SEEDS=2.
+  scripts/models.sh build/models
+  for ((i = 0; i < ${STUDY_MODELS_SEEDS:-1}; ++i)); do
+    seed=$((study_models_seed + i))
+    folder=build/study/models/$seed
+    PYTHONPATH=$PWD/build/python build/venv/bin/python -B \
+      results/bench/study_models.py build/models "$folder" --seed "$seed"
+    scenes=("$folder"/*.json)
+    block "$folder/rows" "$seed" 1 "${study_metrics[@]}"
+  done
+  cp "$folder/meshes.csv" results/study/models_meshes.csv
+  build/venv/bin/python -B results/bench/study_report.py results/study \
+    --block models --rows build/study/models/*/*/rows.jsonl \
+    --how "Command: \`scripts/bench.sh study-models\`. Commit: $(git rev-parse \
+    --short HEAD)."
 fi
 if [[ $suite == study-solvers || $suite == all ]]; then
   # results/study/solvers_protocol.md.  cyipopt compiles itself against Debian's Ipopt.

@@ -20,4 +20,5 @@ study_further=(
   phong@0 phong@0.1 phong@0.2/exact followed smoothed@0.1 smoothed@0.4
 )
 study_seed=70001
+study_models_seed=71001
 study_cap=3000

@@ -152,6 +152,9 @@ if(PHONGPD_HAS_PYTHON)
     add_test(NAME DirectionStudy
              COMMAND ${PHONGPD_PYTHON} -B -m pytest -q -p no:cacheprovider
                      ${CMAKE_CURRENT_SOURCE_DIR}/results/study_test.py)
+    add_test(NAME StudyModels
+             COMMAND ${PHONGPD_PYTHON} -m pytest -q -p no:cacheprovider
+                     ${CMAKE_CURRENT_SOURCE_DIR}/results/study_models_test.py)
     add_test(NAME StudyPower
              COMMAND ${PHONGPD_PYTHON} -B -m pytest -q -p no:cacheprovider
                      ${CMAKE_CURRENT_SOURCE_DIR}/results/study_power_test.py)
@@ -165,7 +168,7 @@ if(PHONGPD_HAS_PYTHON)
              COMMAND ${PHONGPD_PYTHON} -B -m pytest -q -p no:cacheprovider
                      ${CMAKE_CURRENT_SOURCE_DIR}/results/statistics_test.py)
     set_tests_properties(
-      StudySolvers TrajectoriesBenchmark
+      StudyModels StudySolvers TrajectoriesBenchmark
       PROPERTIES
         TIMEOUT 300
         ENVIRONMENT

@@ -1,13 +1,16 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Tables of results/study from its rows: python3 -B study_report.py FOLDER
-[--rows rows.jsonl rows.csv ...], which first makes rows.csv of those: seeds that were
-made later join those that are published."""
+[--block models] [--rows rows.jsonl rows.csv ...], which first makes rows.csv (of the
+block of others' meshes models.csv) of those: seeds that were made later join those that
+are published."""
 import argparse
 import csv
 import json
 import math
 import pathlib
-from collections import defaultdict
+from collections import Counter, defaultdict
+from dataclasses import dataclass
+from typing import Callable
 
 from report_statistics import holm
 from study_statistics import interval, p_of_flips, verdict
@@ -37,27 +40,27 @@ def rows_of(name):
             yield [str(row[column]) for column in COLUMNS]
 
 
-def write_csv(folder, files):
-    """All rows of the files; a run that is there twice must have the same answer both
-    times, and is written once."""
+def write_csv(folder, files, name="rows.csv"):
+    """All rows of the files, as that one; a run that is there twice must have the same
+    answer both times, and is written once."""
     found = {}
-    for name in files:
-        for row in rows_of(name):
+    for file_name in files:
+        for row in rows_of(file_name):
             key = tuple(row[:4])
             if found.setdefault(key, row) != row:
-                raise SystemExit(f"{name}: expected the answer that another file has of "
-                                 f"{' '.join(key)}, {found[key]}, found {row}; were "
-                                 "they made by the same program?")
+                raise SystemExit(f"{file_name}: expected the answer that another file "
+                                 f"has of {' '.join(key)}, {found[key]}, found {row}; "
+                                 "were they made by the same program?")
     rows = sorted(found.values(), key=lambda row: (
         row[0], PROTOCOLS.index(row[1]), int(row[3]), row[2]))
-    with open(folder / "rows.csv", "w", newline="") as file:
+    with open(folder / name, "w", newline="") as file:
         writer = csv.writer(file, lineterminator="\n")
         writer.writerow(COLUMNS)
         writer.writerows(rows)
 
 
-def read_csv(folder):
-    with open(folder / "rows.csv", newline="") as file:
+def read_csv(folder, name="rows.csv"):
+    with open(folder / name, newline="") as file:
         rows = list(csv.DictReader(file))
     for row in rows:
         row["family"] = row["scene"].split(":")[0]
@@ -76,7 +79,7 @@ def paired(rows, protocol, a, b):
                     if row["protocol"] == protocol and row["method"] == method}
            for method in (a, b)}
     if own[a].keys() != own[b].keys():
-        raise SystemExit(f"rows.csv: {protocol}: expected {a} and {b} on the same "
+        raise SystemExit(f"rows: {protocol}: expected {a} and {b} on the same "
                          "problems; a block is incomplete")
     return {key: (own[a][key], own[b][key]) for key in own[a]}
 
@@ -158,10 +161,10 @@ def hypotheses_table(found):
     return lines
 
 
-def scenes_table(rows):
+def scenes_table(rows, title="scene"):
     methods = [m for m in ("euclidean", "phong@0.2", "smoothed@0.2",
                            "smoothed-foot@0.2", "diffused@0.2", "placebo@0.2")]
-    lines = ["| scene | " + " | ".join(f"`{m}`" for m in methods) + " |",
+    lines = [f"| {title} | " + " | ".join(f"`{m}`" for m in methods) + " |",
              "|---|" + "---|" * len(methods)]
     for scene in sorted({row["scene"] for row in rows}):
         cells = []
@@ -174,35 +177,124 @@ def scenes_table(rows):
 
 
 def conclusion(found):
-    def words(name):
+    def verdicts(name):
         return {one["protocol"]: one["verdict"] for one in found
                 if one["name"] == name}
-    first, second = words("H1"), words("H2")
+    first, second = verdicts("H1"), verdicts("H2")
     holds = ("win" in first.values() and "loss" not in first.values()
              and "loss" not in second.values())
     return ("By the rule of the protocol `smoothed` becomes the default."
             if holds else "By the rule of the protocol the default stays.")
 
 
-def report(folder, how):
-    rows = read_csv(folder)
-    found = hypotheses(rows)
+def asked(rows):
+    """Problems, scenes, families and seeds of the rows, in words."""
     seeds = sorted({int(row["seed"]) for row in rows})
     problems = len({(row["scene"], row["seed"]) for row in rows})
-    families = len({row["family"] for row in rows})
-    text = [
-        "# Which direction helps a solver", "",
-        f"{problems} problems: {len({row['scene'] for row in rows})} scenes of "
-        f"{families} families, seeds {seeds[0]} to {seeds[-1]},",
+    return (f"{problems} problems: {len({row['scene'] for row in rows})} scenes of "
+            f"{len({row['family'] for row in rows})} families, " +
+            (f"seeds {seeds[0]} to {seeds[-1]}," if len(seeds) > 1 else
+             f"seed {seeds[0]},"))
+
+
+def words(found):
+    return f"Of {len(found)} comparisons " + ", ".join(
+        f"{sum(one['verdict'] == word for one in found)} {name}"
+        for word, name in (("win", "are wins"), ("loss", "losses"),
+                           ("tie", "ties within ±3 points"),
+                           ("open", "open"))) + "."
+
+
+def first_head(folder, rows, found):
+    return [
+        "# Which direction helps a solver", "", asked(rows),
         "on none of which anything was developed. What was asked, how it is counted "
         "and what",
-        "follows from it was written down before: [protocol.md](protocol.md). All rows:",
-        "[rows.csv](rows.csv).", "",
-        f"Of {len(found)} comparisons " + ", ".join(
-            f"{sum(one['verdict'] == word for one in found)} {name}"
-            for word, name in (("win", "are wins"), ("loss", "losses"),
-                               ("tie", "ties within ±3 points"),
-                               ("open", "open"))) + ".", conclusion(found), "",
+        "follows from it was written down before: [protocol.md](protocol.md). "
+        "All rows:",
+        "[rows.csv](rows.csv).", "", words(found), conclusion(found), ""]
+
+
+def read_meshes(folder):
+    with open(folder / "models_meshes.csv", newline="") as file:
+        return list(csv.DictReader(file))
+
+
+def kind(scene, scans):
+    """Of a scene of study_models.py."""
+    if scene.startswith("several"):
+        return "several obstacles"
+    if scene.endswith(":robot"):
+        return "the robot"
+    return "a scan as the obstacle" if scene in scans else "the obstacle"
+
+
+def beside_first(folder, found):
+    """What is decided here, and what the first block said of it."""
+    first = {(one["name"], one["protocol"]): one["verdict"]
+             for one in hypotheses(read_csv(folder))}
+    return "; ".join(
+        f"{one['name']}, {one['protocol']}: {one['verdict']}, there "
+        f"{first[one['name'], one['protocol']]}"
+        for one in found if one["verdict"] in ("win", "loss")) or "none"
+
+
+def models_head(folder, rows, found):
+    scans = {mesh["mesh"] for mesh in read_meshes(folder) if mesh["scan"]}
+    kinds = [dict(row, scene=kind(row["scene"], scans)) for row in rows]
+    return [
+        "# Which direction helps a solver among others' meshes", "",
+        "Scanned meshes and scenes with several obstacles, a block of the",
+        "[study](README.md): " + asked(rows),
+        "on none of which anything was developed. Scenes, seeds and hypotheses were "
+        "written down",
+        "before: [protocol.md](protocol.md#block-of-others-meshes). All rows:",
+        "[models.csv](models.csv).", "", words(found),
+        f"Decided here, beside the first block: {beside_first(folder, found)}. A tie of "
+        "+0.0 … +0.0",
+        "says that no family's share differs, of these few runs and no others.", "",
+        "## Converged, by what the mesh of others is, over all protocols", "",
+        *scenes_table(kinds, "it is"), ""]
+
+
+def models_tail(folder):
+    meshes = read_meshes(folder)
+    taken = [mesh for mesh in meshes if not mesh["left out because"]]
+    reasons = Counter(
+        "the shape of another" if reason.startswith("the shape of") else
+        reason.split(";")[0] for reason in
+        (mesh["left out because"] for mesh in meshes) if reason)
+    return [
+        "", "## The meshes", "",
+        f"{len(taken)} of the {len(meshes)} OFF files of Debian's package libcgal-demo "
+        "(5.5.1-2). Scan: known to be one;",
+        "of the others the package does not tell. Left out: " + ", ".join(
+            f"{count} ({reason})" for reason, count in reasons.most_common()) + ";",
+        "one by one: [models_meshes.csv](models_meshes.csv).", "",
+        "| mesh | triangles | scan |", "|---|---|---|",
+        *(f"| {mesh['mesh']} | {mesh['triangles']} | {mesh['scan']} |"
+          for mesh in taken)]
+
+
+@dataclass(frozen=True)
+class Block:
+    """A page, the rows that it is of, and what it has around the tables of all."""
+    rows: str
+    page: str
+    head: Callable  # of folder, rows and comparisons
+    tail: Callable  # of the folder
+
+
+BLOCKS = {
+    "first": Block("rows.csv", "README.md", first_head, lambda folder: []),
+    "models": Block("models.csv", "models.md", models_head, models_tail)}
+
+
+def report(folder, how, block=BLOCKS["first"]):
+    rows = read_csv(folder, block.rows)
+    found = hypotheses(rows)
+    text = [
+        *block.head(folder, rows, found),
         "## Converged / stalled / exactly free", "", *counts_table(rows), "",
         "## The 28 comparisons", "",
         "Points of a share, as the mean over families; *win* and *loss* by p < 0.05 "
@@ -213,19 +305,21 @@ def report(folder, how):
         "quicker.", "",
         *hypotheses_table(found), "",
         "## Converged, scene by scene, over all protocols", "",
-        *scenes_table(rows), "", how, ""]
-    (folder / "README.md").write_text("\n".join(text))
+        *scenes_table(rows), *block.tail(folder), "", how, ""]
+    (folder / block.page).write_text("\n".join(text))
 
 
 def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("folder", type=pathlib.Path)
+    parser.add_argument("--block", choices=BLOCKS, default="first")
     parser.add_argument("--rows", nargs="+", default=[])
     parser.add_argument("--how", default="")
     arguments = parser.parse_args()
+    block = BLOCKS[arguments.block]
     if arguments.rows:
-        write_csv(arguments.folder, arguments.rows)
-    report(arguments.folder, arguments.how)
+        write_csv(arguments.folder, arguments.rows, block.rows)
+    report(arguments.folder, arguments.how, block)
 
 
 if __name__ == "__main__":

@@ -110,14 +110,34 @@ def test_later_seeds_join_published_rows(tmp_path):
         study_report.write_csv(tmp_path, [published, tmp_path / "other.csv"])
 
 
-def test_the_published_page_is_that_of_its_rows(tmp_path):
+@pytest.mark.parametrize("block", study_report.BLOCKS.values(),
+                         ids=study_report.BLOCKS)
+def test_the_published_page_is_that_of_its_rows(block, tmp_path):
     folder = ROOT / "results/study"
-    if not (folder / "rows.csv").exists():
+    if not (folder / block.rows).exists():
         pytest.skip("no rows yet")
-    (tmp_path / "rows.csv").write_bytes((folder / "rows.csv").read_bytes())
-    page = (folder / "README.md").read_text()
-    study_report.report(tmp_path, page.rstrip().splitlines()[-1])
-    assert (tmp_path / "README.md").read_text() == page
+    for file in folder.glob("*.csv"):
+        (tmp_path / file.name).write_bytes(file.read_bytes())
+    page = (folder / block.page).read_text()
+    study_report.report(tmp_path, page.rstrip().splitlines()[-1], block)
+    assert (tmp_path / block.page).read_text() == page
+
+
+def test_scenes_of_a_kind_are_counted_together():
+    found = [study_report.kind(scene, {"bunny00"}) for scene in
+             ("bunny00", "joint", "u:robot", "several3")]
+    assert found == ["a scan as the obstacle", "the obstacle", "the robot",
+                     "several obstacles"]
+
+
+def test_wins_are_told_beside_the_first_block(tmp_path):
+    (tmp_path / "rows.csv").write_bytes((ROOT / "results/study/rows.csv").read_bytes())
+    found = study_report.hypotheses(made_rows(()))
+    assert study_report.beside_first(tmp_path, found) == "none"
+    found[0]["verdict"], found[-1]["verdict"] = "win", "loss"
+    assert study_report.beside_first(tmp_path, found) == (
+        "H1, straight-monotone: win, there open; "
+        "H7, repaired-adaptive: loss, there tie")
 
 
 if __name__ == "__main__":
