@@ -2,7 +2,8 @@
 """Bodies that turn: the certified judge beside FCL, and planners; see `--help`.
 
 Runs rigid_judge_benchmark and rigid_plan_benchmark, one process a run, keeps
-their rows as JSON Lines, and makes tables of them."""
+their rows as JSON Lines, and makes tables of them, and of those that rigid_peers.py
+and rigid_ompl2.py left beside them."""
 import json
 import subprocess
 from pathlib import Path
@@ -139,8 +140,8 @@ def main():
                   "runs of planners")
     if arguments.part in ("report", "all"):
         write_report(arguments.output, arguments.how, arguments.commit,
-                     rows.read(arguments.rows / "judge.jsonl"),
-                     rows.read(arguments.rows / "plan.jsonl"))
+                     *(rows.read(arguments.rows / f"{part}.jsonl")
+                       for part in ("judge", "plan", "peers", "ompl2")))
 
 
 if __name__ == "__main__":

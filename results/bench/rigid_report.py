@@ -5,6 +5,7 @@ import math
 import statistics
 import textwrap
 
+import rigid_peers_report as others
 from python_report import cell, machine, write_csv, write_tables
 
 QUESTION = """\
@@ -245,9 +246,11 @@ def _wrapped(lines):
             break_on_hyphens=False, break_long_words=False))
 
 
-def write_report(folder, how, commit, judged, planned):
+def write_report(folder, how, commit, judged, planned, peers=(), newer=()):
+    """`peers`: rows of rigid_peers.py; `newer`: of rigid_ompl2.py."""
     folder.mkdir(parents=True, exist_ok=True)
     judge, runs, table = judge_table(judged), run_table(planned), sums(planned)
+    beside, ompl2 = others.peers_table(peers), others.newer_table(newer)
     write_csv(folder / "runs.csv", RUN_HEADER, runs)
     where = write_tables(folder, "Bodies that turn", [
         ("judge.csv", "Judges", JUDGE_HEADER, judge,
@@ -255,14 +258,21 @@ def write_report(folder, how, commit, judged, planned):
         ("planners.csv", "Planners", SUM_HEADER, table,
          "Solved: paths, wrong ones included. more: than the limit, in more "
          "than half of the runs. check: share of the extent between samples, or "
-         "proof.")])
+         "proof."),
+        ("peers.csv", "Judges of others", others.PEERS_HEADER, beside,
+         "Asked from Python. ms: a motion, the call included."),
+        ("ompl2.csv", "OMPL 2.0", others.NEWER_HEADER, ompl2,
+         "From its wheel, each pose judged by a Python function.")])
     seeds = sorted({r["seed"] for r in planned if "seed" in r})
     text = ["# Bodies that turn: a proof beside samples", "", QUESTION,
             "## Judges", "", *_judge_lines(judge), "",
-            *_wrapped(_judge_findings(judge)), "", "## Planners", "",
+            *_wrapped(_judge_findings(judge)), "", "## Judges of others", "",
+            *others.peers_lines(beside), "", "## Planners", "",
             *_wrapped([*_plan_findings(planned), *_duels(table),
-                       *_beside_proof(table), *_ours(table)]),
-            "", NOTES, where, "Each run: [runs.csv](runs.csv).", "",
+                       *_beside_proof(table), *_ours(table),
+                       *others.newer_findings(ompl2, table),
+                       *others.failures(peers, newer)]),
+            "", NOTES + others.NOTES, where, "Each run: [runs.csv](runs.csv).", "",
             *_wrapped([
                 f"Command: {how}; with `--long` every planner on every scene, 10 "
                 f"seeds, 60 s and 600 s. Date: {datetime.date.today()}. Seeds: "
