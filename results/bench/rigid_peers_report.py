@@ -51,6 +51,20 @@ def peers_lines(table):
         yield "| " + " | ".join(cell(v) for v in row) + " |"
 
 
+def peers_findings(table):
+    """Times against PhongPD's on the same motions, and what kind of motion it is that
+    is judged wrongly."""
+    ours = {(*r[:2], r[3]): r[6] for r in table if r[2] == "PhongPD"}
+    for method in dict.fromkeys(r[2] for r in table if r[2] != "PhongPD"):
+        of = [r for r in table if r[2] == method]
+        wins = sum(ours[(*r[:2], r[3])] < r[6] for r in of)
+        wrong = {kind: sum(r[8] + r[9] for r in of if r[1] == kind)
+                 for kind in dict.fromkeys(r[1] for r in of)}
+        yield (f"- {method}: PhongPD is cheaper in {wins} of {len(of)} sets of "
+               f"motions, and dearer in {len(of) - wins}. Misses and contradictions: "
+               + ", ".join(f"{count} {kind}" for kind, count in wrong.items()) + ".")
+
+
 def newer_table(found):
     """A row a scene and planner of OMPL 2.0."""
     groups = {}

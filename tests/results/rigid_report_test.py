@@ -106,6 +106,10 @@ class Tables(unittest.TestCase):
                           ["hpp-core", 1, 50, 30, 1, 2, 0, 2.0, 2.0, 4.0],
                           ["PhongPD", 1, 10, 30, 0, 2, 0, 1.0, 1.0, 1.0],
                           ["ipctk", 1, 10, 30, 0, 2, 0, 3.0, 3.0, 3.0]])
+        self.assertEqual(
+            list(others.peers_findings(table))[0],
+            "- hpp-core: PhongPD is cheaper in 1 of 1 sets of motions, and dearer in "
+            "0. Misses and contradictions: 3 contact.")
 
     def test_newer_ompl_stands_beside_the_older(self):
         found = [{"scene": "s", "planner": "RRTConnect", "limit": 60, "solved": True,
