@@ -79,15 +79,21 @@ def newer_table(found):
 
 
 def newer_findings(newer, older):
-    """OMPL 2.0 beside 1.5 where both ran: `older` has rows of rigid_report.sums."""
-    for row in newer:
-        key = [row[0], row[1], "0.01", "default"]
-        beside = next((r for r in older if r[:4] == key), None)
-        said = "" if beside is None else (
-            f"; OMPL 1.5 within {beside[4]:g} s {beside[6]} of {beside[5]}, "
-            f"{beside[7]} wrong")
-        yield (f"- {row[0]}, {row[1]}: OMPL 2.0 within {row[2]:g} s {row[4]} of "
-               f"{row[3]} with a path, {row[5]} wrong{said}.")
+    """OMPL 2.0 beside 1.5 on the same scenes, planners and seeds, samples at 1 %."""
+    def key(r):
+        return r["scene"], r["planner"], r["seed"]
+
+    def said(of):
+        return (f"{sum(r['solved'] for r in of)} of {len(of)} with a path, "
+                f"{sum(r['wrong'] > 0 for r in of)} wrong, within {of[0]['limit']:g} s")
+    old = {key(r): r for r in older if r.get("check") == "0.01"
+           and r["tuning"] == "default"}
+    pairs = [(r, old[key(r)]) for r in newer if "error" not in r and key(r) in old]
+    for planner in dict.fromkeys(r["planner"] for r, _ in pairs):
+        of = [pair for pair in pairs if pair[0]["planner"] == planner]
+        yield (f"- {planner}, the same scenes and seeds, samples at 1 %: OMPL 2.0, "
+               f"asking Python, {said([a for a, _ in of])}; OMPL 1.5 "
+               f"{said([b for _, b in of])}.")
 
 
 def failures(*campaigns):

@@ -113,17 +113,26 @@ class Tables(unittest.TestCase):
 
     def test_newer_ompl_stands_beside_the_older(self):
         found = [{"scene": "s", "planner": "RRTConnect", "limit": 60, "solved": True,
-                  "wrong": wrong, "seconds": 2.0, "in_python": 1.5, "checked": 7}
-                 for wrong in (0, 2)] + [{"key": "k", "error": "E: no wheel"}]
-        newer = others.newer_table(found)
-        self.assertEqual(newer, [["s", "RRTConnect", 60, 2, 2, 1, 7, 0.75]])
-        older = rigid_report.sums([run(1, False, 3.0, check="0.01")])
+                  "wrong": wrong, "seconds": 2.0, "in_python": 1.5, "checked": 7,
+                  "seed": seed}
+                 for seed, wrong in ((1, 0), (2, 2))] + [
+                     {"key": "k", "error": "E: no wheel"}]
+        self.assertEqual(others.newer_table(found),
+                         [["s", "RRTConnect", 60, 2, 2, 1, 7, 0.75]])
+        older = [run(2, False, 3.0, check="0.01"), run(2, True, 1.0)]
         self.assertEqual(
-            list(others.newer_findings(newer, older)),
-            ["- s, RRTConnect: OMPL 2.0 within 60 s 2 of 2 with a path, 1 wrong; "
-             "OMPL 1.5 within 3 s 0 of 1, 0 wrong."])
+            list(others.newer_findings(found, older)),
+            ["- RRTConnect, the same scenes and seeds, samples at 1 %: OMPL 2.0, "
+             "asking Python, 1 of 1 with a path, 1 wrong, within 60 s; OMPL 1.5 0 of "
+             "1 with a path, 0 wrong, within 3 s."])
         self.assertEqual(list(others.failures([], found)),
                          ["- Did not run: 1 as k: E: no wheel."])
+
+    def test_ours_is_told_where_ompl_was_not_asked(self):
+        table = rigid_report.sums([dict(run(1, True, 2.0), planner="phongpd")])
+        self.assertEqual(list(rigid_report._ours(table)),
+                         ["- s, 3 s: PhongPD 1 of 1 right, 2 s (the whole answer 6 s, "
+                          "length 8); OMPL was not asked."])
 
     def test_the_page_says_who_wins(self):
         with tempfile.TemporaryDirectory() as folder:
