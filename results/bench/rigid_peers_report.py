@@ -21,7 +21,8 @@ NOTES = """\
   (0.8) a fifth, with 0.999 a thousandth.
 - OMPL 2.0.1, from its wheel, at samples of 1 %: a Python function asks PhongPD's judge
   about each pose, within the limit too, so times are not compared. The wheel's Python
-  has neither STRIDE nor EST.
+  has neither STRIDE nor EST; its PRM waits for ever, as a second thread of it asks
+  Python while the first one solves.
 """
 
 
@@ -85,7 +86,8 @@ def newer_findings(newer, older):
 
     def said(of):
         return (f"{sum(r['solved'] for r in of)} of {len(of)} with a path, "
-                f"{sum(r['wrong'] > 0 for r in of)} wrong, within {of[0]['limit']:g} s")
+                f"{sum(r['wrong'] > 0 for r in of)} wrong, within "
+                f"{max(r['limit'] for r in of):g} s")
     old = {key(r): r for r in older if r.get("check") == "0.01"
            and r["tuning"] == "default"}
     pairs = [(r, old[key(r)]) for r in newer if "error" not in r and key(r) in old]

@@ -214,7 +214,7 @@ def _ours(table):
         best = min((r for r in table if r[1] != "phongpd" and r[0] == row[0]
                     and r[4] == row[4]), key=order, default=None)
         if best is None:
-            yield ours + "; OMPL was not asked."
+            yield ours + "; OMPL was not asked for so long."
             continue
         check = ("proof" if best[2] == "proof"
                  else f"samples at {100 * float(best[2]):g} %")

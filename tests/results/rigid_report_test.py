@@ -132,7 +132,7 @@ class Tables(unittest.TestCase):
         table = rigid_report.sums([dict(run(1, True, 2.0), planner="phongpd")])
         self.assertEqual(list(rigid_report._ours(table)),
                          ["- s, 3 s: PhongPD 1 of 1 right, 2 s (the whole answer 6 s, "
-                          "length 8); OMPL was not asked."])
+                          "length 8); OMPL was not asked for so long."])
 
     def test_the_page_says_who_wins(self):
         with tempfile.TemporaryDirectory() as folder:
