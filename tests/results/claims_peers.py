@@ -226,8 +226,8 @@ claim("docs/choosing.md", "processor seconds to a first path, medians, ours and 
       "{:.2g}, {:.2g} and {:.2g}; a loose peg {:.2g}, {:.2g} and {:.2g}; an alpha of gap "
       "2.5 {:.2g}, {:.2g} and {:.2g}",
       *(value for scene in EASY_SCENES for value in proved(scene)))
-claim("docs/choosing.md", "{} of {} runs in {} tight scenes within 60 s of the processor; "
-      "KPIECE1 with samples at 1 % {} of {} within 20 s, {} of them wrong",
+claim("docs/choosing.md", "{} of {} runs in {} tight scenes within 60 s of the "
+      "processor; KPIECE1 with samples at 1 % {} of {} within 20 s, {} of them wrong",
       tight("phongpd", "solved"), tight("phongpd", "runs"),
       len({r["scene"] for r in where("rigid/planners.csv", planner="phongpd")}
           - set(EASY_SCENES)),
@@ -253,8 +253,8 @@ def soonest(scene):
     return min(seconds[name] for name in SAMPLED if name in seconds), seconds["phongpd"]
 
 
-claim("docs/choosing.md", "KPIECE1, RRTConnect and STRIDE with samples at 1 % find a path "
-      "in {} of {} runs on alphas of gap 1.5 and 1.2, {} of them wrong, the soonest in "
+claim("docs/choosing.md", "KPIECE1, RRTConnect and STRIDE with samples at 1 % find a "
+      "path in {} of {} runs on alphas of gap 1.5 and 1.2, {} of them wrong, the soonest in "
       "{:.2g} and {:.2g} s in the median, PhongPD in {:.2g} and {:.2g}",
       *(alphas(key) for key in ("solved", "runs", "wrong")),
       *(soonest(scene)[side] for side in (0, 1) for scene in ("alpha:1.5", "alpha:1.2")))
