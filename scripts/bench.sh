@@ -276,9 +276,23 @@ if [[ $suite == fleets || $suite == all ]]; then
   python3 -B results/bench/fleet_report.py --output results/fleets
 fi
 if [[ $suite == rigid || $suite == all ]]; then
-  scripts/build.sh rigid_judge_benchmark rigid_plan_benchmark
+  scripts/setup.sh python3-dev python3-venv
+  scripts/python.sh
+  scripts/build.sh rigid_judge_benchmark rigid_plan_benchmark phongpd_python
+  venv=build/venv-rigid
+  [[ -x $venv/bin/python ]] || /usr/bin/python3 -m venv "$venv"
+  for peer in numpy scipy ompl ipctk hpp-core hpp-python; do
+    "$venv/bin/pip" install --quiet --disable-pip-version-check "$peer" ||
+      echo "bench: $peer cannot be installed" >&2
+  done
   # As above.  `scripts/bench.sh rigid --long` runs what takes days.
   rows=build/rigid/$(git rev-parse HEAD)
+  # The wheel of hpp-python does not find its libraries by itself.
+  LD_LIBRARY_PATH=$(echo "$venv"/lib/python3*/site-packages/cmeel.prefix/lib) \
+    PYTHONPATH=$PWD/build/python "$venv/bin/python" -B \
+    results/bench/rigid_peers.py --output results/rigid --rows "$rows"
+  PYTHONPATH=$PWD/build/python "$venv/bin/python" -B \
+    results/bench/rigid_ompl2.py --output results/rigid --rows "$rows"
   python3 -B results/bench/rigid_benchmark.py --output results/rigid \
     --rows "$rows" --how "scripts/bench.sh rigid${2:+ ${*:2}}" \
     --commit "$(git rev-parse --short HEAD)" "${@:2}"

@@ -2,7 +2,8 @@
 """Bodies that turn: the certified judge beside FCL, and planners; see `--help`.
 
 Runs rigid_judge_benchmark and rigid_plan_benchmark, one process a run, keeps
-their rows as JSON Lines, and makes tables of them."""
+their rows as JSON Lines, and makes tables of them, and of those that rigid_peers.py
+and rigid_ompl2.py left beside them."""
 import json
 import subprocess
 from pathlib import Path
@@ -18,19 +19,22 @@ JUDGED = ["window:4", "piano:0.1", "peg:0.1", "peg:0.01", "ell:2.2",
 FINE = [("peg:0.1", 3), ("flange:0.15", 1), ("lock:0.05", 2), ("alpha:1.5", 2),
         ("piano:0.1", 4)]
 # What is wanted in the end takes days; this takes hours.  Where there is room many
-# planners are asked; where it is tight two of OMPL's besides ours, one with proof and
-# that which does best by samples.
-EASY = ["window:4", "peg:1.5", "alpha:2.5"]
-TIGHT = ["piano:0.1", "peg:0.1", "ell:2.2", "lock:0.05", "rod_trap:0.1",
-         "flange:0.15", "alpha:1.5"]
+# planners are asked.  Where it is tight ours runs with all its seeds first, as
+# OMPL's, most of which find nothing there, take their whole limit each.
+EASY, EASY_LIMIT = ["window:4", "peg:1.5", "alpha:2.5"], 20
+TIGHT, TIGHT_LIMIT = ["piano:0.1", "peg:0.1", "ell:2.2", "lock:0.05", "rod_trap:0.1",
+                      "flange:0.15", "alpha:1.5", "alpha:1.2"], 60
 OURS = ("phongpd", "proof", "default")
 EASY_RUNS = [OURS, ("RRTConnect", "proof", "tuned"),
              ("RRTConnect", "proof", "default"), ("RRTConnect", "0.01", "tuned"),
-             ("RRTConnect", "0.01", "default"), ("KPIECE1", "0.01", "default")]
-TIGHT_RUNS = [OURS, ("KPIECE1", "0.01", "default"), ("RRTConnect", "proof", "tuned")]
+             ("RRTConnect", "0.01", "default"), ("KPIECE1", "0.01", "default"),
+             ("STRIDE", "0.01", "default"), ("BITstar", "0.01", "default")]
+TIGHT_RUNS = [("KPIECE1", "0.01", "default"), ("RRTConnect", "0.01", "default"),
+              ("STRIDE", "0.01", "default"), ("BITstar", "0.01", "default"),
+              ("RRTConnect", "proof", "tuned")]
 WHOLE = ["window:4", "piano:0.1", "peg:0.1", "peg:0.01", "ell:2", "lock:0.05",
          "rod_trap:0.1", "flange:0.15", "alpha:1.5", "alpha:1.2"]
-PLANNERS = ["RRTConnect", "KPIECE1", "BKPIECE1", "EST", "PRM"]
+PLANNERS = ["RRTConnect", "KPIECE1", "BKPIECE1", "EST", "STRIDE", "PRM", "BITstar"]
 CHECKS = ["0.01", "0.001", "proof"]
 TUNED = ["RRTConnect"]
 
@@ -75,16 +79,17 @@ def plans(scenes, limits, seeds):
                 yield Planned(scene, "phongpd", "proof", "default", limit, seed)
 
 
-def short_plans(limit, seeds):
-    """Where there is room, then where it is tight, each seed by seed, planner by
-    planner."""
-    def runs(scenes, chosen):
+def short_plans(seeds):
+    """Where there is room, then where it is tight, ours first, each seed by seed,
+    planner by planner."""
+    def runs(scenes, chosen, limit):
         for seed in range(1, seeds + 1):
             for planner, check, tuning in chosen:
                 for scene in scenes:
                     yield Planned(scene, planner, check, tuning, limit, seed)
-    yield from runs(EASY, EASY_RUNS)
-    yield from runs(TIGHT, TIGHT_RUNS)
+    yield from runs(EASY, EASY_RUNS, EASY_LIMIT)
+    yield from runs(TIGHT, [OURS], TIGHT_LIMIT)
+    yield from runs(TIGHT, TIGHT_RUNS, TIGHT_LIMIT)
 
 
 def ask(program, *arguments):
@@ -128,15 +133,15 @@ def main():
     judged = [*(Judged(scene, motions) for scene in JUDGED),
               *(Judged(scene, motions // 2, times) for scene, times in FINE)]
     planned = list(plans(WHOLE, [60, 600], 10) if arguments.long
-                   else short_plans(20, arguments.seeds))
+                   else short_plans(arguments.seeds))
     rows.run_part(arguments, "judge", judged, judge_rows(arguments.build), deadline,
                   "runs of judges")
     rows.run_part(arguments, "plan", planned, plan_rows(arguments.build), deadline,
                   "runs of planners")
     if arguments.part in ("report", "all"):
         write_report(arguments.output, arguments.how, arguments.commit,
-                     rows.read(arguments.rows / "judge.jsonl"),
-                     rows.read(arguments.rows / "plan.jsonl"))
+                     *(rows.read(arguments.rows / f"{part}.jsonl")
+                       for part in ("judge", "plan", "peers", "ompl2")))
 
 
 if __name__ == "__main__":

@@ -5,6 +5,9 @@
 //
 // A miss is a motion called free that the certified judge proves colliding; a
 // contradiction one called colliding that it proves free.
+//
+// `--ends` prints the motions with what is proved of them instead, for judges
+// of other languages (rigid_peers.py): a row a kind of motion.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <functional>
@@ -97,6 +100,29 @@ std::vector<Method> Methods(const RigidScene& scene, const RigidJudge& judge,
   return methods;
 }
 
+// x, y, z, and w, x, y, z of the orientation.
+nlohmann::json ToRow(const RobotPose& pose) {
+  const auto& p = pose.position;
+  const auto& q = pose.orientation;
+  return {p.x(), p.y(), p.z(), q.w(), q.x(), q.y(), q.z()};
+}
+
+void PrintEnds(const RigidScene& scene, const RigidJudge& judge,
+               RigidMotionKind kind,
+               const std::vector<RigidMotionEnds>& motions) {
+  nlohmann::ordered_json row = {{"scene", scene.name},
+                                {"kind", ToString(kind)},
+                                {"motions", nlohmann::json::array()}};
+  for (const RigidMotionEnds& ends : motions) {
+    const std::optional<bool> is_free = Certified(judge, ends);
+    row["motions"].push_back(
+        {{"start", ToRow(ends.start)},
+         {"end", ToRow(ends.end)},
+         {"free", is_free ? nlohmann::json(*is_free) : nlohmann::json()}});
+  }
+  std::cout << row.dump() << std::endl;
+}
+
 }  // namespace
 
 int Run(Program* program) {
@@ -105,11 +131,13 @@ int Run(Program* program) {
   std::string name;
   int count = 200, refined = 0;
   unsigned seed = 1;
+  bool prints_ends = false;
   app.add_option("scene", name, "FAMILY or FAMILY:VALUE")->required();
   app.add_option("--motions", count)->capture_default_str();
   app.add_option("--seed", seed)->capture_default_str();
   app.add_option("--refined", refined, "So often each triangle in four")
       ->check(CLI::Range(0, 6));
+  app.add_flag("--ends", prints_ends, "Print the motions, judge none");
   program->Parse();
   RigidScene scene = MakeRigidScene(name);
   if (refined > 0) {
@@ -126,6 +154,10 @@ int Run(Program* program) {
         RigidMotionKind::kGrazing}) {
     const std::vector<RigidMotionEnds> motions =
         MakeRigidMotions(scene, judge, kind, count, seed);
+    if (prints_ends) {
+      PrintEnds(scene, judge, kind, motions);
+      continue;
+    }
     std::vector<std::optional<bool>> proved;
     for (const RigidMotionEnds& ends : motions) {
       proved.push_back(Certified(judge, ends));

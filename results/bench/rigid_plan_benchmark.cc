@@ -9,12 +9,15 @@
 // clock: `wrong` of them are proved to collide.
 #include <ompl/base/PlannerTerminationCondition.h>
 #include <ompl/base/ScopedState.h>
+#include <ompl/base/objectives/PathLengthOptimizationObjective.h>
 #include <ompl/geometric/SimpleSetup.h>
 #include <ompl/geometric/planners/est/EST.h>
+#include <ompl/geometric/planners/informedtrees/BITstar.h>
 #include <ompl/geometric/planners/kpiece/BKPIECE1.h>
 #include <ompl/geometric/planners/kpiece/KPIECE1.h>
 #include <ompl/geometric/planners/prm/PRM.h>
 #include <ompl/geometric/planners/rrt/RRTConnect.h>
+#include <ompl/geometric/planners/stride/STRIDE.h>
 #include <ompl/util/Console.h>
 #include <ompl/util/RandomNumbers.h>
 
@@ -36,6 +39,9 @@ namespace {
 
 namespace ob = ompl::base;
 namespace og = ompl::geometric;
+
+constexpr char kPlanners[] =
+    "RRTConnect, KPIECE1, BKPIECE1, EST, STRIDE, PRM, BITstar or phongpd";
 
 struct Options {
   std::string scene, planner = "RRTConnect", check = "proof",
@@ -80,11 +86,18 @@ ob::PlannerPtr MakePlanner(const std::string& name,
   if (name == "KPIECE1") return WithRange<og::KPIECE1>(si, range);
   if (name == "BKPIECE1") return WithRange<og::BKPIECE1>(si, range);
   if (name == "EST") return WithRange<og::EST>(si, range);
+  if (name == "STRIDE") return WithRange<og::STRIDE>(si, range);
   if (name == "PRM") return std::make_shared<og::PRM>(si);
-  throw InputError(
-      "--planner: expected RRTConnect, KPIECE1, BKPIECE1, EST, PRM or phongpd, "
-      "found '" +
-      name + "'");
+  if (name == "BITstar") return std::make_shared<og::BITstar>(si);
+  throw InputError("--planner: expected " + std::string(kPlanners) +
+                   ", found '" + name + "'");
+}
+
+// Those that go on after their first path stop at it, like the others.
+ob::OptimizationObjectivePtr AnyPath(const ob::SpaceInformationPtr& si) {
+  auto length = std::make_shared<ob::PathLengthOptimizationObjective>(si);
+  length->setCostThreshold(length->infiniteCost());
+  return length;
 }
 
 Outcome RunOmpl(const RigidScene& scene, const RigidWorld& rigid,
@@ -123,6 +136,7 @@ Outcome RunOmpl(const RigidScene& scene, const RigidWorld& rigid,
   FromRobotPose(scene.start, start.get());
   FromRobotPose(scene.goal, goal.get());
   setup.setStartAndGoalStates(start, goal);
+  setup.setOptimizationObjective(AnyPath(si));
   setup.setPlanner(MakePlanner(options.planner, si, range));
   Outcome outcome;
   const double begin = CpuSeconds();
@@ -144,8 +158,7 @@ int Run(Program* program) {
       program->Options("One run of a planner for a robot that turns.");
   Options options;
   app.add_option("scene", options.scene, "FAMILY or FAMILY:VALUE")->required();
-  app.add_option("--planner", options.planner,
-                 "RRTConnect, KPIECE1, BKPIECE1, EST, PRM or phongpd")
+  app.add_option("--planner", options.planner, kPlanners)
       ->capture_default_str();
   app.add_option("--check", options.check,
                  "proof, or the resolution of OMPL's samples: 0.01")

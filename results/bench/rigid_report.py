@@ -5,6 +5,7 @@ import math
 import statistics
 import textwrap
 
+import rigid_peers_report as others
 from python_report import cell, machine, write_csv, write_tables
 
 QUESTION = """\
@@ -197,27 +198,30 @@ def _duels(table):
            f"{'; '.join(losses) or 'none'}.")
 
 
+def _said(row):
+    return f"{row[6] - row[7]} of {row[5]} right, " + (
+        "longer" if row[9] == "more" else f"{cell(row[9])} s")
+
+
 def _ours(table):
     """Our planner beside the best of OMPL's on each scene and limit."""
     def order(row):
         return (row[7] - row[6], math.inf if row[9] == "more" else row[9])
     for row in [r for r in table if r[1] == "phongpd"]:
-        others = [r for r in table if r[1] != "phongpd" and r[0] == row[0]
-                  and r[4] == row[4]]
-        if not others:
+        whole = ("" if row[10] == "more" else
+                 f" (the whole answer {cell(row[10])} s, length {cell(row[11])})")
+        ours = f"- {row[0]}, {row[4]:g} s: PhongPD {_said(row)}{whole}"
+        best = min((r for r in table if r[1] != "phongpd" and r[0] == row[0]
+                    and r[4] == row[4]), key=order, default=None)
+        if best is None:
+            yield ours + "; OMPL was not asked for so long."
             continue
-        best = min(others, key=order)
-        said = [f"{r[6] - r[7]} of {r[5]} right, "
-                + ("longer" if r[9] == "more" else f"{cell(r[9])} s")
-                for r in (row, best)]
         check = ("proof" if best[2] == "proof"
                  else f"samples at {100 * float(best[2]):g} %")
         tuned = ", tuned" if best[3] == "tuned" else ""
-        whole = ("" if row[10] == "more" else
-                 f" (the whole answer {cell(row[10])} s, length {cell(row[11])})")
         length = "" if best[11] == "more" else f", length {cell(best[11])}"
-        yield (f"- {row[0]}, {row[4]:g} s: PhongPD {said[0]}{whole}; best of OMPL "
-               f"{said[1]} ({best[1]}{tuned}, {check}{length}).")
+        yield (f"{ours}; best of OMPL {_said(best)} ({best[1]}{tuned}, "
+               f"{check}{length}).")
 
 
 def proved(table, scene, planner):
@@ -245,9 +249,11 @@ def _wrapped(lines):
             break_on_hyphens=False, break_long_words=False))
 
 
-def write_report(folder, how, commit, judged, planned):
+def write_report(folder, how, commit, judged, planned, peers=(), newer=()):
+    """`peers`: rows of rigid_peers.py; `newer`: of rigid_ompl2.py."""
     folder.mkdir(parents=True, exist_ok=True)
     judge, runs, table = judge_table(judged), run_table(planned), sums(planned)
+    beside, ompl2 = others.peers_table(peers), others.newer_table(newer)
     write_csv(folder / "runs.csv", RUN_HEADER, runs)
     where = write_tables(folder, "Bodies that turn", [
         ("judge.csv", "Judges", JUDGE_HEADER, judge,
@@ -255,14 +261,22 @@ def write_report(folder, how, commit, judged, planned):
         ("planners.csv", "Planners", SUM_HEADER, table,
          "Solved: paths, wrong ones included. more: than the limit, in more "
          "than half of the runs. check: share of the extent between samples, or "
-         "proof.")])
+         "proof."),
+        ("peers.csv", "Judges of others", others.PEERS_HEADER, beside,
+         "Asked from Python. ms: a motion, the call included."),
+        ("ompl2.csv", "OMPL 2.0", others.NEWER_HEADER, ompl2,
+         "From its wheel, each pose judged by a Python function.")])
     seeds = sorted({r["seed"] for r in planned if "seed" in r})
     text = ["# Bodies that turn: a proof beside samples", "", QUESTION,
             "## Judges", "", *_judge_lines(judge), "",
-            *_wrapped(_judge_findings(judge)), "", "## Planners", "",
+            *_wrapped(_judge_findings(judge)), "", "## Judges of others", "",
+            *others.peers_lines(beside), "",
+            *_wrapped(others.peers_findings(beside)), "", "## Planners", "",
             *_wrapped([*_plan_findings(planned), *_duels(table),
-                       *_beside_proof(table), *_ours(table)]),
-            "", NOTES, where, "Each run: [runs.csv](runs.csv).", "",
+                       *_beside_proof(table), *_ours(table),
+                       *others.newer_findings(newer, planned),
+                       *others.failures(peers, newer)]),
+            "", NOTES + others.NOTES, where, "Each run: [runs.csv](runs.csv).", "",
             *_wrapped([
                 f"Command: {how}; with `--long` every planner on every scene, 10 "
                 f"seeds, 60 s and 600 s. Date: {datetime.date.today()}. Seeds: "

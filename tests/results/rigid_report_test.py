@@ -15,6 +15,7 @@ SOURCE = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(SOURCE / "results" / "bench"))
 
 import rigid_benchmark  # noqa: E402
+import rigid_peers_report as others  # noqa: E402
 import rigid_report  # noqa: E402
 
 
@@ -31,6 +32,12 @@ def judged(method, ms, misses=0):
             "kind": "contact", "method": method, "motions": 10, "free": 4,
             "colliding": 6, "ms": ms, "undecided": 0, "misses": misses,
             "contradictions": 0, "seed": 1}
+
+
+def peer(method, ms, misses=0):
+    return {"scene": "s", "kind": "contact", "method": method, "motions": 50,
+            "free": 20, "colliding": 30, "ms": ms, "undecided": 0, "misses": misses,
+            "contradictions": 2}
 
 
 class Tables(unittest.TestCase):
@@ -87,6 +94,45 @@ class Tables(unittest.TestCase):
         self.assertEqual(len(said), 1)
         self.assertIn("takes PhongPD 1.5 times as long", said[0])
         self.assertIn("whole answer 4.5 times", said[0])
+
+    def test_others_are_compared_with_ours_on_the_same_motions(self):
+        table = others.peers_table([
+            {"rows": [peer("PhongPD", 0.5), peer("hpp-core", 2.0, misses=1)]},
+            {"rows": [dict(peer("PhongPD", 1.0), motions=10),
+                      dict(peer("ipctk", 3.0), motions=10)]},
+            {"key": "s gone 50 1", "error": "ImportError: none"}])
+        self.assertEqual(list(others.by_method(table)),
+                         [["PhongPD", 1, 50, 30, 0, 2, 0, 0.5, 0.5, 1.0],
+                          ["hpp-core", 1, 50, 30, 1, 2, 0, 2.0, 2.0, 4.0],
+                          ["PhongPD", 1, 10, 30, 0, 2, 0, 1.0, 1.0, 1.0],
+                          ["ipctk", 1, 10, 30, 0, 2, 0, 3.0, 3.0, 3.0]])
+        self.assertEqual(
+            list(others.peers_findings(table))[0],
+            "- hpp-core: PhongPD is cheaper in 1 of 1 sets of motions, and dearer in "
+            "0. Misses and contradictions: 3 contact.")
+
+    def test_newer_ompl_stands_beside_the_older(self):
+        found = [{"scene": "s", "planner": "RRTConnect", "limit": 60, "solved": True,
+                  "wrong": wrong, "seconds": 2.0, "in_python": 1.5, "checked": 7,
+                  "seed": seed}
+                 for seed, wrong in ((1, 0), (2, 2))] + [
+                     {"key": "k", "error": "E: no wheel"}]
+        self.assertEqual(others.newer_table(found),
+                         [["s", "RRTConnect", 60, 2, 2, 1, 7, 0.75]])
+        older = [run(2, False, 3.0, check="0.01"), run(2, True, 1.0)]
+        self.assertEqual(
+            list(others.newer_findings(found, older)),
+            ["- RRTConnect, the same scenes and seeds, samples at 1 %: OMPL 2.0, "
+             "asking Python, 1 of 1 with a path, 1 wrong, within 60 s; OMPL 1.5 0 of "
+             "1 with a path, 0 wrong, within 3 s."])
+        self.assertEqual(list(others.failures([], found)),
+                         ["- Did not run: 1 as k: E: no wheel."])
+
+    def test_ours_is_told_where_ompl_was_not_asked(self):
+        table = rigid_report.sums([dict(run(1, True, 2.0), planner="phongpd")])
+        self.assertEqual(list(rigid_report._ours(table)),
+                         ["- s, 3 s: PhongPD 1 of 1 right, 2 s (the whole answer 6 s, "
+                          "length 8); OMPL was not asked for so long."])
 
     def test_the_page_says_who_wins(self):
         with tempfile.TemporaryDirectory() as folder:
