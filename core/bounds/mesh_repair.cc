@@ -211,7 +211,18 @@ Solid RepairSolid(const TriangleMesh& mesh, const std::string& name,
   *repair_report = {};
   if (repair == Repair::kReject) return MakeSolid(mesh, name, mesh_report);
   const TriangleMesh mended = RepairSafely(mesh, repair_report);
-  if (repair == Repair::kSafe) return MakeSolid(mended, name, mesh_report);
+  if (repair == Repair::kSafe) {
+    try {
+      return MakeSolid(mended, name, mesh_report);
+    } catch (const InputError& error) {
+      // What was asked for is not proposed again.
+      std::string text = error.what();
+      const std::string both = "; repair safe or wrap ";
+      const std::size_t at = text.find(both);
+      if (at == std::string::npos) throw;
+      throw InputError(text.replace(at, both.size(), "; repair wrap "));
+    }
+  }
   std::string reason;
   try {
     return MakeSolid(mended, name, mesh_report);

@@ -2,6 +2,7 @@
 #include "core/projection/phong_field.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -205,11 +206,88 @@ class FieldBuilder {
   void CheckSize(double triangles) const {
     if (triangles <= static_cast<double>(kMaxTriangles)) return;
     std::ostringstream out;
-    out << "splitting needs more than " << kMaxTriangles
-        << " triangles; smoothing_length " << options_.smoothing_length
-        << " and max_edge " << options_.max_edge << " ask for edges below "
-        << MaxEdge() / length_ << " of D; set a larger max_edge";
+    if (options_.max_edge > 0.0) {
+      out << "splitting into edges below max_edge, " << options_.max_edge
+          << " of D, needs more than " << kMaxTriangles
+          << " triangles; set a larger max_edge";
+    } else {
+      out << "smoothing_length: expected at least " << FeasibleLength()
+          << "D or 0 on this surface, found " << options_.smoothing_length
+          << "D, which splits it into more than " << kMaxTriangles
+          << " triangles; or take the metric smoothed";
+    }
     Refuse(out.str());
+  }
+
+  // The least round ℓ, a share of D, above the one asked for with which
+  // splitting is not refused.
+  double FeasibleLength() const {
+    double decade =
+        std::pow(10.0, std::floor(std::log10(options_.smoothing_length)));
+    for (; decade < 1.0; decade *= 10.0) {
+      for (const double digit : {1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 6.0, 8.0}) {
+        const double ell = digit * decade;
+        if (ell <= options_.smoothing_length) continue;
+        // Splitting of obtuse edges adds some.
+        if (SplitCount(kEdgePerEll * ell * length_) <
+            0.9 * static_cast<double>(kMaxTriangles)) {
+          return ell;
+        }
+      }
+    }
+    return 1.0;
+  }
+
+  // How many triangles SplitLongEdges makes; more than kMaxTriangles where it
+  // stops counting.
+  double SplitCount(double longest) const {
+    double count = 0.0;
+    for (const Triangle& t : field_.mesh.triangles) {
+      std::array<Vector3d, 3> corners;
+      for (std::size_t k = 0; k < 3; ++k) {
+        corners[k] = field_.mesh.vertices[At(t[k])];
+      }
+      CountSplits(corners, longest * longest, &count);
+      if (count > static_cast<double>(kMaxTriangles)) break;
+    }
+    return count;
+  }
+
+  // One triangle as rounds of SplitEdges cut it: each marks all edges that are
+  // too long and bisects the longest of a triangle first.
+  static void CountSplits(const std::array<Vector3d, 3>& t, double most,
+                          double* count) {
+    std::array<bool, 3> marked;
+    bool any = false;
+    for (std::size_t k = 0; k < 3; ++k) {
+      marked[k] = (t[(k + 1) % 3] - t[k]).squaredNorm() > most;
+      any = any || marked[k];
+    }
+    if (!any) {
+      *count += 1.0;
+      return;
+    }
+    CountParts(t, marked, most, count);
+  }
+
+  static void CountParts(const std::array<Vector3d, 3>& t,
+                         const std::array<bool, 3>& marked, double most,
+                         double* count) {
+    if (*count > static_cast<double>(kMaxTriangles)) return;
+    std::size_t longest = 3;
+    double length = -1.0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double own = (t[(k + 1) % 3] - t[k]).squaredNorm();
+      if (!marked[k] || own <= length) continue;
+      longest = k;
+      length = own;
+    }
+    if (longest == 3) return CountSplits(t, most, count);
+    const std::size_t k1 = (longest + 1) % 3, k2 = (longest + 2) % 3;
+    const Vector3d middle = 0.5 * (t[longest] + t[k1]);
+    CountParts({t[longest], middle, t[k2]}, {false, false, marked[k2]}, most,
+               count);
+    CountParts({middle, t[k1], t[k2]}, {false, marked[k1], false}, most, count);
   }
 
   void ConfineInadmissible() {
@@ -239,9 +317,8 @@ class FieldBuilder {
   void SplitLongEdges() {
     const double longest = MaxEdge();
     if (longest <= 0.0) return;
-    // No triangle is larger than the equilateral one: refuse before trying.
-    CheckSize(SurfaceArea(field_.mesh) /
-              (0.25 * std::sqrt(3.0) * longest * longest));
+    // Before trying: memory for millions is taken in vain otherwise.
+    CheckSize(SplitCount(longest));
     for (int round = 0; round < kLengthRounds; ++round) {
       const EdgeTable edges = Edges();
       std::vector<char> marked(edges.vertices.size(), 0);

@@ -137,27 +137,28 @@ PlanResult ContactRoadmap::Plan(const Vector3d& start, const Vector3d& goal,
   request.Validate();
   const Stopwatch stopwatch;
   const PlanningSurface& surface = impl_->surface;
-  PlanResult result = surface.Begin(start, goal, request.clearance);
+  RouteRequest wish;
+  wish.clearance = request.clearance;
+  wish.keeps_clearance = request.clearance > 0.0;
+  PlanResult result = surface.Begin(start, goal, wish);
   if (result.reason.empty()) {
     ++impl_->queries;
     std::vector<Vector3d> path;
     if (start == goal) {
       path = {start};
-    } else if (surface.IsClearWay(start, goal, result.wanted_clearance)) {
+    } else if (surface.IsClearWay(start, goal, result)) {
       path = {start, goal};
     } else {
       path = impl_->Route(start, goal, result.wanted_clearance);
     }
     if (path.empty()) {
       ++impl_->lazy_searches;
-      RouteRequest lazy;
-      lazy.clearance = request.clearance;
-      result = impl_->planner->Plan(start, goal, lazy);
+      result = impl_->planner->Plan(start, goal, wish);
     } else if (request.shorten) {
       // Without the points between which it is straight anyway: each of those
       // left is centred.
       ShorteningOptions sparse;
-      sparse.clearance = result.wanted_clearance;
+      sparse.clearance = PlanningSurface::LiftOf(result);
       sparse.random_cuts = 0;
       sparse.pulls = 0;
       surface.Keep(ShortenPath(path, surface.segments, sparse), kShorteningCuts,

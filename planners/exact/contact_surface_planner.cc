@@ -166,10 +166,11 @@ std::vector<Attachment> ContactSurfacePlanner::Impl::Attach(
 // One more route, of the best parts of those found.
 void ContactSurfacePlanner::Impl::Recombine(PlanResult* result) const {
   if (result->routes.size() < 2) return;
+  const double share = result->keeps_clearance ? 1.0 : kKeptShare;
   std::vector<RoutedPath> paths;
   double shortest = std::numeric_limits<double>::infinity();
   for (const std::vector<Vector3d>& route : result->routes) {
-    const double clearance = kKeptShare * surface.ClearanceOf(route);
+    const double clearance = share * surface.ClearanceOf(route);
     paths.push_back({route, std::min(clearance, result->wanted_clearance)});
     shortest = std::min(shortest, PathLength(route));
   }
@@ -197,8 +198,9 @@ class ContactSurfacePlanner::Impl::RouteSearch {
     const std::vector<Attachment> to_goal =
         planner.Attach(goal, start, true, result->goal);
     attachments_.insert(attachments_.end(), to_goal.begin(), to_goal.end());
-    clear_ = 0.4 * planner.surface.ClearanceOfEnds(start, goal,
-                                                   result->wanted_clearance);
+    clear_ =
+        PlanningSurface::ShareOfEnds(*result) *
+        planner.surface.ClearanceOfEnds(start, goal, result->wanted_clearance);
   }
 
   // Throws BuildCancelled.
@@ -212,9 +214,9 @@ class ContactSurfacePlanner::Impl::RouteSearch {
       if (route.empty()) break;
       const std::vector<SurfaceSite> sites = SitesOf(route);
       std::vector<Vector3d> path;
-      const std::vector<int> blamed =
-          LiftRoute(sites, planner_.surface.segments, result_.wanted_clearance,
-                    planner_.surface.cells.rounding(), &path, &result_.lift);
+      const std::vector<int> blamed = LiftRoute(
+          sites, planner_.surface.segments, PlanningSurface::LiftOf(result_),
+          planner_.surface.cells.rounding(), &path, &result_.lift);
       if (!blamed.empty()) {
         Delete(blamed, route);
         continue;
@@ -303,14 +305,16 @@ void ContactSurfacePlanner::Impl::FindPath(const Vector3d& start,
                                            const Vector3d& goal,
                                            const RouteRequest& request,
                                            bool all, PlanResult* result) const {
-  if (surface.IsClearWay(start, goal, result->wanted_clearance)) {
+  if (surface.IsClearWay(start, goal, *result)) {
     std::vector<Vector3d> path = {start};
     if (start != goal) path.push_back(goal);
     return Keep(std::move(path), result);
   }
   RouteSearch(*this, start, goal, request, all, result).Run();
-  if (result->status == PathStatus::kSolved) return Recombine(result);
-  result->reason = WhyNoRoute(*result);
+  const bool is_found = result->status == PathStatus::kSolved;
+  if (is_found) Recombine(result);
+  if (is_found && !result->keeps_clearance) return;
+  if (!is_found) result->reason = WhyNoRoute(*result);
   if (!surface.segments.Meets(start, goal)) Keep({start, goal}, result);
 }
 
@@ -350,7 +354,7 @@ PlanResult ContactSurfacePlanner::Plan(const Vector3d& start,
                                        bool all_routes) const {
   request.Validate();
   const Stopwatch stopwatch;
-  PlanResult result = impl_->surface.Begin(start, goal, request.clearance);
+  PlanResult result = impl_->surface.Begin(start, goal, request);
   if (result.reason.empty()) {
     impl_->FindPath(start, goal, request, all_routes, &result);
   }

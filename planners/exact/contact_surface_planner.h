@@ -55,7 +55,11 @@ using ObstacleNames = std::function<std::string(const Eigen::Vector3d&)>;
 // What can be set for one query.
 struct RouteRequest {
   double clearance = 0.0;  // user's unit, ≥ 0, finite; 0: kEnoughClearance
-  int routes = 0;          // ≥ 0; 0: by the options
+  // Is the clearance above 0 to be kept?  Then routes are lifted by more than
+  // it, shortening gives nothing of it away, and a route that keeps it comes
+  // before one that does not.  Otherwise it is what routes are lifted by.
+  bool keeps_clearance = false;
+  int routes = 0;  // ≥ 0; 0: by the options
 
   // Throws InputError naming the option, the range and the value.
   void Validate() const;
@@ -81,6 +85,7 @@ struct PlanResult {
   double length = 0.0;
   double clearance = 0.0;         // of the whole path from contact, rounded
   double wanted_clearance = 0.0;  // user's unit
+  bool keeps_clearance = false;   // is that one asked to be kept?
   CellCertificate start, goal;
   // The answer holds for every surface without self-intersection that connects
   // its vertices as the mesh does, and has them within this distance of the

@@ -12,12 +12,18 @@ using Eigen::Vector3d;
 constexpr int kMoves = 4;        // of a point in a round
 constexpr int kRounds = 4;       // of inserting points
 constexpr int kBisections = 12;  // of a segment
+// Where a clearance is to be kept, segments keep that of their ends but for so
+// much.
+constexpr double kNearly = 0.99;
 
 class Centering {
  public:
   Centering(const ContactSurface& surface, const TriangleBvh& segments,
-            double clearance)
-      : surface_(surface), segments_(segments), clearance_(clearance) {}
+            double clearance, double kept)
+      : surface_(surface),
+        segments_(segments),
+        clearance_(clearance),
+        kept_(kept) {}
 
   void Run(std::vector<Vector3d>* path) {
     for (const Vector3d& p : *path) points_.push_back(At(p));
@@ -25,7 +31,8 @@ class Centering {
     for (int pass = 0; pass < 2; ++pass) {
       for (std::size_t k = 1; k + 1 < points_.size(); ++k) Raise(k);
     }
-    for (int round = 0; round < kRounds && Split(); ++round) {
+    const int rounds = kept_ > 0.0 ? 2 * kRounds : kRounds;
+    for (int round = 0; round < rounds && Split(); ++round) {
     }
     path->clear();
     for (const Point& p : points_) path->push_back(p.position);
@@ -92,8 +99,9 @@ class Centering {
     points_.push_back(old.front());
     for (std::size_t k = 1; k < old.size(); ++k) {
       const Point a = points_.back(), b = old[k];
-      const double wanted =
-          0.6 * std::min({clearance_, a.distance, b.distance});
+      const double ends = std::min(a.distance, b.distance);
+      const double wanted = std::max(0.6 * std::min(clearance_, ends),
+                                     std::min(kept_, kNearly * ends));
       if (!HasRoom(a, b, wanted)) {
         points_.push_back(At(Nearest(a.position, b.position)));
         points_.push_back(b);
@@ -120,16 +128,16 @@ class Centering {
 
   const ContactSurface& surface_;
   const TriangleBvh& segments_;
-  double clearance_;
+  double clearance_, kept_;
   std::vector<Point> points_;
 };
 
 }  // namespace
 
 void CenterPath(const ContactSurface& surface, const TriangleBvh& segments,
-                double clearance, std::vector<Vector3d>* path) {
+                double clearance, double kept, std::vector<Vector3d>* path) {
   if (path->size() > 1 && clearance > 0.0) {
-    Centering(surface, segments, clearance).Run(path);
+    Centering(surface, segments, clearance, kept).Run(path);
   }
 }
 

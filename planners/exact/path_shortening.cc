@@ -42,11 +42,11 @@ class Shortener {
     for (std::size_t k = 0; k < path.size(); ++k) {
       points_.push_back({path[k], static_cast<double>(k), false});
       if (k == 0) continue;
-      floor_.push_back(
-          std::min(options.clearance,
-                   kClearanceKept *
-                       segments.Distance(path[k - 1], path[k],
-                                         options.clearance / kClearanceKept)));
+      floor_.push_back(std::min(
+          options.clearance,
+          options.kept_share *
+              segments.Distance(path[k - 1], path[k],
+                                options.clearance / options.kept_share)));
     }
   }
 

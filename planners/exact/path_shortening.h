@@ -10,13 +10,14 @@ namespace phongpd {
 class FreeSpace;
 class TriangleBvh;
 
-// A new segment keeps min(clearance, this share of the least clearance of what
-// it replaces on the path given).
+// A new segment keeps min(clearance, a share of the least clearance of what it
+// replaces on the path given): this share unless another is asked for.
 inline constexpr double kClearanceKept = 0.8;
 
 struct ShorteningOptions {
   // Clearance that is enough, user's unit; ≥ 0.
   double clearance = 0.0;
+  double kept_share = kClearanceKept;  // in (0, 1]
   int random_cuts = 200;
   int pulls = 12;  // rounds over all inner points
   std::uint64_t seed = 1;

@@ -41,7 +41,7 @@ PlanningSurface::PlanningSurface(const ContactSpace& space,
 }
 
 PlanResult PlanningSurface::Begin(const Vector3d& start, const Vector3d& goal,
-                                  double clearance) const {
+                                  const RouteRequest& request) const {
   PlanResult result;
   result.rounding = cells.rounding();
   result.self_intersections =
@@ -59,7 +59,9 @@ PlanResult PlanningSurface::Begin(const Vector3d& start, const Vector3d& goal,
   result.start = Locate(start);
   result.goal = Locate(goal);
   const int cell = result.start.cell;
-  result.wanted_clearance = clearance > 0.0 ? clearance : WantedClearance(cell);
+  result.keeps_clearance = request.keeps_clearance && request.clearance > 0.0;
+  result.wanted_clearance =
+      request.clearance > 0.0 ? request.clearance : WantedClearance(cell);
   const bool decided = cell != FreeCells::kUndecided &&
                        result.goal.cell != FreeCells::kUndecided;
   if (decided && cell != result.goal.cell) {
@@ -77,17 +79,20 @@ double PlanningSurface::ClearanceOfEnds(const Vector3d& start,
 }
 
 bool PlanningSurface::IsClearWay(const Vector3d& start, const Vector3d& goal,
-                                 double clearance) const {
+                                 const PlanResult& result) const {
   if (segments.Meets(start, goal)) return false;
-  const double ends = ClearanceOfEnds(start, goal, clearance);
-  return start == goal || segments.Distance(start, goal, ends) >= 0.4 * ends;
+  const double ends = ClearanceOfEnds(start, goal, result.wanted_clearance);
+  return start == goal ||
+         segments.Distance(start, goal, ends) >= ShareOfEnds(result) * ends;
 }
 
 void PlanningSurface::Keep(std::vector<Vector3d> raw_path, int random_cuts,
                            PlanResult* result) const {
-  CenterPath(contact, segments, result->wanted_clearance, &raw_path);
+  const double kept = result->keeps_clearance ? result->wanted_clearance : 0.0;
+  CenterPath(contact, segments, LiftOf(*result), kept, &raw_path);
   ShorteningOptions shortening;
   shortening.clearance = result->wanted_clearance;
+  if (result->keeps_clearance) shortening.kept_share = 1.0;
   shortening.random_cuts = random_cuts;
   std::vector<Vector3d> path = ShortenPath(raw_path, segments, shortening);
   Offer(std::move(raw_path), std::move(path), result);
@@ -100,7 +105,9 @@ void PlanningSurface::Offer(std::vector<Vector3d> raw_path,
   const double length = PathLength(path);
   const double clearance = ClearanceOf(path);
   if (result->status == PathStatus::kSolved) {
-    const RouteOrder order(cells.rounding());
+    const double wish =
+        result->keeps_clearance ? result->wanted_clearance : 0.0;
+    const RouteOrder order(cells.rounding(), wish);
     if (!order.IsBetter({length, clearance},
                         {result->length, result->clearance})) {
       return;

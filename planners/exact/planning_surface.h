@@ -27,18 +27,26 @@ struct PlanningSurface {
   PlanningSurface& operator=(const PlanningSurface&) = delete;
 
   // A result with evidence, certificates, and its status where no path is to
-  // be looked for; kFailed without a reason where one is.  `clearance` is the
-  // user's wish, 0: none.
+  // be looked for; kFailed without a reason where one is.
   PlanResult Begin(const Eigen::Vector3d& start, const Eigen::Vector3d& goal,
-                   double clearance) const;
+                   const RouteRequest& request) const;
 
   // The lesser clearance of two free configurations, at most the wish > 0.
   double ClearanceOfEnds(const Eigen::Vector3d& start,
                          const Eigen::Vector3d& goal, double clearance) const;
   // Is the straight way free, and about as clear as its ends and the wish
-  // allow?
+  // allow; as clear, where the wish is to be kept?
   bool IsClearWay(const Eigen::Vector3d& start, const Eigen::Vector3d& goal,
-                  double clearance) const;
+                  const PlanResult& result) const;
+  // The share of the clearance of the ends with which a way is clear.
+  static double ShareOfEnds(const PlanResult& result) {
+    return result.keeps_clearance ? kKeptOfClearance : 0.4;
+  }
+  // How far routes are lifted and centred.  Segments between lifted points
+  // come nearer than these, and are split only below 0.6 of them.
+  static double LiftOf(const PlanResult& result) {
+    return result.wanted_clearance * (result.keeps_clearance ? 2.0 : 1.0);
+  }
 
   // Does a path of that clearance stay free whatever rounding did to the
   // surface?  With less it may lead where solids touch.

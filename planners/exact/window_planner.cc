@@ -35,11 +35,13 @@ constexpr double kMoreShare = 0.5;
 constexpr double kPoor = 0.25;
 constexpr int kFurtherRounds = 3;
 
-bool IsBetter(const PlanResult& found, const PlanResult& best) {
+bool IsBetter(const PlanResult& found, const PlanResult& best,
+              const RouteRequest& request) {
   if (best.status != PathStatus::kSolved) return true;
   if (found.status != PathStatus::kSolved) return false;
   // The surface of each exploration has a rounding of its own.
-  return RouteOrder(std::max(found.rounding, best.rounding))
+  const double wish = request.keeps_clearance ? request.clearance : 0.0;
+  return RouteOrder(std::max(found.rounding, best.rounding), wish)
       .IsBetter({found.length, found.clearance}, {best.length, best.clearance});
 }
 
@@ -88,12 +90,16 @@ WindowPlanner::WindowPlanner(const ConvolutionModel& sealed,
       space_(FreeSpace::OfConvolutions({sealed})) {}
 
 bool WindowPlanner::TryStraight(const Vector3d& start, const Vector3d& goal,
-                                double clearance, PlanResult* result) const {
+                                const RouteRequest& request,
+                                PlanResult* result) const {
   if (!space_.IsFree(start, goal)) return false;
   const double least = space_.Clearance(start, goal);
-  const double ends =
-      std::min({clearance, space_.Clearance(start), space_.Clearance(goal)});
-  if (start != goal && least < kStraightShare * ends) return false;
+  const double ends = std::min(
+      {request.clearance, space_.Clearance(start), space_.Clearance(goal)});
+  const double share =
+      request.keeps_clearance ? kKeptOfClearance : kStraightShare;
+  const bool is_clear = start == goal || least >= share * ends;
+  if (!is_clear && !request.keeps_clearance) return false;
   result->status = PathStatus::kSolved;
   result->path = {start};
   if (start != goal) result->path.push_back(goal);
@@ -101,7 +107,7 @@ bool WindowPlanner::TryStraight(const Vector3d& start, const Vector3d& goal,
   result->routes = {result->path};
   result->length = (goal - start).norm();
   result->clearance = least;
-  return true;
+  return is_clear;
 }
 
 // From walls to all of free space.
@@ -114,6 +120,7 @@ void WindowPlanner::Widen(const Vector3d& start, const Vector3d& goal,
   ShorteningOptions shortening;
   shortening.clearance = result->wanted_clearance;
   shortening.random_cuts = options_.random_cuts;
+  if (result->keeps_clearance) shortening.kept_share = 1.0;
   join_ends(&result->raw_path);
   for (std::vector<Vector3d>& route : result->routes) join_ends(&route);
   join_ends(&result->path);
@@ -135,9 +142,9 @@ void WindowPlanner::Widen(const Vector3d& start, const Vector3d& goal,
 void WindowPlanner::Explore(const Vector3d& start, const Vector3d& goal,
                             const RouteRequest& request,
                             WindowPlan* out) const {
-  const double enough =
-      kPoor * std::min({request.clearance, space_.Clearance(start),
-                        space_.Clearance(goal)});
+  const double enough = (request.keeps_clearance ? kKeptOfClearance : kPoor) *
+                        std::min({request.clearance, space_.Clearance(start),
+                                  space_.Clearance(goal)});
   FreeSpaceFlood flood(model_, start, goal);
   PlanResult& best = out->plan;
   std::size_t more = std::numeric_limits<std::size_t>::max() / 2;
@@ -151,7 +158,7 @@ void WindowPlanner::Explore(const Vector3d& start, const Vector3d& goal,
       found = ContactSurfacePlanner(surface.AsContactSpace(), options_, names_)
                   .Plan(flood.start(), flood.goal(), request);
       if (found.status == PathStatus::kSolved) Widen(start, goal, &found);
-      if (IsBetter(found, best)) {
+      if (IsBetter(found, best, request)) {
         best = std::move(found);
         const bool is_proof =
             is_enclosed && best.status == PathStatus::kInfeasibleProved;
@@ -198,8 +205,9 @@ WindowPlan WindowPlanner::Plan(const Vector3d& start, const Vector3d& goal,
   RouteRequest wish = request;
   if (wish.clearance <= 0.0) {
     wish.clearance = kEnoughClearance * model_.bounds().Diagonal();
+    wish.keeps_clearance = false;
   }
-  if (!TryStraight(start, goal, wish.clearance, &result)) {
+  if (!TryStraight(start, goal, wish, &result)) {
     Explore(start, goal, wish, &out);
   }
   result.wanted_clearance = wish.clearance;

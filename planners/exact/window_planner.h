@@ -56,8 +56,10 @@ class WindowPlanner {
   const FreeSpace& free_space() const { return space_; }
 
  private:
+  // Is the straight way clear?  It is the result, to be improved, where it is
+  // not and a clearance is to be kept.
   bool TryStraight(const Eigen::Vector3d& start, const Eigen::Vector3d& goal,
-                   double clearance, PlanResult* result) const;
+                   const RouteRequest& request, PlanResult* result) const;
   // Until there is an answer.
   void Explore(const Eigen::Vector3d& start, const Eigen::Vector3d& goal,
                const RouteRequest& request, WindowPlan* out) const;

@@ -129,6 +129,7 @@ PlanRequest LegRequest(const OptimizeRequest& request, const Vector3d& start,
   leg.goal = goal;
   leg.model = request.model;
   leg.clearance = request.Margin();
+  leg.keeps_clearance = false;  // the motion does
   leg.preset = request.preset;
   const int routes = ComparedRoutesOf(request);
   ContactSurfaceOptions by_preset;

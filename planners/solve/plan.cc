@@ -2,6 +2,7 @@
 #include "planners/solve/plan.h"
 
 #include <algorithm>
+#include <functional>
 #include <memory>
 #include <utility>
 
@@ -11,6 +12,7 @@
 #include "core/number_text.h"
 #include "core/stopwatch.h"
 #include "planners/exact/path_shortening.h"
+#include "planners/exact/route_order.h"
 #include "planners/exact/window_planner.h"
 #include "planners/retraction/contact_model.h"
 #include "planners/solve/finish_answer.h"
@@ -177,7 +179,40 @@ class PlanRun {
     RouteRequest routes;
     routes.routes = request_.routes;
     routes.clearance = WantedClearance();
+    routes.keeps_clearance =
+        request_.clearance.has_value() && request_.keeps_clearance;
     return routes;
+  }
+
+  // What a planner finds.  Where that misses a clearance that was to be kept,
+  // it is asked again, for more of it and then without the wish, and the first
+  // answer that keeps it is taken, or the one that keeps most.
+  template <typename Found>
+  Found FoundBy(const std::function<Found(const RouteRequest&)>& ask,
+                PlanResult& (*plan_of)(Found&)) const {
+    const RouteRequest wish = Routes();
+    Found best = ask(wish);
+    double seconds = plan_of(best).seconds;
+    const double wanted = plan_of(best).wanted_clearance;
+    for (const double share : {1.5, 2.0, 3.0, 0.0}) {
+      const PlanResult& plan = plan_of(best);
+      if (!wish.keeps_clearance || plan.status != PathStatus::kSolved ||
+          plan.clearance >= kKeptOfClearance * wish.clearance) {
+        break;
+      }
+      RouteRequest other = wish;
+      other.clearance = share * wish.clearance;
+      other.keeps_clearance = share > 0.0;
+      Found found = ask(other);
+      seconds += plan_of(found).seconds;
+      if (plan_of(found).status == PathStatus::kSolved &&
+          plan_of(found).clearance > plan.clearance) {
+        best = std::move(found);
+      }
+    }
+    plan_of(best).seconds = seconds;
+    plan_of(best).wanted_clearance = wanted;
+    return best;
   }
 
   // Of the options that planners are kept by.
@@ -190,7 +225,11 @@ class PlanRun {
           return ContactSurfacePlanner(world_.Sealed(),
                                        SurfaceOptions(request_));
         });
-    PlanResult found = planner->Plan(request_.start, request_.goal, Routes());
+    PlanResult found = FoundBy<PlanResult>(
+        [&](const RouteRequest& routes) {
+          return planner->Plan(request_.start, request_.goal, routes);
+        },
+        [](PlanResult& plan) -> PlanResult& { return plan; });
     // The first query pays for the planner's tables, too.
     answer_.seconds = found.seconds + planner->build_seconds();
     TakeExact(std::move(found));
@@ -203,7 +242,11 @@ class PlanRun {
     });
     WindowPlan found;
     try {
-      found = planner->Plan(request_.start, request_.goal, Routes());
+      found = FoundBy<WindowPlan>(
+          [&](const RouteRequest& routes) {
+            return planner->Plan(request_.start, request_.goal, routes);
+          },
+          [](WindowPlan& window) -> PlanResult& { return window.plan; });
     } catch (const BuildRefusal& error) {
       throw BuildRefusal(std::string(error.what()) +
                          "; or plan without proofs (" + PlannersOfMotions() +
@@ -274,6 +317,9 @@ class PlanRun {
     options.clearance = request_.clearance
                             ? WantedClearance()
                             : kEnoughClearance * world_.diagonal();
+    if (request_.clearance && request_.keeps_clearance) {
+      options.kept_share = 1.0;
+    }
     options.seed = request_.seed;
     answer_.path = ShortenPath(answer_.path, space, options);
     answer_.length = PathLength(answer_.path);

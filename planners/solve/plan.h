@@ -21,6 +21,9 @@ struct PlanRequest {
   // RetractionOptions).
   std::optional<Length> clearance{};
   bool requires_clearance = false;  // less is no answer
+  // Contact-surface keeps a clearance that is given wherever it finds a way
+  // to; false: routes are lifted by it, and shortening gives a part of it away.
+  bool keeps_clearance = true;
   // Of contact-surface.
   Preset preset = Preset::kBalanced;
   int routes = 0;  // ways that are compared; 0: the preset's

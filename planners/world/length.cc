@@ -56,10 +56,14 @@ std::string LengthSyntax(const std::string& unit) {
 std::string OtherUnitNote(const std::string& text, const std::string& unit) {
   const std::string named = UnitNamedIn(text);
   if (named.empty() || named == unit) return "";
-  return unit.empty()
-             ? ": the user's unit has no name; a scene's \"unit\": \"" + named +
-                   "\" gives it one"
-             : ": the scene's unit is " + unit + ", and nothing is converted";
+  if (!unit.empty()) {
+    return ": the scene's unit is " + unit + ", and nothing is converted";
+  }
+  std::string number = text;
+  Strip(named, &number);
+  return ": the user's unit has no name; write " + number +
+         "unit, or name it (in a scene \"unit\": \"" + named +
+         "\", of Python's World unit=\"" + named + "\")";
 }
 
 }  // namespace

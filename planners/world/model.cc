@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "core/mesh/mesh_error.h"
+#include "core/nearest_name.h"
 
 namespace phongpd {
 
@@ -21,7 +22,7 @@ Model ParseModel(const std::string& text, const std::string& what) {
   const auto found = std::find(names.begin(), names.end(), text);
   if (found == names.end()) {
     throw InputError(what + ": expected auto, window or full, found '" + text +
-                     "'");
+                     "'" + DidYouMean(text, names));
   }
   return static_cast<Model>(found - names.begin());
 }

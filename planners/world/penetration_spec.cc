@@ -96,7 +96,7 @@ PenetrationSpec ParsePenetration(const std::string& text,
         ": expected euclidean, phong[@LENGTH], phong@LENGTH/exact, "
         "phong@LENGTH/tangent-plane, smoothed[@LENGTH] or "
         "smoothed-foot[@LENGTH], found '" +
-        text + "'");
+        text + "'" + (is_known ? "" : DidYouMean(name, names)));
   }
   if (!has_length) return spec;
   std::string length = text.substr(at + 1);

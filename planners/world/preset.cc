@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "core/mesh/mesh_error.h"
+#include "core/nearest_name.h"
 #include "core/number_text.h"
 
 namespace phongpd {
@@ -22,7 +23,7 @@ Preset ParsePreset(const std::string& text, const std::string& what) {
   const auto found = std::find(names.begin(), names.end(), text);
   if (found == names.end()) {
     throw InputError(what + ": expected one of " + Joined(names) + ", found '" +
-                     text + "'");
+                     text + "'" + DidYouMean(text, names));
   }
   return static_cast<Preset>(found - names.begin());
 }

@@ -12,6 +12,7 @@
 #include "core/solid/solid.h"
 #include "problems/cli/command.h"
 #include "problems/cli/contact_space_report_json.h"
+#include "problems/cli/depth_row.h"
 #include "problems/cli/flags.h"
 #include "problems/cli/operands.h"
 #include "problems/meshes/any_mesh.h"
@@ -104,7 +105,7 @@ std::string Places(const Finding& finding) {
     std::vector<std::string> places;
     for (const MeshDefect& defect : finding.defects) {
       if (defect.kind == kind) {
-        places.push_back('(' + FormatPoint(defect.place) + ')');
+        places.push_back('(' + RoundedPoint(defect.place) + ')');
       }
     }
     if (places.empty()) continue;
@@ -125,8 +126,8 @@ std::string Words(const Finding& finding) {
        << Counted(found.components, "component");
   const int genus = SurfaceGenus(finding.mesh);
   if (genus >= 0) text << ", genus " << genus;
-  text << ", diagonal " << FormatDouble(box.Diagonal()) << " from ("
-       << FormatPoint(box.min) << ") to (" << FormatPoint(box.max) << ")\n"
+  text << ", diagonal " << Rounded(box.Diagonal(), kDigits) << " from ("
+       << RoundedPoint(box.min) << ") to (" << RoundedPoint(box.max) << ")\n"
        << Places(finding);
   for (const std::string& line : finding.repair.actions) {
     text << "  " << line << '\n';
@@ -135,7 +136,8 @@ std::string Words(const Finding& finding) {
     text << "  " << line << '\n';
   }
   if (finding.is_solid) {
-    text << "  a solid, volume " << FormatDouble(SignedVolume(finding.solid));
+    text << "  a solid, volume "
+         << Rounded(SignedVolume(finding.solid), kDigits);
     if (finding.repair.is_wrapped) {
       text << ", at most " << Rounded(finding.repair.wrap_bound)
            << " away from the surface it had";
@@ -161,7 +163,10 @@ int Check(const CheckFlags& flags) {
   }
   OutputFiles outputs;
   DeclareIfNamed(&outputs, flags.defects, "--defects", {".off", ".ply"});
-  if (!flags.output.empty()) DeclareMesh(&outputs, flags.output);
+  if (!flags.output.empty()) {
+    RequireFreeName(flags.output);
+    DeclareMesh(&outputs, flags.output);
+  }
   if (flags.json) RequireFreeStandardOutput(outputs);
   const Repair repair = ParseRepair(flags.repair, "--repair");
   std::string text;

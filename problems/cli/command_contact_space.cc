@@ -60,7 +60,12 @@ std::size_t ParseTargetFaces(const std::string& text) {
 
 // Refused by the flag's name, and before a mesh is read.
 double ParseWrapAlpha(const std::string& text) {
-  const double alpha = ParseDouble(text, "--wrap");
+  double alpha = -1.0;
+  try {
+    alpha = ParseDouble(text, "--wrap");
+  } catch (const InputError&) {
+    // Below: it is a share and no length, 5mm.
+  }
   if (alpha == 0.0 || (alpha >= kMinWrapAlpha && alpha <= kMaxWrapAlpha)) {
     return alpha;
   }

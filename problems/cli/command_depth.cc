@@ -84,26 +84,26 @@ std::string Sentence(const DepthFlags& flags, const DepthResult& r) {
   TextStream text;
   switch (r.status) {
     case DepthStatus::kSeparate:
-      text << "separate: " << FormatDouble(r.clearance) << " apart\n";
+      text << "separate: " << Rounded(r.clearance, kDigits) << " apart\n";
       break;
     case DepthStatus::kTouching:
-      text << "touching: free along " << FormatPoint(r.direction) << '\n';
+      text << "touching: free along " << RoundedPoint(r.direction) << '\n';
       break;
     case DepthStatus::kPenetrating:
       text << "penetrating: depth "
            << (r.certified
                    ? ""
-                   : "between " + FormatDouble(r.explored_radius) + " and ")
-           << FormatDouble(r.depth) << ", out along "
-           << FormatPoint(r.direction) << '\n';
+                   : "between " + Rounded(r.explored_radius, kDigits) + " and ")
+           << Rounded(r.depth, kDigits) << ", out along "
+           << RoundedPoint(r.direction) << '\n';
       break;
     case DepthStatus::kInvalid:  // of poses that were refused
       break;
   }
   if (r.robot_feature.kind != ContactFeature::kNone) {
-    text << flags.a << ": " << FormatPoint(r.on_robot) << " on "
+    text << flags.a << ": " << RoundedPoint(r.on_robot) << " on "
          << Described(r.robot_feature) << '\n'
-         << flags.b << ": " << FormatPoint(r.on_obstacle) << " on "
+         << flags.b << ": " << RoundedPoint(r.on_obstacle) << " on "
          << Described(r.obstacle_feature) << '\n';
   }
   text << (r.certified ? "certified" : "NOT CERTIFIED") << ", level "
@@ -115,7 +115,22 @@ std::string Sentence(const DepthFlags& flags, const DepthResult& r) {
 std::vector<RobotPose> PosesOf(const DepthFlags& flags) {
   if (!flags.poses.empty()) return ReadPosesCsv(flags.poses);
   RobotPose pose;
-  if (!flags.at.empty()) pose.position = ParsePoint(flags.at, "--at");
+  if (!flags.at.empty()) {
+    std::vector<std::string> cells = flags.at;
+    for (std::string& cell : cells) {
+      const std::string named = UnitNamedIn(cell);
+      if (named.empty()) continue;
+      if (named != flags.unit) {
+        throw InputError(
+            "--at: expected a finite number, found '" + cell + "'; " +
+            (flags.unit.empty()
+                 ? "--unit " + named + " says that it is theirs"
+                 : "that is " + flags.unit + ", and nothing is converted"));
+      }
+      cell.resize(cell.size() - named.size());
+    }
+    pose.position = ParsePoint(cells, "--at");
+  }
   return {pose};
 }
 
@@ -148,13 +163,19 @@ DepthOptions DepthOptionsOf(const DepthFlags& flags) {
   return options;
 }
 
-// The metrics that can stand beside the Euclidean depth.
-std::vector<std::string> MetricsBeside() {
-  std::vector<std::string> names;
-  for (const std::string& name : MetricNames()) {
-    if (HasLength(ParseMetricKind(name, "--metric"))) names.push_back(name);
+// That which stands beside the Euclidean depth; none: it stands alone.
+std::optional<MetricKind> MetricBeside(const DepthFlags& flags) {
+  if (flags.metric.empty()) {
+    if (flags.smoothing_length.empty()) return std::nullopt;
+    return MetricKind::kPhong;
   }
-  return names;
+  const MetricKind metric = ParseMetricKind(flags.metric, "--metric");
+  if (HasLength(metric)) return metric;
+  if (!flags.smoothing_length.empty()) {
+    throw InputError("--smoothing-length: expected none with metric " +
+                     flags.metric + ", found " + flags.smoothing_length);
+  }
+  return std::nullopt;
 }
 
 // The answers as text, in the form that is asked for, with another metric's
@@ -168,15 +189,12 @@ class DepthText {
         is_json_(form == AnswerForm::kJson),
         is_table_(!is_json_ &&
                   (form == AnswerForm::kCsv || !flags.poses.empty())) {
-    if (!flags.metric.empty() || !flags.smoothing_length.empty()) {
+    if (const std::optional<MetricKind> metric = MetricBeside(flags)) {
       ContactSpaceOptions limits;
       limits.robot_name = flags.a;
       limits.obstacle_name = flags.b;
       limits.max_seconds = flags.max_seconds;
-      const MetricKind metric = flags.metric.empty()
-                                    ? MetricKind::kPhong
-                                    : ParseMetricKind(flags.metric, "--metric");
-      beside_.emplace(metric,
+      beside_.emplace(*metric,
                       WithoutUnitName(flags.smoothing_length, flags.unit), a, b,
                       limits);
     }
@@ -292,9 +310,9 @@ void AddDepthMetric(CLI::App* app, DepthFlags* flags) {
   app->add_option("--metric", flags->metric,
                   "Beside the Euclidean depth: phong, PhongPD; smoothed, the "
                   "gradient of smoothed occupancy as its direction, at the "
-                  "position (smoothed-foot: at the contact); phong if only a "
-                  "smoothing length is set")
-      ->check(CLI::IsMember(MetricsBeside()));
+                  "position (smoothed-foot: at the contact); euclidean, none; "
+                  "phong if only a smoothing length is set")
+      ->check(CLI::IsMember(MetricNames()));
   app->add_option("--smoothing-length", flags->smoothing_length,
                   "Of that metric (0.2 if not set). PhongPD: 0 from windows "
                   "around the position, any other from the whole contact "

@@ -39,15 +39,6 @@ std::string NamedFrom(const fs::path& folder, const std::string& file) {
          file.substr(end);
 }
 
-// Work that somebody has put into a scene is not replaced by guesses.
-void RequireFreeName(const std::string& output) {
-  std::error_code none;
-  if (output.empty() || !fs::is_regular_file(output, none)) return;
-  throw InputError(output +
-                   ": expected a name that is free, found a file; name "
-                   "another, or remove it");
-}
-
 Json Told(const NewFlags& flags, const SceneGuess& guess) {
   const auto point = [](const Eigen::Vector3d& p) {
     return Json{p.x(), p.y(), p.z()};
@@ -65,6 +56,7 @@ int WriteNew(const NewFlags& flags) {
   OutputFiles outputs;
   const std::string target = AnswerTarget(flags.output);
   DeclareIfNamed(&outputs, target, "--output", {".json", ".jsonc"});
+  // Work that somebody has put into a scene is not replaced by guesses.
   RequireFreeName(flags.output);
   if (flags.json) RequireFreeStandardOutput(outputs);
   const Repair repair = ParseRepair(flags.repair, "--repair");

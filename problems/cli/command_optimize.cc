@@ -1,15 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "planners/ompl/ompl_planning.h"
 #include "problems/cli/command.h"
 #include "problems/cli/explanation.h"
 #include "problems/cli/flags.h"
 #include "problems/cli/fleet_answer.h"
+#include "problems/cli/motion_form.h"
 #include "problems/cli/optimize_flags.h"
 #include "problems/cli/optimize_request.h"
 #include "problems/cli/rigid_answer.h"
@@ -174,6 +177,19 @@ Scene SceneOfSeed(const SceneSource& source, std::uint64_t seed) {
   return seed == 0 ? source.Load() : source.Load(seed);
 }
 
+// Controllers' tables are of a motion in time.
+void RequireRowsOfPaths(const OptimizeFlags& flags) {
+  const std::string found = EndingOf(flags.output);
+  const std::vector<std::string>& timed = MotionEndings();
+  const bool is_timed =
+      std::find(timed.begin(), timed.end(), found) != timed.end();
+  if (!is_timed || found.rfind(".json", 0) == 0) return;
+  throw InputError(
+      "--output: expected the name of rows, such as .jsonl, for a "
+      "path without time, found " +
+      flags.output + "; a table over time needs --limits V,A,J");
+}
+
 // The runs of a scene without limits, one after the other.
 class OptimizeRuns {
  public:
@@ -281,6 +297,7 @@ int AnswerOptimize(const OptimizeFlags& flags) {
     return OptimizeInTime(flags, *limits, first);
   }
   RequireNoMotion(flags.motion);
+  RequireRowsOfPaths(flags);
   return OptimizeRuns(flags, source, first).Answer();
 }
 

@@ -48,9 +48,21 @@ Eigen::Quaterniond TurnByDegrees(double roll, double pitch, double yaw) {
 
 // 90, 90deg, 1.5rad: in degrees.
 double Degrees(const std::string& text, const std::string& flag) {
-  const std::string unit = text.size() > 3 ? text.substr(text.size() - 3) : "";
-  if (unit != "deg" && unit != "rad") return ParseDouble(text, flag);
-  const double angle = ParseDouble(text.substr(0, text.size() - 3), flag);
+  const auto is_letter = [](char c) {
+    return ('a' <= c && c <= 'z') || ('A' <= c && c <= 'Z');
+  };
+  const std::size_t letters = static_cast<std::size_t>(
+      std::find_if_not(text.rbegin(), text.rend(), is_letter) - text.rbegin());
+  const std::string number = text.substr(0, text.size() - letters);
+  const std::string unit = text.substr(number.size());
+  // "inf" is no unit either; ParseDouble says what it is.
+  if (unit.empty() || number.empty()) return ParseDouble(text, flag);
+  if (unit != "deg" && unit != "rad") {
+    throw InputError(flag +
+                     ": expected an angle as 90, 90deg or 1.5rad, found '" +
+                     text + "'");
+  }
+  const double angle = ParseDouble(number, flag);
   return unit == "deg" ? angle : angle * 180.0 / kPi;
 }
 

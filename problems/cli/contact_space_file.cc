@@ -12,6 +12,7 @@
 #include "core/mesh/mesh_io.h"
 #include "core/mesh/mesh_range.h"
 #include "problems/cli/command.h"
+#include "problems/cli/flags.h"
 
 namespace phongpd::cli {
 namespace {
@@ -50,6 +51,7 @@ void DeclareContactSpace(OutputFiles* outputs, const std::string& path) {
   if (NamesContactSpaceFile(path)) {
     outputs->Declare(path);
   } else {
+    RequireEnding(path, "--output", {".off", ".obj", ".stl", ".ply", ".pcs"});
     DeclareMesh(outputs, path);
   }
 }

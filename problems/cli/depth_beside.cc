@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/mesh/counted.h"
+#include "problems/cli/depth_row.h"
 #include "problems/output/json_text.h"
 #include "problems/output/text.h"
 #include "viewer/page_numbers.h"
@@ -26,6 +27,14 @@ DepthBeside::DepthBeside(MetricKind metric, const std::string& smoothing_length,
   spec_.metric = metric;
   if (!smoothing_length.empty()) {
     spec_.smoothing_length = ParseLength(smoothing_length, what);
+  }
+  const double number = spec_.smoothing_length.value();
+  if (spec_.smoothing_length.is_share() && number > 1.0) {
+    const std::string text = FormatDouble(number);
+    throw InputError(what +
+                     ": expected at most 1 (the diagonal D of the contact "
+                     "space), found " +
+                     text + "; did you mean " + text + "unit?");
   }
   RequireLength(spec_.smoothing_length, LengthRangeOf(metric), 0.0, what);
 }
@@ -98,8 +107,8 @@ std::string DepthBeside::AsSentence(const WindowResult& result) const {
   if (!result.answer.inside) return "";
   const std::string name = phong_ ? "PhongPD" : ToString(spec_.metric);
   return name + ", ℓ = " + spec_.smoothing_length.Text() + ": depth " +
-         FormatDouble(DepthOf(result)) + ", out along " +
-         FormatPoint(result.answer.direction) + ", level " +
+         Rounded(DepthOf(result), kDigits) + ", out along " +
+         RoundedPoint(result.answer.direction) + ", level " +
          ToString(result.level) + ", " +
          Counted(result.arranged_faces, "face") + " arranged" +
          (result.answer.status == QueryStatus::kOk

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
+#include "core/number_text.h"
 #include "viewer/page_numbers.h"
 
 namespace phongpd::cli {
@@ -28,6 +29,11 @@ DepthJson AxesJson(const Eigen::Matrix3d& axes) {
 }
 
 }  // namespace
+
+std::string RoundedPoint(const Eigen::Vector3d& point) {
+  return Rounded(point.x(), kDigits) + ',' + Rounded(point.y(), kDigits) + ',' +
+         Rounded(point.z(), kDigits);
+}
 
 nlohmann::ordered_json DepthAnswerRow(const RobotPose& pose,
                                       const DepthResult& r) {

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <Eigen/Core>
 #include <nlohmann/json_fwd.hpp>
+#include <string>
 
 #include "core/contact/depth.h"
 
@@ -11,5 +13,9 @@ namespace phongpd::cli {
 // documents.
 nlohmann::ordered_json DepthAnswerRow(const RobotPose& pose,
                                       const DepthResult& result);
+
+// For people: numbers of a sentence have so many digits, rows keep all.
+inline constexpr int kDigits = 6;
+std::string RoundedPoint(const Eigen::Vector3d& point);
 
 }  // namespace phongpd::cli

@@ -25,7 +25,9 @@ std::vector<std::string> CutAt(char separator, const std::string& text) {
   return cells;
 }
 
-Vector3d ParseLimit(const std::string& text, const std::string& what) {
+// With the name of the unit behind numbers, 500mm, where it has one.
+Vector3d ParseLimit(const std::string& text, const std::string& what,
+                    const std::string& unit) {
   std::vector<std::string> cells = CutAt('/', text);
   if (cells.size() == 1) cells.resize(3, cells.front());
   if (cells.size() != 3) {
@@ -35,7 +37,10 @@ Vector3d ParseLimit(const std::string& text, const std::string& what) {
   }
   Vector3d limit;
   for (int axis = 0; axis < 3; ++axis) {
-    const std::string& cell = cells[static_cast<std::size_t>(axis)];
+    std::string cell = cells[static_cast<std::size_t>(axis)];
+    if (!unit.empty() && UnitNamedIn(cell) == unit) {
+      cell.resize(cell.size() - unit.size());
+    }
     const std::string which = what + " of " + "xyz"[axis];
     limit[axis] = ParseDouble(cell, which);
     if (limit[axis] > 0.0) continue;
@@ -52,7 +57,8 @@ double ParseSeconds(const std::string& text, const std::string& what) {
 
 }  // namespace
 
-MotionLimits ParseLimits(const std::string& text, const std::string& what) {
+MotionLimits ParseLimits(const std::string& text, const std::string& what,
+                         const std::string& unit) {
   const std::vector<std::string> cells = CutAt(',', text);
   MotionLimits limits;
   limits.by_norm = cells.size() == 4 && cells[3] == "norm";
@@ -66,9 +72,9 @@ MotionLimits ParseLimits(const std::string& text, const std::string& what) {
     throw InputError(what + ": expected one number each with norm, found '" +
                      text + "'");
   }
-  limits.velocity = ParseLimit(cells[0], what + ": velocity");
-  limits.acceleration = ParseLimit(cells[1], what + ": acceleration");
-  limits.jerk = ParseLimit(cells[2], what + ": jerk");
+  limits.velocity = ParseLimit(cells[0], what + ": velocity", unit);
+  limits.acceleration = ParseLimit(cells[1], what + ": acceleration", unit);
+  limits.jerk = ParseLimit(cells[2], what + ": jerk", unit);
   return limits;
 }
 
@@ -156,7 +162,7 @@ std::optional<MotionLimits> LimitsOf(const MotionWords& words,
                                      const Scene& scene) {
   if (words.limits == "none") return std::nullopt;
   if (words.limits.empty()) return scene.limits;
-  return ParseLimits(words.limits, "--limits");
+  return ParseLimits(words.limits, "--limits", scene.workspace.unit);
 }
 
 void RequireNoMotion(const MotionWords& words) {

@@ -41,7 +41,8 @@ void SetTask(const MotionWords& words, Scene* scene);
 // Reads "V,A,J", limits of velocity, acceleration and jerk: each one number,
 // of all axes, or x/y/z; or "V,A,J,norm", of their norms.  Throws InputError
 // starting with `what` for anything else, and for numbers that are not above 0.
-MotionLimits ParseLimits(const std::string& text, const std::string& what);
+MotionLimits ParseLimits(const std::string& text, const std::string& what,
+                         const std::string& unit = "");
 
 // Reads "X,Y,Z[,LENGTH[,DWELL]]", a place on the way, LENGTH as ParseClearance
 // does.  Throws InputError starting with `what`.

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "problems/cli/operands.h"
 
+#include <filesystem>
 #include <vector>
 
+#include "core/mesh/mesh_error.h"
 #include "core/solid/solid.h"
 #include "problems/cli/command.h"
 #include "problems/meshes/any_mesh.h"
@@ -42,6 +44,14 @@ Solid LoadSolid(const std::string& path, Repair repair) {
   }
   for (const std::string& line : NamedWarnings(report, path)) Warn(line);
   return solid;
+}
+
+void RequireFreeName(const std::string& output) {
+  std::error_code none;
+  if (output.empty() || !std::filesystem::is_regular_file(output, none)) return;
+  throw InputError(output +
+                   ": expected a name that is free, found a file; name "
+                   "another, or remove it");
 }
 
 void WarnOfUnits(const TriangleMesh& a, const std::string& name_a,

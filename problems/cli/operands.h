@@ -25,4 +25,8 @@ Solid LoadSolid(const std::string& path, Repair repair = Repair::kReject);
 void WarnOfUnits(const TriangleMesh& a, const std::string& name_a,
                  const TriangleMesh& b, const std::string& name_b);
 
+// Throws InputError where a file has that name: a mesh or scene that somebody
+// has made is not replaced without a word.
+void RequireFreeName(const std::string& output);
+
 }  // namespace phongpd::cli

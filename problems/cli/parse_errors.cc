@@ -11,6 +11,7 @@
 
 #include "core/mesh/mesh_error.h"
 #include "core/nearest_name.h"
+#include "problems/meshes/any_mesh.h"
 #include "problems/output/text.h"
 
 namespace phongpd::cli {
@@ -124,6 +125,12 @@ std::string ChoiceExplained(const std::string& text) {
          match[2].str() + "'" + DidYouMean(match[2].str(), names);
 }
 
+// Of one scene, in front of which meshes are put.
+bool TakesScene(const std::string& command) {
+  return command == "plan" || command == "optimize" || command == "compare" ||
+         command == "retime";
+}
+
 // "The following arguments were not expected: b a", of which the first that was
 // given is the one to name.
 std::string TooMuch(const CLI::ExtrasError& error, const Strings& arguments) {
@@ -132,6 +139,12 @@ std::string TooMuch(const CLI::ExtrasError& error, const Strings& arguments) {
   const Strings extras{std::istream_iterator<std::string>(list), {}};
   for (std::size_t i = arguments.size(); i-- > 0;) {
     if (!Holds(extras, arguments[i])) continue;
+    if (NamesMesh(arguments[i]) && i + 1 < arguments.size() &&
+        NamesMesh(arguments[i + 1]) && TakesScene(arguments.back())) {
+      return arguments.back() + ": expected a scene file, found two meshes; " +
+             "phongpd new " + arguments[i + 1] + ' ' + arguments[i] +
+             " writes a scene of them";
+    }
     const std::size_t count = std::max<std::size_t>(extras.size(), 1);
     return arguments.back() + ": expected no more, found '" + arguments[i] +
            "'" +

@@ -24,6 +24,17 @@ std::vector<std::string_view> Cells(std::string_view line) {
   }
 }
 
+// What may stand in a message.
+std::string Excerpt(std::string_view line) {
+  constexpr std::size_t kLongest = 40;
+  line = Trimmed(line);
+  std::string text(line.substr(0, kLongest));
+  for (char& c : text) {
+    if (c < ' ' || c == '\x7f') c = '?';
+  }
+  return text + (line.size() > kLongest ? "..." : "");
+}
+
 using Names = std::vector<std::string>;
 
 struct Header {
@@ -56,7 +67,9 @@ Header ReadHeader(std::string_view line, const Names& names,
     if (found != 1) {
       throw InputError(path + ":1: expected a header with the columns " +
                        WithCommas(names) + ", found column " + name + " " +
-                       std::to_string(found) + " times");
+                       std::to_string(found) + " times in '" + Excerpt(line) +
+                       "'; put " + WithCommas(names) +
+                       " on the first line, with commas");
     }
     header.place.push_back(place);
   }

@@ -256,6 +256,28 @@ std::string Shortened(const Json& value) {
   return text.substr(0, kLongest) + "...";
 }
 
+namespace {
+
+// Of the parser's own words, of which none says what to do.
+std::string HowToMendJson(const std::string& what) {
+  const auto says = [&what](const char* words) {
+    return what.find(words) != std::string::npos;
+  };
+  if (says("unexpected end of input") && !says("unexpected string")) {
+    return "; a } or ] is missing at the end";
+  }
+  if (says("expected ',' or '}'") || says("expected ',' or ']'") ||
+      says("expected '}'") || says("expected ']'")) {
+    return "; is a comma missing before it?";
+  }
+  if (says("expected string literal") || says("expected object key")) {
+    return "; keys stand in double quotes, and no comma before a }";
+  }
+  return "";
+}
+
+}  // namespace
+
 Json ParseJson(const std::string& text, const std::string& file) {
   std::vector<std::set<std::string>> keys;
   const auto watch = [&](int depth, Json::parse_event_t event, Json& parsed) {
@@ -282,7 +304,8 @@ Json ParseJson(const std::string& text, const std::string& file) {
     if (what.size() > kBegin + kEnd) {
       what.replace(kBegin, what.size() - kBegin - kEnd, "...");
     }
-    throw InputError(file + ": expected JSON, found a " + what);
+    throw InputError(file + ": expected JSON, found a " + what +
+                     HowToMendJson(what));
   }
 }
 

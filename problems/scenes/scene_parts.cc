@@ -72,7 +72,7 @@ PlacedMesh MeshAt(const Json& value, const JsonPlace& place,
     try {
       mesh = ReadAnyMesh(path, warnings, folder.root);
     } catch (const InputError& error) {
-      throw InputError(name + ": expected a mesh file, found " + error.what());
+      throw InputError(name + ": " + error.what());
     }
     name += ": " + Shortened(value["mesh"]);
   }

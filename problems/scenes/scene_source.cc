@@ -50,6 +50,12 @@ SceneSource::SceneSource(const std::string& text, const std::string& root,
                        ": expected a scene file, found a mesh; phongpd new "
                        "ROBOT OBSTACLE writes a scene of two meshes");
     }
+    for (const char* ending : {".csv", ".tsv", ".jsonl", ".xlsx"}) {
+      if (std::filesystem::path(text).extension() != ending) continue;
+      throw InputError(text +
+                       ": expected a scene file, .json, found a table; a path "
+                       "of one's own is timed by phongpd retime SCENE PATH");
+    }
     is_file_ = true;
     content_ = ReadInputFile(text, "a scene file", kMaxSceneBytes);
     label_ = std::filesystem::path(text).stem().string();

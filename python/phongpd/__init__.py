@@ -56,6 +56,14 @@ from ._tracker import PenetrationTracker, TrackedMotion
 from ._view import View, view
 from ._world import World
 
+# What the native module has no words for.
+InputError.__doc__ = """What was given cannot be used; a ValueError of one line:
+what, where, expected, found."""
+BuildRefusal.__doc__ = """An InputError: a model would pass the limits of memory
+or time that it was given, max_mib or max_seconds; nothing was built."""
+BuildCancelled.__doc__ = """A build or a search was interrupted, by Ctrl-C as a
+rule; what is there already stays usable."""
+
 __all__ = [
     "BuildCancelled", "BuildRefusal", "Comparison", "ContactSpace",
     "ContactSpacePiece", "CurveCheck",

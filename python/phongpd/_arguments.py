@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import math
 import os
+from collections.abc import Mapping
 from typing import Any, Tuple
 
 import numpy as np
@@ -14,6 +15,7 @@ from ._native import InputError
 
 Floats = NDArray[np.float64]
 Point = Tuple[float, float, float]
+LIMITS = ("velocity", "acceleration", "jerk")
 
 
 def numbers(value: ArrayLike, name: str, shape: str) -> Floats:
@@ -26,7 +28,9 @@ def numbers(value: ArrayLike, name: str, shape: str) -> Floats:
         ) from None
     if array.dtype.kind not in "fiub":
         raise InputError(
-            f"{name}: expected real numbers, found an array of {array.dtype}")
+            f"{name}: expected real numbers, found "
+            + (_told(value) if array.dtype.kind in "US"
+               else f"an array of {array.dtype}"))
     return np.ascontiguousarray(array, dtype=np.float64)
 
 
@@ -86,6 +90,10 @@ def _told(value: Any) -> str:
     return said if len(said) <= 60 else said[:57] + "..."
 
 
+def is_zero(value: Any) -> bool:
+    return isinstance(value, (int, float)) and value == 0
+
+
 def whole_number(value: Any, name: str, least: int,
                  most: int = 2 ** 31 - 1) -> int:
     if isinstance(value, bool) or not hasattr(value, "__index__"):
@@ -118,8 +126,18 @@ def seconds(value: Any, name: str) -> float:
 
 def motion_limits(value: Any, by_norm: bool = False
                   ) -> tuple[Point, Point, Point]:
-    """(velocity, acceleration, jerk), each one number or of x, y and z; by_norm:
-    one number."""
+    """(velocity, acceleration, jerk), or a mapping of them, each one number or
+    of x, y and z; by_norm: one number."""
+    if isinstance(value, Mapping):
+        for key in value:
+            if key not in LIMITS:
+                raise InputError(f"limits: expected the keys {', '.join(LIMITS)}, "
+                                 f"found {_told(key)}")
+        for key in LIMITS:
+            if key not in value:
+                raise InputError(f"limits: {key}: expected a number or one of x, "
+                                 "y and z, found none")
+        value = [value[key] for key in LIMITS]
     try:
         v, a, j = value
     except (TypeError, ValueError):

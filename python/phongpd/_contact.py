@@ -133,5 +133,7 @@ def minkowski(a: Any, b: Any, *, difference: bool = False,
 def native_space(space: ContactSpace) -> _native.ContactSpace:
     if isinstance(space, ContactSpace):
         return space._native
+    is_file = isinstance(space, (str, os.PathLike))
     raise InputError(
-        f"space: expected a ContactSpace, found {type(space).__name__}")
+        f"space: expected a ContactSpace, found {type(space).__name__}"
+        + ("; ContactSpace.read(file) reads one" if is_file else ""))

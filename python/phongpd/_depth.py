@@ -2,15 +2,18 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _native
-from ._arguments import Floats, is_single, point, real, rows
+from ._arguments import Floats, is_single, point, real, rows, text
+from ._contact import ContactSpace
+from ._metrics import Penetration, PhongMetric, SmoothedMetric
 from ._native import InputError
+from ._sizes import warn_of_sizes
 from ._solid import Solid, as_solid
 from ._statuses import Answer, axes
 from ._view import Canvas, Shown
@@ -55,8 +58,11 @@ class Depth(Answer, Shown):
     solids: tuple[Solid, Solid] | None = field(
         default=None, repr=False, compare=False)
     """Robot and obstacle; None after a way through pickle."""
+    beside: Penetration | None = field(default=None, repr=False, compare=False)
+    """What the metric that was asked for answers at this position; None: none
+    was but "euclidean", or after a way through pickle."""
 
-    _LIVE = ("solids",)
+    _LIVE = ("solids", "beside")
 
     def to_row(self) -> dict[str, Any]:
         """Flat, for pandas.DataFrame([one.to_row(), ...])."""
@@ -91,11 +97,11 @@ class Depth(Answer, Shown):
 
     def __str__(self) -> str:
         if self.status == "separate":
-            return f"separate, clearance {self.clearance:.9g}"
+            return f"separate, clearance {self.clearance:.6g}"
         if self.status == "touching":
             return "touching"
         way = ", ".join(f"{x:.6g}" for x in self.direction)
-        return (f"penetrating, depth {self.depth:.9g} along ({way})"
+        return (f"penetrating, depth {self.depth:.6g} along ({way})"
                 + ("" if self.certified else ", NOT CERTIFIED"))
 
 
@@ -112,6 +118,8 @@ class DepthQuery:
                  max_seconds: float = 0.0) -> None:
         """max_radius, max_seconds: stop there, uncertified; 0 s: no limit."""
         self._solids = as_solid(robot, "robot"), as_solid(obstacle, "obstacle")
+        warn_of_sizes(("the robot", self._solids[0].vertices),
+                      [("the obstacle", self._solids[1].vertices)])
         self._native = _native.DepthQuery(
             self._solids[0]._native, self._solids[1]._native,
             real(max_radius, "max_radius", "in the solids' unit"),
@@ -154,14 +162,56 @@ class DepthQuery:
 
 
 def depth(robot: Any, obstacle: Any, at: ArrayLike = (0.0, 0.0, 0.0),
-          orientation: ArrayLike = (1.0, 0.0, 0.0, 0.0)) -> Depth:
+          orientation: ArrayLike = (1.0, 0.0, 0.0, 0.0), *, metric: str = "",
+          smoothing_length: float | None = None) -> Depth:
     """Exact depth of two solids (Solid, file or mesh with vertices and faces)
     as they lie, or with the robot turned by a quaternion (w, x, y, z) and
-    moved."""
-    query, turn = DepthQuery(robot, obstacle), rows(orientation, "orientation", 4)
+    moved.
+
+    metric: "phong", "smoothed" or "smoothed-foot": its answer is `beside` the
+    exact one, from the whole contact space, which is built for it; "euclidean"
+    or "": none.  smoothing_length: of that metric, a share of D; of "phong" if
+    it is all that is set.
+    """
+    turn = rows(orientation, "orientation", 4)
     if len(turn) != 1:
         raise InputError(f"orientation: expected one, found {len(turn)}")
-    return query.at(point(at, "at"), turn)  # type: ignore[return-value]
+    place, other = point(at, "at"), _metric_beside(metric, smoothing_length)
+    solids = as_solid(robot, "robot"), as_solid(obstacle, "obstacle")
+    answer: Depth = DepthQuery(*solids).at(place, turn)  # type: ignore[assignment]
+    if other is None:
+        return answer
+    corners = solids[0].vertices @ _rotation(turn[0]).T
+    space = ContactSpace.build(
+        Solid(corners, solids[0].triangles, solids[0].name), solids[1])
+    if other == "phong":
+        metric_there: Any = PhongMetric(space, smoothing_length)
+    else:
+        metric_there = SmoothedMetric(space, smoothing_length,
+                                      at_contact=other == "smoothed-foot")
+    return replace(answer, beside=metric_there.at(place))
+
+
+def _metric_beside(metric: Any, smoothing_length: Any) -> str | None:
+    known = ("phong", "euclidean", "smoothed", "smoothed-foot")
+    name = text(metric, "metric")
+    if name and name not in known:
+        raise InputError(f"metric: expected one of {', '.join(known)}, found "
+                         f"{name!r}" + _native.did_you_mean(name, list(known)))
+    if name == "euclidean" and smoothing_length is not None:
+        raise InputError("smoothing_length: expected None with metric "
+                         f"'euclidean', found {smoothing_length!r}")
+    if not name:
+        return None if smoothing_length is None else "phong"
+    return None if name == "euclidean" else name
+
+
+def _rotation(q: Floats) -> Floats:
+    w, x, y, z = q
+    return np.array([
+        [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
+        [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
+        [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)]])
 
 
 def _row(columns: dict[str, Any], i: int,

@@ -120,6 +120,9 @@ def optimize_fleet(robots: Mapping[str, Tuple[World, ArrayLike, ArrayLike]]
         name = "fleet"
         tasks = [(str(key), *_task(value, str(key)))
                  for key, value in robots.items()]
+    elif not isinstance(robots, (str, os.PathLike)):
+        raise InputError("robots: expected a dict {name: (world, start, goal)} or "
+                         f"a scene file, found {type(robots).__name__}")
     else:
         name, scenes = _native.load_robots(os.fspath(robots))
         tasks = []

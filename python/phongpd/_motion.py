@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _native
 from ._answers import WayInWorld
-from ._arguments import Floats, flag, length, motion_end, motion_limits, \
+from ._arguments import Floats, flag, is_zero, length, motion_end, motion_limits, \
     numbers, places_on_the_way, real, seconds, text, whole_number
 from ._native import InputError
 from ._plots import PLACES, new_axes, plot_vectors
@@ -171,6 +171,12 @@ def wishes_of(scene: _native.Scene, *, limits: Any, margin: Any, require: Any,
               arrival: Any = None) -> _native.MotionWishes:
     """What is asked of a motion, as World.optimize takes it; None: the
     scene's."""
+    if via is None:
+        for name, given in (("tolerance", tolerance is not None),
+                            ("dwell", not is_zero(dwell))):
+            if given:
+                raise InputError(f"{name}: expected the places of via with it, "
+                                 "found via None")
     known, of_norm = limits_in(scene, limits, by_norm)
     if known is None:
         raise InputError("limits: expected (velocity, acceleration, jerk), "

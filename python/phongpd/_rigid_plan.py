@@ -14,6 +14,7 @@ from ._arguments import Floats, flag, numbers, real, scene_name, \
 from ._native import InputError
 from ._plots import plot_poses
 from ._rigid import RigidClearance, _meshes, _pose
+from ._sizes import warn_of_sizes
 from ._view import Canvas, Shown
 
 
@@ -112,8 +113,13 @@ class RigidWorld(Shown):
 
     def __init__(self, robot: Any, obstacles: Any) -> None:
         """As of RigidJudge."""
-        self._native = _native.RigidWorld(
-            _meshes(robot, "robot"), _meshes(obstacles, "obstacles"))
+        moved, fixed = _meshes(robot, "robot"), _meshes(obstacles, "obstacles")
+        self._native = _native.RigidWorld(moved, fixed)
+        warn_of_sizes(
+            ("the robot", np.concatenate([mesh[0] for mesh in moved]))
+            if moved else ("the robot", np.empty((0, 3))),
+            ((f"obstacle {i}" if len(fixed) > 1 else "obstacle", mesh[0])
+             for i, mesh in enumerate(fixed)))
         self._scene: _Loaded | None = None
 
     @classmethod

@@ -27,6 +27,9 @@ class Roadmap:
         return self._native.edges
 
     def plan(self, start: ArrayLike, goal: ArrayLike) -> Plan:
+        """The best path that the roadmap has from start to goal, (3,) each,
+        free by exact tests, or why there is none; as World.plan, but with an
+        empty `row`."""
         ends = point(start, "start"), point(goal, "goal")
         found = self._native.plan(*ends)
         return Plan(

@@ -17,6 +17,7 @@ from ._arguments import Floats, Point, flag, motion_limits, point, real, \
 from ._contact import ContactSpace
 from ._curve import CurveCheck, curve_of, moving_of
 from ._native import InputError
+from ._sizes import warn_of_sizes
 from ._solid import Solid, as_solid
 from ._view import Canvas, Shown
 
@@ -57,17 +58,19 @@ class Room(Shown):
     """A robot that translates among obstacles, perhaps within bounds; World is
     one in which ways are sought, too."""
 
-    def __init__(self, robot: Any, obstacles: Any, *,
-                 bounds: ArrayLike | None = None, name: str = "world",
-                 cache: bool = False, max_mib: float = 0.0) -> None:
-        """robot: Solid, file or mesh.  obstacles: one, or a dict of them by
-        name.  bounds: (2, 3), least and greatest position of the robot; None:
-        none.  cache: keep contact spaces in the user's cache folder.
-        max_mib: of a build, as ContactSpace.build has it."""
+    def _make(self, robot: Any, obstacles: Any, bounds: ArrayLike | None,
+              name: str, unit: str, cache: bool, max_mib: float) -> None:
+        if isinstance(obstacles, (list, tuple)):
+            raise InputError(
+                "obstacles: expected one, or several in a dict by name, found "
+                f"{type(obstacles).__name__}; write {{\"part\": \"part.stl\"}}, or "
+                "for arrays Solid(vertices, triangles)")
         if not isinstance(obstacles, Mapping):
             obstacles = {"obstacle": obstacles}
-        named = [(str(key), as_solid(value, str(key))._native)
-                 for key, value in obstacles.items()]
+        solids = {str(key): as_solid(value, str(key))
+                  for key, value in obstacles.items()}
+        named = [(key, solid._native) for key, solid in solids.items()]
+        moved = as_solid(robot, "robot")
         box = None
         if bounds is not None:
             corners = rows(bounds, "bounds", 3)
@@ -75,9 +78,12 @@ class Room(Shown):
                 raise InputError(
                     f"bounds: expected shape (2, 3), found {corners.shape}")
             box = (point(corners[0], "bounds"), point(corners[1], "bounds"))
-        self._open(_native.Scene.make(as_solid(robot, "robot")._native, named,
-                                      box, text(name, "name")), cache, max_mib)
+        self._open(_native.Scene.make(moved._native, named, box,
+                                      text(name, "name"), text(unit, "unit")),
+                   cache, max_mib)
         self._has_ends = False
+        warn_of_sizes(("the robot", moved.vertices),
+                      ((key, solid.vertices) for key, solid in solids.items()))
 
     def _open(self, scene: Any, cache: bool, max_mib: float) -> None:
         self._native = _native.World(scene, flag(cache, "cache"),
@@ -110,8 +116,8 @@ class Room(Shown):
 
     @property
     def unit(self) -> str:
-        """What the unit is called in the scene file it was loaded from, "mm";
-        "": it has no name."""
+        """What the unit is called in the scene file it was loaded from, or was
+        made with, "mm"; "": it has no name."""
         return self._native.scene.unit
 
     @property
@@ -180,9 +186,9 @@ class Room(Shown):
         three values over time: CubicSpline, PPoly, BSpline.  Pieces join to
         rounding, 1e-12 of the largest coordinate; nothing smaller than that gap
         is decided.
-        limits: (velocity, acceleration, jerk), each one number or of x, y and
-        z, user's units and seconds, to be compared with; None: the scene's, if
-        it has any.  by_norm: they are of the norm, one number each.
+        limits: (velocity, acceleration, jerk), or a dict of them, each one
+        number or of x, y and z, user's units and seconds, to be compared with;
+        None: the scene's, if it has any.  by_norm: they are of the norm, one number each.
         moving: obstacles that move, {name: (solid, motion)} as optimize takes
         them; None or none: the scene's.  The robot rests at the curve's end until they
         rest, too.
@@ -244,6 +250,12 @@ def limits_in(scene: _native.Scene, limits: Any,
               by_norm: Any) -> tuple[Any, bool]:
     """Those given, or else the scene's, or None; and are they of the norm?"""
     of_norm = flag(by_norm, "by_norm")
+    if isinstance(limits, Mapping) and "by" in limits:
+        by = limits["by"]
+        if by not in ("axis", "norm"):
+            raise InputError(f"limits: by: expected 'axis' or 'norm', found {by!r}")
+        of_norm = of_norm or by == "norm"
+        limits = {key: limits[key] for key in limits if key != "by"}
     if limits is not None:
         return limits, of_norm
     return scene.limits, of_norm or scene.limits_by_norm

@@ -47,6 +47,9 @@ class Solid(MeshViews, Shown):
         of a URDF, `robot.urdf@joint=1.5,other=0` (radians, metres).  What there
         is to know of the file is in `warnings`.  Wheels are built without
         Assimp and read the first four only; they say so in the error."""
+        if not isinstance(path, (str, os.PathLike)):
+            raise InputError("path: expected a file of a mesh, found "
+                             f"{type(path).__name__}")
         text = os.fspath(path)
         native, notes = _native.Solid.read(text, text if name is None else name)
         solid = cls._of(native)

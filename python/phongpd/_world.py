@@ -8,7 +8,7 @@ from typing import Any
 from numpy.typing import ArrayLike
 
 from ._answers import Plan, Trajectory, plan_of, trajectory_of
-from ._arguments import flag, length, point, real, rows, seconds, seed_number, \
+from ._arguments import flag, is_zero, length, point, real, rows, seconds, seed_number, \
     text, whole_number
 from ._curve import moving_of
 from ._motion import Motion, motion_of, wishes_of
@@ -24,6 +24,18 @@ class World(Room):
     moving start and goal builds nothing.  Safe to use from several threads;
     optimisations and plans of one world wait for each other.
     """
+
+    def __init__(self, robot: Any, obstacles: Any, *,
+                 bounds: ArrayLike | None = None, name: str = "world",
+                 unit: str = "", cache: bool = False,
+                 max_mib: float = 0.0) -> None:
+        """robot: Solid, file or mesh.  obstacles: one, or a dict of them by
+        name.  bounds: (2, 3), least and greatest position of the robot; None:
+        none.  unit: what the solids' unit is called, "mm": margin and clearance
+        can be told in it then, and nothing is converted; "": it has no name.
+        cache: keep contact spaces in the user's cache folder.
+        max_mib: of a build, as ContactSpace.build has it."""
+        self._make(robot, obstacles, bounds, name, unit, cache, max_mib)
 
     def optimize(self, start: ArrayLike | None = None,
                  goal: ArrayLike | None = None, *, limits: Any = None,
@@ -43,9 +55,9 @@ class World(Room):
         rest to rest; without, a Trajectory, a smooth polyline by Ipopt.
 
         start, goal: positions; the scene's own where it was loaded.
-        limits: (velocity, acceleration, jerk), each one number or of x, y and
-        z, user's units and seconds; None: the scene's, if it has any; "none":
-        a path without time.
+        limits: (velocity, acceleration, jerk), or a dict of them as scenes
+        have it, each one number or of x, y and z, user's units and seconds;
+        None: the scene's, if it has any; "none": a path without time.
         margin: distance kept, a share of D or "0.5unit" (shares above
         0.1 as "0.5D"), and where the scene's unit has a name 20 or "20mm" in
         it; what is kept less is in `reason` and in row["lengths"],
@@ -103,7 +115,7 @@ class World(Room):
                 *ends, text(model, "model"), wishes, moving_of(moving)[0]), self)
         _require_none("a path without limits", via=via is not None,
                       tolerance=tolerance is not None,
-                      dwell=not _is_zero(dwell), duration=duration is not None,
+                      dwell=not is_zero(dwell), duration=duration is not None,
                       by_norm=by_norm is not False,
                       departure=departure is not None,
                       arrival=arrival is not None, moving=moving is not None)
@@ -203,7 +215,3 @@ def _require_none(subject: str, **given: bool) -> None:
 def _budget(value: Any) -> float:
     """0: none."""
     return 0.0 if value is None else seconds(value, "budget")
-
-
-def _is_zero(value: Any) -> bool:
-    return isinstance(value, (int, float)) and value == 0

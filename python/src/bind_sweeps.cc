@@ -3,6 +3,7 @@
 // can be told of them before one is run, and to leave other workers their
 // cores.
 #include <nanobind/stl/string.h>
+#include <nanobind/stl/vector.h>
 #include <tbb/global_control.h>
 
 #include <algorithm>
@@ -13,6 +14,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/nearest_name.h"
 #include "planners/retraction/retraction_names.h"
 #include "planners/world/planner_id.h"
 #include "problems/output/json_text.h"
@@ -96,6 +98,7 @@ void BindSweeps(nb::module_& module) {
   nb::class_<ThreadLimit>(module, "ThreadLimit")
       .def(nb::init<std::size_t>())
       .def("release", &ThreadLimit::Release);
+  module.def("did_you_mean", &DidYouMean, nb::arg("word"), nb::arg("names"));
   module.def("scene_digest", [](const std::string& scene) {
     const Computing computing;
     return SceneSource(scene).Digest();

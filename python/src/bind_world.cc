@@ -16,6 +16,8 @@
 
 #include "constraints/moving_judge.h"
 #include "core/mesh/mesh_error.h"
+#include "core/nearest_name.h"
+#include "core/number_text.h"
 #include "planners/exact/contact_roadmap.h"
 #include "planners/retraction/retraction_names.h"
 #include "problems/scenes/scene_source.h"
@@ -35,9 +37,15 @@ using Eigen::Vector3d;
 Scene MakeScene(const Solid& robot,
                 const std::vector<std::pair<std::string, Solid>>& obstacles,
                 const std::optional<std::pair<Point, Point>>& bounds,
-                const std::string& name) {
+                const std::string& name, const std::string& unit) {
+  if (!unit.empty() && UnitNamedIn(unit) != unit) {
+    throw InputError("unit: expected one of " + Joined(UnitNames()) +
+                     " or \"\", found '" + unit + "'" +
+                     DidYouMean(unit, UnitNames()));
+  }
   Scene scene;
   scene.name = name;
+  scene.workspace.unit = unit;
   scene.workspace.robot = robot;
   for (const auto& [id, solid] : obstacles) {
     scene.workspace.obstacles.push_back(solid.Named(id));
@@ -245,7 +253,7 @@ std::array<Point, 2> EndOf(const CurveEnd& end) {
 void BindScene(nb::module_& module) {
   nb::class_<Scene>(module, "Scene")
       .def_static("make", &MakeScene, nb::arg("robot"), nb::arg("obstacles"),
-                  nb::arg("bounds").none(), nb::arg("name"))
+                  nb::arg("bounds").none(), nb::arg("name"), nb::arg("unit"))
       .def_static(
           "load",
           [](const std::string& text, std::optional<std::uint64_t> seed) {

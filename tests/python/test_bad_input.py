@@ -2,6 +2,8 @@
 # Every function that takes arrays or options, with what users may give it: an
 # answer that is right, or one line that says what is wrong.  Truth: the same
 # call with plain doubles.
+import warnings
+
 import numpy as np
 import phongpd
 import pytest
@@ -250,3 +252,160 @@ def test_a_number_with_a_unit_is_told_which_unit_it_has(unit):
     with pytest.raises(phongpd.InputError) as error:
         UNITS[unit]("2mm")
     assert f"expected a number ({unit}), found '2mm'" in str(error.value)
+
+
+# Each with its one sentence.
+SENTENCES = {
+    "limits without a key": (
+        lambda: T.world.optimize(START, GOAL,
+                                 limits={"velocity": 1, "acceleration": 2}),
+        "limits: jerk: expected a number or one of x, y and z, found none"),
+    "limits with another key": (
+        lambda: T.world.optimize(START, GOAL, limits={"speed": 1}),
+        "limits: expected the keys velocity, acceleration, jerk, found 'speed'"),
+    "limits of a text": (
+        lambda: T.world.optimize(START, GOAL, limits={
+            "velocity": "fast", "acceleration": 1, "jerk": 1}),
+        "limits: velocity: expected real numbers, found 'fast'"),
+    "limits by": (
+        lambda: T.world.optimize(START, GOAL, limits={
+            "velocity": 1, "acceleration": 1, "jerk": 1, "by": "axes"}),
+        "limits: by: expected 'axis' or 'norm', found 'axes'"),
+    "tolerance without via": (
+        lambda: T.world.optimize(START, GOAL, limits=(1, 2, 10), tolerance=0.01),
+        "tolerance: expected the places of via with it, found via None"),
+    "dwell without via": (
+        lambda: T.world.optimize(START, GOAL, limits=(1, 2, 10), dwell=2),
+        "dwell: expected the places of via with it, found via None"),
+    "a length in a place": (
+        lambda: phongpd.depth(T.robot, T.obstacle, at=("1mm", 2, 3)),
+        "at: expected real numbers, found ('1mm', 2, 3)"),
+    "read of a number": (
+        lambda: phongpd.Solid.read(3),
+        "path: expected a file of a mesh, found int"),
+    "a fleet in a list": (
+        lambda: phongpd.optimize_fleet([]),
+        "robots: expected a dict {name: (world, start, goal)} or a scene file, "
+        "found list"),
+    "a contact space's file": (
+        lambda: phongpd.PhongMetric("c.pcs"),
+        "space: expected a ContactSpace, found str; ContactSpace.read(file) "
+        "reads one"),
+    "obstacles in a list": (
+        lambda: phongpd.World(T.robot, ["part.stl"]),
+        "obstacles: expected one, or several in a dict by name, found list; "
+        "write {\"part\": \"part.stl\"}, or for arrays "
+        "Solid(vertices, triangles)"),
+    "unit": (
+        lambda: phongpd.World(T.robot, T.obstacle, unit="mmm"),
+        "unit: expected one of nm, um, mm, cm, dm, m, km, in, ft or \"\", found "
+        "'mmm'; did you mean mm?"),
+    "a unit that has no name": (
+        lambda: T.world.plan(START, GOAL, clearance="5mm"),
+        "clearance: expected a length >= 0 as 0.01 or 0.01D (a share of the "
+        "world's diagonal D) or 0.5unit (the user's unit), found '5mm': the "
+        "user's unit has no name; write 5unit, or name it (in a scene \"unit\": "
+        "\"mm\", of Python's World unit=\"mm\")"),
+    "metric": (
+        lambda: T.world.optimize(START, GOAL, metric="euclid"),
+        "metric: expected euclidean, phong[@LENGTH], phong@LENGTH/exact, "
+        "phong@LENGTH/tangent-plane, smoothed[@LENGTH] or "
+        "smoothed-foot[@LENGTH], found 'euclid'; did you mean euclidean?"),
+    "preset": (
+        lambda: T.world.optimize(START, GOAL, preset="balance"),
+        "preset: expected one of fast, balanced, tight, found 'balance'; did "
+        "you mean balanced?"),
+    "model": (
+        lambda: T.world.optimize(START, GOAL, model="windw"),
+        "model: expected auto, window or full, found 'windw'; did you mean "
+        "window?"),
+    "depth's metric": (
+        lambda: phongpd.depth(T.robot, T.obstacle, metric="euclid"),
+        "metric: expected one of phong, euclidean, smoothed, smoothed-foot, "
+        "found 'euclid'; did you mean euclidean?"),
+    "depth's smoothing length": (
+        lambda: phongpd.depth(T.robot, T.obstacle, metric="euclidean",
+                              smoothing_length=0.1),
+        "smoothing_length: expected None with metric 'euclidean', found 0.1"),
+}
+
+
+@pytest.mark.parametrize("mistake", SENTENCES)
+def test_a_mistake_is_answered_with_its_sentence(mistake):
+    call, sentence = SENTENCES[mistake]
+    with pytest.raises(phongpd.InputError) as error:
+        call()
+    assert str(error.value) == sentence
+
+
+def test_a_keyword_that_is_none_is_refused_in_the_name_of_world():
+    with pytest.raises(TypeError, match=r"^World\.__init__\(\)"):
+        phongpd.World(T.robot, T.obstacle, bound=None)
+
+
+def test_metres_beside_millimetres_are_warned_of_where_it_is_asked():
+    large = make_box((-400, -400, -400), (400, 400, 400), "hall")
+    told = (r"diagonals 1\.73 and 1\.39e\+03, 800 times apart; is one in metres "
+            r"and the other in millimetres\?$")
+    for name, call in {
+            "hall": lambda: phongpd.World(T.robot, {"hall": large}),
+            "the obstacle": lambda: phongpd.depth(T.robot, large),
+            "obstacle": lambda: phongpd.RigidWorld(T.robot, large)}.items():
+        with pytest.warns(UserWarning, match=f"the robot and {name}: {told}") as w:
+            call()
+        assert [one.filename for one in w] == [__file__], name
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        phongpd.World(T.robot, T.obstacle)
+        phongpd.depth(T.robot, T.obstacle)
+        phongpd.RigidWorld(T.robot, T.obstacle)
+
+
+def test_limits_may_be_named_as_scenes_name_them():
+    named = {"velocity": 1, "acceleration": [2, 2, 2], "jerk": 10}
+    truth = T.world.optimize(START, GOAL, limits=(1, 2, 10), preset="fast")
+    found = T.world.optimize(START, GOAL, limits=named, preset="fast")
+    assert np.array_equal(found.points, truth.points)
+    by_norm = T.world.optimize(START, GOAL, preset="fast", limits={
+        "velocity": 1, "acceleration": 2, "jerk": 10, "by": "norm"})
+    assert by_norm.row["limits"]["by"] == "norm"
+
+
+def test_a_world_is_told_what_its_unit_is_called():
+    world = phongpd.World(T.robot, T.obstacle, unit="mm")
+    assert world.unit == "mm"
+    row = world.plan(START, GOAL, clearance="0.2mm").row
+    assert row["lengths"]["asked_clearance"]["unit"] == pytest.approx(0.2)
+
+
+def test_a_metric_stands_beside_the_depth():
+    at = (0.1, 0.2, 0.3)
+    found = phongpd.depth(T.robot, T.obstacle, at, metric="phong")
+    truth = phongpd.PhongMetric(T.space).at(at)
+    assert found.depth == phongpd.depth(T.robot, T.obstacle, at).depth
+    assert found.beside.signed_distance == truth.signed_distance
+    assert phongpd.depth(T.robot, T.obstacle, at,
+                         metric="euclidean").beside is None
+    half = np.sqrt(0.5)
+    turned = phongpd.depth(T.robot, T.obstacle, (1.2, 0.2, 0.3),
+                           (half, 0, 0, half), metric="smoothed",
+                           smoothing_length=0.05)
+    assert turned.depth > 0.3
+    assert turned.beside.signed_distance == pytest.approx(-turned.depth)
+
+
+@pytest.mark.parametrize("named", [
+    phongpd.Roadmap.plan, phongpd.InputError, phongpd.BuildRefusal,
+    phongpd.BuildCancelled])
+def test_what_is_exported_says_what_it_is(named):
+    assert len(named.__doc__.split()) > 8
+
+
+def test_a_clearance_that_is_asked_for_is_kept_where_there_is_room():
+    world = phongpd.World.load("hole:delta=0.05")
+    free = world.plan()
+    assert free.clearance > 0.015  # of 0.025 in the middle of the hole
+    for asked in (0.01, 0.015, 0.02, 0.024):
+        plan = world.plan(clearance=f"{asked}unit", require=True)
+        assert plan.status == "solved", asked
+        assert plan.clearance >= asked * (1 - 1e-6)

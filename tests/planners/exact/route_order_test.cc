@@ -30,6 +30,15 @@ TEST(RouteOrder, PrefersWhatRoundingDidNotOpen) {
   EXPECT_FALSE(order.IsBetter({1.0, 0.01}, {100.0, 0.011}));
 }
 
+TEST(RouteOrder, PrefersWhatKeepsTheClearanceAskedFor) {
+  const RouteOrder order(1e-9, 0.5);
+  EXPECT_TRUE(order.IsBetter({100.0, 0.5}, {1.0, 0.49}));
+  EXPECT_TRUE(order.IsBetter({100.0, 0.2}, {1.0, 0.1}));
+  // Where both keep it to rounding, the shorter one.
+  EXPECT_TRUE(order.IsBetter({1.0, 0.5 * (1.0 - 1e-9)}, {1.01, 0.6}));
+  EXPECT_FALSE(order.IsBetter({1.0, 0.499}, {100.0, 0.5}));
+}
+
 // Found in either order, the same of two routes is kept.
 TEST(RouteOrder, DoesNotDependOnWhichWasFoundFirst) {
   std::mt19937_64 random(5);

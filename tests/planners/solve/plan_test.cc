@@ -206,6 +206,30 @@ TEST(Plan, AnswersTheSameInAWorldThatAnsweredOthersBefore) {
   }
 }
 
+// Truth: half of what the hole or the passage is wider than the robot.
+TEST(Plan, KeepsARequiredClearanceThatThereIsRoomFor) {
+  struct Case {
+    std::string scene;
+    double most;
+  };
+  for (const Case& c : {Case{"hole:delta=0.05", 0.025},
+                        Case{"plate_hole", 0.28}, Case{"u_trap", 0.3}}) {
+    const StagedPlan staged(c.scene);
+    for (const Model model : {Model::kFull, Model::kWindow}) {
+      PlanRequest request = staged.Request(PlannerId::kContactSurface, model);
+      request.requires_clearance = true;
+      for (const double share : {0.1, 0.5, 0.8, 0.95}) {
+        request.clearance = Length::FromUnit(share * c.most);
+        const PathAnswer answer = Plan(staged.world, request);
+        EXPECT_EQ(answer.status, PathStatus::kSolved)
+            << c.scene << ' ' << ToString(model) << ' ' << share << ' '
+            << answer.reason;
+        EXPECT_EQ(*answer.wish.shortfall, 0.0);
+      }
+    }
+  }
+}
+
 TEST(Plan, TellsARequiredClearanceThatIsMissed) {
   const StagedPlan staged("hole:delta=0.1");
   PlanRequest request =

@@ -117,8 +117,10 @@ TEST(Length, IsRefusedInAnotherUnit) {
         ErrorOf([&] { ParseLength("20" + unit, "--margin"); }),
         "--margin: expected a length >= 0 as 0.01 or 0.01D (a share of "
         "the world's diagonal D) or 0.5unit (the user's unit), found '20" +
-            unit + "': the user's unit has no name; a scene's \"unit\": \"" +
-            unit + "\" gives it one");
+            unit +
+            "': the user's unit has no name; write 20unit, or name it (in a "
+            "scene \"unit\": \"" +
+            unit + "\", of Python's World unit=\"" + unit + "\")");
   }
 }
 

@@ -5,6 +5,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <csignal>
 #include <filesystem>
 #include <fstream>
@@ -80,6 +81,53 @@ TEST_F(CliStrangers, ScenesSetNoOptionOfIpoptThatDoesMoreThanChangeNumbers) {
     }
     EXPECT_EQ(Content(File("precious.txt")), "precious");
   }
+}
+
+TEST_F(CliStrangers, ASlipOfTheLimitsUnitIsAskedAbout) {
+  Json scene = TwoObstacles();
+  scene["unit"] = "mm";
+  const std::string command = "optimize " + Scene(scene) + " --preset fast";
+  const Outcome slow = Run(command + " --limits 0.001,0.01,0.1");
+  EXPECT_EQ(slow.code, 0) << slow.err;
+  EXPECT_NE(slow.err.find("phongpd: warning: the motion takes "),
+            std::string::npos)
+      << slow.err;
+  EXPECT_NE(slow.err.find(" s; are the limits in the scene's unit, mm?\n"),
+            std::string::npos)
+      << slow.err;
+  for (const std::string limits : {"1,2,10", "1mm,2mm,10mm"}) {
+    const Outcome good = Run(command + " --limits " + limits);
+    EXPECT_EQ(good.code, 0) << good.err;
+    EXPECT_EQ(good.err.find("are the limits"), std::string::npos) << good.err;
+  }
+  EXPECT_EQ(Run(command + " --limits 1cm,2,10").code, 2);
+}
+
+TEST_F(CliStrangers, SentencesOfDepthHaveSixDigits) {
+  const std::string command = "depth ../box.off ../cone.off --at 0.1,0.2,0.3";
+  const Outcome said = Run(command);
+  EXPECT_EQ(said.code, 0) << said.err;
+  std::size_t longest = 0, digits = 0;
+  for (const char c : said.out) {
+    digits = ('0' <= c && c <= '9') || c == '.' ? digits + 1 : 0;
+    longest = std::max(longest, digits);
+  }
+  EXPECT_LE(longest, 8U) << said.out;  // "0." and six
+  // The metric that is Euclidean has nothing to stand beside it.
+  EXPECT_EQ(Run(command + " --metric euclidean --json").code, 0);
+  const Json euclidean =
+      Json::parse(Run(command + " --metric euclidean --json").out);
+  EXPECT_FALSE(euclidean.contains("phong"));
+  const Json in_mm = Json::parse(
+      Run("depth ../box.off ../cone.off --at 0.1mm,0.2,0.3mm --unit mm --json")
+          .out);
+  EXPECT_EQ(in_mm["depth"], euclidean["depth"]);
+}
+
+TEST_F(CliStrangers, ABudgetMaySayThatItIsSeconds) {
+  const std::string command = "plan " + Scene(TwoObstacles()) + " --budget ";
+  EXPECT_EQ(Run(command + "0.5s").code, 0);
+  EXPECT_EQ(Run(command + "0.5").code, 0);
 }
 
 }  // namespace

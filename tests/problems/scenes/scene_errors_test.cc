@@ -160,8 +160,8 @@ TEST(SceneErrors, NameFilePlaceExpectedAndFound) {
       {"/trajectory/margin", "0.01 m",
        "s.json: /trajectory/margin: expected a length >= 0 as 0.01 or 0.01D "
        "(a share of the world's diagonal D) or 0.5unit (the user's unit), "
-       "found '0.01 m': the user's unit has no name; a scene's \"unit\": "
-       "\"m\" gives it one"},
+       "found '0.01 m': the user's unit has no name; write 0.01unit, or name "
+       "it (in a scene \"unit\": \"m\", of Python's World unit=\"m\")"},
       {"/trajectory/margin", "-1unit",
        "s.json: /trajectory/margin: expected a length >= 0 as 0.01 or 0.01D "
        "(a share of the world's diagonal D) or 0.5unit (the user's unit), "

@@ -1,0 +1,47 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Metres beside millimetres."""
+
+from __future__ import annotations
+
+import os
+import sys
+import warnings
+from collections.abc import Iterable
+from typing import Tuple
+
+import numpy as np
+
+from ._arguments import Floats
+
+# As the program has it (operand_notes.cc).
+SUSPICIOUS = 300.0
+
+Named = Tuple[str, Floats]
+
+
+def warn_of_sizes(robot: Named, obstacles: Iterable[Named]) -> None:
+    """What the program says of a part in metres beside one in millimetres, said
+    of the line that called phongpd."""
+    for obstacle in obstacles:
+        sizes = _diagonal(robot[1]), _diagonal(obstacle[1])
+        if min(sizes) > 0.0 and max(sizes) > SUSPICIOUS * min(sizes):
+            warnings.warn(
+                f"{robot[0]} and {obstacle[0]}: diagonals {sizes[0]:.3g} and "
+                f"{sizes[1]:.3g}, {max(sizes) / min(sizes):.3g} times apart; is "
+                "one in metres and the other in millimetres?",
+                UserWarning, stacklevel=_callers_level())
+
+
+def _diagonal(vertices: Floats) -> float:
+    if not len(vertices):
+        return 0.0
+    return float(np.linalg.norm(np.ptp(vertices, axis=0)))
+
+
+def _callers_level() -> int:
+    """Of warn in warn_of_sizes: the first line outside of this package."""
+    folder, level, frame = os.path.dirname(__file__), 1, sys._getframe(1)
+    while frame.f_back is not None and \
+            os.path.dirname(frame.f_code.co_filename) == folder:
+        level, frame = level + 1, frame.f_back
+    return level
