@@ -97,9 +97,7 @@ void AddBudget(CLI::App* app, const std::string& what, std::string* budget) {
 }
 
 double BudgetOf(const std::string& budget) {
-  const bool has_unit = budget.size() > 1 && budget.back() == 's';
-  const double seconds = ParseDouble(
-      has_unit ? budget.substr(0, budget.size() - 1) : budget, "--budget");
+  const double seconds = ParseDouble(budget, "--budget");
   RequireBudget(seconds, "--budget");
   return seconds;
 }

@@ -263,15 +263,14 @@ std::string HowToMendJson(const std::string& what) {
   const auto says = [&what](const char* words) {
     return what.find(words) != std::string::npos;
   };
-  if (says("unexpected end of input") && !says("unexpected string")) {
+  if (says("unexpected end of input")) {
     return "; a } or ] is missing at the end";
   }
-  if (says("expected ',' or '}'") || says("expected ',' or ']'") ||
-      says("expected '}'") || says("expected ']'")) {
-    return "; is a comma missing before it?";
-  }
-  if (says("expected string literal") || says("expected object key")) {
+  if (says("; expected string literal")) {
     return "; keys stand in double quotes, and no comma before a }";
+  }
+  if (says("expected '}'") || says("expected ']'")) {
+    return "; is a comma missing before it?";
   }
   return "";
 }

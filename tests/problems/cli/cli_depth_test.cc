@@ -154,7 +154,8 @@ TEST_F(Cli, DepthTellsTheSmoothedDirectionOfTheWholeContactSpace) {
   }
   ExpectRefused(command + " --metric smoothed --smoothing-length 0",
                 {"--smoothing-length", "> 0"});
-  ExpectRefused(command + " --metric euclidean", {"--metric"});
+  ExpectRefused(command + " --metric euclidean --smoothing-length 0.1",
+                {"--smoothing-length", "none with metric euclidean"});
 }
 
 TEST_F(Cli, DepthRefusesPosesThatAreNoneWithFileAndRow) {

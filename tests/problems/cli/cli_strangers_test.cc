@@ -124,11 +124,5 @@ TEST_F(CliStrangers, SentencesOfDepthHaveSixDigits) {
   EXPECT_EQ(in_mm["depth"], euclidean["depth"]);
 }
 
-TEST_F(CliStrangers, ABudgetMaySayThatItIsSeconds) {
-  const std::string command = "plan " + Scene(TwoObstacles()) + " --budget ";
-  EXPECT_EQ(Run(command + "0.5s").code, 0);
-  EXPECT_EQ(Run(command + "0.5").code, 0);
-}
-
 }  // namespace
 }  // namespace phongpd

@@ -229,10 +229,7 @@ TEST(SceneErrors, NameWhatIsNoMesh) {
   std::string message = testing::ErrorOf(
       [&] { ParseScene(scene, "s.json", folder.string()); }, "no error");
   const std::string path = (folder / "none.off").string();
-  EXPECT_EQ(
-      message.rfind(
-          "s.json: /robot/mesh: expected a mesh file, found " + path + ": ", 0),
-      0U)
+  EXPECT_EQ(message.rfind("s.json: /robot/mesh: " + path + ": ", 0), 0U)
       << message;
 
   std::ofstream(folder / "scene_errors_sheet.off")
