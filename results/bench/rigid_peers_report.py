@@ -62,7 +62,7 @@ def peers_findings(table):
         wrong = {kind: sum(r[8] + r[9] for r in of if r[1] == kind)
                  for kind in dict.fromkeys(r[1] for r in of)}
         yield (f"- {method}: PhongPD is cheaper in {wins} of {len(of)} sets of "
-               f"motions, and dearer in {len(of) - wins}. Misses and contradictions: "
+               "motions. Misses and contradictions: "
                + ", ".join(f"{count} {kind}" for kind, count in wrong.items()) + ".")
 
 
@@ -93,9 +93,8 @@ def newer_findings(newer, older):
     pairs = [(r, old[key(r)]) for r in newer if "error" not in r and key(r) in old]
     for planner in dict.fromkeys(r["planner"] for r, _ in pairs):
         of = [pair for pair in pairs if pair[0]["planner"] == planner]
-        yield (f"- {planner}, the same scenes and seeds, samples at 1 %: OMPL 2.0, "
-               f"asking Python, {said([a for a, _ in of])}; OMPL 1.5 "
-               f"{said([b for _, b in of])}.")
+        yield (f"- {planner}, same scenes and seeds: OMPL 2.0 "
+               f"{said([a for a, _ in of])}; OMPL 1.5 {said([b for _, b in of])}.")
 
 
 def failures(*campaigns):

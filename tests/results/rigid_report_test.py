@@ -108,8 +108,8 @@ class Tables(unittest.TestCase):
                           ["ipctk", 1, 10, 30, 0, 2, 0, 3.0, 3.0, 3.0]])
         self.assertEqual(
             list(others.peers_findings(table))[0],
-            "- hpp-core: PhongPD is cheaper in 1 of 1 sets of motions, and dearer in "
-            "0. Misses and contradictions: 3 contact.")
+            "- hpp-core: PhongPD is cheaper in 1 of 1 sets of motions. Misses and "
+            "contradictions: 3 contact.")
 
     def test_newer_ompl_stands_beside_the_older(self):
         found = [{"scene": "s", "planner": "RRTConnect", "limit": 60, "solved": True,
@@ -122,9 +122,8 @@ class Tables(unittest.TestCase):
         older = [run(2, False, 3.0, check="0.01"), run(2, True, 1.0)]
         self.assertEqual(
             list(others.newer_findings(found, older)),
-            ["- RRTConnect, the same scenes and seeds, samples at 1 %: OMPL 2.0, "
-             "asking Python, 1 of 1 with a path, 1 wrong, within 60 s; OMPL 1.5 0 of "
-             "1 with a path, 0 wrong, within 3 s."])
+            ["- RRTConnect, same scenes and seeds: OMPL 2.0 1 of 1 with a path, 1 "
+             "wrong, within 60 s; OMPL 1.5 0 of 1 with a path, 0 wrong, within 3 s."])
         self.assertEqual(list(others.failures([], found)),
                          ["- Did not run: 1 as k: E: no wheel."])
 
