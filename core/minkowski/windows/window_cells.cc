@@ -34,7 +34,7 @@ struct WindowCells::Impl : WindowArrangement {
 
   void FindCells() {
     const int count = static_cast<int>(arrangement.faces.size());
-    UnionFind sides = JoinSides(rings, arrangement.faces.size());
+    UnionFind sides = JoinSides(radial, arrangement.faces.size());
     const std::vector<char> inside = FindInside();
     std::vector<char> occupied(2 * arrangement.faces.size(), 0);
     for (int f = 0; f < count; ++f) {
