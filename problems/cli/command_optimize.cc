@@ -32,11 +32,11 @@
 namespace phongpd::cli {
 namespace {
 
-// Figures: results/trade, `scripts/bench.sh trade`.
+// What each costs and gains: results/trade.
 constexpr char kOptimizePresetHelp[] =
-    "fast: no second optimisation from the colliding line, 0.62 of balanced's "
-    "time, energy 0.43 % above the least found (balanced: 0.43 %); tight: 3 "
-    "routes and the corridor always, 2.2 times the time, 0.31 %";
+    "fast: no second optimisation from the colliding line, in less time; "
+    "tight: "
+    "3 routes and the corridor always, the lowest energy in more time";
 
 // "why not", for people, and where the path crosses.
 std::string Crossing(int segment, double fraction) {

@@ -65,11 +65,11 @@ RunSummary SummarizeKeptPlan(const nlohmann::ordered_json& row) {
           row.at("reason").get<std::string>()};
 }
 
-// Figures: results/trade, `scripts/bench.sh trade`.
+// What each costs and gains: results/trade.
 constexpr char kPlanPresetHelp[] =
-    "Of contact-surface only. fast: 1 route, no links across gaps, 0.23 of "
-    "balanced's time, 1.4 % longer than the least found (balanced: 0.58 %); "
-    "tight: 8 routes on a coarser roadmap, 1.6 times the time, 0.07 %";
+    "Of contact-surface only. fast: 1 route, no links across gaps, in less "
+    "time; "
+    "tight: 8 routes on a coarser roadmap, the shortest path in more time";
 
 // Samplers have nothing that these say.
 void RequireRoutesAreCompared(const PlanFlags& flags, PlannerId planner) {
