@@ -100,6 +100,37 @@ std::vector<Method> Methods(const RigidScene& scene, const RigidJudge& judge,
   return methods;
 }
 
+// What the method says of the motions, beside what is proved of them, and its
+// time.
+void AddJudged(const Method& method,
+               const std::vector<RigidMotionEnds>& motions,
+               const std::vector<std::optional<bool>>& proved,
+               nlohmann::ordered_json* row) {
+  std::vector<std::optional<bool>> said;
+  const double begin = ThreadCpuSeconds();
+  for (const RigidMotionEnds& ends : motions) {
+    said.push_back(method.is_free(ends));
+  }
+  const double seconds = ThreadCpuSeconds() - begin;
+  int free = 0, colliding = 0, undecided = 0, misses = 0, against = 0;
+  for (std::size_t i = 0; i < motions.size(); ++i) {
+    free += proved[i] == true ? 1 : 0;
+    colliding += proved[i] == false ? 1 : 0;
+    undecided += said[i].has_value() ? 0 : 1;
+    misses += said[i] == true && proved[i] == false ? 1 : 0;
+    against += said[i] == false && proved[i] == true ? 1 : 0;
+  }
+  const double count = std::max(1.0, static_cast<double>(motions.size()));
+  (*row)["method"] = method.name;
+  (*row)["motions"] = motions.size();
+  (*row)["free"] = free;
+  (*row)["colliding"] = colliding;
+  (*row)["ms"] = 1e3 * seconds / count;
+  (*row)["undecided"] = undecided;
+  (*row)["misses"] = misses;
+  (*row)["contradictions"] = against;
+}
+
 // x, y, z, and w, x, y, z of the orientation.
 nlohmann::json ToRow(const RobotPose& pose) {
   const auto& p = pose.position;
@@ -163,36 +194,13 @@ int Run(Program* program) {
       proved.push_back(Certified(judge, ends));
     }
     for (const Method& method : Methods(scene, judge, fcl, refined == 0)) {
-      std::vector<std::optional<bool>> said;
-      const double begin = ThreadCpuSeconds();
-      for (const RigidMotionEnds& ends : motions) {
-        said.push_back(method.is_free(ends));
-      }
-      const double seconds = ThreadCpuSeconds() - begin;
-      int free = 0, colliding = 0, undecided = 0, misses = 0, against = 0;
-      for (std::size_t i = 0; i < motions.size(); ++i) {
-        free += proved[i] == true ? 1 : 0;
-        colliding += proved[i] == false ? 1 : 0;
-        undecided += said[i].has_value() ? 0 : 1;
-        misses += said[i] == true && proved[i] == false ? 1 : 0;
-        against += said[i] == false && proved[i] == true ? 1 : 0;
-      }
-      const nlohmann::ordered_json row = {
+      nlohmann::ordered_json row = {
           {"scene", scene.name},
           {"robot_triangles", scene.robot.triangles.size()},
           {"world_triangles", world.triangles.size()},
-          {"kind", ToString(kind)},
-          {"method", method.name},
-          {"motions", motions.size()},
-          {"free", free},
-          {"colliding", colliding},
-          {"ms", motions.empty()
-                     ? 0.0
-                     : 1e3 * seconds / static_cast<double>(motions.size())},
-          {"undecided", undecided},
-          {"misses", misses},
-          {"contradictions", against},
-          {"seed", seed}};
+          {"kind", ToString(kind)}};
+      AddJudged(method, motions, proved, &row);
+      row["seed"] = seed;
       std::cout << row.dump() << std::endl;
     }
   }
