@@ -79,4 +79,18 @@ TriangleMesh ReadAnyMesh(const std::string& path,
       ReadMeshFile(path, root, "a mesh file", kMaxMeshBytes), path);
 }
 
+OmplAppMesh ReadOmplAppMesh(const std::string& path,
+                            std::vector<std::string>* warnings,
+                            const std::string& root) {
+  if (IsImported(ExtensionOf(path))) {
+    ImportedMesh imported = ReadByAssimp(path, root, MeshFrame::kAssimp);
+    return {std::move(imported.mesh), imported.center};
+  }
+  OmplAppMesh read = {ReadAnyMesh(path, warnings, root), {0.0, 0.0, 0.0}};
+  for (const Eigen::Vector3d& vertex : read.mesh.vertices) {
+    read.center += vertex / static_cast<double>(read.mesh.vertices.size());
+  }
+  return read;
+}
+
 }  // namespace phongpd

@@ -58,4 +58,15 @@ TriangleMesh ReadAnyMesh(const std::string& path,
                          std::vector<std::string>* warnings = nullptr,
                          const std::string& root = "");
 
+// A mesh as OMPL.app takes it: of Assimp's formats with the unit and the up
+// axis that the file names applied, as Assimp does it.  `center` is the mean of
+// the vertices, which Assimp counts once for each normal they have.
+struct OmplAppMesh {
+  TriangleMesh mesh;
+  Eigen::Vector3d center;
+};
+OmplAppMesh ReadOmplAppMesh(const std::string& path,
+                            std::vector<std::string>* warnings = nullptr,
+                            const std::string& root = "");
+
 }  // namespace phongpd

@@ -278,8 +278,37 @@ void RequireAllTriangles(const Json& json, const aiScene& scene,
                    ": the others have indices out of range; export it again");
 }
 
+// Adds the node's vertices, and those below, to the sum; returns how many.  In
+// single precision and in this order, as OMPL.app does: of many vertices the
+// rounding shows.
+std::size_t AddVertices(const aiScene& scene, const aiNode& node,
+                        aiMatrix4x4 place, int depth, aiVector3D* sum) {
+  if (depth > kMaxNodeDepth) return 0;
+  place *= node.mTransformation;
+  std::size_t count = 0;
+  for (unsigned i = 0; i < node.mNumMeshes; ++i) {
+    const aiMesh& part = *scene.mMeshes[node.mMeshes[i]];
+    for (unsigned k = 0; k < part.mNumVertices; ++k) {
+      *sum += place * part.mVertices[k];
+    }
+    count += part.mNumVertices;
+  }
+  for (unsigned i = 0; i < node.mNumChildren; ++i) {
+    count += AddVertices(scene, *node.mChildren[i], place, depth + 1, sum);
+  }
+  return count;
+}
+
+Vector3d MeanOf(const aiScene& scene) {
+  aiVector3D sum(0.0F, 0.0F, 0.0F);
+  const std::size_t count =
+      AddVertices(scene, *scene.mRootNode, aiMatrix4x4(), 0, &sum);
+  sum /= static_cast<float>(std::max<std::size_t>(1, count));
+  return {sum.x, sum.y, sum.z};
+}
+
 std::string Import(const std::string& path, const std::string& bytes,
-                   const FilesBeside& folder) {
+                   const FilesBeside& folder, MeshFrame frame) {
   const std::string extension = Extension(path);
   double metres = 0.0;
   std::string note;
@@ -288,7 +317,8 @@ std::string Import(const std::string& path, const std::string& bytes,
   if (extension == ".dae") {
     note = ColladaFrame(bytes, path, &metres) +
            ": lengths and axes are the file's own, nothing is scaled or turned";
-    keeps_root = false;  // Assimp turns and scales the scene there
+    // Assimp turns and scales the scene there.
+    keeps_root = frame == MeshFrame::kAssimp;
   } else if (extension == ".3mf") {
     note = "3MF: lengths are the file's own, millimetres unless it says other";
   } else {
@@ -313,24 +343,37 @@ std::string Import(const std::string& path, const std::string& bytes,
                             : Matrix4d(Matrix4d::Identity()));
   const TriangleMesh mesh = collector.Finish();
   note += "; read in single precision, about 7 digits of every coordinate";
+  Vector3d center = Vector3d::Zero();
+  if (frame == MeshFrame::kAssimp) {
+    // As OMPL.app reads its meshes.
+    const aiScene* const split = importer.ApplyPostProcessing(
+        aiProcess_GenNormals | aiProcess_Triangulate |
+        aiProcess_JoinIdenticalVertices | aiProcess_SortByPType |
+        aiProcess_OptimizeGraph);
+    if (split == nullptr || split->mRootNode == nullptr) {
+      Refuse(path, "what Assimp cannot split by normals");
+    }
+    center = MeanOf(*split);
+  }
   internal::ByteWriter writer;
-  writer(note, metres, mesh.vertices, mesh.triangles);
+  writer(note, metres, center, mesh.vertices, mesh.triangles);
   return writer.Take();
 }
 
 }  // namespace
 
-ImportedMesh ReadByAssimp(const std::string& path, const std::string& root) {
+ImportedMesh ReadByAssimp(const std::string& path, const std::string& root,
+                          MeshFrame frame) {
   const std::string bytes = ReadMeshFile(path, root, "a mesh file", kMaxBytes);
   if (bytes.empty()) Refuse(path, "an empty file");
   const FilesBeside folder(path, root);
   const std::string answer = RunInSandbox(
-      path, [&] { return Import(path, bytes, folder); },
+      path, [&] { return Import(path, bytes, folder, frame); },
       LimitsFor(bytes.size()));
   ImportedMesh imported;
   internal::ByteReader reader(answer);
-  reader(imported.note, imported.metres, imported.mesh.vertices,
-         imported.mesh.triangles);
+  reader(imported.note, imported.metres, imported.center,
+         imported.mesh.vertices, imported.mesh.triangles);
   if (!reader.Done()) Refuse(path, "one that its reader did not finish");
   return imported;
 }

@@ -18,8 +18,8 @@ namespace {
 
 }  // namespace
 
-ImportedMesh ReadByAssimp(const std::string& path,
-                          const std::string& /*root*/) {
+ImportedMesh ReadByAssimp(const std::string& path, const std::string& /*root*/,
+                          MeshFrame /*frame*/) {
   Refuse(path);
 }
 

@@ -13,6 +13,7 @@
 #include "problems/meshes/any_mesh.h"
 #include "problems/output/text.h"
 #include "problems/scenes/json_schema.h"
+#include "problems/scenes/ompl_app_problem.h"
 #include "problems/scenes/scene_library.h"
 #include "problems/scenes/turning_families.h"
 
@@ -61,8 +62,9 @@ SceneSource::SceneSource(const std::string& text, const std::string& root,
     label_ = std::filesystem::path(text).stem().string();
     has_robots_ = content_.find("\"robots\"") != std::string::npos &&
                   HasRobots(ParseJson(content_, text));
-    turns_ = content_.find("\"turns\"") != std::string::npos &&
-             HasTurningRobot(ParseJson(content_, text));
+    is_ompl_app_ = IsOmplAppProblem(content_);
+    turns_ = is_ompl_app_ || (content_.find("\"turns\"") != std::string::npos &&
+                              HasTurningRobot(ParseJson(content_, text)));
     return;
   }
   turns_ = IsTurningFamily(family_);
@@ -85,6 +87,11 @@ SceneSource::SceneSource(const std::string& text, const std::string& root,
 }
 
 Scene SceneSource::Load(std::optional<std::uint64_t> seed) const {
+  if (is_ompl_app_) {
+    throw InputError(text_ +
+                     ": expected a scene of a robot that translates, found a "
+                     "problem of OMPL.app, whose robot turns; plan takes it");
+  }
   if (is_file_) return ParseSceneFile(content_, text_, root_, repair_);
   std::map<std::string, double> knobs = knobs_;
   if (seed) knobs["seed"] = static_cast<double>(*seed);
@@ -101,6 +108,7 @@ FleetScene SceneSource::LoadFleet() const {
 }
 
 TurningScene SceneSource::LoadTurning() const {
+  if (is_ompl_app_) return ParseOmplAppProblem(content_, text_, root_);
   if (is_file_) {
     return ParseTurningSceneFile(content_, text_, root_, repair_);
   }

@@ -12,7 +12,8 @@
 
 namespace phongpd {
 
-// Where a command's scene comes from: a scene file, or a family of
+// Where a command's scene comes from: a scene file, a problem of OMPL.app
+// (ompl_app_problem.h), or a family of
 // scene_library.h with knobs, "plate:thickness=0.02,offset=1000", or one of
 // turning_families.h, "alpha:gap=1.2" or "alpha:1.2".
 class SceneSource {
@@ -51,6 +52,7 @@ class SceneSource {
   bool is_file_ = false;
   bool has_robots_ = false;
   bool turns_ = false;
+  bool is_ompl_app_ = false;
   std::string content_;  // of the file
   std::string family_;
   std::map<std::string, double> knobs_;
