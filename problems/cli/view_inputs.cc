@@ -33,7 +33,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr std::uintmax_t kMaxThingBytes = std::uintmax_t{1} << 30;
-constexpr char kKinds[] =
+constexpr char kThings[] =
     "a mesh or contact space (OFF, OBJ, PLY, STL, DAE, glTF, GLB, 3MF, "
     "robot.urdf#link, .pcs), a scene (file or "
     "FAMILY:key=value,...), rows of optimize or plan (JSON Lines), a motion "
@@ -41,7 +41,7 @@ constexpr char kKinds[] =
 
 [[noreturn]] void FailUnknown(const std::string& thing,
                               const std::string& found) {
-  throw InputError(thing + ": expected " + kKinds + ", found " + found);
+  throw InputError(thing + ": expected " + kThings + ", found " + found);
 }
 
 std::string Extension(const std::string& path) {
@@ -74,7 +74,7 @@ class Collector {
     }
     const std::string extension = Extension(thing);
     if (IsMesh(thing)) return TakeMesh(thing);
-    const std::string content = ReadInputFile(thing, kKinds, kMaxThingBytes);
+    const std::string content = ReadInputFile(thing, kThings, kMaxThingBytes);
     const std::size_t first = content.find_first_not_of(" \t\r\n");
     if (first == std::string::npos) FailUnknown(thing, "an empty file");
     switch (KindOfTable(content)) {
